@@ -1,0 +1,103 @@
+// The cloth: lumped masses, nonlinear springs, follower pressure, [NFM] section 2 as mended in
+// docs/theory.md.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ripstop/core/thread_team.h"
+#include "ripstop/core/vec3.h"
+#include "ripstop/parachute/mesh.h"
+
+namespace ripstop {
+
+struct ClothOptions {
+  bool linear = false;          // keep only K_1 of every law
+  double absolute_damping = 0;  // C_a per unit area of cloth [N s/m3]; force -C_a * area * v, [NFM] Eq. 20
+};
+
+/// Pressure difference on every cell (inside minus outside, [Pa]; order of cells_of()), and optional point
+/// forces.
+struct Loads {
+  std::vector<double> cell_pressure;
+  std::vector<Vec3> node_force;  // empty, or one a node [N]
+};
+
+/// The compiled, immutable cloth: kernel layout, ties, masses. Shared by every state that is stepped over it.
+struct Cloth;
+struct ClothDeleter {
+  void operator()(Cloth*) const;
+};
+using ClothPtr = std::unique_ptr<Cloth, ClothDeleter>;
+
+/// Throws Error(bad_data) for a mesh that breaks its own rules (rest length <= 0, mass <= 0, tie to a tied
+/// node).
+ClothPtr make_cloth(const Mesh& mesh, const ClothOptions& options = {});
+
+/// Positions and velocities in kernel layout. Copyable: a copy is a checkpoint.
+struct ClothState {
+  std::vector<double> x, v, f;  // three padded components each, see cloth/layout.h
+  double time = 0;              // [s]
+  long long steps = 0;
+};
+
+ClothState start_state(const Cloth& cloth);  // Mesh::start, at rest
+void set_positions(ClothState& state, const Cloth& cloth, const std::vector<Vec3>& positions);
+void set_velocities(ClothState& state, const Cloth& cloth, const std::vector<Vec3>& velocities);
+std::vector<Vec3> positions(const ClothState& state, const Cloth& cloth);  // logical numbering
+std::vector<Vec3> velocities(const ClothState& state, const Cloth& cloth);
+
+struct StepBound {
+  double stable_step = 0;   // [s] semi-implicit Euler is stable below it: block Gershgorin, with damping
+  double printed_step = 0;  // [s] the paper's Eq. 8/9, printed beside it
+  int node = -1;            // the node that sets it
+  std::string part;         // "disk", "line 3", ...
+};
+/// With the tangent stiffness at the present strain.
+StepBound step_bound(const Cloth& cloth, const ClothState& state);
+
+/// `count` steps of semi-implicit Euler, [NFM] Eq. 6. Bit-identical for any team size.
+/// Throws Error(diverged) with step, node, part and likely cause on NaN or runaway stretch.
+void step(ClothState& state, const Cloth& cloth, const Loads& loads, double dt, int count, ThreadTeam& team);
+
+struct RelaxOptions {
+  double tolerance = 1e-4;  // on |residual force| / |applied force|, both root sums of squares over the nodes
+  int max_steps = 200000;
+};
+struct RelaxProgress {
+  int steps = 0;
+  double residual = 0;  // as RelaxOptions::tolerance
+  double kinetic_energy = 0;
+};
+struct RelaxResult {
+  bool converged = false;
+  int steps = 0;
+  double residual = 0;
+  double mean_displacement = 0;  // e_k, [NFM] Eq. 18, over the whole relaxation [m]
+};
+/// Equilibrium under `loads` by dynamic relaxation with kinetic damping on fictitious masses (Barnes).
+RelaxResult relax(ClothState& state, const Cloth& cloth, const Loads& loads, const RelaxOptions& options,
+                  ThreadTeam& team, const std::function<void(const RelaxProgress&)>& report = {});
+
+/// Membrane stress resultants of every cell, from the spring forces in virial form [N/m].
+struct CellStress {
+  double principal_max = 0, principal_min = 0, von_mises = 0;  // [N/m]
+  double max_strain = 0;                                       // largest spring strain at the cell [-]
+};
+std::vector<CellStress> cell_stress(const Cloth& cloth, const ClothState& state);
+
+/// Tension of every irregular spring (Mesh::springs), T > 0 pulls [N].
+std::vector<double> spring_tensions(const Cloth& cloth, const ClothState& state);
+
+/// Force that the cloth exerts on the fixed nodes, summed [N] (no damping, no loads).
+Vec3 force_on_fixed(const Cloth& cloth, const ClothState& state);
+/// Sum of the pressure loads over all nodes at the present shape [N].
+Vec3 pressure_force(const Cloth& cloth, const ClothState& state, const Loads& loads);
+
+double elastic_energy(const Cloth& cloth, const ClothState& state);  // [J]
+double kinetic_energy(const Cloth& cloth, const ClothState& state);  // [J]
+Vec3 momentum(const Cloth& cloth, const ClothState& state);          // [kg m/s]
+
+}  // namespace ripstop

@@ -1,0 +1,97 @@
+// What a flow engine is: a box of air, porous cells in it, one steady field out. Cloth is not known here.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "ripstop/core/vec3.h"
+
+namespace ripstop {
+
+/// Uniform box of nx x ny x nz cells; cell (i, j, k) has index i + nx * (j + ny * k).
+struct FlowGrid {
+  Vec3 origin;  // lowest corner [m]
+  Vec3 size;    // [m]
+  int nx = 0, ny = 0, nz = 0;
+
+  int cells() const { return nx * ny * nz; }
+  Vec3 spacing() const { return {size.x / nx, size.y / ny, size.z / nz}; }
+  double cell_volume() const {
+    const Vec3 h = spacing();
+    return h.x * h.y * h.z;
+  }
+  int index(int i, int j, int k) const { return i + nx * (j + ny * k); }
+};
+
+/// Air that comes in through z = 0 with speed U, [NFM] section 5.
+struct Freestream {
+  double speed = 0;                     // [m/s]
+  double density = 1.2;                 // [kg/m3]
+  double viscosity = 1.84e-5;           // mu [Pa s]
+  double temperature = 293.15;          // [K]; the static pressure follows from the density
+  double turbulence_intensity = 0.005;  // [-]
+  double viscosity_ratio = 10;          // nu_t / nu at the inlet [-]
+};
+
+/// Cells with the isotropic resistance -(mu d + rho |u| f / 2) u per volume (`paper` model, method section
+/// 4).
+struct PorousCells {
+  std::vector<int> cells;  // sorted, unique
+  double darcy = 0;        // d [1/m2]
+  double forchheimer = 0;  // f [1/m]
+};
+
+struct FlowProblem {
+  FlowGrid grid;
+  Freestream air;
+  std::vector<PorousCells> porous;  // one entry a cloth
+  bool duct = false;                // true: the four sides are slip walls; false: open, zero gradient
+  double residual = 1e-5;           // on every equation
+  int max_iterations = 1000;
+};
+
+/// One SIMPLE iteration as it comes; return false from the callback to stop early (the field counts as
+/// unconverged).
+struct FlowProgress {
+  int iteration = 0;
+  double residual_u = 0, residual_p = 0, residual_k = 0, residual_omega = 0,
+         residual_e = 0;  // u: largest of three
+  double drag = 0;        // axial force on the porous cells so far [N]
+};
+using FlowReport = std::function<bool(const FlowProgress&)>;
+
+struct FlowField {
+  FlowGrid grid;
+  std::vector<double> pressure;  // over the outlet's [Pa], one a cell
+  std::vector<Vec3> velocity;    // [m/s]
+  Vec3 porous_force;             // by the fluid on the porous cells [N]
+  double momentum_deficit = 0;   // axial force from the fluxes through the faces of the box [N]
+  FlowProgress last;
+  bool converged = false;
+};
+
+/// An engine keeps its last field as the start of the next solve (warm start).
+class FlowEngine {
+ public:
+  virtual ~FlowEngine() = default;
+  virtual std::string name() const = 0;  // "OpenFOAM 1912 (rhoPorousSimpleFoam)"
+  virtual FlowField solve(const FlowProblem& problem, const FlowReport& report) = 0;
+  /// Writes what a later process needs for a byte-identical warm start; restore() reads it. Throws Error(io).
+  virtual void save(const std::filesystem::path& folder) const = 0;
+  virtual void restore(const std::filesystem::path& folder) = 0;
+};
+
+/// Trilinear interpolation between cell centres, constant beyond the outermost ones.
+double sample(const FlowGrid& grid, const std::vector<double>& field, Vec3 point);
+Vec3 sample(const FlowGrid& grid, const std::vector<Vec3>& field, Vec3 point);
+
+struct Triangle {
+  Vec3 a, b, c;
+};
+/// Cells that a surface cuts: those whose closed box shares at least a point with a triangle (separating
+/// axes). Sorted and unique. Parts of the surface outside the grid cut nothing.
+std::vector<int> cut_cells(const FlowGrid& grid, const std::vector<Triangle>& surface);
+
+}  // namespace ripstop

@@ -1,0 +1,54 @@
+// The materials a parachute is made of: plain tables, one struct for each TOML table.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace ripstop {
+
+/// Canopy cloth. The coefficients are those of the cloth's own curve (load per width against strain, [N/m])
+/// as a uniaxial pull along a yarn gives it; the lattice's are derived from them so that a virtual coupon
+/// returns it.
+struct Fabric {
+  std::string name;
+  std::string source;
+  std::vector<double> coefficients_n_m;  // K_1..K_n [N/m]
+  double shear_fraction = 0.2;           // xi
+  double bending_fraction = 0.01;        // eps
+  double compression = 1;                // stiffness for e < 0 relative to K_1; see SpringLaw
+  double damping_n_s_m = 0;              // C of the relative damping of one spring [N s/m]
+  double areal_density_kg_m2 = 0;
+  double thickness_m = 0;
+  double tested_strain = 0;   // the fit holds up to here; 0: unknown
+  double break_load_n_m = 0;  // 0: unknown
+  double darcy = 0;           // a: Pa s/m in the `sheet` model; typed as Darcy d [1/m2] in the `paper` model
+  double forchheimer = 0;     // b: Pa s2/m2; typed as Forchheimer f [1/m] in the `paper` model
+};
+
+/// Suspension or riser line: T(e) = sum K_k e^k with K_k in N.
+struct Line {
+  std::string name;
+  std::string source;
+  std::vector<double> coefficients_n;  // K_1..K_n [N]
+  double bending_fraction = 0.01;      // eps of the +-2 springs
+  double compression = 0;              // a line goes slack
+  double damping_n_s_m = 0;
+  double linear_density_kg_m = 0;
+  double tested_strain = 0;
+  double break_load_n = 0;
+};
+
+/// Reinforcement tape on seams and hems: coefficients per width, [N/m].
+struct Tape {
+  std::string name;
+  std::string source;
+  std::vector<double> coefficients_n_m;
+  double width_m = 0;
+  double linear_density_kg_m = 0;
+  double thickness_m = 0;
+  double compression = 1;
+  double damping_n_s_m = 0;
+  double tested_strain = 0;
+};
+
+}  // namespace ripstop

@@ -1,0 +1,43 @@
+#include "ripstop/material/spring_law.h"
+
+namespace ripstop {
+
+double SpringLaw::tension(double strain) const {
+  if (coefficients.empty()) return 0;
+  if (strain < 0) return compression * coefficients[0] * strain;
+  double sum = 0;
+  for (auto k = coefficients.rbegin(); k != coefficients.rend(); ++k) sum = (sum + *k) * strain;
+  return sum;
+}
+
+double SpringLaw::tangent(double strain) const {
+  if (coefficients.empty()) return 0;
+  if (strain < 0) return compression * coefficients[0];
+  double sum = 0;
+  for (auto k = coefficients.size(); k > 0; --k)
+    sum = sum * strain + static_cast<double>(k) * coefficients[k - 1];
+  return sum;
+}
+
+double SpringLaw::energy(double strain) const {
+  if (coefficients.empty()) return 0;
+  if (strain < 0) return 0.5 * compression * coefficients[0] * strain * strain;
+  double sum = 0;
+  for (auto k = coefficients.size(); k > 0; --k)
+    sum = (sum + coefficients[k - 1] / static_cast<double>(k + 1)) * strain;
+  return sum * strain;
+}
+
+SpringLaw SpringLaw::scaled(double factor) const {
+  SpringLaw law = *this;
+  for (double& k : law.coefficients) k *= factor;
+  return law;
+}
+
+SpringLaw SpringLaw::linearised() const {
+  SpringLaw law = *this;
+  if (!law.coefficients.empty()) law.coefficients = {law.coefficients.front()};
+  return law;
+}
+
+}  // namespace ripstop

@@ -1,0 +1,22 @@
+// The tension of one spring family as a function of its strain, [NFM] Eq. 2.
+#pragma once
+
+#include <vector>
+
+namespace ripstop {
+
+/// T(e) = sum_k K_k e^k for e >= 0 and T(e) = compression * K_1 e for e < 0, with k = 1..n.
+/// The printed polynomial is fitted to pulls only; its higher terms say nothing about e < 0 and are left out
+/// there. Units are those of the coefficients: N/m for cloth and tape (times a width gives N), N for lines.
+struct SpringLaw {
+  std::vector<double> coefficients;  // K_1 .. K_n
+  double compression = 1;            // 0: tension only, 1: as stiff as the first pull
+
+  double tension(double strain) const;
+  double tangent(double strain) const;  // dT/de
+  double energy(double strain) const;   // integral of T from 0 to e
+  SpringLaw scaled(double factor) const;
+  SpringLaw linearised() const;  // keeps K_1 only: the paper's "linear model"
+};
+
+}  // namespace ripstop
