@@ -1,0 +1,131 @@
+#include "ripstop/core/file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <system_error>
+#include <utility>
+
+#include "ripstop/core/error.h"
+
+namespace ripstop {
+namespace {
+
+[[noreturn]] void fail(const char* task, const std::filesystem::path& path, int reason) {
+  const char* advice = "";
+  if (reason == ENOSPC || reason == EDQUOT) advice = "; free some space, or write elsewhere";
+  if (reason == EACCES || reason == EPERM || reason == EROFS) advice = "; choose a folder that you may write";
+  throw Error(ExitCode::io, fmt::format("cannot {} {}: {}{}", task, path.string(),
+                                        std::generic_category().message(reason), advice));
+}
+
+/// Closes on scope exit; close() reports, since a full disk may only show there.
+class Descriptor {
+ public:
+  explicit Descriptor(int fd) : fd_(fd) {}
+  ~Descriptor() {
+    if (fd_ >= 0) ::close(fd_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int get() const { return fd_; }
+  bool close() { return ::close(std::exchange(fd_, -1)) == 0; }
+
+ private:
+  int fd_;
+};
+
+/// 0, or errno.
+int write_all(int fd, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t count = ::write(fd, bytes.data(), bytes.size());
+    if (count < 0) {
+      if (errno == EINTR) continue;
+      return errno;
+    }
+    bytes.remove_prefix(static_cast<size_t>(count));
+  }
+  return 0;
+}
+
+std::filesystem::path folder_of(const std::filesystem::path& path) {
+  return path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+}
+
+/// The rename is only on the disk when the folder is.
+void sync_folder(const std::filesystem::path& folder) {
+  const Descriptor fd(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (fd.get() < 0) fail("open folder", folder, errno);
+  // EINVAL: a file system that cannot sync folders has nothing to wait for.
+  if (::fsync(fd.get()) != 0 && errno != EINVAL) fail("save folder", folder, errno);
+}
+
+/// A name beside `path` that no other process or thread uses.
+std::filesystem::path temporary_name(const std::filesystem::path& path) {
+  static std::atomic<unsigned> counter{0};
+  return folder_of(path) / fmt::format(".{}.{}-{}.tmp", path.filename().string(), ::getpid(), counter++);
+}
+
+}  // namespace
+
+void write_file(const std::filesystem::path& path, std::string_view bytes) {
+  std::filesystem::path temporary = temporary_name(path);
+  int opened = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  while (opened < 0 && errno == EEXIST) {  // left by a killed process with the same number
+    temporary = temporary_name(path);
+    opened = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  }
+  if (opened < 0) fail("write", path, errno);
+  Descriptor fd(opened);
+  int reason = write_all(fd.get(), bytes);
+  if (reason == 0 && ::fsync(fd.get()) != 0) reason = errno;
+  if (!fd.close() && reason == 0) reason = errno;
+  if (reason == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) reason = errno;
+  if (reason != 0) {
+    ::unlink(temporary.c_str());
+    fail("write", path, reason);
+  }
+  sync_folder(folder_of(path));
+}
+
+std::string read_file(const std::filesystem::path& path) {
+  const Descriptor fd(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (fd.get() < 0) fail("read", path, errno);
+  struct stat status = {};
+  if (::fstat(fd.get(), &status) != 0) fail("read", path, errno);
+  if (S_ISDIR(status.st_mode)) fail("read", path, EISDIR);
+  std::string bytes(static_cast<size_t>(status.st_size), '\0');
+  size_t done = 0;
+  for (;;) {  // the size is a hint only: a file may grow, and /proc says 0
+    if (done == bytes.size()) bytes.resize(bytes.size() + 4096);
+    const ssize_t count = ::read(fd.get(), bytes.data() + done, bytes.size() - done);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) fail("read", path, errno);
+    if (count == 0) break;
+    done += static_cast<size_t>(count);
+  }
+  bytes.resize(done);
+  return bytes;
+}
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) fail("create folder", folder, error.value());
+  if (!std::filesystem::is_directory(folder, error)) fail("create folder", folder, ENOTDIR);
+}
+
+void append_to_file(const std::filesystem::path& path, std::string_view bytes) {
+  Descriptor fd(::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666));
+  if (fd.get() < 0) fail("append to", path, errno);
+  int reason = write_all(fd.get(), bytes);
+  if (reason == 0 && ::fdatasync(fd.get()) != 0) reason = errno;
+  if (!fd.close() && reason == 0) reason = errno;
+  if (reason != 0) fail("append to", path, reason);
+}
+
+}  // namespace ripstop

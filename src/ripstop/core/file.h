@@ -1,0 +1,25 @@
+// Whole files, read and written so that nobody ever sees half of one.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace ripstop {
+
+/// Replaces `path` by `bytes` in one step: a temporary file in the same folder, fsync, rename, fsync of the
+/// folder. Whoever opens `path` meanwhile, or after a kill or a power cut, finds the old content or the new.
+/// Throws Error(io) with the path and the system's reason; the old file is then untouched.
+void write_file(const std::filesystem::path& path, std::string_view bytes);
+
+/// The whole file. Throws Error(io).
+std::string read_file(const std::filesystem::path& path);
+
+/// Creates the folder and those above it; it may exist. Throws Error(io).
+void make_folder(const std::filesystem::path& folder);
+
+/// Adds `bytes` at the end of a file, which is created if need be, and waits until they are on the disk. A
+/// kill may leave a part of them: for formats that can drop a broken tail. Throws Error(io).
+void append_to_file(const std::filesystem::path& path, std::string_view bytes);
+
+}  // namespace ripstop

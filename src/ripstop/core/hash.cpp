@@ -1,0 +1,118 @@
+#include "ripstop/core/hash.h"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <map>
+#include <sstream>
+
+#include "ripstop/core/error.h"
+#include "ripstop/core/file.h"
+
+namespace ripstop {
+namespace {
+
+constexpr const char* damage_advice =
+    "; it was damaged or its writing was cut short: delete it and use an older one";
+
+std::string seal_line(std::string_view bytes) {
+  return fmt::format("ripstop sealed file 1, {} bytes, xxh3-128 {}\n", bytes.size(), hash_bytes(bytes));
+}
+
+/// Relative name -> hash, of every file below `folder` but the seal.
+std::map<std::string, std::string> contents(const std::filesystem::path& folder) {
+  std::map<std::string, std::string> files;
+  std::error_code error;
+  auto entry = std::filesystem::recursive_directory_iterator(folder, error);
+  for (; !error && entry != std::filesystem::recursive_directory_iterator(); entry.increment(error)) {
+    if (entry->is_directory()) continue;
+    if (!entry->is_regular_file()) {
+      throw Error(ExitCode::io, fmt::format("{} is neither a file nor a folder", entry->path().string()));
+    }
+    const std::string name = entry->path().lexically_relative(folder).generic_string();
+    if (name != seal_name) files[name] = hash_file(entry->path());
+  }
+  if (error) {
+    throw Error(ExitCode::io, fmt::format("cannot list folder {}: {}", folder.string(), error.message()));
+  }
+  return files;
+}
+
+/// One line a file, "hash name". A line break inside a name is escaped so that the list stays unambiguous.
+std::string list(const std::map<std::string, std::string>& files) {
+  std::string text;
+  for (const auto& [name, hash] : files) {
+    text += hash + ' ';
+    for (char c : name) {
+      if (c == '\n') {
+        text += "\\n";
+      } else {
+        text += (c == '\\') ? std::string("\\\\") : std::string(1, c);
+      }
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+/// The names in list()'s text that `other` does not hold with the same hash.
+std::string first_difference(const std::string& text, const std::string& other) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (("\n" + other).find("\n" + line + "\n") == std::string::npos) return line.substr(33);
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string hash_bytes(std::string_view bytes) {
+  const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
+  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+}
+
+std::string hash_file(const std::filesystem::path& path) {
+  return hash_bytes(read_file(path));
+}
+
+std::string hash_folder(const std::filesystem::path& folder) {
+  return hash_bytes(list(contents(folder)));
+}
+
+void write_sealed(const std::filesystem::path& path, std::string_view bytes) {
+  std::string text = seal_line(bytes);
+  text += bytes;
+  write_file(path, text);
+}
+
+std::string read_sealed(const std::filesystem::path& path) {
+  std::string text = read_file(path);
+  const size_t end = text.find('\n');
+  if (end != std::string::npos) {
+    const std::string_view bytes = std::string_view(text).substr(end + 1);
+    if (text.compare(0, end + 1, seal_line(bytes)) == 0) return text.substr(end + 1);
+  }
+  throw Error(ExitCode::bad_data,
+              fmt::format("{} does not match its own seal{}", path.string(), damage_advice));
+}
+
+void seal_folder(const std::filesystem::path& folder) {
+  write_sealed(folder / seal_name, list(contents(folder)));
+}
+
+void check_folder(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(folder / seal_name, ignored)) {
+    throw Error(ExitCode::bad_data, fmt::format("{} has no {}{}", folder.string(), seal_name, damage_advice));
+  }
+  const std::string sealed = read_sealed(folder / seal_name);
+  const std::string present = list(contents(folder));
+  if (sealed == present) return;
+  std::string name = first_difference(sealed, present);
+  if (name.empty()) name = first_difference(present, sealed);
+  throw Error(ExitCode::bad_data,
+              fmt::format("{}: {} is missing, new or changed since the folder was sealed{}", folder.string(),
+                          name, damage_advice));
+}
+
+}  // namespace ripstop

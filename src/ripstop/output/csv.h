@@ -1,0 +1,44 @@
+// Tables of numbers as CSV: one header line with units in the names, then full double precision.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ripstop {
+
+struct CsvTable {
+  std::vector<std::string> columns;       // "speed_m_per_s", "drag_n"
+  std::vector<std::vector<double>> rows;  // as long as `columns`; NaN and infinities are written as such
+
+  /// All values of a column. Throws Error(bad_data) naming the columns there are.
+  std::vector<double> column(std::string_view name) const;
+};
+
+/// Throws Error(bad_data) for a name with comma, quote or line break or a row of another length, Error(io).
+void write_csv(const std::filesystem::path& path, const CsvTable& table);
+
+/// Every double comes back bit for bit (but for the payload of a NaN). Empty lines and lines that start with
+/// '#' are skipped, blanks around fields dropped. Throws Error(bad_data) with file and line, Error(io).
+CsvTable read_csv(const std::filesystem::path& path);
+
+/// A table that grows by rows during a run and survives its end at any moment.
+class CsvLog {
+ public:
+  /// Starts the file, or goes on with one that has the same columns: a last line that a kill cut short is
+  /// dropped, and so are complete rows after the first `keep_rows` (those that a restart will compute again).
+  /// Throws Error(bad_data) for other columns or a broken row, Error(io).
+  CsvLog(std::filesystem::path path, std::vector<std::string> columns,
+         std::optional<std::size_t> keep_rows = {});
+
+  /// The row is on the disk when this returns. Throws as write_csv().
+  void add(const std::vector<double>& row);
+
+ private:
+  std::filesystem::path path_;
+  std::vector<std::string> columns_;
+};
+
+}  // namespace ripstop

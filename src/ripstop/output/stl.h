@@ -1,0 +1,19 @@
+// Binary STL: a surface as triangles in single precision, for CAD and meshing programs.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "ripstop/flow/flow.h"
+
+namespace ripstop {
+
+/// Normals follow the right-hand rule (a, b, c); a triangle without area gets (0, 0, 0). Throws
+/// Error(bad_data) for a corner that is not finite or beyond single precision, Error(io).
+void write_stl(const std::filesystem::path& path, const std::vector<Triangle>& surface);
+
+/// The triangles of a binary STL; its normals are not read, since the corners say them. Throws
+/// Error(bad_data) for a text STL or a length that does not match the count, Error(io).
+std::vector<Triangle> read_stl(const std::filesystem::path& path);
+
+}  // namespace ripstop

@@ -1,0 +1,91 @@
+// Files for ParaView and other readers of the VTK XML formats: canopy, lines, flow, porous cells, series.
+//
+// Points are doubles; arrays keep the type they are given. Data are appended raw, little-endian, in zlib
+// blocks (VTK File Formats, Kitware; vtkZLibDataCompressor). Every file appears whole or not at all.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "ripstop/core/vec3.h"
+#include "ripstop/flow/flow.h"
+#include "ripstop/parachute/mesh.h"
+
+namespace ripstop {
+
+/// One value or vector a point or cell. The name carries the unit where there is one: "pressure_pa".
+struct VtkArray {
+  std::string name;
+  int components = 1;  // 1 or 3, neighbours in `values`
+  std::variant<std::vector<double>, std::vector<float>, std::vector<std::int32_t>> values;
+};
+VtkArray vtk_array(std::string name, std::vector<double> values);
+VtkArray vtk_array(std::string name, std::vector<std::int32_t> values);
+VtkArray vtk_array(std::string name, const std::vector<Vec3>& vectors);
+/// Rounded to float: halves the files of large flow fields.
+VtkArray vtk_array_single(std::string name, const std::vector<double>& values);
+VtkArray vtk_array_single(std::string name, const std::vector<Vec3>& vectors);
+
+/// Cells as lists of points; offsets[i] is the end of cell i in connectivity, as VTK has it.
+struct VtkCells {
+  std::vector<std::int64_t> connectivity, offsets;
+
+  void add(std::span<const int> points);
+  std::size_t size() const { return offsets.size(); }
+};
+
+/// Poly-lines and polygons. Cell arrays hold the lines' values first, then the polygons'.
+struct VtkSurface {
+  std::vector<Vec3> points;  // [m]
+  VtkCells lines, polygons;
+  std::vector<VtkArray> point_arrays, cell_arrays;
+};
+/// .vtp. Throws Error(bad_data) when an array's length or a cell's point does not fit, Error(io).
+void write_vtp(const std::filesystem::path& path, const VtkSurface& surface);
+
+/// A uniform grid with one value a cell, in FlowGrid's order.
+struct VtkImage {
+  FlowGrid grid;
+  std::vector<VtkArray> cell_arrays;
+};
+/// .vti. Throws as write_vtp().
+void write_vti(const std::filesystem::path& path, const VtkImage& image);
+
+/// Cells of one type by VTK's number, such as 11 (voxel).
+struct VtkUnstructured {
+  std::vector<Vec3> points;  // [m]
+  VtkCells cells;
+  std::uint8_t cell_type = 11;
+  std::vector<VtkArray> point_arrays, cell_arrays;
+};
+/// .vtu. Throws as write_vtp().
+void write_vtu(const std::filesystem::path& path, const VtkUnstructured& grid);
+
+/// One file of a series; `file` is relative to the folder of the .pvd.
+struct VtkSeriesFile {
+  double time = 0;  // the coupling iteration, or [s]
+  std::filesystem::path file;
+};
+/// .pvd. Entries whose file does not exist (a run was cut short, or tidied up) are left out. Throws
+/// Error(io).
+void write_pvd(const std::filesystem::path& path, const std::vector<VtkSeriesFile>& series);
+
+/// The cloth cells of a mesh as quads over all its nodes: point numbers are node numbers.
+VtkSurface canopy_surface(const Mesh& mesh, const std::vector<Vec3>& positions);
+/// Of one value a cell in the order of cells_of(), those that canopy_surface() draws.
+std::vector<double> cloth_cells_only(const Mesh& mesh, const std::vector<double>& cell_values);
+/// Every irregular spring (line, riser, tape) as a line of two points over all nodes, in the order of
+/// Mesh::springs, with its part as the integer array "part".
+VtkSurface spring_lines(const Mesh& mesh, const std::vector<Vec3>& positions);
+/// Pressure and velocity of a flow, single precision: "pressure_pa", "velocity_m_per_s".
+VtkImage flow_image(const FlowField& field);
+/// The porous cells of a flow as boxes, with "cloth" (index into FlowProblem::porous), "darcy_per_m2" and
+/// "forchheimer_per_m".
+VtkUnstructured porous_boxes(const FlowProblem& problem);
+
+}  // namespace ripstop

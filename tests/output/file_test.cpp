@@ -1,0 +1,181 @@
+#include "ripstop/core/file.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <thread>
+
+#include "ripstop/core/error.h"
+#include "ripstop/core/hash.h"
+#include "temporary_folder.h"
+
+namespace ripstop {
+namespace {
+
+/// The message of the Error that `action` throws.
+template <class Action>
+std::string message_of(ExitCode code, Action action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), code) << error.what();
+    return error.what();
+  }
+  ADD_FAILURE() << "no Error";
+  return {};
+}
+
+std::size_t files_in(const std::filesystem::path& folder) {
+  return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
+}
+
+TEST(WriteFile, BytesComeBackAndNothingElseIsLeft) {
+  const TemporaryFolder folder("file");
+  std::string bytes(300000, '\0');
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<char>(i * i / 7);
+  for (const std::string& content : {bytes, std::string(), std::string("\0\r\n", 3)}) {
+    write_file(folder.path / "a", content);
+    EXPECT_TRUE(read_file(folder.path / "a") == content);
+  }
+  EXPECT_EQ(files_in(folder.path), 1u);
+}
+
+TEST(WriteFile, AFailedWriteLeavesTheOldFileAndNoRubbish) {
+  const TemporaryFolder folder("file-full");
+  write_file(folder.path / "a", "old");
+  struct rlimit before = {};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  struct rlimit limited = before;
+  limited.rlim_cur = 10000;
+  auto* const handler = std::signal(SIGXFSZ, SIG_IGN);
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &limited), 0);
+  std::string message;
+  try {
+    write_file(folder.path / "a", std::string(20000, 'x'));
+  } catch (const Error& error) {
+    message = error.what();
+  }
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_NE(message.find((folder.path / "a").string()), std::string::npos) << message;
+  EXPECT_NE(message.find("File too large"), std::string::npos) << message;
+  EXPECT_EQ(read_file(folder.path / "a"), "old");
+  EXPECT_EQ(files_in(folder.path), 1u);
+}
+
+TEST(WriteFile, AFullDiskIsNamedAsTheReason) {
+  const std::string message = message_of(ExitCode::io, [] { append_to_file("/dev/full", "x"); });
+  EXPECT_EQ(message,
+            "cannot append to /dev/full: No space left on device; free some space, or write elsewhere");
+}
+
+TEST(WriteFile, AReaderSeesOneOfTheTwoContentsNeverAMixture) {
+  const TemporaryFolder folder("file-race");
+  const std::string contents[2] = {std::string(100000, 'a'), std::string(50000, 'b')};
+  write_file(folder.path / "f", contents[0]);
+  std::jthread writer([&] {
+    for (int i = 0; i < 60; ++i) write_file(folder.path / "f", contents[i % 2]);
+  });
+  for (int i = 0; i < 300; ++i) {
+    const std::string read = read_file(folder.path / "f");
+    ASSERT_TRUE(read == contents[0] || read == contents[1]) << read.size();
+  }
+}
+
+TEST(Files, EveryFailureNamesThePathAndTheReason) {
+  const TemporaryFolder folder("file-errors");
+  write_file(folder.path / "file", "x");
+  const auto expect = [](const std::string& message, const std::string& path, const std::string& reason) {
+    EXPECT_NE(message.find(path), std::string::npos) << message;
+    EXPECT_NE(message.find(reason), std::string::npos) << message;
+  };
+  const std::string missing = (folder.path / "none/a").string(), below = (folder.path / "file/a").string();
+  expect(message_of(ExitCode::io, [&] { write_file(missing, "x"); }), missing, "No such file");
+  expect(message_of(ExitCode::io, [&] { read_file(missing); }), missing, "No such file");
+  expect(message_of(ExitCode::io, [&] { read_file(folder.path); }), folder.path.string(), "Is a directory");
+  expect(message_of(ExitCode::io, [&] { write_file(folder.path, "x"); }), folder.path.string(), "directory");
+  expect(message_of(ExitCode::io, [&] { make_folder(below); }), below, "Not a directory");
+  expect(message_of(ExitCode::io, [&] { make_folder(folder.path / "file"); }), "file", "Not a directory");
+  expect(message_of(ExitCode::io, [&] { hash_folder(missing); }), missing, "No such file");
+  EXPECT_EQ(read_file(folder.path / "file"), "x");
+}
+
+TEST(Hash, IsTheXxh3OfThePublishedVectors) {
+  // XXH3_128bits of no input, seed 0: the specification's first test vector.
+  EXPECT_EQ(hash_bytes(""), "99aa06d3014798d86001c324468d497f");
+  EXPECT_NE(hash_bytes("a"), hash_bytes("b"));
+}
+
+TEST(Hash, OfAFolderIsThatOfItsNamesAndContentsWhereverItLies) {
+  const TemporaryFolder folder("hash");
+  for (const char* copy : {"one", "two"}) {
+    make_folder(folder.path / copy / "sub");
+    write_file(folder.path / copy / "b", "1");
+    write_file(folder.path / copy / "sub/a", "2");
+  }
+  const std::string hash = hash_folder(folder.path / "one");
+  EXPECT_EQ(hash_folder(folder.path / "two"), hash);
+  EXPECT_EQ(hash_file(folder.path / "one/b"), hash_bytes("1"));
+  std::filesystem::rename(folder.path / "two/b", folder.path / "two/c");
+  EXPECT_NE(hash_folder(folder.path / "two"), hash);
+  std::filesystem::rename(folder.path / "two/c", folder.path / "two/b");
+  EXPECT_EQ(hash_folder(folder.path / "two"), hash);
+  write_file(folder.path / "two/sub/a", "3");
+  EXPECT_NE(hash_folder(folder.path / "two"), hash);
+}
+
+TEST(Sealed, EveryTruncationAndEveryChangedByteIsNoticed) {
+  const TemporaryFolder folder("sealed");
+  const std::filesystem::path path = folder.path / "state";
+  const std::string content("x = 1.5\0\n\nend", 13);
+  write_sealed(path, content);
+  EXPECT_EQ(read_sealed(path), content);
+  const std::string sealed = read_file(path);
+  const std::filesystem::path damaged = folder.path / "damaged";
+  for (std::size_t length = 0; length < sealed.size(); ++length) {
+    write_file(damaged, sealed.substr(0, length));
+    message_of(ExitCode::bad_data, [&] { read_sealed(damaged); });
+  }
+  write_file(damaged, sealed + "x");
+  message_of(ExitCode::bad_data, [&] { read_sealed(damaged); });
+  for (std::size_t i = 0; i < sealed.size(); ++i) {
+    for (int flip : {0x01, 0x20, 0x80, 0xff}) {
+      std::string changed = sealed;
+      changed[i] = static_cast<char>(changed[i] ^ flip);
+      write_file(damaged, changed);
+      message_of(ExitCode::bad_data, [&] { read_sealed(damaged); });
+    }
+  }
+  write_sealed(path, "");
+  EXPECT_EQ(read_sealed(path), "");
+}
+
+TEST(SealedFolder, NamesTheFileThatIsMissingNewOrChanged) {
+  const TemporaryFolder folder("sealed-folder");
+  make_folder(folder.path / "sub");
+  write_file(folder.path / "shape", "1");
+  write_file(folder.path / "sub/flow", "2");
+  message_of(ExitCode::bad_data, [&] { check_folder(folder.path); });  // not sealed yet
+  seal_folder(folder.path);
+  EXPECT_NO_THROW(check_folder(folder.path));
+  const auto expect_named = [&](const std::string& name) {
+    const std::string message = message_of(ExitCode::bad_data, [&] { check_folder(folder.path); });
+    EXPECT_NE(message.find(name), std::string::npos) << message;
+  };
+  write_file(folder.path / "sub/flow", "3");
+  expect_named("sub/flow");
+  write_file(folder.path / "sub/flow", "2");
+  EXPECT_NO_THROW(check_folder(folder.path));
+  write_file(folder.path / "sub/extra", "");
+  expect_named("sub/extra");
+  std::filesystem::remove(folder.path / "sub/extra");
+  std::filesystem::remove(folder.path / "shape");
+  expect_named("shape");
+  write_file(folder.path / "shape", "1");
+  write_file(folder.path / seal_name, read_file(folder.path / seal_name).substr(0, 50));
+  expect_named(seal_name);
+}
+
+}  // namespace
+}  // namespace ripstop

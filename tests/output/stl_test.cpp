@@ -1,0 +1,91 @@
+#include "ripstop/output/stl.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+#include <numbers>
+
+#include "ripstop/core/error.h"
+#include "ripstop/core/file.h"
+#include "temporary_folder.h"
+
+namespace ripstop {
+namespace {
+
+/// A unit sphere of triangles that point outward.
+std::vector<Triangle> sphere(int rows, int columns) {
+  const auto at = [&](int row, int column) {
+    const double theta = std::numbers::pi * row / rows,
+                 phi = 2 * std::numbers::pi * (column % columns) / columns;
+    return Vec3{std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
+  };
+  std::vector<Triangle> surface;
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      surface.push_back({at(row, column), at(row + 1, column), at(row + 1, column + 1)});
+      surface.push_back({at(row, column), at(row + 1, column + 1), at(row, column + 1)});
+    }
+  }
+  return surface;
+}
+
+double area(const std::vector<Triangle>& surface) {
+  double sum = 0;
+  for (const Triangle& t : surface) sum += 0.5 * norm(cross(t.b - t.a, t.c - t.a));
+  return sum;
+}
+
+double volume(const std::vector<Triangle>& surface) {
+  double sum = 0;
+  for (const Triangle& t : surface) sum += dot(t.a, cross(t.b, t.c)) / 6;
+  return sum;
+}
+
+TEST(Stl, TheSurfaceComesBackWithItsAreaVolumeAndOrientation) {
+  const TemporaryFolder folder("stl-sphere");
+  const std::vector<Triangle> surface = sphere(40, 80);
+  write_stl(folder.path / "s.stl", surface);
+  const std::vector<Triangle> read = read_stl(folder.path / "s.stl");
+  ASSERT_EQ(read.size(), surface.size());
+  for (std::size_t i = 0; i < read.size(); ++i) {
+    // Coordinates up to 1 round to float within half of 2^-24.
+    EXPECT_LE(norm(read[i].a - surface[i].a), 0.5 * std::sqrt(3.) * 0x1p-24);
+    EXPECT_LE(norm(read[i].b - surface[i].b), 0.5 * std::sqrt(3.) * 0x1p-24);
+    EXPECT_LE(norm(read[i].c - surface[i].c), 0.5 * std::sqrt(3.) * 0x1p-24);
+  }
+  EXPECT_NEAR(area(read), area(surface), 1e-6 * area(surface));
+  EXPECT_NEAR(volume(read), volume(surface), 1e-6);  // > 0: outward
+  EXPECT_NEAR(volume(read), 4. / 3 * std::numbers::pi, 0.02);
+}
+
+TEST(Stl, TheNormalInTheFileIsTheUnitNormalOrZeroWithoutArea) {
+  const TemporaryFolder folder("stl-normal");
+  write_stl(folder.path / "n.stl", {{{0, 0, 0}, {0, 3, 0}, {0, 0, 4}}, {{1, 1, 1}, {1, 1, 1}, {2, 2, 2}}});
+  const std::string bytes = read_file(folder.path / "n.stl");
+  ASSERT_EQ(bytes.size(), 84u + 2 * 50);
+  float normal[3];
+  std::memcpy(normal, bytes.data() + 84, sizeof(normal));
+  EXPECT_EQ((std::vector<float>{normal[0], normal[1], normal[2]}), (std::vector<float>{1, 0, 0}));
+  std::memcpy(normal, bytes.data() + 84 + 50, sizeof(normal));
+  EXPECT_EQ((std::vector<float>{normal[0], normal[1], normal[2]}), (std::vector<float>{0, 0, 0}));
+}
+
+TEST(Stl, CutTextAndNonFiniteSurfacesAreErrors) {
+  const TemporaryFolder folder("stl-bad");
+  write_stl(folder.path / "a.stl", sphere(3, 4));
+  const std::string bytes = read_file(folder.path / "a.stl");
+  for (std::size_t length : {std::size_t{0}, std::size_t{83}, bytes.size() - 1}) {
+    write_file(folder.path / "cut.stl", bytes.substr(0, length));
+    EXPECT_THROW(read_stl(folder.path / "cut.stl"), Error) << length;
+  }
+  write_file(folder.path / "text.stl", "solid cube\n" + std::string(200, ' ') + "endsolid cube\n");
+  EXPECT_THROW(read_stl(folder.path / "text.stl"), Error);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(write_stl(folder.path / "b.stl", {{{0, 0, nan}, {1, 0, 0}, {0, 1, 0}}}), Error);
+  EXPECT_THROW(write_stl(folder.path / "b.stl", {{{0, 0, 1e39}, {1, 0, 0}, {0, 1, 0}}}), Error);
+  EXPECT_FALSE(std::filesystem::exists(folder.path / "b.stl"));
+}
+
+}  // namespace
+}  // namespace ripstop
