@@ -1,0 +1,144 @@
+#include "ripstop/case/case.h"
+
+#include <cmath>
+
+#include "ripstop/core/toml/fields.h"
+
+namespace ripstop {
+namespace {
+
+template <class Kind>
+const Kind& material(const Case& value, const std::string& name) {
+  const auto found = value.materials.find(name);
+  const Kind* chosen = found == value.materials.end() ? nullptr : std::get_if<Kind>(&found->second);
+  if (!chosen)
+    throw Error(ExitCode::usage, "the case has no material \"" + name + "\" of the kind that is needed");
+  return *chosen;
+}
+
+}  // namespace
+
+void describe(Fields& fields, FlowSettings& flow) {
+  fields.choice("engine", flow.engine, {{"openfoam", EngineKind::openfoam}}, "Flow solver.");
+  fields
+      .number("speed_m_s", flow.speed_m_s, above(0).up_to(100),
+              "Free-stream speed; below Mach 0.3, where the canopy's flow model holds.")
+      .required();
+  fields.choice(
+      "speed_basis", flow.speed_basis, {{"nominal", SpeedBasis::nominal}, {"measured", SpeedBasis::measured}},
+      "\"nominal\": speed_m_s is used as it is; \"measured\": the measured speed of the row of [[measured]] "
+      "whose nominal speed it is.");
+  fields.number("density_kg_m3", flow.density_kg_m3, above(0).up_to(20), "Density of the air.")
+      .absent("of the row of [[measured]] whose nominal speed is speed_m_s");
+  fields.number("viscosity_pa_s", flow.viscosity_pa_s, above(0).up_to(1e-2), "Dynamic viscosity.");
+  fields.number("temperature_k", flow.temperature_k, from(100).up_to(1000),
+                "Temperature of the air; the pressure follows from the density.");
+  fields.number("turbulence_intensity", flow.turbulence_intensity, above(0).up_to(1),
+                "At the inlet (assumed).");
+  fields.number("viscosity_ratio", flow.viscosity_ratio, above(0).up_to(1e5),
+                "Eddy viscosity over viscosity at the inlet (assumed).");
+  fields.vector("box_m", flow.box_m, above(0).up_to(1000),
+                "Box of air: width, height, length along the flow ([NFM] section 5).");
+  fields.integers("cells", flow.cells, from(4).up_to(2000), "Cells along each side of the box.");
+  fields
+      .number("canopy_position_m", flow.canopy_position_m, above(0).up_to(1000),
+              "Distance from the inlet to the skirt of the undeformed start shape.")
+      .absent("half the length of the box");
+  fields.choice("porosity_model", flow.porosity_model, {{"paper", PorosityModel::paper}},
+                "\"paper\": Darcy and Forchheimer coefficients in every cell that the canopy cuts.");
+  fields.number("residual", flow.residual, above(0).up_to(0.1),
+                "Residual of every equation at which a solution ends.");
+  fields.integer("max_iterations", flow.max_iterations, from(1).up_to(1'000'000),
+                 "Most iterations of one flow solution.");
+  fields.integer("ranks", flow.ranks, from(1).up_to(4096), "Processes of the flow solver.");
+  fields.number("time_limit_s", flow.time_limit_s, from(0).up_to(1e7),
+                "Longest wall time of one flow solution; 0: none.");
+}
+
+void describe(Fields& fields, CouplingSettings& coupling) {
+  fields.number("drag_tolerance", coupling.drag_tolerance, above(0).up_to(1),
+                "Relative change of drag between two iterations at which the coupling may end.");
+  fields.number("shape_tolerance_m", coupling.shape_tolerance_m, above(0).up_to(10),
+                "Mean displacement of the nodes between two iterations at which it may end.");
+  fields.integer("max_iterations", coupling.max_iterations, from(1).up_to(10000),
+                 "Most iterations of the coupling.");
+  fields.number("relaxation", coupling.relaxation, above(0).up_to(1),
+                "Share of a new iterate that is taken.");
+  fields.choice(
+      "acceleration", coupling.acceleration,
+      {{"none", Acceleration::none}, {"aitken", Acceleration::aitken}, {"anderson", Acceleration::anderson}},
+      "How iterates are combined.");
+  fields.number("cloth_tolerance", coupling.cloth_tolerance, above(0).up_to(0.1),
+                "Residual force over applied force at which the cloth is in equilibrium.");
+  fields.toggle("linear", coupling.linear, "Keep only K_1 of every law: the linear model of [NFM].");
+  fields.integer("threads", coupling.threads, from(0).up_to(1024),
+                 "Threads of the cloth solver; 0: one a core.");
+}
+
+void describe(Fields& fields, Measured& measured) {
+  fields
+      .number("nominal_speed_m_s", measured.nominal_speed_m_s, above(0).up_to(100),
+              "Speed that names the condition.")
+      .required();
+  fields
+      .number("measured_speed_m_s", measured.measured_speed_m_s, above(0).up_to(100),
+              "Speed that was measured.")
+      .required();
+  fields.number("density_kg_m3", measured.density_kg_m3, above(0).up_to(20), "Density of the air.")
+      .required();
+  fields.number("drag_n", measured.drag_n, above(0).up_to(1e7), "Measured drag.")
+      .absent("withheld or not measured");
+  fields
+      .number("printed_nonlinear_n", measured.printed_nonlinear_n, above(0).up_to(1e7),
+              "Drag that the source's nonlinear model gives.")
+      .absent("not printed");
+  fields
+      .number("printed_linear_n", measured.printed_linear_n, above(0).up_to(1e7),
+              "Drag that the source's linear model gives.")
+      .absent("not printed");
+}
+
+void describe(Fields& fields, Case& value) {
+  fields.text("title", value.title, 200, "A line for reports.");
+  fields.table("parachute", value.parachute, "The parachute.").required();
+  fields.named_tables("materials", value.materials,
+                      "Materials of this case; they come before those of the library with the same name.");
+  fields.table("flow", value.flow, "The air, its box and its solver.").required();
+  fields.table("coupling", value.coupling, "The steady loop between cloth and flow.");
+  fields.rows("measured", value.measured, "Wind-tunnel conditions to take air from and to compare with.");
+}
+
+const Measured* measured_row(const Case& value) {
+  const double wanted = value.flow.speed_m_s;
+  for (const Measured& row : value.measured)
+    if (std::abs(row.nominal_speed_m_s - wanted) <= 1e-9 * wanted) return &row;
+  return nullptr;
+}
+
+Air air(const Case& value) {
+  const FlowSettings& flow = value.flow;
+  const Measured* row = measured_row(value);
+  if (!row && (flow.speed_basis == SpeedBasis::measured || !flow.density_kg_m3))
+    throw Error(ExitCode::usage, "no row of [[measured]] has the nominal speed of this case");
+  return {flow.speed_basis == SpeedBasis::measured ? row->measured_speed_m_s : flow.speed_m_s,
+          flow.density_kg_m3 ? *flow.density_kg_m3 : row->density_kg_m3};
+}
+
+double canopy_position(const Case& value) {
+  return value.flow.canopy_position_m.value_or(value.flow.box_m.z / 2);
+}
+
+const Fabric& canopy_fabric(const Case& value) {
+  return material<Fabric>(value, value.parachute.canopy_material);
+}
+const Line& suspension_line(const Case& value) {
+  return material<Line>(value, value.parachute.lines.material);
+}
+const Line& riser_line(const Case& value) {
+  return material<Line>(value, value.parachute.riser.material);
+}
+const Tape& reinforcement_tape(const Case& value) {
+  return material<Tape>(value, value.parachute.tape.material);
+}
+
+}  // namespace ripstop

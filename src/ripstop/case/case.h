@@ -1,0 +1,118 @@
+// A case: everything that one run needs to know, as read from a case file. One struct for each TOML table.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ripstop/core/toml/problem.h"
+#include "ripstop/core/vec3.h"
+#include "ripstop/material/library.h"
+#include "ripstop/material/material.h"
+#include "ripstop/parachute/design.h"
+
+namespace ripstop {
+
+enum class EngineKind { openfoam };
+enum class SpeedBasis { nominal, measured };
+enum class PorosityModel { paper };
+enum class Acceleration { none, aitken, anderson };
+
+/// [flow]
+struct FlowSettings {
+  EngineKind engine = EngineKind::openfoam;
+  double speed_m_s = 0;
+  SpeedBasis speed_basis = SpeedBasis::nominal;
+  std::optional<double> density_kg_m3;  // absent: from the row of [[measured]] with this nominal speed
+  double viscosity_pa_s = 1.84e-5;
+  double temperature_k = 293.15;
+  double turbulence_intensity = 0.005;
+  double viscosity_ratio = 10;
+  Vec3 box_m{2, 2, 4};
+  std::array<int, 3> cells{100, 100, 150};
+  std::optional<double> canopy_position_m;  // inlet to the skirt of the start shape; absent: mid-length
+  PorosityModel porosity_model = PorosityModel::paper;
+  double residual = 1e-5;
+  int max_iterations = 1000;
+  int ranks = 1;
+  double time_limit_s = 0;  // of one flow solution; 0: none
+};
+
+/// [coupling]
+struct CouplingSettings {
+  double drag_tolerance = 1e-3;     // change of drag between two iterations, relative
+  double shape_tolerance_m = 1e-3;  // mean displacement of the nodes between two iterations
+  int max_iterations = 20;
+  double relaxation = 0.5;
+  Acceleration acceleration = Acceleration::anderson;
+  double cloth_tolerance = 1e-4;  // RelaxOptions::tolerance
+  bool linear = false;            // keep only K_1 of every law
+  int threads = 0;                // 0: as many as the machine has
+};
+
+/// [[measured]]: one wind-tunnel condition.
+struct Measured {
+  double nominal_speed_m_s = 0;
+  double measured_speed_m_s = 0;
+  double density_kg_m3 = 0;
+  std::optional<double> drag_n;               // absent: withheld or not measured
+  std::optional<double> printed_nonlinear_n;  // drag that the source's nonlinear model gives
+  std::optional<double> printed_linear_n;
+};
+
+struct Case {
+  std::string title;
+  Design parachute;
+  /// Every material the parachute uses, by name: written in the case file, else from the library.
+  std::map<std::string, Material> materials;
+  FlowSettings flow;
+  CouplingSettings coupling;
+  std::vector<Measured> measured;
+
+  std::filesystem::path file;  // where it was read from; empty: not from a file
+  Origins origins;             // of every key that was given
+};
+
+void describe(Fields& fields, FlowSettings& flow);
+void describe(Fields& fields, CouplingSettings& coupling);
+void describe(Fields& fields, Measured& measured);
+void describe(Fields& fields, Case& value);
+
+/// What the command line may change about a case.
+struct Overrides {
+  std::optional<double> speed = {};             // --speed [m/s]
+  std::optional<std::array<int, 3>> grid = {};  // --grid nx ny nz
+  std::optional<int> ranks = {};                // --ranks
+  bool linear = false;                          // --linear
+};
+
+/// Throws InputError(usage) with every problem found, InputError(bad_data) for a broken library material,
+/// Error(io) when the file cannot be read.
+Case read_case(const std::filesystem::path& file, const Overrides& overrides = {});
+/// The same from text; `name` stands for the file in messages.
+Case parse_case(const std::string& text, const std::string& name, const Overrides& overrides = {});
+/// Changes an already read case under the same rules. Throws InputError(usage) and leaves `value` unchanged.
+void apply(const Overrides& overrides, Case& value);
+
+/// The row of [[measured]] for the case's nominal speed; null when there is none.
+const Measured* measured_row(const Case& value);
+
+struct Air {
+  double speed = 0;    // free stream, after speed_basis [m/s]
+  double density = 0;  // [kg/m3]
+};
+Air air(const Case& value);
+
+/// z of the skirt of the undeformed start shape, from the inlet [m].
+double canopy_position(const Case& value);
+
+/// The materials of the parachute's parts, looked up by the names in the design.
+const Fabric& canopy_fabric(const Case& value);
+const Line& suspension_line(const Case& value);
+const Line& riser_line(const Case& value);
+const Tape& reinforcement_tape(const Case& value);
+
+}  // namespace ripstop

@@ -1,0 +1,421 @@
+#include "ripstop/core/toml/read.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace ripstop {
+namespace {
+
+std::string joined(const std::string& prefix, const std::string& key) {
+  return prefix.empty() ? key : prefix + "." + key;
+}
+
+std::string element(const std::string& name, std::size_t index) {
+  return fmt::format("{}[{}]", name, index);
+}
+
+bool is_number(const Node& node) {
+  return node.type == Node::Type::number || node.type == Node::Type::integer;
+}
+
+/// TOML tells 3.0 from 3, JSON does not; both are taken as the integer.
+bool is_integral(const Node& node) {
+  return is_number(node) && std::isfinite(node.number) && node.number == std::floor(node.number);
+}
+
+std::string type_name(const Node& node) {
+  switch (node.type) {
+    case Node::Type::table:
+      return "a table";
+    case Node::Type::array:
+      return "a list";
+    case Node::Type::text:
+      return "text";
+    case Node::Type::integer:
+      return "an integer";
+    case Node::Type::number:
+      return "a number";
+    case Node::Type::boolean:
+      return "true/false";
+    case Node::Type::date:
+      return "a date";
+  }
+  return "";
+}
+
+std::string value_text(const Node& node) {
+  switch (node.type) {
+    case Node::Type::text:
+      return quoted(node.text);
+    case Node::Type::integer:
+      return fmt::format("{}", node.integer);
+    case Node::Type::number:
+      return fmt::format("{}", node.number);
+    case Node::Type::boolean:
+      return node.boolean ? "true" : "false";
+    case Node::Type::array: {
+      std::vector<std::string> items;
+      for (const Node& item : node.items) {
+        if (items.size() == 6) {
+          items.push_back("...");
+          break;
+        }
+        items.push_back(is_number(item) ? value_text(item) : type_name(item));
+      }
+      return fmt::format("[{}]", fmt::join(items, ", "));
+    }
+    case Node::Type::table:
+    case Node::Type::date:
+      return "";
+  }
+  return "";
+}
+
+/// One key while it is read: where it stands and where its origin and problems go.
+class Reader {
+ public:
+  Reader(const Document& document, Origins& origins, std::vector<Problem>& problems)
+      : file_(document.name), origins_(origins), problems_(problems) {}
+
+  void table(Fields fields, const Node& node, const std::string& prefix);
+
+ private:
+  void value(const Field& field, const Node& node, const std::string& name);
+
+  void set(double& target, const Node& node, const std::string& name);
+  void set(std::optional<double>& target, const Node& node, const std::string& name);
+  void set(int& target, const Node& node, const std::string& name);
+  void set(bool& target, const Node& node, const std::string& name);
+  void set(Vec3& target, const Node& node, const std::string& name);
+  void set(std::array<int, 3>& target, const Node& node, const std::string& name);
+  void set(const NumberList& target, const Node& node, const std::string& name);
+  void set(const Text& target, const Node& node, const std::string& name);
+  void set(const Choice& target, const Node& node, const std::string& name);
+  void set(const Subtable& target, const Node& node, const std::string& name);
+  void set(const Rows& target, const Node& node, const std::string& name);
+  void set(const NamedTables& target, const Node& node, const std::string& name);
+  template <class T>
+  void set(T* target, const Node& node, const std::string& name) {
+    set(*target, node, name);
+  }
+  // Both come before the other keys of their table, see table().
+  void set(const Kind&, const Node&, const std::string&) {}
+  void set(const Base&, const Node&, const std::string&) {}
+
+  bool is_a(Node::Type type, const Node& node, const std::string& name, const std::string& expected);
+  bool word(const std::vector<std::string>& words, const Node& node, const std::string& name,
+            std::size_t& chosen);
+  bool list(const Node& node, const std::string& name, std::size_t min_count, std::size_t max_count);
+  void unknown(const Node& node, const std::string& prefix, const std::vector<std::string>& known);
+  void accept(const Node& node, const std::string& name) { origins_[name] = origin(node.place); }
+  void report(const Node& node, const std::string& name, std::string allowed, std::string message) {
+    problems_.push_back({origin(node.place), name, value_text(node), std::move(allowed), std::move(message)});
+  }
+  Origin origin(Place place) const { return {file_, place.line, place.column, ""}; }
+
+  const std::string& file_;
+  Origins& origins_;
+  std::vector<Problem>& problems_;
+};
+
+bool Reader::is_a(Node::Type type, const Node& node, const std::string& name, const std::string& expected) {
+  if (node.type == type) return true;
+  report(node, name, expected, fmt::format("must be {}, not {}", expected, type_name(node)));
+  return false;
+}
+
+bool Reader::list(const Node& node, const std::string& name, std::size_t min_count, std::size_t max_count) {
+  const std::string count =
+      min_count == max_count ? std::to_string(min_count) : fmt::format("{} to {}", min_count, max_count);
+  if (!is_a(Node::Type::array, node, name, fmt::format("a list of {} numbers", count))) return false;
+  if (node.items.size() >= min_count && node.items.size() <= max_count) return true;
+  report(node, name, count + " numbers",
+         fmt::format("must have {} numbers, not {}", count, node.items.size()));
+  return false;
+}
+
+bool Reader::word(const std::vector<std::string>& words, const Node& node, const std::string& name,
+                  std::size_t& chosen) {
+  std::vector<std::string> shown;
+  for (const std::string& candidate : words) shown.push_back(quoted(candidate));
+  const std::string allowed = fmt::format("{}", fmt::join(shown, ", "));
+  if (node.type == Node::Type::text) {
+    const auto found = std::find(words.begin(), words.end(), node.text);
+    if (found != words.end()) {
+      chosen = static_cast<std::size_t>(found - words.begin());
+      return true;
+    }
+  }
+  const std::string near = node.type == Node::Type::text ? nearest(node.text, words) : "";
+  report(node, name, allowed,
+         fmt::format("must be {}{}{}", words.size() > 1 ? "one of " : "", allowed,
+                     near.empty() ? "" : fmt::format("; did you mean {}?", quoted(near))));
+  return false;
+}
+
+void Reader::set(double& target, const Node& node, const std::string& name) {
+  if (!is_number(node)) return report(node, name, "a number", "must be a number, not " + type_name(node));
+  if (!std::isfinite(node.number)) return report(node, name, "a finite number", "must be a finite number");
+  target = node.number;
+  accept(node, name);
+}
+
+void Reader::set(std::optional<double>& target, const Node& node, const std::string& name) {
+  double number = 0;
+  set(number, node, name);
+  if (origins_.contains(name)) target = number;
+}
+
+void Reader::set(int& target, const Node& node, const std::string& name) {
+  if (!is_integral(node))
+    return report(node, name, "an integer",
+                  is_number(node) ? "must be a whole number" : "must be an integer, not " + type_name(node));
+  // A number beyond int is beyond every range too: the nearest int keeps it out of range.
+  constexpr double limit = std::numeric_limits<int>::max();
+  target = static_cast<int>(std::clamp(node.number, -limit, limit));
+  accept(node, name);
+}
+
+void Reader::set(bool& target, const Node& node, const std::string& name) {
+  if (!is_a(Node::Type::boolean, node, name, "true or false")) return;
+  target = node.boolean;
+  accept(node, name);
+}
+
+void Reader::set(Vec3& target, const Node& node, const std::string& name) {
+  if (!list(node, name, 3, 3)) return;
+  double* const parts[3] = {&target.x, &target.y, &target.z};
+  for (std::size_t i = 0; i < 3; ++i) set(*parts[i], node.items[i], element(name, i));
+  accept(node, name);
+}
+
+void Reader::set(std::array<int, 3>& target, const Node& node, const std::string& name) {
+  if (!list(node, name, 3, 3)) return;
+  for (std::size_t i = 0; i < 3; ++i) set(target[i], node.items[i], element(name, i));
+  accept(node, name);
+}
+
+void Reader::set(const NumberList& target, const Node& node, const std::string& name) {
+  if (!list(node, name, static_cast<std::size_t>(target.min_count),
+            static_cast<std::size_t>(target.max_count)))
+    return;
+  target.value->assign(node.items.size(), 0.0);
+  for (std::size_t i = 0; i < node.items.size(); ++i)
+    set((*target.value)[i], node.items[i], element(name, i));
+  accept(node, name);
+}
+
+void Reader::set(const Text& target, const Node& node, const std::string& name) {
+  if (!is_a(Node::Type::text, node, name, "text")) return;
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
+  const auto starts_character = [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; };
+  if (target.is_name && !is_name(node.text))
+    return report(node, name, "a name", "must be a name of at most 64 letters, digits, '.', '_' and '-'");
+  if (std::any_of(node.text.begin(), node.text.end(), is_control))
+    return report(node, name, "text without control characters",
+                  "must not have line breaks or control characters");
+  if (std::count_if(node.text.begin(), node.text.end(), starts_character) > target.max_length) {
+    const std::string allowed = fmt::format("at most {} characters", target.max_length);
+    return report(node, name, allowed, "must have " + allowed);
+  }
+  *target.value = node.text;
+  accept(node, name);
+}
+
+void Reader::set(const Choice& target, const Node& node, const std::string& name) {
+  std::size_t chosen = 0;
+  if (!word(target.words, node, name, chosen)) return;
+  target.set(chosen);
+  accept(node, name);
+}
+
+void Reader::set(const Subtable& target, const Node& node, const std::string& name) {
+  if (is_a(Node::Type::table, node, name, "a table")) table(target.fields(), node, name);
+}
+
+void Reader::set(const Rows& target, const Node& node, const std::string& name) {
+  if (!is_a(Node::Type::array, node, name, fmt::format("a list of tables, [[{}]]", name))) return;
+  target.resize(node.items.size());
+  for (std::size_t i = 0; i < node.items.size(); ++i) {
+    if (is_a(Node::Type::table, node.items[i], element(name, i), "a table"))
+      table(target.row(i), node.items[i], element(name, i));
+  }
+  accept(node, name);
+}
+
+void Reader::set(const NamedTables& target, const Node& node, const std::string& name) {
+  if (!is_a(Node::Type::table, node, name, "a table of tables")) return;
+  for (const Node& item : node.items) {
+    const std::string entry = joined(name, item.key);
+    if (!is_name(item.key)) {
+      problems_.push_back({origin(item.key_place), name, quoted(item.key), "a name",
+                           "must be a name of at most 64 letters, digits, '.', '_' and '-'"});
+    } else if (is_a(Node::Type::table, item, entry, "a table")) {
+      table(target.entry(item.key), item, entry);
+    }
+  }
+  accept(node, name);
+}
+
+void Reader::unknown(const Node& node, const std::string& prefix, const std::vector<std::string>& known) {
+  const std::string what = node.type == Node::Type::table ? "table" : "key";
+  const std::string near = nearest(node.key, known);
+  const std::string where = prefix.empty() ? "a case" : "[" + prefix + "]";
+  std::string shown = quoted(node.key);
+  shown = shown.substr(1, shown.size() - 2);
+  problems_.push_back({origin(node.key_place), joined(prefix, shown), "",
+                       fmt::format("{}", fmt::join(known, ", ")),
+                       near.empty() ? fmt::format("unknown {}; known here: {}", what, fmt::join(known, ", "))
+                                    : fmt::format("unknown {}; did you mean {}?", what, quoted(near))});
+}
+
+void Reader::value(const Field& field, const Node& node, const std::string& name) {
+  std::visit([&](const auto& target) { set(target, node, name); }, field.value);
+}
+
+void Reader::table(Fields fields, const Node& node, const std::string& prefix) {
+  origins_[prefix] = origin(node.place);
+  bool has_base = false;
+  bool kind_is_open = false;
+  std::vector<Field> all = fields.list();
+  for (const Field& field : fields.list()) {
+    const Node* given = node.find(field.key);
+    const std::string name = joined(prefix, field.key);
+    if (const auto* base = std::get_if<Base>(&field.value); base && given) {
+      if (!is_a(Node::Type::text, *given, name, "text")) continue;
+      const std::string refusal = base->load(given->text);
+      if (!refusal.empty()) report(*given, name, "", refusal);
+      has_base = true;
+    }
+    if (const auto* kind = std::get_if<Kind>(&field.value)) {
+      std::size_t chosen = kind->get();
+      if (given && word(kind->words, *given, name, chosen)) accept(*given, name);
+      // Without the word nobody can say which further keys belong here.
+      kind_is_open = !has_base && kind->words.size() > 1 && !origins_.contains(name);
+      if (!kind_is_open) {
+        const Fields further = kind->select(chosen);
+        all.insert(all.end(), further.list().begin(), further.list().end());
+      }
+    }
+  }
+
+  std::vector<std::string> known;
+  for (const Field& field : all) known.push_back(field.key);
+  for (const Node& member : node.items) {
+    const auto field =
+        std::find_if(all.begin(), all.end(), [&](const Field& f) { return f.key == member.key; });
+    if (field != all.end())
+      value(*field, member, joined(prefix, member.key));
+    else if (!kind_is_open)
+      unknown(member, prefix, known);
+  }
+  for (const Field& field : all) {
+    if (!field.is_required || has_base || node.find(field.key)) continue;
+    std::string message = "is missing";
+    if (const std::string range = field.range.text(); !range.empty()) message += "; give a number " + range;
+    if (const auto* kind = std::get_if<Kind>(&field.value))
+      message += fmt::format("; give one of \"{}\"", fmt::join(kind->words, "\", \""));
+    problems_.push_back({origin(node.place), joined(prefix, field.key), "", field.range.text(), message});
+  }
+}
+
+/// Ranges over the tree of described values.
+class Checker {
+ public:
+  Checker(const Origins& origins, std::vector<Problem>& problems) : origins_(origins), problems_(problems) {}
+
+  void table(const Fields& fields, const std::string& prefix) {
+    for (const Field& field : fields.list()) {
+      const std::string name = joined(prefix, field.key);
+      std::visit([&](const auto& value) { check(field, value, name, prefix); }, field.value);
+    }
+  }
+
+ private:
+  void number(const Field& field, double value, const std::string& name) {
+    const auto origin = origins_.find(name);
+    if (origin == origins_.end() || field.range.contains(value)) return;
+    const std::string allowed = field.range.text();
+    problems_.push_back({origin->second, name, fmt::format("{}", value), allowed, "must be " + allowed});
+  }
+  void check(const Field& field, double* value, const std::string& name, const std::string&) {
+    number(field, *value, name);
+  }
+  void check(const Field& field, std::optional<double>* value, const std::string& name, const std::string&) {
+    if (*value) number(field, **value, name);
+  }
+  void check(const Field& field, int* value, const std::string& name, const std::string&) {
+    number(field, *value, name);
+  }
+  void check(const Field& field, Vec3* value, const std::string& name, const std::string&) {
+    number(field, value->x, element(name, 0));
+    number(field, value->y, element(name, 1));
+    number(field, value->z, element(name, 2));
+  }
+  void check(const Field& field, std::array<int, 3>* value, const std::string& name, const std::string&) {
+    for (std::size_t i = 0; i < 3; ++i) number(field, (*value)[i], element(name, i));
+  }
+  void check(const Field& field, const NumberList& list, const std::string& name, const std::string&) {
+    for (std::size_t i = 0; i < list.value->size(); ++i) number(field, (*list.value)[i], element(name, i));
+  }
+  void check(const Field&, const Subtable& sub, const std::string& name, const std::string&) {
+    table(sub.fields(), name);
+  }
+  void check(const Field&, const Rows& rows, const std::string& name, const std::string&) {
+    for (std::size_t i = 0; i < rows.count(); ++i) table(rows.row(i), element(name, i));
+  }
+  void check(const Field&, const NamedTables& tables, const std::string& name, const std::string&) {
+    for (const std::string& entry : tables.names()) table(tables.entry(entry), joined(name, entry));
+  }
+  void check(const Field&, const Kind& kind, const std::string&, const std::string& prefix) {
+    table(kind.select(kind.get()), prefix);
+  }
+  void check(const Field&, const bool*, const std::string&, const std::string&) {}
+  void check(const Field&, const Text&, const std::string&, const std::string&) {}
+  void check(const Field&, const Choice&, const std::string&, const std::string&) {}
+  void check(const Field&, const Base&, const std::string&, const std::string&) {}
+
+  const Origins& origins_;
+  std::vector<Problem>& problems_;
+};
+
+}  // namespace
+
+void read_table(Fields fields, const Document& document, Origins& origins, std::vector<Problem>& problems) {
+  Reader(document, origins, problems).table(std::move(fields), document.root, "");
+}
+
+void check_values(const Fields& fields, const Origins& origins, std::vector<Problem>& problems) {
+  Checker(origins, problems).table(fields, "");
+}
+
+bool is_name(const std::string& text) {
+  const auto allowed = [](unsigned char c) {
+    return c < 0x80 && (std::isalnum(c) || c == '.' || c == '_' || c == '-');
+  };
+  return !text.empty() && text.size() <= 64 && std::isalnum(static_cast<unsigned char>(text[0])) &&
+         std::all_of(text.begin(), text.end(), allowed);
+}
+
+std::string quoted(const std::string& text) {
+  std::size_t end = std::min<std::size_t>(text.size(), 60);
+  while (end < text.size() && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80)
+    --end;  // whole characters
+  std::string result = "\"";
+  for (char c : text.substr(0, end)) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7f)
+      result += fmt::format("\\x{:02x}", byte);
+    else
+      result += c;
+  }
+  return result + (end < text.size() ? "...\"" : "\"");
+}
+
+}  // namespace ripstop

@@ -1,0 +1,27 @@
+// Reads a parsed table into described structs and collects everything that is wrong with it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "ripstop/core/toml/document.h"
+#include "ripstop/core/toml/fields.h"
+#include "ripstop/core/toml/problem.h"
+
+namespace ripstop {
+
+/// Fills the structs behind `fields` and notes the origin of every key that could be read. Reports unknown
+/// keys, wrong types, NaN and infinity, words that are not in a list, and missing keys; ranges are left to
+/// check_values().
+void read_table(Fields fields, const Document& document, Origins& origins, std::vector<Problem>& problems);
+
+/// Reports every value with an origin that is outside its range. A default is not looked at.
+void check_values(const Fields& fields, const Origins& origins, std::vector<Problem>& problems);
+
+/// True for letters, digits, '.', '_', '-' that begin with a letter or digit, at most 64.
+bool is_name(const std::string& text);
+
+/// The text in double quotes, cut to a readable length, with control characters made visible.
+std::string quoted(const std::string& text);
+
+}  // namespace ripstop

@@ -1,0 +1,216 @@
+#include "ripstop/material/library.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "ripstop/core/build_info.h"
+#include "ripstop/core/toml/fields.h"
+#include "ripstop/core/toml/read.h"
+#include "ripstop/material/spring_law.h"
+
+namespace ripstop {
+namespace {
+
+constexpr double coefficient_limit = 1e9;  // [N] or [N/m]; steel cable of 100 mm has less
+
+std::vector<double>& coefficients(Fabric& material) {
+  return material.coefficients_n_m;
+}
+std::vector<double>& coefficients(Tape& material) {
+  return material.coefficients_n_m;
+}
+std::vector<double>& coefficients(Line& material) {
+  return material.coefficients_n;
+}
+
+void describe_kind(Fields& fields, Material& material) {
+  fields.kind("kind", material, {"fabric", "line", "tape"}, "What the material is.");
+}
+
+std::string load_base(Material& material, const std::string& name) {
+  try {
+    if (!is_name(name)) return "must be the name of a material in the library";
+    material = library_material(name);
+    return "";
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+/// A stiffness that falls to zero within the tested strain would make the lattice unstable.
+void check_law(const std::vector<double>& k, double tested_strain, const std::string& key,
+               const std::string& strain_key, Findings& findings) {
+  if (!findings.sound({key, strain_key}) || k.empty()) return;
+  if (k[0] <= 0) {
+    findings.add(key + "[0]", k[0], "above 0",
+                 "must be above 0: cloth and line pull back when they are pulled");
+    return;
+  }
+  const SpringLaw law{k, 1};
+  constexpr int samples = 1000;
+  for (int i = 1; i <= samples; ++i) {
+    const double strain = tested_strain * i / samples;
+    if (law.tangent(strain) > 0) continue;
+    findings.add(
+        key, fmt::format("[{}]", fmt::join(k, ", ")), "",
+        fmt::format("the load falls with growing strain beyond {:.3g}, within tested_strain = {}; a fit "
+                    "must rise up to there",
+                    strain, tested_strain));
+    return;
+  }
+}
+
+}  // namespace
+
+void describe(Fields& fields, Fabric& fabric) {
+  fields.text("source", fabric.source, 500, "Where the numbers come from.");
+  fields
+      .numbers("coefficients_n_m", fabric.coefficients_n_m, 1, 8,
+               from(-coefficient_limit).up_to(coefficient_limit),
+               "K_1..K_n of load per width against strain, N/m ([NFM] Eq. 2); K_1 above 0.")
+      .required();
+  fields.number("shear_fraction", fabric.shear_fraction, from(0).below(1),
+                "xi, share of the shear springs ([NFM] Eq. 11).");
+  fields.number("bending_fraction", fabric.bending_fraction, from(0).below(1),
+                "eps, share of the bending springs ([NFM] Eq. 11).");
+  fields.number("compression", fabric.compression, from(0).up_to(1),
+                "Stiffness in compression relative to K_1; 0: none.");
+  fields.number("damping_n_s_m", fabric.damping_n_s_m, from(0).up_to(1000),
+                "Relative damping C of one spring.");
+  fields.number("areal_density_kg_m2", fabric.areal_density_kg_m2, above(0).up_to(10), "Mass per area.")
+      .required();
+  fields
+      .number("thickness_m", fabric.thickness_m, above(0).up_to(0.1),
+              "Thickness, for stresses in Pa and porosity.")
+      .required();
+  fields.number("tested_strain", fabric.tested_strain, from(0).up_to(5),
+                "Largest strain of the tests behind the fit; 0: unknown.");
+  fields.number("break_load_n_m", fabric.break_load_n_m, from(0).up_to(1e7),
+                "Load per width at failure; 0: unknown.");
+  fields.number("darcy", fabric.darcy, from(0).up_to(1e12),
+                "a of the pressure drop a v + b v|v| ([NFM] Eq. 15): typed as Darcy d, 1/m2, by "
+                "porosity_model = \"paper\".");
+  fields.number("forchheimer", fabric.forchheimer, from(0).up_to(1e9),
+                "b of the pressure drop: typed as Forchheimer f, 1/m, by porosity_model = \"paper\".");
+}
+
+void describe(Fields& fields, Line& line) {
+  fields.text("source", line.source, 500, "Where the numbers come from.");
+  fields
+      .numbers("coefficients_n", line.coefficients_n, 1, 8, from(-coefficient_limit).up_to(coefficient_limit),
+               "K_1..K_n of tension against strain, N ([NFM] Eq. 2); K_1 above 0.")
+      .required();
+  fields.number("bending_fraction", line.bending_fraction, from(0).below(1),
+                "eps, share of the springs to the next node but one.");
+  fields.number("compression", line.compression, from(0).up_to(1),
+                "Stiffness in compression relative to K_1; 0: the line goes slack.");
+  fields.number("damping_n_s_m", line.damping_n_s_m, from(0).up_to(1000),
+                "Relative damping C of one spring.");
+  fields.number("linear_density_kg_m", line.linear_density_kg_m, above(0).up_to(100), "Mass per length.")
+      .required();
+  fields.number("tested_strain", line.tested_strain, from(0).up_to(5),
+                "Largest strain of the tests behind the fit; 0: unknown.");
+  fields.number("break_load_n", line.break_load_n, from(0).up_to(1e9), "Tension at failure; 0: unknown.");
+}
+
+void describe(Fields& fields, Tape& tape) {
+  fields.text("source", tape.source, 500, "Where the numbers come from.");
+  fields
+      .numbers("coefficients_n_m", tape.coefficients_n_m, 1, 8,
+               from(-coefficient_limit).up_to(coefficient_limit),
+               "K_1..K_n of load per width against strain, N/m ([NFM] Eq. 2); K_1 above 0.")
+      .required();
+  fields.number("width_m", tape.width_m, above(0).up_to(1), "Width.").required();
+  fields.number("linear_density_kg_m", tape.linear_density_kg_m, above(0).up_to(100), "Mass per length.")
+      .required();
+  fields.number("thickness_m", tape.thickness_m, above(0).up_to(0.1), "Thickness.").required();
+  fields.number("compression", tape.compression, from(0).up_to(1),
+                "Stiffness in compression relative to K_1; 0: none.");
+  fields.number("damping_n_s_m", tape.damping_n_s_m, from(0).up_to(1000),
+                "Relative damping C of one spring.");
+  fields.number("tested_strain", tape.tested_strain, from(0).up_to(5),
+                "Largest strain of the tests behind the fit; 0: unknown.");
+}
+
+void describe(Fields& fields, Material& material) {
+  fields.base(
+      "base", [&material](const std::string& name) { return load_base(material, name); },
+      "Material of the library to start from; the keys given here replace its values.");
+  describe_kind(fields, material);
+}
+
+void check_material(const Material& material, const std::string& key, Findings& findings) {
+  const auto dot = [&](const char* name) { return key.empty() ? std::string(name) : key + "." + name; };
+  std::visit(
+      [&](auto chosen) {
+        const std::string name =
+            dot(std::holds_alternative<Line>(material) ? "coefficients_n" : "coefficients_n_m");
+        check_law(coefficients(chosen), chosen.tested_strain, name, dot("tested_strain"), findings);
+      },
+      material);
+  const auto* fabric = std::get_if<Fabric>(&material);
+  if (!fabric || !findings.sound({dot("shear_fraction"), dot("bending_fraction")})) return;
+  if (fabric->shear_fraction + fabric->bending_fraction >= 1)
+    findings.add(
+        dot("shear_fraction"), fabric->shear_fraction, fmt::format("below {}", 1 - fabric->bending_fraction),
+        fmt::format("with bending_fraction = {} nothing is left for the axial springs; the sum must be "
+                    "below 1",
+                    fabric->bending_fraction));
+}
+
+std::string kind_of(const Material& material) {
+  constexpr const char* names[] = {"fabric", "line", "tape"};
+  return names[material.index()];
+}
+
+std::string name_of(const Material& material) {
+  return std::visit([](const auto& chosen) { return chosen.name; }, material);
+}
+
+void set_name(Material& material, const std::string& name) {
+  std::visit([&](auto& chosen) { chosen.name = name; }, material);
+}
+
+std::vector<std::string> library_names() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(data_directory() / "materials"))
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+Material read_material(const std::filesystem::path& file) {
+  std::vector<Problem> problems;
+  Material material;
+  try {
+    const Document document = parse_toml(read_text_file(file), file.string());
+    Origins origins;
+    Fields fields;
+    describe_kind(fields, material);  // a library file stands alone: no `base`
+    read_table(fields, document, origins, problems);
+    Fields chosen;
+    describe_kind(chosen, material);
+    check_values(chosen, origins, problems);
+    Findings findings(origins, problems);
+    check_material(material, "", findings);
+  } catch (const InputError& error) {
+    problems = error.problems();
+  }
+  if (!problems.empty()) throw InputError(ExitCode::bad_data, problems);
+  set_name(material, file.stem().string());
+  return material;
+}
+
+Material library_material(const std::string& name) {
+  const std::vector<std::string> names = library_names();
+  if (std::find(names.begin(), names.end(), name) != names.end())
+    return read_material(data_directory() / "materials" / (name + ".toml"));
+  const std::string near = nearest(name, names);
+  throw Error(ExitCode::usage, fmt::format("no material {} in the library; {}", quoted(name),
+                                           near.empty() ? fmt::format("it has: {}", fmt::join(names, ", "))
+                                                        : fmt::format("did you mean {}?", quoted(near))));
+}
+
+}  // namespace ripstop

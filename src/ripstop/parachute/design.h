@@ -1,0 +1,81 @@
+// The parachute as its case file describes it: one struct for each TOML table, canopy families as a variant.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+
+namespace ripstop {
+
+class Fields;
+class Findings;
+
+/// [parachute] with type = "disk-gap-band": a flat disk with a vent, an open gap, a cylindrical band.
+struct DiskGapBand {
+  double disk_diameter_m = 0;
+  double vent_diameter_m = 0;
+  double gap_height_m = 0;
+  double band_height_m = 0;
+};
+
+/// [parachute.lines]
+struct LineSet {
+  int count = 0;
+  double length_m = 0;  // from the confluence to the skirt
+  std::string material = "spectra-line";
+  std::optional<double> onto_disk_m;  // from the disk's edge inward; absent: to the vent's edge (assumed)
+};
+
+/// [parachute.tape]: sewn along gore seams, and along the hems of vent, disk edge and both edges of the band.
+struct TapeLayout {
+  std::string material = "nylon-tape";
+  bool seams = true;
+  bool hems = true;
+};
+
+/// [parachute.riser]: from the fixed point to the confluence.
+struct Riser {
+  double length_m = 0;  // 0: the confluence is the fixed point
+  std::string material = "spectra-line";
+};
+
+/// [parachute.mesh]
+struct MeshSettings {
+  int cloth_nodes = 25600;       // aimed at; [NFM] used 25,600 for Stratos IV
+  double line_segment_m = 0.05;  // rest length of one spring of a line, aimed at
+};
+
+/// [parachute]. A new family is one more alternative of `canopy` and its describe().
+struct Design {
+  std::variant<DiskGapBand> canopy;
+  std::optional<double> nominal_area_m2;  // reference area S0; absent: computed_area()
+  int gores = 0;
+  std::string canopy_material = "f-111";
+  LineSet lines;
+  TapeLayout tape;
+  Riser riser;
+  MeshSettings mesh;
+};
+
+void describe(Fields& fields, DiskGapBand& canopy);
+void describe(Fields& fields, LineSet& lines);
+void describe(Fields& fields, TapeLayout& tape);
+void describe(Fields& fields, Riser& riser);
+void describe(Fields& fields, MeshSettings& mesh);
+/// `type`, the keys of that type, and what all families share.
+void describe(Fields& fields, Design& design);
+
+/// Reports what single ranges do not show: a vent wider than the disk, lines that cannot meet on the axis.
+void check_design(const Design& design, Findings& findings);
+
+/// Area of the cloth as cut, without the gap and the vent [m2].
+double computed_area(const Design& design);
+/// Reference area S0 of the coefficients: as given, else computed_area() [m2].
+double nominal_area(const Design& design);
+/// How far the lines run inward onto the disk: as given, else up to the vent's edge [m].
+double line_length_on_disk(const Design& design);
+/// Diameter of the flat start shape [m], and its length from the skirt downstream [m].
+double start_diameter(const Design& design);
+double start_depth(const Design& design);
+
+}  // namespace ripstop
