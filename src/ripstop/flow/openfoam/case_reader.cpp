@@ -1,0 +1,130 @@
+#include "ripstop/flow/openfoam/case_reader.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+
+#include "ripstop/core/error.h"
+#include "ripstop/flow/openfoam/case_writer.h"
+
+namespace ripstop::openfoam {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Resistance of every cell, d and f of method section 4.
+struct Resistance {
+  std::vector<double> darcy, forchheimer;
+
+  explicit Resistance(const FlowProblem& problem)
+      : darcy(static_cast<std::size_t>(problem.grid.cells())), forchheimer(darcy.size()) {
+    for (const PorousCells& porous : problem.porous) {
+      for (const int cell : porous.cells) {
+        darcy[cell] = porous.darcy;
+        forchheimer[cell] = porous.forchheimer;
+      }
+    }
+  }
+};
+
+/// Axial momentum that the air loses between the faces of the box,
+///   F = -sum_faces (phi U_z + p A_z) + viscous,
+/// with the values that the solver's own scheme has on the faces, so that it equals the porous force when
+/// every cell's momentum balances. The viscous and turbulent normal stress at the inlet is left out: with
+/// mu_t = 10 mu it is some 1e-6 of the dynamic pressure for cells of centimetres.
+double outflow_of_momentum(const MeshPart& part, const FieldData& phi, const FieldData& velocity,
+                           const std::vector<double>& gauge, const FlowProblem& problem) {
+  const Vec3 h = problem.grid.spacing();
+  double loss = 0;
+  for (const Patch& patch : part.patches) {
+    const auto flux = phi.patches.find(patch.name);
+    const bool inlet = patch.name == "inlet", outlet = patch.name == "outlet", sides = patch.name == "sides";
+    if (!(inlet || outlet || sides) || patch.faces == 0) continue;  // faces between ranks cancel
+    if (flux == phi.patches.end())
+      throw Error(ExitCode::io, "OpenFOAM's phi has no values on patch " + patch.name);
+    for (int face = 0; face < patch.faces; ++face) {
+      const int cell = part.owner[patch.start + face];
+      const double out = phi.at(flux->second, face);  // [kg/s], positive outward
+      const double inside = velocity.at(velocity.inner, cell, 2);
+      const double speed = inlet ? problem.air.speed : outlet && out < 0 ? 0 : inside;
+      loss -= out * speed;
+      if (inlet) loss += gauge[part.global(cell)] * h.x * h.y;  // outlet: p is 0; sides: no axial area
+    }
+  }
+  return loss;
+}
+
+}  // namespace
+
+std::vector<MeshPart> read_mesh(const fs::path& folder, int ranks) {
+  std::vector<MeshPart> parts;
+  for (int rank = 0; rank < ranks; ++rank) {
+    MeshPart part;
+    part.folder = ranks == 1 ? folder : folder / fmt::format("processor{}", rank);
+    const fs::path mesh = part.folder / "constant/polyMesh";
+    if (ranks > 1) part.cells = read_labels(mesh / "cellProcAddressing");
+    part.owner = read_labels(mesh / "owner");
+    part.patches = read_boundary(mesh / "boundary");
+    parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
+std::string latest_time(const fs::path& folder) {
+  std::string latest;
+  double newest = -1;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename();
+    double time = 0;
+    const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), time);
+    if (error == std::errc() && end == name.data() + name.size() && entry.is_directory() && time > newest) {
+      newest = time;
+      latest = name;
+    }
+  }
+  return latest;
+}
+
+FlowField read_case(const std::vector<MeshPart>& parts, const std::string& time, const FlowProblem& problem) {
+  const FlowGrid& grid = problem.grid;
+  const Resistance resistance(problem);
+  const double outlet = outlet_pressure(problem.air), mu = problem.air.viscosity;
+  FlowField field;
+  field.grid = grid;
+  field.pressure.resize(static_cast<std::size_t>(grid.cells()));
+  field.velocity.resize(field.pressure.size());
+  for (const MeshPart& part : parts) {
+    const std::size_t count = part.count(grid);
+    const fs::path folder = part.folder / time;
+    const FieldData p = read_field(folder / "p", 1, count);
+    const FieldData velocity = read_field(folder / "U", 3, count);
+    const FieldData rho = read_field(folder / "rho", 1, count);
+    const FieldData phi = read_field(
+        folder / "phi", 1, part.owner.size() - [&] {
+          std::size_t faces = 0;
+          for (const Patch& patch : part.patches) faces += static_cast<std::size_t>(patch.faces);
+          return faces;
+        }());
+    for (std::size_t local = 0; local < count; ++local) {
+      const int cell = part.global(local);
+      const Vec3 u{velocity.at(velocity.inner, local, 0), velocity.at(velocity.inner, local, 1),
+                   velocity.at(velocity.inner, local, 2)};
+      field.pressure[cell] = p.at(p.inner, local) - outlet;
+      field.velocity[cell] = u;
+      // Force of the air on the porous cells: (mu d + rho |u| f / 2) u V.
+      const double drag = mu * resistance.darcy[cell] +
+                          0.5 * rho.at(rho.inner, local) * norm(u) * resistance.forchheimer[cell];
+      field.porous_force += drag * grid.cell_volume() * u;
+    }
+    field.momentum_deficit += outflow_of_momentum(part, phi, velocity, field.pressure, problem);
+  }
+  for (std::size_t cell = 0; cell < field.pressure.size(); ++cell) {
+    if (!std::isfinite(field.pressure[cell]) || !is_finite(field.velocity[cell])) {
+      throw Error(ExitCode::diverged,
+                  fmt::format("OpenFOAM's fields at iteration {} are not finite in cell {}", time, cell));
+    }
+  }
+  return field;
+}
+
+}  // namespace ripstop::openfoam

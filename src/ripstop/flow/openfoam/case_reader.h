@@ -1,0 +1,33 @@
+// Reads a solved case back into a FlowField, from one folder or from the folders of MPI ranks.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "ripstop/flow/flow.h"
+#include "ripstop/flow/openfoam/field_file.h"
+
+namespace ripstop::openfoam {
+
+/// One part of the mesh: the whole of it, or that of one rank.
+struct MeshPart {
+  std::filesystem::path folder;  // holds constant/ and the time folders
+  std::vector<int> cells;        // index in the grid of every cell; empty: the same
+  std::vector<int> owner;        // cell of each face
+  std::vector<Patch> patches;
+
+  std::size_t count(const FlowGrid& grid) const { return cells.empty() ? grid.cells() : cells.size(); }
+  int global(std::size_t cell) const { return cells.empty() ? static_cast<int>(cell) : cells[cell]; }
+};
+
+/// One part for 1 rank, else one for each processor folder.
+std::vector<MeshPart> read_mesh(const std::filesystem::path& folder, int ranks);
+
+/// Name of the newest time folder; empty when there is none.
+std::string latest_time(const std::filesystem::path& folder);
+
+/// pressure, velocity, porous_force (summed over the cells) and momentum_deficit.
+FlowField read_case(const std::vector<MeshPart>& parts, const std::string& time, const FlowProblem& problem);
+
+}  // namespace ripstop::openfoam

@@ -1,0 +1,356 @@
+#include "ripstop/flow/openfoam/case_writer.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <fstream>
+
+#include "ripstop/core/error.h"
+#include "ripstop/flow/openfoam/openfoam.h"
+
+namespace ripstop::openfoam {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kMolarGasConstant = 8314.47;  // [J/(kmol K)], as OpenFOAM has it
+
+/// Every file starts with OpenFOAM's header. Note for writers: a keyword directly before "(" reads as one
+/// word, so there is always a space.
+void write_dictionary(const fs::path& path, const std::string& kind, const std::string& body) {
+  fs::create_directories(path.parent_path());
+  std::ofstream out(path, std::ios::binary);
+  out << fmt::format(
+             "// Written by Ripstop; a change by hand is lost at the next solve.\n"
+             "FoamFile\n{{\n    version 2.0;\n    format ascii;\n    class {};\n    object {};\n}}\n\n",
+             kind, path.filename().string())
+      << body;
+  out.close();
+  if (!out) throw Error(ExitCode::io, fmt::format("cannot write {}: is the disk full?", path.string()));
+}
+
+/// The six faces of the box and what a field has on them.
+std::string boundary(const std::string& inlet, const std::string& outlet, const std::string& sides) {
+  return fmt::format("boundaryField\n{{\n    inlet {{ {} }}\n    outlet {{ {} }}\n    sides {{ {} }}\n}}\n",
+                     inlet, outlet, sides);
+}
+
+/// Transported fields: given at the inlet, and at the outlet where air comes back in.
+std::string carried(const std::string& value, const std::string& back_flow, const std::string& sides) {
+  return boundary(fmt::format("type fixedValue; value uniform {};", value),
+                  fmt::format("type inletOutlet; inletValue uniform {}; value uniform {};", back_flow, value),
+                  sides);
+}
+
+/// Exponents of kg, m, s, K.
+std::string field(const std::string& dimensions, const std::string& value, const std::string& faces) {
+  return fmt::format("dimensions [{} 0 0 0];\n\ninternalField uniform {};\n\n{}", dimensions, value, faces);
+}
+
+std::string mesh_dictionary(const FlowGrid& grid) {
+  const Vec3 a = grid.origin, b = grid.origin + grid.size;
+  std::string vertices;
+  for (const double z : {a.z, b.z}) {
+    for (const auto& [x, y] :
+         std::array<std::array<double, 2>, 4>{{{a.x, a.y}, {b.x, a.y}, {b.x, b.y}, {a.x, b.y}}}) {
+      vertices += fmt::format("    ({:.17g} {:.17g} {:.17g})\n", x, y, z);
+    }
+  }
+  return fmt::format(
+      "scale 1;\nvertices\n(\n{})\n;\n"
+      "blocks ( hex (0 1 2 3 4 5 6 7) ({} {} {}) simpleGrading (1 1 1) );\nedges ( );\n"
+      "boundary\n(\n"
+      "    inlet {{ type patch; faces ( (0 3 2 1) ); }}\n"
+      "    outlet {{ type patch; faces ( (4 5 6 7) ); }}\n"
+      "    sides {{ type patch; faces ( (0 4 7 3) (1 2 6 5) (0 1 5 4) (3 7 6 2) ); }}\n"
+      ");\nmergePatchPairs ( );\n",
+      vertices, grid.nx, grid.ny, grid.nz);
+}
+
+/// Factors of `ranks` along x, y, z with the least area between the parts.
+std::array<int, 3> split(const FlowGrid& grid, int ranks) {
+  std::array<int, 3> best = {1, 1, ranks};
+  double least = INFINITY;
+  for (int x = 1; x <= ranks; ++x) {
+    for (int y = 1; x * y <= ranks; ++y) {
+      if (ranks % (x * y) != 0) continue;
+      const int z = ranks / (x * y);
+      if (x > grid.nx || y > grid.ny || z > grid.nz) continue;
+      const double area =
+          (x - 1.0) * grid.ny * grid.nz + (y - 1.0) * grid.nx * grid.nz + (z - 1.0) * grid.nx * grid.ny;
+      if (area < least) {
+        least = area;
+        best = {x, y, z};
+      }
+    }
+  }
+  return best;
+}
+
+constexpr char kThermophysics[] = R"foam(thermoType
+{{
+    type hePsiThermo;
+    mixture pureMixture;
+    transport const;
+    thermo hConst;
+    equationOfState perfectGas;
+    specie specie;
+    energy sensibleInternalEnergy;
+}}
+mixture
+{{
+    specie {{ molWeight {:.17g}; }}
+    thermodynamics {{ Cp 1007; Hf 0; }}
+    transport {{ mu {:.17g}; Pr 0.7; }}
+}}
+)foam";
+
+constexpr char kSchemes[] = R"foam(ddtSchemes {{ default steadyState; }}
+gradSchemes {{ default Gauss linear; }}
+divSchemes
+{{
+    default none;
+    div(phi,U) bounded Gauss {};
+    div(phi,k) bounded Gauss upwind;
+    div(phi,omega) bounded Gauss upwind;
+    div(phi,e) bounded Gauss upwind;
+    div(phi,Ekp) bounded Gauss upwind;
+    div(((rho*nuEff)*dev2(T(grad(U))))) Gauss linear;
+}}
+laplacianSchemes {{ default Gauss linear corrected; }}
+interpolationSchemes {{ default linear; }}
+snGradSchemes {{ default corrected; }}
+wallDist {{ method meshWave; }}
+)foam";
+
+constexpr char kSolution[] = R"foam(solvers
+{{
+    p {{ solver GAMG; smoother GaussSeidel; tolerance 1e-12; relTol 0.05; }}
+    "(U|k|omega|e)" {{ solver smoothSolver; smoother GaussSeidel; tolerance 1e-12; relTol 0.1; }}
+}}
+SIMPLE
+{{
+    nNonOrthogonalCorrectors 0;
+    nUCorrectors 2;
+    pMinFactor 0.5;
+    pMaxFactor 2;
+    residualControl {{ "(p|U|k|omega|e)" {0:.17g}; }}
+}}
+relaxationFactors
+{{
+    fields {{ p 0.3; rho 1; }}
+    equations {{ U 0.7; "(k|omega)" 0.7; e 0.9; }}
+}}
+)foam";
+
+constexpr char kControl[] = R"foam(application rhoPorousSimpleFoam;
+startFrom latestTime;
+startTime 0;
+stopAt endTime;
+endTime {0:.17g};
+deltaT 1;
+writeControl runTime;
+writeInterval {1};
+purgeWrite 0;
+writeFormat binary;
+writePrecision 17;
+writeCompression off;
+timeFormat general;
+timePrecision 12;
+runTimeModifiable false;
+
+functions
+{{
+    stopRequest
+    {{
+        type abort;
+        libs ("libutilityFunctionObjects.so");
+        file "<case>/{2}";
+        action writeNow;
+    }}
+{3}}}
+)foam";
+
+constexpr char kForces[] = R"foam(    porousForces
+    {
+        type forces;
+        libs ("libforces.so");
+        patches ();
+        porosity true;
+        CofR (0 0 0);
+        log true;
+        writeControl timeStep;
+        writeInterval 1;
+    }
+)foam";
+
+constexpr char kResistance[] = R"foam(porous{0}
+{{
+    type explicitPorositySource;
+    active yes;
+    explicitPorositySourceCoeffs
+    {{
+        selectionMode cellZone;
+        cellZone porous{0};
+        type DarcyForchheimer;
+        DarcyForchheimerCoeffs
+        {{
+            d ({1:.17g} {1:.17g} {1:.17g});
+            f ({2:.17g} {2:.17g} {2:.17g});
+            coordinateSystem
+            {{
+                type cartesian;
+                origin (0 0 0);
+                rotation {{ type axesRotation; e1 (1 0 0); e2 (0 1 0); }}
+            }}
+        }}
+    }}
+}}
+)foam";
+
+constexpr char kReadmeText[] =
+    R"foam(An OpenFOAM case written by Ripstop: steady flow through porous cells in a box,
+{} x {} x {} cells, air of {:.6g} kg/m3 at {:.6g} m/s, {} sides.
+Ripstop owns this folder and overwrites it.
+
+To run it by hand, with OpenFOAM's programs in PATH and WM_PROJECT_DIR set
+(Debian: export WM_PROJECT_DIR=/usr/share/openfoam):
+
+    rm -f {}
+{}
+The zones of porous cells are in constant/polyMesh/cellZones and their
+resistances in constant/fvOptions. blockMesh removes the zones: run it only to
+make the mesh anew, and let Ripstop write the zones.
+)foam";
+
+}  // namespace
+
+double outlet_pressure(const Freestream& air) {
+  return air.density * kOpenFoamGasConstant * air.temperature;
+}
+
+void check(const FlowProblem& problem) {
+  const auto range = [](const char* what, double value, double low, double high, const char* unit) {
+    if (!(value >= low && value <= high)) {
+      throw Error(ExitCode::usage, fmt::format("flow: {} is {:g} {}; it must lie in [{:g}, {:g}]", what,
+                                               value, unit, low, high));
+    }
+  };
+  const FlowGrid& grid = problem.grid;
+  for (const int n : {grid.nx, grid.ny, grid.nz}) range("number of cells along an axis", n, 1, 4000, "");
+  range("number of cells", double(grid.nx) * grid.ny * grid.nz, 1, 2e8, "");
+  for (const double s : {grid.size.x, grid.size.y, grid.size.z}) range("size of the box", s, 1e-6, 1e6, "m");
+  for (const double o : {grid.origin.x, grid.origin.y, grid.origin.z})
+    range("corner of the box", o, -1e6, 1e6, "m");
+  const Freestream& air = problem.air;
+  range("air speed", air.speed, 1e-3, 150, "m/s (subsonic: Mach below 0.45)");
+  range("air density", air.density, 1e-4, 100, "kg/m3");
+  range("viscosity", air.viscosity, 1e-7, 1, "Pa s");
+  range("air temperature", air.temperature, 100, 2000, "K");
+  range("turbulence intensity", air.turbulence_intensity, 1e-6, 1, "");
+  range("viscosity ratio", air.viscosity_ratio, 1e-6, 1e6, "");
+  range("residual", problem.residual, 1e-14, 1, "");
+  range("number of iterations", problem.max_iterations, 1, 1e7, "");
+  std::vector<char> taken(static_cast<std::size_t>(grid.cells()), 0);
+  for (const PorousCells& porous : problem.porous) {
+    range("Darcy coefficient", porous.darcy, 0, 1e15, "1/m2");
+    range("Forchheimer coefficient", porous.forchheimer, 0, 1e12, "1/m");
+    for (const int cell : porous.cells) {
+      range("index of a porous cell", cell, 0, grid.cells() - 1, "");
+      if (taken[cell]) {
+        throw Error(ExitCode::usage,
+                    fmt::format("flow: cell {} is porous twice; a cell has one resistance", cell));
+      }
+      taken[cell] = 1;
+    }
+  }
+}
+
+void write_case(const fs::path& folder, const FlowProblem& problem, bool second_order, int ranks) {
+  const FlowGrid& grid = problem.grid;
+  write_dictionary(folder / "system/blockMeshDict", "dictionary", mesh_dictionary(grid));
+  write_dictionary(folder / "system/fvSchemes", "dictionary",
+                   fmt::format(kSchemes, second_order ? "linearUpwind default" : "upwind"));
+  const std::array<int, 3> parts = split(grid, ranks);
+  write_dictionary(folder / "system/decomposeParDict", "dictionary",
+                   fmt::format("numberOfSubdomains {};\nmethod hierarchical;\n"
+                               "coeffs {{ n ({} {} {}); order xyz; delta 1e-6; }}\n",
+                               ranks, parts[0], parts[1], parts[2]));
+  write_dictionary(folder / "constant/thermophysicalProperties", "dictionary",
+                   fmt::format(kThermophysics, kMolarGasConstant / kOpenFoamGasConstant,
+                               problem.air.viscosity));
+  write_dictionary(folder / "constant/turbulenceProperties", "dictionary",
+                   "simulationType RAS;\nRAS { RASModel kOmegaSST; turbulence on; printCoeffs off; }\n");
+  const std::string run = ranks > 1
+                              ? fmt::format(
+                                    "    decomposePar\n    mpirun -np {} rhoPorousSimpleFoam -parallel\n"
+                                    "    reconstructPar -latestTime\n",
+                                    ranks)
+                              : "    rhoPorousSimpleFoam\n";
+  std::ofstream readme(folder / kReadme);
+  readme << fmt::format(kReadmeText, grid.nx, grid.ny, grid.nz, problem.air.density,
+                        problem.air.speed, problem.duct ? "slip" : "open", kStopFile, run);
+}
+
+void write_initial_fields(const fs::path& folder, const FlowProblem& problem) {
+  const Freestream& air = problem.air;
+  const std::string open = problem.duct ? "type slip;" : "type zeroGradient;";
+  const auto number = [](double value) { return fmt::format("{:.17g}", value); };
+  const std::string p = number(outlet_pressure(air));
+  const std::string velocity = fmt::format("(0 0 {:.17g})", air.speed);
+  const double fluctuation = air.turbulence_intensity * air.speed;
+  const double k = 1.5 * fluctuation * fluctuation;
+  const double nu = air.viscosity / air.density;
+  const double omega = k / (nu * air.viscosity_ratio);
+  const std::string calculated = "type calculated; value uniform 0;";
+  const fs::path zero = folder / "0";
+  write_dictionary(
+      zero / "p", "volScalarField",
+      field("1 -1 -2 0", p,
+            boundary("type zeroGradient;", fmt::format("type fixedValue; value uniform {};", p), open)));
+  write_dictionary(zero / "U", "volVectorField",
+                   field("0 1 -1 0", velocity, carried(velocity, "(0 0 0)", open)));
+  for (const auto& [name, dimensions, value] :
+       std::initializer_list<std::array<std::string, 3>>{{"T", "0 0 0 1", number(air.temperature)},
+                                                         {"k", "0 2 -2 0", number(k)},
+                                                         {"omega", "0 0 -1 0", number(omega)}}) {
+    write_dictionary(zero / name, "volScalarField", field(dimensions, value, carried(value, value, open)));
+  }
+  write_dictionary(zero / "nut", "volScalarField",
+                   field("0 2 -1 0", number(k / omega), boundary(calculated, calculated, calculated)));
+  write_dictionary(zero / "alphat", "volScalarField",
+                   field("1 -1 -1 0", "0", boundary(calculated, calculated, calculated)));
+}
+
+void write_control(const fs::path& folder, const FlowProblem& problem, const RunControl& control) {
+  write_dictionary(folder / "system/controlDict", "dictionary",
+                   fmt::format(kControl, control.start + control.iterations, control.iterations,
+                               kStopFile, problem.porous.empty() ? "" : kForces));
+}
+
+void write_solution(const fs::path& folder, const FlowProblem& problem) {
+  write_dictionary(folder / "system/fvSolution", "dictionary",
+                   fmt::format(kSolution, problem.residual));
+}
+
+void write_resistance(const fs::path& folder, const std::vector<PorousCells>& porous) {
+  std::string body;
+  for (std::size_t zone = 0; zone < porous.size(); ++zone) {
+    body += fmt::format(kResistance, zone, porous[zone].darcy, porous[zone].forchheimer);
+  }
+  write_dictionary(folder / "constant/fvOptions", "dictionary", body);
+}
+
+void write_zones(const fs::path& mesh, const std::vector<std::vector<int>>& zones) {
+  std::string body = fmt::format("{}\n(\n", zones.size());
+  for (std::size_t zone = 0; zone < zones.size(); ++zone) {
+    body += fmt::format("porous{}\n{{\n    type cellZone;\n    cellLabels List<label> {}(", zone,
+                        zones[zone].size());
+    for (const int cell : zones[zone]) body += fmt::format("{}\n", cell);
+    body += ");\n}\n";
+  }
+  write_dictionary(mesh / "cellZones", "regIOobject", body + ")\n");
+}
+
+}  // namespace ripstop::openfoam

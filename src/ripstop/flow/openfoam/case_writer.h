@@ -1,0 +1,40 @@
+// Writes every dictionary of an OpenFOAM case from checked numbers; no user text goes into one.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "ripstop/flow/flow.h"
+
+namespace ripstop::openfoam {
+
+/// Static pressure at the outlet [Pa].
+double outlet_pressure(const Freestream& air);
+
+struct RunControl {
+  double start = 0;    // time (iteration) the run starts from
+  int iterations = 0;  // at most
+};
+
+/// Throws Error(usage) naming the number that is out of its range.
+void check(const FlowProblem& problem);
+
+/// system/ (without controlDict), constant/, and a README that says what the case is and how to run it.
+void write_case(const std::filesystem::path& folder, const FlowProblem& problem, bool second_order,
+                int ranks);
+/// Uniform fields in folder/0.
+void write_initial_fields(const std::filesystem::path& folder, const FlowProblem& problem);
+/// system/controlDict. A file named kStopFile in the case folder makes the solver write and end.
+void write_control(const std::filesystem::path& folder, const FlowProblem& problem,
+                   const RunControl& control);
+/// system/fvSolution holds the residual to be reached, constant/fvOptions the resistances.
+void write_solution(const std::filesystem::path& folder, const FlowProblem& problem);
+void write_resistance(const std::filesystem::path& folder, const std::vector<PorousCells>& porous);
+/// polyMesh/cellZones with one zone a list; `mesh` is the polyMesh folder.
+void write_zones(const std::filesystem::path& mesh, const std::vector<std::vector<int>>& zones);
+
+inline constexpr const char* kStopFile = "stop";
+inline constexpr const char* kReadme = "README.txt";  // its presence marks a case as ours
+
+}  // namespace ripstop::openfoam

@@ -1,0 +1,297 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <fstream>
+#include <optional>
+
+#include "ripstop/core/error.h"
+#include "ripstop/core/process.h"
+#include "ripstop/flow/openfoam/case_reader.h"
+#include "ripstop/flow/openfoam/case_writer.h"
+#include "ripstop/flow/openfoam/installation.h"
+#include "ripstop/flow/openfoam/openfoam.h"
+#include "ripstop/flow/openfoam/solver_log.h"
+#include "ripstop/flow/openfoam/state.h"
+
+namespace ripstop {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace openfoam;
+
+constexpr const char* kSolver = "rhoPorousSimpleFoam";
+
+void check_folder(const fs::path& folder) {
+  for (const unsigned char c : folder.string()) {
+    if (c <= ' ' || std::string_view("\"'$#;{}()\\").find(static_cast<char>(c)) != std::string_view::npos) {
+      throw Error(ExitCode::usage,
+                  fmt::format("OpenFOAM cannot work in '{}': its path must have no space, quote, "
+                              "bracket or other special character; choose another folder",
+                              folder.string()));
+    }
+  }
+  if (fs::exists(folder) && !fs::is_empty(folder) && !fs::exists(folder / kReadme)) {
+    throw Error(ExitCode::usage,
+                fmt::format("{} holds files that are not a case of Ripstop's; choose another "
+                            "folder for OpenFOAM, or empty it",
+                            folder.string()));
+  }
+}
+
+class OpenFoam : public FlowEngine {
+ public:
+  explicit OpenFoam(const OpenFoamSettings& settings)
+      : settings_(settings), folder_(fs::absolute(settings.folder).lexically_normal()) {
+    if (settings.ranks < 1 || settings.ranks > 100000) {
+      throw Error(ExitCode::usage,
+                  fmt::format("OpenFOAM: ranks is {}; it must be 1 or more", settings.ranks));
+    }
+    check_folder(folder_);
+    installation_ = find_installation(settings.program_folder, settings.ranks > 1);
+    if (fs::exists(folder_)) clear();
+  }
+
+  std::string name() const override {
+    return fmt::format("OpenFOAM {} ({})", installation_.version, kSolver);
+  }
+
+  FlowField solve(const FlowProblem& problem, const FlowReport& report) override {
+    check(problem);
+    const Basis basis{problem.grid, problem.air, problem.duct, settings_.ranks, settings_.second_order};
+    if (!basis_ || !(*basis_ == basis)) prepare(problem, basis);
+    write_problem(problem);
+
+    const std::string start = latest_time(part_folder(0));
+    fs::remove(folder_ / kStopFile);
+    SolverLog log(!problem.porous.empty());
+    const ProcessResult result = run_solver(problem, report, log);
+    explain_failure(result, log);
+
+    const std::string time = latest_time(part_folder(0));
+    if (time == start) {
+      throw Error(ExitCode::external,
+                  fmt::format("{} ended with {} but left no fields in {}; see {}", kSolver, describe(result),
+                              folder_.string(), log_file(kSolver).string()));
+    }
+    FlowField field = read_case(mesh_, time, problem);
+    field.last = log.progress();
+    field.converged = log.converged();
+    purge(time);
+    return field;
+  }
+
+  void save(const fs::path& folder) const override {
+    if (!basis_) throw Error(ExitCode::io, "OpenFOAM: there is no flow to save yet");
+    save_state(folder, *basis_, part_folders(), latest_time(part_folder(0)));
+  }
+
+  void restore(const fs::path& folder) override {
+    const SavedState state = read_state(folder);
+    if (state.basis.ranks != settings_.ranks || state.basis.second_order != settings_.second_order) {
+      throw Error(ExitCode::usage,
+                  fmt::format("the flow saved in {} was made with {} ranks and {} convection; this "
+                              "run has {} and {}: use the same",
+                              folder.string(), state.basis.ranks,
+                              state.basis.second_order ? "second-order" : "first-order", settings_.ranks,
+                              settings_.second_order ? "second-order" : "first-order"));
+    }
+    FlowProblem problem;
+    problem.grid = state.basis.grid;
+    problem.air = state.basis.air;
+    problem.duct = state.basis.duct;
+    prepare(problem, state.basis);
+    copy_state(folder, state, part_folders());
+    purge(state.time);
+  }
+
+ private:
+  fs::path part_folder(int rank) const {
+    return settings_.ranks == 1 ? folder_ : folder_ / fmt::format("processor{}", rank);
+  }
+  std::vector<fs::path> part_folders() const {
+    std::vector<fs::path> folders;
+    for (int rank = 0; rank < settings_.ranks; ++rank) folders.push_back(part_folder(rank));
+    return folders;
+  }
+  fs::path log_file(const std::string& program) const { return folder_ / ("log." + program); }
+
+  /// Removes what OpenFOAM and we have written; only called on a folder that is ours.
+  void clear() {
+    basis_.reset();
+    for (const auto& entry : fs::directory_iterator(folder_)) {
+      const std::string name = entry.path().filename();
+      const bool time = !name.empty() && std::isdigit(static_cast<unsigned char>(name[0]));
+      if (time || name == "constant" || name == "system" || name == "postProcessing" || name == kStopFile ||
+          name.starts_with("log.") || name.starts_with("processor")) {
+        fs::remove_all(entry.path());
+      }
+    }
+  }
+
+  /// Mesh and uniform fields for a new grid, air or kind of sides.
+  void prepare(const FlowProblem& problem, const Basis& basis) {
+    check(problem);
+    fs::create_directories(folder_);
+    clear();
+    need_space(problem.grid);
+    write_case(folder_, problem, settings_.second_order, settings_.ranks);
+    write_initial_fields(folder_, problem);
+    write_problem_dictionaries(problem);
+    run_tool("blockMesh");
+    if (settings_.ranks > 1) run_tool("decomposePar");
+    mesh_ = read_mesh(folder_, settings_.ranks);
+    basis_ = basis;
+  }
+
+  void write_problem_dictionaries(const FlowProblem& problem) {
+    write_control(folder_, problem, {0, problem.max_iterations});
+    write_solution(folder_, problem);
+    write_resistance(folder_, problem.porous);
+  }
+
+  /// What may change from solve to solve: porous cells, resistances, residual, number of iterations.
+  void write_problem(const FlowProblem& problem) {
+    write_solution(folder_, problem);
+    write_resistance(folder_, problem.porous);
+    write_control(folder_, problem, {std::stod(latest_time(part_folder(0))), problem.max_iterations});
+    std::vector<int> zone_of(static_cast<std::size_t>(problem.grid.cells()), -1);
+    for (std::size_t zone = 0; zone < problem.porous.size(); ++zone) {
+      for (const int cell : problem.porous[zone].cells) zone_of[cell] = static_cast<int>(zone);
+    }
+    for (const MeshPart& part : mesh_) {
+      std::vector<std::vector<int>> zones(problem.porous.size());
+      for (std::size_t cell = 0; cell < part.count(problem.grid); ++cell) {
+        const int zone = zone_of[part.global(cell)];
+        if (zone >= 0) zones[zone].push_back(static_cast<int>(cell));
+      }
+      write_zones(part.folder / "constant/polyMesh", zones);
+    }
+  }
+
+  /// A full disk makes OpenFOAM leave cut files behind without a word, so the room is looked at before.
+  /// Measured: mesh and one set of fields take 0.4 kB a cell, and two sets exist for a moment.
+  void need_space(const FlowGrid& grid) const {
+    const double need = 1e3 * grid.cells() * (settings_.ranks > 1 ? 2 : 1);
+    const double have = static_cast<double>(fs::space(folder_).available);
+    if (have < need) {
+      throw Error(ExitCode::io, fmt::format("{} has {:.1f} GB free; this case needs about {:.1f} GB",
+                                            folder_.string(), have / 1e9, need / 1e9));
+    }
+  }
+
+  ProcessRequest request_for(std::vector<std::string> arguments) const {
+    ProcessRequest request;
+    request.arguments = std::move(arguments);
+    request.working_folder = folder_;
+    request.environment = environment(installation_);
+    request.time_limit_s = settings_.time_limit_s;
+    return request;
+  }
+
+  void run_tool(const std::string& tool) {
+    ProcessRequest request = request_for({program(installation_, tool).string()});
+    std::ofstream log_stream(log_file(tool));
+    SolverLog log(false);
+    request.on_line = [&](const std::string& line) {
+      log_stream << line << '\n';
+      log.feed(line);
+      return true;
+    };
+    const ProcessResult result = run_process(request);
+    if (!result.succeeded()) {
+      throw Error(ExitCode::external, fmt::format("OpenFOAM's {} failed: {}. {} (whole log: {})", tool,
+                                                  describe(result), log.fatal(), log_file(tool).string()));
+    }
+  }
+
+  ProcessResult run_solver(const FlowProblem& problem, const FlowReport& report, SolverLog& log) {
+    std::vector<std::string> arguments;
+    if (settings_.ranks > 1) {
+      arguments = {program(installation_, "mpirun").string(), "-np", std::to_string(settings_.ranks)};
+      if (settings_.hostfile.empty()) {
+        arguments.push_back("--oversubscribe");
+      } else {
+        arguments.insert(arguments.end(), {"--hostfile", fs::absolute(settings_.hostfile).string()});
+      }
+    }
+    arguments.push_back(program(installation_, kSolver).string());
+    if (settings_.ranks > 1) arguments.push_back("-parallel");
+
+    ProcessRequest request = request_for(std::move(arguments));
+    std::ofstream log_stream(log_file(kSolver));
+    bool asked_to_stop = false;
+    request.on_line = [&](const std::string& line) {
+      log_stream << line << '\n';
+      if (log.feed(line) && report && !asked_to_stop && !report(log.progress())) {
+        asked_to_stop = true;
+        std::ofstream(folder_ / kStopFile) << "stop\n";
+      }
+      return !log.not_a_number();
+    };
+    const ProcessResult result = run_process(request);
+    fs::remove(folder_ / kStopFile);
+    static_cast<void>(problem);
+    return result;
+  }
+
+  void explain_failure(const ProcessResult& result, const SolverLog& log) const {
+    const std::string where = fmt::format("iteration {}, field {}", log.iteration(), log.field());
+    const std::string file = log_file(kSolver).string();
+    const int signal = result.signal != 0       ? result.signal
+                       : result.exit_code > 128 ? result.exit_code - 128
+                                                : 0;
+    if (log.not_a_number() || log.floating_point_trap() || signal == SIGFPE) {
+      throw Error(ExitCode::diverged,
+                  fmt::format("the flow diverged at {} of this solve: {}. Try a coarser "
+                              "grid, a lower resistance or a slower air speed (log: {})",
+                              where, log.not_a_number() ? "not a number" : "floating-point trap", file));
+    }
+    if (result.timed_out) {
+      throw Error(ExitCode::external,
+                  fmt::format("{} had not ended after {:.0f} s, at {}: raise the time limit or "
+                              "use more ranks (log: {})",
+                              kSolver, settings_.time_limit_s, where, file));
+    }
+    if (log.out_of_memory() || signal == SIGKILL) {
+      throw Error(
+          ExitCode::external,
+          fmt::format("{} was ended at {} by {}: most often the machine had no memory left; use a "
+                      "coarser grid (log: {})",
+                      kSolver, where, log.out_of_memory() ? "a failed allocation" : describe(result), file));
+    }
+    if (!result.succeeded()) {
+      const double free = static_cast<double>(fs::space(folder_).available);
+      throw Error(ExitCode::external,
+                  fmt::format("{} failed at {}: {}. {}{} (whole log: {})", kSolver, where, describe(result),
+                              log.fatal(), free < 1e8 ? " The disk is full." : "", file));
+    }
+  }
+
+  /// Leaves only the newest fields and the uniform ones that the case began with.
+  void purge(const std::string& keep) const {
+    for (const fs::path& part : part_folders()) {
+      for (const auto& entry : fs::directory_iterator(part)) {
+        const std::string name = entry.path().filename();
+        if (name != keep && name != "0" && std::isdigit(static_cast<unsigned char>(name[0]))) {
+          fs::remove_all(entry.path());
+        }
+      }
+    }
+  }
+
+  OpenFoamSettings settings_;
+  fs::path folder_;
+  Installation installation_;
+  std::optional<Basis> basis_;  // what the fields in the folder were made for
+  std::vector<MeshPart> mesh_;
+};
+
+}  // namespace
+
+std::unique_ptr<FlowEngine> make_openfoam(const OpenFoamSettings& settings) {
+  return std::make_unique<OpenFoam>(settings);
+}
+
+}  // namespace ripstop

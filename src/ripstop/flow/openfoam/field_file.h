@@ -1,0 +1,39 @@
+// Reads back what OpenFOAM wrote: fields and label lists, binary or ASCII.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace ripstop::openfoam {
+
+/// Values of one field on cells (or inner faces) and patches, `components` numbers a value. A uniform list is
+/// kept as one value: see at().
+struct FieldData {
+  int components = 1;
+  std::vector<double> inner;
+  std::map<std::string, std::vector<double>> patches;  // those that store a value
+
+  /// Number `component` of value `index` in a list that may be uniform.
+  double at(const std::vector<double>& list, std::size_t index, int component = 0) const {
+    const std::size_t count = static_cast<std::size_t>(components);
+    return list[(list.size() == count ? 0 : index * count) + static_cast<std::size_t>(component)];
+  }
+};
+
+/// Throws Error(io) naming the file when it is missing, cut short, or not what its header says.
+/// `count`: the number of inner values that must be there (or one uniform value).
+FieldData read_field(const std::filesystem::path& path, int components, std::size_t count);
+/// A polyMesh/owner or cellProcAddressing file.
+std::vector<int> read_labels(const std::filesystem::path& path);
+
+struct Patch {
+  std::string name;
+  int start = 0;  // first face
+  int faces = 0;
+};
+/// polyMesh/boundary.
+std::vector<Patch> read_boundary(const std::filesystem::path& path);
+
+}  // namespace ripstop::openfoam

@@ -1,0 +1,35 @@
+// The reference flow engine: OpenFOAM's rhoPorousSimpleFoam as a child program, on a case that we write.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "ripstop/flow/flow.h"
+
+namespace ripstop {
+
+struct OpenFoamSettings {
+  std::filesystem::path folder;  // the case; made by us, or one that we made before (it is then overwritten)
+  int ranks = 1;                 // MPI processes; 1 needs no MPI
+  std::filesystem::path hostfile;        // for mpirun; empty: this machine only
+  double time_limit_s = 24 * 3600;       // for one solve
+  std::filesystem::path program_folder;  // where OpenFOAM's programs are; empty: PATH
+  bool second_order = false;             // linearUpwind for U in place of the printed first-order upwind
+};
+
+/// Throws Error(external) when a program is missing or of another kind than the openfoam.com line, and
+/// Error(usage) when the folder's path is one that OpenFOAM cannot take, or holds files that are not ours.
+///
+/// solve() starts from the last field as long as grid, air and sides stay the same, else from uniform flow.
+/// It throws Error(diverged) naming the iteration and the field, and Error(external) when the solver was
+/// killed, was late, or ended without its fields. A flow that does not reach the residual is no error:
+/// FlowField::converged is then false.
+///
+/// When the report returns false the solver is asked to write its fields and end; it may do one or a few
+/// iterations more before it sees the wish. For runs that must repeat exactly, limit max_iterations instead.
+std::unique_ptr<FlowEngine> make_openfoam(const OpenFoamSettings& settings);
+
+/// Gas constant of the air in the case [J/(kg K)]; the outlet's pressure is density * R * temperature.
+inline constexpr double kOpenFoamGasConstant = 8314.47 / 28.9647;
+
+}  // namespace ripstop

@@ -1,0 +1,153 @@
+#include "ripstop/flow/openfoam/state.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "ripstop/core/error.h"
+
+namespace ripstop::openfoam {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr const char* kMarker = "saved.json";
+constexpr int kFormat = 1;
+
+[[noreturn]] void fail(const fs::path& path, const char* what) {
+  throw Error(ExitCode::io, fmt::format("{}: {}: {}", path.string(), what, std::strerror(errno)));
+}
+
+void flush(const fs::path& path) {
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) fail(path, "cannot be opened");
+  const int result = fsync(file);
+  close(file);
+  if (result != 0) fail(path, "cannot be flushed to the disk");
+}
+
+json to_json(Vec3 v) {
+  return json::array({v.x, v.y, v.z});
+}
+
+Vec3 vec3(const json& j) {
+  return {j.at(0), j.at(1), j.at(2)};
+}
+
+json describe_basis(const Basis& basis) {
+  const Freestream& air = basis.air;
+  return {{"grid",
+           {{"origin_m", to_json(basis.grid.origin)},
+            {"size_m", to_json(basis.grid.size)},
+            {"cells", {basis.grid.nx, basis.grid.ny, basis.grid.nz}}}},
+          {"air",
+           {{"speed_m_s", air.speed},
+            {"density_kg_m3", air.density},
+            {"viscosity_pa_s", air.viscosity},
+            {"temperature_k", air.temperature},
+            {"turbulence_intensity", air.turbulence_intensity},
+            {"viscosity_ratio", air.viscosity_ratio}}},
+          {"duct", basis.duct},
+          {"ranks", basis.ranks},
+          {"second_order", basis.second_order}};
+}
+
+Basis basis_from(const json& j) {
+  Basis basis;
+  const json& grid = j.at("grid");
+  const json& air = j.at("air");
+  basis.grid = {vec3(grid.at("origin_m")), vec3(grid.at("size_m")), grid.at("cells").at(0),
+                grid.at("cells").at(1), grid.at("cells").at(2)};
+  basis.air = {air.at("speed_m_s"),     air.at("density_kg_m3"),        air.at("viscosity_pa_s"),
+               air.at("temperature_k"), air.at("turbulence_intensity"), air.at("viscosity_ratio")};
+  basis.duct = j.at("duct");
+  basis.ranks = j.at("ranks");
+  basis.second_order = j.at("second_order");
+  return basis;
+}
+
+fs::path part_name(std::size_t part) {
+  return fmt::format("part{}", part);
+}
+
+}  // namespace
+
+bool operator==(const Basis& a, const Basis& b) {
+  return describe_basis(a) == describe_basis(b);
+}
+
+void save_state(const fs::path& folder, const Basis& basis, const std::vector<fs::path>& parts,
+                const std::string& time) {
+  fs::create_directories(folder);
+  if (fs::remove(folder / kMarker)) flush(folder);  // from here until the end the folder counts as empty
+  json files = json::object();
+  for (std::size_t part = 0; part < parts.size(); ++part) {
+    const fs::path from = parts[part] / time, to = folder / part_name(part);
+    fs::remove_all(to);
+    fs::copy(from, to, fs::copy_options::recursive);
+    for (const auto& entry : fs::recursive_directory_iterator(to)) {
+      flush(entry.path());
+      if (entry.is_regular_file()) files[fs::relative(entry.path(), folder).string()] = entry.file_size();
+    }
+    flush(to);
+  }
+  const json marker = {{"what", "flow fields saved by Ripstop from an OpenFOAM case"},
+                       {"format", kFormat},
+                       {"time", time},
+                       {"basis", describe_basis(basis)},
+                       {"file_sizes", files}};
+  const fs::path unfinished = folder / (std::string(kMarker) + ".new");
+  std::ofstream out(unfinished);
+  out << marker.dump(2) << '\n';
+  out.close();
+  if (!out) fail(unfinished, "cannot be written");
+  flush(unfinished);
+  fs::rename(unfinished, folder / kMarker);
+  flush(folder);
+}
+
+SavedState read_state(const fs::path& folder) {
+  const fs::path path = folder / kMarker;
+  std::ifstream in(path);
+  if (!in) {
+    throw Error(ExitCode::io,
+                fmt::format("{} holds no completely saved flow: {} is missing", folder.string(), kMarker));
+  }
+  try {
+    const json marker = json::parse(in);
+    if (marker.at("format") != kFormat) {
+      throw Error(ExitCode::io, fmt::format("{} has format {}; this version reads {}", path.string(),
+                                            marker.at("format").dump(), kFormat));
+    }
+    for (const auto& [name, size] : marker.at("file_sizes").items()) {
+      std::error_code error;
+      const auto found = fs::file_size(folder / name, error);
+      if (error || found != size.get<std::uintmax_t>()) {
+        throw Error(ExitCode::io, fmt::format("{} is missing or cut short: this saved flow cannot be used",
+                                              (folder / name).string()));
+      }
+    }
+    SavedState state{basis_from(marker.at("basis")), marker.at("time")};
+    if (state.time.empty() || state.time.find_first_not_of("0123456789") != std::string::npos) {
+      throw Error(ExitCode::io, fmt::format("{} names no valid time", path.string()));
+    }
+    return state;
+  } catch (const json::exception& error) {
+    throw Error(ExitCode::io, fmt::format("{} is damaged: {}", path.string(), error.what()));
+  }
+}
+
+void copy_state(const fs::path& folder, const SavedState& state, const std::vector<fs::path>& parts) {
+  for (std::size_t part = 0; part < parts.size(); ++part) {
+    fs::remove_all(parts[part] / state.time);
+    fs::copy(folder / part_name(part), parts[part] / state.time, fs::copy_options::recursive);
+  }
+}
+
+}  // namespace ripstop::openfoam

@@ -1,0 +1,36 @@
+// The saved state of a flow: its newest fields, and a marker of our own that is written last.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "ripstop/flow/flow.h"
+
+namespace ripstop::openfoam {
+
+/// What fields were made for; another basis starts from uniform flow.
+struct Basis {
+  FlowGrid grid;
+  Freestream air;
+  bool duct = false;
+  int ranks = 1;
+  bool second_order = false;
+};
+bool operator==(const Basis& a, const Basis& b);
+
+struct SavedState {
+  Basis basis;
+  std::string time;  // name of the time folder
+};
+
+/// Copies folder `time` of every part (one a rank) and flushes it to the disk before the marker. The mesh is
+/// not copied: blockMesh and decomposePar make the same one again.
+void save_state(const std::filesystem::path& folder, const Basis& basis,
+                const std::vector<std::filesystem::path>& parts, const std::string& time);
+/// Throws Error(io) when there is no marker or a file has another size than when it was saved.
+SavedState read_state(const std::filesystem::path& folder);
+void copy_state(const std::filesystem::path& folder, const SavedState& state,
+                const std::vector<std::filesystem::path>& parts);
+
+}  // namespace ripstop::openfoam

@@ -1,0 +1,158 @@
+#include "ripstop/flow/openfoam/openfoam.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <numeric>
+
+#include "ripstop/core/error.h"
+#include "ripstop/flow/openfoam/case_writer.h"
+
+namespace ripstop {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder of its own for each test, gone afterwards.
+class OpenFoam : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    root_ = fs::temp_directory_path() / ("ripstop_" + std::to_string(getpid()) + "_" + info->name());
+    fs::create_directories(root_);
+  }
+  void TearDown() override { fs::remove_all(root_); }
+
+  std::unique_ptr<FlowEngine> engine(const std::string& name = "case", int ranks = 1) const {
+    OpenFoamSettings settings;
+    settings.folder = root_ / name;
+    settings.ranks = ranks;
+    settings.time_limit_s = 120;
+    return make_openfoam(settings);
+  }
+
+  fs::path root_;
+};
+
+/// Uniform slab of `layers` cells across a duct of 4 x 4 x 40 cells of 5 cm.
+FlowProblem slab_in_duct(int layers, double darcy, double forchheimer) {
+  FlowProblem problem;
+  problem.grid = {{0, 0, 0}, {0.2, 0.2, 2.0}, 4, 4, 40};
+  problem.air.speed = 20;
+  problem.duct = true;
+  PorousCells slab{{}, darcy, forchheimer};
+  const int first = problem.grid.index(0, 0, 20), layer = problem.grid.nx * problem.grid.ny;
+  for (int cell = first; cell < first + layers * layer; ++cell) slab.cells.push_back(cell);
+  problem.porous = {slab};
+  problem.max_iterations = 400;
+  return problem;
+}
+
+/// A disc of porous cells in an open box: 16 x 16 x 24 cells of 12.5 cm.
+FlowProblem disc_in_box() {
+  FlowProblem problem;
+  problem.grid = {{-1, -1, 0}, {2, 2, 3}, 16, 16, 24};
+  problem.air.speed = 20;
+  PorousCells disc{{}, 600, 30};
+  for (int j = 0; j < 16; ++j) {
+    for (int i = 0; i < 16; ++i) {
+      if (std::hypot(i - 7.5, j - 7.5) < 4) disc.cells.push_back(problem.grid.index(i, j, 10));
+    }
+  }
+  problem.porous = {disc};
+  problem.max_iterations = 400;
+  return problem;
+}
+
+/// Mean gauge pressure of layer k.
+double layer_pressure(const FlowField& field, int k) {
+  const FlowGrid& grid = field.grid;
+  const auto first = field.pressure.begin() + grid.index(0, 0, k);
+  return std::accumulate(first, first + grid.nx * grid.ny, 0.0) / (grid.nx * grid.ny);
+}
+
+/// Pressure before the slab for isothermal gas (rho = p / c, c = R T) of mass flux G = p1 U / c through a
+/// length L: dp (1 - G^2 c / p^2) = -(mu d + G f / 2) (G c / p) dz, so that
+/// (p1^2 - p2^2) / 2 - G^2 c ln(p1 / p2) = (mu d + G f / 2) G c L. Gauge, over p2.
+double exact_drop(const FlowProblem& problem, double length) {
+  const double c = kOpenFoamGasConstant * problem.air.temperature,
+               p2 = openfoam::outlet_pressure(problem.air);
+  double p1 = p2;
+  for (int i = 0; i < 100; ++i) {
+    const double flux = p1 * problem.air.speed / c;
+    const double drag =
+        problem.air.viscosity * problem.porous[0].darcy + 0.5 * flux * problem.porous[0].forchheimer;
+    p1 = std::sqrt(p2 * p2 + 2 * (drag * flux * c * length + flux * flux * c * std::log(p1 / p2)));
+  }
+  return p1 - p2;
+}
+
+TEST_F(OpenFoam, ASlabAcrossADuctDropsThePressureByDarcyAndForchheimer) {
+  for (const auto& [darcy, forchheimer] : {std::pair{0.0, 1.2}, std::pair{8e5, 0.0}, std::pair{4e5, 0.6}}) {
+    const FlowProblem problem = slab_in_duct(10, darcy, forchheimer);
+    const FlowField field = engine()->solve(problem, {});
+    ASSERT_TRUE(field.converged);
+    const double drop = layer_pressure(field, 0) - layer_pressure(field, 39);
+    EXPECT_NEAR(drop / exact_drop(problem, 0.5), 1, 0.005) << "d " << darcy << " f " << forchheimer;
+    // Momentum of the duct: the force on the slab is the drop less what the expanding gas gains.
+    const double density = problem.air.density + layer_pressure(field, 0) / (kOpenFoamGasConstant * 293.15);
+    const double gain = density * 20 * (field.velocity.back().z - 20);
+    EXPECT_NEAR(field.porous_force.z / ((drop - gain) * 0.04), 1, 1e-3);
+    EXPECT_NEAR(field.momentum_deficit / field.porous_force.z, 1, 1e-4);
+  }
+}
+
+TEST_F(OpenFoam, TheBoxLosesTheMomentumThatThePorousCellsTake) {
+  const FlowProblem problem = disc_in_box();
+  const FlowField field = engine()->solve(problem, {});
+  ASSERT_TRUE(field.converged);
+  EXPECT_GT(field.porous_force.z, 50);
+  EXPECT_NEAR(field.momentum_deficit / field.porous_force.z, 1, 5e-4);
+  // What OpenFOAM's `forces` sums and our own sum over the fields that we read back.
+  EXPECT_NEAR(field.last.drag / field.porous_force.z, 1, 1e-4);
+  EXPECT_LT(std::hypot(field.porous_force.x, field.porous_force.y), 1e-4 * field.porous_force.z);
+}
+
+TEST_F(OpenFoam, AWarmStartNeedsFewerIterations) {
+  FlowProblem problem = disc_in_box();
+  auto flow = engine();
+  const FlowField cold = flow->solve(problem, {});
+  problem.porous[0].forchheimer *= 1.02;
+  const FlowField warm = flow->solve(problem, {});
+  const FlowField again = engine("other")->solve(problem, {});
+  EXPECT_LT(warm.last.iteration, 0.75 * again.last.iteration);
+  EXPECT_GT(warm.porous_force.z, cold.porous_force.z);
+  EXPECT_NEAR(warm.porous_force.z / again.porous_force.z, 1, 1e-3);
+}
+
+TEST_F(OpenFoam, AStopRequestEndsEarlyWithFieldsThatTheNextSolveGoesOnFrom) {
+  FlowProblem problem = disc_in_box();
+  problem.residual = 1e-12;
+  auto flow = engine();
+  const FlowField stopped = flow->solve(problem, [](const FlowProgress& now) { return now.iteration < 10; });
+  EXPECT_FALSE(stopped.converged);
+  EXPECT_GE(stopped.last.iteration, 10);
+  EXPECT_LT(stopped.last.iteration, 200);
+  EXPECT_EQ(stopped.pressure.size(), 16u * 16 * 24);
+  problem.max_iterations = 5;
+  const FlowField more = flow->solve(problem, {});
+  EXPECT_EQ(more.last.iteration, 5);
+  EXPECT_LT(more.last.residual_p, 0.5);  // 1 from a uniform start
+}
+
+TEST_F(OpenFoam, TwoRanksGiveTheAnswerOfOne) {
+  FlowProblem problem = disc_in_box();
+  auto two = engine("two", 2);
+  const FlowField a = engine("one")->solve(problem, {}), b = two->solve(problem, {});
+  ASSERT_TRUE(b.converged);
+  EXPECT_NEAR(b.porous_force.z / a.porous_force.z, 1, 1e-4);
+  EXPECT_NEAR(b.momentum_deficit / b.porous_force.z, 1, 5e-4);
+  for (int cell = 0; cell < problem.grid.cells(); ++cell)
+    ASSERT_NEAR(a.pressure[cell], b.pressure[cell], 0.1);
+}
+
+}  // namespace
+}  // namespace ripstop
