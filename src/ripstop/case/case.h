@@ -10,6 +10,7 @@
 
 #include "ripstop/core/toml/problem.h"
 #include "ripstop/core/vec3.h"
+#include "ripstop/coupling/settings.h"
 #include "ripstop/material/library.h"
 #include "ripstop/material/material.h"
 #include "ripstop/parachute/design.h"
@@ -19,7 +20,6 @@ namespace ripstop {
 enum class EngineKind { openfoam };
 enum class SpeedBasis { nominal, measured };
 enum class PorosityModel { paper };
-enum class Acceleration { none, aitken, anderson };
 
 /// [flow]
 struct FlowSettings {
@@ -39,18 +39,6 @@ struct FlowSettings {
   int max_iterations = 1000;
   int ranks = 1;
   double time_limit_s = 0;  // of one flow solution; 0: none
-};
-
-/// [coupling]
-struct CouplingSettings {
-  double drag_tolerance = 1e-3;     // change of drag between two iterations, relative
-  double shape_tolerance_m = 1e-3;  // mean displacement of the nodes between two iterations
-  int max_iterations = 20;
-  double relaxation = 0.5;
-  Acceleration acceleration = Acceleration::anderson;
-  double cloth_tolerance = 1e-4;  // RelaxOptions::tolerance
-  bool linear = false;            // keep only K_1 of every law
-  int threads = 0;                // 0: as many as the machine has
 };
 
 /// [[measured]]: one wind-tunnel condition.

@@ -65,6 +65,8 @@ struct LineRun {
   int radial = 0;            // 0 .. line_count - 1
   std::vector<int> springs;  // axial springs in order from the confluence, indices into Mesh::springs
   int free_springs = 0;      // the first so many lie between confluence and skirt
+  double axial_share =
+      1;  // of the line's tension that its axial springs carry; bending springs carry the rest
 };
 
 struct Mesh {

@@ -1,0 +1,74 @@
+# Ripstop's commands. On a fresh Debian 12, as root or with sudo: `make demo` and `make check` do everything.
+
+BUILD := build
+JOBS := $(shell nproc)
+SUDO := $(shell [ $$(id -u) = 0 ] || echo sudo)
+PREFIX ?= /usr/local
+
+# What building and running need, and what only the tests and benchmarks need beyond that.
+PACKAGES := build-essential cmake ninja-build pkg-config libtomlplusplus-dev libcli11-dev libfmt-dev libspdlog-dev \
+  libeigen3-dev nlohmann-json3-dev libhwy-dev libpng-dev libcairo2-dev fonts-dejavu-core libxxhash-dev zlib1g-dev \
+  openfoam openmpi-bin
+CHECK_PACKAGES := libgtest-dev librapidcheck-dev libbenchmark-dev python3 python3-jsonschema python3-vtk9 clang-format
+
+export PATH := /usr/bin:$(PATH)
+
+.PHONY: help deps check-deps build demo check sanitize bench validate format format-check install package clean
+
+help:  ## This list
+	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
+
+define install_missing
+	@missing=""; for p in $(1); do \
+	  dpkg-query -W -f='$${Status}' $$p 2>/dev/null | grep -q 'install ok installed' || missing="$$missing $$p"; done; \
+	if [ -n "$$missing" ]; then echo "Installing:$$missing"; $(SUDO) apt-get update -q && \
+	  DEBIAN_FRONTEND=noninteractive $(SUDO) apt-get install -y -q --no-install-recommends $$missing; fi
+endef
+
+deps:  ## Install what building and running need (apt)
+	$(call install_missing,$(PACKAGES))
+
+check-deps: deps
+	$(call install_missing,$(CHECK_PACKAGES))
+
+build: deps  ## Release build; the program is build/bin/ripstop
+	@cmake -S . -B $(BUILD) -G Ninja -DCMAKE_BUILD_TYPE=Release -DRIPSTOP_TESTS=OFF -DRIPSTOP_BENCH=OFF \
+	  -DCMAKE_INSTALL_PREFIX=$(PREFIX) > $(BUILD).configure.log || { cat $(BUILD).configure.log; exit 1; }
+	@cmake --build $(BUILD) -j $(JOBS)
+
+demo: build  ## Stratos IV at 30 m/s on a coarse grid, coupled with OpenFOAM: a few minutes
+	$(BUILD)/bin/ripstop steady examples/stratos-iv/case.toml --speed 30 --grid 50,50,75 --ranks $(JOBS) --out runs/demo
+
+check: check-deps format-check  ## Build and pass the tests
+	@cmake -S . -B $(BUILD)-check -G Ninja -DCMAKE_BUILD_TYPE=Release -DRIPSTOP_TESTS=ON -DRIPSTOP_BENCH=ON \
+	  > $(BUILD)-check.configure.log || { cat $(BUILD)-check.configure.log; exit 1; }
+	@cmake --build $(BUILD)-check -j $(JOBS)
+	@ctest --test-dir $(BUILD)-check --output-on-failure
+
+sanitize: check-deps  ## The tests that need no OpenFOAM, under the address and undefined-behaviour sanitizers
+	@cmake -S . -B $(BUILD)-sanitize -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DRIPSTOP_SANITIZE=ON
+	@cmake --build $(BUILD)-sanitize -j $(JOBS)
+	@ctest --test-dir $(BUILD)-sanitize --output-on-failure -LE slow
+
+bench: check-deps  ## Benchmarks; their figures stand in docs/performance.md
+	@cmake -S . -B $(BUILD)-check -G Ninja -DCMAKE_BUILD_TYPE=Release -DRIPSTOP_TESTS=ON -DRIPSTOP_BENCH=ON > /dev/null
+	@cmake --build $(BUILD)-check -j $(JOBS)
+	@$(BUILD)-check/bench/bench_cloth
+
+validate: build  ## Stratos IV at five speeds on the printed grid with OpenFOAM, into docs/validation.md: hours
+	$(BUILD)/bin/ripstop validate examples/stratos-iv/case.toml --ranks $(JOBS) --out runs/validate
+
+format:  ## Format the sources
+	@git ls-files '*.h' '*.cpp' | xargs clang-format -i
+
+format-check:
+	@git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run -Werror
+
+install: build  ## Install below PREFIX (/usr/local)
+	@$(SUDO) cmake --install $(BUILD)
+
+package: build  ## A Debian package in build/
+	@cd $(BUILD) && cpack -G DEB
+
+clean:  ## Remove the build folders
+	rm -rf $(BUILD) $(BUILD)-check $(BUILD)-sanitize $(BUILD)*.configure.log

@@ -1,0 +1,40 @@
+#include "ripstop/case/assemble.h"
+
+#include "ripstop/parachute/build.h"
+
+namespace ripstop {
+
+Mesh parachute_mesh(const Case& value) {
+  Mesh mesh = build_mesh(value.parachute, {canopy_fabric(value), suspension_line(value), riser_line(value),
+                                           reinforcement_tape(value)});
+  const double z = canopy_position(value);
+  for (Vec3& p : mesh.start) p.z += z;
+  return mesh;
+}
+
+FlowProblem flow_problem(const Case& value) {
+  const FlowSettings& settings = value.flow;
+  FlowProblem problem;
+  problem.grid.origin = {-0.5 * settings.box_m.x, -0.5 * settings.box_m.y, 0};
+  problem.grid.size = settings.box_m;
+  problem.grid.nx = settings.cells[0];
+  problem.grid.ny = settings.cells[1];
+  problem.grid.nz = settings.cells[2];
+  problem.air.speed = air(value).speed;
+  problem.air.density = air(value).density;
+  problem.air.viscosity = settings.viscosity_pa_s;
+  problem.air.temperature = settings.temperature_k;
+  problem.air.turbulence_intensity = settings.turbulence_intensity;
+  problem.air.viscosity_ratio = settings.viscosity_ratio;
+  problem.residual = settings.residual;
+  problem.max_iterations = settings.max_iterations;
+  const Fabric& cloth = canopy_fabric(value);
+  problem.porous = {{{}, cloth.darcy, cloth.forchheimer}};
+  return problem;
+}
+
+SteadyProblem steady_problem(const Case& value) {
+  return {parachute_mesh(value), flow_problem(value), nominal_area(value.parachute), value.coupling};
+}
+
+}  // namespace ripstop

@@ -1,0 +1,17 @@
+// From a case to what the solvers take: the mesh in the flow's frame, the flow problem, the coupled problem.
+#pragma once
+
+#include "ripstop/case/case.h"
+#include "ripstop/coupling/steady.h"
+#include "ripstop/flow/flow.h"
+#include "ripstop/parachute/mesh.h"
+
+namespace ripstop {
+
+/// The canopy's start shape with its skirt at canopy_position(value), axis on x = y = 0, inlet at z = 0.
+Mesh parachute_mesh(const Case& value);
+/// Box, air and the canopy cloth's resistance; its cut cells are left to the coupling.
+FlowProblem flow_problem(const Case& value);
+SteadyProblem steady_problem(const Case& value);
+
+}  // namespace ripstop

@@ -1,0 +1,197 @@
+#include "ripstop/coupling/steady.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "ripstop/core/error.h"
+
+namespace ripstop {
+namespace {
+
+// The drag has settled when it moved by less than this within one piece of the flow's solution: half the
+// default tolerance on the drag's change from one coupling iteration to the next.
+constexpr double settled = 5e-4;
+constexpr int piece = 25;  // SIMPLE iterations
+// Largest relative gap between fluid force, nodal load and line tension at convergence.
+constexpr double ledger_tolerance = 0.01;
+
+double largest_coefficient(const Mesh& mesh) {
+  double largest = 0;
+  for (const Patch& patch : mesh.patches) {
+    for (const SpringLaw& law : patch.law) {
+      for (const double k : law.coefficients) largest = std::max(largest, std::abs(k));
+    }
+  }
+  return largest;
+}
+
+double largest_residual(const FlowProgress& p) {
+  return std::max({p.residual_u, p.residual_p, p.residual_k, p.residual_omega, p.residual_e});
+}
+
+bool within(double a, double b, double tolerance) {
+  return std::abs(a - b) <= tolerance * std::abs(b);
+}
+
+}  // namespace
+
+SteadySolver::SteadySolver(SteadyProblem problem, FlowEngine& engine)
+    : problem_(std::move(problem)), engine_(engine), team_(problem_.settings.threads) {
+  ClothOptions options;
+  options.linear = problem_.settings.linear;
+  cloth_ = make_cloth(problem_.mesh, options);
+  cells_ = cells_of(problem_.mesh);
+  for (const Patch& patch : problem_.mesh.patches) {
+    area_.insert(area_.end(), patch.cell_area.begin(), patch.cell_area.end() - patch.columns);
+  }
+  const FlowGrid& grid = problem_.flow.grid;
+  const Vec3 far = grid.origin + grid.size;
+  for (const Cell& cell : cells_) {
+    if (cell.corner[0] < 0) continue;
+    const Vec3 p = problem_.mesh.start[cell.corner[0]];
+    if (p.x < grid.origin.x || p.y < grid.origin.y || p.z < grid.origin.z || p.x > far.x || p.y > far.y ||
+        p.z > far.z) {
+      throw Error(
+          ExitCode::usage,
+          fmt::format("the canopy does not fit into the flow's box: cloth at ({:.3g}, {:.3g}, "
+                      "{:.3g}) m, box from ({:.3g}, {:.3g}, {:.3g}) to ({:.3g}, {:.3g}, {:.3g}) m",
+                      p.x, p.y, p.z, grid.origin.x, grid.origin.y, grid.origin.z, far.x, far.y, far.z));
+    }
+  }
+}
+
+SteadyState SteadySolver::start() const {
+  SteadyState state;
+  state.shape = problem_.mesh.start;
+  const Freestream& air = problem_.flow.air;
+  state.pressure.assign(cells_.size(), 0.5 * air.density * air.speed * air.speed);
+  state.accelerator.update = problem_.settings.acceleration;
+  state.accelerator.relaxation = problem_.settings.relaxation;
+  return state;
+}
+
+ClothState SteadySolver::cloth_state(const SteadyState& state) const {
+  ClothState cloth = start_state(*cloth_);
+  set_positions(cloth, *cloth_, state.shape);
+  return cloth;
+}
+
+bool SteadySolver::finished(const SteadyState& state) const {
+  return state.converged || static_cast<int>(state.iterations.size()) >= problem_.settings.max_iterations;
+}
+
+FlowField SteadySolver::solve_flow(const std::vector<int>& porous, bool to_the_end, int iteration,
+                                   const SteadyReport& report) {
+  FlowProblem flow = problem_.flow;
+  flow.porous.at(0).cells = porous;
+  int done = 0;
+  std::vector<double> drag;
+  const auto follow = [&](FlowProgress progress) {
+    drag.push_back(progress.drag);
+    progress.iteration += done;
+    if (report) report({SteadyStage::flow, iteration, {}, progress});
+    return true;
+  };
+  if (to_the_end) return engine_.solve(flow, follow);
+  // In pieces of a fixed length, so that a run that was killed repeats the very same iterations.
+  while (true) {
+    flow.max_iterations = std::min(piece, problem_.flow.max_iterations - done);
+    drag.clear();
+    FlowField field = engine_.solve(flow, follow);
+    done += field.last.iteration;
+    field.last.iteration = done;
+    const auto [low, high] = std::minmax_element(drag.begin(), drag.end());
+    const bool has_settled = !drag.empty() && *high - *low < settled * std::abs(drag.back());
+    if (field.converged || has_settled || done >= problem_.flow.max_iterations) return field;
+  }
+}
+
+void SteadySolver::iterate(SteadyState& state, const SteadyReport& report, FlowField* field_out) {
+  const auto begin = std::chrono::steady_clock::now();
+  const CouplingSettings& settings = problem_.settings;
+  SteadyIteration now;
+  now.iteration = static_cast<int>(state.iterations.size()) + 1;
+
+  // Cloth equilibrium under the present pressure.
+  ClothState cloth = cloth_state(state);
+  const Loads loads{state.pressure, {}};
+  RelaxOptions relax_options;
+  relax_options.tolerance = settings.cloth_tolerance;
+  const RelaxResult relaxed =
+      relax(cloth, *cloth_, loads, relax_options, team_, [&](const RelaxProgress& progress) {
+        if (report) report({SteadyStage::cloth, now.iteration, progress, {}});
+      });
+  if (!relaxed.converged) {
+    throw Error(
+        ExitCode::not_converged,
+        fmt::format("coupling iteration {}: the cloth found no equilibrium, residual {:.2e} after {} steps "
+                    "(wanted {:.1e}); a looser coupling.cloth_tolerance or a finer parachute.mesh may help",
+                    now.iteration, relaxed.residual, relaxed.steps, settings.cloth_tolerance));
+  }
+  now.cloth_steps = relaxed.steps;
+  now.cloth_residual = relaxed.residual;
+  now.shape_change = relaxed.mean_displacement;
+  const std::vector<Vec3> shape = positions(cloth, *cloth_);
+  double moved = 0, size = 0;
+  for (std::size_t i = 0; i < shape.size(); ++i) {
+    moved += dot(shape[i] - state.shape[i], shape[i] - state.shape[i]);
+    size += dot(state.shape[i], state.shape[i]);
+  }
+  now.omega = std::sqrt(moved / size);
+  now.nodal_load = pressure_force(cells_, shape, state.pressure).z;
+  now.line_tension = force_on_fixed(*cloth_, cloth).z;
+
+  // Flow through and around it.
+  const std::vector<int> porous = cut_cells(problem_.flow.grid, surface_of(cells_, shape));
+  const bool nearly_there = !state.iterations.empty() &&
+                            state.iterations.back().drag_change < settings.drag_tolerance &&
+                            now.shape_change < settings.shape_tolerance_m;
+  FlowField field = solve_flow(porous, nearly_there, now.iteration, report);
+  now.cut_cells = static_cast<int>(porous.size());
+  now.flow_iterations = field.last.iteration;
+  now.flow_residual = largest_residual(field.last);
+  now.flow_converged = field.converged;
+  now.fluid_force = field.porous_force.z;
+  now.momentum_deficit = field.momentum_deficit;
+
+  // Pressure on both sides. The flow's force on the cut cells also holds what the resistance takes along the
+  // cloth, and the staircase of cut cells is not the cloth: the sampled differences are scaled to the same
+  // axial force, so that fluid and cloth agree on the drag. The factor is reported.
+  state.sides = sample_sides(field, porous, cells_, shape);
+  std::vector<double> answer = state.sides.difference();
+  now.transfer_factor = now.fluid_force / pressure_force(cells_, shape, answer).z;
+  if (!(now.transfer_factor > 0) || !std::isfinite(now.transfer_factor)) {
+    throw Error(
+        ExitCode::diverged,
+        fmt::format(
+            "coupling iteration {}: the pressures beside the cloth add up to {:.3g} N against the "
+            "flow, whose force is {:.3g} N; the grid is too coarse for this canopy or the flow is wrong",
+            now.iteration, now.fluid_force / now.transfer_factor, now.fluid_force));
+  }
+  for (double& dp : answer) dp *= now.transfer_factor;
+
+  now.drag_change = state.iterations.empty()
+                        ? std::numeric_limits<double>::infinity()
+                        : std::abs(now.fluid_force / state.iterations.back().fluid_force - 1);
+  const Vec3 h = problem_.flow.grid.spacing();
+  const double dx = std::cbrt(h.x * h.y * h.z);
+  now.printed_tolerance =
+      now.flow_residual * dx * dx / (problem_.reference_area * largest_coefficient(problem_.mesh));
+  state.converged = now.drag_change < settings.drag_tolerance &&
+                    now.shape_change < settings.shape_tolerance_m && now.flow_converged &&
+                    within(now.nodal_load, now.fluid_force, ledger_tolerance) &&
+                    within(now.line_tension, now.fluid_force, ledger_tolerance);
+
+  state.shape = shape;
+  state.applied = state.pressure;
+  state.pressure = state.accelerator.next(state.pressure, answer, area_);
+  now.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  state.iterations.push_back(now);
+  if (field_out) *field_out = std::move(field);
+}
+
+}  // namespace ripstop

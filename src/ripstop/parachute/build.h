@@ -1,0 +1,21 @@
+// From a design to the mesh of lumped masses: one line of dispatch for every canopy family.
+#pragma once
+
+#include "ripstop/material/material.h"
+#include "ripstop/parachute/design.h"
+#include "ripstop/parachute/mesh.h"
+
+namespace ripstop {
+
+struct PartMaterials {
+  Fabric canopy;
+  Line line;
+  Line riser;
+  Tape tape;
+};
+
+/// The start shape has its skirt in the plane z = 0 and its mouth toward -z; see the family's own header.
+/// Throws Error(usage) for a design that no lattice of the wanted size can represent.
+Mesh build_mesh(const Design& design, const PartMaterials& materials);
+
+}  // namespace ripstop

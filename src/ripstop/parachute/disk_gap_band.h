@@ -1,0 +1,18 @@
+// The disk-gap-band canopy: a flat disk with a vent, a gap that only the lines span, a cylindrical band.
+#pragma once
+
+#include "ripstop/parachute/build.h"
+
+namespace ripstop {
+
+/// Start shape: skirt (the band's lower edge) in the plane z = 0, mouth toward -z, disk flat at z = band +
+/// gap, lines straight and taut from the confluence on the axis.
+///
+/// The disk is a polar lattice whose columns are halved toward the vent wherever they come too close, so that
+/// the smallest spring stays near the mean spacing: the finer ring's last row is tied to the coarser ring's
+/// first. Where a line is sewn to the cloth it is a chain of about `line_segment_m`, far longer than the
+/// cloth's spacing (a short segment of so stiff a line would set the time step); the cloth nodes between are
+/// tied to it. Throws Error(usage) when the numbers of gores and lines allow no such lattice.
+Mesh build_canopy(const DiskGapBand& canopy, const Design& design, const PartMaterials& materials);
+
+}  // namespace ripstop
