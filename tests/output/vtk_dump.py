@@ -65,8 +65,7 @@ def dump_collection(path):
     folder = path.rsplit("/", 1)[0]
     entries = xml.etree.ElementTree.parse(path).getroot().find("Collection").findall("DataSet")
     return [
-        {
-  "time" : float(e.get("timestep")), "class" : read(folder + "/" + e.get("file")).GetClassName()}
+        {"time": float(e.get("timestep")), "class": read(folder + "/" + e.get("file")).GetClassName()}
         for e in entries
     ]
 

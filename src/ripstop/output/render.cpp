@@ -1,0 +1,228 @@
+#include "ripstop/output/render.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "ripstop/core/error.h"
+
+namespace ripstop {
+namespace {
+
+constexpr Colour line_rim{0.93, 0.94, 0.95};
+
+Vec3 unit(Vec3 a) {
+  const double length = norm(a);
+  return length > 0 ? a / length : Vec3{};
+}
+
+/// The nearest hit of every ray so far.
+struct Buffer {
+  int width, height;
+  std::vector<double> depth;
+  std::vector<Colour> colour;
+  std::vector<char> surface;  // hit a quad, not a line
+
+  Buffer(int w, int h)
+      : width(w),
+        height(h),
+        depth(static_cast<std::size_t>(w) * h, std::numeric_limits<double>::infinity()),
+        colour(depth.size()),
+        surface(depth.size(), 0) {}
+  std::size_t at(int x, int y) const { return static_cast<std::size_t>(y) * width + x; }
+};
+
+/// Pixels whose centre may lie in [low, high], cut to 0 .. count.
+std::pair<int, int> pixel_range(double low, double high, int count) {
+  return {static_cast<int>(std::clamp(std::ceil(low - 0.5), 0.0, 1.0 * count)),
+          static_cast<int>(std::clamp(std::floor(high - 0.5) + 1, 0.0, 1.0 * count))};
+}
+
+struct Vertex {
+  Projected at;
+  Vec3 normal;  // averaged over the cells, not of unit length
+};
+
+/// Light that a point of the surface sends to the eye, at most 1: from all sides, from a lamp at the upper
+/// left, and from the eye.
+double brightness(const Camera& camera, Vec3 normal) {
+  const Vec3 n = unit(normal);
+  const Vec3 facing = dot(n, camera.toward_eye) < 0 ? -n : n;  // cloth is lit on both sides
+  const Vec3 lamp = unit(camera.toward_eye + 0.75 * camera.up - 0.55 * camera.right);
+  return 0.42 + 0.40 * std::max(0.0, dot(facing, lamp)) + 0.18 * dot(facing, camera.toward_eye);
+}
+
+void fill(Buffer& buffer, const Camera& camera, const Vertex& a, const Vertex& b, const Vertex& c,
+          Colour colour) {
+  // Barycentric weights from the edge functions; linear in x and y.
+  const double area = (b.at.x - a.at.x) * (c.at.y - a.at.y) - (b.at.y - a.at.y) * (c.at.x - a.at.x);
+  if (!a.at.visible || !b.at.visible || !c.at.visible || area == 0) return;
+  const auto [x0, x1] =
+      pixel_range(std::min({a.at.x, b.at.x, c.at.x}), std::max({a.at.x, b.at.x, c.at.x}), buffer.width);
+  const auto [y0, y1] =
+      pixel_range(std::min({a.at.y, b.at.y, c.at.y}), std::max({a.at.y, b.at.y, c.at.y}), buffer.height);
+  for (int y = y0; y < y1; ++y) {
+    for (int x = x0; x < x1; ++x) {
+      const double px = x + 0.5, py = y + 0.5;
+      const double wb = ((px - a.at.x) * (c.at.y - a.at.y) - (py - a.at.y) * (c.at.x - a.at.x)) / area;
+      const double wc = ((b.at.x - a.at.x) * (py - a.at.y) - (b.at.y - a.at.y) * (px - a.at.x)) / area;
+      const double wa = 1 - wb - wc;
+      if (wa < 0 || wb < 0 || wc < 0) continue;
+      const double depth = wa * a.at.depth + wb * b.at.depth + wc * c.at.depth;
+      const std::size_t i = buffer.at(x, y);
+      if (!(depth < buffer.depth[i])) continue;
+      const double light = brightness(camera, wa * a.normal + wb * b.normal + wc * c.normal);
+      buffer.depth[i] = depth;
+      buffer.colour[i] = {light * colour.red, light * colour.green, light * colour.blue};
+      buffer.surface[i] = 1;
+    }
+  }
+}
+
+void draw_segment(Buffer& buffer, const Projected& a, const Projected& b, double width, double nearer,
+                  Colour colour) {
+  if (!a.visible || !b.visible) return;
+  const double half = 0.5 * width, dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
+  const auto [x0, x1] = pixel_range(std::min(a.x, b.x) - half, std::max(a.x, b.x) + half, buffer.width);
+  const auto [y0, y1] = pixel_range(std::min(a.y, b.y) - half, std::max(a.y, b.y) + half, buffer.height);
+  for (int y = y0; y < y1; ++y) {
+    for (int x = x0; x < x1; ++x) {
+      const double px = x + 0.5 - a.x, py = y + 0.5 - a.y;
+      const double along = square > 0 ? std::clamp((px * dx + py * dy) / square, 0.0, 1.0) : 0;
+      if (std::hypot(px - along * dx, py - along * dy) > half) continue;
+      const double depth = a.depth + along * (b.depth - a.depth) - nearer;
+      const std::size_t i = buffer.at(x, y);
+      if (!(depth < buffer.depth[i])) continue;
+      buffer.depth[i] = depth;
+      buffer.colour[i] = colour;
+      buffer.surface[i] = 0;
+    }
+  }
+}
+
+/// Darkens the rim of the nearer surface where the one behind it is farther by more than `step`: edges and
+/// folds of one colour stay apart.
+void outline(Buffer& buffer, double step, int reach) {
+  std::vector<char> rim(buffer.depth.size(), 0);
+  for (int y = 0; y < buffer.height; ++y) {
+    for (int x = 0; x < buffer.width; ++x) {
+      const std::size_t i = buffer.at(x, y);
+      if (!buffer.surface[i]) continue;
+      for (const auto& [ox, oy] : {std::array{reach, 0}, {-reach, 0}, {0, reach}, {0, -reach}}) {
+        const int nx = x + ox, ny = y + oy;
+        if (nx < 0 || ny < 0 || nx >= buffer.width || ny >= buffer.height) continue;
+        if (buffer.depth[buffer.at(nx, ny)] - buffer.depth[i] > step) rim[i] = 1;
+      }
+    }
+  }
+  for (std::size_t i = 0; i < rim.size(); ++i) {
+    if (!rim[i]) continue;
+    Colour& c = buffer.colour[i];
+    c = {0.45 * c.red, 0.45 * c.green, 0.45 * c.blue};
+  }
+}
+
+/// Mean of samples x samples rays a pixel, premultiplied by the share that hit something.
+Raster averaged(const Buffer& buffer, int samples) {
+  Raster raster{buffer.width / samples, buffer.height / samples, {}};
+  raster.argb.reserve(static_cast<std::size_t>(raster.width) * raster.height);
+  for (int y = 0; y < raster.height; ++y) {
+    for (int x = 0; x < raster.width; ++x) {
+      double sum[4] = {};  // alpha, red, green, blue
+      for (int k = 0; k < samples * samples; ++k) {
+        const std::size_t i = buffer.at(x * samples + k % samples, y * samples + k / samples);
+        if (buffer.depth[i] == std::numeric_limits<double>::infinity()) continue;
+        const Colour& c = buffer.colour[i];
+        sum[0] += 1;
+        sum[1] += c.red;
+        sum[2] += c.green;
+        sum[3] += c.blue;
+      }
+      std::uint32_t pixel = 0;
+      for (double part : sum) {
+        pixel = pixel << 8 | static_cast<std::uint32_t>(std::lround(255 * part / (samples * samples)));
+      }
+      raster.argb.push_back(pixel);
+    }
+  }
+  return raster;
+}
+
+}  // namespace
+
+Camera camera_from(Vec3 target, Vec3 toward_eye, Vec3 up, double distance) {
+  Camera camera;
+  camera.target = target;
+  camera.toward_eye = unit(toward_eye);
+  camera.right = unit(cross(up, camera.toward_eye));
+  camera.up = cross(camera.toward_eye, camera.right);
+  camera.distance = distance;
+  return camera;
+}
+
+Projected project(const Camera& camera, Vec3 point, int width, int height) {
+  const Vec3 p = point - camera.target;
+  const double away = -dot(p, camera.toward_eye);
+  double scale = 1;
+  Projected at{0, 0, away, true};
+  if (camera.distance > 0) {
+    const double from_eye = camera.distance + away;
+    if (from_eye < 1e-3 * camera.distance) return {0, 0, 0, false};
+    // D (1 - D / z) is linear on the picture, and near z = D it is the parallel depth z - D.
+    scale = camera.distance / from_eye;
+    at.depth = camera.distance * (1 - scale);
+  }
+  const double pixels = height / camera.height;  // a metre
+  at.x = 0.5 * width + (dot(p, camera.right) * scale - camera.u) * pixels;
+  at.y = 0.5 * height - (dot(p, camera.up) * scale - camera.v) * pixels;
+  return at;
+}
+
+Camera fitted(Camera camera, const std::vector<Vec3>& points, double aspect, double margin) {
+  camera.u = camera.v = 0;
+  camera.height = 1;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  double left = infinity, right = -infinity, top = infinity, bottom = -infinity;
+  for (Vec3 point : points) {
+    const Projected at = project(camera, point, 0, 1);  // x = u, y = 1/2 - v [m]
+    if (!at.visible) continue;
+    left = std::min(left, at.x), right = std::max(right, at.x);
+    top = std::min(top, at.y), bottom = std::max(bottom, at.y);
+  }
+  if (!(left <= right))
+    throw Error(ExitCode::bad_data, "a picture needs something to show: no point is in view");
+  camera.u = 0.5 * (left + right);
+  camera.v = 0.5 - 0.5 * (top + bottom);
+  camera.height = std::max(bottom - top, (right - left) / aspect) / (1 - 2 * margin);
+  if (camera.height == 0) camera.height = 1;  // a single point
+  return camera;
+}
+
+Raster render(const Scene& scene, const Camera& camera, int width, int height, int samples) {
+  Buffer buffer(width * samples, height * samples);
+  std::vector<Vertex> vertices(scene.points.size());
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    vertices[i].at = project(camera, scene.points[i], buffer.width, buffer.height);
+  }
+  for (const Scene::Quad& quad : scene.quads) {
+    const auto [a, b, c, d] = quad.corner;
+    const Vec3 normal = cross(scene.points[c] - scene.points[a], scene.points[d] - scene.points[b]);
+    for (int corner : quad.corner) vertices[corner].normal += normal;
+  }
+  for (const Scene::Quad& quad : scene.quads) {
+    const auto [a, b, c, d] = quad.corner;
+    fill(buffer, camera, vertices[a], vertices[b], vertices[c], quad.colour);
+    fill(buffer, camera, vertices[a], vertices[c], vertices[d], quad.colour);
+  }
+  outline(buffer, 0.012 * camera.height, std::max(1, samples / 2));
+  // Lines sewn on the cloth show on both of its sides, with a light rim that parts them from dark cloth.
+  const double nearer = 0.006 * camera.height;
+  for (const SceneLine& line : scene.lines) {
+    const Projected &a = vertices[line.a].at, &b = vertices[line.b].at;
+    draw_segment(buffer, a, b, (line.width + 1.4) * samples, 0.3 * nearer, line_rim);
+    draw_segment(buffer, a, b, line.width * samples, nearer, line.colour);
+  }
+  return averaged(buffer, samples);
+}
+
+}  // namespace ripstop

@@ -1,0 +1,16 @@
+// Round numbers along an axis.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace ripstop {
+
+/// Round numbers in steps of 1, 2 or 5 times a power of ten, about `count` of them, within [low, high].
+std::vector<double> ticks(double low, double high, int count);
+/// Powers of ten within [low, high], 0 < low; thinned to about `count`.
+std::vector<double> logarithmic_ticks(double low, double high, int count);
+/// The label of a tick among others `step` apart: no more digits than tell them apart.
+std::string tick_label(double value, double step);
+
+}  // namespace ripstop

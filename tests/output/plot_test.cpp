@@ -1,0 +1,106 @@
+#include "ripstop/output/plot.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "read_png.h"
+#include "ripstop/core/error.h"
+#include "ripstop/core/file.h"
+#include "ripstop/output/ticks.h"
+#include "temporary_folder.h"
+
+namespace ripstop {
+namespace {
+
+TEST(Ticks, AreRoundAndLieWithinTheAxis) {
+  EXPECT_EQ(ticks(0, 10, 5), (std::vector<double>{0, 2, 4, 6, 8, 10}));
+  EXPECT_EQ(ticks(-1, 1, 4), (std::vector<double>{-1, -0.5, 0, 0.5, 1}));
+  EXPECT_EQ(ticks(13, 47, 4), (std::vector<double>{20, 30, 40}));
+  EXPECT_EQ(logarithmic_ticks(1e-3, 10, 9), (std::vector<double>{1e-3, 1e-2, 1e-1, 1, 10}));
+  EXPECT_LE(logarithmic_ticks(1e-30, 1e30, 8).size(), 8u);
+}
+
+TEST(Ticks, LabelsHaveTheDigitsThatTellThemApart) {
+  EXPECT_EQ(tick_label(2, 2), "2");
+  EXPECT_EQ(tick_label(0.5, 0.5), "0.5");
+  EXPECT_EQ(tick_label(1, 0.05), "1.00");
+  EXPECT_EQ(tick_label(30000, 10000), "30000");
+  EXPECT_EQ(tick_label(2e-5, 1e-5), "2e-05");
+  EXPECT_EQ(tick_label(0, 1e-5), "0");
+}
+
+/// Pixels of a colour: how many, and their mean position.
+struct Spot {
+  int count = 0;
+  double x = 0, y = 0;
+};
+Spot spot_of(const Png& png, Colour colour) {
+  Spot spot;
+  for (int y = 0; y < png.height; ++y) {
+    for (int x = 0; x < png.width; ++x) {
+      if (png.shows(x, y, colour)) ++spot.count, spot.x += x + 0.5, spot.y += y + 0.5;
+    }
+  }
+  spot.x /= spot.count;
+  spot.y /= spot.count;
+  return spot;
+}
+
+Spot marker_at(double x, double y, bool logarithmic) {
+  const TemporaryFolder folder("plot");
+  Plot plot{"", {"x", logarithmic, 1, 100}, {"y", false, 0, 1}, {{"", {x}, {y}, false, true, false}}};
+  write_plot(folder.path / "p.png", plot);
+  return spot_of(read_png(folder.path / "p.png"), series_colour(0));
+}
+
+TEST(Plot, MarkersLieWhereTheirValuesAre) {
+  const Spot low = marker_at(1, 0, false), high = marker_at(100, 1, false),
+             middle = marker_at(50.5, 0.5, false);
+  EXPECT_GT(low.count, 60);
+  EXPECT_LT(low.x, high.x);
+  EXPECT_GT(low.y, high.y);  // y grows upward
+  EXPECT_NEAR(middle.x, 0.5 * (low.x + high.x), 0.2);
+  EXPECT_NEAR(middle.y, 0.5 * (low.y + high.y), 0.2);
+  EXPECT_NEAR(marker_at(10, 0.5, true).x, middle.x, 0.2);  // halfway from 1 to 100 on a logarithmic axis
+}
+
+TEST(Plot, ALineHasAGapWhereAValueIsMissing) {
+  const TemporaryFolder folder("plot-gap");
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Plot plot{"",
+            {"x", false, 0, 4},
+            {"y", false, 0, 1},
+            {{"", {0, 1, 2, 3, 4}, {.5, .5, .5, .5, .5}, true, false, false}}};
+  write_plot(folder.path / "whole.png", plot);
+  plot.series[0].y[2] = nan;
+  write_plot(folder.path / "gap.png", plot);
+  const Spot whole = spot_of(read_png(folder.path / "whole.png"), series_colour(0));
+  const Spot gap = spot_of(read_png(folder.path / "gap.png"), series_colour(0));
+  EXPECT_NEAR(gap.count, 0.5 * whole.count, 0.01 * whole.count);
+}
+
+TEST(Plot, ConstantAndSingleValuesAndEveryOptionCanBeDrawn) {
+  const TemporaryFolder folder("plot-all");
+  Plot plot{"Drag", {"speed [m/s]"}, {"drag [N]"}, {{"one", {10}, {43.1}, true, true, true}}};
+  write_plot(folder.path / "p.svg", plot);
+  EXPECT_NE(read_file(folder.path / "p.svg").find("</svg>"), std::string::npos);
+  plot.y.logarithmic = true;
+  plot.series.push_back({"two", {10, 20, 30}, {0, 1e-9, 1e3}, true, true, false});  // 0 is left out
+  EXPECT_NO_THROW(write_plot(folder.path / "p.png", plot));
+}
+
+TEST(Plot, WhatCannotBeDrawnIsAnErrorAndNoFile) {
+  const TemporaryFolder folder("plot-errors");
+  EXPECT_THROW(write_plot(folder.path / "p.png", Plot{}), Error);
+  EXPECT_THROW(write_plot(folder.path / "p.png", Plot{"", {}, {}, {{"", {1, 2}, {1}, true, true, false}}}),
+               Error);
+  const Plot negative{"", {}, {"", true}, {{"", {1}, {-1}, true, true, false}}};
+  EXPECT_THROW(write_plot(folder.path / "p.png", negative), Error);
+  const Plot backward{"", {"", false, 2, 1}, {}, {{"", {1}, {1}, true, true, false}}};
+  EXPECT_THROW(write_plot(folder.path / "p.png", backward), Error);
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path));
+}
+
+}  // namespace
+}  // namespace ripstop
