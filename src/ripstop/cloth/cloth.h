@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "ripstop/core/aligned.h"
 #include "ripstop/core/thread_team.h"
 #include "ripstop/core/vec3.h"
 #include "ripstop/parachute/mesh.h"
@@ -38,8 +39,8 @@ ClothPtr make_cloth(const Mesh& mesh, const ClothOptions& options = {});
 
 /// Positions and velocities in kernel layout. Copyable: a copy is a checkpoint.
 struct ClothState {
-  std::vector<double> x, v, f;  // three padded components each, see cloth/layout.h
-  double time = 0;              // [s]
+  AlignedDoubles x, v;  // vector layout, see cloth/layout.h
+  double time = 0;      // [s]
   long long steps = 0;
 };
 

@@ -1,0 +1,41 @@
+// Every spring of a mesh, one after the other, in plain scalar code: for bounds, energies and stresses, which
+// are looked at now and then. Internal to cloth/.
+#pragma once
+
+#include "ripstop/parachute/mesh.h"
+
+namespace ripstop {
+
+struct SpringView {
+  int a, b;  // nodes
+  double rest_length;
+  double scale;  // width [m], or 1 for a law in N
+  const SpringLaw* law;
+  double damping;
+  int patch, row, column, direction;  // patch -1: irregular
+  int index;                          // into Mesh::springs, -1: of the lattice
+};
+
+template <class Visit>
+void each_spring(const Mesh& mesh, Visit&& visit) {
+  for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
+    const Patch& patch = mesh.patches[p];
+    for (int row = 0; row < patch.rows; ++row)
+      for (int column = 0; column < patch.columns; ++column)
+        for (int d = 0; d < direction_count; ++d) {
+          const std::size_t i = static_cast<std::size_t>(row) * patch.columns + column;
+          if (patch.width[d][i] == 0) continue;
+          const int to = (column + direction_offset[d].column + patch.columns) % patch.columns;
+          visit(SpringView{patch.node(row, column), patch.node(row + direction_offset[d].row, to),
+                           patch.rest_length[d][i], patch.width[d][i], &patch.law[d], patch.damping[d],
+                           static_cast<int>(p), row, column, d, -1});
+        }
+  }
+  for (std::size_t s = 0; s < mesh.springs.size(); ++s) {
+    const Spring& spring = mesh.springs[s];
+    visit(SpringView{spring.a, spring.b, spring.rest_length, spring.scale, &mesh.laws[spring.law],
+                     spring.damping, -1, 0, 0, 0, static_cast<int>(s)});
+  }
+}
+
+}  // namespace ripstop

@@ -1,0 +1,293 @@
+// One source, compiled once for every instruction set by Highway (foreach_target), see kernel.h.
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "ripstop/cloth/kernel.cpp"
+#include "ripstop/cloth/kernel.h"
+
+#include <hwy/foreach_target.h>  // must come before highway.h
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace ripstop {
+namespace HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using Tag = hn::CappedTag<double, lanes>;
+using V = hn::Vec<Tag>;
+constexpr Tag tag;
+
+constexpr int vector_stride = 3 * lanes;  // doubles from one vector of a row to the next
+
+struct Three {
+  V x, y, z;
+};
+HWY_INLINE Three load(const double* p) {
+  return {hn::Load(tag, p), hn::Load(tag, p + lanes), hn::Load(tag, p + 2 * lanes)};
+}
+HWY_INLINE void store(Three a, double* p) {
+  hn::Store(a.x, tag, p);
+  hn::Store(a.y, tag, p + lanes);
+  hn::Store(a.z, tag, p + 2 * lanes);
+}
+// Other lanes are not touched: another thread may be reading them.
+HWY_INLINE void store_where(hn::Mask<Tag> mask, Three a, double* p) {
+  hn::BlendedStore(a.x, mask, tag, p);
+  hn::BlendedStore(a.y, mask, tag, p + lanes);
+  hn::BlendedStore(a.z, mask, tag, p + 2 * lanes);
+}
+HWY_INLINE Three zero() {
+  return {hn::Zero(tag), hn::Zero(tag), hn::Zero(tag)};
+}
+HWY_INLINE Three operator+(Three a, Three b) {
+  return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
+}
+HWY_INLINE Three operator-(Three a, Three b) {
+  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+}
+HWY_INLINE V dot(Three a, Three b) {
+  return hn::MulAdd(a.z, b.z, hn::MulAdd(a.y, b.y, hn::Mul(a.x, b.x)));
+}
+HWY_INLINE Three add_scaled(Three a, V s, Three b) {
+  return {hn::MulAdd(s, b.x, a.x), hn::MulAdd(s, b.y, a.y), hn::MulAdd(s, b.z, a.z)};
+}
+HWY_INLINE Three subtract_scaled(Three a, V s, Three b) {
+  return {hn::NegMulAdd(s, b.x, a.x), hn::NegMulAdd(s, b.y, a.y), hn::NegMulAdd(s, b.z, a.z)};
+}
+
+struct Root {
+  V value, inverse;
+};
+// sqrt and 1 / sqrt of q > 0 to the last bit or two.
+HWY_INLINE Root root(V q) {
+#if HWY_TARGET == HWY_AVX3
+  // y0 = rsqrt14(q); r = 1 - q y0^2 < 2^-13; 1/sqrt(q) = y0 (1 - r)^(-1/2) = y0 (1 + r/2 + 3/8 r^2 + 5/16
+  // r^3), the next term is below 1e-16. One step of fourth order in place of two of Newton's, one operation
+  // less.
+  const V y = V{_mm512_rsqrt14_pd(q.raw)};
+  const V s = hn::Mul(q, y);
+  const V r = hn::NegMulAdd(s, y, hn::Set(tag, 1.0));
+  const V c = hn::Mul(
+      r, hn::MulAdd(r, hn::MulAdd(r, hn::Set(tag, 5.0 / 16), hn::Set(tag, 3.0 / 8)), hn::Set(tag, 0.5)));
+  return {hn::MulAdd(s, c, s), hn::MulAdd(y, c, y)};
+#else
+  const V length = hn::Sqrt(q);
+  return {length, hn::Div(hn::Set(tag, 1.0), length)};
+#endif
+}
+
+// The force over the length of a spring from p toward q is g (q - p) with
+//   e = |q - p| / L0 - 1,   T = w (both e + sum c_k max(e, 0)^k),   g = (T + C (dv . d) / |d|) / |d|
+// [NFM] Eq. 2, 3. No spring (w = 0) has no damping either.
+template <int degree, bool damped>
+HWY_INLINE V pull(const PatchLayout& patch, int direction, const double* springs, Three d, Three dv) {
+  const double* own = springs + 2 * direction * lanes;
+  const V inverse_rest = hn::Load(tag, own);
+  const V width = hn::Load(tag, own + lanes);
+  const FamilyLaw& law = patch.law[direction];
+  // The 1e-60 m2 keeps two coincident nodes from making NaN: their force is 0, its direction unknown.
+  const V square = hn::MulAdd(d.z, d.z, hn::MulAdd(d.y, d.y, hn::MulAdd(d.x, d.x, hn::Set(tag, 1e-60))));
+  const Root length = root(square);
+  const V strain = hn::MulSub(length.value, inverse_rest, hn::Set(tag, 1.0));
+  const V stretch = hn::Max(strain, hn::Zero(tag));
+  V sum;
+  if constexpr (degree == 0) {  // any degree
+    sum = hn::Set(tag, law.positive_part[patch.degree - 1]);
+    for (int k = patch.degree - 2; k >= 0; --k)
+      sum = hn::MulAdd(sum, stretch, hn::Set(tag, law.positive_part[k]));
+  } else {
+    sum = hn::Set(tag, law.positive_part[degree - 1]);
+    if constexpr (degree > 2) sum = hn::MulAdd(sum, stretch, hn::Set(tag, law.positive_part[1]));
+    if constexpr (degree > 1) sum = hn::MulAdd(sum, stretch, hn::Set(tag, law.positive_part[0]));
+  }
+  V tension = hn::Mul(width, hn::MulAdd(sum, stretch, hn::Mul(strain, hn::Set(tag, law.both))));
+  if constexpr (damped) {
+    const V rate = hn::Mul(dot(d, dv), length.inverse);
+    const V damping =
+        hn::IfThenElseZero(hn::Gt(width, hn::Zero(tag)), hn::Set(tag, patch.damping[direction]));
+    tension = hn::MulAdd(damping, rate, tension);
+  }
+  return hn::Mul(tension, length.inverse);
+}
+
+template <int degree, bool damped, bool pressed>
+void row_forces(const RowForces& row) {
+  const PatchLayout& patch = *row.patch;
+  const int end = patch.vectors * vector_stride;
+  for (int lane = 0; lane < lanes; lane += static_cast<int>(hn::Lanes(tag))) {
+    const double* springs = row.springs + lane;
+    // Force that waits for the next two vectors of this row and the next one of row + 1.
+    Three wait1 = zero(), wait2 = zero(), wait_up = zero();
+    for (int m = lane; m < end + lane; m += vector_stride, springs += PatchLayout::springs_per_vector) {
+      const Three p = load(row.x0 + m);
+      Three u = zero();
+      if constexpr (damped) u = load(row.v0 + m);
+      const auto speed = [&](const double* v) {
+        if constexpr (damped)
+          return load(v + m) - u;
+        else
+          return (void)v, zero();
+      };
+      Three own = load(row.f0 + m) + wait1;
+      Three next = wait2;
+      {
+        const Three d = load(row.x2 + m) - p;
+        const V g = pull<degree, damped>(patch, bend_column, springs, d, speed(row.v2));
+        own = add_scaled(own, g, d);
+        store(subtract_scaled(zero(), g, d), row.f2 + m);
+      }
+      {
+        const Three d = load(row.x0 + m + 2 * vector_stride) - p;
+        const V g = pull<degree, damped>(patch, bend_row, springs, d, speed(row.v0 + 2 * vector_stride));
+        own = add_scaled(own, g, d);
+        wait2 = subtract_scaled(zero(), g, d);
+      }
+      const Three right = load(row.x0 + m + vector_stride);
+      {
+        const Three d = right - p;
+        const V g = pull<degree, damped>(patch, along_row, springs, d, speed(row.v0 + vector_stride));
+        own = add_scaled(own, g, d);
+        next = subtract_scaled(next, g, d);
+      }
+      Three up = load(row.f1 + m) + wait_up;
+      const Three above = load(row.x1 + m);
+      {
+        const Three d = above - p;
+        const V g = pull<degree, damped>(patch, along_column, springs, d, speed(row.v1));
+        own = add_scaled(own, g, d);
+        up = subtract_scaled(up, g, d);
+      }
+      const Three across = load(row.x1 + m + vector_stride) - p;
+      {
+        const V g = pull<degree, damped>(patch, shear_up, springs, across, speed(row.v1 + vector_stride));
+        own = add_scaled(own, g, across);
+        wait_up = subtract_scaled(zero(), g, across);
+      }
+      const Three d = above - right;  // the other diagonal: from column + 1 to row + 1
+      {
+        Three dv = zero();
+        if constexpr (damped) dv = load(row.v1 + m) - load(row.v0 + m + vector_stride);
+        const V g = pull<degree, damped>(patch, shear_down, springs, d, dv);
+        next = add_scaled(next, g, d);
+        up = subtract_scaled(up, g, d);
+      }
+      if constexpr (pressed) {
+        // A quarter of dp times the area vector, half the cross product of the diagonals 0 -> 2 and 1 -> 3.
+        const V q = hn::Load(tag, row.pressure + lane + (m - lane) / 3);
+        const Three a{hn::Mul(q, across.x), hn::Mul(q, across.y), hn::Mul(q, across.z)};
+        const Three load_each{hn::NegMulAdd(a.z, d.y, hn::Mul(a.y, d.z)),
+                              hn::NegMulAdd(a.x, d.z, hn::Mul(a.z, d.x)),
+                              hn::NegMulAdd(a.y, d.x, hn::Mul(a.x, d.y))};
+        own = own + load_each;
+        next = next + load_each;
+        up = up + load_each;
+        wait_up = wait_up + load_each;
+      }
+      store(own, row.f0 + m);
+      store(up, row.f1 + m);
+      wait1 = next;
+    }
+    const int ghost = end + lane;
+    store(load(row.f0 + ghost) + wait1, row.f0 + ghost);
+    store(load(row.f0 + ghost + vector_stride) + wait2, row.f0 + ghost + vector_stride);
+    store(load(row.f1 + ghost) + wait_up, row.f1 + ghost);
+    store(zero(), row.f2 + ghost);
+    store(zero(), row.f2 + ghost + vector_stride);
+  }
+}
+
+template <int degree>
+void row_forces_of_degree(const RowForces& row) {
+  if (row.v0 && row.pressure) return row_forces<degree, true, true>(row);
+  if (row.v0) return row_forces<degree, true, false>(row);
+  if (row.pressure) return row_forces<degree, false, true>(row);
+  row_forces<degree, false, false>(row);
+}
+
+template <bool decays, bool sums>
+HWY_INLINE RowSums motion(const RowMotion& row) {
+  const V dt = hn::Set(tag, row.dt);
+  // Two accumulators a lane of the row, so that every instruction set adds in the same order.
+  alignas(64) double squared[lanes] = {}, power[lanes] = {};
+  for (int lane = 0; lane < lanes; lane += static_cast<int>(hn::Lanes(tag))) {
+    V force_squared = hn::Zero(tag), force_speed = hn::Zero(tag);
+    for (int m = 0; m < row.vectors; ++m) {
+      const int i = m * lanes + lane, k = m * vector_stride + lane;
+      const V inverse_mass = hn::Load(tag, row.inverse_mass + i);
+      const auto moves = hn::Gt(inverse_mass, hn::Zero(tag));
+      const Three f = load(row.f + k);
+      const Three old = load(row.v + k);
+      const V kick = hn::Mul(hn::Set(tag, row.kick), inverse_mass);
+      if constexpr (sums) {
+        force_squared = hn::Add(force_squared, hn::IfThenElseZero(moves, dot(f, f)));
+        force_speed = hn::Add(force_speed, hn::IfThenElseZero(moves, dot(f, old)));
+      }
+      Three v = add_scaled(old, kick, f);
+      if constexpr (decays) v = subtract_scaled(v, hn::Mul(dt, hn::Load(tag, row.decay + i)), old);
+      store_where(moves, v, row.v + k);
+      store_where(moves, add_scaled(load(row.x + k), dt, v), row.x + k);
+    }
+    if constexpr (sums) {
+      hn::Store(force_squared, tag, squared + lane);
+      hn::Store(force_speed, tag, power + lane);
+    }
+  }
+  RowSums total;
+  if constexpr (sums)
+    for (int lane = 0; lane < lanes; ++lane) {
+      total.force_squared += squared[lane];
+      total.power += power[lane];
+    }
+  return total;
+}
+
+void AddRowForces(const RowForces& row) {
+  switch (row.patch->degree) {
+    case 1:
+      return row_forces_of_degree<1>(row);
+    case 2:
+      return row_forces_of_degree<2>(row);
+    case 3:
+      return row_forces_of_degree<3>(row);
+    default:
+      return row_forces_of_degree<0>(row);
+  }
+}
+void MoveRow(const RowMotion& row) {
+  row.decay ? motion<true, false>(row) : motion<false, false>(row);
+}
+RowSums MoveRowWithSums(const RowMotion& row) {
+  return motion<false, true>(row);
+}
+const char* Target() {
+  return HWY_TARGET == HWY_AVX3 ? "AVX-512" : HWY_TARGET == HWY_AVX2 ? "AVX2" : "SSE2";
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace ripstop
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace ripstop {
+
+HWY_EXPORT(AddRowForces);
+HWY_EXPORT(MoveRow);
+HWY_EXPORT(MoveRowWithSums);
+HWY_EXPORT(Target);
+
+void add_row_forces(const RowForces& row) {
+  HWY_DYNAMIC_DISPATCH(AddRowForces)(row);
+}
+void move_row(const RowMotion& row) {
+  HWY_DYNAMIC_DISPATCH(MoveRow)(row);
+}
+RowSums move_row_with_sums(const RowMotion& row) {
+  return HWY_DYNAMIC_DISPATCH(MoveRowWithSums)(row);
+}
+const char* kernel_target() {
+  return HWY_DYNAMIC_DISPATCH(Target)();
+}
+
+}  // namespace ripstop
+#endif

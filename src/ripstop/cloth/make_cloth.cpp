@@ -1,0 +1,310 @@
+// Compiles a mesh for the kernels: see layout.h.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ripstop/cloth/layout.h"
+#include "ripstop/core/error.h"
+
+namespace ripstop {
+namespace {
+
+void refuse(const std::string& message) {
+  throw Error(ExitCode::bad_data, "cloth mesh: " + message);
+}
+
+int index_of(const Patch& patch, int row, int column) {
+  return row * patch.columns + column;
+}
+
+void check(const Mesh& mesh) {
+  const int count = mesh.node_count();
+  if (static_cast<int>(mesh.mass.size()) != count)
+    refuse(fmt::format("{} masses for {} nodes", mesh.mass.size(), count));
+  for (int node = 0; node < count; ++node) {
+    if (!is_finite(mesh.start[node])) refuse(fmt::format("node {} has no finite position", node));
+    if (!(mesh.mass[node] >= 0)) refuse(fmt::format("node {} has mass {} kg", node, mesh.mass[node]));
+  }
+  for (const Patch& patch : mesh.patches) {
+    const auto cells = static_cast<std::size_t>(patch.rows) * patch.columns;
+    if (patch.rows < 1 || patch.columns < (patch.periodic ? 3 : 1))
+      refuse(fmt::format("patch {} has {} rows and {} columns", patch.name, patch.rows, patch.columns));
+    if (patch.first_node < 0 || patch.first_node + static_cast<int>(cells) > count)
+      refuse(fmt::format("patch {} reaches beyond the last node", patch.name));
+    if (patch.cell_area.size() != cells - patch.columns)
+      refuse(fmt::format("patch {} has {} cell areas, needs {}", patch.name, patch.cell_area.size(),
+                         cells - patch.columns));
+    for (int d = 0; d < direction_count; ++d) {
+      if (patch.width[d].size() != cells || patch.rest_length[d].size() != cells)
+        refuse(fmt::format("patch {}: widths and rest lengths must be rows x columns", patch.name));
+      if (static_cast<int>(patch.law[d].coefficients.size()) > max_degree)
+        refuse(fmt::format("patch {}: a spring law of degree {}, at most {}", patch.name,
+                           patch.law[d].coefficients.size(), max_degree));
+      for (int row = 0; row < patch.rows; ++row) {
+        for (int column = 0; column < patch.columns; ++column) {
+          const int i = index_of(patch, row, column);
+          if (patch.width[d][i] == 0) continue;
+          const auto [dr, dc] = direction_offset[d];
+          const bool outside = row + dr >= patch.rows ||
+                               (!patch.periodic && (column + dc < 0 || column + dc >= patch.columns));
+          if (!(patch.width[d][i] > 0) || !(patch.rest_length[d][i] > 0) || outside)
+            refuse(fmt::format("patch {}, row {}, column {}: spring {} has width {} m, rest length {} m{}",
+                               patch.name, row, column, d, patch.width[d][i], patch.rest_length[d][i],
+                               outside ? " and leaves the patch" : ""));
+        }
+      }
+    }
+  }
+  const auto node_exists = [&](int node) { return node >= 0 && node < count; };
+  for (const Spring& s : mesh.springs) {
+    if (!node_exists(s.a) || !node_exists(s.b) || s.a == s.b || !(s.rest_length > 0) || !(s.scale >= 0) ||
+        s.law < 0 || s.law >= static_cast<int>(mesh.laws.size()))
+      refuse(fmt::format("spring {} - {} has rest length {} m, scale {}, law {}", s.a, s.b, s.rest_length,
+                         s.scale, s.law));
+  }
+  for (const SpringLaw& law : mesh.laws)
+    if (static_cast<int>(law.coefficients.size()) > max_degree)
+      refuse(fmt::format("a spring law of degree {}, at most {}", law.coefficients.size(), max_degree));
+  std::vector<char> tied(count, 0);
+  for (const Tie& tie : mesh.ties) {
+    if (!node_exists(tie.node) || tied[tie.node]) refuse(fmt::format("node {} is tied twice", tie.node));
+    tied[tie.node] = 1;
+  }
+  for (const Tie& tie : mesh.ties) {
+    double sum = 0;
+    for (const auto& master : tie.masters) {
+      if (!node_exists(master.node) || tied[master.node])
+        refuse(fmt::format("node {} is tied to node {}, which is itself tied", tie.node, master.node));
+      if (!(master.weight >= 0))
+        refuse(fmt::format("node {} is tied with the negative weight {}", tie.node, master.weight));
+      sum += master.weight;
+    }
+    if (!(std::abs(sum - 1) < 1e-9))
+      refuse(fmt::format("the weights of tied node {} add up to {}, not 1", tie.node, sum));
+  }
+  for (int node : mesh.fixed)
+    if (!node_exists(node) || tied[node]) refuse(fmt::format("fixed node {} is tied or absent", node));
+}
+
+FamilyLaw compile_law(const SpringLaw& law) {
+  FamilyLaw compiled;
+  if (law.coefficients.empty()) return compiled;
+  compiled.both = law.compression * law.coefficients[0];
+  std::copy(law.coefficients.begin(), law.coefficients.end(), compiled.positive_part.begin());
+  compiled.positive_part[0] -= compiled.both;
+  return compiled;
+}
+
+int degree_of(const SpringLaw& law) {
+  return std::max<int>(1, static_cast<int>(law.coefficients.size()));
+}
+
+// Ghost vectors M, M + 1, lane l: column l M + m. Columns C and C + 1 of a periodic row are its first two;
+// where C is no multiple of 8 they lie in the last strips' padding.
+std::vector<PatchLayout::Copy> copies_of(const Patch& patch, int vectors) {
+  std::vector<PatchLayout::Copy> copies;
+  const auto slot = [&](int column) { return lanes * (column % vectors) + column / vectors; };
+  const auto add = [&](int ghost, int column) {
+    if (column >= patch.columns) {
+      column -= patch.columns;
+      if (!patch.periodic || column >= ghosts) return;
+    }
+    copies.push_back({ghost, slot(column)});
+  };
+  for (int m = vectors; m < vectors + ghosts; ++m)
+    for (int lane = 0; lane < lanes; ++lane) add(lanes * m + lane, vectors * lane + m);
+  for (int column = patch.columns; column < std::min(patch.columns + ghosts, lanes * vectors); ++column)
+    add(slot(column), column);
+  return copies;
+}
+
+void lay_out_patches(Cloth& cloth) {
+  const Mesh& mesh = cloth.mesh;
+  cloth.slot.assign(mesh.node_count(), -1);
+  for (const Patch& patch : mesh.patches) {
+    PatchLayout layout;
+    layout.rows = patch.rows;
+    layout.columns = patch.columns;
+    layout.vectors = (patch.columns + lanes - 1) / lanes;
+    layout.first = cloth.slots;
+    layout.first_row = cloth.row_count;
+    layout.copies = copies_of(patch, layout.vectors);
+    for (int d = 0; d < direction_count; ++d) {
+      layout.law[d] = compile_law(patch.law[d]);
+      layout.damping[d] = patch.damping[d];
+      layout.degree = std::max(layout.degree, degree_of(patch.law[d]));
+      layout.damped = layout.damped || patch.damping[d] != 0;
+    }
+    for (int row = 0; row < patch.rows; ++row)
+      for (int column = 0; column < patch.columns; ++column) {
+        int& slot = cloth.slot[patch.node(row, column)];
+        if (slot >= 0) refuse(fmt::format("node {} is in two patches", patch.node(row, column)));
+        slot = layout.slot(row, column);
+      }
+    layout.first_spring = cloth.lattice.size();
+    cloth.lattice.resize(cloth.lattice.size() + static_cast<std::size_t>(patch.rows) * layout.vectors *
+                                                    PatchLayout::springs_per_vector);
+    cloth.slots += layout.row_slots() * (patch.rows + ghosts);
+    cloth.row_count += patch.rows;
+    cloth.row_patch.insert(cloth.row_patch.end(), patch.rows, static_cast<int>(cloth.patches.size()));
+    cloth.patches.push_back(std::move(layout));
+  }
+  for (int& slot : cloth.slot)
+    if (slot < 0) slot = cloth.slots++;
+  cloth.slots = (cloth.slots + lanes - 1) / lanes * lanes;
+}
+
+void fill_lattice(Cloth& cloth) {
+  for (std::size_t p = 0; p < cloth.patches.size(); ++p) {
+    const Patch& patch = cloth.mesh.patches[p];
+    const PatchLayout& layout = cloth.patches[p];
+    for (int d = 0; d < direction_count; ++d)
+      for (int row = 0; row < patch.rows; ++row)
+        for (int column = 0; column < patch.columns; ++column) {
+          const int i = index_of(patch, row, column);
+          if (patch.width[d][i] == 0) continue;
+          int kept_at = column;
+          if (d == shear_down) kept_at = column > 0 ? column - 1 : patch.columns - 1;
+          double* springs = cloth.lattice.data() + layout.first_spring +
+                            (static_cast<std::size_t>(row) * layout.vectors + kept_at % layout.vectors) *
+                                PatchLayout::springs_per_vector +
+                            2 * d * lanes + kept_at / layout.vectors;
+          springs[0] = 1 / patch.rest_length[d][i];
+          springs[lanes] = patch.width[d][i];
+        }
+  }
+}
+
+void share_mass_and_area(Cloth& cloth) {
+  const Mesh& mesh = cloth.mesh;
+  cloth.total_mass = mesh.mass;
+  cloth.area.assign(mesh.node_count(), 0.0);
+  std::size_t cell = 0;
+  const std::vector<Cell> cells = cells_of(mesh);
+  for (const Patch& patch : mesh.patches)
+    for (double area : patch.cell_area) {
+      const Cell& c = cells[cell++];
+      if (c.corner[0] < 0) continue;
+      for (int corner : c.corner) cloth.area[corner] += 0.25 * area;
+    }
+  for (const Tie& tie : mesh.ties) {
+    for (const auto& master : tie.masters)
+      cloth.total_mass[master.node] += master.weight * mesh.mass[tie.node];
+    cloth.total_mass[tie.node] = 0;
+  }
+  for (int node = 0; node < mesh.node_count(); ++node)
+    if (!cloth.is_tied[node] && !cloth.is_fixed[node] && !(cloth.total_mass[node] > 0))
+      refuse(fmt::format("node {} ({}) has no mass", node, place_of(mesh, node)));
+}
+
+void keep_nodes(Cloth& cloth) {
+  const Mesh& mesh = cloth.mesh;
+  std::vector<char> special(mesh.node_count(), 1);
+  for (const Patch& patch : mesh.patches)
+    std::fill_n(special.begin() + patch.first_node, patch.rows * patch.columns, char{0});
+  for (const Spring& s : mesh.springs) special[s.a] = special[s.b] = 1;
+  for (const Tie& tie : mesh.ties) {
+    special[tie.node] = 1;
+    for (const auto& master : tie.masters) special[master.node] = 1;
+  }
+  for (int node = 0; node < mesh.node_count(); ++node)
+    if (special[node]) cloth.kept.push_back({cloth.slot[node], node, 0, 0});
+  std::sort(cloth.kept.begin(), cloth.kept.end(), [](auto& a, auto& b) { return a.slot < b.slot; });
+  std::vector<int> kept_index(mesh.node_count(), -1);
+  for (std::size_t k = 0; k < cloth.kept.size(); ++k) kept_index[cloth.kept[k].node] = static_cast<int>(k);
+
+  // What is added to the lattice's force on every node: its springs, in the mesh's order, then its tied nodes
+  // with their springs.
+  const int kept_count = static_cast<int>(cloth.kept.size());
+  std::vector<std::vector<Cloth::Share>> own(kept_count);
+  for (std::size_t s = 0; s < mesh.springs.size(); ++s) {
+    const Spring& spring = mesh.springs[s];
+    const int source = kept_count + static_cast<int>(s);
+    own[kept_index[spring.a]].push_back({source, 1});
+    own[kept_index[spring.b]].push_back({source, -1});
+    cloth.springs.push_back({cloth.slot[spring.a], cloth.slot[spring.b], 1 / spring.rest_length, spring.scale,
+                             spring.damping, spring.law});
+  }
+  std::vector<std::vector<Cloth::Share>> all = own;
+  for (const Tie& tie : mesh.ties) {
+    const int tied = kept_index[tie.node];
+    for (const auto& master : tie.masters) {
+      auto& shares = all[kept_index[master.node]];
+      shares.push_back({tied, master.weight});
+      for (const Cloth::Share& share : own[tied])
+        shares.push_back({share.source, share.weight * master.weight});
+    }
+  }
+  for (int k = 0; k < kept_count; ++k) {
+    cloth.kept[k].first_share = static_cast<int>(cloth.shares.size());
+    if (!cloth.is_tied[cloth.kept[k].node])
+      cloth.shares.insert(cloth.shares.end(), all[k].begin(), all[k].end());
+    cloth.kept[k].end_share = static_cast<int>(cloth.shares.size());
+  }
+  for (const SpringLaw& law : mesh.laws) {
+    cloth.spring_laws.push_back(compile_law(law));
+    cloth.spring_degrees.push_back(degree_of(law));
+  }
+  for (const Tie& tie : mesh.ties) {
+    const int first = static_cast<int>(cloth.masters.size());
+    for (const auto& master : tie.masters) cloth.masters.push_back({cloth.slot[master.node], master.weight});
+    cloth.followers.push_back({cloth.slot[tie.node], first, static_cast<int>(cloth.masters.size())});
+  }
+  std::sort(cloth.followers.begin(), cloth.followers.end(), [](auto& a, auto& b) { return a.slot < b.slot; });
+
+  const auto edges = [&](const auto& list) {
+    std::vector<int> edge(cloth.row_count + 1, 0);
+    std::size_t i = 0;
+    for (int row = 0; row < cloth.row_count; ++row) {
+      edge[row] = static_cast<int>(i);
+      const int end = cloth.row_slot(row) + cloth.patches[cloth.row_patch[row]].row_slots();
+      while (i < list.size() && list[i].slot < end) ++i;
+    }
+    edge[cloth.row_count] = static_cast<int>(i);
+    return edge;
+  };
+  cloth.kept_of_row = edges(cloth.kept);
+  cloth.followers_of_row = edges(cloth.followers);
+}
+
+}  // namespace
+
+void ClothDeleter::operator()(Cloth* cloth) const {
+  delete cloth;
+}
+
+ClothPtr make_cloth(const Mesh& mesh, const ClothOptions& options) {
+  check(mesh);
+  ClothPtr cloth(new Cloth);
+  cloth->mesh = mesh;
+  cloth->options = options;
+  if (options.linear) {
+    for (Patch& patch : cloth->mesh.patches)
+      for (SpringLaw& law : patch.law) law = law.linearised();
+    for (SpringLaw& law : cloth->mesh.laws) law = law.linearised();
+  }
+  cloth->is_tied.assign(mesh.node_count(), 0);
+  cloth->is_fixed.assign(mesh.node_count(), 0);
+  for (const Tie& tie : mesh.ties) cloth->is_tied[tie.node] = 1;
+  for (int node : mesh.fixed) cloth->is_fixed[node] = 1;
+  share_mass_and_area(*cloth);
+  lay_out_patches(*cloth);
+  fill_lattice(*cloth);
+  keep_nodes(*cloth);
+  return cloth;
+}
+
+std::string place_of(const Mesh& mesh, int node) {
+  for (const Patch& patch : mesh.patches) {
+    const int i = node - patch.first_node;
+    if (i >= 0 && i < patch.rows * patch.columns)
+      return fmt::format("{}, row {}, column {}", patch.name, i / patch.columns, i % patch.columns);
+  }
+  for (const Spring& s : mesh.springs)
+    if ((s.a == node || s.b == node) && s.part >= 0 && s.part < static_cast<int>(mesh.parts.size()))
+      return mesh.parts[s.part];
+  return "outside all patches";
+}
+
+}  // namespace ripstop

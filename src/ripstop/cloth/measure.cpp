@@ -1,0 +1,103 @@
+// What is read off a state now and then, in plain scalar code.
+#include <algorithm>
+#include <cmath>
+
+#include "ripstop/cloth/bound.h"
+#include "ripstop/cloth/each_spring.h"
+#include "ripstop/cloth/layout.h"
+
+namespace ripstop {
+namespace {
+
+double tension_of(const SpringView& s, const std::vector<Vec3>& x) {
+  return s.scale * s.law->tension(norm(x[s.b] - x[s.a]) / s.rest_length - 1);
+}
+
+std::vector<Vec3> load_on_nodes(const Cloth& cloth, const std::vector<Vec3>& x, const Loads& loads) {
+  std::vector<Vec3> force = loads.node_force;
+  force.resize(x.size());
+  if (!loads.cell_pressure.empty()) {
+    const std::vector<Cell> cells = cells_of(cloth.mesh);
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      const auto& c = cells[i].corner;
+      if (c[0] < 0) continue;
+      const Vec3 each = 0.25 * loads.cell_pressure[i] * area_vector(x[c[0]], x[c[1]], x[c[2]], x[c[3]]);
+      for (int corner : c) force[corner] += each;
+    }
+  }
+  return force;
+}
+
+}  // namespace
+
+double applied_load(const Cloth& cloth, const ClothState& state, const Loads& loads) {
+  std::vector<Vec3> force = load_on_nodes(cloth, positions(state, cloth), loads);
+  for (const Tie& tie : cloth.mesh.ties) {
+    for (const auto& master : tie.masters) force[master.node] += master.weight * force[tie.node];
+    force[tie.node] = {};
+  }
+  for (int node : cloth.mesh.fixed) force[node] = {};
+  double sum = 0;
+  for (Vec3 f : force) sum += dot(f, f);
+  return std::sqrt(sum);
+}
+
+std::vector<double> spring_tensions(const Cloth& cloth, const ClothState& state) {
+  const std::vector<Vec3> x = positions(state, cloth);
+  std::vector<double> tension(cloth.mesh.springs.size());
+  each_spring(cloth.mesh, [&](const SpringView& s) {
+    if (s.index >= 0) tension[s.index] = tension_of(s, x);
+  });
+  return tension;
+}
+
+Vec3 force_on_fixed(const Cloth& cloth, const ClothState& state) {
+  const std::vector<Vec3> x = positions(state, cloth);
+  // Share of the force on a node that reaches fixed nodes: all of a fixed one's, the weights of a tied one's.
+  std::vector<double> share(x.size(), 0.0);
+  for (int node : cloth.mesh.fixed) share[node] = 1;
+  for (const Tie& tie : cloth.mesh.ties)
+    for (const auto& master : tie.masters)
+      if (cloth.is_fixed[master.node]) share[tie.node] += master.weight;
+  Vec3 sum;
+  each_spring(cloth.mesh, [&](const SpringView& s) {
+    const double net = share[s.a] - share[s.b];
+    if (net == 0) return;
+    const Vec3 d = x[s.b] - x[s.a];
+    sum += (net * tension_of(s, x) / norm(d)) * d;
+  });
+  return sum;
+}
+
+Vec3 pressure_force(const Cloth& cloth, const ClothState& state, const Loads& loads) {
+  Vec3 sum;
+  for (Vec3 f : load_on_nodes(cloth, positions(state, cloth), {loads.cell_pressure, {}})) sum += f;
+  return sum;
+}
+
+double elastic_energy(const Cloth& cloth, const ClothState& state) {
+  const std::vector<Vec3> x = positions(state, cloth);
+  double sum = 0;
+  each_spring(cloth.mesh, [&](const SpringView& s) {
+    sum += s.scale * s.rest_length * s.law->energy(norm(x[s.b] - x[s.a]) / s.rest_length - 1);
+  });
+  return sum;
+}
+
+double kinetic_energy(const Cloth& cloth, const ClothState& state) {
+  double sum = 0;
+  for (int node = 0; node < cloth.mesh.node_count(); ++node) {
+    const Vec3 v = get(state.v.data(), cloth.slot[node]);
+    sum += 0.5 * cloth.total_mass[node] * dot(v, v);
+  }
+  return sum;
+}
+
+Vec3 momentum(const Cloth& cloth, const ClothState& state) {
+  Vec3 sum;
+  for (int node = 0; node < cloth.mesh.node_count(); ++node)
+    sum += cloth.total_mass[node] * get(state.v.data(), cloth.slot[node]);
+  return sum;
+}
+
+}  // namespace ripstop

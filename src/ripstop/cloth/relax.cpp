@@ -1,0 +1,92 @@
+// Equilibrium by dynamic relaxation with kinetic damping (Barnes 1999, Int. J. Space Structures 14).
+//
+// Fictitious masses m = margin kappa / 2, with kappa the node's stiffness of step_bound, make a step of 1
+// stable everywhere, so every part of the cloth moves as fast as it can. No viscous damping: whenever the
+// kinetic energy passes a peak, that is when the power sum f . v turns negative, all velocities are set to 0.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ripstop/cloth/bound.h"
+#include "ripstop/cloth/sweep.h"
+#include "ripstop/core/error.h"
+
+namespace ripstop {
+namespace {
+
+constexpr double margin = 1.2;        // on the masses, for stiffening between two refreshes
+constexpr int steps_a_look = 50;      // between looks at the applied load and the report
+constexpr int steps_a_refresh = 400;  // of the masses
+
+Sweep::Fictitious fictitious_masses(const Cloth& cloth, const ClothState& state) {
+  Sweep::Fictitious masses{node_stiffness(cloth, state).stiffness};
+  // A node without any stiffness (a hole in the cloth) rests where it is.
+  for (double& mass : masses.mass) mass *= 0.5 * margin;
+  for (int node : cloth.mesh.fixed) masses.mass[node] = 0;
+  for (const Tie& tie : cloth.mesh.ties) masses.mass[tie.node] = 0;
+  return masses;
+}
+
+double fictitious_energy(const Cloth& cloth, const ClothState& state, const std::vector<double>& mass) {
+  double sum = 0;
+  for (std::size_t node = 0; node < mass.size(); ++node) {
+    const Vec3 v = get(state.v.data(), cloth.slot[node]);
+    sum += 0.5 * mass[node] * dot(v, v);
+  }
+  return sum;
+}
+
+}  // namespace
+
+RelaxResult relax(ClothState& state, const Cloth& cloth, const Loads& loads, const RelaxOptions& options,
+                  ThreadTeam& team, const std::function<void(const RelaxProgress&)>& report) {
+  const std::vector<Vec3> start = positions(state, cloth);
+  std::fill(state.v.begin(), state.v.end(), 0.0);
+  Sweep::Fictitious masses = fictitious_masses(cloth, state);
+  Sweep sweep(cloth, loads, state, masses, team.size());
+  for (int rank = 0; rank < team.size(); ++rank) sweep.stop(rank);
+  RelaxResult result;
+  int since_refresh = 0;
+  while (!result.converged && result.steps < options.max_steps) {
+    const double applied = applied_load(cloth, state, loads);
+    const int count = std::min(steps_a_look, options.max_steps - result.steps);
+    int done = 0;
+    team.run([&](int rank) {
+      for (int i = 0; i < count; ++i) {
+        sweep.add_forces(rank);
+        team.barrier();
+        sweep.move_kept(rank);
+        team.barrier();
+        const RowSums sums = sweep.sums();
+        if (sums.power < 0) sweep.stop(rank);
+        sweep.follow_masters(rank);
+        const bool ends = std::sqrt(sums.force_squared) <= options.tolerance * applied;
+        if (rank == 0) {
+          ++done;
+          result.residual = std::sqrt(sums.force_squared) / applied;
+          result.converged = ends;
+        }
+        team.barrier();
+        if (ends) break;
+      }
+    });
+    result.steps += done;
+    check_health(cloth, state);
+    if (report) report({result.steps, result.residual, fictitious_energy(cloth, state, masses.mass)});
+    since_refresh += done;
+    if (since_refresh >= steps_a_refresh && !result.converged) {
+      since_refresh = 0;
+      masses = fictitious_masses(cloth, state);
+      sweep.set_masses(masses);
+    }
+  }
+  std::fill(state.v.begin(), state.v.end(), 0.0);
+  const std::vector<Vec3> end = positions(state, cloth);
+  for (std::size_t node = 0; node < end.size(); ++node)
+    result.mean_displacement += norm(end[node] - start[node]);
+  result.mean_displacement /= static_cast<double>(end.size());
+  return result;
+}
+
+}  // namespace ripstop

@@ -1,0 +1,60 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "ripstop/cloth/bound.h"
+#include "ripstop/cloth/sweep.h"
+#include "ripstop/core/error.h"
+
+namespace ripstop {
+namespace {
+
+constexpr long long steps_between_checks = 2048;  // of the bound, which costs about as much as 40 steps
+constexpr double runaway_strain = 10;             // no fabric comes near: the cloth flies apart
+
+void check_step(const Cloth& cloth, const ClothState& state, double dt) {
+  check_health(cloth, state);
+  const NodeStiffness stiffness = node_stiffness(cloth, state);
+  if (stiffness.largest_strain > runaway_strain)
+    throw Error(
+        ExitCode::diverged,
+        fmt::format("step {} (t = {:.6g} s): a spring at node {} ({}) is stretched by {:.3g} times its "
+                    "length; the loads are too high for this cloth or the step {:.3g} s is too large",
+                    state.steps, state.time, stiffness.stretched_node,
+                    place_of(cloth.mesh, stiffness.stretched_node), stiffness.largest_strain, dt));
+  const StepBound bound = step_bound(cloth, state);
+  if (dt > bound.stable_step)
+    throw Error(
+        ExitCode::diverged,
+        fmt::format("step {} (t = {:.6g} s): the time step {:.4g} s is above the stable {:.4g} s that node "
+                    "{} ({}) allows at its present strain; lower the time step",
+                    state.steps, state.time, dt, bound.stable_step, bound.node, bound.part));
+}
+
+}  // namespace
+
+void step(ClothState& state, const Cloth& cloth, const Loads& loads, double dt, int count, ThreadTeam& team) {
+  if (!(dt > 0)) throw Error(ExitCode::usage, fmt::format("the time step {} s must be positive", dt));
+  Sweep sweep(cloth, loads, state, dt, team.size());
+  while (count > 0) {
+    const long long since = state.steps % steps_between_checks;
+    if (since == 0) check_step(cloth, state, dt);
+    const int now = static_cast<int>(std::min<long long>(count, steps_between_checks - since));
+    team.run([&](int rank) {
+      for (int i = 0; i < now; ++i) {
+        sweep.add_forces(rank);
+        team.barrier();
+        sweep.move_kept(rank);
+        team.barrier();
+        sweep.follow_masters(rank);
+        team.barrier();
+      }
+    });
+    state.steps += now;
+    state.time += now * dt;
+    count -= now;
+    check_health(cloth, state);
+  }
+}
+
+}  // namespace ripstop

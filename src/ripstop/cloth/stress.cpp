@@ -1,0 +1,139 @@
+// Membrane stress resultants of every cell in virial form.
+#include <algorithm>
+#include <cmath>
+
+#include "ripstop/cloth/each_spring.h"
+#include "ripstop/cloth/layout.h"
+
+namespace ripstop {
+namespace {
+
+// Cells of one patch with cloth, and what touches them.
+struct CellMap {
+  const Patch& patch;
+
+  bool has_cloth(int row, int column) const {
+    if (row < 0 || row + 1 >= patch.rows) return false;
+    if (patch.periodic)
+      column = (column + patch.columns) % patch.columns;
+    else if (column < 0 || column + 1 >= patch.columns)
+      return false;
+    return patch.cell_area[row * patch.columns + column] > 0;
+  }
+  int index(int row, int column) const {
+    return row * patch.columns + (column + patch.columns) % patch.columns;
+  }
+};
+
+struct Touched {
+  int row[4], column[4];
+  int count = 0;
+  void add(const CellMap& map, int r, int c) {
+    if (!map.has_cloth(r, c)) return;
+    row[count] = r, column[count] = c, ++count;
+  }
+};
+
+// The cells that share a spring: either side of an edge, the one cell of a diagonal, both sides of both edges
+// that a bending spring spans.
+Touched cells_touched(const CellMap& map, const SpringView& s) {
+  Touched touched;
+  const int r = s.row, c = s.column;
+  switch (s.direction) {
+    case along_row:
+      touched.add(map, r - 1, c), touched.add(map, r, c);
+      break;
+    case along_column:
+      touched.add(map, r, c - 1), touched.add(map, r, c);
+      break;
+    case shear_up:
+      touched.add(map, r, c);
+      break;
+    case shear_down:
+      touched.add(map, r, c - 1);
+      break;
+    case bend_row:
+      for (int dc : {0, 1}) touched.add(map, r - 1, c + dc), touched.add(map, r, c + dc);
+      break;
+    case bend_column:
+      for (int dr : {0, 1}) touched.add(map, r + dr, c - 1), touched.add(map, r + dr, c);
+      break;
+    default:
+      break;
+  }
+  return touched;
+}
+
+struct Frame {
+  Vec3 u, v;  // orthonormal, in the quad's mean plane
+  double area;
+};
+
+Frame frame_of(const Cell& cell, const std::vector<Vec3>& x) {
+  const Vec3 a = x[cell.corner[0]], b = x[cell.corner[1]], c = x[cell.corner[2]], d = x[cell.corner[3]];
+  const Vec3 area = area_vector(a, b, c, d);
+  const double size = norm(area);
+  if (!(size > 0)) return {{}, {}, 0};
+  const Vec3 n = area / size;
+  Vec3 u = (b - a) + (c - d);
+  u -= dot(u, n) * n;
+  const double length = norm(u);
+  if (!(length > 0)) return {{}, {}, 0};
+  u = u / length;
+  return {u, cross(n, u), size};
+}
+
+}  // namespace
+
+// N = 1/A sum over the cell's share of springs T l n (x) n, in the present quad's plane: force per present
+// length (Cauchy), so a pressurised cylinder shows p R and a sphere p R / 2 at the present radius.
+std::vector<CellStress> cell_stress(const Cloth& cloth, const ClothState& state) {
+  const Mesh& mesh = cloth.mesh;
+  const std::vector<Vec3> x = positions(state, cloth);
+  const std::vector<Cell> cells = cells_of(mesh);
+  std::vector<Frame> frames(cells.size());
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    if (cells[i].corner[0] >= 0) frames[i] = frame_of(cells[i], x);
+  std::vector<int> first_cell;
+  int next = 0;
+  for (const Patch& patch : mesh.patches)
+    first_cell.push_back(next), next += (patch.rows - 1) * patch.columns;
+
+  struct Sum {
+    double uu = 0, vv = 0, uv = 0;
+  };
+  std::vector<Sum> sums(cells.size());
+  std::vector<CellStress> stress(cells.size());
+  each_spring(mesh, [&](const SpringView& s) {
+    if (s.patch < 0) return;
+    const CellMap map{mesh.patches[s.patch]};
+    const Touched touched = cells_touched(map, s);
+    if (touched.count == 0) return;
+    const Vec3 d = x[s.b] - x[s.a];
+    const double length = norm(d);
+    if (!(length > 0)) return;
+    const double strain = length / s.rest_length - 1;
+    const double share = s.scale * s.law->tension(strain) / length / touched.count;
+    for (int i = 0; i < touched.count; ++i) {
+      const int cell = first_cell[s.patch] + map.index(touched.row[i], touched.column[i]);
+      const Frame& frame = frames[cell];
+      const double u = dot(d, frame.u), v = dot(d, frame.v);
+      sums[cell].uu += share * u * u;
+      sums[cell].vv += share * v * v;
+      sums[cell].uv += share * u * v;
+      stress[cell].max_strain = std::max(stress[cell].max_strain, strain);
+    }
+  });
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (!(frames[i].area > 0)) continue;
+    const double uu = sums[i].uu / frames[i].area, vv = sums[i].vv / frames[i].area,
+                 uv = sums[i].uv / frames[i].area;
+    const double mean = 0.5 * (uu + vv), radius = std::hypot(0.5 * (uu - vv), uv);
+    stress[i].principal_max = mean + radius;
+    stress[i].principal_min = mean - radius;
+    stress[i].von_mises = std::sqrt(std::max(0.0, uu * uu - uu * vv + vv * vv + 3 * uv * uv));
+  }
+  return stress;
+}
+
+}  // namespace ripstop

@@ -1,0 +1,265 @@
+#include "ripstop/cloth/sweep.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ripstop/core/thread_team.h"
+
+namespace ripstop {
+namespace {
+
+constexpr int kept_block = 64;  // kept nodes whose sums are added by one thread
+constexpr int rows_in_turn = 3;
+
+}  // namespace
+
+Sweep::Sweep(const Cloth& cloth, const Loads& loads, ClothState& state, double dt, int threads)
+    : cloth_(cloth),
+      state_(state),
+      dt_(dt),
+      damped_(true),
+      sums_wanted_(false),
+      pressure_(compile_pressure(cloth, loads)),
+      node_force_(compile_node_force(cloth, loads)) {
+  const double absolute = cloth.options.absolute_damping;
+  Fictitious masses{cloth.total_mass};
+  for (int node : cloth.mesh.fixed) masses.mass[node] = 0;
+  set_masses(masses);
+  kept_decay_.assign(cloth.kept.size(), 0.0);
+  if (absolute > 0) {
+    decay_.assign(cloth.slots, 0.0);
+    for (int node = 0; node < cloth.mesh.node_count(); ++node) {
+      const int slot = cloth.slot[node];
+      decay_[slot] = absolute * cloth.area[node] * inverse_mass_[slot];
+    }
+    for (std::size_t k = 0; k < cloth.kept.size(); ++k)
+      kept_decay_[k] = absolute * cloth.area[cloth.kept[k].node];
+  }
+  prepare(threads);
+}
+
+Sweep::Sweep(const Cloth& cloth, const Loads& loads, ClothState& state, const Fictitious& masses, int threads)
+    : cloth_(cloth),
+      state_(state),
+      dt_(1),
+      damped_(false),
+      sums_wanted_(true),
+      pressure_(compile_pressure(cloth, loads)),
+      node_force_(compile_node_force(cloth, loads)) {
+  set_masses(masses);
+  kept_decay_.assign(cloth.kept.size(), 0.0);
+  prepare(threads);
+}
+
+void Sweep::set_masses(const Fictitious& masses) {
+  inverse_mass_.assign(cloth_.slots, 0.0);
+  kept_inverse_mass_.assign(cloth_.kept.size(), 0.0);
+  const auto inverse = [](double mass) { return mass > 0 ? 1 / mass : 0.0; };
+  for (int node = 0; node < cloth_.mesh.node_count(); ++node)
+    inverse_mass_[cloth_.slot[node]] = inverse(masses.mass[node]);
+  for (std::size_t k = 0; k < cloth_.kept.size(); ++k) {
+    kept_inverse_mass_[k] = inverse(masses.mass[cloth_.kept[k].node]);
+    inverse_mass_[cloth_.kept[k].slot] = 0;
+  }
+}
+
+void Sweep::prepare(int threads) {
+  kept_force_.assign(cloth_.kept.size() + cloth_.springs.size(), Vec3{});
+  row_sums_.assign(cloth_.row_count, RowSums{});
+  const int loose = static_cast<int>(cloth_.kept.size()) - cloth_.kept_of_row.back();
+  kept_sums_.assign(cloth_.row_count, RowSums{});
+  loose_sums_.assign((loose + kept_block - 1) / kept_block, RowSums{});
+  workers_.resize(threads);
+
+  // Rows are dealt by their vectors; the two rows of springs computed twice count for the thread above.
+  std::vector<int> vectors_before(cloth_.row_count + 1, 0);
+  for (int row = 0; row < cloth_.row_count; ++row)
+    vectors_before[row + 1] = vectors_before[row] + cloth_.patches[cloth_.row_patch[row]].vectors;
+  const auto edge = [&](int rank) {
+    const Range part = part_of(vectors_before.back(), rank, threads);
+    return static_cast<int>(std::lower_bound(vectors_before.begin(), vectors_before.end(), part.begin) -
+                            vectors_before.begin());
+  };
+  for (int rank = 0; rank < threads; ++rank) {
+    Worker& worker = workers_[rank];
+    worker.begin_row = edge(rank);
+    worker.end_row = rank + 1 == threads ? cloth_.row_count : edge(rank + 1);
+    for (int p = 0; p < static_cast<int>(cloth_.patches.size()); ++p) {
+      const PatchLayout& patch = cloth_.patches[p];
+      const int begin = std::max(0, worker.begin_row - patch.first_row);
+      const int end = std::min(patch.rows, worker.end_row - patch.first_row);
+      if (begin >= end) continue;
+      worker.pieces.push_back({p, begin, end, begin > 0, end < patch.rows});
+      worker.row_doubles = std::max(worker.row_doubles, static_cast<std::size_t>(3 * patch.row_slots()));
+      for (int row = begin; row < end; ++row)
+        if ((begin > 0 && row < begin + ghosts) || (end < patch.rows && row >= end - ghosts))
+          worker.waiting.push_back(patch.first_row + row);
+    }
+    worker.buffer.assign((rows_in_turn + 1 + worker.waiting.size()) * worker.row_doubles, 0.0);
+  }
+}
+
+void Sweep::add_forces(int rank) {
+  Worker& worker = workers_[rank];
+  const Range springs =
+      part_of(static_cast<int>(cloth_.springs.size()), rank, static_cast<int>(workers_.size()));
+  pull_springs(springs.begin, springs.end);
+  for (const Piece& piece : worker.pieces) sweep_piece(worker, piece);
+  // Nodes outside patches have no lattice force; a point force may act on them.
+  if (rank == 0)
+    for (std::size_t k = cloth_.kept_of_row.back(); k < cloth_.kept.size(); ++k)
+      kept_force_[k] = node_force_.empty() ? Vec3{} : get(node_force_.data(), cloth_.kept[k].slot);
+}
+
+void Sweep::sweep_piece(Worker& worker, const Piece& piece) {
+  const PatchLayout& patch = cloth_.patches[piece.patch];
+  double* const unwanted = worker.buffer.data() + rows_in_turn * worker.row_doubles;
+  const auto waits = [&](int row) {
+    return (piece.shared_below && row < piece.begin + ghosts) ||
+           (piece.shared_above && row >= piece.end - ghosts);
+  };
+  const auto force = [&](int row) {
+    if (row < piece.begin || row >= piece.end) return unwanted;
+    if (!waits(row)) return worker.buffer.data() + (row % rows_in_turn) * worker.row_doubles;
+    const auto found = std::lower_bound(worker.waiting.begin(), worker.waiting.end(), patch.first_row + row);
+    return unwanted + (1 + (found - worker.waiting.begin())) * worker.row_doubles;
+  };
+  for (int row = piece.begin; row < std::min(piece.end, ghosts); ++row)
+    std::fill_n(force(row), 3 * patch.row_slots(), 0.0);
+
+  const int stride = 3 * patch.row_slots();
+  const bool damped = damped_ && patch.damped;
+  for (int row = std::max(0, piece.begin - ghosts); row < piece.end; ++row) {
+    const std::size_t first = at(patch.first + patch.row_slots() * row);
+    const double* x = state_.x.data() + first;
+    const double* v = damped ? state_.v.data() + first : nullptr;
+    const bool pressed = !pressure_.empty() && row + 1 < patch.rows;
+    add_row_forces({&patch, patch.springs(cloth_.lattice, row),
+                    pressed ? pressure_.data() + patch.first + patch.row_slots() * row : nullptr, x,
+                    x + stride, x + 2 * stride, v, damped ? v + stride : nullptr,
+                    damped ? v + 2 * stride : nullptr, force(row), force(row + 1), force(row + 2)});
+    if (row < piece.begin) continue;
+    complete_row(patch.first_row + row, force(row));
+    if (!waits(row)) move(patch.first_row + row, force(row), worker.kick);
+  }
+}
+
+void Sweep::complete_row(int row, double* f) {
+  const PatchLayout& patch = cloth_.patches[cloth_.row_patch[row]];
+  const int first = cloth_.row_slot(row);
+  for (const PatchLayout::Copy& copy : patch.copies)
+    for (int c = 0; c < 3; ++c) f[at(copy.source) + c * lanes] += f[at(copy.ghost) + c * lanes];
+  if (!node_force_.empty()) {
+    const double* point = node_force_.data() + at(first);
+    for (int i = 0; i < 3 * lanes * patch.vectors; ++i) f[i] += point[i];
+  }
+  for (int k = cloth_.kept_of_row[row]; k < cloth_.kept_of_row[row + 1]; ++k)
+    kept_force_[k] =
+        get(f, cloth_.kept[k].slot - first) - kept_decay_[k] * get(state_.v.data(), cloth_.kept[k].slot);
+}
+
+void Sweep::move(int row, double* f, double kick) {
+  const int first = cloth_.row_slot(row);
+  const RowMotion motion{cloth_.patches[cloth_.row_patch[row]].vectors,
+                         dt_,
+                         dt_ * kick,
+                         inverse_mass_.data() + first,
+                         decay_.empty() ? nullptr : decay_.data() + first,
+                         f,
+                         state_.x.data() + at(first),
+                         state_.v.data() + at(first)};
+  if (sums_wanted_)
+    row_sums_[row] = move_row_with_sums(motion);
+  else
+    move_row(motion);
+}
+
+void Sweep::pull_springs(int begin, int end) {
+  for (int s = begin; s < end; ++s) {
+    const KeptSpring& spring = cloth_.springs[s];
+    const FamilyLaw& law = cloth_.spring_laws[spring.law];
+    const Vec3 d = get(state_.x.data(), spring.b) - get(state_.x.data(), spring.a);
+    const double length = std::sqrt(dot(d, d) + 1e-60);
+    const double strain = length * spring.inverse_rest - 1;
+    const double stretch = std::max(strain, 0.0);
+    double sum = 0;
+    for (int k = cloth_.spring_degrees[spring.law] - 1; k >= 0; --k)
+      sum = (sum + law.positive_part[k]) * stretch;
+    double tension = spring.scale * (law.both * strain + sum);
+    if (damped_) {
+      const Vec3 dv = get(state_.v.data(), spring.b) - get(state_.v.data(), spring.a);
+      tension += spring.damping * dot(d, dv) / length;
+    }
+    kept_force_[cloth_.kept.size() + s] = (tension / length) * d;
+  }
+}
+
+void Sweep::move_kept(int rank) {
+  Worker& worker = workers_[rank];
+  const std::size_t unwanted_and_turns = rows_in_turn + 1;
+  for (std::size_t i = 0; i < worker.waiting.size(); ++i)
+    move(worker.waiting[i], worker.buffer.data() + (unwanted_and_turns + i) * worker.row_doubles,
+         worker.kick);
+
+  // The nodes of a row belong to the row's thread, which has moved its neighbours; the others are dealt out.
+  for (int row = worker.begin_row; row < worker.end_row; ++row)
+    kept_sums_[row] = move_kept_nodes(cloth_.kept_of_row[row], cloth_.kept_of_row[row + 1], worker.kick);
+  const Range blocks = part_of(static_cast<int>(loose_sums_.size()), rank, static_cast<int>(workers_.size()));
+  const int loose = cloth_.kept_of_row.back(), all = static_cast<int>(cloth_.kept.size());
+  for (int block = blocks.begin; block < blocks.end; ++block)
+    loose_sums_[block] = move_kept_nodes(loose + block * kept_block,
+                                         std::min(all, loose + (block + 1) * kept_block), worker.kick);
+  worker.kick = 1;
+}
+
+RowSums Sweep::move_kept_nodes(int begin, int end, double kick) {
+  double* const x = state_.x.data();
+  double* const v = state_.v.data();
+  RowSums sums;
+  for (int k = begin; k < end; ++k) {
+    if (kept_inverse_mass_[k] == 0) continue;
+    const Cloth::Kept& kept = cloth_.kept[k];
+    Vec3 force = kept_force_[k];
+    for (int i = kept.first_share; i < kept.end_share; ++i)
+      force += cloth_.shares[i].weight * kept_force_[cloth_.shares[i].source];
+    const Vec3 old = get(v, kept.slot);
+    sums.force_squared += dot(force, force);
+    sums.power += dot(force, old);
+    const Vec3 now = old + (dt_ * kick * kept_inverse_mass_[k]) * force;
+    put(v, kept.slot, now);
+    put(x, kept.slot, get(x, kept.slot) + dt_ * now);
+  }
+  return sums;
+}
+
+void Sweep::follow_masters(int rank) {
+  const Worker& worker = workers_[rank];
+  const bool last = rank + 1 == static_cast<int>(workers_.size());
+  for (double* vectors : {state_.x.data(), state_.v.data()}) {
+    follow(cloth_, vectors, worker.begin_row, worker.end_row, last);
+    mirror(cloth_, vectors, worker.begin_row, worker.end_row);
+  }
+}
+
+void Sweep::stop(int rank) {
+  Worker& worker = workers_[rank];
+  worker.kick = 0.5;
+  for (int row = worker.begin_row; row < worker.end_row; ++row)
+    std::fill_n(state_.v.data() + at(cloth_.row_slot(row)),
+                3 * cloth_.patches[cloth_.row_patch[row]].row_slots(), 0.0);
+  if (rank + 1 < static_cast<int>(workers_.size())) return;
+  for (std::size_t k = cloth_.kept_of_row.back(); k < cloth_.kept.size(); ++k)
+    put(state_.v.data(), cloth_.kept[k].slot, {});
+}
+
+RowSums Sweep::sums() const {
+  RowSums total;
+  for (const auto* list : {&row_sums_, &kept_sums_, &loose_sums_})
+    for (const RowSums& sums : *list) {
+      total.force_squared += sums.force_squared;
+      total.power += sums.power;
+    }
+  return total;
+}
+
+}  // namespace ripstop

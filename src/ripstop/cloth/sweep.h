@@ -1,0 +1,73 @@
+// One step over the cloth in three phases with a barrier after each; the order of every sum is fixed, so the
+// result is the same to the last bit for any number of threads. Internal to cloth/.
+//
+//   add_forces     springs and pressure row by row; a row moves as soon as its force is complete
+//   move_kept      the nodes that irregular springs and ties touch, and the rows next to another thread's
+//   follow_masters tied nodes and ghosts
+//
+// A thread computes the springs of the two rows before its own once more, for the force they give to its
+// rows. Rows that another thread still reads (two on either side of a border) move after the barrier.
+#pragma once
+
+#include <vector>
+
+#include "ripstop/cloth/kernel.h"
+#include "ripstop/cloth/layout.h"
+
+namespace ripstop {
+
+class Sweep {
+ public:
+  /// Real masses and damping.
+  Sweep(const Cloth& cloth, const Loads& loads, ClothState& state, double dt, int threads);
+
+  /// Fictitious masses, no damping, sums over the rows and kept nodes for the relaxation.
+  struct Fictitious {
+    std::vector<double> mass;  // by node; 0: does not move
+  };
+  Sweep(const Cloth& cloth, const Loads& loads, ClothState& state, const Fictitious& masses, int threads);
+  void set_masses(const Fictitious& masses);
+
+  void add_forces(int rank);
+  void move_kept(int rank);
+  void follow_masters(int rank);
+  /// After move_kept: sets the velocities of the rank's nodes to 0; their next kick is half a step's, as a
+  /// leapfrog starts from rest (a whole one diverges when stops follow each other).
+  void stop(int rank);
+
+  /// After move_kept, the same on every rank: force residual and power before the last move.
+  RowSums sums() const;
+
+ private:
+  struct Piece {  // rows of one patch
+    int patch, begin, end;
+    bool shared_below, shared_above;
+  };
+  struct Worker {
+    std::vector<Piece> pieces;
+    int begin_row = 0, end_row = 0;
+    double kick = 1;        // of the next step, over dt
+    AlignedDoubles buffer;  // three rows in turn, one for what nobody wants, the waiting rows
+    std::size_t row_doubles = 0;
+    std::vector<int> waiting;  // rows that move after the barrier, in order of their buffers
+  };
+  void prepare(int threads);
+  void sweep_piece(Worker& worker, const Piece& piece);
+  void complete_row(int row, double* f);
+  void move(int row, double* f, double kick);
+  void pull_springs(int begin, int end);
+  RowSums move_kept_nodes(int begin, int end, double kick);
+
+  const Cloth& cloth_;
+  ClothState& state_;
+  double dt_;
+  bool damped_, sums_wanted_;
+  AlignedDoubles pressure_, node_force_;
+  AlignedDoubles inverse_mass_, decay_;                 // by slot; 0 for kept nodes
+  std::vector<double> kept_inverse_mass_, kept_decay_;  // by kept node; 0: does not move
+  std::vector<Vec3> kept_force_;                        // of kept nodes, then of kept springs
+  std::vector<Worker> workers_;
+  std::vector<RowSums> row_sums_, kept_sums_, loose_sums_;
+};
+
+}  // namespace ripstop

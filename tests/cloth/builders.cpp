@@ -1,0 +1,222 @@
+#include "builders.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ripstop::testing {
+
+int add_patch(Mesh& mesh, const PatchSpec& spec, const FabricSpec& fabric) {
+  Patch patch;
+  patch.name = spec.name;
+  patch.rows = spec.rows;
+  patch.columns = spec.columns;
+  patch.periodic = spec.periodic;
+  patch.first_node = mesh.node_count();
+  const SpringLaw whole{fabric.coefficients, fabric.compression};
+  patch.law[along_row] = patch.law[along_column] = whole.scaled(1 - fabric.xi - fabric.eps);
+  patch.law[shear_up] = patch.law[shear_down] = whole.scaled(fabric.xi / 2);
+  patch.law[bend_row] = patch.law[bend_column] = whole.scaled(fabric.eps / 2);
+  std::fill(std::begin(patch.damping), std::end(patch.damping), fabric.damping);
+
+  const auto rest = spec.rest ? spec.rest : spec.position;
+  const int rows = spec.rows, columns = spec.columns;
+  const auto wrap = [&](int column) { return (column + columns) % columns; };
+  const auto at = [&](int row, int column) { return row * columns + wrap(column); };
+  const auto shape = [&](int row, int column) { return rest(row, wrap(column)); };
+  for (int d = 0; d < direction_count; ++d) {
+    patch.rest_length[d].assign(rows * columns, 0.0);
+    patch.width[d].assign(rows * columns, 0.0);
+  }
+  patch.cell_area.assign((rows - 1) * columns, 0.0);
+  mesh.start.resize(patch.first_node + rows * columns);
+  mesh.mass.resize(mesh.start.size(), 0.0);
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column)
+      mesh.start[patch.node(row, column)] = spec.position(row, column);
+
+  for (int row = 0; row + 1 < rows; ++row)
+    for (int column = 0; column + (spec.periodic ? 0 : 1) < columns; ++column) {
+      if (!spec.has_cell(row, column)) continue;
+      const Vec3 a = shape(row, column), b = shape(row, column + 1), c = shape(row + 1, column + 1),
+                 d = shape(row + 1, column);
+      const double area = norm(area_vector(a, b, c, d));
+      const double h_row = 0.5 * (norm(b - a) + norm(c - d)), h_column = 0.5 * (norm(d - a) + norm(c - b));
+      const CellWidths widths = cell_widths(h_row, h_column, fabric.xi, fabric.eps);
+      patch.cell_area[at(row, column)] = area;
+      for (int r : {row, row + 1}) {
+        patch.width[along_row][at(r, column)] += widths.along_row;
+        for (int first : {column - 1, column})
+          if (spec.periodic || (first >= 0 && first + 2 < columns))
+            patch.width[bend_row][at(r, first)] += widths.bend_row;
+        for (int q : {column, column + 1})
+          mesh.mass[patch.node(r, wrap(q))] += 0.25 * area * fabric.areal_density;
+      }
+      for (int q : {column, column + 1}) {
+        patch.width[along_column][at(row, q)] += widths.along_column;
+        for (int first : {row - 1, row})
+          if (first >= 0 && first + 2 < rows) patch.width[bend_column][at(first, q)] += widths.bend_column;
+      }
+      patch.width[shear_up][at(row, column)] += widths.shear;
+      patch.width[shear_down][at(row, column + 1)] += widths.shear;
+    }
+  for (int d = 0; d < direction_count; ++d)
+    for (int row = 0; row < rows; ++row)
+      for (int column = 0; column < columns; ++column)
+        if (patch.width[d][at(row, column)] > 0)
+          patch.rest_length[d][at(row, column)] = norm(
+              shape(row + direction_offset[d].row, column + direction_offset[d].column) - shape(row, column));
+  mesh.patches.push_back(patch);
+  return static_cast<int>(mesh.patches.size()) - 1;
+}
+
+Mesh rectangle(int rows, int columns, double spacing, const FabricSpec& fabric) {
+  Mesh mesh;
+  PatchSpec spec;
+  spec.rows = rows;
+  spec.columns = columns;
+  spec.position = [=](int row, int column) { return Vec3{column * spacing, row * spacing, 0}; };
+  add_patch(mesh, spec, fabric);
+  return mesh;
+}
+
+Mesh chain(int segments, Vec3 a, Vec3 b, double rest_length, const SpringLaw& law, double linear_density) {
+  Mesh mesh;
+  mesh.laws.push_back(law);
+  mesh.parts.push_back("line");
+  for (int i = 0; i <= segments; ++i) {
+    mesh.start.push_back(a + (static_cast<double>(i) / segments) * (b - a));
+    mesh.mass.push_back(linear_density * rest_length * (i == 0 || i == segments ? 0.5 : 1.0));
+    if (i > 0) mesh.springs.push_back({i - 1, i, rest_length, 1, 0, 0, 0});
+  }
+  mesh.fixed.push_back(0);
+  return mesh;
+}
+
+Mesh medley(double damping, bool fixed, int degree) {
+  FabricSpec fabric;
+  fabric.damping = damping;
+  if (degree == 1) fabric.coefficients = {30006};
+  if (degree == 3) fabric.coefficients = {30006, -18936, 5000};
+  if (degree == 4) fabric.coefficients = {30006, -18936, 5000, 900};
+  Mesh mesh;
+  // A periodic ring of 19 columns (no multiple of 8), a finer one of 38 tied to its rim, a flat flap with a
+  // hole, tape along a column, and a line.
+  const double pi = std::acos(-1.0);
+  const auto ring = [=](int columns, double first_radius, double step) {
+    return [=](int row, int column) {
+      const double r = first_radius + step * row, t = 2 * pi * column / columns;
+      return Vec3{r * std::cos(t), r * std::sin(t), 0.1 * row * step};
+    };
+  };
+  PatchSpec inner;
+  inner.name = "inner";
+  inner.rows = 6, inner.columns = 19, inner.periodic = true, inner.position = ring(19, 0.05, 0.01);
+  add_patch(mesh, inner, fabric);
+  PatchSpec outer;
+  outer.name = "outer";
+  outer.rows = 5, outer.columns = 38, outer.periodic = true, outer.position = ring(38, 0.10, 0.012);
+  FabricSpec other = fabric;
+  other.compression = 0.3;
+  other.damping = 0.5 * damping;
+  add_patch(mesh, outer, other);
+  PatchSpec flap;
+  flap.name = "flap";
+  flap.rows = 7, flap.columns = 11;
+  const Vec3 along_line{0.03, -0.02, -0.04};
+  const Vec3 corner = outer.position(4, 37) + 4.4 * along_line;
+  flap.position = [=](int row, int column) { return corner + Vec3{0.01 * column, 0.011 * row, 0}; };
+  flap.has_cell = [](int row, int column) { return !(row == 2 && column == 4) && row + column < 14; };
+  add_patch(mesh, flap, fabric);
+
+  const Patch &a = mesh.patches[0], &b = mesh.patches[1], &c = mesh.patches[2];
+  for (int j = 0; j < 38; ++j) {  // the ring's inner rim follows the coarse one's outer rim
+    Tie tie{b.node(0, j), {{a.node(5, j / 2), j % 2 ? 0.5 : 1.0}}};
+    if (j % 2) tie.masters.push_back({a.node(5, (j / 2 + 1) % 19), 0.5});
+    mesh.ties.push_back(tie);
+  }
+  mesh.laws.push_back({{3064.2, 68823.4}, 1});
+  mesh.laws.push_back({{2118.95, 4896.33, 10.0}, 0});
+  mesh.parts = {"tape", "line 0"};
+  const auto join = [&](int p, int q, double scale, int law, int part) {
+    mesh.springs.push_back(
+        {p, q, 0.98 * norm(mesh.start[p] - mesh.start[q]), scale, law, damping > 0 ? 0.01 : 0.0, part});
+  };
+  for (int row = 0; row + 1 < 5; ++row) join(b.node(row, 7), b.node(row + 1, 7), 0.02, 0, 0);
+  join(a.node(2, 0), a.node(3, 0), 0.02, 0, 0);
+  int last = b.node(4, 37);
+  for (int i = 0; i < 5; ++i) {
+    mesh.start.push_back(mesh.start[last] + along_line);
+    mesh.mass.push_back(1e-4);
+    join(last, mesh.node_count() - 1, 1, 1, 1);
+    last = mesh.node_count() - 1;
+  }
+  // The flap's corner is held on the line's last segment, and tape runs from there.
+  mesh.ties.push_back({c.node(0, 0), {{last, 0.4}, {last - 1, 0.6}}});
+  join(c.node(0, 0), c.node(1, 0), 0.02, 0, 0);
+  for (int node = 0; node < mesh.node_count(); ++node)
+    if (mesh.mass[node] == 0) mesh.mass[node] = 1e-6;  // corners without cloth
+  if (fixed) mesh.fixed = {a.node(0, 0), a.node(0, 9), c.node(0, 10), last};
+  return mesh;
+}
+
+std::vector<Vec3> shaken(std::vector<Vec3> positions, double amount, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> to(-amount, amount);
+  for (Vec3& x : positions) x += Vec3{to(random), to(random), to(random)};
+  return positions;
+}
+
+std::vector<Vec3> reference_forces(const Mesh& mesh, const ClothOptions& options, const Loads& loads,
+                                   const std::vector<Vec3>& x, const std::vector<Vec3>& v) {
+  std::vector<Vec3> f(x.size());
+  const auto pull = [&](int p, int q, double rest, double scale, const SpringLaw& given, double damping) {
+    const SpringLaw law = options.linear ? given.linearised() : given;
+    const Vec3 d = x[q] - x[p];
+    const double length = norm(d);
+    const Vec3 n = d / length;
+    const Vec3 force = (scale * law.tension(length / rest - 1) + damping * dot(v[q] - v[p], n)) * n;
+    f[p] += force;
+    f[q] -= force;
+  };
+  for (const Patch& patch : mesh.patches)
+    for (int d = 0; d < direction_count; ++d)
+      for (int row = 0; row < patch.rows; ++row)
+        for (int column = 0; column < patch.columns; ++column) {
+          const int i = row * patch.columns + column;
+          if (patch.width[d][i] > 0)
+            pull(patch.node(row, column),
+                 patch.node(row + direction_offset[d].row,
+                            (column + direction_offset[d].column + patch.columns) % patch.columns),
+                 patch.rest_length[d][i], patch.width[d][i], patch.law[d], patch.damping[d]);
+        }
+  for (const Spring& s : mesh.springs) pull(s.a, s.b, s.rest_length, s.scale, mesh.laws[s.law], s.damping);
+  const std::vector<Cell> cells = cells_of(mesh);
+  std::size_t index = 0;
+  for (const Patch& patch : mesh.patches)
+    for (double area : patch.cell_area) {
+      const auto& c = cells[index].corner;
+      if (c[0] >= 0) {
+        const double pressure = loads.cell_pressure.empty() ? 0 : loads.cell_pressure[index];
+        const Vec3 push = 0.25 * pressure * area_vector(x[c[0]], x[c[1]], x[c[2]], x[c[3]]);
+        for (int corner : c) f[corner] += push - (0.25 * area * options.absolute_damping) * v[corner];
+      }
+      ++index;
+    }
+  for (std::size_t i = 0; i < loads.node_force.size(); ++i) f[i] += loads.node_force[i];
+  for (const Tie& tie : mesh.ties) {
+    for (const auto& master : tie.masters) f[master.node] += master.weight * f[tie.node];
+    f[tie.node] = {};
+  }
+  return f;
+}
+
+std::vector<double> reference_masses(const Mesh& mesh) {
+  std::vector<double> mass = mesh.mass;
+  for (const Tie& tie : mesh.ties) {
+    for (const auto& master : tie.masters) mass[master.node] += master.weight * mesh.mass[tie.node];
+    mass[tie.node] = 0;
+  }
+  return mass;
+}
+
+}  // namespace ripstop::testing
