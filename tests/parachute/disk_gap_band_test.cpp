@@ -11,6 +11,7 @@
 #include <set>
 
 #include "ripstop/core/error.h"
+#include "ripstop/parachute/build.h"
 
 namespace ripstop {
 namespace {

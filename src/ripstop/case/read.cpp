@@ -77,9 +77,7 @@ void check_measured(const Case& value, Findings& findings) {
 
 /// The start shape, and the inflated shape that it may turn into, have to lie inside the box.
 void check_box(const Case& value, Findings& findings) {
-  if (!findings.sound({"parachute.type", "parachute.disk_diameter_m", "parachute.gap_height_m",
-                       "parachute.band_height_m", "flow.box_m", "flow.canopy_position_m"}))
-    return;
+  if (!findings.sound(shape_keys()) || !findings.sound({"flow.box_m", "flow.canopy_position_m"})) return;
   const Vec3 box = value.flow.box_m;
   const double diameter = start_diameter(value.parachute);
   const std::string canopy = fmt::format("a canopy of {:.6g} m diameter", diameter);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include "ripstop/material/lattice.h"
 
@@ -33,6 +34,16 @@ void add_cell_widths(Patch& patch, int row, int column, const CellWidths& w) {
 
 }  // namespace
 
+double Path::length() const {
+  return std::accumulate(lengths.begin(), lengths.end(), 0.0);
+}
+
+void Path::append(const Path& next, double gap) {
+  if (!nodes.empty()) lengths.push_back(gap);
+  nodes.insert(nodes.end(), next.nodes.begin(), next.nodes.end());
+  lengths.insert(lengths.end(), next.lengths.begin(), next.lengths.end());
+}
+
 int MeshBuilder::part(const std::string& name) {
   const auto found = std::find(mesh.parts.begin(), mesh.parts.end(), name);
   if (found != mesh.parts.end()) return static_cast<int>(found - mesh.parts.begin());
@@ -51,13 +62,12 @@ int MeshBuilder::add_node(Vec3 start, double mass) {
   return mesh.node_count() - 1;
 }
 
-int MeshBuilder::add_patch(const std::string& name, int rows, int columns, bool periodic, bool rolled_rows,
-                           const Fabric& fabric, const std::function<Vec3(int, int)>& position) {
+int MeshBuilder::add_patch(const std::string& name, const PatchShape& shape, const Fabric& fabric) {
   Patch patch;
   patch.name = name;
-  patch.rows = rows;
-  patch.columns = columns;
-  patch.periodic = periodic;
+  patch.rows = shape.rows;
+  patch.columns = shape.columns;
+  patch.periodic = shape.periodic;
   patch.first_node = mesh.node_count();
   const auto known = std::find(mesh.fabric_names.begin(), mesh.fabric_names.end(), fabric.name);
   patch.fabric = static_cast<int>(known - mesh.fabric_names.begin());
@@ -70,44 +80,56 @@ int MeshBuilder::add_patch(const std::string& name, int rows, int columns, bool 
   for (const Direction d : {bend_row, bend_column}) patch.law[d] = laws.bending;
   std::fill(std::begin(patch.damping), std::end(patch.damping), fabric.damping_n_s_m);
 
-  const int nodes = rows * columns;
+  const int nodes = patch.rows * patch.columns;
   for (int d = 0; d < direction_count; ++d) {
     patch.rest_length[d].assign(nodes, 0.0);
     patch.width[d].assign(nodes, 0.0);
   }
   patch.cell_area.assign(nodes, 0.0);
-  for (int row = 0; row < rows; ++row) {
-    for (int column = 0; column < columns; ++column) add_node(position(row, column), 0.0);
+  for (int row = 0; row < patch.rows; ++row) {
+    for (int column = 0; column < patch.columns; ++column) add_node(shape.start(row, column), 0.0);
   }
 
-  const auto at = [&](int row, int column) { return mesh.start[patch.node(row, column % columns)]; };
-  for (int row = 0; row + 1 < rows; ++row) {
-    for (int column = 0; column < (periodic ? columns : columns - 1); ++column) {
-      const Vec3 a = at(row, column), b = at(row, column + 1), c = at(row + 1, column + 1),
-                 d = at(row + 1, column);
+  const auto at = [&](int row, int column) { return mesh.start[patch.node(row, column % patch.columns)]; };
+  const auto corners = [&](int row, int column) {
+    if (shape.cut) return shape.cut(row, column);
+    return std::array{at(row, column), at(row, column + 1), at(row + 1, column + 1), at(row + 1, column)};
+  };
+  for (int row = 0; row + 1 < patch.rows; ++row) {
+    for (int column = 0; column < (patch.periodic ? patch.columns : patch.columns - 1); ++column) {
+      const auto [a, b, c, d] = corners(row, column);
       const double h_row = 0.5 * (norm(b - a) + norm(c - d));
       const double h_column = 0.5 * (norm(d - a) + norm(c - b));
       add_cell_widths(patch, row, column,
                       cell_widths(h_row, h_column, fabric.shear_fraction, fabric.bending_fraction));
+      const int next = (column + 1) % patch.columns;
+      patch.rest_length[along_row][row * patch.columns + column] = norm(b - a);
+      patch.rest_length[along_row][(row + 1) * patch.columns + column] = norm(c - d);
+      patch.rest_length[along_column][row * patch.columns + column] = norm(d - a);
+      patch.rest_length[along_column][row * patch.columns + next] = norm(c - b);
+      patch.rest_length[shear_up][row * patch.columns + column] = norm(c - a);
+      patch.rest_length[shear_down][row * patch.columns + next] = norm(d - b);
       const double area = norm(area_vector(a, b, c, d));
-      patch.cell_area[row * columns + column] = area;
-      const int next = (column + 1) % columns;
+      patch.cell_area[row * patch.columns + column] = area;
       for (const int node : {patch.node(row, column), patch.node(row, next), patch.node(row + 1, next),
                              patch.node(row + 1, column)}) {
         mesh.mass[node] += 0.25 * area * fabric.areal_density_kg_m2;
       }
     }
   }
-  for (int d = 0; d < direction_count; ++d) {
-    for (int row = 0; row < rows; ++row) {
-      for (int column = 0; column < columns; ++column) {
-        const int i = row * columns + column;
-        if (patch.width[d][i] <= 0) continue;
-        const int other = (column + direction_offset[d].column + columns) % columns;
-        patch.rest_length[d][i] = d == bend_row && rolled_rows
-                                      ? norm(at(row, column + 1) - at(row, column)) +
-                                            norm(at(row, column + 2) - at(row, column + 1))
-                                      : norm(at(row + direction_offset[d].row, other) - at(row, column));
+  for (int row = 0; row < patch.rows; ++row) {
+    for (int column = 0; column < patch.columns; ++column) {
+      const int i = row * patch.columns + column;
+      const int next = row * patch.columns + (column + 1) % patch.columns;
+      if (patch.width[bend_row][i] > 0) {
+        patch.rest_length[bend_row][i] =
+            shape.cut || shape.rolled_rows
+                ? patch.rest_length[along_row][i] + patch.rest_length[along_row][next]
+                : norm(at(row, column + 2) - at(row, column));
+      }
+      if (patch.width[bend_column][i] > 0) {
+        patch.rest_length[bend_column][i] =
+            patch.rest_length[along_column][i] + patch.rest_length[along_column][i + patch.columns];
       }
     }
   }
@@ -115,29 +137,73 @@ int MeshBuilder::add_patch(const std::string& name, int rows, int columns, bool 
   return static_cast<int>(mesh.patches.size()) - 1;
 }
 
-void MeshBuilder::add_tape(const std::vector<int>& nodes, bool closed, const Tape& tape, int tape_law,
-                           int tape_part) {
-  const std::size_t segments = closed ? nodes.size() : nodes.size() - 1;
-  for (std::size_t i = 0; i < segments; ++i) {
-    const int a = nodes[i], b = nodes[(i + 1) % nodes.size()];
-    const double length = norm(mesh.start[b] - mesh.start[a]);
+Path MeshBuilder::row(int index, int row) const {
+  const Patch& patch = mesh.patches[index];
+  Path path;
+  const int cells = patch.periodic ? patch.columns : patch.columns - 1;
+  for (int column = 0; column <= cells; ++column)
+    path.nodes.push_back(patch.node(row, column % patch.columns));
+  for (int column = 0; column < cells; ++column)
+    path.lengths.push_back(patch.rest_length[along_row][row * patch.columns + column]);
+  return path;
+}
+
+Path MeshBuilder::column(int index, int column, int first_row, int last_row) const {
+  const Patch& patch = mesh.patches[index];
+  Path path;
+  for (int row = first_row; row <= last_row; ++row) path.nodes.push_back(patch.node(row, column));
+  for (int row = first_row; row < last_row; ++row)
+    path.lengths.push_back(patch.rest_length[along_column][row * patch.columns + column]);
+  return path;
+}
+
+Path MeshBuilder::radial(const std::vector<int>& patches, int part, int parts) const {
+  Path path;
+  for (std::size_t k = 0; k < patches.size(); ++k) {
+    const Patch& patch = mesh.patches[patches[k]];
+    Path piece = column(patches[k], patch.columns / parts * part, 0, patch.rows - 1);
+    if (k + 1 < patches.size()) piece.nodes.pop_back();
+    path.nodes.insert(path.nodes.end(), piece.nodes.begin(), piece.nodes.end());
+    path.lengths.insert(path.lengths.end(), piece.lengths.begin(), piece.lengths.end());
+  }
+  return path;
+}
+
+void MeshBuilder::tie_rows(int lower, int upper) {
+  const Patch& below = mesh.patches[lower];
+  const Patch& above = mesh.patches[upper];
+  const int ratio = below.columns / above.columns;  // 1 or 2
+  for (int column = 0; column < below.columns; ++column) {
+    const int node = below.node(below.rows - 1, column), left = above.node(0, column / ratio);
+    if (column % ratio == 0) {
+      tie(node, {{left, 1.0}});
+    } else {
+      tie(node, {{left, 0.5}, {above.node(0, (column / ratio + 1) % above.columns), 0.5}});
+    }
+  }
+}
+
+void MeshBuilder::add_tape(const Path& path, const Tape& tape, int tape_law, int tape_part) {
+  for (std::size_t i = 0; i + 1 < path.nodes.size(); ++i) {
+    const int a = path.nodes[i], b = path.nodes[i + 1];
+    const double length = path.lengths[i];
     mesh.springs.push_back({a, b, length, tape.width_m, tape_law, tape.damping_n_s_m, tape_part});
     mesh.mass[a] += 0.5 * length * tape.linear_density_kg_m;
     mesh.mass[b] += 0.5 * length * tape.linear_density_kg_m;
   }
 }
 
-std::vector<int> MeshBuilder::add_chain(const std::vector<int>& nodes, const Line& line, int axial_law,
-                                        int bending_law, int line_part) {
+std::vector<int> MeshBuilder::add_chain(const Path& path, const Line& line, int axial_law, int bending_law,
+                                        int line_part) {
+  const std::vector<int>& nodes = path.nodes;
+  const std::vector<double>& length = path.lengths;
   std::vector<int> axial;
-  std::vector<double> length(nodes.size() - 1);
   for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
-    const int a = nodes[i], b = nodes[i + 1];
-    length[i] = norm(mesh.start[b] - mesh.start[a]);
     axial.push_back(static_cast<int>(mesh.springs.size()));
-    mesh.springs.push_back({a, b, length[i], 1.0, axial_law, line.damping_n_s_m, line_part});
-    mesh.mass[a] += 0.5 * length[i] * line.linear_density_kg_m;
-    mesh.mass[b] += 0.5 * length[i] * line.linear_density_kg_m;
+    mesh.springs.push_back(
+        {nodes[i], nodes[i + 1], length[i], 1.0, axial_law, line.damping_n_s_m, line_part});
+    mesh.mass[nodes[i]] += 0.5 * length[i] * line.linear_density_kg_m;
+    mesh.mass[nodes[i + 1]] += 0.5 * length[i] * line.linear_density_kg_m;
   }
   for (std::size_t i = 0; i + 2 < nodes.size(); ++i) {
     mesh.springs.push_back(
@@ -172,6 +238,11 @@ void MeshBuilder::flatten_ties() {
     flat.push_back(std::move(result));
   }
   mesh.ties = std::move(flat);
+  for (const Tie& tie : mesh.ties) {
+    Vec3 place{};
+    for (const Tie::Master& master : tie.masters) place += master.weight * mesh.start[master.node];
+    mesh.start[tie.node] = place;
+  }
 }
 
 }  // namespace ripstop

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include "ripstop/core/toml/fields.h"
@@ -13,54 +12,20 @@
 namespace ripstop {
 namespace {
 
-using std::numbers::pi;
-
-double area(const DiskGapBand& canopy) {
-  const double disk =
-      pi / 4 *
-      (canopy.disk_diameter_m * canopy.disk_diameter_m - canopy.vent_diameter_m * canopy.vent_diameter_m);
-  return disk + pi * canopy.disk_diameter_m * canopy.band_height_m;
-}
-
-double disk_width(const DiskGapBand& canopy) {
-  return (canopy.disk_diameter_m - canopy.vent_diameter_m) / 2;
-}
-
-double disk_width(const Design& design) {
-  return std::visit([](const auto& canopy) { return disk_width(canopy); }, design.canopy);
-}
-
-void check_shape(const DiskGapBand& canopy, Findings& findings) {
-  if (!findings.sound({"parachute.disk_diameter_m", "parachute.vent_diameter_m"})) return;
-  if (canopy.vent_diameter_m >= canopy.disk_diameter_m)
-    findings.add("parachute.vent_diameter_m", canopy.vent_diameter_m,
-                 fmt::format("below {}", canopy.disk_diameter_m),
-                 fmt::format("the vent must be smaller than the disk, parachute.disk_diameter_m = {}",
-                             canopy.disk_diameter_m));
-}
-
-/// All keys that decide the size of the canopy.
-const std::vector<std::string> shape_keys = {"parachute.type", "parachute.disk_diameter_m",
-                                             "parachute.vent_diameter_m", "parachute.gap_height_m",
-                                             "parachute.band_height_m"};
-
 void check_lines(const Design& design, Findings& findings) {
-  const double radius = start_diameter(design) / 2;
   const LineSet& lines = design.lines;
-  if (findings.sound({"parachute.disk_diameter_m", "parachute.lines.length_m"}) && lines.length_m <= radius)
+  const bool sound = findings.sound(shape_keys());
+  const double radius = sound ? facts(design).skirt_radius : 0;
+  if (sound && findings.sound({"parachute.lines.length_m"}) && lines.length_m <= radius)
     findings.add("parachute.lines.length_m", lines.length_m, fmt::format("above {}", radius),
                  fmt::format("the lines are too short to meet on the axis; they must be longer than the "
                              "radius of the skirt, {} m",
                              radius));
-  if (findings.sound(
-          {"parachute.disk_diameter_m", "parachute.vent_diameter_m", "parachute.lines.onto_disk_m"}) &&
-      lines.onto_disk_m) {
-    const double width = disk_width(design);
-    if (*lines.onto_disk_m > width * (1 + 1e-12))
-      findings.add(
-          "parachute.lines.onto_disk_m", *lines.onto_disk_m, fmt::format("at most {}", width),
-          fmt::format("the lines would run past the vent's edge, which lies {} m inside the disk's edge",
-                      width));
+  if (sound && findings.sound({"parachute.lines.onto_disk_m"}) && lines.onto_disk_m) {
+    const double run = facts(design).line_run;
+    if (*lines.onto_disk_m > run * (1 + 1e-12))
+      findings.add("parachute.lines.onto_disk_m", *lines.onto_disk_m, fmt::format("at most {}", run),
+                   fmt::format("the lines would run past the vent's edge, which lies {} m farther in", run));
   }
   if (findings.sound({"parachute.lines.length_m", "parachute.mesh.line_segment_m"}) &&
       design.mesh.line_segment_m > lines.length_m / 2)
@@ -71,11 +36,11 @@ void check_lines(const Design& design, Findings& findings) {
 
 /// Lines and seams both lie on columns of the mesh, so its columns are a multiple of both counts.
 void check_columns(const Design& design, Findings& findings) {
-  if (!findings.sound(shape_keys) ||
-      !findings.sound({"parachute.lines.count", "parachute.gores", "parachute.mesh.cloth_nodes"}))
+  if (!findings.sound(shape_keys()) ||
+      !findings.sound({"parachute.lines.count", "parachute.mesh.cloth_nodes"}))
     return;
   const double spacing = std::sqrt(computed_area(design) / design.mesh.cloth_nodes);
-  const double columns = pi * start_diameter(design) / spacing;
+  const double columns = facts(design).circumference / spacing;
   const int needed = std::lcm(design.lines.count, design.gores);
   if (needed <= columns) return;
   const double fitting = std::pow(needed / columns, 2) * design.mesh.cloth_nodes;
@@ -89,21 +54,6 @@ void check_columns(const Design& design, Findings& findings) {
 }
 
 }  // namespace
-
-void describe(Fields& fields, DiskGapBand& canopy) {
-  fields
-      .number("disk_diameter_m", canopy.disk_diameter_m, from(0.01).up_to(100),
-              "Diameter of the flat disk, which is the band's too.")
-      .required();
-  fields
-      .number("vent_diameter_m", canopy.vent_diameter_m, above(0).up_to(100),
-              "Diameter of the hole in the middle of the disk.")
-      .required();
-  fields.number("gap_height_m", canopy.gap_height_m, from(0).up_to(100), "Open height between disk and band.")
-      .required();
-  fields.number("band_height_m", canopy.band_height_m, above(0).up_to(100), "Height of the cylindrical band.")
-      .required();
-}
 
 void describe(Fields& fields, LineSet& lines) {
   fields.integer("count", lines.count, from(3).up_to(500), "Number of suspension lines, equally spaced.")
@@ -155,30 +105,43 @@ void describe(Fields& fields, Design& design) {
 }
 
 void check_design(const Design& design, Findings& findings) {
-  std::visit([&](const auto& canopy) { check_shape(canopy, findings); }, design.canopy);
+  std::visit([&](const auto& canopy) { check_shape(canopy, design, findings); }, design.canopy);
   check_lines(design, findings);
   check_columns(design, findings);
 }
 
+CanopyFacts facts(const Design& design) {
+  return std::visit([&](const auto& canopy) { return facts(canopy, design.gores); }, design.canopy);
+}
+
 double computed_area(const Design& design) {
-  return std::visit([](const auto& canopy) { return area(canopy); }, design.canopy);
+  return facts(design).cloth_area;
 }
 
 double nominal_area(const Design& design) {
-  return design.nominal_area_m2.value_or(computed_area(design));
+  return design.nominal_area_m2.value_or(facts(design).nominal_area);
 }
 
 double line_length_on_disk(const Design& design) {
-  return design.lines.onto_disk_m.value_or(disk_width(design));
+  return design.lines.onto_disk_m.value_or(facts(design).line_run);
 }
 
 double start_diameter(const Design& design) {
-  return std::visit([](const DiskGapBand& canopy) { return canopy.disk_diameter_m; }, design.canopy);
+  return facts(design).start_diameter;
 }
 
 double start_depth(const Design& design) {
-  return std::visit([](const DiskGapBand& canopy) { return canopy.gap_height_m + canopy.band_height_m; },
-                    design.canopy);
+  return facts(design).start_depth;
+}
+
+const std::vector<std::string>& shape_keys() {
+  static const std::vector<std::string> keys = {"parachute.type",
+                                                "parachute.gores",
+                                                "parachute.disk_diameter_m",
+                                                "parachute.vent_diameter_m",
+                                                "parachute.gap_height_m",
+                                                "parachute.band_height_m"};
+  return keys;
 }
 
 }  // namespace ripstop

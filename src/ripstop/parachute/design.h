@@ -4,19 +4,17 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
+
+#include "ripstop/parachute/disk_gap_band.h"
 
 namespace ripstop {
 
 class Fields;
 class Findings;
 
-/// [parachute] with type = "disk-gap-band": a flat disk with a vent, an open gap, a cylindrical band.
-struct DiskGapBand {
-  double disk_diameter_m = 0;
-  double vent_diameter_m = 0;
-  double gap_height_m = 0;
-  double band_height_m = 0;
-};
+/// The canopy families; a new one is one more alternative and its word in describe(Design).
+using Canopy = std::variant<DiskGapBand>;
 
 /// [parachute.lines]
 struct LineSet {
@@ -45,10 +43,10 @@ struct MeshSettings {
   double line_segment_m = 0.05;  // rest length of one spring of a line, aimed at
 };
 
-/// [parachute]. A new family is one more alternative of `canopy` and its describe().
+/// [parachute]
 struct Design {
-  std::variant<DiskGapBand> canopy;
-  std::optional<double> nominal_area_m2;  // reference area S0; absent: computed_area()
+  Canopy canopy;
+  std::optional<double> nominal_area_m2;  // reference area S0; absent: the type's own
   int gores = 0;
   std::string canopy_material = "f-111";
   LineSet lines;
@@ -57,7 +55,6 @@ struct Design {
   MeshSettings mesh;
 };
 
-void describe(Fields& fields, DiskGapBand& canopy);
 void describe(Fields& fields, LineSet& lines);
 void describe(Fields& fields, TapeLayout& tape);
 void describe(Fields& fields, Riser& riser);
@@ -68,14 +65,19 @@ void describe(Fields& fields, Design& design);
 /// Reports what single ranges do not show: a vent wider than the disk, lines that cannot meet on the axis.
 void check_design(const Design& design, Findings& findings);
 
-/// Area of the cloth as cut, without the gap and the vent [m2].
+/// Sizes of the canopy, by its family's own definitions.
+CanopyFacts facts(const Design& design);
+/// Area of the cloth as cut, without gaps, slots and vent [m2].
 double computed_area(const Design& design);
-/// Reference area S0 of the coefficients: as given, else computed_area() [m2].
+/// Reference area S0 of the coefficients: as given, else by the type's definition [m2].
 double nominal_area(const Design& design);
-/// How far the lines run inward onto the disk: as given, else up to the vent's edge [m].
+/// How far the lines run onto the canopy, as given, else up to the vent's edge [m]: from the disk's edge
+/// (disk-gap-band) or from the skirt.
 double line_length_on_disk(const Design& design);
-/// Diameter of the flat start shape [m], and its length from the skirt downstream [m].
+/// Largest diameter of the start shape [m], and its length from the skirt downstream [m].
 double start_diameter(const Design& design);
 double start_depth(const Design& design);
+/// The keys that decide the size of the canopy, of all families.
+const std::vector<std::string>& shape_keys();
 
 }  // namespace ripstop

@@ -1,9 +1,28 @@
 // The disk-gap-band canopy: a flat disk with a vent, a gap that only the lines span, a cylindrical band.
 #pragma once
 
-#include "ripstop/parachute/build.h"
+#include "ripstop/parachute/facts.h"
+#include "ripstop/parachute/mesh.h"
 
 namespace ripstop {
+
+class Fields;
+class Findings;
+struct Design;
+struct PartMaterials;
+
+/// [parachute] with type = "disk-gap-band": a flat disk with a vent, an open gap, a cylindrical band.
+struct DiskGapBand {
+  double disk_diameter_m = 0;
+  double vent_diameter_m = 0;
+  double gap_height_m = 0;
+  double band_height_m = 0;
+};
+
+void describe(Fields& fields, DiskGapBand& canopy);
+void check_shape(const DiskGapBand& canopy, const Design& design, Findings& findings);
+/// S0 is the cloth's area: disk - vent + band, as [NFM] has it. The lines' run counts from the disk's edge.
+CanopyFacts facts(const DiskGapBand& canopy, int gores);
 
 /// Start shape: skirt (the band's lower edge) in the plane z = 0, mouth toward -z, disk flat at z = band +
 /// gap, lines straight and taut from the confluence on the axis.

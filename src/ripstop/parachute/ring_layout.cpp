@@ -1,0 +1,110 @@
+#include "ripstop/parachute/ring_layout.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "ripstop/core/error.h"
+
+namespace ripstop {
+namespace {
+
+// Columns are halved where they are closer than this many times the mean spacing, or wider just below: 0.72
+// and 1.44.
+constexpr double closest = 0.72;
+
+int cells_for(double length, double spacing) {
+  return std::max(2, static_cast<int>(std::lround(length / spacing)));
+}
+
+/// Where the strip, which narrows upward, is `wanted` round; its length if it nowhere is.
+double distance_of(const Strip& strip, double wanted) {
+  if (strip.circumference(strip.length) > wanted) return strip.length;
+  double low = 0, high = strip.length;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (strip.circumference(middle) > wanted ? low : high) = middle;
+  }
+  return high;
+}
+
+std::vector<Ring> lay_out_strip(const Strip& strip, int& columns, double spacing, double row_spacing,
+                                int multiple) {
+  const auto too_close = [&](double distance) {
+    return columns % (2 * multiple) == 0 &&
+           strip.circumference(distance) < closest * spacing * columns * (1 - 1e-9);
+  };
+  std::vector<Ring> rings;
+  if (too_close(strip.whole ? 0.5 * strip.length : 0)) columns /= 2;
+  double from = 0;
+  while (true) {
+    double to = distance_of(strip, closest * spacing * columns);
+    const bool last = strip.whole || columns % (2 * multiple) != 0 || to > strip.length - spacing;
+    if (last) to = strip.length;
+    if (to - from > 1.5 * row_spacing || last) {
+      rings.push_back({columns, from, to, cells_for(to - from, row_spacing)});
+      from = to;
+    }
+    if (last) return rings;
+    columns /= 2;
+  }
+}
+
+RingLayout lay_out(const std::vector<Strip>& strips, int columns, double spacing, double row_spacing,
+                   int multiple) {
+  RingLayout layout;
+  for (const Strip& strip : strips)
+    layout.strips.push_back(lay_out_strip(strip, columns, spacing, row_spacing, multiple));
+  return layout;
+}
+
+}  // namespace
+
+int RingLayout::nodes() const {
+  int count = 0;
+  for (const std::vector<Ring>& rings : strips)
+    for (const Ring& ring : rings) count += ring.columns * (ring.cells + 1);
+  return count;
+}
+
+RingLayout lay_out_rings(const std::vector<Strip>& strips, double cloth_area, const Design& design) {
+  const int nodes = design.mesh.cloth_nodes;
+  const double spacing = std::sqrt(cloth_area / nodes);
+  const int multiple = std::lcm(design.gores, design.lines.count);
+  double edge_columns = 0;
+  for (const Strip& strip : strips) edge_columns = std::max(edge_columns, strip.circumference(0) / spacing);
+  const double vent_columns = strips.back().circumference(strips.back().length) / spacing;
+  int best = 0;
+  double best_score = 1e300;
+  for (int base = multiple; base <= 2 * edge_columns; base += multiple) {
+    for (int columns = base; columns <= 2 * edge_columns; columns *= 2) {
+      // Squareness of the cells at the edge and at the vent, as logarithms of the spacing's departure from
+      // the mean.
+      const double at_edge = std::log(columns / edge_columns);
+      const double at_vent = std::log(std::max(1.0, base / vent_columns));
+      const double score = at_edge * at_edge + 0.5 * at_vent * at_vent;
+      if (score >= best_score) continue;
+      best_score = score;
+      best = columns;
+    }
+  }
+  if (best == 0) {
+    throw Error(
+        ExitCode::usage,
+        fmt::format(
+            "parachute.mesh.cloth_nodes = {}: too few for {} gores and {} lines, whose seams and radials "
+            "need columns in multiples of {}; ask for more nodes",
+            nodes, design.gores, design.lines.count, multiple));
+  }
+  // The row spacing is what is left to meet the node count.
+  double low = 0.2 * spacing, high = 5 * spacing;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = std::sqrt(low * high);
+    (lay_out(strips, best, spacing, middle, multiple).nodes() > nodes ? low : high) = middle;
+  }
+  return lay_out(strips, best, spacing, high, multiple);
+}
+
+}  // namespace ripstop
