@@ -125,7 +125,9 @@ std::vector<std::string> merged_environment(const ProcessRequest& request) {
                                                [&](const auto& added) { return added.first == name; });
     if (!replaced) all.push_back(text);
   }
-  if (!request.working_folder.empty()) all.push_back("PWD=" + request.working_folder.string());
+  if (!request.working_folder.empty()) {
+    all.push_back("PWD=" + std::filesystem::absolute(request.working_folder).string());
+  }
   for (const auto& [name, value] : request.environment) all.push_back(name + "=" + value);
   return all;
 }
@@ -210,7 +212,7 @@ class LineReader {
 ProcessResult run_process(const ProcessRequest& request) {
   const std::string& name = request.arguments.at(0);
   const std::filesystem::path program =
-      name.find('/') == std::string::npos ? find_program(name) : std::filesystem::path(name);
+      name.find('/') == std::string::npos ? find_program(name) : std::filesystem::absolute(name);
   if (program.empty()) throw Error(ExitCode::external, fmt::format("program '{}' is not in PATH", name));
 
   const auto began = Clock::now();
@@ -261,15 +263,19 @@ ProcessResult run_process(const ProcessRequest& request) {
 
 std::filesystem::path find_program(const std::string& name, const std::filesystem::path& folder) {
   const auto executable = [](const std::filesystem::path& path) {
-    return std::filesystem::is_regular_file(path) && access(path.c_str(), X_OK) == 0;
+    std::error_code unreadable;
+    return std::filesystem::is_regular_file(path, unreadable) && access(path.c_str(), X_OK) == 0;
   };
-  if (!folder.empty()) return executable(folder / name) ? folder / name : std::filesystem::path();
+  if (!folder.empty()) {
+    const std::filesystem::path candidate = std::filesystem::absolute(folder) / name;
+    return executable(candidate) ? candidate : std::filesystem::path();
+  }
   const char* variable = std::getenv("PATH");
   std::string places = variable ? variable : "/usr/bin:/bin";
   for (std::size_t begin = 0; begin <= places.size();) {
     const std::size_t end = std::min(places.find(':', begin), places.size());
     const std::filesystem::path candidate = std::filesystem::path(places.substr(begin, end - begin)) / name;
-    if (end > begin && executable(candidate)) return candidate;
+    if (end > begin && executable(candidate)) return std::filesystem::absolute(candidate);
     begin = end + 1;
   }
   return {};

@@ -99,12 +99,7 @@ FlowField read_case(const std::vector<MeshPart>& parts, const std::string& time,
     const FieldData p = read_field(folder / "p", 1, count);
     const FieldData velocity = read_field(folder / "U", 3, count);
     const FieldData rho = read_field(folder / "rho", 1, count);
-    const FieldData phi = read_field(
-        folder / "phi", 1, part.owner.size() - [&] {
-          std::size_t faces = 0;
-          for (const Patch& patch : part.patches) faces += static_cast<std::size_t>(patch.faces);
-          return faces;
-        }());
+    const FieldData phi = read_field(folder / "phi", 1, part.inner_faces());
     for (std::size_t local = 0; local < count; ++local) {
       const int cell = part.global(local);
       const Vec3 u{velocity.at(velocity.inner, local, 0), velocity.at(velocity.inner, local, 1),

@@ -18,6 +18,11 @@ struct MeshPart {
   std::vector<Patch> patches;
 
   std::size_t count(const FlowGrid& grid) const { return cells.empty() ? grid.cells() : cells.size(); }
+  std::size_t inner_faces() const {
+    std::size_t faces = owner.size();
+    for (const Patch& patch : patches) faces -= static_cast<std::size_t>(patch.faces);
+    return faces;
+  }
   int global(std::size_t cell) const { return cells.empty() ? static_cast<int>(cell) : cells[cell]; }
 };
 

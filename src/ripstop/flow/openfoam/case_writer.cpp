@@ -218,10 +218,11 @@ To run it by hand, with OpenFOAM's programs in PATH and WM_PROJECT_DIR set
 (Debian: export WM_PROJECT_DIR=/usr/share/openfoam):
 
     rm -f {}
+    blockMesh
+    cp constant/cellZones constant/polyMesh/
 {}
-The zones of porous cells are in constant/polyMesh/cellZones and their
-resistances in constant/fvOptions. blockMesh removes the zones: run it only to
-make the mesh anew, and let Ripstop write the zones.
+The porous cells are in constant/cellZones, their resistances in
+constant/fvOptions. blockMesh and cp are needed only to make the mesh anew.
 )foam";
 
 }  // namespace
@@ -271,15 +272,15 @@ void write_case(const fs::path& folder, const FlowProblem& problem, bool second_
   const FlowGrid& grid = problem.grid;
   write_dictionary(folder / "system/blockMeshDict", "dictionary", mesh_dictionary(grid));
   write_dictionary(folder / "system/fvSchemes", "dictionary",
-                   fmt::format(kSchemes, second_order ? "linearUpwind default" : "upwind"));
+                   fmt::format(kSchemes, second_order ? "linearUpwind grad(U)" : "upwind"));
   const std::array<int, 3> parts = split(grid, ranks);
   write_dictionary(folder / "system/decomposeParDict", "dictionary",
                    fmt::format("numberOfSubdomains {};\nmethod hierarchical;\n"
                                "coeffs {{ n ({} {} {}); order xyz; delta 1e-6; }}\n",
                                ranks, parts[0], parts[1], parts[2]));
-  write_dictionary(folder / "constant/thermophysicalProperties", "dictionary",
-                   fmt::format(kThermophysics, kMolarGasConstant / kOpenFoamGasConstant,
-                               problem.air.viscosity));
+  write_dictionary(
+      folder / "constant/thermophysicalProperties", "dictionary",
+      fmt::format(kThermophysics, kMolarGasConstant / kOpenFoamGasConstant, problem.air.viscosity));
   write_dictionary(folder / "constant/turbulenceProperties", "dictionary",
                    "simulationType RAS;\nRAS { RASModel kOmegaSST; turbulence on; printCoeffs off; }\n");
   const std::string run = ranks > 1
@@ -289,8 +290,8 @@ void write_case(const fs::path& folder, const FlowProblem& problem, bool second_
                                     ranks)
                               : "    rhoPorousSimpleFoam\n";
   std::ofstream readme(folder / kReadme);
-  readme << fmt::format(kReadmeText, grid.nx, grid.ny, grid.nz, problem.air.density,
-                        problem.air.speed, problem.duct ? "slip" : "open", kStopFile, run);
+  readme << fmt::format(kReadmeText, grid.nx, grid.ny, grid.nz, problem.air.density, problem.air.speed,
+                        problem.duct ? "slip" : "open", kStopFile, run);
 }
 
 void write_initial_fields(const fs::path& folder, const FlowProblem& problem) {
@@ -325,13 +326,12 @@ void write_initial_fields(const fs::path& folder, const FlowProblem& problem) {
 
 void write_control(const fs::path& folder, const FlowProblem& problem, const RunControl& control) {
   write_dictionary(folder / "system/controlDict", "dictionary",
-                   fmt::format(kControl, control.start + control.iterations, control.iterations,
-                               kStopFile, problem.porous.empty() ? "" : kForces));
+                   fmt::format(kControl, control.start + control.iterations, control.iterations, kStopFile,
+                               problem.porous.empty() ? "" : kForces));
 }
 
 void write_solution(const fs::path& folder, const FlowProblem& problem) {
-  write_dictionary(folder / "system/fvSolution", "dictionary",
-                   fmt::format(kSolution, problem.residual));
+  write_dictionary(folder / "system/fvSolution", "dictionary", fmt::format(kSolution, problem.residual));
 }
 
 void write_resistance(const fs::path& folder, const std::vector<PorousCells>& porous) {
@@ -342,7 +342,7 @@ void write_resistance(const fs::path& folder, const std::vector<PorousCells>& po
   write_dictionary(folder / "constant/fvOptions", "dictionary", body);
 }
 
-void write_zones(const fs::path& mesh, const std::vector<std::vector<int>>& zones) {
+void write_zones(const fs::path& folder, const std::vector<std::vector<int>>& zones) {
   std::string body = fmt::format("{}\n(\n", zones.size());
   for (std::size_t zone = 0; zone < zones.size(); ++zone) {
     body += fmt::format("porous{}\n{{\n    type cellZone;\n    cellLabels List<label> {}(", zone,
@@ -350,7 +350,7 @@ void write_zones(const fs::path& mesh, const std::vector<std::vector<int>>& zone
     for (const int cell : zones[zone]) body += fmt::format("{}\n", cell);
     body += ");\n}\n";
   }
-  write_dictionary(mesh / "cellZones", "regIOobject", body + ")\n");
+  write_dictionary(folder / "cellZones", "regIOobject", body + ")\n");
 }
 
 }  // namespace ripstop::openfoam

@@ -31,8 +31,8 @@ void write_control(const std::filesystem::path& folder, const FlowProblem& probl
 /// system/fvSolution holds the residual to be reached, constant/fvOptions the resistances.
 void write_solution(const std::filesystem::path& folder, const FlowProblem& problem);
 void write_resistance(const std::filesystem::path& folder, const std::vector<PorousCells>& porous);
-/// polyMesh/cellZones with one zone a list; `mesh` is the polyMesh folder.
-void write_zones(const std::filesystem::path& mesh, const std::vector<std::vector<int>>& zones);
+/// cellZones with one zone a list.
+void write_zones(const std::filesystem::path& folder, const std::vector<std::vector<int>>& zones);
 
 inline constexpr const char* kStopFile = "stop";
 inline constexpr const char* kReadme = "README.txt";  // its presence marks a case as ours

@@ -48,6 +48,10 @@ class OpenFoam : public FlowEngine {
       throw Error(ExitCode::usage,
                   fmt::format("OpenFOAM: ranks is {}; it must be 1 or more", settings.ranks));
     }
+    if (!settings.hostfile.empty() && !fs::exists(settings.hostfile)) {
+      throw Error(ExitCode::usage,
+                  fmt::format("OpenFOAM: the hostfile {} does not exist", settings.hostfile.string()));
+    }
     check_folder(folder_);
     installation_ = find_installation(settings.program_folder, settings.ranks > 1);
     if (fs::exists(folder_)) clear();
@@ -66,7 +70,7 @@ class OpenFoam : public FlowEngine {
     const std::string start = latest_time(part_folder(0));
     fs::remove(folder_ / kStopFile);
     SolverLog log(!problem.porous.empty());
-    const ProcessResult result = run_solver(problem, report, log);
+    const ProcessResult result = run_solver(report, log);
     explain_failure(result, log);
 
     const std::string time = latest_time(part_folder(0));
@@ -97,11 +101,13 @@ class OpenFoam : public FlowEngine {
                               state.basis.second_order ? "second-order" : "first-order", settings_.ranks,
                               settings_.second_order ? "second-order" : "first-order"));
     }
-    FlowProblem problem;
-    problem.grid = state.basis.grid;
-    problem.air = state.basis.air;
-    problem.duct = state.basis.duct;
-    prepare(problem, state.basis);
+    if (!basis_ || !(*basis_ == state.basis)) {
+      FlowProblem problem;
+      problem.grid = state.basis.grid;
+      problem.air = state.basis.air;
+      problem.duct = state.basis.duct;
+      prepare(problem, state.basis);
+    }
     copy_state(folder, state, part_folders());
     purge(state.time);
   }
@@ -138,17 +144,12 @@ class OpenFoam : public FlowEngine {
     need_space(problem.grid);
     write_case(folder_, problem, settings_.second_order, settings_.ranks);
     write_initial_fields(folder_, problem);
-    write_problem_dictionaries(problem);
+    write_control(folder_, problem, {0, problem.max_iterations});  // OpenFOAM's tools ask for one
+    write_solution(folder_, problem);
     run_tool("blockMesh");
     if (settings_.ranks > 1) run_tool("decomposePar");
     mesh_ = read_mesh(folder_, settings_.ranks);
     basis_ = basis;
-  }
-
-  void write_problem_dictionaries(const FlowProblem& problem) {
-    write_control(folder_, problem, {0, problem.max_iterations});
-    write_solution(folder_, problem);
-    write_resistance(folder_, problem.porous);
   }
 
   /// What may change from solve to solve: porous cells, resistances, residual, number of iterations.
@@ -160,6 +161,11 @@ class OpenFoam : public FlowEngine {
     for (std::size_t zone = 0; zone < problem.porous.size(); ++zone) {
       for (const int cell : problem.porous[zone].cells) zone_of[cell] = static_cast<int>(zone);
     }
+    std::vector<std::vector<int>> whole;
+    for (const PorousCells& porous : problem.porous) whole.push_back(porous.cells);
+    write_zones(folder_ / "constant", whole);  // for a run by hand: blockMesh removes those of the mesh
+    write_zones(folder_ / "constant/polyMesh", whole);
+    if (settings_.ranks == 1) return;
     for (const MeshPart& part : mesh_) {
       std::vector<std::vector<int>> zones(problem.porous.size());
       for (std::size_t cell = 0; cell < part.count(problem.grid); ++cell) {
@@ -206,12 +212,15 @@ class OpenFoam : public FlowEngine {
     }
   }
 
-  ProcessResult run_solver(const FlowProblem& problem, const FlowReport& report, SolverLog& log) {
+  ProcessResult run_solver(const FlowReport& report, SolverLog& log) {
     std::vector<std::string> arguments;
     if (settings_.ranks > 1) {
       arguments = {program(installation_, "mpirun").string(), "-np", std::to_string(settings_.ranks)};
       if (settings_.hostfile.empty()) {
-        arguments.push_back("--oversubscribe");
+        // Ranks on logical processors are allowed; runs side by side must not be pinned to the same ones, and
+        // a rank that waits must leave its processor to the one it waits for.
+        arguments.insert(arguments.end(),
+                         {"--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1"});
       } else {
         arguments.insert(arguments.end(), {"--hostfile", fs::absolute(settings_.hostfile).string()});
       }
@@ -232,7 +241,6 @@ class OpenFoam : public FlowEngine {
     };
     const ProcessResult result = run_process(request);
     fs::remove(folder_ / kStopFile);
-    static_cast<void>(problem);
     return result;
   }
 

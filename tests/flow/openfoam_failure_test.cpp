@@ -1,0 +1,170 @@
+// What happens when OpenFOAM is missing, is another one, or fails. A shell script stands in for its programs.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+
+#include "ripstop/core/error.h"
+#include "ripstop/core/process.h"
+#include "ripstop/flow/openfoam/openfoam.h"
+
+namespace ripstop {
+namespace {
+
+namespace fs = std::filesystem;
+
+class OpenFoamFailure : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    root_ = fs::temp_directory_path() / ("ripstop_" + std::to_string(getpid()) + "_" + info->name());
+    fs::create_directories(root_ / "bin");
+    settings_.folder = root_ / "case";
+    settings_.program_folder = root_ / "bin";
+    settings_.time_limit_s = 60;
+    problem_.grid = {{0, 0, 0}, {1, 1, 1}, 4, 4, 4};
+    problem_.air.speed = 10;
+    problem_.porous = {{{21, 22}, 100, 10}};
+    problem_.max_iterations = 3;
+  }
+  void TearDown() override { fs::remove_all(root_); }
+
+  void script(const std::string& name, const std::string& body) {
+    const fs::path path = root_ / "bin" / name;
+    std::ofstream(path) << "#!/bin/sh\n" << body << "\n";
+    fs::permissions(path, fs::perms::owner_all);
+  }
+  /// The real mesher, and a solver that knows its version and then does `body`.
+  void solver(const std::string& body) {
+    fs::create_symlink(find_program("blockMesh"), root_ / "bin/blockMesh");
+    script(
+        "rhoPorousSimpleFoam",
+        "if [ \"$1\" = -help ]; then echo 'Using: OpenFOAM- (1912) - visit www.openfoam.com'; exit 0; fi\n" +
+            body);
+  }
+  /// The message of the error that making the engine or its solve ends with.
+  std::string message(ExitCode code) {
+    try {
+      make_openfoam(settings_)->solve(problem_, {});
+    } catch (const Error& error) {
+      EXPECT_EQ(static_cast<int>(error.code()), static_cast<int>(code)) << error.what();
+      return error.what();
+    }
+    ADD_FAILURE() << "no error";
+    return {};
+  }
+
+  fs::path root_;
+  OpenFoamSettings settings_;
+  FlowProblem problem_;
+};
+
+bool says(const std::string& message, const std::string& words) {
+  return message.find(words) != std::string::npos;
+}
+
+constexpr const char* kOneIteration =
+    "echo 'Time = 1'\n"
+    "echo 'smoothSolver:  Solving for Ux, Initial residual = 1, Final residual = 0.01, No Iterations 2'\n"
+    "echo 'GAMG:  Solving for p, Initial residual = 0.5, Final residual = 0.01, No Iterations 2'\n";
+
+TEST_F(OpenFoamFailure, AMissingProgramNamesThePackage) {
+  EXPECT_PRED2(says, message(ExitCode::external), "apt install openfoam");
+}
+
+TEST_F(OpenFoamFailure, AnotherLineOfOpenFoamIsNamed) {
+  script("blockMesh", "exit 0");
+  script("rhoPorousSimpleFoam", "echo 'Using: OpenFOAM-10 (see https://openfoam.org)'");
+  const std::string text = message(ExitCode::external);
+  EXPECT_PRED2(says, text, "OpenFOAM-10");
+  EXPECT_PRED2(says, text, "openfoam.com");
+}
+
+TEST_F(OpenFoamFailure, AFolderWithASpaceIsRefusedBeforeAnythingRuns) {
+  settings_.folder = root_ / "my case";
+  EXPECT_PRED2(says, message(ExitCode::usage), "my case");
+  EXPECT_FALSE(fs::exists(settings_.folder));
+}
+
+TEST_F(OpenFoamFailure, AFolderWithOtherFilesIsLeftAlone) {
+  fs::create_directories(root_ / "case/0");
+  std::ofstream(root_ / "case/0/mine") << "precious";
+  EXPECT_PRED2(says, message(ExitCode::usage), "not a case of Ripstop's");
+  EXPECT_TRUE(fs::exists(root_ / "case/0/mine"));
+}
+
+TEST_F(OpenFoamFailure, ExitWithoutFieldsIsNoSuccess) {
+  solver("exit 0");
+  EXPECT_PRED2(says, message(ExitCode::external), "left no fields");
+}
+
+TEST_F(OpenFoamFailure, ACutFieldIsNotRead) {
+  solver("cp -r 0 3; cp 0/p 3/rho; cp 0/p 3/phi; head -c 300 0/U > 3/U; echo End");
+  const std::string text = message(ExitCode::io);
+  EXPECT_PRED2(says, text, "3/U");
+}
+
+TEST_F(OpenFoamFailure, AKilledSolverPointsToMemory) {
+  solver(std::string(kOneIteration) + "kill -9 $$");
+  const std::string text = message(ExitCode::external);
+  EXPECT_PRED2(says, text, "signal 9");
+  EXPECT_PRED2(says, text, "memory");
+  EXPECT_PRED2(says, text, "iteration 1, field p");
+}
+
+TEST_F(OpenFoamFailure, NotANumberEndsTheSolverAtOnce) {
+  solver(std::string(kOneIteration) +
+         "echo 'Time = 2'\necho 'smoothSolver:  Solving for omega, Initial residual = -nan, Final residual = "
+         "nan, No "
+         "Iterations 1000'\nsleep 60");
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_PRED2(says, message(ExitCode::diverged), "iteration 2, field omega");
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
+}
+
+TEST_F(OpenFoamFailure, AFloatingPointTrapIsADivergence) {
+  solver(std::string(kOneIteration) + "exit 136");
+  EXPECT_PRED2(says, message(ExitCode::diverged), "iteration 1, field p");
+}
+
+TEST_F(OpenFoamFailure, TheTimeLimitIsNamed) {
+  solver(std::string(kOneIteration) + "sleep 60");
+  settings_.time_limit_s = 3;
+  EXPECT_PRED2(says, message(ExitCode::external), "after 3 s");
+}
+
+TEST_F(OpenFoamFailure, OpenFoamsOwnMessageIsPassedOn) {
+  solver("echo '--> FOAM FATAL IO ERROR: '; echo 'keyword div(phi,U) is undefined'; exit 1");
+  const std::string text = message(ExitCode::external);
+  EXPECT_PRED2(says, text, "keyword div(phi,U) is undefined");
+  EXPECT_PRED2(says, text, "exit code 1");
+  EXPECT_PRED2(says, text, "log.rhoPorousSimpleFoam");
+}
+
+TEST_F(OpenFoamFailure, NumbersOutOfRangeAreNamedAndNothingIsWritten) {
+  solver("exit 0");
+  problem_.air.speed = -3;
+  EXPECT_PRED2(says, message(ExitCode::usage), "air speed is -3");
+  problem_.air.speed = NAN;
+  message(ExitCode::usage);
+  problem_.air.speed = 10;
+  problem_.porous[0].cells = {64};
+  EXPECT_PRED2(says, message(ExitCode::usage), "porous cell is 64");
+  problem_.porous = {{{3}, 1, 1}, {{3}, 1, 1}};
+  EXPECT_PRED2(says, message(ExitCode::usage), "porous twice");
+  EXPECT_FALSE(fs::exists(root_ / "case"));
+}
+
+TEST_F(OpenFoamFailure, ARealFlowThatCannotHoldDiverges) {
+  settings_.program_folder.clear();
+  problem_.air.speed = 150;
+  problem_.porous = {{{}, 0, 1e12}};
+  for (int cell = 16; cell < 32; ++cell) problem_.porous[0].cells.push_back(cell);
+  problem_.duct = true;
+  problem_.max_iterations = 500;
+  message(ExitCode::diverged);
+}
+
+}  // namespace
+}  // namespace ripstop
