@@ -245,9 +245,10 @@ TEST_F(OpenFoam, OtherAirOrAnotherGridStartsAfresh) {
 TEST_F(OpenFoam, WithoutPorousCellsTheAirPassesUndisturbed) {
   FlowProblem problem = disc_in_box();
   problem.porous.clear();
-  int iterations = 0;
-  const FlowField field = engine()->solve(problem, [&](const FlowProgress&) { return ++iterations < 3; });
-  EXPECT_GE(iterations, 3);
+  problem.grid = {{-1, -1, 0}, {2, 2, 3}, 6, 6, 9};
+  int reports = 0;
+  const FlowField field = engine()->solve(problem, [&](const FlowProgress&) { return ++reports < 3; });
+  EXPECT_EQ(reports, 3);
   for (int cell = 0; cell < problem.grid.cells(); ++cell) {
     ASSERT_NEAR(field.pressure[cell], 0, 1e-3);
     ASSERT_NEAR(norm(field.velocity[cell] - Vec3{0, 0, 20}), 0, 1e-4);

@@ -54,6 +54,25 @@ double outflow_of_momentum(const MeshPart& part, const FieldData& phi, const Fie
   return loss;
 }
 
+/// A pressure at the solver's own limits, and of course no number, is no solution.
+void check_range(const FlowField& field, double outlet) {
+  const double low = (kLowestPressure - 1) * outlet, high = (kHighestPressure - 1) * outlet;
+  for (std::size_t cell = 0; cell < field.pressure.size(); ++cell) {
+    const double gauge = field.pressure[cell];
+    if (!std::isfinite(gauge) || !is_finite(field.velocity[cell])) {
+      throw Error(ExitCode::diverged, fmt::format("OpenFOAM's fields are not finite in cell {}", cell));
+    }
+    if (gauge < 0.999 * low || gauge > 0.999 * high) {
+      throw Error(
+          ExitCode::diverged,
+          fmt::format("the flow diverged: the pressure ran into its limits, {:.0f} and {:.0f} Pa about the "
+                      "outlet's, in cell {}. A duct that is blocked cannot pass the stated speed: lower "
+                      "the resistance or the speed",
+                      low, high, cell));
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<MeshPart> read_mesh(const fs::path& folder, int ranks) {
@@ -113,12 +132,7 @@ FlowField read_case(const std::vector<MeshPart>& parts, const std::string& time,
     }
     field.momentum_deficit += outflow_of_momentum(part, phi, velocity, field.pressure, problem);
   }
-  for (std::size_t cell = 0; cell < field.pressure.size(); ++cell) {
-    if (!std::isfinite(field.pressure[cell]) || !is_finite(field.velocity[cell])) {
-      throw Error(ExitCode::diverged,
-                  fmt::format("OpenFOAM's fields at iteration {} are not finite in cell {}", time, cell));
-    }
-  }
+  check_range(field, outlet);
   return field;
 }
 

@@ -133,8 +133,8 @@ SIMPLE
 {{
     nNonOrthogonalCorrectors 0;
     nUCorrectors 2;
-    pMinFactor 0.5;
-    pMaxFactor 2;
+    pMinFactor {1};
+    pMaxFactor {2};
     residualControl {{ "(p|U|k|omega|e)" {0:.17g}; }}
 }}
 relaxationFactors
@@ -331,7 +331,8 @@ void write_control(const fs::path& folder, const FlowProblem& problem, const Run
 }
 
 void write_solution(const fs::path& folder, const FlowProblem& problem) {
-  write_dictionary(folder / "system/fvSolution", "dictionary", fmt::format(kSolution, problem.residual));
+  write_dictionary(folder / "system/fvSolution", "dictionary",
+                   fmt::format(kSolution, problem.residual, kLowestPressure, kHighestPressure));
 }
 
 void write_resistance(const fs::path& folder, const std::vector<PorousCells>& porous) {

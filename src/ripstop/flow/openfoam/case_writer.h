@@ -34,6 +34,8 @@ void write_resistance(const std::filesystem::path& folder, const std::vector<Por
 /// cellZones with one zone a list.
 void write_zones(const std::filesystem::path& folder, const std::vector<std::vector<int>>& zones);
 
+/// The solver clips the pressure to these multiples of the outlet's while it starts up.
+inline constexpr double kLowestPressure = 0.5, kHighestPressure = 2;
 inline constexpr const char* kStopFile = "stop";
 inline constexpr const char* kReadme = "README.txt";  // its presence marks a case as ours
 
