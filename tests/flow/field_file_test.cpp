@@ -1,0 +1,130 @@
+#include "ripstop/flow/openfoam/field_file.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <fstream>
+
+#include "ripstop/core/error.h"
+#include "ripstop/flow/openfoam/solver_log.h"
+
+namespace ripstop::openfoam {
+namespace {
+
+namespace fs = std::filesystem;
+
+class FieldFile : public testing::Test {
+ protected:
+  void SetUp() override { path_ = fs::temp_directory_path() / ("ripstop_field_" + std::to_string(getpid())); }
+  void TearDown() override { fs::remove(path_); }
+  void write(const std::string& text) const { std::ofstream(path_, std::ios::binary) << text; }
+
+  fs::path path_;
+};
+
+std::string header(const std::string& format) {
+  return "/*--- OpenFOAM ---*/\nFoamFile\n{\n version 2.0;\n format " + format +
+         ";\n class volVectorField;\n arch \"LSB;label=32;scalar=64\";\n object U;\n}\n// * * *\n";
+}
+
+std::string bytes(const std::vector<double>& values) {
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double)};
+}
+
+TEST_F(FieldFile, BinaryAndTextHoldTheSameField) {
+  // Bytes that look like OpenFOAM's punctuation must not end a list.
+  double tricky;
+  std::memcpy(&tricky, ");})\n;(\x40", sizeof tricky);
+  const std::vector<double> inner = {1, 2, 3, tricky, -5, 6e-300};
+  const std::string rest = "  \n}\n";
+  write(header("binary") + "dimensions [0 1 -1 0 0 0 0];\ninternalField nonuniform List<vector> \n2\n(" +
+        bytes(inner) +
+        ");\nboundaryField\n{\n inlet { type fixedValue; value uniform (0 0 7); }\n sides { type "
+        "zeroGradient; }\n outlet "
+        "{ type inletOutlet; inletValue uniform (0 0 0); value nonuniform List<vector> 1(" +
+        bytes({7, 8, 9}) + ");\n }\n none { type processor; value nonuniform List<vector> 0(); }" + rest);
+  const FieldData field = read_field(path_, 3, 2);
+  EXPECT_EQ(field.inner, inner);
+  EXPECT_EQ(field.patches.at("outlet"), (std::vector<double>{7, 8, 9}));
+  EXPECT_EQ(field.at(field.patches.at("inlet"), 12, 2), 7);
+  EXPECT_EQ(field.patches.count("sides"), 0u);
+  EXPECT_TRUE(field.patches.at("none").empty());
+
+  write(header("ascii") +
+        "dimensions [0 1 -1 0 0 0 0];\ninternalField nonuniform List<vector> 2((1 2 3)(4 -5 6e-300));"
+        "boundaryField { outlet { value nonuniform List<vector> 1((7 8 9)); } }");
+  const FieldData text = read_field(path_, 3, 2);
+  EXPECT_EQ(text.inner, (std::vector<double>{1, 2, 3, 4, -5, 6e-300}));
+  EXPECT_EQ(text.patches.at("outlet"), (std::vector<double>{7, 8, 9}));
+}
+
+TEST_F(FieldFile, EveryCutOfAFileIsNoticed) {
+  const std::string whole = header("binary") + "internalField nonuniform List<scalar> 3(" + bytes({1, 2, 3}) +
+                            ");\nboundaryField { a { type b; value nonuniform List<scalar> 1(" + bytes({4}) +
+                            "); } }";
+  write(whole);
+  EXPECT_EQ(read_field(path_, 1, 3).inner, (std::vector<double>{1, 2, 3}));
+  EXPECT_THROW(read_field(path_, 1, 4), Error);
+  for (std::size_t length = 0; length < whole.size(); ++length) {
+    write(whole.substr(0, length));
+    EXPECT_THROW(read_field(path_, 1, 3), Error) << length << " of " << whole.size() << " bytes";
+  }
+  fs::remove(path_);
+  EXPECT_THROW(read_field(path_, 1, 3), Error);
+}
+
+TEST_F(FieldFile, OtherNumberFormatsAreRefused) {
+  write(
+      "FoamFile { version 2.0; format binary; class labelList; arch \"LSB;label=64;scalar=64\"; object "
+      "owner; }\n0()");
+  EXPECT_THROW(read_labels(path_), Error);
+}
+
+TEST_F(FieldFile, BoundaryListsItsFaces) {
+  write(
+      "FoamFile { version 2.0; format ascii; class polyBoundaryMesh; object boundary; }\n"
+      "2 ( inlet { type patch; nFaces 16; startFace 100; } side { type patch; inGroups 1(wall); nFaces 0; "
+      "startFace "
+      "116; } )");
+  const std::vector<Patch> patches = read_boundary(path_);
+  ASSERT_EQ(patches.size(), 2u);
+  EXPECT_EQ(patches[0].name, "inlet");
+  EXPECT_EQ(patches[0].faces, 16);
+  EXPECT_EQ(patches[1].start, 116);
+}
+
+TEST(SolverLog, AnIterationEndsWithItsForces) {
+  SolverLog log(true);
+  const std::vector<std::string> lines = {
+      "trapFpe: Floating point exception trapping enabled (FOAM_SIGFPE).",
+      "Time = 41",
+      "smoothSolver:  Solving for Ux, Initial residual = 0.1, Final residual = 0.001, No Iterations 2",
+      "smoothSolver:  Solving for Uy, Initial residual = 0.3, Final residual = 0.001, No Iterations 2",
+      "smoothSolver:  Solving for Uz, Initial residual = 0.2, Final residual = 0.001, No Iterations 2",
+      "smoothSolver:  Solving for e, Initial residual = 0.4, Final residual = 0.001, No Iterations 2",
+      "GAMG:  Solving for p, Initial residual = 0.5, Final residual = 0.001, No Iterations 2",
+      "smoothSolver:  Solving for omega, Initial residual = 0.6, Final residual = 0.001, No Iterations 2",
+      "smoothSolver:  Solving for k, Initial residual = 0.7, Final residual = 0.001, No Iterations 2",
+      "SIMPLE solution converged in 41 iterations",
+      "    Sum of forces",
+      "        Total    : (9 9 9)",
+  };
+  for (const std::string& line : lines) EXPECT_FALSE(log.feed(line));
+  EXPECT_TRUE(log.feed("        Porous   : (1 -2 3.5e+2)"));
+  EXPECT_FALSE(log.feed("    Sum of moments"));
+  EXPECT_FALSE(log.feed("        Porous   : (7 7 7)"));
+  const FlowProgress& now = log.progress();
+  EXPECT_EQ(now.iteration, 1);
+  EXPECT_EQ(now.residual_u, 0.3);
+  EXPECT_EQ(now.residual_p, 0.5);
+  EXPECT_EQ(now.residual_omega, 0.6);
+  EXPECT_EQ(now.residual_k, 0.7);
+  EXPECT_EQ(now.residual_e, 0.4);
+  EXPECT_EQ(now.drag, 350);
+  EXPECT_TRUE(log.converged());
+  EXPECT_FALSE(log.floating_point_trap());
+}
+
+}  // namespace
+}  // namespace ripstop::openfoam
