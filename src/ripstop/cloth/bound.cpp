@@ -61,7 +61,9 @@ NodeStiffness node_stiffness(const Cloth& cloth, const ClothState& state) {
     const double strain = length / s.rest_length - 1;
     if (!(strain <= result.largest_strain)) result.largest_strain = strain, result.stretched_node = s.a;
     const Vec3 n = length > 0 ? d / length : Vec3{1, 0, 0};
-    const double along = std::max(0.0, s.scale * s.law->tangent(strain) / s.rest_length);
+    // A slack or pushed spring may be pulled within the next steps: it counts as when first pulled.
+    const double tangent = std::max(s.law->tangent(strain), strain < 0 ? s.law->tangent(0) : 0.0);
+    const double along = s.scale * tangent / s.rest_length;
     const double across = length > 0 ? std::max(0.0, s.scale * s.law->tension(strain) / length) : along;
     add(stiffness[s.a], along, across, n);
     add(stiffness[s.b], along, across, n);

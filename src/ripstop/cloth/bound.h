@@ -16,8 +16,12 @@ struct NodeStiffness {
 };
 NodeStiffness node_stiffness(const Cloth& cloth, const ClothState& state);
 
-/// Root sum of squares of pressure and point forces over the free nodes, tied nodes' handed on [N].
-double applied_load(const Cloth& cloth, const ClothState& state, const Loads& loads);
+/// Pressure and point forces over the free nodes, tied nodes' handed on.
+struct AppliedLoad {
+  double norm = 0;  // root sum of squares [N]
+  Vec3 moment;      // about `pivot` [N m]
+};
+AppliedLoad applied_load(const Cloth& cloth, const ClothState& state, const Loads& loads, Vec3 pivot = {});
 
 /// Throws Error(diverged) for positions that are not finite.
 void check_health(const Cloth& cloth, const ClothState& state);

@@ -32,7 +32,7 @@ void check(const Mesh& mesh) {
       refuse(fmt::format("patch {} has {} rows and {} columns", patch.name, patch.rows, patch.columns));
     if (patch.first_node < 0 || patch.first_node + static_cast<int>(cells) > count)
       refuse(fmt::format("patch {} reaches beyond the last node", patch.name));
-    if (patch.cell_area.size() != cells - patch.columns)
+    if (patch.cell_area.size() < cells - patch.columns)
       refuse(fmt::format("patch {} has {} cell areas, needs {}", patch.name, patch.cell_area.size(),
                          cells - patch.columns));
     for (int d = 0; d < direction_count; ++d) {
@@ -183,10 +183,10 @@ void share_mass_and_area(Cloth& cloth) {
   std::size_t cell = 0;
   const std::vector<Cell> cells = cells_of(mesh);
   for (const Patch& patch : mesh.patches)
-    for (double area : patch.cell_area) {
+    for (int i = 0; i < (patch.rows - 1) * patch.columns; ++i) {
       const Cell& c = cells[cell++];
       if (c.corner[0] < 0) continue;
-      for (int corner : c.corner) cloth.area[corner] += 0.25 * area;
+      for (int corner : c.corner) cloth.area[corner] += 0.25 * patch.cell_area[i];
     }
   for (const Tie& tie : mesh.ties) {
     for (const auto& master : tie.masters)

@@ -30,16 +30,21 @@ std::vector<Vec3> load_on_nodes(const Cloth& cloth, const std::vector<Vec3>& x, 
 
 }  // namespace
 
-double applied_load(const Cloth& cloth, const ClothState& state, const Loads& loads) {
-  std::vector<Vec3> force = load_on_nodes(cloth, positions(state, cloth), loads);
+AppliedLoad applied_load(const Cloth& cloth, const ClothState& state, const Loads& loads, Vec3 pivot) {
+  const std::vector<Vec3> x = positions(state, cloth);
+  std::vector<Vec3> force = load_on_nodes(cloth, x, loads);
   for (const Tie& tie : cloth.mesh.ties) {
     for (const auto& master : tie.masters) force[master.node] += master.weight * force[tie.node];
     force[tie.node] = {};
   }
   for (int node : cloth.mesh.fixed) force[node] = {};
-  double sum = 0;
-  for (Vec3 f : force) sum += dot(f, f);
-  return std::sqrt(sum);
+  AppliedLoad load;
+  for (std::size_t node = 0; node < force.size(); ++node) {
+    load.norm += dot(force[node], force[node]);
+    load.moment += cross(x[node] - pivot, force[node]);
+  }
+  load.norm = std::sqrt(load.norm);
+  return load;
 }
 
 std::vector<double> spring_tensions(const Cloth& cloth, const ClothState& state) {

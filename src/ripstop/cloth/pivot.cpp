@@ -1,0 +1,57 @@
+#include "ripstop/cloth/pivot.h"
+
+#include <Eigen/Dense>
+
+namespace ripstop {
+namespace {
+
+// Solves sum weight (r^2 I - r r^T) w = moment.
+Vec3 turn(const Eigen::Matrix3d& inertia, Vec3 moment) {
+  const Eigen::Vector3d w = inertia.fullPivLu().solve(Eigen::Vector3d(moment.x, moment.y, moment.z));
+  return {w.x(), w.y(), w.z()};
+}
+
+void add_inertia(Eigen::Matrix3d& inertia, double weight, Vec3 r) {
+  const Eigen::Vector3d e(r.x, r.y, r.z);
+  inertia += weight * (e.squaredNorm() * Eigen::Matrix3d::Identity() - e * e.transpose());
+}
+
+}  // namespace
+
+std::optional<Vec3> pivot_of(const Cloth& cloth, const ClothState& state) {
+  const std::vector<int>& fixed = cloth.mesh.fixed;
+  if (fixed.empty()) return {};
+  const Vec3 first = get(state.x.data(), cloth.slot[fixed[0]]);
+  for (int node : fixed)
+    if (!(get(state.x.data(), cloth.slot[node]) == first)) return {};
+  return first;
+}
+
+void stop_turning(const Cloth& cloth, ClothState& state, const std::vector<double>& mass, Vec3 pivot) {
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+  Vec3 momentum;
+  for (std::size_t node = 0; node < mass.size(); ++node) {
+    if (mass[node] == 0) continue;
+    const Vec3 r = get(state.x.data(), cloth.slot[node]) - pivot;
+    add_inertia(inertia, mass[node], r);
+    momentum += mass[node] * cross(r, get(state.v.data(), cloth.slot[node]));
+  }
+  const Vec3 w = turn(inertia, momentum);
+  for (std::size_t node = 0; node < mass.size(); ++node) {
+    if (mass[node] == 0) continue;
+    const int slot = cloth.slot[node];
+    put(state.v.data(), slot, get(state.v.data(), slot) - cross(w, get(state.x.data(), slot) - pivot));
+  }
+  follow(cloth, state.v.data(), 0, cloth.row_count, true);
+  mirror(cloth, state.v.data(), 0, cloth.row_count);
+}
+
+double turning_force_squared(const Cloth& cloth, const ClothState& state, Vec3 moment, Vec3 pivot) {
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+  for (int node = 0; node < cloth.mesh.node_count(); ++node)
+    if (!cloth.is_tied[node] && !cloth.is_fixed[node])
+      add_inertia(inertia, 1, get(state.x.data(), cloth.slot[node]) - pivot);
+  return dot(turn(inertia, moment), moment);
+}
+
+}  // namespace ripstop
