@@ -1,10 +1,36 @@
-#include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
+#include <exception>
+
+#include "commands.h"
 #include "ripstop/core/build_info.h"
+#include "ripstop/core/error.h"
 
 int main(int argc, char** argv) {
-  CLI::App app{"Ripstop predicts how a subsonic parachute flies."};
-  app.set_version_flag("--version", ripstop::version());
-  CLI11_PARSE(app, argc, argv);
-  return 0;
+  using namespace ripstop;
+  CLI::App app{
+      "Ripstop predicts how a subsonic parachute flies: its inflated shape, drag, stresses and loads."};
+  app.set_version_flag("--version", version());
+  app.require_subcommand(1);
+  app.failure_message(CLI::FailureMessage::help);
+  app.footer(
+      "Exit codes: 0 done, 2 usage or case file, 3 bad input data, 4 not converged, 5 diverged,\n"
+      "6 external solver, 7 input/output. Each command has its own --help with an example.");
+  int status = 0;
+  add_steady(app, status);
+  add_fabric(app, status);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const int code = app.exit(error);
+    return code == 0 ? 0 : static_cast<int>(ExitCode::usage);
+  } catch (const Error& error) {
+    fmt::print(stderr, "ripstop: {}\n", error.what());
+    return static_cast<int>(error.code());
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "ripstop: internal error: {}\n", error.what());
+    return 70;
+  }
+  return status;
 }

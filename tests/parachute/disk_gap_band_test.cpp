@@ -10,6 +10,7 @@
 #include <numeric>
 #include <set>
 
+#include "ripstop/cloth/cloth.h"
 #include "ripstop/core/error.h"
 #include "ripstop/parachute/build.h"
 
@@ -142,6 +143,14 @@ TEST(DiskGapBand, TheSpringsStayNearTheMeanSpacingAlsoRoundTheVent) {
         }
       }
     }
+  }
+}
+
+TEST(DiskGapBand, TheStepIsAtLeastFourMicrosecondsOnStratosAndWalrus) {
+  for (const Design& design : {stratos(), walrus()}) {
+    const ClothPtr cloth = make_cloth(build_mesh(design, materials()));
+    const StepBound bound = step_bound(*cloth, start_state(*cloth));
+    EXPECT_GE(bound.stable_step, 4e-6) << bound.part << " node " << bound.node;
   }
 }
 

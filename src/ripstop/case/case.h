@@ -85,6 +85,16 @@ Case parse_case(const std::string& text, const std::string& name, const Override
 /// Changes an already read case under the same rules. Throws InputError(usage) and leaves `value` unchanged.
 void apply(const Overrides& overrides, Case& value);
 
+/// The same case with every optional number filled in by what stands for it when absent.
+Case resolved(const Case& value);
+/// The resolved case, materials included, so that it runs without the library. Reading it gives the same
+/// case.
+std::string case_toml(const Case& value);
+std::string case_json(const Case& value);
+/// JSON Schema (draft 2020-12) of a case file, and the reference of its keys in Markdown.
+std::string case_schema();
+std::string case_reference();
+
 /// The row of [[measured]] for the case's nominal speed; null when there is none.
 const Measured* measured_row(const Case& value);
 

@@ -46,7 +46,8 @@ SteadySolver::SteadySolver(SteadyProblem problem, FlowEngine& engine)
   cloth_ = make_cloth(problem_.mesh, options);
   cells_ = cells_of(problem_.mesh);
   for (const Patch& patch : problem_.mesh.patches) {
-    area_.insert(area_.end(), patch.cell_area.begin(), patch.cell_area.end() - patch.columns);
+    area_.insert(area_.end(), patch.cell_area.begin(),
+                 patch.cell_area.begin() + (patch.rows - 1) * patch.columns);
   }
   const FlowGrid& grid = problem_.flow.grid;
   const Vec3 far = grid.origin + grid.size;
@@ -110,7 +111,7 @@ FlowField SteadySolver::solve_flow(const std::vector<int>& porous, bool to_the_e
   }
 }
 
-void SteadySolver::iterate(SteadyState& state, const SteadyReport& report, FlowField* field_out) {
+FlowField SteadySolver::iterate(SteadyState& state, const SteadyReport& report) {
   const auto begin = std::chrono::steady_clock::now();
   const CouplingSettings& settings = problem_.settings;
   SteadyIteration now;
@@ -191,7 +192,7 @@ void SteadySolver::iterate(SteadyState& state, const SteadyReport& report, FlowF
   state.pressure = state.accelerator.next(state.pressure, answer, area_);
   now.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   state.iterations.push_back(now);
-  if (field_out) *field_out = std::move(field);
+  return field;
 }
 
 }  // namespace ripstop

@@ -74,8 +74,9 @@ class SteadySolver {
   /// Uniform pressure of 1 q on the start shape.
   SteadyState start() const;
   /// One coupling iteration. Throws Error(not_converged) when the cloth finds no equilibrium, Error(external)
-  /// or Error(diverged) from the flow. `field` (optional) receives the flow.
-  void iterate(SteadyState& state, const SteadyReport& report = {}, FlowField* field = nullptr);
+  /// or Error(diverged) from the flow. Returns the flow round the new
+  /// shape.
+  FlowField iterate(SteadyState& state, const SteadyReport& report = {});
   bool finished(const SteadyState& state) const;
 
   const Cloth& cloth() const { return *cloth_; }

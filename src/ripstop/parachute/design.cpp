@@ -98,7 +98,7 @@ void describe(Fields& fields, Design& design) {
       .absent("the cloth's area as cut (disk - vent + band)");
   fields.integer("gores", design.gores, from(3).up_to(500), "Number of gores, equally wide.").required();
   fields.name("canopy_material", design.canopy_material, "Material of the cloth, of kind \"fabric\".");
-  fields.table("lines", design.lines, "Suspension lines.");
+  fields.table("lines", design.lines, "Suspension lines.").required();
   fields.table("tape", design.tape, "Reinforcement tape.");
   fields.table("riser", design.riser, "Riser between the fixed point and the confluence.");
   fields.table("mesh", design.mesh, "Resolution of the mass-spring mesh.");

@@ -82,10 +82,11 @@ struct NamedTables {
 struct Kind {
   std::vector<std::string> words;
   std::function<std::size_t()> get;
-  std::function<Fields(std::size_t)> select;  // switches when needed; the further keys
+  std::function<Fields(std::size_t)> select;  // switches when needed and returns the further keys
 };
 
-/// A key that names something to start from; load() fills the struct, or says why not.
+/// A key that names something to start from; load() fills the struct, or says why not. It comes before the
+/// Kind of its table, and makes every other key optional.
 struct Base {
   std::function<std::string(const std::string&)> load;
 };
@@ -175,7 +176,8 @@ class Fields {
 
   Field& base(std::string key, std::function<std::string(const std::string&)> load, std::string doc);
 
-  const std::vector<Field>& list() const { return list_; }
+  const std::vector<Field>& list() const& { return list_; }
+  std::vector<Field> list() && { return std::move(list_); }  // so that `for (... : f().list())` is safe
 
  private:
   template <class T>

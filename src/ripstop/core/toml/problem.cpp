@@ -70,7 +70,8 @@ InputError::InputError(ExitCode code, std::vector<Problem> problems)
 bool Findings::sound(const std::vector<std::string>& keys) const {
   return std::none_of(problems_.begin(), problems_.end(), [&](const Problem& problem) {
     return std::any_of(keys.begin(), keys.end(), [&](const std::string& key) {
-      return problem.key == key || problem.key.starts_with(key + "[") || problem.key.starts_with(key + ".");
+      return problem.key == key || problem.key.starts_with(key + "[") || problem.key.starts_with(key + ".") ||
+             key.starts_with(problem.key + ".");
     });
   });
 }

@@ -255,7 +255,7 @@ void Reader::set(const NamedTables& target, const Node& node, const std::string&
     const std::string entry = joined(name, item.key);
     if (!is_name(item.key)) {
       problems_.push_back({origin(item.key_place), name, quoted(item.key), "a name",
-                           "must be a name of at most 64 letters, digits, '.', '_' and '-'"});
+                           "a key here must be a name of at most 64 letters, digits, '.', '_' and '-'"});
     } else if (is_a(Node::Type::table, item, entry, "a table")) {
       table(target.entry(item.key), item, entry);
     }
@@ -295,7 +295,12 @@ void Reader::table(Fields fields, const Node& node, const std::string& prefix) {
     }
     if (const auto* kind = std::get_if<Kind>(&field.value)) {
       std::size_t chosen = kind->get();
-      if (given && word(kind->words, *given, name, chosen)) accept(*given, name);
+      if (given && word(kind->words, *given, name, chosen)) {
+        if (has_base && chosen != kind->get())
+          report(*given, name, quoted(kind->words[kind->get()]),
+                 "differs from the kind of `base`, " + quoted(kind->words[kind->get()]));
+        accept(*given, name);
+      }
       // Without the word nobody can say which further keys belong here.
       kind_is_open = !has_base && kind->words.size() > 1 && !origins_.contains(name);
       if (!kind_is_open) {
@@ -319,6 +324,8 @@ void Reader::table(Fields fields, const Node& node, const std::string& prefix) {
     if (!field.is_required || has_base || node.find(field.key)) continue;
     std::string message = "is missing";
     if (const std::string range = field.range.text(); !range.empty()) message += "; give a number " + range;
+    if (std::holds_alternative<Subtable>(field.value))
+      message = "the table is missing; write [" + joined(prefix, field.key) + "]";
     if (const auto* kind = std::get_if<Kind>(&field.value))
       message += fmt::format("; give one of \"{}\"", fmt::join(kind->words, "\", \""));
     problems_.push_back({origin(node.place), joined(prefix, field.key), "", field.range.text(), message});

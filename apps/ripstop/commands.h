@@ -1,0 +1,13 @@
+// The commands of the program, one small file each. A command sets `status`, the program's exit code.
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace ripstop {
+
+void add_steady(CLI::App& app, int& status);
+void add_fabric(CLI::App& app, int& status);
+
+}  // namespace ripstop

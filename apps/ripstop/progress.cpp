@@ -1,0 +1,42 @@
+#include "progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cmath>
+
+namespace ripstop {
+
+Progress::Progress() : terminal_(isatty(STDERR_FILENO) != 0), last_(std::chrono::steady_clock::now()) {}
+
+Progress::~Progress() {
+  if (open_) fmt::print(stderr, "\n");
+}
+
+void Progress::show(const std::string& text) {
+  const auto now = std::chrono::steady_clock::now();
+  if (std::chrono::duration<double>(now - last_).count() < (terminal_ ? 0.2 : 10.0)) return;
+  last_ = now;
+  if (terminal_) {
+    fmt::print(stderr, "\r\x1b[K{}", text);
+    open_ = true;
+  } else {
+    fmt::print(stderr, "{}\n", text);
+  }
+  std::fflush(stderr);
+}
+
+void Progress::line(const std::string& text) {
+  if (open_) fmt::print(stderr, "\r\x1b[K");
+  open_ = false;
+  fmt::print(stderr, "{}\n", text);
+  std::fflush(stderr);
+}
+
+std::string duration_text(double seconds) {
+  const long s = std::lround(std::max(0.0, seconds));
+  if (s >= 3600) return fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
+  return fmt::format("{}:{:02}", s / 60, s % 60);
+}
+
+}  // namespace ripstop
