@@ -1,10 +1,7 @@
 // Every file is read back by VTK itself (vtk_dump.py) and must hold the same bits.
 #include "ripstop/output/vtk.h"
 
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <spawn.h>
-#include <sys/wait.h>
 
 #include <array>
 #include <limits>
@@ -13,10 +10,9 @@
 
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
+#include "ripstop/core/process.h"
 #include "ripstop/output/stl.h"
 #include "temporary_folder.h"
-
-extern char** environ;
 
 namespace ripstop {
 namespace {
@@ -25,23 +21,19 @@ using nlohmann::json;
 
 /// What VTK sees in a file. The test fails, and is not skipped, when python3-vtk9 is missing.
 json seen_by_vtk(const std::filesystem::path& path) {
-  const std::string script = RIPSTOP_SOURCE_DIR "/tests/output/vtk_dump.py";
-  const std::string out = path.string() + ".json";
-  std::string python = "/usr/bin/python3", name = path.string(), file = script;
-  char* arguments[] = {python.data(), file.data(), name.data(), nullptr};
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, 1, out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  pid_t child = 0;
-  int status = -1;
-  const int failure = posix_spawn(&child, arguments[0], &actions, nullptr, arguments, environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (failure == 0) waitpid(child, &status, 0);
-  if (failure != 0 || status != 0) {
-    ADD_FAILURE() << "/usr/bin/python3 with VTK (Debian: python3-vtk9) could not read " << path;
+  ProcessRequest request;
+  request.arguments = {"/usr/bin/python3", RIPSTOP_SOURCE_DIR "/tests/output/vtk_dump.py", path.string()};
+  std::string text;
+  request.on_line = [&](const std::string& line) {
+    text += line + '\n';
+    return true;
+  };
+  if (!run_process(request).succeeded()) {
+    ADD_FAILURE() << "/usr/bin/python3 with VTK (Debian: python3-vtk9) could not read " << path << "\n"
+                  << text;
     return json::object();
   }
-  return json::parse(read_file(out));
+  return json::parse(text);
 }
 
 template <class T>

@@ -9,26 +9,28 @@
 namespace ripstop {
 namespace {
 
-constexpr Colour line_rim{0.93, 0.94, 0.95};
+constexpr Colour rim_colour{0.93, 0.94, 0.95};
 
 Vec3 unit(Vec3 a) {
   const double length = norm(a);
   return length > 0 ? a / length : Vec3{};
 }
 
+enum class Hit : char { nothing, surface, line, line_rim };
+
 /// The nearest hit of every ray so far.
 struct Buffer {
   int width, height;
   std::vector<double> depth;
   std::vector<Colour> colour;
-  std::vector<char> surface;  // hit a quad, not a line
+  std::vector<Hit> hit;
 
   Buffer(int w, int h)
       : width(w),
         height(h),
         depth(static_cast<std::size_t>(w) * h, std::numeric_limits<double>::infinity()),
         colour(depth.size()),
-        surface(depth.size(), 0) {}
+        hit(depth.size(), Hit::nothing) {}
   std::size_t at(int x, int y) const { return static_cast<std::size_t>(y) * width + x; }
 };
 
@@ -74,13 +76,15 @@ void fill(Buffer& buffer, const Camera& camera, const Vertex& a, const Vertex& b
       const double light = brightness(camera, wa * a.normal + wb * b.normal + wc * c.normal);
       buffer.depth[i] = depth;
       buffer.colour[i] = {light * colour.red, light * colour.green, light * colour.blue};
-      buffer.surface[i] = 1;
+      buffer.hit[i] = Hit::surface;
     }
   }
 }
 
+/// `nearer` [m] lifts the line before the cloth it is sewn on. A line hides rims that are up to four times as
+/// much before it: those of its own neighbours, where it runs toward the eye.
 void draw_segment(Buffer& buffer, const Projected& a, const Projected& b, double width, double nearer,
-                  Colour colour) {
+                  Colour colour, Hit kind) {
   if (!a.visible || !b.visible) return;
   const double half = 0.5 * width, dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
   const auto [x0, x1] = pixel_range(std::min(a.x, b.x) - half, std::max(a.x, b.x) + half, buffer.width);
@@ -92,10 +96,11 @@ void draw_segment(Buffer& buffer, const Projected& a, const Projected& b, double
       if (std::hypot(px - along * dx, py - along * dy) > half) continue;
       const double depth = a.depth + along * (b.depth - a.depth) - nearer;
       const std::size_t i = buffer.at(x, y);
-      if (!(depth < buffer.depth[i])) continue;
+      const bool over_rim = kind == Hit::line && buffer.hit[i] == Hit::line_rim;
+      if (!(depth < buffer.depth[i] + (over_rim ? 4 * nearer : 0))) continue;
       buffer.depth[i] = depth;
       buffer.colour[i] = colour;
-      buffer.surface[i] = 0;
+      buffer.hit[i] = kind;
     }
   }
 }
@@ -107,7 +112,7 @@ void outline(Buffer& buffer, double step, int reach) {
   for (int y = 0; y < buffer.height; ++y) {
     for (int x = 0; x < buffer.width; ++x) {
       const std::size_t i = buffer.at(x, y);
-      if (!buffer.surface[i]) continue;
+      if (buffer.hit[i] != Hit::surface) continue;
       for (const auto& [ox, oy] : {std::array{reach, 0}, {-reach, 0}, {0, reach}, {0, -reach}}) {
         const int nx = x + ox, ny = y + oy;
         if (nx < 0 || ny < 0 || nx >= buffer.width || ny >= buffer.height) continue;
@@ -218,9 +223,12 @@ Raster render(const Scene& scene, const Camera& camera, int width, int height, i
   // Lines sewn on the cloth show on both of its sides, with a light rim that parts them from dark cloth.
   const double nearer = 0.006 * camera.height;
   for (const SceneLine& line : scene.lines) {
-    const Projected &a = vertices[line.a].at, &b = vertices[line.b].at;
-    draw_segment(buffer, a, b, (line.width + 1.4) * samples, 0.3 * nearer, line_rim);
-    draw_segment(buffer, a, b, line.width * samples, nearer, line.colour);
+    draw_segment(buffer, vertices[line.a].at, vertices[line.b].at, (line.width + 1.4) * samples, nearer,
+                 rim_colour, Hit::line_rim);
+  }
+  for (const SceneLine& line : scene.lines) {
+    draw_segment(buffer, vertices[line.a].at, vertices[line.b].at, line.width * samples, nearer, line.colour,
+                 Hit::line);
   }
   return averaged(buffer, samples);
 }
