@@ -19,21 +19,23 @@ namespace {
 
 using nlohmann::json;
 
-/// What VTK sees in a file. The test fails, and is not skipped, when python3-vtk9 is missing.
-json seen_by_vtk(const std::filesystem::path& path) {
+/// Whether VTK reads the file; `text` is what vtk_dump.py says.
+bool vtk_reads(const std::filesystem::path& path, std::string& text) {
   ProcessRequest request;
   request.arguments = {"/usr/bin/python3", RIPSTOP_SOURCE_DIR "/tests/output/vtk_dump.py", path.string()};
-  std::string text;
   request.on_line = [&](const std::string& line) {
     text += line + '\n';
     return true;
   };
-  if (!run_process(request).succeeded()) {
-    ADD_FAILURE() << "/usr/bin/python3 with VTK (Debian: python3-vtk9) could not read " << path << "\n"
-                  << text;
-    return json::object();
-  }
-  return json::parse(text);
+  return run_process(request).succeeded();
+}
+
+/// What VTK sees in a file. The test fails, and is not skipped, when python3-vtk9 is missing.
+json seen_by_vtk(const std::filesystem::path& path) {
+  std::string text;
+  if (vtk_reads(path, text)) return json::parse(text);
+  ADD_FAILURE() << "/usr/bin/python3 with VTK (Debian: python3-vtk9) could not read " << path << "\n" << text;
+  return json::object();
 }
 
 template <class T>
@@ -205,6 +207,19 @@ TEST(Vtk, WhatDoesNotFitIsAnErrorAndNoFile) {
   wild_point.polygons.add(std::array{0, 1, 3});
   EXPECT_THROW(write_vtp(folder.path / "a.vtp", wild_point), Error);
   EXPECT_TRUE(std::filesystem::is_empty(folder.path));
+}
+
+TEST(Vtk, TheCheckItselfNoticesADamagedFile) {
+  const TemporaryFolder folder("damaged");
+  VtkSurface surface;
+  surface.points.resize(1000, Vec3{1, 2, 3});
+  surface.polygons.add(std::array{0, 1, 2});
+  write_vtp(folder.path / "a.vtp", surface);
+  std::string bytes = read_file(folder.path / "a.vtp"), text;
+  EXPECT_TRUE(vtk_reads(folder.path / "a.vtp", text)) << text;
+  bytes[bytes.find("\n_") + 40] ^= 0x55;  // in the first compressed block
+  write_file(folder.path / "b.vtp", bytes);
+  EXPECT_FALSE(vtk_reads(folder.path / "b.vtp", text));
 }
 
 TEST(Stl, VtkReadsBackTheTriangles) {

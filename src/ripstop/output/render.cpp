@@ -51,7 +51,7 @@ double brightness(const Camera& camera, Vec3 normal) {
   const Vec3 n = unit(normal);
   const Vec3 facing = dot(n, camera.toward_eye) < 0 ? -n : n;  // cloth is lit on both sides
   const Vec3 lamp = unit(camera.toward_eye + 0.75 * camera.up - 0.55 * camera.right);
-  return 0.42 + 0.40 * std::max(0.0, dot(facing, lamp)) + 0.18 * dot(facing, camera.toward_eye);
+  return 0.48 + 0.36 * std::max(0.0, dot(facing, lamp)) + 0.16 * dot(facing, camera.toward_eye);
 }
 
 void fill(Buffer& buffer, const Camera& camera, const Vertex& a, const Vertex& b, const Vertex& c,
