@@ -223,7 +223,8 @@ class OpenFoam : public FlowEngine {
         arguments.insert(arguments.end(),
                          {"--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1"});
       } else {
-        arguments.insert(arguments.end(), {"--hostfile", fs::absolute(settings_.hostfile).string()});
+        arguments.insert(arguments.end(),
+                         {"--hostfile", fs::absolute(settings_.hostfile).string(), "-x", "WM_PROJECT_DIR"});
       }
     }
     arguments.push_back(program(installation_, kSolver).string());
