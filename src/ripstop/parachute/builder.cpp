@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
-
-#include "ripstop/material/lattice.h"
 
 namespace ripstop {
 namespace {
@@ -44,6 +41,12 @@ void Path::append(const Path& next, double gap) {
   lengths.insert(lengths.end(), next.lengths.begin(), next.lengths.end());
 }
 
+void Path::extend(const Path& next) {
+  if (!nodes.empty()) nodes.pop_back();
+  nodes.insert(nodes.end(), next.nodes.begin(), next.nodes.end());
+  lengths.insert(lengths.end(), next.lengths.begin(), next.lengths.end());
+}
+
 int MeshBuilder::part(const std::string& name) {
   const auto found = std::find(mesh.parts.begin(), mesh.parts.end(), name);
   if (found != mesh.parts.end()) return static_cast<int>(found - mesh.parts.begin());
@@ -62,6 +65,15 @@ int MeshBuilder::add_node(Vec3 start, double mass) {
   return mesh.node_count() - 1;
 }
 
+const LatticeLaws& MeshBuilder::laws_of(const Fabric& fabric) {
+  const auto known = laws_.find(fabric.name);
+  if (known != laws_.end()) return known->second;
+  return laws_
+      .emplace(fabric.name, lattice_laws(fabric.coefficients_n_m, fabric.shear_fraction,
+                                         fabric.bending_fraction, fabric.compression, fabric.tested_strain))
+      .first->second;
+}
+
 int MeshBuilder::add_patch(const std::string& name, const PatchShape& shape, const Fabric& fabric) {
   Patch patch;
   patch.name = name;
@@ -73,8 +85,7 @@ int MeshBuilder::add_patch(const std::string& name, const PatchShape& shape, con
   patch.fabric = static_cast<int>(known - mesh.fabric_names.begin());
   if (known == mesh.fabric_names.end()) mesh.fabric_names.push_back(fabric.name);
 
-  const LatticeLaws laws = lattice_laws(fabric.coefficients_n_m, fabric.shear_fraction,
-                                        fabric.bending_fraction, fabric.compression, fabric.tested_strain);
+  const LatticeLaws& laws = laws_of(fabric);
   for (const Direction d : {along_row, along_column}) patch.law[d] = laws.axial;
   for (const Direction d : {shear_up, shear_down}) patch.law[d] = laws.shear;
   for (const Direction d : {bend_row, bend_column}) patch.law[d] = laws.bending;
@@ -85,7 +96,7 @@ int MeshBuilder::add_patch(const std::string& name, const PatchShape& shape, con
     patch.rest_length[d].assign(nodes, 0.0);
     patch.width[d].assign(nodes, 0.0);
   }
-  patch.cell_area.assign(nodes, 0.0);
+  patch.cell_area.assign((patch.rows - 1) * patch.columns, 0.0);
   for (int row = 0; row < patch.rows; ++row) {
     for (int column = 0; column < patch.columns; ++column) add_node(shape.start(row, column), 0.0);
   }
@@ -161,10 +172,7 @@ Path MeshBuilder::radial(const std::vector<int>& patches, int part, int parts) c
   Path path;
   for (std::size_t k = 0; k < patches.size(); ++k) {
     const Patch& patch = mesh.patches[patches[k]];
-    Path piece = column(patches[k], patch.columns / parts * part, 0, patch.rows - 1);
-    if (k + 1 < patches.size()) piece.nodes.pop_back();
-    path.nodes.insert(path.nodes.end(), piece.nodes.begin(), piece.nodes.end());
-    path.lengths.insert(path.lengths.end(), piece.lengths.begin(), piece.lengths.end());
+    path.extend(column(patches[k], patch.columns / parts * part, 0, patch.rows - 1));
   }
   return path;
 }

@@ -3,9 +3,11 @@
 
 #include <array>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
+#include "ripstop/material/lattice.h"
 #include "ripstop/material/material.h"
 #include "ripstop/parachute/mesh.h"
 
@@ -19,6 +21,8 @@ struct Path {
   double length() const;
   /// `next` begins where this path ends, or `gap` [m] farther on.
   void append(const Path& next, double gap);
+  /// `next` begins with this path's last node.
+  void extend(const Path& next);
 };
 
 /// Where the nodes of a patch lie at the start, and how its cloth is cut.
@@ -73,6 +77,11 @@ class MeshBuilder {
   /// Replaces masters that are tied themselves by their own masters, and places every tied node where its
   /// masters have it; call once when all ties are known.
   void flatten_ties();
+
+ private:
+  const LatticeLaws& laws_of(const Fabric& fabric);
+
+  std::map<std::string, LatticeLaws> laws_;  // by the fabric's name: a fit takes tens of milliseconds
 };
 
 }  // namespace ripstop

@@ -65,16 +65,15 @@ void describe(Fields& fields, LineSet& lines) {
   fields.name("material", lines.material, "Material of the lines, of kind \"line\".");
   fields
       .number("onto_disk_m", lines.onto_disk_m, from(0).up_to(100),
-              "How far the lines run onto the disk from its edge. They lie along the band and across the gap "
-              "before (assumed: the source does not say).")
+              "How far the lines run onto the canopy: from the skirt, or for a disk-gap-band from the disk's "
+              "edge, after the band and the gap (assumed: the source does not say).")
       .absent("to the vent's edge (assumed)");
 }
 
 void describe(Fields& fields, TapeLayout& tape) {
   fields.name("material", tape.material, "Material of the reinforcement, of kind \"tape\".");
   fields.toggle("seams", tape.seams, "Tape along the seams between gores (assumed).");
-  fields.toggle("hems", tape.hems,
-                "Tape along the vent, the disk's edge and both edges of the band (assumed).");
+  fields.toggle("hems", tape.hems, "Tape along the vent and all other edges of the cloth (assumed).");
 }
 
 void describe(Fields& fields, Riser& riser) {
@@ -91,17 +90,49 @@ void describe(Fields& fields, MeshSettings& mesh) {
 }
 
 void describe(Fields& fields, Design& design) {
-  fields.kind("type", design.canopy, {"disk-gap-band"}, "Family of the canopy.");
+  fields.kind(
+      "type", design.canopy,
+      {"disk-gap-band", "flat-circular", "conical", "spherical", "extended-skirt", "ringslot", "ringsail"},
+      "Family of the canopy.");
   fields
       .number("nominal_area_m2", design.nominal_area_m2, above(0).up_to(10000),
               "Reference area S0 of the coefficients.")
-      .absent("the cloth's area as cut (disk - vent + band)");
+      .absent(
+          "by the type's own definition: the cloth as cut (disk-gap-band), else the whole design surface "
+          "with vent and slots");
   fields.integer("gores", design.gores, from(3).up_to(500), "Number of gores, equally wide.").required();
   fields.name("canopy_material", design.canopy_material, "Material of the cloth, of kind \"fabric\".");
   fields.table("lines", design.lines, "Suspension lines.").required();
   fields.table("tape", design.tape, "Reinforcement tape.");
   fields.table("riser", design.riser, "Riser between the fixed point and the confluence.");
   fields.table("mesh", design.mesh, "Resolution of the mass-spring mesh.");
+}
+
+void describe_nominal_diameter(Fields& fields, double& diameter) {
+  fields
+      .number(
+          "nominal_diameter_m", diameter, from(0.01).up_to(100),
+          "Nominal diameter: S0 = pi/4 of its square is the whole design surface, vent and slots included.")
+      .required();
+}
+
+void describe_vent(Fields& fields, double& diameter, bool& lines) {
+  fields
+      .number("vent_diameter_m", diameter, above(0).up_to(100),
+              "Diameter of the circle with the vent's area.")
+      .required();
+  fields.toggle("vent_lines", lines,
+                "The lines go on across the vent to the opposite radial, where they reach it (assumed).");
+}
+
+void check_vent(double vent, double diameter, bool lines, const Design& design, Findings& findings) {
+  if (findings.sound(shape_keys()) && vent >= diameter)
+    findings.add("parachute.vent_diameter_m", vent, fmt::format("below {:.6g}", diameter),
+                 fmt::format("the vent must be smaller than the canopy, {:.6g} m across", diameter));
+  if (findings.sound({"parachute.lines.count"}) && lines && design.lines.count % 2 != 0)
+    findings.add("parachute.lines.count", design.lines.count, "an even number",
+                 "a line goes on across the vent to the opposite one; set parachute.vent_lines = false for "
+                 "an odd number of lines");
 }
 
 void check_design(const Design& design, Findings& findings) {

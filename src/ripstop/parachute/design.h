@@ -6,7 +6,13 @@
 #include <variant>
 #include <vector>
 
+#include "ripstop/parachute/conical.h"
 #include "ripstop/parachute/disk_gap_band.h"
+#include "ripstop/parachute/extended_skirt.h"
+#include "ripstop/parachute/flat_circular.h"
+#include "ripstop/parachute/ringsail.h"
+#include "ripstop/parachute/ringslot.h"
+#include "ripstop/parachute/spherical.h"
 
 namespace ripstop {
 
@@ -14,7 +20,7 @@ class Fields;
 class Findings;
 
 /// The canopy families; a new one is one more alternative and its word in describe(Design).
-using Canopy = std::variant<DiskGapBand>;
+using Canopy = std::variant<DiskGapBand, FlatCircular, Conical, Spherical, ExtendedSkirt, Ringslot, Ringsail>;
 
 /// [parachute.lines]
 struct LineSet {
@@ -61,6 +67,12 @@ void describe(Fields& fields, Riser& riser);
 void describe(Fields& fields, MeshSettings& mesh);
 /// `type`, the keys of that type, and what all families share.
 void describe(Fields& fields, Design& design);
+
+/// Keys that most families share.
+void describe_nominal_diameter(Fields& fields, double& diameter);
+void describe_vent(Fields& fields, double& diameter, bool& lines);
+/// A vent smaller than the canopy of `diameter` [m], and lines in pairs where they go on across it.
+void check_vent(double vent, double diameter, bool lines, const Design& design, Findings& findings);
 
 /// Reports what single ranges do not show: a vent wider than the disk, lines that cannot meet on the axis.
 void check_design(const Design& design, Findings& findings);

@@ -60,6 +60,17 @@ RingLayout lay_out(const std::vector<Strip>& strips, int columns, double spacing
   return layout;
 }
 
+/// The ring with the largest row spacing of those that have no more than `columns` columns; null: none.
+Ring* coarsest_that_fits(RingLayout& layout, int columns) {
+  Ring* coarsest = nullptr;
+  const auto spacing = [](const Ring& ring) { return (ring.to - ring.from) / ring.cells; };
+  for (std::vector<Ring>& rings : layout.strips)
+    for (Ring& ring : rings)
+      if (ring.columns <= columns && (!coarsest || spacing(ring) > spacing(*coarsest) * (1 + 1e-9)))
+        coarsest = &ring;
+  return coarsest;
+}
+
 }  // namespace
 
 int RingLayout::nodes() const {
@@ -104,7 +115,11 @@ RingLayout lay_out_rings(const std::vector<Strip>& strips, double cloth_area, co
     const double middle = std::sqrt(low * high);
     (lay_out(strips, best, spacing, middle, multiple).nodes() > nodes ? low : high) = middle;
   }
-  return lay_out(strips, best, spacing, high, multiple);
+  RingLayout layout = lay_out(strips, best, spacing, high, multiple);
+  // Equally high strips get their rows at the same spacing, all at once: what is missing goes row by row to
+  // the rings with the largest spacing.
+  while (Ring* ring = coarsest_that_fits(layout, nodes - layout.nodes())) ++ring->cells;
+  return layout;
 }
 
 }  // namespace ripstop

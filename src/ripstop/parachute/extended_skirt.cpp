@@ -1,0 +1,62 @@
+#include "ripstop/parachute/extended_skirt.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "ripstop/core/toml/fields.h"
+#include "ripstop/core/toml/problem.h"
+#include "ripstop/parachute/design.h"
+#include "ripstop/parachute/gored.h"
+
+namespace ripstop {
+
+void describe(Fields& fields, ExtendedSkirt& canopy) {
+  fields
+      .number("disk_diameter_m", canopy.disk_diameter_m, from(0.01).up_to(100), "Diameter of the flat disk.")
+      .required();
+  describe_vent(fields, canopy.vent_diameter_m, canopy.vent_lines);
+  fields
+      .number("skirt_height_m", canopy.skirt_height_m, above(0).up_to(100),
+              "Height of the extension, along the cloth; a tenth of the diameter for the 10 % type.")
+      .required();
+  fields.number(
+      "skirt_diameter_share", canopy.skirt_diameter_share, from(0.3).up_to(1),
+      "Diameter of the extension's lower edge over the disk's: 1 for a straight extension, less for "
+      "one that is drawn in (full extended skirt).");
+}
+
+void check_shape(const ExtendedSkirt& canopy, const Design& design, Findings& findings) {
+  check_vent(canopy.vent_diameter_m, canopy.disk_diameter_m, canopy.vent_lines, design, findings);
+  if (!findings.sound(shape_keys())) return;
+  const double taper = canopy.disk_diameter_m / 2 * (1 - canopy.skirt_diameter_share);
+  if (taper > canopy.skirt_height_m)
+    findings.add("parachute.skirt_height_m", canopy.skirt_height_m, fmt::format("at least {:.6g}", taper),
+                 fmt::format("the extension is drawn in by {:.6g} m of radius, more than it is high", taper));
+}
+
+GorePattern gore_pattern(const ExtendedSkirt& canopy, int gores) {
+  const double radius = canopy.disk_diameter_m / 2, height = canopy.skirt_height_m;
+  const double lower = radius * canopy.skirt_diameter_share;
+  const double area = std::numbers::pi * (radius * radius + height * (radius + lower));
+  GorePattern pattern{gores, area, {}, canopy.vent_lines};
+  pattern.strips = {
+      strip_on(
+          "skirt", [&](double s) { return lower + (radius - lower) * s / height; }, 0, height, gores),
+      strip_on(
+          "disk", [&](double s) { return radius - s; }, 0, radius - canopy.vent_diameter_m / 2, gores)};
+  pattern.strips[0].whole = true;
+  pattern.strips[1].joined = true;
+  return pattern;
+}
+
+CanopyFacts facts(const ExtendedSkirt& canopy, int gores) {
+  return facts(gore_pattern(canopy, gores));
+}
+
+Mesh build_canopy(const ExtendedSkirt& canopy, const Design& design, const PartMaterials& materials) {
+  return build_gored(gore_pattern(canopy, design.gores), design, materials);
+}
+
+}  // namespace ripstop

@@ -1,0 +1,103 @@
+#include "ripstop/parachute/gore.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace ripstop {
+namespace {
+
+using std::numbers::pi;
+
+double interpolate(const std::vector<Station>& stations, double height, double Station::*what) {
+  std::size_t i = 1;
+  while (i + 1 < stations.size() && stations[i].height < height) ++i;
+  const Station& a = stations[i - 1];
+  const Station& b = stations[i];
+  const double share = std::clamp((height - a.height) / (b.height - a.height), 0.0, 1.0);
+  return a.*what + share * (b.*what - a.*what);
+}
+
+}  // namespace
+
+double GoreStrip::width(double height) const {
+  return interpolate(stations, height, &Station::width);
+}
+
+double GoreStrip::chord(double height) const {
+  return interpolate(stations, height, &Station::chord);
+}
+
+double polygon_scale(int gores) {
+  return std::sqrt(pi / (gores * std::tan(pi / gores)));
+}
+
+GoreStrip strip_on(const std::string& name, const std::function<double(double)>& radius, double from,
+                   double to, int gores, double leading, double trailing) {
+  constexpr int pieces = 64;  // a quarter circle in so many chords has its area within 3e-5
+  const double q = polygon_scale(gores);
+  GoreStrip strip;
+  strip.name = name;
+  for (int i = 0; i <= pieces; ++i) {
+    const double share = double(i) / pieces;
+    const double chord = 2 * q * radius(from + share * (to - from)) * std::tan(pi / gores);
+    const double fullness = leading + share * (trailing - leading);
+    strip.stations.push_back({q * share * (to - from), chord * (1 + fullness), chord});
+  }
+  return strip;
+}
+
+Profile start_profile(const GorePattern& pattern) {
+  const double per_chord = 0.5 / std::tan(pi / pattern.gores);
+  Profile profile;
+  ProfilePoint last;
+  const auto next = [&](double chord, double distance) {
+    const double apothem = chord * per_chord, step = apothem - last.apothem;
+    last = {apothem, last.z + std::sqrt(std::max(0.0, distance * distance - step * step))};
+    return last;
+  };
+  for (const GoreStrip& strip : pattern.strips) {
+    std::vector<ProfilePoint> points;
+    for (std::size_t k = 0; k < strip.stations.size(); ++k) {
+      const Station& here = strip.stations[k];
+      if (profile.empty() && k == 0) {
+        last = {here.chord * per_chord, 0};
+        points.push_back(last);
+      } else {
+        points.push_back(next(here.chord, k == 0 ? strip.slot : here.height - strip.stations[k - 1].height));
+      }
+    }
+    profile.push_back(std::move(points));
+  }
+  return profile;
+}
+
+CanopyFacts facts(const GorePattern& pattern) {
+  const int n = pattern.gores;
+  CanopyFacts facts;
+  facts.nominal_area = pattern.nominal_area;
+  double widest = 0;
+  double last_chord = pattern.strips.front().stations.front().chord;
+  for (const GoreStrip& strip : pattern.strips) {
+    for (std::size_t k = 0; k < strip.stations.size(); ++k) {
+      const Station& here = strip.stations[k];
+      double height = strip.slot;
+      if (k > 0) {
+        const Station& before = strip.stations[k - 1];
+        height = here.height - before.height;
+        facts.cloth_area += n * height * 0.5 * (here.width + before.width);
+      }
+      facts.line_run += std::hypot(height, 0.5 * (here.chord - last_chord));
+      last_chord = here.chord;
+      widest = std::max(widest, here.chord);
+      facts.circumference = std::max(facts.circumference, n * here.width);
+    }
+  }
+  const double seam_per_chord = 0.5 / std::sin(pi / n);
+  facts.skirt_radius = seam_per_chord * pattern.strips.front().stations.front().chord;
+  facts.start_diameter = 2 * seam_per_chord * widest;
+  facts.start_depth = start_profile(pattern).back().back().z;
+  return facts;
+}
+
+}  // namespace ripstop

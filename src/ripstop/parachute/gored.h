@@ -1,0 +1,19 @@
+// The mesh of any canopy made of equal gores, from its flat pattern.
+#pragma once
+
+#include "ripstop/parachute/build.h"
+#include "ripstop/parachute/gore.h"
+
+namespace ripstop {
+
+/// Start shape as start_profile() has it: skirt seams in the plane z = 0, mouth toward -z, seams at the
+/// angles 2 pi k / N. Cloth with fullness bulges outward between the radials, tilted about the strip's upper
+/// edge so that its columns keep their length; what the bulge does not take up is compressed at the start.
+///
+/// Every strip is a ring lattice over all gores, columns halved toward the vent as in ring_layout.h. Seams
+/// and lines lie on columns. A strip that is not `joined` is held at the radials only: by shared nodes where
+/// there is no slot, else by what runs along the radials. Throws Error(usage) when nothing spans a slot, or
+/// when the numbers of gores and lines allow no lattice.
+Mesh build_gored(const GorePattern& pattern, const Design& design, const PartMaterials& materials);
+
+}  // namespace ripstop

@@ -1,0 +1,45 @@
+// The ringsail canopy: rows of sails, fuller at their lower edges, on a quarter sphere.
+#pragma once
+
+#include "ripstop/parachute/gore.h"
+#include "ripstop/parachute/mesh.h"
+
+namespace ripstop {
+
+class Fields;
+class Findings;
+struct Design;
+struct PartMaterials;
+
+/// [[parachute.rows]]: one row of sails, from the skirt up.
+struct SailRow {
+  double height = 1;             // share of what slots and vent leave of the gore
+  double slot_deg = 0;           // open arc above the row
+  double leading_fullness = 0;   // of the lower edge
+  double trailing_fullness = 0;  // of the upper edge
+};
+
+/// [parachute] with type = "ringsail"
+struct Ringsail {
+  double nominal_diameter_m = 0;
+  double vent_diameter_m = 0;
+  double half_angle_deg = 60;  // of the cap: 60 a quarter of the sphere
+  int sails = 9;               // a gore; the classic layout is used when there is no table of rows
+  std::vector<SailRow> rows;
+  bool vent_lines = true;
+};
+
+/// The rows as given, else the classic layout (K1, Ewing; as a table in degrees): 3-degree slots below the
+/// two top rows, the top one half as high; leading-edge fullness 0 at the skirt, then from 11 % in equal
+/// steps to 5 %, and 0 for the two top rows.
+std::vector<SailRow> sail_rows(const Ringsail& canopy);
+
+void describe(Fields& fields, Ringsail& canopy);
+void check_shape(const Ringsail& canopy, const Design& design, Findings& findings);
+/// S0 = pi/4 nominal_diameter^2, the area of the cap with slots and vent and without fullness.
+GorePattern gore_pattern(const Ringsail& canopy, int gores);
+CanopyFacts facts(const Ringsail& canopy, int gores);
+/// See gored.h.
+Mesh build_canopy(const Ringsail& canopy, const Design& design, const PartMaterials& materials);
+
+}  // namespace ripstop

@@ -1,0 +1,80 @@
+#include "ripstop/parachute/ringslot.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "ripstop/core/toml/fields.h"
+#include "ripstop/core/toml/problem.h"
+#include "ripstop/parachute/design.h"
+#include "ripstop/parachute/gored.h"
+
+namespace ripstop {
+
+namespace {
+
+struct Layout {
+  double cosine = 1, slant = 0, run = 0, ring_height = 0;
+};
+
+Layout layout_of(const Ringslot& canopy) {
+  Layout layout;
+  layout.cosine = std::cos(canopy.cone_angle_deg * std::numbers::pi / 180);
+  layout.slant = canopy.nominal_diameter_m / 2 / std::sqrt(layout.cosine);
+  layout.run = layout.slant - canopy.vent_diameter_m / 2 / layout.cosine;
+  layout.ring_height = (layout.run - (canopy.rings - 1) * canopy.slot_height_m) / canopy.rings;
+  return layout;
+}
+
+}  // namespace
+
+void describe(Fields& fields, Ringslot& canopy) {
+  describe_nominal_diameter(fields, canopy.nominal_diameter_m);
+  describe_vent(fields, canopy.vent_diameter_m, canopy.vent_lines);
+  fields.number("cone_angle_deg", canopy.cone_angle_deg, from(0).up_to(60),
+                "Angle between the canopy as constructed and the plane of its skirt; 0 for a flat one.");
+  fields.integer("rings", canopy.rings, from(2).up_to(100), "Number of rings of cloth, equally high.")
+      .required();
+  fields.number("slot_height_m", canopy.slot_height_m, above(0).up_to(10), "Open height between two rings.")
+      .required();
+  fields.integer("vertical_tapes", canopy.vertical_tapes, from(0).up_to(20),
+                 "Tapes in every gore between its seams that keep the rings apart (assumed).");
+}
+
+void check_shape(const Ringslot& canopy, const Design& design, Findings& findings) {
+  const Layout layout = layout_of(canopy);
+  check_vent(canopy.vent_diameter_m, 2 * layout.slant * layout.cosine, canopy.vent_lines, design, findings);
+  if (!findings.sound(shape_keys())) return;
+  if (canopy.slot_height_m >= layout.ring_height)
+    findings.add(
+        "parachute.slot_height_m", canopy.slot_height_m,
+        fmt::format("below {:.6g}", layout.run / (2 * canopy.rings - 1)),
+        fmt::format("the slots are wider than the rings, which are {:.6g} m high", layout.ring_height));
+}
+
+GorePattern gore_pattern(const Ringslot& canopy, int gores) {
+  const Layout layout = layout_of(canopy);
+  const double radius = canopy.nominal_diameter_m / 2;
+  GorePattern pattern{
+      gores, std::numbers::pi * radius * radius, {}, canopy.vent_lines, canopy.vertical_tapes};
+  for (int i = 0; i < canopy.rings; ++i) {
+    const double from = i * (layout.ring_height + canopy.slot_height_m);
+    pattern.strips.push_back(strip_on(
+        fmt::format("ring {}", i + 1), [&](double s) { return (layout.slant - s) * layout.cosine; }, from,
+        from + layout.ring_height, gores));
+    pattern.strips.back().whole = true;
+    if (i > 0) pattern.strips.back().slot = polygon_scale(gores) * canopy.slot_height_m;
+  }
+  return pattern;
+}
+
+CanopyFacts facts(const Ringslot& canopy, int gores) {
+  return facts(gore_pattern(canopy, gores));
+}
+
+Mesh build_canopy(const Ringslot& canopy, const Design& design, const PartMaterials& materials) {
+  return build_gored(gore_pattern(canopy, design.gores), design, materials);
+}
+
+}  // namespace ripstop

@@ -1,0 +1,256 @@
+// What holds for every canopy family: the cloth is that of the pattern, and the mesh has its symmetry.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <numbers>
+#include <numeric>
+
+#include "ripstop/case/assemble.h"
+#include "ripstop/case/case.h"
+#include "ripstop/cloth/cloth.h"
+
+namespace ripstop {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+const std::filesystem::path examples = std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples";
+
+Case example(const std::string& name, int nodes = 0) {
+  Case value = read_case(examples / name / "case.toml");
+  if (nodes > 0) value.parachute.mesh.cloth_nodes = nodes;
+  return value;
+}
+
+Mesh mesh_of(const Case& value) {
+  Mesh mesh = parachute_mesh(value);
+  for (Vec3& p : mesh.start) p.z -= canopy_position(value);
+  return mesh;
+}
+
+double cloth_area(const Mesh& mesh) {
+  double area = 0;
+  for (const Patch& patch : mesh.patches)
+    area = std::accumulate(patch.cell_area.begin(), patch.cell_area.end(), area);
+  return area;
+}
+
+class Family : public testing::TestWithParam<const char*> {};
+
+INSTANTIATE_TEST_SUITE_P(All, Family,
+                         testing::Values("stratos-iv", "flat-circular", "conical", "hemispherical",
+                                         "quarter-spherical", "extended-skirt", "ringslot", "adept"),
+                         [](const auto& family) {
+                           std::string name = family.param;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+TEST_P(Family, TheClothIsThePatternsWithinATenthOfAPercent) {
+  for (const int nodes : {3000, 0}) {
+    const Case value = example(GetParam(), nodes);
+    const Mesh mesh = mesh_of(value);
+    EXPECT_NEAR(cloth_area(mesh) / computed_area(value.parachute), 1, 1e-3);
+    int count = 0;
+    for (const Patch& patch : mesh.patches) count += patch.rows * patch.columns;
+    EXPECT_NEAR(count / double(value.parachute.mesh.cloth_nodes), 1, 0.05);
+  }
+}
+
+TEST_P(Family, ClothAndTapeAndLinesHaveTheirMassAndNothingElseHas) {
+  const Case value = example(GetParam(), 4000);
+  const Mesh mesh = mesh_of(value);
+  double expected = cloth_area(mesh) * canopy_fabric(value).areal_density_kg_m2;
+  for (const Spring& spring : mesh.springs) {
+    const std::string& part = mesh.parts[spring.part];
+    if (part.find("tape") != std::string::npos)
+      expected += spring.rest_length * reinforcement_tape(value).linear_density_kg_m;
+  }
+  for (const LineRun& line : mesh.lines)
+    for (const int spring : line.springs)
+      expected += mesh.springs[spring].rest_length * suspension_line(value).linear_density_kg_m;
+  for (const Spring& spring : mesh.springs)
+    if (mesh.parts[spring.part] == "vent lines")
+      expected += spring.rest_length * suspension_line(value).linear_density_kg_m;
+  EXPECT_NEAR(std::accumulate(mesh.mass.begin(), mesh.mass.end(), 0.0) / expected, 1, 1e-9);
+  for (const LineRun& line : mesh.lines) {
+    double length = 0;
+    for (int i = 0; i < line.free_springs; ++i) length += mesh.springs[line.springs[i]].rest_length;
+    EXPECT_NEAR(length, value.parachute.lines.length_m, 1e-9);
+  }
+}
+
+// The quads face outward: every one sees the confluence from its inside.
+TEST_P(Family, TheClothFacesFromTheInsideToTheOutside) {
+  const Case value = example(GetParam(), 4000);
+  const Mesh mesh = mesh_of(value);
+  const Vec3 confluence = mesh.start[mesh.confluence];
+  for (const Cell& cell : cells_of(mesh)) {
+    if (cell.corner[0] < 0) continue;
+    const Vec3 a = mesh.start[cell.corner[0]], b = mesh.start[cell.corner[1]], c = mesh.start[cell.corner[2]],
+               d = mesh.start[cell.corner[3]];
+    ASSERT_GT(dot(area_vector(a, b, c, d), 0.25 * (a + b + c + d) - confluence), 0);
+  }
+}
+
+/// Whether `place` maps the masses of the mesh onto themselves.
+template <class Map>
+void expect_symmetric(const Mesh& mesh, const std::vector<Vec3>& x, double tolerance, const Map& map) {
+  using Key = std::array<long, 3>;
+  const double cell = 10 * tolerance;
+  std::map<Key, double> mass_at;
+  const auto key = [&](Vec3 p) {
+    return Key{std::lround(p.x / cell), std::lround(p.y / cell), std::lround(p.z / cell)};
+  };
+  std::multimap<Key, int> nodes;
+  for (int i = 0; i < mesh.node_count(); ++i) nodes.emplace(key(x[i]), i);
+  const auto mass_near = [&](Vec3 p) {
+    double mass = 0;
+    const Key k = key(p);
+    for (long dx : {-1, 0, 1})
+      for (long dy : {-1, 0, 1})
+        for (long dz : {-1, 0, 1}) {
+          const auto [begin, end] = nodes.equal_range({k[0] + dx, k[1] + dy, k[2] + dz});
+          for (auto i = begin; i != end; ++i)
+            if (norm(x[i->second] - p) < tolerance) mass += mesh.mass[i->second];
+        }
+    return mass;
+  };
+  for (int i = 0; i < mesh.node_count(); ++i)
+    ASSERT_NEAR(mass_near(map(x[i])) / mass_near(x[i]), 1, 1e-6) << x[i].x << " " << x[i].y << " " << x[i].z;
+}
+
+TEST_P(Family, TheMeshHasTheSymmetryOfItsGores) {
+  const Case value = example(GetParam(), 2500);
+  const Mesh mesh = mesh_of(value);
+  const double c = std::cos(2 * pi / value.parachute.gores), s = std::sin(2 * pi / value.parachute.gores);
+  expect_symmetric(mesh, mesh.start, 1e-9, [&](Vec3 p) {
+    return Vec3{c * p.x - s * p.y, s * p.x + c * p.y, p.z};
+  });
+  expect_symmetric(mesh, mesh.start, 1e-9, [&](Vec3 p) { return Vec3{p.x, -p.y, p.z}; });
+}
+
+TEST_P(Family, EveryTiedNodeLiesWhereItsMastersHaveIt) {
+  const Mesh mesh = mesh_of(example(GetParam(), 2500));
+  std::vector<char> tied(mesh.node_count(), 0);
+  for (const Tie& tie : mesh.ties) {
+    EXPECT_FALSE(tied[tie.node]);
+    tied[tie.node] = 1;
+    Vec3 place{};
+    double weights = 0;
+    for (const Tie::Master& master : tie.masters)
+      place += master.weight * mesh.start[master.node], weights += master.weight;
+    ASSERT_NEAR(weights, 1, 1e-12);
+    ASSERT_LT(norm(place - mesh.start[tie.node]), 1e-12);
+  }
+  for (const Tie& tie : mesh.ties)
+    for (const Tie::Master& master : tie.masters) ASSERT_FALSE(tied[master.node]);
+}
+
+// Where no sail has fullness the flat pattern folds into the start shape without strain, but for the seams,
+// whose nodes between two nodes of a line lie on a straight segment.
+TEST_P(Family, TheStartShapeIsThePatternFolded) {
+  const std::string name = GetParam();
+  if (name == "adept") GTEST_SKIP() << "its sails are fuller than the chords between their radials";
+  const Case value = example(name);
+  const Mesh mesh = mesh_of(value);
+  double worst = 0, sum = 0;
+  int count = 0;
+  for (const Patch& patch : mesh.patches) {
+    for (const Direction d : {along_row, along_column, shear_up, shear_down}) {
+      for (int row = 0; row < patch.rows; ++row) {
+        for (int column = 0; column < patch.columns; ++column) {
+          const int i = row * patch.columns + column;
+          if (patch.width[d][i] <= 0) continue;
+          const int other = (column + direction_offset[d].column + patch.columns) % patch.columns;
+          const double length = norm(mesh.start[patch.node(row + direction_offset[d].row, other)] -
+                                     mesh.start[patch.node(row, column)]);
+          const double strain = std::abs(length / patch.rest_length[d][i] - 1);
+          worst = std::max(worst, strain), sum += strain, ++count;
+        }
+      }
+    }
+  }
+  const bool curved = name == "hemispherical" || name == "quarter-spherical";
+  EXPECT_LT(worst, curved ? 0.03 : 1e-9);
+  EXPECT_LT(sum / count, curved ? 1e-3 : 1e-9);
+}
+
+TEST_P(Family, TheStableStepIsThatOfSpringsNearTheMeanSpacing) {
+  const Mesh mesh = mesh_of(example(GetParam()));
+  const ClothPtr cloth = make_cloth(mesh);
+  EXPECT_GE(step_bound(*cloth, start_state(*cloth)).stable_step, 4e-6);
+}
+
+// S0 = pi/4 D0^2 = cloth + vent + slots, by each type's own definition. The vent has the area of the circle.
+TEST(FlatCircular, ClothAndVentMakeUpTheNominalArea) {
+  for (const char* name : {"flat-circular", "conical"}) {
+    const Case value = example(name);
+    const double cone = std::string(name) == "conical" ? std::cos(pi / 6) : 1;
+    EXPECT_NEAR(nominal_area(value.parachute), pi / 4, 1e-12);
+    EXPECT_NEAR(computed_area(value.parachute) + pi / 4 * 0.1 * 0.1 / cone, pi / 4, 1e-9) << name;
+  }
+}
+
+TEST(Spherical, AHemisphereHasTwiceTheAreaOfItsMouthAndAQuarterSphereHalfOfThat) {
+  // Constructed over nominal diameter: 0.71 for a hemisphere (Knacke), 0.866 for a quarter of the sphere.
+  EXPECT_NEAR(2 * sphere_radius(1, pi / 2), std::sqrt(0.5), 1e-12);
+  EXPECT_NEAR(2 * sphere_radius(1, pi / 3) * std::sin(pi / 3), std::sqrt(0.75), 1e-12);
+  const double radius = sphere_radius(1, pi / 2);
+  const double vent_cap = 2 * pi * radius * (radius - std::sqrt(radius * radius - 0.04 * 0.04));
+  EXPECT_NEAR(computed_area(example("hemispherical").parachute) + vent_cap, pi / 4, 1e-4);
+}
+
+TEST(Ringslot, SlotsAndVentAreWhatTheClothLeavesOfTheNominalArea) {
+  const Case value = example("ringslot");
+  // Slots of 13 mm between six rings, on the round canopy: annuli.
+  double open = pi / 4 * 0.1 * 0.1;
+  const double ring = (0.45 - 5 * 0.013) / 6;
+  for (int i = 0; i < 5; ++i) {
+    const double outer = 0.5 - (i + 1) * ring - i * 0.013;
+    open += pi * (outer * outer - (outer - 0.013) * (outer - 0.013));
+  }
+  EXPECT_NEAR(computed_area(value.parachute), pi / 4 - open, 1e-6);
+}
+
+TEST(Ringsail, TheClassicLayoutOfSevenRowsIsEwings) {
+  Ringsail canopy{2.18, 0.218, 60, 7, {}, true};
+  const std::vector<SailRow> rows = sail_rows(canopy);
+  ASSERT_EQ(rows.size(), 7u);
+  const double fullness[] = {0, 0.11, 0.09, 0.07, 0.05, 0, 0};
+  const double slots[] = {0, 0, 0, 0, 3, 3, 0};
+  for (int i = 0; i < 7; ++i) {
+    EXPECT_NEAR(rows[i].leading_fullness, fullness[i], 1e-12) << i;
+    EXPECT_EQ(rows[i].slot_deg, slots[i]) << i;
+    EXPECT_EQ(rows[i].height, i == 6 ? 0.5 : 1.0);
+  }
+}
+
+TEST(Ringsail, AdeptHasSeventyTwoSailsOnAboutElevenThousandNodes) {
+  const Case value = example("adept");
+  const GorePattern pattern = gore_pattern(std::get<Ringsail>(value.parachute.canopy), value.parachute.gores);
+  EXPECT_EQ(pattern.strips.size() * pattern.gores, 72u);
+  EXPECT_NEAR(nominal_area(value.parachute), pi / 4, 1e-12);
+  // Without its fullness the cloth is the cap of 60 degrees but for the vent and two slots of 3 degrees.
+  const double radius = 0.5;
+  double covered = 0, with_fullness = 0;
+  for (const GoreStrip& strip : pattern.strips)
+    for (std::size_t k = 1; k < strip.stations.size(); ++k) {
+      const Station &a = strip.stations[k - 1], &b = strip.stations[k];
+      covered += pattern.gores * (b.height - a.height) * 0.5 * (a.chord + b.chord);
+      with_fullness += pattern.gores * (b.height - a.height) * 0.5 * (a.width + b.width);
+    }
+  const double degree = pi / 180;
+  const double vent = std::asin(0.03 / radius), row = (60 * degree - vent - 6 * degree) / 8.5;
+  const auto cap = [&](double angle) { return 2 * pi * radius * radius * (1 - std::cos(angle)); };
+  const double upper = vent + 0.5 * row, lower = upper + 3 * degree + row;
+  const double open = cap(vent) + cap(upper + 3 * degree) - cap(upper) + cap(lower + 3 * degree) - cap(lower);
+  EXPECT_NEAR(covered, pi / 4 - open, 1e-4);
+  EXPECT_NEAR(computed_area(value.parachute), with_fullness, 1e-12);
+}
+
+}  // namespace
+}  // namespace ripstop
