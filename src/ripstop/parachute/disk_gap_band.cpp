@@ -138,12 +138,12 @@ void describe(Fields& fields, DiskGapBand& canopy) {
               "Diameter of the flat disk, which is the band's too.")
       .required();
   fields
-      .number("vent_diameter_m", canopy.vent_diameter_m, above(0).up_to(100),
+      .number("vent_diameter_m", canopy.vent_diameter_m, from(0.001).up_to(100),
               "Diameter of the hole in the middle of the disk.")
       .required();
-  fields.number("gap_height_m", canopy.gap_height_m, from(0).up_to(100), "Open height between disk and band.")
+  fields.number("gap_height_m", canopy.gap_height_m, from(0.001).up_to(100), "Open height between disk and band.")
       .required();
-  fields.number("band_height_m", canopy.band_height_m, above(0).up_to(100), "Height of the cylindrical band.")
+  fields.number("band_height_m", canopy.band_height_m, from(0.001).up_to(100), "Height of the cylindrical band.")
       .required();
 }
 

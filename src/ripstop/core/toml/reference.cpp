@@ -56,11 +56,18 @@ bool is_table(const Field& field) {
          std::holds_alternative<NamedTables>(field.value);
 }
 
+/// A bar would end the column.
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (char c : text) result += c == '|' ? std::string("\\|") : std::string(1, c);
+  return result;
+}
+
 std::string row(const Field& field) {
   Columns columns = std::visit(Describe{field}, field.value);
   if (field.is_required) columns.standard = "*required*";
   return fmt::format("| `{}` | {} | {} | {} | {} |\n", field.key, columns.type, columns.standard,
-                     columns.range, field.doc);
+                     columns.range, escaped(field.doc));
 }
 
 std::string rows_of(const Fields& fields) {

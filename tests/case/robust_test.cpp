@@ -1,0 +1,139 @@
+// Whatever bytes a case file has, it is a valid case or a told mistake.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <random>
+#include <sstream>
+
+#include "fixture.h"
+#include "ripstop/case/assemble.h"
+
+namespace ripstop {
+namespace {
+
+std::string example_text() {
+  std::ifstream stream(std::string(RIPSTOP_SOURCE_DIR) + "/examples/stratos-iv/case.toml");
+  std::stringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+/// True when the text is a valid case. A mistake has to come as an InputError that says something; a valid
+/// case has to survive being written and read again.
+bool is_valid_or_told(const std::string& text) {
+  try {
+    const Case value = parse_case(text, "case.toml");
+    const Air wind = air(value);
+    EXPECT_TRUE(wind.speed > 0 && wind.density > 0);
+    const std::string written = case_toml(value);
+    EXPECT_EQ(case_toml(parse_case(written, "written")), written);
+    return true;
+  } catch (const InputError& error) {
+    EXPECT_FALSE(error.problems().empty());
+    for (const Problem& problem : error.problems()) EXPECT_FALSE(problem.message.empty());
+    return false;
+  }
+}
+
+TEST(AnyBytes, ATruncatedFileIsToldOrValid) {
+  const std::string text = example_text();
+  ASSERT_TRUE(is_valid_or_told(text));
+  int valid = 0;
+  for (std::size_t length = 0; length < text.size(); ++length)
+    valid += is_valid_or_told(text.substr(0, length));
+  // The row for the chosen speed stands last, so only cuts in the comment-free tail of its optional keys
+  // pass.
+  EXPECT_GT(valid, 0);
+  EXPECT_LT(valid, 120);
+}
+
+TEST(AnyBytes, AFlippedByteIsToldOrValid) {
+  const std::string text = example_text();
+  std::mt19937 random(20240607);
+  int valid = 0, told = 0;
+  for (int i = 0; i < 4000; ++i) {
+    std::string spoilt = text;
+    const int flips = 1 + i % 3;
+    for (int k = 0; k < flips; ++k)
+      spoilt[random() % spoilt.size()] ^= static_cast<char>(1u << (random() % 8));
+    (is_valid_or_told(spoilt) ? valid : told)++;
+  }
+  EXPECT_GT(valid, 200);  // comments, digits
+  EXPECT_GT(told, 1000);
+}
+
+TEST(AnyBytes, ReplacedDigitsAreToldOrValid) {
+  const std::string text = example_text();
+  const std::string pieces[] = {
+      "-",    "0",  "9", "e", ".", "\"", "[", "]", "nan", "inf", "1e308", "-1e-308", "99999999999999999999",
+      "true", "\n", "#"};
+  std::mt19937 random(7);
+  for (int i = 0; i < 4000; ++i) {
+    std::string spoilt = text;
+    spoilt.replace(random() % spoilt.size(), 1 + random() % 2, pieces[random() % std::size(pieces)]);
+    is_valid_or_told(spoilt);
+  }
+}
+
+TEST(AnyBytes, DeepNestingIsRefusedWithoutExhaustingTheStack) {
+  const auto repeated = [](const std::string& piece, int n) {
+    std::string text;
+    for (int i = 0; i < n; ++i) text += piece;
+    return text;
+  };
+  for (const std::string& text :
+       {repeated("[", 200000), repeated("a.", 500000) + "a = 1", "x = " + repeated("[", 3900),
+        "x = " + repeated("{a=", 1000), repeated("a.", 1900) + "a = 1",
+        repeated("[a", 1) + repeated(".a", 1900) + "]\n" + repeated("b.", 1900) + "b = 1",
+        "x = " + repeated("[\n", 100000), std::string(2 << 20, '\n')})
+    EXPECT_FALSE(is_valid_or_told(text));
+}
+
+TEST(AnyBytes, ControlCharactersNeverReachTheMessage) {
+  const Outcome outcome =
+      outcome_of(replaced(valid_case, "gores = 6", "\"\\u001b[31mgores\" = \"\\u001b[0m\""));
+  ASSERT_FALSE(outcome.valid);
+  EXPECT_EQ(outcome.message.find('\x1b'), std::string::npos);
+}
+
+TEST(AnyDesign, EveryAcceptedParachuteCanBeMeshed) {
+  std::mt19937 random(42);
+  const auto between = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  const auto integer = [&](int low, int high) {
+    return std::uniform_int_distribution<int>(low, high)(random);
+  };
+  int accepted = 0, told = 0;
+  for (int i = 0; i < 150; ++i) {
+    Case value = parse_case(valid_case, "case.toml");
+    Design& design = value.parachute;
+    design.canopy =
+        DiskGapBand{between(0.2, 1.9), between(0.005, 0.5), between(0.001, 0.3), between(0.01, 0.5)};
+    design.gores = integer(3, 24);
+    design.lines.count = integer(3, 36);
+    design.lines.length_m = between(0.3, 4);
+    design.lines.onto_disk_m = between(0, 0.4);
+    design.mesh.cloth_nodes = integer(500, 6000);
+    design.riser.length_m = i % 2 ? 0 : between(0.1, 2);
+    try {
+      value = parse_case(case_toml(value), "random");
+    } catch (const InputError&) {
+      ++told;
+      continue;
+    }
+    ++accepted;
+    const Mesh mesh = parachute_mesh(value);
+    double cloth = 0;
+    for (const Patch& patch : mesh.patches)
+      for (double area : patch.cell_area) cloth += area;
+    EXPECT_NEAR(cloth, computed_area(value.parachute), 0.05 * cloth) << case_toml(value);
+    for (const Spring& spring : mesh.springs) ASSERT_GT(spring.rest_length, 0) << case_toml(value);
+    for (double mass : mesh.mass) ASSERT_GT(mass, 0) << case_toml(value);
+  }
+  EXPECT_GT(accepted, 30);
+  EXPECT_GT(told, 10);
+}
+
+}  // namespace
+}  // namespace ripstop
