@@ -1,0 +1,24 @@
+// The built-in flow engine: steady RANS on a rectilinear grid with a porous canopy, the discrete operators of
+// OpenFOAM's rhoPorousSimpleFoam on that grid. Theory: docs/theory/flow-cartesian.md.
+#pragma once
+
+#include <memory>
+
+#include "ripstop/flow/flow.h"
+
+namespace ripstop {
+
+struct CartesianSettings {
+  int threads = 0;               // 0: as many as the process may run on
+  bool compressible = true;      // perfect gas at constant total enthalpy; false: constant density
+  bool grid_sequencing = true;   // a cold start solves coarser grids first
+  int pressure_cycles = 2;       // multigrid V cycles an iteration
+  double relax_pressure = 0.3;   // (0, 1]
+  double relax_velocity = 0.7;   // (0, 1]; the converged answer depends on it a little, through the face flux
+  double relax_turbulence = 0.7;  // (0, 1]
+};
+
+/// Throws Error(usage) for settings outside their ranges.
+std::unique_ptr<FlowEngine> make_cartesian(const CartesianSettings& settings = {});
+
+}  // namespace ripstop

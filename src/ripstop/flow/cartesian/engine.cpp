@@ -1,0 +1,138 @@
+// The flow engine: grid sequencing, warm start, stopping, divergence, save and restore.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "ripstop/core/error.h"
+#include "ripstop/flow/cartesian/cartesian.h"
+#include "ripstop/flow/cartesian/solver.h"
+
+namespace ripstop {
+namespace {
+
+using namespace cartesian;
+
+void check(const FlowProblem& problem) {
+  const FlowGrid& g = problem.grid;
+  const auto usage = [](const std::string& message) { throw Error(ExitCode::usage, message); };
+  if (g.nx < 4 || g.ny < 4 || g.nz < 4 || !(g.size.x > 0 && g.size.y > 0 && g.size.z > 0)) {
+    usage(fmt::format("flow grid: needs at least 4 cells and a positive size on each axis, not {} x {} x {} cells of {} x {} x {} m",
+                      g.nx, g.ny, g.nz, g.size.x, g.size.y, g.size.z));
+  }
+  const Freestream& a = problem.air;
+  const auto positive_value = [&](const char* name, double value) {
+    if (!(value > 0) || !std::isfinite(value)) usage(fmt::format("free stream: {} = {} must be positive", name, value));
+  };
+  positive_value("speed", a.speed);
+  positive_value("density", a.density);
+  positive_value("viscosity", a.viscosity);
+  positive_value("temperature", a.temperature);
+  positive_value("turbulence intensity", a.turbulence_intensity);
+  positive_value("viscosity ratio", a.viscosity_ratio);
+  positive_value("residual", problem.residual);
+}
+
+bool converged(const FlowProgress& p, double tolerance) {
+  return p.residual_u <= tolerance && p.residual_p <= tolerance && p.residual_k <= tolerance &&
+         p.residual_omega <= tolerance;
+}
+
+class CartesianEngine final : public FlowEngine {
+ public:
+  explicit CartesianEngine(const CartesianSettings& settings) : settings_(settings), team_(settings.threads) {}
+
+  std::string name() const override { return "built-in (Cartesian, SIMPLE, k-omega SST)"; }
+  FlowField solve(const FlowProblem& problem, const FlowReport& report) override;
+  void save(const std::filesystem::path& folder) const override;
+  void restore(const std::filesystem::path& folder) override;
+
+ private:
+  void solve_coarse(const FlowProblem& problem, const FlowGrid& grid, const PorousRows& porous, Solver& fine);
+  FlowProgress run(Solver& solver, double tolerance, int iterations, const FlowReport& report, bool& done);
+
+  CartesianSettings settings_;
+  ThreadTeam team_;
+  std::unique_ptr<Solver> last_;  // the start of the next solve
+};
+
+FlowProgress CartesianEngine::run(Solver& solver, double tolerance, int iterations, const FlowReport& report,
+                                  bool& done) {
+  FlowProgress progress;
+  done = false;
+  for (int n = 1; n <= iterations; ++n) {
+    progress = solver.iterate();
+    progress.iteration = n;
+    const double worst = progress.residual_u + progress.residual_p + progress.residual_k + progress.residual_omega +
+                         progress.drag;
+    if (!std::isfinite(worst)) {
+      throw Error(ExitCode::diverged,
+                  fmt::format("the flow diverged in iteration {} on {} x {} x {} cells: {}; try a lower velocity or "
+                              "pressure relaxation, or a coarser grid first",
+                              n, solver.grid().nx, solver.grid().ny, solver.grid().nz, solver.first_bad_value()));
+    }
+    done = converged(progress, tolerance);
+    if (report && !report(progress)) return done = false, progress;
+    if (done) break;
+  }
+  return progress;
+}
+
+void CartesianEngine::solve_coarse(const FlowProblem& problem, const FlowGrid& grid, const PorousRows& porous,
+                                   Solver& fine) {
+  FlowGrid half = grid;
+  half.nx = (grid.nx + 1) / 2, half.ny = (grid.ny + 1) / 2, half.nz = (grid.nz + 1) / 2;
+  const PorousRows averaged(porous, half);
+  Solver solver(problem, half, averaged, settings_, team_);
+  if (half.cells() > 20000) {
+    solve_coarse(problem, half, averaged, solver);
+  } else {
+    solver.start_uniform();
+  }
+  bool done = false;
+  // The coarse answer differs from the fine one by far more than this.
+  run(solver, 1e-3, 60, nullptr, done);
+  fine.start_from(solver);
+}
+
+FlowField CartesianEngine::solve(const FlowProblem& problem, const FlowReport& report) {
+  check(problem);
+  auto solver = std::make_unique<Solver>(
+      problem, problem.grid, PorousRows(problem.grid, problem.porous, problem.air.viscosity), settings_, team_);
+  if (last_) {
+    solver->start_from(*last_);
+  } else if (settings_.grid_sequencing && problem.grid.cells() > 20000) {
+    solve_coarse(problem, problem.grid, PorousRows(problem.grid, problem.porous, problem.air.viscosity), *solver);
+  } else {
+    solver->start_uniform();
+  }
+  bool done = false;
+  const FlowProgress progress = run(*solver, problem.residual, problem.max_iterations, report, done);
+  FlowField field = solver->field();
+  field.last = progress;
+  field.converged = done;
+  last_ = std::move(solver);
+  return field;
+}
+
+void CartesianEngine::save(const std::filesystem::path&) const {}
+void CartesianEngine::restore(const std::filesystem::path&) {}
+
+}  // namespace
+
+std::unique_ptr<FlowEngine> make_cartesian(const CartesianSettings& settings) {
+  const auto fraction = [](const char* name, double value) {
+    if (!(value > 0 && value <= 1)) {
+      throw Error(ExitCode::usage, fmt::format("flow engine: {} = {} must lie in (0, 1]", name, value));
+    }
+  };
+  fraction("relax_pressure", settings.relax_pressure);
+  fraction("relax_velocity", settings.relax_velocity);
+  fraction("relax_turbulence", settings.relax_turbulence);
+  if (settings.pressure_cycles < 1 || settings.pressure_cycles > 20) {
+    throw Error(ExitCode::usage, fmt::format("flow engine: pressure_cycles = {} must lie in 1 to 20", settings.pressure_cycles));
+  }
+  return std::make_unique<CartesianEngine>(settings);
+}
+
+}  // namespace ripstop

@@ -1,0 +1,230 @@
+#include "ripstop/flow/cartesian/multigrid.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ripstop/flow/cartesian/multigrid_rows.h"
+
+namespace ripstop::cartesian {
+namespace {
+
+constexpr int coarsest_cells = 32;      // below that, smoothing alone
+constexpr int coarsest_sweeps = 12;     // red-black sweeps there
+constexpr int serial_cells = 6000;      // a level this small is cheaper on one thread than its barriers
+
+// Joins cells in pairs and says how to interpolate back.
+Axis join(const Axis& fine, MultigridLevel::Joint& joint) {
+  const bool halve = fine.n > 3;
+  std::vector<double> edges;
+  for (int c = 0; c < fine.n; c += halve ? 2 : 1) {
+    joint.first.push_back(c);
+    edges.push_back(fine.edge[c]);
+  }
+  joint.first.push_back(fine.n);
+  edges.push_back(fine.edge[fine.n]);
+  const auto end = [](double inverse_distance) { return inverse_distance > 0 ? End::fixed_value : End::zero_gradient; };
+  Axis coarse = make_axis(edges, end(fine.inverse_distance.front()), end(fine.inverse_distance.back()));
+
+  for (int f = 0; f <= coarse.n; ++f) {
+    const double fine_inverse = fine.inverse_distance[joint.first[f]];
+    joint.scale.push_back(fine_inverse > 0 ? static_cast<float>(coarse.inverse_distance[f] / fine_inverse) : 0.0f);
+  }
+  const auto centre = [](const Axis& a, int c) { return (a.edge[c] + a.edge[c + 1]) / 2; };
+  for (int parent = 0; parent < coarse.n; ++parent) {
+    for (int c = joint.first[parent]; c < joint.first[parent + 1]; ++c) {
+      const double offset = centre(fine, c) - centre(coarse, parent);
+      const int other = offset < 0 ? parent - 1 : parent + 1;
+      double far = 0, near = 1;
+      if (offset != 0 && other >= 0 && other < coarse.n) {
+        far = offset / (centre(coarse, other) - centre(coarse, parent));
+        near = 1 - far;
+      } else if (other == coarse.n && fine.inverse_distance.back() > 0 && offset > 0) {
+        near = 1 - offset / (coarse.edge.back() - centre(coarse, parent));
+      }
+      joint.near.push_back(parent);
+      joint.far.push_back(std::clamp(other, 0, coarse.n - 1));
+      joint.near_weight.push_back(static_cast<float>(near));
+      joint.far_weight.push_back(static_cast<float>(far));
+    }
+  }
+  return coarse;
+}
+
+MultigridRow row_of(MultigridLevel& level, int j, int k) {
+  const Layout& lay = level.layout;
+  const std::ptrdiff_t at = lay.at(0, j, k);
+  return {lay.nx, lay.stride_y, lay.stride_z, level.e.data() + at, level.rhs.data() + at, level.cx.data() + at,
+          level.cy.data() + at, level.cz.data() + at};
+}
+
+void smooth_planes(MultigridLevel& level, int colour, Range planes, bool from_zero) {
+  for (int k = planes.begin; k < planes.end; ++k) {
+    for (int j = 0; j < level.layout.ny; ++j) {
+      const MultigridRow row = row_of(level, j, k);
+      const int parity = (colour + j + k) & 1;
+      from_zero ? first_smooth_row(row, parity) : smooth_row(row, parity);
+    }
+  }
+}
+
+// rhs of the coarse level = sum of the fine residuals in each coarse cell.
+void restrict_planes(MultigridLevel& fine, MultigridLevel& coarse, Range planes) {
+  const Layout& lay = coarse.layout;
+  Array<float> sum(fine.layout.nx + 1);
+  for (int k = planes.begin; k < planes.end; ++k) {
+    for (int j = 0; j < lay.ny; ++j) {
+      std::fill_n(sum.data(), sum.size(), 0.0f);
+      for (int kf = coarse.z.first[k]; kf < coarse.z.first[k + 1]; ++kf) {
+        for (int jf = coarse.y.first[j]; jf < coarse.y.first[j + 1]; ++jf) {
+          residual_row(row_of(fine, jf, kf), sum.data());
+        }
+      }
+      float* rhs = coarse.rhs.data() + lay.at(0, j, k);
+      if (lay.nx == fine.layout.nx) {
+        std::copy_n(sum.data(), lay.nx, rhs);
+      } else {  // the value behind an odd row's end is zero
+        for (int i = 0; i < lay.nx; ++i) rhs[i] = sum[2 * i] + sum[2 * i + 1];
+      }
+    }
+  }
+}
+
+void prolong_planes(MultigridLevel& fine, MultigridLevel& coarse, Range planes) {
+  const Layout& lay = coarse.layout;
+  Array<float> mixed(lay.nx);
+  for (int k = planes.begin; k < planes.end; ++k) {
+    const int kn = coarse.z.near[k], kf = coarse.z.far[k];
+    const float zn = coarse.z.near_weight[k], zf = coarse.z.far_weight[k];
+    for (int j = 0; j < fine.layout.ny; ++j) {
+      const int jn = coarse.y.near[j], jf = coarse.y.far[j];
+      const float yn = coarse.y.near_weight[j], yf = coarse.y.far_weight[j];
+      const float* q = coarse.e.data();
+      mix_rows(lay.nx, q + lay.at(0, jn, kn), q + lay.at(0, jf, kn), q + lay.at(0, jn, kf), q + lay.at(0, jf, kf),
+               yn * zn, yf * zn, yn * zf, yf * zf, mixed.data());
+      spread_row(fine.layout.nx, mixed.data(), coarse.x.near.data(), coarse.x.far.data(), coarse.x.near_weight.data(),
+                 coarse.x.far_weight.data(), fine.e.data() + fine.layout.at(0, j, k));
+    }
+  }
+}
+
+// Conductance of a coarse face: its fine faces in parallel, over the longer distance.
+void coarsen_planes(const MultigridLevel& fine, MultigridLevel& coarse, Range planes) {
+  const Layout &lay = coarse.layout, &from = fine.layout;
+  const MultigridLevel::Joint &x = coarse.x, &y = coarse.y, &z = coarse.z;
+  for (int k = planes.begin; k < planes.end; ++k) {
+    const bool ghost_z = k == lay.nz;  // the outlet's faces
+    for (int j = 0; j < lay.ny; ++j) {
+      for (int i = 0; i < lay.nx; ++i) {
+        float cx = 0, cy = 0, cz = 0;
+        for (int jf = y.first[j]; jf < y.first[j + 1]; ++jf) {
+          for (int i_f = x.first[i]; i_f < x.first[i + 1]; ++i_f) cz += fine.cz[from.at(i_f, jf, z.first[k])];
+        }
+        const std::ptrdiff_t at = lay.at(i, j, k);
+        coarse.cz[at] = cz * z.scale[k];
+        if (ghost_z) continue;
+        for (int kf = z.first[k]; kf < z.first[k + 1]; ++kf) {
+          for (int jf = y.first[j]; jf < y.first[j + 1]; ++jf) cx += fine.cx[from.at(x.first[i], jf, kf)];
+          for (int i_f = x.first[i]; i_f < x.first[i + 1]; ++i_f) cy += fine.cy[from.at(i_f, y.first[j], kf)];
+        }
+        coarse.cx[at] = cx * x.scale[i];
+        coarse.cy[at] = cy * y.scale[j];
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Multigrid::Multigrid(const Axis& x, const Axis& y, const Axis& z) {
+  Axis ax = x, ay = y, az = z;
+  MultigridLevel::Joint jx, jy, jz;
+  for (;;) {
+    MultigridLevel level;
+    level.layout = Layout(ax.n, ay.n, az.n);
+    const std::size_t values = level.layout.values();
+    level.e = Array<float>(values);
+    level.rhs = Array<float>(values);
+    level.cx = Array<float>(values);
+    level.cy = Array<float>(values);
+    level.cz = Array<float>(values);
+    level.x = std::move(jx);
+    level.y = std::move(jy);
+    level.z = std::move(jz);
+    levels_.push_back(std::move(level));
+    if (ax.n * ay.n * az.n <= coarsest_cells || (ax.n <= 3 && ay.n <= 3 && az.n <= 3)) break;
+    jx = {}, jy = {}, jz = {};
+    ax = join(ax, jx);
+    ay = join(ay, jy);
+    az = join(az, jz);
+  }
+}
+
+void Multigrid::coarsen(ThreadTeam& team, int rank) {
+  for (std::size_t l = 1; l < levels_.size(); ++l) {
+    const int planes = levels_[l].layout.nz + 1;
+    coarsen_planes(levels_[l - 1], levels_[l], part_of(planes, rank, team.size()));
+    team.barrier();
+  }
+}
+
+void Multigrid::cycle(std::size_t l, ThreadTeam* team, int rank) {
+  MultigridLevel& level = levels_[l];
+  const int parts = team ? team->size() : 1;
+  const auto barrier = [&] {
+    if (team) team->barrier();
+  };
+  const Range planes = part_of(level.layout.nz, rank, parts);
+  const auto sweep = [&](int colour, bool from_zero) {
+    smooth_planes(level, colour, planes, from_zero);
+    barrier();
+  };
+  if (l > 0) {
+    sweep(0, true);
+  } else {
+    sweep(0, false);
+  }
+  sweep(1, false);
+  if (l + 1 == levels_.size()) {
+    for (int s = 1; s < coarsest_sweeps; ++s) sweep(0, false), sweep(1, false);
+    return;
+  }
+  MultigridLevel& coarse = levels_[l + 1];
+  restrict_planes(level, coarse, part_of(coarse.layout.nz, rank, parts));
+  barrier();
+  if (team && coarse.layout.nx * coarse.layout.ny * coarse.layout.nz < serial_cells) {
+    if (rank == 0) cycle(l + 1, nullptr, 0);
+    barrier();
+  } else {
+    cycle(l + 1, team, rank);
+  }
+  prolong_planes(level, coarse, planes);
+  barrier();
+  sweep(1, false);
+  sweep(0, false);
+}
+
+void Multigrid::solve(ThreadTeam& team, int rank, int cycles) {
+  coarsen(team, rank);
+  MultigridLevel& top = finest();
+  const Range planes = part_of(top.layout.nz, rank, team.size());
+  std::fill(top.e.data() + top.layout.at(-Layout::lead, -1, planes.begin),
+            top.e.data() + top.layout.at(-Layout::lead, -1, planes.end), 0.0f);
+  team.barrier();
+  for (int c = 0; c < cycles; ++c) cycle(0, &team, rank);
+}
+
+double Multigrid::residual() const {
+  MultigridLevel copy = levels_.front();
+  Array<float> sum(copy.layout.nx);
+  double total = 0;
+  for (int k = 0; k < copy.layout.nz; ++k) {
+    for (int j = 0; j < copy.layout.ny; ++j) {
+      std::fill_n(sum.data(), sum.size(), 0.0f);
+      residual_row(row_of(copy, j, k), sum.data());
+      for (int i = 0; i < copy.layout.nx; ++i) total += std::fabs(static_cast<double>(sum[i]));
+    }
+  }
+  return total;
+}
+
+}  // namespace ripstop::cartesian

@@ -1,0 +1,52 @@
+// Geometric multigrid for the pressure correction: sum over faces of c (e_P - e_nb) = rhs, in float.
+//
+// The conductances c live on the low faces of the cells; a closed face has c = 0, and the ghost cells of e stay 0,
+// which is the outlet's value. Cells are joined in pairs along each axis (an odd last cell stays alone);
+// residuals are summed, corrections interpolated linearly. Red-black smoothing: the order of the rows, and so
+// the number of threads, does not matter to the last bit.
+#pragma once
+
+#include <vector>
+
+#include "ripstop/core/thread_team.h"
+#include "ripstop/flow/cartesian/grid.h"
+
+namespace ripstop::cartesian {
+
+struct MultigridLevel {
+  Layout layout;
+  Array<float> e, rhs, cx, cy, cz;
+
+  // How this level came from the finer one; empty on the finest.
+  struct Joint {
+    std::vector<int> first;                         // n + 1: first fine cell of a coarse cell
+    std::vector<float> scale;                       // n + 1: fine over coarse distance across a low face
+    std::vector<int> near, far;                     // for each fine cell: two coarse cells ...
+    std::vector<float> near_weight, far_weight;     // ... and their weights
+  };
+  Joint x, y, z;
+};
+
+class Multigrid {
+ public:
+  Multigrid() = default;
+  /// `z` is the pressure's axis: closed at the inlet, fixed value at the outlet.
+  Multigrid(const Axis& x, const Axis& y, const Axis& z);
+
+  /// The finest level: the caller fills rhs and the conductances, and reads e.
+  MultigridLevel& finest() { return levels_.front(); }
+  const MultigridLevel& finest() const { return levels_.front(); }
+
+  /// e = 0, then `cycles` V cycles. Called by every rank of the team at once.
+  void solve(ThreadTeam& team, int rank, int cycles);
+
+  /// sum |rhs - A e| on the finest level; for tests. One thread.
+  double residual() const;
+
+ private:
+  void coarsen(ThreadTeam& team, int rank);
+  void cycle(std::size_t level, ThreadTeam* team, int rank);
+  std::vector<MultigridLevel> levels_;
+};
+
+}  // namespace ripstop::cartesian

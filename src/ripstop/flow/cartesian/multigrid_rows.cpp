@@ -1,0 +1,58 @@
+#include "ripstop/flow/cartesian/multigrid_rows.h"
+
+#include "ripstop/flow/cartesian/simd.h"
+
+namespace ripstop::cartesian {
+
+RIPSTOP_ROW_KERNEL void smooth_row(const MultigridRow& row, int parity) {
+  const int n = row.n;
+  const std::ptrdiff_t sy = row.sy, sz = row.sz;
+  float* e = row.e;
+  const float *rhs = row.rhs, *cx = row.cx, *cy = row.cy, *cz = row.cz;
+  // Cells of one colour read only the other colour, so all of the row can be computed and half of it kept.
+#pragma omp simd
+  for (int i = 0; i < n; ++i) {
+    const float sum = cx[i] + cx[i + 1] + cy[i] + cy[i + sy] + cz[i] + cz[i + sz];
+    const float in = cx[i] * e[i - 1] + cx[i + 1] * e[i + 1] + cy[i] * e[i - sy] + cy[i + sy] * e[i + sy] +
+                     cz[i] * e[i - sz] + cz[i + sz] * e[i + sz];
+    e[i] = (i & 1) == parity ? (rhs[i] + in) / sum : e[i];
+  }
+}
+
+RIPSTOP_ROW_KERNEL void first_smooth_row(const MultigridRow& row, int parity) {
+  const int n = row.n;
+  const std::ptrdiff_t sy = row.sy, sz = row.sz;
+  float* e = row.e;
+  const float *rhs = row.rhs, *cx = row.cx, *cy = row.cy, *cz = row.cz;
+#pragma omp simd
+  for (int i = 0; i < n; ++i) {
+    const float sum = cx[i] + cx[i + 1] + cy[i] + cy[i + sy] + cz[i] + cz[i + sz];
+    e[i] = (i & 1) == parity ? rhs[i] / sum : 0.0f;
+  }
+}
+
+RIPSTOP_ROW_KERNEL void residual_row(const MultigridRow& row, float* out) {
+  const int n = row.n;
+  const std::ptrdiff_t sy = row.sy, sz = row.sz;
+  const float* e = row.e;
+  const float *rhs = row.rhs, *cx = row.cx, *cy = row.cy, *cz = row.cz;
+#pragma omp simd
+  for (int i = 0; i < n; ++i) {
+    out[i] += rhs[i] + cx[i] * (e[i - 1] - e[i]) + cx[i + 1] * (e[i + 1] - e[i]) + cy[i] * (e[i - sy] - e[i]) +
+              cy[i + sy] * (e[i + sy] - e[i]) + cz[i] * (e[i - sz] - e[i]) + cz[i + sz] * (e[i + sz] - e[i]);
+  }
+}
+
+RIPSTOP_ROW_KERNEL void mix_rows(int n, const float* a, const float* b, const float* c, const float* d, float wa,
+                                 float wb, float wc, float wd, float* out) {
+#pragma omp simd
+  for (int i = 0; i < n; ++i) out[i] = wa * a[i] + wb * b[i] + wc * c[i] + wd * d[i];
+}
+
+RIPSTOP_ROW_KERNEL void spread_row(int n, const float* q, const int* near, const int* far, const float* near_weight,
+                                   const float* far_weight, float* e) {
+#pragma omp simd
+  for (int i = 0; i < n; ++i) e[i] += near_weight[i] * q[near[i]] + far_weight[i] * q[far[i]];
+}
+
+}  // namespace ripstop::cartesian

@@ -1,0 +1,27 @@
+// Row kernels of the multigrid solver, see multigrid.h.
+#pragma once
+
+#include <cstddef>
+
+namespace ripstop::cartesian {
+
+struct MultigridRow {
+  int n = 0;
+  std::ptrdiff_t sy = 0, sz = 0;
+  float* e = nullptr;
+  const float *rhs = nullptr, *cx = nullptr, *cy = nullptr, *cz = nullptr;
+};
+/// Gauss-Seidel on the cells whose i has the given parity.
+void smooth_row(const MultigridRow& row, int parity);
+/// The first half sweep from e = 0, without reading e.
+void first_smooth_row(const MultigridRow& row, int parity);
+/// sum[i] += rhs - A e
+void residual_row(const MultigridRow& row, float* sum);
+/// out = sum of four rows with weights.
+void mix_rows(int n, const float* a, const float* b, const float* c, const float* d, float wa, float wb, float wc,
+              float wd, float* out);
+/// e[i] += near_weight[i] q[near[i]] + far_weight[i] q[far[i]]
+void spread_row(int n, const float* q, const int* near, const int* far, const float* near_weight,
+                const float* far_weight, float* e);
+
+}  // namespace ripstop::cartesian

@@ -1,0 +1,34 @@
+// Porous cells as rows that the momentum kernel can read: most rows share one row of zeros.
+#pragma once
+
+#include <vector>
+
+#include "ripstop/flow/cartesian/grid.h"
+#include "ripstop/flow/flow.h"
+
+namespace ripstop::cartesian {
+
+/// Resistance R = linear + rho |U| quadratic [kg/(m3 s)] in each cell.
+class PorousRows {
+ public:
+  PorousRows() = default;
+  /// Cells named by several cloths add up. Throws Error(bad_data) for cells outside the grid or coefficients
+  /// that are negative or not finite.
+  PorousRows(const FlowGrid& grid, const std::vector<PorousCells>& cloths, double viscosity);
+  /// The same resistance seen by a grid of half as many cells an axis: volume means.
+  PorousRows(const PorousRows& fine, const FlowGrid& coarse);
+
+  bool empty(int j, int k) const { return offset_[row(j, k)] == 0; }
+  const double* linear(int j, int k) const { return linear_.data() + offset_[row(j, k)]; }        // mu d
+  const double* quadratic(int j, int k) const { return quadratic_.data() + offset_[row(j, k)]; }  // f / 2
+
+ private:
+  std::size_t row(int j, int k) const { return static_cast<std::size_t>(k) * ny_ + j; }
+  void add_row(int j, int k);
+
+  int nx_ = 0, ny_ = 0, nz_ = 0;
+  std::vector<std::size_t> offset_;         // 0: the row of zeros
+  std::vector<double> linear_, quadratic_;  // rows of nx values
+};
+
+}  // namespace ripstop::cartesian

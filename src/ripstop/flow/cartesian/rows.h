@@ -1,0 +1,132 @@
+// The row kernels: each works on one row of cells along x and touches nothing but the rows it is given.
+//
+// Pointers are to cell 0 of the row; q[i - 1], q[i + 1] are the neighbours along x, q[i - sy], q[i + sy] along
+// y, q[i - sz], q[i + sz] along z. Where the neighbour plane lies elsewhere (a ring of planes, a boundary
+// value), it has a pointer of its own, `below` (towards the inlet) or `above`.
+// Mass fluxes are per area, rho u [kg/(m2 s)], positive along the axis, kept at the low face of a cell.
+#pragma once
+
+#include <cstddef>
+
+#include "ripstop/flow/cartesian/grid.h"
+
+namespace ripstop::cartesian {
+
+/// Metrics of an axis across the row: those of cell c, as plain numbers.
+struct CrossMetrics {
+  double inverse_width = 0;
+  double weight_low = 0, weight_high = 0;      // of the lower value on the low and on the high face
+  double distance_low = 0, distance_high = 0;  // inverse distances over the low and the high face [1/m]
+  double slope_low = 0, slope_high = 0;
+};
+CrossMetrics cross_metrics(const Axis& axis, int c);
+
+/// What every kernel needs of the grid.
+struct RowMetrics {
+  int n = 0;
+  std::ptrdiff_t sy = 0, sz = 0;
+  const double *x_inverse_width = nullptr, *x_weight_low = nullptr, *x_inverse_distance = nullptr,
+               *x_slope_low = nullptr, *x_slope_high = nullptr;
+  CrossMetrics y, z;
+};
+
+/// A sum of |residual| and the factor that OpenFOAM divides it by (lduMatrix::solver::normFactor).
+struct ResidualSum {
+  double residual = 0, scale = 0;
+};
+
+struct TurbulenceRow {
+  RowMetrics m;
+  double viscosity = 0;   // mu [Pa s]
+  double relaxation = 0;  // of k and omega
+  double mean_k = 0, mean_omega = 0;
+  const double *u = nullptr, *v = nullptr, *w = nullptr;
+  const double *k = nullptr, *omega = nullptr, *rho = nullptr;
+  const double *k_below = nullptr, *k_above = nullptr;          // what convection and diffusion see
+  const double *omega_below = nullptr, *omega_above = nullptr;  // across the z faces
+  const double *fx = nullptr, *fy = nullptr, *fz = nullptr;
+  const double *mut = nullptr, *mut_below = nullptr, *mut_above = nullptr;  // eddy viscosity [Pa s]
+  // Results.
+  double *k_new = nullptr, *omega_new = nullptr;
+  double* mu_new = nullptr;                                              // mu + mu_t [Pa s]
+  double *tx = nullptr, *ty = nullptr, *tz = nullptr;                    // three components each, see below
+  std::ptrdiff_t component = 0;                                          // values from a component to the next
+  ResidualSum k_sum, omega_sum;
+  double total_k = 0, total_omega = 0;  // of the new values, times the cell width
+};
+void turbulence_row(TurbulenceRow& row);
+
+struct MomentumRow {
+  RowMetrics m;
+  double relaxation = 0;
+  double mean_u = 0, mean_v = 0, mean_w = 0;
+  const double *u = nullptr, *v = nullptr, *w = nullptr, *p = nullptr, *rho = nullptr;
+  const double *u_below = nullptr, *v_below = nullptr, *w_below = nullptr;
+  const double *u_above = nullptr, *v_above = nullptr, *w_above = nullptr;
+  const double *fx = nullptr, *fy = nullptr, *fz = nullptr;
+  const double *mu = nullptr, *mu_below = nullptr, *mu_above = nullptr;
+  const double *tx = nullptr, *ty = nullptr, *tz = nullptr, *tz_below = nullptr, *tz_above = nullptr;
+  std::ptrdiff_t component = 0;
+  const double *linear = nullptr;     // mu d [kg/(m3 s)]
+  const double *quadratic = nullptr;  // f / 2 [1/m]
+  // Results: H/A, 1/A and the predicted velocity.
+  double *hu = nullptr, *hv = nullptr, *hw = nullptr, *ra = nullptr;
+  double *u_new = nullptr, *v_new = nullptr, *w_new = nullptr;
+  ResidualSum u_sum, v_sum, w_sum;
+};
+void momentum_row(MomentumRow& row);
+
+struct PressureRow {
+  RowMetrics m;  // m.z is that of the pressure: fixed value at the outlet
+  double y_width = 0, z_width = 0;
+  const double* x_width = nullptr;
+  const double *hu = nullptr, *hv = nullptr, *hw = nullptr, *ra = nullptr, *rho = nullptr, *p = nullptr;
+  const double *hw_above = nullptr, *rho_above = nullptr, *ra_above = nullptr, *p_above = nullptr;
+  bool inlet = false;       // the low z face brings inlet_speed * rho
+  double inlet_speed = 0;   // [m/s]
+  bool outlet = false;      // the high z face holds the outlet's pressure
+  double mean_p = 0;
+  float *cx = nullptr, *cy = nullptr, *cz = nullptr;  // conductances of the low faces [m s]
+  float* cz_above = nullptr;                          // of the outlet's faces, where outlet is set
+  float* rhs = nullptr;                               // minus the mass that the cell loses [kg/s]
+  ResidualSum sum;
+  double imbalance = 0;  // sum |net mass flux| [kg/s]
+};
+void pressure_row(PressureRow& row);
+
+struct FluxRow {
+  RowMetrics m;
+  const double *hu = nullptr, *hv = nullptr, *hw = nullptr, *ra = nullptr, *rho = nullptr, *p = nullptr;
+  const float* dp = nullptr;
+  bool inlet = false;
+  double inlet_speed = 0;
+  double *fx = nullptr, *fy = nullptr, *fz = nullptr;  // fx has n + 1 faces
+};
+/// Fluxes through the low faces of the row and through its last x face.
+void flux_row(FluxRow& row);
+
+struct OutletRow {
+  int n = 0;
+  double inverse_distance = 0;
+  const double *hw = nullptr, *ra = nullptr, *rho = nullptr, *p = nullptr;
+  const float* dp = nullptr;
+  double* fz = nullptr;  // at the outlet's faces
+};
+void outlet_flux_row(OutletRow& row);
+
+struct VelocityRow {
+  RowMetrics m;
+  double gas_constant = 0;  // R [J/(kg K)]; 0: constant density
+  double pressure0 = 0;     // [Pa] absolute, at the outlet
+  double temperature = 0;   // of the free stream [K]
+  double speed2 = 0;        // of the free stream, squared
+  double half_cp = 0;       // 1 / (2 c_p) [kg K/J]
+  const double *ra = nullptr, *p = nullptr;
+  double *u = nullptr, *v = nullptr, *w = nullptr;  // in: H/A, out: velocity
+  double* rho = nullptr;
+  double total_u = 0, total_v = 0, total_w = 0, total_p = 0;  // times the cell width
+  const double* x_width = nullptr;
+};
+void velocity_row(VelocityRow& row);
+
+}  // namespace ripstop::cartesian

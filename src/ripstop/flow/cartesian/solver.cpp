@@ -1,0 +1,293 @@
+#include "ripstop/flow/cartesian/solver.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace ripstop::cartesian {
+namespace {
+
+std::vector<double> uniform_edges(double low, double size, int n) {
+  std::vector<double> edges(n + 1);
+  for (int i = 0; i <= n; ++i) edges[i] = low + size * i / n;
+  return edges;
+}
+
+}  // namespace
+
+Solver::Solver(const FlowProblem& problem, const FlowGrid& grid, PorousRows porous, const CartesianSettings& settings,
+               ThreadTeam& team)
+    : grid_(grid),
+      air_(problem.air),
+      duct_(problem.duct),
+      settings_(settings),
+      team_(team),
+      porous_(std::move(porous)),
+      x_(make_axis(uniform_edges(grid.origin.x, grid.size.x, grid.nx), End::zero_gradient, End::zero_gradient)),
+      y_(make_axis(uniform_edges(grid.origin.y, grid.size.y, grid.ny), End::zero_gradient, End::zero_gradient)),
+      z_(make_axis(uniform_edges(grid.origin.z, grid.size.z, grid.nz), End::fixed_value, End::zero_gradient)),
+      zp_(make_axis(uniform_edges(grid.origin.z, grid.size.z, grid.nz), End::zero_gradient, End::fixed_value)),
+      layout_(grid.nx, grid.ny, grid.nz),
+      multigrid_(x_, y_, zp_) {
+  const std::size_t values = layout_.values();
+  for (Array<double>* field : {&f_.u, &f_.v, &f_.w, &f_.p, &f_.rho, &f_.k, &f_.omega, &f_.fx, &f_.fy, &f_.fz, &f_.ra}) {
+    *field = Array<double>(values);
+  }
+  plane_ = static_cast<std::size_t>(layout_.stride_z);
+  for (Array<double>& a : ring_.mut) a = Array<double>(plane_);
+  for (Array<double>& a : ring_.mu) a = Array<double>(plane_);
+  for (Array<double>& a : ring_.tx) a = Array<double>(3 * plane_);
+  for (Array<double>& a : ring_.ty) a = Array<double>(3 * plane_);
+  for (Array<double>& a : ring_.tz) a = Array<double>(3 * plane_);
+  for (Array<double>& a : ring_.k) a = Array<double>(plane_);
+  for (Array<double>& a : ring_.omega) a = Array<double>(plane_);
+  for (Array<double>& a : ring_.h) a = Array<double>(3 * plane_);
+  for (Array<double>& a : ring_.predicted) a = Array<double>(3 * plane_);
+
+  // Inlet: k = 3/2 (I U)^2, omega = k / nu_t.
+  const double fluctuation = air_.turbulence_intensity * air_.speed;
+  inlet_k_ = 1.5 * fluctuation * fluctuation;
+  inlet_omega_ = inlet_k_ / (air_.viscosity_ratio * air_.viscosity / air_.density);
+  gas_constant_ = gas_constant_of_air;
+  pressure0_ = air_.density * gas_constant_ * air_.temperature;
+
+  ring_.zeros = Array<double>(plane_);
+  ring_.inlet_w = Array<double>(plane_);
+  ring_.inlet_k = Array<double>(plane_);
+  ring_.inlet_omega = Array<double>(plane_);
+  std::fill_n(ring_.inlet_w.data(), plane_, air_.speed);
+  std::fill_n(ring_.inlet_k.data(), plane_, inlet_k_);
+  std::fill_n(ring_.inlet_omega.data(), plane_, inlet_omega_);
+  rows_.resize(static_cast<std::size_t>(grid.ny) * grid.nz);
+  planes_.resize(grid.nz);
+}
+
+void Solver::start_uniform() {
+  const auto fill = [](Array<double>& field, double value) { std::fill_n(field.data(), field.size(), value); };
+  fill(f_.u, 0), fill(f_.v, 0), fill(f_.w, air_.speed), fill(f_.p, 0), fill(f_.rho, air_.density);
+  fill(f_.k, inlet_k_), fill(f_.omega, inlet_omega_);
+  fill(f_.fx, 0), fill(f_.fy, 0), fill(f_.fz, air_.density * air_.speed), fill(f_.ra, 0);
+  total_.value[Sums::w_mean] = air_.speed;
+  total_.value[Sums::k_mean] = inlet_k_;
+  total_.value[Sums::omega_mean] = inlet_omega_;
+}
+
+void Solver::start_from(const Solver& other) {
+  // Weights of two cells (ghosts included) of the other grid around the point of this one, along one axis.
+  struct Pair {
+    int low;
+    double high_weight;
+  };
+  const auto pairs = [](int n, int m, bool faces) {
+    std::vector<Pair> result(n + 1);
+    for (int c = 0; c <= n; ++c) {
+      const double at = faces ? static_cast<double>(c) * m / n : (c + 0.5) * m / n - 0.5;
+      const int low = std::clamp(static_cast<int>(std::floor(at)), faces ? 0 : -1, m - 1);
+      result[c] = {low, std::clamp(at - low, 0.0, 1.0)};
+    }
+    return result;
+  };
+  const FlowGrid& g = other.grid_;
+  const auto cx = pairs(grid_.nx, g.nx, false), cy = pairs(grid_.ny, g.ny, false), cz = pairs(grid_.nz, g.nz, false);
+  const auto ex = pairs(grid_.nx, g.nx, true), ey = pairs(grid_.ny, g.ny, true), ez = pairs(grid_.nz, g.nz, true);
+  const auto interpolate = [&](const Array<double>& from, Array<double>& to, const std::vector<Pair>& px,
+                               const std::vector<Pair>& py, const std::vector<Pair>& pz, bool fx, bool fy, bool fz) {
+    const auto work = [&](int rank) {
+      const Range planes = part_of(grid_.nz + (fz ? 1 : 0), rank, team_.size());
+      for (int k = planes.begin; k < planes.end; ++k) {
+        for (int j = 0; j < grid_.ny + (fy ? 1 : 0); ++j) {
+          for (int i = 0; i < grid_.nx + (fx ? 1 : 0); ++i) {
+            double value = 0;
+            for (int corner = 0; corner < 8; ++corner) {
+              const int a = corner & 1, b = corner >> 1 & 1, c = corner >> 2;
+              // Fluxes are piecewise constant along their own faces' other axes only through these weights.
+              const double weight = (a ? px[i].high_weight : 1 - px[i].high_weight) *
+                                    (b ? py[j].high_weight : 1 - py[j].high_weight) *
+                                    (c ? pz[k].high_weight : 1 - pz[k].high_weight);
+              if (weight != 0) value += weight * from[other.layout_.at(px[i].low + a, py[j].low + b, pz[k].low + c)];
+            }
+            to[layout_.at(i, j, k)] = value;
+          }
+        }
+      }
+    };
+    team_.run(work);
+  };
+  interpolate(other.f_.u, f_.u, cx, cy, cz, false, false, false);
+  interpolate(other.f_.v, f_.v, cx, cy, cz, false, false, false);
+  interpolate(other.f_.w, f_.w, cx, cy, cz, false, false, false);
+  interpolate(other.f_.p, f_.p, cx, cy, cz, false, false, false);
+  interpolate(other.f_.rho, f_.rho, cx, cy, cz, false, false, false);
+  interpolate(other.f_.k, f_.k, cx, cy, cz, false, false, false);
+  interpolate(other.f_.omega, f_.omega, cx, cy, cz, false, false, false);
+  interpolate(other.f_.fx, f_.fx, ex, cy, cz, true, false, false);
+  interpolate(other.f_.fy, f_.fy, cx, ey, cz, false, true, false);
+  interpolate(other.f_.fz, f_.fz, cx, cy, ez, false, false, true);
+  for (int name = Sums::u_mean; name <= Sums::omega_mean; ++name) total_.value[name] = other.total_.value[name];
+  fill_ghosts();
+}
+
+void Solver::fill_ghosts() {
+  const double wall = duct_ ? -1 : 1;
+  const std::ptrdiff_t sz = layout_.stride_z, sy = layout_.stride_y;
+  const auto sides = [&](Array<double>& q, double across_x, double across_y) {
+    for (int k = 0; k < grid_.nz; ++k) {
+      for (int j = 0; j < grid_.ny; ++j) {
+        q[layout_.at(-1, j, k)] = across_x * q[layout_.at(0, j, k)];
+        q[layout_.at(grid_.nx, j, k)] = across_x * q[layout_.at(grid_.nx - 1, j, k)];
+      }
+      for (int i = -1; i <= grid_.nx; ++i) {
+        q[layout_.at(i, -1, k)] = across_y * q[layout_.at(i, 0, k)];
+        q[layout_.at(i, grid_.ny, k)] = across_y * q[layout_.at(i, grid_.ny - 1, k)];
+      }
+    }
+  };
+  const auto ends = [&](Array<double>& q, double inlet_sign, double inlet, double backflow_sign, double backflow) {
+    for (int j = -1; j <= grid_.ny; ++j) {
+      for (int i = -1; i <= grid_.nx; ++i) {
+        const std::ptrdiff_t first = layout_.at(i, j, 0), last = layout_.at(i, j, grid_.nz - 1);
+        q[first - sz] = inlet + inlet_sign * q[first];
+        q[last + sz] = f_.fz[last + sz] >= 0 ? q[last] : backflow + backflow_sign * q[last];
+      }
+    }
+  };
+  (void)sy;
+  sides(f_.u, wall, 1), sides(f_.v, 1, wall);
+  for (Array<double>* q : {&f_.w, &f_.p, &f_.rho, &f_.k, &f_.omega}) sides(*q, 1, 1);
+  ends(f_.u, -1, 0, -1, 0), ends(f_.v, -1, 0, -1, 0), ends(f_.w, -1, 2 * air_.speed, -1, 0);
+  ends(f_.rho, 1, 0, 1, 0);
+  ends(f_.k, -1, 2 * inlet_k_, -1, 2 * inlet_k_), ends(f_.omega, -1, 2 * inlet_omega_, -1, 2 * inlet_omega_);
+  ends(f_.p, 1, 0, 1, 0);
+  for (int j = -1; j <= grid_.ny; ++j) {
+    for (int i = -1; i <= grid_.nx; ++i) {
+      const std::ptrdiff_t last = layout_.at(i, j, grid_.nz - 1);
+      f_.p[last + sz] = -f_.p[last];
+    }
+  }
+}
+
+// Rows to planes in parallel, planes to totals on rank 0; always in the same order.
+void Solver::add_up(int rank, int from, int to) {
+  const Range planes = part_of(grid_.nz, rank, team_.size());
+  for (int k = planes.begin; k < planes.end; ++k) {
+    for (int name = from; name <= to; ++name) planes_[k].value[name] = 0;
+    for (int j = 0; j < grid_.ny; ++j) {
+      const Sums& row = row_sums(j, k);
+      for (int name = from; name <= to; ++name) planes_[k].value[name] += row.value[name];
+    }
+  }
+  team_.barrier();
+  if (rank == 0) {
+    for (int name = from; name <= to; ++name) {
+      total_.value[name] = 0;
+      for (const Sums& plane : planes_) total_.value[name] += plane.value[name];
+    }
+  }
+}
+
+FlowProgress Solver::iterate() {
+  team_.run([this](int rank) {
+    march(rank);
+    multigrid_.solve(team_, rank, settings_.pressure_cycles);
+    correct(rank);
+    add_up(rank, 0, Sums::count - 1);
+  });
+  const double volume = grid_.size.x * grid_.size.y * grid_.size.z;
+  for (int name = Sums::u_mean; name <= Sums::omega_mean; ++name) total_.value[name] /= volume;
+  ++iteration_;
+  const auto ratio = [this](int residual) {
+    const int scale = residual + (Sums::u_scale - Sums::u_residual);
+    return total_.value[residual] / (total_.value[scale] + 1e-300);
+  };
+  FlowProgress progress;
+  progress.iteration = iteration_;
+  progress.residual_u = std::max({ratio(Sums::u_residual), ratio(Sums::v_residual), ratio(Sums::w_residual)});
+  progress.residual_p = ratio(Sums::p_residual);
+  progress.residual_k = ratio(Sums::k_residual);
+  progress.residual_omega = ratio(Sums::omega_residual);
+  progress.drag = total_.value[Sums::drag_z];
+  return progress;
+}
+
+std::string Solver::first_bad_value() const {
+  const struct {
+    const char* name;
+    const Array<double>* values;
+    double bound;
+  } checks[] = {{"velocity x", &f_.u, 1e3 * air_.speed}, {"velocity y", &f_.v, 1e3 * air_.speed},
+                {"velocity z", &f_.w, 1e3 * air_.speed}, {"pressure", &f_.p, 1e4 * air_.density * air_.speed * air_.speed},
+                {"k", &f_.k, 1e6 * air_.speed * air_.speed},   {"omega", &f_.omega, 1e300}};
+  const Vec3 h = grid_.spacing();
+  for (const auto& check : checks) {
+    for (int k = 0; k < grid_.nz; ++k) {
+      for (int j = 0; j < grid_.ny; ++j) {
+        for (int i = 0; i < grid_.nx; ++i) {
+          const double value = (*check.values)[layout_.at(i, j, k)];
+          if (std::isfinite(value) && std::fabs(value) <= check.bound) continue;
+          return fmt::format("{} is {} at ({:.3f}, {:.3f}, {:.3f}) m", check.name, value,
+                             grid_.origin.x + (i + 0.5) * h.x, grid_.origin.y + (j + 0.5) * h.y,
+                             grid_.origin.z + (k + 0.5) * h.z);
+        }
+      }
+    }
+  }
+  return {};
+}
+
+// Momentum that the air brings through the faces of the box, pressure and diffusion included: the force on
+// whatever is inside [N].
+double Solver::momentum_deficit() const {
+  double force = 0;
+  const std::ptrdiff_t sz = layout_.stride_z;
+  const auto mu = [&](std::ptrdiff_t at) { return air_.viscosity + f_.rho[at] * f_.k[at] / f_.omega[at]; };
+  for (int j = 0; j < grid_.ny; ++j) {
+    for (int i = 0; i < grid_.nx; ++i) {
+      const double area = x_.width[i] * y_.width[j];
+      const std::ptrdiff_t in = layout_.at(i, j, 0), out = layout_.at(i, j, grid_.nz - 1);
+      const double mu_in = air_.viscosity + f_.rho[in] * inlet_k_ / inlet_omega_;
+      force += area * (f_.fz[in] * air_.speed + f_.p[in] -
+                       mu_in * z_.inverse_distance[0] * (f_.w[in] - air_.speed));
+      // At the outlet the pressure is zero; the explicit stress there is that of the last cell.
+      const double leaving = f_.fz[out + sz] >= 0 ? f_.w[out] : 0;
+      force -= area * f_.fz[out + sz] * leaving;
+      const double slope = (f_.w[out] - f_.w[out - sz]) * z_.inverse_distance[grid_.nz - 1];
+      force += area * mu(out) * slope / 2;
+    }
+  }
+  for (int k = 0; k < grid_.nz; ++k) {
+    for (int j = 0; j < grid_.ny; ++j) {
+      const double area = y_.width[j] * z_.width[k];
+      const std::ptrdiff_t low = layout_.at(0, j, k), high = layout_.at(grid_.nx - 1, j, k);
+      force += area * (f_.fx[low] * f_.w[low] - f_.fx[high + 1] * f_.w[high]);
+    }
+    for (int i = 0; i < grid_.nx; ++i) {
+      const double area = x_.width[i] * z_.width[k];
+      const std::ptrdiff_t low = layout_.at(i, 0, k), high = layout_.at(i, grid_.ny - 1, k);
+      force += area * (f_.fy[low] * f_.w[low] - f_.fy[high + layout_.stride_y] * f_.w[high]);
+    }
+  }
+  return force;
+}
+
+FlowField Solver::field() const {
+  FlowField field;
+  field.grid = grid_;
+  field.pressure.resize(grid_.cells());
+  field.velocity.resize(grid_.cells());
+  for (int k = 0; k < grid_.nz; ++k) {
+    for (int j = 0; j < grid_.ny; ++j) {
+      for (int i = 0; i < grid_.nx; ++i) {
+        const std::ptrdiff_t at = layout_.at(i, j, k);
+        const int cell = grid_.index(i, j, k);
+        field.pressure[cell] = f_.p[at];
+        field.velocity[cell] = {f_.u[at], f_.v[at], f_.w[at]};
+      }
+    }
+  }
+  field.porous_force = {total_.value[Sums::drag_x], total_.value[Sums::drag_y], total_.value[Sums::drag_z]};
+  field.momentum_deficit = momentum_deficit();
+  return field;
+}
+
+}  // namespace ripstop::cartesian
