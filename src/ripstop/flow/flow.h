@@ -33,6 +33,8 @@ struct Freestream {
   double temperature = 293.15;          // [K]; the static pressure follows from the density
   double turbulence_intensity = 0.005;  // [-]
   double viscosity_ratio = 10;          // nu_t / nu at the inlet [-]
+
+  bool operator==(const Freestream&) const = default;
 };
 
 /// Cells with the isotropic resistance -(mu d + rho |u| f / 2) u per volume (`paper` model, method section

@@ -9,12 +9,12 @@
 namespace ripstop {
 
 struct CartesianSettings {
-  int threads = 0;               // 0: as many as the process may run on
-  bool compressible = true;      // perfect gas at constant total enthalpy; false: constant density
-  bool grid_sequencing = true;   // a cold start solves coarser grids first
-  int pressure_cycles = 2;       // multigrid V cycles an iteration
-  double relax_pressure = 0.3;   // (0, 1]
-  double relax_velocity = 0.7;   // (0, 1]; the converged answer depends on it a little, through the face flux
+  int threads = 0;              // 0: as many as the process may run on
+  bool compressible = true;     // perfect gas at constant total enthalpy; false: constant density
+  bool grid_sequencing = true;  // a cold start solves coarser grids first
+  int pressure_cycles = 2;      // multigrid V cycles an iteration
+  double relax_pressure = 0.3;  // (0, 1]
+  double relax_velocity = 0.7;  // (0, 1]; the converged answer depends on it a little, through the face flux
   double relax_turbulence = 0.7;  // (0, 1]
 };
 

@@ -1,10 +1,14 @@
 // The flow engine: grid sequencing, warm start, stopping, divergence, save and restore.
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
-#include <fstream>
+#include <cstring>
+#include <type_traits>
 
 #include "ripstop/core/error.h"
+#include "ripstop/core/file.h"
+#include "ripstop/core/hash.h"
 #include "ripstop/flow/cartesian/cartesian.h"
 #include "ripstop/flow/cartesian/solver.h"
 
@@ -17,12 +21,15 @@ void check(const FlowProblem& problem) {
   const FlowGrid& g = problem.grid;
   const auto usage = [](const std::string& message) { throw Error(ExitCode::usage, message); };
   if (g.nx < 4 || g.ny < 4 || g.nz < 4 || !(g.size.x > 0 && g.size.y > 0 && g.size.z > 0)) {
-    usage(fmt::format("flow grid: needs at least 4 cells and a positive size on each axis, not {} x {} x {} cells of {} x {} x {} m",
-                      g.nx, g.ny, g.nz, g.size.x, g.size.y, g.size.z));
+    usage(
+        fmt::format("flow grid: needs at least 4 cells and a positive size on each axis, not {} x {} x {} "
+                    "cells of {} x {} x {} m",
+                    g.nx, g.ny, g.nz, g.size.x, g.size.y, g.size.z));
   }
   const Freestream& a = problem.air;
   const auto positive_value = [&](const char* name, double value) {
-    if (!(value > 0) || !std::isfinite(value)) usage(fmt::format("free stream: {} = {} must be positive", name, value));
+    if (!(value > 0) || !std::isfinite(value))
+      usage(fmt::format("free stream: {} = {} must be positive", name, value));
   };
   positive_value("speed", a.speed);
   positive_value("density", a.density);
@@ -40,7 +47,8 @@ bool converged(const FlowProgress& p, double tolerance) {
 
 class CartesianEngine final : public FlowEngine {
  public:
-  explicit CartesianEngine(const CartesianSettings& settings) : settings_(settings), team_(settings.threads) {}
+  explicit CartesianEngine(const CartesianSettings& settings)
+      : settings_(settings), team_(settings.threads) {}
 
   std::string name() const override { return "built-in (Cartesian, SIMPLE, k-omega SST)"; }
   FlowField solve(const FlowProblem& problem, const FlowReport& report) override;
@@ -63,13 +71,14 @@ FlowProgress CartesianEngine::run(Solver& solver, double tolerance, int iteratio
   for (int n = 1; n <= iterations; ++n) {
     progress = solver.iterate();
     progress.iteration = n;
-    const double worst = progress.residual_u + progress.residual_p + progress.residual_k + progress.residual_omega +
-                         progress.drag;
+    const double worst = progress.residual_u + progress.residual_p + progress.residual_k +
+                         progress.residual_omega + progress.drag;
     if (!std::isfinite(worst)) {
-      throw Error(ExitCode::diverged,
-                  fmt::format("the flow diverged in iteration {} on {} x {} x {} cells: {}; try a lower velocity or "
-                              "pressure relaxation, or a coarser grid first",
-                              n, solver.grid().nx, solver.grid().ny, solver.grid().nz, solver.first_bad_value()));
+      throw Error(
+          ExitCode::diverged,
+          fmt::format("the flow diverged in iteration {} on {} x {} x {} cells: {}; try a lower velocity or "
+                      "pressure relaxation, or a coarser grid first",
+                      n, solver.grid().nx, solver.grid().ny, solver.grid().nz, solver.first_bad_value()));
     }
     done = converged(progress, tolerance);
     if (report && !report(progress)) return done = false, progress;
@@ -97,12 +106,15 @@ void CartesianEngine::solve_coarse(const FlowProblem& problem, const FlowGrid& g
 
 FlowField CartesianEngine::solve(const FlowProblem& problem, const FlowReport& report) {
   check(problem);
-  auto solver = std::make_unique<Solver>(
-      problem, problem.grid, PorousRows(problem.grid, problem.porous, problem.air.viscosity), settings_, team_);
-  if (last_) {
+  auto solver = std::make_unique<Solver>(problem, problem.grid,
+                                         PorousRows(problem.grid, problem.porous, problem.air.viscosity),
+                                         settings_, team_);
+  if (last_ && last_->duct() == problem.duct && last_->grid().origin == problem.grid.origin &&
+      last_->grid().size == problem.grid.size && last_->air() == problem.air) {
     solver->start_from(*last_);
   } else if (settings_.grid_sequencing && problem.grid.cells() > 20000) {
-    solve_coarse(problem, problem.grid, PorousRows(problem.grid, problem.porous, problem.air.viscosity), *solver);
+    solve_coarse(problem, problem.grid, PorousRows(problem.grid, problem.porous, problem.air.viscosity),
+                 *solver);
   } else {
     solver->start_uniform();
   }
@@ -115,8 +127,65 @@ FlowField CartesianEngine::solve(const FlowProblem& problem, const FlowReport& r
   return field;
 }
 
-void CartesianEngine::save(const std::filesystem::path&) const {}
-void CartesianEngine::restore(const std::filesystem::path&) {}
+// One sealed file: a header that says what the numbers are, then the fields as they lie in memory.
+struct Header {
+  char magic[8] = {'r', 'i', 'p', 'f', 'l', 'o', 'w', '1'};
+  FlowGrid grid;
+  Freestream air;
+  bool duct = false;
+  Sums sums;
+};
+static_assert(std::is_trivially_copyable_v<Header>);
+
+constexpr const char* state_file = "cartesian.flow";
+
+std::array<Array<double>*, 10> saved_fields(Fields& f) {
+  return {&f.u, &f.v, &f.w, &f.p, &f.rho, &f.k, &f.omega, &f.fx, &f.fy, &f.fz};
+}
+
+void CartesianEngine::save(const std::filesystem::path& folder) const {
+  if (!last_) throw Error(ExitCode::io, "the flow engine has no field to save yet");
+  Header header;
+  header.grid = last_->grid();
+  header.air = last_->air();
+  header.duct = last_->duct();
+  header.sums = last_->sums();
+  std::string bytes(reinterpret_cast<const char*>(&header), sizeof header);
+  for (const Array<double>* field : saved_fields(last_->fields())) {
+    bytes.append(reinterpret_cast<const char*>(field->data()), field->size() * sizeof(double));
+  }
+  make_folder(folder);
+  write_sealed(folder / state_file, bytes);
+}
+
+void CartesianEngine::restore(const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder / state_file;
+  const std::string bytes = read_sealed(path);
+  Header header;
+  const Header expected;
+  if (bytes.size() < sizeof header)
+    throw Error(ExitCode::bad_data, path.string() + ": too short to be a saved flow");
+  std::memcpy(&header, bytes.data(), sizeof header);
+  if (std::memcmp(header.magic, expected.magic, sizeof header.magic) != 0) {
+    throw Error(ExitCode::bad_data, path.string() + ": not a flow saved by this version");
+  }
+  FlowProblem problem;
+  problem.grid = header.grid;
+  problem.air = header.air;
+  problem.duct = header.duct;
+  check(problem);
+  auto solver =
+      std::make_unique<Solver>(problem, problem.grid, PorousRows(problem.grid, {}, 0), settings_, team_);
+  std::size_t at = sizeof header;
+  for (Array<double>* field : saved_fields(solver->fields())) {
+    const std::size_t size = field->size() * sizeof(double);
+    if (at + size > bytes.size()) throw Error(ExitCode::bad_data, path.string() + ": fields are missing");
+    std::memcpy(field->data(), bytes.data() + at, size);
+    at += size;
+  }
+  solver->sums() = header.sums;
+  last_ = std::move(solver);
+}
 
 }  // namespace
 
@@ -130,7 +199,8 @@ std::unique_ptr<FlowEngine> make_cartesian(const CartesianSettings& settings) {
   fraction("relax_velocity", settings.relax_velocity);
   fraction("relax_turbulence", settings.relax_turbulence);
   if (settings.pressure_cycles < 1 || settings.pressure_cycles > 20) {
-    throw Error(ExitCode::usage, fmt::format("flow engine: pressure_cycles = {} must lie in 1 to 20", settings.pressure_cycles));
+    throw Error(ExitCode::usage, fmt::format("flow engine: pressure_cycles = {} must lie in 1 to 20",
+                                             settings.pressure_cycles));
   }
   return std::make_unique<CartesianEngine>(settings);
 }

@@ -17,8 +17,9 @@ Axis make_axis(std::vector<double> edges, End low, End high) {
   for (int c = 0; c < n; ++c) {
     axis.width[c] = axis.edge[c + 1] - axis.edge[c];
     if (!(axis.width[c] > 0)) {
-      throw Error(ExitCode::usage, fmt::format("flow grid: edges must increase, but edge {} is {} and edge {} is {}",
-                                               c, axis.edge[c], c + 1, axis.edge[c + 1]));
+      throw Error(ExitCode::usage,
+                  fmt::format("flow grid: edges must increase, but edge {} is {} and edge {} is {}", c,
+                              axis.edge[c], c + 1, axis.edge[c + 1]));
     }
     axis.inverse_width[c] = 1 / axis.width[c];
   }

@@ -2,10 +2,9 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdlib>
-#include <cstring>
-#include <memory>
 #include <vector>
+
+#include "ripstop/core/aligned.h"
 
 namespace ripstop::cartesian {
 
@@ -50,42 +49,7 @@ struct Layout {
   }
 };
 
-/// Zeroed memory aligned to 64 bytes. No bounds; the layout knows them.
 template <class T>
-class Array {
- public:
-  Array() = default;
-  explicit Array(std::size_t count) : count_(count), data_(allocate(count)) {}
-  Array(const Array& other) : Array(other.count_) {
-    if (count_) std::memcpy(data_.get(), other.data_.get(), count_ * sizeof(T));
-  }
-  Array(Array&&) noexcept = default;
-  Array& operator=(Array other) noexcept {
-    count_ = other.count_;
-    data_.swap(other.data_);
-    return *this;
-  }
-
-  T* data() { return data_.get(); }
-  const T* data() const { return data_.get(); }
-  std::size_t size() const { return count_; }
-  T& operator[](std::ptrdiff_t i) { return data_.get()[i]; }
-  const T& operator[](std::ptrdiff_t i) const { return data_.get()[i]; }
-
- private:
-  struct Free {
-    void operator()(T* p) const { std::free(p); }
-  };
-  static T* allocate(std::size_t count) {
-    if (count == 0) return nullptr;
-    const std::size_t bytes = (count * sizeof(T) + 63) / 64 * 64;
-    void* p = std::aligned_alloc(64, bytes);
-    if (!p) throw std::bad_alloc();
-    std::memset(p, 0, bytes);
-    return static_cast<T*>(p);
-  }
-  std::size_t count_ = 0;
-  std::unique_ptr<T, Free> data_;
-};
+using Array = std::vector<T, CacheLineAllocator<T>>;
 
 }  // namespace ripstop::cartesian

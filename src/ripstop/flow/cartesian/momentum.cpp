@@ -3,8 +3,8 @@
 //   sum F (U_nb - U_P) = div(mu_eff grad U) + div(mu_eff dev2((grad U)^T)) - grad p - R U,
 //   R = mu d + rho |U| f / 2                                             [NFM] `paper` porosity
 //
-// The equation is under-relaxed first and the resistance is added after that, so that R enters the diagonal and
-// the face flux (through 1/A) unrelaxed.
+// The equation is under-relaxed first and the resistance is added after that, so that R enters the diagonal
+// and the face flux (through 1/A) unrelaxed.
 #include <cmath>
 
 #include "ripstop/flow/cartesian/rows.h"
@@ -64,9 +64,12 @@ RIPSTOP_ROW_KERNEL void momentum_row(MomentumRow& row) {
     const double py = y.slope_high * (p[i + sy] - p[i]) + y.slope_low * (p[i] - p[i - sy]);
     const double pz = z.slope_high * (p[i + sz] - p[i]) + z.slope_low * (p[i] - p[i - sz]);
 
-    const double nu = aw * u[i - 1] + ae * u[i + 1] + as * u[i - sy] + an * u[i + sy] + ab * ub[i] + aa * ua[i];
-    const double nv = aw * v[i - 1] + ae * v[i + 1] + as * v[i - sy] + an * v[i + sy] + ab * vb[i] + aa * va[i];
-    const double nw = aw * w[i - 1] + ae * w[i + 1] + as * w[i - sy] + an * w[i + sy] + ab * wb[i] + aa * wa[i];
+    const double nu =
+        aw * u[i - 1] + ae * u[i + 1] + as * u[i - sy] + an * u[i + sy] + ab * ub[i] + aa * ua[i];
+    const double nv =
+        aw * v[i - 1] + ae * v[i + 1] + as * v[i - sy] + an * v[i + sy] + ab * vb[i] + aa * va[i];
+    const double nw =
+        aw * w[i - 1] + ae * w[i + 1] + as * w[i - sy] + an * w[i + sy] + ab * wb[i] + aa * wa[i];
     const double bu = lag * u0 + divergence(0), bv = lag * v0 + divergence(comp),
                  bw = lag * w0 + divergence(2 * comp);
 

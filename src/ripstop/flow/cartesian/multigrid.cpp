@@ -8,9 +8,9 @@
 namespace ripstop::cartesian {
 namespace {
 
-constexpr int coarsest_cells = 32;      // below that, smoothing alone
-constexpr int coarsest_sweeps = 12;     // red-black sweeps there
-constexpr int serial_cells = 6000;      // a level this small is cheaper on one thread than its barriers
+constexpr int coarsest_cells = 32;   // below that, smoothing alone
+constexpr int coarsest_sweeps = 12;  // red-black sweeps there
+constexpr int serial_cells = 6000;   // a level this small is cheaper on one thread than its barriers
 
 // Joins cells in pairs and says how to interpolate back.
 Axis join(const Axis& fine, MultigridLevel::Joint& joint) {
@@ -22,13 +22,11 @@ Axis join(const Axis& fine, MultigridLevel::Joint& joint) {
   }
   joint.first.push_back(fine.n);
   edges.push_back(fine.edge[fine.n]);
-  const auto end = [](double inverse_distance) { return inverse_distance > 0 ? End::fixed_value : End::zero_gradient; };
+  const auto end = [](double inverse_distance) {
+    return inverse_distance > 0 ? End::fixed_value : End::zero_gradient;
+  };
   Axis coarse = make_axis(edges, end(fine.inverse_distance.front()), end(fine.inverse_distance.back()));
 
-  for (int f = 0; f <= coarse.n; ++f) {
-    const double fine_inverse = fine.inverse_distance[joint.first[f]];
-    joint.scale.push_back(fine_inverse > 0 ? static_cast<float>(coarse.inverse_distance[f] / fine_inverse) : 0.0f);
-  }
   const auto centre = [](const Axis& a, int c) { return (a.edge[c] + a.edge[c + 1]) / 2; };
   for (int parent = 0; parent < coarse.n; ++parent) {
     for (int c = joint.first[parent]; c < joint.first[parent + 1]; ++c) {
@@ -53,8 +51,14 @@ Axis join(const Axis& fine, MultigridLevel::Joint& joint) {
 MultigridRow row_of(MultigridLevel& level, int j, int k) {
   const Layout& lay = level.layout;
   const std::ptrdiff_t at = lay.at(0, j, k);
-  return {lay.nx, lay.stride_y, lay.stride_z, level.e.data() + at, level.rhs.data() + at, level.cx.data() + at,
-          level.cy.data() + at, level.cz.data() + at};
+  return {lay.nx,
+          lay.stride_y,
+          lay.stride_z,
+          level.e.data() + at,
+          level.rhs.data() + at,
+          level.cx.data() + at,
+          level.cy.data() + at,
+          level.cz.data() + at};
 }
 
 void smooth_planes(MultigridLevel& level, int colour, Range planes, bool from_zero) {
@@ -73,7 +77,7 @@ void restrict_planes(MultigridLevel& fine, MultigridLevel& coarse, Range planes)
   Array<float> sum(fine.layout.nx + 1);
   for (int k = planes.begin; k < planes.end; ++k) {
     for (int j = 0; j < lay.ny; ++j) {
-      std::fill_n(sum.data(), sum.size(), 0.0f);
+      std::fill(sum.begin(), sum.end(), 0.0f);
       for (int kf = coarse.z.first[k]; kf < coarse.z.first[k + 1]; ++kf) {
         for (int jf = coarse.y.first[j]; jf < coarse.y.first[j + 1]; ++jf) {
           residual_row(row_of(fine, jf, kf), sum.data());
@@ -99,36 +103,67 @@ void prolong_planes(MultigridLevel& fine, MultigridLevel& coarse, Range planes) 
       const int jn = coarse.y.near[j], jf = coarse.y.far[j];
       const float yn = coarse.y.near_weight[j], yf = coarse.y.far_weight[j];
       const float* q = coarse.e.data();
-      mix_rows(lay.nx, q + lay.at(0, jn, kn), q + lay.at(0, jf, kn), q + lay.at(0, jn, kf), q + lay.at(0, jf, kf),
-               yn * zn, yf * zn, yn * zf, yf * zf, mixed.data());
-      spread_row(fine.layout.nx, mixed.data(), coarse.x.near.data(), coarse.x.far.data(), coarse.x.near_weight.data(),
-                 coarse.x.far_weight.data(), fine.e.data() + fine.layout.at(0, j, k));
+      mix_rows(lay.nx, q + lay.at(0, jn, kn), q + lay.at(0, jf, kn), q + lay.at(0, jn, kf),
+               q + lay.at(0, jf, kf), yn * zn, yf * zn, yn * zf, yf * zf, mixed.data());
+      spread_row(fine.layout.nx, mixed.data(), coarse.x.near.data(), coarse.x.far.data(),
+                 coarse.x.near_weight.data(), coarse.x.far_weight.data(),
+                 fine.e.data() + fine.layout.at(0, j, k));
     }
   }
 }
 
-// Conductance of a coarse face: its fine faces in parallel, over the longer distance.
+// Conductance of a coarse face. Along each fine line through it the path from centre to centre crosses the
+// face itself and half of what lies inside either coarse cell, in series; the lines are in parallel. A thin
+// wall is so kept wherever it lies between the coarse faces.
 void coarsen_planes(const MultigridLevel& fine, MultigridLevel& coarse, Range planes) {
   const Layout &lay = coarse.layout, &from = fine.layout;
-  const MultigridLevel::Joint &x = coarse.x, &y = coarse.y, &z = coarse.z;
+  const MultigridLevel::Joint &y = coarse.y, &z = coarse.z;
+  const int n = from.nx;
+  const bool halved = lay.nx != n;
+  Array<float> open(n + 1, 1e12f), sum(n + 2);
+  // The face inside coarse cell c, or one without resistance if the cell is a single fine one or a ghost.
+  const auto inside = [&](const std::vector<int>& first, int c, int count, const float* row_of_first,
+                          std::ptrdiff_t stride) {
+    return c >= 0 && c < count && first[c + 1] - first[c] == 2 ? row_of_first + stride : open.data();
+  };
+  const auto gather = [&](float* out) {
+    for (int i = 0; i < lay.nx; ++i) out[i] = halved ? sum[2 * i] + sum[2 * i + 1] : sum[i];
+  };
   for (int k = planes.begin; k < planes.end; ++k) {
-    const bool ghost_z = k == lay.nz;  // the outlet's faces
     for (int j = 0; j < lay.ny; ++j) {
-      for (int i = 0; i < lay.nx; ++i) {
-        float cx = 0, cy = 0, cz = 0;
-        for (int jf = y.first[j]; jf < y.first[j + 1]; ++jf) {
-          for (int i_f = x.first[i]; i_f < x.first[i + 1]; ++i_f) cz += fine.cz[from.at(i_f, jf, z.first[k])];
-        }
-        const std::ptrdiff_t at = lay.at(i, j, k);
-        coarse.cz[at] = cz * z.scale[k];
-        if (ghost_z) continue;
-        for (int kf = z.first[k]; kf < z.first[k + 1]; ++kf) {
-          for (int jf = y.first[j]; jf < y.first[j + 1]; ++jf) cx += fine.cx[from.at(x.first[i], jf, kf)];
-          for (int i_f = x.first[i]; i_f < x.first[i + 1]; ++i_f) cy += fine.cy[from.at(i_f, y.first[j], kf)];
-        }
-        coarse.cx[at] = cx * x.scale[i];
-        coarse.cy[at] = cy * y.scale[j];
+      std::fill(sum.begin(), sum.end(), 0.0f);
+      for (int jf = y.first[j]; jf < y.first[j + 1]; ++jf) {
+        const float* face = &fine.cz[from.at(0, jf, z.first[k])];
+        const float* below = k > 0 ? &fine.cz[from.at(0, jf, z.first[k - 1])] : nullptr;
+        add_series_row(n, face, inside(z.first, k - 1, lay.nz, below, from.stride_z),
+                       inside(z.first, k, lay.nz, face, from.stride_z), sum.data());
       }
+      gather(&coarse.cz[lay.at(0, j, k)]);
+      if (k == lay.nz) continue;  // the outlet's faces
+
+      std::fill(sum.begin(), sum.end(), 0.0f);
+      for (int kf = z.first[k]; kf < z.first[k + 1]; ++kf) {
+        const float* face = &fine.cy[from.at(0, y.first[j], kf)];
+        const float* below = j > 0 ? &fine.cy[from.at(0, y.first[j - 1], kf)] : nullptr;
+        add_series_row(n, face, inside(y.first, j - 1, lay.ny, below, from.stride_y),
+                       inside(y.first, j, lay.ny, face, from.stride_y), sum.data());
+      }
+      gather(&coarse.cy[lay.at(0, j, k)]);
+
+      std::fill(sum.begin(), sum.end(), 0.0f);
+      float last = 0;
+      for (int kf = z.first[k]; kf < z.first[k + 1]; ++kf) {
+        for (int jf = y.first[j]; jf < y.first[j + 1]; ++jf) {
+          const float* face = &fine.cx[from.at(0, jf, kf)];
+          add_series_row(n, face, halved ? face - 1 : open.data(), halved ? face + 1 : open.data(),
+                         sum.data());
+          // The last cell of an odd row is a coarse cell alone: nothing inside it.
+          if (n % 2 == 1 && halved) add_series_row(1, face + n - 1, face + n - 2, open.data(), &last);
+        }
+      }
+      float* cx = &coarse.cx[lay.at(0, j, k)];
+      for (int i = 0; i < lay.nx; ++i) cx[i] = sum[halved ? 2 * i : i];
+      if (n % 2 == 1 && halved) cx[lay.nx - 1] = last;
     }
   }
 }
@@ -219,7 +254,7 @@ double Multigrid::residual() const {
   double total = 0;
   for (int k = 0; k < copy.layout.nz; ++k) {
     for (int j = 0; j < copy.layout.ny; ++j) {
-      std::fill_n(sum.data(), sum.size(), 0.0f);
+      std::fill(sum.begin(), sum.end(), 0.0f);
       residual_row(row_of(copy, j, k), sum.data());
       for (int i = 0; i < copy.layout.nx; ++i) total += std::fabs(static_cast<double>(sum[i]));
     }

@@ -1,9 +1,9 @@
 // Geometric multigrid for the pressure correction: sum over faces of c (e_P - e_nb) = rhs, in float.
 //
-// The conductances c live on the low faces of the cells; a closed face has c = 0, and the ghost cells of e stay 0,
-// which is the outlet's value. Cells are joined in pairs along each axis (an odd last cell stays alone);
-// residuals are summed, corrections interpolated linearly. Red-black smoothing: the order of the rows, and so
-// the number of threads, does not matter to the last bit.
+// The conductances c live on the low faces of the cells; a closed face has c = 0, and the ghost cells of e
+// stay 0, which is the outlet's value. Cells are joined in pairs along each axis (an odd last cell stays
+// alone); residuals are summed, corrections interpolated linearly. Red-black smoothing: the order of the
+// rows, and so the number of threads, does not matter to the last bit.
 #pragma once
 
 #include <vector>
@@ -19,10 +19,9 @@ struct MultigridLevel {
 
   // How this level came from the finer one; empty on the finest.
   struct Joint {
-    std::vector<int> first;                         // n + 1: first fine cell of a coarse cell
-    std::vector<float> scale;                       // n + 1: fine over coarse distance across a low face
-    std::vector<int> near, far;                     // for each fine cell: two coarse cells ...
-    std::vector<float> near_weight, far_weight;     // ... and their weights
+    std::vector<int> first;                      // n + 1: first fine cell of a coarse cell
+    std::vector<int> near, far;                  // for each fine cell: two coarse cells ...
+    std::vector<float> near_weight, far_weight;  // ... and their weights
   };
   Joint x, y, z;
 };

@@ -38,19 +38,31 @@ RIPSTOP_ROW_KERNEL void residual_row(const MultigridRow& row, float* out) {
   const float *rhs = row.rhs, *cx = row.cx, *cy = row.cy, *cz = row.cz;
 #pragma omp simd
   for (int i = 0; i < n; ++i) {
-    out[i] += rhs[i] + cx[i] * (e[i - 1] - e[i]) + cx[i + 1] * (e[i + 1] - e[i]) + cy[i] * (e[i - sy] - e[i]) +
-              cy[i + sy] * (e[i + sy] - e[i]) + cz[i] * (e[i - sz] - e[i]) + cz[i + sz] * (e[i + sz] - e[i]);
+    out[i] += rhs[i] + cx[i] * (e[i - 1] - e[i]) + cx[i + 1] * (e[i + 1] - e[i]) +
+              cy[i] * (e[i - sy] - e[i]) + cy[i + sy] * (e[i + sy] - e[i]) + cz[i] * (e[i - sz] - e[i]) +
+              cz[i + sz] * (e[i + sz] - e[i]);
   }
 }
 
-RIPSTOP_ROW_KERNEL void mix_rows(int n, const float* a, const float* b, const float* c, const float* d, float wa,
-                                 float wb, float wc, float wd, float* out) {
+RIPSTOP_ROW_KERNEL void add_series_row(int n, const float* face, const float* low, const float* high,
+                                       float* sum) {
+#pragma omp simd
+  for (int i = 0; i < n; ++i) {
+    // 1 / (1/f + 1/2l + 1/2h), written so that a closed face divides nothing by zero.
+    const float product = 2 * low[i] * high[i] * face[i];
+    const float whole = 2 * low[i] * high[i] + face[i] * (low[i] + high[i]);
+    sum[i] += whole > 0 ? product / whole : 0.0f;
+  }
+}
+
+RIPSTOP_ROW_KERNEL void mix_rows(int n, const float* a, const float* b, const float* c, const float* d,
+                                 float wa, float wb, float wc, float wd, float* out) {
 #pragma omp simd
   for (int i = 0; i < n; ++i) out[i] = wa * a[i] + wb * b[i] + wc * c[i] + wd * d[i];
 }
 
-RIPSTOP_ROW_KERNEL void spread_row(int n, const float* q, const int* near, const int* far, const float* near_weight,
-                                   const float* far_weight, float* e) {
+RIPSTOP_ROW_KERNEL void spread_row(int n, const float* q, const int* near, const int* far,
+                                   const float* near_weight, const float* far_weight, float* e) {
 #pragma omp simd
   for (int i = 0; i < n; ++i) e[i] += near_weight[i] * q[near[i]] + far_weight[i] * q[far[i]];
 }

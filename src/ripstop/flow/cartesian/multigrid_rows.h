@@ -17,9 +17,11 @@ void smooth_row(const MultigridRow& row, int parity);
 void first_smooth_row(const MultigridRow& row, int parity);
 /// sum[i] += rhs - A e
 void residual_row(const MultigridRow& row, float* sum);
+/// sum[i] += conductance of a face in series with half of two others; zero if the face is closed.
+void add_series_row(int n, const float* face, const float* low, const float* high, float* sum);
 /// out = sum of four rows with weights.
-void mix_rows(int n, const float* a, const float* b, const float* c, const float* d, float wa, float wb, float wc,
-              float wd, float* out);
+void mix_rows(int n, const float* a, const float* b, const float* c, const float* d, float wa, float wb,
+              float wc, float wd, float* out);
 /// e[i] += near_weight[i] q[near[i]] + far_weight[i] q[far[i]]
 void spread_row(int n, const float* q, const int* near, const int* far, const float* near_weight,
                 const float* far_weight, float* e);

@@ -27,9 +27,11 @@ PorousRows::PorousRows(const FlowGrid& grid, const std::vector<PorousCells>& clo
   for (const PorousCells& cloth : cloths) {
     if (!(std::isfinite(cloth.darcy) && cloth.darcy >= 0 && std::isfinite(cloth.forchheimer) &&
           cloth.forchheimer >= 0)) {
-      throw Error(ExitCode::bad_data,
-                  fmt::format("porous cells: Darcy d = {} 1/m2 and Forchheimer f = {} 1/m must be finite and not negative",
-                              cloth.darcy, cloth.forchheimer));
+      throw Error(
+          ExitCode::bad_data,
+          fmt::format(
+              "porous cells: Darcy d = {} 1/m2 and Forchheimer f = {} 1/m must be finite and not negative",
+              cloth.darcy, cloth.forchheimer));
     }
     for (int cell : cloth.cells) {
       if (cell < 0 || cell >= grid.cells()) {
@@ -68,7 +70,8 @@ PorousRows::PorousRows(const PorousRows& fine, const FlowGrid& coarse)
         for (int kk = kc; kk < std::min(kc + 2, nz_); ++kk) {
           for (int jj = jc; jj < std::min(jc + 2, ny_); ++jj) {
             for (int ii = ic; ii < std::min(ic + 2, nx_); ++ii) {
-              const double s = share(i, fine.nx_, ii, nx_) * share(j, fine.ny_, jj, ny_) * share(k, fine.nz_, kk, nz_);
+              const double s =
+                  share(i, fine.nx_, ii, nx_) * share(j, fine.ny_, jj, ny_) * share(k, fine.nz_, kk, nz_);
               if (s <= 0) continue;
               add_row(jj, kk);
               linear_[offset_[row(jj, kk)] + ii] += s * a;

@@ -10,8 +10,7 @@ namespace ripstop::cartesian {
 RIPSTOP_ROW_KERNEL void pressure_row(PressureRow& row) {
   const int n = row.m.n;
   const std::ptrdiff_t sy = row.m.sy, sz = row.m.sz;
-  const double *rhx = row.m.x_inverse_width, *wx = row.m.x_weight_low, *rdx = row.m.x_inverse_distance,
-               *hx = row.x_width;
+  const double *wx = row.m.x_weight_low, *rdx = row.m.x_inverse_distance, *hx = row.x_width;
   const CrossMetrics y = row.m.y, z = row.m.z;
   const double *hu = row.hu, *hv = row.hv, *hw = row.hw, *ra = row.ra, *rho = row.rho, *p = row.p;
   const double *hwa = row.hw_above, *rhoa = row.rho_above, *raa = row.ra_above, *pa = row.p_above;
@@ -20,11 +19,13 @@ RIPSTOP_ROW_KERNEL void pressure_row(PressureRow& row) {
   const bool inlet = row.inlet, outlet = row.outlet;
   const double inlet_speed = row.inlet_speed, mean_p = row.mean_p;
 
-  double res = 0, scale = 0, imbalance = 0;
-#pragma omp simd reduction(+ : res, scale, imbalance)
+  double res = 0, scale = 0;
+#pragma omp simd reduction(+ : res, scale)
   for (int i = 0; i < n; ++i) {
     const double g = rho[i] * ra[i], fu = rho[i] * hu[i], fv = rho[i] * hv[i], fw = rho[i] * hw[i];
-    const auto mix = [](double weight, double low, double high) { return weight * low + (1 - weight) * high; };
+    const auto mix = [](double weight, double low, double high) {
+      return weight * low + (1 - weight) * high;
+    };
 
     const double gw = mix(wx[i], rho[i - 1] * ra[i - 1], g) * rdx[i];
     const double ge = mix(wx[i + 1], g, rho[i + 1] * ra[i + 1]) * rdx[i + 1];
@@ -55,11 +56,8 @@ RIPSTOP_ROW_KERNEL void pressure_row(PressureRow& row) {
     const double mean = outlet ? -ga * area_z * mean_p : 0;
     res += std::fabs(flow - source);
     scale += std::fabs(flow - mean) + std::fabs(source - mean);
-    imbalance += std::fabs(flow - source);
   }
-  (void)rhx;
   row.sum = {res, scale};
-  row.imbalance = imbalance;
 }
 
 RIPSTOP_ROW_KERNEL void flux_row(FluxRow& row) {
@@ -112,7 +110,7 @@ RIPSTOP_ROW_KERNEL void velocity_row(VelocityRow& row) {
   const std::ptrdiff_t sy = row.m.sy, sz = row.m.sz;
   const double *xl = row.m.x_slope_low, *xh = row.m.x_slope_high, *hx = row.x_width;
   const CrossMetrics y = row.m.y, z = row.m.z;
-  const double *ra = row.ra, *p = row.p;
+  const double *ra = row.ra, *p = row.p, *hu = row.hu, *hv = row.hv, *hw = row.hw;
   double *u = row.u, *v = row.v, *w = row.w, *rho = row.rho;
   const double gas = row.gas_constant, p0 = row.pressure0, t0 = row.temperature, speed2 = row.speed2,
                half_cp = row.half_cp;
@@ -122,7 +120,7 @@ RIPSTOP_ROW_KERNEL void velocity_row(VelocityRow& row) {
     const double px = xh[i] * (p[i + 1] - p[i]) + xl[i] * (p[i] - p[i - 1]);
     const double py = y.slope_high * (p[i + sy] - p[i]) + y.slope_low * (p[i] - p[i - sy]);
     const double pz = z.slope_high * (p[i + sz] - p[i]) + z.slope_low * (p[i] - p[i - sz]);
-    const double u1 = u[i] - ra[i] * px, v1 = v[i] - ra[i] * py, w1 = w[i] - ra[i] * pz;
+    const double u1 = hu[i] - ra[i] * px, v1 = hv[i] - ra[i] * py, w1 = hw[i] - ra[i] * pz;
     u[i] = u1;
     v[i] = v1;
     w[i] = w1;

@@ -1,9 +1,9 @@
 // The row kernels: each works on one row of cells along x and touches nothing but the rows it is given.
 //
-// Pointers are to cell 0 of the row; q[i - 1], q[i + 1] are the neighbours along x, q[i - sy], q[i + sy] along
-// y, q[i - sz], q[i + sz] along z. Where the neighbour plane lies elsewhere (a ring of planes, a boundary
-// value), it has a pointer of its own, `below` (towards the inlet) or `above`.
-// Mass fluxes are per area, rho u [kg/(m2 s)], positive along the axis, kept at the low face of a cell.
+// Pointers are to cell 0 of the row; q[i - 1], q[i + 1] are the neighbours along x, q[i - sy], q[i + sy]
+// along y, q[i - sz], q[i + sz] along z. Where the neighbour plane lies elsewhere (a ring of planes, a
+// boundary value), it has a pointer of its own, `below` (towards the inlet) or `above`. Mass fluxes are per
+// area, rho u [kg/(m2 s)], positive along the axis, kept at the low face of a cell.
 #pragma once
 
 #include <cstddef>
@@ -48,9 +48,9 @@ struct TurbulenceRow {
   const double *mut = nullptr, *mut_below = nullptr, *mut_above = nullptr;  // eddy viscosity [Pa s]
   // Results.
   double *k_new = nullptr, *omega_new = nullptr;
-  double* mu_new = nullptr;                                              // mu + mu_t [Pa s]
-  double *tx = nullptr, *ty = nullptr, *tz = nullptr;                    // three components each, see below
-  std::ptrdiff_t component = 0;                                          // values from a component to the next
+  double* mu_new = nullptr;                            // mu + mu_t [Pa s]
+  double *tx = nullptr, *ty = nullptr, *tz = nullptr;  // three components each, see below
+  std::ptrdiff_t component = 0;                        // values from a component to the next
   ResidualSum k_sum, omega_sum;
   double total_k = 0, total_omega = 0;  // of the new values, times the cell width
 };
@@ -67,8 +67,8 @@ struct MomentumRow {
   const double *mu = nullptr, *mu_below = nullptr, *mu_above = nullptr;
   const double *tx = nullptr, *ty = nullptr, *tz = nullptr, *tz_below = nullptr, *tz_above = nullptr;
   std::ptrdiff_t component = 0;
-  const double *linear = nullptr;     // mu d [kg/(m3 s)]
-  const double *quadratic = nullptr;  // f / 2 [1/m]
+  const double* linear = nullptr;     // mu d [kg/(m3 s)]
+  const double* quadratic = nullptr;  // f / 2 [1/m]
   // Results: H/A, 1/A and the predicted velocity.
   double *hu = nullptr, *hv = nullptr, *hw = nullptr, *ra = nullptr;
   double *u_new = nullptr, *v_new = nullptr, *w_new = nullptr;
@@ -82,15 +82,14 @@ struct PressureRow {
   const double* x_width = nullptr;
   const double *hu = nullptr, *hv = nullptr, *hw = nullptr, *ra = nullptr, *rho = nullptr, *p = nullptr;
   const double *hw_above = nullptr, *rho_above = nullptr, *ra_above = nullptr, *p_above = nullptr;
-  bool inlet = false;       // the low z face brings inlet_speed * rho
-  double inlet_speed = 0;   // [m/s]
-  bool outlet = false;      // the high z face holds the outlet's pressure
+  bool inlet = false;      // the low z face brings inlet_speed * rho
+  double inlet_speed = 0;  // [m/s]
+  bool outlet = false;     // the high z face holds the outlet's pressure
   double mean_p = 0;
   float *cx = nullptr, *cy = nullptr, *cz = nullptr;  // conductances of the low faces [m s]
   float* cz_above = nullptr;                          // of the outlet's faces, where outlet is set
   float* rhs = nullptr;                               // minus the mass that the cell loses [kg/s]
   ResidualSum sum;
-  double imbalance = 0;  // sum |net mass flux| [kg/s]
 };
 void pressure_row(PressureRow& row);
 
@@ -122,7 +121,8 @@ struct VelocityRow {
   double speed2 = 0;        // of the free stream, squared
   double half_cp = 0;       // 1 / (2 c_p) [kg K/J]
   const double *ra = nullptr, *p = nullptr;
-  double *u = nullptr, *v = nullptr, *w = nullptr;  // in: H/A, out: velocity
+  const double *hu = nullptr, *hv = nullptr, *hw = nullptr;
+  double *u = nullptr, *v = nullptr, *w = nullptr;
   double* rho = nullptr;
   double total_u = 0, total_v = 0, total_w = 0, total_p = 0;  // times the cell width
   const double* x_width = nullptr;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace ripstop::cartesian {
 namespace {
@@ -16,34 +17,30 @@ std::vector<double> uniform_edges(double low, double size, int n) {
 
 }  // namespace
 
-Solver::Solver(const FlowProblem& problem, const FlowGrid& grid, PorousRows porous, const CartesianSettings& settings,
-               ThreadTeam& team)
+Solver::Solver(const FlowProblem& problem, const FlowGrid& grid, PorousRows porous,
+               const CartesianSettings& settings, ThreadTeam& team)
     : grid_(grid),
       air_(problem.air),
       duct_(problem.duct),
       settings_(settings),
       team_(team),
       porous_(std::move(porous)),
-      x_(make_axis(uniform_edges(grid.origin.x, grid.size.x, grid.nx), End::zero_gradient, End::zero_gradient)),
-      y_(make_axis(uniform_edges(grid.origin.y, grid.size.y, grid.ny), End::zero_gradient, End::zero_gradient)),
+      x_(make_axis(uniform_edges(grid.origin.x, grid.size.x, grid.nx), End::zero_gradient,
+                   End::zero_gradient)),
+      y_(make_axis(uniform_edges(grid.origin.y, grid.size.y, grid.ny), End::zero_gradient,
+                   End::zero_gradient)),
       z_(make_axis(uniform_edges(grid.origin.z, grid.size.z, grid.nz), End::fixed_value, End::zero_gradient)),
-      zp_(make_axis(uniform_edges(grid.origin.z, grid.size.z, grid.nz), End::zero_gradient, End::fixed_value)),
+      zp_(make_axis(uniform_edges(grid.origin.z, grid.size.z, grid.nz), End::zero_gradient,
+                    End::fixed_value)),
       layout_(grid.nx, grid.ny, grid.nz),
       multigrid_(x_, y_, zp_) {
   const std::size_t values = layout_.values();
-  for (Array<double>* field : {&f_.u, &f_.v, &f_.w, &f_.p, &f_.rho, &f_.k, &f_.omega, &f_.fx, &f_.fy, &f_.fz, &f_.ra}) {
+  for (Array<double>* field : {&f_.u, &f_.v, &f_.w, &f_.p, &f_.rho, &f_.k, &f_.omega, &f_.fx, &f_.fy, &f_.fz,
+                               &hu_, &hv_, &hw_, &ra_, &new_k_, &new_omega_}) {
     *field = Array<double>(values);
   }
-  plane_ = static_cast<std::size_t>(layout_.stride_z);
-  for (Array<double>& a : ring_.mut) a = Array<double>(plane_);
-  for (Array<double>& a : ring_.mu) a = Array<double>(plane_);
-  for (Array<double>& a : ring_.tx) a = Array<double>(3 * plane_);
-  for (Array<double>& a : ring_.ty) a = Array<double>(3 * plane_);
-  for (Array<double>& a : ring_.tz) a = Array<double>(3 * plane_);
-  for (Array<double>& a : ring_.k) a = Array<double>(plane_);
-  for (Array<double>& a : ring_.omega) a = Array<double>(plane_);
-  for (Array<double>& a : ring_.h) a = Array<double>(3 * plane_);
-  for (Array<double>& a : ring_.predicted) a = Array<double>(3 * plane_);
+  const std::size_t row = static_cast<std::size_t>(layout_.stride_y);
+  rings_.assign(team_.size(), MarchRings(row * (march_block_rows(grid) + 6)));
 
   // Inlet: k = 3/2 (I U)^2, omega = k / nu_t.
   const double fluctuation = air_.turbulence_intensity * air_.speed;
@@ -52,22 +49,34 @@ Solver::Solver(const FlowProblem& problem, const FlowGrid& grid, PorousRows poro
   gas_constant_ = gas_constant_of_air;
   pressure0_ = air_.density * gas_constant_ * air_.temperature;
 
-  ring_.zeros = Array<double>(plane_);
-  ring_.inlet_w = Array<double>(plane_);
-  ring_.inlet_k = Array<double>(plane_);
-  ring_.inlet_omega = Array<double>(plane_);
-  std::fill_n(ring_.inlet_w.data(), plane_, air_.speed);
-  std::fill_n(ring_.inlet_k.data(), plane_, inlet_k_);
-  std::fill_n(ring_.inlet_omega.data(), plane_, inlet_omega_);
+  constant_.zeros = Array<double>(row);
+  constant_.inlet_w = Array<double>(row, air_.speed);
+  constant_.inlet_k = Array<double>(row, inlet_k_);
+  constant_.inlet_omega = Array<double>(row, inlet_omega_);
   rows_.resize(static_cast<std::size_t>(grid.ny) * grid.nz);
   planes_.resize(grid.nz);
 }
 
+RowMetrics Solver::metrics(int j, int k, const Axis& z) const {
+  RowMetrics m;
+  m.n = grid_.nx;
+  m.sy = layout_.stride_y;
+  m.sz = layout_.stride_z;
+  m.x_inverse_width = x_.inverse_width.data();
+  m.x_weight_low = x_.weight_low.data();
+  m.x_inverse_distance = x_.inverse_distance.data();
+  m.x_slope_low = x_.slope_low.data();
+  m.x_slope_high = x_.slope_high.data();
+  m.y = cross_metrics(y_, j);
+  m.z = cross_metrics(z, k);
+  return m;
+}
+
 void Solver::start_uniform() {
-  const auto fill = [](Array<double>& field, double value) { std::fill_n(field.data(), field.size(), value); };
+  const auto fill = [](Array<double>& field, double value) { std::fill(field.begin(), field.end(), value); };
   fill(f_.u, 0), fill(f_.v, 0), fill(f_.w, air_.speed), fill(f_.p, 0), fill(f_.rho, air_.density);
   fill(f_.k, inlet_k_), fill(f_.omega, inlet_omega_);
-  fill(f_.fx, 0), fill(f_.fy, 0), fill(f_.fz, air_.density * air_.speed), fill(f_.ra, 0);
+  fill(f_.fx, 0), fill(f_.fy, 0), fill(f_.fz, air_.density * air_.speed);
   total_.value[Sums::w_mean] = air_.speed;
   total_.value[Sums::k_mean] = inlet_k_;
   total_.value[Sums::omega_mean] = inlet_omega_;
@@ -89,10 +98,13 @@ void Solver::start_from(const Solver& other) {
     return result;
   };
   const FlowGrid& g = other.grid_;
-  const auto cx = pairs(grid_.nx, g.nx, false), cy = pairs(grid_.ny, g.ny, false), cz = pairs(grid_.nz, g.nz, false);
-  const auto ex = pairs(grid_.nx, g.nx, true), ey = pairs(grid_.ny, g.ny, true), ez = pairs(grid_.nz, g.nz, true);
+  const auto cx = pairs(grid_.nx, g.nx, false), cy = pairs(grid_.ny, g.ny, false),
+             cz = pairs(grid_.nz, g.nz, false);
+  const auto ex = pairs(grid_.nx, g.nx, true), ey = pairs(grid_.ny, g.ny, true),
+             ez = pairs(grid_.nz, g.nz, true);
   const auto interpolate = [&](const Array<double>& from, Array<double>& to, const std::vector<Pair>& px,
-                               const std::vector<Pair>& py, const std::vector<Pair>& pz, bool fx, bool fy, bool fz) {
+                               const std::vector<Pair>& py, const std::vector<Pair>& pz, bool fx, bool fy,
+                               bool fz) {
     const auto work = [&](int rank) {
       const Range planes = part_of(grid_.nz + (fz ? 1 : 0), rank, team_.size());
       for (int k = planes.begin; k < planes.end; ++k) {
@@ -105,7 +117,8 @@ void Solver::start_from(const Solver& other) {
               const double weight = (a ? px[i].high_weight : 1 - px[i].high_weight) *
                                     (b ? py[j].high_weight : 1 - py[j].high_weight) *
                                     (c ? pz[k].high_weight : 1 - pz[k].high_weight);
-              if (weight != 0) value += weight * from[other.layout_.at(px[i].low + a, py[j].low + b, pz[k].low + c)];
+              if (weight != 0)
+                value += weight * from[other.layout_.at(px[i].low + a, py[j].low + b, pz[k].low + c)];
             }
             to[layout_.at(i, j, k)] = value;
           }
@@ -124,47 +137,13 @@ void Solver::start_from(const Solver& other) {
   interpolate(other.f_.fx, f_.fx, ex, cy, cz, true, false, false);
   interpolate(other.f_.fy, f_.fy, cx, ey, cz, false, true, false);
   interpolate(other.f_.fz, f_.fz, cx, cy, ez, false, false, true);
-  for (int name = Sums::u_mean; name <= Sums::omega_mean; ++name) total_.value[name] = other.total_.value[name];
+  for (int name = Sums::u_mean; name <= Sums::omega_mean; ++name)
+    total_.value[name] = other.total_.value[name];
   fill_ghosts();
 }
 
 void Solver::fill_ghosts() {
-  const double wall = duct_ ? -1 : 1;
-  const std::ptrdiff_t sz = layout_.stride_z, sy = layout_.stride_y;
-  const auto sides = [&](Array<double>& q, double across_x, double across_y) {
-    for (int k = 0; k < grid_.nz; ++k) {
-      for (int j = 0; j < grid_.ny; ++j) {
-        q[layout_.at(-1, j, k)] = across_x * q[layout_.at(0, j, k)];
-        q[layout_.at(grid_.nx, j, k)] = across_x * q[layout_.at(grid_.nx - 1, j, k)];
-      }
-      for (int i = -1; i <= grid_.nx; ++i) {
-        q[layout_.at(i, -1, k)] = across_y * q[layout_.at(i, 0, k)];
-        q[layout_.at(i, grid_.ny, k)] = across_y * q[layout_.at(i, grid_.ny - 1, k)];
-      }
-    }
-  };
-  const auto ends = [&](Array<double>& q, double inlet_sign, double inlet, double backflow_sign, double backflow) {
-    for (int j = -1; j <= grid_.ny; ++j) {
-      for (int i = -1; i <= grid_.nx; ++i) {
-        const std::ptrdiff_t first = layout_.at(i, j, 0), last = layout_.at(i, j, grid_.nz - 1);
-        q[first - sz] = inlet + inlet_sign * q[first];
-        q[last + sz] = f_.fz[last + sz] >= 0 ? q[last] : backflow + backflow_sign * q[last];
-      }
-    }
-  };
-  (void)sy;
-  sides(f_.u, wall, 1), sides(f_.v, 1, wall);
-  for (Array<double>* q : {&f_.w, &f_.p, &f_.rho, &f_.k, &f_.omega}) sides(*q, 1, 1);
-  ends(f_.u, -1, 0, -1, 0), ends(f_.v, -1, 0, -1, 0), ends(f_.w, -1, 2 * air_.speed, -1, 0);
-  ends(f_.rho, 1, 0, 1, 0);
-  ends(f_.k, -1, 2 * inlet_k_, -1, 2 * inlet_k_), ends(f_.omega, -1, 2 * inlet_omega_, -1, 2 * inlet_omega_);
-  ends(f_.p, 1, 0, 1, 0);
-  for (int j = -1; j <= grid_.ny; ++j) {
-    for (int i = -1; i <= grid_.nx; ++i) {
-      const std::ptrdiff_t last = layout_.at(i, j, grid_.nz - 1);
-      f_.p[last + sz] = -f_.p[last];
-    }
-  }
+  for (int k = 0; k < grid_.nz; ++k) velocity_ghosts(k), pressure_ghosts(k), turbulence_ghosts(k);
 }
 
 // Rows to planes in parallel, planes to totals on rank 0; always in the same order.
@@ -188,9 +167,20 @@ void Solver::add_up(int rank, int from, int to) {
 
 FlowProgress Solver::iterate() {
   team_.run([this](int rank) {
+    const Range planes = part_of(grid_.nz, rank, team_.size());
+    const auto each_plane = [&](auto stage) {
+      for (int k = planes.begin; k < planes.end; ++k) stage(k);
+      team_.barrier();
+    };
     march(rank);
+    team_.barrier();
+    if (rank == 0) std::swap(f_.k, new_k_), std::swap(f_.omega, new_omega_);
+    team_.barrier();
+    each_plane([&](int k) { turbulence_ghosts(k), pressure(k); });
     multigrid_.solve(team_, rank, settings_.pressure_cycles);
-    correct(rank);
+    each_plane([&](int k) { flux(k); });
+    each_plane([&](int k) { relax_pressure(k); });
+    each_plane([&](int k) { velocity(k); });
     add_up(rank, 0, Sums::count - 1);
   });
   const double volume = grid_.size.x * grid_.size.y * grid_.size.z;
@@ -215,9 +205,12 @@ std::string Solver::first_bad_value() const {
     const char* name;
     const Array<double>* values;
     double bound;
-  } checks[] = {{"velocity x", &f_.u, 1e3 * air_.speed}, {"velocity y", &f_.v, 1e3 * air_.speed},
-                {"velocity z", &f_.w, 1e3 * air_.speed}, {"pressure", &f_.p, 1e4 * air_.density * air_.speed * air_.speed},
-                {"k", &f_.k, 1e6 * air_.speed * air_.speed},   {"omega", &f_.omega, 1e300}};
+  } checks[] = {{"velocity x", &f_.u, 1e3 * air_.speed},
+                {"velocity y", &f_.v, 1e3 * air_.speed},
+                {"velocity z", &f_.w, 1e3 * air_.speed},
+                {"pressure", &f_.p, 1e4 * air_.density * air_.speed * air_.speed},
+                {"k", &f_.k, 1e6 * air_.speed * air_.speed},
+                {"omega", &f_.omega, 1e300}};
   const Vec3 h = grid_.spacing();
   for (const auto& check : checks) {
     for (int k = 0; k < grid_.nz; ++k) {
@@ -246,8 +239,8 @@ double Solver::momentum_deficit() const {
       const double area = x_.width[i] * y_.width[j];
       const std::ptrdiff_t in = layout_.at(i, j, 0), out = layout_.at(i, j, grid_.nz - 1);
       const double mu_in = air_.viscosity + f_.rho[in] * inlet_k_ / inlet_omega_;
-      force += area * (f_.fz[in] * air_.speed + f_.p[in] -
-                       mu_in * z_.inverse_distance[0] * (f_.w[in] - air_.speed));
+      force += area *
+               (f_.fz[in] * air_.speed + f_.p[in] - mu_in * z_.inverse_distance[0] * (f_.w[in] - air_.speed));
       // At the outlet the pressure is zero; the explicit stress there is that of the last cell.
       const double leaving = f_.fz[out + sz] >= 0 ? f_.w[out] : 0;
       force -= area * f_.fz[out + sz] * leaving;

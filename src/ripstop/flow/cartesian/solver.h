@@ -13,8 +13,8 @@
 
 namespace ripstop::cartesian {
 
-constexpr double heat_capacity = 1007;              // c_p of air [J/(kg K)]
-constexpr double gas_constant_of_air = 8314.46 / 28.9;  // R [J/(kg K)]
+constexpr double heat_capacity = 1007;                     // c_p of air [J/(kg K)]
+constexpr double gas_constant_of_air = 8314.47 / 28.9647;  // R [J/(kg K)]
 
 struct Fields {
   Array<double> u, v, w;     // [m/s]
@@ -22,24 +22,57 @@ struct Fields {
   Array<double> rho;         // [kg/m3]
   Array<double> k, omega;    // [m2/s2], [1/s]
   Array<double> fx, fy, fz;  // mass flux per area through the low faces [kg/(m2 s)]
-  Array<double> ra;          // 1 / (A + R) [m3 s/kg]
 };
 
 /// Sums over the grid that an iteration makes, row by row so that their order is fixed.
 struct Sums {
   enum Name {
-    u_residual, v_residual, w_residual, p_residual, k_residual, omega_residual,
-    u_scale, v_scale, w_scale, p_scale, k_scale, omega_scale,
-    u_mean, v_mean, w_mean, p_mean, k_mean, omega_mean,
-    drag_x, drag_y, drag_z, imbalance, count
+    u_residual,
+    v_residual,
+    w_residual,
+    p_residual,
+    k_residual,
+    omega_residual,
+    u_scale,
+    v_scale,
+    w_scale,
+    p_scale,
+    k_scale,
+    omega_scale,
+    u_mean,
+    v_mean,
+    w_mean,
+    p_mean,
+    k_mean,
+    omega_mean,
+    drag_x,
+    drag_y,
+    drag_z,
+    count
   };
   double value[count] = {};
 };
 
+/// Rows of the largest block that the march cuts the grid into.
+int march_block_rows(const FlowGrid& grid);
+
+/// What the march passes from plane to plane of a block: rings of planes that hold the block's rows and two
+/// more on each side.
+struct MarchRings {
+  explicit MarchRings(std::size_t plane);
+  std::ptrdiff_t at(const Layout& layout, int j, int first_row) const {
+    return Layout::lead + static_cast<std::ptrdiff_t>(j - first_row + 3) * layout.stride_y;
+  }
+  std::size_t plane = 0;
+  Array<double> mut[3], mu[3];
+  Array<double> tx[2], ty[2], tz[3], predicted[2];  // three components each
+  Array<double> scratch;
+};
+
 class Solver {
  public:
-  Solver(const FlowProblem& problem, const FlowGrid& grid, PorousRows porous, const CartesianSettings& settings,
-         ThreadTeam& team);
+  Solver(const FlowProblem& problem, const FlowGrid& grid, PorousRows porous,
+         const CartesianSettings& settings, ThreadTeam& team);
 
   /// Uniform stream everywhere.
   void start_uniform();
@@ -52,6 +85,8 @@ class Solver {
 
   FlowField field() const;
   const FlowGrid& grid() const { return grid_; }
+  const Freestream& air() const { return air_; }
+  bool duct() const { return duct_; }
   const Fields& fields() const { return f_; }
   Fields& fields() { return f_; }
   const Sums& sums() const { return total_; }
@@ -61,22 +96,24 @@ class Solver {
   void fill_ghosts();
 
  private:
-  // The march of momentum and turbulence, plane by plane towards the outlet (solver_march.cpp).
+  // Turbulence and momentum (solver_march.cpp); H/A, 1/A, new k and omega.
   void march(int rank);
-  void eddy_viscosity(int k, Range rows);
-  void turbulence(int k, Range rows);
-  void commit_turbulence(int k, Range rows);
-  void momentum(int k, Range rows);
-  void commit_momentum(int k, Range rows);
-  void pressure(int k, Range rows);
-  // The march that corrects fluxes, pressure and velocity (solver_correct.cpp).
-  void correct(int rank);
-  void flux(int k, Range rows);
-  void relax_pressure(int k, Range rows);
-  void velocity(int k, Range rows);
+  void eddy_viscosity(MarchRings& rings, int k, Range rows) const;
+  void turbulence(MarchRings& rings, int k, Range rows);
+  void momentum(MarchRings& rings, int k, Range rows);
+  // The rest, a plane at a time (solver_correct.cpp).
+  void pressure(int k);
+  void flux(int k);
+  void relax_pressure(int k);
+  void velocity(int k);
+  void side_ghosts(Array<double>& field, int k, double across_x, double across_y) const;
+  void end_ghosts(Array<double>& field, int k, double inlet, double back) const;
+  void turbulence_ghosts(int k);
+  void pressure_ghosts(int k);
+  void velocity_ghosts(int k);
 
   void add_up(int rank, int from, int to);
-  RowMetrics metrics(int j, int k) const;
+  RowMetrics metrics(int j, int k, const Axis& z) const;
   Sums& row_sums(int j, int k) { return rows_[static_cast<std::size_t>(k) * grid_.ny + j]; }
   Vec3 porous_force_of_row(int j, int k) const;
   double momentum_deficit() const;
@@ -93,16 +130,13 @@ class Solver {
   Multigrid multigrid_;
   double inlet_k_ = 0, inlet_omega_ = 0, gas_constant_ = 0, pressure0_ = 0;
 
-  // Rings of planes: what the march passes from one stage to the next stays in cache.
-  struct Rings {
-    Array<double> mut[3], mu[4];
-    Array<double> tx[2], ty[2], tz[3];  // three components each
-    Array<double> k[2], omega[2];
-    Array<double> h[2], predicted[2];  // three components each
+  struct Constant {  // rows that stand for boundary values
     Array<double> zeros, inlet_w, inlet_k, inlet_omega;
   };
-  Rings ring_;
-  std::size_t plane_ = 0;  // values a plane
+  Constant constant_;
+  Array<double> hu_, hv_, hw_, ra_;  // H / (A + R) [m/s], 1 / (A + R) [m3 s/kg]
+  Array<double> new_k_, new_omega_;
+  std::vector<MarchRings> rings_;  // one a thread
   std::vector<Sums> rows_;
   std::vector<Sums> planes_;
   Sums total_;

@@ -1,31 +1,81 @@
-// Second march of an iteration, after the pressure correction is known: face fluxes with the full correction,
-// then the relaxed pressure, then velocity and density from it.
+// Second half of an iteration: the pressure equation and what follows from it. The planes are shared among
+// the threads; between the stages all of them meet.
+#include <algorithm>
 #include <cmath>
 
 #include "ripstop/flow/cartesian/solver.h"
 
 namespace ripstop::cartesian {
 
-void Solver::correct(int rank) {
-  const Range rows = part_of(grid_.ny, rank, team_.size());
-  const int nz = grid_.nz;
-  for (int s = 0; s < nz + 3; ++s) {
-    if (s < nz) flux(s, rows);
-    if (s >= 2 && s - 2 < nz) relax_pressure(s - 2, rows);
-    if (s >= 3) velocity(s - 3, rows);
-    team_.barrier();
+// Ghosts of one plane: beyond the sides a factor of the last cell, 1 or, at a slip wall, -1.
+void Solver::side_ghosts(Array<double>& field, int k, double across_x, double across_y) const {
+  const int nx = grid_.nx, ny = grid_.ny;
+  for (int j = 0; j < ny; ++j) {
+    double* q = &field[layout_.at(0, j, k)];
+    q[-1] = across_x * q[0];
+    q[nx] = across_x * q[nx - 1];
+  }
+  const double *low = &field[layout_.at(-1, 0, k)], *high = &field[layout_.at(-1, ny - 1, k)];
+  double *below = &field[layout_.at(-1, -1, k)], *above = &field[layout_.at(-1, ny, k)];
+  for (int i = 0; i < nx + 2; ++i) below[i] = across_y * low[i];
+  for (int i = 0; i < nx + 2; ++i) above[i] = across_y * high[i];
+}
+
+// Ghosts beyond the inlet hold 2 q_inlet - q; those beyond the outlet q where air leaves, 2 q_back - q where
+// it would come back.
+void Solver::end_ghosts(Array<double>& field, int k, double inlet, double back) const {
+  const std::ptrdiff_t sz = layout_.stride_z;
+  for (int j = 0; j < grid_.ny; ++j) {
+    const std::ptrdiff_t at = layout_.at(0, j, k);
+    double* q = &field[at];
+    const double* fz = &f_.fz[at + sz];
+    for (int i = 0; k == 0 && i < grid_.nx; ++i) q[i - sz] = 2 * inlet - q[i];
+    for (int i = 0; k == grid_.nz - 1 && i < grid_.nx; ++i) q[i + sz] = fz[i] >= 0 ? q[i] : 2 * back - q[i];
   }
 }
 
-void Solver::flux(int k, Range rows) {
+void Solver::turbulence_ghosts(int k) {
+  side_ghosts(f_.k, k, 1, 1), end_ghosts(f_.k, k, inlet_k_, inlet_k_);
+  side_ghosts(f_.omega, k, 1, 1), end_ghosts(f_.omega, k, inlet_omega_, inlet_omega_);
+}
+
+void Solver::pressure(int k) {
+  const double wall = duct_ ? -1 : 1;
+  side_ghosts(hu_, k, wall, 1), side_ghosts(hv_, k, 1, wall);
+  MultigridLevel& top = multigrid_.finest();
+  const bool last = k == grid_.nz - 1;
+  for (int j = 0; j < grid_.ny; ++j) {
+    const std::ptrdiff_t at = layout_.at(0, j, k), sz = layout_.stride_z;
+    PressureRow r;
+    r.m = metrics(j, k, zp_);
+    r.x_width = x_.width.data();
+    r.y_width = y_.width[j];
+    r.z_width = z_.width[k];
+    r.hu = &hu_[at], r.hv = &hv_[at], r.hw = &hw_[at];
+    r.ra = &ra_[at], r.rho = &f_.rho[at], r.p = &f_.p[at];
+    r.hw_above = r.hw + sz, r.ra_above = r.ra + sz, r.rho_above = r.rho + sz;
+    r.p_above = last ? &constant_.zeros[Layout::lead] : r.p + sz;
+    r.inlet = k == 0;
+    r.inlet_speed = air_.speed;
+    r.outlet = last;
+    r.mean_p = total_.value[Sums::p_mean];
+    r.cx = &top.cx[at], r.cy = &top.cy[at], r.cz = &top.cz[at], r.cz_above = &top.cz[at + sz];
+    r.rhs = &top.rhs[at];
+    pressure_row(r);
+    double* sums = row_sums(j, k).value;
+    sums[Sums::p_residual] = r.sum.residual, sums[Sums::p_scale] = r.sum.scale;
+  }
+}
+
+// Face fluxes with the whole correction, before the pressure is relaxed.
+void Solver::flux(int k) {
   const MultigridLevel& top = multigrid_.finest();
-  for (int j = rows.begin; j < rows.end; ++j) {
+  for (int j = 0; j < grid_.ny; ++j) {
     const std::ptrdiff_t at = layout_.at(0, j, k), sy = layout_.stride_y, sz = layout_.stride_z;
     FluxRow r;
-    r.m = metrics(j, k);
-    r.m.z = cross_metrics(zp_, k);
-    r.hu = &f_.u[at], r.hv = &f_.v[at], r.hw = &f_.w[at];
-    r.ra = &f_.ra[at], r.rho = &f_.rho[at], r.p = &f_.p[at], r.dp = &top.e[at];
+    r.m = metrics(j, k, zp_);
+    r.hu = &hu_[at], r.hv = &hv_[at], r.hw = &hw_[at];
+    r.ra = &ra_[at], r.rho = &f_.rho[at], r.p = &f_.p[at], r.dp = &top.e[at];
     r.inlet = k == 0;
     r.inlet_speed = air_.speed;
     r.fx = &f_.fx[at], r.fy = &f_.fy[at], r.fz = &f_.fz[at];
@@ -40,68 +90,56 @@ void Solver::flux(int k, Range rows) {
   }
 }
 
-void Solver::relax_pressure(int k, Range rows) {
-  const MultigridLevel& top = multigrid_.finest();
-  const std::ptrdiff_t sy = layout_.stride_y, sz = layout_.stride_z;
-  const int nx = grid_.nx;
-  for (int j = rows.begin; j < rows.end; ++j) {
-    const std::ptrdiff_t at = layout_.at(0, j, k);
-    double* p = &f_.p[at];
-    const float* dp = &top.e[at];
-    for (int i = 0; i < nx; ++i) p[i] += settings_.relax_pressure * static_cast<double>(dp[i]);
-    p[-1] = p[0];
-    p[nx] = p[nx - 1];
-    if (j == 0) std::copy_n(p, nx, p - sy);
-    if (j == grid_.ny - 1) std::copy_n(p, nx, p + sy);
-    if (k == 0) std::copy_n(p, nx, p - sz);
-    if (k == grid_.nz - 1) {
-      for (int i = 0; i < nx; ++i) p[i + sz] = -p[i];
-    }
+void Solver::pressure_ghosts(int k) {
+  const std::ptrdiff_t sz = layout_.stride_z;
+  side_ghosts(f_.p, k, 1, 1);
+  for (int j = 0; j < grid_.ny; ++j) {
+    double* p = &f_.p[layout_.at(0, j, k)];
+    if (k == 0) std::copy_n(p, grid_.nx, p - sz);
+    for (int i = 0; k == grid_.nz - 1 && i < grid_.nx; ++i) p[i + sz] = -p[i];
   }
 }
 
-void Solver::velocity(int k, Range rows) {
-  const std::ptrdiff_t sy = layout_.stride_y, sz = layout_.stride_z;
-  const int nx = grid_.nx;
+void Solver::relax_pressure(int k) {
+  const MultigridLevel& top = multigrid_.finest();
+  for (int j = 0; j < grid_.ny; ++j) {
+    const std::ptrdiff_t at = layout_.at(0, j, k);
+    double* p = &f_.p[at];
+    const float* dp = &top.e[at];
+    for (int i = 0; i < grid_.nx; ++i) p[i] += settings_.relax_pressure * static_cast<double>(dp[i]);
+  }
+  pressure_ghosts(k);
+}
+
+void Solver::velocity_ghosts(int k) {
   const double wall = duct_ ? -1 : 1;
-  for (int j = rows.begin; j < rows.end; ++j) {
+  side_ghosts(f_.u, k, wall, 1), end_ghosts(f_.u, k, 0, 0);
+  side_ghosts(f_.v, k, 1, wall), end_ghosts(f_.v, k, 0, 0);
+  side_ghosts(f_.w, k, 1, 1), end_ghosts(f_.w, k, air_.speed, 0);
+  side_ghosts(f_.rho, k, 1, 1);
+  const std::ptrdiff_t sz = layout_.stride_z;
+  for (int j = 0; j < grid_.ny; ++j) {
+    double* rho = &f_.rho[layout_.at(0, j, k)];
+    if (k == 0) std::copy_n(rho, grid_.nx, rho - sz);
+    if (k == grid_.nz - 1) std::copy_n(rho, grid_.nx, rho + sz);
+  }
+}
+
+void Solver::velocity(int k) {
+  for (int j = 0; j < grid_.ny; ++j) {
     const std::ptrdiff_t at = layout_.at(0, j, k);
     VelocityRow r;
-    r.m = metrics(j, k);
+    r.m = metrics(j, k, z_);
     r.gas_constant = settings_.compressible ? gas_constant_ : 0;
     r.pressure0 = pressure0_;
     r.temperature = air_.temperature;
     r.speed2 = air_.speed * air_.speed;
     r.half_cp = 0.5 / heat_capacity;
-    r.ra = &f_.ra[at], r.p = &f_.p[at];
+    r.ra = &ra_[at], r.p = &f_.p[at];
+    r.hu = &hu_[at], r.hv = &hv_[at], r.hw = &hw_[at];
     r.u = &f_.u[at], r.v = &f_.v[at], r.w = &f_.w[at], r.rho = &f_.rho[at];
     r.x_width = x_.width.data();
     velocity_row(r);
-
-    const auto ghosts = [&](double* q, double side, double cross) {
-      q[-1] = side * q[0];
-      q[nx] = side * q[nx - 1];
-      for (int i = -1; j == 0 && i <= nx; ++i) q[i - sy] = cross * q[i];
-      for (int i = -1; j == grid_.ny - 1 && i <= nx; ++i) q[i + sy] = cross * q[i];
-    };
-    ghosts(r.u, wall, 1);
-    ghosts(r.v, 1, wall);
-    ghosts(r.w, 1, 1);
-    ghosts(r.rho, 1, 1);
-    if (k == 0) {
-      for (int i = 0; i < nx; ++i) {
-        r.u[i - sz] = -r.u[i], r.v[i - sz] = -r.v[i], r.w[i - sz] = 2 * air_.speed - r.w[i];
-        r.rho[i - sz] = r.rho[i];
-      }
-    }
-    if (k == grid_.nz - 1) {  // zero gradient where air leaves, zero velocity where it would come back
-      const double* fz = &f_.fz[at + sz];
-      for (int i = 0; i < nx; ++i) {
-        const double sign = fz[i] >= 0 ? 1 : -1;
-        r.u[i + sz] = sign * r.u[i], r.v[i + sz] = sign * r.v[i], r.w[i + sz] = sign * r.w[i];
-        r.rho[i + sz] = r.rho[i];
-      }
-    }
     double* sums = row_sums(j, k).value;
     const double area = y_.width[j] * z_.width[k];
     sums[Sums::u_mean] = r.total_u * area;
@@ -111,6 +149,7 @@ void Solver::velocity(int k, Range rows) {
     const Vec3 force = porous_force_of_row(j, k);
     sums[Sums::drag_x] = force.x, sums[Sums::drag_y] = force.y, sums[Sums::drag_z] = force.z;
   }
+  velocity_ghosts(k);
 }
 
 Vec3 Solver::porous_force_of_row(int j, int k) const {

@@ -1,7 +1,11 @@
-// First march of an iteration: turbulence, momentum, right-hand side of the pressure, plane by plane from the
-// inlet to the outlet, so that each plane sees the new values of the plane before it. Every stage runs a fixed
-// number of planes behind the one it needs, and one barrier a plane keeps the threads, which share the rows of
-// every plane, together. Inside a plane neighbours are old values: the answer does not depend on the threads.
+// First half of an iteration: turbulence and momentum.
+//
+// The box is cut along y into blocks of fixed size, and each block is marched plane by plane from the inlet
+// to the outlet: a plane sees the new values of the plane before it, so a change travels with the stream
+// through the whole box in one iteration. All other neighbours are old values, read from arrays that nobody
+// writes, so neither the order of the blocks nor the number of threads matters. Momentum runs one plane
+// behind the turbulence; what passes between them stays in a ring of a few planes, in cache. The rows on
+// either side of a block are computed twice, for the stress that its own rows see.
 #include <algorithm>
 
 #include "ripstop/flow/cartesian/solver.h"
@@ -13,89 +17,100 @@ constexpr int mod(int k, int n) {
   return (k + n) % n;
 }
 
+// Rows in a block: its rings and the fields' planes should fit a second-level cache of 1-2 MB.
+int block_count(int nx, int ny) {
+  const int rows = std::clamp(2500 / nx, 6, 32);
+  const int blocks = std::max(1, (ny + rows / 2) / rows);
+  return ny < 8 ? 1 : (blocks + 1) / 2 * 2;
+}
+
 }  // namespace
 
-RowMetrics Solver::metrics(int j, int k) const {
-  RowMetrics m;
-  m.n = grid_.nx;
-  m.sy = layout_.stride_y;
-  m.sz = layout_.stride_z;
-  m.x_inverse_width = x_.inverse_width.data();
-  m.x_weight_low = x_.weight_low.data();
-  m.x_inverse_distance = x_.inverse_distance.data();
-  m.x_slope_low = x_.slope_low.data();
-  m.x_slope_high = x_.slope_high.data();
-  m.y = cross_metrics(y_, j);
-  m.z = cross_metrics(z_, k);
-  return m;
+int march_block_rows(const FlowGrid& grid) {
+  const int blocks = block_count(grid.nx, grid.ny);
+  return (grid.ny + blocks - 1) / blocks;
+}
+
+MarchRings::MarchRings(std::size_t plane_) : plane(plane_) {
+  for (Array<double>& a : mut) a = Array<double>(plane);
+  for (Array<double>& a : mu) a = Array<double>(plane);
+  for (Array<double>& a : tx) a = Array<double>(3 * plane);
+  for (Array<double>& a : ty) a = Array<double>(3 * plane);
+  for (Array<double>& a : tz) a = Array<double>(3 * plane);
+  for (Array<double>& a : predicted) a = Array<double>(3 * plane);
+  scratch = Array<double>(plane);
 }
 
 void Solver::march(int rank) {
-  const Range rows = part_of(grid_.ny, rank, team_.size());
-  const int nz = grid_.nz;
-  eddy_viscosity(0, rows);
-  team_.barrier();
-  for (int s = 0; s < nz + 3; ++s) {
-    if (s >= 1 && s - 1 < nz) commit_turbulence(s - 1, rows);
-    if (s + 1 < nz) eddy_viscosity(s + 1, rows);
-    if (s < nz) turbulence(s, rows);
-    if (s >= 1 && s - 1 < nz) momentum(s - 1, rows);
-    if (s >= 2 && s - 2 < nz) commit_momentum(s - 2, rows);
-    if (s >= 3) pressure(s - 3, rows);
-    team_.barrier();
+  const int blocks = block_count(grid_.nx, grid_.ny);
+  const Range mine = part_of(blocks, rank, team_.size());
+  for (int b = mine.begin; b < mine.end; ++b) {
+    const Range rows = part_of(grid_.ny, b, blocks);
+    MarchRings& rings = rings_[rank];
+    eddy_viscosity(rings, 0, rows);
+    for (int s = 0; s <= grid_.nz; ++s) {
+      if (s + 1 < grid_.nz) eddy_viscosity(rings, s + 1, rows);
+      if (s < grid_.nz) turbulence(rings, s, rows);
+      if (s >= 1) momentum(rings, s - 1, rows);
+    }
   }
 }
 
-void Solver::eddy_viscosity(int k, Range rows) {
-  for (int j = rows.begin; j < rows.end; ++j) {
+// Two rows beyond the block, as far as the grid goes; the kernel never needs more.
+void Solver::eddy_viscosity(MarchRings& rings, int k, Range rows) const {
+  for (int j = std::max(rows.begin - 2, 0); j < std::min(rows.end + 2, grid_.ny); ++j) {
     const std::ptrdiff_t at = layout_.at(0, j, k);
     const double *kk = &f_.k[at], *om = &f_.omega[at], *rho = &f_.rho[at];
-    double* out = &ring_.mut[mod(k, 3)][layout_.in_plane(0, j)];
+    double* out = &rings.mut[mod(k, 3)][rings.at(layout_, j, rows.begin)];
     for (int i = 0; i < grid_.nx; ++i) out[i] = rho[i] * kk[i] / om[i];
   }
 }
 
-void Solver::turbulence(int k, Range rows) {
+void Solver::turbulence(MarchRings& rings, int k, Range rows) {
   const bool first = k == 0, last = k == grid_.nz - 1;
-  for (int j = rows.begin; j < rows.end; ++j) {
-    const std::ptrdiff_t at = layout_.at(0, j, k), in = layout_.in_plane(0, j), sz = layout_.stride_z;
+  const std::ptrdiff_t sz = layout_.stride_z, component = static_cast<std::ptrdiff_t>(rings.plane);
+  for (int j = std::max(rows.begin - 1, 0); j < std::min(rows.end + 1, grid_.ny); ++j) {
+    const bool own = j >= rows.begin && j < rows.end;
+    const std::ptrdiff_t at = layout_.at(0, j, k), in = rings.at(layout_, j, rows.begin);
     TurbulenceRow r;
-    r.m = metrics(j, k);
+    r.m = metrics(j, k, z_);
     r.viscosity = air_.viscosity;
     r.relaxation = settings_.relax_turbulence;
     r.mean_k = total_.value[Sums::k_mean];
     r.mean_omega = total_.value[Sums::omega_mean];
     r.u = &f_.u[at], r.v = &f_.v[at], r.w = &f_.w[at];
     r.k = &f_.k[at], r.omega = &f_.omega[at], r.rho = &f_.rho[at];
-    r.k_below = first ? &ring_.inlet_k[in] : r.k - sz;
-    r.k_above = last ? &ring_.inlet_k[in] : r.k + sz;
-    r.omega_below = first ? &ring_.inlet_omega[in] : r.omega - sz;
-    r.omega_above = last ? &ring_.inlet_omega[in] : r.omega + sz;
+    const double *inlet_k = &constant_.inlet_k[Layout::lead],
+                 *inlet_omega = &constant_.inlet_omega[Layout::lead];
+    r.k_below = first ? inlet_k : own ? &new_k_[at - sz] : r.k - sz;
+    r.k_above = last ? inlet_k : r.k + sz;
+    r.omega_below = first ? inlet_omega : own ? &new_omega_[at - sz] : r.omega - sz;
+    r.omega_above = last ? inlet_omega : r.omega + sz;
     r.fx = &f_.fx[at], r.fy = &f_.fy[at], r.fz = &f_.fz[at];
-    r.mut = &ring_.mut[mod(k, 3)][in];
-    r.mut_above = &ring_.mut[mod(last ? k : k + 1, 3)][in];
-    // At the inlet the face takes the inlet's eddy viscosity; the ratio of the boundary values is exact there.
-    double* below = &ring_.mut[mod(k - 1, 3)][in];
-    if (first) {
+    r.mut = &rings.mut[mod(k, 3)][in];
+    r.mut_above = &rings.mut[mod(last ? k : k + 1, 3)][in];
+    double* below = &rings.mut[mod(k - 1, 3)][in];
+    if (first) {  // such that the face takes the inlet's value
       for (int i = 0; i < grid_.nx; ++i) below[i] = 2 * r.rho[i] * inlet_k_ / inlet_omega_ - r.mut[i];
     }
     r.mut_below = below;
-    r.k_new = &ring_.k[mod(k, 2)][in];
-    r.omega_new = &ring_.omega[mod(k, 2)][in];
-    r.mu_new = &ring_.mu[mod(k, 4)][in];
-    r.tx = &ring_.tx[mod(k, 2)][in];
-    r.ty = &ring_.ty[mod(k, 2)][in];
-    r.tz = &ring_.tz[mod(k, 3)][in];
-    r.component = static_cast<std::ptrdiff_t>(plane_);
+    r.k_new = own ? &new_k_[at] : &rings.scratch[Layout::lead];
+    r.omega_new = own ? &new_omega_[at] : &rings.scratch[Layout::lead + layout_.stride_y];
+    r.mu_new = &rings.mu[mod(k, 3)][in];
+    r.tx = &rings.tx[mod(k, 2)][in];
+    r.ty = &rings.ty[mod(k, 2)][in];
+    r.tz = &rings.tz[mod(k, 3)][in];
+    r.component = component;
     turbulence_row(r);
     // Beyond the sides the explicit stress is that of the last cell.
     for (int c = 0; c < 3; ++c) {
-      double *tx = r.tx + c * r.component, *ty = r.ty + c * r.component;
+      double *tx = r.tx + c * component, *ty = r.ty + c * component;
       tx[-1] = tx[0];
       tx[grid_.nx] = tx[grid_.nx - 1];
       if (j == 0) std::copy_n(ty, grid_.nx, ty - layout_.stride_y);
       if (j == grid_.ny - 1) std::copy_n(ty, grid_.nx, ty + layout_.stride_y);
     }
+    if (!own) continue;
     double* sums = row_sums(j, k).value;
     sums[Sums::k_residual] = r.k_sum.residual, sums[Sums::k_scale] = r.k_sum.scale;
     sums[Sums::omega_residual] = r.omega_sum.residual, sums[Sums::omega_scale] = r.omega_sum.scale;
@@ -104,134 +119,53 @@ void Solver::turbulence(int k, Range rows) {
   }
 }
 
-namespace {
-
-// Copies a row into a field and its side ghosts; `side` and `cross` are the factors of the ghosts in x and y.
-void place_row(const double* from, double* to, int n, std::ptrdiff_t stride_y, bool low, bool high, double side,
-               double cross) {
-  std::copy_n(from, n, to);
-  to[-1] = side * to[0];
-  to[n] = side * to[n - 1];
-  if (low) {
-    for (int i = -1; i <= n; ++i) to[i - stride_y] = cross * to[i];
-  }
-  if (high) {
-    for (int i = -1; i <= n; ++i) to[i + stride_y] = cross * to[i];
-  }
-}
-
-}  // namespace
-
-void Solver::commit_turbulence(int k, Range rows) {
+void Solver::momentum(MarchRings& rings, int k, Range rows) {
   const bool first = k == 0, last = k == grid_.nz - 1;
+  const std::ptrdiff_t sz = layout_.stride_z, component = static_cast<std::ptrdiff_t>(rings.plane);
+  const double *zeros = &constant_.zeros[Layout::lead], *inlet_w = &constant_.inlet_w[Layout::lead];
   for (int j = rows.begin; j < rows.end; ++j) {
-    const std::ptrdiff_t at = layout_.at(0, j, k), in = layout_.in_plane(0, j), sz = layout_.stride_z;
-    const bool low = j == 0, high = j == grid_.ny - 1;
-    double *kk = &f_.k[at], *om = &f_.omega[at];
-    const double* fz_out = &f_.fz[at + sz];
-    place_row(&ring_.k[mod(k, 2)][in], kk, grid_.nx, layout_.stride_y, low, high, 1, 1);
-    place_row(&ring_.omega[mod(k, 2)][in], om, grid_.nx, layout_.stride_y, low, high, 1, 1);
-    for (int i = 0; first && i < grid_.nx; ++i) {
-      kk[i - sz] = 2 * inlet_k_ - kk[i];
-      om[i - sz] = 2 * inlet_omega_ - om[i];
-    }
-    for (int i = 0; last && i < grid_.nx; ++i) {
-      kk[i + sz] = fz_out[i] >= 0 ? kk[i] : 2 * inlet_k_ - kk[i];
-      om[i + sz] = fz_out[i] >= 0 ? om[i] : 2 * inlet_omega_ - om[i];
-    }
-  }
-}
-
-void Solver::momentum(int k, Range rows) {
-  const bool first = k == 0, last = k == grid_.nz - 1;
-  const std::ptrdiff_t component = static_cast<std::ptrdiff_t>(plane_);
-  for (int j = rows.begin; j < rows.end; ++j) {
-    const std::ptrdiff_t at = layout_.at(0, j, k), in = layout_.in_plane(0, j), sz = layout_.stride_z;
+    const std::ptrdiff_t at = layout_.at(0, j, k), in = rings.at(layout_, j, rows.begin);
     MomentumRow r;
-    r.m = metrics(j, k);
+    r.m = metrics(j, k, z_);
     r.relaxation = settings_.relax_velocity;
     r.mean_u = total_.value[Sums::u_mean];
     r.mean_v = total_.value[Sums::v_mean];
     r.mean_w = total_.value[Sums::w_mean];
     r.u = &f_.u[at], r.v = &f_.v[at], r.w = &f_.w[at];
     r.p = &f_.p[at], r.rho = &f_.rho[at];
-    const double* predicted = &ring_.predicted[mod(k - 1, 2)][in];
-    r.u_below = first ? &ring_.zeros[in] : predicted;
-    r.v_below = first ? &ring_.zeros[in] : predicted + component;
-    r.w_below = first ? &ring_.inlet_w[in] : predicted + 2 * component;
-    r.u_above = last ? &ring_.zeros[in] : r.u + sz;
-    r.v_above = last ? &ring_.zeros[in] : r.v + sz;
-    r.w_above = last ? &ring_.zeros[in] : r.w + sz;
+    const double* predicted = &rings.predicted[mod(k - 1, 2)][in];
+    r.u_below = first ? zeros : predicted;
+    r.v_below = first ? zeros : predicted + component;
+    r.w_below = first ? inlet_w : predicted + 2 * component;
+    r.u_above = last ? zeros : r.u + sz;
+    r.v_above = last ? zeros : r.v + sz;
+    r.w_above = last ? zeros : r.w + sz;
     r.fx = &f_.fx[at], r.fy = &f_.fy[at], r.fz = &f_.fz[at];
-    r.mu = &ring_.mu[mod(k, 4)][in];
-    r.mu_above = &ring_.mu[mod(last ? k : k + 1, 4)][in];
-    double* below = &ring_.mu[mod(k - 1, 4)][in];
+    r.mu = &rings.mu[mod(k, 3)][in];
+    r.mu_above = &rings.mu[mod(last ? k : k + 1, 3)][in];
+    double* below = &rings.mu[mod(k - 1, 3)][in];
     if (first) {
-      const double* rho = &f_.rho[at];
       for (int i = 0; i < grid_.nx; ++i) {
-        below[i] = 2 * (air_.viscosity + rho[i] * inlet_k_ / inlet_omega_) - r.mu[i];
+        below[i] = 2 * (air_.viscosity + r.rho[i] * inlet_k_ / inlet_omega_) - r.mu[i];
       }
     }
     r.mu_below = below;
-    r.tx = &ring_.tx[mod(k, 2)][in];
-    r.ty = &ring_.ty[mod(k, 2)][in];
-    r.tz = &ring_.tz[mod(k, 3)][in];
-    r.tz_below = first ? r.tz : &ring_.tz[mod(k - 1, 3)][in];
-    r.tz_above = last ? r.tz : &ring_.tz[mod(k + 1, 3)][in];
+    r.tx = &rings.tx[mod(k, 2)][in];
+    r.ty = &rings.ty[mod(k, 2)][in];
+    r.tz = &rings.tz[mod(k, 3)][in];
+    r.tz_below = first ? r.tz : &rings.tz[mod(k - 1, 3)][in];
+    r.tz_above = last ? r.tz : &rings.tz[mod(k + 1, 3)][in];
     r.component = component;
     r.linear = porous_.linear(j, k);
     r.quadratic = porous_.quadratic(j, k);
-    double* h = &ring_.h[mod(k, 2)][in];
-    r.hu = h, r.hv = h + component, r.hw = h + 2 * component;
-    r.ra = &f_.ra[at];
-    double* next = &ring_.predicted[mod(k, 2)][in];
+    r.hu = &hu_[at], r.hv = &hv_[at], r.hw = &hw_[at], r.ra = &ra_[at];
+    double* next = &rings.predicted[mod(k, 2)][in];
     r.u_new = next, r.v_new = next + component, r.w_new = next + 2 * component;
     momentum_row(r);
     double* sums = row_sums(j, k).value;
     sums[Sums::u_residual] = r.u_sum.residual, sums[Sums::u_scale] = r.u_sum.scale;
     sums[Sums::v_residual] = r.v_sum.residual, sums[Sums::v_scale] = r.v_sum.scale;
     sums[Sums::w_residual] = r.w_sum.residual, sums[Sums::w_scale] = r.w_sum.scale;
-  }
-}
-
-void Solver::commit_momentum(int k, Range rows) {
-  const std::ptrdiff_t component = static_cast<std::ptrdiff_t>(plane_), sy = layout_.stride_y;
-  const double wall = duct_ ? -1 : 1;  // the normal component mirrors at a slip wall
-  for (int j = rows.begin; j < rows.end; ++j) {
-    const std::ptrdiff_t at = layout_.at(0, j, k);
-    const double* h = &ring_.h[mod(k, 2)][layout_.in_plane(0, j)];
-    const bool low = j == 0, high = j == grid_.ny - 1;
-    place_row(h, &f_.u[at], grid_.nx, sy, low, high, wall, 1);
-    place_row(h + component, &f_.v[at], grid_.nx, sy, low, high, 1, wall);
-    place_row(h + 2 * component, &f_.w[at], grid_.nx, sy, low, high, 1, 1);
-  }
-}
-
-void Solver::pressure(int k, Range rows) {
-  MultigridLevel& top = multigrid_.finest();
-  const bool last = k == grid_.nz - 1;
-  for (int j = rows.begin; j < rows.end; ++j) {
-    const std::ptrdiff_t at = layout_.at(0, j, k), sz = layout_.stride_z;
-    PressureRow r;
-    r.m = metrics(j, k);
-    r.m.z = cross_metrics(zp_, k);
-    r.x_width = x_.width.data();
-    r.y_width = y_.width[j];
-    r.z_width = z_.width[k];
-    r.hu = &f_.u[at], r.hv = &f_.v[at], r.hw = &f_.w[at];
-    r.ra = &f_.ra[at], r.rho = &f_.rho[at], r.p = &f_.p[at];
-    r.hw_above = r.hw + sz, r.ra_above = r.ra + sz, r.rho_above = r.rho + sz;
-    r.p_above = last ? &ring_.zeros[layout_.in_plane(0, j)] : r.p + sz;
-    r.inlet = k == 0;
-    r.inlet_speed = air_.speed;
-    r.outlet = last;
-    r.mean_p = total_.value[Sums::p_mean];
-    r.cx = &top.cx[at], r.cy = &top.cy[at], r.cz = &top.cz[at], r.cz_above = &top.cz[at + sz];
-    r.rhs = &top.rhs[at];
-    pressure_row(r);
-    double* sums = row_sums(j, k).value;
-    sums[Sums::p_residual] = r.sum.residual, sums[Sums::p_scale] = r.sum.scale;
-    sums[Sums::imbalance] = r.imbalance;
   }
 }
 

@@ -1,7 +1,7 @@
 // k-omega SST (Menter, Kuntz, Langtry 2003; [NFM] Table 6) far from any wall.
 //
-// The box has no walls, so the wall distance is unbounded and both blending functions vanish: F1 = F2 = 0. What
-// is left is the outer set of constants with the cross-diffusion term, and nu_t = k / omega:
+// The box has no walls, so the wall distance is unbounded and both blending functions vanish: F1 = F2 = 0.
+// What is left is the outer set of constants with the cross-diffusion term, and nu_t = k / omega:
 //
 //   div(F k)     = div((mu + s_k mu_t) grad k)     + rho min(nu_t S, c1 b* k omega)    - rho b* omega k
 //   div(F omega) = div((mu + s_w mu_t) grad omega) + rho g min(S, c1 b* omega^2)       - rho b omega^2
@@ -22,15 +22,14 @@ constexpr double sigma_omega = 0.856;
 constexpr double gamma2 = 0.44;
 constexpr double beta2 = 0.0828;
 constexpr double beta_star = 0.09;
-constexpr double c1 = 10;       // production limiter
+constexpr double c1 = 10;        // production limiter
 constexpr double floor = 1e-15;  // of k and omega, as OpenFOAM's kMin and omegaMin
 
 }  // namespace
 
 CrossMetrics cross_metrics(const Axis& axis, int c) {
-  return {axis.inverse_width[c],        axis.weight_low[c],           axis.weight_low[c + 1],
-          axis.inverse_distance[c],     axis.inverse_distance[c + 1], axis.slope_low[c],
-          axis.slope_high[c]};
+  return {axis.inverse_width[c],        axis.weight_low[c], axis.weight_low[c + 1], axis.inverse_distance[c],
+          axis.inverse_distance[c + 1], axis.slope_low[c],  axis.slope_high[c]};
 }
 
 RIPSTOP_ROW_KERNEL void turbulence_row(TurbulenceRow& row) {
@@ -50,7 +49,9 @@ RIPSTOP_ROW_KERNEL void turbulence_row(TurbulenceRow& row) {
   double res_k = 0, scale_k = 0, res_om = 0, scale_om = 0, total_k = 0, total_om = 0;
 #pragma omp simd reduction(+ : res_k, scale_k, res_om, scale_om, total_k, total_om)
   for (int i = 0; i < n; ++i) {
-    const auto slope_x = [&](const double* q) { return xh[i] * (q[i + 1] - q[i]) + xl[i] * (q[i] - q[i - 1]); };
+    const auto slope_x = [&](const double* q) {
+      return xh[i] * (q[i + 1] - q[i]) + xl[i] * (q[i] - q[i - 1]);
+    };
     const auto slope_y = [&](const double* q) {
       return y.slope_high * (q[i + sy] - q[i]) + y.slope_low * (q[i] - q[i - sy]);
     };
@@ -61,11 +62,13 @@ RIPSTOP_ROW_KERNEL void turbulence_row(TurbulenceRow& row) {
     const double vx = slope_x(v), vy = slope_y(v), vz = slope_z(v);
     const double wx_ = slope_x(w), wy = slope_y(w), wz = slope_z(w);
     const double divergence = ux + vy + wz;
-    const double strain = 2 * (ux * ux + vy * vy + wz * wz) + (uy + vx) * (uy + vx) + (uz + wx_) * (uz + wx_) +
-                          (vz + wy) * (vz + wy) - (2.0 / 3) * divergence * divergence;
+    const double strain = 2 * (ux * ux + vy * vy + wz * wz) + (uy + vx) * (uy + vx) +
+                          (uz + wx_) * (uz + wx_) + (vz + wy) * (vz + wy) -
+                          (2.0 / 3) * divergence * divergence;
     const double k0 = k[i], om0 = om[i], r = rho[i];
     const double cross = (2 * sigma_omega) * r *
-                         (slope_x(k) * slope_x(om) + slope_y(k) * slope_y(om) + slope_z(k) * slope_z(om)) / om0;
+                         (slope_x(k) * slope_x(om) + slope_y(k) * slope_y(om) + slope_z(k) * slope_z(om)) /
+                         om0;
 
     // Eddy viscosity and convection on the six faces.
     const double mw = wx[i] * mut[i - 1] + (1 - wx[i]) * mut[i];
@@ -88,8 +91,8 @@ RIPSTOP_ROW_KERNEL void turbulence_row(TurbulenceRow& row) {
       const double as = cs + (sigma_omega * ms + mu) * ds, an = cn + (sigma_omega * mn + mu) * dn;
       const double ab = cb + (sigma_omega * mb + mu) * db, aa = ca + (sigma_omega * ma + mu) * da;
       const double off = aw + ae + as + an + ab + aa;
-      const double neighbours = aw * om[i - 1] + ae * om[i + 1] + as * om[i - sy] + an * om[i + sy] +
-                                ab * ob[i] + aa * oa[i];
+      const double neighbours =
+          aw * om[i - 1] + ae * om[i + 1] + as * om[i - sy] + an * om[i + sy] + ab * ob[i] + aa * oa[i];
       const double source = r * gamma2 * smaller(strain, (c1 * beta_star) * om0 * om0) + positive(cross);
       const double diagonal = off + r * beta2 * om0 + positive(-cross) / om0;
       const double relaxed = diagonal / alpha;
@@ -122,8 +125,8 @@ RIPSTOP_ROW_KERNEL void turbulence_row(TurbulenceRow& row) {
     total_k += k1 / rhx[i];
     total_om += om1 / rhx[i];
 
-    // Explicit part of the stress, mu dev2((grad U)^T): through an x face it carries mu grad(u) - 2/3 mu div U,
-    // and so on.
+    // Explicit part of the stress, mu dev2((grad U)^T): through an x face it carries mu grad(u) - 2/3 mu div
+    // U, and so on.
     const double me_ = mu + r * k1 / om1;
     const double trace = (2.0 / 3) * me_ * divergence;
     mu_new[i] = me_;

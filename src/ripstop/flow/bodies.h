@@ -1,0 +1,29 @@
+// Bodies of simple shape as surfaces: those with a known drag, and a rigid inflated disk-gap-band.
+#pragma once
+
+#include <vector>
+
+#include "ripstop/flow/flow.h"
+
+namespace ripstop {
+
+/// A point of a body's outline in the plane of its axis (z along the stream).
+struct OutlinePoint {
+  double radius, z;  // [m]
+};
+
+/// The surface that an outline sweeps about the z axis through `centre`; z counts from centre.z.
+std::vector<Triangle> revolve(const std::vector<OutlinePoint>& outline, Vec3 centre, int segments);
+
+/// Disk normal to the stream.
+std::vector<Triangle> disk(double diameter, Vec3 centre);
+/// Square plate normal to the stream.
+std::vector<Triangle> square_plate(double side, Vec3 centre);
+/// Half a spherical shell whose mouth, at centre.z, faces the stream.
+std::vector<Triangle> hemispherical_cup(double diameter, Vec3 centre);
+/// A rigid disk-gap-band about as large as Stratos IV when inflated (band 0.65 m in diameter and 0.28 m
+/// high, gap 0.06 m, dome 0.18 m high, vent 0.09 m); its band's upper edge lies at centre.z + 0.09 m. Not a
+/// result of the cloth solver: a stand-in of the right size for studies of the flow alone.
+std::vector<Triangle> rigid_disk_gap_band(Vec3 centre);
+
+}  // namespace ripstop

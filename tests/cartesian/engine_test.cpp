@@ -1,0 +1,141 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+
+#include "ripstop/core/error.h"
+#include "ripstop/flow/bodies.h"
+#include "ripstop/flow/cartesian/cartesian.h"
+
+namespace ripstop {
+namespace {
+
+FlowProblem open_box(int nx, int ny, int nz, double speed) {
+  FlowProblem problem;
+  problem.grid = {{-1, -1, 0}, {2, 2, 4}, nx, ny, nz};
+  problem.air.speed = speed;
+  problem.porous.push_back({cut_cells(problem.grid, rigid_disk_gap_band({0, 0, 2})), 65.98, 37.45});
+  return problem;
+}
+
+CartesianSettings with_threads(int threads) {
+  CartesianSettings settings;
+  settings.threads = threads;
+  return settings;
+}
+
+bool same_bits(const FlowField& a, const FlowField& b) {
+  return a.pressure.size() == b.pressure.size() &&
+         std::memcmp(a.pressure.data(), b.pressure.data(), a.pressure.size() * sizeof(double)) == 0 &&
+         std::memcmp(a.velocity.data(), b.velocity.data(), a.velocity.size() * sizeof(Vec3)) == 0 &&
+         a.porous_force == b.porous_force && a.momentum_deficit == b.momentum_deficit &&
+         a.last.residual_p == b.last.residual_p && a.last.residual_u == b.last.residual_u;
+}
+
+TEST(CartesianEngine, AnEmptyBoxKeepsItsUniformStream) {
+  FlowProblem problem = open_box(12, 10, 16, 20);
+  problem.porous.clear();
+  problem.max_iterations = 30;
+  const FlowField field = make_cartesian(with_threads(1))->solve(problem, nullptr);
+  for (const Vec3& u : field.velocity) EXPECT_NEAR(norm(u - Vec3{0, 0, 20}), 0, 1e-6);
+  for (double p : field.pressure) EXPECT_NEAR(p, 0, 1e-4);
+  EXPECT_EQ(field.porous_force, Vec3{});
+}
+
+TEST(CartesianEngine, TheAnswerIsTheSameBitForBitOnOneTwoAndFourThreads) {
+  FlowProblem problem = open_box(26, 23, 38, 10);  // large enough for grid sequencing
+  problem.max_iterations = 12;
+  const FlowField one = make_cartesian(with_threads(1))->solve(problem, nullptr);
+  EXPECT_TRUE(same_bits(one, make_cartesian(with_threads(2))->solve(problem, nullptr)));
+  EXPECT_TRUE(same_bits(one, make_cartesian(with_threads(4))->solve(problem, nullptr)));
+}
+
+TEST(CartesianEngine, AResumedRunIsTheUnbrokenRunBitForBit) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "cartesian state";
+  FlowProblem problem = open_box(16, 16, 24, 10);
+  problem.max_iterations = 10;
+  const auto unbroken = make_cartesian(with_threads(1));
+  unbroken->solve(problem, nullptr);
+  unbroken->save(folder);
+  const FlowField expected = unbroken->solve(problem, nullptr);
+  const auto resumed = make_cartesian(with_threads(2));
+  resumed->restore(folder);
+  EXPECT_TRUE(same_bits(resumed->solve(problem, nullptr), expected));
+  std::filesystem::remove_all(folder);
+}
+
+TEST(CartesianEngine, TheForceOnTheCanopyIsTheMomentumThatTheBoxLoses) {
+  const FlowField field = make_cartesian(with_threads(1))->solve(open_box(20, 20, 32, 10), nullptr);
+  EXPECT_TRUE(field.converged);
+  EXPECT_GT(field.porous_force.z, 10);
+  EXPECT_NEAR(field.momentum_deficit / field.porous_force.z, 1, 0.002);  // the goal is 0.005
+}
+
+// Drop over a porous plug that fills a duct, over the law's: one-dimensional, nothing but the resistance
+// acts.
+double plug_drop(int cells) {
+  FlowProblem problem;
+  problem.grid = {{0, 0, 0}, {1, 1, 4}, 4, 4, cells};
+  problem.duct = true;
+  problem.air.speed = 10;
+  PorousCells plug;
+  plug.darcy = 1e5;
+  plug.forchheimer = 20;
+  for (int cell = 0; cell < problem.grid.cells(); ++cell) {
+    const int k = cell / 16;
+    if (k >= 3 * cells / 8 && k < 5 * cells / 8) plug.cells.push_back(cell);
+  }
+  problem.porous.push_back(plug);
+  CartesianSettings settings = with_threads(1);
+  settings.compressible = false;
+  const FlowField field = make_cartesian(settings)->solve(problem, nullptr);
+  EXPECT_TRUE(field.converged);
+  const double length = 1, speed = 10;
+  const double law = length * (problem.air.viscosity * plug.darcy * speed +
+                               0.5 * problem.air.density * plug.forchheimer * speed * speed);
+  EXPECT_NEAR(field.porous_force.z / field.pressure[0], 1, 1e-3);  // on 1 m2
+  return field.pressure[0] / law;
+}
+
+// The collocated scheme lets cell velocity and face flux part at the plug's two ends: first order, no more.
+TEST(CartesianEngine, APlugInADuctTendsToTheLawOfDarcyAndForchheimerWithTheGrid) {
+  const double coarse = std::abs(plug_drop(32) - 1), fine = std::abs(plug_drop(128) - 1);
+  EXPECT_LT(fine, 0.02);
+  EXPECT_LT(fine, 0.4 * coarse);
+}
+
+TEST(CartesianEngine, AWarmStartNeedsFewIterations) {
+  const FlowProblem problem = open_box(16, 16, 24, 10);
+  const auto engine = make_cartesian(with_threads(1));
+  const FlowField cold = engine->solve(problem, nullptr);
+  const FlowField warm = engine->solve(problem, nullptr);
+  EXPECT_TRUE(warm.converged);
+  EXPECT_LE(warm.last.iteration, 2);
+  EXPECT_NEAR(warm.porous_force.z, cold.porous_force.z, 1e-4 * cold.porous_force.z);
+}
+
+TEST(CartesianEngine, TheReportCanStopTheRunAndTheFieldIsThenUnconverged) {
+  const FlowField field =
+      make_cartesian(with_threads(1))->solve(open_box(12, 12, 16, 10), [](const FlowProgress& progress) {
+        return progress.iteration < 3;
+      });
+  EXPECT_EQ(field.last.iteration, 3);
+  EXPECT_FALSE(field.converged);
+}
+
+TEST(CartesianEngine, SaysWhatIsWrongWithTheProblem) {
+  FlowProblem problem = open_box(12, 12, 16, 10);
+  problem.porous[0].cells.push_back(problem.grid.cells());
+  EXPECT_THROW(make_cartesian()->solve(problem, nullptr), Error);
+  problem = open_box(12, 12, 16, 10);
+  problem.air.speed = -1;
+  EXPECT_THROW(make_cartesian()->solve(problem, nullptr), Error);
+  CartesianSettings settings;
+  settings.relax_pressure = 0;
+  EXPECT_THROW(make_cartesian(settings), Error);
+  EXPECT_THROW(make_cartesian()->save("/nowhere"), Error);
+}
+
+}  // namespace
+}  // namespace ripstop

@@ -1,0 +1,67 @@
+// The built-in engine against the real OpenFOAM on the same cells.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+#include <string>
+
+#include "ripstop/flow/bodies.h"
+#include "ripstop/flow/cartesian/cartesian.h"
+#include "ripstop/flow/openfoam/openfoam.h"
+
+namespace ripstop {
+namespace {
+
+struct Canopy {
+  const char* name;
+  double darcy, forchheimer;
+};
+
+bool openfoam_is_installed() {
+  const char* path = std::getenv("PATH");
+  std::stringstream folders(path ? path : "");
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    if (std::filesystem::exists(std::filesystem::path(folder) / "rhoPorousSimpleFoam")) return true;
+  }
+  return false;
+}
+
+class Parity : public testing::TestWithParam<Canopy> {};
+
+TEST_P(Parity, DragAndFieldsAreThoseOfOpenFoam) {
+  if (!openfoam_is_installed()) GTEST_SKIP() << "OpenFOAM is not installed";
+  FlowProblem problem;
+  problem.grid = {{-1, -1, 0}, {2, 2, 4}, 25, 25, 38};
+  problem.air.speed = 10;
+  problem.porous.push_back(
+      {cut_cells(problem.grid, rigid_disk_gap_band({0, 0, 2})), GetParam().darcy, GetParam().forchheimer});
+  OpenFoamSettings reference;
+  reference.folder = std::filesystem::path(testing::TempDir()) / (std::string("parity_") + GetParam().name);
+  std::filesystem::remove_all(reference.folder);
+  const FlowField theirs = make_openfoam(reference)->solve(problem, nullptr);
+  const FlowField ours = make_cartesian()->solve(problem, nullptr);
+  std::filesystem::remove_all(reference.folder);
+  ASSERT_TRUE(theirs.converged);
+  ASSERT_TRUE(ours.converged);
+
+  EXPECT_NEAR(ours.porous_force.z / theirs.porous_force.z, 1, 0.005);
+  double velocity = 0, pressure = 0;
+  for (int cell = 0; cell < problem.grid.cells(); ++cell) {
+    const Vec3 du = ours.velocity[cell] - theirs.velocity[cell];
+    velocity += dot(du, du);
+    pressure += std::pow(ours.pressure[cell] - theirs.pressure[cell], 2);
+  }
+  const double speed = problem.air.speed, dynamic = 0.5 * problem.air.density * speed * speed;
+  EXPECT_LT(std::sqrt(velocity / problem.grid.cells()) / speed, 0.01);
+  EXPECT_LT(std::sqrt(pressure / problem.grid.cells()) / dynamic, 0.01);
+}
+
+INSTANTIATE_TEST_SUITE_P(Canopies, Parity,
+                         testing::Values(Canopy{"open", 6.598, 3.745}, Canopy{"printed", 65.98, 37.45},
+                                         Canopy{"nearly_solid", 1000, 1000}),
+                         [](const auto& test) { return test.param.name; });
+
+}  // namespace
+}  // namespace ripstop
