@@ -1,0 +1,43 @@
+// The folded start of an opening: disks zigzag-folded into cones and bands into cylinders, without strain.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "ripstop/core/vec3.h"
+#include "ripstop/parachute/mesh.h"
+
+namespace ripstop {
+
+struct Folding {
+  double initial_radius = 0;  // of the folded skirt, midway between its inner and outer folds [m]
+  int folds = 0;              // outer folds (as many inner ones); 0: one a line
+  double slack = 0;           // by which a line is longer than its way from confluence to skirt [m]
+};
+
+struct FoldedStart {
+  std::vector<Vec3> positions;  // logical numbering [m]
+  int folds = 0;
+  double inner_radius = 0, outer_radius = 0;  // of the skirt's folds [m]
+};
+
+/// Every patch of `mesh` must be a flat disk, a cylinder or a frustum about the axis x = y = 0 with whole
+/// columns round it. Between two neighbouring fold lines, which follow columns, the cloth stays plane, so
+/// that every spring keeps its length but those that resist bending over a fold. The fold line of column 0,
+/// where the first line runs, is an inner one. Fixed nodes and the riser stay where they are; the pieces hang
+/// on the lines one behind the other, each as far downstream as its lines allow without being stretched.
+/// Throws Error(usage) when the number of folds does not divide every ring's columns or the radius does not
+/// fit, Error(bad_data) for a mesh of another kind.
+FoldedStart fold(const Mesh& mesh, const Folding& folding);
+
+/// What the springs feel at given positions.
+struct StartStrain {
+  /// Largest |strain| of all springs along and across the cloth, of tape and lines; a spring that carries no
+  /// compression counts only when stretched.
+  double largest = 0;
+  std::string part;    // where: "disk", "line 3"
+  double bending = 0;  // largest |strain| of the springs that resist bending
+};
+StartStrain start_strain(const Mesh& mesh, const std::vector<Vec3>& positions);
+
+}  // namespace ripstop

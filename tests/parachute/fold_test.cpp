@@ -1,0 +1,162 @@
+// The folded start keeps the cloth as it was cut.
+#include "ripstop/parachute/fold.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "ripstop/core/error.h"
+#include "ripstop/parachute/build.h"
+
+namespace ripstop {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+Design disk_gap_band(int nodes, int gores, int lines) {
+  Design design;
+  design.canopy = DiskGapBand{1.0, 0.09, 0.07, 0.3};
+  design.gores = gores;
+  design.lines.count = lines;
+  design.lines.length_m = 1.5;
+  design.mesh.cloth_nodes = nodes;
+  return design;
+}
+
+PartMaterials materials() {
+  PartMaterials m;
+  m.canopy.name = "f-111";
+  m.canopy.coefficients_n_m = {30006, -18936};
+  m.canopy.tested_strain = 0.33;
+  m.canopy.areal_density_kg_m2 = 0.0407;
+  m.line.coefficients_n = {211895, 489633};
+  m.line.linear_density_kg_m = 2e-3;
+  m.riser = m.line;
+  m.tape.coefficients_n_m = {3064.2, 68823.4};
+  m.tape.width_m = 0.02;
+  m.tape.linear_density_kg_m = 6e-3;
+  return m;
+}
+
+Mesh stratos() {
+  return build_mesh(disk_gap_band(25600, 6, 18), materials());
+}
+
+double radius(Vec3 p) {
+  return std::hypot(p.x, p.y);
+}
+
+TEST(Fold, EveryFoldThatFitsKeepsAllLengthsAndEveryTie) {
+  const Mesh mesh = stratos();
+  for (const double r : {0.1, 0.2, 0.45}) {
+    for (const int folds : {9, 18}) {
+      const FoldedStart start = fold(mesh, {r, folds, 0});
+      const StartStrain strain = start_strain(mesh, start.positions);
+      EXPECT_LT(strain.largest, 1e-9) << r << " " << folds << " " << strain.part;
+      for (const Tie& tie : mesh.ties) {
+        Vec3 place{};
+        for (const Tie::Master& master : tie.masters) place += master.weight * start.positions[master.node];
+        ASSERT_LT(norm(place - start.positions[tie.node]), 1e-12);
+      }
+    }
+  }
+}
+
+TEST(Fold, TheSkirtsFoldsLieOnEitherSideOfTheGivenRadius) {
+  const Mesh mesh = stratos();
+  const FoldedStart start = fold(mesh, {0.1, 0, 0});
+  EXPECT_EQ(start.folds, 18);  // one a line
+  EXPECT_NEAR(0.5 * (start.inner_radius + start.outer_radius), 0.1, 1e-12);
+  double largest = 0, smallest = 1, most_z = 0;
+  for (const int node : mesh.skirt_nodes) {
+    largest = std::max(largest, radius(start.positions[node]));
+    smallest = std::min(smallest, radius(start.positions[node]));
+  }
+  for (const Patch& patch : mesh.patches) {
+    for (int i = 0; i < patch.rows * patch.columns; ++i) {
+      EXPECT_LE(radius(start.positions[patch.first_node + i]), start.outer_radius + 1e-12);
+      most_z = std::max(most_z, start.positions[patch.first_node + i].z);
+    }
+  }
+  EXPECT_NEAR(smallest, start.inner_radius, 1e-12);
+  EXPECT_NEAR(largest, start.outer_radius, 1e-12);
+  // Band, gap and disk hang one behind the other, nearly at full length.
+  const double skirt_z = start.positions[mesh.skirt_nodes[0]].z;
+  EXPECT_NEAR(most_z - skirt_z, 0.3 + 0.07 + 0.455, 0.01);
+  EXPECT_NEAR(skirt_z - start.positions[mesh.confluence].z, std::sqrt(1.5 * 1.5 - smallest * smallest), 1e-9);
+}
+
+TEST(Fold, UnfoldedCompletelyItIsTheStartShape) {
+  const Mesh mesh = stratos();
+  const FoldedStart start = fold(mesh, {0.5 * (1 - 1e-9), 18, 0});
+  // Between the folds the band is plane, not round: the sagitta of a strip.
+  const double sagitta = 0.5 * (1 - std::cos(pi / 36)), lift = 1e-4 * 0.5;
+  for (const Patch& patch : mesh.patches) {
+    for (int i = patch.first_node; i < patch.first_node + patch.rows * patch.columns; ++i) {
+      EXPECT_NEAR(radius(start.positions[i]), radius(mesh.start[i]), 1.2 * sagitta);
+      EXPECT_NEAR(start.positions[i].z, mesh.start[i].z, sagitta + lift);
+    }
+  }
+}
+
+TEST(Fold, TheFoldedCanopyHasTheSymmetryOfItsFolds) {
+  const Mesh mesh = stratos();
+  const FoldedStart start = fold(mesh, {0.1, 18, 0});
+  const double c = std::cos(2 * pi / 18), s = std::sin(2 * pi / 18);
+  for (const Patch& patch : mesh.patches) {
+    for (int row = 0; row < patch.rows; ++row) {
+      for (int column = 0; column < patch.columns; ++column) {
+        const Vec3 p = start.positions[patch.node(row, column)];
+        const Vec3 q = start.positions[patch.node(row, (column + patch.columns / 18) % patch.columns)];
+        ASSERT_LT(norm(q - Vec3{c * p.x - s * p.y, s * p.x + c * p.y, p.z}), 1e-14);
+        const Vec3 mirror = start.positions[patch.node(row, (patch.columns - column) % patch.columns)];
+        ASSERT_LT(norm(mirror - Vec3{p.x, -p.y, p.z}), 1e-14);
+      }
+    }
+  }
+}
+
+TEST(Fold, SlackLinesAreLongerThanTheirWayByTheGivenLengthAndKeepTheirOwn) {
+  const Mesh mesh = stratos();
+  const double slack = 0.08;
+  const FoldedStart start = fold(mesh, {0.1, 18, slack});
+  EXPECT_LT(start_strain(mesh, start.positions).largest, 1e-9);
+  for (const LineRun& line : mesh.lines) {
+    double length = 0;
+    for (int i = 0; i < line.free_springs; ++i) {
+      const Spring& spring = mesh.springs[line.springs[i]];
+      const double now = norm(start.positions[spring.b] - start.positions[spring.a]);
+      EXPECT_NEAR(now, spring.rest_length, 1e-12);
+      length += now;
+    }
+    const Spring& last = mesh.springs[line.springs[line.free_springs - 1]];
+    EXPECT_NEAR(length - norm(start.positions[last.b] - start.positions[mesh.confluence]), slack, 1e-9);
+  }
+}
+
+TEST(Fold, LinesThatEndOnInnerAndOuterFoldsAreSlackWhereTheirWayIsShorter) {
+  const Mesh mesh = build_mesh(disk_gap_band(25600, 6, 36), materials());
+  const FoldedStart start = fold(mesh, {0.12, 18, 0});  // every second line on an outer fold
+  EXPECT_LT(start_strain(mesh, start.positions).largest, 1e-9);
+}
+
+TEST(Fold, ARadiusOrNumberOfFoldsThatDoesNotFitIsRefusedWithWhatWould) {
+  const Mesh mesh = stratos();
+  const auto message = [&](const Folding& folding) -> std::string {
+    try {
+      fold(mesh, folding);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::usage);
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(message({0.1, 7, 0}).find("possible: 3, 6, 9, 18"), std::string::npos) << message({0.1, 7, 0});
+  EXPECT_NE(message({0.02, 18, 0}).find("more folds"), std::string::npos);
+  EXPECT_NE(message({0.6, 18, 0}).find("more folds"), std::string::npos);
+  EXPECT_NE(message({0.1, 18, 1.45}).find("inflation.slack_m"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace ripstop
