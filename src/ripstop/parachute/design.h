@@ -47,6 +47,7 @@ struct Riser {
 struct MeshSettings {
   int cloth_nodes = 25600;       // aimed at; [NFM] used 25,600 for Stratos IV
   double line_segment_m = 0.05;  // rest length of one spring of a line, aimed at
+  int folds = 0;                 // every ring has a multiple of twice as many columns, so that they fit
 };
 
 /// [parachute]

@@ -83,7 +83,8 @@ int RingLayout::nodes() const {
 RingLayout lay_out_rings(const std::vector<Strip>& strips, double cloth_area, const Design& design) {
   const int nodes = design.mesh.cloth_nodes;
   const double spacing = std::sqrt(cloth_area / nodes);
-  const int multiple = std::lcm(design.gores, design.lines.count);
+  const int multiple =
+      std::lcm(std::lcm(design.gores, design.lines.count), std::max(1, 2 * design.mesh.folds));
   double edge_columns = 0;
   for (const Strip& strip : strips) edge_columns = std::max(edge_columns, strip.circumference(0) / spacing);
   const double vent_columns = strips.back().circumference(strips.back().length) / spacing;
