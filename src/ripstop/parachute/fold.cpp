@@ -21,6 +21,24 @@ double radius_of(Vec3 p) {
   return std::hypot(p.x, p.y);
 }
 
+void check_folds(const Mesh& mesh, int folds) {
+  int common = 0;
+  for (const Patch& patch : mesh.patches) common = std::gcd(common, patch.columns);
+  if (folds >= 3 && common % (2 * folds) == 0) return;
+  std::vector<int> possible;
+  for (int n = 3; 2 * n <= common; ++n) {
+    if (common % (2 * n) == 0) possible.push_back(n);
+  }
+  throw Error(
+      ExitCode::usage,
+      fmt::format(
+          "inflation.folds = {}: fold lines follow columns of the mesh, and its rings have multiples of {} "
+          "columns; {}",
+          folds, common,
+          possible.empty() ? "no number of folds fits: ask for more cloth_nodes"
+                           : fmt::format("possible: {}", fmt::join(possible, ", "))));
+}
+
 // A developable piece of the canopy: patches on one cylinder, or on one cone about the axis.
 struct Piece {
   bool is_cylinder = false;
@@ -156,7 +174,7 @@ class Folder {
     if (mesh_.lines.empty() || mesh_.skirt_nodes.empty()) {
       throw Error(ExitCode::bad_data, "a canopy without lines or skirt cannot be folded");
     }
-    check_folds();
+    check_folds(mesh_, folds_);
     choose_radii();
     for (const Piece& piece : pieces_) place_unshifted(piece);
     hang_pieces();
@@ -174,7 +192,6 @@ class Folder {
     double length() const { return std::accumulate(lengths.begin(), lengths.end(), 0.0); }
   };
 
-  void check_folds() const;
   void choose_radii();
   void place_unshifted(const Piece& piece);
   void hang_pieces();
@@ -194,22 +211,6 @@ class Folder {
   std::vector<int> piece_of_node_;
   std::vector<Vec3> x_;
 };
-
-void Folder::check_folds() const {
-  int common = 0;
-  for (const Patch& patch : mesh_.patches) common = std::gcd(common, patch.columns);
-  if (folds_ >= 3 && common % (2 * folds_) == 0) return;
-  std::vector<int> possible;
-  for (int folds = 3; 2 * folds <= common; ++folds) {
-    if (common % (2 * folds) == 0) possible.push_back(folds);
-  }
-  throw Error(ExitCode::usage,
-              fmt::format("inflation.folds = {}: fold lines follow columns of the mesh, and its rings "
-                          "have multiples of {} columns; {}",
-                          folds_, common,
-                          possible.empty() ? "no number of folds fits: ask for more cloth_nodes"
-                                           : fmt::format("possible: {}", fmt::join(possible, ", "))));
-}
 
 void Folder::refuse_radius(const Piece& skirt) const {
   throw Error(
@@ -378,6 +379,21 @@ void Folder::hang(const Link& link) {
 
 FoldedStart fold(const Mesh& mesh, const Folding& folding) {
   return Folder(mesh, folding).run();
+}
+
+Mesh with_creases(const Mesh& mesh, int folds) {
+  check_folds(mesh, folds);
+  Mesh result = mesh;
+  for (Patch& patch : result.patches) {
+    const int strip = patch.columns / (2 * folds);
+    for (int row = 0; row < patch.rows; ++row) {
+      for (int fold_line = 0; fold_line < 2 * folds; ++fold_line) {
+        const int before = (fold_line * strip - 1 + patch.columns) % patch.columns;
+        patch.width[bend_row][row * patch.columns + before] = 0;
+      }
+    }
+  }
+  return result;
 }
 
 StartStrain start_strain(const Mesh& mesh, const std::vector<Vec3>& x) {

@@ -30,6 +30,10 @@ struct FoldedStart {
 /// fit, Error(bad_data) for a mesh of another kind.
 FoldedStart fold(const Mesh& mesh, const Folding& folding);
 
+/// The mesh without the bending springs that span a fold line: a crease does not resist being unfolded, and
+/// the folded start is at rest. Throws Error(usage) as fold().
+Mesh with_creases(const Mesh& mesh, int folds);
+
 /// What the springs feel at given positions.
 struct StartStrain {
   /// Largest |strain| of all springs along and across the cloth, of tape and lines; a spring that carries no
