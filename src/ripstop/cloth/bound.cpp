@@ -109,9 +109,13 @@ StepBound step_bound(const Cloth& cloth, const ClothState& state) {
       rate[tie.node] = std::max(rate[tie.node], rate[master.node]);
       area[master.node] += master.weight * area[tie.node];
     }
+  double fastest = 0;
+  if (cloth.options.quadratic_damping > 0)
+    for (const Vec3 v : velocities(state, cloth)) fastest = std::max(fastest, norm(v));
+  const double per_area = cloth.options.absolute_damping + cloth.options.quadratic_damping * fastest;
   for (int i = 0; i < count; ++i)
     if (!cloth.is_tied[i] && !cloth.is_fixed[i])
-      absolute = std::max(absolute, cloth.options.absolute_damping * area[i] / cloth.total_mass[i]);
+      absolute = std::max(absolute, per_area * area[i] / cloth.total_mass[i]);
 
   StepBound bound;
   bound.stable_step = bound.printed_step = std::numeric_limits<double>::infinity();

@@ -15,8 +15,9 @@
 namespace ripstop {
 
 struct ClothOptions {
-  bool linear = false;          // keep only K_1 of every law
-  double absolute_damping = 0;  // C_a per unit area of cloth [N s/m3]; force -C_a * area * v, [NFM] Eq. 20
+  bool linear = false;           // keep only K_1 of every law
+  double absolute_damping = 0;   // C_a per unit area of cloth [N s/m3]; force -C_a * area * v, [NFM] Eq. 20
+  double quadratic_damping = 0;  // the same for -C area |v| v [N s2/m4]
 };
 
 /// Pressure difference on every cell (inside minus outside, [Pa]; order of cells_of()), and optional point
@@ -59,9 +60,18 @@ struct StepBound {
 /// With the tangent stiffness at the present strain.
 StepBound step_bound(const Cloth& cloth, const ClothState& state);
 
-/// `count` steps of semi-implicit Euler, [NFM] Eq. 6. Bit-identical for any team size.
-/// Throws Error(diverged) with step, node, part and likely cause on NaN or runaway stretch.
-void step(ClothState& state, const Cloth& cloth, const Loads& loads, double dt, int count, ThreadTeam& team);
+/// What happens in every step, without leaving the kernels; goes on from call to call.
+struct StepRecord {
+  std::vector<Vec3> fixed_force;     // on the fixed nodes at the start of every step of the last call [N]
+  std::vector<double> peak_tension;  // of every irregular spring over all steps, its damper included [N]
+  double pressure_work = 0;          // [J]
+  double damped = 0;                 // taken by absolute and relative damping [J]
+};
+
+/// `count` steps of semi-implicit Euler, [NFM] Eq. 6. Bit-identical for any team size, with a record or
+/// without. Throws Error(diverged) with step, node, part and likely cause on NaN or runaway stretch.
+void step(ClothState& state, const Cloth& cloth, const Loads& loads, double dt, int count, ThreadTeam& team,
+          StepRecord* record = nullptr);
 
 struct RelaxOptions {
   double tolerance = 1e-4;  // on |residual force| / |applied force|, both root sums of squares over the nodes

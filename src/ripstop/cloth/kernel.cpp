@@ -78,9 +78,10 @@ HWY_INLINE Root root(V q) {
 
 // The force over the length of a spring from p toward q is g (q - p) with
 //   e = |q - p| / L0 - 1,   T = w (both e + sum c_k max(e, 0)^k),   g = (T + C (dv . d) / |d|) / |d|
-// [NFM] Eq. 2, 3. No spring (w = 0) has no damping either.
+// [NFM] Eq. 2, 3. No spring (w = 0) has no damping either. `taken` gains the damper's power.
 template <int degree, bool damped>
-HWY_INLINE V pull(const PatchLayout& patch, int direction, const double* springs, Three d, Three dv) {
+HWY_INLINE V pull(const PatchLayout& patch, int direction, const double* springs, Three d, Three dv,
+                  V& taken) {
   const double* own = springs + 2 * direction * lanes;
   const V inverse_rest = hn::Load(tag, own);
   const V width = hn::Load(tag, own + lanes);
@@ -105,17 +106,21 @@ HWY_INLINE V pull(const PatchLayout& patch, int direction, const double* springs
     const V rate = hn::Mul(dot(d, dv), length.inverse);
     const V damping =
         hn::IfThenElseZero(hn::Gt(width, hn::Zero(tag)), hn::Set(tag, patch.damping[direction]));
-    tension = hn::MulAdd(damping, rate, tension);
+    const V damper = hn::Mul(damping, rate);
+    tension = hn::Add(damper, tension);
+    taken = hn::MulAdd(damper, rate, taken);
   }
   return hn::Mul(tension, length.inverse);
 }
 
 template <int degree, bool damped, bool pressed>
-void row_forces(const RowForces& row) {
+double row_forces(const RowForces& row) {
   const PatchLayout& patch = *row.patch;
   const int end = patch.vectors * vector_stride;
+  alignas(64) double power[lanes] = {};
   for (int lane = 0; lane < lanes; lane += static_cast<int>(hn::Lanes(tag))) {
     const double* springs = row.springs + lane;
+    V taken = hn::Zero(tag);
     // Force that waits for the next two vectors of this row and the next one of row + 1.
     Three wait1 = zero(), wait2 = zero(), wait_up = zero();
     for (int m = lane; m < end + lane; m += vector_stride, springs += PatchLayout::springs_per_vector) {
@@ -132,20 +137,21 @@ void row_forces(const RowForces& row) {
       Three next = wait2;
       {
         const Three d = load(row.x2 + m) - p;
-        const V g = pull<degree, damped>(patch, bend_column, springs, d, speed(row.v2));
+        const V g = pull<degree, damped>(patch, bend_column, springs, d, speed(row.v2), taken);
         own = add_scaled(own, g, d);
         store(subtract_scaled(zero(), g, d), row.f2 + m);
       }
       {
         const Three d = load(row.x0 + m + 2 * vector_stride) - p;
-        const V g = pull<degree, damped>(patch, bend_row, springs, d, speed(row.v0 + 2 * vector_stride));
+        const V g =
+            pull<degree, damped>(patch, bend_row, springs, d, speed(row.v0 + 2 * vector_stride), taken);
         own = add_scaled(own, g, d);
         wait2 = subtract_scaled(zero(), g, d);
       }
       const Three right = load(row.x0 + m + vector_stride);
       {
         const Three d = right - p;
-        const V g = pull<degree, damped>(patch, along_row, springs, d, speed(row.v0 + vector_stride));
+        const V g = pull<degree, damped>(patch, along_row, springs, d, speed(row.v0 + vector_stride), taken);
         own = add_scaled(own, g, d);
         next = subtract_scaled(next, g, d);
       }
@@ -153,13 +159,14 @@ void row_forces(const RowForces& row) {
       const Three above = load(row.x1 + m);
       {
         const Three d = above - p;
-        const V g = pull<degree, damped>(patch, along_column, springs, d, speed(row.v1));
+        const V g = pull<degree, damped>(patch, along_column, springs, d, speed(row.v1), taken);
         own = add_scaled(own, g, d);
         up = subtract_scaled(up, g, d);
       }
       const Three across = load(row.x1 + m + vector_stride) - p;
       {
-        const V g = pull<degree, damped>(patch, shear_up, springs, across, speed(row.v1 + vector_stride));
+        const V g =
+            pull<degree, damped>(patch, shear_up, springs, across, speed(row.v1 + vector_stride), taken);
         own = add_scaled(own, g, across);
         wait_up = subtract_scaled(zero(), g, across);
       }
@@ -167,7 +174,7 @@ void row_forces(const RowForces& row) {
       {
         Three dv = zero();
         if constexpr (damped) dv = load(row.v1 + m) - load(row.v0 + m + vector_stride);
-        const V g = pull<degree, damped>(patch, shear_down, springs, d, dv);
+        const V g = pull<degree, damped>(patch, shear_down, springs, d, dv, taken);
         next = add_scaled(next, g, d);
         up = subtract_scaled(up, g, d);
       }
@@ -193,55 +200,68 @@ void row_forces(const RowForces& row) {
     store(load(row.f1 + ghost) + wait_up, row.f1 + ghost);
     store(zero(), row.f2 + ghost);
     store(zero(), row.f2 + ghost + vector_stride);
+    if constexpr (damped) hn::Store(taken, tag, power + lane);
   }
+  double sum = 0;
+  for (const double p : power) sum += p;
+  return sum;
 }
 
 template <int degree>
-void row_forces_of_degree(const RowForces& row) {
+double row_forces_of_degree(const RowForces& row) {
   if (row.v0 && row.pressure) return row_forces<degree, true, true>(row);
   if (row.v0) return row_forces<degree, true, false>(row);
   if (row.pressure) return row_forces<degree, false, true>(row);
-  row_forces<degree, false, false>(row);
+  return row_forces<degree, false, false>(row);
 }
 
-template <bool decays, bool sums>
+enum class Damping { none, linear, quadratic };
+
+template <Damping damping, bool sums>
 HWY_INLINE RowSums motion(const RowMotion& row) {
   const V dt = hn::Set(tag, row.dt);
-  // Two accumulators a lane of the row, so that every instruction set adds in the same order.
-  alignas(64) double squared[lanes] = {}, power[lanes] = {};
+  // An accumulator for every lane of the row, so that every instruction set adds in the same order.
+  alignas(64) double squared[lanes] = {}, power[lanes] = {}, damped[lanes] = {};
   for (int lane = 0; lane < lanes; lane += static_cast<int>(hn::Lanes(tag))) {
-    V force_squared = hn::Zero(tag), force_speed = hn::Zero(tag);
+    V force_squared = hn::Zero(tag), force_speed = hn::Zero(tag), damped_power = hn::Zero(tag);
     for (int m = 0; m < row.vectors; ++m) {
       const int i = m * lanes + lane, k = m * vector_stride + lane;
       const V inverse_mass = hn::Load(tag, row.inverse_mass + i);
       const auto moves = hn::Gt(inverse_mass, hn::Zero(tag));
-      const Three f = load(row.f + k);
+      Three f = load(row.f + k);
       const Three old = load(row.v + k);
       const V kick = hn::Mul(hn::Set(tag, row.kick), inverse_mass);
       if constexpr (sums) {
         force_squared = hn::Add(force_squared, hn::IfThenElseZero(moves, dot(f, f)));
         force_speed = hn::Add(force_speed, hn::IfThenElseZero(moves, dot(f, old)));
       }
-      Three v = add_scaled(old, kick, f);
-      if constexpr (decays) v = subtract_scaled(v, hn::Mul(dt, hn::Load(tag, row.decay + i)), old);
+      V c;
+      if constexpr (damping != Damping::none) {
+        c = hn::Set(tag, row.linear);
+        if constexpr (damping == Damping::quadratic)
+          c = hn::MulAdd(hn::Set(tag, row.quadratic), hn::Sqrt(dot(old, old)), c);
+        c = hn::Mul(c, hn::Load(tag, row.area + i));
+        f = subtract_scaled(f, c, old);
+      }
+      const Three v = add_scaled(old, kick, f);
+      if constexpr (damping != Damping::none)
+        damped_power = hn::MulAdd(hn::Mul(hn::Set(tag, 0.5), c), dot(old, old + v), damped_power);
       store_where(moves, v, row.v + k);
       store_where(moves, add_scaled(load(row.x + k), dt, v), row.x + k);
     }
-    if constexpr (sums) {
-      hn::Store(force_squared, tag, squared + lane);
-      hn::Store(force_speed, tag, power + lane);
-    }
+    hn::Store(force_squared, tag, squared + lane);
+    hn::Store(force_speed, tag, power + lane);
+    hn::Store(damped_power, tag, damped + lane);
   }
   RowSums total;
-  if constexpr (sums)
-    for (int lane = 0; lane < lanes; ++lane) {
-      total.force_squared += squared[lane];
-      total.power += power[lane];
-    }
+  for (int lane = 0; lane < lanes; ++lane) {
+    if constexpr (sums) total.force_squared += squared[lane], total.power += power[lane];
+    if constexpr (damping != Damping::none) total.damped += damped[lane];
+  }
   return total;
 }
 
-void AddRowForces(const RowForces& row) {
+double AddRowForces(const RowForces& row) {
   switch (row.patch->degree) {
     case 1:
       return row_forces_of_degree<1>(row);
@@ -253,11 +273,41 @@ void AddRowForces(const RowForces& row) {
       return row_forces_of_degree<0>(row);
   }
 }
-void MoveRow(const RowMotion& row) {
-  row.decay ? motion<true, false>(row) : motion<false, false>(row);
+double MoveRow(const RowMotion& row) {
+  if (!row.area) return motion<Damping::none, false>(row).damped;
+  if (row.quadratic == 0) return motion<Damping::linear, false>(row).damped;
+  return motion<Damping::quadratic, false>(row).damped;
 }
 RowSums MoveRowWithSums(const RowMotion& row) {
-  return motion<false, true>(row);
+  return motion<Damping::none, true>(row);
+}
+// q holds p / 8: q times the cross product of a cell's diagonals is a quarter of its load.
+double PressureWork(const RowWork& row) {
+  alignas(64) double sum[lanes] = {};
+  for (int lane = 0; lane < lanes; lane += static_cast<int>(hn::Lanes(tag))) {
+    V work = hn::Zero(tag);
+    for (int m = 0; m < row.vectors; ++m) {
+      const int k = m * vector_stride + lane;
+      const auto corners = [&](const double* r0, const double* r1) {
+        return std::array{load(r0 + k), load(r0 + k + vector_stride), load(r1 + k + vector_stride),
+                          load(r1 + k)};
+      };
+      const auto now = corners(row.x0, row.x1), before = corners(row.before0, row.before1);
+      const auto area = [](const std::array<Three, 4>& x) {
+        const Three a = x[2] - x[0], d = x[3] - x[1];
+        return Three{hn::NegMulAdd(a.z, d.y, hn::Mul(a.y, d.z)), hn::NegMulAdd(a.x, d.z, hn::Mul(a.z, d.x)),
+                     hn::NegMulAdd(a.y, d.x, hn::Mul(a.x, d.y))};
+      };
+      const Three moved =
+          (now[0] - before[0]) + (now[1] - before[1]) + (now[2] - before[2]) + (now[3] - before[3]);
+      const V q = hn::Mul(hn::Set(tag, 0.5), hn::Load(tag, row.pressure + m * lanes + lane));
+      work = hn::MulAdd(q, dot(area(now) + area(before), moved), work);
+    }
+    hn::Store(work, tag, sum + lane);
+  }
+  double total = 0;
+  for (const double s : sum) total += s;
+  return total;
 }
 const char* Target() {
   return HWY_TARGET == HWY_AVX3 ? "AVX-512" : HWY_TARGET == HWY_AVX2 ? "AVX2" : "SSE2";
@@ -274,16 +324,20 @@ namespace ripstop {
 HWY_EXPORT(AddRowForces);
 HWY_EXPORT(MoveRow);
 HWY_EXPORT(MoveRowWithSums);
+HWY_EXPORT(PressureWork);
 HWY_EXPORT(Target);
 
-void add_row_forces(const RowForces& row) {
-  HWY_DYNAMIC_DISPATCH(AddRowForces)(row);
+double add_row_forces(const RowForces& row) {
+  return HWY_DYNAMIC_DISPATCH(AddRowForces)(row);
 }
-void move_row(const RowMotion& row) {
-  HWY_DYNAMIC_DISPATCH(MoveRow)(row);
+double move_row(const RowMotion& row) {
+  return HWY_DYNAMIC_DISPATCH(MoveRow)(row);
 }
 RowSums move_row_with_sums(const RowMotion& row) {
   return HWY_DYNAMIC_DISPATCH(MoveRowWithSums)(row);
+}
+double pressure_work(const RowWork& row) {
+  return HWY_DYNAMIC_DISPATCH(PressureWork)(row);
 }
 const char* kernel_target() {
   return HWY_DYNAMIC_DISPATCH(Target)();

@@ -16,25 +16,41 @@ struct RowForces {
   const double *v0, *v1, *v2;  // null: no damping
   double *f0, *f1, *f2;
 };
-void add_row_forces(const RowForces& row);
+/// Returns the power of the springs' dampers [W], with the velocities before the step.
+double add_row_forces(const RowForces& row);
 
-/// v' = v + kick f / m - dt decay v,  x' = x + dt v'   where 1 / m > 0; the rest stays.   [NFM] Eq. 6
+/// v' = v + kick (f - c v) / m,  x' = x + dt v'   where 1 / m > 0; the rest stays.   [NFM] Eq. 6, 20
+/// with the absolute damping c = area (linear + quadratic |v|).
 struct RowMotion {
   int vectors;                 // without ghosts
   double dt, kick;             // [s], the same but for a relaxation's first step
   const double* inverse_mass;  // [1/kg]
-  const double* decay;         // rate of the absolute damping [1/s]; null: none
+  const double* area;          // that is damped [m2], 0 where 1 / m = 0; null: no damping
+  double linear, quadratic;    // [N s/m3], [N s2/m4]
   const double* f;
   double *x, *v;
 };
-void move_row(const RowMotion& row);
+/// Moves the row; returns the power that the damping takes, c v . (v + v') / 2 [W]: the scheme's kinetic
+/// energy changes by exactly dt times the power of all forces on that mean velocity.
+double move_row(const RowMotion& row);
 
 /// Of the nodes with 1 / m > 0: sum |f|^2 and sum f . v before the move; then moves them.
 struct RowSums {
   double force_squared = 0;
   double power = 0;
+  double damped = 0;  // as move_row() returns it
 };
 RowSums move_row_with_sums(const RowMotion& row);
+
+/// Work of the pressure on the cells between two rows while they move from x_before to x: the mean of both
+/// area vectors on the mean displacement of the corners [J].
+struct RowWork {
+  int vectors;             // without ghosts
+  const double* pressure;  // of the row's cells, an eighth [Pa]
+  const double *x0, *x1;   // rows r, r + 1 now
+  const double *before0, *before1;
+};
+double pressure_work(const RowWork& row);
 
 /// "AVX-512", "AVX2", "SSE2": what the kernels run on here.
 const char* kernel_target();

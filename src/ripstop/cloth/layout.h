@@ -90,8 +90,9 @@ struct Cloth {
   std::vector<double> area;        // [m2] cloth of every node, by node
   std::vector<char> is_tied, is_fixed;
 
-  /// Nodes with irregular springs, ties or masters of ties, and nodes outside patches, in the order of their
-  /// slots. The sweep over rows leaves them where they are and keeps the lattice's force on them.
+  /// Fixed nodes, nodes with irregular springs, ties or masters of ties, and nodes outside patches, in the
+  /// order of their slots. The sweep over rows leaves them where they are and keeps the lattice's force on
+  /// them.
   struct Kept {
     int slot, node;
     int first_share, end_share;  // forces that are added to the lattice's, into `shares`

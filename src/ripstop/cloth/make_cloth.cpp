@@ -204,6 +204,7 @@ void keep_nodes(Cloth& cloth) {
   for (const Patch& patch : mesh.patches)
     std::fill_n(special.begin() + patch.first_node, patch.rows * patch.columns, char{0});
   for (const Spring& s : mesh.springs) special[s.a] = special[s.b] = 1;
+  for (int node : mesh.fixed) special[node] = 1;  // whose force is recorded
   for (const Tie& tie : mesh.ties) {
     special[tie.node] = 1;
     for (const auto& master : tie.masters) special[master.node] = 1;

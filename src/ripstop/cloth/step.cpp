@@ -10,7 +10,9 @@ namespace ripstop {
 namespace {
 
 constexpr long long steps_between_checks = 2048;  // of the bound, which costs about as much as 40 steps
-constexpr double runaway_strain = 10;             // no fabric comes near: the cloth flies apart
+// For the work of the pressure: the cloth moves a fraction of a cell meanwhile.
+constexpr int steps_between_looks = 16;
+constexpr double runaway_strain = 10;  // no fabric comes near: the cloth flies apart
 
 void check_step(const Cloth& cloth, const ClothState& state, double dt) {
   check_health(cloth, state);
@@ -33,9 +35,18 @@ void check_step(const Cloth& cloth, const ClothState& state, double dt) {
 
 }  // namespace
 
-void step(ClothState& state, const Cloth& cloth, const Loads& loads, double dt, int count, ThreadTeam& team) {
+void step(ClothState& state, const Cloth& cloth, const Loads& loads, double dt, int count, ThreadTeam& team,
+          StepRecord* record) {
   if (!(dt > 0)) throw Error(ExitCode::usage, fmt::format("the time step {} s must be positive", dt));
   Sweep sweep(cloth, loads, state, dt, team.size());
+  if (record) {
+    record->fixed_force.clear();
+    record->fixed_force.reserve(count);
+    record->peak_tension.resize(cloth.mesh.springs.size(), 0.0);
+    sweep.start_record(*record);
+  }
+  const int all = count;
+  int done = 0;
   while (count > 0) {
     const long long since = state.steps % steps_between_checks;
     if (since == 0) check_step(cloth, state, dt);
@@ -48,13 +59,19 @@ void step(ClothState& state, const Cloth& cloth, const Loads& loads, double dt, 
         team.barrier();
         sweep.follow_masters(rank);
         team.barrier();
+        if (!record || ((done + i + 1) % steps_between_looks != 0 && done + i + 1 != all)) continue;
+        sweep.add_pressure_work(rank);
+        team.barrier();
+        sweep.remember_positions(rank);
       }
     });
+    done += now;
     state.steps += now;
     state.time += now * dt;
     count -= now;
     check_health(cloth, state);
   }
+  if (record) sweep.finish_record();
 }
 
 }  // namespace ripstop

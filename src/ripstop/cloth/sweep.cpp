@@ -21,19 +21,17 @@ Sweep::Sweep(const Cloth& cloth, const Loads& loads, ClothState& state, double d
       sums_wanted_(false),
       pressure_(compile_pressure(cloth, loads)),
       node_force_(compile_node_force(cloth, loads)) {
-  const double absolute = cloth.options.absolute_damping;
   Fictitious masses{cloth.total_mass};
   for (int node : cloth.mesh.fixed) masses.mass[node] = 0;
   set_masses(masses);
-  kept_decay_.assign(cloth.kept.size(), 0.0);
-  if (absolute > 0) {
-    decay_.assign(cloth.slots, 0.0);
+  kept_area_.assign(cloth.kept.size(), 0.0);
+  if (cloth.options.absolute_damping > 0 || cloth.options.quadratic_damping > 0) {
+    area_.assign(cloth.slots, 0.0);
     for (int node = 0; node < cloth.mesh.node_count(); ++node) {
       const int slot = cloth.slot[node];
-      decay_[slot] = absolute * cloth.area[node] * inverse_mass_[slot];
+      if (inverse_mass_[slot] > 0) area_[slot] = cloth.area[node];
     }
-    for (std::size_t k = 0; k < cloth.kept.size(); ++k)
-      kept_decay_[k] = absolute * cloth.area[cloth.kept[k].node];
+    for (std::size_t k = 0; k < cloth.kept.size(); ++k) kept_area_[k] = cloth.area[cloth.kept[k].node];
   }
   prepare(threads);
 }
@@ -47,7 +45,7 @@ Sweep::Sweep(const Cloth& cloth, const Loads& loads, ClothState& state, const Fi
       pressure_(compile_pressure(cloth, loads)),
       node_force_(compile_node_force(cloth, loads)) {
   set_masses(masses);
-  kept_decay_.assign(cloth.kept.size(), 0.0);
+  kept_area_.assign(cloth.kept.size(), 0.0);
   prepare(threads);
 }
 
@@ -134,11 +132,13 @@ void Sweep::sweep_piece(Worker& worker, const Piece& piece) {
     const double* x = state_.x.data() + first;
     const double* v = damped ? state_.v.data() + first : nullptr;
     const bool pressed = !pressure_.empty() && row + 1 < patch.rows;
-    add_row_forces({&patch, patch.springs(cloth_.lattice, row),
-                    pressed ? pressure_.data() + patch.first + patch.row_slots() * row : nullptr, x,
-                    x + stride, x + 2 * stride, v, damped ? v + stride : nullptr,
-                    damped ? v + 2 * stride : nullptr, force(row), force(row + 1), force(row + 2)});
+    const double damped_power =
+        add_row_forces({&patch, patch.springs(cloth_.lattice, row),
+                        pressed ? pressure_.data() + patch.first + patch.row_slots() * row : nullptr, x,
+                        x + stride, x + 2 * stride, v, damped ? v + stride : nullptr,
+                        damped ? v + 2 * stride : nullptr, force(row), force(row + 1), force(row + 2)});
     if (row < piece.begin) continue;
+    if (record_) row_damped_[patch.first_row + row] += damped_power;
     complete_row(patch.first_row + row, force(row));
     if (!waits(row)) move(patch.first_row + row, force(row), worker.kick);
   }
@@ -153,9 +153,13 @@ void Sweep::complete_row(int row, double* f) {
     const double* point = node_force_.data() + at(first);
     for (int i = 0; i < 3 * lanes * patch.vectors; ++i) f[i] += point[i];
   }
-  for (int k = cloth_.kept_of_row[row]; k < cloth_.kept_of_row[row + 1]; ++k)
-    kept_force_[k] =
-        get(f, cloth_.kept[k].slot - first) - kept_decay_[k] * get(state_.v.data(), cloth_.kept[k].slot);
+  for (int k = cloth_.kept_of_row[row]; k < cloth_.kept_of_row[row + 1]; ++k) {
+    const Vec3 v = get(state_.v.data(), cloth_.kept[k].slot);
+    const Vec3 drag =
+        (kept_area_[k] * (cloth_.options.absolute_damping + cloth_.options.quadratic_damping * norm(v))) * v;
+    kept_force_[k] = get(f, cloth_.kept[k].slot - first) - drag;
+    if (record_) take(kept_dampers_[k], drag, v);
+  }
 }
 
 void Sweep::move(int row, double* f, double kick) {
@@ -164,12 +168,16 @@ void Sweep::move(int row, double* f, double kick) {
                          dt_,
                          dt_ * kick,
                          inverse_mass_.data() + first,
-                         decay_.empty() ? nullptr : decay_.data() + first,
+                         area_.empty() ? nullptr : area_.data() + first,
+                         cloth_.options.absolute_damping,
+                         cloth_.options.quadratic_damping,
                          f,
                          state_.x.data() + at(first),
                          state_.v.data() + at(first)};
   if (sums_wanted_)
     row_sums_[row] = move_row_with_sums(motion);
+  else if (record_)
+    row_damped_[row] += move_row(motion);
   else
     move_row(motion);
 }
@@ -188,7 +196,12 @@ void Sweep::pull_springs(int begin, int end) {
     double tension = spring.scale * (law.both * strain + sum);
     if (damped_) {
       const Vec3 dv = get(state_.v.data(), spring.b) - get(state_.v.data(), spring.a);
-      tension += spring.damping * dot(d, dv) / length;
+      const double damper = spring.damping * dot(d, dv) / length;
+      tension += damper;
+      if (record_) {
+        take(spring_dampers_[s], (damper / length) * d, dv);
+        record_->peak_tension[s] = std::max(record_->peak_tension[s], tension);
+      }
     }
     kept_force_[cloth_.kept.size() + s] = (tension / length) * d;
   }
@@ -201,6 +214,8 @@ void Sweep::move_kept(int rank) {
     move(worker.waiting[i], worker.buffer.data() + (unwanted_and_turns + i) * worker.row_doubles,
          worker.kick);
 
+  if (record_ && rank == 0) record_fixed_force();
+
   // The nodes of a row belong to the row's thread, which has moved its neighbours; the others are dealt out.
   for (int row = worker.begin_row; row < worker.end_row; ++row)
     kept_sums_[row] = move_kept_nodes(cloth_.kept_of_row[row], cloth_.kept_of_row[row + 1], worker.kick);
@@ -212,6 +227,14 @@ void Sweep::move_kept(int rank) {
   worker.kick = 1;
 }
 
+Vec3 Sweep::force_on_kept(int k) const {
+  const Cloth::Kept& kept = cloth_.kept[k];
+  Vec3 force = kept_force_[k];
+  for (int i = kept.first_share; i < kept.end_share; ++i)
+    force += cloth_.shares[i].weight * kept_force_[cloth_.shares[i].source];
+  return force;
+}
+
 RowSums Sweep::move_kept_nodes(int begin, int end, double kick) {
   double* const x = state_.x.data();
   double* const v = state_.v.data();
@@ -219,9 +242,7 @@ RowSums Sweep::move_kept_nodes(int begin, int end, double kick) {
   for (int k = begin; k < end; ++k) {
     if (kept_inverse_mass_[k] == 0) continue;
     const Cloth::Kept& kept = cloth_.kept[k];
-    Vec3 force = kept_force_[k];
-    for (int i = kept.first_share; i < kept.end_share; ++i)
-      force += cloth_.shares[i].weight * kept_force_[cloth_.shares[i].source];
+    const Vec3 force = force_on_kept(k);
     const Vec3 old = get(v, kept.slot);
     sums.force_squared += dot(force, force);
     sums.power += dot(force, old);
@@ -250,6 +271,66 @@ void Sweep::stop(int rank) {
   if (rank + 1 < static_cast<int>(workers_.size())) return;
   for (std::size_t k = cloth_.kept_of_row.back(); k < cloth_.kept.size(); ++k)
     put(state_.v.data(), cloth_.kept[k].slot, {});
+}
+
+void Sweep::start_record(StepRecord& record) {
+  record_ = &record;
+  before_ = state_.x;
+  row_work_.assign(cloth_.row_count, 0.0);
+  row_damped_.assign(cloth_.row_count, 0.0);
+  kept_dampers_.assign(cloth_.kept.size(), Damper{});
+  spring_dampers_.assign(cloth_.springs.size(), Damper{});
+  for (std::size_t k = 0; k < cloth_.kept.size(); ++k)
+    if (cloth_.is_fixed[cloth_.kept[k].node]) fixed_kept_.push_back(static_cast<int>(k));
+}
+
+void Sweep::take(Damper& damper, Vec3 force, Vec3 v) {
+  damper.energy += 0.5 * dot(damper.force + force, v);
+  damper.force = force;
+}
+
+void Sweep::record_fixed_force() {
+  Vec3 sum;
+  for (const int k : fixed_kept_) sum += force_on_kept(k);
+  record_->fixed_force.push_back(sum);
+}
+
+void Sweep::add_pressure_work(int rank) {
+  if (pressure_.empty()) return;
+  const Worker& worker = workers_[rank];
+  for (int row = worker.begin_row; row < worker.end_row; ++row) {
+    const PatchLayout& patch = cloth_.patches[cloth_.row_patch[row]];
+    if (cloth_.patch_row(row) + 1 == patch.rows) continue;
+    const int slot = cloth_.row_slot(row), first = at(slot), next = first + 3 * patch.row_slots();
+    row_work_[row] += pressure_work({patch.vectors, pressure_.data() + slot, state_.x.data() + first,
+                                     state_.x.data() + next, before_.data() + first, before_.data() + next});
+  }
+}
+
+void Sweep::remember_positions(int rank) {
+  const Worker& worker = workers_[rank];
+  for (int row = worker.begin_row; row < worker.end_row; ++row) {
+    const int first = at(cloth_.row_slot(row));
+    std::copy_n(state_.x.data() + first, 3 * cloth_.patches[cloth_.row_patch[row]].row_slots(),
+                before_.data() + first);
+  }
+}
+
+void Sweep::finish_record() {
+  double damped = 0;
+  for (std::size_t k = 0; k < cloth_.kept.size(); ++k) {
+    take(kept_dampers_[k], {}, get(state_.v.data(), cloth_.kept[k].slot));
+    damped += kept_dampers_[k].energy;
+  }
+  for (std::size_t s = 0; s < cloth_.springs.size(); ++s) {
+    const KeptSpring& spring = cloth_.springs[s];
+    take(spring_dampers_[s], {}, get(state_.v.data(), spring.b) - get(state_.v.data(), spring.a));
+    damped += spring_dampers_[s].energy;
+  }
+  for (const double power : row_damped_) damped += power;
+  record_->damped += dt_ * damped;
+  for (const double work : row_work_) record_->pressure_work += work;
+  record_ = nullptr;
 }
 
 RowSums Sweep::sums() const {

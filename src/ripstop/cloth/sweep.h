@@ -35,6 +35,14 @@ class Sweep {
   /// leapfrog starts from rest (a whole one diverges when stops follow each other).
   void stop(int rank);
 
+  /// From here on every step adds to `record`; finish_record() when the last step is done.
+  void start_record(StepRecord& record);
+  void finish_record();
+  /// After follow_masters: the work of the pressure since remember_positions() or start_record(). A barrier
+  /// between.
+  void add_pressure_work(int rank);
+  void remember_positions(int rank);
+
   /// After move_kept, the same on every rank: force residual and power before the last move.
   RowSums sums() const;
 
@@ -57,17 +65,32 @@ class Sweep {
   void move(int row, double* f, double kick);
   void pull_springs(int begin, int end);
   RowSums move_kept_nodes(int begin, int end, double kick);
+  Vec3 force_on_kept(int k) const;
+  void record_fixed_force();
 
   const Cloth& cloth_;
   ClothState& state_;
   double dt_;
   bool damped_, sums_wanted_;
   AlignedDoubles pressure_, node_force_;
-  AlignedDoubles inverse_mass_, decay_;                 // by slot; 0 for kept nodes
-  std::vector<double> kept_inverse_mass_, kept_decay_;  // by kept node; 0: does not move
-  std::vector<Vec3> kept_force_;                        // of kept nodes, then of kept springs
+  AlignedDoubles inverse_mass_, area_;                 // by slot; 0 for kept nodes; no areas: no damping
+  std::vector<double> kept_inverse_mass_, kept_area_;  // by kept node; 0: does not move
+  std::vector<Vec3> kept_force_;                       // of kept nodes, then of kept springs
   std::vector<Worker> workers_;
   std::vector<RowSums> row_sums_, kept_sums_, loose_sums_;
+
+  // The dampers of kept nodes and springs take F . (v + v') / 2 in a step. v' is known when the next step
+  // begins: so half of F . v is added at once and the rest of the last step's F then.
+  struct Damper {
+    Vec3 force;
+    double energy = 0;  // over dt [W]
+  };
+  static void take(Damper& damper, Vec3 force, Vec3 v);
+  StepRecord* record_ = nullptr;
+  AlignedDoubles before_;                      // positions when the work was last looked at
+  std::vector<double> row_work_, row_damped_;  // [J], over dt [W]; by row
+  std::vector<Damper> kept_dampers_, spring_dampers_;
+  std::vector<int> fixed_kept_;  // kept nodes that are fixed
 };
 
 }  // namespace ripstop
