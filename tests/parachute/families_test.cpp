@@ -42,7 +42,7 @@ class Family : public testing::TestWithParam<const char*> {};
 
 INSTANTIATE_TEST_SUITE_P(All, Family,
                          testing::Values("stratos-iv", "flat-circular", "conical", "hemispherical",
-                                         "quarter-spherical", "extended-skirt", "ringslot", "adept"),
+                                         "quarter-spherical", "extended-skirt", "ringslot", "adept", "cross"),
                          [](const auto& family) {
                            std::string name = family.param;
                            std::replace(name.begin(), name.end(), '-', '_');

@@ -92,17 +92,20 @@ void describe(Fields& fields, MeshSettings& mesh) {
 }
 
 void describe(Fields& fields, Design& design) {
-  fields.kind(
-      "type", design.canopy,
-      {"disk-gap-band", "flat-circular", "conical", "spherical", "extended-skirt", "ringslot", "ringsail"},
-      "Family of the canopy.");
+  fields.kind("type", design.canopy,
+              {"disk-gap-band", "flat-circular", "conical", "spherical", "extended-skirt", "ringslot",
+               "ringsail", "cross"},
+              "Family of the canopy.");
   fields
       .number("nominal_area_m2", design.nominal_area_m2, above(0).up_to(10000),
               "Reference area S0 of the coefficients.")
       .absent(
           "by the type's own definition: the cloth as cut (disk-gap-band), else the whole design surface "
           "with vent and slots");
-  fields.integer("gores", design.gores, from(3).up_to(500), "Number of gores, equally wide.").required();
+  fields
+      .integer("gores", design.gores, from(3).up_to(500),
+               "Number of gores, equally wide; of a cross: its 4 arms.")
+      .required();
   fields.name("canopy_material", design.canopy_material, "Material of the cloth, of kind \"fabric\".");
   fields.table("lines", design.lines, "Suspension lines.").required();
   fields.table("tape", design.tape, "Reinforcement tape.");

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ripstop/parachute/conical.h"
+#include "ripstop/parachute/cross.h"
 #include "ripstop/parachute/disk_gap_band.h"
 #include "ripstop/parachute/extended_skirt.h"
 #include "ripstop/parachute/flat_circular.h"
@@ -20,7 +21,8 @@ class Fields;
 class Findings;
 
 /// The canopy families; a new one is one more alternative and its word in describe(Design).
-using Canopy = std::variant<DiskGapBand, FlatCircular, Conical, Spherical, ExtendedSkirt, Ringslot, Ringsail>;
+using Canopy =
+    std::variant<DiskGapBand, FlatCircular, Conical, Spherical, ExtendedSkirt, Ringslot, Ringsail, Cross>;
 
 /// [parachute.lines]
 struct LineSet {
