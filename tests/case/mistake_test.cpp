@@ -122,7 +122,7 @@ const std::vector<Mistake> mistakes = {
      "case.toml:3:8",
      "parachute.type",
      "\"disk-gap-bend\"",
-     {"must be \"disk-gap-band\"", "did you mean"}},
+     {"must be one of \"disk-gap-band\"", "did you mean"}},
     {"WordNotInLongerList",
      "speed_m_s = 20\nbox",
      "speed_m_s = 20\nspeed_basis = \"mesured\"\nbox",

@@ -37,7 +37,7 @@ void check_lines(const Design& design, Findings& findings) {
 /// Lines and seams both lie on columns of the mesh, so its columns are a multiple of both counts.
 void check_columns(const Design& design, Findings& findings) {
   if (!findings.sound(shape_keys()) ||
-      !findings.sound({"parachute.lines.count", "parachute.mesh.cloth_nodes"}))
+      !findings.sound({"parachute.gores", "parachute.lines.count", "parachute.mesh.cloth_nodes"}))
     return;
   const double spacing = std::sqrt(computed_area(design) / design.mesh.cloth_nodes);
   const double columns = facts(design).circumference / spacing;
@@ -147,7 +147,9 @@ void check_design(const Design& design, Findings& findings) {
 }
 
 CanopyFacts facts(const Design& design) {
-  return std::visit([&](const auto& canopy) { return facts(canopy, design.gores); }, design.canopy);
+  // A design with fewer gores is refused, but its other mistakes are told as well.
+  const int gores = std::max(3, design.gores);
+  return std::visit([&](const auto& canopy) { return facts(canopy, gores); }, design.canopy);
 }
 
 double computed_area(const Design& design) {
@@ -172,11 +174,21 @@ double start_depth(const Design& design) {
 
 const std::vector<std::string>& shape_keys() {
   static const std::vector<std::string> keys = {"parachute.type",
-                                                "parachute.gores",
                                                 "parachute.disk_diameter_m",
                                                 "parachute.vent_diameter_m",
                                                 "parachute.gap_height_m",
-                                                "parachute.band_height_m"};
+                                                "parachute.band_height_m",
+                                                "parachute.nominal_diameter_m",
+                                                "parachute.cone_angle_deg",
+                                                "parachute.half_angle_deg",
+                                                "parachute.skirt_height_m",
+                                                "parachute.skirt_diameter_share",
+                                                "parachute.rings",
+                                                "parachute.slot_height_m",
+                                                "parachute.sails",
+                                                "parachute.rows",
+                                                "parachute.arm_length_m",
+                                                "parachute.arm_width_m"};
   return keys;
 }
 

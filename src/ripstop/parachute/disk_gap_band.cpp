@@ -141,14 +141,18 @@ void describe(Fields& fields, DiskGapBand& canopy) {
       .number("vent_diameter_m", canopy.vent_diameter_m, from(0.001).up_to(100),
               "Diameter of the hole in the middle of the disk.")
       .required();
-  fields.number("gap_height_m", canopy.gap_height_m, from(0.001).up_to(100), "Open height between disk and band.")
+  fields
+      .number("gap_height_m", canopy.gap_height_m, from(0.001).up_to(100),
+              "Open height between disk and band.")
       .required();
-  fields.number("band_height_m", canopy.band_height_m, from(0.001).up_to(100), "Height of the cylindrical band.")
+  fields
+      .number("band_height_m", canopy.band_height_m, from(0.001).up_to(100),
+              "Height of the cylindrical band.")
       .required();
 }
 
 void check_shape(const DiskGapBand& canopy, const Design&, Findings& findings) {
-  if (!findings.sound({"parachute.disk_diameter_m", "parachute.vent_diameter_m"})) return;
+  if (!findings.sound({"parachute.type", "parachute.disk_diameter_m", "parachute.vent_diameter_m"})) return;
   if (canopy.vent_diameter_m >= canopy.disk_diameter_m)
     findings.add("parachute.vent_diameter_m", canopy.vent_diameter_m,
                  fmt::format("below {}", canopy.disk_diameter_m),

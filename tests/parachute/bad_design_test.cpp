@@ -1,0 +1,81 @@
+// Designs that cannot be built are refused with the key and the reason.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "ripstop/case/case.h"
+#include "ripstop/core/file.h"
+
+namespace ripstop {
+namespace {
+
+struct BadDesign {
+  const char* name;
+  const char* example;
+  const char* from;  // in the example's case file
+  const char* to;
+  const char* key;
+  const char* reason;
+};
+
+const BadDesign bad_designs[] = {
+    {"FullnessUnderZero", "adept", "sails = 9", "sails = 3\nrows = [{leading_fullness = -0.1}, {}, {}]",
+     "parachute.rows[0].leading_fullness", "at least 0"},
+    {"SailSlotWiderThanTheRow", "adept", "sails = 9", "sails = 3\nrows = [{}, {slot_deg = 25}, {}]",
+     "parachute.rows[1].slot_deg", "the slot above row 2 is wider than the row"},
+    {"SlotAboveTheLastRow", "adept", "sails = 9", "sails = 3\nrows = [{}, {}, {slot_deg = 2}]",
+     "parachute.rows[2].slot_deg", "above the last row is the vent"},
+    {"RowsThatAreNotAsManyAsSails", "adept", "sails = 9", "sails = 9\nrows = [{}, {}, {}]", "parachute.sails",
+     "there are 3 tables"},
+    {"RingSlotWiderThanTheRings", "ringslot", "slot_height_m = 0.013", "slot_height_m = 0.045",
+     "parachute.slot_height_m", "the slots are wider than the rings"},
+    {"LinesShorterThanTheRadius", "flat-circular", "length_m = 1.0", "length_m = 0.5",
+     "parachute.lines.length_m", "too short to meet on the axis"},
+    {"TwoGores", "conical", "gores = 12", "gores = 2", "parachute.gores", "at least 3"},
+    {"ArmsLongerThanTheLinesCanSpan", "cross", "length_m = 1.2", "length_m = 0.6", "parachute.lines.length_m",
+     "too short to meet on the axis"},
+    {"CrossWithoutArms", "cross", "arm_width_m = 0.396", "arm_width_m = 1.2", "parachute.arm_width_m",
+     "there are no arms"},
+    {"CrossWithSixArms", "cross", "gores = 4", "gores = 6", "parachute.gores", "its four arms"},
+    {"LinesThatTheArmsCannotShare", "cross", "count = 16", "count = 18", "parachute.lines.count",
+     "every arm of a cross holds the same number"},
+    {"VentWiderThanTheCanopy", "hemispherical", "vent_diameter_m = 0.08", "vent_diameter_m = 0.75",
+     "parachute.vent_diameter_m", "the vent must be smaller than the canopy"},
+    {"VentLinesOfAnOddNumberOfLines", "quarter-spherical", "count = 12", "count = 9", "parachute.lines.count",
+     "set parachute.vent_lines = false"},
+    {"SkirtDrawnInByMoreThanItsHeight", "extended-skirt", "skirt_height_m = 0.086",
+     "skirt_height_m = 0.086\nskirt_diameter_share = 0.5", "parachute.skirt_height_m",
+     "more than it is high"},
+    {"LinesPastTheVent", "conical", "length_m = 1.0", "length_m = 1.0\nonto_disk_m = 0.6",
+     "parachute.lines.onto_disk_m", "past the vent's edge"},
+};
+
+class BadDesignTest : public testing::TestWithParam<BadDesign> {};
+INSTANTIATE_TEST_SUITE_P(Every, BadDesignTest, testing::ValuesIn(bad_designs),
+                         [](const auto& design) { return design.param.name; });
+
+TEST_P(BadDesignTest, IsRefusedWithKeyAndReason) {
+  const BadDesign& bad = GetParam();
+  const std::filesystem::path file =
+      std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples" / bad.example / "case.toml";
+  std::string text = read_file(file);
+  ASSERT_NO_THROW(parse_case(text, "case.toml"));
+  const std::size_t place = text.find(bad.from);
+  ASSERT_NE(place, std::string::npos);
+  text.replace(place, std::string(bad.from).size(), bad.to);
+  try {
+    parse_case(text, "case.toml");
+    FAIL() << "was accepted";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.code(), ExitCode::usage);
+    bool found = false;
+    for (const Problem& problem : error.problems())
+      found |=
+          problem.key == bad.key && (problem.message + problem.allowed).find(bad.reason) != std::string::npos;
+    EXPECT_TRUE(found) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace ripstop
