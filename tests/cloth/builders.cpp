@@ -92,6 +92,21 @@ Mesh chain(int segments, Vec3 a, Vec3 b, double rest_length, const SpringLaw& la
   return mesh;
 }
 
+Mesh tied_strips(const FabricSpec& fabric) {
+  Mesh mesh = rectangle(8, 9, 0.02, fabric);
+  PatchSpec fine;
+  fine.rows = 8, fine.columns = 17;
+  fine.position = [](int row, int column) { return Vec3{0.01 * column, 0.14 + 0.01 * row, 0}; };
+  add_patch(mesh, fine, fabric);
+  const Patch &a = mesh.patches[0], &b = mesh.patches[1];
+  for (int j = 0; j < 17; ++j) {
+    Tie tie{b.node(0, j), {{a.node(7, j / 2), j % 2 ? 0.5 : 1.0}}};
+    if (j % 2) tie.masters.push_back({a.node(7, j / 2 + 1), 0.5});
+    mesh.ties.push_back(tie);
+  }
+  return mesh;
+}
+
 Mesh medley(double damping, bool fixed, int degree) {
   FabricSpec fabric;
   fabric.damping = damping;

@@ -38,6 +38,9 @@ Mesh rectangle(int rows, int columns, double spacing, const FabricSpec& fabric =
 /// Chain of `segments` springs from `a` to `b` in line, the first node fixed; law in N.
 Mesh chain(int segments, Vec3 a, Vec3 b, double rest_length, const SpringLaw& law, double linear_density);
 
+/// Flat: a finer strip tied to the edge of a coarser one, as where a canopy's columns are halved.
+Mesh tied_strips(const FabricSpec& fabric);
+
 /// Two patches of different fabric joined by ties, with a hole, irregular springs across and a line:
 /// everything a canopy has. Nothing is fixed unless `fixed`.
 Mesh medley(double damping, bool fixed, int degree = 2);

@@ -86,6 +86,9 @@ struct RelaxResult {
   bool converged = false;
   int steps = 0;
   double residual = 0;
+  /// Of the loads about the only held point [N m]: nothing but other loads can balance it, so it is left out
+  /// of the residual. 0 for a cloth held at several points.
+  double unbalanced_moment = 0;
   double mean_displacement = 0;  // e_k, [NFM] Eq. 18, over the whole relaxation [m]
 };
 /// Equilibrium under `loads` by dynamic relaxation with kinetic damping on fictitious masses (Barnes).

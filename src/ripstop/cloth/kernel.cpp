@@ -45,6 +45,10 @@ HWY_INLINE Three operator+(Three a, Three b) {
 HWY_INLINE Three operator-(Three a, Three b) {
   return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
 }
+HWY_INLINE Three scaled(Three a, double factor) {
+  const V s = hn::Set(tag, factor);
+  return {hn::Mul(a.x, s), hn::Mul(a.y, s), hn::Mul(a.z, s)};
+}
 HWY_INLINE V dot(Three a, Three b) {
   return hn::MulAdd(a.z, b.z, hn::MulAdd(a.y, b.y, hn::Mul(a.x, b.x)));
 }
@@ -233,7 +237,6 @@ HWY_INLINE RowSums motion(const RowMotion& row) {
       const V kick = hn::Mul(hn::Set(tag, row.kick), inverse_mass);
       if constexpr (sums) {
         force_squared = hn::Add(force_squared, hn::IfThenElseZero(moves, dot(f, f)));
-        force_speed = hn::Add(force_speed, hn::IfThenElseZero(moves, dot(f, old)));
       }
       V c;
       if constexpr (damping != Damping::none) {
@@ -243,7 +246,8 @@ HWY_INLINE RowSums motion(const RowMotion& row) {
         c = hn::Mul(c, hn::Load(tag, row.area + i));
         f = subtract_scaled(f, c, old);
       }
-      const Three v = add_scaled(old, kick, f);
+      const Three v = add_scaled(sums ? scaled(old, row.keep) : old, kick, f);
+      if constexpr (sums) force_speed = hn::Add(force_speed, hn::IfThenElseZero(moves, dot(f, old + v)));
       if constexpr (damping != Damping::none)
         damped_power = hn::MulAdd(hn::Mul(hn::Set(tag, 0.5), c), dot(old, old + v), damped_power);
       store_where(moves, v, row.v + k);

@@ -24,6 +24,7 @@ double add_row_forces(const RowForces& row);
 struct RowMotion {
   int vectors;                 // without ghosts
   double dt, kick;             // [s], the same but for a relaxation's first step
+  double keep;                 // factor on v in a relaxation; ignored by move_row
   const double* inverse_mass;  // [1/kg]
   const double* area;          // that is damped [m2], 0 where 1 / m = 0; null: no damping
   double linear, quadratic;    // [N s/m3], [N s2/m4]
@@ -34,7 +35,9 @@ struct RowMotion {
 /// energy changes by exactly dt times the power of all forces on that mean velocity.
 double move_row(const RowMotion& row);
 
-/// Of the nodes with 1 / m > 0: sum |f|^2 and sum f . v before the move; then moves them.
+/// Moves, and sums over the nodes with 1 / m > 0: |f|^2 before the move, and f . (v + v'), which is twice
+/// what the kinetic energy has gained. (f . v alone is biased: it is negative on average for every fast
+/// mode.)
 struct RowSums {
   double force_squared = 0;
   double power = 0;

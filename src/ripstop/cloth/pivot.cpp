@@ -46,12 +46,17 @@ void stop_turning(const Cloth& cloth, ClothState& state, const std::vector<doubl
   mirror(cloth, state.v.data(), 0, cloth.row_count);
 }
 
-double turning_force_squared(const Cloth& cloth, const ClothState& state, Vec3 moment, Vec3 pivot) {
+void cancel_moment(const Cloth& cloth, const ClothState& state, Vec3 moment, Vec3 pivot,
+                   std::vector<Vec3>& force) {
+  const auto free = [&](int node) { return !cloth.is_tied[node] && !cloth.is_fixed[node]; };
+  const auto arm = [&](int node) { return get(state.x.data(), cloth.slot[node]) - pivot; };
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
   for (int node = 0; node < cloth.mesh.node_count(); ++node)
-    if (!cloth.is_tied[node] && !cloth.is_fixed[node])
-      add_inertia(inertia, 1, get(state.x.data(), cloth.slot[node]) - pivot);
-  return dot(turn(inertia, moment), moment);
+    if (free(node)) add_inertia(inertia, 1, arm(node));
+  const Vec3 t = turn(inertia, moment);
+  force.resize(cloth.mesh.node_count());
+  for (int node = 0; node < cloth.mesh.node_count(); ++node)
+    if (free(node)) force[node] -= cross(t, arm(node));
 }
 
 }  // namespace ripstop

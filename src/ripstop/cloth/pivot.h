@@ -15,8 +15,9 @@ std::optional<Vec3> pivot_of(const Cloth& cloth, const ClothState& state);
 /// Takes the turning about the pivot out of the velocities: v -= w x r with w = I^-1 sum m r x v.
 void stop_turning(const Cloth& cloth, ClothState& state, const std::vector<double>& mass, Vec3 pivot);
 
-/// Sum of squares of the node forces t x r that best fit a moment: what a force residual keeps, however well
-/// the cloth's shape is in balance, when the loads have that moment about the pivot [N2].
-double turning_force_squared(const Cloth& cloth, const ClothState& state, Vec3 moment, Vec3 pivot);
+/// Adds the smallest forces (root sum of squares) on the free nodes that cancel a moment about the pivot:
+/// -t x r with t = G^-1 moment, G = sum (r^2 I - r r^T).
+void cancel_moment(const Cloth& cloth, const ClothState& state, Vec3 moment, Vec3 pivot,
+                   std::vector<Vec3>& force);
 
 }  // namespace ripstop

@@ -1,12 +1,18 @@
 // Equilibrium by dynamic relaxation with kinetic damping (Barnes 1999, Int. J. Space Structures 14).
 //
 // Fictitious masses m = margin kappa / 2, with kappa the node's stiffness of step_bound, make a step of 1
-// stable everywhere, so every part of the cloth moves as fast as it can. No viscous damping: whenever the
-// kinetic energy passes a peak, that is when the power sum f . v turns negative, all velocities are set to 0.
+// stable everywhere, so every part of the cloth moves as fast as it can. Whenever the kinetic energy passes a
+// peak, that is when sum f . (v + v') turns negative, all velocities are set to 0.
+//
+// Stops alone kill the slowest mode and may leave its overtones alone for ever (a bar pulled at its ends has
+// cos(n pi / 2) of them left after each). So between stops the motion is also damped at the rate 3 / t of
+// Nesterov's accelerated descent, t steps since the stop, which wears off before it slows the slow modes:
+//   v' = t / (t + 3) v + (t + 3/2) / (t + 3) f / m
+// is leapfrog with implicit damping, stable for the same masses, and starts from rest with half a kick.
 //
 // A parachute hangs on one point and may turn about it. Under a follower pressure that is neutral: a small
-// moment of a wrinkled shape would turn it for ever, and the growing power hide every peak. So the turning is
-// taken out of the velocities, and what the moment alone adds out of the residual.
+// moment of a wrinkled shape would turn it for ever. So the moment of the loads about that point is cancelled
+// by the smallest node forces that do, and the turning taken out of the velocities.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -56,7 +62,12 @@ RelaxResult relax(ClothState& state, const Cloth& cloth, const Loads& loads, con
   int since_refresh = 0;
   while (!result.converged && result.steps < options.max_steps) {
     const AppliedLoad applied = applied_load(cloth, state, loads, pivot.value_or(Vec3{}));
-    const double turning = pivot ? turning_force_squared(cloth, state, applied.moment, *pivot) : 0;
+    if (pivot) {
+      std::vector<Vec3> force = loads.node_force;
+      cancel_moment(cloth, state, applied.moment, *pivot, force);
+      sweep.set_node_force(force);
+      result.unbalanced_moment = norm(applied.moment);
+    }
     const int count = std::min(steps_a_look, options.max_steps - result.steps);
     int done = 0;
     team.run([&](int rank) {
@@ -66,10 +77,10 @@ RelaxResult relax(ClothState& state, const Cloth& cloth, const Loads& loads, con
         sweep.move_kept(rank);
         team.barrier();
         const RowSums sums = sweep.sums();
-        if (sums.power < 0) sweep.stop(rank);
-        sweep.follow_masters(rank);
-        const double residual = std::sqrt(std::max(0.0, sums.force_squared - turning)) / applied.norm;
+        const double residual = std::sqrt(sums.force_squared) / applied.norm;
         const bool ends = residual <= options.tolerance;
+        if (sums.power < 0 && !ends) sweep.stop(rank);
+        sweep.follow_masters(rank);
         if (rank == 0) {
           ++done;
           result.residual = residual;
@@ -81,7 +92,7 @@ RelaxResult relax(ClothState& state, const Cloth& cloth, const Loads& loads, con
     });
     result.steps += done;
     check_health(cloth, state);
-    if (pivot) stop_turning(cloth, state, masses.mass, *pivot);
+    if (pivot && !result.converged) stop_turning(cloth, state, masses.mass, *pivot);
     if (report) report({result.steps, result.residual, fictitious_energy(cloth, state, masses.mass)});
     since_refresh += done;
     if (since_refresh >= steps_a_refresh && !result.converged) {
@@ -89,6 +100,12 @@ RelaxResult relax(ClothState& state, const Cloth& cloth, const Loads& loads, con
       masses = fictitious_masses(cloth, state);
       sweep.set_masses(masses);
     }
+  }
+  // The residual is that of the positions before the last move: go back there.
+  if (result.converged) {
+    for (std::size_t i = 0; i < state.x.size(); ++i) state.x[i] -= state.v[i];
+    follow(cloth, state.x.data(), 0, cloth.row_count, true);
+    mirror(cloth, state.x.data(), 0, cloth.row_count);
   }
   std::fill(state.v.begin(), state.v.end(), 0.0);
   const std::vector<Vec3> end = positions(state, cloth);

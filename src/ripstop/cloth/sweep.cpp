@@ -11,6 +11,11 @@ namespace {
 constexpr int kept_block = 64;  // kept nodes whose sums are added by one thread
 constexpr int rows_in_turn = 3;
 
+// t / (t + 3) of the velocity is kept t steps after a stop, see relax.cpp.
+double keep_after(int steps) {
+  return steps / (steps + 3.0);
+}
+
 }  // namespace
 
 Sweep::Sweep(const Cloth& cloth, const Loads& loads, ClothState& state, double dt, int threads)
@@ -59,6 +64,10 @@ void Sweep::set_masses(const Fictitious& masses) {
     kept_inverse_mass_[k] = inverse(masses.mass[cloth_.kept[k].node]);
     inverse_mass_[cloth_.kept[k].slot] = 0;
   }
+}
+
+void Sweep::set_node_force(const std::vector<Vec3>& force) {
+  node_force_ = compile_node_force(cloth_, {{}, force});
 }
 
 void Sweep::prepare(int threads) {
@@ -140,7 +149,7 @@ void Sweep::sweep_piece(Worker& worker, const Piece& piece) {
     if (row < piece.begin) continue;
     if (record_) row_damped_[patch.first_row + row] += damped_power;
     complete_row(patch.first_row + row, force(row));
-    if (!waits(row)) move(patch.first_row + row, force(row), worker.kick);
+    if (!waits(row)) move(patch.first_row + row, force(row), worker.pace);
   }
 }
 
@@ -162,11 +171,12 @@ void Sweep::complete_row(int row, double* f) {
   }
 }
 
-void Sweep::move(int row, double* f, double kick) {
+void Sweep::move(int row, double* f, Pace pace) {
   const int first = cloth_.row_slot(row);
   const RowMotion motion{cloth_.patches[cloth_.row_patch[row]].vectors,
                          dt_,
-                         dt_ * kick,
+                         dt_ * pace.kick,
+                         pace.keep,
                          inverse_mass_.data() + first,
                          area_.empty() ? nullptr : area_.data() + first,
                          cloth_.options.absolute_damping,
@@ -212,19 +222,22 @@ void Sweep::move_kept(int rank) {
   const std::size_t unwanted_and_turns = rows_in_turn + 1;
   for (std::size_t i = 0; i < worker.waiting.size(); ++i)
     move(worker.waiting[i], worker.buffer.data() + (unwanted_and_turns + i) * worker.row_doubles,
-         worker.kick);
+         worker.pace);
 
   if (record_ && rank == 0) record_fixed_force();
 
   // The nodes of a row belong to the row's thread, which has moved its neighbours; the others are dealt out.
   for (int row = worker.begin_row; row < worker.end_row; ++row)
-    kept_sums_[row] = move_kept_nodes(cloth_.kept_of_row[row], cloth_.kept_of_row[row + 1], worker.kick);
+    kept_sums_[row] = move_kept_nodes(cloth_.kept_of_row[row], cloth_.kept_of_row[row + 1], worker.pace);
   const Range blocks = part_of(static_cast<int>(loose_sums_.size()), rank, static_cast<int>(workers_.size()));
   const int loose = cloth_.kept_of_row.back(), all = static_cast<int>(cloth_.kept.size());
   for (int block = blocks.begin; block < blocks.end; ++block)
     loose_sums_[block] = move_kept_nodes(loose + block * kept_block,
-                                         std::min(all, loose + (block + 1) * kept_block), worker.kick);
-  worker.kick = 1;
+                                         std::min(all, loose + (block + 1) * kept_block), worker.pace);
+  if (sums_wanted_) {
+    const double keep = keep_after(++worker.steps_since_stop);
+    worker.pace = {0.5 * (1 + keep), keep};
+  }
 }
 
 Vec3 Sweep::force_on_kept(int k) const {
@@ -235,7 +248,7 @@ Vec3 Sweep::force_on_kept(int k) const {
   return force;
 }
 
-RowSums Sweep::move_kept_nodes(int begin, int end, double kick) {
+RowSums Sweep::move_kept_nodes(int begin, int end, Pace pace) {
   double* const x = state_.x.data();
   double* const v = state_.v.data();
   RowSums sums;
@@ -245,8 +258,8 @@ RowSums Sweep::move_kept_nodes(int begin, int end, double kick) {
     const Vec3 force = force_on_kept(k);
     const Vec3 old = get(v, kept.slot);
     sums.force_squared += dot(force, force);
-    sums.power += dot(force, old);
-    const Vec3 now = old + (dt_ * kick * kept_inverse_mass_[k]) * force;
+    const Vec3 now = pace.keep * old + (dt_ * pace.kick * kept_inverse_mass_[k]) * force;
+    sums.power += dot(force, old + now);
     put(v, kept.slot, now);
     put(x, kept.slot, get(x, kept.slot) + dt_ * now);
   }
@@ -264,7 +277,8 @@ void Sweep::follow_masters(int rank) {
 
 void Sweep::stop(int rank) {
   Worker& worker = workers_[rank];
-  worker.kick = 0.5;
+  worker.pace = {0.5, 0};
+  worker.steps_since_stop = 0;
   for (int row = worker.begin_row; row < worker.end_row; ++row)
     std::fill_n(state_.v.data() + at(cloth_.row_slot(row)),
                 3 * cloth_.patches[cloth_.row_patch[row]].row_slots(), 0.0);

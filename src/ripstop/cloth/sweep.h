@@ -27,6 +27,7 @@ class Sweep {
   };
   Sweep(const Cloth& cloth, const Loads& loads, ClothState& state, const Fictitious& masses, int threads);
   void set_masses(const Fictitious& masses);
+  void set_node_force(const std::vector<Vec3>& force);
 
   void add_forces(int rank);
   void move_kept(int rank);
@@ -51,10 +52,14 @@ class Sweep {
     int patch, begin, end;
     bool shared_below, shared_above;
   };
+  struct Pace {
+    double kick = 1, keep = 1;  // factors on the next step's f dt / m and v
+  };
   struct Worker {
     std::vector<Piece> pieces;
     int begin_row = 0, end_row = 0;
-    double kick = 1;        // of the next step, over dt
+    Pace pace;
+    int steps_since_stop = 0;
     AlignedDoubles buffer;  // three rows in turn, one for what nobody wants, the waiting rows
     std::size_t row_doubles = 0;
     std::vector<int> waiting;  // rows that move after the barrier, in order of their buffers
@@ -62,9 +67,9 @@ class Sweep {
   void prepare(int threads);
   void sweep_piece(Worker& worker, const Piece& piece);
   void complete_row(int row, double* f);
-  void move(int row, double* f, double kick);
+  void move(int row, double* f, Pace pace);
   void pull_springs(int begin, int end);
-  RowSums move_kept_nodes(int begin, int end, double kick);
+  RowSums move_kept_nodes(int begin, int end, Pace pace);
   Vec3 force_on_kept(int k) const;
   void record_fixed_force();
 
