@@ -15,13 +15,13 @@ namespace fs = std::filesystem;
 
 const std::string stratos = RIPSTOP_SOURCE_DIR "/examples/stratos-iv/case.toml";
 
-struct Run {
+struct Finished {
   int code = -1;
   std::string output;
 };
 
-Run ripstop_with(std::vector<std::string> arguments, const fs::path& data = RIPSTOP_SOURCE_DIR) {
-  Run run;
+Finished ripstop_with(std::vector<std::string> arguments, const fs::path& data = RIPSTOP_SOURCE_DIR) {
+  Finished run;
   ProcessRequest request;
   request.arguments = {RIPSTOP_PROGRAM};
   request.arguments.insert(request.arguments.end(), arguments.begin(), arguments.end());
@@ -50,7 +50,7 @@ class Check : public testing::Test {
 };
 
 TEST_F(Check, MassesAndAreasAreThoseOfThePattern) {
-  const Run run = ripstop_with({"check", stratos, "--json"});
+  const Finished run = ripstop_with({"check", stratos, "--json"});
   ASSERT_EQ(run.code, 0) << run.output;
   const auto report = nlohmann::json::parse(run.output);
   EXPECT_TRUE(report["valid"]);
@@ -69,11 +69,11 @@ TEST_F(Check, MassesAndAreasAreThoseOfThePattern) {
 }
 
 TEST_F(Check, OptionsChangeTheCaseAndAreNamedWhenTheyAreWrong) {
-  const Run fine = ripstop_with({"check", stratos, "--json", "--speed", "20", "--grid", "50,50,75"});
+  const Finished fine = ripstop_with({"check", stratos, "--json", "--speed", "20", "--grid", "50,50,75"});
   ASSERT_EQ(fine.code, 0) << fine.output;
   EXPECT_EQ(nlohmann::json::parse(fine.output)["flow_cells"], 187500);
   EXPECT_EQ(nlohmann::json::parse(fine.output)["density_kg_m3"], 1.199);
-  const Run wrong = ripstop_with({"check", stratos, "--speed", "500"});
+  const Finished wrong = ripstop_with({"check", stratos, "--speed", "500"});
   EXPECT_EQ(wrong.code, 2);
   EXPECT_NE(wrong.output.find("--speed: flow.speed_m_s = 500: must be above 0 and at most 100"),
             std::string::npos)
@@ -82,19 +82,20 @@ TEST_F(Check, OptionsChangeTheCaseAndAreNamedWhenTheyAreWrong) {
 
 TEST_F(Check, TheProblemsOfACaseComeAsTextAndAsJson) {
   const fs::path file = write("bad.toml", "title = 3\n[flow]\nsped_m_s = 4\n");
-  const Run text = ripstop_with({"check", file.string()});
+  const Finished text = ripstop_with({"check", file.string()});
   EXPECT_EQ(text.code, 2);
   EXPECT_NE(text.output.find(file.string() + ":3:1: flow.sped_m_s: unknown key; did you mean \"speed_m_s\"?"),
             std::string::npos)
       << text.output;
-  const Run json = ripstop_with({"check", file.string(), "--json"});
+  const Finished json = ripstop_with({"check", file.string(), "--json"});
   EXPECT_EQ(json.code, 2);
   const auto report = nlohmann::json::parse(json.output);
   EXPECT_FALSE(report["valid"]);
-  ASSERT_EQ(report["problems"].size(), 4u) << json.output;  // title, [parachute], sped_m_s, speed_m_s
-  EXPECT_EQ(report["problems"][0]["key"], "title");
-  EXPECT_EQ(report["problems"][0]["line"], 1);
-  EXPECT_EQ(report["problems"][0]["column"], 9);
+  // In the order of the file: [parachute] is missing from all of it, then title, sped_m_s, speed_m_s.
+  ASSERT_EQ(report["problems"].size(), 4u) << json.output;
+  EXPECT_EQ(report["problems"][1]["key"], "title");
+  EXPECT_EQ(report["problems"][1]["line"], 1);
+  EXPECT_EQ(report["problems"][1]["column"], 9);
 }
 
 TEST_F(Check, ABrokenLibraryAndAMissingFileHaveTheirOwnExitCodes) {
@@ -103,28 +104,28 @@ TEST_F(Check, ABrokenLibraryAndAMissingFileHaveTheirOwnExitCodes) {
                   folder_ / "materials" / (std::string(name) + ".toml"));
   write("materials/f-111.toml",
         "kind = \"fabric\"\ncoefficients_n_m = [1.0]\nareal_density_kg_m2 = 0\nthickness_m = 1e-4\n");
-  const Run broken = ripstop_with({"check", stratos}, folder_);
+  const Finished broken = ripstop_with({"check", stratos}, folder_);
   EXPECT_EQ(broken.code, 3);
   EXPECT_NE(broken.output.find("f-111.toml:3:23: areal_density_kg_m2 = 0: must be above 0"),
             std::string::npos)
       << broken.output;
-  const Run missing = ripstop_with({"check", (folder_ / "none.toml").string()});
+  const Finished missing = ripstop_with({"check", (folder_ / "none.toml").string()});
   EXPECT_EQ(missing.code, 7);
   EXPECT_NE(missing.output.find("none.toml: cannot be opened"), std::string::npos) << missing.output;
 }
 
 TEST_F(Check, TheResolvedCaseNeedsNoLibraryAndIsTheSameCase) {
-  const Run resolved = ripstop_with({"check", stratos, "--resolved"});
+  const Finished resolved = ripstop_with({"check", stratos, "--resolved"});
   ASSERT_EQ(resolved.code, 0);
   const fs::path file = write("resolved.toml", resolved.output);
-  const Run again =
+  const Finished again =
       ripstop_with({"check", file.string(), "--resolved"}, folder_);  // materials/ is empty there
   EXPECT_EQ(again.code, 0);
   EXPECT_EQ(again.output, resolved.output);
 }
 
 TEST(Schema, IsJsonAndKnowsTheTables) {
-  const Run run = ripstop_with({"schema"});
+  const Finished run = ripstop_with({"schema"});
   ASSERT_EQ(run.code, 0);
   const auto schema = nlohmann::json::parse(run.output);
   EXPECT_EQ(schema["$schema"], "https://json-schema.org/draft/2020-12/schema");
@@ -134,7 +135,7 @@ TEST(Schema, IsJsonAndKnowsTheTables) {
 
 TEST(Help, OfEveryCommandHasAnExample) {
   for (const char* command : {"check", "schema"}) {
-    const Run run = ripstop_with({command, "--help"});
+    const Finished run = ripstop_with({command, "--help"});
     EXPECT_EQ(run.code, 0);
     EXPECT_NE(run.output.find(std::string("Example: ripstop ") + command), std::string::npos) << run.output;
   }
