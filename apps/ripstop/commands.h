@@ -7,9 +7,9 @@ class App;
 
 namespace ripstop {
 
-void add_check(CLI::App& app, int& status);
-void add_schema(CLI::App& app, int& status);
 void add_steady(CLI::App& app, int& status);
 void add_fabric(CLI::App& app, int& status);
+void add_fit(CLI::App& app, int& status);
+void add_coupon(CLI::App& app, int& status);
 
 }  // namespace ripstop

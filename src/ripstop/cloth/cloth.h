@@ -76,6 +76,7 @@ void step(ClothState& state, const Cloth& cloth, const Loads& loads, double dt, 
 struct RelaxOptions {
   double tolerance = 1e-4;  // on |residual force| / |applied force|, both root sums of squares over the nodes
   int max_steps = 200000;
+  double least_load = 0;  // [N] stands for the applied load where that is smaller: held ends pull, not loads
 };
 struct RelaxProgress {
   int steps = 0;
@@ -107,6 +108,8 @@ std::vector<double> spring_tensions(const Cloth& cloth, const ClothState& state)
 
 /// Force that the cloth exerts on the fixed nodes, summed [N] (no damping, no loads).
 Vec3 force_on_fixed(const Cloth& cloth, const ClothState& state);
+/// The same for some of the fixed nodes, such as one clamp. Throws Error(bad_data) when one is not fixed.
+Vec3 force_on(const Cloth& cloth, const ClothState& state, const std::vector<int>& fixed_nodes);
 /// Sum of the pressure loads over all nodes at the present shape [N].
 Vec3 pressure_force(const Cloth& cloth, const ClothState& state, const Loads& loads);
 

@@ -1,10 +1,13 @@
 // What is read off a state now and then, in plain scalar code.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "ripstop/cloth/bound.h"
 #include "ripstop/cloth/each_spring.h"
 #include "ripstop/cloth/layout.h"
+#include "ripstop/core/error.h"
 
 namespace ripstop {
 namespace {
@@ -56,14 +59,18 @@ std::vector<double> spring_tensions(const Cloth& cloth, const ClothState& state)
   return tension;
 }
 
-Vec3 force_on_fixed(const Cloth& cloth, const ClothState& state) {
+Vec3 force_on(const Cloth& cloth, const ClothState& state, const std::vector<int>& fixed_nodes) {
   const std::vector<Vec3> x = positions(state, cloth);
-  // Share of the force on a node that reaches fixed nodes: all of a fixed one's, the weights of a tied one's.
+  // Share of the force on a node that reaches these nodes: all of its own, the weights of a tied one's.
   std::vector<double> share(x.size(), 0.0);
-  for (int node : cloth.mesh.fixed) share[node] = 1;
+  for (int node : fixed_nodes) {
+    if (node < 0 || node >= cloth.mesh.node_count() || !cloth.is_fixed[node])
+      throw Error(ExitCode::bad_data, fmt::format("cloth: node {} is not fixed, so nothing holds it", node));
+    share[node] = 1;
+  }
+  const std::vector<double> own = share;
   for (const Tie& tie : cloth.mesh.ties)
-    for (const auto& master : tie.masters)
-      if (cloth.is_fixed[master.node]) share[tie.node] += master.weight;
+    for (const auto& master : tie.masters) share[tie.node] += master.weight * own[master.node];
   Vec3 sum;
   each_spring(cloth.mesh, [&](const SpringView& s) {
     const double net = share[s.a] - share[s.b];
@@ -72,6 +79,10 @@ Vec3 force_on_fixed(const Cloth& cloth, const ClothState& state) {
     sum += (net * tension_of(s, x) / norm(d)) * d;
   });
   return sum;
+}
+
+Vec3 force_on_fixed(const Cloth& cloth, const ClothState& state) {
+  return force_on(cloth, state, cloth.mesh.fixed);
 }
 
 Vec3 pressure_force(const Cloth& cloth, const ClothState& state, const Loads& loads) {

@@ -68,6 +68,7 @@ RelaxResult relax(ClothState& state, const Cloth& cloth, const Loads& loads, con
       sweep.set_node_force(force);
       result.unbalanced_moment = norm(applied.moment);
     }
+    const double scale = std::max(applied.norm, options.least_load);
     const int count = std::min(steps_a_look, options.max_steps - result.steps);
     int done = 0;
     team.run([&](int rank) {
@@ -77,7 +78,7 @@ RelaxResult relax(ClothState& state, const Cloth& cloth, const Loads& loads, con
         sweep.move_kept(rank);
         team.barrier();
         const RowSums sums = sweep.sums();
-        const double residual = std::sqrt(sums.force_squared) / applied.norm;
+        const double residual = std::sqrt(sums.force_squared) / scale;
         const bool ends = residual <= options.tolerance;
         if (sums.power < 0 && !ends) sweep.stop(rank);
         sweep.follow_masters(rank);

@@ -115,25 +115,147 @@ LatticeLaws lattice_laws(const std::vector<double>& coefficients, double xi, dou
                   range, 100 * best));
 }
 
+// As lattice_resultants(), with a law for each yarn.
+Resultants woven_resultants(const WovenLaws& laws, double strain_warp, double strain_weft) {
+  const double a = 1 + strain_warp, b = 1 + strain_weft;
+  const double s = std::sqrt(0.5 * (a * a + b * b));
+  const double shear = std::numbers::sqrt2 * laws.shear.tension(s - 1) / s;
+  return {laws.warp.tension(strain_warp) + 2 * laws.warp_bending.tension(strain_warp) + shear * a,
+          laws.weft.tension(strain_weft) + 2 * laws.weft_bending.tension(strain_weft) + shear * b};
+}
+
+namespace {
+
+/// Strain of the other yarns that leaves them without load.
+double strain_across(const WovenLaws& laws, double strain, bool along_weft) {
+  double low = -0.9, high = std::max(0.0, strain);
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    const double across = along_weft ? woven_resultants(laws, middle, strain).along
+                                     : woven_resultants(laws, strain, middle).across;
+    (across > 0 ? high : low) = middle;
+  }
+  return high;
+}
+
+/// Coefficients whose law takes `wanted` at `strains`, relative errors weighed alike.
+std::vector<double> relative_fit(const std::vector<double>& strains, const std::vector<double>& wanted,
+                                 const std::vector<double>& scale, int degree) {
+  const auto rows = static_cast<Eigen::Index>(strains.size());
+  Eigen::MatrixXd a(rows, degree);
+  Eigen::VectorXd b(rows);
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    b[i] = wanted[i] / scale[i];
+    for (Eigen::Index j = 0; j < degree; ++j)
+      a(i, j) = std::pow(strains[i] / strains.back(), static_cast<double>(j + 1)) / scale[i];
+  }
+  const Eigen::VectorXd c = a.colPivHouseholderQr().solve(b);
+  std::vector<double> k(degree);
+  for (int j = 0; j < degree; ++j) k[j] = c[j] / std::pow(strains.back(), j + 1);
+  return k;
+}
+
+}  // namespace
+
+double woven_uniaxial_load(const WovenLaws& laws, double strain, bool along_weft) {
+  const double other = strain_across(laws, strain, along_weft);
+  return along_weft ? woven_resultants(laws, other, strain).across
+                    : woven_resultants(laws, strain, other).along;
+}
+
+// Alternating: what the diagonals carry at the present laws is taken off the measured curves, and the yarns'
+// laws are fitted to the rest, (1 - xi) K' of each. The diagonals carry a tenth, so few rounds do.
+WovenLaws woven_laws(const Fabric& fabric) {
+  const double xi = fabric.shear_fraction, eps = fabric.bending_fraction;
+  if (fabric.weft_coefficients_n_m.empty()) {
+    const LatticeLaws laws =
+        lattice_laws(fabric.coefficients_n_m, xi, eps, fabric.compression, fabric.tested_strain);
+    return {laws.axial, laws.axial, laws.shear, laws.bending, laws.bending};
+  }
+  const std::vector<double>* curves[2] = {&fabric.coefficients_n_m, &fabric.weft_coefficients_n_m};
+  std::vector<double> k[2];
+  // Also checks xi, eps and both curves; the start of the rounds.
+  for (int yarn : {0, 1})
+    k[yarn] =
+        lattice_laws(*curves[yarn], 0, eps, fabric.compression, fabric.tested_strain).axial.coefficients;
+  for (int yarn : {0, 1})
+    for (double& c : k[yarn]) c /= 1 - eps;
+  const double range = fabric.tested_strain > 0 ? fabric.tested_strain : unknown_strain;
+  std::vector<double> strains;
+  for (int i = 1; i <= samples; ++i) strains.push_back(range * i / samples);
+
+  const std::size_t measured = std::max(curves[0]->size(), curves[1]->size());
+  double best = 0;
+  for (int added = 0; added <= added_degrees; ++added) {
+    const std::size_t degree = measured + added;
+    const auto laws_of = [&] {
+      for (auto& c : k) c.resize(std::max(c.size(), degree), 0.0);
+      const SpringLaw warp{k[0], fabric.compression}, weft{k[1], fabric.compression};
+      SpringLaw shear = warp;
+      for (std::size_t j = 0; j < shear.coefficients.size(); ++j)
+        shear.coefficients[j] = 0.5 * (k[0][j] + k[1][j]);
+      return WovenLaws{warp.scaled(1 - xi - eps), weft.scaled(1 - xi - eps), shear.scaled(xi / 2),
+                       warp.scaled(eps / 2), weft.scaled(eps / 2)};
+    };
+    for (int round = 0; round < 40; ++round) {
+      const WovenLaws laws = laws_of();
+      for (int yarn : {0, 1}) {
+        std::vector<double> wanted, scale;
+        for (double e : strains) {
+          const double load = value(*curves[yarn], e);
+          const double diagonals = woven_uniaxial_load(laws, e, yarn == 1) -
+                                   (1 - xi) * SpringLaw{k[yarn], fabric.compression}.tension(e);
+          wanted.push_back((load - diagonals) / (1 - xi));
+          scale.push_back(load);
+        }
+        k[yarn] = relative_fit(strains, wanted, scale, static_cast<int>(degree));
+      }
+    }
+    const WovenLaws laws = laws_of();
+    double error = 0;
+    for (double e : strains)
+      for (int yarn : {0, 1})
+        error =
+            std::max(error, std::abs(woven_uniaxial_load(laws, e, yarn == 1) / value(*curves[yarn], e) - 1));
+    if (error <= tolerance) return laws;
+    best = added == 0 ? error : std::min(best, error);
+  }
+  throw Error(
+      ExitCode::bad_data,
+      fmt::format("no lattice returns the cloth's warp and weft curves up to strain {:.3g}: {:.2g} % off at "
+                  "best; lower the tested strain or the shear fraction",
+                  range, 100 * best));
+}
+
 // A small strain of the cell, diagonals of stiffness k = K xi/2 and width w, L^2 = a^2 + b^2:
 //   C_xx = (1 - xi) K f_x + 2 w k a^3 / (b L^3),   C_xy = C_gg = 2 w k a b / L^3
 // The square lattice has C_xy = B K with B = xi / (2 sqrt2) and C_xx = (1 - xi + B) K. Hence w, and the axial
 // factor f_x = 1 + B (1 - s a^2/b^2) / (1 - xi - eps), where s <= 1 keeps it positive in slivers.
-CellWidths cell_widths(double h_row, double h_column, double xi, double eps) {
+CellWidths cell_widths(double h_row, double h_column, const WovenLaws& laws) {
   constexpr double least = 0.1;  // of the axial width
   const double a = h_row, b = h_column;
-  const double coupling = xi / (2 * std::numbers::sqrt2) / (1 - xi - eps);
-  const double aspect = std::max(a / b, b / a);
-  const double cut = coupling > 0 ? std::min(1.0, (1 + (1 - least) / coupling) / (aspect * aspect)) : 1.0;
-  const auto factor = [&](double ratio) { return 1 + coupling * (1 - cut * ratio * ratio); };
+  const auto coupling = [&](const SpringLaw& axial) {
+    return laws.shear.tangent(0) / (std::numbers::sqrt2 * axial.tangent(0));
+  };
+  const double along_row = coupling(laws.weft), along_column = coupling(laws.warp);
+  // The longer side's axial springs lose most.
+  const double aspect = std::max(a / b, b / a), strained = a > b ? along_row : along_column;
+  const double cut = strained > 0 ? std::min(1.0, (1 + (1 - least) / strained) / (aspect * aspect)) : 1.0;
+  const auto factor = [&](double share, double ratio) { return 1 + share * (1 - cut * ratio * ratio); };
   const double diagonal = std::hypot(a, b);
   CellWidths widths;
-  widths.along_row = 0.5 * b * factor(a / b);
-  widths.along_column = 0.5 * a * factor(b / a);
+  widths.along_row = 0.5 * b * factor(along_row, a / b);
+  widths.along_column = 0.5 * a * factor(along_column, b / a);
   widths.shear = cut * diagonal * diagonal * diagonal / (2 * std::numbers::sqrt2 * a * b);
   widths.bend_row = 0.25 * b;
   widths.bend_column = 0.25 * a;
   return widths;
+}
+
+// xi/2 over sqrt2 (1 - xi - eps) is what the coupling of the laws comes to for any K.
+CellWidths cell_widths(double h_row, double h_column, double xi, double eps) {
+  const SpringLaw axial{{1 - xi - eps}, 1}, shear{{xi / 2}, 1};
+  return cell_widths(h_row, h_column, WovenLaws{axial, axial, shear, {}, {}});
 }
 
 }  // namespace ripstop

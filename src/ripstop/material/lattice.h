@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "ripstop/material/material.h"
 #include "ripstop/material/spring_law.h"
 
 namespace ripstop {
@@ -22,6 +23,24 @@ struct LatticeLaws {
 LatticeLaws lattice_laws(const std::vector<double>& coefficients, double xi, double eps, double compression,
                          double tested_strain);
 
+/// Nominal stress resultants [N/m] per undeformed width.
+struct Resultants {
+  double along = 0, across = 0;
+};
+/// Laws of a cloth whose warp and weft differ. Warp yarns lie along the columns (row + 1), weft yarns along
+/// the rows.
+struct WovenLaws {
+  SpringLaw warp, weft, shear, warp_bending, weft_bending;
+};
+
+/// As lattice_laws(), for both directions at once; the diagonals carry xi/2 of the mean of warp and weft. The
+/// same laws as lattice_laws() when the fabric has no curve of its own for the weft.
+WovenLaws woven_laws(const Fabric& fabric);
+
+/// As lattice_resultants() and uniaxial_load(); `along_weft` turns the pull by 90 deg.
+Resultants woven_resultants(const WovenLaws& laws, double strain_warp, double strain_weft);
+double woven_uniaxial_load(const WovenLaws& laws, double strain, bool along_weft);
+
 /// Widths [m] that ONE cell gives to EACH spring it touches. A spring's width is the sum over its cells:
 ///   along_row     each of the cell's two edges along the row     (an inner edge touches 2 cells)
 ///   along_column  each of its two edges along the column         (2 cells)
@@ -39,11 +58,10 @@ struct CellWidths {
 /// 0.2) the shear width is cut so that the axial springs keep a tenth of their width.
 CellWidths cell_widths(double h_row, double h_column, double xi, double eps);
 
-/// Nominal stress resultants [N/m] of the square lattice under homogeneous stretch (strains along the two
-/// yarns), per undeformed width.
-struct Resultants {
-  double along = 0, across = 0;
-};
+/// The same where warp (along the column) and weft (along the row) differ.
+CellWidths cell_widths(double h_row, double h_column, const WovenLaws& laws);
+
+/// Of the square lattice under homogeneous stretch (strains along the two yarns).
 Resultants lattice_resultants(const LatticeLaws& laws, double strain_along, double strain_across);
 
 /// The load per width [N/m] at `strain` along a yarn when nothing pulls across it.

@@ -8,6 +8,7 @@
 #include "ripstop/core/build_info.h"
 #include "ripstop/core/toml/fields.h"
 #include "ripstop/core/toml/read.h"
+#include "ripstop/core/toml/write.h"
 #include "ripstop/material/spring_law.h"
 
 namespace ripstop {
@@ -66,11 +67,16 @@ void check_law(const std::vector<double>& k, double tested_strain, const std::st
 
 void describe(Fields& fields, Fabric& fabric) {
   fields.text("source", fabric.source, 500, "Where the numbers come from.");
+  fields.text("warning", fabric.warning, 2000,
+              "What the fit of its tests found doubtful; every run repeats it.");
   fields
       .numbers("coefficients_n_m", fabric.coefficients_n_m, 1, 8,
                from(-coefficient_limit).up_to(coefficient_limit),
-               "K_1..K_n of load per width against strain, N/m ([NFM] Eq. 2); K_1 above 0.")
+               "K_1..K_n of load per width against strain along the warp, N/m ([NFM] Eq. 2); K_1 above 0.")
       .required();
+  fields.numbers("weft_coefficients_n_m", fabric.weft_coefficients_n_m, 0, 8,
+                 from(-coefficient_limit).up_to(coefficient_limit),
+                 "K_1..K_n along the weft, N/m; empty: as along the warp.");
   fields.number("shear_fraction", fabric.shear_fraction, from(0).below(1),
                 "xi, share of the shear springs ([NFM] Eq. 11).");
   fields.number("bending_fraction", fabric.bending_fraction, from(0).below(1),
@@ -98,6 +104,8 @@ void describe(Fields& fields, Fabric& fabric) {
 
 void describe(Fields& fields, Line& line) {
   fields.text("source", line.source, 500, "Where the numbers come from.");
+  fields.text("warning", line.warning, 2000,
+              "What the fit of its tests found doubtful; every run repeats it.");
   fields
       .numbers("coefficients_n", line.coefficients_n, 1, 8, from(-coefficient_limit).up_to(coefficient_limit),
                "K_1..K_n of tension against strain, N ([NFM] Eq. 2); K_1 above 0.")
@@ -117,6 +125,8 @@ void describe(Fields& fields, Line& line) {
 
 void describe(Fields& fields, Tape& tape) {
   fields.text("source", tape.source, 500, "Where the numbers come from.");
+  fields.text("warning", tape.warning, 2000,
+              "What the fit of its tests found doubtful; every run repeats it.");
   fields
       .numbers("coefficients_n_m", tape.coefficients_n_m, 1, 8,
                from(-coefficient_limit).up_to(coefficient_limit),
@@ -151,6 +161,9 @@ void check_material(const Material& material, const std::string& key, Findings& 
       },
       material);
   const auto* fabric = std::get_if<Fabric>(&material);
+  if (fabric)
+    check_law(fabric->weft_coefficients_n_m, fabric->tested_strain, dot("weft_coefficients_n_m"),
+              dot("tested_strain"), findings);
   if (!fabric || !findings.sound({dot("shear_fraction"), dot("bending_fraction")})) return;
   if (fabric->shear_fraction + fabric->bending_fraction >= 1)
     findings.add(
@@ -171,6 +184,13 @@ std::string name_of(const Material& material) {
 
 void set_name(Material& material, const std::string& name) {
   std::visit([&](auto& chosen) { chosen.name = name; }, material);
+}
+
+std::string material_to_toml(const Material& material) {
+  Material copy = material;
+  Fields fields;
+  describe_kind(fields, copy);
+  return to_toml(fields);
 }
 
 std::vector<std::string> library_names() {

@@ -30,6 +30,9 @@ std::string kind_of(const Material& material);  // "fabric", "line", "tape"
 std::string name_of(const Material& material);
 void set_name(Material& material, const std::string& name);
 
+/// A file that read_material() reads back to the same material, bit by bit (but for the name: the file's).
+std::string material_to_toml(const Material& material);
+
 /// Names in the library, sorted.
 std::vector<std::string> library_names();
 /// Reads one material file. Throws InputError(bad_data) with every problem in it, Error(io) when unreadable.

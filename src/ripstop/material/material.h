@@ -12,11 +12,13 @@ namespace ripstop {
 struct Fabric {
   std::string name;
   std::string source;
-  std::vector<double> coefficients_n_m;  // K_1..K_n [N/m]
-  double shear_fraction = 0.2;           // xi
-  double bending_fraction = 0.01;        // eps
-  double compression = 1;                // stiffness for e < 0 relative to K_1; see SpringLaw
-  double damping_n_s_m = 0;              // C of the relative damping of one spring [N s/m]
+  std::string warning;                        // what its fit found doubtful; every run repeats it
+  std::vector<double> coefficients_n_m;       // K_1..K_n along the warp [N/m]
+  std::vector<double> weft_coefficients_n_m;  // the same along the weft; empty: as the warp
+  double shear_fraction = 0.2;                // xi
+  double bending_fraction = 0.01;             // eps
+  double compression = 1;                     // stiffness for e < 0 relative to K_1; see SpringLaw
+  double damping_n_s_m = 0;                   // C of the relative damping of one spring [N s/m]
   double areal_density_kg_m2 = 0;
   double thickness_m = 0;
   double tested_strain = 0;   // the fit holds up to here; 0: unknown
@@ -29,6 +31,7 @@ struct Fabric {
 struct Line {
   std::string name;
   std::string source;
+  std::string warning;
   std::vector<double> coefficients_n;  // K_1..K_n [N]
   double bending_fraction = 0.01;      // eps of the +-2 springs
   double compression = 0;              // a line goes slack
@@ -42,6 +45,7 @@ struct Line {
 struct Tape {
   std::string name;
   std::string source;
+  std::string warning;
   std::vector<double> coefficients_n_m;
   double width_m = 0;
   double linear_density_kg_m = 0;

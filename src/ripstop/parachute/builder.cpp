@@ -65,13 +65,9 @@ int MeshBuilder::add_node(Vec3 start, double mass) {
   return mesh.node_count() - 1;
 }
 
-const LatticeLaws& MeshBuilder::laws_of(const Fabric& fabric) {
+const WovenLaws& MeshBuilder::laws_of(const Fabric& fabric) {
   const auto known = laws_.find(fabric.name);
-  if (known != laws_.end()) return known->second;
-  return laws_
-      .emplace(fabric.name, lattice_laws(fabric.coefficients_n_m, fabric.shear_fraction,
-                                         fabric.bending_fraction, fabric.compression, fabric.tested_strain))
-      .first->second;
+  return known != laws_.end() ? known->second : laws_.emplace(fabric.name, woven_laws(fabric)).first->second;
 }
 
 int MeshBuilder::add_patch(const std::string& name, const PatchShape& shape, const Fabric& fabric) {
@@ -85,10 +81,12 @@ int MeshBuilder::add_patch(const std::string& name, const PatchShape& shape, con
   patch.fabric = static_cast<int>(known - mesh.fabric_names.begin());
   if (known == mesh.fabric_names.end()) mesh.fabric_names.push_back(fabric.name);
 
-  const LatticeLaws& laws = laws_of(fabric);
-  for (const Direction d : {along_row, along_column}) patch.law[d] = laws.axial;
-  for (const Direction d : {shear_up, shear_down}) patch.law[d] = laws.shear;
-  for (const Direction d : {bend_row, bend_column}) patch.law[d] = laws.bending;
+  const WovenLaws& laws = laws_of(fabric);
+  patch.law[along_column] = laws.warp;
+  patch.law[along_row] = laws.weft;
+  patch.law[shear_up] = patch.law[shear_down] = laws.shear;
+  patch.law[bend_column] = laws.warp_bending;
+  patch.law[bend_row] = laws.weft_bending;
   std::fill(std::begin(patch.damping), std::end(patch.damping), fabric.damping_n_s_m);
 
   const int nodes = patch.rows * patch.columns;
@@ -111,8 +109,7 @@ int MeshBuilder::add_patch(const std::string& name, const PatchShape& shape, con
       const auto [a, b, c, d] = corners(row, column);
       const double h_row = 0.5 * (norm(b - a) + norm(c - d));
       const double h_column = 0.5 * (norm(d - a) + norm(c - b));
-      add_cell_widths(patch, row, column,
-                      cell_widths(h_row, h_column, fabric.shear_fraction, fabric.bending_fraction));
+      add_cell_widths(patch, row, column, cell_widths(h_row, h_column, laws));
       const int next = (column + 1) % patch.columns;
       patch.rest_length[along_row][row * patch.columns + column] = norm(b - a);
       patch.rest_length[along_row][(row + 1) * patch.columns + column] = norm(c - d);

@@ -79,9 +79,9 @@ class MeshBuilder {
   void flatten_ties();
 
  private:
-  const LatticeLaws& laws_of(const Fabric& fabric);
+  const WovenLaws& laws_of(const Fabric& fabric);
 
-  std::map<std::string, LatticeLaws> laws_;  // by the fabric's name: a fit takes tens of milliseconds
+  std::map<std::string, WovenLaws> laws_;  // by the fabric's name: a fit takes tens of milliseconds
 };
 
 }  // namespace ripstop

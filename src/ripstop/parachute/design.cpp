@@ -87,9 +87,8 @@ void describe(Fields& fields, MeshSettings& mesh) {
                  "Nodes of the cloth that the mesh aims at. [NFM] used 25,600 for Stratos IV.");
   fields.number("line_segment_m", mesh.line_segment_m, from(0.001).up_to(10),
                 "Rest length that the springs of a line aim at.");
-  fields.integer(
-      "folds", mesh.folds, from(0).up_to(1000),
-      "Every ring gets a multiple of twice as many columns, so that so many folds fit; 0: as it comes.");
+  fields.integer("folds", mesh.folds, from(0).up_to(1000),
+                 "Every ring gets a multiple of twice as many columns, so that so many folds fit; 0: as it comes.");
 }
 
 void describe(Fields& fields, Design& design) {
@@ -142,7 +141,6 @@ void check_vent(double vent, double diameter, bool lines, const Design& design, 
 }
 
 void check_design(const Design& design, Findings& findings) {
-  if (!findings.sound({"parachute.type"})) return;  // nobody knows what the other keys mean
   std::visit([&](const auto& canopy) { check_shape(canopy, design, findings); }, design.canopy);
   check_lines(design, findings);
   check_columns(design, findings);
@@ -175,7 +173,22 @@ double start_depth(const Design& design) {
 }
 
 const std::vector<std::string>& shape_keys() {
-  static const std::vector<std::string> keys = {"parachute.*", "parachute.rows"};
+  static const std::vector<std::string> keys = {"parachute.type",
+                                                "parachute.disk_diameter_m",
+                                                "parachute.vent_diameter_m",
+                                                "parachute.gap_height_m",
+                                                "parachute.band_height_m",
+                                                "parachute.nominal_diameter_m",
+                                                "parachute.cone_angle_deg",
+                                                "parachute.half_angle_deg",
+                                                "parachute.skirt_height_m",
+                                                "parachute.skirt_diameter_share",
+                                                "parachute.rings",
+                                                "parachute.slot_height_m",
+                                                "parachute.sails",
+                                                "parachute.rows",
+                                                "parachute.arm_length_m",
+                                                "parachute.arm_width_m"};
   return keys;
 }
 

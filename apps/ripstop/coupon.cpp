@@ -1,0 +1,121 @@
+// ripstop coupon: pulls a virtual coupon of a material, and compares it with its records.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include "commands.h"
+#include "fit_report.h"
+#include "ripstop/core/error.h"
+#include "ripstop/core/file.h"
+#include "ripstop/output/csv.h"
+
+namespace ripstop {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string material;
+  fs::path bench;
+  fs::path out;
+  CouponShape shape;
+  double strain = 0;
+  int points = 12;
+  int threads = 0;
+};
+
+Fabric fabric_of(const std::string& name) {
+  const Material material = fs::path(name).has_extension() ? read_material(name) : library_material(name);
+  if (const auto* fabric = std::get_if<Fabric>(&material)) return *fabric;
+  throw Error(ExitCode::usage,
+              fmt::format("{} is a {}; coupons are cut from a fabric", name, kind_of(material)));
+}
+
+void warn(const Fabric& fabric, double largest_strain, bool converged) {
+  for (const std::string& text : material_warnings(fabric, largest_strain))
+    fmt::print(stderr, "warning: {}\n", text);
+  if (!converged)
+    throw Error(ExitCode::not_converged, "a coupon did not come to rest; its last digits are not sure");
+}
+
+int compare(const Options& options, const Fabric& fabric, ThreadTeam& team) {
+  const Bench bench = read_bench(options.bench);
+  const MaterialFit fit = fit_material(bench);
+  const std::vector<CouponComparison> coupons =
+      compare_coupons(fit, fabric, options.shape.cells, options.points, team);
+  print_coupons(coupons);
+  double largest = 0;
+  bool converged = true;
+  for (const CouponComparison& c : coupons) {
+    largest = std::max(largest, c.pull.largest_strain);
+    converged = converged && c.pull.converged;
+    if (!options.out.empty()) write_coupon(options.out, c.name, c.coupon, c.pull);
+  }
+  if (!options.out.empty()) write_curves(options.out, fit, bench, coupons);
+  warn(fabric, largest, converged);
+  return 0;
+}
+
+int pull(const Options& options, const Fabric& fabric, ThreadTeam& team) {
+  const double end = options.strain > 0         ? options.strain
+                     : fabric.tested_strain > 0 ? fabric.tested_strain
+                                                : 0.1;
+  std::vector<double> strains;
+  for (int i = 1; i <= options.points; ++i) strains.push_back(end * i / options.points);
+  const CouponMesh coupon = coupon_mesh(fabric, options.shape);
+  const CouponPull result = pull_coupon(coupon, strains, {}, team);
+  fmt::print("{}: {:.4g} mm x {:.4g} mm at {} deg, yarns {:.3g} mm apart, {} nodes\n", fabric.name,
+             1e3 * coupon.length, 1e3 * coupon.width, options.shape.orientation, 1e3 * coupon.spacing,
+             coupon.mesh.node_count());
+  fmt::print("{:>9} {:>12} {:>9} {:>12}\n", "strain", "load N/m", "width", "corner peak");
+  CsvTable table{{"strain", "load_n_per_m", "width_ratio", "corner_peak_ratio"}, {}};
+  for (const CouponPoint& p : result.points) {
+    fmt::print("{:>9.4f} {:>12.2f} {:>9.4f} {:>12.3f}\n", p.strain, p.load, p.waist, p.corner_peak);
+    table.rows.push_back({p.strain, p.load, p.waist, p.corner_peak});
+  }
+  if (!options.out.empty()) {
+    write_csv(options.out / "coupon.csv", table);
+    write_coupon(options.out, fmt::format("{}", options.shape.orientation), coupon, result);
+  }
+  warn(fabric, result.largest_strain, result.converged);
+  return 0;
+}
+
+int run(const Options& options) {
+  const Fabric fabric = fabric_of(options.material);
+  ThreadTeam team(options.threads);
+  if (!options.out.empty()) make_folder(options.out);
+  return options.bench.empty() ? pull(options, fabric, team) : compare(options, fabric, team);
+}
+
+}  // namespace
+
+void add_coupon(CLI::App& app, int& status) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      app.add_subcommand("coupon", "Pulls a virtual coupon of a fabric with the cloth solver");
+  command->footer("Example: ripstop coupon f-111 --orientation 45 --strain 0.2 --out coupon-45");
+  command->add_option("material", options->material, "Name in the library, or a material file (.toml)")
+      ->required();
+  command->add_option("--bench", options->bench,
+                      "Test campaign (TOML) to compare with; its coupons are pulled");
+  command->add_option("--orientation", options->shape.orientation, "Pull at 0, 45 or 90 deg to the warp")
+      ->check(CLI::IsMember({0, 45, 90}));
+  command->add_option("--length", options->shape.length, "Between the clamps [m]")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--width", options->shape.width, "[m]")->check(CLI::PositiveNumber);
+  command->add_option("--cells", options->shape.cells, "Lattice cells across the width")
+      ->check(CLI::Range(2, 200));
+  command->add_option("--strain", options->strain, "Of the last point; default: the tested strain")
+      ->check(CLI::Range(0.0, 2.0));
+  command->add_option("--points", options->points, "Points of the curve")->check(CLI::Range(1, 1000));
+  command->add_option("--threads", options->threads, "Threads; 0: all")->check(CLI::Range(0, 256));
+  command->add_option("--out", options->out, "Folder for the curve, a picture and a file for ParaView");
+  command->callback([options, &status] { status = run(*options); });
+}
+
+}  // namespace ripstop

@@ -1,0 +1,27 @@
+// Polynomials through measured points, and what chance allows them to be.
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace ripstop {
+
+/// sum_k c_k x^k, k from `first`.
+double polynomial(std::span<const double> c, int first, double x);
+
+/// Least squares for y = sum_k c_k x^k with k = first .. degree (first 0 or 1). The columns are scaled, so
+/// strains of 1e-3 and degree 6 are harmless. Throws Error(bad_data) with fewer points than coefficients.
+std::vector<double> fit_polynomial(std::span<const double> x, std::span<const double> y, int first,
+                                   int degree);
+
+/// 1 - sum (y - fit)^2 / sum (y - mean y)^2; 1 for a constant y that is met, else minus infinity.
+double r_squared(std::span<const double> y, std::span<const double> fit);
+
+double mean(std::span<const double> values);
+/// With n - 1 in the denominator; 0 for one value.
+double standard_deviation(std::span<const double> values);
+
+/// t such that a Student t variable lies in [-t, t] with this probability, 0 < confidence < 1, degrees >= 1.
+double student_t(double confidence, int degrees);
+
+}  // namespace ripstop

@@ -1,0 +1,114 @@
+#include "ripstop/material/bench.h"
+
+#include <fmt/format.h>
+
+#include "ripstop/core/toml/fields.h"
+#include "ripstop/core/toml/read.h"
+
+namespace ripstop {
+
+void describe(Fields& fields, BenchCoupon& coupon) {
+  fields.text("file", coupon.file, 400, "CSV record, relative to this file.").required();
+  fields
+      .number("orientation_deg", coupon.orientation_deg, from(0).up_to(90),
+              "Angle between pull and warp: 0, 45 or 90.")
+      .absent("what the record says");
+  fields.number("length_m", coupon.length_m, above(0).up_to(100), "Length between the clamps.")
+      .absent("what the record says");
+  fields.number("width_m", coupon.width_m, above(0).up_to(10), "Width of the coupon; none for a line.")
+      .absent("what the record says");
+  fields.text("force_column", coupon.force_column, 200, "Heading of the force, when it cannot be guessed.");
+  fields.text("displacement_column", coupon.displacement_column, 200,
+              "Heading of the displacement, when it cannot be guessed.");
+  fields.text("force_unit", coupon.force_unit, 20, "Unit of the force, when the header has none.");
+  fields.text("displacement_unit", coupon.displacement_unit, 20,
+              "Unit of the displacement, when the header has none.");
+}
+
+void describe(Fields& fields, BenchFlow& flow) {
+  fields.number("pressure_pa", flow.pressure_pa, above(0).up_to(1e5),
+                "Pressure difference; 124.5 is half an inch of water (ASTM D737).");
+  fields.number("velocity_m_s", flow.velocity_m_s, above(0).up_to(100), "Flow per area.");
+  fields.number("cfm", flow.cfm, above(0).up_to(1e4),
+                "Flow in cubic feet a minute through a square foot: 5.08e-3 m/s.");
+}
+
+void describe(Fields& fields, Bench& bench) {
+  fields
+      .choice("kind", bench.kind,
+              {{"fabric", BenchKind::fabric}, {"line", BenchKind::line}, {"tape", BenchKind::tape}},
+              "What was pulled.")
+      .required();
+  fields.name("name", bench.name, "Name of the material, and of its file.").required();
+  fields.text("source", bench.source, 300, "Who tested what, and where.").required();
+  fields.number("areal_density_kg_m2", bench.areal_density_kg_m2, above(0).up_to(10),
+                "Mass per area; needed for a fabric.");
+  fields.number("linear_density_kg_m", bench.linear_density_kg_m, above(0).up_to(100),
+                "Mass per length; needed for line and tape.");
+  fields.number("thickness_m", bench.thickness_m, above(0).up_to(0.1),
+                "Thickness; needed for fabric and tape.");
+  fields.number("width_m", bench.width_m, above(0).up_to(1), "Width of a tape; needed for one.");
+  fields.integer("degree", bench.degree, from(0).up_to(8),
+                 "Degree of the curve; 0: the lowest with R2 above wanted_r2 in every orientation.");
+  fields.number("wanted_r2", bench.wanted_r2, above(0).below(1), "For the automatic degree.");
+  fields.number("confidence", bench.confidence, above(0).below(1), "Of intervals and bands.");
+  fields.toggle("zero_offset", bench.zero_offset,
+                "Fit through zero load at zero strain (K_0 = 0: no residual stress).");
+  fields.toggle("single_samples", bench.single_samples,
+                "Accept one record for an orientation; it then has no confidence band.");
+  fields.choice(
+      "weft", bench.weft,
+      {{"auto", WeftChoice::automatic}, {"same", WeftChoice::same}, {"separate", WeftChoice::separate}},
+      "Whether 90 deg records make a weft curve of their own, or join the 0 deg ones.");
+  fields.number("compression", bench.compression, from(0).up_to(1),
+                "Stiffness of cloth or tape in compression relative to K_1.");
+  fields.number("shear_fraction", bench.shear_fraction, from(0).below(1),
+                "xi; absent: found with 45 deg coupons, or 0.2 without.");
+  fields.number("bending_fraction", bench.bending_fraction, from(0).below(1),
+                "eps; absent: found with coupons where they show it, or 0.01.");
+  fields.rows("coupon", bench.coupons, "One record.");
+  fields.rows("flow", bench.flows, "One reading of an air permeability tester.");
+}
+
+Bench read_bench(const std::filesystem::path& file) {
+  std::vector<Problem> problems;
+  Bench bench;
+  try {
+    const Document document = parse_toml(read_text_file(file), file.string());
+    Origins origins;
+    Fields fields;
+    describe(fields, bench);
+    read_table(fields, document, origins, problems);
+    Fields chosen;
+    describe(chosen, bench);
+    check_values(chosen, origins, problems);
+    Findings findings(origins, problems);
+    const auto need = [&](const char* key, bool there, const char* why) {
+      if (!there && findings.sound({key})) findings.add(key, "", "", fmt::format("is missing: {}", why));
+    };
+    const bool fabric = bench.kind == BenchKind::fabric;
+    if (fabric) need("areal_density_kg_m2", bench.areal_density_kg_m2.has_value(), "a fabric needs its mass");
+    if (!fabric)
+      need("linear_density_kg_m", bench.linear_density_kg_m.has_value(), "line and tape need their mass");
+    if (bench.kind != BenchKind::line)
+      need("thickness_m", bench.thickness_m.has_value(), "fabric and tape need it");
+    if (bench.kind == BenchKind::tape) need("width_m", bench.width_m.has_value(), "a tape needs it");
+    need("coupon", !bench.coupons.empty(), "write a [[coupon]] with `file` for every record");
+    for (std::size_t i = 0; i < bench.coupons.size(); ++i) {
+      const std::optional<double>& angle = bench.coupons[i].orientation_deg;
+      if (angle && *angle != 0 && *angle != 45 && *angle != 90)
+        findings.add(fmt::format("coupon[{}].orientation_deg", i), *angle, "0, 45 or 90",
+                     "cloth is pulled along the warp (0), the weft (90) or half-way (45)");
+    }
+    for (std::size_t i = 0; i < bench.flows.size(); ++i)
+      if (bench.flows[i].cfm.has_value() == bench.flows[i].velocity_m_s.has_value())
+        findings.add(fmt::format("flow[{}].cfm", i), "", "", "give either cfm or velocity_m_s");
+  } catch (const InputError& error) {
+    problems = error.problems();
+  }
+  if (!problems.empty()) throw InputError(ExitCode::usage, problems);
+  bench.file = file;
+  return bench;
+}
+
+}  // namespace ripstop

@@ -1,0 +1,260 @@
+#include "ripstop/material/clean.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <queue>
+
+#include "ripstop/core/error.h"
+#include "ripstop/core/least_squares.h"
+
+namespace ripstop {
+namespace {
+
+constexpr std::size_t fewest_points = 12;
+constexpr double most_out_of_order = 0.05;  // share of the points
+constexpr double toe_part = 0.3;            // of the peak force
+constexpr double least_strain = 0.0025;     // at failure; stiff aramid yields 2 %
+constexpr double most_strain = 3.5;         // at failure; a bias pull of loose cloth reaches 1
+
+struct Pull {
+  const TensileRecord& record;
+  std::vector<double> x{}, f{};
+  std::vector<int> line{};
+  CleanRecord clean{};
+
+  [[noreturn]] void refuse(int at_line, const std::string& reason) const {
+    throw Error(ExitCode::bad_data, fmt::format("{}:{}: {}", record.file.string(), at_line, reason));
+  }
+  void say(std::string text) { clean.trimmed.push_back(std::move(text)); }
+
+  void keep(std::size_t begin, std::size_t end) {
+    x.assign(x.begin() + static_cast<std::ptrdiff_t>(begin), x.begin() + static_cast<std::ptrdiff_t>(end));
+    f.assign(f.begin() + static_cast<std::ptrdiff_t>(begin), f.begin() + static_cast<std::ptrdiff_t>(end));
+    line.assign(line.begin() + static_cast<std::ptrdiff_t>(begin),
+                line.begin() + static_cast<std::ptrdiff_t>(end));
+  }
+};
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Running median of five, so that single spikes set neither the peak nor the start.
+std::vector<double> smoothed(const std::vector<double>& f) {
+  std::vector<double> result = f;
+  for (std::size_t i = 2; i + 2 < f.size(); ++i) {
+    std::array<double, 5> window{f[i - 2], f[i - 1], f[i], f[i + 1], f[i + 2]};
+    std::nth_element(window.begin(), window.begin() + 2, window.end());
+    result[i] = window[2];
+  }
+  return result;
+}
+
+/// From second differences, which a smooth curve hardly has: the median of |N(0, s)| is 0.6745 s.
+double noise_of(const std::vector<double>& f) {
+  std::vector<double> second;
+  for (std::size_t i = 1; i + 1 < f.size(); ++i) second.push_back(std::abs(f[i - 1] - 2 * f[i] + f[i + 1]));
+  return median(second) / (0.6745 * std::sqrt(6.0));
+}
+
+/// Points that must move to bring the rest in order: all but the longest rising run of points.
+std::vector<std::size_t> out_of_order(const std::vector<double>& key) {
+  std::vector<std::size_t> last, before(key.size());  // end of the best run of each length, and its chain
+  for (std::size_t i = 0; i < key.size(); ++i) {
+    const auto place = std::upper_bound(last.begin(), last.end(), key[i],
+                                        [&](double value, std::size_t j) { return value < key[j]; });
+    before[i] = place == last.begin() ? i : *(place - 1);
+    if (place == last.end())
+      last.push_back(i);
+    else
+      *place = i;
+  }
+  std::vector<char> stays(key.size(), 0);
+  std::size_t i = last.back();
+  for (std::size_t left = last.size(); left > 0; --left) stays[i] = 1, i = before[i];
+  std::vector<std::size_t> moved;
+  for (std::size_t j = 0; j < key.size(); ++j)
+    if (!stays[j]) moved.push_back(j);
+  return moved;
+}
+
+void sort_by_order(Pull& pull) {
+  const TensileRecord& r = pull.record;
+  const std::vector<double>& key = r.time.empty() ? r.displacement : r.time;
+  // The furthest displacement so far, but for as many points as may be astray; a noisy transducer is forgiven
+  // half a percent of the range.
+  const auto [low, high] = std::minmax_element(key.begin(), key.end());
+  const double clearly = 0.005 * (*high - *low);
+  const auto allowed = static_cast<std::size_t>(most_out_of_order * static_cast<double>(key.size()));
+  std::priority_queue<double, std::vector<double>, std::greater<>> furthest;
+  std::size_t behind = 0, first_behind = 0;
+  for (std::size_t i = 0; i < key.size(); ++i) {
+    if (furthest.size() > allowed && key[i] < furthest.top() - clearly && behind++ == 0) first_behind = i;
+    furthest.push(key[i]);
+    if (furthest.size() > allowed + 1) furthest.pop();
+  }
+  if (behind > allowed)
+    pull.refuse(
+        r.line[first_behind],
+        fmt::format("from here {} of {} points go back in {}: not one pull to failure (a cycle?); cut "
+                    "the record to one pull",
+                    behind, key.size(), r.time.empty() ? "displacement" : "time"));
+  std::vector<std::size_t> order(r.force.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key[a] < key[b]; });
+  for (std::size_t i : order) {
+    pull.x.push_back(r.displacement[i]);
+    pull.f.push_back(r.force[i]);
+    pull.line.push_back(r.line[i]);
+  }
+  const std::vector<std::size_t> moved = out_of_order(key);
+  if (!moved.empty())
+    pull.say(fmt::format("{} points out of order put in their place (first in line {})", moved.size(),
+                         r.line[moved.front()]));
+}
+
+/// A steady rise that goes on a hundred times higher from one point to the next is no cloth.
+void check_jumps(const Pull& pull, double peak) {
+  constexpr std::size_t before = 5;
+  for (std::size_t i = before; i + 2 < pull.f.size(); ++i) {
+    bool rises = pull.f[i - before] > 0;
+    for (std::size_t k = i - before; k + 1 < i; ++k) rises = rises && pull.f[k + 1] > pull.f[k];
+    const double after = std::min(pull.f[i], pull.f[i + 1]);
+    if (rises && after > 0.02 * peak && after > 100 * pull.f[i - 1])
+      pull.refuse(pull.line[i],
+                  fmt::format("the force jumps from {:.4g} N to {:.4g} N and stays there: mixed "
+                              "units in one column?",
+                              pull.f[i - 1], pull.f[i]));
+  }
+}
+
+/// Cuts behind the highest force.
+double cut_failure(Pull& pull) {
+  const std::vector<double> smooth = smoothed(pull.f);
+  const auto top = std::max_element(smooth.begin(), smooth.end());
+  const auto peak = static_cast<std::size_t>(top - smooth.begin());
+  if (!(*top > 0))
+    pull.refuse(pull.line.front(), "no force is above 0: a pull is positive; turn the sign of the column");
+  const double lowest = *std::min_element(smooth.begin(), smooth.end());
+  if (-lowest > *top)
+    pull.refuse(pull.line.front(),
+                fmt::format("forces reach {:.4g} N and only {:.4g} N in pull: turn the sign of the column",
+                            lowest, *top));
+  const std::size_t count = pull.f.size();
+  if (peak < fewest_points / 2 || pull.x[peak] - pull.x.front() < 0.05 * (pull.x.back() - pull.x.front()))
+    pull.refuse(pull.line[peak],
+                fmt::format("the force only falls from here on ({:.4g} N to {:.4g} N): this is not a pull to "
+                            "failure; is the displacement in the right column and direction?",
+                            *top, smooth.back()));
+  if (peak + 1 < count)
+    pull.say(fmt::format("{} points after the peak of {:.4g} N cut (from line {})", count - peak - 1, *top,
+                         pull.line[peak + 1]));
+  pull.keep(0, peak + 1);
+  return *top;
+}
+
+/// Displacement where the pull begins; takes the load cell's offset off the forces.
+double find_start(Pull& pull, double peak) {
+  const double noise = noise_of(pull.f);
+  const std::vector<double> smooth = smoothed(pull.f);
+  // The offset is read where nothing pulls: before the force leaves the level it starts from.
+  const double level =
+      median({smooth.begin(),
+              smooth.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(smooth.size(), 9))});
+  const double threshold = std::max(4 * noise, 0.005 * peak);
+  std::size_t start = 0;
+  for (std::size_t i = 0; i < smooth.size(); ++i)
+    if (smooth[i] < level + threshold) start = i + 1;
+  std::size_t idle = 0;  // points that surely lie before the pull
+  const double run_up = start < pull.x.size() ? 0.25 * (pull.x[start] - pull.x.front()) : 0.0;
+  while (idle < start && pull.x[idle] < pull.x[start] - run_up) ++idle;
+  const bool flat = idle >= 10 && std::abs(smooth[idle - 1] - smooth[0]) < 0.5 * threshold;
+  double offset = 0;
+  if (flat) {
+    offset = mean(std::span(pull.f).first(idle));
+    if (std::abs(offset) > 3 * noise / std::sqrt(static_cast<double>(idle)))
+      pull.say(fmt::format("load cell offset of {:.3g} N taken off", offset));
+    else
+      offset = 0;
+  }
+  for (double& f : pull.f) f -= offset;
+  pull.clean.force_offset = offset;
+
+  std::vector<double> toe_x, toe_f;
+  for (std::size_t i = start; i < pull.x.size() && smooth[i] - offset < toe_part * peak; ++i) {
+    toe_x.push_back(pull.x[i]);
+    toe_f.push_back(pull.f[i]);
+  }
+  if (start + fewest_points / 2 > pull.x.size())
+    pull.refuse(pull.line.back(), "the force rises only at the very end: no curve can be fitted");
+  const double first = pull.x[start];
+  if (toe_x.size() < 4) return first;
+  for (double& x : toe_x) x -= first;
+  const bool curved = toe_x.size() >= 8;
+  const std::vector<double> c = fit_polynomial(toe_x, toe_f, 0, curved ? 2 : 1);
+  const double curvature = curved ? c[2] : 0.0;
+  const double root = c[1] * c[1] - 4 * curvature * c[0];
+  // The zero that continues the rising branch; a parabola that turns before zero starts at its turn.
+  double zero = c[1] > 0 ? -c[0] / c[1] : 0.0;
+  if (curved && c[1] > 0) zero = root >= 0 ? -2 * c[0] / (c[1] + std::sqrt(root)) : -c[1] / (2 * curvature);
+  const double toe_length = toe_x.back() - toe_x.front();
+  return first + std::clamp(zero, -toe_length, 0.5 * toe_length);
+}
+
+}  // namespace
+
+CleanRecord clean_record(const TensileRecord& record, LoadKind kind) {
+  Pull pull{record};
+  CleanRecord& clean = pull.clean;
+  clean.name = record.file.filename().string();
+  clean.orientation = record.coupon.orientation;
+  clean.length = record.coupon.length;
+  clean.width = record.coupon.width;
+  if (kind == LoadKind::per_width && !(clean.width > 0))
+    throw Error(ExitCode::bad_data,
+                fmt::format("{}: no coupon width: write \"# width: 50 mm\" in it or width_m in the file "
+                            "beside it",
+                            record.file.string()));
+  if (record.force.size() < fewest_points)
+    pull.refuse(record.line.back(),
+                fmt::format("{} measurements; a curve needs {}", record.force.size(), fewest_points));
+
+  sort_by_order(pull);
+  const double peak = cut_failure(pull);
+  check_jumps(pull, peak);
+  const double start = find_start(pull, peak);
+  clean.slack = start - pull.x.front();
+  std::size_t slack_points = 0;
+  while (slack_points < pull.x.size() && pull.x[slack_points] < start) ++slack_points;
+  if (slack_points > 1)
+    pull.say(fmt::format("slack of {:.3g} mm cut ({} points, up to line {})", 1e3 * clean.slack, slack_points,
+                         pull.line[slack_points - 1]));
+  pull.keep(slack_points, pull.x.size());
+  const double per = kind == LoadKind::per_width ? clean.width : 1.0;
+  for (std::size_t i = 0; i < pull.x.size(); ++i) {
+    clean.strain.push_back((pull.x[i] - start) / clean.length);
+    clean.load.push_back(pull.f[i] / per);
+  }
+  if (clean.strain.size() < fewest_points / 2)
+    pull.refuse(pull.line.empty() ? record.line.back() : pull.line.back(),
+                fmt::format("only {} measurements between slack and failure", clean.strain.size()));
+  clean.noise = noise_of(clean.load);
+  clean.failure_strain = clean.strain.back();
+  clean.failure_load = (peak - clean.force_offset) / per;
+  if (clean.failure_strain < least_strain || clean.failure_strain > most_strain)
+    pull.refuse(pull.line.back(),
+                fmt::format("strain {:.3g} at failure ({:.4g} mm on {:.4g} mm): cloth and line fail between "
+                            "{} and {}; is the displacement or the length wrong by 1000 (m for mm)?",
+                            clean.failure_strain, 1e3 * clean.failure_strain * clean.length,
+                            1e3 * clean.length, least_strain, most_strain));
+  return clean;
+}
+
+}  // namespace ripstop

@@ -1,0 +1,36 @@
+// A bench's record made fit for fitting: in order, without slack, up to failure. Whatever is cut is said.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "ripstop/material/record.h"
+
+namespace ripstop {
+
+enum class LoadKind { per_width, whole };  // cloth and tape [N/m], line [N]
+
+struct CleanRecord {
+  std::string name;              // the file's name
+  double orientation = 0;        // [deg]
+  double length = 0, width = 0;  // [m]
+  std::vector<double> strain;    // rising, from 0 to the failure peak
+  std::vector<double> load;      // [N/m] or [N]
+  double failure_strain = 0;
+  double failure_load = 0;
+  double slack = 0;                  // [m] taken off the displacement
+  double force_offset = 0;           // [N] taken off the force
+  double noise = 0;                  // standard deviation of the load about its neighbours, as `load`
+  std::vector<std::string> trimmed;  // what was cut or moved, one sentence each
+};
+
+/// Sorts a few points out of order, takes off the load cell's offset and the slack (the pull starts where the
+/// first part of the curve, a parabola through the points up to 30 % of the peak, meets zero: the toe
+/// compensation of ASTM D638 annex A1, with a curve in place of its straight line), and cuts what follows the
+/// highest force. Strain is on the stated length. Throws Error(bad_data) with file, line and reason for a
+/// record that cannot be one pull: too few points, more than 5 % of them going back, forces that are negative
+/// or only fall, a jump by a factor that looks like a change of units, a strain at failure outside 0.25 % to
+/// 350 %.
+CleanRecord clean_record(const TensileRecord& record, LoadKind kind);
+
+}  // namespace ripstop

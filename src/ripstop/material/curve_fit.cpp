@@ -1,0 +1,173 @@
+#include "ripstop/material/curve_fit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "ripstop/core/error.h"
+#include "ripstop/core/least_squares.h"
+
+namespace ripstop {
+namespace {
+
+constexpr int grid_points = 200;
+constexpr double most_ratio = 10;  // between two samples of the same cloth
+
+/// Averages of the points within half a step of each grid strain, interpolated where there are none.
+std::vector<double> resampled(const CleanRecord& record, const std::vector<double>& grid) {
+  const double half = 0.5 * (grid[1] - grid[0]);
+  std::vector<double> result;
+  const std::vector<double>&x = record.strain, &y = record.load;
+  for (double e : grid) {
+    const auto from = std::lower_bound(x.begin(), x.end(), e - half);
+    const auto to = std::lower_bound(x.begin(), x.end(), e + half);
+    if (from != to) {
+      const auto first = static_cast<std::size_t>(from - x.begin()),
+                 last = static_cast<std::size_t>(to - x.begin());
+      // The points' mean strain is not quite the grid's: carry the average over with the slope about it.
+      const double mean_x = mean(std::span(x).subspan(first, last - first));
+      const double mean_y = mean(std::span(y).subspan(first, last - first));
+      const std::size_t a = first > 0 ? first - 1 : first, b = std::min(last, x.size() - 1);
+      const double slope = x[b] > x[a] ? (y[b] - y[a]) / (x[b] - x[a]) : 0.0;
+      result.push_back(mean_y + slope * (e - mean_x));
+      continue;
+    }
+    const auto above = static_cast<std::size_t>(from - x.begin());
+    const std::size_t b = std::clamp<std::size_t>(above, 1, x.size() - 1), a = b - 1;
+    const double part = x[b] > x[a] ? (e - x[a]) / (x[b] - x[a]) : 0.0;
+    result.push_back(y[a] + part * (y[b] - y[a]));
+  }
+  return result;
+}
+
+double value_at(const std::vector<double>& c, int first, double e) {
+  return polynomial(c, first, e);
+}
+
+Estimate estimate(const std::vector<double>& values, double confidence) {
+  Estimate result;
+  result.value = mean(values);
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  result.standard_error =
+      values.size() < 2 ? none : standard_deviation(values) / std::sqrt(static_cast<double>(values.size()));
+  const double reach =
+      values.size() < 2 ? none
+                        : result.standard_error * student_t(confidence, static_cast<int>(values.size()) - 1);
+  result.low = result.value - reach;
+  result.high = result.value + reach;
+  return result;
+}
+
+}  // namespace
+
+std::vector<double> CurveFit::coefficients() const {
+  std::vector<double> result;
+  for (const Estimate& e : k) result.push_back(e.value);
+  return result;
+}
+
+MeanCurve mean_curve(const std::vector<CleanRecord>& samples) {
+  MeanCurve curve;
+  curve.orientation = samples.front().orientation;
+  curve.tested_strain = std::numeric_limits<double>::infinity();
+  for (const CleanRecord& sample : samples) {
+    curve.names.push_back(sample.name);
+    curve.failure_strain.push_back(sample.failure_strain);
+    curve.failure_load.push_back(sample.failure_load);
+    curve.tested_strain = std::min(curve.tested_strain, sample.failure_strain);
+  }
+  for (int i = 0; i < grid_points; ++i) curve.strain.push_back(curve.tested_strain * (i + 0.5) / grid_points);
+  for (const CleanRecord& sample : samples) curve.samples.push_back(resampled(sample, curve.strain));
+
+  const std::size_t at = grid_points / 2;
+  std::size_t least = 0, most = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (curve.samples[i][at] < curve.samples[least][at]) least = i;
+    if (curve.samples[i][at] > curve.samples[most][at]) most = i;
+  }
+  if (curve.samples[most][at] > most_ratio * std::max(0.0, curve.samples[least][at]))
+    throw Error(
+        ExitCode::bad_data,
+        fmt::format("{} and {} cannot be the same material: {:.4g} and {:.4g} at strain {:.3g}; mixed "
+                    "units, or a wrong width or orientation?",
+                    curve.names[most], curve.names[least], curve.samples[most][at], curve.samples[least][at],
+                    curve.strain[at]));
+  for (int i = 0; i < grid_points; ++i) {
+    std::vector<double> values;
+    for (const auto& sample : curve.samples) values.push_back(sample[i]);
+    curve.load.push_back(mean(values));
+    curve.spread.push_back(standard_deviation(values));
+  }
+  return curve;
+}
+
+CurveFit fit_curve(const MeanCurve& curve, int degree, const FitOptions& options) {
+  const int first = options.zero_offset ? 1 : 0;
+  CurveFit result;
+  result.degree = degree;
+  result.tested_strain = curve.tested_strain;
+
+  std::vector<std::vector<double>> c;  // of every sample
+  for (const auto& sample : curve.samples) c.push_back(fit_polynomial(curve.strain, sample, first, degree));
+  const auto over_samples = [&](auto&& value) {
+    std::vector<double> values;
+    for (const auto& one : c) values.push_back(value(one));
+    return estimate(values, options.confidence);
+  };
+  for (int k = first; k <= degree; ++k) {
+    const Estimate e = over_samples([&](const std::vector<double>& one) { return one[k - first]; });
+    if (k == 0)
+      result.offset = e;
+    else
+      result.k.push_back(e);
+  }
+  for (double strain : curve.strain) {
+    const Estimate e =
+        over_samples([&](const std::vector<double>& one) { return value_at(one, first, strain); });
+    result.fit.push_back(e.value);
+    result.band_low.push_back(e.low);
+    result.band_high.push_back(e.high);
+  }
+  result.r2 = r_squared(curve.load, result.fit);
+  std::vector<double> all, all_fit;
+  for (const auto& sample : curve.samples) {
+    all.insert(all.end(), sample.begin(), sample.end());
+    all_fit.insert(all_fit.end(), result.fit.begin(), result.fit.end());
+  }
+  result.r2_all = r_squared(all, all_fit);
+
+  result.rising_until = curve.tested_strain;
+  constexpr int looks = 2000;
+  const std::vector<double> law = result.coefficients();
+  for (int i = 0; i < looks; ++i) {
+    const double a = curve.tested_strain * i / looks, b = curve.tested_strain * (i + 1) / looks;
+    if (polynomial(law, 1, b) > polynomial(law, 1, a)) continue;
+    result.rising_until = a;
+    break;
+  }
+  return result;
+}
+
+int choose_degree(const std::vector<MeanCurve>& curves, const FitOptions& options) {
+  if (options.degree) return *options.degree;
+  const MeanCurve* worst = nullptr;
+  double worst_r2 = 1;
+  for (int degree = 1; degree <= options.highest_degree; ++degree) {
+    worst = nullptr;
+    worst_r2 = std::numeric_limits<double>::infinity();
+    for (const MeanCurve& curve : curves) {
+      const double r2 = fit_curve(curve, degree, options).r2;
+      if (r2 < worst_r2) worst_r2 = r2, worst = &curve;
+    }
+    if (worst_r2 > options.wanted_r2) return degree;
+  }
+  throw Error(ExitCode::bad_data,
+              fmt::format("no polynomial up to degree {} follows the {:.0f} deg curve with R2 above {} (best "
+                          "{:.3f}); look at its records, or choose a degree",
+                          options.highest_degree, worst->orientation, options.wanted_r2, worst_r2));
+}
+
+}  // namespace ripstop

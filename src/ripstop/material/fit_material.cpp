@@ -1,0 +1,287 @@
+#include "ripstop/material/fit_material.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ripstop/core/error.h"
+#include "ripstop/core/hash.h"
+#include "ripstop/core/least_squares.h"
+#include "ripstop/material/units.h"
+
+namespace ripstop {
+namespace {
+
+// Strength per mass: cotton cloth 0.02 N/tex, the best fibre (PBO, polyethylene) below 4 N/tex.
+constexpr double least_tenacity = 0.003e6, most_tenacity = 6e6;  // [N m/kg], 1e6 is 1 N/tex
+constexpr double least_density = 60, most_density = 3000;        // [kg/m3] of cloth as thick as stated
+constexpr double notable_difference = 0.02;                      // between warp and weft
+
+LoadKind load_kind(BenchKind kind) {
+  return kind == BenchKind::line ? LoadKind::whole : LoadKind::per_width;
+}
+
+std::vector<CleanRecord> clean_all(const Bench& bench, MaterialFit& fit) {
+  std::vector<CleanRecord> records;
+  for (const BenchCoupon& coupon : bench.coupons) {
+    const std::filesystem::path file = bench.file.parent_path() / coupon.file;
+    Coupon given;
+    given.length = coupon.length_m.value_or(0);
+    given.width = coupon.width_m.value_or(0);
+    given.orientation = coupon.orientation_deg.value_or(-1);
+    TensileRecord record = read_record(
+        file, given,
+        {coupon.force_column, coupon.displacement_column, coupon.force_unit, coupon.displacement_unit});
+    double& angle = record.coupon.orientation;
+    if (bench.kind != BenchKind::fabric) angle = 0;
+    if (angle != 0 && angle != 45 && angle != 90)
+      throw Error(ExitCode::bad_data,
+                  angle < 0 ? fmt::format("{}: no orientation: write \"# orientation: 45 deg\" in it or "
+                                          "orientation_deg in {}",
+                                          file.string(), bench.file.string())
+                            : fmt::format("{}: orientation {} deg; cloth is pulled at 0, 45 or 90",
+                                          file.string(), angle));
+    fit.inputs.push_back({coupon.file, hash_file(file)});
+    records.push_back(clean_record(record, load_kind(bench.kind)));
+    records.back().name = coupon.file;
+  }
+  return records;
+}
+
+DirectionFit direction_of(const std::string& name, const std::vector<CleanRecord>& samples,
+                          const Bench& bench) {
+  if (samples.size() < 2 && !bench.single_samples)
+    throw Error(
+        ExitCode::bad_data,
+        fmt::format("{}: one sample only for {}: its scatter is unknown, so no band can be given; add "
+                    "samples, or accept that with single_samples = true",
+                    samples.front().name, name));
+  return {name, samples.front().orientation, samples, mean_curve(samples), {}};
+}
+
+/// Welch's t test of the loads at half and at the whole of the common strain.
+bool differs(const MeanCurve& warp, const MeanCurve& weft, double confidence) {
+  for (double part : {0.5, 1.0}) {
+    const double strain = part * std::min(warp.tested_strain, weft.tested_strain);
+    const auto at = [&](const MeanCurve& curve) {
+      std::vector<double> values;
+      const auto i = std::min<std::size_t>(
+          curve.strain.size() - 1,
+          static_cast<std::size_t>(std::lower_bound(curve.strain.begin(), curve.strain.end(), strain) -
+                                   curve.strain.begin()));
+      for (const auto& sample : curve.samples) values.push_back(sample[i]);
+      return values;
+    };
+    const std::vector<double> a = at(warp), b = at(weft);
+    const double difference = std::abs(mean(a) - mean(b));
+    if (difference < notable_difference * std::abs(mean(a))) continue;
+    if (a.size() < 2 || b.size() < 2) return true;
+    const double va = std::pow(standard_deviation(a), 2) / static_cast<double>(a.size());
+    const double vb = std::pow(standard_deviation(b), 2) / static_cast<double>(b.size());
+    const double degrees =
+        (va + vb) * (va + vb) /
+        (va * va / static_cast<double>(a.size() - 1) + vb * vb / static_cast<double>(b.size() - 1));
+    if (difference > student_t(confidence, std::max(1, static_cast<int>(degrees))) * std::sqrt(va + vb))
+      return true;
+  }
+  return false;
+}
+
+void gather_directions(const Bench& bench, const std::vector<CleanRecord>& records, MaterialFit& fit) {
+  const auto at = [&](double angle) {
+    std::vector<CleanRecord> chosen;
+    std::copy_if(records.begin(), records.end(), std::back_inserter(chosen),
+                 [&](const CleanRecord& r) { return r.orientation == angle; });
+    return chosen;
+  };
+  if (bench.kind != BenchKind::fabric) {
+    fit.directions.push_back(direction_of(bench.kind == BenchKind::line ? "line" : "tape", records, bench));
+    return;
+  }
+  std::vector<CleanRecord> warp = at(0);
+  const std::vector<CleanRecord> weft = at(90), bias = at(45);
+  if (warp.empty())
+    throw Error(ExitCode::bad_data,
+                fmt::format("{}: no record along the warp (orientation 0): the cloth's own "
+                            "curve comes from it",
+                            bench.file.string()));
+  fit.directions.push_back(direction_of("warp", warp, bench));
+  if (!weft.empty()) {
+    DirectionFit other = direction_of("weft", weft, bench);
+    fit.weft_differs = bench.weft == WeftChoice::separate ||
+                       (bench.weft == WeftChoice::automatic &&
+                        differs(fit.directions[0].curve, other.curve, bench.confidence));
+    if (fit.weft_differs) {
+      fit.directions.push_back(std::move(other));
+      fit.notes.push_back("warp and weft differ: each has its curve");
+    } else {
+      warp.insert(warp.end(), weft.begin(), weft.end());
+      fit.directions[0] = direction_of("warp", warp, bench);
+      fit.notes.push_back("weft is like warp within their scatter: one curve from all of them");
+    }
+  }
+  if (!bias.empty()) fit.directions.push_back(direction_of("bias", bias, bench));
+}
+
+void check_plausible(const Bench& bench, const MaterialFit& fit) {
+  const bool fabric = bench.kind == BenchKind::fabric;
+  const double per_width = bench.kind == BenchKind::tape ? *bench.width_m : 1.0;
+  const double mass = fabric ? *bench.areal_density_kg_m2 : *bench.linear_density_kg_m / per_width;
+  for (const DirectionFit& direction : fit.directions) {
+    const double load = mean(direction.curve.failure_load);
+    const double tenacity = load / mass;
+    if (tenacity >= least_tenacity && tenacity <= most_tenacity) continue;
+    const bool line = bench.kind == BenchKind::line;
+    throw Error(
+        ExitCode::bad_data,
+        fmt::format("{}: {} fails at {:.4g} {} with {:.4g} {}: {:.3g} N/tex, and fibres bear {} to {} "
+                    "N/tex; is force{} or mass wrong by 1000 (kN for N, g for kg)?",
+                    bench.file.string(), direction.name, load, line ? "N" : "N/m", mass,
+                    line ? "kg/m" : "kg/m2", 1e-6 * tenacity, 1e-6 * least_tenacity, 1e-6 * most_tenacity,
+                    line ? "" : ", width"));
+  }
+  if (!bench.thickness_m) return;
+  const double density = mass / *bench.thickness_m;
+  if (density < least_density || density > most_density)
+    throw Error(
+        ExitCode::bad_data,
+        fmt::format("{}: {:.4g} kg/m2 in {:.4g} mm is {:.4g} kg/m3, and cloth has {} to {}; is mass or "
+                    "thickness wrong by 1000?",
+                    bench.file.string(), mass, 1e3 * *bench.thickness_m, density, least_density,
+                    most_density));
+}
+
+void make_fits(const Bench& bench, MaterialFit& fit) {
+  FitOptions options;
+  if (bench.degree > 0) options.degree = bench.degree;
+  options.wanted_r2 = bench.wanted_r2;
+  options.confidence = bench.confidence;
+  options.zero_offset = bench.zero_offset;
+  std::vector<MeanCurve> curves;
+  for (const DirectionFit& direction : fit.directions) curves.push_back(direction.curve);
+  const int degree = choose_degree(curves, options);
+  for (DirectionFit& direction : fit.directions) {
+    direction.fit = fit_curve(direction.curve, degree, options);
+    const CurveFit& f = direction.fit;
+    if (f.rising_until < f.tested_strain)
+      fit.warnings.push_back(
+          fmt::format("the {} fit of degree {} turns over at strain {:.3g}, inside the tested "
+                      "{:.3g}: used up to there only",
+                      direction.name, degree, f.rising_until, f.tested_strain));
+    if (std::abs(f.offset.value) > 0.02 * direction.curve.load.back())
+      fit.warnings.push_back(fmt::format(
+          "the {} fit has K_0 = {:.3g}, {:.1f} % of its highest load, which no "
+          "spring law carries; fit with zero_offset = true",
+          direction.name, f.offset.value, 100 * std::abs(f.offset.value) / direction.curve.load.back()));
+    if (f.k.front().value <= 0)
+      throw Error(ExitCode::bad_data,
+                  fmt::format("the {} fit of degree {} starts with K_1 = {:.4g}: cloth pulls "
+                              "back from the start; choose a lower degree",
+                              direction.name, degree, f.k.front().value));
+  }
+}
+
+template <class Kind>
+void fill_common(Kind& material, const Bench& bench, const MaterialFit& fit) {
+  material.name = bench.name;
+  material.source = bench.source;
+  material.tested_strain = 1e9;
+  for (const DirectionFit& direction : fit.directions)
+    if (direction.name != "bias")
+      material.tested_strain = std::min(material.tested_strain, direction.fit.rising_until);
+  material.warning = fmt::format("{}", fmt::join(fit.warnings, "; "));
+}
+
+double weakest(const MaterialFit& fit) {
+  double load = 1e300;
+  for (const DirectionFit& direction : fit.directions)
+    if (direction.name != "bias")
+      load = std::min(
+          load, *std::min_element(direction.curve.failure_load.begin(), direction.curve.failure_load.end()));
+  return load;
+}
+
+Material make_material(const Bench& bench, const MaterialFit& fit) {
+  const std::vector<double> coefficients = fit.directions.front().fit.coefficients();
+  if (bench.kind == BenchKind::line) {
+    Line line;
+    fill_common(line, bench, fit);
+    line.coefficients_n = coefficients;
+    line.linear_density_kg_m = *bench.linear_density_kg_m;
+    line.break_load_n = weakest(fit);
+    return line;
+  }
+  if (bench.kind == BenchKind::tape) {
+    Tape tape;
+    fill_common(tape, bench, fit);
+    tape.coefficients_n_m = coefficients;
+    tape.width_m = *bench.width_m;
+    tape.linear_density_kg_m = *bench.linear_density_kg_m;
+    tape.thickness_m = *bench.thickness_m;
+    tape.compression = bench.compression;
+    return tape;
+  }
+  Fabric fabric;
+  fill_common(fabric, bench, fit);
+  fabric.coefficients_n_m = coefficients;
+  if (const DirectionFit* weft = fit.direction("weft"))
+    fabric.weft_coefficients_n_m = weft->fit.coefficients();
+  fabric.compression = bench.compression;
+  fabric.areal_density_kg_m2 = *bench.areal_density_kg_m2;
+  fabric.thickness_m = *bench.thickness_m;
+  fabric.break_load_n_m = weakest(fit);
+  fabric.shear_fraction = bench.shear_fraction.value_or(fabric.shear_fraction);
+  fabric.bending_fraction = bench.bending_fraction.value_or(fabric.bending_fraction);
+  if (fit.has_permeability) {
+    fabric.darcy = fit.permeability.law.a;
+    fabric.forchheimer = fit.permeability.law.b;
+  }
+  return fabric;
+}
+
+}  // namespace
+
+const DirectionFit* MaterialFit::direction(const std::string& name) const {
+  for (const DirectionFit& d : directions)
+    if (d.name == name) return &d;
+  return nullptr;
+}
+
+MaterialFit fit_material(const Bench& bench) {
+  MaterialFit fit;
+  gather_directions(bench, clean_all(bench, fit), fit);
+  check_plausible(bench, fit);
+  make_fits(bench, fit);
+  if (!bench.flows.empty()) {
+    std::vector<FlowPoint> points;
+    for (const BenchFlow& flow : bench.flows)
+      points.push_back({flow.pressure_pa, flow.cfm ? *flow.cfm * cfm_per_square_foot : *flow.velocity_m_s});
+    fit.permeability = fit_permeability(points);
+    fit.has_permeability = true;
+    if (fit.permeability.one_point)
+      fit.notes.push_back("air permeability from one pressure: b = 0 is a choice (creeping flow)");
+    if (fit.permeability.on_bound)
+      fit.warnings.push_back(
+          "air permeability: a or b came out negative and is held at 0; check the readings");
+  }
+  fit.material = make_material(bench, fit);
+  return fit;
+}
+
+std::vector<std::string> material_warnings(const Material& material, double largest_strain) {
+  return std::visit(
+      [&](const auto& m) {
+        std::vector<std::string> list;
+        if (!m.warning.empty()) list.push_back(fmt::format("{}: {}", m.name, m.warning));
+        if (m.tested_strain > 0 && largest_strain > m.tested_strain)
+          list.push_back(
+              fmt::format("{}: strain {:.3g} lies beyond the tested {:.3g}; the law is extrapolated there",
+                          m.name, largest_strain, m.tested_strain));
+        return list;
+      },
+      material);
+}
+
+}  // namespace ripstop

@@ -1,0 +1,51 @@
+// A whole test campaign fitted: curves of every direction, coefficients, and the material they make.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "ripstop/material/bench.h"
+#include "ripstop/material/clean.h"
+#include "ripstop/material/curve_fit.h"
+#include "ripstop/material/library.h"
+#include "ripstop/material/permeability.h"
+
+namespace ripstop {
+
+/// The records of one direction of pull.
+struct DirectionFit {
+  std::string name;  // "warp", "weft", "bias", "line", "tape"
+  double orientation = 0;
+  std::vector<CleanRecord> samples;
+  MeanCurve curve;
+  CurveFit fit;
+};
+
+struct RecordOrigin {
+  std::string file, hash;
+};
+
+struct MaterialFit {
+  Material material;
+  std::vector<DirectionFit> directions;
+  bool weft_differs = false;
+  PermeabilityFit permeability;  // when the campaign has readings
+  bool has_permeability = false;
+  std::vector<std::string> notes;     // what was decided and why
+  std::vector<std::string> warnings;  // also kept in the material, for the solver to repeat
+  std::vector<RecordOrigin> inputs;
+
+  const DirectionFit* direction(const std::string& name) const;  // null: none
+};
+
+/// Reads, cleans and fits every record of the campaign. xi and eps are those of the campaign or the defaults;
+/// calibration/coupon_fit.h finds them. Throws Error(bad_data) for records that cannot be what they claim:
+/// see read_record(), clean_record(), mean_curve(); for one sample only; for a strength per mass that no
+/// fibre has or a density no cloth has, which is how units wrong by 1000 show.
+MaterialFit fit_material(const Bench& bench);
+
+/// What a run that reaches `largest_strain` in this material must say: the fit's own warnings, and a strain
+/// beyond the tests.
+std::vector<std::string> material_warnings(const Material& material, double largest_strain);
+
+}  // namespace ripstop

@@ -1,0 +1,167 @@
+#include "ripstop/material/curve_fit.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "../output/temporary_folder.h"
+#include "ripstop/core/error.h"
+#include "ripstop/core/file.h"
+#include "ripstop/core/least_squares.h"
+#include "synthetic.h"
+
+namespace ripstop {
+namespace {
+
+const std::vector<double> f111{30006, -18936};  // [NFM] Table 3
+
+SyntheticRecord f111_record() {
+  SyntheticRecord record;
+  record.load = [](double e) { return polynomial(f111, 1, e); };
+  return record;
+}
+
+std::vector<CleanRecord> bench_of(const SyntheticRecord& wanted, int samples, std::mt19937& random,
+                                  const std::filesystem::path& folder) {
+  std::vector<CleanRecord> records;
+  for (int i = 0; i < samples; ++i) {
+    write_file(folder / "s.csv", synthetic_csv(wanted, random));
+    records.push_back(clean_record(read_record(folder / "s.csv"), LoadKind::per_width));
+  }
+  return records;
+}
+
+TEST(LeastSquares, APolynomialComesBackFromItsPoints) {
+  const std::vector<double> c{3, -2, 0.5, 7};
+  std::vector<double> x, y;
+  for (int i = 1; i <= 30; ++i) x.push_back(1e-3 * i), y.push_back(polynomial(c, 0, x.back()));
+  const std::vector<double> found = fit_polynomial(x, y, 0, 3);
+  for (std::size_t k = 0; k < c.size(); ++k) EXPECT_NEAR(found[k] / c[k], 1, 1e-6) << k;
+  EXPECT_THROW(fit_polynomial(std::span(x).first(2), std::span(y).first(2), 0, 3), Error);
+}
+
+TEST(LeastSquares, StudentsTIsThatOfTheTables) {
+  EXPECT_NEAR(student_t(0.95, 1), 12.7062, 1e-4);
+  EXPECT_NEAR(student_t(0.95, 4), 2.77645, 1e-5);
+  EXPECT_NEAR(student_t(0.99, 10), 3.16927, 1e-5);
+  EXPECT_NEAR(student_t(0.6827, 1000), 1.0005, 1e-3);
+}
+
+TEST(CurveFit, ExactRecordsGiveTheirCoefficientsBack) {
+  SyntheticRecord exact = f111_record();
+  exact.scatter = exact.failure_scatter = exact.noise = 0;
+  std::mt19937 random(1);
+  TemporaryFolder folder("fit");
+  const CurveFit fit = fit_curve(mean_curve(bench_of(exact, 3, random, folder.path)), 2, {});
+  EXPECT_NEAR(fit.k[0].value, 30006, 30);
+  EXPECT_NEAR(fit.k[1].value, -18936, 60);
+  EXPECT_NEAR(fit.offset.value, 0, 5);
+  EXPECT_GT(fit.r2, 0.99999);
+  EXPECT_EQ(fit.rising_until, fit.tested_strain);
+}
+
+// The claim of a 95 % interval is that it holds in 95 of 100 campaigns. 400 campaigns of five samples: the
+// count is binomial with a standard deviation of 1.1 %, so 95 +- 3.3 % is three of them.
+TEST(CurveFit, IntervalsAndBandsHoldAsOftenAsTheyClaim) {
+  constexpr int campaigns = 400;
+  SyntheticRecord wanted = f111_record();
+  wanted.points = 150;
+  std::mt19937 random(2024);
+  TemporaryFolder folder("coverage");
+  FitOptions options;
+  int k1 = 0, k2 = 0, middle = 0, end = 0;
+  for (int i = 0; i < campaigns; ++i) {
+    const MeanCurve curve = mean_curve(bench_of(wanted, 5, random, folder.path));
+    const CurveFit fit = fit_curve(curve, 2, options);
+    const auto inside = [](double v, double low, double high) { return low <= v && v <= high; };
+    k1 += inside(f111[0], fit.k[0].low, fit.k[0].high);
+    k2 += inside(f111[1], fit.k[1].low, fit.k[1].high);
+    for (auto [count, at] : {std::pair{&middle, 100}, std::pair{&end, 199}})
+      *count += inside(wanted.load(curve.strain[at]), fit.band_low[at], fit.band_high[at]);
+  }
+  for (const auto& [name, count] : {std::pair{"K1", k1}, std::pair{"K2", k2},
+                                    std::pair{"band, middle", middle}, std::pair{"band, end", end}}) {
+    EXPECT_NEAR(static_cast<double>(count) / campaigns, 0.95, 0.033) << name;
+    RecordProperty(name, count);
+  }
+}
+
+TEST(CurveFit, PointsAsTheIndependentUnitWouldClaimFarTooMuch) {
+  // Why the samples are: the naive standard error of K_1, from the residuals of all points, is many times
+  // smaller than the true scatter of K_1 between campaigns.
+  SyntheticRecord wanted = f111_record();
+  std::mt19937 random(7);
+  TemporaryFolder folder("naive");
+  std::vector<double> k1, claimed;
+  for (int i = 0; i < 60; ++i) {
+    const CurveFit fit = fit_curve(mean_curve(bench_of(wanted, 5, random, folder.path)), 2, {});
+    k1.push_back(fit.k[0].value);
+    claimed.push_back(fit.k[0].standard_error);
+  }
+  EXPECT_NEAR(mean(claimed) / standard_deviation(k1), 1, 0.3);
+  EXPECT_GT(standard_deviation(k1), 0.01 * 30006);
+}
+
+TEST(CurveFit, TheLowestSufficientDegreeIsChosenForEveryDirection) {
+  std::mt19937 random(11);
+  TemporaryFolder folder("degree");
+  SyntheticRecord straight = f111_record();
+  straight.load = [](double e) { return 20000 * e; };
+  SyntheticRecord bent = straight;
+  bent.load = [](double e) { return 2000 * e + 2e6 * e * e * e; };
+  const MeanCurve a = mean_curve(bench_of(straight, 3, random, folder.path));
+  const MeanCurve b = mean_curve(bench_of(bent, 3, random, folder.path));
+  EXPECT_EQ(choose_degree({a}, {}), 1);
+  EXPECT_GE(choose_degree({a, b}, {}), 2);
+  FitOptions strict;
+  strict.wanted_r2 = 0.9999999;
+  strict.highest_degree = 2;
+  EXPECT_THROW(choose_degree({a, b}, strict), Error);
+  FitOptions chosen;
+  chosen.degree = 4;
+  EXPECT_EQ(choose_degree({a}, chosen), 4);
+}
+
+TEST(CurveFit, AFitThatTurnsOverInsideTheTestIsFound) {
+  std::mt19937 random(13);
+  TemporaryFolder folder("turn");
+  SyntheticRecord flat = f111_record();
+  flat.load = [](double e) { return e < 0.1 ? 50000 * e : 5000 + 50 * (e - 0.1); };
+  flat.noise = 1e-3;
+  const CurveFit fit = fit_curve(mean_curve(bench_of(flat, 3, random, folder.path)), 2, {});
+  EXPECT_LT(fit.rising_until, fit.tested_strain);
+  EXPECT_GT(fit.rising_until, 0.1);
+}
+
+TEST(CurveFit, AResidualLoadIsReportedAndZeroedOnRequest) {
+  std::mt19937 random(17);
+  TemporaryFolder folder("offset");
+  CleanRecord a;
+  a.name = "a";
+  for (int i = 0; i <= 100; ++i)
+    a.strain.push_back(3e-3 * i), a.load.push_back(200 + 20000 * a.strain.back());
+  a.failure_strain = 0.3;
+  a.failure_load = a.load.back();
+  CleanRecord b = a;
+  for (double& load : b.load) load *= 1.02;
+  const MeanCurve curve = mean_curve({a, b});
+  const CurveFit with = fit_curve(curve, 1, {});
+  EXPECT_NEAR(with.offset.value, 202, 1e-6);
+  EXPECT_NEAR(with.k[0].value, 20200, 1e-4);
+  FitOptions zero;
+  zero.zero_offset = true;
+  const CurveFit without = fit_curve(curve, 1, zero);
+  EXPECT_EQ(without.offset.value, 0);
+  EXPECT_GT(without.k[0].value, 20200);
+}
+
+TEST(CurveFit, ASampleInOtherUnitsIsNotTheSameCloth) {
+  std::mt19937 random(19);
+  TemporaryFolder folder("units");
+  std::vector<CleanRecord> records = bench_of(f111_record(), 3, random, folder.path);
+  for (double& load : records[1].load) load *= 1000;
+  EXPECT_THROW(mean_curve(records), Error);
+}
+
+}  // namespace
+}  // namespace ripstop
