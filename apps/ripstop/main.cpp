@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
   add_fabric(app, status);
   add_fit(app, status);
   add_coupon(app, status);
+  add_inflate(app, status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

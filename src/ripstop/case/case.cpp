@@ -75,6 +75,55 @@ void describe(Fields& fields, CouplingSettings& coupling) {
                  "Threads of the cloth solver; 0: one a core.");
 }
 
+void describe(Fields& fields, InflationSettings& inflation) {
+  fields
+      .number("initial_radius_m", inflation.initial_radius_m, above(0).up_to(1000),
+              "Radius of the folded skirt, midway between its inner and outer folds.")
+      .absent("needed by ripstop inflate");
+  fields.integer("folds", inflation.folds, from(0).up_to(1000),
+                 "Outer folds round the canopy, as many inner ones; 0: one a line.");
+  fields.number("slack_m", inflation.slack_m, from(0).up_to(1000),
+                "By which the lines are longer than their way from confluence to skirt.");
+  fields
+      .number("pressure_pa", inflation.pressure_pa, above(0).up_to(1e6),
+              "Uniform pressure difference over the canopy.")
+      .absent("from drag_coefficient, or from a steady run given on the command line");
+  fields
+      .number("drag_coefficient", inflation.drag_coefficient, above(0).up_to(5),
+              "C_D on S0: the pressure is such that the steady drag is C_D S0 q at the speed of [flow].")
+      .absent("from pressure_pa, or from a steady run given on the command line");
+  fields.number("ramp_s", inflation.ramp_s, from(0).up_to(1000),
+                "Time in which the pressure rises in proportion to time; 0: at once.");
+  fields.number("damping_n_s_m3", inflation.damping_n_s_m3, from(0).up_to(1e5),
+                "C_a: absolute damping of the cloth a unit area ([NFM] Eq. 20, mended).");
+  fields.number("quadratic_damping_n_s2_m4", inflation.quadratic_damping_n_s2_m4, from(0).up_to(1e5),
+                "The same in proportion to the square of the speed.");
+  fields.number("line_damping_s", inflation.line_damping_s, from(0).up_to(1e-3),
+                "Relative damping of lines and tape as a time: C = line_damping_s K_1 / L0 (assumed).");
+  fields.number("duration_s", inflation.duration_s, above(0).up_to(1000), "Time from deployment to the end.");
+  fields.number(
+      "history_hz", inflation.history_hz, from(10).up_to(1e6),
+      "Rows a second of the load history, at least; each has the mean, least and largest load of all "
+      "its steps.");
+  fields.number("low_pass_hz", inflation.low_pass_hz, from(0).up_to(1e6),
+                "Cutoff of a low-pass over the written history; the computation is not filtered; 0: none.");
+  fields.numbers("sheet_s", inflation.sheet_s, 1, 12, from(0).up_to(1000),
+                 "Instants whose shapes the contact sheet shows, at the next look at the step.");
+  fields.integer("frames", inflation.frames, from(1).up_to(100000), "Shapes that are written.");
+  fields.number("step_fraction", inflation.step_fraction, above(0).up_to(0.98),
+                "Time step over the largest stable one.");
+  fields.number("measured_peak_n", inflation.measured_peak_n, above(0).up_to(1e7), "Measured peak load.")
+      .absent("withheld or not measured");
+  fields
+      .number("measured_inflation_time_s", inflation.measured_inflation_time_s, above(0).up_to(1000),
+              "Measured time until the load stays within 10 % of steady.")
+      .absent("withheld or not measured");
+  fields
+      .number("printed_peak_n", inflation.printed_peak_n, above(0).up_to(1e7),
+              "Peak load that the source's model gives.")
+      .absent("not printed");
+}
+
 void describe(Fields& fields, Measured& measured) {
   fields
       .number("nominal_speed_m_s", measured.nominal_speed_m_s, above(0).up_to(100),
@@ -105,6 +154,7 @@ void describe(Fields& fields, Case& value) {
                       "Materials of this case; they come before those of the library with the same name.");
   fields.table("flow", value.flow, "The air, its box and its solver.").required();
   fields.table("coupling", value.coupling, "The steady loop between cloth and flow.");
+  fields.table("inflation", value.inflation, "The opening of the folded canopy.");
   fields.rows("measured", value.measured, "Wind-tunnel conditions to take air from and to compare with.");
 }
 

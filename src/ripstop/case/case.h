@@ -11,6 +11,7 @@
 #include "ripstop/core/toml/problem.h"
 #include "ripstop/core/vec3.h"
 #include "ripstop/coupling/settings.h"
+#include "ripstop/inflation/settings.h"
 #include "ripstop/material/library.h"
 #include "ripstop/material/material.h"
 #include "ripstop/parachute/design.h"
@@ -58,6 +59,7 @@ struct Case {
   std::map<std::string, Material> materials;
   FlowSettings flow;
   CouplingSettings coupling;
+  InflationSettings inflation;
   std::vector<Measured> measured;
 
   std::filesystem::path file;  // where it was read from; empty: not from a file
@@ -66,6 +68,7 @@ struct Case {
 
 void describe(Fields& fields, FlowSettings& flow);
 void describe(Fields& fields, CouplingSettings& coupling);
+void describe(Fields& fields, InflationSettings& inflation);
 void describe(Fields& fields, Measured& measured);
 void describe(Fields& fields, Case& value);
 

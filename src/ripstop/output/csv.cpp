@@ -129,4 +129,10 @@ void CsvLog::add(const std::vector<double>& row) {
   append_to_file(path_, row_line(path_, columns_, row));
 }
 
+void CsvLog::add(const std::vector<std::vector<double>>& rows) {
+  std::string lines;
+  for (const std::vector<double>& row : rows) lines += row_line(path_, columns_, row);
+  append_to_file(path_, lines);
+}
+
 }  // namespace ripstop

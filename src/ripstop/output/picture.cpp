@@ -203,4 +203,45 @@ ColourRange write_canopy_picture(const std::filesystem::path& path, const Mesh& 
   return range;
 }
 
+void write_contact_sheet(const std::filesystem::path& path, const Mesh& mesh, const std::string& title,
+                         const std::string& quantity, const std::vector<CanopyShot>& shots) {
+  constexpr int most_shots = 12, across = 4, tile_width = 450, tile_height = 420, head = 84, foot = 48;
+  if (shots.empty() || shots.size() > most_shots) {
+    throw Error(ExitCode::bad_data, fmt::format("{}: a contact sheet of {} shapes; 1 to {} fit",
+                                                path.string(), shots.size(), most_shots));
+  }
+  std::vector<double> values;
+  for (const CanopyShot& shot : shots) {
+    const auto own = checked_values(path, mesh, shot.positions, {title, quantity, shot.cell_values});
+    values.insert(values.end(), own.begin(), own.end());
+  }
+  const ColourRange range = colour_range(values, clipped_share);
+  std::vector<Shown> shown;
+  std::vector<Vec3> held;
+  for (const CanopyShot& shot : shots) {
+    shown.push_back(what_to_show(mesh, shot.positions, shot.cell_values, range));
+    held.insert(held.end(), shown.back().canopy.begin(), shown.back().canopy.end());
+  }
+  Vec3 centre;
+  for (Vec3 point : held) centre += point / static_cast<double>(held.size());
+  double radius = 0;
+  for (Vec3 point : held) radius = std::max(radius, norm(point - centre));
+  const Camera camera = fitted(camera_from(centre, {-0.8, 0.33, -0.5}, {0, 1, 0}, 6 * radius), held,
+                               1.0 * tile_width / tile_height, 0.05);
+
+  const int count = static_cast<int>(shots.size()), columns = std::min(count, across);
+  const int rows = (count + columns - 1) / columns;
+  write_drawing(path, columns * tile_width, head + rows * tile_height + foot, [&](cairo_t* page) {
+    draw_text(page, 24, 54, title, {28, Align::left, true, ink});
+    for (int i = 0; i < count; ++i) {
+      const Box box{(i % columns) * tile_width + 6, head + (i / columns) * tile_height + 6, tile_width - 12,
+                    tile_height - 12};
+      draw_view(page, box, shown[i].scene, camera, shots[i].caption.c_str());
+    }
+    draw_text(page, 24, head + rows * tile_height + 30,
+              fmt::format("{} from {:.3g} (dark) to {:.3g} (bright)", quantity, range.low, range.high),
+              {18, Align::left, false, ink});
+  });
+}
+
 }  // namespace ripstop

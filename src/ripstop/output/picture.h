@@ -25,4 +25,15 @@ struct CanopyPicture {
 ColourRange write_canopy_picture(const std::filesystem::path& path, const Mesh& mesh,
                                  const std::vector<Vec3>& positions, const CanopyPicture& picture);
 
+/// One shape of a contact sheet.
+struct CanopyShot {
+  std::string caption;  // "t = 12 ms"
+  std::vector<Vec3> positions;
+  std::vector<double> cell_values;  // in the order of cells_of()
+};
+/// Draws all shots side by side, obliquely from upstream, at one scale and in one range of colours: at
+/// most 12. Throws as write_canopy_picture(); Error(bad_data) without a shot.
+void write_contact_sheet(const std::filesystem::path& path, const Mesh& mesh, const std::string& title,
+                         const std::string& quantity, const std::vector<CanopyShot>& shots);
+
 }  // namespace ripstop

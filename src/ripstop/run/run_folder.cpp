@@ -67,30 +67,30 @@ ordered_json read_json(const fs::path& file) {
 
 }  // namespace
 
-RunFolder::RunFolder(const RunSettings& settings, const Case& value, const std::string& engine, int threads)
-    : folder_(settings.folder) {
+void open_run_folder(const RunSettings& settings, const Case& value, const std::string& engine, int threads) {
+  const fs::path& folder = settings.folder;
   const std::string resolved = case_json(value);
   const std::string hash = hash_bytes(fmt::format("{}\n{}\n{}", version(), engine, resolved));
-  const fs::path description = folder_ / "run.json";
-  if (fs::exists(folder_) && !fs::is_empty(folder_)) {
+  const fs::path description = folder / "run.json";
+  if (fs::exists(folder) && !fs::is_empty(folder)) {
     if (!fs::exists(description)) {
       throw Error(ExitCode::usage,
                   fmt::format("{}: is not empty and holds no run of Ripstop (no run.json); choose "
                               "another --out",
-                              folder_.string()));
+                              folder.string()));
     }
     if (settings.fresh) {
-      for (const auto& entry : fs::directory_iterator(folder_)) fs::remove_all(entry.path());
+      for (const auto& entry : fs::directory_iterator(folder)) fs::remove_all(entry.path());
     } else if (read_json(description).value("inputs_hash", "") != hash) {
       throw Error(ExitCode::usage,
                   fmt::format("{}: holds a run of other inputs (case, speed, grid, ranks, program or "
                               "flow engine differ); choose another --out, or --fresh to replace it",
-                              folder_.string()));
+                              folder.string()));
     } else {
       return;
     }
   }
-  make_folder(folder_);
+  make_folder(folder);
   ordered_json run;
   run["program"] = "ripstop";
   run["version"] = version();
@@ -104,6 +104,11 @@ RunFolder::RunFolder(const RunSettings& settings, const Case& value, const std::
   run["inputs_hash"] = hash;
   run["case"] = ordered_json::parse(resolved);
   write_file(description, run.dump(2) + "\n");
+}
+
+RunFolder::RunFolder(const RunSettings& settings, const Case& value, const std::string& engine, int threads)
+    : folder_(settings.folder) {
+  open_run_folder(settings, value, engine, threads);
 }
 
 std::optional<std::string> RunFolder::finished_result() const {

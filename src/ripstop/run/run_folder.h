@@ -17,12 +17,16 @@ struct RunSettings {
   bool fresh = false;  // throw away what the folder holds of an earlier run
 };
 
+/// Opens or makes the folder of a run and writes run.json. `solver` says what computes, and with what beside
+/// the case. A folder that holds a run of other inputs is refused unless `fresh`, and one that holds anything
+/// but a run of Ripstop is never emptied: Error(usage).
+void open_run_folder(const RunSettings& settings, const Case& value, const std::string& solver, int threads);
+
 enum class RunStatus { started, resumed, already_done };
 
 class RunFolder {
  public:
-  /// Opens or makes the folder. One that holds a run of other inputs is refused unless `fresh`: Error(usage).
-  /// A folder that holds anything but a run of Ripstop is never emptied: Error(usage).
+  /// As open_run_folder().
   RunFolder(const RunSettings& settings, const Case& value, const std::string& engine, int threads);
 
   const std::filesystem::path& path() const { return folder_; }

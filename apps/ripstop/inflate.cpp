@@ -1,0 +1,249 @@
+// ripstop inflate: the opening of a folded canopy, from a case file to a run folder.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "commands.h"
+#include "progress.h"
+#include "ripstop/case/assemble.h"
+#include "ripstop/core/error.h"
+#include "ripstop/core/file.h"
+#include "ripstop/inflation/pressure.h"
+#include "ripstop/run/inflation_folder.h"
+
+namespace ripstop {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The equilibrium that turns a drag into a pressure is found on a mesh of at most so many nodes: its area
+// differs by a few parts of a thousand.
+constexpr int equilibrium_nodes = 3000;
+constexpr double seconds_between_checkpoints = 10;
+
+struct Options {
+  fs::path case_file, out, steady_run;
+  Overrides overrides;
+  std::optional<double> pressure, damping, duration;
+  std::optional<int> cloth_nodes;
+  int threads = 0;
+  bool fresh = false, check = false;
+};
+
+Case case_of(const Options& options) {
+  Case value = read_case(options.case_file, options.overrides);
+  InflationSettings& inflation = value.inflation;
+  if (options.cloth_nodes) value.parachute.mesh.cloth_nodes = *options.cloth_nodes;
+  if (options.damping) inflation.damping_n_s_m3 = *options.damping;
+  if (options.duration) inflation.duration_s = *options.duration;
+  if (options.pressure) inflation.pressure_pa = *options.pressure;
+  if (options.pressure || !options.steady_run.empty()) inflation.drag_coefficient.reset();
+  if (!options.steady_run.empty()) inflation.pressure_pa.reset();
+  value.parachute.mesh.folds = inflation.folds > 0 ? inflation.folds : value.parachute.lines.count;
+  return value;
+}
+
+double drag_of_run(const fs::path& folder) {
+  const fs::path file = folder / "result.json";
+  try {
+    const auto result = nlohmann::json::parse(read_file(file));
+    if (!result.value("converged", false)) {
+      throw Error(ExitCode::bad_data, fmt::format("{}: the steady run has not converged", file.string()));
+    }
+    return result.at("drag_n").get<double>();
+  } catch (const nlohmann::json::exception& error) {
+    throw Error(ExitCode::bad_data,
+                fmt::format("{}: not the result of ripstop steady ({})", file.string(), error.what()));
+  }
+}
+
+LoadSource load_source(const Case& value, const fs::path& steady_run) {
+  const InflationSettings& inflation = value.inflation;
+  const int given =
+      !steady_run.empty() + inflation.pressure_pa.has_value() + inflation.drag_coefficient.has_value();
+  if (given != 1) {
+    throw Error(ExitCode::usage,
+                "give the pressure once: inflation.pressure_pa, inflation.drag_coefficient, --pressure "
+                "or --steady RUN");
+  }
+  if (inflation.pressure_pa) return {fmt::format("given: {:g} Pa", *inflation.pressure_pa), {}};
+  if (!steady_run.empty()) {
+    const double drag = drag_of_run(steady_run);
+    return {fmt::format("steady run {}: {:.4g} N", steady_run.string(), drag), drag};
+  }
+  const Air stream = air(value);
+  const double q = 0.5 * stream.density * stream.speed * stream.speed;
+  const double drag = *inflation.drag_coefficient * nominal_area(value.parachute) * q;
+  return {fmt::format("C_D = {:g} at {:g} m/s: {:.4g} N", *inflation.drag_coefficient, stream.speed, drag),
+          drag};
+}
+
+double pressure_of(const Case& value, const LoadSource& source, int threads) {
+  if (!source.steady_drag) return *value.inflation.pressure_pa;
+  Case coarse = value;
+  coarse.parachute.mesh.cloth_nodes = std::min(equilibrium_nodes, value.parachute.mesh.cloth_nodes);
+  ThreadTeam team(threads);
+  return pressure_for(*source.steady_drag, parachute_mesh(coarse), value.coupling.linear, team).pressure;
+}
+
+void print_start(const Inflation& solver, const InflationState& state, const LoadSource& source) {
+  const FoldedStart& folded = solver.folded();
+  const StartStrain strain = start_strain(solver.mesh(), folded.positions);
+  fmt::print("folded start: {} folds, skirt folds at {:.4f} m and {:.4f} m from the axis\n", folded.folds,
+             folded.inner_radius, folded.outer_radius);
+  fmt::print("  largest strain {:.2e}{}\n", strain.largest,
+             strain.part.empty() ? "" : " (" + strain.part + "); wanted below 1e-3");
+  fmt::print("pressure {:.2f} Pa ({})\n", solver.problem().pressure, source.text);
+  fmt::print("nodes {}, step {:.3e} s (largest stable {:.3e} s), {} threads\n", solver.mesh().node_count(),
+             state.step, state.step / solver.problem().settings.step_fraction, solver.threads());
+}
+
+void print_result(const InflationResult& r, const Case& value, const LoadSource& source,
+                  const fs::path& folder) {
+  const auto row = [](const char* name, const std::string& text) { fmt::print("  {:<26} {}\n", name, text); };
+  const InflationSettings& s = value.inflation;
+  fmt::print("\n{}\n", value.title);
+  row("peak load", fmt::format("{:.1f} N at {:.2f} ms, over every step", r.peak_load, 1000 * r.peak_time));
+  if (s.low_pass_hz > 0) {
+    row("peak, low-passed", fmt::format("{:.1f} N at {:.2f} ms ({:g} Hz)", r.summary.smooth_peak,
+                                        1000 * r.summary.smooth_peak_time, s.low_pass_hz));
+  }
+  if (s.measured_peak_n) {
+    const double own = s.low_pass_hz > 0 ? r.summary.smooth_peak : r.peak_load;
+    row("peak measured",
+        fmt::format("{:.1f} N ({:+.1f} %{})", *s.measured_peak_n, 100 * (own / *s.measured_peak_n - 1),
+                    s.low_pass_hz > 0 ? ", low-passed" : ""));
+  }
+  if (s.printed_peak_n) row("peak of the source's model", fmt::format("{:.1f} N", *s.printed_peak_n));
+  row("Knacke's estimate",
+      fmt::format("{:.1f} N, C_x = {:g} (infinite mass)", r.estimate.load, r.estimate.coefficient));
+  row("steady load", fmt::format("{:.1f} N +- {:.1f} % over the last fifth", r.summary.steady_load,
+                                 100 * r.summary.unsteadiness));
+  if (source.steady_drag) {
+    row("steady drag returned",
+        fmt::format("{:+.2f} % of {:.1f} N", 100 * (r.summary.steady_load / *source.steady_drag - 1),
+                    *source.steady_drag));
+  }
+  row("inflation time",
+      r.summary.inflation_time
+          ? fmt::format("{:.1f} ms until within 10 % of steady for good", 1000 * *r.summary.inflation_time)
+          : "still outside 10 % of steady at the end; a longer inflation.duration_s may settle it");
+  row("overshoot", s.low_pass_hz > 0
+                       ? fmt::format("{:.3f}, low-passed {:.3f}", r.overshoot, r.smooth_overshoot)
+                       : fmt::format("{:.3f}", r.overshoot));
+  row("impulse", fmt::format("{:.3f} N s", r.impulse));
+  row("highest line tension",
+      fmt::format("{:.1f} N", *std::max_element(r.line_peaks.begin(), r.line_peaks.end())));
+  row("highest stress",
+      fmt::format("{:.0f} N/m von Mises on the {} at {:.1f} ms{}", r.stress.von_mises, r.stress.patch,
+                  1000 * r.stress_time,
+                  r.break_load > 0 ? fmt::format(", margin {:.1f} to its {:.0f} N/m",
+                                                 r.break_load / r.stress.von_mises, r.break_load)
+                                   : ""));
+  row("energy balance",
+      fmt::format("work in = kinetic + elastic + damped within {:.3f} %", 100 * r.energy_residual));
+  row("files", fmt::format("{} (load.png, shapes.png, history.csv, canopy.pvd, result.json); {}",
+                           folder.string(), duration_text(r.wall_time)));
+}
+
+int run(const Options& options) {
+  const Case value = case_of(options);
+  const fs::path folder =
+      options.out.empty()
+          ? fs::path("runs") / (options.case_file.parent_path().filename().string() + "-inflation")
+          : options.out;
+  const LoadSource source = load_source(value, options.steady_run);
+  const int threads = options.threads > 0 ? options.threads : value.coupling.threads;
+  const auto problem = [&] {
+    return InflationProblem{parachute_mesh(value), value.inflation, pressure_of(value, source, threads),
+                            value.coupling.linear, threads};
+  };
+  if (options.check) {
+    const Inflation solver(problem());
+    print_start(solver, solver.start(), source);
+    return 0;
+  }
+  InflationFolder files({folder, options.fresh}, value, "inflation; pressure from " + source.text, threads);
+  if (const auto result = files.finished_result()) {
+    fmt::print("{}", *result);
+    fmt::print(stderr, "{} holds the finished run; --fresh computes it again\n", folder.string());
+    return 0;
+  }
+  Progress progress;
+  progress.show("equilibrium under the steady load");
+  Inflation solver(problem());
+  InflationState state;
+  if (auto saved = files.go_on(solver)) {
+    state = std::move(*saved);
+    progress.line(fmt::format("going on at {:.2f} ms of {}", 1000 * state.cloth.time, folder.string()));
+  } else {
+    state = solver.start();
+    files.write_start(solver, state);
+    print_start(solver, state, source);
+  }
+
+  using Clock = std::chrono::steady_clock;
+  const auto seconds_since = [](Clock::time_point t) {
+    return std::chrono::duration<double>(Clock::now() - t).count();
+  };
+  const Clock::time_point begin = Clock::now();
+  Clock::time_point saved = begin;
+  const long long first = state.blocks;
+  while (state.blocks < solver.blocks()) {
+    const std::vector<HistoryRow> rows = solver.advance(state);
+    files.add_rows(rows);
+    if (solver.at_frame(state)) {
+      files.write_frame(solver, state, solver.frame(state));
+      if (seconds_since(saved) > seconds_between_checkpoints) {
+        files.save(state);
+        saved = Clock::now();
+      }
+    }
+    const double gone = seconds_since(begin);
+    const double left = gone * double(solver.blocks() - state.blocks) / double(state.blocks - first);
+    progress.show(fmt::format("{:.2f} of {:.0f} ms, load {:.1f} N, step {:.2e} s | {} gone, about {} left",
+                              1000 * state.cloth.time, 1000 * value.inflation.duration_s, rows.back().mean,
+                              state.step, duration_text(gone), duration_text(left)));
+  }
+  files.save(state);
+  print_result(files.finish(solver, state, value, source), value, source, folder);
+  return 0;
+}
+
+}  // namespace
+
+void add_inflate(CLI::App& app, int& status) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      app.add_subcommand("inflate", "How a folded canopy opens, and the load it puts on the riser");
+  command->footer("Example: ripstop inflate examples/stratos-iv/case.toml --steady runs/stratos-iv");
+  command->add_option("case", options->case_file, "Case file (TOML) with an [inflation] table")->required();
+  command
+      ->add_option("--steady", options->steady_run,
+                   "Run folder of ripstop steady: its drag sets the pressure")
+      ->check(CLI::ExistingDirectory);
+  command->add_option("--pressure", options->pressure, "Pressure difference over the canopy [Pa]")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--damping", options->damping, "C_a a unit area [N s/m3]")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--duration", options->duration, "Time from deployment to the end [s]")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--cloth-nodes", options->cloth_nodes, "Nodes of the cloth aimed at")
+      ->check(CLI::Range(500, 2000000));
+  command->add_option("--speed", options->overrides.speed, "Nominal speed [m/s]");
+  command->add_option("--threads", options->threads, "Threads (default: as in [coupling])")
+      ->check(CLI::Range(1, 1024));
+  command->add_option("--out", options->out, "Run folder (default: runs/<folder of the case>-inflation)");
+  command->add_flag("--fresh", options->fresh, "Replace what the run folder holds; default: go on with it");
+  command->add_flag("--check", options->check, "Fold, say strain, pressure and step, and stop");
+  command->callback([options, &status] { status = run(*options); });
+}
+
+}  // namespace ripstop

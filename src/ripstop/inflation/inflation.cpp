@@ -1,0 +1,158 @@
+#include "ripstop/inflation/inflation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ripstop/core/error.h"
+
+namespace ripstop {
+namespace {
+
+// Of a block, after which the stable step is looked at: the looking costs about as much as 40 steps.
+constexpr double longest_block = 2e-3;  // [s]
+// How often one block is tried with a smaller step before its divergence is the user's.
+constexpr int most_tries = 4;
+
+}  // namespace
+
+double InflationFrame::residual() const {
+  return pressure_work > 0 ? (pressure_work - kinetic - elastic - damped) / pressure_work : 0;
+}
+
+void damp_lines(Mesh& mesh, double time) {
+  for (Spring& spring : mesh.springs) {
+    const SpringLaw& law = mesh.laws[spring.law];
+    spring.damping += time * law.tangent(0) * spring.scale / spring.rest_length;
+  }
+}
+
+Inflation::Inflation(InflationProblem problem) : problem_(std::move(problem)), team_(problem_.threads) {
+  const InflationSettings& s = problem_.settings;
+  if (!s.initial_radius_m) {
+    throw Error(ExitCode::usage,
+                "inflation.initial_radius_m is not given: the radius of the folded skirt, for example 0.1");
+  }
+  folded_ = fold(problem_.mesh, {*s.initial_radius_m, s.folds, s.slack_m});
+  mesh_ = with_creases(problem_.mesh, folded_.folds);
+  damp_lines(mesh_, s.line_damping_s);
+  cloth_ = make_cloth(mesh_, {problem_.linear, s.damping_n_s_m3, s.quadratic_damping_n_s2_m4});
+
+  const double frame = s.duration_s / s.frames;
+  blocks_per_frame_ = std::max(1, static_cast<int>(std::ceil(frame / longest_block - 1e-9)));
+  const double block = frame / blocks_per_frame_;
+  rows_per_block_ = std::max(1, static_cast<int>(std::ceil(block * s.history_hz - 1e-9)));
+  row_ = block / rows_per_block_;
+}
+
+InflationState Inflation::start() const {
+  InflationState state;
+  state.cloth = start_state(*cloth_);
+  set_positions(state.cloth, *cloth_, folded_.positions);
+  state.step = problem_.settings.step_fraction * step_bound(*cloth_, state.cloth).stable_step;
+  take_shots(state);
+  return state;
+}
+
+std::vector<HistoryRow> Inflation::advance(InflationState& state) {
+  const double fraction = problem_.settings.step_fraction;
+  for (int tries = 1;; ++tries) {
+    InflationState next = state;
+    double stable = 0;
+    try {
+      std::vector<HistoryRow> rows = compute_block(next);
+      stable = step_bound(*cloth_, next.cloth).stable_step;
+      if (next.step <= stable) {
+        // Down with the bound at once, up only when it has risen clearly.
+        if (fraction * stable < next.step || fraction * stable > 1.1 * next.step)
+          next.step = fraction * stable;
+        take_shots(next);
+        state = std::move(next);
+        return rows;
+      }
+    } catch (const Error& error) {
+      if (error.code() != ExitCode::diverged || tries == most_tries) throw;
+      stable = 0.5 * state.step / fraction;
+    }
+    state.step = fraction * stable;
+    ++state.step_changes;
+  }
+}
+
+std::vector<HistoryRow> Inflation::compute_block(InflationState& state) {
+  const InflationSettings& s = problem_.settings;
+  const int steps = static_cast<int>(std::ceil(row_ / state.step));
+  const double dt = row_ / steps;
+  Loads loads;
+  std::vector<HistoryRow> rows;
+  for (int i = 0; i < rows_per_block_; ++i) {
+    const long long index = state.blocks * rows_per_block_ + i;
+    const double begin = static_cast<double>(index) * row_;
+    const double share = s.ramp_s > 0 ? std::min(1.0, (begin + 0.5 * row_) / s.ramp_s) : 1.0;
+    loads.cell_pressure.assign(mesh_.cell_count(), share * problem_.pressure);
+    ripstop::step(state.cloth, *cloth_, loads, dt, steps, team_, &state.record);
+    state.cloth.time = static_cast<double>(index + 1) * row_;
+    HistoryRow row{state.cloth.time, 0, state.record.fixed_force[0].z, state.record.fixed_force[0].z};
+    for (int k = 0; k < steps; ++k) {
+      const double load = state.record.fixed_force[k].z;
+      row.mean += load / steps;
+      row.least = std::min(row.least, load);
+      row.largest = std::max(row.largest, load);
+      if (load <= state.peak_load) continue;
+      state.peak_load = load;
+      state.peak_time = begin + k * dt;
+    }
+    state.impulse += row.mean * row_;
+    rows.push_back(row);
+  }
+  ++state.blocks;
+  return rows;
+}
+
+// One shot at most for every instant that has come; instants closer than a block share one.
+void Inflation::take_shots(InflationState& state) const {
+  const std::vector<double>& instants = problem_.settings.sheet_s;
+  const double now = state.cloth.time, last = state.shots.empty() ? -1.0 : state.shots.back().time;
+  if (std::none_of(instants.begin(), instants.end(),
+                   [&](double t) { return t > last && t <= now * (1 + 1e-12); }))
+    return;
+  InflationShot shot{now, positions(state.cloth, *cloth_), {}};
+  for (const CellStress& stress : cell_stress(*cloth_, state.cloth))
+    shot.von_mises.push_back(stress.von_mises);
+  state.shots.push_back(std::move(shot));
+}
+
+InflationFrame Inflation::frame(InflationState& state) const {
+  const std::vector<Vec3> x = positions(state.cloth, *cloth_);
+  InflationFrame frame;
+  frame.time = state.cloth.time;
+  frame.pressure_work = state.record.pressure_work;
+  frame.damped = state.record.damped;
+  frame.kinetic = kinetic_energy(*cloth_, state.cloth);
+  frame.elastic = elastic_energy(*cloth_, state.cloth);
+  frame.step = state.step;
+  frame.stable_step = step_bound(*cloth_, state.cloth).stable_step;
+  frame.size = canopy_size(mesh_, x);
+  frame.stress = stress_peak(mesh_, x, cell_stress(*cloth_, state.cloth));
+  if (frame.stress.von_mises > state.highest_stress.von_mises) {
+    state.highest_stress = frame.stress;
+    state.highest_stress_time = frame.time;
+  }
+  return frame;
+}
+
+std::vector<double> Inflation::peak_tension_of_lines(const InflationState& state) const {
+  std::vector<double> peaks;
+  for (const LineRun& line : mesh_.lines) {
+    double peak = 0;
+    for (const int spring : line.springs) {
+      if (!state.record.peak_tension.empty())
+        peak = std::max(peak, state.record.peak_tension[spring] / line.axial_share);
+    }
+    peaks.push_back(peak);
+  }
+  return peaks;
+}
+
+}  // namespace ripstop

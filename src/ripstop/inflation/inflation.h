@@ -1,0 +1,106 @@
+// The opening of a folded canopy under a uniform pressure difference and absolute damping, [NFM] section on
+// inflation as mended in docs/theory/inflation.md.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "ripstop/cloth/cloth.h"
+#include "ripstop/coupling/result.h"
+#include "ripstop/inflation/settings.h"
+#include "ripstop/parachute/fold.h"
+#include "ripstop/parachute/mesh.h"
+
+namespace ripstop {
+
+struct InflationProblem {
+  Mesh mesh;  // as cut; fold lines and line damping are applied by the solver
+  InflationSettings settings;
+  double pressure = 0;  // dp [Pa]
+  bool linear = false;  // keep only K_1 of every law
+  int threads = 0;
+};
+
+/// Axial load on the riser (downstream > 0) over one interval of the history.
+struct HistoryRow {
+  double time = 0;                          // its end [s]
+  double mean = 0, least = 0, largest = 0;  // over all its steps [N]
+};
+
+/// Now and then along the way.
+struct InflationFrame {
+  double time = 0;                                                 // [s]
+  double pressure_work = 0, kinetic = 0, elastic = 0, damped = 0;  // [J]
+  double step = 0, stable_step = 0;  // used, and allowed at the present strain [s]
+  CanopySize size;
+  StressPeak stress;
+
+  /// Share of the work that the other three do not account for.
+  double residual() const;
+};
+
+/// A shape for the contact sheet.
+struct InflationShot {
+  double time = 0;  // [s]
+  std::vector<Vec3> positions;
+  std::vector<double> von_mises;  // of every cell [N/m]
+};
+
+/// All that a run needs to go on, to the last bit.
+struct InflationState {
+  ClothState cloth;
+  StepRecord record;
+  double step = 0;       // [s]
+  long long blocks = 0;  // done
+  double peak_load = 0;  // over every step [N]
+  double peak_time = 0;  // [s]
+  double impulse = 0;    // [N s]
+  int step_changes = 0;  // how often strain made the step smaller
+  StressPeak highest_stress;
+  double highest_stress_time = 0;  // [s]
+  std::vector<InflationShot> shots;
+};
+
+class Inflation {
+ public:
+  /// Throws Error(usage) for a folding or a number that does not fit.
+  explicit Inflation(InflationProblem problem);
+
+  InflationState start() const;
+
+  /// A run is `blocks()` blocks; every frame is a whole number of blocks, every block of rows.
+  long long blocks() const { return static_cast<long long>(problem_.settings.frames) * blocks_per_frame_; }
+  bool at_frame(const InflationState& state) const { return state.blocks % blocks_per_frame_ == 0; }
+  int rows_per_block() const { return rows_per_block_; }
+  double row_duration() const { return row_; }  // [s]
+
+  /// One block. The step is `step_fraction` of the largest stable one; when strain has made that smaller than
+  /// the step by the block's end, the block is computed again. Throws Error(diverged).
+  std::vector<HistoryRow> advance(InflationState& state);
+  InflationFrame frame(InflationState& state) const;
+
+  const Mesh& mesh() const { return mesh_; }
+  const Cloth& cloth() const { return *cloth_; }
+  const FoldedStart& folded() const { return folded_; }
+  const InflationProblem& problem() const { return problem_; }
+  int threads() const { return team_.size(); }
+  std::vector<double> peak_tension_of_lines(const InflationState& state) const;  // [N]
+
+ private:
+  std::vector<HistoryRow> compute_block(InflationState& state);
+  void take_shots(InflationState& state) const;
+
+  InflationProblem problem_;
+  Mesh mesh_;
+  FoldedStart folded_;
+  ClothPtr cloth_;
+  ThreadTeam team_;
+  int blocks_per_frame_ = 1, rows_per_block_ = 1;
+  double row_ = 0;  // [s]
+};
+
+/// Lines, riser and tape get dampers C = time K_1 w / L0: a Kelvin-Voigt solid whose loss does not depend on
+/// the mesh.
+void damp_lines(Mesh& mesh, double time);
+
+}  // namespace ripstop

@@ -1,0 +1,23 @@
+// The uniform pressure difference that stands for the air.
+#pragma once
+
+#include "ripstop/core/thread_team.h"
+#include "ripstop/parachute/mesh.h"
+
+namespace ripstop {
+
+struct UniformPressure {
+  double pressure = 0;    // dp [Pa]
+  double load = 0;        // axial, that it puts on the riser in equilibrium [N]
+  double axial_area = 0;  // load / pressure: the cloth's projection along the axis [m2]
+  int relaxations = 0;
+};
+
+/// Equilibrium of the mesh under a uniform `pressure` [Pa]. Throws Error(not_converged).
+UniformPressure load_under(double pressure, const Mesh& mesh, bool linear, ThreadTeam& team);
+
+/// The dp with which the equilibrium carries `load` [N] within 0.1 %: dp = load / A(dp), [NFM] as mended. The
+/// shape hardly depends on dp, so two or three equilibria do. Throws Error(not_converged).
+UniformPressure pressure_for(double load, const Mesh& mesh, bool linear, ThreadTeam& team);
+
+}  // namespace ripstop

@@ -1,0 +1,35 @@
+// [inflation] of a case file.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+namespace ripstop {
+
+struct InflationSettings {
+  std::optional<double> initial_radius_m;  // of the folded skirt, midway between inner and outer folds
+  int folds = 0;                           // 0: one a line
+  double slack_m = 0;                      // lines longer than their way from confluence to skirt
+
+  std::optional<double> pressure_pa;       // dp over the canopy
+  std::optional<double> drag_coefficient;  // on S0: dp such that the steady drag is C_D S0 q
+  double ramp_s = 0;                       // dp rises in proportion to time until then
+
+  double damping_n_s_m3 = 8.2;  // C_a a unit area of cloth, [NFM] Eq. 20
+  double quadratic_damping_n_s2_m4 = 0;
+  double line_damping_s = 1e-6;  // of lines and tape: C = this times K_1 (w) / L0 of every spring
+
+  double duration_s = 0.5;
+  double history_hz = 5000;  // rows of the history a second, at least
+  double low_pass_hz = 0;    // of the written history only; 0: none
+  int frames = 200;
+  std::vector<double> sheet_s = {0,    0.005, 0.01, 0.015,
+                                 0.02, 0.03,  0.04, 0.1};  // shapes on the contact sheet
+  double step_fraction = 0.9;                              // of the largest stable step
+
+  std::optional<double> measured_peak_n;
+  std::optional<double> measured_inflation_time_s;
+  std::optional<double> printed_peak_n;  // that the source's model gives
+};
+
+}  // namespace ripstop

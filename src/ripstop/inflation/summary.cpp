@@ -1,0 +1,74 @@
+#include "ripstop/inflation/summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "ripstop/core/error.h"
+
+namespace ripstop {
+namespace {
+
+constexpr double steady_band = 0.1;
+
+// y_n = b0 (x_n + 2 x_{n-1} + x_{n-2}) - a1 y_{n-1} - a2 y_{n-2}: the bilinear transform of 1 / (s^2 + sqrt2
+// s + 1) with the cutoff prewarped. Starts as if the first value had always been there.
+std::vector<double> butterworth(const std::vector<double>& x, double k) {
+  const double scale = 1 / (1 + std::numbers::sqrt2 * k + k * k);
+  const double b0 = k * k * scale, a1 = 2 * (k * k - 1) * scale,
+               a2 = (1 - std::numbers::sqrt2 * k + k * k) * scale;
+  std::vector<double> y(x.size());
+  double x1 = x.front(), x2 = x1, y1 = x1, y2 = x1;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    y[i] = b0 * (x[i] + 2 * x1 + x2) - a1 * y1 - a2 * y2;
+    x2 = x1, x1 = x[i], y2 = y1, y1 = y[i];
+  }
+  return y;
+}
+
+}  // namespace
+
+std::vector<double> low_pass(const std::vector<double>& values, double interval, double cutoff_hz) {
+  if (!(cutoff_hz > 0 && cutoff_hz * interval < 0.5)) {
+    throw Error(ExitCode::usage,
+                fmt::format("inflation.low_pass_hz = {}: must be above 0 and below half the rate of the "
+                            "history, {:.6g} Hz; raise inflation.history_hz",
+                            cutoff_hz, 0.5 / interval));
+  }
+  if (values.empty()) return {};
+  const double k = std::tan(std::numbers::pi * cutoff_hz * interval);
+  std::vector<double> forth = butterworth(values, k);
+  std::reverse(forth.begin(), forth.end());
+  std::vector<double> back = butterworth(forth, k);
+  std::reverse(back.begin(), back.end());
+  return back;
+}
+
+InflationSummary summarise(const std::vector<HistoryRow>& rows, double low_pass_hz) {
+  InflationSummary summary;
+  if (rows.empty()) return summary;
+  std::vector<double> load;
+  for (const HistoryRow& row : rows) load.push_back(row.mean);
+  const std::size_t last = rows.size() - std::max<std::size_t>(1, rows.size() / 5);
+  const double count = static_cast<double>(rows.size() - last);
+  for (std::size_t i = last; i < rows.size(); ++i) summary.steady_load += load[i] / count;
+  double variance = 0;
+  for (std::size_t i = last; i < rows.size(); ++i)
+    variance += std::pow(load[i] - summary.steady_load, 2) / count;
+  summary.unsteadiness = std::sqrt(variance) / summary.steady_load;
+
+  if (low_pass_hz > 0) {
+    load = low_pass(load, rows.front().time, low_pass_hz);
+    const auto highest = std::max_element(load.begin(), load.end());
+    summary.smooth_peak = *highest;
+    summary.smooth_peak_time = rows[highest - load.begin()].time;
+  }
+  std::size_t settled = rows.size();
+  while (settled > 0 && std::abs(load[settled - 1] / summary.steady_load - 1) <= steady_band) --settled;
+  if (settled < rows.size()) summary.inflation_time = settled == 0 ? 0 : rows[settled - 1].time;
+  return summary;
+}
+
+}  // namespace ripstop
