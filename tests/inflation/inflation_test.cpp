@@ -1,0 +1,241 @@
+// The opening loop: exact cases, laws of momentum and energy, symmetry, restart.
+#include "ripstop/inflation/inflation.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "ripstop/core/error.h"
+#include "ripstop/inflation/pressure.h"
+#include "ripstop/parachute/build.h"
+#include "ripstop/run/inflation_folder.h"
+
+namespace ripstop {
+namespace {
+
+Mesh small_canopy(int nodes = 1200) {
+  Design design;
+  design.canopy = DiskGapBand{1.0, 0.2, 0.07, 0.3};
+  design.gores = 6;
+  design.lines.count = 6;
+  design.lines.length_m = 1.5;
+  design.mesh.cloth_nodes = nodes;
+  design.mesh.line_segment_m = 0.15;
+  design.mesh.folds = 6;
+  PartMaterials m;
+  m.canopy.name = "f-111";
+  m.canopy.coefficients_n_m = {30006, -18936};
+  m.canopy.tested_strain = 0.33;
+  m.canopy.areal_density_kg_m2 = 0.0407;
+  m.line.coefficients_n = {211895, 489633};
+  m.line.linear_density_kg_m = 2e-3;
+  m.riser = m.line;
+  m.tape.coefficients_n_m = {3064.2, 68823.4};
+  m.tape.width_m = 0.02;
+  m.tape.linear_density_kg_m = 6e-3;
+  return build_mesh(design, m);
+}
+
+InflationProblem small_problem(double pressure, double duration) {
+  InflationProblem problem{small_canopy(), {}, pressure, false, 2};
+  problem.settings.initial_radius_m = 0.2;
+  problem.settings.duration_s = duration;
+  problem.settings.frames = 10;
+  return problem;
+}
+
+std::vector<HistoryRow> run(Inflation& solver, InflationState& state) {
+  std::vector<HistoryRow> rows;
+  while (state.blocks < solver.blocks()) {
+    const auto block = solver.advance(state);
+    rows.insert(rows.end(), block.begin(), block.end());
+  }
+  return rows;
+}
+
+TEST(Inflation, TheFoldedStateAtRestStaysAtRest) {
+  Inflation solver(small_problem(0, 5e-3));
+  InflationState state = solver.start();
+  for (const HistoryRow& row : run(solver, state)) {
+    EXPECT_LT(std::max(std::abs(row.largest), std::abs(row.least)), 1e-6);
+  }
+  const std::vector<Vec3> x = positions(state.cloth, solver.cloth());
+  double farthest = 0;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    farthest = std::max(farthest, norm(x[i] - solver.folded().positions[i]));
+  EXPECT_LT(farthest, 1e-9);
+}
+
+TEST(Inflation, TheImpulseOnTheRiserIsThatOfThePressureLessTheMomentum) {
+  InflationProblem problem = small_problem(500, 0.01);
+  problem.settings.damping_n_s_m3 = 0;
+  problem.settings.frames = 50;  // short blocks, for the trapezoid
+  Inflation solver(problem);
+  InflationState state = solver.start();
+  double pushed = 0;
+  const Loads loads{std::vector<double>(solver.mesh().cell_count(), 500.0), {}};
+  while (state.blocks < solver.blocks()) {
+    const double before = pressure_force(solver.cloth(), state.cloth, loads).z, begin = state.cloth.time;
+    solver.advance(state);
+    pushed +=
+        0.5 * (before + pressure_force(solver.cloth(), state.cloth, loads).z) * (state.cloth.time - begin);
+  }
+  EXPECT_NEAR((pushed - momentum(solver.cloth(), state.cloth).z) / pushed, state.impulse / pushed, 0.01);
+}
+
+TEST(Inflation, TheWorkOfThePressureIsAccountedForWithinOnePercent) {
+  InflationProblem problem = small_problem(500, 0.03);
+  problem.settings.quadratic_damping_n_s2_m4 = 0.05;
+  Inflation solver(problem);
+  InflationState state = solver.start();
+  run(solver, state);
+  const InflationFrame frame = solver.frame(state);
+  EXPECT_GT(frame.pressure_work, 20);
+  EXPECT_GT(frame.damped, 0.2 * frame.pressure_work);
+  EXPECT_LT(std::abs(frame.residual()), 0.01);
+}
+
+// The largest departure from a turn by one gore [m].
+double asymmetry(const Mesh& mesh, const std::vector<Vec3>& x, int gores) {
+  const double c = std::cos(2 * std::numbers::pi / gores), s = std::sin(2 * std::numbers::pi / gores);
+  double worst = 0;
+  for (const Patch& patch : mesh.patches) {
+    for (int row = 0; row < patch.rows; ++row) {
+      for (int column = 0; column < patch.columns; ++column) {
+        const Vec3 p = x[patch.node(row, column)];
+        const Vec3 q = x[patch.node(row, (column + patch.columns / gores) % patch.columns)];
+        worst = std::max(worst, norm(q - Vec3{c * p.x - s * p.y, s * p.x + c * p.y, p.z}));
+      }
+    }
+  }
+  return worst;
+}
+
+TEST(Inflation, ASymmetricStartOpensSymmetrically) {
+  Inflation solver(small_problem(500, 0.02));
+  InflationState state = solver.start();
+  EXPECT_LT(asymmetry(solver.mesh(), positions(state.cloth, solver.cloth()), 6), 1e-14);
+  run(solver, state);
+  const std::vector<Vec3> x = positions(state.cloth, solver.cloth());
+  EXPECT_GT(canopy_size(solver.mesh(), x).skirt_diameter, 0.6);  // well open
+  EXPECT_LT(asymmetry(solver.mesh(), x, 6), 1e-10);
+}
+
+TEST(Inflation, AStoppedRunGoesOnToTheLastBit) {
+  const InflationProblem problem = small_problem(500, 6e-3);
+  Inflation whole(problem), first(problem), second(problem);
+  InflationState undisturbed = whole.start();
+  const std::vector<HistoryRow> expected = run(whole, undisturbed);
+  InflationState stopped = first.start();
+  std::vector<HistoryRow> rows;
+  while (stopped.blocks < first.blocks() / 2) {
+    const auto block = first.advance(stopped);
+    rows.insert(rows.end(), block.begin(), block.end());
+  }
+  InflationState resumed = inflation_state_from_bytes(to_bytes(stopped));
+  const auto rest = run(second, resumed);
+  rows.insert(rows.end(), rest.begin(), rest.end());
+  ASSERT_EQ(rows.size(), expected.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_EQ(rows[i].mean, expected[i].mean);
+    EXPECT_EQ(rows[i].largest, expected[i].largest);
+  }
+  EXPECT_EQ(resumed.cloth.x, undisturbed.cloth.x);
+  EXPECT_EQ(resumed.record.damped, undisturbed.record.damped);
+  EXPECT_EQ(resumed.peak_load, undisturbed.peak_load);
+  EXPECT_THROW(inflation_state_from_bytes("nonsense"), Error);
+}
+
+TEST(Inflation, ThePeakIsThatOfEveryStepHoweverFewRowsAreWritten) {
+  InflationProblem fine = small_problem(500, 4e-3);
+  fine.settings.frames = 1;
+  fine.settings.history_hz = 10000;
+  InflationProblem coarse = fine;
+  coarse.settings.history_hz = 500;
+  Inflation a(fine), b(coarse);
+  InflationState s = a.start(), t = b.start();
+  const auto many = run(a, s), few = run(b, t);
+  EXPECT_GE(many.size(), 10 * few.size());
+  double highest = 0;
+  for (const HistoryRow& row : few) highest = std::max(highest, row.largest);
+  EXPECT_EQ(highest, t.peak_load);
+  EXPECT_NEAR(t.peak_load / s.peak_load, 1, 0.01);  // the step differs a little so that rows come out whole
+}
+
+TEST(Inflation, TheStepNeverExceedsTheStableOne) {
+  InflationProblem problem = small_problem(3000, 0.01);
+  problem.settings.step_fraction = 0.98;
+  Inflation solver(problem);
+  InflationState state = solver.start();
+  while (state.blocks < solver.blocks()) {
+    solver.advance(state);
+    EXPECT_LE(state.step, step_bound(solver.cloth(), state.cloth).stable_step);
+  }
+}
+
+TEST(Inflation, ARampedPressurePushesInProportionToTime) {
+  // Before the cloth has moved, all it does is gain speed: v = dp t^2 / (2 ramp m_a) in place of dp t / m_a.
+  const double t = 2e-4;
+  const auto speed = [&](double ramp) {
+    InflationProblem problem = small_problem(100, t);
+    problem.settings.frames = 1;
+    problem.settings.history_hz = 100 / t;
+    problem.settings.damping_n_s_m3 = 0;
+    problem.settings.ramp_s = ramp;
+    Inflation solver(problem);
+    InflationState state = solver.start();
+    run(solver, state);
+    return std::sqrt(kinetic_energy(solver.cloth(), state.cloth));
+  };
+  EXPECT_NEAR(speed(t) / speed(0), 0.5, 0.02);
+}
+
+// A free sheet of mass m_a a unit area: with C_a it moves at v = dp / C_a (1 - exp(-C_a t / m_a)), with the
+// quadratic term at v = sqrt(dp / C_q) tanh(sqrt(dp C_q) t / m_a).
+TEST(Inflation, AFreeSheetReachesItsTerminalSpeed) {
+  Mesh sheet;
+  Patch patch;
+  patch.rows = patch.columns = 9;
+  const double h = 0.01, areal_mass = 0.0407;
+  for (int i = 0; i < 81; ++i) {
+    sheet.start.push_back({h * (i % 9), h * (i / 9), 0});
+    const int edges = (i % 9 == 0 || i % 9 == 8) + (i / 9 == 0 || i / 9 == 8);
+    sheet.mass.push_back(areal_mass * h * h * std::pow(0.5, edges));
+  }
+  for (int d = 0; d < direction_count; ++d) {
+    patch.law[d] = {{1000}, 1};
+    patch.rest_length[d].assign(81, 1.0);
+    patch.width[d].assign(81, 0.0);
+  }
+  patch.cell_area.assign(72, 0.0);
+  for (int row = 0; row < 8; ++row) {
+    for (int column = 0; column < 8; ++column) patch.cell_area[row * 9 + column] = h * h;
+  }
+  sheet.patches.push_back(patch);
+  const double dp = 500, t = 5e-3, dt = 1e-6;
+  ThreadTeam team(1);
+  const auto speed_with = [&](double linear, double quadratic) {
+    const ClothPtr cloth = make_cloth(sheet, {false, linear, quadratic});
+    ClothState state = start_state(*cloth);
+    step(state, *cloth, {std::vector<double>(72, dp), {}}, dt, static_cast<int>(t / dt + 0.5), team);
+    return velocities(state, *cloth)[40].z;
+  };
+  EXPECT_NEAR(speed_with(8.2, 0) / (dp / 8.2 * (1 - std::exp(-8.2 * t / areal_mass))), 1, 1e-3);
+  EXPECT_NEAR(speed_with(0, 0.4) / (std::sqrt(dp / 0.4) * std::tanh(std::sqrt(dp * 0.4) * t / areal_mass)), 1,
+              1e-3);
+}
+
+TEST(UniformPressure, TheEquilibriumCarriesTheDragThatWasAskedFor) {
+  ThreadTeam team(2);
+  const Mesh mesh = small_canopy(600);
+  const UniformPressure found = pressure_for(300, mesh, false, team);
+  EXPECT_NEAR(found.load, 300, 0.3);
+  EXPECT_NEAR(found.pressure * found.axial_area, found.load, 1e-9);
+  EXPECT_GT(found.axial_area, 0.4);  // a disk of 1 m has 0.785 m2, a canopy less
+  EXPECT_LT(found.axial_area, 0.785);
+}
+
+}  // namespace
+}  // namespace ripstop

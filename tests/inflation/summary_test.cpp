@@ -1,0 +1,64 @@
+// What is read off a load history.
+#include "ripstop/inflation/summary.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "ripstop/core/error.h"
+#include "ripstop/inflation/opening_estimate.h"
+
+namespace ripstop {
+namespace {
+
+// A load that overshoots and decays: F = F_s (1 - exp(-t / T) cos(w t)).
+std::vector<HistoryRow> decaying(double steady, double decay, double omega, double interval, int count) {
+  std::vector<HistoryRow> rows;
+  for (int i = 1; i <= count; ++i) {
+    const double t = i * interval;
+    const double load = steady * (1 - std::exp(-t / decay) * std::cos(omega * t));
+    rows.push_back({t, load, load, load});
+  }
+  return rows;
+}
+
+TEST(Summary, TheInflationTimeIsWhenADecayingLoadStaysWithinATenthOfSteady) {
+  const double decay = 0.05, omega = 300, interval = 1e-4;
+  const InflationSummary s = summarise(decaying(400, decay, omega, interval, 10000), 0);
+  EXPECT_NEAR(s.steady_load, 400, 1e-3);
+  ASSERT_TRUE(s.inflation_time.has_value());
+  // The envelope falls to a tenth at T ln 10; the last excursion lies within half a period before.
+  EXPECT_LE(*s.inflation_time, decay * std::log(10.0) + interval);
+  EXPECT_GT(*s.inflation_time, decay * std::log(10.0) - std::numbers::pi / omega);
+}
+
+TEST(Summary, ALoadThatNeverSettlesHasNoInflationTime) {
+  std::vector<HistoryRow> rows;
+  for (int i = 1; i <= 1000; ++i) rows.push_back({i * 1e-3, 400 + 200 * std::sin(0.3 * i), 0, 0});
+  rows.back().mean = 700;
+  EXPECT_FALSE(summarise(rows, 0).inflation_time.has_value());
+}
+
+TEST(LowPass, ItKeepsSlowTonesHalvesTheCutoffAndDropsFastOnesWithoutDelay) {
+  const double interval = 1e-4, cutoff = 100;
+  const auto gain = [&](double hz) {
+    std::vector<double> tone;
+    for (int i = 0; i < 20000; ++i)
+      tone.push_back(std::cos(2 * std::numbers::pi * hz * interval * (i - 10000)));
+    return low_pass(tone, interval, cutoff)[10000];  // the crest stays where it is
+  };
+  EXPECT_NEAR(gain(5), 1, 1e-4);
+  EXPECT_NEAR(gain(100), 0.5, 1e-3);
+  EXPECT_LT(std::abs(gain(1000)), 1.1e-4);
+  EXPECT_THROW(low_pass({1, 2, 3}, interval, 5000), Error);
+}
+
+TEST(OpeningEstimate, IsTheTypesCoefficientTimesTheSteadyDrag) {
+  Design design;
+  design.canopy = DiskGapBand{1.0, 0.09, 0.07, 0.3};
+  EXPECT_NEAR(opening_estimate(design, 400).load, 520, 1e-9);
+}
+
+}  // namespace
+}  // namespace ripstop
