@@ -1,8 +1,11 @@
 // The vector kernels against the scalar one, and against themselves on other numbers of threads.
+#include "ripstop/cloth/kernel.h"
+
 #include <gtest/gtest.h>
+#include <hwy/targets.h>
 
 #include <cmath>
-#include <cstring>
+#include <set>
 
 #include "builders.h"
 #include "ripstop/core/error.h"
@@ -36,7 +39,7 @@ Driven driven(int degree, double damping, bool pressed, bool fixed, bool linear,
   return d;
 }
 
-TEST(ClothKernel, ForcesAgreeWithTheScalarReference) {
+void expect_reference_forces() {
   for (int degree : {1, 2, 3, 4})
     for (double damping : {0.0, 0.02})
       for (bool pressed : {false, true})
@@ -72,6 +75,21 @@ TEST(ClothKernel, ForcesAgreeWithTheScalarReference) {
             EXPECT_LT(norm(v[tie.node] - speed), 1e-13);
           }
         }
+}
+
+TEST(ClothKernel, ForcesAgreeWithTheScalarReferenceOnEveryInstructionSet) {
+  std::set<std::string> tried;
+  for (const auto target : {HWY_AVX3, HWY_AVX2, HWY_SSE4, HWY_SCALAR}) {
+    if ((hwy::SupportedTargets() & target) == 0 && target != HWY_SCALAR) continue;
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(target);
+    tried.insert(kernel_target());
+    SCOPED_TRACE(kernel_target());
+    expect_reference_forces();
+    hwy::SetSupportedTargetsForTest(0);
+  }
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  EXPECT_GE(tried.size(), 2u);
 }
 
 TEST(ClothKernel, TenThousandStepsAreTheSameToTheLastBitOnAnyNumberOfThreads) {

@@ -1,5 +1,5 @@
 // One source, compiled once for every instruction set by Highway (foreach_target), see kernel.h.
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "ripstop/cloth/kernel.cpp"
 #include "ripstop/cloth/kernel.h"
@@ -314,7 +314,16 @@ double PressureWork(const RowWork& row) {
   return total;
 }
 const char* Target() {
-  return HWY_TARGET == HWY_AVX3 ? "AVX-512" : HWY_TARGET == HWY_AVX2 ? "AVX2" : "SSE2";
+  switch (HWY_TARGET) {
+    case HWY_AVX3:
+      return "AVX-512";
+    case HWY_AVX2:
+      return "AVX2";
+    case HWY_SSE4:
+      return "SSE4";
+    default:
+      return "scalar";
+  }
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
-// The two kernels that a step spends its time in, for one row of a patch. Vectorised for SSE2, AVX2 and
-// AVX-512, chosen at run time; no allocation, no look-up, no branch on data. Internal to cloth/.
+// The two kernels that a step spends its time in, for one row of a patch. Vectorised for SSE4, AVX2 and
+// AVX-512 (else one lane at a time), chosen at run time; no allocation, no look-up, no branch on data.
+// Internal to cloth/.
 #pragma once
 
 #include "ripstop/cloth/layout.h"
@@ -55,7 +56,7 @@ struct RowWork {
 };
 double pressure_work(const RowWork& row);
 
-/// "AVX-512", "AVX2", "SSE2": what the kernels run on here.
+/// "AVX-512", "AVX2", "SSE4", "scalar": what the kernels run on here.
 const char* kernel_target();
 
 }  // namespace ripstop
