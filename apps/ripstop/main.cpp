@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
   add_fit(app, status);
   add_coupon(app, status);
   add_inflate(app, status);
+  add_pattern(app, status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -1,12 +1,13 @@
 #include "ripstop/case/assemble.h"
 
-#include "ripstop/parachute/build.h"
-
 namespace ripstop {
 
+PartMaterials part_materials(const Case& value) {
+  return {canopy_fabric(value), suspension_line(value), riser_line(value), reinforcement_tape(value)};
+}
+
 Mesh parachute_mesh(const Case& value) {
-  Mesh mesh = build_mesh(value.parachute, {canopy_fabric(value), suspension_line(value), riser_line(value),
-                                           reinforcement_tape(value)});
+  Mesh mesh = build_mesh(value.parachute, part_materials(value));
   const double z = canopy_position(value);
   for (Vec3& p : mesh.start) p.z += z;
   return mesh;

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "ripstop/core/toml/fields.h"
+#include "ripstop/parachute/cut.h"
 #include "ripstop/parachute/design.h"
 #include "ripstop/parachute/gored.h"
 
@@ -35,6 +36,10 @@ GorePattern gore_pattern(const Conical& canopy, int gores) {
 
 CanopyFacts facts(const Conical& canopy, int gores) {
   return facts(gore_pattern(canopy, gores));
+}
+
+CutPattern cut_pattern(const Conical& canopy, const Design& design) {
+  return cut_pattern(gore_pattern(canopy, design.gores), design);
 }
 
 Mesh build_canopy(const Conical& canopy, const Design& design, const PartMaterials& materials) {

@@ -8,6 +8,7 @@ namespace ripstop {
 
 class Fields;
 class Findings;
+struct CutPattern;
 struct Design;
 struct PartMaterials;
 
@@ -25,6 +26,7 @@ void check_shape(const Conical& canopy, const Design& design, Findings& findings
 /// angle)).
 GorePattern gore_pattern(const Conical& canopy, int gores);
 CanopyFacts facts(const Conical& canopy, int gores);
+CutPattern cut_pattern(const Conical& canopy, const Design& design);
 /// See gored.h.
 Mesh build_canopy(const Conical& canopy, const Design& design, const PartMaterials& materials);
 

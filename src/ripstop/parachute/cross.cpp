@@ -8,6 +8,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/toml/fields.h"
 #include "ripstop/core/toml/problem.h"
+#include "ripstop/parachute/cut.h"
 #include "ripstop/parachute/design.h"
 #include "ripstop/parachute/sewing.h"
 
@@ -163,6 +164,22 @@ CanopyFacts facts(const Cross& canopy, int) {
   facts.start_diameter = 2 * facts.skirt_radius;
   facts.circumference = 4 * width;
   return facts;
+}
+
+CutPattern cut_pattern(const Cross& canopy, const Design& design) {
+  const double length = canopy.arm_length_m, width = canopy.arm_width_m, arm = (length - width) / 2;
+  const auto rectangle = [&](const char* name, int count, double height) {
+    return Piece{name,
+                 count,
+                 {{-width / 2, 0}, {width / 2, 0}, {width / 2, height}, {-width / 2, height}},
+                 {Edge::hem, Edge::hem, Edge::hem, Edge::hem}};
+  };
+  CutPattern cut;
+  cut.pieces = {rectangle("whole strip", 1, length), rectangle("arm", 2, arm)};
+  cut.pieces[1].edges[2] = Edge::seam;
+  if (design.tape.hems) cut.tapes = {{"arm end", arms, width}, {"arm side", 2 * arms, arm}};
+  if (design.tape.seams) cut.tapes.push_back({"middle square", arms, width});
+  return cut;
 }
 
 Mesh build_canopy(const Cross& canopy, const Design& design, const PartMaterials& materials) {

@@ -8,6 +8,7 @@ namespace ripstop {
 
 class Fields;
 class Findings;
+struct CutPattern;
 struct Design;
 struct PartMaterials;
 
@@ -21,6 +22,8 @@ void describe(Fields& fields, Cross& canopy);
 void check_shape(const Cross& canopy, const Design& design, Findings& findings);
 /// S0 = 2 L W - W^2. Lines end at the hem: they have no run on the canopy.
 CanopyFacts facts(const Cross& canopy, int gores);
+/// One whole strip and two arms.
+CutPattern cut_pattern(const Cross& canopy, const Design& design);
 
 /// Start shape: flat in the plane z = 0, arms along x and y. Every arm's end holds a quarter of the lines,
 /// from corner to corner at equal distances; those at the corners are taut at the start. Square lattice of

@@ -87,8 +87,9 @@ void describe(Fields& fields, MeshSettings& mesh) {
                  "Nodes of the cloth that the mesh aims at. [NFM] used 25,600 for Stratos IV.");
   fields.number("line_segment_m", mesh.line_segment_m, from(0.001).up_to(10),
                 "Rest length that the springs of a line aim at.");
-  fields.integer("folds", mesh.folds, from(0).up_to(1000),
-                 "Every ring gets a multiple of twice as many columns, so that so many folds fit; 0: as it comes.");
+  fields.integer(
+      "folds", mesh.folds, from(0).up_to(1000),
+      "Every ring gets a multiple of twice as many columns, so that so many folds fit; 0: as it comes.");
 }
 
 void describe(Fields& fields, Design& design) {

@@ -7,6 +7,7 @@
 
 #include "ripstop/core/toml/fields.h"
 #include "ripstop/core/toml/problem.h"
+#include "ripstop/parachute/cut.h"
 #include "ripstop/parachute/ring_layout.h"
 #include "ripstop/parachute/sewing.h"
 
@@ -171,6 +172,42 @@ CanopyFacts facts(const DiskGapBand& canopy, int) {
   facts.start_depth = canopy.gap_height_m + canopy.band_height_m;
   facts.circumference = pi * diameter;
   return facts;
+}
+
+CutPattern cut_pattern(const DiskGapBand& canopy, const Design& design) {
+  constexpr int arc_pieces = 32;
+  const double outer = canopy.disk_diameter_m / 2, inner = canopy.vent_diameter_m / 2;
+  const double half_angle = pi / design.gores;
+  Piece sector{"disk gore", design.gores, {}, {}};
+  const auto add_arc = [&](double radius, double from, double to) {
+    for (int i = 0; i <= arc_pieces; ++i) {
+      const double angle = from + (to - from) * i / arc_pieces;
+      // The apex of the disk lies at y = outer radius, so that y grows toward the vent.
+      sector.outline.push_back({radius * std::sin(angle), outer - radius * std::cos(angle)});
+      sector.edges.push_back(i < arc_pieces ? Edge::hem : Edge::seam);
+    }
+  };
+  add_arc(outer, -half_angle, half_angle);
+  add_arc(inner, half_angle, -half_angle);
+  const double width = 2 * outer * half_angle, height = canopy.band_height_m;
+  const Piece panel{"band panel",
+                    design.gores,
+                    {{-width / 2, 0}, {width / 2, 0}, {width / 2, height}, {-width / 2, height}},
+                    {Edge::hem, Edge::seam, Edge::hem, Edge::seam}};
+  CutPattern cut;
+  cut.pieces = {sector, panel};
+  if (design.tape.hems) {
+    cut.tapes = {{"skirt", 1, 2 * pi * outer},
+                 {"band, upper edge", 1, 2 * pi * outer},
+                 {"disk, edge", 1, 2 * pi * outer},
+                 {"vent", 1, 2 * pi * inner}};
+  }
+  if (design.tape.seams) {
+    cut.tapes.push_back({"band seam", design.gores, height});
+    cut.tapes.push_back({"disk seam", design.gores, outer - inner});
+  }
+  cut.line_on_canopy = height + canopy.gap_height_m + line_length_on_disk(design);
+  return cut;
 }
 
 Mesh build_canopy(const DiskGapBand& canopy, const Design& design, const PartMaterials& materials) {

@@ -8,6 +8,7 @@ namespace ripstop {
 
 class Fields;
 class Findings;
+struct CutPattern;
 struct Design;
 struct PartMaterials;
 
@@ -23,6 +24,8 @@ void describe(Fields& fields, DiskGapBand& canopy);
 void check_shape(const DiskGapBand& canopy, const Design& design, Findings& findings);
 /// S0 is the cloth's area: disk - vent + band, as [NFM] has it. The lines' run counts from the disk's edge.
 CanopyFacts facts(const DiskGapBand& canopy, int gores);
+/// Sectors of the disk and panels of the band, one of each a gore.
+CutPattern cut_pattern(const DiskGapBand& canopy, const Design& design);
 
 /// Start shape: skirt (the band's lower edge) in the plane z = 0, mouth toward -z, disk flat at z = band +
 /// gap, lines straight and taut from the confluence on the axis.

@@ -7,6 +7,7 @@
 
 #include "ripstop/core/toml/fields.h"
 #include "ripstop/core/toml/problem.h"
+#include "ripstop/parachute/cut.h"
 #include "ripstop/parachute/design.h"
 #include "ripstop/parachute/gored.h"
 
@@ -53,6 +54,10 @@ GorePattern gore_pattern(const ExtendedSkirt& canopy, int gores) {
 
 CanopyFacts facts(const ExtendedSkirt& canopy, int gores) {
   return facts(gore_pattern(canopy, gores));
+}
+
+CutPattern cut_pattern(const ExtendedSkirt& canopy, const Design& design) {
+  return cut_pattern(gore_pattern(canopy, design.gores), design);
 }
 
 Mesh build_canopy(const ExtendedSkirt& canopy, const Design& design, const PartMaterials& materials) {

@@ -8,6 +8,7 @@ namespace ripstop {
 
 class Fields;
 class Findings;
+struct CutPattern;
 struct Design;
 struct PartMaterials;
 
@@ -25,6 +26,7 @@ void check_shape(const ExtendedSkirt& canopy, const Design& design, Findings& fi
 /// S0 is the disk with its vent, and the extension.
 GorePattern gore_pattern(const ExtendedSkirt& canopy, int gores);
 CanopyFacts facts(const ExtendedSkirt& canopy, int gores);
+CutPattern cut_pattern(const ExtendedSkirt& canopy, const Design& design);
 /// See gored.h.
 Mesh build_canopy(const ExtendedSkirt& canopy, const Design& design, const PartMaterials& materials);
 

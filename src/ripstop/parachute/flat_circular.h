@@ -8,6 +8,7 @@ namespace ripstop {
 
 class Fields;
 class Findings;
+struct CutPattern;
 struct Design;
 struct PartMaterials;
 
@@ -23,6 +24,7 @@ void check_shape(const FlatCircular& canopy, const Design& design, Findings& fin
 /// S0 = pi/4 nominal_diameter^2, the area of the polygon with its vent.
 GorePattern gore_pattern(const FlatCircular& canopy, int gores);
 CanopyFacts facts(const FlatCircular& canopy, int gores);
+CutPattern cut_pattern(const FlatCircular& canopy, const Design& design);
 /// See gored.h.
 Mesh build_canopy(const FlatCircular& canopy, const Design& design, const PartMaterials& materials);
 

@@ -56,6 +56,7 @@ class Builder {
 
   Vec3 start(int strip, double height, int gore, double across) const;
   ProfilePoint profile_at(int strip, double height) const;
+  Path radial(int index, int part, int parts) const;
   std::vector<Path> runs_along(int part, int parts) const;
   Path along(int part, int parts) const;
   double slot_along(int index, int part, int parts) const;
@@ -174,13 +175,22 @@ bool Builder::has_corner_below(int index) const {
   return std::abs(turn) > sharp_corner;
 }
 
+// The radial's own length: a sail that is fuller below than above has longer sides, which are eased onto it.
+Path Builder::radial(int index, int part, int parts) const {
+  Path path = builder_.radial(patches_[index], part, parts);
+  const std::vector<Vec3>& x = builder_.mesh.start;
+  for (std::size_t i = 0; i < path.lengths.size(); ++i)
+    path.lengths[i] = norm(x[path.nodes[i + 1]] - x[path.nodes[i]]);
+  return path;
+}
+
 // What lies along one radial from the skirt to the vent, cut into smooth runs; each begins with the node that
 // ends the one before.
 std::vector<Path> Builder::runs_along(int part, int parts) const {
-  std::vector<Path> runs{builder_.radial(patches_.front(), part, parts)};
+  std::vector<Path> runs{radial(0, part, parts)};
   for (std::size_t i = 1; i < patches_.size(); ++i) {
     const int index = static_cast<int>(i);
-    const Path piece = builder_.radial(patches_[i], part, parts);
+    const Path piece = radial(index, part, parts);
     if (pattern_.strips[i].slot > 0) {
       runs.back().append({{piece.nodes.front()}, {}}, slot_along(index, part, parts));
     } else {

@@ -8,6 +8,7 @@ namespace ripstop {
 
 class Fields;
 class Findings;
+struct CutPattern;
 struct Design;
 struct PartMaterials;
 
@@ -39,6 +40,7 @@ void check_shape(const Ringsail& canopy, const Design& design, Findings& finding
 /// S0 = pi/4 nominal_diameter^2, the area of the cap with slots and vent and without fullness.
 GorePattern gore_pattern(const Ringsail& canopy, int gores);
 CanopyFacts facts(const Ringsail& canopy, int gores);
+CutPattern cut_pattern(const Ringsail& canopy, const Design& design);
 /// See gored.h.
 Mesh build_canopy(const Ringsail& canopy, const Design& design, const PartMaterials& materials);
 

@@ -8,6 +8,7 @@ namespace ripstop {
 
 class Fields;
 class Findings;
+struct CutPattern;
 struct Design;
 struct PartMaterials;
 
@@ -27,6 +28,7 @@ void check_shape(const Ringslot& canopy, const Design& design, Findings& finding
 /// S0 = pi/4 nominal_diameter^2, slots and vent included.
 GorePattern gore_pattern(const Ringslot& canopy, int gores);
 CanopyFacts facts(const Ringslot& canopy, int gores);
+CutPattern cut_pattern(const Ringslot& canopy, const Design& design);
 /// See gored.h.
 Mesh build_canopy(const Ringslot& canopy, const Design& design, const PartMaterials& materials);
 

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "ripstop/core/toml/fields.h"
+#include "ripstop/parachute/cut.h"
 #include "ripstop/parachute/design.h"
 #include "ripstop/parachute/gored.h"
 
@@ -41,6 +42,10 @@ GorePattern gore_pattern(const Spherical& canopy, int gores) {
 
 CanopyFacts facts(const Spherical& canopy, int gores) {
   return facts(gore_pattern(canopy, gores));
+}
+
+CutPattern cut_pattern(const Spherical& canopy, const Design& design) {
+  return cut_pattern(gore_pattern(canopy, design.gores), design);
 }
 
 Mesh build_canopy(const Spherical& canopy, const Design& design, const PartMaterials& materials) {

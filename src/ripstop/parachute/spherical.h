@@ -8,6 +8,7 @@ namespace ripstop {
 
 class Fields;
 class Findings;
+struct CutPattern;
 struct Design;
 struct PartMaterials;
 
@@ -27,6 +28,7 @@ void check_shape(const Spherical& canopy, const Design& design, Findings& findin
 /// S0 = pi/4 nominal_diameter^2, the area of the cap with its vent.
 GorePattern gore_pattern(const Spherical& canopy, int gores);
 CanopyFacts facts(const Spherical& canopy, int gores);
+CutPattern cut_pattern(const Spherical& canopy, const Design& design);
 /// See gored.h.
 Mesh build_canopy(const Spherical& canopy, const Design& design, const PartMaterials& materials);
 

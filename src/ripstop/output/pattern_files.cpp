@@ -1,0 +1,107 @@
+#include "ripstop/output/pattern_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "ripstop/core/file.h"
+
+namespace ripstop {
+namespace {
+
+constexpr double mm = 1000;
+
+struct Box {
+  double left = 1e300, right = -1e300, bottom = 1e300, top = -1e300;
+};
+
+Box box_of(const std::vector<Point2>& outline) {
+  Box box;
+  for (const Point2& p : outline) {
+    box.left = std::min(box.left, p.x), box.right = std::max(box.right, p.x);
+    box.bottom = std::min(box.bottom, p.y), box.top = std::max(box.top, p.y);
+  }
+  return box;
+}
+
+// DXF: lines of a group code and its value. Codes 10, 20, 30: a point; 8: the layer; 70: flags, 1 is closed.
+std::string dxf_polyline(const std::vector<Point2>& outline, const std::string& layer, bool closed) {
+  std::string text =
+      fmt::format("0\nPOLYLINE\n8\n{}\n66\n1\n70\n{}\n10\n0.0\n20\n0.0\n30\n0.0\n", layer, closed ? 1 : 0);
+  for (const Point2& p : outline)
+    text += fmt::format("0\nVERTEX\n8\n{}\n10\n{:.4f}\n20\n{:.4f}\n30\n0.0\n", layer, p.x * mm, p.y * mm);
+  return text + fmt::format("0\nSEQEND\n8\n{}\n", layer);
+}
+
+std::string label(const Piece& piece) {
+  return fmt::format("{}, cut {}", piece.name, piece.count);
+}
+
+/// From a tenth to nine tenths of the height, in the middle.
+std::vector<Point2> grain(const Box& box) {
+  const double x = 0.5 * (box.left + box.right), height = box.top - box.bottom;
+  return {{x, box.bottom + 0.1 * height}, {x, box.bottom + 0.9 * height}};
+}
+
+}  // namespace
+
+void write_pattern_dxf(const std::filesystem::path& path, const Piece& piece, const Allowances& allowances) {
+  const std::vector<Point2> cut = with_allowance(piece, allowances);
+  const Box box = box_of(cut);
+  std::string text = "0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1009\n";
+  text += fmt::format("9\n$EXTMIN\n10\n{:.4f}\n20\n{:.4f}\n9\n$EXTMAX\n10\n{:.4f}\n20\n{:.4f}\n0\nENDSEC\n",
+                      box.left * mm, box.bottom * mm, box.right * mm, box.top * mm);
+  text += "0\nSECTION\n2\nTABLES\n0\nTABLE\n2\nLAYER\n70\n4\n";
+  int colour = 1;
+  for (const char* layer : {"CUT", "SEAM", "GRAIN", "TEXT"})
+    text += fmt::format("0\nLAYER\n2\n{}\n70\n0\n62\n{}\n6\nCONTINUOUS\n", layer, colour++);
+  text += "0\nENDTAB\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n";
+  text += dxf_polyline(cut, "CUT", true) + dxf_polyline(piece.outline, "SEAM", true) +
+          dxf_polyline(grain(box), "GRAIN", false);
+  text += fmt::format("0\nTEXT\n8\nTEXT\n10\n{:.4f}\n20\n{:.4f}\n30\n0.0\n40\n10.0\n1\n{}\n",
+                      grain(box)[0].x * mm + 5, grain(box)[0].y * mm, label(piece));
+  write_file(path, text + "0\nENDSEC\n0\nEOF\n");
+}
+
+void write_pattern_svg(const std::filesystem::path& path, const Piece& piece, const Allowances& allowances) {
+  constexpr double margin = 10, bar = 100;
+  const std::vector<Point2> cut = with_allowance(piece, allowances);
+  const Box box = box_of(cut);
+  const double width = std::max((box.right - box.left) * mm, bar) + 2 * margin;
+  const double height = (box.top - box.bottom) * mm + 4 * margin;
+  const auto at = [&](Point2 p) {
+    return fmt::format("{:.3f},{:.3f}", (p.x - box.left) * mm + margin, (box.top - p.y) * mm + margin);
+  };
+  const auto polygon = [&](const std::vector<Point2>& outline, const char* style) {
+    std::string points;
+    for (const Point2& p : outline) points += at(p) + " ";
+    points.pop_back();
+    return fmt::format("<polygon points=\"{}\" {}/>\n", points, style);
+  };
+  std::string text = fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.3f}mm\" height=\"{1:.3f}mm\" "
+      "viewBox=\"0 0 {0:.3f} {1:.3f}\">\n",
+      width, height);
+  text += polygon(cut, "fill=\"none\" stroke=\"#c0392b\" stroke-width=\"0.5\"");
+  text += polygon(piece.outline,
+                  "fill=\"none\" stroke=\"#2c3e50\" stroke-width=\"0.3\" stroke-dasharray=\"3 2\"");
+  const std::vector<Point2> arrow = grain(box);
+  text += fmt::format("<polyline points=\"{} {}\" fill=\"none\" stroke=\"#7f8c8d\" stroke-width=\"0.3\"/>\n",
+                      at(arrow[0]), at(arrow[1]));
+  const double foot = height - margin;
+  text += fmt::format(
+      "<path d=\"M {0} {1} h {2}\" stroke=\"#000\" stroke-width=\"0.5\"/>\n"
+      "<text x=\"{0}\" y=\"{3}\" font-family=\"sans-serif\" font-size=\"5\">100 mm | {4}</text>\n</svg>\n",
+      margin, foot, bar, foot - 3, label(piece));
+  write_file(path, text);
+}
+
+void write_bill_csv(const std::filesystem::path& path, const Bill& bill) {
+  std::string text = "part,material,count,finished,cut,unit,mass_kg\n";
+  for (const BillRow& row : bill.rows)
+    text += fmt::format("\"{}\",\"{}\",{},{:.6f},{:.6f},{},{:.6f}\n", row.part, row.material, row.count,
+                        row.finished, row.cut, row.is_cloth ? "m2" : "m", row.mass);
+  write_file(path, text);
+}
+
+}  // namespace ripstop

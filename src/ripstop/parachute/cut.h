@@ -1,0 +1,76 @@
+// What is cut for a parachute: outlines of the cloth, lengths of tape and line, masses and packed volume.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "ripstop/parachute/build.h"
+
+namespace ripstop {
+
+struct GorePattern;
+
+struct Point2 {
+  double x = 0, y = 0;
+};
+/// Signed area of a closed polygon, positive when it runs counterclockwise [m2].
+double polygon_area(const std::vector<Point2>& polygon);
+
+enum class Edge { seam, hem };
+
+/// A flat piece of cloth, finished size; edge i goes from corner i to the next. Counterclockwise, y toward
+/// the vent, grain along y. [m]
+struct Piece {
+  std::string name;
+  int count = 0;
+  std::vector<Point2> outline;
+  std::vector<Edge> edges;
+};
+
+struct CutLength {
+  std::string name;
+  int count = 0;
+  double length = 0;  // finished, each [m]
+};
+
+/// Of a canopy; what hangs on it (lines, riser) is added by bill_of().
+struct CutPattern {
+  std::vector<Piece> pieces;
+  std::vector<CutLength> tapes;
+  double line_on_canopy = 0;     // length of every line beyond the skirt [m]
+  std::vector<CutLength> lines;  // vent lines
+};
+
+/// Extra cloth, tape and line beyond the finished size [m].
+struct Allowances {
+  double seam = 0.015;         // beyond a seam, on either piece
+  double hem = 0.02;           // beyond a free edge
+  double line_loop = 0.1;      // at either end of a line (assumed)
+  double tape_overlap = 0.05;  // of every tape, once (assumed)
+};
+
+/// The outline to cut: every edge moved outward by its allowance, corners mitred.
+std::vector<Point2> with_allowance(const Piece& piece, const Allowances& allowances);
+
+/// Strips of a gored canopy, hems, seams, vertical tapes and vent lines.
+CutPattern cut_pattern(const GorePattern& pattern, const Design& design);
+/// Of any family.
+CutPattern cut_pattern(const Design& design);
+
+struct BillRow {
+  std::string part, material;
+  int count = 0;
+  double finished = 0, cut = 0;  // of all: [m2] of cloth, [m] of tape and line
+  bool is_cloth = false;
+  double mass = 0;  // as cut [kg]
+};
+struct Bill {
+  std::vector<BillRow> rows;
+  double mass = 0;           // [kg], thread not counted
+  double packed_volume = 0;  // [m3]
+};
+/// `packing_density` [kg/m3]: about 400 packed by hand, 600 under a press (order of Knacke's figures).
+Bill bill_of(const CutPattern& pattern, const Design& design, const PartMaterials& materials,
+             const Allowances& allowances, double packing_density);
+
+}  // namespace ripstop

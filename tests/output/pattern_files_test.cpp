@@ -1,0 +1,66 @@
+// The files of a pattern, read back: their outlines are those of the piece, in millimetres.
+#include "ripstop/output/pattern_files.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <regex>
+#include <sstream>
+
+#include "ripstop/core/file.h"
+#include "temporary_folder.h"
+
+namespace ripstop {
+namespace {
+
+const Piece triangle{"gore", 8, {{-0.2, 0}, {0.2, 0}, {0, 0.5}}, {Edge::hem, Edge::seam, Edge::seam}};
+
+/// Vertices of the polylines of a DXF file, by layer. Every line pair is a group code and its value.
+std::map<std::string, std::vector<Point2>> dxf_outlines(const std::string& text) {
+  std::map<std::string, std::vector<Point2>> outlines;
+  std::istringstream stream(text);
+  std::string code, value, entity, layer;
+  while (std::getline(stream, code) && std::getline(stream, value)) {
+    if (code == "0") entity = value;
+    if (code == "8") layer = value;
+    if (entity == "VERTEX" && code == "10") outlines[layer].push_back({std::stod(value), 0});
+    if (entity == "VERTEX" && code == "20") outlines[layer].back().y = std::stod(value);
+  }
+  EXPECT_EQ(entity, "EOF");
+  return outlines;
+}
+
+TEST(PatternFiles, TheDxfHoldsTheFinishedAndTheCutOutlineInMillimetres) {
+  const TemporaryFolder folder("pattern");
+  const Allowances allowances{.seam = 0.01, .hem = 0.02};
+  write_pattern_dxf(folder.path / "gore.dxf", triangle, allowances);
+  const auto outlines = dxf_outlines(read_file(folder.path / "gore.dxf"));
+  ASSERT_EQ(outlines.at("SEAM").size(), 3u);
+  EXPECT_NEAR(polygon_area(outlines.at("SEAM")), 0.4 * 0.5 / 2 * 1e6, 1);
+  EXPECT_NEAR(polygon_area(outlines.at("CUT")), polygon_area(with_allowance(triangle, allowances)) * 1e6, 1);
+  EXPECT_NEAR(outlines.at("CUT")[0].y, -20, 1e-3);
+}
+
+TEST(PatternFiles, TheSvgPrintsAtTrueSize) {
+  const TemporaryFolder folder("pattern");
+  write_pattern_svg(folder.path / "gore.svg", triangle, {.seam = 0, .hem = 0});
+  const std::string text = read_file(folder.path / "gore.svg");
+  std::smatch size;
+  ASSERT_TRUE(std::regex_search(
+      text, size,
+      std::regex(R"x(width="([0-9.]+)mm" height="([0-9.]+)mm" viewBox="0 0 ([0-9.]+) ([0-9.]+)")x")));
+  EXPECT_EQ(size[1], size[3]);  // one unit is one millimetre
+  EXPECT_EQ(size[2], size[4]);
+  std::smatch points;
+  ASSERT_TRUE(std::regex_search(text, points, std::regex(R"x(points="([0-9., -]+)")x")));
+  std::istringstream stream(points[1]);
+  std::vector<Point2> outline;
+  Point2 p;
+  char comma = 0;
+  while (stream >> p.x >> comma >> p.y) outline.push_back(p);
+  EXPECT_NEAR(std::abs(polygon_area(outline)), 1e5, 1);
+}
+
+}  // namespace
+}  // namespace ripstop

@@ -1,0 +1,99 @@
+// What is cut is what is meshed: pieces and lengths of the pattern against the mesh and each other.
+#include "ripstop/parachute/cut.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <numeric>
+
+#include "ripstop/case/assemble.h"
+#include "ripstop/case/case.h"
+
+namespace ripstop {
+namespace {
+
+const std::filesystem::path examples = std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples";
+
+class CutTest : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(All, CutTest,
+                         testing::Values("stratos-iv", "flat-circular", "conical", "hemispherical",
+                                         "quarter-spherical", "extended-skirt", "ringslot", "adept", "cross"),
+                         [](const auto& family) {
+                           std::string name = family.param;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+TEST_P(CutTest, ThePiecesMakeUpTheCloth) {
+  const Case value = read_case(examples / GetParam() / "case.toml");
+  double area = 0;
+  for (const Piece& piece : cut_pattern(value.parachute).pieces) {
+    EXPECT_EQ(piece.outline.size(), piece.edges.size());
+    EXPECT_GT(polygon_area(piece.outline), 0);
+    area += piece.count * polygon_area(piece.outline);
+  }
+  EXPECT_NEAR(area / computed_area(value.parachute), 1, 1e-3);
+}
+
+TEST_P(CutTest, AllowancesLieOutsideByTheirWidth) {
+  const Case value = read_case(examples / GetParam() / "case.toml");
+  for (const Piece& piece : cut_pattern(value.parachute).pieces) {
+    const Allowances allowances{.seam = 0.002, .hem = 0.003};
+    const std::vector<Point2> cut = with_allowance(piece, allowances);
+    double strip = 0;
+    for (std::size_t i = 0; i < piece.outline.size(); ++i) {
+      const Point2 a = piece.outline[i], b = piece.outline[(i + 1) % piece.outline.size()];
+      const double width = piece.edges[i] == Edge::seam ? allowances.seam : allowances.hem;
+      strip += std::hypot(b.x - a.x, b.y - a.y) * width;
+    }
+    const double added = polygon_area(cut) - polygon_area(piece.outline);
+    // Beyond the strips along the edges only the corners count, of the order of the width squared each.
+    EXPECT_NEAR(added, strip, 4 * 6 * 0.003 * 0.003) << piece.name;
+    const std::vector<Point2> none = with_allowance(piece, {.seam = 0, .hem = 0});
+    EXPECT_NEAR(polygon_area(none), polygon_area(piece.outline), 1e-12);
+  }
+}
+
+TEST_P(CutTest, TapesAndLinesAreAsLongAsInTheMesh) {
+  const Case value = read_case(examples / GetParam() / "case.toml");
+  const Mesh mesh = parachute_mesh(value);
+  double tape_mesh = 0, line_mesh = 0;
+  for (const Spring& spring : mesh.springs)
+    if (mesh.parts[spring.part].find("tape") != std::string::npos) tape_mesh += spring.rest_length;
+  for (const LineRun& line : mesh.lines)
+    for (const int spring : line.springs) line_mesh += mesh.springs[spring].rest_length;
+  const CutPattern pattern = cut_pattern(value.parachute);
+  double tape = 0;
+  for (const CutLength& part : pattern.tapes) tape += part.count * part.length;
+  // Tapes along arcs are chords in the mesh; vertical tapes are a little shorter than a gore's seam.
+  EXPECT_NEAR(tape_mesh / tape, 1, 0.02);
+  const LineSet& lines = value.parachute.lines;
+  EXPECT_NEAR(line_mesh / (lines.count * (lines.length_m + pattern.line_on_canopy)), 1, 1e-3);
+}
+
+TEST_P(CutTest, TheBillWithoutAllowancesWeighsWhatTheMeshWeighs) {
+  const Case value = read_case(examples / GetParam() / "case.toml");
+  const Bill bill = bill_of(cut_pattern(value.parachute), value.parachute, part_materials(value),
+                            {.seam = 0, .hem = 0, .line_loop = 0, .tape_overlap = 0}, 400);
+  const Mesh mesh = parachute_mesh(value);
+  const double mass = std::accumulate(mesh.mass.begin(), mesh.mass.end(), 0.0);
+  EXPECT_NEAR(bill.mass / mass, 1, 0.005);
+  EXPECT_NEAR(bill.packed_volume * 400, bill.mass, 1e-12);
+  const Bill cut = bill_of(cut_pattern(value.parachute), value.parachute, part_materials(value), {}, 400);
+  EXPECT_GT(cut.mass, bill.mass);
+}
+
+TEST(CutPattern, AFlatCircularGoreIsATrapezoidWithTheAngleOfItsGore) {
+  const Case value = read_case(examples / "flat-circular" / "case.toml");
+  const CutPattern pattern = cut_pattern(value.parachute);
+  ASSERT_EQ(pattern.pieces.size(), 1u);
+  ASSERT_EQ(pattern.pieces[0].outline.size(), 4u);
+  const Point2 lower = pattern.pieces[0].outline[1], upper = pattern.pieces[0].outline[2];
+  EXPECT_NEAR((lower.x - upper.x) / (upper.y - lower.y), std::tan(std::numbers::pi / 12), 1e-12);
+}
+
+}  // namespace
+}  // namespace ripstop
