@@ -86,7 +86,6 @@ std::vector<Point2> with_allowance(const Piece& piece, const Allowances& allowan
 CutPattern cut_pattern(const GorePattern& pattern, const Design& design) {
   CutPattern cut;
   const int n = pattern.gores;
-  double seam = 0;
   for (std::size_t i = 0; i < pattern.strips.size(); ++i) {
     const GoreStrip& strip = pattern.strips[i];
     const bool joined_above = i + 1 < pattern.strips.size() && pattern.strips[i + 1].joined;
@@ -98,15 +97,12 @@ CutPattern cut_pattern(const GorePattern& pattern, const Design& design) {
       if (!joined_above)
         cut.tapes.push_back({name + (i + 1 == pattern.strips.size() ? "vent" : "upper edge"), 1, upper});
     }
-    for (std::size_t k = 1; k < strip.stations.size(); ++k)
-      seam += std::hypot(strip.stations[k].height - strip.stations[k - 1].height,
-                         0.5 * (strip.stations[k].chord - strip.stations[k - 1].chord));
-    if (i > 0)
-      seam += std::hypot(strip.slot,
-                         0.5 * (strip.stations.front().chord - pattern.strips[i - 1].stations.back().chord));
   }
-  if (design.tape.seams) cut.tapes.push_back({"gore seam", n, seam});
-  if (pattern.vertical_tapes > 0) cut.tapes.push_back({"vertical tape", n * pattern.vertical_tapes, seam});
+  if (design.tape.seams) cut.tapes.push_back({"gore seam", n, length_along(pattern, 0.5)});
+  for (int k = 1; k <= pattern.vertical_tapes; ++k) {
+    const double across = double(k) / (pattern.vertical_tapes + 1) - 0.5;
+    cut.tapes.push_back({fmt::format("vertical tape {}", k), n, length_along(pattern, across)});
+  }
   const double run = facts(pattern).line_run;
   cut.line_on_canopy = std::min(run, line_length_on_disk(design));
   if (pattern.vent_lines && cut.line_on_canopy >= run * (1 - 1e-9)) {

@@ -72,23 +72,38 @@ Profile start_profile(const GorePattern& pattern) {
   return profile;
 }
 
+double slot_length(const GorePattern& pattern, int index, double across) {
+  if (index == 0) return 0;
+  const GoreStrip& strip = pattern.strips[index];
+  const double chord_below = pattern.strips[index - 1].stations.back().chord;
+  return std::hypot(strip.slot, across * (strip.stations.front().chord - chord_below));
+}
+
+double length_along(const GorePattern& pattern, double across) {
+  double length = 0;
+  for (std::size_t i = 0; i < pattern.strips.size(); ++i) {
+    const std::vector<Station>& stations = pattern.strips[i].stations;
+    if (pattern.strips[i].slot > 0) length += slot_length(pattern, static_cast<int>(i), across);
+    for (std::size_t k = 1; k < stations.size(); ++k)
+      length += std::hypot(stations[k].height - stations[k - 1].height,
+                           across * (stations[k].width - stations[k - 1].width));
+  }
+  return length;
+}
+
 CanopyFacts facts(const GorePattern& pattern) {
   const int n = pattern.gores;
   CanopyFacts facts;
   facts.nominal_area = pattern.nominal_area;
+  facts.line_run = length_along(pattern, 0.5);
   double widest = 0;
-  double last_chord = pattern.strips.front().stations.front().chord;
   for (const GoreStrip& strip : pattern.strips) {
     for (std::size_t k = 0; k < strip.stations.size(); ++k) {
       const Station& here = strip.stations[k];
-      double height = strip.slot;
       if (k > 0) {
         const Station& before = strip.stations[k - 1];
-        height = here.height - before.height;
-        facts.cloth_area += n * height * 0.5 * (here.width + before.width);
+        facts.cloth_area += n * (here.height - before.height) * 0.5 * (here.width + before.width);
       }
-      facts.line_run += std::hypot(height, 0.5 * (here.chord - last_chord));
-      last_chord = here.chord;
       widest = std::max(widest, here.chord);
       facts.circumference = std::max(facts.circumference, n * here.width);
     }

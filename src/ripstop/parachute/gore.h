@@ -62,6 +62,12 @@ using Profile = std::vector<std::vector<ProfilePoint>>;
 /// faster than a flat disk (no such shape exists) the profile is flat.
 Profile start_profile(const GorePattern& pattern);
 
+/// Open length below strip `index` at `across` (-0.5 to 0.5) of the chord [m].
+double slot_length(const GorePattern& pattern, int index, double across);
+/// From the skirt to the vent over cloth as cut and slots, at `across` of the width: 0.5 is the seam. Radials
+/// are as long as the sides of the cloth that is sewn to them, without easing [m].
+double length_along(const GorePattern& pattern, double across);
+
 CanopyFacts facts(const GorePattern& pattern);
 
 }  // namespace ripstop

@@ -56,7 +56,6 @@ class Builder {
 
   Vec3 start(int strip, double height, int gore, double across) const;
   ProfilePoint profile_at(int strip, double height) const;
-  Path radial(int index, int part, int parts) const;
   std::vector<Path> runs_along(int part, int parts) const;
   Path along(int part, int parts) const;
   double slot_along(int index, int part, int parts) const;
@@ -81,32 +80,44 @@ ProfilePoint Builder::profile_at(int strip, double height) const {
   return {a.apothem + share * (b.apothem - a.apothem), a.z + share * (b.z - a.z)};
 }
 
-// Fullness f makes the width (1 + f) chord, which a parabola of sagitta chord sqrt(3 f / 8) takes up. The
-// sail keeps its height when it tilts about its upper edge by the slope g of the sagitta: it rises by h (1 -
-// sqrt(1 - g^2)).
+// An arc of half angle A is A / sin A times as long as its chord, and its sagitta is chord/2 tan(A/2).
+double sagitta_of(double chord, double fullness) {
+  if (fullness <= 1e-12) return 0;
+  double angle = std::sqrt(6 * fullness);  // A / sin A = 1 + A^2/6 + ...
+  for (int i = 0; i < 20; ++i) {
+    const double sine = std::sin(angle), ratio = angle / sine;
+    angle -= (ratio - 1 - fullness) * sine / (1 - ratio * std::cos(angle));
+  }
+  return 0.5 * chord * std::tan(0.5 * angle);
+}
+
+// Fullness is taken up by an arc between the radials, outward. A sail keeps its height when it tilts about
+// its upper edge by the slope g of the sagitta: it rises by h (1 - sqrt(1 - g^2)).
 Vec3 Builder::start(int index, double height, int gore, double across) const {
-  constexpr double steepest = 0.8;
+  constexpr double steepest = 0.9;
   const GoreStrip& strip = pattern_.strips[index];
-  const double angle = 2 * pi * (gore + 0.5) / pattern_.gores;
-  const Vec3 outward{std::cos(angle), std::sin(angle), 0}, sideways{-outward.y, outward.x, 0};
+  const double turn = 2 * pi * (gore + 0.5) / pattern_.gores;
+  const Vec3 outward{std::cos(turn), std::sin(turn), 0}, sideways{-outward.y, outward.x, 0};
   const ProfilePoint p = profile_at(index, height);
-  Vec3 place = p.apothem * outward + across * strip.chord(height) * sideways + Vec3{0, 0, p.z};
-  const auto sagitta = [&](double h) {
-    const double fullness = strip.width(h) / strip.chord(h) - 1;
-    return fullness > 1e-12 ? strip.chord(h) * std::sqrt(3 * fullness / 8) : 0.0;
+  const Vec3 middle = p.apothem * outward + Vec3{0, 0, p.z};
+  const double chord = strip.chord(height), below = strip.length() - height;
+  const auto wanted = [&](double h) {
+    return sagitta_of(strip.chord(h), strip.width(h) / strip.chord(h) - 1);
   };
-  const double top = sagitta(strip.length()), here = sagitta(height);
-  if (top <= 0 && here <= 0) return place;
-  const double below = strip.length() - height;
-  const double bend = 1 - 4 * across * across;
-  const double slope = below > 0 ? std::clamp((here - top) / below, -steepest, steepest) : 0;
+  const double top = wanted(strip.length());
+  const double sagitta = top + std::clamp(wanted(height) - top, -steepest * below, steepest * below);
+  if (sagitta <= 0) return middle + across * chord * sideways;
+
+  const double half_angle = 2 * std::atan(2 * sagitta / chord), radius = 0.5 * chord / std::sin(half_angle);
+  const double angle = 2 * across * half_angle;
+  const double bulge = radius * (std::cos(angle) - std::cos(half_angle));
+  const double slope = below > 0 ? (sagitta - top) / below * bulge / sagitta : 0;
   const ProfilePoint low = profile_[index].front(), high = profile_[index].back();
   const double run = std::hypot(high.apothem - low.apothem, high.z - low.z);
   const Vec3 up = ((high.apothem - low.apothem) / run) * outward + Vec3{0, 0, (high.z - low.z) / run};
   const Vec3 out = ((high.z - low.z) / run) * outward + Vec3{0, 0, (low.apothem - high.apothem) / run};
-  const double tilt = slope * bend;
-  place += (top * bend + tilt * below) * out + below * (1 - std::sqrt(1 - tilt * tilt)) * up;
-  return place;
+  return middle + radius * std::sin(angle) * sideways + bulge * out +
+         below * (1 - std::sqrt(std::max(0.0, 1 - slope * slope))) * up;
 }
 
 void Builder::add_strip(int index, const std::vector<Ring>& rings) {
@@ -159,10 +170,7 @@ void Builder::attach(int index) {
 
 double Builder::slot_along(int index, int part, int parts) const {
   const double gore = double(part) * pattern_.gores / parts;
-  const double across = gore - std::floor(gore) - 0.5;
-  const double chord_change =
-      pattern_.strips[index].stations.front().chord - pattern_.strips[index - 1].stations.back().chord;
-  return std::hypot(pattern_.strips[index].slot, across * chord_change);
+  return slot_length(pattern_, index, gore - std::floor(gore) - 0.5);
 }
 
 bool Builder::has_corner_below(int index) const {
@@ -175,22 +183,13 @@ bool Builder::has_corner_below(int index) const {
   return std::abs(turn) > sharp_corner;
 }
 
-// The radial's own length: a sail that is fuller below than above has longer sides, which are eased onto it.
-Path Builder::radial(int index, int part, int parts) const {
-  Path path = builder_.radial(patches_[index], part, parts);
-  const std::vector<Vec3>& x = builder_.mesh.start;
-  for (std::size_t i = 0; i < path.lengths.size(); ++i)
-    path.lengths[i] = norm(x[path.nodes[i + 1]] - x[path.nodes[i]]);
-  return path;
-}
-
 // What lies along one radial from the skirt to the vent, cut into smooth runs; each begins with the node that
 // ends the one before.
 std::vector<Path> Builder::runs_along(int part, int parts) const {
-  std::vector<Path> runs{radial(0, part, parts)};
+  std::vector<Path> runs{builder_.radial(patches_.front(), part, parts)};
   for (std::size_t i = 1; i < patches_.size(); ++i) {
     const int index = static_cast<int>(i);
-    const Path piece = radial(index, part, parts);
+    const Path piece = builder_.radial(patches_[i], part, parts);
     if (pattern_.strips[i].slot > 0) {
       runs.back().append({{piece.nodes.front()}, {}}, slot_along(index, part, parts));
     } else {
