@@ -13,9 +13,10 @@ struct CartesianSettings {
   bool compressible = true;     // perfect gas at constant total enthalpy; false: constant density
   bool grid_sequencing = true;  // a cold start solves coarser grids first
   int pressure_cycles = 2;      // multigrid V cycles an iteration
-  double relax_pressure = 0.3;  // (0, 1]
+  double relax_pressure = 1.0;  // (0, 1]
   double relax_velocity = 0.7;  // (0, 1]; the converged answer depends on it a little, through the face flux
-  double relax_turbulence = 0.7;  // (0, 1]
+  double relax_march = 0.8;     // (0, 1]; of the momentum step, no effect on the answer
+  double relax_turbulence = 0.9;  // (0, 1]
 };
 
 /// Throws Error(usage) for settings outside their ranges.

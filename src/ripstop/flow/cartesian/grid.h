@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "ripstop/core/aligned.h"
+#include "ripstop/flow/cartesian/memory.h"
 
 namespace ripstop::cartesian {
 
@@ -48,8 +48,5 @@ struct Layout {
     return lead + i + static_cast<std::ptrdiff_t>(j + 1) * stride_y;
   }
 };
-
-template <class T>
-using Array = std::vector<T, CacheLineAllocator<T>>;
 
 }  // namespace ripstop::cartesian

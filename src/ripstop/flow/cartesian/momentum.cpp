@@ -25,9 +25,10 @@ RIPSTOP_ROW_KERNEL void momentum_row(MomentumRow& row) {
   const double *mu = row.mu, *mub = row.mu_below, *mua = row.mu_above;
   const double *tx = row.tx, *ty = row.ty, *tz = row.tz, *tzb = row.tz_below, *tza = row.tz_above;
   const double *linear = row.linear, *quadratic = row.quadratic;
-  double *hu = row.hu, *hv = row.hv, *hw = row.hw, *ra = row.ra;
+  double *hu = row.hu, *hv = row.hv, *hw = row.hw, *ra = row.ra, *rc = row.rc;
   double *u_new = row.u_new, *v_new = row.v_new, *w_new = row.w_new;
-  const double alpha = row.relaxation, mean_u = row.mean_u, mean_v = row.mean_v, mean_w = row.mean_w;
+  const double inverse_alpha = 1 / row.relaxation, inverse_march = 1 / row.march_relaxation;
+  const double mean_u = row.mean_u, mean_v = row.mean_v, mean_w = row.mean_w;
 
   double res_u = 0, res_v = 0, res_w = 0, scale_u = 0, scale_v = 0, scale_w = 0;
 #pragma omp simd reduction(+ : res_u, res_v, res_w, scale_u, scale_v, scale_w)
@@ -49,11 +50,10 @@ RIPSTOP_ROW_KERNEL void momentum_row(MomentumRow& row) {
     const double u0 = u[i], v0 = v[i], w0 = w[i];
     const double speed = std::sqrt(u0 * u0 + v0 * v0 + w0 * w0);
     const double resistance = linear[i] + rho[i] * quadratic[i] * speed;
-    const double relaxed = off / alpha;
-    const double a = relaxed + resistance;
+    const double a = off * inverse_alpha + resistance;  // of the face flux
     const double r = 1 / a;
-    const double lag = relaxed - off;
-    const double mean = a - off;
+    const double lag = off * inverse_march - off;
+    const double step = 1 / (off * inverse_march + resistance);
 
     const auto divergence = [&](std::ptrdiff_t c) {
       return xh[i] * (tx[i + 1 + c] - tx[i + c]) + xl[i] * (tx[i + c] - tx[i - 1 + c]) +
@@ -70,23 +70,28 @@ RIPSTOP_ROW_KERNEL void momentum_row(MomentumRow& row) {
         aw * v[i - 1] + ae * v[i + 1] + as * v[i - sy] + an * v[i + sy] + ab * vb[i] + aa * va[i];
     const double nw =
         aw * w[i - 1] + ae * w[i + 1] + as * w[i - sy] + an * w[i + sy] + ab * wb[i] + aa * wa[i];
-    const double bu = lag * u0 + divergence(0), bv = lag * v0 + divergence(comp),
-                 bw = lag * w0 + divergence(2 * comp);
+    const double bu = divergence(0) - px, bv = divergence(comp) - py, bw = divergence(2 * comp) - pz;
 
-    hu[i] = r * (nu + bu);
-    hv[i] = r * (nv + bv);
-    hw[i] = r * (nw + bw);
+    const double u1 = step * (nu + lag * u0 + bu);
+    const double v1 = step * (nv + lag * v0 + bv);
+    const double w1 = step * (nw + lag * w0 + bw);
+    u_new[i] = u1;
+    v_new[i] = v1;
+    w_new[i] = w1;
+    hu[i] = u1 + r * px;
+    hv[i] = v1 + r * py;
+    hw[i] = w1 + r * pz;
     ra[i] = r;
-    u_new[i] = r * (nu + bu - px);
-    v_new[i] = r * (nv + bv - py);
-    w_new[i] = r * (nw + bw - pz);
+    rc[i] = 1 / (off * (inverse_march - 1) + resistance);
 
-    res_u += std::fabs(nu + bu - px - a * u0);
-    res_v += std::fabs(nv + bv - py - a * v0);
-    res_w += std::fabs(nw + bw - pz - a * w0);
-    scale_u += std::fabs(a * u0 - nu - mean * mean_u) + std::fabs(bu - px - mean * mean_u);
-    scale_v += std::fabs(a * v0 - nv - mean * mean_v) + std::fabs(bv - py - mean * mean_v);
-    scale_w += std::fabs(a * w0 - nw - mean * mean_w) + std::fabs(bw - pz - mean * mean_w);
+    // Residual and scale of the matrix as it is relaxed for the face flux.
+    const double whole = off + resistance, mean = a - off, back = a - whole;
+    res_u += std::fabs(nu + bu - whole * u0);
+    res_v += std::fabs(nv + bv - whole * v0);
+    res_w += std::fabs(nw + bw - whole * w0);
+    scale_u += std::fabs(a * u0 - nu - mean * mean_u) + std::fabs(bu + back * u0 - mean * mean_u);
+    scale_v += std::fabs(a * v0 - nv - mean * mean_v) + std::fabs(bv + back * v0 - mean * mean_v);
+    scale_w += std::fabs(a * w0 - nw - mean * mean_w) + std::fabs(bw + back * w0 - mean * mean_w);
   }
   row.u_sum = {res_u, scale_u};
   row.v_sum = {res_v, scale_v};

@@ -241,9 +241,9 @@ void Multigrid::cycle(std::size_t l, ThreadTeam* team, int rank) {
 void Multigrid::solve(ThreadTeam& team, int rank, int cycles) {
   coarsen(team, rank);
   MultigridLevel& top = finest();
-  const Range planes = part_of(top.layout.nz, rank, team.size());
-  std::fill(top.e.data() + top.layout.at(-Layout::lead, -1, planes.begin),
-            top.e.data() + top.layout.at(-Layout::lead, -1, planes.end), 0.0f);
+  const Range planes = part_of(top.layout.nz + 2, rank, team.size());  // ghosts too
+  std::fill(top.e.begin() + static_cast<std::ptrdiff_t>(planes.begin) * top.layout.stride_z,
+            top.e.begin() + static_cast<std::ptrdiff_t>(planes.end) * top.layout.stride_z, 0.0f);
   team.barrier();
   for (int c = 0; c < cycles; ++c) cycle(0, &team, rank);
 }

@@ -1,5 +1,11 @@
-// The pressure equation of SIMPLE, div(rho/A grad p) = div(rho H/A), with both interpolated linearly to the
-// faces, and what follows from its solution: face fluxes, velocity, density.
+// The pressure equation: the mass fluxes through the faces,
+//
+//   F = (rho H/A)_f - (rho/A)_f dp/dn - (rho C)_f d(dp)/dn,
+//
+// with linear interpolation to the faces, must add up to zero in each cell. The first two terms are those of
+// SIMPLE as OpenFOAM has it, A including the resistance R and relaxed with 0.7; the correction dp acts
+// through C = 1 / (A - sum a_nb) instead, which takes the neighbours' corrections as equal (SIMPLEC, Van
+// Doormaal and Raithby 1984) and needs no relaxation. Where dp = 0, the answer, C has no part in it.
 #include <cmath>
 
 #include "ripstop/flow/cartesian/rows.h"
@@ -10,50 +16,49 @@ namespace ripstop::cartesian {
 RIPSTOP_ROW_KERNEL void pressure_row(PressureRow& row) {
   const int n = row.m.n;
   const std::ptrdiff_t sy = row.m.sy, sz = row.m.sz;
-  const double *wx = row.m.x_weight_low, *rdx = row.m.x_inverse_distance, *hx = row.x_width;
+  const double *wx = row.m.x_weight_low, *rdx = row.m.x_inverse_distance, *hx = row.m.x_width;
   const CrossMetrics y = row.m.y, z = row.m.z;
-  const double *hu = row.hu, *hv = row.hv, *hw = row.hw, *ra = row.ra, *rho = row.rho, *p = row.p;
+  const double *hu = row.hu, *hv = row.hv, *hw = row.hw, *ra = row.ra, *rc = row.rc, *rho = row.rho,
+               *p = row.p;
   const double *hwa = row.hw_above, *rhoa = row.rho_above, *raa = row.ra_above, *pa = row.p_above;
   float *cx = row.cx, *cy = row.cy, *cz = row.cz, *cza = row.cz_above, *rhs = row.rhs;
-  const double area_x = row.y_width * row.z_width;
+  const double area_x = row.y_width * row.z_width, y_width = row.y_width, z_width = row.z_width;
   const bool inlet = row.inlet, outlet = row.outlet;
   const double inlet_speed = row.inlet_speed, mean_p = row.mean_p;
 
   double res = 0, scale = 0;
 #pragma omp simd reduction(+ : res, scale)
   for (int i = 0; i < n; ++i) {
-    const double g = rho[i] * ra[i], fu = rho[i] * hu[i], fv = rho[i] * hv[i], fw = rho[i] * hw[i];
-    const auto mix = [](double weight, double low, double high) {
-      return weight * low + (1 - weight) * high;
-    };
+    const double r = rho[i], g = r * ra[i], fu = r * hu[i], fv = r * hv[i], fw = r * hw[i], c = r * rc[i];
+    const double rw = rho[i - 1], re = rho[i + 1], rs = rho[i - sy], rn = rho[i + sy], rb = rho[i - sz],
+                 rt = rhoa[i];
+    const double ww = wx[i], we = wx[i + 1], ws = y.weight_low, wn = y.weight_high, wb = z.weight_low,
+                 wt = z.weight_high;
 
-    const double gw = mix(wx[i], rho[i - 1] * ra[i - 1], g) * rdx[i];
-    const double ge = mix(wx[i + 1], g, rho[i + 1] * ra[i + 1]) * rdx[i + 1];
-    const double gs = mix(y.weight_low, rho[i - sy] * ra[i - sy], g) * y.distance_low;
-    const double gn = mix(y.weight_high, g, rho[i + sy] * ra[i + sy]) * y.distance_high;
-    const double gb = mix(z.weight_low, rho[i - sz] * ra[i - sz], g) * z.distance_low;
-    const double ga = (outlet ? g : mix(z.weight_high, g, rhoa[i] * raa[i])) * z.distance_high;
+    const double gw = ww * rw * ra[i - 1] + (1 - ww) * g, ge = we * g + (1 - we) * re * ra[i + 1];
+    const double gs = ws * rs * ra[i - sy] + (1 - ws) * g, gn = wn * g + (1 - wn) * rn * ra[i + sy];
+    const double gb = wb * rb * ra[i - sz] + (1 - wb) * g, ga = outlet ? g : wt * g + (1 - wt) * rt * raa[i];
 
-    const double fxw = mix(wx[i], rho[i - 1] * hu[i - 1], fu);
-    const double fxe = mix(wx[i + 1], fu, rho[i + 1] * hu[i + 1]);
-    const double fys = mix(y.weight_low, rho[i - sy] * hv[i - sy], fv);
-    const double fyn = mix(y.weight_high, fv, rho[i + sy] * hv[i + sy]);
-    const double fzb = inlet ? rho[i] * inlet_speed : mix(z.weight_low, rho[i - sz] * hw[i - sz], fw);
-    const double fza = outlet ? fw : mix(z.weight_high, fw, rhoa[i] * hwa[i]);
+    const double fxw = ww * rw * hu[i - 1] + (1 - ww) * fu, fxe = we * fu + (1 - we) * re * hu[i + 1];
+    const double fys = ws * rs * hv[i - sy] + (1 - ws) * fv, fyn = wn * fv + (1 - wn) * rn * hv[i + sy];
+    const double fzb = inlet ? r * inlet_speed : wb * rb * hw[i - sz] + (1 - wb) * fw;
+    const double fza = outlet ? fw : wt * fw + (1 - wt) * rt * hwa[i];
 
-    const double area_y = hx[i] * row.z_width, area_z = hx[i] * row.y_width;
+    const double area_y = hx[i] * z_width, area_z = hx[i] * y_width;
     const double source = (fxe - fxw) * area_x + (fyn - fys) * area_y + (fza - fzb) * area_z;
-    const double flow = (ge * (p[i + 1] - p[i]) - gw * (p[i] - p[i - 1])) * area_x +
-                        (gn * (p[i + sy] - p[i]) - gs * (p[i] - p[i - sy])) * area_y +
-                        (ga * (pa[i] - p[i]) - gb * (p[i] - p[i - sz])) * area_z;
-    cx[i] = static_cast<float>(gw * area_x);
-    cy[i] = static_cast<float>(gs * area_y);
-    cz[i] = static_cast<float>(gb * area_z);
-    if (outlet) cza[i] = static_cast<float>(ga * area_z);
+    const double held = ga * z.distance_high * area_z;
+    const double flow =
+        (ge * rdx[i + 1] * (p[i + 1] - p[i]) - gw * rdx[i] * (p[i] - p[i - 1])) * area_x +
+        (gn * y.distance_high * (p[i + sy] - p[i]) - gs * y.distance_low * (p[i] - p[i - sy])) * area_y +
+        held * (pa[i] - p[i]) - gb * z.distance_low * area_z * (p[i] - p[i - sz]);
+    cx[i] = static_cast<float>((ww * rw * rc[i - 1] + (1 - ww) * c) * (rdx[i] * area_x));
+    cy[i] = static_cast<float>((ws * rs * rc[i - sy] + (1 - ws) * c) * (y.distance_low * area_y));
+    cz[i] = static_cast<float>((wb * rb * rc[i - sz] + (1 - wb) * c) * (z.distance_low * area_z));
+    if (outlet) cza[i] = static_cast<float>(c * z.distance_high * area_z);
     rhs[i] = static_cast<float>(flow - source);
 
     // Row sum of the matrix: only the outlet's faces hold on to a value from outside.
-    const double mean = outlet ? -ga * area_z * mean_p : 0;
+    const double mean = outlet ? -held * mean_p : 0;
     res += std::fabs(flow - source);
     scale += std::fabs(flow - mean) + std::fabs(source - mean);
   }
@@ -65,52 +70,58 @@ RIPSTOP_ROW_KERNEL void flux_row(FluxRow& row) {
   const std::ptrdiff_t sy = row.m.sy, sz = row.m.sz;
   const double *wx = row.m.x_weight_low, *rdx = row.m.x_inverse_distance;
   const CrossMetrics y = row.m.y, z = row.m.z;
-  const double *hu = row.hu, *hv = row.hv, *hw = row.hw, *ra = row.ra, *rho = row.rho, *p = row.p;
+  const double *hu = row.hu, *hv = row.hv, *hw = row.hw, *ra = row.ra, *rc = row.rc, *rho = row.rho,
+               *p = row.p;
   const float* dp = row.dp;
   double *fx = row.fx, *fy = row.fy, *fz = row.fz;
   const bool inlet = row.inlet;
   const double inlet_speed = row.inlet_speed;
 #pragma omp simd
   for (int i = 0; i < n + 1; ++i) {
-    const double g = wx[i] * rho[i - 1] * ra[i - 1] + (1 - wx[i]) * rho[i] * ra[i];
-    const double h = wx[i] * rho[i - 1] * hu[i - 1] + (1 - wx[i]) * rho[i] * hu[i];
-    const double jump = (p[i] + static_cast<double>(dp[i])) - (p[i - 1] + static_cast<double>(dp[i - 1]));
-    fx[i] = h - g * rdx[i] * jump;
+    const double low = wx[i] * rho[i - 1], high = (1 - wx[i]) * rho[i];
+    const double jump = p[i] - p[i - 1], more = static_cast<double>(dp[i]) - static_cast<double>(dp[i - 1]);
+    fx[i] = low * hu[i - 1] + high * hu[i] -
+            rdx[i] * ((low * ra[i - 1] + high * ra[i]) * jump + (low * rc[i - 1] + high * rc[i]) * more);
   }
 #pragma omp simd
   for (int i = 0; i < n; ++i) {
-    const double g = y.weight_low * rho[i - sy] * ra[i - sy] + (1 - y.weight_low) * rho[i] * ra[i];
-    const double h = y.weight_low * rho[i - sy] * hv[i - sy] + (1 - y.weight_low) * rho[i] * hv[i];
-    const double jump = (p[i] + static_cast<double>(dp[i])) - (p[i - sy] + static_cast<double>(dp[i - sy]));
-    fy[i] = h - g * y.distance_low * jump;
+    const double low = y.weight_low * rho[i - sy], high = (1 - y.weight_low) * rho[i];
+    const double jump = p[i] - p[i - sy], more = static_cast<double>(dp[i]) - static_cast<double>(dp[i - sy]);
+    fy[i] = low * hv[i - sy] + high * hv[i] -
+            y.distance_low *
+                ((low * ra[i - sy] + high * ra[i]) * jump + (low * rc[i - sy] + high * rc[i]) * more);
   }
 #pragma omp simd
   for (int i = 0; i < n; ++i) {
-    const double g = z.weight_low * rho[i - sz] * ra[i - sz] + (1 - z.weight_low) * rho[i] * ra[i];
-    const double h = z.weight_low * rho[i - sz] * hw[i - sz] + (1 - z.weight_low) * rho[i] * hw[i];
-    const double jump = (p[i] + static_cast<double>(dp[i])) - (p[i - sz] + static_cast<double>(dp[i - sz]));
-    fz[i] = inlet ? rho[i] * inlet_speed : h - g * z.distance_low * jump;
+    const double low = z.weight_low * rho[i - sz], high = (1 - z.weight_low) * rho[i];
+    const double jump = p[i] - p[i - sz], more = static_cast<double>(dp[i]) - static_cast<double>(dp[i - sz]);
+    const double inner = low * hw[i - sz] + high * hw[i] -
+                         z.distance_low * ((low * ra[i - sz] + high * ra[i]) * jump +
+                                           (low * rc[i - sz] + high * rc[i]) * more);
+    fz[i] = inlet ? rho[i] * inlet_speed : inner;
   }
 }
 
 RIPSTOP_ROW_KERNEL void outlet_flux_row(OutletRow& row) {
   const int n = row.n;
-  const double *hw = row.hw, *ra = row.ra, *rho = row.rho, *p = row.p;
+  const double *hw = row.hw, *ra = row.ra, *rc = row.rc, *rho = row.rho, *p = row.p;
   const float* dp = row.dp;
   double* fz = row.fz;
   const double rd = row.inverse_distance;
 #pragma omp simd
   for (int i = 0; i < n; ++i) {
-    fz[i] = rho[i] * (hw[i] + ra[i] * rd * (p[i] + static_cast<double>(dp[i])));
+    fz[i] = rho[i] * (hw[i] + rd * (ra[i] * p[i] + rc[i] * static_cast<double>(dp[i])));
   }
 }
 
 RIPSTOP_ROW_KERNEL void velocity_row(VelocityRow& row) {
   const int n = row.m.n;
   const std::ptrdiff_t sy = row.m.sy, sz = row.m.sz;
-  const double *xl = row.m.x_slope_low, *xh = row.m.x_slope_high, *hx = row.x_width;
+  const double *xl = row.m.x_slope_low, *xh = row.m.x_slope_high, *hx = row.m.x_width;
   const CrossMetrics y = row.m.y, z = row.m.z;
-  const double *ra = row.ra, *p = row.p, *hu = row.hu, *hv = row.hv, *hw = row.hw;
+  const float* dp = row.dp;
+  const double relax = row.relaxation;
+  const double *ra = row.ra, *rc = row.rc, *p = row.p, *hu = row.hu, *hv = row.hv, *hw = row.hw;
   double *u = row.u, *v = row.v, *w = row.w, *rho = row.rho;
   const double gas = row.gas_constant, p0 = row.pressure0, t0 = row.temperature, speed2 = row.speed2,
                half_cp = row.half_cp;
@@ -120,17 +131,24 @@ RIPSTOP_ROW_KERNEL void velocity_row(VelocityRow& row) {
     const double px = xh[i] * (p[i + 1] - p[i]) + xl[i] * (p[i] - p[i - 1]);
     const double py = y.slope_high * (p[i + sy] - p[i]) + y.slope_low * (p[i] - p[i - sy]);
     const double pz = z.slope_high * (p[i + sz] - p[i]) + z.slope_low * (p[i] - p[i - sz]);
-    const double u1 = hu[i] - ra[i] * px, v1 = hv[i] - ra[i] * py, w1 = hw[i] - ra[i] * pz;
+    const auto more = [&](std::ptrdiff_t a) { return static_cast<double>(dp[i + a]); };
+    const double d0 = more(0);
+    const double dx = xh[i] * (more(1) - d0) + xl[i] * (d0 - more(-1));
+    const double dy = y.slope_high * (more(sy) - d0) + y.slope_low * (d0 - more(-sy));
+    const double dz = z.slope_high * (more(sz) - d0) + z.slope_low * (d0 - more(-sz));
+    const double u1 = hu[i] - ra[i] * px - rc[i] * dx, v1 = hv[i] - ra[i] * py - rc[i] * dy,
+                 w1 = hw[i] - ra[i] * pz - rc[i] * dz;
+    const double p1 = p[i] + relax * d0;
     u[i] = u1;
     v[i] = v1;
     w[i] = w1;
     // Perfect gas at constant total enthalpy: T = T0 + (U0^2 - |U|^2) / (2 c_p).
     const double temperature = t0 + half_cp * (speed2 - (u1 * u1 + v1 * v1 + w1 * w1));
-    rho[i] = gas > 0 ? (p0 + p[i]) / (gas * temperature) : rho[i];
+    rho[i] = gas > 0 ? (p0 + p1) / (gas * temperature) : rho[i];
     total_u += u1 * hx[i];
     total_v += v1 * hx[i];
     total_w += w1 * hx[i];
-    total_p += p[i] * hx[i];
+    total_p += p1 * hx[i];
   }
   row.total_u = total_u;
   row.total_v = total_v;

@@ -25,8 +25,8 @@ CrossMetrics cross_metrics(const Axis& axis, int c);
 struct RowMetrics {
   int n = 0;
   std::ptrdiff_t sy = 0, sz = 0;
-  const double *x_inverse_width = nullptr, *x_weight_low = nullptr, *x_inverse_distance = nullptr,
-               *x_slope_low = nullptr, *x_slope_high = nullptr;
+  const double *x_width = nullptr, *x_inverse_width = nullptr, *x_weight_low = nullptr,
+               *x_inverse_distance = nullptr, *x_slope_low = nullptr, *x_slope_high = nullptr;
   CrossMetrics y, z;
 };
 
@@ -58,7 +58,8 @@ void turbulence_row(TurbulenceRow& row);
 
 struct MomentumRow {
   RowMetrics m;
-  double relaxation = 0;
+  double relaxation = 0;        // in the face flux
+  double march_relaxation = 0;  // of the step itself
   double mean_u = 0, mean_v = 0, mean_w = 0;
   const double *u = nullptr, *v = nullptr, *w = nullptr, *p = nullptr, *rho = nullptr;
   const double *u_below = nullptr, *v_below = nullptr, *w_below = nullptr;
@@ -70,7 +71,7 @@ struct MomentumRow {
   const double* linear = nullptr;     // mu d [kg/(m3 s)]
   const double* quadratic = nullptr;  // f / 2 [1/m]
   // Results: H/A, 1/A and the predicted velocity.
-  double *hu = nullptr, *hv = nullptr, *hw = nullptr, *ra = nullptr;
+  double *hu = nullptr, *hv = nullptr, *hw = nullptr, *ra = nullptr, *rc = nullptr;
   double *u_new = nullptr, *v_new = nullptr, *w_new = nullptr;
   ResidualSum u_sum, v_sum, w_sum;
 };
@@ -79,9 +80,10 @@ void momentum_row(MomentumRow& row);
 struct PressureRow {
   RowMetrics m;  // m.z is that of the pressure: fixed value at the outlet
   double y_width = 0, z_width = 0;
-  const double* x_width = nullptr;
-  const double *hu = nullptr, *hv = nullptr, *hw = nullptr, *ra = nullptr, *rho = nullptr, *p = nullptr;
-  const double *hw_above = nullptr, *rho_above = nullptr, *ra_above = nullptr, *p_above = nullptr;
+  const double *hu = nullptr, *hv = nullptr, *hw = nullptr;
+  const double *ra = nullptr, *rc = nullptr, *rho = nullptr, *p = nullptr;
+  const double *hw_above = nullptr, *rho_above = nullptr, *ra_above = nullptr, *rc_above = nullptr,
+               *p_above = nullptr;
   bool inlet = false;      // the low z face brings inlet_speed * rho
   double inlet_speed = 0;  // [m/s]
   bool outlet = false;     // the high z face holds the outlet's pressure
@@ -95,7 +97,8 @@ void pressure_row(PressureRow& row);
 
 struct FluxRow {
   RowMetrics m;
-  const double *hu = nullptr, *hv = nullptr, *hw = nullptr, *ra = nullptr, *rho = nullptr, *p = nullptr;
+  const double *hu = nullptr, *hv = nullptr, *hw = nullptr;
+  const double *ra = nullptr, *rc = nullptr, *rho = nullptr, *p = nullptr;
   const float* dp = nullptr;
   bool inlet = false;
   double inlet_speed = 0;
@@ -107,7 +110,7 @@ void flux_row(FluxRow& row);
 struct OutletRow {
   int n = 0;
   double inverse_distance = 0;
-  const double *hw = nullptr, *ra = nullptr, *rho = nullptr, *p = nullptr;
+  const double *hw = nullptr, *ra = nullptr, *rc = nullptr, *rho = nullptr, *p = nullptr;
   const float* dp = nullptr;
   double* fz = nullptr;  // at the outlet's faces
 };
@@ -120,12 +123,13 @@ struct VelocityRow {
   double temperature = 0;   // of the free stream [K]
   double speed2 = 0;        // of the free stream, squared
   double half_cp = 0;       // 1 / (2 c_p) [kg K/J]
-  const double *ra = nullptr, *p = nullptr;
+  const double *ra = nullptr, *rc = nullptr, *p = nullptr;
+  const float* dp = nullptr;
+  double relaxation = 0;  // of the pressure
   const double *hu = nullptr, *hv = nullptr, *hw = nullptr;
   double *u = nullptr, *v = nullptr, *w = nullptr;
   double* rho = nullptr;
   double total_u = 0, total_v = 0, total_w = 0, total_p = 0;  // times the cell width
-  const double* x_width = nullptr;
 };
 void velocity_row(VelocityRow& row);
 

@@ -36,7 +36,7 @@ Solver::Solver(const FlowProblem& problem, const FlowGrid& grid, PorousRows poro
       multigrid_(x_, y_, zp_) {
   const std::size_t values = layout_.values();
   for (Array<double>* field : {&f_.u, &f_.v, &f_.w, &f_.p, &f_.rho, &f_.k, &f_.omega, &f_.fx, &f_.fy, &f_.fz,
-                               &hu_, &hv_, &hw_, &ra_, &new_k_, &new_omega_}) {
+                               &hu_, &hv_, &hw_, &ra_, &rc_, &new_k_, &new_omega_}) {
     *field = Array<double>(values);
   }
   const std::size_t row = static_cast<std::size_t>(layout_.stride_y);
@@ -62,6 +62,7 @@ RowMetrics Solver::metrics(int j, int k, const Axis& z) const {
   m.n = grid_.nx;
   m.sy = layout_.stride_y;
   m.sz = layout_.stride_z;
+  m.x_width = x_.width.data();
   m.x_inverse_width = x_.inverse_width.data();
   m.x_weight_low = x_.weight_low.data();
   m.x_inverse_distance = x_.inverse_distance.data();
@@ -178,9 +179,10 @@ FlowProgress Solver::iterate() {
     team_.barrier();
     each_plane([&](int k) { turbulence_ghosts(k), pressure(k); });
     multigrid_.solve(team_, rank, settings_.pressure_cycles);
+    each_plane([&](int k) { correction_ghosts(k); });
     each_plane([&](int k) { flux(k); });
-    each_plane([&](int k) { relax_pressure(k); });
     each_plane([&](int k) { velocity(k); });
+    each_plane([&](int k) { relax_pressure(k); });
     add_up(rank, 0, Sums::count - 1);
   });
   const double volume = grid_.size.x * grid_.size.y * grid_.size.z;

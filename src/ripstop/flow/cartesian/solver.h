@@ -110,6 +110,7 @@ class Solver {
   void end_ghosts(Array<double>& field, int k, double inlet, double back) const;
   void turbulence_ghosts(int k);
   void pressure_ghosts(int k);
+  void correction_ghosts(int k);
   void velocity_ghosts(int k);
 
   void add_up(int rank, int from, int to);
@@ -134,7 +135,7 @@ class Solver {
     Array<double> zeros, inlet_w, inlet_k, inlet_omega;
   };
   Constant constant_;
-  Array<double> hu_, hv_, hw_, ra_;  // H / (A + R) [m/s], 1 / (A + R) [m3 s/kg]
+  Array<double> hu_, hv_, hw_, ra_, rc_;  // H / (A + R) [m/s], 1 / (A + R) [m3 s/kg]
   Array<double> new_k_, new_omega_;
   std::vector<MarchRings> rings_;  // one a thread
   std::vector<Sums> rows_;

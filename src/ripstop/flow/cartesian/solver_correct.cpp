@@ -48,12 +48,11 @@ void Solver::pressure(int k) {
     const std::ptrdiff_t at = layout_.at(0, j, k), sz = layout_.stride_z;
     PressureRow r;
     r.m = metrics(j, k, zp_);
-    r.x_width = x_.width.data();
     r.y_width = y_.width[j];
     r.z_width = z_.width[k];
     r.hu = &hu_[at], r.hv = &hv_[at], r.hw = &hw_[at];
-    r.ra = &ra_[at], r.rho = &f_.rho[at], r.p = &f_.p[at];
-    r.hw_above = r.hw + sz, r.ra_above = r.ra + sz, r.rho_above = r.rho + sz;
+    r.ra = &ra_[at], r.rc = &rc_[at], r.rho = &f_.rho[at], r.p = &f_.p[at];
+    r.hw_above = r.hw + sz, r.ra_above = r.ra + sz, r.rc_above = r.rc + sz, r.rho_above = r.rho + sz;
     r.p_above = last ? &constant_.zeros[Layout::lead] : r.p + sz;
     r.inlet = k == 0;
     r.inlet_speed = air_.speed;
@@ -75,7 +74,7 @@ void Solver::flux(int k) {
     FluxRow r;
     r.m = metrics(j, k, zp_);
     r.hu = &hu_[at], r.hv = &hv_[at], r.hw = &hw_[at];
-    r.ra = &ra_[at], r.rho = &f_.rho[at], r.p = &f_.p[at], r.dp = &top.e[at];
+    r.ra = &ra_[at], r.rc = &rc_[at], r.rho = &f_.rho[at], r.p = &f_.p[at], r.dp = &top.e[at];
     r.inlet = k == 0;
     r.inlet_speed = air_.speed;
     r.fx = &f_.fx[at], r.fy = &f_.fy[at], r.fz = &f_.fz[at];
@@ -84,9 +83,25 @@ void Solver::flux(int k) {
       for (int i = 0; i < grid_.nx; ++i) r.fy[i + sy] = duct_ ? 0 : r.rho[i] * r.hv[i];
     }
     if (k == grid_.nz - 1) {
-      OutletRow out{grid_.nx, zp_.inverse_distance[grid_.nz], r.hw, r.ra, r.rho, r.p, r.dp, r.fz + sz};
+      OutletRow out{grid_.nx, zp_.inverse_distance[grid_.nz], r.hw, r.ra, r.rc, r.rho, r.p, r.dp, r.fz + sz};
       outlet_flux_row(out);
     }
+  }
+}
+
+// The correction has the pressure's ghosts while velocities are corrected; the solver wants zeros there.
+void Solver::correction_ghosts(int k) {
+  Array<float>& e = multigrid_.finest().e;
+  const std::ptrdiff_t sy = layout_.stride_y, sz = layout_.stride_z;
+  const int nx = grid_.nx, ny = grid_.ny;
+  for (int j = 0; j < ny; ++j) {
+    float* q = &e[layout_.at(0, j, k)];
+    q[-1] = q[0];
+    q[nx] = q[nx - 1];
+    if (j == 0) std::copy_n(q, nx, q - sy);
+    if (j == ny - 1) std::copy_n(q, nx, q + sy);
+    if (k == 0) std::copy_n(q, nx, q - sz);
+    for (int i = 0; k == grid_.nz - 1 && i < nx; ++i) q[i + sz] = -q[i];
   }
 }
 
@@ -135,10 +150,10 @@ void Solver::velocity(int k) {
     r.temperature = air_.temperature;
     r.speed2 = air_.speed * air_.speed;
     r.half_cp = 0.5 / heat_capacity;
-    r.ra = &ra_[at], r.p = &f_.p[at];
+    r.ra = &ra_[at], r.rc = &rc_[at], r.p = &f_.p[at], r.dp = &multigrid_.finest().e[at];
+    r.relaxation = settings_.relax_pressure;
     r.hu = &hu_[at], r.hv = &hv_[at], r.hw = &hw_[at];
     r.u = &f_.u[at], r.v = &f_.v[at], r.w = &f_.w[at], r.rho = &f_.rho[at];
-    r.x_width = x_.width.data();
     velocity_row(r);
     double* sums = row_sums(j, k).value;
     const double area = y_.width[j] * z_.width[k];

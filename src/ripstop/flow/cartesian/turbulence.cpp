@@ -36,7 +36,7 @@ RIPSTOP_ROW_KERNEL void turbulence_row(TurbulenceRow& row) {
   const int n = row.m.n;
   const std::ptrdiff_t sy = row.m.sy, sz = row.m.sz, comp = row.component;
   const double *rhx = row.m.x_inverse_width, *wx = row.m.x_weight_low, *rdx = row.m.x_inverse_distance,
-               *xl = row.m.x_slope_low, *xh = row.m.x_slope_high;
+               *hx = row.m.x_width, *xl = row.m.x_slope_low, *xh = row.m.x_slope_high;
   const CrossMetrics y = row.m.y, z = row.m.z;
   const double *u = row.u, *v = row.v, *w = row.w, *k = row.k, *om = row.omega, *rho = row.rho;
   const double *kb = row.k_below, *ka = row.k_above, *ob = row.omega_below, *oa = row.omega_above;
@@ -44,7 +44,8 @@ RIPSTOP_ROW_KERNEL void turbulence_row(TurbulenceRow& row) {
   const double *mut = row.mut, *mutb = row.mut_below, *muta = row.mut_above;
   double *k_new = row.k_new, *om_new = row.omega_new, *mu_new = row.mu_new;
   double *tx = row.tx, *ty = row.ty, *tz = row.tz;
-  const double mu = row.viscosity, alpha = row.relaxation, mean_k = row.mean_k, mean_om = row.mean_omega;
+  const double mu = row.viscosity, inverse_alpha = 1 / row.relaxation, mean_k = row.mean_k,
+               mean_om = row.mean_omega;
 
   double res_k = 0, scale_k = 0, res_om = 0, scale_om = 0, total_k = 0, total_om = 0;
 #pragma omp simd reduction(+ : res_k, scale_k, res_om, scale_om, total_k, total_om)
@@ -65,10 +66,10 @@ RIPSTOP_ROW_KERNEL void turbulence_row(TurbulenceRow& row) {
     const double strain = 2 * (ux * ux + vy * vy + wz * wz) + (uy + vx) * (uy + vx) +
                           (uz + wx_) * (uz + wx_) + (vz + wy) * (vz + wy) -
                           (2.0 / 3) * divergence * divergence;
-    const double k0 = k[i], om0 = om[i], r = rho[i];
+    const double k0 = k[i], om0 = om[i], r = rho[i], inverse_om = 1 / om0;
     const double cross = (2 * sigma_omega) * r *
-                         (slope_x(k) * slope_x(om) + slope_y(k) * slope_y(om) + slope_z(k) * slope_z(om)) /
-                         om0;
+                         (slope_x(k) * slope_x(om) + slope_y(k) * slope_y(om) + slope_z(k) * slope_z(om)) *
+                         inverse_om;
 
     // Eddy viscosity and convection on the six faces.
     const double mw = wx[i] * mut[i - 1] + (1 - wx[i]) * mut[i];
@@ -94,8 +95,8 @@ RIPSTOP_ROW_KERNEL void turbulence_row(TurbulenceRow& row) {
       const double neighbours =
           aw * om[i - 1] + ae * om[i + 1] + as * om[i - sy] + an * om[i + sy] + ab * ob[i] + aa * oa[i];
       const double source = r * gamma2 * smaller(strain, (c1 * beta_star) * om0 * om0) + positive(cross);
-      const double diagonal = off + r * beta2 * om0 + positive(-cross) / om0;
-      const double relaxed = diagonal / alpha;
+      const double diagonal = off + r * beta2 * om0 + positive(-cross) * inverse_om;
+      const double relaxed = diagonal * inverse_alpha;
       const double b = source + (relaxed - diagonal) * om0;
       const double mean = (relaxed - off) * mean_om;
       om1 = larger((neighbours + b) / relaxed, floor);
@@ -113,7 +114,7 @@ RIPSTOP_ROW_KERNEL void turbulence_row(TurbulenceRow& row) {
           aw * k[i - 1] + ae * k[i + 1] + as * k[i - sy] + an * k[i + sy] + ab * kb[i] + aa * ka[i];
       const double source = smaller(mut[i] * strain, r * (c1 * beta_star) * k0 * om1);
       const double diagonal = off + r * beta_star * om1;
-      const double relaxed = diagonal / alpha;
+      const double relaxed = diagonal * inverse_alpha;
       const double b = source + (relaxed - diagonal) * k0;
       const double mean = (relaxed - off) * mean_k;
       k1 = larger((neighbours + b) / relaxed, floor);
@@ -122,8 +123,8 @@ RIPSTOP_ROW_KERNEL void turbulence_row(TurbulenceRow& row) {
     }
     k_new[i] = k1;
     om_new[i] = om1;
-    total_k += k1 / rhx[i];
-    total_om += om1 / rhx[i];
+    total_k += k1 * hx[i];
+    total_om += om1 * hx[i];
 
     // Explicit part of the stress, mu dev2((grad U)^T): through an x face it carries mu grad(u) - 2/3 mu div
     // U, and so on.
