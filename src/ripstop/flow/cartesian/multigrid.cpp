@@ -61,13 +61,11 @@ MultigridRow row_of(MultigridLevel& level, int j, int k) {
           level.cz.data() + at};
 }
 
-void smooth_planes(MultigridLevel& level, int colour, Range planes, bool from_zero) {
-  for (int k = planes.begin; k < planes.end; ++k) {
-    for (int j = 0; j < level.layout.ny; ++j) {
-      const MultigridRow row = row_of(level, j, k);
-      const int parity = (colour + j + k) & 1;
-      from_zero ? first_smooth_row(row, parity) : smooth_row(row, parity);
-    }
+void smooth_plane(MultigridLevel& level, int colour, int k, bool from_zero) {
+  for (int j = 0; j < level.layout.ny; ++j) {
+    const MultigridRow row = row_of(level, j, k);
+    const int parity = (colour + j + k) & 1;
+    from_zero ? first_smooth_row(row, parity) : smooth_row(row, parity);
   }
 }
 
@@ -209,18 +207,22 @@ void Multigrid::cycle(std::size_t l, ThreadTeam* team, int rank) {
     if (team) team->barrier();
   };
   const Range planes = part_of(level.layout.nz, rank, parts);
-  const auto sweep = [&](int colour, bool from_zero) {
-    smooth_planes(level, colour, planes, from_zero);
+  // Both colours in one walk: the second runs a plane behind the first, while its neighbours are still in
+  // cache. At the ends of a thread's planes it waits until the other threads have done their first colour.
+  const auto sweep = [&](int first, bool from_zero) {
+    const int second = 1 - first;
+    for (int k = planes.begin; k < planes.end; ++k) {
+      smooth_plane(level, first, k, from_zero);
+      if (k - 1 > planes.begin) smooth_plane(level, second, k - 1, false);
+    }
+    barrier();
+    if (planes.end > planes.begin) smooth_plane(level, second, planes.begin, false);
+    if (planes.end - 1 > planes.begin) smooth_plane(level, second, planes.end - 1, false);
     barrier();
   };
-  if (l > 0) {
-    sweep(0, true);
-  } else {
-    sweep(0, false);
-  }
-  sweep(1, false);
+  sweep(0, l > 0);
   if (l + 1 == levels_.size()) {
-    for (int s = 1; s < coarsest_sweeps; ++s) sweep(0, false), sweep(1, false);
+    for (int s = 1; s < coarsest_sweeps; ++s) sweep(0, false);
     return;
   }
   MultigridLevel& coarse = levels_[l + 1];
@@ -235,7 +237,6 @@ void Multigrid::cycle(std::size_t l, ThreadTeam* team, int rank) {
   prolong_planes(level, coarse, planes);
   barrier();
   sweep(1, false);
-  sweep(0, false);
 }
 
 void Multigrid::solve(ThreadTeam& team, int rank, int cycles) {

@@ -9,13 +9,23 @@ RIPSTOP_ROW_KERNEL void smooth_row(const MultigridRow& row, int parity) {
   const std::ptrdiff_t sy = row.sy, sz = row.sz;
   float* e = row.e;
   const float *rhs = row.rhs, *cx = row.cx, *cy = row.cy, *cz = row.cz;
-  // Cells of one colour read only the other colour, so all of the row can be computed and half of it kept.
+  // Cells of one colour read only the other colour: all of a piece of the row is computed aside, half of it
+  // kept.
+  constexpr int piece = 256;
+  alignas(64) float fresh[piece];
+  for (int begin = 0; begin < n; begin += piece) {
+    const int count = n - begin < piece ? n - begin : piece;
+    const float *q = e + begin, *b = rhs + begin, *x = cx + begin, *y = cy + begin, *z = cz + begin;
 #pragma omp simd
-  for (int i = 0; i < n; ++i) {
-    const float sum = cx[i] + cx[i + 1] + cy[i] + cy[i + sy] + cz[i] + cz[i + sz];
-    const float in = cx[i] * e[i - 1] + cx[i + 1] * e[i + 1] + cy[i] * e[i - sy] + cy[i + sy] * e[i + sy] +
-                     cz[i] * e[i - sz] + cz[i + sz] * e[i + sz];
-    e[i] = (i & 1) == parity ? (rhs[i] + in) / sum : e[i];
+    for (int i = 0; i < count; ++i) {
+      const float sum = x[i] + x[i + 1] + y[i] + y[i + sy] + z[i] + z[i + sz];
+      const float in = x[i] * q[i - 1] + x[i + 1] * q[i + 1] + y[i] * q[i - sy] + y[i + sy] * q[i + sy] +
+                       z[i] * q[i - sz] + z[i + sz] * q[i + sz];
+      fresh[i] = (b[i] + in) / sum;
+    }
+    float* out = e + begin;  // pieces are even, so the parity counts from any of their starts
+#pragma omp simd
+    for (int i = 0; i < count; ++i) out[i] = (i & 1) == parity ? fresh[i] : out[i];
   }
 }
 
@@ -27,7 +37,8 @@ RIPSTOP_ROW_KERNEL void first_smooth_row(const MultigridRow& row, int parity) {
 #pragma omp simd
   for (int i = 0; i < n; ++i) {
     const float sum = cx[i] + cx[i + 1] + cy[i] + cy[i + sy] + cz[i] + cz[i + sz];
-    e[i] = (i & 1) == parity ? rhs[i] / sum : 0.0f;
+    const float fresh = rhs[i] / sum;
+    e[i] = (i & 1) == parity ? fresh : 0.0f;
   }
 }
 

@@ -23,8 +23,10 @@ RIPSTOP_ROW_KERNEL void pressure_row(PressureRow& row) {
   const double *hwa = row.hw_above, *rhoa = row.rho_above, *raa = row.ra_above, *pa = row.p_above;
   float *cx = row.cx, *cy = row.cy, *cz = row.cz, *cza = row.cz_above, *rhs = row.rhs;
   const double area_x = row.y_width * row.z_width, y_width = row.y_width, z_width = row.z_width;
-  const bool inlet = row.inlet, outlet = row.outlet;
-  const double inlet_speed = row.inlet_speed, mean_p = row.mean_p;
+  // Ends of the box as weights, so that the loop has no branches: the inlet's face carries the given speed,
+  // the outlet's takes the cell's values.
+  const double inflow = row.inlet ? row.inlet_speed : 0, inner = row.inlet ? 0 : 1;
+  const double wt = row.outlet ? 1 : z.weight_high, held_at = row.outlet ? row.mean_p : 0;
 
   double res = 0, scale = 0;
 #pragma omp simd reduction(+ : res, scale)
@@ -32,17 +34,16 @@ RIPSTOP_ROW_KERNEL void pressure_row(PressureRow& row) {
     const double r = rho[i], g = r * ra[i], fu = r * hu[i], fv = r * hv[i], fw = r * hw[i], c = r * rc[i];
     const double rw = rho[i - 1], re = rho[i + 1], rs = rho[i - sy], rn = rho[i + sy], rb = rho[i - sz],
                  rt = rhoa[i];
-    const double ww = wx[i], we = wx[i + 1], ws = y.weight_low, wn = y.weight_high, wb = z.weight_low,
-                 wt = z.weight_high;
+    const double ww = wx[i], we = wx[i + 1], ws = y.weight_low, wn = y.weight_high, wb = z.weight_low;
 
     const double gw = ww * rw * ra[i - 1] + (1 - ww) * g, ge = we * g + (1 - we) * re * ra[i + 1];
     const double gs = ws * rs * ra[i - sy] + (1 - ws) * g, gn = wn * g + (1 - wn) * rn * ra[i + sy];
-    const double gb = wb * rb * ra[i - sz] + (1 - wb) * g, ga = outlet ? g : wt * g + (1 - wt) * rt * raa[i];
+    const double gb = wb * rb * ra[i - sz] + (1 - wb) * g, ga = wt * g + (1 - wt) * rt * raa[i];
 
     const double fxw = ww * rw * hu[i - 1] + (1 - ww) * fu, fxe = we * fu + (1 - we) * re * hu[i + 1];
     const double fys = ws * rs * hv[i - sy] + (1 - ws) * fv, fyn = wn * fv + (1 - wn) * rn * hv[i + sy];
-    const double fzb = inlet ? r * inlet_speed : wb * rb * hw[i - sz] + (1 - wb) * fw;
-    const double fza = outlet ? fw : wt * fw + (1 - wt) * rt * hwa[i];
+    const double fzb = inflow * r + inner * (wb * rb * hw[i - sz] + (1 - wb) * fw);
+    const double fza = wt * fw + (1 - wt) * rt * hwa[i];
 
     const double area_y = hx[i] * z_width, area_z = hx[i] * y_width;
     const double source = (fxe - fxw) * area_x + (fyn - fys) * area_y + (fza - fzb) * area_z;
@@ -54,13 +55,15 @@ RIPSTOP_ROW_KERNEL void pressure_row(PressureRow& row) {
     cx[i] = static_cast<float>((ww * rw * rc[i - 1] + (1 - ww) * c) * (rdx[i] * area_x));
     cy[i] = static_cast<float>((ws * rs * rc[i - sy] + (1 - ws) * c) * (y.distance_low * area_y));
     cz[i] = static_cast<float>((wb * rb * rc[i - sz] + (1 - wb) * c) * (z.distance_low * area_z));
-    if (outlet) cza[i] = static_cast<float>(c * z.distance_high * area_z);
     rhs[i] = static_cast<float>(flow - source);
 
     // Row sum of the matrix: only the outlet's faces hold on to a value from outside.
-    const double mean = outlet ? -held * mean_p : 0;
+    const double mean = -held * held_at;
     res += std::fabs(flow - source);
     scale += std::fabs(flow - mean) + std::fabs(source - mean);
+  }
+  for (int i = 0; row.outlet && i < n; ++i) {
+    cza[i] = static_cast<float>(rho[i] * rc[i] * z.distance_high * (hx[i] * y_width));
   }
   row.sum = {res, scale};
 }
@@ -74,8 +77,6 @@ RIPSTOP_ROW_KERNEL void flux_row(FluxRow& row) {
                *p = row.p;
   const float* dp = row.dp;
   double *fx = row.fx, *fy = row.fy, *fz = row.fz;
-  const bool inlet = row.inlet;
-  const double inlet_speed = row.inlet_speed;
 #pragma omp simd
   for (int i = 0; i < n + 1; ++i) {
     const double low = wx[i] * rho[i - 1], high = (1 - wx[i]) * rho[i];
@@ -91,14 +92,17 @@ RIPSTOP_ROW_KERNEL void flux_row(FluxRow& row) {
             y.distance_low *
                 ((low * ra[i - sy] + high * ra[i]) * jump + (low * rc[i - sy] + high * rc[i]) * more);
   }
+  if (row.inlet) {
+    for (int i = 0; i < n; ++i) fz[i] = rho[i] * row.inlet_speed;
+    return;
+  }
 #pragma omp simd
   for (int i = 0; i < n; ++i) {
     const double low = z.weight_low * rho[i - sz], high = (1 - z.weight_low) * rho[i];
     const double jump = p[i] - p[i - sz], more = static_cast<double>(dp[i]) - static_cast<double>(dp[i - sz]);
-    const double inner = low * hw[i - sz] + high * hw[i] -
-                         z.distance_low * ((low * ra[i - sz] + high * ra[i]) * jump +
-                                           (low * rc[i - sz] + high * rc[i]) * more);
-    fz[i] = inlet ? rho[i] * inlet_speed : inner;
+    fz[i] = low * hw[i - sz] + high * hw[i] -
+            z.distance_low *
+                ((low * ra[i - sz] + high * ra[i]) * jump + (low * rc[i - sz] + high * rc[i]) * more);
   }
 }
 

@@ -55,6 +55,8 @@ struct TurbulenceRow {
   double total_k = 0, total_omega = 0;  // of the new values, times the cell width
 };
 void turbulence_row(TurbulenceRow& row);
+/// mut = rho k / omega
+void eddy_viscosity_row(int n, const double* rho, const double* k, const double* omega, double* mut);
 
 struct MomentumRow {
   RowMetrics m;

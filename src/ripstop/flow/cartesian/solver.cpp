@@ -40,7 +40,7 @@ Solver::Solver(const FlowProblem& problem, const FlowGrid& grid, PorousRows poro
     *field = Array<double>(values);
   }
   const std::size_t row = static_cast<std::size_t>(layout_.stride_y);
-  rings_.assign(team_.size(), MarchRings(row * (march_block_rows(grid) + 6)));
+  rings_.assign(team_.size(), MarchRings(row * (grid.ny / block_count(grid) + 7)));
 
   // Inlet: k = 3/2 (I U)^2, omega = k / nu_t.
   const double fluctuation = air_.turbulence_intensity * air_.speed;
@@ -144,7 +144,7 @@ void Solver::start_from(const Solver& other) {
 }
 
 void Solver::fill_ghosts() {
-  for (int k = 0; k < grid_.nz; ++k) velocity_ghosts(k), pressure_ghosts(k), turbulence_ghosts(k);
+  for (int k = 0; k < grid_.nz; ++k) velocity_ghosts(k), pressure_ghosts(k), march_ghosts(k);
 }
 
 // Rows to planes in parallel, planes to totals on rank 0; always in the same order.
@@ -173,16 +173,27 @@ FlowProgress Solver::iterate() {
       for (int k = planes.begin; k < planes.end; ++k) stage(k);
       team_.barrier();
     };
-    march(rank);
-    team_.barrier();
+    const int count = block_count(grid_);
+    const Range blocks = part_of(count, rank, team_.size());
+    const auto each_block = [&](auto stage) {
+      for (int b = blocks.begin; b < blocks.end; ++b) stage(part_of(grid_.ny, b, count));
+      team_.barrier();
+    };
+    const auto each_plane_of_a_block = [&](auto stage) {
+      each_block([&](Range rows) {
+        for (int k = 0; k < grid_.nz; ++k) stage(k, rows);
+      });
+    };
+    each_block([&](Range rows) { march(rank, rows); });
     if (rank == 0) std::swap(f_.k, new_k_), std::swap(f_.omega, new_omega_);
     team_.barrier();
-    each_plane([&](int k) { turbulence_ghosts(k), pressure(k); });
+    each_plane([&](int k) { march_ghosts(k); });
+    each_plane_of_a_block([&](int k, Range rows) { pressure(k, rows); });
     multigrid_.solve(team_, rank, settings_.pressure_cycles);
     each_plane([&](int k) { correction_ghosts(k); });
-    each_plane([&](int k) { flux(k); });
-    each_plane([&](int k) { velocity(k); });
-    each_plane([&](int k) { relax_pressure(k); });
+    each_plane_of_a_block([&](int k, Range rows) { flux(k, rows); });
+    each_plane_of_a_block([&](int k, Range rows) { velocity(k, rows); });
+    each_plane([&](int k) { relax_pressure(k), velocity_ghosts(k); });
     add_up(rank, 0, Sums::count - 1);
   });
   const double volume = grid_.size.x * grid_.size.y * grid_.size.z;

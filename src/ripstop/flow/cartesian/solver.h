@@ -53,8 +53,8 @@ struct Sums {
   double value[count] = {};
 };
 
-/// Rows of the largest block that the march cuts the grid into.
-int march_block_rows(const FlowGrid& grid);
+/// Blocks of rows that an iteration cuts the grid into; the same for any number of threads.
+int block_count(const FlowGrid& grid);
 
 /// What the march passes from plane to plane of a block: rings of planes that hold the block's rows and two
 /// more on each side.
@@ -97,18 +97,18 @@ class Solver {
 
  private:
   // Turbulence and momentum (solver_march.cpp); H/A, 1/A, new k and omega.
-  void march(int rank);
+  void march(int rank, Range rows);
   void eddy_viscosity(MarchRings& rings, int k, Range rows) const;
   void turbulence(MarchRings& rings, int k, Range rows);
   void momentum(MarchRings& rings, int k, Range rows);
-  // The rest, a plane at a time (solver_correct.cpp).
-  void pressure(int k);
-  void flux(int k);
+  // The rest (solver_correct.cpp).
+  void pressure(int k, Range rows);
+  void flux(int k, Range rows);
+  void velocity(int k, Range rows);
   void relax_pressure(int k);
-  void velocity(int k);
   void side_ghosts(Array<double>& field, int k, double across_x, double across_y) const;
   void end_ghosts(Array<double>& field, int k, double inlet, double back) const;
-  void turbulence_ghosts(int k);
+  void march_ghosts(int k);
   void pressure_ghosts(int k);
   void correction_ghosts(int k);
   void velocity_ghosts(int k);

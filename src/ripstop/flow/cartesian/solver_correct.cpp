@@ -34,17 +34,17 @@ void Solver::end_ghosts(Array<double>& field, int k, double inlet, double back) 
   }
 }
 
-void Solver::turbulence_ghosts(int k) {
+void Solver::march_ghosts(int k) {
+  const double wall = duct_ ? -1 : 1;
+  side_ghosts(hu_, k, wall, 1), side_ghosts(hv_, k, 1, wall);
   side_ghosts(f_.k, k, 1, 1), end_ghosts(f_.k, k, inlet_k_, inlet_k_);
   side_ghosts(f_.omega, k, 1, 1), end_ghosts(f_.omega, k, inlet_omega_, inlet_omega_);
 }
 
-void Solver::pressure(int k) {
-  const double wall = duct_ ? -1 : 1;
-  side_ghosts(hu_, k, wall, 1), side_ghosts(hv_, k, 1, wall);
+void Solver::pressure(int k, Range rows) {
   MultigridLevel& top = multigrid_.finest();
   const bool last = k == grid_.nz - 1;
-  for (int j = 0; j < grid_.ny; ++j) {
+  for (int j = rows.begin; j < rows.end; ++j) {
     const std::ptrdiff_t at = layout_.at(0, j, k), sz = layout_.stride_z;
     PressureRow r;
     r.m = metrics(j, k, zp_);
@@ -67,9 +67,9 @@ void Solver::pressure(int k) {
 }
 
 // Face fluxes with the whole correction, before the pressure is relaxed.
-void Solver::flux(int k) {
+void Solver::flux(int k, Range rows) {
   const MultigridLevel& top = multigrid_.finest();
-  for (int j = 0; j < grid_.ny; ++j) {
+  for (int j = rows.begin; j < rows.end; ++j) {
     const std::ptrdiff_t at = layout_.at(0, j, k), sy = layout_.stride_y, sz = layout_.stride_z;
     FluxRow r;
     r.m = metrics(j, k, zp_);
@@ -140,8 +140,8 @@ void Solver::velocity_ghosts(int k) {
   }
 }
 
-void Solver::velocity(int k) {
-  for (int j = 0; j < grid_.ny; ++j) {
+void Solver::velocity(int k, Range rows) {
+  for (int j = rows.begin; j < rows.end; ++j) {
     const std::ptrdiff_t at = layout_.at(0, j, k);
     VelocityRow r;
     r.m = metrics(j, k, z_);
@@ -164,7 +164,6 @@ void Solver::velocity(int k) {
     const Vec3 force = porous_force_of_row(j, k);
     sums[Sums::drag_x] = force.x, sums[Sums::drag_y] = force.y, sums[Sums::drag_z] = force.z;
   }
-  velocity_ghosts(k);
 }
 
 Vec3 Solver::porous_force_of_row(int j, int k) const {

@@ -17,18 +17,14 @@ constexpr int mod(int k, int n) {
   return (k + n) % n;
 }
 
-// Rows in a block: its rings and the fields' planes should fit a second-level cache of 1-2 MB.
-int block_count(int nx, int ny) {
-  const int rows = std::clamp(2500 / nx, 6, 32);
-  const int blocks = std::max(1, (ny + rows / 2) / rows);
-  return ny < 8 ? 1 : (blocks + 1) / 2 * 2;
-}
-
 }  // namespace
 
-int march_block_rows(const FlowGrid& grid) {
-  const int blocks = block_count(grid.nx, grid.ny);
-  return (grid.ny + blocks - 1) / blocks;
+// A block's rings and the planes of the fields should fit a second-level cache of 1-2 MB. An even number of
+// blocks keeps two threads busy.
+int block_count(const FlowGrid& grid) {
+  const int rows = std::clamp(2500 / grid.nx, 6, 32);
+  const int blocks = std::max(1, (grid.ny + rows / 2) / rows);
+  return grid.ny < 8 ? 1 : (blocks + 1) / 2 * 2;
 }
 
 MarchRings::MarchRings(std::size_t plane_) : plane(plane_) {
@@ -41,18 +37,13 @@ MarchRings::MarchRings(std::size_t plane_) : plane(plane_) {
   scratch = Array<double>(plane);
 }
 
-void Solver::march(int rank) {
-  const int blocks = block_count(grid_.nx, grid_.ny);
-  const Range mine = part_of(blocks, rank, team_.size());
-  for (int b = mine.begin; b < mine.end; ++b) {
-    const Range rows = part_of(grid_.ny, b, blocks);
-    MarchRings& rings = rings_[rank];
-    eddy_viscosity(rings, 0, rows);
-    for (int s = 0; s <= grid_.nz; ++s) {
-      if (s + 1 < grid_.nz) eddy_viscosity(rings, s + 1, rows);
-      if (s < grid_.nz) turbulence(rings, s, rows);
-      if (s >= 1) momentum(rings, s - 1, rows);
-    }
+void Solver::march(int rank, Range rows) {
+  MarchRings& rings = rings_[rank];
+  eddy_viscosity(rings, 0, rows);
+  for (int s = 0; s <= grid_.nz; ++s) {
+    if (s + 1 < grid_.nz) eddy_viscosity(rings, s + 1, rows);
+    if (s < grid_.nz) turbulence(rings, s, rows);
+    if (s >= 1) momentum(rings, s - 1, rows);
   }
 }
 
@@ -60,9 +51,8 @@ void Solver::march(int rank) {
 void Solver::eddy_viscosity(MarchRings& rings, int k, Range rows) const {
   for (int j = std::max(rows.begin - 2, 0); j < std::min(rows.end + 2, grid_.ny); ++j) {
     const std::ptrdiff_t at = layout_.at(0, j, k);
-    const double *kk = &f_.k[at], *om = &f_.omega[at], *rho = &f_.rho[at];
-    double* out = &rings.mut[mod(k, 3)][rings.at(layout_, j, rows.begin)];
-    for (int i = 0; i < grid_.nx; ++i) out[i] = rho[i] * kk[i] / om[i];
+    eddy_viscosity_row(grid_.nx, &f_.rho[at], &f_.k[at], &f_.omega[at],
+                       &rings.mut[mod(k, 3)][rings.at(layout_, j, rows.begin)]);
   }
 }
 

@@ -32,6 +32,12 @@ CrossMetrics cross_metrics(const Axis& axis, int c) {
           axis.inverse_distance[c + 1], axis.slope_low[c],  axis.slope_high[c]};
 }
 
+RIPSTOP_ROW_KERNEL void eddy_viscosity_row(int n, const double* rho, const double* k, const double* omega,
+                                           double* mut) {
+#pragma omp simd
+  for (int i = 0; i < n; ++i) mut[i] = rho[i] * k[i] / omega[i];
+}
+
 RIPSTOP_ROW_KERNEL void turbulence_row(TurbulenceRow& row) {
   const int n = row.m.n;
   const std::ptrdiff_t sy = row.m.sy, sz = row.m.sz, comp = row.component;
