@@ -24,6 +24,7 @@ int main(int argc, char** argv) {
   add_coupon(app, status);
   add_inflate(app, status);
   add_pattern(app, status);
+  add_flow_parity(app, status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -1,0 +1,157 @@
+// ripstop flow-parity: the built-in flow engine and OpenFOAM on the same cells, side by side.
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "commands.h"
+#include "progress.h"
+#include "ripstop/core/error.h"
+#include "ripstop/flow/bodies.h"
+#include "ripstop/flow/cartesian/cartesian.h"
+#include "ripstop/flow/openfoam/openfoam.h"
+#include "ripstop/output/stl.h"
+
+namespace ripstop {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::vector<int> cells = {25, 25, 38};
+  double speed = 10;
+  double density = 1.2;
+  fs::path surface;
+  fs::path folder;
+  int ranks = 1;
+  int threads = 0;
+  bool incompressible = false;
+};
+
+struct Canopy {
+  const char* name;
+  double darcy, forchheimer;
+};
+// Ten times more open than [NFM] Table 3's canopy, that canopy, and one that lets almost nothing through.
+constexpr Canopy canopies[] = {
+    {"open", 6.598, 3.745}, {"printed", 65.98, 37.45}, {"nearly solid", 1000, 1000}};
+
+struct Run {
+  FlowField field;
+  double seconds = 0;
+};
+
+Run timed(FlowEngine& engine, const FlowProblem& problem, Progress& progress, const char* canopy) {
+  const auto start = std::chrono::steady_clock::now();
+  Run run;
+  run.field = engine.solve(problem, [&](const FlowProgress& p) {
+    progress.show(fmt::format("{}, {}: iteration {}, residual of p {:.1e}, drag {:.3f} N", canopy,
+                              engine.name(), p.iteration, p.residual_p, p.drag));
+    return true;
+  });
+  run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return run;
+}
+
+// Root mean square and largest difference of the fields, of the stream's speed and dynamic pressure.
+struct Difference {
+  double velocity = 0, pressure = 0, largest_velocity = 0, largest_pressure = 0;
+};
+
+Difference difference(const FlowField& a, const FlowField& b, const Freestream& air) {
+  const double dynamic = 0.5 * air.density * air.speed * air.speed;
+  const auto cells = static_cast<double>(a.pressure.size());
+  Difference d;
+  for (std::size_t cell = 0; cell < a.pressure.size(); ++cell) {
+    const double u = norm(a.velocity[cell] - b.velocity[cell]) / air.speed;
+    const double p = std::abs(a.pressure[cell] - b.pressure[cell]) / dynamic;
+    d.velocity += u * u / cells;
+    d.pressure += p * p / cells;
+    d.largest_velocity = std::max(d.largest_velocity, u);
+    d.largest_pressure = std::max(d.largest_pressure, p);
+  }
+  d.velocity = std::sqrt(d.velocity);
+  d.pressure = std::sqrt(d.pressure);
+  return d;
+}
+
+int compare(const Options& options) {
+  FlowProblem problem;
+  problem.grid = {{-1, -1, 0}, {2, 2, 4}, options.cells[0], options.cells[1], options.cells[2]};
+  problem.air.speed = options.speed;
+  problem.air.density = options.density;
+  const std::vector<Triangle> surface =
+      options.surface.empty() ? rigid_disk_gap_band({0, 0, 2}) : read_stl(options.surface);
+  const std::vector<int> cut = cut_cells(problem.grid, surface);
+  const fs::path folder = options.folder.empty()
+                              ? fs::temp_directory_path() / fmt::format("ripstop-flow-parity-{}", getpid())
+                              : options.folder;
+  fmt::print("{} x {} x {} cells, {} of them porous, {} m/s\n\n", problem.grid.nx, problem.grid.ny,
+             problem.grid.nz, cut.size(), options.speed);
+  fmt::print("{:13}{:>13}{:>13}{:>9}{:>9}{:>9}{:>9}{:>9}{:>7}{:>7}{:>9}{:>9}\n", "canopy", "OpenFOAM, N",
+             "built-in, N", "drag %", "U L2 %", "p L2 %", "U max %", "p max %", "it.", "it.", "time, s",
+             "time, s");
+  Progress progress;
+  bool within = true;
+  for (const Canopy& canopy : canopies) {
+    problem.porous = {{cut, canopy.darcy, canopy.forchheimer}};
+    OpenFoamSettings reference;
+    reference.folder = folder;
+    reference.ranks = options.ranks;
+    CartesianSettings settings;
+    settings.threads = options.threads;
+    settings.compressible = !options.incompressible;
+    const Run theirs = timed(*make_openfoam(reference), problem, progress, canopy.name);
+    const Run ours = timed(*make_cartesian(settings), problem, progress, canopy.name);
+    const Difference d = difference(ours.field, theirs.field, problem.air);
+    const double drag = ours.field.porous_force.z / theirs.field.porous_force.z - 1;
+    progress.line(
+        fmt::format("{:13}{:13.4f}{:13.4f}{:9.4f}{:9.4f}{:9.4f}{:9.4f}{:9.4f}{:7}{:7}{:9.2f}{:9.2f}{}",
+                    canopy.name, theirs.field.porous_force.z, ours.field.porous_force.z, 100 * drag,
+                    100 * d.velocity, 100 * d.pressure, 100 * d.largest_velocity, 100 * d.largest_pressure,
+                    theirs.field.last.iteration, ours.field.last.iteration, theirs.seconds, ours.seconds,
+                    theirs.field.converged && ours.field.converged ? "" : "  not converged"));
+    const double allowed = options.speed > 20 ? 0.01 : 0.005;
+    within = within && std::abs(drag) <= allowed && d.velocity <= 0.01 && d.pressure <= 0.01;
+  }
+  if (options.folder.empty()) fs::remove_all(folder);
+  if (!within)
+    throw Error(ExitCode::not_converged,
+                "the engines differ by more than 0.5 % of drag (1 % above 20 m/s) or 1 % of a field");
+  return 0;
+}
+
+}  // namespace
+
+void add_flow_parity(CLI::App& app, int& status) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "flow-parity", "Run the built-in flow engine and OpenFOAM on the same cells and compare them");
+  command->add_option("--cells", options->cells, "Cells along x, y and z of the 2 x 2 x 4 m box")
+      ->expected(3)
+      ->check(CLI::Range(4, 2000));
+  command->add_option("--speed", options->speed, "Free stream [m/s]")->check(CLI::Range(0.1, 100.0));
+  command->add_option("--density", options->density, "Air [kg/m3]")->check(CLI::Range(0.1, 10.0));
+  command
+      ->add_option(
+          "--surface", options->surface,
+          "Canopy as a binary STL in the box's axes (z from 0 to 4 m); default: a rigid disk-gap-band")
+      ->check(CLI::ExistingFile);
+  command->add_option("--folder", options->folder,
+                      "Where OpenFOAM's case goes and stays; default: a temporary folder");
+  command->add_option("--ranks", options->ranks, "OpenFOAM's MPI processes")->check(CLI::Range(1, 1024));
+  command->add_option("--threads", options->threads, "Threads of the built-in engine; 0: all")
+      ->check(CLI::Range(0, 1024));
+  command->add_flag("--incompressible", options->incompressible, "Constant density in the built-in engine");
+  command->footer("Example: ripstop flow-parity --cells 50 50 75 --speed 30");
+  command->callback([options, &status] { status = compare(*options); });
+}
+
+}  // namespace ripstop

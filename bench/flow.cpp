@@ -1,0 +1,141 @@
+// Speed of the built-in flow engine: bench_flow [--openfoam] [--large]
+//
+// --openfoam also times rhoPorousSimpleFoam with two ranks on the printed grid (ten minutes on two free
+// cores);
+// --large adds the grid of 12 million cells. Figures of one run may be compared with each other.
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "ripstop/flow/bodies.h"
+#include "ripstop/flow/cartesian/cartesian.h"
+#include "ripstop/flow/openfoam/openfoam.h"
+
+namespace {
+
+using namespace ripstop;
+
+FlowProblem printed_case(double fineness) {
+  FlowProblem problem;
+  const auto cells = [&](double n) { return static_cast<int>(std::lround(n * fineness)); };
+  problem.grid = {{-1, -1, 0}, {2, 2, 4}, cells(100), cells(100), cells(150)};
+  problem.air.speed = 30;
+  problem.porous.push_back({cut_cells(problem.grid, rigid_disk_gap_band({0, 0, 2})), 65.98, 37.45});
+  return problem;
+}
+
+double memory_gib() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / (1024.0 * 1024.0);
+}
+
+double cpu_seconds() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
+         1e-6 * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
+}
+
+struct Timing {
+  FlowField field;
+  double seconds = 0;   // wall, everything
+  double cpu = 0;       // processor seconds of all threads, everything
+  double per_cell = 0;  // wall seconds a cell and iteration, iterations 3 and later of the final grid
+};
+
+Timing run(FlowEngine& engine, const FlowProblem& problem) {
+  using Clock = std::chrono::steady_clock;
+  const auto since = [](Clock::time_point t) {
+    return std::chrono::duration<double>(Clock::now() - t).count();
+  };
+  Timing timing;
+  const auto start = Clock::now();
+  const double before = cpu_seconds();
+  auto steady = start;
+  timing.field = engine.solve(problem, [&](const FlowProgress& progress) {
+    if (progress.iteration == 2) steady = Clock::now();
+    if (progress.iteration > 2) {
+      timing.per_cell = since(steady) / (static_cast<double>(progress.iteration - 2) * problem.grid.cells());
+    }
+    return true;
+  });
+  timing.seconds = since(start);
+  timing.cpu = cpu_seconds() - before;
+  return timing;
+}
+
+CartesianSettings settings(int threads, bool sequencing) {
+  CartesianSettings s;
+  s.threads = threads;
+  s.grid_sequencing = sequencing;
+  return s;
+}
+
+void speed_and_growth(bool large) {
+  fmt::print("\nCell-iterations a second, double precision, 20 iterations\n{:>12}{:>14}{:>14}{:>10}\n",
+             "cells", "one thread", "two threads", "gain");
+  std::vector<double> sizes = {0.4, 0.63, 1, 1.26};
+  if (large) sizes.push_back(2);
+  for (const double fineness : sizes) {
+    FlowProblem problem = printed_case(fineness);
+    problem.max_iterations = 20;
+    double rate[2] = {};
+    for (int threads : {1, 2}) {
+      rate[threads - 1] = 1e-6 / run(*make_cartesian(settings(threads, false)), problem).per_cell;
+    }
+    fmt::print("{:12}{:12.1f} M{:12.1f} M{:10.2f}\n", problem.grid.cells(), rate[0], rate[1],
+               rate[1] / rate[0]);
+  }
+}
+
+double cold_solution() {
+  fmt::print("\nCold solution to 1e-5 on 100 x 100 x 150 cells, 30 m/s, printed porosity, two threads\n");
+  const FlowProblem problem = printed_case(1);
+  const auto engine = make_cartesian(settings(2, true));
+  const Timing t = run(*engine, problem);
+  fmt::print("  {:.1f} s, {} iterations on the full grid, drag {:.3f} N, momentum deficit {:.3f} N, {}\n",
+             t.seconds, t.field.last.iteration, t.field.porous_force.z, t.field.momentum_deficit,
+             t.field.converged ? "converged" : "NOT converged");
+  fmt::print(
+      "  {:.1f} s of processor time; what a loaded machine cannot distort much: {:.1f} M cell-iterations "
+      "each\n"
+      "  processor second, coarser grids included\n",
+      t.cpu, 1e-6 * t.field.last.iteration * problem.grid.cells() / t.cpu);
+  fmt::print("  {:.1f} M cell-iterations/s on the full grid; peak memory of the process {:.2f} GiB\n",
+             1e-6 / t.per_cell, memory_gib());
+  return t.seconds;
+}
+
+void against_openfoam(double ours) {
+  fmt::print("\nrhoPorousSimpleFoam, two ranks, the same case\n");
+  OpenFoamSettings reference;
+  reference.folder = std::filesystem::temp_directory_path() / "ripstop-bench-flow";
+  reference.ranks = 2;
+  const Timing t = run(*make_openfoam(reference), printed_case(1));
+  std::filesystem::remove_all(reference.folder);
+  fmt::print("  {:.1f} s, {} iterations, drag {:.3f} N; the built-in engine is {:.0f} times faster\n",
+             t.seconds, t.field.last.iteration, t.field.porous_force.z, t.seconds / ours);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  bool large = false, openfoam = false;
+  for (int a = 1; a < argc; ++a) {
+    large = large || std::string(argv[a]) == "--large";
+    openfoam = openfoam || std::string(argv[a]) == "--openfoam";
+  }
+  double load[1] = {};
+  if (getloadavg(load, 1) == 1) fmt::print("load of the machine before the run: {:.1f}\n", load[0]);
+  const double seconds = cold_solution();
+  speed_and_growth(large);
+  if (openfoam) against_openfoam(seconds);
+  return 0;
+}
