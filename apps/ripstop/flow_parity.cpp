@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <vector>
@@ -48,7 +49,8 @@ struct Run {
   double seconds = 0;
 };
 
-Run timed(FlowEngine& engine, const FlowProblem& problem, Progress& progress, const char* canopy) {
+Run timed(FlowEngine& engine, const FlowProblem& problem, const char* canopy) {
+  Progress progress;
   const auto start = std::chrono::steady_clock::now();
   Run run;
   run.field = engine.solve(problem, [&](const FlowProgress& p) {
@@ -98,7 +100,6 @@ int compare(const Options& options) {
   fmt::print("{:13}{:>13}{:>13}{:>9}{:>9}{:>9}{:>9}{:>9}{:>7}{:>7}{:>9}{:>9}\n", "canopy", "OpenFOAM, N",
              "built-in, N", "drag %", "U L2 %", "p L2 %", "U max %", "p max %", "it.", "it.", "time, s",
              "time, s");
-  Progress progress;
   bool within = true;
   for (const Canopy& canopy : canopies) {
     problem.porous = {{cut, canopy.darcy, canopy.forchheimer}};
@@ -108,16 +109,16 @@ int compare(const Options& options) {
     CartesianSettings settings;
     settings.threads = options.threads;
     settings.compressible = !options.incompressible;
-    const Run theirs = timed(*make_openfoam(reference), problem, progress, canopy.name);
-    const Run ours = timed(*make_cartesian(settings), problem, progress, canopy.name);
+    const Run theirs = timed(*make_openfoam(reference), problem, canopy.name);
+    const Run ours = timed(*make_cartesian(settings), problem, canopy.name);
     const Difference d = difference(ours.field, theirs.field, problem.air);
     const double drag = ours.field.porous_force.z / theirs.field.porous_force.z - 1;
-    progress.line(
-        fmt::format("{:13}{:13.4f}{:13.4f}{:9.4f}{:9.4f}{:9.4f}{:9.4f}{:9.4f}{:7}{:7}{:9.2f}{:9.2f}{}",
-                    canopy.name, theirs.field.porous_force.z, ours.field.porous_force.z, 100 * drag,
-                    100 * d.velocity, 100 * d.pressure, 100 * d.largest_velocity, 100 * d.largest_pressure,
-                    theirs.field.last.iteration, ours.field.last.iteration, theirs.seconds, ours.seconds,
-                    theirs.field.converged && ours.field.converged ? "" : "  not converged"));
+    fmt::print("{:13}{:13.4f}{:13.4f}{:9.4f}{:9.4f}{:9.4f}{:9.4f}{:9.4f}{:7}{:7}{:9.2f}{:9.2f}{}\n",
+               canopy.name, theirs.field.porous_force.z, ours.field.porous_force.z, 100 * drag,
+               100 * d.velocity, 100 * d.pressure, 100 * d.largest_velocity, 100 * d.largest_pressure,
+               theirs.field.last.iteration, ours.field.last.iteration, theirs.seconds, ours.seconds,
+               theirs.field.converged && ours.field.converged ? "" : "  not converged");
+    std::fflush(stdout);
     const double allowed = options.speed > 20 ? 0.01 : 0.005;
     within = within && std::abs(drag) <= allowed && d.velocity <= 0.01 && d.pressure <= 0.01;
   }

@@ -185,25 +185,23 @@ constexpr char kForces[] = R"foam(    porousForces
     }
 )foam";
 
+// The solver's own porous zones: their resistance is added after the momentum equation is under-relaxed. (The
+// porosity of fvOptions is relaxed with the rest; its converged drag differs by half a percent on 8 cm
+// cells.)
 constexpr char kResistance[] = R"foam(porous{0}
 {{
-    type explicitPorositySource;
+    type DarcyForchheimer;
     active yes;
-    explicitPorositySourceCoeffs
+    cellZone porous{0};
+    DarcyForchheimerCoeffs
     {{
-        selectionMode cellZone;
-        cellZone porous{0};
-        type DarcyForchheimer;
-        DarcyForchheimerCoeffs
+        d ({1:.17g} {1:.17g} {1:.17g});
+        f ({2:.17g} {2:.17g} {2:.17g});
+        coordinateSystem
         {{
-            d ({1:.17g} {1:.17g} {1:.17g});
-            f ({2:.17g} {2:.17g} {2:.17g});
-            coordinateSystem
-            {{
-                type cartesian;
-                origin (0 0 0);
-                rotation {{ type axesRotation; e1 (1 0 0); e2 (0 1 0); }}
-            }}
+            type cartesian;
+            origin (0 0 0);
+            rotation {{ type axesRotation; e1 (1 0 0); e2 (0 1 0); }}
         }}
     }}
 }}
@@ -222,7 +220,7 @@ To run it by hand, with OpenFOAM's programs in PATH and WM_PROJECT_DIR set
     cp constant/cellZones constant/polyMesh/
 {}
 The porous cells are in constant/cellZones, their resistances in
-constant/fvOptions. blockMesh and cp are needed only to make the mesh anew.
+constant/porosityProperties. blockMesh and cp are needed only to make the mesh anew.
 )foam";
 
 }  // namespace
@@ -340,7 +338,7 @@ void write_resistance(const fs::path& folder, const std::vector<PorousCells>& po
   for (std::size_t zone = 0; zone < porous.size(); ++zone) {
     body += fmt::format(kResistance, zone, porous[zone].darcy, porous[zone].forchheimer);
   }
-  write_dictionary(folder / "constant/fvOptions", "dictionary", body);
+  write_dictionary(folder / "constant/porosityProperties", "dictionary", body);
 }
 
 void write_zones(const fs::path& folder, const std::vector<std::vector<int>>& zones) {

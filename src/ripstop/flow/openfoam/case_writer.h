@@ -28,7 +28,7 @@ void write_initial_fields(const std::filesystem::path& folder, const FlowProblem
 /// system/controlDict. A file named kStopFile in the case folder makes the solver write and end.
 void write_control(const std::filesystem::path& folder, const FlowProblem& problem,
                    const RunControl& control);
-/// system/fvSolution holds the residual to be reached, constant/fvOptions the resistances.
+/// system/fvSolution holds the residual to be reached, constant/porosityProperties the resistances.
 void write_solution(const std::filesystem::path& folder, const FlowProblem& problem);
 void write_resistance(const std::filesystem::path& folder, const std::vector<PorousCells>& porous);
 /// cellZones with one zone a list.
