@@ -91,6 +91,7 @@ void write_curves(const std::filesystem::path& folder, const MaterialFit& fit, c
     Plot plot;
     plot.title = fmt::format("{}, {}", bench.name, d.name);
     plot.x.label = "strain";
+    plot.x.from = plot.y.from = 0;
     plot.y.label = unit_of(d) == "N" ? "tension [N]" : "load per width [N/m]";
     for (const CleanRecord& sample : d.samples) {
       PlotSeries points{"", {}, {}, false, true, false};
@@ -119,7 +120,7 @@ void write_coupon(const std::filesystem::path& folder, const std::string& name, 
   const double strain = pull.points.back().strain;
   write_sheet_picture(
       folder / fmt::format("coupon-{}.png", name), coupon.mesh, pull.positions,
-      {fmt::format("{} coupon at strain {:.3g}", name, strain),
+      {fmt::format("Coupon {}, strain {:.3g}", name, strain),
        "von Mises stress [N/m]",
        pull.von_mises,
        {{0, 0, 0}, {coupon.width, 0, 0}, {coupon.width, coupon.length, 0}, {0, coupon.length, 0}}});

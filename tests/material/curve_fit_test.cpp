@@ -4,9 +4,7 @@
 
 #include <random>
 
-#include "../output/temporary_folder.h"
 #include "ripstop/core/error.h"
-#include "ripstop/core/file.h"
 #include "ripstop/core/least_squares.h"
 #include "synthetic.h"
 
@@ -21,12 +19,11 @@ SyntheticRecord f111_record() {
   return record;
 }
 
-std::vector<CleanRecord> bench_of(const SyntheticRecord& wanted, int samples, std::mt19937& random,
-                                  const std::filesystem::path& folder) {
+std::vector<CleanRecord> bench_of(const SyntheticRecord& wanted, int samples, std::mt19937& random) {
   std::vector<CleanRecord> records;
   for (int i = 0; i < samples; ++i) {
-    write_file(folder / "s.csv", synthetic_csv(wanted, random));
-    records.push_back(clean_record(read_record(folder / "s.csv"), LoadKind::per_width));
+    records.push_back(
+        clean_record(parse_record(synthetic_csv(wanted, random), "s.csv"), LoadKind::per_width));
   }
   return records;
 }
@@ -51,8 +48,7 @@ TEST(CurveFit, ExactRecordsGiveTheirCoefficientsBack) {
   SyntheticRecord exact = f111_record();
   exact.scatter = exact.failure_scatter = exact.noise = 0;
   std::mt19937 random(1);
-  TemporaryFolder folder("fit");
-  const CurveFit fit = fit_curve(mean_curve(bench_of(exact, 3, random, folder.path)), 2, {});
+  const CurveFit fit = fit_curve(mean_curve(bench_of(exact, 3, random)), 2, {});
   EXPECT_NEAR(fit.k[0].value, 30006, 30);
   EXPECT_NEAR(fit.k[1].value, -18936, 60);
   EXPECT_NEAR(fit.offset.value, 0, 5);
@@ -67,11 +63,10 @@ TEST(CurveFit, IntervalsAndBandsHoldAsOftenAsTheyClaim) {
   SyntheticRecord wanted = f111_record();
   wanted.points = 150;
   std::mt19937 random(2024);
-  TemporaryFolder folder("coverage");
   FitOptions options;
   int k1 = 0, k2 = 0, middle = 0, end = 0;
   for (int i = 0; i < campaigns; ++i) {
-    const MeanCurve curve = mean_curve(bench_of(wanted, 5, random, folder.path));
+    const MeanCurve curve = mean_curve(bench_of(wanted, 5, random));
     const CurveFit fit = fit_curve(curve, 2, options);
     const auto inside = [](double v, double low, double high) { return low <= v && v <= high; };
     k1 += inside(f111[0], fit.k[0].low, fit.k[0].high);
@@ -91,10 +86,9 @@ TEST(CurveFit, PointsAsTheIndependentUnitWouldClaimFarTooMuch) {
   // smaller than the true scatter of K_1 between campaigns.
   SyntheticRecord wanted = f111_record();
   std::mt19937 random(7);
-  TemporaryFolder folder("naive");
   std::vector<double> k1, claimed;
   for (int i = 0; i < 60; ++i) {
-    const CurveFit fit = fit_curve(mean_curve(bench_of(wanted, 5, random, folder.path)), 2, {});
+    const CurveFit fit = fit_curve(mean_curve(bench_of(wanted, 5, random)), 2, {});
     k1.push_back(fit.k[0].value);
     claimed.push_back(fit.k[0].standard_error);
   }
@@ -104,13 +98,12 @@ TEST(CurveFit, PointsAsTheIndependentUnitWouldClaimFarTooMuch) {
 
 TEST(CurveFit, TheLowestSufficientDegreeIsChosenForEveryDirection) {
   std::mt19937 random(11);
-  TemporaryFolder folder("degree");
   SyntheticRecord straight = f111_record();
   straight.load = [](double e) { return 20000 * e; };
   SyntheticRecord bent = straight;
   bent.load = [](double e) { return 2000 * e + 2e6 * e * e * e; };
-  const MeanCurve a = mean_curve(bench_of(straight, 3, random, folder.path));
-  const MeanCurve b = mean_curve(bench_of(bent, 3, random, folder.path));
+  const MeanCurve a = mean_curve(bench_of(straight, 3, random));
+  const MeanCurve b = mean_curve(bench_of(bent, 3, random));
   EXPECT_EQ(choose_degree({a}, {}), 1);
   EXPECT_GE(choose_degree({a, b}, {}), 2);
   FitOptions strict;
@@ -124,18 +117,16 @@ TEST(CurveFit, TheLowestSufficientDegreeIsChosenForEveryDirection) {
 
 TEST(CurveFit, AFitThatTurnsOverInsideTheTestIsFound) {
   std::mt19937 random(13);
-  TemporaryFolder folder("turn");
   SyntheticRecord flat = f111_record();
   flat.load = [](double e) { return e < 0.1 ? 50000 * e : 5000 + 50 * (e - 0.1); };
   flat.noise = 1e-3;
-  const CurveFit fit = fit_curve(mean_curve(bench_of(flat, 3, random, folder.path)), 2, {});
+  const CurveFit fit = fit_curve(mean_curve(bench_of(flat, 3, random)), 2, {});
   EXPECT_LT(fit.rising_until, fit.tested_strain);
   EXPECT_GT(fit.rising_until, 0.1);
 }
 
 TEST(CurveFit, AResidualLoadIsReportedAndZeroedOnRequest) {
   std::mt19937 random(17);
-  TemporaryFolder folder("offset");
   CleanRecord a;
   a.name = "a";
   for (int i = 0; i <= 100; ++i)
@@ -157,8 +148,7 @@ TEST(CurveFit, AResidualLoadIsReportedAndZeroedOnRequest) {
 
 TEST(CurveFit, ASampleInOtherUnitsIsNotTheSameCloth) {
   std::mt19937 random(19);
-  TemporaryFolder folder("units");
-  std::vector<CleanRecord> records = bench_of(f111_record(), 3, random, folder.path);
+  std::vector<CleanRecord> records = bench_of(f111_record(), 3, random);
   for (double& load : records[1].load) load *= 1000;
   EXPECT_THROW(mean_curve(records), Error);
 }

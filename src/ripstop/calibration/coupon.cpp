@@ -272,7 +272,7 @@ CouponPull pull_coupon(const CouponMesh& coupon, const std::vector<double>& stra
     set_positions(state, *cloth, x);
     RelaxOptions relaxation;
     relaxation.tolerance = options.tolerance;
-    relaxation.max_steps = 60000;
+    relaxation.max_steps = 30000;
     // A coupon pulls at least like its diagonals alone.
     relaxation.least_load = std::max(load, patch.law[shear_up].tangent(0) * strain * coupon.width);
     const RelaxResult result = relax(state, *cloth, {}, relaxation, team);

@@ -15,11 +15,11 @@
 namespace ripstop {
 namespace {
 
+constexpr double lowest_shear = 0.01;  // without diagonals a bias coupon is a mechanism
 constexpr double highest_shear = 0.6, highest_bending = 0.2;
-constexpr double printed_bending = 0.01;  // [NFM]
-constexpr double prior_weight = 1e-4;     // in units of 1 - R2
-constexpr double prior_width = 0.1;       // of eps
-constexpr double cannot = 10;             // misfit of a lattice that cannot be made
+constexpr double prior_weight = 1e-4;  // in units of 1 - R2
+constexpr double prior_width = 0.1;    // of eps
+constexpr double cannot = 10;          // misfit of a lattice that cannot be made
 constexpr int most_evaluations = 60;
 
 double value_at(const std::vector<double>& x, const std::vector<double>& y, double at) {
@@ -79,13 +79,14 @@ struct Search {
   const CouponFitOptions* options;
   const std::function<void(int, double, double, double)>* report;
   int evaluations = 0;
-  std::string failure;
+  bool find_bending = false;
+  std::string failure{};
 
   double misfit(double shear, double bending) {
     Fabric trial = fabric;
     trial.shear_fraction = shear;
     trial.bending_fraction = bending;
-    const double off = (bending - printed_bending) / prior_width;
+    const double off = (bending - options->start_bending) / prior_width;
     double sum = prior_weight * off * off;
     ++evaluations;
     try {
@@ -104,17 +105,17 @@ double objective(unsigned count, const double* x, double*, void* data) {
   Search& search = *static_cast<Search*>(data);
   const bool shear = search.options->find_shear;
   return search.misfit(shear ? x[0] : search.fabric.shear_fraction,
-                       search.options->find_bending ? x[count - 1] : search.fabric.bending_fraction);
+                       search.find_bending ? x[count - 1] : search.fabric.bending_fraction);
 }
 
-void minimise(Search& search) {
+void minimise(Search& search, double shear_step) {
   std::vector<double> x, low, high, step;
-  const auto add = [&](double start, double limit, double first_step) {
-    x.push_back(std::clamp(start, 0.0, limit)), low.push_back(0), high.push_back(limit);
+  const auto add = [&](double start, double lowest, double highest, double first_step) {
+    x.push_back(std::clamp(start, lowest, highest)), low.push_back(lowest), high.push_back(highest);
     step.push_back(first_step);
   };
-  if (search.options->find_shear) add(search.options->start_shear, highest_shear, 0.08);
-  if (search.options->find_bending) add(search.options->start_bending, highest_bending, 0.04);
+  if (search.options->find_shear) add(search.fabric.shear_fraction, lowest_shear, highest_shear, shear_step);
+  if (search.find_bending) add(search.fabric.bending_fraction, 0, highest_bending, 0.02);
   const auto count = static_cast<unsigned>(x.size());
   // BOBYQA interpolates a quadratic and needs two unknowns; one is searched by COBYLA.
   const std::unique_ptr<nlopt_opt_s, void (*)(nlopt_opt)> optimiser(
@@ -123,7 +124,7 @@ void minimise(Search& search) {
   nlopt_set_lower_bounds(optimiser.get(), low.data());
   nlopt_set_upper_bounds(optimiser.get(), high.data());
   nlopt_set_initial_step(optimiser.get(), step.data());
-  const std::vector<double> close(count, 5e-5);
+  const std::vector<double> close(count, 2e-5);
   nlopt_set_xtol_abs(optimiser.get(), close.data());
   nlopt_set_maxeval(optimiser.get(), most_evaluations);
   double best = 0;
@@ -136,7 +137,7 @@ void minimise(Search& search) {
     throw Error(ExitCode::not_converged, fmt::format("the search for xi and eps ended with NLopt's code {}",
                                                      static_cast<int>(result)));
   if (search.options->find_shear) search.fabric.shear_fraction = x[0];
-  if (search.options->find_bending) search.fabric.bending_fraction = x[count - 1];
+  if (search.find_bending) search.fabric.bending_fraction = x[count - 1];
 }
 
 /// xi's interval: each bias sample moves xi by its projection on dF/dxi, each yarn sample by its mean
@@ -225,20 +226,26 @@ CouponFit fit_coupons(const MaterialFit& fit, const Bench& bench, const CouponFi
   const auto begin = std::chrono::steady_clock::now();
   CouponFit result;
   result.shear_low = result.shear_high = std::numeric_limits<double>::quiet_NaN();
-  Search search{std::get<Fabric>(fit.material), {}, &team, &options, &report, 0, {}};
+  Search search{std::get<Fabric>(fit.material), {}, &team, &options, &report, 0, false, {}};
   search.targets = targets_of(fit, search.fabric.tested_strain, options.cells, options.points);
   result.searched = fit.direction("bias") && (options.find_shear || options.find_bending);
+  if (options.find_bending) search.fabric.bending_fraction = options.start_bending;
   if (result.searched) {
-    minimise(search);
-    if (options.find_shear) shear_interval(search, fit, bench.confidence, result);
+    if (options.find_shear) search.fabric.shear_fraction = options.start_shear;
     result.bending_effect = effect_of_bending(search);
+    const bool both = options.find_bending && result.bending_effect >= options.bending_threshold;
+    if (options.find_shear) minimise(search, 0.08);  // xi alone from afar, then both near by
+    search.find_bending = both;
+    if (both) minimise(search, 0.01);
+    if (options.find_shear) shear_interval(search, fit, bench.confidence, result);
     if (options.find_bending)
       result.notes.push_back(fmt::format(
           "eps from 0 to 0.1 changes a coupon's load by {:.2g} % at most{}", 100 * result.bending_effect,
-          result.bending_effect < 0.02 ? ": these pulls do not determine it, and it stays near the 0.01 of "
-                                         "[NFM]"
-                                       : ""));
-    if (search.fabric.shear_fraction > highest_shear - 1e-3 || search.fabric.shear_fraction < 1e-3)
+          search.find_bending ? ""
+                              : fmt::format(": these pulls do not determine it, and it is left at {:.3g}",
+                                            search.fabric.bending_fraction)));
+    if (search.fabric.shear_fraction > highest_shear - 1e-3 ||
+        search.fabric.shear_fraction < lowest_shear + 1e-3)
       result.warnings.push_back(
           fmt::format("xi = {:.3g} lies on the edge of its range: the 45 deg pull is not "
                       "that of a lattice of springs",

@@ -12,11 +12,12 @@
 namespace ripstop {
 
 struct CouponFitOptions {
-  bool find_shear = true;    // xi; else the fabric's own is kept
-  bool find_bending = true;  // eps; likewise
-  int cells = 6;             // across the coupons of the search
-  int points = 6;            // strains at which a searched coupon is compared
-  int final_cells = 12;      // of the coupons that are reported
+  bool find_shear = true;           // xi; else the fabric's own is kept
+  bool find_bending = true;         // eps; likewise
+  double bending_threshold = 0.02;  // part of a load that eps must move to be searched
+  int cells = 6;                    // across the coupons of the search
+  int points = 6;                   // strains at which a searched coupon is compared
+  int final_cells = 12;             // of the coupons that are reported
   int final_points = 16;
   double start_shear = 0.2, start_bending = 0.01;
 };
@@ -43,10 +44,11 @@ struct CouponFit {
   std::vector<std::string> notes, warnings;
 };
 
-/// Minimises sum over the directions of 1 - R2 between coupon and mean curve over xi in [0, 0.6] and eps in
-/// [0, 0.2] with BOBYQA (M. Powell 2009, as in NLopt). Pulls in the plane hardly feel eps: a prior of weight
-/// 1e-4 about the 0.01 of [NFM] decides where they do not. Without a 45 deg curve nothing is searched. Throws
-/// Error(not_converged) when a coupon does not come to rest.
+/// Minimises sum over the directions of 1 - R2 between coupon and mean curve over xi in [0.01, 0.6] and eps in
+/// [0, 0.2] with BOBYQA (M. Powell 2009, as in NLopt). Pulls in the plane hardly feel eps: where 0 -> 0.1
+/// moves no load by `bending_threshold`, eps stays at its start, and xi is searched alone (COBYLA); else a
+/// prior of weight 1e-4 about the start keeps the optimum single. Without a 45 deg curve nothing is searched.
+/// Throws Error(not_converged) when no coupon comes to rest.
 CouponFit fit_coupons(const MaterialFit& fit, const Bench& bench, const CouponFitOptions& options,
                       ThreadTeam& team, const std::function<void(int, double, double, double)>& report = {});
 

@@ -8,6 +8,7 @@
 #include <functional>
 #include <numeric>
 #include <queue>
+#include <span>
 
 #include "ripstop/core/error.h"
 #include "ripstop/core/least_squares.h"
@@ -160,6 +161,21 @@ double cut_failure(Pull& pull) {
   return *top;
 }
 
+/// Squared misfit of a pull that begins at `zero`: nothing before it, c1 u + c2 u^2 with c1 >= 0 after it.
+double toe_misfit(std::span<const double> x, std::span<const double> f, double zero) {
+  double s2 = 0, s3 = 0, s4 = 0, f1 = 0, f2 = 0, sum = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double u = std::max(0.0, x[i] - zero);
+    s2 += u * u, s3 += u * u * u, s4 += u * u * u * u;
+    f1 += f[i] * u, f2 += f[i] * u * u;
+    sum += f[i] * f[i];
+  }
+  const double determinant = s2 * s4 - s3 * s3;
+  if (!(determinant > 1e-12 * s2 * s4)) return s2 > 0 ? sum - f1 * f1 / s2 : sum;
+  const double c1 = (f1 * s4 - f2 * s3) / determinant, c2 = (f2 * s2 - f1 * s3) / determinant;
+  return c1 > 0 ? sum - c1 * f1 - c2 * f2 : sum - f2 * f2 / s4;
+}
+
 /// Displacement where the pull begins; takes the load cell's offset off the forces.
 double find_start(Pull& pull, double peak) {
   const double noise = noise_of(pull.f);
@@ -187,25 +203,28 @@ double find_start(Pull& pull, double peak) {
   for (double& f : pull.f) f -= offset;
   pull.clean.force_offset = offset;
 
-  std::vector<double> toe_x, toe_f;
-  for (std::size_t i = start; i < pull.x.size() && smooth[i] - offset < toe_part * peak; ++i) {
-    toe_x.push_back(pull.x[i]);
-    toe_f.push_back(pull.f[i]);
-  }
   if (start + fewest_points / 2 > pull.x.size())
     pull.refuse(pull.line.back(), "the force rises only at the very end: no curve can be fitted");
-  const double first = pull.x[start];
-  if (toe_x.size() < 4) return first;
-  for (double& x : toe_x) x -= first;
-  const bool curved = toe_x.size() >= 8;
-  const std::vector<double> c = fit_polynomial(toe_x, toe_f, 0, curved ? 2 : 1);
-  const double curvature = curved ? c[2] : 0.0;
-  const double root = c[1] * c[1] - 4 * curvature * c[0];
-  // The zero that continues the rising branch; a parabola that turns before zero starts at its turn.
-  double zero = c[1] > 0 ? -c[0] / c[1] : 0.0;
-  if (curved && c[1] > 0) zero = root >= 0 ? -2 * c[0] / (c[1] + std::sqrt(root)) : -c[1] / (2 * curvature);
-  const double toe_length = toe_x.back() - toe_x.front();
-  return first + std::clamp(zero, -toe_length, 0.5 * toe_length);
+  std::size_t end = start;
+  while (end < pull.x.size() && smooth[end] - offset < toe_part * peak) ++end;
+  if (end < start + 3) return pull.x[start];
+  const std::span<const double> x(pull.x.data(), end), f(pull.f.data(), end);
+  // Slack ends before the first loaded point; a record that starts under load is continued to zero, but no
+  // farther than twice the way of its first slope.
+  const double slope = (f[end - 1] - f[start]) / (x[end - 1] - x[start]);
+  const double reach = slope > 0 ? 2 * std::max(0.0, f[0]) / slope : 0.0;
+  double low = x[0] - reach, high = x[start] + 0.1 * (x[end - 1] - x[start]);
+  for (int round = 0; round < 4; ++round) {
+    constexpr int tries = 60;
+    const double step = (high - low) / tries;
+    double best = low, least = toe_misfit(x, f, low);
+    for (int i = 1; i <= tries; ++i) {
+      const double misfit = toe_misfit(x, f, low + i * step);
+      if (misfit < least) least = misfit, best = low + i * step;
+    }
+    low = best - step, high = best + step;
+  }
+  return 0.5 * (low + high);
 }
 
 }  // namespace

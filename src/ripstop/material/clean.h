@@ -24,13 +24,13 @@ struct CleanRecord {
   std::vector<std::string> trimmed;  // what was cut or moved, one sentence each
 };
 
-/// Sorts a few points out of order, takes off the load cell's offset and the slack (the pull starts where the
-/// first part of the curve, a parabola through the points up to 30 % of the peak, meets zero: the toe
-/// compensation of ASTM D638 annex A1, with a curve in place of its straight line), and cuts what follows the
-/// highest force. Strain is on the stated length. Throws Error(bad_data) with file, line and reason for a
-/// record that cannot be one pull: too few points, more than 5 % of them going back, forces that are negative
-/// or only fall, a jump by a factor that looks like a change of units, a strain at failure outside 0.25 % to
-/// 350 %.
+/// Sorts a few points out of order, takes off the load cell's offset and the slack, and cuts what follows the
+/// highest force. The pull starts where nothing, followed by a parabola through zero, fits the points up to
+/// 30 % of the peak best: the toe compensation of ASTM D638 annex A1 with a curve in place of its straight
+/// line, and the slack as evidence too. Strain is on the stated length. Throws Error(bad_data) with file,
+/// line and reason for a record that cannot be one pull: too few points, more than 5 % of them going back,
+/// forces that are negative or only fall, a jump by a factor that looks like a change of units, a strain at
+/// failure outside 0.25 % to 350 %.
 CleanRecord clean_record(const TensileRecord& record, LoadKind kind);
 
 }  // namespace ripstop

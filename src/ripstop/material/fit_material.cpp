@@ -260,6 +260,9 @@ MaterialFit fit_material(const Bench& bench) {
       points.push_back({flow.pressure_pa, flow.cfm ? *flow.cfm * cfm_per_square_foot : *flow.velocity_m_s});
     fit.permeability = fit_permeability(points);
     fit.has_permeability = true;
+    fit.notes.push_back(
+        "darcy and forchheimer are a and b of the pressure drop; porosity_model = \"paper\" takes calibrated "
+        "coefficients there instead");
     if (fit.permeability.one_point)
       fit.notes.push_back("air permeability from one pressure: b = 0 is a choice (creeping flow)");
     if (fit.permeability.on_bound)

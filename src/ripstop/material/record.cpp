@@ -228,7 +228,11 @@ void agree(const std::filesystem::path& file, double& own, double given, bool ow
 
 TensileRecord read_record(const std::filesystem::path& file, const Coupon& given,
                           const RecordFormat& format) {
-  const std::string bytes = read_file(file);
+  return parse_record(read_file(file), file, given, format);
+}
+
+TensileRecord parse_record(const std::string& bytes, const std::filesystem::path& file, const Coupon& given,
+                           const RecordFormat& format) {
   if (bytes.size() > most_bytes) refuse(file, 0, "larger than 64 MiB: this is no tensile record");
   Reader reader{file, format};
   reader.record.file = file;

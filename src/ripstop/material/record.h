@@ -37,4 +37,8 @@ struct TensileRecord {
 TensileRecord read_record(const std::filesystem::path& file, const Coupon& given = {},
                           const RecordFormat& format = {});
 
+/// The same for a record's text; `file` is its name in messages.
+TensileRecord parse_record(const std::string& text, const std::filesystem::path& file,
+                           const Coupon& given = {}, const RecordFormat& format = {});
+
 }  // namespace ripstop

@@ -16,8 +16,8 @@ constexpr int page_width = 900, page_height = 1200, top = 84, margin = 24, bar_w
 constexpr double clipped_share = 0.005;  // of the cells, at either end of the colours
 
 void draw_bar(cairo_t* page, ColourRange range, const std::string& quantity) {
-  const double x = page_width - bar_width, y = top + 90, height = 620, width = 34;
-  draw_text(page, page_width - margin, top + 44, quantity, {20, Align::right, true, ink});
+  const double x = page_width - bar_width + 20, y = top + 30, height = 620, width = 34;
+  draw_text(page, page_width - margin, 52, quantity, {20, Align::right, true, ink});
   constexpr int strips = 310;
   for (int i = 0; i < strips; ++i)
     fill_box(page, x, y + height * i / strips, width, height / strips + 1,
@@ -67,7 +67,7 @@ ColourRange write_sheet_picture(const std::filesystem::path& path, const Mesh& m
     for (std::size_t i = 0; i < picture.outline.size(); ++i) {
       const Projected a = project(camera, picture.outline[i], width, height);
       const Projected b = project(camera, picture.outline[(i + 1) % picture.outline.size()], width, height);
-      constexpr int dashes = 40;
+      const int dashes = 2 * static_cast<int>(std::hypot(b.x - a.x, b.y - a.y) / 16) + 1;
       for (int k = 0; k < dashes; k += 2) {
         const auto at = [&](double from, double to, int j) { return from + (to - from) * j / dashes; };
         draw_line(page, margin + at(a.x, b.x, k), top + at(a.y, b.y, k), margin + at(a.x, b.x, k + 1),

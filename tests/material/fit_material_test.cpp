@@ -1,0 +1,138 @@
+#include "ripstop/material/fit_material.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "../output/temporary_folder.h"
+#include "ripstop/core/error.h"
+#include "ripstop/core/file.h"
+#include "ripstop/core/toml/problem.h"
+#include "ripstop/material/spring_law.h"
+#include "synthetic.h"
+
+namespace ripstop {
+namespace {
+
+struct BenchFile : ::testing::Test {
+  TemporaryFolder folder{"bench"};
+  std::mt19937 random{29};
+
+  void record(const std::string& name, const SyntheticRecord& wanted) {
+    write_file(folder.path / name, synthetic_csv(wanted, random));
+  }
+  Bench bench(const std::string& toml) {
+    write_file(folder.path / "bench.toml", toml);
+    return read_bench(folder.path / "bench.toml");
+  }
+  std::string coupons(const std::string& stem, int count, const SyntheticRecord& wanted) {
+    std::string toml;
+    for (int i = 0; i < count; ++i) {
+      const std::string name = fmt::format("{}-{}.csv", stem, i);
+      record(name, wanted);
+      toml += fmt::format("[[coupon]]\nfile = \"{}\"\n", name);
+    }
+    return toml;
+  }
+};
+
+TEST_F(BenchFile, ALineComesBackInNewtons) {
+  SyntheticRecord line;
+  line.width = 0;
+  line.length = 0.5;
+  line.load = [](double e) { return 211895 * e + 489633 * e * e; };  // [NFM] Table 3
+  line.failure_strain = 0.035;
+  line.slack = 0.001;
+  const std::string records = coupons("line", 5, line);
+  const MaterialFit fit =
+      fit_material(bench("kind = \"line\"\nname = \"cord\"\nsource = \"synthetic\"\n"
+                         "linear_density_kg_m = 2.0e-3\ndegree = 2\nzero_offset = true\n" +
+                         records));
+  const Line cord = std::get<Line>(fit.material);
+  const CurveFit& curve = fit.directions.front().fit;
+  EXPECT_LT(curve.k[0].low, 211895);
+  EXPECT_GT(curve.k[0].high, 211895);
+  EXPECT_NEAR(SpringLaw({cord.coefficients_n, 1}).tension(0.03), line.load(0.03), 0.05 * line.load(0.03));
+  EXPECT_EQ(cord.compression, 0);  // goes slack
+  EXPECT_EQ(cord.linear_density_kg_m, 2.0e-3);
+  EXPECT_NEAR(cord.break_load_n, line.load(0.035), 0.2 * line.load(0.035));
+  EXPECT_NEAR(cord.tested_strain, 0.035, 0.005);
+}
+
+TEST_F(BenchFile, ATapeComesBackPerWidth) {
+  SyntheticRecord tape;
+  tape.width = 0.02;
+  tape.load = [](double e) { return 3064.2 * e + 68823.4 * e * e; };  // [NFM] Table 3
+  tape.failure_strain = 0.6;
+  const std::string records = coupons("tape", 4, tape);
+  const MaterialFit fit =
+      fit_material(bench("kind = \"tape\"\nname = \"seam\"\nsource = \"synthetic\"\n"
+                         "linear_density_kg_m = 6.0e-3\nwidth_m = 0.02\nthickness_m = 5e-4\n"
+                         "degree = 2\n" +
+                         records));
+  const Tape seam = std::get<Tape>(fit.material);
+  EXPECT_NEAR(SpringLaw({seam.coefficients_n_m, 1}).tension(0.4), tape.load(0.4), 0.06 * tape.load(0.4));
+  EXPECT_EQ(seam.width_m, 0.02);
+}
+
+TEST_F(BenchFile, AWeftOfItsOwnIsFoundAndALikeOneIsNot) {
+  SyntheticRecord warp, weft;
+  warp.load = [](double e) { return 30006 * e - 18936 * e * e; };
+  weft = warp;
+  weft.orientation = 90;
+  const std::string head =
+      "kind = \"fabric\"\nname = \"c\"\nsource = \"synthetic\"\nareal_density_kg_m2 = 0.0407\n"
+      "thickness_m = 7.6e-5\n";
+  const std::string first = coupons("warp", 4, warp);
+  EXPECT_FALSE(fit_material(bench(head + first + coupons("like", 4, weft))).weft_differs);
+  weft.load = [](double e) { return 20000 * e; };
+  const MaterialFit fit = fit_material(bench(head + first + coupons("other", 4, weft)));
+  EXPECT_TRUE(fit.weft_differs);
+  EXPECT_NEAR(SpringLaw({std::get<Fabric>(fit.material).weft_coefficients_n_m, 1}).tension(0.2), 4000, 200);
+}
+
+TEST_F(BenchFile, AFitThatTurnsOverIsUsedUpToThereAndWarnsForEver) {
+  SyntheticRecord flat;
+  flat.load = [](double e) { return e < 0.1 ? 60000 * e : 6000 + 200 * (e - 0.1); };
+  flat.noise = 1e-3;
+  const MaterialFit fit = fit_material(
+      bench("kind = \"fabric\"\nname = \"c\"\nsource = \"synthetic\"\nareal_density_kg_m2 = 0.0407\n"
+            "thickness_m = 7.6e-5\ndegree = 2\nzero_offset = true\n" +
+            coupons("flat", 3, flat)));
+  const Fabric cloth = std::get<Fabric>(fit.material);
+  EXPECT_LT(cloth.tested_strain, fit.directions.front().fit.tested_strain);
+  ASSERT_FALSE(material_warnings(cloth, 0).empty());
+  EXPECT_NE(material_warnings(cloth, 0).front().find("turns over"), std::string::npos);
+}
+
+TEST_F(BenchFile, FlowReadingsGiveTheClothItsPressureDrop) {
+  SyntheticRecord warp;
+  warp.load = [](double e) { return 30000 * e; };
+  const MaterialFit fit = fit_material(
+      bench("kind = \"fabric\"\nname = \"c\"\nsource = \"synthetic\"\nareal_density_kg_m2 = 0.0407\n"
+            "thickness_m = 7.6e-5\n" +
+            coupons("warp", 3, warp) +
+            "[[flow]]\npressure_pa = 100\nvelocity_m_s = 0.2\n[[flow]]\npressure_pa = 240\n"
+            "velocity_m_s = 0.4\n[[flow]]\npressure_pa = 420\nvelocity_m_s = 0.6\n"));
+  EXPECT_NEAR(std::get<Fabric>(fit.material).darcy, 400, 1e-6);
+  EXPECT_NEAR(std::get<Fabric>(fit.material).forchheimer, 500, 1e-6);
+  EXPECT_NEAR(fit.permeability.r2, 1, 1e-9);
+}
+
+TEST_F(BenchFile, EveryMistakeInACampaignIsToldAtOnce) {
+  try {
+    bench(
+        "kind = \"fabric\"\nname = \"c\"\nthicknes_m = 1e-4\n[[coupon]]\nfile = \"a.csv\"\norientation_deg = "
+        "30\n"
+        "[[flow]]\npressure_pa = 100\n");
+    FAIL() << "not refused";
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    for (const char* part : {"thicknes_m", "source", "areal_density_kg_m2", "orientation_deg", "either cfm"})
+      EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
+    EXPECT_EQ(error.code(), ExitCode::usage);
+  }
+}
+
+}  // namespace
+}  // namespace ripstop

@@ -1,0 +1,67 @@
+#include "ripstop/material/library.h"
+
+#include <gtest/gtest.h>
+
+#include "ripstop/material/fit_material.h"
+#include "ripstop/material/permeability.h"
+#include "ripstop/material/spring_law.h"
+#include "ripstop/material/units.h"
+
+namespace ripstop {
+namespace {
+
+std::vector<Material> everything() {
+  std::vector<Material> list;
+  for (const std::string& name : library_names()) list.push_back(library_material(name));
+  return list;
+}
+
+TEST(Library, EveryMaterialSaysWhereItsNumbersComeFrom) {
+  EXPECT_GE(everything().size(), 20u);
+  for (const Material& material : everything())
+    std::visit([](const auto& m) { EXPECT_GT(m.source.size(), 20u) << m.name; }, material);
+}
+
+TEST(Library, EveryClothBreaksWhereItsCurveReachesItsBreakingLoad) {
+  for (const Material& material : everything()) {
+    const auto* cloth = std::get_if<Fabric>(&material);
+    if (!cloth) continue;
+    EXPECT_NEAR(SpringLaw({cloth->coefficients_n_m, 1}).tension(cloth->tested_strain) / cloth->break_load_n_m,
+                1, 0.02)
+        << cloth->name;
+  }
+}
+
+TEST(Library, EveryLineBreaksWhereItsCurveReachesItsBreakingLoad) {
+  for (const Material& material : everything()) {
+    const auto* line = std::get_if<Line>(&material);
+    if (!line || line->break_load_n == 0) continue;
+    EXPECT_NEAR(SpringLaw({line->coefficients_n, 1}).tension(line->tested_strain) / line->break_load_n, 1,
+                0.01)
+        << line->name;
+    // No fibre bears more than 4 N/tex; a unit wrong by 1000 would.
+    EXPECT_LT(line->break_load_n / line->linear_density_kg_m, 4e6) << line->name;
+    EXPECT_GT(line->break_load_n / line->linear_density_kg_m, 0.1e6) << line->name;
+  }
+}
+
+TEST(Library, ClothsLetThroughTheAirOfTheirSpecification) {
+  struct Range {
+    const char* name;
+    double low, high;
+  };
+  for (const Range& r : {Range{"f-111-physical", 0.5, 5}, Range{"pia-c-44378-type-ii", 30, 50},
+                         Range{"pia-c-44378-type-iv", 0.5, 3}, Range{"mil-c-7020-type-i", 80, 120}}) {
+    const Fabric cloth = std::get<Fabric>(library_material(r.name));
+    const double flow = cfm({cloth.darcy, cloth.forchheimer});
+    EXPECT_GE(flow, r.low) << r.name;
+    EXPECT_LE(flow, r.high) << r.name;
+    EXPECT_FALSE(material_warnings(cloth, 0).empty()) << r.name << " must say that its a and b are physical";
+  }
+  const Fabric printed = std::get<Fabric>(library_material("f-111"));
+  EXPECT_EQ(printed.darcy, 65.98);
+  EXPECT_TRUE(material_warnings(printed, 0.1).empty());
+}
+
+}  // namespace
+}  // namespace ripstop
