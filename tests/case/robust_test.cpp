@@ -3,6 +3,7 @@
 
 #include <fstream>
 #include <random>
+#include <set>
 #include <sstream>
 
 #include "fixture.h"
@@ -11,11 +12,26 @@
 namespace ripstop {
 namespace {
 
-std::string example_text() {
-  std::ifstream stream(std::string(RIPSTOP_SOURCE_DIR) + "/examples/stratos-iv/case.toml");
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream stream(file);
   std::stringstream text;
   text << stream.rdbuf();
   return text.str();
+}
+
+const std::filesystem::path examples = std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples";
+
+std::string example_text() {
+  return text_of(examples / "stratos-iv" / "case.toml");
+}
+
+std::vector<std::string> all_example_texts() {
+  std::set<std::filesystem::path> files;
+  for (const auto& folder : std::filesystem::directory_iterator(examples))
+    if (exists(folder.path() / "case.toml")) files.insert(folder.path() / "case.toml");
+  std::vector<std::string> texts;
+  for (const auto& file : files) texts.push_back(text_of(file));
+  return texts;
 }
 
 /// True when the text is a valid case. A mistake has to come as an InputError that says something; a valid
@@ -35,6 +51,12 @@ bool is_valid_or_told(const std::string& text) {
   }
 }
 
+TEST(AnyBytes, EveryExampleIsValidAndSurvivesBeingWrittenAndRead) {
+  const std::vector<std::string> texts = all_example_texts();
+  ASSERT_GE(texts.size(), 2u);
+  for (const std::string& text : texts) EXPECT_TRUE(is_valid_or_told(text)) << text;
+}
+
 TEST(AnyBytes, ATruncatedFileIsToldOrValid) {
   const std::string text = example_text();
   ASSERT_TRUE(is_valid_or_told(text));
@@ -48,28 +70,29 @@ TEST(AnyBytes, ATruncatedFileIsToldOrValid) {
 }
 
 TEST(AnyBytes, AFlippedByteIsToldOrValid) {
-  const std::string text = example_text();
+  const std::vector<std::string> texts = all_example_texts();
   std::mt19937 random(20240607);
   int valid = 0, told = 0;
   for (int i = 0; i < 4000; ++i) {
-    std::string spoilt = text;
+    std::string spoilt = texts[i % texts.size()];
     const int flips = 1 + i % 3;
     for (int k = 0; k < flips; ++k)
       spoilt[random() % spoilt.size()] ^= static_cast<char>(1u << (random() % 8));
     (is_valid_or_told(spoilt) ? valid : told)++;
   }
-  EXPECT_GT(valid, 200);  // comments, digits
-  EXPECT_GT(told, 1000);
+  // Both happen: a flip in a comment or a digit mostly leaves a case, one in a key or a bracket does not.
+  EXPECT_GT(valid, 40);
+  EXPECT_GT(told, 400);
 }
 
 TEST(AnyBytes, ReplacedDigitsAreToldOrValid) {
-  const std::string text = example_text();
+  const std::vector<std::string> texts = all_example_texts();
   const std::string pieces[] = {
       "-",    "0",  "9", "e", ".", "\"", "[", "]", "nan", "inf", "1e308", "-1e-308", "99999999999999999999",
       "true", "\n", "#"};
   std::mt19937 random(7);
   for (int i = 0; i < 4000; ++i) {
-    std::string spoilt = text;
+    std::string spoilt = texts[i % texts.size()];
     spoilt.replace(random() % spoilt.size(), 1 + random() % 2, pieces[random() % std::size(pieces)]);
     is_valid_or_told(spoilt);
   }

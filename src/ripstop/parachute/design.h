@@ -92,7 +92,7 @@ double line_length_on_disk(const Design& design);
 /// Largest diameter of the start shape [m], and its length from the skirt downstream [m].
 double start_diameter(const Design& design);
 double start_depth(const Design& design);
-/// The keys that decide the size of the canopy, of all families.
+/// The keys that decide the size of the canopy: for Findings::sound(), whatever the family.
 const std::vector<std::string>& shape_keys();
 
 }  // namespace ripstop

@@ -68,11 +68,15 @@ InputError::InputError(ExitCode code, std::vector<Problem> problems)
     : Error(code, listed(problems)), problems_(sorted(std::move(problems))) {}
 
 bool Findings::sound(const std::vector<std::string>& keys) const {
+  const auto touches = [](const std::string& problem, const std::string& key) {
+    if (problem == key || key.starts_with(problem + ".")) return true;
+    if (!key.ends_with(".*")) return problem.starts_with(key + "[") || problem.starts_with(key + ".");
+    const std::string table = key.substr(0, key.size() - 1);
+    return problem.starts_with(table) && problem.find('.', table.size()) == std::string::npos;
+  };
   return std::none_of(problems_.begin(), problems_.end(), [&](const Problem& problem) {
-    return std::any_of(keys.begin(), keys.end(), [&](const std::string& key) {
-      return problem.key == key || problem.key.starts_with(key + "[") || problem.key.starts_with(key + ".") ||
-             key.starts_with(problem.key + ".");
-    });
+    return std::any_of(keys.begin(), keys.end(),
+                       [&](const std::string& key) { return touches(problem.key, key); });
   });
 }
 

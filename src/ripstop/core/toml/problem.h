@@ -34,7 +34,8 @@ std::string to_text(const Problem& problem);
 class Findings {
  public:
   Findings(const Origins& origins, std::vector<Problem>& problems) : origins_(origins), problems_(problems) {}
-  /// No problem is known yet of any of these keys, their tables, or anything below them.
+  /// No problem is known yet of any of these keys, their tables, or anything below them. "table.*" stands for
+  /// all keys of a table without those of tables in it.
   bool sound(const std::vector<std::string>& keys) const;
   /// At the place of `key`, or of its table when it was not given.
   void add(const std::string& key, std::string value, std::string allowed, std::string message);

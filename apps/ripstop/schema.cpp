@@ -1,0 +1,24 @@
+// ripstop schema: what a case file may say, for editors and for people.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "commands.h"
+#include "ripstop/case/case.h"
+
+namespace ripstop {
+
+void add_schema(CLI::App& app, int& status) {
+  auto reference = std::make_shared<bool>(false);
+  CLI::App* command = app.add_subcommand("schema", "JSON Schema of a case file, for editors and checks");
+  command->footer("Example: ripstop schema > ripstop-case.schema.json");
+  command->add_flag("--reference", *reference, "The keys as tables in Markdown instead");
+  command->callback([reference, &status] {
+    fmt::print("{}", *reference ? case_reference() : case_schema());
+    status = 0;
+  });
+}
+
+}  // namespace ripstop

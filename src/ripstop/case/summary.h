@@ -1,0 +1,30 @@
+// What a case amounts to, without a solver: masses, springs, time step.
+#pragma once
+
+#include <string>
+
+#include "ripstop/case/case.h"
+#include "ripstop/cloth/cloth.h"
+
+namespace ripstop {
+
+struct CaseSummary {
+  double cloth_area = 0;     // as meshed, a polygon inside the cut cloth [m2]
+  double computed_area = 0;  // as cut [m2]
+  double nominal_area = 0;   // S0 that coefficients refer to [m2]
+  double cloth_mass = 0, tape_mass = 0, line_mass = 0, riser_mass = 0, total_mass = 0;  // [kg]
+  int nodes = 0, cloth_nodes = 0;
+  int springs = 0;             // of the lattice and outside it
+  double smallest_spring = 0;  // rest length [m]
+  std::string smallest_part;   // where it is
+  StepBound step;              // of the start shape
+  long long flow_cells = 0;
+  Vec3 flow_spacing;    // [m]
+  double blockage = 0;  // disk of the start shape's diameter over the box's cross-section
+  Air air;
+};
+
+/// Builds the mesh and the cloth. Throws what they throw.
+CaseSummary summarize(const Case& value);
+
+}  // namespace ripstop

@@ -1,0 +1,147 @@
+// The commands `check` and `schema` as a user meets them: exit codes, messages, JSON.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "ripstop/core/process.h"
+
+namespace ripstop {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string stratos = RIPSTOP_SOURCE_DIR "/examples/stratos-iv/case.toml";
+
+struct Finished {
+  int code = -1;
+  std::string output;
+};
+
+Finished ripstop_with(std::vector<std::string> arguments, const fs::path& data = RIPSTOP_SOURCE_DIR) {
+  Finished run;
+  ProcessRequest request;
+  request.arguments = {RIPSTOP_PROGRAM};
+  request.arguments.insert(request.arguments.end(), arguments.begin(), arguments.end());
+  request.environment = {{"RIPSTOP_DATA", data.string()}};
+  request.time_limit_s = 120;
+  request.on_line = [&](const std::string& line) {
+    run.output += line + "\n";
+    return true;
+  };
+  run.code = run_process(request).exit_code;
+  return run;
+}
+
+class Check : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) / ("ripstop-check-" + std::to_string(getpid()));
+    fs::create_directories(folder_ / "materials");
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+  fs::path write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+    return folder_ / name;
+  }
+  fs::path folder_;
+};
+
+TEST_F(Check, MassesAndAreasAreThoseOfThePattern) {
+  const Finished run = ripstop_with({"check", stratos, "--json"});
+  ASSERT_EQ(run.code, 0) << run.output;
+  const auto report = nlohmann::json::parse(run.output);
+  EXPECT_TRUE(report["valid"]);
+  EXPECT_NEAR(report["nominal_area_m2"].get<double>(), 1.7215, 1e-4);
+  EXPECT_NEAR(report["meshed_area_m2"].get<double>(), 1.7215, 1e-3);  // a polygon of 2.6 degrees a side
+  EXPECT_NEAR(report["mass_kg"]["cloth"].get<double>(), 1.7215 * 0.0407, 1e-4);
+  // Four hems, and seams along band and disk on six gores, of 6 g/m.
+  const double hems = 3.14159265 * (3 * 1.0 + 0.09), seams = 6 * (0.3 + 0.455);
+  EXPECT_NEAR(report["mass_kg"]["tape"].get<double>(), 6e-3 * (hems + seams), 1e-4);
+  // Free line, band, gap and disk, 2 g/m.
+  EXPECT_NEAR(report["mass_kg"]["lines"].get<double>(), 2e-3 * 18 * (1.5 + 0.3 + 0.07 + 0.455), 1e-6);
+  EXPECT_NEAR(report["cloth_nodes"].get<double>(), 25600, 256);
+  EXPECT_GT(report["stable_step_s"].get<double>(), 4e-7);  // what the paper's polar grid allowed
+  EXPECT_EQ(report["flow_cells"], 1500000);
+  EXPECT_EQ(report["case"]["flow"]["density_kg_m3"], 1.2);
+}
+
+TEST_F(Check, OptionsChangeTheCaseAndAreNamedWhenTheyAreWrong) {
+  const Finished fine = ripstop_with({"check", stratos, "--json", "--speed", "20", "--grid", "50,50,75"});
+  ASSERT_EQ(fine.code, 0) << fine.output;
+  EXPECT_EQ(nlohmann::json::parse(fine.output)["flow_cells"], 187500);
+  EXPECT_EQ(nlohmann::json::parse(fine.output)["density_kg_m3"], 1.199);
+  const Finished wrong = ripstop_with({"check", stratos, "--speed", "500"});
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_NE(wrong.output.find("--speed: flow.speed_m_s = 500: must be above 0 and at most 100"),
+            std::string::npos)
+      << wrong.output;
+}
+
+TEST_F(Check, TheProblemsOfACaseComeAsTextAndAsJson) {
+  const fs::path file = write("bad.toml", "title = 3\n[flow]\nsped_m_s = 4\n");
+  const Finished text = ripstop_with({"check", file.string()});
+  EXPECT_EQ(text.code, 2);
+  EXPECT_NE(text.output.find(file.string() + ":3:1: flow.sped_m_s: unknown key; did you mean \"speed_m_s\"?"),
+            std::string::npos)
+      << text.output;
+  const Finished json = ripstop_with({"check", file.string(), "--json"});
+  EXPECT_EQ(json.code, 2);
+  const auto report = nlohmann::json::parse(json.output);
+  EXPECT_FALSE(report["valid"]);
+  // In the order of the file: [parachute] is missing from all of it, then title, sped_m_s, speed_m_s.
+  ASSERT_EQ(report["problems"].size(), 4u) << json.output;
+  EXPECT_EQ(report["problems"][1]["key"], "title");
+  EXPECT_EQ(report["problems"][1]["line"], 1);
+  EXPECT_EQ(report["problems"][1]["column"], 9);
+}
+
+TEST_F(Check, ABrokenLibraryAndAMissingFileHaveTheirOwnExitCodes) {
+  for (const char* name : {"spectra-line", "twaron-line", "nylon-tape"})
+    fs::copy_file(fs::path(RIPSTOP_SOURCE_DIR) / "materials" / (std::string(name) + ".toml"),
+                  folder_ / "materials" / (std::string(name) + ".toml"));
+  write("materials/f-111.toml",
+        "kind = \"fabric\"\ncoefficients_n_m = [1.0]\nareal_density_kg_m2 = 0\nthickness_m = 1e-4\n");
+  const Finished broken = ripstop_with({"check", stratos}, folder_);
+  EXPECT_EQ(broken.code, 3);
+  EXPECT_NE(broken.output.find("f-111.toml:3:23: areal_density_kg_m2 = 0: must be above 0"),
+            std::string::npos)
+      << broken.output;
+  const Finished missing = ripstop_with({"check", (folder_ / "none.toml").string()});
+  EXPECT_EQ(missing.code, 7);
+  EXPECT_NE(missing.output.find("none.toml: cannot be opened"), std::string::npos) << missing.output;
+}
+
+TEST_F(Check, TheResolvedCaseNeedsNoLibraryAndIsTheSameCase) {
+  const Finished resolved = ripstop_with({"check", stratos, "--resolved"});
+  ASSERT_EQ(resolved.code, 0);
+  const fs::path file = write("resolved.toml", resolved.output);
+  const Finished again =
+      ripstop_with({"check", file.string(), "--resolved"}, folder_);  // materials/ is empty there
+  EXPECT_EQ(again.code, 0);
+  EXPECT_EQ(again.output, resolved.output);
+}
+
+TEST(Schema, IsJsonAndKnowsTheTables) {
+  const Finished run = ripstop_with({"schema"});
+  ASSERT_EQ(run.code, 0);
+  const auto schema = nlohmann::json::parse(run.output);
+  EXPECT_EQ(schema["$schema"], "https://json-schema.org/draft/2020-12/schema");
+  for (const char* table : {"parachute", "materials", "flow", "coupling", "measured"})
+    EXPECT_TRUE(schema["properties"].contains(table)) << table;
+}
+
+TEST(Help, OfEveryCommandHasAnExample) {
+  for (const char* command : {"check", "schema"}) {
+    const Finished run = ripstop_with({command, "--help"});
+    EXPECT_EQ(run.code, 0);
+    EXPECT_NE(run.output.find(std::string("Example: ripstop ") + command), std::string::npos) << run.output;
+  }
+  EXPECT_EQ(ripstop_with({"chekc"}).code, 2);
+  EXPECT_EQ(ripstop_with({"check"}).code, 2);
+}
+
+}  // namespace
+}  // namespace ripstop
