@@ -7,6 +7,8 @@ class App;
 
 namespace ripstop {
 
+void add_check(CLI::App& app, int& status);
+void add_schema(CLI::App& app, int& status);
 void add_steady(CLI::App& app, int& status);
 void add_fabric(CLI::App& app, int& status);
 void add_fit(CLI::App& app, int& status);

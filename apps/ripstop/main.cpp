@@ -18,6 +18,8 @@ int main(int argc, char** argv) {
       "Exit codes: 0 done, 2 usage or case file, 3 bad input data, 4 not converged, 5 diverged,\n"
       "6 external solver, 7 input/output. Each command has its own --help with an example.");
   int status = 0;
+  add_check(app, status);
+  add_schema(app, status);
   add_steady(app, status);
   add_fabric(app, status);
   add_fit(app, status);
