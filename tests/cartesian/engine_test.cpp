@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <string>
 
 #include "ripstop/core/error.h"
 #include "ripstop/flow/bodies.h"
@@ -122,6 +123,20 @@ TEST(CartesianEngine, TheReportCanStopTheRunAndTheFieldIsThenUnconverged) {
       });
   EXPECT_EQ(field.last.iteration, 3);
   EXPECT_FALSE(field.converged);
+}
+
+TEST(CartesianEngine, DivergenceIsSaidWithIterationFieldAndPlace) {
+  const FlowProblem problem = open_box(12, 12, 16, 1e160);  // its square is beyond double precision
+  try {
+    make_cartesian(with_threads(1))->solve(problem, nullptr);
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::diverged);
+    const std::string text = error.what();
+    EXPECT_NE(text.find("iteration 1 "), std::string::npos) << text;
+    EXPECT_NE(text.find("velocity x is"), std::string::npos) << text;
+    EXPECT_NE(text.find(") m"), std::string::npos) << text;
+  }
 }
 
 TEST(CartesianEngine, SaysWhatIsWrongWithTheProblem) {
