@@ -21,6 +21,8 @@ RIPSTOP_ROW_KERNEL void momentum_row(MomentumRow& row) {
   const double *u = row.u, *v = row.v, *w = row.w, *p = row.p, *rho = row.rho;
   const double *ub = row.u_below, *vb = row.v_below, *wb = row.w_below;
   const double *ua = row.u_above, *va = row.v_above, *wa = row.w_above;
+  const double *us = row.u_south, *vs = row.v_south, *ws = row.w_south;
+  const double *un = row.u_north, *vn = row.v_north, *wn = row.w_north;
   const double *fx = row.fx, *fy = row.fy, *fz = row.fz;
   const double *mu = row.mu, *mub = row.mu_below, *mua = row.mu_above;
   const double *tx = row.tx, *ty = row.ty, *tz = row.tz, *tzb = row.tz_below, *tza = row.tz_above;
@@ -64,12 +66,9 @@ RIPSTOP_ROW_KERNEL void momentum_row(MomentumRow& row) {
     const double py = y.slope_high * (p[i + sy] - p[i]) + y.slope_low * (p[i] - p[i - sy]);
     const double pz = z.slope_high * (p[i + sz] - p[i]) + z.slope_low * (p[i] - p[i - sz]);
 
-    const double nu =
-        aw * u[i - 1] + ae * u[i + 1] + as * u[i - sy] + an * u[i + sy] + ab * ub[i] + aa * ua[i];
-    const double nv =
-        aw * v[i - 1] + ae * v[i + 1] + as * v[i - sy] + an * v[i + sy] + ab * vb[i] + aa * va[i];
-    const double nw =
-        aw * w[i - 1] + ae * w[i + 1] + as * w[i - sy] + an * w[i + sy] + ab * wb[i] + aa * wa[i];
+    const double nu = aw * u[i - 1] + ae * u[i + 1] + as * us[i] + an * un[i] + ab * ub[i] + aa * ua[i];
+    const double nv = aw * v[i - 1] + ae * v[i + 1] + as * vs[i] + an * vn[i] + ab * vb[i] + aa * va[i];
+    const double nw = aw * w[i - 1] + ae * w[i + 1] + as * ws[i] + an * wn[i] + ab * wb[i] + aa * wa[i];
     const double bu = divergence(0) - px, bv = divergence(comp) - py, bw = divergence(2 * comp) - pz;
 
     const double u1 = step * (nu + lag * u0 + bu);

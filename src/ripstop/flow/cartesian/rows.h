@@ -44,6 +44,8 @@ struct TurbulenceRow {
   const double *k = nullptr, *omega = nullptr, *rho = nullptr;
   const double *k_below = nullptr, *k_above = nullptr;          // what convection and diffusion see
   const double *omega_below = nullptr, *omega_above = nullptr;  // across the z faces
+  const double *k_south = nullptr, *k_north = nullptr, *omega_south = nullptr,
+               *omega_north = nullptr;  // and y
   const double *fx = nullptr, *fy = nullptr, *fz = nullptr;
   const double *mut = nullptr, *mut_below = nullptr, *mut_above = nullptr;  // eddy viscosity [Pa s]
   // Results.
@@ -66,6 +68,8 @@ struct MomentumRow {
   const double *u = nullptr, *v = nullptr, *w = nullptr, *p = nullptr, *rho = nullptr;
   const double *u_below = nullptr, *v_below = nullptr, *w_below = nullptr;
   const double *u_above = nullptr, *v_above = nullptr, *w_above = nullptr;
+  const double *u_south = nullptr, *v_south = nullptr, *w_south = nullptr;
+  const double *u_north = nullptr, *v_north = nullptr, *w_north = nullptr;
   const double *fx = nullptr, *fy = nullptr, *fz = nullptr;
   const double *mu = nullptr, *mu_below = nullptr, *mu_above = nullptr;
   const double *tx = nullptr, *ty = nullptr, *tz = nullptr, *tz_below = nullptr, *tz_above = nullptr;

@@ -2,10 +2,11 @@
 //
 // The box is cut along y into blocks of fixed size, and each block is marched plane by plane from the inlet
 // to the outlet: a plane sees the new values of the plane before it, so a change travels with the stream
-// through the whole box in one iteration. All other neighbours are old values, read from arrays that nobody
-// writes, so neither the order of the blocks nor the number of threads matters. Momentum runs one plane
-// behind the turbulence; what passes between them stays in a ring of a few planes, in cache. The rows on
-// either side of a block are computed twice, for the stress that its own rows see.
+// through the whole box in one iteration. In a plane the rows are walked up in one iteration and down in the
+// next, each seeing the new values of the row before it. All other neighbours are old values, read from
+// arrays that nobody writes, so neither the order of the blocks nor the number of threads matters. Momentum
+// runs one plane behind the turbulence; what passes between them stays in a ring of a few planes, in cache.
+// The rows on either side of a block are computed twice, for the stress that its own rows see.
 #include <algorithm>
 
 #include "ripstop/flow/cartesian/solver.h"
@@ -59,7 +60,10 @@ void Solver::eddy_viscosity(MarchRings& rings, int k, Range rows) const {
 void Solver::turbulence(MarchRings& rings, int k, Range rows) {
   const bool first = k == 0, last = k == grid_.nz - 1;
   const std::ptrdiff_t sz = layout_.stride_z, component = static_cast<std::ptrdiff_t>(rings.plane);
-  for (int j = std::max(rows.begin - 1, 0); j < std::min(rows.end + 1, grid_.ny); ++j) {
+  const bool northward = iteration_ % 2 == 0;  // the way the rows are walked
+  const int low = std::max(rows.begin - 1, 0), high = std::min(rows.end + 1, grid_.ny);
+  for (int step = low; step < high; ++step) {
+    const int j = northward ? step : high - 1 - (step - low);
     const bool own = j >= rows.begin && j < rows.end;
     const std::ptrdiff_t at = layout_.at(0, j, k), in = rings.at(layout_, j, rows.begin);
     TurbulenceRow r;
@@ -76,6 +80,13 @@ void Solver::turbulence(MarchRings& rings, int k, Range rows) {
     r.k_above = last ? inlet_k : r.k + sz;
     r.omega_below = first ? inlet_omega : own ? &new_omega_[at - sz] : r.omega - sz;
     r.omega_above = last ? inlet_omega : r.omega + sz;
+    const std::ptrdiff_t sy = layout_.stride_y;
+    const bool new_south = own && northward && j > rows.begin,
+               new_north = own && !northward && j + 1 < rows.end;
+    r.k_south = new_south ? &new_k_[at - sy] : r.k - sy;
+    r.k_north = new_north ? &new_k_[at + sy] : r.k + sy;
+    r.omega_south = new_south ? &new_omega_[at - sy] : r.omega - sy;
+    r.omega_north = new_north ? &new_omega_[at + sy] : r.omega + sy;
     r.fx = &f_.fx[at], r.fy = &f_.fy[at], r.fz = &f_.fz[at];
     r.mut = &rings.mut[mod(k, 3)][in];
     r.mut_above = &rings.mut[mod(last ? k : k + 1, 3)][in];
@@ -113,7 +124,9 @@ void Solver::momentum(MarchRings& rings, int k, Range rows) {
   const bool first = k == 0, last = k == grid_.nz - 1;
   const std::ptrdiff_t sz = layout_.stride_z, component = static_cast<std::ptrdiff_t>(rings.plane);
   const double *zeros = &constant_.zeros[Layout::lead], *inlet_w = &constant_.inlet_w[Layout::lead];
-  for (int j = rows.begin; j < rows.end; ++j) {
+  const bool northward = iteration_ % 2 == 0;
+  for (int step = rows.begin; step < rows.end; ++step) {
+    const int j = northward ? step : rows.end - 1 - (step - rows.begin);
     const std::ptrdiff_t at = layout_.at(0, j, k), in = rings.at(layout_, j, rows.begin);
     MomentumRow r;
     r.m = metrics(j, k, z_);
@@ -131,6 +144,15 @@ void Solver::momentum(MarchRings& rings, int k, Range rows) {
     r.u_above = last ? zeros : r.u + sz;
     r.v_above = last ? zeros : r.v + sz;
     r.w_above = last ? zeros : r.w + sz;
+    const std::ptrdiff_t sy = layout_.stride_y;
+    const double *south = &rings.predicted[mod(k, 2)][in - sy], *north = &rings.predicted[mod(k, 2)][in + sy];
+    const bool new_south = northward && j > rows.begin, new_north = !northward && j + 1 < rows.end;
+    r.u_south = new_south ? south : r.u - sy;
+    r.v_south = new_south ? south + component : r.v - sy;
+    r.w_south = new_south ? south + 2 * component : r.w - sy;
+    r.u_north = new_north ? north : r.u + sy;
+    r.v_north = new_north ? north + component : r.v + sy;
+    r.w_north = new_north ? north + 2 * component : r.w + sy;
     r.fx = &f_.fx[at], r.fy = &f_.fy[at], r.fz = &f_.fz[at];
     r.mu = &rings.mu[mod(k, 3)][in];
     r.mu_above = &rings.mu[mod(last ? k : k + 1, 3)][in];

@@ -46,6 +46,7 @@ RIPSTOP_ROW_KERNEL void turbulence_row(TurbulenceRow& row) {
   const CrossMetrics y = row.m.y, z = row.m.z;
   const double *u = row.u, *v = row.v, *w = row.w, *k = row.k, *om = row.omega, *rho = row.rho;
   const double *kb = row.k_below, *ka = row.k_above, *ob = row.omega_below, *oa = row.omega_above;
+  const double *ks = row.k_south, *kn = row.k_north, *os = row.omega_south, *on = row.omega_north;
   const double *fx = row.fx, *fy = row.fy, *fz = row.fz;
   const double *mut = row.mut, *mutb = row.mut_below, *muta = row.mut_above;
   double *k_new = row.k_new, *om_new = row.omega_new, *mu_new = row.mu_new;
@@ -99,7 +100,7 @@ RIPSTOP_ROW_KERNEL void turbulence_row(TurbulenceRow& row) {
       const double ab = cb + (sigma_omega * mb + mu) * db, aa = ca + (sigma_omega * ma + mu) * da;
       const double off = aw + ae + as + an + ab + aa;
       const double neighbours =
-          aw * om[i - 1] + ae * om[i + 1] + as * om[i - sy] + an * om[i + sy] + ab * ob[i] + aa * oa[i];
+          aw * om[i - 1] + ae * om[i + 1] + as * os[i] + an * on[i] + ab * ob[i] + aa * oa[i];
       const double source = r * gamma2 * smaller(strain, (c1 * beta_star) * om0 * om0) + positive(cross);
       const double diagonal = off + r * beta2 * om0 + positive(-cross) * inverse_om;
       const double relaxed = diagonal * inverse_alpha;
@@ -117,7 +118,7 @@ RIPSTOP_ROW_KERNEL void turbulence_row(TurbulenceRow& row) {
       const double ab = cb + (sigma_k * mb + mu) * db, aa = ca + (sigma_k * ma + mu) * da;
       const double off = aw + ae + as + an + ab + aa;
       const double neighbours =
-          aw * k[i - 1] + ae * k[i + 1] + as * k[i - sy] + an * k[i + sy] + ab * kb[i] + aa * ka[i];
+          aw * k[i - 1] + ae * k[i + 1] + as * ks[i] + an * kn[i] + ab * kb[i] + aa * ka[i];
       const double source = smaller(mut[i] * strain, r * (c1 * beta_star) * k0 * om1);
       const double diagonal = off + r * beta_star * om1;
       const double relaxed = diagonal * inverse_alpha;
