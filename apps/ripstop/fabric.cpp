@@ -16,6 +16,7 @@
 #include "ripstop/coupling/result.h"
 #include "ripstop/output/picture.h"
 #include "ripstop/output/vtk.h"
+#include "warnings.h"
 
 namespace ripstop {
 namespace {
@@ -67,6 +68,8 @@ int run(const Options& options) {
   row("skirt diameter", fmt::format("{:.3f} m", size.skirt_diameter));
   row("highest line tension", fmt::format("{:.1f} N", line));
   row("highest stress", fmt::format("{:.0f} N/m von Mises, on the {}", peak.von_mises, peak.patch));
+
+  print_material_warnings(value, peak.strain);
 
   if (!options.out.empty()) {
     make_folder(options.out);

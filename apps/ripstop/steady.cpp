@@ -15,6 +15,7 @@
 #include "ripstop/flow/openfoam/openfoam.h"
 #include "ripstop/run/checkpoint.h"
 #include "ripstop/run/run_folder.h"
+#include "warnings.h"
 
 namespace ripstop {
 namespace {
@@ -161,7 +162,9 @@ int run(const Options& options) {
     progress.line(iteration_text(state.iterations.back()));
   }
   files.write_result(solver, state, value);
-  print_result(steady_result(solver, state, value), value, folder);
+  const SteadyResult result = steady_result(solver, state, value);
+  print_result(result, value, folder);
+  print_material_warnings(value, result.stress.strain);
   if (!state.converged) {
     fmt::print(stderr,
                "not converged within {} coupling iterations: drag still changed by {:.2g} (wanted {:.2g}), "

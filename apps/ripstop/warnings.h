@@ -1,0 +1,12 @@
+// What the materials of a case have to say about a run.
+#pragma once
+
+#include "ripstop/case/case.h"
+
+namespace ripstop {
+
+/// Repeats on standard error what the fits of the case's materials found doubtful, and says when the canopy's
+/// cloth was strained beyond its tests.
+void print_material_warnings(const Case& value, double largest_cloth_strain);
+
+}  // namespace ripstop
