@@ -23,7 +23,7 @@ TEST(Permeability, ThePrintedCanopyColumnIsGamma0p2121AndATenthOfAMillimetre) {
 
 TEST(Permeability, ErgunAndItsInverseUndoEachOther) {
   for (const ErgunCloth cloth : {ErgunCloth{0.05, 5e-4}, ErgunCloth{0.3, 7.6e-5}, ErgunCloth{0.9, 2e-4}}) {
-    const Air air{1.1, 1.7e-5};
+    const ErgunAir air{1.1, 1.7e-5};
     const ErgunCloth back = ergun_cloth(ergun(cloth, air), air);
     EXPECT_NEAR(back.porosity / cloth.porosity, 1, 1e-12);
     EXPECT_NEAR(back.thickness / cloth.thickness, 1, 1e-12);

@@ -70,7 +70,7 @@ double cfm(const PressureDrop& law) {
 }
 
 // [NFM] Eq. 16: a = 150 mu (1-g)^2 t / (D^2 g^3), b = 1.75 rho (1-g) t / (D g^3), D = 6 (1-g) V/S, V/S = t
-PressureDrop ergun(const ErgunCloth& cloth, const Air& air) {
+PressureDrop ergun(const ErgunCloth& cloth, const ErgunAir& air) {
   const double g = cloth.porosity, t = cloth.thickness;
   if (!(g > 0) || !(g < 1) || !(t > 0))
     throw Error(
@@ -83,7 +83,7 @@ PressureDrop ergun(const ErgunCloth& cloth, const Air& air) {
           1.75 * air.density * (1 - g) * t / (d * g3)};
 }
 
-ErgunCloth ergun_cloth(const PressureDrop& law, const Air& air) {
+ErgunCloth ergun_cloth(const PressureDrop& law, const ErgunAir& air) {
   if (!(law.a > 0) || !(law.b > 0))
     throw Error(
         ExitCode::bad_data,

@@ -34,7 +34,7 @@ double velocity_at(const PressureDrop& law, double pressure);
 /// Flow in cubic feet a minute through a square foot at half an inch of water (124.5 Pa), ASTM D737's unit.
 double cfm(const PressureDrop& law);
 
-struct Air {
+struct ErgunAir {
   double density = 1.225;      // [kg/m3]
   double viscosity = 1.81e-5;  // [Pa s]
 };
@@ -45,9 +45,9 @@ struct ErgunCloth {
   double thickness = 0;  // [m]
 };
 /// a = 150 mu / (36 t gamma^3), b = 1.75 rho / (6 gamma^3). Throws Error(bad_data) outside the ranges.
-PressureDrop ergun(const ErgunCloth& cloth, const Air& air = {});
+PressureDrop ergun(const ErgunCloth& cloth, const ErgunAir& air = {});
 /// The other way: both follow from a and b. Throws Error(bad_data) when a or b is not above 0 or gamma would
 /// be 1 or more.
-ErgunCloth ergun_cloth(const PressureDrop& law, const Air& air = {});
+ErgunCloth ergun_cloth(const PressureDrop& law, const ErgunAir& air = {});
 
 }  // namespace ripstop
