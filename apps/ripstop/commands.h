@@ -16,5 +16,6 @@ void add_coupon(CLI::App& app, int& status);
 void add_inflate(CLI::App& app, int& status);
 void add_pattern(CLI::App& app, int& status);
 void add_flow_parity(CLI::App& app, int& status);
+void add_calibrate(CLI::App& app, int& status);
 
 }  // namespace ripstop

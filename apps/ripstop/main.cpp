@@ -27,6 +27,7 @@ int main(int argc, char** argv) {
   add_inflate(app, status);
   add_pattern(app, status);
   add_flow_parity(app, status);
+  add_calibrate(app, status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
