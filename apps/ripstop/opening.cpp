@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/error.h"
@@ -99,8 +100,9 @@ LoadSource load_source(const Case& value, const fs::path& steady_run) {
 }
 
 InflationProblem opening_problem(const Case& value, const LoadSource& source, int threads) {
-  return {parachute_mesh(value), value.inflation, pressure_of(value, source, threads), value.coupling.linear,
-          threads};
+  return {
+      parachute_mesh(value), value.inflation, pressure_of(value, source, threads),
+      value.coupling.linear, threads,         std::gcd(value.parachute.gores, value.parachute.lines.count)};
 }
 
 }  // namespace ripstop

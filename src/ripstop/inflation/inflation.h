@@ -19,6 +19,7 @@ struct InflationProblem {
   double pressure = 0;  // dp [Pa]
   bool linear = false;  // keep only K_1 of every law
   int threads = 0;
+  int symmetry = 1;  // turns by 2 pi / symmetry map the parachute as cut onto itself
 };
 
 /// Axial load on the riser (downstream > 0) over one interval of the history.
@@ -34,6 +35,7 @@ struct InflationFrame {
   double step = 0, stable_step = 0;  // used, and allowed at the present strain [s]
   CanopySize size;
   StressPeak stress;
+  double asymmetry = 0;  // largest distance of a node from where a turn by 2 pi / symmetry puts its like [m]
 
   /// Share of the work that the other three do not account for.
   double residual() const;

@@ -26,7 +26,7 @@ const std::vector<std::string> history_columns = {"time_s", "load_mean_n", "load
 const std::vector<std::string> balance_columns = {
     "time_s",           "pressure_work_j", "kinetic_energy_j",  "elastic_energy_j",     "damped_energy_j",
     "residual",         "step_s",          "stable_step_s",     "projected_diameter_m", "projected_area_m2",
-    "skirt_diameter_m", "canopy_length_m", "max_von_mises_n_m", "max_cloth_strain"};
+    "skirt_diameter_m", "canopy_length_m", "max_von_mises_n_m", "max_cloth_strain",     "asymmetry_m"};
 // The first work is so small that its residual says nothing.
 constexpr double share_of_work_judged = 0.1;
 
@@ -48,7 +48,8 @@ std::vector<double> row_of(const InflationFrame& f) {
           f.size.skirt_diameter,
           f.size.length,
           f.stress.von_mises,
-          f.stress.strain};
+          f.stress.strain,
+          f.asymmetry};
 }
 
 fs::path shape_file(const char* what, long long frame) {
