@@ -13,6 +13,7 @@ namespace {
 void opening(benchmark::State& bench) {
   Case value = read_case(data_directory() / "examples" / "stratos-iv" / "case.toml");
   value.parachute.mesh.cloth_nodes = static_cast<int>(bench.range(0));
+  value.parachute.mesh.line_segment_m = 1e-3 * static_cast<double>(bench.range(2));
   value.parachute.mesh.folds = value.parachute.lines.count;
   value.inflation.duration_s = 1;
   value.inflation.frames = 1000;
@@ -27,11 +28,15 @@ void opening(benchmark::State& bench) {
   bench.counters["steps_per_ms"] = steps / static_cast<double>(bench.iterations());
 }
 BENCHMARK(opening)
-    ->Args({25600, 1})
-    ->Args({25600, 2})
+    ->ArgNames({"nodes", "threads", "segment_mm"})
+    ->Args({25600, 1, 50})
+    ->Args({25600, 2, 50})
+    ->Args({25600, 2, 75})
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime()
     ->Iterations(20);
 
 }  // namespace
 }  // namespace ripstop
+
+BENCHMARK_MAIN();
