@@ -98,6 +98,15 @@ TEST(Inflation, TheWorkOfThePressureIsAccountedForWithinOnePercent) {
   EXPECT_LT(std::abs(frame.residual()), 0.01);
 }
 
+TEST(Inflation, TheDampersOfTheClothAreInTheBalance) {
+  InflationProblem problem = small_problem(500, 0.02);
+  problem.settings.cloth_damping_s = 1e-5;
+  Inflation solver(problem);
+  InflationState state = solver.start();
+  run(solver, state);
+  EXPECT_LT(std::abs(solver.frame(state).residual()), 0.01);
+}
+
 TEST(Inflation, ASymmetricStartOpensSymmetrically) {
   Inflation solver(small_problem(500, 0.02));
   InflationState state = solver.start();

@@ -100,6 +100,8 @@ void describe(Fields& fields, InflationSettings& inflation) {
                 "The same in proportion to the square of the speed.");
   fields.number("line_damping_s", inflation.line_damping_s, from(0).up_to(1e-3),
                 "Relative damping of lines and tape as a time: C = line_damping_s K_1 / L0 (assumed).");
+  fields.number("cloth_damping_s", inflation.cloth_damping_s, from(0).up_to(1e-3),
+                "Relative damping of the cloth's springs, likewise (none assumed).");
   fields.number("duration_s", inflation.duration_s, above(0).up_to(1000), "Time from deployment to the end.");
   fields.number(
       "history_hz", inflation.history_hz, from(10).up_to(1e6),

@@ -39,10 +39,23 @@ double InflationFrame::residual() const {
   return pressure_work > 0 ? (pressure_work - kinetic - elastic - damped) / pressure_work : 0;
 }
 
-void damp_lines(Mesh& mesh, double time) {
+void damp_springs(Mesh& mesh, double line_time, double cloth_time) {
   for (Spring& spring : mesh.springs) {
     const SpringLaw& law = mesh.laws[spring.law];
-    spring.damping += time * law.tangent(0) * spring.scale / spring.rest_length;
+    spring.damping += line_time * law.tangent(0) * spring.scale / spring.rest_length;
+  }
+  if (cloth_time == 0) return;
+  for (Patch& patch : mesh.patches) {
+    for (int d = 0; d < direction_count; ++d) {
+      double sum = 0;
+      int count = 0;
+      for (std::size_t i = 0; i < patch.width[d].size(); ++i) {
+        if (patch.width[d][i] <= 0) continue;
+        sum += patch.width[d][i] / patch.rest_length[d][i];
+        ++count;
+      }
+      if (count > 0) patch.damping[d] += cloth_time * patch.law[d].tangent(0) * sum / count;
+    }
   }
 }
 
@@ -54,7 +67,7 @@ Inflation::Inflation(InflationProblem problem) : problem_(std::move(problem)), t
   }
   folded_ = fold(problem_.mesh, {*s.initial_radius_m, s.folds, s.slack_m});
   mesh_ = with_creases(problem_.mesh, folded_.folds);
-  damp_lines(mesh_, s.line_damping_s);
+  damp_springs(mesh_, s.line_damping_s, s.cloth_damping_s);
   cloth_ = make_cloth(mesh_, {problem_.linear, s.damping_n_s_m3, s.quadratic_damping_n_s2_m4});
 
   const double frame = s.duration_s / s.frames;

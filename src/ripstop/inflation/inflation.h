@@ -101,8 +101,8 @@ class Inflation {
   double row_ = 0;  // [s]
 };
 
-/// Lines, riser and tape get dampers C = time K_1 w / L0: a Kelvin-Voigt solid whose loss does not depend on
-/// the mesh.
-void damp_lines(Mesh& mesh, double time);
+/// Lines, riser and tape get dampers C = `line_time` K_1 w / L0 and the cloth's springs C = `cloth_time` K_1
+/// (mean of w / L0): Kelvin-Voigt solids whose loss does not depend on the mesh. Times in [s].
+void damp_springs(Mesh& mesh, double line_time, double cloth_time);
 
 }  // namespace ripstop
