@@ -26,12 +26,15 @@
 namespace ripstop {
 namespace {
 
-constexpr double margin = 1.2;        // on the masses, for stiffening between two refreshes
-constexpr int steps_a_look = 50;      // between looks at the applied load and the report
-constexpr int steps_a_refresh = 400;  // of the masses
-// A start far from equilibrium (sails with fullness, gathered cloth) strains tape, which stiffens tenfold, by
-// tenths within a few steps: at first the masses follow closely.
-constexpr int wild_steps = 500, steps_a_wild_refresh = 5;
+constexpr double margin = 1.2;    // on the masses, for stiffening between two refreshes
+constexpr int steps_a_look = 50;  // between looks at the applied load and the report
+// Steps between two refreshes of the masses: they follow closely while the cloth is far from equilibrium.
+// Tape stiffens tenfold at strains that a wild start (sails with fullness, gathered cloth) or the jerk of
+// lines that come taut makes within a few steps.
+int steps_a_refresh(const RelaxResult& result) {
+  if (result.steps < 500) return 5;
+  return result.residual > 1 ? steps_a_look : 400;
+}
 
 Sweep::Fictitious fictitious_masses(const Cloth& cloth, const ClothState& state) {
   Sweep::Fictitious masses{node_stiffness(cloth, state).stiffness};
@@ -72,8 +75,8 @@ RelaxResult relax(ClothState& state, const Cloth& cloth, const Loads& loads, con
       result.unbalanced_moment = norm(applied.moment);
     }
     const double scale = std::max(applied.norm, options.least_load);
-    const bool wild = result.steps < wild_steps;
-    const int count = std::min(wild ? steps_a_wild_refresh : steps_a_look, options.max_steps - result.steps);
+    const int refresh_after = steps_a_refresh(result);
+    const int count = std::min({steps_a_look, refresh_after, options.max_steps - result.steps});
     int done = 0;
     team.run([&](int rank) {
       for (int i = 0; i < count; ++i) {
@@ -100,7 +103,7 @@ RelaxResult relax(ClothState& state, const Cloth& cloth, const Loads& loads, con
     if (pivot && !result.converged) stop_turning(cloth, state, masses.mass, *pivot);
     if (report) report({result.steps, result.residual, fictitious_energy(cloth, state, masses.mass)});
     since_refresh += done;
-    if (since_refresh >= (wild ? steps_a_wild_refresh : steps_a_refresh) && !result.converged) {
+    if (since_refresh >= refresh_after && !result.converged) {
       since_refresh = 0;
       masses = fictitious_masses(cloth, state);
       sweep.set_masses(masses);
