@@ -19,6 +19,7 @@ struct Known {
   const char* example;
   double low, high;    // projected over nominal diameter
   bool folds = false;  // more cloth at the skirt than its inflated circle needs
+  int nodes = 3000;    // enough for the diameter; the scallops of 18 lines need more
 };
 
 // Knacke (NWC TP 6575) gives the projected over the nominal diameter in flight: flat circular 0.67 to 0.70,
@@ -26,7 +27,7 @@ struct Known {
 // 0.66 to 0.72, disk-gap-band 0.65. Uniform pressure opens a canopy farther than the flow does, whose
 // pressure falls toward the skirt; so the band reaches from there to a tenth above.
 const Known known[] = {
-    {"stratos-iv", 0.65, 0.72},
+    {"stratos-iv", 0.65, 0.72, false, 12000},
     {"flat-circular", 0.67, 0.77, true},
     {"conical", 0.70, 0.77},
     {"hemispherical", 0.66, 0.73},
@@ -47,7 +48,7 @@ INSTANTIATE_TEST_SUITE_P(All, InflatedShape, testing::ValuesIn(known), [](const 
 TEST_P(InflatedShape, HasTheDiameterOfItsTypeAndTheSymmetryOfItsLines) {
   Case value =
       read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples" / GetParam().example / "case.toml");
-  value.parachute.mesh.cloth_nodes = 3000;
+  value.parachute.mesh.cloth_nodes = GetParam().nodes;
   const Mesh mesh = parachute_mesh(value);
   const ClothPtr cloth = make_cloth(mesh);
   ClothState state = start_state(*cloth);
