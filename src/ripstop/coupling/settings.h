@@ -11,7 +11,7 @@ struct CouplingSettings {
   int max_iterations = 20;
   double relaxation = 1;  // of the pressure; 1: the flow's answer is taken whole
   Acceleration acceleration = Acceleration::anderson;
-  double cloth_tolerance = 1e-4;  // RelaxOptions::tolerance
+  double cloth_tolerance = 5e-4;  // RelaxOptions::tolerance
   bool linear = false;            // keep only K_1 of every law
   int threads = 0;                // 0: as many as the machine has
 };

@@ -76,7 +76,7 @@ SidePressures sample_sides(const FlowField& field, const std::vector<int>& porou
     // A plane with normal n cuts cells whose centres are up to half of this away from it.
     const double thickness = std::abs(n.x) * h.x + std::abs(n.y) * h.y + std::abs(n.z) * h.z;
     const auto side = [&](double sign) {
-      for (double distance = 1.0; distance <= 4.0; distance += 0.25) {
+      for (double distance = 0.75; distance <= 4.0; distance += 0.25) {
         const Vec3 direction = sign * n;
         const auto p = one_sided(field, cut, centre + distance * thickness * direction, centre, direction);
         if (p) return *p;

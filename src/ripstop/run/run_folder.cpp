@@ -107,7 +107,7 @@ void open_run_folder(const RunSettings& settings, const Case& value, const std::
 }
 
 RunFolder::RunFolder(const RunSettings& settings, const Case& value, const std::string& engine, int threads)
-    : folder_(settings.folder) {
+    : folder_(settings.folder), title_(value.title) {
   open_run_folder(settings, value, engine, threads);
 }
 
@@ -167,6 +167,12 @@ void RunFolder::write_iteration(const SteadySolver& solver, const SteadyState& s
   write_vtp(folder_ / fmt::format("vtk/lines_{:03}.vtp", k), lines);
   write_series(k);
 
+  write_canopy_picture(folder_ / "canopy.png", mesh, state.shape,
+                       {fmt::format("{}, coupling iteration {}: drag {:.1f} N", title_, k,
+                                    state.iterations.back().fluid_force),
+                        "von Mises stress [N/m]",
+                        mises,
+                        {}});
   CsvTable table{{"line", "free_tension_n", "largest_tension_n"}, {}};
   for (const LineTension& t : line_tensions(mesh, tensions)) {
     table.rows.push_back({t.radial + 1.0, t.free_tension, t.largest_tension});
@@ -179,15 +185,6 @@ void RunFolder::write_iteration(const SteadySolver& solver, const SteadyState& s
 void RunFolder::write_result(const SteadySolver& solver, const SteadyState& state, const Case& value) {
   const SteadyResult r = steady_result(solver, state, value);
   write_stl(folder_ / "canopy.stl", surface_of(solver.cells(), state.shape));
-
-  std::vector<double> mises;
-  for (const CellStress& s : cell_stress(solver.cloth(), solver.cloth_state(state)))
-    mises.push_back(s.von_mises);
-  write_canopy_picture(folder_ / "canopy.png", solver.mesh(), state.shape,
-                       {fmt::format("{}: {:.3g} m/s, drag {:.1f} N", value.title, r.speed, r.drag),
-                        "von Mises stress [N/m]",
-                        mises,
-                        {}});
   Plot plot;
   plot.title = value.title;
   plot.x.label = "coupling iteration";

@@ -22,8 +22,6 @@ struct RunSettings {
 /// but a run of Ripstop is never emptied: Error(usage).
 void open_run_folder(const RunSettings& settings, const Case& value, const std::string& solver, int threads);
 
-enum class RunStatus { started, resumed, already_done };
-
 class RunFolder {
  public:
   /// As open_run_folder().
@@ -38,15 +36,16 @@ class RunFolder {
   /// iterations.csv is cut back to what the checkpoint holds.
   void go_on_from(const SteadyState& state);
   /// Files of one finished coupling iteration: its row, the lines' tensions, canopy, lines and flow for
-  /// ParaView.
+  /// ParaView, a picture.
   void write_iteration(const SteadySolver& solver, const SteadyState& state, const FlowField& field);
-  /// canopy.stl, canopy.png, drag.png and, last, result.json.
+  /// canopy.stl, drag.png and, last, result.json.
   void write_result(const SteadySolver& solver, const SteadyState& state, const Case& value);
 
  private:
   void write_series(std::size_t iterations) const;
 
   std::filesystem::path folder_;
+  std::string title_;
 };
 
 /// The program's summary of one finished run, as in result.json.
