@@ -64,26 +64,17 @@ class OpenFoam : public FlowEngine {
   FlowField solve(const FlowProblem& problem, const FlowReport& report) override {
     check(problem);
     const Basis basis{problem.grid, problem.air, problem.duct, settings_.ranks, settings_.second_order};
-    if (!basis_ || !(*basis_ == basis)) prepare(problem, basis);
-    write_problem(problem);
-
-    const std::string start = latest_time(part_folder(0));
-    fs::remove(folder_ / kStopFile);
-    SolverLog log(!problem.porous.empty());
-    const ProcessResult result = run_solver(report, log);
-    explain_failure(result, log);
-
-    const std::string time = latest_time(part_folder(0));
-    if (time == start) {
-      throw Error(ExitCode::external,
-                  fmt::format("{} ended with {} but left no fields in {}; see {}", kSolver, describe(result),
-                              folder_.string(), log_file(kSolver).string()));
+    const bool warm = basis_ && *basis_ == basis && latest_time(part_folder(0)) != "0";
+    if (!warm) prepare(problem, basis);
+    try {
+      return continue_solve(problem, report);
+    } catch (const Error& error) {
+      // Porous cells that have moved far can throw the old field off: then from uniform flow, once.
+      if (!warm || error.code() != ExitCode::diverged) throw;
+      clear();
+      prepare(problem, basis);
+      return continue_solve(problem, report);
     }
-    FlowField field = read_case(mesh_, time, problem);
-    field.last = log.progress();
-    field.converged = log.converged();
-    purge(time);
-    return field;
   }
 
   void save(const fs::path& folder) const override {
@@ -113,6 +104,27 @@ class OpenFoam : public FlowEngine {
   }
 
  private:
+  FlowField continue_solve(const FlowProblem& problem, const FlowReport& report) {
+    write_problem(problem);
+    const std::string start = latest_time(part_folder(0));
+    fs::remove(folder_ / kStopFile);
+    SolverLog log(!problem.porous.empty());
+    const ProcessResult result = run_solver(report, log);
+    explain_failure(result, log);
+
+    const std::string time = latest_time(part_folder(0));
+    if (time == start) {
+      throw Error(ExitCode::external,
+                  fmt::format("{} ended with {} but left no fields in {}; see {}", kSolver, describe(result),
+                              folder_.string(), log_file(kSolver).string()));
+    }
+    FlowField field = read_case(mesh_, time, problem);
+    field.last = log.progress();
+    field.converged = log.converged();
+    purge(time);
+    return field;
+  }
+
   fs::path part_folder(int rank) const {
     return settings_.ranks == 1 ? folder_ : folder_ / fmt::format("processor{}", rank);
   }
@@ -252,11 +264,16 @@ class OpenFoam : public FlowEngine {
     const int signal = result.signal != 0       ? result.signal
                        : result.exit_code > 128 ? result.exit_code - 128
                                                 : 0;
-    if (log.not_a_number() || log.floating_point_trap() || signal == SIGFPE) {
+    const bool impossible = log.fatal().find("Negative initial temperature") != std::string::npos;
+    if (log.not_a_number() || log.floating_point_trap() || impossible || signal == SIGFPE) {
       throw Error(ExitCode::diverged,
                   fmt::format("the flow diverged at {} of this solve: {}. Try a coarser "
                               "grid, a lower resistance or a slower air speed (log: {})",
-                              where, log.not_a_number() ? "not a number" : "floating-point trap", file));
+                              where,
+                              impossible           ? "negative temperature"
+                              : log.not_a_number() ? "not a number"
+                                                   : "floating-point trap",
+                              file));
     }
     if (result.timed_out) {
       throw Error(ExitCode::external,
