@@ -5,12 +5,14 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <memory>
 
 #include "commands.h"
 #include "progress.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/error.h"
+#include "ripstop/flow/cartesian/cartesian.h"
 #include "ripstop/flow/openfoam/installation.h"
 #include "ripstop/flow/openfoam/openfoam.h"
 #include "ripstop/run/checkpoint.h"
@@ -107,16 +109,30 @@ int show_finished(const std::string& result, const fs::path& folder) {
                                                                  : static_cast<int>(ExitCode::not_converged);
 }
 
+// Known before the engine is made: making it clears the flow's folder, which may still be another run's.
+std::string name_of_engine(const Case& value) {
+  if (value.flow.engine == EngineKind::builtin) return make_cartesian()->name();
+  return "OpenFOAM " + openfoam::find_installation({}, value.flow.ranks > 1).version;
+}
+
+std::unique_ptr<FlowEngine> make_engine(const Case& value, const fs::path& folder, const fs::path& hostfile) {
+  if (value.flow.engine == EngineKind::builtin) {
+    CartesianSettings settings;
+    settings.threads = value.coupling.threads;
+    return make_cartesian(settings);
+  }
+  OpenFoamSettings settings;
+  settings.folder = folder;
+  settings.ranks = value.flow.ranks;
+  settings.hostfile = hostfile;
+  settings.time_limit_s = value.flow.time_limit_s > 0 ? value.flow.time_limit_s : 1e9;
+  return make_openfoam(settings);
+}
+
 int run(const Options& options) {
   const Case value = read_case(options.case_file, options.overrides);
   const fs::path folder =
       options.out.empty() ? fs::path("runs") / options.case_file.parent_path().filename() : options.out;
-
-  OpenFoamSettings foam;
-  foam.folder = folder / "flow";
-  foam.ranks = value.flow.ranks;
-  foam.hostfile = options.hostfile;
-  if (value.flow.time_limit_s > 0) foam.time_limit_s = value.flow.time_limit_s;
 
   const SteadyProblem problem = steady_problem(value);
   if (options.dry_run) {
@@ -127,10 +143,10 @@ int run(const Options& options) {
   }
 
   ThreadTeam team(value.coupling.threads);
-  const std::string engine_name = "OpenFOAM " + openfoam::find_installation({}, foam.ranks > 1).version;
+  const std::string engine_name = name_of_engine(value);
   RunFolder files({folder, options.fresh}, value, engine_name, team.size());
   if (const auto result = files.finished_result()) return show_finished(*result, folder);
-  const std::unique_ptr<FlowEngine> engine = make_openfoam(foam);
+  const std::unique_ptr<FlowEngine> engine = make_engine(value, folder / "flow", options.hostfile);
   SteadySolver solver(problem, *engine);
   SteadyState state = solver.start();
   Progress progress;
@@ -188,6 +204,9 @@ void add_steady(CLI::App& app, int& status) {
   command->add_option("--grid", options->grid, "Cells NX,NY,NZ of the flow's box")
       ->delimiter(',')
       ->expected(3);
+  command->add_option("--flow", options->overrides.engine, "Flow engine: openfoam or builtin")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, EngineKind>{
+          {"openfoam", EngineKind::openfoam}, {"builtin", EngineKind::builtin}}));
   command->add_option("--ranks", options->overrides.ranks, "MPI processes for the flow");
   command->add_option("--hostfile", options->hostfile, "Hosts for MPI")->check(CLI::ExistingFile);
   command->add_flag("--linear", options->overrides.linear,

@@ -18,7 +18,7 @@
 
 namespace ripstop {
 
-enum class EngineKind { openfoam };
+enum class EngineKind { openfoam, builtin };
 enum class SpeedBasis { nominal, measured };
 enum class PorosityModel { paper };
 
@@ -77,6 +77,7 @@ struct Overrides {
   std::optional<double> speed = {};             // --speed [m/s]
   std::optional<std::array<int, 3>> grid = {};  // --grid nx ny nz
   std::optional<int> ranks = {};                // --ranks
+  std::optional<EngineKind> engine = {};        // --flow
   bool linear = false;                          // --linear
 };
 

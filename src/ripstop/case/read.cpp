@@ -146,6 +146,10 @@ std::vector<std::string> set_values(const Overrides& overrides, Case& value) {
     note("flow.cells", "--grid");
     for (int i = 0; i < 3; ++i) note(fmt::format("flow.cells[{}]", i), "--grid");
   }
+  if (overrides.engine) {
+    value.flow.engine = *overrides.engine;
+    note("flow.engine", "--flow");
+  }
   if (overrides.ranks) {
     value.flow.ranks = *overrides.ranks;
     note("flow.ranks", "--ranks");
