@@ -5,7 +5,14 @@ namespace ripstop {
 
 enum class Acceleration { none, aitken, anderson };
 
+/// What the flow's answer becomes on the cloth; either way the axial sum is the flow's force on the canopy.
+enum class CanopyLoad {
+  uniform,  // one pressure difference everywhere: force over the canopy's axial area
+  sampled   // the pressures read on both sides of the cloth, scaled by one factor
+};
+
 struct CouplingSettings {
+  CanopyLoad load = CanopyLoad::uniform;
   double drag_tolerance = 1e-3;     // change of drag between two iterations, relative
   double shape_tolerance_m = 1e-3;  // mean displacement of the nodes between two iterations
   int max_iterations = 20;

@@ -159,21 +159,26 @@ FlowField SteadySolver::iterate(SteadyState& state, const SteadyReport& report) 
   now.fluid_force = field.porous_force.z;
   now.momentum_deficit = field.momentum_deficit;
 
-  // Pressure on both sides. The flow's force on the cut cells also holds what the resistance takes along the
-  // cloth, and the staircase of cut cells is not the cloth: the sampled differences are scaled to the same
-  // axial force, so that fluid and cloth agree on the drag. The factor is reported.
+  // The flow's force on the cut cells also holds what the resistance takes along the cloth, and the staircase
+  // of cut cells is not the cloth: sampled differences do not add up to it. The factor between them is
+  // reported.
   state.sides = sample_sides(field, porous, cells_, shape);
   std::vector<double> answer = state.sides.difference();
   now.transfer_factor = now.fluid_force / pressure_force(cells_, shape, answer).z;
-  if (!(now.transfer_factor > 0) || !std::isfinite(now.transfer_factor)) {
-    throw Error(
-        ExitCode::diverged,
-        fmt::format(
-            "coupling iteration {}: the pressures beside the cloth add up to {:.3g} N against the "
-            "flow, whose force is {:.3g} N; the grid is too coarse for this canopy or the flow is wrong",
-            now.iteration, now.fluid_force / now.transfer_factor, now.fluid_force));
+  if (settings.load == CanopyLoad::uniform) {
+    const std::vector<double> one(cells_.size(), 1.0);
+    answer.assign(cells_.size(), now.fluid_force / pressure_force(cells_, shape, one).z);
+  } else {
+    if (!(now.transfer_factor > 0) || !std::isfinite(now.transfer_factor)) {
+      throw Error(
+          ExitCode::diverged,
+          fmt::format("coupling iteration {}: the pressures beside the cloth add up to {:.3g} N against the "
+                      "flow, whose force is {:.3g} N; the grid is too coarse for this canopy or the flow is "
+                      "wrong",
+                      now.iteration, now.fluid_force / now.transfer_factor, now.fluid_force));
+    }
+    for (double& dp : answer) dp *= now.transfer_factor;
   }
-  for (double& dp : answer) dp *= now.transfer_factor;
 
   now.drag_change = state.iterations.empty()
                         ? std::numeric_limits<double>::infinity()

@@ -21,7 +21,7 @@ struct SteadyIteration {
   double nodal_load = 0;         // sum of the pressure loads on the cloth's nodes
   double line_tension = 0;       // of the cloth on its fixed end
   double momentum_deficit = 0;   // through the faces of the flow's box
-  double transfer_factor = 0;    // fluid force over the force of the sampled pressures, see SteadySolver
+  double transfer_factor = 0;    // fluid force over the force of the sampled pressures
   double drag_change = 0;        // relative to the iteration before; infinite at the first
   double shape_change = 0;       // e_k = mean |x^{k+1} - x^k| [m], [NFM] Eq. 18
   double omega = 0;              // |X_{k+1} - X_k| / |X_k|, [NFM] Eq. 19
