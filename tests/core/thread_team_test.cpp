@@ -13,7 +13,7 @@ TEST(ThreadTeam, EveryRankRunsOnceAndPartsCoverTheRange) {
     ThreadTeam team(threads);
     std::vector<int> hits(1003);
     team.run([&](int rank) {
-      const Range part = part_of(static_cast<int>(hits.size()), rank, team.size());
+      const IndexRange part = part_of(static_cast<int>(hits.size()), rank, team.size());
       for (int i = part.begin; i < part.end; ++i) ++hits[i];
     });
     EXPECT_EQ(hits, std::vector<int>(1003, 1)) << threads << " threads";

@@ -83,7 +83,7 @@ void Sweep::prepare(int threads) {
   for (int row = 0; row < cloth_.row_count; ++row)
     vectors_before[row + 1] = vectors_before[row] + cloth_.patches[cloth_.row_patch[row]].vectors;
   const auto edge = [&](int rank) {
-    const Range part = part_of(vectors_before.back(), rank, threads);
+    const IndexRange part = part_of(vectors_before.back(), rank, threads);
     return static_cast<int>(std::lower_bound(vectors_before.begin(), vectors_before.end(), part.begin) -
                             vectors_before.begin());
   };
@@ -108,7 +108,7 @@ void Sweep::prepare(int threads) {
 
 void Sweep::add_forces(int rank) {
   Worker& worker = workers_[rank];
-  const Range springs =
+  const IndexRange springs =
       part_of(static_cast<int>(cloth_.springs.size()), rank, static_cast<int>(workers_.size()));
   pull_springs(springs.begin, springs.end);
   for (const Piece& piece : worker.pieces) sweep_piece(worker, piece);
@@ -229,7 +229,8 @@ void Sweep::move_kept(int rank) {
   // The nodes of a row belong to the row's thread, which has moved its neighbours; the others are dealt out.
   for (int row = worker.begin_row; row < worker.end_row; ++row)
     kept_sums_[row] = move_kept_nodes(cloth_.kept_of_row[row], cloth_.kept_of_row[row + 1], worker.pace);
-  const Range blocks = part_of(static_cast<int>(loose_sums_.size()), rank, static_cast<int>(workers_.size()));
+  const IndexRange blocks =
+      part_of(static_cast<int>(loose_sums_.size()), rank, static_cast<int>(workers_.size()));
   const int loose = cloth_.kept_of_row.back(), all = static_cast<int>(cloth_.kept.size());
   for (int block = blocks.begin; block < blocks.end; ++block)
     loose_sums_[block] = move_kept_nodes(loose + block * kept_block,

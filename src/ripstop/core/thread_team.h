@@ -9,13 +9,13 @@
 namespace ripstop {
 
 /// A half-open range of indices.
-struct Range {
+struct IndexRange {
   int begin = 0;
   int end = 0;
 };
 
 /// Part `rank` of `count` items split into `parts` nearly equal, contiguous pieces.
-constexpr Range part_of(int count, int rank, int parts) {
+constexpr IndexRange part_of(int count, int rank, int parts) {
   const auto edge = [&](int r) { return static_cast<int>(static_cast<long long>(count) * r / parts); };
   return {edge(rank), edge(rank + 1)};
 }

@@ -70,7 +70,7 @@ void smooth_plane(MultigridLevel& level, int colour, int k, bool from_zero) {
 }
 
 // rhs of the coarse level = sum of the fine residuals in each coarse cell.
-void restrict_planes(MultigridLevel& fine, MultigridLevel& coarse, Range planes) {
+void restrict_planes(MultigridLevel& fine, MultigridLevel& coarse, IndexRange planes) {
   const Layout& lay = coarse.layout;
   Array<float> sum(fine.layout.nx + 1);
   for (int k = planes.begin; k < planes.end; ++k) {
@@ -91,7 +91,7 @@ void restrict_planes(MultigridLevel& fine, MultigridLevel& coarse, Range planes)
   }
 }
 
-void prolong_planes(MultigridLevel& fine, MultigridLevel& coarse, Range planes) {
+void prolong_planes(MultigridLevel& fine, MultigridLevel& coarse, IndexRange planes) {
   const Layout& lay = coarse.layout;
   Array<float> mixed(lay.nx);
   for (int k = planes.begin; k < planes.end; ++k) {
@@ -113,7 +113,7 @@ void prolong_planes(MultigridLevel& fine, MultigridLevel& coarse, Range planes) 
 // Conductance of a coarse face. Along each fine line through it the path from centre to centre crosses the
 // face itself and half of what lies inside either coarse cell, in series; the lines are in parallel. A thin
 // wall is so kept wherever it lies between the coarse faces.
-void coarsen_planes(const MultigridLevel& fine, MultigridLevel& coarse, Range planes) {
+void coarsen_planes(const MultigridLevel& fine, MultigridLevel& coarse, IndexRange planes) {
   const Layout &lay = coarse.layout, &from = fine.layout;
   const MultigridLevel::Joint &y = coarse.y, &z = coarse.z;
   const int n = from.nx;
@@ -206,7 +206,7 @@ void Multigrid::cycle(std::size_t l, ThreadTeam* team, int rank) {
   const auto barrier = [&] {
     if (team) team->barrier();
   };
-  const Range planes = part_of(level.layout.nz, rank, parts);
+  const IndexRange planes = part_of(level.layout.nz, rank, parts);
   // Both colours in one walk: the second runs a plane behind the first, while its neighbours are still in
   // cache. At the ends of a thread's planes it waits until the other threads have done their first colour.
   const auto sweep = [&](int first, bool from_zero) {
@@ -242,7 +242,7 @@ void Multigrid::cycle(std::size_t l, ThreadTeam* team, int rank) {
 void Multigrid::solve(ThreadTeam& team, int rank, int cycles) {
   coarsen(team, rank);
   MultigridLevel& top = finest();
-  const Range planes = part_of(top.layout.nz + 2, rank, team.size());  // ghosts too
+  const IndexRange planes = part_of(top.layout.nz + 2, rank, team.size());  // ghosts too
   std::fill(top.e.begin() + static_cast<std::ptrdiff_t>(planes.begin) * top.layout.stride_z,
             top.e.begin() + static_cast<std::ptrdiff_t>(planes.end) * top.layout.stride_z, 0.0f);
   team.barrier();

@@ -107,7 +107,7 @@ void Solver::start_from(const Solver& other) {
                                const std::vector<Pair>& py, const std::vector<Pair>& pz, bool fx, bool fy,
                                bool fz) {
     const auto work = [&](int rank) {
-      const Range planes = part_of(grid_.nz + (fz ? 1 : 0), rank, team_.size());
+      const IndexRange planes = part_of(grid_.nz + (fz ? 1 : 0), rank, team_.size());
       for (int k = planes.begin; k < planes.end; ++k) {
         for (int j = 0; j < grid_.ny + (fy ? 1 : 0); ++j) {
           for (int i = 0; i < grid_.nx + (fx ? 1 : 0); ++i) {
@@ -149,7 +149,7 @@ void Solver::fill_ghosts() {
 
 // Rows to planes in parallel, planes to totals on rank 0; always in the same order.
 void Solver::add_up(int rank, int from, int to) {
-  const Range planes = part_of(grid_.nz, rank, team_.size());
+  const IndexRange planes = part_of(grid_.nz, rank, team_.size());
   for (int k = planes.begin; k < planes.end; ++k) {
     for (int name = from; name <= to; ++name) planes_[k].value[name] = 0;
     for (int j = 0; j < grid_.ny; ++j) {
@@ -168,31 +168,31 @@ void Solver::add_up(int rank, int from, int to) {
 
 FlowProgress Solver::iterate() {
   team_.run([this](int rank) {
-    const Range planes = part_of(grid_.nz, rank, team_.size());
+    const IndexRange planes = part_of(grid_.nz, rank, team_.size());
     const auto each_plane = [&](auto stage) {
       for (int k = planes.begin; k < planes.end; ++k) stage(k);
       team_.barrier();
     };
     const int count = block_count(grid_);
-    const Range blocks = part_of(count, rank, team_.size());
+    const IndexRange blocks = part_of(count, rank, team_.size());
     const auto each_block = [&](auto stage) {
       for (int b = blocks.begin; b < blocks.end; ++b) stage(part_of(grid_.ny, b, count));
       team_.barrier();
     };
     const auto each_plane_of_a_block = [&](auto stage) {
-      each_block([&](Range rows) {
+      each_block([&](IndexRange rows) {
         for (int k = 0; k < grid_.nz; ++k) stage(k, rows);
       });
     };
-    each_block([&](Range rows) { march(rank, rows); });
+    each_block([&](IndexRange rows) { march(rank, rows); });
     if (rank == 0) std::swap(f_.k, new_k_), std::swap(f_.omega, new_omega_);
     team_.barrier();
     each_plane([&](int k) { march_ghosts(k); });
-    each_plane_of_a_block([&](int k, Range rows) { pressure(k, rows); });
+    each_plane_of_a_block([&](int k, IndexRange rows) { pressure(k, rows); });
     multigrid_.solve(team_, rank, settings_.pressure_cycles);
     each_plane([&](int k) { correction_ghosts(k); });
-    each_plane_of_a_block([&](int k, Range rows) { flux(k, rows); });
-    each_plane_of_a_block([&](int k, Range rows) { velocity(k, rows); });
+    each_plane_of_a_block([&](int k, IndexRange rows) { flux(k, rows); });
+    each_plane_of_a_block([&](int k, IndexRange rows) { velocity(k, rows); });
     each_plane([&](int k) { relax_pressure(k), velocity_ghosts(k); });
     add_up(rank, 0, Sums::count - 1);
   });

@@ -97,14 +97,14 @@ class Solver {
 
  private:
   // Turbulence and momentum (solver_march.cpp); H/A, 1/A, new k and omega.
-  void march(int rank, Range rows);
-  void eddy_viscosity(MarchRings& rings, int k, Range rows) const;
-  void turbulence(MarchRings& rings, int k, Range rows);
-  void momentum(MarchRings& rings, int k, Range rows);
+  void march(int rank, IndexRange rows);
+  void eddy_viscosity(MarchRings& rings, int k, IndexRange rows) const;
+  void turbulence(MarchRings& rings, int k, IndexRange rows);
+  void momentum(MarchRings& rings, int k, IndexRange rows);
   // The rest (solver_correct.cpp).
-  void pressure(int k, Range rows);
-  void flux(int k, Range rows);
-  void velocity(int k, Range rows);
+  void pressure(int k, IndexRange rows);
+  void flux(int k, IndexRange rows);
+  void velocity(int k, IndexRange rows);
   void relax_pressure(int k);
   void side_ghosts(Array<double>& field, int k, double across_x, double across_y) const;
   void end_ghosts(Array<double>& field, int k, double inlet, double back) const;

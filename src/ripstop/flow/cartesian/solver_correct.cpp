@@ -41,7 +41,7 @@ void Solver::march_ghosts(int k) {
   side_ghosts(f_.omega, k, 1, 1), end_ghosts(f_.omega, k, inlet_omega_, inlet_omega_);
 }
 
-void Solver::pressure(int k, Range rows) {
+void Solver::pressure(int k, IndexRange rows) {
   MultigridLevel& top = multigrid_.finest();
   const bool last = k == grid_.nz - 1;
   for (int j = rows.begin; j < rows.end; ++j) {
@@ -67,7 +67,7 @@ void Solver::pressure(int k, Range rows) {
 }
 
 // Face fluxes with the whole correction, before the pressure is relaxed.
-void Solver::flux(int k, Range rows) {
+void Solver::flux(int k, IndexRange rows) {
   const MultigridLevel& top = multigrid_.finest();
   for (int j = rows.begin; j < rows.end; ++j) {
     const std::ptrdiff_t at = layout_.at(0, j, k), sy = layout_.stride_y, sz = layout_.stride_z;
@@ -140,7 +140,7 @@ void Solver::velocity_ghosts(int k) {
   }
 }
 
-void Solver::velocity(int k, Range rows) {
+void Solver::velocity(int k, IndexRange rows) {
   for (int j = rows.begin; j < rows.end; ++j) {
     const std::ptrdiff_t at = layout_.at(0, j, k);
     VelocityRow r;

@@ -38,7 +38,7 @@ MarchRings::MarchRings(std::size_t plane_) : plane(plane_) {
   scratch = Array<double>(plane);
 }
 
-void Solver::march(int rank, Range rows) {
+void Solver::march(int rank, IndexRange rows) {
   MarchRings& rings = rings_[rank];
   eddy_viscosity(rings, 0, rows);
   for (int s = 0; s <= grid_.nz; ++s) {
@@ -49,7 +49,7 @@ void Solver::march(int rank, Range rows) {
 }
 
 // Two rows beyond the block, as far as the grid goes; the kernel never needs more.
-void Solver::eddy_viscosity(MarchRings& rings, int k, Range rows) const {
+void Solver::eddy_viscosity(MarchRings& rings, int k, IndexRange rows) const {
   for (int j = std::max(rows.begin - 2, 0); j < std::min(rows.end + 2, grid_.ny); ++j) {
     const std::ptrdiff_t at = layout_.at(0, j, k);
     eddy_viscosity_row(grid_.nx, &f_.rho[at], &f_.k[at], &f_.omega[at],
@@ -57,7 +57,7 @@ void Solver::eddy_viscosity(MarchRings& rings, int k, Range rows) const {
   }
 }
 
-void Solver::turbulence(MarchRings& rings, int k, Range rows) {
+void Solver::turbulence(MarchRings& rings, int k, IndexRange rows) {
   const bool first = k == 0, last = k == grid_.nz - 1;
   const std::ptrdiff_t sz = layout_.stride_z, component = static_cast<std::ptrdiff_t>(rings.plane);
   const bool northward = iteration_ % 2 == 0;  // the way the rows are walked
@@ -120,7 +120,7 @@ void Solver::turbulence(MarchRings& rings, int k, Range rows) {
   }
 }
 
-void Solver::momentum(MarchRings& rings, int k, Range rows) {
+void Solver::momentum(MarchRings& rings, int k, IndexRange rows) {
   const bool first = k == 0, last = k == grid_.nz - 1;
   const std::ptrdiff_t sz = layout_.stride_z, component = static_cast<std::ptrdiff_t>(rings.plane);
   const double *zeros = &constant_.zeros[Layout::lead], *inlet_w = &constant_.inlet_w[Layout::lead];
