@@ -19,8 +19,8 @@ const Kind& material(const Case& value, const std::string& name) {
 }  // namespace
 
 void describe(Fields& fields, FlowSettings& flow) {
-  fields.choice("engine", flow.engine, {{"openfoam", EngineKind::openfoam}, {"builtin", EngineKind::builtin}},
-                "Flow solver: OpenFOAM's rhoPorousSimpleFoam, or the built-in one with the same equations.");
+  fields.choice("engine", flow.engine, {{"builtin", EngineKind::builtin}, {"openfoam", EngineKind::openfoam}},
+                "Flow solver: the built-in one, or OpenFOAM's rhoPorousSimpleFoam with the same equations.");
   fields
       .number("speed_m_s", flow.speed_m_s, above(0).up_to(100),
               "Free-stream speed; below Mach 0.3, where the canopy's flow model holds.")

@@ -18,13 +18,13 @@
 
 namespace ripstop {
 
-enum class EngineKind { openfoam, builtin };
+enum class EngineKind { builtin, openfoam };
 enum class SpeedBasis { nominal, measured };
 enum class PorosityModel { paper };
 
 /// [flow]
 struct FlowSettings {
-  EngineKind engine = EngineKind::openfoam;
+  EngineKind engine = EngineKind::builtin;
   double speed_m_s = 0;
   SpeedBasis speed_basis = SpeedBasis::nominal;
   std::optional<double> density_kg_m3;  // absent: from the row of [[measured]] with this nominal speed

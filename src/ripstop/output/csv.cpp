@@ -129,7 +129,7 @@ void CsvLog::add(const std::vector<double>& row) {
   append_to_file(path_, row_line(path_, columns_, row));
 }
 
-void CsvLog::add(const std::vector<std::vector<double>>& rows) {
+void CsvLog::add_rows(const std::vector<std::vector<double>>& rows) {
   std::string lines;
   for (const std::vector<double>& row : rows) lines += row_line(path_, columns_, row);
   append_to_file(path_, lines);

@@ -35,7 +35,7 @@ class CsvLog {
 
   /// The row is on the disk when this returns. Throws as write_csv().
   void add(const std::vector<double>& row);
-  void add(const std::vector<std::vector<double>>& rows);
+  void add_rows(const std::vector<std::vector<double>>& rows);
 
  private:
   std::filesystem::path path_;

@@ -207,9 +207,9 @@ void InflationFolder::write_frame(const Inflation& solver, const InflationState&
 
 void InflationFolder::save(const InflationState& state) {
   CsvLog history(folder_ / "history.csv", history_columns);
-  history.add(pending_rows_);
+  history.add_rows(pending_rows_);
   CsvLog balance(folder_ / "balance.csv", balance_columns);
-  balance.add(pending_frames_);
+  balance.add_rows(pending_frames_);
   pending_rows_.clear();
   pending_frames_.clear();
   write_sealed(folder_ / "checkpoint", to_bytes(state));

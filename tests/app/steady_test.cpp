@@ -1,0 +1,122 @@
+// ripstop steady as a user runs it: the real OpenFOAM on a small grid, killed and started again.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "ripstop/core/file.h"
+#include "ripstop/output/csv.h"
+
+namespace ripstop {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+pid_t start(const std::vector<std::string>& arguments) {
+  const pid_t child = fork();
+  if (child == 0) {
+    std::vector<char*> argv{const_cast<char*>(RIPSTOP_PROGRAM)};
+    for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
+    argv.push_back(nullptr);
+    execv(RIPSTOP_PROGRAM, argv.data());
+    _exit(127);
+  }
+  return child;
+}
+
+int wait_for(pid_t child) {
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+class Steady : public testing::Test {
+ protected:
+  void SetUp() override {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    std::string text = read_file(fs::path(RIPSTOP_SOURCE_DIR) / "examples/stratos-iv/case.toml");
+    const std::string nodes = "cloth_nodes = 25600";
+    text.replace(text.find(nodes), nodes.size(), "cloth_nodes = 1500");
+    write_file(folder_ / "case.toml", text);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::vector<std::string> command(const std::string& out, const std::string& engine) const {
+    return {
+        "steady", (folder_ / "case.toml").string(), "--flow", engine, "--speed", "10", "--grid", "24,24,36",
+        "--out",  (folder_ / out).string()};
+  }
+  json result(const std::string& out) const { return json::parse(read_file(folder_ / out / "result.json")); }
+
+  fs::path folder_ = fs::temp_directory_path() / ("ripstop_steady_test_" + std::to_string(getpid()));
+};
+
+void expect_closed_ledger(const json& r) {
+  EXPECT_TRUE(r.at("converged").get<bool>());
+  const double fluid = r.at("ledger").at("fluid_force_n");
+  EXPECT_GT(fluid, 0);
+  for (const char* other : {"nodal_load_n", "line_tension_n", "momentum_deficit_n"}) {
+    EXPECT_NEAR(r.at("ledger").at(other).get<double>() / fluid, 1, 0.01) << other;
+  }
+}
+
+TEST_F(Steady, WithOpenFoamTheLedgerClosesAndAKilledRunEndsWithTheSameNumbers) {
+  ASSERT_EQ(wait_for(start(command("whole", "openfoam"))), 0);
+  const json whole = result("whole");
+  expect_closed_ledger(whole);
+  for (const char* file :
+       {"run.json", "iterations.csv", "lines.csv", "canopy.pvd", "canopy.stl", "canopy.png", "drag.png",
+        "flow.vti", "vtk/canopy_001.vtp", "flow/system/controlDict"}) {
+    EXPECT_TRUE(fs::exists(folder_ / "whole" / file)) << file;
+  }
+  EXPECT_EQ(read_csv(folder_ / "whole" / "lines.csv").rows.size(), 18u);
+
+  // Killed as soon as the first coupling iteration is on the disk, in the middle of the second.
+  const pid_t child = start(command("killed", "openfoam"));
+  while (!fs::exists(folder_ / "killed" / "checkpoint" / "current")) {
+    ASSERT_EQ(waitpid(child, nullptr, WNOHANG), 0) << "ended before its first checkpoint";
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  kill(child, SIGKILL);
+  wait_for(child);
+  EXPECT_FALSE(fs::exists(folder_ / "killed" / "result.json"));
+  ASSERT_EQ(wait_for(start(command("killed", "openfoam"))), 0);
+  const json resumed = result("killed");
+  for (const char* key :
+       {"drag_n", "projected_diameter_m", "max_line_tension_n", "max_von_mises_n_m", "coupling_iterations"}) {
+    EXPECT_EQ(resumed.at(key), whole.at(key)) << key;
+  }
+  EXPECT_EQ(read_csv(folder_ / "killed" / "iterations.csv").rows.size(),
+            whole.at("coupling_iterations").get<std::size_t>());
+}
+
+TEST_F(Steady, WithTheBuiltInEngineTheDragIsThatOfOpenFoam) {
+  ASSERT_EQ(wait_for(start(command("builtin", "builtin"))), 0);
+  const json builtin = result("builtin");
+  expect_closed_ledger(builtin);
+  ASSERT_EQ(wait_for(start(command("foam", "openfoam"))), 0);
+  EXPECT_NEAR(builtin.at("drag_n").get<double>() / result("foam").at("drag_n").get<double>(), 1, 0.005);
+}
+
+TEST_F(Steady, AFolderOfAnotherRunIsRefusedAndAFinishedOneIsOnlyShown) {
+  ASSERT_EQ(wait_for(start(command("run", "builtin"))), 0);
+  const auto written = fs::last_write_time(folder_ / "run" / "result.json");
+  EXPECT_EQ(wait_for(start(command("run", "builtin"))), 0);
+  EXPECT_EQ(fs::last_write_time(folder_ / "run" / "result.json"), written);
+  std::vector<std::string> other = command("run", "builtin");
+  other[5] = "12";
+  EXPECT_EQ(wait_for(start(other)), 2);
+  EXPECT_EQ(fs::last_write_time(folder_ / "run" / "result.json"), written);
+}
+
+}  // namespace
+}  // namespace ripstop

@@ -1,0 +1,169 @@
+// The steady loop and its checkpoints on a flow that is a formula, so that every expected number is known.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "ripstop/case/assemble.h"
+#include "ripstop/core/error.h"
+#include "ripstop/core/file.h"
+#include "ripstop/coupling/steady.h"
+#include "ripstop/run/checkpoint.h"
+
+namespace ripstop {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Force proportional to the number of cut cells, reached geometrically over the iterations. It remembers its
+// last force, as an engine remembers its last field.
+class FormulaFlow : public FlowEngine {
+ public:
+  std::string name() const override { return "formula"; }
+
+  FlowField solve(const FlowProblem& problem, const FlowReport& report) override {
+    FlowField field;
+    field.grid = problem.grid;
+    field.pressure.assign(problem.grid.cells(), 0.0);
+    field.velocity.assign(problem.grid.cells(), Vec3{0, 0, problem.air.speed});
+    const int layer = problem.grid.nx * problem.grid.ny;
+    std::fill_n(field.pressure.begin(), layer * 17, 100.0);  // up to z = 2.27 m: within the canopy
+    const double target = 0.05 * double(problem.porous.at(0).cells.size()) * problem.air.speed;
+    bool wanted = true;
+    for (int i = 1; i <= problem.max_iterations && wanted && !field.converged; ++i) {
+      force_ += 0.3 * (target - force_);
+      field.last = {i, std::abs(target - force_) / target, 0, 0, 0, 0, force_};
+      field.converged = field.last.residual_u < problem.residual;
+      wanted = report(field.last);
+    }
+    field.porous_force = {0, 0, force_};
+    field.momentum_deficit = force_;
+    return field;
+  }
+
+  void save(const fs::path& folder) const override {
+    write_file(folder / "force", std::string(reinterpret_cast<const char*>(&force_), sizeof force_));
+  }
+  void restore(const fs::path& folder) override {
+    const std::string bytes = read_file(folder / "force");
+    std::copy(bytes.begin(), bytes.end(), reinterpret_cast<char*>(&force_));
+  }
+
+ private:
+  double force_ = 1;
+};
+
+SteadyProblem small_problem(CanopyLoad load = CanopyLoad::uniform) {
+  Case value = read_case(fs::path(RIPSTOP_SOURCE_DIR) / "examples/stratos-iv/case.toml");
+  value.parachute.mesh.cloth_nodes = 800;
+  value.flow.cells = {20, 20, 30};
+  value.coupling.load = load;
+  value.coupling.threads = 1;
+  return steady_problem(value);
+}
+
+struct Folder {
+  fs::path path = fs::temp_directory_path() / ("ripstop_steady_run_test_" + std::to_string(getpid()));
+  Folder() { fs::remove_all(path); }
+  ~Folder() { fs::remove_all(path); }
+};
+
+TEST(SteadyRun, TheLedgerClosesAndTheLoadIsTheFlowsForce) {
+  FormulaFlow flow;
+  SteadySolver solver(small_problem(), flow);
+  SteadyState state = solver.start();
+  while (!solver.finished(state)) solver.iterate(state);
+  ASSERT_TRUE(state.converged);
+  const SteadyIteration& last = state.iterations.back();
+  EXPECT_GE(state.iterations.size(), 2u);
+  EXPECT_TRUE(last.flow_converged);
+  EXPECT_NEAR(last.nodal_load / last.fluid_force, 1, 0.01);
+  EXPECT_NEAR(last.line_tension / last.nodal_load, 1, 1e-3);
+  EXPECT_LT(last.drag_change, 1e-3);
+}
+
+TEST(SteadyRun, ACheckpointGivesBackEveryBit) {
+  FormulaFlow flow;
+  SteadySolver solver(small_problem(), flow);
+  SteadyState state = solver.start();
+  solver.iterate(state);
+  const std::string bytes = to_bytes(state);
+  const SteadyState again = steady_state_from_bytes(bytes);
+  EXPECT_EQ(again.shape, state.shape);
+  EXPECT_EQ(again.pressure, state.pressure);
+  EXPECT_EQ(again.accelerator.residuals, state.accelerator.residuals);
+  EXPECT_EQ(to_bytes(again), bytes);
+  EXPECT_THROW(steady_state_from_bytes(bytes.substr(0, bytes.size() / 2)), Error);
+}
+
+TEST(SteadyRun, ARunThatWasKilledBetweenIterationsGoesOnBitForBit) {
+  FormulaFlow whole_flow;
+  SteadySolver whole(small_problem(), whole_flow);
+  SteadyState undisturbed = whole.start();
+  for (int k = 0; k < 3; ++k) whole.iterate(undisturbed);
+
+  Folder folder;
+  {
+    FormulaFlow flow;
+    SteadySolver solver(small_problem(), flow);
+    SteadyState state = solver.start();
+    for (int k = 0; k < 2; ++k) {
+      solver.iterate(state);
+      save_checkpoint(folder.path, state, flow);
+    }
+    solver.iterate(state);  // lost: the process ends before its checkpoint
+  }
+  FormulaFlow flow;
+  SteadySolver solver(small_problem(), flow);
+  auto state = load_checkpoint(folder.path, flow);
+  ASSERT_TRUE(state);
+  ASSERT_EQ(state->iterations.size(), 2u);
+  solver.iterate(*state);
+  EXPECT_EQ(state->shape, undisturbed.shape);
+  EXPECT_EQ(state->iterations.back().fluid_force, undisturbed.iterations.back().fluid_force);
+}
+
+TEST(SteadyRun, ADamagedCheckpointIsNeverReadAsOne) {
+  FormulaFlow flow;
+  SteadySolver solver(small_problem(), flow);
+  SteadyState state = solver.start();
+  solver.iterate(state);
+  Folder folder;
+  EXPECT_FALSE(load_checkpoint(folder.path, flow));
+  save_checkpoint(folder.path, state, flow);
+  const fs::path file = folder.path / "odd" / "state";
+  std::string bytes = read_file(file);
+  bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+  write_file(file, bytes);
+  EXPECT_THROW(load_checkpoint(folder.path, flow), Error);
+  fs::resize_file(file, bytes.size() / 2);
+  EXPECT_THROW(load_checkpoint(folder.path, flow), Error);
+}
+
+TEST(SteadyRun, SampledPressuresAreScaledToTheFlowsForce) {
+  FormulaFlow flow;
+  SteadySolver solver(small_problem(CanopyLoad::sampled), flow);
+  SteadyState state = solver.start();
+  solver.iterate(state);
+  // Relaxation 1 and the first iteration: the next load is the flow's answer itself.
+  EXPECT_NEAR(pressure_force(solver.cells(), state.shape, state.pressure).z / state.iterations[0].fluid_force,
+              1, 1e-9);
+}
+
+TEST(SteadyRun, ACanopyOutsideTheBoxIsRefused) {
+  SteadyProblem problem = small_problem();
+  for (Vec3& x : problem.mesh.start) x.z += 10;
+  FormulaFlow flow;
+  try {
+    SteadySolver solver(std::move(problem), flow);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::usage);
+    EXPECT_NE(std::string(error.what()).find("does not fit"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace ripstop
