@@ -4,7 +4,7 @@ namespace ripstop {
 namespace {
 
 // Knacke, NWC TP 6575, Tables 5-1 (solid textile) and 5-2 (slotted canopies), column "opening force
-// coefficient C_x (inf. mass)".
+// coefficient C_x (inf. mass)". Written down from memory and not yet checked against the print.
 double coefficient_of(const DiskGapBand&) {
   return 1.3;
 }
@@ -35,7 +35,7 @@ double coefficient_of(const Ringsail&) {
 
 OpeningEstimate opening_estimate(const Design& design, double steady_drag) {
   const double c = std::visit([](const auto& canopy) { return coefficient_of(canopy); }, design.canopy);
-  return {c, c * steady_drag, "Knacke, NWC TP 6575, Tables 5-1 and 5-2, infinite mass"};
+  return {c, c * steady_drag, "Knacke, NWC TP 6575, Tables 5-1 and 5-2, infinite mass; values not checked against the print"};
 }
 
 }  // namespace ripstop
