@@ -44,8 +44,8 @@ struct CouponFit {
   std::vector<std::string> notes, warnings;
 };
 
-/// Minimises sum over the directions of 1 - R2 between coupon and mean curve over xi in [0.01, 0.6] and eps in
-/// [0, 0.2] with BOBYQA (M. Powell 2009, as in NLopt). Pulls in the plane hardly feel eps: where 0 -> 0.1
+/// Minimises sum over the directions of 1 - R2 between coupon and mean curve over xi in [0.01, 0.6] and eps
+/// in [0, 0.2] with BOBYQA (M. Powell 2009, as in NLopt). Pulls in the plane hardly feel eps: where 0 -> 0.1
 /// moves no load by `bending_threshold`, eps stays at its start, and xi is searched alone (COBYLA); else a
 /// prior of weight 1e-4 about the start keeps the optimum single. Without a 45 deg curve nothing is searched.
 /// Throws Error(not_converged) when no coupon comes to rest.

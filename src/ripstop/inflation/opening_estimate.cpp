@@ -35,7 +35,8 @@ double coefficient_of(const Ringsail&) {
 
 OpeningEstimate opening_estimate(const Design& design, double steady_drag) {
   const double c = std::visit([](const auto& canopy) { return coefficient_of(canopy); }, design.canopy);
-  return {c, c * steady_drag, "Knacke, NWC TP 6575, Tables 5-1 and 5-2, infinite mass; values not checked against the print"};
+  return {c, c * steady_drag,
+          "Knacke, NWC TP 6575, Tables 5-1 and 5-2, infinite mass; values not checked against the print"};
 }
 
 }  // namespace ripstop

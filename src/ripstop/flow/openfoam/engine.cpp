@@ -266,14 +266,13 @@ class OpenFoam : public FlowEngine {
                                                 : 0;
     const bool impossible = log.fatal().find("Negative initial temperature") != std::string::npos;
     if (log.not_a_number() || log.floating_point_trap() || impossible || signal == SIGFPE) {
-      throw Error(ExitCode::diverged,
-                  fmt::format("the flow diverged at {} of this solve: {}. Try a coarser "
-                              "grid, a lower resistance or a slower air speed (log: {})",
-                              where,
-                              impossible           ? "negative temperature"
-                              : log.not_a_number() ? "not a number"
-                                                   : "floating-point trap",
-                              file));
+      throw Error(ExitCode::diverged, fmt::format("the flow diverged at {} of this solve: {}. Try a coarser "
+                                                  "grid, a lower resistance or a slower air speed (log: {})",
+                                                  where,
+                                                  impossible           ? "negative temperature"
+                                                  : log.not_a_number() ? "not a number"
+                                                                       : "floating-point trap",
+                                                  file));
     }
     if (result.timed_out) {
       throw Error(ExitCode::external,
