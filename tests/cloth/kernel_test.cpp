@@ -102,13 +102,13 @@ TEST(ClothKernel, TenThousandStepsAreTheSameToTheLastBitOnAnyNumberOfThreads) {
     set_positions(state, *cloth, d.mesh.start);
     set_velocities(state, *cloth, d.v);
     const double dt = 0.5 * step_bound(*cloth, state).stable_step;
-    step(state, *cloth, d.loads, dt, threads <= 2 ? 10000 : 500, team);
+    step(state, *cloth, d.loads, dt, threads <= 4 ? 10000 : 500, team);
     if (threads == 1) {
       first = state;
       continue;
     }
     ClothState compared = first;
-    if (threads > 2) {
+    if (threads > 4) {
       ThreadTeam alone(1);
       compared = start_state(*cloth);
       set_velocities(compared, *cloth, d.v);
