@@ -1,5 +1,5 @@
 // The cloth: lumped masses, nonlinear springs, follower pressure, [NFM] section 2 as mended in
-// docs/theory.md.
+// docs/theory/cloth.md.
 #pragma once
 
 #include <functional>
