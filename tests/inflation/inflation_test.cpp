@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "../printed_materials.h"
 #include "ripstop/core/error.h"
 #include "ripstop/inflation/pressure.h"
 #include "ripstop/parachute/build.h"
@@ -24,18 +25,7 @@ Mesh small_canopy(int nodes = 1200) {
   design.mesh.cloth_nodes = nodes;
   design.mesh.line_segment_m = 0.15;
   design.mesh.folds = 6;
-  PartMaterials m;
-  m.canopy.name = "f-111";
-  m.canopy.coefficients_n_m = {30006, -18936};
-  m.canopy.tested_strain = 0.33;
-  m.canopy.areal_density_kg_m2 = 0.0407;
-  m.line.coefficients_n = {211895, 489633};
-  m.line.linear_density_kg_m = 2e-3;
-  m.riser = m.line;
-  m.tape.coefficients_n_m = {3064.2, 68823.4};
-  m.tape.width_m = 0.02;
-  m.tape.linear_density_kg_m = 6e-3;
-  return build_mesh(design, m);
+  return build_mesh(design, printed_materials());
 }
 
 InflationProblem small_problem(double pressure, double duration) {

@@ -10,6 +10,7 @@
 #include <numeric>
 #include <set>
 
+#include "../printed_materials.h"
 #include "ripstop/cloth/cloth.h"
 #include "ripstop/core/error.h"
 #include "ripstop/parachute/build.h"
@@ -36,21 +37,6 @@ Design walrus(int nodes = 50300) {
   return design;
 }
 
-PartMaterials materials() {
-  PartMaterials m;
-  m.canopy.name = "f-111";
-  m.canopy.coefficients_n_m = {30006, -18936};
-  m.canopy.tested_strain = 0.33;
-  m.canopy.areal_density_kg_m2 = 0.0407;
-  m.line.coefficients_n = {211895, 489633};
-  m.line.linear_density_kg_m = 2e-3;
-  m.riser = m.line;
-  m.tape.coefficients_n_m = {3064.2, 68823.4};
-  m.tape.width_m = 0.02;
-  m.tape.linear_density_kg_m = 6e-3;
-  return m;
-}
-
 int cloth_nodes(const Mesh& mesh) {
   int count = 0;
   for (const Patch& patch : mesh.patches) count += patch.rows * patch.columns;
@@ -66,18 +52,18 @@ double cloth_area(const Mesh& mesh) {
 
 TEST(DiskGapBand, TheClothIsThePatternsWithinATenthOfAPercent) {
   for (const Design& design : {stratos(3000), stratos(), walrus()}) {
-    const Mesh mesh = build_mesh(design, materials());
+    const Mesh mesh = build_mesh(design, printed_materials());
     EXPECT_NEAR(cloth_area(mesh) / computed_area(design), 1, 1e-3);
     EXPECT_NEAR(cloth_nodes(mesh) / double(design.mesh.cloth_nodes), 1, 0.05);
   }
   // Disk minus vent plus band: 1.7215 m2 and 2.938 m2 [NFM] section 2.
-  EXPECT_NEAR(cloth_area(build_mesh(stratos(), materials())), 1.7215, 0.0005);
-  EXPECT_NEAR(cloth_area(build_mesh(walrus(), materials())), 2.938, 0.001);
+  EXPECT_NEAR(cloth_area(build_mesh(stratos(), printed_materials())), 1.7215, 0.0005);
+  EXPECT_NEAR(cloth_area(build_mesh(walrus(), printed_materials())), 2.938, 0.001);
 }
 
 TEST(DiskGapBand, TheMassIsThatOfClothTapeAndLines) {
   const Design design = stratos();
-  const PartMaterials m = materials();
+  const PartMaterials m = printed_materials();
   const Mesh mesh = build_mesh(design, m);
   const double hems = pi * (1.0 + 1.0 + 1.0 + 0.09);  // skirt, upper band edge, disk edge, vent
   const double seams = 6 * (0.3 + 0.455);
@@ -90,7 +76,7 @@ TEST(DiskGapBand, TheMassIsThatOfClothTapeAndLines) {
 }
 
 TEST(DiskGapBand, TheStartShapeHasNoStress) {
-  const Mesh mesh = build_mesh(stratos(6000), materials());
+  const Mesh mesh = build_mesh(stratos(6000), printed_materials());
   for (const Patch& patch : mesh.patches) {
     for (const Direction d : {along_row, along_column, shear_up, shear_down, bend_column}) {
       for (int row = 0; row < patch.rows; ++row) {
@@ -116,7 +102,7 @@ TEST(DiskGapBand, TheStartShapeHasNoStress) {
 }
 
 TEST(DiskGapBand, TheQuadsFaceFromTheInsideToTheOutside) {
-  const Mesh mesh = build_mesh(stratos(3000), materials());
+  const Mesh mesh = build_mesh(stratos(3000), printed_materials());
   for (const Cell& cell : cells_of(mesh)) {
     if (cell.corner[0] < 0) continue;
     const Vec3 a = mesh.start[cell.corner[0]];
@@ -132,7 +118,7 @@ TEST(DiskGapBand, TheQuadsFaceFromTheInsideToTheOutside) {
 
 TEST(DiskGapBand, TheSpringsStayNearTheMeanSpacingAlsoRoundTheVent) {
   for (const Design& design : {stratos(), walrus()}) {
-    const Mesh mesh = build_mesh(design, materials());
+    const Mesh mesh = build_mesh(design, printed_materials());
     const double mean = std::sqrt(computed_area(design) / design.mesh.cloth_nodes);
     for (const Patch& patch : mesh.patches) {
       for (const Direction d : {along_row, along_column}) {
@@ -148,7 +134,7 @@ TEST(DiskGapBand, TheSpringsStayNearTheMeanSpacingAlsoRoundTheVent) {
 
 TEST(DiskGapBand, TheStepIsAtLeastFourMicrosecondsOnStratosAndWalrus) {
   for (const Design& design : {stratos(), walrus()}) {
-    const ClothPtr cloth = make_cloth(build_mesh(design, materials()));
+    const ClothPtr cloth = make_cloth(build_mesh(design, printed_materials()));
     const StepBound bound = step_bound(*cloth, start_state(*cloth));
     EXPECT_GE(bound.stable_step, 4e-6) << bound.part << " node " << bound.node;
   }
@@ -156,7 +142,7 @@ TEST(DiskGapBand, TheStepIsAtLeastFourMicrosecondsOnStratosAndWalrus) {
 
 // A rotation by one gore maps nodes, masses and springs onto nodes, masses and springs.
 TEST(DiskGapBand, TheMeshHasTheSymmetryOfItsGores) {
-  const Mesh mesh = build_mesh(stratos(3000), materials());
+  const Mesh mesh = build_mesh(stratos(3000), printed_materials());
   const auto key = [](Vec3 p) {
     return std::array<long, 3>{std::lround(p.x * 1e7), std::lround(p.y * 1e7), std::lround(p.z * 1e7)};
   };
@@ -178,7 +164,7 @@ TEST(DiskGapBand, TheMeshHasTheSymmetryOfItsGores) {
 }
 
 TEST(DiskGapBand, EveryLineRunsFromTheConfluenceOverTheBandAndTheGapToTheVent) {
-  const Mesh mesh = build_mesh(stratos(), materials());
+  const Mesh mesh = build_mesh(stratos(), printed_materials());
   ASSERT_EQ(mesh.lines.size(), 18u);
   for (const LineRun& line : mesh.lines) {
     double length = 0;
@@ -201,7 +187,7 @@ TEST(DiskGapBand, EveryLineRunsFromTheConfluenceOverTheBandAndTheGapToTheVent) {
 TEST(DiskGapBand, ARiserHoldsTheConfluence) {
   Design design = stratos(3000);
   design.riser.length_m = 0.4;
-  const Mesh mesh = build_mesh(design, materials());
+  const Mesh mesh = build_mesh(design, printed_materials());
   ASSERT_EQ(mesh.fixed.size(), 1u);
   EXPECT_NEAR(norm(mesh.start[mesh.fixed[0]] - mesh.start[mesh.confluence]), 0.4, 1e-12);
   double length = 0;
@@ -214,7 +200,7 @@ TEST(DiskGapBand, TooFewNodesForTheSeamsAreRefusedWithTheReason) {
   design.gores = 7;
   design.lines.count = 19;
   try {
-    build_mesh(design, materials());
+    build_mesh(design, printed_materials());
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::usage);

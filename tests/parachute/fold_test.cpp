@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "../printed_materials.h"
 #include "ripstop/core/error.h"
 #include "ripstop/parachute/build.h"
 
@@ -24,23 +25,8 @@ Design disk_gap_band(int nodes, int gores, int lines) {
   return design;
 }
 
-PartMaterials materials() {
-  PartMaterials m;
-  m.canopy.name = "f-111";
-  m.canopy.coefficients_n_m = {30006, -18936};
-  m.canopy.tested_strain = 0.33;
-  m.canopy.areal_density_kg_m2 = 0.0407;
-  m.line.coefficients_n = {211895, 489633};
-  m.line.linear_density_kg_m = 2e-3;
-  m.riser = m.line;
-  m.tape.coefficients_n_m = {3064.2, 68823.4};
-  m.tape.width_m = 0.02;
-  m.tape.linear_density_kg_m = 6e-3;
-  return m;
-}
-
 Mesh stratos() {
-  return build_mesh(disk_gap_band(25600, 6, 18), materials());
+  return build_mesh(disk_gap_band(25600, 6, 18), printed_materials());
 }
 
 double radius(Vec3 p) {
@@ -123,7 +109,7 @@ TEST(Fold, SlackLinesAreLongerThanTheirWayByTheGivenLengthAndKeepTheirOwn) {
 }
 
 TEST(Fold, LinesThatEndOnInnerAndOuterFoldsAreSlackWhereTheirWayIsShorter) {
-  const Mesh mesh = build_mesh(disk_gap_band(25600, 6, 36), materials());
+  const Mesh mesh = build_mesh(disk_gap_band(25600, 6, 36), printed_materials());
   const FoldedStart start = fold(mesh, {0.12, 18, 0});  // every second line on an outer fold
   EXPECT_LT(start_strain(mesh, start.positions).largest, 1e-9);
 }
