@@ -28,6 +28,7 @@ int main(int argc, char** argv) {
   add_pattern(app, status);
   add_flow_parity(app, status);
   add_calibrate(app, status);
+  add_sweep(app, status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

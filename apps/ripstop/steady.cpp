@@ -13,11 +13,8 @@
 #include "progress.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/error.h"
-#include "ripstop/flow/cartesian/cartesian.h"
-#include "ripstop/flow/openfoam/installation.h"
-#include "ripstop/flow/openfoam/openfoam.h"
-#include "ripstop/run/checkpoint.h"
 #include "ripstop/run/run_folder.h"
+#include "ripstop/run/steady_run.h"
 #include "warnings.h"
 
 namespace ripstop {
@@ -33,6 +30,7 @@ struct Options {
   fs::path out;
   bool fresh = false;
   bool dry_run = false;
+  std::vector<std::string> set;
 };
 
 // Iterations still to come: as many as the drag's change needs at its rate of fall so far, five at the first.
@@ -110,84 +108,59 @@ int show_finished(const std::string& result, const fs::path& folder) {
                                                                  : static_cast<int>(ExitCode::not_converged);
 }
 
-// Known before the engine is made: making it clears the flow's folder, which may still be another run's.
-std::string name_of_engine(const Case& value) {
-  if (value.flow.engine == EngineKind::builtin) return make_cartesian()->name();
-  return "OpenFOAM " + openfoam::find_installation({}, value.flow.ranks > 1).version;
-}
-
-std::unique_ptr<FlowEngine> make_engine(const Case& value, const fs::path& folder, const fs::path& hostfile) {
-  if (value.flow.engine == EngineKind::builtin) {
-    CartesianSettings settings;
-    settings.threads = value.coupling.threads;
-    return make_cartesian(settings);
-  }
-  OpenFoamSettings settings;
-  settings.folder = folder;
-  settings.ranks = value.flow.ranks;
-  settings.hostfile = hostfile;
-  settings.time_limit_s = value.flow.time_limit_s > 0 ? value.flow.time_limit_s : 1e9;
-  return make_openfoam(settings);
-}
-
 int run(const Options& options) {
   const Case value = read_case(options.case_file, options.overrides);
   const fs::path folder =
       options.out.empty() ? fs::path("runs") / options.case_file.parent_path().filename() : options.out;
 
-  const SteadyProblem problem = steady_problem(value);
   if (options.dry_run) {
+    const SteadyProblem problem = steady_problem(value);
     fmt::print("{}: {} nodes, {} x {} x {} cells, {:.4g} m/s, {} ranks; would run in {}\n", value.title,
                problem.mesh.node_count(), problem.flow.grid.nx, problem.flow.grid.ny, problem.flow.grid.nz,
                problem.flow.air.speed, value.flow.ranks, folder.string());
     return 0;
   }
 
-  ThreadTeam team(value.coupling.threads);
-  const std::string engine_name = name_of_engine(value);
-  RunFolder files({folder, options.fresh}, value, engine_name, team.size());
-  if (const auto result = files.finished_result()) return show_finished(*result, folder);
-  const std::unique_ptr<FlowEngine> engine = make_engine(value, folder / "flow", options.hostfile);
-  SteadySolver solver(problem, *engine);
-  SteadyState state = solver.start();
   Progress progress;
-  if (auto saved = load_checkpoint(files.checkpoint_folder(), *engine)) {
-    state = std::move(*saved);
-    progress.line(
-        fmt::format("going on after coupling iteration {} of {}", state.iterations.size(), folder.string()));
-  }
-  files.go_on_from(state);
-  progress.line(fmt::format("{}: {}, {} cloth nodes, {}", value.title, engine->name(),
-                            problem.mesh.node_count(), folder.string()));
-  progress.line(iteration_header);
-  for (const SteadyIteration& i : state.iterations) progress.line(iteration_text(i));
-
   const auto begin = std::chrono::steady_clock::now();
-  while (!solver.finished(state)) {
-    const double before = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    const FlowField field = solver.iterate(state, [&](const SteadyProgress& p) {
-      const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-      double left = 0;
-      if (!state.iterations.empty()) {
-        left =
-            iterations_left(state, value.coupling) * state.iterations.back().wall_time - (elapsed - before);
-      }
-      progress.show(progress_text(p, elapsed, left));
-    });
-    files.write_iteration(solver, state, field);
-    save_checkpoint(files.checkpoint_folder(), state, *engine);
+  const auto elapsed = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  };
+  double before = 0;  // elapsed at the end of the last iteration
+  SteadyRunEvents events;
+  events.begun = [&](const SteadyState& state, const std::string& engine, int nodes) {
+    if (!state.iterations.empty()) {
+      progress.line(fmt::format("going on after coupling iteration {} of {}", state.iterations.size(),
+                                folder.string()));
+    }
+    progress.line(fmt::format("{}: {}, {} cloth nodes, {}", value.title, engine, nodes, folder.string()));
+    progress.line(iteration_header);
+    for (const SteadyIteration& i : state.iterations) progress.line(iteration_text(i));
+  };
+  events.progress = [&](const SteadyProgress& p, const SteadyState& state) {
+    const double now = elapsed();
+    double left = 0;
+    if (!state.iterations.empty()) {
+      left = iterations_left(state, value.coupling) * state.iterations.back().wall_time - (now - before);
+    }
+    progress.show(progress_text(p, now, left));
+  };
+  events.iterated = [&](const SteadyState& state) {
+    before = elapsed();
     progress.line(iteration_text(state.iterations.back()));
-  }
-  files.write_result(solver, state, value);
-  const SteadyResult result = steady_result(solver, state, value);
+  };
+  const SteadyRunOutcome outcome =
+      run_steady(value, {{folder, options.fresh}, 0, options.hostfile, {}}, events);
+  if (outcome.already_finished) return show_finished(outcome.json, folder);
+  const SteadyResult& result = outcome.result;
   print_result(result, value, folder);
   print_material_warnings(value, result.stress.strain);
-  if (!state.converged) {
+  if (!result.converged) {
     fmt::print(stderr,
                "not converged within {} coupling iterations: drag still changed by {:.2g} (wanted {:.2g}), "
                "shape by {:.2g} m (wanted {:.2g})\n",
-               state.iterations.size(), state.iterations.back().drag_change, value.coupling.drag_tolerance,
-               state.iterations.back().shape_change, value.coupling.shape_tolerance_m);
+               result.iterations, result.last.drag_change, value.coupling.drag_tolerance,
+               result.last.shape_change, value.coupling.shape_tolerance_m);
     return static_cast<int>(ExitCode::not_converged);
   }
   return 0;
@@ -212,12 +185,18 @@ void add_steady(CLI::App& app, int& status) {
   command->add_option("--hostfile", options->hostfile, "Hosts for MPI")->check(CLI::ExistingFile);
   command->add_flag("--linear", options->overrides.linear,
                     "Keep only K_1 of every material: the paper's linear model");
+  command
+      ->add_option("--set", options->set, "Any key of the case, as in --set flow.box_m=[3,3,5]; repeatable")
+      ->expected(1)
+      ->take_all();
   command->add_option("--out", options->out, "Run folder (default: runs/<folder of the case>)");
   command->add_flag("--fresh", options->fresh, "Replace what the run folder holds; default: go on with it");
   command->add_flag("--dry-run", options->dry_run, "Say what would be done, and stop");
   command->callback([options, &status] {
     if (!options->grid.empty())
       options->overrides.grid = {options->grid[0], options->grid[1], options->grid[2]};
+    for (const std::string& text : options->set)
+      options->overrides.set.push_back(parse_setting(text, "--set"));
     status = run(*options);
   });
 }

@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "program.h"
 #include "ripstop/core/file.h"
 #include "ripstop/output/csv.h"
 
@@ -19,24 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-pid_t start(const std::vector<std::string>& arguments) {
-  const pid_t child = fork();
-  if (child == 0) {
-    std::vector<char*> argv{const_cast<char*>(RIPSTOP_PROGRAM)};
-    for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
-    argv.push_back(nullptr);
-    execv(RIPSTOP_PROGRAM, argv.data());
-    _exit(127);
-  }
-  return child;
-}
-
-int wait_for(pid_t child) {
-  int status = 0;
-  waitpid(child, &status, 0);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-}
 
 class Steady : public testing::Test {
  protected:

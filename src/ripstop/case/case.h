@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ripstop/core/toml/problem.h"
+#include "ripstop/core/toml/set.h"
 #include "ripstop/core/vec3.h"
 #include "ripstop/coupling/settings.h"
 #include "ripstop/inflation/settings.h"
@@ -79,6 +80,9 @@ struct Overrides {
   std::optional<int> ranks = {};                // --ranks
   std::optional<EngineKind> engine = {};        // --flow
   bool linear = false;                          // --linear
+  /// --set: any key, over what the file says; a material of the library is copied into the case first. Only
+  /// for read_case() and parse_case().
+  std::vector<Setting> set = {};
 };
 
 /// Throws InputError(usage) with every problem found, InputError(bad_data) for a broken library material,

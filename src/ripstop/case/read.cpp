@@ -161,15 +161,59 @@ std::vector<std::string> set_values(const Overrides& overrides, Case& value) {
   return keys;
 }
 
+/// materials.<name>.<key> of a material that only the library has starts from the library's.
+void import_material(Document& document, const Setting& setting) {
+  const std::string prefix = "materials.";
+  if (!setting.key.starts_with(prefix)) return;
+  const std::string name =
+      setting.key.substr(prefix.size(), setting.key.find('.', prefix.size()) - prefix.size());
+  std::vector<std::string> known = library_names();
+  if (const Node* own = document.root.find("materials")) {
+    if (own->find(name)) return;
+    for (const Node& material : own->items) known.push_back(material.key);
+  }
+  if (std::find(known.begin(), known.end(), name) == known.end()) {
+    const std::string near = nearest(name, known);
+    throw InputError(
+        ExitCode::usage,
+        {{{"", 0, 0, setting.option},
+          setting.key,
+          setting.value,
+          fmt::format("{}", fmt::join(known, ", ")),
+          near.empty() ? fmt::format("no such material; there are {}", fmt::join(known, ", "))
+                       : fmt::format("no such material; did you mean {}?", quoted(prefix + near))}});
+  }
+  set_value(document, {prefix + name + ".base", quoted(name), setting.option});
+}
+
+/// What a setting gave is told by its option, not by a place in the file.
+void mark_origin(const Setting& setting, Origins& origins, std::vector<Problem>& problems) {
+  const Origin given{"", 0, 0, setting.option};
+  const auto below = [&](const std::string& key) {
+    return key == setting.key || key.starts_with(setting.key + "[") || key.starts_with(setting.key + ".");
+  };
+  for (auto& [key, origin] : origins)
+    if (below(key)) origin = given;
+  for (Problem& problem : problems) {
+    const bool above = setting.key.starts_with(problem.key + ".") && problem.origin.line == 0;
+    if (below(problem.key) || above) problem.origin = given;
+  }
+}
+
 }  // namespace
 
 Case parse_case(const std::string& text, const std::string& name, const Overrides& overrides) {
   Case value;
   std::vector<Problem> problems;
-  const Document document = parse_toml(text, name);
+  Document document = parse_toml(text, name);
+  for (const Setting& setting : overrides.set) {
+    import_material(document, setting);
+    set_value(document, setting);
+  }
   Fields fields;
   describe(fields, value);
   read_table(fields, document, value.origins, problems);
+  for (const Setting& setting : overrides.set) mark_origin(setting, value.origins, problems);
   const std::vector<std::string> replaced = set_values(overrides, value);
   std::erase_if(problems, [&](const Problem& problem) {
     return std::find(replaced.begin(), replaced.end(), problem.key) != replaced.end();

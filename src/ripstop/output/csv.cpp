@@ -102,6 +102,33 @@ void write_csv(const std::filesystem::path& path, const CsvTable& table) {
   write_file(path, text);
 }
 
+void write_csv(const std::filesystem::path& path, const TextTable& table) {
+  std::string text = header_line(path, table.columns);
+  for (const std::vector<std::string>& row : table.rows) {
+    if (row.size() != table.columns.size()) {
+      throw Error(ExitCode::bad_data, fmt::format("{}: a row of {} values for {} columns", path.string(),
+                                                  row.size(), table.columns.size()));
+    }
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      std::string field = row[i];
+      std::replace_if(
+          field.begin(), field.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+      if (field.find_first_of(",\"#") != std::string::npos) {
+        std::string inside;
+        for (const char c : field) inside += c == '"' ? "\"\"" : std::string(1, c);
+        field = '"' + inside + '"';
+      }
+      text += (i ? "," : "") + field;
+    }
+    text += '\n';
+  }
+  write_file(path, text);
+}
+
+std::string csv_number(double value) {
+  return fmt::format("{}", value);
+}
+
 CsvTable read_csv(const std::filesystem::path& path) {
   return parse(path, read_file(path));
 }

@@ -24,6 +24,16 @@ void write_csv(const std::filesystem::path& path, const CsvTable& table);
 /// '#' are skipped, blanks around fields dropped. Throws Error(bad_data) with file and line, Error(io).
 CsvTable read_csv(const std::filesystem::path& path);
 
+/// A table with words in it, such as the keys of a sweep.
+struct TextTable {
+  std::vector<std::string> columns;
+  std::vector<std::vector<std::string>> rows;  // as long as `columns`
+};
+/// Fields with a comma or a quote are quoted as in RFC 4180, line breaks become blanks. Throws as above.
+void write_csv(const std::filesystem::path& path, const TextTable& table);
+/// The shortest text that reads back as the same double.
+std::string csv_number(double value);
+
 /// A table that grows by rows during a run and survives its end at any moment.
 class CsvLog {
  public:

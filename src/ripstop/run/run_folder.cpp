@@ -103,11 +103,12 @@ void open_run_folder(const RunSettings& settings, const Case& value, const std::
   run["case_file"] = value.file.string();
   run["inputs_hash"] = hash;
   run["case"] = ordered_json::parse(resolved);
+  write_file(folder / "case.toml", case_toml(value));
   write_file(description, run.dump(2) + "\n");
 }
 
 RunFolder::RunFolder(const RunSettings& settings, const Case& value, const std::string& engine, int threads)
-    : folder_(settings.folder), title_(value.title) {
+    : folder_(settings.folder), title_(value.title), fields_(settings.fields) {
   open_run_folder(settings, value, engine, threads);
 }
 
@@ -132,6 +133,16 @@ void RunFolder::write_series(std::size_t iterations) const {
 
 void RunFolder::write_iteration(const SteadySolver& solver, const SteadyState& state,
                                 const FlowField& field) {
+  if (fields_) {
+    write_fields(solver, state, field);
+    write_state(solver, state);
+  }
+  const std::size_t k = state.iterations.size();
+  CsvLog(folder_ / "iterations.csv", iteration_columns, k - 1).add(row_of(state.iterations.back()));
+}
+
+void RunFolder::write_fields(const SteadySolver& solver, const SteadyState& state,
+                             const FlowField& field) const {
   const Mesh& mesh = solver.mesh();
   const ClothState cloth = solver.cloth_state(state);
   const std::vector<CellStress> stress = cell_stress(solver.cloth(), cloth);
@@ -166,10 +177,18 @@ void RunFolder::write_iteration(const SteadySolver& solver, const SteadyState& s
   lines.cell_arrays.push_back(vtk_array("tension_n", tensions));
   write_vtp(folder_ / fmt::format("vtk/lines_{:03}.vtp", k), lines);
   write_series(k);
+  write_vti(folder_ / "flow.vti", flow_image(field));
+}
 
+void RunFolder::write_state(const SteadySolver& solver, const SteadyState& state) const {
+  const Mesh& mesh = solver.mesh();
+  const ClothState cloth = solver.cloth_state(state);
+  std::vector<double> mises;
+  for (const CellStress& s : cell_stress(solver.cloth(), cloth)) mises.push_back(s.von_mises);
+  const std::vector<double> tensions = spring_tensions(solver.cloth(), cloth);
   write_canopy_picture(folder_ / "canopy.png", mesh, state.shape,
-                       {fmt::format("{}, coupling iteration {}: drag {:.1f} N", title_, k,
-                                    state.iterations.back().fluid_force),
+                       {fmt::format("{}, coupling iteration {}: drag {:.1f} N", title_,
+                                    state.iterations.size(), state.iterations.back().fluid_force),
                         "von Mises stress [N/m]",
                         mises,
                         {}});
@@ -178,12 +197,11 @@ void RunFolder::write_iteration(const SteadySolver& solver, const SteadyState& s
     table.rows.push_back({t.radial + 1.0, t.free_tension, t.largest_tension});
   }
   write_csv(folder_ / "lines.csv", table);
-  write_vti(folder_ / "flow.vti", flow_image(field));
-  CsvLog(folder_ / "iterations.csv", iteration_columns, k - 1).add(row_of(state.iterations.back()));
 }
 
 void RunFolder::write_result(const SteadySolver& solver, const SteadyState& state, const Case& value) {
   const SteadyResult r = steady_result(solver, state, value);
+  if (!fields_) write_state(solver, state);
   write_stl(folder_ / "canopy.stl", surface_of(solver.cells(), state.shape));
   Plot plot;
   plot.title = value.title;

@@ -15,11 +15,12 @@ namespace ripstop {
 struct RunSettings {
   std::filesystem::path folder;
   bool fresh = false;  // throw away what the folder holds of an earlier run
+  bool fields = true;  // write shapes and flow for ParaView after every iteration
 };
 
-/// Opens or makes the folder of a run and writes run.json. `solver` says what computes, and with what beside
-/// the case. A folder that holds a run of other inputs is refused unless `fresh`, and one that holds anything
-/// but a run of Ripstop is never emptied: Error(usage).
+/// Opens or makes the folder of a run and writes run.json and case.toml. `solver` says what computes, and
+/// with what beside the case. A folder that holds a run of other inputs is refused unless `fresh`, and one
+/// that holds anything but a run of Ripstop is never emptied: Error(usage).
 void open_run_folder(const RunSettings& settings, const Case& value, const std::string& solver, int threads);
 
 class RunFolder {
@@ -42,10 +43,13 @@ class RunFolder {
   void write_result(const SteadySolver& solver, const SteadyState& state, const Case& value);
 
  private:
+  void write_fields(const SteadySolver& solver, const SteadyState& state, const FlowField& field) const;
+  void write_state(const SteadySolver& solver, const SteadyState& state) const;
   void write_series(std::size_t iterations) const;
 
   std::filesystem::path folder_;
   std::string title_;
+  bool fields_;
 };
 
 /// The program's summary of one finished run, as in result.json.

@@ -1,0 +1,101 @@
+#include "sweep_progress.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <map>
+
+#include "progress.h"
+#include "ripstop/core/error.h"
+#include "ripstop/run/sweep_files.h"
+
+namespace ripstop {
+
+void add_sweep_options(CLI::App& command, SweepOptions& options) {
+  command.add_option("case", options.case_file, "Case file (TOML)")->required();
+  command.add_option("--grid", options.grid, "Cells NX,NY,NZ of the flow's box")->delimiter(',')->expected(3);
+  command.add_option("--flow", options.overrides.engine, "Flow engine: openfoam or builtin")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, EngineKind>{
+          {"openfoam", EngineKind::openfoam}, {"builtin", EngineKind::builtin}}));
+  command.add_option("--ranks", options.overrides.ranks, "MPI processes of one flow");
+  command.add_option("--set", options.set, "Any key of the case, as in --set flow.residual=1e-4; repeatable")
+      ->expected(1)
+      ->take_all();
+  command
+      .add_option("--jobs", options.settings.jobs,
+                  "Runs side by side (default: as many as cores and free memory allow)")
+      ->check(CLI::Range(1, 1024));
+  command.add_flag("--cold", options.cold, "Start every run from the flat canopy, not from its neighbour");
+  command.add_flag("--fields", options.settings.fields,
+                   "Keep shapes and flow of every iteration for ParaView");
+  command.add_flag("--fresh", options.settings.fresh, "Replace finished runs; default: go on with them");
+}
+
+void finish(SweepOptions& options, const std::string& what) {
+  if (!options.grid.empty()) options.overrides.grid = {options.grid[0], options.grid[1], options.grid[2]};
+  for (const std::string& text : options.set) options.overrides.set.push_back(parse_setting(text, "--set"));
+  options.settings.warm = !options.cold;
+  if (options.settings.folder.empty()) {
+    const std::string name = options.case_file.parent_path().filename().string();
+    options.settings.folder = std::filesystem::path("runs") / ((name.empty() ? "case" : name) + "-" + what);
+  }
+}
+
+std::vector<SweepRow> run_and_tell(const std::vector<SweepAxis>& axes, const std::vector<SweepPoint>& points,
+                                   const SweepSettings& settings) {
+  const auto name = [&](std::size_t i) {
+    std::string text;
+    for (std::size_t d = 0; d < axes.size(); ++d)
+      text += fmt::format("{}{}={}", d ? " " : "", axes[d].name.substr(axes[d].name.rfind('.') + 1),
+                          points[i].values[d]);
+    return text;
+  };
+  Progress progress;
+  const auto begin = std::chrono::steady_clock::now();
+  std::map<std::size_t, std::string> running;
+  std::size_t ended = 0, ended_before = 0;
+  SweepEvents events;
+  events.progress = [&](std::size_t i, const SteadyProgress& p, const SteadyState&) {
+    running[i] =
+        p.stage == SteadyStage::cloth
+            ? fmt::format("{} [{}] cloth {:.0e}", name(i), p.iteration, p.cloth.residual)
+            : fmt::format("{} [{}] flow {}, {:.1f} N", name(i), p.iteration, p.flow.iteration, p.flow.drag);
+    const double gone = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    std::string text = fmt::format("{}/{}", ended, points.size());
+    for (const auto& [k, what] : running) text += " | " + what;
+    if (ended > ended_before) {
+      const double left = gone / double(ended - ended_before) * double(points.size() - ended);
+      text += fmt::format(" | about {} left", duration_text(left));
+    }
+    progress.show(text);
+  };
+  events.ended = [&](std::size_t i, const std::vector<SweepRow>& rows) {
+    // A run that an earlier process finished says nothing of the time that is left.
+    if (!running.erase(i)) ++ended_before;
+    ++ended;
+    const SweepRow& row = rows[i];
+    progress.line(row.done
+                      ? fmt::format("{:>3}/{} {}: {:.2f} N, {:.4f} m2, {} iterations, {}{}", ended,
+                                    points.size(), name(i), row.drag, row.drag_area, row.iterations,
+                                    duration_text(row.wall_time), row.converged ? "" : ", NOT converged")
+                      : fmt::format("{:>3}/{} {}: FAILED: {}", ended, points.size(), name(i), row.error));
+    write_csv(settings.folder / "sweep.csv", sweep_table(axes, points, rows));
+  };
+  return run_sweep(points, settings, events);
+}
+
+void require_all(const std::vector<SweepPoint>& points, const std::vector<SweepRow>& rows) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!rows[i].done)
+      throw Error(ExitCode::diverged, fmt::format("{}: {}", points[i].folder, rows[i].error));
+    if (!rows[i].converged)
+      throw Error(
+          ExitCode::not_converged,
+          fmt::format("{}: the coupling did not converge; raise coupling.max_iterations or loosen its "
+                      "tolerances",
+                      points[i].folder));
+  }
+}
+
+}  // namespace ripstop

@@ -1,0 +1,37 @@
+// What sweep, compare and calibrate porosity share: the options of many runs and how they are told.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "ripstop/case/case.h"
+#include "ripstop/run/sweep.h"
+
+namespace CLI {
+class App;
+}
+
+namespace ripstop {
+
+struct SweepOptions {
+  std::filesystem::path case_file;
+  Overrides overrides;
+  std::vector<int> grid;
+  std::vector<std::string> set;
+  SweepSettings settings;
+  bool cold = false;
+};
+/// Case, --flow, --ranks, --grid, --set, --jobs, --cold, --fields, --out, --fresh.
+void add_sweep_options(CLI::App& command, SweepOptions& options);
+/// After parsing: --grid and --set into the overrides, the default folder runs/<folder of the case>-<what>.
+void finish(SweepOptions& options, const std::string& what);
+
+/// Runs the points with one line of progress, a line for every end, and sweep.csv after each of them.
+std::vector<SweepRow> run_and_tell(const std::vector<SweepAxis>& axes, const std::vector<SweepPoint>& points,
+                                   const SweepSettings& settings);
+/// Throws Error of the first failed run's message when one failed, Error(not_converged) when one did not
+/// converge.
+void require_all(const std::vector<SweepPoint>& points, const std::vector<SweepRow>& rows);
+
+}  // namespace ripstop

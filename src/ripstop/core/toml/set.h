@@ -1,0 +1,29 @@
+// One value of a parsed file replaced by its full name: what --set and --vary do.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "ripstop/core/toml/document.h"
+
+namespace ripstop {
+
+/// A key by its full name ("flow.speed_m_s", "flow.cells[2]") and its value as TOML. A word that is no TOML
+/// is taken as text, so that flow.engine=openfoam needs no quotes.
+struct Setting {
+  std::string key, value;
+  std::string option = "--set";  // that gave it, for messages
+};
+
+/// "KEY=VALUE" as typed. Throws Error(usage) when there is no '=' or nothing on one side of it.
+Setting parse_setting(const std::string& text, const std::string& option);
+
+/// Values parted by commas outside brackets and quotes: "[1, 2],[3, 4]" are two. Throws Error(usage) for an
+/// empty one.
+std::vector<std::string> split_values(const std::string& text);
+
+/// Puts the value into the tree; tables on the way are made. Throws InputError(usage) for a name that cannot
+/// be one, a value that cannot be read, or a place in a list that the file does not give.
+void set_value(Document& document, const Setting& setting);
+
+}  // namespace ripstop

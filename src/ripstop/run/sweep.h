@@ -1,0 +1,75 @@
+// Many steady runs of one case side by side, each in a folder of its own, started from its neighbour.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ripstop/case/case.h"
+#include "ripstop/run/steady_run.h"
+
+namespace ripstop {
+
+/// What is varied: one value is one or more settings, shown under one name.
+struct SweepAxis {
+  std::string name;                            // "flow.speed_m_s", "gamma"
+  std::vector<std::string> values;             // as shown, "20"
+  std::vector<std::vector<Setting>> settings;  // of each value
+};
+/// Values of one key.
+SweepAxis sweep_axis(const std::string& key, const std::vector<std::string>& values,
+                     const std::string& option);
+
+struct SweepPoint {
+  std::vector<std::string> values;  // one an axis
+  Case value;
+  std::string folder;  // name inside the sweep's folder
+  int start = -1;      // index of the neighbour whose result it starts from; -1: none
+};
+
+/// Every combination of the axes' values (a table's rows are one axis). The middle of all axes starts cold,
+/// every other point from its neighbour one step nearer to the middle, so that the order of work does not
+/// change results. Throws what read_case() throws, Error(usage) for a value twice on one axis.
+std::vector<SweepPoint> sweep_points(const std::filesystem::path& case_file, const Overrides& overrides,
+                                     const std::vector<SweepAxis>& axes);
+
+struct SweepSettings {
+  std::filesystem::path folder;
+  bool fresh = false;
+  bool warm = true;     // false: every run starts cold
+  bool fields = false;  // shapes and flow of every iteration for ParaView
+  int jobs = 0;         // runs side by side; 0: as many as cores and free memory allow
+};
+
+/// result.json of one run as numbers.
+struct SweepRow {
+  bool done = false;  // there is a result
+  bool converged = false;
+  std::string error;  // why there is none
+  double speed = 0, density = 0, drag = 0, drag_area = 0, drag_coefficient = 0, reference_area = 0;
+  double projected_diameter = 0, skirt_diameter = 0, length = 0;  // [m]
+  double max_line_tension = 0;                                    // [N]
+  double max_von_mises = 0;                                       // [N/m]
+  int iterations = 0;
+  double wall_time = 0;  // [s]
+};
+/// Throws Error(bad_data) when `json` is no result of a steady run.
+SweepRow sweep_row(const std::string& json);
+
+/// Called by one run at a time.
+struct SweepEvents {
+  std::function<void(std::size_t point, const SteadyProgress&, const SteadyState&)> progress;
+  std::function<void(std::size_t point, const std::vector<SweepRow>&)> ended;  // with a result or an error
+};
+
+/// How many of these runs fit side by side into this machine's cores and free memory.
+int fitting_jobs(const std::vector<SweepPoint>& points);
+
+/// Runs what has no result yet; a failed run is told in its row and does not stop the others. Throws
+/// Error(usage) for a folder that holds something else.
+std::vector<SweepRow> run_sweep(const std::vector<SweepPoint>& points, const SweepSettings& settings,
+                                const SweepEvents& events = {});
+
+}  // namespace ripstop

@@ -1,0 +1,118 @@
+#include "ripstop/run/sweep_files.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <map>
+#include <optional>
+
+#include "ripstop/output/plot.h"
+
+namespace ripstop {
+namespace {
+
+std::optional<double> number(const std::string& text) {
+  double value = 0;
+  const char* last = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), last, value);
+  if (error != std::errc() || stop != last) return std::nullopt;
+  return value;
+}
+
+std::optional<std::size_t> drawn_axis(const std::vector<SweepAxis>& axes) {
+  for (std::size_t d = 0; d < axes.size(); ++d) {
+    bool numbers = axes[d].values.size() > 1;
+    for (const std::string& value : axes[d].values) numbers = numbers && number(value);
+    if (numbers) return d;
+  }
+  return std::nullopt;
+}
+
+std::string status_of(const SweepRow& row) {
+  if (row.done) return row.converged ? "converged" : "not converged";
+  return row.error.empty() ? "waiting" : "failed: " + row.error;
+}
+
+struct Quantity {
+  const char* file;
+  const char* label;
+  double SweepRow::*value;
+};
+constexpr Quantity quantities[] = {
+    {"drag", "drag [N]", &SweepRow::drag},
+    {"drag_area", "drag area [m\u00b2]", &SweepRow::drag_area},
+    {"drag_coefficient", "drag coefficient", &SweepRow::drag_coefficient},
+    {"wall_time", "wall time [s]", &SweepRow::wall_time},
+};
+
+}  // namespace
+
+TextTable sweep_table(const std::vector<SweepAxis>& axes, const std::vector<SweepPoint>& points,
+                      const std::vector<SweepRow>& rows) {
+  TextTable table;
+  for (const SweepAxis& axis : axes) table.columns.push_back(axis.name);
+  for (const char* name :
+       {"speed_m_s", "density_kg_m3", "drag_n", "drag_area_m2", "drag_coefficient", "reference_area_m2",
+        "projected_diameter_m", "skirt_diameter_m", "canopy_length_m", "max_line_tension_n",
+        "max_von_mises_n_m", "coupling_iterations", "wall_time_s", "status", "folder"})
+    table.columns.push_back(name);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const SweepRow& r = rows[i];
+    std::vector<std::string> fields = points[i].values;
+    for (const double value :
+         {r.speed, r.density, r.drag, r.drag_area, r.drag_coefficient, r.reference_area, r.projected_diameter,
+          r.skirt_diameter, r.length, r.max_line_tension, r.max_von_mises, double(r.iterations), r.wall_time})
+      fields.push_back(r.done ? csv_number(value) : "");
+    fields.push_back(status_of(r));
+    fields.push_back(points[i].folder);
+    table.rows.push_back(fields);
+  }
+  return table;
+}
+
+void write_sweep_plots(const std::filesystem::path& folder, const std::string& title,
+                       const std::vector<SweepAxis>& axes, const std::vector<SweepPoint>& points,
+                       const std::vector<SweepRow>& rows) {
+  const auto axis = drawn_axis(axes);
+  if (!axis) return;
+  // Lines by the names of their values on the other axes.
+  std::map<std::string, std::vector<std::size_t>> lines;
+  bool any = false;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    std::string name;
+    for (std::size_t d = 0; d < axes.size(); ++d) {
+      if (d == *axis || axes[d].values.size() < 2) continue;
+      const std::string key = axes[d].name.substr(axes[d].name.rfind('.') + 1);
+      name += fmt::format("{}{} = {}", name.empty() ? "" : ", ", key, points[i].values[d]);
+    }
+    if (rows[i].done) lines[name].push_back(i);
+    any = any || rows[i].done;
+  }
+  if (!any) return;
+  const auto draw =
+      [&](const std::string& file, const std::string& label,
+          const std::vector<std::pair<std::string, std::function<double(const SweepRow&)>>>& parts) {
+        Plot plot{title, {axes[*axis].name}, {label}, {}};
+        for (const auto& [part, value] : parts) {
+          for (const auto& [name, members] : lines) {
+            PlotSeries series;
+            series.name = part + (part.empty() || name.empty() ? "" : ", ") + name;
+            for (const std::size_t i : members) {
+              series.x.push_back(*number(points[i].values[*axis]));
+              series.y.push_back(value(rows[i]));
+            }
+            plot.series.push_back(series);
+          }
+        }
+        for (const char* ending : {".svg", ".png"}) write_plot(folder / (file + ending), plot);
+      };
+  for (const Quantity& q : quantities)
+    draw(q.file, q.label, {{"", [&](const SweepRow& row) { return row.*q.value; }}});
+  draw("iterations", "coupling iterations",
+       {{"", [](const SweepRow& row) { return double(row.iterations); }}});
+  draw("diameters", "diameter [m]",
+       {{"projected", [](const SweepRow& row) { return row.projected_diameter; }},
+        {"skirt", [](const SweepRow& row) { return row.skirt_diameter; }}});
+}
+
+}  // namespace ripstop
