@@ -121,6 +121,7 @@ void add_calibrate(CLI::App& app, int& status) {
   CLI::App* command = app.add_subcommand("calibrate", "Constants of the model from a reference parachute");
   command->require_subcommand(1);
   add_damping(*command, status);
+  add_calibrate_porosity(*command, status);
 }
 
 }  // namespace ripstop

@@ -17,6 +17,7 @@ void add_inflate(CLI::App& app, int& status);
 void add_pattern(CLI::App& app, int& status);
 void add_flow_parity(CLI::App& app, int& status);
 void add_calibrate(CLI::App& app, int& status);
+void add_calibrate_porosity(CLI::App& parent, int& status);
 void add_sweep(CLI::App& app, int& status);
 
 }  // namespace ripstop

@@ -83,6 +83,43 @@ double r_squared(std::span<const double> y, std::span<const double> fit) {
   return 1 - left / total;
 }
 
+double LineFit::error_at(double x) const {
+  return scatter * std::sqrt(1.0 / points + (x - mean_x) * (x - mean_x) / spread_x);
+}
+
+double LineFit::band(double x, double confidence) const {
+  return points > 2 ? student_t(confidence, points - 2) * error_at(x) : 0;
+}
+
+LineFit fit_line(std::span<const double> x, std::span<const double> y) {
+  LineFit line;
+  line.points = static_cast<int>(x.size());
+  if (x.size() < 2 || x.size() != y.size()) throw Error(ExitCode::bad_data, "a line needs two points");
+  line.mean_x = mean(x);
+  const double mean_y = mean(y);
+  double xy = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    line.spread_x += (x[i] - line.mean_x) * (x[i] - line.mean_x);
+    xy += (x[i] - line.mean_x) * (y[i] - mean_y);
+  }
+  if (!(line.spread_x > 0)) throw Error(ExitCode::bad_data, "a line needs points at two different x");
+  line.slope = xy / line.spread_x;
+  line.intercept = mean_y - line.slope * line.mean_x;
+  std::vector<double> on_line;
+  double squares = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    on_line.push_back(line.at(x[i]));
+    squares += (y[i] - on_line[i]) * (y[i] - on_line[i]);
+  }
+  line.r2 = r_squared(y, on_line);
+  if (line.points > 2) {
+    line.scatter = std::sqrt(squares / (line.points - 2));
+    line.slope_error = line.scatter / std::sqrt(line.spread_x);
+    line.intercept_error = line.error_at(0);
+  }
+  return line;
+}
+
 double mean(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }

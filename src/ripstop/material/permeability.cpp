@@ -69,6 +69,12 @@ double cfm(const PressureDrop& law) {
   return velocity_at(law, half_inch_of_water) / cfm_per_square_foot;
 }
 
+PressureDrop law_of_cfm(double flow) {
+  if (!(flow > 0) || !(flow < 1e4))
+    throw Error(ExitCode::bad_data, fmt::format("{} CFM/ft2 is no permeability of a cloth", flow));
+  return {half_inch_of_water / (flow * cfm_per_square_foot), 0};
+}
+
 // [NFM] Eq. 16: a = 150 mu (1-g)^2 t / (D^2 g^3), b = 1.75 rho (1-g) t / (D g^3), D = 6 (1-g) V/S, V/S = t
 PressureDrop ergun(const ErgunCloth& cloth, const ErgunAir& air) {
   const double g = cloth.porosity, t = cloth.thickness;

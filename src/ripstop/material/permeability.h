@@ -33,6 +33,9 @@ double pressure_drop(const PressureDrop& law, double velocity);
 double velocity_at(const PressureDrop& law, double pressure);
 /// Flow in cubic feet a minute through a square foot at half an inch of water (124.5 Pa), ASTM D737's unit.
 double cfm(const PressureDrop& law);
+/// The law of creeping flow, b = 0, of a cloth with so many CFM/ft2. Throws Error(bad_data) unless it is
+/// above 0 and below 10,000.
+PressureDrop law_of_cfm(double flow);
 
 struct ErgunAir {
   double density = 1.225;      // [kg/m3]

@@ -86,11 +86,11 @@ void open_sweep_folder(const std::vector<SweepPoint>& points, const SweepSetting
 class Board {
  public:
   Board(const std::vector<SweepPoint>& points, const SweepSettings& settings, const SweepEvents& events,
-        int threads)
+        int jobs)
       : points_(points),
         settings_(settings),
         events_(events),
-        threads_(threads),
+        jobs_(jobs),
         rows_(points.size()),
         stage_(points.size(), Stage::waiting) {}
 
@@ -104,8 +104,11 @@ class Board {
         continue;
       }
       stage_[next] = Stage::running;
+      // A run that nobody else can join, the first above all, has every core for itself.
+      const auto running = static_cast<int>(std::count(stage_.begin(), stage_.end(), Stage::running));
+      const int threads = std::max(1, cores_ / (ready() < 0 ? running : jobs_));
       lock.unlock();
-      SweepRow row = run(static_cast<std::size_t>(next));
+      SweepRow row = run(static_cast<std::size_t>(next), threads);
       lock.lock();
       rows_[next] = std::move(row);
       stage_[next] = Stage::ended;
@@ -131,11 +134,11 @@ class Board {
     return answer;
   }
 
-  SweepRow run(std::size_t i) {
+  SweepRow run(std::size_t i, int threads) {
     const SweepPoint& point = points_[i];
     SteadyRunSettings run;
     run.folder = {settings_.folder / point.folder, settings_.fresh, settings_.fields};
-    run.threads = threads_;
+    run.threads = threads;
     if (settings_.warm && point.start >= 0) {
       const fs::path neighbour = settings_.folder / points_[point.start].folder;
       if (fs::exists(neighbour / "result.json")) run.warm_from = neighbour;
@@ -168,7 +171,7 @@ class Board {
   const std::vector<SweepPoint>& points_;
   const SweepSettings& settings_;
   const SweepEvents& events_;
-  int threads_;
+  int jobs_, cores_ = ThreadTeam().size();
   std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<SweepRow> rows_;
@@ -270,7 +273,7 @@ std::vector<SweepRow> run_sweep(const std::vector<SweepPoint>& points, const Swe
   open_sweep_folder(points, settings);
   const int jobs = std::clamp(settings.jobs > 0 ? settings.jobs : fitting_jobs(points), 1,
                               std::max(1, static_cast<int>(points.size())));
-  Board board(points, settings, events, std::max(1, ThreadTeam().size() / jobs));
+  Board board(points, settings, events, jobs);
   std::vector<std::thread> workers;
   for (int i = 1; i < jobs; ++i) workers.emplace_back([&] { board.work(); });
   board.work();

@@ -1,0 +1,307 @@
+// ripstop calibrate porosity: the cloth's porosity from the measured drag of a reference parachute.
+
+#include "ripstop/calibration/porosity.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "ripstop/core/error.h"
+#include "ripstop/core/file.h"
+#include "ripstop/output/csv.h"
+#include "ripstop/output/plot.h"
+#include "ripstop/run/sweep_files.h"
+#include "sweep_progress.h"
+
+namespace ripstop {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+// [NFM] section on porosity, Stratos IV: C_D = -1.7794 gamma + 0.9195, R2 = 0.989.
+constexpr double printed_slope = -1.7794, printed_intercept = 0.9195;
+
+struct Options : SweepOptions {
+  fs::path measured;
+  std::vector<double> gammas, permeabilities;
+  double thickness = 1.2e-4;
+  int shifts = 3;
+};
+
+PorosityKnob knob_of(const Options& options) {
+  return options.permeabilities.empty() ? PorosityKnob::gamma : PorosityKnob::permeability;
+}
+std::string knob_name(PorosityKnob knob) {
+  return knob == PorosityKnob::gamma ? "gamma" : "permeability_cfm";
+}
+
+/// The file's points, or the rows of [[measured]] that have a drag, on the case's basis.
+std::vector<MeasuredDrag> measured_drag(const Options& options, const Case& value) {
+  std::vector<MeasuredDrag> points;
+  if (options.measured.empty()) {
+    for (const Measured& row : value.measured) {
+      if (!row.drag_n) continue;
+      const bool nominal = value.flow.speed_basis == SpeedBasis::nominal;
+      points.push_back({row.nominal_speed_m_s, nominal ? row.nominal_speed_m_s : row.measured_speed_m_s,
+                        row.density_kg_m3, *row.drag_n});
+    }
+    if (points.empty())
+      throw Error(
+          ExitCode::usage,
+          "no measured drag: give --measured FILE with the columns speed_m_s, density_kg_m3, drag_n, or "
+          "drag_n in rows of [[measured]]");
+    return points;
+  }
+  const CsvTable table = read_csv(options.measured);
+  const auto speed = table.column("speed_m_s"), density = table.column("density_kg_m3"),
+             drag = table.column("drag_n");
+  for (std::size_t i = 0; i < speed.size(); ++i) {
+    if (!(speed[i] > 0) || !(density[i] > 0) || !(drag[i] > 0))
+      throw Error(ExitCode::bad_data,
+                  fmt::format("{}: row {} of the data: speed, density and drag must be above 0",
+                              options.measured.string(), i + 1));
+    points.push_back({speed[i], speed[i], density[i], drag[i]});
+  }
+  if (points.empty()) throw Error(ExitCode::bad_data, options.measured.string() + ": no measured point");
+  return points;
+}
+
+/// Condition, knob and shift: what is turned for every trial.
+std::vector<SweepAxis> axes_of(const Options& options, const Case& value,
+                               const std::vector<MeasuredDrag>& measured, const std::vector<double>& values,
+                               std::vector<double>& shifts) {
+  SweepAxis condition{"condition", {}, {}}, knob{knob_name(knob_of(options)), {}, {}},
+      shift{"shift_m", {}, {}};
+  for (const MeasuredDrag& point : measured) {
+    std::string name = fmt::format("{}", point.nominal_speed);
+    for (int twin = 2;
+         std::find(condition.values.begin(), condition.values.end(), name) != condition.values.end();)
+      name = fmt::format("{}-{}", point.nominal_speed, twin++);
+    condition.values.push_back(name);
+    condition.settings.push_back({{"flow.speed_m_s", fmt::format("{}", point.speed), "--measured"},
+                                  {"flow.speed_basis", "nominal", "--measured"},
+                                  {"flow.density_kg_m3", fmt::format("{}", point.density), "--measured"}});
+  }
+  const std::string cloth = "materials." + value.parachute.canopy_material;
+  for (const double v : values) {
+    const PressureDrop law = cloth_of(knob_of(options), v, options.thickness);
+    knob.values.push_back(fmt::format("{}", v));
+    knob.settings.push_back({{cloth + ".darcy", fmt::format("{}", law.a), "porosity"},
+                             {cloth + ".forchheimer", fmt::format("{}", law.b), "porosity"}});
+  }
+  // Evenly over one cell, about the case's own place.
+  const double dz = value.flow.box_m.z / value.flow.cells[2], place = canopy_position(value);
+  for (int k = 0; k < options.shifts; ++k) {
+    const double by = dz * (k - 0.5 * (options.shifts - 1)) / options.shifts;
+    shifts.push_back(by);
+    shift.values.push_back(fmt::format("{:.4g}", by));
+    shift.settings.push_back({{"flow.canopy_position_m", fmt::format("{}", place + by), "--shifts"}});
+  }
+  return {condition, knob, shift};
+}
+
+void write_plots(const fs::path& folder, const Case& value, const std::vector<MeasuredDrag>& measured,
+                 const std::vector<PorosityTrial>& trials, const PorosityCalibration& found,
+                 PorosityKnob knob, double area) {
+  PlotSeries computed{"computed, every speed and shift", {}, {}, false, true, false};
+  double low = found.knob, high = found.knob;
+  for (const PorosityTrial& t : trials) {
+    computed.x.push_back(t.knob);
+    computed.y.push_back(t.drag_area / area);
+    low = std::min(low, t.knob);
+    high = std::max(high, t.knob);
+  }
+  PlotSeries line{fmt::format("C_D = {:.4f} {:+.4f} x, R\u00b2 = {:.3f}", found.coefficient.intercept,
+                              found.coefficient.slope, found.coefficient.r2),
+                  {},
+                  {},
+                  true,
+                  false,
+                  false};
+  PlotSeries band{"95 % band of the line", {}, {}, true, false, true};  // both edges, a gap between them
+  PlotSeries printed{"[NFM], Stratos IV: 0.9195 - 1.7794 \u03b3", {}, {}, true, false, true};
+  constexpr int steps = 40;
+  const auto x_of = [&](int i) { return low + (high - low) * i / steps; };
+  for (int i = 0; i <= steps; ++i) {
+    line.x.push_back(x_of(i));
+    line.y.push_back(found.coefficient.at(x_of(i)));
+    printed.x.push_back(x_of(i));
+    printed.y.push_back(printed_intercept + printed_slope * x_of(i));
+  }
+  for (const int side : {1, -1}) {
+    for (int i = 0; i <= steps; ++i) {
+      band.x.push_back(x_of(i));
+      band.y.push_back(found.coefficient.at(x_of(i)) + side * found.coefficient.band(x_of(i)));
+    }
+    band.x.push_back(NAN);
+    band.y.push_back(NAN);
+  }
+  PlotSeries reference{"measured, at the found value", {}, {}, false, true, false};
+  for (const MeasuredDrag& point : measured) {
+    reference.x.push_back(found.knob);
+    reference.y.push_back(point.drag_area() / area);
+  }
+  const bool gamma = knob == PorosityKnob::gamma;
+  Plot plot{value.title,
+            {gamma ? "porosity \u03b3 of Ergun's law" : "permeability [CFM/ft\u00b2]"},
+            {fmt::format("C_D on {:.4f} m\u00b2", area)},
+            {computed, line, band, reference}};
+  if (gamma) plot.series.push_back(printed);
+  for (const char* name : {"porosity.svg", "porosity.png"}) write_plot(folder / name, plot);
+}
+
+ordered_json line_json(const LineFit& line) {
+  return {{"slope", line.slope},
+          {"intercept", line.intercept},
+          {"r2", line.r2},
+          {"slope_error", line.slope_error},
+          {"intercept_error", line.intercept_error},
+          {"scatter", line.scatter},
+          {"points", line.points}};
+}
+
+void write_result(const fs::path& folder, const Case& value, const std::vector<MeasuredDrag>& measured,
+                  const PorosityCalibration& found, PorosityKnob knob, const PressureDrop& law,
+                  const Options& options, double area) {
+  ordered_json j;
+  j["title"] = value.title;
+  j["knob"] = knob_name(knob);
+  j["value"] = found.knob;
+  j["standard_error"] = found.error();
+  j["standard_error_measured"] = found.error_measured;
+  j["standard_error_computed"] = found.error_computed;
+  j["interval_95"] = {found.knob - found.interval, found.knob + found.interval};
+  j["material"] = value.parachute.canopy_material;
+  j["darcy"] = law.a;
+  j["forchheimer"] = law.b;
+  if (knob == PorosityKnob::gamma) {
+    j["thickness_m"] = options.thickness;
+    j["printed_fit"] = {{"slope", printed_slope}, {"intercept", printed_intercept}, {"r2", 0.989}};
+  }
+  j["reference_area_m2"] = area;
+  j["drag_coefficient_fit"] = line_json(found.coefficient);
+  j["root_mean_square_misfit"] = found.misfit;
+  j["shift_scatter"] = found.shift_scatter;
+  j["outside_the_trials"] = found.outside;
+  j["points"] = ordered_json::array();
+  for (std::size_t i = 0; i < measured.size(); ++i) {
+    const MeasuredDrag& m = measured[i];
+    j["points"].push_back({{"nominal_speed_m_s", m.nominal_speed},
+                           {"speed_m_s", m.speed},
+                           {"density_kg_m3", m.density},
+                           {"measured_drag_n", m.drag},
+                           {"measured_drag_area_m2", m.drag_area()},
+                           {"computed_drag_area_m2", found.computed[i]},
+                           {"drag_area_fit", line_json(found.lines[i])}});
+  }
+  write_file(folder / "result.json", j.dump(2) + "\n");
+}
+
+void print_result(const std::vector<MeasuredDrag>& measured, const PorosityCalibration& found,
+                  PorosityKnob knob, const PressureDrop& law, const std::string& material) {
+  const LineFit& c = found.coefficient;
+  fmt::print("\nC_D = {:.4f} {:+.4f} x with x = {}, R2 = {:.4f}, {} trials ", c.intercept, c.slope,
+             knob_name(knob), c.r2, c.points);
+  if (knob == PorosityKnob::gamma) fmt::print("([NFM], Stratos IV: 0.9195 -1.7794 x, R2 = 0.989)");
+  fmt::print("\nscatter over the shifts: {:.2f} % (rms)\n\n", 100 * found.shift_scatter);
+  fmt::print("{:>12} {:>14} {:>14} {:>8}\n", "nominal m/s", "measured m2", "computed m2", "error");
+  for (std::size_t i = 0; i < measured.size(); ++i)
+    fmt::print("{:>12g} {:>14.4f} {:>14.4f} {:>+7.2f} %\n", measured[i].nominal_speed,
+               measured[i].drag_area(), found.computed[i],
+               100 * (found.computed[i] / measured[i].drag_area() - 1));
+  fmt::print(
+      "\n{} = {:.5g} +- {:.2g} (standard error: {:.2g} from the measured points, {:.2g} from the trials)\n",
+      knob_name(knob), found.knob, found.error(), found.error_measured, found.error_computed);
+  fmt::print(
+      "  for other parachutes of this cloth: --set materials.{}.darcy={:.10g} --set "
+      "materials.{}.forchheimer={:.10g}\n",
+      material, law.a, material, law.b);
+}
+
+int calibrate(Options& options) {
+  finish(options, "porosity");
+  const Case value = read_case(options.case_file, options.overrides);
+  const PorosityKnob knob = knob_of(options);
+  std::vector<double> values = knob == PorosityKnob::gamma ? options.gammas : options.permeabilities;
+  if (values.empty()) values = {0.18, 0.20, 0.22, 0.24};
+  std::sort(values.begin(), values.end());
+  const std::vector<MeasuredDrag> measured = measured_drag(options, value);
+  std::vector<double> shifts;
+  const std::vector<SweepAxis> axes = axes_of(options, value, measured, values, shifts);
+  const std::vector<SweepPoint> points = sweep_points(options.case_file, options.overrides, axes);
+  const fs::path& folder = options.settings.folder;
+  fmt::print(stderr, "{}: {} measured points, {} = {}, {} places along the flow: {} runs in {}\n",
+             value.title, measured.size(), knob_name(knob), fmt::join(values, " "), shifts.size(),
+             points.size(), folder.string());
+  const std::vector<SweepRow> rows = run_and_tell(axes, points, options.settings);
+  write_csv(folder / "sweep.csv", sweep_table(axes, points, rows));
+  require_all(points, rows);
+
+  std::vector<PorosityTrial> trials;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    // The points lie in the order of the axes, the shift the fastest.
+    const std::size_t shift = i % shifts.size(), knob_at = i / shifts.size() % values.size(),
+                      condition = i / shifts.size() / values.size();
+    trials.push_back({values[knob_at], shifts[shift], condition, rows[i].drag_area});
+  }
+  const double area = rows.front().reference_area;
+  const PorosityCalibration found = calibrate_porosity(measured, trials, area);
+  const PressureDrop law = cloth_of(knob, found.knob, options.thickness);
+  write_plots(folder, value, measured, trials, found, knob, area);
+  write_result(folder, value, measured, found, knob, law, options, area);
+  print_result(measured, found, knob, law, value.parachute.canopy_material);
+  fmt::print("  {} (porosity.svg, porosity.png, sweep.csv)\n", (folder / "result.json").string());
+  if (!found.outside) return 0;
+  fmt::print(stderr, "the found {} lies outside the trials: widen them\n", knob_name(knob));
+  return static_cast<int>(ExitCode::not_converged);
+}
+
+}  // namespace
+
+void add_calibrate_porosity(CLI::App& parent, int& status) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = parent.add_subcommand(
+      "porosity", "Porosity of the cloth from the measured drag of a reference parachute");
+  command->footer(
+      "Example: ripstop calibrate porosity examples/stratos-iv/case.toml --gammas 0.18,0.20,0.22,0.24 "
+      "--shifts 3\n"
+      "The file of --measured is a table with the columns speed_m_s, density_kg_m3 and drag_n; one row is "
+      "enough.\n"
+      "Goes on where it was killed. For other parachutes of the same cloth use the two --set that it "
+      "prints.");
+  add_sweep_options(*command, *options);
+  command
+      ->add_option(
+          "--measured", options->measured,
+          "Measured points (CSV); default: the rows of [[measured]] with a drag, on the case's basis")
+      ->check(CLI::ExistingFile);
+  CLI::Option* gammas = command
+                            ->add_option("--gammas", options->gammas,
+                                         "Values of Ergun's porosity (default: 0.18,0.20,0.22,0.24)")
+                            ->delimiter(',')
+                            ->check(CLI::Range(0.01, 0.99));
+  command
+      ->add_option("--permeabilities", options->permeabilities,
+                   "In its place: values of the permeability [CFM/ft2 at half an inch of water], b = 0")
+      ->delimiter(',')
+      ->check(CLI::Range(1e-3, 9999.0))
+      ->excludes(gammas);
+  command
+      ->add_option("--thickness", options->thickness, "t of Ergun's law [m]; [NFM]'s a and b ask for 1.2e-4")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--shifts", options->shifts,
+                   "Places of the canopy within one cell along the flow, averaged")
+      ->check(CLI::Range(1, 100));
+  command->add_option("--out", options->settings.folder,
+                      "Folder (default: runs/<folder of the case>-porosity)");
+  command->callback([options, &status] { status = calibrate(*options); });
+}
+
+}  // namespace ripstop
