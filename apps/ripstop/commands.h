@@ -19,5 +19,7 @@ void add_flow_parity(CLI::App& app, int& status);
 void add_calibrate(CLI::App& app, int& status);
 void add_calibrate_porosity(CLI::App& parent, int& status);
 void add_sweep(CLI::App& app, int& status);
+void add_compare(CLI::App& app, int& status);
+void add_photogrammetry(CLI::App& app, int& status);
 
 }  // namespace ripstop

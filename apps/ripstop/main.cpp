@@ -29,6 +29,8 @@ int main(int argc, char** argv) {
   add_flow_parity(app, status);
   add_calibrate(app, status);
   add_sweep(app, status);
+  add_compare(app, status);
+  add_photogrammetry(app, status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

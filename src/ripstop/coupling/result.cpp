@@ -13,15 +13,24 @@ double circle_of(double area) {
   return std::sqrt(4 * std::abs(area) / pi);
 }
 
-// The outline seen along z: the farthest cloth in every direction from the axis.
+// The outline seen along z: the farthest cloth in every direction from the axis. Rows are followed from node
+// to node, since a coarse mesh has fewer columns than there are directions.
 double outline_area(const Mesh& mesh, const std::vector<Vec3>& x) {
-  constexpr int sectors = 180;
+  constexpr int sectors = 180, steps = 8;
   std::vector<double> radius(sectors, 0.0);
   for (const Patch& patch : mesh.patches) {
-    for (int node = patch.first_node; node < patch.first_node + patch.rows * patch.columns; ++node) {
-      const double angle = std::atan2(x[node].y, x[node].x) + pi;
-      const int sector = std::min(sectors - 1, static_cast<int>(angle / (2 * pi) * sectors));
-      radius[sector] = std::max(radius[sector], std::hypot(x[node].x, x[node].y));
+    for (int row = 0; row < patch.rows; ++row) {
+      for (int column = 0; column < patch.columns; ++column) {
+        const bool last = column + 1 == patch.columns;
+        const Vec3 a = x[patch.node(row, column)];
+        const Vec3 b = last && !patch.periodic ? a : x[patch.node(row, last ? 0 : column + 1)];
+        for (int k = 0; k < steps; ++k) {
+          const Vec3 p = a + (double(k) / steps) * (b - a);
+          const double angle = std::atan2(p.y, p.x) + pi;
+          const int sector = std::min(sectors - 1, static_cast<int>(angle / (2 * pi) * sectors));
+          radius[sector] = std::max(radius[sector], std::hypot(p.x, p.y));
+        }
+      }
     }
   }
   double area = 0;

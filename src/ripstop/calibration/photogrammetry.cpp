@@ -1,0 +1,132 @@
+#include "ripstop/calibration/photogrammetry.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ripstop/core/error.h"
+#include "ripstop/core/toml/read.h"
+
+namespace ripstop {
+namespace {
+
+double squares(const std::vector<KnownDiameter>& diameters, double distance) {
+  double sum = 0;
+  for (const KnownDiameter& d : diameters) {
+    const double miss = corrected_diameter(d.apparent, distance) - d.known;
+    sum += miss * miss;
+  }
+  return sum;
+}
+
+}  // namespace
+
+double corrected_diameter(double apparent, double distance) {
+  if (!(apparent > 0) || !(apparent < distance))
+    throw Error(
+        ExitCode::bad_data,
+        fmt::format("a camera at {} m cannot see an apparent diameter of {} m; the distance must be larger",
+                    distance, apparent));
+  const double s = apparent / distance;
+  return apparent / std::sqrt(1 - s * s);
+}
+
+double corrected_length(double apparent, double distance, double diameter) {
+  if (!(diameter < 2 * distance) || !(apparent > 0))
+    throw Error(ExitCode::bad_data, fmt::format("a camera at {} m would be inside a canopy of {} m diameter",
+                                                distance, diameter));
+  return apparent * (2 * distance - diameter) / (2 * distance);
+}
+
+double camera_distance(double apparent, double known) {
+  if (!(apparent > 0) || !(apparent < known))
+    throw Error(
+        ExitCode::bad_data,
+        fmt::format("an apparent diameter of {} m gives no camera distance with a true one of {} m: the "
+                    "apparent one is the smaller at any distance",
+                    apparent, known));
+  const double ratio = apparent / known;
+  return apparent / std::sqrt(1 - ratio * ratio);
+}
+
+double camera_distance(const std::vector<KnownDiameter>& diameters) {
+  if (diameters.empty())
+    throw Error(ExitCode::usage,
+                "the camera's distance is not given and no diameter has known_m to find it from");
+  double low = INFINITY, high = 0;
+  for (const KnownDiameter& d : diameters) {
+    const double distance = camera_distance(d.apparent, d.known);
+    low = std::min(low, distance);
+    high = std::max(high, distance);
+  }
+  // The best lies between the distances of the single diameters, where the sum has one least point.
+  constexpr double golden = 0.6180339887498949;
+  double a = low, b = high;
+  while (b - a > 1e-12 * b) {
+    const double c = b - golden * (b - a), d = a + golden * (b - a);
+    if (c >= d) break;
+    (squares(diameters, c) < squares(diameters, d) ? b : a) =
+        squares(diameters, c) < squares(diameters, d) ? d : c;
+  }
+  return 0.5 * (a + b);
+}
+
+void describe(Fields& fields, ImageSize& size) {
+  fields.name("name", size.name, "Name: D_st, D_mid, D_end, L_tot, L_disk, L_band are also computed.")
+      .required();
+  fields.number("apparent_m", size.apparent_m, above(0).up_to(1000), "Read off the image at its scale.")
+      .required();
+  fields.number("known_m", size.known_m, above(0).up_to(1000), "True size, or the one a source gives for it.")
+      .absent("unknown");
+}
+
+void describe(Fields& fields, Image& image) {
+  fields.text("title", image.title, 200, "A line for reports.");
+  fields
+      .number("distance_m", image.distance_m, above(0).up_to(10000), "From the camera to the canopy's axis.")
+      .absent("from the diameters with known_m");
+  fields.rows("diameter", image.diameters, "A diameter across the view.");
+  fields.rows("length", image.lengths, "A length along the canopy's axis.");
+}
+
+Image read_image(const std::filesystem::path& file) {
+  const Document document = parse_toml(read_text_file(file), file.string());
+  Image image;
+  Origins origins;
+  std::vector<Problem> problems;
+  Fields fields;
+  describe(fields, image);
+  read_table(fields, document, origins, problems);
+  Fields read;
+  describe(read, image);
+  check_values(read, origins, problems);
+  Findings findings(origins, problems);
+  if (image.diameters.empty() && findings.sound({"diameter"}))
+    findings.add("diameter", "", "", "is missing: write a [[diameter]] with name and apparent_m for each");
+  if (!problems.empty()) throw InputError(ExitCode::usage, problems);
+  return image;
+}
+
+CorrectedImage correct(const Image& image) {
+  std::vector<KnownDiameter> known;
+  for (const ImageSize& d : image.diameters)
+    if (d.known_m) known.push_back({d.apparent_m, *d.known_m});
+  CorrectedImage result;
+  result.distance_given = image.distance_m.has_value();
+  result.distance = image.distance_m ? *image.distance_m : camera_distance(known);
+  double largest = 0;
+  for (const ImageSize& d : image.diameters) {
+    result.diameters.push_back(
+        {d.name, d.apparent_m, corrected_diameter(d.apparent_m, result.distance), d.known_m});
+    largest = std::max(largest, result.diameters.back().corrected);
+  }
+  for (const ImageSize& l : image.lengths)
+    result.lengths.push_back(
+        {l.name, l.apparent_m, corrected_length(l.apparent_m, result.distance, largest), l.known_m});
+  if (!known.empty())
+    result.root_mean_square = std::sqrt(squares(known, result.distance) / double(known.size()));
+  return result;
+}
+
+}  // namespace ripstop
