@@ -12,6 +12,7 @@
 #include "opening.h"
 #include "progress.h"
 #include "ripstop/run/inflation_folder.h"
+#include "warnings.h"
 
 namespace ripstop {
 namespace {
@@ -142,7 +143,9 @@ int run(const Options& options) {
                               state.step, duration_text(gone), duration_text(left)));
   }
   files.save(state);
-  print_result(files.finish(solver, state, value, source), value, source, folder);
+  const InflationResult result = files.finish(solver, state, value, source);
+  print_result(result, value, source, folder);
+  print_material_warnings(value, result.stress.strain);
   return 0;
 }
 

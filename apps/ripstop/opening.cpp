@@ -70,6 +70,8 @@ Case opening_case(const OpeningOptions& options) {
   if (options.pressure) inflation.pressure_pa = *options.pressure;
   if (options.pressure || !options.steady_run.empty()) inflation.drag_coefficient.reset();
   if (!options.steady_run.empty()) inflation.pressure_pa.reset();
+  // Chords of curved seams would strain the folded start.
+  value.parachute.mesh.sewn_straight = false;
   value.parachute.mesh.folds = inflation.folds > 0 ? inflation.folds : value.parachute.lines.count;
   return value;
 }

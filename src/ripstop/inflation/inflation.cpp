@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "ripstop/core/error.h"
+#include "ripstop/inflation/folded_start.h"
 
 namespace ripstop {
 namespace {
@@ -65,8 +66,8 @@ Inflation::Inflation(InflationProblem problem) : problem_(std::move(problem)), t
     throw Error(ExitCode::usage,
                 "inflation.initial_radius_m is not given: the radius of the folded skirt, for example 0.1");
   }
-  folded_ = fold(problem_.mesh, {*s.initial_radius_m, s.folds, s.slack_m});
-  mesh_ = with_creases(problem_.mesh, folded_.folds);
+  folded_ = folded_start(problem_.mesh, {*s.initial_radius_m, s.folds, s.slack_m}, problem_.symmetry, team_);
+  mesh_ = with_creases(problem_.mesh, folded_);
   damp_springs(mesh_, s.line_damping_s, s.cloth_damping_s);
   cloth_ = make_cloth(mesh_, {problem_.linear, s.damping_n_s_m3, s.quadratic_damping_n_s2_m4});
 

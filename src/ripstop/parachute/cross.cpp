@@ -25,7 +25,11 @@ struct Lattice {
 Lattice choose_lattice(const Cross& canopy, const Design& design) {
   const double spacing = std::sqrt(facts(canopy, arms).cloth_area / design.mesh.cloth_nodes);
   const int spaces = design.lines.count / arms - 1;
-  const int per_space = static_cast<int>(std::lround(canopy.arm_width_m / spacing / spaces));
+  const double wanted = canopy.arm_width_m / spacing / spaces;
+  // To be folded, an arm needs a column along its middle.
+  const int per_space = design.mesh.folds > 0 && spaces % 2 != 0
+                            ? 2 * static_cast<int>(std::lround(0.5 * wanted))
+                            : static_cast<int>(std::lround(wanted));
   if (per_space < 1)
     throw Error(ExitCode::usage,
                 fmt::format("parachute.mesh.cloth_nodes = {}: too few for {} lines at the end of an arm; ask "

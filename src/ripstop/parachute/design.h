@@ -49,6 +49,7 @@ struct Riser {
 struct MeshSettings {
   int cloth_nodes = 25600;       // aimed at; [NFM] used 25,600 for Stratos IV
   double line_segment_m = 0.05;  // rest length of one spring of a line, aimed at
+  bool sewn_straight = true;     // cloth between two nodes of a line on a gore's seam keeps to their chord
   int folds = 0;                 // every ring has a multiple of twice as many columns, so that they fit
 };
 

@@ -125,8 +125,8 @@ void Builder::add_sewn_lines() {
   for (int k = 0; k < design_.lines.count; ++k) {
     const Radial radial = radial_at(k, design_.lines.count);
     const double segment = design_.mesh.line_segment_m;
-    sewn.push_back(sew(builder_, radial.band, d_.band_height_m, segment));
-    sewn.back().append(sew(builder_, radial.disk, on_disk, segment), d_.gap_height_m);
+    sewn.push_back(sew(builder_, radial.band, d_.band_height_m, segment, true));
+    sewn.back().append(sew(builder_, radial.disk, on_disk, segment, true), d_.gap_height_m);
   }
   add_lines(builder_, design_, materials_, sewn);
 }

@@ -10,33 +10,17 @@
 #include <numeric>
 
 #include "ripstop/core/error.h"
+#include "ripstop/parachute/hang.h"
 
 namespace ripstop {
 namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr double same = 1e-9;  // lengths closer than this are equal [m]
+constexpr double folded_strain = 1e-9;
 
 double radius_of(Vec3 p) {
   return std::hypot(p.x, p.y);
-}
-
-void check_folds(const Mesh& mesh, int folds) {
-  int common = 0;
-  for (const Patch& patch : mesh.patches) common = std::gcd(common, patch.columns);
-  if (folds >= 3 && common % (2 * folds) == 0) return;
-  std::vector<int> possible;
-  for (int n = 3; 2 * n <= common; ++n) {
-    if (common % (2 * n) == 0) possible.push_back(n);
-  }
-  throw Error(
-      ExitCode::usage,
-      fmt::format(
-          "inflation.folds = {}: fold lines follow columns of the mesh, and its rings have multiples of {} "
-          "columns; {}",
-          folds, common,
-          possible.empty() ? "no number of folds fits: ask for more cloth_nodes"
-                           : fmt::format("possible: {}", fmt::join(possible, ", "))));
 }
 
 // A developable piece of the canopy: patches on one cylinder, or on one cone about the axis.
@@ -184,21 +168,11 @@ class Folder {
   }
 
  private:
-  // A part of a line between two nodes of the cloth, or the confluence and one.
-  struct Link {
-    int from, to;
-    std::vector<int> nodes;       // all of them, ends included
-    std::vector<double> lengths;  // rest lengths between them
-    double length() const { return std::accumulate(lengths.begin(), lengths.end(), 0.0); }
-  };
-
   void choose_radii();
   void place_unshifted(const Piece& piece);
   void hang_pieces();
   void hang_lines();
-  void hang(const Link& link);
   void shift(Piece& piece, double by);
-  std::vector<Link> links() const;
   Piece& skirt_piece() { return pieces_[piece_of_node_[mesh_.skirt_nodes[0]]]; }
   int columns_of(const Piece& piece) const { return mesh_.patches[piece.patches[0]].columns; }
   [[noreturn]] void refuse_radius(const Piece& skirt) const;
@@ -270,25 +244,6 @@ void Folder::place_unshifted(const Piece& piece) {
   }
 }
 
-std::vector<Folder::Link> Folder::links() const {
-  std::vector<Link> links;
-  for (const LineRun& line : mesh_.lines) {
-    Link link{mesh_.confluence, -1, {mesh_.confluence}, {}};
-    for (const int s : line.springs) {
-      const Spring& spring = mesh_.springs[s];
-      const int next = spring.a == link.nodes.back() ? spring.b : spring.a;
-      link.nodes.push_back(next);
-      link.lengths.push_back(spring.rest_length);
-      if (piece_of_node_[next] < 0) continue;
-      link.to = next;
-      if (link.from == mesh_.confluence || piece_of_node_[link.from] != piece_of_node_[next])
-        links.push_back(link);
-      link = {next, -1, {next}, {}};
-    }
-  }
-  return links;
-}
-
 void Folder::shift(Piece& piece, double by) {
   piece.placed = true;
   for (const int p : piece.patches) {
@@ -298,28 +253,17 @@ void Folder::shift(Piece& piece, double by) {
   }
 }
 
-// A link allows its far end to lie downstream of its near end by sqrt(length^2 - lateral^2). Each piece goes
-// where its shortest link to what is already placed allows.
+// Each piece goes where its shortest link to what is already placed allows.
 void Folder::hang_pieces() {
-  const std::vector<Link> all = links();
+  const std::vector<LineLink> all = line_links(mesh_, piece_of_node_);
   for (std::size_t round = 0; round < pieces_.size(); ++round) {
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
       if (pieces_[i].placed) continue;
       double by = std::numeric_limits<double>::infinity();
-      for (const Link& link : all) {
-        const bool free_part = link.from == mesh_.confluence;
+      for (const LineLink& link : all) {
         if (piece_of_node_[link.to] != static_cast<int>(i)) continue;
-        if (!free_part && !pieces_[piece_of_node_[link.from]].placed) continue;
-        const double length = link.length() - (free_part ? folding_.slack : 0.0);
-        const Vec3 from = x_[link.from], to = x_[link.to];
-        const double lateral = std::hypot(to.x - from.x, to.y - from.y);
-        if (!(length > lateral)) {
-          throw Error(ExitCode::usage,
-                      fmt::format("inflation.slack_m = {}: a line of {:.4g} m does not reach from the "
-                                  "confluence to the folded skirt at {:.4g} m from the axis",
-                                  folding_.slack, link.length(), lateral));
-        }
-        by = std::min(by, from.z + std::sqrt(length * length - lateral * lateral) - to.z);
+        if (link.from != mesh_.confluence && !pieces_[piece_of_node_[link.from]].placed) continue;
+        by = std::min(by, free_way(link, mesh_, x_, folding_.slack));
       }
       if (std::isfinite(by)) shift(pieces_[i], by);
     }
@@ -333,61 +277,70 @@ void Folder::hang_pieces() {
 }
 
 void Folder::hang_lines() {
-  for (const Link& link : links()) hang(link);
+  for (const LineLink& link : line_links(mesh_, piece_of_node_)) hang(link, x_);
 }
 
-// A link's inner nodes: on the straight way when it is taut, else on the arc of a circle that bulges away
-// from the axis, every segment a chord of its rest length: D = (2 / k) sin(sum asin(l_i k / 2)) for the
-// curvature k.
-void Folder::hang(const Link& link) {
-  const Vec3 from = x_[link.from], to = x_[link.to];
-  const double distance = norm(to - from), length = link.length();
-  if (link.nodes.size() < 3) return;
-  const Vec3 way = (to - from) / distance;
-  const auto half_angle = [&](double curvature) {
-    double sum = 0;
-    for (const double l : link.lengths) sum += std::asin(std::min(1.0, 0.5 * l * curvature));
-    return sum;
-  };
-  double low = 0, high = 2 / *std::max_element(link.lengths.begin(), link.lengths.end());
-  if (length > distance * (1 + 1e-12)) {
-    for (int i = 0; i < 200; ++i) {
-      const double k = 0.5 * (low + high);
-      const double half = half_angle(k);
-      (half < pi && 2 / k * std::sin(half) > distance ? low : high) = k;
+// A sheet that is folded without strain shortens those springs only that cross a fold.
+void drop_folded_springs(Patch& patch, const std::vector<Vec3>& x) {
+  for (const Direction d : {shear_up, shear_down, bend_row, bend_column}) {
+    for (int i = 0; i < patch.rows * patch.columns; ++i) {
+      if (patch.width[d][i] <= 0) continue;
+      const int row = i / patch.columns + direction_offset[d].row;
+      const int column = i % patch.columns + direction_offset[d].column;
+      const double length = norm(x[patch.node(row, column)] - x[patch.first_node + i]);
+      if (length < (1 - folded_strain) * patch.rest_length[d][i]) patch.width[d][i] = 0;
     }
-  }
-  const double curvature = low, half = half_angle(curvature);
-  const double azimuth = std::atan2(to.y, to.x);
-  const Vec3 outward{std::cos(azimuth), std::sin(azimuth), 0};
-  const Vec3 across = outward - dot(outward, way) * way;
-  const Vec3 side = across / norm(across);
-  double turned = -half;  // angle on the circle, from the middle of the arc
-  Vec3 p = from;
-  for (std::size_t i = 0; i + 2 < link.nodes.size(); ++i) {
-    const double step = 2 * std::asin(std::min(1.0, 0.5 * link.lengths[i] * curvature));
-    // A segment points along the circle's tangent at its middle.
-    const double tangent = turned + 0.5 * step;
-    const double l = curvature > 0 ? link.lengths[i] : link.lengths[i] * distance / length;
-    p += l * (std::cos(tangent) * way - std::sin(tangent) * side);
-    turned += step;
-    x_[link.nodes[i + 1]] = p;
   }
 }
 
 }  // namespace
 
+void check_folds(const Mesh& mesh, int folds) {
+  int common = 0;
+  for (const Patch& patch : mesh.patches) common = std::gcd(common, patch.columns);
+  if (folds >= 3 && common % (2 * folds) == 0) return;
+  std::vector<int> possible;
+  for (int n = 3; 2 * n <= common; ++n) {
+    if (common % (2 * n) == 0) possible.push_back(n);
+  }
+  throw Error(
+      ExitCode::usage,
+      fmt::format(
+          "inflation.folds = {}: fold lines follow columns of the mesh, and its rings have multiples of {} "
+          "columns; {}",
+          folds, common,
+          possible.empty() ? "no number of folds fits: ask for more cloth_nodes"
+                           : fmt::format("possible: {}", fmt::join(possible, ", "))));
+}
+
+bool folds_without_strain(const Mesh& mesh) {
+  for (const Patch& patch : mesh.patches) {
+    if (!patch.periodic || patch.rows < 2) return false;
+    for (int row = 0; row < patch.rows; ++row) {
+      for (int column = 1; column < patch.columns; ++column) {
+        const double r = radius_of(mesh.start[patch.node(row, column)]);
+        if (std::abs(r - radius_of(mesh.start[patch.node(row, 0)])) > same) return false;
+      }
+    }
+  }
+  return true;
+}
+
 FoldedStart fold(const Mesh& mesh, const Folding& folding) {
   return Folder(mesh, folding).run();
 }
 
-Mesh with_creases(const Mesh& mesh, int folds) {
-  check_folds(mesh, folds);
+Mesh with_creases(const Mesh& mesh, const FoldedStart& folded) {
   Mesh result = mesh;
   for (Patch& patch : result.patches) {
-    const int strip = patch.columns / (2 * folds);
+    if (!patch.periodic) {
+      drop_folded_springs(patch, folded.positions);
+      continue;
+    }
+    check_folds(mesh, folded.folds);
+    const int strip = patch.columns / (2 * folded.folds);
     for (int row = 0; row < patch.rows; ++row) {
-      for (int fold_line = 0; fold_line < 2 * folds; ++fold_line) {
+      for (int fold_line = 0; fold_line < 2 * folded.folds; ++fold_line) {
         const int before = (fold_line * strip - 1 + patch.columns) % patch.columns;
         patch.width[bend_row][row * patch.columns + before] = 0;
       }

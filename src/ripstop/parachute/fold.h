@@ -30,9 +30,16 @@ struct FoldedStart {
 /// fit, Error(bad_data) for a mesh of another kind.
 FoldedStart fold(const Mesh& mesh, const Folding& folding);
 
-/// The mesh without the bending springs that span a fold line: a crease does not resist being unfolded, and
-/// the folded start is at rest. Throws Error(usage) as fold().
-Mesh with_creases(const Mesh& mesh, int folds);
+/// Throws Error(usage) when fold lines would not follow columns of every ring.
+void check_folds(const Mesh& mesh, int folds);
+
+/// Whether fold() takes the mesh: disks, cylinders and frusta of revolution only.
+bool folds_without_strain(const Mesh& mesh);
+
+/// The mesh without the springs that a fold line crosses, so that the folded start is at rest: a crease does
+/// not resist being unfolded. Those are springs over two cells, and on a flat sheet, which has folds along
+/// diagonals of cells, the other diagonals of these cells. Throws Error(usage) as fold().
+Mesh with_creases(const Mesh& mesh, const FoldedStart& folded);
 
 /// What the springs feel at given positions.
 struct StartStrain {

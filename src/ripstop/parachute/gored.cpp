@@ -255,7 +255,7 @@ void Builder::add_sewn_lines() {
     double left = line_length_on_disk(design_);
     Path line;
     for (const Path& run : runs_along(k, design_.lines.count)) {
-      const Path piece = sew(builder_, run, left, design_.mesh.line_segment_m);
+      const Path piece = sew(builder_, run, left, design_.mesh.line_segment_m, design_.mesh.sewn_straight);
       left -= piece.length();
       line.extend(piece);
       if (piece.nodes.back() != run.nodes.back()) break;

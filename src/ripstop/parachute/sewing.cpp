@@ -42,7 +42,7 @@ void add_riser(MeshBuilder& builder, const Design& design, const Line& riser) {
 
 }  // namespace
 
-Path sew(MeshBuilder& builder, const Path& path, double length, double segment) {
+Path sew(MeshBuilder& builder, const Path& path, double length, double segment, bool straight) {
   std::vector<double> s(path.nodes.size());
   for (std::size_t i = 1; i < s.size(); ++i) s[i] = s[i - 1] + path.lengths[i - 1];
   std::size_t end = 0;
@@ -65,7 +65,7 @@ Path sew(MeshBuilder& builder, const Path& path, double length, double segment) 
   Path sewn{{path.nodes[0]}, {}};
   for (std::size_t k = 1; k < chosen.size(); ++k) {
     const std::size_t from = chosen[k - 1], to = chosen[k];
-    for (std::size_t i = from + 1; i < to; ++i) {
+    for (std::size_t i = from + 1; straight && i < to; ++i) {
       const double weight = (s[i] - s[from]) / (s[to] - s[from]);
       builder.tie(path.nodes[i], {{path.nodes[from], 1 - weight}, {path.nodes[to], weight}});
     }

@@ -9,9 +9,10 @@
 namespace ripstop {
 
 /// Chooses the nodes of `path` (a smooth run of cloth nodes) that become nodes of a line, at least `segment`
-/// [m] apart, and ties the nodes between to them: a short segment of so stiff a line would set the time step.
+/// [m] apart: a short segment of so stiff a line would set the time step. The nodes between are tied to the
+/// straight segment, or left free beside it when not `straight`.
 /// Goes no farther than `length` [m] along the path. The chosen nodes, with the lengths between.
-Path sew(MeshBuilder& builder, const Path& path, double length, double segment);
+Path sew(MeshBuilder& builder, const Path& path, double length, double segment, bool straight);
 
 /// Straight lines from the confluence on the axis to the first node of every path, which they follow from
 /// there; and the riser. All lines are `design.lines.length_m` long; the confluence lies where the longest is

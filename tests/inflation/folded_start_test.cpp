@@ -1,0 +1,119 @@
+// The folded start of every family keeps its cloth as cut.
+#include "ripstop/inflation/folded_start.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "../printed_materials.h"
+#include "ripstop/cloth/cloth.h"
+#include "ripstop/core/error.h"
+#include "ripstop/parachute/build.h"
+
+namespace ripstop {
+namespace {
+
+Design design_of(const Canopy& canopy, int gores, int lines) {
+  Design design;
+  design.canopy = canopy;
+  design.gores = gores;
+  design.lines.count = lines;
+  design.lines.length_m = 1.2;
+  design.mesh.cloth_nodes = 2500;
+  design.mesh.sewn_straight = false;
+  design.mesh.folds = lines;
+  return design;
+}
+
+struct Family {
+  const char* name;
+  Design design;
+  double radius;
+};
+
+std::vector<Family> families() {
+  Spherical hemisphere, quarter;
+  hemisphere.half_angle_deg = 90;
+  quarter.half_angle_deg = 60;
+  for (Spherical* canopy : {&hemisphere, &quarter}) canopy->nominal_diameter_m = 1, canopy->vent_diameter_m = 0.1;
+  FlatCircular flat;
+  flat.nominal_diameter_m = 1, flat.vent_diameter_m = 0.1;
+  Conical cone;
+  cone.nominal_diameter_m = 1, cone.vent_diameter_m = 0.1, cone.cone_angle_deg = 30;
+  ExtendedSkirt skirt;
+  skirt.disk_diameter_m = 0.86, skirt.vent_diameter_m = 0.1, skirt.skirt_height_m = 0.086;
+  Ringslot slots;
+  slots.nominal_diameter_m = 1, slots.vent_diameter_m = 0.1, slots.rings = 6, slots.slot_height_m = 0.013;
+  Ringsail sails;
+  sails.nominal_diameter_m = 1, sails.vent_diameter_m = 0.06, sails.sails = 9;
+  Cross cross;
+  cross.arm_length_m = 1.2, cross.arm_width_m = 0.4;
+  return {{"flat circular", design_of(flat, 12, 12), 0.12},
+          {"conical", design_of(cone, 12, 12), 0.12},
+          {"hemispherical", design_of(hemisphere, 12, 12), 0.12},
+          {"quarter-spherical", design_of(quarter, 12, 12), 0.12},
+          {"extended skirt", design_of(skirt, 12, 12), 0.12},
+          {"ringslot", design_of(slots, 12, 12), 0.12},
+          {"ringsail", design_of(sails, 8, 8), 0.1},
+          {"cross", design_of(cross, 4, 16), 0.15}};
+}
+
+TEST(FoldedStart, EveryFamilyFoldsToTheGivenRadiusWithoutStrain) {
+  ThreadTeam team(1);
+  for (const Family& family : families()) {
+    const Mesh mesh = build_mesh(family.design, printed_materials());
+    const int symmetry = std::gcd(family.design.gores, family.design.lines.count);
+    const FoldedStart start = folded_start(mesh, {family.radius, 0, 0}, symmetry, team);
+    const StartStrain strain = start_strain(with_creases(mesh, start), start.positions);
+    EXPECT_LT(strain.largest, 1e-3) << family.name << ": " << strain.part;
+    EXPECT_NEAR(0.5 * (start.inner_radius + start.outer_radius) / family.radius, 1, 0.02) << family.name;
+    EXPECT_GT(start.outer_radius, start.inner_radius) << family.name;
+  }
+}
+
+TEST(FoldedStart, ARingsailKeepsItsSymmetryAndItsSlotsAreNoWiderThanTheirLines) {
+  ThreadTeam team(1);
+  const Family sails = families()[6];
+  const Mesh mesh = build_mesh(sails.design, printed_materials());
+  const FoldedStart start = folded_start(mesh, {sails.radius, 0, 0.05}, 8, team);
+  const double turn = 2 * std::numbers::pi / 8, c = std::cos(turn), s = std::sin(turn);
+  for (const Patch& patch : mesh.patches) {
+    for (int row = 0; row < patch.rows; ++row) {
+      for (int column = 0; column < patch.columns; ++column) {
+        const Vec3 p = start.positions[patch.node(row, column)];
+        const Vec3 q = start.positions[patch.node(row, (column + patch.columns / 8) % patch.columns)];
+        ASSERT_LT(norm(q - Vec3{c * p.x - s * p.y, s * p.x + c * p.y, p.z}), 1e-12);
+        const Vec3 mirror = start.positions[patch.node(row, (patch.columns - column) % patch.columns)];
+        ASSERT_LT(norm(mirror - Vec3{p.x, -p.y, p.z}), 1e-12);
+      }
+    }
+  }
+  for (const LineRun& line : mesh.lines) {
+    for (const int i : line.springs) {
+      const Spring& spring = mesh.springs[i];
+      EXPECT_LT(norm(start.positions[spring.b] - start.positions[spring.a]), 1.001 * spring.rest_length);
+    }
+  }
+}
+
+TEST(FoldedStart, MoreFoldsAllowASmallerRadiusAndImpossibleOnesAreRefused) {
+  ThreadTeam team(1);
+  Family flat = families()[0];
+  const Mesh few = build_mesh(flat.design, printed_materials());
+  EXPECT_THROW(folded_start(few, {0.03, 12, 0}, 12, team), Error);
+  EXPECT_THROW(folded_start(few, {0.6, 12, 0}, 12, team), Error);
+  EXPECT_THROW(folded_start(few, {0.12, 7, 0}, 12, team), Error);
+  flat.design.mesh.folds = 24;
+  const Mesh many = build_mesh(flat.design, printed_materials());
+  const FoldedStart start = folded_start(many, {0.06, 24, 0}, 12, team);
+  EXPECT_LT(start_strain(with_creases(many, start), start.positions).largest, 2e-3);
+  const Family cross = families()[7];
+  const Mesh sheet = build_mesh(cross.design, printed_materials());
+  EXPECT_THROW(folded_start(sheet, {0.15, 6, 0}, 4, team), Error);
+  EXPECT_THROW(folded_start(sheet, {0.02, 4, 0}, 4, team), Error);
+}
+
+}  // namespace
+}  // namespace ripstop
