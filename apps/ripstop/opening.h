@@ -3,6 +3,8 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "ripstop/case/case.h"
 #include "ripstop/run/inflation_folder.h"
@@ -16,6 +18,7 @@ namespace ripstop {
 struct OpeningOptions {
   std::filesystem::path case_file, steady_run;
   Overrides overrides;
+  std::vector<std::string> set;  // --set, as typed
   std::optional<double> pressure, damping, duration;
   std::optional<int> cloth_nodes;
   int threads = 0;  // 0: as in [coupling]

@@ -37,7 +37,8 @@ std::vector<Family> families() {
   Spherical hemisphere, quarter;
   hemisphere.half_angle_deg = 90;
   quarter.half_angle_deg = 60;
-  for (Spherical* canopy : {&hemisphere, &quarter}) canopy->nominal_diameter_m = 1, canopy->vent_diameter_m = 0.1;
+  for (Spherical* canopy : {&hemisphere, &quarter})
+    canopy->nominal_diameter_m = 1, canopy->vent_diameter_m = 0.1;
   FlatCircular flat;
   flat.nominal_diameter_m = 1, flat.vent_diameter_m = 0.1;
   Conical cone;

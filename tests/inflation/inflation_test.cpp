@@ -107,6 +107,23 @@ TEST(Inflation, ASymmetricStartOpensSymmetrically) {
   EXPECT_LT(open.asymmetry, 1e-10);
 }
 
+TEST(Inflation, AStatedImperfectionOfOneWaveIsWhatTheAsymmetrySays) {
+  InflationProblem problem = small_problem(500, 5e-3);
+  problem.settings.imperfection_m = 1e-5;
+  Inflation solver(problem);
+  InflationState state = solver.start();
+  // cos(azimuth) against its like a sixth of a turn on: at most 2 sin(30 degrees) = 1 times the amplitude.
+  const double at_start = solver.frame(state).asymmetry;
+  EXPECT_GT(at_start, 0.8e-5);
+  EXPECT_LT(at_start, 1.001e-5);
+  run(solver, state);
+  EXPECT_LT(solver.frame(state).asymmetry, 1e-3);
+  problem.settings.imperfection_harmonic = 6;  // a wave a gore keeps the symmetry
+  Inflation even(problem);
+  InflationState kept = even.start();
+  EXPECT_LT(even.frame(kept).asymmetry, 1e-14);
+}
+
 TEST(Inflation, AStoppedRunGoesOnToTheLastBit) {
   const InflationProblem problem = small_problem(500, 6e-3);
   Inflation whole(problem), first(problem), second(problem);

@@ -106,6 +106,12 @@ void describe(Fields& fields, InflationSettings& inflation) {
                 "Relative damping of lines and tape as a time: C = line_damping_s K_1 / L0 (assumed).");
   fields.number("cloth_damping_s", inflation.cloth_damping_s, from(0).up_to(1e-3),
                 "Relative damping of the cloth's springs, likewise (none assumed).");
+  fields.number("imperfection_m", inflation.imperfection_m, from(0).up_to(1),
+                "The folded cloth starts moved outward by this much times cos(harmonic x azimuth) at the "
+                "outer folds of "
+                "the skirt, in proportion to the radius elsewhere; 0: symmetric.");
+  fields.integer("imperfection_harmonic", inflation.imperfection_harmonic, from(1).up_to(1000),
+                 "Waves round the axis of that imperfection.");
   fields.number("duration_s", inflation.duration_s, above(0).up_to(1000), "Time from deployment to the end.");
   fields.number(
       "history_hz", inflation.history_hz, from(10).up_to(1e6),

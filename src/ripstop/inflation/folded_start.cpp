@@ -21,7 +21,7 @@ constexpr double bending_weight = 1e-3;
 constexpr double strain_sought = 1e-4;
 constexpr int steps_a_round = 2500, most_rounds = 24;
 // Every so many rounds the largest strain must have fallen to this share of what it was.
-constexpr int rounds_between_looks = 2;
+constexpr int rounds_between_looks = 4;
 constexpr double gain_wanted = 0.9;
 constexpr double radius_tolerance = 0.01;
 constexpr int most_corrections = 1;
@@ -67,8 +67,7 @@ void make_symmetric(const Mesh& mesh, int symmetry, std::vector<Vec3>& x) {
           const double turn = -2 * std::numbers::pi * k / symmetry, c = std::cos(turn), s = std::sin(turn);
           const auto back = [&](Vec3 p) { return Vec3{c * p.x - s * p.y, s * p.x + c * p.y, p.z}; };
           const Vec3 p = back(old[patch.node(row, (column + k * sector) % patch.columns)]);
-          const Vec3 q =
-              back(old[patch.node(row, (patch.columns - column + k * sector) % patch.columns)]);
+          const Vec3 q = back(old[patch.node(row, (patch.columns - column + k * sector) % patch.columns)]);
           sum += p + Vec3{q.x, -q.y, q.z};
         }
         const Vec3 mean = (0.5 / symmetry) * sum;
@@ -125,11 +124,12 @@ class GoreFolder {
   int folds_, symmetry_;
   std::vector<int> piece_;
   ThreadTeam& team_;
-  double wanted_ = folding_.initial_radius;  // of the zigzag, so that the relaxed one has the asked radius [m]
+  double wanted_ =
+      folding_.initial_radius;  // of the zigzag, so that the relaxed one has the asked radius [m]
 };
 
-// The share of the seams' radius that the inner folds keep, for a zigzag whose folds at the skirt have the mean
-// radius `radius`.
+// The share of the seams' radius that the inner folds keep, for a zigzag whose folds at the skirt have the
+// mean radius `radius`.
 double GoreFolder::share_for(double radius) {
   const auto mean = [&](double share) {
     try {
@@ -142,10 +142,11 @@ double GoreFolder::share_for(double radius) {
   double low = least_share, high = 1;
   const double least = mean(low);
   if (!(radius > least)) {
-    throw Error(ExitCode::usage,
-                fmt::format("inflation.initial_radius_m = {}: with {} folds the skirt folds to no less than {:.4g} "
-                            "m; more folds allow smaller radii",
-                            folding_.initial_radius, folds_, least));
+    throw Error(
+        ExitCode::usage,
+        fmt::format("inflation.initial_radius_m = {}: with {} folds the skirt folds to no less than {:.4g} "
+                    "m; more folds allow smaller radii",
+                    folding_.initial_radius, folds_, least));
   }
   for (int i = 0; i < 40; ++i) {
     const double middle = 0.5 * (low + high);
@@ -153,10 +154,11 @@ double GoreFolder::share_for(double radius) {
   }
   const double reached = mean(low);
   if (std::abs(reached / radius - 1) > radius_tolerance) {
-    throw Error(ExitCode::usage,
-                fmt::format("inflation.initial_radius_m = {}: with {} folds the skirt folds to no more than {:.4g} "
-                            "m, else its strips are too short",
-                            folding_.initial_radius, folds_, reached));
+    throw Error(
+        ExitCode::usage,
+        fmt::format("inflation.initial_radius_m = {}: with {} folds the skirt folds to no more than {:.4g} "
+                    "m, else its strips are too short",
+                    folding_.initial_radius, folds_, reached));
   }
   return low;
 }
@@ -174,10 +176,10 @@ void GoreFolder::measure(FoldedStart& start) const {
 FoldedStart GoreFolder::relaxed(double share) const {
   FoldedStart start = zigzag_of_gores(mesh_, folds_, share);
   Mesh canopy = canopy_of(mesh_, start);
-  // The inner folds of the skirt stay where they are: the radius is given.
+  // Inner folds of the skirt stay where they are: the radius is given. All that are images of the first.
   const Patch& skirt = mesh_.patches.front();
   canopy.fixed.clear();
-  for (int k = 0; k < folds_; ++k) canopy.fixed.push_back(skirt.node(0, k * (skirt.columns / folds_)));
+  for (int k = 0; k < symmetry_; ++k) canopy.fixed.push_back(skirt.node(0, k * (skirt.columns / symmetry_)));
   const ClothPtr cloth = make_cloth(canopy);
   ClothState state = start_state(*cloth);
   double before = std::numeric_limits<double>::infinity();

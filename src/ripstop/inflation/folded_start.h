@@ -8,10 +8,10 @@
 namespace ripstop {
 
 /// Disks, cylinders and cones of revolution as fold(), flat sheets as fold_sheet(). Canopies of gores start
-/// from the zigzag of zigzag_of_gores() and are relaxed without loads, all springs equally stiff, until none is
-/// strained by more than a part of ten thousand or little more is gained. `symmetry` is the number of turns
-/// that map the canopy as cut onto itself; the folded one keeps those that also map its folds. Throws as
-/// fold().
+/// from the zigzag of zigzag_of_gores() and are relaxed without loads, all springs equally stiff, until none
+/// is strained by more than a part of ten thousand or little more is gained. `symmetry` is the number of
+/// turns that map the canopy as cut onto itself; the folded one keeps those that also map its folds. Throws
+/// as fold().
 FoldedStart folded_start(const Mesh& mesh, const Folding& folding, int symmetry, ThreadTeam& team);
 
 }  // namespace ripstop

@@ -81,10 +81,23 @@ Inflation::Inflation(InflationProblem problem) : problem_(std::move(problem)), t
 InflationState Inflation::start() const {
   InflationState state;
   state.cloth = start_state(*cloth_);
-  set_positions(state.cloth, *cloth_, folded_.positions);
+  set_positions(state.cloth, *cloth_, with_imperfection());
   state.step = problem_.settings.step_fraction * step_bound(*cloth_, state.cloth).stable_step;
   take_shots(state);
   return state;
+}
+
+std::vector<Vec3> Inflation::with_imperfection() const {
+  const InflationSettings& s = problem_.settings;
+  std::vector<Vec3> x = folded_.positions;
+  if (s.imperfection_m == 0) return x;
+  for (const Patch& patch : mesh_.patches) {
+    for (int i = patch.first_node; i < patch.first_node + patch.rows * patch.columns; ++i) {
+      const double wave = std::cos(s.imperfection_harmonic * std::atan2(x[i].y, x[i].x));
+      x[i] += (s.imperfection_m * wave / folded_.outer_radius) * Vec3{x[i].x, x[i].y, 0};
+    }
+  }
+  return x;
 }
 
 std::vector<HistoryRow> Inflation::advance(InflationState& state) {

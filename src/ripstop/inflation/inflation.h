@@ -91,6 +91,7 @@ class Inflation {
  private:
   std::vector<HistoryRow> compute_block(InflationState& state);
   void take_shots(InflationState& state) const;
+  std::vector<Vec3> with_imperfection() const;
 
   InflationProblem problem_;
   Mesh mesh_;

@@ -87,9 +87,10 @@ void describe(Fields& fields, MeshSettings& mesh) {
                  "Nodes of the cloth that the mesh aims at. [NFM] used 25,600 for Stratos IV.");
   fields.number("line_segment_m", mesh.line_segment_m, from(0.001).up_to(10),
                 "Rest length that the springs of a line aim at.");
-  fields.toggle("sewn_straight", mesh.sewn_straight,
-              "Seams of gores keep to the straight segments between the nodes of a line; false: the cloth's nodes "
-              "between them are free beside the line, which is as long as the seam.");
+  fields.toggle(
+      "sewn_straight", mesh.sewn_straight,
+      "Seams of gores keep to the straight segments between the nodes of a line; false: the cloth's nodes "
+      "between them are free beside the line, which is as long as the seam.");
   fields.integer(
       "folds", mesh.folds, from(0).up_to(1000),
       "Every ring gets a multiple of twice as many columns, so that so many folds fit; 0: as it comes.");

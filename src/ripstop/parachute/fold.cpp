@@ -314,12 +314,16 @@ void check_folds(const Mesh& mesh, int folds) {
 }
 
 bool folds_without_strain(const Mesh& mesh) {
+  std::vector<char> tied(mesh.node_count(), 0);  // a tied node lies on a chord
+  for (const Tie& tie : mesh.ties) tied[tie.node] = 1;
   for (const Patch& patch : mesh.patches) {
     if (!patch.periodic || patch.rows < 2) return false;
     for (int row = 0; row < patch.rows; ++row) {
       for (int column = 1; column < patch.columns; ++column) {
         const double r = radius_of(mesh.start[patch.node(row, column)]);
-        if (std::abs(r - radius_of(mesh.start[patch.node(row, 0)])) > same) return false;
+        if (!tied[patch.node(row, column)] && !tied[patch.node(row, 0)] &&
+            std::abs(r - radius_of(mesh.start[patch.node(row, 0)])) > same)
+          return false;
       }
     }
   }

@@ -78,17 +78,19 @@ FoldedStart zigzag_of_gores(const Mesh& mesh, int folds, double share) {
     // s^2 = a^2 + b^2 - 2 a b cos(pi / folds) + (difference in z)^2 gives b; the z of the outer fold depends
     // on it a little.
     for (int k = 1; k < lines; k += 2) {
-      const double s = 0.5 * (row_length(level, (k - 1) * width, width) + row_length(level, k * width, width));
+      const double s =
+          0.5 * (row_length(level, (k - 1) * width, width) + row_length(level, k * width, width));
       const double neighbours = 0.5 * (z[k - 1] + z[(k + 1) % lines]);
       z[k] = neighbours;
       for (int i = 0; i < 30; ++i) {
         const double level_part = rise(s, z[k] - neighbours);
         const double root = level_part * level_part - inner * inner * (1 - c * c);
         if (root < 0) {
-          throw Error(ExitCode::usage,
-                      fmt::format("a strip of {:.4g} m between two folds is too short for inner folds at {:.4g} "
-                                  "m from the axis; ask for another inflation.initial_radius_m or other folds",
-                                  s, inner));
+          throw Error(
+              ExitCode::usage,
+              fmt::format("a strip of {:.4g} m between two folds is too short for inner folds at {:.4g} "
+                          "m from the axis; ask for another inflation.initial_radius_m or other folds",
+                          s, inner));
         }
         radius[k] = inner * c + std::sqrt(root);
         hang_from_above(k);
@@ -97,7 +99,8 @@ FoldedStart zigzag_of_gores(const Mesh& mesh, int folds, double share) {
     for (int k = 0; k < lines; ++k) {
       const int next = (k + 1) % lines;
       const Vec3 from{radius[k] * std::cos(k * turn), radius[k] * std::sin(k * turn), z[k]};
-      const Vec3 to{radius[next] * std::cos((k + 1) * turn), radius[next] * std::sin((k + 1) * turn), z[next]};
+      const Vec3 to{radius[next] * std::cos((k + 1) * turn), radius[next] * std::sin((k + 1) * turn),
+                    z[next]};
       const double whole = row_length(level, k * width, width);
       for (int i = 0; i < width; ++i) {
         const double t = row_length(level, k * width, i) / whole;

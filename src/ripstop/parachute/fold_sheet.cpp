@@ -70,9 +70,10 @@ void check_lattice(const Mesh& mesh) {
         for (const Vec3 axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}}) {
           const double sa = dot(a, axis), sb = dot(b, axis);
           if (std::abs(turn) > same * same && sa * sb < 0 && std::abs(sa) > same && std::abs(sb) > same)
-            throw Error(ExitCode::usage,
-                        "the middle of the sheet does not lie on a line of nodes, where it is to be folded: ask "
-                        "for other parachute.mesh.cloth_nodes");
+            throw Error(
+                ExitCode::usage,
+                "the middle of the sheet does not lie on a line of nodes, where it is to be folded: ask "
+                "for other parachute.mesh.cloth_nodes");
         }
       }
     }
@@ -107,10 +108,11 @@ FoldedStart fold_sheet(const Mesh& mesh, const Folding& folding) {
   double low = 0, high = sector;  // of the inner folds; at `sector` and beyond the outer ones fold over
   const auto mean = [&](double inner) { return radii_of(mesh, links, Cone(inner)).mean(); };
   if (!(folding.initial_radius > mean(low) && folding.initial_radius < mean(high)))
-    throw Error(ExitCode::usage,
-                fmt::format("inflation.initial_radius_m = {}: with 4 folds the ends of the lines can lie from "
-                            "{:.4g} m to below {:.4g} m from the axis",
-                            folding.initial_radius, mean(low), mean(high)));
+    throw Error(
+        ExitCode::usage,
+        fmt::format("inflation.initial_radius_m = {}: with 4 folds the ends of the lines can lie from "
+                    "{:.4g} m to below {:.4g} m from the axis",
+                    folding.initial_radius, mean(low), mean(high)));
   for (int i = 0; i < 100; ++i) {
     const double middle = 0.5 * (low + high);
     (mean(middle) < folding.initial_radius ? low : high) = middle;
@@ -120,8 +122,7 @@ FoldedStart fold_sheet(const Mesh& mesh, const Folding& folding) {
   for (int node = 0; node < mesh.node_count(); ++node)
     if (piece[node] >= 0) start.positions[node] = cone.place(mesh.start[node]);
   double by = std::numeric_limits<double>::infinity();
-  for (const LineLink& link : links)
-    by = std::min(by, free_way(link, mesh, start.positions, folding.slack));
+  for (const LineLink& link : links) by = std::min(by, free_way(link, mesh, start.positions, folding.slack));
   for (int node = 0; node < mesh.node_count(); ++node)
     if (piece[node] >= 0) start.positions[node].z += by;
   for (const LineLink& link : links) hang(link, start.positions);
