@@ -13,7 +13,7 @@ CHECK_PACKAGES := libgtest-dev libbenchmark-dev python3 python3-jsonschema pytho
 
 export PATH := /usr/bin:$(PATH)
 
-.PHONY: help deps check-deps build demo check sanitize bench validate format format-check install package clean
+.PHONY: help deps check-deps build demo check sanitize bench validate validate-ojf format format-check install package clean
 
 help:  ## This list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -66,6 +66,9 @@ validate: build  ## Stratos IV at five speeds on the printed grid with both engi
 	@for v in 30 25 20 15 10; do \
 	  $(VALIDATE) --speed $$v --flow openfoam --ranks $(JOBS) --out runs/validate/openfoam-$$v || exit; done
 	@/usr/bin/python3 validation/stratos-iv/table.py runs/validate docs/validation.md
+
+validate-ojf: build  ## Calibrate on Stratos IV, predict WALRUS and ADEPT blind, into docs/validation.md: hours; resumable
+	@/usr/bin/python3 validation/ojf/campaign.py --ripstop $(BUILD)/bin/ripstop $(STAGES)
 
 format:  ## Format the sources
 	@git ls-files '*.h' '*.cpp' | xargs clang-format -i

@@ -37,13 +37,36 @@ struct Quantity {
   const char* file;
   const char* label;
   double SweepRow::*value;
+  double (*of_drag)(double drag, double q, double area);  // the same of a measured drag; null: not measured
 };
 constexpr Quantity quantities[] = {
-    {"drag", "drag [N]", &SweepRow::drag},
-    {"drag_area", "drag area [m\u00b2]", &SweepRow::drag_area},
-    {"drag_coefficient", "drag coefficient", &SweepRow::drag_coefficient},
-    {"wall_time", "wall time [s]", &SweepRow::wall_time},
+    {"drag", "drag [N]", &SweepRow::drag, [](double drag, double, double) { return drag; }},
+    {"drag_area", "drag area [m\u00b2]", &SweepRow::drag_area,
+     [](double drag, double q, double) { return drag / q; }},
+    {"drag_coefficient", "drag coefficient", &SweepRow::drag_coefficient,
+     [](double drag, double q, double area) { return drag / q / area; }},
+    {"wall_time", "wall time [s]", &SweepRow::wall_time, nullptr},
 };
+
+/// What the case's rows of [[measured]] say, over the nominal speed.
+std::vector<PlotSeries> known_drag(const Case& value, const Quantity& quantity) {
+  std::vector<PlotSeries> all;
+  const auto add = [&](const char* name, std::optional<double> Measured::*drag) {
+    PlotSeries series{name, {}, {}, false, true, false};
+    for (const Measured& row : value.measured) {
+      if (!(row.*drag)) continue;
+      const bool nominal = value.flow.speed_basis == SpeedBasis::nominal;
+      const double speed = nominal ? row.nominal_speed_m_s : row.measured_speed_m_s;
+      series.x.push_back(row.nominal_speed_m_s);
+      series.y.push_back(quantity.of_drag(*(row.*drag), 0.5 * row.density_kg_m3 * speed * speed,
+                                          nominal_area(value.parachute)));
+    }
+    if (!series.x.empty()) all.push_back(series);
+  };
+  add("measured", &Measured::drag_n);
+  add("source's nonlinear model", &Measured::printed_nonlinear_n);
+  return all;
+}
 
 }  // namespace
 
@@ -89,8 +112,9 @@ void write_sweep_plots(const std::filesystem::path& folder, const std::string& t
     any = any || rows[i].done;
   }
   if (!any) return;
+  const bool over_speed = axes[*axis].name == "flow.speed_m_s";
   const auto draw =
-      [&](const std::string& file, const std::string& label,
+      [&](const std::string& file, const std::string& label, const Quantity* known,
           const std::vector<std::pair<std::string, std::function<double(const SweepRow&)>>>& parts) {
         Plot plot{title, {axes[*axis].name}, {label}, {}};
         for (const auto& [part, value] : parts) {
@@ -104,13 +128,17 @@ void write_sweep_plots(const std::filesystem::path& folder, const std::string& t
             plot.series.push_back(series);
           }
         }
+        if (over_speed && known && known->of_drag) {
+          for (const PlotSeries& series : known_drag(points.front().value, *known))
+            plot.series.push_back(series);
+        }
         for (const char* ending : {".svg", ".png"}) write_plot(folder / (file + ending), plot);
       };
   for (const Quantity& q : quantities)
-    draw(q.file, q.label, {{"", [&](const SweepRow& row) { return row.*q.value; }}});
-  draw("iterations", "coupling iterations",
+    draw(q.file, q.label, &q, {{"", [&](const SweepRow& row) { return row.*q.value; }}});
+  draw("iterations", "coupling iterations", nullptr,
        {{"", [](const SweepRow& row) { return double(row.iterations); }}});
-  draw("diameters", "diameter [m]",
+  draw("diameters", "diameter [m]", nullptr,
        {{"projected", [](const SweepRow& row) { return row.projected_diameter; }},
         {"skirt", [](const SweepRow& row) { return row.skirt_diameter; }}});
 }

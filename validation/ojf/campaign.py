@@ -1,0 +1,282 @@
+#!/usr/bin/env python3
+"""Calibrates on Stratos IV, freezes, predicts WALRUS and ADEPT blind, and asks how sure the predictions are.
+
+    make validate-ojf            (or: campaign.py --ripstop build/bin/ripstop --runs runs/ojf STAGE ...)
+
+Stages, each from what the ones before it left; without a name all of them run:
+    calibrate  porosity on Stratos IV, nominal basis, least squares over five speeds     -> calibration.csv
+    predict    WALRUS and ADEPT, both speed bases, nonlinear and linear                  -> predictions.csv
+    reproduce  Stratos IV itself with the calibrated cloth, and its shape against images
+    sheet      calibration and predictions with the cloth as a sheet                     -> predictions.csv
+    uncertain  what each prediction depends on                                           -> uncertainty.csv
+    compare    nonlinear beside linear on Stratos IV at 30 m/s
+    openfoam   Stratos IV at 30 m/s with OpenFOAM
+    report     tables between the markers of docs/validation.md, plots
+Every stage is made of `ripstop` commands that go on where they were killed; finished ones cost nothing. Nothing in here
+knows a measured drag of WALRUS or ADEPT.
+"""
+import argparse
+import csv
+import json
+import pathlib
+import shutil
+import subprocess
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+SPEEDS = {"stratos-iv": "10,15,20,25,30", "walrus": "10,15,20,25,30", "adept": "10,20,30"}
+BLIND = ("walrus", "adept")
+BASES = ("nominal", "measured")
+# The runs of `uncertain` are made at one speed, nominal basis, nonlinear: relative changes are taken for all speeds.
+UNCERTAIN_SPEED = "20"
+COLUMNS = ["parachute", "speed_basis", "nominal_m_s", "speed_m_s", "density_kg_m3", "porosity_model", "fabric_model",
+           "drag_n", "drag_area_m2", "coupling_iterations", "wall_time_s"]
+
+# name in predictions.csv -> settings of the flow beside the cloth's law
+SHEET_FLOW = ["flow.porosity_model=sheet"]
+# What a prediction depends on: source -> (label, settings) of each variation, beside the unchanged run.
+VARIATIONS = {
+    "grid": [("80x80x120", ["flow.cells=[80,80,120]"]), ("120x120x180", ["flow.cells=[120,120,180]"])],
+    "position": [("-1/3 cell", ["flow.canopy_position_m=1.991111"]), ("+1/3 cell", ["flow.canopy_position_m=2.008889"])],
+    "box": [("3 x 3 m", ["flow.box_m=[3,3,4]", "flow.cells=[150,150,150]"])],
+    "turbulence": [("intensity 5 %", ["flow.turbulence_intensity=0.05"]),
+                   ("viscosity ratio 100", ["flow.viscosity_ratio=100"])],
+    "shape": [("tolerances a fifth", ["coupling.shape_tolerance_m=2e-4", "coupling.drag_tolerance=2e-4",
+                                      "coupling.cloth_tolerance=1e-4"])],
+}
+
+
+class Campaign:
+    def __init__(self, options):
+        self.ripstop, self.runs, self.jobs = options.ripstop, options.runs, options.jobs
+
+    def call(self, *arguments):
+        """Runs ripstop; a failure ends the stage, and the same command again goes on."""
+        command = [str(self.ripstop), *map(str, arguments)]
+        print("$ ripstop " + " ".join(command[1:]), flush=True)
+        code = subprocess.run(command, cwd=ROOT, check=False).returncode
+        if code != 0:
+            sys.exit(f"ripstop ended with exit code {code}; `campaign.py` again goes on from here")
+
+    def sweep(self, parachute, out, settings, *axes):
+        folder = self.runs / out
+        arguments = ["sweep", f"validation/ojf/{parachute}.toml", "--out", folder, *axes]
+        for setting in settings:
+            arguments += ["--set", setting]
+        if self.jobs:
+            arguments += ["--jobs", self.jobs]
+        self.call(*arguments)
+        with open(folder / "sweep.csv", newline="") as file:
+            return list(csv.DictReader(file))
+
+    def calibrate(self, out, settings, *arguments):
+        command = ["calibrate", "porosity", "validation/ojf/stratos-iv.toml", "--out", self.runs / out, *arguments]
+        for setting in settings:
+            command += ["--set", setting]
+        if self.jobs:
+            command += ["--jobs", self.jobs]
+        self.call(*command)
+        return self.calibration(out)
+
+    def calibration(self, out):
+        file = self.runs / out / "result.json"
+        return json.loads(file.read_text()) if file.exists() else None
+
+
+def law(result):
+    return [f"materials.{result['material']}.darcy={result['darcy']!r}",
+            f"materials.{result['material']}.forchheimer={result['forchheimer']!r}"]
+
+
+def models(campaign):
+    """Porosity models whose calibration is there: name -> settings."""
+    found = {}
+    paper = campaign.calibration("paper/calibration")
+    if paper:
+        found["paper"] = law(paper)
+    sheet = campaign.calibration("sheet/calibration")
+    if sheet:
+        found["sheet-calibrated"] = SHEET_FLOW + law(sheet)
+    if (campaign.runs / "sheet").exists():
+        found["sheet-specified"] = SHEET_FLOW + ["parachute.canopy_material=f-111-physical"]
+    return found
+
+
+def predict(campaign, model, settings):
+    for parachute in BLIND:
+        for basis in BASES:
+            rows = campaign.sweep(parachute, f"{model}/{parachute}-{basis}", settings + [f"flow.speed_basis={basis}"],
+                                  "--speeds", SPEEDS[parachute], "--vary", "coupling.linear=false,true")
+            write_predictions(model, parachute, basis, rows)
+
+
+def write_predictions(model, parachute, basis, rows):
+    """Replaces the rows of this model, parachute and basis in predictions.csv."""
+    path = HERE / "predictions.csv"
+    kept = []
+    if path.exists():
+        with open(path, newline="") as file:
+            kept = [r for r in csv.DictReader(file)
+                    if (r["porosity_model"], r["parachute"], r["speed_basis"]) != (model, parachute, basis)]
+    for row in rows:
+        kept.append({
+            "parachute": parachute, "speed_basis": basis, "nominal_m_s": row["flow.speed_m_s"],
+            "speed_m_s": row["speed_m_s"], "density_kg_m3": row["density_kg_m3"], "porosity_model": model,
+            "fabric_model": "linear" if row["coupling.linear"] == "true" else "nonlinear",
+            "drag_n": f"{float(row['drag_n']):.3f}", "drag_area_m2": f"{float(row['drag_area_m2']):.5f}",
+            "coupling_iterations": row["coupling_iterations"], "wall_time_s": f"{float(row['wall_time_s']):.1f}"})
+    order = {"paper": 0, "sheet-calibrated": 1, "sheet-specified": 2}
+    kept.sort(key=lambda r: (order[r["porosity_model"]], BLIND.index(r["parachute"]), BASES.index(r["speed_basis"]),
+                             r["fabric_model"] != "nonlinear", float(r["nominal_m_s"])))
+    write_table(path, COLUMNS, kept)
+
+
+def write_table(path, columns, rows):
+    with open(path, "w", newline="") as file:
+        writer = csv.DictWriter(file, columns, lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+def provenance(campaign, model):
+    """Which program and which calibration made the rows of a model."""
+    path = HERE / "predictions.json"
+    known = json.loads(path.read_text()) if path.exists() else {}
+    commit = subprocess.run(["git", "-C", str(ROOT), "rev-parse", "--short", "HEAD"], capture_output=True, text=True,
+                            check=False).stdout.strip()
+    run = json.loads(next((campaign.runs / model / "walrus-nominal").glob("*/run.json")).read_text())
+    entry = {"commit": commit, "started": run["started"], "processor": run["processor"], "version": run["version"],
+             "flow_engine": run["flow_engine"], "cells": run["case"]["flow"]["cells"], "box_m": run["case"]["flow"]["box_m"]}
+    result = campaign.calibration({"paper": "paper/calibration"}.get(model, "sheet/calibration"))
+    if model != "sheet-specified" and result:
+        entry["calibration"] = {key: result[key] for key in
+                                ("knob", "value", "standard_error", "darcy", "forchheimer", "root_mean_square_misfit")}
+    known.setdefault(model, entry)
+    path.write_text(json.dumps(known, indent=2) + "\n")
+
+
+def stage_calibrate(campaign):
+    campaign.calibrate("paper/calibration", [], "--gammas", "0.19,0.21,0.23", "--shifts", "2")
+
+
+def stage_predict(campaign):
+    predict(campaign, "paper", models(campaign)["paper"])
+    provenance(campaign, "paper")
+
+
+def stage_reproduce(campaign):
+    for basis in BASES:
+        campaign.sweep("stratos-iv", f"paper/stratos-iv-{basis}",
+                       models(campaign)["paper"] + [f"flow.speed_basis={basis}"], "--speeds", SPEEDS["stratos-iv"],
+                       "--vary", "coupling.linear=false,true")
+    campaign.call("photogrammetry", "validation/ojf/stratos-iv-images.toml", "--run",
+                  campaign.runs / "paper/stratos-iv-nominal/speed_m_s=30_linear=false", "--out",
+                  campaign.runs / "images")
+
+
+def stage_sheet(campaign):
+    campaign.calibrate("sheet/calibration", SHEET_FLOW, "--gammas", "0.19,0.21,0.23", "--shifts", "1")
+    for model in ("sheet-calibrated", "sheet-specified"):
+        predict(campaign, model, models(campaign)[model])
+        provenance(campaign, model)
+
+
+def stage_uncertain(campaign):
+    settings = models(campaign)["paper"]
+    result = campaign.calibration("paper/calibration")
+    cloth, drags = result["material"], {}
+    low, high = (result["value"] + s * result["standard_error"] for s in (-1, 1))
+    porosity = [(f"gamma {'-' if g < result['value'] else '+'} 1 s", ergun(g, result["thickness_m"], cloth)) for g in (low, high)]
+    for parachute in ("stratos-iv", *BLIND):
+        # A row starts from the one before it or after it, nearer to the middle: the unchanged run stands there, among
+        # those that can take over its flow field.
+        varied = {source: [(source, label, extra) for label, extra in all_of] for source, all_of in VARIATIONS.items()}
+        rows = [*varied["grid"], *varied["box"], varied["position"][0], ("porosity", *porosity[0]),
+                ("base", "", [f"flow.speed_m_s={UNCERTAIN_SPEED}"]),
+                ("porosity", *porosity[1]), varied["position"][1], *varied["shape"], *varied["turbulence"]]
+        arguments = []
+        for _, _, extra in rows:
+            arguments += ["--row", ",".join(extra)]
+        done = campaign.sweep(parachute, f"paper/uncertain-{parachute}", settings + [f"flow.speed_m_s={UNCERTAIN_SPEED}"],
+                              *arguments)
+        drags[parachute] = [(source, label, float(r["drag_n"])) for (source, label, _), r in zip(rows, done)]
+    write_uncertainty(drags)
+
+
+def ergun(gamma, thickness, cloth):
+    """[NFM] Eq. 16 with V/S = t, at the air of its table."""
+    a, b = 150 * 1.81e-5 / (36 * thickness * gamma**3), 1.75 * 1.225 / (6 * gamma**3)
+    return [f"materials.{cloth}.darcy={a!r}", f"materials.{cloth}.forchheimer={b!r}"]
+
+
+def write_uncertainty(drags):
+    """Change of drag of each variation with the frozen cloth, and as a ratio to Stratos IV under the same variation: what
+    is left when the cloth is calibrated again under it, to first order."""
+    base = {p: next(drag for source, _, drag in rows if source == "base") for p, rows in drags.items()}
+    table = []
+    for parachute in BLIND:
+        for i, (source, label, drag) in enumerate(drags[parachute]):
+            if source == "base":
+                continue
+            frozen = drag / base[parachute] - 1
+            reference = drags["stratos-iv"][i][2] / base["stratos-iv"] - 1
+            table.append({"parachute": parachute, "source": source, "variation": label,
+                          "frozen_percent": f"{100 * frozen:.2f}", "stratos_iv_percent": f"{100 * reference:.2f}",
+                          "ratio_percent": f"{100 * ((1 + frozen) / (1 + reference) - 1):.2f}"})
+    write_table(HERE / "uncertainty.csv", list(table[0]), table)
+
+
+def stage_compare(campaign):
+    command = ["compare", "validation/ojf/stratos-iv.toml", "--linear", "--speed", "30", "--out", campaign.runs / "compare"]
+    for setting in models(campaign)["paper"]:
+        command += ["--set", setting]
+    campaign.call(*command)
+
+
+def stage_openfoam(campaign):
+    command = ["steady", "validation/ojf/stratos-iv.toml", "--speed", "30", "--flow", "openfoam", "--ranks", "2", "--out",
+               campaign.runs / "openfoam-30"]
+    for setting in models(campaign)["paper"]:
+        command += ["--set", setting]
+    campaign.call(*command)
+
+
+def stage_report(campaign):
+    plots = HERE / "plots"
+    plots.mkdir(exist_ok=True)
+    sources = {"porosity.svg": "paper/calibration/porosity.svg", "porosity-sheet.svg": "sheet/calibration/porosity.svg",
+               "stratos-iv-drag.svg": "paper/stratos-iv-nominal/drag.svg",
+               "stratos-iv-profile.svg": "images/profile.svg", "compare-profile.svg": "compare/profile.svg"}
+    for parachute in BLIND:
+        sources[f"{parachute}-drag.svg"] = f"paper/{parachute}-nominal/drag.svg"
+    for name, source in sources.items():
+        if (campaign.runs / source).exists():
+            shutil.copy(campaign.runs / source, plots / name)
+    subprocess.run([sys.executable, str(HERE / "report.py"), str(campaign.runs), str(ROOT / "docs/validation.md")], check=True)
+
+
+STAGES = {"calibrate": stage_calibrate, "predict": stage_predict, "reproduce": stage_reproduce, "sheet": stage_sheet,
+          "uncertain": stage_uncertain, "compare": stage_compare, "openfoam": stage_openfoam, "report": stage_report}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("stages", nargs="*", metavar="STAGE", help=", ".join(STAGES))
+    parser.add_argument("--ripstop", type=pathlib.Path, default=ROOT / "build/bin/ripstop")
+    parser.add_argument("--runs", type=pathlib.Path, default=pathlib.Path("runs/ojf"))
+    parser.add_argument("--jobs", type=int, help="runs side by side (default: ripstop's)")
+    options = parser.parse_args()
+    for stage in options.stages or STAGES:
+        if stage not in STAGES:
+            parser.error(f"unknown stage {stage}; there are {', '.join(STAGES)}")
+    options.ripstop = options.ripstop.resolve()
+    options.runs = (ROOT / options.runs).resolve()
+    campaign = Campaign(options)
+    for stage in options.stages or STAGES:
+        print(f"== {stage}", flush=True)
+        STAGES[stage](campaign)
+
+
+if __name__ == "__main__":
+    main()
