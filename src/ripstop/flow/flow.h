@@ -45,10 +45,32 @@ struct PorousCells {
   double forchheimer = 0;  // f [1/m]
 };
 
+struct Triangle {
+  Vec3 a, b, c;
+};
+
+/// Cloth as a surface without thickness, across which the pressure drops by a v + b v |v| with v the velocity
+/// along its normal ([NFM] Eq. 15; `sheet` model, method section 4).
+struct Sheet {
+  std::vector<Triangle> surface;
+  double linear = 0;     // a [Pa s/m]
+  double quadratic = 0;  // b [Pa s2/m2]
+};
+
+/// What the air does to a sheet at one face of the grid.
+struct SheetLoad {
+  int sheet = 0, triangle = 0;  // of FlowProblem::sheets
+  Vec3 point;                   // on the triangle [m]
+  Vec3 normal;       // of the triangle, with a component along the face's normal that is not negative
+  double drop = 0;   // of the pressure along `normal`, mean over the face [Pa]
+  Vec3 force;        // on the sheet: drop times the face's area, along an axis of the grid [N]
+};
+
 struct FlowProblem {
   FlowGrid grid;
   Freestream air;
   std::vector<PorousCells> porous;  // one entry a cloth
+  std::vector<Sheet> sheets;        // the same for the `sheet` model
   bool duct = false;                // true: the four sides are slip walls; false: open, zero gradient
   double residual = 1e-5;           // on every equation
   int max_iterations = 1000;
@@ -66,10 +88,11 @@ using FlowReport = std::function<bool(const FlowProgress&)>;
 
 struct FlowField {
   FlowGrid grid;
-  std::vector<double> pressure;  // over the outlet's [Pa], one a cell
-  std::vector<Vec3> velocity;    // [m/s]
-  Vec3 porous_force;             // by the fluid on the porous cells [N]
-  double momentum_deficit = 0;   // axial force from the fluxes through the faces of the box [N]
+  std::vector<double> pressure;        // over the outlet's [Pa], one a cell
+  std::vector<Vec3> velocity;          // [m/s]
+  Vec3 porous_force;                   // by the fluid on the porous cells and sheets [N]
+  std::vector<SheetLoad> sheet_loads;  // their forces add up to the sheets' part of it
+  double momentum_deficit = 0;         // axial force from the fluxes through the faces of the box [N]
   FlowProgress last;
   bool converged = false;
 };
@@ -89,9 +112,6 @@ class FlowEngine {
 double sample(const FlowGrid& grid, const std::vector<double>& field, Vec3 point);
 Vec3 sample(const FlowGrid& grid, const std::vector<Vec3>& field, Vec3 point);
 
-struct Triangle {
-  Vec3 a, b, c;
-};
 /// Cells that a surface cuts: those whose closed box shares at least a point with a triangle (separating
 /// axes). Sorted and unique. Parts of the surface outside the grid cut nothing.
 std::vector<int> cut_cells(const FlowGrid& grid, const std::vector<Triangle>& surface);

@@ -109,10 +109,12 @@ FlowField CartesianEngine::solve(const FlowProblem& problem, const FlowReport& r
   auto solver = std::make_unique<Solver>(problem, problem.grid,
                                          PorousRows(problem.grid, problem.porous, problem.air.viscosity),
                                          settings_, team_);
+  // In a duct a sheet holds back pressures far beyond rho U^2, which would not survive being interpolated.
+  const bool shut = problem.duct && !problem.sheets.empty();
   if (last_ && last_->duct() == problem.duct && last_->grid().origin == problem.grid.origin &&
       last_->grid().size == problem.grid.size && last_->air() == problem.air) {
     solver->start_from(*last_);
-  } else if (settings_.grid_sequencing && problem.grid.cells() > 20000) {
+  } else if (settings_.grid_sequencing && problem.grid.cells() > 20000 && !shut) {
     solve_coarse(problem, problem.grid, PorousRows(problem.grid, problem.porous, problem.air.viscosity),
                  *solver);
   } else {

@@ -11,8 +11,10 @@
 #include "ripstop/flow/cartesian/simd.h"
 
 namespace ripstop::cartesian {
+namespace {
 
-RIPSTOP_ROW_KERNEL void momentum_row(MomentumRow& row) {
+template <bool with_sheet>
+[[gnu::always_inline]] inline void momentum(MomentumRow& row) {
   const int n = row.m.n;
   const std::ptrdiff_t sy = row.m.sy, sz = row.m.sz, comp = row.component;
   const double *rhx = row.m.x_inverse_width, *wx = row.m.x_weight_low, *rdx = row.m.x_inverse_distance,
@@ -27,6 +29,7 @@ RIPSTOP_ROW_KERNEL void momentum_row(MomentumRow& row) {
   const double *mu = row.mu, *mub = row.mu_below, *mua = row.mu_above;
   const double *tx = row.tx, *ty = row.ty, *tz = row.tz, *tzb = row.tz_below, *tza = row.tz_above;
   const double *linear = row.linear, *quadratic = row.quadratic;
+  const SheetJumps jump = row.sheet;
   double *hu = row.hu, *hv = row.hv, *hw = row.hw, *ra = row.ra, *rc = row.rc;
   double *u_new = row.u_new, *v_new = row.v_new, *w_new = row.w_new;
   const double inverse_alpha = 1 / row.relaxation, inverse_march = 1 / row.march_relaxation;
@@ -62,9 +65,14 @@ RIPSTOP_ROW_KERNEL void momentum_row(MomentumRow& row) {
              y.slope_high * (ty[i + sy + c] - ty[i + c]) + y.slope_low * (ty[i + c] - ty[i - sy + c]) +
              z.slope_high * (tza[i + c] - tz[i + c]) + z.slope_low * (tz[i + c] - tzb[i + c]);
     };
-    const double px = xh[i] * (p[i + 1] - p[i]) + xl[i] * (p[i] - p[i - 1]);
-    const double py = y.slope_high * (p[i + sy] - p[i]) + y.slope_low * (p[i] - p[i - sy]);
-    const double pz = z.slope_high * (p[i + sz] - p[i]) + z.slope_low * (p[i] - p[i - sz]);
+    double px = xh[i] * (p[i + 1] - p[i]) + xl[i] * (p[i] - p[i - 1]);
+    double py = y.slope_high * (p[i + sy] - p[i]) + y.slope_low * (p[i] - p[i - sy]);
+    double pz = z.slope_high * (p[i + sz] - p[i]) + z.slope_low * (p[i] - p[i - sz]);
+    if constexpr (with_sheet) {
+      px += xh[i] * jump.x[i + 1] + xl[i] * jump.x[i];
+      py += y.slope_high * jump.y_high[i] + y.slope_low * jump.y[i];
+      pz += z.slope_high * jump.z_high[i] + z.slope_low * jump.z[i];
+    }
 
     const double nu = aw * u[i - 1] + ae * u[i + 1] + as * us[i] + an * un[i] + ab * ub[i] + aa * ua[i];
     const double nv = aw * v[i - 1] + ae * v[i + 1] + as * vs[i] + an * vn[i] + ab * vb[i] + aa * va[i];
@@ -95,6 +103,19 @@ RIPSTOP_ROW_KERNEL void momentum_row(MomentumRow& row) {
   row.u_sum = {res_u, scale_u};
   row.v_sum = {res_v, scale_v};
   row.w_sum = {res_w, scale_w};
+}
+
+RIPSTOP_ROW_KERNEL void plain_row(MomentumRow& row) {
+  momentum<false>(row);
+}
+RIPSTOP_ROW_KERNEL void sheet_row(MomentumRow& row) {
+  momentum<true>(row);
+}
+
+}  // namespace
+
+void momentum_row(MomentumRow& row) {
+  row.sheet ? sheet_row(row) : plain_row(row);
 }
 
 }  // namespace ripstop::cartesian

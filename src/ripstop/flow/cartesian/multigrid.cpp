@@ -249,6 +249,95 @@ void Multigrid::solve(ThreadTeam& team, int rank, int cycles) {
   for (int c = 0; c < cycles; ++c) cycle(0, &team, rank);
 }
 
+template <class Plane>
+double Multigrid::sum(ThreadTeam& team, int rank, const Plane& of_plane) {
+  const int nz = finest().layout.nz;
+  const IndexRange planes = part_of(nz, rank, team.size());
+  for (int k = planes.begin; k < planes.end; ++k) planes_[k] = of_plane(k);
+  team.barrier();
+  double total = 0;
+  for (int k = 0; k < nz; ++k) total += planes_[k];
+  team.barrier();
+  return total;
+}
+
+void Multigrid::solve_conjugate(ThreadTeam& team, int rank, double reduction, int most) {
+  MultigridLevel& top = finest();
+  const Layout& lay = top.layout;
+  if (rank == 0 && planes_.empty()) {
+    planes_.resize(lay.nz);
+    solution_ = direction_ = image_ = Array<float>(lay.values());
+  }
+  coarsen(team, rank);
+  team.barrier();
+  const IndexRange planes = part_of(lay.nz, rank, team.size());
+  const IndexRange with_ghosts = part_of(lay.nz + 2, rank, team.size());
+  const auto clear = [&](Array<float>& a) {
+    std::fill(a.begin() + static_cast<std::ptrdiff_t>(with_ghosts.begin) * lay.stride_z,
+              a.begin() + static_cast<std::ptrdiff_t>(with_ghosts.end) * lay.stride_z, 0.0f);
+  };
+  const auto dot_of = [&](const Array<float>& a, const Array<float>& b) {
+    return sum(team, rank, [&](int k) {
+      double total = 0;
+      for (int j = 0; j < lay.ny; ++j) {
+        const std::ptrdiff_t at = lay.at(0, j, k);
+        double row = 0;
+#pragma omp simd reduction(+ : row)
+        for (int i = 0; i < lay.nx; ++i)
+          row += static_cast<double>(a[at + i]) * static_cast<double>(b[at + i]);
+        total += row;
+      }
+      return total;
+    });
+  };
+  const auto each_row = [&](auto&& work) {
+    for (int k = planes.begin; k < planes.end; ++k) {
+      for (int j = 0; j < lay.ny; ++j) work(j, k);
+    }
+    team.barrier();
+  };
+  clear(solution_), clear(direction_), clear(image_);
+  team.barrier();
+  const double start = dot_of(top.rhs, top.rhs);
+  double curvature = 0;
+  for (int n = 0; n < most && start > 0; ++n) {
+    clear(top.e);
+    team.barrier();
+    cycle(0, &team, rank);
+    // The new direction is made conjugate to the last one, whatever the cycle has become in between.
+    const double beta = curvature > 0 ? -dot_of(top.e, image_) / curvature : 0;
+    each_row([&](int j, int k) {
+      const std::ptrdiff_t at = lay.at(0, j, k);
+      const float b = static_cast<float>(beta);
+      for (int i = 0; i < lay.nx; ++i) direction_[at + i] = top.e[at + i] + b * direction_[at + i];
+    });
+    each_row([&](int j, int k) {  // image = A direction
+      MultigridRow row = row_of(top, j, k);
+      const std::ptrdiff_t at = lay.at(0, j, k);
+      row.e = &direction_[at];
+      float* image = &image_[at];
+      for (int i = 0; i < lay.nx; ++i) image[i] = -row.rhs[i];
+      residual_row(row, image);
+      for (int i = 0; i < lay.nx; ++i) image[i] = -image[i];
+    });
+    curvature = dot_of(direction_, image_);
+    if (!(curvature > 0)) break;
+    const float alpha = static_cast<float>(dot_of(direction_, top.rhs) / curvature);
+    each_row([&](int j, int k) {
+      const std::ptrdiff_t at = lay.at(0, j, k);
+      for (int i = 0; i < lay.nx; ++i) {
+        solution_[at + i] += alpha * direction_[at + i];
+        top.rhs[at + i] -= alpha * image_[at + i];
+      }
+    });
+    if (dot_of(top.rhs, top.rhs) <= reduction * reduction * start) break;
+  }
+  each_row([&](int j, int k) {
+    const std::ptrdiff_t at = lay.at(0, j, k);
+    std::copy_n(&solution_[at], lay.nx, &top.e[at]);
+  });
+}
+
 double Multigrid::residual() const {
   MultigridLevel copy = levels_.front();
   Array<float> sum(copy.layout.nx);

@@ -39,13 +39,24 @@ class Multigrid {
   /// e = 0, then `cycles` V cycles. Called by every rank of the team at once.
   void solve(ThreadTeam& team, int rank, int cycles);
 
+  /// The same by conjugate gradients with a V cycle as preconditioner, until the residual has fallen to
+  /// `reduction` of its start (2-norm) or `most` cycles are spent. For walls that a cycle alone does not see
+  /// on its coarse levels. rhs is spent. Called by every rank of the team at once.
+  void solve_conjugate(ThreadTeam& team, int rank, double reduction, int most);
+
   /// sum |rhs - A e| on the finest level; for tests. One thread.
   double residual() const;
 
  private:
   void coarsen(ThreadTeam& team, int rank);
   void cycle(std::size_t level, ThreadTeam* team, int rank);
+  /// Sum over the planes of what `of_plane(k)` gives, in the order of the planes. Every rank gets it.
+  template <class Plane>
+  double sum(ThreadTeam& team, int rank, const Plane& of_plane);
+
   std::vector<MultigridLevel> levels_;
+  Array<float> solution_, direction_, image_;  // of the conjugate gradients
+  std::vector<double> planes_;
 };
 
 }  // namespace ripstop::cartesian

@@ -60,6 +60,12 @@ void turbulence_row(TurbulenceRow& row);
 /// mut = rho k / omega
 void eddy_viscosity_row(int n, const double* rho, const double* k, const double* omega, double* mut);
 
+/// Pressure jumps of a sheet on the faces of a row: x has n + 1 of them.
+struct SheetJumps {
+  const double *x = nullptr, *y = nullptr, *y_high = nullptr, *z = nullptr, *z_high = nullptr;
+  explicit operator bool() const { return x != nullptr; }
+};
+
 struct MomentumRow {
   RowMetrics m;
   double relaxation = 0;        // in the face flux
@@ -76,6 +82,7 @@ struct MomentumRow {
   std::ptrdiff_t component = 0;
   const double* linear = nullptr;     // mu d [kg/(m3 s)]
   const double* quadratic = nullptr;  // f / 2 [1/m]
+  SheetJumps sheet;
   // Results: H/A, 1/A and the predicted velocity.
   double *hu = nullptr, *hv = nullptr, *hw = nullptr, *ra = nullptr, *rc = nullptr;
   double *u_new = nullptr, *v_new = nullptr, *w_new = nullptr;
@@ -94,6 +101,8 @@ struct PressureRow {
   double inlet_speed = 0;  // [m/s]
   bool outlet = false;     // the high z face holds the outlet's pressure
   double mean_p = 0;
+  const double *fx = nullptr, *fy = nullptr, *fz = nullptr;  // of the last iteration; with sheets only
+  SheetJumps held, excess, stiffness;
   float *cx = nullptr, *cy = nullptr, *cz = nullptr;  // conductances of the low faces [m s]
   float* cz_above = nullptr;                          // of the outlet's faces, where outlet is set
   float* rhs = nullptr;                               // minus the mass that the cell loses [kg/s]
@@ -108,7 +117,9 @@ struct FluxRow {
   const float* dp = nullptr;
   bool inlet = false;
   double inlet_speed = 0;
-  double *fx = nullptr, *fy = nullptr, *fz = nullptr;  // fx has n + 1 faces
+  SheetJumps held, excess, stiffness;                                    // of the low faces
+  double *change_x = nullptr, *change_y = nullptr, *change_z = nullptr;  // of the jumps; null: none
+  double *fx = nullptr, *fy = nullptr, *fz = nullptr;                    // fx has n + 1 faces
 };
 /// Fluxes through the low faces of the row and through its last x face.
 void flux_row(FluxRow& row);
@@ -131,7 +142,8 @@ struct VelocityRow {
   double half_cp = 0;       // 1 / (2 c_p) [kg K/J]
   const double *ra = nullptr, *rc = nullptr, *p = nullptr;
   const float* dp = nullptr;
-  double relaxation = 0;  // of the pressure
+  SheetJumps held, change;  // jumps of the last pressure, and by how much they differ now
+  double relaxation = 0;    // of the pressure
   const double *hu = nullptr, *hv = nullptr, *hw = nullptr;
   double *u = nullptr, *v = nullptr, *w = nullptr;
   double* rho = nullptr;

@@ -32,6 +32,7 @@ Solver::Solver(const FlowProblem& problem, const FlowGrid& grid, PorousRows poro
       z_(make_axis(uniform_edges(grid.origin.z, grid.size.z, grid.nz), End::fixed_value, End::zero_gradient)),
       zp_(make_axis(uniform_edges(grid.origin.z, grid.size.z, grid.nz), End::zero_gradient,
                     End::fixed_value)),
+      sheets_(x_, y_, z_, problem.sheets),
       layout_(grid.nx, grid.ny, grid.nz),
       multigrid_(x_, y_, zp_) {
   const std::size_t values = layout_.values();
@@ -71,6 +72,13 @@ RowMetrics Solver::metrics(int j, int k, const Axis& z) const {
   m.y = cross_metrics(y_, j);
   m.z = cross_metrics(z, k);
   return m;
+}
+
+/// The rows of one quantity that the faces of row (j, k) have; null where no sheet passes.
+SheetJumps Solver::jumps(int j, int k, const double* (SheetRows::*row)(int, int, int) const) const {
+  if (!sheets_.touches(j, k)) return {};
+  return {(sheets_.*row)(0, j, k), (sheets_.*row)(1, j, k), (sheets_.*row)(1, j + 1, k),
+          (sheets_.*row)(2, j, k), (sheets_.*row)(2, j, k + 1)};
 }
 
 void Solver::start_uniform() {
@@ -184,18 +192,30 @@ FlowProgress Solver::iterate() {
         for (int k = 0; k < grid_.nz; ++k) stage(k, rows);
       });
     };
+    if (!sheets_.empty()) {
+      if (rank == 0) sheets_.update(f_, layout_, air_.density * air_.speed);
+      team_.barrier();
+    }
     each_block([&](IndexRange rows) { march(rank, rows); });
     if (rank == 0) std::swap(f_.k, new_k_), std::swap(f_.omega, new_omega_);
     team_.barrier();
     each_plane([&](int k) { march_ghosts(k); });
     each_plane_of_a_block([&](int k, IndexRange rows) { pressure(k, rows); });
-    multigrid_.solve(team_, rank, settings_.pressure_cycles);
+    if (duct_ && !sheets_.empty()) {  // nothing passes round the sheet: coarse levels are cut in two
+      multigrid_.solve_conjugate(team_, rank, 0.05, 20);
+    } else {
+      multigrid_.solve(team_, rank, settings_.pressure_cycles);
+    }
     each_plane([&](int k) { correction_ghosts(k); });
     each_plane_of_a_block([&](int k, IndexRange rows) { flux(k, rows); });
     each_plane_of_a_block([&](int k, IndexRange rows) { velocity(k, rows); });
     each_plane([&](int k) { relax_pressure(k), velocity_ghosts(k); });
     add_up(rank, 0, Sums::count - 1);
   });
+  const Vec3 on_sheets = sheets_.force();
+  total_.value[Sums::drag_x] += on_sheets.x;
+  total_.value[Sums::drag_y] += on_sheets.y;
+  total_.value[Sums::drag_z] += on_sheets.z;
   const double volume = grid_.size.x * grid_.size.y * grid_.size.z;
   for (int name = Sums::u_mean; name <= Sums::omega_mean; ++name) total_.value[name] /= volume;
   ++iteration_;
@@ -292,6 +312,7 @@ FlowField Solver::field() const {
     }
   }
   field.porous_force = {total_.value[Sums::drag_x], total_.value[Sums::drag_y], total_.value[Sums::drag_z]};
+  field.sheet_loads = sheets_.loads();
   field.momentum_deficit = momentum_deficit();
   return field;
 }

@@ -10,6 +10,7 @@
 #include "ripstop/flow/cartesian/multigrid.h"
 #include "ripstop/flow/cartesian/porous.h"
 #include "ripstop/flow/cartesian/rows.h"
+#include "ripstop/flow/cartesian/sheet.h"
 
 namespace ripstop::cartesian {
 
@@ -117,6 +118,7 @@ class Solver {
   RowMetrics metrics(int j, int k, const Axis& z) const;
   Sums& row_sums(int j, int k) { return rows_[static_cast<std::size_t>(k) * grid_.ny + j]; }
   Vec3 porous_force_of_row(int j, int k) const;
+  SheetJumps jumps(int j, int k, const double* (SheetRows::*row)(int, int, int) const) const;
   double momentum_deficit() const;
 
   FlowGrid grid_;
@@ -126,6 +128,7 @@ class Solver {
   ThreadTeam& team_;
   PorousRows porous_;
   Axis x_, y_, z_, zp_;  // z_ for transport (fixed inlet), zp_ for the pressure (fixed outlet)
+  SheetRows sheets_;
   Layout layout_;
   Fields f_;
   Multigrid multigrid_;

@@ -58,6 +58,10 @@ void Solver::pressure(int k, IndexRange rows) {
     r.inlet_speed = air_.speed;
     r.outlet = last;
     r.mean_p = total_.value[Sums::p_mean];
+    r.fx = &f_.fx[at], r.fy = &f_.fy[at], r.fz = &f_.fz[at];
+    r.held = jumps(j, k, &SheetRows::held);
+    r.excess = jumps(j, k, &SheetRows::excess);
+    r.stiffness = jumps(j, k, &SheetRows::stiffness);
     r.cx = &top.cx[at], r.cy = &top.cy[at], r.cz = &top.cz[at], r.cz_above = &top.cz[at + sz];
     r.rhs = &top.rhs[at];
     pressure_row(r);
@@ -78,6 +82,12 @@ void Solver::flux(int k, IndexRange rows) {
     r.inlet = k == 0;
     r.inlet_speed = air_.speed;
     r.fx = &f_.fx[at], r.fy = &f_.fy[at], r.fz = &f_.fz[at];
+    r.held = jumps(j, k, &SheetRows::held);
+    r.excess = jumps(j, k, &SheetRows::excess);
+    r.stiffness = jumps(j, k, &SheetRows::stiffness);
+    r.change_x = sheets_.change_to_write(0, j, k);
+    r.change_y = sheets_.change_to_write(1, j, k);
+    r.change_z = sheets_.change_to_write(2, j, k);
     flux_row(r);
     if (j == grid_.ny - 1) {  // the far side: zero gradient, closed in a duct
       for (int i = 0; i < grid_.nx; ++i) r.fy[i + sy] = duct_ ? 0 : r.rho[i] * r.hv[i];
@@ -151,6 +161,8 @@ void Solver::velocity(int k, IndexRange rows) {
     r.speed2 = air_.speed * air_.speed;
     r.half_cp = 0.5 / heat_capacity;
     r.ra = &ra_[at], r.rc = &rc_[at], r.p = &f_.p[at], r.dp = &multigrid_.finest().e[at];
+    r.held = jumps(j, k, &SheetRows::held);
+    r.change = jumps(j, k, &SheetRows::change);
     r.relaxation = settings_.relax_pressure;
     r.hu = &hu_[at], r.hv = &hv_[at], r.hw = &hw_[at];
     r.u = &f_.u[at], r.v = &f_.v[at], r.w = &f_.w[at], r.rho = &f_.rho[at];

@@ -171,6 +171,7 @@ void Solver::momentum(MarchRings& rings, int k, IndexRange rows) {
     r.component = component;
     r.linear = porous_.linear(j, k);
     r.quadratic = porous_.quadratic(j, k);
+    r.sheet = jumps(j, k, &SheetRows::held);
     r.hu = &hu_[at], r.hv = &hv_[at], r.hw = &hw_[at], r.ra = &ra_[at], r.rc = &rc_[at];
     double* next = &rings.predicted[mod(k, 2)][in];
     r.u_new = next, r.v_new = next + component, r.w_new = next + 2 * component;

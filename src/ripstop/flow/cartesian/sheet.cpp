@@ -1,0 +1,140 @@
+#include "ripstop/flow/cartesian/sheet.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "ripstop/core/error.h"
+#include "ripstop/flow/cartesian/solver.h"
+
+namespace ripstop::cartesian {
+namespace {
+
+// Up to this resistance, in units of rho U, the drop follows the velocity along the sheet's normal, and the
+// air keeps its velocity along the sheet. What goes beyond it acts on the flux through each face, which then
+// leaves along the normal: cloth turns the air as screens do, the more the denser it is (Taylor and Batchelor
+// 1949). A law that only knows the normal component would leave a denser sheet's staircase of faces open to
+// air that wanders to and fro through it.
+constexpr double oblique_limit = 1.5;
+
+/// The cells on either side of a face.
+std::pair<std::ptrdiff_t, std::ptrdiff_t> cells(const SheetFace& g, const Layout& layout) {
+  const std::ptrdiff_t high = layout.at(g.i, g.j, g.k);
+  return {high - (g.axis == 0 ? 1 : g.axis == 1 ? layout.stride_y : layout.stride_z), high};
+}
+
+}  // namespace
+
+SheetRows::SheetRows(const Axis& x, const Axis& y, const Axis& z, const std::vector<Sheet>& sheets)
+    : nx_(x.n), ny_(y.n), nz_(z.n) {
+  for (int s = 0; s < static_cast<int>(sheets.size()); ++s) {
+    const Sheet& sheet = sheets[s];
+    const auto fits = [](double value) { return std::isfinite(value) && value >= 0; };
+    if (!fits(sheet.linear) || !fits(sheet.quadratic)) {
+      throw Error(ExitCode::bad_data,
+                  fmt::format("sheet: a = {} Pa s/m and b = {} Pa s2/m2 must be finite and not negative",
+                              sheet.linear, sheet.quadratic));
+    }
+    for (const SheetFace& geometry : sheet_faces(x, y, z, sheet.surface)) {
+      Face face;
+      face.geometry = geometry;
+      face.sheet = s;
+      face.a = sheet.linear, face.b = sheet.quadratic;
+      const SheetFace& g = geometry;
+      face.area = (g.axis == 0 ? 1 : x.width[g.i]) * (g.axis == 1 ? 1 : y.width[g.j]) *
+                  (g.axis == 2 ? 1 : z.width[g.k]);
+      faces_.push_back(face);
+    }
+  }
+  if (faces_.empty()) return;
+  const std::size_t rows = static_cast<std::size_t>(ny_ + 1) * (nz_ + 1),
+                    width = static_cast<std::size_t>(nx_) + 1;
+  offset_.assign(3, std::vector<std::size_t>(rows, 0));
+  touched_.assign(rows, 0);
+  std::size_t size = width;  // the row of zeros
+  for (Face& face : faces_) {
+    const SheetFace& g = face.geometry;
+    std::size_t& at = offset_[g.axis][row(g.j, g.k)];
+    if (at == 0) at = size, size += width;
+    face.at = at + g.i;
+    touched_[row(g.j, g.k)] = 1;
+    if (g.axis == 1) touched_[row(g.j - 1, g.k)] = 1;
+    if (g.axis == 2) touched_[row(g.j, g.k - 1)] = 1;
+  }
+  held_.assign(size, 0);
+  excess_.assign(size, 0);
+  law_.assign(size, 0);
+  stiffness_.assign(size, 0);
+  change_.assign(size, 0);
+}
+
+void SheetRows::update(const Fields& fields, const Layout& layout, double momentum) {
+  const bool first = !std::exchange(updated_, true);
+  for (const Face& face : faces_) {
+    const auto [low, high] = cells(face.geometry, layout);
+    // The first time, the jump that the pressure already has.
+    if (first) held_[face.at] = fields.p[low] - fields.p[high];
+    held_[face.at] += std::exchange(change_[face.at], 0.0);
+    excess_[face.at] = stiffness_[face.at] = 0;
+  }
+  for (Face& face : faces_) {
+    const SheetFace& g = face.geometry;
+    const auto [low, high] = cells(g, layout);
+    const Array<double>& flux = g.axis == 0 ? fields.fx : g.axis == 1 ? fields.fy : fields.fz;
+    const Vec3 n = g.normal;
+    const double velocity = 2 * flux[high] / (fields.rho[low] + fields.rho[high]);
+    const auto mean = [&](const Array<double>& q) { return 0.5 * (q[low] + q[high]); };
+    const double through = n.x * (g.axis == 0 ? velocity : mean(fields.u)) +
+                           n.y * (g.axis == 1 ? velocity : mean(fields.v)) +
+                           n.z * (g.axis == 2 ? velocity : mean(fields.w));
+    const double normal = g.axis == 0 ? n.x : g.axis == 1 ? n.y : n.z;
+    // What one unit of velocity through the face is along the normal, when all air crosses along the normal.
+    const double spread = face.area / std::max(g.area, 1e-2 * face.area);
+    const double slope = face.a + face.b * std::abs(through);
+    const double own = face.a + face.b * std::abs(spread * velocity);
+    const double oblique = std::min(slope, oblique_limit * momentum);
+    const double rest = slope > 0 ? own * (1 - oblique / slope) : 0;
+    // Beside the hem of a sheet the air passes through the rest of the face.
+    const double cover = g.hem ? std::min(1.0, g.area / (face.area * std::max(normal, 1e-3))) : 1.0;
+    const double share = cover / (1 + (1 - cover) * slope / momentum);
+    const double along = oblique, across = rest * spread;
+    face.jump = share * (along * through + across * velocity);
+    // Each face sees the others' velocities of the last iteration: the slope of the law, and no less, keeps
+    // that stable.
+    const double steep = slope > 0 ? (face.a + 2 * face.b * std::abs(through)) / slope : 1;
+    face.stiffness = share * (along * steep + across);
+    excess_[face.at] += face.jump;
+    stiffness_[face.at] += face.stiffness;
+  }
+  for (const Face& face : faces_) law_[face.at] = excess_[face.at];
+  for (const Face& face : faces_) excess_[face.at] = law_[face.at] - held_[face.at];
+}
+
+std::vector<SheetLoad> SheetRows::loads() const {
+  std::vector<SheetLoad> result;
+  result.reserve(faces_.size());
+  for (const Face& face : faces_) {
+    const SheetFace& g = face.geometry;
+    const double whole = stiffness_[face.at];
+    SheetLoad load;
+    load.sheet = face.sheet;
+    load.triangle = g.triangle;
+    load.point = g.point;
+    load.normal = g.normal;
+    load.drop = face.jump + (whole > 0 ? face.stiffness / whole * (change_[face.at] - excess_[face.at]) : 0);
+    const double force = load.drop * face.area;
+    load.force = {g.axis == 0 ? force : 0, g.axis == 1 ? force : 0, g.axis == 2 ? force : 0};
+    result.push_back(load);
+  }
+  return result;
+}
+
+Vec3 SheetRows::force() const {
+  Vec3 sum{};
+  for (const SheetLoad& load : loads()) sum += load.force;
+  return sum;
+}
+
+}  // namespace ripstop::cartesian

@@ -1,0 +1,320 @@
+#include "ripstop/flow/cartesian/sheet_faces.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <tuple>
+#include <utility>
+
+namespace ripstop::cartesian {
+namespace {
+
+constexpr int lines = 5;  // a cell and direction; odd, so that one goes through the centre
+constexpr int centre_line = lines / 2;
+constexpr double reach = 1.5;    // cells: hits of neighbouring lines that belong to one crossing ...
+constexpr double longest = 6.0;  // ... and what is added at most where the sheet is slanted
+
+using Point = std::array<double, 3>;
+
+Point point_of(Vec3 v) {
+  return {v.x, v.y, v.z};
+}
+
+/// Cell of an axis that holds x; -1 or n outside.
+int cell_at(const Axis& axis, double x) {
+  if (x < axis.edge.front()) return -1;
+  return static_cast<int>(std::upper_bound(axis.edge.begin(), axis.edge.end(), x) - axis.edge.begin()) - 1;
+}
+
+double centre(const Axis& axis, int c) {
+  return 0.5 * (axis.edge[c] + axis.edge[c + 1]);
+}
+
+/// Cells within two of an edge that belongs to one triangle only.
+class NearHem {
+ public:
+  NearHem(const std::array<const Axis*, 3>& axes, const std::vector<Triangle>& surface) : axes_(axes) {
+    using Corner = std::tuple<double, double, double>;
+    const auto corner = [](Vec3 v) { return Corner{v.x, v.y, v.z}; };
+    std::map<std::pair<Corner, Corner>, int> uses;
+    const auto each_edge = [&](auto&& visit) {
+      for (const Triangle& t : surface) {
+        const Vec3 v[] = {t.a, t.b, t.c};
+        for (int e = 0; e < 3; ++e) {
+          const Vec3 p = v[e], q = v[(e + 1) % 3];
+          if (corner(p) != corner(q)) visit(p, q, std::minmax(corner(p), corner(q)));
+        }
+      }
+    };
+    each_edge([&](Vec3, Vec3, const auto& key) { ++uses[{key.first, key.second}]; });
+    near_.assign(static_cast<std::size_t>(axes[0]->n) * axes[1]->n * axes[2]->n, 0);
+    each_edge([&](Vec3 p, Vec3 q, const auto& key) {
+      if (uses[{key.first, key.second}] == 1) mark(p, q);
+    });
+  }
+
+  bool at(const Point& p) const {
+    int c[3];
+    for (int a = 0; a < 3; ++a) {
+      c[a] = cell_at(*axes_[a], p[a]);
+      if (c[a] < 0 || c[a] >= axes_[a]->n) return false;
+    }
+    return near_[index(c[0], c[1], c[2])] != 0;
+  }
+
+ private:
+  std::size_t index(int i, int j, int k) const {
+    return i + static_cast<std::size_t>(axes_[0]->n) * (j + static_cast<std::size_t>(axes_[1]->n) * k);
+  }
+
+  void mark(Vec3 p, Vec3 q) {
+    double width = 1e300;
+    for (const Axis* axis : axes_)
+      width = std::min(width, *std::min_element(axis->width.begin(), axis->width.end()));
+    const int steps = 1 + static_cast<int>(norm(q - p) / width);
+    for (int s = 0; s <= steps; ++s) {
+      const Point at = point_of(p + (static_cast<double>(s) / steps) * (q - p));
+      int low[3], high[3];
+      bool outside = false;
+      for (int a = 0; a < 3; ++a) {
+        const int c = cell_at(*axes_[a], at[a]);
+        outside = outside || at[a] < axes_[a]->edge.front() - 2 * axes_[a]->width.front() ||
+                  at[a] > axes_[a]->edge.back() + 2 * axes_[a]->width.back();
+        low[a] = std::max(c - 2, 0), high[a] = std::min(c + 2, axes_[a]->n - 1);
+      }
+      if (outside) continue;
+      for (int k = low[2]; k <= high[2]; ++k) {
+        for (int j = low[1]; j <= high[1]; ++j) {
+          for (int i = low[0]; i <= high[0]; ++i) near_[index(i, j, k)] = 1;
+        }
+      }
+    }
+  }
+
+  std::array<const Axis*, 3> axes_;
+  std::vector<char> near_;
+};
+
+/// Sheet in a cell that found no face of its own axis.
+struct Share {
+  std::array<int, 3> cell;
+  double area = 0;
+};
+
+struct Hit {
+  double at = 0;  // along the axis [m]
+  int triangle = 0;
+  int line = 0;  // 0 .. lines^2 - 1
+  bool hem = false;
+};
+
+/// Positions of the lines along one axis.
+std::vector<double> line_positions(const Axis& axis) {
+  std::vector<double> positions;
+  positions.reserve(static_cast<std::size_t>(axis.n) * lines);
+  for (int c = 0; c < axis.n; ++c) {
+    for (int s = 0; s < lines; ++s) {
+      positions.push_back(s == centre_line ? centre(axis, c)
+                                           : axis.edge[c] + (s + 0.5) / lines * axis.width[c]);
+    }
+  }
+  return positions;
+}
+
+/// On which side of the directed edge a -> b the point (u, v) lies; a point on the edge lies on the side that
+/// the edge's lower end decides, so that two triangles that share the edge never both have or miss it.
+bool left_of(double au, double av, double bu, double bv, double u, double v) {
+  const bool forward = std::pair(au, av) < std::pair(bu, bv);
+  if (!forward) std::swap(au, bu), std::swap(av, bv);
+  const double side = (bu - au) * (v - av) - (bv - av) * (u - au);
+  return forward ? side >= 0 : side < 0;
+}
+
+Vec3 unit_normal(const Triangle& t) {
+  const Vec3 n = cross(t.b - t.a, t.c - t.a);
+  const double length = norm(n);
+  return length > 0 ? n / length : Vec3{};
+}
+
+class Columns {
+ public:
+  Columns(int axis, const std::array<const Axis*, 3>& axes, const std::vector<Triangle>& surface,
+          const NearHem& hem)
+      : axis_(axis), u_((axis + 1) % 3), v_((axis + 2) % 3), axes_(axes), surface_(surface) {
+    const std::vector<double> us = line_positions(*axes[u_]), vs = line_positions(*axes[v_]);
+    hits_.resize(static_cast<std::size_t>(axes[u_]->n) * axes[v_]->n);
+    for (int t = 0; t < static_cast<int>(surface.size()); ++t) project(t, us, vs, hem);
+  }
+
+  void faces(std::vector<SheetFace>& result, std::vector<Share>& left_over) {
+    for (int cv = 0; cv < axes_[v_]->n; ++cv) {
+      for (int cu = 0; cu < axes_[u_]->n; ++cu) {
+        std::vector<Hit>& hits = hits_[cu + static_cast<std::size_t>(axes_[u_]->n) * cv];
+        if (!hits.empty()) faces_of_column(hits, cu, cv, result, left_over);
+      }
+    }
+  }
+
+ private:
+  void project(int t, const std::vector<double>& us, const std::vector<double>& vs, const NearHem& hem) {
+    const Point p[] = {point_of(surface_[t].a), point_of(surface_[t].b), point_of(surface_[t].c)};
+    const double area =
+        (p[1][u_] - p[0][u_]) * (p[2][v_] - p[0][v_]) - (p[1][v_] - p[0][v_]) * (p[2][u_] - p[0][u_]);
+    if (area == 0) return;
+    const auto range = [&](const std::vector<double>& all, int a) {
+      const double low = std::min({p[0][a], p[1][a], p[2][a]}), high = std::max({p[0][a], p[1][a], p[2][a]});
+      return std::pair(std::lower_bound(all.begin(), all.end(), low) - all.begin(),
+                       std::upper_bound(all.begin(), all.end(), high) - all.begin());
+    };
+    const auto [u_begin, u_end] = range(us, u_);
+    const auto [v_begin, v_end] = range(vs, v_);
+    for (auto iv = v_begin; iv < v_end; ++iv) {
+      for (auto iu = u_begin; iu < u_end; ++iu) {
+        const double u = us[iu], v = vs[iv];
+        const bool first = left_of(p[0][u_], p[0][v_], p[1][u_], p[1][v_], u, v);
+        if (left_of(p[1][u_], p[1][v_], p[2][u_], p[2][v_], u, v) != first ||
+            left_of(p[2][u_], p[2][v_], p[0][u_], p[0][v_], u, v) != first) {
+          continue;
+        }
+        const double b =
+            ((u - p[0][u_]) * (p[2][v_] - p[0][v_]) - (v - p[0][v_]) * (p[2][u_] - p[0][u_])) / area;
+        const double c =
+            ((p[1][u_] - p[0][u_]) * (v - p[0][v_]) - (p[1][v_] - p[0][v_]) * (u - p[0][u_])) / area;
+        Hit hit;
+        hit.at = p[0][axis_] + b * (p[1][axis_] - p[0][axis_]) + c * (p[2][axis_] - p[0][axis_]);
+        hit.triangle = t;
+        hit.line = static_cast<int>(iu % lines + lines * (iv % lines));
+        Point point;
+        point[axis_] = hit.at, point[u_] = u, point[v_] = v;
+        hit.hem = hem.at(point);
+        hits_[iu / lines + static_cast<std::size_t>(axes_[u_]->n) * (iv / lines)].push_back(hit);
+      }
+    }
+  }
+
+  /// The new face, or null where no two centres lie on either side.
+  SheetFace* add(double at, int triangle, int cu, int cv, std::vector<SheetFace>& result) const {
+    const Axis& axis = *axes_[axis_];
+    int cell = cell_at(axis, at);
+    if (cell < 0 || cell >= axis.n) return nullptr;
+    if (at >= centre(axis, cell)) ++cell;  // between the centres of cell - 1 and cell
+    if (cell < 1 || cell >= axis.n) return nullptr;
+    SheetFace face;
+    face.axis = axis_;
+    int c[3];
+    c[axis_] = cell, c[u_] = cu, c[v_] = cv;
+    face.i = c[0], face.j = c[1], face.k = c[2];
+    face.triangle = triangle;
+    Point point;
+    point[axis_] = at, point[u_] = centre(*axes_[u_], cu), point[v_] = centre(*axes_[v_], cv);
+    face.point = {point[0], point[1], point[2]};
+    face.normal = unit_normal(surface_[triangle]);
+    if (point_of(face.normal)[axis_] < 0) face.normal = -1.0 * face.normal;
+    result.push_back(face);
+    return &result.back();
+  }
+
+  void faces_of_column(std::vector<Hit>& hits, int cu, int cv, std::vector<SheetFace>& result,
+                       std::vector<Share>& left_over) const {
+    std::sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) {
+      return std::tie(a.at, a.triangle, a.line) < std::tie(b.at, b.triangle, b.line);
+    });
+    const auto central = [](const Hit& h) { return h.line == centre_line * (lines + 1); };
+    const auto width_at = [&](double at) {
+      return axes_[axis_]->width[std::clamp(cell_at(*axes_[axis_], at), 0, axes_[axis_]->n - 1)];
+    };
+    const double per_line = axes_[u_]->width[cu] * axes_[v_]->width[cv] / (lines * lines);
+    const auto share = [&](const Hit& h) {
+      return std::abs(point_of(unit_normal(surface_[h.triangle]))[axis_]) * per_line;
+    };
+    const std::size_t first = result.size();
+    for (const Hit& h : hits) {
+      SheetFace* face = central(h) ? add(h.at, h.triangle, cu, cv, result) : nullptr;
+      if (face) face->hem = h.hem;
+    }
+    const std::size_t last = result.size();
+    std::vector<const Hit*> beside;  // near a hem, lines that meet the sheet where the central one does not
+    for (const Hit& h : hits) {
+      std::size_t nearest = last;
+      double closest = 1;
+      for (std::size_t n = first; n < last; ++n) {
+        const Point at = point_of(result[n].point), normal = point_of(result[n].normal);
+        // As far as a slanted sheet gets along the axis while it crosses the column.
+        const double slant =
+            std::abs(normal[u_]) * axes_[u_]->width[cu] + std::abs(normal[v_]) * axes_[v_]->width[cv];
+        const double far = reach * width_at(h.at) +
+                           std::min(0.5 * slant / std::max(normal[axis_], 1e-3), longest * width_at(h.at));
+        const double apart = std::abs(at[axis_] - h.at) / far;
+        if (apart < closest) closest = apart, nearest = n;
+      }
+      if (nearest < last) {
+        result[nearest].area += share(h);
+      } else if (h.hem) {
+        beside.push_back(&h);
+      } else {
+        left_over.push_back({cell_of(h, cu, cv), share(h)});
+      }
+    }
+    for (std::size_t begin = 0; begin < beside.size();) {
+      std::size_t end = begin + 1;
+      while (end < beside.size() &&
+             beside[end]->at - beside[end - 1]->at < reach * width_at(beside[end]->at)) {
+        ++end;
+      }
+      const Hit& middle = *beside[(begin + end) / 2];
+      SheetFace* face = add(middle.at, middle.triangle, cu, cv, result);
+      if (face) face->hem = true;
+      for (std::size_t n = begin; n < end; ++n) {
+        face ? void(face->area += share(*beside[n]))
+             : left_over.push_back({cell_of(*beside[n], cu, cv), share(*beside[n])});
+      }
+      begin = end;
+    }
+  }
+
+  std::array<int, 3> cell_of(const Hit& h, int cu, int cv) const {
+    std::array<int, 3> cell;
+    cell[axis_] = cell_at(*axes_[axis_], h.at), cell[u_] = cu, cell[v_] = cv;
+    return cell;
+  }
+
+  int axis_, u_, v_;
+  std::array<const Axis*, 3> axes_;
+  const std::vector<Triangle>& surface_;
+  std::vector<std::vector<Hit>> hits_;
+};
+
+}  // namespace
+
+std::vector<SheetFace> sheet_faces(const Axis& x, const Axis& y, const Axis& z,
+                                   const std::vector<Triangle>& surface) {
+  const std::array<const Axis*, 3> axes = {&x, &y, &z};
+  const NearHem hem(axes, surface);
+  std::vector<SheetFace> result;
+  std::vector<Share> left_over;
+  for (int axis = 0; axis < 3; ++axis) Columns(axis, axes, surface, hem).faces(result, left_over);
+
+  // What is left, where the sheet runs nearly along an axis, goes to the squarest face of the cell it lies
+  // in.
+  std::map<std::array<int, 3>, std::vector<std::size_t>> of_cell;
+  for (std::size_t n = 0; n < result.size(); ++n) {
+    const SheetFace& f = result[n];
+    std::array<int, 3> cell = {f.i, f.j, f.k};
+    of_cell[cell].push_back(n);
+    --cell[f.axis];
+    of_cell[cell].push_back(n);
+  }
+  for (const Share& share : left_over) {
+    const auto found = of_cell.find(share.cell);
+    if (found == of_cell.end()) continue;
+    const auto square = [&](std::size_t n) { return point_of(result[n].normal)[result[n].axis]; };
+    const std::size_t best =
+        *std::max_element(found->second.begin(), found->second.end(),
+                          [&](std::size_t a, std::size_t b) { return square(a) < square(b); });
+    result[best].area += share.area;
+  }
+  return result;
+}
+
+}  // namespace ripstop::cartesian

@@ -1,0 +1,31 @@
+// Where a thin sheet parts the cells of a rectilinear grid.
+#pragma once
+
+#include <vector>
+
+#include "ripstop/flow/cartesian/grid.h"
+#include "ripstop/flow/flow.h"
+
+namespace ripstop::cartesian {
+
+/// A face whose two cell centres lie on either side of the sheet.
+struct SheetFace {
+  int axis = 0;             // 0, 1, 2: the face is normal to x, y, z
+  int i = 0, j = 0, k = 0;  // the cell whose low face it is
+  int triangle = 0;         // of the surface
+  Vec3 point;               // where the line between the two centres meets the sheet [m]
+  Vec3 normal;              // of the sheet there, unit, its component along the axis not negative
+  bool hem = false;         // within two cells of an edge of the sheet
+  double area = 0;  // of the sheet that the face stands for [m2]; the faces' areas add up to the sheet's
+};
+
+/// Every face between neighbouring cell centres that a triangle parts, in a fixed order. The faces of a
+/// closed surface are watertight: a line through a shared edge or corner meets exactly one of the triangles.
+/// At hems a face is kept as long as the sheet covers any of 5 x 5 lines through the column of cells.
+///
+/// An element dA of the sheet with normal n goes to the faces across x, y and z in the shares n_x^2, n_y^2
+/// and n_z^2, sampled on those lines: air that passes along the normal crosses the faces in these shares.
+std::vector<SheetFace> sheet_faces(const Axis& x, const Axis& y, const Axis& z,
+                                   const std::vector<Triangle>& surface);
+
+}  // namespace ripstop::cartesian
