@@ -30,7 +30,11 @@ FlowProblem flow_problem(const Case& value) {
   problem.residual = settings.residual;
   problem.max_iterations = settings.max_iterations;
   const Fabric& cloth = canopy_fabric(value);
-  problem.porous = {{{}, cloth.darcy, cloth.forchheimer}};
+  if (settings.porosity_model == PorosityModel::sheet) {
+    problem.sheets = {{{}, cloth.darcy, cloth.forchheimer}};
+  } else {
+    problem.porous = {{{}, cloth.darcy, cloth.forchheimer}};
+  }
   return problem;
 }
 

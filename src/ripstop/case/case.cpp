@@ -45,8 +45,12 @@ void describe(Fields& fields, FlowSettings& flow) {
       .number("canopy_position_m", flow.canopy_position_m, above(0).up_to(1000),
               "Distance from the inlet to the skirt of the undeformed start shape.")
       .absent("half the length of the box");
-  fields.choice("porosity_model", flow.porosity_model, {{"paper", PorosityModel::paper}},
-                "\"paper\": Darcy and Forchheimer coefficients in every cell that the canopy cuts.");
+  fields.choice(
+      "porosity_model", flow.porosity_model,
+      {{"paper", PorosityModel::paper}, {"sheet", PorosityModel::sheet}},
+      "\"paper\": the cloth's darcy and forchheimer as resistance of every cell that the canopy cuts; "
+      "\"sheet\": as the pressure drop a v + b v|v| across the cloth, whatever the cells "
+      "(built-in engine only).");
   fields.number("residual", flow.residual, above(0).up_to(0.1),
                 "Residual of every equation at which a solution ends.");
   fields.integer("max_iterations", flow.max_iterations, from(1).up_to(1'000'000),

@@ -21,7 +21,7 @@ namespace ripstop {
 
 enum class EngineKind { builtin, openfoam };
 enum class SpeedBasis { nominal, measured };
-enum class PorosityModel { paper };
+enum class PorosityModel { paper, sheet };
 
 /// [flow]
 struct FlowSettings {

@@ -85,10 +85,11 @@ bool SteadySolver::finished(const SteadyState& state) const {
   return state.converged || static_cast<int>(state.iterations.size()) >= problem_.settings.max_iterations;
 }
 
-FlowField SteadySolver::solve_flow(const std::vector<int>& porous, bool to_the_end, int iteration,
-                                   const SteadyReport& report) {
+FlowField SteadySolver::solve_flow(const std::vector<Triangle>& surface, const std::vector<int>& cut,
+                                   bool to_the_end, int iteration, const SteadyReport& report) {
   FlowProblem flow = problem_.flow;
-  flow.porous.at(0).cells = porous;
+  for (Sheet& sheet : flow.sheets) sheet.surface = surface;
+  for (PorousCells& porous : flow.porous) porous.cells = cut;
   int done = 0;
   std::vector<double> drag;
   const auto follow = [&](FlowProgress progress) {
@@ -147,12 +148,13 @@ FlowField SteadySolver::iterate(SteadyState& state, const SteadyReport& report) 
   now.line_tension = force_on_fixed(*cloth_, cloth).z;
 
   // Flow through and around it.
-  const std::vector<int> porous = cut_cells(problem_.flow.grid, surface_of(cells_, shape));
+  const std::vector<Triangle> surface = surface_of(cells_, shape);
+  const std::vector<int> cut = cut_cells(problem_.flow.grid, surface);
   const bool nearly_there = !state.iterations.empty() &&
                             state.iterations.back().drag_change < settings.drag_tolerance &&
                             now.shape_change < settings.shape_tolerance_m;
-  FlowField field = solve_flow(porous, nearly_there, now.iteration, report);
-  now.cut_cells = static_cast<int>(porous.size());
+  FlowField field = solve_flow(surface, cut, nearly_there, now.iteration, report);
+  now.cut_cells = static_cast<int>(cut.size());
   now.flow_iterations = field.last.iteration;
   now.flow_residual = largest_residual(field.last);
   now.flow_converged = field.converged;
@@ -161,8 +163,9 @@ FlowField SteadySolver::iterate(SteadyState& state, const SteadyReport& report) 
 
   // The flow's force on the cut cells also holds what the resistance takes along the cloth, and the staircase
   // of cut cells is not the cloth: sampled differences do not add up to it. The factor between them is
-  // reported.
-  state.sides = sample_sides(field, porous, cells_, shape);
+  // reported. A sheet leaves the pressure on either side clean up to the cloth.
+  const bool sheet = !problem_.flow.sheets.empty();
+  state.sides = sample_sides(field, sheet ? std::vector<int>{} : cut, cells_, shape);
   std::vector<double> answer = state.sides.difference();
   now.transfer_factor = now.fluid_force / pressure_force(cells_, shape, answer).z;
   if (settings.load == CanopyLoad::uniform) {

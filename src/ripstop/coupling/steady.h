@@ -48,8 +48,8 @@ struct SteadyState {
 };
 
 struct SteadyProblem {
-  Mesh mesh;                  // start shape in the flow's frame
-  FlowProblem flow;           // with one PorousCells that has the resistance; its cells are found here
+  Mesh mesh;         // start shape in the flow's frame
+  FlowProblem flow;  // one PorousCells or one Sheet that has the resistance; where it is, is found here
   double reference_area = 0;  // S0 [m2]
   CouplingSettings settings;
 };
@@ -86,8 +86,8 @@ class SteadySolver {
   ClothState cloth_state(const SteadyState& state) const;
 
  private:
-  FlowField solve_flow(const std::vector<int>& porous, bool to_the_end, int iteration,
-                       const SteadyReport& report);
+  FlowField solve_flow(const std::vector<Triangle>& surface, const std::vector<int>& cut, bool to_the_end,
+                       int iteration, const SteadyReport& report);
 
   SteadyProblem problem_;
   FlowEngine& engine_;

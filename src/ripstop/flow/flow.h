@@ -61,9 +61,9 @@ struct Sheet {
 struct SheetLoad {
   int sheet = 0, triangle = 0;  // of FlowProblem::sheets
   Vec3 point;                   // on the triangle [m]
-  Vec3 normal;       // of the triangle, with a component along the face's normal that is not negative
-  double drop = 0;   // of the pressure along `normal`, mean over the face [Pa]
-  Vec3 force;        // on the sheet: drop times the face's area, along an axis of the grid [N]
+  Vec3 normal;      // of the triangle, with a component along the face's normal that is not negative
+  double drop = 0;  // of the pressure along `normal`, mean over the face [Pa]
+  Vec3 force;       // on the sheet: drop times the face's area, along an axis of the grid [N]
 };
 
 struct FlowProblem {

@@ -97,9 +97,11 @@ void describe(Fields& fields, Fabric& fabric) {
                 "Load per width at failure; 0: unknown.");
   fields.number("darcy", fabric.darcy, from(0).up_to(1e12),
                 "a of the pressure drop a v + b v|v| ([NFM] Eq. 15): typed as Darcy d, 1/m2, by "
-                "porosity_model = \"paper\".");
-  fields.number("forchheimer", fabric.forchheimer, from(0).up_to(1e9),
-                "b of the pressure drop: typed as Forchheimer f, 1/m, by porosity_model = \"paper\".");
+                "porosity_model = \"paper\", taken as a, Pa s/m, by \"sheet\".");
+  fields.number(
+      "forchheimer", fabric.forchheimer, from(0).up_to(1e9),
+      "b of the pressure drop: typed as Forchheimer f, 1/m, by porosity_model = \"paper\", taken as b, "
+      "Pa s2/m2, by \"sheet\".");
 }
 
 void describe(Fields& fields, Line& line) {

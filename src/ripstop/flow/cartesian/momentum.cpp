@@ -5,6 +5,10 @@
 //
 // The equation is under-relaxed first and the resistance is added after that, so that R enters the diagonal
 // and the face flux (through 1/A) unrelaxed.
+//
+// A cell that tight cloth shuts in has hardly any flux, so that A all but vanishes and any error of the
+// pressure would send its air off at once. Beside a sheet A is therefore no less than rho U / h of the free
+// stream.
 #include <cmath>
 
 #include "ripstop/flow/cartesian/rows.h"
@@ -29,7 +33,8 @@ template <bool with_sheet>
   const double *mu = row.mu, *mub = row.mu_below, *mua = row.mu_above;
   const double *tx = row.tx, *ty = row.ty, *tz = row.tz, *tzb = row.tz_below, *tza = row.tz_above;
   const double *linear = row.linear, *quadratic = row.quadratic;
-  const SheetJumps jump = row.sheet;
+  const SheetJumps jump = row.sheet, stiff = row.stiffness;
+  const double inertia = row.inertia;
   double *hu = row.hu, *hv = row.hv, *hw = row.hw, *ra = row.ra, *rc = row.rc;
   double *u_new = row.u_new, *v_new = row.v_new, *w_new = row.w_new;
   const double inverse_alpha = 1 / row.relaxation, inverse_march = 1 / row.march_relaxation;
@@ -55,10 +60,17 @@ template <bool with_sheet>
     const double u0 = u[i], v0 = v[i], w0 = w[i];
     const double speed = std::sqrt(u0 * u0 + v0 * v0 + w0 * w0);
     const double resistance = linear[i] + rho[i] * quadratic[i] * speed;
-    const double a = off * inverse_alpha + resistance;  // of the face flux
+    double held_back = off;
+    if constexpr (with_sheet) {
+      const double faces =
+          stiff.x[i] + stiff.x[i + 1] + stiff.y[i] + stiff.y_high[i] + stiff.z[i] + stiff.z_high[i];
+      held_back =
+          larger(off, faces > 0 ? inertia * larger(rhx[i], larger(y.inverse_width, z.inverse_width)) : 0);
+    }
+    const double a = held_back * inverse_alpha + resistance;  // of the face flux
     const double r = 1 / a;
-    const double lag = off * inverse_march - off;
-    const double step = 1 / (off * inverse_march + resistance);
+    const double lag = held_back * inverse_march - off;
+    const double step = 1 / (held_back * inverse_march + resistance);
 
     const auto divergence = [&](std::ptrdiff_t c) {
       return xh[i] * (tx[i + 1 + c] - tx[i + c]) + xl[i] * (tx[i + c] - tx[i - 1 + c]) +
@@ -89,7 +101,7 @@ template <bool with_sheet>
     hv[i] = v1 + r * py;
     hw[i] = w1 + r * pz;
     ra[i] = r;
-    rc[i] = 1 / (off * (inverse_march - 1) + resistance);
+    rc[i] = 1 / (held_back * inverse_march - off + resistance);
 
     // Residual and scale of the matrix as it is relaxed for the face flux.
     const double whole = off + resistance, mean = a - off, back = a - whole;

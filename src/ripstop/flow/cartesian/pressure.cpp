@@ -258,13 +258,13 @@ void velocity_row(VelocityRow& row) {
 
 RIPSTOP_ROW_KERNEL void outlet_flux_row(OutletRow& row) {
   const int n = row.n;
-  const double *hw = row.hw, *ra = row.ra, *rc = row.rc, *rho = row.rho, *p = row.p;
+  const double *hw = row.hw, *ra = row.ra, *rc = row.rc, *rho = row.rho, *p = row.p, *out = row.outlet_p;
   const float* dp = row.dp;
   double* fz = row.fz;
   const double rd = row.inverse_distance;
 #pragma omp simd
   for (int i = 0; i < n; ++i) {
-    fz[i] = rho[i] * (hw[i] + rd * (ra[i] * p[i] + rc[i] * static_cast<double>(dp[i])));
+    fz[i] = rho[i] * (hw[i] + rd * (ra[i] * (p[i] - out[i]) + rc[i] * static_cast<double>(dp[i])));
   }
 }
 

@@ -82,7 +82,8 @@ struct MomentumRow {
   std::ptrdiff_t component = 0;
   const double* linear = nullptr;     // mu d [kg/(m3 s)]
   const double* quadratic = nullptr;  // f / 2 [1/m]
-  SheetJumps sheet;
+  SheetJumps sheet, stiffness;
+  double inertia = 0;  // rho U; over the least width, least A beside a sheet [kg/(m2 s)]
   // Results: H/A, 1/A and the predicted velocity.
   double *hu = nullptr, *hv = nullptr, *hw = nullptr, *ra = nullptr, *rc = nullptr;
   double *u_new = nullptr, *v_new = nullptr, *w_new = nullptr;
@@ -128,6 +129,7 @@ struct OutletRow {
   int n = 0;
   double inverse_distance = 0;
   const double *hw = nullptr, *ra = nullptr, *rc = nullptr, *rho = nullptr, *p = nullptr;
+  const double* outlet_p = nullptr;
   const float* dp = nullptr;
   double* fz = nullptr;  // at the outlet's faces
 };

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -43,14 +44,41 @@ class NearHem {
         const Vec3 v[] = {t.a, t.b, t.c};
         for (int e = 0; e < 3; ++e) {
           const Vec3 p = v[e], q = v[(e + 1) % 3];
-          if (corner(p) != corner(q)) visit(p, q, std::minmax(corner(p), corner(q)));
+          if (corner(p) != corner(q))
+            visit(p, q, std::pair<Corner, Corner>(std::minmax(corner(p), corner(q))));
         }
       }
     };
     each_edge([&](Vec3, Vec3, const auto& key) { ++uses[{key.first, key.second}]; });
+    std::map<Corner, std::vector<Corner>> single;  // ends of the edges of one triangle only
+    for (const auto& [edge, count] : uses) {
+      if (count == 1) single[edge.first].push_back(edge.second), single[edge.second].push_back(edge.first);
+    }
+    // Where a coarser part of a mesh meets a finer one, one long edge lies along two short ones: no hem.
+    const auto vector_of = [](const Corner& c) {
+      return Vec3{std::get<0>(c), std::get<1>(c), std::get<2>(c)};
+    };
+    std::set<std::pair<Corner, Corner>> joined;
+    for (const auto& [p, ends] : single) {
+      for (const Corner& q : ends) {
+        if (!(p < q)) continue;
+        for (const Corner& m : ends) {
+          const Vec3 a = vector_of(p), b = vector_of(q), c = vector_of(m);
+          const std::vector<Corner>& beyond = single[q];
+          if (m == q || norm(c - 0.5 * (a + b)) > 0.3 * norm(b - a) ||
+              std::find(beyond.begin(), beyond.end(), m) == beyond.end()) {
+            continue;
+          }
+          joined.insert({p, q});
+          joined.insert(std::minmax(p, m));
+          joined.insert(std::minmax(m, q));
+        }
+      }
+    }
     near_.assign(static_cast<std::size_t>(axes[0]->n) * axes[1]->n * axes[2]->n, 0);
     each_edge([&](Vec3 p, Vec3 q, const auto& key) {
-      if (uses[{key.first, key.second}] == 1) mark(p, q);
+      const std::pair<Corner, Corner> edge{key.first, key.second};
+      if (uses[edge] == 1 && !joined.contains(edge)) mark(p, q);
     });
   }
 

@@ -54,6 +54,7 @@ Solver::Solver(const FlowProblem& problem, const FlowGrid& grid, PorousRows poro
   constant_.inlet_w = Array<double>(row, air_.speed);
   constant_.inlet_k = Array<double>(row, inlet_k_);
   constant_.inlet_omega = Array<double>(row, inlet_omega_);
+  if (!sheets_.empty()) outlet_p_ = Array<double>(static_cast<std::size_t>(layout_.stride_z));
   rows_.resize(static_cast<std::size_t>(grid.ny) * grid.nz);
   planes_.resize(grid.nz);
 }
@@ -274,8 +275,9 @@ double Solver::momentum_deficit() const {
       const double mu_in = air_.viscosity + f_.rho[in] * inlet_k_ / inlet_omega_;
       force += area *
                (f_.fz[in] * air_.speed + f_.p[in] - mu_in * z_.inverse_distance[0] * (f_.w[in] - air_.speed));
-      // At the outlet the pressure is zero; the explicit stress there is that of the last cell.
-      const double leaving = f_.fz[out + sz] >= 0 ? f_.w[out] : 0;
+      // The explicit stress at the outlet is that of the last cell.
+      if (!outlet_p_.empty()) force -= area * outlet_p_[layout_.in_plane(i, j)];
+      const double leaving = f_.fz[out + sz] >= 0 || !outlet_p_.empty() ? f_.w[out] : 0;
       force -= area * f_.fz[out + sz] * leaving;
       const double slope = (f_.w[out] - f_.w[out - sz]) * z_.inverse_distance[grid_.nz - 1];
       force += area * mu(out) * slope / 2;

@@ -140,6 +140,7 @@ class Solver {
   Constant constant_;
   Array<double> hu_, hv_, hw_, ra_, rc_;  // H / (A + R) [m/s], 1 / (A + R) [m3 s/kg]
   Array<double> new_k_, new_omega_;
+  Array<double> outlet_p_;         // pressure at the outlet's faces, one plane [Pa]; empty: zero
   std::vector<MarchRings> rings_;  // one a thread
   std::vector<Sums> rows_;
   std::vector<Sums> planes_;

@@ -22,15 +22,17 @@ void Solver::side_ghosts(Array<double>& field, int k, double across_x, double ac
 }
 
 // Ghosts beyond the inlet hold 2 q_inlet - q; those beyond the outlet q where air leaves, 2 q_back - q where
-// it would come back.
+// it would come back. An outlet that draws in air at its total pressure has no gradient there either.
 void Solver::end_ghosts(Array<double>& field, int k, double inlet, double back) const {
   const std::ptrdiff_t sz = layout_.stride_z;
+  const bool free = !outlet_p_.empty();
   for (int j = 0; j < grid_.ny; ++j) {
     const std::ptrdiff_t at = layout_.at(0, j, k);
     double* q = &field[at];
     const double* fz = &f_.fz[at + sz];
     for (int i = 0; k == 0 && i < grid_.nx; ++i) q[i - sz] = 2 * inlet - q[i];
-    for (int i = 0; k == grid_.nz - 1 && i < grid_.nx; ++i) q[i + sz] = fz[i] >= 0 ? q[i] : 2 * back - q[i];
+    for (int i = 0; k == grid_.nz - 1 && i < grid_.nx; ++i)
+      q[i + sz] = fz[i] >= 0 || free ? q[i] : 2 * back - q[i];
   }
 }
 
@@ -53,7 +55,9 @@ void Solver::pressure(int k, IndexRange rows) {
     r.hu = &hu_[at], r.hv = &hv_[at], r.hw = &hw_[at];
     r.ra = &ra_[at], r.rc = &rc_[at], r.rho = &f_.rho[at], r.p = &f_.p[at];
     r.hw_above = r.hw + sz, r.ra_above = r.ra + sz, r.rc_above = r.rc + sz, r.rho_above = r.rho + sz;
-    r.p_above = last ? &constant_.zeros[Layout::lead] : r.p + sz;
+    const double* outlet =
+        outlet_p_.empty() ? &constant_.zeros[Layout::lead] : &outlet_p_[layout_.in_plane(0, j)];
+    r.p_above = last ? outlet : r.p + sz;
     r.inlet = k == 0;
     r.inlet_speed = air_.speed;
     r.outlet = last;
@@ -93,7 +97,10 @@ void Solver::flux(int k, IndexRange rows) {
       for (int i = 0; i < grid_.nx; ++i) r.fy[i + sy] = duct_ ? 0 : r.rho[i] * r.hv[i];
     }
     if (k == grid_.nz - 1) {
-      OutletRow out{grid_.nx, zp_.inverse_distance[grid_.nz], r.hw, r.ra, r.rc, r.rho, r.p, r.dp, r.fz + sz};
+      const double* outlet =
+          outlet_p_.empty() ? &constant_.zeros[Layout::lead] : &outlet_p_[layout_.in_plane(0, j)];
+      OutletRow out{grid_.nx, zp_.inverse_distance[grid_.nz], r.hw, r.ra, r.rc, r.rho, r.p, outlet, r.dp,
+                    r.fz + sz};
       outlet_flux_row(out);
     }
   }
@@ -121,7 +128,20 @@ void Solver::pressure_ghosts(int k) {
   for (int j = 0; j < grid_.ny; ++j) {
     double* p = &f_.p[layout_.at(0, j, k)];
     if (k == 0) std::copy_n(p, grid_.nx, p - sz);
-    for (int i = 0; k == grid_.nz - 1 && i < grid_.nx; ++i) p[i + sz] = -p[i];
+    if (k < grid_.nz - 1) continue;
+    if (outlet_p_.empty()) {
+      for (int i = 0; i < grid_.nx; ++i) p[i + sz] = -p[i];
+      continue;
+    }
+    // Where a wake sucks air back in through the outlet, that air has the total pressure of air at rest; with
+    // its static pressure held instead, it would come in ever faster.
+    const double *fz = &f_.fz[layout_.at(0, j, k) + sz], *rho = &f_.rho[layout_.at(0, j, k)];
+    double* outlet = &outlet_p_[layout_.in_plane(0, j)];
+    for (int i = 0; i < grid_.nx; ++i) {
+      const double total = fz[i] < 0 ? -0.5 * fz[i] * fz[i] / rho[i] : 0;
+      outlet[i] = 0.5 * (outlet[i] + total);
+      p[i + sz] = 2 * outlet[i] - p[i];
+    }
   }
 }
 

@@ -143,7 +143,7 @@ void Solver::momentum(MarchRings& rings, int k, IndexRange rows) {
     r.w_below = first ? inlet_w : before + 2 * component;
     r.u_above = last ? zeros : r.u + sz;
     r.v_above = last ? zeros : r.v + sz;
-    r.w_above = last ? zeros : r.w + sz;
+    r.w_above = last ? (outlet_p_.empty() ? zeros : r.w) : r.w + sz;
     const std::ptrdiff_t sy = layout_.stride_y;
     const double *south = &rings.predicted[mod(k, 2)][in - sy], *north = &rings.predicted[mod(k, 2)][in + sy];
     const bool new_south = northward && j > rows.begin, new_north = !northward && j + 1 < rows.end;
@@ -172,6 +172,8 @@ void Solver::momentum(MarchRings& rings, int k, IndexRange rows) {
     r.linear = porous_.linear(j, k);
     r.quadratic = porous_.quadratic(j, k);
     r.sheet = jumps(j, k, &SheetRows::held);
+    r.stiffness = jumps(j, k, &SheetRows::stiffness);
+    r.inertia = air_.density * air_.speed;
     r.hu = &hu_[at], r.hv = &hv_[at], r.hw = &hw_[at], r.ra = &ra_[at], r.rc = &rc_[at];
     double* next = &rings.predicted[mod(k, 2)][in];
     r.u_new = next, r.v_new = next + component, r.w_new = next + 2 * component;

@@ -62,6 +62,12 @@ class OpenFoam : public FlowEngine {
   }
 
   FlowField solve(const FlowProblem& problem, const FlowReport& report) override {
+    if (!problem.sheets.empty()) {
+      throw Error(
+          ExitCode::usage,
+          "flow.porosity_model = \"sheet\" needs flow.engine = \"builtin\": OpenFOAM's porous zones have "
+          "the \"paper\" model only");
+    }
     check(problem);
     const Basis basis{problem.grid, problem.air, problem.duct, settings_.ranks, settings_.second_order};
     const bool warm = basis_ && *basis_ == basis && latest_time(part_folder(0)) != "0";

@@ -1,0 +1,235 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <tuple>
+
+#include "ripstop/core/error.h"
+#include "ripstop/flow/bodies.h"
+#include "ripstop/flow/cartesian/cartesian.h"
+#include "ripstop/flow/cartesian/sheet_faces.h"
+
+namespace ripstop {
+namespace {
+
+using cartesian::Axis;
+using cartesian::End;
+using cartesian::sheet_faces;
+using cartesian::SheetFace;
+
+constexpr double pi = 3.14159265358979323846;
+constexpr double f111 = 8169.3;  // a of F-111 at 3 CFM [Pa s/m]
+
+Axis uniform(double low, double size, int n) {
+  std::vector<double> edges(n + 1);
+  for (int i = 0; i <= n; ++i) edges[i] = low + size * i / n;
+  return cartesian::make_axis(edges, End::zero_gradient, End::zero_gradient);
+}
+
+double area_of(const std::vector<Triangle>& surface) {
+  double sum = 0;
+  for (const Triangle& t : surface) sum += 0.5 * norm(cross(t.b - t.a, t.c - t.a));
+  return sum;
+}
+
+// |x| + |y| + |z| <= radius, with corners on cell centres and edges along diagonals: every tie there can be.
+std::vector<Triangle> octahedron(Vec3 c, double radius) {
+  std::vector<Triangle> faces;
+  for (int s = 0; s < 8; ++s) {
+    const double x = s & 1 ? radius : -radius, y = s & 2 ? radius : -radius, z = s & 4 ? radius : -radius;
+    faces.push_back({c + Vec3{x, 0, 0}, c + Vec3{0, y, 0}, c + Vec3{0, 0, z}});
+  }
+  return faces;
+}
+
+TEST(SheetFaces, AClosedSurfacePartsItsInsideFromItsOutsideWithoutAHole) {
+  const int n = 20;
+  const Axis x = uniform(-1, 2, n);
+  for (const Vec3 centre : {Vec3{0.05, 0.05, 0.05}, Vec3{0.013, -0.021, 0.037}}) {
+    const double radius =
+        0.6 + 1e-7;  // no centre exactly on a face, where inside and outside have no meaning
+    std::map<std::tuple<int, int, int, int>, int> crossings;
+    for (const SheetFace& f : sheet_faces(x, x, x, octahedron(centre, radius))) {
+      ++crossings[{f.axis, f.i, f.j, f.k}];
+    }
+    const auto inside = [&](int i, int j, int k) {
+      const auto at = [&](int c) { return -1 + (c + 0.5) * 2.0 / n; };
+      return std::abs(at(i) - centre.x) + std::abs(at(j) - centre.y) + std::abs(at(k) - centre.z) < radius;
+    };
+    int parted = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int k = 1; k < n; ++k) {
+        for (int j = 1; j < n; ++j) {
+          for (int i = 1; i < n; ++i) {
+            const bool differ = inside(i, j, k) != inside(i - (axis == 0), j - (axis == 1), k - (axis == 2));
+            const auto found = crossings.find({axis, i, j, k});
+            EXPECT_EQ(found != crossings.end() && found->second % 2 == 1, differ)
+                << axis << " " << i << " " << j << " " << k;
+            parted += differ;
+          }
+        }
+      }
+    }
+    EXPECT_GT(parted, 300);
+  }
+}
+
+TEST(SheetFaces, TheSharesOfAllFacesAddUpToTheSheet) {
+  const Axis x = uniform(-1, 2, 40), z = uniform(0, 4, 60);
+  for (const Vec3 centre : {Vec3{0, 0, 2}, Vec3{0.013, -0.007, 2.031}}) {
+    for (const auto& surface :
+         {disk(0.65, centre), hemispherical_cup(0.65, centre), rigid_disk_gap_band(centre)}) {
+      double sum = 0;
+      for (const SheetFace& f : sheet_faces(x, x, z, surface)) sum += f.area;
+      EXPECT_NEAR(sum / area_of(surface), 1, 0.015);
+    }
+  }
+}
+
+struct Duct {
+  double drop = 0;    // of the pressure from end to end over the law's
+  double ripple = 0;  // largest pressure off the two levels, a cell or more from the sheet, over the law's
+  FlowField field;
+};
+
+// A duct of 1 m x 0.5 m with slip walls, closed by a sheet at an angle to the cross-section.
+Duct duct(double speed, double a, double b, double degrees, int n, double at = 2.013) {
+  FlowProblem problem;
+  problem.grid = {{0, 0, 0}, {1, 0.5, 4}, n, n / 2, 4 * n};
+  problem.duct = true;
+  problem.air.speed = speed;
+  problem.max_iterations = 400;
+  const double slope = std::tan(degrees * pi / 180);
+  const auto corner = [&](double x, double y) { return Vec3{x, y, at + slope * (x - 0.5)}; };
+  const Vec3 p[] = {corner(-0.3, -0.3), corner(1.3, -0.3), corner(1.3, 0.8), corner(-0.3, 0.8)};
+  problem.sheets = {{{{p[0], p[1], p[2]}, {p[0], p[2], p[3]}}, a, b}};
+  CartesianSettings settings;
+  settings.threads = 1;
+  settings.compressible = false;
+  Duct result;
+  result.field = make_cartesian(settings)->solve(problem, nullptr);
+  const double normal = speed * std::cos(degrees * pi / 180), law = a * normal + b * normal * normal;
+  const std::vector<double>& pressure = result.field.pressure;
+  const FlowGrid& g = problem.grid;
+  const double level = pressure[g.index(n / 2, n / 4, 0)];
+  result.drop = (level - pressure[g.index(n / 2, n / 4, g.nz - 1)]) / law;
+  for (int k = 0; k < g.nz; ++k) {
+    for (int i = 0; i < n; ++i) {
+      const double from = (k + 0.5) / n - (at + slope * ((i + 0.5) / n - 0.5));
+      if (std::abs(from) < 1.0 / n) continue;
+      result.ripple =
+          std::max(result.ripple, std::abs(pressure[g.index(i, n / 4, k)] - (from < 0 ? level : 0)) / law);
+    }
+  }
+  return result;
+}
+
+TEST(Sheet, ASheetAcrossADuctHasTheDropOfItsLawWhereverItStandsInItsCells) {
+  for (const int n : {8, 12, 16}) {
+    for (const double at : {2.0, 2.013, 2.04}) {
+      for (const double a : {1.0, 66.0, f111}) {
+        const Duct d = duct(2, a, a == 66 ? 37.45 : 0, 0, n, at);
+        EXPECT_NEAR(d.drop, 1, 1e-5) << n << " " << at << " " << a;
+        EXPECT_LT(d.ripple, 1e-5) << n << " " << at << " " << a;
+        EXPECT_NEAR(d.field.porous_force.z / (0.5 * d.field.pressure[0]), 1, 1e-5);  // on 0.5 m2
+      }
+    }
+  }
+}
+
+TEST(Sheet, RealClothAtAnAngleHasTheDropOfItsLawWithinOnePercentOnThreeGrids) {
+  for (const int n : {12, 16, 24}) {
+    for (const double degrees : {15.0, 30.0, 45.0}) {
+      const Duct d = duct(2, f111, 0, degrees, n);
+      EXPECT_NEAR(d.drop, 1, 0.01) << n << " cells, " << degrees << " degrees";
+      EXPECT_LT(d.ripple, 0.01) << n << " cells, " << degrees << " degrees";
+    }
+  }
+}
+
+TEST(Sheet, AnOpenScreenAtAnAngleHasTheDropOfItsLawAndDoesNotTurnTheAir) {
+  for (const int n : {12, 16, 24}) {
+    for (const double degrees : {15.0, 30.0, 45.0}) {
+      const Duct d = duct(10, 12, 0, degrees, n);  // a = rho U
+      EXPECT_NEAR(d.drop, 1, 0.01) << n << " cells, " << degrees << " degrees";
+      EXPECT_LT(d.ripple, 0.01);
+      for (const Vec3& u : d.field.velocity) ASSERT_NEAR(std::hypot(u.x, u.y), 0, 0.05);
+    }
+  }
+}
+
+// Between the two the air leaves along the normal, and what it had along the sheet is lost on top of the law.
+TEST(Sheet, ClothThatTurnsTheAirAddsNoMoreThanTheMomentumThatItTakesFromIt) {
+  for (const double a : {60.0, 150.0, 600.0}) {
+    for (const double degrees : {15.0, 30.0, 45.0}) {
+      const double speed = 10, angle = degrees * pi / 180;
+      const double turned =
+          1.2 * speed * speed * std::pow(std::sin(angle), 2) / (a * speed * std::cos(angle));
+      const Duct d = duct(speed, a, 0, degrees, 16);
+      EXPECT_LT(d.drop, 1 + turned + 0.03) << a << " Pa s/m, " << degrees << " degrees";
+      EXPECT_GT(d.drop, 1 - 0.03) << a << " Pa s/m, " << degrees << " degrees";
+    }
+  }
+}
+
+FlowProblem canopy(int n, double speed, double a, double b, Vec3 centre = {0, 0, 2}) {
+  FlowProblem problem;
+  problem.grid = {{-1, -1, 0}, {2, 2, 4}, n, n, 3 * n / 2};
+  problem.air.speed = speed;
+  problem.max_iterations = 600;
+  problem.sheets = {{rigid_disk_gap_band(centre), a, b}};
+  return problem;
+}
+
+CartesianSettings threads(int count) {
+  CartesianSettings settings;
+  settings.threads = count;
+  return settings;
+}
+
+TEST(Sheet, LoadsForceOnTheFluidAndMomentumDeficitAreOne) {
+  const FlowField field = make_cartesian(threads(2))->solve(canopy(26, 10, 66, 37.45), nullptr);
+  EXPECT_TRUE(field.converged);
+  Vec3 sum{};
+  for (const SheetLoad& load : field.sheet_loads) sum += load.force;
+  EXPECT_GT(field.porous_force.z, 10);
+  EXPECT_NEAR(norm(sum - field.porous_force), 0, 1e-9 * field.porous_force.z);
+  EXPECT_NEAR(field.momentum_deficit / field.porous_force.z, 1, 0.005);
+}
+
+TEST(Sheet, FromWideOpenToImpermeableTheForceGrowsAndTheLeakVanishes) {
+  double last = 0;
+  for (const double a : {0.0, 5.0, 66.0, f111, 1e6}) {
+    const FlowField field = make_cartesian(threads(2))->solve(canopy(26, 10, a, 0), nullptr);
+    EXPECT_GE(field.porous_force.z, last) << a;
+    last = field.porous_force.z;
+    if (a >= f111) {
+      double worst = 0;
+      for (const SheetLoad& load : field.sheet_loads) worst = std::max(worst, std::abs(load.drop) / a);
+      EXPECT_LT(worst, 0.01 * 10);  // through the cloth, of the free stream
+    }
+  }
+  EXPECT_GT(last, 10);
+}
+
+TEST(Sheet, TheAnswerIsTheSameBitForBitOnOneTwoAndFourThreads) {
+  FlowProblem problem = canopy(26, 10, f111, 0);
+  problem.max_iterations = 12;
+  const FlowField one = make_cartesian(threads(1))->solve(problem, nullptr);
+  for (const int count : {2, 4}) {
+    const FlowField other = make_cartesian(threads(count))->solve(problem, nullptr);
+    EXPECT_EQ(std::memcmp(one.pressure.data(), other.pressure.data(), one.pressure.size() * sizeof(double)),
+              0);
+    EXPECT_EQ(std::memcmp(one.velocity.data(), other.velocity.data(), one.velocity.size() * sizeof(Vec3)), 0);
+    EXPECT_EQ(one.porous_force, other.porous_force);
+  }
+}
+
+TEST(Sheet, SaysWhichCoefficientsItCannotTake) {
+  EXPECT_THROW(make_cartesian(threads(1))->solve(canopy(12, 10, -1, 0), nullptr), Error);
+  EXPECT_THROW(make_cartesian(threads(1))->solve(canopy(12, 10, 1, std::nan("")), nullptr), Error);
+}
+
+}  // namespace
+}  // namespace ripstop
