@@ -51,6 +51,12 @@ void describe(Fields& fields, FlowSettings& flow) {
       "\"paper\": the cloth's darcy and forchheimer as resistance of every cell that the canopy cuts; "
       "\"sheet\": as the pressure drop a v + b v|v| across the cloth, whatever the cells "
       "(built-in engine only).");
+  fields.choice("convection", flow.convection,
+                {{"upwind", Convection::upwind}, {"second-order", Convection::second_order}},
+                "Of the velocity. \"upwind\": first order, as [NFM]; \"second-order\": limited linear.");
+  fields.choice(
+      "sides", flow.sides, {{"zero-gradient", Sides::zero_gradient}, {"slip", Sides::slip}},
+      "The four sides of the box. \"zero-gradient\": open, as [NFM]; \"slip\": walls without friction.");
   fields.number("residual", flow.residual, above(0).up_to(0.1),
                 "Residual of every equation at which a solution ends.");
   fields.integer("max_iterations", flow.max_iterations, from(1).up_to(1'000'000),

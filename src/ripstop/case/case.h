@@ -21,6 +21,8 @@ namespace ripstop {
 
 enum class EngineKind { builtin, openfoam };
 enum class SpeedBasis { nominal, measured };
+enum class Convection { upwind, second_order };
+enum class Sides { zero_gradient, slip };
 enum class PorosityModel { paper, sheet };
 
 /// [flow]
@@ -36,6 +38,8 @@ struct FlowSettings {
   Vec3 box_m{2, 2, 4};
   std::array<int, 3> cells{100, 100, 150};
   std::optional<double> canopy_position_m;  // inlet to the skirt of the start shape; absent: mid-length
+  Convection convection = Convection::upwind;
+  Sides sides = Sides::zero_gradient;
   PorosityModel porosity_model = PorosityModel::paper;
   double residual = 1e-5;
   int max_iterations = 1000;

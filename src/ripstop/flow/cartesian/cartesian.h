@@ -11,6 +11,7 @@ namespace ripstop {
 struct CartesianSettings {
   int threads = 0;              // 0: as many as the process may run on
   bool compressible = true;     // perfect gas at constant total enthalpy; false: constant density
+  bool second_order = false;    // limited linear convection of the velocity; false: upwind
   bool grid_sequencing = true;  // a cold start solves coarser grids first
   int pressure_cycles = 2;      // multigrid V cycles an iteration
   double relax_pressure = 1.0;  // (0, 1]

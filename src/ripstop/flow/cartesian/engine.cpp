@@ -109,8 +109,9 @@ FlowField CartesianEngine::solve(const FlowProblem& problem, const FlowReport& r
   auto solver = std::make_unique<Solver>(problem, problem.grid,
                                          PorousRows(problem.grid, problem.porous, problem.air.viscosity),
                                          settings_, team_);
-  // In a duct a sheet holds back pressures far beyond rho U^2, which would not survive being interpolated.
-  const bool shut = problem.duct && !problem.sheets.empty();
+  // A sheet across the whole box holds back pressures far beyond rho U^2, which would not survive being
+  // interpolated.
+  const bool shut = solver->shut();
   if (last_ && last_->duct() == problem.duct && last_->grid().origin == problem.grid.origin &&
       last_->grid().size == problem.grid.size && last_->air() == problem.air) {
     solver->start_from(*last_);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "ripstop/core/error.h"
 
 namespace ripstop::cartesian {
@@ -36,6 +38,15 @@ Axis make_axis(std::vector<double> edges, End low, End high) {
   for (int c = 0; c < n; ++c) {
     axis.slope_low[c] = axis.weight_low[c] * axis.inverse_width[c];
     axis.slope_high[c] = (1 - axis.weight_low[c + 1]) * axis.inverse_width[c];
+  }
+  const auto apart = [&](int f) {  // ghost cells again as wide as their neighbours
+    return 0.5 * (axis.width[std::max(f - 1, 0)] + axis.width[std::min(f, n - 1)]);
+  };
+  axis.ratio_low.resize(n + 1);
+  axis.ratio_high.resize(n + 1);
+  for (int f = 0; f <= n; ++f) {
+    axis.ratio_low[f] = apart(f) / apart(std::max(f - 1, 0));
+    axis.ratio_high[f] = apart(f) / apart(std::min(f + 1, n));
   }
   return axis;
 }

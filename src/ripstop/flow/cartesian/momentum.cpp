@@ -35,6 +35,7 @@ template <bool with_sheet>
   const double *linear = row.linear, *quadratic = row.quadratic;
   const SheetJumps jump = row.sheet, stiff = row.stiffness;
   const double inertia = row.inertia;
+  const double *extra_u = row.extra_u, *extra_v = row.extra_v, *extra_w = row.extra_w;
   double *hu = row.hu, *hv = row.hv, *hw = row.hw, *ra = row.ra, *rc = row.rc;
   double *u_new = row.u_new, *v_new = row.v_new, *w_new = row.w_new;
   const double inverse_alpha = 1 / row.relaxation, inverse_march = 1 / row.march_relaxation;
@@ -89,7 +90,8 @@ template <bool with_sheet>
     const double nu = aw * u[i - 1] + ae * u[i + 1] + as * us[i] + an * un[i] + ab * ub[i] + aa * ua[i];
     const double nv = aw * v[i - 1] + ae * v[i + 1] + as * vs[i] + an * vn[i] + ab * vb[i] + aa * va[i];
     const double nw = aw * w[i - 1] + ae * w[i + 1] + as * ws[i] + an * wn[i] + ab * wb[i] + aa * wa[i];
-    const double bu = divergence(0) - px, bv = divergence(comp) - py, bw = divergence(2 * comp) - pz;
+    const double bu = divergence(0) - px + extra_u[i], bv = divergence(comp) - py + extra_v[i],
+                 bw = divergence(2 * comp) - pz + extra_w[i];
 
     const double u1 = step * (nu + lag * u0 + bu);
     const double v1 = step * (nv + lag * v0 + bv);

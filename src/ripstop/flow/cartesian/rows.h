@@ -66,6 +66,26 @@ struct SheetJumps {
   explicit operator bool() const { return x != nullptr; }
 };
 
+/// One axis of the faces of cell c, for the limited correction of the upwind face value.
+struct FaceMetrics {
+  double inverse_width = 0, weight_low = 0, weight_high = 0;  // as CrossMetrics
+  double low_low = 0, low_high = 0;    // ratios of distances at the low face, 0 at an end of the axis
+  double high_low = 0, high_high = 0;  // and at the high face
+};
+FaceMetrics face_metrics(const Axis& axis, int c);
+
+struct ConvectionRow {
+  int n = 0;
+  const Axis* x = nullptr;
+  FaceMetrics y, z;
+  std::ptrdiff_t sy = 0, sz = 0;
+  std::ptrdiff_t south2 = 0, north2 = 0, below2 = 0, above2 = 0;  // to the second neighbours, 0 where none is
+  const double *fx = nullptr, *fy = nullptr, *fz = nullptr;
+  const double* q = nullptr;
+  double* source = nullptr;  // what the second order adds to the right-hand side
+};
+void convection_row(const ConvectionRow& row);
+
 struct MomentumRow {
   RowMetrics m;
   double relaxation = 0;        // in the face flux
@@ -80,8 +100,9 @@ struct MomentumRow {
   const double *mu = nullptr, *mu_below = nullptr, *mu_above = nullptr;
   const double *tx = nullptr, *ty = nullptr, *tz = nullptr, *tz_below = nullptr, *tz_above = nullptr;
   std::ptrdiff_t component = 0;
-  const double* linear = nullptr;     // mu d [kg/(m3 s)]
-  const double* quadratic = nullptr;  // f / 2 [1/m]
+  const double* linear = nullptr;                                           // mu d [kg/(m3 s)]
+  const double* quadratic = nullptr;                                        // f / 2 [1/m]
+  const double *extra_u = nullptr, *extra_v = nullptr, *extra_w = nullptr;  // of ConvectionRow
   SheetJumps sheet, stiffness;
   double inertia = 0;  // rho U; over the least width, least A beside a sheet [kg/(m2 s)]
   // Results: H/A, 1/A and the predicted velocity.

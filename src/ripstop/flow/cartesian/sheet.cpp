@@ -49,6 +49,9 @@ SheetRows::SheetRows(const Axis& x, const Axis& y, const Axis& z, const std::vec
     }
   }
   if (faces_.empty()) return;
+  double across = 0;
+  for (const Face& face : faces_) across += face.geometry.axis == 2 ? face.area : 0;
+  shut_ = across > 0.9 * (x.edge.back() - x.edge.front()) * (y.edge.back() - y.edge.front());
   const std::size_t rows = static_cast<std::size_t>(ny_ + 1) * (nz_ + 1),
                     width = static_cast<std::size_t>(nx_) + 1;
   offset_.assign(3, std::vector<std::size_t>(rows, 0));

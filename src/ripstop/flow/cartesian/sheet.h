@@ -23,6 +23,8 @@ class SheetRows {
   SheetRows(const Axis& x, const Axis& y, const Axis& z, const std::vector<Sheet>& sheets);
 
   bool empty() const { return faces_.empty(); }
+  /// Whether the sheets leave next to nothing of the box's cross-section open.
+  bool shut() const { return shut_; }
   /// Whether a face of row (j, k) has a jump.
   bool touches(int j, int k) const { return !touched_.empty() && touched_[row(j, k)] != 0; }
   /// Rows of n + 1 values; `axis` is that of the faces. Row (j, k) has the low faces of its cells.
@@ -61,6 +63,7 @@ class SheetRows {
   std::vector<std::vector<std::size_t>> offset_;  // one table an axis; 0: the row of zeros
   std::vector<char> touched_;
   std::vector<double> held_, law_, excess_, stiffness_, change_;
+  bool shut_ = false;
   bool updated_ = false;
 };
 

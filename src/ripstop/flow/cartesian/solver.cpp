@@ -54,6 +54,7 @@ Solver::Solver(const FlowProblem& problem, const FlowGrid& grid, PorousRows poro
   constant_.inlet_w = Array<double>(row, air_.speed);
   constant_.inlet_k = Array<double>(row, inlet_k_);
   constant_.inlet_omega = Array<double>(row, inlet_omega_);
+  if (settings_.second_order) extra_u_ = extra_v_ = extra_w_ = Array<double>(values);
   if (!sheets_.empty()) outlet_p_ = Array<double>(static_cast<std::size_t>(layout_.stride_z));
   rows_.resize(static_cast<std::size_t>(grid.ny) * grid.nz);
   planes_.resize(grid.nz);
@@ -197,12 +198,13 @@ FlowProgress Solver::iterate() {
       if (rank == 0) sheets_.update(f_, layout_, air_.density * air_.speed);
       team_.barrier();
     }
+    if (settings_.second_order) each_plane_of_a_block([&](int k, IndexRange rows) { convection(k, rows); });
     each_block([&](IndexRange rows) { march(rank, rows); });
     if (rank == 0) std::swap(f_.k, new_k_), std::swap(f_.omega, new_omega_);
     team_.barrier();
     each_plane([&](int k) { march_ghosts(k); });
     each_plane_of_a_block([&](int k, IndexRange rows) { pressure(k, rows); });
-    if (duct_ && !sheets_.empty()) {  // nothing passes round the sheet: coarse levels are cut in two
+    if (sheets_.shut()) {  // nothing passes round the sheet: coarse levels are cut in two
       multigrid_.solve_conjugate(team_, rank, 0.05, 20);
     } else {
       multigrid_.solve(team_, rank, settings_.pressure_cycles);

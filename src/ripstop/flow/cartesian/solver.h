@@ -88,6 +88,7 @@ class Solver {
   const FlowGrid& grid() const { return grid_; }
   const Freestream& air() const { return air_; }
   bool duct() const { return duct_; }
+  bool shut() const { return sheets_.shut(); }
   const Fields& fields() const { return f_; }
   Fields& fields() { return f_; }
   const Sums& sums() const { return total_; }
@@ -102,6 +103,7 @@ class Solver {
   void eddy_viscosity(MarchRings& rings, int k, IndexRange rows) const;
   void turbulence(MarchRings& rings, int k, IndexRange rows);
   void momentum(MarchRings& rings, int k, IndexRange rows);
+  void convection(int k, IndexRange rows);  // convection.cpp
   // The rest (solver_correct.cpp).
   void pressure(int k, IndexRange rows);
   void flux(int k, IndexRange rows);
@@ -140,8 +142,9 @@ class Solver {
   Constant constant_;
   Array<double> hu_, hv_, hw_, ra_, rc_;  // H / (A + R) [m/s], 1 / (A + R) [m3 s/kg]
   Array<double> new_k_, new_omega_;
-  Array<double> outlet_p_;         // pressure at the outlet's faces, one plane [Pa]; empty: zero
-  std::vector<MarchRings> rings_;  // one a thread
+  Array<double> extra_u_, extra_v_, extra_w_;  // of second-order convection; empty: upwind
+  Array<double> outlet_p_;                     // pressure at the outlet's faces, one plane [Pa]; empty: zero
+  std::vector<MarchRings> rings_;              // one a thread
   std::vector<Sums> rows_;
   std::vector<Sums> planes_;
   Sums total_;

@@ -171,6 +171,10 @@ void Solver::momentum(MarchRings& rings, int k, IndexRange rows) {
     r.component = component;
     r.linear = porous_.linear(j, k);
     r.quadratic = porous_.quadratic(j, k);
+    const bool second = settings_.second_order;
+    r.extra_u = second ? &extra_u_[at] : zeros;
+    r.extra_v = second ? &extra_v_[at] : zeros;
+    r.extra_w = second ? &extra_w_[at] : zeros;
     r.sheet = jumps(j, k, &SheetRows::held);
     r.stiffness = jumps(j, k, &SheetRows::stiffness);
     r.inertia = air_.density * air_.speed;
