@@ -100,7 +100,11 @@ void CartesianEngine::solve_coarse(const FlowProblem& problem, const FlowGrid& g
   }
   bool done = false;
   // The coarse answer differs from the fine one by far more than this.
-  run(solver, 1e-3, 60, nullptr, done);
+  try {
+    run(solver, 1e-3, 60, nullptr, done);
+  } catch (const Error&) {  // too coarse for this canopy: the fine grid starts afresh
+    return fine.start_uniform();
+  }
   fine.start_from(solver);
 }
 

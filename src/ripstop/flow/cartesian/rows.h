@@ -48,6 +48,8 @@ struct TurbulenceRow {
                *omega_north = nullptr;  // and y
   const double *fx = nullptr, *fy = nullptr, *fz = nullptr;
   const double *mut = nullptr, *mut_below = nullptr, *mut_above = nullptr;  // eddy viscosity [Pa s]
+  const double* wall = nullptr;  // distance to the cloth [m]; null: no wall anywhere
+  double* limit_new = nullptr;   // factor of the eddy viscosity; with a wall only
   // Results.
   double *k_new = nullptr, *omega_new = nullptr;
   double* mu_new = nullptr;                            // mu + mu_t [Pa s]
@@ -57,6 +59,8 @@ struct TurbulenceRow {
   double total_k = 0, total_omega = 0;  // of the new values, times the cell width
 };
 void turbulence_row(TurbulenceRow& row);
+/// mut *= limit, that of the shear-stress limiter
+void limit_row(int n, const double* limit, double* mut);
 /// mut = rho k / omega
 void eddy_viscosity_row(int n, const double* rho, const double* k, const double* omega, double* mut);
 

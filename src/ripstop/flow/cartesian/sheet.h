@@ -41,6 +41,9 @@ class SheetRows {
   /// Jump [Pa] of the law at the present velocities, and its slope over the face's own velocity [Pa s/m].
   /// `momentum` is rho U of the free stream [kg/(m2 s)].
   void update(const Fields& fields, const Layout& layout, double momentum);
+  /// Distance of each cell's centre to the nearest face that a sheet parts [m], no less than half the least
+  /// cell.
+  Array<double> distance(const Axis& x, const Axis& y, const Axis& z, const Layout& layout) const;
   /// Force of the air on the sheets [N], from the jumps with their last changes.
   Vec3 force() const;
   /// The same, face by face.

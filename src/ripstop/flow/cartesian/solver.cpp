@@ -55,7 +55,11 @@ Solver::Solver(const FlowProblem& problem, const FlowGrid& grid, PorousRows poro
   constant_.inlet_k = Array<double>(row, inlet_k_);
   constant_.inlet_omega = Array<double>(row, inlet_omega_);
   if (settings_.second_order) extra_u_ = extra_v_ = extra_w_ = Array<double>(values);
-  if (!sheets_.empty()) outlet_p_ = Array<double>(static_cast<std::size_t>(layout_.stride_z));
+  if (!sheets_.empty()) {
+    outlet_p_ = Array<double>(static_cast<std::size_t>(layout_.stride_z));
+    wall_ = sheets_.distance(x_, y_, z_, layout_);
+    limit_ = new_limit_ = Array<double>(values, 1.0);
+  }
   rows_.resize(static_cast<std::size_t>(grid.ny) * grid.nz);
   planes_.resize(grid.nz);
 }
@@ -200,7 +204,7 @@ FlowProgress Solver::iterate() {
     }
     if (settings_.second_order) each_plane_of_a_block([&](int k, IndexRange rows) { convection(k, rows); });
     each_block([&](IndexRange rows) { march(rank, rows); });
-    if (rank == 0) std::swap(f_.k, new_k_), std::swap(f_.omega, new_omega_);
+    if (rank == 0) std::swap(f_.k, new_k_), std::swap(f_.omega, new_omega_), std::swap(limit_, new_limit_);
     team_.barrier();
     each_plane([&](int k) { march_ghosts(k); });
     each_plane_of_a_block([&](int k, IndexRange rows) { pressure(k, rows); });

@@ -143,6 +143,8 @@ class Solver {
   Array<double> hu_, hv_, hw_, ra_, rc_;  // H / (A + R) [m/s], 1 / (A + R) [m3 s/kg]
   Array<double> new_k_, new_omega_;
   Array<double> extra_u_, extra_v_, extra_w_;  // of second-order convection; empty: upwind
+  Array<double> wall_;                         // distance to the nearest sheet [m]; empty: no sheets
+  Array<double> limit_, new_limit_;            // of the eddy viscosity
   Array<double> outlet_p_;                     // pressure at the outlet's faces, one plane [Pa]; empty: zero
   std::vector<MarchRings> rings_;              // one a thread
   std::vector<Sums> rows_;

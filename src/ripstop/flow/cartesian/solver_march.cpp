@@ -52,8 +52,9 @@ void Solver::march(int rank, IndexRange rows) {
 void Solver::eddy_viscosity(MarchRings& rings, int k, IndexRange rows) const {
   for (int j = std::max(rows.begin - 2, 0); j < std::min(rows.end + 2, grid_.ny); ++j) {
     const std::ptrdiff_t at = layout_.at(0, j, k);
-    eddy_viscosity_row(grid_.nx, &f_.rho[at], &f_.k[at], &f_.omega[at],
-                       &rings.mut[mod(k, 3)][rings.at(layout_, j, rows.begin)]);
+    double* mut = &rings.mut[mod(k, 3)][rings.at(layout_, j, rows.begin)];
+    eddy_viscosity_row(grid_.nx, &f_.rho[at], &f_.k[at], &f_.omega[at], mut);
+    if (!limit_.empty()) limit_row(grid_.nx, &limit_[at], mut);
   }
 }
 
@@ -97,6 +98,10 @@ void Solver::turbulence(MarchRings& rings, int k, IndexRange rows) {
     r.mut_below = below;
     r.k_new = own ? &new_k_[at] : &rings.scratch[Layout::lead];
     r.omega_new = own ? &new_omega_[at] : &rings.scratch[Layout::lead + layout_.stride_y];
+    if (!wall_.empty()) {
+      r.wall = &wall_[at];
+      r.limit_new = own ? &new_limit_[at] : &rings.scratch[Layout::lead + 2 * layout_.stride_y];
+    }
     r.mu_new = &rings.mu[mod(k, 3)][in];
     r.tx = &rings.tx[mod(k, 2)][in];
     r.ty = &rings.ty[mod(k, 2)][in];
