@@ -1,5 +1,5 @@
-// The opening of Stratos IV: wall time of one millisecond of it at 25,600 nodes, well after the canopy has
-// begun to open. A second takes a thousand times as long; the goal is 60 s on two cores.
+// The opening of Stratos IV at 25,600 nodes: wall time of blocks of 2 ms as a run takes them, after 10 ms.
+// The counter `wall_s_per_s` is the wall time of one simulated second; the goal is 60 s on two cores.
 #include "ripstop/inflation/inflation.h"
 
 #include <benchmark/benchmark.h>
@@ -16,7 +16,8 @@ void opening(benchmark::State& bench) {
   value.parachute.mesh.line_segment_m = 1e-3 * static_cast<double>(bench.range(2));
   value.parachute.mesh.folds = value.parachute.lines.count;
   value.inflation.duration_s = 1;
-  value.inflation.frames = 1000;
+  value.inflation.frames = 500;
+  value.inflation.cloth_damping_s = 1e-6 * static_cast<double>(bench.range(3));
   Inflation solver({parachute_mesh(value), value.inflation, 600, false, static_cast<int>(bench.range(1)), 6});
   InflationState state = solver.start();
   for (int i = 0; i < 5; ++i) solver.advance(state);
@@ -25,13 +26,17 @@ void opening(benchmark::State& bench) {
   const auto steps = static_cast<double>(state.cloth.steps - first);
   bench.counters["node_updates"] =
       benchmark::Counter(steps * solver.mesh().node_count(), benchmark::Counter::kIsRate);
-  bench.counters["steps_per_ms"] = steps / static_cast<double>(bench.iterations());
+  const double simulated = 2e-3 * static_cast<double>(bench.iterations());
+  bench.counters["steps_per_s"] = steps / simulated;
+  bench.counters["wall_s_per_s"] =
+      benchmark::Counter(simulated, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 BENCHMARK(opening)
-    ->ArgNames({"nodes", "threads", "segment_mm"})
-    ->Args({25600, 1, 50})
-    ->Args({25600, 2, 50})
-    ->Args({25600, 2, 75})
+    ->ArgNames({"nodes", "threads", "segment_mm", "damping_us"})
+    ->Args({25600, 1, 50, 0})
+    ->Args({25600, 2, 50, 0})
+    ->Args({25600, 2, 75, 0})
+    ->Args({25600, 2, 50, 10})
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime()
     ->Iterations(20);

@@ -75,6 +75,12 @@ Case opening_case(const OpeningOptions& options) {
   if (options.pressure) inflation.pressure_pa = *options.pressure;
   if (options.pressure || !options.steady_run.empty()) inflation.drag_coefficient.reset();
   if (!options.steady_run.empty()) inflation.pressure_pa.reset();
+  if (inflation.cloth_compression) {
+    for (auto& [name, material] : value.materials) {
+      if (auto* fabric = std::get_if<Fabric>(&material)) fabric->compression = *inflation.cloth_compression;
+      if (auto* tape = std::get_if<Tape>(&material)) tape->compression = *inflation.cloth_compression;
+    }
+  }
   // Chords of curved seams would strain the folded start.
   value.parachute.mesh.sewn_straight = false;
   value.parachute.mesh.folds = inflation.folds > 0 ? inflation.folds : value.parachute.lines.count;

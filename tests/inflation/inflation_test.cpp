@@ -107,6 +107,16 @@ TEST(Inflation, ASymmetricStartOpensSymmetrically) {
   EXPECT_LT(open.asymmetry, 1e-10);
 }
 
+TEST(Inflation, TheStrainOfAnImperfectionIsInTheBalance) {
+  InflationProblem problem = small_problem(500, 0.02);
+  problem.settings.imperfection_m = 5e-3;
+  Inflation solver(problem);
+  InflationState state = solver.start();
+  EXPECT_GT(solver.frame(state).elastic, 0.1);  // [J] of some 20 that the pressure does
+  run(solver, state);
+  EXPECT_LT(std::abs(solver.frame(state).residual()), 0.01);
+}
+
 TEST(Inflation, AStatedImperfectionOfOneWaveIsWhatTheAsymmetrySays) {
   InflationProblem problem = small_problem(500, 5e-3);
   problem.settings.imperfection_m = 1e-5;

@@ -116,6 +116,10 @@ void describe(Fields& fields, InflationSettings& inflation) {
                 "Relative damping of lines and tape as a time: C = line_damping_s K_1 / L0 (assumed).");
   fields.number("cloth_damping_s", inflation.cloth_damping_s, from(0).up_to(1e-3),
                 "Relative damping of the cloth's springs, likewise (none assumed).");
+  fields
+      .number("cloth_compression", inflation.cloth_compression, from(0).up_to(1),
+              "Stiffness of cloth and tape in compression relative to K_1, in the opening.")
+      .absent("the materials' own");
   fields.number("imperfection_m", inflation.imperfection_m, from(0).up_to(1),
                 "The folded cloth starts moved outward by this much times cos(harmonic x azimuth) at the "
                 "outer folds of "

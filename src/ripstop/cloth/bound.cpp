@@ -92,9 +92,12 @@ NodeStiffness node_stiffness(const Cloth& cloth, const ClothState& state) {
 // keeps both roots of every mode of semi-implicit Euler inside the unit circle. The pressure's own stiffness
 // is left out: a few hundred pascal against 1e4 N/m over a cell of millimetres.
 StepBound step_bound(const Cloth& cloth, const ClothState& state) {
+  return step_bound(cloth, state, node_stiffness(cloth, state));
+}
+
+StepBound step_bound(const Cloth& cloth, const ClothState& state, const NodeStiffness& node) {
   const Mesh& mesh = cloth.mesh;
   const int count = mesh.node_count();
-  const NodeStiffness node = node_stiffness(cloth, state);
   std::vector<double> rho(count, 0.0), rate(count, 0.0);
   double absolute = 0;
   for (int i = 0; i < count; ++i) {

@@ -15,6 +15,8 @@ struct NodeStiffness {
   int stretched_node = -1;
 };
 NodeStiffness node_stiffness(const Cloth& cloth, const ClothState& state);
+/// As step_bound(cloth, state), whose node_stiffness() is known.
+StepBound step_bound(const Cloth& cloth, const ClothState& state, const NodeStiffness& node);
 
 /// Pressure and point forces over the free nodes, tied nodes' handed on.
 struct AppliedLoad {

@@ -24,7 +24,7 @@ void check_step(const Cloth& cloth, const ClothState& state, double dt) {
                     "length; the loads are too high for this cloth or the step {:.3g} s is too large",
                     state.steps, state.time, stiffness.stretched_node,
                     place_of(cloth.mesh, stiffness.stretched_node), stiffness.largest_strain, dt));
-  const StepBound bound = step_bound(cloth, state);
+  const StepBound bound = step_bound(cloth, state, stiffness);
   if (dt > bound.stable_step)
     throw Error(
         ExitCode::diverged,

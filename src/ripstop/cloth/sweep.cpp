@@ -71,6 +71,8 @@ void Sweep::set_node_force(const std::vector<Vec3>& force) {
 }
 
 void Sweep::prepare(int threads) {
+  damped_lattice_ = damped_ && std::any_of(cloth_.patches.begin(), cloth_.patches.end(),
+                                           [](const PatchLayout& patch) { return patch.damped; });
   kept_force_.assign(cloth_.kept.size() + cloth_.springs.size(), Vec3{});
   row_sums_.assign(cloth_.row_count, RowSums{});
   const int loose = static_cast<int>(cloth_.kept.size()) - cloth_.kept_of_row.back();
@@ -164,8 +166,9 @@ void Sweep::complete_row(int row, double* f) {
   }
   for (int k = cloth_.kept_of_row[row]; k < cloth_.kept_of_row[row + 1]; ++k) {
     const Vec3 v = get(state_.v.data(), cloth_.kept[k].slot);
-    const Vec3 drag =
-        (kept_area_[k] * (cloth_.options.absolute_damping + cloth_.options.quadratic_damping * norm(v))) * v;
+    double per_area = cloth_.options.absolute_damping;
+    if (cloth_.options.quadratic_damping > 0) per_area += cloth_.options.quadratic_damping * norm(v);
+    const Vec3 drag = (kept_area_[k] * per_area) * v;
     kept_force_[k] = get(f, cloth_.kept[k].slot - first) - drag;
     if (record_) take(kept_dampers_[k], drag, v);
   }
@@ -270,10 +273,11 @@ RowSums Sweep::move_kept_nodes(int begin, int end, Pace pace) {
 void Sweep::follow_masters(int rank) {
   const Worker& worker = workers_[rank];
   const bool last = rank + 1 == static_cast<int>(workers_.size());
-  for (double* vectors : {state_.x.data(), state_.v.data()}) {
+  for (double* vectors : {state_.x.data(), state_.v.data()})
     follow(cloth_, vectors, worker.begin_row, worker.end_row, last);
-    mirror(cloth_, vectors, worker.begin_row, worker.end_row);
-  }
+  mirror(cloth_, state_.x.data(), worker.begin_row, worker.end_row);
+  // Velocities of ghosts are read by the dampers of the lattice only.
+  if (damped_lattice_) mirror(cloth_, state_.v.data(), worker.begin_row, worker.end_row);
 }
 
 void Sweep::stop(int rank) {

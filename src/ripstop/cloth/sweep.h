@@ -76,7 +76,7 @@ class Sweep {
   const Cloth& cloth_;
   ClothState& state_;
   double dt_;
-  bool damped_, sums_wanted_;
+  bool damped_, sums_wanted_, damped_lattice_ = false;
   AlignedDoubles pressure_, node_force_;
   AlignedDoubles inverse_mass_, area_;                 // by slot; 0 for kept nodes; no areas: no damping
   std::vector<double> kept_inverse_mass_, kept_area_;  // by kept node; 0: does not move

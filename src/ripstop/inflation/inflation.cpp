@@ -37,7 +37,8 @@ double asymmetry_of(const Mesh& mesh, const std::vector<Vec3>& x, int symmetry) 
 }  // namespace
 
 double InflationFrame::residual() const {
-  return pressure_work > 0 ? (pressure_work - kinetic - elastic - damped) / pressure_work : 0;
+  return pressure_work > 0 ? (pressure_work + elastic_at_start - kinetic - elastic - damped) / pressure_work
+                           : 0;
 }
 
 void damp_springs(Mesh& mesh, double line_time, double cloth_time) {
@@ -76,6 +77,9 @@ Inflation::Inflation(InflationProblem problem) : problem_(std::move(problem)), t
   const double block = frame / blocks_per_frame_;
   rows_per_block_ = std::max(1, static_cast<int>(std::ceil(block * s.history_hz - 1e-9)));
   row_ = block / rows_per_block_;
+  ClothState begin = start_state(*cloth_);
+  set_positions(begin, *cloth_, with_imperfection());
+  elastic_at_start_ = elastic_energy(*cloth_, begin);
 }
 
 InflationState Inflation::start() const {
@@ -125,31 +129,42 @@ std::vector<HistoryRow> Inflation::advance(InflationState& state) {
   }
 }
 
+// Steps [from, from + steps) of the last call of step().
+HistoryRow Inflation::row_of_history(InflationState& state, long long index, int steps, double dt,
+                                     int from) const {
+  const double begin = static_cast<double>(index) * row_;
+  const auto load = [&](int k) { return state.record.fixed_force[from + k].z; };
+  HistoryRow row{static_cast<double>(index + 1) * row_, 0, load(0), load(0)};
+  for (int k = 0; k < steps; ++k) {
+    row.mean += load(k) / steps;
+    row.least = std::min(row.least, load(k));
+    row.largest = std::max(row.largest, load(k));
+    if (load(k) <= state.peak_load) continue;
+    state.peak_load = load(k);
+    state.peak_time = begin + k * dt;
+  }
+  state.impulse += row.mean * row_;
+  return row;
+}
+
 std::vector<HistoryRow> Inflation::compute_block(InflationState& state) {
   const InflationSettings& s = problem_.settings;
   const int steps = static_cast<int>(std::ceil(row_ / state.step));
   const double dt = row_ / steps;
+  // Under a constant pressure all rows are stepped at once, while it rises one by one.
+  const double block_end = static_cast<double>(state.blocks + 1) * rows_per_block_ * row_;
+  const bool rising = s.ramp_s > block_end - rows_per_block_ * row_;
+  const int together = rising ? 1 : rows_per_block_;
   Loads loads;
   std::vector<HistoryRow> rows;
-  for (int i = 0; i < rows_per_block_; ++i) {
-    const long long index = state.blocks * rows_per_block_ + i;
+  for (int first = 0; first < rows_per_block_; first += together) {
+    const long long index = state.blocks * rows_per_block_ + first;
     const double begin = static_cast<double>(index) * row_;
-    const double share = s.ramp_s > 0 ? std::min(1.0, (begin + 0.5 * row_) / s.ramp_s) : 1.0;
+    const double share = rising ? std::min(1.0, (begin + 0.5 * row_) / s.ramp_s) : 1.0;
     loads.cell_pressure.assign(mesh_.cell_count(), share * problem_.pressure);
-    ripstop::step(state.cloth, *cloth_, loads, dt, steps, team_, &state.record);
-    state.cloth.time = static_cast<double>(index + 1) * row_;
-    HistoryRow row{state.cloth.time, 0, state.record.fixed_force[0].z, state.record.fixed_force[0].z};
-    for (int k = 0; k < steps; ++k) {
-      const double load = state.record.fixed_force[k].z;
-      row.mean += load / steps;
-      row.least = std::min(row.least, load);
-      row.largest = std::max(row.largest, load);
-      if (load <= state.peak_load) continue;
-      state.peak_load = load;
-      state.peak_time = begin + k * dt;
-    }
-    state.impulse += row.mean * row_;
-    rows.push_back(row);
+    ripstop::step(state.cloth, *cloth_, loads, dt, steps * together, team_, &state.record);
+    state.cloth.time = static_cast<double>(index + together) * row_;
+    for (int i = 0; i < together; ++i) rows.push_back(row_of_history(state, index + i, steps, dt, i * steps));
   }
   ++state.blocks;
   return rows;
@@ -176,6 +191,7 @@ InflationFrame Inflation::frame(InflationState& state) const {
   frame.damped = state.record.damped;
   frame.kinetic = kinetic_energy(*cloth_, state.cloth);
   frame.elastic = elastic_energy(*cloth_, state.cloth);
+  frame.elastic_at_start = elastic_at_start_;
   frame.step = state.step;
   frame.stable_step = step_bound(*cloth_, state.cloth).stable_step;
   frame.size = canopy_size(mesh_, x);

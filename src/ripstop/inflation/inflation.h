@@ -32,12 +32,13 @@ struct HistoryRow {
 struct InflationFrame {
   double time = 0;                                                 // [s]
   double pressure_work = 0, kinetic = 0, elastic = 0, damped = 0;  // [J]
+  double elastic_at_start = 0;       // of an imperfection, or of a start that folds with some strain [J]
   double step = 0, stable_step = 0;  // used, and allowed at the present strain [s]
   CanopySize size;
   StressPeak stress;
   double asymmetry = 0;  // largest distance of a node from where a turn by 2 pi / symmetry puts its like [m]
 
-  /// Share of the work that the other three do not account for.
+  /// Share of the work that the other terms do not account for.
   double residual() const;
 };
 
@@ -90,6 +91,7 @@ class Inflation {
 
  private:
   std::vector<HistoryRow> compute_block(InflationState& state);
+  HistoryRow row_of_history(InflationState& state, long long index, int steps, double dt, int from) const;
   void take_shots(InflationState& state) const;
   std::vector<Vec3> with_imperfection() const;
 
@@ -99,7 +101,8 @@ class Inflation {
   ClothPtr cloth_;
   ThreadTeam team_;
   int blocks_per_frame_ = 1, rows_per_block_ = 1;
-  double row_ = 0;  // [s]
+  double row_ = 0;               // [s]
+  double elastic_at_start_ = 0;  // [J]
 };
 
 /// Lines, riser and tape get dampers C = `line_time` K_1 w / L0 and the cloth's springs C = `cloth_time` K_1

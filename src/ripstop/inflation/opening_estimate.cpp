@@ -4,7 +4,9 @@ namespace ripstop {
 namespace {
 
 // Knacke, NWC TP 6575, Tables 5-1 (solid textile) and 5-2 (slotted canopies), column "opening force
-// coefficient C_x (inf. mass)". Written down from memory and not yet checked against the print.
+// coefficient C_x (inf. mass)". Flat circular, conical, hemispherical, extended skirt and cross agree with a
+// public transcription of the tables (parachute_design.m of the Stanford Student Space Initiative, which cites
+// Knacke, 1992); disk-gap-band, ringslot and ringsail are written down from memory, unchecked.
 double coefficient_of(const DiskGapBand&) {
   return 1.3;
 }
@@ -35,8 +37,13 @@ double coefficient_of(const Ringsail&) {
 
 OpeningEstimate opening_estimate(const Design& design, double steady_drag) {
   const double c = std::visit([](const auto& canopy) { return coefficient_of(canopy); }, design.canopy);
+  const bool unchecked = std::holds_alternative<DiskGapBand>(design.canopy) ||
+                         std::holds_alternative<Ringslot>(design.canopy) ||
+                         std::holds_alternative<Ringsail>(design.canopy);
   return {c, c * steady_drag,
-          "Knacke, NWC TP 6575, Tables 5-1 and 5-2, infinite mass; values not checked against the print"};
+          std::string("Knacke, NWC TP 6575, Tables 5-1 and 5-2, infinite mass; ") +
+              (unchecked ? "value not checked against the print"
+                         : "value agrees with a public transcription, not checked against the print")};
 }
 
 }  // namespace ripstop

@@ -20,10 +20,12 @@ struct InflationSettings {
   double line_damping_s = 1e-6;  // of lines and tape: C = this times K_1 (w) / L0 of every spring
   double cloth_damping_s = 0;    // of the cloth's springs, likewise, with the patch's mean w / L0
 
-  // The folded start is moved outward by imperfection_m cos(harmonic azimuth) at its outer folds, in proportion
-  // to the radius inside.
+  // The folded start is moved outward by imperfection_m cos(harmonic azimuth) at its outer folds, in
+  // proportion to the radius inside.
   double imperfection_m = 0;
   int imperfection_harmonic = 1;
+
+  std::optional<double> cloth_compression;  // of cloth and tape, in place of their materials'
 
   double duration_s = 0.5;
   double history_hz = 5000;  // rows of the history a second, at least

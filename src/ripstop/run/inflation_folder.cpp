@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
@@ -168,7 +169,15 @@ void InflationFolder::write_start(const Inflation& solver, const InflationState&
   std::size_t cell = 0;
   for (const Patch& patch : solver.mesh().patches) {
     for (int i = 0; i < (patch.rows - 1) * patch.columns; ++i, ++cell) {
-      flat[cell] = (i % patch.columns) * 2 * folded.folds / patch.columns % 2;
+      if (patch.periodic) {
+        flat[cell] = (i % patch.columns) * 2 * folded.folds / patch.columns % 2;
+      } else {  // a sheet folded along rays: by the azimuth of the cell as cut
+        const int last = std::min(patch.first_node + i + patch.columns + 1,
+                                  patch.first_node + patch.rows * patch.columns - 1);
+        const Vec3 middle = solver.mesh().start[patch.first_node + i] + solver.mesh().start[last];
+        const double turns = std::atan2(middle.y, middle.x) / (2 * std::numbers::pi) + 1;
+        flat[cell] = static_cast<int>(2 * folded.folds * turns) % 2;
+      }
     }
   }
   write_canopy_picture(folder_ / "folded.png", solver.mesh(), folded.positions,
