@@ -40,7 +40,7 @@ TEST(Csv, EveryDoubleComesBackBitForBit) {
                 std::bit_cast<std::uint64_t>(table.rows[i][k]));
     }
   }
-  write_csv(folder.path / "nan.csv", {{"a"}, {{limits::quiet_NaN()}}});
+  write_csv(folder.path / "nan.csv", CsvTable{{"a"}, {{limits::quiet_NaN()}}});
   EXPECT_TRUE(std::isnan(read_csv(folder.path / "nan.csv").rows[0][0]));
 }
 
@@ -66,7 +66,7 @@ TEST(Csv, AMistakeIsReportedWithFileAndLine) {
           << error.what();
     }
   }
-  EXPECT_THROW(write_csv(folder.path / "u.csv", {{"a,b"}, {}}), Error);
+  EXPECT_THROW(write_csv(folder.path / "u.csv", CsvTable{{"a,b"}, {}}), Error);
   EXPECT_THROW(write_csv(folder.path / "u.csv", {{"a"}, {{1, 2}}}), Error);
 }
 
