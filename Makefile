@@ -57,6 +57,8 @@ bench: check-deps  ## Benchmarks; their figures stand in docs/performance.md
 	@cmake --build $(BUILD)-check -j $(JOBS)
 	@$(BUILD)-check/bench/bench_cloth
 	@$(BUILD)-check/bench/bench_flow
+	@$(BUILD)-check/bench/bench_bodies
+	@$(BUILD)-check/bench/bench_sheet
 	@$(BUILD)-check/bench/bench_inflation
 
 VALIDATE := $(BUILD)/bin/ripstop steady examples/stratos-iv/case.toml
