@@ -21,5 +21,6 @@ void add_calibrate_porosity(CLI::App& parent, int& status);
 void add_sweep(CLI::App& app, int& status);
 void add_compare(CLI::App& app, int& status);
 void add_photogrammetry(CLI::App& app, int& status);
+void add_import(CLI::App& app, int& status);
 
 }  // namespace ripstop

@@ -26,6 +26,7 @@ int main(int argc, char** argv) {
   add_coupon(app, status);
   add_inflate(app, status);
   add_pattern(app, status);
+  add_import(app, status);
   add_flow_parity(app, status);
   add_calibrate(app, status);
   add_sweep(app, status);

@@ -42,7 +42,8 @@ class Family : public testing::TestWithParam<const char*> {};
 
 INSTANTIATE_TEST_SUITE_P(All, Family,
                          testing::Values("stratos-iv", "flat-circular", "conical", "hemispherical",
-                                         "quarter-spherical", "extended-skirt", "ringslot", "adept", "cross"),
+                                         "quarter-spherical", "extended-skirt", "ringslot", "adept", "cross",
+                                         "elliptical"),
                          [](const auto& family) {
                            std::string name = family.param;
                            std::replace(name.begin(), name.end(), '-', '_');
@@ -174,8 +175,11 @@ TEST_P(Family, TheStartShapeIsThePatternFolded) {
       }
     }
   }
-  const bool curved = name == "hemispherical" || name == "quarter-spherical";
-  EXPECT_LT(worst, curved ? 0.03 : 1e-9);
+  const bool curved = name == "hemispherical" || name == "quarter-spherical" || name == "elliptical";
+  // A segment departs from the seam's arc by its length squared over 8 radii of curvature: 0.35 m and more on
+  // the spheres, 0.22 m at the ellipsoid's skirt.
+  const double tightest = name == "elliptical" ? 0.03 * 0.354 / 0.2205 : 0.03;
+  EXPECT_LT(worst, curved ? tightest : 1e-9);
   EXPECT_LT(sum / count, curved ? 1e-3 : 1e-9);
 }
 

@@ -32,6 +32,10 @@ double coefficient_of(const Cross&) {
 double coefficient_of(const Ringsail&) {
   return 1.1;
 }
+// Not in the tables: the largest of the solid canopies, on the safe side.
+double coefficient_of(const ProfileCanopy&) {
+  return 1.8;
+}
 
 }  // namespace
 

@@ -99,7 +99,7 @@ void describe(Fields& fields, MeshSettings& mesh) {
 void describe(Fields& fields, Design& design) {
   fields.kind("type", design.canopy,
               {"disk-gap-band", "flat-circular", "conical", "spherical", "extended-skirt", "ringslot",
-               "ringsail", "cross"},
+               "ringsail", "cross", "profile"},
               "Family of the canopy.");
   fields
       .number("nominal_area_m2", design.nominal_area_m2, above(0).up_to(10000),
@@ -136,9 +136,27 @@ void describe_vent(Fields& fields, double& diameter, bool& lines) {
 }
 
 void check_vent(double vent, double diameter, bool lines, const Design& design, Findings& findings) {
+  const std::string key = "parachute.vent_diameter_m";
   if (findings.sound(shape_keys()) && vent >= diameter)
-    findings.add("parachute.vent_diameter_m", vent, fmt::format("below {:.6g}", diameter),
+    findings.add(key, vent, fmt::format("below {:.6g}", diameter),
                  fmt::format("the vent must be smaller than the canopy, {:.6g} m across", diameter));
+  check_vent_cells(vent, key, design, findings);
+  check_vent_lines(lines, design, findings);
+}
+
+void check_vent_cells(double vent, const std::string& key, const Design& design, Findings& findings) {
+  if (!findings.sound(shape_keys()) || !findings.sound({"parachute.gores", "parachute.mesh.cloth_nodes"}))
+    return;
+  const double cell = std::sqrt(computed_area(design) / design.mesh.cloth_nodes);
+  if (vent < cell)
+    findings.add(
+        key, vent, fmt::format("at least {:.3g}", cell),
+        fmt::format("the vent is smaller than a cell of the mesh, {:.3g} m with "
+                    "parachute.mesh.cloth_nodes = {}; make it larger, or ask for at least {:.0f} nodes",
+                    cell, design.mesh.cloth_nodes, std::ceil(computed_area(design) / (vent * vent))));
+}
+
+void check_vent_lines(bool lines, const Design& design, Findings& findings) {
   if (findings.sound({"parachute.lines.count"}) && lines && design.lines.count % 2 != 0)
     findings.add("parachute.lines.count", design.lines.count, "an even number",
                  "a line goes on across the vent to the opposite one; set parachute.vent_lines = false for "
@@ -179,7 +197,7 @@ double start_depth(const Design& design) {
 }
 
 const std::vector<std::string>& shape_keys() {
-  static const std::vector<std::string> keys = {"parachute.*", "parachute.rows"};
+  static const std::vector<std::string> keys = {"parachute.*", "parachute.rows", "parachute.pieces"};
   return keys;
 }
 

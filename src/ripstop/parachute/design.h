@@ -11,6 +11,7 @@
 #include "ripstop/parachute/disk_gap_band.h"
 #include "ripstop/parachute/extended_skirt.h"
 #include "ripstop/parachute/flat_circular.h"
+#include "ripstop/parachute/profile.h"
 #include "ripstop/parachute/ringsail.h"
 #include "ripstop/parachute/ringslot.h"
 #include "ripstop/parachute/spherical.h"
@@ -21,8 +22,8 @@ class Fields;
 class Findings;
 
 /// The canopy families; a new one is one more alternative and its word in describe(Design).
-using Canopy =
-    std::variant<DiskGapBand, FlatCircular, Conical, Spherical, ExtendedSkirt, Ringslot, Ringsail, Cross>;
+using Canopy = std::variant<DiskGapBand, FlatCircular, Conical, Spherical, ExtendedSkirt, Ringslot, Ringsail,
+                            Cross, ProfileCanopy>;
 
 /// [parachute.lines]
 struct LineSet {
@@ -77,6 +78,10 @@ void describe_nominal_diameter(Fields& fields, double& diameter);
 void describe_vent(Fields& fields, double& diameter, bool& lines);
 /// A vent smaller than the canopy of `diameter` [m], and lines in pairs where they go on across it.
 void check_vent(double vent, double diameter, bool lines, const Design& design, Findings& findings);
+/// A vent at least as wide as a cell of the mesh: a finer rim than that would set the time step. Call when
+/// the shape is otherwise sound.
+void check_vent_cells(double vent, const std::string& key, const Design& design, Findings& findings);
+void check_vent_lines(bool lines, const Design& design, Findings& findings);
 
 /// Reports what single ranges do not show: a vent wider than the disk, lines that cannot meet on the axis.
 void check_design(const Design& design, Findings& findings);

@@ -1,0 +1,74 @@
+// ripstop import: a case from a design file of another program.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+
+#include "commands.h"
+#include "ripstop/case/case.h"
+#include "ripstop/case/chute_import.h"
+#include "ripstop/core/file.h"
+
+namespace ripstop {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  fs::path file;
+  fs::path out;  // empty: the file's name with .toml, here
+  bool force = false;
+  ChuteImportOptions import;
+};
+
+void print_list(const char* title, const std::vector<std::string>& sentences) {
+  if (sentences.empty()) return;
+  fmt::print("{}\n", title);
+  for (const std::string& sentence : sentences) fmt::print("  - {}\n", sentence);
+}
+
+int run(const Options& options) {
+  const fs::path out = options.out.empty() ? fs::path(options.file.stem().string() + ".toml") : options.out;
+  if (fs::exists(out) && !options.force)
+    throw Error(ExitCode::usage, fmt::format("{} exists; choose another --out, or --force", out.string()));
+  const ChuteFile file = read_chute(read_file(options.file), options.file.string());
+  const ChuteImport result = import_chute(file, options.import, options.file.filename().string());
+  fmt::print("{} ({}): type = \"{}\"\n", file.name, options.file.string(), result.type);
+  print_list("maps", result.mapped);
+  print_list("maps with a change", result.changed);
+  print_list("does not map", result.not_mapped);
+  print_list("assumed, not in the file", result.assumed);
+  std::fflush(stdout);  // before a refusal below
+  const Case value = parse_case(result.case_text, out.string());
+  write_file(out, result.case_text);
+  fmt::print("S0 {:.4f} m2, cloth {:.4f} m2: {}\n", nominal_area(value.parachute),
+             computed_area(value.parachute), out.string());
+  return 0;
+}
+
+}  // namespace
+
+void add_import(CLI::App& app, int& status) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "import", "A case from a .chute file of openchute, with a list of what maps and what does not");
+  command->footer("Example: ripstop import examples/elliptical/elliptical.chute --out elliptical.toml");
+  command->add_option("file", options->file, "Design of openchute (.chute)")->required();
+  command->add_option("--out", options->out, "Case file to write; default: the file's name with .toml");
+  command->add_flag("--force", options->force, "Replace an existing case file");
+  command->add_option("--lines", options->import.line_count, "Number of lines; default: one a gore")
+      ->check(CLI::Range(3, 500));
+  command
+      ->add_option("--line-length", options->import.line_length,
+                   "Length of a line [m]; default: the nominal diameter")
+      ->check(CLI::Range(0.001, 1000.0));
+  command
+      ->add_option("--vent-diameter", options->import.vent_diameter,
+                   "Where the gores end in a point [m]; default: 4 % of the widest diameter")
+      ->check(CLI::Range(1e-4, 100.0));
+  command->callback([options, &status] { status = run(*options); });
+}
+
+}  // namespace ripstop

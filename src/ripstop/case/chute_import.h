@@ -1,0 +1,37 @@
+// From a .chute file of openchute to a case of Ripstop.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ripstop/case/chute_file.h"
+
+namespace ripstop {
+
+/// What the file does not say.
+struct ChuteImportOptions {
+  std::optional<int> line_count;        // absent: one a gore; 16 on a cross (assumed)
+  std::optional<double> line_length;    // [m]; absent: the nominal diameter (assumed)
+  std::optional<double> vent_diameter;  // [m]; absent: the file's, or 4 % of the widest diameter where a gore
+                                        // ends in a point (assumed)
+};
+
+/// Every sentence of the report belongs to one list; what the file says is in the first three.
+struct ChuteImport {
+  std::string case_text;
+  std::string type;                     // of [parachute]
+  std::vector<std::string> mapped;      // as the file has it
+  std::vector<std::string> changed;     // in the case, but not as the file has it, and why
+  std::vector<std::string> not_mapped;  // not in the case, and why
+  std::vector<std::string> assumed;     // in the case, but not in the file
+};
+
+/// A flat disk with or without a cylindrical band below, or a cone, of circular sections becomes
+/// `disk-gap-band`, `flat-circular`, `conical`; a single cylinder of 2 gores, openchute's stand-in for a
+/// cross, becomes `cross`. Everything else becomes a `profile` that is cut as openchute cuts it: gores 2 pi
+/// r / N wide. `source` names the file in the case. Throws Error(bad_data) with the place for what cannot be
+/// mapped: polygonal sections of different numbers of gores, two gores, no room for a vent.
+ChuteImport import_chute(const ChuteFile& file, const ChuteImportOptions& options, const std::string& source);
+
+}  // namespace ripstop

@@ -1,0 +1,244 @@
+// Designs of openchute: what maps is cut as openchute cuts it, and nothing of the file is silently left out.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <numeric>
+
+#include "ripstop/case/assemble.h"
+#include "ripstop/case/case.h"
+#include "ripstop/case/chute_import.h"
+#include "ripstop/core/file.h"
+
+namespace ripstop {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+const std::filesystem::path source = RIPSTOP_SOURCE_DIR;
+
+std::string text_of(const std::string& name) {
+  return read_file(name == "elliptical" ? source / "examples/elliptical/elliptical.chute"
+                                        : source / "tests/case/chute" / (name + ".chute"));
+}
+ChuteImport imported(const std::string& name, const ChuteImportOptions& options = {}) {
+  return import_chute(read_chute(text_of(name), name), options, name);
+}
+bool says(const std::vector<std::string>& list, const std::string& words) {
+  return std::any_of(list.begin(), list.end(),
+                     [&](const std::string& s) { return s.find(words) != std::string::npos; });
+}
+
+// Half a gore is pi r / N wide at radius r; its height is that of the polygon's flat sides.
+TEST(Chute, AGoreHasTheOutlineThatOpenchuteCuts) {
+  const Case value = parse_case(imported("elliptical").case_text, "case.toml");
+  const GorePattern pattern = gore_pattern(std::get<ProfileCanopy>(value.parachute.canopy), 10);
+  ASSERT_EQ(pattern.strips.size(), 1u);
+  const std::vector<Station>& stations = pattern.strips[0].stations;
+  const int n = static_cast<int>(stations.size()) - 1;
+  double height = 0, r0 = 0, y0 = 0;
+  for (int i = 0; i <= n; ++i) {
+    const double angle = (pi / 2 - std::asin(0.12)) * i / n;
+    const double r = 0.45 * std::cos(angle), y = 0.315 * std::sin(angle);
+    const double corner = r * pi / (10 * std::sin(pi / 10)), corner0 = r0 * pi / (10 * std::sin(pi / 10));
+    if (i > 0) height += std::hypot((corner - corner0) * std::cos(pi / 10), y - y0);
+    EXPECT_NEAR(stations[i].width / 2, corner * std::sin(pi / 10), 1e-8);
+    EXPECT_NEAR(stations[i].height, height, 1e-8);
+    r0 = r, y0 = y;
+  }
+  EXPECT_NEAR(r0, 0.45 * 0.12, 1e-12);
+}
+
+TEST(Chute, TheShippedCaseIsWhatTheImportWrites) {
+  const std::string shipped = read_file(source / "examples/elliptical/case.toml");
+  EXPECT_EQ(shipped, import_chute(read_chute(text_of("elliptical"), "x"), {}, "elliptical.chute").case_text);
+}
+
+TEST(Chute, DiskAndBandBecomeADiskGapBandOfTheSameSizes) {
+  const ChuteImport result = imported("disk-gap-band");
+  const Case value = parse_case(result.case_text, "case.toml");
+  const auto& canopy = std::get<DiskGapBand>(value.parachute.canopy);
+  EXPECT_NEAR(canopy.disk_diameter_m, 1.2, 1e-9);
+  EXPECT_NEAR(canopy.vent_diameter_m, 0.108, 1e-9);
+  EXPECT_NEAR(canopy.gap_height_m, 0.06, 1e-9);
+  EXPECT_NEAR(canopy.band_height_m, 0.3, 1e-9);
+  EXPECT_EQ(value.parachute.gores, 12);
+  EXPECT_NEAR(canopy_fabric(value).areal_density_kg_m2, 0.038, 1e-12);
+}
+
+TEST(Chute, TwoGoresOfACylinderAreTheStripsOfACross) {
+  const ChuteImport result = imported("cross");
+  const Case value = parse_case(result.case_text, "case.toml");
+  EXPECT_NEAR(std::get<Cross>(value.parachute.canopy).arm_length_m, 1.2, 1e-8);
+  EXPECT_NEAR(std::get<Cross>(value.parachute.canopy).arm_width_m, 0.4, 1e-8);
+  EXPECT_TRUE(says(result.changed, "gores = 4"));
+}
+
+TEST(Chute, OneConeBecomesAConicalCanopyOfTheSameArea) {
+  std::string text = text_of("disk-gap-band");
+  const std::size_t second = text.find("\"section_type\"", text.find("\"section_type\"") + 5);
+  text = text.substr(0, text.rfind(",", second)) + "]}";
+  const Case flat = parse_case(import_chute(read_chute(text, "x"), {}, "x").case_text, "case.toml");
+  ASSERT_TRUE(std::holds_alternative<FlatCircular>(flat.parachute.canopy));
+  EXPECT_NEAR(computed_area(flat.parachute), pi * (0.36 - 0.054 * 0.054), 1e-8);
+  const std::size_t inner = text.find("\"0\"", text.find("\"expressions\""));
+  text.replace(inner, 3, "\"0.3\"");
+  const ChuteImport result = import_chute(read_chute(text, "x"), {}, "x");
+  const Case cone = parse_case(result.case_text, "case.toml");
+  ASSERT_TRUE(std::holds_alternative<Conical>(cone.parachute.canopy));
+  EXPECT_NEAR(computed_area(cone.parachute), pi * 0.654 * std::hypot(0.3, 0.546), 1e-8);
+  EXPECT_TRUE(says(result.changed, "the file holds 0, its formula gives 0.3"));
+}
+
+TEST(Chute, SailsKeepTheirFullnessAndSlots) {
+  const ChuteImport result = imported("sails");
+  const Case value = parse_case(result.case_text, "case.toml");
+  const auto& canopy = std::get<ProfileCanopy>(value.parachute.canopy);
+  ASSERT_EQ(canopy.pieces.size(), 3u);
+  EXPECT_EQ(canopy.pieces[1].leading_fullness, 0.08);
+  for (const ProfilePiece& piece : canopy.pieces) EXPECT_FALSE(piece.sewn);
+  const GorePattern pattern = gore_pattern(canopy, 12);
+  EXPECT_EQ(pattern.strips[1].slot, 0);
+  // The chord of 2.5 degrees on a sphere of 0.8 m, drawn in a little by the polygon.
+  EXPECT_NEAR(pattern.strips[2].slot / (2 * 0.8 * std::sin(pi / 144)), 1, 0.02);
+  EXPECT_NEAR(pattern.strips[1].stations.front().width / pattern.strips[1].stations.front().chord, 1.08,
+              1e-12);
+}
+
+TEST(Chute, NothingOfTheFileIsSilentlyLeftOut) {
+  const ChuteImport result = imported("odd");
+  for (const char* words : {"ripples", "SlantAngle", "cuts: 1", "\"Heavy nylon\", 67", "seam-allowance 0.01",
+                            "diameter: of the whole file", "global_seam_allowance", "colours"})
+    EXPECT_TRUE(says(result.not_mapped, words)) << words;
+  for (const char* words : {"1 / 3 of integers is 0", "0.135 m below the highest place", "end in a point"})
+    EXPECT_TRUE(says(result.changed, words)) << words;
+  for (const char* words : {"9 lines", "--line-length", "those of F-111", "sewn to it", "flow:"})
+    EXPECT_TRUE(says(result.assumed, words)) << words;
+  const Case value = parse_case(result.case_text, "case.toml");
+  EXPECT_EQ(value.title, "Odd \"one\" ");
+  EXPECT_NE(result.case_text.find("# Instruction: One step"), std::string::npos);
+  // From the drawn-in skirt up, though the file has it second and downward.
+  const auto& canopy = std::get<ProfileCanopy>(value.parachute.canopy);
+  EXPECT_NEAR(canopy.pieces[0].radius_m.front(), 0.2 + 0.3 * std::cos(0.5), 1e-8);
+  EXPECT_NEAR(canopy.pieces[1].radius_m.back(), 0.02, 1e-8);
+  EXPECT_FALSE(canopy.vent_lines);
+}
+
+TEST(Chute, TheMeshHasTheClothOfThePattern) {
+  for (const char* name : {"elliptical", "disk-gap-band", "cross", "sails", "odd"}) {
+    Case value = parse_case(imported(name).case_text, "case.toml");
+    const Mesh mesh = parachute_mesh(value);
+    double area = 0;
+    for (const Patch& patch : mesh.patches)
+      area = std::accumulate(patch.cell_area.begin(), patch.cell_area.end(), area);
+    EXPECT_NEAR(area / computed_area(value.parachute), 1, 1e-3) << name;
+  }
+}
+
+TEST(Chute, WhatIsAskedForReplacesWhatIsAssumed) {
+  const ChuteImport result = imported("odd", {.line_count = 18, .line_length = 2.5, .vent_diameter = 0.1});
+  const Case value = parse_case(result.case_text, "case.toml");
+  EXPECT_EQ(value.parachute.lines.count, 18);
+  EXPECT_EQ(value.parachute.lines.length_m, 2.5);
+  EXPECT_TRUE(std::get<ProfileCanopy>(value.parachute.canopy).vent_lines);
+  EXPECT_NEAR(std::get<ProfileCanopy>(value.parachute.canopy).pieces[1].radius_m.back(), 0.05, 1e-8);
+  EXPECT_FALSE(says(result.assumed, "lines of"));
+}
+
+struct Mistake {
+  const char* name;
+  const char* file;
+  const char* from;
+  const char* to;
+  const char* message;
+};
+const Mistake mistakes[] = {
+    {"UnknownName", "elliptical", "flatness*radius", "flatnes*radius",
+     "parameter_values[1].expression: \"flatnes*radius\", character 1: unknown name \"flatnes\"; did you "
+     "mean "
+     "\"flatness\"?"},
+    {"Circle", "elliptical", "diameter/2", "diameter/2+0*height", "radius -> height -> radius"},
+    {"Itself", "elliptical", "diameter/2", "radius/2", "\"radius\" refers to itself"},
+    {"DefinedBelow", "elliptical", "diameter/2", "diameter/2+0*vent_angle",
+     "defined only below, in parameter_values[2]"},
+    {"DivisionByZero", "elliptical", "diameter/2", "diameter/(2-2)", "character 9: division by zero"},
+    {"NoValue", "elliptical", "math::asin(vent_share)", "math::asin(vent_share*10)", "has no finite value"},
+    {"NameTwice", "elliptical", "\"id\": \"height\"", "\"id\": \"radius\"", "is used twice"},
+    {"NameOfAUnit", "elliptical", "\"id\": \"diameter\"", "\"id\": \"mm\"", "is used twice"},
+    {"NoName", "elliptical", "\"id\": \"diameter\"", "\"id\": \"2d\"", "is no name"},
+    {"MissingKey", "elliptical", "\"radius_x\": \"radius\"", "\"radius_z\": \"radius\"",
+     "EllipseArc: the key \"radius_x\" is missing"},
+    {"NoNumber", "elliptical", "\"value\": 0.9", "\"value\": \"0.9\"",
+     "input_values[0].value: must be a number"},
+    {"UnknownShape", "elliptical", "\"EllipseArc\"", "\"Spline\"",
+     "objects[0]: must be \"Line\", \"EllipseArc\" or \"PointList\""},
+    {"TwoGores", "elliptical", "\"gores\": 10", "\"gores\": 2", "Ripstop needs at least 3"},
+    {"HalfAGore", "elliptical", "\"gores\": 10", "\"gores\": 9.5", "whole number"},
+    {"AcrossTheAxis", "elliptical", "\"0.5*pi-vent_angle\"", "\"0.7*pi\"", "the meridian crosses the axis"},
+    {"NoLength", "elliptical", "\"0.5*pi-vent_angle\"", "\"0\"", "the arc has no length"},
+    {"GoresThatDiffer", "sails", "\"gores\": 12", "\"gores\": 11", "the seams of all pieces"},
+    {"FullnessUnderZero", "sails", "0.08", "-0.08", "must not be under 0"},
+    {"NotJson", "sails", "{", "[", "not JSON"},
+    {"WideCross", "cross", "\"value\": 3.0", "\"value\": 0.5", "wider than long"},
+};
+
+class ChuteMistake : public testing::TestWithParam<Mistake> {};
+INSTANTIATE_TEST_SUITE_P(Every, ChuteMistake, testing::ValuesIn(mistakes),
+                         [](const auto& mistake) { return mistake.param.name; });
+
+TEST_P(ChuteMistake, IsToldWithFileAndPlace) {
+  const Mistake& mistake = GetParam();
+  std::string text = text_of(mistake.file);
+  const bool last = std::string(mistake.name) == "GoresThatDiffer";  // the first is that of the whole file
+  const std::size_t place = last ? text.rfind(mistake.from) : text.find(mistake.from);
+  ASSERT_NE(place, std::string::npos);
+  text.replace(place, std::string(mistake.from).size(), mistake.to);
+  try {
+    import_chute(read_chute(text, "design.chute"), {}, "design.chute");
+    FAIL() << "was accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::bad_data);
+    EXPECT_EQ(std::string(error.what()).rfind("design.chute: ", 0), 0u) << error.what();
+    EXPECT_NE(std::string(error.what()).find(mistake.message), std::string::npos) << error.what();
+  }
+}
+
+TEST(Chute, APointListIsReadLineByLine) {
+  std::string text = text_of("odd");
+  const std::size_t begin = text.find("{", text.find("\"objects\": [") + 12);
+  const std::size_t end = text.find("]", text.find("\"expressions\"", begin));
+  const std::size_t close = text.find("}", text.find("}", end) + 1);
+  const auto with = [&](const std::string& points) {
+    return text.substr(0, begin) + R"({"PointList": {"geo": {"points": []}, "point_list": ")" + points +
+           R"(", "scale_x": "2", "scale_y": "0.5", "offset": ["0.1", "0"], "scale_x_f": 2.0, "scale_y_f": 0.5,
+              "offset_f": [0.1, 0.0]})" +
+           text.substr(close);
+  };
+  const ChuteFile file = read_chute(with(R"(0.2,0\n 0.1 , 0.5\n\n-0.04,1)"), "x");
+  ASSERT_EQ(file.sections[0].points.size(), 3u);
+  EXPECT_NEAR(file.sections[0].points[2].r, 0.02, 1e-12);
+  EXPECT_NEAR(file.sections[0].points[1].y, 0.25, 1e-12);
+  EXPECT_THROW(read_chute(with(R"(0.2,0\nnonsense)"), "x"), Error);
+}
+
+// A file cut short or with a byte changed is refused or read, never worse.
+TEST(Chute, BrokenFilesAreRefused) {
+  const std::string text = text_of("odd");
+  for (std::size_t size = 0; size + 2 < text.size(); size += 13)
+    EXPECT_THROW(read_chute(text.substr(0, size), "x"), Error) << size;
+  int refused = 0;
+  for (std::size_t i = 0; i < text.size(); i += 7) {
+    std::string changed = text;
+    changed[i] = i % 2 ? '9' : '"';
+    try {
+      const ChuteImport result = import_chute(read_chute(changed, "x"), {}, "x");
+      parse_case(result.case_text, "case.toml");
+    } catch (const Error&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 100);
+}
+
+}  // namespace
+}  // namespace ripstop
