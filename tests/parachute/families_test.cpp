@@ -12,6 +12,7 @@
 #include "ripstop/case/assemble.h"
 #include "ripstop/case/case.h"
 #include "ripstop/cloth/cloth.h"
+#include "ripstop/parachute/cut.h"
 
 namespace ripstop {
 namespace {
@@ -231,6 +232,22 @@ TEST(Ringsail, TheClassicLayoutOfSevenRowsIsEwings) {
     EXPECT_EQ(rows[i].slot_deg, slots[i]) << i;
     EXPECT_EQ(rows[i].height, i == 6 ? 0.5 : 1.0);
   }
+}
+
+TEST(Ringsail, WithoutInnerHemsTapeLiesAlongSkirtVentAndSeamsOnly) {
+  Case value = example("adept", 4000);
+  value.parachute.tape.inner_hems = false;
+  const Mesh mesh = mesh_of(value);
+  double taped = 0;
+  for (const Spring& spring : mesh.springs)
+    if (mesh.parts[spring.part] == "hem tape") taped += spring.rest_length;
+  const GorePattern pattern = gore_pattern(std::get<Ringsail>(value.parachute.canopy), 8);
+  const double edges =
+      8 * (pattern.strips.front().stations.front().width + pattern.strips.back().stations.back().width);
+  EXPECT_NEAR(taped, edges, 1e-9);
+  const CutPattern cut = cut_pattern(value.parachute);
+  ASSERT_EQ(cut.tapes.size(), 3u);  // skirt, vent, seams
+  EXPECT_NEAR(cut.tapes[0].length + cut.tapes[1].length, edges, 1e-12);
 }
 
 TEST(Ringsail, AdeptHasSeventyTwoSailsOnAboutElevenThousandNodes) {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "ripstop/parachute/gore.h"
+#include "ripstop/parachute/gored.h"
 
 namespace ripstop {
 namespace {
@@ -92,10 +92,10 @@ CutPattern cut_pattern(const GorePattern& pattern, const Design& design) {
     cut.pieces.push_back(piece_of(strip, n, joined_above));
     const std::string name = pattern.strips.size() > 1 ? strip.name + ", " : "";
     const double lower = n * strip.stations.front().width, upper = n * strip.stations.back().width;
-    if (design.tape.hems) {
+    if (has_hem_tape(design, pattern, i, false))
       cut.tapes.push_back({name + (i == 0 ? "skirt" : strip.joined ? "joint" : "lower edge"), 1, lower});
-      if (!joined_above)
-        cut.tapes.push_back({name + (i + 1 == pattern.strips.size() ? "vent" : "upper edge"), 1, upper});
+    if (has_hem_tape(design, pattern, i, true)) {
+      cut.tapes.push_back({name + (i + 1 == pattern.strips.size() ? "vent" : "upper edge"), 1, upper});
     }
   }
   if (design.tape.seams) cut.tapes.push_back({"gore seam", n, length_along(pattern, 0.5)});

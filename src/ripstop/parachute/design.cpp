@@ -74,6 +74,10 @@ void describe(Fields& fields, TapeLayout& tape) {
   fields.name("material", tape.material, "Material of the reinforcement, of kind \"tape\".");
   fields.toggle("seams", tape.seams, "Tape along the seams between gores (assumed).");
   fields.toggle("hems", tape.hems, "Tape along the vent and all other edges of the cloth (assumed).");
+  fields.toggle(
+      "inner_hems", tape.inner_hems,
+      "With hems: also along open edges between skirt and vent, of sails and rings; false: those are "
+      "hemmed only, as small ringsails are. Not for a disk-gap-band or a cross.");
 }
 
 void describe(Fields& fields, Riser& riser) {
@@ -166,6 +170,10 @@ void check_vent_lines(bool lines, const Design& design, Findings& findings) {
 void check_design(const Design& design, Findings& findings) {
   if (!findings.sound({"parachute.type"})) return;  // nobody knows what the other keys mean
   std::visit([&](const auto& canopy) { check_shape(canopy, design, findings); }, design.canopy);
+  if (!design.tape.inner_hems &&
+      (std::holds_alternative<DiskGapBand>(design.canopy) || std::holds_alternative<Cross>(design.canopy)))
+    findings.add("parachute.tape.inner_hems", "false", "true",
+                 "only canopies of gores can leave their inner edges without tape");
   check_lines(design, findings);
   check_columns(design, findings);
 }

@@ -38,6 +38,7 @@ struct TapeLayout {
   std::string material = "nylon-tape";
   bool seams = true;
   bool hems = true;
+  bool inner_hems = true;  // of gored canopies: also on edges between the skirt and the vent
 };
 
 /// [parachute.riser]: from the fixed point to the confluence.

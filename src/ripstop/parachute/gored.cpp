@@ -210,10 +210,11 @@ void Builder::add_tapes() {
   if (design_.tape.hems) {
     const int part = builder_.part("hem tape");
     for (std::size_t i = 0; i < patches_.size(); ++i) {
-      builder_.add_tape(builder_.row(patches_[i].front(), 0), tape, law, part);
+      if (has_hem_tape(design_, pattern_, i, false))
+        builder_.add_tape(builder_.row(patches_[i].front(), 0), tape, law, part);
       const int top = patches_[i].back();
-      const bool sewn_above = i + 1 < patches_.size() && pattern_.strips[i + 1].joined;
-      if (!sewn_above) builder_.add_tape(builder_.row(top, patch(top).rows - 1), tape, law, part);
+      if (has_hem_tape(design_, pattern_, i, true))
+        builder_.add_tape(builder_.row(top, patch(top).rows - 1), tape, law, part);
     }
   }
   if (design_.tape.seams) {
@@ -267,6 +268,13 @@ void Builder::add_sewn_lines() {
 }
 
 }  // namespace
+
+bool has_hem_tape(const Design& design, const GorePattern& pattern, std::size_t strip, bool upper) {
+  const bool last = strip + 1 == pattern.strips.size();
+  if (!design.tape.hems) return false;
+  if (upper) return last || (!pattern.strips[strip + 1].joined && design.tape.inner_hems);
+  return strip == 0 || pattern.strips[strip].joined || design.tape.inner_hems;
+}
 
 Mesh build_gored(const GorePattern& pattern, const Design& design, const PartMaterials& materials) {
   return Builder(pattern, design, materials).build();

@@ -16,4 +16,7 @@ namespace ripstop {
 /// when the numbers of gores and lines allow no lattice.
 Mesh build_gored(const GorePattern& pattern, const Design& design, const PartMaterials& materials);
 
+/// Whether tape lies along the lower or the upper edge of a strip; a joint has it once, as a lower edge.
+bool has_hem_tape(const Design& design, const GorePattern& pattern, std::size_t strip, bool upper);
+
 }  // namespace ripstop
