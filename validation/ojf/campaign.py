@@ -7,7 +7,7 @@ Stages, each from what the ones before it left; without a name all of them run:
     calibrate  porosity on Stratos IV, nominal basis, least squares over five speeds     -> calibration.csv
     predict    WALRUS and ADEPT, both speed bases, nonlinear and linear                  -> predictions.csv
     reproduce  Stratos IV itself with the calibrated cloth, and its shape against images
-    sheet      calibration and predictions with the cloth as a sheet                     -> predictions.csv
+    sheet      the cloth as a sheet of its specified permeability, nothing calibrated    -> predictions.csv
     uncertain  what each prediction depends on                                           -> uncertainty.csv
     compare    nonlinear beside linear on Stratos IV at 30 m/s
     openfoam   Stratos IV at 30 m/s with OpenFOAM
@@ -28,25 +28,29 @@ ROOT = HERE.parent.parent
 SPEEDS = {"stratos-iv": "10,15,20,25,30", "walrus": "10,15,20,25,30", "adept": "10,20,30"}
 BLIND = ("walrus", "adept")
 BASES = ("nominal", "measured")
-# The runs of `uncertain` are made at one speed, nominal basis, nonlinear: relative changes are taken for all speeds.
+# The runs of `uncertain` are made at one speed, nominal basis, nonlinear, on a grid of an eighth of the printed cells:
+# relative changes are taken for all speeds and for the printed grid, which stands among the grids.
 UNCERTAIN_SPEED = "20"
 COLUMNS = ["parachute", "speed_basis", "nominal_m_s", "speed_m_s", "density_kg_m3", "porosity_model", "fabric_model",
            "drag_n", "drag_area_m2", "coupling_iterations", "wall_time_s"]
 
-# name in predictions.csv -> settings of the flow beside the cloth's law
-SHEET_FLOW = ["flow.porosity_model=sheet"]
+# The cloth as a sheet, in a wide box with slip sides, second order. The wake of tight cloth settles slowly: looser ends.
+SHEET_FLOW = ["flow.porosity_model=sheet", "flow.box_m=[4,4,6]", "flow.cells=[60,60,90]", "flow.sides=slip",
+              "flow.convection=second-order", "flow.residual=1e-4", "coupling.drag_tolerance=5e-3"]
+SHEET_SPEED = "20"
 # What a prediction depends on: source -> (label, settings) of each variation, beside the unchanged run.
 VARIATIONS = {
-    "position": [("-1/3 cell", ["flow.canopy_position_m=1.991111"]), ("+1/3 cell", ["flow.canopy_position_m=2.008889"])],
-    "box": [("3 x 3 m", ["flow.box_m=[3,3,4]", "flow.cells=[150,150,150]"])],
+    "position": [("-1/3 cell", ["flow.canopy_position_m=1.982222"]), ("+1/3 cell", ["flow.canopy_position_m=2.017778"])],
+    "box": [("3 x 3 m", ["flow.box_m=[3,3,4]", "flow.cells=[75,75,75]"])],
     "turbulence": [("intensity 5 %", ["flow.turbulence_intensity=0.05"]),
                    ("viscosity ratio 100", ["flow.viscosity_ratio=100"])],
     "shape": [("tolerances a fifth", ["coupling.shape_tolerance_m=2e-4", "coupling.drag_tolerance=2e-4",
                                       "coupling.cloth_tolerance=1e-4"])],
 }
-# Coarser grids: cells, and their size over that of the printed grid. The `paper` model resists for the length of a cell:
-# its coefficients are divided by the same ratio, which keeps the resistance of the cloth's area.
-GRIDS = [("64,64,96", 100 / 64), ("80,80,120", 100 / 80)]
+# Cells, and the size of the printed ones over theirs. The `paper` model resists for the length of a cell: its
+# coefficients are multiplied by this ratio, which keeps the resistance of the cloth's area.
+GRIDS = [("40,40,60", 0.4), ("50,50,75", 0.5), ("64,64,96", 0.64)]
+BASE = GRIDS[1]
 
 
 class Campaign:
@@ -90,26 +94,12 @@ def law(result, factor=1):
     return [f"materials.{result['material']}.{key}={factor * result[key]!r}" for key in ("darcy", "forchheimer")]
 
 
-def models(campaign):
-    """Porosity models whose calibration is there: name -> settings."""
-    found = {}
-    paper = campaign.calibration("paper/calibration")
-    if paper:
-        found["paper"] = law(paper)
-    sheet = campaign.calibration("sheet/calibration")
-    if sheet:
-        found["sheet-calibrated"] = SHEET_FLOW + law(sheet)
-    if (campaign.runs / "sheet").exists():
-        found["sheet-specified"] = SHEET_FLOW + ["parachute.canopy_material=f-111-physical"]
-    return found
-
-
-def predict(campaign, model, settings):
-    for basis in BASES:
-        for parachute in BLIND:
-            rows = campaign.sweep(parachute, f"{model}/{parachute}-{basis}", settings + [f"flow.speed_basis={basis}"],
-                                  "--speeds", SPEEDS[parachute], "--vary", "coupling.linear=false,true")
-            write_predictions(model, parachute, basis, rows)
+def calibrated(campaign):
+    """The frozen cloth."""
+    result = campaign.calibration("paper/calibration")
+    if not result:
+        sys.exit("nothing is calibrated yet: run the stage calibrate first")
+    return result
 
 
 def write_predictions(model, parachute, basis, rows):
@@ -127,7 +117,7 @@ def write_predictions(model, parachute, basis, rows):
             "fabric_model": "linear" if row["coupling.linear"] == "true" else "nonlinear",
             "drag_n": f"{float(row['drag_n']):.3f}", "drag_area_m2": f"{float(row['drag_area_m2']):.5f}",
             "coupling_iterations": row["coupling_iterations"], "wall_time_s": f"{float(row['wall_time_s']):.1f}"})
-    order = {"paper": 0, "sheet-calibrated": 1, "sheet-specified": 2}
+    order = {"paper": 0, "sheet-specified": 1}
     kept.sort(key=lambda r: (order[r["porosity_model"]], BLIND.index(r["parachute"]), BASES.index(r["speed_basis"]),
                              r["fabric_model"] != "nonlinear", float(r["nominal_m_s"])))
     write_table(path, COLUMNS, kept)
@@ -140,20 +130,19 @@ def write_table(path, columns, rows):
         writer.writerows(rows)
 
 
-def provenance(campaign, model):
+def provenance(campaign, model, calibration=None):
     """Which program and which calibration made the rows of a model."""
     path = HERE / "predictions.json"
     known = json.loads(path.read_text()) if path.exists() else {}
     commit = subprocess.run(["git", "-C", str(ROOT), "rev-parse", "--short", "HEAD"], capture_output=True, text=True,
                             check=False).stdout.strip()
-    run = json.loads(next((campaign.runs / model / "walrus-nominal").glob("*/run.json")).read_text())
+    run = json.loads(next((campaign.runs / model / "adept-nominal").glob("*/run.json")).read_text())
     entry = {"commit": commit, "started": run["started"], "processor": run["processor"], "version": run["version"],
              "flow_engine": run["flow_engine"], "cells": run["case"]["flow"]["cells"], "box_m": run["case"]["flow"]["box_m"]}
-    result = campaign.calibration({"paper": "paper/calibration"}.get(model, "sheet/calibration"))
-    if model != "sheet-specified" and result:
-        entry["calibration"] = {key: result[key] for key in
+    if calibration:
+        entry["calibration"] = {key: calibration[key] for key in
                                 ("knob", "value", "standard_error", "darcy", "forchheimer", "root_mean_square_misfit")}
-    known.setdefault(model, entry)
+    known[model] = entry
     path.write_text(json.dumps(known, indent=2) + "\n")
 
 
@@ -162,14 +151,19 @@ def stage_calibrate(campaign):
 
 
 def stage_predict(campaign):
-    predict(campaign, "paper", models(campaign)["paper"])
-    provenance(campaign, "paper")
+    for basis in BASES:
+        for parachute in BLIND:
+            rows = campaign.sweep(parachute, f"paper/{parachute}-{basis}",
+                                  law(calibrated(campaign)) + [f"flow.speed_basis={basis}"], "--speeds", SPEEDS[parachute],
+                                  "--vary", "coupling.linear=false,true")
+            write_predictions("paper", parachute, basis, rows)
+    provenance(campaign, "paper", calibrated(campaign))
 
 
 def stage_reproduce(campaign):
     for basis in BASES:
         campaign.sweep("stratos-iv", f"paper/stratos-iv-{basis}",
-                       models(campaign)["paper"] + [f"flow.speed_basis={basis}"], "--speeds", SPEEDS["stratos-iv"],
+                       law(calibrated(campaign)) + [f"flow.speed_basis={basis}"], "--speeds", SPEEDS["stratos-iv"],
                        "--vary", "coupling.linear=false,true")
         if basis == "nominal":
             campaign.call("photogrammetry", "validation/ojf/stratos-iv-images.toml", "--run",
@@ -177,40 +171,51 @@ def stage_reproduce(campaign):
 
 
 def stage_sheet(campaign):
-    campaign.calibrate("sheet/calibration", SHEET_FLOW, "--gammas", "0.19,0.21,0.23", "--shifts", "1")
-    for model in ("sheet-calibrated", "sheet-specified"):
-        predict(campaign, model, models(campaign)[model])
-        provenance(campaign, model)
+    """Stratos IV too, whose drag is known."""
+    settings = SHEET_FLOW + ["parachute.canopy_material=f-111-physical", "flow.speed_basis=nominal"]
+    for parachute in ("stratos-iv", *BLIND):
+        rows = campaign.sweep(parachute, f"sheet-specified/{parachute}-nominal", settings, "--speeds", SHEET_SPEED, "--vary",
+                              "coupling.linear=false")
+        if parachute in BLIND:
+            write_predictions("sheet-specified", parachute, "nominal", rows)
+    provenance(campaign, "sheet-specified")
 
 
 def stage_uncertain(campaign):
-    settings = models(campaign)["paper"]
-    result = campaign.calibration("paper/calibration")
-    cloth, drags = result["material"], {}
-    low, high = (result["value"] + s * result["standard_error"] for s in (-1, 1))
-    porosity = [(f"gamma {'-' if g < result['value'] else '+'} 1 s", ergun(g, result["thickness_m"], cloth)) for g in (low, high)]
+    result = calibrated(campaign)
+    varied = {source: [(source, label, extra) for label, extra in all_of] for source, all_of in VARIATIONS.items()}
+    grids = [("grid", cells.replace(",", "x"), [f"flow.cells=[{cells}]", *law(result, ratio)])
+             for cells, ratio in GRIDS if cells != BASE[0]]
+    porosity = []
+    for sign, name in ((-1, "gamma - 1 s"), (1, "gamma + 1 s")):
+        gamma = result["value"] + sign * result["standard_error"]
+        porosity.append(("porosity", name, ergun(gamma, result["thickness_m"], result["material"], BASE[1])))
+    # A row starts from the one before it or after it, nearer to the middle: the unchanged run stands there, among those
+    # that can take over its flow field.
+    rows = [*grids, *varied["box"], varied["position"][0], porosity[0], ("base", "", [f"flow.speed_m_s={UNCERTAIN_SPEED}"]),
+            porosity[1], varied["position"][1], *varied["shape"], *varied["turbulence"]]
+    arguments = []
+    for _, _, extra in rows:
+        arguments += ["--row", ",".join(extra)]
+    drags = {}
     for parachute in ("stratos-iv", *BLIND):
-        # A row starts from the one before it or after it, nearer to the middle: the unchanged run stands there, among
-        # those that can take over its flow field.
-        varied = {source: [(source, label, extra) for label, extra in all_of] for source, all_of in VARIATIONS.items()}
-        grids = [("grid", cells.replace(",", "x"), [f"flow.cells=[{cells}]", *law(result, 1 / ratio)])
-                 for cells, ratio in GRIDS]
-        rows = [*grids, *varied["box"], varied["position"][0], ("porosity", *porosity[0]),
-                ("base", "", [f"flow.speed_m_s={UNCERTAIN_SPEED}"]), varied["position"][1],
-                ("porosity", *porosity[1]), *varied["shape"], *varied["turbulence"]]
-        arguments = []
-        for _, _, extra in rows:
-            arguments += ["--row", ",".join(extra)]
-        done = campaign.sweep(parachute, f"paper/uncertain-{parachute}", settings + [f"flow.speed_m_s={UNCERTAIN_SPEED}"],
-                              *arguments)
+        done = campaign.sweep(parachute, f"paper/uncertain-{parachute}",
+                              [f"flow.speed_m_s={UNCERTAIN_SPEED}", f"flow.cells=[{BASE[0]}]", *law(result, BASE[1])], *arguments)
         drags[parachute] = [(source, label, float(r["drag_n"])) for (source, label, _), r in zip(rows, done)]
+        drags[parachute].append(("grid", "100x100x150, printed", printed_drag(campaign, parachute)))
     write_uncertainty(drags)
 
 
-def ergun(gamma, thickness, cloth):
-    """[NFM] Eq. 16 with V/S = t, at the air of its table."""
+def printed_drag(campaign, parachute):
+    """On the printed grid, as predicted (Stratos IV: as reproduced)."""
+    folder = campaign.runs / f"paper/{parachute}-nominal/speed_m_s={UNCERTAIN_SPEED}_linear=false"
+    return json.loads((folder / "result.json").read_text())["drag_n"]
+
+
+def ergun(gamma, thickness, cloth, factor):
+    """[NFM] Eq. 16 with V/S = t, at the air of its table, times a factor."""
     a, b = 150 * 1.81e-5 / (36 * thickness * gamma**3), 1.75 * 1.225 / (6 * gamma**3)
-    return [f"materials.{cloth}.darcy={a!r}", f"materials.{cloth}.forchheimer={b!r}"]
+    return [f"materials.{cloth}.darcy={factor * a!r}", f"materials.{cloth}.forchheimer={factor * b!r}"]
 
 
 def write_uncertainty(drags):
@@ -232,7 +237,7 @@ def write_uncertainty(drags):
 
 def stage_compare(campaign):
     command = ["compare", "validation/ojf/stratos-iv.toml", "--linear", "--speed", "30", "--out", campaign.runs / "compare"]
-    for setting in models(campaign)["paper"]:
+    for setting in law(calibrated(campaign)):
         command += ["--set", setting]
     campaign.call(*command)
 
@@ -240,7 +245,7 @@ def stage_compare(campaign):
 def stage_openfoam(campaign):
     command = ["steady", "validation/ojf/stratos-iv.toml", "--speed", "30", "--flow", "openfoam", "--ranks", "2", "--out",
                campaign.runs / "openfoam-30"]
-    for setting in models(campaign)["paper"]:
+    for setting in law(calibrated(campaign)):
         command += ["--set", setting]
     campaign.call(*command)
 
@@ -248,7 +253,7 @@ def stage_openfoam(campaign):
 def stage_report(campaign):
     plots = HERE / "plots"
     plots.mkdir(exist_ok=True)
-    sources = {"porosity.svg": "paper/calibration/porosity.svg", "porosity-sheet.svg": "sheet/calibration/porosity.svg",
+    sources = {"porosity.svg": "paper/calibration/porosity.svg",
                "stratos-iv-drag.svg": "paper/stratos-iv-nominal/drag.svg",
                "stratos-iv-profile.svg": "images/profile.svg", "compare-profile.svg": "compare/profile.svg"}
     for parachute in BLIND:

@@ -29,23 +29,21 @@ def table(head, lines):
 
 
 def calibration(runs):
-    text = []
-    for name, title in (("paper", "`paper`"), ("sheet", "`sheet`")):
-        result = load(runs / name / "calibration/result.json")
-        if not result:
-            continue
-        fit = result["drag_coefficient_fit"]
-        low, high = result["interval_95"]
-        text += [f"{title}: {result['knob']} = {result['value']:.4f} +- {result['standard_error']:.4f} (standard error; "
-                 f"{result['standard_error_measured']:.4f} from the measured points, {result['standard_error_computed']:.4f} from "
-                 f"the trials), 95 % interval {low:.4f} to {high:.4f}; Darcy {result['darcy']:.2f}, Forchheimer "
-                 f"{result['forchheimer']:.3f}. C_D = {fit['intercept']:.4f} {fit['slope']:+.4f} x over {fit['points']} trials, R2 = "
-                 f"{fit['r2']:.4f}. Scatter over the shifts {100 * result['shift_scatter']:.2f} % rms.", ""]
-        text += table(["nominal m/s", "measured N", "measured m2", "computed m2", "error %"],
-                      [[f"{p['nominal_speed_m_s']:g}", f"{p['measured_drag_n']:.1f}", f"{p['measured_drag_area_m2']:.4f}",
-                        f"{p['computed_drag_area_m2']:.4f}",
-                        f"{100 * (p['computed_drag_area_m2'] / p['measured_drag_area_m2'] - 1):+.1f}"] for p in result["points"]])
-    return text
+    result = load(runs / "paper/calibration/result.json")
+    if not result:
+        return []
+    fit = result["drag_coefficient_fit"]
+    low, high = result["interval_95"]
+    text = [f"{result['knob']} = {result['value']:.4f} +- {result['standard_error']:.4f} (standard error; "
+            f"{result['standard_error_measured']:.4f} from the measured points, {result['standard_error_computed']:.4f} from "
+            f"the trials), 95 % interval {low:.4f} to {high:.4f}; Darcy {result['darcy']:.2f}, Forchheimer "
+            f"{result['forchheimer']:.3f}. C_D = {fit['intercept']:.4f} {fit['slope']:+.4f} gamma over {fit['points']} trials, "
+            f"R2 = {fit['r2']:.4f}. Scatter over the shifts {100 * result['shift_scatter']:.2f} % rms.", ""]
+    return text + table(["nominal m/s", "measured N", "measured m2", "computed m2", "error %"],
+                        [[f"{p['nominal_speed_m_s']:g}", f"{p['measured_drag_n']:.1f}", f"{p['measured_drag_area_m2']:.4f}",
+                          f"{p['computed_drag_area_m2']:.4f}",
+                          f"{100 * (p['computed_drag_area_m2'] / p['measured_drag_area_m2'] - 1):+.1f}"]
+                         for p in result["points"]])
 
 
 def reproduction(runs):
