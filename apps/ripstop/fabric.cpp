@@ -4,8 +4,10 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <memory>
+#include <numbers>
 #include <optional>
 
 #include "commands.h"
@@ -16,6 +18,7 @@
 #include "ripstop/coupling/result.h"
 #include "ripstop/output/picture.h"
 #include "ripstop/output/vtk.h"
+#include "ripstop/parachute/known_shape.h"
 #include "warnings.h"
 
 namespace ripstop {
@@ -65,6 +68,14 @@ int run(const Options& options) {
   row("pressure load", fmt::format("{:.2f} N", pressure_force(*cloth, state, loads).z));
   row("line tension, axial sum", fmt::format("{:.2f} N", force_on_fixed(*cloth, state).z));
   row("projected diameter", fmt::format("{:.3f} m", size.projected_diameter));
+  const KnownRatio known = known_projected_ratio(value.parachute);
+  std::string ratio = fmt::format(
+      "{:.3f}", size.projected_diameter / std::sqrt(4 / std::numbers::pi * nominal_area(value.parachute)));
+  if (known.low > 0)
+    ratio += known.low < known.high
+                 ? fmt::format(" (Knacke, in flight: {:.2f} to {:.2f})", known.low, known.high)
+                 : fmt::format(" (Knacke, in flight: {:.2f})", known.low);
+  row("projected / nominal", ratio);
   row("skirt diameter", fmt::format("{:.3f} m", size.skirt_diameter));
   row("highest line tension", fmt::format("{:.1f} N", line));
   row("highest stress", fmt::format("{:.0f} N/m von Mises, on the {}", peak.von_mises, peak.patch));

@@ -11,6 +11,7 @@
 #include "ripstop/case/case.h"
 #include "ripstop/cloth/cloth.h"
 #include "ripstop/coupling/result.h"
+#include "ripstop/parachute/known_shape.h"
 
 namespace ripstop {
 namespace {
@@ -66,6 +67,12 @@ TEST_P(InflatedShape, HasTheDiameterOfItsTypeAndTheSymmetryOfItsLines) {
   EXPECT_GE(ratio, GetParam().low);
   EXPECT_LE(ratio, GetParam().high);
   RecordProperty("projected_over_nominal_diameter", std::to_string(ratio));
+
+  const KnownRatio printed = known_projected_ratio(value.parachute);
+  if (printed.low > 0) {
+    EXPECT_GE(ratio, printed.low);
+    EXPECT_LE(ratio, 1.11 * printed.high);
+  }
 
   // What the lines carry is what the pressure pushes.
   EXPECT_NEAR(force_on_fixed(*cloth, state).z / pressure_force(*cloth, state, loads).z, 1, 0.01);
