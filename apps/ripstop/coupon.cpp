@@ -105,6 +105,10 @@ void add_coupon(CLI::App& app, int& status) {
                       "Test campaign (TOML) to compare with; its coupons are pulled");
   command->add_option("--orientation", options->shape.orientation, "Pull at 0, 45 or 90 deg to the warp")
       ->check(CLI::IsMember({0, 45, 90}));
+  command->add_flag(
+      "--bias-lattice", options->shape.bias_lattice,
+      "At 45 deg: the lattice along the pull and the yarns on its diagonals, as in a canopy cut "
+      "on the bias");
   command->add_option("--length", options->shape.length, "Between the clamps [m]")
       ->check(CLI::PositiveNumber);
   command->add_option("--width", options->shape.width, "[m]")->check(CLI::PositiveNumber);

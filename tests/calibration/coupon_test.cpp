@@ -60,6 +60,8 @@ TEST_F(Coupon, AHomogeneousStretchStoresTheSameEnergyUpToTheCuts) {
         std::numbers::sqrt2 * (laws.shear.energy(strain(1, 0)) + laws.shear.energy(strain(0, 1)));
     EXPECT_NEAR(energy(coupon_mesh(fabric, small), xx, yy, xy) / expected, 1, 1e-12);
     EXPECT_NEAR(energy(coupon_mesh(fabric, fine), xx, yy, xy) / expected, 1, 1e-12);
+    CouponShape along_pull{0.2, 0.05, 45, 10, 1, true};
+    EXPECT_NEAR(energy(coupon_mesh(fabric, along_pull), xx, yy, xy) / expected, 1, 1e-12);
   }
 }
 
@@ -117,6 +119,30 @@ TEST_F(Coupon, OnTheBiasItNecksAndItsClampCornersAreStressed) {
   const CouponPoint straight = pull({0.2, 0.05, 0, 12, 1}, {0.1, 0.2}).points.back();
   EXPECT_GT(straight.waist, 0.98);
   EXPECT_LT(straight.corner_peak, 1.05);
+}
+
+// The cloth of a canopy cut on the bias, whose lattice does not follow the yarns, against the lattice that
+// does: the same load and the same neck. Bending springs, which only the latter has, and the cuts make the
+// rest.
+TEST_F(Coupon, WithItsYarnsOnTheDiagonalsOfTheLatticeItIsTheSameCloth) {
+  const std::vector<double> strains{0.005, 0.05, 0.15, 0.3};
+  const CouponPull yarns = pull({0.2, 0.05, 45, 12, 1}, strains);
+  const CouponPull diagonals = pull({0.2, 0.05, 45, 12, 1, true}, strains);
+  for (std::size_t i = 0; i < strains.size(); ++i) {
+    EXPECT_NEAR(diagonals.points[i].load / yarns.points[i].load, 1, 0.005) << strains[i];
+    EXPECT_NEAR(diagonals.points[i].waist, yarns.points[i].waist, 0.001) << strains[i];
+  }
+}
+
+TEST_F(Coupon, OnTheBiasWarpAndWeftMayDiffer) {
+  Fabric fabric = f111();
+  fabric.weft_coefficients_n_m = {18000, 5000};
+  fabric.tested_strain = 0.2;
+  const std::vector<double> strains{0.02, 0.15};
+  const CouponPull yarns = pull({0.2, 0.05, 45, 10, 1}, strains, fabric);
+  const CouponPull diagonals = pull({0.2, 0.05, 45, 10, 1, true}, strains, fabric);
+  for (std::size_t i = 0; i < strains.size(); ++i)
+    EXPECT_NEAR(diagonals.points[i].load / yarns.points[i].load, 1, 0.01) << strains[i];
 }
 
 TEST_F(Coupon, BothClampsCarryTheSameLoad) {

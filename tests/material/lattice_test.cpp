@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "ripstop/core/error.h"
 
@@ -65,6 +66,94 @@ TEST(Lattice, EverySpacingHasTheSquareLatticesStiffness) {
     EXPECT_NEAR(cell.yy / square.yy, 1, 1e-12) << aspect;
     EXPECT_NEAR(cell.xy / square.xy, 1, 1e-12) << aspect;
     EXPECT_NEAR(cell.shear / square.shear, 1, 1e-12) << aspect;
+  }
+}
+
+// Small strain stiffness of cells on the bias, from their springs: C = sum k n n n n.
+struct Membrane {
+  double xx = 0, yy = 0, xy = 0, xg = 0, yg = 0;  // xy is the shear modulus too
+
+  /// Young's modulus of a pull at `angle` to x.
+  double modulus(double angle) const {
+    const double c = std::cos(angle), s = std::sin(angle);
+    const double pull[3] = {c * c, s * s, c * s};
+    const double m[3][3] = {{xx, xy, xg}, {xy, yy, yg}, {xg, yg, xy}};
+    const auto minor = [&](int i, int j) {
+      const int a = (i + 1) % 3, b = (i + 2) % 3, d = (j + 1) % 3, e = (j + 2) % 3;
+      return m[a][d] * m[b][e] - m[a][e] * m[b][d];
+    };
+    const double determinant = m[0][0] * minor(0, 0) + m[0][1] * minor(0, 1) + m[0][2] * minor(0, 2);
+    double compliance = 0;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) compliance += pull[i] * minor(i, j) / determinant * pull[j];
+    return 1 / compliance;
+  }
+};
+
+Membrane bias_membrane(const WovenLaws& laws, double a, double b) {
+  const CellWidths w = bias_widths(a, b, laws);
+  Membrane m;
+  const auto add = [&](double stiffness, double dx, double dy) {
+    const double length = std::hypot(dx, dy), c = dx / length, s = dy / length,
+                 k = stiffness * length / (a * b);
+    m.xx += k * c * c * c * c, m.yy += k * s * s * s * s, m.xy += k * c * c * s * s;
+    m.xg += k * c * c * c * s, m.yg += k * c * s * s * s;
+  };
+  add(2 * w.along_row * laws.shear.tangent(0), a, 0);
+  add(2 * w.along_column * laws.shear.tangent(0), 0, b);
+  add(w.shear * whole_yarn(laws.warp, laws.warp_bending).tangent(0), a, b);
+  add(w.shear * whole_yarn(laws.weft, laws.weft_bending).tangent(0), -a, b);
+  return m;
+}
+
+Fabric woven(bool balanced) {
+  Fabric fabric;
+  fabric.coefficients_n_m = f111;
+  fabric.tested_strain = 0.2;
+  if (!balanced) fabric.weft_coefficients_n_m = {18000, 5000};
+  return fabric;
+}
+
+// 1/E = cos^4/E1 + (1/G - 2 nu/E1) cos^2 sin^2 + sin^4/E2 of an orthotropic sheet, with the constants of the
+// lattice along its yarns.
+TEST(Lattice, OnTheBiasTheModulusOffTheYarnsIsTheOrthotropicSheets) {
+  for (const bool balanced : {true, false}) {
+    const WovenLaws laws = woven_laws(woven(balanced));
+    const double coupling = laws.shear.tangent(0) / std::sqrt(2);  // C_12 = G
+    const double c11 = whole_yarn(laws.warp, laws.warp_bending).tangent(0) + coupling;
+    const double c22 = whole_yarn(laws.weft, laws.weft_bending).tangent(0) + coupling;
+    const double e1 = c11 - coupling * coupling / c22, e2 = c22 - coupling * coupling / c11,
+                 nu = coupling / c22;
+    for (const double aspect : {1.0, 0.9, 1.1}) {
+      const Membrane cell = bias_membrane(laws, 0.008 * aspect, 0.008);
+      // Off the square the shear coupling of unequal yarns slants with the diagonals.
+      const double tolerance = aspect == 1 ? 1e-12 : balanced ? 1e-12 : 0.1;
+      for (int degrees = 0; degrees < 180; degrees += 15) {
+        const double angle = degrees * std::numbers::pi / 180, c = std::cos(angle), s = std::sin(angle);
+        const double expected =
+            1 / (c * c * c * c / e1 + (1 / coupling - 2 * nu / e1) * c * c * s * s + s * s * s * s / e2);
+        EXPECT_NEAR(cell.modulus(angle + std::numbers::pi / 4) / expected, 1, tolerance)
+            << degrees << " deg to the warp, sides 1 : " << aspect;
+      }
+    }
+  }
+}
+
+TEST(Lattice, OnTheBiasOblongCellsKeepPositiveWidthsAndTheStatedSidesTheirStiffness) {
+  const WovenLaws laws = woven_laws(woven(true));
+  const Membrane square = bias_membrane(laws, 1, 1);
+  for (const double aspect : {1.14, 1 / 1.14}) {
+    const Membrane cell = bias_membrane(laws, aspect, 1);
+    EXPECT_NEAR(cell.xx / square.xx, 1, 1e-12);
+    EXPECT_NEAR(cell.yy / square.yy, 1, 1e-12);
+    EXPECT_NEAR(cell.xy / square.xy, 1, 1e-12);
+  }
+  for (const double aspect : {0.1, 0.7, 1.4, 10.0}) {
+    const CellWidths w = bias_widths(aspect, 1, laws);
+    EXPECT_GT(w.along_row, 0);
+    EXPECT_GT(w.along_column, 0);
+    EXPECT_GT(w.shear, 0);
+    EXPECT_LE(bias_membrane(laws, aspect, 1).xy, square.xy);
   }
 }
 

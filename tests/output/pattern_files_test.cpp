@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <regex>
 #include <sstream>
 
@@ -40,6 +41,33 @@ TEST(PatternFiles, TheDxfHoldsTheFinishedAndTheCutOutlineInMillimetres) {
   EXPECT_NEAR(polygon_area(outlines.at("SEAM")), 0.4 * 0.5 / 2 * 1e6, 1);
   EXPECT_NEAR(polygon_area(outlines.at("CUT")), polygon_area(with_allowance(triangle, allowances)) * 1e6, 1);
   EXPECT_NEAR(outlines.at("CUT")[0].y, -20, 1e-3);
+}
+
+TEST(PatternFiles, TheGrainArrowPointsAlongTheWarpAndStaysOnThePiecesBox) {
+  const TemporaryFolder folder("pattern");
+  for (const double degrees : {0.0, 45.0, 90.0}) {
+    Piece piece = triangle;
+    piece.grain = degrees;
+    write_pattern_dxf(folder.path / "gore.dxf", piece, {.seam = 0, .hem = 0});
+    const auto outlines = dxf_outlines(read_file(folder.path / "gore.dxf"));
+    const std::vector<Point2>& arrow = outlines.at("GRAIN");  // tail, tip; then barb, tip, barb
+    ASSERT_EQ(arrow.size(), 5u);
+    const double dx = arrow[1].x - arrow[0].x, dy = arrow[1].y - arrow[0].y;
+    EXPECT_NEAR(std::atan2(dx, dy) * 180 / std::numbers::pi, degrees, 1e-3);
+    EXPECT_GT(std::hypot(dx, dy), 250);
+    for (const Point2& p : arrow) {
+      EXPECT_LE(std::abs(p.x), 200);
+      EXPECT_GE(p.y, 0);
+      EXPECT_LE(p.y, 500);
+    }
+    // Both barbs lie behind the tip, equally far from the shaft.
+    const auto beside = [&](Point2 p) {
+      return ((p.x - arrow[1].x) * dy - (p.y - arrow[1].y) * dx) / std::hypot(dx, dy);
+    };
+    EXPECT_NEAR(beside(arrow[2]), -beside(arrow[4]), 1e-3);
+    EXPECT_GT(std::abs(beside(arrow[2])), 1);
+    EXPECT_LT((arrow[2].x - arrow[1].x) * dx + (arrow[2].y - arrow[1].y) * dy, 0);
+  }
 }
 
 TEST(PatternFiles, TheSvgPrintsAtTrueSize) {

@@ -86,6 +86,15 @@ TEST_P(CutTest, TheBillWithoutAllowancesWeighsWhatTheMeshWeighs) {
   EXPECT_GT(cut.mass, bill.mass);
 }
 
+TEST(CutPattern, ThePiecesGrainIsThatOfTheCut) {
+  Case value = read_case(examples / "adept" / "case.toml");
+  for (const auto& [cut, grain] : {std::pair{FabricCut::block, 0.0}, std::pair{FabricCut::across, 90.0},
+                                   std::pair{FabricCut::bias, 45.0}}) {
+    value.parachute.cut = cut;
+    for (const Piece& piece : cut_pattern(value.parachute).pieces) EXPECT_EQ(piece.grain, grain);
+  }
+}
+
 TEST(CutPattern, AFlatCircularGoreIsATrapezoidWithTheAngleOfItsGore) {
   const Case value = read_case(examples / "flat-circular" / "case.toml");
   const CutPattern pattern = cut_pattern(value.parachute);

@@ -135,6 +135,33 @@ TEST_P(Family, TheMeshHasTheSymmetryOfItsGores) {
   expect_symmetric(mesh, mesh.start, 1e-9, [&](Vec3 p) { return Vec3{p.x, -p.y, p.z}; });
 }
 
+// Cut on the bias: the same cloth on nearly square cells, whose mesh is as symmetric as the other.
+TEST_P(Family, OnTheBiasTheCellsAreNearlySquareAndTheClothIsTheSame) {
+  Case value = example(GetParam());
+  value.parachute.cut = FabricCut::bias;
+  const Mesh mesh = mesh_of(value);
+  EXPECT_NEAR(cloth_area(mesh) / computed_area(value.parachute), 1, 1e-3);
+  int count = 0, cells = 0, oblong = 0;
+  for (const Patch& patch : mesh.patches) {
+    count += patch.rows * patch.columns;
+    for (int i = 0; i < (patch.rows - 1) * patch.columns; ++i) {
+      if (patch.cell_area[i] <= 0) continue;
+      const double aspect = patch.rest_length[along_row][i] / patch.rest_length[along_column][i];
+      ++cells, oblong += std::max(aspect, 1 / aspect) > 1.15;
+    }
+    for (const Direction d : {bend_row, bend_column})
+      EXPECT_EQ(*std::max_element(patch.width[d].begin(), patch.width[d].end()), 0);
+  }
+  EXPECT_LT(oblong, 0.05 * cells);
+  EXPECT_NEAR(count / double(value.parachute.mesh.cloth_nodes), 1, 0.25);
+  const double c = std::cos(2 * pi / value.parachute.gores), s = std::sin(2 * pi / value.parachute.gores);
+  expect_symmetric(mesh, mesh.start, 1e-9, [&](Vec3 p) {
+    return Vec3{c * p.x - s * p.y, s * p.x + c * p.y, p.z};
+  });
+  const ClothPtr cloth = make_cloth(mesh);
+  EXPECT_GE(step_bound(*cloth, start_state(*cloth)).stable_step, 4e-6);
+}
+
 TEST_P(Family, EveryTiedNodeLiesWhereItsMastersHaveIt) {
   const Mesh mesh = mesh_of(example(GetParam(), 2500));
   std::vector<char> tied(mesh.node_count(), 0);

@@ -23,12 +23,13 @@ CouponMesh straight_coupon(const Fabric& fabric, const CouponShape& shape) {
   CouponMesh coupon{{}, shape.length, shape.width, across, {}, {}, {}, {}};
   MeshBuilder builder;
   PatchShape patch;
-  const bool warp = shape.orientation == 0;  // warp lies along the columns
+  const bool warp = shape.orientation != 90;  // warp lies along the columns
   patch.rows = (warp ? rows : shape.cells) + 1;
   patch.columns = (warp ? shape.cells : rows) + 1;
   patch.start = [&](int row, int column) {
     return warp ? Vec3{column * across, row * along, 0} : Vec3{row * across, column * along, 0};
   };
+  if (shape.orientation == 45) patch.grain = FabricCut::bias;
   builder.add_patch("coupon", patch, fabric);
   coupon.mesh = std::move(builder.mesh);
   const Patch& made = coupon.mesh.patches.front();
@@ -238,8 +239,8 @@ CouponMesh coupon_mesh(const Fabric& fabric, const CouponShape& shape) {
         fmt::format("a coupon of {} m x {} m at {} deg with {} cells across cannot be built: 2 to {} cells, "
                     "0, 45 or 90 deg",
                     shape.length, shape.width, shape.orientation, shape.cells, most_cells));
-  CouponMesh coupon =
-      shape.orientation == 45 ? DiagonalBuilder(fabric, shape).build() : straight_coupon(fabric, shape);
+  CouponMesh coupon = shape.orientation == 45 && !shape.bias_lattice ? DiagonalBuilder(fabric, shape).build()
+                                                                     : straight_coupon(fabric, shape);
   for (const auto* clamp : {&coupon.lower_clamp, &coupon.upper_clamp})
     coupon.mesh.fixed.insert(coupon.mesh.fixed.end(), clamp->begin(), clamp->end());
   return coupon;
@@ -273,8 +274,9 @@ CouponPull pull_coupon(const CouponMesh& coupon, const std::vector<double>& stra
     RelaxOptions relaxation;
     relaxation.tolerance = options.tolerance;
     relaxation.max_steps = 30000;
-    // A coupon pulls at least like its diagonals alone.
-    relaxation.least_load = std::max(load, patch.law[shear_up].tangent(0) * strain * coupon.width);
+    // A coupon pulls at least like its shear springs alone.
+    const double shear = std::min(patch.law[shear_up].tangent(0), patch.law[along_row].tangent(0));
+    relaxation.least_load = std::max(load, shear * strain * coupon.width);
     const RelaxResult result = relax(state, *cloth, {}, relaxation, team);
     pull.steps += result.steps;
     pull.converged = pull.converged && result.converged;

@@ -20,11 +20,13 @@
 namespace ripstop {
 
 struct CouponShape {
-  double length = 0.2;  // [m] between the clamps
-  double width = 0.05;  // [m]
-  int orientation = 0;  // 0: warp along the pull, 90: weft, 45 [deg]
-  int cells = 10;       // across the width; at 45 deg: half-diagonals across the width / 2
-  double aspect = 1;    // of a cell at 0 and 90 deg: its length along the pull / across it
+  double length = 0.2;        // [m] between the clamps
+  double width = 0.05;        // [m]
+  int orientation = 0;        // 0: warp along the pull, 90: weft, 45 [deg]
+  int cells = 10;             // across the width; at 45 deg: half-diagonals across the width / 2
+  double aspect = 1;          // of a cell at 0 and 90 deg: its length along the pull / across it
+  bool bias_lattice = false;  // 45 deg with the lattice along the pull and the yarns on its diagonals, as in
+                              // a canopy cut on the bias; else the lattice lies along the yarns
 };
 
 struct CouponMesh {

@@ -252,6 +252,39 @@ CellWidths cell_widths(double h_row, double h_column, const WovenLaws& laws) {
   return widths;
 }
 
+WovenLaws exchanged(const WovenLaws& laws) {
+  return {laws.weft, laws.warp, laws.shear, laws.weft_bending, laws.warp_bending};
+}
+
+SpringLaw whole_yarn(const SpringLaw& axial, const SpringLaw& bending) {
+  SpringLaw whole = axial;
+  whole.coefficients.resize(std::max(axial.coefficients.size(), bending.coefficients.size()), 0.0);
+  for (std::size_t k = 0; k < bending.coefficients.size(); ++k)
+    whole.coefficients[k] += 2 * bending.coefficients[k];
+  return whole;
+}
+
+// With Y the mean stiffness of the yarns, S = sqrt2 K_sh that of the shear springs and L^2 = a^2 + b^2, the
+// cloth turned by 45 deg has C_xy = C_gg = Y/2, C_xx = C_yy = S + Y/2. Diagonals of width w give w Y 2 a
+// b/L^3 and, along the row, a^2/b^2 times that. Hence w = L^3/(4 a b) and S_x = S + Y/2 (1 - s a^2/b^2),
+// where s <= 1 (a factor of w too) keeps it positive.
+CellWidths bias_widths(double h_row, double h_column, const WovenLaws& laws) {
+  constexpr double least = 0.1;  // of the shear springs' width
+  const double a = h_row, b = h_column;
+  const double yarn = 0.5 * (whole_yarn(laws.warp, laws.warp_bending).tangent(0) +
+                             whole_yarn(laws.weft, laws.weft_bending).tangent(0));
+  const double shear = std::numbers::sqrt2 * laws.shear.tangent(0);
+  const double aspect = std::max(a / b, b / a), share = shear > 0 ? 0.5 * yarn / shear : 0;
+  const double cut = std::min(1.0, (1 + (share > 0 ? (1 - least) / share : 0)) / (aspect * aspect));
+  const auto factor = [&](double ratio) { return 1 + share * (1 - cut * ratio * ratio); };
+  const double diagonal = std::hypot(a, b);
+  CellWidths widths;
+  widths.along_row = b / std::numbers::sqrt2 * factor(a / b);
+  widths.along_column = a / std::numbers::sqrt2 * factor(b / a);
+  widths.shear = cut * diagonal * diagonal * diagonal / (4 * a * b);
+  return widths;
+}
+
 // xi/2 over sqrt2 (1 - xi - eps) is what the coupling of the laws comes to for any K.
 CellWidths cell_widths(double h_row, double h_column, double xi, double eps) {
   const SpringLaw axial{{1 - xi - eps}, 1}, shear{{xi / 2}, 1};

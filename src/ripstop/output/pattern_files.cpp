@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
 
 #include "ripstop/core/file.h"
 
@@ -34,13 +37,27 @@ std::string dxf_polyline(const std::vector<Point2>& outline, const std::string& 
 }
 
 std::string label(const Piece& piece) {
-  return fmt::format("{}, cut {}", piece.name, piece.count);
+  return fmt::format("{}, cut {}, warp {:.0f} deg", piece.name, piece.count, piece.grain);
 }
 
-/// From a tenth to nine tenths of the height, in the middle.
-std::vector<Point2> grain(const Box& box) {
-  const double x = 0.5 * (box.left + box.right), height = box.top - box.bottom;
-  return {{x, box.bottom + 0.1 * height}, {x, box.bottom + 0.9 * height}};
+/// An arrow along the warp, eight tenths as long as it fits into the box about its middle: tail, tip, and the
+/// barbs on either side of the tip.
+std::array<Point2, 4> grain(const Piece& piece, const Box& box) {
+  constexpr double barb = 0.008, spread = 25;  // [m], [deg]
+  const auto along = [&](double turn) {
+    const double angle = (piece.grain + turn) * std::numbers::pi / 180;
+    return Point2{std::sin(angle), std::cos(angle)};
+  };
+  const Point2 middle{0.5 * (box.left + box.right), 0.5 * (box.bottom + box.top)}, d = along(0);
+  const double across = 0.5 * (box.right - box.left), up = 0.5 * (box.top - box.bottom);
+  const double half =
+      0.8 * std::min(across / std::max(std::abs(d.x), 1e-9), up / std::max(std::abs(d.y), 1e-9));
+  const Point2 tip{middle.x + half * d.x, middle.y + half * d.y};
+  const auto back = [&](double turn) {
+    const Point2 e = along(turn);
+    return Point2{tip.x - barb * e.x, tip.y - barb * e.y};
+  };
+  return {Point2{middle.x - half * d.x, middle.y - half * d.y}, tip, back(spread), back(-spread)};
 }
 
 }  // namespace
@@ -48,6 +65,7 @@ std::vector<Point2> grain(const Box& box) {
 void write_pattern_dxf(const std::filesystem::path& path, const Piece& piece, const Allowances& allowances) {
   const std::vector<Point2> cut = with_allowance(piece, allowances);
   const Box box = box_of(cut);
+  const auto [tail, tip, left, right] = grain(piece, box);
   std::string text = "0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1009\n";
   text += fmt::format("9\n$EXTMIN\n10\n{:.4f}\n20\n{:.4f}\n9\n$EXTMAX\n10\n{:.4f}\n20\n{:.4f}\n0\nENDSEC\n",
                       box.left * mm, box.bottom * mm, box.right * mm, box.top * mm);
@@ -57,9 +75,9 @@ void write_pattern_dxf(const std::filesystem::path& path, const Piece& piece, co
     text += fmt::format("0\nLAYER\n2\n{}\n70\n0\n62\n{}\n6\nCONTINUOUS\n", layer, colour++);
   text += "0\nENDTAB\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n";
   text += dxf_polyline(cut, "CUT", true) + dxf_polyline(piece.outline, "SEAM", true) +
-          dxf_polyline(grain(box), "GRAIN", false);
-  text += fmt::format("0\nTEXT\n8\nTEXT\n10\n{:.4f}\n20\n{:.4f}\n30\n0.0\n40\n10.0\n1\n{}\n",
-                      grain(box)[0].x * mm + 5, grain(box)[0].y * mm, label(piece));
+          dxf_polyline({tail, tip}, "GRAIN", false) + dxf_polyline({left, tip, right}, "GRAIN", false);
+  text += fmt::format("0\nTEXT\n8\nTEXT\n10\n{:.4f}\n20\n{:.4f}\n30\n0.0\n40\n10.0\n1\n{}\n", tail.x * mm + 5,
+                      tail.y * mm, label(piece));
   write_file(path, text + "0\nENDSEC\n0\nEOF\n");
 }
 
@@ -85,9 +103,10 @@ void write_pattern_svg(const std::filesystem::path& path, const Piece& piece, co
   text += polygon(cut, "fill=\"none\" stroke=\"#c0392b\" stroke-width=\"0.5\"");
   text += polygon(piece.outline,
                   "fill=\"none\" stroke=\"#2c3e50\" stroke-width=\"0.3\" stroke-dasharray=\"3 2\"");
-  const std::vector<Point2> arrow = grain(box);
-  text += fmt::format("<polyline points=\"{} {}\" fill=\"none\" stroke=\"#7f8c8d\" stroke-width=\"0.3\"/>\n",
-                      at(arrow[0]), at(arrow[1]));
+  const auto [tail, tip, left, right] = grain(piece, box);
+  text += fmt::format(
+      "<polyline points=\"{0} {1} {2} {1} {3}\" fill=\"none\" stroke=\"#7f8c8d\" stroke-width=\"0.3\"/>\n",
+      at(tail), at(tip), at(left), at(right));
   const double foot = height - margin;
   text += fmt::format(
       "<path d=\"M {0} {1} h {2}\" stroke=\"#000\" stroke-width=\"0.5\"/>\n"

@@ -70,6 +70,20 @@ const WovenLaws& MeshBuilder::laws_of(const Fabric& fabric) {
   return known != laws_.end() ? known->second : laws_.emplace(fabric.name, woven_laws(fabric)).first->second;
 }
 
+void MeshBuilder::set_laws(Patch& patch, const WovenLaws& laws, FabricCut grain) {
+  if (grain == FabricCut::bias) {
+    patch.law[shear_up] = whole_yarn(laws.warp, laws.warp_bending);
+    patch.law[shear_down] = whole_yarn(laws.weft, laws.weft_bending);
+    patch.law[along_row] = patch.law[along_column] = laws.shear;
+    return;
+  }
+  patch.law[along_column] = laws.warp;
+  patch.law[along_row] = laws.weft;
+  patch.law[shear_up] = patch.law[shear_down] = laws.shear;
+  patch.law[bend_column] = laws.warp_bending;
+  patch.law[bend_row] = laws.weft_bending;
+}
+
 int MeshBuilder::add_patch(const std::string& name, const PatchShape& shape, const Fabric& fabric) {
   Patch patch;
   patch.name = name;
@@ -81,12 +95,9 @@ int MeshBuilder::add_patch(const std::string& name, const PatchShape& shape, con
   patch.fabric = static_cast<int>(known - mesh.fabric_names.begin());
   if (known == mesh.fabric_names.end()) mesh.fabric_names.push_back(fabric.name);
 
-  const WovenLaws& laws = laws_of(fabric);
-  patch.law[along_column] = laws.warp;
-  patch.law[along_row] = laws.weft;
-  patch.law[shear_up] = patch.law[shear_down] = laws.shear;
-  patch.law[bend_column] = laws.warp_bending;
-  patch.law[bend_row] = laws.weft_bending;
+  const bool bias = shape.grain == FabricCut::bias;
+  const WovenLaws laws = shape.grain == FabricCut::across ? exchanged(laws_of(fabric)) : laws_of(fabric);
+  set_laws(patch, laws, shape.grain);
   std::fill(std::begin(patch.damping), std::end(patch.damping), fabric.damping_n_s_m);
 
   const int nodes = patch.rows * patch.columns;
@@ -109,7 +120,8 @@ int MeshBuilder::add_patch(const std::string& name, const PatchShape& shape, con
       const auto [a, b, c, d] = corners(row, column);
       const double h_row = 0.5 * (norm(b - a) + norm(c - d));
       const double h_column = 0.5 * (norm(d - a) + norm(c - b));
-      add_cell_widths(patch, row, column, cell_widths(h_row, h_column, laws));
+      add_cell_widths(patch, row, column,
+                      bias ? bias_widths(h_row, h_column, laws) : cell_widths(h_row, h_column, laws));
       const int next = (column + 1) % patch.columns;
       patch.rest_length[along_row][row * patch.columns + column] = norm(b - a);
       patch.rest_length[along_row][(row + 1) * patch.columns + column] = norm(c - d);

@@ -36,6 +36,7 @@ struct PatchShape {
   /// A spring over two cells along a row is as long as both cells together: a flat strip rolled into a ring,
   /// or gores sewn together. Else it is as long as the start shape has it.
   bool rolled_rows = false;
+  FabricCut grain = FabricCut::block;  // how the yarns lie on the lattice
 };
 
 class MeshBuilder {
@@ -80,6 +81,7 @@ class MeshBuilder {
 
  private:
   const WovenLaws& laws_of(const Fabric& fabric);
+  void set_laws(Patch& patch, const WovenLaws& laws, FabricCut grain);
 
   std::map<std::string, WovenLaws> laws_;  // by the fabric's name: a fit takes tens of milliseconds
 };

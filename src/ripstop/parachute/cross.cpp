@@ -39,6 +39,10 @@ Lattice choose_lattice(const Cross& canopy, const Design& design) {
   const double middle = std::pow(lattice.across + 1, 2);
   const double rows = (design.mesh.cloth_nodes - middle) / arms / (lattice.across + 1);
   lattice.along = std::max(2, static_cast<int>(std::lround(rows)) - 1);
+  if (design.cut == FabricCut::bias)  // whose cells have to be nearly square
+    lattice.along = std::max(
+        2,
+        static_cast<int>(std::lround(0.5 * (canopy.arm_length_m / canopy.arm_width_m - 1) * lattice.across)));
   return lattice;
 }
 
@@ -86,8 +90,9 @@ void Builder::add_arm(int arm) {
     const Vec3 turned[arms] = {{x, y, 0}, {-y, x, 0}, {-x, -y, 0}, {y, -x, 0}};
     return turned[arm];
   };
-  builder_.add_patch(fmt::format("arm {}", arm + 1), {lattice_.along + 1, lattice_.across + 1, false, start},
-                     materials_.canopy);
+  PatchShape shape{lattice_.along + 1, lattice_.across + 1, false, start};
+  shape.grain = design_.cut;
+  builder_.add_patch(fmt::format("arm {}", arm + 1), shape, materials_.canopy);
 }
 
 void Builder::add_middle() {
@@ -96,7 +101,9 @@ void Builder::add_middle() {
   const auto start = [&](int row, int column) {
     return Vec3{width * (0.5 - double(row) / n), width * (double(column) / n - 0.5), 0};
   };
-  const int middle = builder_.add_patch("middle", {n + 1, n + 1, false, start}, materials_.canopy);
+  PatchShape shape{n + 1, n + 1, false, start};
+  shape.grain = design_.cut;
+  const int middle = builder_.add_patch("middle", shape, materials_.canopy);
   for (int c = 0; c <= n; ++c) {
     const int edge[arms] = {node(middle, 0, c), node(middle, c, n), node(middle, n, n - c),
                             node(middle, n - c, 0)};

@@ -113,7 +113,10 @@ CutPattern cut_pattern(const GorePattern& pattern, const Design& design) {
 }
 
 CutPattern cut_pattern(const Design& design) {
-  return std::visit([&](const auto& canopy) { return cut_pattern(canopy, design); }, design.canopy);
+  CutPattern cut = std::visit([&](const auto& canopy) { return cut_pattern(canopy, design); }, design.canopy);
+  for (Piece& piece : cut.pieces)
+    piece.grain = design.cut == FabricCut::bias ? 45 : design.cut == FabricCut::across ? 90 : 0;
+  return cut;
 }
 
 Bill bill_of(const CutPattern& pattern, const Design& design, const PartMaterials& materials,

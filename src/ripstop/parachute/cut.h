@@ -19,12 +19,13 @@ double polygon_area(const std::vector<Point2>& polygon);
 enum class Edge { seam, hem };
 
 /// A flat piece of cloth, finished size; edge i goes from corner i to the next. Counterclockwise, y toward
-/// the vent, grain along y. [m]
+/// the vent. [m]
 struct Piece {
   std::string name;
   int count = 0;
   std::vector<Point2> outline;
   std::vector<Edge> edges;
+  double grain = 0;  // of the warp, from y toward x [deg]
 };
 
 struct CutLength {

@@ -116,6 +116,11 @@ void describe(Fields& fields, Design& design) {
                "Number of gores, equally wide; of a cross: its 4 arms.")
       .required();
   fields.name("canopy_material", design.canopy_material, "Material of the cloth, of kind \"fabric\".");
+  fields.choice(
+      "cut", design.cut,
+      {{"block", FabricCut::block}, {"block-across", FabricCut::across}, {"bias", FabricCut::bias}},
+      "How the pieces are cut from the cloth: warp along the gore, warp across it, or yarns at 45 degrees to "
+      "its centre line.");
   fields.table("lines", design.lines, "Suspension lines.").required();
   fields.table("tape", design.tape, "Reinforcement tape.");
   fields.table("riser", design.riser, "Riser between the fixed point and the confluence.");

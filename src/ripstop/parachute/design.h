@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "ripstop/material/lattice.h"
 #include "ripstop/parachute/conical.h"
 #include "ripstop/parachute/cross.h"
 #include "ripstop/parachute/disk_gap_band.h"
@@ -61,6 +62,7 @@ struct Design {
   std::optional<double> nominal_area_m2;  // reference area S0; absent: the type's own
   int gores = 0;
   std::string canopy_material = "f-111";
+  FabricCut cut = FabricCut::block;  // of every piece of cloth, against its centre line
   LineSet lines;
   TapeLayout tape;
   Riser riser;

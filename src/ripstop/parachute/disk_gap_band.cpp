@@ -62,12 +62,12 @@ class Builder {
 
 void Builder::add_band(const Ring& ring) {
   const double radius = 0.5 * d_.disk_diameter_m;
-  PatchShape shape{
-      ring.cells + 1, ring.columns, true, [&](int row, int column) {
-        const double angle = 2 * pi * column / ring.columns;
-        return Vec3{radius * std::cos(angle), radius * std::sin(angle), d_.band_height_m * row / ring.cells};
-      }};
+  PatchShape shape{ring.cells + 1, ring.columns, true, [&](int row, int column) {
+                     const double angle = 2 * pi * column / ring.columns;
+                     return Vec3{radius * std::cos(angle), radius * std::sin(angle), ring.rise(row)};
+                   }};
   shape.rolled_rows = true;
+  shape.grain = design_.cut;
   band_ = builder_.add_patch("band", shape, materials_.canopy);
   Path skirt = builder_.row(band_, 0);
   skirt.nodes.pop_back();
@@ -84,15 +84,16 @@ void Builder::add_disk(const std::vector<Ring>& rings) {
       return Vec3{radius * std::cos(angle), radius * std::sin(angle), z};
     };
     const auto start = [&](int row, int column) {
-      const double radius = 0.5 * d_.disk_diameter_m - ring.from - (ring.to - ring.from) * row / ring.cells;
+      const double radius = 0.5 * d_.disk_diameter_m - ring.from - ring.rise(row);
       if (refined && row == ring.cells && column % 2 == 1) {
         // In the middle of the coarser ring's chord, so that the tie is exact in the start shape.
         return 0.5 * (polar(radius, column - 1) + polar(radius, column + 1));
       }
       return polar(radius, column);
     };
-    rings_.push_back(
-        builder_.add_patch("disk", {ring.cells + 1, ring.columns, true, start}, materials_.canopy));
+    PatchShape shape{ring.cells + 1, ring.columns, true, start};
+    shape.grain = design_.cut;
+    rings_.push_back(builder_.add_patch("disk", shape, materials_.canopy));
     if (k > 0) builder_.tie_rows(rings_[k - 1], rings_[k]);
   }
 }

@@ -125,7 +125,7 @@ void Builder::add_strip(int index, const std::vector<Ring>& rings) {
   patches_.emplace_back();
   for (const Ring& ring : rings) {
     const int per_gore = ring.columns / pattern_.gores;
-    const auto height = [&](int row) { return ring.from + (ring.to - ring.from) * row / ring.cells; };
+    const auto height = [&](int row) { return ring.from + ring.rise(row); };
     PatchShape shape{ring.cells + 1, ring.columns, true, [&](int row, int column) {
                        return start(index, height(row), column / per_gore,
                                     double(column % per_gore) / per_gore - 0.5);
@@ -137,6 +137,7 @@ void Builder::add_strip(int index, const std::vector<Ring>& rings) {
       const int c = column % per_gore;
       return std::array{at(row, c), at(row, c + 1), at(row + 1, c + 1), at(row + 1, c)};
     };
+    shape.grain = design_.cut;
     std::vector<int>& patches = patches_.back();
     patches.push_back(builder_.add_patch(strip.name, shape, materials_.canopy));
     if (patches.size() > 1) builder_.tie_rows(patches[patches.size() - 2], patches.back());

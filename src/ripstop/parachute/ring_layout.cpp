@@ -60,6 +60,31 @@ RingLayout lay_out(const std::vector<Strip>& strips, int columns, double spacing
   return layout;
 }
 
+/// Rows as far apart as the columns are there: cell by cell, ds = circumference(s) / columns.
+void space_squarely(const Strip& strip, Ring& ring) {
+  constexpr int pieces = 400;
+  const double step = (ring.to - ring.from) / pieces;
+  std::vector<double> cells{0};  // up to the end of every piece
+  for (int i = 0; i < pieces; ++i)
+    cells.push_back(cells.back() + step * ring.columns / strip.circumference(ring.from + (i + 0.5) * step));
+  ring.cells = std::max(2, static_cast<int>(std::lround(cells.back())));
+  ring.graded.assign(1, 0.0);
+  int piece = 0;
+  for (int row = 1; row < ring.cells; ++row) {
+    const double wanted = cells.back() * row / ring.cells;
+    while (cells[piece + 1] < wanted) ++piece;
+    ring.graded.push_back(step * (piece + (wanted - cells[piece]) / (cells[piece + 1] - cells[piece])));
+  }
+  ring.graded.push_back(ring.to - ring.from);
+}
+
+RingLayout lay_out_squarely(const std::vector<Strip>& strips, int columns, double spacing, int multiple) {
+  RingLayout layout = lay_out(strips, columns, spacing, spacing, multiple);
+  for (std::size_t i = 0; i < strips.size(); ++i)
+    for (Ring& ring : layout.strips[i]) space_squarely(strips[i], ring);
+  return layout;
+}
+
 /// The ring with the largest row spacing of those that have no more than `columns` columns; null: none.
 Ring* coarsest_that_fits(RingLayout& layout, int columns) {
   Ring* coarsest = nullptr;
@@ -87,6 +112,7 @@ RingLayout lay_out_rings(const std::vector<Strip>& strips, double cloth_area, co
       std::lcm(std::lcm(design.gores, design.lines.count), std::max(1, 2 * design.mesh.folds));
   double edge_columns = 0;
   for (const Strip& strip : strips) edge_columns = std::max(edge_columns, strip.circumference(0) / spacing);
+  const bool square = design.cut == FabricCut::bias;
   const double vent_columns = strips.back().circumference(strips.back().length) / spacing;
   int best = 0;
   double best_score = 1e300;
@@ -94,7 +120,9 @@ RingLayout lay_out_rings(const std::vector<Strip>& strips, double cloth_area, co
     for (int columns = base; columns <= 2 * edge_columns; columns *= 2) {
       // Squareness of the cells at the edge and at the vent, as logarithms of the spacing's departure from
       // the mean.
-      const double at_edge = std::log(columns / edge_columns);
+      const double at_edge =
+          square ? std::log(double(lay_out_squarely(strips, columns, spacing, multiple).nodes()) / nodes)
+                 : std::log(columns / edge_columns);
       const double at_vent = std::log(std::max(1.0, base / vent_columns));
       const double score = at_edge * at_edge + 0.5 * at_vent * at_vent;
       if (score >= best_score) continue;
@@ -110,6 +138,7 @@ RingLayout lay_out_rings(const std::vector<Strip>& strips, double cloth_area, co
             "need columns in multiples of {}; ask for more nodes",
             nodes, design.gores, design.lines.count, multiple));
   }
+  if (square) return lay_out_squarely(strips, best, spacing, multiple);
   // The row spacing is what is left to meet the node count.
   double low = 0.2 * spacing, high = 5 * spacing;
   for (int i = 0; i < 60; ++i) {
