@@ -36,6 +36,9 @@ Json to_json(const Case& value, const CaseSummary& s) {
           {"nominal_area_m2", s.nominal_area},
           {"computed_area_m2", s.computed_area},
           {"meshed_area_m2", s.cloth_area},
+          {"vent_area_m2", s.vent_area},
+          {"slot_area_m2", s.slot_area},
+          {"geometric_porosity", s.geometric_porosity},
           {"mass_kg",
            {{"cloth", s.cloth_mass},
             {"tape", s.tape_mass},
@@ -65,6 +68,8 @@ void print(const Case& value, const CaseSummary& s) {
       fmt::format("{:.4f} m2{}", s.nominal_area,
                   value.parachute.nominal_area_m2 ? " (given)" : " (by the type's definition)"));
   row("cloth", fmt::format("{:.4f} m2 as cut, {:.4f} m2 as meshed", s.computed_area, s.cloth_area));
+  row("open", fmt::format("{:.2f} % geometric porosity: vent {:.4f} m2, slots and gaps {:.4f} m2",
+                          100 * s.geometric_porosity, s.vent_area, s.slot_area));
   row("mass", fmt::format("{:.4f} kg: cloth {:.4f}, tape {:.4f}, lines {:.4f}, riser {:.4f}", s.total_mass,
                           s.cloth_mass, s.tape_mass, s.line_mass, s.riser_mass));
   row("nodes", fmt::format("{}, of these {} of cloth ({} asked for)", s.nodes, s.cloth_nodes,

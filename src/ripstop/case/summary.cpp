@@ -40,6 +40,10 @@ CaseSummary summarize(const Case& value) {
   }
   summary.computed_area = computed_area(value.parachute);
   summary.nominal_area = nominal_area(value.parachute);
+  const CanopyFacts canopy = facts(value.parachute);
+  summary.vent_area = canopy.vent_area;
+  summary.slot_area = canopy.slot_area;
+  summary.geometric_porosity = canopy.geometric_porosity();
 
   for (double mass : mesh.mass) summary.total_mass += mass;
   summary.cloth_mass = summary.cloth_area * canopy_fabric(value).areal_density_kg_m2;

@@ -9,9 +9,11 @@
 namespace ripstop {
 
 struct CaseSummary {
-  double cloth_area = 0;     // as meshed, a polygon inside the cut cloth [m2]
-  double computed_area = 0;  // as cut [m2]
-  double nominal_area = 0;   // S0 that coefficients refer to [m2]
+  double cloth_area = 0;                // as meshed, a polygon inside the cut cloth [m2]
+  double computed_area = 0;             // as cut [m2]
+  double nominal_area = 0;              // S0 that coefficients refer to [m2]
+  double vent_area = 0, slot_area = 0;  // open, as constructed [m2]
+  double geometric_porosity = 0;        // their share of the whole surface without fullness
   double cloth_mass = 0, tape_mass = 0, line_mass = 0, riser_mass = 0, total_mass = 0;  // [kg]
   int nodes = 0, cloth_nodes = 0;
   int springs = 0;             // of the lattice and outside it

@@ -171,6 +171,7 @@ CanopyFacts facts(const Cross& canopy, int) {
   CanopyFacts facts;
   facts.cloth_area = 2 * length * width - width * width;
   facts.nominal_area = facts.cloth_area;
+  facts.covered_area = facts.cloth_area;
   facts.skirt_radius = std::hypot(length, width) / 2;
   facts.start_diameter = 2 * facts.skirt_radius;
   facts.circumference = 4 * width;

@@ -167,6 +167,9 @@ CanopyFacts facts(const DiskGapBand& canopy, int) {
   CanopyFacts facts;
   facts.cloth_area = pi / 4 * (diameter * diameter - vent * vent) + pi * diameter * canopy.band_height_m;
   facts.nominal_area = facts.cloth_area;
+  facts.covered_area = facts.cloth_area;
+  facts.vent_area = pi / 4 * vent * vent;
+  facts.slot_area = pi * diameter * canopy.gap_height_m;
   facts.line_run = (diameter - vent) / 2;
   facts.skirt_radius = diameter / 2;
   facts.start_diameter = diameter;

@@ -103,11 +103,18 @@ CanopyFacts facts(const GorePattern& pattern) {
       if (k > 0) {
         const Station& before = strip.stations[k - 1];
         facts.cloth_area += n * (here.height - before.height) * 0.5 * (here.width + before.width);
+        facts.covered_area += n * (here.height - before.height) * 0.5 * (here.chord + before.chord);
       }
       widest = std::max(widest, here.chord);
       facts.circumference = std::max(facts.circumference, n * here.width);
     }
   }
+  for (std::size_t i = 1; i < pattern.strips.size(); ++i)
+    facts.slot_area +=
+        n * pattern.strips[i].slot * 0.5 *
+        (pattern.strips[i - 1].stations.back().chord + pattern.strips[i].stations.front().chord);
+  const double vent = pattern.strips.back().stations.back().chord;
+  facts.vent_area = 0.25 * n * vent * vent / std::tan(pi / n);
   const double seam_per_chord = 0.5 / std::sin(pi / n);
   facts.skirt_radius = seam_per_chord * pattern.strips.front().stations.front().chord;
   facts.start_diameter = 2 * seam_per_chord * widest;

@@ -78,27 +78,42 @@ std::string rows_of(const Fields& fields) {
 }
 
 void add_table(const Fields& fields, const std::string& name, const std::string& heading,
+               const std::string& doc, std::string& out);
+
+/// The field's tables, if it has any, as sections of their own; `when` says which word of a Kind they go
+/// with.
+void add_inner_tables(const Field& field, const std::string& name, const std::string& when,
+                      std::string& out) {
+  const std::string inner = name.empty() ? field.key : name + "." + field.key;
+  if (const auto* sub = std::get_if<Subtable>(&field.value)) {
+    add_table(sub->fields(), inner, code("[{}]", inner), when + field.doc, out);
+  } else if (const auto* rows = std::get_if<Rows>(&field.value)) {
+    rows->resize(1);
+    add_table(rows->row(0), inner, code("[[{}]]", inner), when + field.doc, out);
+  } else if (const auto* tables = std::get_if<NamedTables>(&field.value)) {
+    add_table(tables->entry("name"), inner, code("[{}.<name>]", inner), when + field.doc, out);
+  }
+}
+
+void add_table(const Fields& fields, const std::string& name, const std::string& heading,
                const std::string& doc, std::string& out) {
   const std::string head = "| key | type | default | range | meaning |\n| --- | --- | --- | --- | --- |\n";
   out += fmt::format("### {}\n\n{}{}", heading, doc, doc.empty() ? "" : "\n\n");
   if (const std::string rows = rows_of(fields); !rows.empty()) out += head + rows + "\n";
-  for (const Field& field : fields.list()) {
-    const auto* kind = std::get_if<Kind>(&field.value);
-    for (std::size_t i = 0; kind && i < kind->words.size(); ++i)
-      out += fmt::format("With `{} = \"{}\"`:\n\n", field.key, kind->words[i]) + head +
-             rows_of(kind->select(i)) + "\n";
-  }
-  for (const Field& field : fields.list()) {
-    const std::string inner = name.empty() ? field.key : name + "." + field.key;
-    if (const auto* sub = std::get_if<Subtable>(&field.value)) {
-      add_table(sub->fields(), inner, code("[{}]", inner), field.doc, out);
-    } else if (const auto* rows = std::get_if<Rows>(&field.value)) {
-      rows->resize(1);
-      add_table(rows->row(0), inner, code("[[{}]]", inner), field.doc, out);
-    } else if (const auto* tables = std::get_if<NamedTables>(&field.value)) {
-      add_table(tables->entry("name"), inner, code("[{}.<name>]", inner), field.doc, out);
+  const auto each_word = [&](const auto& visit) {
+    for (const Field& field : fields.list()) {
+      const auto* kind = std::get_if<Kind>(&field.value);
+      for (std::size_t i = 0; kind && i < kind->words.size(); ++i)
+        visit(fmt::format("With `{} = \"{}\"`:", field.key, kind->words[i]), kind->select(i));
     }
-  }
+  };
+  each_word([&](const std::string& when, const Fields& further) {
+    if (const std::string rows = rows_of(further); !rows.empty()) out += when + "\n\n" + head + rows + "\n";
+  });
+  each_word([&](const std::string& when, const Fields& further) {
+    for (const Field& field : further.list()) add_inner_tables(field, name, when + " ", out);
+  });
+  for (const Field& field : fields.list()) add_inner_tables(field, name, "", out);
 }
 
 }  // namespace
