@@ -74,6 +74,9 @@ struct FlowProblem {
   bool duct = false;                // true: the four sides are slip walls; false: open, zero gradient
   double residual = 1e-5;           // on every equation
   int max_iterations = 1000;
+  /// A run that ends unconverged after max_iterations returns the mean over its last so many iterations;
+  /// 0: the last iteration (built-in engine only).
+  int average_over = 0;
 };
 
 /// One SIMPLE iteration as it comes; return false from the callback to stop early (the field counts as
@@ -86,6 +89,15 @@ struct FlowProgress {
 };
 using FlowReport = std::function<bool(const FlowProgress&)>;
 
+/// Over the last iterations of a run that does not settle. Iterations are not time: the mean is that of the
+/// iteration's limit cycle, and the deviation says how large the cycle is.
+struct FlowAverage {
+  int iterations = 0;                  // in the window; 0: nothing was averaged
+  double drag = 0;                     // mean of porous_force.z [N]
+  double drag_deviation = 0;           // standard deviation over the window [N]
+  double drag_low = 0, drag_high = 0;  // [N]
+};
+
 struct FlowField {
   FlowGrid grid;
   std::vector<double> pressure;        // over the outlet's [Pa], one a cell
@@ -95,6 +107,7 @@ struct FlowField {
   double momentum_deficit = 0;         // axial force from the fluxes through the faces of the box [N]
   FlowProgress last;
   bool converged = false;
+  FlowAverage average;  // where it has iterations, the fields and forces above are means over them
 };
 
 /// An engine keeps its last field as the start of the next solve (warm start).

@@ -9,6 +9,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/core/hash.h"
+#include "ripstop/flow/cartesian/average.h"
 #include "ripstop/flow/cartesian/cartesian.h"
 #include "ripstop/flow/cartesian/solver.h"
 
@@ -38,6 +39,10 @@ void check(const FlowProblem& problem) {
   positive_value("turbulence intensity", a.turbulence_intensity);
   positive_value("viscosity ratio", a.viscosity_ratio);
   positive_value("residual", problem.residual);
+  if (problem.average_over < 0 || problem.average_over > problem.max_iterations) {
+    usage(fmt::format("flow: average_over = {} must lie in 0 to max_iterations = {}", problem.average_over,
+                      problem.max_iterations));
+  }
 }
 
 bool converged(const FlowProgress& p, double tolerance) {
@@ -57,15 +62,17 @@ class CartesianEngine final : public FlowEngine {
 
  private:
   void solve_coarse(const FlowProblem& problem, const FlowGrid& grid, const PorousRows& porous, Solver& fine);
-  FlowProgress run(Solver& solver, double tolerance, int iterations, const FlowReport& report, bool& done);
+  FlowProgress run(Solver& solver, double tolerance, int iterations, const FlowReport& report, bool& done,
+                   int average_over = 0, FieldMean* mean = nullptr);
 
   CartesianSettings settings_;
   ThreadTeam team_;
   std::unique_ptr<Solver> last_;  // the start of the next solve
 };
 
+/// `mean` takes in the last `average_over` of the `iterations`.
 FlowProgress CartesianEngine::run(Solver& solver, double tolerance, int iterations, const FlowReport& report,
-                                  bool& done) {
+                                  bool& done, int average_over, FieldMean* mean) {
   FlowProgress progress;
   done = false;
   for (int n = 1; n <= iterations; ++n) {
@@ -81,6 +88,7 @@ FlowProgress CartesianEngine::run(Solver& solver, double tolerance, int iteratio
                       n, solver.grid().nx, solver.grid().ny, solver.grid().nz, solver.first_bad_value()));
     }
     done = converged(progress, tolerance);
+    if (n > iterations - average_over) mean->add(solver.field());
     if (report && !report(progress)) return done = false, progress;
     if (done) break;
   }
@@ -126,8 +134,12 @@ FlowField CartesianEngine::solve(const FlowProblem& problem, const FlowReport& r
     solver->start_uniform();
   }
   bool done = false;
-  const FlowProgress progress = run(*solver, problem.residual, problem.max_iterations, report, done);
-  FlowField field = solver->field();
+  FieldMean mean;
+  const FlowProgress progress =
+      run(*solver, problem.residual, problem.max_iterations, report, done, problem.average_over, &mean);
+  // Only a whole window is a mean; a run that settled or was stopped inside it has its last field.
+  const bool averaged = problem.average_over > 0 && !done && mean.count() == problem.average_over;
+  FlowField field = averaged ? mean.mean() : solver->field();
   field.last = progress;
   field.converged = done;
   last_ = std::move(solver);

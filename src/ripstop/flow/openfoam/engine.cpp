@@ -68,6 +68,9 @@ class OpenFoam : public FlowEngine {
           "flow.porosity_model = \"sheet\" needs flow.engine = \"builtin\": OpenFOAM's porous zones have "
           "the \"paper\" model only");
     }
+    if (problem.average_over != 0) {
+      throw Error(ExitCode::usage, "averages over iterations need flow.engine = \"builtin\"");
+    }
     check(problem);
     const Basis basis{problem.grid, problem.air, problem.duct, settings_.ranks, settings_.second_order};
     const bool warm = basis_ && *basis_ == basis && latest_time(part_folder(0)) != "0";
