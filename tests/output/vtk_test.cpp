@@ -118,7 +118,7 @@ TEST(Vti, VtkReadsBackAFieldOfManyCompressedBlocksBitForBit) {
   }
   VtkImage image = flow_image(field);
   image.cell_arrays.push_back(vtk_array("exact", field.pressure));
-  write_vti(folder.path / "flow.vti", image);
+  write_image(folder.path / "flow", image);
 
   const json seen = seen_by_vtk(folder.path / "flow.vti");
   EXPECT_EQ(seen["class"], "vtkImageData");
@@ -141,7 +141,7 @@ TEST(Vti, ABlockThatIsExactlyFullNeedsNoPartialOne) {
   std::vector<double> values(65536);
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = 1.0 / static_cast<double>(i + 1);
   image.cell_arrays = {vtk_array("v", values)};
-  write_vti(folder.path / "block.vti", image);
+  write_image(folder.path / "block", image);
   const json seen = seen_by_vtk(folder.path / "block.vti");
   expect_array(seen["cell_arrays"][0], "v", "double", 1, bits(values));
 }

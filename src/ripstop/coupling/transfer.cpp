@@ -16,22 +16,15 @@ Vec3 area_of(const Cell& cell, const std::vector<Vec3>& x) {
 std::optional<double> one_sided(const FlowField& field, const std::vector<char>& cut, Vec3 point, Vec3 centre,
                                 Vec3 direction) {
   const FlowGrid& grid = field.grid;
-  const Vec3 h = grid.spacing();
-  const Vec3 s{(point.x - grid.origin.x) / h.x - 0.5, (point.y - grid.origin.y) / h.y - 0.5,
-               (point.z - grid.origin.z) / h.z - 0.5};
-  const int i0 = static_cast<int>(std::floor(s.x)), j0 = static_cast<int>(std::floor(s.y)),
-            k0 = static_cast<int>(std::floor(s.z));
+  const Bracket x = bracket(grid, 0, point.x), y = bracket(grid, 1, point.y), z = bracket(grid, 2, point.z);
   double sum = 0, weights = 0;
   for (int corner = 0; corner < 8; ++corner) {
-    const int di = corner & 1, dj = corner >> 1 & 1, dk = corner >> 2;
-    const int i = i0 + di, j = j0 + dj, k = k0 + dk;
-    if (i < 0 || j < 0 || k < 0 || i >= grid.nx || j >= grid.ny || k >= grid.nz) continue;
+    const bool di = corner & 1, dj = corner >> 1 & 1, dk = corner >> 2;
+    const int i = di ? x.high : x.low, j = dj ? y.high : y.low, k = dk ? z.high : z.low;
     const int cell = grid.index(i, j, k);
-    const Vec3 middle{grid.origin.x + (i + 0.5) * h.x, grid.origin.y + (j + 0.5) * h.y,
-                      grid.origin.z + (k + 0.5) * h.z};
-    if (cut[cell] || dot(middle - centre, direction) <= 0) continue;
-    const double weight = (di ? s.x - i0 : 1 - (s.x - i0)) * (dj ? s.y - j0 : 1 - (s.y - j0)) *
-                          (dk ? s.z - k0 : 1 - (s.z - k0));
+    if (cut[cell] || dot(grid.centre(i, j, k) - centre, direction) <= 0) continue;
+    const double weight = (di ? x.weight : 1 - x.weight) * (dj ? y.weight : 1 - y.weight) *
+                          (dk ? z.weight : 1 - z.weight);
     sum += weight * field.pressure[cell];
     weights += weight;
   }
@@ -63,7 +56,6 @@ SidePressures sample_sides(const FlowField& field, const std::vector<int>& porou
                            const std::vector<Cell>& cells, const std::vector<Vec3>& x) {
   std::vector<char> cut(field.grid.cells(), 0);
   for (const int cell : porous_cells) cut[cell] = 1;
-  const Vec3 h = field.grid.spacing();
 
   SidePressures sides{std::vector<double>(cells.size(), 0.0), std::vector<double>(cells.size(), 0.0)};
   for (std::size_t c = 0; c < cells.size(); ++c) {
@@ -73,6 +65,7 @@ SidePressures sample_sides(const FlowField& field, const std::vector<int>& porou
     const Vec3 n = area / norm(area);
     Vec3 centre{};
     for (const int node : cells[c].corner) centre += 0.25 * x[node];
+    const Vec3 h = field.grid.spacing(centre);
     // A plane with normal n cuts cells whose centres are up to half of this away from it.
     const double thickness = std::abs(n.x) * h.x + std::abs(n.y) * h.y + std::abs(n.z) * h.z;
     const auto side = [&](double sign) {

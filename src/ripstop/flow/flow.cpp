@@ -7,25 +7,9 @@
 namespace ripstop {
 namespace {
 
-/// Lower of the two cells around x along one axis, and the weight of the upper one; constant at the ends.
-struct Bracket {
-  int low, high;
-  double weight;
-};
-
-Bracket bracket(double x, double origin, double spacing, int n) {
-  const double centred = (x - origin) / spacing - 0.5;
-  const double clamped = std::clamp(centred, 0.0, static_cast<double>(n - 1));
-  const int low = std::min(static_cast<int>(clamped), std::max(n - 2, 0));
-  return {low, std::min(low + 1, n - 1), clamped - low};
-}
-
 template <class T>
 T trilinear(const FlowGrid& grid, const std::vector<T>& field, Vec3 point) {
-  const Vec3 h = grid.spacing();
-  const Bracket x = bracket(point.x, grid.origin.x, h.x, grid.nx);
-  const Bracket y = bracket(point.y, grid.origin.y, h.y, grid.ny);
-  const Bracket z = bracket(point.z, grid.origin.z, h.z, grid.nz);
+  const Bracket x = bracket(grid, 0, point.x), y = bracket(grid, 1, point.y), z = bracket(grid, 2, point.z);
   const auto along_x = [&](int j, int k) {
     return field[grid.index(x.low, j, k)] * (1 - x.weight) + field[grid.index(x.high, j, k)] * x.weight;
   };
@@ -67,14 +51,12 @@ struct Interval {
   int first, last;  // inclusive
 };
 
-/// Cells along one axis whose closed extent can touch [low, high]. The margin only admits candidates: the
-/// comparison with the cell's own faces decides.
-Interval candidates(double low, double high, double origin, double spacing, int n) {
-  constexpr double margin = 1e-6;  // of a cell
-  const double first = std::ceil((low - origin) / spacing - margin) - 1;
-  const double last = std::floor((high - origin) / spacing + margin);
-  return {static_cast<int>(std::clamp(first, 0.0, static_cast<double>(n))),
-          static_cast<int>(std::clamp(last, -1.0, static_cast<double>(n - 1)))};
+/// Cells between `edges` whose closed extent touches [low, high].
+Interval touched(double low, double high, const std::vector<double>& edges) {
+  const auto first = std::lower_bound(edges.begin(), edges.end(), low) - edges.begin();
+  const auto beyond = std::upper_bound(edges.begin(), edges.end(), high) - edges.begin();
+  return {std::max(static_cast<int>(first) - 1, 0),
+          std::min(static_cast<int>(beyond), static_cast<int>(edges.size()) - 1) - 1};
 }
 
 }  // namespace
@@ -88,28 +70,21 @@ Vec3 sample(const FlowGrid& grid, const std::vector<Vec3>& field, Vec3 point) {
 }
 
 std::vector<int> cut_cells(const FlowGrid& grid, const std::vector<Triangle>& surface) {
-  const Vec3 h = grid.spacing(), o = grid.origin;
+  const std::vector<double> x = grid.edges(0), y = grid.edges(1), z = grid.edges(2);
   std::vector<char> cut(static_cast<std::size_t>(grid.cells()), 0);
   for (const Triangle& t : surface) {
     const Vec3 low{std::min({t.a.x, t.b.x, t.c.x}), std::min({t.a.y, t.b.y, t.c.y}),
                    std::min({t.a.z, t.b.z, t.c.z})};
     const Vec3 high{std::max({t.a.x, t.b.x, t.c.x}), std::max({t.a.y, t.b.y, t.c.y}),
                     std::max({t.a.z, t.b.z, t.c.z})};
-    const Interval is = candidates(low.x, high.x, o.x, h.x, grid.nx);
-    const Interval js = candidates(low.y, high.y, o.y, h.y, grid.ny);
-    const Interval ks = candidates(low.z, high.z, o.z, h.z, grid.nz);
+    const Interval is = touched(low.x, high.x, x), js = touched(low.y, high.y, y),
+                   ks = touched(low.z, high.z, z);
     for (int k = ks.first; k <= ks.last; ++k) {
       for (int j = js.first; j <= js.last; ++j) {
         for (int i = is.first; i <= is.last; ++i) {
           char& mark = cut[grid.index(i, j, k)];
           if (mark) continue;
-          const Box box{{o.x + i * h.x, o.y + j * h.y, o.z + k * h.z},
-                        {o.x + (i + 1) * h.x, o.y + (j + 1) * h.y, o.z + (k + 1) * h.z}};
-          if (low.x > box.high.x || high.x < box.low.x || low.y > box.high.y || high.y < box.low.y ||
-              low.z > box.high.z || high.z < box.low.z) {
-            continue;
-          }
-          if (meets({t.a, t.b, t.c}, box)) mark = 1;
+          if (meets({t.a, t.b, t.c}, {{x[i], y[j], z[k]}, {x[i + 1], y[j + 1], z[k + 1]}})) mark = 1;
         }
       }
     }

@@ -7,23 +7,9 @@
 #include <vector>
 
 #include "ripstop/core/vec3.h"
+#include "ripstop/flow/flow_grid.h"
 
 namespace ripstop {
-
-/// Uniform box of nx x ny x nz cells; cell (i, j, k) has index i + nx * (j + ny * k).
-struct FlowGrid {
-  Vec3 origin;  // lowest corner [m]
-  Vec3 size;    // [m]
-  int nx = 0, ny = 0, nz = 0;
-
-  int cells() const { return nx * ny * nz; }
-  Vec3 spacing() const { return {size.x / nx, size.y / ny, size.z / nz}; }
-  double cell_volume() const {
-    const Vec3 h = spacing();
-    return h.x * h.y * h.z;
-  }
-  int index(int i, int j, int k) const { return i + nx * (j + ny * k); }
-};
 
 /// Air that comes in through z = 0 with speed U, [NFM] section 5.
 struct Freestream {

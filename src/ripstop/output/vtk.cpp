@@ -196,17 +196,26 @@ void write_vtp(const std::filesystem::path& path, const VtkSurface& surface) {
   write(document, "PolyData", "");
 }
 
-void write_vti(const std::filesystem::path& path, const VtkImage& image) {
-  Document document{path, {}, {}};
+std::filesystem::path write_image(const std::filesystem::path& stem, const VtkImage& image) {
   const FlowGrid& grid = image.grid;
-  const Vec3 spacing = grid.spacing();
+  Document document{stem.string() + (grid.uniform() ? ".vti" : ".vtr"), {}, {}};
   const std::string extent = fmt::format("0 {} 0 {} 0 {}", grid.nx, grid.ny, grid.nz);
   document.head = fmt::format("<Piece Extent=\"{}\">\n", extent);
   add_arrays(document, "CellData", image.cell_arrays, static_cast<std::size_t>(grid.cells()));
+  if (!grid.uniform()) {
+    document.head += "<Coordinates>\n";
+    for (int axis = 0; axis < 3; ++axis)
+      add_array(document, std::string(1, "xyz"[axis]), 1, grid.edges(axis));
+    document.head += "</Coordinates>\n</Piece>\n";
+    write(document, "RectilinearGrid", fmt::format(" WholeExtent=\"{}\"", extent));
+    return document.path;
+  }
   document.head += "</Piece>\n";
+  const Vec3 spacing = grid.spacing();
   write(document, "ImageData",
         fmt::format(" WholeExtent=\"{}\" Origin=\"{} {} {}\" Spacing=\"{} {} {}\"", extent, grid.origin.x,
                     grid.origin.y, grid.origin.z, spacing.x, spacing.y, spacing.z));
+  return document.path;
 }
 
 void write_vtu(const std::filesystem::path& path, const VtkUnstructured& grid) {
@@ -280,7 +289,6 @@ VtkImage flow_image(const FlowField& field) {
 VtkUnstructured porous_boxes(const FlowProblem& problem) {
   VtkUnstructured boxes;
   const FlowGrid& grid = problem.grid;
-  const Vec3 spacing = grid.spacing();
   std::vector<std::int32_t> cloth;
   std::vector<double> darcy, forchheimer;
   for (std::size_t index = 0; index < problem.porous.size(); ++index) {
@@ -290,9 +298,8 @@ VtkUnstructured porous_boxes(const FlowProblem& problem) {
       std::array<int, 8> corners{};
       for (int corner = 0; corner < 8; ++corner) {  // a voxel's points: x fastest, then y, then z
         corners[corner] = static_cast<int>(boxes.points.size());
-        boxes.points.push_back(grid.origin + Vec3{(i + (corner & 1)) * spacing.x,
-                                                  (j + (corner >> 1 & 1)) * spacing.y,
-                                                  (k + (corner >> 2)) * spacing.z});
+        boxes.points.push_back({grid.edge(0, i + (corner & 1)), grid.edge(1, j + (corner >> 1 & 1)),
+                                grid.edge(2, k + (corner >> 2))});
       }
       boxes.cells.add(corners);
       cloth.push_back(static_cast<std::int32_t>(index));

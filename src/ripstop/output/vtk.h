@@ -48,13 +48,13 @@ struct VtkSurface {
 /// .vtp. Throws Error(bad_data) when an array's length or a cell's point does not fit, Error(io).
 void write_vtp(const std::filesystem::path& path, const VtkSurface& surface);
 
-/// A uniform grid with one value a cell, in FlowGrid's order.
+/// A grid with one value a cell, in FlowGrid's order.
 struct VtkImage {
   FlowGrid grid;
   std::vector<VtkArray> cell_arrays;
 };
-/// .vti. Throws as write_vtp().
-void write_vti(const std::filesystem::path& path, const VtkImage& image);
+/// Writes `stem`.vti, or .vtr where the cells are not all alike, and returns which. Throws as write_vtp().
+std::filesystem::path write_image(const std::filesystem::path& stem, const VtkImage& image);
 
 /// Cells of one type by VTK's number, such as 11 (voxel).
 struct VtkUnstructured {

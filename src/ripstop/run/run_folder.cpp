@@ -177,7 +177,7 @@ void RunFolder::write_fields(const SteadySolver& solver, const SteadyState& stat
   lines.cell_arrays.push_back(vtk_array("tension_n", tensions));
   write_vtp(folder_ / fmt::format("vtk/lines_{:03}.vtp", k), lines);
   write_series(k);
-  write_vti(folder_ / "flow.vti", flow_image(field));
+  write_image(folder_ / "flow", flow_image(field));
 }
 
 void RunFolder::write_state(const SteadySolver& solver, const SteadyState& state) const {

@@ -97,9 +97,8 @@ FlowProgress CartesianEngine::run(Solver& solver, double tolerance, int iteratio
 
 void CartesianEngine::solve_coarse(const FlowProblem& problem, const FlowGrid& grid, const PorousRows& porous,
                                    Solver& fine) {
-  FlowGrid half = grid;
-  half.nx = (grid.nx + 1) / 2, half.ny = (grid.ny + 1) / 2, half.nz = (grid.nz + 1) / 2;
-  const PorousRows averaged(porous, half);
+  const FlowGrid half = coarser(grid);
+  const PorousRows averaged(porous, grid, half);
   Solver solver(problem, half, averaged, settings_, team_);
   if (half.cells() > 20000) {
     solve_coarse(problem, half, averaged, solver);
@@ -148,7 +147,7 @@ FlowField CartesianEngine::solve(const FlowProblem& problem, const FlowReport& r
 
 // One sealed file: a header that says what the numbers are, then the fields as they lie in memory.
 struct Header {
-  char magic[8] = {'r', 'i', 'p', 'f', 'l', 'o', 'w', '1'};
+  char magic[8] = {'r', 'i', 'p', 'f', 'l', 'o', 'w', '2'};
   FlowGrid grid;
   Freestream air;
   bool duct = false;

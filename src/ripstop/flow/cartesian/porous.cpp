@@ -46,36 +46,45 @@ PorousRows::PorousRows(const FlowGrid& grid, const std::vector<PorousCells>& clo
   }
 }
 
-PorousRows::PorousRows(const PorousRows& fine, const FlowGrid& coarse)
+PorousRows::PorousRows(const PorousRows& fine, const FlowGrid& fine_grid, const FlowGrid& coarse)
     : nx_(coarse.nx),
       ny_(coarse.ny),
       nz_(coarse.nz),
       offset_(static_cast<std::size_t>(coarse.ny) * coarse.nz, 0),
       linear_(coarse.nx, 0.0),
       quadratic_(coarse.nx, 0.0) {
-  // Share of fine cell f of `n` that lies in coarse cell c of `m`, as a fraction of the coarse cell.
-  const auto share = [](int f, int n, int c, int m) {
-    const double lo = std::max(static_cast<double>(f) / n, static_cast<double>(c) / m);
-    const double hi = std::min((f + 1.0) / n, (c + 1.0) / m);
-    return std::max(0.0, hi - lo) * m;
+  // Coarse cells that a fine cell lies in, with the share of each coarse cell that it fills.
+  struct Part {
+    int cell;
+    double share;
   };
-  const auto first = [](int f, int n, int m) { return static_cast<int>(static_cast<long long>(f) * m / n); };
+  const auto parts = [&](int axis) {
+    const std::vector<double> from = fine_grid.edges(axis), to = coarse.edges(axis);
+    std::vector<std::vector<Part>> result(from.size() - 1);
+    for (std::size_t f = 0, c = 0; f + 1 < from.size(); ++f) {
+      while (c + 2 < to.size() && to[c + 1] <= from[f]) ++c;
+      for (std::size_t at = c; at + 1 < to.size() && to[at] < from[f + 1]; ++at) {
+        const double length = std::min(from[f + 1], to[at + 1]) - std::max(from[f], to[at]);
+        if (length > 0) result[f].push_back({static_cast<int>(at), length / (to[at + 1] - to[at])});
+      }
+    }
+    return result;
+  };
+  const auto xs = parts(0), ys = parts(1), zs = parts(2);
   for (int k = 0; k < fine.nz_; ++k) {
     for (int j = 0; j < fine.ny_; ++j) {
       if (fine.empty(j, k)) continue;
       for (int i = 0; i < fine.nx_; ++i) {
         const double a = fine.linear(j, k)[i], b = fine.quadratic(j, k)[i];
         if (a == 0 && b == 0) continue;
-        const int kc = first(k, fine.nz_, nz_), jc = first(j, fine.ny_, ny_), ic = first(i, fine.nx_, nx_);
-        for (int kk = kc; kk < std::min(kc + 2, nz_); ++kk) {
-          for (int jj = jc; jj < std::min(jc + 2, ny_); ++jj) {
-            for (int ii = ic; ii < std::min(ic + 2, nx_); ++ii) {
-              const double s =
-                  share(i, fine.nx_, ii, nx_) * share(j, fine.ny_, jj, ny_) * share(k, fine.nz_, kk, nz_);
-              if (s <= 0) continue;
-              add_row(jj, kk);
-              linear_[offset_[row(jj, kk)] + ii] += s * a;
-              quadratic_[offset_[row(jj, kk)] + ii] += s * b;
+        for (const Part& kc : zs[k]) {
+          for (const Part& jc : ys[j]) {
+            add_row(jc.cell, kc.cell);
+            const std::size_t at = offset_[row(jc.cell, kc.cell)];
+            for (const Part& ic : xs[i]) {
+              const double s = ic.share * jc.share * kc.share;
+              linear_[at + ic.cell] += s * a;
+              quadratic_[at + ic.cell] += s * b;
             }
           }
         }

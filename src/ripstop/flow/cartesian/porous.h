@@ -16,7 +16,7 @@ class PorousRows {
   /// that are negative or not finite.
   PorousRows(const FlowGrid& grid, const std::vector<PorousCells>& cloths, double viscosity);
   /// The same resistance seen by a grid of half as many cells an axis: volume means.
-  PorousRows(const PorousRows& fine, const FlowGrid& coarse);
+  PorousRows(const PorousRows& fine, const FlowGrid& fine_grid, const FlowGrid& coarse);
 
   bool empty(int j, int k) const { return offset_[row(j, k)] == 0; }
   const double* linear(int j, int k) const { return linear_.data() + offset_[row(j, k)]; }        // mu d

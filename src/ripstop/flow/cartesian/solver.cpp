@@ -9,10 +9,31 @@
 namespace ripstop::cartesian {
 namespace {
 
-std::vector<double> uniform_edges(double low, double size, int n) {
-  std::vector<double> edges(n + 1);
-  for (int i = 0; i <= n; ++i) edges[i] = low + size * i / n;
-  return edges;
+/// Weights of two values of an axis (ghosts included) around a point of another one.
+struct Pair {
+  int low;
+  double high_weight;
+};
+
+/// Where the centres or faces of `to` lie among those of `from`; ghost centres are as far beyond the ends as
+/// the outermost centres lie inside.
+std::vector<Pair> pairs(const Axis& to, const Axis& from, bool faces) {
+  const auto place = [faces](const Axis& axis, int c) {
+    if (faces) return axis.edge[c];
+    if (c < 0) return axis.edge[0] - 0.5 * axis.width[0];
+    if (c >= axis.n) return axis.edge[axis.n] + 0.5 * axis.width[axis.n - 1];
+    return 0.5 * (axis.edge[c] + axis.edge[c + 1]);
+  };
+  std::vector<Pair> result(to.n + 1);
+  const int least = faces ? 0 : -1;
+  int low = least;
+  for (int c = 0; c < to.n + (faces ? 1 : 0); ++c) {
+    const double x = place(to, c);
+    while (low + 1 < from.n && place(from, low + 1) <= x) ++low;
+    const double a = place(from, low), b = place(from, low + 1);
+    result[c] = {low, std::clamp((x - a) / (b - a), 0.0, 1.0)};
+  }
+  return result;
 }
 
 }  // namespace
@@ -25,12 +46,12 @@ Solver::Solver(const FlowProblem& problem, const FlowGrid& grid, PorousRows poro
       settings_(settings),
       team_(team),
       porous_(std::move(porous)),
-      x_(make_axis(uniform_edges(grid.origin.x, grid.size.x, grid.nx), End::zero_gradient,
+      x_(make_axis(grid.edges(0), End::zero_gradient,
                    End::zero_gradient)),
-      y_(make_axis(uniform_edges(grid.origin.y, grid.size.y, grid.ny), End::zero_gradient,
+      y_(make_axis(grid.edges(1), End::zero_gradient,
                    End::zero_gradient)),
-      z_(make_axis(uniform_edges(grid.origin.z, grid.size.z, grid.nz), End::fixed_value, End::zero_gradient)),
-      zp_(make_axis(uniform_edges(grid.origin.z, grid.size.z, grid.nz), End::zero_gradient,
+      z_(make_axis(grid.edges(2), End::fixed_value, End::zero_gradient)),
+      zp_(make_axis(grid.edges(2), End::zero_gradient,
                     End::fixed_value)),
       sheets_(x_, y_, z_, problem.sheets),
       layout_(grid.nx, grid.ny, grid.nz),
@@ -98,25 +119,8 @@ void Solver::start_uniform() {
 }
 
 void Solver::start_from(const Solver& other) {
-  // Weights of two cells (ghosts included) of the other grid around the point of this one, along one axis.
-  struct Pair {
-    int low;
-    double high_weight;
-  };
-  const auto pairs = [](int n, int m, bool faces) {
-    std::vector<Pair> result(n + 1);
-    for (int c = 0; c <= n; ++c) {
-      const double at = faces ? static_cast<double>(c) * m / n : (c + 0.5) * m / n - 0.5;
-      const int low = std::clamp(static_cast<int>(std::floor(at)), faces ? 0 : -1, m - 1);
-      result[c] = {low, std::clamp(at - low, 0.0, 1.0)};
-    }
-    return result;
-  };
-  const FlowGrid& g = other.grid_;
-  const auto cx = pairs(grid_.nx, g.nx, false), cy = pairs(grid_.ny, g.ny, false),
-             cz = pairs(grid_.nz, g.nz, false);
-  const auto ex = pairs(grid_.nx, g.nx, true), ey = pairs(grid_.ny, g.ny, true),
-             ez = pairs(grid_.nz, g.nz, true);
+  const auto cx = pairs(x_, other.x_, false), cy = pairs(y_, other.y_, false), cz = pairs(z_, other.z_, false);
+  const auto ex = pairs(x_, other.x_, true), ey = pairs(y_, other.y_, true), ez = pairs(z_, other.z_, true);
   const auto interpolate = [&](const Array<double>& from, Array<double>& to, const std::vector<Pair>& px,
                                const std::vector<Pair>& py, const std::vector<Pair>& pz, bool fx, bool fy,
                                bool fz) {
@@ -251,16 +255,15 @@ std::string Solver::first_bad_value() const {
                 {"pressure", &f_.p, 1e4 * air_.density * air_.speed * air_.speed},
                 {"k", &f_.k, 1e6 * air_.speed * air_.speed},
                 {"omega", &f_.omega, 1e300}};
-  const Vec3 h = grid_.spacing();
   for (const auto& check : checks) {
     for (int k = 0; k < grid_.nz; ++k) {
       for (int j = 0; j < grid_.ny; ++j) {
         for (int i = 0; i < grid_.nx; ++i) {
           const double value = (*check.values)[layout_.at(i, j, k)];
           if (std::isfinite(value) && std::fabs(value) <= check.bound) continue;
-          return fmt::format("{} is {} at ({:.3f}, {:.3f}, {:.3f}) m", check.name, value,
-                             grid_.origin.x + (i + 0.5) * h.x, grid_.origin.y + (j + 0.5) * h.y,
-                             grid_.origin.z + (k + 0.5) * h.z);
+          const Vec3 place = grid_.centre(i, j, k);
+          return fmt::format("{} is {} at ({:.3f}, {:.3f}, {:.3f}) m", check.name, value, place.x, place.y,
+                             place.z);
         }
       }
     }

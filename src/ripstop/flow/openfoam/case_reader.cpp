@@ -34,7 +34,7 @@ struct Resistance {
 /// mu_t = 10 mu it is some 1e-6 of the dynamic pressure for cells of centimetres.
 double outflow_of_momentum(const MeshPart& part, const FieldData& phi, const FieldData& velocity,
                            const std::vector<double>& gauge, const FlowProblem& problem) {
-  const Vec3 h = problem.grid.spacing();
+  const FlowGrid& grid = problem.grid;
   double loss = 0;
   for (const Patch& patch : part.patches) {
     const auto flux = phi.patches.find(patch.name);
@@ -48,7 +48,9 @@ double outflow_of_momentum(const MeshPart& part, const FieldData& phi, const Fie
       const double inside = velocity.at(velocity.inner, cell, 2);
       const double speed = inlet ? problem.air.speed : outlet && out < 0 ? 0 : inside;
       loss -= out * speed;
-      if (inlet) loss += gauge[part.global(cell)] * h.x * h.y;  // outlet: p is 0; sides: no axial area
+      if (!inlet) continue;  // outlet: p is 0; sides: no axial area
+      const int of_grid = part.global(cell);
+      loss += gauge[of_grid] * grid.width(0, of_grid % grid.nx) * grid.width(1, of_grid / grid.nx % grid.ny);
     }
   }
   return loss;
@@ -133,7 +135,7 @@ FlowField read_case(const std::vector<MeshPart>& parts, const std::string& time,
       // Force of the air on the porous cells: (mu d + rho |u| f / 2) u V.
       const double drag = mu * resistance.darcy[cell] +
                           0.5 * rho.at(rho.inner, local) * norm(u) * resistance.forchheimer[cell];
-      field.porous_force += drag * grid.cell_volume() * u;
+      field.porous_force += drag * grid.cell_volume(cell) * u;
     }
     field.momentum_deficit += outflow_of_momentum(part, phi, velocity, field.pressure, problem);
   }

@@ -48,6 +48,22 @@ std::string field(const std::string& dimensions, const std::string& value, const
   return fmt::format("dimensions [{} 0 0 0];\n\ninternalField uniform {};\n\n{}", dimensions, value, faces);
 }
 
+/// blockMesh's grading of one axis: parts of the length, of the cells, and last over first width.
+std::string grading(const FlowGrid& grid, int axis) {
+  const Grading& g = grid.grading[axis];
+  const int n = grid.count(axis);
+  if (g.before + g.after == 0) return "1";
+  const double low = grid.edge(axis, 0), high = grid.edge(axis, n);
+  std::string text = "(";
+  const auto part = [&](double length, int cells, double expansion) {
+    if (cells > 0) text += fmt::format(" ({:.17g} {} {:.17g})", length, cells, expansion);
+  };
+  part(g.core_low - low, g.before, std::pow(g.ratio_before, 1 - g.before));
+  part(g.core_high - g.core_low, n - g.before - g.after, 1);
+  part(high - g.core_high, g.after, std::pow(g.ratio_after, g.after - 1));
+  return text + " )";
+}
+
 std::string mesh_dictionary(const FlowGrid& grid) {
   const Vec3 a = grid.origin, b = grid.origin + grid.size;
   std::string vertices;
@@ -59,13 +75,13 @@ std::string mesh_dictionary(const FlowGrid& grid) {
   }
   return fmt::format(
       "scale 1;\nvertices\n(\n{})\n;\n"
-      "blocks ( hex (0 1 2 3 4 5 6 7) ({} {} {}) simpleGrading (1 1 1) );\nedges ( );\n"
+      "blocks ( hex (0 1 2 3 4 5 6 7) ({} {} {}) simpleGrading ({} {} {}) );\nedges ( );\n"
       "boundary\n(\n"
       "    inlet {{ type patch; faces ( (0 3 2 1) ); }}\n"
       "    outlet {{ type patch; faces ( (4 5 6 7) ); }}\n"
       "    sides {{ type patch; faces ( (0 4 7 3) (1 2 6 5) (0 1 5 4) (3 7 6 2) ); }}\n"
       ");\nmergePatchPairs ( );\n",
-      vertices, grid.nx, grid.ny, grid.nz);
+      vertices, grid.nx, grid.ny, grid.nz, grading(grid, 0), grading(grid, 1), grading(grid, 2));
 }
 
 /// Factors of `ranks` along x, y, z with the least area between the parts.

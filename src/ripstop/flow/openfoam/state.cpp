@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr const char* kMarker = "saved.json";
-constexpr int kFormat = 1;
+constexpr int kFormat = 2;
 
 [[noreturn]] void fail(const fs::path& path, const char* what) {
   throw Error(ExitCode::io, fmt::format("{}: {}: {}", path.string(), what, std::strerror(errno)));
@@ -40,12 +40,23 @@ Vec3 vec3(const json& j) {
   return {j.at(0), j.at(1), j.at(2)};
 }
 
+json to_json(const Grading& g) {
+  return json::array({g.core_low, g.core_high, g.before, g.after, g.ratio_before, g.ratio_after});
+}
+
+Grading grading(const json& j) {
+  return {j.at(0), j.at(1), j.at(2), j.at(3), j.at(4), j.at(5)};
+}
+
 json describe_basis(const Basis& basis) {
   const Freestream& air = basis.air;
   return {{"grid",
            {{"origin_m", to_json(basis.grid.origin)},
             {"size_m", to_json(basis.grid.size)},
-            {"cells", {basis.grid.nx, basis.grid.ny, basis.grid.nz}}}},
+            {"cells", {basis.grid.nx, basis.grid.ny, basis.grid.nz}},
+            {"grading",
+             {to_json(basis.grid.grading[0]), to_json(basis.grid.grading[1]),
+              to_json(basis.grid.grading[2])}}}},
           {"air",
            {{"speed_m_s", air.speed},
             {"density_kg_m3", air.density},
@@ -63,7 +74,9 @@ Basis basis_from(const json& j) {
   const json& grid = j.at("grid");
   const json& air = j.at("air");
   basis.grid = {vec3(grid.at("origin_m")), vec3(grid.at("size_m")), grid.at("cells").at(0),
-                grid.at("cells").at(1), grid.at("cells").at(2)};
+                grid.at("cells").at(1), grid.at("cells").at(2),
+                {grading(grid.at("grading").at(0)), grading(grid.at("grading").at(1)),
+                 grading(grid.at("grading").at(2))}};
   basis.air = {air.at("speed_m_s"),     air.at("density_kg_m3"),        air.at("viscosity_pa_s"),
                air.at("temperature_k"), air.at("turbulence_intensity"), air.at("viscosity_ratio")};
   basis.duct = j.at("duct");
