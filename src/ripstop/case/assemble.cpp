@@ -16,11 +16,7 @@ Mesh parachute_mesh(const Case& value) {
 FlowProblem flow_problem(const Case& value) {
   const FlowSettings& settings = value.flow;
   FlowProblem problem;
-  problem.grid.origin = {-0.5 * settings.box_m.x, -0.5 * settings.box_m.y, 0};
-  problem.grid.size = settings.box_m;
-  problem.grid.nx = settings.cells[0];
-  problem.grid.ny = settings.cells[1];
-  problem.grid.nz = settings.cells[2];
+  problem.grid = flow_grid(value);
   problem.air.speed = air(value).speed;
   problem.air.density = air(value).density;
   problem.air.viscosity = settings.viscosity_pa_s;
@@ -30,6 +26,7 @@ FlowProblem flow_problem(const Case& value) {
   problem.duct = settings.sides == Sides::slip;
   problem.residual = settings.residual;
   problem.max_iterations = settings.max_iterations;
+  problem.average_over = settings.average_over;
   const Fabric& cloth = canopy_fabric(value);
   if (settings.porosity_model == PorosityModel::sheet) {
     problem.sheets = {{{}, cloth.darcy, cloth.forchheimer}};

@@ -1,5 +1,6 @@
 #include "ripstop/case/case.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "ripstop/core/toml/fields.h"
@@ -17,6 +18,17 @@ const Kind& material(const Case& value, const std::string& name) {
 }
 
 }  // namespace
+
+void describe(Fields& fields, CoreSettings& core) {
+  fields.vector("size_m", core.size_m, from(0).up_to(1000),
+                "Width, height, length of the part of the box with uniform cells, about the box's axis; outside "
+                "of it cells grow toward the sides. 0: uniform along that axis.");
+  fields
+      .number("start_m", core.start_m, from(0).up_to(1000), "Distance from the inlet to the fine part.")
+      .absent("such that a quarter of its length lies before the canopy");
+  fields.number("growth", core.growth, above(1).up_to(2),
+                "Largest ratio of a cell's width to that of its inner neighbour.");
+}
 
 void describe(Fields& fields, FlowSettings& flow) {
   fields.choice("engine", flow.engine, {{"builtin", EngineKind::builtin}, {"openfoam", EngineKind::openfoam}},
@@ -41,6 +53,7 @@ void describe(Fields& fields, FlowSettings& flow) {
   fields.vector("box_m", flow.box_m, above(0).up_to(1000),
                 "Box of air: width, height, length along the flow ([NFM] section 5).");
   fields.integers("cells", flow.cells, from(4).up_to(2000), "Cells along each side of the box.");
+  fields.table("core", flow.core, "Cells that are finer about the canopy, so that the box may be wide.");
   fields
       .number("canopy_position_m", flow.canopy_position_m, above(0).up_to(1000),
               "Distance from the inlet to the skirt of the undeformed start shape.")
@@ -61,6 +74,9 @@ void describe(Fields& fields, FlowSettings& flow) {
                 "Residual of every equation at which a solution ends.");
   fields.integer("max_iterations", flow.max_iterations, from(1).up_to(1'000'000),
                  "Most iterations of one flow solution.");
+  fields.integer("average_over", flow.average_over, from(0).up_to(1'000'000),
+                 "Iterations at the end of a flow solution that did not settle, whose mean is taken for it; 0: "
+                 "the last one stands (built-in engine only).");
   fields.integer("ranks", flow.ranks, from(1).up_to(4096), "Processes of the flow solver.");
   fields.number("time_limit_s", flow.time_limit_s, from(0).up_to(1e7),
                 "Longest wall time of one flow solution; 0: none.");
@@ -202,6 +218,21 @@ Air air(const Case& value) {
 
 double canopy_position(const Case& value) {
   return value.flow.canopy_position_m.value_or(value.flow.box_m.z / 2);
+}
+
+FlowGrid flow_grid(const Case& value) {
+  const FlowSettings& flow = value.flow;
+  FlowGrid grid;
+  grid.origin = {-0.5 * flow.box_m.x, -0.5 * flow.box_m.y, 0};
+  grid.size = flow.box_m;
+  grid.nx = flow.cells[0];
+  grid.ny = flow.cells[1];
+  grid.nz = flow.cells[2];
+  const Vec3 size = flow.core.size_m;
+  if (size.x <= 0 && size.y <= 0 && size.z <= 0) return grid;
+  const double start = flow.core.start_m.value_or(std::max(0.0, canopy_position(value) - 0.25 * size.z));
+  return graded(grid, {-0.5 * size.x, -0.5 * size.y, start}, {0.5 * size.x, 0.5 * size.y, start + size.z},
+                flow.core.growth);
 }
 
 const Fabric& canopy_fabric(const Case& value) {

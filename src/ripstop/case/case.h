@@ -12,6 +12,7 @@
 #include "ripstop/core/toml/set.h"
 #include "ripstop/core/vec3.h"
 #include "ripstop/coupling/settings.h"
+#include "ripstop/flow/flow_grid.h"
 #include "ripstop/inflation/settings.h"
 #include "ripstop/material/library.h"
 #include "ripstop/material/material.h"
@@ -26,6 +27,13 @@ enum class Sides { zero_gradient, slip };
 enum class PorosityModel { paper, sheet };
 
 /// [flow]
+/// Part of the flow's box with uniform cells, outside of which they grow.
+struct CoreSettings {
+  Vec3 size_m;                    // 0: the cells are uniform along that axis
+  std::optional<double> start_m;  // from the inlet; absent: a quarter of the core lies before the canopy
+  double growth = 1.1;            // of a cell's width to that of its inner neighbour, at most
+};
+
 struct FlowSettings {
   EngineKind engine = EngineKind::builtin;
   double speed_m_s = 0;
@@ -37,12 +45,14 @@ struct FlowSettings {
   double viscosity_ratio = 10;
   Vec3 box_m{2, 2, 4};
   std::array<int, 3> cells{100, 100, 150};
+  CoreSettings core;
   std::optional<double> canopy_position_m;  // inlet to the skirt of the start shape; absent: mid-length
   Convection convection = Convection::upwind;
   Sides sides = Sides::zero_gradient;
   PorosityModel porosity_model = PorosityModel::paper;
   double residual = 1e-5;
   int max_iterations = 1000;
+  int average_over = 0;  // last iterations of a flow that does not settle; 0: none
   int ranks = 1;
   double time_limit_s = 0;  // of one flow solution; 0: none
 };
@@ -118,6 +128,8 @@ Air air(const Case& value);
 
 /// z of the skirt of the undeformed start shape, from the inlet [m].
 double canopy_position(const Case& value);
+/// Cells of the flow. Throws Error(usage) for a core that does not fit, or that the cells do not suffice for.
+FlowGrid flow_grid(const Case& value);
 
 /// The materials of the parachute's parts, looked up by the names in the design.
 const Fabric& canopy_fabric(const Case& value);

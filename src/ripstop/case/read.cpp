@@ -105,13 +105,21 @@ void check_box(const Case& value, Findings& findings) {
         "flow.cells", fmt::format("[{}]", fmt::join(cells, ", ")),
         fmt::format("at most {:.0e} together", most_cells),
         fmt::format("{:.3g} cells are more than {:.0e}, more than the solver can hold", all, most_cells));
-  const double sides[] = {box.x, box.y, box.z};
+  if (!findings.sound({"flow.core"})) return;
+  FlowGrid grid;
+  try {
+    grid = flow_grid(value);
+  } catch (const Error& error) {
+    return findings.add("flow.core", "", "", error.what());
+  }
+  const Vec3 width = grid.spacing();
+  const double widths[] = {width.x, width.y, width.z};
   for (std::size_t i = 0; i < 3; ++i) {
-    const double across = diameter * cells[i] / sides[i];
+    const double across = diameter / widths[i];
     if (across < fewest_cells_across)
       findings.add(
           fmt::format("flow.cells[{}]", i), cells[i],
-          fmt::format("at least {:.0f}", std::ceil(fewest_cells_across * sides[i] / diameter)),
+          fmt::format("at least {:.0f}", std::ceil(cells[i] * fewest_cells_across / across)),
           fmt::format("only {:.2g} cells lie across the canopy's diameter; {} are the fewest that show a "
                       "canopy at all",
                       across, fewest_cells_across));

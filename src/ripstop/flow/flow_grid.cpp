@@ -123,6 +123,7 @@ FlowGrid graded(const FlowGrid& box, Vec3 core_low, Vec3 core_high, double growt
     const double low = along(box.origin, axis), high = low + along(box.size, axis);
     const double from = along(core_low, axis), to = along(core_high, axis);
     const char name = "xyz"[axis];
+    if (from == to) continue;
     if (!(low <= from && from < to && to <= high)) {
       throw Error(ExitCode::usage,
                   fmt::format("flow grid: the core reaches from {0} = {1} m to {0} = {2} m, but must lie in "
