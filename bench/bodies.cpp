@@ -23,8 +23,8 @@ struct Body {
   double area, loss, reference;  // loss: coefficient K of a porous disk, 0: impermeable
 };
 
-// Box of `box` diameters across and 1.5 times that long, the body at 0.45 of its length; cells of d / `across` in
-// a core about it, growing by an eighth outside.
+// Box of `box` diameters across and 1.5 times that long, the body at 0.45 of its length; cells of d /
+// `across` in a core about it, growing by an eighth outside.
 FlowGrid box_about(double d, double box, int across, Vec3 centre) {
   const double from = 0.4 * d, past = 1.4 * d, half = 0.7 * d, growth = 1.125;
   FlowGrid grid{{-box / 2 * d, -box / 2 * d, 0}, {box * d, box * d, 1.5 * box * d}, 0, 0, 0};

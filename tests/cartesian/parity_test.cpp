@@ -2,11 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
-#include <sstream>
 #include <string>
 
+#include "openfoam_installed.h"
 #include "ripstop/flow/bodies.h"
 #include "ripstop/flow/cartesian/cartesian.h"
 #include "ripstop/flow/openfoam/openfoam.h"
@@ -18,15 +17,6 @@ struct Canopy {
   const char* name;
   double darcy, forchheimer;
 };
-
-bool openfoam_is_installed() {
-  const char* path = std::getenv("PATH");
-  std::stringstream folders(path ? path : "");
-  for (std::string folder; std::getline(folders, folder, ':');) {
-    if (std::filesystem::exists(std::filesystem::path(folder) / "rhoPorousSimpleFoam")) return true;
-  }
-  return false;
-}
 
 class Parity : public testing::TestWithParam<Canopy> {};
 

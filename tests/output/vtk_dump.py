@@ -8,6 +8,7 @@ import vtk
 READERS = {
     "vtp": vtk.vtkXMLPolyDataReader,
     "vti": vtk.vtkXMLImageDataReader,
+    "vtr": vtk.vtkXMLRectilinearGridReader,
     "vtu": vtk.vtkXMLUnstructuredGridReader,
     "stl": vtk.vtkSTLReader,
 }
@@ -51,6 +52,9 @@ def dump(path):
         result["dimensions"] = data.GetDimensions()
         result["origin"] = data.GetOrigin()
         result["spacing"] = data.GetSpacing()
+        return result
+    if data.GetClassName() == "vtkRectilinearGrid":
+        result["coordinates"] = [array(a) for a in (data.GetXCoordinates(), data.GetYCoordinates(), data.GetZCoordinates())]
         return result
     result["points"] = array(data.GetPoints().GetData())
     result["cells"] = []

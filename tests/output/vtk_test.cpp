@@ -135,6 +135,24 @@ TEST(Vti, VtkReadsBackAFieldOfManyCompressedBlocksBitForBit) {
   expect_array(seen["cell_arrays"][2], "exact", "double", 1, bits(field.pressure));
 }
 
+TEST(Vtr, VtkReadsBackGradedCellsBitForBit) {
+  const TemporaryFolder folder("vtr");
+  FlowField field;
+  field.grid = graded({{-3, -2, 0}, {6, 4, 10}, 20, 21, 30}, {-0.5, -0.4, 2.5}, {0.5, 0.4, 4.5}, 1.4);
+  for (int i = 0; i < field.grid.cells(); ++i) {
+    field.pressure.push_back(i);
+    field.velocity.push_back({1.0 * i, 2.0 * i, 3.0 * i});
+  }
+  EXPECT_EQ(write_image(folder.path / "flow", flow_image(field)), folder.path / "flow.vtr");
+  const json seen = seen_by_vtk(folder.path / "flow.vtr");
+  EXPECT_EQ(seen["class"], "vtkRectilinearGrid");
+  for (int axis = 0; axis < 3; ++axis)
+    expect_array(seen["coordinates"][axis], std::string(1, "xyz"[axis]), "double", 1,
+                 bits(field.grid.edges(axis)));
+  expect_array(seen["cell_arrays"][0], "pressure_pa", "float", 1,
+               bits(std::vector<float>(field.pressure.begin(), field.pressure.end())));
+}
+
 TEST(Vti, ABlockThatIsExactlyFullNeedsNoPartialOne) {
   const TemporaryFolder folder("block");
   VtkImage image{{{0, 0, 0}, {1, 1, 1}, 32, 32, 64}, {}};  // 65536 doubles: two blocks of 2^18 bytes

@@ -20,11 +20,11 @@ const Kind& material(const Case& value, const std::string& name) {
 }  // namespace
 
 void describe(Fields& fields, CoreSettings& core) {
-  fields.vector("size_m", core.size_m, from(0).up_to(1000),
-                "Width, height, length of the part of the box with uniform cells, about the box's axis; outside "
-                "of it cells grow toward the sides. 0: uniform along that axis.");
-  fields
-      .number("start_m", core.start_m, from(0).up_to(1000), "Distance from the inlet to the fine part.")
+  fields.vector(
+      "size_m", core.size_m, from(0).up_to(1000),
+      "Width, height, length of the part of the box with uniform cells, about the box's axis; outside "
+      "of it cells grow toward the sides. 0: uniform along that axis.");
+  fields.number("start_m", core.start_m, from(0).up_to(1000), "Distance from the inlet to the fine part.")
       .absent("such that a quarter of its length lies before the canopy");
   fields.number("growth", core.growth, above(1).up_to(2),
                 "Largest ratio of a cell's width to that of its inner neighbour.");
@@ -74,9 +74,10 @@ void describe(Fields& fields, FlowSettings& flow) {
                 "Residual of every equation at which a solution ends.");
   fields.integer("max_iterations", flow.max_iterations, from(1).up_to(1'000'000),
                  "Most iterations of one flow solution.");
-  fields.integer("average_over", flow.average_over, from(0).up_to(1'000'000),
-                 "Iterations at the end of a flow solution that did not settle, whose mean is taken for it; 0: "
-                 "the last one stands (built-in engine only).");
+  fields.integer(
+      "average_over", flow.average_over, from(0).up_to(1'000'000),
+      "Iterations at the end of a flow solution that did not settle, whose mean is taken for it; 0: "
+      "the last one stands (built-in engine only).");
   fields.integer("ranks", flow.ranks, from(1).up_to(4096), "Processes of the flow solver.");
   fields.number("time_limit_s", flow.time_limit_s, from(0).up_to(1e7),
                 "Longest wall time of one flow solution; 0: none.");

@@ -23,8 +23,8 @@ std::optional<double> one_sided(const FlowField& field, const std::vector<char>&
     const int i = di ? x.high : x.low, j = dj ? y.high : y.low, k = dk ? z.high : z.low;
     const int cell = grid.index(i, j, k);
     if (cut[cell] || dot(grid.centre(i, j, k) - centre, direction) <= 0) continue;
-    const double weight = (di ? x.weight : 1 - x.weight) * (dj ? y.weight : 1 - y.weight) *
-                          (dk ? z.weight : 1 - z.weight);
+    const double weight =
+        (di ? x.weight : 1 - x.weight) * (dj ? y.weight : 1 - y.weight) * (dk ? z.weight : 1 - z.weight);
     sum += weight * field.pressure[cell];
     weights += weight;
   }

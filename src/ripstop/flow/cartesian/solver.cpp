@@ -46,13 +46,10 @@ Solver::Solver(const FlowProblem& problem, const FlowGrid& grid, PorousRows poro
       settings_(settings),
       team_(team),
       porous_(std::move(porous)),
-      x_(make_axis(grid.edges(0), End::zero_gradient,
-                   End::zero_gradient)),
-      y_(make_axis(grid.edges(1), End::zero_gradient,
-                   End::zero_gradient)),
+      x_(make_axis(grid.edges(0), End::zero_gradient, End::zero_gradient)),
+      y_(make_axis(grid.edges(1), End::zero_gradient, End::zero_gradient)),
       z_(make_axis(grid.edges(2), End::fixed_value, End::zero_gradient)),
-      zp_(make_axis(grid.edges(2), End::zero_gradient,
-                    End::fixed_value)),
+      zp_(make_axis(grid.edges(2), End::zero_gradient, End::fixed_value)),
       sheets_(x_, y_, z_, problem.sheets),
       layout_(grid.nx, grid.ny, grid.nz),
       multigrid_(x_, y_, zp_) {
@@ -119,7 +116,8 @@ void Solver::start_uniform() {
 }
 
 void Solver::start_from(const Solver& other) {
-  const auto cx = pairs(x_, other.x_, false), cy = pairs(y_, other.y_, false), cz = pairs(z_, other.z_, false);
+  const auto cx = pairs(x_, other.x_, false), cy = pairs(y_, other.y_, false),
+             cz = pairs(z_, other.z_, false);
   const auto ex = pairs(x_, other.x_, true), ey = pairs(y_, other.y_, true), ez = pairs(z_, other.z_, true);
   const auto interpolate = [&](const Array<double>& from, Array<double>& to, const std::vector<Pair>& px,
                                const std::vector<Pair>& py, const std::vector<Pair>& pz, bool fx, bool fy,
@@ -214,6 +212,8 @@ FlowProgress Solver::iterate() {
     each_plane_of_a_block([&](int k, IndexRange rows) { pressure(k, rows); });
     if (sheets_.shut()) {  // nothing passes round the sheet: coarse levels are cut in two
       multigrid_.solve_conjugate(team_, rank, 0.05, 20);
+    } else if (!grid_.uniform()) {  // long thin cells, which a cycle alone does not smooth
+      multigrid_.solve_conjugate(team_, rank, 0.2, 2 * settings_.pressure_cycles);
     } else {
       multigrid_.solve(team_, rank, settings_.pressure_cycles);
     }

@@ -50,31 +50,34 @@ Grading grading(const json& j) {
 
 json describe_basis(const Basis& basis) {
   const Freestream& air = basis.air;
-  return {{"grid",
-           {{"origin_m", to_json(basis.grid.origin)},
-            {"size_m", to_json(basis.grid.size)},
-            {"cells", {basis.grid.nx, basis.grid.ny, basis.grid.nz}},
-            {"grading",
-             {to_json(basis.grid.grading[0]), to_json(basis.grid.grading[1]),
-              to_json(basis.grid.grading[2])}}}},
-          {"air",
-           {{"speed_m_s", air.speed},
-            {"density_kg_m3", air.density},
-            {"viscosity_pa_s", air.viscosity},
-            {"temperature_k", air.temperature},
-            {"turbulence_intensity", air.turbulence_intensity},
-            {"viscosity_ratio", air.viscosity_ratio}}},
-          {"duct", basis.duct},
-          {"ranks", basis.ranks},
-          {"second_order", basis.second_order}};
+  return {
+      {"grid",
+       {{"origin_m", to_json(basis.grid.origin)},
+        {"size_m", to_json(basis.grid.size)},
+        {"cells", {basis.grid.nx, basis.grid.ny, basis.grid.nz}},
+        {"grading",
+         {to_json(basis.grid.grading[0]), to_json(basis.grid.grading[1]), to_json(basis.grid.grading[2])}}}},
+      {"air",
+       {{"speed_m_s", air.speed},
+        {"density_kg_m3", air.density},
+        {"viscosity_pa_s", air.viscosity},
+        {"temperature_k", air.temperature},
+        {"turbulence_intensity", air.turbulence_intensity},
+        {"viscosity_ratio", air.viscosity_ratio}}},
+      {"duct", basis.duct},
+      {"ranks", basis.ranks},
+      {"second_order", basis.second_order}};
 }
 
 Basis basis_from(const json& j) {
   Basis basis;
   const json& grid = j.at("grid");
   const json& air = j.at("air");
-  basis.grid = {vec3(grid.at("origin_m")), vec3(grid.at("size_m")), grid.at("cells").at(0),
-                grid.at("cells").at(1), grid.at("cells").at(2),
+  basis.grid = {vec3(grid.at("origin_m")),
+                vec3(grid.at("size_m")),
+                grid.at("cells").at(0),
+                grid.at("cells").at(1),
+                grid.at("cells").at(2),
                 {grading(grid.at("grading").at(0)), grading(grid.at("grading").at(1)),
                  grading(grid.at("grading").at(2))}};
   basis.air = {air.at("speed_m_s"),     air.at("density_kg_m3"),        air.at("viscosity_pa_s"),
