@@ -97,7 +97,8 @@ void print_result(const SteadyResult& r, const Case& value, const fs::path& fold
                   r.last.nodal_load, r.last.line_tension, r.last.momentum_deficit));
   row("coupling", fmt::format("{} iterations, {}, {}", r.iterations,
                               r.converged ? "converged" : "NOT converged", duration_text(r.wall_time)));
-  row("files", fmt::format("{} (canopy.png, canopy.pvd, flow.vti, result.json)", folder.string()));
+  row("files", fmt::format("{} (canopy.png, canopy.pvd, {}, result.json)", folder.string(),
+                           flow_grid(value).uniform() ? "flow.vti" : "flow.vtr"));
 }
 
 // A run that another process already finished is only shown.

@@ -26,14 +26,14 @@ enum class Convection { upwind, second_order };
 enum class Sides { zero_gradient, slip };
 enum class PorosityModel { paper, sheet };
 
-/// [flow]
-/// Part of the flow's box with uniform cells, outside of which they grow.
+/// [flow.core], the part of the flow's box with uniform cells, outside of which they grow.
 struct CoreSettings {
   Vec3 size_m;                    // 0: the cells are uniform along that axis
   std::optional<double> start_m;  // from the inlet; absent: a quarter of the core lies before the canopy
   double growth = 1.1;            // of a cell's width to that of its inner neighbour, at most
 };
 
+/// [flow]
 struct FlowSettings {
   EngineKind engine = EngineKind::builtin;
   double speed_m_s = 0;

@@ -105,7 +105,16 @@ void check_box(const Case& value, Findings& findings) {
         "flow.cells", fmt::format("[{}]", fmt::join(cells, ", ")),
         fmt::format("at most {:.0e} together", most_cells),
         fmt::format("{:.3g} cells are more than {:.0e}, more than the solver can hold", all, most_cells));
-  if (!findings.sound({"flow.core"})) return;
+  if (!findings.sound({"flow.core.size_m", "flow.core.start_m", "flow.core.growth"})) return;
+  const Vec3 core = value.flow.core.size_m;
+  for (const auto& [index, side] : {std::pair{0, core.x}, std::pair{1, core.y}})
+    if (side > 0 && side < diameter)
+      findings.add(fmt::format("flow.core.size_m[{}]", index), side, fmt::format("at least {:.6g}", diameter),
+                   fmt::format("{} does not fit into the fine core", canopy));
+  if (core.z > 0 && value.flow.core.start_m.value_or(0) > skirt)
+    findings.add("flow.core.start_m", *value.flow.core.start_m, fmt::format("at most {:.6g}", skirt),
+                 fmt::format("the skirt, at {:.6g} m, lies before the fine core", skirt));
+  if (!findings.sound({"flow.core.size_m", "flow.core.start_m"})) return;
   FlowGrid grid;
   try {
     grid = flow_grid(value);
@@ -126,6 +135,14 @@ void check_box(const Case& value, Findings& findings) {
   }
 }
 
+void check_average(const Case& value, Findings& findings) {
+  const FlowSettings& flow = value.flow;
+  if (findings.sound({"flow.average_over", "flow.max_iterations"}) && flow.average_over > flow.max_iterations)
+    findings.add("flow.average_over", flow.average_over,
+                 fmt::format("at most {}, flow.max_iterations", flow.max_iterations),
+                 "a flow solution has no more iterations than that");
+}
+
 std::vector<Problem> problems_of(Case& value, std::vector<Problem> problems) {
   Fields fields;
   describe(fields, value);
@@ -135,6 +152,7 @@ std::vector<Problem> problems_of(Case& value, std::vector<Problem> problems) {
   check_materials(value, findings);
   check_measured(value, findings);
   check_box(value, findings);
+  check_average(value, findings);
   return problems;
 }
 
