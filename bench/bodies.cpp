@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "ripstop/core/error.h"
+#include "far_box.h"
 #include "ripstop/flow/cartesian/cartesian.h"
 
 using namespace ripstop;
@@ -23,32 +23,28 @@ struct Body {
   double area, loss, reference;  // loss: coefficient K of a porous disk, 0: impermeable
 };
 
-// Box of `box` diameters across and 1.5 times that long, the body at 0.45 of its length; cells of d /
-// `across` in a core about it, growing by an eighth outside.
-FlowGrid box_about(double d, double box, int across, Vec3 centre) {
-  const double from = 0.4 * d, past = 1.4 * d, half = 0.7 * d, growth = 1.125;
-  FlowGrid grid{{-box / 2 * d, -box / 2 * d, 0}, {box * d, box * d, 1.5 * box * d}, 0, 0, 0};
-  const auto filled = [&](int& cells, int axis) {
-    for (cells = 8;; ++cells) {
-      FlowGrid one = grid;
-      one.nx = axis == 0 ? cells : 8, one.ny = axis == 1 ? cells : 8, one.nz = axis == 2 ? cells : 8;
-      const Vec3 low{axis == 0 ? -half : 0, axis == 1 ? -half : 0, axis == 2 ? centre.z - from : 0},
-          high{axis == 0 ? half : 0, axis == 1 ? half : 0, axis == 2 ? centre.z + past : 0};
-      try {
-        const Vec3 h = graded(one, low, high, growth).spacing();
-        if ((axis == 0 ? h.x : axis == 1 ? h.y : h.z) <= 1.0001 * d / across) return;
-      } catch (const Error&) {  // too few for a core at all
-      }
-    }
-  };
-  filled(grid.nx, 0), filled(grid.ny, 1), filled(grid.nz, 2);
-  return graded(grid, {-half, -half, centre.z - from}, {half, half, centre.z + past}, growth);
-}
-
 struct Result {
   int cells = 0;
   double coefficient = 0, change = 0;  // the latter over the last 100 iterations, relative
+  double front = 0, back = 0;          // mean pressure coefficient, weighted with the area across the flow
 };
+
+// Means over the faces across the stream that the body parts, of the cells before and behind them.
+void read_pressures(const FlowField& field, double dynamic_pressure, Result& result) {
+  const FlowGrid& grid = field.grid;
+  double area = 0;
+  for (const SheetLoad& load : field.sheet_loads) {
+    if (load.force.z == 0) continue;
+    int k = grid.cell_at(2, load.point.z);
+    if (grid.centre(2, k) > load.point.z) --k;
+    const int i = grid.cell_at(0, load.point.x), j = grid.cell_at(1, load.point.y);
+    const double share = load.force.z / load.drop;
+    area += share;
+    result.front += share * field.pressure[grid.index(i, j, k)];
+    result.back += share * field.pressure[grid.index(i, j, k + 1)];
+  }
+  result.front /= area * dynamic_pressure, result.back /= area * dynamic_pressure;
+}
 
 Result drag_coefficient(const Body& body, const FlowGrid& grid) {
   FlowProblem problem;
@@ -64,8 +60,13 @@ Result drag_coefficient(const Body& body, const FlowGrid& grid) {
   settings.second_order = true;
   const FlowField field = make_cartesian(settings)->solve(problem, {});
   const FlowAverage& mean = field.average;
-  return {grid.cells(), field.porous_force.z / (0.5 * rho * speed * speed * body.area),
-          mean.iterations > 0 ? (mean.drag_high - mean.drag_low) / mean.drag : 0};
+  const double dynamic_pressure = 0.5 * rho * speed * speed;
+  Result result;
+  result.cells = grid.cells();
+  result.coefficient = field.porous_force.z / (dynamic_pressure * body.area);
+  if (mean.iterations > 0) result.change = (mean.drag_high - mean.drag_low) / mean.drag;
+  read_pressures(field, dynamic_pressure, result);
+  return result;
 }
 
 }  // namespace
@@ -75,7 +76,7 @@ int main(int argc, char** argv) {
   const std::string only = argc > 2 ? argv[2] : "";
   const double box = argc > 3 ? std::atof(argv[3]) : 12;
   const double d = 1, disk_area = std::numbers::pi / 4 * d * d;
-  const Vec3 centre{0, 0, 0.45 * 1.5 * box};
+  const Vec3 centre{0, 0, 0.45 * 1.5 * box * d};
   const std::vector<Body> bodies = {
       {"disk", disk(d, centre), disk_area, 0, 1.17},
       {"square plate", square_plate(d, centre), d * d, 0, 1.17},
@@ -86,15 +87,15 @@ int main(int argc, char** argv) {
   };
   fmt::print("Diameter or side d = 1 m, 30 m/s, box {} x {} x {} m, slip sides, second order\n", box, box,
              1.5 * box);
-  fmt::print("{:>22} {:>9} {:>6} {:>9} {:>11} {:>9} {:>14}\n", "body", "reference", "h/d", "cells",
-             "coefficient", "off by", "last 100 it.");
+  fmt::print("{:>22} {:>9} {:>6} {:>9} {:>11} {:>9} {:>8} {:>8} {:>14}\n", "body", "reference", "h/d",
+             "cells", "coefficient", "off by", "Cp front", "Cp back", "last 100 it.");
   for (const Body& body : bodies) {
     if (!only.empty() && body.name != only) continue;
     for (int n = finest / 4; n <= finest; n *= 2) {
-      const Result r = drag_coefficient(body, box_about(d, box, n, centre));
-      fmt::print("{:>22} {:>9.3f} {:>6} {:>9} {:>11.3f} {:>+7.1f} % {:>12.2f} %\n", body.name, body.reference,
-                 fmt::format("1/{}", n), r.cells, r.coefficient, 100 * (r.coefficient / body.reference - 1),
-                 100 * r.change);
+      const Result r = drag_coefficient(body, far_box(d, box, n, centre.z));
+      fmt::print("{:>22} {:>9.3f} {:>6} {:>9} {:>11.3f} {:>+7.1f} % {:>8.3f} {:>8.3f} {:>12.2f} %\n",
+                 body.name, body.reference, fmt::format("1/{}", n), r.cells, r.coefficient,
+                 100 * (r.coefficient / body.reference - 1), r.front, r.back, 100 * r.change);
       std::fflush(stdout);
     }
   }

@@ -1,0 +1,31 @@
+// A wide box about a small body, for studies of the flow alone.
+#pragma once
+
+#include "ripstop/core/error.h"
+#include "ripstop/flow/flow_grid.h"
+
+namespace ripstop {
+
+/// Box of `box` diameters d across and 1.5 times that long, with a core of cells of d / `across` about a body
+/// at x = y = 0 and z that grow by an eighth outside of it.
+inline FlowGrid far_box(double d, double box, int across, double z) {
+  const double from = 0.4 * d, past = 1.4 * d, half = 0.7 * d, growth = 1.125;
+  FlowGrid grid{{-box / 2 * d, -box / 2 * d, 0}, {box * d, box * d, 1.5 * box * d}, 0, 0, 0};
+  const auto filled = [&](int& cells, int axis) {
+    for (cells = 8;; ++cells) {
+      FlowGrid one = grid;
+      one.nx = axis == 0 ? cells : 8, one.ny = axis == 1 ? cells : 8, one.nz = axis == 2 ? cells : 8;
+      const Vec3 low{axis == 0 ? -half : 0, axis == 1 ? -half : 0, axis == 2 ? z - from : 0},
+          high{axis == 0 ? half : 0, axis == 1 ? half : 0, axis == 2 ? z + past : 0};
+      try {
+        const Vec3 h = graded(one, low, high, growth).spacing();
+        if ((axis == 0 ? h.x : axis == 1 ? h.y : h.z) <= 1.0001 * d / across) return;
+      } catch (const Error&) {  // too few for a core at all
+      }
+    }
+  };
+  filled(grid.nx, 0), filled(grid.ny, 1), filled(grid.nz, 2);
+  return graded(grid, {-half, -half, z - from}, {half, half, z + past}, growth);
+}
+
+}  // namespace ripstop
