@@ -1,5 +1,6 @@
 // Bodies of known drag as sheets, on finer and finer grids: slip sides, second-order convection.
-//   bench_bodies [cells across the body on the finest grid [body [width of the box in diameters]]]
+//   bench_bodies [cells across the body on the finest grid [body [width of the box in diameters [turbulence
+//   intensity]]]]
 #include "ripstop/flow/bodies.h"
 
 #include <fmt/core.h>
@@ -46,10 +47,11 @@ void read_pressures(const FlowField& field, double dynamic_pressure, Result& res
   result.front /= area * dynamic_pressure, result.back /= area * dynamic_pressure;
 }
 
-Result drag_coefficient(const Body& body, const FlowGrid& grid) {
+Result drag_coefficient(const Body& body, const FlowGrid& grid, double turbulence) {
   FlowProblem problem;
   problem.grid = grid;
   problem.air.speed = 30;
+  problem.air.turbulence_intensity = turbulence;
   problem.duct = true;
   problem.max_iterations = 600;
   problem.average_over = 100;
@@ -74,7 +76,7 @@ Result drag_coefficient(const Body& body, const FlowGrid& grid) {
 int main(int argc, char** argv) {
   const int finest = argc > 1 ? std::atoi(argv[1]) : 32;
   const std::string only = argc > 2 ? argv[2] : "";
-  const double box = argc > 3 ? std::atof(argv[3]) : 12;
+  const double box = argc > 3 ? std::atof(argv[3]) : 12, turbulence = argc > 4 ? std::atof(argv[4]) : 0.005;
   const double d = 1, disk_area = std::numbers::pi / 4 * d * d;
   const Vec3 centre{0, 0, 0.45 * 1.5 * box * d};
   const std::vector<Body> bodies = {
@@ -92,7 +94,7 @@ int main(int argc, char** argv) {
   for (const Body& body : bodies) {
     if (!only.empty() && body.name != only) continue;
     for (int n = finest / 4; n <= finest; n *= 2) {
-      const Result r = drag_coefficient(body, far_box(d, box, n, centre.z));
+      const Result r = drag_coefficient(body, far_box(d, box, n, centre.z), turbulence);
       fmt::print("{:>22} {:>9.3f} {:>6} {:>9} {:>11.3f} {:>+7.1f} % {:>8.3f} {:>8.3f} {:>12.2f} %\n",
                  body.name, body.reference, fmt::format("1/{}", n), r.cells, r.coefficient,
                  100 * (r.coefficient / body.reference - 1), r.front, r.back, 100 * r.change);

@@ -18,7 +18,7 @@ int main(int argc, char** argv) {
   const int finest = argc > 1 ? std::atoi(argv[1]) : 40;
   const double d = 0.65, box = 12, skirt = 0.45 * 1.5 * box * d;
   fmt::print(
-      "Rigid disk-gap-band, d = {} m, 30 m/s, box {} d wide, mean drag of the last 100 of 600 iterations "
+      "Rigid disk-gap-band, d = {} m, 30 m/s, box {} d wide, mean drag of the last 100 of 400 iterations "
       "[N]\n",
       d, box);
   fmt::print("{:>5} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n", "h/d", "cells", "a Pa s/m", "at 0",
@@ -30,7 +30,7 @@ int main(int argc, char** argv) {
       problem.grid = far_box(d, box, n, skirt);
       problem.air.speed = 30;
       problem.duct = true;
-      problem.max_iterations = 600;
+      problem.max_iterations = 400;
       problem.average_over = 100;
       const Vec3 h = problem.grid.spacing();
       CartesianSettings settings;

@@ -25,6 +25,8 @@ std::pair<std::ptrdiff_t, std::ptrdiff_t> cells(const SheetFace& g, const Layout
   return {high - (g.axis == 0 ? 1 : g.axis == 1 ? layout.stride_y : layout.stride_z), high};
 }
 
+constexpr double least_jet = 0.25;  // of U, in the slope only: the answer does not depend on it
+
 struct Cover {
   double share = 1, steep = 1;
 };
@@ -33,8 +35,9 @@ struct Cover {
 // loses its jet, rho / 2 (v / (1 - c) - v)^2 (Borda and Carnot); that resistance, over v, stands in parallel
 // to c times the cloth's. Of a face the cloth's drop is the `share`; `steep` is its slope over v over its own
 // ratio to v.
-Cover cover_of(double c, double resistance, double density, double velocity) {
-  const double ratio = c / (1 - c), jet = 0.5 * density * std::abs(velocity) * ratio * ratio;
+Cover cover_of(double c, double resistance, double density, double speed) {
+  if (c >= 1) return {};
+  const double ratio = c / (1 - c), jet = 0.5 * density * speed * ratio * ratio;
   const double cloth = c * resistance, both = jet + cloth;
   if (both <= 0) return {c, 1};
   return {c * jet / both, (jet + 2 * cloth) / both};
@@ -115,14 +118,16 @@ void SheetRows::update(const Fields& fields, const Layout& layout, double moment
     const double oblique = std::min(slope, oblique_limit * momentum);
     const double rest = slope > 0 ? own * (1 - oblique / slope) : 0;
     const double cover = g.hem ? std::min(1.0, g.area / (face.area * std::max(normal, 1e-3))) : 1.0;
-    const Cover beside =
-        cover < 1 ? cover_of(cover, slope, 0.5 * (fields.rho[low] + fields.rho[high]), velocity) : Cover{};
+    const double density = 0.5 * (fields.rho[low] + fields.rho[high]), speed = std::abs(velocity);
+    const Cover beside = cover_of(cover, slope, density, speed);
+    // A jet that has yet to start, or that turns back, would offer no slope at all.
+    const Cover brisk = cover_of(cover, slope, density, std::max(speed, least_jet * momentum / density));
     const double along = oblique, across = rest * spread;
     face.jump = beside.share * (along * through + across * velocity);
     // Each face sees the others' velocities of the last iteration: the slope of the law, and no less, keeps
     // that stable.
     const double steep = slope > 0 ? (face.a + 2 * face.b * std::abs(through)) / slope : 1;
-    face.stiffness = beside.share * beside.steep * (along * steep + across);
+    face.stiffness = brisk.share * brisk.steep * (along * steep + across);
     excess_[face.at] += face.jump;
     stiffness_[face.at] += face.stiffness;
   }
