@@ -10,6 +10,7 @@
 #include "commands.h"
 #include "ripstop/case/summary.h"
 #include "ripstop/core/error.h"
+#include "warnings.h"
 
 namespace ripstop {
 namespace {
@@ -47,6 +48,7 @@ Json to_json(const Case& value, const CaseSummary& s) {
             {"total", s.total_mass}}},
           {"nodes", s.nodes},
           {"cloth_nodes", s.cloth_nodes},
+          {"resolved_cloth_nodes", s.resolved_cloth_nodes},
           {"springs", s.springs},
           {"smallest_spring_m", s.smallest_spring},
           {"smallest_spring_part", s.smallest_part},
@@ -72,8 +74,8 @@ void print(const Case& value, const CaseSummary& s) {
                           100 * s.geometric_porosity, s.vent_area, s.slot_area));
   row("mass", fmt::format("{:.4f} kg: cloth {:.4f}, tape {:.4f}, lines {:.4f}, riser {:.4f}", s.total_mass,
                           s.cloth_mass, s.tape_mass, s.line_mass, s.riser_mass));
-  row("nodes", fmt::format("{}, of these {} of cloth ({} asked for)", s.nodes, s.cloth_nodes,
-                           value.parachute.mesh.cloth_nodes));
+  row("nodes", fmt::format("{}, of these {} of cloth ({} asked for, {} resolve its size)", s.nodes,
+                           s.cloth_nodes, value.parachute.mesh.cloth_nodes, s.resolved_cloth_nodes));
   row("springs",
       fmt::format("{}, the smallest {:.3g} mm ({})", s.springs, 1000 * s.smallest_spring, s.smallest_part));
   row("stable step", fmt::format("{:.3g} s, set by {}; the paper's bound gives {:.3g} s", s.step.stable_step,
@@ -97,6 +99,7 @@ int run(const Options& options) {
       fmt::print("{}\n", to_json(value, summary).dump(2));
     else
       print(value, summary);
+    if (!options.json) print_mesh_warning(value);
     return 0;
   } catch (const InputError& error) {
     if (!options.json) throw;

@@ -80,6 +80,7 @@ int run(const Options& options) {
   row("highest line tension", fmt::format("{:.1f} N", line));
   row("highest stress", fmt::format("{:.0f} N/m von Mises, on the {}", peak.von_mises, peak.patch));
 
+  print_mesh_warning(value);
   print_material_warnings(value, peak.strain);
 
   if (!options.out.empty()) {

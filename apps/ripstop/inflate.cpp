@@ -145,6 +145,7 @@ int run(const Options& options) {
   files.save(state);
   const InflationResult result = files.finish(solver, state, value, source);
   print_result(result, value, source, folder);
+  print_mesh_warning(value);
   print_material_warnings(value, result.stress.strain);
   return 0;
 }

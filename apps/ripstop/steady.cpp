@@ -155,6 +155,7 @@ int run(const Options& options) {
   if (outcome.already_finished) return show_finished(outcome.json, folder);
   const SteadyResult& result = outcome.result;
   print_result(result, value, folder);
+  print_mesh_warning(value);
   print_material_warnings(value, result.stress.strain);
   if (!result.converged) {
     fmt::print(stderr,

@@ -3,8 +3,19 @@
 #include <fmt/format.h>
 
 #include "ripstop/material/fit_material.h"
+#include "ripstop/parachute/resolution.h"
 
 namespace ripstop {
+
+void print_mesh_warning(const Case& value) {
+  const int asked = value.parachute.mesh.cloth_nodes, enough = resolved_cloth_nodes(value.parachute);
+  if (asked < enough)
+    fmt::print(stderr,
+               "warning: parachute.mesh.cloth_nodes = {}: the projected diameter of this type may come out "
+               "more than "
+               "1 % too large with fewer than {} nodes (docs/guide/canopies.md, How fine a mesh)\n",
+               asked, enough);
+}
 
 void print_material_warnings(const Case& value, double largest_cloth_strain) {
   for (const auto& [name, material] : value.materials) {

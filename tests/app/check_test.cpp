@@ -80,6 +80,21 @@ TEST_F(Check, OptionsChangeTheCaseAndAreNamedWhenTheyAreWrong) {
       << wrong.output;
 }
 
+TEST_F(Check, AMeshTooCoarseForTheCanopysSizeIsSaid) {
+  std::ifstream stream(RIPSTOP_SOURCE_DIR "/examples/flat-circular/case.toml");
+  std::string text((std::istreambuf_iterator<char>(stream)), {});
+  const auto at = text.find("cloth_nodes = 12000");
+  ASSERT_NE(at, std::string::npos);
+  const Finished fine = ripstop_with({"check", write("fine.toml", text).string()});
+  EXPECT_EQ(fine.code, 0);
+  EXPECT_EQ(fine.output.find("warning"), std::string::npos) << fine.output;
+  text.replace(at, 19, "cloth_nodes = 4000");
+  const Finished coarse = ripstop_with({"check", write("coarse.toml", text).string()});
+  EXPECT_EQ(coarse.code, 0);
+  EXPECT_NE(coarse.output.find("warning: parachute.mesh.cloth_nodes = 4000"), std::string::npos)
+      << coarse.output;
+}
+
 TEST_F(Check, TheProblemsOfACaseComeAsTextAndAsJson) {
   const fs::path file = write("bad.toml", "title = 3\n[flow]\nsped_m_s = 4\n");
   const Finished text = ripstop_with({"check", file.string()});

@@ -137,7 +137,7 @@ TEST_P(Family, TheMeshHasTheSymmetryOfItsGores) {
 
 // Cut on the bias: the same cloth on nearly square cells, whose mesh is as symmetric as the other.
 TEST_P(Family, OnTheBiasTheCellsAreNearlySquareAndTheClothIsTheSame) {
-  Case value = example(GetParam());
+  Case value = example(GetParam(), std::string(GetParam()) == "stratos-iv" ? 0 : 11200);
   value.parachute.cut = FabricCut::bias;
   const Mesh mesh = mesh_of(value);
   EXPECT_NEAR(cloth_area(mesh) / computed_area(value.parachute), 1, 1e-3);
@@ -212,7 +212,8 @@ TEST_P(Family, TheStartShapeIsThePatternFolded) {
 }
 
 TEST_P(Family, TheStableStepIsThatOfSpringsNearTheMeanSpacing) {
-  const Mesh mesh = mesh_of(example(GetParam()));
+  // Canopies of about 0.8 m2 on ADEPT's number of nodes; Stratos IV has 1.7 m2 on 25,600.
+  const Mesh mesh = mesh_of(example(GetParam(), std::string(GetParam()) == "stratos-iv" ? 0 : 11200));
   const ClothPtr cloth = make_cloth(mesh);
   EXPECT_GE(step_bound(*cloth, start_state(*cloth)).stable_step, 4e-6);
 }

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "ripstop/case/assemble.h"
+#include "ripstop/parachute/resolution.h"
 
 namespace ripstop {
 namespace {
@@ -54,6 +55,7 @@ CaseSummary summarize(const Case& value) {
   summary.tape_mass = summary.total_mass - summary.cloth_mass - summary.line_mass - summary.riser_mass;
 
   summary.nodes = mesh.node_count();
+  summary.resolved_cloth_nodes = resolved_cloth_nodes(value.parachute);
   count_springs(mesh, summary);
   ClothOptions options;
   options.linear = value.coupling.linear;
