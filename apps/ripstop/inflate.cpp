@@ -35,6 +35,12 @@ void print_start(const Inflation& solver, const InflationState& state, const Loa
   fmt::print("  largest strain {:.2e}{}\n", strain.largest,
              strain.part.empty() ? "" : " (" + strain.part + "); wanted below 1e-3");
   fmt::print("pressure {:.2f} Pa ({})\n", solver.problem().pressure, source.text);
+  const ViscosityLimit& limit = solver.viscosity_limit();
+  if (limit.least_share < 1)
+    fmt::print(
+        "cloth_damping_s is weakened in {:.1f} % of the cells, to {:.2f} of itself at least, for the step's "
+        "sake\n",
+        100 * limit.reduced_cells, limit.least_share);
   fmt::print("nodes {}, step {:.3e} s (largest stable {:.3e} s), {} threads\n", solver.mesh().node_count(),
              state.step, state.step / solver.problem().settings.step_fraction, solver.threads());
 }

@@ -202,7 +202,7 @@ std::vector<Vec3> reference_forces(const Mesh& mesh, const ClothOptions& options
             pull(patch.node(row, column),
                  patch.node(row + direction_offset[d].row,
                             (column + direction_offset[d].column + patch.columns) % patch.columns),
-                 patch.rest_length[d][i], patch.width[d][i], patch.law[d], patch.damping[d]);
+                 patch.rest_length[d][i], patch.width[d][i], patch.law[d], patch.damping_of(d, row, column));
         }
   for (const Spring& s : mesh.springs) pull(s.a, s.b, s.rest_length, s.scale, mesh.laws[s.law], s.damping);
   const std::vector<Cell> cells = cells_of(mesh);

@@ -132,7 +132,8 @@ void describe(Fields& fields, InflationSettings& inflation) {
   fields.number("line_damping_s", inflation.line_damping_s, from(0).up_to(1e-3),
                 "Relative damping of lines and tape as a time: C = line_damping_s K_1 / L0 (assumed).");
   fields.number("cloth_damping_s", inflation.cloth_damping_s, from(0).up_to(1e-3),
-                "Relative damping of the cloth's springs, likewise (none assumed).");
+                "Relative damping of the cloth's springs, likewise (none assumed); less in cells where it "
+                "would set the step.");
   fields
       .number("cloth_compression", inflation.cloth_compression, from(0).up_to(1),
               "Stiffness of cloth and tape in compression relative to K_1, in the opening.")

@@ -60,6 +60,15 @@ struct StepBound {
 /// With the tangent stiffness at the present strain.
 StepBound step_bound(const Cloth& cloth, const ClothState& state);
 
+/// Lowers Patch::viscosity_share, cell by cell, where the viscosity would make the stable step at `positions`
+/// less than `step_share` < 1 of what it is without.
+struct ViscosityLimit {
+  double least_share = 1;    // of the viscosity, over all cells
+  double reduced_cells = 0;  // their share of all
+};
+ViscosityLimit limit_viscosity(Mesh& mesh, const ClothOptions& options, const std::vector<Vec3>& positions,
+                               double step_share);
+
 /// What happens in every step, without leaving the kernels; goes on from call to call.
 struct StepRecord {
   std::vector<Vec3> fixed_force;     // on the fixed nodes at the start of every step of the last call [N]

@@ -27,8 +27,8 @@ void each_spring(const Mesh& mesh, Visit&& visit) {
           if (patch.width[d][i] == 0) continue;
           const int to = (column + direction_offset[d].column + patch.columns) % patch.columns;
           visit(SpringView{patch.node(row, column), patch.node(row + direction_offset[d].row, to),
-                           patch.rest_length[d][i], patch.width[d][i], &patch.law[d], patch.damping[d],
-                           static_cast<int>(p), row, column, d, -1});
+                           patch.rest_length[d][i], patch.width[d][i], &patch.law[d],
+                           patch.damping_of(d, row, column), static_cast<int>(p), row, column, d, -1});
         }
   }
   for (std::size_t s = 0; s < mesh.springs.size(); ++s) {

@@ -82,9 +82,10 @@ HWY_INLINE Root root(V q) {
 
 // The force over the length of a spring from p toward q is g (q - p) with
 //   e = |q - p| / L0 - 1,   T = w (both e + sum c_k max(e, 0)^k),   g = (T + C (dv . d) / |d|) / |d|
-// [NFM] Eq. 2, 3. No spring (w = 0) has no damping either. `taken` gains the damper's power.
+// [NFM] Eq. 2, 3, with C = damping + share viscosity w / L0. No spring (w = 0) has no damping either.
+// `taken` gains the damper's power.
 template <int degree, bool damped>
-HWY_INLINE V pull(const PatchLayout& patch, int direction, const double* springs, Three d, Three dv,
+HWY_INLINE V pull(const PatchLayout& patch, int direction, const double* springs, V share, Three d, Three dv,
                   V& taken) {
   const double* own = springs + 2 * direction * lanes;
   const V inverse_rest = hn::Load(tag, own);
@@ -109,7 +110,8 @@ HWY_INLINE V pull(const PatchLayout& patch, int direction, const double* springs
   if constexpr (damped) {
     const V rate = hn::Mul(dot(d, dv), length.inverse);
     const V damping =
-        hn::IfThenElseZero(hn::Gt(width, hn::Zero(tag)), hn::Set(tag, patch.damping[direction]));
+        hn::MulAdd(hn::Mul(width, inverse_rest), hn::Mul(share, hn::Set(tag, patch.viscosity[direction])),
+                   hn::IfThenElseZero(hn::Gt(width, hn::Zero(tag)), hn::Set(tag, patch.damping[direction])));
     const V damper = hn::Mul(damping, rate);
     tension = hn::Add(damper, tension);
     taken = hn::MulAdd(damper, rate, taken);
@@ -130,7 +132,11 @@ double row_forces(const RowForces& row) {
     for (int m = lane; m < end + lane; m += vector_stride, springs += PatchLayout::springs_per_vector) {
       const Three p = load(row.x0 + m);
       Three u = zero();
-      if constexpr (damped) u = load(row.v0 + m);
+      V share = hn::Zero(tag);
+      if constexpr (damped) {
+        u = load(row.v0 + m);
+        share = hn::Load(tag, row.damper_share + lane + (m - lane) / 3);
+      }
       const auto speed = [&](const double* v) {
         if constexpr (damped)
           return load(v + m) - u;
@@ -141,21 +147,22 @@ double row_forces(const RowForces& row) {
       Three next = wait2;
       {
         const Three d = load(row.x2 + m) - p;
-        const V g = pull<degree, damped>(patch, bend_column, springs, d, speed(row.v2), taken);
+        const V g = pull<degree, damped>(patch, bend_column, springs, share, d, speed(row.v2), taken);
         own = add_scaled(own, g, d);
         store(subtract_scaled(zero(), g, d), row.f2 + m);
       }
       {
         const Three d = load(row.x0 + m + 2 * vector_stride) - p;
-        const V g =
-            pull<degree, damped>(patch, bend_row, springs, d, speed(row.v0 + 2 * vector_stride), taken);
+        const V g = pull<degree, damped>(patch, bend_row, springs, share, d,
+                                         speed(row.v0 + 2 * vector_stride), taken);
         own = add_scaled(own, g, d);
         wait2 = subtract_scaled(zero(), g, d);
       }
       const Three right = load(row.x0 + m + vector_stride);
       {
         const Three d = right - p;
-        const V g = pull<degree, damped>(patch, along_row, springs, d, speed(row.v0 + vector_stride), taken);
+        const V g =
+            pull<degree, damped>(patch, along_row, springs, share, d, speed(row.v0 + vector_stride), taken);
         own = add_scaled(own, g, d);
         next = subtract_scaled(next, g, d);
       }
@@ -163,14 +170,14 @@ double row_forces(const RowForces& row) {
       const Three above = load(row.x1 + m);
       {
         const Three d = above - p;
-        const V g = pull<degree, damped>(patch, along_column, springs, d, speed(row.v1), taken);
+        const V g = pull<degree, damped>(patch, along_column, springs, share, d, speed(row.v1), taken);
         own = add_scaled(own, g, d);
         up = subtract_scaled(up, g, d);
       }
       const Three across = load(row.x1 + m + vector_stride) - p;
       {
-        const V g =
-            pull<degree, damped>(patch, shear_up, springs, across, speed(row.v1 + vector_stride), taken);
+        const V g = pull<degree, damped>(patch, shear_up, springs, share, across,
+                                         speed(row.v1 + vector_stride), taken);
         own = add_scaled(own, g, across);
         wait_up = subtract_scaled(zero(), g, across);
       }
@@ -178,7 +185,7 @@ double row_forces(const RowForces& row) {
       {
         Three dv = zero();
         if constexpr (damped) dv = load(row.v1 + m) - load(row.v0 + m + vector_stride);
-        const V g = pull<degree, damped>(patch, shear_down, springs, d, dv, taken);
+        const V g = pull<degree, damped>(patch, shear_down, springs, share, d, dv, taken);
         next = add_scaled(next, g, d);
         up = subtract_scaled(up, g, d);
       }
@@ -217,6 +224,51 @@ double row_forces_of_degree(const RowForces& row) {
   if (row.v0) return row_forces<degree, true, false>(row);
   if (row.pressure) return row_forces<degree, false, true>(row);
   return row_forces<degree, false, false>(row);
+}
+
+// As pull(), with ends anywhere and the scale in the law's coefficients.
+template <bool damped, bool recorded>
+void pull_blocks(const SpringForces& job, int begin_block, int end_block) {
+  const KeptSprings& springs = *job.springs;
+  const hn::RebindToSigned<Tag> index_tag;
+  for (int block = begin_block; block < end_block; ++block) {
+    for (int lane = 0; lane < lanes; lane += static_cast<int>(hn::Lanes(tag))) {
+      const int s = block * lanes + lane, f = block * vector_stride + lane;
+      const auto a = hn::LoadU(index_tag, springs.a.data() + s),
+                 b = hn::LoadU(index_tag, springs.b.data() + s);
+      const auto between = [&](const double* p) {
+        return Three{hn::Sub(hn::GatherIndex(tag, p, b), hn::GatherIndex(tag, p, a)),
+                     hn::Sub(hn::GatherIndex(tag, p + lanes, b), hn::GatherIndex(tag, p + lanes, a)),
+                     hn::Sub(hn::GatherIndex(tag, p + 2 * lanes, b), hn::GatherIndex(tag, p + 2 * lanes, a))};
+      };
+      const Three d = between(job.x);
+      const Root length =
+          root(hn::MulAdd(d.z, d.z, hn::MulAdd(d.y, d.y, hn::MulAdd(d.x, d.x, hn::Set(tag, 1e-60)))));
+      const V strain =
+          hn::MulSub(length.value, hn::Load(tag, springs.inverse_rest.data() + s), hn::Set(tag, 1.0));
+      const V stretch = hn::Max(strain, hn::Zero(tag));
+      const double* law = springs.positive_part.data() + block * springs.degree * lanes + lane;
+      V sum = hn::Zero(tag);
+      for (int k = springs.degree - 1; k >= 0; --k)
+        sum = hn::Mul(hn::Add(sum, hn::Load(tag, law + k * lanes)), stretch);
+      V tension = hn::MulAdd(strain, hn::Load(tag, springs.both.data() + s), sum);
+      if constexpr (damped) {
+        const Three dv = between(job.v);
+        const V damping = hn::Load(tag, springs.damping.data() + s);
+        const V rate = hn::Mul(dot(d, dv), length.inverse);
+        tension = hn::MulAdd(damping, rate, tension);
+        if constexpr (recorded) {
+          const Three force = add_scaled(zero(), hn::Mul(hn::Mul(damping, rate), length.inverse), d);
+          hn::Store(hn::MulAdd(hn::Set(tag, 0.5), dot(load(job.damper + f) + force, dv),
+                               hn::Load(tag, job.taken + s)),
+                    tag, job.taken + s);
+          store(force, job.damper + f);
+          hn::Store(hn::Max(hn::Load(tag, job.peak + s), tension), tag, job.peak + s);
+        }
+      }
+      store(add_scaled(zero(), hn::Mul(tension, length.inverse), d), job.f + f);
+    }
+  }
 }
 
 enum class Damping { none, linear, quadratic };
@@ -277,6 +329,11 @@ double AddRowForces(const RowForces& row) {
       return row_forces_of_degree<0>(row);
   }
 }
+void PullSprings(const SpringForces& job, int begin_block, int end_block) {
+  if (!job.v) return pull_blocks<false, false>(job, begin_block, end_block);
+  if (!job.peak) return pull_blocks<true, false>(job, begin_block, end_block);
+  pull_blocks<true, true>(job, begin_block, end_block);
+}
 double MoveRow(const RowMotion& row) {
   if (!row.area) return motion<Damping::none, false>(row).damped;
   if (row.quadratic == 0) return motion<Damping::linear, false>(row).damped;
@@ -335,6 +392,7 @@ HWY_AFTER_NAMESPACE();
 namespace ripstop {
 
 HWY_EXPORT(AddRowForces);
+HWY_EXPORT(PullSprings);
 HWY_EXPORT(MoveRow);
 HWY_EXPORT(MoveRowWithSums);
 HWY_EXPORT(PressureWork);
@@ -342,6 +400,9 @@ HWY_EXPORT(Target);
 
 double add_row_forces(const RowForces& row) {
   return HWY_DYNAMIC_DISPATCH(AddRowForces)(row);
+}
+void pull_springs(const SpringForces& job, int begin_block, int end_block) {
+  HWY_DYNAMIC_DISPATCH(PullSprings)(job, begin_block, end_block);
 }
 double move_row(const RowMotion& row) {
   return HWY_DYNAMIC_DISPATCH(MoveRow)(row);

@@ -1,6 +1,6 @@
-// The two kernels that a step spends its time in, for one row of a patch. Vectorised for SSE4, AVX2 and
-// AVX-512 (else one lane at a time), chosen at run time; no allocation, no look-up, no branch on data.
-// Internal to cloth/.
+// The kernels that a step spends its time in: rows of a patch, springs outside the lattice. Vectorised for
+// SSE4, AVX2 and AVX-512 (else one lane at a time), chosen at run time; no allocation, no look-up, no branch
+// on data. Internal to cloth/.
 #pragma once
 
 #include "ripstop/cloth/layout.h"
@@ -15,6 +15,7 @@ struct RowForces {
   const double* pressure;      // of the row's cells, an eighth [Pa]; null: none
   const double *x0, *x1, *x2;  // rows r, r + 1, r + 2 in vector layout
   const double *v0, *v1, *v2;  // null: no damping
+  const double* damper_share;  // of the row, see PatchLayout; null with v0
   double *f0, *f1, *f2;
 };
 /// Returns the power of the springs' dampers [W], with the velocities before the step.
@@ -45,6 +46,17 @@ struct RowSums {
   double damped = 0;  // as move_row() returns it
 };
 RowSums move_row_with_sums(const RowMotion& row);
+
+/// Forces of the springs outside the lattice, in blocks of eight.
+struct SpringForces {
+  const KeptSprings* springs;
+  const double *x, *v;  // of all nodes; v null: no damping
+  double* f;            // of every spring on its end a, in vector layout
+  /// With a record; null: none. The last damper's force in vector layout, the energy over dt that dampers
+  /// have taken [W], see Sweep::Damper, the highest tension [N].
+  double *damper, *taken, *peak;
+};
+void pull_springs(const SpringForces& job, int begin_block, int end_block);
 
 /// Work of the pressure on the cells between two rows while they move from x_before to x: the mean of both
 /// area vectors on the mean displacement of the corners [J].

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "ripstop/cloth/cloth.h"
@@ -47,10 +48,11 @@ struct PatchLayout {
   int first = 0;                 // slot of row 0, column 0
   int first_row = 0;             // number of row 0 among the rows of all patches
   std::size_t first_spring = 0;  // into Cloth::lattice, row after row
+  std::size_t first_share = 0;   // into Cloth::damper_shares, likewise
   int degree = 1;
   bool damped = false;
   std::array<FamilyLaw, direction_count> law;
-  std::array<double, direction_count> damping{};
+  std::array<double, direction_count> damping{}, viscosity{};
   /// Ghost slots of a row and the slots they copy, relative to the row's first.
   struct Copy {
     int ghost, source;
@@ -64,16 +66,25 @@ struct PatchLayout {
   const double* springs(const AlignedDoubles& lattice, int row) const {
     return lattice.data() + first_spring + static_cast<std::size_t>(row) * vectors * springs_per_vector;
   }
+  /// Of a row of a damped patch: Patch::viscosity_share, one a node; that of the spring toward (row + 1,
+  /// column - 1) is the share of the node where the spring is kept.
+  const double* damper_share(const AlignedDoubles& shares, int row) const {
+    return shares.data() + first_share + static_cast<std::size_t>(row) * vectors * lanes;
+  }
   /// Twelve arrays a vector: 1 / rest length and width of the six directions. The spring toward (row + 1,
   /// column - 1) is kept at column - 1.
   static constexpr int springs_per_vector = 2 * direction_count * lanes;
 };
 
-/// A spring outside the lattice, between two kept nodes.
-struct KeptSpring {
-  int a, b;  // slots
-  double inverse_rest, scale, damping;
-  int law;  // into Cloth::spring_laws
+/// Springs outside the lattice, between two kept nodes, in the mesh's order and in blocks of eight. The last
+/// block is filled up with springs without force.
+struct KeptSprings {
+  int blocks = 0;
+  int degree = 1;                  // the highest of their laws
+  std::vector<std::int64_t> a, b;  // at(slot) of the ends
+  AlignedDoubles inverse_rest, damping;
+  AlignedDoubles both;           // scale compression K_1, see FamilyLaw
+  AlignedDoubles positive_part;  // scale c_k; eight of c_1, eight of c_2, ... of each block
 };
 
 struct Cloth {
@@ -86,6 +97,7 @@ struct Cloth {
   int row_count = 0;               // over all patches
   std::vector<int> row_patch;      // patch of every row
   AlignedDoubles lattice;          // springs, see PatchLayout
+  AlignedDoubles damper_shares;    // of damped patches, see PatchLayout
   std::vector<double> total_mass;  // [kg] with the share of tied nodes; 0 for a tied node; by node
   std::vector<double> area;        // [m2] cloth of every node, by node
   std::vector<char> is_tied, is_fixed;
@@ -100,13 +112,12 @@ struct Cloth {
   std::vector<Kept> kept;
   std::vector<int> kept_of_row;  // row_count + 1 edges into `kept`; nodes outside patches follow
   struct Share {
-    int source;  // kept node or, after these, kept spring
+    int source;  // kept node or, from first_spring_force on, kept spring
     double weight;
   };
   std::vector<Share> shares;
-  std::vector<KeptSpring> springs;
-  std::vector<FamilyLaw> spring_laws;
-  std::vector<int> spring_degrees;
+  KeptSprings springs;
+  int first_spring_force = 0;  // the number of kept nodes, rounded up to a whole vector
 
   struct Master {
     int slot;

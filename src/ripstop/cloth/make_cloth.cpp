@@ -134,7 +134,8 @@ void lay_out_patches(Cloth& cloth) {
       layout.law[d] = compile_law(patch.law[d]);
       layout.damping[d] = patch.damping[d];
       layout.degree = std::max(layout.degree, degree_of(patch.law[d]));
-      layout.damped = layout.damped || patch.damping[d] != 0;
+      layout.viscosity[d] = patch.viscosity[d];
+      layout.damped = layout.damped || patch.damping[d] != 0 || patch.viscosity[d] != 0;
     }
     for (int row = 0; row < patch.rows; ++row)
       for (int column = 0; column < patch.columns; ++column) {
@@ -176,6 +177,24 @@ void fill_lattice(Cloth& cloth) {
   }
 }
 
+void fill_damper_shares(Cloth& cloth) {
+  for (std::size_t p = 0; p < cloth.patches.size(); ++p) {
+    PatchLayout& layout = cloth.patches[p];
+    if (!layout.damped) continue;
+    const std::vector<double>& share = cloth.mesh.patches[p].viscosity_share;
+    layout.first_share = cloth.damper_shares.size();
+    cloth.damper_shares.resize(
+        layout.first_share + static_cast<std::size_t>(layout.rows) * layout.vectors * lanes, 1.0);
+    if (share.empty()) continue;
+    for (int row = 0; row < layout.rows; ++row)
+      for (int column = 0; column < layout.columns; ++column)
+        cloth.damper_shares[layout.first_share +
+                            (static_cast<std::size_t>(row) * layout.vectors + column % layout.vectors) *
+                                lanes +
+                            column / layout.vectors] = share[row * layout.columns + column];
+  }
+}
+
 void share_mass_and_area(Cloth& cloth) {
   const Mesh& mesh = cloth.mesh;
   cloth.total_mass = mesh.mass;
@@ -198,6 +217,32 @@ void share_mass_and_area(Cloth& cloth) {
       refuse(fmt::format("node {} ({}) has no mass", node, place_of(mesh, node)));
 }
 
+void lay_out_springs(Cloth& cloth) {
+  const Mesh& mesh = cloth.mesh;
+  KeptSprings& springs = cloth.springs;
+  for (const Spring& spring : mesh.springs)
+    springs.degree = std::max(springs.degree, degree_of(mesh.laws[spring.law]));
+  springs.blocks = (static_cast<int>(mesh.springs.size()) + lanes - 1) / lanes;
+  const std::size_t padded = static_cast<std::size_t>(springs.blocks) * lanes;
+  springs.a.assign(padded, 0);
+  springs.b.assign(padded, 0);
+  for (AlignedDoubles* values : {&springs.inverse_rest, &springs.damping, &springs.both})
+    values->assign(padded, 0.0);
+  springs.positive_part.assign(padded * springs.degree, 0.0);
+  for (std::size_t s = 0; s < mesh.springs.size(); ++s) {
+    const Spring& spring = mesh.springs[s];
+    const FamilyLaw law = compile_law(mesh.laws[spring.law]);
+    springs.a[s] = at(cloth.slot[spring.a]);
+    springs.b[s] = at(cloth.slot[spring.b]);
+    springs.inverse_rest[s] = 1 / spring.rest_length;
+    springs.damping[s] = spring.damping;
+    springs.both[s] = spring.scale * law.both;
+    for (int k = 0; k < springs.degree; ++k)
+      springs.positive_part[(s / lanes * springs.degree + k) * lanes + s % lanes] =
+          spring.scale * law.positive_part[k];
+  }
+}
+
 void keep_nodes(Cloth& cloth) {
   const Mesh& mesh = cloth.mesh;
   std::vector<char> special(mesh.node_count(), 1);
@@ -218,14 +263,13 @@ void keep_nodes(Cloth& cloth) {
   // What is added to the lattice's force on every node: its springs, in the mesh's order, then its tied nodes
   // with their springs.
   const int kept_count = static_cast<int>(cloth.kept.size());
+  cloth.first_spring_force = (kept_count + lanes - 1) / lanes * lanes;
   std::vector<std::vector<Cloth::Share>> own(kept_count);
   for (std::size_t s = 0; s < mesh.springs.size(); ++s) {
     const Spring& spring = mesh.springs[s];
-    const int source = kept_count + static_cast<int>(s);
+    const int source = cloth.first_spring_force + static_cast<int>(s);
     own[kept_index[spring.a]].push_back({source, 1});
     own[kept_index[spring.b]].push_back({source, -1});
-    cloth.springs.push_back({cloth.slot[spring.a], cloth.slot[spring.b], 1 / spring.rest_length, spring.scale,
-                             spring.damping, spring.law});
   }
   std::vector<std::vector<Cloth::Share>> all = own;
   for (const Tie& tie : mesh.ties) {
@@ -242,10 +286,6 @@ void keep_nodes(Cloth& cloth) {
     if (!cloth.is_tied[cloth.kept[k].node])
       cloth.shares.insert(cloth.shares.end(), all[k].begin(), all[k].end());
     cloth.kept[k].end_share = static_cast<int>(cloth.shares.size());
-  }
-  for (const SpringLaw& law : mesh.laws) {
-    cloth.spring_laws.push_back(compile_law(law));
-    cloth.spring_degrees.push_back(degree_of(law));
   }
   for (const Tie& tie : mesh.ties) {
     const int first = static_cast<int>(cloth.masters.size());
@@ -292,6 +332,8 @@ ClothPtr make_cloth(const Mesh& mesh, const ClothOptions& options) {
   share_mass_and_area(*cloth);
   lay_out_patches(*cloth);
   fill_lattice(*cloth);
+  fill_damper_shares(*cloth);
+  lay_out_springs(*cloth);
   keep_nodes(*cloth);
   return cloth;
 }

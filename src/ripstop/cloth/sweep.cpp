@@ -10,6 +10,8 @@ namespace {
 
 constexpr int kept_block = 64;  // kept nodes whose sums are added by one thread
 constexpr int rows_in_turn = 3;
+// What a kept node costs, over a vector of the lattice (measured on Stratos IV, AVX-512).
+constexpr double vectors_a_kept_node = 0.25;
 
 // t / (t + 3) of the velocity is kept t steps after a stop, see relax.cpp.
 double keep_after(int steps) {
@@ -73,21 +75,23 @@ void Sweep::set_node_force(const std::vector<Vec3>& force) {
 void Sweep::prepare(int threads) {
   damped_lattice_ = damped_ && std::any_of(cloth_.patches.begin(), cloth_.patches.end(),
                                            [](const PatchLayout& patch) { return patch.damped; });
-  kept_force_.assign(cloth_.kept.size() + cloth_.springs.size(), Vec3{});
+  kept_force_.assign(at(cloth_.first_spring_force + cloth_.springs.blocks * lanes), 0.0);
   row_sums_.assign(cloth_.row_count, RowSums{});
   const int loose = static_cast<int>(cloth_.kept.size()) - cloth_.kept_of_row.back();
   kept_sums_.assign(cloth_.row_count, RowSums{});
   loose_sums_.assign((loose + kept_block - 1) / kept_block, RowSums{});
   workers_.resize(threads);
 
-  // Rows are dealt by their vectors; the two rows of springs computed twice count for the thread above.
-  std::vector<int> vectors_before(cloth_.row_count + 1, 0);
+  // Rows are dealt by what they cost in the first phase, the longest: vectors and the forces of kept nodes.
+  // The two rows of springs computed twice count for the thread above.
+  std::vector<double> cost_before(cloth_.row_count + 1, 0.0);
   for (int row = 0; row < cloth_.row_count; ++row)
-    vectors_before[row + 1] = vectors_before[row] + cloth_.patches[cloth_.row_patch[row]].vectors;
+    cost_before[row + 1] = cost_before[row] + cloth_.patches[cloth_.row_patch[row]].vectors +
+                           vectors_a_kept_node * (cloth_.kept_of_row[row + 1] - cloth_.kept_of_row[row]);
   const auto edge = [&](int rank) {
-    const IndexRange part = part_of(vectors_before.back(), rank, threads);
-    return static_cast<int>(std::lower_bound(vectors_before.begin(), vectors_before.end(), part.begin) -
-                            vectors_before.begin());
+    const double part = cost_before.back() * rank / threads;
+    return static_cast<int>(std::lower_bound(cost_before.begin(), cost_before.end(), part) -
+                            cost_before.begin());
   };
   for (int rank = 0; rank < threads; ++rank) {
     Worker& worker = workers_[rank];
@@ -110,14 +114,17 @@ void Sweep::prepare(int threads) {
 
 void Sweep::add_forces(int rank) {
   Worker& worker = workers_[rank];
-  const IndexRange springs =
-      part_of(static_cast<int>(cloth_.springs.size()), rank, static_cast<int>(workers_.size()));
-  pull_springs(springs.begin, springs.end);
+  const IndexRange blocks = part_of(cloth_.springs.blocks, rank, static_cast<int>(workers_.size()));
+  pull_springs({&cloth_.springs, state_.x.data(), damped_ ? state_.v.data() : nullptr,
+                kept_force_.data() + at(cloth_.first_spring_force), record_ ? spring_damper_.data() : nullptr,
+                record_ ? spring_taken_.data() : nullptr, record_ ? spring_peak_.data() : nullptr},
+               blocks.begin, blocks.end);
   for (const Piece& piece : worker.pieces) sweep_piece(worker, piece);
   // Nodes outside patches have no lattice force; a point force may act on them.
   if (rank == 0)
     for (std::size_t k = cloth_.kept_of_row.back(); k < cloth_.kept.size(); ++k)
-      kept_force_[k] = node_force_.empty() ? Vec3{} : get(node_force_.data(), cloth_.kept[k].slot);
+      put(kept_force_.data(), static_cast<int>(k),
+          node_force_.empty() ? Vec3{} : get(node_force_.data(), cloth_.kept[k].slot));
 }
 
 void Sweep::sweep_piece(Worker& worker, const Piece& piece) {
@@ -143,11 +150,12 @@ void Sweep::sweep_piece(Worker& worker, const Piece& piece) {
     const double* x = state_.x.data() + first;
     const double* v = damped ? state_.v.data() + first : nullptr;
     const bool pressed = !pressure_.empty() && row + 1 < patch.rows;
-    const double damped_power =
-        add_row_forces({&patch, patch.springs(cloth_.lattice, row),
-                        pressed ? pressure_.data() + patch.first + patch.row_slots() * row : nullptr, x,
-                        x + stride, x + 2 * stride, v, damped ? v + stride : nullptr,
-                        damped ? v + 2 * stride : nullptr, force(row), force(row + 1), force(row + 2)});
+    const double damped_power = add_row_forces(
+        {&patch, patch.springs(cloth_.lattice, row),
+         pressed ? pressure_.data() + patch.first + patch.row_slots() * row : nullptr, x, x + stride,
+         x + 2 * stride, v, damped ? v + stride : nullptr, damped ? v + 2 * stride : nullptr,
+         damped ? patch.damper_share(cloth_.damper_shares, row) : nullptr, force(row), force(row + 1),
+         force(row + 2)});
     if (row < piece.begin) continue;
     if (record_) row_damped_[patch.first_row + row] += damped_power;
     complete_row(patch.first_row + row, force(row));
@@ -169,7 +177,7 @@ void Sweep::complete_row(int row, double* f) {
     double per_area = cloth_.options.absolute_damping;
     if (cloth_.options.quadratic_damping > 0) per_area += cloth_.options.quadratic_damping * norm(v);
     const Vec3 drag = (kept_area_[k] * per_area) * v;
-    kept_force_[k] = get(f, cloth_.kept[k].slot - first) - drag;
+    put(kept_force_.data(), k, get(f, cloth_.kept[k].slot - first) - drag);
     if (record_) take(kept_dampers_[k], drag, v);
   }
 }
@@ -193,31 +201,6 @@ void Sweep::move(int row, double* f, Pace pace) {
     row_damped_[row] += move_row(motion);
   else
     move_row(motion);
-}
-
-void Sweep::pull_springs(int begin, int end) {
-  for (int s = begin; s < end; ++s) {
-    const KeptSpring& spring = cloth_.springs[s];
-    const FamilyLaw& law = cloth_.spring_laws[spring.law];
-    const Vec3 d = get(state_.x.data(), spring.b) - get(state_.x.data(), spring.a);
-    const double length = std::sqrt(dot(d, d) + 1e-60);
-    const double strain = length * spring.inverse_rest - 1;
-    const double stretch = std::max(strain, 0.0);
-    double sum = 0;
-    for (int k = cloth_.spring_degrees[spring.law] - 1; k >= 0; --k)
-      sum = (sum + law.positive_part[k]) * stretch;
-    double tension = spring.scale * (law.both * strain + sum);
-    if (damped_) {
-      const Vec3 dv = get(state_.v.data(), spring.b) - get(state_.v.data(), spring.a);
-      const double damper = spring.damping * dot(d, dv) / length;
-      tension += damper;
-      if (record_) {
-        take(spring_dampers_[s], (damper / length) * d, dv);
-        record_->peak_tension[s] = std::max(record_->peak_tension[s], tension);
-      }
-    }
-    kept_force_[cloth_.kept.size() + s] = (tension / length) * d;
-  }
 }
 
 void Sweep::move_kept(int rank) {
@@ -246,9 +229,9 @@ void Sweep::move_kept(int rank) {
 
 Vec3 Sweep::force_on_kept(int k) const {
   const Cloth::Kept& kept = cloth_.kept[k];
-  Vec3 force = kept_force_[k];
+  Vec3 force = get(kept_force_.data(), k);
   for (int i = kept.first_share; i < kept.end_share; ++i)
-    force += cloth_.shares[i].weight * kept_force_[cloth_.shares[i].source];
+    force += cloth_.shares[i].weight * get(kept_force_.data(), cloth_.shares[i].source);
   return force;
 }
 
@@ -298,7 +281,11 @@ void Sweep::start_record(StepRecord& record) {
   row_work_.assign(cloth_.row_count, 0.0);
   row_damped_.assign(cloth_.row_count, 0.0);
   kept_dampers_.assign(cloth_.kept.size(), Damper{});
-  spring_dampers_.assign(cloth_.springs.size(), Damper{});
+  const int springs = cloth_.springs.blocks * lanes;
+  spring_damper_.assign(at(springs), 0.0);
+  spring_taken_.assign(springs, 0.0);
+  spring_peak_.assign(springs, 0.0);
+  std::copy(record.peak_tension.begin(), record.peak_tension.end(), spring_peak_.begin());
   for (std::size_t k = 0; k < cloth_.kept.size(); ++k)
     if (cloth_.is_fixed[cloth_.kept[k].node]) fixed_kept_.push_back(static_cast<int>(k));
 }
@@ -341,10 +328,15 @@ void Sweep::finish_record() {
     take(kept_dampers_[k], {}, get(state_.v.data(), cloth_.kept[k].slot));
     damped += kept_dampers_[k].energy;
   }
-  for (std::size_t s = 0; s < cloth_.springs.size(); ++s) {
-    const KeptSpring& spring = cloth_.springs[s];
-    take(spring_dampers_[s], {}, get(state_.v.data(), spring.b) - get(state_.v.data(), spring.a));
-    damped += spring_dampers_[s].energy;
+  const KeptSprings& springs = cloth_.springs;
+  for (std::size_t s = 0; s < record_->peak_tension.size(); ++s) {
+    const auto speed = [&](std::int64_t end) {
+      const double* v = state_.v.data() + end;
+      return Vec3{v[0], v[lanes], v[2 * lanes]};
+    };
+    const Vec3 force = get(spring_damper_.data(), static_cast<int>(s));
+    damped += spring_taken_[s] + 0.5 * dot(force, speed(springs.b[s]) - speed(springs.a[s]));
+    record_->peak_tension[s] = spring_peak_[s];
   }
   for (const double power : row_damped_) damped += power;
   record_->damped += dt_ * damped;

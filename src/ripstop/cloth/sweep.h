@@ -68,7 +68,6 @@ class Sweep {
   void sweep_piece(Worker& worker, const Piece& piece);
   void complete_row(int row, double* f);
   void move(int row, double* f, Pace pace);
-  void pull_springs(int begin, int end);
   RowSums move_kept_nodes(int begin, int end, Pace pace);
   Vec3 force_on_kept(int k) const;
   void record_fixed_force();
@@ -80,7 +79,7 @@ class Sweep {
   AlignedDoubles pressure_, node_force_;
   AlignedDoubles inverse_mass_, area_;                 // by slot; 0 for kept nodes; no areas: no damping
   std::vector<double> kept_inverse_mass_, kept_area_;  // by kept node; 0: does not move
-  std::vector<Vec3> kept_force_;                       // of kept nodes, then of kept springs
+  AlignedDoubles kept_force_;  // in vector layout: of kept nodes, from first_spring_force on of kept springs
   std::vector<Worker> workers_;
   std::vector<RowSums> row_sums_, kept_sums_, loose_sums_;
 
@@ -94,8 +93,9 @@ class Sweep {
   StepRecord* record_ = nullptr;
   AlignedDoubles before_;                      // positions when the work was last looked at
   std::vector<double> row_work_, row_damped_;  // [J], over dt [W]; by row
-  std::vector<Damper> kept_dampers_, spring_dampers_;
-  std::vector<int> fixed_kept_;  // kept nodes that are fixed
+  std::vector<Damper> kept_dampers_;
+  AlignedDoubles spring_damper_, spring_taken_, spring_peak_;  // likewise, see SpringForces
+  std::vector<int> fixed_kept_;                                // kept nodes that are fixed
 };
 
 }  // namespace ripstop

@@ -85,6 +85,8 @@ class Inflation {
   const Mesh& mesh() const { return mesh_; }
   const Cloth& cloth() const { return *cloth_; }
   const FoldedStart& folded() const { return folded_; }
+  /// How much weaker the cloth's dampers are than `cloth_damping_s` says, so that they do not set the step.
+  const ViscosityLimit& viscosity_limit() const { return viscosity_limit_; }
   const InflationProblem& problem() const { return problem_; }
   int threads() const { return team_.size(); }
   std::vector<double> peak_tension_of_lines(const InflationState& state) const;  // [N]
@@ -98,6 +100,7 @@ class Inflation {
   InflationProblem problem_;
   Mesh mesh_;
   FoldedStart folded_;
+  ViscosityLimit viscosity_limit_;
   ClothPtr cloth_;
   ThreadTeam team_;
   int blocks_per_frame_ = 1, rows_per_block_ = 1;
@@ -105,8 +108,9 @@ class Inflation {
   double elastic_at_start_ = 0;  // [J]
 };
 
-/// Lines, riser and tape get dampers C = `line_time` K_1 w / L0 and the cloth's springs C = `cloth_time` K_1
-/// (mean of w / L0): Kelvin-Voigt solids whose loss does not depend on the mesh. Times in [s].
+/// Lines, riser and tape get dampers C = `line_time` K_1 w / L0, the cloth's springs likewise with
+/// `cloth_time`: Kelvin-Voigt solids whose loss does not depend on the mesh. Of the cloth's, half acts along
+/// yarns between nodes two cells apart. Times in [s].
 void damp_springs(Mesh& mesh, double line_time, double cloth_time);
 
 }  // namespace ripstop

@@ -18,7 +18,7 @@ struct InflationSettings {
   double damping_n_s_m3 = 8.2;  // C_a a unit area of cloth, [NFM] Eq. 20
   double quadratic_damping_n_s2_m4 = 0;
   double line_damping_s = 1e-6;  // of lines and tape: C = this times K_1 (w) / L0 of every spring
-  double cloth_damping_s = 0;    // of the cloth's springs, likewise, with the patch's mean w / L0
+  double cloth_damping_s = 0;    // of the cloth, likewise; less in cells where it would set the step
 
   // The folded start is moved outward by imperfection_m cos(harmonic azimuth) at its outer folds, in
   // proportion to the radius inside.

@@ -28,6 +28,9 @@ struct Patch {
   int first_node = 0;
   SpringLaw law[direction_count];        // per width, [N/m]
   double damping[direction_count] = {};  // C [N s/m] of every spring of the family
+  /// A Kelvin-Voigt solid besides: C gains viscosity share w / L0 of the spring. [N s/m]
+  double viscosity[direction_count] = {};
+  std::vector<double> viscosity_share;  // [row * columns + column], see share_index(); empty: 1
   /// [direction][row * columns + column]; width 0: no spring. rest_length [m] > 0 wherever width > 0.
   std::vector<double> rest_length[direction_count];
   std::vector<double> width[direction_count];
@@ -37,6 +40,18 @@ struct Patch {
   int fabric = 0;                 // index into Mesh::fabric_names, for reports
 
   int node(int row, int column) const { return first_node + row * columns + column; }
+  /// A spring's share is that of the cell that it bounds or crosses.
+  int share_index(int direction, int row, int column) const {
+    if (direction == shear_down) column = column > 0 ? column - 1 : columns - 1;
+    return row * columns + column;
+  }
+  /// C of the spring of node (row, column) toward `direction` [N s/m]
+  double damping_of(int direction, int row, int column) const {
+    const std::size_t i = static_cast<std::size_t>(row) * columns + column;
+    const double share = viscosity_share.empty() ? 1.0 : viscosity_share[share_index(direction, row, column)];
+    return damping[direction] +
+           viscosity[direction] * share * width[direction][i] / rest_length[direction][i];
+  }
 };
 
 /// A spring outside the lattice: tape, line, seam.

@@ -294,6 +294,9 @@ InflationResult InflationFolder::finish(const Inflation& solver, const Inflation
   j["damping_n_s_m3"] = settings.damping_n_s_m3;
   j["quadratic_damping_n_s2_m4"] = settings.quadratic_damping_n_s2_m4;
   j["line_damping_s"] = settings.line_damping_s;
+  j["cloth_damping_s"] = settings.cloth_damping_s;
+  j["cloth_damping_least_share"] = solver.viscosity_limit().least_share;
+  j["cloth_damping_reduced_cells"] = solver.viscosity_limit().reduced_cells;
   j["folds"] = solver.folded().folds;
   j["inner_fold_radius_m"] = solver.folded().inner_radius;
   j["outer_fold_radius_m"] = solver.folded().outer_radius;
