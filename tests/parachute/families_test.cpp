@@ -162,6 +162,31 @@ TEST_P(Family, OnTheBiasTheCellsAreNearlySquareAndTheClothIsTheSame) {
   EXPECT_GE(step_bound(*cloth, start_state(*cloth)).stable_step, 4e-6);
 }
 
+// Warp and weft unlike: cut across, the rows of the mesh are the warp; on the bias its diagonals are the
+// yarns.
+TEST_P(Family, TheYarnsLieAsTheClothIsCut) {
+  Case value = example(GetParam(), 2500);
+  PartMaterials materials = part_materials(value);
+  materials.canopy.weft_coefficients_n_m = {18000, 5000};
+  materials.canopy.tested_strain = 0.2;
+  const auto laws = [&](FabricCut cut) {
+    value.parachute.cut = cut;
+    return build_mesh(value.parachute, materials).patches.back();
+  };
+  const Patch block = laws(FabricCut::block), across = laws(FabricCut::across), bias = laws(FabricCut::bias);
+  const auto stiffness = [](const Patch& patch, Direction d) { return patch.law[d].tangent(0); };
+  EXPECT_GT(stiffness(block, along_column), 1.2 * stiffness(block, along_row));
+  EXPECT_EQ(stiffness(across, along_row), stiffness(block, along_column));
+  EXPECT_EQ(stiffness(across, along_column), stiffness(block, along_row));
+  EXPECT_EQ(stiffness(across, bend_row), stiffness(block, bend_column));
+  EXPECT_EQ(stiffness(across, shear_up), stiffness(block, shear_up));
+  EXPECT_EQ(stiffness(bias, along_row), stiffness(block, shear_up));
+  EXPECT_NEAR(stiffness(bias, shear_up), stiffness(block, along_column) + 2 * stiffness(block, bend_column),
+              1e-9);
+  EXPECT_NEAR(stiffness(bias, shear_down), stiffness(block, along_row) + 2 * stiffness(block, bend_row),
+              1e-9);
+}
+
 TEST_P(Family, EveryTiedNodeLiesWhereItsMastersHaveIt) {
   const Mesh mesh = mesh_of(example(GetParam(), 2500));
   std::vector<char> tied(mesh.node_count(), 0);
