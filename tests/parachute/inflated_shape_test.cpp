@@ -128,7 +128,7 @@ TEST(Resolution, FourTimesTheNodesThatResolveACanopyMoveItsDiameterByLessThanAPe
 TEST(Cut, OnTheBiasAConeKeepsItsDiameterAndACrossBecomesNarrower) {
   const auto bias_over_block = [](const char* name) {
     Case value = read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples" / name / "case.toml");
-    value.parachute.mesh.cloth_nodes = 2500;
+    value.parachute.mesh.cloth_nodes = 6000;  // coarser meshes resolve neither
     const double block = inflated_diameter(value);
     value.parachute.cut = FabricCut::bias;
     return inflated_diameter(value) / block;
