@@ -75,6 +75,10 @@ void print_result(const InflationResult& r, const Case& value, const LoadSource&
       r.summary.inflation_time
           ? fmt::format("{:.1f} ms until within 10 % of steady for good", 1000 * *r.summary.inflation_time)
           : "still outside 10 % of steady at the end; a longer inflation.duration_s may settle it");
+  if (r.summary.filling_time && r.summary.settling_time)
+    row("filled, settled",
+        fmt::format("{:.1f} ms, {:.1f} ms ({:g} Hz, mean square over two periods)",
+                    1000 * *r.summary.filling_time, 1000 * *r.summary.settling_time, s.low_pass_hz));
   row("overshoot", s.low_pass_hz > 0
                        ? fmt::format("{:.3f}, low-passed {:.3f}", r.overshoot, r.smooth_overshoot)
                        : fmt::format("{:.3f}", r.overshoot));

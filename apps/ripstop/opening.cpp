@@ -83,6 +83,7 @@ Case opening_case(const OpeningOptions& options) {
   }
   // Chords of curved seams would strain the folded start.
   value.parachute.mesh.sewn_straight = false;
+  if (value.inflation.line_segment_m) value.parachute.mesh.line_segment_m = *value.inflation.line_segment_m;
   value.parachute.mesh.folds = inflation.folds > 0 ? inflation.folds : value.parachute.lines.count;
   return value;
 }

@@ -134,6 +134,25 @@ TEST(Inflation, AStatedImperfectionOfOneWaveIsWhatTheAsymmetrySays) {
   EXPECT_LT(even.frame(kept).asymmetry, 1e-14);
 }
 
+// What is left of symmetry is rounding that grows as any other disturbance does: a hundred times the
+// imperfection is a hundred times the asymmetry for as long as it is small.
+TEST(Inflation, AnAsymmetryGrowsInProportionToTheImperfectionItCameFrom) {
+  const auto asymmetry_after = [](double imperfection) {
+    InflationProblem problem = small_problem(500, 0.02);
+    problem.settings.cloth_compression = 0.1;
+    problem.settings.cloth_damping_s = 1e-5;
+    problem.settings.imperfection_m = imperfection;
+    Inflation solver(problem);
+    InflationState state = solver.start();
+    run(solver, state);
+    return solver.frame(state).asymmetry;
+  };
+  const double small = asymmetry_after(1e-10), hundredfold = asymmetry_after(1e-8);
+  EXPECT_NEAR(hundredfold / small, 100, 1);
+  EXPECT_GT(small, 1e-10);                      // it has grown
+  EXPECT_LT(asymmetry_after(0), 0.01 * small);  // rounding starts near 1e-16 m
+}
+
 TEST(Inflation, AStoppedRunGoesOnToTheLastBit) {
   const InflationProblem problem = small_problem(500, 6e-3);
   Inflation whole(problem), first(problem), second(problem);

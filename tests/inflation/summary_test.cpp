@@ -40,6 +40,31 @@ TEST(Summary, ALoadThatNeverSettlesHasNoInflationTime) {
   EXPECT_FALSE(summarise(rows, 0).inflation_time.has_value());
 }
 
+// Slow against the low-pass, which leaves it alone. Its mean square over a window shorter than a period lies
+// between 0 and twice exp(-2 t / T) / 2.
+TEST(Summary, TheSettlingTimeIsWhenTheMeanSquareOfADecayingLoadIsATenth) {
+  const double decay = 0.5, omega = 2 * std::numbers::pi * 10, interval = 1e-3, cutoff = 100;
+  const double window = 2 / cutoff;
+  std::vector<HistoryRow> rows = decaying(400, decay, omega, interval, 10000);
+  const InflationSummary s = summarise(rows, cutoff);
+  ASSERT_TRUE(s.settling_time && s.filling_time);
+  const double mean = decay * std::log(10 / std::sqrt(2.0));
+  EXPECT_LT(*s.settling_time, mean + decay * std::log(std::sqrt(2.0)));
+  EXPECT_GT(*s.settling_time, mean - std::numbers::pi / omega);
+  EXPECT_LT(window, 2 * std::numbers::pi / omega);
+  // cos(w t) = 0 for the first time.
+  EXPECT_NEAR(*s.filling_time, 0.5 * std::numbers::pi / omega, 2 * interval);
+}
+
+TEST(Summary, ASingleSwingOutOfTheBandMovesTheInflationTimeNotTheSettlingTime) {
+  std::vector<HistoryRow> rows = decaying(400, 0.05, 300, 1e-3, 2000);
+  const InflationSummary before = summarise(rows, 100);
+  for (int i = -3; i <= 3; ++i) rows[800 + i].mean = 445;  // 11 % above for 7 ms
+  const InflationSummary after = summarise(rows, 100);
+  EXPECT_GT(*after.inflation_time, 0.79);
+  EXPECT_DOUBLE_EQ(*after.settling_time, *before.settling_time);
+}
+
 TEST(LowPass, ItKeepsSlowTonesHalvesTheCutoffAndDropsFastOnesWithoutDelay) {
   const double interval = 1e-4, cutoff = 100;
   const auto gain = [&](double hz) {

@@ -132,8 +132,14 @@ void describe(Fields& fields, InflationSettings& inflation) {
   fields.number("line_damping_s", inflation.line_damping_s, from(0).up_to(1e-3),
                 "Relative damping of lines and tape as a time: C = line_damping_s K_1 / L0 (assumed).");
   fields.number("cloth_damping_s", inflation.cloth_damping_s, from(0).up_to(1e-3),
-                "Relative damping of the cloth's springs, likewise (none assumed); less in cells where it "
-                "would set the step.");
+                "Relative damping of the cloth's springs, likewise (none assumed).");
+  fields.number(
+      "cloth_damping_step_share", inflation.cloth_damping_step_share, from(0.05).up_to(0.999),
+      "Where the cloth's damping would leave less than this of the stable step, a cell has less of it");
+  fields
+      .number("line_segment_m", inflation.line_segment_m, from(0.001).up_to(10),
+              "Rest length that the springs of a line aim at, in the opening: stiff lines set its step.")
+      .absent("that of [parachute.mesh]");
   fields
       .number("cloth_compression", inflation.cloth_compression, from(0).up_to(1),
               "Stiffness of cloth and tape in compression relative to K_1, in the opening.")

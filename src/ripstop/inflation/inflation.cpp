@@ -15,9 +15,6 @@ namespace {
 
 // Of a block, after which the stable step is looked at: the looking costs about as much as 40 steps.
 constexpr double longest_block = 2e-3;  // [s]
-// Of the stable step without dampers in the cloth: the few cells whose dampers would take more get weaker
-// ones.
-constexpr double share_of_step = 0.97;
 // Of the cloth's viscosity, that acts along yarns between nodes two cells apart. There it takes a quarter of
 // what the same loss in a wave that the mesh resolves takes of the stable step between neighbours, and it
 // resists being folded at the scale of the grid. A wave of two cells only feels the rest.
@@ -77,7 +74,7 @@ Inflation::Inflation(InflationProblem problem) : problem_(std::move(problem)), t
   damp_springs(mesh_, s.line_damping_s, s.cloth_damping_s);
   const ClothOptions options{problem_.linear, s.damping_n_s_m3, s.quadratic_damping_n_s2_m4};
   if (s.cloth_damping_s > 0)
-    viscosity_limit_ = limit_viscosity(mesh_, options, folded_.positions, share_of_step);
+    viscosity_limit_ = limit_viscosity(mesh_, options, folded_.positions, s.cloth_damping_step_share);
   cloth_ = make_cloth(mesh_, options);
 
   const double frame = s.duration_s / s.frames;

@@ -20,10 +20,14 @@ struct InflationSettings {
   double line_damping_s = 1e-6;  // of lines and tape: C = this times K_1 (w) / L0 of every spring
   double cloth_damping_s = 0;    // of the cloth, likewise; less in cells where it would set the step
 
+  double cloth_damping_step_share = 0.97;  // of the stable step without it, that the cloth's damping leaves
+
   // The folded start is moved outward by imperfection_m cos(harmonic azimuth) at its outer folds, in
   // proportion to the radius inside.
   double imperfection_m = 0;
   int imperfection_harmonic = 1;
+
+  std::optional<double> line_segment_m;  // of the opening's mesh, in place of [parachute.mesh]'s
 
   std::optional<double> cloth_compression;  // of cloth and tape, in place of their materials'
 

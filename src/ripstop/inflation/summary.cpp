@@ -28,6 +28,20 @@ std::vector<double> butterworth(const std::vector<double>& x, double k) {
   return y;
 }
 
+// The beginning of the first window after which no window's root mean square deviation leaves the band.
+std::optional<double> settling_time(const std::vector<double>& load, double steady, double interval,
+                                    double window_time) {
+  const auto window = static_cast<std::size_t>(std::lround(window_time / interval));
+  if (window == 0 || window > load.size()) return {};
+  std::vector<double> before(load.size() + 1, 0.0);
+  for (std::size_t i = 0; i < load.size(); ++i) before[i + 1] = before[i] + std::pow(load[i] / steady - 1, 2);
+  std::size_t begin = load.size() - window + 1;
+  const double allowed = steady_band * steady_band * static_cast<double>(window);
+  while (begin > 0 && before[begin - 1 + window] - before[begin - 1] <= allowed) --begin;
+  if (begin > load.size() - window) return {};
+  return static_cast<double>(begin) * interval;
+}
+
 }  // namespace
 
 std::vector<double> low_pass(const std::vector<double>& values, double interval, double cutoff_hz) {
@@ -64,6 +78,10 @@ InflationSummary summarise(const std::vector<HistoryRow>& rows, double low_pass_
     const auto highest = std::max_element(load.begin(), load.end());
     summary.smooth_peak = *highest;
     summary.smooth_peak_time = rows[highest - load.begin()].time;
+    const auto full =
+        std::find_if(load.begin(), load.end(), [&](double f) { return f >= summary.steady_load; });
+    if (full != load.end()) summary.filling_time = rows[full - load.begin()].time;
+    summary.settling_time = settling_time(load, summary.steady_load, rows.front().time, 2 / low_pass_hz);
   }
   std::size_t settled = rows.size();
   while (settled > 0 && std::abs(load[settled - 1] / summary.steady_load - 1) <= steady_band) --settled;

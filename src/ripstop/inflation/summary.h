@@ -12,8 +12,12 @@ struct InflationSummary {
   double steady_load = 0;                // mean over the last fifth of the run [N]
   double unsteadiness = 0;               // standard deviation of the rows there, over steady_load
   std::optional<double> inflation_time;  // absent: still outside the band at the end [s]
-  double smooth_peak = 0;                // of the low-passed history; 0: none asked for [N]
-  double smooth_peak_time = 0;           // [s]
+  /// Of the low-passed load, absent without one; they hardly depend on single swings, as inflation_time does.
+  std::optional<double> filling_time;  // first at the steady load [s]
+  std::optional<double>
+      settling_time;            // from then on within 10 % in the mean square over two cutoff periods [s]
+  double smooth_peak = 0;       // of the low-passed history; 0: none asked for [N]
+  double smooth_peak_time = 0;  // [s]
 };
 
 /// Until the row's mean stays within 10 % of the steady load: [NFM]. With a low-pass, of the low-passed

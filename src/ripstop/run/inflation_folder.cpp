@@ -281,6 +281,8 @@ InflationResult InflationFolder::finish(const Inflation& solver, const Inflation
   }
   j["inflation_time_s"] =
       r.summary.inflation_time ? ordered_json(*r.summary.inflation_time) : ordered_json(nullptr);
+  if (r.summary.filling_time) j["filling_time_s"] = *r.summary.filling_time;
+  if (r.summary.settling_time) j["settling_time_s"] = *r.summary.settling_time;
   j["steady_load_n"] = r.summary.steady_load;
   j["steady_load_deviation"] = r.summary.unsteadiness;
   j["overshoot"] = r.overshoot;
