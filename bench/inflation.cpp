@@ -35,8 +35,8 @@ BENCHMARK(opening)
     ->ArgNames({"nodes", "threads", "segment_mm", "damping_us"})
     ->Args({25600, 1, 50, 0})
     ->Args({25600, 2, 50, 0})
-    ->Args({25600, 2, 75, 0})
-    ->Args({25600, 2, 50, 10})
+    ->Args({25600, 1, 60, 10})  // as the examples have it
+    ->Args({25600, 2, 60, 10})
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime()
     ->Iterations(20);

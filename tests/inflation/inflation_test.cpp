@@ -139,7 +139,6 @@ TEST(Inflation, AStatedImperfectionOfOneWaveIsWhatTheAsymmetrySays) {
 TEST(Inflation, AnAsymmetryGrowsInProportionToTheImperfectionItCameFrom) {
   const auto asymmetry_after = [](double imperfection) {
     InflationProblem problem = small_problem(500, 0.02);
-    problem.settings.cloth_compression = 0.1;
     problem.settings.cloth_damping_s = 1e-5;
     problem.settings.imperfection_m = imperfection;
     Inflation solver(problem);

@@ -6,7 +6,9 @@ namespace {
 // Knacke, NWC TP 6575, Tables 5-1 (solid textile) and 5-2 (slotted canopies), column "opening force
 // coefficient C_x (inf. mass)". Flat circular, conical, hemispherical, extended skirt and cross agree with a
 // public transcription of the tables (parachute_design.m of the Stanford Student Space Initiative, which
-// cites Knacke, 1992); disk-gap-band, ringslot and ringsail are written down from memory, unchecked.
+// cites Knacke, 1992); flat circular and cross with a second one besides. Disk-gap-band, ringslot and
+// ringsail are written down from memory: no public text with them was found, the tables are public as
+// pictures only.
 double coefficient_of(const DiskGapBand&) {
   return 1.3;
 }
