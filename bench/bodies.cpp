@@ -1,6 +1,6 @@
-// Bodies of known drag as sheets, on finer and finer grids: slip sides, second-order convection.
-//   bench_bodies [cells across the body on the finest grid [body [width of the box in diameters [turbulence
-//   intensity]]]]
+// Bodies of known drag as sheets, on finer and finer grids, second-order convection.
+//   bench_bodies [cells across the body on the finest grid [body [width of the box in diameters
+//                [turbulence intensity [sides: slip, entraining or zero-gradient]]]]]
 #include "ripstop/flow/bodies.h"
 
 #include <fmt/core.h>
@@ -47,12 +47,12 @@ void read_pressures(const FlowField& field, double dynamic_pressure, Result& res
   result.front /= area * dynamic_pressure, result.back /= area * dynamic_pressure;
 }
 
-Result drag_coefficient(const Body& body, const FlowGrid& grid, double turbulence) {
+Result drag_coefficient(const Body& body, const FlowGrid& grid, double turbulence, Sides sides) {
   FlowProblem problem;
   problem.grid = grid;
   problem.air.speed = 30;
   problem.air.turbulence_intensity = turbulence;
-  problem.duct = true;
+  problem.sides = sides;
   problem.max_iterations = 600;
   problem.average_over = 100;
   const double rho = problem.air.density, speed = problem.air.speed;
@@ -77,6 +77,10 @@ int main(int argc, char** argv) {
   const int finest = argc > 1 ? std::atoi(argv[1]) : 32;
   const std::string only = argc > 2 ? argv[2] : "";
   const double box = argc > 3 ? std::atof(argv[3]) : 12, turbulence = argc > 4 ? std::atof(argv[4]) : 0.005;
+  const std::string side = argc > 5 ? argv[5] : "slip";
+  const Sides sides = side == "entraining" ? Sides::entraining
+                      : side == "slip"     ? Sides::slip
+                                           : Sides::zero_gradient;
   const double d = 1, disk_area = std::numbers::pi / 4 * d * d;
   const Vec3 centre{0, 0, 0.45 * 1.5 * box * d};
   const std::vector<Body> bodies = {
@@ -87,14 +91,14 @@ int main(int argc, char** argv) {
       {"porous disk K = 1", disk(d, centre), disk_area, 1, 1 / std::pow(1 + 1.0 / 4, 2)},
       {"porous disk K = 2", disk(d, centre), disk_area, 2, 2 / std::pow(1 + 2.0 / 4, 2)},
   };
-  fmt::print("Diameter or side d = 1 m, 30 m/s, box {} x {} x {} m, slip sides, second order\n", box, box,
-             1.5 * box);
+  fmt::print("Diameter or side d = 1 m, 30 m/s, box {} x {} x {} m, {} sides, second order\n", box, box,
+             1.5 * box, side);
   fmt::print("{:>22} {:>9} {:>6} {:>9} {:>11} {:>9} {:>8} {:>8} {:>14}\n", "body", "reference", "h/d",
              "cells", "coefficient", "off by", "Cp front", "Cp back", "last 100 it.");
   for (const Body& body : bodies) {
     if (!only.empty() && body.name != only) continue;
     for (int n = finest / 4; n <= finest; n *= 2) {
-      const Result r = drag_coefficient(body, far_box(d, box, n, centre.z), turbulence);
+      const Result r = drag_coefficient(body, far_box(d, box, n, centre.z), turbulence, sides);
       fmt::print("{:>22} {:>9.3f} {:>6} {:>9} {:>11.3f} {:>+7.1f} % {:>8.3f} {:>8.3f} {:>12.2f} %\n",
                  body.name, body.reference, fmt::format("1/{}", n), r.cells, r.coefficient,
                  100 * (r.coefficient / body.reference - 1), r.front, r.back, 100 * r.change);

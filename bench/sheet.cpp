@@ -29,7 +29,7 @@ int main(int argc, char** argv) {
       FlowProblem problem;
       problem.grid = far_box(d, box, n, skirt);
       problem.air.speed = 30;
-      problem.duct = true;
+      problem.sides = Sides::slip;
       problem.max_iterations = 400;
       problem.average_over = 100;
       const Vec3 h = problem.grid.spacing();

@@ -88,7 +88,7 @@ TEST(Convection, TheSecondOrderWakeConservesMomentumAndIsLessDiffuse) {
   FlowProblem problem;
   problem.grid = {{-1, -1, 0}, {2, 2, 4}, 26, 26, 40};
   problem.air.speed = 10;
-  problem.duct = true;
+  problem.sides = Sides::slip;
   problem.max_iterations = 600;
   problem.sheets = {{disk(0.5, {0, 0, 1.5}), 12, 0}};
   const auto wake = [&](bool second) {

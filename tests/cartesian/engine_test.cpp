@@ -78,7 +78,7 @@ TEST(CartesianEngine, TheForceOnTheCanopyIsTheMomentumThatTheBoxLoses) {
 double plug_drop(int cells) {
   FlowProblem problem;
   problem.grid = {{0, 0, 0}, {1, 1, 4}, 4, 4, cells};
-  problem.duct = true;
+  problem.sides = Sides::slip;
   problem.air.speed = 10;
   PorousCells plug;
   plug.darcy = 1e5;

@@ -24,7 +24,7 @@ FlowField porous_disk(const FlowGrid& grid) {
   FlowProblem problem;
   problem.grid = grid;
   problem.air.speed = 10;
-  problem.duct = true;
+  problem.sides = Sides::slip;
   problem.sheets = {{disk(1, {0, 0, 3}), 0, 0.5 * problem.air.density}};
   problem.residual = 1e-4;
   problem.max_iterations = 250;

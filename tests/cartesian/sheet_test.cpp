@@ -97,7 +97,7 @@ struct Duct {
 Duct duct(double speed, double a, double b, double degrees, int n, double at = 2.013) {
   FlowProblem problem;
   problem.grid = {{0, 0, 0}, {1, 0.5, 4}, n, n / 2, 4 * n};
-  problem.duct = true;
+  problem.sides = Sides::slip;
   problem.air.speed = speed;
   problem.max_iterations = 400;
   const double slope = std::tan(degrees * pi / 180);

@@ -161,7 +161,7 @@ TEST_F(OpenFoamFailure, ABlockedDuctThatCannotPassItsFlowDiverges) {
   problem_.air.speed = 150;
   problem_.porous = {{{}, 0, 1e5}};
   for (int cell = 16; cell < 32; ++cell) problem_.porous[0].cells.push_back(cell);
-  problem_.duct = true;
+  problem_.sides = Sides::slip;
   problem_.max_iterations = 60;
   EXPECT_PRED2(says, message(ExitCode::diverged), "ran into its limits");
 }

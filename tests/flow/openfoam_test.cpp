@@ -44,7 +44,7 @@ FlowProblem slab_in_duct(int layers, double darcy, double forchheimer) {
   FlowProblem problem;
   problem.grid = {{0, 0, 0}, {0.2, 0.2, 2.0}, 4, 4, 40};
   problem.air.speed = 20;
-  problem.duct = true;
+  problem.sides = Sides::slip;
   PorousCells slab{{}, darcy, forchheimer};
   const int first = problem.grid.index(0, 0, 20), layer = problem.grid.nx * problem.grid.ny;
   for (int cell = first; cell < first + layers * layer; ++cell) slab.cells.push_back(cell);

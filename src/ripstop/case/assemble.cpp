@@ -23,7 +23,7 @@ FlowProblem flow_problem(const Case& value) {
   problem.air.temperature = settings.temperature_k;
   problem.air.turbulence_intensity = settings.turbulence_intensity;
   problem.air.viscosity_ratio = settings.viscosity_ratio;
-  problem.duct = settings.sides == Sides::slip;
+  problem.sides = settings.sides;
   problem.residual = settings.residual;
   problem.max_iterations = settings.max_iterations;
   problem.average_over = settings.average_over;

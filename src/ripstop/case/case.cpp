@@ -68,8 +68,10 @@ void describe(Fields& fields, FlowSettings& flow) {
                 {{"upwind", Convection::upwind}, {"second-order", Convection::second_order}},
                 "Of the velocity. \"upwind\": first order, as [NFM]; \"second-order\": limited linear.");
   fields.choice(
-      "sides", flow.sides, {{"zero-gradient", Sides::zero_gradient}, {"slip", Sides::slip}},
-      "The four sides of the box. \"zero-gradient\": open, as [NFM]; \"slip\": walls without friction.");
+      "sides", flow.sides,
+      {{"zero-gradient", Sides::zero_gradient}, {"slip", Sides::slip}, {"entraining", Sides::entraining}},
+      "The four sides of the box. \"zero-gradient\": open, as [NFM]; \"slip\": walls without friction; "
+      "\"entraining\": air of the stream may come in with its total pressure (built-in engine only).");
   fields.number("residual", flow.residual, above(0).up_to(0.1),
                 "Residual of every equation at which a solution ends.");
   fields.integer("max_iterations", flow.max_iterations, from(1).up_to(1'000'000),

@@ -12,7 +12,7 @@
 #include "ripstop/core/toml/set.h"
 #include "ripstop/core/vec3.h"
 #include "ripstop/coupling/settings.h"
-#include "ripstop/flow/flow_grid.h"
+#include "ripstop/flow/flow.h"
 #include "ripstop/inflation/settings.h"
 #include "ripstop/material/library.h"
 #include "ripstop/material/material.h"
@@ -23,7 +23,6 @@ namespace ripstop {
 enum class EngineKind { builtin, openfoam };
 enum class SpeedBasis { nominal, measured };
 enum class Convection { upwind, second_order };
-enum class Sides { zero_gradient, slip };
 enum class PorosityModel { paper, sheet };
 
 /// [flow.core], the part of the flow's box with uniform cells, outside of which they grow.

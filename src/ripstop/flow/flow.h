@@ -52,13 +52,19 @@ struct SheetLoad {
   Vec3 force;       // on the sheet: drop times the face's area, along an axis of the grid [N]
 };
 
+/// The four sides of the box. Slip: walls without friction. Zero gradient: nothing changes across them, air
+/// goes in and out as it does just inside. Entraining: the outlet's pressure where air leaves; where it comes
+/// in, air of the stream at the stream's total pressure (built-in engine only).
+enum class Sides { zero_gradient, slip, entraining };
+
 struct FlowProblem {
   FlowGrid grid;
   Freestream air;
   std::vector<PorousCells> porous;  // one entry a cloth
   std::vector<Sheet> sheets;        // the same for the `sheet` model
-  bool duct = false;                // true: the four sides are slip walls; false: open, zero gradient
-  double residual = 1e-5;           // on every equation
+  Sides sides = Sides::zero_gradient;
+  std::vector<Vec3> body_force;  // on the air of each cell [N/m3]; empty: none (built-in engine only)
+  double residual = 1e-5;        // on every equation
   int max_iterations = 1000;
   /// A run that ends unconverged after max_iterations returns the mean over its last so many iterations;
   /// 0: the last iteration (built-in engine only).

@@ -77,9 +77,12 @@ void Solver::convection(int k, IndexRange rows) {
     r.south2 = j > 0 ? -2 * sy : 0, r.north2 = j + 1 < grid_.ny ? 2 * sy : 0;
     r.below2 = k > 0 ? -2 * sz : 0, r.above2 = k + 1 < grid_.nz ? 2 * sz : 0;
     r.fx = &f_.fx[at], r.fy = &f_.fy[at], r.fz = &f_.fz[at];
-    r.q = &f_.u[at], r.source = &extra_u_[at], convection_row(r);
-    r.q = &f_.v[at], r.source = &extra_v_[at], convection_row(r);
-    r.q = &f_.w[at], r.source = &extra_w_[at], convection_row(r);
+    const auto add = [&](const Array<double>& q, const Array<double>& body, Array<double>& extra) {
+      r.q = &q[at], r.source = &extra[at];
+      convection_row(r);
+      for (int i = 0; !body.empty() && i < grid_.nx; ++i) extra[at + i] += body[at + i];
+    };
+    add(f_.u, body_u_, extra_u_), add(f_.v, body_v_, extra_v_), add(f_.w, body_w_, extra_w_);
   }
 }
 

@@ -39,6 +39,11 @@ void check(const FlowProblem& problem) {
   positive_value("turbulence intensity", a.turbulence_intensity);
   positive_value("viscosity ratio", a.viscosity_ratio);
   positive_value("residual", problem.residual);
+  if (!problem.body_force.empty() &&
+      problem.body_force.size() != static_cast<std::size_t>(problem.grid.cells())) {
+    usage(fmt::format("flow: {} forces on the air for {} cells", problem.body_force.size(),
+                      problem.grid.cells()));
+  }
   if (problem.average_over < 0 || problem.average_over > problem.max_iterations) {
     usage(fmt::format("flow: average_over = {} must lie in 0 to max_iterations = {}", problem.average_over,
                       problem.max_iterations));
@@ -123,10 +128,11 @@ FlowField CartesianEngine::solve(const FlowProblem& problem, const FlowReport& r
   // A sheet across the whole box holds back pressures far beyond rho U^2, which would not survive being
   // interpolated.
   const bool shut = solver->shut();
-  if (last_ && last_->duct() == problem.duct && last_->grid().origin == problem.grid.origin &&
+  if (last_ && last_->sides() == problem.sides && last_->grid().origin == problem.grid.origin &&
       last_->grid().size == problem.grid.size && last_->air() == problem.air) {
     solver->start_from(*last_);
-  } else if (settings_.grid_sequencing && problem.grid.cells() > 20000 && !shut) {
+  } else if (settings_.grid_sequencing && problem.grid.cells() > 20000 && !shut &&
+             problem.body_force.empty()) {
     solve_coarse(problem, problem.grid, PorousRows(problem.grid, problem.porous, problem.air.viscosity),
                  *solver);
   } else {
@@ -150,7 +156,7 @@ struct Header {
   char magic[8] = {'r', 'i', 'p', 'f', 'l', 'o', 'w', '2'};
   FlowGrid grid;
   Freestream air;
-  bool duct = false;
+  Sides sides = Sides::zero_gradient;
   Sums sums;
 };
 static_assert(std::is_trivially_copyable_v<Header>);
@@ -166,7 +172,7 @@ void CartesianEngine::save(const std::filesystem::path& folder) const {
   Header header;
   header.grid = last_->grid();
   header.air = last_->air();
-  header.duct = last_->duct();
+  header.sides = last_->sides();
   header.sums = last_->sums();
   std::string bytes(reinterpret_cast<const char*>(&header), sizeof header);
   for (const Array<double>* field : saved_fields(last_->fields())) {
@@ -190,7 +196,7 @@ void CartesianEngine::restore(const std::filesystem::path& folder) {
   FlowProblem problem;
   problem.grid = header.grid;
   problem.air = header.air;
-  problem.duct = header.duct;
+  problem.sides = header.sides;
   check(problem);
   auto solver =
       std::make_unique<Solver>(problem, problem.grid, PorousRows(problem.grid, {}, 0), settings_, team_);

@@ -36,6 +36,8 @@ Axis join(const Axis& fine, MultigridLevel::Joint& joint) {
       if (offset != 0 && other >= 0 && other < coarse.n) {
         far = offset / (centre(coarse, other) - centre(coarse, parent));
         near = 1 - far;
+      } else if (other == -1 && fine.inverse_distance.front() > 0 && offset < 0) {
+        near = 1 + offset / (centre(coarse, parent) - coarse.edge.front());
       } else if (other == coarse.n && fine.inverse_distance.back() > 0 && offset > 0) {
         near = 1 - offset / (coarse.edge.back() - centre(coarse, parent));
       }
@@ -128,9 +130,9 @@ void coarsen_planes(const MultigridLevel& fine, MultigridLevel& coarse, IndexRan
     for (int i = 0; i < lay.nx; ++i) out[i] = halved ? sum[2 * i] + sum[2 * i + 1] : sum[i];
   };
   for (int k = planes.begin; k < planes.end; ++k) {
-    for (int j = 0; j < lay.ny; ++j) {
+    for (int j = 0; j <= lay.ny; ++j) {
       std::fill(sum.begin(), sum.end(), 0.0f);
-      for (int jf = y.first[j]; jf < y.first[j + 1]; ++jf) {
+      for (int jf = y.first[j]; j < lay.ny && jf < y.first[j + 1]; ++jf) {
         const float* face = &fine.cz[from.at(0, jf, z.first[k])];
         const float* below = k > 0 ? &fine.cz[from.at(0, jf, z.first[k - 1])] : nullptr;
         add_series_row(n, face, inside(z.first, k - 1, lay.nz, below, from.stride_z),
@@ -147,21 +149,27 @@ void coarsen_planes(const MultigridLevel& fine, MultigridLevel& coarse, IndexRan
                        inside(y.first, j, lay.ny, face, from.stride_y), sum.data());
       }
       gather(&coarse.cy[lay.at(0, j, k)]);
+      if (j == lay.ny) continue;  // the far side's faces
 
       std::fill(sum.begin(), sum.end(), 0.0f);
-      float last = 0;
+      float first = 0, last = 0, end = 0;
       for (int kf = z.first[k]; kf < z.first[k + 1]; ++kf) {
         for (int jf = y.first[j]; jf < y.first[j + 1]; ++jf) {
           const float* face = &fine.cx[from.at(0, jf, kf)];
           add_series_row(n, face, halved ? face - 1 : open.data(), halved ? face + 1 : open.data(),
                          sum.data());
-          // The last cell of an odd row is a coarse cell alone: nothing inside it.
+          // Beyond the sides there is nothing; the last cell of an odd row is a coarse cell alone: nothing
+          // inside it.
+          add_series_row(1, face, open.data(), halved ? face + 1 : open.data(), &first);
           if (n % 2 == 1 && halved) add_series_row(1, face + n - 1, face + n - 2, open.data(), &last);
+          add_series_row(1, face + n, n % 2 == 0 && halved ? face + n - 1 : open.data(), open.data(), &end);
         }
       }
       float* cx = &coarse.cx[lay.at(0, j, k)];
       for (int i = 0; i < lay.nx; ++i) cx[i] = sum[halved ? 2 * i : i];
       if (n % 2 == 1 && halved) cx[lay.nx - 1] = last;
+      cx[0] = first;
+      cx[lay.nx] = end;
     }
   }
 }

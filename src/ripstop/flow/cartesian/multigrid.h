@@ -1,9 +1,9 @@
 // Geometric multigrid for the pressure correction: sum over faces of c (e_P - e_nb) = rhs, in float.
 //
 // The conductances c live on the low faces of the cells; a closed face has c = 0, and the ghost cells of e
-// stay 0, which is the outlet's value. Cells are joined in pairs along each axis (an odd last cell stays
-// alone); residuals are summed, corrections interpolated linearly. Red-black smoothing: the order of the
-// rows, and so the number of threads, does not matter to the last bit.
+// stay 0, which is the value in the outlet and in entraining sides. Cells are joined in pairs along each axis
+// (an odd last cell stays alone); residuals are summed, corrections interpolated linearly. Red-black
+// smoothing: the order of the rows, and so the number of threads, does not matter to the last bit.
 #pragma once
 
 #include <vector>
@@ -29,7 +29,7 @@ struct MultigridLevel {
 class Multigrid {
  public:
   Multigrid() = default;
-  /// `z` is the pressure's axis: closed at the inlet, fixed value at the outlet.
+  /// The pressure's axes: ends with a fixed value hold the correction at zero, the others are closed.
   Multigrid(const Axis& x, const Axis& y, const Axis& z);
 
   /// The finest level: the caller fills rhs and the conductances, and reads e.

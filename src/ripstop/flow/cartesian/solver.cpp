@@ -36,23 +36,32 @@ std::vector<Pair> pairs(const Axis& to, const Axis& from, bool faces) {
   return result;
 }
 
+End side_end(const FlowProblem& problem) {
+  return problem.sides == Sides::entraining ? End::fixed_value : End::zero_gradient;
+}
+
 }  // namespace
 
 Solver::Solver(const FlowProblem& problem, const FlowGrid& grid, PorousRows porous,
                const CartesianSettings& settings, ThreadTeam& team)
     : grid_(grid),
       air_(problem.air),
-      duct_(problem.duct),
+      sides_(problem.sides),
       settings_(settings),
       team_(team),
       porous_(std::move(porous)),
       x_(make_axis(grid.edges(0), End::zero_gradient, End::zero_gradient)),
       y_(make_axis(grid.edges(1), End::zero_gradient, End::zero_gradient)),
       z_(make_axis(grid.edges(2), End::fixed_value, End::zero_gradient)),
+      xp_(make_axis(grid.edges(0), side_end(problem), side_end(problem))),
+      yp_(make_axis(grid.edges(1), side_end(problem), side_end(problem))),
       zp_(make_axis(grid.edges(2), End::zero_gradient, End::fixed_value)),
       sheets_(x_, y_, z_, problem.sheets),
       layout_(grid.nx, grid.ny, grid.nz),
-      multigrid_(x_, y_, zp_) {
+      multigrid_(xp_, yp_, zp_) {
+  // Beyond an entraining side the pressure has a ghost, a whole cell away; the correction, which the
+  // multigrid holds at zero in the face, has its own conductances there.
+  for (Axis* axis : {&xp_, &yp_}) axis->inverse_distance.front() *= 0.5, axis->inverse_distance.back() *= 0.5;
   const std::size_t values = layout_.values();
   for (Array<double>* field : {&f_.u, &f_.v, &f_.w, &f_.p, &f_.rho, &f_.k, &f_.omega, &f_.fx, &f_.fy, &f_.fz,
                                &hu_, &hv_, &hw_, &ra_, &rc_, &new_k_, &new_omega_}) {
@@ -73,6 +82,18 @@ Solver::Solver(const FlowProblem& problem, const FlowGrid& grid, PorousRows poro
   constant_.inlet_k = Array<double>(row, inlet_k_);
   constant_.inlet_omega = Array<double>(row, inlet_omega_);
   if (settings_.second_order) extra_u_ = extra_v_ = extra_w_ = Array<double>(values);
+  if (!problem.body_force.empty()) {
+    body_u_ = body_v_ = body_w_ = Array<double>(values);
+    for (int k = 0; k < grid.nz; ++k) {
+      for (int j = 0; j < grid.ny; ++j) {
+        for (int i = 0; i < grid.nx; ++i) {
+          const Vec3 force = problem.body_force[grid.index(i, j, k)];
+          const std::ptrdiff_t at = layout_.at(i, j, k);
+          body_u_[at] = force.x, body_v_[at] = force.y, body_w_[at] = force.z;
+        }
+      }
+    }
+  }
   if (!sheets_.empty()) {
     outlet_p_ = Array<double>(static_cast<std::size_t>(layout_.stride_z));
     wall_ = sheets_.distance(x_, y_, z_, layout_);
@@ -82,18 +103,18 @@ Solver::Solver(const FlowProblem& problem, const FlowGrid& grid, PorousRows poro
   planes_.resize(grid.nz);
 }
 
-RowMetrics Solver::metrics(int j, int k, const Axis& z) const {
+RowMetrics Solver::metrics(int j, int k, const Axis& x, const Axis& y, const Axis& z) const {
   RowMetrics m;
   m.n = grid_.nx;
   m.sy = layout_.stride_y;
   m.sz = layout_.stride_z;
-  m.x_width = x_.width.data();
-  m.x_inverse_width = x_.inverse_width.data();
-  m.x_weight_low = x_.weight_low.data();
-  m.x_inverse_distance = x_.inverse_distance.data();
-  m.x_slope_low = x_.slope_low.data();
-  m.x_slope_high = x_.slope_high.data();
-  m.y = cross_metrics(y_, j);
+  m.x_width = x.width.data();
+  m.x_inverse_width = x.inverse_width.data();
+  m.x_weight_low = x.weight_low.data();
+  m.x_inverse_distance = x.inverse_distance.data();
+  m.x_slope_low = x.slope_low.data();
+  m.x_slope_high = x.slope_high.data();
+  m.y = cross_metrics(y, j);
   m.z = cross_metrics(z, k);
   return m;
 }
@@ -292,16 +313,21 @@ double Solver::momentum_deficit() const {
       force += area * mu(out) * slope / 2;
     }
   }
+  // Ghosts hold what air brings in.
+  const std::ptrdiff_t sy = layout_.stride_y;
+  const auto carried = [&](double flux, std::ptrdiff_t before, std::ptrdiff_t after) {
+    return flux * f_.w[flux > 0 ? before : after];
+  };
   for (int k = 0; k < grid_.nz; ++k) {
     for (int j = 0; j < grid_.ny; ++j) {
       const double area = y_.width[j] * z_.width[k];
       const std::ptrdiff_t low = layout_.at(0, j, k), high = layout_.at(grid_.nx - 1, j, k);
-      force += area * (f_.fx[low] * f_.w[low] - f_.fx[high + 1] * f_.w[high]);
+      force += area * (carried(f_.fx[low], low - 1, low) - carried(f_.fx[high + 1], high, high + 1));
     }
     for (int i = 0; i < grid_.nx; ++i) {
       const double area = x_.width[i] * z_.width[k];
       const std::ptrdiff_t low = layout_.at(i, 0, k), high = layout_.at(i, grid_.ny - 1, k);
-      force += area * (f_.fy[low] * f_.w[low] - f_.fy[high + layout_.stride_y] * f_.w[high]);
+      force += area * (carried(f_.fy[low], low - sy, low) - carried(f_.fy[high + sy], high, high + sy));
     }
   }
   return force;

@@ -87,7 +87,7 @@ class Solver {
   FlowField field() const;
   const FlowGrid& grid() const { return grid_; }
   const Freestream& air() const { return air_; }
-  bool duct() const { return duct_; }
+  Sides sides() const { return sides_; }
   bool shut() const { return sheets_.shut(); }
   const Fields& fields() const { return f_; }
   Fields& fields() { return f_; }
@@ -110,6 +110,11 @@ class Solver {
   void velocity(int k, IndexRange rows);
   void relax_pressure(int k);
   void side_ghosts(Array<double>& field, int k, double across_x, double across_y) const;
+  template <class Visit>
+  void each_side_face(int k, Visit&& visit) const;
+  void entrain(Array<double>& field, int k, int normal, double stream) const;
+  void entraining_conductances(int j, int k);
+  bool entraining() const { return sides_ == Sides::entraining; }
   void end_ghosts(Array<double>& field, int k, double inlet, double back) const;
   void march_ghosts(int k);
   void pressure_ghosts(int k);
@@ -117,7 +122,9 @@ class Solver {
   void velocity_ghosts(int k);
 
   void add_up(int rank, int from, int to);
-  RowMetrics metrics(int j, int k, const Axis& z) const;
+  RowMetrics metrics(int j, int k) const { return metrics(j, k, x_, y_, z_); }
+  RowMetrics pressure_metrics(int j, int k) const { return metrics(j, k, xp_, yp_, zp_); }
+  RowMetrics metrics(int j, int k, const Axis& x, const Axis& y, const Axis& z) const;
   Sums& row_sums(int j, int k) { return rows_[static_cast<std::size_t>(k) * grid_.ny + j]; }
   Vec3 porous_force_of_row(int j, int k) const;
   SheetJumps jumps(int j, int k, const double* (SheetRows::*row)(int, int, int) const) const;
@@ -125,11 +132,12 @@ class Solver {
 
   FlowGrid grid_;
   Freestream air_;
-  bool duct_ = false;
+  Sides sides_ = Sides::zero_gradient;
   CartesianSettings settings_;
   ThreadTeam& team_;
   PorousRows porous_;
-  Axis x_, y_, z_, zp_;  // z_ for transport (fixed inlet), zp_ for the pressure (fixed outlet)
+  Axis x_, y_, z_;     // for transport: fixed at the inlet
+  Axis xp_, yp_, zp_;  // for the pressure: fixed at the outlet and at entraining sides, see the constructor
   SheetRows sheets_;
   Layout layout_;
   Fields f_;
@@ -142,7 +150,8 @@ class Solver {
   Constant constant_;
   Array<double> hu_, hv_, hw_, ra_, rc_;  // H / (A + R) [m/s], 1 / (A + R) [m3 s/kg]
   Array<double> new_k_, new_omega_;
-  Array<double> extra_u_, extra_v_, extra_w_;  // of second-order convection; empty: upwind
+  Array<double> body_u_, body_v_, body_w_;     // force on the air [N/m3]; empty: none
+  Array<double> extra_u_, extra_v_, extra_w_;  // the same and second-order convection; empty: upwind
   Array<double> wall_;                         // distance to the nearest sheet [m]; empty: no sheets
   Array<double> limit_, new_limit_;            // of the eddy viscosity
   Array<double> outlet_p_;                     // pressure at the outlet's faces, one plane [Pa]; empty: zero

@@ -6,6 +6,11 @@
 #include "ripstop/flow/cartesian/solver.h"
 
 namespace ripstop::cartesian {
+namespace {
+
+constexpr int none = -1;  // no axis
+
+}  // namespace
 
 // Ghosts of one plane: beyond the sides a factor of the last cell, 1 or, at a slip wall, -1.
 void Solver::side_ghosts(Array<double>& field, int k, double across_x, double across_y) const {
@@ -19,6 +24,31 @@ void Solver::side_ghosts(Array<double>& field, int k, double across_x, double ac
   double *below = &field[layout_.at(-1, -1, k)], *above = &field[layout_.at(-1, ny, k)];
   for (int i = 0; i < nx + 2; ++i) below[i] = across_y * low[i];
   for (int i = 0; i < nx + 2; ++i) above[i] = across_y * high[i];
+}
+
+/// Faces of plane k in the sides: the axis across the face, ghost, cell, mass flux into the box.
+template <class Visit>
+void Solver::each_side_face(int k, Visit&& visit) const {
+  const std::ptrdiff_t sy = layout_.stride_y;
+  for (int j = 0; j < grid_.ny; ++j) {
+    const std::ptrdiff_t low = layout_.at(0, j, k), high = layout_.at(grid_.nx - 1, j, k);
+    visit(0, low - 1, low, f_.fx[low]);
+    visit(0, high + 1, high, -f_.fx[high + 1]);
+  }
+  for (int i = 0; i < grid_.nx; ++i) {
+    const std::ptrdiff_t low = layout_.at(i, 0, k), high = layout_.at(i, grid_.ny - 1, k);
+    visit(1, low - sy, low, f_.fy[low]);
+    visit(1, high + sy, high, -f_.fy[high + sy]);
+  }
+}
+
+// Air that comes in through an entraining side brings the stream's values; none across the faces of axis
+// `normal`.
+void Solver::entrain(Array<double>& field, int k, int normal, double stream) const {
+  if (!entraining()) return;
+  each_side_face(k, [&](int axis, std::ptrdiff_t ghost, std::ptrdiff_t, double inflow) {
+    if (axis != normal && inflow > 0) field[ghost] = stream;
+  });
 }
 
 // Ghosts beyond the inlet hold 2 q_inlet - q; those beyond the outlet q where air leaves, 2 q_back - q where
@@ -37,10 +67,12 @@ void Solver::end_ghosts(Array<double>& field, int k, double inlet, double back) 
 }
 
 void Solver::march_ghosts(int k) {
-  const double wall = duct_ ? -1 : 1;
+  const double wall = sides_ == Sides::slip ? -1 : 1;
   side_ghosts(hu_, k, wall, 1), side_ghosts(hv_, k, 1, wall);
   side_ghosts(f_.k, k, 1, 1), end_ghosts(f_.k, k, inlet_k_, inlet_k_);
   side_ghosts(f_.omega, k, 1, 1), end_ghosts(f_.omega, k, inlet_omega_, inlet_omega_);
+  entrain(f_.k, k, none, inlet_k_), entrain(f_.omega, k, none, inlet_omega_);
+  if (entraining()) side_ghosts(ra_, k, 1, 1), side_ghosts(rc_, k, 1, 1);
 }
 
 void Solver::pressure(int k, IndexRange rows) {
@@ -49,7 +81,7 @@ void Solver::pressure(int k, IndexRange rows) {
   for (int j = rows.begin; j < rows.end; ++j) {
     const std::ptrdiff_t at = layout_.at(0, j, k), sz = layout_.stride_z;
     PressureRow r;
-    r.m = metrics(j, k, zp_);
+    r.m = pressure_metrics(j, k);
     r.y_width = y_.width[j];
     r.z_width = z_.width[k];
     r.hu = &hu_[at], r.hv = &hv_[at], r.hw = &hw_[at];
@@ -69,8 +101,26 @@ void Solver::pressure(int k, IndexRange rows) {
     r.cx = &top.cx[at], r.cy = &top.cy[at], r.cz = &top.cz[at], r.cz_above = &top.cz[at + sz];
     r.rhs = &top.rhs[at];
     pressure_row(r);
+    if (entraining()) entraining_conductances(j, k);
     double* sums = row_sums(j, k).value;
     sums[Sums::p_residual] = r.sum.residual, sums[Sums::p_scale] = r.sum.scale;
+  }
+}
+
+// From the cells of row (j, k) in the sides to the faces there, half a cell.
+void Solver::entraining_conductances(int j, int k) {
+  MultigridLevel& top = multigrid_.finest();
+  const std::ptrdiff_t low = layout_.at(0, j, k), high = layout_.at(grid_.nx - 1, j, k);
+  const auto conductance = [&](std::ptrdiff_t cell, double width, double area) {
+    return static_cast<float>(f_.rho[cell] * rc_[cell] * 2 / width * area);
+  };
+  const double area_x = y_.width[j] * z_.width[k];
+  top.cx[low] = conductance(low, x_.width.front(), area_x);
+  top.cx[high + 1] = conductance(high, x_.width.back(), area_x);
+  for (int i = 0; i < grid_.nx; ++i) {
+    const double area_y = x_.width[i] * z_.width[k];
+    if (j == 0) top.cy[low + i] = conductance(low + i, y_.width.front(), area_y);
+    if (j == grid_.ny - 1) top.cy[low + i + layout_.stride_y] = conductance(low + i, y_.width.back(), area_y);
   }
 }
 
@@ -80,7 +130,7 @@ void Solver::flux(int k, IndexRange rows) {
   for (int j = rows.begin; j < rows.end; ++j) {
     const std::ptrdiff_t at = layout_.at(0, j, k), sy = layout_.stride_y, sz = layout_.stride_z;
     FluxRow r;
-    r.m = metrics(j, k, zp_);
+    r.m = pressure_metrics(j, k);
     r.hu = &hu_[at], r.hv = &hv_[at], r.hw = &hw_[at];
     r.ra = &ra_[at], r.rc = &rc_[at], r.rho = &f_.rho[at], r.p = &f_.p[at], r.dp = &top.e[at];
     r.inlet = k == 0;
@@ -93,8 +143,14 @@ void Solver::flux(int k, IndexRange rows) {
     r.change_y = sheets_.change_to_write(1, j, k);
     r.change_z = sheets_.change_to_write(2, j, k);
     flux_row(r);
-    if (j == grid_.ny - 1) {  // the far side: zero gradient, closed in a duct
-      for (int i = 0; i < grid_.nx; ++i) r.fy[i + sy] = duct_ ? 0 : r.rho[i] * r.hv[i];
+    if (j == grid_.ny - 1) {  // the far side
+      const bool open = sides_ != Sides::slip;
+      const double rd = yp_.inverse_distance[grid_.ny];
+      for (int i = 0; i < grid_.nx; ++i) {
+        const double more = static_cast<double>(r.dp[i + sy]) - static_cast<double>(r.dp[i]);
+        const double drop = rd * (r.ra[i] * (r.p[i + sy] - r.p[i]) + r.rc[i] * more);
+        r.fy[i + sy] = open ? r.rho[i] * (r.hv[i] - drop) : 0;
+      }
     }
     if (k == grid_.nz - 1) {
       const double* outlet =
@@ -111,12 +167,13 @@ void Solver::correction_ghosts(int k) {
   Array<float>& e = multigrid_.finest().e;
   const std::ptrdiff_t sy = layout_.stride_y, sz = layout_.stride_z;
   const int nx = grid_.nx, ny = grid_.ny;
+  const float across = entraining() ? -1 : 1;
   for (int j = 0; j < ny; ++j) {
     float* q = &e[layout_.at(0, j, k)];
-    q[-1] = q[0];
-    q[nx] = q[nx - 1];
-    if (j == 0) std::copy_n(q, nx, q - sy);
-    if (j == ny - 1) std::copy_n(q, nx, q + sy);
+    q[-1] = across * q[0];
+    q[nx] = across * q[nx - 1];
+    for (int i = 0; j == 0 && i < nx; ++i) q[i - sy] = across * q[i];
+    for (int i = 0; j == ny - 1 && i < nx; ++i) q[i + sy] = across * q[i];
     if (k == 0) std::copy_n(q, nx, q - sz);
     for (int i = 0; k == grid_.nz - 1 && i < nx; ++i) q[i + sz] = -q[i];
   }
@@ -125,6 +182,12 @@ void Solver::correction_ghosts(int k) {
 void Solver::pressure_ghosts(int k) {
   const std::ptrdiff_t sz = layout_.stride_z;
   side_ghosts(f_.p, k, 1, 1);
+  if (entraining()) {
+    each_side_face(k, [&](int, std::ptrdiff_t ghost, std::ptrdiff_t cell, double inflow) {
+      const double side = inflow > 0 ? -0.5 * inflow * inflow / f_.rho[cell] : 0;
+      f_.p[ghost] = 2 * side - f_.p[cell];
+    });
+  }
   for (int j = 0; j < grid_.ny; ++j) {
     double* p = &f_.p[layout_.at(0, j, k)];
     if (k == 0) std::copy_n(p, grid_.nx, p - sz);
@@ -157,11 +220,12 @@ void Solver::relax_pressure(int k) {
 }
 
 void Solver::velocity_ghosts(int k) {
-  const double wall = duct_ ? -1 : 1;
+  const double wall = sides_ == Sides::slip ? -1 : 1;
   side_ghosts(f_.u, k, wall, 1), end_ghosts(f_.u, k, 0, 0);
   side_ghosts(f_.v, k, 1, wall), end_ghosts(f_.v, k, 0, 0);
   side_ghosts(f_.w, k, 1, 1), end_ghosts(f_.w, k, air_.speed, 0);
   side_ghosts(f_.rho, k, 1, 1);
+  entrain(f_.u, k, 0, 0), entrain(f_.v, k, 1, 0), entrain(f_.w, k, none, air_.speed);
   const std::ptrdiff_t sz = layout_.stride_z;
   for (int j = 0; j < grid_.ny; ++j) {
     double* rho = &f_.rho[layout_.at(0, j, k)];
@@ -174,7 +238,7 @@ void Solver::velocity(int k, IndexRange rows) {
   for (int j = rows.begin; j < rows.end; ++j) {
     const std::ptrdiff_t at = layout_.at(0, j, k);
     VelocityRow r;
-    r.m = metrics(j, k, z_);
+    r.m = metrics(j, k);
     r.gas_constant = settings_.compressible ? gas_constant_ : 0;
     r.pressure0 = pressure0_;
     r.temperature = air_.temperature;

@@ -68,7 +68,7 @@ void Solver::turbulence(MarchRings& rings, int k, IndexRange rows) {
     const bool own = j >= rows.begin && j < rows.end;
     const std::ptrdiff_t at = layout_.at(0, j, k), in = rings.at(layout_, j, rows.begin);
     TurbulenceRow r;
-    r.m = metrics(j, k, z_);
+    r.m = metrics(j, k);
     r.viscosity = air_.viscosity;
     r.relaxation = settings_.relax_turbulence;
     r.mean_k = total_.value[Sums::k_mean];
@@ -134,7 +134,7 @@ void Solver::momentum(MarchRings& rings, int k, IndexRange rows) {
     const int j = northward ? step : rows.end - 1 - (step - rows.begin);
     const std::ptrdiff_t at = layout_.at(0, j, k), in = rings.at(layout_, j, rows.begin);
     MomentumRow r;
-    r.m = metrics(j, k, z_);
+    r.m = metrics(j, k);
     r.relaxation = settings_.relax_velocity;
     r.march_relaxation = settings_.relax_march;
     r.mean_u = total_.value[Sums::u_mean];
@@ -176,10 +176,11 @@ void Solver::momentum(MarchRings& rings, int k, IndexRange rows) {
     r.component = component;
     r.linear = porous_.linear(j, k);
     r.quadratic = porous_.quadratic(j, k);
-    const bool second = settings_.second_order;
-    r.extra_u = second ? &extra_u_[at] : zeros;
-    r.extra_v = second ? &extra_v_[at] : zeros;
-    r.extra_w = second ? &extra_w_[at] : zeros;
+    const auto extra = [&](const Array<double>& both, const Array<double>& body) {
+      return settings_.second_order ? &both[at] : body.empty() ? zeros : &body[at];
+    };
+    r.extra_u = extra(extra_u_, body_u_), r.extra_v = extra(extra_v_, body_v_),
+    r.extra_w = extra(extra_w_, body_w_);
     r.sheet = jumps(j, k, &SheetRows::held);
     r.stiffness = jumps(j, k, &SheetRows::stiffness);
     r.inertia = air_.density * air_.speed;

@@ -305,12 +305,12 @@ void write_case(const fs::path& folder, const FlowProblem& problem, bool second_
                               : "    rhoPorousSimpleFoam\n";
   std::ofstream readme(folder / kReadme);
   readme << fmt::format(kReadmeText, grid.nx, grid.ny, grid.nz, problem.air.density, problem.air.speed,
-                        problem.duct ? "slip" : "open", kStopFile, run);
+                        problem.sides == Sides::slip ? "slip" : "open", kStopFile, run);
 }
 
 void write_initial_fields(const fs::path& folder, const FlowProblem& problem) {
   const Freestream& air = problem.air;
-  const std::string open = problem.duct ? "type slip;" : "type zeroGradient;";
+  const std::string open = problem.sides == Sides::slip ? "type slip;" : "type zeroGradient;";
   const auto number = [](double value) { return fmt::format("{:.17g}", value); };
   const std::string p = number(outlet_pressure(air));
   const std::string velocity = fmt::format("(0 0 {:.17g})", air.speed);

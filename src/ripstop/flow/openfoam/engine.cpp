@@ -68,11 +68,17 @@ class OpenFoam : public FlowEngine {
           "flow.porosity_model = \"sheet\" needs flow.engine = \"builtin\": OpenFOAM's porous zones have "
           "the \"paper\" model only");
     }
+    if (problem.sides == Sides::entraining) {
+      throw Error(ExitCode::usage, "flow.sides = \"entraining\" needs flow.engine = \"builtin\"");
+    }
+    if (!problem.body_force.empty()) {
+      throw Error(ExitCode::usage, "forces on the air need flow.engine = \"builtin\"");
+    }
     if (problem.average_over != 0) {
       throw Error(ExitCode::usage, "averages over iterations need flow.engine = \"builtin\"");
     }
     check(problem);
-    const Basis basis{problem.grid, problem.air, problem.duct, settings_.ranks, settings_.second_order};
+    const Basis basis{problem.grid, problem.air, problem.sides, settings_.ranks, settings_.second_order};
     const bool warm = basis_ && *basis_ == basis && latest_time(part_folder(0)) != "0";
     if (!warm) prepare(problem, basis);
     try {
@@ -105,7 +111,7 @@ class OpenFoam : public FlowEngine {
       FlowProblem problem;
       problem.grid = state.basis.grid;
       problem.air = state.basis.air;
-      problem.duct = state.basis.duct;
+      problem.sides = state.basis.sides;
       prepare(problem, state.basis);
     }
     copy_state(folder, state, part_folders());

@@ -64,7 +64,7 @@ json describe_basis(const Basis& basis) {
         {"temperature_k", air.temperature},
         {"turbulence_intensity", air.turbulence_intensity},
         {"viscosity_ratio", air.viscosity_ratio}}},
-      {"duct", basis.duct},
+      {"slip_sides", basis.sides == Sides::slip},
       {"ranks", basis.ranks},
       {"second_order", basis.second_order}};
 }
@@ -82,7 +82,7 @@ Basis basis_from(const json& j) {
                  grading(grid.at("grading").at(2))}};
   basis.air = {air.at("speed_m_s"),     air.at("density_kg_m3"),        air.at("viscosity_pa_s"),
                air.at("temperature_k"), air.at("turbulence_intensity"), air.at("viscosity_ratio")};
-  basis.duct = j.at("duct");
+  basis.sides = j.at("slip_sides") ? Sides::slip : Sides::zero_gradient;
   basis.ranks = j.at("ranks");
   basis.second_order = j.at("second_order");
   return basis;

@@ -13,7 +13,7 @@ namespace ripstop::openfoam {
 struct Basis {
   FlowGrid grid;
   Freestream air;
-  bool duct = false;
+  Sides sides = Sides::zero_gradient;
   int ranks = 1;
   bool second_order = false;
 };

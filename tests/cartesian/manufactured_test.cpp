@@ -1,0 +1,100 @@
+// Order of the whole solution, by a flow that was made up: a uniform stream and a smooth eddy in it, kept
+// going by the force on the air that Navier and Stokes ask for it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "ripstop/flow/cartesian/cartesian.h"
+
+namespace ripstop {
+namespace {
+
+constexpr double speed = 10, eddy = 0.2, density = 1.2, viscosity = 0.24, swing = 20;
+
+// b(s) = (1 - s^2)^5 for |s| < 1, and its derivatives: smooth at the rim, nothing beyond it.
+struct Bump {
+  double value = 0, first = 0, second = 0, third = 0;
+  explicit Bump(double s) {
+    const double q = 1 - s * s;
+    if (q <= 0) return;
+    value = std::pow(q, 5);
+    first = -10 * s * std::pow(q, 4);
+    second = -10 * std::pow(q, 4) + 80 * s * s * std::pow(q, 3);
+    third = 240 * s * std::pow(q, 3) - 480 * s * s * s * q * q;
+  }
+};
+
+struct Flow {
+  Vec3 velocity, force;
+};
+
+// u = U e_z + curl(psi e_y), psi = A b(x) b(y) b(z), p = P b(x) b(y) b(z); the eddy is of unit size about
+// `c`.
+Flow made_up(Vec3 at, Vec3 c) {
+  const Bump x(at.x - c.x), y(at.y - c.y), z(at.z - c.z);
+  const double a = eddy * speed;
+  Flow flow;
+  const double u = -a * x.value * y.value * z.first, w = speed + a * x.first * y.value * z.value;
+  flow.velocity = {u, 0, w};
+  const double ux = -a * x.first * y.value * z.first, uz = -a * x.value * y.value * z.second;
+  const double wx = a * x.second * y.value * z.value, wz = a * x.first * y.value * z.first;
+  const double laplace_u =
+      -a * (x.second * y.value * z.first + x.value * y.second * z.first + x.value * y.value * z.third);
+  const double laplace_w =
+      a * (x.third * y.value * z.value + x.first * y.second * z.value + x.first * y.value * z.second);
+  flow.force = {density * (u * ux + w * uz) + swing * x.first * y.value * z.value - viscosity * laplace_u,
+                swing * x.value * y.first * z.value,
+                density * (u * wx + w * wz) + swing * x.value * y.value * z.first - viscosity * laplace_w};
+  return flow;
+}
+
+// Root mean square error of the velocity over U where the eddy is, on n cells a metre.
+double error(int n, bool second_order) {
+  FlowProblem problem;
+  problem.grid = {{-1, -1, 0}, {2, 2, 3}, 2 * n, 2 * n, 3 * n};
+  // Next to no turbulence: its eddy viscosity is a millionth of the air's.
+  problem.air = {.speed = speed,
+                 .density = density,
+                 .viscosity = viscosity,
+                 .turbulence_intensity = 1e-4,
+                 .viscosity_ratio = 1e-6};
+  problem.sides = Sides::slip;
+  problem.residual = 1e-4;
+  const FlowGrid& grid = problem.grid;
+  const Vec3 centre{0, 0, 1.37};
+  const auto place = [&](int i, int j, int k) {
+    return Vec3{grid.centre(0, i), grid.centre(1, j), grid.centre(2, k)};
+  };
+  problem.body_force.resize(grid.cells());
+  for (int k = 0; k < grid.nz; ++k)
+    for (int j = 0; j < grid.ny; ++j)
+      for (int i = 0; i < grid.nx; ++i)
+        problem.body_force[grid.index(i, j, k)] = made_up(place(i, j, k), centre).force;
+  CartesianSettings settings;
+  settings.compressible = false;
+  settings.second_order = second_order;
+  const FlowField field = make_cartesian(settings)->solve(problem, {});
+  EXPECT_TRUE(field.converged);
+  double sum = 0;
+  int count = 0;
+  for (int k = 0; k < grid.nz; ++k)
+    for (int j = 0; j < grid.ny; ++j)
+      for (int i = 0; i < grid.nx; ++i) {
+        const Vec3 at = place(i, j, k);
+        if (norm(at - centre) > 1) continue;
+        const Vec3 off = field.velocity[grid.index(i, j, k)] - made_up(at, centre).velocity;
+        sum += dot(off, off), ++count;
+      }
+  return std::sqrt(sum / count) / speed;
+}
+
+TEST(MadeUpFlow, TheUpwindSolutionIsOfFirstOrderAndTheLimitedOneOfSecond) {
+  const double upwind[] = {error(16, false), error(32, false)},
+               limited[] = {error(16, true), error(32, true)};
+  EXPECT_NEAR(std::log2(upwind[0] / upwind[1]), 1, 0.1) << upwind[0] << " to " << upwind[1];
+  EXPECT_NEAR(std::log2(limited[0] / limited[1]), 2, 0.25) << limited[0] << " to " << limited[1];
+  EXPECT_LT(limited[1], 0.1 * upwind[1]);
+}
+
+}  // namespace
+}  // namespace ripstop
