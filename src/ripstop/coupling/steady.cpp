@@ -99,9 +99,12 @@ FlowField SteadySolver::solve_flow(const std::vector<Triangle>& surface, const s
     return true;
   };
   if (to_the_end) return engine_.solve(flow, follow);
-  // In pieces of a fixed length, so that a run that was killed repeats the very same iterations.
+  // In pieces of a fixed length, so that a run that was killed repeats the very same iterations; the last one
+  // is what a flow that does not settle is averaged over.
   while (true) {
-    flow.max_iterations = std::min(piece, problem_.flow.max_iterations - done);
+    const int left = problem_.flow.max_iterations - done, before = left - problem_.flow.average_over;
+    flow.max_iterations = before > 0 ? std::min(piece, before) : left;
+    flow.average_over = before > 0 ? 0 : problem_.flow.average_over;
     drag.clear();
     FlowField field = engine_.solve(flow, follow);
     done += field.last.iteration;
