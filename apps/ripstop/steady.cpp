@@ -95,6 +95,9 @@ void print_result(const SteadyResult& r, const Case& value, const fs::path& fold
   row("ledger",
       fmt::format("fluid {:.2f}, nodes {:.2f}, lines {:.2f}, momentum deficit {:.2f} N", r.last.fluid_force,
                   r.last.nodal_load, r.last.line_tension, r.last.momentum_deficit));
+  if (r.last.flow_averaged > 0)
+    row("flow", fmt::format("did not settle: mean of its last {} iterations, drag {:.2f} +- {:.2f} N",
+                            r.last.flow_averaged, r.last.fluid_force, r.last.drag_deviation));
   row("coupling", fmt::format("{} iterations, {}, {}", r.iterations,
                               r.converged ? "converged" : "NOT converged", duration_text(r.wall_time)));
   row("files", fmt::format("{} (canopy.png, canopy.pvd, {}, result.json)", folder.string(),

@@ -31,6 +31,8 @@ struct SteadyIteration {
   int flow_iterations = 0;
   double flow_residual = 0;     // largest of all equations
   bool flow_converged = false;  // to FlowProblem::residual
+  int flow_averaged = 0;        // iterations of a flow that did not settle, whose mean stands; 0: none
+  double drag_deviation = 0;    // standard deviation of the drag over them [N]
   int cut_cells = 0;
   double wall_time = 0;  // [s]
 };

@@ -15,7 +15,7 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr int format_version = 1;
+constexpr int format_version = 2;
 
 std::vector<double> flat(const std::vector<Vec3>& vectors) {
   std::vector<double> values;
@@ -49,6 +49,8 @@ void each_member(Visit&& visit, SteadyIteration& i) {
   visit("flow_iterations", i.flow_iterations);
   visit("flow_residual", i.flow_residual);
   visit("flow_converged", i.flow_converged);
+  visit("flow_averaged", i.flow_averaged);
+  visit("drag_deviation", i.drag_deviation);
   visit("cut_cells", i.cut_cells);
   visit("wall_time", i.wall_time);
 }

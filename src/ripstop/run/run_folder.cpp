@@ -23,10 +23,10 @@ using nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 const std::vector<std::string> iteration_columns = {
-    "iteration",       "drag_n",         "nodal_load_n",    "line_tension_n", "momentum_deficit_n",
-    "transfer_factor", "drag_change",    "shape_change_m",  "omega",          "printed_tolerance",
-    "cloth_steps",     "cloth_residual", "flow_iterations", "flow_residual",  "flow_converged",
-    "cut_cells",       "wall_time_s"};
+    "iteration",       "drag_n",           "nodal_load_n",    "line_tension_n", "momentum_deficit_n",
+    "transfer_factor", "drag_change",      "shape_change_m",  "omega",          "printed_tolerance",
+    "cloth_steps",     "cloth_residual",   "flow_iterations", "flow_residual",  "flow_converged",
+    "flow_averaged",   "drag_deviation_n", "cut_cells",       "wall_time_s"};
 
 std::vector<double> row_of(const SteadyIteration& i) {
   return {double(i.iteration),
@@ -44,6 +44,8 @@ std::vector<double> row_of(const SteadyIteration& i) {
           double(i.flow_iterations),
           i.flow_residual,
           double(i.flow_converged),
+          double(i.flow_averaged),
+          i.drag_deviation,
           double(i.cut_cells),
           i.wall_time};
 }
