@@ -21,6 +21,7 @@ struct Options {
   std::filesystem::path case_file;
   Overrides overrides;
   std::vector<int> grid;
+  std::vector<std::string> set;
   bool json = false;
   bool resolved = false;
 };
@@ -125,12 +126,18 @@ void add_check(CLI::App& app, int& status) {
   command->add_option("--ranks", options->overrides.ranks, "MPI processes for the flow");
   command->add_flag("--linear", options->overrides.linear,
                     "Keep only K_1 of every material: the paper's linear model");
+  command
+      ->add_option("--set", options->set, "Any key of the case, as in --set flow.box_m=[3,3,5]; repeatable")
+      ->expected(1)
+      ->take_all();
   CLI::Option* json = command->add_flag("--json", options->json, "The report, or the problems, as JSON");
   command->add_flag("--resolved", options->resolved, "Print the case with every default written out (TOML)")
       ->excludes(json);
   command->callback([options, &status] {
     if (!options->grid.empty())
       options->overrides.grid = {options->grid[0], options->grid[1], options->grid[2]};
+    for (const std::string& text : options->set)
+      options->overrides.set.push_back(parse_setting(text, "--set"));
     status = run(*options);
   });
 }

@@ -87,8 +87,7 @@ std::vector<SweepRow> run_and_tell(const std::vector<SweepAxis>& axes, const std
 
 void require_all(const std::vector<SweepPoint>& points, const std::vector<SweepRow>& rows) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (!rows[i].done)
-      throw Error(ExitCode::diverged, fmt::format("{}: {}", points[i].folder, rows[i].error));
+    if (!rows[i].done) throw Error(rows[i].code, fmt::format("{}: {}", points[i].folder, rows[i].error));
     if (!rows[i].converged)
       throw Error(
           ExitCode::not_converged,

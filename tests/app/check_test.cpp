@@ -69,8 +69,10 @@ TEST_F(Check, MassesAndAreasAreThoseOfThePattern) {
 }
 
 TEST_F(Check, OptionsChangeTheCaseAndAreNamedWhenTheyAreWrong) {
-  const Finished fine = ripstop_with({"check", stratos, "--json", "--speed", "20", "--grid", "50,50,75"});
+  const Finished fine = ripstop_with(
+      {"check", stratos, "--json", "--speed", "20", "--grid", "50,50,75", "--set", "flow.box_m=[4,4,8]"});
   ASSERT_EQ(fine.code, 0) << fine.output;
+  EXPECT_EQ(nlohmann::json::parse(fine.output)["flow_spacing_m"][0], 0.08);
   EXPECT_EQ(nlohmann::json::parse(fine.output)["flow_cells"], 187500);
   EXPECT_EQ(nlohmann::json::parse(fine.output)["density_kg_m3"], 1.199);
   const Finished wrong = ripstop_with({"check", stratos, "--speed", "500"});

@@ -73,6 +73,12 @@ TEST_F(Sweep, ThatIsKilledAndStartedAgainGivesTheSameTable) {
   EXPECT_NE(table("killed"), whole);
   ASSERT_EQ(wait_for(start(command("killed", vary))), 0);
   EXPECT_EQ(table("killed"), whole);
+
+  // Its folders hold runs of other inputs now: refused, and the table stays.
+  std::vector<std::string> other = command("killed", vary);
+  other.insert(other.end(), {"--set", "flow.residual=1e-4"});
+  EXPECT_EQ(wait_for(start(other)), 2);
+  EXPECT_EQ(table("killed"), whole);
 }
 
 TEST_F(Sweep, OfAKeyThatDoesNotExistRunsNothing) {

@@ -67,32 +67,38 @@ ordered_json read_json(const fs::path& file) {
   }
 }
 
+constexpr const char* description = "run.json";
+
+std::string inputs_hash(const Case& value, const std::string& solver) {
+  return hash_bytes(fmt::format("{}\n{}\n{}", version(), solver, case_json(value)));
+}
+
 }  // namespace
 
-void open_run_folder(const RunSettings& settings, const Case& value, const std::string& engine, int threads) {
+bool holds_run(const RunSettings& settings, const Case& value, const std::string& solver) {
   const fs::path& folder = settings.folder;
-  const std::string resolved = case_json(value);
-  const std::string hash = hash_bytes(fmt::format("{}\n{}\n{}", version(), engine, resolved));
-  const fs::path description = folder / "run.json";
-  if (fs::exists(folder) && !fs::is_empty(folder)) {
-    if (!fs::exists(description)) {
-      throw Error(ExitCode::usage,
-                  fmt::format("{}: is not empty and holds no run of Ripstop (no run.json); choose "
-                              "another --out",
-                              folder.string()));
-    }
-    if (settings.fresh) {
-      for (const auto& entry : fs::directory_iterator(folder)) fs::remove_all(entry.path());
-    } else if (read_json(description).value("inputs_hash", "") != hash) {
-      throw Error(ExitCode::usage,
-                  fmt::format("{}: holds a run of other inputs (case, speed, grid, ranks, program or "
-                              "flow engine differ); choose another --out, or --fresh to replace it",
-                              folder.string()));
-    } else {
-      return;
-    }
+  if (!fs::exists(folder) || fs::is_empty(folder)) return false;
+  if (!fs::exists(folder / description)) {
+    throw Error(ExitCode::usage,
+                fmt::format("{}: is not empty and holds no run of Ripstop (no run.json); choose "
+                            "another --out",
+                            folder.string()));
   }
+  if (settings.fresh) return false;
+  if (read_json(folder / description).value("inputs_hash", "") != inputs_hash(value, solver)) {
+    throw Error(ExitCode::usage,
+                fmt::format("{}: holds a run of other inputs (case, speed, grid, ranks, program or "
+                            "flow engine differ); choose another --out, or --fresh to replace it",
+                            folder.string()));
+  }
+  return true;
+}
+
+void open_run_folder(const RunSettings& settings, const Case& value, const std::string& solver, int threads) {
+  if (holds_run(settings, value, solver)) return;
+  const fs::path& folder = settings.folder;
   make_folder(folder);
+  for (const auto& entry : fs::directory_iterator(folder)) fs::remove_all(entry.path());
   ordered_json run;
   run["program"] = "ripstop";
   run["version"] = version();
@@ -100,13 +106,13 @@ void open_run_folder(const RunSettings& settings, const Case& value, const std::
   run["processor"] = processor();
   run["threads"] = threads;
   run["ranks"] = value.flow.ranks;
-  run["flow_engine"] = engine;
+  run["flow_engine"] = solver;
   run["started"] = now_utc();
   run["case_file"] = value.file.string();
-  run["inputs_hash"] = hash;
-  run["case"] = ordered_json::parse(resolved);
+  run["inputs_hash"] = inputs_hash(value, solver);
+  run["case"] = ordered_json::parse(case_json(value));
   write_file(folder / "case.toml", case_toml(value));
-  write_file(description, run.dump(2) + "\n");
+  write_file(folder / description, run.dump(2) + "\n");
 }
 
 RunFolder::RunFolder(const RunSettings& settings, const Case& value, const std::string& engine, int threads)

@@ -18,9 +18,13 @@ struct RunSettings {
   bool fields = true;  // write shapes and flow for ParaView after every iteration
 };
 
-/// Opens or makes the folder of a run and writes run.json and case.toml. `solver` says what computes, and
-/// with what beside the case. A folder that holds a run of other inputs is refused unless `fresh`, and one
-/// that holds anything but a run of Ripstop is never emptied: Error(usage).
+/// Whether the folder holds a run of these inputs to go on with. `solver` says what computes, and with what
+/// beside the case. Throws Error(usage) for a folder that holds a run of other inputs, unless `fresh`, and
+/// for one that holds anything but a run of Ripstop.
+bool holds_run(const RunSettings& settings, const Case& value, const std::string& solver);
+
+/// Opens or makes the folder of a run and writes run.json and case.toml; what holds_run() refuses is left as
+/// it is.
 void open_run_folder(const RunSettings& settings, const Case& value, const std::string& solver, int threads);
 
 class RunFolder {

@@ -22,11 +22,6 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 // Known before the engine is made: making it clears the flow's folder, which may still be another run's.
-std::string name_of_engine(const Case& value) {
-  if (value.flow.engine == EngineKind::builtin) return make_cartesian()->name();
-  return "OpenFOAM " + openfoam::find_installation({}, value.flow.ranks > 1).version;
-}
-
 std::unique_ptr<FlowEngine> make_engine(const Case& value, const SteadyRunSettings& run, int threads) {
   if (value.flow.engine == EngineKind::builtin) {
     CartesianSettings settings;
@@ -78,6 +73,11 @@ SteadyState warm_start(const Case& value, const SteadySolver& solver, const fs::
 }
 
 }  // namespace
+
+std::string name_of_engine(const Case& value) {
+  if (value.flow.engine == EngineKind::builtin) return make_cartesian()->name();
+  return "OpenFOAM " + openfoam::find_installation({}, value.flow.ranks > 1).version;
+}
 
 SteadyRunOutcome run_steady(const Case& value, const SteadyRunSettings& settings,
                             const SteadyRunEvents& events) {

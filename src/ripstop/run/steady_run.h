@@ -34,6 +34,10 @@ struct SteadyRunOutcome {
   SteadyResult result;  // of this process; empty when already finished
 };
 
+/// The flow engine of a case by name and version. Throws Error(external) where OpenFOAM is asked for and
+/// missing.
+std::string name_of_engine(const Case& value);
+
 /// Runs to the end of the coupling; a converged result is not promised. Throws as RunFolder, SteadySolver and
 /// the flow engine do.
 SteadyRunOutcome run_steady(const Case& value, const SteadyRunSettings& settings,

@@ -11,7 +11,6 @@
 #include <thread>
 
 #include "ripstop/core/build_info.h"
-#include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/core/thread_team.h"
 
@@ -58,6 +57,10 @@ double free_memory() {
   return 4e9;
 }
 
+RunSettings run_settings(const SweepPoint& point, const SweepSettings& settings) {
+  return {settings.folder / point.folder, settings.fresh, settings.fields};
+}
+
 void open_sweep_folder(const std::vector<SweepPoint>& points, const SweepSettings& settings) {
   const fs::path& folder = settings.folder;
   const fs::path description = folder / "sweep.json";
@@ -67,6 +70,9 @@ void open_sweep_folder(const std::vector<SweepPoint>& points, const SweepSetting
         fmt::format("{}: is not empty and holds no sweep of Ripstop (no sweep.json); choose another --out",
                     folder.string()));
   }
+  // Before anything of an earlier sweep is touched.
+  for (const SweepPoint& point : points)
+    holds_run(run_settings(point, settings), point.value, name_of_engine(point.value));
   make_folder(folder);
   nlohmann::ordered_json j;
   j["program"] = "ripstop";
@@ -137,7 +143,7 @@ class Board {
   SweepRow run(std::size_t i, int threads) {
     const SweepPoint& point = points_[i];
     SteadyRunSettings run;
-    run.folder = {settings_.folder / point.folder, settings_.fresh, settings_.fields};
+    run.folder = run_settings(point, settings_);
     run.threads = threads;
     if (settings_.warm && point.start >= 0) {
       const fs::path neighbour = settings_.folder / points_[point.start].folder;
@@ -151,11 +157,18 @@ class Board {
     };
     try {
       return sweep_row(run_steady(point.value, run, follow).json);
+    } catch (const Error& error) {
+      return failed(error.what(), error.code());
     } catch (const std::exception& error) {
-      SweepRow failed;
-      failed.error = error.what();
-      return failed;
+      return failed(error.what(), ExitCode::external);
     }
+  }
+
+  static SweepRow failed(const std::string& why, ExitCode code) {
+    SweepRow row;
+    row.error = why;
+    row.code = code;
+    return row;
   }
 
   // A flow field of a printed grid is 130 MB: it goes as soon as no other run is to start from it.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ripstop/case/case.h"
+#include "ripstop/core/error.h"
 #include "ripstop/run/steady_run.h"
 
 namespace ripstop {
@@ -47,7 +48,8 @@ struct SweepSettings {
 struct SweepRow {
   bool done = false;  // there is a result
   bool converged = false;
-  std::string error;  // why there is none
+  std::string error;               // why there is none
+  ExitCode code = ExitCode::done;  // of that error
   double speed = 0, density = 0, drag = 0, drag_area = 0, drag_coefficient = 0, reference_area = 0;
   double projected_diameter = 0, skirt_diameter = 0, length = 0;  // [m]
   double max_line_tension = 0;                                    // [N]
