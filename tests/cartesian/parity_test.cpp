@@ -13,25 +13,30 @@
 namespace ripstop {
 namespace {
 
-struct Canopy {
+struct Pair {
   const char* name;
   double darcy, forchheimer;
+  double speed;         // [m/s]
+  bool incompressible;  // porousSimpleFoam against constant density
 };
 
-class Parity : public testing::TestWithParam<Canopy> {};
+class Parity : public testing::TestWithParam<Pair> {};
 
 TEST_P(Parity, DragAndFieldsAreThoseOfOpenFoam) {
   if (!openfoam_is_installed()) GTEST_SKIP() << "OpenFOAM is not installed";
   FlowProblem problem;
   problem.grid = {{-1, -1, 0}, {2, 2, 4}, 25, 25, 38};
-  problem.air.speed = 10;
+  problem.air.speed = GetParam().speed;
   problem.porous.push_back(
       {cut_cells(problem.grid, rigid_disk_gap_band({0, 0, 2})), GetParam().darcy, GetParam().forchheimer});
   OpenFoamSettings reference;
   reference.folder = std::filesystem::path(testing::TempDir()) / (std::string("parity_") + GetParam().name);
   std::filesystem::remove_all(reference.folder);
+  reference.incompressible = GetParam().incompressible;
+  CartesianSettings settings;
+  settings.compressible = !GetParam().incompressible;
   const FlowField theirs = make_openfoam(reference)->solve(problem, nullptr);
-  const FlowField ours = make_cartesian()->solve(problem, nullptr);
+  const FlowField ours = make_cartesian(settings)->solve(problem, nullptr);
   std::filesystem::remove_all(reference.folder);
   ASSERT_TRUE(theirs.converged);
   ASSERT_TRUE(ours.converged);
@@ -49,8 +54,11 @@ TEST_P(Parity, DragAndFieldsAreThoseOfOpenFoam) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Canopies, Parity,
-                         testing::Values(Canopy{"open", 6.598, 3.745}, Canopy{"printed", 65.98, 37.45},
-                                         Canopy{"nearly_solid", 1000, 1000}),
+                         testing::Values(Pair{"open", 6.598, 3.745, 10, false},
+                                         Pair{"printed", 65.98, 37.45, 10, false},
+                                         Pair{"nearly_solid", 1000, 1000, 10, false},
+                                         Pair{"printed_incompressible", 65.98, 37.45, 10, true},
+                                         Pair{"nearly_solid_incompressible", 1000, 1000, 30, true}),
                          [](const auto& test) { return test.param.name; });
 
 }  // namespace

@@ -28,8 +28,10 @@ class OpenFoam : public testing::Test {
   }
   void TearDown() override { fs::remove_all(root_); }
 
-  std::unique_ptr<FlowEngine> engine(const std::string& name = "case", int ranks = 1) const {
+  std::unique_ptr<FlowEngine> engine(const std::string& name = "case", int ranks = 1,
+                                     bool incompressible = false) const {
     OpenFoamSettings settings;
+    settings.incompressible = incompressible;
     settings.folder = root_ / name;
     settings.ranks = ranks;
     settings.time_limit_s = 120;
@@ -107,15 +109,28 @@ TEST_F(OpenFoam, ASlabAcrossADuctDropsThePressureByDarcyAndForchheimer) {
   }
 }
 
-TEST_F(OpenFoam, TheBoxLosesTheMomentumThatThePorousCellsTake) {
-  const FlowProblem problem = disc_in_box();
-  const FlowField field = engine()->solve(problem, {});
+TEST_F(OpenFoam, AirOfConstantDensityLosesExactlyWhatDarcyAndForchheimerSay) {
+  FlowProblem problem = slab_in_duct(10, 4e5, 0.6);
+  problem.air.density = 0.9;
+  const FlowField field = engine("case", 1, true)->solve(problem, {});
   ASSERT_TRUE(field.converged);
-  EXPECT_GT(field.porous_force.z, 50);
-  EXPECT_NEAR(field.momentum_deficit / field.porous_force.z, 1, 5e-4);
-  // What OpenFOAM's `forces` sums and our own sum over the fields that we read back.
-  EXPECT_NEAR(field.last.drag / field.porous_force.z, 1, 1e-4);
-  EXPECT_LT(std::hypot(field.porous_force.x, field.porous_force.y), 1e-4 * field.porous_force.z);
+  const double drop = layer_pressure(field, 0) - layer_pressure(field, 39), u = problem.air.speed;
+  EXPECT_NEAR(drop / ((problem.air.viscosity * 4e5 + 0.5 * 0.9 * u * 0.6) * u * 0.5), 1, 0.005);
+  EXPECT_NEAR(field.porous_force.z / (drop * 0.04), 1, 1e-4);  // what goes out is as fast as what comes in
+}
+
+TEST_F(OpenFoam, TheBoxLosesTheMomentumThatThePorousCellsTake) {
+  FlowProblem problem = disc_in_box();
+  problem.air.density = 0.9;
+  for (const bool incompressible : {false, true}) {
+    const FlowField field = engine("case", 1, incompressible)->solve(problem, {});
+    ASSERT_TRUE(field.converged);
+    EXPECT_GT(field.porous_force.z, 50);
+    EXPECT_NEAR(field.momentum_deficit / field.porous_force.z, 1, 5e-4);
+    // What OpenFOAM's `forces` sums and our own sum over the fields that we read back.
+    EXPECT_NEAR(field.last.drag / field.porous_force.z, 1, 1e-4);
+    EXPECT_LT(std::hypot(field.porous_force.x, field.porous_force.y), 1e-4 * field.porous_force.z);
+  }
 }
 
 TEST_F(OpenFoam, AWarmStartNeedsFewerIterations) {
@@ -217,6 +232,30 @@ TEST_F(OpenFoam, AHalfWrittenStateIsRefused) {
   refused(root_ / "bad_marker", "damaged");
   flow->save(root_ / "two_ranks");
   EXPECT_THROW(engine("other", 2)->restore(root_ / "two_ranks"), Error);
+}
+
+TEST_F(OpenFoam, AStateOfOneSolverIsNotForTheOther) {
+  FlowProblem problem = disc_in_box();
+  problem.max_iterations = 2;
+  for (const bool incompressible : {false, true}) {
+    auto flow = engine("case", 1, incompressible);
+    flow->solve(problem, {});
+    flow->save(root_ / "saved");
+    try {
+      engine("other", 1, !incompressible)->restore(root_ / "saved");
+      FAIL() << "restored";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::usage);
+      EXPECT_NE(std::string(error.what())
+                    .find(incompressible ? "made with porousSimpleFoam" : "made with rhoPorousSimpleFoam"),
+                std::string::npos)
+          << error.what();
+    }
+    const FlowField on = flow->solve(problem, {});
+    auto same = engine("other", 1, incompressible);
+    same->restore(root_ / "saved");
+    expect_identical(same->solve(problem, {}), on);
+  }
 }
 
 TEST_F(OpenFoam, TheInletHasTheStatedDensity) {

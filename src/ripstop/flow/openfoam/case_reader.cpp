@@ -31,9 +31,11 @@ struct Resistance {
 ///   F = -sum_faces (phi U_z + p A_z) + viscous,
 /// with the values that the solver's own scheme has on the faces, so that it equals the porous force when
 /// every cell's momentum balances. The viscous and turbulent normal stress at the inlet is left out: with
-/// mu_t = 10 mu it is some 1e-6 of the dynamic pressure for cells of centimetres.
-double outflow_of_momentum(const MeshPart& part, const FieldData& phi, const FieldData& velocity,
-                           const std::vector<double>& gauge, const FlowProblem& problem) {
+/// mu_t = 10 mu it is some 1e-6 of the dynamic pressure for cells of centimetres. `density`: of what phi
+/// counts.
+double outflow_of_momentum(const MeshPart& part, const FieldData& phi, double density,
+                           const FieldData& velocity, const std::vector<double>& gauge,
+                           const FlowProblem& problem) {
   const FlowGrid& grid = problem.grid;
   double loss = 0;
   for (const Patch& patch : part.patches) {
@@ -44,7 +46,7 @@ double outflow_of_momentum(const MeshPart& part, const FieldData& phi, const Fie
       throw Error(ExitCode::io, "OpenFOAM's phi has no values on patch " + patch.name);
     for (int face = 0; face < patch.faces; ++face) {
       const int cell = part.owner[patch.start + face];
-      const double out = phi.at(flux->second, face);  // [kg/s], positive outward
+      const double out = density * phi.at(flux->second, face);  // [kg/s], positive outward
       const double inside = velocity.at(velocity.inner, cell, 2);
       const double speed = inlet ? problem.air.speed : outlet && out < 0 ? 0 : inside;
       loss -= out * speed;
@@ -56,7 +58,8 @@ double outflow_of_momentum(const MeshPart& part, const FieldData& phi, const Fie
   return loss;
 }
 
-/// A pressure at the solver's own limits, and of course no number, is no solution.
+/// A pressure at the solver's own limits, and of course no number, is no solution. `outlet`: the pressure
+/// that the limits are multiples of; infinite without limits.
 // A field that is cut short on its way may have a few clipped cells where the porous ones have just changed;
 // a flow that has nowhere to go has many.
 void check_range(const FlowField& field, double outlet) {
@@ -111,10 +114,14 @@ std::string latest_time(const fs::path& folder) {
   return latest;
 }
 
-FlowField read_case(const std::vector<MeshPart>& parts, const std::string& time, const FlowProblem& problem) {
+FlowField read_case(const std::vector<MeshPart>& parts, const std::string& time, const FlowProblem& problem,
+                    bool incompressible) {
   const FlowGrid& grid = problem.grid;
   const Resistance resistance(problem);
-  const double outlet = outlet_pressure(problem.air), mu = problem.air.viscosity;
+  const double mu = problem.air.viscosity;
+  // Incompressible: p [m2/s2] is 0 at the outlet, phi is in m3/s, and there is no field of the density.
+  const double unit = incompressible ? problem.air.density : 1;
+  const double outlet = incompressible ? 0 : outlet_pressure(problem.air);
   FlowField field;
   field.grid = grid;
   field.pressure.resize(static_cast<std::size_t>(grid.cells()));
@@ -124,22 +131,22 @@ FlowField read_case(const std::vector<MeshPart>& parts, const std::string& time,
     const fs::path folder = part.folder / time;
     const FieldData p = read_field(folder / "p", 1, count);
     const FieldData velocity = read_field(folder / "U", 3, count);
-    const FieldData rho = read_field(folder / "rho", 1, count);
+    const FieldData rho = incompressible ? FieldData{1, {unit}, {}} : read_field(folder / "rho", 1, count);
     const FieldData phi = read_field(folder / "phi", 1, part.inner_faces());
     for (std::size_t local = 0; local < count; ++local) {
       const int cell = part.global(local);
       const Vec3 u{velocity.at(velocity.inner, local, 0), velocity.at(velocity.inner, local, 1),
                    velocity.at(velocity.inner, local, 2)};
-      field.pressure[cell] = p.at(p.inner, local) - outlet;
+      field.pressure[cell] = unit * p.at(p.inner, local) - outlet;
       field.velocity[cell] = u;
       // Force of the air on the porous cells: (mu d + rho |u| f / 2) u V.
       const double drag = mu * resistance.darcy[cell] +
                           0.5 * rho.at(rho.inner, local) * norm(u) * resistance.forchheimer[cell];
       field.porous_force += drag * grid.cell_volume(cell) * u;
     }
-    field.momentum_deficit += outflow_of_momentum(part, phi, velocity, field.pressure, problem);
+    field.momentum_deficit += outflow_of_momentum(part, phi, unit, velocity, field.pressure, problem);
   }
-  check_range(field, outlet);
+  check_range(field, incompressible ? INFINITY : outlet);
   return field;
 }
 

@@ -32,7 +32,9 @@ std::vector<MeshPart> read_mesh(const std::filesystem::path& folder, int ranks);
 /// Name of the newest time folder; empty when there is none.
 std::string latest_time(const std::filesystem::path& folder);
 
-/// pressure, velocity, porous_force (summed over the cells) and momentum_deficit.
-FlowField read_case(const std::vector<MeshPart>& parts, const std::string& time, const FlowProblem& problem);
+/// pressure, velocity, porous_force (summed over the cells) and momentum_deficit. An incompressible case has
+/// p and phi per density.
+FlowField read_case(const std::vector<MeshPart>& parts, const std::string& time, const FlowProblem& problem,
+                    bool incompressible);
 
 }  // namespace ripstop::openfoam

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "ripstop/core/error.h"
+#include "ripstop/flow/openfoam/installation.h"
 #include "ripstop/flow/openfoam/openfoam.h"
 
 namespace ripstop::openfoam {
@@ -15,6 +16,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kMolarGasConstant = 8314.47;  // [J/(kmol K)], as OpenFOAM has it
+
+double kinematic_viscosity(const Freestream& air) {
+  return air.viscosity / air.density;
+}
 
 /// Every file starts with OpenFOAM's header. Note for writers: a keyword directly before "(" reads as one
 /// word, so there is always a space.
@@ -122,6 +127,8 @@ mixture
 }}
 )foam";
 
+// Terms of one solver only are listed too (e, rho, limits of p, the two names of the stress): the other never
+// asks for them.
 constexpr char kSchemes[] = R"foam(ddtSchemes {{ default steadyState; }}
 gradSchemes {{ default Gauss linear; }}
 divSchemes
@@ -133,6 +140,7 @@ divSchemes
     div(phi,e) bounded Gauss upwind;
     div(phi,Ekp) bounded Gauss upwind;
     div(((rho*nuEff)*dev2(T(grad(U))))) Gauss linear;
+    div((nuEff*dev2(T(grad(U))))) Gauss linear;
 }}
 laplacianSchemes {{ default Gauss linear corrected; }}
 interpolationSchemes {{ default linear; }}
@@ -160,7 +168,7 @@ relaxationFactors
 }}
 )foam";
 
-constexpr char kControl[] = R"foam(application rhoPorousSimpleFoam;
+constexpr char kControl[] = R"foam(application {4};
 startFrom latestTime;
 startTime 0;
 stopAt endTime;
@@ -189,16 +197,18 @@ functions
 )foam";
 
 constexpr char kForces[] = R"foam(    porousForces
-    {
+    {{
         type forces;
         libs ("libforces.so");
         patches ();
         porosity true;
+        rho {};
+        rhoInf {:.17g};
         CofR (0 0 0);
         log true;
         writeControl timeStep;
         writeInterval 1;
-    }
+    }}
 )foam";
 
 // The solver's own porous zones: their resistance is added after the momentum equation is under-relaxed. (The
@@ -282,66 +292,76 @@ void check(const FlowProblem& problem) {
   }
 }
 
-void write_case(const fs::path& folder, const FlowProblem& problem, bool second_order, int ranks) {
+void write_case(const fs::path& folder, const FlowProblem& problem, const OpenFoamSettings& settings) {
   const FlowGrid& grid = problem.grid;
   write_dictionary(folder / "system/blockMeshDict", "dictionary", mesh_dictionary(grid));
   write_dictionary(folder / "system/fvSchemes", "dictionary",
-                   fmt::format(kSchemes, second_order ? "linearUpwind grad(U)" : "upwind"));
-  const std::array<int, 3> parts = split(grid, ranks);
+                   fmt::format(kSchemes, settings.second_order ? "linearUpwind grad(U)" : "upwind"));
+  const std::array<int, 3> parts = split(grid, settings.ranks);
   write_dictionary(folder / "system/decomposeParDict", "dictionary",
                    fmt::format("numberOfSubdomains {};\nmethod hierarchical;\n"
                                "coeffs {{ n ({} {} {}); order xyz; delta 1e-6; }}\n",
-                               ranks, parts[0], parts[1], parts[2]));
-  write_dictionary(
-      folder / "constant/thermophysicalProperties", "dictionary",
-      fmt::format(kThermophysics, kMolarGasConstant / kOpenFoamGasConstant, problem.air.viscosity));
+                               settings.ranks, parts[0], parts[1], parts[2]));
+  if (settings.incompressible) {
+    write_dictionary(
+        folder / "constant/transportProperties", "dictionary",
+        fmt::format("transportModel Newtonian;\nnu {:.17g};\n", kinematic_viscosity(problem.air)));
+  } else {
+    write_dictionary(
+        folder / "constant/thermophysicalProperties", "dictionary",
+        fmt::format(kThermophysics, kMolarGasConstant / kOpenFoamGasConstant, problem.air.viscosity));
+  }
   write_dictionary(folder / "constant/turbulenceProperties", "dictionary",
                    "simulationType RAS;\nRAS { RASModel kOmegaSST; turbulence on; printCoeffs off; }\n");
-  const std::string run = ranks > 1
-                              ? fmt::format(
-                                    "    decomposePar\n    mpirun -np {} rhoPorousSimpleFoam -parallel\n"
-                                    "    reconstructPar -latestTime\n",
-                                    ranks)
-                              : "    rhoPorousSimpleFoam\n";
+  const char* solver = solver_name(settings.incompressible);
+  const std::string run = settings.ranks > 1 ? fmt::format(
+                                                   "    decomposePar\n    mpirun -np {} {} -parallel\n"
+                                                   "    reconstructPar -latestTime\n",
+                                                   settings.ranks, solver)
+                                             : fmt::format("    {}\n", solver);
   std::ofstream readme(folder / kReadme);
   readme << fmt::format(kReadmeText, grid.nx, grid.ny, grid.nz, problem.air.density, problem.air.speed,
                         problem.sides == Sides::slip ? "slip" : "open", kStopFile, run);
 }
 
-void write_initial_fields(const fs::path& folder, const FlowProblem& problem) {
+void write_initial_fields(const fs::path& folder, const FlowProblem& problem, bool incompressible) {
   const Freestream& air = problem.air;
   const std::string open = problem.sides == Sides::slip ? "type slip;" : "type zeroGradient;";
   const auto number = [](double value) { return fmt::format("{:.17g}", value); };
-  const std::string p = number(outlet_pressure(air));
+  const std::string p = number(incompressible ? 0 : outlet_pressure(air));
   const std::string velocity = fmt::format("(0 0 {:.17g})", air.speed);
   const double fluctuation = air.turbulence_intensity * air.speed;
   const double k = 1.5 * fluctuation * fluctuation;
-  const double nu = air.viscosity / air.density;
-  const double omega = k / (nu * air.viscosity_ratio);
+  const double omega = k / (kinematic_viscosity(air) * air.viscosity_ratio);
   const std::string calculated = "type calculated; value uniform 0;";
   const fs::path zero = folder / "0";
   write_dictionary(
       zero / "p", "volScalarField",
-      field("1 -1 -2 0", p,
+      field(incompressible ? "0 2 -2 0" : "1 -1 -2 0", p,
             boundary("type zeroGradient;", fmt::format("type fixedValue; value uniform {};", p), open)));
   write_dictionary(zero / "U", "volVectorField",
                    field("0 1 -1 0", velocity, carried(velocity, "(0 0 0)", open)));
-  for (const auto& [name, dimensions, value] :
-       std::initializer_list<std::array<std::string, 3>>{{"T", "0 0 0 1", number(air.temperature)},
-                                                         {"k", "0 2 -2 0", number(k)},
-                                                         {"omega", "0 0 -1 0", number(omega)}}) {
+  const auto write_carried = [&](const char* name, const char* dimensions, const std::string& value) {
     write_dictionary(zero / name, "volScalarField", field(dimensions, value, carried(value, value, open)));
-  }
+  };
+  write_carried("k", "0 2 -2 0", number(k));
+  write_carried("omega", "0 0 -1 0", number(omega));
   write_dictionary(zero / "nut", "volScalarField",
                    field("0 2 -1 0", number(k / omega), boundary(calculated, calculated, calculated)));
+  if (incompressible) return;
+  write_carried("T", "0 0 0 1", number(air.temperature));
   write_dictionary(zero / "alphat", "volScalarField",
                    field("1 -1 -1 0", "0", boundary(calculated, calculated, calculated)));
 }
 
-void write_control(const fs::path& folder, const FlowProblem& problem, const RunControl& control) {
+void write_control(const fs::path& folder, const FlowProblem& problem, bool incompressible,
+                   const RunControl& control) {
+  const std::string forces =
+      problem.porous.empty() ? ""
+                             : fmt::format(kForces, incompressible ? "rhoInf" : "rho", problem.air.density);
   write_dictionary(folder / "system/controlDict", "dictionary",
                    fmt::format(kControl, control.start + control.iterations, control.iterations, kStopFile,
-                               problem.porous.empty() ? "" : kForces));
+                               forces, solver_name(incompressible)));
 }
 
 void write_solution(const fs::path& folder, const FlowProblem& problem) {

@@ -6,10 +6,11 @@
 #include <vector>
 
 #include "ripstop/flow/flow.h"
+#include "ripstop/flow/openfoam/openfoam.h"
 
 namespace ripstop::openfoam {
 
-/// Static pressure at the outlet [Pa].
+/// Static pressure at the outlet of a compressible case [Pa].
 double outlet_pressure(const Freestream& air);
 
 struct RunControl {
@@ -21,12 +22,13 @@ struct RunControl {
 void check(const FlowProblem& problem);
 
 /// system/ (without controlDict), constant/, and a README that says what the case is and how to run it.
-void write_case(const std::filesystem::path& folder, const FlowProblem& problem, bool second_order,
-                int ranks);
+void write_case(const std::filesystem::path& folder, const FlowProblem& problem,
+                const OpenFoamSettings& settings);
 /// Uniform fields in folder/0.
-void write_initial_fields(const std::filesystem::path& folder, const FlowProblem& problem);
+void write_initial_fields(const std::filesystem::path& folder, const FlowProblem& problem,
+                          bool incompressible);
 /// system/controlDict. A file named kStopFile in the case folder makes the solver write and end.
-void write_control(const std::filesystem::path& folder, const FlowProblem& problem,
+void write_control(const std::filesystem::path& folder, const FlowProblem& problem, bool incompressible,
                    const RunControl& control);
 /// system/fvSolution holds the residual to be reached, constant/porosityProperties the resistances.
 void write_solution(const std::filesystem::path& folder, const FlowProblem& problem);

@@ -21,8 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 using namespace openfoam;
 
-constexpr const char* kSolver = "rhoPorousSimpleFoam";
-
 void check_folder(const fs::path& folder) {
   for (const unsigned char c : folder.string()) {
     if (c <= ' ' || std::string_view("\"'$#;{}()\\").find(static_cast<char>(c)) != std::string_view::npos) {
@@ -53,12 +51,12 @@ class OpenFoam : public FlowEngine {
                   fmt::format("OpenFOAM: the hostfile {} does not exist", settings.hostfile.string()));
     }
     check_folder(folder_);
-    installation_ = find_installation(settings.program_folder, settings.ranks > 1);
+    installation_ = find_installation(settings.program_folder, settings.ranks > 1, settings.incompressible);
     if (fs::exists(folder_)) clear();
   }
 
   std::string name() const override {
-    return fmt::format("OpenFOAM {} ({})", installation_.version, kSolver);
+    return fmt::format("OpenFOAM {} ({})", installation_.version, installation_.solver);
   }
 
   FlowField solve(const FlowProblem& problem, const FlowReport& report) override {
@@ -78,7 +76,9 @@ class OpenFoam : public FlowEngine {
       throw Error(ExitCode::usage, "averages over iterations need flow.engine = \"builtin\"");
     }
     check(problem);
-    const Basis basis{problem.grid, problem.air, problem.sides, settings_.ranks, settings_.second_order};
+    const Basis basis{problem.grid,           problem.air,
+                      problem.sides,          settings_.ranks,
+                      settings_.second_order, settings_.incompressible};
     const bool warm = basis_ && *basis_ == basis && latest_time(part_folder(0)) != "0";
     if (!warm) prepare(problem, basis);
     try {
@@ -99,13 +99,15 @@ class OpenFoam : public FlowEngine {
 
   void restore(const fs::path& folder) override {
     const SavedState state = read_state(folder);
-    if (state.basis.ranks != settings_.ranks || state.basis.second_order != settings_.second_order) {
-      throw Error(ExitCode::usage,
-                  fmt::format("the flow saved in {} was made with {} ranks and {} convection; this "
-                              "run has {} and {}: use the same",
-                              folder.string(), state.basis.ranks,
-                              state.basis.second_order ? "second-order" : "first-order", settings_.ranks,
-                              settings_.second_order ? "second-order" : "first-order"));
+    const auto made_with = [](const auto& run) {
+      return fmt::format("{}, {} ranks and {} convection", solver_name(run.incompressible), run.ranks,
+                         run.second_order ? "second-order" : "first-order");
+    };
+    const std::string saved = made_with(state.basis), now = made_with(settings_);
+    if (saved != now) {
+      throw Error(ExitCode::usage, fmt::format("the flow saved in {} was made with {}; this run has {}: use "
+                                               "the same",
+                                               folder.string(), saved, now));
     }
     if (!basis_ || !(*basis_ == state.basis)) {
       FlowProblem problem;
@@ -130,10 +132,10 @@ class OpenFoam : public FlowEngine {
     const std::string time = latest_time(part_folder(0));
     if (time == start) {
       throw Error(ExitCode::external,
-                  fmt::format("{} ended with {} but left no fields in {}; see {}", kSolver, describe(result),
-                              folder_.string(), log_file(kSolver).string()));
+                  fmt::format("{} ended with {} but left no fields in {}; see {}", installation_.solver,
+                              describe(result), folder_.string(), log_file(installation_.solver).string()));
     }
-    FlowField field = read_case(mesh_, time, problem);
+    FlowField field = read_case(mesh_, time, problem, settings_.incompressible);
     field.last = log.progress();
     field.converged = log.converged();
     purge(time);
@@ -169,9 +171,10 @@ class OpenFoam : public FlowEngine {
     fs::create_directories(folder_);
     clear();
     need_space(problem.grid);
-    write_case(folder_, problem, settings_.second_order, settings_.ranks);
-    write_initial_fields(folder_, problem);
-    write_control(folder_, problem, {0, problem.max_iterations});  // OpenFOAM's tools ask for one
+    write_case(folder_, problem, settings_);
+    write_initial_fields(folder_, problem, settings_.incompressible);
+    write_control(folder_, problem, settings_.incompressible,
+                  {0, problem.max_iterations});  // OpenFOAM's tools ask for one
     write_solution(folder_, problem);
     run_tool("blockMesh");
     if (settings_.ranks > 1) run_tool("decomposePar");
@@ -183,7 +186,8 @@ class OpenFoam : public FlowEngine {
   void write_problem(const FlowProblem& problem) {
     write_solution(folder_, problem);
     write_resistance(folder_, problem.porous);
-    write_control(folder_, problem, {std::stod(latest_time(part_folder(0))), problem.max_iterations});
+    write_control(folder_, problem, settings_.incompressible,
+                  {std::stod(latest_time(part_folder(0))), problem.max_iterations});
     std::vector<int> zone_of(static_cast<std::size_t>(problem.grid.cells()), -1);
     for (std::size_t zone = 0; zone < problem.porous.size(); ++zone) {
       for (const int cell : problem.porous[zone].cells) zone_of[cell] = static_cast<int>(zone);
@@ -254,11 +258,11 @@ class OpenFoam : public FlowEngine {
                          {"--hostfile", fs::absolute(settings_.hostfile).string(), "-x", "WM_PROJECT_DIR"});
       }
     }
-    arguments.push_back(program(installation_, kSolver).string());
+    arguments.push_back(program(installation_, installation_.solver).string());
     if (settings_.ranks > 1) arguments.push_back("-parallel");
 
     ProcessRequest request = request_for(std::move(arguments));
-    std::ofstream log_stream(log_file(kSolver));
+    std::ofstream log_stream(log_file(installation_.solver));
     bool asked_to_stop = false;
     request.on_line = [&](const std::string& line) {
       log_stream << line << '\n';
@@ -275,7 +279,7 @@ class OpenFoam : public FlowEngine {
 
   void explain_failure(const ProcessResult& result, const SolverLog& log) const {
     const std::string where = fmt::format("iteration {}, field {}", log.iteration(), log.field());
-    const std::string file = log_file(kSolver).string();
+    const std::string file = log_file(installation_.solver).string();
     const int signal = result.signal != 0       ? result.signal
                        : result.exit_code > 128 ? result.exit_code - 128
                                                 : 0;
@@ -293,20 +297,20 @@ class OpenFoam : public FlowEngine {
       throw Error(ExitCode::external,
                   fmt::format("{} had not ended after {:.0f} s, at {}: raise the time limit or "
                               "use more ranks (log: {})",
-                              kSolver, settings_.time_limit_s, where, file));
+                              installation_.solver, settings_.time_limit_s, where, file));
     }
     if (log.out_of_memory() || signal == SIGKILL) {
-      throw Error(
-          ExitCode::external,
-          fmt::format("{} was ended at {} by {}: most often the machine had no memory left; use a "
-                      "coarser grid (log: {})",
-                      kSolver, where, log.out_of_memory() ? "a failed allocation" : describe(result), file));
+      throw Error(ExitCode::external,
+                  fmt::format("{} was ended at {} by {}: most often the machine had no memory left; use a "
+                              "coarser grid (log: {})",
+                              installation_.solver, where,
+                              log.out_of_memory() ? "a failed allocation" : describe(result), file));
     }
     if (!result.succeeded()) {
       const double free = static_cast<double>(fs::space(folder_).available);
       throw Error(ExitCode::external,
-                  fmt::format("{} failed at {}: {}. {}{} (whole log: {})", kSolver, where, describe(result),
-                              log.fatal(), free < 1e8 ? " The disk is full." : "", file));
+                  fmt::format("{} failed at {}: {}. {}{} (whole log: {})", installation_.solver, where,
+                              describe(result), log.fatal(), free < 1e8 ? " The disk is full." : "", file));
     }
   }
 

@@ -15,8 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kSolver = "rhoPorousSimpleFoam";
-
 /// Debian's package keeps etc/ apart from the programs; builds from source have <project>/platforms/<x>/bin.
 fs::path find_project(const fs::path& solver) {
   const char* named = std::getenv("WM_PROJECT_DIR");
@@ -58,6 +56,10 @@ std::string version_of(const std::string& line) {
 
 }  // namespace
 
+const char* solver_name(bool incompressible) {
+  return incompressible ? "porousSimpleFoam" : "rhoPorousSimpleFoam";
+}
+
 fs::path program(const Installation& installation, const std::string& name) {
   const bool mpi = name == "mpirun";
   fs::path found = find_program(name, mpi ? fs::path() : installation.folder);
@@ -81,9 +83,9 @@ std::vector<std::pair<std::string, std::string>> environment(const Installation&
   return added;
 }
 
-Installation find_installation(const fs::path& program_folder, bool parallel) {
-  Installation installation{program_folder, {}, {}};
-  const fs::path solver = program(installation, kSolver);
+Installation find_installation(const fs::path& program_folder, bool parallel, bool incompressible) {
+  Installation installation{program_folder, {}, {}, solver_name(incompressible)};
+  const fs::path solver = program(installation, installation.solver);
   program(installation, "blockMesh");
   if (parallel) {
     program(installation, "decomposePar");

@@ -1,4 +1,5 @@
-// The reference flow engine: OpenFOAM's rhoPorousSimpleFoam as a child program, on a case that we write.
+// The reference flow engine: OpenFOAM's rhoPorousSimpleFoam or porousSimpleFoam as a child program, on a case
+// that we write.
 #pragma once
 
 #include <filesystem>
@@ -15,6 +16,7 @@ struct OpenFoamSettings {
   double time_limit_s = 24 * 3600;       // for one solve
   std::filesystem::path program_folder;  // where OpenFOAM's programs are; empty: PATH
   bool second_order = false;             // linearUpwind for U in place of the printed first-order upwind
+  bool incompressible = false;  // porousSimpleFoam: constant density, no energy; temperature plays no part
 };
 
 /// Throws Error(external) when a program is missing or of another kind than the openfoam.com line, and
@@ -29,7 +31,8 @@ struct OpenFoamSettings {
 /// iterations more before it sees the wish. For runs that must repeat exactly, limit max_iterations instead.
 std::unique_ptr<FlowEngine> make_openfoam(const OpenFoamSettings& settings);
 
-/// Gas constant of the air in the case [J/(kg K)]; the outlet's pressure is density * R * temperature.
+/// Gas constant of the air in the case [J/(kg K)]; rhoPorousSimpleFoam's outlet has the pressure density * R
+/// * temperature.
 inline constexpr double kOpenFoamGasConstant = 8314.47 / 28.9647;
 
 }  // namespace ripstop

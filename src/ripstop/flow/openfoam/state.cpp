@@ -66,7 +66,8 @@ json describe_basis(const Basis& basis) {
         {"viscosity_ratio", air.viscosity_ratio}}},
       {"slip_sides", basis.sides == Sides::slip},
       {"ranks", basis.ranks},
-      {"second_order", basis.second_order}};
+      {"second_order", basis.second_order},
+      {"incompressible", basis.incompressible}};
 }
 
 Basis basis_from(const json& j) {
@@ -85,6 +86,7 @@ Basis basis_from(const json& j) {
   basis.sides = j.at("slip_sides") ? Sides::slip : Sides::zero_gradient;
   basis.ranks = j.at("ranks");
   basis.second_order = j.at("second_order");
+  basis.incompressible = j.value("incompressible", false);  // before there was a choice it was not said
   return basis;
 }
 

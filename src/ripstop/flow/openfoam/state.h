@@ -16,6 +16,7 @@ struct Basis {
   Sides sides = Sides::zero_gradient;
   int ranks = 1;
   bool second_order = false;
+  bool incompressible = false;
 };
 bool operator==(const Basis& a, const Basis& b);
 
