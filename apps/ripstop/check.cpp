@@ -7,6 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "case_options.h"
 #include "commands.h"
 #include "ripstop/case/summary.h"
 #include "ripstop/core/error.h"
@@ -20,8 +21,6 @@ using Json = nlohmann::ordered_json;
 struct Options {
   std::filesystem::path case_file;
   Overrides overrides;
-  std::vector<int> grid;
-  std::vector<std::string> set;
   bool json = false;
   bool resolved = false;
 };
@@ -119,27 +118,12 @@ void add_check(CLI::App& app, int& status) {
       "check", "Everything about a case without a solver: problems, areas, masses, time step");
   command->footer("Example: ripstop check examples/stratos-iv/case.toml --speed 25 --json");
   command->add_option("case", options->case_file, "Case file (TOML)")->required();
-  command->add_option("--speed", options->overrides.speed, "Nominal speed [m/s]");
-  command->add_option("--grid", options->grid, "Cells NX,NY,NZ of the flow's box")
-      ->delimiter(',')
-      ->expected(3);
-  command->add_option("--ranks", options->overrides.ranks, "MPI processes for the flow");
-  command->add_flag("--linear", options->overrides.linear,
-                    "Keep only K_1 of every material: the paper's linear model");
-  command
-      ->add_option("--set", options->set, "Any key of the case, as in --set flow.box_m=[3,3,5]; repeatable")
-      ->expected(1)
-      ->take_all();
+  add_case_options(*command, options->overrides);
+  add_flow_options(*command, options->overrides);
   CLI::Option* json = command->add_flag("--json", options->json, "The report, or the problems, as JSON");
   command->add_flag("--resolved", options->resolved, "Print the case with every default written out (TOML)")
       ->excludes(json);
-  command->callback([options, &status] {
-    if (!options->grid.empty())
-      options->overrides.grid = {options->grid[0], options->grid[1], options->grid[2]};
-    for (const std::string& text : options->set)
-      options->overrides.set.push_back(parse_setting(text, "--set"));
-    status = run(*options);
-  });
+  command->callback([options, &status] { status = run(*options); });
 }
 
 }  // namespace ripstop

@@ -24,7 +24,6 @@ namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
 struct Options : SweepOptions {
-  std::optional<double> speed;
   bool linear = false;
 };
 
@@ -159,7 +158,6 @@ void print(const SweepAxis& axis, const std::vector<SweepRow>& rows, const std::
 
 int compare(Options& options) {
   finish(options, "compare");
-  options.overrides.speed = options.speed;
   // The neighbour's flow field would hide a difference smaller than the residual: every run starts cold.
   options.settings.warm = false;
   const Case value = read_case(options.case_file, options.overrides);
@@ -203,7 +201,7 @@ void add_compare(CLI::App& app, int& status) {
       "the tape in turn.\n"
       "Example: ripstop compare examples/stratos-iv/case.toml --linear --speed 30");
   add_sweep_options(*command, *options);
-  command->add_option("--speed", options->speed, "Nominal speed [m/s]");
+  command->add_option("--speed", options->overrides.speed, "Nominal speed [m/s]");
   command->add_flag("--linear", options->linear, "Against the linear model, which keeps only K_1")
       ->required();
   command->add_option("--out", options->settings.folder,

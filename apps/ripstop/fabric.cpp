@@ -10,6 +10,7 @@
 #include <numbers>
 #include <optional>
 
+#include "case_options.h"
 #include "commands.h"
 #include "progress.h"
 #include "ripstop/case/assemble.h"
@@ -116,7 +117,7 @@ void add_fabric(CLI::App& app, int& status) {
   command->add_option("case", options->case_file, "Case file (TOML)")->required();
   command->add_option("--pressure", options->pressure,
                       "Pressure over the whole canopy [Pa]; default: the dynamic pressure");
-  command->add_flag("--linear", options->overrides.linear, "Keep only K_1 of every material");
+  add_case_options(*command, options->overrides);
   command->add_option("--out", options->out, "Folder for a picture and files for ParaView");
   command->callback([options, &status] { status = run(*options); });
 }

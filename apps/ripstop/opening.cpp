@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "case_options.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
@@ -57,17 +58,13 @@ void add_opening_options(CLI::App& command, OpeningOptions& options) {
   command.add_option("--cloth-nodes", options.cloth_nodes, "Nodes of the cloth aimed at")
       ->check(CLI::Range(500, 2000000));
   command.add_option("--speed", options.overrides.speed, "Nominal speed [m/s]");
-  command.add_option("--set", options.set, "Any key of the case, as in --set inflation.folds=12; repeatable")
-      ->expected(1)
-      ->take_all();
+  add_set_option(command, options.overrides);
   command.add_option("--threads", options.threads, "Threads (default: as in [coupling])")
       ->check(CLI::Range(1, 1024));
 }
 
 Case opening_case(const OpeningOptions& options) {
-  Overrides overrides = options.overrides;
-  for (const std::string& text : options.set) overrides.set.push_back(parse_setting(text, "--set"));
-  Case value = read_case(options.case_file, overrides);
+  Case value = read_case(options.case_file, options.overrides);
   InflationSettings& inflation = value.inflation;
   if (options.cloth_nodes) value.parachute.mesh.cloth_nodes = *options.cloth_nodes;
   if (options.damping) inflation.damping_n_s_m3 = *options.damping;

@@ -18,7 +18,6 @@ namespace ripstop {
 struct OpeningOptions {
   std::filesystem::path case_file, steady_run;
   Overrides overrides;
-  std::vector<std::string> set;  // --set, as typed
   std::optional<double> pressure, damping, duration;
   std::optional<int> cloth_nodes;
   int threads = 0;  // 0: as in [coupling]

@@ -6,9 +6,9 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
-#include <map>
 #include <memory>
 
+#include "case_options.h"
 #include "commands.h"
 #include "progress.h"
 #include "ripstop/case/assemble.h"
@@ -25,12 +25,10 @@ namespace fs = std::filesystem;
 struct Options {
   fs::path case_file;
   Overrides overrides;
-  std::vector<int> grid;
   fs::path hostfile;
   fs::path out;
   bool fresh = false;
   bool dry_run = false;
-  std::vector<std::string> set;
 };
 
 // Iterations still to come: as many as the drag's change needs at its rate of fall so far, five at the first.
@@ -179,31 +177,13 @@ void add_steady(CLI::App& app, int& status) {
   command->footer(
       "Example: ripstop steady examples/stratos-iv/case.toml --speed 30 --grid 50,50,75 --ranks 2");
   command->add_option("case", options->case_file, "Case file (TOML)")->required();
-  command->add_option("--speed", options->overrides.speed, "Nominal speed [m/s]");
-  command->add_option("--grid", options->grid, "Cells NX,NY,NZ of the flow's box")
-      ->delimiter(',')
-      ->expected(3);
-  command->add_option("--flow", options->overrides.engine, "Flow engine: openfoam or builtin")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, EngineKind>{
-          {"openfoam", EngineKind::openfoam}, {"builtin", EngineKind::builtin}}));
-  command->add_option("--ranks", options->overrides.ranks, "MPI processes for the flow");
+  add_case_options(*command, options->overrides);
+  add_flow_options(*command, options->overrides);
   command->add_option("--hostfile", options->hostfile, "Hosts for MPI")->check(CLI::ExistingFile);
-  command->add_flag("--linear", options->overrides.linear,
-                    "Keep only K_1 of every material: the paper's linear model");
-  command
-      ->add_option("--set", options->set, "Any key of the case, as in --set flow.box_m=[3,3,5]; repeatable")
-      ->expected(1)
-      ->take_all();
   command->add_option("--out", options->out, "Run folder (default: runs/<folder of the case>)");
   command->add_flag("--fresh", options->fresh, "Replace what the run folder holds; default: go on with it");
   command->add_flag("--dry-run", options->dry_run, "Say what would be done, and stop");
-  command->callback([options, &status] {
-    if (!options->grid.empty())
-      options->overrides.grid = {options->grid[0], options->grid[1], options->grid[2]};
-    for (const std::string& text : options->set)
-      options->overrides.set.push_back(parse_setting(text, "--set"));
-    status = run(*options);
-  });
+  command->callback([options, &status] { status = run(*options); });
 }
 
 }  // namespace ripstop

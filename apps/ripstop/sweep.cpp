@@ -17,7 +17,7 @@ namespace {
 
 struct Options : SweepOptions {
   std::vector<std::string> speeds, vary, rows;
-  bool linear = false, dry_run = false;
+  bool dry_run = false;
 };
 
 /// "a=1,2" is an axis of two values; "--row a=1 b=2" one row of a table, all rows together one axis.
@@ -50,7 +50,6 @@ std::vector<SweepAxis> axes_of(const Options& options) {
 
 int sweep(Options& options) {
   finish(options, "sweep");
-  options.overrides.linear = options.linear;
   const std::vector<SweepAxis> axes = axes_of(options);
   const std::vector<SweepPoint> points = sweep_points(options.case_file, options.overrides, axes);
   const std::filesystem::path& folder = options.settings.folder;
@@ -92,7 +91,7 @@ void add_sweep(CLI::App& app, int& status) {
   command->add_option("--row", options->rows, "KEY=V,KEY=V: settings of one run of a table; repeatable")
       ->expected(1)
       ->take_all();
-  command->add_flag("--linear", options->linear, "Keep only K_1 of every material");
+  command->add_flag("--linear", options->overrides.linear, "Keep only K_1 of every material");
   command->add_option("--out", options->settings.folder, "Folder (default: runs/<folder of the case>-sweep)");
   command->add_flag("--dry-run", options->dry_run, "Say what would be run, and stop");
   command->callback([options, &status] { status = sweep(*options); });

@@ -4,8 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
-#include <map>
 
+#include "case_options.h"
 #include "progress.h"
 #include "ripstop/core/error.h"
 #include "ripstop/run/sweep_files.h"
@@ -14,14 +14,8 @@ namespace ripstop {
 
 void add_sweep_options(CLI::App& command, SweepOptions& options) {
   command.add_option("case", options.case_file, "Case file (TOML)")->required();
-  command.add_option("--grid", options.grid, "Cells NX,NY,NZ of the flow's box")->delimiter(',')->expected(3);
-  command.add_option("--flow", options.overrides.engine, "Flow engine: openfoam or builtin")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, EngineKind>{
-          {"openfoam", EngineKind::openfoam}, {"builtin", EngineKind::builtin}}));
-  command.add_option("--ranks", options.overrides.ranks, "MPI processes of one flow");
-  command.add_option("--set", options.set, "Any key of the case, as in --set flow.residual=1e-4; repeatable")
-      ->expected(1)
-      ->take_all();
+  add_flow_options(command, options.overrides);
+  add_set_option(command, options.overrides);
   command
       .add_option("--jobs", options.settings.jobs,
                   "Runs side by side (default: as many as cores and free memory allow)")
@@ -33,8 +27,6 @@ void add_sweep_options(CLI::App& command, SweepOptions& options) {
 }
 
 void finish(SweepOptions& options, const std::string& what) {
-  if (!options.grid.empty()) options.overrides.grid = {options.grid[0], options.grid[1], options.grid[2]};
-  for (const std::string& text : options.set) options.overrides.set.push_back(parse_setting(text, "--set"));
   options.settings.warm = !options.cold;
   if (options.settings.folder.empty()) {
     const std::string name = options.case_file.parent_path().filename().string();

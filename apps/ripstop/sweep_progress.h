@@ -17,14 +17,12 @@ namespace ripstop {
 struct SweepOptions {
   std::filesystem::path case_file;
   Overrides overrides;
-  std::vector<int> grid;
-  std::vector<std::string> set;
   SweepSettings settings;
   bool cold = false;
 };
 /// Case, --flow, --ranks, --grid, --set, --jobs, --cold, --fields, --out, --fresh.
 void add_sweep_options(CLI::App& command, SweepOptions& options);
-/// After parsing: --grid and --set into the overrides, the default folder runs/<folder of the case>-<what>.
+/// After parsing: the default folder runs/<folder of the case>-<what>.
 void finish(SweepOptions& options, const std::string& what);
 
 /// Runs the points with one line of progress, a line for every end, and sweep.csv after each of them.

@@ -1,0 +1,49 @@
+#include "case_options.h"
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+namespace ripstop {
+
+void add_set_option(CLI::App& command, Overrides& overrides) {
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--set",
+          [&overrides](const std::vector<std::string>& settings) {
+            for (const std::string& text : settings) overrides.set.push_back(parse_setting(text, "--set"));
+          },
+          "Any key of the case, as in --set flow.box_m=[3,3,5]; repeatable")
+      ->expected(1)
+      ->take_all();
+}
+
+void add_flow_options(CLI::App& command, Overrides& overrides) {
+  command
+      .add_option_function<std::vector<int>>(
+          "--grid",
+          [&overrides](const std::vector<int>& cells) {
+            overrides.grid = {cells[0], cells[1], cells[2]};
+          },
+          "Cells NX,NY,NZ of the flow's box")
+      ->delimiter(',')
+      ->expected(3);
+  command
+      .add_option_function<std::string>(
+          "--flow",
+          [&overrides](const std::string& engine) {
+            overrides.engine = engine == "openfoam" ? EngineKind::openfoam : EngineKind::builtin;
+          },
+          "Flow engine")
+      ->check(CLI::IsMember({"builtin", "openfoam"}))
+      ->option_text("builtin|openfoam");
+  command.add_option("--ranks", overrides.ranks, "MPI processes of one flow");
+}
+
+void add_case_options(CLI::App& command, Overrides& overrides) {
+  command.add_option("--speed", overrides.speed, "Nominal speed [m/s]");
+  command.add_flag("--linear", overrides.linear, "Keep only K_1 of every material: the paper's linear model");
+  add_set_option(command, overrides);
+}
+
+}  // namespace ripstop
