@@ -116,6 +116,20 @@ TEST(CartesianEngine, AWarmStartNeedsFewIterations) {
   EXPECT_NEAR(warm.porous_force.z, cold.porous_force.z, 1e-4 * cold.porous_force.z);
 }
 
+TEST(CartesianEngine, StartingOnCoarserGridsLeavesNoTraceInAFlowOfConstantDensity) {
+  FlowProblem problem = open_box(48, 48, 72, 10);  // two coarser grids
+  problem.porous[0].darcy /= 10, problem.porous[0].forchheimer /= 10;
+  CartesianSettings settings;
+  settings.compressible = false;
+  const FlowField by_stages = make_cartesian(settings)->solve(problem, nullptr);
+  settings.grid_sequencing = false;
+  const FlowField at_once = make_cartesian(settings)->solve(problem, nullptr);
+  ASSERT_TRUE(by_stages.converged && at_once.converged);
+  EXPECT_NEAR(by_stages.porous_force.z / at_once.porous_force.z, 1, 1e-5);
+  const int corner = problem.grid.index(0, 0, problem.grid.nz - 1);
+  EXPECT_NEAR(norm(by_stages.velocity[corner] - at_once.velocity[corner]), 0, 1e-3 * problem.air.speed);
+}
+
 TEST(CartesianEngine, TheReportCanStopTheRunAndTheFieldIsThenUnconverged) {
   const FlowField field =
       make_cartesian(with_threads(1))->solve(open_box(12, 12, 16, 10), [](const FlowProgress& progress) {

@@ -169,7 +169,11 @@ void Solver::start_from(const Solver& other) {
   interpolate(other.f_.v, f_.v, cx, cy, cz, false, false, false);
   interpolate(other.f_.w, f_.w, cx, cy, cz, false, false, false);
   interpolate(other.f_.p, f_.p, cx, cy, cz, false, false, false);
-  interpolate(other.f_.rho, f_.rho, cx, cy, cz, false, false, false);
+  if (settings_.compressible) {
+    interpolate(other.f_.rho, f_.rho, cx, cy, cz, false, false, false);
+  } else {  // no iteration would mend what the interpolation gets wrong where two sides of the box meet
+    std::fill(f_.rho.begin(), f_.rho.end(), air_.density);
+  }
   interpolate(other.f_.k, f_.k, cx, cy, cz, false, false, false);
   interpolate(other.f_.omega, f_.omega, cx, cy, cz, false, false, false);
   interpolate(other.f_.fx, f_.fx, ex, cy, cz, true, false, false);
