@@ -99,7 +99,10 @@ int run(const Options& options) {
       fmt::print("{}\n", to_json(value, summary).dump(2));
     else
       print(value, summary);
-    if (!options.json) print_mesh_warning(value);
+    if (!options.json) {
+      print_mesh_warning(value);
+      print_porosity_warning(value);
+    }
     return 0;
   } catch (const InputError& error) {
     if (!options.json) throw;

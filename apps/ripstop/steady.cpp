@@ -13,6 +13,7 @@
 #include "progress.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/error.h"
+#include "ripstop/parachute/known_shape.h"
 #include "ripstop/run/run_folder.h"
 #include "ripstop/run/steady_run.h"
 #include "warnings.h"
@@ -85,7 +86,11 @@ void print_result(const SteadyResult& r, const Case& value, const fs::path& fold
     row("drag in [NFM]", fmt::format("{:.1f} N (its nonlinear model)", *measured->printed_nonlinear_n));
   }
   row("drag area", fmt::format("{:.4f} m2", r.drag_area));
-  row("drag coefficient", fmt::format("{:.4f} on S0 = {:.4f} m2", r.drag_coefficient, r.reference_area));
+  const KnownRange usual = known_drag_coefficient(value.parachute);
+  row("drag coefficient", fmt::format("{:.4f} on S0 = {:.4f} m2{}", r.drag_coefficient, r.reference_area,
+                                      usual.high > 0 ? fmt::format("; in descent {:.2f} to {:.2f} (Knacke)",
+                                                                   usual.low, usual.high)
+                                                     : ""));
   row("projected diameter", fmt::format("{:.3f} m", r.size.projected_diameter));
   row("skirt diameter", fmt::format("{:.3f} m", r.size.skirt_diameter));
   row("highest line tension", fmt::format("{:.1f} N", r.max_line_tension));
@@ -157,6 +162,7 @@ int run(const Options& options) {
   const SteadyResult& result = outcome.result;
   print_result(result, value, folder);
   print_mesh_warning(value);
+  print_porosity_warning(value);
   print_material_warnings(value, result.stress.strain);
   if (!result.converged) {
     fmt::print(stderr,

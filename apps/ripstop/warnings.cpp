@@ -17,6 +17,17 @@ void print_mesh_warning(const Case& value) {
                asked, enough);
 }
 
+void print_porosity_warning(const Case& value) {
+  const Fabric& cloth = canopy_fabric(value);
+  if (value.flow.porosity_model == cloth.porosity_model) return;
+  const auto word = [](PorosityModel model) { return model == PorosityModel::paper ? "paper" : "sheet"; };
+  fmt::print(
+      stderr,
+      "warning: flow.porosity_model = \"{}\", but darcy and forchheimer of materials.{} are for \"{}\" "
+      "(materials/README.md)\n",
+      word(value.flow.porosity_model), cloth.name, word(cloth.porosity_model));
+}
+
 void print_material_warnings(const Case& value, double largest_cloth_strain) {
   for (const auto& [name, material] : value.materials) {
     const double strain = name == value.parachute.canopy_material ? largest_cloth_strain : 0.0;

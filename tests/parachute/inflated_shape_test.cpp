@@ -68,7 +68,7 @@ TEST_P(InflatedShape, HasTheDiameterOfItsTypeAndTheSymmetryOfItsLines) {
   EXPECT_LE(ratio, GetParam().high);
   RecordProperty("projected_over_nominal_diameter", std::to_string(ratio));
 
-  const KnownRatio printed = known_projected_ratio(value.parachute);
+  const KnownRange printed = known_projected_ratio(value.parachute);
   if (printed.low > 0) {
     EXPECT_GE(ratio, printed.low);
     EXPECT_LE(ratio, 1.11 * printed.high);

@@ -137,7 +137,8 @@ TEST_P(SymmetricShape, IsAnEquilibriumToWhichAShakenCanopyReturns) {
   set_positions(canopy.state, *canopy.cloth, canopy.symmetry.mean(free));
   ASSERT_TRUE(canopy.relax_to(5e-4).converged);
   const std::vector<Vec3> x = canopy.shape();
-  EXPECT_LT(asymmetry(canopy.symmetry, x), 1e-12);
+  // Rounding that thousands of steps have made larger; the folds of the free shape are millimetres.
+  EXPECT_LT(asymmetry(canopy.symmetry, x), 1e-9);
   const double diameter = canopy_size(canopy.mesh, x).projected_diameter;
   EXPECT_NEAR(canopy_size(canopy.mesh, free).projected_diameter / diameter, 1, 0.02);
 

@@ -58,12 +58,14 @@ void describe(Fields& fields, FlowSettings& flow) {
       .number("canopy_position_m", flow.canopy_position_m, above(0).up_to(1000),
               "Distance from the inlet to the skirt of the undeformed start shape.")
       .absent("half the length of the box");
-  fields.choice(
-      "porosity_model", flow.porosity_model,
-      {{"paper", PorosityModel::paper}, {"sheet", PorosityModel::sheet}},
-      "\"paper\": the cloth's darcy and forchheimer as resistance of every cell that the canopy cuts; "
-      "\"sheet\": as the pressure drop a v + b v|v| across the cloth, whatever the cells "
-      "(built-in engine only).");
+  fields.choice("porosity_model", flow.porosity_model,
+                {{"of-cloth", PorosityModel::of_cloth},
+                 {"paper", PorosityModel::paper},
+                 {"sheet", PorosityModel::sheet}},
+                "\"of-cloth\": what the canopy cloth's coefficients are for; \"paper\": the cloth's darcy "
+                "and forchheimer as resistance of every cell that the canopy cuts; "
+                "\"sheet\": as the pressure drop a v + b v|v| across the cloth, whatever the cells "
+                "(built-in engine only).");
   fields.choice("convection", flow.convection,
                 {{"upwind", Convection::upwind}, {"second-order", Convection::second_order}},
                 "Of the velocity. \"upwind\": first order, as [NFM]; \"second-order\": limited linear.");
@@ -204,7 +206,12 @@ void describe(Fields& fields, Case& value) {
   fields.table("parachute", value.parachute, "The parachute.").required();
   fields.named_tables("materials", value.materials,
                       "Materials of this case; they come before those of the library with the same name.");
-  fields.table("flow", value.flow, "The air, its box and its solver.").required();
+  fields
+      .table(
+          "flow", value.flow,
+          "The air, its box and its solver. The defaults of the table are those of the \"paper\" model; with "
+          "\"sheet\" those stand that \"Air through the cloth\" above lists.")
+      .required();
   fields.table("coupling", value.coupling, "The steady loop between cloth and flow.");
   fields.table("inflation", value.inflation, "The opening of the folded canopy.");
   fields.rows("measured", value.measured, "Wind-tunnel conditions to take air from and to compare with.");

@@ -23,7 +23,6 @@ namespace ripstop {
 enum class EngineKind { builtin, openfoam };
 enum class SpeedBasis { nominal, measured };
 enum class Convection { upwind, second_order };
-enum class PorosityModel { paper, sheet };
 
 /// [flow.core], the part of the flow's box with uniform cells, outside of which they grow.
 struct CoreSettings {
@@ -32,7 +31,7 @@ struct CoreSettings {
   double growth = 1.1;            // of a cell's width to that of its inner neighbour, at most
 };
 
-/// [flow]
+/// [flow]. With the `sheet` model settle_flow() puts other values where the case gives none.
 struct FlowSettings {
   EngineKind engine = EngineKind::builtin;
   double speed_m_s = 0;
@@ -48,7 +47,7 @@ struct FlowSettings {
   std::optional<double> canopy_position_m;  // inlet to the skirt of the start shape; absent: mid-length
   Convection convection = Convection::upwind;
   Sides sides = Sides::zero_gradient;
-  PorosityModel porosity_model = PorosityModel::paper;
+  PorosityModel porosity_model = PorosityModel::of_cloth;  // never that in a case that was read
   double residual = 1e-5;
   int max_iterations = 1000;
   int average_over = 0;  // last iterations of a flow that does not settle; 0: none
@@ -85,6 +84,11 @@ void describe(Fields& fields, CouplingSettings& coupling);
 void describe(Fields& fields, InflationSettings& inflation);
 void describe(Fields& fields, Measured& measured);
 void describe(Fields& fields, Case& value);
+
+/// The porosity model of the canopy cloth where the case names none; with `sheet` a box of some diameters
+/// about the canopy, cells that suit it, and numerics that settle there, for every key of [flow] that the
+/// case does not give.
+void settle_flow(Case& value);
 
 /// What the command line may change about a case.
 struct Overrides {

@@ -382,21 +382,19 @@ class Importer {
     if (!options_.line_length)
       assumed("lines of {:.6g} m, about the nominal diameter (--line-length)", length);
     assumed("Spectra line; nylon tape along seams and hems; no riser");
-    assumed("flow: air at 20 degrees, 10 m/s, a box of 2.4 x 2.4 x 4 nominal diameters; mesh: 11200 nodes");
+    assumed("flow: air at 20 degrees, 10 m/s; mesh: 11200 nodes");
     const ChuteSection& first = file_.sections.front();
     return pieces_ +
            fmt::format("\n[parachute.lines]\ncount = {}\nlength_m = {:.9g} # {}\n", line_count(), length,
                        options_.line_length ? "as asked" : "assumed: not in the file") +
            "\n[parachute.mesh]\ncloth_nodes = 11200\n" +
            fmt::format(
-               "\n[materials.imported-cloth]\nbase = \"f-111\" # assumed: the file has name and mass only\n"
+               "\n[materials.imported-cloth]\nbase = \"f-111-physical\" # assumed: the file has name and "
+               "mass only\n"
                "source = {}\nareal_density_kg_m2 = {:.9g}\n",
                quoted("mass of \"" + first.fabric + "\" in the .chute file; all else assumed as F-111", 400),
                first.areal_density) +
-           fmt::format(
-               "\n[flow] # assumed\nspeed_m_s = 10\ndensity_kg_m3 = 1.2\nbox_m = [{0:.4g}, {0:.4g}, "
-               "{1:.4g}]\ncells = [60, 60, 100]\n",
-               2.4 * nominal, 4 * nominal);
+           "\n[flow] # assumed\nspeed_m_s = 10\ndensity_kg_m3 = 1.2\n";
   }
 
   const ChuteFile& file_;

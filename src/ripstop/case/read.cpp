@@ -150,6 +150,9 @@ std::vector<Problem> problems_of(Case& value, std::vector<Problem> problems) {
   Findings findings(value.origins, problems);
   check_design(value.parachute, findings);
   check_materials(value, findings);
+  const std::string& cloth = value.parachute.canopy_material;
+  if (findings.sound(shape_keys()) && findings.sound({"parachute.canopy_material", "materials." + cloth}))
+    settle_flow(value);
   check_measured(value, findings);
   check_box(value, findings);
   check_average(value, findings);

@@ -102,6 +102,11 @@ void describe(Fields& fields, Fabric& fabric) {
       "forchheimer", fabric.forchheimer, from(0).up_to(1e9),
       "b of the pressure drop: typed as Forchheimer f, 1/m, by porosity_model = \"paper\", taken as b, "
       "Pa s2/m2, by \"sheet\".");
+  fields.choice(
+      "porosity_model", fabric.porosity_model,
+      {{"sheet", PorosityModel::sheet}, {"paper", PorosityModel::paper}},
+      "What darcy and forchheimer are: the cloth's own pressure drop (\"sheet\"), or coefficients of "
+      "porous cells, calibrated on cells of one size (\"paper\").");
 }
 
 void describe(Fields& fields, Line& line) {

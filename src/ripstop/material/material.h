@@ -6,6 +6,9 @@
 
 namespace ripstop {
 
+/// How cloth resists the air that passes it: `paper`, as porous cells; `sheet`, as a pressure drop across it.
+enum class PorosityModel { of_cloth, paper, sheet };
+
 /// Canopy cloth. The coefficients are those of the cloth's own curve (load per width against strain, [N/m])
 /// as a uniaxial pull along a yarn gives it; the lattice's are derived from them so that a virtual coupon
 /// returns it.
@@ -25,6 +28,7 @@ struct Fabric {
   double break_load_n_m = 0;  // 0: unknown
   double darcy = 0;           // a: Pa s/m in the `sheet` model; typed as Darcy d [1/m2] in the `paper` model
   double forchheimer = 0;     // b: Pa s2/m2; typed as Forchheimer f [1/m] in the `paper` model
+  PorosityModel porosity_model = PorosityModel::sheet;  // that darcy and forchheimer are for
 };
 
 /// Suspension or riser line: T(e) = sum K_k e^k with K_k in N.

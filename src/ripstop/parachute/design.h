@@ -61,7 +61,7 @@ struct Design {
   Canopy canopy;
   std::optional<double> nominal_area_m2;  // reference area S0; absent: the type's own
   int gores = 0;
-  std::string canopy_material = "f-111";
+  std::string canopy_material = "f-111-physical";
   FabricCut cut = FabricCut::block;  // of every piece of cloth, against its centre line
   LineSet lines;
   TapeLayout tape;

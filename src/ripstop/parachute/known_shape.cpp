@@ -3,38 +3,50 @@
 namespace ripstop {
 namespace {
 
-KnownRatio ratio_of(const DiskGapBand&) {
-  return {0.65, 0.65};
+struct Known {
+  KnownRange projected_ratio, drag_coefficient;
+};
+
+Known known(const DiskGapBand&) {
+  return {{0.65, 0.65}, {0.52, 0.58}};
 }
-KnownRatio ratio_of(const FlatCircular&) {
-  return {0.67, 0.70};
+Known known(const FlatCircular&) {
+  return {{0.67, 0.70}, {0.75, 0.80}};
 }
-KnownRatio ratio_of(const Conical&) {
-  return {0.70, 0.70};
+Known known(const Conical&) {
+  return {{0.70, 0.70}, {0.75, 0.90}};
 }
-KnownRatio ratio_of(const Spherical& canopy) {
-  return canopy.half_angle_deg == 90 ? KnownRatio{0.66, 0.66} : KnownRatio{};
+Known known(const Spherical& canopy) {
+  return canopy.half_angle_deg == 90 ? Known{{0.66, 0.66}, {0.62, 0.77}} : Known{};
 }
-KnownRatio ratio_of(const ExtendedSkirt&) {
-  return {0.66, 0.70};
+Known known(const ExtendedSkirt&) {
+  return {{0.66, 0.70}, {0.78, 0.87}};
 }
-KnownRatio ratio_of(const Ringslot&) {
-  return {0.67, 0.70};
+Known known(const Ringslot&) {
+  return {{0.67, 0.70}, {0.56, 0.65}};
 }
-KnownRatio ratio_of(const Ringsail&) {
-  return {0.69, 0.69};
+Known known(const Ringsail&) {
+  return {{0.69, 0.69}, {0.75, 0.90}};
 }
-KnownRatio ratio_of(const Cross&) {
-  return {0.66, 0.72};
+Known known(const Cross&) {
+  return {{0.66, 0.72}, {0.60, 0.85}};
 }
-KnownRatio ratio_of(const ProfileCanopy&) {
+Known known(const ProfileCanopy&) {
   return {};
+}
+
+Known known(const Design& design) {
+  return std::visit([](const auto& canopy) { return known(canopy); }, design.canopy);
 }
 
 }  // namespace
 
-KnownRatio known_projected_ratio(const Design& design) {
-  return std::visit([](const auto& canopy) { return ratio_of(canopy); }, design.canopy);
+KnownRange known_projected_ratio(const Design& design) {
+  return known(design).projected_ratio;
+}
+
+KnownRange known_drag_coefficient(const Design& design) {
+  return known(design).drag_coefficient;
 }
 
 }  // namespace ripstop

@@ -12,7 +12,7 @@ using Json = nlohmann::ordered_json;
 
 /// Shortest text that reads back as the same number; TOML wants digits around the point, JSON too.
 std::string number_text(double value) {
-  return fmt::format("{}", value);
+  return fmt::format("{}", value + 0.0);  // a file has no -0: it reads as an integer
 }
 
 std::string text_literal(const std::string& text) {
@@ -31,7 +31,9 @@ std::string text_literal(const std::string& text) {
 
 template <class List>
 std::string list_literal(const List& values) {
-  return fmt::format("[{}]", fmt::join(values, ", "));
+  std::vector<std::string> texts;
+  for (const auto value : values) texts.push_back(number_text(value));
+  return fmt::format("[{}]", fmt::join(texts, ", "));
 }
 
 /// The literal of a field that is no table; empty when there is nothing to write.
