@@ -8,7 +8,7 @@ Stages, each from what the ones before it left; without a name all of them run:
     predict    WALRUS and ADEPT, both speed bases, nonlinear and linear                  -> predictions.csv
     reproduce  Stratos IV itself with the calibrated cloth, and its shape against images
     sheet      the cloth as a sheet: of its specified permeability, nothing calibrated, and of one that is calibrated
-               on Stratos IV at 20 m/s                                                   -> predictions.csv
+               on Stratos IV                                                             -> predictions.csv
     uncertain  what each prediction depends on                                           -> uncertainty.csv
     compare    nonlinear beside linear on Stratos IV at 30 m/s
     openfoam   Stratos IV at 30 m/s with OpenFOAM
@@ -23,6 +23,7 @@ import pathlib
 import shutil
 import subprocess
 import sys
+import time
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
@@ -41,16 +42,25 @@ SHEET_FLOW = ["flow.porosity_model=sheet", "flow.box_m=[6,6,9]", "flow.cells=[80
               "flow.core.size_m=[1.8,1.8,2.2]", "flow.core.growth=1.125", "flow.sides=entraining",
               "flow.convection=second-order", "flow.residual=3e-4", "flow.max_iterations=300", "flow.average_over=60",
               "coupling.drag_tolerance=5e-3"]
-SHEET_SPEEDS = "10,20,30"
-PERMEABILITIES = "30,100,300"  # CFM/ft2
+# The pressure drop of the calibrated sheet is linear, or Ergun's; the one that fits Stratos IV better is taken.
+SHEET_KNOBS = {"permeabilities": "300,600,1200", "gammas": "0.3,0.4,0.5"}
+SHEET_SPECIFIED = [*SHEET_FLOW, "parachute.canopy_material=f-111-physical"]
 # What a prediction depends on: source -> (label, settings) of each variation, beside the unchanged run.
 VARIATIONS = {
     "position": [("-1/3 cell", ["flow.canopy_position_m=1.982222"]), ("+1/3 cell", ["flow.canopy_position_m=2.017778"])],
     "box": [("3 x 3 m", ["flow.box_m=[3,3,4]", "flow.cells=[75,75,75]"])],
+    "sides": [("slip", ["flow.sides=slip"]), ("entraining", ["flow.sides=entraining"])],
     "turbulence": [("intensity 5 %", ["flow.turbulence_intensity=0.05"]),
                    ("viscosity ratio 100", ["flow.viscosity_ratio=100"])],
     "shape": [("tolerances a fifth", ["coupling.shape_tolerance_m=2e-4", "coupling.drag_tolerance=2e-4",
                                       "coupling.cloth_tolerance=1e-4"])],
+}
+# The same for the sheet of calibrated permeability, on its own grid.
+SHEET_VARIATIONS = {
+    "grid": [("5 cm", ["flow.cells=[66,66,80]"]), ("3.2 cm", ["flow.cells=[92,92,112]"])],
+    "position": [("half a cell", ["flow.canopy_position_m=4.02"])],
+    "sides": [("slip", ["flow.sides=slip"])],
+    "turbulence": [("intensity 5 %", ["flow.turbulence_intensity=0.05"])],
 }
 # Cells, and the size of the printed ones over theirs. The `paper` model resists for the length of a cell: its
 # coefficients are multiplied by this ratio, which keeps the resistance of the cloth's area.
@@ -176,22 +186,25 @@ def stage_reproduce(campaign):
 
 
 def stage_sheet(campaign):
-    """The specified cloth on all three, Stratos IV too, whose drag is known; then the permeability that gives Stratos IV's
-    drag at 20 m/s, frozen, on the blind ones."""
-    settings = SHEET_FLOW + ["parachute.canopy_material=f-111-physical", "flow.speed_basis=nominal"]
-    for parachute in ("stratos-iv", *BLIND):
-        rows = campaign.sweep(parachute, f"sheet-specified/{parachute}-nominal", settings, "--speeds", SHEET_SPEEDS, "--vary",
-                              "coupling.linear=false")
-        if parachute in BLIND:
-            write_predictions("sheet-specified", parachute, "nominal", rows)
-    provenance(campaign, "sheet-specified")
-    result = campaign.calibrate("sheet-calibrated/calibration", settings, "--permeabilities", PERMEABILITIES, "--shifts", "1",
-                                "--measured", "validation/ojf/stratos-iv-20.csv")
-    for parachute in BLIND:
-        rows = campaign.sweep(parachute, f"sheet-calibrated/{parachute}-nominal", settings + law(result), "--speeds",
-                              SHEET_SPEEDS, "--vary", "coupling.linear=false")
-        write_predictions("sheet-calibrated", parachute, "nominal", rows)
-    provenance(campaign, "sheet-calibrated", result)
+    """The specified cloth on all three, Stratos IV too, whose drag is known; then the cloth that fits Stratos IV's five drag
+    areas (nominal basis, least squares), frozen, on the blind ones."""
+    campaign.sweep("stratos-iv", "sheet-specified/stratos-iv-nominal", [*SHEET_SPECIFIED, "flow.speed_basis=nominal"],
+                   "--speeds", SPEEDS["stratos-iv"], "--vary", "coupling.linear=false")
+    predict_sheet(campaign, "sheet-specified", [])
+    laws = [campaign.calibrate(f"sheet-calibrated/{knob}", SHEET_SPECIFIED, f"--{knob}", values, "--shifts", "1")
+            for knob, values in SHEET_KNOBS.items()]
+    result = min(laws, key=lambda law: law["root_mean_square_misfit"])
+    predict_sheet(campaign, "sheet-calibrated", law(result), result)
+
+
+def predict_sheet(campaign, model, cloth, calibration=None):
+    for basis in BASES:
+        for parachute in BLIND:
+            rows = campaign.sweep(parachute, f"{model}/{parachute}-{basis}",
+                                  [*SHEET_SPECIFIED, f"flow.speed_basis={basis}", *cloth], "--speeds", SPEEDS[parachute],
+                                  "--vary", "coupling.linear=false")
+            write_predictions(model, parachute, basis, rows)
+    provenance(campaign, model, calibration)
 
 
 def stage_uncertain(campaign):
@@ -205,7 +218,7 @@ def stage_uncertain(campaign):
         porosity.append(("porosity", name, ergun(gamma, result["thickness_m"], result["material"], BASE[1])))
     # A row starts from the one before it or after it, nearer to the middle: the unchanged run stands there, among those
     # that can take over its flow field.
-    rows = [*grids, *varied["box"], varied["position"][0], porosity[0], ("base", "", [f"flow.speed_m_s={UNCERTAIN_SPEED}"]),
+    rows = [*grids, *varied["box"], *varied["sides"], varied["position"][0], porosity[0], ("base", "", [f"flow.speed_m_s={UNCERTAIN_SPEED}"]),
             porosity[1], varied["position"][1], *varied["shape"], *varied["turbulence"]]
     arguments = []
     for _, _, extra in rows:
@@ -216,7 +229,26 @@ def stage_uncertain(campaign):
                               [f"flow.speed_m_s={UNCERTAIN_SPEED}", f"flow.cells=[{BASE[0]}]", *law(result, BASE[1])], *arguments)
         drags[parachute] = [(source, label, float(r["drag_n"])) for (source, label, _), r in zip(rows, done)]
         drags[parachute].append(("grid", "100x100x150, printed", printed_drag(campaign, parachute)))
-    write_uncertainty(drags)
+    write_uncertainty("paper", drags)
+    if campaign.calibration("sheet-calibrated/gammas"):
+        uncertain_sheet(campaign, campaign.calibration("sheet-calibrated/gammas"))
+
+
+def uncertain_sheet(campaign, result):
+    rows = [("base", "", [f"flow.speed_m_s={UNCERTAIN_SPEED}"])]
+    for sign, name in ((-1, "gamma - 1 s"), (1, "gamma + 1 s")):
+        gamma = result["value"] + sign * result["standard_error"]
+        rows.append(("porosity", name, ergun(gamma, result["thickness_m"], result["material"], 1)))
+    rows += [(source, label, extra) for source, all_of in SHEET_VARIATIONS.items() for label, extra in all_of]
+    arguments = []
+    for _, _, extra in rows:
+        arguments += ["--row", ",".join(extra)]
+    drags = {}
+    for parachute in ("stratos-iv", *BLIND):
+        done = campaign.sweep(parachute, f"sheet-calibrated/uncertain-{parachute}",
+                              [*SHEET_SPECIFIED, *law(result), f"flow.speed_m_s={UNCERTAIN_SPEED}"], *arguments)
+        drags[parachute] = [(source, label, float(r["drag_n"])) for (source, label, _), r in zip(rows, done)]
+    write_uncertainty("sheet-calibrated", drags)
 
 
 def printed_drag(campaign, parachute):
@@ -231,21 +263,26 @@ def ergun(gamma, thickness, cloth, factor):
     return [f"materials.{cloth}.darcy={factor * a!r}", f"materials.{cloth}.forchheimer={factor * b!r}"]
 
 
-def write_uncertainty(drags):
+def write_uncertainty(model, drags):
     """Change of drag of each variation with the frozen cloth, and as a ratio to Stratos IV under the same variation: what
-    is left when the cloth is calibrated again under it, to first order."""
-    base = {p: next(drag for source, _, drag in rows if source == "base") for p, rows in drags.items()}
+    is left when the cloth is calibrated again under it, to first order. Replaces the rows of this model in uncertainty.csv."""
+    path = HERE / "uncertainty.csv"
     table = []
+    if path.exists():
+        with open(path, newline="") as file:
+            table = [row for row in csv.DictReader(file) if row["porosity_model"] != model]
+    base = {p: next(drag for source, _, drag in rows if source == "base") for p, rows in drags.items()}
     for parachute in BLIND:
         for i, (source, label, drag) in enumerate(drags[parachute]):
             if source == "base":
                 continue
             frozen = drag / base[parachute] - 1
             reference = drags["stratos-iv"][i][2] / base["stratos-iv"] - 1
-            table.append({"parachute": parachute, "source": source, "variation": label,
+            table.append({"porosity_model": model, "parachute": parachute, "source": source, "variation": label,
                           "frozen_percent": f"{100 * frozen:.2f}", "stratos_iv_percent": f"{100 * reference:.2f}",
                           "ratio_percent": f"{100 * ((1 + frozen) / (1 + reference) - 1):.2f}"})
-    write_table(HERE / "uncertainty.csv", list(table[0]), table)
+    table.sort(key=lambda row: row["porosity_model"])
+    write_table(path, list(table[0]), table)
 
 
 def stage_compare(campaign):
@@ -296,7 +333,9 @@ def main():
     campaign = Campaign(options)
     for stage in options.stages or STAGES:
         print(f"== {stage}", flush=True)
+        began = time.monotonic()
         STAGES[stage](campaign)
+        print(f"== {stage}: {(time.monotonic() - began) / 60:.1f} minutes", flush=True)
 
 
 if __name__ == "__main__":

@@ -28,22 +28,40 @@ def table(head, lines):
     return ["| " + " | ".join(head) + " |", "|" + "---|" * len(head), *("| " + " | ".join(line) + " |" for line in lines), ""]
 
 
-def calibration(runs):
-    result = load(runs / "paper/calibration/result.json")
+def calibration(runs, folder="paper/calibration"):
+    result = load(runs / folder / "result.json")
     if not result:
         return []
-    fit = result["drag_coefficient_fit"]
+    fit, knob, digits = result["drag_coefficient_fit"], result["knob"], 4 if result["knob"] == "gamma" else 1
     low, high = result["interval_95"]
-    text = [f"{result['knob']} = {result['value']:.4f} +- {result['standard_error']:.4f} (standard error; "
-            f"{result['standard_error_measured']:.4f} from the measured points, {result['standard_error_computed']:.4f} from "
-            f"the trials), 95 % interval {low:.4f} to {high:.4f}; Darcy {result['darcy']:.2f}, Forchheimer "
-            f"{result['forchheimer']:.3f}. C_D = {fit['intercept']:.4f} {fit['slope']:+.4f} gamma over {fit['points']} trials, "
-            f"R2 = {fit['r2']:.4f}. Scatter over the shifts {100 * result['shift_scatter']:.2f} % rms.", ""]
+    text = [f"{knob} = {result['value']:.{digits}f} +- {result['standard_error']:.{digits}f} (standard error; "
+            f"{result['standard_error_measured']:.{digits}f} from the measured points, "
+            f"{result['standard_error_computed']:.{digits}f} from the trials), 95 % interval {low:.{digits}f} to {high:.{digits}f}; "
+            f"Darcy {result['darcy']:.2f}, Forchheimer {result['forchheimer']:.3f}. C_D = {fit['intercept']:.4f} {fit['slope']:+.4g} "
+            f"{knob} over {fit['points']} trials, R2 = {fit['r2']:.4f}. Scatter over the shifts "
+            f"{100 * result['shift_scatter']:.2f} % rms; misfit of the measured points {100 * result['root_mean_square_misfit']:.1f} % rms.", ""]
     return text + table(["nominal m/s", "measured N", "measured m2", "computed m2", "error %"],
                         [[f"{p['nominal_speed_m_s']:g}", f"{p['measured_drag_n']:.1f}", f"{p['measured_drag_area_m2']:.4f}",
                           f"{p['computed_drag_area_m2']:.4f}",
                           f"{100 * (p['computed_drag_area_m2'] / p['measured_drag_area_m2'] - 1):+.1f}"]
                          for p in result["points"]])
+
+
+def sheet(runs):
+    """Stratos IV with the specified permeability."""
+    folder = runs / "sheet-specified/stratos-iv-nominal"
+    lines = []
+    for row in rows(folder / "sweep.csv"):
+        result = load(folder / row["folder"] / "result.json")
+        known = result["measured"]
+        lines.append([f"{known['nominal_speed_m_s']:g}", f"{result['drag_n']:.1f}", f"{result['drag_area_m2']:.4f}",
+                      f"{known['drag_n']:.1f}", f"{100 * (result['drag_n'] / known['drag_n'] - 1):+.1f}",
+                      str(result["coupling_iterations"]), f"{result['wall_time_s']:.0f}"])
+    return table(["nominal m/s", "computed N", "computed m2", "measured N", "error %", "iterations", "wall s"], lines) if lines else []
+
+
+def sheet_calibration(runs):
+    return calibration(runs, "sheet-calibrated/permeabilities") + calibration(runs, "sheet-calibrated/gammas")
 
 
 def reproduction(runs):
@@ -84,21 +102,22 @@ def uncertainty(runs):
     done = rows(HERE / "uncertainty.csv")
     if not done:
         return []
-    text = table(["parachute", "source", "variation", "frozen %", "Stratos IV %", "ratio %"], [list(r.values()) for r in done])
-    lines = []
-    for parachute in sorted({r["parachute"] for r in done}, reverse=True):
-        own = [r for r in done if r["parachute"] == parachute]
-        largest = {}
-        for r in own:
-            # The calibration's error is of the cloth itself: Stratos IV cannot take it away.
-            value = abs(float(r["frozen_percent" if r["source"] == "porosity" else "ratio_percent"]))
-            largest[r["source"]] = max(largest.get(r["source"], 0), value)
-        total = math.sqrt(sum(v * v for v in largest.values()))
-        first = max(largest, key=largest.get)
-        lines.append([parachute, *(f"{largest[s]:.1f}" for s in largest), f"{total:.1f}", first])
-        names = list(largest)
+    text = table(["porosity", "parachute", "source", "variation", "frozen %", "Stratos IV %", "ratio %"],
+                 [list(r.values()) for r in done])
     text += ["Largest of each source (porosity: frozen; all others: ratio), and their root of sum of squares, %:", ""]
-    return text + table(["parachute", *names, "together", "dominates"], lines)
+    sources = list(dict.fromkeys(r["source"] for r in done))
+    lines = []
+    for model, parachute in dict.fromkeys((r["porosity_model"], r["parachute"]) for r in done):
+        largest = {}
+        for r in done:
+            if (r["porosity_model"], r["parachute"]) == (model, parachute):
+                # The calibration's error is of the cloth itself: Stratos IV cannot take it away.
+                value = abs(float(r["frozen_percent" if r["source"] == "porosity" else "ratio_percent"]))
+                largest[r["source"]] = max(largest.get(r["source"], 0), value)
+        total = math.sqrt(sum(v * v for v in largest.values()))
+        lines.append([model, parachute, *(f"{largest[s]:.1f}" if s in largest else "" for s in sources), f"{total:.1f}",
+                      max(largest, key=largest.get)])
+    return text + table(["porosity", "parachute", *sources, "together", "dominates"], lines)
 
 
 def comparison(runs):
@@ -127,7 +146,7 @@ def images(runs):
 
 
 SECTIONS = {"calibration": calibration, "reproduction": reproduction, "predictions": predictions, "uncertainty": uncertainty,
-            "comparison": comparison, "images": images}
+            "sheet": sheet, "sheet calibration": sheet_calibration, "comparison": comparison, "images": images}
 
 
 def main():
