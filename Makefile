@@ -13,7 +13,7 @@ CHECK_PACKAGES := libgtest-dev libbenchmark-dev python3 python3-jsonschema pytho
 
 export PATH := /usr/bin:$(PATH)
 
-.PHONY: help deps check-deps build demo check sanitize bench validate validate-ojf format format-check install package clean
+.PHONY: help deps check-deps build demo check sanitize bench validate validate-ojf validate-families format format-check install package clean
 
 help:  ## This list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -71,6 +71,9 @@ validate: build  ## Stratos IV at five speeds on the printed grid with both engi
 
 validate-ojf: build  ## Calibrate on Stratos IV, predict WALRUS and ADEPT blind, into docs/validation.md: hours; resumable
 	@/usr/bin/python3 validation/ojf/campaign.py --ripstop $(BUILD)/bin/ripstop $(STAGES)
+
+validate-families: build  ## Drag of every family's example beside Knacke's values, into docs/validation.md: ten minutes; resumable
+	@/usr/bin/python3 validation/families/families.py --ripstop $(BUILD)/bin/ripstop
 
 format:  ## Format the sources
 	@git ls-files '*.h' '*.cpp' | xargs clang-format -i

@@ -1,0 +1,51 @@
+#!/usr/bin/env python3
+"""Steady drag of every family's example beside what Knacke's manual gives for the type.
+
+    make validate-families            (or: families.py --ripstop build/bin/ripstop --runs runs/families)
+
+Runs `ripstop steady` on the examples that have the library's cloth with its own permeability, nothing calibrated, and
+writes the table between the markers of docs/validation.md. Runs that are finished cost nothing.
+"""
+import argparse
+import json
+import pathlib
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+# Drag coefficient on S0 in descent: T. W. Knacke, Parachute Recovery Systems Design Manual, NWC TP 6575 (1991),
+# Tables 5-1 and 5-2, not checked against the print.
+FAMILIES = {"flat-circular": "0.75 to 0.80", "conical": "0.75 to 0.90", "extended-skirt": "0.78 to 0.87",
+            "hemispherical": "0.62 to 0.77", "quarter-spherical": "", "ringslot": "0.56 to 0.65", "cross": "0.60 to 0.85",
+            "elliptical": ""}
+BEGIN, END = "<!-- families: begin -->", "<!-- families: end -->"
+
+
+def run(ripstop, runs, name):
+    folder = runs / name
+    command = [str(ripstop), "steady", f"examples/{name}/case.toml", "--out", str(folder)]
+    print("$ ripstop " + " ".join(command[1:]), flush=True)
+    if subprocess.run(command, cwd=ROOT, check=False).returncode != 0:
+        sys.exit(f"{name}: ripstop failed; the same command again goes on from here")
+    return json.loads((folder / "result.json").read_text())
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--ripstop", type=pathlib.Path, default=ROOT / "build/bin/ripstop")
+    parser.add_argument("--runs", type=pathlib.Path, default=ROOT / "runs/families")
+    options = parser.parse_args()
+    lines = ["| example | drag coefficient | Knacke, in descent | projected / nominal diameter | drag N | iterations | wall s |",
+             "|---|---|---|---|---|---|---|"]
+    for name, printed in FAMILIES.items():
+        r = run(options.ripstop.resolve(), options.runs.resolve(), name)
+        nominal = (4 / 3.141592653589793 * r["reference_area_m2"]) ** 0.5
+        lines.append(f"| {name} | {r['drag_coefficient']:.3f} | {printed} | {r['projected_diameter_m'] / nominal:.3f} | "
+                     f"{r['drag_n']:.1f} | {r['coupling_iterations']} | {r['wall_time_s']:.0f} |")
+    document = ROOT / "docs/validation.md"
+    before, rest = document.read_text().split(BEGIN)
+    document.write_text(before + "\n".join([BEGIN, "", *lines, "", END]) + rest.split(END)[1])
+
+
+if __name__ == "__main__":
+    main()
