@@ -122,26 +122,47 @@ void CartesianEngine::solve_coarse(const FlowProblem& problem, const FlowGrid& g
 
 FlowField CartesianEngine::solve(const FlowProblem& problem, const FlowReport& report) {
   check(problem);
-  auto solver = std::make_unique<Solver>(problem, problem.grid,
-                                         PorousRows(problem.grid, problem.porous, problem.air.viscosity),
-                                         settings_, team_);
+  const PorousRows porous(problem.grid, problem.porous, problem.air.viscosity);
+  const auto afresh = [&] {
+    return std::make_unique<Solver>(problem, problem.grid, porous, settings_, team_);
+  };
+  auto solver = afresh();
   // A sheet across the whole box holds back pressures far beyond rho U^2, which would not survive being
   // interpolated.
   const bool shut = solver->shut();
+  bool from_stream = false;
   if (last_ && last_->sides() == problem.sides && last_->grid().origin == problem.grid.origin &&
       last_->grid().size == problem.grid.size && last_->air() == problem.air) {
     solver->start_from(*last_);
   } else if (settings_.grid_sequencing && problem.grid.cells() > 20000 && !shut &&
              problem.body_force.empty()) {
-    solve_coarse(problem, problem.grid, PorousRows(problem.grid, problem.porous, problem.air.viscosity),
-                 *solver);
+    solve_coarse(problem, problem.grid, porous, *solver);
   } else {
     solver->start_uniform();
+    from_stream = true;
   }
   bool done = false;
   FieldMean mean;
-  const FlowProgress progress =
-      run(*solver, problem.residual, problem.max_iterations, report, done, problem.average_over, &mean);
+  FlowProgress progress;
+  const auto go = [&] {
+    progress =
+        run(*solver, problem.residual, problem.max_iterations, report, done, problem.average_over, &mean);
+  };
+  try {
+    go();
+  } catch (const Error& error) {
+    // Another canopy's wake, or a coarser grid's, can throw a flow off: then once from the stream.
+    if (from_stream || error.code() != ExitCode::diverged) throw;
+    solver = afresh();
+    solver->start_uniform();
+    mean = {};
+    try {
+      go();
+    } catch (const Error& again) {
+      throw Error(again.code(),
+                  fmt::format("{} (from an earlier field and from the uniform stream)", again.what()));
+    }
+  }
   // Only a whole window is a mean; a run that settled or was stopped inside it has its last field.
   const bool averaged = problem.average_over > 0 && !done && mean.count() == problem.average_over;
   FlowField field = averaged ? mean.mean() : solver->field();
