@@ -25,7 +25,7 @@ std::string refusal(const std::string& setting) {
 TEST(Set, ReplacesAnyKindOfKey) {
   EXPECT_DOUBLE_EQ(with("flow.box_m=[2.5, 2, 4]").flow.box_m.x, 2.5);
   EXPECT_DOUBLE_EQ(with("flow.box_m[1]=2.25").flow.box_m.y, 2.25);
-  EXPECT_EQ(with("flow.engine=openfoam").flow.engine, EngineKind::openfoam);
+  EXPECT_EQ(with("flow.convection=upwind").flow.convection, Convection::upwind);
   EXPECT_TRUE(with("coupling.linear=true").coupling.linear);
   EXPECT_EQ(with("title=a word or two").title, "a word or two");
   EXPECT_DOUBLE_EQ(with("measured[0].density_kg_m3=1.3").measured[0].density_kg_m3, 1.3);

@@ -61,6 +61,17 @@ TEST(SettledFlow, OfClothWithCalibratedCoefficientsIsThePapers) {
   EXPECT_EQ(flow_problem(value).porous.size(), 1u);
 }
 
+TEST(SettledFlow, OfASheetIsRefusedForOpenFoamBeforeAnythingIsComputed) {
+  try {
+    parse_case(short_case + "engine = \"openfoam\"\n", "short");
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    ASSERT_EQ(error.problems().size(), 1u);
+    EXPECT_EQ(error.problems()[0].key, "flow.engine");
+    EXPECT_NE(error.problems()[0].message.find("f-111-physical"), std::string::npos);
+  }
+}
+
 TEST(SettledFlow, ReadsAgainAsItWasWritten) {
   const Case value = parse_case(short_case, "short");
   const Case again = parse_case(case_toml(value), "resolved");

@@ -96,6 +96,8 @@ struct Canopy {
   explicit Canopy(const char* example) {
     value = read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples" / example / "case.toml");
     value.parachute.mesh.cloth_nodes = 3000;
+    // Rounding depends on the place along the axis: at 2.8 m relaxing the conical canopy makes 3e-11 m of it.
+    value.flow.canopy_position_m = 2;
     mesh = parachute_mesh(value);
     symmetry = symmetry_of(mesh, value.parachute.gores);
     cloth = make_cloth(mesh);
@@ -137,8 +139,7 @@ TEST_P(SymmetricShape, IsAnEquilibriumToWhichAShakenCanopyReturns) {
   set_positions(canopy.state, *canopy.cloth, canopy.symmetry.mean(free));
   ASSERT_TRUE(canopy.relax_to(5e-4).converged);
   const std::vector<Vec3> x = canopy.shape();
-  // Rounding that thousands of steps have made larger; the folds of the free shape are millimetres.
-  EXPECT_LT(asymmetry(canopy.symmetry, x), 1e-9);
+  EXPECT_LT(asymmetry(canopy.symmetry, x), 1e-12);
   const double diameter = canopy_size(canopy.mesh, x).projected_diameter;
   EXPECT_NEAR(canopy_size(canopy.mesh, free).projected_diameter / diameter, 1, 0.02);
 

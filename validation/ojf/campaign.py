@@ -117,6 +117,14 @@ def calibrated(campaign):
     return result
 
 
+def frozen_sheet(campaign):
+    """Of the laws of a sheet the one that fits Stratos IV best."""
+    results = [campaign.calibration(f"sheet-calibrated/{knob}") for knob in SHEET_KNOBS]
+    if None in results:
+        sys.exit("the sheet is not calibrated yet: run the stage sheet first")
+    return min(results, key=lambda result: result["root_mean_square_misfit"])
+
+
 def write_predictions(model, parachute, basis, rows):
     """Replaces the rows of this model, parachute and basis in predictions.csv."""
     path = HERE / "predictions.csv"
@@ -191,9 +199,9 @@ def stage_sheet(campaign):
     campaign.sweep("stratos-iv", "sheet-specified/stratos-iv-nominal", [*SHEET_SPECIFIED, "flow.speed_basis=nominal"],
                    "--speeds", SPEEDS["stratos-iv"], "--vary", "coupling.linear=false")
     predict_sheet(campaign, "sheet-specified", [])
-    laws = [campaign.calibrate(f"sheet-calibrated/{knob}", SHEET_SPECIFIED, f"--{knob}", values, "--shifts", "1")
-            for knob, values in SHEET_KNOBS.items()]
-    result = min(laws, key=lambda law: law["root_mean_square_misfit"])
+    for knob, values in SHEET_KNOBS.items():
+        campaign.calibrate(f"sheet-calibrated/{knob}", SHEET_SPECIFIED, f"--{knob}", values, "--shifts", "1")
+    result = frozen_sheet(campaign)
     predict_sheet(campaign, "sheet-calibrated", law(result), result)
 
 
@@ -212,43 +220,45 @@ def stage_uncertain(campaign):
     varied = {source: [(source, label, extra) for label, extra in all_of] for source, all_of in VARIATIONS.items()}
     grids = [("grid", cells.replace(",", "x"), [f"flow.cells=[{cells}]", *law(result, ratio)])
              for cells, ratio in GRIDS if cells != BASE[0]]
-    porosity = []
-    for sign, name in ((-1, "gamma - 1 s"), (1, "gamma + 1 s")):
-        gamma = result["value"] + sign * result["standard_error"]
-        porosity.append(("porosity", name, ergun(gamma, result["thickness_m"], result["material"], BASE[1])))
+    porosity = porosity_rows(result, BASE[1])
     # A row starts from the one before it or after it, nearer to the middle: the unchanged run stands there, among those
     # that can take over its flow field.
     rows = [*grids, *varied["box"], *varied["sides"], varied["position"][0], porosity[0], ("base", "", [f"flow.speed_m_s={UNCERTAIN_SPEED}"]),
             porosity[1], varied["position"][1], *varied["shape"], *varied["turbulence"]]
-    arguments = []
-    for _, _, extra in rows:
-        arguments += ["--row", ",".join(extra)]
-    drags = {}
-    for parachute in ("stratos-iv", *BLIND):
-        done = campaign.sweep(parachute, f"paper/uncertain-{parachute}",
-                              [f"flow.speed_m_s={UNCERTAIN_SPEED}", f"flow.cells=[{BASE[0]}]", *law(result, BASE[1])], *arguments)
-        drags[parachute] = [(source, label, float(r["drag_n"])) for (source, label, _), r in zip(rows, done)]
+    drags = varied_drags(campaign, "paper", [f"flow.cells=[{BASE[0]}]", *law(result, BASE[1])], rows)
+    for parachute in drags:
         drags[parachute].append(("grid", "100x100x150, printed", printed_drag(campaign, parachute)))
     write_uncertainty("paper", drags)
-    if campaign.calibration("sheet-calibrated/gammas"):
-        uncertain_sheet(campaign, campaign.calibration("sheet-calibrated/gammas"))
-
-
-def uncertain_sheet(campaign, result):
-    rows = [("base", "", [f"flow.speed_m_s={UNCERTAIN_SPEED}"])]
-    for sign, name in ((-1, "gamma - 1 s"), (1, "gamma + 1 s")):
-        gamma = result["value"] + sign * result["standard_error"]
-        rows.append(("porosity", name, ergun(gamma, result["thickness_m"], result["material"], 1)))
+    result = frozen_sheet(campaign)
+    rows = [("base", "", [f"flow.speed_m_s={UNCERTAIN_SPEED}"]), *porosity_rows(result, 1)]
     rows += [(source, label, extra) for source, all_of in SHEET_VARIATIONS.items() for label, extra in all_of]
+    write_uncertainty("sheet-calibrated", varied_drags(campaign, "sheet-calibrated", [*SHEET_SPECIFIED, *law(result)], rows))
+
+
+def porosity_rows(result, factor):
+    """The calibrated number a standard error less and more, its coefficients times a factor."""
+    rows = []
+    for sign, name in ((-1, "- 1 s"), (1, "+ 1 s")):
+        knob = result["value"] + sign * result["standard_error"]
+        if result["knob"] == "gamma":
+            settings = ergun(knob, result["thickness_m"], result["material"], factor)
+        else:
+            settings = law(result, factor * result["value"] / knob)
+        rows.append(("porosity", f"{result['knob']} {name}", settings))
+    return rows
+
+
+def varied_drags(campaign, model, settings, rows):
+    """Parachute -> (source, label, drag) of every row."""
     arguments = []
     for _, _, extra in rows:
         arguments += ["--row", ",".join(extra)]
     drags = {}
     for parachute in ("stratos-iv", *BLIND):
-        done = campaign.sweep(parachute, f"sheet-calibrated/uncertain-{parachute}",
-                              [*SHEET_SPECIFIED, *law(result), f"flow.speed_m_s={UNCERTAIN_SPEED}"], *arguments)
+        done = campaign.sweep(parachute, f"{model}/uncertain-{parachute}", [f"flow.speed_m_s={UNCERTAIN_SPEED}", *settings],
+                              *arguments)
         drags[parachute] = [(source, label, float(r["drag_n"])) for (source, label, _), r in zip(rows, done)]
-    write_uncertainty("sheet-calibrated", drags)
+    return drags
 
 
 def printed_drag(campaign, parachute):

@@ -135,6 +135,18 @@ void check_box(const Case& value, Findings& findings) {
   }
 }
 
+/// What only the built-in engine has is refused here, before the cloth has been relaxed for it.
+void check_engine(const Case& value, Findings& findings) {
+  const FlowSettings& flow = value.flow;
+  if (flow.engine != EngineKind::openfoam || !findings.sound({"flow.engine", "flow.porosity_model"})) return;
+  if (flow.porosity_model == PorosityModel::sheet)
+    findings.add(
+        "flow.engine", quoted("openfoam"), quoted("builtin"),
+        fmt::format("the cloth {} is a sheet (flow.porosity_model), which only the built-in engine has; "
+                    "OpenFOAM needs cloth with coefficients of the \"paper\" model, such as \"f-111\"",
+                    quoted(value.parachute.canopy_material)));
+}
+
 void check_average(const Case& value, Findings& findings) {
   const FlowSettings& flow = value.flow;
   if (findings.sound({"flow.average_over", "flow.max_iterations"}) && flow.average_over > flow.max_iterations)
@@ -156,6 +168,7 @@ std::vector<Problem> problems_of(Case& value, std::vector<Problem> problems) {
   check_measured(value, findings);
   check_box(value, findings);
   check_average(value, findings);
+  check_engine(value, findings);
   return problems;
 }
 

@@ -21,7 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-// Known before the engine is made: making it clears the flow's folder, which may still be another run's.
 std::unique_ptr<FlowEngine> make_engine(const Case& value, const SteadyRunSettings& run, int threads) {
   if (value.flow.engine == EngineKind::builtin) {
     CartesianSettings settings;
@@ -74,6 +73,7 @@ SteadyState warm_start(const Case& value, const SteadySolver& solver, const fs::
 
 }  // namespace
 
+// Known before the engine is made: making it clears the flow's folder, which may still be another run's.
 std::string name_of_engine(const Case& value) {
   if (value.flow.engine == EngineKind::builtin) return make_cartesian()->name();
   return "OpenFOAM " + openfoam::find_installation({}, value.flow.ranks > 1).version;
