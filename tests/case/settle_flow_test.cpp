@@ -31,6 +31,7 @@ TEST(SettledFlow, OfAShortCaseIsASheetInABoxThatScalesWithTheCanopy) {
   const double d = 0.7 * 3.0;
   EXPECT_NEAR(flow.box_m.x, 6 * d, 1e-9);
   EXPECT_NEAR(flow.box_m.z, 9 * d, 1e-9);
+  EXPECT_NEAR(canopy_position(value), 4 * d, 1e-9);
   const FlowGrid grid = flow_grid(value);
   EXPECT_NEAR(grid.spacing().x / d, 0.04, 0.002);
   EXPECT_NEAR(grid.spacing().z / d, 0.04, 0.002);
