@@ -1,50 +1,101 @@
 // Drag of a rigid disk-gap-band as a sheet, shifted by parts of a cell, on finer and finer grids: slip sides,
-// second-order convection.
-//   bench_sheet [cells across the canopy on the finest grid]
+// second-order convection. What the shift does, and the order at which the mean over the shifts converges.
+//   bench_sheet [cells across the canopy on the finest grid [grids]]
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 #include <vector>
 
 #include "far_box.h"
+#include "ripstop/core/error.h"
 #include "ripstop/flow/bodies.h"
 #include "ripstop/flow/cartesian/cartesian.h"
 
 using namespace ripstop;
 
+namespace {
+
+constexpr double d = 0.65, box = 12, skirt = 0.45 * 1.5 * box * d;  // diameter [m], width [d], place [m]
+constexpr int iterations = 500, averaged = 100;
+constexpr Vec3 shifts[] = {{0, 0, 0},           {0.25, 0.175, 0.25}, {0.5, 0.35, 0.5},
+                           {0.75, 0.525, 0.75}, {0.5, 0, 0},         {0, 0, 0.5}};  // cells
+
+double drag(const FlowGrid& grid, Vec3 shift, double a, double b) {
+  FlowProblem problem;
+  problem.grid = grid;
+  problem.air.speed = 30;
+  problem.sides = Sides::slip;
+  problem.max_iterations = iterations;
+  problem.average_over = averaged;
+  const Vec3 h = grid.spacing();
+  problem.sheets = {{rigid_disk_gap_band({shift.x * h.x, shift.y * h.y, skirt + shift.z * h.z}), a, b}};
+  CartesianSettings settings;
+  settings.second_order = true;
+  return make_cartesian(settings)->solve(problem, {}).porous_force.z;
+}
+
+struct Fit {
+  double limit = 0, slope = 0, order = 0, residual = 0;
+};
+
+/// Least squares of limit + slope h^order.
+Fit fitted(const std::vector<double>& h, const std::vector<double>& drags) {
+  const auto count = static_cast<double>(h.size());
+  Fit best;
+  best.residual = 1e300;
+  for (double order = 0.25; order <= 4; order += 0.01) {
+    double x = 0, y = 0, xx = 0, xy = 0;
+    for (std::size_t n = 0; n < h.size(); ++n) {
+      const double q = std::pow(h[n], order);
+      x += q / count, y += drags[n] / count, xx += q * q / count, xy += q * drags[n] / count;
+    }
+    Fit fit{0, (xy - x * y) / (xx - x * x), order, 0};
+    fit.limit = y - fit.slope * x;
+    for (std::size_t n = 0; n < h.size(); ++n) {
+      const double off = drags[n] - fit.limit - fit.slope * std::pow(h[n], order);
+      fit.residual += off * off / count;
+    }
+    fit.residual = std::sqrt(fit.residual);
+    if (fit.residual < best.residual) best = fit;
+  }
+  return best;
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
-  const int finest = argc > 1 ? std::atoi(argv[1]) : 40;
-  const double d = 0.65, box = 12, skirt = 0.45 * 1.5 * box * d;
+  const int finest = argc > 1 ? std::atoi(argv[1]) : 40, grids = argc > 2 ? std::atoi(argv[2]) : 4;
+  if (finest < 10 || grids < 1) throw Error(ExitCode::usage, "bench_sheet [finest >= 10 [grids >= 1]]");
   fmt::print(
-      "Rigid disk-gap-band, d = {} m, 30 m/s, box {} d wide, mean drag of the last 100 of 400 iterations "
-      "[N]\n",
-      d, box);
-  fmt::print("{:>5} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n", "h/d", "cells", "a Pa s/m", "at 0",
-             "1/4 cell", "1/2 cell", "3/4 cell", "mean", "spread");
-  for (int n = finest / 4; n <= finest; n *= 2) {
-    for (const auto& [a, b] : {std::pair{66.0, 37.45}, std::pair{8169.3, 0.0}}) {
+      "Rigid disk-gap-band, d = {} m, 30 m/s, box {} d wide, mean drag of the last {} of {} iterations [N]\n",
+      d, box, averaged, iterations);
+  fmt::print("{:>5} {:>9} {:>9}", "h/d", "cells", "a Pa s/m");
+  for (const Vec3& s : shifts) fmt::print(" {:>13}", fmt::format("{:g},{:g},{:g}", s.x, s.y, s.z));
+  fmt::print(" {:>9} {:>9}\n", "mean", "spread");
+  for (const auto& [a, b] : {std::pair{66.0, 37.45}, std::pair{8169.3, 0.0}}) {
+    std::vector<double> widths, means;
+    for (int g = grids - 1; g >= 0; --g) {
+      const int across = static_cast<int>(std::lround(finest * std::pow(2, -0.5 * g)));
+      const FlowGrid grid = far_box(d, box, across, skirt);
+      fmt::print("{:>5} {:>9} {:>9}", fmt::format("1/{}", across), grid.cells(), a);
       std::vector<double> drags;
-      FlowProblem problem;
-      problem.grid = far_box(d, box, n, skirt);
-      problem.air.speed = 30;
-      problem.sides = Sides::slip;
-      problem.max_iterations = 400;
-      problem.average_over = 100;
-      const Vec3 h = problem.grid.spacing();
-      CartesianSettings settings;
-      settings.second_order = true;
-      for (const double shift : {0.0, 0.25, 0.5, 0.75}) {
-        problem.sheets = {{rigid_disk_gap_band({shift * h.x, 0.7 * shift * h.y, skirt + shift * h.z}), a, b}};
-        drags.push_back(make_cartesian(settings)->solve(problem, {}).porous_force.z);
+      for (const Vec3& shift : shifts) {
+        drags.push_back(drag(grid, shift, a, b));
+        fmt::print(" {:>13.2f}", drags.back());
+        std::fflush(stdout);
       }
       const auto [low, high] = std::minmax_element(drags.begin(), drags.end());
-      const double mean = (drags[0] + drags[1] + drags[2] + drags[3]) / 4;
-      fmt::print("{:>5} {:>9} {:>9} {:>9.2f} {:>9.2f} {:>9.2f} {:>9.2f} {:>9.2f} {:>7.2f} %\n",
-                 fmt::format("1/{}", n), problem.grid.cells(), a, drags[0], drags[1], drags[2], drags[3],
-                 mean, 100 * (*high - *low) / mean);
-      std::fflush(stdout);
+      double mean = 0;
+      for (const double one : drags) mean += one / static_cast<double>(drags.size());
+      fmt::print(" {:>9.2f} {:>7.2f} %\n", mean, 100 * (*high - *low) / mean);
+      widths.push_back(1.0 / across), means.push_back(mean);
     }
+    if (grids < 3) continue;
+    const Fit fit = fitted(widths, means);
+    fmt::print("a = {}: mean = {:.2f} {:+.3g} (h/d)^{:.2f} N, off by {:.2f} N rms\n", a, fit.limit, fit.slope,
+               fit.order, fit.residual);
   }
 }

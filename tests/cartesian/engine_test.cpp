@@ -139,9 +139,9 @@ TEST(CartesianEngine, TheReportCanStopTheRunAndTheFieldIsThenUnconverged) {
   EXPECT_FALSE(field.converged);
 }
 
-// Rows of faces that the sheet cuts differ from grid to grid; this place throws off what the coarser grids
-// leave.
-TEST(CartesianEngine, WhatDivergesFromCoarserGridsStartsOnceFromTheStream) {
+// What coarser grids leave does not stand against the faces that the cloth parts here: taken at full step, it
+// grows without bound in the fifth iteration.
+TEST(CartesianEngine, AStartFromCoarserGridsIsEasedBesideASheet) {
   FlowProblem problem;
   const double d = 0.65, box = 12 * d;
   problem.grid = graded({{-box / 2, -box / 2, 0}, {box, box, 1.5 * box}, 90, 90, 108},
@@ -160,8 +160,29 @@ TEST(CartesianEngine, WhatDivergesFromCoarserGridsStartsOnceFromTheStream) {
     starts += progress.iteration == 1;
     return true;
   });
-  EXPECT_EQ(starts, 2);
+  EXPECT_EQ(starts, 1);
   EXPECT_GT(field.porous_force.z, 0);
+}
+
+TEST(CartesianEngine, WhatDivergesFromAnEarlierFieldStartsOnceFromTheStream) {
+  const auto solve = [](FlowEngine& engine, const FlowProblem& problem, int iterations) {
+    int starts = 0;
+    const FlowField field = engine.solve(problem, [&](const FlowProgress& progress) {
+      starts += progress.iteration == 1;
+      return progress.iteration < iterations;
+    });
+    return std::pair(field, starts);
+  };
+  FlowProblem problem = open_box(12, 12, 16, 10);
+  problem.sheets = {{disk(0.8, {0, 0, 1}), 66, 37.45}};
+  const auto engine = make_cartesian(with_threads(1)), fresh = make_cartesian(with_threads(1));
+  FlowProblem stormy = problem;  // leaves a jet of 1e8 m/s
+  stormy.body_force.assign(problem.grid.cells(), Vec3{0, 0, 0});
+  stormy.body_force[problem.grid.index(6, 6, 8)] = {0, 0, 1e10};
+  solve(*engine, stormy, 1);
+  const auto [field, starts] = solve(*engine, problem, 60);
+  EXPECT_EQ(starts, 2);
+  EXPECT_EQ(field.porous_force.z, solve(*fresh, problem, 60).first.porous_force.z);
 }
 
 TEST(CartesianEngine, DivergenceIsSaidWithIterationFieldAndPlace) {

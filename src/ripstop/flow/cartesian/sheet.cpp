@@ -12,12 +12,10 @@
 namespace ripstop::cartesian {
 namespace {
 
-// Up to this resistance, in units of rho U, the drop follows the velocity along the sheet's normal, and the
-// air keeps its velocity along the sheet. What goes beyond it acts on the flux through each face, which then
-// leaves along the normal: cloth turns the air as screens do, the more the denser it is (Taylor and Batchelor
-// 1949). A law that only knows the normal component would leave a denser sheet's staircase of faces open to
-// air that wanders to and fro through it.
-constexpr double oblique_limit = 1.5;
+/// What two velocities have in common: their harmonic mean, nothing if they part.
+double shared(double a, double b) {
+  return a * b > 0 ? 2 * a * b / (a + b) : 0;
+}
 
 /// The cells on either side of a face.
 std::pair<std::ptrdiff_t, std::ptrdiff_t> cells(const SheetFace& g, const Layout& layout) {
@@ -104,30 +102,23 @@ void SheetRows::update(const Fields& fields, const Layout& layout, double moment
     const SheetFace& g = face.geometry;
     const auto [low, high] = cells(g, layout);
     const Array<double>& flux = g.axis == 0 ? fields.fx : g.axis == 1 ? fields.fy : fields.fz;
-    const Vec3 n = g.normal;
-    const double velocity = 2 * flux[high] / (fields.rho[low] + fields.rho[high]);
-    const auto mean = [&](const Array<double>& q) { return 0.5 * (q[low] + q[high]); };
-    const double through = n.x * (g.axis == 0 ? velocity : mean(fields.u)) +
-                           n.y * (g.axis == 1 ? velocity : mean(fields.v)) +
-                           n.z * (g.axis == 2 ? velocity : mean(fields.w));
-    const double normal = g.axis == 0 ? n.x : g.axis == 1 ? n.y : n.z;
-    // What one unit of velocity through the face is along the normal, when all air crosses along the normal.
-    const double spread = face.area / std::max(g.area, 1e-2 * face.area);
-    const double slope = face.a + face.b * std::abs(through);
-    const double own = face.a + face.b * std::abs(spread * velocity);
-    const double oblique = std::min(slope, oblique_limit * momentum);
-    const double rest = slope > 0 ? own * (1 - oblique / slope) : 0;
+    const auto along = [&](Vec3 v) { return g.axis == 0 ? v.x : g.axis == 1 ? v.y : v.z; };
+    const double density = 0.5 * (fields.rho[low] + fields.rho[high]);
+    const double normal = along(g.normal);
     const double cover = g.hem ? std::min(1.0, g.area / (face.area * std::max(normal, 1e-3))) : 1.0;
-    const double density = 0.5 * (fields.rho[low] + fields.rho[high]), speed = std::abs(velocity);
-    const Cover beside = cover_of(cover, slope, density, speed);
+    const double spread = face.area / std::max(g.area, 1e-2 * face.area);
+    // What of a cell's velocity runs along the sheet crosses the face freely.
+    const auto sliding = [&](std::ptrdiff_t cell) {
+      const Vec3 velocity{fields.u[cell], fields.v[cell], fields.w[cell]};
+      return along(velocity) - dot(g.normal, velocity) / spread;
+    };
+    const double through = spread * (flux[high] / density - shared(sliding(low), sliding(high)));
+    const double speed = std::abs(through), resistance = face.a + face.b * speed;
+    const Cover beside = cover_of(cover, resistance, density, speed);
     // A jet that has yet to start, or that turns back, would offer no slope at all.
-    const Cover brisk = cover_of(cover, slope, density, std::max(speed, least_jet * momentum / density));
-    const double along = oblique, across = rest * spread;
-    face.jump = beside.share * (along * through + across * velocity);
-    // Each face sees the others' velocities of the last iteration: the slope of the law, and no less, keeps
-    // that stable.
-    const double steep = slope > 0 ? (face.a + 2 * face.b * std::abs(through)) / slope : 1;
-    face.stiffness = brisk.share * brisk.steep * (along * steep + across);
+    const Cover brisk = cover_of(cover, resistance, density, std::max(speed, least_jet * momentum / density));
+    face.jump = beside.share * resistance * through;
+    face.stiffness = brisk.share * brisk.steep * (face.a + 2 * face.b * speed) * spread;
     excess_[face.at] += face.jump;
     stiffness_[face.at] += face.stiffness;
   }

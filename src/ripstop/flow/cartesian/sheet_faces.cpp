@@ -221,6 +221,12 @@ class Columns {
     }
   }
 
+  /// Unit, its component along the axis not negative.
+  Vec3 normal_of(int triangle) const {
+    const Vec3 n = unit_normal(surface_[triangle]);
+    return point_of(n)[axis_] < 0 ? -1.0 * n : n;
+  }
+
   /// The new face, or null where no two centres lie on either side.
   SheetFace* add(double at, int triangle, int cu, int cv, std::vector<SheetFace>& result) const {
     const Axis& axis = *axes_[axis_];
@@ -237,8 +243,7 @@ class Columns {
     Point point;
     point[axis_] = at, point[u_] = centre(*axes_[u_], cu), point[v_] = centre(*axes_[v_], cv);
     face.point = {point[0], point[1], point[2]};
-    face.normal = unit_normal(surface_[triangle]);
-    if (point_of(face.normal)[axis_] < 0) face.normal = -1.0 * face.normal;
+    face.normal = normal_of(triangle);
     result.push_back(face);
     return &result.back();
   }
@@ -253,15 +258,14 @@ class Columns {
       return axes_[axis_]->width[std::clamp(cell_at(*axes_[axis_], at), 0, axes_[axis_]->n - 1)];
     };
     const double per_line = axes_[u_]->width[cu] * axes_[v_]->width[cv] / (lines * lines);
-    const auto share = [&](const Hit& h) {
-      return std::abs(point_of(unit_normal(surface_[h.triangle]))[axis_]) * per_line;
-    };
+    const auto share = [&](const Hit& h) { return point_of(normal_of(h.triangle))[axis_] * per_line; };
     const std::size_t first = result.size();
     for (const Hit& h : hits) {
       SheetFace* face = central(h) ? add(h.at, h.triangle, cu, cv, result) : nullptr;
       if (face) face->hem = h.hem;
     }
     const std::size_t last = result.size();
+    std::vector<Vec3> normals(last - first);  // of all that a face stands for, by area
     std::vector<const Hit*> beside;  // near a hem, lines that meet the sheet where the central one does not
     for (const Hit& h : hits) {
       std::size_t nearest = last;
@@ -278,11 +282,16 @@ class Columns {
       }
       if (nearest < last) {
         result[nearest].area += share(h);
+        normals[nearest - first] += share(h) * normal_of(h.triangle);
       } else if (h.hem) {
         beside.push_back(&h);
       } else {
         left_over.push_back({cell_of(h, cu, cv), share(h)});
       }
+    }
+    for (std::size_t n = first; n < last; ++n) {
+      const Vec3 sum = normals[n - first];
+      if (norm(sum) > 0) result[n].normal = sum / norm(sum);
     }
     for (std::size_t begin = 0; begin < beside.size();) {
       std::size_t end = begin + 1;
@@ -290,8 +299,15 @@ class Columns {
              beside[end]->at - beside[end - 1]->at < reach * width_at(beside[end]->at)) {
         ++end;
       }
-      const Hit& middle = *beside[(begin + end) / 2];
-      SheetFace* face = add(middle.at, middle.triangle, cu, cv, result);
+      // A line that meets the sheet and leaves it again passes no hem, but where the sheet is seen edgewise.
+      std::array<int, lines * lines> crossings{};
+      for (std::size_t n = begin; n < end; ++n) ++crossings[beside[n]->line];
+      std::vector<const Hit*> across;
+      for (std::size_t n = begin; n < end; ++n) {
+        if (crossings[beside[n]->line] % 2 == 1) across.push_back(beside[n]);
+      }
+      const Hit* middle = across.empty() ? nullptr : across[across.size() / 2];
+      SheetFace* face = middle ? add(middle->at, middle->triangle, cu, cv, result) : nullptr;
       if (face) face->hem = true;
       for (std::size_t n = begin; n < end; ++n) {
         face ? void(face->area += share(*beside[n]))

@@ -93,8 +93,6 @@ class Solver {
   Fields& fields() { return f_; }
   const Sums& sums() const { return total_; }
   Sums& sums() { return total_; }
-  int iteration() const { return iteration_; }
-  void set_iteration(int iteration) { iteration_ = iteration; }
   void fill_ghosts();
 
  private:

@@ -14,6 +14,8 @@
 namespace ripstop::cartesian {
 namespace {
 
+constexpr int eased_iterations = 30;  // of a start beside a sheet
+
 constexpr int mod(int k, int n) {
   return (k + n) % n;
 }
@@ -130,13 +132,15 @@ void Solver::momentum(MarchRings& rings, int k, IndexRange rows) {
   const std::ptrdiff_t sz = layout_.stride_z, component = static_cast<std::ptrdiff_t>(rings.plane);
   const double *zeros = &constant_.zeros[Layout::lead], *inlet_w = &constant_.inlet_w[Layout::lead];
   const bool northward = iteration_ % 2 == 0;
+  // A pressure from elsewhere does not yet stand against the cloth, and would throw the air about.
+  const bool eased = !sheets_.empty() && iteration_ < eased_iterations;
   for (int step = rows.begin; step < rows.end; ++step) {
     const int j = northward ? step : rows.end - 1 - (step - rows.begin);
     const std::ptrdiff_t at = layout_.at(0, j, k), in = rings.at(layout_, j, rows.begin);
     MomentumRow r;
     r.m = metrics(j, k);
     r.relaxation = settings_.relax_velocity;
-    r.march_relaxation = settings_.relax_march;
+    r.march_relaxation = (eased ? 0.5 : 1.0) * settings_.relax_march;
     r.mean_u = total_.value[Sums::u_mean];
     r.mean_v = total_.value[Sums::v_mean];
     r.mean_w = total_.value[Sums::w_mean];
