@@ -19,7 +19,7 @@ using namespace ripstop;
 namespace {
 
 constexpr double d = 0.65, box = 12, skirt = 0.45 * 1.5 * box * d;  // diameter [m], width [d], place [m]
-constexpr int iterations = 500, averaged = 100;
+constexpr int iterations = 400, averaged = 100;
 constexpr Vec3 shifts[] = {{0, 0, 0},           {0.25, 0.175, 0.25}, {0.5, 0.35, 0.5},
                            {0.75, 0.525, 0.75}, {0.5, 0, 0},         {0, 0, 0.5}};  // cells
 
