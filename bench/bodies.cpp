@@ -97,12 +97,22 @@ int main(int argc, char** argv) {
              "cells", "coefficient", "off by", "Cp front", "Cp back", "last 100 it.");
   for (const Body& body : bodies) {
     if (!only.empty() && body.name != only) continue;
+    std::vector<double> all;
     for (int n = finest / 4; n <= finest; n *= 2) {
       const Result r = drag_coefficient(body, far_box(d, box, n, centre.z), turbulence, sides);
       fmt::print("{:>22} {:>9.3f} {:>6} {:>9} {:>11.3f} {:>+7.1f} % {:>8.3f} {:>8.3f} {:>12.2f} %\n",
                  body.name, body.reference, fmt::format("1/{}", n), r.cells, r.coefficient,
                  100 * (r.coefficient / body.reference - 1), r.front, r.back, 100 * r.change);
       std::fflush(stdout);
+      all.push_back(r.coefficient);
+    }
+    const double ratio = all.size() == 3 ? (all[1] - all[0]) / (all[2] - all[1]) : 0;
+    if (ratio > 1) {
+      const double limit = all[2] + (all[2] - all[1]) / (ratio - 1);
+      fmt::print("{:>22} order {:.2f}, {:.3f} without the cells ({:+.1f} %)\n", "", std::log2(ratio), limit,
+                 100 * (limit / body.reference - 1));
+    } else {
+      fmt::print("{:>22} no order on these grids\n", "");
     }
   }
 }
