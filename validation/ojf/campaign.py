@@ -58,7 +58,7 @@ VARIATIONS = {
 # The same for the sheet of calibrated permeability, on its own grid.
 SHEET_VARIATIONS = {
     "grid": [("5 cm", ["flow.cells=[66,66,80]"]), ("3.2 cm", ["flow.cells=[92,92,112]"])],
-    "position": [("half a cell", ["flow.canopy_position_m=4.02"])],
+    "position": [("half a cell", ["flow.canopy_position_m=4.02", "flow.core.start_m=3.45"])],  # else the core goes along
     "sides": [("slip", ["flow.sides=slip"])],
     "turbulence": [("intensity 5 %", ["flow.turbulence_intensity=0.05"])],
 }

@@ -31,8 +31,8 @@ struct Cover {
 
 // Beside the hem a sheet covers only the part c of a face. Air that passes through the rest at v / (1 - c)
 // loses its jet, rho / 2 (v / (1 - c) - v)^2 (Borda and Carnot); that resistance, over v, stands in parallel
-// to c times the cloth's. Of a face the cloth's drop is the `share`; `steep` is its slope over v over its own
-// ratio to v.
+// to c times the cloth's. The `share` is what is left of the cloth's drop; `steep` is the drop's slope over v
+// over its own ratio to v.
 Cover cover_of(double c, double resistance, double density, double speed) {
   if (c >= 1) return {};
   const double ratio = c / (1 - c), jet = 0.5 * density * speed * ratio * ratio;
@@ -107,7 +107,9 @@ void SheetRows::update(const Fields& fields, const Layout& layout, double moment
     const double normal = along(g.normal);
     const double cover = g.hem ? std::min(1.0, g.area / (face.area * std::max(normal, 1e-3))) : 1.0;
     const double spread = face.area / std::max(g.area, 1e-2 * face.area);
-    // What of a cell's velocity runs along the sheet crosses the face freely.
+    // The law holds for what goes through the sheet. What of a cell's velocity runs along it crosses the face
+    // freely: the faces of slanted cloth are a staircase, and air that runs along the cloth must not climb
+    // it.
     const auto sliding = [&](std::ptrdiff_t cell) {
       const Vec3 velocity{fields.u[cell], fields.v[cell], fields.w[cell]};
       return along(velocity) - dot(g.normal, velocity) / spread;

@@ -227,6 +227,16 @@ class Columns {
     return point_of(n)[axis_] < 0 ? -1.0 * n : n;
   }
 
+  double width_at(double at) const {
+    return axes_[axis_]->width[std::clamp(cell_at(*axes_[axis_], at), 0, axes_[axis_]->n - 1)];
+  }
+
+  /// Of the sheet that one line stands for, what goes to faces of this axis [m2].
+  double share(const Hit& h, int cu, int cv) const {
+    return point_of(normal_of(h.triangle))[axis_] * axes_[u_]->width[cu] * axes_[v_]->width[cv] /
+           (lines * lines);
+  }
+
   /// The new face, or null where no two centres lie on either side.
   SheetFace* add(double at, int triangle, int cu, int cv, std::vector<SheetFace>& result) const {
     const Axis& axis = *axes_[axis_];
@@ -254,11 +264,6 @@ class Columns {
       return std::tie(a.at, a.triangle, a.line) < std::tie(b.at, b.triangle, b.line);
     });
     const auto central = [](const Hit& h) { return h.line == centre_line * (lines + 1); };
-    const auto width_at = [&](double at) {
-      return axes_[axis_]->width[std::clamp(cell_at(*axes_[axis_], at), 0, axes_[axis_]->n - 1)];
-    };
-    const double per_line = axes_[u_]->width[cu] * axes_[v_]->width[cv] / (lines * lines);
-    const auto share = [&](const Hit& h) { return point_of(normal_of(h.triangle))[axis_] * per_line; };
     const std::size_t first = result.size();
     for (const Hit& h : hits) {
       SheetFace* face = central(h) ? add(h.at, h.triangle, cu, cv, result) : nullptr;
@@ -281,18 +286,24 @@ class Columns {
         if (apart < closest) closest = apart, nearest = n;
       }
       if (nearest < last) {
-        result[nearest].area += share(h);
-        normals[nearest - first] += share(h) * normal_of(h.triangle);
+        result[nearest].area += share(h, cu, cv);
+        normals[nearest - first] += share(h, cu, cv) * normal_of(h.triangle);
       } else if (h.hem) {
         beside.push_back(&h);
       } else {
-        left_over.push_back({cell_of(h, cu, cv), share(h)});
+        left_over.push_back({cell_of(h, cu, cv), share(h, cu, cv)});
       }
     }
     for (std::size_t n = first; n < last; ++n) {
       const Vec3 sum = normals[n - first];
       if (norm(sum) > 0) result[n].normal = sum / norm(sum);
     }
+    hem_faces(beside, cu, cv, result, left_over);
+  }
+
+  /// Faces that the sheet covers in part, from lines that stand in the order of where they meet it.
+  void hem_faces(const std::vector<const Hit*>& beside, int cu, int cv, std::vector<SheetFace>& result,
+                 std::vector<Share>& left_over) const {
     for (std::size_t begin = 0; begin < beside.size();) {
       std::size_t end = begin + 1;
       while (end < beside.size() &&
@@ -310,8 +321,8 @@ class Columns {
       SheetFace* face = middle ? add(middle->at, middle->triangle, cu, cv, result) : nullptr;
       if (face) face->hem = true;
       for (std::size_t n = begin; n < end; ++n) {
-        face ? void(face->area += share(*beside[n]))
-             : left_over.push_back({cell_of(*beside[n], cu, cv), share(*beside[n])});
+        face ? void(face->area += share(*beside[n], cu, cv))
+             : left_over.push_back({cell_of(*beside[n], cu, cv), share(*beside[n], cu, cv)});
       }
       begin = end;
     }
