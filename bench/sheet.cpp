@@ -21,6 +21,7 @@ namespace {
 
 constexpr double box = 12;  // wide, in diameters
 constexpr int iterations = 400, averaged = 100;
+constexpr double lowest_order = 0.25;  // below, the limit is anyone's guess
 constexpr Vec3 shifts[] = {{0, 0, 0},           {0.25, 0.175, 0.25}, {0.5, 0.35, 0.5},
                            {0.75, 0.525, 0.75}, {0.5, 0, 0},         {0, 0, 0.5}};  // cells
 
@@ -74,7 +75,7 @@ Fit fitted(const std::vector<double>& h, const std::vector<double>& drags) {
   const auto count = static_cast<double>(h.size());
   Fit best;
   best.residual = 1e300;
-  for (double order = 0.25; order <= 4; order += 0.01) {
+  for (double order = lowest_order; order <= 4; order += 0.01) {
     double x = 0, y = 0, xx = 0, xy = 0;
     for (std::size_t n = 0; n < h.size(); ++n) {
       const double q = std::pow(h[n], order);
@@ -126,6 +127,10 @@ int main(int argc, char** argv) {
     }
     if (grids < 3) continue;
     const Fit fit = fitted(widths, means);
+    if (fit.order <= lowest_order) {
+      fmt::print("a = {}: the mean has no order on these grids\n", a);
+      continue;
+    }
     fmt::print("a = {}: mean = {:.2f} {:+.3g} (h/d)^{:.2f} N, off by {:.2f} N rms\n", a, fit.limit, fit.slope,
                fit.order, fit.residual);
   }
