@@ -106,13 +106,6 @@ int main(int argc, char** argv) {
       std::fflush(stdout);
       all.push_back(r.coefficient);
     }
-    const double ratio = all.size() == 3 ? (all[1] - all[0]) / (all[2] - all[1]) : 0;
-    if (ratio > 1) {
-      const double limit = all[2] + (all[2] - all[1]) / (ratio - 1);
-      fmt::print("{:>22} order {:.2f}, {:.3f} without the cells ({:+.1f} %)\n", "", std::log2(ratio), limit,
-                 100 * (limit / body.reference - 1));
-    } else {
-      fmt::print("{:>22} no order on these grids\n", "");
-    }
+    print_order(all, 2);
   }
 }

@@ -1,6 +1,11 @@
 // A wide box about a small body, for studies of the flow alone.
 #pragma once
 
+#include <fmt/core.h>
+
+#include <cmath>
+#include <vector>
+
 #include "ripstop/core/error.h"
 #include "ripstop/flow/flow_grid.h"
 
@@ -26,6 +31,20 @@ inline FlowGrid far_box(double d, double box, int across, double z) {
   };
   filled(grid.nx, 0), filled(grid.ny, 1), filled(grid.nz, 2);
   return graded(grid, {-half, -half, z - from}, {half, half, z + past}, growth);
+}
+
+/// Prints the order of the last three of values on grids that are finer by `ratio` each, and what they tend
+/// to.
+inline void print_order(const std::vector<double>& values, double ratio) {
+  if (values.size() < 3) return;
+  const double* last = values.data() + values.size() - 3;
+  const double falling = (last[1] - last[0]) / (last[2] - last[1]);
+  if (falling > 1) {
+    fmt::print("{:>22} order {:.2f}, {:.5g} without the cells\n", "", std::log(falling) / std::log(ratio),
+               last[2] + (last[2] - last[1]) / (falling - 1));
+  } else {
+    fmt::print("{:>22} no order on these grids\n", "");
+  }
 }
 
 }  // namespace ripstop

@@ -61,6 +61,9 @@ SheetRows::SheetRows(const Axis& x, const Axis& y, const Axis& z, const std::vec
       const SheetFace& g = geometry;
       face.area = (g.axis == 0 ? 1 : x.width[g.i]) * (g.axis == 1 ? 1 : y.width[g.j]) *
                   (g.axis == 2 ? 1 : z.width[g.k]);
+      face.spread = face.area / std::max(g.area, 1e-2 * face.area);
+      const double normal = g.axis == 0 ? g.normal.x : g.axis == 1 ? g.normal.y : g.normal.z;
+      if (g.hem) face.cover = std::min(1.0, g.area / (face.area * std::max(normal, 1e-3)));
       faces_.push_back(face);
     }
   }
@@ -104,23 +107,21 @@ void SheetRows::update(const Fields& fields, const Layout& layout, double moment
     const Array<double>& flux = g.axis == 0 ? fields.fx : g.axis == 1 ? fields.fy : fields.fz;
     const auto along = [&](Vec3 v) { return g.axis == 0 ? v.x : g.axis == 1 ? v.y : v.z; };
     const double density = 0.5 * (fields.rho[low] + fields.rho[high]);
-    const double normal = along(g.normal);
-    const double cover = g.hem ? std::min(1.0, g.area / (face.area * std::max(normal, 1e-3))) : 1.0;
-    const double spread = face.area / std::max(g.area, 1e-2 * face.area);
     // The law holds for what goes through the sheet. What of a cell's velocity runs along it crosses the face
     // freely: the faces of slanted cloth are a staircase, and air that runs along the cloth must not climb
     // it.
     const auto sliding = [&](std::ptrdiff_t cell) {
       const Vec3 velocity{fields.u[cell], fields.v[cell], fields.w[cell]};
-      return along(velocity) - dot(g.normal, velocity) / spread;
+      return along(velocity) - dot(g.normal, velocity) / face.spread;
     };
-    const double through = spread * (flux[high] / density - shared(sliding(low), sliding(high)));
+    const double through = face.spread * (flux[high] / density - shared(sliding(low), sliding(high)));
     const double speed = std::abs(through), resistance = face.a + face.b * speed;
-    const Cover beside = cover_of(cover, resistance, density, speed);
+    const Cover beside = cover_of(face.cover, resistance, density, speed);
     // A jet that has yet to start, or that turns back, would offer no slope at all.
-    const Cover brisk = cover_of(cover, resistance, density, std::max(speed, least_jet * momentum / density));
+    const Cover brisk =
+        cover_of(face.cover, resistance, density, std::max(speed, least_jet * momentum / density));
     face.jump = beside.share * resistance * through;
-    face.stiffness = brisk.share * brisk.steep * (face.a + 2 * face.b * speed) * spread;
+    face.stiffness = brisk.share * brisk.steep * (face.a + 2 * face.b * speed) * face.spread;
     excess_[face.at] += face.jump;
     stiffness_[face.at] += face.stiffness;
   }

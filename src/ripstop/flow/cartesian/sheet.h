@@ -58,6 +58,8 @@ class SheetRows {
     int sheet = 0;
     double a = 0, b = 0;  // of the law
     double area = 0;      // of the face [m2]
+    double spread = 1;    // its area over that of the sheet it stands for
+    double cover = 1;     // the part of it that the sheet covers
     std::size_t at = 0;   // in the dense rows
     double jump = 0, stiffness = 0;
   };
