@@ -239,6 +239,21 @@ TEST(Sheet, FromWideOpenToImpermeableTheForceGrowsAndTheLeakVanishes) {
   EXPECT_GT(last, 10);
 }
 
+// On eight cells across most faces of a disk are at its hem and covered in part.
+TEST(Sheet, APorousDiskOnEightCellsHasTaylorsDrag) {
+  FlowProblem problem;
+  problem.grid = {{-2, -2, 0}, {4, 4, 6}, 48, 48, 72};
+  problem.air.speed = 10;
+  problem.sides = Sides::slip;
+  const double diameter = 0.65, loss = 1, dynamic = 0.5 * problem.air.density * 100;
+  problem.sheets = {{disk(diameter, {0, 0, 2.5}), 0, loss * problem.air.density / 2}};
+  CartesianSettings settings = threads(2);
+  settings.second_order = true;
+  const double drag = make_cartesian(settings)->solve(problem, nullptr).porous_force.z;
+  const double coefficient = drag / (dynamic * pi / 4 * diameter * diameter);
+  EXPECT_NEAR(coefficient / (loss / std::pow(1 + loss / 4, 2)), 1, 0.05);
+}
+
 TEST(Sheet, TheAnswerIsTheSameBitForBitOnOneTwoAndFourThreads) {
   FlowProblem problem = canopy(26, 10, f111, 0);
   problem.max_iterations = 12;
