@@ -9,7 +9,8 @@ Stages, each from what the ones before it left; without a name all of them run:
     reproduce  Stratos IV itself with the calibrated cloth, and its shape against images
     sheet      the cloth as a sheet: of its specified permeability, nothing calibrated, and of one that is calibrated
                on Stratos IV                                                             -> predictions.csv
-    uncertain  what each prediction depends on                                           -> uncertainty.csv
+    uncertain  what each prediction of the paper model depends on                        -> uncertainty.csv
+    uncertain-sheet  the same for the calibrated sheet                                   -> uncertainty.csv
     compare    nonlinear beside linear on Stratos IV at 30 m/s
     openfoam   Stratos IV at 30 m/s with OpenFOAM
     report     tables between the markers of docs/validation.md, plots
@@ -229,6 +230,9 @@ def stage_uncertain(campaign):
     for parachute in drags:
         drags[parachute].append(("grid", "100x100x150, printed", printed_drag(campaign, parachute)))
     write_uncertainty("paper", drags)
+
+
+def stage_uncertain_sheet(campaign):
     result = frozen_sheet(campaign)
     rows = [("base", "", [f"flow.speed_m_s={UNCERTAIN_SPEED}"]), *porosity_rows(result, 1)]
     rows += [(source, label, extra) for source, all_of in SHEET_VARIATIONS.items() for label, extra in all_of]
@@ -325,7 +329,8 @@ def stage_report(campaign):
 
 
 STAGES = {"calibrate": stage_calibrate, "predict": stage_predict, "reproduce": stage_reproduce, "sheet": stage_sheet,
-          "uncertain": stage_uncertain, "compare": stage_compare, "openfoam": stage_openfoam, "report": stage_report}
+          "uncertain": stage_uncertain, "uncertain-sheet": stage_uncertain_sheet, "compare": stage_compare,
+          "openfoam": stage_openfoam, "report": stage_report}
 
 
 def main():
