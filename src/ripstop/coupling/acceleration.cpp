@@ -31,8 +31,9 @@ double aitken(const Accelerator& a, const std::vector<double>& residual, const s
 }
 
 // Minimise |r - dR c|, then x' = (x - dX c) + relaxation (r - dR c): this subtracts the terms with c. A small
-// ridge keeps nearly parallel differences, and the noise of cells that flip between cut and clean, from
-// giving large c.
+// ridge keeps nearly parallel differences from giving large c. It is the same for all: under a uniform load
+// every difference is parallel, and then each counts with its length, so that a short one, where the flow was
+// still settling, does not set the slope.
 void subtract_anderson(std::vector<double>& next, const Accelerator& a, const std::vector<double>& x,
                        const std::vector<double>& residual, const std::vector<double>& weight) {
   const int m = static_cast<int>(a.residuals.size());
@@ -41,13 +42,14 @@ void subtract_anderson(std::vector<double>& next, const Accelerator& a, const st
     dx.push_back(difference(k + 1 < m ? a.guesses[k + 1] : x, a.guesses[k]));
     dr.push_back(difference(k + 1 < m ? a.residuals[k + 1] : residual, a.residuals[k]));
   }
+  if (m == 0) return;
   Eigen::MatrixXd matrix(m, m);
   Eigen::VectorXd right(m);
   for (int i = 0; i < m; ++i) {
     for (int j = 0; j < m; ++j) matrix(i, j) = weighted_dot(dr[i], dr[j], weight);
     right(i) = weighted_dot(dr[i], residual, weight);
   }
-  for (int i = 0; i < m; ++i) matrix(i, i) *= 1 + 1e-4;
+  matrix.diagonal().array() += 1e-6 * matrix.diagonal().maxCoeff();
   const Eigen::VectorXd c = matrix.ldlt().solve(right);
   if (!c.allFinite()) return;  // identical residuals: nothing to learn from them
   for (int k = 0; k < m; ++k) {
