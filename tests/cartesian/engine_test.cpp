@@ -116,6 +116,23 @@ TEST(CartesianEngine, AWarmStartNeedsFewIterations) {
   EXPECT_NEAR(warm.porous_force.z, cold.porous_force.z, 1e-4 * cold.porous_force.z);
 }
 
+TEST(CartesianEngine, AFieldIsScaledToOtherAir) {
+  FlowProblem problem = open_box(24, 24, 36, 10);
+  const auto engine = make_cartesian(with_threads(1));
+  engine->solve(problem, nullptr);
+  problem.air.speed = 20;
+  problem.air.density = 1.0;
+  double at_once = 0;
+  const FlowField warm = engine->solve(problem, [&](FlowProgress progress) {
+    if (progress.iteration == 1) at_once = progress.drag;
+    return true;
+  });
+  const FlowField cold = make_cartesian(with_threads(1))->solve(problem, nullptr);
+  EXPECT_NEAR(at_once, cold.porous_force.z, 0.01 * cold.porous_force.z);
+  EXPECT_LT(warm.last.iteration, 0.7 * cold.last.iteration);
+  EXPECT_NEAR(warm.porous_force.z, cold.porous_force.z, 1e-4 * cold.porous_force.z);
+}
+
 TEST(CartesianEngine, StartingOnCoarserGridsLeavesNoTraceInAFlowOfConstantDensity) {
   FlowProblem problem = open_box(48, 48, 72, 10);  // two coarser grids
   problem.porous[0].darcy /= 10, problem.porous[0].forchheimer /= 10;

@@ -42,16 +42,21 @@ double dynamic_pressure(const Case& value) {
   return 0.5 * stream.density * stream.speed * stream.speed;
 }
 
-// Both solve on the same grid with the same air, so that a field of one can start the other.
+// Both solve on the same grid, so that a field of one can start the other. OpenFOAM's has to be of the same
+// air; the built-in engine scales what it has to other air.
 bool same_flow(const Case& a, const Case& b) {
   json first = json::parse(case_json(a)).at("flow"), second = json::parse(case_json(b)).at("flow");
-  first.erase("canopy_position_m");
-  second.erase("canopy_position_m");
+  std::vector<std::string> free = {"canopy_position_m"};
+  if (a.flow.engine == EngineKind::builtin) {
+    free.insert(free.end(), {"speed_m_s", "speed_basis", "density_kg_m3", "viscosity_pa_s", "temperature_k",
+                             "turbulence_intensity", "viscosity_ratio"});
+  }
+  for (const std::string& key : free) first.erase(key), second.erase(key);
   return first == second;
 }
 
 /// The neighbour's shape, moved to this case's place, under its pressure at this case's q; and its flow field
-/// where that is one of the same grid and air. Another mesh starts cold.
+/// where that fits (same_flow). Another mesh starts cold.
 SteadyState warm_start(const Case& value, const SteadySolver& solver, const fs::path& neighbour,
                        FlowEngine& engine) {
   SteadyState state = solver.start();

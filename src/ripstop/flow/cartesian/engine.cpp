@@ -133,7 +133,7 @@ FlowField CartesianEngine::solve(const FlowProblem& problem, const FlowReport& r
   const bool shut = solver->shut();
   bool from_stream = false;
   if (last_ && last_->sides() == problem.sides && last_->grid().origin == problem.grid.origin &&
-      last_->grid().size == problem.grid.size && last_->air() == problem.air) {
+      last_->grid().size == problem.grid.size) {
     solver->start_from(*last_);
   } else if (settings_.grid_sequencing && problem.grid.cells() > 20000 && !shut &&
              problem.body_force.empty()) {

@@ -141,8 +141,8 @@ void Solver::start_from(const Solver& other) {
              cz = pairs(z_, other.z_, false);
   const auto ex = pairs(x_, other.x_, true), ey = pairs(y_, other.y_, true), ez = pairs(z_, other.z_, true);
   const auto interpolate = [&](const Array<double>& from, Array<double>& to, const std::vector<Pair>& px,
-                               const std::vector<Pair>& py, const std::vector<Pair>& pz, bool fx, bool fy,
-                               bool fz) {
+                               const std::vector<Pair>& py, const std::vector<Pair>& pz, double factor,
+                               bool fx, bool fy, bool fz) {
     const auto work = [&](int rank) {
       const IndexRange planes = part_of(grid_.nz + (fz ? 1 : 0), rank, team_.size());
       for (int k = planes.begin; k < planes.end; ++k) {
@@ -158,29 +158,33 @@ void Solver::start_from(const Solver& other) {
               if (weight != 0)
                 value += weight * from[other.layout_.at(px[i].low + a, py[j].low + b, pz[k].low + c)];
             }
-            to[layout_.at(i, j, k)] = value;
+            to[layout_.at(i, j, k)] = factor * value;
           }
         }
       }
     };
     team_.run(work);
   };
-  interpolate(other.f_.u, f_.u, cx, cy, cz, false, false, false);
-  interpolate(other.f_.v, f_.v, cx, cy, cz, false, false, false);
-  interpolate(other.f_.w, f_.w, cx, cy, cz, false, false, false);
-  interpolate(other.f_.p, f_.p, cx, cy, cz, false, false, false);
+  // Other air: the same flow at another speed, but for what Reynolds and Mach number change.
+  const double speed = air_.speed / other.air_.speed, density = air_.density / other.air_.density;
+  const double pressure = density * speed * speed;
+  interpolate(other.f_.u, f_.u, cx, cy, cz, speed, false, false, false);
+  interpolate(other.f_.v, f_.v, cx, cy, cz, speed, false, false, false);
+  interpolate(other.f_.w, f_.w, cx, cy, cz, speed, false, false, false);
+  interpolate(other.f_.p, f_.p, cx, cy, cz, pressure, false, false, false);
   if (settings_.compressible) {
-    interpolate(other.f_.rho, f_.rho, cx, cy, cz, false, false, false);
+    interpolate(other.f_.rho, f_.rho, cx, cy, cz, density, false, false, false);
   } else {  // no iteration would mend what the interpolation gets wrong where two sides of the box meet
     std::fill(f_.rho.begin(), f_.rho.end(), air_.density);
   }
-  interpolate(other.f_.k, f_.k, cx, cy, cz, false, false, false);
-  interpolate(other.f_.omega, f_.omega, cx, cy, cz, false, false, false);
-  interpolate(other.f_.fx, f_.fx, ex, cy, cz, true, false, false);
-  interpolate(other.f_.fy, f_.fy, cx, ey, cz, false, true, false);
-  interpolate(other.f_.fz, f_.fz, cx, cy, ez, false, false, true);
+  interpolate(other.f_.k, f_.k, cx, cy, cz, speed * speed, false, false, false);
+  interpolate(other.f_.omega, f_.omega, cx, cy, cz, speed, false, false, false);
+  interpolate(other.f_.fx, f_.fx, ex, cy, cz, density * speed, true, false, false);
+  interpolate(other.f_.fy, f_.fy, cx, ey, cz, density * speed, false, true, false);
+  interpolate(other.f_.fz, f_.fz, cx, cy, ez, density * speed, false, false, true);
+  const double factor[] = {speed, speed, speed, pressure, speed * speed, speed};  // of the means, u to omega
   for (int name = Sums::u_mean; name <= Sums::omega_mean; ++name)
-    total_.value[name] = other.total_.value[name];
+    total_.value[name] = factor[name - Sums::u_mean] * other.total_.value[name];
   fill_ghosts();
 }
 

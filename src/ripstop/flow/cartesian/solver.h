@@ -77,7 +77,7 @@ class Solver {
 
   /// Uniform stream everywhere.
   void start_uniform();
-  /// Fields interpolated from another solver's grid of the same box.
+  /// Fields interpolated from another solver's grid of the same box, and scaled from its air to this one's.
   void start_from(const Solver& other);
   /// One SIMPLE iteration; the residuals are those of the fields it started from.
   FlowProgress iterate();
