@@ -167,7 +167,7 @@ int run(const Options& options) {
   if (!result.converged) {
     fmt::print(stderr,
                "not converged within {} coupling iterations: drag still changed by {:.2g} (wanted {:.2g}), "
-               "shape by {:.2g} m (wanted {:.2g})\n",
+               "shape by {:.2g} m (wanted {:.2g}), or the ledger is not closed within 1 %\n",
                result.iterations, result.last.drag_change, value.coupling.drag_tolerance,
                result.last.shape_change, value.coupling.shape_tolerance_m);
     return static_cast<int>(ExitCode::not_converged);

@@ -216,6 +216,19 @@ TEST(CartesianEngine, DivergenceIsSaidWithIterationFieldAndPlace) {
   }
 }
 
+TEST(CartesianEngine, FieldsBeyondReasonAreDivergedBeforeTheyAreInfinite) {
+  FlowProblem problem = open_box(12, 12, 16, 10);
+  problem.body_force.assign(problem.grid.cells(), {0, 0, 1e9});
+  problem.max_iterations = 1;
+  try {
+    make_cartesian(with_threads(1))->solve(problem, nullptr);
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::diverged);
+    EXPECT_NE(std::string(error.what()).find("diverged by iteration 1 "), std::string::npos) << error.what();
+  }
+}
+
 TEST(CartesianEngine, SaysWhatIsWrongWithTheProblem) {
   FlowProblem problem = open_box(12, 12, 16, 10);
   problem.porous[0].cells.push_back(problem.grid.cells());

@@ -79,24 +79,28 @@ class CartesianEngine final : public FlowEngine {
 FlowProgress CartesianEngine::run(Solver& solver, double tolerance, int iterations, const FlowReport& report,
                                   bool& done, int average_over, FieldMean* mean) {
   FlowProgress progress;
+  const auto diverged = [&](const char* when, const std::string& where) {
+    const FlowGrid& grid = solver.grid();
+    return Error(ExitCode::diverged,
+                 fmt::format("the flow diverged {} iteration {} on {} x {} x {} cells: {}; try a lower "
+                             "velocity or pressure relaxation, or a coarser grid first",
+                             when, progress.iteration, grid.nx, grid.ny, grid.nz, where));
+  };
   done = false;
   for (int n = 1; n <= iterations; ++n) {
     progress = solver.iterate();
     progress.iteration = n;
     const double worst = progress.residual_u + progress.residual_p + progress.residual_k +
                          progress.residual_omega + progress.drag;
-    if (!std::isfinite(worst)) {
-      throw Error(
-          ExitCode::diverged,
-          fmt::format("the flow diverged in iteration {} on {} x {} x {} cells: {}; try a lower velocity or "
-                      "pressure relaxation, or a coarser grid first",
-                      n, solver.grid().nx, solver.grid().ny, solver.grid().nz, solver.first_bad_value()));
-    }
+    if (!std::isfinite(worst)) throw diverged("in", solver.first_bad_value());
     done = converged(progress, tolerance);
     if (n > iterations - average_over) mean->add(solver.field());
     if (report && !report(progress)) return done = false, progress;
     if (done) break;
   }
+  // Residuals are relative to the fields, and say nothing of those that grow slowly and for ever.
+  if (const std::string bad = solver.first_bad_value(); !bad.empty() && !solver.shut())
+    throw diverged("by", bad);
   return progress;
 }
 
