@@ -82,8 +82,8 @@ FlowProgress CartesianEngine::run(Solver& solver, double tolerance, int iteratio
   const auto diverged = [&](const char* when, const std::string& where) {
     const FlowGrid& grid = solver.grid();
     return Error(ExitCode::diverged,
-                 fmt::format("the flow diverged {} iteration {} on {} x {} x {} cells: {}; try a lower "
-                             "velocity or pressure relaxation, or a coarser grid first",
+                 fmt::format("the flow diverged {} iteration {} on {} x {} x {} cells: {}; flow.convection = "
+                             "\"upwind\", a wider and longer box (flow.box_m) or a coarser grid may help",
                              when, progress.iteration, grid.nx, grid.ny, grid.nz, where));
   };
   done = false;

@@ -305,7 +305,10 @@ std::string Solver::first_bad_value() const {
 double Solver::momentum_deficit() const {
   double force = 0;
   const std::ptrdiff_t sz = layout_.stride_z;
-  const auto mu = [&](std::ptrdiff_t at) { return air_.viscosity + f_.rho[at] * f_.k[at] / f_.omega[at]; };
+  const auto mu = [&](std::ptrdiff_t at) {
+    const double limit = limit_.empty() ? 1 : limit_[at];
+    return air_.viscosity + f_.rho[at] * f_.k[at] / f_.omega[at] * limit;
+  };
   for (int j = 0; j < grid_.ny; ++j) {
     for (int i = 0; i < grid_.nx; ++i) {
       const double area = x_.width[i] * y_.width[j];
