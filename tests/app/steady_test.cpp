@@ -93,23 +93,11 @@ TEST_F(Steady, WithTheBuiltInEngineTheDragIsThatOfOpenFoam) {
 // The drag alone has settled after three coupling iterations, with the wake still growing: the box then loses
 // 7 % less momentum than the canopy takes.
 TEST_F(Steady, WhereTheFlowDoesNotSettleItsMeanStandsOnceTheLedgerCloses) {
-  write_file(folder_ / "case.toml", R"(
-[parachute]
-type = "flat-circular"
-nominal_diameter_m = 1.0
-vent_diameter_m = 0.1
-gores = 12
-lines = { count = 12, length_m = 1.0 }
-mesh = { cloth_nodes = 1500 }
-[flow]
-speed_m_s = 20
-density_kg_m3 = 1.2
-cells = [40, 40, 49]
-max_iterations = 60
-average_over = 20
-)");
-  ASSERT_EQ(
-      wait_for(start({"steady", (folder_ / "case.toml").string(), "--out", (folder_ / "run").string()})), 0);
+  const std::string example = std::string(RIPSTOP_SOURCE_DIR) + "/examples/flat-circular/case.toml";
+  ASSERT_EQ(wait_for(start({"steady", example, "--grid", "40,40,49", "--set",
+                            "parachute.mesh.cloth_nodes=1500", "--set", "flow.max_iterations=60", "--set",
+                            "flow.average_over=20", "--out", (folder_ / "run").string()})),
+            0);
   EXPECT_EQ(read_csv(folder_ / "run" / "iterations.csv").column("flow_averaged").back(), 20);
   expect_closed_ledger(result("run"));
 }
