@@ -19,6 +19,7 @@
 #include "ripstop/flow/bodies.h"
 #include "ripstop/flow/cartesian/cartesian.h"
 #include "ripstop/flow/openfoam/openfoam.h"
+#include "ripstop/flow/steady.h"
 #include "ripstop/output/stl.h"
 
 namespace ripstop {
@@ -65,7 +66,7 @@ Run timed(FlowEngine& engine, const FlowProblem& problem, const char* canopy) {
     return true;
   };
   try {
-    run.field = engine.solve(problem, report);
+    run.field = solve(engine, problem, report);
     run.outcome = fmt::format("{:13}{}: drag {:.4f} N, while the box loses {:.4f} N\n", canopy, engine.name(),
                               run.field.porous_force.z, run.field.momentum_deficit);
   } catch (const Error& error) {  // the other engine and the other canopies are of interest all the same

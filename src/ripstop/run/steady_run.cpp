@@ -59,8 +59,7 @@ bool same_flow(const Case& a, const Case& b) {
 
 /// The neighbour's shape, moved to this case's place, under its pressure at this case's q; and its flow field
 /// where that fits (same_flow). Another mesh starts cold.
-SteadyState warm_start(const Case& value, const SteadySolver& solver, const fs::path& neighbour,
-                       FlowEngine& engine) {
+SteadyState warm_start(const Case& value, SteadySolver& solver, const fs::path& neighbour) {
   SteadyState state = solver.start();
   const Case other = case_of_run(neighbour);
   const SteadyState end = final_state(neighbour);
@@ -74,7 +73,7 @@ SteadyState warm_start(const Case& value, const SteadySolver& solver, const fs::
   const double ratio = dynamic_pressure(value) / dynamic_pressure(other);
   for (Vec3& p : state.shape) p.z += shift;
   for (double& dp : state.pressure) dp *= ratio;
-  if (same_flow(value, other)) load_checkpoint(neighbour / "checkpoint", engine);
+  if (same_flow(value, other)) load_checkpoint(neighbour / "checkpoint", solver.flow());
   return state;
 }
 
@@ -102,10 +101,10 @@ SteadyRunOutcome run_steady(const Case& value, const SteadyRunSettings& settings
   const int nodes = problem.mesh.node_count();
   SteadySolver solver(std::move(problem), *engine);
   SteadyState state;
-  if (auto saved = load_checkpoint(files.checkpoint_folder(), *engine)) {
+  if (auto saved = load_checkpoint(files.checkpoint_folder(), solver.flow())) {
     state = std::move(*saved);
   } else if (!settings.warm_from.empty()) {
-    state = warm_start(value, solver, settings.warm_from, *engine);
+    state = warm_start(value, solver, settings.warm_from);
   } else {
     state = solver.start();
   }
@@ -116,7 +115,7 @@ SteadyRunOutcome run_steady(const Case& value, const SteadyRunSettings& settings
       if (events.progress) events.progress(progress, state);
     });
     files.write_iteration(solver, state, field);
-    save_checkpoint(files.checkpoint_folder(), state, *engine);
+    save_checkpoint(files.checkpoint_folder(), state, solver.flow());
     if (events.iterated) events.iterated(state);
   }
   files.write_result(solver, state, value);
