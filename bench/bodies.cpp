@@ -13,6 +13,7 @@
 
 #include "far_box.h"
 #include "ripstop/flow/cartesian/cartesian.h"
+#include "ripstop/flow/steady.h"
 
 using namespace ripstop;
 
@@ -53,14 +54,15 @@ Result drag_coefficient(const Body& body, const FlowGrid& grid, double turbulenc
   problem.air.speed = 30;
   problem.air.turbulence_intensity = turbulence;
   problem.sides = sides;
-  problem.max_iterations = 600;
-  problem.average_over = 100;
+  problem.stopping.max_iterations = 600;
+  problem.stopping.average_over = 100;
   const double rho = problem.air.density, speed = problem.air.speed;
   // K = dp / (rho v^2 / 2) at the velocity v through the disk.
   problem.sheets = {{body.surface, body.loss > 0 ? 0 : 1e6, body.loss * rho / 2}};
+  problem.outlet = Outlet::still_air;
   CartesianSettings settings;
   settings.second_order = true;
-  const FlowField field = make_cartesian(settings)->solve(problem, {});
+  const FlowField field = solve(*make_cartesian(settings), problem);
   const FlowAverage& mean = field.average;
   const double dynamic_pressure = 0.5 * rho * speed * speed;
   Result result;

@@ -12,6 +12,7 @@
 #include "far_box.h"
 #include "ripstop/flow/bodies.h"
 #include "ripstop/flow/cartesian/cartesian.h"
+#include "ripstop/flow/steady.h"
 
 using namespace ripstop;
 
@@ -27,13 +28,14 @@ double drag(const FlowGrid& grid, Vec3 shift, double a, double b) {
   problem.grid = grid;
   problem.air.speed = 30;
   problem.sides = Sides::slip;
-  problem.max_iterations = iterations;
-  problem.average_over = averaged;
+  problem.stopping.max_iterations = iterations;
+  problem.stopping.average_over = averaged;
   const Vec3 h = grid.spacing();
   problem.sheets = {{rigid_disk_gap_band({shift.x * h.x, shift.y * h.y, skirt + shift.z * h.z}), a, b}};
+  problem.outlet = Outlet::still_air;
   CartesianSettings settings;
   settings.second_order = true;
-  return make_cartesian(settings)->solve(problem, {}).porous_force.z;
+  return solve(*make_cartesian(settings), problem).porous_force.z;
 }
 
 }  // namespace

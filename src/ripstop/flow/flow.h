@@ -43,9 +43,9 @@ struct PorousCells {
 /// velocity along its normal, relative to the cloth ([NFM] Eq. 15; `sheet` model, method section 4).
 struct Sheet {
   std::vector<Triangle> surface;
-  double linear = 0;           // a [Pa s/m]
-  double quadratic = 0;        // b [Pa s2/m2]
-  std::vector<Vec3> velocity;  // of each triangle [m/s]; empty: at rest
+  double linear = 0;                // a [Pa s/m]
+  double quadratic = 0;             // b [Pa s2/m2]
+  std::vector<Vec3> velocity = {};  // of each triangle [m/s]; empty: at rest
 };
 
 /// What the air does to a sheet at one face of the grid.
@@ -151,9 +151,9 @@ class Flow {
   /// All that the next iteration depends on: a flow that is restored goes on as if it had never stopped, to
   /// the last bit. Throws Error(io).
   virtual void save(const std::filesystem::path& folder) const = 0;
-  /// Of a problem with the same box, sides and outlet. Where the saved flow is of other air and the engine can,
-  /// it is scaled to this problem's; else Error(usage). Error(bad_data) or Error(io) for what save() did not
-  /// write.
+  /// Of a problem with the same box, sides and outlet. Where the saved flow is of other air and the engine
+  /// can, it is scaled to this problem's; else Error(usage). Error(bad_data) or Error(io) for what save() did
+  /// not write.
   virtual void restore(const std::filesystem::path& folder) = 0;
 };
 
