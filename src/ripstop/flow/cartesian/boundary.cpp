@@ -18,8 +18,7 @@ void end_ghosts(const Discretisation& d, const Boundaries& b, const Fields& f, i
     const std::ptrdiff_t at = layout.at(0, j, k), plane = layout.in_plane(0, j);
     double* row = &q[at];
     const double* fz = &f.fz[at + sz];
-    for (int i = 0; k == 0 && i < layout.nx; ++i)
-      row[i - sz] = 2 * (inlet ? inlet[plane + i] : 0) - row[i];
+    for (int i = 0; k == 0 && i < layout.nx; ++i) row[i - sz] = 2 * (inlet ? inlet[plane + i] : 0) - row[i];
     for (int i = 0; k == layout.nz - 1 && i < layout.nx; ++i)
       row[i + sz] = fz[i] >= 0 || free ? row[i] : 2 * back - row[i];
   }
@@ -61,9 +60,12 @@ std::unique_ptr<OutletBoundary> fixed_pressure_outlet() {
 
 std::unique_ptr<SideBoundary> make_sides(Sides kind) {
   switch (kind) {
-    case Sides::zero_gradient: return open_sides();
-    case Sides::slip: return slip_sides();
-    case Sides::entraining: return entraining_sides();
+    case Sides::zero_gradient:
+      return open_sides();
+    case Sides::slip:
+      return slip_sides();
+    case Sides::entraining:
+      return entraining_sides();
   }
   return nullptr;
 }

@@ -1,6 +1,6 @@
-// The boundaries of the box, each one value that says what it is: ghosts, fluxes, conductances and its part of
-// the momentum ledger. A new kind is one file beside inlet_uniform.cpp, sides_slip.cpp, sides_entraining.cpp or
-// outlet_still_air.cpp, and its line in make_boundaries().
+// The boundaries of the box, each one value that says what it is: ghosts, fluxes, conductances and its part
+// of the momentum ledger. A new kind is one file beside inlet_uniform.cpp, sides_slip.cpp,
+// sides_entraining.cpp or outlet_still_air.cpp, and its line in make_boundaries().
 #pragma once
 
 #include <memory>
@@ -21,7 +21,7 @@ struct Inlet {
   const double* frequency(int j) const { return &omega[layout.in_plane(0, j)]; }
 
   Layout layout;
-  Array<double> w, k, omega;   // planes [m/s], [m2/s2], [1/s]
+  Array<double> w, k, omega;              // planes [m/s], [m2/s2], [1/s]
   double stream_k = 0, stream_omega = 0;  // of the undisturbed stream, wherever else its air comes in
 };
 Inlet uniform_inlet(const Discretisation& d);

@@ -82,7 +82,8 @@ void Solver::convection(int k, IndexRange rows) {
       convection_row(r);
       for (int i = 0; !body.empty() && i < d_.grid.nx; ++i) extra[at + i] += body[at + i];
     };
-    add(s_.f.u, in_the_way_.body_u, t_.extra_u), add(s_.f.v, in_the_way_.body_v, t_.extra_v), add(s_.f.w, in_the_way_.body_w, t_.extra_w);
+    add(s_.f.u, in_the_way_.body_u, t_.extra_u), add(s_.f.v, in_the_way_.body_v, t_.extra_v),
+        add(s_.f.w, in_the_way_.body_w, t_.extra_w);
   }
 }
 

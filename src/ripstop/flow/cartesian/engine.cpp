@@ -90,6 +90,7 @@ class Reader {
       take(&value, sizeof value);
     }
   }
+  bool at_end() const { return at_ == bytes_.size(); }
   [[noreturn]] void fail() const {
     throw Error(ExitCode::bad_data, path_.string() + ": not a flow saved by this version");
   }
@@ -108,7 +109,10 @@ class Reader {
 class CartesianFlow final : public Flow {
  public:
   CartesianFlow(const FlowProblem& problem, const CartesianSettings& settings, ThreadTeam& team)
-      : problem_(problem), settings_(settings), team_(team), solver_(problem, problem.grid, porous(), settings, team) {}
+      : problem_(problem),
+        settings_(settings),
+        team_(team),
+        solver_(problem, problem.grid, porous(), settings, team) {}
 
   void place(const std::vector<Triangle>& surface, const std::vector<Vec3>& velocity) override {
     for (Sheet& sheet : problem_.sheets) sheet.surface = surface, sheet.velocity = velocity;
@@ -169,10 +173,7 @@ FlowAdvance CartesianFlow::run(Solver& solver, int iterations, double residual,
   }
   if (now.stopped) return now.converged = false, now;
   // Residuals are relative to the fields, and say nothing of those that grow slowly and for ever.
-  if (solver.state().iteration % Stopping::piece == 0 || now.converged) {
-    const std::string bad = solver.first_bad_value();
-    if (!bad.empty() && !solver.shut()) throw diverged("by", bad);
-  }
+  if (!solver.shut() && !solver.within_reason()) throw diverged("by", solver.first_bad_value());
   return now;
 }
 
@@ -221,15 +222,15 @@ void CartesianFlow::restore(const std::filesystem::path& folder) {
   solver_.place(porous(), problem_.sheets);
   State state = solver_.state();
   each_carried(state, in);
-  if (!fits(state, solver_.state())) in.fail();
-  if (!(header.air == problem_.air))
-    scale(state, header.air, problem_.air);
+  if (!in.at_end() || !fits(state, solver_.state())) in.fail();
+  if (!(header.air == problem_.air)) scale(state, header.air, problem_.air);
   solver_.state() = std::move(state);
 }
 
 class CartesianEngine final : public FlowEngine {
  public:
-  explicit CartesianEngine(const CartesianSettings& settings) : settings_(settings), team_(settings.threads) {}
+  explicit CartesianEngine(const CartesianSettings& settings)
+      : settings_(settings), team_(settings.threads) {}
 
   std::string name() const override { return "built-in (Cartesian, SIMPLE, k-omega SST)"; }
   std::unique_ptr<Flow> start(const FlowProblem& problem) override {

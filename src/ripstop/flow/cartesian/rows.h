@@ -125,7 +125,7 @@ struct PressureRow {
                *p_above = nullptr;
   bool inlet = false;                   // the low z face brings inlet_speed * rho
   const double* inlet_speed = nullptr;  // [m/s]; elsewhere zeros
-  bool outlet = false;     // the high z face holds the outlet's pressure
+  bool outlet = false;                  // the high z face holds the outlet's pressure
   double mean_p = 0;
   const double *fx = nullptr, *fy = nullptr, *fz = nullptr;  // of the last iteration; with sheets only
   SheetJumps held, excess, stiffness;
@@ -142,7 +142,7 @@ struct FluxRow {
   const double *ra = nullptr, *rc = nullptr, *rho = nullptr, *p = nullptr;
   const float* dp = nullptr;
   const double* inlet_speed = nullptr;  // where the low z faces are the inlet's [m/s]; else null
-  SheetJumps held, excess, stiffness;                                    // of the low faces
+  SheetJumps held, excess, stiffness;   // of the low faces
   double *change_x = nullptr, *change_y = nullptr, *change_z = nullptr;  // of the jumps; null: none
   double *fx = nullptr, *fy = nullptr, *fz = nullptr;                    // fx has n + 1 faces
 };

@@ -20,8 +20,8 @@ struct State;
 class SheetRows {
  public:
   SheetRows() = default;
-  /// Throws Error(bad_data) for coefficients that are negative or not finite, or a number of velocities that is
-  /// not that of the triangles.
+  /// Throws Error(bad_data) for coefficients that are negative or not finite, or a number of velocities that
+  /// is not that of the triangles.
   SheetRows(const Axis& x, const Axis& y, const Axis& z, const std::vector<Sheet>& sheets);
 
   bool empty() const { return faces_.empty(); }
@@ -29,8 +29,8 @@ class SheetRows {
   bool shut() const { return shut_; }
   /// Whether a face of row (j, k) has a jump.
   bool touches(int j, int k) const { return !touched_.empty() && touched_[row(j, k)] != 0; }
-  /// Where row (j, k) of the faces across `axis` begins, n + 1 values; it has the low faces of its cells. 0: the
-  /// row of zeros, not to be written.
+  /// Where row (j, k) of the faces across `axis` begins, n + 1 values; it has the low faces of its cells. 0:
+  /// the row of zeros, not to be written.
   std::size_t offset(int axis, int j, int k) const { return offset_.empty() ? 0 : offset_[axis][row(j, k)]; }
   /// What the law asks for beyond the jump that is held [Pa], and its slope over the face's own velocity
   /// [Pa s/m].

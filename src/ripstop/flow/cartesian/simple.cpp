@@ -9,8 +9,8 @@
 namespace ripstop::cartesian {
 namespace {
 
-/// Half steps after a start beside a sheet: a pressure from elsewhere does not yet stand against the cloth, and
-/// would throw the air about.
+/// Half steps after a start beside a sheet: a pressure from elsewhere does not yet stand against the cloth,
+/// and would throw the air about.
 constexpr int eased_iterations = 30;
 
 Boundaries boundaries_of(const FlowProblem& problem, const Discretisation& d) {
@@ -85,8 +85,7 @@ void Solver::start_from(const Solver& coarse) {
 
 void Solver::place(PorousRows porous, const std::vector<Sheet>& sheets) {
   in_the_way_.porous = std::move(porous);
-  const SheetRows before =
-      std::exchange(in_the_way_.sheets, SheetRows(d_.x, d_.y, d_.z, sheets));
+  const SheetRows before = std::exchange(in_the_way_.sheets, SheetRows(d_.x, d_.y, d_.z, sheets));
   in_the_way_.sheets.begin(s_, d_.layout, before);
   in_the_way_.wall =
       in_the_way_.sheets.empty() ? Array<double>() : in_the_way_.sheets.distance(d_.x, d_.y, d_.z, d_.layout);
@@ -120,8 +119,7 @@ FlowProgress Solver::iterate() {
         for (int k = 0; k < d_.grid.nz; ++k) stage(k, rows);
       });
     };
-    if (d_.settings.second_order)
-      each_plane_of_a_block([&](int k, IndexRange rows) { convection(k, rows); });
+    if (d_.settings.second_order) each_plane_of_a_block([&](int k, IndexRange rows) { convection(k, rows); });
     each_block([&](IndexRange rows) { march(rank, rows); });
     if (rank == 0) take_new_turbulence();
     team_.barrier();
@@ -165,19 +163,36 @@ FlowProgress Solver::close_iteration() {
   return progress;
 }
 
-std::string Solver::first_bad_value() const {
+std::array<Solver::Bounded, 6> Solver::bounded() const {
   const double speed = d_.air.speed;
-  const struct {
-    const char* name;
-    const Array<double>* values;
-    double bound;
-  } checks[] = {{"velocity x", &s_.f.u, 1e3 * speed},
-                {"velocity y", &s_.f.v, 1e3 * speed},
-                {"velocity z", &s_.f.w, 1e3 * speed},
-                {"pressure", &s_.f.p, 1e4 * d_.air.density * speed * speed},
-                {"k", &s_.f.k, 1e6 * speed * speed},
-                {"omega", &s_.f.omega, 1e300}};
-  for (const auto& check : checks) {
+  return {{{"velocity x", &s_.f.u, 1e3 * speed},
+           {"velocity y", &s_.f.v, 1e3 * speed},
+           {"velocity z", &s_.f.w, 1e3 * speed},
+           {"pressure", &s_.f.p, 1e4 * d_.air.density * speed * speed},
+           {"k", &s_.f.k, 1e6 * speed * speed},
+           {"omega", &s_.f.omega, 1e300}}};
+}
+
+bool Solver::within_reason() {
+  std::vector<char> sound(static_cast<std::size_t>(team_.size()), 1);
+  team_.run([&](int rank) {
+    const IndexRange planes = part_of(d_.grid.nz, rank, team_.size());
+    for (const Bounded& field : bounded()) {
+      for (int k = planes.begin; k < planes.end; ++k) {
+        for (int j = 0; j < d_.grid.ny; ++j) {
+          const double* row = &(*field.values)[d_.layout.at(0, j, k)];
+          bool within = true;
+          for (int i = 0; i < d_.grid.nx; ++i) within &= std::fabs(row[i]) <= field.bound;  // not of a NaN
+          if (!within) sound[rank] = 0;
+        }
+      }
+    }
+  });
+  return std::find(sound.begin(), sound.end(), 0) == sound.end();
+}
+
+std::string Solver::first_bad_value() const {
+  for (const Bounded& check : bounded()) {
     for (int k = 0; k < d_.grid.nz; ++k) {
       for (int j = 0; j < d_.grid.ny; ++j) {
         for (int i = 0; i < d_.grid.nx; ++i) {

@@ -2,6 +2,7 @@
 // (simple.cpp).
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -62,7 +63,9 @@ class Solver {
   void place(PorousRows porous, const std::vector<Sheet>& sheets);
   /// One SIMPLE iteration; the residuals are those of the fields it started from.
   FlowProgress iterate();
-  /// The first cell that is not finite or beyond reason, as "field u at (x, y, z)"; empty if none.
+  /// Whether every value is finite and within bounds that no flow of this air reaches.
+  bool within_reason();
+  /// The first cell that is not finite or beyond those bounds, as "field u at (x, y, z)"; empty if none.
   std::string first_bad_value() const;
   FlowField field() const;
 
@@ -92,6 +95,12 @@ class Solver {
 
   void take_new_turbulence();
   FlowProgress close_iteration();
+  struct Bounded {
+    const char* name;
+    const Array<double>* values;
+    double bound;
+  };
+  std::array<Bounded, 6> bounded() const;
   SheetJumps jumps(int j, int k, const std::vector<double>& values) const;
 
   Discretisation d_;

@@ -88,8 +88,9 @@ void Solver::flux(int k, IndexRange rows) {
     }
     if (k == d_.grid.nz - 1) {
       const double* outlet = &s_.outlet_p[d_.layout.in_plane(0, j)];
-      OutletRow out{d_.grid.nx, d_.zp.inverse_distance[d_.grid.nz], r.hw, r.ra, r.rc, r.rho, r.p, outlet, r.dp,
-                    r.fz + sz};
+      OutletRow out{
+          d_.grid.nx, d_.zp.inverse_distance[d_.grid.nz], r.hw, r.ra, r.rc, r.rho, r.p, outlet, r.dp,
+          r.fz + sz};
       outlet_flux_row(out);
     }
   }

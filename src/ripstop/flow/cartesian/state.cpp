@@ -52,8 +52,7 @@ void interpolate_field(const Array<double>& from, const Layout& of, Array<double
           const double weight = (a ? x.pair[i].high_weight : 1 - x.pair[i].high_weight) *
                                 (b ? y.pair[j].high_weight : 1 - y.pair[j].high_weight) *
                                 (c ? z[k].high_weight : 1 - z[k].high_weight);
-          if (weight != 0)
-            value += weight * from[of.at(x.pair[i].low + a, y.pair[j].low + b, z[k].low + c)];
+          if (weight != 0) value += weight * from[of.at(x.pair[i].low + a, y.pair[j].low + b, z[k].low + c)];
         }
         to[on.at(i, j, k)] = value;
       }
@@ -64,8 +63,7 @@ void interpolate_field(const Array<double>& from, const Layout& of, Array<double
 }  // namespace
 
 State::State(const Layout& layout) {
-  for (Array<double>* field :
-       {&f.u, &f.v, &f.w, &f.p, &f.rho, &f.k, &f.omega, &f.fx, &f.fy, &f.fz, &limit})
+  for (Array<double>* field : {&f.u, &f.v, &f.w, &f.p, &f.rho, &f.k, &f.omega, &f.fx, &f.fy, &f.fz, &limit})
     *field = Array<double>(layout.values());
   std::fill(limit.begin(), limit.end(), 1.0);
   outlet_p = Array<double>(static_cast<std::size_t>(layout.stride_z));

@@ -34,8 +34,8 @@ struct State {
   Array<double> outlet_p;    // pressure in the outlet's faces, one plane [Pa]
   std::vector<double> held;  // jump on a face of a sheet that the pressure stands against [Pa], see SheetRows
   std::vector<double> change;  // and by how much it differs after the last iteration [Pa]
-  std::vector<double> drop;  // of the pressure across the cloth on each such face [Pa]
-  Vec3 force;                // on porous cells and sheets [N]
+  std::vector<double> drop;    // of the pressure across the cloth on each such face [Pa]
+  Vec3 force;                  // on porous cells and sheets [N]
   Means mean;
   int iteration = 0;      // since the start
   int eased = 0;          // iterations yet to come that take half steps
@@ -46,8 +46,8 @@ struct State {
 template <class AnyState, class Visit>
 void each_carried(AnyState& s, Visit&& visit) {
   auto& f = s.f;
-  for (auto* field : {&f.u, &f.v, &f.w, &f.p, &f.rho, &f.k, &f.omega, &f.fx, &f.fy, &f.fz, &s.limit,
-                      &s.outlet_p})
+  for (auto* field :
+       {&f.u, &f.v, &f.w, &f.p, &f.rho, &f.k, &f.omega, &f.fx, &f.fy, &f.fz, &s.limit, &s.outlet_p})
     visit(*field);
   visit(s.held), visit(s.change), visit(s.drop), visit(s.force);
   visit(s.mean), visit(s.iteration), visit(s.eased), visit(s.untouched);
