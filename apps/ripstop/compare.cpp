@@ -8,10 +8,11 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "ripstop/canopy/shape.h"
+#include "ripstop/canopy/stress.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
-#include "ripstop/coupling/profile.h"
 #include "ripstop/output/plot.h"
 #include "ripstop/run/steady_run.h"
 #include "ripstop/run/sweep_files.h"
@@ -72,7 +73,7 @@ struct Shape {
 };
 
 Shape shape_of(const SweepPoint& point, const fs::path& folder) {
-  const Mesh mesh = parachute_mesh(point.value);
+  const CanopyMesh mesh = parachute_mesh(point.value);
   const SteadyState state = final_state(folder / point.folder);
   return {canopy_profile(mesh, state.shape), part_strains(mesh, state.shape)};
 }

@@ -13,10 +13,11 @@
 #include "case_options.h"
 #include "commands.h"
 #include "progress.h"
+#include "ripstop/canopy/shape.h"
+#include "ripstop/canopy/stress.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
-#include "ripstop/coupling/result.h"
 #include "ripstop/output/picture.h"
 #include "ripstop/output/vtk.h"
 #include "ripstop/parachute/known_shape.h"
@@ -38,7 +39,7 @@ int run(const Options& options) {
   const Case value = read_case(options.case_file, options.overrides);
   const Air stream = air(value);
   const double pressure = options.pressure.value_or(0.5 * stream.density * stream.speed * stream.speed);
-  const Mesh mesh = parachute_mesh(value);
+  const CanopyMesh mesh = parachute_mesh(value);
   ClothOptions cloth_options;
   cloth_options.linear = value.coupling.linear;
   const ClothPtr cloth = make_cloth(mesh, cloth_options);

@@ -10,10 +10,10 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "ripstop/canopy/shape.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
-#include "ripstop/coupling/profile.h"
 #include "ripstop/output/plot.h"
 #include "ripstop/run/steady_run.h"
 
@@ -37,7 +37,7 @@ struct Computed {
 Computed computed_canopy(const fs::path& run) {
   const Case value = case_of_run(run);
   const SteadyState state = final_state(run);
-  const Mesh mesh = parachute_mesh(value);
+  const CanopyMesh mesh = parachute_mesh(value);
   Computed canopy{value.title, {}, image_sizes(mesh, state.shape)};
   for (const ProfileRing& ring : canopy_profile(mesh, state.shape)) {
     if (canopy.patches.empty() || canopy.patches.back().back().patch != ring.patch)

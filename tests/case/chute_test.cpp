@@ -127,7 +127,7 @@ TEST(Chute, NothingOfTheFileIsSilentlyLeftOut) {
 TEST(Chute, TheMeshHasTheClothOfThePattern) {
   for (const char* name : {"elliptical", "disk-gap-band", "cross", "sails", "odd"}) {
     Case value = parse_case(imported(name).case_text, "case.toml");
-    const Mesh mesh = parachute_mesh(value);
+    const CanopyMesh mesh = parachute_mesh(value);
     double area = 0;
     for (const Patch& patch : mesh.patches)
       area = std::accumulate(patch.cell_area.begin(), patch.cell_area.end(), area);

@@ -16,7 +16,7 @@
 namespace ripstop {
 namespace {
 
-Mesh small_canopy(int nodes = 1200) {
+CanopyMesh small_canopy(int nodes = 1200) {
   Design design;
   design.canopy = DiskGapBand{1.0, 0.2, 0.07, 0.3};
   design.gores = 6;
@@ -258,7 +258,7 @@ TEST(Inflation, AFreeSheetReachesItsTerminalSpeed) {
 
 TEST(UniformPressure, TheEquilibriumCarriesTheDragThatWasAskedFor) {
   ThreadTeam team(2);
-  const Mesh mesh = small_canopy(600);
+  const CanopyMesh mesh = small_canopy(600);
   const UniformPressure found = pressure_for(300, mesh, false, team);
   EXPECT_NEAR(found.load, 300, 0.3);
   EXPECT_NEAR(found.pressure * found.axial_area, found.load, 1e-9);

@@ -153,7 +153,7 @@ TEST_P(FamilyAreas, TheMeshLeavesTheSameAreaOpen) {
   // Round rings of a disk-gap-band are polygons with as many sides as columns, other canopies with their
   // gores.
   const bool round = std::holds_alternative<DiskGapBand>(value.parachute.canopy);
-  const Mesh mesh = parachute_mesh(value);
+  const CanopyMesh mesh = parachute_mesh(value);
   double open = 0;
   for (std::size_t i = 0; i < mesh.patches.size(); ++i) {
     const int patch = static_cast<int>(i), sides = round ? mesh.patches[i].columns : value.parachute.gores;

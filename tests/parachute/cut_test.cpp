@@ -59,11 +59,10 @@ TEST_P(CutTest, AllowancesLieOutsideByTheirWidth) {
 
 TEST_P(CutTest, TapesAndLinesAreAsLongAsInTheMesh) {
   const Case value = read_case(examples / GetParam() / "case.toml");
-  const Mesh mesh = parachute_mesh(value);
+  const CanopyMesh mesh = parachute_mesh(value);
   double tape_mesh = 0, line_mesh = 0;
-  for (const Spring& spring : mesh.springs)
-    if (mesh.parts[spring.part].find("tape") != std::string::npos) tape_mesh += spring.rest_length;
-  for (const LineRun& line : mesh.lines)
+  for (const int spring : mesh.rigging.tape_springs) tape_mesh += mesh.springs[spring].rest_length;
+  for (const LineRun& line : mesh.rigging.lines)
     for (const int spring : line.springs) line_mesh += mesh.springs[spring].rest_length;
   const CutPattern pattern = cut_pattern(value.parachute);
   double tape = 0;
@@ -78,7 +77,7 @@ TEST_P(CutTest, TheBillWithoutAllowancesWeighsWhatTheMeshWeighs) {
   const Case value = read_case(examples / GetParam() / "case.toml");
   const Bill bill = bill_of(cut_pattern(value.parachute), value.parachute, part_materials(value),
                             {.seam = 0, .hem = 0, .line_loop = 0, .tape_overlap = 0}, 400);
-  const Mesh mesh = parachute_mesh(value);
+  const CanopyMesh mesh = parachute_mesh(value);
   const double mass = std::accumulate(mesh.mass.begin(), mesh.mass.end(), 0.0);
   EXPECT_NEAR(bill.mass / mass, 1, 0.005);
   EXPECT_NEAR(bill.packed_volume * 400, bill.mass, 1e-12);

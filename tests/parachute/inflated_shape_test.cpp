@@ -7,10 +7,10 @@
 #include <filesystem>
 #include <numbers>
 
+#include "ripstop/canopy/shape.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/case/case.h"
 #include "ripstop/cloth/cloth.h"
-#include "ripstop/coupling/result.h"
 #include "ripstop/parachute/known_shape.h"
 #include "ripstop/parachute/resolution.h"
 
@@ -51,7 +51,7 @@ TEST_P(InflatedShape, HasTheDiameterOfItsTypeAndTheSymmetryOfItsLines) {
   Case value =
       read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples" / GetParam().example / "case.toml");
   value.parachute.mesh.cloth_nodes = 3000;
-  const Mesh mesh = parachute_mesh(value);
+  const CanopyMesh mesh = parachute_mesh(value);
   const ClothPtr cloth = make_cloth(mesh);
   ClothState state = start_state(*cloth);
   const Loads loads{std::vector<double>(mesh.cell_count(), 240.0), {}};
@@ -85,7 +85,7 @@ TEST_P(InflatedShape, HasTheDiameterOfItsTypeAndTheSymmetryOfItsLines) {
   for (int first = 0; first < apart; ++first) {
     double least = 1e300, most = 0, least_tension = 1e300, most_tension = 0;
     for (int k = first; k < value.parachute.lines.count; k += apart) {
-      const LineRun& line = mesh.lines[k];
+      const LineRun& line = mesh.rigging.lines[k];
       const Vec3 end = x[mesh.springs[line.springs[line.free_springs - 1]].b];
       const double radius = std::hypot(end.x, end.y), pull = tension[line.springs[2]];
       least = std::min(least, radius), most = std::max(most, radius);
@@ -99,7 +99,7 @@ TEST_P(InflatedShape, HasTheDiameterOfItsTypeAndTheSymmetryOfItsLines) {
 }
 
 double inflated_diameter(const Case& value) {
-  const Mesh mesh = parachute_mesh(value);
+  const CanopyMesh mesh = parachute_mesh(value);
   const ClothPtr cloth = make_cloth(mesh);
   ClothState state = start_state(*cloth);
   ThreadTeam team(1);

@@ -11,6 +11,7 @@
 #include "ripstop/coupling/settings.h"
 #include "ripstop/coupling/transfer.h"
 #include "ripstop/flow/flow.h"
+#include "ripstop/parachute/canopy_mesh.h"
 
 namespace ripstop {
 
@@ -50,7 +51,7 @@ struct SteadyState {
 };
 
 struct SteadyProblem {
-  Mesh mesh;         // start shape in the flow's frame
+  CanopyMesh mesh;   // start shape in the flow's frame
   FlowProblem flow;  // one PorousCells or one Sheet that has the resistance; where it is, is found here
   double reference_area = 0;  // S0 [m2]
   CouplingSettings settings;
@@ -82,7 +83,7 @@ class SteadySolver {
   bool finished(const SteadyState& state) const;
 
   const Cloth& cloth() const { return *cloth_; }
-  const Mesh& mesh() const { return problem_.mesh; }
+  const CanopyMesh& mesh() const { return problem_.mesh; }
   const std::vector<Cell>& cells() const { return cells_; }
   /// The cloth's state at `state.shape`, at rest.
   ClothState cloth_state(const SteadyState& state) const;

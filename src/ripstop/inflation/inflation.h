@@ -5,16 +5,16 @@
 #include <string>
 #include <vector>
 
+#include "ripstop/canopy/shape.h"
+#include "ripstop/canopy/stress.h"
 #include "ripstop/cloth/cloth.h"
-#include "ripstop/coupling/result.h"
 #include "ripstop/inflation/settings.h"
 #include "ripstop/parachute/fold.h"
-#include "ripstop/parachute/mesh.h"
 
 namespace ripstop {
 
 struct InflationProblem {
-  Mesh mesh;  // as cut; fold lines and line damping are applied by the solver
+  CanopyMesh mesh;  // as cut; fold lines and line damping are applied by the solver
   InflationSettings settings;
   double pressure = 0;  // dp [Pa]
   bool linear = false;  // keep only K_1 of every law
@@ -82,7 +82,7 @@ class Inflation {
   std::vector<HistoryRow> advance(InflationState& state);
   InflationFrame frame(InflationState& state) const;
 
-  const Mesh& mesh() const { return mesh_; }
+  const CanopyMesh& mesh() const { return mesh_; }
   const Cloth& cloth() const { return *cloth_; }
   const FoldedStart& folded() const { return folded_; }
   /// How much weaker the cloth's dampers are than `cloth_damping_s` says, so that they do not set the step.
@@ -98,7 +98,7 @@ class Inflation {
   std::vector<Vec3> with_imperfection() const;
 
   InflationProblem problem_;
-  Mesh mesh_;
+  CanopyMesh mesh_;
   FoldedStart folded_;
   ViscosityLimit viscosity_limit_;
   ClothPtr cloth_;

@@ -4,7 +4,7 @@
 
 namespace ripstop {
 
-Mesh build_mesh(const Design& design, const PartMaterials& materials) {
+CanopyMesh build_mesh(const Design& design, const PartMaterials& materials) {
   return std::visit([&](const auto& canopy) { return build_canopy(canopy, design, materials); },
                     design.canopy);
 }

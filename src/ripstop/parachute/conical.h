@@ -1,8 +1,8 @@
 // The conical canopy: triangular gores, narrower than those of a flat one, that make a pyramid.
 #pragma once
 
+#include "ripstop/parachute/canopy_mesh.h"
 #include "ripstop/parachute/gore.h"
-#include "ripstop/parachute/mesh.h"
 
 namespace ripstop {
 
@@ -28,6 +28,6 @@ GorePattern gore_pattern(const Conical& canopy, int gores);
 CanopyFacts facts(const Conical& canopy, int gores);
 CutPattern cut_pattern(const Conical& canopy, const Design& design);
 /// See gored.h.
-Mesh build_canopy(const Conical& canopy, const Design& design, const PartMaterials& materials);
+CanopyMesh build_canopy(const Conical& canopy, const Design& design, const PartMaterials& materials);
 
 }  // namespace ripstop

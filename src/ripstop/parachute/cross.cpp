@@ -51,7 +51,7 @@ class Builder {
   Builder(const Cross& canopy, const Design& design, const PartMaterials& materials)
       : canopy_(canopy), design_(design), materials_(materials), lattice_(choose_lattice(canopy, design)) {}
 
-  Mesh build() {
+  CanopyMesh build() {
     for (int arm = 0; arm < arms; ++arm) add_arm(arm);
     add_middle();
     add_outline();
@@ -61,9 +61,8 @@ class Builder {
     for (int arm = 0; arm < arms; ++arm)
       for (int k = 0; k < per_arm; ++k)
         ends.push_back({{node(arm, 0, lattice_.across / (per_arm - 1) * k)}, {}});
-    add_lines(builder_, design_, materials_, ends);
-    builder_.flatten_ties();
-    return std::move(builder_.mesh);
+    builder_.add_lines(design_, materials_, ends);
+    return builder_.finish();
   }
 
  private:
@@ -78,7 +77,7 @@ class Builder {
   const Design& design_;
   const PartMaterials& materials_;
   Lattice lattice_;
-  MeshBuilder builder_;
+  CanopyBuilder builder_;
 };
 
 // Arm 0 points along x; rows from its end inward, columns along y. The others are turned by quarters.
@@ -113,18 +112,18 @@ void Builder::add_middle() {
 
 // Along an arm's end, its left side inward, and the next arm's right side outward.
 void Builder::add_outline() {
+  std::vector<int>& skirt = builder_.rigging.skirt_nodes;
   const int n = lattice_.across;
   for (int arm = 0; arm < arms; ++arm) {
-    for (int c = 0; c <= n; ++c) builder_.mesh.skirt_nodes.push_back(node(arm, 0, c));
-    for (int row = 1; row <= lattice_.along; ++row) builder_.mesh.skirt_nodes.push_back(node(arm, row, n));
-    for (int row = lattice_.along - 1; row > 0; --row)
-      builder_.mesh.skirt_nodes.push_back(node((arm + 1) % arms, row, 0));
+    for (int c = 0; c <= n; ++c) skirt.push_back(node(arm, 0, c));
+    for (int row = 1; row <= lattice_.along; ++row) skirt.push_back(node(arm, row, n));
+    for (int row = lattice_.along - 1; row > 0; --row) skirt.push_back(node((arm + 1) % arms, row, 0));
   }
 }
 
 void Builder::add_tapes() {
   const Tape& tape = materials_.tape;
-  const int law = builder_.law({tape.coefficients_n_m, tape.compression});
+  const int law = builder_.add_tape_law(tape);
   if (design_.tape.hems) {
     const int part = builder_.part("hem tape");
     for (int arm = 0; arm < arms; ++arm) {
@@ -194,7 +193,7 @@ CutPattern cut_pattern(const Cross& canopy, const Design& design) {
   return cut;
 }
 
-Mesh build_canopy(const Cross& canopy, const Design& design, const PartMaterials& materials) {
+CanopyMesh build_canopy(const Cross& canopy, const Design& design, const PartMaterials& materials) {
   return Builder(canopy, design, materials).build();
 }
 

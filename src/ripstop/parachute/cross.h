@@ -1,8 +1,8 @@
 // The cross canopy: two strips of cloth that cross, one layer where they do; lines from the four ends.
 #pragma once
 
+#include "ripstop/parachute/canopy_mesh.h"
 #include "ripstop/parachute/facts.h"
-#include "ripstop/parachute/mesh.h"
 
 namespace ripstop {
 
@@ -29,6 +29,6 @@ CutPattern cut_pattern(const Cross& canopy, const Design& design);
 /// from corner to corner at equal distances; those at the corners are taut at the start. Square lattice of
 /// five patches (four arms, each from its end inward, and the middle), sharing nodes where they meet. Tape
 /// lies round the outline (hems) and round the middle square (seams). Throws Error(usage) for too few nodes.
-Mesh build_canopy(const Cross& canopy, const Design& design, const PartMaterials& materials);
+CanopyMesh build_canopy(const Cross& canopy, const Design& design, const PartMaterials& materials);
 
 }  // namespace ripstop

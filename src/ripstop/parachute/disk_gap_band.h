@@ -1,8 +1,8 @@
 // The disk-gap-band canopy: a flat disk with a vent, a gap that only the lines span, a cylindrical band.
 #pragma once
 
+#include "ripstop/parachute/canopy_mesh.h"
 #include "ripstop/parachute/facts.h"
-#include "ripstop/parachute/mesh.h"
 
 namespace ripstop {
 
@@ -35,6 +35,6 @@ CutPattern cut_pattern(const DiskGapBand& canopy, const Design& design);
 /// first. Where a line is sewn to the cloth it is a chain of about `line_segment_m`, far longer than the
 /// cloth's spacing (a short segment of so stiff a line would set the time step); the cloth nodes between are
 /// tied to it. Throws Error(usage) when the numbers of gores and lines allow no such lattice.
-Mesh build_canopy(const DiskGapBand& canopy, const Design& design, const PartMaterials& materials);
+CanopyMesh build_canopy(const DiskGapBand& canopy, const Design& design, const PartMaterials& materials);
 
 }  // namespace ripstop

@@ -1,8 +1,8 @@
 // The extended-skirt canopy: a flat disk with a skirt sewn on, straight or drawn in.
 #pragma once
 
+#include "ripstop/parachute/canopy_mesh.h"
 #include "ripstop/parachute/gore.h"
-#include "ripstop/parachute/mesh.h"
 
 namespace ripstop {
 
@@ -28,6 +28,6 @@ GorePattern gore_pattern(const ExtendedSkirt& canopy, int gores);
 CanopyFacts facts(const ExtendedSkirt& canopy, int gores);
 CutPattern cut_pattern(const ExtendedSkirt& canopy, const Design& design);
 /// See gored.h.
-Mesh build_canopy(const ExtendedSkirt& canopy, const Design& design, const PartMaterials& materials);
+CanopyMesh build_canopy(const ExtendedSkirt& canopy, const Design& design, const PartMaterials& materials);
 
 }  // namespace ripstop

@@ -1,8 +1,8 @@
 // The flat circular canopy: triangular gores that make a flat polygon.
 #pragma once
 
+#include "ripstop/parachute/canopy_mesh.h"
 #include "ripstop/parachute/gore.h"
-#include "ripstop/parachute/mesh.h"
 
 namespace ripstop {
 
@@ -26,6 +26,6 @@ GorePattern gore_pattern(const FlatCircular& canopy, int gores);
 CanopyFacts facts(const FlatCircular& canopy, int gores);
 CutPattern cut_pattern(const FlatCircular& canopy, const Design& design);
 /// See gored.h.
-Mesh build_canopy(const FlatCircular& canopy, const Design& design, const PartMaterials& materials);
+CanopyMesh build_canopy(const FlatCircular& canopy, const Design& design, const PartMaterials& materials);
 
 }  // namespace ripstop

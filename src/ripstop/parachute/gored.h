@@ -14,7 +14,7 @@ namespace ripstop {
 /// and lines lie on columns. A strip that is not `joined` is held at the radials only: by shared nodes where
 /// there is no slot, else by what runs along the radials. Throws Error(usage) when nothing spans a slot, or
 /// when the numbers of gores and lines allow no lattice.
-Mesh build_gored(const GorePattern& pattern, const Design& design, const PartMaterials& materials);
+CanopyMesh build_gored(const GorePattern& pattern, const Design& design, const PartMaterials& materials);
 
 /// Whether tape lies along the lower or the upper edge of a strip; a joint has it once, as a lower edge.
 bool has_hem_tape(const Design& design, const GorePattern& pattern, std::size_t strip, bool upper);

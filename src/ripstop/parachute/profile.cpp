@@ -204,7 +204,7 @@ CutPattern cut_pattern(const ProfileCanopy& canopy, const Design& design) {
   return cut_pattern(gore_pattern(canopy, design.gores), design);
 }
 
-Mesh build_canopy(const ProfileCanopy& canopy, const Design& design, const PartMaterials& materials) {
+CanopyMesh build_canopy(const ProfileCanopy& canopy, const Design& design, const PartMaterials& materials) {
   return build_gored(split_where_widest(gore_pattern(canopy, design.gores)), design, materials);
 }
 

@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "ripstop/parachute/canopy_mesh.h"
 #include "ripstop/parachute/gore.h"
-#include "ripstop/parachute/mesh.h"
 
 namespace ripstop {
 
@@ -39,6 +39,6 @@ GorePattern gore_pattern(const ProfileCanopy& canopy, int gores);
 CanopyFacts facts(const ProfileCanopy& canopy, int gores);
 CutPattern cut_pattern(const ProfileCanopy& canopy, const Design& design);
 /// See gored.h. A piece that is widest between its edges is meshed as two, sewn together there.
-Mesh build_canopy(const ProfileCanopy& canopy, const Design& design, const PartMaterials& materials);
+CanopyMesh build_canopy(const ProfileCanopy& canopy, const Design& design, const PartMaterials& materials);
 
 }  // namespace ripstop

@@ -1,8 +1,8 @@
 // The ringsail canopy: rows of sails, fuller at their lower edges, on a quarter sphere.
 #pragma once
 
+#include "ripstop/parachute/canopy_mesh.h"
 #include "ripstop/parachute/gore.h"
-#include "ripstop/parachute/mesh.h"
 
 namespace ripstop {
 
@@ -42,6 +42,6 @@ GorePattern gore_pattern(const Ringsail& canopy, int gores);
 CanopyFacts facts(const Ringsail& canopy, int gores);
 CutPattern cut_pattern(const Ringsail& canopy, const Design& design);
 /// See gored.h.
-Mesh build_canopy(const Ringsail& canopy, const Design& design, const PartMaterials& materials);
+CanopyMesh build_canopy(const Ringsail& canopy, const Design& design, const PartMaterials& materials);
 
 }  // namespace ripstop

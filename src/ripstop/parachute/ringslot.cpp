@@ -78,7 +78,7 @@ CutPattern cut_pattern(const Ringslot& canopy, const Design& design) {
   return cut_pattern(gore_pattern(canopy, design.gores), design);
 }
 
-Mesh build_canopy(const Ringslot& canopy, const Design& design, const PartMaterials& materials) {
+CanopyMesh build_canopy(const Ringslot& canopy, const Design& design, const PartMaterials& materials) {
   return build_gored(gore_pattern(canopy, design.gores), design, materials);
 }
 

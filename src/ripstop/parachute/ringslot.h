@@ -1,8 +1,8 @@
 // The ringslot canopy: concentric rings of cloth with slots between, held by radials and vertical tapes.
 #pragma once
 
+#include "ripstop/parachute/canopy_mesh.h"
 #include "ripstop/parachute/gore.h"
-#include "ripstop/parachute/mesh.h"
 
 namespace ripstop {
 
@@ -30,6 +30,6 @@ GorePattern gore_pattern(const Ringslot& canopy, int gores);
 CanopyFacts facts(const Ringslot& canopy, int gores);
 CutPattern cut_pattern(const Ringslot& canopy, const Design& design);
 /// See gored.h.
-Mesh build_canopy(const Ringslot& canopy, const Design& design, const PartMaterials& materials);
+CanopyMesh build_canopy(const Ringslot& canopy, const Design& design, const PartMaterials& materials);
 
 }  // namespace ripstop

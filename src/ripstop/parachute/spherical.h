@@ -1,8 +1,8 @@
 // Hemispherical, quarter-spherical and other caps of a sphere, of flat gores.
 #pragma once
 
+#include "ripstop/parachute/canopy_mesh.h"
 #include "ripstop/parachute/gore.h"
-#include "ripstop/parachute/mesh.h"
 
 namespace ripstop {
 
@@ -30,6 +30,6 @@ GorePattern gore_pattern(const Spherical& canopy, int gores);
 CanopyFacts facts(const Spherical& canopy, int gores);
 CutPattern cut_pattern(const Spherical& canopy, const Design& design);
 /// See gored.h.
-Mesh build_canopy(const Spherical& canopy, const Design& design, const PartMaterials& materials);
+CanopyMesh build_canopy(const Spherical& canopy, const Design& design, const PartMaterials& materials);
 
 }  // namespace ripstop

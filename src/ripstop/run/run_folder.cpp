@@ -152,7 +152,7 @@ void RunFolder::write_iteration(const SteadySolver& solver, const SteadyState& s
 
 void RunFolder::write_fields(const SteadySolver& solver, const SteadyState& state,
                              const FlowField& field) const {
-  const Mesh& mesh = solver.mesh();
+  const CanopyMesh& mesh = solver.mesh();
   const ClothState cloth = solver.cloth_state(state);
   const std::vector<CellStress> stress = cell_stress(solver.cloth(), cloth);
   const std::vector<double> tensions = spring_tensions(solver.cloth(), cloth);
@@ -190,7 +190,7 @@ void RunFolder::write_fields(const SteadySolver& solver, const SteadyState& stat
 }
 
 void RunFolder::write_state(const SteadySolver& solver, const SteadyState& state) const {
-  const Mesh& mesh = solver.mesh();
+  const CanopyMesh& mesh = solver.mesh();
   const ClothState cloth = solver.cloth_state(state);
   std::vector<double> mises;
   for (const CellStress& s : cell_stress(solver.cloth(), cloth)) mises.push_back(s.von_mises);

@@ -6,8 +6,9 @@
 #include <optional>
 #include <string>
 
+#include "ripstop/canopy/shape.h"
+#include "ripstop/canopy/stress.h"
 #include "ripstop/case/case.h"
-#include "ripstop/coupling/result.h"
 #include "ripstop/coupling/steady.h"
 
 namespace ripstop {

@@ -1,4 +1,4 @@
-#include "ripstop/parachute/mesh.h"
+#include "ripstop/mesh/mesh.h"
 
 namespace ripstop {
 

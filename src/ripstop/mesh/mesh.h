@@ -1,7 +1,8 @@
-// What a canopy family hands to the cloth: structured patches of lumped masses, and the short irregular rest.
+// What a solver of cloth steps: structured patches of lumped masses, and the short irregular rest.
 //
 // Node numbering is logical (no padding): node = patch.first_node + row * patch.columns + column, then the
-// nodes of lines. A solver is free to lay them out otherwise; whatever it returns is in this numbering.
+// nodes that lie on no patch. A solver is free to lay them out otherwise; whatever it returns is in this
+// numbering.
 #pragma once
 
 #include <string>
@@ -21,7 +22,7 @@ inline constexpr Offset direction_offset[direction_count] = {{0, 1}, {1, 0}, {1,
 
 /// A lattice of rows x columns nodes. Column + 1 of the last column is column 0 when periodic, else absent.
 struct Patch {
-  std::string name;  // "disk", "band"
+  std::string name;  // for messages: "arm 2"
   int rows = 0;
   int columns = 0;
   bool periodic = false;
@@ -54,11 +55,11 @@ struct Patch {
   }
 };
 
-/// A spring outside the lattice: tape, line, seam.
+/// A spring outside the lattice.
 struct Spring {
   int a = 0, b = 0;
   double rest_length = 0;  // [m]
-  double scale = 1;        // width [m] where the law is per width, 1 for lines
+  double scale = 1;        // width [m] where the law is per width, else 1
   int law = 0;             // index into Mesh::laws
   double damping = 0;      // C [N s/m]
   int part = 0;            // index into Mesh::parts
@@ -75,29 +76,16 @@ struct Tie {
   std::vector<Master> masters;
 };
 
-/// One suspension line from the confluence to its end on the canopy.
-struct LineRun {
-  int radial = 0;            // 0 .. line_count - 1
-  std::vector<int> springs;  // axial springs in order from the confluence, indices into Mesh::springs
-  int free_springs = 0;      // the first so many lie between confluence and skirt
-  double axial_share =
-      1;  // of the line's tension that its axial springs carry; bending springs carry the rest
-};
-
 struct Mesh {
-  std::vector<Vec3> start;   // positions at the start of a run: flat disk, cylindrical band, taut lines [m]
+  std::vector<Vec3> start;   // positions at the start of a run [m]
   std::vector<double> mass;  // [kg]; of a tied node: its own, before it is handed to the masters
   std::vector<Patch> patches;
   std::vector<SpringLaw> laws;  // of `springs`; [N/m] per width or [N]
   std::vector<Spring> springs;
   std::vector<Tie> ties;
   std::vector<int> fixed;          // nodes that do not move
-  std::vector<std::string> parts;  // names for messages: "radial tape", "line 7", "riser"
+  std::vector<std::string> parts;  // of `springs`, names for messages: "hem tape", "line 7"
   std::vector<std::string> fabric_names;
-  std::vector<LineRun> lines;
-  std::vector<int> riser_springs;  // from the fixed end; empty without a riser
-  std::vector<int> skirt_nodes;    // round the canopy's mouth, in order
-  int confluence = -1;
 
   int node_count() const { return static_cast<int>(start.size()); }
   int cell_count() const;  // over all patches, holes counted: the length of every per-cell array
@@ -105,7 +93,7 @@ struct Mesh {
 
 /// The four corners of every cell of every patch, patch after patch, in the order of cell_area; a cell
 /// without cloth has corner[0] = -1. The quad's area vector (half the cross product of its diagonals 0->2 and
-/// 1->3) points from the canopy's inside (high pressure, upstream) to its outside.
+/// 1->3) points from the cloth's inner side, on which a pressure > 0 presses, to its outer one.
 struct Cell {
   int corner[4];
 };

@@ -1,4 +1,4 @@
-// What every canopy family needs to build its Mesh: lattices from a flat pattern, tape, lines, ties.
+// How a Mesh is built: lattices of cloth from a flat pattern, springs along paths, ties.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 #include "ripstop/material/lattice.h"
 #include "ripstop/material/material.h"
-#include "ripstop/parachute/mesh.h"
+#include "ripstop/mesh/mesh.h"
 
 namespace ripstop {
 
@@ -34,9 +34,18 @@ struct PatchShape {
   /// isometry of the cloth as cut.
   std::function<std::array<Vec3, 4>(int row, int column)> cut = {};
   /// A spring over two cells along a row is as long as both cells together: a flat strip rolled into a ring,
-  /// or gores sewn together. Else it is as long as the start shape has it.
+  /// or strips sewn together. Else it is as long as the start shape has it.
   bool rolled_rows = false;
   FabricCut grain = FabricCut::block;  // how the yarns lie on the lattice
+};
+
+/// What lies along a path in parallel to the cloth.
+struct Strand {
+  int law = 0;                // index into Mesh::laws
+  int part = 0;               // index into Mesh::parts
+  double scale = 1;           // width [m] where the law is per width, else 1
+  double damping = 0;         // C of every spring [N s/m]
+  double linear_density = 0;  // [kg/m]
 };
 
 class MeshBuilder {
@@ -59,20 +68,11 @@ class MeshBuilder {
   Path row(int patch, int row) const;
   Path column(int patch, int column, int first_row, int last_row) const;
 
-  /// The nodes along radial `part` of `parts`, which lies on a column of every patch, from the first patch's
-  /// lower edge to the last one's upper edge. The patches follow one another edge to edge, each tied to the
-  /// next, which holds the shared node.
-  Path radial(const std::vector<int>& patches, int part, int parts) const;
-
   /// The last row of `lower` lies on the first row of `upper`, which has as many columns or half as many.
   void tie_rows(int lower, int upper);
 
-  /// Tape along a path, in parallel to the cloth; its mass goes to the nodes.
-  void add_tape(const Path& path, const Tape& tape, int law, int part);
-
-  /// A chain of line (axial springs between neighbours, bending springs over two) along existing nodes; adds
-  /// the line's mass to them and returns the axial springs' indices.
-  std::vector<int> add_chain(const Path& path, const Line& line, int axial_law, int bending_law, int part);
+  /// Springs between the neighbours on a path; the strand's mass goes to the nodes. Returns their indices.
+  std::vector<int> add_springs(const Path& path, const Strand& strand);
 
   void tie(int node, std::vector<Tie::Master> masters);
   /// Replaces masters that are tied themselves by their own masters, and places every tied node where its

@@ -1,29 +1,21 @@
-// The numbers a user asks of a converged canopy.
+// What the parts of a canopy carry, and how far they are stretched.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
 #include "ripstop/cloth/cloth.h"
-#include "ripstop/parachute/mesh.h"
+#include "ripstop/parachute/canopy_mesh.h"
 
 namespace ripstop {
-
-/// Diameters of circles with the same area as the outline of the whole cloth and of the skirt, seen along z
-/// [m].
-struct CanopySize {
-  double projected_diameter = 0, projected_area = 0;
-  double skirt_diameter = 0;
-  double length = 0;  // from the skirt's mean plane to the farthest cloth downstream [m]
-};
-CanopySize canopy_size(const Mesh& mesh, const std::vector<Vec3>& positions);
 
 struct LineTension {
   int radial = 0;
   double free_tension = 0;     // in the middle of the free part [N]
   double largest_tension = 0;  // anywhere between confluence and its end on the canopy [N]
 };
-std::vector<LineTension> line_tensions(const Mesh& mesh, const std::vector<double>& spring_tensions);
+std::vector<LineTension> line_tensions(const CanopyMesh& mesh, const std::vector<double>& spring_tensions);
 
 /// Where the cloth carries most.
 struct StressPeak {
@@ -34,5 +26,12 @@ struct StressPeak {
 };
 StressPeak stress_peak(const Mesh& mesh, const std::vector<Vec3>& positions,
                        const std::vector<CellStress>& stress);
+
+struct Strains {
+  double mean = 0, largest = 0;
+};
+/// By part: "lines" (between confluence and skirt), "tape", "cloth" (springs along the yarns, weighted by the
+/// area that each stands for). A part that the mesh has not is left out.
+std::map<std::string, Strains> part_strains(const CanopyMesh& mesh, const std::vector<Vec3>& positions);
 
 }  // namespace ripstop

@@ -1,4 +1,4 @@
-#include "ripstop/parachute/builder.h"
+#include "ripstop/mesh/builder.h"
 
 #include <algorithm>
 #include <cmath>
@@ -177,15 +177,6 @@ Path MeshBuilder::column(int index, int column, int first_row, int last_row) con
   return path;
 }
 
-Path MeshBuilder::radial(const std::vector<int>& patches, int part, int parts) const {
-  Path path;
-  for (std::size_t k = 0; k < patches.size(); ++k) {
-    const Patch& patch = mesh.patches[patches[k]];
-    path.extend(column(patches[k], patch.columns / parts * part, 0, patch.rows - 1));
-  }
-  return path;
-}
-
 void MeshBuilder::tie_rows(int lower, int upper) {
   const Patch& below = mesh.patches[lower];
   const Patch& above = mesh.patches[upper];
@@ -200,33 +191,17 @@ void MeshBuilder::tie_rows(int lower, int upper) {
   }
 }
 
-void MeshBuilder::add_tape(const Path& path, const Tape& tape, int tape_law, int tape_part) {
+std::vector<int> MeshBuilder::add_springs(const Path& path, const Strand& strand) {
+  std::vector<int> springs;
   for (std::size_t i = 0; i + 1 < path.nodes.size(); ++i) {
     const int a = path.nodes[i], b = path.nodes[i + 1];
     const double length = path.lengths[i];
-    mesh.springs.push_back({a, b, length, tape.width_m, tape_law, tape.damping_n_s_m, tape_part});
-    mesh.mass[a] += 0.5 * length * tape.linear_density_kg_m;
-    mesh.mass[b] += 0.5 * length * tape.linear_density_kg_m;
+    springs.push_back(static_cast<int>(mesh.springs.size()));
+    mesh.springs.push_back({a, b, length, strand.scale, strand.law, strand.damping, strand.part});
+    mesh.mass[a] += 0.5 * length * strand.linear_density;
+    mesh.mass[b] += 0.5 * length * strand.linear_density;
   }
-}
-
-std::vector<int> MeshBuilder::add_chain(const Path& path, const Line& line, int axial_law, int bending_law,
-                                        int line_part) {
-  const std::vector<int>& nodes = path.nodes;
-  const std::vector<double>& length = path.lengths;
-  std::vector<int> axial;
-  for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
-    axial.push_back(static_cast<int>(mesh.springs.size()));
-    mesh.springs.push_back(
-        {nodes[i], nodes[i + 1], length[i], 1.0, axial_law, line.damping_n_s_m, line_part});
-    mesh.mass[nodes[i]] += 0.5 * length[i] * line.linear_density_kg_m;
-    mesh.mass[nodes[i + 1]] += 0.5 * length[i] * line.linear_density_kg_m;
-  }
-  for (std::size_t i = 0; i + 2 < nodes.size(); ++i) {
-    mesh.springs.push_back(
-        {nodes[i], nodes[i + 2], length[i] + length[i + 1], 1.0, bending_law, line.damping_n_s_m, line_part});
-  }
-  return axial;
+  return springs;
 }
 
 void MeshBuilder::tie(int node, std::vector<Tie::Master> masters) {
