@@ -132,9 +132,8 @@ Mesh tied_strips(const FabricSpec& fabric) {
 Mesh medley(double damping, bool fixed, int degree) {
   FabricSpec fabric;
   fabric.damping = damping;
-  if (degree == 1) fabric.coefficients = {30006};
-  if (degree == 3) fabric.coefficients = {30006, -18936, 5000};
-  if (degree == 4) fabric.coefficients = {30006, -18936, 5000, 900};
+  const std::vector<double> curve = {30006, -18936, 5000, 900};
+  fabric.coefficients.assign(curve.begin(), curve.begin() + degree);
   Mesh mesh;
   // A periodic ring of 19 columns (no multiple of 8), a finer one of 38 tied to its rim, a flat flap with a
   // hole, tape along a column, and a line.
