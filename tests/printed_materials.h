@@ -1,4 +1,5 @@
-// The materials of [NFM] Table 3, for tests that build a mesh without the material library.
+// Stratos IV of [NFM] section 2 with the materials of its Table 3, for tests and benchmarks that build a mesh
+// without case and material library.
 #pragma once
 
 #include "ripstop/parachute/build.h"
@@ -18,6 +19,16 @@ inline PartMaterials printed_materials() {
   m.tape.width_m = 0.02;
   m.tape.linear_density_kg_m = 6e-3;
   return m;
+}
+
+inline Design printed_stratos(int cloth_nodes) {
+  Design design;
+  design.canopy = DiskGapBand{1.0, 0.09, 0.07, 0.3};
+  design.gores = 6;
+  design.lines.count = 18;
+  design.lines.length_m = 1.5;
+  design.mesh.cloth_nodes = cloth_nodes;
+  return design;
 }
 
 }  // namespace ripstop

@@ -1,4 +1,4 @@
-#include "ripstop/cloth/sweep.h"
+#include "ripstop/cloth/stepper.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,7 @@ double keep_after(int steps) {
 
 }  // namespace
 
-Sweep::Sweep(const Cloth& cloth, const Loads& loads, ClothState& state, double dt, int threads)
+Stepper::Stepper(const Cloth& cloth, const Loads& loads, ClothState& state, double dt, int threads)
     : cloth_(cloth),
       state_(state),
       dt_(dt),
@@ -43,7 +43,8 @@ Sweep::Sweep(const Cloth& cloth, const Loads& loads, ClothState& state, double d
   prepare(threads);
 }
 
-Sweep::Sweep(const Cloth& cloth, const Loads& loads, ClothState& state, const Fictitious& masses, int threads)
+Stepper::Stepper(const Cloth& cloth, const Loads& loads, ClothState& state, const Fictitious& masses,
+                 int threads)
     : cloth_(cloth),
       state_(state),
       dt_(1),
@@ -56,7 +57,7 @@ Sweep::Sweep(const Cloth& cloth, const Loads& loads, ClothState& state, const Fi
   prepare(threads);
 }
 
-void Sweep::set_masses(const Fictitious& masses) {
+void Stepper::set_masses(const Fictitious& masses) {
   inverse_mass_.assign(cloth_.slots, 0.0);
   kept_inverse_mass_.assign(cloth_.kept.size(), 0.0);
   const auto inverse = [](double mass) { return mass > 0 ? 1 / mass : 0.0; };
@@ -68,11 +69,11 @@ void Sweep::set_masses(const Fictitious& masses) {
   }
 }
 
-void Sweep::set_node_force(const std::vector<Vec3>& force) {
+void Stepper::set_node_force(const std::vector<Vec3>& force) {
   node_force_ = compile_node_force(cloth_, {{}, force});
 }
 
-void Sweep::prepare(int threads) {
+void Stepper::prepare(int threads) {
   damped_lattice_ = damped_ && std::any_of(cloth_.patches.begin(), cloth_.patches.end(),
                                            [](const PatchLayout& patch) { return patch.damped; });
   kept_force_.assign(at(cloth_.first_spring_force + cloth_.springs.blocks * lanes), 0.0);
@@ -112,14 +113,14 @@ void Sweep::prepare(int threads) {
   }
 }
 
-void Sweep::add_forces(int rank) {
+void Stepper::add_forces(int rank) {
   Worker& worker = workers_[rank];
   const IndexRange blocks = part_of(cloth_.springs.blocks, rank, static_cast<int>(workers_.size()));
   pull_springs({&cloth_.springs, state_.x.data(), damped_ ? state_.v.data() : nullptr,
                 kept_force_.data() + at(cloth_.first_spring_force), record_ ? spring_damper_.data() : nullptr,
                 record_ ? spring_taken_.data() : nullptr, record_ ? spring_peak_.data() : nullptr},
                blocks.begin, blocks.end);
-  for (const Piece& piece : worker.pieces) sweep_piece(worker, piece);
+  for (const Piece& piece : worker.pieces) step_piece(worker, piece);
   // Nodes outside patches have no lattice force; a point force may act on them.
   if (rank == 0)
     for (std::size_t k = cloth_.kept_of_row.back(); k < cloth_.kept.size(); ++k)
@@ -127,7 +128,7 @@ void Sweep::add_forces(int rank) {
           node_force_.empty() ? Vec3{} : get(node_force_.data(), cloth_.kept[k].slot));
 }
 
-void Sweep::sweep_piece(Worker& worker, const Piece& piece) {
+void Stepper::step_piece(Worker& worker, const Piece& piece) {
   const PatchLayout& patch = cloth_.patches[piece.patch];
   double* const unwanted = worker.buffer.data() + rows_in_turn * worker.row_doubles;
   const auto waits = [&](int row) {
@@ -163,7 +164,7 @@ void Sweep::sweep_piece(Worker& worker, const Piece& piece) {
   }
 }
 
-void Sweep::complete_row(int row, double* f) {
+void Stepper::complete_row(int row, double* f) {
   const PatchLayout& patch = cloth_.patches[cloth_.row_patch[row]];
   const int first = cloth_.row_slot(row);
   for (const PatchLayout::Copy& copy : patch.copies)
@@ -182,7 +183,7 @@ void Sweep::complete_row(int row, double* f) {
   }
 }
 
-void Sweep::move(int row, double* f, Pace pace) {
+void Stepper::move(int row, double* f, Pace pace) {
   const int first = cloth_.row_slot(row);
   const RowMotion motion{cloth_.patches[cloth_.row_patch[row]].vectors,
                          dt_,
@@ -203,7 +204,7 @@ void Sweep::move(int row, double* f, Pace pace) {
     move_row(motion);
 }
 
-void Sweep::move_kept(int rank) {
+void Stepper::move_kept(int rank) {
   Worker& worker = workers_[rank];
   const std::size_t unwanted_and_turns = rows_in_turn + 1;
   for (std::size_t i = 0; i < worker.waiting.size(); ++i)
@@ -227,7 +228,7 @@ void Sweep::move_kept(int rank) {
   }
 }
 
-Vec3 Sweep::force_on_kept(int k) const {
+Vec3 Stepper::force_on_kept(int k) const {
   const Cloth::Kept& kept = cloth_.kept[k];
   Vec3 force = get(kept_force_.data(), k);
   for (int i = kept.first_share; i < kept.end_share; ++i)
@@ -235,7 +236,7 @@ Vec3 Sweep::force_on_kept(int k) const {
   return force;
 }
 
-RowSums Sweep::move_kept_nodes(int begin, int end, Pace pace) {
+RowSums Stepper::move_kept_nodes(int begin, int end, Pace pace) {
   double* const x = state_.x.data();
   double* const v = state_.v.data();
   RowSums sums;
@@ -253,7 +254,7 @@ RowSums Sweep::move_kept_nodes(int begin, int end, Pace pace) {
   return sums;
 }
 
-void Sweep::follow_masters(int rank) {
+void Stepper::follow_masters(int rank) {
   const Worker& worker = workers_[rank];
   const bool last = rank + 1 == static_cast<int>(workers_.size());
   for (double* vectors : {state_.x.data(), state_.v.data()})
@@ -263,7 +264,7 @@ void Sweep::follow_masters(int rank) {
   if (damped_lattice_) mirror(cloth_, state_.v.data(), worker.begin_row, worker.end_row);
 }
 
-void Sweep::stop(int rank) {
+void Stepper::stop(int rank) {
   Worker& worker = workers_[rank];
   worker.pace = {0.5, 0};
   worker.steps_since_stop = 0;
@@ -275,7 +276,7 @@ void Sweep::stop(int rank) {
     put(state_.v.data(), cloth_.kept[k].slot, {});
 }
 
-void Sweep::start_record(StepRecord& record) {
+void Stepper::start_record(StepRecord& record) {
   record_ = &record;
   before_ = state_.x;
   row_work_.assign(cloth_.row_count, 0.0);
@@ -290,18 +291,18 @@ void Sweep::start_record(StepRecord& record) {
     if (cloth_.is_fixed[cloth_.kept[k].node]) fixed_kept_.push_back(static_cast<int>(k));
 }
 
-void Sweep::take(Damper& damper, Vec3 force, Vec3 v) {
+void Stepper::take(Damper& damper, Vec3 force, Vec3 v) {
   damper.energy += 0.5 * dot(damper.force + force, v);
   damper.force = force;
 }
 
-void Sweep::record_fixed_force() {
+void Stepper::record_fixed_force() {
   Vec3 sum;
   for (const int k : fixed_kept_) sum += force_on_kept(k);
   record_->fixed_force.push_back(sum);
 }
 
-void Sweep::add_pressure_work(int rank) {
+void Stepper::add_pressure_work(int rank) {
   if (pressure_.empty()) return;
   const Worker& worker = workers_[rank];
   for (int row = worker.begin_row; row < worker.end_row; ++row) {
@@ -313,7 +314,7 @@ void Sweep::add_pressure_work(int rank) {
   }
 }
 
-void Sweep::remember_positions(int rank) {
+void Stepper::remember_positions(int rank) {
   const Worker& worker = workers_[rank];
   for (int row = worker.begin_row; row < worker.end_row; ++row) {
     const int first = at(cloth_.row_slot(row));
@@ -322,7 +323,7 @@ void Sweep::remember_positions(int rank) {
   }
 }
 
-void Sweep::finish_record() {
+void Stepper::finish_record() {
   double damped = 0;
   for (std::size_t k = 0; k < cloth_.kept.size(); ++k) {
     take(kept_dampers_[k], {}, get(state_.v.data(), cloth_.kept[k].slot));
@@ -344,7 +345,7 @@ void Sweep::finish_record() {
   record_ = nullptr;
 }
 
-RowSums Sweep::sums() const {
+RowSums Stepper::sums() const {
   RowSums total;
   for (const auto* list : {&row_sums_, &kept_sums_, &loose_sums_})
     for (const RowSums& sums : *list) {

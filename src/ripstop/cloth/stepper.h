@@ -16,16 +16,16 @@
 
 namespace ripstop {
 
-class Sweep {
+class Stepper {
  public:
   /// Real masses and damping.
-  Sweep(const Cloth& cloth, const Loads& loads, ClothState& state, double dt, int threads);
+  Stepper(const Cloth& cloth, const Loads& loads, ClothState& state, double dt, int threads);
 
   /// Fictitious masses, no damping, sums over the rows and kept nodes for the relaxation.
   struct Fictitious {
     std::vector<double> mass;  // by node; 0: does not move
   };
-  Sweep(const Cloth& cloth, const Loads& loads, ClothState& state, const Fictitious& masses, int threads);
+  Stepper(const Cloth& cloth, const Loads& loads, ClothState& state, const Fictitious& masses, int threads);
   void set_masses(const Fictitious& masses);
   void set_node_force(const std::vector<Vec3>& force);
 
@@ -65,7 +65,7 @@ class Sweep {
     std::vector<int> waiting;  // rows that move after the barrier, in order of their buffers
   };
   void prepare(int threads);
-  void sweep_piece(Worker& worker, const Piece& piece);
+  void step_piece(Worker& worker, const Piece& piece);
   void complete_row(int row, double* f);
   void move(int row, double* f, Pace pace);
   RowSums move_kept_nodes(int begin, int end, Pace pace);
