@@ -6,7 +6,6 @@
 #include <random>
 
 #include "../material/synthetic.h"
-#include "../output/temporary_folder.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/core/least_squares.h"

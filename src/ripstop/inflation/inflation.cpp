@@ -23,11 +23,6 @@ constexpr int most_tries = 4;
 
 }  // namespace
 
-double InflationFrame::residual() const {
-  return pressure_work > 0 ? (pressure_work + elastic_at_start - kinetic - elastic - damped) / pressure_work
-                           : 0;
-}
-
 void damp_springs(Mesh& mesh, double line_time, double cloth_time) {
   for (Spring& spring : mesh.springs) {
     const SpringLaw& law = mesh.laws[spring.law];
@@ -179,7 +174,8 @@ InflationFrame Inflation::frame(InflationState& state) const {
   frame.damped = state.record.damped;
   frame.kinetic = kinetic_energy(*cloth_, state.cloth);
   frame.elastic = elastic_energy(*cloth_, state.cloth);
-  frame.elastic_at_start = elastic_at_start_;
+  const double left = frame.pressure_work + elastic_at_start_ - frame.kinetic - frame.elastic - frame.damped;
+  frame.residual = frame.pressure_work > 0 ? left / frame.pressure_work : 0;
   frame.step = state.step;
   frame.stable_step = step_bound(*cloth_, state.cloth).stable_step;
   frame.size = canopy_size(mesh_, x);
