@@ -20,7 +20,6 @@
 #include "ripstop/core/file.h"
 #include "ripstop/output/picture.h"
 #include "ripstop/output/vtk.h"
-#include "ripstop/parachute/known_shape.h"
 #include "warnings.h"
 
 namespace ripstop {
@@ -70,7 +69,7 @@ int run(const Options& options) {
   row("pressure load", fmt::format("{:.2f} N", pressure_force(*cloth, state, loads).z));
   row("line tension, axial sum", fmt::format("{:.2f} N", force_on_fixed(*cloth, state).z));
   row("projected diameter", fmt::format("{:.3f} m", size.projected_diameter));
-  const KnownRange known = known_projected_ratio(value.parachute);
+  const KnownRange known = experience(value.parachute).projected_ratio;
   std::string ratio = fmt::format(
       "{:.3f}", size.projected_diameter / std::sqrt(4 / std::numbers::pi * nominal_area(value.parachute)));
   if (known.low > 0)

@@ -13,7 +13,6 @@
 #include "progress.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/error.h"
-#include "ripstop/parachute/known_shape.h"
 #include "ripstop/run/run_folder.h"
 #include "ripstop/run/steady_run.h"
 #include "warnings.h"
@@ -86,7 +85,7 @@ void print_result(const SteadyResult& r, const Case& value, const fs::path& fold
     row("drag in [NFM]", fmt::format("{:.1f} N (its nonlinear model)", *measured->printed_nonlinear_n));
   }
   row("drag area", fmt::format("{:.4f} m2", r.drag_area));
-  const KnownRange usual = known_drag_coefficient(value.parachute);
+  const KnownRange usual = experience(value.parachute).drag_coefficient;
   row("drag coefficient", fmt::format("{:.4f} on S0 = {:.4f} m2{}", r.drag_coefficient, r.reference_area,
                                       usual.high > 0 ? fmt::format("; in descent {:.2f} to {:.2f} (Knacke)",
                                                                    usual.low, usual.high)

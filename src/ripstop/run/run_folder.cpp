@@ -15,7 +15,6 @@
 #include "ripstop/output/plot.h"
 #include "ripstop/output/stl.h"
 #include "ripstop/output/vtk.h"
-#include "ripstop/parachute/known_shape.h"
 
 namespace ripstop {
 namespace {
@@ -233,7 +232,7 @@ void RunFolder::write_result(const SteadySolver& solver, const SteadyState& stat
   j["drag_area_m2"] = r.drag_area;
   j["drag_coefficient"] = r.drag_coefficient;
   j["reference_area_m2"] = r.reference_area;
-  const KnownRange known = known_drag_coefficient(value.parachute);
+  const KnownRange known = experience(value.parachute).drag_coefficient;
   if (known.high > 0) j["known_drag_coefficient"] = {known.low, known.high};
   j["speed_m_s"] = r.speed;
   j["density_kg_m3"] = r.density;
