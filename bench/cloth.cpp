@@ -14,6 +14,7 @@
 #include "ripstop/core/build_info.h"
 #include "ripstop/material/lattice.h"
 #include "ripstop/parachute/build.h"
+#include "ripstop/parachute/disk_gap_band.h"
 
 namespace {
 

@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include "ripstop/core/error.h"
+#include "ripstop/parachute/flat_circular.h"
 #include "ripstop/run/fabric.h"
 #include "ripstop/run/steady.h"
 

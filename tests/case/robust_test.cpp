@@ -8,6 +8,7 @@
 
 #include "fixture.h"
 #include "ripstop/case/assemble.h"
+#include "ripstop/parachute/disk_gap_band.h"
 
 namespace ripstop {
 namespace {

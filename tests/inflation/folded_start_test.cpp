@@ -11,6 +11,13 @@
 #include "ripstop/cloth/cloth.h"
 #include "ripstop/core/error.h"
 #include "ripstop/parachute/build.h"
+#include "ripstop/parachute/conical.h"
+#include "ripstop/parachute/cross.h"
+#include "ripstop/parachute/extended_skirt.h"
+#include "ripstop/parachute/flat_circular.h"
+#include "ripstop/parachute/ringsail.h"
+#include "ripstop/parachute/ringslot.h"
+#include "ripstop/parachute/spherical.h"
 
 namespace ripstop {
 namespace {

@@ -11,6 +11,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/inflation/pressure.h"
 #include "ripstop/parachute/build.h"
+#include "ripstop/parachute/disk_gap_band.h"
 #include "ripstop/run/inflation_folder.h"
 
 namespace ripstop {

@@ -8,6 +8,7 @@
 
 #include "ripstop/core/error.h"
 #include "ripstop/inflation/opening_estimate.h"
+#include "ripstop/parachute/disk_gap_band.h"
 
 namespace ripstop {
 namespace {

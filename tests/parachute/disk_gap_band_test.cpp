@@ -14,6 +14,7 @@
 #include "ripstop/cloth/cloth.h"
 #include "ripstop/core/error.h"
 #include "ripstop/parachute/build.h"
+#include "ripstop/parachute/disk_gap_band.h"
 
 namespace ripstop {
 namespace {

@@ -9,6 +9,7 @@
 #include "../printed_materials.h"
 #include "ripstop/core/error.h"
 #include "ripstop/parachute/build.h"
+#include "ripstop/parachute/disk_gap_band.h"
 
 namespace ripstop {
 namespace {

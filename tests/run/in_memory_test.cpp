@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "ripstop/core/file.h"
+#include "ripstop/parachute/flat_circular.h"
 #include "ripstop/run/compare.h"
 #include "ripstop/run/fabric.h"
 #include "ripstop/run/pattern.h"

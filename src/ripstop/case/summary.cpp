@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "ripstop/case/assemble.h"
-#include "ripstop/parachute/resolution.h"
 
 namespace ripstop {
 namespace {
@@ -55,7 +54,7 @@ CaseSummary summarize(const Case& value) {
   summary.tape_mass = summary.total_mass - summary.cloth_mass - summary.line_mass - summary.riser_mass;
 
   summary.nodes = mesh.node_count();
-  summary.resolved_cloth_nodes = resolved_cloth_nodes(value.parachute);
+  summary.resolved_cloth_nodes = experience(value.parachute).cloth_nodes;
   count_springs(mesh, summary);
   ClothOptions options;
   options.linear = value.coupling.linear;

@@ -153,6 +153,7 @@ void describe(Fields& fields, Cross& canopy) {
 }
 
 void check_shape(const Cross& canopy, const Design& design, Findings& findings) {
+  check_inner_hems(design, findings);
   if (findings.sound({"parachute.arm_length_m", "parachute.arm_width_m"}) &&
       canopy.arm_width_m >= canopy.arm_length_m)
     findings.add("parachute.arm_width_m", canopy.arm_width_m, fmt::format("below {}", canopy.arm_length_m),
@@ -196,5 +197,15 @@ CutPattern cut_pattern(const Cross& canopy, const Design& design) {
 CanopyMesh build_canopy(const Cross& canopy, const Design& design, const PartMaterials& materials) {
   return Builder(canopy, design, materials).build();
 }
+
+Experience experience(const Cross&) {
+  return {.projected_ratio = {0.66, 0.72},
+          .drag_coefficient = {0.60, 0.85},
+          .opening_coefficient = 1.15,  // 1.1 to 1.2
+          .opening_source = knacke_transcribed,
+          .cloth_nodes = 25000};
+}
+
+constinit const CanopyFamily Cross::family = family_of<Cross>("cross", "cross");
 
 }  // namespace ripstop

@@ -1,25 +1,21 @@
 // The cross canopy: two strips of cloth that cross, one layer where they do; lines from the four ends.
 #pragma once
 
-#include "ripstop/parachute/canopy_mesh.h"
-#include "ripstop/parachute/facts.h"
+#include "ripstop/parachute/family.h"
 
 namespace ripstop {
 
-class Fields;
-class Findings;
-struct CutPattern;
-struct Design;
-struct PartMaterials;
-
 /// [parachute] with type = "cross"
 struct Cross {
+  static const CanopyFamily family;
+
   double arm_length_m = 0;  // of a strip, from end to end
   double arm_width_m = 0;
 };
 
 void describe(Fields& fields, Cross& canopy);
 void check_shape(const Cross& canopy, const Design& design, Findings& findings);
+Experience experience(const Cross& canopy);
 /// S0 = 2 L W - W^2. Lines end at the hem: they have no run on the canopy.
 CanopyFacts facts(const Cross& canopy, int gores);
 /// One whole strip and two arms.

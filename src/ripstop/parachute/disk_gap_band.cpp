@@ -152,7 +152,8 @@ void describe(Fields& fields, DiskGapBand& canopy) {
       .required();
 }
 
-void check_shape(const DiskGapBand& canopy, const Design&, Findings& findings) {
+void check_shape(const DiskGapBand& canopy, const Design& design, Findings& findings) {
+  check_inner_hems(design, findings);
   if (!findings.sound({"parachute.type", "parachute.disk_diameter_m", "parachute.vent_diameter_m"})) return;
   if (canopy.vent_diameter_m >= canopy.disk_diameter_m)
     findings.add("parachute.vent_diameter_m", canopy.vent_diameter_m,
@@ -216,5 +217,15 @@ CutPattern cut_pattern(const DiskGapBand& canopy, const Design& design) {
 CanopyMesh build_canopy(const DiskGapBand& canopy, const Design& design, const PartMaterials& materials) {
   return Builder(canopy, design, materials).build();
 }
+
+Experience experience(const DiskGapBand&) {
+  return {.projected_ratio = {0.65, 0.65},
+          .drag_coefficient = {0.52, 0.58},
+          .opening_coefficient = 1.3,
+          .opening_source = knacke_unchecked,
+          .cloth_nodes = 1500};
+}
+
+constinit const CanopyFamily DiskGapBand::family = family_of<DiskGapBand>("disk-gap-band", "stratos-iv");
 
 }  // namespace ripstop

@@ -11,7 +11,6 @@
 #include "ripstop/core/file.h"
 #include "ripstop/output/picture.h"
 #include "ripstop/output/vtk.h"
-#include "ripstop/parachute/known_shape.h"
 #include "ripstop/run/json.h"
 
 namespace ripstop {
@@ -49,7 +48,7 @@ FabricSolution run_fabric(const Case& value, std::optional<double> pressure,
   r.size = canopy_size(mesh, shape);
   r.projected_ratio =
       r.size.projected_diameter / std::sqrt(4 / std::numbers::pi * nominal_area(value.parachute));
-  const KnownRange known = known_projected_ratio(value.parachute);
+  const KnownRange known = experience(value.parachute).projected_ratio;
   if (known.low > 0) r.known_projected_ratio = {known.low, known.high};
   for (const LineTension& t : line_tensions(mesh, tensions))
     r.max_line_tension = std::max(r.max_line_tension, t.largest_tension);

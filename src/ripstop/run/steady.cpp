@@ -7,7 +7,6 @@
 
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/file.h"
-#include "ripstop/parachute/known_shape.h"
 #include "ripstop/run/engine.h"
 #include "ripstop/run/json.h"
 
@@ -45,7 +44,7 @@ SteadyResult steady_result(const SteadySolver& solver, const SteadyState& state,
   r.drag_area = r.drag / dynamic_pressure(value);
   r.reference_area = nominal_area(value.parachute);
   r.drag_coefficient = r.drag_area / r.reference_area;
-  const KnownRange known = known_drag_coefficient(value.parachute);
+  const KnownRange known = experience(value.parachute).drag_coefficient;
   if (known.high > 0) r.known_drag_coefficient = {known.low, known.high};
   r.size = canopy_size(solver.mesh(), state.shape);
   const ClothState cloth = solver.cloth_state(state);
