@@ -81,7 +81,7 @@ validate-families: build  ## Drag of every family's example beside Knacke's valu
 format:  ## Format the sources
 	@git ls-files '*.h' '*.cpp' | xargs clang-format -i
 
-tidy: check-deps  ## clang-tidy over src and apps, on all cores (no part of check: a quarter of an hour)
+tidy: check-deps  ## clang-tidy over src and apps, on all cores (no part of check: some ten minutes)
 	$(call install_missing,clang-tidy)
 	@cmake --preset release > /dev/null
 	@run-clang-tidy -quiet -p build-check -j $(JOBS) '^$(CURDIR)/(src|apps)/'
