@@ -44,10 +44,10 @@ check: check-deps format-check  ## Build and pass the tests
 	@cmake --build --preset release -j $(JOBS)
 	@ctest --preset release
 
-room: check-deps  ## Build and pass the tests of one room: make room ROOM=cloth
+room: check-deps  ## Build and pass the tests of one room, or some of them: make room ROOM=cloth [TESTS='ClothLaws|ClothKernel']
 	@cmake --preset release > build-check.configure.log || { cat build-check.configure.log; exit 1; }
 	@cmake --build --preset release -j $(JOBS) --target test_$(ROOM)
-	@ctest --preset release -R '^$(ROOM)\.'
+	@ctest --preset release -R '^$(ROOM)\.($(TESTS))'
 
 sanitize: check-deps  ## The tests that need no OpenFOAM, under the address and undefined-behaviour sanitizers
 	@cmake --preset sanitize
@@ -81,7 +81,7 @@ validate-families: build  ## Drag of every family's example beside Knacke's valu
 format:  ## Format the sources
 	@git ls-files '*.h' '*.cpp' | xargs clang-format -i
 
-tidy: check-deps  ## clang-tidy over src and apps, on all cores (no part of check: a quarter of an hour)
+tidy: check-deps  ## clang-tidy over src and apps, on all cores (no part of check: some ten minutes)
 	$(call install_missing,clang-tidy)
 	@cmake --preset release > /dev/null
 	@run-clang-tidy -quiet -p build-check -j $(JOBS) '^$(CURDIR)/(src|apps)/'

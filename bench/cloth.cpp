@@ -31,7 +31,7 @@ Mesh membrane(int size, double side, double damping, int tapes) {
   patch.name = "membrane";
   patch.rows = patch.columns = size;
   const double h = side / (size - 1), xi = 0.2, eps = 0.01;
-  const LatticeLaws laws = lattice_laws({30006, -18936}, xi, eps, 1, 0.33);
+  const LatticeLaws laws = lattice_laws(f111_curve, xi, eps, 1, 0.33);
   const CellWidths cell = cell_widths(h, h, xi, eps);
   const SpringLaw* law[] = {&laws.axial, &laws.axial, &laws.shear, &laws.shear, &laws.bending, &laws.bending};
   const double width[] = {2 * cell.along_row, 2 * cell.along_column, cell.shear,

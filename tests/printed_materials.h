@@ -2,14 +2,16 @@
 // without case and material library.
 #pragma once
 
+#include "f111_curve.h"
 #include "ripstop/parachute/build.h"
+#include "ripstop/parachute/disk_gap_band.h"
 
 namespace ripstop {
 
 inline PartMaterials printed_materials() {
   PartMaterials m;
   m.canopy.name = "f-111";
-  m.canopy.coefficients_n_m = {30006, -18936};
+  m.canopy.coefficients_n_m = f111_curve;
   m.canopy.tested_strain = 0.33;
   m.canopy.areal_density_kg_m2 = 0.0407;
   m.line.coefficients_n = {211895, 489633};

@@ -145,7 +145,7 @@ TEST(ClothEquilibrium, APressurisedSphereCarriesHalfPressureTimesRadius) {
 
 TEST(ClothEquilibrium, APulledCouponGivesItsCurveBackForAnySpacing) {
   const double xi = 0.2, eps = 0.01;
-  const SpringLaw curve{{30006, -18936}, 1};
+  const SpringLaw curve{f111_curve, 1};
   const LatticeLaws laws = lattice_laws(curve.coefficients, xi, eps, 1, 0.33);
   for (double aspect : {0.6, 1.0, 1.7}) {
     const double h = 0.005;

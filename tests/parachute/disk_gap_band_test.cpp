@@ -22,13 +22,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 Design stratos(int nodes = 25600) {
-  Design design;
-  design.canopy = DiskGapBand{1.0, 0.09, 0.07, 0.3};
-  design.gores = 6;
-  design.lines.count = 18;
-  design.lines.length_m = 1.5;
-  design.mesh.cloth_nodes = nodes;
-  return design;
+  return printed_stratos(nodes);
 }
 
 Design walrus(int nodes = 50300) {

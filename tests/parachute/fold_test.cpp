@@ -17,12 +17,9 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 Design disk_gap_band(int nodes, int gores, int lines) {
-  Design design;
-  design.canopy = DiskGapBand{1.0, 0.09, 0.07, 0.3};
+  Design design = printed_stratos(nodes);
   design.gores = gores;
   design.lines.count = lines;
-  design.lines.length_m = 1.5;
-  design.mesh.cloth_nodes = nodes;
   return design;
 }
 

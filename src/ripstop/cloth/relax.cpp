@@ -54,6 +54,18 @@ double fictitious_energy(const Cloth& cloth, const ClothState& state, const std:
   return sum;
 }
 
+void undo_last_move(ClothState& state, const Cloth& cloth) {
+  for (std::size_t i = 0; i < state.x.size(); ++i) state.x[i] -= state.v[i];
+  follow(cloth, state.x.data(), 0, cloth.row_count, true);
+  mirror(cloth, state.x.data(), 0, cloth.row_count);
+}
+
+double mean_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+  double sum = 0;
+  for (std::size_t node = 0; node < a.size(); ++node) sum += norm(a[node] - b[node]);
+  return sum / static_cast<double>(a.size());
+}
+
 }  // namespace
 
 RelaxResult relax(ClothState& state, const Cloth& cloth, const Loads& loads, const RelaxOptions& options,
@@ -109,17 +121,9 @@ RelaxResult relax(ClothState& state, const Cloth& cloth, const Loads& loads, con
       stepper.set_masses(masses);
     }
   }
-  // The residual is that of the positions before the last move: go back there.
-  if (result.converged) {
-    for (std::size_t i = 0; i < state.x.size(); ++i) state.x[i] -= state.v[i];
-    follow(cloth, state.x.data(), 0, cloth.row_count, true);
-    mirror(cloth, state.x.data(), 0, cloth.row_count);
-  }
+  if (result.converged) undo_last_move(state, cloth);  // the residual is that of the positions before it
   std::fill(state.v.begin(), state.v.end(), 0.0);
-  const std::vector<Vec3> end = positions(state, cloth);
-  for (std::size_t node = 0; node < end.size(); ++node)
-    result.mean_displacement += norm(end[node] - start[node]);
-  result.mean_displacement /= static_cast<double>(end.size());
+  result.mean_displacement = mean_distance(positions(state, cloth), start);
   return result;
 }
 

@@ -183,7 +183,7 @@ void Stepper::complete_row(int row, double* f) {
   }
 }
 
-void Stepper::move(int row, double* f, Pace pace) {
+void Stepper::move(int row, const double* f, Pace pace) {
   const int first = cloth_.row_slot(row);
   const RowMotion motion{cloth_.patches[cloth_.row_patch[row]].vectors,
                          dt_,

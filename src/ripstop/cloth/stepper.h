@@ -67,7 +67,7 @@ class Stepper {
   void prepare(int threads);
   void step_piece(Worker& worker, const Piece& piece);
   void complete_row(int row, double* f);
-  void move(int row, double* f, Pace pace);
+  void move(int row, const double* f, Pace pace);
   RowSums move_kept_nodes(int begin, int end, Pace pace);
   Vec3 force_on_kept(int k) const;
   void record_fixed_force();
