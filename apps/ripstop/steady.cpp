@@ -128,7 +128,7 @@ class Terminal : public SteadyObserver {
       progress_.line(fmt::format("going on after coupling iteration {} of {}", state.iterations.size(),
                                  folder_.string()));
     }
-    progress_.line(fmt::format("{}: {}, {} cloth nodes, {}", run.value.title, run.engine.name(),
+    progress_.line(fmt::format("{}: {}, {} cloth nodes, {}", run.value.title, run.engine,
                                run.solver.mesh().node_count(), folder_.string()));
     progress_.line(iteration_header());
     for (const SteadyIteration& i : state.iterations) progress_.line(iteration_text(i));

@@ -82,7 +82,7 @@ double layer_pressure(const FlowField& field, int k) {
 /// length L: dp (1 - G^2 c / p^2) = -(mu d + G f / 2) (G c / p) dz, so that
 /// (p1^2 - p2^2) / 2 - G^2 c ln(p1 / p2) = (mu d + G f / 2) G c L. Gauge, over p2.
 double exact_drop(const FlowProblem& problem, double length) {
-  const double c = kOpenFoamGasConstant * problem.air.temperature,
+  const double c = gas_constant_of_air * problem.air.temperature,
                p2 = openfoam::outlet_pressure(problem.air);
   double p1 = p2;
   for (int i = 0; i < 100; ++i) {
@@ -102,7 +102,7 @@ TEST_F(OpenFoam, ASlabAcrossADuctDropsThePressureByDarcyAndForchheimer) {
     const double drop = layer_pressure(field, 0) - layer_pressure(field, 39);
     EXPECT_NEAR(drop / exact_drop(problem, 0.5), 1, 0.005) << "d " << darcy << " f " << forchheimer;
     // Momentum of the duct: the force on the slab is the drop less what the expanding gas gains.
-    const double density = problem.air.density + layer_pressure(field, 0) / (kOpenFoamGasConstant * 293.15);
+    const double density = problem.air.density + layer_pressure(field, 0) / (gas_constant_of_air * 293.15);
     const double gain = density * 20 * (field.velocity.back().z - 20);
     EXPECT_NEAR(field.porous_force.z / ((drop - gain) * 0.04), 1, 1e-3);
     EXPECT_NEAR(field.momentum_deficit / field.porous_force.z, 1, 1e-4);

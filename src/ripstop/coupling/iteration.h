@@ -21,7 +21,7 @@ struct SteadyIteration {
   double cloth_residual = 0;
   int flow_iterations = 0;
   double flow_residual = 0;     // largest of all equations
-  bool flow_converged = false;  // to FlowProblem::residual
+  bool flow_converged = false;  // to Stopping::residual
   int flow_averaged = 0;        // iterations of a flow that did not settle, whose mean stands; 0: none
   double drag_deviation = 0;    // standard deviation of the drag over them [N]
   int cut_cells = 0;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -64,10 +65,12 @@ struct SteadyProgress {
 using SteadyReport = std::function<void(const SteadyProgress&)>;
 
 /// A flow need not be solved to its last digit while the shape still moves: it is left as soon as the drag
-/// has settled, and once the coupling looks converged it is solved to FlowProblem::residual.
+/// has settled, and once the coupling looks converged it is solved to its residual. It goes on from iteration
+/// to iteration.
 class SteadySolver {
  public:
-  /// The engine must outlive the solver. Throws Error(usage) when the start shape does not fit into the box.
+  /// Starts the flow; the engine must outlive the solver. Throws Error(usage) when the start shape does not fit
+  /// into the box, and what FlowEngine::start() throws.
   SteadySolver(SteadyProblem problem, FlowEngine& engine);
 
   /// Uniform pressure of 1 q on the start shape.
@@ -78,6 +81,9 @@ class SteadySolver {
   FlowField iterate(SteadyState& state, const SteadyReport& report = {});
   bool finished(const SteadyState& state) const;
 
+  /// What a checkpoint saves and restores beside the state.
+  Flow& flow() { return *flow_; }
+  const Flow& flow() const { return *flow_; }
   const Cloth& cloth() const { return *cloth_; }
   const CanopyMesh& mesh() const { return problem_.mesh; }
   const std::vector<Cell>& cells() const { return cells_; }
@@ -85,11 +91,11 @@ class SteadySolver {
   ClothState cloth_state(const SteadyState& state) const;
 
  private:
-  FlowField solve_flow(const std::vector<Triangle>& surface, const std::vector<int>& cut, bool to_the_end,
-                       int iteration, const SteadyReport& report);
+  FlowField solve_flow(const std::vector<Triangle>& surface, bool to_the_end, int iteration,
+                       const SteadyReport& report);
 
   SteadyProblem problem_;
-  FlowEngine& engine_;
+  std::unique_ptr<Flow> flow_;
   ClothPtr cloth_;
   std::vector<Cell> cells_;
   std::vector<double> area_;  // of the cells as cut [m2]

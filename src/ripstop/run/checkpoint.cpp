@@ -23,7 +23,7 @@ SteadyState steady_state_from_bytes(const std::string& bytes) {
   return from_cbor<SteadyState>(bytes, format_version, "a checkpoint of a steady run");
 }
 
-void save_checkpoint(const fs::path& folder, const SteadyState& state, const FlowEngine& engine) {
+void save_checkpoint(const fs::path& folder, const SteadyState& state, const Flow& flow) {
   make_folder(folder);
   const std::string name = state.iterations.size() % 2 == 0 ? "even" : "odd";
   std::error_code ignored;
@@ -31,18 +31,18 @@ void save_checkpoint(const fs::path& folder, const SteadyState& state, const Flo
   make_folder(folder / name);
   write_sealed(folder / name / "state", to_bytes(state));
   make_folder(folder / name / "flow");
-  engine.save(folder / name / "flow");
+  flow.save(folder / name / "flow");
   write_sealed(folder / "current", name);
 }
 
-std::optional<SteadyState> load_checkpoint(const fs::path& folder, FlowEngine& engine) {
+std::optional<SteadyState> load_checkpoint(const fs::path& folder, Flow& flow) {
   if (!fs::exists(folder / "current")) return std::nullopt;
   const std::string name = read_sealed(folder / "current");
   if (name != "even" && name != "odd") {
     throw Error(ExitCode::bad_data, fmt::format("{}: names no checkpoint", (folder / "current").string()));
   }
   SteadyState state = steady_state_from_bytes(read_sealed(folder / name / "state"));
-  engine.restore(folder / name / "flow");
+  flow.restore(folder / name / "flow");
   return state;
 }
 

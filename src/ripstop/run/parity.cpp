@@ -11,6 +11,7 @@
 #include "ripstop/flow/bodies.h"
 #include "ripstop/flow/cartesian/cartesian.h"
 #include "ripstop/flow/openfoam/openfoam.h"
+#include "ripstop/flow/steady.h"
 #include "ripstop/run/json.h"
 
 namespace ripstop {
@@ -23,7 +24,7 @@ ParityRun timed(FlowEngine& engine, const FlowProblem& problem, const std::strin
   const auto start = std::chrono::steady_clock::now();
   ParityRun run;
   try {
-    field = engine.solve(problem, [&](const FlowProgress& progress) {
+    field = solve(engine, problem, [&](const FlowProgress& progress) {
       if (events.progress) events.progress(canopy, engine.name(), progress);
       return true;
     });

@@ -20,12 +20,12 @@ double dynamic_pressure(const Case& value) {
   return 0.5 * stream.density * stream.speed * stream.speed;
 }
 
-// Both solve on the same grid, so that a field of one can start the other. OpenFOAM's has to be of the same
-// air; the built-in engine scales what it has to other air.
+// Both solve on the same grid, so that a field of one can start the other; one of other air where the engine
+// scales what it has.
 bool same_flow(const Case& a, const Case& b) {
   json first = json::parse(case_json(a)).at("flow"), second = json::parse(case_json(b)).at("flow");
   std::vector<std::string> free = {"canopy_position_m"};
-  if (a.flow.engine == EngineKind::builtin) {
+  if (engine_of(a).can.other_air) {
     free.insert(free.end(), {"speed_m_s", "speed_basis", "density_kg_m3", "viscosity_pa_s", "temperature_k",
                              "turbulence_intensity", "viscosity_ratio"});
   }
@@ -75,12 +75,15 @@ SteadySolution run_steady(const Case& value, SteadyObserver& observer, const Ste
   const int threads = settings.threads > 0 ? settings.threads : problem.settings.threads;
   problem.settings.threads = threads;
   std::optional<TemporaryFolder> temporary;
-  EngineSettings place{threads, settings.flow_folder, settings.hostfile};
-  if (place.folder.empty() && value.flow.engine == EngineKind::openfoam)
-    place.folder = temporary.emplace("flow").path;
-  const std::unique_ptr<FlowEngine> engine = make_engine(value, place);
+  const EngineRecord& record = engine_of(value);
+  EngineOptions options = engine_options(value);
+  options.threads = threads;
+  options.folder = settings.flow_folder;
+  options.hostfile = settings.hostfile;
+  if (record.needs_folder && options.folder.empty()) options.folder = temporary.emplace("flow").path;
+  const std::unique_ptr<FlowEngine> engine = record.make(options);
   SteadySolver solver(std::move(problem), *engine);
-  const SteadyRun run{value, solver, *engine};
+  const SteadyRun run{value, solver, engine->name()};
   SteadySolution solution;
   SteadyState& state = solution.state;
   state = solver.start();

@@ -88,8 +88,8 @@ SteadyResult steady_result_from_json(const std::string& json);
 /// A run under way, as its observers see it.
 struct SteadyRun {
   const Case& value;
-  const SteadySolver& solver;
-  FlowEngine& engine;
+  SteadySolver& solver;
+  std::string engine;  // name and version
 };
 
 /// Told of a run as it goes; what it is not interested in, it leaves out.
@@ -106,7 +106,7 @@ class SteadyObserver {
 
 struct SteadySettings {
   int threads = 0;                    // of this run; 0: coupling.threads
-  std::filesystem::path flow_folder;  // of OpenFOAM's case; empty: a temporary one
+  std::filesystem::path flow_folder;  // of an engine that writes files; empty: a temporary one
   std::filesystem::path hostfile;     // for MPI; empty: none
 };
 
@@ -116,7 +116,7 @@ struct SteadySolution {
   FlowField flow;  // round the final shape; empty when the observer's state was already the last
 };
 
-/// Runs to the end of the coupling; a converged result is not promised. Touches no file, but for OpenFOAM's.
+/// Runs to the end of the coupling; a converged result is not promised. Touches no file, but for an engine's that needs them.
 /// Throws as SteadySolver and the flow engine do.
 SteadySolution run_steady(const Case& value, SteadyObserver& observer, const SteadySettings& settings = {});
 

@@ -54,11 +54,11 @@ class SteadyFolder : public SteadyObserver {
 };
 
 void SteadyFolder::begin(const SteadyRun& run, SteadyState& state) {
-  if (auto saved = load_checkpoint(folder_ / "checkpoint", run.engine)) {
+  if (auto saved = load_checkpoint(folder_ / "checkpoint", run.solver.flow())) {
     state = std::move(*saved);
   } else if (!warm_from_.empty()) {
     if (start_from(case_of_run(warm_from_), final_state(warm_from_), run, state))
-      load_checkpoint(warm_from_ / "checkpoint", run.engine);
+      load_checkpoint(warm_from_ / "checkpoint", run.solver.flow());
   }
   iterations(state.iterations.size());
   next_.begin(run, state);
@@ -70,7 +70,7 @@ void SteadyFolder::iterated(const SteadyRun& run, const SteadyState& state, cons
     write_state(run, state);
   }
   iterations(state.iterations.size() - 1).add(row_of(state.iterations.back()));
-  save_checkpoint(folder_ / "checkpoint", state, run.engine);
+  save_checkpoint(folder_ / "checkpoint", state, run.solver.flow());
   next_.iterated(run, state, flow);
 }
 
@@ -177,7 +177,8 @@ SteadyFolderRun run_steady_in(const SteadyFolderSettings& settings, const Case& 
   const int threads = settings.threads > 0 ? settings.threads : value.coupling.threads;
   // By the engine's name, before one is made: making it clears the flow's folder, which may still be another
   // run's.
-  open_run_folder(settings.run, value, name_of_engine(value), ThreadTeam(threads).size());
+  open_run_folder(settings.run, value, engine_of(value).name(engine_options(value)),
+                  ThreadTeam(threads).size());
   if (const auto finished = finished_result(folder)) return {true, steady_result_from_json(*finished)};
   SteadyFolder files(settings, observer);
   return {false, run_steady(value, files, {threads, folder / "flow", settings.hostfile}).result};

@@ -74,7 +74,8 @@ void open_sweep_folder(const std::vector<SweepPoint>& points, const SweepSetting
   }
   // Before anything of an earlier sweep is touched.
   for (const SweepPoint& point : points)
-    holds_run(run_settings(point, settings), point.value, name_of_engine(point.value));
+    holds_run(run_settings(point, settings), point.value,
+              engine_of(point.value).name(engine_options(point.value)));
   make_folder(folder);
   nlohmann::ordered_json j;
   j["program"] = "ripstop";
@@ -277,7 +278,7 @@ int fitting_jobs(const std::vector<SweepPoint>& points) {
   for (const SweepPoint& point : points) {
     const FlowSettings& flow = point.value.flow;
     bytes = std::max(bytes, bytes_a_run + bytes_a_cell * flow.cells[0] * flow.cells[1] * flow.cells[2]);
-    if (flow.engine == EngineKind::openfoam) ranks = std::max(ranks, flow.ranks);
+    if (engine_of(point.value).can.ranks) ranks = std::max(ranks, flow.ranks);
   }
   const int by_memory = static_cast<int>(std::min(1e6, 0.8 * free_memory() / bytes));
   return std::max(1, std::min({cores / ranks, by_memory, static_cast<int>(points.size())}));

@@ -1,9 +1,9 @@
-#include "ripstop/flow/cartesian/average.h"
+#include "ripstop/flow/average.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace ripstop::cartesian {
+namespace ripstop {
 
 // Mean and squares by Welford's updates, m += (x - m) / n, which lose nothing to the size of the mean.
 void FieldMean::add(const FlowField& field) {
@@ -41,4 +41,4 @@ FlowField FieldMean::mean() const {
   return field;
 }
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop

@@ -3,7 +3,7 @@
 
 #include "ripstop/flow/flow.h"
 
-namespace ripstop::cartesian {
+namespace ripstop {
 
 /// Running mean of fields on one grid, each weighing the same.
 class FieldMean {
@@ -18,4 +18,4 @@ class FieldMean {
   double squares_ = 0;  // sum of squared distances of the drag from its mean [N2]
 };
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop
