@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/error.h"
@@ -24,18 +25,17 @@ class FormulaFlow : public Flow {
   explicit FormulaFlow(const FlowProblem& problem) : problem_(problem) {}
 
   void place(const std::vector<Triangle>& surface, const std::vector<Vec3>&) override {
-    problem_.porous.at(0).cells = cut_cells(problem_.grid, surface);
+    target_ = 0.05 * double(cut_cells(problem_.grid, surface).size()) * problem_.air.speed;
   }
   FlowAdvance advance(int iterations, double residual, const FlowReport& report) override {
-    const double target = 0.05 * double(problem_.porous.at(0).cells.size()) * problem_.air.speed;
-    FlowAdvance now;
-    for (int i = 1; i <= iterations && !now.stopped && !now.converged; ++i) {
-      force_ += 0.3 * (target - force_);
-      now.last = {i, std::abs(target - force_) / target, 0, 0, 0, 0, force_};
-      now.converged = now.last.residual_u < residual;
-      now.stopped = report && !report(now.last);
+    FlowAdvance done;
+    for (int i = 1; i <= iterations && !done.converged && !done.stopped; ++i) {
+      force_ += 0.3 * (target_ - force_);
+      done.last = {i, std::abs(target_ - force_) / target_, 0, 0, 0, 0, force_};
+      done.converged = done.last.residual_u < residual;
+      done.stopped = report && !report(done.last);
     }
-    return now;
+    return done;
   }
   FlowField field() const override {
     FlowField field;
@@ -50,6 +50,7 @@ class FormulaFlow : public Flow {
   }
   bool untouched() const override { return force_ == 1; }
   void start_afresh() override { force_ = 1; }
+
   void save(const fs::path& folder) const override {
     write_file(folder / "force", std::string(reinterpret_cast<const char*>(&force_), sizeof force_));
   }
@@ -60,11 +61,10 @@ class FormulaFlow : public Flow {
 
  private:
   FlowProblem problem_;
-  double force_ = 1;
+  double target_ = 0, force_ = 1;  // [N]
 };
 
-class Formula : public FlowEngine {
- public:
+struct FormulaEngine : FlowEngine {
   std::string name() const override { return "formula"; }
   std::unique_ptr<Flow> start(const FlowProblem& problem) override {
     return std::make_unique<FormulaFlow>(problem);
@@ -87,7 +87,7 @@ struct Folder {
 };
 
 TEST(SteadyRun, TheLedgerClosesAndTheLoadIsTheFlowsForce) {
-  Formula engine;
+  FormulaEngine engine;
   SteadySolver solver(small_problem(), engine);
   SteadyState state = solver.start();
   while (!solver.finished(state)) solver.iterate(state);
@@ -101,7 +101,7 @@ TEST(SteadyRun, TheLedgerClosesAndTheLoadIsTheFlowsForce) {
 }
 
 TEST(SteadyRun, ACheckpointGivesBackEveryBit) {
-  Formula engine;
+  FormulaEngine engine;
   SteadySolver solver(small_problem(), engine);
   SteadyState state = solver.start();
   solver.iterate(state);
@@ -115,13 +115,14 @@ TEST(SteadyRun, ACheckpointGivesBackEveryBit) {
 }
 
 TEST(SteadyRun, ARunThatWasKilledBetweenIterationsGoesOnBitForBit) {
-  Formula engine;
-  SteadySolver whole(small_problem(), engine);
+  FormulaEngine whole_engine;
+  SteadySolver whole(small_problem(), whole_engine);
   SteadyState undisturbed = whole.start();
   for (int k = 0; k < 3; ++k) whole.iterate(undisturbed);
 
   Folder folder;
   {
+    FormulaEngine engine;
     SteadySolver solver(small_problem(), engine);
     SteadyState state = solver.start();
     for (int k = 0; k < 2; ++k) {
@@ -130,6 +131,7 @@ TEST(SteadyRun, ARunThatWasKilledBetweenIterationsGoesOnBitForBit) {
     }
     solver.iterate(state);  // lost: the process ends before its checkpoint
   }
+  FormulaEngine engine;
   SteadySolver solver(small_problem(), engine);
   auto state = load_checkpoint(folder.path, solver.flow());
   ASSERT_TRUE(state);
@@ -140,7 +142,7 @@ TEST(SteadyRun, ARunThatWasKilledBetweenIterationsGoesOnBitForBit) {
 }
 
 TEST(SteadyRun, ADamagedCheckpointIsNeverReadAsOne) {
-  Formula engine;
+  FormulaEngine engine;
   SteadySolver solver(small_problem(), engine);
   SteadyState state = solver.start();
   solver.iterate(state);
@@ -157,7 +159,7 @@ TEST(SteadyRun, ADamagedCheckpointIsNeverReadAsOne) {
 }
 
 TEST(SteadyRun, SampledPressuresAreScaledToTheFlowsForce) {
-  Formula engine;
+  FormulaEngine engine;
   SteadySolver solver(small_problem(CanopyLoad::sampled), engine);
   SteadyState state = solver.start();
   solver.iterate(state);
@@ -169,7 +171,7 @@ TEST(SteadyRun, SampledPressuresAreScaledToTheFlowsForce) {
 TEST(SteadyRun, ACanopyOutsideTheBoxIsRefused) {
   SteadyProblem problem = small_problem();
   for (Vec3& x : problem.mesh.start) x.z += 10;
-  Formula engine;
+  FormulaEngine engine;
   try {
     SteadySolver solver(std::move(problem), engine);
     FAIL();

@@ -13,7 +13,7 @@ Stages, each from what the ones before it left; without a name all of them run:
     uncertain-sheet  the same for the calibrated sheet                                   -> uncertainty.csv
     compare    nonlinear beside linear on Stratos IV at 30 m/s
     openfoam   Stratos IV at 30 m/s with OpenFOAM
-    report     tables between the markers of docs/validation.md, plots
+    report     tables in docs/tables, plots
 Every stage is made of `ripstop` commands that go on where they were killed; finished ones cost nothing. Nothing in here
 knows a measured drag of WALRUS or ADEPT.
 """
@@ -325,7 +325,7 @@ def stage_report(campaign):
     for name, source in sources.items():
         if (campaign.runs / source).exists():
             shutil.copy(campaign.runs / source, plots / name)
-    subprocess.run([sys.executable, str(HERE / "report.py"), str(campaign.runs), str(ROOT / "docs/validation.md")], check=True)
+    subprocess.run([sys.executable, str(HERE / "report.py"), str(campaign.runs)], check=True)
 
 
 STAGES = {"calibrate": stage_calibrate, "predict": stage_predict, "reproduce": stage_reproduce, "sheet": stage_sheet,

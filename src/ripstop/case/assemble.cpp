@@ -6,8 +6,8 @@ PartMaterials part_materials(const Case& value) {
   return {canopy_fabric(value), suspension_line(value), riser_line(value), reinforcement_tape(value)};
 }
 
-Mesh parachute_mesh(const Case& value) {
-  Mesh mesh = build_mesh(value.parachute, part_materials(value));
+CanopyMesh parachute_mesh(const Case& value) {
+  CanopyMesh mesh = build_mesh(value.parachute, part_materials(value));
   const double z = canopy_position(value);
   for (Vec3& p : mesh.start) p.z += z;
   return mesh;

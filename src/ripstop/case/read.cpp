@@ -77,7 +77,9 @@ void check_measured(const Case& value, Findings& findings) {
 
 /// The start shape, and the inflated shape that it may turn into, have to lie inside the box.
 void check_box(const Case& value, Findings& findings) {
-  if (!findings.sound(shape_keys()) || !findings.sound({"flow.box_m", "flow.canopy_position_m"})) return;
+  if (!findings.sound(shape_keys(value.parachute)) ||
+      !findings.sound({"flow.box_m", "flow.canopy_position_m"}))
+    return;
   const Vec3 box = value.flow.box_m;
   const double diameter = start_diameter(value.parachute);
   const std::string canopy = fmt::format("a canopy of {:.6g} m diameter", diameter);
@@ -163,7 +165,8 @@ std::vector<Problem> problems_of(Case& value, std::vector<Problem> problems) {
   check_design(value.parachute, findings);
   check_materials(value, findings);
   const std::string& cloth = value.parachute.canopy_material;
-  if (findings.sound(shape_keys()) && findings.sound({"parachute.canopy_material", "materials." + cloth}))
+  if (findings.sound(shape_keys(value.parachute)) &&
+      findings.sound({"parachute.canopy_material", "materials." + cloth}))
     settle_flow(value);
   check_measured(value, findings);
   check_box(value, findings);

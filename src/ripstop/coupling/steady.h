@@ -8,35 +8,15 @@
 #include <vector>
 
 #include "ripstop/cloth/cloth.h"
+#include "ripstop/core/members.h"
 #include "ripstop/coupling/acceleration.h"
+#include "ripstop/coupling/iteration.h"
 #include "ripstop/coupling/settings.h"
 #include "ripstop/coupling/transfer.h"
 #include "ripstop/flow/flow.h"
+#include "ripstop/parachute/canopy_mesh.h"
 
 namespace ripstop {
-
-/// What one coupling iteration says of itself. Forces are axial, along +z [N].
-struct SteadyIteration {
-  int iteration = 0;             // from 1
-  double fluid_force = 0;        // of the fluid on the porous cells: the drag
-  double nodal_load = 0;         // sum of the pressure loads on the cloth's nodes
-  double line_tension = 0;       // of the cloth on its fixed end
-  double momentum_deficit = 0;   // through the faces of the flow's box
-  double transfer_factor = 0;    // fluid force over the force of the sampled pressures
-  double drag_change = 0;        // relative to the iteration before; infinite at the first
-  double shape_change = 0;       // e_k = mean |x^{k+1} - x^k| [m], [NFM] Eq. 18
-  double omega = 0;              // |X_{k+1} - X_k| / |X_k|, [NFM] Eq. 19
-  double printed_tolerance = 0;  // R dx^2 / (S0 K_max), what Eq. 19 asks of omega
-  int cloth_steps = 0;
-  double cloth_residual = 0;
-  int flow_iterations = 0;
-  double flow_residual = 0;     // largest of all equations
-  bool flow_converged = false;  // to Stopping::residual
-  int flow_averaged = 0;        // iterations of a flow that did not settle, whose mean stands; 0: none
-  double drag_deviation = 0;    // standard deviation of the drag over them [N]
-  int cut_cells = 0;
-  double wall_time = 0;  // [s]
-};
 
 /// Everything that the next iteration depends on beside the flow engine's own memory: what a checkpoint
 /// holds.
@@ -50,8 +30,25 @@ struct SteadyState {
   bool converged = false;
 };
 
+template <Of<SteadyState> T, class Visit>
+void each_member(T& s, Visit&& visit) {
+  visit("iterations", s.iterations);
+  visit("shape", s.shape);
+  visit("pressure", s.pressure);
+  visit("inside", s.sides.inside);
+  visit("outside", s.sides.outside);
+  visit("applied", s.applied);
+  visit("update", s.accelerator.update);
+  visit("relaxation", s.accelerator.relaxation);
+  visit("memory", s.accelerator.memory);
+  visit("guesses", s.accelerator.guesses);
+  visit("residuals", s.accelerator.residuals);
+  visit("aitken_factor", s.accelerator.aitken_factor);
+  visit("converged", s.converged);
+}
+
 struct SteadyProblem {
-  Mesh mesh;         // start shape in the flow's frame
+  CanopyMesh mesh;   // start shape in the flow's frame
   FlowProblem flow;  // one PorousCells or one Sheet that has the resistance; where it is, is found here
   double reference_area = 0;  // S0 [m2]
   CouplingSettings settings;
@@ -88,7 +85,7 @@ class SteadySolver {
   Flow& flow() { return *flow_; }
   const Flow& flow() const { return *flow_; }
   const Cloth& cloth() const { return *cloth_; }
-  const Mesh& mesh() const { return problem_.mesh; }
+  const CanopyMesh& mesh() const { return problem_.mesh; }
   const std::vector<Cell>& cells() const { return cells_; }
   /// The cloth's state at `state.shape`, at rest.
   ClothState cloth_state(const SteadyState& state) const;

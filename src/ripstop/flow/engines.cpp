@@ -45,7 +45,8 @@ EngineRecord openfoam_rho_porous() {
           [](const EngineOptions& options) {
             return "OpenFOAM " + openfoam::find_installation({}, options.ranks > 1).version;
           },
-          make};
+          make,
+          true};
 }
 
 std::vector<EngineRecord>& table() {

@@ -39,6 +39,7 @@ struct EngineRecord {
   /// "OpenFOAM 1912": name and version, without making the engine. Throws Error(external) when it is missing.
   std::function<std::string(const EngineOptions&)> name;
   std::function<std::unique_ptr<FlowEngine>(const EngineOptions&)> make;
+  bool needs_folder = false;  // EngineOptions::folder
 };
 
 /// All engines; the first one is the default.
