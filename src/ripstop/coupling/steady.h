@@ -9,6 +9,7 @@
 #include "ripstop/cloth/cloth.h"
 #include "ripstop/coupling/acceleration.h"
 #include "ripstop/coupling/settings.h"
+#include "ripstop/coupling/sheet_transfer.h"
 #include "ripstop/coupling/transfer.h"
 #include "ripstop/flow/flow.h"
 
@@ -21,7 +22,8 @@ struct SteadyIteration {
   double nodal_load = 0;         // sum of the pressure loads on the cloth's nodes
   double line_tension = 0;       // of the cloth on its fixed end
   double momentum_deficit = 0;   // through the faces of the flow's box
-  double transfer_factor = 0;    // fluid force over the force of the sampled pressures
+  double transfer_factor = 0;    // fluid force over that of the pressures alone, as they came to the cloth
+  double load_remainder = 0;     // remainder_share() of the load; 0 but for CanopyLoad::of_flow
   double drag_change = 0;        // relative to the iteration before; infinite at the first
   double shape_change = 0;       // e_k = mean |x^{k+1} - x^k| [m], [NFM] Eq. 18
   double omega = 0;              // |X_{k+1} - X_k| / |X_k|, [NFM] Eq. 19
@@ -43,6 +45,7 @@ struct SteadyState {
   std::vector<SteadyIteration> iterations;
   std::vector<Vec3> shape;       // X_k
   std::vector<double> pressure;  // difference applied in the next iteration, on every cell of cloth [Pa]
+  RigidTraction remainder;       // applied beside it
   SidePressures sides;           // as the last flow gave them [Pa]
   std::vector<double> applied;   // difference that made `shape` [Pa]
   Accelerator accelerator;
@@ -88,6 +91,9 @@ class SteadySolver {
   ClothState cloth_state(const SteadyState& state) const;
 
  private:
+  ClothLoad answer_of(const FlowField& field, const std::vector<Triangle>& surface,
+                      const std::vector<int>& cut, const std::vector<Vec3>& shape, SteadyState& state,
+                      SteadyIteration& now) const;
   FlowField solve_flow(const std::vector<Triangle>& surface, const std::vector<int>& cut, bool to_the_end,
                        int iteration, const SteadyReport& report);
 

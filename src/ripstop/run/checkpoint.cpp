@@ -15,7 +15,7 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr int format_version = 2;
+constexpr int format_version = 3;
 
 std::vector<double> flat(const std::vector<Vec3>& vectors) {
   std::vector<double> values;
@@ -40,6 +40,7 @@ void each_member(Visit&& visit, SteadyIteration& i) {
   visit("line_tension", i.line_tension);
   visit("momentum_deficit", i.momentum_deficit);
   visit("transfer_factor", i.transfer_factor);
+  visit("load_remainder", i.load_remainder);
   visit("drag_change", i.drag_change);
   visit("shape_change", i.shape_change);
   visit("omega", i.omega);
@@ -68,6 +69,7 @@ std::string to_bytes(const SteadyState& state) {
   }
   j["shape"] = flat(state.shape);
   j["pressure"] = state.pressure;
+  j["remainder"] = flat({state.remainder.at_centre, state.remainder.twist});
   j["inside"] = state.sides.inside;
   j["outside"] = state.sides.outside;
   j["applied"] = state.applied;
@@ -96,6 +98,8 @@ SteadyState steady_state_from_bytes(const std::string& bytes) {
     }
     state.shape = vectors(j.at("shape").get<std::vector<double>>());
     j.at("pressure").get_to(state.pressure);
+    const std::vector<Vec3> remainder = vectors(j.at("remainder").get<std::vector<double>>());
+    state.remainder = {remainder.at(0), remainder.at(1)};
     j.at("inside").get_to(state.sides.inside);
     j.at("outside").get_to(state.sides.outside);
     j.at("applied").get_to(state.applied);

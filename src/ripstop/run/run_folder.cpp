@@ -10,6 +10,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/core/hash.h"
+#include "ripstop/coupling/pressure_profile.h"
 #include "ripstop/output/csv.h"
 #include "ripstop/output/picture.h"
 #include "ripstop/output/plot.h"
@@ -24,10 +25,10 @@ using nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 const std::vector<std::string> iteration_columns = {
-    "iteration",       "drag_n",           "nodal_load_n",    "line_tension_n", "momentum_deficit_n",
-    "transfer_factor", "drag_change",      "shape_change_m",  "omega",          "printed_tolerance",
-    "cloth_steps",     "cloth_residual",   "flow_iterations", "flow_residual",  "flow_converged",
-    "flow_averaged",   "drag_deviation_n", "cut_cells",       "wall_time_s"};
+    "iteration",         "drag_n",         "nodal_load_n",     "line_tension_n",  "momentum_deficit_n",
+    "transfer_factor",   "load_remainder", "drag_change",      "shape_change_m",  "omega",
+    "printed_tolerance", "cloth_steps",    "cloth_residual",   "flow_iterations", "flow_residual",
+    "flow_converged",    "flow_averaged",  "drag_deviation_n", "cut_cells",       "wall_time_s"};
 
 std::vector<double> row_of(const SteadyIteration& i) {
   return {double(i.iteration),
@@ -36,6 +37,7 @@ std::vector<double> row_of(const SteadyIteration& i) {
           i.line_tension,
           i.momentum_deficit,
           i.transfer_factor,
+          i.load_remainder,
           i.drag_change,
           i.shape_change,
           i.omega,
@@ -72,6 +74,30 @@ constexpr const char* description = "run.json";
 
 std::string inputs_hash(const Case& value, const std::string& solver) {
   return hash_bytes(fmt::format("{}\n{}\n{}", version(), solver, case_json(value)));
+}
+
+/// pressure.csv and pressure.png: coefficients along the gores; load.png: the load over the cloth.
+void write_pressure(const fs::path& folder, const std::string& title, const SteadySolver& solver,
+                    const SteadyState& state, double dynamic_pressure) {
+  CsvTable table{{"arc_m", "radius_m", "z_m", "cp_inside", "cp_outside", "cp_load"}, {}};
+  Plot plot;
+  plot.title = title;
+  plot.x.label = "along the cloth from the vent [m]";
+  plot.y.label = "pressure coefficient";
+  for (const char* name : {"inside", "outside", "load on the cloth"}) plot.series.emplace_back().name = name;
+  for (const PressureRing& ring : pressure_profile(solver.cells(), state.shape, state.sides, state.applied)) {
+    const double values[] = {ring.inside / dynamic_pressure, ring.outside / dynamic_pressure,
+                             ring.load / dynamic_pressure};
+    table.rows.push_back({ring.arc, ring.radius, ring.z, values[0], values[1], values[2]});
+    for (std::size_t s = 0; s < plot.series.size(); ++s) {
+      plot.series[s].x.push_back(ring.arc);
+      plot.series[s].y.push_back(values[s]);
+    }
+  }
+  write_csv(folder / "pressure.csv", table);
+  write_plot(folder / "pressure.png", plot);
+  write_canopy_picture(folder / "load.png", solver.mesh(), state.shape,
+                       {title, "pressure inside over outside [Pa]", state.applied, {}});
 }
 
 }  // namespace
@@ -226,6 +252,7 @@ void RunFolder::write_result(const SteadySolver& solver, const SteadyState& stat
     }
   }
   write_plot(folder_ / "drag.png", plot);
+  write_pressure(folder_, value.title, solver, state, 0.5 * r.density * r.speed * r.speed);
 
   ordered_json j;
   j["title"] = value.title;
@@ -248,6 +275,7 @@ void RunFolder::write_result(const SteadySolver& solver, const SteadyState& stat
   j["max_von_mises_at_m"] = {r.stress.place.x, r.stress.place.y, r.stress.place.z};
   j["max_cloth_strain"] = r.stress.strain;
   j["transfer_factor"] = r.last.transfer_factor;
+  j["load_remainder"] = r.last.load_remainder;
   j["wall_time_s"] = r.wall_time;
   j["ledger"] = {{"fluid_force_n", r.last.fluid_force},
                  {"nodal_load_n", r.last.nodal_load},

@@ -68,10 +68,11 @@ SteadyState warm_start(const Case& value, const SteadySolver& solver, const fs::
       json::parse(case_json(value)).at("parachute") == json::parse(case_json(other)).at("parachute") &&
       end.shape.size() == state.shape.size() && end.pressure.size() == state.pressure.size();
   if (!same_mesh) return state;
+  const double ratio = dynamic_pressure(value) / dynamic_pressure(other);
   state.shape = end.shape;
   state.pressure = end.pressure;
+  state.remainder = {ratio * end.remainder.at_centre, ratio * end.remainder.twist};
   const double shift = canopy_position(value) - canopy_position(other);
-  const double ratio = dynamic_pressure(value) / dynamic_pressure(other);
   for (Vec3& p : state.shape) p.z += shift;
   for (double& dp : state.pressure) dp *= ratio;
   if (same_flow(value, other)) load_checkpoint(neighbour / "checkpoint", engine);
