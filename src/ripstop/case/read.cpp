@@ -149,6 +149,13 @@ void check_engine(const Case& value, Findings& findings) {
                     quoted(value.parachute.canopy_material)));
 }
 
+void check_load(const Case& value, Findings& findings) {
+  if (value.coupling.load != CanopyLoad::of_flow || value.flow.porosity_model == PorosityModel::sheet) return;
+  if (findings.sound({"coupling.load", "flow.porosity_model"}))
+    findings.add("coupling.load", quoted("of-flow"), quoted("uniform"),
+                 "what the air loses on every piece of cloth is known of a sheet only (flow.porosity_model)");
+}
+
 void check_average(const Case& value, Findings& findings) {
   const FlowSettings& flow = value.flow;
   if (findings.sound({"flow.average_over", "flow.max_iterations"}) && flow.average_over > flow.max_iterations)
@@ -172,6 +179,7 @@ std::vector<Problem> problems_of(Case& value, std::vector<Problem> problems) {
   check_box(value, findings);
   check_average(value, findings);
   check_engine(value, findings);
+  check_load(value, findings);
   return problems;
 }
 
