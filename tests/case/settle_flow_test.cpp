@@ -75,7 +75,7 @@ TEST(SettledFlow, OfASheetIsRefusedForOpenFoamBeforeAnythingIsComputed) {
 
 TEST(SettledFlow, WhatOpenFoamHasNotIsRefusedWhenTheCaseIsRead) {
   const std::string paper = replaced(short_case, "gores = 12", "gores = 12\ncanopy_material = \"f-111\"") +
-                            "engine = \"openfoam\"\n";
+                            "box_m = [8, 8, 10]\nengine = \"openfoam\"\n";
   parse_case(paper, "paper");
   for (const char* line : {"sides = \"entraining\"", "average_over = 20", "outlet = \"still-air\""}) {
     try {

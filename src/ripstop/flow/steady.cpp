@@ -38,7 +38,8 @@ class Run {
       const int left = before_average - done_;
       // Pieces of a fixed length, so that a run that was killed repeats the very same iterations.
       advance(stopping_.settled_drag > 0 ? std::min(Stopping::piece, left) : left);
-      if (now_.converged || now_.stopped || has_settled(drag_, stopping_.settled_drag)) return last();
+      const bool ended = now_.converged || now_.stopped || now_.last.iteration < 1;  // it does no more
+      if (ended || has_settled(drag_, stopping_.settled_drag)) return last();
     }
     return stopping_.average_over > 0 ? average() : last();
   }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
 
@@ -39,12 +40,22 @@ std::string inputs_hash(const Case& value, const std::string& solver) {
   return hash_bytes(fmt::format("{}\n{}\n{}", version(), solver, case_json(value)));
 }
 
+/// A start that was killed while it wrote run.json, the first file of a run.
+bool holds_leftovers_only(const fs::path& folder) {
+  const fs::directory_iterator entries(folder);
+  return std::all_of(begin(entries), end(entries), [](const fs::directory_entry& entry) {
+    const std::string name = entry.path().filename();
+    return name.starts_with("." + std::string(description) + ".") && name.ends_with(".tmp");
+  });
+}
+
 }  // namespace
 
 bool holds_run(const RunSettings& settings, const Case& value, const std::string& solver) {
   const fs::path& folder = settings.folder;
   if (!fs::exists(folder) || fs::is_empty(folder)) return false;
   if (!fs::exists(folder / description)) {
+    if (holds_leftovers_only(folder)) return false;
     throw Error(ExitCode::usage,
                 fmt::format("{}: is not empty and holds no run of Ripstop (no run.json); choose "
                             "another --out",
@@ -61,8 +72,12 @@ bool holds_run(const RunSettings& settings, const Case& value, const std::string
 }
 
 void open_run_folder(const RunSettings& settings, const Case& value, const std::string& solver, int threads) {
-  if (holds_run(settings, value, solver)) return;
   const fs::path& folder = settings.folder;
+  const auto write_case = [&] { write_file(folder / "case.toml", case_toml(value)); };
+  if (holds_run(settings, value, solver)) {
+    if (!fs::exists(folder / "case.toml")) write_case();  // killed before it was there
+    return;
+  }
   make_folder(folder);
   for (const auto& entry : fs::directory_iterator(folder)) fs::remove_all(entry.path());
   ordered_json run;
@@ -77,8 +92,8 @@ void open_run_folder(const RunSettings& settings, const Case& value, const std::
   run["case_file"] = value.file.string();
   run["inputs_hash"] = inputs_hash(value, solver);
   run["case"] = ordered_json::parse(case_json(value));
-  write_file(folder / "case.toml", case_toml(value));
   write_file(folder / description, run.dump(2) + "\n");
+  write_case();
 }
 
 std::optional<std::string> finished_result(const fs::path& folder) {
