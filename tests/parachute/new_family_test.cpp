@@ -6,11 +6,11 @@
 #include <numbers>
 #include <numeric>
 
-#include "../output/temporary_folder.h"
 #include "../printed_materials.h"
 #include "ripstop/canopy/shape.h"
 #include "ripstop/cloth/cloth.h"
 #include "ripstop/core/error.h"
+#include "ripstop/core/file.h"
 #include "ripstop/core/toml/read.h"
 #include "ripstop/core/toml/write.h"
 #include "ripstop/inflation/opening_estimate.h"

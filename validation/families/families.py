@@ -1,10 +1,13 @@
 #!/usr/bin/env python3
-"""Steady drag of every family's example beside what Knacke's manual gives for the type.
+"""Every family's example and the campaign's three parachutes in steady flow, under the air's own load and a uniform one.
 
     make validate-families            (or: families.py --ripstop build/bin/ripstop --runs runs/families)
 
-Runs `ripstop steady` on all examples but those of the wind tunnel, whose cloth is calibrated on Stratos IV: the library's
-cloth with its own permeability. Writes docs/tables/families.md. Runs that are finished cost nothing.
+Runs `ripstop steady` on each with the library's cloth as a sheet, its own permeability, nothing calibrated: once with
+`coupling.load` "of-flow", the default, and once with "uniform". The drag of the families beside what Knacke's manual gives
+for the type goes into docs/tables/families.md, both loads side by side into docs/tables/loads.md; pictures and plots stay
+in the run folders, `load.png` and `pressure.png` first. Runs that are finished cost nothing. `--grid 40 40 50 --set
+KEY=VALUE` pass on to `ripstop`, for a quick look; the loads are then printed only.
 """
 import argparse
 import json
@@ -14,44 +17,88 @@ import subprocess
 import sys
 import tomllib
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
-import tables  # pylint: disable=wrong-import-position
-
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-CALIBRATED = "f-111"
+sys.path[:0] = [str(ROOT / "validation"), str(ROOT / "validation/ojf")]
+import tables  # pylint: disable=wrong-import-position
+from campaign import SHEET_SPECIFIED  # pylint: disable=wrong-import-position
+
+CALIBRATED = "f-111"  # on Stratos IV: the cloth of the campaign, whose cases have the paper's box and porosity
+LOADS = ["of-flow", "uniform"]
 
 
 def examples():
-    for case in sorted((ROOT / "examples").glob("*/case.toml")):
-        if tomllib.loads(case.read_text())["parachute"].get("canopy_material") != CALIBRATED:
-            yield case.parent.name
+    """Families and the parachutes of the campaign."""
+    names = {case.parent.name: tomllib.loads(case.read_text())["parachute"].get("canopy_material") == CALIBRATED
+             for case in sorted((ROOT / "examples").glob("*/case.toml"))}
+    return [name for name, of_campaign in names.items() if not of_campaign], [name for name, of_campaign in names.items() if of_campaign]
 
 
-def run(ripstop, runs, name):
-    folder = runs / name
-    command = [str(ripstop), "steady", f"examples/{name}/case.toml", "--out", str(folder)]
+FAMILIES, CAMPAIGN = examples()
+
+
+def folder_of(options, name, load):
+    return options.runs.resolve() / (name if load == "of-flow" else f"{name}-{load}")
+
+
+def run(options, name, load):
+    command = [str(options.ripstop.resolve()), "steady", f"examples/{name}/case.toml", "--out", str(folder_of(options, name, load))]
+    settings = [f"coupling.load={load}", *(SHEET_SPECIFIED if name in CAMPAIGN else []), *options.set]
+    for setting in settings:
+        command += ["--set", setting]
+    if options.grid:
+        command += ["--grid", *map(str, options.grid)]
     print("$ ripstop " + " ".join(command[1:]), flush=True)
     if subprocess.run(command, cwd=ROOT, check=False).returncode != 0:
-        sys.exit(f"{name}: ripstop failed; the same command again goes on from here")
-    return json.loads((folder / "result.json").read_text())
+        print(f"{name}, {load}: ripstop failed; the same command again goes on from here", file=sys.stderr)
+        return None
+    return json.loads((folder_of(options, name, load) / "result.json").read_text())
+
+
+def families_table(results):
+    rows = []
+    for name in FAMILIES:
+        r = results[name, "of-flow"]
+        known = r.get("known_drag_coefficient")
+        printed = f"{known[0]:.2f} to {known[1]:.2f}" if known else ""
+        nominal = (4 / math.pi * r["reference_area_m2"]) ** 0.5
+        rows.append([name, f"{r['drag_coefficient']:.3f}", printed, f"{r['projected_diameter_m'] / nominal:.3f}",
+                     f"{r['drag_n']:.1f}", str(r["coupling_iterations"]), f"{r['wall_time_s']:.0f}"])
+    return tables.table(["example", "drag coefficient", "Knacke, in descent", "projected / nominal diameter", "drag N", "iterations",
+                         "wall s"], rows)
+
+
+def loads_table(results):
+    rows = []
+    for (name, load), r in results.items():
+        if r is None:
+            rows.append([name, load, "failed", *[""] * 6])
+            continue
+        count = f"{r['coupling_iterations']}" + ("" if r["converged"] else ", not converged")
+        remainder = f"{100 * r['load_remainder']:.2f}" if load == "of-flow" else ""
+        rows.append([name, load, f"{r['drag_n']:.1f}", f"{r['projected_diameter_m']:.3f}", f"{r['skirt_diameter_m']:.3f}",
+                     f"{r['max_line_tension_n']:.1f}", f"{r['max_von_mises_n_m']:.0f}", remainder, count])
+    return tables.table(["example", "load", "drag N", "projected diameter m", "skirt m", "highest line tension N",
+                         "highest stress N/m", "remainder %", "coupling iterations"], rows)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--ripstop", type=pathlib.Path, default=ROOT / "build/bin/ripstop")
     parser.add_argument("--runs", type=pathlib.Path, default=ROOT / "runs/families")
+    parser.add_argument("--grid", type=int, nargs=3)
+    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE")
+    parser.add_argument("names", nargs="*", default=FAMILIES + CAMPAIGN, help="examples; all of them without a name")
     options = parser.parse_args()
-    head = ["example", "drag coefficient", "Knacke, in descent", "projected / nominal diameter", "drag N", "iterations", "wall s"]
-    rows, runs = [], []
-    for name in examples():
-        r = run(options.ripstop.resolve(), options.runs.resolve(), name)
-        known = r.get("known_drag_coefficient")
-        printed = f"{known[0]:.2f} to {known[1]:.2f}" if known else ""
-        nominal = (4 / math.pi * r["reference_area_m2"]) ** 0.5
-        rows.append([name, f"{r['drag_coefficient']:.3f}", printed, f"{r['projected_diameter_m'] / nominal:.3f}",
-                     f"{r['drag_n']:.1f}", str(r["coupling_iterations"]), f"{r['wall_time_s']:.0f}"])
-        runs += tables.runs_below(options.runs / name)
-    tables.write("families", "Steady drag of every family's example", "make validate-families", runs, tables.table(head, rows))
+    results = {(name, load): run(options, name, load) for name in options.names for load in LOADS}
+    loads = loads_table(results)
+    print("\n".join(loads))
+    if options.grid or options.set or options.names != FAMILIES + CAMPAIGN:
+        return
+    if None in results.values():
+        sys.exit("a run failed: no table is written")
+    made = [run for name, load in results for run in tables.runs_below(folder_of(options, name, load))]
+    tables.write("families", "Steady drag of every family's example", "make validate-families", made, families_table(results))
+    tables.write("loads", "The air's own load beside a uniform one", "make validate-families", made, loads)
 
 
 if __name__ == "__main__":

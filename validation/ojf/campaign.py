@@ -39,7 +39,7 @@ COLUMNS = ["parachute", "speed_basis", "nominal_m_s", "speed_m_s", "density_kg_m
 
 # The cloth as a sheet, far entraining sides, second order, cells of 4 cm about the canopy. The wake of tight cloth settles
 # slowly: the mean of the last iterations of each flow stands.
-SHEET_FLOW = ["flow.porosity_model=sheet", "flow.box_m=[6,6,9]", "flow.cells=[80,80,98]", "flow.canopy_position_m=4",
+SHEET_FLOW = ["flow.porosity_model=sheet", "coupling.load=uniform", "flow.box_m=[6,6,9]", "flow.cells=[80,80,98]", "flow.canopy_position_m=4",
               "flow.core.size_m=[1.8,1.8,2.2]", "flow.core.growth=1.125", "flow.sides=entraining",
               "flow.convection=second-order", "flow.residual=3e-4", "flow.max_iterations=300", "flow.average_over=60",
               "coupling.drag_tolerance=5e-3"]

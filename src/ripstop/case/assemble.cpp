@@ -24,13 +24,13 @@ FlowProblem flow_problem(const Case& value) {
   problem.air.turbulence_intensity = settings.turbulence_intensity;
   problem.air.viscosity_ratio = settings.viscosity_ratio;
   problem.sides = settings.sides;
+  problem.outlet = settings.outlet;
   problem.stopping.residual = settings.residual;
   problem.stopping.max_iterations = settings.max_iterations;
   problem.stopping.average_over = settings.average_over;
   const Fabric& cloth = canopy_fabric(value);
   if (settings.porosity_model == PorosityModel::sheet) {
-    problem.sheets = {{{}, cloth.darcy, cloth.forchheimer, {}}};
-    problem.outlet = Outlet::still_air;
+    problem.sheets = {{{}, cloth.darcy, cloth.forchheimer}};
   } else {
     problem.porous = {{{}, cloth.darcy, cloth.forchheimer}};
   }

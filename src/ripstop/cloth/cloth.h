@@ -108,6 +108,7 @@ RelaxResult relax(ClothState& state, const Cloth& cloth, const Loads& loads, con
 /// Membrane stress resultants of every cell, from the spring forces in virial form [N/m].
 struct CellStress {
   double principal_max = 0, principal_min = 0, von_mises = 0;  // [N/m]
+  Vec3 direction;                                              // of principal_max, unit, in the cell's plane
   double max_strain = 0;                                       // largest spring strain at the cell [-]
 };
 std::vector<CellStress> cell_stress(const Cloth& cloth, const ClothState& state);

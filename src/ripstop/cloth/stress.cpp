@@ -131,6 +131,8 @@ std::vector<CellStress> cell_stress(const Cloth& cloth, const ClothState& state)
     const double mean = 0.5 * (uu + vv), radius = std::hypot(0.5 * (uu - vv), uv);
     stress[i].principal_max = mean + radius;
     stress[i].principal_min = mean - radius;
+    const double angle = 0.5 * std::atan2(2 * uv, uu - vv);
+    stress[i].direction = std::cos(angle) * frames[i].u + std::sin(angle) * frames[i].v;
     stress[i].von_mises = std::sqrt(std::max(0.0, uu * uu - uu * vv + vv * vv + 3 * uv * uv));
   }
   return stress;

@@ -5,8 +5,9 @@ namespace ripstop {
 
 enum class Acceleration { none, aitken, anderson };
 
-/// What the flow's answer becomes on the cloth; either way the axial sum is the flow's force on the canopy.
+/// What the flow's answer becomes on the cloth; always the axial sum is the flow's force on the canopy.
 enum class CanopyLoad {
+  of_flow,  // what the air loses on every face of the sheet, force and moment kept
   uniform,  // one pressure difference everywhere: force over the canopy's axial area
   sampled   // the pressures read on both sides of the cloth, scaled by one factor
 };

@@ -35,6 +35,13 @@ bool within(double a, double b, double tolerance) {
   return std::abs(a - b) <= tolerance * std::abs(b);
 }
 
+std::vector<double> joined(const ClothLoad& load) {
+  const auto& [a, b] = load.remainder;
+  std::vector<double> values = load.pressure;
+  values.insert(values.end(), {a.x, a.y, a.z, b.x, b.y, b.z});
+  return values;
+}
+
 }  // namespace
 
 SteadySolver::SteadySolver(SteadyProblem problem, FlowEngine& engine)
@@ -94,6 +101,37 @@ FlowField SteadySolver::solve_flow(const std::vector<Triangle>& surface, bool to
   });
 }
 
+// The flow's answer as a load on the cloth. A sheet leaves the pressure on either side clean up to the cloth.
+ClothLoad SteadySolver::answer_of(const FlowField& field, const std::vector<Triangle>& surface,
+                                  const std::vector<int>& cut, const std::vector<Vec3>& shape,
+                                  SteadyState& state, SteadyIteration& now) const {
+  const bool sheet = !problem_.flow.sheets.empty();
+  state.sides = sample_sides(field, sheet ? std::vector<int>{} : cut, cells_, shape);
+  ClothLoad answer{state.sides.difference(), {}};
+  if (problem_.settings.load == CanopyLoad::of_flow)
+    answer = load_of_flow(field.sheet_loads, field.grid, surface, cells_, shape);
+  now.transfer_factor = now.fluid_force / pressure_force(cells_, shape, answer.pressure).z;
+  now.load_remainder = remainder_share(answer, cells_, shape);
+  if (problem_.settings.load == CanopyLoad::uniform) {
+    const std::vector<double> one(cells_.size(), 1.0);
+    answer.pressure.assign(cells_.size(), now.fluid_force / pressure_force(cells_, shape, one).z);
+  }
+  if (problem_.settings.load != CanopyLoad::sampled) return answer;
+  // The flow's force on the cut cells also holds what the resistance takes along the cloth, and the staircase
+  // of cut cells is not the cloth: sampled differences do not add up to it. The factor between them is
+  // reported.
+  if (!(now.transfer_factor > 0) || !std::isfinite(now.transfer_factor)) {
+    throw Error(
+        ExitCode::diverged,
+        fmt::format("coupling iteration {}: the pressures beside the cloth add up to {:.3g} N against the "
+                    "flow, whose force is {:.3g} N; the grid is too coarse for this canopy or the flow is "
+                    "wrong",
+                    now.iteration, now.fluid_force / now.transfer_factor, now.fluid_force));
+  }
+  for (double& dp : answer.pressure) dp *= now.transfer_factor;
+  return answer;
+}
+
 FlowField SteadySolver::iterate(SteadyState& state, const SteadyReport& report) {
   const auto begin = std::chrono::steady_clock::now();
   const CouplingSettings& settings = problem_.settings;
@@ -102,7 +140,8 @@ FlowField SteadySolver::iterate(SteadyState& state, const SteadyReport& report) 
 
   // Cloth equilibrium under the present pressure.
   ClothState cloth = cloth_state(state);
-  const Loads loads{state.pressure, {}};
+  const std::vector<double> no_pressure(cells_.size(), 0.0);
+  const Loads loads{state.pressure, node_forces({no_pressure, state.remainder}, cells_, state.shape)};
   RelaxOptions relax_options;
   relax_options.tolerance = settings.cloth_tolerance;
   const RelaxResult relaxed =
@@ -126,7 +165,7 @@ FlowField SteadySolver::iterate(SteadyState& state, const SteadyReport& report) 
     size += dot(state.shape[i], state.shape[i]);
   }
   now.omega = std::sqrt(moved / size);
-  now.nodal_load = pressure_force(cells_, shape, state.pressure).z;
+  now.nodal_load = wrench_of({state.pressure, state.remainder}, cells_, shape).force.z;
   now.line_tension = force_on_fixed(*cloth_, cloth).z;
 
   // Flow through and around it.
@@ -145,27 +184,7 @@ FlowField SteadySolver::iterate(SteadyState& state, const SteadyReport& report) 
   now.fluid_force = field.porous_force.z;
   now.momentum_deficit = field.momentum_deficit;
 
-  // The flow's force on the cut cells also holds what the resistance takes along the cloth, and the staircase
-  // of cut cells is not the cloth: sampled differences do not add up to it. The factor between them is
-  // reported. A sheet leaves the pressure on either side clean up to the cloth.
-  const bool sheet = !problem_.flow.sheets.empty();
-  state.sides = sample_sides(field, sheet ? std::vector<int>{} : cut, cells_, shape);
-  std::vector<double> answer = state.sides.difference();
-  now.transfer_factor = now.fluid_force / pressure_force(cells_, shape, answer).z;
-  if (settings.load == CanopyLoad::uniform) {
-    const std::vector<double> one(cells_.size(), 1.0);
-    answer.assign(cells_.size(), now.fluid_force / pressure_force(cells_, shape, one).z);
-  } else {
-    if (!(now.transfer_factor > 0) || !std::isfinite(now.transfer_factor)) {
-      throw Error(
-          ExitCode::diverged,
-          fmt::format("coupling iteration {}: the pressures beside the cloth add up to {:.3g} N against the "
-                      "flow, whose force is {:.3g} N; the grid is too coarse for this canopy or the flow is "
-                      "wrong",
-                      now.iteration, now.fluid_force / now.transfer_factor, now.fluid_force));
-    }
-    for (double& dp : answer) dp *= now.transfer_factor;
-  }
+  const ClothLoad answer = answer_of(field, surface, cut, shape, state, now);
 
   now.drag_change = state.iterations.empty()
                         ? std::numeric_limits<double>::infinity()
@@ -183,7 +202,14 @@ FlowField SteadySolver::iterate(SteadyState& state, const SteadyReport& report) 
 
   state.shape = shape;
   state.applied = state.pressure;
-  state.pressure = state.accelerator.next(state.pressure, answer, area_);
+  // The remainder follows the pressures' steps: it has no weight of its own.
+  std::vector<double> weight = area_;
+  weight.resize(area_.size() + 6, 0.0);
+  const std::vector<double> next =
+      state.accelerator.next(joined({state.pressure, state.remainder}), joined(answer), weight);
+  state.pressure.assign(next.begin(), next.end() - 6);
+  const double* r = next.data() + state.pressure.size();
+  state.remainder = {{r[0], r[1], r[2]}, {r[3], r[4], r[5]}};
   now.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   state.iterations.push_back(now);
   return field;

@@ -12,6 +12,7 @@
 #include "ripstop/coupling/acceleration.h"
 #include "ripstop/coupling/iteration.h"
 #include "ripstop/coupling/settings.h"
+#include "ripstop/coupling/sheet_transfer.h"
 #include "ripstop/coupling/transfer.h"
 #include "ripstop/flow/flow.h"
 #include "ripstop/parachute/canopy_mesh.h"
@@ -24,6 +25,7 @@ struct SteadyState {
   std::vector<SteadyIteration> iterations;
   std::vector<Vec3> shape;       // X_k
   std::vector<double> pressure;  // difference applied in the next iteration, on every cell of cloth [Pa]
+  RigidTraction remainder;       // applied beside it
   SidePressures sides;           // as the last flow gave them [Pa]
   std::vector<double> applied;   // difference that made `shape` [Pa]
   Accelerator accelerator;
@@ -35,6 +37,8 @@ void each_member(T& s, Visit&& visit) {
   visit("iterations", s.iterations);
   visit("shape", s.shape);
   visit("pressure", s.pressure);
+  visit("remainder", s.remainder.at_centre);
+  visit("remainder_twist", s.remainder.twist);
   visit("inside", s.sides.inside);
   visit("outside", s.sides.outside);
   visit("applied", s.applied);
@@ -91,6 +95,9 @@ class SteadySolver {
   ClothState cloth_state(const SteadyState& state) const;
 
  private:
+  ClothLoad answer_of(const FlowField& field, const std::vector<Triangle>& surface,
+                      const std::vector<int>& cut, const std::vector<Vec3>& shape, SteadyState& state,
+                      SteadyIteration& now) const;
   FlowField solve_flow(const std::vector<Triangle>& surface, bool to_the_end, int iteration,
                        const SteadyReport& report);
 

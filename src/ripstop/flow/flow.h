@@ -55,6 +55,7 @@ struct SheetLoad {
   Vec3 normal;      // of the triangle, with a component along the face's normal that is not negative
   double drop = 0;  // of the pressure along `normal`, mean over the face [Pa]
   Vec3 force;       // on the sheet: drop times the face's area, along an axis of the grid [N]
+  double area = 0;  // of the sheet that the face stands for, as far as it covers the face: a share n_a^2 [m2]
 };
 
 /// The four sides of the box. Slip: walls without friction. Zero gradient: nothing changes across them, air

@@ -3,7 +3,7 @@
 namespace ripstop {
 
 const EngineRecord& engine_of(const Case& value) {
-  return engine_of(std::string(value.flow.engine == EngineKind::builtin ? "builtin" : "openfoam"));
+  return engine_of(value.flow.engine);
 }
 
 EngineOptions engine_options(const Case& value) {

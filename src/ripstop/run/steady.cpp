@@ -55,6 +55,7 @@ SteadyResult steady_result(const SteadySolver& solver, const SteadyState& state,
   for (const SteadyIteration& i : state.iterations) r.wall_time += i.wall_time;
   r.converged = state.converged;
   r.transfer_factor = r.last.transfer_factor;
+  r.load_remainder = r.last.load_remainder;
   r.ledger = {r.last.fluid_force, r.last.nodal_load, r.last.line_tension, r.last.momentum_deficit};
   if (const Measured* row = measured_row(value)) r.measured = *row;
   return r;
@@ -110,6 +111,7 @@ bool start_from(const Case& other, const SteadyState& end, const SteadyRun& run,
   const double ratio = dynamic_pressure(value) / dynamic_pressure(other);
   for (Vec3& p : state.shape) p.z += shift;
   for (double& dp : state.pressure) dp *= ratio;
+  state.remainder = {ratio * end.remainder.at_centre, ratio * end.remainder.twist};
   return same_flow(value, other);
 }
 

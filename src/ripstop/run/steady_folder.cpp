@@ -9,6 +9,7 @@
 #include "ripstop/core/file.h"
 #include "ripstop/core/hash.h"
 #include "ripstop/core/thread_team.h"
+#include "ripstop/coupling/pressure_profile.h"
 #include "ripstop/output/csv.h"
 #include "ripstop/output/picture.h"
 #include "ripstop/output/plot.h"
@@ -43,6 +44,7 @@ class SteadyFolder : public SteadyObserver {
   void write_fields(const SteadyRun& run, const SteadyState& state, const FlowField& field) const;
   void write_state(const SteadyRun& run, const SteadyState& state) const;
   void write_drag_plot(const SteadyState& state, const std::string& title) const;
+  void write_pressure(const SteadyRun& run, const SteadyState& state, const SteadyResult& result) const;
   CsvLog iterations(std::size_t kept) const {
     return {folder_ / "iterations.csv", columns_of<SteadyIteration>(), kept};
   }
@@ -78,6 +80,7 @@ void SteadyFolder::ended(const SteadyRun& run, const SteadyState& state, const S
   if (!fields_) write_state(run, state);
   write_stl(folder_ / "canopy.stl", surface_of(run.solver.cells(), state.shape));
   write_drag_plot(state, result.title);
+  write_pressure(run, state, result);
   write_file(folder_ / "result.json", to_json(result));
   next_.ended(run, state, result);
 }
@@ -150,6 +153,33 @@ void SteadyFolder::write_state(const SteadyRun& run, const SteadyState& state) c
     table.rows.push_back({t.radial + 1.0, t.free_tension, t.largest_tension});
   }
   write_csv(folder_ / "lines.csv", table);
+}
+
+// pressure.csv and pressure.png: coefficients along the gores; load.png: the load over the cloth.
+void SteadyFolder::write_pressure(const SteadyRun& run, const SteadyState& state,
+                                  const SteadyResult& result) const {
+  const double dynamic_pressure = 0.5 * result.density * result.speed * result.speed;
+  CsvTable table{{"arc_m", "radius_m", "z_m", "cp_inside", "cp_outside", "cp_load"}, {}};
+  Plot plot;
+  plot.title = result.title;
+  plot.x.label = "along the cloth from the vent [m]";
+  plot.y.label = "pressure coefficient";
+  for (const char* name : {"inside", "outside", "load on the cloth"}) plot.series.emplace_back().name = name;
+  const std::vector<PressureRing> rings =
+      pressure_profile(run.solver.cells(), state.shape, state.sides, state.applied);
+  for (const PressureRing& ring : rings) {
+    const double values[] = {ring.inside / dynamic_pressure, ring.outside / dynamic_pressure,
+                             ring.load / dynamic_pressure};
+    table.rows.push_back({ring.arc, ring.radius, ring.z, values[0], values[1], values[2]});
+    for (std::size_t s = 0; s < plot.series.size(); ++s) {
+      plot.series[s].x.push_back(ring.arc);
+      plot.series[s].y.push_back(values[s]);
+    }
+  }
+  write_csv(folder_ / "pressure.csv", table);
+  write_plot(folder_ / "pressure.png", plot);
+  write_canopy_picture(folder_ / "load.png", run.solver.mesh(), state.shape,
+                       {result.title, "pressure inside over outside [Pa]", state.applied, {}});
 }
 
 void SteadyFolder::write_drag_plot(const SteadyState& state, const std::string& title) const {

@@ -243,6 +243,8 @@ std::vector<SheetLoad> SheetRows::loads(const State& state) const {
     load.drop = state.drop[n];
     const double force = load.drop * faces_[n].area;
     load.force = {g.axis == 0 ? force : 0, g.axis == 1 ? force : 0, g.axis == 2 ? force : 0};
+    const Face& face = faces_[n];
+    load.area = face.cover * face.area * (g.axis == 0 ? g.normal.x : g.axis == 1 ? g.normal.y : g.normal.z);
     result.push_back(load);
   }
   return result;

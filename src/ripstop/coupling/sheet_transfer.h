@@ -1,0 +1,48 @@
+// The air's load on the faces of its grid, handed to the cells of the cloth: force and moment are kept.
+#pragma once
+
+#include <vector>
+
+#include "ripstop/core/vec3.h"
+#include "ripstop/flow/flow.h"
+#include "ripstop/mesh/mesh.h"
+
+namespace ripstop {
+
+/// A force a unit area of cloth that varies as the velocity of a rigid body does: at_centre + twist x (x -
+/// c), c the cloth's centre of area.
+struct RigidTraction {
+  Vec3 at_centre;  // [Pa]
+  Vec3 twist;      // [Pa/m]
+};
+
+/// What the air does to the cloth: a pressure difference, and a small remainder that closes the sums.
+struct ClothLoad {
+  std::vector<double> pressure;  // inside over outside, one a cell, 0 where there is no cloth [Pa]
+  RigidTraction remainder;
+};
+
+/// Force and its moment about the origin.
+struct Wrench {
+  Vec3 force;   // [N]
+  Vec3 moment;  // [N m]
+};
+Wrench wrench_of(const std::vector<SheetLoad>& loads);
+Wrench wrench_of(const ClothLoad& load, const std::vector<Cell>& cells, const std::vector<Vec3>& positions);
+
+/// The pressure of every cell is the weighted plane through the pressures of the faces near it; the remainder
+/// is the smallest traction (in the mean square over the cloth) that makes force and moment those of `loads`.
+/// `surface` is surface_of(cells, positions), the sheet that the loads stand on.
+ClothLoad load_of_flow(const std::vector<SheetLoad>& loads, const FlowGrid& grid,
+                       const std::vector<Triangle>& surface, const std::vector<Cell>& cells,
+                       const std::vector<Vec3>& positions);
+
+/// On every node, a quarter of the load of each cell that it is a corner of [N].
+std::vector<Vec3> node_forces(const ClothLoad& load, const std::vector<Cell>& cells,
+                              const std::vector<Vec3>& positions);
+
+/// Root mean square of the traction over that of the pressure, over the cloth.
+double remainder_share(const ClothLoad& load, const std::vector<Cell>& cells,
+                       const std::vector<Vec3>& positions);
+
+}  // namespace ripstop

@@ -1,0 +1,252 @@
+// The air's load face by face becomes a load on cells of cloth: sums kept, smooth, convergent.
+#include "ripstop/coupling/sheet_transfer.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <random>
+
+#include "ripstop/coupling/transfer.h"
+#include "ripstop/flow/cartesian/sheet_faces.h"
+
+namespace ripstop {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+struct Surface {
+  std::vector<Vec3> x;
+  std::vector<Cell> cells;
+  int rows, columns;
+  std::vector<Triangle> triangles() const { return surface_of(cells, x); }
+};
+
+// Rows of nodes from `inner` to `outer` degrees off the axis on a sphere of 0.5 m with its top at (0,
+// 0, 1.5); outside is downstream. `ripple` waves the radius between 8 gores.
+Surface cap(int rows, int columns, double inner = 6, double outer = 85, double ripple = 0) {
+  Surface s{{}, {}, rows, columns};
+  for (int r = 0; r <= rows; ++r) {
+    for (int c = 0; c < columns; ++c) {
+      const double t = (inner + (outer - inner) * r / rows) * pi / 180, a = 2 * pi * c / columns;
+      const double radius = 0.5 * (1 + ripple * std::cos(8 * a) * std::sin(t));
+      s.x.push_back(
+          {radius * std::sin(t) * std::cos(a), radius * std::sin(t) * std::sin(a), 1 + 0.5 * std::cos(t)});
+    }
+  }
+  for (int r = 0; r < rows; ++r) {
+    for (int c = 0; c < columns; ++c) {
+      const int a = r * columns + c, b = r * columns + (c + 1) % columns;
+      s.cells.push_back({{a, a + columns, b + columns, b}});
+    }
+  }
+  return s;
+}
+
+// 1 m x 1 m about (0, 0, 1), turned by `angle` about y.
+Surface plate(int n, double angle) {
+  Surface s{{}, {}, n, n};
+  for (int j = 0; j <= n; ++j) {
+    for (int i = 0; i <= n; ++i) {
+      const double u = double(i) / n - 0.5, v = double(j) / n - 0.5;
+      s.x.push_back({u * std::cos(angle), v, 1 - u * std::sin(angle)});
+    }
+  }
+  for (int j = 0; j < n; ++j) {
+    for (int i = 0; i < n; ++i) {
+      const int a = j * (n + 1) + i;
+      s.cells.push_back({{a, a + 1, a + n + 2, a + n + 1}});
+    }
+  }
+  return s;
+}
+
+FlowGrid box(int n) {
+  return {{-0.803, -0.797, 0.3}, {1.6, 1.6, 1.6}, n, n, n};
+}
+
+using Field = std::function<double(Vec3)>;
+
+/// What a flow whose pressure drops by `drop` wherever the cloth stands would give on its faces.
+std::vector<SheetLoad> loads_of(const Surface& s, const FlowGrid& grid, const Field& drop) {
+  using cartesian::End;
+  const auto axis = [&](int a) {
+    return cartesian::make_axis(grid.edges(a), End::zero_gradient, End::zero_gradient);
+  };
+  const std::vector<Triangle> triangles = s.triangles();
+  std::vector<SheetLoad> loads;
+  for (const cartesian::SheetFace& f : cartesian::sheet_faces(axis(0), axis(1), axis(2), triangles)) {
+    const Triangle& t = triangles[f.triangle];
+    const Vec3 n = cross(t.b - t.a, t.c - t.a);
+    const double h = grid.spacing().x, side = dot(n, f.normal) < 0 ? -1 : 1;
+    const double slant = f.axis == 0 ? f.normal.x : f.axis == 1 ? f.normal.y : f.normal.z;
+    SheetLoad load;
+    load.triangle = f.triangle;
+    load.point = f.point;
+    load.normal = f.normal;
+    const double cover = f.hem ? std::min(1.0, f.area / (h * h * slant)) : 1;
+    load.area = cover * h * h * slant;
+    load.drop = side * cover * drop(f.point);
+    const double force = load.drop * h * h;
+    load.force = {f.axis == 0 ? force : 0, f.axis == 1 ? force : 0, f.axis == 2 ? force : 0};
+    loads.push_back(load);
+  }
+  return loads;
+}
+
+ClothLoad transfer(const Surface& s, const FlowGrid& grid, const Field& drop) {
+  return load_of_flow(loads_of(s, grid, drop), grid, s.triangles(), s.cells, s.x);
+}
+
+Vec3 centre_of(const Surface& s, std::size_t cell) {
+  Vec3 centre;
+  for (const int node : s.cells[cell].corner) centre += 0.25 * s.x[node];
+  return centre;
+}
+
+/// Largest and root mean square of what the cells' pressures miss.
+struct Misfit {
+  double largest = 0, rms = 0;
+};
+Misfit misfit(const Surface& s, const std::vector<double>& pressure, const Field& drop) {
+  Misfit m;
+  for (std::size_t c = 0; c < s.cells.size(); ++c) {
+    const double d = pressure[c] - drop(centre_of(s, c));
+    m.largest = std::max(m.largest, std::abs(d));
+    m.rms += d * d / double(s.cells.size());
+  }
+  m.rms = std::sqrt(m.rms);
+  return m;
+}
+
+void expect_same(const Wrench& a, const Wrench& b, double scale) {
+  EXPECT_LT(norm(a.force - b.force), 1e-12 * scale);
+  EXPECT_LT(norm(a.moment - b.moment), 1e-12 * scale);
+}
+
+TEST(SheetTransfer, ForceAndMomentAreTheAirsToRoundingForAnySurfaceAndAnyLoads) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> any(-1, 1);
+  for (Surface s : {cap(7, 16), cap(20, 40, 1, 170), plate(5, 0), plate(9, 0.6), plate(2, 1.2)}) {
+    for (Vec3& p : s.x) p += 0.02 * Vec3{any(random), any(random), any(random)};
+    std::vector<SheetLoad> loads(60);
+    double scale = 0;
+    for (SheetLoad& load : loads) {
+      load.triangle = int(random() % s.triangles().size());
+      load.point = {any(random), any(random), 1 + any(random)};
+      load.normal = {any(random), any(random), any(random)};
+      load.normal = load.normal / norm(load.normal);
+      const double force = any(random);
+      (random() % 2 ? load.force.x : load.force.z) = force;
+      load.area = 0.01 * (1.1 + any(random));
+      scale += std::abs(force);
+    }
+    expect_same(wrench_of(load_of_flow(loads, box(16), s.triangles(), s.cells, s.x), s.cells, s.x),
+                wrench_of(loads), scale);
+  }
+}
+
+TEST(SheetTransfer, NodeForcesAddUpToTheLoad) {
+  const Surface s = cap(10, 24);
+  const ClothLoad load = transfer(s, box(24), [](Vec3 p) { return 100 + 30 * p.x; });
+  const std::vector<Vec3> nodes = node_forces(load, s.cells, s.x);
+  Wrench sum;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    sum.force += nodes[i];
+    sum.moment += cross(s.x[i], nodes[i]);
+  }
+  expect_same(sum, wrench_of(load, s.cells, s.x), 100);
+}
+
+TEST(SheetTransfer, AUniformDropIsAUniformPressureOnTheCloth) {
+  for (const Surface& s : {cap(30, 64), cap(30, 64, 6, 85, 0.08), plate(20, 0.3)}) {
+    for (const int n : {16, 32, 64}) {
+      const ClothLoad load = transfer(s, box(n), [](Vec3) { return 120.0; });
+      EXPECT_LT(misfit(s, load.pressure, [](Vec3) { return 120.0; }).largest, 1e-9);
+    }
+  }
+}
+
+TEST(SheetTransfer, ALinearDropOnAFlatSheetAtAnyAngleIsLinearOnTheCloth) {
+  for (const double angle : {0.0, 0.2, 0.5, pi / 4}) {
+    const Surface s = plate(40, angle);
+    // Along the sheet: the points of faces at a hem lie off it.
+    const Vec3 along = {std::cos(angle), 0, -std::sin(angle)};
+    const Field drop = [&](Vec3 p) { return 100 + 70 * dot(p - Vec3{0, 0, 1}, along) - 40 * p.y; };
+    EXPECT_LT(misfit(s, transfer(s, box(24), drop).pressure, drop).largest, 1e-9) << angle;
+  }
+}
+
+// From -20 % at the skirt to the full drop inside, with a dent: smoother than the flow's cells, as a flow is.
+double dented(Vec3 p) {
+  return 100 * std::tanh(4 * (p.z - 0.95)) + 15 * std::sin(5 * p.x + 1) * std::cos(4 * p.y);
+}
+
+TEST(SheetTransfer, TheCellsPressuresConvergeWithTheFlowsGrid) {
+  const Surface s = cap(60, 128);
+  double last = 0;
+  for (const int n : {20, 40, 80}) {
+    const double rms = misfit(s, transfer(s, box(n), dented).pressure, dented).rms;
+    if (last > 0) {
+      EXPECT_LT(rms, 0.35 * last) << n;  // second order: a quarter
+    }
+    last = rms;
+  }
+  EXPECT_LT(last, 0.3);  // of 100 Pa
+}
+
+// Differences of second order along a row and down a column see a staircase at once: steps of the flow's grid
+// would be as large as the field's slope times a flow cell, 8 Pa here.
+TEST(SheetTransfer, CellsMuchSmallerThanTheFlowsGetALoadWithoutItsStaircase) {
+  const Surface s = cap(120, 256);
+  const std::vector<double> pressure = transfer(s, box(20), dented).pressure;
+  double rough = 0, exact = 0;
+  int count = 0;
+  for (int r = 1; r + 1 < s.rows; ++r) {
+    for (int c = 0; c < s.columns; ++c) {
+      const auto second = [&](const auto& at, int dr, int dc) {
+        const auto value = [&](int k) {
+          return at(std::size_t((r + k * dr) * s.columns + (c + k * dc + s.columns) % s.columns));
+        };
+        return value(1) - 2 * value(0) + value(-1);
+      };
+      for (const auto& [dr, dc] : {std::pair(1, 0), std::pair(0, 1)}) {
+        const double got = second([&](std::size_t i) { return pressure[i]; }, dr, dc);
+        const double of_field = second([&](std::size_t i) { return dented(centre_of(s, i)); }, dr, dc);
+        rough += (got - of_field) * (got - of_field), exact += of_field * of_field;
+        ++count;
+      }
+    }
+  }
+  RecordProperty("rms_pa", std::to_string(std::sqrt(rough / count)));
+  EXPECT_LT(std::sqrt(rough / count), 0.02) << "field itself " << std::sqrt(exact / count);
+}
+
+TEST(SheetTransfer, AFieldAboutTheAxisGivesNoSideForceAndNoMoment) {
+  const Surface s = cap(40, 96);
+  FlowGrid grid{{-0.8, -0.8, 0.3}, {1.6, 1.6, 1.6}, 32, 32, 32};
+  const ClothLoad load = transfer(s, grid, [](Vec3 p) { return 100 * p.z; });
+  const Wrench sum = wrench_of(load, s.cells, s.x);
+  EXPECT_GT(sum.force.z, 50);
+  EXPECT_LT(std::hypot(sum.force.x, sum.force.y), 1e-9 * sum.force.z);
+  EXPECT_LT(norm(sum.moment), 1e-9 * sum.force.z);
+}
+
+TEST(SheetTransfer, TheRemainderIsSmallAndShrinksWithTheFlowsGrid) {
+  const Surface s = cap(60, 128, 6, 85, 0.05);
+  const auto share = [&](int n) { return remainder_share(transfer(s, box(n), dented), s.cells, s.x); };
+  EXPECT_LT(share(32), 0.01);
+  EXPECT_LT(share(128), 0.003);
+}
+
+TEST(SheetTransfer, ClothThatTheFlowsGridMissesTakesThePressureOfItsNeighbours) {
+  Surface s = cap(30, 64);
+  std::vector<SheetLoad> loads = loads_of(s, box(32), [](Vec3) { return 80.0; });
+  std::erase_if(loads, [](const SheetLoad& load) { return load.point.x > 0; });
+  const ClothLoad load = load_of_flow(loads, box(32), s.triangles(), s.cells, s.x);
+  for (const double p : load.pressure) EXPECT_NEAR(p, 80, 1e-9);
+}
+
+}  // namespace
+}  // namespace ripstop
