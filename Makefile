@@ -5,7 +5,7 @@ SUDO := $(shell [ $$(id -u) = 0 ] || echo sudo)
 PREFIX ?= /usr/local
 
 # What building and running need, and what only the tests and benchmarks need beyond that.
-PACKAGES := build-essential cmake ninja-build pkg-config libtomlplusplus-dev libcli11-dev libfmt-dev libspdlog-dev \
+PACKAGES := build-essential cmake ninja-build pkg-config libtomlplusplus-dev libcli11-dev libfmt-dev \
   libeigen3-dev nlohmann-json3-dev libnlopt-dev libhwy-dev libpng-dev libcairo2-dev fonts-dejavu-core libxxhash-dev zlib1g-dev \
   openfoam openmpi-bin
 CHECK_PACKAGES := libgtest-dev libbenchmark-dev python3 python3-jsonschema python3-vtk9 clang-format

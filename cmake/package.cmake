@@ -1,10 +1,17 @@
-# The Debian package: `make package`.
+# The Debian packages: `make package`.
 set(CPACK_GENERATOR DEB)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_ALL program development)
 set(CPACK_PACKAGE_CONTACT "The Ripstop developers <ripstop@example.org>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "openfoam, openmpi-bin")
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME ripstop)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "openfoam, openmpi-bin")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libripstop-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
+  "ripstop, pkg-config, libfmt-dev, libpng-dev, zlib1g-dev, libhwy-dev, libcairo2-dev, libxxhash-dev, libnlopt-dev")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 include(CPack)

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <numbers>
 
+#include "ripstop/canopy/shape.h"
 #include "ripstop/core/file.h"
 #include "ripstop/parachute/flat_circular.h"
 #include "ripstop/run/compare.h"
@@ -102,10 +103,9 @@ TEST_F(InMemory, UnderAPressureTheLinesCarryTheClothsLoad) {
   EXPECT_TRUE(cloth.result.converged);
   EXPECT_EQ(cloth.result.pressure, 240);
   EXPECT_NEAR(cloth.result.line_tension / cloth.result.pressure_load, 1, 1e-3);
-  // What a uniform pressure does to a surface along z is that on the flat areas within its edges.
-  const double skirt = cloth.result.size.skirt_diameter, vent = 0.1;
-  const double area = 0.25 * std::numbers::pi * (skirt * skirt - vent * vent);
-  EXPECT_NEAR(cloth.result.pressure_load / (240 * area), 1, 0.01);
+  // Whatever its shape, a closed cloth carries the pressure on its mouth, less that on its vent.
+  const double vent = 0.25 * std::numbers::pi * 0.1 * 0.1;
+  EXPECT_NEAR(cloth.result.pressure_load / (240 * (skirt_area(cloth.mesh, cloth.shape) - vent)), 1, 5e-3);
   EXPECT_EQ(cloth.shape.size(), cloth.mesh.start.size());
 }
 
