@@ -45,7 +45,7 @@ bool holds_leftovers_only(const fs::path& folder) {
   const fs::directory_iterator entries(folder);
   return std::all_of(begin(entries), end(entries), [](const fs::directory_entry& entry) {
     const std::string name = entry.path().filename();
-    return name.starts_with("." + std::string(description) + ".") && name.ends_with(".tmp");
+    return name.starts_with(".run.json.") && name.ends_with(".tmp");
   });
 }
 
