@@ -251,8 +251,8 @@ constant/porosityProperties. blockMesh and cp are needed only to make the mesh a
 
 void range(const char* what, double value, double low, double high, const char* unit) {
   if (!(value >= low && value <= high)) {
-    throw Error(ExitCode::usage,
-                fmt::format("flow: {} is {:g} {}; it must lie in [{:g}, {:g}]", what, value, unit, low, high));
+    throw Error(ExitCode::usage, fmt::format("flow: {} is {:g} {}; it must lie in [{:g}, {:g}]", what, value,
+                                             unit, low, high));
   }
 }
 

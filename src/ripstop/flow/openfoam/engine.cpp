@@ -118,8 +118,8 @@ class OpenFoamFlow final : public Flow {
 
  private:
   Basis basis() const {
-    return {problem_.grid,           problem_.air,           problem_.sides, settings_.ranks,
-            settings_.second_order, settings_.incompressible};
+    return {problem_.grid,   problem_.air,           problem_.sides,
+            settings_.ranks, settings_.second_order, settings_.incompressible};
   }
 
   fs::path part_folder(int rank) const {
