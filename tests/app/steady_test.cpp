@@ -94,10 +94,11 @@ TEST_F(Steady, WithTheBuiltInEngineTheDragIsThatOfOpenFoam) {
 // 7 % less momentum than the canopy takes.
 TEST_F(Steady, WhereTheFlowDoesNotSettleItsMeanStandsOnceTheLedgerCloses) {
   const std::string example = std::string(RIPSTOP_SOURCE_DIR) + "/examples/flat-circular/case.toml";
-  ASSERT_EQ(wait_for(start({"steady", example, "--grid", "40,40,49", "--set",
-                            "parachute.mesh.cloth_nodes=1500", "--set", "flow.max_iterations=60", "--set",
-                            "flow.average_over=20", "--out", (folder_ / "run").string()})),
-            0);
+  ASSERT_EQ(
+      wait_for(start({"steady", example, "--grid", "40,40,49", "--set", "parachute.mesh.cloth_nodes=1500",
+                      "--set", "flow.max_iterations=60", "--set", "flow.average_over=20", "--set",
+                      "flow.residual=1e-7", "--out", (folder_ / "run").string()})),
+      0);
   EXPECT_EQ(read_csv(folder_ / "run" / "iterations.csv").column("flow_averaged").back(), 20);
   expect_closed_ledger(result("run"));
 }
