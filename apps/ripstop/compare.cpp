@@ -172,7 +172,7 @@ int compare(Options& options) {
   std::vector<Shape> shapes;
   ordered_json j;
   j["title"] = value.title;
-  j["drag_tolerance"] = value.coupling.drag_tolerance;
+  j["drag_tolerance"] = resolve(value).coupling.drag_tolerance;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     shapes.push_back(shape_of(points[i], folder));
     j["models"].push_back(model_json(axis.values[i], rows[i], rows[0], shapes[i], shapes[0]));

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "case_options.h"
 #include "commands.h"
 #include "opening.h"
 #include "progress.h"
@@ -168,8 +169,8 @@ void add_inflate(CLI::App& app, int& status) {
       app.add_subcommand("inflate", "How a folded canopy opens, and the load it puts on the riser");
   command->footer("Example: ripstop inflate examples/stratos-iv/case.toml --steady runs/stratos-iv");
   add_opening_options(*command, options->opening);
-  command->add_option("--damping", options->opening.damping, "C_a a unit area [N s/m3]")
-      ->check(CLI::NonNegativeNumber);
+  add_key_option(*command, "--damping", "inflation.damping_n_s_m3", "C_a a unit area [N s/m3]",
+                 options->opening.overrides);
   command->add_option("--out", options->out, "Run folder (default: runs/<folder of the case>-inflation)");
   command->add_flag("--fresh", options->fresh, "Replace what the run folder holds; default: go on with it");
   command->add_flag("--check", options->check, "Fold, say strain, pressure and step, and stop");

@@ -117,6 +117,7 @@ int show_finished(const std::string& result, const fs::path& folder) {
 
 int run(const Options& options) {
   const Case value = read_case(options.case_file, options.overrides);
+  const CouplingSettings coupling = resolve(value).coupling;
   const fs::path folder =
       options.out.empty() ? fs::path("runs") / options.case_file.parent_path().filename() : options.out;
 
@@ -148,7 +149,8 @@ int run(const Options& options) {
     const double now = elapsed();
     double left = 0;
     if (!state.iterations.empty()) {
-      left = iterations_left(state, value.coupling) * state.iterations.back().wall_time - (now - before);
+      left = iterations_left(state, coupling) * state.iterations.back().wall_time -
+             (now - before);
     }
     progress.show(progress_text(p, now, left));
   };
@@ -168,7 +170,7 @@ int run(const Options& options) {
     fmt::print(stderr,
                "not converged within {} coupling iterations: drag still changed by {:.2g} (wanted {:.2g}), "
                "shape by {:.2g} m (wanted {:.2g}), or the ledger is not closed within 1 %\n",
-               result.iterations, result.last.drag_change, value.coupling.drag_tolerance,
+               result.iterations, result.last.drag_change, coupling.drag_tolerance,
                result.last.shape_change, value.coupling.shape_tolerance_m);
     return static_cast<int>(ExitCode::not_converged);
   }

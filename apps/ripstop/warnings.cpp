@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "ripstop/case/resolve.h"
 #include "ripstop/material/fit_material.h"
 #include "ripstop/parachute/resolution.h"
 
@@ -19,13 +20,14 @@ void print_mesh_warning(const Case& value) {
 
 void print_porosity_warning(const Case& value) {
   const Fabric& cloth = canopy_fabric(value);
-  if (value.flow.porosity_model == cloth.porosity_model) return;
+  const PorosityModel used = resolve(value).flow.porosity_model;
+  if (used == cloth.resistance.model) return;
   const auto word = [](PorosityModel model) { return model == PorosityModel::paper ? "paper" : "sheet"; };
   fmt::print(
       stderr,
       "warning: flow.porosity_model = \"{}\", but darcy and forchheimer of materials.{} are for \"{}\" "
       "(materials/README.md)\n",
-      word(value.flow.porosity_model), cloth.name, word(cloth.porosity_model));
+      word(used), cloth.name, word(cloth.resistance.model));
 }
 
 void print_material_warnings(const Case& value, double largest_cloth_strain) {

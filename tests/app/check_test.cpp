@@ -68,6 +68,24 @@ TEST_F(Check, MassesAndAreasAreThoseOfThePattern) {
   EXPECT_EQ(report["case"]["flow"]["density_kg_m3"], 1.2);
 }
 
+TEST_F(Check, SaysOfEveryValueThatMayBeLeftOutWhatItFollowedFrom) {
+  const std::string flat = RIPSTOP_SOURCE_DIR "/examples/flat-circular/case.toml";
+  const Finished table = ripstop_with({"check", flat, "--set", "flow.canopy_position_m=2.8"});
+  ASSERT_EQ(table.code, 0) << table.output;
+  for (const char* line :
+       {"flow.box_m                  4.2 x 4.2 x 6.3    6 x 6 x 9 inflated diameters of 0.7 m",
+        "flow.canopy_position_m      2.8                given by --set",
+        "flow.sides                  entraining         the sheet's default"})
+    EXPECT_NE(table.output.find(line), std::string::npos) << line << "\n" << table.output;
+  const auto report = nlohmann::json::parse(ripstop_with({"check", flat, "--json"}).output);
+  for (const auto& source : report["sources"]) {
+    if (source["key"] != "flow.cells") continue;
+    EXPECT_EQ(source["value"], (nlohmann::json{80, 80, 98}));
+    EXPECT_EQ(source["given"], false);
+    EXPECT_EQ(source["from"], "the sheet's default");
+  }
+}
+
 TEST_F(Check, OptionsChangeTheCaseAndAreNamedWhenTheyAreWrong) {
   const Finished fine = ripstop_with(
       {"check", stratos, "--json", "--speed", "20", "--grid", "50,50,75", "--set", "flow.box_m=[4,4,8]"});

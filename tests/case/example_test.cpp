@@ -4,7 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "ripstop/case/case.h"
+#include "ripstop/case/resolve.h"
 
 namespace ripstop {
 namespace {

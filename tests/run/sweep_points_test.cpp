@@ -27,9 +27,10 @@ TEST(SweepPoints, AreEveryCombinationEachOneStepFromItsNeighbour) {
       continue;
     }
     const SweepPoint& neighbour = points[point.start];
-    const double step =
-        std::abs(point.value.flow.speed_m_s - neighbour.value.flow.speed_m_s) / 5 +
-        std::abs(canopy_fabric(point.value).darcy - canopy_fabric(neighbour.value).darcy) / 10;
+    const double step = std::abs(point.value.flow.speed_m_s - neighbour.value.flow.speed_m_s) / 5 +
+                        std::abs(canopy_fabric(point.value).resistance.linear -
+                                 canopy_fabric(neighbour.value).resistance.linear) /
+                            10;
     EXPECT_DOUBLE_EQ(step, 1) << point.folder;
     EXPECT_LE(std::abs(neighbour.value.flow.speed_m_s - 20), std::abs(point.value.flow.speed_m_s - 20));
   }

@@ -1,36 +1,108 @@
 #include "ripstop/case/case.h"
 
-#include <algorithm>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <cmath>
 
+#include "ripstop/case/resolve.h"
 #include "ripstop/core/toml/fields.h"
 
 namespace ripstop {
 namespace {
 
 template <class Kind>
-const Kind& material(const Case& value, const std::string& name) {
-  const auto found = value.materials.find(name);
-  const Kind* chosen = found == value.materials.end() ? nullptr : std::get_if<Kind>(&found->second);
+const Kind& material(const Case& given, const std::string& name) {
+  const auto found = given.materials.find(name);
+  const Kind* chosen = found == given.materials.end() ? nullptr : std::get_if<Kind>(&found->second);
   if (!chosen)
     throw Error(ExitCode::usage, "the case has no material \"" + name + "\" of the kind that is needed");
   return *chosen;
 }
 
-}  // namespace
-
-void describe(Fields& fields, CoreSettings& core) {
-  fields.vector(
-      "size_m", core.size_m, from(0).up_to(1000),
-      "Width, height, length of the part of the box with uniform cells, about the box's axis; outside "
-      "of it cells grow toward the sides. 0: uniform along that axis.");
-  fields.number("start_m", core.start_m, from(0).up_to(1000), "Distance from the inlet to the fine part.")
-      .absent("such that a quarter of its length lies before the canopy");
-  fields.number("growth", core.growth, above(1).up_to(2),
-                "Largest ratio of a cell's width to that of its inner neighbour.");
+/// The default of a key in the reference: the sheet's, and the paper model's.
+std::string by_model(const std::string& sheet, const std::string& paper) {
+  return sheet == paper ? sheet : sheet + "; `paper`: " + paper;
+}
+std::string by_model(double sheet, double paper) {
+  return by_model(fmt::format("`{}`", sheet), fmt::format("`{}`", paper));
+}
+std::string by_model(const std::array<int, 3>& sheet, const std::array<int, 3>& paper) {
+  return by_model(fmt::format("`[{}]`", fmt::join(sheet, ", ")),
+                  fmt::format("`[{}]`", fmt::join(paper, ", ")));
 }
 
-void describe(Fields& fields, FlowSettings& flow) {
+/// Keys of [flow]: the box, its cells, the canopy's place in it and how the cloth resists.
+void describe_space(Fields& fields, FlowKeys& flow) {
+  fields
+      .vector("box_m", flow.box_m, above(0).up_to(1000),
+              "Box of air: width, height, length along the flow ([NFM] section 5).")
+      .absent(by_model("6 d x 6 d x 9 d", "`[2, 2, 4]`"));
+  fields.integers("cells", flow.cells, from(4).up_to(2000), "Cells along each side of the box.")
+      .absent(by_model(sheet_defaults.cells, paper_defaults.cells));
+  fields.table("core", flow.core, "Cells that are finer about the canopy, so that the box may be wide.");
+  fields
+      .number("canopy_position_m", flow.canopy_position_m, above(0).up_to(1000),
+              "Distance from the inlet to the skirt of the undeformed start shape.")
+      .absent(by_model("half the length of the box, at most 4 d", "half the length of the box"));
+  fields
+      .choice(
+          "porosity_model", flow.porosity_model,
+          {{"paper", PorosityModel::paper}, {"sheet", PorosityModel::sheet}},
+          "\"paper\": the cloth's darcy and forchheimer as resistance of every cell that the canopy cuts; "
+          "\"sheet\": as the pressure drop a v + b v|v| across the cloth, whatever the cells "
+          "(built-in engine only).")
+      .absent("what the canopy cloth's coefficients are for");
+}
+
+/// Keys of [flow]: the equations' numerics and the sides of the box.
+void describe_numerics(Fields& fields, FlowKeys& flow) {
+  fields
+      .choice("convection", flow.convection,
+              {{"upwind", Convection::upwind}, {"second-order", Convection::second_order}},
+              "Of the velocity. \"upwind\": first order, as [NFM]; \"second-order\": limited linear.")
+      .absent(by_model("`\"second-order\"`", "`\"upwind\"`"));
+  fields
+      .choice(
+          "sides", flow.sides,
+          {{"zero-gradient", Sides::zero_gradient}, {"slip", Sides::slip}, {"entraining", Sides::entraining}},
+          "The four sides of the box. \"zero-gradient\": open, as [NFM]; \"slip\": walls without friction; "
+          "\"entraining\": air of the stream may come in with its total pressure (built-in engine only).")
+      .absent(by_model("`\"entraining\"`", "`\"zero-gradient\"`"));
+  fields
+      .number("residual", flow.residual, above(0).up_to(0.1),
+              "Residual of every equation at which a solution ends.")
+      .absent(by_model(sheet_defaults.residual, paper_defaults.residual));
+  fields
+      .integer("max_iterations", flow.max_iterations, from(1).up_to(1'000'000),
+               "Most iterations of one flow solution.")
+      .absent(by_model(sheet_defaults.max_iterations, paper_defaults.max_iterations));
+  fields
+      .integer("average_over", flow.average_over, from(0).up_to(1'000'000),
+               "Iterations at the end of a flow solution that did not settle, whose mean is taken for it; 0: "
+               "the last one stands (built-in engine only).")
+      .absent(by_model(sheet_defaults.average_over, paper_defaults.average_over) +
+              "; at most max_iterations");
+}
+
+}  // namespace
+
+void describe(Fields& fields, CoreKeys& core) {
+  fields
+      .vector(
+          "size_m", core.size_m, from(0).up_to(1000),
+          "Width, height, length of the part of the box with uniform cells, about the box's axis; outside "
+          "of it cells grow toward the sides. 0: uniform along that axis.")
+      .absent(by_model("1.8 d x 1.8 d x 2.2 d, 0 where the box is less than twice as wide", "`[0, 0, 0]`"));
+  fields.number("start_m", core.start_m, from(0).up_to(1000), "Distance from the inlet to the fine part.")
+      .absent("such that a quarter of its length lies before the canopy");
+  fields
+      .number("growth", core.growth, above(1).up_to(2),
+              "Largest ratio of a cell's width to that of its inner neighbour.")
+      .absent(by_model(sheet_defaults.growth, paper_defaults.growth));
+}
+
+void describe(Fields& fields, FlowKeys& flow) {
   fields.choice("engine", flow.engine, {{"builtin", EngineKind::builtin}, {"openfoam", EngineKind::openfoam}},
                 "Flow solver: the built-in one, or OpenFOAM's rhoPorousSimpleFoam with the same equations.");
   fields
@@ -50,49 +122,22 @@ void describe(Fields& fields, FlowSettings& flow) {
                 "At the inlet (assumed).");
   fields.number("viscosity_ratio", flow.viscosity_ratio, above(0).up_to(1e5),
                 "Eddy viscosity over viscosity at the inlet (assumed).");
-  fields.vector("box_m", flow.box_m, above(0).up_to(1000),
-                "Box of air: width, height, length along the flow ([NFM] section 5).");
-  fields.integers("cells", flow.cells, from(4).up_to(2000), "Cells along each side of the box.");
-  fields.table("core", flow.core, "Cells that are finer about the canopy, so that the box may be wide.");
-  fields
-      .number("canopy_position_m", flow.canopy_position_m, above(0).up_to(1000),
-              "Distance from the inlet to the skirt of the undeformed start shape.")
-      .absent("half the length of the box");
-  fields.choice("porosity_model", flow.porosity_model,
-                {{"of-cloth", PorosityModel::of_cloth},
-                 {"paper", PorosityModel::paper},
-                 {"sheet", PorosityModel::sheet}},
-                "\"of-cloth\": what the canopy cloth's coefficients are for; \"paper\": the cloth's darcy "
-                "and forchheimer as resistance of every cell that the canopy cuts; "
-                "\"sheet\": as the pressure drop a v + b v|v| across the cloth, whatever the cells "
-                "(built-in engine only).");
-  fields.choice("convection", flow.convection,
-                {{"upwind", Convection::upwind}, {"second-order", Convection::second_order}},
-                "Of the velocity. \"upwind\": first order, as [NFM]; \"second-order\": limited linear.");
-  fields.choice(
-      "sides", flow.sides,
-      {{"zero-gradient", Sides::zero_gradient}, {"slip", Sides::slip}, {"entraining", Sides::entraining}},
-      "The four sides of the box. \"zero-gradient\": open, as [NFM]; \"slip\": walls without friction; "
-      "\"entraining\": air of the stream may come in with its total pressure (built-in engine only).");
-  fields.number("residual", flow.residual, above(0).up_to(0.1),
-                "Residual of every equation at which a solution ends.");
-  fields.integer("max_iterations", flow.max_iterations, from(1).up_to(1'000'000),
-                 "Most iterations of one flow solution.");
-  fields.integer(
-      "average_over", flow.average_over, from(0).up_to(1'000'000),
-      "Iterations at the end of a flow solution that did not settle, whose mean is taken for it; 0: "
-      "the last one stands (built-in engine only).");
+  describe_space(fields, flow);
+  describe_numerics(fields, flow);
   fields.integer("ranks", flow.ranks, from(1).up_to(4096), "Processes of the flow solver.");
   fields.number("time_limit_s", flow.time_limit_s, from(0).up_to(1e7),
                 "Longest wall time of one flow solution; 0: none.");
 }
 
-void describe(Fields& fields, CouplingSettings& coupling) {
-  fields.choice(
-      "load", coupling.load, {{"uniform", CanopyLoad::uniform}, {"sampled", CanopyLoad::sampled}},
-      "The flow's force on the cloth: one pressure difference, or the pressures read on both sides.");
-  fields.number("drag_tolerance", coupling.drag_tolerance, above(0).up_to(1),
-                "Relative change of drag between two iterations at which the coupling may end.");
+void describe(Fields& fields, CouplingKeys& coupling) {
+  fields
+      .choice("load", coupling.load, {{"uniform", CanopyLoad::uniform}, {"sampled", CanopyLoad::sampled}},
+              "The flow's force on the cloth: one pressure difference, or the pressures read on both sides.")
+      .absent("`\"uniform\"`");
+  fields
+      .number("drag_tolerance", coupling.drag_tolerance, above(0).up_to(1),
+              "Relative change of drag between two iterations at which the coupling may end.")
+      .absent(by_model(sheet_defaults.drag_tolerance, paper_defaults.drag_tolerance));
   fields.number("shape_tolerance_m", coupling.shape_tolerance_m, above(0).up_to(10),
                 "Mean displacement of the nodes between two iterations at which it may end.");
   fields.integer("max_iterations", coupling.max_iterations, from(1).up_to(10000),
@@ -201,68 +246,49 @@ void describe(Fields& fields, Measured& measured) {
       .absent("not printed");
 }
 
-void describe(Fields& fields, Case& value) {
-  fields.text("title", value.title, 200, "A line for reports.");
-  fields.table("parachute", value.parachute, "The parachute.").required();
-  fields.named_tables("materials", value.materials,
+void describe(Fields& fields, Case& given) {
+  fields.text("title", given.title, 200, "A line for reports.");
+  fields.table("parachute", given.parachute, "The parachute.").required();
+  fields.named_tables("materials", given.materials,
                       "Materials of this case; they come before those of the library with the same name.");
   fields
-      .table(
-          "flow", value.flow,
-          "The air, its box and its solver. The defaults of the table are those of the \"paper\" model; with "
-          "\"sheet\" those stand that \"Air through the cloth\" above lists.")
+      .table("flow", given.flow,
+             "The air, its box and its solver. Where a default names `paper`, it stands with that porosity "
+             "model, and "
+             "the other with `sheet`; d is the inflated diameter of \"Air through the cloth\" above.")
       .required();
-  fields.table("coupling", value.coupling, "The steady loop between cloth and flow.");
-  fields.table("inflation", value.inflation, "The opening of the folded canopy.");
-  fields.rows("measured", value.measured, "Wind-tunnel conditions to take air from and to compare with.");
+  fields.table("coupling", given.coupling, "The steady loop between cloth and flow.");
+  fields.table("inflation", given.inflation, "The opening of the folded canopy.");
+  fields.rows("measured", given.measured, "Wind-tunnel conditions to take air from and to compare with.");
 }
 
-const Measured* measured_row(const Case& value) {
-  const double wanted = value.flow.speed_m_s;
-  for (const Measured& row : value.measured)
+const Measured* measured_row(const Case& given) {
+  const double wanted = given.flow.speed_m_s;
+  for (const Measured& row : given.measured)
     if (std::abs(row.nominal_speed_m_s - wanted) <= 1e-9 * wanted) return &row;
   return nullptr;
 }
 
-Air air(const Case& value) {
-  const FlowSettings& flow = value.flow;
-  const Measured* row = measured_row(value);
+Air air(const Case& given) {
+  const FlowKeys& flow = given.flow;
+  const Measured* row = measured_row(given);
   if (!row && (flow.speed_basis == SpeedBasis::measured || !flow.density_kg_m3))
     throw Error(ExitCode::usage, "no row of [[measured]] has the nominal speed of this case");
   return {flow.speed_basis == SpeedBasis::measured ? row->measured_speed_m_s : flow.speed_m_s,
           flow.density_kg_m3 ? *flow.density_kg_m3 : row->density_kg_m3};
 }
 
-double canopy_position(const Case& value) {
-  return value.flow.canopy_position_m.value_or(value.flow.box_m.z / 2);
+const Fabric& canopy_fabric(const Case& given) {
+  return material<Fabric>(given, given.parachute.canopy_material);
 }
-
-FlowGrid flow_grid(const Case& value) {
-  const FlowSettings& flow = value.flow;
-  FlowGrid grid;
-  grid.origin = {-0.5 * flow.box_m.x, -0.5 * flow.box_m.y, 0};
-  grid.size = flow.box_m;
-  grid.nx = flow.cells[0];
-  grid.ny = flow.cells[1];
-  grid.nz = flow.cells[2];
-  const Vec3 size = flow.core.size_m;
-  if (size.x <= 0 && size.y <= 0 && size.z <= 0) return grid;
-  const double start = flow.core.start_m.value_or(std::max(0.0, canopy_position(value) - 0.25 * size.z));
-  return graded(grid, {-0.5 * size.x, -0.5 * size.y, start}, {0.5 * size.x, 0.5 * size.y, start + size.z},
-                flow.core.growth);
+const Line& suspension_line(const Case& given) {
+  return material<Line>(given, given.parachute.lines.material);
 }
-
-const Fabric& canopy_fabric(const Case& value) {
-  return material<Fabric>(value, value.parachute.canopy_material);
+const Line& riser_line(const Case& given) {
+  return material<Line>(given, given.parachute.riser.material);
 }
-const Line& suspension_line(const Case& value) {
-  return material<Line>(value, value.parachute.lines.material);
-}
-const Line& riser_line(const Case& value) {
-  return material<Line>(value, value.parachute.riser.material);
-}
-const Tape& reinforcement_tape(const Case& value) {
-  return material<Tape>(value, value.parachute.tape.material);
+const Tape& reinforcement_tape(const Case& given) {
+  return material<Tape>(given, given.parachute.tape.material);
 }
 
 }  // namespace ripstop

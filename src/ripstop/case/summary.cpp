@@ -32,42 +32,42 @@ void count_springs(const Mesh& mesh, CaseSummary& summary) {
 
 }  // namespace
 
-CaseSummary summarize(const Case& value) {
+CaseSummary summarize(const Case& given) {
   CaseSummary summary;
-  const Mesh mesh = parachute_mesh(value);
+  const Mesh mesh = parachute_mesh(given);
   for (const Patch& patch : mesh.patches) {
     summary.cloth_nodes += patch.rows * patch.columns;
     for (double area : patch.cell_area) summary.cloth_area += area;
   }
-  summary.computed_area = computed_area(value.parachute);
-  summary.nominal_area = nominal_area(value.parachute);
-  const CanopyFacts canopy = facts(value.parachute);
+  summary.computed_area = computed_area(given.parachute);
+  summary.nominal_area = nominal_area(given.parachute);
+  const CanopyFacts canopy = facts(given.parachute);
   summary.vent_area = canopy.vent_area;
   summary.slot_area = canopy.slot_area;
   summary.geometric_porosity = canopy.geometric_porosity();
 
   for (double mass : mesh.mass) summary.total_mass += mass;
-  summary.cloth_mass = summary.cloth_area * canopy_fabric(value).areal_density_kg_m2;
+  summary.cloth_mass = summary.cloth_area * canopy_fabric(given).areal_density_kg_m2;
   for (const LineRun& line : mesh.lines)
-    summary.line_mass += length_of(mesh, line.springs) * suspension_line(value).linear_density_kg_m;
-  summary.riser_mass = length_of(mesh, mesh.riser_springs) * riser_line(value).linear_density_kg_m;
+    summary.line_mass += length_of(mesh, line.springs) * suspension_line(given).linear_density_kg_m;
+  summary.riser_mass = length_of(mesh, mesh.riser_springs) * riser_line(given).linear_density_kg_m;
   // Tape lies on springs of its own kind only, so what is left is tape.
   summary.tape_mass = summary.total_mass - summary.cloth_mass - summary.line_mass - summary.riser_mass;
 
   summary.nodes = mesh.node_count();
-  summary.resolved_cloth_nodes = resolved_cloth_nodes(value.parachute);
+  summary.resolved_cloth_nodes = resolved_cloth_nodes(given.parachute);
   count_springs(mesh, summary);
   ClothOptions options;
-  options.linear = value.coupling.linear;
+  options.linear = given.coupling.linear;
   const ClothPtr cloth = make_cloth(mesh, options);
   summary.step = step_bound(*cloth, start_state(*cloth));
 
-  const FlowGrid grid = flow_problem(value).grid;
+  const FlowGrid grid = flow_problem(given).grid;
   summary.flow_cells = static_cast<long long>(grid.nx) * grid.ny * grid.nz;
   summary.flow_spacing = grid.spacing();
-  const double diameter = start_diameter(value.parachute);
+  const double diameter = start_diameter(given.parachute);
   summary.blockage = std::numbers::pi / 4 * diameter * diameter / (grid.size.x * grid.size.y);
-  summary.air = air(value);
+  summary.air = air(given);
   return summary;
 }
 

@@ -28,6 +28,6 @@ struct CaseSummary {
 };
 
 /// Builds the mesh and the cloth. Throws what they throw.
-CaseSummary summarize(const Case& value);
+CaseSummary summarize(const Case& given);
 
 }  // namespace ripstop

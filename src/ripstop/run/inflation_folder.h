@@ -7,19 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "ripstop/case/case.h"
+#include "ripstop/case/opening.h"
 #include "ripstop/inflation/inflation.h"
 #include "ripstop/inflation/opening_estimate.h"
 #include "ripstop/inflation/summary.h"
 #include "ripstop/run/run_folder.h"
 
 namespace ripstop {
-
-/// Where the pressure came from.
-struct LoadSource {
-  std::string text;                   // for people: "steady run runs/a: 396.1 N"
-  std::optional<double> steady_drag;  // that the pressure was chosen for [N]
-};
 
 struct InflationResult {
   InflationSummary summary;

@@ -27,13 +27,13 @@ std::unique_ptr<FlowEngine> make_engine(const Case& value, const SteadyRunSettin
   if (value.flow.engine == EngineKind::builtin) {
     CartesianSettings settings;
     settings.threads = threads;
-    settings.second_order = value.flow.convection == Convection::second_order;
+    settings.second_order = resolve(value).flow.convection == Convection::second_order;
     return make_cartesian(settings);
   }
   OpenFoamSettings settings;
   settings.folder = run.folder.folder / "flow";
   settings.ranks = value.flow.ranks;
-  settings.second_order = value.flow.convection == Convection::second_order;
+  settings.second_order = resolve(value).flow.convection == Convection::second_order;
   settings.hostfile = run.hostfile;
   settings.time_limit_s = value.flow.time_limit_s > 0 ? value.flow.time_limit_s : 1e9;
   return make_openfoam(settings);

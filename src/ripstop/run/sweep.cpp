@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "ripstop/case/resolve.h"
 #include "ripstop/core/build_info.h"
 #include "ripstop/core/file.h"
 #include "ripstop/core/thread_team.h"
@@ -273,7 +274,7 @@ int fitting_jobs(const std::vector<SweepPoint>& points) {
   double bytes = 0;
   int ranks = 1;
   for (const SweepPoint& point : points) {
-    const FlowSettings& flow = point.value.flow;
+    const FlowSettings flow = resolve(point.value).flow;
     bytes = std::max(bytes, bytes_a_run + bytes_a_cell * flow.cells[0] * flow.cells[1] * flow.cells[2]);
     if (flow.engine == EngineKind::openfoam) ranks = std::max(ranks, flow.ranks);
   }
