@@ -7,10 +7,9 @@
 namespace ripstop {
 namespace {
 
-constexpr double reach = 2.0; // of the weights, in flow cells
-// Directions in which the faces near a cell spread less than this, in reaches
-// squared, cannot tell a slope: across the cloth, and along a strip narrower
-// than the flow's cells. A round piece of cloth has 0.1.
+constexpr double reach = 2.0;  // of the weights, in flow cells
+// Directions in which the faces near a cell spread less than this, in reaches squared, cannot tell a slope:
+// across the cloth, and along a strip narrower than the flow's cells. A round piece of cloth has 0.1.
 constexpr double least_spread = 0.01;
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
@@ -19,33 +18,30 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 /// Area vector and centre of every cell of cloth; no area elsewhere.
 struct Patchwork {
   std::vector<Vec3> area, centre;
-  Vec3 middle; // centre of area
+  Vec3 middle;  // centre of area
 
-  Patchwork(const std::vector<Cell> &cells, const std::vector<Vec3> &x)
+  Patchwork(const std::vector<Cell>& cells, const std::vector<Vec3>& x)
       : area(cells.size()), centre(cells.size()) {
     double whole = 0;
     for (std::size_t c = 0; c < cells.size(); ++c) {
-      const auto &n = cells[c].corner;
-      if (n[0] < 0)
-        continue;
+      const auto& n = cells[c].corner;
+      if (n[0] < 0) continue;
       area[c] = area_vector(x[n[0]], x[n[1]], x[n[2]], x[n[3]]);
       centre[c] = 0.25 * (x[n[0]] + x[n[1]] + x[n[2]] + x[n[3]]);
       middle += norm(area[c]) * centre[c];
       whole += norm(area[c]);
     }
-    if (whole > 0)
-      middle = middle / whole;
+    if (whole > 0) middle = middle / whole;
   }
-  Vec3 traction(const RigidTraction &t, std::size_t cell) const {
+  Vec3 traction(const RigidTraction& t, std::size_t cell) const {
     return t.at_centre + cross(t.twist, centre[cell] - middle);
   }
-  Vec3 force(const ClothLoad &load, std::size_t cell) const {
-    return load.pressure[cell] * area[cell] +
-           norm(area[cell]) * traction(load.remainder, cell);
+  Vec3 force(const ClothLoad& load, std::size_t cell) const {
+    return load.pressure[cell] * area[cell] + norm(area[cell]) * traction(load.remainder, cell);
   }
 };
 
-Wrench &operator+=(Wrench &sum, const Wrench &other) {
+Wrench& operator+=(Wrench& sum, const Wrench& other) {
   sum.force += other.force;
   sum.moment += other.moment;
   return sum;
@@ -58,49 +54,43 @@ Wrench acting_at(Vec3 point, Vec3 force) {
 /// Pressure of the cloth that one face stands for.
 struct Sample {
   Vec3 point, outward;
-  double pressure = 0; // inside over outside [Pa]
-  double area = 0;     // [m2]
+  double pressure = 0;  // inside over outside [Pa]
+  double area = 0;      // [m2]
 };
 
-// Beside a hem all that the face loses acts on the part of it that the cloth
-// covers.
-std::vector<Sample> samples_of(const std::vector<SheetLoad> &loads,
-                               const std::vector<Triangle> &surface) {
+// The force is that of the cloth's pressure on the part of the face that the cloth covers: beside a hem all
+// that the face loses acts there. Points of such faces lie beside the cloth and are brought on to its plane.
+std::vector<Sample> samples_of(const std::vector<SheetLoad>& loads, const std::vector<Triangle>& surface) {
   std::vector<Sample> samples;
   samples.reserve(loads.size());
-  for (const SheetLoad &load : loads) {
-    if (!(load.area > 0) || !(load.cover > 0))
-      continue;
-    const Triangle &t = surface[load.triangle];
-    const double side =
-        dot(cross(t.b - t.a, t.c - t.a), load.normal) < 0 ? -1 : 1;
-    double value = side * load.drop / load.cover;
-    samples.push_back({load.point, side * load.normal, value, load.area});
+  for (const SheetLoad& load : loads) {
+    if (!(load.area > 0)) continue;
+    const Triangle& t = surface[load.triangle];
+    const Vec3 normal = cross(t.b - t.a, t.c - t.a);
+    const double side = dot(normal, load.normal) < 0 ? -1 : 1;
+    const Vec3 off = dot(load.point - t.a, normal) / dot(normal, normal) * normal;
+    samples.push_back(
+        {load.point - off, side * load.normal, side * dot(load.force, load.normal) / load.area, load.area});
   }
-  std::sort(
-      samples.begin(), samples.end(),
-      [](const Sample &a, const Sample &b) { return a.point.z < b.point.z; });
+  std::sort(samples.begin(), samples.end(),
+            [](const Sample& a, const Sample& b) { return a.point.z < b.point.z; });
   return samples;
 }
 
-// The plane through the samples within `radius` that look the same way, by
-// weighted least squares: pressures that are linear in space come out as they
-// are. Nothing where there is no such sample.
-bool plane_through(const std::vector<Sample> &samples, Vec3 centre, Vec3 normal,
-                   double radius, double &pressure) {
-  const auto below = [](const Sample &s, double z) { return s.point.z < z; };
-  const auto begin = std::lower_bound(samples.begin(), samples.end(),
-                                      centre.z - radius, below);
-  const auto end =
-      std::lower_bound(begin, samples.end(), centre.z + radius, below);
+// The plane through the samples within `radius` that look the same way, by weighted least squares: pressures
+// that are linear in space come out as they are. Nothing where there is no such sample.
+bool plane_through(const std::vector<Sample>& samples, Vec3 centre, Vec3 normal, double radius,
+                   double& pressure) {
+  const auto below = [](const Sample& s, double z) { return s.point.z < z; };
+  const auto begin = std::lower_bound(samples.begin(), samples.end(), centre.z - radius, below);
+  const auto end = std::lower_bound(begin, samples.end(), centre.z + radius, below);
   double weights = 0, mean = 0;
   Eigen::Vector3d at = Eigen::Vector3d::Zero(), slope = Eigen::Vector3d::Zero();
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (auto s = begin; s != end; ++s) {
     const Vec3 d = (s->point - centre) / radius;
     const double inside = 1 - dot(d, d), facing = dot(s->outward, normal);
-    if (inside <= 0 || facing <= 0)
-      continue;
+    if (inside <= 0 || facing <= 0) continue;
     const double w = s->area * facing * inside * inside;
     const Eigen::Vector3d e(d.x, d.y, d.z);
     weights += w;
@@ -109,34 +99,29 @@ bool plane_through(const std::vector<Sample> &samples, Vec3 centre, Vec3 normal,
     slope += w * s->pressure * e;
     spread += w * e * e.transpose();
   }
-  if (!(weights > 0))
-    return false;
+  if (!(weights > 0)) return false;
   mean /= weights;
   at /= weights;
   slope = slope / weights - mean * at;
   spread = spread / weights - at * at.transpose();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
   const Eigen::Vector3d along =
-      (axes.eigenvectors().transpose() * slope)
-          .cwiseQuotient(axes.eigenvalues().cwiseMax(least_spread));
+      (axes.eigenvectors().transpose() * slope).cwiseQuotient(axes.eigenvalues().cwiseMax(least_spread));
   pressure = mean - (axes.eigenvectors() * along).dot(at);
   return true;
 }
 
-std::vector<double> pressures(const std::vector<Sample> &samples,
-                              const FlowGrid &grid, const Patchwork &cloth) {
+std::vector<double> pressures(const std::vector<Sample>& samples, const FlowGrid& grid,
+                              const Patchwork& cloth) {
   std::vector<double> result(cloth.area.size(), 0.0);
   for (std::size_t c = 0; c < result.size() && !samples.empty(); ++c) {
     const double area = norm(cloth.area[c]);
-    if (!(area > 0))
-      continue;
+    if (!(area > 0)) continue;
     const Vec3 h = grid.spacing(cloth.centre[c]);
-    // Cloth that no face stands for, at a seam or fold smaller than the cells,
-    // takes what is nearest.
-    double radius = reach * std::max({h.x, h.y, h.z});
+    // Cloth that no face stands for, at a seam or fold smaller than the cells, takes what is nearest.
+    double radius = (getenv("REACH") ? atof(getenv("REACH")) : reach) * std::max({h.x, h.y, h.z});
     const double farthest = norm(grid.size);
-    while (!plane_through(samples, cloth.centre[c], cloth.area[c] / area,
-                          radius, result[c]) &&
+    while (!plane_through(samples, cloth.centre[c], cloth.area[c] / area, radius, result[c]) &&
            radius < farthest) {
       radius *= 1.5;
     }
@@ -144,45 +129,40 @@ std::vector<double> pressures(const std::vector<Sample> &samples,
   return result;
 }
 
-// t = a + b x (x - c) of which force and moment about c are given: the smallest
-// integral of t^2 over the cloth that has them (Lagrange multipliers a and b).
-RigidTraction smallest_traction(const Patchwork &cloth, Vec3 force,
-                                Vec3 moment) {
+// t = a + b x (x - c) of which force and moment about c are given: the smallest integral of t^2 over the
+// cloth that has them (Lagrange multipliers a and b).
+RigidTraction smallest_traction(const Patchwork& cloth, Vec3 force, Vec3 moment) {
   Matrix6 matrix = Matrix6::Zero();
   double size = 0, whole = 0;
   for (std::size_t c = 0; c < cloth.area.size(); ++c) {
     const Vec3 r = cloth.centre[c] - cloth.middle;
     whole += norm(cloth.area[c]), size += norm(cloth.area[c]) * dot(r, r);
   }
-  if (!(size > 0))
-    return {};
-  size = std::sqrt(size / whole); // makes the unknowns alike: a and b size
+  if (!(size > 0)) return {};
+  size = std::sqrt(size / whole);  // makes the unknowns alike: a and b size
   for (std::size_t c = 0; c < cloth.area.size(); ++c) {
     const Vec3 r = (cloth.centre[c] - cloth.middle) / size;
-    Eigen::Matrix3d turn; // turn * v = v x r
+    Eigen::Matrix3d turn;  // turn * v = v x r
     turn << 0, r.z, -r.y, -r.z, 0, r.x, r.y, -r.x, 0;
     Eigen::Matrix<double, 3, 6> traction;
     traction << Eigen::Matrix3d::Identity(), turn;
     matrix += norm(cloth.area[c]) * traction.transpose() * traction;
   }
   Vector6 right;
-  right << force.x, force.y, force.z, moment.x / size, moment.y / size,
-      moment.z / size;
+  right << force.x, force.y, force.z, moment.x / size, moment.y / size, moment.z / size;
   const Vector6 t = matrix.ldlt().solve(right);
   return {{t(0), t(1), t(2)}, Vec3{t(3), t(4), t(5)} / size};
 }
 
-} // namespace
+}  // namespace
 
-Wrench wrench_of(const std::vector<SheetLoad> &loads) {
+Wrench wrench_of(const std::vector<SheetLoad>& loads) {
   Wrench sum;
-  for (const SheetLoad &load : loads)
-    sum += acting_at(load.point, load.force);
+  for (const SheetLoad& load : loads) sum += acting_at(load.point, load.force);
   return sum;
 }
 
-Wrench wrench_of(const ClothLoad &load, const std::vector<Cell> &cells,
-                 const std::vector<Vec3> &x) {
+Wrench wrench_of(const ClothLoad& load, const std::vector<Cell>& cells, const std::vector<Vec3>& x) {
   const Patchwork cloth(cells, x);
   Wrench sum;
   for (std::size_t c = 0; c < cells.size(); ++c) {
@@ -191,37 +171,30 @@ Wrench wrench_of(const ClothLoad &load, const std::vector<Cell> &cells,
   return sum;
 }
 
-ClothLoad load_of_flow(const std::vector<SheetLoad> &loads,
-                       const FlowGrid &grid,
-                       const std::vector<Triangle> &surface,
-                       const std::vector<Cell> &cells,
-                       const std::vector<Vec3> &x) {
+ClothLoad load_of_flow(const std::vector<SheetLoad>& loads, const FlowGrid& grid,
+                       const std::vector<Triangle>& surface, const std::vector<Cell>& cells,
+                       const std::vector<Vec3>& x) {
   const Patchwork cloth(cells, x);
   ClothLoad load{pressures(samples_of(loads, surface), grid, cloth), {}};
   const Wrench air = wrench_of(loads), plain = wrench_of(load, cells, x);
   const Vec3 force = air.force - plain.force;
-  load.remainder = smallest_traction(
-      cloth, force, air.moment - plain.moment - cross(cloth.middle, force));
+  load.remainder = smallest_traction(cloth, force, air.moment - plain.moment - cross(cloth.middle, force));
   return load;
 }
 
-std::vector<Vec3> node_forces(const ClothLoad &load,
-                              const std::vector<Cell> &cells,
-                              const std::vector<Vec3> &x) {
+std::vector<Vec3> node_forces(const ClothLoad& load, const std::vector<Cell>& cells,
+                              const std::vector<Vec3>& x) {
   const Patchwork cloth(cells, x);
   std::vector<Vec3> force(x.size());
   for (std::size_t c = 0; c < cells.size(); ++c) {
-    if (cells[c].corner[0] < 0)
-      continue;
+    if (cells[c].corner[0] < 0) continue;
     const Vec3 each = 0.25 * cloth.force(load, c);
-    for (const int node : cells[c].corner)
-      force[node] += each;
+    for (const int node : cells[c].corner) force[node] += each;
   }
   return force;
 }
 
-double remainder_share(const ClothLoad &load, const std::vector<Cell> &cells,
-                       const std::vector<Vec3> &x) {
+double remainder_share(const ClothLoad& load, const std::vector<Cell>& cells, const std::vector<Vec3>& x) {
   const Patchwork cloth(cells, x);
   double traction = 0, pressure = 0;
   for (std::size_t c = 0; c < cells.size(); ++c) {
@@ -232,4 +205,4 @@ double remainder_share(const ClothLoad &load, const std::vector<Cell> &cells,
   return pressure > 0 ? std::sqrt(traction / pressure) : 0;
 }
 
-} // namespace ripstop
+}  // namespace ripstop

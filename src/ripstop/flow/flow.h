@@ -47,11 +47,10 @@ struct Sheet {
 struct SheetLoad {
   int sheet = 0, triangle = 0;  // of FlowProblem::sheets
   Vec3 point;                   // on the triangle [m]
-  Vec3 normal;       // of the triangle, with a component along the face's normal that is not negative
-  double drop = 0;   // of the pressure along `normal`, mean over the face [Pa]
-  Vec3 force;        // on the sheet: drop times the face's area, along an axis of the grid [N]
-  double area = 0;   // of the sheet that the face stands for; all add up to the sheet's [m2]
-  double cover = 1;  // part of the face that the sheet covers; less than 1 beside its hems
+  Vec3 normal;      // of the triangle, with a component along the face's normal that is not negative
+  double drop = 0;  // of the pressure along `normal`, mean over the face [Pa]
+  Vec3 force;       // on the sheet: drop times the face's area, along an axis of the grid [N]
+  double area = 0;  // of the sheet that the face stands for, as far as it covers the face: a share n_a^2 [m2]
 };
 
 /// The four sides of the box. Slip: walls without friction. Zero gradient: nothing changes across them, air

@@ -199,8 +199,7 @@ std::vector<SheetLoad> SheetRows::loads() const {
     load.drop = face.jump + (whole > 0 ? face.stiffness / whole * (change_[face.at] - excess_[face.at]) : 0);
     const double force = load.drop * face.area;
     load.force = {g.axis == 0 ? force : 0, g.axis == 1 ? force : 0, g.axis == 2 ? force : 0};
-    load.area = g.area;
-    load.cover = face.cover;
+    load.area = face.cover * face.area * (g.axis == 0 ? g.normal.x : g.axis == 1 ? g.normal.y : g.normal.z);
     result.push_back(load);
   }
   return result;

@@ -1,0 +1,64 @@
+// The whole loop on a coarse grid: the air's own load on tight cloth.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "ripstop/canopy/cut_balance.h"
+#include "ripstop/case/assemble.h"
+#include "ripstop/case/case.h"
+#include "ripstop/coupling/pressure_profile.h"
+#include "ripstop/coupling/steady.h"
+#include "ripstop/flow/cartesian/cartesian.h"
+
+namespace ripstop {
+namespace {
+
+TEST(OfFlow, ACanopyInFlightCarriesWhatTheAirLosesOnIt) {
+  Overrides coarse;
+  coarse.grid = {36, 36, 44};
+  coarse.set = {{"parachute.mesh.cloth_nodes", "2000"}};
+  const Case given =
+      read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/hemispherical/case.toml", coarse);
+  EXPECT_EQ(given.coupling.load, CanopyLoad::of_flow);
+  CartesianSettings settings;
+  settings.threads = 2;
+  settings.second_order = true;
+  const auto engine = make_cartesian(settings);
+  SteadySolver solver(steady_problem(given), *engine);
+  SteadyState state = solver.start();
+  while (!solver.finished(state)) solver.iterate(state);
+
+  const SteadyIteration& last = state.iterations.back();
+  EXPECT_TRUE(state.converged);
+  EXPECT_LE(last.iteration, 8);
+  EXPECT_NEAR(last.nodal_load / last.fluid_force, 1, 0.01);
+  EXPECT_LT(last.load_remainder, 0.02);
+
+  const ClothState cloth = solver.cloth_state(state);
+  const std::vector<Vec3> load = node_forces({state.applied, state.remainder}, solver.cells(), state.shape);
+  const std::vector<CellStress> stress = cell_stress(solver.cloth(), cloth);
+  const std::vector<double> tensions = spring_tensions(solver.cloth(), cloth);
+  double skirt = 0;
+  for (const int node : solver.mesh().skirt_nodes)
+    skirt += state.shape[node].z / double(solver.mesh().skirt_nodes.size());
+  for (const double above : {-0.3, 0.05, 0.1, 0.15}) {
+    const CutBalance cut = cut_balance(solver.mesh(), state.shape, stress, tensions, load, skirt + above);
+    EXPECT_NEAR((cut.cloth_force + cut.cord_force) / cut.air_force, 1, 0.02) << above;
+    EXPECT_NEAR(cut.moment, 0, 2e-3 * last.fluid_force * 0.35) << above;
+    EXPECT_NEAR(cut.air_moment, 0, 2e-3 * last.fluid_force * 0.35) << above;
+  }
+
+  // Inside the air of a tight canopy nearly rests; outside it has parted from the cloth.
+  const Freestream& air = steady_problem(given).flow.air;
+  const double q = 0.5 * air.density * air.speed * air.speed;
+  for (const PressureRing& ring :
+       pressure_profile(solver.cells(), state.shape, state.sides, state.applied, 12)) {
+    EXPECT_GT(ring.inside / q, 0.5) << ring.arc;
+    EXPECT_LT(ring.inside / q, 1.05) << ring.arc;
+    EXPECT_LT(ring.outside / q, -0.1) << ring.arc;
+    EXPECT_GT(ring.outside / q, -1.2) << ring.arc;
+  }
+}
+
+}  // namespace
+}  // namespace ripstop
