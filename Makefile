@@ -1,6 +1,5 @@
 # Ripstop's commands. On a fresh Debian 12, as root or with sudo: `make demo` and `make check` do everything.
 
-BUILD := build
 JOBS := $(shell nproc)
 SUDO := $(shell [ $$(id -u) = 0 ] || echo sudo)
 PREFIX ?= /usr/local
@@ -13,7 +12,7 @@ CHECK_PACKAGES := libgtest-dev libbenchmark-dev python3 python3-jsonschema pytho
 
 export PATH := /usr/bin:$(PATH)
 
-.PHONY: help deps check-deps build demo check sanitize bench validate validate-ojf validate-families format format-check install package clean
+.PHONY: help deps check-deps build demo check room sanitize tidy bench validate validate-ojf validate-families format format-check install package clean
 
 help:  ## This list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -32,60 +31,69 @@ check-deps: deps
 	$(call install_missing,$(CHECK_PACKAGES))
 
 build: deps  ## Release build; the program is build/bin/ripstop
-	@cmake -S . -B $(BUILD) -G Ninja -DCMAKE_BUILD_TYPE=Release -DRIPSTOP_TESTS=OFF -DRIPSTOP_BENCH=OFF \
-	  -DCMAKE_INSTALL_PREFIX=$(PREFIX) > $(BUILD).configure.log || { cat $(BUILD).configure.log; exit 1; }
-	@cmake --build $(BUILD) -j $(JOBS)
+	@cmake --preset program -DCMAKE_INSTALL_PREFIX=$(PREFIX) > build.configure.log || { cat build.configure.log; exit 1; }
+	@cmake --build --preset program -j $(JOBS)
 
 demo: build  ## Stratos IV at 30 m/s on the printed grid with the built-in flow engine: under a minute or two
-	$(BUILD)/bin/ripstop steady examples/stratos-iv/case.toml --speed 30 --out runs/demo
+	build/bin/ripstop steady examples/stratos-iv/case.toml --speed 30 --out runs/demo
 	@echo "The same with OpenFOAM (about eleven minutes on two cores):"
-	@echo "  $(BUILD)/bin/ripstop steady examples/stratos-iv/case.toml --speed 30 --flow openfoam --ranks 2 --out runs/demo-openfoam"
+	@echo "  build/bin/ripstop steady examples/stratos-iv/case.toml --speed 30 --flow openfoam --ranks 2 --out runs/demo-openfoam"
 
 check: check-deps format-check  ## Build and pass the tests
-	@cmake -S . -B $(BUILD)-check -G Ninja -DCMAKE_BUILD_TYPE=Release -DRIPSTOP_TESTS=ON -DRIPSTOP_BENCH=ON \
-	  > $(BUILD)-check.configure.log || { cat $(BUILD)-check.configure.log; exit 1; }
-	@cmake --build $(BUILD)-check -j $(JOBS)
-	@ctest --test-dir $(BUILD)-check --output-on-failure
+	@cmake --preset release > build-check.configure.log || { cat build-check.configure.log; exit 1; }
+	@cmake --build --preset release -j $(JOBS)
+	@ctest --preset release
+
+room: check-deps  ## Build and pass the tests of one room, or some of them: make room ROOM=cloth [TESTS='ClothLaws|ClothKernel']
+	@cmake --preset release > build-check.configure.log || { cat build-check.configure.log; exit 1; }
+	@cmake --build --preset release -j $(JOBS) --target test_$(ROOM)
+	@ctest --preset release -R '^$(ROOM)\.($(TESTS))'
 
 sanitize: check-deps  ## The tests that need no OpenFOAM, under the address and undefined-behaviour sanitizers
-	@cmake -S . -B $(BUILD)-sanitize -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DRIPSTOP_SANITIZE=ON
-	@cmake --build $(BUILD)-sanitize -j $(JOBS)
-	@ctest --test-dir $(BUILD)-sanitize --output-on-failure -E "OpenFoam|^app\\."
+	@cmake --preset sanitize
+	@cmake --build --preset sanitize -j $(JOBS)
+	@ctest --preset sanitize
 
-bench: check-deps  ## Benchmarks, half an hour of OpenFOAM among them; their figures stand in docs/performance.md
-	@cmake -S . -B $(BUILD)-check -G Ninja -DCMAKE_BUILD_TYPE=Release -DRIPSTOP_TESTS=ON -DRIPSTOP_BENCH=ON > /dev/null
-	@cmake --build $(BUILD)-check -j $(JOBS)
-	@$(BUILD)-check/bench/bench_cloth
-	@$(BUILD)-check/bench/bench_bodies
-	@$(BUILD)-check/bench/bench_sheet
-	@$(BUILD)-check/bench/bench_inflation
-	@$(BUILD)-check/bench/bench_flow --openfoam --large
+bench: check-deps  ## Benchmarks, more than an hour; their figures stand in docs/tables
+	@cmake --preset release > /dev/null
+	@cmake --build --preset release -j $(JOBS)
+	@build-check/bench/bench_bodies sides | tee docs/tables/sides.md
+	@build-check/bench/bench_bodies 32 | tee docs/tables/bodies.md
+	@build-check/bench/bench_sheet 40 4 | tee docs/tables/sheet-shifts.md
+	@build-check/bench/bench_cloth
+	@build-check/bench/bench_inflation
+	@build-check/bench/bench_flow --openfoam --large
 
-VALIDATE := $(BUILD)/bin/ripstop steady examples/stratos-iv/case.toml
+VALIDATE := build/bin/ripstop steady examples/stratos-iv/case.toml
 
-validate: build  ## Stratos IV at five speeds on the printed grid with both engines, into docs/validation.md: hours; resumable
+validate: build  ## Stratos IV at five speeds on the printed grid with both engines, into docs/tables: hours; resumable
 	@for v in 10 15 20 25 30; do $(VALIDATE) --speed $$v --out runs/validate/builtin-$$v || exit; done
 	@for v in 30 25 20 15 10; do \
 	  $(VALIDATE) --speed $$v --flow openfoam --ranks $(JOBS) --out runs/validate/openfoam-$$v || exit; done
-	@/usr/bin/python3 validation/stratos-iv/table.py runs/validate docs/validation.md
+	@/usr/bin/python3 validation/stratos-iv/table.py runs/validate
 
-validate-ojf: build  ## Calibrate on Stratos IV, predict WALRUS and ADEPT blind, into docs/validation.md: hours; resumable
-	@/usr/bin/python3 validation/ojf/campaign.py --ripstop $(BUILD)/bin/ripstop $(STAGES)
+validate-ojf: build  ## Calibrate on Stratos IV, predict WALRUS and ADEPT blind, into docs/tables: hours; resumable
+	@/usr/bin/python3 validation/ojf/campaign.py --ripstop build/bin/ripstop $(STAGES)
 
-validate-families: build  ## Drag of every family's example beside Knacke's values, into docs/validation.md: ten minutes; resumable
-	@/usr/bin/python3 validation/families/families.py --ripstop $(BUILD)/bin/ripstop
+validate-families: build  ## Drag of every family's example beside Knacke's values, into docs/tables: ten minutes; resumable
+	@/usr/bin/python3 validation/families/families.py --ripstop build/bin/ripstop
 
 format:  ## Format the sources
 	@git ls-files '*.h' '*.cpp' | xargs clang-format -i
+
+tidy: check-deps  ## clang-tidy over src and apps, on all cores (no part of check: some ten minutes)
+	$(call install_missing,clang-tidy)
+	@cmake --preset release > /dev/null
+	@run-clang-tidy -quiet -p build-check -j $(JOBS) '^$(CURDIR)/(src|apps)/'
 
 format-check:
 	@git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run -Werror
 
 install: build  ## Install below PREFIX (/usr/local)
-	@$(SUDO) cmake --install $(BUILD)
+	@$(SUDO) cmake --install build
 
 package: build  ## A Debian package in build/
-	@cd $(BUILD) && cpack -G DEB
+	@cd build && cpack -G DEB
 
 clean:  ## Remove the build folders
-	rm -rf $(BUILD) $(BUILD)-check $(BUILD)-sanitize $(BUILD)*.configure.log
+	rm -rf build build-* build.configure.log

@@ -1,18 +1,22 @@
 // Bodies of known drag as sheets, on finer and finer grids, second-order convection.
-//   bench_bodies [cells across the body on the finest grid [body [width of the box in diameters
+//   bench_bodies [cells across the body on the finest of three grids [body [width of the box in diameters
 //                [turbulence intensity [sides: slip, entraining or zero-gradient]]]]]
+//   bench_bodies sides      what a near side does to disks
 #include "ripstop/flow/bodies.h"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "far_box.h"
 #include "ripstop/flow/cartesian/cartesian.h"
+#include "ripstop/flow/steady.h"
+#include "table.h"
 
 using namespace ripstop;
 
@@ -25,7 +29,6 @@ struct Body {
 };
 
 struct Result {
-  int cells = 0;
   double coefficient = 0, change = 0;  // the latter over the last 100 iterations, relative
   double front = 0, back = 0;          // mean pressure coefficient, weighted with the area across the flow
 };
@@ -53,37 +56,31 @@ Result drag_coefficient(const Body& body, const FlowGrid& grid, double turbulenc
   problem.air.speed = 30;
   problem.air.turbulence_intensity = turbulence;
   problem.sides = sides;
-  problem.max_iterations = 600;
-  problem.average_over = 100;
+  problem.stopping.max_iterations = 600;
+  problem.stopping.average_over = 100;
   const double rho = problem.air.density, speed = problem.air.speed;
   // K = dp / (rho v^2 / 2) at the velocity v through the disk.
   problem.sheets = {{body.surface, body.loss > 0 ? 0 : 1e6, body.loss * rho / 2}};
+  problem.outlet = Outlet::still_air;
   CartesianSettings settings;
   settings.second_order = true;
-  const FlowField field = make_cartesian(settings)->solve(problem, {});
+  const FlowField field = solve(*make_cartesian(settings), problem);
   const FlowAverage& mean = field.average;
   const double dynamic_pressure = 0.5 * rho * speed * speed;
   Result result;
-  result.cells = grid.cells();
   result.coefficient = field.porous_force.z / (dynamic_pressure * body.area);
   if (mean.iterations > 0) result.change = (mean.drag_high - mean.drag_low) / mean.drag;
   read_pressures(field, dynamic_pressure, result);
   return result;
 }
 
-}  // namespace
+std::string off_by(double value, double reference) {
+  return fmt::format("{:+.1f} %", 100 * (value / reference - 1));
+}
 
-int main(int argc, char** argv) {
-  const int finest = argc > 1 ? std::atoi(argv[1]) : 32;
-  const std::string only = argc > 2 ? argv[2] : "";
-  const double box = argc > 3 ? std::atof(argv[3]) : 12, turbulence = argc > 4 ? std::atof(argv[4]) : 0.005;
-  const std::string side = argc > 5 ? argv[5] : "slip";
-  const Sides sides = side == "entraining" ? Sides::entraining
-                      : side == "slip"     ? Sides::slip
-                                           : Sides::zero_gradient;
+std::vector<Body> all_bodies(Vec3 centre) {
   const double d = 1, disk_area = std::numbers::pi / 4 * d * d;
-  const Vec3 centre{0, 0, 0.45 * 1.5 * box * d};
-  const std::vector<Body> bodies = {
+  return {
       {"disk", disk(d, centre), disk_area, 0, 1.17},
       {"square plate", square_plate(d, centre), d * d, 0, 1.17},
       {"cup facing the stream", hemispherical_cup(d, centre), disk_area, 0, 1.42},
@@ -91,21 +88,74 @@ int main(int argc, char** argv) {
       {"porous disk K = 1", disk(d, centre), disk_area, 1, 1 / std::pow(1 + 1.0 / 4, 2)},
       {"porous disk K = 2", disk(d, centre), disk_area, 2, 2 / std::pow(1 + 2.0 / 4, 2)},
   };
-  fmt::print("Diameter or side d = 1 m, 30 m/s, box {} x {} x {} m, {} sides, second order\n", box, box,
-             1.5 * box, side);
-  fmt::print("{:>22} {:>9} {:>6} {:>9} {:>11} {:>9} {:>8} {:>8} {:>14}\n", "body", "reference", "h/d",
-             "cells", "coefficient", "off by", "Cp front", "Cp back", "last 100 it.");
-  for (const Body& body : bodies) {
-    if (!only.empty() && body.name != only) continue;
-    std::vector<double> all;
-    for (int n = finest / 4; n <= finest; n *= 2) {
-      const Result r = drag_coefficient(body, far_box(d, box, n, centre.z), turbulence, sides);
-      fmt::print("{:>22} {:>9.3f} {:>6} {:>9} {:>11.3f} {:>+7.1f} % {:>8.3f} {:>8.3f} {:>12.2f} %\n",
-                 body.name, body.reference, fmt::format("1/{}", n), r.cells, r.coefficient,
-                 100 * (r.coefficient / body.reference - 1), r.front, r.back, 100 * r.change);
-      std::fflush(stdout);
-      all.push_back(r.coefficient);
-    }
-    print_order(all, 2);
+}
+
+Vec3 place_in(double box) {
+  return {0, 0, 0.45 * 1.5 * box};
+}
+
+void refine(const Body& body, int finest, double box, double turbulence, Sides sides) {
+  std::vector<std::string> row = {body.name, fmt::format("{:.3f}", body.reference)};
+  std::vector<double> all;
+  Result result;
+  for (const int n : {finest / 4, finest / 2, finest}) {
+    result = drag_coefficient(body, far_box(1, box, n, place_in(box).z), turbulence, sides);
+    all.push_back(result.coefficient);
+    row.push_back(fmt::format("{:.3f}", result.coefficient));
   }
+  const auto found = observed_order(all, 2);
+  row.insert(
+      row.end(),
+      {off_by(result.coefficient, body.reference), found ? fmt::format("{:.2f}", found->order) : "none",
+       found ? fmt::format("{:.3f} ({})", found->limit, off_by(found->limit, body.reference)) : "",
+       fmt::format("{:.3f}, {:.3f}", result.front, result.back),
+       fmt::format("{:.2f} %", 100 * result.change)});
+  print_row(row);
+}
+
+/// What a near side does to an open and to an impermeable disk.
+void compare_sides(int argc, char** argv) {
+  constexpr std::pair<Sides, const char*> kinds[] = {
+      {Sides::zero_gradient, "zero gradient"}, {Sides::slip, "slip"}, {Sides::entraining, "entraining"}};
+  std::vector<std::string> columns = {"disk", "width of the box, d"};
+  for (const auto& [sides, name] : kinds) columns.push_back(name);
+  print_table_head("Drag coefficient of a disk on d/8 by width and sides of the box", argc, argv, columns);
+  for (const char* name : {"porous disk K = 2", "disk"}) {
+    for (const double box : {3.0, 4.0, 6.0, 12.0}) {
+      std::vector<std::string> row = {name, fmt::format("{:g}", box)};
+      for (const Body& body : all_bodies(place_in(box))) {
+        if (body.name != name) continue;
+        for (const auto& kind : kinds) {
+          const Result r = drag_coefficient(body, far_box(1, box, 8, place_in(box).z), 0.005, kind.first);
+          row.push_back(fmt::format("{:.3f}", r.coefficient));
+        }
+      }
+      print_row(row);
+    }
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc > 1 && std::string(argv[1]) == "sides") {
+    compare_sides(argc, argv);
+    return 0;
+  }
+  const int finest = argc > 1 ? std::atoi(argv[1]) : 32;
+  const std::string only = argc > 2 ? argv[2] : "";
+  const double box = argc > 3 ? std::atof(argv[3]) : 12, turbulence = argc > 4 ? std::atof(argv[4]) : 0.005;
+  const std::string side = argc > 5 ? argv[5] : "slip";
+  const Sides sides = side == "entraining" ? Sides::entraining
+                      : side == "slip"     ? Sides::slip
+                                           : Sides::zero_gradient;
+  print_table_head(
+      fmt::format("Drag coefficients of bodies 1 m across at 30 m/s, box {:g} x {:g} x {:g} m, {} sides", box,
+                  box, 1.5 * box, side),
+      argc, argv,
+      {"body", "reference", fmt::format("h/d = 1/{}", finest / 4), fmt::format("1/{}", finest / 2),
+       fmt::format("1/{}", finest), "off by", "order", "without the cells", "Cp front, back",
+       "drag of the last 100 iterations moves by"});
+  for (const Body& body : all_bodies(place_in(box)))
+    if (only.empty() || body.name == only) refine(body, finest, box, turbulence, sides);
 }

@@ -9,10 +9,12 @@
 #include <cmath>
 #include <thread>
 
+#include "../tests/printed_materials.h"
 #include "ripstop/cloth/kernel.h"
 #include "ripstop/core/build_info.h"
 #include "ripstop/material/lattice.h"
 #include "ripstop/parachute/build.h"
+#include "ripstop/parachute/disk_gap_band.h"
 
 namespace {
 
@@ -29,7 +31,7 @@ Mesh membrane(int size, double side, double damping, int tapes) {
   patch.name = "membrane";
   patch.rows = patch.columns = size;
   const double h = side / (size - 1), xi = 0.2, eps = 0.01;
-  const LatticeLaws laws = lattice_laws({30006, -18936}, xi, eps, 1, 0.33);
+  const LatticeLaws laws = lattice_laws(f111_curve, xi, eps, 1, 0.33);
   const CellWidths cell = cell_widths(h, h, xi, eps);
   const SpringLaw* law[] = {&laws.axial, &laws.axial, &laws.shear, &laws.shear, &laws.bending, &laws.bending};
   const double width[] = {2 * cell.along_row, 2 * cell.along_column, cell.shear,
@@ -65,24 +67,8 @@ Mesh membrane(int size, double side, double damping, int tapes) {
   return mesh;
 }
 
-// Stratos IV as in [NFM] section 2, with the materials of its Table 3.
 Mesh stratos() {
-  Design design;
-  design.canopy = DiskGapBand{1.0, 0.09, 0.07, 0.3};
-  design.gores = 6;
-  design.lines.count = 18;
-  design.lines.length_m = 1.5;
-  PartMaterials m;
-  m.canopy.coefficients_n_m = {30006, -18936};
-  m.canopy.tested_strain = 0.33;
-  m.canopy.areal_density_kg_m2 = 0.0407;
-  m.line.coefficients_n = {211895, 489633};
-  m.line.linear_density_kg_m = 2e-3;
-  m.riser = m.line;
-  m.tape.coefficients_n_m = {3064.2, 68823.4};
-  m.tape.width_m = 0.02;
-  m.tape.linear_density_kg_m = 6e-3;
-  return build_mesh(design, m);
+  return build_mesh(printed_stratos(25600), printed_materials());
 }
 
 double median(std::vector<double> values) {

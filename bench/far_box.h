@@ -1,9 +1,8 @@
 // A wide box about a small body, for studies of the flow alone.
 #pragma once
 
-#include <fmt/core.h>
-
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "ripstop/core/error.h"
@@ -33,18 +32,18 @@ inline FlowGrid far_box(double d, double box, int across, double z) {
   return graded(grid, {-half, -half, z - from}, {half, half, z + past}, growth);
 }
 
-/// Prints the order of the last three of values on grids that are finer by `ratio` each, and what they tend
-/// to.
-inline void print_order(const std::vector<double>& values, double ratio) {
-  if (values.size() < 3) return;
+struct Order {
+  double order = 0, limit = 0;
+};
+
+/// Order of the last three of values on grids that are finer by `ratio` each, and what they tend to, where
+/// they fall off.
+inline std::optional<Order> observed_order(const std::vector<double>& values, double ratio) {
+  if (values.size() < 3) return {};
   const double* last = values.data() + values.size() - 3;
   const double falling = (last[1] - last[0]) / (last[2] - last[1]);
-  if (falling > 1) {
-    fmt::print("{:>22} order {:.2f}, {:.5g} without the cells\n", "", std::log(falling) / std::log(ratio),
-               last[2] + (last[2] - last[1]) / (falling - 1));
-  } else {
-    fmt::print("{:>22} no order on these grids\n", "");
-  }
+  if (falling <= 1) return {};
+  return Order{std::log(falling) / std::log(ratio), last[2] + (last[2] - last[1]) / (falling - 1)};
 }
 
 }  // namespace ripstop

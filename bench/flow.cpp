@@ -17,6 +17,7 @@
 #include "ripstop/flow/bodies.h"
 #include "ripstop/flow/cartesian/cartesian.h"
 #include "ripstop/flow/openfoam/openfoam.h"
+#include "ripstop/flow/steady.h"
 
 namespace {
 
@@ -60,7 +61,7 @@ Timing run(FlowEngine& engine, const FlowProblem& problem) {
   const auto start = Clock::now();
   const double before = cpu_seconds();
   auto steady = start;
-  timing.field = engine.solve(problem, [&](const FlowProgress& progress) {
+  timing.field = solve(engine, problem, [&](const FlowProgress& progress) {
     if (progress.iteration == 2) steady = Clock::now();
     if (progress.iteration > 2) {
       timing.per_cell = since(steady) / (static_cast<double>(progress.iteration - 2) * problem.grid.cells());
@@ -87,7 +88,7 @@ void speed_and_growth(bool large) {
   if (large) sizes.push_back(2);
   for (const double fineness : sizes) {
     FlowProblem problem = printed_case(fineness);
-    problem.max_iterations = 20;
+    problem.stopping.max_iterations = 20;
     double rate[2] = {};
     for (int threads : {1, 2}) {
       rate[threads - 1] = 1e-6 / run(*make_cartesian(settings(threads, false)), problem).per_cell;

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "ripstop/flow/openfoam/openfoam.h"
+#include "ripstop/flow/steady.h"
 
 int main() {
   using namespace ripstop;
@@ -26,7 +27,7 @@ int main() {
       for (int cell = 0; cell < 16 * layers; ++cell)
         slab.cells.push_back(problem.grid.index(0, 0, 20) + cell);
       problem.porous = {slab};
-      const FlowField field = engine->solve(problem, {});
+      const FlowField field = solve(*engine, problem);
       const double law = layers * kappa * problem.air.density * 25;
       const double x = (std::sqrt(1 + kappa) - 1) / (kappa / 2);  // root of x = 1 - kappa x^2 / 4
       fmt::print("{:15g} {:8} {:12.4f} {}{}\n", kappa, layers, field.pressure.front() / law,

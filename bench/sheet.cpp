@@ -6,12 +6,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "far_box.h"
 #include "ripstop/flow/bodies.h"
 #include "ripstop/flow/cartesian/cartesian.h"
+#include "ripstop/flow/steady.h"
+#include "table.h"
 
 using namespace ripstop;
 
@@ -27,13 +30,14 @@ double drag(const FlowGrid& grid, Vec3 shift, double a, double b) {
   problem.grid = grid;
   problem.air.speed = 30;
   problem.sides = Sides::slip;
-  problem.max_iterations = iterations;
-  problem.average_over = averaged;
+  problem.stopping.max_iterations = iterations;
+  problem.stopping.average_over = averaged;
   const Vec3 h = grid.spacing();
   problem.sheets = {{rigid_disk_gap_band({shift.x * h.x, shift.y * h.y, skirt + shift.z * h.z}), a, b}};
+  problem.outlet = Outlet::still_air;
   CartesianSettings settings;
   settings.second_order = true;
-  return make_cartesian(settings)->solve(problem, {}).porous_force.z;
+  return solve(*make_cartesian(settings), problem).porous_force.z;
 }
 
 }  // namespace
@@ -44,30 +48,33 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "usage: bench_sheet [finest >= 10 [grids >= 1]]\n");
     return 2;
   }
-  fmt::print(
-      "Rigid disk-gap-band, d = {} m, 30 m/s, box {} d wide, mean drag of the last {} of {} iterations [N]\n",
-      d, box, averaged, iterations);
-  fmt::print("{:>5} {:>9} {:>9}", "h/d", "cells", "a Pa s/m");
-  for (const Vec3& s : shifts) fmt::print(" {:>13}", fmt::format("{:g},{:g},{:g}", s.x, s.y, s.z));
-  fmt::print(" {:>9} {:>9}\n", "mean", "spread");
+  std::vector<std::string> columns = {"h/d", "a, Pa s/m"};
+  for (const Vec3& s : shifts) columns.push_back(fmt::format("{:g}, {:g}, {:g}", s.x, s.y, s.z));
+  columns.insert(columns.end(), {"mean", "spread"});
+  print_table_head(
+      fmt::format("Drag in N of a rigid disk-gap-band of {:g} m at 30 m/s, shifted by parts of a cell", d),
+      argc, argv, columns);
   for (const auto& [a, b] : {std::pair{66.0, 37.45}, std::pair{8169.3, 0.0}}) {
     std::vector<double> means;
     for (int g = grids - 1; g >= 0; --g) {
       const int across = static_cast<int>(std::lround(finest * std::pow(2, -0.5 * g)));
       const FlowGrid grid = far_box(d, box, across, skirt);
-      fmt::print("{:>5} {:>9} {:>9}", fmt::format("1/{}", across), grid.cells(), a);
+      std::vector<std::string> row = {fmt::format("1/{}", across), fmt::format("{:g}", a)};
       std::vector<double> drags;
       for (const Vec3& shift : shifts) {
         drags.push_back(drag(grid, shift, a, b));
-        fmt::print(" {:>13.2f}", drags.back());
-        std::fflush(stdout);
+        row.push_back(fmt::format("{:.2f}", drags.back()));
       }
       const auto [low, high] = std::minmax_element(drags.begin(), drags.end());
       double mean = 0;
       for (const double one : drags) mean += one / static_cast<double>(drags.size());
-      fmt::print(" {:>9.2f} {:>7.2f} %\n", mean, 100 * (*high - *low) / mean);
+      row.insert(row.end(),
+                 {fmt::format("{:.2f}", mean), fmt::format("{:.2f} %", 100 * (*high - *low) / mean)});
+      print_row(row);
       means.push_back(mean);
     }
-    print_order(means, std::sqrt(2.0));
+    if (const auto found = observed_order(means, std::sqrt(2.0)))
+      fmt::print(stderr, "a = {:g}: order {:.2f} on the last three grids, toward {:.5g} N\n", a, found->order,
+                 found->limit);
   }
 }

@@ -3,19 +3,15 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cmath>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "json_option.h"
 #include "opening.h"
 #include "progress.h"
-#include "ripstop/calibration/damping.h"
 #include "ripstop/core/error.h"
-#include "ripstop/core/file.h"
-#include "ripstop/output/csv.h"
-#include "ripstop/output/plot.h"
+#include "ripstop/run/damping.h"
 
 namespace ripstop {
 namespace {
@@ -26,6 +22,7 @@ struct Options {
   OpeningOptions opening;
   DampingSearch search;
   fs::path out;
+  bool json = false;
 };
 
 std::string trial_text(const DampingTrial& t) {
@@ -35,45 +32,9 @@ std::string trial_text(const DampingTrial& t) {
       t.inflation_time ? fmt::format("{:6.1f} ms", 1000 * *t.inflation_time) : "not yet", t.misfit);
 }
 
-void write_files(const fs::path& folder, const DampingCalibration& found, const DampingTarget& target,
-                 const InflationProblem& problem, const LoadSource& source, const Case& value) {
-  make_folder(folder);
-  CsvTable table{
-      {"damping_n_s_m3", "peak_n", "peak_time_s", "every_step_peak_n", "inflation_time_s", "misfit"}, {}};
-  PlotSeries misfit{"misfit", {}, {}}, peak{"error of the peak", {}, {}};
-  for (const DampingTrial& t : found.trials) {
-    table.rows.push_back(
-        {t.damping, t.peak, t.peak_time, t.every_step_peak, t.inflation_time.value_or(NAN), t.misfit});
-    misfit.x.push_back(t.damping);
-    misfit.y.push_back(100 * t.misfit);
-    peak.x.push_back(t.damping);
-    peak.y.push_back(100 * (t.peak / target.peak - 1));
-  }
-  write_csv(folder / "damping.csv", table);
-  write_plot(folder / "misfit.png", {value.title, {"C_a [N s/m3]"}, {"error [%]"}, {misfit, peak}});
-  nlohmann::ordered_json j;
-  j["title"] = value.title;
-  j["damping_n_s_m3"] = found.best.damping;
-  j["misfit"] = found.best.misfit;
-  j["peak_load_n"] = found.best.peak;
-  j["measured_peak_n"] = target.peak;
-  j["every_step_peak_n"] = found.best.every_step_peak;
-  j["low_pass_hz"] = problem.settings.low_pass_hz;
-  if (target.inflation_time) j["measured_inflation_time_s"] = *target.inflation_time;
-  if (found.best.inflation_time) j["inflation_time_s"] = *found.best.inflation_time;
-  j["pressure_pa"] = problem.pressure;
-  j["pressure_from"] = source.text;
-  j["nodes"] = problem.mesh.node_count();
-  j["best_is_at_the_edge"] = found.at_edge;
-  write_file(folder / "result.json", j.dump(2) + "\n");
-}
-
 int calibrate(const Options& options) {
   const Case value = opening_case(options.opening);
-  if (!value.inflation.measured_peak_n) {
-    throw Error(ExitCode::usage, "inflation.measured_peak_n is not given: nothing to calibrate on");
-  }
-  const DampingTarget target{*value.inflation.measured_peak_n, value.inflation.measured_inflation_time_s};
+  const DampingTarget target = damping_target(value);
   const LoadSource source = load_source(value, options.opening.steady_run);
   const InflationProblem problem = opening_problem(value, source, threads_of(options.opening, value));
   Progress progress;
@@ -82,16 +43,20 @@ int calibrate(const Options& options) {
                   target.inflation_time ? fmt::format(", inflation time {:g} s", *target.inflation_time)
                                         : ", no inflation time",
                   problem.pressure, source.text, problem.mesh.node_count()));
-  const DampingCalibration found = calibrate_damping(
-      target, options.search, [&](double damping) { return open_with(damping, problem); },
-      [&](const DampingTrial& trial) { progress.line(trial_text(trial)); });
+  const DampingResult result =
+      run_damping(value, source, problem, options.search,
+                  [&](const DampingTrial& trial) { progress.line(trial_text(trial)); });
+  const DampingCalibration& found = result.found;
   const fs::path folder =
       options.out.empty()
           ? fs::path("runs") / (options.opening.case_file.parent_path().filename().string() + "-damping")
           : options.out;
-  write_files(folder, found, target, problem, source, value);
-  fmt::print("C_a = {:.4f} N s/m3, misfit {:.2f} %; {}\n", found.best.damping, 100 * found.best.misfit,
-             (folder / "misfit.png").string());
+  write_damping(folder, result);
+  if (options.json)
+    fmt::print("{}", to_json(result));
+  else
+    fmt::print("C_a = {:.4f} N s/m3, misfit {:.2f} %; {}\n", found.best.damping, 100 * found.best.misfit,
+               (folder / "misfit.png").string());
   if (!found.at_edge) return 0;
   fmt::print(stderr, "the best C_a lies at the edge of {:g} .. {:g}: widen the range with --from and --to\n",
              options.search.from, options.search.to);
@@ -112,6 +77,7 @@ void add_damping(CLI::App& parent, int& status) {
       ->check(CLI::Range(0, 1000));
   command->add_option("--out", options->out,
                       "Folder of the result (default: runs/<folder of the case>-damping)");
+  add_json_option(*command, options->json);
   command->callback([options, &status] { status = calibrate(*options); });
 }
 

@@ -1,5 +1,7 @@
 #include "case_options.h"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
@@ -19,6 +21,8 @@ void add_set_option(CLI::App& command, Overrides& overrides) {
 }
 
 void add_flow_options(CLI::App& command, Overrides& overrides) {
+  std::vector<std::string> words;
+  for (const EngineRecord& engine : engines()) words.push_back(engine.word);
   command
       .add_option_function<std::vector<int>>(
           "--grid",
@@ -30,13 +34,9 @@ void add_flow_options(CLI::App& command, Overrides& overrides) {
       ->expected(3);
   command
       .add_option_function<std::string>(
-          "--flow",
-          [&overrides](const std::string& engine) {
-            overrides.engine = engine == "openfoam" ? EngineKind::openfoam : EngineKind::builtin;
-          },
-          "Flow engine")
-      ->check(CLI::IsMember({"builtin", "openfoam"}))
-      ->option_text("builtin|openfoam");
+          "--flow", [&overrides](const std::string& engine) { overrides.engine = engine; }, "Flow engine")
+      ->check(CLI::IsMember(words))
+      ->option_text(fmt::format("{}", fmt::join(words, "|")));
   command.add_option("--ranks", overrides.ranks, "MPI processes of one flow");
 }
 

@@ -1,17 +1,21 @@
 // ripstop coupon: pulls a virtual coupon of a material, and compares it with its records.
 
+#include "ripstop/run/coupon.h"
+
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 
 #include "commands.h"
 #include "fit_report.h"
+#include "json_option.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
-#include "ripstop/output/csv.h"
+#include "ripstop/run/fit.h"
 
 namespace ripstop {
 namespace {
@@ -26,6 +30,7 @@ struct Options {
   double strain = 0;
   int points = 12;
   int threads = 0;
+  bool json = false;
 };
 
 Fabric fabric_of(const std::string& name) {
@@ -35,11 +40,13 @@ Fabric fabric_of(const std::string& name) {
               fmt::format("{} is a {}; coupons are cut from a fabric", name, kind_of(material)));
 }
 
-void warn(const Fabric& fabric, double largest_strain, bool converged) {
+int finish(const Fabric& fabric, double largest_strain, bool converged) {
+  std::fflush(stdout);
   for (const std::string& text : material_warnings(fabric, largest_strain))
     fmt::print(stderr, "warning: {}\n", text);
   if (!converged)
     throw Error(ExitCode::not_converged, "a coupon did not come to rest; its last digits are not sure");
+  return 0;
 }
 
 int compare(const Options& options, const Fabric& fabric, ThreadTeam& team) {
@@ -47,48 +54,48 @@ int compare(const Options& options, const Fabric& fabric, ThreadTeam& team) {
   const MaterialFit fit = fit_material(bench);
   const std::vector<CouponComparison> coupons =
       compare_coupons(fit, fabric, options.shape.cells, options.points, team);
-  print_coupons(coupons);
+  const std::string json = coupons_json(fabric.name, coupons);
+  if (!options.out.empty()) {
+    make_folder(options.out);
+    for (const CouponComparison& c : coupons) write_coupon(options.out, c.name, c.coupon, c.pull);
+    write_curves(options.out, fit, bench, coupons);
+    write_file(options.out / "result.json", json);
+  }
+  if (options.json)
+    fmt::print("{}", json);
+  else
+    print_coupons(coupons);
   double largest = 0;
   bool converged = true;
   for (const CouponComparison& c : coupons) {
     largest = std::max(largest, c.pull.largest_strain);
     converged = converged && c.pull.converged;
-    if (!options.out.empty()) write_coupon(options.out, c.name, c.coupon, c.pull);
   }
-  if (!options.out.empty()) write_curves(options.out, fit, bench, coupons);
-  warn(fabric, largest, converged);
-  return 0;
+  return finish(fabric, largest, converged);
+}
+
+void print_result(const CouponResult& r) {
+  fmt::print("{}: {:.4g} mm x {:.4g} mm at {} deg, yarns {:.3g} mm apart, {} nodes\n", r.material,
+             1e3 * r.coupon.length, 1e3 * r.coupon.width, r.orientation, 1e3 * r.coupon.spacing,
+             r.coupon.mesh.node_count());
+  fmt::print("{:>9} {:>12} {:>9} {:>12}\n", "strain", "load N/m", "width", "corner peak");
+  for (const CouponPoint& p : r.pull.points)
+    fmt::print("{:>9.4f} {:>12.2f} {:>9.4f} {:>12.3f}\n", p.strain, p.load, p.waist, p.corner_peak);
 }
 
 int pull(const Options& options, const Fabric& fabric, ThreadTeam& team) {
-  const double end = options.strain > 0         ? options.strain
-                     : fabric.tested_strain > 0 ? fabric.tested_strain
-                                                : 0.1;
-  std::vector<double> strains;
-  for (int i = 1; i <= options.points; ++i) strains.push_back(end * i / options.points);
-  const CouponMesh coupon = coupon_mesh(fabric, options.shape);
-  const CouponPull result = pull_coupon(coupon, strains, {}, team);
-  fmt::print("{}: {:.4g} mm x {:.4g} mm at {} deg, yarns {:.3g} mm apart, {} nodes\n", fabric.name,
-             1e3 * coupon.length, 1e3 * coupon.width, options.shape.orientation, 1e3 * coupon.spacing,
-             coupon.mesh.node_count());
-  fmt::print("{:>9} {:>12} {:>9} {:>12}\n", "strain", "load N/m", "width", "corner peak");
-  CsvTable table{{"strain", "load_n_per_m", "width_ratio", "corner_peak_ratio"}, {}};
-  for (const CouponPoint& p : result.points) {
-    fmt::print("{:>9.4f} {:>12.2f} {:>9.4f} {:>12.3f}\n", p.strain, p.load, p.waist, p.corner_peak);
-    table.rows.push_back({p.strain, p.load, p.waist, p.corner_peak});
-  }
-  if (!options.out.empty()) {
-    write_csv(options.out / "coupon.csv", table);
-    write_coupon(options.out, fmt::format("{}", options.shape.orientation), coupon, result);
-  }
-  warn(fabric, result.largest_strain, result.converged);
-  return 0;
+  const CouponResult result = run_coupon(fabric, options.shape, options.strain, options.points, team);
+  if (!options.out.empty()) write_coupon_result(options.out, result);
+  if (options.json)
+    fmt::print("{}", to_json(result));
+  else
+    print_result(result);
+  return finish(fabric, result.pull.largest_strain, result.pull.converged);
 }
 
 int run(const Options& options) {
   const Fabric fabric = fabric_of(options.material);
   ThreadTeam team(options.threads);
-  if (!options.out.empty()) make_folder(options.out);
   return options.bench.empty() ? pull(options, fabric, team) : compare(options, fabric, team);
 }
 
@@ -118,7 +125,9 @@ void add_coupon(CLI::App& app, int& status) {
       ->check(CLI::Range(0.0, 2.0));
   command->add_option("--points", options->points, "Points of the curve")->check(CLI::Range(1, 1000));
   command->add_option("--threads", options->threads, "Threads; 0: all")->check(CLI::Range(0, 256));
-  command->add_option("--out", options->out, "Folder for the curve, a picture and a file for ParaView");
+  command->add_option("--out", options->out,
+                      "Folder for result.json, the curve, a picture and a file for ParaView");
+  add_json_option(*command, options->json);
   command->callback([options, &status] { status = run(*options); });
 }
 

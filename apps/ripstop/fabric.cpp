@@ -1,25 +1,19 @@
 // ripstop fabric: the cloth under a given pressure, without a flow.
 
+#include "ripstop/run/fabric.h"
+
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <chrono>
-#include <cmath>
 #include <filesystem>
 #include <memory>
-#include <numbers>
 #include <optional>
 
 #include "case_options.h"
 #include "commands.h"
+#include "json_option.h"
 #include "progress.h"
-#include "ripstop/case/assemble.h"
 #include "ripstop/core/error.h"
-#include "ripstop/core/file.h"
-#include "ripstop/coupling/result.h"
-#include "ripstop/output/picture.h"
-#include "ripstop/output/vtk.h"
-#include "ripstop/parachute/known_shape.h"
 #include "warnings.h"
 
 namespace ripstop {
@@ -32,77 +26,48 @@ struct Options {
   Overrides overrides;
   std::optional<double> pressure;
   fs::path out;
+  bool json = false;
 };
+
+void print_result(const FabricResult& r, const fs::path& folder) {
+  const auto row = [](const char* name, const std::string& text) { fmt::print("  {:<26} {}\n", name, text); };
+  row("pressure load", fmt::format("{:.2f} N", r.pressure_load));
+  row("line tension, axial sum", fmt::format("{:.2f} N", r.line_tension));
+  row("projected diameter", fmt::format("{:.3f} m", r.size.projected_diameter));
+  std::string ratio = fmt::format("{:.3f}", r.projected_ratio);
+  if (r.known_projected_ratio) {
+    const auto [low, high] = *r.known_projected_ratio;
+    ratio += low < high ? fmt::format(" (Knacke, in flight: {:.2f} to {:.2f})", low, high)
+                        : fmt::format(" (Knacke, in flight: {:.2f})", low);
+  }
+  row("projected / nominal", ratio);
+  row("skirt diameter", fmt::format("{:.3f} m", r.size.skirt_diameter));
+  row("highest line tension", fmt::format("{:.1f} N", r.max_line_tension));
+  row("highest stress", fmt::format("{:.0f} N/m von Mises, on the {}", r.stress.von_mises, r.stress.patch));
+  if (!folder.empty()) row("files", folder.string() + " (canopy.png, canopy.vtp, lines.vtp, result.json)");
+}
 
 int run(const Options& options) {
   const Case value = read_case(options.case_file, options.overrides);
-  const Air stream = air(value);
-  const double pressure = options.pressure.value_or(0.5 * stream.density * stream.speed * stream.speed);
-  const Mesh mesh = parachute_mesh(value);
-  ClothOptions cloth_options;
-  cloth_options.linear = value.coupling.linear;
-  const ClothPtr cloth = make_cloth(mesh, cloth_options);
-  ClothState state = start_state(*cloth);
-  const Loads loads{std::vector<double>(mesh.cell_count(), pressure), {}};
-  RelaxOptions relax_options;
-  relax_options.tolerance = value.coupling.cloth_tolerance;
-  ThreadTeam team(value.coupling.threads);
   Progress progress;
-  const auto begin = std::chrono::steady_clock::now();
-  const RelaxResult relaxed = relax(state, *cloth, loads, relax_options, team, [&](const RelaxProgress& p) {
+  const FabricSolution solution = run_fabric(value, options.pressure, [&](const RelaxProgress& p) {
     progress.show(fmt::format("cloth: step {}, residual {:.1e} (wanted {:.0e})", p.steps, p.residual,
-                              relax_options.tolerance));
+                              value.coupling.cloth_tolerance));
   });
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-
-  const std::vector<Vec3> shape = positions(state, *cloth);
-  const CanopySize size = canopy_size(mesh, shape);
-  const std::vector<CellStress> stress = cell_stress(*cloth, state);
-  const StressPeak peak = stress_peak(mesh, shape, stress);
-  const std::vector<double> tensions = spring_tensions(*cloth, state);
-  double line = 0;
-  for (const LineTension& t : line_tensions(mesh, tensions)) line = std::max(line, t.largest_tension);
-  progress.line(fmt::format("{}: {} nodes under {:.4g} Pa, {} steps in {:.2f} s, residual {:.1e}",
-                            value.title, mesh.node_count(), pressure, relaxed.steps, seconds,
-                            relaxed.residual));
-  const auto row = [](const char* name, const std::string& text) { fmt::print("  {:<26} {}\n", name, text); };
-  row("pressure load", fmt::format("{:.2f} N", pressure_force(*cloth, state, loads).z));
-  row("line tension, axial sum", fmt::format("{:.2f} N", force_on_fixed(*cloth, state).z));
-  row("projected diameter", fmt::format("{:.3f} m", size.projected_diameter));
-  const KnownRange known = known_projected_ratio(value.parachute);
-  std::string ratio = fmt::format(
-      "{:.3f}", size.projected_diameter / std::sqrt(4 / std::numbers::pi * nominal_area(value.parachute)));
-  if (known.low > 0)
-    ratio += known.low < known.high
-                 ? fmt::format(" (Knacke, in flight: {:.2f} to {:.2f})", known.low, known.high)
-                 : fmt::format(" (Knacke, in flight: {:.2f})", known.low);
-  row("projected / nominal", ratio);
-  row("skirt diameter", fmt::format("{:.3f} m", size.skirt_diameter));
-  row("highest line tension", fmt::format("{:.1f} N", line));
-  row("highest stress", fmt::format("{:.0f} N/m von Mises, on the {}", peak.von_mises, peak.patch));
-
+  const FabricResult& r = solution.result;
+  progress.line(fmt::format("{}: {} nodes under {:.4g} Pa, {} steps in {:.2f} s, residual {:.1e}", r.title,
+                            r.nodes, r.pressure, r.steps, r.wall_time, r.residual));
+  if (!options.out.empty()) write_fabric(options.out, solution);
+  if (options.json)
+    fmt::print("{}", to_json(r));
+  else
+    print_result(r, options.out);
   print_mesh_warning(value);
-  print_material_warnings(value, peak.strain);
-
-  if (!options.out.empty()) {
-    make_folder(options.out);
-    std::vector<double> mises;
-    for (const CellStress& s : stress) mises.push_back(s.von_mises);
-    VtkSurface canopy = canopy_surface(mesh, shape);
-    canopy.cell_arrays.push_back(vtk_array("von_mises_n_per_m", cloth_cells_only(mesh, mises)));
-    write_vtp(options.out / "canopy.vtp", canopy);
-    VtkSurface lines = spring_lines(mesh, shape);
-    lines.cell_arrays.push_back(vtk_array("tension_n", tensions));
-    write_vtp(options.out / "lines.vtp", lines);
-    write_canopy_picture(
-        options.out / "canopy.png", mesh, shape,
-        {fmt::format("{} under {:.4g} Pa", value.title, pressure), "von Mises stress [N/m]", mises, {}});
-    row("files", options.out.string() + " (canopy.png, canopy.vtp, lines.vtp)");
-  }
-  if (!relaxed.converged) {
+  print_material_warnings(value, r.stress.strain);
+  if (!r.converged) {
     throw Error(ExitCode::not_converged,
-                fmt::format("no equilibrium within {} steps: residual {:.1e}, wanted {:.0e}", relaxed.steps,
-                            relaxed.residual, relax_options.tolerance));
+                fmt::format("no equilibrium within {} steps: residual {:.1e}, wanted {:.0e}", r.steps,
+                            r.residual, r.tolerance));
   }
   return 0;
 }
@@ -118,7 +83,8 @@ void add_fabric(CLI::App& app, int& status) {
   command->add_option("--pressure", options->pressure,
                       "Pressure over the whole canopy [Pa]; default: the dynamic pressure");
   add_case_options(*command, options->overrides);
-  command->add_option("--out", options->out, "Folder for a picture and files for ParaView");
+  command->add_option("--out", options->out, "Folder for result.json, a picture and files for ParaView");
+  add_json_option(*command, options->json);
   command->callback([options, &status] { status = run(*options); });
 }
 

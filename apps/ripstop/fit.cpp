@@ -1,18 +1,19 @@
 // ripstop fit: from the records of a tensile bench to a material file.
 
+#include "ripstop/run/fit.h"
+
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 
 #include "commands.h"
 #include "fit_report.h"
+#include "json_option.h"
 #include "progress.h"
-#include "ripstop/core/error.h"
-#include "ripstop/core/file.h"
 
 namespace ripstop {
 namespace {
@@ -25,8 +26,24 @@ struct Options {
   int degree = 0;
   bool zero_offset = false;
   bool no_coupons = false;
+  bool json = false;
   int threads = 0;
 };
+
+void print_directions(const MaterialFit& fit) {
+  for (const DirectionFit& d : fit.directions) {
+    fmt::print("\n{}: {} samples, up to strain {:.4g}, R2 {:.4f} (all points {:.4f}), degree {}\n", d.name,
+               d.samples.size(), d.fit.tested_strain, d.fit.r2, d.fit.r2_all, d.fit.degree);
+    for (const CleanRecord& sample : d.samples) {
+      fmt::print("  {}: fails at strain {:.4g} with {:.5g} {}\n", sample.name, sample.failure_strain,
+                 sample.failure_load, load_unit(d));
+      for (const std::string& text : sample.trimmed) fmt::print("    {}\n", text);
+    }
+    fmt::print("  K_0 {}\n", interval_text(d.fit.offset));
+    for (std::size_t k = 0; k < d.fit.k.size(); ++k)
+      fmt::print("  K_{} {}\n", k + 1, interval_text(d.fit.k[k]));
+  }
+}
 
 void print_permeability(const MaterialFit& fit) {
   if (!fit.has_permeability) return;
@@ -45,54 +62,48 @@ void print_permeability(const MaterialFit& fit) {
   }
 }
 
-int run(const Options& options) {
-  Bench bench = read_bench(options.bench);
-  if (options.degree > 0) bench.degree = options.degree;
-  if (options.zero_offset) bench.zero_offset = true;
-  MaterialFit fit = fit_material(bench);
+void print_fit(const FitResult& result) {
+  const auto& [bench, fit, coupons] = result;
   print_directions(fit);
   print_permeability(fit);
-
-  std::unique_ptr<CouponFit> coupons;
-  if (bench.kind == BenchKind::fabric && !options.no_coupons) {
-    ThreadTeam team(options.threads);
-    Progress progress;
-    CouponFitOptions search;
-    search.find_shear = !bench.shear_fraction;
-    search.find_bending = !bench.bending_fraction;
-    coupons = std::make_unique<CouponFit>(
-        fit_coupons(fit, bench, search, team, [&](int count, double xi, double eps, double misfit) {
-          progress.show(fmt::format("coupons: {} pulled, xi {:.4f}, eps {:.4f}, misfit {:.3e}", count, xi,
-                                    eps, misfit));
-        }));
-    progress.line(fmt::format("virtual coupons: {} tries in {}", coupons->evaluations,
-                              duration_text(coupons->seconds)));
-    fit.warnings.insert(fit.warnings.end(), coupons->warnings.begin(), coupons->warnings.end());
-    Fabric fabric = coupons->fabric;
-    fabric.warning = fmt::format("{}", fmt::join(fit.warnings, "; "));
-    fit.material = fabric;
-    fmt::print("\nxi {:.4f}{}, eps {:.4f}, coefficients multiplied by {:.5f}\n", fabric.shear_fraction,
+  if (coupons) {
+    fmt::print("\nxi {:.4f}{}, eps {:.4f}, coefficients multiplied by {:.5f}\n",
+               coupons->fabric.shear_fraction,
                std::isfinite(coupons->shear_low)
                    ? fmt::format(" ({:.4f} .. {:.4f})", coupons->shear_low, coupons->shear_high)
                    : "",
-               fabric.bending_fraction, coupons->rescale);
+               coupons->fabric.bending_fraction, coupons->rescale);
     print_coupons(coupons->coupons);
     for (const std::string& note : coupons->notes) fmt::print("note: {}\n", note);
   }
   for (const std::string& note : fit.notes) fmt::print("note: {}\n", note);
-  for (const std::string& warning : fit.warnings) fmt::print(stderr, "warning: {}\n", warning);
+}
 
+int run(const Options& options) {
+  Bench bench = read_bench(options.bench);
+  if (options.degree > 0) bench.degree = options.degree;
+  if (options.zero_offset) bench.zero_offset = true;
+  ThreadTeam team(options.threads);
+  Progress progress;
+  const FitResult result =
+      run_fit(bench, !options.no_coupons, team, [&](int count, double xi, double eps, double misfit) {
+        progress.show(
+            fmt::format("coupons: {} pulled, xi {:.4f}, eps {:.4f}, misfit {:.3e}", count, xi, eps, misfit));
+      });
+  if (result.coupons)
+    progress.line(fmt::format("virtual coupons: {} tries in {}", result.coupons->evaluations,
+                              duration_text(result.coupons->seconds)));
   const fs::path folder = options.out.empty() ? fs::path("runs") / bench.name : options.out;
-  make_folder(folder);
-  const fs::path file = folder / (bench.name + ".toml");
-  write_file(file, material_toml(fit, bench, fit.material, coupons.get()));
-  write_file(folder / "fit.json", fit_json(fit, bench, fit.material, coupons.get()));
-  write_curves(folder, fit, bench, coupons ? coupons->coupons : std::vector<CouponComparison>{});
-  if (coupons)
-    for (const CouponComparison& c : coupons->coupons) write_coupon(folder, c.name, c.coupon, c.pull);
-  read_material(file);  // what steady will do with it
-  fmt::print("\n{}: the material; beside it fit.json, curve-*.png, curve-*.csv{}\n", file.string(),
-             coupons ? ", coupon-*.png, coupon-*.vtp" : "");
+  const fs::path file = write_fit(folder, result);
+  if (options.json) {
+    fmt::print("{}", to_json(result));
+  } else {
+    print_fit(result);
+    fmt::print("\n{}: the material; beside it result.json, curve-*.png, curve-*.csv{}\n", file.string(),
+               result.coupons ? ", coupon-*.png, coupon-*.vtp" : "");
+  }
+  std::fflush(stdout);
+  for (const std::string& warning : result.fit.warnings) fmt::print(stderr, "warning: {}\n", warning);
   return 0;
 }
 
@@ -108,6 +119,7 @@ void add_fit(CLI::App& app, int& status) {
       ->check(CLI::Range(1, 8));
   command->add_flag("--zero-offset", options->zero_offset, "Fit through zero load at zero strain (K_0 = 0)");
   command->add_flag("--no-coupons", options->no_coupons, "Leave out xi, eps and the virtual coupons");
+  add_json_option(*command, options->json);
   command->add_option("--threads", options->threads, "Threads; 0: all")->check(CLI::Range(0, 256));
   command->callback([options, &status] { status = run(*options); });
 }

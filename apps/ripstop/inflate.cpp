@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "commands.h"
+#include "json_option.h"
 #include "opening.h"
 #include "progress.h"
 #include "ripstop/run/inflation_folder.h"
@@ -19,12 +20,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double seconds_between_checkpoints = 10;
-
 struct Options {
   OpeningOptions opening;
   fs::path out;
-  bool fresh = false, check = false;
+  bool fresh = false, check = false, json = false;
 };
 
 void print_start(const Inflation& solver, const InflationState& state, const LoadSource& source) {
@@ -45,31 +44,28 @@ void print_start(const Inflation& solver, const InflationState& state, const Loa
              state.step, state.step / solver.problem().settings.step_fraction, solver.threads());
 }
 
-void print_result(const InflationResult& r, const Case& value, const LoadSource& source,
-                  const fs::path& folder) {
+void print_result(const InflationResult& r, const fs::path& folder, double wall_time) {
   const auto row = [](const char* name, const std::string& text) { fmt::print("  {:<26} {}\n", name, text); };
-  const InflationSettings& s = value.inflation;
-  fmt::print("\n{}\n", value.title);
+  const InflationSettings& s = r.settings;
+  fmt::print("\n{}\n", r.title);
   row("peak load", fmt::format("{:.1f} N at {:.2f} ms, over every step", r.peak_load, 1000 * r.peak_time));
-  if (s.low_pass_hz > 0) {
-    row("peak, low-passed", fmt::format("{:.1f} N at {:.2f} ms ({:g} Hz)", r.summary.smooth_peak,
-                                        1000 * r.summary.smooth_peak_time, s.low_pass_hz));
+  if (r.low_pass) {
+    row("peak, low-passed", fmt::format("{:.1f} N at {:.2f} ms ({:g} Hz)", *r.smooth_peak,
+                                        1000 * *r.smooth_peak_time, s.low_pass_hz));
   }
   if (s.measured_peak_n) {
-    const double own = s.low_pass_hz > 0 ? r.summary.smooth_peak : r.peak_load;
-    row("peak measured",
-        fmt::format("{:.1f} N ({:+.1f} %{})", *s.measured_peak_n, 100 * (own / *s.measured_peak_n - 1),
-                    s.low_pass_hz > 0 ? ", low-passed" : ""));
+    const double own = r.low_pass ? *r.smooth_peak : r.peak_load;
+    row("peak measured", fmt::format("{:.1f} N ({:+.1f} %{})", *s.measured_peak_n,
+                                     100 * (own / *s.measured_peak_n - 1), r.low_pass ? ", low-passed" : ""));
   }
   if (s.printed_peak_n) row("peak of the source's model", fmt::format("{:.1f} N", *s.printed_peak_n));
   row("Knacke's estimate",
       fmt::format("{:.1f} N, C_x = {:g} (infinite mass)", r.estimate.load, r.estimate.coefficient));
   row("steady load", fmt::format("{:.1f} N +- {:.1f} % over the last fifth", r.summary.steady_load,
                                  100 * r.summary.unsteadiness));
-  if (source.steady_drag) {
+  if (r.steady_drag_returned) {
     row("steady drag returned",
-        fmt::format("{:+.2f} % of {:.1f} N", 100 * (r.summary.steady_load / *source.steady_drag - 1),
-                    *source.steady_drag));
+        fmt::format("{:+.2f} % of {:.1f} N", 100 * (*r.steady_drag_returned - 1), *r.source.steady_drag));
   }
   row("inflation time",
       r.summary.inflation_time
@@ -80,24 +76,57 @@ void print_result(const InflationResult& r, const Case& value, const LoadSource&
         fmt::format("{:.1f} ms, {:.1f} ms ({:g} Hz, mean square over two periods)",
                     1000 * *r.summary.filling_time, 1000 * *r.summary.settling_time, s.low_pass_hz));
   row("overshoot", s.low_pass_hz > 0
-                       ? fmt::format("{:.3f}, low-passed {:.3f}", r.overshoot, r.smooth_overshoot)
+                       ? fmt::format("{:.3f}, low-passed {:.3f}", r.overshoot, *r.smooth_overshoot)
                        : fmt::format("{:.3f}", r.overshoot));
   row("impulse", fmt::format("{:.3f} N s", r.impulse));
-  row("highest line tension",
-      fmt::format("{:.1f} N", *std::max_element(r.line_peaks.begin(), r.line_peaks.end())));
-  row("highest stress",
-      fmt::format("{:.0f} N/m von Mises on the {} at {:.1f} ms{}", r.stress.von_mises, r.stress.patch,
-                  1000 * r.stress_time,
-                  r.break_load > 0 ? fmt::format(", margin {:.1f} to its {:.0f} N/m",
-                                                 r.break_load / r.stress.von_mises, r.break_load)
-                                   : ""));
+  row("highest line tension", fmt::format("{:.1f} N", r.max_line_tension));
+  row("highest stress", fmt::format("{:.0f} N/m von Mises on the {} at {:.1f} ms{}", r.stress.von_mises,
+                                    r.stress.patch, 1000 * r.stress_time,
+                                    r.cloth_margin ? fmt::format(", margin {:.1f} to its {:.0f} N/m",
+                                                                 *r.cloth_margin, r.break_load)
+                                                   : ""));
   row("energy balance",
       fmt::format("work in = kinetic + elastic + damped within {:.3f} %", 100 * r.energy_residual));
   row("files", fmt::format("{} (load.png, shapes.png, history.csv, canopy.pvd, result.json); {}",
-                           folder.string(), duration_text(r.wall_time)));
+                           folder.string(), duration_text(wall_time)));
 }
 
+/// Where the opening starts, or goes on, and how far it is.
+class Terminal : public InflationObserver {
+ public:
+  Terminal(const LoadSource& source, const fs::path& folder, bool quiet, Progress& progress)
+      : source_(source), folder_(folder), quiet_(quiet), progress_(progress) {}
+
+  void begin(const Inflation& solver, InflationState& state, InflationHistory&) override {
+    if (state.blocks > 0)
+      progress_.line(fmt::format("going on at {:.2f} ms of {}", 1000 * state.cloth.time, folder_.string()));
+    else if (!quiet_)
+      print_start(solver, state, source_);
+    begin_ = Clock::now();
+    first_ = state.blocks;
+  }
+  void advanced(const Inflation& solver, const InflationState& state, const InflationHistory& history,
+                const InflationFrame*) override {
+    const double gone = std::chrono::duration<double>(Clock::now() - begin_).count();
+    const double left = gone * double(solver.blocks() - state.blocks) / double(state.blocks - first_);
+    progress_.show(fmt::format("{:.2f} of {:.0f} ms, load {:.1f} N, step {:.2e} s | {} gone, about {} left",
+                               1000 * state.cloth.time, 1000 * solver.problem().settings.duration_s,
+                               history.rows.back().mean, state.step, duration_text(gone),
+                               duration_text(left)));
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  const LoadSource& source_;
+  const fs::path& folder_;
+  bool quiet_;
+  Progress& progress_;
+  Clock::time_point begin_;
+  long long first_ = 0;
+};
+
 int run(const Options& options) {
+  const auto begin = std::chrono::steady_clock::now();
   const Case value = opening_case(options.opening);
   const fs::path folder =
       options.out.empty()
@@ -110,53 +139,25 @@ int run(const Options& options) {
     print_start(solver, solver.start(), source);
     return 0;
   }
-  InflationFolder files({folder, options.fresh}, value, "inflation; pressure from " + source.text, threads);
-  if (const auto result = files.finished_result()) {
-    fmt::print("{}", *result);
+  Progress progress;
+  Terminal terminal(source, folder, options.json, progress);
+  const auto problem = [&] {
+    progress.show("equilibrium under the steady load");
+    return opening_problem(value, source, threads);
+  };
+  const auto result = run_inflation_in({{folder, options.fresh}, threads}, value, source, problem, terminal);
+  if (!result) {
+    fmt::print("{}", *finished_result(folder));
     fmt::print(stderr, "{} holds the finished run; --fresh computes it again\n", folder.string());
     return 0;
   }
-  Progress progress;
-  progress.show("equilibrium under the steady load");
-  Inflation solver(opening_problem(value, source, threads));
-  InflationState state;
-  if (auto saved = files.go_on(solver)) {
-    state = std::move(*saved);
-    progress.line(fmt::format("going on at {:.2f} ms of {}", 1000 * state.cloth.time, folder.string()));
-  } else {
-    state = solver.start();
-    files.write_start(solver, state);
-    print_start(solver, state, source);
-  }
-
-  using Clock = std::chrono::steady_clock;
-  const auto seconds_since = [](Clock::time_point t) {
-    return std::chrono::duration<double>(Clock::now() - t).count();
-  };
-  const Clock::time_point begin = Clock::now();
-  Clock::time_point saved = begin;
-  const long long first = state.blocks;
-  while (state.blocks < solver.blocks()) {
-    const std::vector<HistoryRow> rows = solver.advance(state);
-    files.add_rows(rows);
-    if (solver.at_frame(state)) {
-      files.write_frame(solver, state, solver.frame(state));
-      if (seconds_since(saved) > seconds_between_checkpoints) {
-        files.save(state);
-        saved = Clock::now();
-      }
-    }
-    const double gone = seconds_since(begin);
-    const double left = gone * double(solver.blocks() - state.blocks) / double(state.blocks - first);
-    progress.show(fmt::format("{:.2f} of {:.0f} ms, load {:.1f} N, step {:.2e} s | {} gone, about {} left",
-                              1000 * state.cloth.time, 1000 * value.inflation.duration_s, rows.back().mean,
-                              state.step, duration_text(gone), duration_text(left)));
-  }
-  files.save(state);
-  const InflationResult result = files.finish(solver, state, value, source);
-  print_result(result, value, source, folder);
+  const double wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  if (options.json)
+    fmt::print("{}", to_json(*result));
+  else
+    print_result(*result, folder, wall_time);
   print_mesh_warning(value);
-  print_material_warnings(value, result.stress.strain);
+  print_material_warnings(value, result->stress.strain);
   return 0;
 }
 
@@ -173,6 +174,7 @@ void add_inflate(CLI::App& app, int& status) {
   command->add_option("--out", options->out, "Run folder (default: runs/<folder of the case>-inflation)");
   command->add_flag("--fresh", options->fresh, "Replace what the run folder holds; default: go on with it");
   command->add_flag("--check", options->check, "Fold, say strain, pressure and step, and stop");
+  add_json_option(*command, options->json);
   command->callback([options, &status] { status = run(*options); });
 }
 

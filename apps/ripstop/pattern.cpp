@@ -1,16 +1,15 @@
 // ripstop pattern: what to cut for the parachute of a case.
 
+#include "ripstop/run/pattern.h"
+
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 
 #include "commands.h"
-#include "ripstop/case/assemble.h"
-#include "ripstop/core/file.h"
-#include "ripstop/output/pattern_files.h"
+#include "json_option.h"
 
 namespace ripstop {
 namespace {
@@ -22,6 +21,7 @@ struct Options {
   fs::path out = "pattern";
   Allowances allowances;
   double packing_density = 400;
+  bool json = false;
 };
 
 void print_bill(const Bill& bill) {
@@ -36,24 +36,18 @@ void print_bill(const Bill& bill) {
 }
 
 int run(const Options& options) {
-  const Case value = read_case(options.case_file);
-  const CutPattern pattern = cut_pattern(value.parachute);
-  const Bill bill =
-      bill_of(pattern, value.parachute, part_materials(value), options.allowances, options.packing_density);
-  print_bill(bill);
-  fmt::print("packed at {:.0f} kg/m3: {:.3f} l\n", options.packing_density, 1000 * bill.packed_volume);
-  fmt::print("S0 {:.4f} m2, cloth {:.4f} m2 finished\n", nominal_area(value.parachute),
-             computed_area(value.parachute));
-  make_folder(options.out);
-  for (const Piece& piece : pattern.pieces) {
-    std::string name = piece.name;
-    std::replace(name.begin(), name.end(), ' ', '-');
-    write_pattern_dxf(options.out / (name + ".dxf"), piece, options.allowances);
-    write_pattern_svg(options.out / (name + ".svg"), piece, options.allowances);
+  const PatternResult result =
+      run_pattern(read_case(options.case_file), options.allowances, options.packing_density);
+  write_pattern(options.out, result);
+  if (options.json) {
+    fmt::print("{}", to_json(result));
+    return 0;
   }
-  write_bill_csv(options.out / "bill.csv", bill);
-  fmt::print("{} pieces as DXF and SVG (1 unit = 1 mm) and bill.csv in {}\n", pattern.pieces.size(),
-             options.out.string());
+  print_bill(result.bill);
+  fmt::print("packed at {:.0f} kg/m3: {:.3f} l\n", result.packing_density, 1000 * result.bill.packed_volume);
+  fmt::print("S0 {:.4f} m2, cloth {:.4f} m2 finished\n", result.nominal_area, result.cloth_area);
+  fmt::print("{} pieces as DXF and SVG (1 unit = 1 mm), bill.csv and result.json in {}\n",
+             result.pattern.pieces.size(), options.out.string());
   return 0;
 }
 
@@ -79,6 +73,7 @@ void add_pattern(CLI::App& app, int& status) {
                    "[kg/m3]: about 400 packed by hand, 600 under a press")
       ->check(CLI::Range(50.0, 1500.0))
       ->capture_default_str();
+  add_json_option(*command, options->json);
   command->callback([options, &status] { status = run(*options); });
 }
 

@@ -248,15 +248,19 @@ int calibrate(Options& options) {
     // The points lie in the order of the axes, the shift the fastest.
     const std::size_t shift = i % shifts.size(), knob_at = i / shifts.size() % values.size(),
                       condition = i / shifts.size() / values.size();
-    trials.push_back({values[knob_at], shifts[shift], condition, rows[i].drag_area});
+    trials.push_back({values[knob_at], shifts[shift], condition, rows[i].result.drag_area});
   }
-  const double area = rows.front().reference_area;
+  const double area = rows.front().result.reference_area;
   const PorosityCalibration found = calibrate_porosity(measured, trials, area);
   const PressureDrop law = cloth_of(knob, found.knob, options.thickness);
   write_plots(folder, value, measured, trials, found, knob, area);
   write_result(folder, value, measured, found, knob, law, options, area);
-  print_result(measured, found, knob, law, value.parachute.canopy_material);
-  fmt::print("  {} (porosity.svg, porosity.png, sweep.csv)\n", (folder / "result.json").string());
+  if (options.json) {
+    fmt::print("{}", read_file(folder / "result.json"));
+  } else {
+    print_result(measured, found, knob, law, value.parachute.canopy_material);
+    fmt::print("  {} (porosity.svg, porosity.png, sweep.csv)\n", (folder / "result.json").string());
+  }
   if (!found.outside) return 0;
   fmt::print(stderr, "the found {} lies outside the trials: widen them\n", knob_name(knob));
   return static_cast<int>(ExitCode::not_converged);

@@ -5,17 +5,17 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 
 #include "case_options.h"
 #include "commands.h"
+#include "json_option.h"
 #include "progress.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/error.h"
-#include "ripstop/parachute/known_shape.h"
-#include "ripstop/run/run_folder.h"
-#include "ripstop/run/steady_run.h"
+#include "ripstop/run/steady_folder.h"
 #include "warnings.h"
 
 namespace ripstop {
@@ -30,6 +30,7 @@ struct Options {
   fs::path out;
   bool fresh = false;
   bool dry_run = false;
+  bool json = false;
 };
 
 // Iterations still to come: as many as the drag's change needs at its rate of fall so far, five at the first.
@@ -55,25 +56,34 @@ std::string progress_text(const SteadyProgress& p, double elapsed, double left) 
                      p.flow.drag, time);
 }
 
-std::string iteration_text(const SteadyIteration& i) {
-  return fmt::format(
-      "{:>4} {:>9.2f} {:>9.2f} {:>9.2f} {:>9.2f} {:>8.3f} {:>10} {:>10.3f} {:>9.1e} {:>9.1e} {:>7} {:>6} "
-      "{:>8}",
-      i.iteration, i.fluid_force, i.nodal_load, i.line_tension, i.momentum_deficit, i.transfer_factor,
-      std::isfinite(i.drag_change) ? fmt::format("{:.3f} %", 100 * i.drag_change) : "-",
-      1000 * i.shape_change, i.omega, i.printed_tolerance, i.cloth_steps, i.flow_iterations,
-      duration_text(i.wall_time));
+/// The members of an iteration that are shown, one under the other.
+std::string iteration_header() {
+  std::string text;
+  const SteadyIteration none;
+  each_member(none, [&](const char*, const auto&, auto... how) {
+    ((text += fmt::format("{:>{}} ", how.heading, how.width)), ...);
+  });
+  return text;
 }
 
-constexpr const char* iteration_header =
-    "      fluid N    nodal N    lines N   deficit N  transfer  d(drag)   e_k mm     omega   Eq. 19    cloth "
-    "  flow     time";
+std::string shown(double value, const Shown& how) {
+  if (!std::isfinite(value)) return "-";
+  return *how.format ? fmt::format(fmt::runtime(how.format), how.factor * value) : duration_text(value);
+}
+
+std::string iteration_text(const SteadyIteration& iteration) {
+  std::string text;
+  each_member(iteration, [&](const char*, [[maybe_unused]] const auto& member, auto... how) {
+    ((text += fmt::format("{:>{}} ", shown(double(member), how), how.width)), ...);
+  });
+  return text;
+}
 
 void print_result(const SteadyResult& r, const Case& value, const fs::path& folder) {
   const auto row = [](const char* name, const std::string& text) { fmt::print("  {:<26} {}\n", name, text); };
-  fmt::print("\n{}\n", value.title);
+  fmt::print("\n{}\n", r.title);
   row("speed, density", fmt::format("{:.4g} m/s, {:.4g} kg/m3", r.speed, r.density));
-  const Measured* measured = measured_row(value);
+  const std::optional<Measured>& measured = r.measured;
   if (measured && measured->drag_n) {
     row("drag measured",
         fmt::format("{:.1f} N (tunnel set to {:.4g} m/s, read {:.4g} m/s)", *measured->drag_n,
@@ -86,11 +96,12 @@ void print_result(const SteadyResult& r, const Case& value, const fs::path& fold
     row("drag in [NFM]", fmt::format("{:.1f} N (its nonlinear model)", *measured->printed_nonlinear_n));
   }
   row("drag area", fmt::format("{:.4f} m2", r.drag_area));
-  const KnownRange usual = known_drag_coefficient(value.parachute);
-  row("drag coefficient", fmt::format("{:.4f} on S0 = {:.4f} m2{}", r.drag_coefficient, r.reference_area,
-                                      usual.high > 0 ? fmt::format("; in descent {:.2f} to {:.2f} (Knacke)",
-                                                                   usual.low, usual.high)
-                                                     : ""));
+  row("drag coefficient",
+      fmt::format("{:.4f} on S0 = {:.4f} m2{}", r.drag_coefficient, r.reference_area,
+                  r.known_drag_coefficient
+                      ? fmt::format("; in descent {:.2f} to {:.2f} (Knacke)", r.known_drag_coefficient->at(0),
+                                    r.known_drag_coefficient->at(1))
+                      : ""));
   row("projected diameter", fmt::format("{:.3f} m", r.size.projected_diameter));
   row("skirt diameter", fmt::format("{:.3f} m", r.size.skirt_diameter));
   row("highest line tension", fmt::format("{:.1f} N", r.max_line_tension));
@@ -107,72 +118,81 @@ void print_result(const SteadyResult& r, const Case& value, const fs::path& fold
                            flow_grid(value).uniform() ? "flow.vti" : "flow.vtr"));
 }
 
-// A run that another process already finished is only shown.
-int show_finished(const std::string& result, const fs::path& folder) {
-  fmt::print("{}\n", result);
-  fmt::print(stderr, "{} holds the finished run; --fresh computes it again\n", folder.string());
-  return result.find("\"converged\": true") != std::string::npos ? 0
-                                                                 : static_cast<int>(ExitCode::not_converged);
+class Terminal : public SteadyObserver {
+ public:
+  explicit Terminal(const fs::path& folder) : folder_(folder) {}
+
+  void begin(const SteadyRun& run, SteadyState& state) override {
+    settings_ = run.value.coupling;
+    if (!state.iterations.empty()) {
+      progress_.line(fmt::format("going on after coupling iteration {} of {}", state.iterations.size(),
+                                 folder_.string()));
+    }
+    progress_.line(fmt::format("{}: {}, {} cloth nodes, {}", run.value.title, run.engine,
+                               run.solver.mesh().node_count(), folder_.string()));
+    progress_.line(iteration_header());
+    for (const SteadyIteration& i : state.iterations) progress_.line(iteration_text(i));
+  }
+  void progress(const SteadyProgress& p, const SteadyState& state) override {
+    double left = 0;
+    if (!state.iterations.empty()) {
+      left = iterations_left(state, settings_) * state.iterations.back().wall_time - (elapsed() - before_);
+    }
+    progress_.show(progress_text(p, elapsed(), left));
+  }
+  void iterated(const SteadyRun&, const SteadyState& state, const FlowField&) override {
+    before_ = elapsed();
+    progress_.line(iteration_text(state.iterations.back()));
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double elapsed() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
+
+  const fs::path& folder_;
+  CouplingSettings settings_;
+  Progress progress_;
+  Clock::time_point begin_ = Clock::now();
+  double before_ = 0;  // elapsed at the end of the last iteration
+};
+
+int dry_run(const Case& value, const fs::path& folder) {
+  const SteadyProblem problem = steady_problem(value);
+  fmt::print("{}: {} nodes, {} x {} x {} cells, {:.4g} m/s, {} ranks; would run in {}\n", value.title,
+             problem.mesh.node_count(), problem.flow.grid.nx, problem.flow.grid.ny, problem.flow.grid.nz,
+             problem.flow.air.speed, value.flow.ranks, folder.string());
+  return 0;
 }
 
 int run(const Options& options) {
   const Case value = read_case(options.case_file, options.overrides);
   const fs::path folder =
       options.out.empty() ? fs::path("runs") / options.case_file.parent_path().filename() : options.out;
-
-  if (options.dry_run) {
-    const SteadyProblem problem = steady_problem(value);
-    fmt::print("{}: {} nodes, {} x {} x {} cells, {:.4g} m/s, {} ranks; would run in {}\n", value.title,
-               problem.mesh.node_count(), problem.flow.grid.nx, problem.flow.grid.ny, problem.flow.grid.nz,
-               problem.flow.air.speed, value.flow.ranks, folder.string());
-    return 0;
+  if (options.dry_run) return dry_run(value, folder);
+  Terminal terminal(folder);
+  const SteadyFolderRun done =
+      run_steady_in({{folder, options.fresh}, 0, options.hostfile, {}}, value, terminal);
+  const SteadyResult& result = done.result;
+  if (options.json || done.already_finished)
+    fmt::print("{}", to_json(result));
+  else
+    print_result(result, value, folder);
+  std::fflush(stdout);
+  const int status = result.converged ? 0 : static_cast<int>(ExitCode::not_converged);
+  if (done.already_finished) {
+    fmt::print(stderr, "{} holds the finished run; --fresh computes it again\n", folder.string());
+    return status;
   }
-
-  Progress progress;
-  const auto begin = std::chrono::steady_clock::now();
-  const auto elapsed = [&] {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  };
-  double before = 0;  // elapsed at the end of the last iteration
-  SteadyRunEvents events;
-  events.begun = [&](const SteadyState& state, const std::string& engine, int nodes) {
-    if (!state.iterations.empty()) {
-      progress.line(fmt::format("going on after coupling iteration {} of {}", state.iterations.size(),
-                                folder.string()));
-    }
-    progress.line(fmt::format("{}: {}, {} cloth nodes, {}", value.title, engine, nodes, folder.string()));
-    progress.line(iteration_header);
-    for (const SteadyIteration& i : state.iterations) progress.line(iteration_text(i));
-  };
-  events.progress = [&](const SteadyProgress& p, const SteadyState& state) {
-    const double now = elapsed();
-    double left = 0;
-    if (!state.iterations.empty()) {
-      left = iterations_left(state, value.coupling) * state.iterations.back().wall_time - (now - before);
-    }
-    progress.show(progress_text(p, now, left));
-  };
-  events.iterated = [&](const SteadyState& state) {
-    before = elapsed();
-    progress.line(iteration_text(state.iterations.back()));
-  };
-  const SteadyRunOutcome outcome =
-      run_steady(value, {{folder, options.fresh}, 0, options.hostfile, {}}, events);
-  if (outcome.already_finished) return show_finished(outcome.json, folder);
-  const SteadyResult& result = outcome.result;
-  print_result(result, value, folder);
   print_mesh_warning(value);
   print_porosity_warning(value);
   print_material_warnings(value, result.stress.strain);
-  if (!result.converged) {
+  if (!result.converged)
     fmt::print(stderr,
                "not converged within {} coupling iterations: drag still changed by {:.2g} (wanted {:.2g}), "
                "shape by {:.2g} m (wanted {:.2g}), or the ledger is not closed within 1 %\n",
                result.iterations, result.last.drag_change, value.coupling.drag_tolerance,
                result.last.shape_change, value.coupling.shape_tolerance_m);
-    return static_cast<int>(ExitCode::not_converged);
-  }
-  return 0;
+  return status;
 }
 
 }  // namespace
@@ -189,6 +209,7 @@ void add_steady(CLI::App& app, int& status) {
   command->add_option("--out", options->out, "Run folder (default: runs/<folder of the case>)");
   command->add_flag("--fresh", options->fresh, "Replace what the run folder holds; default: go on with it");
   command->add_flag("--dry-run", options->dry_run, "Say what would be done, and stop");
+  add_json_option(*command, options->json);
   command->callback([options, &status] { status = run(*options); });
 }
 

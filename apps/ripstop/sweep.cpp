@@ -4,11 +4,12 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
+#include <cstdio>
 #include <memory>
 
 #include "commands.h"
 #include "ripstop/core/error.h"
+#include "ripstop/core/file.h"
 #include "ripstop/run/sweep_files.h"
 #include "sweep_progress.h"
 
@@ -62,11 +63,19 @@ int sweep(Options& options) {
     return 0;
   }
   const std::vector<SweepRow> rows = run_and_tell(axes, points, options.settings);
+  const std::string& title = points.front().value.title;
+  const std::string json = sweep_json(title, axes, points, rows);
   write_csv(folder / "sweep.csv", sweep_table(axes, points, rows));
-  write_sweep_plots(folder, points.front().value.title, axes, points, rows);
-  fmt::print(
-      "{} (and drag, drag_area, drag_coefficient, diameters, iterations, wall_time as .svg and .png)\n",
-      (folder / "sweep.csv").string());
+  write_file(folder / "result.json", json);
+  write_sweep_plots(folder, title, axes, points, rows);
+  if (options.json)
+    fmt::print("{}", json);
+  else
+    fmt::print(
+        "{} (and result.json, drag, drag_area, drag_coefficient, diameters, iterations, wall_time as .svg "
+        "and .png)\n",
+        (folder / "sweep.csv").string());
+  std::fflush(stdout);
   require_all(points, rows);
   return 0;
 }

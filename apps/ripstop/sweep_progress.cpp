@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "case_options.h"
+#include "json_option.h"
 #include "progress.h"
 #include "ripstop/core/error.h"
 #include "ripstop/run/sweep_files.h"
@@ -23,6 +24,7 @@ void add_sweep_options(CLI::App& command, SweepOptions& options) {
   command.add_flag("--cold", options.cold, "Start every run from the flat canopy, not from its neighbour");
   command.add_flag("--fields", options.settings.fields,
                    "Keep shapes and flow of every iteration for ParaView");
+  add_json_option(command, options.json);
   command.add_flag("--fresh", options.settings.fresh, "Replace finished runs; default: go on with them");
 }
 
@@ -69,8 +71,9 @@ std::vector<SweepRow> run_and_tell(const std::vector<SweepAxis>& axes, const std
     const SweepRow& row = rows[i];
     progress.line(row.done
                       ? fmt::format("{:>3}/{} {}: {:.2f} N, {:.4f} m2, {} iterations, {}{}", ended,
-                                    points.size(), name(i), row.drag, row.drag_area, row.iterations,
-                                    duration_text(row.wall_time), row.converged ? "" : ", NOT converged")
+                                    points.size(), name(i), row.result.drag, row.result.drag_area,
+                                    row.result.iterations, duration_text(row.result.wall_time),
+                                    row.result.converged ? "" : ", NOT converged")
                       : fmt::format("{:>3}/{} {}: FAILED: {}", ended, points.size(), name(i), row.error));
     write_csv(settings.folder / "sweep.csv", sweep_table(axes, points, rows));
   };
@@ -80,7 +83,7 @@ std::vector<SweepRow> run_and_tell(const std::vector<SweepAxis>& axes, const std
 void require_all(const std::vector<SweepPoint>& points, const std::vector<SweepRow>& rows) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (!rows[i].done) throw Error(rows[i].code, fmt::format("{}: {}", points[i].folder, rows[i].error));
-    if (!rows[i].converged)
+    if (!rows[i].result.converged)
       throw Error(
           ExitCode::not_converged,
           fmt::format("{}: the coupling did not converge; raise coupling.max_iterations or loosen its "

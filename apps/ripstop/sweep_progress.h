@@ -18,9 +18,9 @@ struct SweepOptions {
   std::filesystem::path case_file;
   Overrides overrides;
   SweepSettings settings;
-  bool cold = false;
+  bool cold = false, json = false;
 };
-/// Case, --flow, --ranks, --grid, --set, --jobs, --cold, --fields, --out, --fresh.
+/// Case, --flow, --ranks, --grid, --set, --jobs, --cold, --fields, --json, --out, --fresh.
 void add_sweep_options(CLI::App& command, SweepOptions& options);
 /// After parsing: the default folder runs/<folder of the case>-<what>.
 void finish(SweepOptions& options, const std::string& what);

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include "ripstop/material/fit_material.h"
-#include "ripstop/parachute/resolution.h"
 
 namespace ripstop {
 
 void print_mesh_warning(const Case& value) {
-  const int asked = value.parachute.mesh.cloth_nodes, enough = resolved_cloth_nodes(value.parachute);
+  const int asked = value.parachute.mesh.cloth_nodes;
+  const int enough = experience(value.parachute).cloth_nodes;
   if (asked < enough)
     fmt::print(stderr,
                "warning: parachute.mesh.cloth_nodes = {}: the projected diameter of this type may come out "

@@ -5,8 +5,8 @@
 #include <fstream>
 #include <random>
 
+#include "../f111_curve.h"
 #include "../material/synthetic.h"
-#include "../output/temporary_folder.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/core/least_squares.h"
@@ -14,14 +14,13 @@
 namespace ripstop {
 namespace {
 
-const std::vector<double> f111{30006, -18936};  // [NFM] Table 3
 constexpr double true_shear = 0.2, true_bending = 0.01;
 
 /// The 45 deg curve of the true cloth, from a coupon finer than any that is fitted.
 std::function<double(double)> true_bias() {
   Fabric fabric;
   fabric.name = "true";
-  fabric.coefficients_n_m = f111;
+  fabric.coefficients_n_m = f111_curve;
   fabric.shear_fraction = true_shear;
   fabric.bending_fraction = true_bending;
   fabric.areal_density_kg_m2 = 0.0407;
@@ -56,7 +55,7 @@ struct Campaign {
       for (int i = 0; i < samples; ++i) {
         SyntheticRecord record;
         record.orientation = orientation;
-        record.load = orientation == 45 ? bias : [](double e) { return polynomial(f111, 1, e); };
+        record.load = orientation == 45 ? bias : [](double e) { return polynomial(f111_curve, 1, e); };
         record.scatter = scatter;
         record.noise = noise;
         record.failure_strain = 0.3;
@@ -89,7 +88,7 @@ TEST_F(CouponFitting, CleanRecordsGiveXiBack) {
   const CouponFit fit = fit_coupons(fit_material(campaign.bench), campaign.bench, {}, team);
   // The search's coupon has 6 cells across, the true one 12: 0.3 % in the load.
   EXPECT_NEAR(fit.fabric.shear_fraction, true_shear, 0.003);
-  EXPECT_NEAR(fit.fabric.coefficients_n_m[0], f111[0], 0.01 * f111[0]);
+  EXPECT_NEAR(fit.fabric.coefficients_n_m[0], f111_curve[0], 0.01 * f111_curve[0]);
   EXPECT_GT(r2_of(fit, "warp"), 0.9999);
   EXPECT_GT(r2_of(fit, "bias"), 0.9999);
   EXPECT_LT(fit.seconds, 120);
@@ -144,7 +143,7 @@ TEST_F(CouponFitting, RescalingTakesTheClampsBack) {
   EXPECT_GT(fit.rescale, 0.99);
   const CouponComparison& warp = fit.coupons.front();
   for (std::size_t i = 0; i < warp.strain.size(); ++i)
-    EXPECT_NEAR(warp.simulated[i] / polynomial(f111, 1, warp.strain[i]), 1, 0.005);
+    EXPECT_NEAR(warp.simulated[i] / polynomial(f111_curve, 1, warp.strain[i]), 1, 0.005);
 }
 
 TEST_F(CouponFitting, TheMaterialFileReadsBackToTheSameMaterial) {
@@ -213,8 +212,8 @@ TEST(Examples, TheSyntheticCampaignGivesItsTruthBackWithinItsIntervals) {
   const MaterialFit material = fit_material(bench);
   const CurveFit& warp = material.direction("warp")->fit;
   for (std::size_t k : {0u, 1u}) {
-    EXPECT_LT(warp.k[k].low, f111[k]);
-    EXPECT_GT(warp.k[k].high, f111[k]);
+    EXPECT_LT(warp.k[k].low, f111_curve[k]);
+    EXPECT_GT(warp.k[k].high, f111_curve[k]);
   }
   const CouponFit fit = fit_coupons(material, bench, {}, team);
   EXPECT_LT(fit.shear_low, true_shear);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "../f111_curve.h"
 #include "ripstop/core/error.h"
 #include "ripstop/material/lattice.h"
 #include "ripstop/material/spring_law.h"
@@ -15,7 +16,7 @@ namespace {
 Fabric f111() {
   Fabric fabric;
   fabric.name = "F-111";
-  fabric.coefficients_n_m = {30006, -18936};  // [NFM] Table 3
+  fabric.coefficients_n_m = f111_curve;
   fabric.areal_density_kg_m2 = 0.0407;
   fabric.thickness_m = 7.6e-5;
   fabric.tested_strain = 0.33;

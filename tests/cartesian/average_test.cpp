@@ -8,6 +8,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/flow/bodies.h"
 #include "ripstop/flow/cartesian/cartesian.h"
+#include "ripstop/flow/steady.h"
 
 namespace ripstop {
 namespace {
@@ -29,10 +30,10 @@ CartesianSettings one_thread() {
 
 TEST(FlowAverage, MeanDeviationAndRangeAreThoseOfTheDragsThatWereReported) {
   FlowProblem problem = restless_wake();
-  problem.max_iterations = 60;
-  problem.average_over = 25;
+  problem.stopping.max_iterations = 60;
+  problem.stopping.average_over = 25;
   std::vector<double> drag;
-  const FlowField field = make_cartesian(one_thread())->solve(problem, [&](const FlowProgress& progress) {
+  const FlowField field = solve(*make_cartesian(one_thread()), problem, [&](const FlowProgress& progress) {
     drag.push_back(progress.drag);
     return true;
   });
@@ -53,11 +54,12 @@ TEST(FlowAverage, MeanDeviationAndRangeAreThoseOfTheDragsThatWereReported) {
 TEST(FlowAverage, TheMeanOfALimitCycleIsRepeatableAndConservesMomentum) {
   FlowProblem problem = restless_wake();
   const auto engine = make_cartesian(one_thread());
-  problem.max_iterations = 700;
-  problem.average_over = 300;
-  const FlowField first = engine->solve(problem, nullptr);
-  problem.max_iterations = 300;
-  const FlowField second = engine->solve(problem, nullptr);  // goes on from the last iteration
+  problem.stopping.max_iterations = 700;
+  problem.stopping.average_over = 300;
+  const auto flow = engine->start(problem);
+  const FlowField first = solve_to_rest(*flow, problem.stopping);
+  problem.stopping.max_iterations = 300;
+  const FlowField second = solve_to_rest(*flow, problem.stopping);  // goes on from the last iteration
   ASSERT_FALSE(first.converged);
   ASSERT_FALSE(second.converged);
   EXPECT_LT(std::abs(second.average.drag - first.average.drag), first.average.drag_deviation);
@@ -70,9 +72,9 @@ TEST(FlowAverage, ARunThatSettlesIsNotAveragedAndKeepsItsBits) {
   problem.grid.nx = problem.grid.ny = 16, problem.grid.nz = 24;
   problem.porous = {{cut_cells(problem.grid, rigid_disk_gap_band({0, 0, 2})), 65.98, 37.45}};
   problem.air.speed = 10;
-  const FlowField plain = make_cartesian(one_thread())->solve(problem, nullptr);
-  problem.average_over = problem.max_iterations;
-  const FlowField field = make_cartesian(one_thread())->solve(problem, nullptr);
+  const FlowField plain = solve(*make_cartesian(one_thread()), problem);
+  problem.stopping.average_over = problem.stopping.max_iterations;
+  const FlowField field = solve(*make_cartesian(one_thread()), problem);
   ASSERT_TRUE(field.converged);
   EXPECT_EQ(field.average.iterations, 0);
   EXPECT_EQ(field.porous_force, plain.porous_force);
@@ -85,9 +87,10 @@ TEST(FlowAverage, LoadsOnASheetStillAddUpToItsForce) {
   FlowProblem problem = restless_wake();
   problem.porous.clear();
   problem.sheets = {{disk(0.6, {0, 0, 1.5}), 100, 40}};
-  problem.max_iterations = 30;
-  problem.average_over = 20;
-  const FlowField field = make_cartesian(one_thread())->solve(problem, nullptr);
+  problem.outlet = Outlet::still_air;
+  problem.stopping.max_iterations = 30;
+  problem.stopping.average_over = 20;
+  const FlowField field = solve(*make_cartesian(one_thread()), problem);
   ASSERT_EQ(field.average.iterations, 20);
   Vec3 sum;
   for (const SheetLoad& load : field.sheet_loads) sum += load.force;
@@ -97,10 +100,10 @@ TEST(FlowAverage, LoadsOnASheetStillAddUpToItsForce) {
 
 TEST(FlowAverage, AWindowLongerThanTheRunIsRefused) {
   FlowProblem problem = restless_wake();
-  problem.max_iterations = 10;
+  problem.stopping.max_iterations = 10;
   for (const int window : {-1, 11}) {
-    problem.average_over = window;
-    EXPECT_THROW(make_cartesian(one_thread())->solve(problem, nullptr), Error);
+    problem.stopping.average_over = window;
+    EXPECT_THROW(solve(*make_cartesian(one_thread()), problem), Error);
   }
 }
 

@@ -6,6 +6,7 @@
 #include "ripstop/flow/bodies.h"
 #include "ripstop/flow/cartesian/cartesian.h"
 #include "ripstop/flow/cartesian/rows.h"
+#include "ripstop/flow/steady.h"
 
 namespace ripstop {
 namespace {
@@ -89,13 +90,14 @@ TEST(Convection, TheSecondOrderWakeConservesMomentumAndIsLessDiffuse) {
   problem.grid = {{-1, -1, 0}, {2, 2, 4}, 26, 26, 40};
   problem.air.speed = 10;
   problem.sides = Sides::slip;
-  problem.max_iterations = 600;
+  problem.stopping.max_iterations = 600;
   problem.sheets = {{disk(0.5, {0, 0, 1.5}), 12, 0}};
+  problem.outlet = Outlet::still_air;
   const auto wake = [&](bool second) {
     CartesianSettings settings;
     settings.threads = 1;
     settings.second_order = second;
-    const FlowField field = make_cartesian(settings)->solve(problem, nullptr);
+    const FlowField field = solve(*make_cartesian(settings), problem);
     EXPECT_TRUE(field.converged);
     EXPECT_NEAR(field.momentum_deficit / field.porous_force.z, 1, 0.005);
     return field.velocity[field.grid.index(13, 13, 35)].z;  // on the axis, far behind

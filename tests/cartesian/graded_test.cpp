@@ -8,6 +8,7 @@
 #include "ripstop/flow/bodies.h"
 #include "ripstop/flow/cartesian/cartesian.h"
 #include "ripstop/flow/openfoam/openfoam.h"
+#include "ripstop/flow/steady.h"
 
 namespace ripstop {
 namespace {
@@ -26,9 +27,10 @@ FlowField porous_disk(const FlowGrid& grid) {
   problem.air.speed = 10;
   problem.sides = Sides::slip;
   problem.sheets = {{disk(1, {0, 0, 3}), 0, 0.5 * problem.air.density}};
-  problem.residual = 1e-4;
-  problem.max_iterations = 250;
-  return make_cartesian(settings(true))->solve(problem, nullptr);
+  problem.outlet = Outlet::still_air;
+  problem.stopping.residual = 1e-4;
+  problem.stopping.max_iterations = 250;
+  return solve(*make_cartesian(settings(true)), problem);
 }
 
 TEST(GradedGrid, GivesTheDragOfUniformCellsThatAreAsFineAllOver) {
@@ -51,8 +53,8 @@ TEST(GradedGrid, TheAnswerIsOpenFoamsOnTheSameCells) {
   OpenFoamSettings reference;
   reference.folder = std::filesystem::path(testing::TempDir()) / "parity_graded";
   std::filesystem::remove_all(reference.folder);
-  const FlowField theirs = make_openfoam(reference)->solve(problem, nullptr);
-  const FlowField ours = make_cartesian(settings(false))->solve(problem, nullptr);
+  const FlowField theirs = solve(*make_openfoam(reference), problem);
+  const FlowField ours = solve(*make_cartesian(settings(false)), problem);
   std::filesystem::remove_all(reference.folder);
   ASSERT_TRUE(theirs.converged);
   ASSERT_TRUE(ours.converged);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "ripstop/flow/cartesian/cartesian.h"
+#include "ripstop/flow/steady.h"
 
 namespace ripstop {
 namespace {
@@ -59,7 +60,7 @@ double error(int n, bool second_order) {
                  .turbulence_intensity = 1e-4,
                  .viscosity_ratio = 1e-6};
   problem.sides = Sides::slip;
-  problem.residual = 1e-4;
+  problem.stopping.residual = 1e-4;
   const FlowGrid& grid = problem.grid;
   const Vec3 centre{0, 0, 1.37};
   const auto place = [&](int i, int j, int k) {
@@ -73,7 +74,7 @@ double error(int n, bool second_order) {
   CartesianSettings settings;
   settings.compressible = false;
   settings.second_order = second_order;
-  const FlowField field = make_cartesian(settings)->solve(problem, {});
+  const FlowField field = solve(*make_cartesian(settings), problem);
   EXPECT_TRUE(field.converged);
   double sum = 0;
   int count = 0;

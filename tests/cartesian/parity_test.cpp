@@ -9,6 +9,7 @@
 #include "ripstop/flow/bodies.h"
 #include "ripstop/flow/cartesian/cartesian.h"
 #include "ripstop/flow/openfoam/openfoam.h"
+#include "ripstop/flow/steady.h"
 
 namespace ripstop {
 namespace {
@@ -35,8 +36,8 @@ TEST_P(Parity, DragAndFieldsAreThoseOfOpenFoam) {
   reference.incompressible = GetParam().incompressible;
   CartesianSettings settings;
   settings.compressible = !GetParam().incompressible;
-  const FlowField theirs = make_openfoam(reference)->solve(problem, nullptr);
-  const FlowField ours = make_cartesian(settings)->solve(problem, nullptr);
+  const FlowField theirs = solve(*make_openfoam(reference), problem);
+  const FlowField ours = solve(*make_cartesian(settings), problem);
   std::filesystem::remove_all(reference.folder);
   ASSERT_TRUE(theirs.converged);
   ASSERT_TRUE(ours.converged);

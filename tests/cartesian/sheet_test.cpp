@@ -9,6 +9,7 @@
 #include "ripstop/flow/bodies.h"
 #include "ripstop/flow/cartesian/cartesian.h"
 #include "ripstop/flow/cartesian/sheet_faces.h"
+#include "ripstop/flow/steady.h"
 
 namespace ripstop {
 namespace {
@@ -99,16 +100,17 @@ Duct duct(double speed, double a, double b, double degrees, int n, double at = 2
   problem.grid = {{0, 0, 0}, {1, 0.5, 4}, n, n / 2, 4 * n};
   problem.sides = Sides::slip;
   problem.air.speed = speed;
-  problem.max_iterations = 400;
+  problem.stopping.max_iterations = 400;
   const double slope = std::tan(degrees * pi / 180);
   const auto corner = [&](double x, double y) { return Vec3{x, y, at + slope * (x - 0.5)}; };
   const Vec3 p[] = {corner(-0.3, -0.3), corner(1.3, -0.3), corner(1.3, 0.8), corner(-0.3, 0.8)};
   problem.sheets = {{{{p[0], p[1], p[2]}, {p[0], p[2], p[3]}}, a, b}};
+  problem.outlet = Outlet::still_air;
   CartesianSettings settings;
   settings.threads = 1;
   settings.compressible = false;
   Duct result;
-  result.field = make_cartesian(settings)->solve(problem, nullptr);
+  result.field = solve(*make_cartesian(settings), problem);
   const double normal = speed * std::cos(degrees * pi / 180), law = a * normal + b * normal * normal;
   const std::vector<double>& pressure = result.field.pressure;
   const FlowGrid& g = problem.grid;
@@ -179,14 +181,15 @@ TEST(Sheet, StepsOfClothAlongTheStreamDoNotHoldTheAirBack) {
       problem.grid = {{-1, -1, 0}, {2, 2, 4}, n, n, 2 * n};
       problem.air.speed = 10;
       problem.sides = Sides::slip;
-      problem.max_iterations = 300;
+      problem.stopping.max_iterations = 300;
       problem.sheets = {{revolve({{radius - opening / 2, 1.6}, {radius + opening / 2, 1.6 + chord}},
                                  {0.01, 0.013, 0.017}, 240),
                          a, 0}};
+      problem.outlet = Outlet::still_air;
       CartesianSettings settings;
       settings.second_order = true;
       settings.compressible = false;
-      const FlowField field = make_cartesian(settings)->solve(problem, nullptr);
+      const FlowField field = solve(*make_cartesian(settings), problem);
       const double dynamic = 0.5 * problem.air.density * std::pow(problem.air.speed, 2);
       const double most = 2 * pi * std::pow(opening / chord, 2) * chord * 2 * pi * radius;  // m2
       EXPECT_LT(field.porous_force.z / dynamic, most) << opening << " " << a;
@@ -199,8 +202,9 @@ FlowProblem canopy(int n, double speed, double a, double b, Vec3 centre = {0, 0,
   FlowProblem problem;
   problem.grid = {{-1, -1, 0}, {2, 2, 4}, n, n, 3 * n / 2};
   problem.air.speed = speed;
-  problem.max_iterations = 600;
+  problem.stopping.max_iterations = 600;
   problem.sheets = {{rigid_disk_gap_band(centre), a, b}};
+  problem.outlet = Outlet::still_air;
   return problem;
 }
 
@@ -211,7 +215,7 @@ CartesianSettings threads(int count) {
 }
 
 TEST(Sheet, LoadsForceOnTheFluidAndMomentumDeficitAreOne) {
-  const FlowField field = make_cartesian(threads(2))->solve(canopy(26, 10, 66, 37.45), nullptr);
+  const FlowField field = solve(*make_cartesian(threads(2)), canopy(26, 10, 66, 37.45));
   EXPECT_TRUE(field.converged);
   Vec3 sum{};
   for (const SheetLoad& load : field.sheet_loads) sum += load.force;
@@ -227,7 +231,7 @@ TEST(Sheet, FromWideOpenToImpermeableTheForceGrowsAndTheLeakVanishes) {
   for (const double a : {0.0, 5.0, 66.0, f111, 1e6}) {
     FlowProblem problem = canopy(26, 10, a, 0);
     problem.sheets[0].surface = disk(0.65, {0, 0, 2});
-    const FlowField field = make_cartesian(threads(2))->solve(problem, nullptr);
+    const FlowField field = solve(*make_cartesian(threads(2)), problem);
     EXPECT_GE(field.porous_force.z, last) << a;
     last = field.porous_force.z;
     if (a >= f111) {
@@ -247,19 +251,20 @@ TEST(Sheet, APorousDiskOnEightCellsHasTaylorsDrag) {
   problem.sides = Sides::slip;
   const double diameter = 0.65, loss = 1, dynamic = 0.5 * problem.air.density * 100;
   problem.sheets = {{disk(diameter, {0, 0, 2.5}), 0, loss * problem.air.density / 2}};
+  problem.outlet = Outlet::still_air;
   CartesianSettings settings = threads(2);
   settings.second_order = true;
-  const double drag = make_cartesian(settings)->solve(problem, nullptr).porous_force.z;
+  const double drag = solve(*make_cartesian(settings), problem).porous_force.z;
   const double coefficient = drag / (dynamic * pi / 4 * diameter * diameter);
   EXPECT_NEAR(coefficient / (loss / std::pow(1 + loss / 4, 2)), 1, 0.05);
 }
 
 TEST(Sheet, TheAnswerIsTheSameBitForBitOnOneTwoAndFourThreads) {
   FlowProblem problem = canopy(26, 10, f111, 0);
-  problem.max_iterations = 12;
-  const FlowField one = make_cartesian(threads(1))->solve(problem, nullptr);
+  problem.stopping.max_iterations = 12;
+  const FlowField one = solve(*make_cartesian(threads(1)), problem);
   for (const int count : {2, 4}) {
-    const FlowField other = make_cartesian(threads(count))->solve(problem, nullptr);
+    const FlowField other = solve(*make_cartesian(threads(count)), problem);
     EXPECT_EQ(std::memcmp(one.pressure.data(), other.pressure.data(), one.pressure.size() * sizeof(double)),
               0);
     EXPECT_EQ(std::memcmp(one.velocity.data(), other.velocity.data(), one.velocity.size() * sizeof(Vec3)), 0);
@@ -268,8 +273,8 @@ TEST(Sheet, TheAnswerIsTheSameBitForBitOnOneTwoAndFourThreads) {
 }
 
 TEST(Sheet, SaysWhichCoefficientsItCannotTake) {
-  EXPECT_THROW(make_cartesian(threads(1))->solve(canopy(12, 10, -1, 0), nullptr), Error);
-  EXPECT_THROW(make_cartesian(threads(1))->solve(canopy(12, 10, 1, std::nan("")), nullptr), Error);
+  EXPECT_THROW(solve(*make_cartesian(threads(1)), canopy(12, 10, -1, 0)), Error);
+  EXPECT_THROW(solve(*make_cartesian(threads(1)), canopy(12, 10, 1, std::nan(""))), Error);
 }
 
 }  // namespace

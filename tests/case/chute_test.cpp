@@ -10,6 +10,11 @@
 #include "ripstop/case/case.h"
 #include "ripstop/case/chute_import.h"
 #include "ripstop/core/file.h"
+#include "ripstop/parachute/conical.h"
+#include "ripstop/parachute/cross.h"
+#include "ripstop/parachute/disk_gap_band.h"
+#include "ripstop/parachute/flat_circular.h"
+#include "ripstop/parachute/profile.h"
 
 namespace ripstop {
 namespace {
@@ -32,7 +37,7 @@ bool says(const std::vector<std::string>& list, const std::string& words) {
 // Half a gore is pi r / N wide at radius r; its height is that of the polygon's flat sides.
 TEST(Chute, AGoreHasTheOutlineThatOpenchuteCuts) {
   const Case value = parse_case(imported("elliptical").case_text, "case.toml");
-  const GorePattern pattern = gore_pattern(std::get<ProfileCanopy>(value.parachute.canopy), 10);
+  const GorePattern pattern = gore_pattern(*value.parachute.canopy.as<ProfileCanopy>(), 10);
   ASSERT_EQ(pattern.strips.size(), 1u);
   const std::vector<Station>& stations = pattern.strips[0].stations;
   const int n = static_cast<int>(stations.size()) - 1;
@@ -57,7 +62,7 @@ TEST(Chute, TheShippedCaseIsWhatTheImportWrites) {
 TEST(Chute, DiskAndBandBecomeADiskGapBandOfTheSameSizes) {
   const ChuteImport result = imported("disk-gap-band");
   const Case value = parse_case(result.case_text, "case.toml");
-  const auto& canopy = std::get<DiskGapBand>(value.parachute.canopy);
+  const auto& canopy = *value.parachute.canopy.as<DiskGapBand>();
   EXPECT_NEAR(canopy.disk_diameter_m, 1.2, 1e-9);
   EXPECT_NEAR(canopy.vent_diameter_m, 0.108, 1e-9);
   EXPECT_NEAR(canopy.gap_height_m, 0.06, 1e-9);
@@ -69,8 +74,8 @@ TEST(Chute, DiskAndBandBecomeADiskGapBandOfTheSameSizes) {
 TEST(Chute, TwoGoresOfACylinderAreTheStripsOfACross) {
   const ChuteImport result = imported("cross");
   const Case value = parse_case(result.case_text, "case.toml");
-  EXPECT_NEAR(std::get<Cross>(value.parachute.canopy).arm_length_m, 1.2, 1e-8);
-  EXPECT_NEAR(std::get<Cross>(value.parachute.canopy).arm_width_m, 0.4, 1e-8);
+  EXPECT_NEAR(value.parachute.canopy.as<Cross>()->arm_length_m, 1.2, 1e-8);
+  EXPECT_NEAR(value.parachute.canopy.as<Cross>()->arm_width_m, 0.4, 1e-8);
   EXPECT_TRUE(says(result.changed, "gores = 4"));
 }
 
@@ -79,13 +84,13 @@ TEST(Chute, OneConeBecomesAConicalCanopyOfTheSameArea) {
   const std::size_t second = text.find("\"section_type\"", text.find("\"section_type\"") + 5);
   text = text.substr(0, text.rfind(",", second)) + "]}";
   const Case flat = parse_case(import_chute(read_chute(text, "x"), {}, "x").case_text, "case.toml");
-  ASSERT_TRUE(std::holds_alternative<FlatCircular>(flat.parachute.canopy));
+  ASSERT_TRUE(flat.parachute.canopy.as<FlatCircular>());
   EXPECT_NEAR(computed_area(flat.parachute), pi * (0.36 - 0.054 * 0.054), 1e-8);
   const std::size_t inner = text.find("\"0\"", text.find("\"expressions\""));
   text.replace(inner, 3, "\"0.3\"");
   const ChuteImport result = import_chute(read_chute(text, "x"), {}, "x");
   const Case cone = parse_case(result.case_text, "case.toml");
-  ASSERT_TRUE(std::holds_alternative<Conical>(cone.parachute.canopy));
+  ASSERT_TRUE(cone.parachute.canopy.as<Conical>());
   EXPECT_NEAR(computed_area(cone.parachute), pi * 0.654 * std::hypot(0.3, 0.546), 1e-8);
   EXPECT_TRUE(says(result.changed, "the file holds 0, its formula gives 0.3"));
 }
@@ -93,7 +98,7 @@ TEST(Chute, OneConeBecomesAConicalCanopyOfTheSameArea) {
 TEST(Chute, SailsKeepTheirFullnessAndSlots) {
   const ChuteImport result = imported("sails");
   const Case value = parse_case(result.case_text, "case.toml");
-  const auto& canopy = std::get<ProfileCanopy>(value.parachute.canopy);
+  const auto& canopy = *value.parachute.canopy.as<ProfileCanopy>();
   ASSERT_EQ(canopy.pieces.size(), 3u);
   EXPECT_EQ(canopy.pieces[1].leading_fullness, 0.08);
   for (const ProfilePiece& piece : canopy.pieces) EXPECT_FALSE(piece.sewn);
@@ -118,7 +123,7 @@ TEST(Chute, NothingOfTheFileIsSilentlyLeftOut) {
   EXPECT_EQ(value.title, "Odd \"one\" ");
   EXPECT_NE(result.case_text.find("# Instruction: One step"), std::string::npos);
   // From the drawn-in skirt up, though the file has it second and downward.
-  const auto& canopy = std::get<ProfileCanopy>(value.parachute.canopy);
+  const auto& canopy = *value.parachute.canopy.as<ProfileCanopy>();
   EXPECT_NEAR(canopy.pieces[0].radius_m.front(), 0.2 + 0.3 * std::cos(0.5), 1e-8);
   EXPECT_NEAR(canopy.pieces[1].radius_m.back(), 0.02, 1e-8);
   EXPECT_FALSE(canopy.vent_lines);
@@ -127,7 +132,7 @@ TEST(Chute, NothingOfTheFileIsSilentlyLeftOut) {
 TEST(Chute, TheMeshHasTheClothOfThePattern) {
   for (const char* name : {"elliptical", "disk-gap-band", "cross", "sails", "odd"}) {
     Case value = parse_case(imported(name).case_text, "case.toml");
-    const Mesh mesh = parachute_mesh(value);
+    const CanopyMesh mesh = parachute_mesh(value);
     double area = 0;
     for (const Patch& patch : mesh.patches)
       area = std::accumulate(patch.cell_area.begin(), patch.cell_area.end(), area);
@@ -140,8 +145,8 @@ TEST(Chute, WhatIsAskedForReplacesWhatIsAssumed) {
   const Case value = parse_case(result.case_text, "case.toml");
   EXPECT_EQ(value.parachute.lines.count, 18);
   EXPECT_EQ(value.parachute.lines.length_m, 2.5);
-  EXPECT_TRUE(std::get<ProfileCanopy>(value.parachute.canopy).vent_lines);
-  EXPECT_NEAR(std::get<ProfileCanopy>(value.parachute.canopy).pieces[1].radius_m.back(), 0.05, 1e-8);
+  EXPECT_TRUE(value.parachute.canopy.as<ProfileCanopy>()->vent_lines);
+  EXPECT_NEAR(value.parachute.canopy.as<ProfileCanopy>()->pieces[1].radius_m.back(), 0.05, 1e-8);
   EXPECT_FALSE(says(result.assumed, "lines of"));
 }
 

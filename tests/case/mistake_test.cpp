@@ -1,8 +1,6 @@
 // Every kind of mistake is told with its file, line, column, key, value and what is allowed.
 #include <gtest/gtest.h>
 
-#include <fstream>
-
 #include "fixture.h"
 
 namespace ripstop {
@@ -446,89 +444,6 @@ TEST(Mistakes, OneMistakeIsOneProblem) {
     EXPECT_EQ(outcome_of(replaced(valid_case, mistake.from, mistake.to)).problems.size(), 1u)
         << outcome_of(replaced(valid_case, mistake.from, mistake.to)).message;
   }
-}
-
-TEST(Mistakes, AllOfThemAreToldAtOnceInTheOrderOfTheFile) {
-  std::string text = replaced(valid_case, "= 2000", "= 3");
-  text = replaced(text, "\"small\"", "7");
-  text = replaced(text, "cells =", "cels =");
-  text = replaced(text, "length_m = 1.5", "length_m = 0.2");
-  const Outcome outcome = outcome_of(text);
-  std::vector<std::string> keys;
-  for (const Problem& problem : outcome.problems) keys.push_back(problem.key);
-  EXPECT_EQ(keys, (std::vector<std::string>{"title", "parachute.lines.length_m", "parachute.mesh.cloth_nodes",
-                                            "flow.cels"}));
-  EXPECT_TRUE(outcome.message.starts_with("4 problems:\n")) << outcome.message;
-}
-
-TEST(Mistakes, AnEmptyFileMissesItsTables) {
-  const Outcome outcome = outcome_of("");
-  ASSERT_EQ(outcome.problems.size(), 2u) << outcome.message;
-  EXPECT_NE(outcome.message.find("[parachute]"), std::string::npos);
-  EXPECT_NE(outcome.message.find("[flow]"), std::string::npos);
-}
-
-TEST(Mistakes, AnOptionIsNamedInsteadOfALine) {
-  const Outcome outcome = outcome_of(valid_case, {.speed = 500, .grid = std::array{20, 2, 30}, .ranks = 0});
-  ASSERT_EQ(outcome.problems.size(), 3u) << outcome.message;
-  EXPECT_NE(outcome.message.find("--speed: flow.speed_m_s = 500: must be above 0 and at most 100"),
-            std::string::npos)
-      << outcome.message;
-  EXPECT_NE(outcome.message.find("--grid: flow.cells[1] = 2: must be at least 4"), std::string::npos);
-  EXPECT_NE(outcome.message.find("--ranks: flow.ranks = 0: must be at least 1"), std::string::npos);
-}
-
-TEST(Mistakes, AnOptionReplacesAMistakeInTheFile) {
-  EXPECT_TRUE(
-      outcome_of(replaced(valid_case, "speed_m_s = 20\nbox", "speed_m_s = 2000\nbox"), {.speed = 20}).valid);
-  EXPECT_TRUE(outcome_of(replaced(valid_case, "speed_m_s = 20\nbox", "box"), {.speed = 20}).valid);
-}
-
-TEST(Mistakes, ARefusedOptionLeavesTheCaseAsItWas) {
-  Case value = parse_case(valid_case, "case.toml");
-  EXPECT_THROW(apply({.speed = -1}, value), InputError);
-  EXPECT_EQ(value.flow.speed_m_s, 20);
-  EXPECT_THROW(apply({.speed = std::nan("")}, value), InputError);
-  apply({.grid = std::array{30, 30, 40}, .linear = true}, value);
-  EXPECT_EQ(value.flow.cells, (std::array{30, 30, 40}));
-  EXPECT_TRUE(value.coupling.linear);
-}
-
-TEST(Mistakes, AFileThatCannotBeReadHasItsOwnExitCode) {
-  for (const std::string path : {"/no/such/case.toml", "/tmp"}) {
-    try {
-      read_case(path);
-      ADD_FAILURE() << path << " was read";
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code(), ExitCode::io);
-      EXPECT_NE(std::string(error.what()).find(path), std::string::npos);
-    }
-  }
-}
-
-TEST(Mistakes, ABrokenMaterialFileIsBadDataAndNamesTheFile) {
-  const std::filesystem::path file =
-      std::filesystem::path(testing::TempDir()) / "ripstop-broken-material.toml";
-  std::ofstream(file) << "kind = \"line\"\ncoefficients_n = [1000.0]\nlinear_density_kg_m = -1\n";
-  try {
-    read_material(file);
-    ADD_FAILURE() << "was read";
-  } catch (const InputError& error) {
-    EXPECT_EQ(error.code(), ExitCode::bad_data);
-    EXPECT_EQ(error.what(),
-              file.string() + ":3:23: linear_density_kg_m = -1: must be above 0 and at most 100");
-  }
-  std::filesystem::remove(file);
-}
-
-TEST(Nearest, FindsTheWordThatWasMeantAndNoOther) {
-  const std::vector<std::string> keys = {"speed_m_s", "speed_basis", "cells", "box_m"};
-  EXPECT_EQ(nearest("sped_m_s", keys), "speed_m_s");
-  EXPECT_EQ(nearest("Cells", keys), "cells");
-  EXPECT_EQ(nearest("speed-basis", keys), "speed_basis");
-  EXPECT_EQ(nearest("box", keys), "box_m");
-  EXPECT_EQ(nearest("temperature", keys), "");
-  EXPECT_EQ(nearest("x", keys), "");
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "fixture.h"
 #include "ripstop/case/assemble.h"
+#include "ripstop/parachute/disk_gap_band.h"
 
 namespace ripstop {
 namespace {
@@ -145,7 +146,7 @@ TEST(AnyDesign, EveryAcceptedParachuteCanBeMeshed) {
       continue;
     }
     ++accepted;
-    const Mesh mesh = parachute_mesh(value);
+    const CanopyMesh mesh = parachute_mesh(value);
     double cloth = 0;
     for (const Patch& patch : mesh.patches)
       for (double area : patch.cell_area) cloth += area;

@@ -73,6 +73,21 @@ TEST(SettledFlow, OfASheetIsRefusedForOpenFoamBeforeAnythingIsComputed) {
   }
 }
 
+TEST(SettledFlow, WhatOpenFoamHasNotIsRefusedWhenTheCaseIsRead) {
+  const std::string paper = replaced(short_case, "gores = 12", "gores = 12\ncanopy_material = \"f-111\"") +
+                            "engine = \"openfoam\"\n";
+  parse_case(paper, "paper");
+  for (const char* line : {"sides = \"entraining\"", "average_over = 20", "outlet = \"still-air\""}) {
+    try {
+      parse_case(paper + line + "\n", "paper");
+      ADD_FAILURE() << line << " accepted";
+    } catch (const InputError& error) {
+      ASSERT_EQ(error.problems().size(), 1u);
+      EXPECT_EQ(error.problems()[0].key, "flow." + std::string(line).substr(0, std::string(line).find(' ')));
+    }
+  }
+}
+
 TEST(SettledFlow, ReadsAgainAsItWasWritten) {
   const Case value = parse_case(short_case, "short");
   const Case again = parse_case(case_toml(value), "resolved");

@@ -5,6 +5,57 @@
 
 namespace ripstop::testing {
 
+namespace {
+
+/// The node that a column past the seam of a periodic patch stands for.
+int wrapped(const PatchSpec& spec, int column) {
+  return (column + spec.columns) % spec.columns;
+}
+int index_in(const PatchSpec& spec, int row, int column) {
+  return row * spec.columns + wrapped(spec, column);
+}
+Vec3 rest_position(const PatchSpec& spec, int row, int column) {
+  return (spec.rest ? spec.rest : spec.position)(row, wrapped(spec, column));
+}
+
+/// The cell's share of the widths of the springs round it, and of its corners' masses.
+void add_cell(Mesh& mesh, Patch& patch, const PatchSpec& spec, const FabricSpec& fabric, int row,
+              int column) {
+  const Vec3 a = rest_position(spec, row, column), b = rest_position(spec, row, column + 1),
+             c = rest_position(spec, row + 1, column + 1), d = rest_position(spec, row + 1, column);
+  const auto at = [&](int r, int q) { return index_in(spec, r, q); };
+  const double area = norm(area_vector(a, b, c, d));
+  const double h_row = 0.5 * (norm(b - a) + norm(c - d)), h_column = 0.5 * (norm(d - a) + norm(c - b));
+  const CellWidths widths = cell_widths(h_row, h_column, fabric.xi, fabric.eps);
+  patch.cell_area[at(row, column)] = area;
+  for (int r : {row, row + 1}) {
+    patch.width[along_row][at(r, column)] += widths.along_row;
+    for (int first : {column - 1, column})
+      if (spec.periodic || (first >= 0 && first + 2 < spec.columns))
+        patch.width[bend_row][at(r, first)] += widths.bend_row;
+    for (int q : {column, column + 1})
+      mesh.mass[patch.node(r, wrapped(spec, q))] += 0.25 * area * fabric.areal_density;
+  }
+  for (int q : {column, column + 1}) {
+    patch.width[along_column][at(row, q)] += widths.along_column;
+    for (int first : {row - 1, row})
+      if (first >= 0 && first + 2 < spec.rows) patch.width[bend_column][at(first, q)] += widths.bend_column;
+  }
+  patch.width[shear_up][at(row, column)] += widths.shear;
+  patch.width[shear_down][at(row, column + 1)] += widths.shear;
+}
+
+/// The inner rim of a patch follows the outer rim of one with half as many columns.
+void tie_to_coarser(Mesh& mesh, const Patch& fine, const Patch& coarse) {
+  for (int j = 0; j < fine.columns; ++j) {
+    Tie tie{fine.node(0, j), {{coarse.node(coarse.rows - 1, j / 2), j % 2 ? 0.5 : 1.0}}};
+    if (j % 2) tie.masters.push_back({coarse.node(coarse.rows - 1, (j / 2 + 1) % coarse.columns), 0.5});
+    mesh.ties.push_back(tie);
+  }
+}
+
+}  // namespace
+
 int add_patch(Mesh& mesh, const PatchSpec& spec, const FabricSpec& fabric) {
   Patch patch;
   patch.name = spec.name;
@@ -18,11 +69,7 @@ int add_patch(Mesh& mesh, const PatchSpec& spec, const FabricSpec& fabric) {
   patch.law[bend_row] = patch.law[bend_column] = whole.scaled(fabric.eps / 2);
   std::fill(std::begin(patch.damping), std::end(patch.damping), fabric.damping);
 
-  const auto rest = spec.rest ? spec.rest : spec.position;
   const int rows = spec.rows, columns = spec.columns;
-  const auto wrap = [&](int column) { return (column + columns) % columns; };
-  const auto at = [&](int row, int column) { return row * columns + wrap(column); };
-  const auto shape = [&](int row, int column) { return rest(row, wrap(column)); };
   for (int d = 0; d < direction_count; ++d) {
     patch.rest_length[d].assign(rows * columns, 0.0);
     patch.width[d].assign(rows * columns, 0.0);
@@ -35,36 +82,15 @@ int add_patch(Mesh& mesh, const PatchSpec& spec, const FabricSpec& fabric) {
       mesh.start[patch.node(row, column)] = spec.position(row, column);
 
   for (int row = 0; row + 1 < rows; ++row)
-    for (int column = 0; column + (spec.periodic ? 0 : 1) < columns; ++column) {
-      if (!spec.has_cell(row, column)) continue;
-      const Vec3 a = shape(row, column), b = shape(row, column + 1), c = shape(row + 1, column + 1),
-                 d = shape(row + 1, column);
-      const double area = norm(area_vector(a, b, c, d));
-      const double h_row = 0.5 * (norm(b - a) + norm(c - d)), h_column = 0.5 * (norm(d - a) + norm(c - b));
-      const CellWidths widths = cell_widths(h_row, h_column, fabric.xi, fabric.eps);
-      patch.cell_area[at(row, column)] = area;
-      for (int r : {row, row + 1}) {
-        patch.width[along_row][at(r, column)] += widths.along_row;
-        for (int first : {column - 1, column})
-          if (spec.periodic || (first >= 0 && first + 2 < columns))
-            patch.width[bend_row][at(r, first)] += widths.bend_row;
-        for (int q : {column, column + 1})
-          mesh.mass[patch.node(r, wrap(q))] += 0.25 * area * fabric.areal_density;
-      }
-      for (int q : {column, column + 1}) {
-        patch.width[along_column][at(row, q)] += widths.along_column;
-        for (int first : {row - 1, row})
-          if (first >= 0 && first + 2 < rows) patch.width[bend_column][at(first, q)] += widths.bend_column;
-      }
-      patch.width[shear_up][at(row, column)] += widths.shear;
-      patch.width[shear_down][at(row, column + 1)] += widths.shear;
-    }
+    for (int column = 0; column + (spec.periodic ? 0 : 1) < columns; ++column)
+      if (spec.has_cell(row, column)) add_cell(mesh, patch, spec, fabric, row, column);
   for (int d = 0; d < direction_count; ++d)
     for (int row = 0; row < rows; ++row)
       for (int column = 0; column < columns; ++column)
-        if (patch.width[d][at(row, column)] > 0)
-          patch.rest_length[d][at(row, column)] = norm(
-              shape(row + direction_offset[d].row, column + direction_offset[d].column) - shape(row, column));
+        if (patch.width[d][index_in(spec, row, column)] > 0)
+          patch.rest_length[d][index_in(spec, row, column)] =
+              norm(rest_position(spec, row + direction_offset[d].row, column + direction_offset[d].column) -
+                   rest_position(spec, row, column));
   mesh.patches.push_back(patch);
   return static_cast<int>(mesh.patches.size()) - 1;
 }
@@ -99,20 +125,15 @@ Mesh tied_strips(const FabricSpec& fabric) {
   fine.position = [](int row, int column) { return Vec3{0.01 * column, 0.14 + 0.01 * row, 0}; };
   add_patch(mesh, fine, fabric);
   const Patch &a = mesh.patches[0], &b = mesh.patches[1];
-  for (int j = 0; j < 17; ++j) {
-    Tie tie{b.node(0, j), {{a.node(7, j / 2), j % 2 ? 0.5 : 1.0}}};
-    if (j % 2) tie.masters.push_back({a.node(7, j / 2 + 1), 0.5});
-    mesh.ties.push_back(tie);
-  }
+  tie_to_coarser(mesh, b, a);
   return mesh;
 }
 
 Mesh medley(double damping, bool fixed, int degree) {
   FabricSpec fabric;
   fabric.damping = damping;
-  if (degree == 1) fabric.coefficients = {30006};
-  if (degree == 3) fabric.coefficients = {30006, -18936, 5000};
-  if (degree == 4) fabric.coefficients = {30006, -18936, 5000, 900};
+  const std::vector<double> curve = {30006, -18936, 5000, 900};
+  fabric.coefficients.assign(curve.begin(), curve.begin() + degree);
   Mesh mesh;
   // A periodic ring of 19 columns (no multiple of 8), a finer one of 38 tied to its rim, a flat flap with a
   // hole, tape along a column, and a line.
@@ -124,19 +145,17 @@ Mesh medley(double damping, bool fixed, int degree) {
     };
   };
   PatchSpec inner;
-  inner.name = "inner";
-  inner.rows = 6, inner.columns = 19, inner.periodic = true, inner.position = ring(19, 0.05, 0.01);
+  inner.name = "inner", inner.rows = 6, inner.columns = 19, inner.periodic = true;
+  inner.position = ring(19, 0.05, 0.01);
   add_patch(mesh, inner, fabric);
   PatchSpec outer;
-  outer.name = "outer";
-  outer.rows = 5, outer.columns = 38, outer.periodic = true, outer.position = ring(38, 0.10, 0.012);
+  outer.name = "outer", outer.rows = 5, outer.columns = 38, outer.periodic = true;
+  outer.position = ring(38, 0.10, 0.012);
   FabricSpec other = fabric;
-  other.compression = 0.3;
-  other.damping = 0.5 * damping;
+  other.compression = 0.3, other.damping = 0.5 * damping;
   add_patch(mesh, outer, other);
   PatchSpec flap;
-  flap.name = "flap";
-  flap.rows = 7, flap.columns = 11;
+  flap.name = "flap", flap.rows = 7, flap.columns = 11;
   const Vec3 along_line{0.03, -0.02, -0.04};
   const Vec3 corner = outer.position(4, 37) + 4.4 * along_line;
   flap.position = [=](int row, int column) { return corner + Vec3{0.01 * column, 0.011 * row, 0}; };
@@ -144,11 +163,7 @@ Mesh medley(double damping, bool fixed, int degree) {
   add_patch(mesh, flap, fabric);
 
   const Patch &a = mesh.patches[0], &b = mesh.patches[1], &c = mesh.patches[2];
-  for (int j = 0; j < 38; ++j) {  // the ring's inner rim follows the coarse one's outer rim
-    Tie tie{b.node(0, j), {{a.node(5, j / 2), j % 2 ? 0.5 : 1.0}}};
-    if (j % 2) tie.masters.push_back({a.node(5, (j / 2 + 1) % 19), 0.5});
-    mesh.ties.push_back(tie);
-  }
+  tie_to_coarser(mesh, b, a);
   mesh.laws.push_back({{3064.2, 68823.4}, 1});
   mesh.laws.push_back({{2118.95, 4896.33, 10.0}, 0});
   mesh.parts = {"tape", "line 0"};

@@ -6,13 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "../f111_curve.h"
 #include "ripstop/cloth/cloth.h"
 #include "ripstop/material/lattice.h"
 
 namespace ripstop::testing {
 
 struct FabricSpec {
-  std::vector<double> coefficients{30006, -18936};  // of the axial springs, [N/m]
+  std::vector<double> coefficients = f111_curve;  // of the axial springs, [N/m]
   double xi = 0.2, eps = 0.01;
   double compression = 1;
   double damping = 0;

@@ -136,7 +136,7 @@ TEST(TimeStep, TheBoundOfAnAlignedLatticeIsTheSumOfItsFamilies) {
   // omega^2 = 4 (k_ax + k_sh + k_b) / m for the wave that moves neighbours against each other: per axis two
   // axial springs, four shear springs at 45 degrees, two bending springs.
   const double h = 0.01, w = h, m = 0.0407 * h * h;
-  const SpringLaw whole{{30006, -18936}, 1};
+  const SpringLaw whole{f111_curve, 1};
   const double axial = 0.79 * 30006 * w / h, shear = 0.1 * 30006 * w / (std::sqrt(2.0) * h),
                bend = 0.005 * 30006 * w / (2 * h);
   const double omega2 = 4 * (axial + shear + bend) / m;

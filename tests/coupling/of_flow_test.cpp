@@ -39,8 +39,8 @@ TEST(OfFlow, ACanopyInFlightCarriesWhatTheAirLosesOnIt) {
   const std::vector<CellStress> stress = cell_stress(solver.cloth(), cloth);
   const std::vector<double> tensions = spring_tensions(solver.cloth(), cloth);
   double skirt = 0;
-  for (const int node : solver.mesh().skirt_nodes)
-    skirt += state.shape[node].z / double(solver.mesh().skirt_nodes.size());
+  for (const int node : solver.mesh().rigging.skirt_nodes)
+    skirt += state.shape[node].z / double(solver.mesh().rigging.skirt_nodes.size());
   for (const double above : {-0.3, 0.05, 0.1, 0.15}) {
     const CutBalance cut = cut_balance(solver.mesh(), state.shape, stress, tensions, load, skirt + above);
     EXPECT_NEAR((cut.cloth_force + cut.cord_force) / cut.air_force, 1, 0.02) << above;

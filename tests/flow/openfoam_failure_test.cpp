@@ -8,6 +8,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/process.h"
 #include "ripstop/flow/openfoam/openfoam.h"
+#include "ripstop/flow/steady.h"
 
 namespace ripstop {
 namespace {
@@ -26,7 +27,7 @@ class OpenFoamFailure : public testing::Test {
     problem_.grid = {{0, 0, 0}, {1, 1, 1}, 4, 4, 4};
     problem_.air.speed = 10;
     problem_.porous = {{{21, 22}, 100, 10}};
-    problem_.max_iterations = 3;
+    problem_.stopping.max_iterations = 3;
   }
   void TearDown() override { fs::remove_all(root_); }
 
@@ -46,7 +47,7 @@ class OpenFoamFailure : public testing::Test {
   /// The message of the error that making the engine or its solve ends with.
   std::string message(ExitCode code) {
     try {
-      make_openfoam(settings_)->solve(problem_, {});
+      solve(*make_openfoam(settings_), problem_);
     } catch (const Error& error) {
       EXPECT_EQ(static_cast<int>(error.code()), static_cast<int>(code)) << error.what();
       return error.what();
@@ -162,7 +163,7 @@ TEST_F(OpenFoamFailure, ABlockedDuctThatCannotPassItsFlowDiverges) {
   problem_.porous = {{{}, 0, 1e5}};
   for (int cell = 16; cell < 32; ++cell) problem_.porous[0].cells.push_back(cell);
   problem_.sides = Sides::slip;
-  problem_.max_iterations = 60;
+  problem_.stopping.max_iterations = 60;
   EXPECT_PRED2(says, message(ExitCode::diverged), "ran into its limits");
 }
 

@@ -10,8 +10,10 @@
 
 #include "ripstop/core/error.h"
 #include "ripstop/core/process.h"
+#include "ripstop/flow/bodies.h"
 #include "ripstop/flow/openfoam/case_reader.h"
 #include "ripstop/flow/openfoam/case_writer.h"
+#include "ripstop/flow/steady.h"
 
 namespace ripstop {
 namespace {
@@ -51,7 +53,7 @@ FlowProblem slab_in_duct(int layers, double darcy, double forchheimer) {
   const int first = problem.grid.index(0, 0, 20), layer = problem.grid.nx * problem.grid.ny;
   for (int cell = first; cell < first + layers * layer; ++cell) slab.cells.push_back(cell);
   problem.porous = {slab};
-  problem.max_iterations = 400;
+  problem.stopping.max_iterations = 400;
   return problem;
 }
 
@@ -67,8 +69,13 @@ FlowProblem disc_in_box() {
     }
   }
   problem.porous = {disc};
-  problem.max_iterations = 400;
+  problem.stopping.max_iterations = 400;
   return problem;
+}
+
+/// A disc as large at another place along the stream.
+std::vector<Triangle> disc_at(double z) {
+  return disk(1, {0, 0, z});
 }
 
 /// Mean gauge pressure of layer k.
@@ -82,8 +89,7 @@ double layer_pressure(const FlowField& field, int k) {
 /// length L: dp (1 - G^2 c / p^2) = -(mu d + G f / 2) (G c / p) dz, so that
 /// (p1^2 - p2^2) / 2 - G^2 c ln(p1 / p2) = (mu d + G f / 2) G c L. Gauge, over p2.
 double exact_drop(const FlowProblem& problem, double length) {
-  const double c = kOpenFoamGasConstant * problem.air.temperature,
-               p2 = openfoam::outlet_pressure(problem.air);
+  const double c = gas_constant_of_air * problem.air.temperature, p2 = openfoam::outlet_pressure(problem.air);
   double p1 = p2;
   for (int i = 0; i < 100; ++i) {
     const double flux = p1 * problem.air.speed / c;
@@ -97,12 +103,12 @@ double exact_drop(const FlowProblem& problem, double length) {
 TEST_F(OpenFoam, ASlabAcrossADuctDropsThePressureByDarcyAndForchheimer) {
   for (const auto& [darcy, forchheimer] : {std::pair{0.0, 1.2}, std::pair{8e5, 0.0}, std::pair{4e5, 0.6}}) {
     const FlowProblem problem = slab_in_duct(10, darcy, forchheimer);
-    const FlowField field = engine()->solve(problem, {});
+    const FlowField field = solve(*engine(), problem);
     ASSERT_TRUE(field.converged);
     const double drop = layer_pressure(field, 0) - layer_pressure(field, 39);
     EXPECT_NEAR(drop / exact_drop(problem, 0.5), 1, 0.005) << "d " << darcy << " f " << forchheimer;
     // Momentum of the duct: the force on the slab is the drop less what the expanding gas gains.
-    const double density = problem.air.density + layer_pressure(field, 0) / (kOpenFoamGasConstant * 293.15);
+    const double density = problem.air.density + layer_pressure(field, 0) / (gas_constant_of_air * 293.15);
     const double gain = density * 20 * (field.velocity.back().z - 20);
     EXPECT_NEAR(field.porous_force.z / ((drop - gain) * 0.04), 1, 1e-3);
     EXPECT_NEAR(field.momentum_deficit / field.porous_force.z, 1, 1e-4);
@@ -112,7 +118,7 @@ TEST_F(OpenFoam, ASlabAcrossADuctDropsThePressureByDarcyAndForchheimer) {
 TEST_F(OpenFoam, AirOfConstantDensityLosesExactlyWhatDarcyAndForchheimerSay) {
   FlowProblem problem = slab_in_duct(10, 4e5, 0.6);
   problem.air.density = 0.9;
-  const FlowField field = engine("case", 1, true)->solve(problem, {});
+  const FlowField field = solve(*engine("case", 1, true), problem);
   ASSERT_TRUE(field.converged);
   const double drop = layer_pressure(field, 0) - layer_pressure(field, 39), u = problem.air.speed;
   EXPECT_NEAR(drop / ((problem.air.viscosity * 4e5 + 0.5 * 0.9 * u * 0.6) * u * 0.5), 1, 0.005);
@@ -123,7 +129,7 @@ TEST_F(OpenFoam, TheBoxLosesTheMomentumThatThePorousCellsTake) {
   FlowProblem problem = disc_in_box();
   problem.air.density = 0.9;
   for (const bool incompressible : {false, true}) {
-    const FlowField field = engine("case", 1, incompressible)->solve(problem, {});
+    const FlowField field = solve(*engine("case", 1, incompressible), problem);
     ASSERT_TRUE(field.converged);
     EXPECT_GT(field.porous_force.z, 50);
     EXPECT_NEAR(field.momentum_deficit / field.porous_force.z, 1, 5e-4);
@@ -135,37 +141,42 @@ TEST_F(OpenFoam, TheBoxLosesTheMomentumThatThePorousCellsTake) {
 
 TEST_F(OpenFoam, AWarmStartNeedsFewerIterations) {
   FlowProblem problem = disc_in_box();
-  auto flow = engine();
-  const FlowField cold = flow->solve(problem, {});
-  problem.porous[0].forchheimer *= 1.02;
-  const FlowField warm = flow->solve(problem, {});
-  const FlowField again = engine("other")->solve(problem, {});
-  EXPECT_LT(warm.last.iteration, 0.75 * again.last.iteration);
-  EXPECT_GT(warm.porous_force.z, cold.porous_force.z);
+  const auto own = engine(), others = engine("other");
+  const auto flow = own->start(problem);
+  solve_to_rest(*flow, problem.stopping);
+  flow->place(disc_at(1.7));
+  const FlowField warm = solve_to_rest(*flow, problem.stopping);
+  const auto fresh = others->start(problem);
+  fresh->place(disc_at(1.7));
+  const FlowField again = solve_to_rest(*fresh, problem.stopping);
+  EXPECT_LT(warm.last.iteration, 0.9 * again.last.iteration);
   EXPECT_NEAR(warm.porous_force.z / again.porous_force.z, 1, 1e-3);
 }
 
 TEST_F(OpenFoam, AStopRequestEndsEarlyWithFieldsThatTheNextSolveGoesOnFrom) {
   FlowProblem problem = disc_in_box();
-  problem.residual = 1e-12;
-  auto flow = engine();
-  const FlowField stopped = flow->solve(problem, [](const FlowProgress& now) { return now.iteration < 10; });
+  problem.stopping.residual = 1e-12;
+  const auto own = engine();
+  const auto flow = own->start(problem);
+  const FlowField stopped =
+      solve_to_rest(*flow, problem.stopping, [](const FlowProgress& now) { return now.iteration < 10; });
   EXPECT_FALSE(stopped.converged);
   EXPECT_GE(stopped.last.iteration, 10);
   EXPECT_LT(stopped.last.iteration, 200);
   EXPECT_EQ(stopped.pressure.size(), 16u * 16 * 24);
-  problem.max_iterations = 5;
-  const FlowField more = flow->solve(problem, {});
+  problem.stopping.max_iterations = 5;
+  const FlowField more = solve_to_rest(*flow, problem.stopping);
   EXPECT_EQ(more.last.iteration, 5);
   EXPECT_LT(more.last.residual_p, 0.5);  // 1 from a uniform start
 }
 
 TEST_F(OpenFoam, TwoRanksGiveTheAnswerOfOneAlsoFromAWarmStartWithOtherPorousCells) {
   FlowProblem problem = disc_in_box();
-  auto one = engine("one"), two = engine("two", 2);
-  for (int shift : {0, 1}) {
-    for (int& cell : problem.porous[0].cells) cell += shift * problem.grid.index(0, 0, 2);
-    const FlowField a = one->solve(problem, {}), b = two->solve(problem, {});
+  const auto with_one = engine("one"), with_two = engine("two", 2);
+  const auto one = with_one->start(problem), two = with_two->start(problem);
+  for (const double z : {1.44, 1.69}) {
+    one->place(disc_at(z)), two->place(disc_at(z));
+    const FlowField a = solve_to_rest(*one, problem.stopping), b = solve_to_rest(*two, problem.stopping);
     ASSERT_TRUE(a.converged);
     ASSERT_TRUE(b.converged);
     EXPECT_NEAR(b.porous_force.z / a.porous_force.z, 1, 1e-4);
@@ -190,28 +201,30 @@ void expect_identical(const FlowField& a, const FlowField& b) {
 TEST_F(OpenFoam, ARestoredFlowGoesOnByteForByte) {
   for (const int ranks : {1, 2}) {
     FlowProblem problem = disc_in_box();
-    problem.max_iterations = 8;
+    problem.stopping.max_iterations = 8;
     const std::string suffix = std::to_string(ranks);
-    auto first = engine("first" + suffix, ranks);
-    first->solve(problem, {});
+    const auto engines = std::pair(engine("first" + suffix, ranks), engine("second" + suffix, ranks));
+    const auto first = engines.first->start(problem), second = engines.second->start(problem);
+    solve_to_rest(*first, problem.stopping);
     first->save(root_ / ("saved" + suffix));
-    for (int& cell : problem.porous[0].cells) cell += problem.grid.index(0, 0, 1);
-    const FlowField gone_on = first->solve(problem, {});
-
-    auto second = engine("second" + suffix, ranks);
+    const auto moved_on = [&](Flow& flow) {
+      flow.place(disc_at(1.57));
+      return solve_to_rest(flow, problem.stopping);
+    };
+    const FlowField gone_on = moved_on(*first);
     second->restore(root_ / ("saved" + suffix));
-    expect_identical(second->solve(problem, {}), gone_on);
-    second->restore(root_ / ("saved" + suffix));  // and again, into an engine that has gone on
-    expect_identical(second->solve(problem, {}), gone_on);
+    expect_identical(moved_on(*second), gone_on);
+    second->restore(root_ / ("saved" + suffix));  // and again, into a flow that has gone on
+    expect_identical(moved_on(*second), gone_on);
   }
 }
 
 TEST_F(OpenFoam, AHalfWrittenStateIsRefused) {
   FlowProblem problem = disc_in_box();
-  problem.max_iterations = 2;
-  auto flow = engine();
-  EXPECT_THROW(flow->save(root_ / "nothing"), Error);
-  flow->solve(problem, {});
+  problem.stopping.max_iterations = 2;
+  const auto own = engine();
+  const auto flow = own->start(problem);
+  solve_to_rest(*flow, problem.stopping);
   const auto refused = [&](const fs::path& folder, const std::string& word) {
     try {
       flow->restore(folder);
@@ -231,18 +244,19 @@ TEST_F(OpenFoam, AHalfWrittenStateIsRefused) {
   fs::resize_file(root_ / "bad_marker/saved.json", 50);
   refused(root_ / "bad_marker", "damaged");
   flow->save(root_ / "two_ranks");
-  EXPECT_THROW(engine("other", 2)->restore(root_ / "two_ranks"), Error);
+  EXPECT_THROW(engine("other", 2)->start(problem)->restore(root_ / "two_ranks"), Error);
 }
 
 TEST_F(OpenFoam, AStateOfOneSolverIsNotForTheOther) {
   FlowProblem problem = disc_in_box();
-  problem.max_iterations = 2;
+  problem.stopping.max_iterations = 2;
   for (const bool incompressible : {false, true}) {
-    auto flow = engine("case", 1, incompressible);
-    flow->solve(problem, {});
+    const auto own = engine("case", 1, incompressible);
+    const auto flow = own->start(problem);
+    solve_to_rest(*flow, problem.stopping);
     flow->save(root_ / "saved");
     try {
-      engine("other", 1, !incompressible)->restore(root_ / "saved");
+      engine("other", 1, !incompressible)->start(problem)->restore(root_ / "saved");
       FAIL() << "restored";
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ExitCode::usage);
@@ -251,18 +265,19 @@ TEST_F(OpenFoam, AStateOfOneSolverIsNotForTheOther) {
                 std::string::npos)
           << error.what();
     }
-    const FlowField on = flow->solve(problem, {});
-    auto same = engine("other", 1, incompressible);
+    const FlowField on = solve_to_rest(*flow, problem.stopping);
+    const auto others = engine("other", 1, incompressible);
+    const auto same = others->start(problem);
     same->restore(root_ / "saved");
-    expect_identical(same->solve(problem, {}), on);
+    expect_identical(solve_to_rest(*same, problem.stopping), on);
   }
 }
 
 TEST_F(OpenFoam, TheInletHasTheStatedDensity) {
   FlowProblem problem = disc_in_box();
   problem.air.density = 1.199;
-  problem.max_iterations = 60;
-  engine()->solve(problem, {});
+  problem.stopping.max_iterations = 60;
+  solve(*engine(), problem);
   const openfoam::FieldData rho =
       openfoam::read_field(root_ / "case" / openfoam::latest_time(root_ / "case") / "rho", 1,
                            static_cast<std::size_t>(problem.grid.cells()));
@@ -270,15 +285,23 @@ TEST_F(OpenFoam, TheInletHasTheStatedDensity) {
   for (int cell = 0; cell < 16 * 16; ++cell) EXPECT_NEAR(rho.inner[cell] / 1.199, 1, 1e-3);
 }
 
-TEST_F(OpenFoam, OtherAirOrAnotherGridStartsAfresh) {
+TEST_F(OpenFoam, AFlowOfOtherAirOrAnotherGridIsRefused) {
   FlowProblem problem = disc_in_box();
-  problem.max_iterations = 5;
-  auto flow = engine("used");
-  flow->solve(problem, {});
-  problem.air.speed = 10;
-  expect_identical(flow->solve(problem, {}), engine("fresh")->solve(problem, {}));
-  problem.grid.size.z = 4;
-  expect_identical(flow->solve(problem, {}), engine("fresh2")->solve(problem, {}));
+  problem.stopping.max_iterations = 2;
+  const auto own = engine(), others = engine("other");
+  const auto flow = own->start(problem);
+  solve_to_rest(*flow, problem.stopping);
+  flow->save(root_ / "saved");
+  FlowProblem faster = problem, longer = problem;
+  faster.air.speed = 10;
+  longer.grid.size.z = 4;
+  EXPECT_THROW(others->start(faster)->restore(root_ / "saved"), Error);
+  EXPECT_THROW(others->start(longer)->restore(root_ / "saved"), Error);
+  const auto same = others->start(problem);
+  same->restore(root_ / "saved");
+  EXPECT_FALSE(same->untouched());
+  same->start_afresh();
+  EXPECT_TRUE(same->untouched());
 }
 
 TEST_F(OpenFoam, WithoutPorousCellsTheAirPassesUndisturbed) {
@@ -286,7 +309,7 @@ TEST_F(OpenFoam, WithoutPorousCellsTheAirPassesUndisturbed) {
   problem.porous.clear();
   problem.grid = {{-1, -1, 0}, {2, 2, 3}, 6, 6, 9};
   int reports = 0;
-  const FlowField field = engine()->solve(problem, [&](const FlowProgress&) { return ++reports < 3; });
+  const FlowField field = solve(*engine(), problem, [&](const FlowProgress&) { return ++reports < 3; });
   EXPECT_EQ(reports, 3);
   for (int cell = 0; cell < problem.grid.cells(); ++cell) {
     ASSERT_NEAR(field.pressure[cell], 0, 1e-3);
@@ -300,7 +323,7 @@ TEST_F(OpenFoam, SecondOrderConvectionGivesAnotherFieldWithTheSameBalance) {
   settings.folder = root_ / "second";
   settings.second_order = true;
   const FlowProblem problem = disc_in_box();
-  const FlowField sharp = make_openfoam(settings)->solve(problem, {}), upwind = engine()->solve(problem, {});
+  const FlowField sharp = solve(*make_openfoam(settings), problem), upwind = solve(*engine(), problem);
   ASSERT_TRUE(sharp.converged);
   EXPECT_NEAR(sharp.momentum_deficit / sharp.porous_force.z, 1, 5e-4);
   EXPECT_GT(std::abs(sharp.porous_force.z / upwind.porous_force.z - 1), 1e-3);
@@ -308,8 +331,8 @@ TEST_F(OpenFoam, SecondOrderConvectionGivesAnotherFieldWithTheSameBalance) {
 
 TEST_F(OpenFoam, TheCaseRunsByHandAsItsReadmeSays) {
   FlowProblem problem = disc_in_box();
-  problem.max_iterations = 3;
-  engine()->solve(problem, {});
+  problem.stopping.max_iterations = 3;
+  solve(*engine(), problem);
   ProcessRequest request;
   request.arguments = {
       "/bin/sh", "-ec",

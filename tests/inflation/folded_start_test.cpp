@@ -11,6 +11,13 @@
 #include "ripstop/cloth/cloth.h"
 #include "ripstop/core/error.h"
 #include "ripstop/parachute/build.h"
+#include "ripstop/parachute/conical.h"
+#include "ripstop/parachute/cross.h"
+#include "ripstop/parachute/extended_skirt.h"
+#include "ripstop/parachute/flat_circular.h"
+#include "ripstop/parachute/ringsail.h"
+#include "ripstop/parachute/ringslot.h"
+#include "ripstop/parachute/spherical.h"
 
 namespace ripstop {
 namespace {
@@ -64,7 +71,7 @@ std::vector<Family> families() {
 TEST(FoldedStart, EveryFamilyFoldsToTheGivenRadiusWithoutStrain) {
   ThreadTeam team(1);
   for (const Family& family : families()) {
-    const Mesh mesh = build_mesh(family.design, printed_materials());
+    const CanopyMesh mesh = build_mesh(family.design, printed_materials());
     const int symmetry = std::gcd(family.design.gores, family.design.lines.count);
     const FoldedStart start = folded_start(mesh, {family.radius, 0, 0}, symmetry, team);
     const StartStrain strain = start_strain(with_creases(mesh, start), start.positions);
@@ -77,7 +84,7 @@ TEST(FoldedStart, EveryFamilyFoldsToTheGivenRadiusWithoutStrain) {
 TEST(FoldedStart, ARingsailKeepsItsSymmetryAndItsSlotsAreNoWiderThanTheirLines) {
   ThreadTeam team(1);
   const Family sails = families()[6];
-  const Mesh mesh = build_mesh(sails.design, printed_materials());
+  const CanopyMesh mesh = build_mesh(sails.design, printed_materials());
   const FoldedStart start = folded_start(mesh, {sails.radius, 0, 0.05}, 8, team);
   const double turn = 2 * std::numbers::pi / 8, c = std::cos(turn), s = std::sin(turn);
   for (const Patch& patch : mesh.patches) {
@@ -91,7 +98,7 @@ TEST(FoldedStart, ARingsailKeepsItsSymmetryAndItsSlotsAreNoWiderThanTheirLines) 
       }
     }
   }
-  for (const LineRun& line : mesh.lines) {
+  for (const LineRun& line : mesh.rigging.lines) {
     for (const int i : line.springs) {
       const Spring& spring = mesh.springs[i];
       EXPECT_LT(norm(start.positions[spring.b] - start.positions[spring.a]), 1.001 * spring.rest_length);
@@ -102,16 +109,16 @@ TEST(FoldedStart, ARingsailKeepsItsSymmetryAndItsSlotsAreNoWiderThanTheirLines) 
 TEST(FoldedStart, MoreFoldsAllowASmallerRadiusAndImpossibleOnesAreRefused) {
   ThreadTeam team(1);
   Family flat = families()[0];
-  const Mesh few = build_mesh(flat.design, printed_materials());
+  const CanopyMesh few = build_mesh(flat.design, printed_materials());
   EXPECT_THROW(folded_start(few, {0.03, 12, 0}, 12, team), Error);
   EXPECT_THROW(folded_start(few, {0.6, 12, 0}, 12, team), Error);
   EXPECT_THROW(folded_start(few, {0.12, 7, 0}, 12, team), Error);
   flat.design.mesh.folds = 24;
-  const Mesh many = build_mesh(flat.design, printed_materials());
+  const CanopyMesh many = build_mesh(flat.design, printed_materials());
   const FoldedStart start = folded_start(many, {0.06, 24, 0}, 12, team);
   EXPECT_LT(start_strain(with_creases(many, start), start.positions).largest, 1e-4);  // what it seeks
   const Family cross = families()[7];
-  const Mesh sheet = build_mesh(cross.design, printed_materials());
+  const CanopyMesh sheet = build_mesh(cross.design, printed_materials());
   EXPECT_THROW(folded_start(sheet, {0.15, 6, 0}, 4, team), Error);
   EXPECT_THROW(folded_start(sheet, {0.02, 4, 0}, 4, team), Error);
 }

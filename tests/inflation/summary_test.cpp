@@ -6,8 +6,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "../printed_materials.h"
 #include "ripstop/core/error.h"
 #include "ripstop/inflation/opening_estimate.h"
+#include "ripstop/parachute/disk_gap_band.h"
 
 namespace ripstop {
 namespace {
@@ -80,9 +82,7 @@ TEST(LowPass, ItKeepsSlowTonesHalvesTheCutoffAndDropsFastOnesWithoutDelay) {
 }
 
 TEST(OpeningEstimate, IsTheTypesCoefficientTimesTheSteadyDrag) {
-  Design design;
-  design.canopy = DiskGapBand{1.0, 0.09, 0.07, 0.3};
-  EXPECT_NEAR(opening_estimate(design, 400).load, 520, 1e-9);
+  EXPECT_NEAR(opening_estimate(printed_stratos(25600), 400).load, 520, 1e-9);
 }
 
 }  // namespace

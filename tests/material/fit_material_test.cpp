@@ -4,7 +4,6 @@
 
 #include <random>
 
-#include "../output/temporary_folder.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/core/toml/problem.h"

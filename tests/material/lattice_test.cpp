@@ -6,12 +6,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "../f111_curve.h"
 #include "ripstop/core/error.h"
 
 namespace ripstop {
 namespace {
-
-const std::vector<double> f111{30006, -18936};  // [NFM] Table 3
 
 // Small-strain stiffness of a lattice of equal cells, summed spring by spring.
 struct Stiffness {
@@ -35,9 +34,9 @@ TEST(Lattice, AUniaxialPullGivesTheMeasuredCurveBack) {
     std::vector<double> coefficients;
     double xi, eps, compression, tested;
   };
-  for (const Cloth& cloth :
-       {Cloth{f111, 0.2, 0.01, 1, 0.33}, Cloth{f111, 0.2, 0.01, 0.1, 0.33}, Cloth{f111, 0.3, 0.05, 1, 0.1},
-        Cloth{{20000}, 0.2, 0.01, 1, 0.2}, Cloth{{8000, 30000, -20000}, 0.1, 0.02, 1, 0.2}}) {
+  for (const Cloth& cloth : {Cloth{f111_curve, 0.2, 0.01, 1, 0.33}, Cloth{f111_curve, 0.2, 0.01, 0.1, 0.33},
+                             Cloth{f111_curve, 0.3, 0.05, 1, 0.1}, Cloth{{20000}, 0.2, 0.01, 1, 0.2},
+                             Cloth{{8000, 30000, -20000}, 0.1, 0.02, 1, 0.2}}) {
     const LatticeLaws laws =
         lattice_laws(cloth.coefficients, cloth.xi, cloth.eps, cloth.compression, cloth.tested);
     const SpringLaw curve{cloth.coefficients, 1};
@@ -59,7 +58,7 @@ TEST(Lattice, TheUnmendedLatticeCarriesOnly865ThousandthsOfItsCurve) {
 
 TEST(Lattice, EverySpacingHasTheSquareLatticesStiffness) {
   const double xi = 0.2, eps = 0.01;
-  const LatticeLaws laws = lattice_laws(f111, xi, eps, 1, 0.1);
+  const LatticeLaws laws = lattice_laws(f111_curve, xi, eps, 1, 0.1);
   const Stiffness square = stiffness(laws, 1, 1, xi, eps);
   for (double aspect : {0.4, 0.7, 1.0, 1.5, 3.0}) {
     const Stiffness cell = stiffness(laws, 0.008 * aspect, 0.008, xi, eps);
@@ -109,7 +108,7 @@ Membrane bias_membrane(const WovenLaws& laws, double a, double b) {
 
 Fabric woven(bool balanced) {
   Fabric fabric;
-  fabric.coefficients_n_m = f111;
+  fabric.coefficients_n_m = f111_curve;
   fabric.tested_strain = 0.2;
   if (!balanced) fabric.weft_coefficients_n_m = {18000, 5000};
   return fabric;
@@ -218,7 +217,7 @@ TEST(Lattice, SliversKeepPositiveWidths) {
 }
 
 TEST(Lattice, ImpossibleClothIsRefused) {
-  EXPECT_THROW(lattice_laws(f111, 0.6, 0.5, 1, 0.1), Error);
+  EXPECT_THROW(lattice_laws(f111_curve, 0.6, 0.5, 1, 0.1), Error);
   EXPECT_THROW(lattice_laws({30006, -200000}, 0.2, 0.01, 1, 0.33), Error);
 }
 

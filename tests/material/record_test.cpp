@@ -4,7 +4,6 @@
 
 #include <sstream>
 
-#include "../output/temporary_folder.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/material/clean.h"
@@ -86,7 +85,7 @@ TEST_F(Bench, FilesThatCannotBeReadAreRefusedWithLineAndReason) {
   refused([&] { read("", coupon); }, "", "empty");
   refused([&] { read("extension [mm],force [N]\n", coupon); }, ":1:", "no measurements");
   refused([&] { read("extension [mm],force [N]\n1,2\n3,x\n", coupon); }, ":3:", "\"x\" in the column");
-  refused([&] { read("extension [mm],force [N]\n1,2\n3\n", coupon); }, ":3:", "cut short");
+  refused([&] { read("extension [mm],force [N]\n1,2\n3\n", coupon); }, ":3:", "is the file whole?");
   refused([&] { read("extension [mm],force [N]\n1,nan\n", coupon); }, ":2:", "not a finite number");
   refused([&] { read("extension,force [N]\n1,2\n", coupon); }, ":1:", "no unit");
   refused([&] { read("extension [mm],force [apples]\n1,2\n", coupon); }, ":1:", "not a unit");

@@ -9,7 +9,6 @@
 
 #include "ripstop/core/error.h"
 #include "ripstop/core/hash.h"
-#include "temporary_folder.h"
 
 namespace ripstop {
 namespace {

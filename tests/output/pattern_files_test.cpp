@@ -10,7 +10,6 @@
 #include <sstream>
 
 #include "ripstop/core/file.h"
-#include "temporary_folder.h"
 
 namespace ripstop {
 namespace {

@@ -8,14 +8,13 @@
 #include "read_png.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
-#include "temporary_folder.h"
 
 namespace ripstop {
 namespace {
 
 /// Two cells side by side across the flow, x from -1 to 0 to 1, and a line from a confluence upstream.
-Mesh two_cells() {
-  Mesh mesh;
+CanopyMesh two_cells() {
+  CanopyMesh mesh;
   Patch patch;
   patch.rows = 2;
   patch.columns = 3;
@@ -26,7 +25,7 @@ Mesh two_cells() {
   }
   mesh.start.push_back({0, 0, 0});
   mesh.springs = {{6, 0, 1, 1, 0, 0, 0}};
-  mesh.lines = {{0, {0}, 1}};
+  mesh.rigging.lines = {{0, {0}, 1}};
   return mesh;
 }
 
@@ -41,7 +40,7 @@ CanopyPicture pressures() {
 
 TEST(CanopyPicture, TheColourBarRunsFromTheLowestToTheHighestColourOfTheRange) {
   const TemporaryFolder folder("picture");
-  const Mesh mesh = two_cells();
+  const CanopyMesh mesh = two_cells();
   const ColourRange range = write_canopy_picture(folder.path / "c.png", mesh, mesh.start, pressures());
   EXPECT_EQ(range.low, 10);
   EXPECT_EQ(range.high, 30);
@@ -64,7 +63,7 @@ TEST(CanopyPicture, TheColourBarRunsFromTheLowestToTheHighestColourOfTheRange) {
 
 TEST(CanopyPicture, EachCellHasItsOwnColourInItsPlace) {
   const TemporaryFolder folder("picture-cells");
-  const Mesh mesh = two_cells();
+  const CanopyMesh mesh = two_cells();
   write_canopy_picture(folder.path / "c.png", mesh, mesh.start, pressures());
   const Png png = read_png(folder.path / "c.png");
   EXPECT_EQ(png.width, 1800);
@@ -83,7 +82,7 @@ TEST(CanopyPicture, EachCellHasItsOwnColourInItsPlace) {
 
 TEST(CanopyPicture, TheTitleIsThereOnlyWhenItIsGiven) {
   const TemporaryFolder folder("picture-title");
-  const Mesh mesh = two_cells();
+  const CanopyMesh mesh = two_cells();
   CanopyPicture untitled = pressures();
   untitled.title.clear();
   const auto dark_pixels_on_top = [&](const CanopyPicture& picture) {
@@ -99,7 +98,7 @@ TEST(CanopyPicture, TheTitleIsThereOnlyWhenItIsGiven) {
 
 TEST(CanopyPicture, WithoutARangeTheFiniteValuesAreShownAndOthersAreGrey) {
   const TemporaryFolder folder("picture-range");
-  const Mesh mesh = two_cells();
+  const CanopyMesh mesh = two_cells();
   CanopyPicture picture = pressures();
   picture.range.reset();
   picture.cell_values = {std::numeric_limits<double>::quiet_NaN(), 30, 1e9};  // the last is a hole
@@ -114,8 +113,8 @@ TEST(CanopyPicture, WithoutARangeTheFiniteValuesAreShownAndOthersAreGrey) {
 
 TEST(CanopyPicture, WhatCannotBeDrawnIsAnErrorAndNoFile) {
   const TemporaryFolder folder("picture-errors");
-  const Mesh mesh = two_cells();
-  const auto expect_error = [&](ExitCode code, const char* name, const Mesh& m,
+  const CanopyMesh mesh = two_cells();
+  const auto expect_error = [&](ExitCode code, const char* name, const CanopyMesh& m,
                                 const std::vector<Vec3>& positions, const CanopyPicture& picture) {
     try {
       write_canopy_picture(folder.path / name, m, positions, picture);
@@ -124,8 +123,8 @@ TEST(CanopyPicture, WhatCannotBeDrawnIsAnErrorAndNoFile) {
       EXPECT_EQ(error.code(), code) << error.what();
     }
   };
-  expect_error(ExitCode::bad_data, "a.png", Mesh{}, {}, {});
-  Mesh holes = mesh;
+  expect_error(ExitCode::bad_data, "a.png", CanopyMesh{}, {}, {});
+  CanopyMesh holes = mesh;
   holes.patches[0].cell_area = {0, 0, 0};
   expect_error(ExitCode::bad_data, "a.png", holes, mesh.start, pressures());
   expect_error(ExitCode::bad_data, "a.png", mesh, {}, pressures());
@@ -146,7 +145,7 @@ TEST(CanopyPicture, WhatCannotBeDrawnIsAnErrorAndNoFile) {
 
 TEST(CanopyPicture, ACanopyCollapsedToAPointIsStillAPicture) {
   const TemporaryFolder folder("picture-point");
-  const Mesh mesh = two_cells();
+  const CanopyMesh mesh = two_cells();
   EXPECT_NO_THROW(
       write_canopy_picture(folder.path / "c.png", mesh, std::vector<Vec3>(mesh.start.size()), pressures()));
 }

@@ -8,7 +8,6 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/output/ticks.h"
-#include "temporary_folder.h"
 
 namespace ripstop {
 namespace {

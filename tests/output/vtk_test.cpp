@@ -12,7 +12,6 @@
 #include "ripstop/core/file.h"
 #include "ripstop/core/process.h"
 #include "ripstop/output/stl.h"
-#include "temporary_folder.h"
 
 namespace ripstop {
 namespace {

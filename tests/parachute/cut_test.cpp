@@ -5,30 +5,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 #include <numeric>
 
+#include "examples.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/case/case.h"
 
 namespace ripstop {
 namespace {
 
-const std::filesystem::path examples = std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples";
-
-class CutTest : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(All, CutTest,
-                         testing::Values("stratos-iv", "flat-circular", "conical", "hemispherical",
-                                         "quarter-spherical", "extended-skirt", "ringslot", "adept", "cross"),
-                         [](const auto& family) {
-                           std::string name = family.param;
-                           std::replace(name.begin(), name.end(), '-', '_');
-                           return name;
-                         });
+class CutTest : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(All, CutTest, testing::ValuesIn(family_examples()), name_of_example);
 
 TEST_P(CutTest, ThePiecesMakeUpTheCloth) {
-  const Case value = read_case(examples / GetParam() / "case.toml");
+  const Case value = example(GetParam());
   double area = 0;
   for (const Piece& piece : cut_pattern(value.parachute).pieces) {
     EXPECT_EQ(piece.outline.size(), piece.edges.size());
@@ -39,7 +30,7 @@ TEST_P(CutTest, ThePiecesMakeUpTheCloth) {
 }
 
 TEST_P(CutTest, AllowancesLieOutsideByTheirWidth) {
-  const Case value = read_case(examples / GetParam() / "case.toml");
+  const Case value = example(GetParam());
   for (const Piece& piece : cut_pattern(value.parachute).pieces) {
     const Allowances allowances{.seam = 0.002, .hem = 0.003};
     const std::vector<Point2> cut = with_allowance(piece, allowances);
@@ -58,12 +49,11 @@ TEST_P(CutTest, AllowancesLieOutsideByTheirWidth) {
 }
 
 TEST_P(CutTest, TapesAndLinesAreAsLongAsInTheMesh) {
-  const Case value = read_case(examples / GetParam() / "case.toml");
-  const Mesh mesh = parachute_mesh(value);
+  const Case value = example(GetParam());
+  const CanopyMesh mesh = parachute_mesh(value);
   double tape_mesh = 0, line_mesh = 0;
-  for (const Spring& spring : mesh.springs)
-    if (mesh.parts[spring.part].find("tape") != std::string::npos) tape_mesh += spring.rest_length;
-  for (const LineRun& line : mesh.lines)
+  for (const int spring : mesh.rigging.tape_springs) tape_mesh += mesh.springs[spring].rest_length;
+  for (const LineRun& line : mesh.rigging.lines)
     for (const int spring : line.springs) line_mesh += mesh.springs[spring].rest_length;
   const CutPattern pattern = cut_pattern(value.parachute);
   double tape = 0;
@@ -75,10 +65,10 @@ TEST_P(CutTest, TapesAndLinesAreAsLongAsInTheMesh) {
 }
 
 TEST_P(CutTest, TheBillWithoutAllowancesWeighsWhatTheMeshWeighs) {
-  const Case value = read_case(examples / GetParam() / "case.toml");
+  const Case value = example(GetParam());
   const Bill bill = bill_of(cut_pattern(value.parachute), value.parachute, part_materials(value),
                             {.seam = 0, .hem = 0, .line_loop = 0, .tape_overlap = 0}, 400);
-  const Mesh mesh = parachute_mesh(value);
+  const CanopyMesh mesh = parachute_mesh(value);
   const double mass = std::accumulate(mesh.mass.begin(), mesh.mass.end(), 0.0);
   EXPECT_NEAR(bill.mass / mass, 1, 0.005);
   EXPECT_NEAR(bill.packed_volume * 400, bill.mass, 1e-12);
@@ -87,7 +77,7 @@ TEST_P(CutTest, TheBillWithoutAllowancesWeighsWhatTheMeshWeighs) {
 }
 
 TEST(CutPattern, ThePiecesGrainIsThatOfTheCut) {
-  Case value = read_case(examples / "adept" / "case.toml");
+  Case value = example("adept");
   for (const auto& [cut, grain] : {std::pair{FabricCut::block, 0.0}, std::pair{FabricCut::across, 90.0},
                                    std::pair{FabricCut::bias, 45.0}}) {
     value.parachute.cut = cut;
@@ -96,7 +86,7 @@ TEST(CutPattern, ThePiecesGrainIsThatOfTheCut) {
 }
 
 TEST(CutPattern, AFlatCircularGoreIsATrapezoidWithTheAngleOfItsGore) {
-  const Case value = read_case(examples / "flat-circular" / "case.toml");
+  const Case value = example("flat-circular");
   const CutPattern pattern = cut_pattern(value.parachute);
   ASSERT_EQ(pattern.pieces.size(), 1u);
   ASSERT_EQ(pattern.pieces[0].outline.size(), 4u);

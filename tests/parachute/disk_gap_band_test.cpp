@@ -14,6 +14,7 @@
 #include "ripstop/cloth/cloth.h"
 #include "ripstop/core/error.h"
 #include "ripstop/parachute/build.h"
+#include "ripstop/parachute/disk_gap_band.h"
 
 namespace ripstop {
 namespace {
@@ -21,13 +22,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 Design stratos(int nodes = 25600) {
-  Design design;
-  design.canopy = DiskGapBand{1.0, 0.09, 0.07, 0.3};
-  design.gores = 6;
-  design.lines.count = 18;
-  design.lines.length_m = 1.5;
-  design.mesh.cloth_nodes = nodes;
-  return design;
+  return printed_stratos(nodes);
 }
 
 Design walrus(int nodes = 50300) {
@@ -52,7 +47,7 @@ double cloth_area(const Mesh& mesh) {
 
 TEST(DiskGapBand, TheClothIsThePatternsWithinATenthOfAPercent) {
   for (const Design& design : {stratos(3000), stratos(), walrus()}) {
-    const Mesh mesh = build_mesh(design, printed_materials());
+    const CanopyMesh mesh = build_mesh(design, printed_materials());
     EXPECT_NEAR(cloth_area(mesh) / computed_area(design), 1, 1e-3);
     EXPECT_NEAR(cloth_nodes(mesh) / double(design.mesh.cloth_nodes), 1, 0.05);
   }
@@ -64,7 +59,7 @@ TEST(DiskGapBand, TheClothIsThePatternsWithinATenthOfAPercent) {
 TEST(DiskGapBand, TheMassIsThatOfClothTapeAndLines) {
   const Design design = stratos();
   const PartMaterials m = printed_materials();
-  const Mesh mesh = build_mesh(design, m);
+  const CanopyMesh mesh = build_mesh(design, m);
   const double hems = pi * (1.0 + 1.0 + 1.0 + 0.09);  // skirt, upper band edge, disk edge, vent
   const double seams = 6 * (0.3 + 0.455);
   const double lines = 18 * (1.5 + 0.3 + 0.07 + 0.455);
@@ -72,11 +67,12 @@ TEST(DiskGapBand, TheMassIsThatOfClothTapeAndLines) {
                           (hems + seams) * m.tape.linear_density_kg_m + lines * m.line.linear_density_kg_m;
   EXPECT_NEAR(std::accumulate(mesh.mass.begin(), mesh.mass.end(), 0.0) / expected, 1, 1e-4);
   // The taut line reaches from the skirt to the confluence.
-  EXPECT_NEAR(norm(mesh.start[mesh.confluence] - mesh.start[mesh.skirt_nodes[0]]), 1.5, 1e-12);
+  EXPECT_NEAR(norm(mesh.start[mesh.rigging.confluence] - mesh.start[mesh.rigging.skirt_nodes[0]]), 1.5,
+              1e-12);
 }
 
 TEST(DiskGapBand, TheStartShapeHasNoStress) {
-  const Mesh mesh = build_mesh(stratos(6000), printed_materials());
+  const CanopyMesh mesh = build_mesh(stratos(6000), printed_materials());
   for (const Patch& patch : mesh.patches) {
     for (const Direction d : {along_row, along_column, shear_up, shear_down, bend_column}) {
       for (int row = 0; row < patch.rows; ++row) {
@@ -102,7 +98,7 @@ TEST(DiskGapBand, TheStartShapeHasNoStress) {
 }
 
 TEST(DiskGapBand, TheQuadsFaceFromTheInsideToTheOutside) {
-  const Mesh mesh = build_mesh(stratos(3000), printed_materials());
+  const CanopyMesh mesh = build_mesh(stratos(3000), printed_materials());
   for (const Cell& cell : cells_of(mesh)) {
     if (cell.corner[0] < 0) continue;
     const Vec3 a = mesh.start[cell.corner[0]];
@@ -118,7 +114,7 @@ TEST(DiskGapBand, TheQuadsFaceFromTheInsideToTheOutside) {
 
 TEST(DiskGapBand, TheSpringsStayNearTheMeanSpacingAlsoRoundTheVent) {
   for (const Design& design : {stratos(), walrus()}) {
-    const Mesh mesh = build_mesh(design, printed_materials());
+    const CanopyMesh mesh = build_mesh(design, printed_materials());
     const double mean = std::sqrt(computed_area(design) / design.mesh.cloth_nodes);
     for (const Patch& patch : mesh.patches) {
       for (const Direction d : {along_row, along_column}) {
@@ -142,7 +138,7 @@ TEST(DiskGapBand, TheStepIsAtLeastFourMicrosecondsOnStratosAndWalrus) {
 
 // A rotation by one gore maps nodes, masses and springs onto nodes, masses and springs.
 TEST(DiskGapBand, TheMeshHasTheSymmetryOfItsGores) {
-  const Mesh mesh = build_mesh(stratos(3000), printed_materials());
+  const CanopyMesh mesh = build_mesh(stratos(3000), printed_materials());
   const auto key = [](Vec3 p) {
     return std::array<long, 3>{std::lround(p.x * 1e7), std::lround(p.y * 1e7), std::lround(p.z * 1e7)};
   };
@@ -164,11 +160,11 @@ TEST(DiskGapBand, TheMeshHasTheSymmetryOfItsGores) {
 }
 
 TEST(DiskGapBand, EveryLineRunsFromTheConfluenceOverTheBandAndTheGapToTheVent) {
-  const Mesh mesh = build_mesh(stratos(), printed_materials());
-  ASSERT_EQ(mesh.lines.size(), 18u);
-  for (const LineRun& line : mesh.lines) {
+  const CanopyMesh mesh = build_mesh(stratos(), printed_materials());
+  ASSERT_EQ(mesh.rigging.lines.size(), 18u);
+  for (const LineRun& line : mesh.rigging.lines) {
     double length = 0;
-    int node = mesh.confluence;
+    int node = mesh.rigging.confluence;
     for (std::size_t i = 0; i < line.springs.size(); ++i) {
       const Spring& spring = mesh.springs[line.springs[i]];
       EXPECT_EQ(spring.a, node);
@@ -181,17 +177,17 @@ TEST(DiskGapBand, EveryLineRunsFromTheConfluenceOverTheBandAndTheGapToTheVent) {
     EXPECT_NEAR(length, 1.5 + 0.3 + 0.07 + 0.455, 1e-9);
     EXPECT_NEAR(std::hypot(mesh.start[node].x, mesh.start[node].y), 0.045, 1e-9);
   }
-  EXPECT_EQ(mesh.fixed, std::vector<int>{mesh.confluence});
+  EXPECT_EQ(mesh.fixed, std::vector<int>{mesh.rigging.confluence});
 }
 
 TEST(DiskGapBand, ARiserHoldsTheConfluence) {
   Design design = stratos(3000);
   design.riser.length_m = 0.4;
-  const Mesh mesh = build_mesh(design, printed_materials());
+  const CanopyMesh mesh = build_mesh(design, printed_materials());
   ASSERT_EQ(mesh.fixed.size(), 1u);
-  EXPECT_NEAR(norm(mesh.start[mesh.fixed[0]] - mesh.start[mesh.confluence]), 0.4, 1e-12);
+  EXPECT_NEAR(norm(mesh.start[mesh.fixed[0]] - mesh.start[mesh.rigging.confluence]), 0.4, 1e-12);
   double length = 0;
-  for (const int spring : mesh.riser_springs) length += mesh.springs[spring].rest_length;
+  for (const int spring : mesh.rigging.riser_springs) length += mesh.springs[spring].rest_length;
   EXPECT_NEAR(length, 0.4, 1e-12);
 }
 

@@ -9,6 +9,7 @@
 #include "../printed_materials.h"
 #include "ripstop/core/error.h"
 #include "ripstop/parachute/build.h"
+#include "ripstop/parachute/disk_gap_band.h"
 
 namespace ripstop {
 namespace {
@@ -16,16 +17,13 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 Design disk_gap_band(int nodes, int gores, int lines) {
-  Design design;
-  design.canopy = DiskGapBand{1.0, 0.09, 0.07, 0.3};
+  Design design = printed_stratos(nodes);
   design.gores = gores;
   design.lines.count = lines;
-  design.lines.length_m = 1.5;
-  design.mesh.cloth_nodes = nodes;
   return design;
 }
 
-Mesh stratos() {
+CanopyMesh stratos() {
   return build_mesh(disk_gap_band(25600, 6, 18), printed_materials());
 }
 
@@ -34,7 +32,7 @@ double radius(Vec3 p) {
 }
 
 TEST(Fold, EveryFoldThatFitsKeepsAllLengthsAndEveryTie) {
-  const Mesh mesh = stratos();
+  const CanopyMesh mesh = stratos();
   for (const double r : {0.1, 0.2, 0.45}) {
     for (const int folds : {9, 18}) {
       const FoldedStart start = fold(mesh, {r, folds, 0});
@@ -50,12 +48,12 @@ TEST(Fold, EveryFoldThatFitsKeepsAllLengthsAndEveryTie) {
 }
 
 TEST(Fold, TheSkirtsFoldsLieOnEitherSideOfTheGivenRadius) {
-  const Mesh mesh = stratos();
+  const CanopyMesh mesh = stratos();
   const FoldedStart start = fold(mesh, {0.1, 0, 0});
   EXPECT_EQ(start.folds, 18);  // one a line
   EXPECT_NEAR(0.5 * (start.inner_radius + start.outer_radius), 0.1, 1e-12);
   double largest = 0, smallest = 1, most_z = 0;
-  for (const int node : mesh.skirt_nodes) {
+  for (const int node : mesh.rigging.skirt_nodes) {
     largest = std::max(largest, radius(start.positions[node]));
     smallest = std::min(smallest, radius(start.positions[node]));
   }
@@ -68,13 +66,14 @@ TEST(Fold, TheSkirtsFoldsLieOnEitherSideOfTheGivenRadius) {
   EXPECT_NEAR(smallest, start.inner_radius, 1e-12);
   EXPECT_NEAR(largest, start.outer_radius, 1e-12);
   // Band, gap and disk hang one behind the other, nearly at full length.
-  const double skirt_z = start.positions[mesh.skirt_nodes[0]].z;
+  const double skirt_z = start.positions[mesh.rigging.skirt_nodes[0]].z;
   EXPECT_NEAR(most_z - skirt_z, 0.3 + 0.07 + 0.455, 0.01);
-  EXPECT_NEAR(skirt_z - start.positions[mesh.confluence].z, std::sqrt(1.5 * 1.5 - smallest * smallest), 1e-9);
+  EXPECT_NEAR(skirt_z - start.positions[mesh.rigging.confluence].z,
+              std::sqrt(1.5 * 1.5 - smallest * smallest), 1e-9);
 }
 
 TEST(Fold, TheFoldedCanopyHasTheSymmetryOfItsFolds) {
-  const Mesh mesh = stratos();
+  const CanopyMesh mesh = stratos();
   const FoldedStart start = fold(mesh, {0.1, 18, 0});
   const double c = std::cos(2 * pi / 18), s = std::sin(2 * pi / 18);
   for (const Patch& patch : mesh.patches) {
@@ -91,11 +90,11 @@ TEST(Fold, TheFoldedCanopyHasTheSymmetryOfItsFolds) {
 }
 
 TEST(Fold, SlackLinesAreLongerThanTheirWayByTheGivenLengthAndKeepTheirOwn) {
-  const Mesh mesh = stratos();
+  const CanopyMesh mesh = stratos();
   const double slack = 0.08;
   const FoldedStart start = fold(mesh, {0.1, 18, slack});
   EXPECT_LT(start_strain(mesh, start.positions).largest, 1e-9);
-  for (const LineRun& line : mesh.lines) {
+  for (const LineRun& line : mesh.rigging.lines) {
     double length = 0;
     for (int i = 0; i < line.free_springs; ++i) {
       const Spring& spring = mesh.springs[line.springs[i]];
@@ -104,18 +103,19 @@ TEST(Fold, SlackLinesAreLongerThanTheirWayByTheGivenLengthAndKeepTheirOwn) {
       length += now;
     }
     const Spring& last = mesh.springs[line.springs[line.free_springs - 1]];
-    EXPECT_NEAR(length - norm(start.positions[last.b] - start.positions[mesh.confluence]), slack, 1e-9);
+    EXPECT_NEAR(length - norm(start.positions[last.b] - start.positions[mesh.rigging.confluence]), slack,
+                1e-9);
   }
 }
 
 TEST(Fold, LinesThatEndOnInnerAndOuterFoldsAreSlackWhereTheirWayIsShorter) {
-  const Mesh mesh = build_mesh(disk_gap_band(25600, 6, 36), printed_materials());
+  const CanopyMesh mesh = build_mesh(disk_gap_band(25600, 6, 36), printed_materials());
   const FoldedStart start = fold(mesh, {0.12, 18, 0});  // every second line on an outer fold
   EXPECT_LT(start_strain(mesh, start.positions).largest, 1e-9);
 }
 
 TEST(Fold, ARadiusOrNumberOfFoldsThatDoesNotFitIsRefusedWithWhatWould) {
-  const Mesh mesh = stratos();
+  const CanopyMesh mesh = stratos();
   const auto message = [&](const Folding& folding) -> std::string {
     try {
       fold(mesh, folding);

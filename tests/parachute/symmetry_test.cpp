@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
+#include "ripstop/canopy/shape.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/case/case.h"
 #include "ripstop/cloth/cloth.h"
-#include "ripstop/coupling/result.h"
 
 namespace ripstop {
 namespace {
@@ -114,7 +114,7 @@ struct Canopy {
   std::vector<Vec3> shape() const { return positions(state, *cloth); }
 
   Case value;
-  Mesh mesh;
+  CanopyMesh mesh;
   Symmetry symmetry;
   ClothPtr cloth;
   ClothState state;
@@ -148,8 +148,8 @@ TEST_P(SymmetricShape, IsAnEquilibriumToWhichAShakenCanopyReturns) {
     const Vec3 end = x[canopy.mesh.springs[line.springs[line.free_springs - 1]].b];
     return std::hypot(end.x, end.y);
   };
-  const LineRun& first = canopy.mesh.lines.front();
-  for (const LineRun& line : canopy.mesh.lines) {
+  const LineRun& first = canopy.mesh.rigging.lines.front();
+  for (const LineRun& line : canopy.mesh.rigging.lines) {
     EXPECT_NEAR(end_of(line) / end_of(first), 1, 1e-9);
     // Rounding of 1e-14 m over a spring of 0.05 m and 2e5 N is 5e-9 of its 8 N.
     EXPECT_NEAR(tension[line.springs[2]] / tension[first.springs[2]], 1, 1e-7);

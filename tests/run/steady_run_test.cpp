@@ -2,10 +2,10 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
+#include "formula_flow.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
@@ -16,44 +16,6 @@ namespace ripstop {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Force proportional to the number of cut cells, reached geometrically over the iterations. It remembers its
-// last force, as an engine remembers its last field.
-class FormulaFlow : public FlowEngine {
- public:
-  std::string name() const override { return "formula"; }
-
-  FlowField solve(const FlowProblem& problem, const FlowReport& report) override {
-    FlowField field;
-    field.grid = problem.grid;
-    field.pressure.assign(problem.grid.cells(), 0.0);
-    field.velocity.assign(problem.grid.cells(), Vec3{0, 0, problem.air.speed});
-    const int layer = problem.grid.nx * problem.grid.ny;
-    std::fill_n(field.pressure.begin(), layer * 17, 100.0);  // up to z = 2.27 m: within the canopy
-    const double target = 0.05 * double(problem.porous.at(0).cells.size()) * problem.air.speed;
-    bool wanted = true;
-    for (int i = 1; i <= problem.max_iterations && wanted && !field.converged; ++i) {
-      force_ += 0.3 * (target - force_);
-      field.last = {i, std::abs(target - force_) / target, 0, 0, 0, 0, force_};
-      field.converged = field.last.residual_u < problem.residual;
-      wanted = report(field.last);
-    }
-    field.porous_force = {0, 0, force_};
-    field.momentum_deficit = force_;
-    return field;
-  }
-
-  void save(const fs::path& folder) const override {
-    write_file(folder / "force", std::string(reinterpret_cast<const char*>(&force_), sizeof force_));
-  }
-  void restore(const fs::path& folder) override {
-    const std::string bytes = read_file(folder / "force");
-    std::copy(bytes.begin(), bytes.end(), reinterpret_cast<char*>(&force_));
-  }
-
- private:
-  double force_ = 1;
-};
 
 SteadyProblem small_problem(CanopyLoad load = CanopyLoad::uniform) {
   Case value = read_case(fs::path(RIPSTOP_SOURCE_DIR) / "examples/stratos-iv/case.toml");
@@ -71,8 +33,8 @@ struct Folder {
 };
 
 TEST(SteadyRun, TheLedgerClosesAndTheLoadIsTheFlowsForce) {
-  FormulaFlow flow;
-  SteadySolver solver(small_problem(), flow);
+  FormulaEngine engine;
+  SteadySolver solver(small_problem(), engine);
   SteadyState state = solver.start();
   while (!solver.finished(state)) solver.iterate(state);
   ASSERT_TRUE(state.converged);
@@ -85,8 +47,8 @@ TEST(SteadyRun, TheLedgerClosesAndTheLoadIsTheFlowsForce) {
 }
 
 TEST(SteadyRun, ACheckpointGivesBackEveryBit) {
-  FormulaFlow flow;
-  SteadySolver solver(small_problem(), flow);
+  FormulaEngine engine;
+  SteadySolver solver(small_problem(), engine);
   SteadyState state = solver.start();
   solver.iterate(state);
   const std::string bytes = to_bytes(state);
@@ -99,25 +61,25 @@ TEST(SteadyRun, ACheckpointGivesBackEveryBit) {
 }
 
 TEST(SteadyRun, ARunThatWasKilledBetweenIterationsGoesOnBitForBit) {
-  FormulaFlow whole_flow;
-  SteadySolver whole(small_problem(), whole_flow);
+  FormulaEngine whole_engine;
+  SteadySolver whole(small_problem(), whole_engine);
   SteadyState undisturbed = whole.start();
   for (int k = 0; k < 3; ++k) whole.iterate(undisturbed);
 
   Folder folder;
   {
-    FormulaFlow flow;
-    SteadySolver solver(small_problem(), flow);
+    FormulaEngine engine;
+    SteadySolver solver(small_problem(), engine);
     SteadyState state = solver.start();
     for (int k = 0; k < 2; ++k) {
       solver.iterate(state);
-      save_checkpoint(folder.path, state, flow);
+      save_checkpoint(folder.path, state, solver.flow());
     }
     solver.iterate(state);  // lost: the process ends before its checkpoint
   }
-  FormulaFlow flow;
-  SteadySolver solver(small_problem(), flow);
-  auto state = load_checkpoint(folder.path, flow);
+  FormulaEngine engine;
+  SteadySolver solver(small_problem(), engine);
+  auto state = load_checkpoint(folder.path, solver.flow());
   ASSERT_TRUE(state);
   ASSERT_EQ(state->iterations.size(), 2u);
   solver.iterate(*state);
@@ -126,25 +88,25 @@ TEST(SteadyRun, ARunThatWasKilledBetweenIterationsGoesOnBitForBit) {
 }
 
 TEST(SteadyRun, ADamagedCheckpointIsNeverReadAsOne) {
-  FormulaFlow flow;
-  SteadySolver solver(small_problem(), flow);
+  FormulaEngine engine;
+  SteadySolver solver(small_problem(), engine);
   SteadyState state = solver.start();
   solver.iterate(state);
   Folder folder;
-  EXPECT_FALSE(load_checkpoint(folder.path, flow));
-  save_checkpoint(folder.path, state, flow);
+  EXPECT_FALSE(load_checkpoint(folder.path, solver.flow()));
+  save_checkpoint(folder.path, state, solver.flow());
   const fs::path file = folder.path / "odd" / "state";
   std::string bytes = read_file(file);
   bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
   write_file(file, bytes);
-  EXPECT_THROW(load_checkpoint(folder.path, flow), Error);
+  EXPECT_THROW(load_checkpoint(folder.path, solver.flow()), Error);
   fs::resize_file(file, bytes.size() / 2);
-  EXPECT_THROW(load_checkpoint(folder.path, flow), Error);
+  EXPECT_THROW(load_checkpoint(folder.path, solver.flow()), Error);
 }
 
 TEST(SteadyRun, SampledPressuresAreScaledToTheFlowsForce) {
-  FormulaFlow flow;
-  SteadySolver solver(small_problem(CanopyLoad::sampled), flow);
+  FormulaEngine engine;
+  SteadySolver solver(small_problem(CanopyLoad::sampled), engine);
   SteadyState state = solver.start();
   solver.iterate(state);
   // Relaxation 1 and the first iteration: the next load is the flow's answer itself.
@@ -155,9 +117,9 @@ TEST(SteadyRun, SampledPressuresAreScaledToTheFlowsForce) {
 TEST(SteadyRun, ACanopyOutsideTheBoxIsRefused) {
   SteadyProblem problem = small_problem();
   for (Vec3& x : problem.mesh.start) x.z += 10;
-  FormulaFlow flow;
+  FormulaEngine engine;
   try {
-    SteadySolver solver(std::move(problem), flow);
+    SteadySolver solver(std::move(problem), engine);
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::usage);

@@ -47,9 +47,25 @@ TEST(SweepPoints, WithAValueTwiceAreRefused) {
   EXPECT_THROW(sweep_points(stratos, {}, {sweep_axis("flow.speed_m_s", {"10", "10"}, "--speeds")}), Error);
 }
 
-TEST(SweepRow, OfATextThatIsNoResultIsRefused) {
-  EXPECT_THROW(sweep_row("{}"), Error);
-  EXPECT_THROW(sweep_row("nonsense"), Error);
+TEST(SteadyResult, OfATextThatIsNoResultIsRefused) {
+  EXPECT_THROW(steady_result_from_json("{}"), Error);
+  EXPECT_THROW(steady_result_from_json("nonsense"), Error);
+}
+
+TEST(SteadyResult, ComesBackFromItsJsonAndOnlyWhatIsAbsentIsLeftOut) {
+  SteadyResult result;
+  result.title = "a \"quoted\" title";
+  result.drag = 1.0 / 3;
+  result.iterations = 7;
+  result.converged = true;
+  result.stress.place = {1, 2, 0.1};
+  result.ledger.line_tension = 1e-300;
+  result.measured = Measured{30, 29.5, 1.2, 400, {}, {}};
+  const std::string json = to_json(result);
+  EXPECT_EQ(to_json(steady_result_from_json(json)), json);
+  EXPECT_NE(json.find("\"drag_n\": 0.3333333333333333"), std::string::npos) << json;
+  EXPECT_EQ(json.find("known_drag_coefficient"), std::string::npos) << json;
+  EXPECT_EQ(json.find("printed_linear_n"), std::string::npos) << json;
 }
 
 }  // namespace

@@ -5,9 +5,9 @@
 
 Runs `ripstop steady` on each with the library's cloth as a sheet, its own permeability, nothing calibrated: once with
 `coupling.load` "of-flow", the default, and once with "uniform". The drag of the families beside what Knacke's manual gives
-for the type goes between the markers of docs/validation.md, both loads side by side into loads.md here; pictures and plots
-stay in the run folders, `load.png` and `pressure.png` first. Runs that are finished cost nothing. `--grid 40 40 50 --set KEY=VALUE` pass on to `ripstop`, for a quick look;
-tables are then printed only.
+for the type goes into docs/tables/families.md, both loads side by side into docs/tables/loads.md; pictures and plots stay
+in the run folders, `load.png` and `pressure.png` first. Runs that are finished cost nothing. `--grid 40 40 50 --set
+KEY=VALUE` pass on to `ripstop`, for a quick look; the loads are then printed only.
 """
 import argparse
 import json
@@ -15,22 +15,33 @@ import math
 import pathlib
 import subprocess
 import sys
+import tomllib
 
-HERE = pathlib.Path(__file__).resolve().parent
-ROOT = HERE.parent.parent
-sys.path.insert(0, str(ROOT / "validation/ojf"))
-from campaign import SHEET_SPECIFIED  # noqa: E402
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+sys.path[:0] = [str(ROOT / "validation"), str(ROOT / "validation/ojf")]
+import tables  # pylint: disable=wrong-import-position
+from campaign import SHEET_SPECIFIED  # pylint: disable=wrong-import-position
 
-FAMILIES = ["flat-circular", "conical", "extended-skirt", "hemispherical", "quarter-spherical", "ringslot", "cross",
-            "elliptical"]
-CAMPAIGN = ["stratos-iv", "walrus", "adept"]  # their cases have the paper's box and porosity
+CALIBRATED = "f-111"  # on Stratos IV: the cloth of the campaign, whose cases have the paper's box and porosity
 LOADS = ["of-flow", "uniform"]
-BEGIN, END = "<!-- families: begin -->", "<!-- families: end -->"
+
+
+def examples():
+    """Families and the parachutes of the campaign."""
+    names = {case.parent.name: tomllib.loads(case.read_text())["parachute"].get("canopy_material") == CALIBRATED
+             for case in sorted((ROOT / "examples").glob("*/case.toml"))}
+    return [name for name, of_campaign in names.items() if not of_campaign], [name for name, of_campaign in names.items() if of_campaign]
+
+
+FAMILIES, CAMPAIGN = examples()
+
+
+def folder_of(options, name, load):
+    return options.runs.resolve() / (name if load == "of-flow" else f"{name}-{load}")
 
 
 def run(options, name, load):
-    folder = options.runs.resolve() / (name if load == "of-flow" else f"{name}-{load}")
-    command = [str(options.ripstop.resolve()), "steady", f"examples/{name}/case.toml", "--out", str(folder)]
+    command = [str(options.ripstop.resolve()), "steady", f"examples/{name}/case.toml", "--out", str(folder_of(options, name, load))]
     settings = [f"coupling.load={load}", *(SHEET_SPECIFIED if name in CAMPAIGN else []), *options.set]
     for setting in settings:
         command += ["--set", setting]
@@ -40,34 +51,34 @@ def run(options, name, load):
     if subprocess.run(command, cwd=ROOT, check=False).returncode != 0:
         print(f"{name}, {load}: ripstop failed; the same command again goes on from here", file=sys.stderr)
         return None
-    return json.loads((folder / "result.json").read_text())
+    return json.loads((folder_of(options, name, load) / "result.json").read_text())
 
 
 def families_table(results):
-    lines = ["| example | drag coefficient | Knacke, in descent | projected / nominal diameter | drag N | iterations | wall s |",
-             "|---|---|---|---|---|---|---|"]
+    rows = []
     for name in FAMILIES:
         r = results[name, "of-flow"]
         known = r.get("known_drag_coefficient")
         printed = f"{known[0]:.2f} to {known[1]:.2f}" if known else ""
         nominal = (4 / math.pi * r["reference_area_m2"]) ** 0.5
-        lines.append(f"| {name} | {r['drag_coefficient']:.3f} | {printed} | {r['projected_diameter_m'] / nominal:.3f} | "
-                     f"{r['drag_n']:.1f} | {r['coupling_iterations']} | {r['wall_time_s']:.0f} |")
-    return lines
+        rows.append([name, f"{r['drag_coefficient']:.3f}", printed, f"{r['projected_diameter_m'] / nominal:.3f}",
+                     f"{r['drag_n']:.1f}", str(r["coupling_iterations"]), f"{r['wall_time_s']:.0f}"])
+    return tables.table(["example", "drag coefficient", "Knacke, in descent", "projected / nominal diameter", "drag N", "iterations",
+                         "wall s"], rows)
 
 
 def loads_table(results):
-    lines = ["| example | load | drag N | projected diameter m | skirt m | highest line tension N | highest stress N/m | "
-             "remainder % | coupling iterations |", "|---|---|---|---|---|---|---|---|---|"]
+    rows = []
     for (name, load), r in results.items():
         if r is None:
-            lines.append(f"| {name} | {load} | failed | | | | | | |")
+            rows.append([name, load, "failed", *[""] * 6])
             continue
         count = f"{r['coupling_iterations']}" + ("" if r["converged"] else ", not converged")
         remainder = f"{100 * r['load_remainder']:.2f}" if load == "of-flow" else ""
-        lines.append(f"| {name} | {load} | {r['drag_n']:.1f} | {r['projected_diameter_m']:.3f} | {r['skirt_diameter_m']:.3f} | "
-                     f"{r['max_line_tension_n']:.1f} | {r['max_von_mises_n_m']:.0f} | {remainder} | {count} |")
-    return lines
+        rows.append([name, load, f"{r['drag_n']:.1f}", f"{r['projected_diameter_m']:.3f}", f"{r['skirt_diameter_m']:.3f}",
+                     f"{r['max_line_tension_n']:.1f}", f"{r['max_von_mises_n_m']:.0f}", remainder, count])
+    return tables.table(["example", "load", "drag N", "projected diameter m", "skirt m", "highest line tension N",
+                         "highest stress N/m", "remainder %", "coupling iterations"], rows)
 
 
 def main():
@@ -85,13 +96,9 @@ def main():
         return
     if None in results.values():
         sys.exit("a run failed: no table is written")
-    head = ["# The air's own load beside a uniform one", "",
-            "`make validate-families` makes this table; [coupling](../../docs/theory/coupling.md#from-the-flows-force-to-the-cloths-load) says what "
-            "the loads are. Each run's `load.png` and `pressure.png` show its pressures.", ""]
-    (HERE / "loads.md").write_text("\n".join([*head, *loads, ""]))
-    document = ROOT / "docs/validation.md"
-    before, rest = document.read_text().split(BEGIN)
-    document.write_text(before + "\n".join([BEGIN, "", *families_table(results), "", END]) + rest.split(END)[1])
+    made = [run for name, load in results for run in tables.runs_below(folder_of(options, name, load))]
+    tables.write("families", "Steady drag of every family's example", "make validate-families", made, families_table(results))
+    tables.write("loads", "The air's own load beside a uniform one", "make validate-families", made, loads)
 
 
 if __name__ == "__main__":

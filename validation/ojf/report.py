@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Writes the campaign's tables between the markers of a Markdown file.
+"""Writes the campaign's tables, docs/tables/ojf-*.md.
 
-Usage: report.py RUNS MARKDOWN. RUNS is the folder that campaign.py fills. Every number comes from the result.json,
+Usage: report.py RUNS. RUNS is the folder that campaign.py fills. Every number comes from the result.json,
 run.json and sweep.csv in it, or from predictions.csv and uncertainty.csv; what has not been run is left out.
 """
 import csv
@@ -9,6 +9,10 @@ import json
 import math
 import pathlib
 import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
+import tables  # pylint: disable=wrong-import-position
+from tables import table  # pylint: disable=wrong-import-position
 
 HERE = pathlib.Path(__file__).resolve().parent
 
@@ -22,10 +26,6 @@ def rows(path):
         return []
     with open(path, newline="") as file:
         return list(csv.DictReader(file))
-
-
-def table(head, lines):
-    return ["| " + " | ".join(head) + " |", "|" + "---|" * len(head), *("| " + " | ".join(line) + " |" for line in lines), ""]
 
 
 def calibration(runs, folder="paper/calibration"):
@@ -145,21 +145,31 @@ def images(runs):
     return text + table(["m", "apparent", "corrected", "printed", "computed", "computed / printed - 1, %"], lines)
 
 
-SECTIONS = {"calibration": calibration, "reproduction": reproduction, "predictions": predictions, "uncertainty": uncertainty,
-            "sheet": sheet, "sheet calibration": sheet_calibration, "comparison": comparison, "images": images}
+# File in docs/tables, its title, stage of the campaign that makes it, and the folders of its runs.
+SECTIONS = [
+    (calibration, "calibration", "Porosity calibrated on Stratos IV", "calibrate", ["paper/calibration"]),
+    (reproduction, "reproduction", "Stratos IV with the calibrated cloth", "reproduce openfoam",
+     ["paper/stratos-iv-nominal", "paper/stratos-iv-measured", "openfoam-30"]),
+    (predictions, "predictions", "WALRUS and ADEPT, predicted", "predict sheet",
+     [f"{model}/{parachute}-{basis}" for model in ("paper", "sheet-calibrated", "sheet-specified") for parachute in ("walrus", "adept")
+      for basis in ("nominal", "measured")]),
+    (uncertainty, "uncertainty", "What the predictions depend on", "uncertain uncertain-sheet",
+     [f"{model}/uncertain-{parachute}" for model in ("paper", "sheet-calibrated") for parachute in ("stratos-iv", "walrus", "adept")]),
+    (sheet, "sheet", "Stratos IV with the specified permeability", "sheet", ["sheet-specified/stratos-iv-nominal"]),
+    (sheet_calibration, "sheet-calibration", "The sheet's law calibrated on Stratos IV", "sheet",
+     ["sheet-calibrated/permeabilities", "sheet-calibrated/gammas"]),
+    (comparison, "comparison", "Nonlinear beside linear at 30 m/s", "compare", ["compare"]),
+    (images, "images", "Shape of Stratos IV beside photogrammetry", "reproduce", ["paper/stratos-iv-nominal"]),
+]
 
 
 def main():
-    runs, markdown = map(pathlib.Path, sys.argv[1:])
-    text = markdown.read_text()
-    for name, section in SECTIONS.items():
-        begin, end = f"<!-- ojf {name}: begin -->", f"<!-- ojf {name}: end -->"
-        lines = section(runs)
-        if begin not in text or not lines:
-            continue
-        before, rest = text.split(begin)
-        text = before + "\n".join([begin, "", *lines, end]) + rest.split(end)[1]
-    markdown.write_text(text)
+    runs = pathlib.Path(sys.argv[1])
+    for section, name, title, stages, folders in SECTIONS:
+        made = [run for folder in folders for run in tables.runs_below(runs / folder)]
+        lines = section(runs) if made else []
+        if lines:
+            tables.write(f"ojf-{name}", title, f'make validate-ojf STAGES="{stages} report"', made, lines)
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@
 
 #include "ripstop/core/error.h"
 #include "ripstop/material/lattice.h"
-#include "ripstop/parachute/builder.h"
+#include "ripstop/mesh/builder.h"
 
 namespace ripstop {
 namespace {

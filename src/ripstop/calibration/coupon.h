@@ -15,7 +15,7 @@
 #include "ripstop/cloth/cloth.h"
 #include "ripstop/core/thread_team.h"
 #include "ripstop/material/material.h"
-#include "ripstop/parachute/mesh.h"
+#include "ripstop/mesh/mesh.h"
 
 namespace ripstop {
 

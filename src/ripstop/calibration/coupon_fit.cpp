@@ -199,6 +199,53 @@ double effect_of_bending(Search& search) {
   return largest;
 }
 
+void find_fractions(Search& search, const MaterialFit& fit, const Bench& bench, CouponFit& result) {
+  const CouponFitOptions& options = *search.options;
+  if (options.find_shear) search.fabric.shear_fraction = options.start_shear;
+  result.bending_effect = effect_of_bending(search);
+  const bool both = options.find_bending && result.bending_effect >= options.bending_threshold;
+  if (options.find_shear) minimise(search, 0.08);  // xi alone from afar, then both near by
+  search.find_bending = both;
+  if (both) minimise(search, 0.01);
+  if (options.find_shear) shear_interval(search, fit, bench.confidence, result);
+  if (options.find_bending)
+    result.notes.push_back(fmt::format(
+        "eps from 0 to 0.1 changes a coupon's load by {:.2g} % at most{}", 100 * result.bending_effect,
+        search.find_bending ? ""
+                            : fmt::format(": these pulls do not determine it, and it is left at {:.3g}",
+                                          search.fabric.bending_fraction)));
+  if (search.fabric.shear_fraction > highest_shear - 1e-3 ||
+      search.fabric.shear_fraction < lowest_shear + 1e-3)
+    result.warnings.push_back(
+        fmt::format("xi = {:.3g} lies on the edge of its range: the 45 deg pull is not "
+                    "that of a lattice of springs",
+                    search.fabric.shear_fraction));
+}
+
+/// The clamps hold the width and so stiffen the coupon a little: the factor takes that back, warp and weft alike.
+double factor_of_clamps(Search& search) {
+  double ms = 0, ss = 0;
+  for (Target& target : search.targets) {
+    if (target.direction->name == "bias") continue;
+    const std::vector<double> simulated = pulled(target, search.fabric, *search.team);
+    for (std::size_t i = 0; i < simulated.size(); ++i)
+      ms += target.measured[i] * simulated[i], ss += simulated[i] * simulated[i];
+  }
+  return ms / ss;
+}
+
+void warn_of(const CouponComparison& c, CouponFit& result) {
+  if (!c.pull.converged)
+    result.warnings.push_back(
+        fmt::format("the {} coupon did not come to rest to {}; its last digits are not sure", c.name,
+                    PullOptions{}.tolerance));
+  if (c.r2 < 0.95)
+    result.warnings.push_back(
+        fmt::format("the simulated {} coupon follows its record with R2 = {:.3f} only: the "
+                    "lattice is not this cloth in that direction",
+                    c.name, c.r2));
+}
+
 }  // namespace
 
 std::vector<CouponComparison> compare_coupons(const MaterialFit& fit, const Fabric& fabric, int cells,
@@ -231,55 +278,19 @@ CouponFit fit_coupons(const MaterialFit& fit, const Bench& bench, const CouponFi
   result.searched = fit.direction("bias") && (options.find_shear || options.find_bending);
   if (options.find_bending) search.fabric.bending_fraction = options.start_bending;
   if (result.searched) {
-    if (options.find_shear) search.fabric.shear_fraction = options.start_shear;
-    result.bending_effect = effect_of_bending(search);
-    const bool both = options.find_bending && result.bending_effect >= options.bending_threshold;
-    if (options.find_shear) minimise(search, 0.08);  // xi alone from afar, then both near by
-    search.find_bending = both;
-    if (both) minimise(search, 0.01);
-    if (options.find_shear) shear_interval(search, fit, bench.confidence, result);
-    if (options.find_bending)
-      result.notes.push_back(fmt::format(
-          "eps from 0 to 0.1 changes a coupon's load by {:.2g} % at most{}", 100 * result.bending_effect,
-          search.find_bending ? ""
-                              : fmt::format(": these pulls do not determine it, and it is left at {:.3g}",
-                                            search.fabric.bending_fraction)));
-    if (search.fabric.shear_fraction > highest_shear - 1e-3 ||
-        search.fabric.shear_fraction < lowest_shear + 1e-3)
-      result.warnings.push_back(
-          fmt::format("xi = {:.3g} lies on the edge of its range: the 45 deg pull is not "
-                      "that of a lattice of springs",
-                      search.fabric.shear_fraction));
+    find_fractions(search, fit, bench, result);
   } else if (!fit.direction("bias")) {
     result.notes.push_back(fmt::format("no 45 deg pull: xi = {:.3g} and eps = {:.3g} are not measured",
                                        search.fabric.shear_fraction, search.fabric.bending_fraction));
   }
 
-  // The clamps hold the width and so stiffen the coupon a little: take that back, warp and weft alike.
-  double ms = 0, ss = 0;
-  for (Target& target : search.targets) {
-    if (target.direction->name == "bias") continue;
-    const std::vector<double> simulated = pulled(target, search.fabric, team);
-    for (std::size_t i = 0; i < simulated.size(); ++i)
-      ms += target.measured[i] * simulated[i], ss += simulated[i] * simulated[i];
-  }
-  result.rescale = ms / ss;
+  result.rescale = factor_of_clamps(search);
   result.fabric = search.fabric;
   for (double& k : result.fabric.coefficients_n_m) k *= result.rescale;
   for (double& k : result.fabric.weft_coefficients_n_m) k *= result.rescale;
 
   result.coupons = compare_coupons(fit, result.fabric, options.final_cells, options.final_points, team);
-  for (const CouponComparison& c : result.coupons) {
-    if (!c.pull.converged)
-      result.warnings.push_back(
-          fmt::format("the {} coupon did not come to rest to {}; its last digits are not sure", c.name,
-                      PullOptions{}.tolerance));
-    if (c.r2 < 0.95)
-      result.warnings.push_back(
-          fmt::format("the simulated {} coupon follows its record with R2 = {:.3f} only: the "
-                      "lattice is not this cloth in that direction",
-                      c.name, c.r2));
-  }
+  for (const CouponComparison& c : result.coupons) warn_of(c, result);
   result.evaluations = search.evaluations;
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;

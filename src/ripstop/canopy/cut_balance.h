@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "ripstop/cloth/cloth.h"
-#include "ripstop/parachute/mesh.h"
+#include "ripstop/mesh/mesh.h"
 
 namespace ripstop {
 

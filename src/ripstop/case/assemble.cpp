@@ -6,8 +6,8 @@ PartMaterials part_materials(const Case& value) {
   return {canopy_fabric(value), suspension_line(value), riser_line(value), reinforcement_tape(value)};
 }
 
-Mesh parachute_mesh(const Case& value) {
-  Mesh mesh = build_mesh(value.parachute, part_materials(value));
+CanopyMesh parachute_mesh(const Case& value) {
+  CanopyMesh mesh = build_mesh(value.parachute, part_materials(value));
   const double z = canopy_position(value);
   for (Vec3& p : mesh.start) p.z += z;
   return mesh;
@@ -24,9 +24,10 @@ FlowProblem flow_problem(const Case& value) {
   problem.air.turbulence_intensity = settings.turbulence_intensity;
   problem.air.viscosity_ratio = settings.viscosity_ratio;
   problem.sides = settings.sides;
-  problem.residual = settings.residual;
-  problem.max_iterations = settings.max_iterations;
-  problem.average_over = settings.average_over;
+  problem.outlet = settings.outlet;
+  problem.stopping.residual = settings.residual;
+  problem.stopping.max_iterations = settings.max_iterations;
+  problem.stopping.average_over = settings.average_over;
   const Fabric& cloth = canopy_fabric(value);
   if (settings.porosity_model == PorosityModel::sheet) {
     problem.sheets = {{{}, cloth.darcy, cloth.forchheimer}};

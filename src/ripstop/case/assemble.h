@@ -5,13 +5,12 @@
 #include "ripstop/coupling/steady.h"
 #include "ripstop/flow/flow.h"
 #include "ripstop/parachute/build.h"
-#include "ripstop/parachute/mesh.h"
 
 namespace ripstop {
 
 PartMaterials part_materials(const Case& value);
 /// The canopy's start shape with its skirt at canopy_position(value), axis on x = y = 0, inlet at z = 0.
-Mesh parachute_mesh(const Case& value);
+CanopyMesh parachute_mesh(const Case& value);
 /// Box, air and the canopy cloth's resistance; its cut cells are left to the coupling.
 FlowProblem flow_problem(const Case& value);
 SteadyProblem steady_problem(const Case& value);

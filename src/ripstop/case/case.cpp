@@ -31,8 +31,13 @@ void describe(Fields& fields, CoreSettings& core) {
 }
 
 void describe(Fields& fields, FlowSettings& flow) {
-  fields.choice("engine", flow.engine, {{"builtin", EngineKind::builtin}, {"openfoam", EngineKind::openfoam}},
-                "Flow solver: the built-in one, or OpenFOAM's rhoPorousSimpleFoam with the same equations.");
+  std::vector<std::pair<std::string, std::string>> words;
+  std::string meanings;
+  for (const EngineRecord& engine : engines()) {
+    words.emplace_back(engine.word, engine.word);
+    meanings += (meanings.empty() ? "" : ", or ") + engine.meaning;
+  }
+  fields.choice("engine", flow.engine, words, "Flow solver: " + meanings + ".");
   fields
       .number("speed_m_s", flow.speed_m_s, above(0).up_to(100),
               "Free-stream speed; below Mach 0.3, where the canopy's flow model holds.")
@@ -74,6 +79,11 @@ void describe(Fields& fields, FlowSettings& flow) {
       {{"zero-gradient", Sides::zero_gradient}, {"slip", Sides::slip}, {"entraining", Sides::entraining}},
       "The four sides of the box. \"zero-gradient\": open, as [NFM]; \"slip\": walls without friction; "
       "\"entraining\": air of the stream may come in with its total pressure (built-in engine only).");
+  fields.choice(
+      "outlet", flow.outlet, {{"fixed-pressure", Outlet::fixed_pressure}, {"still-air", Outlet::still_air}},
+      "The end of the box. \"fixed-pressure\": it is held, and air that comes back has no "
+      "momentum, as [NFM]; \"still-air\": air that comes back has the total pressure of air at rest "
+      "(built-in engine only; the default of the \"sheet\" model).");
   fields.number("residual", flow.residual, above(0).up_to(0.1),
                 "Residual of every equation at which a solution ends.");
   fields.integer("max_iterations", flow.max_iterations, from(1).up_to(1'000'000),

@@ -12,6 +12,7 @@
 #include "ripstop/core/toml/set.h"
 #include "ripstop/core/vec3.h"
 #include "ripstop/coupling/settings.h"
+#include "ripstop/flow/engines.h"
 #include "ripstop/flow/flow.h"
 #include "ripstop/inflation/settings.h"
 #include "ripstop/material/library.h"
@@ -20,7 +21,6 @@
 
 namespace ripstop {
 
-enum class EngineKind { builtin, openfoam };
 enum class SpeedBasis { nominal, measured };
 enum class Convection { upwind, second_order };
 
@@ -33,7 +33,7 @@ struct CoreSettings {
 
 /// [flow]. With the `sheet` model settle_flow() puts other values where the case gives none.
 struct FlowSettings {
-  EngineKind engine = EngineKind::builtin;
+  std::string engine = engines().front().word;
   double speed_m_s = 0;
   SpeedBasis speed_basis = SpeedBasis::nominal;
   std::optional<double> density_kg_m3;  // absent: from the row of [[measured]] with this nominal speed
@@ -47,6 +47,7 @@ struct FlowSettings {
   std::optional<double> canopy_position_m;  // inlet to the skirt of the start shape; absent: mid-length
   Convection convection = Convection::upwind;
   Sides sides = Sides::zero_gradient;
+  Outlet outlet = Outlet::fixed_pressure;
   PorosityModel porosity_model = PorosityModel::of_cloth;  // never that in a case that was read
   double residual = 1e-5;
   int max_iterations = 1000;
@@ -95,7 +96,7 @@ struct Overrides {
   std::optional<double> speed = {};             // --speed [m/s]
   std::optional<std::array<int, 3>> grid = {};  // --grid nx ny nz
   std::optional<int> ranks = {};                // --ranks
-  std::optional<EngineKind> engine = {};        // --flow
+  std::optional<std::string> engine = {};       // --flow
   bool linear = false;                          // --linear
   /// --set: any key, over what the file says; a material of the library is copied into the case first. Only
   /// for read_case() and parse_case().

@@ -8,7 +8,12 @@
 #include <numbers>
 
 #include "ripstop/core/error.h"
+#include "ripstop/parachute/conical.h"
+#include "ripstop/parachute/cross.h"
 #include "ripstop/parachute/design.h"
+#include "ripstop/parachute/disk_gap_band.h"
+#include "ripstop/parachute/flat_circular.h"
+#include "ripstop/parachute/profile.h"
 
 namespace ripstop {
 namespace {

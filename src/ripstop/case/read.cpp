@@ -77,7 +77,9 @@ void check_measured(const Case& value, Findings& findings) {
 
 /// The start shape, and the inflated shape that it may turn into, have to lie inside the box.
 void check_box(const Case& value, Findings& findings) {
-  if (!findings.sound(shape_keys()) || !findings.sound({"flow.box_m", "flow.canopy_position_m"})) return;
+  if (!findings.sound(shape_keys(value.parachute)) ||
+      !findings.sound({"flow.box_m", "flow.canopy_position_m"}))
+    return;
   const Vec3 box = value.flow.box_m;
   const double diameter = start_diameter(value.parachute);
   const std::string canopy = fmt::format("a canopy of {:.6g} m diameter", diameter);
@@ -135,16 +137,26 @@ void check_box(const Case& value, Findings& findings) {
   }
 }
 
-/// What only the built-in engine has is refused here, before the cloth has been relaxed for it.
+/// What the engine has not is refused here, before the cloth has been relaxed for it.
 void check_engine(const Case& value, Findings& findings) {
   const FlowSettings& flow = value.flow;
-  if (flow.engine != EngineKind::openfoam || !findings.sound({"flow.engine", "flow.porosity_model"})) return;
-  if (flow.porosity_model == PorosityModel::sheet)
-    findings.add(
-        "flow.engine", quoted("openfoam"), quoted("builtin"),
-        fmt::format("the cloth {} is a sheet (flow.porosity_model), which only the built-in engine has; "
-                    "OpenFOAM needs cloth with coefficients of the \"paper\" model, such as \"f-111\"",
-                    quoted(value.parachute.canopy_material)));
+  if (!findings.sound({"flow"})) return;
+  Abilities wanted;
+  wanted.sheets = flow.porosity_model == PorosityModel::sheet;
+  wanted.entraining_sides = flow.sides == Sides::entraining;
+  wanted.still_air_outlet = flow.outlet == Outlet::still_air;
+  wanted.averages = flow.average_over > 0;
+  wanted.ranks = flow.ranks > 1;
+  for (const Lack& lack : lacks(engine_of(flow.engine), wanted)) {
+    if (lack.key == "flow.porosity_model")  // all that follows from it is lacking too
+      return findings.add(
+          "flow.engine", quoted(flow.engine), quoted(engines().front().word),
+          fmt::format("the cloth {} is a sheet (flow.porosity_model), which this engine has not; it "
+                      "needs cloth with coefficients of the \"paper\" model, such as \"f-111\"",
+                      quoted(value.parachute.canopy_material)));
+    findings.add(lack.key, lack.value, lack.instead,
+                 fmt::format("the flow engine {} (flow.engine) has not that", quoted(flow.engine)));
+  }
 }
 
 void check_load(const Case& value, Findings& findings) {
@@ -170,7 +182,8 @@ std::vector<Problem> problems_of(Case& value, std::vector<Problem> problems) {
   check_design(value.parachute, findings);
   check_materials(value, findings);
   const std::string& cloth = value.parachute.canopy_material;
-  if (findings.sound(shape_keys()) && findings.sound({"parachute.canopy_material", "materials." + cloth}))
+  if (findings.sound(shape_keys(value.parachute)) &&
+      findings.sound({"parachute.canopy_material", "materials." + cloth}))
     settle_flow(value);
   check_measured(value, findings);
   check_box(value, findings);

@@ -38,6 +38,7 @@ void settle_flow(Case& value) {
     if (!given("flow.cells")) flow.cells = cells;
   }
   if (!given("flow.sides")) flow.sides = Sides::entraining;
+  if (!given("flow.outlet")) flow.outlet = Outlet::still_air;
   if (!given("flow.convection")) flow.convection = Convection::second_order;
   if (!given("flow.residual")) flow.residual = 3e-4;
   if (!given("flow.max_iterations")) flow.max_iterations = 300;

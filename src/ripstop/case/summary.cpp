@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "ripstop/case/assemble.h"
-#include "ripstop/parachute/resolution.h"
 
 namespace ripstop {
 namespace {
@@ -34,7 +33,7 @@ void count_springs(const Mesh& mesh, CaseSummary& summary) {
 
 CaseSummary summarize(const Case& value) {
   CaseSummary summary;
-  const Mesh mesh = parachute_mesh(value);
+  const CanopyMesh mesh = parachute_mesh(value);
   for (const Patch& patch : mesh.patches) {
     summary.cloth_nodes += patch.rows * patch.columns;
     for (double area : patch.cell_area) summary.cloth_area += area;
@@ -48,14 +47,14 @@ CaseSummary summarize(const Case& value) {
 
   for (double mass : mesh.mass) summary.total_mass += mass;
   summary.cloth_mass = summary.cloth_area * canopy_fabric(value).areal_density_kg_m2;
-  for (const LineRun& line : mesh.lines)
+  for (const LineRun& line : mesh.rigging.lines)
     summary.line_mass += length_of(mesh, line.springs) * suspension_line(value).linear_density_kg_m;
-  summary.riser_mass = length_of(mesh, mesh.riser_springs) * riser_line(value).linear_density_kg_m;
+  summary.riser_mass = length_of(mesh, mesh.rigging.riser_springs) * riser_line(value).linear_density_kg_m;
   // Tape lies on springs of its own kind only, so what is left is tape.
   summary.tape_mass = summary.total_mass - summary.cloth_mass - summary.line_mass - summary.riser_mass;
 
   summary.nodes = mesh.node_count();
-  summary.resolved_cloth_nodes = resolved_cloth_nodes(value.parachute);
+  summary.resolved_cloth_nodes = experience(value.parachute).cloth_nodes;
   count_springs(mesh, summary);
   ClothOptions options;
   options.linear = value.coupling.linear;

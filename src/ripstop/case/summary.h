@@ -16,7 +16,7 @@ struct CaseSummary {
   double geometric_porosity = 0;        // their share of the whole surface without fullness
   double cloth_mass = 0, tape_mass = 0, line_mass = 0, riser_mass = 0, total_mass = 0;  // [kg]
   int nodes = 0, cloth_nodes = 0;
-  int resolved_cloth_nodes = 0;  // see parachute/resolution.h
+  int resolved_cloth_nodes = 0;  // see Experience::cloth_nodes
   int springs = 0;               // of the lattice and outside it
   double smallest_spring = 0;    // rest length [m]
   std::string smallest_part;     // where it is

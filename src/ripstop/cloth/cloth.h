@@ -10,7 +10,7 @@
 #include "ripstop/core/aligned.h"
 #include "ripstop/core/thread_team.h"
 #include "ripstop/core/vec3.h"
-#include "ripstop/parachute/mesh.h"
+#include "ripstop/mesh/mesh.h"
 
 namespace ripstop {
 

@@ -2,7 +2,7 @@
 // are looked at now and then. Internal to cloth/.
 #pragma once
 
-#include "ripstop/parachute/mesh.h"
+#include "ripstop/mesh/mesh.h"
 
 namespace ripstop {
 

@@ -119,8 +119,9 @@ HWY_INLINE V pull(const PatchLayout& patch, int direction, const double* springs
   return hn::Mul(tension, length.inverse);
 }
 
+// Long, for the forces of six springs wait in registers for the vectors that they act on.
 template <int degree, bool damped, bool pressed>
-double row_forces(const RowForces& row) {
+double row_forces(const RowForces& row) {  // NOLINT(readability-function-size)
   const PatchLayout& patch = *row.patch;
   const int end = patch.vectors * vector_stride;
   alignas(64) double power[lanes] = {};

@@ -53,7 +53,7 @@ struct SpringForces {
   const double *x, *v;  // of all nodes; v null: no damping
   double* f;            // of every spring on its end a, in vector layout
   /// With a record; null: none. The last damper's force in vector layout, the energy over dt that dampers
-  /// have taken [W], see Sweep::Damper, the highest tension [N].
+  /// have taken [W], see Stepper::Damper, the highest tension [N].
   double *damper, *taken, *peak;
 };
 void pull_springs(const SpringForces& job, int begin_block, int end_block);

@@ -1,10 +1,11 @@
 // The compiled cloth: how nodes, springs and ties lie in memory for the kernels. Internal to cloth/.
 //
-// A row of C columns is cut into 8 strips of M = ceil(C / 8) columns, and the strips are laid side by side:
-// vector m of the row holds columns m, M + m, 2M + m, ... So the neighbour at column + 1 is the next vector
-// in every lane: each load and store is aligned and no lanes are shuffled. Two ghost vectors at the end of
-// the row hold copies of the strips' (and, when periodic, the row's) first two columns; springs that reach
-// into them add their force there, and the row's end folds it back. Two rows of padding follow each patch.
+// A row of C columns is divided into 8 strips of M = ceil(C / 8) columns, and the strips are laid side by
+// side: vector m of the row holds columns m, M + m, 2M + m, ... So the neighbour at column + 1 is the next
+// vector in every lane: each load and store is aligned and no lanes are shuffled. Two ghost vectors at the
+// end of the row hold copies of the strips' (and, when periodic, the row's) first two columns; springs that
+// reach into them add their force there, and the row's end folds it back. Two rows of padding follow each
+// patch.
 //
 //   slot of a node   patch.first + 8 * ((M + 2) * row + column % M) + column / M
 //   vector arrays    24 doubles a vector: 8 x, 8 y, 8 z; component c of slot i at 24 * (i / 8) + i % 8 + 8 *
@@ -103,7 +104,7 @@ struct Cloth {
   std::vector<char> is_tied, is_fixed;
 
   /// Fixed nodes, nodes with irregular springs, ties or masters of ties, and nodes outside patches, in the
-  /// order of their slots. The sweep over rows leaves them where they are and keeps the lattice's force on
+  /// order of their slots. The pass over the rows leaves them where they are and keeps the lattice's force on
   /// them.
   struct Kept {
     int slot, node;

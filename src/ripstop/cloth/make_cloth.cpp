@@ -18,7 +18,7 @@ int index_of(const Patch& patch, int row, int column) {
   return row * patch.columns + column;
 }
 
-void check(const Mesh& mesh) {
+void check_nodes(const Mesh& mesh) {
   const int count = mesh.node_count();
   if (static_cast<int>(mesh.mass.size()) != count)
     refuse(fmt::format("{} masses for {} nodes", mesh.mass.size(), count));
@@ -26,46 +26,51 @@ void check(const Mesh& mesh) {
     if (!is_finite(mesh.start[node])) refuse(fmt::format("node {} has no finite position", node));
     if (!(mesh.mass[node] >= 0)) refuse(fmt::format("node {} has mass {} kg", node, mesh.mass[node]));
   }
-  for (const Patch& patch : mesh.patches) {
-    const auto cells = static_cast<std::size_t>(patch.rows) * patch.columns;
-    if (patch.rows < 1 || patch.columns < (patch.periodic ? 3 : 1))
-      refuse(fmt::format("patch {} has {} rows and {} columns", patch.name, patch.rows, patch.columns));
-    if (patch.first_node < 0 || patch.first_node + static_cast<int>(cells) > count)
-      refuse(fmt::format("patch {} reaches beyond the last node", patch.name));
-    if (patch.cell_area.size() < cells - patch.columns)
-      refuse(fmt::format("patch {} has {} cell areas, needs {}", patch.name, patch.cell_area.size(),
-                         cells - patch.columns));
-    for (int d = 0; d < direction_count; ++d) {
-      if (patch.width[d].size() != cells || patch.rest_length[d].size() != cells)
-        refuse(fmt::format("patch {}: widths and rest lengths must be rows x columns", patch.name));
-      if (static_cast<int>(patch.law[d].coefficients.size()) > max_degree)
-        refuse(fmt::format("patch {}: a spring law of degree {}, at most {}", patch.name,
-                           patch.law[d].coefficients.size(), max_degree));
-      for (int row = 0; row < patch.rows; ++row) {
-        for (int column = 0; column < patch.columns; ++column) {
-          const int i = index_of(patch, row, column);
-          if (patch.width[d][i] == 0) continue;
-          const auto [dr, dc] = direction_offset[d];
-          const bool outside = row + dr >= patch.rows ||
-                               (!patch.periodic && (column + dc < 0 || column + dc >= patch.columns));
-          if (!(patch.width[d][i] > 0) || !(patch.rest_length[d][i] > 0) || outside)
-            refuse(fmt::format("patch {}, row {}, column {}: spring {} has width {} m, rest length {} m{}",
-                               patch.name, row, column, d, patch.width[d][i], patch.rest_length[d][i],
-                               outside ? " and leaves the patch" : ""));
-        }
-      }
+}
+
+void check_law(const SpringLaw& law, const std::string& place) {
+  if (static_cast<int>(law.coefficients.size()) > max_degree)
+    refuse(
+        fmt::format("{}a spring law of degree {}, at most {}", place, law.coefficients.size(), max_degree));
+}
+
+void check_springs_along(const Patch& patch, int direction) {
+  const auto [dr, dc] = direction_offset[direction];
+  for (int row = 0; row < patch.rows; ++row) {
+    for (int column = 0; column < patch.columns; ++column) {
+      const int i = index_of(patch, row, column);
+      const double width = patch.width[direction][i], rest_length = patch.rest_length[direction][i];
+      if (width == 0) continue;
+      const bool outside =
+          row + dr >= patch.rows || (!patch.periodic && (column + dc < 0 || column + dc >= patch.columns));
+      if (!(width > 0) || !(rest_length > 0) || outside)
+        refuse(fmt::format("patch {}, row {}, column {}: spring {} has width {} m, rest length {} m{}",
+                           patch.name, row, column, direction, width, rest_length,
+                           outside ? " and leaves the patch" : ""));
     }
   }
-  const auto node_exists = [&](int node) { return node >= 0 && node < count; };
-  for (const Spring& s : mesh.springs) {
-    if (!node_exists(s.a) || !node_exists(s.b) || s.a == s.b || !(s.rest_length > 0) || !(s.scale >= 0) ||
-        s.law < 0 || s.law >= static_cast<int>(mesh.laws.size()))
-      refuse(fmt::format("spring {} - {} has rest length {} m, scale {}, law {}", s.a, s.b, s.rest_length,
-                         s.scale, s.law));
+}
+
+void check_patch(const Patch& patch, int node_count) {
+  const auto cells = static_cast<std::size_t>(patch.rows) * patch.columns;
+  if (patch.rows < 1 || patch.columns < (patch.periodic ? 3 : 1))
+    refuse(fmt::format("patch {} has {} rows and {} columns", patch.name, patch.rows, patch.columns));
+  if (patch.first_node < 0 || patch.first_node + static_cast<int>(cells) > node_count)
+    refuse(fmt::format("patch {} reaches beyond the last node", patch.name));
+  if (patch.cell_area.size() < cells - patch.columns)
+    refuse(fmt::format("patch {} has {} cell areas, needs {}", patch.name, patch.cell_area.size(),
+                       cells - patch.columns));
+  for (int d = 0; d < direction_count; ++d) {
+    if (patch.width[d].size() != cells || patch.rest_length[d].size() != cells)
+      refuse(fmt::format("patch {}: widths and rest lengths must be rows x columns", patch.name));
+    check_law(patch.law[d], fmt::format("patch {}: ", patch.name));
+    check_springs_along(patch, d);
   }
-  for (const SpringLaw& law : mesh.laws)
-    if (static_cast<int>(law.coefficients.size()) > max_degree)
-      refuse(fmt::format("a spring law of degree {}, at most {}", law.coefficients.size(), max_degree));
+}
+
+void check_ties(const Mesh& mesh) {
+  const int count = mesh.node_count();
+  const auto node_exists = [&](int node) { return node >= 0 && node < count; };
   std::vector<char> tied(count, 0);
   for (const Tie& tie : mesh.ties) {
     if (!node_exists(tie.node) || tied[tie.node]) refuse(fmt::format("node {} is tied twice", tie.node));
@@ -85,6 +90,21 @@ void check(const Mesh& mesh) {
   }
   for (int node : mesh.fixed)
     if (!node_exists(node) || tied[node]) refuse(fmt::format("fixed node {} is tied or absent", node));
+}
+
+void check(const Mesh& mesh) {
+  check_nodes(mesh);
+  const int count = mesh.node_count();
+  for (const Patch& patch : mesh.patches) check_patch(patch, count);
+  const auto node_exists = [&](int node) { return node >= 0 && node < count; };
+  for (const Spring& s : mesh.springs) {
+    if (!node_exists(s.a) || !node_exists(s.b) || s.a == s.b || !(s.rest_length > 0) || !(s.scale >= 0) ||
+        s.law < 0 || s.law >= static_cast<int>(mesh.laws.size()))
+      refuse(fmt::format("spring {} - {} has rest length {} m, scale {}, law {}", s.a, s.b, s.rest_length,
+                         s.scale, s.law));
+  }
+  for (const SpringLaw& law : mesh.laws) check_law(law, "");
+  check_ties(mesh);
 }
 
 FamilyLaw compile_law(const SpringLaw& law) {
@@ -243,7 +263,8 @@ void lay_out_springs(Cloth& cloth) {
   }
 }
 
-void keep_nodes(Cloth& cloth) {
+/// Nodes that something besides the lattice acts on; the index of each in the list, -1 for all others.
+std::vector<int> keep_nodes(Cloth& cloth) {
   const Mesh& mesh = cloth.mesh;
   std::vector<char> special(mesh.node_count(), 1);
   for (const Patch& patch : mesh.patches)
@@ -259,9 +280,13 @@ void keep_nodes(Cloth& cloth) {
   std::sort(cloth.kept.begin(), cloth.kept.end(), [](auto& a, auto& b) { return a.slot < b.slot; });
   std::vector<int> kept_index(mesh.node_count(), -1);
   for (std::size_t k = 0; k < cloth.kept.size(); ++k) kept_index[cloth.kept[k].node] = static_cast<int>(k);
+  return kept_index;
+}
 
-  // What is added to the lattice's force on every node: its springs, in the mesh's order, then its tied nodes
-  // with their springs.
+// What is added to the lattice's force on every kept node: its springs, in the mesh's order, then its tied
+// nodes with their springs.
+void share_spring_forces(Cloth& cloth, const std::vector<int>& kept_index) {
+  const Mesh& mesh = cloth.mesh;
   const int kept_count = static_cast<int>(cloth.kept.size());
   cloth.first_spring_force = (kept_count + lanes - 1) / lanes * lanes;
   std::vector<std::vector<Cloth::Share>> own(kept_count);
@@ -287,26 +312,29 @@ void keep_nodes(Cloth& cloth) {
       cloth.shares.insert(cloth.shares.end(), all[k].begin(), all[k].end());
     cloth.kept[k].end_share = static_cast<int>(cloth.shares.size());
   }
-  for (const Tie& tie : mesh.ties) {
+}
+
+void follow_masters(Cloth& cloth) {
+  for (const Tie& tie : cloth.mesh.ties) {
     const int first = static_cast<int>(cloth.masters.size());
     for (const auto& master : tie.masters) cloth.masters.push_back({cloth.slot[master.node], master.weight});
     cloth.followers.push_back({cloth.slot[tie.node], first, static_cast<int>(cloth.masters.size())});
   }
   std::sort(cloth.followers.begin(), cloth.followers.end(), [](auto& a, auto& b) { return a.slot < b.slot; });
+}
 
-  const auto edges = [&](const auto& list) {
-    std::vector<int> edge(cloth.row_count + 1, 0);
-    std::size_t i = 0;
-    for (int row = 0; row < cloth.row_count; ++row) {
-      edge[row] = static_cast<int>(i);
-      const int end = cloth.row_slot(row) + cloth.patches[cloth.row_patch[row]].row_slots();
-      while (i < list.size() && list[i].slot < end) ++i;
-    }
-    edge[cloth.row_count] = static_cast<int>(i);
-    return edge;
-  };
-  cloth.kept_of_row = edges(cloth.kept);
-  cloth.followers_of_row = edges(cloth.followers);
+/// Where each row's part of a list in the order of slots begins.
+template <class List>
+std::vector<int> edges_of_rows(const Cloth& cloth, const List& list) {
+  std::vector<int> edge(cloth.row_count + 1, 0);
+  std::size_t i = 0;
+  for (int row = 0; row < cloth.row_count; ++row) {
+    edge[row] = static_cast<int>(i);
+    const int end = cloth.row_slot(row) + cloth.patches[cloth.row_patch[row]].row_slots();
+    while (i < list.size() && list[i].slot < end) ++i;
+  }
+  edge[cloth.row_count] = static_cast<int>(i);
+  return edge;
 }
 
 }  // namespace
@@ -334,7 +362,10 @@ ClothPtr make_cloth(const Mesh& mesh, const ClothOptions& options) {
   fill_lattice(*cloth);
   fill_damper_shares(*cloth);
   lay_out_springs(*cloth);
-  keep_nodes(*cloth);
+  share_spring_forces(*cloth, keep_nodes(*cloth));
+  follow_masters(*cloth);
+  cloth->kept_of_row = edges_of_rows(*cloth, cloth->kept);
+  cloth->followers_of_row = edges_of_rows(*cloth, cloth->followers);
   return cloth;
 }
 

@@ -20,7 +20,7 @@
 
 #include "ripstop/cloth/bound.h"
 #include "ripstop/cloth/pivot.h"
-#include "ripstop/cloth/sweep.h"
+#include "ripstop/cloth/stepper.h"
 #include "ripstop/core/error.h"
 
 namespace ripstop {
@@ -36,8 +36,8 @@ int steps_a_refresh(const RelaxResult& result) {
   return result.residual > 1 ? steps_a_look : 400;
 }
 
-Sweep::Fictitious fictitious_masses(const Cloth& cloth, const ClothState& state) {
-  Sweep::Fictitious masses{node_stiffness(cloth, state).stiffness};
+Stepper::Fictitious fictitious_masses(const Cloth& cloth, const ClothState& state) {
+  Stepper::Fictitious masses{node_stiffness(cloth, state).stiffness};
   // A node without any stiffness (a hole in the cloth) rests where it is.
   for (double& mass : masses.mass) mass *= 0.5 * margin;
   for (int node : cloth.mesh.fixed) masses.mass[node] = 0;
@@ -54,15 +54,27 @@ double fictitious_energy(const Cloth& cloth, const ClothState& state, const std:
   return sum;
 }
 
+void undo_last_move(ClothState& state, const Cloth& cloth) {
+  for (std::size_t i = 0; i < state.x.size(); ++i) state.x[i] -= state.v[i];
+  follow(cloth, state.x.data(), 0, cloth.row_count, true);
+  mirror(cloth, state.x.data(), 0, cloth.row_count);
+}
+
+double mean_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+  double sum = 0;
+  for (std::size_t node = 0; node < a.size(); ++node) sum += norm(a[node] - b[node]);
+  return sum / static_cast<double>(a.size());
+}
+
 }  // namespace
 
 RelaxResult relax(ClothState& state, const Cloth& cloth, const Loads& loads, const RelaxOptions& options,
                   ThreadTeam& team, const std::function<void(const RelaxProgress&)>& report) {
   const std::vector<Vec3> start = positions(state, cloth);
   std::fill(state.v.begin(), state.v.end(), 0.0);
-  Sweep::Fictitious masses = fictitious_masses(cloth, state);
-  Sweep sweep(cloth, loads, state, masses, team.size());
-  for (int rank = 0; rank < team.size(); ++rank) sweep.stop(rank);
+  Stepper::Fictitious masses = fictitious_masses(cloth, state);
+  Stepper stepper(cloth, loads, state, masses, team.size());
+  for (int rank = 0; rank < team.size(); ++rank) stepper.stop(rank);
   RelaxResult result;
   const std::optional<Vec3> pivot = pivot_of(cloth, state);
   int since_refresh = 0;
@@ -71,7 +83,7 @@ RelaxResult relax(ClothState& state, const Cloth& cloth, const Loads& loads, con
     if (pivot) {
       std::vector<Vec3> force = loads.node_force;
       cancel_moment(cloth, state, applied.moment, *pivot, force);
-      sweep.set_node_force(force);
+      stepper.set_node_force(force);
       result.unbalanced_moment = norm(applied.moment);
     }
     const double scale = std::max(applied.norm, options.least_load);
@@ -80,15 +92,15 @@ RelaxResult relax(ClothState& state, const Cloth& cloth, const Loads& loads, con
     int done = 0;
     team.run([&](int rank) {
       for (int i = 0; i < count; ++i) {
-        sweep.add_forces(rank);
+        stepper.add_forces(rank);
         team.barrier();
-        sweep.move_kept(rank);
+        stepper.move_kept(rank);
         team.barrier();
-        const RowSums sums = sweep.sums();
+        const RowSums sums = stepper.sums();
         const double residual = std::sqrt(sums.force_squared) / scale;
         const bool ends = residual <= options.tolerance;
-        if (sums.power < 0 && !ends) sweep.stop(rank);
-        sweep.follow_masters(rank);
+        if (sums.power < 0 && !ends) stepper.stop(rank);
+        stepper.follow_masters(rank);
         if (rank == 0) {
           ++done;
           result.residual = residual;
@@ -106,20 +118,12 @@ RelaxResult relax(ClothState& state, const Cloth& cloth, const Loads& loads, con
     if (since_refresh >= refresh_after && !result.converged) {
       since_refresh = 0;
       masses = fictitious_masses(cloth, state);
-      sweep.set_masses(masses);
+      stepper.set_masses(masses);
     }
   }
-  // The residual is that of the positions before the last move: go back there.
-  if (result.converged) {
-    for (std::size_t i = 0; i < state.x.size(); ++i) state.x[i] -= state.v[i];
-    follow(cloth, state.x.data(), 0, cloth.row_count, true);
-    mirror(cloth, state.x.data(), 0, cloth.row_count);
-  }
+  if (result.converged) undo_last_move(state, cloth);  // the residual is that of the positions before it
   std::fill(state.v.begin(), state.v.end(), 0.0);
-  const std::vector<Vec3> end = positions(state, cloth);
-  for (std::size_t node = 0; node < end.size(); ++node)
-    result.mean_displacement += norm(end[node] - start[node]);
-  result.mean_displacement /= static_cast<double>(end.size());
+  result.mean_displacement = mean_distance(positions(state, cloth), start);
   return result;
 }
 

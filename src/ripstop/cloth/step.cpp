@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "ripstop/cloth/bound.h"
-#include "ripstop/cloth/sweep.h"
+#include "ripstop/cloth/stepper.h"
 #include "ripstop/core/error.h"
 
 namespace ripstop {
@@ -38,12 +38,12 @@ void check_step(const Cloth& cloth, const ClothState& state, double dt) {
 void step(ClothState& state, const Cloth& cloth, const Loads& loads, double dt, int count, ThreadTeam& team,
           StepRecord* record) {
   if (!(dt > 0)) throw Error(ExitCode::usage, fmt::format("the time step {} s must be positive", dt));
-  Sweep sweep(cloth, loads, state, dt, team.size());
+  Stepper stepper(cloth, loads, state, dt, team.size());
   if (record) {
     record->fixed_force.clear();
     record->fixed_force.reserve(count);
     record->peak_tension.resize(cloth.mesh.springs.size(), 0.0);
-    sweep.start_record(*record);
+    stepper.start_record(*record);
   }
   const int all = count;
   int done = 0;
@@ -53,16 +53,16 @@ void step(ClothState& state, const Cloth& cloth, const Loads& loads, double dt, 
     const int now = static_cast<int>(std::min<long long>(count, steps_between_checks - since));
     team.run([&](int rank) {
       for (int i = 0; i < now; ++i) {
-        sweep.add_forces(rank);
+        stepper.add_forces(rank);
         team.barrier();
-        sweep.move_kept(rank);
+        stepper.move_kept(rank);
         team.barrier();
-        sweep.follow_masters(rank);
+        stepper.follow_masters(rank);
         team.barrier();
         if (!record || ((done + i + 1) % steps_between_looks != 0 && done + i + 1 != all)) continue;
-        sweep.add_pressure_work(rank);
+        stepper.add_pressure_work(rank);
         team.barrier();
-        sweep.remember_positions(rank);
+        stepper.remember_positions(rank);
       }
     });
     done += now;
@@ -71,7 +71,7 @@ void step(ClothState& state, const Cloth& cloth, const Loads& loads, double dt, 
     count -= now;
     check_health(cloth, state);
   }
-  if (record) sweep.finish_record();
+  if (record) stepper.finish_record();
 }
 
 }  // namespace ripstop

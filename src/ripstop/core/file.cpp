@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <cerrno>
+#include <cstdlib>
 #include <system_error>
 #include <utility>
 
@@ -126,6 +127,17 @@ void append_to_file(const std::filesystem::path& path, std::string_view bytes) {
   if (reason == 0 && ::fdatasync(fd.get()) != 0) reason = errno;
   if (!fd.close() && reason == 0) reason = errno;
   if (reason != 0) fail("append to", path, reason);
+}
+
+TemporaryFolder::TemporaryFolder(const std::string& name) {
+  std::string pattern = (std::filesystem::temp_directory_path() / ("ripstop-" + name + "-XXXXXX")).string();
+  if (!::mkdtemp(pattern.data())) fail("create folder", pattern, errno);
+  path = pattern;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path, ignored);
 }
 
 }  // namespace ripstop

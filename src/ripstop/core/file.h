@@ -22,4 +22,15 @@ void make_folder(const std::filesystem::path& folder);
 /// kill may leave a part of them: for formats that can drop a broken tail. Throws Error(io).
 void append_to_file(const std::filesystem::path& path, std::string_view bytes);
 
+/// A new folder where the system keeps such, removed with all that is in it.
+struct TemporaryFolder {
+  std::filesystem::path path;
+
+  /// Throws Error(io).
+  explicit TemporaryFolder(const std::string& name);
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+};
+
 }  // namespace ripstop

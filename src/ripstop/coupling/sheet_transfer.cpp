@@ -119,7 +119,7 @@ std::vector<double> pressures(const std::vector<Sample>& samples, const FlowGrid
     if (!(area > 0)) continue;
     const Vec3 h = grid.spacing(cloth.centre[c]);
     // Cloth that no face stands for, at a seam or fold smaller than the cells, takes what is nearest.
-    double radius = (getenv("REACH") ? atof(getenv("REACH")) : reach) * std::max({h.x, h.y, h.z});
+    double radius = reach * std::max({h.x, h.y, h.z});
     const double farthest = norm(grid.size);
     while (!plane_through(samples, cloth.centre[c], cloth.area[c] / area, radius, result[c]) &&
            radius < farthest) {

@@ -5,7 +5,7 @@
 
 #include "ripstop/core/vec3.h"
 #include "ripstop/flow/flow.h"
-#include "ripstop/parachute/mesh.h"
+#include "ripstop/mesh/mesh.h"
 
 namespace ripstop {
 

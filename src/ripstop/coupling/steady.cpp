@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "ripstop/core/error.h"
+#include "ripstop/flow/steady.h"
 
 namespace ripstop {
 namespace {
@@ -15,7 +16,6 @@ namespace {
 // The drag has settled when it moved by less than this within one piece of the flow's solution: half the
 // default tolerance on the drag's change from one coupling iteration to the next.
 constexpr double settled = 5e-4;
-constexpr int piece = 25;  // SIMPLE iterations
 // Largest relative gap between fluid force, nodal load and line tension at convergence; and, where the flow
 // is a mean over iterations that did not converge, to the momentum that the box loses: a wake that still
 // grows keeps some of it.
@@ -29,10 +29,6 @@ double largest_coefficient(const Mesh& mesh) {
     }
   }
   return largest;
-}
-
-double largest_residual(const FlowProgress& p) {
-  return std::max({p.residual_u, p.residual_p, p.residual_k, p.residual_omega, p.residual_e});
 }
 
 bool within(double a, double b, double tolerance) {
@@ -49,7 +45,7 @@ std::vector<double> joined(const ClothLoad& load) {
 }  // namespace
 
 SteadySolver::SteadySolver(SteadyProblem problem, FlowEngine& engine)
-    : problem_(std::move(problem)), engine_(engine), team_(problem_.settings.threads) {
+    : problem_(std::move(problem)), flow_(engine.start(problem_.flow)), team_(problem_.settings.threads) {
   ClothOptions options;
   options.linear = problem_.settings.linear;
   cloth_ = make_cloth(problem_.mesh, options);
@@ -94,34 +90,15 @@ bool SteadySolver::finished(const SteadyState& state) const {
   return state.converged || static_cast<int>(state.iterations.size()) >= problem_.settings.max_iterations;
 }
 
-FlowField SteadySolver::solve_flow(const std::vector<Triangle>& surface, const std::vector<int>& cut,
-                                   bool to_the_end, int iteration, const SteadyReport& report) {
-  FlowProblem flow = problem_.flow;
-  for (Sheet& sheet : flow.sheets) sheet.surface = surface;
-  for (PorousCells& porous : flow.porous) porous.cells = cut;
-  int done = 0;
-  std::vector<double> drag;
-  const auto follow = [&](FlowProgress progress) {
-    drag.push_back(progress.drag);
-    progress.iteration += done;
+FlowField SteadySolver::solve_flow(const std::vector<Triangle>& surface, bool to_the_end, int iteration,
+                                   const SteadyReport& report) {
+  Stopping stopping = problem_.flow.stopping;
+  if (!to_the_end) stopping.settled_drag = settled;
+  flow_->place(surface);
+  return solve_to_rest(*flow_, stopping, [&](const FlowProgress& progress) {
     if (report) report({SteadyStage::flow, iteration, {}, progress});
     return true;
-  };
-  if (to_the_end) return engine_.solve(flow, follow);
-  // In pieces of a fixed length, so that a run that was killed repeats the very same iterations; the last one
-  // is what a flow that does not settle is averaged over.
-  while (true) {
-    const int left = problem_.flow.max_iterations - done, before = left - problem_.flow.average_over;
-    flow.max_iterations = before > 0 ? std::min(piece, before) : left;
-    flow.average_over = before > 0 ? 0 : problem_.flow.average_over;
-    drag.clear();
-    FlowField field = engine_.solve(flow, follow);
-    done += field.last.iteration;
-    field.last.iteration = done;
-    const auto [low, high] = std::minmax_element(drag.begin(), drag.end());
-    const bool has_settled = !drag.empty() && *high - *low < settled * std::abs(drag.back());
-    if (field.converged || has_settled || done >= problem_.flow.max_iterations) return field;
-  }
+  });
 }
 
 // The flow's answer as a load on the cloth. A sheet leaves the pressure on either side clean up to the cloth.
@@ -197,7 +174,7 @@ FlowField SteadySolver::iterate(SteadyState& state, const SteadyReport& report) 
   const bool nearly_there = !state.iterations.empty() &&
                             state.iterations.back().drag_change < settings.drag_tolerance &&
                             now.shape_change < settings.shape_tolerance_m;
-  FlowField field = solve_flow(surface, cut, nearly_there, now.iteration, report);
+  FlowField field = solve_flow(surface, nearly_there, now.iteration, report);
   now.cut_cells = static_cast<int>(cut.size());
   now.flow_iterations = field.last.iteration;
   now.flow_residual = largest_residual(field.last);

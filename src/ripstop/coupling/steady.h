@@ -3,41 +3,21 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "ripstop/cloth/cloth.h"
+#include "ripstop/core/members.h"
 #include "ripstop/coupling/acceleration.h"
+#include "ripstop/coupling/iteration.h"
 #include "ripstop/coupling/settings.h"
 #include "ripstop/coupling/sheet_transfer.h"
 #include "ripstop/coupling/transfer.h"
 #include "ripstop/flow/flow.h"
+#include "ripstop/parachute/canopy_mesh.h"
 
 namespace ripstop {
-
-/// What one coupling iteration says of itself. Forces are axial, along +z [N].
-struct SteadyIteration {
-  int iteration = 0;             // from 1
-  double fluid_force = 0;        // of the fluid on the porous cells: the drag
-  double nodal_load = 0;         // sum of the pressure loads on the cloth's nodes
-  double line_tension = 0;       // of the cloth on its fixed end
-  double momentum_deficit = 0;   // through the faces of the flow's box
-  double transfer_factor = 0;    // fluid force over that of the pressures alone, as they came to the cloth
-  double load_remainder = 0;     // remainder_share() of the load; 0 but for CanopyLoad::of_flow
-  double drag_change = 0;        // relative to the iteration before; infinite at the first
-  double shape_change = 0;       // e_k = mean |x^{k+1} - x^k| [m], [NFM] Eq. 18
-  double omega = 0;              // |X_{k+1} - X_k| / |X_k|, [NFM] Eq. 19
-  double printed_tolerance = 0;  // R dx^2 / (S0 K_max), what Eq. 19 asks of omega
-  int cloth_steps = 0;
-  double cloth_residual = 0;
-  int flow_iterations = 0;
-  double flow_residual = 0;     // largest of all equations
-  bool flow_converged = false;  // to FlowProblem::residual
-  int flow_averaged = 0;        // iterations of a flow that did not settle, whose mean stands; 0: none
-  double drag_deviation = 0;    // standard deviation of the drag over them [N]
-  int cut_cells = 0;
-  double wall_time = 0;  // [s]
-};
 
 /// Everything that the next iteration depends on beside the flow engine's own memory: what a checkpoint
 /// holds.
@@ -52,8 +32,27 @@ struct SteadyState {
   bool converged = false;
 };
 
+template <Of<SteadyState> T, class Visit>
+void each_member(T& s, Visit&& visit) {
+  visit("iterations", s.iterations);
+  visit("shape", s.shape);
+  visit("pressure", s.pressure);
+  visit("remainder", s.remainder.at_centre);
+  visit("remainder_twist", s.remainder.twist);
+  visit("inside", s.sides.inside);
+  visit("outside", s.sides.outside);
+  visit("applied", s.applied);
+  visit("update", s.accelerator.update);
+  visit("relaxation", s.accelerator.relaxation);
+  visit("memory", s.accelerator.memory);
+  visit("guesses", s.accelerator.guesses);
+  visit("residuals", s.accelerator.residuals);
+  visit("aitken_factor", s.accelerator.aitken_factor);
+  visit("converged", s.converged);
+}
+
 struct SteadyProblem {
-  Mesh mesh;         // start shape in the flow's frame
+  CanopyMesh mesh;   // start shape in the flow's frame
   FlowProblem flow;  // one PorousCells or one Sheet that has the resistance; where it is, is found here
   double reference_area = 0;  // S0 [m2]
   CouplingSettings settings;
@@ -70,10 +69,12 @@ struct SteadyProgress {
 using SteadyReport = std::function<void(const SteadyProgress&)>;
 
 /// A flow need not be solved to its last digit while the shape still moves: it is left as soon as the drag
-/// has settled, and once the coupling looks converged it is solved to FlowProblem::residual.
+/// has settled, and once the coupling looks converged it is solved to its residual. It goes on from iteration
+/// to iteration.
 class SteadySolver {
  public:
-  /// The engine must outlive the solver. Throws Error(usage) when the start shape does not fit into the box.
+  /// Starts the flow; the engine must outlive the solver. Throws Error(usage) when the start shape does not fit
+  /// into the box, and what FlowEngine::start() throws.
   SteadySolver(SteadyProblem problem, FlowEngine& engine);
 
   /// Uniform pressure of 1 q on the start shape.
@@ -84,8 +85,11 @@ class SteadySolver {
   FlowField iterate(SteadyState& state, const SteadyReport& report = {});
   bool finished(const SteadyState& state) const;
 
+  /// What a checkpoint saves and restores beside the state.
+  Flow& flow() { return *flow_; }
+  const Flow& flow() const { return *flow_; }
   const Cloth& cloth() const { return *cloth_; }
-  const Mesh& mesh() const { return problem_.mesh; }
+  const CanopyMesh& mesh() const { return problem_.mesh; }
   const std::vector<Cell>& cells() const { return cells_; }
   /// The cloth's state at `state.shape`, at rest.
   ClothState cloth_state(const SteadyState& state) const;
@@ -94,11 +98,11 @@ class SteadySolver {
   ClothLoad answer_of(const FlowField& field, const std::vector<Triangle>& surface,
                       const std::vector<int>& cut, const std::vector<Vec3>& shape, SteadyState& state,
                       SteadyIteration& now) const;
-  FlowField solve_flow(const std::vector<Triangle>& surface, const std::vector<int>& cut, bool to_the_end,
-                       int iteration, const SteadyReport& report);
+  FlowField solve_flow(const std::vector<Triangle>& surface, bool to_the_end, int iteration,
+                       const SteadyReport& report);
 
   SteadyProblem problem_;
-  FlowEngine& engine_;
+  std::unique_ptr<Flow> flow_;
   ClothPtr cloth_;
   std::vector<Cell> cells_;
   std::vector<double> area_;  // of the cells as cut [m2]

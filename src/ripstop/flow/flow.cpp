@@ -61,6 +61,10 @@ Interval touched(double low, double high, const std::vector<double>& edges) {
 
 }  // namespace
 
+double largest_residual(const FlowProgress& p) {
+  return std::max({p.residual_u, p.residual_p, p.residual_k, p.residual_omega, p.residual_e});
+}
+
 double sample(const FlowGrid& grid, const std::vector<double>& field, Vec3 point) {
   return trilinear(grid, field, point);
 }

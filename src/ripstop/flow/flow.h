@@ -1,8 +1,10 @@
-// What a flow engine is: a box of air, porous cells in it, one steady field out. Cloth is not known here.
+// The air: a box of cells with cloth in it, as a problem, and a flow that goes on from where it is. Cloth is
+// not known here but for its surface and its resistance.
 #pragma once
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -23,6 +25,12 @@ struct Freestream {
   bool operator==(const Freestream&) const = default;
 };
 
+inline constexpr double gas_constant_of_air = 8314.47 / 28.9647;  // R [J/(kg K)]
+
+struct Triangle {
+  Vec3 a, b, c;
+};
+
 /// Cells with the isotropic resistance -(mu d + rho |u| f / 2) u per volume (`paper` model, method section
 /// 4).
 struct PorousCells {
@@ -31,16 +39,13 @@ struct PorousCells {
   double forchheimer = 0;  // f [1/m]
 };
 
-struct Triangle {
-  Vec3 a, b, c;
-};
-
-/// Cloth as a surface without thickness, across which the pressure drops by a v + b v |v| with v the velocity
-/// along its normal ([NFM] Eq. 15; `sheet` model, method section 4).
+/// Cloth as a surface without thickness, across which the pressure drops by a v + b v |v| with v the air's
+/// velocity along its normal, relative to the cloth ([NFM] Eq. 15; `sheet` model, method section 4).
 struct Sheet {
   std::vector<Triangle> surface;
-  double linear = 0;     // a [Pa s/m]
-  double quadratic = 0;  // b [Pa s2/m2]
+  double linear = 0;                // a [Pa s/m]
+  double quadratic = 0;             // b [Pa s2/m2]
+  std::vector<Vec3> velocity = {};  // of each triangle [m/s]; empty: at rest
 };
 
 /// What the air does to a sheet at one face of the grid.
@@ -55,32 +60,44 @@ struct SheetLoad {
 
 /// The four sides of the box. Slip: walls without friction. Zero gradient: nothing changes across them, air
 /// goes in and out as it does just inside. Entraining: the outlet's pressure where air leaves; where it comes
-/// in, air of the stream at the stream's total pressure (built-in engine only).
+/// in, air of the stream at the stream's total pressure.
 enum class Sides { zero_gradient, slip, entraining };
+
+/// The end of the box. Fixed pressure: it is held, and air that comes back has no momentum. Still air: what
+/// comes back has the total pressure of air at rest, so that a wake that sucks cannot draw it in ever faster.
+enum class Outlet { fixed_pressure, still_air };
+
+/// When a flow counts as solved.
+struct Stopping {
+  double residual = 1e-5;  // on every equation
+  int max_iterations = 1000;
+  /// Unconverged after max_iterations, the mean over the last so many of them stands; 0: the last iteration.
+  int average_over = 0;
+  /// Enough, too, once the drag moved by less than this share of itself within `piece` iterations; 0: never.
+  double settled_drag = 0;
+  static constexpr int piece = 25;
+};
 
 struct FlowProblem {
   FlowGrid grid;
   Freestream air;
+  Sides sides = Sides::zero_gradient;
+  Outlet outlet = Outlet::fixed_pressure;
   std::vector<PorousCells> porous;  // one entry a cloth
   std::vector<Sheet> sheets;        // the same for the `sheet` model
-  Sides sides = Sides::zero_gradient;
-  std::vector<Vec3> body_force;  // on the air of each cell [N/m3]; empty: none (built-in engine only)
-  double residual = 1e-5;        // on every equation
-  int max_iterations = 1000;
-  /// A run that ends unconverged after max_iterations returns the mean over its last so many iterations;
-  /// 0: the last iteration (built-in engine only).
-  int average_over = 0;
+  std::vector<Vec3> body_force;     // on the air of each cell [N/m3]; empty: none
+  Stopping stopping;
 };
 
-/// One SIMPLE iteration as it comes; return false from the callback to stop early (the field counts as
-/// unconverged).
+/// One iteration as it comes; return false from the callback to stop early (the field counts as unconverged).
 struct FlowProgress {
   int iteration = 0;
   double residual_u = 0, residual_p = 0, residual_k = 0, residual_omega = 0,
          residual_e = 0;  // u: largest of three
-  double drag = 0;        // axial force on the porous cells so far [N]
+  double drag = 0;        // axial force on the porous cells and sheets so far [N]
 };
 using FlowReport = std::function<bool(const FlowProgress&)>;
+double largest_residual(const FlowProgress& progress);
 
 /// Over the last iterations of a run that does not settle. Iterations are not time: the mean is that of the
 /// iteration's limit cycle, and the deviation says how large the cycle is.
@@ -103,15 +120,51 @@ struct FlowField {
   FlowAverage average;  // where it has iterations, the fields and forces above are means over them
 };
 
-/// An engine keeps its last field as the start of the next solve (warm start).
+/// How far Flow::advance() came.
+struct FlowAdvance {
+  FlowProgress last;  // its iteration counts from 1 within the call
+  bool converged = false;
+  bool stopped = false;  // the report wanted no more
+};
+
+/// A flow under way. It goes on from where it is, whatever was asked of it before.
+class Flow {
+ public:
+  virtual ~Flow() = default;
+
+  /// The cloth lies here now: every sheet and every porous zone of the problem takes this surface, and sheets
+  /// the velocity of its triangles (empty: at rest). The air goes on from where it is.
+  virtual void place(const std::vector<Triangle>& surface, const std::vector<Vec3>& velocity = {}) = 0;
+  /// At most so many iterations; fewer when every residual falls below `residual` or the report stops it.
+  /// Throws Error(diverged) with iteration, field and place, Error(external) where a child program fails.
+  virtual FlowAdvance advance(int iterations, double residual, const FlowReport& report = {}) = 0;
+  /// The last iteration's.
+  virtual FlowField field() const = 0;
+
+  /// Whether nothing has happened yet: the uniform stream as the problem has it.
+  virtual bool untouched() const = 0;
+  /// A first field that is cheaper than iterations from the stream, where the engine knows one. Only for a
+  /// flow that is untouched.
+  virtual void guess() {}
+  /// Back to the uniform stream, the cloth where it is.
+  virtual void start_afresh() = 0;
+
+  /// All that the next iteration depends on: a flow that is restored goes on as if it had never stopped, to
+  /// the last bit. Throws Error(io).
+  virtual void save(const std::filesystem::path& folder) const = 0;
+  /// Of a problem with the same box, sides and outlet. Where the saved flow is of other air and the engine
+  /// can, it is scaled to this problem's; else Error(usage). Error(bad_data) or Error(io) for what save() did
+  /// not write.
+  virtual void restore(const std::filesystem::path& folder) = 0;
+};
+
 class FlowEngine {
  public:
   virtual ~FlowEngine() = default;
   virtual std::string name() const = 0;  // "OpenFOAM 1912 (rhoPorousSimpleFoam)"
-  virtual FlowField solve(const FlowProblem& problem, const FlowReport& report) = 0;
-  /// Writes what a later process needs for a byte-identical warm start; restore() reads it. Throws Error(io).
-  virtual void save(const std::filesystem::path& folder) const = 0;
-  virtual void restore(const std::filesystem::path& folder) = 0;
+  /// Throws Error(usage) or Error(bad_data) for a problem that no flow can have, or not this engine's. The
+  /// engine must outlive its flows.
+  virtual std::unique_ptr<Flow> start(const FlowProblem& problem) = 0;
 };
 
 /// Trilinear interpolation between cell centres, constant beyond the outermost ones.

@@ -36,7 +36,7 @@ std::vector<int> pieces_of_cloth(const Mesh& mesh) {
 
 // The canopy without what holds it: free lines and riser.
 // All its springs are equally stiff, so that none is spared at the cost of another.
-Mesh canopy_of(const Mesh& mesh, const FoldedStart& folded) {
+Mesh canopy_of(const CanopyMesh& mesh, const FoldedStart& folded) {
   Mesh canopy = with_creases(mesh, folded);
   const std::vector<int> piece = pieces_of_cloth(mesh);
   std::erase_if(canopy.springs, [&](const Spring& s) { return piece[s.a] < 0 || piece[s.b] < 0; });
@@ -50,8 +50,6 @@ Mesh canopy_of(const Mesh& mesh, const FoldedStart& folded) {
   }
   for (SpringLaw& law : canopy.laws) law = {{1.0}, law.compression};
   for (Spring& spring : canopy.springs) spring.scale = spring.rest_length;
-  canopy.lines.clear();
-  canopy.riser_springs.clear();
   return canopy;
 }
 
@@ -86,16 +84,17 @@ void make_symmetric(const Mesh& mesh, int symmetry, std::vector<Vec3>& x) {
 // The zigzag of gores without strain but for what its fold lines cannot keep.
 class GoreFolder {
  public:
-  GoreFolder(const Mesh& mesh, const Folding& folding, int symmetry, ThreadTeam& team)
+  GoreFolder(const CanopyMesh& mesh, const Folding& folding, int symmetry, ThreadTeam& team)
       : mesh_(mesh),
         folding_(folding),
-        folds_(folding.folds > 0 ? folding.folds : static_cast<int>(mesh.lines.size())),
+        folds_(folding.folds > 0 ? folding.folds : static_cast<int>(mesh.rigging.lines.size())),
         symmetry_(std::gcd(symmetry, folds_)),
         piece_(pieces_of_cloth(mesh)),
         team_(team) {}
 
   FoldedStart run() {
-    if (mesh_.lines.empty()) throw Error(ExitCode::bad_data, "a canopy without lines cannot be folded");
+    if (mesh_.rigging.lines.empty())
+      throw Error(ExitCode::bad_data, "a canopy without lines cannot be folded");
     check_folds(mesh_, folds_);
     double share = share_for(folding_.initial_radius);
     FoldedStart start = relaxed(share);
@@ -119,7 +118,7 @@ class GoreFolder {
   void hang_up(FoldedStart& start) const;
   void measure(FoldedStart& start) const;
 
-  const Mesh& mesh_;
+  const CanopyMesh& mesh_;
   Folding folding_;
   int folds_, symmetry_;
   std::vector<int> piece_;
@@ -210,7 +209,7 @@ void GoreFolder::hang_up(FoldedStart& start) const {
 
 }  // namespace
 
-FoldedStart folded_start(const Mesh& mesh, const Folding& folding, int symmetry, ThreadTeam& team) {
+FoldedStart folded_start(const CanopyMesh& mesh, const Folding& folding, int symmetry, ThreadTeam& team) {
   if (is_flat_sheet(mesh)) return fold_sheet(mesh, folding);
   if (folds_without_strain(mesh)) return fold(mesh, folding);
   return GoreFolder(mesh, folding, symmetry, team).run();

@@ -12,6 +12,6 @@ namespace ripstop {
 /// is strained by more than a part of ten thousand or little more is gained. `symmetry` is the number of
 /// turns that map the canopy as cut onto itself; the folded one keeps those that also map its folds. Throws
 /// as fold().
-FoldedStart folded_start(const Mesh& mesh, const Folding& folding, int symmetry, ThreadTeam& team);
+FoldedStart folded_start(const CanopyMesh& mesh, const Folding& folding, int symmetry, ThreadTeam& team);
 
 }  // namespace ripstop

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include "ripstop/core/error.h"
@@ -22,28 +21,7 @@ constexpr double share_over_two_cells = 2.0 / 3;
 // How often one block is tried with a smaller step before its divergence is the user's.
 constexpr int most_tries = 4;
 
-double asymmetry_of(const Mesh& mesh, const std::vector<Vec3>& x, int symmetry) {
-  const double turn = 2 * std::numbers::pi / symmetry, c = std::cos(turn), s = std::sin(turn);
-  double worst = 0;
-  for (const Patch& patch : mesh.patches) {
-    if (patch.columns % symmetry != 0) continue;
-    for (int row = 0; row < patch.rows; ++row) {
-      for (int column = 0; column < patch.columns; ++column) {
-        const Vec3 p = x[patch.node(row, column)];
-        const Vec3 q = x[patch.node(row, (column + patch.columns / symmetry) % patch.columns)];
-        worst = std::max(worst, norm(q - Vec3{c * p.x - s * p.y, s * p.x + c * p.y, p.z}));
-      }
-    }
-  }
-  return worst;
-}
-
 }  // namespace
-
-double InflationFrame::residual() const {
-  return pressure_work > 0 ? (pressure_work + elastic_at_start - kinetic - elastic - damped) / pressure_work
-                           : 0;
-}
 
 void damp_springs(Mesh& mesh, double line_time, double cloth_time) {
   for (Spring& spring : mesh.springs) {
@@ -196,12 +174,13 @@ InflationFrame Inflation::frame(InflationState& state) const {
   frame.damped = state.record.damped;
   frame.kinetic = kinetic_energy(*cloth_, state.cloth);
   frame.elastic = elastic_energy(*cloth_, state.cloth);
-  frame.elastic_at_start = elastic_at_start_;
+  const double left = frame.pressure_work + elastic_at_start_ - frame.kinetic - frame.elastic - frame.damped;
+  frame.residual = frame.pressure_work > 0 ? left / frame.pressure_work : 0;
   frame.step = state.step;
   frame.stable_step = step_bound(*cloth_, state.cloth).stable_step;
   frame.size = canopy_size(mesh_, x);
   frame.stress = stress_peak(mesh_, x, cell_stress(*cloth_, state.cloth));
-  frame.asymmetry = asymmetry_of(mesh_, x, std::gcd(problem_.symmetry, folded_.folds));
+  frame.asymmetry = asymmetry(mesh_, x, std::gcd(problem_.symmetry, folded_.folds));
   if (frame.stress.von_mises > state.highest_stress.von_mises) {
     state.highest_stress = frame.stress;
     state.highest_stress_time = frame.time;
@@ -210,15 +189,10 @@ InflationFrame Inflation::frame(InflationState& state) const {
 }
 
 std::vector<double> Inflation::peak_tension_of_lines(const InflationState& state) const {
-  std::vector<double> peaks;
-  for (const LineRun& line : mesh_.lines) {
-    double peak = 0;
-    for (const int spring : line.springs) {
-      if (!state.record.peak_tension.empty())
-        peak = std::max(peak, state.record.peak_tension[spring] / line.axial_share);
-    }
-    peaks.push_back(peak);
-  }
+  std::vector<double> peaks(mesh_.rigging.lines.size(), 0.0);
+  if (state.record.peak_tension.empty()) return peaks;
+  const std::vector<LineTension> tensions = line_tensions(mesh_, state.record.peak_tension);
+  for (std::size_t i = 0; i < peaks.size(); ++i) peaks[i] = tensions[i].largest_tension;
   return peaks;
 }
 

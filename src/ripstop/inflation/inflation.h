@@ -5,16 +5,17 @@
 #include <string>
 #include <vector>
 
+#include "ripstop/canopy/shape.h"
+#include "ripstop/canopy/stress.h"
 #include "ripstop/cloth/cloth.h"
-#include "ripstop/coupling/result.h"
+#include "ripstop/core/members.h"
 #include "ripstop/inflation/settings.h"
 #include "ripstop/parachute/fold.h"
-#include "ripstop/parachute/mesh.h"
 
 namespace ripstop {
 
 struct InflationProblem {
-  Mesh mesh;  // as cut; fold lines and line damping are applied by the solver
+  CanopyMesh mesh;  // as cut; fold lines and line damping are applied by the solver
   InflationSettings settings;
   double pressure = 0;  // dp [Pa]
   bool linear = false;  // keep only K_1 of every law
@@ -28,19 +29,43 @@ struct HistoryRow {
   double mean = 0, least = 0, largest = 0;  // over all its steps [N]
 };
 
+template <Of<HistoryRow> T, class Visit>
+void each_member(T& row, Visit&& visit) {
+  visit("time_s", row.time);
+  visit("load_mean_n", row.mean);
+  visit("load_least_n", row.least);
+  visit("load_largest_n", row.largest);
+}
+
 /// Now and then along the way.
 struct InflationFrame {
   double time = 0;                                                 // [s]
   double pressure_work = 0, kinetic = 0, elastic = 0, damped = 0;  // [J]
-  double elastic_at_start = 0;       // of an imperfection, or of a start that folds with some strain [J]
+  double residual = 0;               // share of the work that the other terms do not account for
   double step = 0, stable_step = 0;  // used, and allowed at the present strain [s]
   CanopySize size;
   StressPeak stress;
   double asymmetry = 0;  // largest distance of a node from where a turn by 2 pi / symmetry puts its like [m]
-
-  /// Share of the work that the other terms do not account for.
-  double residual() const;
 };
+
+template <Of<InflationFrame> T, class Visit>
+void each_member(T& frame, Visit&& visit) {
+  visit("time_s", frame.time);
+  visit("pressure_work_j", frame.pressure_work);
+  visit("kinetic_energy_j", frame.kinetic);
+  visit("elastic_energy_j", frame.elastic);
+  visit("damped_energy_j", frame.damped);
+  visit("residual", frame.residual);
+  visit("step_s", frame.step);
+  visit("stable_step_s", frame.stable_step);
+  visit("projected_diameter_m", frame.size.projected_diameter);
+  visit("projected_area_m2", frame.size.projected_area);
+  visit("skirt_diameter_m", frame.size.skirt_diameter);
+  visit("canopy_length_m", frame.size.length);
+  visit("max_von_mises_n_m", frame.stress.von_mises);
+  visit("max_cloth_strain", frame.stress.strain);
+  visit("asymmetry_m", frame.asymmetry);
+}
 
 /// A shape for the contact sheet.
 struct InflationShot {
@@ -48,6 +73,13 @@ struct InflationShot {
   std::vector<Vec3> positions;
   std::vector<double> von_mises;  // of every cell [N/m]
 };
+
+template <Of<InflationShot> T, class Visit>
+void each_member(T& shot, Visit&& visit) {
+  visit("time", shot.time);
+  visit("positions", shot.positions);
+  visit("von_mises", shot.von_mises);
+}
 
 /// All that a run needs to go on, to the last bit.
 struct InflationState {
@@ -63,6 +95,29 @@ struct InflationState {
   double highest_stress_time = 0;  // [s]
   std::vector<InflationShot> shots;
 };
+
+template <Of<InflationState> T, class Visit>
+void each_member(T& s, Visit&& visit) {
+  visit("x", s.cloth.x);
+  visit("v", s.cloth.v);
+  visit("time", s.cloth.time);
+  visit("steps", s.cloth.steps);
+  visit("peak_tension", s.record.peak_tension);
+  visit("pressure_work", s.record.pressure_work);
+  visit("damped", s.record.damped);
+  visit("step", s.step);
+  visit("blocks", s.blocks);
+  visit("peak_load", s.peak_load);
+  visit("peak_time", s.peak_time);
+  visit("impulse", s.impulse);
+  visit("step_changes", s.step_changes);
+  visit("von_mises", s.highest_stress.von_mises);
+  visit("strain", s.highest_stress.strain);
+  visit("place", s.highest_stress.place);
+  visit("patch", s.highest_stress.patch);
+  visit("stress_time", s.highest_stress_time);
+  visit("shots", s.shots);
+}
 
 class Inflation {
  public:
@@ -82,7 +137,7 @@ class Inflation {
   std::vector<HistoryRow> advance(InflationState& state);
   InflationFrame frame(InflationState& state) const;
 
-  const Mesh& mesh() const { return mesh_; }
+  const CanopyMesh& mesh() const { return mesh_; }
   const Cloth& cloth() const { return *cloth_; }
   const FoldedStart& folded() const { return folded_; }
   /// How much weaker the cloth's dampers are than `cloth_damping_s` says, so that they do not set the step.
@@ -98,14 +153,14 @@ class Inflation {
   std::vector<Vec3> with_imperfection() const;
 
   InflationProblem problem_;
-  Mesh mesh_;
+  CanopyMesh mesh_;
   FoldedStart folded_;
   ViscosityLimit viscosity_limit_;
   ClothPtr cloth_;
   ThreadTeam team_;
   int blocks_per_frame_ = 1, rows_per_block_ = 1;
   double row_ = 0;               // [s]
-  double elastic_at_start_ = 0;  // [J]
+  double elastic_at_start_ = 0;  // of an imperfection, or of a start that folds with some strain [J]
 };
 
 /// Lines, riser and tape get dampers C = `line_time` K_1 w / L0, the cloth's springs likewise with

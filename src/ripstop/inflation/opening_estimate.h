@@ -14,8 +14,7 @@ struct OpeningEstimate {
 };
 
 /// F_x = (C_D S) q C_x X_1 with X_1 = 1, infinite mass: the speed does not fall while the canopy opens, as in
-/// a wind tunnel. `steady_drag` = (C_D S) q [N]. C_x by canopy type from T. W. Knacke, Parachute Recovery
-/// Systems Design Manual, NWC TP 6575 (1991), Tables 5-1 and 5-2.
+/// a wind tunnel. `steady_drag` = (C_D S) q [N]. C_x is that of the canopy's family.
 OpeningEstimate opening_estimate(const Design& design, double steady_drag);
 
 }  // namespace ripstop

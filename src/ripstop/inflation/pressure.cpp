@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "ripstop/canopy/shape.h"
 #include "ripstop/cloth/cloth.h"
 #include "ripstop/core/error.h"
 
@@ -52,17 +53,11 @@ UniformPressure load_under(double pressure, const Mesh& mesh, bool linear, Threa
   return Equilibrium(mesh, linear, team).under(pressure);
 }
 
-UniformPressure pressure_for(double load, const Mesh& mesh, bool linear, ThreadTeam& team) {
+UniformPressure pressure_for(double load, const CanopyMesh& mesh, bool linear, ThreadTeam& team) {
   if (!(load > 0))
     throw Error(ExitCode::bad_data, fmt::format("a steady drag of {} N opens no canopy", load));
-  double outline = 0;  // of the skirt in the start shape: a first guess of the area [m2]
-  const std::size_t n = mesh.skirt_nodes.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const Vec3 a = mesh.start[mesh.skirt_nodes[i]], b = mesh.start[mesh.skirt_nodes[(i + 1) % n]];
-    outline += 0.5 * (a.x * b.y - a.y * b.x);
-  }
   Equilibrium equilibrium(mesh, linear, team);
-  UniformPressure answer = equilibrium.under(load / std::abs(outline));
+  UniformPressure answer = equilibrium.under(load / skirt_area(mesh, mesh.start));  // a first guess
   while (std::abs(answer.load / load - 1) > load_tolerance) {
     if (answer.relaxations == most_relaxations) {
       throw Error(ExitCode::not_converged,

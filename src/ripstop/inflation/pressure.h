@@ -2,7 +2,7 @@
 #pragma once
 
 #include "ripstop/core/thread_team.h"
-#include "ripstop/parachute/mesh.h"
+#include "ripstop/parachute/canopy_mesh.h"
 
 namespace ripstop {
 
@@ -18,6 +18,6 @@ UniformPressure load_under(double pressure, const Mesh& mesh, bool linear, Threa
 
 /// The dp with which the equilibrium carries `load` [N] within 0.1 %: dp = load / A(dp), [NFM] as mended. The
 /// shape hardly depends on dp, so two or three equilibria do. Throws Error(not_converged).
-UniformPressure pressure_for(double load, const Mesh& mesh, bool linear, ThreadTeam& team);
+UniformPressure pressure_for(double load, const CanopyMesh& mesh, bool linear, ThreadTeam& team);
 
 }  // namespace ripstop

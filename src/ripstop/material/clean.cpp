@@ -136,7 +136,7 @@ void check_jumps(const Pull& pull, double peak) {
   }
 }
 
-/// Cuts behind the highest force.
+/// Leaves out what follows the highest force.
 double cut_failure(Pull& pull) {
   const std::vector<double> smooth = smoothed(pull.f);
   const auto top = std::max_element(smooth.begin(), smooth.end());
@@ -155,8 +155,8 @@ double cut_failure(Pull& pull) {
                             "failure; is the displacement in the right column and direction?",
                             *top, smooth.back()));
   if (peak + 1 < count)
-    pull.say(fmt::format("{} points after the peak of {:.4g} N cut (from line {})", count - peak - 1, *top,
-                         pull.line[peak + 1]));
+    pull.say(fmt::format("{} points after the peak of {:.4g} N left out (from line {})", count - peak - 1,
+                         *top, pull.line[peak + 1]));
   pull.keep(0, peak + 1);
   return *top;
 }
@@ -253,8 +253,8 @@ CleanRecord clean_record(const TensileRecord& record, LoadKind kind) {
   std::size_t slack_points = 0;
   while (slack_points < pull.x.size() && pull.x[slack_points] < start) ++slack_points;
   if (slack_points > 1)
-    pull.say(fmt::format("slack of {:.3g} mm cut ({} points, up to line {})", 1e3 * clean.slack, slack_points,
-                         pull.line[slack_points - 1]));
+    pull.say(fmt::format("slack of {:.3g} mm taken off ({} points, up to line {})", 1e3 * clean.slack,
+                         slack_points, pull.line[slack_points - 1]));
   pull.keep(slack_points, pull.x.size());
   const double per = kind == LoadKind::per_width ? clean.width : 1.0;
   for (std::size_t i = 0; i < pull.x.size(); ++i) {

@@ -1,4 +1,4 @@
-// A bench's record made fit for fitting: in order, without slack, up to failure. Whatever is cut is said.
+// A bench's record made fit for fitting: in order, without slack, up to failure. Whatever is left out is said.
 #pragma once
 
 #include <string>
@@ -21,10 +21,10 @@ struct CleanRecord {
   double slack = 0;                  // [m] taken off the displacement
   double force_offset = 0;           // [N] taken off the force
   double noise = 0;                  // standard deviation of the load about its neighbours, as `load`
-  std::vector<std::string> trimmed;  // what was cut or moved, one sentence each
+  std::vector<std::string> trimmed;  // what was left out or moved, one sentence each
 };
 
-/// Sorts a few points out of order, takes off the load cell's offset and the slack, and cuts what follows the
+/// Sorts a few points out of order, takes off the load cell's offset and the slack, and leaves out what follows the
 /// highest force. The pull starts where nothing, followed by a parabola through zero, fits the points up to
 /// 30 % of the peak best: the toe compensation of ASTM D638 annex A1 with a curve in place of its straight
 /// line, and the slack as evidence too. Strain is on the stated length. Throws Error(bad_data) with file,

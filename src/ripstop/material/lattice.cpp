@@ -163,8 +163,40 @@ double woven_uniaxial_load(const WovenLaws& laws, double strain, bool along_weft
                     : woven_resultants(laws, strain, other).along;
 }
 
-// Alternating: what the diagonals carry at the present laws is taken off the measured curves, and the yarns'
-// laws are fitted to the rest, (1 - xi) K' of each. The diagonals carry a tenth, so few rounds do.
+namespace {
+
+/// From K' of warp and weft; the diagonals carry the mean of both.
+WovenLaws laws_of_yarns(const std::vector<double> (&k)[2], const Fabric& fabric) {
+  const double xi = fabric.shear_fraction, eps = fabric.bending_fraction;
+  const SpringLaw warp{k[0], fabric.compression}, weft{k[1], fabric.compression};
+  SpringLaw shear = warp;
+  for (std::size_t j = 0; j < shear.coefficients.size(); ++j)
+    shear.coefficients[j] = 0.5 * (k[0][j] + k[1][j]);
+  return {warp.scaled(1 - xi - eps), weft.scaled(1 - xi - eps), shear.scaled(xi / 2), warp.scaled(eps / 2),
+          weft.scaled(eps / 2)};
+}
+
+/// K' of a yarn: what the diagonals carry at the present laws is taken off the measured curve, and the yarn's
+/// law is fitted to the rest, (1 - xi) K'.
+std::vector<double> refitted_yarn(const std::vector<double>& k, const std::vector<double>& curve,
+                                  const WovenLaws& laws, bool along_weft, const std::vector<double>& strains,
+                                  const Fabric& fabric) {
+  const double axial = 1 - fabric.shear_fraction;
+  std::vector<double> wanted, scale;
+  for (double e : strains) {
+    const double load = value(curve, e);
+    const double diagonals =
+        woven_uniaxial_load(laws, e, along_weft) - axial * SpringLaw{k, fabric.compression}.tension(e);
+    wanted.push_back((load - diagonals) / axial);
+    scale.push_back(load);
+  }
+  return relative_fit(strains, wanted, scale, static_cast<int>(k.size()));
+}
+
+}  // namespace
+
+// Alternating between the yarns' laws and what the diagonals take from them: they carry a tenth, so few
+// rounds do.
 WovenLaws woven_laws(const Fabric& fabric) {
   const double xi = fabric.shear_fraction, eps = fabric.bending_fraction;
   if (fabric.weft_coefficients_n_m.empty()) {
@@ -187,31 +219,14 @@ WovenLaws woven_laws(const Fabric& fabric) {
   const std::size_t measured = std::max(curves[0]->size(), curves[1]->size());
   double best = 0;
   for (int added = 0; added <= added_degrees; ++added) {
-    const std::size_t degree = measured + added;
-    const auto laws_of = [&] {
-      for (auto& c : k) c.resize(std::max(c.size(), degree), 0.0);
-      const SpringLaw warp{k[0], fabric.compression}, weft{k[1], fabric.compression};
-      SpringLaw shear = warp;
-      for (std::size_t j = 0; j < shear.coefficients.size(); ++j)
-        shear.coefficients[j] = 0.5 * (k[0][j] + k[1][j]);
-      return WovenLaws{warp.scaled(1 - xi - eps), weft.scaled(1 - xi - eps), shear.scaled(xi / 2),
-                       warp.scaled(eps / 2), weft.scaled(eps / 2)};
-    };
+    const std::size_t degree = std::max({measured + added, k[0].size(), k[1].size()});
+    for (auto& c : k) c.resize(degree, 0.0);
     for (int round = 0; round < 40; ++round) {
-      const WovenLaws laws = laws_of();
-      for (int yarn : {0, 1}) {
-        std::vector<double> wanted, scale;
-        for (double e : strains) {
-          const double load = value(*curves[yarn], e);
-          const double diagonals = woven_uniaxial_load(laws, e, yarn == 1) -
-                                   (1 - xi) * SpringLaw{k[yarn], fabric.compression}.tension(e);
-          wanted.push_back((load - diagonals) / (1 - xi));
-          scale.push_back(load);
-        }
-        k[yarn] = relative_fit(strains, wanted, scale, static_cast<int>(degree));
-      }
+      const WovenLaws laws = laws_of_yarns(k, fabric);
+      for (int yarn : {0, 1})
+        k[yarn] = refitted_yarn(k[yarn], *curves[yarn], laws, yarn == 1, strains, fabric);
     }
-    const WovenLaws laws = laws_of();
+    const WovenLaws laws = laws_of_yarns(k, fabric);
     double error = 0;
     for (double e : strains)
       for (int yarn : {0, 1})
@@ -240,13 +255,13 @@ CellWidths cell_widths(double h_row, double h_column, const WovenLaws& laws) {
   const double along_row = coupling(laws.weft), along_column = coupling(laws.warp);
   // The longer side's axial springs lose most.
   const double aspect = std::max(a / b, b / a), strained = a > b ? along_row : along_column;
-  const double cut = strained > 0 ? std::min(1.0, (1 + (1 - least) / strained) / (aspect * aspect)) : 1.0;
-  const auto factor = [&](double share, double ratio) { return 1 + share * (1 - cut * ratio * ratio); };
+  const double s = strained > 0 ? std::min(1.0, (1 + (1 - least) / strained) / (aspect * aspect)) : 1.0;
+  const auto factor = [&](double share, double ratio) { return 1 + share * (1 - s * ratio * ratio); };
   const double diagonal = std::hypot(a, b);
   CellWidths widths;
   widths.along_row = 0.5 * b * factor(along_row, a / b);
   widths.along_column = 0.5 * a * factor(along_column, b / a);
-  widths.shear = cut * diagonal * diagonal * diagonal / (2 * std::numbers::sqrt2 * a * b);
+  widths.shear = s * diagonal * diagonal * diagonal / (2 * std::numbers::sqrt2 * a * b);
   widths.bend_row = 0.25 * b;
   widths.bend_column = 0.25 * a;
   return widths;
@@ -275,13 +290,13 @@ CellWidths bias_widths(double h_row, double h_column, const WovenLaws& laws) {
                              whole_yarn(laws.weft, laws.weft_bending).tangent(0));
   const double shear = std::numbers::sqrt2 * laws.shear.tangent(0);
   const double aspect = std::max(a / b, b / a), share = shear > 0 ? 0.5 * yarn / shear : 0;
-  const double cut = std::min(1.0, (1 + (share > 0 ? (1 - least) / share : 0)) / (aspect * aspect));
-  const auto factor = [&](double ratio) { return 1 + share * (1 - cut * ratio * ratio); };
+  const double s = std::min(1.0, (1 + (share > 0 ? (1 - least) / share : 0)) / (aspect * aspect));
+  const auto factor = [&](double ratio) { return 1 + share * (1 - s * ratio * ratio); };
   const double diagonal = std::hypot(a, b);
   CellWidths widths;
   widths.along_row = b / std::numbers::sqrt2 * factor(a / b);
   widths.along_column = a / std::numbers::sqrt2 * factor(b / a);
-  widths.shear = cut * diagonal * diagonal * diagonal / (4 * a * b);
+  widths.shear = s * diagonal * diagonal * diagonal / (4 * a * b);
   return widths;
 }
 

@@ -55,7 +55,7 @@ struct CellWidths {
 /// shear modulus and Poisson coupling, L^3 / (2 sqrt2 h_row h_column) with L the diagonal; the axial widths
 /// take back what the slanted diagonals then carry too much or too little along either side, so that the
 /// small strain stiffness is that of the square lattice. In a sliver (sides beyond about 1 : 3.4 for xi =
-/// 0.2) the shear width is cut so that the axial springs keep a tenth of their width.
+/// 0.2) the shear width is reduced so that the axial springs keep a tenth of their width.
 CellWidths cell_widths(double h_row, double h_column, double xi, double eps);
 
 /// The same where warp (along the column) and weft (along the row) differ.
@@ -74,7 +74,7 @@ SpringLaw whole_yarn(const SpringLaw& axial, const SpringLaw& bending);
 /// Widths of a cell cut on the bias: its diagonals are the yarns (whole_yarn, warp up), rows and columns the
 /// shear springs (the law `shear`); there are no bending springs. A square cell stores exactly the energy of
 /// the cloth turned by 45 deg in any homogeneous stretch. In an oblong one the small strain stiffness is the
-/// same up to sides of about 1 : 1.14 for xi = 0.2; beyond, the yarns' width is cut so that the longer side's
+/// same up to sides of about 1 : 1.14 for xi = 0.2; beyond, the yarns' width is reduced so that the longer side's
 /// springs keep a tenth of their width, and the cell is too soft.
 CellWidths bias_widths(double h_row, double h_column, const WovenLaws& laws);
 

@@ -180,9 +180,9 @@ struct Reader {
                                                               : nullptr;
     if (!target) return;
     const Quantity quantity = key == "orientation" ? Quantity::angle : Quantity::length;
-    const std::size_t cut = rest.find_first_not_of("0123456789.,+-eE");
-    const std::optional<double> value = number(trimmed(rest.substr(0, cut)), ';');
-    const std::string unit = cut == std::string::npos ? "" : trimmed(rest.substr(cut));
+    const std::size_t end = rest.find_first_not_of("0123456789.,+-eE");
+    const std::optional<double> value = number(trimmed(rest.substr(0, end)), ';');
+    const std::string unit = end == std::string::npos ? "" : trimmed(rest.substr(end));
     const std::optional<double> scale = unit_factor(quantity, unit);
     if (!value || !scale)
       refuse(file, line_number,
@@ -198,7 +198,7 @@ struct Reader {
     if (take_units(fields)) return;
     if (fields.size() < columns.size())
       refuse(file, line_number,
-             fmt::format("{} values for {} columns: was the file cut short?", fields.size(), columns.size()));
+             fmt::format("{} values for {} columns: is the file whole?", fields.size(), columns.size()));
     const auto value = [&](int column) {
       const std::optional<double> v = number(fields[column], separator);
       if (!v || !std::isfinite(*v))

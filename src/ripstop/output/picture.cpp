@@ -39,8 +39,8 @@ void add_springs(Shown& shown, const Mesh& mesh, const std::vector<int>& springs
   }
 }
 
-Shown what_to_show(const Mesh& mesh, const std::vector<Vec3>& positions, const std::vector<double>& values,
-                   ColourRange range) {
+Shown what_to_show(const CanopyMesh& mesh, const std::vector<Vec3>& positions,
+                   const std::vector<double>& values, ColourRange range) {
   Shown shown;
   shown.scene.points = positions;
   const std::vector<Cell> cells = cells_of(mesh);
@@ -53,12 +53,12 @@ Shown what_to_show(const Mesh& mesh, const std::vector<Vec3>& positions, const s
     for (int corner : quad.corner) shown.canopy.push_back(positions[corner]);
   }
   shown.everything = shown.canopy;
-  for (const LineRun& line : mesh.lines) {
+  for (const LineRun& line : mesh.rigging.lines) {
     const auto free = static_cast<std::size_t>(line.free_springs);
     add_springs(shown, mesh, line.springs, 0, free, 1.5);
     add_springs(shown, mesh, line.springs, free, line.springs.size(), 1.0);  // along the canopy
   }
-  add_springs(shown, mesh, mesh.riser_springs, 0, mesh.riser_springs.size(), 3.0);
+  add_springs(shown, mesh, mesh.rigging.riser_springs, 0, mesh.rigging.riser_springs.size(), 3.0);
   return shown;
 }
 
@@ -161,7 +161,7 @@ void draw_colour_bar(cairo_t* page, const CanopyPicture& picture, ColourRange ra
 
 }  // namespace
 
-ColourRange write_canopy_picture(const std::filesystem::path& path, const Mesh& mesh,
+ColourRange write_canopy_picture(const std::filesystem::path& path, const CanopyMesh& mesh,
                                  const std::vector<Vec3>& positions, const CanopyPicture& picture) {
   const std::vector<double> values = checked_values(path, mesh, positions, picture);
   const ColourRange range = picture.range ? *picture.range : colour_range(values, clipped_share);
@@ -203,7 +203,7 @@ ColourRange write_canopy_picture(const std::filesystem::path& path, const Mesh& 
   return range;
 }
 
-void write_contact_sheet(const std::filesystem::path& path, const Mesh& mesh, const std::string& title,
+void write_contact_sheet(const std::filesystem::path& path, const CanopyMesh& mesh, const std::string& title,
                          const std::string& quantity, const std::vector<CanopyShot>& shots) {
   constexpr int most_shots = 12, across = 4, tile_width = 450, tile_height = 420, head = 84, foot = 48;
   if (shots.empty() || shots.size() > most_shots) {

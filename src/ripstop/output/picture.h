@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "ripstop/output/colour.h"
-#include "ripstop/parachute/mesh.h"
+#include "ripstop/parachute/canopy_mesh.h"
 
 namespace ripstop {
 
@@ -22,7 +22,7 @@ struct CanopyPicture {
 /// PNG, or SVG with vector text, by the ending of `path`. Returns the colour bar's range. Throws
 /// Error(bad_data) for a mesh without cloth, arrays of the wrong length or positions that are not finite,
 /// Error(usage) for another ending, Error(io).
-ColourRange write_canopy_picture(const std::filesystem::path& path, const Mesh& mesh,
+ColourRange write_canopy_picture(const std::filesystem::path& path, const CanopyMesh& mesh,
                                  const std::vector<Vec3>& positions, const CanopyPicture& picture);
 
 /// One shape of a contact sheet.
@@ -33,7 +33,7 @@ struct CanopyShot {
 };
 /// Draws all shots side by side, obliquely from upstream, at one scale and in one range of colours: at
 /// most 12. Throws as write_canopy_picture(); Error(bad_data) without a shot.
-void write_contact_sheet(const std::filesystem::path& path, const Mesh& mesh, const std::string& title,
+void write_contact_sheet(const std::filesystem::path& path, const CanopyMesh& mesh, const std::string& title,
                          const std::string& quantity, const std::vector<CanopyShot>& shots);
 
 }  // namespace ripstop

@@ -141,7 +141,7 @@ void begin_stroke(cairo_t* page, const PlotSeries& series, Colour colour) {
 
 void draw_series(cairo_t* page, const PlotSeries& series, std::size_t index, const Scale& x, const Scale& y) {
   cairo_save(page);
-  constexpr double rim = 9;  // a marker on the frame is not cut
+  constexpr double rim = 9;  // a marker on the frame is whole
   cairo_rectangle(page, left - rim, top - rim, right - left + 2 * rim, bottom - top + 2 * rim);
   cairo_clip(page);
   const auto drawn = [&](std::size_t i) { return x.shows(series.x[i]) && y.shows(series.y[i]); };

@@ -34,7 +34,7 @@ struct Buffer {
   std::size_t at(int x, int y) const { return static_cast<std::size_t>(y) * width + x; }
 };
 
-/// Pixels whose centre may lie in [low, high], cut to 0 .. count.
+/// Pixels whose centre may lie in [low, high], within 0 .. count.
 std::pair<int, int> pixel_range(double low, double high, int count) {
   return {static_cast<int>(std::clamp(std::ceil(low - 0.5), 0.0, 1.0 * count)),
           static_cast<int>(std::clamp(std::floor(high - 0.5) + 1, 0.0, 1.0 * count))};

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "ripstop/mesh/mesh.h"
 #include "ripstop/output/colour.h"
-#include "ripstop/parachute/mesh.h"
 
 namespace ripstop {
 

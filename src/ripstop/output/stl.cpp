@@ -65,7 +65,7 @@ std::vector<Triangle> read_stl(const std::filesystem::path& path) {
   if (bytes.size() >= begin) std::memcpy(&count, bytes.data() + header_size, sizeof(count));
   if (bytes.size() < begin || bytes.size() != begin + count * triangle_size) {
     const char* reason = bytes.starts_with("solid") ? "is a text STL; convert it to a binary one"
-                                                    : "is no binary STL, or was cut short";
+                                                    : "is no binary STL, or not a whole one";
     throw Error(ExitCode::bad_data, fmt::format("{} {}", path.string(), reason));
   }
   std::vector<Triangle> surface(count);

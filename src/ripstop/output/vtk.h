@@ -14,7 +14,7 @@
 
 #include "ripstop/core/vec3.h"
 #include "ripstop/flow/flow.h"
-#include "ripstop/parachute/mesh.h"
+#include "ripstop/mesh/mesh.h"
 
 namespace ripstop {
 
@@ -71,7 +71,7 @@ struct VtkSeriesFile {
   double time = 0;  // the coupling iteration, or [s]
   std::filesystem::path file;
 };
-/// .pvd. Entries whose file does not exist (a run was cut short, or tidied up) are left out. Throws
+/// .pvd. Entries whose file does not exist (a run ended early, or was tidied up) are left out. Throws
 /// Error(io).
 void write_pvd(const std::filesystem::path& path, const std::vector<VtkSeriesFile>& series);
 

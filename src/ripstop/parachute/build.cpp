@@ -1,12 +1,9 @@
 #include "ripstop/parachute/build.h"
 
-#include "ripstop/parachute/disk_gap_band.h"
-
 namespace ripstop {
 
-Mesh build_mesh(const Design& design, const PartMaterials& materials) {
-  return std::visit([&](const auto& canopy) { return build_canopy(canopy, design, materials); },
-                    design.canopy);
+CanopyMesh build_mesh(const Design& design, const PartMaterials& materials) {
+  return design.canopy.family().build(design.canopy, design, materials);
 }
 
 }  // namespace ripstop

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "ripstop/material/material.h"
+#include "ripstop/parachute/canopy_mesh.h"
 #include "ripstop/parachute/design.h"
-#include "ripstop/parachute/mesh.h"
 
 namespace ripstop {
 
@@ -16,6 +16,6 @@ struct PartMaterials {
 
 /// The start shape has its skirt in the plane z = 0 and its mouth toward -z; see the family's own header.
 /// Throws Error(usage) for a design that no lattice of the wanted size can represent.
-Mesh build_mesh(const Design& design, const PartMaterials& materials);
+CanopyMesh build_mesh(const Design& design, const PartMaterials& materials);
 
 }  // namespace ripstop

@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "ripstop/core/toml/fields.h"
-#include "ripstop/parachute/cut.h"
 #include "ripstop/parachute/design.h"
 #include "ripstop/parachute/gored.h"
 
@@ -34,16 +33,14 @@ GorePattern gore_pattern(const Conical& canopy, int gores) {
   return pattern;
 }
 
-CanopyFacts facts(const Conical& canopy, int gores) {
-  return facts(gore_pattern(canopy, gores));
+Experience experience(const Conical&) {
+  return {.projected_ratio = {0.70, 0.70},
+          .drag_coefficient = {0.75, 0.90},
+          .opening_coefficient = 1.8,
+          .opening_source = knacke_transcribed,
+          .cloth_nodes = 12000};
 }
 
-CutPattern cut_pattern(const Conical& canopy, const Design& design) {
-  return cut_pattern(gore_pattern(canopy, design.gores), design);
-}
-
-Mesh build_canopy(const Conical& canopy, const Design& design, const PartMaterials& materials) {
-  return build_gored(gore_pattern(canopy, design.gores), design, materials);
-}
+constinit const CanopyFamily Conical::family = family_of<Conical>("conical", "conical");
 
 }  // namespace ripstop

@@ -51,7 +51,7 @@ class Builder {
   Builder(const Cross& canopy, const Design& design, const PartMaterials& materials)
       : canopy_(canopy), design_(design), materials_(materials), lattice_(choose_lattice(canopy, design)) {}
 
-  Mesh build() {
+  CanopyMesh build() {
     for (int arm = 0; arm < arms; ++arm) add_arm(arm);
     add_middle();
     add_outline();
@@ -61,9 +61,8 @@ class Builder {
     for (int arm = 0; arm < arms; ++arm)
       for (int k = 0; k < per_arm; ++k)
         ends.push_back({{node(arm, 0, lattice_.across / (per_arm - 1) * k)}, {}});
-    add_lines(builder_, design_, materials_, ends);
-    builder_.flatten_ties();
-    return std::move(builder_.mesh);
+    builder_.add_lines(design_, materials_, ends);
+    return builder_.finish();
   }
 
  private:
@@ -78,7 +77,7 @@ class Builder {
   const Design& design_;
   const PartMaterials& materials_;
   Lattice lattice_;
-  MeshBuilder builder_;
+  CanopyBuilder builder_;
 };
 
 // Arm 0 points along x; rows from its end inward, columns along y. The others are turned by quarters.
@@ -113,18 +112,18 @@ void Builder::add_middle() {
 
 // Along an arm's end, its left side inward, and the next arm's right side outward.
 void Builder::add_outline() {
+  std::vector<int>& skirt = builder_.rigging.skirt_nodes;
   const int n = lattice_.across;
   for (int arm = 0; arm < arms; ++arm) {
-    for (int c = 0; c <= n; ++c) builder_.mesh.skirt_nodes.push_back(node(arm, 0, c));
-    for (int row = 1; row <= lattice_.along; ++row) builder_.mesh.skirt_nodes.push_back(node(arm, row, n));
-    for (int row = lattice_.along - 1; row > 0; --row)
-      builder_.mesh.skirt_nodes.push_back(node((arm + 1) % arms, row, 0));
+    for (int c = 0; c <= n; ++c) skirt.push_back(node(arm, 0, c));
+    for (int row = 1; row <= lattice_.along; ++row) skirt.push_back(node(arm, row, n));
+    for (int row = lattice_.along - 1; row > 0; --row) skirt.push_back(node((arm + 1) % arms, row, 0));
   }
 }
 
 void Builder::add_tapes() {
   const Tape& tape = materials_.tape;
-  const int law = builder_.law({tape.coefficients_n_m, tape.compression});
+  const int law = builder_.add_tape_law(tape);
   if (design_.tape.hems) {
     const int part = builder_.part("hem tape");
     for (int arm = 0; arm < arms; ++arm) {
@@ -154,6 +153,7 @@ void describe(Fields& fields, Cross& canopy) {
 }
 
 void check_shape(const Cross& canopy, const Design& design, Findings& findings) {
+  check_inner_hems(design, findings);
   if (findings.sound({"parachute.arm_length_m", "parachute.arm_width_m"}) &&
       canopy.arm_width_m >= canopy.arm_length_m)
     findings.add("parachute.arm_width_m", canopy.arm_width_m, fmt::format("below {}", canopy.arm_length_m),
@@ -194,8 +194,18 @@ CutPattern cut_pattern(const Cross& canopy, const Design& design) {
   return cut;
 }
 
-Mesh build_canopy(const Cross& canopy, const Design& design, const PartMaterials& materials) {
+CanopyMesh build_canopy(const Cross& canopy, const Design& design, const PartMaterials& materials) {
   return Builder(canopy, design, materials).build();
 }
+
+Experience experience(const Cross&) {
+  return {.projected_ratio = {0.66, 0.72},
+          .drag_coefficient = {0.60, 0.85},
+          .opening_coefficient = 1.15,  // 1.1 to 1.2
+          .opening_source = knacke_transcribed,
+          .cloth_nodes = 25000};
+}
+
+constinit const CanopyFamily Cross::family = family_of<Cross>("cross", "cross");
 
 }  // namespace ripstop

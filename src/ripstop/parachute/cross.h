@@ -1,25 +1,21 @@
 // The cross canopy: two strips of cloth that cross, one layer where they do; lines from the four ends.
 #pragma once
 
-#include "ripstop/parachute/facts.h"
-#include "ripstop/parachute/mesh.h"
+#include "ripstop/parachute/family.h"
 
 namespace ripstop {
 
-class Fields;
-class Findings;
-struct CutPattern;
-struct Design;
-struct PartMaterials;
-
 /// [parachute] with type = "cross"
 struct Cross {
+  static const CanopyFamily family;
+
   double arm_length_m = 0;  // of a strip, from end to end
   double arm_width_m = 0;
 };
 
 void describe(Fields& fields, Cross& canopy);
 void check_shape(const Cross& canopy, const Design& design, Findings& findings);
+Experience experience(const Cross& canopy);
 /// S0 = 2 L W - W^2. Lines end at the hem: they have no run on the canopy.
 CanopyFacts facts(const Cross& canopy, int gores);
 /// One whole strip and two arms.
@@ -29,6 +25,6 @@ CutPattern cut_pattern(const Cross& canopy, const Design& design);
 /// from corner to corner at equal distances; those at the corners are taut at the start. Square lattice of
 /// five patches (four arms, each from its end inward, and the middle), sharing nodes where they meet. Tape
 /// lies round the outline (hems) and round the middle square (seams). Throws Error(usage) for too few nodes.
-Mesh build_canopy(const Cross& canopy, const Design& design, const PartMaterials& materials);
+CanopyMesh build_canopy(const Cross& canopy, const Design& design, const PartMaterials& materials);
 
 }  // namespace ripstop

@@ -113,7 +113,7 @@ CutPattern cut_pattern(const GorePattern& pattern, const Design& design) {
 }
 
 CutPattern cut_pattern(const Design& design) {
-  CutPattern cut = std::visit([&](const auto& canopy) { return cut_pattern(canopy, design); }, design.canopy);
+  CutPattern cut = design.canopy.family().cut_pattern(design.canopy, design);
   for (Piece& piece : cut.pieces)
     piece.grain = design.cut == FabricCut::bias ? 45 : design.cut == FabricCut::across ? 90 : 0;
   return cut;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "ripstop/core/error.h"
 #include "ripstop/core/toml/fields.h"
 #include "ripstop/core/toml/problem.h"
 
@@ -14,7 +15,7 @@ namespace {
 
 void check_lines(const Design& design, Findings& findings) {
   const LineSet& lines = design.lines;
-  const bool sound = findings.sound(shape_keys());
+  const bool sound = findings.sound(shape_keys(design));
   const double radius = sound ? facts(design).skirt_radius : 0;
   if (sound && findings.sound({"parachute.lines.length_m"}) && lines.length_m <= radius)
     findings.add("parachute.lines.length_m", lines.length_m, fmt::format("above {}", radius),
@@ -36,7 +37,7 @@ void check_lines(const Design& design, Findings& findings) {
 
 /// Lines and seams both lie on columns of the mesh, so its columns are a multiple of both counts.
 void check_columns(const Design& design, Findings& findings) {
-  if (!findings.sound(shape_keys()) ||
+  if (!findings.sound(shape_keys(design)) ||
       !findings.sound({"parachute.gores", "parachute.lines.count", "parachute.mesh.cloth_nodes"}))
     return;
   const double spacing = std::sqrt(computed_area(design) / design.mesh.cloth_nodes);
@@ -51,6 +52,26 @@ void check_columns(const Design& design, Findings& findings) {
                   "multiple, or at least {:.0f} nodes",
                   design.lines.count, design.gores, needed, design.mesh.cloth_nodes, columns,
                   std::ceil(fitting)));
+}
+
+/// The word that chooses among families, whose own keys follow it.
+Kind type_of(Canopy& canopy, const Families& types) {
+  Kind kind;
+  for (const CanopyFamily* family : types) kind.words.push_back(family->type);
+  kind.get = [&canopy, types]() -> std::size_t {
+    const auto found = std::find(types.begin(), types.end(), &canopy.family());
+    if (found == types.end())
+      throw Error(ExitCode::usage, fmt::format("parachute.type = \"{}\": is not in the list of families",
+                                               canopy.family().type));
+    return found - types.begin();
+  };
+  kind.select = [&canopy, types](std::size_t wanted) {
+    if (&canopy.family() != types.at(wanted)) canopy = types[wanted]->make();
+    Fields own;
+    canopy.family().describe(own, canopy);
+    return own;
+  };
+  return kind;
 }
 
 }  // namespace
@@ -100,11 +121,8 @@ void describe(Fields& fields, MeshSettings& mesh) {
       "Every ring gets a multiple of twice as many columns, so that so many folds fit; 0: as it comes.");
 }
 
-void describe(Fields& fields, Design& design) {
-  fields.kind("type", design.canopy,
-              {"disk-gap-band", "flat-circular", "conical", "spherical", "extended-skirt", "ringslot",
-               "ringsail", "cross", "profile"},
-              "Family of the canopy.");
+void describe(Fields& fields, Design& design, const Families& types) {
+  fields.kind("type", type_of(design.canopy, types), "Family of the canopy.");
   fields
       .number("nominal_area_m2", design.nominal_area_m2, above(0).up_to(10000),
               "Reference area S0 of the coefficients.")
@@ -146,7 +164,7 @@ void describe_vent(Fields& fields, double& diameter, bool& lines) {
 
 void check_vent(double vent, double diameter, bool lines, const Design& design, Findings& findings) {
   const std::string key = "parachute.vent_diameter_m";
-  if (findings.sound(shape_keys()) && vent >= diameter)
+  if (findings.sound(shape_keys(design)) && vent >= diameter)
     findings.add(key, vent, fmt::format("below {:.6g}", diameter),
                  fmt::format("the vent must be smaller than the canopy, {:.6g} m across", diameter));
   check_vent_cells(vent, key, design, findings);
@@ -154,7 +172,8 @@ void check_vent(double vent, double diameter, bool lines, const Design& design, 
 }
 
 void check_vent_cells(double vent, const std::string& key, const Design& design, Findings& findings) {
-  if (!findings.sound(shape_keys()) || !findings.sound({"parachute.gores", "parachute.mesh.cloth_nodes"}))
+  if (!findings.sound(shape_keys(design)) ||
+      !findings.sound({"parachute.gores", "parachute.mesh.cloth_nodes"}))
     return;
   const double cell = std::sqrt(computed_area(design) / design.mesh.cloth_nodes);
   if (vent < cell)
@@ -172,13 +191,15 @@ void check_vent_lines(bool lines, const Design& design, Findings& findings) {
                  "an odd number of lines");
 }
 
-void check_design(const Design& design, Findings& findings) {
-  if (!findings.sound({"parachute.type"})) return;  // nobody knows what the other keys mean
-  std::visit([&](const auto& canopy) { check_shape(canopy, design, findings); }, design.canopy);
-  if (!design.tape.inner_hems &&
-      (std::holds_alternative<DiskGapBand>(design.canopy) || std::holds_alternative<Cross>(design.canopy)))
+void check_inner_hems(const Design& design, Findings& findings) {
+  if (!design.tape.inner_hems)
     findings.add("parachute.tape.inner_hems", "false", "true",
                  "only canopies of gores can leave their inner edges without tape");
+}
+
+void check_design(const Design& design, Findings& findings) {
+  if (!findings.sound({"parachute.type"})) return;  // nobody knows what the other keys mean
+  design.canopy.family().check_shape(design.canopy, design, findings);
   check_lines(design, findings);
   check_columns(design, findings);
 }
@@ -186,7 +207,11 @@ void check_design(const Design& design, Findings& findings) {
 CanopyFacts facts(const Design& design) {
   // A design with fewer gores is refused, but its other mistakes are told as well.
   const int gores = std::max(3, design.gores);
-  return std::visit([&](const auto& canopy) { return facts(canopy, gores); }, design.canopy);
+  return design.canopy.family().facts(design.canopy, gores);
+}
+
+Experience experience(const Design& design) {
+  return design.canopy.family().experience(design.canopy);
 }
 
 double computed_area(const Design& design) {
@@ -209,8 +234,12 @@ double start_depth(const Design& design) {
   return facts(design).start_depth;
 }
 
-const std::vector<std::string>& shape_keys() {
-  static const std::vector<std::string> keys = {"parachute.*", "parachute.rows", "parachute.pieces"};
+std::vector<std::string> shape_keys(const Design& design) {
+  std::vector<std::string> keys = {"parachute.*"};  // without the tables in it
+  Canopy canopy = design.canopy;
+  Fields own;
+  canopy.family().describe(own, canopy);
+  for (const Field& field : own.list()) keys.push_back("parachute." + field.key);
   return keys;
 }
 

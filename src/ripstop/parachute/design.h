@@ -1,30 +1,17 @@
-// The parachute as its case file describes it: one struct for each TOML table, canopy families as a variant.
+// The parachute as its case file describes it: one struct for each TOML table, the canopy of any family.
 #pragma once
 
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "ripstop/material/lattice.h"
-#include "ripstop/parachute/conical.h"
-#include "ripstop/parachute/cross.h"
-#include "ripstop/parachute/disk_gap_band.h"
-#include "ripstop/parachute/extended_skirt.h"
-#include "ripstop/parachute/flat_circular.h"
-#include "ripstop/parachute/profile.h"
-#include "ripstop/parachute/ringsail.h"
-#include "ripstop/parachute/ringslot.h"
-#include "ripstop/parachute/spherical.h"
+#include "ripstop/parachute/family.h"
 
 namespace ripstop {
 
 class Fields;
 class Findings;
-
-/// The canopy families; a new one is one more alternative and its word in describe(Design).
-using Canopy = std::variant<DiskGapBand, FlatCircular, Conical, Spherical, ExtendedSkirt, Ringslot, Ringsail,
-                            Cross, ProfileCanopy>;
 
 /// [parachute.lines]
 struct LineSet {
@@ -74,7 +61,7 @@ void describe(Fields& fields, TapeLayout& tape);
 void describe(Fields& fields, Riser& riser);
 void describe(Fields& fields, MeshSettings& mesh);
 /// `type`, the keys of that type, and what all families share.
-void describe(Fields& fields, Design& design);
+void describe(Fields& fields, Design& design, const Families& types = families());
 
 /// Keys that most families share.
 void describe_nominal_diameter(Fields& fields, double& diameter);
@@ -85,12 +72,15 @@ void check_vent(double vent, double diameter, bool lines, const Design& design, 
 /// the shape is otherwise sound.
 void check_vent_cells(double vent, const std::string& key, const Design& design, Findings& findings);
 void check_vent_lines(bool lines, const Design& design, Findings& findings);
+/// For families whose tape is all there or not at all: no edge between skirt and vent without it.
+void check_inner_hems(const Design& design, Findings& findings);
 
 /// Reports what single ranges do not show: a vent wider than the disk, lines that cannot meet on the axis.
 void check_design(const Design& design, Findings& findings);
 
 /// Sizes of the canopy, by its family's own definitions.
 CanopyFacts facts(const Design& design);
+Experience experience(const Design& design);
 /// Area of the cloth as cut, without gaps, slots and vent [m2].
 double computed_area(const Design& design);
 /// Reference area S0 of the coefficients: as given, else by the type's definition [m2].
@@ -102,6 +92,6 @@ double line_length_on_disk(const Design& design);
 double start_diameter(const Design& design);
 double start_depth(const Design& design);
 /// The keys that decide the size of the canopy: for Findings::sound(), whatever the family.
-const std::vector<std::string>& shape_keys();
+std::vector<std::string> shape_keys(const Design& design);
 
 }  // namespace ripstop

@@ -26,19 +26,20 @@ class Builder {
   Builder(const DiskGapBand& canopy, const Design& design, const PartMaterials& materials)
       : d_(canopy), design_(design), materials_(materials) {}
 
-  Mesh build() {
+  CanopyMesh build() {
     const double radius = 0.5 * d_.disk_diameter_m;
     const Strip band{d_.band_height_m, [&](double) { return 2 * pi * radius; }, true};
     const Strip disk{radius - 0.5 * d_.vent_diameter_m, [&](double s) { return 2 * pi * (radius - s); }};
     const RingLayout layout = lay_out_rings({band, disk}, facts(d_, design_.gores).cloth_area, design_);
     add_band(layout.strips[0].front());
     add_disk(layout.strips[1]);
-    tape_law_ = builder_.law({materials_.tape.coefficients_n_m, materials_.tape.compression});
+    tape_law_ = builder_.add_tape_law(materials_.tape);
     if (design_.tape.hems) add_hem_tape();
     if (design_.tape.seams) add_seam_tape();
     add_sewn_lines();
-    builder_.flatten_ties();
-    return std::move(builder_.mesh);
+    builder_.rigging.band_patches = {band_};
+    builder_.rigging.disk_patches = rings_;
+    return builder_.finish();
   }
 
  private:
@@ -54,7 +55,7 @@ class Builder {
   const DiskGapBand& d_;
   const Design& design_;
   const PartMaterials& materials_;
-  MeshBuilder builder_;
+  CanopyBuilder builder_;
   int band_ = -1;
   std::vector<int> rings_;
   int tape_law_ = -1;
@@ -69,9 +70,7 @@ void Builder::add_band(const Ring& ring) {
   shape.rolled_rows = true;
   shape.grain = design_.cut;
   band_ = builder_.add_patch("band", shape, materials_.canopy);
-  Path skirt = builder_.row(band_, 0);
-  skirt.nodes.pop_back();
-  builder_.mesh.skirt_nodes = skirt.nodes;
+  builder_.set_skirt(band_);
 }
 
 void Builder::add_disk(const std::vector<Ring>& rings) {
@@ -126,10 +125,10 @@ void Builder::add_sewn_lines() {
   for (int k = 0; k < design_.lines.count; ++k) {
     const Radial radial = radial_at(k, design_.lines.count);
     const double segment = design_.mesh.line_segment_m;
-    sewn.push_back(sew(builder_, radial.band, d_.band_height_m, segment, true));
-    sewn.back().append(sew(builder_, radial.disk, on_disk, segment, true), d_.gap_height_m);
+    sewn.push_back(builder_.sew(radial.band, d_.band_height_m, segment, true));
+    sewn.back().append(builder_.sew(radial.disk, on_disk, segment, true), d_.gap_height_m);
   }
-  add_lines(builder_, design_, materials_, sewn);
+  builder_.add_lines(design_, materials_, sewn);
 }
 
 }  // namespace
@@ -153,7 +152,8 @@ void describe(Fields& fields, DiskGapBand& canopy) {
       .required();
 }
 
-void check_shape(const DiskGapBand& canopy, const Design&, Findings& findings) {
+void check_shape(const DiskGapBand& canopy, const Design& design, Findings& findings) {
+  check_inner_hems(design, findings);
   if (!findings.sound({"parachute.type", "parachute.disk_diameter_m", "parachute.vent_diameter_m"})) return;
   if (canopy.vent_diameter_m >= canopy.disk_diameter_m)
     findings.add("parachute.vent_diameter_m", canopy.vent_diameter_m,
@@ -214,8 +214,18 @@ CutPattern cut_pattern(const DiskGapBand& canopy, const Design& design) {
   return cut;
 }
 
-Mesh build_canopy(const DiskGapBand& canopy, const Design& design, const PartMaterials& materials) {
+CanopyMesh build_canopy(const DiskGapBand& canopy, const Design& design, const PartMaterials& materials) {
   return Builder(canopy, design, materials).build();
 }
+
+Experience experience(const DiskGapBand&) {
+  return {.projected_ratio = {0.65, 0.65},
+          .drag_coefficient = {0.52, 0.58},
+          .opening_coefficient = 1.3,
+          .opening_source = knacke_unchecked,
+          .cloth_nodes = 1500};
+}
+
+constinit const CanopyFamily DiskGapBand::family = family_of<DiskGapBand>("disk-gap-band", "stratos-iv");
 
 }  // namespace ripstop

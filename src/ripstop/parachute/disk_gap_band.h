@@ -1,19 +1,14 @@
 // The disk-gap-band canopy: a flat disk with a vent, a gap that only the lines span, a cylindrical band.
 #pragma once
 
-#include "ripstop/parachute/facts.h"
-#include "ripstop/parachute/mesh.h"
+#include "ripstop/parachute/family.h"
 
 namespace ripstop {
 
-class Fields;
-class Findings;
-struct CutPattern;
-struct Design;
-struct PartMaterials;
-
 /// [parachute] with type = "disk-gap-band": a flat disk with a vent, an open gap, a cylindrical band.
 struct DiskGapBand {
+  static const CanopyFamily family;
+
   double disk_diameter_m = 0;
   double vent_diameter_m = 0;
   double gap_height_m = 0;
@@ -22,6 +17,7 @@ struct DiskGapBand {
 
 void describe(Fields& fields, DiskGapBand& canopy);
 void check_shape(const DiskGapBand& canopy, const Design& design, Findings& findings);
+Experience experience(const DiskGapBand& canopy);
 /// S0 is the cloth's area: disk - vent + band, as [NFM] has it. The lines' run counts from the disk's edge.
 CanopyFacts facts(const DiskGapBand& canopy, int gores);
 /// Sectors of the disk and panels of the band, one of each a gore.
@@ -35,6 +31,6 @@ CutPattern cut_pattern(const DiskGapBand& canopy, const Design& design);
 /// first. Where a line is sewn to the cloth it is a chain of about `line_segment_m`, far longer than the
 /// cloth's spacing (a short segment of so stiff a line would set the time step); the cloth nodes between are
 /// tied to it. Throws Error(usage) when the numbers of gores and lines allow no such lattice.
-Mesh build_canopy(const DiskGapBand& canopy, const Design& design, const PartMaterials& materials);
+CanopyMesh build_canopy(const DiskGapBand& canopy, const Design& design, const PartMaterials& materials);
 
 }  // namespace ripstop

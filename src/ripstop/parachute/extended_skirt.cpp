@@ -7,7 +7,6 @@
 
 #include "ripstop/core/toml/fields.h"
 #include "ripstop/core/toml/problem.h"
-#include "ripstop/parachute/cut.h"
 #include "ripstop/parachute/design.h"
 #include "ripstop/parachute/gored.h"
 
@@ -30,7 +29,7 @@ void describe(Fields& fields, ExtendedSkirt& canopy) {
 
 void check_shape(const ExtendedSkirt& canopy, const Design& design, Findings& findings) {
   check_vent(canopy.vent_diameter_m, canopy.disk_diameter_m, canopy.vent_lines, design, findings);
-  if (!findings.sound(shape_keys())) return;
+  if (!findings.sound(shape_keys(design))) return;
   const double taper = canopy.disk_diameter_m / 2 * (1 - canopy.skirt_diameter_share);
   if (taper > canopy.skirt_height_m)
     findings.add("parachute.skirt_height_m", canopy.skirt_height_m, fmt::format("at least {:.6g}", taper),
@@ -52,16 +51,15 @@ GorePattern gore_pattern(const ExtendedSkirt& canopy, int gores) {
   return pattern;
 }
 
-CanopyFacts facts(const ExtendedSkirt& canopy, int gores) {
-  return facts(gore_pattern(canopy, gores));
+Experience experience(const ExtendedSkirt&) {
+  return {.projected_ratio = {0.66, 0.70},
+          .drag_coefficient = {0.78, 0.87},
+          .opening_coefficient = 1.4,
+          .opening_source = knacke_transcribed,
+          .cloth_nodes = 25000};
 }
 
-CutPattern cut_pattern(const ExtendedSkirt& canopy, const Design& design) {
-  return cut_pattern(gore_pattern(canopy, design.gores), design);
-}
-
-Mesh build_canopy(const ExtendedSkirt& canopy, const Design& design, const PartMaterials& materials) {
-  return build_gored(gore_pattern(canopy, design.gores), design, materials);
-}
+constinit const CanopyFamily ExtendedSkirt::family =
+    family_of<ExtendedSkirt>("extended-skirt", "extended-skirt");
 
 }  // namespace ripstop

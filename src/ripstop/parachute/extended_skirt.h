@@ -1,19 +1,15 @@
 // The extended-skirt canopy: a flat disk with a skirt sewn on, straight or drawn in.
 #pragma once
 
+#include "ripstop/parachute/family.h"
 #include "ripstop/parachute/gore.h"
-#include "ripstop/parachute/mesh.h"
 
 namespace ripstop {
 
-class Fields;
-class Findings;
-struct CutPattern;
-struct Design;
-struct PartMaterials;
-
 /// [parachute] with type = "extended-skirt"
 struct ExtendedSkirt {
+  static const CanopyFamily family;
+
   double disk_diameter_m = 0;
   double vent_diameter_m = 0;
   double skirt_height_m = 0;        // of the extension, along the cloth
@@ -23,11 +19,8 @@ struct ExtendedSkirt {
 
 void describe(Fields& fields, ExtendedSkirt& canopy);
 void check_shape(const ExtendedSkirt& canopy, const Design& design, Findings& findings);
+Experience experience(const ExtendedSkirt& canopy);
 /// S0 is the disk with its vent, and the extension.
 GorePattern gore_pattern(const ExtendedSkirt& canopy, int gores);
-CanopyFacts facts(const ExtendedSkirt& canopy, int gores);
-CutPattern cut_pattern(const ExtendedSkirt& canopy, const Design& design);
-/// See gored.h.
-Mesh build_canopy(const ExtendedSkirt& canopy, const Design& design, const PartMaterials& materials);
 
 }  // namespace ripstop

@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "ripstop/core/toml/fields.h"
-#include "ripstop/parachute/cut.h"
 #include "ripstop/parachute/design.h"
 #include "ripstop/parachute/gored.h"
 
@@ -27,16 +26,14 @@ GorePattern gore_pattern(const FlatCircular& canopy, int gores) {
   return pattern;
 }
 
-CanopyFacts facts(const FlatCircular& canopy, int gores) {
-  return facts(gore_pattern(canopy, gores));
+Experience experience(const FlatCircular&) {
+  return {.projected_ratio = {0.67, 0.70},
+          .drag_coefficient = {0.75, 0.80},
+          .opening_coefficient = 1.7,
+          .opening_source = knacke_transcribed,
+          .cloth_nodes = 12000};
 }
 
-CutPattern cut_pattern(const FlatCircular& canopy, const Design& design) {
-  return cut_pattern(gore_pattern(canopy, design.gores), design);
-}
-
-Mesh build_canopy(const FlatCircular& canopy, const Design& design, const PartMaterials& materials) {
-  return build_gored(gore_pattern(canopy, design.gores), design, materials);
-}
+constinit const CanopyFamily FlatCircular::family = family_of<FlatCircular>("flat-circular", "flat-circular");
 
 }  // namespace ripstop

@@ -137,10 +137,10 @@ class Zigzag {
 
 class Folder {
  public:
-  Folder(const Mesh& mesh, const Folding& folding)
+  Folder(const CanopyMesh& mesh, const Folding& folding)
       : mesh_(mesh),
         folding_(folding),
-        folds_(folding.folds > 0 ? folding.folds : static_cast<int>(mesh.lines.size())),
+        folds_(folding.folds > 0 ? folding.folds : static_cast<int>(mesh.rigging.lines.size())),
         zigzag_(folds_),
         pieces_(pieces_of(mesh)),
         piece_of_node_(mesh.node_count(), -1),
@@ -155,7 +155,7 @@ class Folder {
   }
 
   FoldedStart run() {
-    if (mesh_.lines.empty() || mesh_.skirt_nodes.empty()) {
+    if (mesh_.rigging.lines.empty() || mesh_.rigging.skirt_nodes.empty()) {
       throw Error(ExitCode::bad_data, "a canopy without lines or skirt cannot be folded");
     }
     check_folds(mesh_, folds_);
@@ -173,11 +173,11 @@ class Folder {
   void hang_pieces();
   void hang_lines();
   void shift(Piece& piece, double by);
-  Piece& skirt_piece() { return pieces_[piece_of_node_[mesh_.skirt_nodes[0]]]; }
+  Piece& skirt_piece() { return pieces_[piece_of_node_[mesh_.rigging.skirt_nodes[0]]]; }
   int columns_of(const Piece& piece) const { return mesh_.patches[piece.patches[0]].columns; }
   [[noreturn]] void refuse_radius(const Piece& skirt) const;
 
-  const Mesh& mesh_;
+  const CanopyMesh& mesh_;
   Folding folding_;
   int folds_;
   Zigzag zigzag_;
@@ -262,7 +262,7 @@ void Folder::hang_pieces() {
       double by = std::numeric_limits<double>::infinity();
       for (const LineLink& link : all) {
         if (piece_of_node_[link.to] != static_cast<int>(i)) continue;
-        if (link.from != mesh_.confluence && !pieces_[piece_of_node_[link.from]].placed) continue;
+        if (link.from != mesh_.rigging.confluence && !pieces_[piece_of_node_[link.from]].placed) continue;
         by = std::min(by, free_way(link, mesh_, x_, folding_.slack));
       }
       if (std::isfinite(by)) shift(pieces_[i], by);
@@ -330,12 +330,12 @@ bool folds_without_strain(const Mesh& mesh) {
   return true;
 }
 
-FoldedStart fold(const Mesh& mesh, const Folding& folding) {
+FoldedStart fold(const CanopyMesh& mesh, const Folding& folding) {
   return Folder(mesh, folding).run();
 }
 
-Mesh with_creases(const Mesh& mesh, const FoldedStart& folded) {
-  Mesh result = mesh;
+CanopyMesh with_creases(const CanopyMesh& mesh, const FoldedStart& folded) {
+  CanopyMesh result = mesh;
   for (Patch& patch : result.patches) {
     if (!patch.periodic) {
       drop_folded_springs(patch, folded.positions);

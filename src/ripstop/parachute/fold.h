@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "ripstop/core/vec3.h"
-#include "ripstop/parachute/mesh.h"
+#include "ripstop/parachute/canopy_mesh.h"
 
 namespace ripstop {
 
@@ -28,7 +28,7 @@ struct FoldedStart {
 /// on the lines one behind the other, each as far downstream as its lines allow without being stretched.
 /// Throws Error(usage) when the number of folds does not divide every ring's columns or the radius does not
 /// fit, Error(bad_data) for a mesh of another kind.
-FoldedStart fold(const Mesh& mesh, const Folding& folding);
+FoldedStart fold(const CanopyMesh& mesh, const Folding& folding);
 
 /// Throws Error(usage) when fold lines would not follow columns of every ring.
 void check_folds(const Mesh& mesh, int folds);
@@ -39,7 +39,7 @@ bool folds_without_strain(const Mesh& mesh);
 /// The mesh without the springs that a fold line crosses, so that the folded start is at rest: a crease does
 /// not resist being unfolded. Those are springs over two cells, and on a flat sheet, which has folds along
 /// diagonals of cells, the other diagonals of these cells. Throws Error(usage) as fold().
-Mesh with_creases(const Mesh& mesh, const FoldedStart& folded);
+CanopyMesh with_creases(const CanopyMesh& mesh, const FoldedStart& folded);
 
 /// What the springs feel at given positions.
 struct StartStrain {

@@ -92,7 +92,7 @@ bool is_flat_sheet(const Mesh& mesh) {
   return true;
 }
 
-FoldedStart fold_sheet(const Mesh& mesh, const Folding& folding) {
+FoldedStart fold_sheet(const CanopyMesh& mesh, const Folding& folding) {
   if (folding.folds != 0 && folding.folds != sheet_folds)
     throw Error(ExitCode::usage,
                 fmt::format("inflation.folds = {}: a flat sheet of square cells folds along the arms and the "

@@ -12,6 +12,6 @@ bool is_flat_sheet(const Mesh& mesh);
 /// apart: those of the middle square's diagonals and those along the arms, which follow the mesh. Between two
 /// folds it stays plane. The folds along the arms are the inner ones. Throws Error(usage) for another number
 /// of folds, or when the lattice has no column on the fold lines, or the radius does not fit.
-FoldedStart fold_sheet(const Mesh& mesh, const Folding& folding);
+FoldedStart fold_sheet(const CanopyMesh& mesh, const Folding& folding);
 
 }  // namespace ripstop

@@ -30,7 +30,7 @@ class Builder {
         profile_(start_profile(pattern)),
         lines_reach_vent_(line_length_on_disk(design) >= facts(pattern).line_run * (1 - 1e-9)) {}
 
-  Mesh build() {
+  CanopyMesh build() {
     std::vector<Strip> strips;
     for (const GoreStrip& strip : pattern_.strips)
       strips.push_back(
@@ -38,13 +38,10 @@ class Builder {
     const RingLayout layout = lay_out_rings(strips, facts(pattern_).cloth_area, design_);
     for (std::size_t i = 0; i < strips.size(); ++i) add_strip(static_cast<int>(i), layout.strips[i]);
     for (std::size_t i = 1; i < strips.size(); ++i) attach(static_cast<int>(i));
-    Path skirt = builder_.row(patches_.front().front(), 0);
-    skirt.nodes.pop_back();
-    builder_.mesh.skirt_nodes = skirt.nodes;
+    builder_.set_skirt(patches_.front().front());
     add_tapes();
     add_sewn_lines();
-    builder_.flatten_ties();
-    return std::move(builder_.mesh);
+    return builder_.finish();
   }
 
  private:
@@ -67,7 +64,7 @@ class Builder {
   const PartMaterials& materials_;
   Profile profile_;
   bool lines_reach_vent_;
-  MeshBuilder builder_;
+  CanopyBuilder builder_;
   std::vector<std::vector<int>> patches_;  // of every strip
 };
 
@@ -206,7 +203,7 @@ std::vector<Path> Builder::runs_along(int part, int parts) const {
 }
 
 void Builder::add_tapes() {
-  const int law = builder_.law({materials_.tape.coefficients_n_m, materials_.tape.compression});
+  const int law = builder_.add_tape_law(materials_.tape);
   const Tape& tape = materials_.tape;
   if (design_.tape.hems) {
     const int part = builder_.part("hem tape");
@@ -257,15 +254,15 @@ void Builder::add_sewn_lines() {
     double left = line_length_on_disk(design_);
     Path line;
     for (const Path& run : runs_along(k, design_.lines.count)) {
-      const Path piece = sew(builder_, run, left, design_.mesh.line_segment_m, design_.mesh.sewn_straight);
+      const Path piece = builder_.sew(run, left, design_.mesh.line_segment_m, design_.mesh.sewn_straight);
       left -= piece.length();
       line.extend(piece);
       if (piece.nodes.back() != run.nodes.back()) break;
     }
     sewn.push_back(std::move(line));
   }
-  add_lines(builder_, design_, materials_, sewn);
-  if (pattern_.vent_lines && lines_reach_vent_) add_vent_lines(builder_, materials_, sewn);
+  builder_.add_lines(design_, materials_, sewn);
+  if (pattern_.vent_lines && lines_reach_vent_) builder_.add_vent_lines(materials_, sewn);
 }
 
 }  // namespace
@@ -277,7 +274,7 @@ bool has_hem_tape(const Design& design, const GorePattern& pattern, std::size_t 
   return strip == 0 || pattern.strips[strip].joined || design.tape.inner_hems;
 }
 
-Mesh build_gored(const GorePattern& pattern, const Design& design, const PartMaterials& materials) {
+CanopyMesh build_gored(const GorePattern& pattern, const Design& design, const PartMaterials& materials) {
   return Builder(pattern, design, materials).build();
 }
 

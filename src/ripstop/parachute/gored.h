@@ -1,7 +1,10 @@
 // The mesh of any canopy made of equal gores, from its flat pattern.
 #pragma once
 
+#include <concepts>
+
 #include "ripstop/parachute/build.h"
+#include "ripstop/parachute/cut.h"
 #include "ripstop/parachute/gore.h"
 
 namespace ripstop {
@@ -14,7 +17,25 @@ namespace ripstop {
 /// and lines lie on columns. A strip that is not `joined` is held at the radials only: by shared nodes where
 /// there is no slot, else by what runs along the radials. Throws Error(usage) when nothing spans a slot, or
 /// when the numbers of gores and lines allow no lattice.
-Mesh build_gored(const GorePattern& pattern, const Design& design, const PartMaterials& materials);
+CanopyMesh build_gored(const GorePattern& pattern, const Design& design, const PartMaterials& materials);
+
+/// A family of equal gores: its flat pattern says all the rest, where the family has no function of its own.
+template <class T>
+concept Gored = requires(const T& canopy, int gores) {
+  { gore_pattern(canopy, gores) } -> std::same_as<GorePattern>;
+};
+template <Gored T>
+CanopyFacts facts(const T& canopy, int gores) {
+  return facts(gore_pattern(canopy, gores));
+}
+template <Gored T>
+CutPattern cut_pattern(const T& canopy, const Design& design) {
+  return cut_pattern(gore_pattern(canopy, design.gores), design);
+}
+template <Gored T>
+CanopyMesh build_canopy(const T& canopy, const Design& design, const PartMaterials& materials) {
+  return build_gored(gore_pattern(canopy, design.gores), design, materials);
+}
 
 /// Whether tape lies along the lower or the upper edge of a strip; a joint has it once, as a lower edge.
 bool has_hem_tape(const Design& design, const GorePattern& pattern, std::size_t strip, bool upper);

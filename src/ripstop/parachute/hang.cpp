@@ -15,10 +15,10 @@ double LineLink::length() const {
   return std::accumulate(lengths.begin(), lengths.end(), 0.0);
 }
 
-std::vector<LineLink> line_links(const Mesh& mesh, const std::vector<int>& piece) {
+std::vector<LineLink> line_links(const CanopyMesh& mesh, const std::vector<int>& piece) {
   std::vector<LineLink> links;
-  for (const LineRun& line : mesh.lines) {
-    LineLink link{mesh.confluence, -1, {mesh.confluence}, {}};
+  for (const LineRun& line : mesh.rigging.lines) {
+    LineLink link{mesh.rigging.confluence, -1, {mesh.rigging.confluence}, {}};
     for (const int s : line.springs) {
       const Spring& spring = mesh.springs[s];
       const int next = spring.a == link.nodes.back() ? spring.b : spring.a;
@@ -26,15 +26,15 @@ std::vector<LineLink> line_links(const Mesh& mesh, const std::vector<int>& piece
       link.lengths.push_back(spring.rest_length);
       if (piece[next] < 0) continue;
       link.to = next;
-      if (link.from == mesh.confluence || piece[link.from] != piece[next]) links.push_back(link);
+      if (link.from == mesh.rigging.confluence || piece[link.from] != piece[next]) links.push_back(link);
       link = {next, -1, {next}, {}};
     }
   }
   return links;
 }
 
-double free_way(const LineLink& link, const Mesh& mesh, const std::vector<Vec3>& x, double slack) {
-  const double length = link.length() - (link.from == mesh.confluence ? slack : 0.0);
+double free_way(const LineLink& link, const CanopyMesh& mesh, const std::vector<Vec3>& x, double slack) {
+  const double length = link.length() - (link.from == mesh.rigging.confluence ? slack : 0.0);
   const Vec3 from = x[link.from], to = x[link.to];
   const double lateral = std::hypot(to.x - from.x, to.y - from.y);
   if (!(length > lateral)) {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "ripstop/core/vec3.h"
-#include "ripstop/parachute/mesh.h"
+#include "ripstop/parachute/canopy_mesh.h"
 
 namespace ripstop {
 
@@ -17,12 +17,12 @@ struct LineLink {
 };
 /// Links between different pieces, and from the confluence; `piece` of every node, -1 for one that lies on no
 /// cloth.
-std::vector<LineLink> line_links(const Mesh& mesh, const std::vector<int>& piece);
+std::vector<LineLink> line_links(const CanopyMesh& mesh, const std::vector<int>& piece);
 
 /// A link allows its far end to lie downstream of its near end by sqrt(length^2 - lateral^2): how far [m] the
 /// far end may be moved along z. A link from the confluence is taken shorter by `slack` [m]. Throws
 /// Error(usage) when it does not reach.
-double free_way(const LineLink& link, const Mesh& mesh, const std::vector<Vec3>& x, double slack);
+double free_way(const LineLink& link, const CanopyMesh& mesh, const std::vector<Vec3>& x, double slack);
 
 /// Places a link's inner nodes: on the straight way when it is taut, else on the arc of a circle that bulges
 /// away from the axis, every segment a chord of its rest length.

@@ -8,7 +8,6 @@
 
 #include "ripstop/core/toml/fields.h"
 #include "ripstop/core/toml/problem.h"
-#include "ripstop/parachute/cut.h"
 #include "ripstop/parachute/design.h"
 #include "ripstop/parachute/gored.h"
 
@@ -130,14 +129,14 @@ void describe(Fields& fields, ProfileCanopy& canopy) {
 
 void check_shape(const ProfileCanopy& canopy, const Design& design, Findings& findings) {
   const std::string pieces = "parachute.pieces";
-  if (!findings.sound(shape_keys())) return;
+  if (!findings.sound(shape_keys(design))) return;
   if (canopy.pieces.empty()) {
     findings.add(pieces, 0, "at least 1", "a canopy needs at least one table [[parachute.pieces]]");
     return;
   }
   for (std::size_t i = 0; i < canopy.pieces.size(); ++i)
     check_piece(canopy.pieces[i], fmt::format("{}[{}]", pieces, i), findings);
-  if (!findings.sound(shape_keys())) return;
+  if (!findings.sound(shape_keys(design))) return;
   const int gores = std::max(3, design.gores);
   const double widest = widest_of(canopy), skirt = canopy.pieces.front().radius_m.front();
   if (skirt < narrowest_skirt * widest)
@@ -196,16 +195,20 @@ GorePattern gore_pattern(const ProfileCanopy& canopy, int gores) {
   return pattern;
 }
 
-CanopyFacts facts(const ProfileCanopy& canopy, int gores) {
-  return facts(gore_pattern(canopy, gores));
-}
-
-CutPattern cut_pattern(const ProfileCanopy& canopy, const Design& design) {
-  return cut_pattern(gore_pattern(canopy, design.gores), design);
-}
-
-Mesh build_canopy(const ProfileCanopy& canopy, const Design& design, const PartMaterials& materials) {
+CanopyMesh build_canopy(const ProfileCanopy& canopy, const Design& design, const PartMaterials& materials) {
   return build_gored(split_where_widest(gore_pattern(canopy, design.gores)), design, materials);
 }
+
+Experience experience(const ProfileCanopy&) {
+  // The number of nodes is that of half an ellipsoid; flatter ones need more.
+  return {
+      .projected_ratio = {},
+      .drag_coefficient = {},
+      .opening_coefficient = 1.8,
+      .opening_source = "not in Knacke's tables: the largest value of the solid canopies, on the safe side",
+      .cloth_nodes = 11000};
+}
+
+constinit const CanopyFamily ProfileCanopy::family = family_of<ProfileCanopy>("profile", "elliptical");
 
 }  // namespace ripstop

@@ -3,16 +3,10 @@
 
 #include <vector>
 
+#include "ripstop/parachute/family.h"
 #include "ripstop/parachute/gore.h"
-#include "ripstop/parachute/mesh.h"
 
 namespace ripstop {
-
-class Fields;
-class Findings;
-struct CutPattern;
-struct Design;
-struct PartMaterials;
 
 /// [[parachute.pieces]]: one piece of every gore, from the skirt up. Points run toward the vent.
 struct ProfilePiece {
@@ -25,6 +19,8 @@ struct ProfilePiece {
 
 /// [parachute] with type = "profile"
 struct ProfileCanopy {
+  static const CanopyFamily family;
+
   std::vector<ProfilePiece> pieces;
   bool vent_lines = true;
 };
@@ -32,13 +28,12 @@ struct ProfileCanopy {
 void describe(Fields& fields, ProfilePiece& piece);
 void describe(Fields& fields, ProfileCanopy& canopy);
 void check_shape(const ProfileCanopy& canopy, const Design& design, Findings& findings);
+Experience experience(const ProfileCanopy& canopy);
 /// A gore is 2 pi r / N wide where the meridian's radius is r, and as long as the meridian of the polygon's
 /// flat sides: r cos(pi/N) (pi/N) / sin(pi/N) from the axis. S0 is the cloth without its fullness, with gaps
 /// and the vent as a flat polygon.
 GorePattern gore_pattern(const ProfileCanopy& canopy, int gores);
-CanopyFacts facts(const ProfileCanopy& canopy, int gores);
-CutPattern cut_pattern(const ProfileCanopy& canopy, const Design& design);
 /// See gored.h. A piece that is widest between its edges is meshed as two, sewn together there.
-Mesh build_canopy(const ProfileCanopy& canopy, const Design& design, const PartMaterials& materials);
+CanopyMesh build_canopy(const ProfileCanopy& canopy, const Design& design, const PartMaterials& materials);
 
 }  // namespace ripstop

@@ -7,7 +7,6 @@
 
 #include "ripstop/core/toml/fields.h"
 #include "ripstop/core/toml/problem.h"
-#include "ripstop/parachute/cut.h"
 #include "ripstop/parachute/design.h"
 #include "ripstop/parachute/gored.h"
 #include "ripstop/parachute/spherical.h"
@@ -74,7 +73,7 @@ void check_shape(const Ringsail& canopy, const Design& design, Findings& finding
   const double half_angle = canopy.half_angle_deg * degree;
   const double skirt = 2 * sphere_radius(canopy.nominal_diameter_m, half_angle) * std::sin(half_angle);
   check_vent(canopy.vent_diameter_m, skirt, canopy.vent_lines, design, findings);
-  if (!findings.sound(shape_keys())) return;
+  if (!findings.sound(shape_keys(design))) return;
   if (!canopy.rows.empty() && static_cast<int>(canopy.rows.size()) != canopy.sails) {
     findings.add("parachute.sails", canopy.sails, fmt::format("{}", canopy.rows.size()),
                  fmt::format("there are {} tables [[parachute.rows]], one is needed for every sail of a gore",
@@ -119,16 +118,14 @@ GorePattern gore_pattern(const Ringsail& canopy, int gores) {
   return pattern;
 }
 
-CanopyFacts facts(const Ringsail& canopy, int gores) {
-  return facts(gore_pattern(canopy, gores));
+Experience experience(const Ringsail&) {
+  return {.projected_ratio = {0.69, 0.69},
+          .drag_coefficient = {0.75, 0.90},
+          .opening_coefficient = 1.1,
+          .opening_source = knacke_unchecked,
+          .cloth_nodes = 3000};
 }
 
-CutPattern cut_pattern(const Ringsail& canopy, const Design& design) {
-  return cut_pattern(gore_pattern(canopy, design.gores), design);
-}
-
-Mesh build_canopy(const Ringsail& canopy, const Design& design, const PartMaterials& materials) {
-  return build_gored(gore_pattern(canopy, design.gores), design, materials);
-}
+constinit const CanopyFamily Ringsail::family = family_of<Ringsail>("ringsail", "adept");
 
 }  // namespace ripstop

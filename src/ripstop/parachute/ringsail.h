@@ -1,16 +1,10 @@
 // The ringsail canopy: rows of sails, fuller at their lower edges, on a quarter sphere.
 #pragma once
 
+#include "ripstop/parachute/family.h"
 #include "ripstop/parachute/gore.h"
-#include "ripstop/parachute/mesh.h"
 
 namespace ripstop {
-
-class Fields;
-class Findings;
-struct CutPattern;
-struct Design;
-struct PartMaterials;
 
 /// [[parachute.rows]]: one row of sails, from the skirt up.
 struct SailRow {
@@ -22,6 +16,8 @@ struct SailRow {
 
 /// [parachute] with type = "ringsail"
 struct Ringsail {
+  static const CanopyFamily family;
+
   double nominal_diameter_m = 0;
   double vent_diameter_m = 0;
   double half_angle_deg = 60;  // of the cap: 60 a quarter of the sphere
@@ -37,11 +33,8 @@ std::vector<SailRow> sail_rows(const Ringsail& canopy);
 
 void describe(Fields& fields, Ringsail& canopy);
 void check_shape(const Ringsail& canopy, const Design& design, Findings& findings);
+Experience experience(const Ringsail& canopy);
 /// S0 = pi/4 nominal_diameter^2, the area of the cap with slots and vent and without fullness.
 GorePattern gore_pattern(const Ringsail& canopy, int gores);
-CanopyFacts facts(const Ringsail& canopy, int gores);
-CutPattern cut_pattern(const Ringsail& canopy, const Design& design);
-/// See gored.h.
-Mesh build_canopy(const Ringsail& canopy, const Design& design, const PartMaterials& materials);
 
 }  // namespace ripstop

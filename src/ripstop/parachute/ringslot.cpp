@@ -7,7 +7,6 @@
 
 #include "ripstop/core/toml/fields.h"
 #include "ripstop/core/toml/problem.h"
-#include "ripstop/parachute/cut.h"
 #include "ripstop/parachute/design.h"
 #include "ripstop/parachute/gored.h"
 
@@ -46,7 +45,7 @@ void describe(Fields& fields, Ringslot& canopy) {
 void check_shape(const Ringslot& canopy, const Design& design, Findings& findings) {
   const Layout layout = layout_of(canopy);
   check_vent(canopy.vent_diameter_m, 2 * layout.slant * layout.cosine, canopy.vent_lines, design, findings);
-  if (!findings.sound(shape_keys())) return;
+  if (!findings.sound(shape_keys(design))) return;
   if (canopy.slot_height_m >= layout.ring_height)
     findings.add(
         "parachute.slot_height_m", canopy.slot_height_m,
@@ -70,16 +69,14 @@ GorePattern gore_pattern(const Ringslot& canopy, int gores) {
   return pattern;
 }
 
-CanopyFacts facts(const Ringslot& canopy, int gores) {
-  return facts(gore_pattern(canopy, gores));
+Experience experience(const Ringslot&) {
+  return {.projected_ratio = {0.67, 0.70},
+          .drag_coefficient = {0.56, 0.65},
+          .opening_coefficient = 1.05,
+          .opening_source = knacke_unchecked,
+          .cloth_nodes = 6000};
 }
 
-CutPattern cut_pattern(const Ringslot& canopy, const Design& design) {
-  return cut_pattern(gore_pattern(canopy, design.gores), design);
-}
-
-Mesh build_canopy(const Ringslot& canopy, const Design& design, const PartMaterials& materials) {
-  return build_gored(gore_pattern(canopy, design.gores), design, materials);
-}
+constinit const CanopyFamily Ringslot::family = family_of<Ringslot>("ringslot", "ringslot");
 
 }  // namespace ripstop

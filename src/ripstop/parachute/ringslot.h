@@ -1,19 +1,15 @@
 // The ringslot canopy: concentric rings of cloth with slots between, held by radials and vertical tapes.
 #pragma once
 
+#include "ripstop/parachute/family.h"
 #include "ripstop/parachute/gore.h"
-#include "ripstop/parachute/mesh.h"
 
 namespace ripstop {
 
-class Fields;
-class Findings;
-struct CutPattern;
-struct Design;
-struct PartMaterials;
-
 /// [parachute] with type = "ringslot"
 struct Ringslot {
+  static const CanopyFamily family;
+
   double nominal_diameter_m = 0;
   double vent_diameter_m = 0;
   double cone_angle_deg = 0;  // 0: flat
@@ -25,11 +21,8 @@ struct Ringslot {
 
 void describe(Fields& fields, Ringslot& canopy);
 void check_shape(const Ringslot& canopy, const Design& design, Findings& findings);
+Experience experience(const Ringslot& canopy);
 /// S0 = pi/4 nominal_diameter^2, slots and vent included.
 GorePattern gore_pattern(const Ringslot& canopy, int gores);
-CanopyFacts facts(const Ringslot& canopy, int gores);
-CutPattern cut_pattern(const Ringslot& canopy, const Design& design);
-/// See gored.h.
-Mesh build_canopy(const Ringslot& canopy, const Design& design, const PartMaterials& materials);
 
 }  // namespace ripstop

@@ -6,43 +6,32 @@
 #include <cmath>
 
 namespace ripstop {
-namespace {
 
-// Any cross-section of a chain is crossed by one axial and two bending springs: together they are the line's
-// law.
-struct ChainLaws {
-  int axial, bending;
-};
-
-ChainLaws add_laws(MeshBuilder& builder, const Line& line) {
-  const SpringLaw whole{line.coefficients_n, line.compression};
-  const int axial = builder.law(whole.scaled(1 - line.bending_fraction));
-  return {axial, builder.law(whole.scaled(0.5 * line.bending_fraction))};
+void CanopyBuilder::set_skirt(int patch) {
+  rigging.skirt_nodes = row(patch, 0).nodes;
+  rigging.skirt_nodes.pop_back();  // the first again
 }
 
-void add_riser(MeshBuilder& builder, const Design& design, const Line& riser) {
-  Mesh& mesh = builder.mesh;
-  if (design.riser.length_m <= 0) {
-    mesh.fixed = {mesh.confluence};
-    return;
-  }
-  const int segments = std::max(1, static_cast<int>(design.riser.length_m / design.mesh.line_segment_m));
-  const Vec3 confluence = mesh.start[mesh.confluence];
+Path CanopyBuilder::radial(const std::vector<int>& patches, int part, int parts) const {
   Path path;
-  for (int i = 0; i < segments; ++i) {
-    const double below = design.riser.length_m * (1 - double(i) / segments);
-    path.nodes.push_back(builder.add_node(confluence - Vec3{0, 0, below}, 0));
+  for (const int index : patches) {
+    const Patch& patch = mesh.patches[index];
+    path.extend(column(index, patch.columns / parts * part, 0, patch.rows - 1));
   }
-  path.nodes.push_back(mesh.confluence);
-  path.lengths.assign(segments, design.riser.length_m / segments);
-  const ChainLaws laws = add_laws(builder, riser);
-  mesh.riser_springs = builder.add_chain(path, riser, laws.axial, laws.bending, builder.part("riser"));
-  mesh.fixed = {path.nodes.front()};
+  return path;
 }
 
-}  // namespace
+int CanopyBuilder::add_tape_law(const Tape& tape) {
+  return law({tape.coefficients_n_m, tape.compression});
+}
 
-Path sew(MeshBuilder& builder, const Path& path, double length, double segment, bool straight) {
+void CanopyBuilder::add_tape(const Path& path, const Tape& tape, int tape_law, int tape_part) {
+  const std::vector<int> springs =
+      add_springs(path, {tape_law, tape_part, tape.width_m, tape.damping_n_s_m, tape.linear_density_kg_m});
+  rigging.tape_springs.insert(rigging.tape_springs.end(), springs.begin(), springs.end());
+}
+
+Path CanopyBuilder::sew(const Path& path, double length, double segment, bool straight) {
   std::vector<double> s(path.nodes.size());
   for (std::size_t i = 1; i < s.size(); ++i) s[i] = s[i - 1] + path.lengths[i - 1];
   std::size_t end = 0;
@@ -67,16 +56,49 @@ Path sew(MeshBuilder& builder, const Path& path, double length, double segment, 
     const std::size_t from = chosen[k - 1], to = chosen[k];
     for (std::size_t i = from + 1; straight && i < to; ++i) {
       const double weight = (s[i] - s[from]) / (s[to] - s[from]);
-      builder.tie(path.nodes[i], {{path.nodes[from], 1 - weight}, {path.nodes[to], weight}});
+      tie(path.nodes[i], {{path.nodes[from], 1 - weight}, {path.nodes[to], weight}});
     }
     sewn.append({{path.nodes[to]}, {}}, s[to] - s[from]);
   }
   return sewn;
 }
 
-void add_lines(MeshBuilder& builder, const Design& design, const PartMaterials& materials,
-               const std::vector<Path>& sewn) {
-  Mesh& mesh = builder.mesh;
+CanopyBuilder::ChainLaws CanopyBuilder::add_laws(const Line& line) {
+  const SpringLaw whole{line.coefficients_n, line.compression};
+  const int axial = law(whole.scaled(1 - line.bending_fraction));
+  return {axial, law(whole.scaled(0.5 * line.bending_fraction))};
+}
+
+std::vector<int> CanopyBuilder::add_chain(const Path& path, const Line& line, ChainLaws laws, int line_part) {
+  const std::vector<int> axial =
+      add_springs(path, {laws.axial, line_part, 1, line.damping_n_s_m, line.linear_density_kg_m});
+  for (std::size_t i = 0; i + 2 < path.nodes.size(); ++i) {
+    mesh.springs.push_back({path.nodes[i], path.nodes[i + 2], path.lengths[i] + path.lengths[i + 1], 1.0,
+                            laws.bending, line.damping_n_s_m, line_part});
+  }
+  return axial;
+}
+
+void CanopyBuilder::add_riser(const Design& design, const Line& riser) {
+  if (design.riser.length_m <= 0) {
+    mesh.fixed = {rigging.confluence};
+    return;
+  }
+  const int segments = std::max(1, static_cast<int>(design.riser.length_m / design.mesh.line_segment_m));
+  const Vec3 confluence = mesh.start[rigging.confluence];
+  Path path;
+  for (int i = 0; i < segments; ++i) {
+    const double below = design.riser.length_m * (1 - double(i) / segments);
+    path.nodes.push_back(add_node(confluence - Vec3{0, 0, below}, 0));
+  }
+  path.nodes.push_back(rigging.confluence);
+  path.lengths.assign(segments, design.riser.length_m / segments);
+  rigging.riser_springs = add_chain(path, riser, add_laws(riser), part("riser"));
+  mesh.fixed = {path.nodes.front()};
+}
+
+void CanopyBuilder::add_lines(const Design& design, const PartMaterials& materials,
+                              const std::vector<Path>& sewn) {
   const double length = design.lines.length_m;
   const Line& line = materials.line;
   double confluence_z = -1e300;
@@ -85,34 +107,40 @@ void add_lines(MeshBuilder& builder, const Design& design, const PartMaterials& 
     const double radius = std::hypot(skirt.x, skirt.y);
     confluence_z = std::max(confluence_z, skirt.z - std::sqrt(length * length - radius * radius));
   }
-  mesh.confluence = builder.add_node({0, 0, confluence_z}, 0);
-  const Vec3 confluence = mesh.start[mesh.confluence];
-  const ChainLaws laws = add_laws(builder, line);
+  const Vec3 confluence{0, 0, confluence_z};
+  rigging.confluence = add_node(confluence, 0);
+  const ChainLaws laws = add_laws(line);
   const int free_segments = std::max(1, static_cast<int>(length / design.mesh.line_segment_m));
   for (std::size_t k = 0; k < sewn.size(); ++k) {
     const Vec3 skirt = mesh.start[sewn[k].nodes.front()];
-    Path path{{mesh.confluence}, {}};
+    Path path{{rigging.confluence}, {}};
     for (int i = 1; i < free_segments; ++i) {
       const Vec3 place = confluence + (skirt - confluence) * (double(i) / free_segments);
-      path.append({{builder.add_node(place, 0)}, {}}, length / free_segments);
+      path.append({{add_node(place, 0)}, {}}, length / free_segments);
     }
     path.append(sewn[k], length / free_segments);
-    const int part = builder.part(fmt::format("line {}", k + 1));
-    mesh.lines.push_back({static_cast<int>(k), builder.add_chain(path, line, laws.axial, laws.bending, part),
-                          free_segments, 1 - line.bending_fraction});
+    rigging.lines.push_back({static_cast<int>(k),
+                             add_chain(path, line, laws, part(fmt::format("line {}", k + 1))), free_segments,
+                             1 - line.bending_fraction});
   }
-  add_riser(builder, design, materials.riser);
+  add_riser(design, materials.riser);
 }
 
-void add_vent_lines(MeshBuilder& builder, const PartMaterials& materials, const std::vector<Path>& sewn) {
-  const ChainLaws laws = add_laws(builder, materials.line);
+void CanopyBuilder::add_vent_lines(const PartMaterials& materials, const std::vector<Path>& sewn) {
+  const ChainLaws laws = add_laws(materials.line);
   const std::size_t half = sewn.size() / 2;
   for (std::size_t k = 0; k < half; ++k) {
     const int from = sewn[k].nodes.back(), to = sewn[k + half].nodes.back();
-    const double span = norm(builder.mesh.start[to] - builder.mesh.start[from]);
-    builder.add_chain({{from, to}, {span}}, materials.line, laws.axial, laws.bending,
-                      builder.part("vent lines"));
+    const double span = norm(mesh.start[to] - mesh.start[from]);
+    const std::vector<int> springs =
+        add_chain({{from, to}, {span}}, materials.line, laws, part("vent lines"));
+    rigging.vent_line_springs.insert(rigging.vent_line_springs.end(), springs.begin(), springs.end());
   }
+}
+
+CanopyMesh CanopyBuilder::finish() {
+  flatten_ties();
+  return {std::move(mesh), std::move(rigging)};
 }
 
 }  // namespace ripstop

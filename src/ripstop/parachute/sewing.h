@@ -1,27 +1,59 @@
-// Suspension lines, their sewn part on the canopy, vent lines and the riser: the same for every family.
+// What is sewn onto the cloth and hung on it: tape, suspension lines, vent lines, riser; the same for every
+// family.
 #pragma once
 
 #include <vector>
 
+#include "ripstop/mesh/builder.h"
 #include "ripstop/parachute/build.h"
-#include "ripstop/parachute/builder.h"
 
 namespace ripstop {
 
-/// Chooses the nodes of `path` (a smooth run of cloth nodes) that become nodes of a line, at least `segment`
-/// [m] apart: a short segment of so stiff a line would set the time step. The nodes between are tied to the
-/// straight segment, or left free beside it when not `straight`.
-/// Goes no farther than `length` [m] along the path. The chosen nodes, with the lengths between.
-Path sew(MeshBuilder& builder, const Path& path, double length, double segment, bool straight);
+/// A mesh while it becomes a canopy.
+class CanopyBuilder : public MeshBuilder {
+ public:
+  Rigging rigging;
 
-/// Straight lines from the confluence on the axis to the first node of every path, which they follow from
-/// there; and the riser. All lines are `design.lines.length_m` long; the confluence lies where the longest is
-/// taut. Call once.
-void add_lines(MeshBuilder& builder, const Design& design, const PartMaterials& materials,
-               const std::vector<Path>& sewn);
+  /// The lower edge of a patch that goes round is the canopy's mouth.
+  void set_skirt(int patch);
 
-/// Every line goes on across the vent to the end of the opposite one: an even number of paths. A vent line is
-/// as long as the distance that it spans in the start shape.
-void add_vent_lines(MeshBuilder& builder, const PartMaterials& materials, const std::vector<Path>& sewn);
+  /// The nodes along radial `part` of `parts`, which lies on a column of every patch, from the first patch's
+  /// lower edge to the last one's upper edge. The patches follow one another edge to edge, each tied to the
+  /// next, which holds the shared node.
+  Path radial(const std::vector<int>& patches, int part, int parts) const;
+
+  /// Index of the tape's law, for add_tape().
+  int add_tape_law(const Tape& tape);
+  void add_tape(const Path& path, const Tape& tape, int law, int part);
+
+  /// Chooses the nodes of `path` (a smooth run of cloth nodes) that become nodes of a line, at least
+  /// `segment` [m] apart: a short segment of so stiff a line would set the time step. The nodes between are
+  /// tied to the straight segment, or left free beside it when not `straight`.
+  /// Goes no farther than `length` [m] along the path. The chosen nodes, with the lengths between.
+  Path sew(const Path& path, double length, double segment, bool straight);
+
+  /// Straight lines from the confluence on the axis to the first node of every path, which they follow from
+  /// there; and the riser. All lines are `design.lines.length_m` long; the confluence lies where the longest
+  /// is taut. Call once.
+  void add_lines(const Design& design, const PartMaterials& materials, const std::vector<Path>& sewn);
+
+  /// Every line goes on across the vent to the end of the opposite one: an even number of paths. A vent line
+  /// is as long as the distance that it spans in the start shape.
+  void add_vent_lines(const PartMaterials& materials, const std::vector<Path>& sewn);
+
+  /// Call last.
+  CanopyMesh finish();
+
+ private:
+  // Any cross-section of a chain is crossed by one axial and two bending springs: together they are the
+  // line's law.
+  struct ChainLaws {
+    int axial, bending;
+  };
+  ChainLaws add_laws(const Line& line);
+  /// Axial springs between neighbours, bending springs over two; the axial ones.
+  std::vector<int> add_chain(const Path& path, const Line& line, ChainLaws laws, int part);
+  void add_riser(const Design& design, const Line& riser);
+};
 
 }  // namespace ripstop

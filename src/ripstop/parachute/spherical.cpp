@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "ripstop/core/toml/fields.h"
-#include "ripstop/parachute/cut.h"
 #include "ripstop/parachute/design.h"
 #include "ripstop/parachute/gored.h"
 
@@ -40,16 +39,19 @@ GorePattern gore_pattern(const Spherical& canopy, int gores) {
   return pattern;
 }
 
-CanopyFacts facts(const Spherical& canopy, int gores) {
-  return facts(gore_pattern(canopy, gores));
+Experience experience(const Spherical& canopy) {
+  Experience known{.projected_ratio = {},
+                   .drag_coefficient = {},
+                   .opening_coefficient = 1.6,
+                   .opening_source = knacke_transcribed,
+                   .cloth_nodes = canopy.half_angle_deg > 75 ? 6000 : 12000};
+  if (canopy.half_angle_deg == 90) {  // the tables have no flatter caps
+    known.projected_ratio = {0.66, 0.66};
+    known.drag_coefficient = {0.62, 0.77};
+  }
+  return known;
 }
 
-CutPattern cut_pattern(const Spherical& canopy, const Design& design) {
-  return cut_pattern(gore_pattern(canopy, design.gores), design);
-}
-
-Mesh build_canopy(const Spherical& canopy, const Design& design, const PartMaterials& materials) {
-  return build_gored(gore_pattern(canopy, design.gores), design, materials);
-}
+constinit const CanopyFamily Spherical::family = family_of<Spherical>("spherical", "hemispherical");
 
 }  // namespace ripstop

@@ -1,5 +1,4 @@
-// The folder of one steady run: what it was (run.json), how it went (iterations.csv, canopy.pvd), what came
-// out (result.json), and what it needs to go on after a kill (checkpoint/).
+// The folder of a run, whatever runs in it: which inputs it is of, and whether it has ended.
 #pragma once
 
 #include <filesystem>
@@ -7,8 +6,6 @@
 #include <string>
 
 #include "ripstop/case/case.h"
-#include "ripstop/coupling/result.h"
-#include "ripstop/coupling/steady.h"
 
 namespace ripstop {
 
@@ -27,47 +24,7 @@ bool holds_run(const RunSettings& settings, const Case& value, const std::string
 /// it is.
 void open_run_folder(const RunSettings& settings, const Case& value, const std::string& solver, int threads);
 
-class RunFolder {
- public:
-  /// As open_run_folder().
-  RunFolder(const RunSettings& settings, const Case& value, const std::string& engine, int threads);
-
-  const std::filesystem::path& path() const { return folder_; }
-  std::filesystem::path flow_folder() const { return folder_ / "flow"; }
-  std::filesystem::path checkpoint_folder() const { return folder_ / "checkpoint"; }
-  /// result.json of a run that had ended.
-  std::optional<std::string> finished_result() const;
-
-  /// iterations.csv is cut back to what the checkpoint holds.
-  void go_on_from(const SteadyState& state);
-  /// Files of one finished coupling iteration: its row, the lines' tensions, canopy, lines and flow for
-  /// ParaView, a picture.
-  void write_iteration(const SteadySolver& solver, const SteadyState& state, const FlowField& field);
-  /// canopy.stl, drag.png and, last, result.json.
-  void write_result(const SteadySolver& solver, const SteadyState& state, const Case& value);
-
- private:
-  void write_fields(const SteadySolver& solver, const SteadyState& state, const FlowField& field) const;
-  void write_state(const SteadySolver& solver, const SteadyState& state) const;
-  void write_series(std::size_t iterations) const;
-
-  std::filesystem::path folder_;
-  std::string title_;
-  bool fields_;
-};
-
-/// The program's summary of one finished run, as in result.json.
-struct SteadyResult {
-  double drag = 0, drag_area = 0, drag_coefficient = 0;  // [N], [m2], -
-  double reference_area = 0, speed = 0, density = 0;
-  CanopySize size;
-  int iterations = 0;
-  bool converged = false;
-  double max_line_tension = 0;  // [N]
-  StressPeak stress;
-  double wall_time = 0;  // of all coupling iterations [s]
-  SteadyIteration last;
-};
-SteadyResult steady_result(const SteadySolver& solver, const SteadyState& state, const Case& value);
+/// result.json of a run that had ended. Throws Error(bad_data) when it is damaged.
+std::optional<std::string> finished_result(const std::filesystem::path& folder);
 
 }  // namespace ripstop

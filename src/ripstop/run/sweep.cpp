@@ -13,6 +13,8 @@
 #include "ripstop/core/build_info.h"
 #include "ripstop/core/file.h"
 #include "ripstop/core/thread_team.h"
+#include "ripstop/run/engine.h"
+#include "ripstop/run/steady_folder.h"
 
 namespace ripstop {
 namespace {
@@ -72,7 +74,8 @@ void open_sweep_folder(const std::vector<SweepPoint>& points, const SweepSetting
   }
   // Before anything of an earlier sweep is touched.
   for (const SweepPoint& point : points)
-    holds_run(run_settings(point, settings), point.value, name_of_engine(point.value));
+    holds_run(run_settings(point, settings), point.value,
+              engine_of(point.value).name(engine_options(point.value)));
   make_folder(folder);
   nlohmann::ordered_json j;
   j["program"] = "ripstop";
@@ -134,35 +137,59 @@ class Board {
     for (std::size_t i = 0; i < points_.size(); ++i) {
       if (stage_[i] != Stage::waiting) continue;
       answer = none_ready;
-      const int start = settings_.warm ? points_[i].start : -1;
+      const int start = start_of(i);
       if (start < 0 || stage_[start] == Stage::ended) return static_cast<int>(i);
     }
     return answer;
   }
 
   SweepRow run(std::size_t i, int threads) {
-    const SweepPoint& point = points_[i];
-    SteadyRunSettings run;
-    run.folder = run_settings(point, settings_);
-    run.threads = threads;
-    if (settings_.warm && point.start >= 0) {
-      const fs::path neighbour = settings_.folder / points_[point.start].folder;
-      if (fs::exists(neighbour / "result.json")) run.warm_from = neighbour;
-    }
-    SteadyRunEvents follow;
-    follow.progress = [&](const SteadyProgress& progress, const SteadyState& state) {
-      if (!events_.progress) return;
-      const std::lock_guard lock(mutex_);
-      events_.progress(i, progress, state);
-    };
     try {
-      return sweep_row(run_steady(point.value, run, follow).json);
+      return settings_.folder.empty() ? run_in_memory(i, threads) : run_in_folder(i, threads);
     } catch (const Error& error) {
       return failed(error.what(), error.code());
     } catch (const std::exception& error) {
       return failed(error.what(), ExitCode::external);
     }
   }
+
+  SweepRow run_in_folder(std::size_t i, int threads) {
+    SteadyFolderSettings run{run_settings(points_[i], settings_), threads, {}, {}};
+    if (const int start = start_of(i); start >= 0) {
+      const fs::path neighbour = settings_.folder / points_[start].folder;
+      if (fs::exists(neighbour / "result.json")) run.warm_from = neighbour;
+    }
+    Follower follower(*this, i);
+    return {true, "", ExitCode::done, run_steady_in(run, points_[i].value, follower).result, {}};
+  }
+
+  SweepRow run_in_memory(std::size_t i, int threads) {
+    Follower follower(*this, i);
+    SteadySolution solution = run_steady(points_[i].value, follower, {threads, {}, {}});
+    return {true, "", ExitCode::done, std::move(solution.result), std::move(solution.state)};
+  }
+
+  /// Tells the sweep's listener of one run; starts it from its neighbour in memory.
+  class Follower : public SteadyObserver {
+   public:
+    Follower(Board& board, std::size_t point) : board_(board), point_(point) {}
+    void begin(const SteadyRun& run, SteadyState& state) override {
+      const int start = board_.start_of(point_);
+      if (!board_.settings_.folder.empty() || start < 0 || !board_.rows_[start].done) return;
+      start_from(board_.points_[start].value, board_.rows_[start].state, run, state);
+    }
+    void progress(const SteadyProgress& progress, const SteadyState& state) override {
+      if (!board_.events_.progress) return;
+      const std::lock_guard lock(board_.mutex_);
+      board_.events_.progress(point_, progress, state);
+    }
+
+   private:
+    Board& board_;
+    std::size_t point_;
+  };
+
+  int start_of(std::size_t i) const { return settings_.warm ? points_[i].start : -1; }
 
   static SweepRow failed(const std::string& why, ExitCode code) {
     SweepRow row;
@@ -173,6 +200,7 @@ class Board {
 
   // A flow field of a printed grid is 130 MB: it goes as soon as no other run is to start from it.
   void drop_what_nobody_needs() const {
+    if (settings_.folder.empty()) return;
     for (std::size_t i = 0; i < points_.size(); ++i) {
       bool needed = settings_.fields || stage_[i] != Stage::ended;
       for (std::size_t k = 0; k < points_.size() && !needed; ++k)
@@ -243,31 +271,6 @@ std::vector<SweepPoint> sweep_points(const fs::path& case_file, const Overrides&
   return points;
 }
 
-SweepRow sweep_row(const std::string& text) {
-  try {
-    const json j = json::parse(text);
-    SweepRow row;
-    row.done = true;
-    j.at("converged").get_to(row.converged);
-    j.at("speed_m_s").get_to(row.speed);
-    j.at("density_kg_m3").get_to(row.density);
-    j.at("drag_n").get_to(row.drag);
-    j.at("drag_area_m2").get_to(row.drag_area);
-    j.at("drag_coefficient").get_to(row.drag_coefficient);
-    j.at("reference_area_m2").get_to(row.reference_area);
-    j.at("projected_diameter_m").get_to(row.projected_diameter);
-    j.at("skirt_diameter_m").get_to(row.skirt_diameter);
-    j.at("canopy_length_m").get_to(row.length);
-    j.at("max_line_tension_n").get_to(row.max_line_tension);
-    j.at("max_von_mises_n_m").get_to(row.max_von_mises);
-    j.at("coupling_iterations").get_to(row.iterations);
-    j.at("wall_time_s").get_to(row.wall_time);
-    return row;
-  } catch (const json::exception& error) {
-    throw Error(ExitCode::bad_data, fmt::format("not the result of a steady run: {}", error.what()));
-  }
-}
-
 int fitting_jobs(const std::vector<SweepPoint>& points) {
   const int cores = ThreadTeam().size();
   double bytes = 0;
@@ -275,7 +278,7 @@ int fitting_jobs(const std::vector<SweepPoint>& points) {
   for (const SweepPoint& point : points) {
     const FlowSettings& flow = point.value.flow;
     bytes = std::max(bytes, bytes_a_run + bytes_a_cell * flow.cells[0] * flow.cells[1] * flow.cells[2]);
-    if (flow.engine == EngineKind::openfoam) ranks = std::max(ranks, flow.ranks);
+    if (engine_of(point.value).can.ranks) ranks = std::max(ranks, flow.ranks);
   }
   const int by_memory = static_cast<int>(std::min(1e6, 0.8 * free_memory() / bytes));
   return std::max(1, std::min({cores / ranks, by_memory, static_cast<int>(points.size())}));
@@ -283,7 +286,7 @@ int fitting_jobs(const std::vector<SweepPoint>& points) {
 
 std::vector<SweepRow> run_sweep(const std::vector<SweepPoint>& points, const SweepSettings& settings,
                                 const SweepEvents& events) {
-  open_sweep_folder(points, settings);
+  if (!settings.folder.empty()) open_sweep_folder(points, settings);
   const int jobs = std::clamp(settings.jobs > 0 ? settings.jobs : fitting_jobs(points), 1,
                               std::max(1, static_cast<int>(points.size())));
   Board board(points, settings, events, jobs);

@@ -1,4 +1,5 @@
-// Many steady runs of one case side by side, each in a folder of its own, started from its neighbour.
+// Many steady runs of one case side by side, each started from its neighbour: in memory, or each in a folder
+// of its own.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +10,7 @@
 
 #include "ripstop/case/case.h"
 #include "ripstop/core/error.h"
-#include "ripstop/run/steady_run.h"
+#include "ripstop/run/steady.h"
 
 namespace ripstop {
 
@@ -37,28 +38,21 @@ std::vector<SweepPoint> sweep_points(const std::filesystem::path& case_file, con
                                      const std::vector<SweepAxis>& axes);
 
 struct SweepSettings {
-  std::filesystem::path folder;
+  std::filesystem::path folder;  // empty: in memory
   bool fresh = false;
   bool warm = true;     // false: every run starts cold
   bool fields = false;  // shapes and flow of every iteration for ParaView
   int jobs = 0;         // runs side by side; 0: as many as cores and free memory allow
 };
 
-/// result.json of one run as numbers.
+/// How one run of a sweep ended.
 struct SweepRow {
-  bool done = false;  // there is a result
-  bool converged = false;
+  bool done = false;               // there is a result
   std::string error;               // why there is none
   ExitCode code = ExitCode::done;  // of that error
-  double speed = 0, density = 0, drag = 0, drag_area = 0, drag_coefficient = 0, reference_area = 0;
-  double projected_diameter = 0, skirt_diameter = 0, length = 0;  // [m]
-  double max_line_tension = 0;                                    // [N]
-  double max_von_mises = 0;                                       // [N/m]
-  int iterations = 0;
-  double wall_time = 0;  // [s]
+  SteadyResult result;
+  SteadyState state;  // the last one of a sweep in memory; else final_state() of the run's folder has it
 };
-/// Throws Error(bad_data) when `json` is no result of a steady run.
-SweepRow sweep_row(const std::string& json);
 
 /// Called by one run at a time.
 struct SweepEvents {
@@ -69,8 +63,9 @@ struct SweepEvents {
 /// How many of these runs fit side by side into this machine's cores and free memory.
 int fitting_jobs(const std::vector<SweepPoint>& points);
 
-/// Runs what has no result yet; a failed run is told in its row and does not stop the others. Throws
-/// Error(usage) for a folder that holds something else.
+/// Runs what has no result yet; a failed run is told in its row and does not stop the others. In memory a
+/// neighbour gives its shape and pressure, in folders its flow too. Throws Error(usage) for a folder that
+/// holds something else.
 std::vector<SweepRow> run_sweep(const std::vector<SweepPoint>& points, const SweepSettings& settings,
                                 const SweepEvents& events = {});
 

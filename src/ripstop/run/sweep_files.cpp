@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "ripstop/output/plot.h"
+#include "ripstop/run/json.h"
 
 namespace ripstop {
 namespace {
@@ -29,23 +30,23 @@ std::optional<std::size_t> drawn_axis(const std::vector<SweepAxis>& axes) {
 }
 
 std::string status_of(const SweepRow& row) {
-  if (row.done) return row.converged ? "converged" : "not converged";
+  if (row.done) return row.result.converged ? "converged" : "not converged";
   return row.error.empty() ? "waiting" : "failed: " + row.error;
 }
 
 struct Quantity {
   const char* file;
   const char* label;
-  double SweepRow::*value;
+  double SteadyResult::*value;
   double (*of_drag)(double drag, double q, double area);  // the same of a measured drag; null: not measured
 };
 constexpr Quantity quantities[] = {
-    {"drag", "drag [N]", &SweepRow::drag, [](double drag, double, double) { return drag; }},
-    {"drag_area", "drag area [m\u00b2]", &SweepRow::drag_area,
+    {"drag", "drag [N]", &SteadyResult::drag, [](double drag, double, double) { return drag; }},
+    {"drag_area", "drag area [m\u00b2]", &SteadyResult::drag_area,
      [](double drag, double q, double) { return drag / q; }},
-    {"drag_coefficient", "drag coefficient", &SweepRow::drag_coefficient,
+    {"drag_coefficient", "drag coefficient", &SteadyResult::drag_coefficient,
      [](double drag, double q, double area) { return drag / q / area; }},
-    {"wall_time", "wall time [s]", &SweepRow::wall_time, nullptr},
+    {"wall_time", "wall time [s]", &SteadyResult::wall_time, nullptr},
 };
 
 /// What the case's rows of [[measured]] say, over the nominal speed.
@@ -74,23 +75,40 @@ TextTable sweep_table(const std::vector<SweepAxis>& axes, const std::vector<Swee
                       const std::vector<SweepRow>& rows) {
   TextTable table;
   for (const SweepAxis& axis : axes) table.columns.push_back(axis.name);
-  for (const char* name :
-       {"speed_m_s", "density_kg_m3", "drag_n", "drag_area_m2", "drag_coefficient", "reference_area_m2",
-        "projected_diameter_m", "skirt_diameter_m", "canopy_length_m", "max_line_tension_n",
-        "max_von_mises_n_m", "coupling_iterations", "wall_time_s", "status", "folder"})
-    table.columns.push_back(name);
+  const auto each_column = [](const SteadyResult& result, const auto& visit) {
+    each_member(result, [&]([[maybe_unused]] const char* name, [[maybe_unused]] const auto& member,
+                            [[maybe_unused]] auto... how) {
+      if constexpr ((std::is_same_v<decltype(how), InTable> || ...)) visit(name, as_number(member));
+    });
+  };
+  each_column({}, [&](const char* name, double) { table.columns.push_back(name); });
+  for (const char* name : {"status", "folder"}) table.columns.push_back(name);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const SweepRow& r = rows[i];
     std::vector<std::string> fields = points[i].values;
-    for (const double value :
-         {r.speed, r.density, r.drag, r.drag_area, r.drag_coefficient, r.reference_area, r.projected_diameter,
-          r.skirt_diameter, r.length, r.max_line_tension, r.max_von_mises, double(r.iterations), r.wall_time})
-      fields.push_back(r.done ? csv_number(value) : "");
+    each_column(r.result,
+                [&](const char*, double value) { fields.push_back(r.done ? csv_number(value) : ""); });
     fields.push_back(status_of(r));
     fields.push_back(points[i].folder);
     table.rows.push_back(fields);
   }
   return table;
+}
+
+std::string sweep_json(const std::string& title, const std::vector<SweepAxis>& axes,
+                       const std::vector<SweepPoint>& points, const std::vector<SweepRow>& rows) {
+  nlohmann::ordered_json j;
+  j["title"] = title;
+  j["runs"] = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    nlohmann::ordered_json run;
+    for (std::size_t d = 0; d < axes.size(); ++d) run["values"][axes[d].name] = points[i].values[d];
+    run["status"] = status_of(rows[i]);
+    run["folder"] = points[i].folder;
+    if (rows[i].done) run["result"] = rows[i].result;
+    j["runs"].push_back(run);
+  }
+  return j.dump(2) + "\n";
 }
 
 void write_sweep_plots(const std::filesystem::path& folder, const std::string& title,
@@ -135,12 +153,12 @@ void write_sweep_plots(const std::filesystem::path& folder, const std::string& t
         for (const char* ending : {".svg", ".png"}) write_plot(folder / (file + ending), plot);
       };
   for (const Quantity& q : quantities)
-    draw(q.file, q.label, &q, {{"", [&](const SweepRow& row) { return row.*q.value; }}});
+    draw(q.file, q.label, &q, {{"", [&](const SweepRow& row) { return row.result.*q.value; }}});
   draw("iterations", "coupling iterations", nullptr,
-       {{"", [](const SweepRow& row) { return double(row.iterations); }}});
+       {{"", [](const SweepRow& row) { return double(row.result.iterations); }}});
   draw("diameters", "diameter [m]", nullptr,
-       {{"projected", [](const SweepRow& row) { return row.projected_diameter; }},
-        {"skirt", [](const SweepRow& row) { return row.skirt_diameter; }}});
+       {{"projected", [](const SweepRow& row) { return row.result.size.projected_diameter; }},
+        {"skirt", [](const SweepRow& row) { return row.result.size.skirt_diameter; }}});
 }
 
 }  // namespace ripstop

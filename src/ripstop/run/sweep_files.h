@@ -1,4 +1,5 @@
-// What a sweep leaves beside its runs: one table and plots over the first axis with numbers.
+// What a sweep leaves beside its runs: one table, the same as result.json, and plots over the first axis with
+// numbers.
 #pragma once
 
 #include <filesystem>
@@ -10,10 +11,14 @@
 
 namespace ripstop {
 
-/// A row a run in the order of the points, those without a result too: varied keys, air, drag, sizes, loads,
-/// iterations, wall time, folder, status ("converged", "not converged", "failed: ...", "waiting").
+/// A row a run in the order of the points, those without a result too: varied keys, the members of
+/// SteadyResult that are columns, status ("converged", "not converged", "failed: ...", "waiting"), folder.
 TextTable sweep_table(const std::vector<SweepAxis>& axes, const std::vector<SweepPoint>& points,
                       const std::vector<SweepRow>& rows);
+
+/// The same with all of every run's result: result.json.
+std::string sweep_json(const std::string& title, const std::vector<SweepAxis>& axes,
+                       const std::vector<SweepPoint>& points, const std::vector<SweepRow>& rows);
 
 /// drag, drag_area, drag_coefficient, diameters, iterations and wall_time as .svg and .png over the first
 /// axis whose values are numbers, a line for every combination of the other axes. Nothing is drawn without

@@ -160,18 +160,21 @@ class Fields {
                {}, std::move(doc));
   }
 
+  Field& kind(std::string key, Kind kind, std::string doc) {
+    return add(std::move(key), std::move(kind), {}, std::move(doc)).required();
+  }
   /// `words` in the order of the alternatives.
   template <class... Ts>
   Field& kind(std::string key, std::variant<Ts...>& value, std::vector<std::string> words, std::string doc) {
-    Kind kind;
-    kind.words = std::move(words);
-    kind.get = [&value] { return value.index(); };
-    kind.select = [&value](std::size_t wanted) {
+    Kind choice;
+    choice.words = std::move(words);
+    choice.get = [&value] { return value.index(); };
+    choice.select = [&value](std::size_t wanted) {
       std::size_t i = 0;
       ((i++ == wanted && value.index() != wanted ? void(value.template emplace<Ts>()) : void()), ...);
       return std::visit([](auto& chosen) { return described(chosen); }, value);
     };
-    return add(std::move(key), std::move(kind), {}, std::move(doc)).required();
+    return kind(std::move(key), std::move(choice), std::move(doc));
   }
 
   Field& base(std::string key, std::function<std::string(const std::string&)> load, std::string doc);

@@ -68,21 +68,22 @@ RIPSTOP_ROW_KERNEL void convection_row(const ConvectionRow& row) {
 
 void Solver::convection(int k, IndexRange rows) {
   for (int j = rows.begin; j < rows.end; ++j) {
-    const std::ptrdiff_t at = layout_.at(0, j, k), sy = layout_.stride_y, sz = layout_.stride_z;
+    const std::ptrdiff_t at = d_.layout.at(0, j, k), sy = d_.layout.stride_y, sz = d_.layout.stride_z;
     ConvectionRow r;
-    r.n = grid_.nx;
-    r.x = &x_;
-    r.y = face_metrics(y_, j), r.z = face_metrics(z_, k);
+    r.n = d_.grid.nx;
+    r.x = &d_.x;
+    r.y = face_metrics(d_.y, j), r.z = face_metrics(d_.z, k);
     r.sy = sy, r.sz = sz;
-    r.south2 = j > 0 ? -2 * sy : 0, r.north2 = j + 1 < grid_.ny ? 2 * sy : 0;
-    r.below2 = k > 0 ? -2 * sz : 0, r.above2 = k + 1 < grid_.nz ? 2 * sz : 0;
-    r.fx = &f_.fx[at], r.fy = &f_.fy[at], r.fz = &f_.fz[at];
+    r.south2 = j > 0 ? -2 * sy : 0, r.north2 = j + 1 < d_.grid.ny ? 2 * sy : 0;
+    r.below2 = k > 0 ? -2 * sz : 0, r.above2 = k + 1 < d_.grid.nz ? 2 * sz : 0;
+    r.fx = &s_.f.fx[at], r.fy = &s_.f.fy[at], r.fz = &s_.f.fz[at];
     const auto add = [&](const Array<double>& q, const Array<double>& body, Array<double>& extra) {
       r.q = &q[at], r.source = &extra[at];
       convection_row(r);
-      for (int i = 0; !body.empty() && i < grid_.nx; ++i) extra[at + i] += body[at + i];
+      for (int i = 0; !body.empty() && i < d_.grid.nx; ++i) extra[at + i] += body[at + i];
     };
-    add(f_.u, body_u_, extra_u_), add(f_.v, body_v_, extra_v_), add(f_.w, body_w_, extra_w_);
+    add(s_.f.u, in_the_way_.body_u, t_.extra_u), add(s_.f.v, in_the_way_.body_v, t_.extra_v),
+        add(s_.f.w, in_the_way_.body_w, t_.extra_w);
   }
 }
 

@@ -1,7 +1,6 @@
-// The flow engine: grid sequencing, warm start, stopping, divergence, save and restore.
+// The flow engine and its flows: a guess from coarser grids, divergence, save and restore.
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <type_traits>
@@ -9,7 +8,6 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/core/hash.h"
-#include "ripstop/flow/cartesian/average.h"
 #include "ripstop/flow/cartesian/cartesian.h"
 #include "ripstop/flow/cartesian/solver.h"
 
@@ -38,15 +36,10 @@ void check(const FlowProblem& problem) {
   positive_value("temperature", a.temperature);
   positive_value("turbulence intensity", a.turbulence_intensity);
   positive_value("viscosity ratio", a.viscosity_ratio);
-  positive_value("residual", problem.residual);
   if (!problem.body_force.empty() &&
       problem.body_force.size() != static_cast<std::size_t>(problem.grid.cells())) {
     usage(fmt::format("flow: {} forces on the air for {} cells", problem.body_force.size(),
                       problem.grid.cells()));
-  }
-  if (problem.average_over < 0 || problem.average_over > problem.max_iterations) {
-    usage(fmt::format("flow: average_over = {} must lie in 0 to max_iterations = {}", problem.average_over,
-                      problem.max_iterations));
   }
 }
 
@@ -55,187 +48,200 @@ bool converged(const FlowProgress& p, double tolerance) {
          p.residual_omega <= tolerance;
 }
 
-class CartesianEngine final : public FlowEngine {
- public:
-  explicit CartesianEngine(const CartesianSettings& settings)
-      : settings_(settings), team_(settings.threads) {}
+// A saved flow is one sealed file: what it was made for, the cloth, then everything that a State carries.
+constexpr const char* state_file = "cartesian.flow";
 
-  std::string name() const override { return "built-in (Cartesian, SIMPLE, k-omega SST)"; }
-  FlowField solve(const FlowProblem& problem, const FlowReport& report) override;
+struct Header {
+  char magic[8] = {'r', 'i', 'p', 'f', 'l', 'o', 'w', '3'};
+  FlowGrid grid;
+  Freestream air;
+  Sides sides = Sides::zero_gradient;
+  Outlet outlet = Outlet::fixed_pressure;
+};
+static_assert(std::is_trivially_copyable_v<Header>);
+
+class Writer {
+ public:
+  template <class T>
+  void operator()(const T& value) {
+    if constexpr (requires { value.data(); }) {
+      (*this)(value.size());
+      bytes.append(reinterpret_cast<const char*>(value.data()), value.size() * sizeof *value.data());
+    } else {
+      static_assert(std::is_trivially_copyable_v<T>);
+      bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+    }
+  }
+  std::string bytes;
+};
+
+class Reader {
+ public:
+  Reader(const std::filesystem::path& path) : path_(path), bytes_(read_sealed(path)) {}
+  template <class T>
+  void operator()(T& value) {
+    if constexpr (requires { value.data(); }) {
+      std::size_t size = 0;
+      (*this)(size);
+      if (size > bytes_.size()) fail();
+      value.resize(size);
+      take(value.data(), size * sizeof *value.data());
+    } else {
+      take(&value, sizeof value);
+    }
+  }
+  bool at_end() const { return at_ == bytes_.size(); }
+  [[noreturn]] void fail() const {
+    throw Error(ExitCode::bad_data, path_.string() + ": not a flow saved by this version");
+  }
+
+ private:
+  void take(void* to, std::size_t size) {
+    if (at_ + size > bytes_.size()) fail();
+    if (size > 0) std::memcpy(to, bytes_.data() + at_, size);
+    at_ += size;
+  }
+  std::filesystem::path path_;
+  std::string bytes_;
+  std::size_t at_ = 0;
+};
+
+class CartesianFlow final : public Flow {
+ public:
+  CartesianFlow(const FlowProblem& problem, const CartesianSettings& settings, ThreadTeam& team)
+      : problem_(problem),
+        settings_(settings),
+        team_(team),
+        solver_(problem, problem.grid, porous(), settings, team) {}
+
+  void place(const std::vector<Triangle>& surface, const std::vector<Vec3>& velocity) override {
+    for (Sheet& sheet : problem_.sheets) sheet.surface = surface, sheet.velocity = velocity;
+    if (!problem_.porous.empty()) {
+      const std::vector<int> cells = cut_cells(problem_.grid, surface);
+      for (PorousCells& cloth : problem_.porous) cloth.cells = cells;
+    }
+    solver_.place(porous(), problem_.sheets);
+  }
+
+  FlowAdvance advance(int iterations, double residual, const FlowReport& report) override;
+  FlowField field() const override { return solver_.field(); }
+  bool untouched() const override { return solver_.state().untouched; }
+
+  void guess() override {
+    // A sheet across the whole box holds back pressures far beyond rho U^2, which would not survive being
+    // interpolated.
+    if (settings_.grid_sequencing && problem_.grid.cells() > fewest_cells && !solver_.shut() &&
+        problem_.body_force.empty())
+      guess_from_coarser(problem_.grid, porous(), solver_);
+  }
+  void start_afresh() override { solver_.start_uniform(); }
+
   void save(const std::filesystem::path& folder) const override;
   void restore(const std::filesystem::path& folder) override;
 
  private:
-  void solve_coarse(const FlowProblem& problem, const FlowGrid& grid, const PorousRows& porous, Solver& fine);
-  FlowProgress run(Solver& solver, double tolerance, int iterations, const FlowReport& report, bool& done,
-                   int average_over = 0, FieldMean* mean = nullptr);
+  static constexpr int fewest_cells = 20000;  // that a coarser grid is worth
 
+  PorousRows porous() const { return {problem_.grid, problem_.porous, problem_.air.viscosity}; }
+  FlowAdvance run(Solver& solver, int iterations, double residual, const FlowReport& report) const;
+  void guess_from_coarser(const FlowGrid& grid, const PorousRows& porous, Solver& fine) const;
+
+  FlowProblem problem_;
   CartesianSettings settings_;
-  ThreadTeam team_;
-  std::unique_ptr<Solver> last_;  // the start of the next solve
+  ThreadTeam& team_;
+  Solver solver_;
 };
 
-/// `mean` takes in the last `average_over` of the `iterations`.
-FlowProgress CartesianEngine::run(Solver& solver, double tolerance, int iterations, const FlowReport& report,
-                                  bool& done, int average_over, FieldMean* mean) {
-  FlowProgress progress;
+FlowAdvance CartesianFlow::run(Solver& solver, int iterations, double residual,
+                               const FlowReport& report) const {
+  FlowAdvance now;
   const auto diverged = [&](const char* when, const std::string& where) {
     const FlowGrid& grid = solver.grid();
     return Error(ExitCode::diverged,
                  fmt::format("the flow diverged {} iteration {} on {} x {} x {} cells: {}; flow.convection = "
                              "\"upwind\", a wider and longer box (flow.box_m) or a coarser grid may help",
-                             when, progress.iteration, grid.nx, grid.ny, grid.nz, where));
+                             when, solver.state().iteration, grid.nx, grid.ny, grid.nz, where));
   };
-  done = false;
-  for (int n = 1; n <= iterations; ++n) {
-    progress = solver.iterate();
-    progress.iteration = n;
-    const double worst = progress.residual_u + progress.residual_p + progress.residual_k +
-                         progress.residual_omega + progress.drag;
+  for (int n = 1; n <= iterations && !now.converged && !now.stopped; ++n) {
+    now.last = solver.iterate();
+    now.last.iteration = n;
+    const double worst = now.last.residual_u + now.last.residual_p + now.last.residual_k +
+                         now.last.residual_omega + now.last.drag;
     if (!std::isfinite(worst)) throw diverged("in", solver.first_bad_value());
-    done = converged(progress, tolerance);
-    if (n > iterations - average_over) mean->add(solver.field());
-    if (report && !report(progress)) return done = false, progress;
-    if (done) break;
+    now.converged = converged(now.last, residual);
+    now.stopped = report && !report(now.last);
   }
+  if (now.stopped) return now.converged = false, now;
   // Residuals are relative to the fields, and say nothing of those that grow slowly and for ever.
-  if (const std::string bad = solver.first_bad_value(); !bad.empty() && !solver.shut())
-    throw diverged("by", bad);
-  return progress;
+  if (!solver.shut() && !solver.within_reason()) throw diverged("by", solver.first_bad_value());
+  return now;
 }
 
-void CartesianEngine::solve_coarse(const FlowProblem& problem, const FlowGrid& grid, const PorousRows& porous,
-                                   Solver& fine) {
+FlowAdvance CartesianFlow::advance(int iterations, double residual, const FlowReport& report) {
+  return run(solver_, iterations, residual, report);
+}
+
+void CartesianFlow::guess_from_coarser(const FlowGrid& grid, const PorousRows& porous, Solver& fine) const {
   const FlowGrid half = coarser(grid);
   const PorousRows averaged(porous, grid, half);
-  Solver solver(problem, half, averaged, settings_, team_);
-  if (half.cells() > 20000) {
-    solve_coarse(problem, half, averaged, solver);
-  } else {
-    solver.start_uniform();
-  }
-  bool done = false;
+  Solver solver(problem_, half, averaged, settings_, team_);
+  if (half.cells() > fewest_cells) guess_from_coarser(half, averaged, solver);
   // The coarse answer differs from the fine one by far more than this; but a wake that has not come to rest
   // here takes eight times as long on the finer grid.
   try {
-    run(solver, 1e-3, 200, nullptr, done);
+    run(solver, 200, 1e-3, nullptr);
   } catch (const Error&) {  // too coarse for this canopy: the fine grid starts afresh
     return fine.start_uniform();
   }
   fine.start_from(solver);
 }
 
-FlowField CartesianEngine::solve(const FlowProblem& problem, const FlowReport& report) {
-  check(problem);
-  const PorousRows porous(problem.grid, problem.porous, problem.air.viscosity);
-  const auto afresh = [&] {
-    return std::make_unique<Solver>(problem, problem.grid, porous, settings_, team_);
-  };
-  auto solver = afresh();
-  // A sheet across the whole box holds back pressures far beyond rho U^2, which would not survive being
-  // interpolated.
-  const bool shut = solver->shut();
-  bool from_stream = false;
-  if (last_ && last_->sides() == problem.sides && last_->grid().origin == problem.grid.origin &&
-      last_->grid().size == problem.grid.size) {
-    solver->start_from(*last_);
-  } else if (settings_.grid_sequencing && problem.grid.cells() > 20000 && !shut &&
-             problem.body_force.empty()) {
-    solve_coarse(problem, problem.grid, porous, *solver);
-  } else {
-    solver->start_uniform();
-    from_stream = true;
-  }
-  bool done = false;
-  FieldMean mean;
-  FlowProgress progress;
-  const auto go = [&] {
-    progress =
-        run(*solver, problem.residual, problem.max_iterations, report, done, problem.average_over, &mean);
-  };
-  try {
-    go();
-  } catch (const Error& error) {
-    // Another canopy's wake, or a coarser grid's, can throw a flow off: then once from the stream.
-    if (from_stream || error.code() != ExitCode::diverged) throw;
-    solver = afresh();
-    solver->start_uniform();
-    mean = {};
-    try {
-      go();
-    } catch (const Error& again) {
-      throw Error(again.code(),
-                  fmt::format("{} (from an earlier field and from the uniform stream)", again.what()));
-    }
-  }
-  // Only a whole window is a mean; a run that settled or was stopped inside it has its last field.
-  const bool averaged = problem.average_over > 0 && !done && mean.count() == problem.average_over;
-  FlowField field = averaged ? mean.mean() : solver->field();
-  field.last = progress;
-  field.converged = done;
-  last_ = std::move(solver);
-  return field;
-}
-
-// One sealed file: a header that says what the numbers are, then the fields as they lie in memory.
-struct Header {
-  char magic[8] = {'r', 'i', 'p', 'f', 'l', 'o', 'w', '2'};
-  FlowGrid grid;
-  Freestream air;
-  Sides sides = Sides::zero_gradient;
-  Sums sums;
-};
-static_assert(std::is_trivially_copyable_v<Header>);
-
-constexpr const char* state_file = "cartesian.flow";
-
-std::array<Array<double>*, 10> saved_fields(Fields& f) {
-  return {&f.u, &f.v, &f.w, &f.p, &f.rho, &f.k, &f.omega, &f.fx, &f.fy, &f.fz};
-}
-
-void CartesianEngine::save(const std::filesystem::path& folder) const {
-  if (!last_) throw Error(ExitCode::io, "the flow engine has no field to save yet");
+void CartesianFlow::save(const std::filesystem::path& folder) const {
+  Writer out;
   Header header;
-  header.grid = last_->grid();
-  header.air = last_->air();
-  header.sides = last_->sides();
-  header.sums = last_->sums();
-  std::string bytes(reinterpret_cast<const char*>(&header), sizeof header);
-  for (const Array<double>* field : saved_fields(last_->fields())) {
-    bytes.append(reinterpret_cast<const char*>(field->data()), field->size() * sizeof(double));
-  }
+  header.grid = problem_.grid, header.air = problem_.air;
+  header.sides = problem_.sides, header.outlet = problem_.outlet;
+  out(header);
+  for (const PorousCells& cloth : problem_.porous) out(cloth.cells);
+  for (const Sheet& sheet : problem_.sheets) out(sheet.surface), out(sheet.velocity);
+  each_carried(solver_.state(), out);
   make_folder(folder);
-  write_sealed(folder / state_file, bytes);
+  write_sealed(folder / state_file, out.bytes);
 }
 
-void CartesianEngine::restore(const std::filesystem::path& folder) {
-  const std::filesystem::path path = folder / state_file;
-  const std::string bytes = read_sealed(path);
+void CartesianFlow::restore(const std::filesystem::path& folder) {
+  Reader in(folder / state_file);
   Header header;
   const Header expected;
-  if (bytes.size() < sizeof header)
-    throw Error(ExitCode::bad_data, path.string() + ": too short to be a saved flow");
-  std::memcpy(&header, bytes.data(), sizeof header);
-  if (std::memcmp(header.magic, expected.magic, sizeof header.magic) != 0) {
-    throw Error(ExitCode::bad_data, path.string() + ": not a flow saved by this version");
-  }
-  FlowProblem problem;
-  problem.grid = header.grid;
-  problem.air = header.air;
-  problem.sides = header.sides;
-  check(problem);
-  auto solver =
-      std::make_unique<Solver>(problem, problem.grid, PorousRows(problem.grid, {}, 0), settings_, team_);
-  std::size_t at = sizeof header;
-  for (Array<double>* field : saved_fields(solver->fields())) {
-    const std::size_t size = field->size() * sizeof(double);
-    if (at + size > bytes.size()) throw Error(ExitCode::bad_data, path.string() + ": fields are missing");
-    std::memcpy(field->data(), bytes.data() + at, size);
-    at += size;
-  }
-  solver->sums() = header.sums;
-  last_ = std::move(solver);
+  in(header);
+  if (std::memcmp(header.magic, expected.magic, sizeof header.magic) != 0) in.fail();
+  if (!(header.grid == problem_.grid) || header.sides != problem_.sides || header.outlet != problem_.outlet)
+    throw Error(ExitCode::usage, (folder / state_file).string() + ": was made in another box of air");
+  for (PorousCells& cloth : problem_.porous) in(cloth.cells);
+  for (Sheet& sheet : problem_.sheets) in(sheet.surface), in(sheet.velocity);
+  solver_.place(porous(), problem_.sheets);
+  State state = solver_.state();
+  each_carried(state, in);
+  if (!in.at_end() || !fits(state, solver_.state())) in.fail();
+  if (!(header.air == problem_.air)) scale(state, header.air, problem_.air);
+  solver_.state() = std::move(state);
 }
+
+class CartesianEngine final : public FlowEngine {
+ public:
+  explicit CartesianEngine(const CartesianSettings& settings)
+      : settings_(settings), team_(settings.threads) {}
+
+  std::string name() const override { return "built-in (Cartesian, SIMPLE, k-omega SST)"; }
+  std::unique_ptr<Flow> start(const FlowProblem& problem) override {
+    check(problem);
+    return std::make_unique<CartesianFlow>(problem, settings_, team_);
+  }
+
+ private:
+  CartesianSettings settings_;
+  ThreadTeam team_;
+};
 
 }  // namespace
 

@@ -34,7 +34,8 @@ template <bool with_sheet>
   const double area_x = row.y_width * row.z_width, y_width = row.y_width, z_width = row.z_width;
   // Ends of the box as weights, so that the loop has no branches: the inlet's face carries the given speed,
   // the outlet's takes the cell's values.
-  const double inflow = row.inlet ? row.inlet_speed : 0, inner = row.inlet ? 0 : 1;
+  const double* inflow = row.inlet_speed;
+  const double inner = row.inlet ? 0 : 1;
   const double wt = row.outlet ? 1 : z.weight_high, held_at = row.outlet ? row.mean_p : 0;
 
   double res = 0, scale = 0;
@@ -51,7 +52,7 @@ template <bool with_sheet>
 
     double fxw = ww * rw * hu[i - 1] + (1 - ww) * fu, fxe = we * fu + (1 - we) * re * hu[i + 1];
     double fys = ws * rs * hv[i - sy] + (1 - ws) * fv, fyn = wn * fv + (1 - wn) * rn * hv[i + sy];
-    double fzb = inflow * r + inner * (wb * rb * hw[i - sz] + (1 - wb) * fw);
+    double fzb = inflow[i] * r + inner * (wb * rb * hw[i - sz] + (1 - wb) * fw);
     double fza = wt * fw + (1 - wt) * rt * hwa[i];
 
     double cw = ww * rw * rc[i - 1] + (1 - ww) * c, cs = ws * rs * rc[i - sy] + (1 - ws) * c,
@@ -150,8 +151,8 @@ template <bool with_sheet>
     }
     fy[i] = f;
   }
-  if (row.inlet) {
-    for (int i = 0; i < n; ++i) fz[i] = rho[i] * row.inlet_speed;
+  if (row.inlet_speed) {
+    for (int i = 0; i < n; ++i) fz[i] = rho[i] * row.inlet_speed[i];
     return;
   }
 #pragma omp simd

@@ -123,9 +123,9 @@ struct PressureRow {
   const double *ra = nullptr, *rc = nullptr, *rho = nullptr, *p = nullptr;
   const double *hw_above = nullptr, *rho_above = nullptr, *ra_above = nullptr, *rc_above = nullptr,
                *p_above = nullptr;
-  bool inlet = false;      // the low z face brings inlet_speed * rho
-  double inlet_speed = 0;  // [m/s]
-  bool outlet = false;     // the high z face holds the outlet's pressure
+  bool inlet = false;                   // the low z face brings inlet_speed * rho
+  const double* inlet_speed = nullptr;  // [m/s]; elsewhere zeros
+  bool outlet = false;                  // the high z face holds the outlet's pressure
   double mean_p = 0;
   const double *fx = nullptr, *fy = nullptr, *fz = nullptr;  // of the last iteration; with sheets only
   SheetJumps held, excess, stiffness;
@@ -141,9 +141,8 @@ struct FluxRow {
   const double *hu = nullptr, *hv = nullptr, *hw = nullptr;
   const double *ra = nullptr, *rc = nullptr, *rho = nullptr, *p = nullptr;
   const float* dp = nullptr;
-  bool inlet = false;
-  double inlet_speed = 0;
-  SheetJumps held, excess, stiffness;                                    // of the low faces
+  const double* inlet_speed = nullptr;  // where the low z faces are the inlet's [m/s]; else null
+  SheetJumps held, excess, stiffness;   // of the low faces
   double *change_x = nullptr, *change_y = nullptr, *change_z = nullptr;  // of the jumps; null: none
   double *fx = nullptr, *fy = nullptr, *fz = nullptr;                    // fx has n + 1 faces
 };

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <tuple>
 #include <utility>
 
 #include "ripstop/core/error.h"
-#include "ripstop/flow/cartesian/solver.h"
+#include "ripstop/flow/cartesian/state.h"
 
 namespace ripstop::cartesian {
 namespace {
@@ -45,6 +47,15 @@ Cover cover_of(double c, double resistance, double density, double speed) {
 
 SheetRows::SheetRows(const Axis& x, const Axis& y, const Axis& z, const std::vector<Sheet>& sheets)
     : nx_(x.n), ny_(y.n), nz_(z.n) {
+  add_faces(x, y, z, sheets);
+  if (faces_.empty()) return;
+  double across = 0;
+  for (const Face& face : faces_) across += face.geometry.axis == 2 ? face.area : 0;
+  shut_ = across > 0.9 * (x.edge.back() - x.edge.front()) * (y.edge.back() - y.edge.front());
+  lay_out();
+}
+
+void SheetRows::add_faces(const Axis& x, const Axis& y, const Axis& z, const std::vector<Sheet>& sheets) {
   for (int s = 0; s < static_cast<int>(sheets.size()); ++s) {
     const Sheet& sheet = sheets[s];
     const auto fits = [](double value) { return std::isfinite(value) && value >= 0; };
@@ -53,12 +64,17 @@ SheetRows::SheetRows(const Axis& x, const Axis& y, const Axis& z, const std::vec
                   fmt::format("sheet: a = {} Pa s/m and b = {} Pa s2/m2 must be finite and not negative",
                               sheet.linear, sheet.quadratic));
     }
+    if (!sheet.velocity.empty() && sheet.velocity.size() != sheet.surface.size()) {
+      throw Error(ExitCode::bad_data, fmt::format("sheet: {} velocities for {} triangles",
+                                                  sheet.velocity.size(), sheet.surface.size()));
+    }
     for (const SheetFace& geometry : sheet_faces(x, y, z, sheet.surface)) {
       Face face;
       face.geometry = geometry;
       face.sheet = s;
       face.a = sheet.linear, face.b = sheet.quadratic;
       const SheetFace& g = geometry;
+      if (!sheet.velocity.empty()) face.moving = dot(g.normal, sheet.velocity[g.triangle]);
       face.area = (g.axis == 0 ? 1 : x.width[g.i]) * (g.axis == 1 ? 1 : y.width[g.j]) *
                   (g.axis == 2 ? 1 : z.width[g.k]);
       face.spread = face.area / std::max(g.area, 1e-2 * face.area);
@@ -67,10 +83,9 @@ SheetRows::SheetRows(const Axis& x, const Axis& y, const Axis& z, const std::vec
       faces_.push_back(face);
     }
   }
-  if (faces_.empty()) return;
-  double across = 0;
-  for (const Face& face : faces_) across += face.geometry.axis == 2 ? face.area : 0;
-  shut_ = across > 0.9 * (x.edge.back() - x.edge.front()) * (y.edge.back() - y.edge.front());
+}
+
+void SheetRows::lay_out() {
   const std::size_t rows = static_cast<std::size_t>(ny_ + 1) * (nz_ + 1),
                     width = static_cast<std::size_t>(nx_) + 1;
   offset_.assign(3, std::vector<std::size_t>(rows, 0));
@@ -85,20 +100,40 @@ SheetRows::SheetRows(const Axis& x, const Axis& y, const Axis& z, const std::vec
     if (g.axis == 1) touched_[row(g.j - 1, g.k)] = 1;
     if (g.axis == 2) touched_[row(g.j, g.k - 1)] = 1;
   }
-  held_.assign(size, 0);
-  excess_.assign(size, 0);
   law_.assign(size, 0);
+  excess_.assign(size, 0);
   stiffness_.assign(size, 0);
-  change_.assign(size, 0);
 }
 
-void SheetRows::update(const Fields& fields, const Layout& layout, double momentum) {
-  const bool first = !std::exchange(updated_, true);
+void SheetRows::begin(State& state, const Layout& layout) const {
+  state.held.assign(law_.size(), 0);
+  state.change.assign(law_.size(), 0);
+  state.drop.assign(faces_.size(), 0);
   for (const Face& face : faces_) {
     const auto [low, high] = cells(face.geometry, layout);
-    // The first time, the jump that the pressure already has.
-    if (first) held_[face.at] = fields.p[low] - fields.p[high];
-    held_[face.at] += std::exchange(change_[face.at], 0.0);
+    state.held[face.at] = state.f.p[low] - state.f.p[high];
+  }
+}
+
+void SheetRows::begin(State& state, const Layout& layout, const SheetRows& before) const {
+  const std::vector<double> held = std::move(state.held), change = std::move(state.change);
+  begin(state, layout);
+  std::map<std::tuple<int, int, int, int>, std::size_t> old;
+  for (const Face& face : before.faces_) {
+    const SheetFace& g = face.geometry;
+    old[{g.axis, g.i, g.j, g.k}] = face.at;
+  }
+  for (const Face& face : faces_) {
+    const SheetFace& g = face.geometry;
+    const auto found = old.find({g.axis, g.i, g.j, g.k});
+    if (found != old.end()) state.held[face.at] = held[found->second] + change[found->second];
+  }
+}
+
+void SheetRows::update(State& state, const Layout& layout, double momentum) {
+  const Fields& fields = state.f;
+  for (const Face& face : faces_) {
+    state.held[face.at] += std::exchange(state.change[face.at], 0.0);
     excess_[face.at] = stiffness_[face.at] = 0;
   }
   for (Face& face : faces_) {
@@ -114,7 +149,8 @@ void SheetRows::update(const Fields& fields, const Layout& layout, double moment
       const Vec3 velocity{fields.u[cell], fields.v[cell], fields.w[cell]};
       return along(velocity) - dot(g.normal, velocity) / face.spread;
     };
-    const double through = face.spread * (flux[high] / density - shared(sliding(low), sliding(high)));
+    const double through =
+        face.spread * (flux[high] / density - shared(sliding(low), sliding(high))) - face.moving;
     const double speed = std::abs(through), resistance = face.a + face.b * speed;
     const Cover beside = cover_of(face.cover, resistance, density, speed);
     // A jet that has yet to start, or that turns back, would offer no slope at all.
@@ -126,7 +162,16 @@ void SheetRows::update(const Fields& fields, const Layout& layout, double moment
     stiffness_[face.at] += face.stiffness;
   }
   for (const Face& face : faces_) law_[face.at] = excess_[face.at];
-  for (const Face& face : faces_) excess_[face.at] = law_[face.at] - held_[face.at];
+  for (const Face& face : faces_) excess_[face.at] = law_[face.at] - state.held[face.at];
+}
+
+void SheetRows::settle(State& state) const {
+  for (std::size_t n = 0; n < faces_.size(); ++n) {
+    const Face& face = faces_[n];
+    const double whole = stiffness_[face.at];
+    state.drop[n] =
+        face.jump + (whole > 0 ? face.stiffness / whole * (state.change[face.at] - excess_[face.at]) : 0);
+  }
 }
 
 Array<double> SheetRows::distance(const Axis& x, const Axis& y, const Axis& z, const Layout& layout) const {
@@ -185,30 +230,24 @@ Array<double> SheetRows::distance(const Axis& x, const Axis& y, const Axis& z, c
   return result;
 }
 
-std::vector<SheetLoad> SheetRows::loads() const {
+std::vector<SheetLoad> SheetRows::loads(const State& state) const {
   std::vector<SheetLoad> result;
   result.reserve(faces_.size());
-  for (const Face& face : faces_) {
-    const SheetFace& g = face.geometry;
-    const double whole = stiffness_[face.at];
+  for (std::size_t n = 0; n < faces_.size(); ++n) {
+    const SheetFace& g = faces_[n].geometry;
     SheetLoad load;
-    load.sheet = face.sheet;
+    load.sheet = faces_[n].sheet;
     load.triangle = g.triangle;
     load.point = g.point;
     load.normal = g.normal;
-    load.drop = face.jump + (whole > 0 ? face.stiffness / whole * (change_[face.at] - excess_[face.at]) : 0);
-    const double force = load.drop * face.area;
+    load.drop = state.drop[n];
+    const double force = load.drop * faces_[n].area;
     load.force = {g.axis == 0 ? force : 0, g.axis == 1 ? force : 0, g.axis == 2 ? force : 0};
+    const Face& face = faces_[n];
     load.area = face.cover * face.area * (g.axis == 0 ? g.normal.x : g.axis == 1 ? g.normal.y : g.normal.z);
     result.push_back(load);
   }
   return result;
-}
-
-Vec3 SheetRows::force() const {
-  Vec3 sum{};
-  for (const SheetLoad& load : loads()) sum += load.force;
-  return sum;
 }
 
 }  // namespace ripstop::cartesian

@@ -13,13 +13,15 @@
 
 namespace ripstop::cartesian {
 
-struct Fields;
+struct State;
 
-/// Dense rows for kernels: what lies on the low faces of a row's cells, zeros where no sheet passes.
+/// Dense rows for kernels: what lies on the low faces of a row's cells, zeros where no sheet passes. What the
+/// flow carries of the jumps, `held` and `change`, is in its State, in rows of the same layout.
 class SheetRows {
  public:
   SheetRows() = default;
-  /// Throws Error(bad_data) for coefficients that are negative or not finite.
+  /// Throws Error(bad_data) for coefficients that are negative or not finite, or a number of velocities that
+  /// is not that of the triangles.
   SheetRows(const Axis& x, const Axis& y, const Axis& z, const std::vector<Sheet>& sheets);
 
   bool empty() const { return faces_.empty(); }
@@ -27,49 +29,52 @@ class SheetRows {
   bool shut() const { return shut_; }
   /// Whether a face of row (j, k) has a jump.
   bool touches(int j, int k) const { return !touched_.empty() && touched_[row(j, k)] != 0; }
-  /// Rows of n + 1 values; `axis` is that of the faces. Row (j, k) has the low faces of its cells.
-  const double* held(int axis, int j, int k) const { return held_.data() + offset(axis, j, k); }
-  const double* excess(int axis, int j, int k) const { return excess_.data() + offset(axis, j, k); }
-  const double* stiffness(int axis, int j, int k) const { return stiffness_.data() + offset(axis, j, k); }
-  const double* change(int axis, int j, int k) const { return change_.data() + offset(axis, j, k); }
-  /// The row to write to, or null if it has no face with a jump.
-  double* change_to_write(int axis, int j, int k) {
-    const std::size_t at = offset(axis, j, k);
-    return at == 0 ? nullptr : change_.data() + at;
-  }
+  /// Where row (j, k) of the faces across `axis` begins, n + 1 values; it has the low faces of its cells. 0:
+  /// the row of zeros, not to be written.
+  std::size_t offset(int axis, int j, int k) const { return offset_.empty() ? 0 : offset_[axis][row(j, k)]; }
+  /// What the law asks for beyond the jump that is held [Pa], and its slope over the face's own velocity
+  /// [Pa s/m].
+  const std::vector<double>& excess() const { return excess_; }
+  const std::vector<double>& stiffness() const { return stiffness_; }
 
-  /// Jump [Pa] of the law at the present velocities, and its slope over the face's own velocity [Pa s/m].
-  /// `momentum` is rho U of the free stream [kg/(m2 s)].
-  void update(const Fields& fields, const Layout& layout, double momentum);
+  /// Gives the state its jumps: on every face the pressure's own difference.
+  void begin(State& state, const Layout& layout) const;
+  /// The same after the cloth has moved from `before`: faces that were there keep theirs.
+  void begin(State& state, const Layout& layout, const SheetRows& before) const;
+  /// The law at the present velocities. `momentum` is rho U of the free stream [kg/(m2 s)].
+  void update(State& state, const Layout& layout, double momentum);
+  /// The drop on every face with its last change, into State::drop.
+  void settle(State& state) const;
+
   /// Distance of each cell's centre to the nearest face that a sheet parts [m], no less than half the least
   /// cell.
   Array<double> distance(const Axis& x, const Axis& y, const Axis& z, const Layout& layout) const;
-  /// Force of the air on the sheets [N], from the jumps with their last changes.
-  Vec3 force() const;
-  /// The same, face by face.
-  std::vector<SheetLoad> loads() const;
+  /// What the air does to the sheets, face by face.
+  std::vector<SheetLoad> loads(const State& state) const;
 
  private:
   std::size_t row(int j, int k) const { return static_cast<std::size_t>(k) * (ny_ + 1) + j; }
-  std::size_t offset(int axis, int j, int k) const { return offset_.empty() ? 0 : offset_[axis][row(j, k)]; }
 
   struct Face {
     SheetFace geometry;
     int sheet = 0;
     double a = 0, b = 0;  // of the law
+    double moving = 0;    // velocity of the sheet along its normal [m/s]
     double area = 0;      // of the face [m2]
     double spread = 1;    // its area over that of the sheet it stands for
     double cover = 1;     // the part of it that the sheet covers
     std::size_t at = 0;   // in the dense rows
     double jump = 0, stiffness = 0;
   };
+  void add_faces(const Axis& x, const Axis& y, const Axis& z, const std::vector<Sheet>& sheets);
+  void lay_out();
+
   int nx_ = 0, ny_ = 0, nz_ = 0;
   std::vector<Face> faces_;
   std::vector<std::vector<std::size_t>> offset_;  // one table an axis; 0: the row of zeros
   std::vector<char> touched_;
-  std::vector<double> held_, law_, excess_, stiffness_, change_;
+  std::vector<double> law_, excess_, stiffness_;
   bool shut_ = false;
-  bool updated_ = false;
 };
 
 }  // namespace ripstop::cartesian

@@ -249,19 +249,32 @@ The porous cells are in constant/cellZones, their resistances in
 constant/porosityProperties. blockMesh and cp are needed only to make the mesh anew.
 )foam";
 
+void range(const char* what, double value, double low, double high, const char* unit) {
+  if (!(value >= low && value <= high)) {
+    throw Error(ExitCode::usage,
+                fmt::format("flow: {} is {:g} {}; it must lie in [{:g}, {:g}]", what, value, unit, low, high));
+  }
+}
+
 }  // namespace
 
 double outlet_pressure(const Freestream& air) {
-  return air.density * kOpenFoamGasConstant * air.temperature;
+  return air.density * gas_constant_of_air * air.temperature;
+}
+
+void check_run(int iterations, double residual) {
+  range("residual", residual, 1e-14, 1, "");
+  range("number of iterations", iterations, 1, 1e7, "");
 }
 
 void check(const FlowProblem& problem) {
-  const auto range = [](const char* what, double value, double low, double high, const char* unit) {
-    if (!(value >= low && value <= high)) {
-      throw Error(ExitCode::usage, fmt::format("flow: {} is {:g} {}; it must lie in [{:g}, {:g}]", what,
-                                               value, unit, low, high));
-    }
+  const auto refuse = [](bool has, const char* what) {
+    if (has) throw Error(ExitCode::usage, fmt::format("{} needs flow.engine = \"builtin\"", what));
   };
+  refuse(!problem.sheets.empty(), "flow.porosity_model = \"sheet\"");
+  refuse(problem.sides == Sides::entraining, "flow.sides = \"entraining\"");
+  refuse(problem.outlet == Outlet::still_air, "flow.outlet = \"still-air\"");
+  refuse(!problem.body_force.empty(), "a force on the air");
   const FlowGrid& grid = problem.grid;
   for (const int n : {grid.nx, grid.ny, grid.nz}) range("number of cells along an axis", n, 1, 4000, "");
   range("number of cells", double(grid.nx) * grid.ny * grid.nz, 1, 2e8, "");
@@ -275,8 +288,6 @@ void check(const FlowProblem& problem) {
   range("air temperature", air.temperature, 100, 2000, "K");
   range("turbulence intensity", air.turbulence_intensity, 1e-6, 1, "");
   range("viscosity ratio", air.viscosity_ratio, 1e-6, 1e6, "");
-  range("residual", problem.residual, 1e-14, 1, "");
-  range("number of iterations", problem.max_iterations, 1, 1e7, "");
   std::vector<char> taken(static_cast<std::size_t>(grid.cells()), 0);
   for (const PorousCells& porous : problem.porous) {
     range("Darcy coefficient", porous.darcy, 0, 1e15, "1/m2");
@@ -309,7 +320,7 @@ void write_case(const fs::path& folder, const FlowProblem& problem, const OpenFo
   } else {
     write_dictionary(
         folder / "constant/thermophysicalProperties", "dictionary",
-        fmt::format(kThermophysics, kMolarGasConstant / kOpenFoamGasConstant, problem.air.viscosity));
+        fmt::format(kThermophysics, kMolarGasConstant / gas_constant_of_air, problem.air.viscosity));
   }
   write_dictionary(folder / "constant/turbulenceProperties", "dictionary",
                    "simulationType RAS;\nRAS { RASModel kOmegaSST; turbulence on; printCoeffs off; }\n");
@@ -364,9 +375,9 @@ void write_control(const fs::path& folder, const FlowProblem& problem, bool inco
                                forces, solver_name(incompressible)));
 }
 
-void write_solution(const fs::path& folder, const FlowProblem& problem) {
+void write_solution(const fs::path& folder, double residual) {
   write_dictionary(folder / "system/fvSolution", "dictionary",
-                   fmt::format(kSolution, problem.residual, kLowestPressure, kHighestPressure));
+                   fmt::format(kSolution, residual, kLowestPressure, kHighestPressure));
 }
 
 void write_resistance(const fs::path& folder, const std::vector<PorousCells>& porous) {

@@ -18,8 +18,9 @@ struct RunControl {
   int iterations = 0;  // at most
 };
 
-/// Throws Error(usage) naming the number that is out of its range.
+/// Throws Error(usage) naming the number that is out of its range, or what only the built-in engine has.
 void check(const FlowProblem& problem);
+void check_run(int iterations, double residual);
 
 /// system/ (without controlDict), constant/, and a README that says what the case is and how to run it.
 void write_case(const std::filesystem::path& folder, const FlowProblem& problem,
@@ -31,7 +32,7 @@ void write_initial_fields(const std::filesystem::path& folder, const FlowProblem
 void write_control(const std::filesystem::path& folder, const FlowProblem& problem, bool incompressible,
                    const RunControl& control);
 /// system/fvSolution holds the residual to be reached, constant/porosityProperties the resistances.
-void write_solution(const std::filesystem::path& folder, const FlowProblem& problem);
+void write_solution(const std::filesystem::path& folder, double residual);
 void write_resistance(const std::filesystem::path& folder, const std::vector<PorousCells>& porous);
 /// cellZones with one zone a list.
 void write_zones(const std::filesystem::path& folder, const std::vector<std::vector<int>>& zones);

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <csignal>
 #include <fstream>
-#include <optional>
 
 #include "ripstop/core/error.h"
 #include "ripstop/core/process.h"
@@ -38,63 +37,62 @@ void check_folder(const fs::path& folder) {
   }
 }
 
-class OpenFoam : public FlowEngine {
+/// Removes what OpenFOAM and we have written; only called on a folder that is ours.
+void clear(const fs::path& folder) {
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename();
+    const bool time = !name.empty() && std::isdigit(static_cast<unsigned char>(name[0]));
+    if (time || name == "constant" || name == "system" || name == "postProcessing" || name == kStopFile ||
+        name.starts_with("log.") || name.starts_with("processor")) {
+      fs::remove_all(entry.path());
+    }
+  }
+}
+
+class OpenFoamFlow final : public Flow {
  public:
-  explicit OpenFoam(const OpenFoamSettings& settings)
-      : settings_(settings), folder_(fs::absolute(settings.folder).lexically_normal()) {
-    if (settings.ranks < 1 || settings.ranks > 100000) {
-      throw Error(ExitCode::usage,
-                  fmt::format("OpenFOAM: ranks is {}; it must be 1 or more", settings.ranks));
-    }
-    if (!settings.hostfile.empty() && !fs::exists(settings.hostfile)) {
-      throw Error(ExitCode::usage,
-                  fmt::format("OpenFOAM: the hostfile {} does not exist", settings.hostfile.string()));
-    }
-    check_folder(folder_);
-    installation_ = find_installation(settings.program_folder, settings.ranks > 1, settings.incompressible);
-    if (fs::exists(folder_)) clear();
+  OpenFoamFlow(const FlowProblem& problem, const OpenFoamSettings& settings, const fs::path& folder,
+               const Installation& installation)
+      : problem_(problem), settings_(settings), folder_(folder), installation_(installation) {
+    check(problem_);
+    prepare();
   }
 
-  std::string name() const override {
-    return fmt::format("OpenFOAM {} ({})", installation_.version, installation_.solver);
+  void place(const std::vector<Triangle>& surface, const std::vector<Vec3>&) override {
+    const std::vector<int> cells = cut_cells(problem_.grid, surface);
+    for (PorousCells& cloth : problem_.porous) cloth.cells = cells;
+    check(problem_);
   }
 
-  FlowField solve(const FlowProblem& problem, const FlowReport& report) override {
-    if (!problem.sheets.empty()) {
-      throw Error(
-          ExitCode::usage,
-          "flow.porosity_model = \"sheet\" needs flow.engine = \"builtin\": OpenFOAM's porous zones have "
-          "the \"paper\" model only");
+  FlowAdvance advance(int iterations, double residual, const FlowReport& report) override {
+    check_run(iterations, residual);
+    write_problem(iterations, residual);
+    const std::string start = latest_time(part_folder(0));
+    fs::remove(folder_ / kStopFile);
+    SolverLog log(!problem_.porous.empty());
+    FlowAdvance now;
+    const ProcessResult result = run_solver(report, log, now.stopped);
+    explain_failure(result, log);
+    const std::string time = latest_time(part_folder(0));
+    if (time == start) {
+      throw Error(ExitCode::external,
+                  fmt::format("{} ended with {} but left no fields in {}; see {}", installation_.solver,
+                              describe(result), folder_.string(), log_file(installation_.solver).string()));
     }
-    if (problem.sides == Sides::entraining) {
-      throw Error(ExitCode::usage, "flow.sides = \"entraining\" needs flow.engine = \"builtin\"");
-    }
-    if (!problem.body_force.empty()) {
-      throw Error(ExitCode::usage, "forces on the air need flow.engine = \"builtin\"");
-    }
-    if (problem.average_over != 0) {
-      throw Error(ExitCode::usage, "averages over iterations need flow.engine = \"builtin\"");
-    }
-    check(problem);
-    const Basis basis{problem.grid,           problem.air,
-                      problem.sides,          settings_.ranks,
-                      settings_.second_order, settings_.incompressible};
-    const bool warm = basis_ && *basis_ == basis && latest_time(part_folder(0)) != "0";
-    if (!warm) prepare(problem, basis);
-    try {
-      return continue_solve(problem, report);
-    } catch (const Error& error) {
-      // Porous cells that have moved far can throw the old field off: then from uniform flow, once.
-      if (!warm || error.code() != ExitCode::diverged) throw;
-      clear();
-      prepare(problem, basis);
-      return continue_solve(problem, report);
-    }
+    purge(time);
+    now.last = log.progress();
+    now.converged = log.converged();
+    return now;
   }
+
+  FlowField field() const override {
+    return read_case(mesh_, latest_time(part_folder(0)), problem_, settings_.incompressible);
+  }
+  bool untouched() const override { return latest_time(part_folder(0)) == "0"; }
+  void start_afresh() override { prepare(); }
 
   void save(const fs::path& folder) const override {
-    if (!basis_) throw Error(ExitCode::io, "OpenFOAM: there is no flow to save yet");
-    save_state(folder, *basis_, part_folders(), latest_time(part_folder(0)));
+    save_state(folder, basis(), part_folders(), latest_time(part_folder(0)));
   }
 
   void restore(const fs::path& folder) override {
@@ -109,37 +107,19 @@ class OpenFoam : public FlowEngine {
                                                "the same",
                                                folder.string(), saved, now));
     }
-    if (!basis_ || !(*basis_ == state.basis)) {
-      FlowProblem problem;
-      problem.grid = state.basis.grid;
-      problem.air = state.basis.air;
-      problem.sides = state.basis.sides;
-      prepare(problem, state.basis);
+    if (!(state.basis == basis())) {
+      throw Error(ExitCode::usage, fmt::format("the flow saved in {} was made in another box of air or in "
+                                               "other air",
+                                               folder.string()));
     }
     copy_state(folder, state, part_folders());
     purge(state.time);
   }
 
  private:
-  FlowField continue_solve(const FlowProblem& problem, const FlowReport& report) {
-    write_problem(problem);
-    const std::string start = latest_time(part_folder(0));
-    fs::remove(folder_ / kStopFile);
-    SolverLog log(!problem.porous.empty());
-    const ProcessResult result = run_solver(report, log);
-    explain_failure(result, log);
-
-    const std::string time = latest_time(part_folder(0));
-    if (time == start) {
-      throw Error(ExitCode::external,
-                  fmt::format("{} ended with {} but left no fields in {}; see {}", installation_.solver,
-                              describe(result), folder_.string(), log_file(installation_.solver).string()));
-    }
-    FlowField field = read_case(mesh_, time, problem, settings_.incompressible);
-    field.last = log.progress();
-    field.converged = log.converged();
-    purge(time);
-    return field;
+  Basis basis() const {
+    return {problem_.grid,           problem_.air,           problem_.sides, settings_.ranks,
+            settings_.second_order, settings_.incompressible};
   }
 
   fs::path part_folder(int rank) const {
@@ -152,54 +132,38 @@ class OpenFoam : public FlowEngine {
   }
   fs::path log_file(const std::string& program) const { return folder_ / ("log." + program); }
 
-  /// Removes what OpenFOAM and we have written; only called on a folder that is ours.
-  void clear() {
-    basis_.reset();
-    for (const auto& entry : fs::directory_iterator(folder_)) {
-      const std::string name = entry.path().filename();
-      const bool time = !name.empty() && std::isdigit(static_cast<unsigned char>(name[0]));
-      if (time || name == "constant" || name == "system" || name == "postProcessing" || name == kStopFile ||
-          name.starts_with("log.") || name.starts_with("processor")) {
-        fs::remove_all(entry.path());
-      }
-    }
-  }
-
-  /// Mesh and uniform fields for a new grid, air or kind of sides.
-  void prepare(const FlowProblem& problem, const Basis& basis) {
-    check(problem);
+  /// Mesh and uniform fields, in place of what was there.
+  void prepare() {
     fs::create_directories(folder_);
-    clear();
-    need_space(problem.grid);
-    write_case(folder_, problem, settings_);
-    write_initial_fields(folder_, problem, settings_.incompressible);
-    write_control(folder_, problem, settings_.incompressible,
-                  {0, problem.max_iterations});  // OpenFOAM's tools ask for one
-    write_solution(folder_, problem);
+    clear(folder_);
+    need_space(problem_.grid);
+    write_case(folder_, problem_, settings_);
+    write_initial_fields(folder_, problem_, settings_.incompressible);
+    write_control(folder_, problem_, settings_.incompressible, {0, 1});  // OpenFOAM's tools ask for one
+    write_solution(folder_, problem_.stopping.residual);
     run_tool("blockMesh");
     if (settings_.ranks > 1) run_tool("decomposePar");
     mesh_ = read_mesh(folder_, settings_.ranks);
-    basis_ = basis;
   }
 
-  /// What may change from solve to solve: porous cells, resistances, residual, number of iterations.
-  void write_problem(const FlowProblem& problem) {
-    write_solution(folder_, problem);
-    write_resistance(folder_, problem.porous);
-    write_control(folder_, problem, settings_.incompressible,
-                  {std::stod(latest_time(part_folder(0))), problem.max_iterations});
-    std::vector<int> zone_of(static_cast<std::size_t>(problem.grid.cells()), -1);
-    for (std::size_t zone = 0; zone < problem.porous.size(); ++zone) {
-      for (const int cell : problem.porous[zone].cells) zone_of[cell] = static_cast<int>(zone);
+  /// What may change from call to call: porous cells, residual, number of iterations.
+  void write_problem(int iterations, double residual) {
+    write_solution(folder_, residual);
+    write_resistance(folder_, problem_.porous);
+    write_control(folder_, problem_, settings_.incompressible,
+                  {std::stod(latest_time(part_folder(0))), iterations});
+    std::vector<int> zone_of(static_cast<std::size_t>(problem_.grid.cells()), -1);
+    for (std::size_t zone = 0; zone < problem_.porous.size(); ++zone) {
+      for (const int cell : problem_.porous[zone].cells) zone_of[cell] = static_cast<int>(zone);
     }
     std::vector<std::vector<int>> whole;
-    for (const PorousCells& porous : problem.porous) whole.push_back(porous.cells);
+    for (const PorousCells& porous : problem_.porous) whole.push_back(porous.cells);
     write_zones(folder_ / "constant", whole);  // for a run by hand: blockMesh removes those of the mesh
     write_zones(folder_ / "constant/polyMesh", whole);
     if (settings_.ranks == 1) return;
     for (const MeshPart& part : mesh_) {
-      std::vector<std::vector<int>> zones(problem.porous.size());
-      for (std::size_t cell = 0; cell < part.count(problem.grid); ++cell) {
+      std::vector<std::vector<int>> zones(problem_.porous.size());
+      for (std::size_t cell = 0; cell < part.count(problem_.grid); ++cell) {
         const int zone = zone_of[part.global(cell)];
         if (zone >= 0) zones[zone].push_back(static_cast<int>(cell));
       }
@@ -244,7 +208,7 @@ class OpenFoam : public FlowEngine {
     }
   }
 
-  ProcessResult run_solver(const FlowReport& report, SolverLog& log) {
+  ProcessResult run_solver(const FlowReport& report, SolverLog& log, bool& stopped) {
     std::vector<std::string> arguments;
     if (settings_.ranks > 1) {
       arguments = {program(installation_, "mpirun").string(), "-np", std::to_string(settings_.ranks)};
@@ -263,11 +227,10 @@ class OpenFoam : public FlowEngine {
 
     ProcessRequest request = request_for(std::move(arguments));
     std::ofstream log_stream(log_file(installation_.solver));
-    bool asked_to_stop = false;
     request.on_line = [&](const std::string& line) {
       log_stream << line << '\n';
-      if (log.feed(line) && report && !asked_to_stop && !report(log.progress())) {
-        asked_to_stop = true;
+      if (log.feed(line) && report && !stopped && !report(log.progress())) {
+        stopped = true;
         std::ofstream(folder_ / kStopFile) << "stop\n";
       }
       return !log.not_a_number();
@@ -326,11 +289,40 @@ class OpenFoam : public FlowEngine {
     }
   }
 
+  FlowProblem problem_;
   OpenFoamSettings settings_;
   fs::path folder_;
   Installation installation_;
-  std::optional<Basis> basis_;  // what the fields in the folder were made for
   std::vector<MeshPart> mesh_;
+};
+
+class OpenFoam final : public FlowEngine {
+ public:
+  explicit OpenFoam(const OpenFoamSettings& settings)
+      : settings_(settings), folder_(fs::absolute(settings.folder).lexically_normal()) {
+    if (settings.ranks < 1 || settings.ranks > 100000) {
+      throw Error(ExitCode::usage,
+                  fmt::format("OpenFOAM: ranks is {}; it must be 1 or more", settings.ranks));
+    }
+    if (!settings.hostfile.empty() && !fs::exists(settings.hostfile)) {
+      throw Error(ExitCode::usage,
+                  fmt::format("OpenFOAM: the hostfile {} does not exist", settings.hostfile.string()));
+    }
+    check_folder(folder_);
+    installation_ = find_installation(settings.program_folder, settings.ranks > 1, settings.incompressible);
+  }
+
+  std::string name() const override {
+    return fmt::format("OpenFOAM {} ({})", installation_.version, installation_.solver);
+  }
+  std::unique_ptr<Flow> start(const FlowProblem& problem) override {
+    return std::make_unique<OpenFoamFlow>(problem, settings_, folder_, installation_);
+  }
+
+ private:
+  OpenFoamSettings settings_;
+  fs::path folder_;
+  Installation installation_;
 };
 
 }  // namespace

@@ -22,17 +22,11 @@ struct OpenFoamSettings {
 /// Throws Error(external) when a program is missing or of another kind than the openfoam.com line, and
 /// Error(usage) when the folder's path is one that OpenFOAM cannot take, or holds files that are not ours.
 ///
-/// solve() starts from the last field as long as grid, air and sides stay the same, else from uniform flow.
-/// It throws Error(diverged) naming the iteration and the field, and Error(external) when the solver was
-/// killed, was late, or ended without its fields. A flow that does not reach the residual is no error:
-/// FlowField::converged is then false.
+/// One flow at a time: they share the folder. Flow::advance() throws Error(diverged) naming the iteration and
+/// the field, and Error(external) when the solver was killed, was late, or ended without its fields.
 ///
 /// When the report returns false the solver is asked to write its fields and end; it may do one or a few
-/// iterations more before it sees the wish. For runs that must repeat exactly, limit max_iterations instead.
+/// iterations more before it sees the wish. For runs that must repeat exactly, limit the iterations instead.
 std::unique_ptr<FlowEngine> make_openfoam(const OpenFoamSettings& settings);
-
-/// Gas constant of the air in the case [J/(kg K)]; rhoPorousSimpleFoam's outlet has the pressure density * R
-/// * temperature.
-inline constexpr double kOpenFoamGasConstant = 8314.47 / 28.9647;
 
 }  // namespace ripstop

@@ -1,0 +1,98 @@
+#include "ripstop/canopy/stress.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ripstop {
+namespace {
+
+/// Mean and largest of strains with weights.
+class Gathered {
+ public:
+  void add(double strain, double weight) {
+    sum_ += strain * weight;
+    weights_ += weight;
+    largest_ = std::max(largest_, strain);
+  }
+  bool any() const { return weights_ > 0; }
+  Strains strains() const { return {sum_ / weights_, largest_}; }
+
+ private:
+  double sum_ = 0, weights_ = 0, largest_ = -1;
+};
+
+double strain_of(const Spring& spring, const std::vector<Vec3>& x) {
+  return norm(x[spring.b] - x[spring.a]) / spring.rest_length - 1;
+}
+
+void add_cloth(Gathered& cloth, const Patch& patch, const std::vector<Vec3>& x) {
+  for (const Direction direction : {along_row, along_column}) {
+    const Offset step = direction_offset[direction];
+    for (int row = 0; row < patch.rows; ++row) {
+      for (int column = 0; column < patch.columns; ++column) {
+        const std::size_t at = std::size_t(row) * patch.columns + column;
+        const double width = patch.width[direction][at], rest = patch.rest_length[direction][at];
+        if (!(width > 0)) continue;
+        const Vec3 d = x[patch.node(row + step.row, (column + step.column) % patch.columns)] -
+                       x[patch.node(row, column)];
+        cloth.add(norm(d) / rest - 1, width * rest);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<LineTension> line_tensions(const CanopyMesh& mesh, const std::vector<double>& spring_tensions) {
+  std::vector<LineTension> tensions;
+  for (const LineRun& line : mesh.rigging.lines) {
+    LineTension t;
+    t.radial = line.radial;
+    for (const int spring : line.springs) {
+      t.largest_tension = std::max(t.largest_tension, spring_tensions[spring] / line.axial_share);
+    }
+    t.free_tension = spring_tensions[line.springs[line.free_springs / 2]] / line.axial_share;
+    tensions.push_back(t);
+  }
+  return tensions;
+}
+
+StressPeak stress_peak(const Mesh& mesh, const std::vector<Vec3>& x, const std::vector<CellStress>& stress) {
+  StressPeak peak;
+  const std::vector<Cell> cells = cells_of(mesh);
+  std::size_t cell = 0;
+  for (const Patch& patch : mesh.patches) {
+    for (int i = 0; i < (patch.rows - 1) * patch.columns; ++i, ++cell) {
+      if (cells[cell].corner[0] < 0) continue;
+      peak.strain = std::max(peak.strain, stress[cell].max_strain);
+      if (stress[cell].von_mises <= peak.von_mises) continue;
+      peak.von_mises = stress[cell].von_mises;
+      peak.patch = patch.name;
+      peak.place = {};
+      for (const int node : cells[cell].corner) peak.place += 0.25 * x[node];
+    }
+  }
+  return peak;
+}
+
+std::map<std::string, Strains> part_strains(const CanopyMesh& mesh, const std::vector<Vec3>& x) {
+  Gathered lines, tape, cloth;
+  for (const LineRun& line : mesh.rigging.lines) {
+    for (int i = 0; i < line.free_springs; ++i) {
+      const Spring& spring = mesh.springs[line.springs[i]];
+      lines.add(strain_of(spring, x), spring.rest_length);
+    }
+  }
+  for (const int index : mesh.rigging.tape_springs) {
+    const Spring& spring = mesh.springs[index];
+    tape.add(strain_of(spring, x), spring.rest_length * spring.scale);
+  }
+  for (const Patch& patch : mesh.patches) add_cloth(cloth, patch, x);
+  std::map<std::string, Strains> strains;
+  if (lines.any()) strains["lines"] = lines.strains();
+  if (tape.any()) strains["tape"] = tape.strains();
+  if (cloth.any()) strains["cloth"] = cloth.strains();
+  return strains;
+}
+
+}  // namespace ripstop

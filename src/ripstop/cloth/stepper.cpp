@@ -1,0 +1,358 @@
+#include "ripstop/cloth/stepper.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ripstop/core/thread_team.h"
+
+namespace ripstop {
+namespace {
+
+constexpr int kept_block = 64;  // kept nodes whose sums are added by one thread
+constexpr int rows_in_turn = 3;
+// What a kept node costs, over a vector of the lattice (measured on Stratos IV, AVX-512).
+constexpr double vectors_a_kept_node = 0.25;
+
+// t / (t + 3) of the velocity is kept t steps after a stop, see relax.cpp.
+double keep_after(int steps) {
+  return steps / (steps + 3.0);
+}
+
+}  // namespace
+
+Stepper::Stepper(const Cloth& cloth, const Loads& loads, ClothState& state, double dt, int threads)
+    : cloth_(cloth),
+      state_(state),
+      dt_(dt),
+      damped_(true),
+      sums_wanted_(false),
+      pressure_(compile_pressure(cloth, loads)),
+      node_force_(compile_node_force(cloth, loads)) {
+  Fictitious masses{cloth.total_mass};
+  for (int node : cloth.mesh.fixed) masses.mass[node] = 0;
+  set_masses(masses);
+  kept_area_.assign(cloth.kept.size(), 0.0);
+  if (cloth.options.absolute_damping > 0 || cloth.options.quadratic_damping > 0) {
+    area_.assign(cloth.slots, 0.0);
+    for (int node = 0; node < cloth.mesh.node_count(); ++node) {
+      const int slot = cloth.slot[node];
+      if (inverse_mass_[slot] > 0) area_[slot] = cloth.area[node];
+    }
+    for (std::size_t k = 0; k < cloth.kept.size(); ++k) kept_area_[k] = cloth.area[cloth.kept[k].node];
+  }
+  prepare(threads);
+}
+
+Stepper::Stepper(const Cloth& cloth, const Loads& loads, ClothState& state, const Fictitious& masses,
+                 int threads)
+    : cloth_(cloth),
+      state_(state),
+      dt_(1),
+      damped_(false),
+      sums_wanted_(true),
+      pressure_(compile_pressure(cloth, loads)),
+      node_force_(compile_node_force(cloth, loads)) {
+  set_masses(masses);
+  kept_area_.assign(cloth.kept.size(), 0.0);
+  prepare(threads);
+}
+
+void Stepper::set_masses(const Fictitious& masses) {
+  inverse_mass_.assign(cloth_.slots, 0.0);
+  kept_inverse_mass_.assign(cloth_.kept.size(), 0.0);
+  const auto inverse = [](double mass) { return mass > 0 ? 1 / mass : 0.0; };
+  for (int node = 0; node < cloth_.mesh.node_count(); ++node)
+    inverse_mass_[cloth_.slot[node]] = inverse(masses.mass[node]);
+  for (std::size_t k = 0; k < cloth_.kept.size(); ++k) {
+    kept_inverse_mass_[k] = inverse(masses.mass[cloth_.kept[k].node]);
+    inverse_mass_[cloth_.kept[k].slot] = 0;
+  }
+}
+
+void Stepper::set_node_force(const std::vector<Vec3>& force) {
+  node_force_ = compile_node_force(cloth_, {{}, force});
+}
+
+void Stepper::prepare(int threads) {
+  damped_lattice_ = damped_ && std::any_of(cloth_.patches.begin(), cloth_.patches.end(),
+                                           [](const PatchLayout& patch) { return patch.damped; });
+  kept_force_.assign(at(cloth_.first_spring_force + cloth_.springs.blocks * lanes), 0.0);
+  row_sums_.assign(cloth_.row_count, RowSums{});
+  const int loose = static_cast<int>(cloth_.kept.size()) - cloth_.kept_of_row.back();
+  kept_sums_.assign(cloth_.row_count, RowSums{});
+  loose_sums_.assign((loose + kept_block - 1) / kept_block, RowSums{});
+  workers_.resize(threads);
+
+  // Rows are dealt by what they cost in the first phase, the longest: vectors and the forces of kept nodes.
+  // The two rows of springs computed twice count for the thread above.
+  std::vector<double> cost_before(cloth_.row_count + 1, 0.0);
+  for (int row = 0; row < cloth_.row_count; ++row)
+    cost_before[row + 1] = cost_before[row] + cloth_.patches[cloth_.row_patch[row]].vectors +
+                           vectors_a_kept_node * (cloth_.kept_of_row[row + 1] - cloth_.kept_of_row[row]);
+  const auto edge = [&](int rank) {
+    const double part = cost_before.back() * rank / threads;
+    return static_cast<int>(std::lower_bound(cost_before.begin(), cost_before.end(), part) -
+                            cost_before.begin());
+  };
+  for (int rank = 0; rank < threads; ++rank) {
+    Worker& worker = workers_[rank];
+    worker.begin_row = edge(rank);
+    worker.end_row = rank + 1 == threads ? cloth_.row_count : edge(rank + 1);
+    for (int p = 0; p < static_cast<int>(cloth_.patches.size()); ++p) {
+      const PatchLayout& patch = cloth_.patches[p];
+      const int begin = std::max(0, worker.begin_row - patch.first_row);
+      const int end = std::min(patch.rows, worker.end_row - patch.first_row);
+      if (begin >= end) continue;
+      worker.pieces.push_back({p, begin, end, begin > 0, end < patch.rows});
+      worker.row_doubles = std::max(worker.row_doubles, static_cast<std::size_t>(3 * patch.row_slots()));
+      for (int row = begin; row < end; ++row)
+        if ((begin > 0 && row < begin + ghosts) || (end < patch.rows && row >= end - ghosts))
+          worker.waiting.push_back(patch.first_row + row);
+    }
+    worker.buffer.assign((rows_in_turn + 1 + worker.waiting.size()) * worker.row_doubles, 0.0);
+  }
+}
+
+void Stepper::add_forces(int rank) {
+  Worker& worker = workers_[rank];
+  const IndexRange blocks = part_of(cloth_.springs.blocks, rank, static_cast<int>(workers_.size()));
+  pull_springs({&cloth_.springs, state_.x.data(), damped_ ? state_.v.data() : nullptr,
+                kept_force_.data() + at(cloth_.first_spring_force), record_ ? spring_damper_.data() : nullptr,
+                record_ ? spring_taken_.data() : nullptr, record_ ? spring_peak_.data() : nullptr},
+               blocks.begin, blocks.end);
+  for (const Piece& piece : worker.pieces) step_piece(worker, piece);
+  // Nodes outside patches have no lattice force; a point force may act on them.
+  if (rank == 0)
+    for (std::size_t k = cloth_.kept_of_row.back(); k < cloth_.kept.size(); ++k)
+      put(kept_force_.data(), static_cast<int>(k),
+          node_force_.empty() ? Vec3{} : get(node_force_.data(), cloth_.kept[k].slot));
+}
+
+void Stepper::step_piece(Worker& worker, const Piece& piece) {
+  const PatchLayout& patch = cloth_.patches[piece.patch];
+  double* const unwanted = worker.buffer.data() + rows_in_turn * worker.row_doubles;
+  const auto waits = [&](int row) {
+    return (piece.shared_below && row < piece.begin + ghosts) ||
+           (piece.shared_above && row >= piece.end - ghosts);
+  };
+  const auto force = [&](int row) {
+    if (row < piece.begin || row >= piece.end) return unwanted;
+    if (!waits(row)) return worker.buffer.data() + (row % rows_in_turn) * worker.row_doubles;
+    const auto found = std::lower_bound(worker.waiting.begin(), worker.waiting.end(), patch.first_row + row);
+    return unwanted + (1 + (found - worker.waiting.begin())) * worker.row_doubles;
+  };
+  for (int row = piece.begin; row < std::min(piece.end, ghosts); ++row)
+    std::fill_n(force(row), 3 * patch.row_slots(), 0.0);
+
+  const int stride = 3 * patch.row_slots();
+  const bool damped = damped_ && patch.damped;
+  for (int row = std::max(0, piece.begin - ghosts); row < piece.end; ++row) {
+    const std::size_t first = at(patch.first + patch.row_slots() * row);
+    const double* x = state_.x.data() + first;
+    const double* v = damped ? state_.v.data() + first : nullptr;
+    const bool pressed = !pressure_.empty() && row + 1 < patch.rows;
+    const double damped_power = add_row_forces(
+        {&patch, patch.springs(cloth_.lattice, row),
+         pressed ? pressure_.data() + patch.first + patch.row_slots() * row : nullptr, x, x + stride,
+         x + 2 * stride, v, damped ? v + stride : nullptr, damped ? v + 2 * stride : nullptr,
+         damped ? patch.damper_share(cloth_.damper_shares, row) : nullptr, force(row), force(row + 1),
+         force(row + 2)});
+    if (row < piece.begin) continue;
+    if (record_) row_damped_[patch.first_row + row] += damped_power;
+    complete_row(patch.first_row + row, force(row));
+    if (!waits(row)) move(patch.first_row + row, force(row), worker.pace);
+  }
+}
+
+void Stepper::complete_row(int row, double* f) {
+  const PatchLayout& patch = cloth_.patches[cloth_.row_patch[row]];
+  const int first = cloth_.row_slot(row);
+  for (const PatchLayout::Copy& copy : patch.copies)
+    for (int c = 0; c < 3; ++c) f[at(copy.source) + c * lanes] += f[at(copy.ghost) + c * lanes];
+  if (!node_force_.empty()) {
+    const double* point = node_force_.data() + at(first);
+    for (int i = 0; i < 3 * lanes * patch.vectors; ++i) f[i] += point[i];
+  }
+  for (int k = cloth_.kept_of_row[row]; k < cloth_.kept_of_row[row + 1]; ++k) {
+    const Vec3 v = get(state_.v.data(), cloth_.kept[k].slot);
+    double per_area = cloth_.options.absolute_damping;
+    if (cloth_.options.quadratic_damping > 0) per_area += cloth_.options.quadratic_damping * norm(v);
+    const Vec3 drag = (kept_area_[k] * per_area) * v;
+    put(kept_force_.data(), k, get(f, cloth_.kept[k].slot - first) - drag);
+    if (record_) take(kept_dampers_[k], drag, v);
+  }
+}
+
+void Stepper::move(int row, const double* f, Pace pace) {
+  const int first = cloth_.row_slot(row);
+  const RowMotion motion{cloth_.patches[cloth_.row_patch[row]].vectors,
+                         dt_,
+                         dt_ * pace.kick,
+                         pace.keep,
+                         inverse_mass_.data() + first,
+                         area_.empty() ? nullptr : area_.data() + first,
+                         cloth_.options.absolute_damping,
+                         cloth_.options.quadratic_damping,
+                         f,
+                         state_.x.data() + at(first),
+                         state_.v.data() + at(first)};
+  if (sums_wanted_)
+    row_sums_[row] = move_row_with_sums(motion);
+  else if (record_)
+    row_damped_[row] += move_row(motion);
+  else
+    move_row(motion);
+}
+
+void Stepper::move_kept(int rank) {
+  Worker& worker = workers_[rank];
+  const std::size_t unwanted_and_turns = rows_in_turn + 1;
+  for (std::size_t i = 0; i < worker.waiting.size(); ++i)
+    move(worker.waiting[i], worker.buffer.data() + (unwanted_and_turns + i) * worker.row_doubles,
+         worker.pace);
+
+  if (record_ && rank == 0) record_fixed_force();
+
+  // The nodes of a row belong to the row's thread, which has moved its neighbours; the others are dealt out.
+  for (int row = worker.begin_row; row < worker.end_row; ++row)
+    kept_sums_[row] = move_kept_nodes(cloth_.kept_of_row[row], cloth_.kept_of_row[row + 1], worker.pace);
+  const IndexRange blocks =
+      part_of(static_cast<int>(loose_sums_.size()), rank, static_cast<int>(workers_.size()));
+  const int loose = cloth_.kept_of_row.back(), all = static_cast<int>(cloth_.kept.size());
+  for (int block = blocks.begin; block < blocks.end; ++block)
+    loose_sums_[block] = move_kept_nodes(loose + block * kept_block,
+                                         std::min(all, loose + (block + 1) * kept_block), worker.pace);
+  if (sums_wanted_) {
+    const double keep = keep_after(++worker.steps_since_stop);
+    worker.pace = {0.5 * (1 + keep), keep};
+  }
+}
+
+Vec3 Stepper::force_on_kept(int k) const {
+  const Cloth::Kept& kept = cloth_.kept[k];
+  Vec3 force = get(kept_force_.data(), k);
+  for (int i = kept.first_share; i < kept.end_share; ++i)
+    force += cloth_.shares[i].weight * get(kept_force_.data(), cloth_.shares[i].source);
+  return force;
+}
+
+RowSums Stepper::move_kept_nodes(int begin, int end, Pace pace) {
+  double* const x = state_.x.data();
+  double* const v = state_.v.data();
+  RowSums sums;
+  for (int k = begin; k < end; ++k) {
+    if (kept_inverse_mass_[k] == 0) continue;
+    const Cloth::Kept& kept = cloth_.kept[k];
+    const Vec3 force = force_on_kept(k);
+    const Vec3 old = get(v, kept.slot);
+    sums.force_squared += dot(force, force);
+    const Vec3 now = pace.keep * old + (dt_ * pace.kick * kept_inverse_mass_[k]) * force;
+    sums.power += dot(force, old + now);
+    put(v, kept.slot, now);
+    put(x, kept.slot, get(x, kept.slot) + dt_ * now);
+  }
+  return sums;
+}
+
+void Stepper::follow_masters(int rank) {
+  const Worker& worker = workers_[rank];
+  const bool last = rank + 1 == static_cast<int>(workers_.size());
+  for (double* vectors : {state_.x.data(), state_.v.data()})
+    follow(cloth_, vectors, worker.begin_row, worker.end_row, last);
+  mirror(cloth_, state_.x.data(), worker.begin_row, worker.end_row);
+  // Velocities of ghosts are read by the dampers of the lattice only.
+  if (damped_lattice_) mirror(cloth_, state_.v.data(), worker.begin_row, worker.end_row);
+}
+
+void Stepper::stop(int rank) {
+  Worker& worker = workers_[rank];
+  worker.pace = {0.5, 0};
+  worker.steps_since_stop = 0;
+  for (int row = worker.begin_row; row < worker.end_row; ++row)
+    std::fill_n(state_.v.data() + at(cloth_.row_slot(row)),
+                3 * cloth_.patches[cloth_.row_patch[row]].row_slots(), 0.0);
+  if (rank + 1 < static_cast<int>(workers_.size())) return;
+  for (std::size_t k = cloth_.kept_of_row.back(); k < cloth_.kept.size(); ++k)
+    put(state_.v.data(), cloth_.kept[k].slot, {});
+}
+
+void Stepper::start_record(StepRecord& record) {
+  record_ = &record;
+  before_ = state_.x;
+  row_work_.assign(cloth_.row_count, 0.0);
+  row_damped_.assign(cloth_.row_count, 0.0);
+  kept_dampers_.assign(cloth_.kept.size(), Damper{});
+  const int springs = cloth_.springs.blocks * lanes;
+  spring_damper_.assign(at(springs), 0.0);
+  spring_taken_.assign(springs, 0.0);
+  spring_peak_.assign(springs, 0.0);
+  std::copy(record.peak_tension.begin(), record.peak_tension.end(), spring_peak_.begin());
+  for (std::size_t k = 0; k < cloth_.kept.size(); ++k)
+    if (cloth_.is_fixed[cloth_.kept[k].node]) fixed_kept_.push_back(static_cast<int>(k));
+}
+
+void Stepper::take(Damper& damper, Vec3 force, Vec3 v) {
+  damper.energy += 0.5 * dot(damper.force + force, v);
+  damper.force = force;
+}
+
+void Stepper::record_fixed_force() {
+  Vec3 sum;
+  for (const int k : fixed_kept_) sum += force_on_kept(k);
+  record_->fixed_force.push_back(sum);
+}
+
+void Stepper::add_pressure_work(int rank) {
+  if (pressure_.empty()) return;
+  const Worker& worker = workers_[rank];
+  for (int row = worker.begin_row; row < worker.end_row; ++row) {
+    const PatchLayout& patch = cloth_.patches[cloth_.row_patch[row]];
+    if (cloth_.patch_row(row) + 1 == patch.rows) continue;
+    const int slot = cloth_.row_slot(row), first = at(slot), next = first + 3 * patch.row_slots();
+    row_work_[row] += pressure_work({patch.vectors, pressure_.data() + slot, state_.x.data() + first,
+                                     state_.x.data() + next, before_.data() + first, before_.data() + next});
+  }
+}
+
+void Stepper::remember_positions(int rank) {
+  const Worker& worker = workers_[rank];
+  for (int row = worker.begin_row; row < worker.end_row; ++row) {
+    const int first = at(cloth_.row_slot(row));
+    std::copy_n(state_.x.data() + first, 3 * cloth_.patches[cloth_.row_patch[row]].row_slots(),
+                before_.data() + first);
+  }
+}
+
+void Stepper::finish_record() {
+  double damped = 0;
+  for (std::size_t k = 0; k < cloth_.kept.size(); ++k) {
+    take(kept_dampers_[k], {}, get(state_.v.data(), cloth_.kept[k].slot));
+    damped += kept_dampers_[k].energy;
+  }
+  const KeptSprings& springs = cloth_.springs;
+  for (std::size_t s = 0; s < record_->peak_tension.size(); ++s) {
+    const auto speed = [&](std::int64_t end) {
+      const double* v = state_.v.data() + end;
+      return Vec3{v[0], v[lanes], v[2 * lanes]};
+    };
+    const Vec3 force = get(spring_damper_.data(), static_cast<int>(s));
+    damped += spring_taken_[s] + 0.5 * dot(force, speed(springs.b[s]) - speed(springs.a[s]));
+    record_->peak_tension[s] = spring_peak_[s];
+  }
+  for (const double power : row_damped_) damped += power;
+  record_->damped += dt_ * damped;
+  for (const double work : row_work_) record_->pressure_work += work;
+  record_ = nullptr;
+}
+
+RowSums Stepper::sums() const {
+  RowSums total;
+  for (const auto* list : {&row_sums_, &kept_sums_, &loose_sums_})
+    for (const RowSums& sums : *list) {
+      total.force_squared += sums.force_squared;
+      total.power += sums.power;
+    }
+  return total;
+}
+
+}  // namespace ripstop

@@ -1,0 +1,21 @@
+// Mean of the iterates of a flow that does not settle.
+#pragma once
+
+#include "ripstop/flow/flow.h"
+
+namespace ripstop {
+
+/// Running mean of fields on one grid, each weighing the same.
+class FieldMean {
+ public:
+  void add(const FlowField& field);
+  int count() const { return mean_.average.iterations; }
+  /// The mean so far, FlowField::average set; `last` and `converged` are those of the newest field.
+  FlowField mean() const;
+
+ private:
+  FlowField mean_;
+  double squares_ = 0;  // sum of squared distances of the drag from its mean [N2]
+};
+
+}  // namespace ripstop

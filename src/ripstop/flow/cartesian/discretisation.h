@@ -1,0 +1,31 @@
+// The box as the solver sees it: axes, metrics of rows, layout of the fields, air and numerics.
+#pragma once
+
+#include "ripstop/flow/cartesian/cartesian.h"
+#include "ripstop/flow/cartesian/grid.h"
+#include "ripstop/flow/cartesian/rows.h"
+
+namespace ripstop::cartesian {
+
+constexpr double heat_capacity = 1007;  // c_p of air [J/(kg K)]
+
+struct Discretisation {
+  /// `side` is what holds the pressure at the sides.
+  Discretisation(const FlowGrid& grid, const Freestream& air, const CartesianSettings& settings, End side);
+
+  /// Of row (j, k) for what the air carries, and for the pressure.
+  RowMetrics metrics(int j, int k) const { return metrics(j, k, x, y, z); }
+  RowMetrics pressure_metrics(int j, int k) const { return metrics(j, k, xp, yp, zp); }
+
+  FlowGrid grid;
+  Freestream air;
+  CartesianSettings settings;
+  Axis x, y, z;     // for transport: fixed at the inlet
+  Axis xp, yp, zp;  // for the pressure: fixed at the outlet, the sides as told; see the constructor
+  Layout layout;
+
+ private:
+  RowMetrics metrics(int j, int k, const Axis& along_x, const Axis& along_y, const Axis& along_z) const;
+};
+
+}  // namespace ripstop::cartesian

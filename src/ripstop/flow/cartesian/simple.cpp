@@ -1,0 +1,232 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "ripstop/flow/cartesian/solver.h"
+
+namespace ripstop::cartesian {
+namespace {
+
+/// Half steps after a start beside a sheet: a pressure from elsewhere does not yet stand against the cloth,
+/// and would throw the air about.
+constexpr int eased_iterations = 30;
+
+Boundaries boundaries_of(const FlowProblem& problem, const Discretisation& d) {
+  return {uniform_inlet(d), make_sides(problem.sides), make_outlet(problem.outlet)};
+}
+
+void lay_out(const std::vector<Vec3>& force, const Discretisation& d, Obstacles& obstacles) {
+  if (force.empty()) return;
+  obstacles.body_u = obstacles.body_v = obstacles.body_w = Array<double>(d.layout.values());
+  for (int k = 0; k < d.grid.nz; ++k) {
+    for (int j = 0; j < d.grid.ny; ++j) {
+      for (int i = 0; i < d.grid.nx; ++i) {
+        const Vec3 f = force[d.grid.index(i, j, k)];
+        const std::ptrdiff_t at = d.layout.at(i, j, k);
+        obstacles.body_u[at] = f.x, obstacles.body_v[at] = f.y, obstacles.body_w[at] = f.z;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Scratch::Scratch(const Discretisation& d, int threads) : sums(d.grid.ny, d.grid.nz) {
+  for (Array<double>* field : {&hu, &hv, &hw, &ra, &rc, &new_k, &new_omega, &new_limit})
+    *field = Array<double>(d.layout.values());
+  std::fill(new_limit.begin(), new_limit.end(), 1.0);
+  if (d.settings.second_order) extra_u = extra_v = extra_w = Array<double>(d.layout.values());
+  const auto row = static_cast<std::size_t>(d.layout.stride_y);
+  zeros = Array<double>(row);
+  rings.assign(threads, MarchRings(row * (d.grid.ny / block_count(d.grid) + 7)));
+}
+
+Solver::Solver(const FlowProblem& problem, const FlowGrid& grid, PorousRows porous,
+               const CartesianSettings& settings, ThreadTeam& team)
+    : d_(grid, problem.air, settings, make_sides(problem.sides)->pressure_end()),
+      b_(boundaries_of(problem, d_)),
+      s_(d_.layout),
+      t_(d_, team.size()),
+      multigrid_(d_.xp, d_.yp, d_.zp),
+      team_(team) {
+  lay_out(problem.body_force, d_, in_the_way_);
+  start_uniform();
+  place(std::move(porous), problem.sheets);
+  s_.eased = in_the_way_.sheets.empty() ? 0 : eased_iterations;
+}
+
+void Solver::start_uniform() {
+  const auto fill = [](auto& values, double value) { std::fill(values.begin(), values.end(), value); };
+  Fields& f = s_.f;
+  const double speed = d_.air.speed;
+  fill(f.u, 0), fill(f.v, 0), fill(f.w, speed), fill(f.p, 0), fill(f.rho, d_.air.density);
+  fill(f.k, b_.inlet.stream_k), fill(f.omega, b_.inlet.stream_omega);
+  fill(f.fx, 0), fill(f.fy, 0), fill(f.fz, d_.air.density * speed);
+  fill(s_.limit, 1), fill(s_.outlet_p, 0);
+  s_.mean = {0, 0, speed, 0, b_.inlet.stream_k, b_.inlet.stream_omega};
+  s_.force = {};
+  s_.iteration = 0;
+  s_.untouched = true;
+  s_.eased = in_the_way_.sheets.empty() ? 0 : eased_iterations;
+  in_the_way_.sheets.begin(s_, d_.layout);
+}
+
+void Solver::start_from(const Solver& coarse) {
+  start_uniform();
+  team_.run([&](int rank) { interpolate(coarse.s_, coarse.d_, s_, d_, rank, team_.size()); });
+  s_.mean = coarse.s_.mean;
+  s_.untouched = false;
+  in_the_way_.sheets.begin(s_, d_.layout);
+  for (int k = 0; k < d_.grid.nz; ++k)
+    velocity_ghosts(d_, b_, s_, k), pressure_ghosts(d_, b_, s_, k), turbulence_ghosts(d_, b_, s_, k);
+}
+
+void Solver::place(PorousRows porous, const std::vector<Sheet>& sheets) {
+  in_the_way_.porous = std::move(porous);
+  const SheetRows before = std::exchange(in_the_way_.sheets, SheetRows(d_.x, d_.y, d_.z, sheets));
+  in_the_way_.sheets.begin(s_, d_.layout, before);
+  in_the_way_.wall =
+      in_the_way_.sheets.empty() ? Array<double>() : in_the_way_.sheets.distance(d_.x, d_.y, d_.z, d_.layout);
+}
+
+/// The rows of one quantity that the faces of row (j, k) have; null where no sheet passes.
+SheetJumps Solver::jumps(int j, int k, const std::vector<double>& values) const {
+  const SheetRows& sheets = in_the_way_.sheets;
+  if (!sheets.touches(j, k)) return {};
+  const auto row = [&](int axis, int jj, int kk) { return values.data() + sheets.offset(axis, jj, kk); };
+  return {row(0, j, k), row(1, j, k), row(1, j + 1, k), row(2, j, k), row(2, j, k + 1)};
+}
+
+FlowProgress Solver::iterate() {
+  SheetRows& sheets = in_the_way_.sheets;
+  if (!sheets.empty()) sheets.update(s_, d_.layout, d_.air.density * d_.air.speed);
+  team_.run([this](int rank) {
+    const IndexRange planes = part_of(d_.grid.nz, rank, team_.size());
+    const auto each_plane = [&](auto stage) {
+      for (int k = planes.begin; k < planes.end; ++k) stage(k);
+      team_.barrier();
+    };
+    const int count = block_count(d_.grid);
+    const IndexRange blocks = part_of(count, rank, team_.size());
+    const auto each_block = [&](auto stage) {
+      for (int b = blocks.begin; b < blocks.end; ++b) stage(part_of(d_.grid.ny, b, count));
+      team_.barrier();
+    };
+    const auto each_plane_of_a_block = [&](auto stage) {
+      each_block([&](IndexRange rows) {
+        for (int k = 0; k < d_.grid.nz; ++k) stage(k, rows);
+      });
+    };
+    if (d_.settings.second_order) each_plane_of_a_block([&](int k, IndexRange rows) { convection(k, rows); });
+    each_block([&](IndexRange rows) { march(rank, rows); });
+    if (rank == 0) take_new_turbulence();
+    team_.barrier();
+    each_plane([&](int k) { turbulence_ghosts(d_, b_, s_, k), matrix_ghosts(k); });
+    each_plane_of_a_block([&](int k, IndexRange rows) { pressure(k, rows); });
+    correct(rank);
+    each_plane([&](int k) { correction_ghosts(d_, b_, multigrid_.finest().e, k); });
+    each_plane_of_a_block([&](int k, IndexRange rows) { flux(k, rows); });
+    each_plane_of_a_block([&](int k, IndexRange rows) { velocity(k, rows); });
+    each_plane([&](int k) { relax_pressure(k), velocity_ghosts(d_, b_, s_, k); });
+    t_.sums.add_up(team_, rank);
+  });
+  return close_iteration();
+}
+
+void Solver::take_new_turbulence() {
+  std::swap(s_.f.k, t_.new_k), std::swap(s_.f.omega, t_.new_omega), std::swap(s_.limit, t_.new_limit);
+}
+
+// What the sums say, and what the next iteration needs of them.
+FlowProgress Solver::close_iteration() {
+  const Sums& sum = t_.sums.total();
+  const double per_volume = 1 / (d_.grid.size.x * d_.grid.size.y * d_.grid.size.z);
+  const auto mean = [&](Sums::Name name) { return sum.value[name] * per_volume; };
+  s_.mean = {mean(Sums::u_mean), mean(Sums::v_mean), mean(Sums::w_mean),
+             mean(Sums::p_mean), mean(Sums::k_mean), mean(Sums::omega_mean)};
+  s_.force = {sum.value[Sums::drag_x], sum.value[Sums::drag_y], sum.value[Sums::drag_z]};
+  in_the_way_.sheets.settle(s_);
+  for (const SheetLoad& load : in_the_way_.sheets.loads(s_)) s_.force += load.force;
+  ++s_.iteration;
+  s_.eased = std::max(0, s_.eased - 1);
+  s_.untouched = false;
+  FlowProgress progress;
+  progress.iteration = s_.iteration;
+  progress.residual_u =
+      std::max({sum.ratio(Sums::u_residual), sum.ratio(Sums::v_residual), sum.ratio(Sums::w_residual)});
+  progress.residual_p = sum.ratio(Sums::p_residual);
+  progress.residual_k = sum.ratio(Sums::k_residual);
+  progress.residual_omega = sum.ratio(Sums::omega_residual);
+  progress.drag = s_.force.z;
+  return progress;
+}
+
+std::array<Solver::Bounded, 6> Solver::bounded() const {
+  const double speed = d_.air.speed;
+  return {{{"velocity x", &s_.f.u, 1e3 * speed},
+           {"velocity y", &s_.f.v, 1e3 * speed},
+           {"velocity z", &s_.f.w, 1e3 * speed},
+           {"pressure", &s_.f.p, 1e4 * d_.air.density * speed * speed},
+           {"k", &s_.f.k, 1e6 * speed * speed},
+           {"omega", &s_.f.omega, 1e300}}};
+}
+
+bool Solver::within_reason() {
+  std::vector<char> sound(static_cast<std::size_t>(team_.size()), 1);
+  team_.run([&](int rank) {
+    const IndexRange planes = part_of(d_.grid.nz, rank, team_.size());
+    for (const Bounded& field : bounded()) {
+      for (int k = planes.begin; k < planes.end; ++k) {
+        for (int j = 0; j < d_.grid.ny; ++j) {
+          const double* row = &(*field.values)[d_.layout.at(0, j, k)];
+          bool within = true;
+          for (int i = 0; i < d_.grid.nx; ++i) within &= std::fabs(row[i]) <= field.bound;  // not of a NaN
+          if (!within) sound[rank] = 0;
+        }
+      }
+    }
+  });
+  return std::find(sound.begin(), sound.end(), 0) == sound.end();
+}
+
+std::string Solver::first_bad_value() const {
+  for (const Bounded& check : bounded()) {
+    for (int k = 0; k < d_.grid.nz; ++k) {
+      for (int j = 0; j < d_.grid.ny; ++j) {
+        for (int i = 0; i < d_.grid.nx; ++i) {
+          const double value = (*check.values)[d_.layout.at(i, j, k)];
+          if (std::isfinite(value) && std::fabs(value) <= check.bound) continue;
+          const Vec3 place = d_.grid.centre(i, j, k);
+          return fmt::format("{} is {} at ({:.3f}, {:.3f}, {:.3f}) m", check.name, value, place.x, place.y,
+                             place.z);
+        }
+      }
+    }
+  }
+  return {};
+}
+
+FlowField Solver::field() const {
+  FlowField field;
+  field.grid = d_.grid;
+  field.pressure.resize(d_.grid.cells());
+  field.velocity.resize(d_.grid.cells());
+  for (int k = 0; k < d_.grid.nz; ++k) {
+    for (int j = 0; j < d_.grid.ny; ++j) {
+      for (int i = 0; i < d_.grid.nx; ++i) {
+        const std::ptrdiff_t at = d_.layout.at(i, j, k);
+        const int cell = d_.grid.index(i, j, k);
+        field.pressure[cell] = s_.f.p[at];
+        field.velocity[cell] = {s_.f.u[at], s_.f.v[at], s_.f.w[at]};
+      }
+    }
+  }
+  field.porous_force = s_.force;
+  field.sheet_loads = in_the_way_.sheets.loads(s_);
+  field.momentum_deficit = momentum_deficit(d_, b_, s_);
+  return field;
+}
+
+}  // namespace ripstop::cartesian

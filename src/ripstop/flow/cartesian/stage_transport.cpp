@@ -1,0 +1,198 @@
+// First half of an iteration: turbulence and momentum.
+//
+// The box is cut along y into blocks of fixed size, and each block is marched plane by plane from the inlet
+// to the outlet: a plane sees the new values of the plane before it, so a change travels with the stream
+// through the whole box in one iteration. In a plane the rows are walked up in one iteration and down in the
+// next, each seeing the new values of the row before it. All other neighbours are old values, read from
+// arrays that nobody writes, so neither the order of the blocks nor the number of threads matters. Momentum
+// runs one plane behind the turbulence; what passes between them stays in a ring of a few planes, in cache.
+// The rows on either side of a block are computed twice, for the stress that its own rows see.
+#include <algorithm>
+
+#include "ripstop/flow/cartesian/solver.h"
+
+namespace ripstop::cartesian {
+namespace {
+
+constexpr int mod(int k, int n) {
+  return (k + n) % n;
+}
+
+}  // namespace
+
+// A block's rings and the planes of the fields should fit a second-level cache of 1-2 MB. An even number of
+// blocks keeps two threads busy.
+int block_count(const FlowGrid& grid) {
+  const int rows = std::clamp(2500 / grid.nx, 6, 32);
+  const int blocks = std::max(1, (grid.ny + rows / 2) / rows);
+  return grid.ny < 8 ? 1 : (blocks + 1) / 2 * 2;
+}
+
+MarchRings::MarchRings(std::size_t plane_) : plane(plane_) {
+  for (Array<double>& a : mut) a = Array<double>(plane);
+  for (Array<double>& a : mu) a = Array<double>(plane);
+  for (Array<double>& a : tx) a = Array<double>(3 * plane);
+  for (Array<double>& a : ty) a = Array<double>(3 * plane);
+  for (Array<double>& a : tz) a = Array<double>(3 * plane);
+  for (Array<double>& a : predicted) a = Array<double>(3 * plane);
+  scratch = Array<double>(plane);
+}
+
+void Solver::march(int rank, IndexRange rows) {
+  MarchRings& rings = t_.rings[rank];
+  eddy_viscosity(rings, 0, rows);
+  for (int s = 0; s <= d_.grid.nz; ++s) {
+    if (s + 1 < d_.grid.nz) eddy_viscosity(rings, s + 1, rows);
+    if (s < d_.grid.nz) turbulence(rings, s, rows);
+    if (s >= 1) momentum(rings, s - 1, rows);
+  }
+}
+
+// Two rows beyond the block, as far as the grid goes; the kernel never needs more.
+void Solver::eddy_viscosity(MarchRings& rings, int k, IndexRange rows) const {
+  for (int j = std::max(rows.begin - 2, 0); j < std::min(rows.end + 2, d_.grid.ny); ++j) {
+    const std::ptrdiff_t at = d_.layout.at(0, j, k);
+    double* mut = &rings.mut[mod(k, 3)][rings.at(d_.layout, j, rows.begin)];
+    eddy_viscosity_row(d_.grid.nx, &s_.f.rho[at], &s_.f.k[at], &s_.f.omega[at], mut);
+    if (!in_the_way_.wall.empty()) limit_row(d_.grid.nx, &s_.limit[at], mut);
+  }
+}
+
+void Solver::turbulence(MarchRings& rings, int k, IndexRange rows) {
+  const bool first = k == 0, last = k == d_.grid.nz - 1;
+  const std::ptrdiff_t sz = d_.layout.stride_z, component = static_cast<std::ptrdiff_t>(rings.plane);
+  const bool northward = s_.iteration % 2 == 0;  // the way the rows are walked
+  const int low = std::max(rows.begin - 1, 0), high = std::min(rows.end + 1, d_.grid.ny);
+  for (int step = low; step < high; ++step) {
+    const int j = northward ? step : high - 1 - (step - low);
+    const bool own = j >= rows.begin && j < rows.end;
+    const std::ptrdiff_t at = d_.layout.at(0, j, k), in = rings.at(d_.layout, j, rows.begin);
+    TurbulenceRow r;
+    r.m = d_.metrics(j, k);
+    r.viscosity = d_.air.viscosity;
+    r.relaxation = d_.settings.relax_turbulence;
+    r.mean_k = s_.mean.k;
+    r.mean_omega = s_.mean.omega;
+    r.u = &s_.f.u[at], r.v = &s_.f.v[at], r.w = &s_.f.w[at];
+    r.k = &s_.f.k[at], r.omega = &s_.f.omega[at], r.rho = &s_.f.rho[at];
+    const double *inlet_k = b_.inlet.turbulence(j), *inlet_omega = b_.inlet.frequency(j);
+    r.k_below = first ? inlet_k : own ? &t_.new_k[at - sz] : r.k - sz;
+    r.k_above = last ? inlet_k : r.k + sz;
+    r.omega_below = first ? inlet_omega : own ? &t_.new_omega[at - sz] : r.omega - sz;
+    r.omega_above = last ? inlet_omega : r.omega + sz;
+    const std::ptrdiff_t sy = d_.layout.stride_y;
+    const bool new_south = own && northward && j > rows.begin,
+               new_north = own && !northward && j + 1 < rows.end;
+    r.k_south = new_south ? &t_.new_k[at - sy] : r.k - sy;
+    r.k_north = new_north ? &t_.new_k[at + sy] : r.k + sy;
+    r.omega_south = new_south ? &t_.new_omega[at - sy] : r.omega - sy;
+    r.omega_north = new_north ? &t_.new_omega[at + sy] : r.omega + sy;
+    r.fx = &s_.f.fx[at], r.fy = &s_.f.fy[at], r.fz = &s_.f.fz[at];
+    r.mut = &rings.mut[mod(k, 3)][in];
+    r.mut_above = &rings.mut[mod(last ? k : k + 1, 3)][in];
+    double* below = &rings.mut[mod(k - 1, 3)][in];
+    if (first) {  // such that the face takes the inlet's value
+      for (int i = 0; i < d_.grid.nx; ++i) below[i] = 2 * r.rho[i] * inlet_k[i] / inlet_omega[i] - r.mut[i];
+    }
+    r.mut_below = below;
+    r.k_new = own ? &t_.new_k[at] : &rings.scratch[Layout::lead];
+    r.omega_new = own ? &t_.new_omega[at] : &rings.scratch[Layout::lead + d_.layout.stride_y];
+    if (!in_the_way_.wall.empty()) {
+      r.wall = &in_the_way_.wall[at];
+      r.limit_new = own ? &t_.new_limit[at] : &rings.scratch[Layout::lead + 2 * d_.layout.stride_y];
+    }
+    r.mu_new = &rings.mu[mod(k, 3)][in];
+    r.tx = &rings.tx[mod(k, 2)][in];
+    r.ty = &rings.ty[mod(k, 2)][in];
+    r.tz = &rings.tz[mod(k, 3)][in];
+    r.component = component;
+    turbulence_row(r);
+    // Beyond the sides the explicit stress is that of the last cell.
+    for (int c = 0; c < 3; ++c) {
+      double *tx = r.tx + c * component, *ty = r.ty + c * component;
+      tx[-1] = tx[0];
+      tx[d_.grid.nx] = tx[d_.grid.nx - 1];
+      if (j == 0) std::copy_n(ty, d_.grid.nx, ty - d_.layout.stride_y);
+      if (j == d_.grid.ny - 1) std::copy_n(ty, d_.grid.nx, ty + d_.layout.stride_y);
+    }
+    if (!own) continue;
+    double* sums = t_.sums.row(j, k);
+    sums[Sums::k_residual] = r.k_sum.residual, sums[Sums::k_scale] = r.k_sum.scale;
+    sums[Sums::omega_residual] = r.omega_sum.residual, sums[Sums::omega_scale] = r.omega_sum.scale;
+    sums[Sums::k_mean] = r.total_k * d_.y.width[j] * d_.z.width[k];
+    sums[Sums::omega_mean] = r.total_omega * d_.y.width[j] * d_.z.width[k];
+  }
+}
+
+void Solver::momentum(MarchRings& rings, int k, IndexRange rows) {
+  const bool first = k == 0, last = k == d_.grid.nz - 1;
+  const std::ptrdiff_t sz = d_.layout.stride_z, component = static_cast<std::ptrdiff_t>(rings.plane);
+  const double* zeros = &t_.zeros[Layout::lead];
+  const bool northward = s_.iteration % 2 == 0;
+  for (int step = rows.begin; step < rows.end; ++step) {
+    const int j = northward ? step : rows.end - 1 - (step - rows.begin);
+    const std::ptrdiff_t at = d_.layout.at(0, j, k), in = rings.at(d_.layout, j, rows.begin);
+    MomentumRow r;
+    r.m = d_.metrics(j, k);
+    r.relaxation = d_.settings.relax_velocity;
+    r.march_relaxation = (s_.eased > 0 ? 0.5 : 1.0) * d_.settings.relax_march;
+    r.mean_u = s_.mean.u;
+    r.mean_v = s_.mean.v;
+    r.mean_w = s_.mean.w;
+    r.u = &s_.f.u[at], r.v = &s_.f.v[at], r.w = &s_.f.w[at];
+    r.p = &s_.f.p[at], r.rho = &s_.f.rho[at];
+    const double* before = &rings.predicted[mod(k - 1, 2)][in];
+    r.u_below = first ? zeros : before;
+    r.v_below = first ? zeros : before + component;
+    r.w_below = first ? b_.inlet.speed(j) : before + 2 * component;
+    r.u_above = last ? zeros : r.u + sz;
+    r.v_above = last ? zeros : r.v + sz;
+    r.w_above = last ? (b_.outlet->carries_back() ? r.w : zeros) : r.w + sz;
+    const std::ptrdiff_t sy = d_.layout.stride_y;
+    const double *south = &rings.predicted[mod(k, 2)][in - sy], *north = &rings.predicted[mod(k, 2)][in + sy];
+    const bool new_south = northward && j > rows.begin, new_north = !northward && j + 1 < rows.end;
+    r.u_south = new_south ? south : r.u - sy;
+    r.v_south = new_south ? south + component : r.v - sy;
+    r.w_south = new_south ? south + 2 * component : r.w - sy;
+    r.u_north = new_north ? north : r.u + sy;
+    r.v_north = new_north ? north + component : r.v + sy;
+    r.w_north = new_north ? north + 2 * component : r.w + sy;
+    r.fx = &s_.f.fx[at], r.fy = &s_.f.fy[at], r.fz = &s_.f.fz[at];
+    r.mu = &rings.mu[mod(k, 3)][in];
+    r.mu_above = &rings.mu[mod(last ? k : k + 1, 3)][in];
+    double* below = &rings.mu[mod(k - 1, 3)][in];
+    if (first) {
+      const double *inlet_k = b_.inlet.turbulence(j), *inlet_omega = b_.inlet.frequency(j);
+      for (int i = 0; i < d_.grid.nx; ++i) {
+        below[i] = 2 * (d_.air.viscosity + r.rho[i] * inlet_k[i] / inlet_omega[i]) - r.mu[i];
+      }
+    }
+    r.mu_below = below;
+    r.tx = &rings.tx[mod(k, 2)][in];
+    r.ty = &rings.ty[mod(k, 2)][in];
+    r.tz = &rings.tz[mod(k, 3)][in];
+    r.tz_below = first ? r.tz : &rings.tz[mod(k - 1, 3)][in];
+    r.tz_above = last ? r.tz : &rings.tz[mod(k + 1, 3)][in];
+    r.component = component;
+    r.linear = in_the_way_.porous.linear(j, k);
+    r.quadratic = in_the_way_.porous.quadratic(j, k);
+    const auto extra = [&](const Array<double>& both, const Array<double>& body) {
+      return d_.settings.second_order ? &both[at] : body.empty() ? zeros : &body[at];
+    };
+    r.extra_u = extra(t_.extra_u, in_the_way_.body_u), r.extra_v = extra(t_.extra_v, in_the_way_.body_v),
+    r.extra_w = extra(t_.extra_w, in_the_way_.body_w);
+    r.sheet = jumps(j, k, s_.held);
+    r.stiffness = jumps(j, k, in_the_way_.sheets.stiffness());
+    r.inertia = d_.air.density * d_.air.speed;
+    r.hu = &t_.hu[at], r.hv = &t_.hv[at], r.hw = &t_.hw[at], r.ra = &t_.ra[at], r.rc = &t_.rc[at];
+    double* next = &rings.predicted[mod(k, 2)][in];
+    r.u_new = next, r.v_new = next + component, r.w_new = next + 2 * component;
+    momentum_row(r);
+    double* sums = t_.sums.row(j, k);
+    sums[Sums::u_residual] = r.u_sum.residual, sums[Sums::u_scale] = r.u_sum.scale;
+    sums[Sums::v_residual] = r.v_sum.residual, sums[Sums::v_scale] = r.v_sum.scale;
+    sums[Sums::w_residual] = r.w_sum.residual, sums[Sums::w_scale] = r.w_sum.scale;
+  }
+}
+
+}  // namespace ripstop::cartesian

@@ -1,0 +1,67 @@
+// What a flow carries from one iteration to the next, all of it: each_carried() is the one list, which saving
+// walks.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "ripstop/core/vec3.h"
+#include "ripstop/flow/cartesian/grid.h"
+#include "ripstop/flow/flow.h"
+
+namespace ripstop::cartesian {
+
+struct Discretisation;
+
+struct Fields {
+  Array<double> u, v, w;     // [m/s]
+  Array<double> p;           // over the outlet's [Pa]
+  Array<double> rho;         // [kg/m3]
+  Array<double> k, omega;    // [m2/s2], [1/s]
+  Array<double> fx, fy, fz;  // mass flux per area through the low faces [kg/(m2 s)]
+};
+
+/// Means over the box, which residuals are measured against.
+struct Means {
+  double u = 0, v = 0, w = 0, p = 0, k = 0, omega = 0;
+};
+
+struct State {
+  explicit State(const Layout& layout);
+
+  Fields f;
+  Array<double> limit;       // factor of the eddy viscosity beside sheets, else 1
+  Array<double> outlet_p;    // pressure in the outlet's faces, one plane [Pa]
+  std::vector<double> held;  // jump on a face of a sheet that the pressure stands against [Pa], see SheetRows
+  std::vector<double> change;  // and by how much it differs after the last iteration [Pa]
+  std::vector<double> drop;    // of the pressure across the cloth on each such face [Pa]
+  Vec3 force;                  // on porous cells and sheets [N]
+  Means mean;
+  int iteration = 0;      // since the start
+  int eased = 0;          // iterations yet to come that take half steps
+  bool untouched = true;  // still the uniform stream
+};
+
+/// visit(array of double) and visit(number) for everything in a State.
+template <class AnyState, class Visit>
+void each_carried(AnyState& s, Visit&& visit) {
+  auto& f = s.f;
+  for (auto* field :
+       {&f.u, &f.v, &f.w, &f.p, &f.rho, &f.k, &f.omega, &f.fx, &f.fy, &f.fz, &s.limit, &s.outlet_p})
+    visit(*field);
+  visit(s.held), visit(s.change), visit(s.drop), visit(s.force);
+  visit(s.mean), visit(s.iteration), visit(s.eased), visit(s.untouched);
+}
+
+/// Whether every array of the one is as long as that of the other.
+bool fits(const State& a, const State& b);
+
+/// The fields of one box on another grid of it, scaled from its air to the other's. Ghosts are left alone;
+/// limit, outlet and jumps too.
+void interpolate(const State& from, const Discretisation& of, State& to, const Discretisation& on, int rank,
+                 int ranks);
+
+/// The same grid, other air: everything times what it scales with.
+void scale(State& state, const Freestream& from, const Freestream& to);
+
+}  // namespace ripstop::cartesian

@@ -1,0 +1,91 @@
+#include "ripstop/flow/engines.h"
+
+#include <fmt/format.h>
+
+#include "ripstop/core/error.h"
+#include "ripstop/flow/cartesian/cartesian.h"
+#include "ripstop/flow/openfoam/installation.h"
+#include "ripstop/flow/openfoam/openfoam.h"
+
+namespace ripstop {
+namespace {
+
+EngineRecord builtin() {
+  const auto make = [](const EngineOptions& options) {
+    CartesianSettings settings;
+    settings.threads = options.threads;
+    settings.second_order = options.second_order;
+    return make_cartesian(settings);
+  };
+  return {"builtin",
+          "the built-in one",
+          {.sheets = true,
+           .entraining_sides = true,
+           .still_air_outlet = true,
+           .averages = true,
+           .ranks = false,
+           .other_air = true},
+          [](const EngineOptions&) { return make_cartesian()->name(); },
+          make};
+}
+
+EngineRecord openfoam_rho_porous() {
+  const auto make = [](const EngineOptions& options) {
+    OpenFoamSettings settings;
+    settings.folder = options.folder;
+    settings.ranks = options.ranks;
+    settings.second_order = options.second_order;
+    settings.hostfile = options.hostfile;
+    if (options.time_limit_s > 0) settings.time_limit_s = options.time_limit_s;
+    return make_openfoam(settings);
+  };
+  return {"openfoam",
+          "OpenFOAM's rhoPorousSimpleFoam with the same equations",
+          {.ranks = true},
+          [](const EngineOptions& options) {
+            return "OpenFOAM " + openfoam::find_installation({}, options.ranks > 1).version;
+          },
+          make,
+          true};
+}
+
+std::vector<EngineRecord>& table() {
+  static std::vector<EngineRecord> rows = {builtin(), openfoam_rho_porous()};
+  return rows;
+}
+
+}  // namespace
+
+const std::vector<EngineRecord>& engines() {
+  return table();
+}
+
+void add_engine(EngineRecord engine) {
+  table().push_back(std::move(engine));
+}
+
+const EngineRecord& engine_of(const std::string& word) {
+  std::string known;
+  for (const EngineRecord& engine : engines()) {
+    if (engine.word == word) return engine;
+    known += (known.empty() ? "" : ", ") + engine.word;
+  }
+  throw Error(ExitCode::usage, fmt::format("there is no flow engine \"{}\"; there are {}", word, known));
+}
+
+std::vector<Lack> lacks(const EngineRecord& engine, const Abilities& wanted) {
+  const struct {
+    bool Abilities::*ability;
+    Lack lack;
+  } all[] = {{&Abilities::sheets, {"flow.porosity_model", "sheet", "paper"}},
+             {&Abilities::entraining_sides, {"flow.sides", "entraining", "zero-gradient or slip"}},
+             {&Abilities::still_air_outlet, {"flow.outlet", "still-air", "fixed-pressure"}},
+             {&Abilities::averages, {"flow.average_over", "more than 0", "0"}},
+             {&Abilities::ranks, {"flow.ranks", "more than 1", "1"}}};
+  std::vector<Lack> result;
+  for (const auto& one : all)
+    if (wanted.*one.ability && !(engine.can.*one.ability)) result.push_back(one.lack);
+  return result;
+}
+
+}  // namespace ripstop

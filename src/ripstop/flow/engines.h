@@ -1,0 +1,58 @@
+// The flow engines: one row says an engine's word, what it can do and how it is made. A new engine is a folder
+// of its own and its row in engines.cpp.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ripstop/flow/flow.h"
+
+namespace ripstop {
+
+/// What a run says to whichever engine it has; what an engine has no use for it leaves alone.
+struct EngineOptions {
+  bool second_order = false;       // convection of the velocity; false: upwind
+  int threads = 0;                 // 0: as many as the process may run on
+  int ranks = 1;                   // processes
+  std::filesystem::path folder;    // of an engine's own files
+  std::filesystem::path hostfile;  // for MPI; empty: this machine only
+  double time_limit_s = 0;         // of one child process; 0: none
+};
+
+/// What a case may ask of an engine beyond the common ground.
+struct Abilities {
+  bool sheets = false;            // the `sheet` model
+  bool entraining_sides = false;  // Sides::entraining
+  bool still_air_outlet = false;  // Outlet::still_air
+  bool averages = false;          // a field after every iteration, for Stopping::average_over
+  bool ranks = false;             // several processes
+  bool other_air = false;         // a saved flow may start one of another speed or density
+};
+
+struct EngineRecord {
+  std::string word;     // of flow.engine
+  std::string meaning;  // for the reference, one clause
+  Abilities can;
+  /// "OpenFOAM 1912": name and version, without making the engine. Throws Error(external) when it is missing.
+  std::function<std::string(const EngineOptions&)> name;
+  std::function<std::unique_ptr<FlowEngine>(const EngineOptions&)> make;
+  bool needs_folder = false;  // EngineOptions::folder
+};
+
+/// All engines; the first one is the default.
+const std::vector<EngineRecord>& engines();
+/// Throws Error(usage) for a word that is none's.
+const EngineRecord& engine_of(const std::string& word);
+/// One more row, for whoever links an engine of their own to the library: before any case is read.
+void add_engine(EngineRecord engine);
+
+/// A key of the case whose value the engine has not, and a value that it has.
+struct Lack {
+  std::string key, value, instead;
+};
+std::vector<Lack> lacks(const EngineRecord& engine, const Abilities& wanted);
+
+}  // namespace ripstop

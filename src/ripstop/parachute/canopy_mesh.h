@@ -1,0 +1,36 @@
+// What a canopy family makes of a design: masses and springs, and what they are on a parachute.
+#pragma once
+
+#include <vector>
+
+#include "ripstop/mesh/mesh.h"
+
+namespace ripstop {
+
+/// One suspension line from the confluence to its end on the canopy.
+struct LineRun {
+  int radial = 0;            // 0 .. line_count - 1
+  std::vector<int> springs;  // axial springs in order from the confluence, indices into Mesh::springs
+  int free_springs = 0;      // the first so many lie between confluence and skirt
+  double axial_share =
+      1;  // of the line's tension that its axial springs carry; bending springs carry the rest
+};
+
+/// Indices into the mesh: of nodes, of Mesh::springs, of Mesh::patches.
+struct Rigging {
+  std::vector<LineRun> lines;
+  std::vector<int> vent_line_springs;  // axial
+  std::vector<int> riser_springs;      // axial, from the fixed end; empty without a riser
+  std::vector<int> tape_springs;
+  std::vector<int> skirt_nodes;  // round the canopy's mouth, in order
+  int confluence = -1;           // node
+  /// Of a disk-gap-band, whose sizes are told apart; empty otherwise.
+  std::vector<int> disk_patches, band_patches;
+};
+
+/// Goes wherever a Mesh does.
+struct CanopyMesh : Mesh {
+  Rigging rigging;
+};
+
+}  // namespace ripstop

@@ -1,0 +1,34 @@
+// What is known of a canopy's type before anything is computed, to hold computed values against.
+#pragma once
+
+namespace ripstop {
+
+struct KnownRange {
+  double low = 0, high = 0;  // 0: not known
+};
+
+/// Ranges and C_x from T. W. Knacke, Parachute Recovery Systems Design Manual, NWC TP 6575 (1991), Tables 5-1
+/// (solid textile) and 5-2 (slotted canopies); the ranges are not checked against the print.
+struct Experience {
+  KnownRange projected_ratio;      // projected over nominal diameter in steady flight
+  KnownRange drag_coefficient;     // on the nominal area, in descent: what swings and glides is in it
+  double opening_coefficient = 0;  // C_x: peak over steady drag at infinite mass
+  const char* opening_source = "";
+  /// Cloth nodes from which on the projected diameter under uniform pressure changes by less than 1 % when
+  /// the mesh is made finer; it is too large below. Measured on the examples with up to 100,000 nodes
+  /// (docs/guide/canopies.md, How fine a mesh), 12 gores or as they are. What counts is the spacing over the
+  /// canopy's size, so the number holds for other sizes; 8 and 24 gores need about as many.
+  int cloth_nodes = 0;
+};
+
+/// Flat circular, conical, hemispherical, extended skirt and cross: the transcription is parachute_design.m
+/// of the Stanford Student Space Initiative, which cites Knacke, 1992; flat circular and cross agree with a
+/// second one besides.
+inline constexpr const char* knacke_transcribed =
+    "Knacke, NWC TP 6575, Tables 5-1 and 5-2, infinite mass; value agrees with a public transcription, not "
+    "checked against the print";
+/// Written down from memory: no public text with them was found, the tables are public as pictures only.
+inline constexpr const char* knacke_unchecked =
+    "Knacke, NWC TP 6575, Tables 5-1 and 5-2, infinite mass; value not checked against the print";
+
+}  // namespace ripstop

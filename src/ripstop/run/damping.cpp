@@ -1,0 +1,52 @@
+#include "ripstop/run/damping.h"
+
+#include "ripstop/core/error.h"
+#include "ripstop/core/file.h"
+#include "ripstop/output/csv.h"
+#include "ripstop/output/plot.h"
+#include "ripstop/run/json.h"
+
+namespace ripstop {
+
+std::string to_json(const DampingResult& result) {
+  return json_text(result);
+}
+
+DampingTarget damping_target(const Case& value) {
+  if (!value.inflation.measured_peak_n)
+    throw Error(ExitCode::usage, "inflation.measured_peak_n is not given: nothing to calibrate on");
+  return {*value.inflation.measured_peak_n, value.inflation.measured_inflation_time_s};
+}
+
+DampingResult run_damping(const Case& value, const LoadSource& source, const InflationProblem& problem,
+                          const DampingSearch& search,
+                          const std::function<void(const DampingTrial&)>& report) {
+  DampingResult result;
+  result.title = value.title;
+  result.target = damping_target(value);
+  result.found = calibrate_damping(
+      result.target, search, [&](double damping) { return open_with(damping, problem); }, report);
+  result.low_pass_hz = problem.settings.low_pass_hz;
+  result.pressure = problem.pressure;
+  result.pressure_from = source.text;
+  result.nodes = problem.mesh.node_count();
+  return result;
+}
+
+void write_damping(const std::filesystem::path& folder, const DampingResult& result) {
+  make_folder(folder);
+  CsvTable table{columns_of<DampingTrial>(), {}};
+  PlotSeries misfit{"misfit", {}, {}}, peak{"error of the peak", {}, {}};
+  for (const DampingTrial& t : result.found.trials) {
+    table.rows.push_back(row_of(t));
+    misfit.x.push_back(t.damping);
+    misfit.y.push_back(100 * t.misfit);
+    peak.x.push_back(t.damping);
+    peak.y.push_back(100 * (t.peak / result.target.peak - 1));
+  }
+  write_csv(folder / "damping.csv", table);
+  write_plot(folder / "misfit.png", {result.title, {"C_a [N s/m3]"}, {"error [%]"}, {misfit, peak}});
+  write_file(folder / "result.json", to_json(result));
+}
+
+}  // namespace ripstop

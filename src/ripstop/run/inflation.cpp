@@ -1,0 +1,87 @@
+#include "ripstop/run/inflation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "ripstop/run/json.h"
+
+namespace ripstop {
+namespace {
+
+// The first work is so small that its residual says nothing.
+constexpr double share_of_work_judged = 0.1;
+
+double energy_residual(const std::vector<InflationFrame>& frames) {
+  double most = 0, worst = 0;
+  for (const InflationFrame& frame : frames) most = std::max(most, frame.pressure_work);
+  for (const InflationFrame& frame : frames)
+    if (frame.pressure_work >= share_of_work_judged * most) worst = std::max(worst, std::abs(frame.residual));
+  return worst;
+}
+
+InflationResult result_of(const Case& value, const LoadSource& source, const Inflation& solver,
+                          const InflationState& state, const InflationHistory& history) {
+  const InflationSettings& settings = solver.problem().settings;
+  InflationResult r;
+  r.title = value.title;
+  r.peak_load = state.peak_load;
+  r.peak_time = state.peak_time;
+  r.summary = summarise(history.rows, settings.low_pass_hz);
+  const double steady = r.summary.steady_load;
+  if (settings.low_pass_hz > 0) {
+    r.low_pass = settings.low_pass_hz;
+    r.smooth_peak = r.summary.smooth_peak;
+    r.smooth_peak_time = r.summary.smooth_peak_time;
+    r.smooth_overshoot = r.summary.smooth_peak / steady;
+  }
+  r.overshoot = r.peak_load / steady;
+  r.impulse = state.impulse;
+  r.pressure = solver.problem().pressure;
+  r.source = source;
+  if (source.steady_drag) r.steady_drag_returned = steady / *source.steady_drag;
+  r.settings = settings;
+  r.viscosity_limit = solver.viscosity_limit();
+  r.folds = solver.folded().folds;
+  r.inner_fold_radius = solver.folded().inner_radius;
+  r.outer_fold_radius = solver.folded().outer_radius;
+  r.start_strain = start_strain(solver.mesh(), solver.folded().positions).largest;
+  r.line_peaks = solver.peak_tension_of_lines(state);
+  r.max_line_tension = *std::max_element(r.line_peaks.begin(), r.line_peaks.end());
+  r.stress = state.highest_stress;
+  r.stress_time = state.highest_stress_time;
+  r.break_load = canopy_fabric(value).break_load_n_m;
+  if (r.break_load > 0) r.cloth_margin = r.break_load / r.stress.von_mises;
+  r.energy_residual = energy_residual(history.frames);
+  r.estimate = opening_estimate(value.parachute, source.steady_drag.value_or(steady));
+  r.steps = state.cloth.steps;
+  r.step_changes = state.step_changes;
+  return r;
+}
+
+}  // namespace
+
+std::string to_json(const InflationResult& result) {
+  return json_text(result);
+}
+
+InflationSolution run_inflation(const Case& value, const LoadSource& source, InflationProblem problem,
+                                InflationObserver& observer) {
+  Inflation solver(std::move(problem));
+  InflationSolution solution;
+  auto& [result, state, history] = solution;
+  state = solver.start();
+  observer.begin(solver, state, history);
+  while (state.blocks < solver.blocks()) {
+    const std::vector<HistoryRow> rows = solver.advance(state);
+    history.rows.insert(history.rows.end(), rows.begin(), rows.end());
+    const bool at_frame = solver.at_frame(state);
+    if (at_frame) history.frames.push_back(solver.frame(state));
+    observer.advanced(solver, state, history, at_frame ? &history.frames.back() : nullptr);
+  }
+  result = result_of(value, source, solver, state, history);
+  observer.ended(solver, state, history, result);
+  return solution;
+}
+
+}  // namespace ripstop

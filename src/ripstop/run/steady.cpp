@@ -1,0 +1,118 @@
+#include "ripstop/run/steady.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "ripstop/case/assemble.h"
+#include "ripstop/core/file.h"
+#include "ripstop/run/engine.h"
+#include "ripstop/run/json.h"
+
+namespace ripstop {
+namespace {
+
+using nlohmann::json;
+
+double dynamic_pressure(const Case& value) {
+  const Air stream = air(value);
+  return 0.5 * stream.density * stream.speed * stream.speed;
+}
+
+// Both solve on the same grid, so that a field of one can start the other; one of other air where the engine
+// scales what it has.
+bool same_flow(const Case& a, const Case& b) {
+  json first = json::parse(case_json(a)).at("flow"), second = json::parse(case_json(b)).at("flow");
+  std::vector<std::string> free = {"canopy_position_m"};
+  if (engine_of(a).can.other_air) {
+    free.insert(free.end(), {"speed_m_s", "speed_basis", "density_kg_m3", "viscosity_pa_s", "temperature_k",
+                             "turbulence_intensity", "viscosity_ratio"});
+  }
+  for (const std::string& key : free) first.erase(key), second.erase(key);
+  return first == second;
+}
+
+SteadyResult steady_result(const SteadySolver& solver, const SteadyState& state, const Case& value) {
+  SteadyResult r;
+  r.title = value.title;
+  r.last = state.iterations.back();
+  const Air stream = air(value);
+  r.speed = stream.speed;
+  r.density = stream.density;
+  r.drag = r.last.fluid_force;
+  r.drag_area = r.drag / dynamic_pressure(value);
+  r.reference_area = nominal_area(value.parachute);
+  r.drag_coefficient = r.drag_area / r.reference_area;
+  const KnownRange known = experience(value.parachute).drag_coefficient;
+  if (known.high > 0) r.known_drag_coefficient = {known.low, known.high};
+  r.size = canopy_size(solver.mesh(), state.shape);
+  const ClothState cloth = solver.cloth_state(state);
+  for (const LineTension& t : line_tensions(solver.mesh(), spring_tensions(solver.cloth(), cloth)))
+    r.max_line_tension = std::max(r.max_line_tension, t.largest_tension);
+  r.stress = stress_peak(solver.mesh(), state.shape, cell_stress(solver.cloth(), cloth));
+  r.iterations = r.last.iteration;
+  for (const SteadyIteration& i : state.iterations) r.wall_time += i.wall_time;
+  r.converged = state.converged;
+  r.transfer_factor = r.last.transfer_factor;
+  r.load_remainder = r.last.load_remainder;
+  r.ledger = {r.last.fluid_force, r.last.nodal_load, r.last.line_tension, r.last.momentum_deficit};
+  if (const Measured* row = measured_row(value)) r.measured = *row;
+  return r;
+}
+
+}  // namespace
+
+std::string to_json(const SteadyResult& result) {
+  return json_text(result);
+}
+
+SteadyResult steady_result_from_json(const std::string& text) {
+  return from_json_text<SteadyResult>(text, "the result of a steady run");
+}
+
+SteadySolution run_steady(const Case& value, SteadyObserver& observer, const SteadySettings& settings) {
+  SteadyProblem problem = steady_problem(value);
+  const int threads = settings.threads > 0 ? settings.threads : problem.settings.threads;
+  problem.settings.threads = threads;
+  std::optional<TemporaryFolder> temporary;
+  const EngineRecord& record = engine_of(value);
+  EngineOptions options = engine_options(value);
+  options.threads = threads;
+  options.folder = settings.flow_folder;
+  options.hostfile = settings.hostfile;
+  if (record.needs_folder && options.folder.empty()) options.folder = temporary.emplace("flow").path;
+  const std::unique_ptr<FlowEngine> engine = record.make(options);
+  SteadySolver solver(std::move(problem), *engine);
+  const SteadyRun run{value, solver, engine->name()};
+  SteadySolution solution;
+  SteadyState& state = solution.state;
+  state = solver.start();
+  observer.begin(run, state);
+  while (!solver.finished(state)) {
+    solution.flow =
+        solver.iterate(state, [&](const SteadyProgress& progress) { observer.progress(progress, state); });
+    observer.iterated(run, state, solution.flow);
+  }
+  solution.result = steady_result(solver, state, value);
+  observer.ended(run, state, solution.result);
+  return solution;
+}
+
+bool start_from(const Case& other, const SteadyState& end, const SteadyRun& run, SteadyState& state) {
+  const Case& value = run.value;
+  const bool same_mesh =
+      json::parse(case_json(value)).at("parachute") == json::parse(case_json(other)).at("parachute") &&
+      end.shape.size() == state.shape.size() && end.pressure.size() == state.pressure.size();
+  if (!same_mesh) return false;
+  state.shape = end.shape;
+  state.pressure = end.pressure;
+  const double shift = canopy_position(value) - canopy_position(other);
+  const double ratio = dynamic_pressure(value) / dynamic_pressure(other);
+  for (Vec3& p : state.shape) p.z += shift;
+  for (double& dp : state.pressure) dp *= ratio;
+  state.remainder = {ratio * end.remainder.at_centre, ratio * end.remainder.twist};
+  return same_flow(value, other);
+}
+
+}  // namespace ripstop

@@ -1,0 +1,239 @@
+#include "ripstop/run/steady_folder.h"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
+#include "ripstop/core/error.h"
+#include "ripstop/core/file.h"
+#include "ripstop/core/hash.h"
+#include "ripstop/core/thread_team.h"
+#include "ripstop/coupling/pressure_profile.h"
+#include "ripstop/output/csv.h"
+#include "ripstop/output/picture.h"
+#include "ripstop/output/plot.h"
+#include "ripstop/output/stl.h"
+#include "ripstop/output/vtk.h"
+#include "ripstop/run/checkpoint.h"
+#include "ripstop/run/engine.h"
+
+namespace ripstop {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Writes every file of the run before it passes on what it was told.
+class SteadyFolder : public SteadyObserver {
+ public:
+  SteadyFolder(const SteadyFolderSettings& settings, SteadyObserver& next)
+      : folder_(settings.run.folder),
+        fields_(settings.run.fields),
+        warm_from_(settings.warm_from),
+        next_(next) {}
+
+  void begin(const SteadyRun& run, SteadyState& state) override;
+  void progress(const SteadyProgress& progress, const SteadyState& state) override {
+    next_.progress(progress, state);
+  }
+  void iterated(const SteadyRun& run, const SteadyState& state, const FlowField& flow) override;
+  void ended(const SteadyRun& run, const SteadyState& state, const SteadyResult& result) override;
+
+ private:
+  void write_series(std::size_t iterations) const;
+  void write_fields(const SteadyRun& run, const SteadyState& state, const FlowField& field) const;
+  void write_state(const SteadyRun& run, const SteadyState& state) const;
+  void write_drag_plot(const SteadyState& state, const std::string& title) const;
+  void write_pressure(const SteadyRun& run, const SteadyState& state, const SteadyResult& result) const;
+  CsvLog iterations(std::size_t kept) const {
+    return {folder_ / "iterations.csv", columns_of<SteadyIteration>(), kept};
+  }
+
+  fs::path folder_;
+  bool fields_;
+  fs::path warm_from_;
+  SteadyObserver& next_;
+};
+
+void SteadyFolder::begin(const SteadyRun& run, SteadyState& state) {
+  if (auto saved = load_checkpoint(folder_ / "checkpoint", run.solver.flow())) {
+    state = std::move(*saved);
+  } else if (!warm_from_.empty()) {
+    if (start_from(case_of_run(warm_from_), final_state(warm_from_), run, state))
+      load_checkpoint(warm_from_ / "checkpoint", run.solver.flow());
+  }
+  iterations(state.iterations.size());
+  next_.begin(run, state);
+}
+
+void SteadyFolder::iterated(const SteadyRun& run, const SteadyState& state, const FlowField& flow) {
+  if (fields_) {
+    write_fields(run, state, flow);
+    write_state(run, state);
+  }
+  iterations(state.iterations.size() - 1).add(row_of(state.iterations.back()));
+  save_checkpoint(folder_ / "checkpoint", state, run.solver.flow());
+  next_.iterated(run, state, flow);
+}
+
+void SteadyFolder::ended(const SteadyRun& run, const SteadyState& state, const SteadyResult& result) {
+  if (!fields_) write_state(run, state);
+  write_stl(folder_ / "canopy.stl", surface_of(run.solver.cells(), state.shape));
+  write_drag_plot(state, result.title);
+  write_pressure(run, state, result);
+  write_file(folder_ / "result.json", to_json(result));
+  next_.ended(run, state, result);
+}
+
+void SteadyFolder::write_series(std::size_t iterations) const {
+  for (const char* what : {"canopy", "lines"}) {
+    std::vector<VtkSeriesFile> series;
+    for (std::size_t k = 1; k <= iterations; ++k) {
+      series.push_back({double(k), fmt::format("vtk/{}_{:03}.vtp", what, k)});
+    }
+    write_pvd(folder_ / fmt::format("{}.pvd", what), series);
+  }
+}
+
+void SteadyFolder::write_fields(const SteadyRun& run, const SteadyState& state,
+                                const FlowField& field) const {
+  const SteadySolver& solver = run.solver;
+  const CanopyMesh& mesh = solver.mesh();
+  const ClothState cloth = solver.cloth_state(state);
+  const std::vector<CellStress> stress = cell_stress(solver.cloth(), cloth);
+  const std::vector<double> tensions = spring_tensions(solver.cloth(), cloth);
+  const std::size_t k = state.iterations.size();
+
+  std::vector<double> largest, smallest, mises, strain;
+  for (const CellStress& s : stress) {
+    largest.push_back(s.principal_max);
+    smallest.push_back(s.principal_min);
+    mises.push_back(s.von_mises);
+    strain.push_back(s.max_strain);
+  }
+  VtkSurface canopy = canopy_surface(mesh, state.shape);
+  std::vector<Vec3> displacement(state.shape.size());
+  for (std::size_t i = 0; i < displacement.size(); ++i) displacement[i] = state.shape[i] - mesh.start[i];
+  canopy.point_arrays.push_back(vtk_array("displacement_m", displacement));
+  const auto add = [&](const char* name, const std::vector<double>& values) {
+    canopy.cell_arrays.push_back(vtk_array(name, cloth_cells_only(mesh, values)));
+  };
+  add("pressure_inside_pa", state.sides.inside);
+  add("pressure_outside_pa", state.sides.outside);
+  add("pressure_difference_applied_pa", state.applied);
+  add("stress_max_n_per_m", largest);
+  add("stress_min_n_per_m", smallest);
+  add("von_mises_n_per_m", mises);
+  add("strain_max", strain);
+  make_folder(folder_ / "vtk");
+  write_vtp(folder_ / fmt::format("vtk/canopy_{:03}.vtp", k), canopy);
+
+  VtkSurface lines = spring_lines(mesh, state.shape);
+  lines.cell_arrays.push_back(vtk_array("tension_n", tensions));
+  write_vtp(folder_ / fmt::format("vtk/lines_{:03}.vtp", k), lines);
+  write_series(k);
+  write_image(folder_ / "flow", flow_image(field));
+}
+
+void SteadyFolder::write_state(const SteadyRun& run, const SteadyState& state) const {
+  const SteadySolver& solver = run.solver;
+  const CanopyMesh& mesh = solver.mesh();
+  const ClothState cloth = solver.cloth_state(state);
+  std::vector<double> mises;
+  for (const CellStress& s : cell_stress(solver.cloth(), cloth)) mises.push_back(s.von_mises);
+  const std::vector<double> tensions = spring_tensions(solver.cloth(), cloth);
+  write_canopy_picture(folder_ / "canopy.png", mesh, state.shape,
+                       {fmt::format("{}, coupling iteration {}: drag {:.1f} N", run.value.title,
+                                    state.iterations.size(), state.iterations.back().fluid_force),
+                        "von Mises stress [N/m]",
+                        mises,
+                        {}});
+  CsvTable table{{"line", "free_tension_n", "largest_tension_n"}, {}};
+  for (const LineTension& t : line_tensions(mesh, tensions)) {
+    table.rows.push_back({t.radial + 1.0, t.free_tension, t.largest_tension});
+  }
+  write_csv(folder_ / "lines.csv", table);
+}
+
+// pressure.csv and pressure.png: coefficients along the gores; load.png: the load over the cloth.
+void SteadyFolder::write_pressure(const SteadyRun& run, const SteadyState& state,
+                                  const SteadyResult& result) const {
+  const double dynamic_pressure = 0.5 * result.density * result.speed * result.speed;
+  CsvTable table{{"arc_m", "radius_m", "z_m", "cp_inside", "cp_outside", "cp_load"}, {}};
+  Plot plot;
+  plot.title = result.title;
+  plot.x.label = "along the cloth from the vent [m]";
+  plot.y.label = "pressure coefficient";
+  for (const char* name : {"inside", "outside", "load on the cloth"}) plot.series.emplace_back().name = name;
+  const std::vector<PressureRing> rings =
+      pressure_profile(run.solver.cells(), state.shape, state.sides, state.applied);
+  for (const PressureRing& ring : rings) {
+    const double values[] = {ring.inside / dynamic_pressure, ring.outside / dynamic_pressure,
+                             ring.load / dynamic_pressure};
+    table.rows.push_back({ring.arc, ring.radius, ring.z, values[0], values[1], values[2]});
+    for (std::size_t s = 0; s < plot.series.size(); ++s) {
+      plot.series[s].x.push_back(ring.arc);
+      plot.series[s].y.push_back(values[s]);
+    }
+  }
+  write_csv(folder_ / "pressure.csv", table);
+  write_plot(folder_ / "pressure.png", plot);
+  write_canopy_picture(folder_ / "load.png", run.solver.mesh(), state.shape,
+                       {result.title, "pressure inside over outside [Pa]", state.applied, {}});
+}
+
+void SteadyFolder::write_drag_plot(const SteadyState& state, const std::string& title) const {
+  Plot plot;
+  plot.title = title;
+  plot.x.label = "coupling iteration";
+  plot.y.label = "axial force [N]";
+  for (const char* name : {"fluid force", "nodal load", "line tension"})
+    plot.series.emplace_back().name = name;
+  for (const SteadyIteration& i : state.iterations) {
+    const double forces[] = {i.fluid_force, i.nodal_load, i.line_tension};
+    for (std::size_t s = 0; s < plot.series.size(); ++s) {
+      plot.series[s].x.push_back(i.iteration);
+      plot.series[s].y.push_back(forces[s]);
+    }
+  }
+  write_plot(folder_ / "drag.png", plot);
+}
+
+}  // namespace
+
+SteadyFolderRun run_steady_in(const SteadyFolderSettings& settings, const Case& value,
+                              SteadyObserver& observer) {
+  const fs::path& folder = settings.run.folder;
+  const int threads = settings.threads > 0 ? settings.threads : value.coupling.threads;
+  // By the engine's name, before one is made: making it clears the flow's folder, which may still be another
+  // run's.
+  open_run_folder(settings.run, value, engine_of(value).name(engine_options(value)),
+                  ThreadTeam(threads).size());
+  if (const auto finished = finished_result(folder)) return {true, steady_result_from_json(*finished)};
+  SteadyFolder files(settings, observer);
+  return {false, run_steady(value, files, {threads, folder / "flow", settings.hostfile}).result};
+}
+
+SteadyState final_state(const fs::path& folder) {
+  const fs::path checkpoint = folder / "checkpoint";
+  if (!fs::exists(folder / "result.json") || !fs::exists(checkpoint / "current")) {
+    throw Error(ExitCode::usage, fmt::format("{}: holds no finished run of ripstop steady", folder.string()));
+  }
+  return steady_state_from_bytes(read_sealed(checkpoint / read_sealed(checkpoint / "current") / "state"));
+}
+
+Case case_of_run(const fs::path& folder) {
+  if (!fs::exists(folder / "case.toml")) {
+    throw Error(ExitCode::usage,
+                fmt::format("{}: has no case.toml; run ripstop steady again with --fresh", folder.string()));
+  }
+  return read_case(folder / "case.toml");
+}
+
+void drop_flow_checkpoint(const fs::path& folder) {
+  if (!fs::exists(folder / "result.json")) return;
+  std::error_code ignored;
+  for (const char* name : {"even", "odd"}) fs::remove_all(folder / "checkpoint" / name / "flow", ignored);
+}
+
+}  // namespace ripstop

@@ -1,0 +1,71 @@
+#include "ripstop/canopy/shape.h"
+
+#include <gtest/gtest.h>
+
+#include "ripstop/canopy/stress.h"
+#include "ripstop/case/assemble.h"
+#include "ripstop/case/case.h"
+
+namespace ripstop {
+namespace {
+
+Case stratos(int cloth_nodes) {
+  Overrides overrides;
+  overrides.set = {{"parachute.mesh.cloth_nodes", std::to_string(cloth_nodes)}};
+  return read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/stratos-iv/case.toml", overrides);
+}
+
+TEST(Profile, OfTheStartShapeIsTheFlatDiskOverTheCylindricalBand) {
+  const CanopyMesh mesh = parachute_mesh(stratos(6000));
+  const auto sizes = image_sizes(mesh, mesh.start);
+  for (const char* name : {"D_st", "D_mid", "D_end"}) EXPECT_NEAR(sizes.at(name), 1.0, 5e-3) << name;
+  EXPECT_NEAR(sizes.at("L_band"), 0.30, 1e-9);
+  EXPECT_NEAR(sizes.at("L_disk"), 0, 1e-9);
+  EXPECT_NEAR(sizes.at("L_tot"), 0.37, 1e-9);
+  const std::vector<ProfileRing> rings = canopy_profile(mesh, mesh.start);
+  EXPECT_NEAR(rings.back().diameter, 0.09, 2e-3);  // the vent
+}
+
+TEST(Profile, OfTheOutlineDoesNotDependOnTheNumberOfColumns) {
+  const CanopyMesh coarse = parachute_mesh(stratos(1500)), fine = parachute_mesh(stratos(12000));
+  const double few = canopy_size(coarse, coarse.start).projected_diameter;
+  const double many = canopy_size(fine, fine.start).projected_diameter;
+  EXPECT_NEAR(few / many, 1, 5e-3);
+  EXPECT_NEAR(many, 1.0, 5e-3);
+}
+
+TEST(Asymmetry, IsHowFarANodeLiesFromWhereItsLikeIsTurnedTo) {
+  const CanopyMesh mesh = parachute_mesh(stratos(3000));
+  std::vector<Vec3> x = mesh.start;
+  EXPECT_LT(asymmetry(mesh, x, 18), 1e-12);
+  x[mesh.rigging.skirt_nodes[5]] += Vec3{0, 0, 1e-3};
+  EXPECT_NEAR(asymmetry(mesh, x, 18), 1e-3, 1e-12);
+}
+
+TEST(LineTensions, AreThoseOfTheirSpringsAndWhatBendingSpringsCarryBesides) {
+  const CanopyMesh mesh = parachute_mesh(stratos(3000));
+  std::vector<double> tension(mesh.springs.size(), 0.0);
+  const LineRun& line = mesh.rigging.lines[3];
+  tension[line.springs[line.free_springs / 2]] = 10;
+  tension[line.springs.back()] = 12;
+  const std::vector<LineTension> tensions = line_tensions(mesh, tension);
+  ASSERT_EQ(tensions.size(), 18u);
+  EXPECT_EQ(tensions[3].radial, 3);
+  EXPECT_NEAR(tensions[3].free_tension * line.axial_share, 10, 1e-12);
+  EXPECT_NEAR(tensions[3].largest_tension * line.axial_share, 12, 1e-12);
+  EXPECT_EQ(tensions[4].largest_tension, 0);
+}
+
+TEST(PartStrains, OfAnEvenlyStretchedCanopyAreTheStretch) {
+  const CanopyMesh mesh = parachute_mesh(stratos(3000));
+  std::vector<Vec3> larger = mesh.start;
+  for (Vec3& p : larger) p = 1.02 * p;
+  const auto before = part_strains(mesh, mesh.start), after = part_strains(mesh, larger);
+  for (const char* part : {"lines", "tape", "cloth"})
+    EXPECT_NEAR(after.at(part).mean, 1.02 * (1 + before.at(part).mean) - 1, 1e-12) << part;
+  EXPECT_NEAR(before.at("cloth").mean, 0, 1e-3);
+  EXPECT_NEAR(before.at("lines").mean, 0, 1e-6);
+}
+
+}  // namespace
+}  // namespace ripstop

@@ -1,0 +1,71 @@
+#!/usr/bin/env python3
+"""What holds of every page and source file: links lead somewhere, pages say what is and not what was, prose is wrapped alike, files
+stay short."""
+import pathlib
+import re
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+LONGEST = 500
+
+PAGES = sorted([ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "src/README.md", ROOT / "materials/README.md",
+                *ROOT.glob("docs/**/*.md"), *ROOT.glob("examples/*/README.md"), *ROOT.glob("validation/*/README.md")])
+TABLES = ROOT / "docs/tables"  # made by commands; each says when
+
+MONTHS = "January|February|March|April|May|June|July|August|September|October|November|December"
+HISTORY = re.compile(rf"\b20\d\d-\d\d-\d\d\b|\b(?:{MONTHS}) 20\d\d\b|[Cc]ommit [0-9a-f]{{7}}|[Uu]ntil 20\d\d|[Bb]efore the law|"
+                     r"\*[Oo]ld:?\*|\b[Ww]ithdrawn\b|\b[Ff]ormerly\b|\b[Pp]reviously\b|\bused to (?:be|have)\b")
+
+
+def anchors(page):
+    """The anchors of a page's headings, as GitHub makes them."""
+    found = set()
+    for line in page.read_text().splitlines():
+        if line.startswith("#"):
+            words = re.sub(r"[^\w\- ]", "", line.lstrip("#").strip().lower())
+            found.add(words.replace(" ", "-"))
+    return found
+
+
+def at(page, number):
+    return f"{page.relative_to(ROOT)}:{number}"
+
+
+class Docs(unittest.TestCase):
+    maxDiff = None
+
+    def test_every_relative_link_leads_to_a_file_and_a_heading(self):
+        broken = []
+        for page in PAGES:
+            for target in re.findall(r"\]\(([^)\s]+)\)", page.read_text()):
+                path, _, anchor = target.partition("#")
+                if "://" in target:
+                    continue
+                file = (page.parent / path).resolve() if path else page
+                if not file.exists() or (anchor and anchor not in anchors(file)):
+                    broken.append(f"{page.relative_to(ROOT)}: {target}")
+        self.assertEqual(broken, [])
+
+    def test_pages_say_what_is_and_not_what_was(self):
+        told = [f"{at(page, number)}: {line.strip()}" for page in PAGES if TABLES not in page.parents
+                for number, line in enumerate(page.read_text().splitlines(), 1) if HISTORY.search(line)]
+        self.assertEqual(told, [])
+
+    def test_every_table_of_a_command_names_it_and_the_day(self):
+        silent = [page.name for page in TABLES.glob("*.md") if not re.search(rf"(?:{MONTHS}) 20\d\d", page.read_text())
+                  or not re.search(r"`[^`]+`|^    \S", page.read_text(), re.MULTILINE)]
+        self.assertEqual(silent, [])
+
+    def test_every_table_of_a_command_is_linked(self):
+        text = "".join(page.read_text() for page in PAGES)
+        self.assertEqual([page.name for page in TABLES.glob("*.md") if f"tables/{page.name}" not in text], [])
+
+    def test_no_file_is_longer_than_one_reads(self):
+        files = [*PAGES, *(file for folder in ("src", "apps", "tests", "bench", "validation") for ending in ("h", "cpp", "py")
+                           for file in ROOT.glob(f"{folder}/**/*.{ending}"))]
+        long = [f"{file.relative_to(ROOT)}: {lines}" for file in files if (lines := file.read_bytes().count(b"\n")) > LONGEST]
+        self.assertEqual(long, [])
+
+
+if __name__ == "__main__":
+    unittest.main()

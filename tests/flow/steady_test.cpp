@@ -1,0 +1,132 @@
+// Stopping, apart from every engine: a flow whose drag is a list of numbers.
+#include "ripstop/flow/steady.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "ripstop/core/error.h"
+
+namespace ripstop {
+namespace {
+
+/// Iteration n since the start has drag(n) and residual(n). Counts what is asked of it.
+class Scripted final : public Flow {
+ public:
+  std::function<double(int)> drag = [](int) { return 100.0; };
+  std::function<double(int)> residual = [](int) { return 1.0; };
+  int diverges_at = 0;  // 0: never
+  bool has_guess = false;
+  int iteration = 0, starts = 1;
+  std::vector<int> calls;  // iterations of every advance()
+
+  void place(const std::vector<Triangle>&, const std::vector<Vec3>&) override {}
+  FlowAdvance advance(int iterations, double wanted, const FlowReport& report) override {
+    calls.push_back(iterations);
+    guessed_ = false;
+    FlowAdvance now;
+    for (int n = 1; n <= iterations && !now.stopped && !now.converged; ++n) {
+      if (++iteration == diverges_at) throw Error(ExitCode::diverged, "diverged");
+      now.last = {n, residual(iteration), 0, 0, 0, 0, drag(iteration)};
+      now.converged = now.last.residual_u <= wanted;
+      now.stopped = report && !report(now.last);
+    }
+    return now;
+  }
+  FlowField field() const override {
+    FlowField field;
+    field.porous_force = {0, 0, drag(iteration)};
+    return field;
+  }
+  bool untouched() const override { return iteration == 0 && !guessed_; }
+  void guess() override { guessed_ = has_guess; }
+  void start_afresh() override { iteration = 0, diverges_at = 0, ++starts; }
+  void save(const std::filesystem::path&) const override {}
+  void restore(const std::filesystem::path&) override {}
+
+ private:
+  bool guessed_ = false;
+};
+
+TEST(SolveToRest, EndsWithTheIterationThatReachesTheResidual) {
+  Scripted flow;
+  flow.residual = [](int n) { return std::pow(0.5, n); };
+  const FlowField field = solve_to_rest(flow, {.residual = 1e-3});
+  EXPECT_TRUE(field.converged);
+  EXPECT_EQ(field.last.iteration, 10);  // 2^-10 < 1e-3 < 2^-9
+  EXPECT_EQ(flow.calls, std::vector<int>{1000});
+}
+
+TEST(SolveToRest, EndsUnconvergedWhenTheIterationsAreUsedUp) {
+  Scripted flow;
+  const FlowField field = solve_to_rest(flow, {.max_iterations = 40});
+  EXPECT_FALSE(field.converged);
+  EXPECT_EQ(field.last.iteration, 40);
+}
+
+TEST(SolveToRest, ADragThatHasSettledEndsAtTheEndOfAPiece) {
+  Scripted flow;
+  flow.drag = [](int n) { return 100 + 50 * std::exp(-n / 10.0); };  // moves by 0.26 in the third piece
+  const FlowField field = solve_to_rest(flow, {.settled_drag = 5e-3});
+  EXPECT_EQ(field.last.iteration, 75);
+  EXPECT_FALSE(field.converged);
+  EXPECT_EQ(flow.calls, (std::vector<int>{25, 25, 25}));
+}
+
+TEST(SolveToRest, ADragThatSwingsIsAveragedOverTheLastIterations) {
+  Scripted flow;
+  flow.drag = [](int n) { return n % 2 ? 90.0 : 110.0; };
+  int last = 0;
+  const FlowField field =
+      solve_to_rest(flow, {.max_iterations = 100, .average_over = 40, .settled_drag = 1e-3},
+                    [&](const FlowProgress& p) { return last = p.iteration, true; });
+  EXPECT_EQ(field.average.iterations, 40);
+  EXPECT_NEAR(field.porous_force.z, 100, 1e-12);
+  EXPECT_EQ(last, 100);
+}
+
+TEST(SolveToRest, AFlowThatSettlesInsideTheWindowHasItsLastField) {
+  Scripted flow;
+  flow.residual = [](int n) { return n < 80 ? 1 : 1e-9; };
+  flow.drag = [](int n) { return double(n); };
+  const FlowField field = solve_to_rest(flow, {.max_iterations = 100, .average_over = 40});
+  EXPECT_TRUE(field.converged);
+  EXPECT_EQ(field.average.iterations, 0);
+  EXPECT_EQ(field.porous_force.z, 80);
+}
+
+TEST(SolveToRest, AReportThatWantsNoMoreEndsTheRun) {
+  Scripted flow;
+  const FlowField field = solve_to_rest(flow, {}, [](const FlowProgress& p) { return p.iteration < 3; });
+  EXPECT_EQ(field.last.iteration, 3);
+  EXPECT_FALSE(field.converged);
+}
+
+TEST(SolveToRest, WhatDivergesFromAGuessOrAnEarlierFieldStartsOnceFromTheStream) {
+  for (const bool guess : {false, true}) {
+    Scripted flow;
+    flow.has_guess = guess;
+    if (!guess) flow.iteration = 5;  // an earlier field
+    flow.diverges_at = 12;
+    const FlowField field = solve_to_rest(flow, {.max_iterations = 20});
+    EXPECT_EQ(flow.starts, 2);
+    EXPECT_EQ(field.last.iteration, 20);
+  }
+}
+
+TEST(SolveToRest, WhatDivergesFromTheStreamIsAnError) {
+  Scripted flow;
+  flow.diverges_at = 3;
+  EXPECT_THROW(solve_to_rest(flow, {}), Error);
+  EXPECT_EQ(flow.starts, 1);
+}
+
+TEST(SolveToRest, AWindowLongerThanTheRunIsRefused) {
+  Scripted flow;
+  EXPECT_THROW(solve_to_rest(flow, {.max_iterations = 10, .average_over = 11}), Error);
+  EXPECT_THROW(solve_to_rest(flow, {.max_iterations = 10, .average_over = -1}), Error);
+  EXPECT_THROW(solve_to_rest(flow, {.residual = 0}), Error);
+}
+
+}  // namespace
+}  // namespace ripstop

@@ -1,0 +1,139 @@
+// What a command does, called without a folder and without a terminal.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <numbers>
+
+#include "ripstop/core/file.h"
+#include "ripstop/parachute/flat_circular.h"
+#include "ripstop/run/compare.h"
+#include "ripstop/run/fabric.h"
+#include "ripstop/run/pattern.h"
+#include "ripstop/run/steady_folder.h"
+#include "ripstop/run/sweep.h"
+
+namespace ripstop {
+namespace {
+
+namespace fs = std::filesystem;
+
+Case small_case() {
+  Case value;
+  value.title = "A canopy made in code";
+  FlatCircular canopy;
+  canopy.nominal_diameter_m = 1;
+  canopy.vent_diameter_m = 0.1;
+  value.parachute.canopy = canopy;
+  value.parachute.canopy_material = "f-111";
+  value.parachute.gores = 12;
+  value.parachute.lines.count = 12;
+  value.parachute.lines.length_m = 1;
+  value.parachute.mesh.cloth_nodes = 1000;
+  value.flow.speed_m_s = 20;
+  value.flow.density_kg_m3 = 1.2;
+  value.flow.cells = {20, 20, 30};
+  value.coupling.threads = 2;
+  apply({}, value);
+  return value;
+}
+
+/// An empty folder that is the working folder meanwhile: what a test writes, it would write there.
+class InMemory : public testing::Test {
+ protected:
+  void SetUp() override {
+    before_ = fs::current_path();
+    fs::current_path(folder_.path);
+  }
+  void TearDown() override {
+    fs::current_path(before_);
+    EXPECT_TRUE(fs::is_empty(folder_.path)) << "a file was left";
+  }
+  TemporaryFolder folder_{"in-memory"};
+  fs::path before_;
+};
+
+struct Watch : SteadyObserver {
+  int begun = 0, ended_with_iterations = 0;
+  bool cloth = false, flow = false;
+  std::vector<double> drag;
+  void begin(const SteadyRun& run, SteadyState& state) override {
+    ++begun;
+    EXPECT_EQ(state.shape.size(), run.solver.mesh().start.size());
+  }
+  void progress(const SteadyProgress& p, const SteadyState& state) override {
+    EXPECT_EQ(p.iteration, static_cast<int>(state.iterations.size()) + 1);
+    (p.stage == SteadyStage::cloth ? cloth : flow) = true;
+  }
+  void iterated(const SteadyRun&, const SteadyState& state, const FlowField& field) override {
+    drag.push_back(state.iterations.back().fluid_force);
+    EXPECT_EQ(field.porous_force.z, drag.back());
+  }
+  void ended(const SteadyRun&, const SteadyState&, const SteadyResult& result) override {
+    ended_with_iterations = result.iterations;
+  }
+};
+
+TEST_F(InMemory, ACaseMadeInCodeIsSolvedSteadyAndItsObserverSeesEveryIteration) {
+  const Case value = small_case();
+  Watch watch;
+  const SteadySolution solution = run_steady(value, watch);
+  EXPECT_TRUE(solution.result.converged);
+  EXPECT_EQ(watch.begun, 1);
+  EXPECT_EQ(watch.ended_with_iterations, solution.result.iterations);
+  EXPECT_TRUE(watch.cloth && watch.flow);
+  ASSERT_EQ(watch.drag.size(), static_cast<std::size_t>(solution.result.iterations));
+  EXPECT_EQ(watch.drag.back(), solution.result.drag);
+  EXPECT_EQ(solution.result.drag_area, solution.result.drag / (0.5 * 1.2 * 20 * 20));
+  EXPECT_EQ(solution.flow.grid.cells(), 20u * 20 * 30);
+
+  // The same in a folder, to the last digit.
+  const TemporaryFolder folder("steady-folder");
+  SteadyObserver quiet;
+  const SteadyFolderRun stored = run_steady_in({{folder.path}, 0, {}, {}}, value, quiet);
+  EXPECT_EQ(stored.result.drag, solution.result.drag);
+  EXPECT_EQ(final_state(folder.path).shape, solution.state.shape);
+  const SteadyFolderRun again = run_steady_in({{folder.path}, 0, {}, {}}, value, quiet);
+  EXPECT_TRUE(again.already_finished);
+  EXPECT_EQ(to_json(again.result), read_file(folder.path / "result.json"));
+}
+
+TEST_F(InMemory, UnderAPressureTheLinesCarryTheClothsLoad) {
+  const FabricSolution cloth = run_fabric(small_case(), 240);
+  EXPECT_TRUE(cloth.result.converged);
+  EXPECT_EQ(cloth.result.pressure, 240);
+  EXPECT_NEAR(cloth.result.line_tension / cloth.result.pressure_load, 1, 1e-3);
+  const double vent = 0.25 * std::numbers::pi * 0.1 * 0.1;
+  EXPECT_NEAR(cloth.result.pressure_load / (240 * (cloth.result.size.projected_area - vent)), 1, 0.01);
+  EXPECT_EQ(cloth.shape.size(), cloth.mesh.start.size());
+}
+
+TEST_F(InMemory, ASweepStartsFromItsNeighboursAndItsModelsAreCompared) {
+  const Case value = small_case();
+  const SweepAxis axis = linear_models(value);
+  std::vector<SweepPoint> points;
+  for (std::size_t i = 0; i < axis.values.size(); ++i)
+    points.push_back({{axis.values[i]}, value, "", i == 0 ? -1 : 0});
+  for (std::size_t i = 1; i < points.size(); ++i) points[i].value.coupling.linear = true;
+  const std::vector<SweepRow> rows = run_sweep(points, {});
+  for (const SweepRow& row : rows) {
+    ASSERT_TRUE(row.done) << row.error;
+    EXPECT_TRUE(row.result.converged);
+  }
+  const Comparison both = compare_models(points, rows, [&](std::size_t i) { return rows[i].state; });
+  EXPECT_EQ(both.models[0].drag_difference, 0);
+  EXPECT_EQ(both.models[0].profile_change, 0);
+  EXPECT_NE(both.models[1].drag_difference, 0);
+  EXPECT_NEAR(both.models[1].drag_difference, 0, 0.05);
+  EXPECT_EQ(both.models[2].drag, both.models[1].drag);  // the same case from the same start
+}
+
+TEST_F(InMemory, ThePatternsBillWeighsWhatIsCut) {
+  const PatternResult pattern = run_pattern(small_case(), {}, 400);
+  double mass = 0;
+  for (const BillRow& row : pattern.bill.rows) mass += row.mass;
+  EXPECT_DOUBLE_EQ(mass, pattern.bill.mass);
+  EXPECT_DOUBLE_EQ(pattern.bill.packed_volume, mass / 400);
+}
+
+}  // namespace
+}  // namespace ripstop

@@ -1,0 +1,116 @@
+// The run folder of an opening: a killed run goes on, and its tables are the undisturbed run's byte for byte.
+#include "ripstop/run/inflation_folder.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+
+#include "ripstop/case/assemble.h"
+#include "ripstop/core/error.h"
+#include "ripstop/core/file.h"
+
+namespace ripstop {
+namespace {
+
+namespace fs = std::filesystem;
+
+class InflationFolderTest : public ::testing::Test {
+ protected:
+  fs::path root = fs::temp_directory_path() / ("ripstop-opening-" + std::to_string(getpid()));
+  Case value = read_case(fs::path(RIPSTOP_SOURCE_DIR) / "examples" / "stratos-iv" / "case.toml");
+
+  void SetUp() override {
+    value.parachute.mesh.cloth_nodes = 1500;
+    value.parachute.lines.count = 6;
+    value.parachute.mesh.folds = 6;
+    value.parachute.mesh.line_segment_m = 0.15;
+    value.inflation.initial_radius_m = 0.2;
+    value.inflation.duration_s = 8e-3;
+    value.inflation.frames = 8;
+    value.inflation.sheet_s = {0, 0.004};
+  }
+  void TearDown() override { fs::remove_all(root); }
+
+  InflationProblem problem() const { return {parachute_mesh(value), value.inflation, 500, false, 2, 6}; }
+  std::optional<InflationResult> open(const char* name, InflationObserver& observer,
+                                      bool fresh = false) const {
+    return run_inflation_in(
+        {{root / name, fresh}, 2, 0}, value, {"given", {}}, [&] { return problem(); }, observer);
+  }
+};
+
+/// The process that ends in the middle: tables of later frames are written, the checkpoint is that of half.
+struct Killed : InflationObserver {
+  fs::path folder;
+  std::string checkpoint;
+  void advanced(const Inflation& solver, const InflationState& state, const InflationHistory&,
+                const InflationFrame*) override {
+    if (state.blocks == solver.blocks() / 2) checkpoint = read_file(folder / "checkpoint");
+    if (state.blocks == solver.blocks() / 2 + 2) throw std::runtime_error("killed");
+  }
+};
+
+struct Resumed : InflationObserver {
+  long long first_block = -1;
+  std::size_t rows = 0, frames = 0;
+  void begin(const Inflation& solver, InflationState& state, InflationHistory& history) override {
+    first_block = state.blocks;
+    EXPECT_EQ(history.rows.size(), static_cast<std::size_t>(state.blocks * solver.rows_per_block()));
+  }
+  void ended(const Inflation&, const InflationState&, const InflationHistory& history,
+             const InflationResult&) override {
+    rows = history.rows.size();
+    frames = history.frames.size();
+  }
+};
+
+TEST_F(InflationFolderTest, AKilledRunGoesOnAndItsHistoryIsByteIdentical) {
+  Resumed undisturbed;
+  ASSERT_TRUE(open("whole", undisturbed));
+  EXPECT_EQ(undisturbed.first_block, 0);
+
+  Killed killed;
+  killed.folder = root / "killed";
+  EXPECT_THROW(open("killed", killed), std::runtime_error);
+  write_file(killed.folder / "checkpoint", killed.checkpoint);
+  append_to_file(killed.folder / "history.csv", "0.0123,4");
+
+  Resumed resumed;
+  ASSERT_TRUE(open("killed", resumed));
+  EXPECT_EQ(resumed.first_block, Inflation(problem()).blocks() / 2);
+  EXPECT_EQ(resumed.rows, undisturbed.rows);
+  EXPECT_EQ(resumed.frames, undisturbed.frames);
+  for (const char* table : {"history.csv", "balance.csv", "lines.csv", "result.json"}) {
+    EXPECT_EQ(read_file(root / "killed" / table), read_file(root / "whole" / table)) << table;
+  }
+}
+
+TEST_F(InflationFolderTest, InMemoryTheOpeningIsThatOfTheFolder) {
+  InflationObserver quiet;
+  const auto in_folder = open("run", quiet);
+  ASSERT_TRUE(in_folder);
+  EXPECT_FALSE(open("run", quiet));  // finished: only shown
+  const InflationSolution in_memory = run_inflation(value, {"given", {}}, problem(), quiet);
+  EXPECT_EQ(to_json(in_memory.result), to_json(*in_folder));
+  EXPECT_EQ(read_file(root / "run" / "result.json"), to_json(*in_folder));
+}
+
+TEST_F(InflationFolderTest, ADamagedCheckpointIsNoticedAndOtherInputsAreRefused) {
+  Killed killed;
+  killed.folder = root / "run";
+  EXPECT_THROW(open("run", killed), std::runtime_error);
+  std::string bytes = killed.checkpoint;
+  bytes[bytes.size() / 2] ^= 1;
+  write_file(root / "run" / "checkpoint", bytes);
+  InflationObserver quiet;
+  EXPECT_THROW(open("run", quiet), Error);
+  value.inflation.damping_n_s_m3 = 9;
+  EXPECT_THROW(open("run", quiet), Error);
+  EXPECT_TRUE(open("run", quiet, true));
+}
+
+}  // namespace
+}  // namespace ripstop

@@ -1,0 +1,65 @@
+// A flow engine is added by CONTRIBUTING's list: what implements Flow, and one row of the table. From there it
+// is a word of the case file, refused where it cannot do what the case asks, and flown.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "formula_flow.h"
+#include "ripstop/core/toml/problem.h"
+#include "ripstop/run/engine.h"
+#include "ripstop/run/steady.h"
+
+namespace ripstop {
+namespace {
+
+class NewEngine : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    add_engine({"formula",
+                "a formula of the cells that the canopy cuts",
+                {},
+                [](const EngineOptions&) { return std::string("formula 1"); },
+                [](const EngineOptions&) { return std::make_unique<FormulaEngine>(); }});
+  }
+  static Case stratos(std::vector<Setting> more = {}) {
+    Overrides overrides;
+    overrides.engine = "formula";
+    overrides.grid = {20, 20, 30};
+    overrides.set = std::move(more);
+    overrides.set.push_back({"parachute.mesh.cloth_nodes", "800"});
+    return read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/stratos-iv/case.toml", overrides);
+  }
+};
+
+TEST_F(NewEngine, IsAWordOfTheCaseFileItsSchemaAndItsReference) {
+  EXPECT_EQ(engine_of(stratos()).word, "formula");
+  EXPECT_NE(case_toml(stratos()).find("engine = \"formula\""), std::string::npos);
+  EXPECT_NE(case_schema().find("\"formula\""), std::string::npos);
+  EXPECT_NE(case_reference().find("a formula of the cells"), std::string::npos);
+}
+
+TEST_F(NewEngine, FliesACase) {
+  SteadyObserver nobody;
+  const SteadySolution solution = run_steady(stratos(), nobody);
+  EXPECT_TRUE(solution.result.converged);
+  EXPECT_NEAR(solution.result.drag, 0.05 * solution.result.last.cut_cells * solution.result.speed,
+              1e-3 * solution.result.drag);
+}
+
+TEST_F(NewEngine, IsRefusedWhatItCannotDoBeforeAnythingIsComputed) {
+  for (const auto& [key, value] :
+       {std::pair{"flow.sides", "entraining"}, std::pair{"flow.average_over", "20"},
+        std::pair{"flow.ranks", "2"}, std::pair{"flow.outlet", "still-air"}}) {
+    try {
+      stratos({{key, value}});
+      ADD_FAILURE() << key << " accepted";
+    } catch (const InputError& error) {
+      ASSERT_EQ(error.problems().size(), 1u);
+      EXPECT_EQ(error.problems()[0].key, key);
+      EXPECT_NE(error.problems()[0].message.find("formula"), std::string::npos);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ripstop

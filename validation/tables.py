@@ -1,0 +1,29 @@
+"""Writes a table of docs/tables: the table, the command that makes it, on what machine and when."""
+import datetime
+import json
+import pathlib
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+
+
+def table(head, rows):
+    """Lines of a Markdown table, with an empty one after it."""
+    return ["| " + " | ".join(head) + " |", "|" + "---|" * len(head), *("| " + " | ".join(row) + " |" for row in rows), ""]
+
+
+def made_by(runs):
+    """Processors and first and last day of runs, from what their run.json say."""
+    days = sorted({run["started"][:10] for run in runs})
+    named = [f"{day.day} {day:%B %Y}" for day in map(datetime.date.fromisoformat, days)]
+    return "; ".join(sorted({run["processor"] for run in runs})) + ", " + " to ".join(dict.fromkeys([named[0], named[-1]]))
+
+
+def runs_below(folder):
+    """The run.json of all runs in a folder."""
+    return [json.loads(path.read_text()) for path in sorted(pathlib.Path(folder).rglob("run.json"))]
+
+
+def write(name, title, command, runs, lines):
+    text = [f"# {title}", "", f"`{command}`: {made_by(runs)}.", "", *lines]
+    (ROOT / "docs/tables").mkdir(exist_ok=True)
+    (ROOT / "docs/tables" / f"{name}.md").write_text("\n".join(text).rstrip("\n") + "\n")
