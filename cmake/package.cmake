@@ -12,6 +12,6 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "openfoam, openmpi-bin")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libripstop-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-  "ripstop, pkg-config, libfmt-dev, libpng-dev, zlib1g-dev, libhwy-dev, libcairo2-dev, libxxhash-dev, libnlopt-dev")
+  "ripstop, pkg-config, libfmt-dev, libtomlplusplus-dev, libpng-dev, zlib1g-dev, libhwy-dev, libcairo2-dev, libxxhash-dev, libnlopt-dev")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 include(CPack)
