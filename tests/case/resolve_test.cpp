@@ -40,8 +40,8 @@ FlowSettings flow_of(const std::string& text) {
   return resolve(parse_case(text, "case.toml")).flow;
 }
 
-const std::string& source_of(const Resolved& settings, const std::string& key) {
-  for (const Source& source : settings.sources)
+const std::string& source_of(const Resolved& resolved, const std::string& key) {
+  for (const Source& source : resolved.sources)
     if (source.key == key) return source.from;
   ADD_FAILURE() << key << " has no source";
   static const std::string none;
@@ -230,13 +230,13 @@ TEST(Resolved, EveryValueSaysWhatItFollowedFrom) {
   Overrides overrides;
   overrides.grid = std::array{60, 60, 70};
   overrides.set = {parse_setting("flow.residual=1e-4", "--set")};
-  const Resolved settings = resolve(parse_case(short_case + "sides = \"slip\"\n", "case.toml", overrides));
-  EXPECT_EQ(source_of(settings, "flow.sides"), "given in case.toml, line 11");
-  EXPECT_EQ(source_of(settings, "flow.cells"), "given by --grid");
-  EXPECT_EQ(source_of(settings, "flow.residual"), "given by --set");
-  EXPECT_EQ(source_of(settings, "flow.box_m"), "6 x 6 x 9 inflated diameters of 2.1 m");
-  EXPECT_EQ(source_of(settings, "flow.convection"), "the sheet's default");
-  EXPECT_EQ(source_of(settings, "coupling.drag_tolerance"), "the sheet's default");
+  const Resolved resolved = resolve(parse_case(short_case + "sides = \"slip\"\n", "case.toml", overrides));
+  EXPECT_EQ(source_of(resolved, "flow.sides"), "given in case.toml, line 11");
+  EXPECT_EQ(source_of(resolved, "flow.cells"), "given by --grid");
+  EXPECT_EQ(source_of(resolved, "flow.residual"), "given by --set");
+  EXPECT_EQ(source_of(resolved, "flow.box_m"), "6 x 6 x 9 inflated diameters of 2.1 m");
+  EXPECT_EQ(source_of(resolved, "flow.convection"), "the sheet's default");
+  EXPECT_EQ(source_of(resolved, "coupling.drag_tolerance"), "the sheet's default");
 }
 
 TEST(Resolved, TheReadmesBoxStaysWithTheCanopyWhereItStandsAlready) {

@@ -14,22 +14,22 @@ CanopyMesh parachute_mesh(const Case& given) {
 }
 
 FlowProblem flow_problem(const Case& given) {
-  const FlowSettings settings = resolve(given).flow;
+  const FlowSettings flow = resolve(given).flow;
   FlowProblem problem;
-  problem.grid = flow_grid(settings);
+  problem.grid = flow_grid(flow);
   problem.air.speed = air(given).speed;
-  problem.air.density = settings.density_kg_m3;
-  problem.air.viscosity = settings.viscosity_pa_s;
-  problem.air.temperature = settings.temperature_k;
-  problem.air.turbulence_intensity = settings.turbulence_intensity;
-  problem.air.viscosity_ratio = settings.viscosity_ratio;
-  problem.sides = settings.sides;
-  problem.outlet = settings.outlet;
-  problem.stopping.residual = settings.residual;
-  problem.stopping.max_iterations = settings.max_iterations;
-  problem.stopping.average_over = settings.average_over;
+  problem.air.density = flow.density_kg_m3;
+  problem.air.viscosity = flow.viscosity_pa_s;
+  problem.air.temperature = flow.temperature_k;
+  problem.air.turbulence_intensity = flow.turbulence_intensity;
+  problem.air.viscosity_ratio = flow.viscosity_ratio;
+  problem.sides = flow.sides;
+  problem.outlet = flow.outlet;
+  problem.stopping.residual = flow.residual;
+  problem.stopping.max_iterations = flow.max_iterations;
+  problem.stopping.average_over = flow.average_over;
   const ClothResistance& cloth = canopy_fabric(given).resistance;
-  if (settings.porosity_model == PorosityModel::sheet) {
+  if (flow.porosity_model == PorosityModel::sheet) {
     const PressureDrop drop = as_sheet(cloth);
     problem.sheets = {{{}, drop.linear, drop.quadratic}};
   } else {
