@@ -10,14 +10,24 @@ namespace {
 
 template <class Value>
 using Words = std::vector<std::pair<std::string, Value>>;
-const Words<Convection> convection_words = {{"upwind", Convection::upwind},
-                                            {"second-order", Convection::second_order}};
-const Words<Sides> sides_words = {
-    {"zero-gradient", Sides::zero_gradient}, {"slip", Sides::slip}, {"entraining", Sides::entraining}};
-const Words<Outlet> outlet_words = {{"fixed-pressure", Outlet::fixed_pressure},
-                                    {"still-air", Outlet::still_air}};
-const Words<CanopyLoad> load_words = {
-    {"of-flow", CanopyLoad::of_flow}, {"uniform", CanopyLoad::uniform}, {"sampled", CanopyLoad::sampled}};
+Words<Convection> convection_words() {
+  return {{"upwind", Convection::upwind}, {"second-order", Convection::second_order}};
+}
+Words<Sides> sides_words() {
+  return {{"zero-gradient", Sides::zero_gradient}, {"slip", Sides::slip}, {"entraining", Sides::entraining}};
+}
+Words<Outlet> outlet_words() {
+  return {{"fixed-pressure", Outlet::fixed_pressure}, {"still-air", Outlet::still_air}};
+}
+Words<CanopyLoad> load_words() {
+  return {
+      {"of-flow", CanopyLoad::of_flow}, {"uniform", CanopyLoad::uniform}, {"sampled", CanopyLoad::sampled}};
+}
+
+/// As "6 d by 6 d by 9 d".
+std::string in_diameters(const Vec3& of) {
+  return fmt::format("{:g} d x {:g} d x {:g} d", of.x, of.y, of.z);
+}
 
 /// The default of a key in the reference: the sheet's, and the paper model's.
 std::string by_model(const std::string& sheet, const std::string& paper) {
@@ -45,14 +55,16 @@ void describe_space(Fields& fields, FlowKeys& flow) {
   fields
       .vector("box_m", flow.box_m, above(0).up_to(1000),
               "Box of air: width, height, length along the flow ([NFM] section 5).")
-      .absent(by_model("6 d x 6 d x 9 d", "`[2, 2, 4]`"));
+      .absent(by_model(in_diameters(sheet_box),
+                       fmt::format("`[{:g}, {:g}, {:g}]`", paper_box.x, paper_box.y, paper_box.z)));
   fields.integers("cells", flow.cells, from(4).up_to(2000), "Cells along each side of the box.")
       .absent(by_model(sheet_defaults.cells, paper_defaults.cells));
   fields.table("core", flow.core, "Cells that are finer about the canopy, so that the box may be wide.");
   fields
       .number("canopy_position_m", flow.canopy_position_m, above(0).up_to(1000),
               "Distance from the inlet to the skirt of the undeformed start shape.")
-      .absent(by_model("half the length of the box, at most 4 d", "half the length of the box"));
+      .absent(by_model(fmt::format("half the length of the box, at most {:g} d", sheet_skirt),
+                       "half the length of the box"));
   fields
       .choice(
           "porosity_model", flow.porosity_model,
@@ -66,22 +78,22 @@ void describe_space(Fields& fields, FlowKeys& flow) {
 /// Keys of [flow]: the equations' numerics and the sides of the box.
 void describe_numerics(Fields& fields, FlowKeys& flow) {
   fields
-      .choice("convection", flow.convection, convection_words,
+      .choice("convection", flow.convection, convection_words(),
               "Of the velocity. \"upwind\": first order, as [NFM]; \"second-order\": limited linear.")
-      .absent(by_model(convection_words, sheet_defaults.convection, paper_defaults.convection));
+      .absent(by_model(convection_words(), sheet_defaults.convection, paper_defaults.convection));
   fields
       .choice(
-          "sides", flow.sides, sides_words,
+          "sides", flow.sides, sides_words(),
           "The four sides of the box. \"zero-gradient\": open, as [NFM]; \"slip\": walls without friction; "
           "\"entraining\": air of the stream may come in with its total pressure (built-in engine only).")
-      .absent(by_model(sides_words, sheet_defaults.sides, paper_defaults.sides));
+      .absent(by_model(sides_words(), sheet_defaults.sides, paper_defaults.sides));
   fields
       .choice(
-          "outlet", flow.outlet, outlet_words,
+          "outlet", flow.outlet, outlet_words(),
           "The end of the box. \"fixed-pressure\": it is held, and air that comes back has no momentum, as "
           "[NFM]; \"still-air\": air that comes back has the total pressure of air at rest (built-in engine "
           "only).")
-      .absent(by_model(outlet_words, sheet_defaults.outlet, paper_defaults.outlet));
+      .absent(by_model(outlet_words(), sheet_defaults.outlet, paper_defaults.outlet));
   fields
       .number("residual", flow.residual, above(0).up_to(0.1),
               "Residual of every equation at which a solution ends.")
@@ -106,7 +118,7 @@ void describe(Fields& fields, CoreKeys& core) {
           "size_m", core.size_m, from(0).up_to(1000),
           "Width, height, length of the part of the box with uniform cells, about the box's axis; outside "
           "of it cells grow toward the sides. 0: uniform along that axis.")
-      .absent(by_model("1.8 d x 1.8 d x 2.2 d, 0 where a side of the box is less than twice that",
+      .absent(by_model(in_diameters(sheet_core) + ", 0 where a side of the box is less than twice that",
                        "`[0, 0, 0]`"));
   fields.number("start_m", core.start_m, from(0).up_to(1000), "Distance from the inlet to the fine part.")
       .absent("such that a quarter of its length lies before the canopy");
@@ -151,12 +163,12 @@ void describe(Fields& fields, FlowKeys& flow) {
 void describe(Fields& fields, CouplingKeys& coupling) {
   fields
       .choice(
-          "load", coupling.load, load_words,
+          "load", coupling.load, load_words(),
           "The flow's force on the cloth. \"uniform\": one pressure difference; \"of-flow\": what the air "
           "loses "
           "on every piece of cloth (\"sheet\" model only); \"sampled\": the pressures read on both sides, "
           "scaled.")
-      .absent(by_model(load_words, sheet_defaults.load, paper_defaults.load));
+      .absent(by_model(load_words(), sheet_defaults.load, paper_defaults.load));
   fields
       .number("drag_tolerance", coupling.drag_tolerance, above(0).up_to(1),
               "Relative change of drag between two iterations at which the coupling may end.")

@@ -9,14 +9,8 @@
 namespace ripstop {
 namespace {
 
-// The sheet's box and core in diameters of the inflated canopy; docs/theory/flow-cartesian.md, Sides of the
-// box, and docs/validation.md say what they are worth.
 constexpr double inflated_over_nominal = 0.7;
-constexpr Vec3 sheet_box{6, 6, 9}, sheet_core{1.8, 1.8, 2.2};
-constexpr double sheet_skirt = 4;
 constexpr double least_box_over_core = 2;  // a core that fills more of the box than half of it gains little
-
-constexpr Vec3 paper_box{2, 2, 4};  // [NFM] section 5 [m]
 
 /// An arm or gore lies flat in the start shape and has to fit into the core too [m].
 double inflated_diameter(const Design& parachute) {

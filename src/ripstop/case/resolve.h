@@ -45,6 +45,13 @@ inline constexpr ModelDefaults sheet_defaults{.cells = {80, 80, 98},
                                               .load = CanopyLoad::uniform,
                                               .drag_tolerance = 5e-3};
 
+/// The paper model's box [m], [NFM] section 5.
+inline constexpr Vec3 paper_box{2, 2, 4};
+/// The sheet's box and core and the skirt's distance from the inlet, in inflated diameters;
+/// docs/theory/flow-cartesian.md, Sides of the box, and docs/validation.md say what they are worth.
+inline constexpr Vec3 sheet_box{6, 6, 9}, sheet_core{1.8, 1.8, 2.2};
+inline constexpr double sheet_skirt = 4;
+
 struct CoreSettings {
   Vec3 size_m;         // 0: the cells are uniform along that axis
   double start_m = 0;  // from the inlet
