@@ -1,8 +1,8 @@
 #include "ripstop/run/run_folder.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
 
@@ -25,61 +25,51 @@ std::string now_utc() {
                      utc.tm_hour, utc.tm_min, utc.tm_sec);
 }
 
-ordered_json read_json(const fs::path& file) {
-  try {
-    return ordered_json::parse(read_file(file));
-  } catch (const nlohmann::json::exception& error) {
-    throw Error(ExitCode::bad_data,
-                fmt::format("{}: damaged ({}); start again with --fresh", file.string(), error.what()));
-  }
-}
-
-constexpr const char* description = "run.json";
-
 std::string inputs_hash(const Case& given, const std::string& solver) {
   return hash_bytes(fmt::format("{}\n{}\n{}", version(), solver, case_json(given)));
 }
 
-/// A start that was killed while it wrote run.json, the first file of a run.
-bool holds_leftovers_only(const fs::path& folder) {
-  const fs::directory_iterator entries(folder);
-  return std::all_of(begin(entries), end(entries), [](const fs::directory_entry& entry) {
-    const std::string name = entry.path().filename();
-    return name.starts_with(".run.json.") && name.ends_with(".tmp");
-  });
+constexpr const char* inputs = "inputs";  // the note of what the run is of
+
+/// A start that was refused, failed or was killed before anything was computed is in nobody's way.
+bool has_got_anywhere(const fs::path& folder) {
+  return is_sealed(folder) || fs::exists(folder / "checkpoint");
 }
 
 }  // namespace
 
-bool holds_run(const RunSettings& settings, const Case& given, const std::string& solver) {
-  const fs::path& folder = settings.folder;
-  if (!fs::exists(folder) || fs::is_empty(folder)) return false;
-  if (!fs::exists(folder / description)) {
-    if (holds_leftovers_only(folder)) return false;
-    throw Error(ExitCode::usage,
-                fmt::format("{}: is not empty and holds no run of Ripstop (no run.json); choose "
-                            "another --out",
-                            folder.string()));
-  }
-  if (settings.fresh) return false;
-  if (read_json(folder / description).value("inputs_hash", "") != inputs_hash(given, solver)) {
-    throw Error(ExitCode::usage,
-                fmt::format("{}: holds a run of other inputs (case, speed, grid, ranks, program or "
-                            "flow engine differ); choose another --out, or --fresh to replace it",
-                            folder.string()));
-  }
-  return true;
+fs::path default_run_folder(const fs::path& case_file, const std::string& what) {
+  fs::path name = case_file.stem();
+  if (name == "case") name = fs::absolute(case_file).lexically_normal().parent_path().filename();
+  return fs::path("runs") / ((name.empty() ? "case" : name.string()) + (what.empty() ? "" : "-" + what));
 }
 
-void open_run_folder(const RunSettings& settings, const Case& given, const std::string& solver, int threads) {
+bool holds_run(const RunSettings& settings, const Case& given, const std::string& solver) {
   const fs::path& folder = settings.folder;
-  const auto write_case = [&] { write_file(folder / "case.toml", case_toml(given)); };
-  if (holds_run(settings, given, solver)) {
-    if (!fs::exists(folder / "case.toml")) write_case();  // killed before it was there
-    return;
+  const std::optional<std::string> earlier = noted(folder, inputs);
+  if (!earlier) {
+    const std::vector<std::string> foreign = foreign_files(folder);
+    if (foreign.empty()) return false;
+    throw Error(ExitCode::usage,
+                fmt::format("{}: is not empty ({}) and holds no run of this version of Ripstop; choose another --out",
+                            folder.string(), foreign.front()));
   }
-  make_folder(folder);
-  for (const auto& entry : fs::directory_iterator(folder)) fs::remove_all(entry.path());
+  if (settings.fresh) return false;
+  if (*earlier == inputs_hash(given, solver)) return true;
+  if (!has_got_anywhere(folder)) return false;
+  throw Error(ExitCode::usage,
+              fmt::format("{}: holds a run of other inputs (case, speed, grid, ranks, program or "
+                          "flow engine differ); choose another --out, or --fresh to replace it",
+                          folder.string()));
+}
+
+std::unique_ptr<ClaimedFolder> open_run_folder(const RunSettings& settings, const Case& given,
+                                               const std::string& solver, int threads) {
+  if (!fs::exists(settings.folder / ".ripstop")) holds_run(settings, given, solver);  // before a record is left there
+  auto folder = std::make_unique<ClaimedFolder>(settings.folder);
+  const bool goes_on = holds_run(settings, given, solver);
+  if (goes_on && fs::exists(settings.folder / "case.toml")) return folder;
+  if (!goes_on) folder->clear();
   ordered_json run;
   run["program"] = "ripstop";
   run["version"] = version();
@@ -92,13 +82,21 @@ void open_run_folder(const RunSettings& settings, const Case& given, const std::
   run["case_file"] = given.file.string();
   run["inputs_hash"] = inputs_hash(given, solver);
   run["case"] = ordered_json::parse(case_json(given));
-  write_file(folder / description, run.dump(2) + "\n");
-  write_case();
+  folder->note(inputs, inputs_hash(given, solver));
+  write_file(folder->own("run.json"), run.dump(2) + "\n");
+  write_file(folder->own("case.toml"), case_toml(given));
+  return folder;
 }
 
 std::optional<std::string> finished_result(const fs::path& folder) {
-  if (!fs::exists(folder / "result.json")) return std::nullopt;
-  read_json(folder / "result.json");
+  if (!is_sealed(folder)) return std::nullopt;
+  const std::vector<std::string> damaged = damaged_files(folder);
+  if (!damaged.empty()) {
+    throw Error(ExitCode::bad_data,
+                fmt::format("{}: {} lost or changed since the run ended; put back what was there, or compute it again "
+                            "with --fresh",
+                            folder.string(), fmt::join(damaged, ", ")));
+  }
   return read_file(folder / "result.json");
 }
 

@@ -2,29 +2,38 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "ripstop/case/case.h"
+#include "ripstop/core/claimed_folder.h"
 
 namespace ripstop {
 
 struct RunSettings {
   std::filesystem::path folder;
-  bool fresh = false;  // throw away what the folder holds of an earlier run
+  bool fresh = false;  // throw away what Ripstop wrote there in an earlier run
   bool fields = true;  // write shapes and flow for ParaView after every iteration
 };
 
+/// runs/<name of the case>: that of its file, or of the file's folder where the file is just "case.toml".
+std::filesystem::path default_run_folder(const std::filesystem::path& case_file,
+                                         const std::string& what = "");
+
 /// Whether the folder holds a run of these inputs to go on with. `solver` says what computes, and with what
-/// beside the case. Throws Error(usage) for a folder that holds a run of other inputs, unless `fresh`, and
-/// for one that holds anything but a run of Ripstop.
+/// beside the case. Throws Error(usage) for a folder that holds a run of other inputs which has got anywhere,
+/// unless `fresh`, and for one with files that are not Ripstop's and no run.
 bool holds_run(const RunSettings& settings, const Case& given, const std::string& solver);
 
-/// Opens or makes the folder of a run and writes run.json and case.toml; what holds_run() refuses is left as
-/// it is.
-void open_run_folder(const RunSettings& settings, const Case& given, const std::string& solver, int threads);
+/// Opens or makes the folder of a run, claims it and writes run.json and case.toml. What is there of another run
+/// is removed as far as Ripstop wrote it; what holds_run() refuses is left as it is. Throws as ClaimedFolder does,
+/// too.
+std::unique_ptr<ClaimedFolder> open_run_folder(const RunSettings& settings, const Case& given,
+                                               const std::string& solver, int threads);
 
-/// result.json of a run that had ended. Throws Error(bad_data) when it is damaged.
+/// result.json of a run that had ended. Throws Error(bad_data) when it or any other file of the run was lost or
+/// changed since.
 std::optional<std::string> finished_result(const std::filesystem::path& folder);
 
 }  // namespace ripstop

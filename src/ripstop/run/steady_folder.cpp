@@ -26,8 +26,8 @@ namespace fs = std::filesystem;
 /// Writes every file of the run before it passes on what it was told.
 class SteadyFolder : public SteadyObserver {
  public:
-  SteadyFolder(const SteadyFolderSettings& settings, SteadyObserver& next)
-      : folder_(settings.run.folder),
+  SteadyFolder(ClaimedFolder& folder, const SteadyFolderSettings& settings, SteadyObserver& next)
+      : folder_(folder),
         fields_(settings.run.fields),
         warm_from_(settings.warm_from),
         next_(next) {}
@@ -46,17 +46,17 @@ class SteadyFolder : public SteadyObserver {
   void write_drag_plot(const SteadyState& state, const std::string& title) const;
   void write_pressure(const SteadyRun& run, const SteadyState& state, const SteadyResult& result) const;
   CsvLog iterations(std::size_t kept) const {
-    return {folder_ / "iterations.csv", columns_of<SteadyIteration>(), kept};
+    return {folder_.own("iterations.csv"), columns_of<SteadyIteration>(), kept};
   }
 
-  fs::path folder_;
+  ClaimedFolder& folder_;
   bool fields_;
   fs::path warm_from_;
   SteadyObserver& next_;
 };
 
 void SteadyFolder::begin(const SteadyRun& run, SteadyState& state) {
-  if (auto saved = load_checkpoint(folder_ / "checkpoint", run.solver.flow())) {
+  if (auto saved = load_checkpoint(folder_.own("checkpoint/"), run.solver.flow())) {
     state = std::move(*saved);
   } else if (!warm_from_.empty()) {
     if (start_from(case_of_run(warm_from_), final_state(warm_from_), run, state))
@@ -72,16 +72,17 @@ void SteadyFolder::iterated(const SteadyRun& run, const SteadyState& state, cons
     write_state(run, state);
   }
   iterations(state.iterations.size() - 1).add(row_of(state.iterations.back()));
-  save_checkpoint(folder_ / "checkpoint", state, run.solver.flow());
+  save_checkpoint(folder_.own("checkpoint/"), state, run.solver.flow());
   next_.iterated(run, state, flow);
 }
 
 void SteadyFolder::ended(const SteadyRun& run, const SteadyState& state, const SteadyResult& result) {
   if (!fields_) write_state(run, state);
-  write_stl(folder_ / "canopy.stl", surface_of(run.solver.cells(), state.shape));
+  write_stl(folder_.own("canopy.stl"), surface_of(run.solver.cells(), state.shape));
   write_drag_plot(state, result.title);
   write_pressure(run, state, result);
-  write_file(folder_ / "result.json", to_json(result));
+  write_file(folder_.own("result.json"), to_json(result));
+  folder_.seal();
   next_.ended(run, state, result);
 }
 
@@ -91,7 +92,7 @@ void SteadyFolder::write_series(std::size_t iterations) const {
     for (std::size_t k = 1; k <= iterations; ++k) {
       series.push_back({double(k), fmt::format("vtk/{}_{:03}.vtp", what, k)});
     }
-    write_pvd(folder_ / fmt::format("{}.pvd", what), series);
+    write_pvd(folder_.own(fmt::format("{}.pvd", what)), series);
   }
 }
 
@@ -125,14 +126,15 @@ void SteadyFolder::write_fields(const SteadyRun& run, const SteadyState& state,
   add("stress_min_n_per_m", smallest);
   add("von_mises_n_per_m", mises);
   add("strain_max", strain);
-  make_folder(folder_ / "vtk");
-  write_vtp(folder_ / fmt::format("vtk/canopy_{:03}.vtp", k), canopy);
+  make_folder(folder_.path() / "vtk");
+  write_vtp(folder_.own(fmt::format("vtk/canopy_{:03}.vtp", k)), canopy);
 
   VtkSurface lines = spring_lines(mesh, state.shape);
   lines.cell_arrays.push_back(vtk_array("tension_n", tensions));
-  write_vtp(folder_ / fmt::format("vtk/lines_{:03}.vtp", k), lines);
+  write_vtp(folder_.own(fmt::format("vtk/lines_{:03}.vtp", k)), lines);
   write_series(k);
-  write_image(folder_ / "flow", flow_image(field));
+  folder_.own(field.grid.uniform() ? "flow.vti" : "flow.vtr");
+  write_image(folder_.path() / "flow", flow_image(field));
 }
 
 void SteadyFolder::write_state(const SteadyRun& run, const SteadyState& state) const {
@@ -142,7 +144,7 @@ void SteadyFolder::write_state(const SteadyRun& run, const SteadyState& state) c
   std::vector<double> mises;
   for (const CellStress& s : cell_stress(solver.cloth(), cloth)) mises.push_back(s.von_mises);
   const std::vector<double> tensions = spring_tensions(solver.cloth(), cloth);
-  write_canopy_picture(folder_ / "canopy.png", mesh, state.shape,
+  write_canopy_picture(folder_.own("canopy.png"), mesh, state.shape,
                        {fmt::format("{}, coupling iteration {}: drag {:.1f} N", run.given.title,
                                     state.iterations.size(), state.iterations.back().fluid_force),
                         "von Mises stress [N/m]",
@@ -152,7 +154,7 @@ void SteadyFolder::write_state(const SteadyRun& run, const SteadyState& state) c
   for (const LineTension& t : line_tensions(mesh, tensions)) {
     table.rows.push_back({t.radial + 1.0, t.free_tension, t.largest_tension});
   }
-  write_csv(folder_ / "lines.csv", table);
+  write_csv(folder_.own("lines.csv"), table);
 }
 
 // pressure.csv and pressure.png: coefficients along the gores; load.png: the load over the cloth.
@@ -176,9 +178,9 @@ void SteadyFolder::write_pressure(const SteadyRun& run, const SteadyState& state
       plot.series[s].y.push_back(values[s]);
     }
   }
-  write_csv(folder_ / "pressure.csv", table);
-  write_plot(folder_ / "pressure.png", plot);
-  write_canopy_picture(folder_ / "load.png", run.solver.mesh(), state.shape,
+  write_csv(folder_.own("pressure.csv"), table);
+  write_plot(folder_.own("pressure.png"), plot);
+  write_canopy_picture(folder_.own("load.png"), run.solver.mesh(), state.shape,
                        {result.title, "pressure inside over outside [Pa]", state.applied, {}});
 }
 
@@ -196,7 +198,7 @@ void SteadyFolder::write_drag_plot(const SteadyState& state, const std::string& 
       plot.series[s].y.push_back(forces[s]);
     }
   }
-  write_plot(folder_ / "drag.png", plot);
+  write_plot(folder_.own("drag.png"), plot);
 }
 
 }  // namespace
@@ -207,11 +209,12 @@ SteadyFolderRun run_steady_in(const SteadyFolderSettings& settings, const Case& 
   const int threads = settings.threads > 0 ? settings.threads : given.coupling.threads;
   // By the engine's name, before one is made: making it clears the flow's folder, which may still be another
   // run's.
-  open_run_folder(settings.run, given, engine_of(given).name(engine_options(given)),
-                  ThreadTeam(threads).size());
+  const auto claimed = open_run_folder(settings.run, given, engine_of(given).name(engine_options(given)),
+                                       ThreadTeam(threads).size());
   if (const auto finished = finished_result(folder)) return {true, steady_result_from_json(*finished)};
-  SteadyFolder files(settings, observer);
-  return {false, run_steady(given, files, {threads, folder / "flow", settings.hostfile}).result};
+  const fs::path flow_folder = engine_of(given).needs_folder ? claimed->own("flow/") : fs::path();
+  SteadyFolder files(*claimed, settings, observer);
+  return {false, run_steady(given, files, {threads, flow_folder, settings.hostfile}).result};
 }
 
 SteadyState final_state(const fs::path& folder) {

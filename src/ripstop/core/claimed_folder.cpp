@@ -1,0 +1,214 @@
+#include "ripstop/core/claimed_folder.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <system_error>
+
+#include "ripstop/core/error.h"
+#include "ripstop/core/file.h"
+#include "ripstop/core/hash.h"
+
+namespace ripstop {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* records = ".ripstop";
+
+fs::path lock_of(const fs::path& folder) {
+  return folder / records / "lock";
+}
+fs::path list_of(const fs::path& folder) {
+  return folder / records / "files";
+}
+fs::path seal_of(const fs::path& folder) {
+  return folder / records / "seal";
+}
+
+std::string host_name() {
+  char name[256] = "";
+  return ::gethostname(name, sizeof name - 1) == 0 ? name : "unknown host";
+}
+
+// Lines whose hash does not fit, as the last one after a kill, prove nothing and are left out.
+std::vector<std::string> listed(const fs::path& folder) {
+  std::vector<std::string> names;
+  if (!fs::exists(list_of(folder))) return names;
+  std::istringstream lines(read_file(list_of(folder)));
+  for (std::string line; std::getline(lines, line);) {
+    if (line.size() > 33 && line.substr(0, 32) == hash_bytes(line.substr(33))) names.push_back(line.substr(33));
+  }
+  return names;
+}
+
+bool is_folder_name(const std::string& name) {
+  return name.ends_with('/');
+}
+
+/// Whether one of the names is `name`, or a folder above it.
+bool covers(const std::vector<std::string>& names, const std::string& name) {
+  return std::any_of(names.begin(), names.end(), [&](const std::string& own) {
+    return own == name || (is_folder_name(own) && name.starts_with(own));
+  });
+}
+
+/// ".NAME.PID-N.tmp", as write_file() names it: NAME; else nothing.
+std::string written_as(const std::string& file) {
+  if (!file.starts_with('.') || !file.ends_with(".tmp")) return {};
+  const std::string body = file.substr(1, file.size() - 5);
+  const std::size_t dot = body.rfind('.');
+  if (dot == std::string::npos || dot == 0) return {};
+  const std::string number = body.substr(dot + 1);
+  const bool numbers = !number.empty() && number.find_first_not_of("0123456789-") == std::string::npos;
+  return numbers ? body.substr(0, dot) : std::string{};
+}
+
+/// Files below the folder by their relative names, but for Ripstop's records.
+std::vector<std::string> files_below(const fs::path& folder) {
+  std::vector<std::string> files;
+  std::error_code error;
+  fs::recursive_directory_iterator entry(folder, error);
+  for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
+    const std::string name = entry->path().lexically_relative(folder).generic_string();
+    if (name == records) {
+      entry.disable_recursion_pending();
+    } else if (!entry->is_directory() || entry->is_symlink()) {
+      files.push_back(name);
+    }
+  }
+  if (error) {
+    throw Error(ExitCode::io, fmt::format("cannot list folder {}: {}", folder.string(), error.message()));
+  }
+  return files;
+}
+
+/// What write_file() had not yet renamed.
+bool is_leftover(const std::vector<std::string>& names, const std::string& file) {
+  const fs::path path = file;
+  const std::string target = written_as(path.filename());
+  return !target.empty() && covers(names, (path.parent_path() / target).generic_string());
+}
+
+void remove(const fs::path& path) {
+  std::error_code error;
+  fs::remove_all(path, error);
+  if (error) throw Error(ExitCode::io, fmt::format("cannot remove {}: {}", path.string(), error.message()));
+}
+
+}  // namespace
+
+ClaimedFolder::ClaimedFolder(fs::path folder) : folder_(std::move(folder)) {
+  make_folder(folder_ / records);
+  lock_ = ::open(lock_of(folder_).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (lock_ < 0) {
+    throw Error(ExitCode::io, fmt::format("cannot write {}: {}", lock_of(folder_).string(),
+                                          std::generic_category().message(errno)));
+  }
+  if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) {
+    const int reason = errno;
+    ::close(lock_);
+    if (reason != EWOULDBLOCK) {
+      throw Error(ExitCode::io, fmt::format("cannot lock {}: {}", lock_of(folder_).string(),
+                                            std::generic_category().message(reason)));
+    }
+    std::string holder = read_file(lock_of(folder_));
+    if (!holder.empty() && holder.back() == '\n') holder.pop_back();
+    throw Error(ExitCode::usage,
+                fmt::format("{}: {} works in this folder; wait for it to end, or choose another --out",
+                            folder_.string(), holder.empty() ? "another run" : holder));
+  }
+  const std::string text = fmt::format("process {} on {}\n", ::getpid(), host_name());
+  if (::ftruncate(lock_, 0) != 0 || ::pwrite(lock_, text.data(), text.size(), 0) < 0) {
+    ::close(lock_);
+    throw Error(ExitCode::io, fmt::format("cannot write {}: {}", lock_of(folder_).string(),
+                                          std::generic_category().message(errno)));
+  }
+  names_ = listed(folder_);
+  drop_leftovers();
+}
+
+ClaimedFolder::~ClaimedFolder() {
+  if (lock_ >= 0) ::close(lock_);
+}
+
+fs::path ClaimedFolder::own(const std::string& name) {
+  const fs::path path = folder_ / name;
+  if (covers(names_, name)) return path;
+  if (fs::exists(path)) {
+    throw Error(ExitCode::usage,
+                fmt::format("{}: is there already and not Ripstop's; choose another --out", path.string()));
+  }
+  append_to_file(list_of(folder_), hash_bytes(name) + ' ' + name + '\n');
+  names_.push_back(name);
+  return path;
+}
+
+void ClaimedFolder::clear() {
+  remove(seal_of(folder_));  // first: what is half removed is not finished
+  for (const std::string& name : names_) {
+    remove(folder_ / name);
+    std::error_code full;  // a folder with anything else in it stays
+    for (fs::path above = fs::path(name).parent_path(); !above.empty(); above = above.parent_path())
+      if (!fs::remove(folder_ / above, full)) break;
+  }
+  for (const fs::directory_entry& record : fs::directory_iterator(folder_ / records))
+    if (record.path() != lock_of(folder_)) remove(record.path());
+  names_.clear();
+}
+
+void ClaimedFolder::seal() const {
+  nlohmann::ordered_json contents = nlohmann::ordered_json::object();
+  for (const std::string& name : names_) {
+    if (!is_folder_name(name) && fs::exists(folder_ / name)) contents[name] = hash_file(folder_ / name);
+  }
+  write_sealed(seal_of(folder_), contents.dump(2) + "\n");
+}
+
+void ClaimedFolder::note(const std::string& name, const std::string& text) const {
+  write_sealed(folder_ / records / name, text);
+}
+
+void ClaimedFolder::drop_leftovers() const {
+  for (const std::string& file : files_below(folder_)) {
+    if (is_leftover(names_, file)) remove(folder_ / file);
+  }
+}
+
+std::optional<std::string> noted(const fs::path& folder, const std::string& name) {
+  const fs::path file = folder / records / name;
+  if (!fs::exists(file)) return std::nullopt;
+  return read_sealed(file);
+}
+
+bool is_sealed(const fs::path& folder) {
+  return fs::exists(seal_of(folder));
+}
+
+std::vector<std::string> damaged_files(const fs::path& folder) {
+  const auto contents = nlohmann::ordered_json::parse(read_sealed(seal_of(folder)), nullptr, false);
+  if (!contents.is_object())
+    throw Error(ExitCode::bad_data, fmt::format("{}: is no seal of Ripstop", seal_of(folder).string()));
+  std::vector<std::string> names;
+  for (const auto& [name, hash] : contents.items()) {
+    if (!fs::exists(folder / name) || hash_file(folder / name) != hash) names.push_back(name);
+  }
+  return names;
+}
+
+std::vector<std::string> foreign_files(const fs::path& folder) {
+  if (!fs::exists(folder)) return {};
+  const std::vector<std::string> names = listed(folder);
+  std::vector<std::string> foreign;
+  for (const std::string& file : files_below(folder))
+    if (!covers(names, file) && !is_leftover(names, file)) foreign.push_back(file);
+  return foreign;
+}
+
+}  // namespace ripstop
