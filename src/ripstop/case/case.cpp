@@ -101,9 +101,10 @@ void describe(Fields& fields, CouplingSettings& coupling) {
   fields.choice(
       "load", coupling.load,
       {{"of-flow", CanopyLoad::of_flow}, {"uniform", CanopyLoad::uniform}, {"sampled", CanopyLoad::sampled}},
-      "The flow's force on the cloth. \"uniform\": one pressure difference; \"of-flow\": what the air loses "
-      "on every piece of cloth (\"sheet\" model only); \"sampled\": the pressures read on both sides, "
-      "scaled.");
+      "The flow's force on the cloth. \"of-flow\": what the air loses on every piece of cloth (\"sheet\" "
+      "model "
+      "only, and its default); \"uniform\": one pressure difference; \"sampled\": the pressures read on both "
+      "sides, scaled.");
   fields.number("drag_tolerance", coupling.drag_tolerance, above(0).up_to(1),
                 "Relative change of drag between two iterations at which the coupling may end.");
   fields.number("shape_tolerance_m", coupling.shape_tolerance_m, above(0).up_to(10),

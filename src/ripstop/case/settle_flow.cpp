@@ -43,6 +43,7 @@ void settle_flow(Case& value) {
   if (!given("flow.residual")) flow.residual = 3e-4;
   if (!given("flow.max_iterations")) flow.max_iterations = 300;
   if (!given("flow.average_over")) flow.average_over = std::min(60, flow.max_iterations);
+  if (!given("coupling.load")) value.coupling.load = CanopyLoad::of_flow;
   if (!given("coupling.drag_tolerance")) value.coupling.drag_tolerance = 5e-3;
 }
 
