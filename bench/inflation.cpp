@@ -11,14 +11,14 @@ namespace ripstop {
 namespace {
 
 void opening(benchmark::State& bench) {
-  Case value = read_case(data_directory() / "examples" / "stratos-iv" / "case.toml");
-  value.parachute.mesh.cloth_nodes = static_cast<int>(bench.range(0));
-  value.parachute.mesh.line_segment_m = 1e-3 * static_cast<double>(bench.range(2));
-  value.parachute.mesh.folds = value.parachute.lines.count;
-  value.inflation.duration_s = 1;
-  value.inflation.frames = 500;
-  value.inflation.cloth_damping_s = 1e-6 * static_cast<double>(bench.range(3));
-  Inflation solver({parachute_mesh(value), value.inflation, 600, false, static_cast<int>(bench.range(1)), 6});
+  Case given = read_case(data_directory() / "examples" / "stratos-iv" / "case.toml");
+  given.parachute.mesh.cloth_nodes = static_cast<int>(bench.range(0));
+  given.parachute.mesh.line_segment_m = 1e-3 * static_cast<double>(bench.range(2));
+  given.parachute.mesh.folds = given.parachute.lines.count;
+  given.inflation.duration_s = 1;
+  given.inflation.frames = 500;
+  given.inflation.cloth_damping_s = 1e-6 * static_cast<double>(bench.range(3));
+  Inflation solver({parachute_mesh(given), given.inflation, 600, false, static_cast<int>(bench.range(1)), 6});
   InflationState state = solver.start();
   for (int i = 0; i < 5; ++i) solver.advance(state);
   const long long first = state.cloth.steps;

@@ -33,18 +33,18 @@ std::string trial_text(const DampingTrial& t) {
 }
 
 int calibrate(const Options& options) {
-  const Case value = opening_case(options.opening);
-  const DampingTarget target = damping_target(value);
-  const LoadSource source = load_source(value, options.opening.steady_run);
-  const InflationProblem problem = opening_problem(value, source, threads_of(options.opening, value));
+  const Case given = opening_case(options.opening);
+  const DampingTarget target = damping_target(given);
+  const LoadSource source = load_source(given, options.opening.steady_run);
+  const InflationProblem problem = opening_problem(given, source, threads_of(options.opening, given));
   Progress progress;
   progress.line(
-      fmt::format("{}: measured peak {:.1f} N{}; dp {:.2f} Pa ({}), {} nodes", value.title, target.peak,
+      fmt::format("{}: measured peak {:.1f} N{}; dp {:.2f} Pa ({}), {} nodes", given.title, target.peak,
                   target.inflation_time ? fmt::format(", inflation time {:g} s", *target.inflation_time)
                                         : ", no inflation time",
                   problem.pressure, source.text, problem.mesh.node_count()));
   const DampingResult result =
-      run_damping(value, source, problem, options.search,
+      run_damping(given, source, problem, options.search,
                   [&](const DampingTrial& trial) { progress.line(trial_text(trial)); });
   const DampingCalibration& found = result.found;
   const fs::path folder =

@@ -20,6 +20,16 @@ void add_set_option(CLI::App& command, Overrides& overrides) {
       ->take_all();
 }
 
+void add_key_option(CLI::App& command, const std::string& option, const std::string& key,
+                    const std::string& help, Overrides& overrides) {
+  command.add_option_function<std::string>(
+      option,
+      [&overrides, option, key](const std::string& value) {
+        overrides.set.push_back({key, value, option});
+      },
+      help);
+}
+
 void add_flow_options(CLI::App& command, Overrides& overrides) {
   std::vector<std::string> words;
   for (const EngineRecord& engine : engines()) words.push_back(engine.word);

@@ -11,6 +11,9 @@ namespace ripstop {
 
 /// --set KEY=VALUE, repeatable.
 void add_set_option(CLI::App& command, Overrides& overrides);
+/// An option for one key: its value goes where --set would put it, and messages name the option.
+void add_key_option(CLI::App& command, const std::string& option, const std::string& key,
+                    const std::string& help, Overrides& overrides);
 /// --grid, --flow and --ranks.
 void add_flow_options(CLI::App& command, Overrides& overrides);
 /// --speed, --linear, --set.

@@ -1,14 +1,17 @@
 // ripstop check: everything about a case that can be said without a solver.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "case_options.h"
 #include "commands.h"
+#include "ripstop/case/resolve.h"
 #include "ripstop/case/summary.h"
 #include "ripstop/core/error.h"
 #include "warnings.h"
@@ -31,7 +34,25 @@ Json to_json(const Problem& problem) {
           {"allowed", problem.allowed},      {"message", problem.message},  {"text", to_text(problem)}};
 }
 
-Json to_json(const Case& value, const CaseSummary& s) {
+/// What stands in the written case under a full name such as "flow.core.size_m".
+const Json& value_of(const Json& written, const std::string& key) {
+  std::string pointer = "/" + key;
+  std::replace(pointer.begin(), pointer.end(), '.', '/');
+  return written.at(Json::json_pointer(pointer));
+}
+
+Json to_json(const std::vector<Source>& sources, const Json& written) {
+  Json list = Json::array();
+  for (const Source& source : sources)
+    list.push_back({{"key", source.key},
+                    {"value", value_of(written, source.key)},
+                    {"given", source.given},
+                    {"from", source.from}});
+  return list;
+}
+
+Json to_json(const Case& given, const CaseSummary& s) {
+  const Json written = Json::parse(case_json(given));
   return {{"valid", true},
           {"problems", Json::array()},
           {"nominal_area_m2", s.nominal_area},
@@ -60,22 +81,41 @@ Json to_json(const Case& value, const CaseSummary& s) {
           {"blockage", s.blockage},
           {"speed_m_s", s.air.speed},
           {"density_kg_m3", s.air.density},
-          {"case", Json::parse(case_json(value))}};
+          {"sources", to_json(resolve(given).sources, written)},
+          {"case", written}};
 }
 
-void print(const Case& value, const CaseSummary& s) {
+std::string text_of(const Json& value) {
+  if (value.is_number_integer()) return fmt::format("{}", value.get<long long>());
+  if (value.is_number()) return fmt::format("{:.5g}", value.get<double>());
+  if (value.is_string()) return value.get<std::string>();
+  std::vector<std::string> parts;
+  for (const Json& part : value) parts.push_back(text_of(part));
+  return fmt::format("{}", fmt::join(parts, " x "));
+}
+
+/// Every key that follows from others where it is not given: what stands, and why.
+void print_sources(const Case& given) {
+  const Json written = Json::parse(case_json(given));
+  const std::vector<Source> sources = resolve(given).sources;
+  fmt::print("\n");
+  for (const Source& source : sources)
+    fmt::print("  {:<28} {:<19} {}\n", source.key, text_of(value_of(written, source.key)), source.from);
+}
+
+void print(const Case& given, const CaseSummary& s) {
   const auto row = [](const char* name, const std::string& text) { fmt::print("  {:<18} {}\n", name, text); };
-  fmt::print("{}\n", value.title.empty() ? value.file.string() : value.title);
+  fmt::print("{}\n", given.title.empty() ? given.file.string() : given.title);
   row("nominal area",
       fmt::format("{:.4f} m2{}", s.nominal_area,
-                  value.parachute.nominal_area_m2 ? " (given)" : " (by the type's definition)"));
+                  given.parachute.nominal_area_m2 ? " (given)" : " (by the type's definition)"));
   row("cloth", fmt::format("{:.4f} m2 as cut, {:.4f} m2 as meshed", s.computed_area, s.cloth_area));
   row("open", fmt::format("{:.2f} % geometric porosity: vent {:.4f} m2, slots and gaps {:.4f} m2",
                           100 * s.geometric_porosity, s.vent_area, s.slot_area));
   row("mass", fmt::format("{:.4f} kg: cloth {:.4f}, tape {:.4f}, lines {:.4f}, riser {:.4f}", s.total_mass,
                           s.cloth_mass, s.tape_mass, s.line_mass, s.riser_mass));
   row("nodes", fmt::format("{}, of these {} of cloth ({} asked for, {} resolve its size)", s.nodes,
-                           s.cloth_nodes, value.parachute.mesh.cloth_nodes, s.resolved_cloth_nodes));
+                           s.cloth_nodes, given.parachute.mesh.cloth_nodes, s.resolved_cloth_nodes));
   row("springs",
       fmt::format("{}, the smallest {:.3g} mm ({})", s.springs, 1000 * s.smallest_spring, s.smallest_part));
   row("stable step", fmt::format("{:.3g} s, set by {}; the paper's bound gives {:.3g} s", s.step.stable_step,
@@ -89,19 +129,20 @@ void print(const Case& value, const CaseSummary& s) {
 
 int run(const Options& options) {
   try {
-    const Case value = read_case(options.case_file, options.overrides);
+    const Case given = read_case(options.case_file, options.overrides);
     if (options.resolved) {
-      fmt::print("{}", case_toml(value));
+      fmt::print("{}", case_toml(given));
       return 0;
     }
-    const CaseSummary summary = summarize(value);
+    const CaseSummary summary = summarize(given);
     if (options.json)
-      fmt::print("{}\n", to_json(value, summary).dump(2));
+      fmt::print("{}\n", to_json(given, summary).dump(2));
     else
-      print(value, summary);
+      print(given, summary);
     if (!options.json) {
-      print_mesh_warning(value);
-      print_porosity_warning(value);
+      print_sources(given);
+      print_mesh_warning(given);
+      print_porosity_warning(given);
     }
     return 0;
   } catch (const InputError& error) {

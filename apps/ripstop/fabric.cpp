@@ -48,11 +48,11 @@ void print_result(const FabricResult& r, const fs::path& folder) {
 }
 
 int run(const Options& options) {
-  const Case value = read_case(options.case_file, options.overrides);
+  const Case given = read_case(options.case_file, options.overrides);
   Progress progress;
-  const FabricSolution solution = run_fabric(value, options.pressure, [&](const RelaxProgress& p) {
+  const FabricSolution solution = run_fabric(given, options.pressure, [&](const RelaxProgress& p) {
     progress.show(fmt::format("cloth: step {}, residual {:.1e} (wanted {:.0e})", p.steps, p.residual,
-                              value.coupling.cloth_tolerance));
+                              given.coupling.cloth_tolerance));
   });
   const FabricResult& r = solution.result;
   progress.line(fmt::format("{}: {} nodes under {:.4g} Pa, {} steps in {:.2f} s, residual {:.1e}", r.title,
@@ -62,8 +62,8 @@ int run(const Options& options) {
     fmt::print("{}", to_json(r));
   else
     print_result(r, options.out);
-  print_mesh_warning(value);
-  print_material_warnings(value, r.stress.strain);
+  print_mesh_warning(given);
+  print_material_warnings(given, r.stress.strain);
   if (!r.converged) {
     throw Error(ExitCode::not_converged,
                 fmt::format("no equilibrium within {} steps: residual {:.1e}, wanted {:.0e}", r.steps,

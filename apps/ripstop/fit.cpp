@@ -52,10 +52,10 @@ void print_permeability(const MaterialFit& fit) {
       "\nair permeability: dp = a v + b v |v| with a = {:.5g} Pa s/m, b = {:.5g} Pa s2/m2, {}; {:.4g} "
       "CFM/ft2 "
       "at half an inch of water\n",
-      law.a, law.b,
+      law.linear, law.quadratic,
       fit.permeability.one_point ? "from one reading" : fmt::format("R2 {:.4f}", fit.permeability.r2),
       cfm(law));
-  if (law.a > 0 && law.b > 0) {
+  if (law.linear > 0 && law.quadratic > 0) {
     const ErgunCloth cloth = ergun_cloth(law);
     fmt::print("  in Ergun's law ([NFM] Eq. 16): gamma {:.4f}, thickness {:.4g} mm\n", cloth.porosity,
                1e3 * cloth.thickness);

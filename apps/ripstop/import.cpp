@@ -41,10 +41,10 @@ int run(const Options& options) {
   print_list("does not map", result.not_mapped);
   print_list("assumed, not in the file", result.assumed);
   std::fflush(stdout);  // before a refusal below
-  const Case value = parse_case(result.case_text, out.string());
+  const Case given = parse_case(result.case_text, out.string());
   write_file(out, result.case_text);
-  fmt::print("S0 {:.4f} m2, cloth {:.4f} m2: {}\n", nominal_area(value.parachute),
-             computed_area(value.parachute), out.string());
+  fmt::print("S0 {:.4f} m2, cloth {:.4f} m2: {}\n", nominal_area(given.parachute),
+             computed_area(given.parachute), out.string());
   return 0;
 }
 

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "case_options.h"
 #include "commands.h"
 #include "json_option.h"
 #include "opening.h"
@@ -127,15 +128,15 @@ class Terminal : public InflationObserver {
 
 int run(const Options& options) {
   const auto begin = std::chrono::steady_clock::now();
-  const Case value = opening_case(options.opening);
+  const Case given = opening_case(options.opening);
   const fs::path folder =
       options.out.empty()
           ? fs::path("runs") / (options.opening.case_file.parent_path().filename().string() + "-inflation")
           : options.out;
-  const LoadSource source = load_source(value, options.opening.steady_run);
-  const int threads = threads_of(options.opening, value);
+  const LoadSource source = load_source(given, options.opening.steady_run);
+  const int threads = threads_of(options.opening, given);
   if (options.check) {
-    const Inflation solver(opening_problem(value, source, threads));
+    const Inflation solver(opening_problem(given, source, threads));
     print_start(solver, solver.start(), source);
     return 0;
   }
@@ -143,9 +144,9 @@ int run(const Options& options) {
   Terminal terminal(source, folder, options.json, progress);
   const auto problem = [&] {
     progress.show("equilibrium under the steady load");
-    return opening_problem(value, source, threads);
+    return opening_problem(given, source, threads);
   };
-  const auto result = run_inflation_in({{folder, options.fresh}, threads}, value, source, problem, terminal);
+  const auto result = run_inflation_in({{folder, options.fresh}, threads}, given, source, problem, terminal);
   if (!result) {
     fmt::print("{}", *finished_result(folder));
     fmt::print(stderr, "{} holds the finished run; --fresh computes it again\n", folder.string());
@@ -156,8 +157,8 @@ int run(const Options& options) {
     fmt::print("{}", to_json(*result));
   else
     print_result(*result, folder, wall_time);
-  print_mesh_warning(value);
-  print_material_warnings(value, result->stress.strain);
+  print_mesh_warning(given);
+  print_material_warnings(given, result->stress.strain);
   return 0;
 }
 
@@ -169,8 +170,8 @@ void add_inflate(CLI::App& app, int& status) {
       app.add_subcommand("inflate", "How a folded canopy opens, and the load it puts on the riser");
   command->footer("Example: ripstop inflate examples/stratos-iv/case.toml --steady runs/stratos-iv");
   add_opening_options(*command, options->opening);
-  command->add_option("--damping", options->opening.damping, "C_a a unit area [N s/m3]")
-      ->check(CLI::NonNegativeNumber);
+  add_key_option(*command, "--damping", "inflation.damping_n_s_m3", "C_a a unit area [N s/m3]",
+                 options->opening.overrides);
   command->add_option("--out", options->out, "Run folder (default: runs/<folder of the case>-inflation)");
   command->add_flag("--fresh", options->fresh, "Replace what the run folder holds; default: go on with it");
   command->add_flag("--check", options->check, "Fold, say strain, pressure and step, and stop");

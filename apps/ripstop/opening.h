@@ -1,13 +1,9 @@
-// What ripstop inflate and ripstop calibrate damping share: the case of an opening and its pressure.
+// The options that ripstop inflate and ripstop calibrate damping share.
 #pragma once
 
 #include <filesystem>
-#include <optional>
-#include <string>
-#include <vector>
 
-#include "ripstop/case/case.h"
-#include "ripstop/run/inflation_folder.h"
+#include "ripstop/case/opening.h"
 
 namespace CLI {
 class App;
@@ -18,20 +14,15 @@ namespace ripstop {
 struct OpeningOptions {
   std::filesystem::path case_file, steady_run;
   Overrides overrides;
-  std::optional<double> pressure, damping, duration;
-  std::optional<int> cloth_nodes;
   int threads = 0;  // 0: as in [coupling]
 };
 void add_opening_options(CLI::App& command, OpeningOptions& options);
 
-/// The case with what the command line changes, on a mesh that can be folded.
+/// The opening of the case with what the command line changes.
 Case opening_case(const OpeningOptions& options);
-int threads_of(const OpeningOptions& options, const Case& value);
+int threads_of(const OpeningOptions& options, const Case& opening);
 
-/// Throws Error(usage) unless the pressure is given once, Error(bad_data) for a steady run without a result.
-LoadSource load_source(const Case& value, const std::filesystem::path& steady_run);
-
-/// The opening of the case; dp from the equilibrium of a coarse mesh when a steady drag is asked for.
-InflationProblem opening_problem(const Case& value, const LoadSource& source, int threads);
+/// As of the case, or of a steady run. Throws Error(bad_data) for a steady run without a result.
+LoadSource load_source(const Case& opening, const std::filesystem::path& steady_run);
 
 }  // namespace ripstop

@@ -1,11 +1,10 @@
 // ripstop calibrate porosity: the cloth's porosity from the measured drag of a reference parachute.
 
-#include "ripstop/calibration/porosity.h"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -15,6 +14,7 @@
 #include "ripstop/core/file.h"
 #include "ripstop/output/csv.h"
 #include "ripstop/output/plot.h"
+#include "ripstop/run/porosity_sweep.h"
 #include "ripstop/run/sweep_files.h"
 #include "sweep_progress.h"
 
@@ -37,20 +37,11 @@ struct Options : SweepOptions {
 PorosityKnob knob_of(const Options& options) {
   return options.permeabilities.empty() ? PorosityKnob::gamma : PorosityKnob::permeability;
 }
-std::string knob_name(PorosityKnob knob) {
-  return knob == PorosityKnob::gamma ? "gamma" : "permeability_cfm";
-}
 
 /// The file's points, or the rows of [[measured]] that have a drag, on the case's basis.
-std::vector<MeasuredDrag> measured_drag(const Options& options, const Case& value) {
-  std::vector<MeasuredDrag> points;
+std::vector<MeasuredDrag> measured_points(const Options& options, const Case& given) {
   if (options.measured.empty()) {
-    for (const Measured& row : value.measured) {
-      if (!row.drag_n) continue;
-      const bool nominal = value.flow.speed_basis == SpeedBasis::nominal;
-      points.push_back({row.nominal_speed_m_s, nominal ? row.nominal_speed_m_s : row.measured_speed_m_s,
-                        row.density_kg_m3, *row.drag_n});
-    }
+    const std::vector<MeasuredDrag> points = measured_drag(given);
     if (points.empty())
       throw Error(
           ExitCode::usage,
@@ -58,6 +49,7 @@ std::vector<MeasuredDrag> measured_drag(const Options& options, const Case& valu
           "drag_n in rows of [[measured]]");
     return points;
   }
+  std::vector<MeasuredDrag> points;
   const CsvTable table = read_csv(options.measured);
   const auto speed = table.column("speed_m_s"), density = table.column("density_kg_m3"),
              drag = table.column("drag_n");
@@ -72,41 +64,7 @@ std::vector<MeasuredDrag> measured_drag(const Options& options, const Case& valu
   return points;
 }
 
-/// Condition, knob and shift: what is turned for every trial.
-std::vector<SweepAxis> axes_of(const Options& options, const Case& value,
-                               const std::vector<MeasuredDrag>& measured, const std::vector<double>& values,
-                               std::vector<double>& shifts) {
-  SweepAxis condition{"condition", {}, {}}, knob{knob_name(knob_of(options)), {}, {}},
-      shift{"shift_m", {}, {}};
-  for (const MeasuredDrag& point : measured) {
-    std::string name = fmt::format("{}", point.nominal_speed);
-    for (int twin = 2;
-         std::find(condition.values.begin(), condition.values.end(), name) != condition.values.end();)
-      name = fmt::format("{}-{}", point.nominal_speed, twin++);
-    condition.values.push_back(name);
-    condition.settings.push_back({{"flow.speed_m_s", fmt::format("{}", point.speed), "--measured"},
-                                  {"flow.speed_basis", "nominal", "--measured"},
-                                  {"flow.density_kg_m3", fmt::format("{}", point.density), "--measured"}});
-  }
-  const std::string cloth = "materials." + value.parachute.canopy_material;
-  for (const double v : values) {
-    const PressureDrop law = cloth_of(knob_of(options), v, options.thickness);
-    knob.values.push_back(fmt::format("{}", v));
-    knob.settings.push_back({{cloth + ".darcy", fmt::format("{}", law.a), "porosity"},
-                             {cloth + ".forchheimer", fmt::format("{}", law.b), "porosity"}});
-  }
-  // Evenly over one cell, about the case's own place.
-  const double dz = value.flow.box_m.z / value.flow.cells[2], place = canopy_position(value);
-  for (int k = 0; k < options.shifts; ++k) {
-    const double by = dz * (k - 0.5 * (options.shifts - 1)) / options.shifts;
-    shifts.push_back(by);
-    shift.values.push_back(fmt::format("{:.4g}", by));
-    shift.settings.push_back({{"flow.canopy_position_m", fmt::format("{}", place + by), "--shifts"}});
-  }
-  return {condition, knob, shift};
-}
-
-void write_plots(const fs::path& folder, const Case& value, const std::vector<MeasuredDrag>& measured,
+void write_plots(const fs::path& folder, const Case& given, const std::vector<MeasuredDrag>& measured,
                  const std::vector<PorosityTrial>& trials, const PorosityCalibration& found,
                  PorosityKnob knob, double area) {
   PlotSeries computed{"computed, every speed and shift", {}, {}, false, true, false};
@@ -148,7 +106,7 @@ void write_plots(const fs::path& folder, const Case& value, const std::vector<Me
     reference.y.push_back(point.drag_area() / area);
   }
   const bool gamma = knob == PorosityKnob::gamma;
-  Plot plot{value.title,
+  Plot plot{given.title,
             {gamma ? "porosity \u03b3 of Ergun's law" : "permeability [CFM/ft\u00b2]"},
             {fmt::format("C_D on {:.4f} m\u00b2", area)},
             {computed, line, band, reference}};
@@ -166,20 +124,20 @@ ordered_json line_json(const LineFit& line) {
           {"points", line.points}};
 }
 
-void write_result(const fs::path& folder, const Case& value, const std::vector<MeasuredDrag>& measured,
+void write_result(const fs::path& folder, const Case& given, const std::vector<MeasuredDrag>& measured,
                   const PorosityCalibration& found, PorosityKnob knob, const PressureDrop& law,
                   const Options& options, double area) {
   ordered_json j;
-  j["title"] = value.title;
+  j["title"] = given.title;
   j["knob"] = knob_name(knob);
   j["value"] = found.knob;
   j["standard_error"] = found.error();
   j["standard_error_measured"] = found.error_measured;
   j["standard_error_computed"] = found.error_computed;
   j["interval_95"] = {found.knob - found.interval, found.knob + found.interval};
-  j["material"] = value.parachute.canopy_material;
-  j["darcy"] = law.a;
-  j["forchheimer"] = law.b;
+  j["material"] = given.parachute.canopy_material;
+  j["darcy"] = law.linear;
+  j["forchheimer"] = law.quadratic;
   if (knob == PorosityKnob::gamma) {
     j["thickness_m"] = options.thickness;
     j["printed_fit"] = {{"slope", printed_slope}, {"intercept", printed_intercept}, {"r2", 0.989}};
@@ -221,44 +179,38 @@ void print_result(const std::vector<MeasuredDrag>& measured, const PorosityCalib
   fmt::print(
       "  for other parachutes of this cloth: --set materials.{}.darcy={:.10g} --set "
       "materials.{}.forchheimer={:.10g}\n",
-      material, law.a, material, law.b);
+      material, law.linear, material, law.quadratic);
 }
 
 int calibrate(Options& options) {
   finish(options, "porosity");
-  const Case value = read_case(options.case_file, options.overrides);
-  const PorosityKnob knob = knob_of(options);
-  std::vector<double> values = knob == PorosityKnob::gamma ? options.gammas : options.permeabilities;
-  if (values.empty()) values = {0.18, 0.20, 0.22, 0.24};
-  std::sort(values.begin(), values.end());
-  const std::vector<MeasuredDrag> measured = measured_drag(options, value);
-  std::vector<double> shifts;
-  const std::vector<SweepAxis> axes = axes_of(options, value, measured, values, shifts);
+  const Case given = read_case(options.case_file, options.overrides);
+  PorositySweep sweep{knob_of(options), options.gammas, options.thickness, options.shifts};
+  if (sweep.knob == PorosityKnob::permeability) sweep.values = options.permeabilities;
+  if (sweep.values.empty()) sweep.values = {0.18, 0.20, 0.22, 0.24};
+  std::sort(sweep.values.begin(), sweep.values.end());
+  const PorosityKnob knob = sweep.knob;
+  const std::vector<MeasuredDrag> measured = measured_points(options, given);
+  const std::vector<SweepAxis> axes = porosity_axes(given, sweep, measured);
   const std::vector<SweepPoint> points = sweep_points(options.case_file, options.overrides, axes);
   const fs::path& folder = options.settings.folder;
   fmt::print(stderr, "{}: {} measured points, {} = {}, {} places along the flow: {} runs in {}\n",
-             value.title, measured.size(), knob_name(knob), fmt::join(values, " "), shifts.size(),
+             given.title, measured.size(), knob_name(knob), fmt::join(sweep.values, " "), sweep.shifts,
              points.size(), folder.string());
   const std::vector<SweepRow> rows = run_and_tell(axes, points, options.settings);
   write_csv(folder / "sweep.csv", sweep_table(axes, points, rows));
   require_all(points, rows);
 
-  std::vector<PorosityTrial> trials;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    // The points lie in the order of the axes, the shift the fastest.
-    const std::size_t shift = i % shifts.size(), knob_at = i / shifts.size() % values.size(),
-                      condition = i / shifts.size() / values.size();
-    trials.push_back({values[knob_at], shifts[shift], condition, rows[i].result.drag_area});
-  }
+  const std::vector<PorosityTrial> trials = porosity_trials(given, sweep, rows);
   const double area = rows.front().result.reference_area;
   const PorosityCalibration found = calibrate_porosity(measured, trials, area);
   const PressureDrop law = cloth_of(knob, found.knob, options.thickness);
-  write_plots(folder, value, measured, trials, found, knob, area);
-  write_result(folder, value, measured, found, knob, law, options, area);
+  write_plots(folder, given, measured, trials, found, knob, area);
+  write_result(folder, given, measured, found, knob, law, options, area);
   if (options.json) {
     fmt::print("{}", read_file(folder / "result.json"));
   } else {
-    print_result(measured, found, knob, law, value.parachute.canopy_material);
+    print_result(measured, found, knob, law, given.parachute.canopy_material);
     fmt::print("  {} (porosity.svg, porosity.png, sweep.csv)\n", (folder / "result.json").string());
   }
   if (!found.outside) return 0;

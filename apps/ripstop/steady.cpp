@@ -79,7 +79,7 @@ std::string iteration_text(const SteadyIteration& iteration) {
   return text;
 }
 
-void print_result(const SteadyResult& r, const Case& value, const fs::path& folder) {
+void print_result(const SteadyResult& r, const Case& given, const fs::path& folder) {
   const auto row = [](const char* name, const std::string& text) { fmt::print("  {:<26} {}\n", name, text); };
   fmt::print("\n{}\n", r.title);
   row("speed, density", fmt::format("{:.4g} m/s, {:.4g} kg/m3", r.speed, r.density));
@@ -115,7 +115,7 @@ void print_result(const SteadyResult& r, const Case& value, const fs::path& fold
   row("coupling", fmt::format("{} iterations, {}, {}", r.iterations,
                               r.converged ? "converged" : "NOT converged", duration_text(r.wall_time)));
   row("files", fmt::format("{} (canopy.png, canopy.pvd, {}, result.json)", folder.string(),
-                           flow_grid(value).uniform() ? "flow.vti" : "flow.vtr"));
+                           flow_grid(given).uniform() ? "flow.vti" : "flow.vtr"));
 }
 
 class Terminal : public SteadyObserver {
@@ -123,12 +123,12 @@ class Terminal : public SteadyObserver {
   explicit Terminal(const fs::path& folder) : folder_(folder) {}
 
   void begin(const SteadyRun& run, SteadyState& state) override {
-    settings_ = run.value.coupling;
+    settings_ = resolve(run.given).coupling;
     if (!state.iterations.empty()) {
       progress_.line(fmt::format("going on after coupling iteration {} of {}", state.iterations.size(),
                                  folder_.string()));
     }
-    progress_.line(fmt::format("{}: {}, {} cloth nodes, {}", run.value.title, run.engine,
+    progress_.line(fmt::format("{}: {}, {} cloth nodes, {}", run.given.title, run.engine,
                                run.solver.mesh().node_count(), folder_.string()));
     progress_.line(iteration_header());
     for (const SteadyIteration& i : state.iterations) progress_.line(iteration_text(i));
@@ -156,42 +156,43 @@ class Terminal : public SteadyObserver {
   double before_ = 0;  // elapsed at the end of the last iteration
 };
 
-int dry_run(const Case& value, const fs::path& folder) {
-  const SteadyProblem problem = steady_problem(value);
-  fmt::print("{}: {} nodes, {} x {} x {} cells, {:.4g} m/s, {} ranks; would run in {}\n", value.title,
+int dry_run(const Case& given, const fs::path& folder) {
+  const SteadyProblem problem = steady_problem(given);
+  fmt::print("{}: {} nodes, {} x {} x {} cells, {:.4g} m/s, {} ranks; would run in {}\n", given.title,
              problem.mesh.node_count(), problem.flow.grid.nx, problem.flow.grid.ny, problem.flow.grid.nz,
-             problem.flow.air.speed, value.flow.ranks, folder.string());
+             problem.flow.air.speed, given.flow.ranks, folder.string());
   return 0;
 }
 
 int run(const Options& options) {
-  const Case value = read_case(options.case_file, options.overrides);
+  const Case given = read_case(options.case_file, options.overrides);
+  const CouplingSettings coupling = resolve(given).coupling;
   const fs::path folder =
       options.out.empty() ? fs::path("runs") / options.case_file.parent_path().filename() : options.out;
-  if (options.dry_run) return dry_run(value, folder);
+  if (options.dry_run) return dry_run(given, folder);
   Terminal terminal(folder);
   const SteadyFolderRun done =
-      run_steady_in({{folder, options.fresh}, 0, options.hostfile, {}}, value, terminal);
+      run_steady_in({{folder, options.fresh}, 0, options.hostfile, {}}, given, terminal);
   const SteadyResult& result = done.result;
   if (options.json || done.already_finished)
     fmt::print("{}", to_json(result));
   else
-    print_result(result, value, folder);
+    print_result(result, given, folder);
   std::fflush(stdout);
   const int status = result.converged ? 0 : static_cast<int>(ExitCode::not_converged);
   if (done.already_finished) {
     fmt::print(stderr, "{} holds the finished run; --fresh computes it again\n", folder.string());
     return status;
   }
-  print_mesh_warning(value);
-  print_porosity_warning(value);
-  print_material_warnings(value, result.stress.strain);
+  print_mesh_warning(given);
+  print_porosity_warning(given);
+  print_material_warnings(given, result.stress.strain);
   if (!result.converged)
     fmt::print(stderr,
                "not converged within {} coupling iterations: drag still changed by {:.2g} (wanted {:.2g}), "
                "shape by {:.2g} m (wanted {:.2g}), or the ledger is not closed within 1 %\n",
-               result.iterations, result.last.drag_change, value.coupling.drag_tolerance,
-               result.last.shape_change, value.coupling.shape_tolerance_m);
+               result.iterations, result.last.drag_change, coupling.drag_tolerance, result.last.shape_change,
+               coupling.shape_tolerance_m);
   return status;
 }
 

@@ -63,7 +63,7 @@ int sweep(Options& options) {
     return 0;
   }
   const std::vector<SweepRow> rows = run_and_tell(axes, points, options.settings);
-  const std::string& title = points.front().value.title;
+  const std::string& title = points.front().given.title;
   const std::string json = sweep_json(title, axes, points, rows);
   write_csv(folder / "sweep.csv", sweep_table(axes, points, rows));
   write_file(folder / "result.json", json);

@@ -2,13 +2,14 @@
 
 #include <fmt/format.h>
 
+#include "ripstop/case/resolve.h"
 #include "ripstop/material/fit_material.h"
 
 namespace ripstop {
 
-void print_mesh_warning(const Case& value) {
-  const int asked = value.parachute.mesh.cloth_nodes;
-  const int enough = experience(value.parachute).cloth_nodes;
+void print_mesh_warning(const Case& given) {
+  const int asked = given.parachute.mesh.cloth_nodes;
+  const int enough = experience(given.parachute).cloth_nodes;
   if (asked < enough)
     fmt::print(stderr,
                "warning: parachute.mesh.cloth_nodes = {}: the projected diameter of this type may come out "
@@ -17,20 +18,21 @@ void print_mesh_warning(const Case& value) {
                asked, enough);
 }
 
-void print_porosity_warning(const Case& value) {
-  const Fabric& cloth = canopy_fabric(value);
-  if (value.flow.porosity_model == cloth.porosity_model) return;
+void print_porosity_warning(const Case& given) {
+  const Fabric& cloth = canopy_fabric(given);
+  const PorosityModel used = resolve(given).flow.porosity_model;
+  if (used == cloth.resistance.model) return;
   const auto word = [](PorosityModel model) { return model == PorosityModel::paper ? "paper" : "sheet"; };
   fmt::print(
       stderr,
       "warning: flow.porosity_model = \"{}\", but darcy and forchheimer of materials.{} are for \"{}\" "
       "(materials/README.md)\n",
-      word(value.flow.porosity_model), cloth.name, word(cloth.porosity_model));
+      word(used), cloth.name, word(cloth.resistance.model));
 }
 
-void print_material_warnings(const Case& value, double largest_cloth_strain) {
-  for (const auto& [name, material] : value.materials) {
-    const double strain = name == value.parachute.canopy_material ? largest_cloth_strain : 0.0;
+void print_material_warnings(const Case& given, double largest_cloth_strain) {
+  for (const auto& [name, material] : given.materials) {
+    const double strain = name == given.parachute.canopy_material ? largest_cloth_strain : 0.0;
     for (const std::string& text : material_warnings(material, strain))
       fmt::print(stderr, "warning: {}\n", text);
   }

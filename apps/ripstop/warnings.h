@@ -6,13 +6,13 @@
 namespace ripstop {
 
 /// Says on standard error when the mesh is too coarse for the size of the inflated canopy.
-void print_mesh_warning(const Case& value);
+void print_mesh_warning(const Case& given);
 
 /// Says on standard error when the cloth's coefficients are for another porosity model than the case's.
-void print_porosity_warning(const Case& value);
+void print_porosity_warning(const Case& given);
 
 /// Repeats on standard error what the fits of the case's materials found doubtful, and says when the canopy's
 /// cloth was strained beyond its tests.
-void print_material_warnings(const Case& value, double largest_cloth_strain);
+void print_material_warnings(const Case& given, double largest_cloth_strain);
 
 }  // namespace ripstop

@@ -9,17 +9,17 @@
 namespace {
 
 ripstop::Case my_canopy() {
-  ripstop::Case value;
-  value.title = "My canopy at 20 m/s";
-  value.parachute.canopy = ripstop::FlatCircular{.nominal_diameter_m = 1.0, .vent_diameter_m = 0.1};
-  value.parachute.gores = 12;
-  value.parachute.lines.count = 12;
-  value.parachute.lines.length_m = 1.0;
-  value.parachute.mesh.cloth_nodes = 1500;
-  value.flow.speed_m_s = 20;
-  value.flow.density_kg_m3 = 1.2;
-  value.flow.cells = {24, 24, 36};
-  return value;
+  ripstop::Case given;
+  given.title = "My canopy at 20 m/s";
+  given.parachute.canopy = ripstop::FlatCircular{.nominal_diameter_m = 1.0, .vent_diameter_m = 0.1};
+  given.parachute.gores = 12;
+  given.parachute.lines.count = 12;
+  given.parachute.lines.length_m = 1.0;
+  given.parachute.mesh.cloth_nodes = 1500;
+  given.flow.speed_m_s = 20;
+  given.flow.density_kg_m3 = 1.2;
+  given.flow.cells = {24, 24, 36};
+  return given;
 }
 
 struct Progress : ripstop::SteadyObserver {
@@ -35,14 +35,13 @@ struct Progress : ripstop::SteadyObserver {
 
 int main() {
   try {
-    ripstop::Case value = my_canopy();
-    ripstop::apply({}, value);  // materials, defaults, and every mistake at once
+    const ripstop::Case given = ripstop::checked(my_canopy());  // every mistake at once
 
-    const ripstop::FabricResult still = ripstop::run_fabric(value, 240).result;
+    const ripstop::FabricResult still = ripstop::run_fabric(given, 240).result;
     std::printf("under 240 Pa: %.3f m wide, %.0f N\n", still.size.projected_diameter, still.pressure_load);
 
     Progress progress;
-    const ripstop::SteadySolution flight = ripstop::run_steady(value, progress);
+    const ripstop::SteadySolution flight = ripstop::run_steady(given, progress);
     std::printf("drag %.2f N, C_D %.3f, %s\n", flight.result.drag, flight.result.drag_coefficient,
                 flight.result.converged ? "converged" : "not converged");
     return flight.result.converged ? 0 : 1;

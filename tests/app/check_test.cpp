@@ -5,7 +5,9 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
+#include "ripstop/core/file.h"
 #include "ripstop/core/process.h"
 
 namespace ripstop {
@@ -66,6 +68,30 @@ TEST_F(Check, MassesAndAreasAreThoseOfThePattern) {
   EXPECT_GT(report["stable_step_s"].get<double>(), 4e-7);  // what the paper's polar grid allowed
   EXPECT_EQ(report["flow_cells"], 1500000);
   EXPECT_EQ(report["case"]["flow"]["density_kg_m3"], 1.2);
+}
+
+// The list is the one that docs/guide/case-file.md shows.
+TEST_F(Check, SaysOfEveryValueThatMayBeLeftOutWhatItFollowedFrom) {
+  const std::string flat = RIPSTOP_SOURCE_DIR "/examples/flat-circular/case.toml";
+  const Finished table = ripstop_with({"check", flat, "--set", "flow.canopy_position_m=2.8"});
+  ASSERT_EQ(table.code, 0) << table.output;
+  std::istringstream list(table.output.substr(table.output.find("\n\n") + 2));
+  std::string line, shown;
+  int lines = 0;
+  for (; std::getline(list, line); ++lines) {
+    const std::size_t folder = line.find(RIPSTOP_SOURCE_DIR "/");
+    if (folder != std::string::npos) line.erase(folder, std::string(RIPSTOP_SOURCE_DIR "/").size());
+    shown += "    " + line + "\n";
+  }
+  EXPECT_EQ(lines, 19);
+  EXPECT_NE(read_file(RIPSTOP_SOURCE_DIR "/docs/guide/case-file.md").find(shown), std::string::npos) << shown;
+  const auto report = nlohmann::json::parse(ripstop_with({"check", flat, "--json"}).output);
+  for (const auto& source : report["sources"]) {
+    if (source["key"] != "flow.cells") continue;
+    EXPECT_EQ(source["value"], (nlohmann::json{80, 80, 98}));
+    EXPECT_EQ(source["given"], false);
+    EXPECT_EQ(source["from"], "the sheet's default");
+  }
 }
 
 TEST_F(Check, OptionsChangeTheCaseAndAreNamedWhenTheyAreWrong) {

@@ -79,16 +79,16 @@ TEST(Porosity, NeedsPointsAndTrials) {
 TEST(Porosity, OfThePrintedTableNeedsTheGammaThatItsCoefficientsFollowFrom) {
   // [NFM] Table 3 prints gamma = 0.22 beside a = 65.98 and b = 37.45; they follow from 0.2121 and 0.12 mm.
   const PressureDrop law = cloth_of(PorosityKnob::gamma, 0.2121, 1.2e-4);
-  EXPECT_NEAR(law.a, 65.98, 0.002 * 65.98);  // t has two digits
-  EXPECT_NEAR(law.b, 37.45, 0.05);
-  EXPECT_GT(std::abs(cloth_of(PorosityKnob::gamma, 0.22, 1.2e-4).b - 37.45), 3);
+  EXPECT_NEAR(law.linear, 65.98, 0.002 * 65.98);  // t has two digits
+  EXPECT_NEAR(law.quadratic, 37.45, 0.05);
+  EXPECT_GT(std::abs(cloth_of(PorosityKnob::gamma, 0.22, 1.2e-4).quadratic - 37.45), 3);
 }
 
 TEST(Porosity, AsPermeabilityIsTheCreepingLawOfTheTester) {
   const PressureDrop law = cloth_of(PorosityKnob::permeability, 3, 0);
   EXPECT_NEAR(cfm(law), 3, 1e-12);
-  EXPECT_EQ(law.b, 0);
-  EXPECT_NEAR(law.a, 8.2e3, 0.05e3);
+  EXPECT_EQ(law.quadratic, 0);
+  EXPECT_NEAR(law.linear, 8.2e3, 0.05e3);
   EXPECT_THROW(cloth_of(PorosityKnob::permeability, 0, 0), Error);
 }
 

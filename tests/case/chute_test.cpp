@@ -36,8 +36,8 @@ bool says(const std::vector<std::string>& list, const std::string& words) {
 
 // Half a gore is pi r / N wide at radius r; its height is that of the polygon's flat sides.
 TEST(Chute, AGoreHasTheOutlineThatOpenchuteCuts) {
-  const Case value = parse_case(imported("elliptical").case_text, "case.toml");
-  const GorePattern pattern = gore_pattern(*value.parachute.canopy.as<ProfileCanopy>(), 10);
+  const Case given = parse_case(imported("elliptical").case_text, "case.toml");
+  const GorePattern pattern = gore_pattern(*given.parachute.canopy.as<ProfileCanopy>(), 10);
   ASSERT_EQ(pattern.strips.size(), 1u);
   const std::vector<Station>& stations = pattern.strips[0].stations;
   const int n = static_cast<int>(stations.size()) - 1;
@@ -61,21 +61,21 @@ TEST(Chute, TheShippedCaseIsWhatTheImportWrites) {
 
 TEST(Chute, DiskAndBandBecomeADiskGapBandOfTheSameSizes) {
   const ChuteImport result = imported("disk-gap-band");
-  const Case value = parse_case(result.case_text, "case.toml");
-  const auto& canopy = *value.parachute.canopy.as<DiskGapBand>();
+  const Case given = parse_case(result.case_text, "case.toml");
+  const auto& canopy = *given.parachute.canopy.as<DiskGapBand>();
   EXPECT_NEAR(canopy.disk_diameter_m, 1.2, 1e-9);
   EXPECT_NEAR(canopy.vent_diameter_m, 0.108, 1e-9);
   EXPECT_NEAR(canopy.gap_height_m, 0.06, 1e-9);
   EXPECT_NEAR(canopy.band_height_m, 0.3, 1e-9);
-  EXPECT_EQ(value.parachute.gores, 12);
-  EXPECT_NEAR(canopy_fabric(value).areal_density_kg_m2, 0.038, 1e-12);
+  EXPECT_EQ(given.parachute.gores, 12);
+  EXPECT_NEAR(canopy_fabric(given).areal_density_kg_m2, 0.038, 1e-12);
 }
 
 TEST(Chute, TwoGoresOfACylinderAreTheStripsOfACross) {
   const ChuteImport result = imported("cross");
-  const Case value = parse_case(result.case_text, "case.toml");
-  EXPECT_NEAR(value.parachute.canopy.as<Cross>()->arm_length_m, 1.2, 1e-8);
-  EXPECT_NEAR(value.parachute.canopy.as<Cross>()->arm_width_m, 0.4, 1e-8);
+  const Case given = parse_case(result.case_text, "case.toml");
+  EXPECT_NEAR(given.parachute.canopy.as<Cross>()->arm_length_m, 1.2, 1e-8);
+  EXPECT_NEAR(given.parachute.canopy.as<Cross>()->arm_width_m, 0.4, 1e-8);
   EXPECT_TRUE(says(result.changed, "gores = 4"));
 }
 
@@ -97,8 +97,8 @@ TEST(Chute, OneConeBecomesAConicalCanopyOfTheSameArea) {
 
 TEST(Chute, SailsKeepTheirFullnessAndSlots) {
   const ChuteImport result = imported("sails");
-  const Case value = parse_case(result.case_text, "case.toml");
-  const auto& canopy = *value.parachute.canopy.as<ProfileCanopy>();
+  const Case given = parse_case(result.case_text, "case.toml");
+  const auto& canopy = *given.parachute.canopy.as<ProfileCanopy>();
   ASSERT_EQ(canopy.pieces.size(), 3u);
   EXPECT_EQ(canopy.pieces[1].leading_fullness, 0.08);
   for (const ProfilePiece& piece : canopy.pieces) EXPECT_FALSE(piece.sewn);
@@ -119,11 +119,11 @@ TEST(Chute, NothingOfTheFileIsSilentlyLeftOut) {
     EXPECT_TRUE(says(result.changed, words)) << words;
   for (const char* words : {"9 lines", "--line-length", "those of F-111", "sewn to it", "flow:"})
     EXPECT_TRUE(says(result.assumed, words)) << words;
-  const Case value = parse_case(result.case_text, "case.toml");
-  EXPECT_EQ(value.title, "Odd \"one\" ");
+  const Case given = parse_case(result.case_text, "case.toml");
+  EXPECT_EQ(given.title, "Odd \"one\" ");
   EXPECT_NE(result.case_text.find("# Instruction: One step"), std::string::npos);
   // From the drawn-in skirt up, though the file has it second and downward.
-  const auto& canopy = *value.parachute.canopy.as<ProfileCanopy>();
+  const auto& canopy = *given.parachute.canopy.as<ProfileCanopy>();
   EXPECT_NEAR(canopy.pieces[0].radius_m.front(), 0.2 + 0.3 * std::cos(0.5), 1e-8);
   EXPECT_NEAR(canopy.pieces[1].radius_m.back(), 0.02, 1e-8);
   EXPECT_FALSE(canopy.vent_lines);
@@ -131,22 +131,22 @@ TEST(Chute, NothingOfTheFileIsSilentlyLeftOut) {
 
 TEST(Chute, TheMeshHasTheClothOfThePattern) {
   for (const char* name : {"elliptical", "disk-gap-band", "cross", "sails", "odd"}) {
-    Case value = parse_case(imported(name).case_text, "case.toml");
-    const CanopyMesh mesh = parachute_mesh(value);
+    Case given = parse_case(imported(name).case_text, "case.toml");
+    const CanopyMesh mesh = parachute_mesh(given);
     double area = 0;
     for (const Patch& patch : mesh.patches)
       area = std::accumulate(patch.cell_area.begin(), patch.cell_area.end(), area);
-    EXPECT_NEAR(area / computed_area(value.parachute), 1, 1e-3) << name;
+    EXPECT_NEAR(area / computed_area(given.parachute), 1, 1e-3) << name;
   }
 }
 
 TEST(Chute, WhatIsAskedForReplacesWhatIsAssumed) {
   const ChuteImport result = imported("odd", {.line_count = 18, .line_length = 2.5, .vent_diameter = 0.1});
-  const Case value = parse_case(result.case_text, "case.toml");
-  EXPECT_EQ(value.parachute.lines.count, 18);
-  EXPECT_EQ(value.parachute.lines.length_m, 2.5);
-  EXPECT_TRUE(value.parachute.canopy.as<ProfileCanopy>()->vent_lines);
-  EXPECT_NEAR(value.parachute.canopy.as<ProfileCanopy>()->pieces[1].radius_m.back(), 0.05, 1e-8);
+  const Case given = parse_case(result.case_text, "case.toml");
+  EXPECT_EQ(given.parachute.lines.count, 18);
+  EXPECT_EQ(given.parachute.lines.length_m, 2.5);
+  EXPECT_TRUE(given.parachute.canopy.as<ProfileCanopy>()->vent_lines);
+  EXPECT_NEAR(given.parachute.canopy.as<ProfileCanopy>()->pieces[1].radius_m.back(), 0.05, 1e-8);
   EXPECT_FALSE(says(result.assumed, "lines of"));
 }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "ripstop/case/case.h"
+#include "ripstop/case/resolve.h"
 
 namespace ripstop {
 namespace {
@@ -12,44 +12,44 @@ namespace {
 const std::filesystem::path examples = std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples";
 
 TEST(Example, StratosIvHasThePrintedAreaAndItsDefaultsAreThePapers) {
-  const Case value = read_case(examples / "stratos-iv" / "case.toml");
-  EXPECT_NEAR(computed_area(value.parachute), 1.7215, 1e-4);  // disk - vent + band
-  EXPECT_EQ(nominal_area(value.parachute), computed_area(value.parachute));
-  EXPECT_EQ(value.parachute.lines.count, 18);
-  EXPECT_EQ(value.parachute.gores, 6);
-  EXPECT_NEAR(line_length_on_disk(value.parachute), 0.455, 1e-12);
-  EXPECT_EQ(value.measured.size(), 5u);
-  EXPECT_EQ(canopy_position(value), 2);
+  const Case given = read_case(examples / "stratos-iv" / "case.toml");
+  EXPECT_NEAR(computed_area(given.parachute), 1.7215, 1e-4);  // disk - vent + band
+  EXPECT_EQ(nominal_area(given.parachute), computed_area(given.parachute));
+  EXPECT_EQ(given.parachute.lines.count, 18);
+  EXPECT_EQ(given.parachute.gores, 6);
+  EXPECT_NEAR(line_length_on_disk(given.parachute), 0.455, 1e-12);
+  EXPECT_EQ(given.measured.size(), 5u);
+  EXPECT_EQ(canopy_position(given), 2);
 }
 
 TEST(Example, WalrusReportsThePrintedAreaBesideItsOwnAndHasNoMeasuredDrag) {
-  const Case value = read_case(examples / "walrus" / "case.toml");
-  EXPECT_NEAR(computed_area(value.parachute), 2.938, 1e-3);
-  EXPECT_EQ(nominal_area(value.parachute), 3.37);
-  for (const Measured& row : value.measured) EXPECT_FALSE(row.drag_n.has_value());
+  const Case given = read_case(examples / "walrus" / "case.toml");
+  EXPECT_NEAR(computed_area(given.parachute), 2.938, 1e-3);
+  EXPECT_EQ(nominal_area(given.parachute), 3.37);
+  for (const Measured& row : given.measured) EXPECT_FALSE(row.drag_n.has_value());
 }
 
 TEST(Example, TheClothReachesItsSpecifiedBreakingLoadAndTheLineAForceOfARealCord) {
-  const Case value = read_case(examples / "walrus" / "case.toml");
-  const Fabric& cloth = canopy_fabric(value);
+  const Case given = read_case(examples / "walrus" / "case.toml");
+  const Fabric& cloth = canopy_fabric(given);
   const double e = cloth.tested_strain;
   EXPECT_NEAR(cloth.coefficients_n_m[0] * e + cloth.coefficients_n_m[1] * e * e, cloth.break_load_n_m,
               0.02 * cloth.break_load_n_m);
-  const Line& line = suspension_line(value);
+  const Line& line = suspension_line(given);
   EXPECT_NEAR(line.coefficients_n[0] * 0.04 + line.coefficients_n[1] * 0.04 * 0.04, 9300, 50);
 }
 
 TEST(Case, TheBasisDecidesWhichSpeedTheAirHas) {
-  Case value = read_case(examples / "stratos-iv" / "case.toml");
-  EXPECT_EQ(air(value).speed, 30);
-  EXPECT_EQ(air(value).density, 1.2);
-  value.flow.speed_basis = SpeedBasis::measured;
-  EXPECT_EQ(air(value).speed, 27.1);
-  apply({.speed = 15}, value);
-  EXPECT_EQ(air(value).speed, 16);
-  EXPECT_EQ(air(value).density, 1.196);
-  ASSERT_NE(measured_row(value), nullptr);
-  EXPECT_EQ(measured_row(value)->drag_n, 100.2);
+  Case given = read_case(examples / "stratos-iv" / "case.toml");
+  EXPECT_EQ(air(given).speed, 30);
+  EXPECT_EQ(air(given).density, 1.2);
+  given.flow.speed_basis = SpeedBasis::measured;
+  EXPECT_EQ(air(given).speed, 27.1);
+  apply({.speed = 15}, given);
+  EXPECT_EQ(air(given).speed, 16);
+  EXPECT_EQ(air(given).density, 1.196);
+  ASSERT_NE(measured_row(given), nullptr);
+  EXPECT_EQ(measured_row(given)->drag_n, 100.2);
 }
 
 }  // namespace

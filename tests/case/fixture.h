@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "ripstop/case/case.h"
+#include "ripstop/case/resolve.h"
 
 namespace ripstop {
 

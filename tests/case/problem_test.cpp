@@ -45,13 +45,13 @@ TEST(Mistakes, AnOptionReplacesAMistakeInTheFile) {
 }
 
 TEST(Mistakes, ARefusedOptionLeavesTheCaseAsItWas) {
-  Case value = parse_case(valid_case, "case.toml");
-  EXPECT_THROW(apply({.speed = -1}, value), InputError);
-  EXPECT_EQ(value.flow.speed_m_s, 20);
-  EXPECT_THROW(apply({.speed = std::nan("")}, value), InputError);
-  apply({.grid = std::array{30, 30, 40}, .linear = true}, value);
-  EXPECT_EQ(value.flow.cells, (std::array{30, 30, 40}));
-  EXPECT_TRUE(value.coupling.linear);
+  Case given = parse_case(valid_case, "case.toml");
+  EXPECT_THROW(apply({.speed = -1}, given), InputError);
+  EXPECT_EQ(given.flow.speed_m_s, 20);
+  EXPECT_THROW(apply({.speed = std::nan("")}, given), InputError);
+  apply({.grid = std::array{30, 30, 40}, .linear = true}, given);
+  EXPECT_EQ(given.flow.cells, (std::array{30, 30, 40}));
+  EXPECT_TRUE(given.coupling.linear);
 }
 
 TEST(Mistakes, AFileThatCannotBeReadHasItsOwnExitCode) {

@@ -39,10 +39,10 @@ std::vector<std::string> all_example_texts() {
 /// case has to survive being written and read again.
 bool is_valid_or_told(const std::string& text) {
   try {
-    const Case value = parse_case(text, "case.toml");
-    const Air wind = air(value);
+    const Case given = parse_case(text, "case.toml");
+    const Air wind = air(given);
     EXPECT_TRUE(wind.speed > 0 && wind.density > 0);
-    const std::string written = case_toml(value);
+    const std::string written = case_toml(given);
     EXPECT_EQ(case_toml(parse_case(written, "written")), written);
     return true;
   } catch (const InputError& error) {
@@ -129,8 +129,8 @@ TEST(AnyDesign, EveryAcceptedParachuteCanBeMeshed) {
   };
   int accepted = 0, told = 0;
   for (int i = 0; i < 80; ++i) {
-    Case value = parse_case(valid_case, "case.toml");
-    Design& design = value.parachute;
+    Case given = parse_case(valid_case, "case.toml");
+    Design& design = given.parachute;
     design.canopy =
         DiskGapBand{between(0.2, 1.9), between(0.005, 0.5), between(0.001, 0.3), between(0.01, 0.5)};
     design.gores = integer(3, 24);
@@ -140,19 +140,19 @@ TEST(AnyDesign, EveryAcceptedParachuteCanBeMeshed) {
     design.mesh.cloth_nodes = integer(500, 6000);
     design.riser.length_m = i % 2 ? 0 : between(0.1, 2);
     try {
-      value = parse_case(case_toml(value), "random");
+      given = parse_case(case_toml(given), "random");
     } catch (const InputError&) {
       ++told;
       continue;
     }
     ++accepted;
-    const CanopyMesh mesh = parachute_mesh(value);
+    const CanopyMesh mesh = parachute_mesh(given);
     double cloth = 0;
     for (const Patch& patch : mesh.patches)
       for (double area : patch.cell_area) cloth += area;
-    EXPECT_NEAR(cloth, computed_area(value.parachute), 0.05 * cloth) << case_toml(value);
-    for (const Spring& spring : mesh.springs) ASSERT_GT(spring.rest_length, 0) << case_toml(value);
-    for (double mass : mesh.mass) ASSERT_GT(mass, 0) << case_toml(value);
+    EXPECT_NEAR(cloth, computed_area(given.parachute), 0.05 * cloth) << case_toml(given);
+    for (const Spring& spring : mesh.springs) ASSERT_GT(spring.rest_length, 0) << case_toml(given);
+    for (double mass : mesh.mass) ASSERT_GT(mass, 0) << case_toml(given);
   }
   EXPECT_GT(accepted, 20);
   EXPECT_GT(told, 10);

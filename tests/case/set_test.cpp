@@ -23,8 +23,8 @@ std::string refusal(const std::string& setting) {
 }
 
 TEST(Set, ReplacesAnyKindOfKey) {
-  EXPECT_DOUBLE_EQ(with("flow.box_m=[2.5, 2, 4]").flow.box_m.x, 2.5);
-  EXPECT_DOUBLE_EQ(with("flow.box_m[1]=2.25").flow.box_m.y, 2.25);
+  EXPECT_DOUBLE_EQ(with("flow.box_m=[2.5, 2, 4]").flow.box_m->x, 2.5);
+  EXPECT_DOUBLE_EQ(with("flow.box_m[1]=2.25").flow.box_m->y, 2.25);
   EXPECT_EQ(with("flow.convection=upwind").flow.convection, Convection::upwind);
   EXPECT_TRUE(with("coupling.linear=true").coupling.linear);
   EXPECT_EQ(with("title=a word or two").title, "a word or two");
@@ -34,9 +34,9 @@ TEST(Set, ReplacesAnyKindOfKey) {
 TEST(Set, OfAMaterialOfTheLibraryLeavesItsOtherValues) {
   const Fabric plain = canopy_fabric(parse_case(valid_case, "small.toml"));
   const Case changed = with("materials." + plain.name + ".darcy=12.5");
-  EXPECT_DOUBLE_EQ(canopy_fabric(changed).darcy, 12.5);
+  EXPECT_DOUBLE_EQ(canopy_fabric(changed).resistance.linear, 12.5);
   EXPECT_EQ(canopy_fabric(changed).coefficients_n_m, plain.coefficients_n_m);
-  EXPECT_DOUBLE_EQ(canopy_fabric(changed).forchheimer, plain.forchheimer);
+  EXPECT_DOUBLE_EQ(canopy_fabric(changed).resistance.quadratic, plain.resistance.quadratic);
 }
 
 TEST(Set, OfAKeyThatDoesNotExistNamesTheNearestAndTheOption) {

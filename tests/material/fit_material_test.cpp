@@ -113,8 +113,8 @@ TEST_F(BenchFile, FlowReadingsGiveTheClothItsPressureDrop) {
             coupons("warp", 3, warp) +
             "[[flow]]\npressure_pa = 100\nvelocity_m_s = 0.2\n[[flow]]\npressure_pa = 240\n"
             "velocity_m_s = 0.4\n[[flow]]\npressure_pa = 420\nvelocity_m_s = 0.6\n"));
-  EXPECT_NEAR(std::get<Fabric>(fit.material).darcy, 400, 1e-6);
-  EXPECT_NEAR(std::get<Fabric>(fit.material).forchheimer, 500, 1e-6);
+  EXPECT_NEAR(std::get<Fabric>(fit.material).resistance.linear, 400, 1e-6);
+  EXPECT_NEAR(std::get<Fabric>(fit.material).resistance.quadratic, 500, 1e-6);
   EXPECT_NEAR(fit.permeability.r2, 1, 1e-9);
 }
 

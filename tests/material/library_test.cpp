@@ -53,14 +53,14 @@ TEST(Library, ClothsLetThroughTheAirOfTheirSpecification) {
   for (const Range& r : {Range{"f-111-physical", 0.5, 5}, Range{"pia-c-44378-type-ii", 30, 50},
                          Range{"pia-c-44378-type-iv", 0.5, 3}, Range{"mil-c-7020-type-i", 80, 120}}) {
     const Fabric cloth = std::get<Fabric>(library_material(r.name));
-    const double flow = cfm({cloth.darcy, cloth.forchheimer});
+    const double flow = cfm(as_sheet(cloth.resistance));
     EXPECT_GE(flow, r.low) << r.name;
     EXPECT_LE(flow, r.high) << r.name;
-    EXPECT_EQ(cloth.porosity_model, PorosityModel::sheet) << r.name;
+    EXPECT_EQ(cloth.resistance.model, PorosityModel::sheet) << r.name;
   }
   const Fabric printed = std::get<Fabric>(library_material("f-111"));
-  EXPECT_EQ(printed.darcy, 65.98);
-  EXPECT_EQ(printed.porosity_model, PorosityModel::paper);
+  EXPECT_EQ(as_cells(printed.resistance).darcy, 65.98);
+  EXPECT_EQ(printed.resistance.model, PorosityModel::paper);
   EXPECT_TRUE(material_warnings(printed, 0.1).empty());
 }
 

@@ -9,8 +9,8 @@ namespace {
 
 TEST(Permeability, ErgunGivesThePrintedTapeColumn) {
   const PressureDrop tape = ergun({0.05, 0.5e-3});  // [NFM] Table 3, gamma printed; thickness: see docs
-  EXPECT_NEAR(tape.a, 1206.7, 0.05);
-  EXPECT_NEAR(tape.b, 2858.33, 0.005);
+  EXPECT_NEAR(tape.linear, 1206.7, 0.05);
+  EXPECT_NEAR(tape.quadratic, 2858.33, 0.005);
 }
 
 TEST(Permeability, ThePrintedCanopyColumnIsGamma0p2121AndATenthOfAMillimetre) {
@@ -18,7 +18,7 @@ TEST(Permeability, ThePrintedCanopyColumnIsGamma0p2121AndATenthOfAMillimetre) {
   EXPECT_NEAR(canopy.porosity, 0.2121, 5e-5);
   EXPECT_NEAR(canopy.thickness, 0.12e-3, 0.002e-3);
   const PressureDrop printed_gamma = ergun({0.22, 0.12e-3});
-  EXPECT_GT(37.45 / printed_gamma.b, 1.1);  // the printed 0.22 is not what the printed b says
+  EXPECT_GT(37.45 / printed_gamma.quadratic, 1.1);  // the printed 0.22 is not what the printed b says
 }
 
 TEST(Permeability, ErgunAndItsInverseUndoEachOther) {
@@ -37,8 +37,8 @@ TEST(Permeability, ThePrintedCanopyAsARealPressureDropLets225CfmThrough) {
 TEST(Permeability, ThreeCfmAtHalfAnInchOfWaterIsALinearResistanceOf8200) {
   const PermeabilityFit fit = fit_permeability({{124.5, 3 * 5.08e-3}});
   EXPECT_TRUE(fit.one_point);
-  EXPECT_NEAR(fit.law.a, 8.2e3, 40);
-  EXPECT_EQ(fit.law.b, 0);
+  EXPECT_NEAR(fit.law.linear, 8.2e3, 40);
+  EXPECT_EQ(fit.law.quadratic, 0);
   EXPECT_NEAR(cfm(fit.law), 3, 1e-12);
 }
 
@@ -47,8 +47,8 @@ TEST(Permeability, PointsOnALawGiveTheLawBack) {
   std::vector<FlowPoint> points;
   for (double v : {0.05, 0.1, 0.3, 0.8, 2.0}) points.push_back({pressure_drop(law, v), v});
   const PermeabilityFit fit = fit_permeability(points);
-  EXPECT_NEAR(fit.law.a / law.a, 1, 1e-10);
-  EXPECT_NEAR(fit.law.b / law.b, 1, 1e-10);
+  EXPECT_NEAR(fit.law.linear / law.linear, 1, 1e-10);
+  EXPECT_NEAR(fit.law.quadratic / law.quadratic, 1, 1e-10);
   EXPECT_NEAR(fit.r2, 1, 1e-12);
   for (const FlowPoint& p : points) EXPECT_NEAR(velocity_at(law, p.pressure) / p.velocity, 1, 1e-12);
 }
@@ -57,8 +57,8 @@ TEST(Permeability, ALawThatWouldPushAirUpstreamIsHeldAtZero) {
   // Pressure that grows slower than the velocity: b would be negative.
   const PermeabilityFit fit = fit_permeability({{100, 0.1}, {150, 0.2}, {180, 0.3}});
   EXPECT_TRUE(fit.on_bound);
-  EXPECT_GE(fit.law.a, 0);
-  EXPECT_EQ(fit.law.b, 0);
+  EXPECT_GE(fit.law.linear, 0);
+  EXPECT_EQ(fit.law.quadratic, 0);
 }
 
 TEST(Permeability, CfmTypedAsMetresASecondIsCaught) {

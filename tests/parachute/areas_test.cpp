@@ -147,16 +147,16 @@ std::vector<Vec3> seam_nodes(const Mesh& mesh, int patch, int row, int gores) {
 // The mesh leaves open what the design says: between the seams of neighbouring edges that no cloth joins, and
 // inside the uppermost edge. Patches follow one another from the skirt to the vent.
 TEST_P(FamilyAreas, TheMeshLeavesTheSameAreaOpen) {
-  Case value = example(GetParam());
-  value.parachute.mesh.sewn_straight = false;  // else seams cut their corners between two nodes of a line
-  if (value.parachute.canopy.as<Cross>()) GTEST_SKIP() << "a cross has no openings in its cloth";
+  Case given = example(GetParam());
+  given.parachute.mesh.sewn_straight = false;  // else seams cut their corners between two nodes of a line
+  if (given.parachute.canopy.as<Cross>()) GTEST_SKIP() << "a cross has no openings in its cloth";
   // Round rings of a disk-gap-band are polygons with as many sides as columns, other canopies with their
   // gores.
-  const bool round = value.parachute.canopy.as<DiskGapBand>();
-  const CanopyMesh mesh = parachute_mesh(value);
+  const bool round = given.parachute.canopy.as<DiskGapBand>();
+  const CanopyMesh mesh = parachute_mesh(given);
   double open = 0;
   for (std::size_t i = 0; i < mesh.patches.size(); ++i) {
-    const int patch = static_cast<int>(i), sides = round ? mesh.patches[i].columns : value.parachute.gores;
+    const int patch = static_cast<int>(i), sides = round ? mesh.patches[i].columns : given.parachute.gores;
     const std::vector<Vec3> upper = seam_nodes(mesh, patch, mesh.patches[i].rows - 1, sides);
     if (i + 1 == mesh.patches.size()) {
       open += polygon(upper);
@@ -170,7 +170,7 @@ TEST_P(FamilyAreas, TheMeshLeavesTheSameAreaOpen) {
       open += norm(area_vector(from[k], from[next], to[next], to[k]));
     }
   }
-  const CanopyFacts canopy = facts(value.parachute);
+  const CanopyFacts canopy = facts(given.parachute);
   EXPECT_NEAR(open / (canopy.vent_area + canopy.slot_area), 1, 2e-3);
 }
 

@@ -19,19 +19,19 @@ class CutTest : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(All, CutTest, testing::ValuesIn(family_examples()), name_of_example);
 
 TEST_P(CutTest, ThePiecesMakeUpTheCloth) {
-  const Case value = example(GetParam());
+  const Case given = example(GetParam());
   double area = 0;
-  for (const Piece& piece : cut_pattern(value.parachute).pieces) {
+  for (const Piece& piece : cut_pattern(given.parachute).pieces) {
     EXPECT_EQ(piece.outline.size(), piece.edges.size());
     EXPECT_GT(polygon_area(piece.outline), 0);
     area += piece.count * polygon_area(piece.outline);
   }
-  EXPECT_NEAR(area / computed_area(value.parachute), 1, 1e-3);
+  EXPECT_NEAR(area / computed_area(given.parachute), 1, 1e-3);
 }
 
 TEST_P(CutTest, AllowancesLieOutsideByTheirWidth) {
-  const Case value = example(GetParam());
-  for (const Piece& piece : cut_pattern(value.parachute).pieces) {
+  const Case given = example(GetParam());
+  for (const Piece& piece : cut_pattern(given.parachute).pieces) {
     const Allowances allowances{.seam = 0.002, .hem = 0.003};
     const std::vector<Point2> cut = with_allowance(piece, allowances);
     double strip = 0;
@@ -49,45 +49,45 @@ TEST_P(CutTest, AllowancesLieOutsideByTheirWidth) {
 }
 
 TEST_P(CutTest, TapesAndLinesAreAsLongAsInTheMesh) {
-  const Case value = example(GetParam());
-  const CanopyMesh mesh = parachute_mesh(value);
+  const Case given = example(GetParam());
+  const CanopyMesh mesh = parachute_mesh(given);
   double tape_mesh = 0, line_mesh = 0;
   for (const int spring : mesh.rigging.tape_springs) tape_mesh += mesh.springs[spring].rest_length;
   for (const LineRun& line : mesh.rigging.lines)
     for (const int spring : line.springs) line_mesh += mesh.springs[spring].rest_length;
-  const CutPattern pattern = cut_pattern(value.parachute);
+  const CutPattern pattern = cut_pattern(given.parachute);
   double tape = 0;
   for (const CutLength& part : pattern.tapes) tape += part.count * part.length;
   // Tapes along arcs are chords in the mesh; vertical tapes are a little shorter than a gore's seam.
   EXPECT_NEAR(tape_mesh / tape, 1, 0.02);
-  const LineSet& lines = value.parachute.lines;
+  const LineSet& lines = given.parachute.lines;
   EXPECT_NEAR(line_mesh / (lines.count * (lines.length_m + pattern.line_on_canopy)), 1, 1e-3);
 }
 
 TEST_P(CutTest, TheBillWithoutAllowancesWeighsWhatTheMeshWeighs) {
-  const Case value = example(GetParam());
-  const Bill bill = bill_of(cut_pattern(value.parachute), value.parachute, part_materials(value),
+  const Case given = example(GetParam());
+  const Bill bill = bill_of(cut_pattern(given.parachute), given.parachute, part_materials(given),
                             {.seam = 0, .hem = 0, .line_loop = 0, .tape_overlap = 0}, 400);
-  const CanopyMesh mesh = parachute_mesh(value);
+  const CanopyMesh mesh = parachute_mesh(given);
   const double mass = std::accumulate(mesh.mass.begin(), mesh.mass.end(), 0.0);
   EXPECT_NEAR(bill.mass / mass, 1, 0.005);
   EXPECT_NEAR(bill.packed_volume * 400, bill.mass, 1e-12);
-  const Bill cut = bill_of(cut_pattern(value.parachute), value.parachute, part_materials(value), {}, 400);
+  const Bill cut = bill_of(cut_pattern(given.parachute), given.parachute, part_materials(given), {}, 400);
   EXPECT_GT(cut.mass, bill.mass);
 }
 
 TEST(CutPattern, ThePiecesGrainIsThatOfTheCut) {
-  Case value = example("adept");
+  Case given = example("adept");
   for (const auto& [cut, grain] : {std::pair{FabricCut::block, 0.0}, std::pair{FabricCut::across, 90.0},
                                    std::pair{FabricCut::bias, 45.0}}) {
-    value.parachute.cut = cut;
-    for (const Piece& piece : cut_pattern(value.parachute).pieces) EXPECT_EQ(piece.grain, grain);
+    given.parachute.cut = cut;
+    for (const Piece& piece : cut_pattern(given.parachute).pieces) EXPECT_EQ(piece.grain, grain);
   }
 }
 
 TEST(CutPattern, AFlatCircularGoreIsATrapezoidWithTheAngleOfItsGore) {
-  const Case value = example("flat-circular");
-  const CutPattern pattern = cut_pattern(value.parachute);
+  const Case given = example("flat-circular");
+  const CutPattern pattern = cut_pattern(given.parachute);
   ASSERT_EQ(pattern.pieces.size(), 1u);
   ASSERT_EQ(pattern.pieces[0].outline.size(), 4u);
   const Point2 lower = pattern.pieces[0].outline[1], upper = pattern.pieces[0].outline[2];

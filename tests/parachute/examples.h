@@ -26,9 +26,9 @@ inline std::string name_of_example(const testing::TestParamInfo<std::string>& ex
 }
 
 inline Case example(const std::string& name, int cloth_nodes = 0) {
-  Case value = read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples" / name / "case.toml");
-  if (cloth_nodes > 0) value.parachute.mesh.cloth_nodes = cloth_nodes;
-  return value;
+  Case given = read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples" / name / "case.toml");
+  if (cloth_nodes > 0) given.parachute.mesh.cloth_nodes = cloth_nodes;
+  return given;
 }
 
 }  // namespace ripstop

@@ -23,9 +23,9 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-CanopyMesh mesh_of(const Case& value) {
-  CanopyMesh mesh = parachute_mesh(value);
-  for (Vec3& p : mesh.start) p.z -= canopy_position(value);
+CanopyMesh mesh_of(const Case& given) {
+  CanopyMesh mesh = parachute_mesh(given);
+  for (Vec3& p : mesh.start) p.z -= canopy_position(given);
   return mesh;
 }
 
@@ -52,38 +52,38 @@ INSTANTIATE_TEST_SUITE_P(All, Family, testing::ValuesIn(family_examples()), name
 
 TEST_P(Family, TheClothIsThePatternsWithinATenthOfAPercent) {
   for (const int nodes : {3000, 0}) {
-    const Case value = example(GetParam(), nodes);
-    const CanopyMesh mesh = mesh_of(value);
-    EXPECT_NEAR(cloth_area(mesh) / computed_area(value.parachute), 1, 1e-3);
+    const Case given = example(GetParam(), nodes);
+    const CanopyMesh mesh = mesh_of(given);
+    EXPECT_NEAR(cloth_area(mesh) / computed_area(given.parachute), 1, 1e-3);
     int count = 0;
     for (const Patch& patch : mesh.patches) count += patch.rows * patch.columns;
-    EXPECT_NEAR(count / double(value.parachute.mesh.cloth_nodes), 1, 0.05);
+    EXPECT_NEAR(count / double(given.parachute.mesh.cloth_nodes), 1, 0.05);
   }
 }
 
 TEST_P(Family, ClothAndTapeAndLinesHaveTheirMassAndNothingElseHas) {
-  const Case value = example(GetParam(), 4000);
-  const CanopyMesh mesh = mesh_of(value);
-  double expected = cloth_area(mesh) * canopy_fabric(value).areal_density_kg_m2;
+  const Case given = example(GetParam(), 4000);
+  const CanopyMesh mesh = mesh_of(given);
+  double expected = cloth_area(mesh) * canopy_fabric(given).areal_density_kg_m2;
   for (const int spring : mesh.rigging.tape_springs)
-    expected += mesh.springs[spring].rest_length * reinforcement_tape(value).linear_density_kg_m;
+    expected += mesh.springs[spring].rest_length * reinforcement_tape(given).linear_density_kg_m;
   for (const LineRun& line : mesh.rigging.lines)
     for (const int spring : line.springs)
-      expected += mesh.springs[spring].rest_length * suspension_line(value).linear_density_kg_m;
+      expected += mesh.springs[spring].rest_length * suspension_line(given).linear_density_kg_m;
   for (const int spring : mesh.rigging.vent_line_springs)
-    expected += mesh.springs[spring].rest_length * suspension_line(value).linear_density_kg_m;
+    expected += mesh.springs[spring].rest_length * suspension_line(given).linear_density_kg_m;
   EXPECT_NEAR(std::accumulate(mesh.mass.begin(), mesh.mass.end(), 0.0) / expected, 1, 1e-9);
   for (const LineRun& line : mesh.rigging.lines) {
     double length = 0;
     for (int i = 0; i < line.free_springs; ++i) length += mesh.springs[line.springs[i]].rest_length;
-    EXPECT_NEAR(length, value.parachute.lines.length_m, 1e-9);
+    EXPECT_NEAR(length, given.parachute.lines.length_m, 1e-9);
   }
 }
 
 // The quads face outward: every one sees the confluence from its inside.
 TEST_P(Family, TheClothFacesFromTheInsideToTheOutside) {
-  const Case value = example(GetParam(), 4000);
-  const CanopyMesh mesh = mesh_of(value);
+  const Case given = example(GetParam(), 4000);
+  const CanopyMesh mesh = mesh_of(given);
   const Vec3 confluence = mesh.start[mesh.rigging.confluence];
   for (const Cell& cell : cells_of(mesh)) {
     if (cell.corner[0] < 0) continue;
@@ -121,9 +121,9 @@ void expect_symmetric(const Mesh& mesh, const std::vector<Vec3>& x, double toler
 }
 
 TEST_P(Family, TheMeshHasTheSymmetryOfItsGores) {
-  const Case value = example(GetParam(), 2500);
-  const CanopyMesh mesh = mesh_of(value);
-  const double c = std::cos(2 * pi / value.parachute.gores), s = std::sin(2 * pi / value.parachute.gores);
+  const Case given = example(GetParam(), 2500);
+  const CanopyMesh mesh = mesh_of(given);
+  const double c = std::cos(2 * pi / given.parachute.gores), s = std::sin(2 * pi / given.parachute.gores);
   expect_symmetric(mesh, mesh.start, 1e-9, [&](Vec3 p) {
     return Vec3{c * p.x - s * p.y, s * p.x + c * p.y, p.z};
   });
@@ -132,10 +132,10 @@ TEST_P(Family, TheMeshHasTheSymmetryOfItsGores) {
 
 // Cut on the bias: the same cloth on nearly square cells, whose mesh is as symmetric as the other.
 TEST_P(Family, OnTheBiasTheCellsAreNearlySquareAndTheClothIsTheSame) {
-  Case value = example(GetParam(), GetParam() == "stratos-iv" ? 0 : 11200);
-  value.parachute.cut = FabricCut::bias;
-  const CanopyMesh mesh = mesh_of(value);
-  EXPECT_NEAR(cloth_area(mesh) / computed_area(value.parachute), 1, 1e-3);
+  Case given = example(GetParam(), GetParam() == "stratos-iv" ? 0 : 11200);
+  given.parachute.cut = FabricCut::bias;
+  const CanopyMesh mesh = mesh_of(given);
+  EXPECT_NEAR(cloth_area(mesh) / computed_area(given.parachute), 1, 1e-3);
   int count = 0, cells = 0, oblong = 0;
   for (const Patch& patch : mesh.patches) {
     count += patch.rows * patch.columns;
@@ -148,8 +148,8 @@ TEST_P(Family, OnTheBiasTheCellsAreNearlySquareAndTheClothIsTheSame) {
       EXPECT_EQ(*std::max_element(patch.width[d].begin(), patch.width[d].end()), 0);
   }
   EXPECT_LT(oblong, 0.05 * cells);
-  EXPECT_NEAR(count / double(value.parachute.mesh.cloth_nodes), 1, 0.25);
-  const double c = std::cos(2 * pi / value.parachute.gores), s = std::sin(2 * pi / value.parachute.gores);
+  EXPECT_NEAR(count / double(given.parachute.mesh.cloth_nodes), 1, 0.25);
+  const double c = std::cos(2 * pi / given.parachute.gores), s = std::sin(2 * pi / given.parachute.gores);
   expect_symmetric(mesh, mesh.start, 1e-9, [&](Vec3 p) {
     return Vec3{c * p.x - s * p.y, s * p.x + c * p.y, p.z};
   });
@@ -160,13 +160,13 @@ TEST_P(Family, OnTheBiasTheCellsAreNearlySquareAndTheClothIsTheSame) {
 // Warp and weft unlike: cut across, the rows of the mesh are the warp; on the bias its diagonals are the
 // yarns.
 TEST_P(Family, TheYarnsLieAsTheClothIsCut) {
-  Case value = example(GetParam(), 2500);
-  PartMaterials materials = part_materials(value);
+  Case given = example(GetParam(), 2500);
+  PartMaterials materials = part_materials(given);
   materials.canopy.weft_coefficients_n_m = {18000, 5000};
   materials.canopy.tested_strain = 0.2;
   const auto laws = [&](FabricCut cut) {
-    value.parachute.cut = cut;
-    return build_mesh(value.parachute, materials).patches.back();
+    given.parachute.cut = cut;
+    return build_mesh(given.parachute, materials).patches.back();
   };
   const Patch block = laws(FabricCut::block), across = laws(FabricCut::across), bias = laws(FabricCut::bias);
   const auto stiffness = [](const Patch& patch, Direction d) { return patch.law[d].tangent(0); };
@@ -204,8 +204,8 @@ TEST_P(Family, EveryTiedNodeLiesWhereItsMastersHaveIt) {
 TEST_P(Family, TheStartShapeIsThePatternFolded) {
   const std::string& name = GetParam();
   if (name == "adept") GTEST_SKIP() << "its sails are fuller than the chords between their radials";
-  const Case value = example(name);
-  const CanopyMesh mesh = mesh_of(value);
+  const Case given = example(name);
+  const CanopyMesh mesh = mesh_of(given);
   double worst = 0, sum = 0;
   int count = 0;
   for (const Patch& patch : mesh.patches) {
@@ -241,10 +241,10 @@ TEST_P(Family, TheStableStepIsThatOfSpringsNearTheMeanSpacing) {
 // S0 = pi/4 D0^2 = cloth + vent + slots, by each type's own definition. The vent has the area of the circle.
 TEST(FlatCircular, ClothAndVentMakeUpTheNominalArea) {
   for (const char* name : {"flat-circular", "conical"}) {
-    const Case value = example(name);
+    const Case given = example(name);
     const double cone = std::string(name) == "conical" ? std::cos(pi / 6) : 1;
-    EXPECT_NEAR(nominal_area(value.parachute), pi / 4, 1e-12);
-    EXPECT_NEAR(computed_area(value.parachute) + pi / 4 * 0.1 * 0.1 / cone, pi / 4, 1e-9) << name;
+    EXPECT_NEAR(nominal_area(given.parachute), pi / 4, 1e-12);
+    EXPECT_NEAR(computed_area(given.parachute) + pi / 4 * 0.1 * 0.1 / cone, pi / 4, 1e-9) << name;
   }
 }
 
@@ -258,7 +258,7 @@ TEST(Spherical, AHemisphereHasTwiceTheAreaOfItsMouthAndAQuarterSphereHalfOfThat)
 }
 
 TEST(Ringslot, SlotsAndVentAreWhatTheClothLeavesOfTheNominalArea) {
-  const Case value = example("ringslot");
+  const Case given = example("ringslot");
   // Slots of 13 mm between six rings, on the round canopy: annuli.
   double open = pi / 4 * 0.1 * 0.1;
   const double ring = (0.45 - 5 * 0.013) / 6;
@@ -266,7 +266,7 @@ TEST(Ringslot, SlotsAndVentAreWhatTheClothLeavesOfTheNominalArea) {
     const double outer = 0.5 - (i + 1) * ring - i * 0.013;
     open += pi * (outer * outer - (outer - 0.013) * (outer - 0.013));
   }
-  EXPECT_NEAR(computed_area(value.parachute), pi / 4 - open, 1e-6);
+  EXPECT_NEAR(computed_area(given.parachute), pi / 4 - open, 1e-6);
 }
 
 TEST(Ringsail, TheClassicLayoutOfSevenRowsIsEwings) {
@@ -283,26 +283,26 @@ TEST(Ringsail, TheClassicLayoutOfSevenRowsIsEwings) {
 }
 
 TEST(Ringsail, WithoutInnerHemsTapeLiesAlongSkirtVentAndSeamsOnly) {
-  Case value = example("adept", 4000);
-  value.parachute.tape.inner_hems = false;
-  const CanopyMesh mesh = mesh_of(value);
+  Case given = example("adept", 4000);
+  given.parachute.tape.inner_hems = false;
+  const CanopyMesh mesh = mesh_of(given);
   double taped = 0;
   for (const Spring& spring : mesh.springs)
     if (mesh.parts[spring.part] == "hem tape") taped += spring.rest_length;
-  const GorePattern pattern = gore_pattern(*value.parachute.canopy.as<Ringsail>(), 8);
+  const GorePattern pattern = gore_pattern(*given.parachute.canopy.as<Ringsail>(), 8);
   const double edges =
       8 * (pattern.strips.front().stations.front().width + pattern.strips.back().stations.back().width);
   EXPECT_NEAR(taped, edges, 1e-9);
-  const CutPattern cut = cut_pattern(value.parachute);
+  const CutPattern cut = cut_pattern(given.parachute);
   ASSERT_EQ(cut.tapes.size(), 3u);  // skirt, vent, seams
   EXPECT_NEAR(cut.tapes[0].length + cut.tapes[1].length, edges, 1e-12);
 }
 
 TEST(Ringsail, AdeptHasSeventyTwoSailsOnAboutElevenThousandNodes) {
-  const Case value = example("adept");
-  const GorePattern pattern = gore_pattern(*value.parachute.canopy.as<Ringsail>(), value.parachute.gores);
+  const Case given = example("adept");
+  const GorePattern pattern = gore_pattern(*given.parachute.canopy.as<Ringsail>(), given.parachute.gores);
   EXPECT_EQ(pattern.strips.size() * pattern.gores, 72u);
-  EXPECT_NEAR(nominal_area(value.parachute), pi / 4, 1e-12);
+  EXPECT_NEAR(nominal_area(given.parachute), pi / 4, 1e-12);
   // Without its fullness the cloth is the cap of 60 degrees but for the vent and two slots of 3 degrees.
   const double radius = 0.5;
   double covered = 0, with_fullness = 0;
@@ -318,7 +318,7 @@ TEST(Ringsail, AdeptHasSeventyTwoSailsOnAboutElevenThousandNodes) {
   const double upper = vent + 0.5 * row, lower = upper + 3 * degree + row;
   const double open = cap(vent) + cap(upper + 3 * degree) - cap(upper) + cap(lower + 3 * degree) - cap(lower);
   EXPECT_NEAR(covered, pi / 4 - open, 1e-4);
-  EXPECT_NEAR(computed_area(value.parachute), with_fullness, 1e-12);
+  EXPECT_NEAR(computed_area(given.parachute), with_fullness, 1e-12);
 }
 
 }  // namespace

@@ -33,8 +33,8 @@ bool falls_into_folds(const std::string& name) {
 }
 
 TEST_P(InflatedShape, HasTheDiameterOfItsTypeAndTheSymmetryOfItsLines) {
-  const Case value = example(GetParam(), 3000);
-  const CanopyMesh mesh = parachute_mesh(value);
+  const Case given = example(GetParam(), 3000);
+  const CanopyMesh mesh = parachute_mesh(given);
   const ClothPtr cloth = make_cloth(mesh);
   ClothState state = start_state(*cloth);
   const Loads loads{std::vector<double>(mesh.cell_count(), 240.0), {}};
@@ -45,9 +45,9 @@ TEST_P(InflatedShape, HasTheDiameterOfItsTypeAndTheSymmetryOfItsLines) {
   ASSERT_TRUE(result.converged) << result.residual;
   const std::vector<Vec3> x = positions(state, *cloth);
 
-  const double nominal_diameter = std::sqrt(4 / std::numbers::pi * nominal_area(value.parachute));
+  const double nominal_diameter = std::sqrt(4 / std::numbers::pi * nominal_area(given.parachute));
   const double ratio = canopy_size(mesh, x).projected_diameter / nominal_diameter;
-  const KnownRange band = band_of(value.parachute);
+  const KnownRange band = band_of(given.parachute);
   EXPECT_GE(ratio, band.low);
   EXPECT_LE(ratio, band.high);
   RecordProperty("projected_over_nominal_diameter", std::to_string(ratio));
@@ -57,13 +57,13 @@ TEST_P(InflatedShape, HasTheDiameterOfItsTypeAndTheSymmetryOfItsLines) {
 
   // The ends of lines that are cut alike stand at equal radii and carry equal loads. Where surplus cloth
   // falls into folds, which way each goes is undecided: folds differ, pull sideways and shift the loads.
-  const int alike = value.parachute.gores;
+  const int alike = given.parachute.gores;
   const bool folds = falls_into_folds(GetParam());
-  const int apart = value.parachute.lines.count / alike;
+  const int apart = given.parachute.lines.count / alike;
   const std::vector<double> tension = spring_tensions(*cloth, state);
   for (int first = 0; first < apart; ++first) {
     double least = 1e300, most = 0, least_tension = 1e300, most_tension = 0;
-    for (int k = first; k < value.parachute.lines.count; k += apart) {
+    for (int k = first; k < given.parachute.lines.count; k += apart) {
       const LineRun& line = mesh.rigging.lines[k];
       const Vec3 end = x[mesh.springs[line.springs[line.free_springs - 1]].b];
       const double radius = std::hypot(end.x, end.y), pull = tension[line.springs[2]];
@@ -77,8 +77,8 @@ TEST_P(InflatedShape, HasTheDiameterOfItsTypeAndTheSymmetryOfItsLines) {
   }
 }
 
-double inflated_diameter(const Case& value) {
-  const CanopyMesh mesh = parachute_mesh(value);
+double inflated_diameter(const Case& given) {
+  const CanopyMesh mesh = parachute_mesh(given);
   const ClothPtr cloth = make_cloth(mesh);
   ClothState state = start_state(*cloth);
   ThreadTeam team(1);
@@ -92,12 +92,12 @@ double inflated_diameter(const Case& value) {
 // The other families' numbers need minutes: docs/guide/canopies.md has their table and its command.
 TEST(Resolution, FourTimesTheNodesThatResolveACanopyMoveItsDiameterByLessThanAPercent) {
   for (const char* name : {"stratos-iv", "adept"}) {
-    Case value = example(name);
+    Case given = example(name);
     const auto diameter = [&](int nodes) {
-      value.parachute.mesh.cloth_nodes = nodes;
-      return inflated_diameter(value);
+      given.parachute.mesh.cloth_nodes = nodes;
+      return inflated_diameter(given);
     };
-    const int enough = experience(value.parachute).cloth_nodes;
+    const int enough = experience(given.parachute).cloth_nodes;
     EXPECT_NEAR(diameter(enough) / diameter(4 * enough), 1, 0.01) << name;
   }
 }
@@ -106,10 +106,10 @@ TEST(Resolution, FourTimesTheNodesThatResolveACanopyMoveItsDiameterByLessThanAPe
 // alone, and pulled on the bias they lengthen and neck.
 TEST(Cut, OnTheBiasAConeKeepsItsDiameterAndACrossBecomesNarrower) {
   const auto bias_over_block = [](const char* name) {
-    Case value = example(name, 6000);  // coarser meshes resolve neither
-    const double block = inflated_diameter(value);
-    value.parachute.cut = FabricCut::bias;
-    return inflated_diameter(value) / block;
+    Case given = example(name, 6000);  // coarser meshes resolve neither
+    const double block = inflated_diameter(given);
+    given.parachute.cut = FabricCut::bias;
+    return inflated_diameter(given) / block;
   };
   EXPECT_NEAR(bias_over_block("conical"), 1, 0.02);
   const double cross = bias_over_block("cross");

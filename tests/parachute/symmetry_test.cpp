@@ -94,12 +94,12 @@ double asymmetry(const Symmetry& symmetry, const std::vector<Vec3>& x) {
 
 struct Canopy {
   explicit Canopy(const char* example) {
-    value = read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples" / example / "case.toml");
-    value.parachute.mesh.cloth_nodes = 3000;
+    given = read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples" / example / "case.toml");
+    given.parachute.mesh.cloth_nodes = 3000;
     // Rounding depends on the place along the axis: at 2.8 m relaxing the conical canopy makes 3e-11 m of it.
-    value.flow.canopy_position_m = 2;
-    mesh = parachute_mesh(value);
-    symmetry = symmetry_of(mesh, value.parachute.gores);
+    given.flow.canopy_position_m = 2;
+    mesh = parachute_mesh(given);
+    symmetry = symmetry_of(mesh, given.parachute.gores);
     cloth = make_cloth(mesh);
     state = start_state(*cloth);
   }
@@ -113,7 +113,7 @@ struct Canopy {
   }
   std::vector<Vec3> shape() const { return positions(state, *cloth); }
 
-  Case value;
+  Case given;
   CanopyMesh mesh;
   Symmetry symmetry;
   ClothPtr cloth;

@@ -19,23 +19,23 @@ namespace {
 namespace fs = std::filesystem;
 
 Case small_case() {
-  Case value;
-  value.title = "A canopy made in code";
+  Case given;
+  given.title = "A canopy made in code";
   FlatCircular canopy;
   canopy.nominal_diameter_m = 1;
   canopy.vent_diameter_m = 0.1;
-  value.parachute.canopy = canopy;
-  value.parachute.canopy_material = "f-111";
-  value.parachute.gores = 12;
-  value.parachute.lines.count = 12;
-  value.parachute.lines.length_m = 1;
-  value.parachute.mesh.cloth_nodes = 1000;
-  value.flow.speed_m_s = 20;
-  value.flow.density_kg_m3 = 1.2;
-  value.flow.cells = {20, 20, 30};
-  value.coupling.threads = 2;
-  apply({}, value);
-  return value;
+  given.parachute.canopy = canopy;
+  given.parachute.canopy_material = "f-111";
+  given.parachute.gores = 12;
+  given.parachute.lines.count = 12;
+  given.parachute.lines.length_m = 1;
+  given.parachute.mesh.cloth_nodes = 1000;
+  given.flow.speed_m_s = 20;
+  given.flow.density_kg_m3 = 1.2;
+  given.flow.cells = {20, 20, 30};
+  given.coupling.threads = 2;
+  apply({}, given);
+  return given;
 }
 
 /// An empty folder that is the working folder meanwhile: what a test writes, it would write there.
@@ -75,9 +75,9 @@ struct Watch : SteadyObserver {
 };
 
 TEST_F(InMemory, ACaseMadeInCodeIsSolvedSteadyAndItsObserverSeesEveryIteration) {
-  const Case value = small_case();
+  const Case given = small_case();
   Watch watch;
-  const SteadySolution solution = run_steady(value, watch);
+  const SteadySolution solution = run_steady(given, watch);
   EXPECT_TRUE(solution.result.converged);
   EXPECT_EQ(watch.begun, 1);
   EXPECT_EQ(watch.ended_with_iterations, solution.result.iterations);
@@ -90,10 +90,10 @@ TEST_F(InMemory, ACaseMadeInCodeIsSolvedSteadyAndItsObserverSeesEveryIteration) 
   // The same in a folder, to the last digit.
   const TemporaryFolder folder("steady-folder");
   SteadyObserver quiet;
-  const SteadyFolderRun stored = run_steady_in({{folder.path}, 0, {}, {}}, value, quiet);
+  const SteadyFolderRun stored = run_steady_in({{folder.path}, 0, {}, {}}, given, quiet);
   EXPECT_EQ(stored.result.drag, solution.result.drag);
   EXPECT_EQ(final_state(folder.path).shape, solution.state.shape);
-  const SteadyFolderRun again = run_steady_in({{folder.path}, 0, {}, {}}, value, quiet);
+  const SteadyFolderRun again = run_steady_in({{folder.path}, 0, {}, {}}, given, quiet);
   EXPECT_TRUE(again.already_finished);
   EXPECT_EQ(to_json(again.result), read_file(folder.path / "result.json"));
 }
@@ -110,12 +110,12 @@ TEST_F(InMemory, UnderAPressureTheLinesCarryTheClothsLoad) {
 }
 
 TEST_F(InMemory, ASweepStartsFromItsNeighboursAndItsModelsAreCompared) {
-  const Case value = small_case();
-  const SweepAxis axis = linear_models(value);
+  const Case given = small_case();
+  const SweepAxis axis = linear_models(given);
   std::vector<SweepPoint> points;
   for (std::size_t i = 0; i < axis.values.size(); ++i)
-    points.push_back({{axis.values[i]}, value, "", i == 0 ? -1 : 0});
-  for (std::size_t i = 1; i < points.size(); ++i) points[i].value.coupling.linear = true;
+    points.push_back({{axis.values[i]}, given, "", i == 0 ? -1 : 0});
+  for (std::size_t i = 1; i < points.size(); ++i) points[i].given.coupling.linear = true;
   const std::vector<SweepRow> rows = run_sweep(points, {});
   for (const SweepRow& row : rows) {
     ASSERT_TRUE(row.done) << row.error;

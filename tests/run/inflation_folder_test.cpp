@@ -20,25 +20,25 @@ namespace fs = std::filesystem;
 class InflationFolderTest : public ::testing::Test {
  protected:
   fs::path root = fs::temp_directory_path() / ("ripstop-opening-" + std::to_string(getpid()));
-  Case value = read_case(fs::path(RIPSTOP_SOURCE_DIR) / "examples" / "stratos-iv" / "case.toml");
+  Case given = read_case(fs::path(RIPSTOP_SOURCE_DIR) / "examples" / "stratos-iv" / "case.toml");
 
   void SetUp() override {
-    value.parachute.mesh.cloth_nodes = 1500;
-    value.parachute.lines.count = 6;
-    value.parachute.mesh.folds = 6;
-    value.parachute.mesh.line_segment_m = 0.15;
-    value.inflation.initial_radius_m = 0.2;
-    value.inflation.duration_s = 8e-3;
-    value.inflation.frames = 8;
-    value.inflation.sheet_s = {0, 0.004};
+    given.parachute.mesh.cloth_nodes = 1500;
+    given.parachute.lines.count = 6;
+    given.parachute.mesh.folds = 6;
+    given.parachute.mesh.line_segment_m = 0.15;
+    given.inflation.initial_radius_m = 0.2;
+    given.inflation.duration_s = 8e-3;
+    given.inflation.frames = 8;
+    given.inflation.sheet_s = {0, 0.004};
   }
   void TearDown() override { fs::remove_all(root); }
 
-  InflationProblem problem() const { return {parachute_mesh(value), value.inflation, 500, false, 2, 6}; }
+  InflationProblem problem() const { return {parachute_mesh(given), given.inflation, 500, false, 2, 6}; }
   std::optional<InflationResult> open(const char* name, InflationObserver& observer,
                                       bool fresh = false) const {
     return run_inflation_in(
-        {{root / name, fresh}, 2, 0}, value, {"given", {}}, [&] { return problem(); }, observer);
+        {{root / name, fresh}, 2, 0}, given, {"given", {}}, [&] { return problem(); }, observer);
   }
 };
 
@@ -93,7 +93,7 @@ TEST_F(InflationFolderTest, InMemoryTheOpeningIsThatOfTheFolder) {
   const auto in_folder = open("run", quiet);
   ASSERT_TRUE(in_folder);
   EXPECT_FALSE(open("run", quiet));  // finished: only shown
-  const InflationSolution in_memory = run_inflation(value, {"given", {}}, problem(), quiet);
+  const InflationSolution in_memory = run_inflation(given, {"given", {}}, problem(), quiet);
   EXPECT_EQ(to_json(in_memory.result), to_json(*in_folder));
   EXPECT_EQ(read_file(root / "run" / "result.json"), to_json(*in_folder));
 }
@@ -107,7 +107,7 @@ TEST_F(InflationFolderTest, ADamagedCheckpointIsNoticedAndOtherInputsAreRefused)
   write_file(root / "run" / "checkpoint", bytes);
   InflationObserver quiet;
   EXPECT_THROW(open("run", quiet), Error);
-  value.inflation.damping_n_s_m3 = 9;
+  given.inflation.damping_n_s_m3 = 9;
   EXPECT_THROW(open("run", quiet), Error);
   EXPECT_TRUE(open("run", quiet, true));
 }

@@ -18,12 +18,12 @@ namespace {
 namespace fs = std::filesystem;
 
 SteadyProblem small_problem(CanopyLoad load = CanopyLoad::uniform) {
-  Case value = read_case(fs::path(RIPSTOP_SOURCE_DIR) / "examples/stratos-iv/case.toml");
-  value.parachute.mesh.cloth_nodes = 800;
-  value.flow.cells = {20, 20, 30};
-  value.coupling.load = load;
-  value.coupling.threads = 1;
-  return steady_problem(value);
+  Case given = read_case(fs::path(RIPSTOP_SOURCE_DIR) / "examples/stratos-iv/case.toml");
+  given.parachute.mesh.cloth_nodes = 800;
+  given.flow.cells = {20, 20, 30};
+  given.coupling.load = load;
+  given.coupling.threads = 1;
+  return steady_problem(given);
 }
 
 struct Folder {

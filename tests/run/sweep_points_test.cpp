@@ -27,11 +27,12 @@ TEST(SweepPoints, AreEveryCombinationEachOneStepFromItsNeighbour) {
       continue;
     }
     const SweepPoint& neighbour = points[point.start];
-    const double step =
-        std::abs(point.value.flow.speed_m_s - neighbour.value.flow.speed_m_s) / 5 +
-        std::abs(canopy_fabric(point.value).darcy - canopy_fabric(neighbour.value).darcy) / 10;
+    const double step = std::abs(point.given.flow.speed_m_s - neighbour.given.flow.speed_m_s) / 5 +
+                        std::abs(canopy_fabric(point.given).resistance.linear -
+                                 canopy_fabric(neighbour.given).resistance.linear) /
+                            10;
     EXPECT_DOUBLE_EQ(step, 1) << point.folder;
-    EXPECT_LE(std::abs(neighbour.value.flow.speed_m_s - 20), std::abs(point.value.flow.speed_m_s - 20));
+    EXPECT_LE(std::abs(neighbour.given.flow.speed_m_s - 20), std::abs(point.given.flow.speed_m_s - 20));
   }
   EXPECT_EQ(cold, 1);
   EXPECT_EQ(folders.size(), 10u);
@@ -39,8 +40,8 @@ TEST(SweepPoints, AreEveryCombinationEachOneStepFromItsNeighbour) {
 
 TEST(SweepPoints, TakeTheDensityOfTheirOwnSpeed) {
   const auto points = sweep_points(stratos, {}, {sweep_axis("flow.speed_m_s", {"10", "25"}, "--speeds")});
-  EXPECT_DOUBLE_EQ(air(points[0].value).density, 1.202);
-  EXPECT_DOUBLE_EQ(air(points[1].value).density, 1.204);
+  EXPECT_DOUBLE_EQ(air(points[0].given).density, 1.202);
+  EXPECT_DOUBLE_EQ(air(points[1].given).density, 1.204);
 }
 
 TEST(SweepPoints, WithAValueTwiceAreRefused) {

@@ -2,43 +2,45 @@
 
 namespace ripstop {
 
-PartMaterials part_materials(const Case& value) {
-  return {canopy_fabric(value), suspension_line(value), riser_line(value), reinforcement_tape(value)};
+PartMaterials part_materials(const Case& given) {
+  return {canopy_fabric(given), suspension_line(given), riser_line(given), reinforcement_tape(given)};
 }
 
-CanopyMesh parachute_mesh(const Case& value) {
-  CanopyMesh mesh = build_mesh(value.parachute, part_materials(value));
-  const double z = canopy_position(value);
+CanopyMesh parachute_mesh(const Case& given) {
+  CanopyMesh mesh = build_mesh(given.parachute, part_materials(given));
+  const double z = canopy_position(given);
   for (Vec3& p : mesh.start) p.z += z;
   return mesh;
 }
 
-FlowProblem flow_problem(const Case& value) {
-  const FlowSettings& settings = value.flow;
+FlowProblem flow_problem(const Case& given) {
+  const FlowSettings flow = resolve(given).flow;
   FlowProblem problem;
-  problem.grid = flow_grid(value);
-  problem.air.speed = air(value).speed;
-  problem.air.density = air(value).density;
-  problem.air.viscosity = settings.viscosity_pa_s;
-  problem.air.temperature = settings.temperature_k;
-  problem.air.turbulence_intensity = settings.turbulence_intensity;
-  problem.air.viscosity_ratio = settings.viscosity_ratio;
-  problem.sides = settings.sides;
-  problem.outlet = settings.outlet;
-  problem.stopping.residual = settings.residual;
-  problem.stopping.max_iterations = settings.max_iterations;
-  problem.stopping.average_over = settings.average_over;
-  const Fabric& cloth = canopy_fabric(value);
-  if (settings.porosity_model == PorosityModel::sheet) {
-    problem.sheets = {{{}, cloth.darcy, cloth.forchheimer}};
+  problem.grid = flow_grid(flow);
+  problem.air.speed = air(given).speed;
+  problem.air.density = flow.density_kg_m3;
+  problem.air.viscosity = flow.viscosity_pa_s;
+  problem.air.temperature = flow.temperature_k;
+  problem.air.turbulence_intensity = flow.turbulence_intensity;
+  problem.air.viscosity_ratio = flow.viscosity_ratio;
+  problem.sides = flow.sides;
+  problem.outlet = flow.outlet;
+  problem.stopping.residual = flow.residual;
+  problem.stopping.max_iterations = flow.max_iterations;
+  problem.stopping.average_over = flow.average_over;
+  const ClothResistance& cloth = canopy_fabric(given).resistance;
+  if (flow.porosity_model == PorosityModel::sheet) {
+    const PressureDrop drop = as_sheet(cloth);
+    problem.sheets = {{{}, drop.linear, drop.quadratic}};
   } else {
-    problem.porous = {{{}, cloth.darcy, cloth.forchheimer}};
+    const PorousCellLaw cells = as_cells(cloth);
+    problem.porous = {{{}, cells.darcy, cells.forchheimer}};
   }
   return problem;
 }
 
-SteadyProblem steady_problem(const Case& value) {
-  return {parachute_mesh(value), flow_problem(value), nominal_area(value.parachute), value.coupling};
+SteadyProblem steady_problem(const Case& given) {
+  return {parachute_mesh(given), flow_problem(given), nominal_area(given.parachute), resolve(given).coupling};
 }
 
 }  // namespace ripstop

@@ -1,4 +1,4 @@
-// A case: everything that one run needs to know, as read from a case file. One struct for each TOML table.
+// A case: what the user gave for one run, in a case file or in code. One struct for each TOML table.
 #pragma once
 
 #include <array>
@@ -24,36 +24,46 @@ namespace ripstop {
 enum class SpeedBasis { nominal, measured };
 enum class Convection { upwind, second_order };
 
-/// [flow.core], the part of the flow's box with uniform cells, outside of which they grow.
-struct CoreSettings {
-  Vec3 size_m;                    // 0: the cells are uniform along that axis
-  std::optional<double> start_m;  // from the inlet; absent: a quarter of the core lies before the canopy
-  double growth = 1.1;            // of a cell's width to that of its inner neighbour, at most
-};
-
-/// [flow]. With the `sheet` model settle_flow() puts other values where the case gives none.
-struct FlowSettings {
+/// The keys of [flow] whose defaults follow from nothing.
+struct FlowOptions {
   std::string engine = engines().front().word;
   double speed_m_s = 0;
   SpeedBasis speed_basis = SpeedBasis::nominal;
-  std::optional<double> density_kg_m3;  // absent: from the row of [[measured]] with this nominal speed
   double viscosity_pa_s = 1.84e-5;
   double temperature_k = 293.15;
   double turbulence_intensity = 0.005;
   double viscosity_ratio = 10;
-  Vec3 box_m{2, 2, 4};
-  std::array<int, 3> cells{100, 100, 150};
-  CoreSettings core;
-  std::optional<double> canopy_position_m;  // inlet to the skirt of the start shape; absent: mid-length
-  Convection convection = Convection::upwind;
-  Sides sides = Sides::zero_gradient;
-  Outlet outlet = Outlet::fixed_pressure;
-  PorosityModel porosity_model = PorosityModel::of_cloth;  // never that in a case that was read
-  double residual = 1e-5;
-  int max_iterations = 1000;
-  int average_over = 0;  // last iterations of a flow that does not settle; 0: none
   int ranks = 1;
   double time_limit_s = 0;  // of one flow solution; 0: none
+};
+
+/// [flow.core] as given: the part of the flow's box with uniform cells, outside of which they grow.
+struct CoreKeys {
+  std::optional<Vec3> size_m;     // 0: the cells are uniform along that axis
+  std::optional<double> start_m;  // from the inlet
+  std::optional<double> growth;   // of a cell's width to that of its inner neighbour, at most
+};
+
+/// [flow] as given. What is absent follows from parachute, cloth and the other keys: resolve.h.
+struct FlowKeys : FlowOptions {
+  std::optional<double> density_kg_m3;
+  std::optional<PorosityModel> porosity_model;
+  std::optional<Vec3> box_m;
+  std::optional<std::array<int, 3>> cells;
+  CoreKeys core;
+  std::optional<double> canopy_position_m;  // inlet to the skirt of the start shape
+  std::optional<Convection> convection;
+  std::optional<Sides> sides;
+  std::optional<Outlet> outlet;
+  std::optional<double> residual;
+  std::optional<int> max_iterations;
+  std::optional<int> average_over;  // last iterations of a flow that does not settle; 0: none
+};
+
+/// [coupling] as given.
+struct CouplingKeys : CouplingOptions {
+  std::optional<CanopyLoad> load;
+  std::optional<double> drag_tolerance;
 };
 
 /// [[measured]]: one wind-tunnel condition.
@@ -66,30 +76,26 @@ struct Measured {
   std::optional<double> printed_linear_n;
 };
 
+/// What the user gave: a value that is absent was not given and follows from the others (resolve.h).
 struct Case {
   std::string title;
   Design parachute;
-  /// Every material the parachute uses, by name: written in the case file, else from the library.
-  std::map<std::string, Material> materials;
-  FlowSettings flow;
-  CouplingSettings coupling;
+  std::map<std::string, Material> materials;  // by name; what the parachute names besides is the library's
+  FlowKeys flow;
+  CouplingKeys coupling;
   InflationSettings inflation;
   std::vector<Measured> measured;
 
   std::filesystem::path file;  // where it was read from; empty: not from a file
-  Origins origins;             // of every key that was given
+  Origins origins;             // of every key that was given, for messages
 };
 
-void describe(Fields& fields, FlowSettings& flow);
-void describe(Fields& fields, CouplingSettings& coupling);
+void describe(Fields& fields, CoreKeys& core);
+void describe(Fields& fields, FlowKeys& flow);
+void describe(Fields& fields, CouplingKeys& coupling);
 void describe(Fields& fields, InflationSettings& inflation);
 void describe(Fields& fields, Measured& measured);
-void describe(Fields& fields, Case& value);
-
-/// The porosity model of the canopy cloth where the case names none; with `sheet` a box of some diameters
-/// about the canopy, cells that suit it, and numerics that settle there, for every key of [flow] that the
-/// case does not give.
-void settle_flow(Case& value);
+void describe(Fields& fields, Case& given);
 
 /// What the command line may change about a case.
 struct Overrides {
@@ -98,47 +104,48 @@ struct Overrides {
   std::optional<int> ranks = {};                // --ranks
   std::optional<std::string> engine = {};       // --flow
   bool linear = false;                          // --linear
+  /// --pressure of an opening [Pa], in place of the pressure or the drag coefficient that the case gives
+  std::optional<double> pressure = {};
   /// --set: any key, over what the file says; a material of the library is copied into the case first. Only
   /// for read_case() and parse_case().
   std::vector<Setting> set = {};
 };
 
-/// Throws InputError(usage) with every problem found, InputError(bad_data) for a broken library material,
-/// Error(io) when the file cannot be read.
+/// Everything that is wrong with a case, from a file or made in code. Throws InputError(bad_data) for a
+/// broken library material.
+std::vector<Problem> validate(const Case& given);
+/// The case with every material that its parachute names, from the library where the case has it not. Throws
+/// InputError(usage) with everything that validate() finds besides the problems that are `known` already.
+Case checked(Case given, std::vector<Problem> known = {});
+
+/// Reads and checks. Throws as checked(), and Error(io) when the file cannot be read.
 Case read_case(const std::filesystem::path& file, const Overrides& overrides = {});
 /// The same from text; `name` stands for the file in messages.
 Case parse_case(const std::string& text, const std::string& name, const Overrides& overrides = {});
-/// Changes an already read case under the same rules. Throws InputError(usage) and leaves `value` unchanged.
-void apply(const Overrides& overrides, Case& value);
+/// Changes a case under the same rules. Throws InputError(usage) and leaves `given` unchanged.
+void apply(const Overrides& overrides, Case& given);
 
-/// The same case with every optional number filled in by what stands for it when absent.
-Case resolved(const Case& value);
-/// The resolved case, materials included, so that it runs without the library. Reading it gives the same
-/// case.
-std::string case_toml(const Case& value);
-std::string case_json(const Case& value);
+/// The case with every value written out, materials included, so that it runs without the library. Reading it
+/// gives the same settings.
+std::string case_toml(const Case& given);
+std::string case_json(const Case& given);
 /// JSON Schema (draft 2020-12) of a case file, and the reference of its keys in Markdown.
 std::string case_schema();
 std::string case_reference();
 
 /// The row of [[measured]] for the case's nominal speed; null when there is none.
-const Measured* measured_row(const Case& value);
+const Measured* measured_row(const Case& given);
 
 struct Air {
   double speed = 0;    // free stream, after speed_basis [m/s]
   double density = 0;  // [kg/m3]
 };
-Air air(const Case& value);
-
-/// z of the skirt of the undeformed start shape, from the inlet [m].
-double canopy_position(const Case& value);
-/// Cells of the flow. Throws Error(usage) for a core that does not fit, or that the cells do not suffice for.
-FlowGrid flow_grid(const Case& value);
+Air air(const Case& given);
 
 /// The materials of the parachute's parts, looked up by the names in the design.
-const Fabric& canopy_fabric(const Case& value);
-const Line& suspension_line(const Case& value);
-const Line& riser_line(const Case& value);
-const Tape& reinforcement_tape(const Case& value);
+const Fabric& canopy_fabric(const Case& given);
+const Line& suspension_line(const Case& given);
+const Line& riser_line(const Case& given);
+const Tape& reinforcement_tape(const Case& given);
 
 }  // namespace ripstop

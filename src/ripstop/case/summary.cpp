@@ -14,6 +14,17 @@ double length_of(const Mesh& mesh, const std::vector<int>& springs) {
   return sum;
 }
 
+void weigh(const Case& given, const CanopyMesh& mesh, CaseSummary& summary) {
+  const Rigging& rigging = mesh.rigging;
+  for (double mass : mesh.mass) summary.total_mass += mass;
+  summary.cloth_mass = summary.cloth_area * canopy_fabric(given).areal_density_kg_m2;
+  double lines = length_of(mesh, rigging.vent_line_springs);
+  for (const LineRun& line : rigging.lines) lines += length_of(mesh, line.springs);
+  summary.line_mass = lines * suspension_line(given).linear_density_kg_m;
+  summary.riser_mass = length_of(mesh, rigging.riser_springs) * riser_line(given).linear_density_kg_m;
+  summary.tape_mass = length_of(mesh, rigging.tape_springs) * reinforcement_tape(given).linear_density_kg_m;
+}
+
 void count_springs(const Mesh& mesh, CaseSummary& summary) {
   summary.smallest_spring = std::numeric_limits<double>::infinity();
   const auto count = [&](double rest_length, const std::string& part) {
@@ -31,42 +42,35 @@ void count_springs(const Mesh& mesh, CaseSummary& summary) {
 
 }  // namespace
 
-CaseSummary summarize(const Case& value) {
+CaseSummary summarize(const Case& given) {
   CaseSummary summary;
-  const CanopyMesh mesh = parachute_mesh(value);
+  const CanopyMesh mesh = parachute_mesh(given);
   for (const Patch& patch : mesh.patches) {
     summary.cloth_nodes += patch.rows * patch.columns;
     for (double area : patch.cell_area) summary.cloth_area += area;
   }
-  summary.computed_area = computed_area(value.parachute);
-  summary.nominal_area = nominal_area(value.parachute);
-  const CanopyFacts canopy = facts(value.parachute);
+  summary.computed_area = computed_area(given.parachute);
+  summary.nominal_area = nominal_area(given.parachute);
+  const CanopyFacts canopy = facts(given.parachute);
   summary.vent_area = canopy.vent_area;
   summary.slot_area = canopy.slot_area;
   summary.geometric_porosity = canopy.geometric_porosity();
-
-  for (double mass : mesh.mass) summary.total_mass += mass;
-  summary.cloth_mass = summary.cloth_area * canopy_fabric(value).areal_density_kg_m2;
-  for (const LineRun& line : mesh.rigging.lines)
-    summary.line_mass += length_of(mesh, line.springs) * suspension_line(value).linear_density_kg_m;
-  summary.riser_mass = length_of(mesh, mesh.rigging.riser_springs) * riser_line(value).linear_density_kg_m;
-  // Tape lies on springs of its own kind only, so what is left is tape.
-  summary.tape_mass = summary.total_mass - summary.cloth_mass - summary.line_mass - summary.riser_mass;
+  weigh(given, mesh, summary);
 
   summary.nodes = mesh.node_count();
-  summary.resolved_cloth_nodes = experience(value.parachute).cloth_nodes;
+  summary.resolved_cloth_nodes = experience(given.parachute).cloth_nodes;
   count_springs(mesh, summary);
   ClothOptions options;
-  options.linear = value.coupling.linear;
+  options.linear = given.coupling.linear;
   const ClothPtr cloth = make_cloth(mesh, options);
   summary.step = step_bound(*cloth, start_state(*cloth));
 
-  const FlowGrid grid = flow_problem(value).grid;
+  const FlowGrid grid = flow_problem(given).grid;
   summary.flow_cells = static_cast<long long>(grid.nx) * grid.ny * grid.nz;
   summary.flow_spacing = grid.spacing();
-  const double diameter = start_diameter(value.parachute);
+  const double diameter = start_diameter(given.parachute);
   summary.blockage = std::numbers::pi / 4 * diameter * diameter / (grid.size.x * grid.size.y);
-  summary.air = air(value);
+  summary.air = air(given);
   return summary;
 }
 

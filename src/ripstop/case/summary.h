@@ -14,7 +14,8 @@ struct CaseSummary {
   double nominal_area = 0;              // S0 that coefficients refer to [m2]
   double vent_area = 0, slot_area = 0;  // open, as constructed [m2]
   double geometric_porosity = 0;        // their share of the whole surface without fullness
-  double cloth_mass = 0, tape_mass = 0, line_mass = 0, riser_mass = 0, total_mass = 0;  // [kg]
+  double cloth_mass = 0, tape_mass = 0, riser_mass = 0, total_mass = 0;  // [kg]
+  double line_mass = 0;                                                  // vent lines too [kg]
   int nodes = 0, cloth_nodes = 0;
   int resolved_cloth_nodes = 0;  // see Experience::cloth_nodes
   int springs = 0;               // of the lattice and outside it
@@ -28,6 +29,6 @@ struct CaseSummary {
 };
 
 /// Builds the mesh and the cloth. Throws what they throw.
-CaseSummary summarize(const Case& value);
+CaseSummary summarize(const Case& given);
 
 }  // namespace ripstop

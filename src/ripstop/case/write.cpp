@@ -1,38 +1,29 @@
 // A case as text: resolved case, schema, reference.
 #include "ripstop/core/toml/write.h"
 
-#include "ripstop/case/case.h"
+#include "ripstop/case/resolve.h"
 #include "ripstop/core/build_info.h"
 
 namespace ripstop {
 namespace {
 
-Fields fields_of(Case& value) {
+Fields fields_of(Case& bound) {
   Fields fields;
-  describe(fields, value);
+  describe(fields, bound);
   return fields;
 }
 
 }  // namespace
 
-Case resolved(const Case& value) {
-  Case full = value;
-  full.parachute.nominal_area_m2 = nominal_area(value.parachute);
-  full.parachute.lines.onto_disk_m = line_length_on_disk(value.parachute);
-  full.flow.density_kg_m3 = air(value).density;
-  full.flow.canopy_position_m = canopy_position(value);
-  return full;
-}
-
-std::string case_toml(const Case& value) {
-  Case full = resolved(value);
+std::string case_toml(const Case& given) {
+  Case written = resolve(given).written;
   return "# A case with every default written out, by Ripstop " + version() + ".\n" +
-         to_toml(fields_of(full));
+         to_toml(fields_of(written));
 }
 
-std::string case_json(const Case& value) {
-  Case full = resolved(value);
-  return to_json(fields_of(full));
+std::string case_json(const Case& given) {
+  Case written = resolve(given).written;
+  return to_json(fields_of(written));
 }
 
 std::string case_schema() {

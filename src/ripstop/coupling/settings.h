@@ -12,9 +12,8 @@ enum class CanopyLoad {
   sampled   // the pressures read on both sides of the cloth, scaled by one factor
 };
 
-struct CouplingSettings {
-  CanopyLoad load = CanopyLoad::uniform;
-  double drag_tolerance = 1e-3;     // change of drag between two iterations, relative
+/// The keys of [coupling] whose defaults follow from nothing.
+struct CouplingOptions {
   double shape_tolerance_m = 1e-3;  // mean displacement of the nodes between two iterations
   int max_iterations = 20;
   double relaxation = 1;  // of the pressure; 1: the flow's answer is taken whole
@@ -22,6 +21,11 @@ struct CouplingSettings {
   double cloth_tolerance = 5e-4;  // RelaxOptions::tolerance
   bool linear = false;            // keep only K_1 of every law
   int threads = 0;                // 0: as many as the machine has
+};
+
+struct CouplingSettings : CouplingOptions {
+  CanopyLoad load = CanopyLoad::uniform;
+  double drag_tolerance = 1e-3;  // change of drag between two iterations, relative
 };
 
 }  // namespace ripstop

@@ -234,10 +234,8 @@ Material make_material(const Bench& bench, const MaterialFit& fit) {
   fabric.break_load_n_m = weakest(fit);
   fabric.shear_fraction = bench.shear_fraction.value_or(fabric.shear_fraction);
   fabric.bending_fraction = bench.bending_fraction.value_or(fabric.bending_fraction);
-  if (fit.has_permeability) {
-    fabric.darcy = fit.permeability.law.a;
-    fabric.forchheimer = fit.permeability.law.b;
-  }
+  if (fit.has_permeability)
+    fabric.resistance = {PorosityModel::sheet, fit.permeability.law.linear, fit.permeability.law.quadratic};
   return fabric;
 }
 

@@ -95,15 +95,15 @@ void describe(Fields& fields, Fabric& fabric) {
                 "Largest strain of the tests behind the fit; 0: unknown.");
   fields.number("break_load_n_m", fabric.break_load_n_m, from(0).up_to(1e7),
                 "Load per width at failure; 0: unknown.");
-  fields.number("darcy", fabric.darcy, from(0).up_to(1e12),
+  fields.number("darcy", fabric.resistance.linear, from(0).up_to(1e12),
                 "a of the pressure drop a v + b v|v| ([NFM] Eq. 15): typed as Darcy d, 1/m2, by "
                 "porosity_model = \"paper\", taken as a, Pa s/m, by \"sheet\".");
   fields.number(
-      "forchheimer", fabric.forchheimer, from(0).up_to(1e9),
+      "forchheimer", fabric.resistance.quadratic, from(0).up_to(1e9),
       "b of the pressure drop: typed as Forchheimer f, 1/m, by porosity_model = \"paper\", taken as b, "
       "Pa s2/m2, by \"sheet\".");
   fields.choice(
-      "porosity_model", fabric.porosity_model,
+      "porosity_model", fabric.resistance.model,
       {{"sheet", PorosityModel::sheet}, {"paper", PorosityModel::paper}},
       "What darcy and forchheimer are: the cloth's own pressure drop (\"sheet\"), or coefficients of "
       "porous cells, calibrated on cells of one size (\"paper\").");

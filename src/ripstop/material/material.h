@@ -4,10 +4,32 @@
 #include <string>
 #include <vector>
 
+#include "ripstop/material/permeability.h"
+
 namespace ripstop {
 
 /// How cloth resists the air that passes it: `paper`, as porous cells; `sheet`, as a pressure drop across it.
-enum class PorosityModel { of_cloth, paper, sheet };
+enum class PorosityModel { paper, sheet };
+
+/// Of the cells that the cloth cuts, -(mu d + rho |u| f / 2) u per volume (`paper`).
+struct PorousCellLaw {
+  double darcy = 0;        // d [1/m2]
+  double forchheimer = 0;  // f [1/m]
+};
+
+/// The keys `darcy` and `forchheimer` of a cloth, whose meaning the model decides: taken as a [Pa s/m] and
+/// b [Pa s2/m2] of the cloth's own pressure drop by `sheet`, as d [1/m2] and f [1/m] by `paper`.
+struct ClothResistance {
+  PorosityModel model = PorosityModel::sheet;  // that they are for; a case may use them with the other
+  double linear = 0, quadratic = 0;            // in the velocity
+};
+/// [NFM] types a and b of a pressure drop as d and f of cells, as they are.
+inline PressureDrop as_sheet(const ClothResistance& cloth) {
+  return {cloth.linear, cloth.quadratic};
+}
+inline PorousCellLaw as_cells(const ClothResistance& cloth) {
+  return {cloth.linear, cloth.quadratic};
+}
 
 /// Canopy cloth. The coefficients are those of the cloth's own curve (load per width against strain, [N/m])
 /// as a uniaxial pull along a yarn gives it; the lattice's are derived from them so that a virtual coupon
@@ -26,9 +48,7 @@ struct Fabric {
   double thickness_m = 0;
   double tested_strain = 0;   // the fit holds up to here; 0: unknown
   double break_load_n_m = 0;  // 0: unknown
-  double darcy = 0;           // a: Pa s/m in the `sheet` model; typed as Darcy d [1/m2] in the `paper` model
-  double forchheimer = 0;     // b: Pa s2/m2; typed as Forchheimer f [1/m] in the `paper` model
-  PorosityModel porosity_model = PorosityModel::sheet;  // that darcy and forchheimer are for
+  ClothResistance resistance;
 };
 
 /// Suspension or riser line: T(e) = sum K_k e^k with K_k in N.

@@ -41,10 +41,10 @@ PermeabilityFit fit_permeability(const std::vector<FlowPoint>& points) {
   fit.law = {a1 / aa, 0};
   if (!fit.one_point) {
     const PressureDrop free{(a1 * bb - b1 * ab) / determinant, (b1 * aa - a1 * ab) / determinant};
-    fit.on_bound = free.a < 0 || free.b < 0;
+    fit.on_bound = free.linear < 0 || free.quadratic < 0;
     if (!fit.on_bound)
       fit.law = free;
-    else if (free.a < 0)
+    else if (free.linear < 0)
       fit.law = {0, b1 / bb};
   }
   std::vector<double> measured, fitted;
@@ -57,12 +57,12 @@ PermeabilityFit fit_permeability(const std::vector<FlowPoint>& points) {
 }
 
 double pressure_drop(const PressureDrop& law, double velocity) {
-  return law.a * velocity + law.b * velocity * std::abs(velocity);
+  return law.linear * velocity + law.quadratic * velocity * std::abs(velocity);
 }
 
 double velocity_at(const PressureDrop& law, double pressure) {
   // The root of b v^2 + a v - dp that does not cancel.
-  return 2 * pressure / (law.a + std::sqrt(law.a * law.a + 4 * law.b * pressure));
+  return 2 * pressure / (law.linear + std::sqrt(law.linear * law.linear + 4 * law.quadratic * pressure));
 }
 
 double cfm(const PressureDrop& law) {
@@ -90,15 +90,15 @@ PressureDrop ergun(const ErgunCloth& cloth, const ErgunAir& air) {
 }
 
 ErgunCloth ergun_cloth(const PressureDrop& law, const ErgunAir& air) {
-  if (!(law.a > 0) || !(law.b > 0))
-    throw Error(
-        ExitCode::bad_data,
-        fmt::format("a porosity follows from a = {} and b = {} only when both are above 0", law.a, law.b));
-  const double g3 = 1.75 * air.density / (6 * law.b);
+  if (!(law.linear > 0) || !(law.quadratic > 0))
+    throw Error(ExitCode::bad_data,
+                fmt::format("a porosity follows from a = {} and b = {} only when both are above 0",
+                            law.linear, law.quadratic));
+  const double g3 = 1.75 * air.density / (6 * law.quadratic);
   if (!(g3 < 1))
     throw Error(ExitCode::bad_data,
-                fmt::format("b = {} is less than open air's: no porosity below 1 gives it", law.b));
-  return {std::cbrt(g3), 150 * air.viscosity / (36 * law.a * g3)};
+                fmt::format("b = {} is less than open air's: no porosity below 1 gives it", law.quadratic));
+  return {std::cbrt(g3), 150 * air.viscosity / (36 * law.linear * g3)};
 }
 
 }  // namespace ripstop

@@ -6,8 +6,8 @@
 namespace ripstop {
 
 struct PressureDrop {
-  double a = 0;  // [Pa s/m]
-  double b = 0;  // [Pa s2/m2]
+  double linear = 0;     // a [Pa s/m]
+  double quadratic = 0;  // b [Pa s2/m2]
 };
 
 /// One reading of a permeability tester.

@@ -22,8 +22,8 @@ std::vector<Setting> only_first(const Kind& material, const std::vector<double>&
            "--linear"}};
 }
 
-std::vector<Setting> linear_cloth(const Case& value) {
-  const Fabric& cloth = canopy_fabric(value);
+std::vector<Setting> linear_cloth(const Case& given) {
+  const Fabric& cloth = canopy_fabric(given);
   std::vector<Setting> settings = only_first(cloth, cloth.coefficients_n_m, "coefficients_n_m");
   if (!cloth.weft_coefficients_n_m.empty()) {
     const auto weft = only_first(cloth, cloth.weft_coefficients_n_m, "weft_coefficients_n_m");
@@ -32,8 +32,8 @@ std::vector<Setting> linear_cloth(const Case& value) {
   return settings;
 }
 
-std::vector<Setting> linear_lines(const Case& value) {
-  const Line &line = suspension_line(value), &riser = riser_line(value);
+std::vector<Setting> linear_lines(const Case& given) {
+  const Line &line = suspension_line(given), &riser = riser_line(given);
   std::vector<Setting> settings = only_first(line, line.coefficients_n, "coefficients_n");
   if (riser.name != line.name) {
     const auto other = only_first(riser, riser.coefficients_n, "coefficients_n");
@@ -50,7 +50,7 @@ double profile_change(const ComparedModel& a, const ComparedModel& b) {
 }
 
 ComparedModel model_of(const SweepPoint& point, const SteadyResult& result, const SteadyState& end) {
-  const CanopyMesh mesh = parachute_mesh(point.value);
+  const CanopyMesh mesh = parachute_mesh(point.given);
   ComparedModel m;
   m.model = point.values.front();
   m.drag = result.drag;
@@ -67,16 +67,16 @@ ComparedModel model_of(const SweepPoint& point, const SteadyResult& result, cons
 
 }  // namespace
 
-SweepAxis linear_models(const Case& value) {
-  if (value.coupling.linear)
+SweepAxis linear_models(const Case& given) {
+  if (given.coupling.linear)
     throw Error(ExitCode::usage, "the case is linear itself (coupling.linear = true): nothing to compare");
-  const Tape& tape = reinforcement_tape(value);
+  const Tape& tape = reinforcement_tape(given);
   return {"model",
           {"nonlinear", "linear", "linear cloth", "linear lines", "linear tape"},
           {{},
            {{"coupling.linear", "true", "--linear"}},
-           linear_cloth(value),
-           linear_lines(value),
+           linear_cloth(given),
+           linear_lines(given),
            only_first(tape, tape.coefficients_n_m, "coefficients_n_m")}};
 }
 
@@ -86,11 +86,11 @@ std::string to_json(const Comparison& comparison) {
 
 Comparison compare_models(const std::vector<SweepPoint>& points, const std::vector<SweepRow>& rows,
                           const std::function<SteadyState(std::size_t)>& end_of) {
-  const Case& value = points.front().value;
+  const Case& given = points.front().given;
   Comparison c;
-  c.title = value.title;
-  c.speed = air(value).speed;
-  c.drag_tolerance = value.coupling.drag_tolerance;
+  c.title = given.title;
+  c.speed = air(given).speed;
+  c.drag_tolerance = resolve(given).coupling.drag_tolerance;
   for (std::size_t i = 0; i < points.size(); ++i) {
     ComparedModel model = model_of(points[i], rows[i].result, end_of(i));
     const ComparedModel& first = c.models.empty() ? model : c.models.front();
@@ -98,7 +98,7 @@ Comparison compare_models(const std::vector<SweepPoint>& points, const std::vect
     model.profile_change = profile_change(model, first);
     c.models.push_back(std::move(model));
   }
-  if (const Measured* row = measured_row(value)) {
+  if (const Measured* row = measured_row(given)) {
     c.measured_drag = row->drag_n;
     c.printed_nonlinear = row->printed_nonlinear_n;
     c.printed_linear = row->printed_linear_n;

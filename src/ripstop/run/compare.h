@@ -17,7 +17,7 @@ namespace ripstop {
 
 /// The case as it is; with K_1 alone for every material; and for the cloth, the lines and the tape in turn.
 /// Throws Error(usage) for a case that is linear itself.
-SweepAxis linear_models(const Case& value);
+SweepAxis linear_models(const Case& given);
 
 template <Of<Strains> T, class Visit>
 void each_member(T& strains, Visit&& visit) {

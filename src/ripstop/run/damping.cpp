@@ -12,18 +12,18 @@ std::string to_json(const DampingResult& result) {
   return json_text(result);
 }
 
-DampingTarget damping_target(const Case& value) {
-  if (!value.inflation.measured_peak_n)
+DampingTarget damping_target(const Case& given) {
+  if (!given.inflation.measured_peak_n)
     throw Error(ExitCode::usage, "inflation.measured_peak_n is not given: nothing to calibrate on");
-  return {*value.inflation.measured_peak_n, value.inflation.measured_inflation_time_s};
+  return {*given.inflation.measured_peak_n, given.inflation.measured_inflation_time_s};
 }
 
-DampingResult run_damping(const Case& value, const LoadSource& source, const InflationProblem& problem,
+DampingResult run_damping(const Case& given, const LoadSource& source, const InflationProblem& problem,
                           const DampingSearch& search,
                           const std::function<void(const DampingTrial&)>& report) {
   DampingResult result;
-  result.title = value.title;
-  result.target = damping_target(value);
+  result.title = given.title;
+  result.target = damping_target(given);
   result.found = calibrate_damping(
       result.target, search, [&](double damping) { return open_with(damping, problem); }, report);
   result.low_pass_hz = problem.settings.low_pass_hz;

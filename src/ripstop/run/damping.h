@@ -53,10 +53,10 @@ void each_member(T& r, Visit&& visit) {
 std::string to_json(const DampingResult& result);
 
 /// What the case says was measured. Throws Error(usage) when it says nothing.
-DampingTarget damping_target(const Case& value);
+DampingTarget damping_target(const Case& given);
 
 /// calibrate_damping() on the case's measured opening, under the pressure of `problem`.
-DampingResult run_damping(const Case& value, const LoadSource& source, const InflationProblem& problem,
+DampingResult run_damping(const Case& given, const LoadSource& source, const InflationProblem& problem,
                           const DampingSearch& search,
                           const std::function<void(const DampingTrial&)>& report = {});
 

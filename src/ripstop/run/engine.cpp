@@ -1,16 +1,18 @@
 #include "ripstop/run/engine.h"
 
+#include "ripstop/case/resolve.h"
+
 namespace ripstop {
 
-const EngineRecord& engine_of(const Case& value) {
-  return engine_of(value.flow.engine);
+const EngineRecord& engine_of(const Case& given) {
+  return engine_of(given.flow.engine);
 }
 
-EngineOptions engine_options(const Case& value) {
+EngineOptions engine_options(const Case& given) {
   EngineOptions options;
-  options.second_order = value.flow.convection == Convection::second_order;
-  options.ranks = value.flow.ranks;
-  options.time_limit_s = value.flow.time_limit_s;
+  options.second_order = resolve(given).flow.convection == Convection::second_order;
+  options.ranks = given.flow.ranks;
+  options.time_limit_s = given.flow.time_limit_s;
   return options;
 }
 

@@ -6,8 +6,8 @@
 
 namespace ripstop {
 
-const EngineRecord& engine_of(const Case& value);
+const EngineRecord& engine_of(const Case& given);
 /// What the case says to its engine; threads and folders are the run's.
-EngineOptions engine_options(const Case& value);
+EngineOptions engine_options(const Case& given);
 
 }  // namespace ripstop

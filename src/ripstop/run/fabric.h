@@ -68,7 +68,7 @@ struct FabricSolution {
 };
 
 /// Equilibrium under `pressure` [Pa]; absent: the case's dynamic pressure. Convergence is not promised.
-FabricSolution run_fabric(const Case& value, std::optional<double> pressure,
+FabricSolution run_fabric(const Case& given, std::optional<double> pressure,
                           const std::function<void(const RelaxProgress&)>& report = {});
 
 /// canopy.png, canopy.vtp, lines.vtp and result.json.

@@ -208,8 +208,8 @@ std::string to_json(const FitResult& result) {
     root["coupons"] = c;
   }
   if (fit.has_permeability)
-    root["permeability"] = {{"a", fit.permeability.law.a},
-                            {"b", fit.permeability.law.b},
+    root["permeability"] = {{"a", fit.permeability.law.linear},
+                            {"b", fit.permeability.law.quadratic},
                             {"r2", fit.permeability.r2},
                             {"cfm", cfm(fit.permeability.law)}};
   root["notes"] = fit.notes;

@@ -20,11 +20,11 @@ double energy_residual(const std::vector<InflationFrame>& frames) {
   return worst;
 }
 
-InflationResult result_of(const Case& value, const LoadSource& source, const Inflation& solver,
+InflationResult result_of(const Case& given, const LoadSource& source, const Inflation& solver,
                           const InflationState& state, const InflationHistory& history) {
   const InflationSettings& settings = solver.problem().settings;
   InflationResult r;
-  r.title = value.title;
+  r.title = given.title;
   r.peak_load = state.peak_load;
   r.peak_time = state.peak_time;
   r.summary = summarise(history.rows, settings.low_pass_hz);
@@ -50,10 +50,10 @@ InflationResult result_of(const Case& value, const LoadSource& source, const Inf
   r.max_line_tension = *std::max_element(r.line_peaks.begin(), r.line_peaks.end());
   r.stress = state.highest_stress;
   r.stress_time = state.highest_stress_time;
-  r.break_load = canopy_fabric(value).break_load_n_m;
+  r.break_load = canopy_fabric(given).break_load_n_m;
   if (r.break_load > 0) r.cloth_margin = r.break_load / r.stress.von_mises;
   r.energy_residual = energy_residual(history.frames);
-  r.estimate = opening_estimate(value.parachute, source.steady_drag.value_or(steady));
+  r.estimate = opening_estimate(given.parachute, source.steady_drag.value_or(steady));
   r.steps = state.cloth.steps;
   r.step_changes = state.step_changes;
   return r;
@@ -65,7 +65,7 @@ std::string to_json(const InflationResult& result) {
   return json_text(result);
 }
 
-InflationSolution run_inflation(const Case& value, const LoadSource& source, InflationProblem problem,
+InflationSolution run_inflation(const Case& given, const LoadSource& source, InflationProblem problem,
                                 InflationObserver& observer) {
   Inflation solver(std::move(problem));
   InflationSolution solution;
@@ -79,7 +79,7 @@ InflationSolution run_inflation(const Case& value, const LoadSource& source, Inf
     if (at_frame) history.frames.push_back(solver.frame(state));
     observer.advanced(solver, state, history, at_frame ? &history.frames.back() : nullptr);
   }
-  result = result_of(value, source, solver, state, history);
+  result = result_of(given, source, solver, state, history);
   observer.ended(solver, state, history, result);
   return solution;
 }

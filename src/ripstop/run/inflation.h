@@ -5,19 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "ripstop/case/case.h"
+#include "ripstop/case/opening.h"
 #include "ripstop/core/members.h"
-#include "ripstop/inflation/inflation.h"
 #include "ripstop/inflation/opening_estimate.h"
 #include "ripstop/inflation/summary.h"
 
 namespace ripstop {
-
-/// Where the pressure came from.
-struct LoadSource {
-  std::string text;                   // for people: "steady run runs/a: 396.1 N"
-  std::optional<double> steady_drag;  // that the pressure was chosen for [N]
-};
 
 /// The numbers of one opening: result.json.
 struct InflationResult {
@@ -125,7 +118,7 @@ struct InflationSolution {
 };
 
 /// The whole opening of the case under the pressure of `problem`. Throws as Inflation.
-InflationSolution run_inflation(const Case& value, const LoadSource& source, InflationProblem problem,
+InflationSolution run_inflation(const Case& given, const LoadSource& source, InflationProblem problem,
                                 InflationObserver& observer);
 
 }  // namespace ripstop

@@ -230,14 +230,14 @@ InflationState inflation_state_from_bytes(const std::string& bytes) {
   return from_cbor<InflationState>(bytes, format_version, "a checkpoint of an opening");
 }
 
-std::optional<InflationResult> run_inflation_in(const InflationFolderSettings& settings, const Case& value,
+std::optional<InflationResult> run_inflation_in(const InflationFolderSettings& settings, const Case& given,
                                                 const LoadSource& source,
                                                 const std::function<InflationProblem()>& problem,
                                                 InflationObserver& observer) {
-  open_run_folder(settings.run, value, "inflation; pressure from " + source.text, settings.threads);
+  open_run_folder(settings.run, given, "inflation; pressure from " + source.text, settings.threads);
   if (finished_result(settings.run.folder)) return std::nullopt;
   InflationFolder files(settings, observer);
-  return run_inflation(value, source, problem(), files).result;
+  return run_inflation(given, source, problem(), files).result;
 }
 
 }  // namespace ripstop

@@ -21,7 +21,7 @@ struct InflationFolderSettings {
 /// run_inflation() in a folder, from the folded start or from where it was killed. Nothing when the folder
 /// holds the finished run, whose result.json is finished_result(folder). The problem is only asked for when
 /// there is something to compute. Throws as holds_run() and run_inflation() do.
-std::optional<InflationResult> run_inflation_in(const InflationFolderSettings& settings, const Case& value,
+std::optional<InflationResult> run_inflation_in(const InflationFolderSettings& settings, const Case& given,
                                                 const LoadSource& source,
                                                 const std::function<InflationProblem()>& problem,
                                                 InflationObserver& observer);

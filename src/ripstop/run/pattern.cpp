@@ -13,15 +13,15 @@ std::string to_json(const PatternResult& result) {
   return json_text(result);
 }
 
-PatternResult run_pattern(const Case& value, const Allowances& allowances, double packing_density) {
+PatternResult run_pattern(const Case& given, const Allowances& allowances, double packing_density) {
   PatternResult result;
-  result.title = value.title;
-  result.nominal_area = nominal_area(value.parachute);
-  result.cloth_area = computed_area(value.parachute);
+  result.title = given.title;
+  result.nominal_area = nominal_area(given.parachute);
+  result.cloth_area = computed_area(given.parachute);
   result.packing_density = packing_density;
   result.allowances = allowances;
-  result.pattern = cut_pattern(value.parachute);
-  result.bill = bill_of(result.pattern, value.parachute, part_materials(value), allowances, packing_density);
+  result.pattern = cut_pattern(given.parachute);
+  result.bill = bill_of(result.pattern, given.parachute, part_materials(given), allowances, packing_density);
   return result;
 }
 

@@ -36,8 +36,8 @@ ordered_json read_json(const fs::path& file) {
 
 constexpr const char* description = "run.json";
 
-std::string inputs_hash(const Case& value, const std::string& solver) {
-  return hash_bytes(fmt::format("{}\n{}\n{}", version(), solver, case_json(value)));
+std::string inputs_hash(const Case& given, const std::string& solver) {
+  return hash_bytes(fmt::format("{}\n{}\n{}", version(), solver, case_json(given)));
 }
 
 /// A start that was killed while it wrote run.json, the first file of a run.
@@ -51,7 +51,7 @@ bool holds_leftovers_only(const fs::path& folder) {
 
 }  // namespace
 
-bool holds_run(const RunSettings& settings, const Case& value, const std::string& solver) {
+bool holds_run(const RunSettings& settings, const Case& given, const std::string& solver) {
   const fs::path& folder = settings.folder;
   if (!fs::exists(folder) || fs::is_empty(folder)) return false;
   if (!fs::exists(folder / description)) {
@@ -62,7 +62,7 @@ bool holds_run(const RunSettings& settings, const Case& value, const std::string
                             folder.string()));
   }
   if (settings.fresh) return false;
-  if (read_json(folder / description).value("inputs_hash", "") != inputs_hash(value, solver)) {
+  if (read_json(folder / description).value("inputs_hash", "") != inputs_hash(given, solver)) {
     throw Error(ExitCode::usage,
                 fmt::format("{}: holds a run of other inputs (case, speed, grid, ranks, program or "
                             "flow engine differ); choose another --out, or --fresh to replace it",
@@ -71,10 +71,10 @@ bool holds_run(const RunSettings& settings, const Case& value, const std::string
   return true;
 }
 
-void open_run_folder(const RunSettings& settings, const Case& value, const std::string& solver, int threads) {
+void open_run_folder(const RunSettings& settings, const Case& given, const std::string& solver, int threads) {
   const fs::path& folder = settings.folder;
-  const auto write_case = [&] { write_file(folder / "case.toml", case_toml(value)); };
-  if (holds_run(settings, value, solver)) {
+  const auto write_case = [&] { write_file(folder / "case.toml", case_toml(given)); };
+  if (holds_run(settings, given, solver)) {
     if (!fs::exists(folder / "case.toml")) write_case();  // killed before it was there
     return;
   }
@@ -86,12 +86,12 @@ void open_run_folder(const RunSettings& settings, const Case& value, const std::
   run["compiler"] = compiler();
   run["processor"] = processor();
   run["threads"] = threads;
-  run["ranks"] = value.flow.ranks;
+  run["ranks"] = given.flow.ranks;
   run["flow_engine"] = solver;
   run["started"] = now_utc();
-  run["case_file"] = value.file.string();
-  run["inputs_hash"] = inputs_hash(value, solver);
-  run["case"] = ordered_json::parse(case_json(value));
+  run["case_file"] = given.file.string();
+  run["inputs_hash"] = inputs_hash(given, solver);
+  run["case"] = ordered_json::parse(case_json(given));
   write_file(folder / description, run.dump(2) + "\n");
   write_case();
 }

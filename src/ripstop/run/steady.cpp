@@ -15,8 +15,8 @@ namespace {
 
 using nlohmann::json;
 
-double dynamic_pressure(const Case& value) {
-  const Air stream = air(value);
+double dynamic_pressure(const Case& given) {
+  const Air stream = air(given);
   return 0.5 * stream.density * stream.speed * stream.speed;
 }
 
@@ -33,18 +33,18 @@ bool same_flow(const Case& a, const Case& b) {
   return first == second;
 }
 
-SteadyResult steady_result(const SteadySolver& solver, const SteadyState& state, const Case& value) {
+SteadyResult steady_result(const SteadySolver& solver, const SteadyState& state, const Case& given) {
   SteadyResult r;
-  r.title = value.title;
+  r.title = given.title;
   r.last = state.iterations.back();
-  const Air stream = air(value);
+  const Air stream = air(given);
   r.speed = stream.speed;
   r.density = stream.density;
   r.drag = r.last.fluid_force;
-  r.drag_area = r.drag / dynamic_pressure(value);
-  r.reference_area = nominal_area(value.parachute);
+  r.drag_area = r.drag / dynamic_pressure(given);
+  r.reference_area = nominal_area(given.parachute);
   r.drag_coefficient = r.drag_area / r.reference_area;
-  const KnownRange known = experience(value.parachute).drag_coefficient;
+  const KnownRange known = experience(given.parachute).drag_coefficient;
   if (known.high > 0) r.known_drag_coefficient = {known.low, known.high};
   r.size = canopy_size(solver.mesh(), state.shape);
   const ClothState cloth = solver.cloth_state(state);
@@ -59,7 +59,7 @@ SteadyResult steady_result(const SteadySolver& solver, const SteadyState& state,
   r.axial_moment = r.last.axial_moment;
   r.cut_gap = r.last.cut_gap;
   r.ledger = {r.last.fluid_force, r.last.nodal_load, r.last.line_tension, r.last.momentum_deficit};
-  if (const Measured* row = measured_row(value)) r.measured = *row;
+  if (const Measured* row = measured_row(given)) r.measured = *row;
   return r;
 }
 
@@ -73,20 +73,20 @@ SteadyResult steady_result_from_json(const std::string& text) {
   return from_json_text<SteadyResult>(text, "the result of a steady run");
 }
 
-SteadySolution run_steady(const Case& value, SteadyObserver& observer, const SteadySettings& settings) {
-  SteadyProblem problem = steady_problem(value);
+SteadySolution run_steady(const Case& given, SteadyObserver& observer, const SteadySettings& settings) {
+  SteadyProblem problem = steady_problem(given);
   const int threads = settings.threads > 0 ? settings.threads : problem.settings.threads;
   problem.settings.threads = threads;
   std::optional<TemporaryFolder> temporary;
-  const EngineRecord& record = engine_of(value);
-  EngineOptions options = engine_options(value);
+  const EngineRecord& record = engine_of(given);
+  EngineOptions options = engine_options(given);
   options.threads = threads;
   options.folder = settings.flow_folder;
   options.hostfile = settings.hostfile;
   if (record.needs_folder && options.folder.empty()) options.folder = temporary.emplace("flow").path;
   const std::unique_ptr<FlowEngine> engine = record.make(options);
   SteadySolver solver(std::move(problem), *engine);
-  const SteadyRun run{value, solver, engine->name()};
+  const SteadyRun run{given, solver, engine->name()};
   SteadySolution solution;
   SteadyState& state = solution.state;
   state = solver.start();
@@ -96,25 +96,25 @@ SteadySolution run_steady(const Case& value, SteadyObserver& observer, const Ste
         solver.iterate(state, [&](const SteadyProgress& progress) { observer.progress(progress, state); });
     observer.iterated(run, state, solution.flow);
   }
-  solution.result = steady_result(solver, state, value);
+  solution.result = steady_result(solver, state, given);
   observer.ended(run, state, solution.result);
   return solution;
 }
 
 bool start_from(const Case& other, const SteadyState& end, const SteadyRun& run, SteadyState& state) {
-  const Case& value = run.value;
+  const Case& given = run.given;
   const bool same_mesh =
-      json::parse(case_json(value)).at("parachute") == json::parse(case_json(other)).at("parachute") &&
+      json::parse(case_json(given)).at("parachute") == json::parse(case_json(other)).at("parachute") &&
       end.shape.size() == state.shape.size() && end.pressure.size() == state.pressure.size();
   if (!same_mesh) return false;
   state.shape = end.shape;
   state.pressure = end.pressure;
-  const double shift = canopy_position(value) - canopy_position(other);
-  const double ratio = dynamic_pressure(value) / dynamic_pressure(other);
+  const double shift = canopy_position(given) - canopy_position(other);
+  const double ratio = dynamic_pressure(given) / dynamic_pressure(other);
   for (Vec3& p : state.shape) p.z += shift;
   for (double& dp : state.pressure) dp *= ratio;
   state.remainder = {ratio * end.remainder.at_centre, ratio * end.remainder.twist};
-  return same_flow(value, other);
+  return same_flow(given, other);
 }
 
 }  // namespace ripstop

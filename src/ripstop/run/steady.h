@@ -90,7 +90,7 @@ SteadyResult steady_result_from_json(const std::string& json);
 
 /// A run under way, as its observers see it.
 struct SteadyRun {
-  const Case& value;
+  const Case& given;
   SteadySolver& solver;
   std::string engine;  // name and version
 };
@@ -121,7 +121,7 @@ struct SteadySolution {
 
 /// Runs to the end of the coupling; a converged result is not promised. Touches no file, but for an engine's that needs them.
 /// Throws as SteadySolver and the flow engine do.
-SteadySolution run_steady(const Case& value, SteadyObserver& observer, const SteadySettings& settings = {});
+SteadySolution run_steady(const Case& given, SteadyObserver& observer, const SteadySettings& settings = {});
 
 /// For SteadyObserver::begin(): the shape in which a run of `other` ended, moved to this case's place, under
 /// its pressure at this case's q. Another mesh starts cold. Returns whether the flow of that run fits too.

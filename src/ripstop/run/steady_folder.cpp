@@ -143,7 +143,7 @@ void SteadyFolder::write_state(const SteadyRun& run, const SteadyState& state) c
   for (const CellStress& s : cell_stress(solver.cloth(), cloth)) mises.push_back(s.von_mises);
   const std::vector<double> tensions = spring_tensions(solver.cloth(), cloth);
   write_canopy_picture(folder_ / "canopy.png", mesh, state.shape,
-                       {fmt::format("{}, coupling iteration {}: drag {:.1f} N", run.value.title,
+                       {fmt::format("{}, coupling iteration {}: drag {:.1f} N", run.given.title,
                                     state.iterations.size(), state.iterations.back().fluid_force),
                         "von Mises stress [N/m]",
                         mises,
@@ -201,17 +201,17 @@ void SteadyFolder::write_drag_plot(const SteadyState& state, const std::string& 
 
 }  // namespace
 
-SteadyFolderRun run_steady_in(const SteadyFolderSettings& settings, const Case& value,
+SteadyFolderRun run_steady_in(const SteadyFolderSettings& settings, const Case& given,
                               SteadyObserver& observer) {
   const fs::path& folder = settings.run.folder;
-  const int threads = settings.threads > 0 ? settings.threads : value.coupling.threads;
+  const int threads = settings.threads > 0 ? settings.threads : given.coupling.threads;
   // By the engine's name, before one is made: making it clears the flow's folder, which may still be another
   // run's.
-  open_run_folder(settings.run, value, engine_of(value).name(engine_options(value)),
+  open_run_folder(settings.run, given, engine_of(given).name(engine_options(given)),
                   ThreadTeam(threads).size());
   if (const auto finished = finished_result(folder)) return {true, steady_result_from_json(*finished)};
   SteadyFolder files(settings, observer);
-  return {false, run_steady(value, files, {threads, folder / "flow", settings.hostfile}).result};
+  return {false, run_steady(given, files, {threads, folder / "flow", settings.hostfile}).result};
 }
 
 SteadyState final_state(const fs::path& folder) {

@@ -26,7 +26,7 @@ struct SteadyFolderRun {
 /// run_steady() in a folder, from the first iteration or from where it was killed. Nothing is computed, and
 /// the observer is told nothing, when the folder holds the finished run. Throws as holds_run() and
 /// run_steady() do.
-SteadyFolderRun run_steady_in(const SteadyFolderSettings& settings, const Case& value,
+SteadyFolderRun run_steady_in(const SteadyFolderSettings& settings, const Case& given,
                               SteadyObserver& observer);
 
 /// The final state in the folder of a steady run. Throws Error(usage) when there is none.

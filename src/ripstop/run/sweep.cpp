@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "ripstop/case/resolve.h"
 #include "ripstop/core/build_info.h"
 #include "ripstop/core/file.h"
 #include "ripstop/core/thread_team.h"
@@ -74,8 +75,8 @@ void open_sweep_folder(const std::vector<SweepPoint>& points, const SweepSetting
   }
   // Before anything of an earlier sweep is touched.
   for (const SweepPoint& point : points)
-    holds_run(run_settings(point, settings), point.value,
-              engine_of(point.value).name(engine_options(point.value)));
+    holds_run(run_settings(point, settings), point.given,
+              engine_of(point.given).name(engine_options(point.given)));
   make_folder(folder);
   nlohmann::ordered_json j;
   j["program"] = "ripstop";
@@ -160,12 +161,12 @@ class Board {
       if (fs::exists(neighbour / "result.json")) run.warm_from = neighbour;
     }
     Follower follower(*this, i);
-    return {true, "", ExitCode::done, run_steady_in(run, points_[i].value, follower).result, {}};
+    return {true, "", ExitCode::done, run_steady_in(run, points_[i].given, follower).result, {}};
   }
 
   SweepRow run_in_memory(std::size_t i, int threads) {
     Follower follower(*this, i);
-    SteadySolution solution = run_steady(points_[i].value, follower, {threads, {}, {}});
+    SteadySolution solution = run_steady(points_[i].given, follower, {threads, {}, {}});
     return {true, "", ExitCode::done, std::move(solution.result), std::move(solution.state)};
   }
 
@@ -176,7 +177,7 @@ class Board {
     void begin(const SteadyRun& run, SteadyState& state) override {
       const int start = board_.start_of(point_);
       if (!board_.settings_.folder.empty() || start < 0 || !board_.rows_[start].done) return;
-      start_from(board_.points_[start].value, board_.rows_[start].state, run, state);
+      start_from(board_.points_[start].given, board_.rows_[start].state, run, state);
     }
     void progress(const SteadyProgress& progress, const SteadyState& state) override {
       if (!board_.events_.progress) return;
@@ -249,7 +250,7 @@ std::vector<SweepPoint> sweep_points(const fs::path& case_file, const Overrides&
       const std::vector<Setting>& settings = axes[d].settings[at[d]];
       all.set.insert(all.set.end(), settings.begin(), settings.end());
     }
-    point.value = read_case(case_file, all);
+    point.given = read_case(case_file, all);
     point.folder = folder_name(axes, at);
     if (const int twins = names[point.folder]++) point.folder += fmt::format("_{}", twins + 1);
     index[at] = static_cast<int>(points.size());
@@ -276,9 +277,9 @@ int fitting_jobs(const std::vector<SweepPoint>& points) {
   double bytes = 0;
   int ranks = 1;
   for (const SweepPoint& point : points) {
-    const FlowSettings& flow = point.value.flow;
+    const FlowSettings flow = resolve(point.given).flow;
     bytes = std::max(bytes, bytes_a_run + bytes_a_cell * flow.cells[0] * flow.cells[1] * flow.cells[2]);
-    if (engine_of(point.value).can.ranks) ranks = std::max(ranks, flow.ranks);
+    if (engine_of(point.given).can.ranks) ranks = std::max(ranks, flow.ranks);
   }
   const int by_memory = static_cast<int>(std::min(1e6, 0.8 * free_memory() / bytes));
   return std::max(1, std::min({cores / ranks, by_memory, static_cast<int>(points.size())}));

@@ -50,17 +50,17 @@ constexpr Quantity quantities[] = {
 };
 
 /// What the case's rows of [[measured]] say, over the nominal speed.
-std::vector<PlotSeries> known_drag(const Case& value, const Quantity& quantity) {
+std::vector<PlotSeries> known_drag(const Case& given, const Quantity& quantity) {
   std::vector<PlotSeries> all;
   const auto add = [&](const char* name, std::optional<double> Measured::*drag) {
     PlotSeries series{name, {}, {}, false, true, false};
-    for (const Measured& row : value.measured) {
+    for (const Measured& row : given.measured) {
       if (!(row.*drag)) continue;
-      const bool nominal = value.flow.speed_basis == SpeedBasis::nominal;
+      const bool nominal = given.flow.speed_basis == SpeedBasis::nominal;
       const double speed = nominal ? row.nominal_speed_m_s : row.measured_speed_m_s;
       series.x.push_back(row.nominal_speed_m_s);
       series.y.push_back(quantity.of_drag(*(row.*drag), 0.5 * row.density_kg_m3 * speed * speed,
-                                          nominal_area(value.parachute)));
+                                          nominal_area(given.parachute)));
     }
     if (!series.x.empty()) all.push_back(series);
   };
@@ -147,7 +147,7 @@ void write_sweep_plots(const std::filesystem::path& folder, const std::string& t
           }
         }
         if (over_speed && known && known->of_drag) {
-          for (const PlotSeries& series : known_drag(points.front().value, *known))
+          for (const PlotSeries& series : known_drag(points.front().given, *known))
             plot.series.push_back(series);
         }
         for (const char* ending : {".svg", ".png"}) write_plot(folder / (file + ending), plot);

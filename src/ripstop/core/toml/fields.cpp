@@ -33,6 +33,9 @@ Field& Fields::number(std::string key, std::optional<double>& value, Range range
 Field& Fields::integer(std::string key, int& value, Range range, std::string doc) {
   return add(std::move(key), &value, range, std::move(doc));
 }
+Field& Fields::integer(std::string key, std::optional<int>& value, Range range, std::string doc) {
+  return add(std::move(key), &value, range, std::move(doc));
+}
 Field& Fields::toggle(std::string key, bool& value, std::string doc) {
   return add(std::move(key), &value, {}, std::move(doc));
 }
@@ -43,6 +46,13 @@ Field& Fields::name(std::string key, std::string& value, std::string doc) {
   return add(std::move(key), Text{&value, true, 64}, {}, std::move(doc));
 }
 Field& Fields::vector(std::string key, Vec3& value, Range range, std::string doc) {
+  return add(std::move(key), &value, range, std::move(doc));
+}
+Field& Fields::vector(std::string key, std::optional<Vec3>& value, Range range, std::string doc) {
+  return add(std::move(key), &value, range, std::move(doc));
+}
+Field& Fields::integers(std::string key, std::optional<std::array<int, 3>>& value, Range range,
+                        std::string doc) {
   return add(std::move(key), &value, range, std::move(doc));
 }
 Field& Fields::integers(std::string key, std::array<int, 3>& value, Range range, std::string doc) {

@@ -7,6 +7,7 @@
 //     }
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <limits>
@@ -40,10 +41,20 @@ inline Range above(double low) {
 
 class Fields;
 
+/// T of an optional<T>, else the type itself.
+template <class T>
+struct Held {
+  using type = T;
+};
+template <class T>
+struct Held<std::optional<T>> {
+  using type = T;
+};
+
 /// One word of a list; get() and set() go through the position in `words`.
 struct Choice {
   std::vector<std::string> words;
-  std::function<std::size_t()> get;
+  std::function<std::optional<std::size_t>()> get;  // nothing: not given
   std::function<void(std::size_t)> set;
 };
 
@@ -92,14 +103,15 @@ struct Base {
 };
 
 struct Field {
-  using Value = std::variant<double*, std::optional<double>*, int*, bool*, Vec3*, std::array<int, 3>*,
+  using Value = std::variant<double*, int*, bool*, Vec3*, std::array<int, 3>*, std::optional<double>*,
+                             std::optional<int>*, std::optional<Vec3>*, std::optional<std::array<int, 3>>*,
                              NumberList, Text, Choice, Subtable, Rows, NamedTables, Kind, Base>;
   std::string key;
   std::string doc;  // one sentence for the reference, unit and source included
   Value value;
   Range range;
   bool is_required = false;
-  std::string if_absent;  // what is taken when an optional number is not given
+  std::string if_absent;  // what is taken when an optional value is not given
 
   Field& required() { return is_required = true, *this; }
   Field& absent(std::string text) { return if_absent = std::move(text), *this; }
@@ -110,25 +122,29 @@ class Fields {
   Field& number(std::string key, double& value, Range range, std::string doc);
   Field& number(std::string key, std::optional<double>& value, Range range, std::string doc);
   Field& integer(std::string key, int& value, Range range, std::string doc);
+  Field& integer(std::string key, std::optional<int>& value, Range range, std::string doc);
   Field& toggle(std::string key, bool& value, std::string doc);
   Field& text(std::string key, std::string& value, int max_length, std::string doc);
   /// Safe as part of a file name.
   Field& name(std::string key, std::string& value, std::string doc);
   Field& vector(std::string key, Vec3& value, Range range, std::string doc);
+  Field& vector(std::string key, std::optional<Vec3>& value, Range range, std::string doc);
   Field& integers(std::string key, std::array<int, 3>& value, Range range, std::string doc);
+  Field& integers(std::string key, std::optional<std::array<int, 3>>& value, Range range, std::string doc);
   Field& numbers(std::string key, std::vector<double>& value, int min_count, int max_count, Range range,
                  std::string doc);
 
-  template <class Enum>
-  Field& choice(std::string key, Enum& value, std::vector<std::pair<std::string, Enum>> words,
+  /// `value` is of an enum or an optional one.
+  template <class T>
+  Field& choice(std::string key, T& value, std::vector<std::pair<std::string, typename Held<T>::type>> words,
                 std::string doc) {
     Choice choice;
-    std::vector<Enum> values;
+    std::vector<typename Held<T>::type> values;
     for (auto& [word, meaning] : words) choice.words.push_back(word), values.push_back(meaning);
-    choice.get = [&value, values] {
-      std::size_t i = 0;
-      while (i + 1 < values.size() && values[i] != value) ++i;
-      return i;
+    choice.get = [&value, values]() -> std::optional<std::size_t> {
+      const auto found = std::find(values.begin(), values.end(), value);
+      if (found == values.end()) return std::nullopt;
+      return static_cast<std::size_t>(found - values.begin());
     };
     choice.set = [&value, values](std::size_t i) { value = values.at(i); };
     return add(std::move(key), std::move(choice), {}, std::move(doc));

@@ -12,6 +12,9 @@
 namespace ripstop {
 namespace {
 
+constexpr const char* not_a_table_name =
+    "a key here must be a name of at most 64 letters, digits, '.', '_' and '-'";
+
 std::string joined(const std::string& prefix, const std::string& key) {
   return prefix.empty() ? key : prefix + "." + key;
 }
@@ -89,7 +92,8 @@ class Reader {
   void value(const Field& field, const Node& node, const std::string& name);
 
   void set(double& target, const Node& node, const std::string& name);
-  void set(std::optional<double>& target, const Node& node, const std::string& name);
+  template <class T>
+  void set(std::optional<T>& target, const Node& node, const std::string& name);
   void set(int& target, const Node& node, const std::string& name);
   void set(bool& target, const Node& node, const std::string& name);
   void set(Vec3& target, const Node& node, const std::string& name);
@@ -166,10 +170,12 @@ void Reader::set(double& target, const Node& node, const std::string& name) {
   accept(node, name);
 }
 
-void Reader::set(std::optional<double>& target, const Node& node, const std::string& name) {
-  double number = 0;
-  set(number, node, name);
-  if (origins_.contains(name)) target = number;
+template <class T>
+void Reader::set(std::optional<T>& target, const Node& node, const std::string& name) {
+  const std::size_t before = problems_.size();
+  T read{};
+  set(read, node, name);
+  if (problems_.size() == before) target = read;
 }
 
 void Reader::set(int& target, const Node& node, const std::string& name) {
@@ -213,17 +219,6 @@ void Reader::set(const NumberList& target, const Node& node, const std::string& 
 
 void Reader::set(const Text& target, const Node& node, const std::string& name) {
   if (!is_a(Node::Type::text, node, name, "text")) return;
-  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
-  const auto starts_character = [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; };
-  if (target.is_name && !is_name(node.text))
-    return report(node, name, "a name", "must be a name of at most 64 letters, digits, '.', '_' and '-'");
-  if (std::any_of(node.text.begin(), node.text.end(), is_control))
-    return report(node, name, "text without control characters",
-                  "must not have line breaks or control characters");
-  if (std::count_if(node.text.begin(), node.text.end(), starts_character) > target.max_length) {
-    const std::string allowed = fmt::format("at most {} characters", target.max_length);
-    return report(node, name, allowed, "must have " + allowed);
-  }
   *target.value = node.text;
   accept(node, name);
 }
@@ -254,8 +249,7 @@ void Reader::set(const NamedTables& target, const Node& node, const std::string&
   for (const Node& item : node.items) {
     const std::string entry = joined(name, item.key);
     if (!is_name(item.key)) {
-      problems_.push_back({origin(item.key_place), name, quoted(item.key), "a name",
-                           "a key here must be a name of at most 64 letters, digits, '.', '_' and '-'"});
+      problems_.push_back({origin(item.key_place), name, quoted(item.key), "a name", not_a_table_name});
     } else if (is_a(Node::Type::table, item, entry, "a table")) {
       table(target.entry(item.key), item, entry);
     }
@@ -332,12 +326,31 @@ void Reader::table(Fields fields, const Node& node, const std::string& prefix) {
   }
 }
 
+/// What a text must be and is not, as Problem::allowed and Problem::message; both empty when it is.
+std::pair<std::string, std::string> refusal(const Text& target) {
+  const std::string& text = *target.value;
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
+  const auto starts_character = [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; };
+  if (target.is_name && !is_name(text))
+    return {"a name", "must be a name of at most 64 letters, digits, '.', '_' and '-'"};
+  if (std::any_of(text.begin(), text.end(), is_control))
+    return {"text without control characters", "must not have line breaks or control characters"};
+  if (std::count_if(text.begin(), text.end(), starts_character) > target.max_length) {
+    const std::string allowed = fmt::format("at most {} characters", target.max_length);
+    return {allowed, "must have " + allowed};
+  }
+  return {};
+}
+
 /// Ranges over the tree of described values.
 class Checker {
  public:
-  Checker(const Origins& origins, std::vector<Problem>& problems) : origins_(origins), problems_(problems) {}
+  Checker(const Origins& origins, std::vector<Problem>& problems) : findings_(origins, problems) {}
 
   void table(const Fields& fields, const std::string& prefix) {
+    // What started from nothing has no values of its own.
+    for (const Field& field : fields.list())
+      if (std::holds_alternative<Base>(field.value) && !findings_.sound({joined(prefix, field.key)})) return;
     for (const Field& field : fields.list()) {
       const std::string name = joined(prefix, field.key);
       std::visit([&](const auto& value) { check(field, value, name, prefix); }, field.value);
@@ -346,16 +359,17 @@ class Checker {
 
  private:
   void number(const Field& field, double value, const std::string& name) {
-    const auto origin = origins_.find(name);
-    if (origin == origins_.end() || field.range.contains(value)) return;
+    if (field.range.contains(value) || !findings_.sound({name})) return;
     const std::string allowed = field.range.text();
-    problems_.push_back({origin->second, name, fmt::format("{}", value), allowed, "must be " + allowed});
+    findings_.add(name, value, allowed, "must be " + allowed);
   }
   void check(const Field& field, double* value, const std::string& name, const std::string&) {
     number(field, *value, name);
   }
-  void check(const Field& field, std::optional<double>* value, const std::string& name, const std::string&) {
-    if (*value) number(field, **value, name);
+  template <class T>
+  void check(const Field& field, std::optional<T>* value, const std::string& name,
+             const std::string& prefix) {
+    if (*value) check(field, &**value, name, prefix);
   }
   void check(const Field& field, int* value, const std::string& name, const std::string&) {
     number(field, *value, name);
@@ -369,6 +383,11 @@ class Checker {
     for (std::size_t i = 0; i < 3; ++i) number(field, (*value)[i], element(name, i));
   }
   void check(const Field& field, const NumberList& list, const std::string& name, const std::string&) {
+    const int count = static_cast<int>(list.value->size());
+    if ((count < list.min_count || count > list.max_count) && findings_.sound({name}))
+      findings_.add(name, fmt::format("[{}]", fmt::join(*list.value, ", ")),
+                    fmt::format("{} to {} numbers", list.min_count, list.max_count),
+                    fmt::format("must have {} to {} numbers, not {}", list.min_count, list.max_count, count));
     for (std::size_t i = 0; i < list.value->size(); ++i) number(field, (*list.value)[i], element(name, i));
   }
   void check(const Field&, const Subtable& sub, const std::string& name, const std::string&) {
@@ -378,18 +397,24 @@ class Checker {
     for (std::size_t i = 0; i < rows.count(); ++i) table(rows.row(i), element(name, i));
   }
   void check(const Field&, const NamedTables& tables, const std::string& name, const std::string&) {
-    for (const std::string& entry : tables.names()) table(tables.entry(entry), joined(name, entry));
+    for (const std::string& entry : tables.names()) {
+      if (!is_name(entry)) findings_.add(name, quoted(entry), "a name", not_a_table_name);
+      table(tables.entry(entry), joined(name, entry));
+    }
   }
-  void check(const Field&, const Kind& kind, const std::string&, const std::string& prefix) {
-    table(kind.select(kind.get()), prefix);
+  void check(const Field&, const Kind& kind, const std::string& name, const std::string& prefix) {
+    if (findings_.sound({name})) table(kind.select(kind.get()), prefix);
+  }
+  void check(const Field&, const Text& text, const std::string& name, const std::string&) {
+    const auto [allowed, message] = refusal(text);
+    if (!message.empty() && findings_.sound({name}))
+      findings_.add(name, ripstop::quoted(*text.value), allowed, message);
   }
   void check(const Field&, const bool*, const std::string&, const std::string&) {}
-  void check(const Field&, const Text&, const std::string&, const std::string&) {}
   void check(const Field&, const Choice&, const std::string&, const std::string&) {}
   void check(const Field&, const Base&, const std::string&, const std::string&) {}
 
-  const Origins& origins_;
-  std::vector<Problem>& problems_;
+  Findings findings_;
 };
 
 }  // namespace

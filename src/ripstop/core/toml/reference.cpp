@@ -25,7 +25,13 @@ struct Describe {
     return fmt::format("`\"{}\"`", fmt::join(words, "\"`, `\""));
   }
   Columns operator()(const double* value) const { return {"number", code("{}", *value), range()}; }
-  Columns operator()(const std::optional<double>*) const { return {"number", field.if_absent, range()}; }
+  template <class T>
+  Columns operator()(const std::optional<T>*) const {
+    const T any{};
+    Columns columns = (*this)(&any);
+    columns.standard = field.if_absent;
+    return columns;
+  }
   Columns operator()(const int* value) const { return {"integer", code("{}", *value), range()}; }
   Columns operator()(const bool* value) const { return {"boolean", code("{}", *value), ""}; }
   Columns operator()(const Vec3* v) const {
@@ -42,7 +48,9 @@ struct Describe {
             text.is_name ? "" : fmt::format("at most {} characters", text.max_length)};
   }
   Columns operator()(const Choice& choice) const {
-    return {"word", code("\"{}\"", choice.words[choice.get()]), listed(choice.words)};
+    const auto standard = choice.get();
+    return {"word", standard ? code("\"{}\"", choice.words[*standard]) : field.if_absent,
+            listed(choice.words)};
   }
   Columns operator()(const Kind& kind) const { return {"word", "", listed(kind.words)}; }
   Columns operator()(const Base&) const { return {"name", "", ""}; }

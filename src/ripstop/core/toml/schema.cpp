@@ -41,7 +41,13 @@ struct ValueSchema {
     return schema;
   }
   Json operator()(const double* value) const { return with_default(number_schema(field, "number"), *value); }
-  Json operator()(const std::optional<double>*) const { return number_schema(field, "number"); }
+  template <class T>
+  Json operator()(const std::optional<T>*) const {
+    const T any{};
+    Json schema = (*this)(&any);
+    schema.erase("default");
+    return schema;
+  }
   Json operator()(const int* value) const { return with_default(number_schema(field, "integer"), *value); }
   Json operator()(const bool* value) const { return with_default({{"type", "boolean"}}, *value); }
   Json operator()(const Vec3* v) const {
@@ -61,7 +67,9 @@ struct ValueSchema {
     return with_default(schema, *text.value);
   }
   Json operator()(const Choice& choice) const {
-    return with_default({{"enum", choice.words}}, choice.words[choice.get()]);
+    const Json schema = {{"enum", choice.words}};
+    const auto standard = choice.get();
+    return standard ? with_default(schema, choice.words[*standard]) : schema;
   }
   Json operator()(const Kind& kind) const { return {{"enum", kind.words}}; }
   Json operator()(const Base&) const { return name_schema(); }

@@ -39,8 +39,9 @@ std::string list_literal(const List& values) {
 /// The literal of a field that is no table; empty when there is nothing to write.
 struct Literal {
   std::string operator()(const double* value) const { return number_text(*value); }
-  std::string operator()(const std::optional<double>* value) const {
-    return *value ? number_text(**value) : "";
+  template <class T>
+  std::string operator()(const std::optional<T>* value) const {
+    return *value ? (*this)(&**value) : "";
   }
   std::string operator()(const int* value) const { return fmt::format("{}", *value); }
   std::string operator()(const bool* value) const { return *value ? "true" : "false"; }
@@ -50,7 +51,10 @@ struct Literal {
   std::string operator()(const std::array<int, 3>* value) const { return list_literal(*value); }
   std::string operator()(const NumberList& list) const { return list_literal(*list.value); }
   std::string operator()(const Text& text) const { return text_literal(*text.value); }
-  std::string operator()(const Choice& choice) const { return text_literal(choice.words[choice.get()]); }
+  std::string operator()(const Choice& choice) const {
+    const auto chosen = choice.get();
+    return chosen ? text_literal(choice.words[*chosen]) : "";
+  }
   std::string operator()(const Kind& kind) const { return text_literal(kind.words[kind.get()]); }
   std::string operator()(const Subtable&) const { return ""; }
   std::string operator()(const Rows&) const { return ""; }

@@ -7,7 +7,7 @@
 
 namespace ripstop {
 
-/// The bound values, absent optional numbers left out. Reading the TOML gives the same values, bit by bit.
+/// The bound values, absent optional values left out. Reading the TOML gives the same values, bit by bit.
 std::string to_toml(const Fields& fields);
 std::string to_json(const Fields& fields);
 

@@ -1,0 +1,192 @@
+// The keys of [flow] and [coupling].
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "ripstop/case/resolve.h"
+#include "ripstop/core/toml/fields.h"
+
+namespace ripstop {
+namespace {
+
+template <class Value>
+using Words = std::vector<std::pair<std::string, Value>>;
+Words<Convection> convection_words() {
+  return {{"upwind", Convection::upwind}, {"second-order", Convection::second_order}};
+}
+Words<Sides> sides_words() {
+  return {{"zero-gradient", Sides::zero_gradient}, {"slip", Sides::slip}, {"entraining", Sides::entraining}};
+}
+Words<Outlet> outlet_words() {
+  return {{"fixed-pressure", Outlet::fixed_pressure}, {"still-air", Outlet::still_air}};
+}
+Words<CanopyLoad> load_words() {
+  return {
+      {"of-flow", CanopyLoad::of_flow}, {"uniform", CanopyLoad::uniform}, {"sampled", CanopyLoad::sampled}};
+}
+
+/// As "6 d by 6 d by 9 d".
+std::string in_diameters(const Vec3& of) {
+  return fmt::format("{:g} d x {:g} d x {:g} d", of.x, of.y, of.z);
+}
+
+/// The default of a key in the reference: the sheet's, and the paper model's.
+std::string by_model(const std::string& sheet, const std::string& paper) {
+  return sheet == paper ? sheet : sheet + "; `paper`: " + paper;
+}
+std::string by_model(double sheet, double paper) {
+  return by_model(fmt::format("`{}`", sheet), fmt::format("`{}`", paper));
+}
+std::string by_model(const std::array<int, 3>& sheet, const std::array<int, 3>& paper) {
+  return by_model(fmt::format("`[{}]`", fmt::join(sheet, ", ")),
+                  fmt::format("`[{}]`", fmt::join(paper, ", ")));
+}
+template <class Value>
+std::string by_model(const Words<Value>& words, Value sheet, Value paper) {
+  const auto quoted_word = [&](Value meaning) {
+    for (const auto& [word, value] : words)
+      if (value == meaning) return "`\"" + word + "\"`";
+    return std::string();
+  };
+  return by_model(quoted_word(sheet), quoted_word(paper));
+}
+
+/// Keys of [flow]: the box, its cells, the canopy's place in it and how the cloth resists.
+void describe_space(Fields& fields, FlowKeys& flow) {
+  fields
+      .vector("box_m", flow.box_m, above(0).up_to(1000),
+              "Box of air: width, height, length along the flow ([NFM] section 5).")
+      .absent(by_model(in_diameters(sheet_box),
+                       fmt::format("`[{:g}, {:g}, {:g}]`", paper_box.x, paper_box.y, paper_box.z)));
+  fields.integers("cells", flow.cells, from(4).up_to(2000), "Cells along each side of the box.")
+      .absent(by_model(sheet_defaults.cells, paper_defaults.cells));
+  fields.table("core", flow.core, "Cells that are finer about the canopy, so that the box may be wide.");
+  fields
+      .number("canopy_position_m", flow.canopy_position_m, above(0).up_to(1000),
+              "Distance from the inlet to the skirt of the undeformed start shape.")
+      .absent(by_model(fmt::format("half the length of the box, at most {:g} d", sheet_skirt),
+                       "half the length of the box"));
+  fields
+      .choice(
+          "porosity_model", flow.porosity_model,
+          {{"paper", PorosityModel::paper}, {"sheet", PorosityModel::sheet}},
+          "\"paper\": the cloth's darcy and forchheimer as resistance of every cell that the canopy cuts; "
+          "\"sheet\": as the pressure drop a v + b v|v| across the cloth, whatever the cells "
+          "(built-in engine only).")
+      .absent("what the canopy cloth's coefficients are for");
+}
+
+/// Keys of [flow]: the equations' numerics and the sides of the box.
+void describe_numerics(Fields& fields, FlowKeys& flow) {
+  fields
+      .choice("convection", flow.convection, convection_words(),
+              "Of the velocity. \"upwind\": first order, as [NFM]; \"second-order\": limited linear.")
+      .absent(by_model(convection_words(), sheet_defaults.convection, paper_defaults.convection));
+  fields
+      .choice(
+          "sides", flow.sides, sides_words(),
+          "The four sides of the box. \"zero-gradient\": open, as [NFM]; \"slip\": walls without friction; "
+          "\"entraining\": air of the stream may come in with its total pressure (built-in engine only).")
+      .absent(by_model(sides_words(), sheet_defaults.sides, paper_defaults.sides));
+  fields
+      .choice(
+          "outlet", flow.outlet, outlet_words(),
+          "The end of the box. \"fixed-pressure\": it is held, and air that comes back has no momentum, as "
+          "[NFM]; \"still-air\": air that comes back has the total pressure of air at rest (built-in engine "
+          "only).")
+      .absent(by_model(outlet_words(), sheet_defaults.outlet, paper_defaults.outlet));
+  fields
+      .number("residual", flow.residual, above(0).up_to(0.1),
+              "Residual of every equation at which a solution ends.")
+      .absent(by_model(sheet_defaults.residual, paper_defaults.residual));
+  fields
+      .integer("max_iterations", flow.max_iterations, from(1).up_to(1'000'000),
+               "Most iterations of one flow solution.")
+      .absent(by_model(sheet_defaults.max_iterations, paper_defaults.max_iterations));
+  fields
+      .integer("average_over", flow.average_over, from(0).up_to(1'000'000),
+               "Iterations at the end of a flow solution that did not settle, whose mean is taken for it; 0: "
+               "the last one stands (built-in engine only).")
+      .absent(by_model(sheet_defaults.average_over, paper_defaults.average_over) +
+              "; at most max_iterations");
+}
+
+}  // namespace
+
+void describe(Fields& fields, CoreKeys& core) {
+  fields
+      .vector(
+          "size_m", core.size_m, from(0).up_to(1000),
+          "Width, height, length of the part of the box with uniform cells, about the box's axis; outside "
+          "of it cells grow toward the sides. 0: uniform along that axis.")
+      .absent(by_model(in_diameters(sheet_core) + ", 0 where a side of the box is less than twice that",
+                       "`[0, 0, 0]`"));
+  fields.number("start_m", core.start_m, from(0).up_to(1000), "Distance from the inlet to the fine part.")
+      .absent("such that a quarter of its length lies before the canopy");
+  fields
+      .number("growth", core.growth, above(1).up_to(2),
+              "Largest ratio of a cell's width to that of its inner neighbour.")
+      .absent(by_model(sheet_defaults.growth, paper_defaults.growth));
+}
+
+void describe(Fields& fields, FlowKeys& flow) {
+  Words<std::string> words;
+  std::string meanings;
+  for (const EngineRecord& engine : engines()) {
+    words.emplace_back(engine.word, engine.word);
+    meanings += (meanings.empty() ? "" : ", or ") + engine.meaning;
+  }
+  fields.choice("engine", flow.engine, words, "Flow solver: " + meanings + ".");
+  fields
+      .number("speed_m_s", flow.speed_m_s, above(0).up_to(100),
+              "Free-stream speed; below Mach 0.3, where the canopy's flow model holds.")
+      .required();
+  fields.choice(
+      "speed_basis", flow.speed_basis, {{"nominal", SpeedBasis::nominal}, {"measured", SpeedBasis::measured}},
+      "\"nominal\": speed_m_s is used as it is; \"measured\": the measured speed of the row of [[measured]] "
+      "whose nominal speed it is.");
+  fields.number("density_kg_m3", flow.density_kg_m3, above(0).up_to(20), "Density of the air.")
+      .absent("of the row of [[measured]] whose nominal speed is speed_m_s");
+  fields.number("viscosity_pa_s", flow.viscosity_pa_s, above(0).up_to(1e-2), "Dynamic viscosity.");
+  fields.number("temperature_k", flow.temperature_k, from(100).up_to(1000),
+                "Temperature of the air; the pressure follows from the density.");
+  fields.number("turbulence_intensity", flow.turbulence_intensity, above(0).up_to(1),
+                "At the inlet (assumed).");
+  fields.number("viscosity_ratio", flow.viscosity_ratio, above(0).up_to(1e5),
+                "Eddy viscosity over viscosity at the inlet (assumed).");
+  describe_space(fields, flow);
+  describe_numerics(fields, flow);
+  fields.integer("ranks", flow.ranks, from(1).up_to(4096), "Processes of the flow solver.");
+  fields.number("time_limit_s", flow.time_limit_s, from(0).up_to(1e7),
+                "Longest wall time of one flow solution; 0: none.");
+}
+
+void describe(Fields& fields, CouplingKeys& coupling) {
+  fields
+      .choice(
+          "load", coupling.load, load_words(),
+          "The flow's force on the cloth. \"of-flow\": what the air loses on every piece of cloth (\"sheet\" "
+          "model only); \"uniform\": one pressure difference; \"sampled\": the pressures read on both sides, "
+          "scaled.")
+      .absent(by_model(load_words(), sheet_defaults.load, paper_defaults.load));
+  fields
+      .number("drag_tolerance", coupling.drag_tolerance, above(0).up_to(1),
+              "Relative change of drag between two iterations at which the coupling may end.")
+      .absent(by_model(sheet_defaults.drag_tolerance, paper_defaults.drag_tolerance));
+  fields.number("shape_tolerance_m", coupling.shape_tolerance_m, above(0).up_to(10),
+                "Mean displacement of the nodes between two iterations at which it may end.");
+  fields.integer("max_iterations", coupling.max_iterations, from(1).up_to(10000),
+                 "Most iterations of the coupling.");
+  fields.number("relaxation", coupling.relaxation, above(0).up_to(1),
+                "Share of a new iterate that is taken.");
+  fields.choice(
+      "acceleration", coupling.acceleration,
+      {{"none", Acceleration::none}, {"aitken", Acceleration::aitken}, {"anderson", Acceleration::anderson}},
+      "How iterates are combined.");
+  fields.number("cloth_tolerance", coupling.cloth_tolerance, above(0).up_to(0.1),
+                "Residual force over applied force at which the cloth is in equilibrium.");
+  fields.toggle("linear", coupling.linear, "Keep only K_1 of every law: the linear model of [NFM].");
+  fields.integer("threads", coupling.threads, from(0).up_to(1024),
+                 "Threads of the cloth solver; 0: one a core.");
+}
+
+}  // namespace ripstop

@@ -1,0 +1,71 @@
+#include "ripstop/case/opening.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "ripstop/case/assemble.h"
+#include "ripstop/core/error.h"
+#include "ripstop/inflation/pressure.h"
+
+namespace ripstop {
+namespace {
+
+// The equilibrium that turns a drag into a pressure is found on a mesh of at most so many nodes: its area
+// differs by a few parts of a thousand.
+constexpr int equilibrium_nodes = 3000;
+
+double pressure_of(const Case& opening, const LoadSource& source, int threads) {
+  if (!source.steady_drag) return *opening.inflation.pressure_pa;
+  Case coarse = opening;
+  coarse.parachute.mesh.cloth_nodes = std::min(equilibrium_nodes, opening.parachute.mesh.cloth_nodes);
+  ThreadTeam team(threads);
+  return pressure_for(*source.steady_drag, parachute_mesh(coarse), opening.coupling.linear, team).pressure;
+}
+
+}  // namespace
+
+Case opening_case(const Case& given) {
+  Case opening = given;
+  const InflationSettings& inflation = opening.inflation;
+  if (inflation.cloth_compression) {
+    for (auto& [name, material] : opening.materials) {
+      if (auto* fabric = std::get_if<Fabric>(&material)) fabric->compression = *inflation.cloth_compression;
+      if (auto* tape = std::get_if<Tape>(&material)) tape->compression = *inflation.cloth_compression;
+    }
+  }
+  MeshSettings& mesh = opening.parachute.mesh;
+  mesh.sewn_straight = false;  // chords of curved seams would strain the folded start
+  mesh.line_segment_m = *resolve(given).written.inflation.line_segment_m;
+  mesh.folds = inflation.folds > 0 ? inflation.folds : opening.parachute.lines.count;
+  return opening;
+}
+
+LoadSource load_source(const Case& given) {
+  const InflationSettings& inflation = given.inflation;
+  if (inflation.pressure_pa.has_value() == inflation.drag_coefficient.has_value()) {
+    throw Error(ExitCode::usage,
+                "give the pressure once: inflation.pressure_pa, inflation.drag_coefficient, --pressure "
+                "or --steady RUN");
+  }
+  if (inflation.pressure_pa) return {fmt::format("given: {:g} Pa", *inflation.pressure_pa), {}};
+  const Air stream = air(given);
+  const double q = 0.5 * stream.density * stream.speed * stream.speed;
+  const double drag = *inflation.drag_coefficient * nominal_area(given.parachute) * q;
+  return {fmt::format("C_D = {:g} at {:g} m/s: {:.4g} N", *inflation.drag_coefficient, stream.speed, drag),
+          drag};
+}
+
+InflationProblem opening_problem(const Case& opening, const LoadSource& source, int threads) {
+  InflationProblem problem;
+  problem.mesh = parachute_mesh(opening);
+  problem.settings = opening.inflation;
+  problem.pressure = pressure_of(opening, source, threads);
+  problem.linear = opening.coupling.linear;
+  problem.threads = threads;
+  problem.symmetry = std::gcd(opening.parachute.gores, opening.parachute.lines.count);
+  return problem;
+}
+
+}  // namespace ripstop

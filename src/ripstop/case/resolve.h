@@ -1,0 +1,100 @@
+// From what a case gives to what the solvers take. Every key that is absent follows from the parachute, its
+// cloth and the values of other keys, never from which keys were given: to write a value that follows changes
+// nothing.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "ripstop/case/case.h"
+
+namespace ripstop {
+
+/// What follows from the porosity model alone; docs/guide/case-file.md, Air through the cloth.
+struct ModelDefaults {
+  std::array<int, 3> cells;
+  double growth;
+  Convection convection;
+  Sides sides;
+  Outlet outlet;
+  double residual;
+  int max_iterations, average_over;
+  CanopyLoad load;
+  double drag_tolerance;
+};
+/// As [NFM] has it.
+inline constexpr ModelDefaults paper_defaults{.cells = {100, 100, 150},
+                                              .growth = 1.1,
+                                              .convection = Convection::upwind,
+                                              .sides = Sides::zero_gradient,
+                                              .outlet = Outlet::fixed_pressure,
+                                              .residual = 1e-5,
+                                              .max_iterations = 1000,
+                                              .average_over = 0,
+                                              .load = CanopyLoad::uniform,
+                                              .drag_tolerance = 1e-3};
+/// Fine about the canopy, in a wide box; such a flow settles to 3e-4 only, or keeps shedding.
+inline constexpr ModelDefaults sheet_defaults{.cells = {80, 80, 98},
+                                              .growth = 1.125,
+                                              .convection = Convection::second_order,
+                                              .sides = Sides::entraining,
+                                              .outlet = Outlet::still_air,
+                                              .residual = 3e-4,
+                                              .max_iterations = 300,
+                                              .average_over = 60,
+                                              .load = CanopyLoad::of_flow,
+                                              .drag_tolerance = 5e-3};
+
+/// The paper model's box [m], [NFM] section 5.
+inline constexpr Vec3 paper_box{2, 2, 4};
+/// The sheet's box and core and the skirt's distance from the inlet, in inflated diameters;
+/// docs/theory/flow-cartesian.md, Sides of the box, and docs/validation.md say what they are worth.
+inline constexpr Vec3 sheet_box{6, 6, 9}, sheet_core{1.8, 1.8, 2.2};
+inline constexpr double sheet_skirt = 4;
+
+struct CoreSettings {
+  Vec3 size_m;         // 0: the cells are uniform along that axis
+  double start_m = 0;  // from the inlet
+  double growth = 0;
+};
+
+/// FlowKeys with every value.
+struct FlowSettings : FlowOptions {
+  double density_kg_m3 = 0;
+  PorosityModel porosity_model = PorosityModel::sheet;
+  Vec3 box_m;
+  std::array<int, 3> cells{};
+  CoreSettings core;
+  double canopy_position_m = 0;
+  Convection convection = Convection::upwind;
+  Sides sides = Sides::zero_gradient;
+  Outlet outlet = Outlet::fixed_pressure;
+  double residual = 0;
+  int max_iterations = 0;
+  int average_over = 0;
+};
+
+/// One key whose value follows from others where it is not given.
+struct Source {
+  std::string key;
+  bool given = false;
+  std::string from;  // "the sheet's default", "given in case.toml, line 12"
+};
+
+struct Resolved {
+  FlowSettings flow;
+  CouplingSettings coupling;
+  Case written;  // the case with all of these values given
+  std::vector<Source> sources;
+};
+
+/// Pure. Throws Error(usage) for a case without air or without its cloth: one that checked() would refuse.
+Resolved resolve(const Case& given);
+
+/// z of the skirt of the undeformed start shape, from the inlet [m].
+double canopy_position(const Case& given);
+/// Cells of the flow. Throws Error(usage) for a core that does not fit, or that the cells do not suffice for.
+FlowGrid flow_grid(const FlowSettings& flow);
+FlowGrid flow_grid(const Case& given);
+
+}  // namespace ripstop

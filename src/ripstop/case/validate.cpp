@@ -1,0 +1,228 @@
+// Every check of a case that looks at more than one key.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ripstop/case/resolve.h"
+#include "ripstop/core/toml/read.h"
+
+namespace ripstop {
+namespace {
+
+constexpr double most_cells = 2e8;         // about 200 GB in the flow solver
+constexpr double fewest_cells_across = 4;  // of the canopy's diameter
+
+/// Brings the named material into the case from the library, unless the case has it, and checks its kind.
+template <class Kind>
+void find_material(Case& given, const std::string& key, const std::string& name, Findings& findings) {
+  if (!findings.sound({key, "materials." + name})) return;
+  auto found = given.materials.find(name);
+  if (found == given.materials.end()) {
+    try {
+      found = given.materials.emplace(name, library_material(name)).first;
+    } catch (const InputError&) {
+      throw;  // the file is there and broken
+    } catch (const Error& error) {
+      if (error.code() != ExitCode::usage) throw;
+      findings.add(key, quoted(name), "",
+                   std::string(error.what()) + " (or write it into the case as [materials." + name + "])");
+      return;
+    }
+  }
+  const std::string needed = kind_of(Material(Kind{}));
+  if (!std::holds_alternative<Kind>(found->second))
+    findings.add(key, quoted(name), "a material of kind " + quoted(needed),
+                 fmt::format("is a {}; a {} is needed here", kind_of(found->second), needed));
+}
+
+void check_materials(Case& given, Findings& findings) {
+  for (auto& [name, material] : given.materials) {
+    set_name(material, name);
+    if (findings.sound({"materials." + name})) check_material(material, "materials." + name, findings);
+  }
+  const Design& parachute = given.parachute;
+  find_material<Fabric>(given, "parachute.canopy_material", parachute.canopy_material, findings);
+  find_material<Line>(given, "parachute.lines.material", parachute.lines.material, findings);
+  find_material<Line>(given, "parachute.riser.material", parachute.riser.material, findings);
+  find_material<Tape>(given, "parachute.tape.material", parachute.tape.material, findings);
+}
+
+void check_measured(const Case& given, Findings& findings) {
+  if (!findings.sound({"measured", "flow.speed_m_s"})) return;
+  std::vector<double> speeds;
+  for (std::size_t i = 0; i < given.measured.size(); ++i) {
+    const double speed = given.measured[i].nominal_speed_m_s;
+    if (std::find(speeds.begin(), speeds.end(), speed) != speeds.end())
+      findings.add(fmt::format("measured[{}].nominal_speed_m_s", i), speed, "",
+                   "there is already a row of [[measured]] with this nominal speed");
+    speeds.push_back(speed);
+  }
+  if (measured_row(given)) return;
+  const std::string rows = speeds.empty()
+                               ? "there are no rows of [[measured]]"
+                               : fmt::format("[[measured]] has rows for {}", fmt::join(speeds, ", "));
+  if (given.flow.speed_basis == SpeedBasis::measured)
+    findings.add("flow.speed_m_s", given.flow.speed_m_s, fmt::format("{}", fmt::join(speeds, ", ")),
+                 "speed_basis = \"measured\" needs a row of [[measured]] with this nominal speed; " + rows);
+  else if (!given.flow.density_kg_m3 && findings.sound({"flow.density_kg_m3"}))
+    findings.add(
+        "flow.density_kg_m3", "", "above 0 and at most 20",
+        fmt::format("is missing, and no row of [[measured]] has the nominal speed {} to take it from; {}",
+                    given.flow.speed_m_s, rows));
+}
+
+/// The start shape, and the inflated shape that it may turn into, have to lie inside the box.
+void check_box(const Case& given, const FlowSettings& flow, Findings& findings) {
+  const Vec3 box = flow.box_m;
+  const double diameter = start_diameter(given.parachute);
+  const std::string canopy = fmt::format("a canopy of {:.6g} m diameter", diameter);
+  for (const auto& [index, side] : {std::pair{0, box.x}, std::pair{1, box.y}})
+    if (side <= diameter)
+      findings.add(fmt::format("flow.box_m[{}]", index), side, fmt::format("above {:.6g}", diameter),
+                   fmt::format("{} does not fit into the box", canopy));
+  // Downstream of the skirt no point of a canopy is farther than its meridian is long.
+  const double skirt = flow.canopy_position_m;
+  const double end = skirt + start_depth(given.parachute) + diameter / 2;
+  if (end >= box.z) {
+    const bool placed = given.flow.canopy_position_m.has_value();
+    findings.add(
+        placed ? "flow.canopy_position_m" : "flow.box_m[2]", placed ? skirt : box.z,
+        placed ? fmt::format("below {:.6g}", box.z - (end - skirt)) : "",
+        fmt::format(
+            "{} with its skirt at {:.6g} m may reach to {:.6g} m, past the end of the box at {:.6g} m",
+            canopy, skirt, end, box.z));
+  }
+}
+
+/// The core has to hold the canopy, and the cells have to show it.
+void check_cells(const Case& given, const FlowSettings& flow, Findings& findings) {
+  const double diameter = start_diameter(given.parachute), skirt = flow.canopy_position_m;
+  const std::array<int, 3>& cells = flow.cells;
+  const double all = double(cells[0]) * cells[1] * cells[2];
+  if (all > most_cells)
+    findings.add(
+        "flow.cells", fmt::format("[{}]", fmt::join(cells, ", ")),
+        fmt::format("at most {:.0e} together", most_cells),
+        fmt::format("{:.3g} cells are more than {:.0e}, more than the solver can hold", all, most_cells));
+  if (!findings.sound({"flow.core.size_m", "flow.core.start_m", "flow.core.growth"})) return;
+  const Vec3 core = flow.core.size_m;
+  for (const auto& [index, side] : {std::pair{0, core.x}, std::pair{1, core.y}})
+    if (side > 0 && side < diameter)
+      findings.add(fmt::format("flow.core.size_m[{}]", index), side, fmt::format("at least {:.6g}", diameter),
+                   fmt::format("a canopy of {:.6g} m diameter does not fit into the fine core", diameter));
+  if (core.z > 0 && flow.core.start_m > skirt)
+    findings.add("flow.core.start_m", flow.core.start_m, fmt::format("at most {:.6g}", skirt),
+                 fmt::format("the skirt, at {:.6g} m, lies before the fine core", skirt));
+  if (!findings.sound({"flow.core.size_m", "flow.core.start_m"})) return;
+  FlowGrid grid;
+  try {
+    grid = flow_grid(flow);
+  } catch (const Error& error) {
+    return findings.add("flow.core", "", "", error.what());
+  }
+  const Vec3 width = grid.spacing();
+  const double widths[] = {width.x, width.y, width.z};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double across = diameter / widths[i];
+    if (across < fewest_cells_across)
+      findings.add(
+          fmt::format("flow.cells[{}]", i), cells[i],
+          fmt::format("at least {:.0f}", std::ceil(cells[i] * fewest_cells_across / across)),
+          fmt::format("only {:.2g} cells lie across the canopy's diameter; {} are the fewest that show a "
+                      "canopy at all",
+                      across, fewest_cells_across));
+  }
+}
+
+/// What the engine has not is refused here, before the cloth has been relaxed for it.
+void check_engine(const Case& given, const FlowSettings& flow, Findings& findings) {
+  if (!findings.sound({"flow"})) return;
+  std::vector<std::string> words;
+  for (const EngineRecord& engine : engines()) words.push_back(engine.word);
+  if (std::find(words.begin(), words.end(), flow.engine) == words.end())  // of a case made in code
+    return findings.add("flow.engine", quoted(flow.engine), fmt::format("{}", fmt::join(words, ", ")),
+                        "there is no such flow engine");
+  Abilities wanted;
+  wanted.sheets = flow.porosity_model == PorosityModel::sheet;
+  wanted.entraining_sides = flow.sides == Sides::entraining;
+  wanted.still_air_outlet = flow.outlet == Outlet::still_air;
+  wanted.averages = flow.average_over > 0;
+  wanted.ranks = flow.ranks > 1;
+  for (const Lack& lack : lacks(engine_of(flow.engine), wanted)) {
+    if (lack.key == "flow.porosity_model")  // all that follows from it is lacking too
+      return findings.add(
+          "flow.engine", quoted(flow.engine), quoted(engines().front().word),
+          fmt::format("the cloth {} is a sheet (flow.porosity_model), which this engine has not; it "
+                      "needs cloth with coefficients of the \"paper\" model, such as \"f-111\"",
+                      quoted(given.parachute.canopy_material)));
+    findings.add(lack.key, lack.value, lack.instead,
+                 fmt::format("the flow engine {} (flow.engine) has not that", quoted(flow.engine)));
+  }
+}
+
+void check_load(const Resolved& resolved, Findings& findings) {
+  if (resolved.coupling.load != CanopyLoad::of_flow || resolved.flow.porosity_model == PorosityModel::sheet)
+    return;
+  if (findings.sound({"coupling.load", "flow.porosity_model"}))
+    findings.add("coupling.load", quoted("of-flow"), quoted("uniform"),
+                 "what the air loses on every piece of cloth is known of a sheet only (flow.porosity_model)");
+}
+
+void check_average(const FlowSettings& flow, Findings& findings) {
+  if (findings.sound({"flow.average_over", "flow.max_iterations"}) && flow.average_over > flow.max_iterations)
+    findings.add("flow.average_over", flow.average_over,
+                 fmt::format("at most {}, flow.max_iterations", flow.max_iterations),
+                 "a flow solution has no more iterations than that");
+}
+
+/// What asks for values that follow from parachute and cloth.
+void check_settings(Case given, Findings& findings) {
+  const std::string& cloth = given.parachute.canopy_material;
+  if (!findings.sound(shape_keys(given.parachute)) ||
+      !findings.sound({"parachute.canopy_material", "materials." + cloth}))
+    return;
+  if (!measured_row(given)) {  // told by check_measured(); the box does not ask for the air
+    given.flow.speed_basis = SpeedBasis::nominal;
+    if (!given.flow.density_kg_m3) given.flow.density_kg_m3 = 1;
+  }
+  const Resolved resolved = resolve(given);
+  const FlowSettings& flow = resolved.flow;
+  if (findings.sound({"flow.box_m", "flow.canopy_position_m"})) {
+    check_box(given, flow, findings);
+    if (findings.sound({"flow.cells"})) check_cells(given, flow, findings);
+  }
+  check_average(flow, findings);
+  check_engine(given, flow, findings);
+  check_load(resolved, findings);
+}
+
+/// Adds what is found to `problems`, and to the case what its parachute names of the library's materials.
+void check(Case& given, std::vector<Problem>& problems) {
+  Fields fields;
+  describe(fields, given);
+  check_values(fields, given.origins, problems);
+  Findings findings(given.origins, problems);
+  check_design(given.parachute, findings);
+  check_materials(given, findings);
+  check_measured(given, findings);
+  check_settings(given, findings);
+}
+
+}  // namespace
+
+std::vector<Problem> validate(const Case& given) {
+  Case complete = given;
+  std::vector<Problem> problems;
+  check(complete, problems);
+  return problems;
+}
+
+Case checked(Case given, std::vector<Problem> known) {
+  check(given, known);
+  if (!known.empty()) throw InputError(ExitCode::usage, std::move(known));
+  return given;
+}
+
+}  // namespace ripstop

@@ -1,0 +1,280 @@
+// What follows where a case says nothing: from parachute, cloth and other values, never from which keys were
+// typed.
+#include "ripstop/case/resolve.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <random>
+
+#include "fixture.h"
+#include "ripstop/case/assemble.h"
+#include "ripstop/core/file.h"
+#include "ripstop/parachute/flat_circular.h"
+
+namespace ripstop {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const std::string short_case = R"(
+[parachute]
+type = "flat-circular"
+nominal_diameter_m = 3.0
+vent_diameter_m = 0.3
+gores = 12
+lines = { count = 12, length_m = 3.0 }
+[flow]
+speed_m_s = 8
+density_kg_m3 = 1.2
+)";
+constexpr double d = 0.7 * 3.0;  // its inflated diameter
+
+std::string of_calibrated_cloth(const std::string& text) {
+  return replaced(text, "gores = 12", "gores = 12\ncanopy_material = \"f-111\"");
+}
+
+FlowSettings flow_of(const std::string& text) {
+  return resolve(parse_case(text, "case.toml")).flow;
+}
+
+const std::string& source_of(const Resolved& resolved, const std::string& key) {
+  for (const Source& source : resolved.sources)
+    if (source.key == key) return source.from;
+  ADD_FAILURE() << key << " has no source";
+  static const std::string none;
+  return none;
+}
+
+/// Every key that stands in a table, with its value as TOML.
+void collect(const Json& node, const std::string& name, std::vector<Setting>& leaves) {
+  if (node.is_object()) {
+    for (const auto& [key, child] : node.items())
+      collect(child, name.empty() ? key : name + "." + key, leaves);
+  } else if (node.is_array() && !node.empty() && node.front().is_object()) {
+    for (std::size_t i = 0; i < node.size(); ++i)
+      collect(node[i], name + "[" + std::to_string(i) + "]", leaves);
+  } else {
+    leaves.push_back({name, node.dump(), "--set"});
+  }
+}
+
+namespace fs = std::filesystem;
+
+/// A file of the repository.
+std::string text_of(const char* file) {
+  return read_text_file(fs::path(RIPSTOP_SOURCE_DIR) / file);
+}
+
+/// The ten lines of the README.
+std::string readme_case() {
+  const std::string readme = text_of("README.md"), fence = "```";
+  const std::size_t begin = readme.find(fence + "toml\n") + fence.size() + 5;
+  return readme.substr(begin, readme.find(fence, begin) - begin);
+}
+
+// A case of each porosity model, cases that give a part of what belongs together, and what people start from.
+const std::vector<std::pair<std::string, std::string>> cases = {
+    {"sheet", short_case},
+    {"sheet in a narrow box", valid_case},
+    {"sheet in a box of its own", short_case + "box_m = [8, 8, 10]\n"},
+    {"sheet with cells of its own", short_case + "cells = [60, 60, 70]\n"},
+    {"sheet with a core of its own", short_case + "core = { size_m = [4.4, 4.4, 5] }\n"},
+    {"sheet with another growth", short_case + "core = { growth = 1.2 }\n"},
+    {"sheet at another place", short_case + "canopy_position_m = 7.5\n"},
+    {"sheet with few iterations", short_case + "max_iterations = 40\n"},
+    {"sheet with slip", short_case + "sides = \"slip\"\nconvection = \"upwind\"\n"},
+    {"paper", of_calibrated_cloth(replaced(short_case, "= 3.0\nvent", "= 1.0\nvent"))},
+    {"paper's numbers as a sheet", of_calibrated_cloth(short_case) + "porosity_model = \"sheet\"\n"},
+    {"a sheet's numbers as cells", replaced(short_case, "= 3.0\nvent", "= 1.0\nvent") +
+                                       "porosity_model = \"paper\"\nbox_m = [2.5, 2.5, 5]\n"},
+    {"README", readme_case()},
+    {"Stratos IV, with its opening", text_of("examples/stratos-iv/case.toml")},
+    {"ringslot", text_of("examples/ringslot/case.toml")},
+    {"cross", text_of("examples/cross/case.toml")},
+    {"elliptical, a profile", text_of("examples/elliptical/case.toml")},
+    {"an opening under a pressure of its own",
+     short_case + "[inflation]\npressure_pa = 200\nline_segment_m = 0.1\n"},
+};
+
+TEST(Resolved, ToWriteADefaultsOwnValueChangesNothingWhateverTheKey) {
+  for (const auto& [name, text] : cases) {
+    const std::string plain = case_json(parse_case(text, "case.toml"));
+    std::vector<Setting> leaves;
+    collect(Json::parse(plain), "", leaves);
+    EXPECT_GT(leaves.size(), 90u) << name;
+    for (const Setting& leaf : leaves) {
+      Overrides one;
+      one.set = {leaf};
+      EXPECT_EQ(case_json(parse_case(text, "case.toml", one)), plain)
+          << name << ": " << leaf.key << " = " << leaf.value;
+    }
+  }
+}
+
+TEST(Resolved, ToWriteAnyOfThemTogetherChangesNothing) {
+  std::mt19937 random(3);
+  for (const auto& [name, text] : cases) {
+    const std::string plain = case_json(parse_case(text, "case.toml"));
+    std::vector<Setting> leaves;
+    collect(Json::parse(plain), "", leaves);
+    for (int i = 0; i < 20; ++i) {
+      Overrides some;
+      for (const Setting& leaf : leaves)
+        if (random() % 3 == 0) some.set.push_back(leaf);
+      EXPECT_EQ(case_json(parse_case(text, "case.toml", some)), plain) << name;
+    }
+  }
+}
+
+TEST(Resolved, AWrittenCaseReadsAgainAsTheSameCase) {
+  for (const auto& [name, text] : cases) {
+    const Case given = parse_case(text, "case.toml");
+    const Case again = parse_case(case_toml(given), "written");
+    EXPECT_EQ(case_json(again), case_json(given)) << name;
+    EXPECT_EQ(flow_grid(again), flow_grid(given)) << name;
+  }
+}
+
+TEST(Resolved, DoesNotHangOnWhereValuesCameFrom) {
+  for (const auto& [name, text] : cases) {
+    const Case given = parse_case(text, "case.toml");
+    Case made = given;
+    made.origins.clear();
+    EXPECT_EQ(case_json(made), case_json(given)) << name;
+  }
+}
+
+TEST(Resolved, ASheetStandsInABoxThatScalesWithTheCanopy) {
+  const Case given = parse_case(short_case, "short");
+  const FlowSettings flow = resolve(given).flow;
+  EXPECT_EQ(flow.porosity_model, PorosityModel::sheet);
+  EXPECT_EQ(flow.sides, Sides::entraining);
+  EXPECT_EQ(flow.outlet, Outlet::still_air);
+  EXPECT_EQ(flow.convection, Convection::second_order);
+  EXPECT_NEAR(flow.box_m.x, 6 * d, 1e-9);
+  EXPECT_NEAR(flow.box_m.z, 9 * d, 1e-9);
+  EXPECT_NEAR(flow.canopy_position_m, 4 * d, 1e-9);
+  const FlowGrid grid = flow_grid(flow);
+  EXPECT_NEAR(grid.spacing().x / d, 0.04, 0.002);
+  EXPECT_NEAR(grid.spacing().z / d, 0.04, 0.002);
+  const FlowProblem problem = flow_problem(given);
+  EXPECT_TRUE(problem.porous.empty());
+  ASSERT_EQ(problem.sheets.size(), 1u);
+  EXPECT_EQ(problem.sheets[0].linear, 8169.3);
+}
+
+TEST(Resolved, EachPartOfTheBoxFollowsByItself) {
+  const FlowSettings whole = flow_of(short_case);
+  // The place alone: box, cells and the core's size stay, the core goes along.
+  const FlowSettings placed = flow_of(short_case + "canopy_position_m = 7.5\n");
+  EXPECT_EQ(placed.box_m, whole.box_m);
+  EXPECT_EQ(placed.cells, whole.cells);
+  EXPECT_EQ(placed.core.size_m, whole.core.size_m);
+  EXPECT_NEAR(placed.core.start_m, whole.core.start_m + 7.5 - 4 * d, 1e-12);
+  // The box alone: the core stays as wide as the canopy asks for.
+  const FlowSettings boxed = flow_of(short_case + "box_m = [8, 8, 12]\n");
+  EXPECT_EQ(boxed.core.size_m, whole.core.size_m);
+  EXPECT_EQ(boxed.cells, whole.cells);
+  EXPECT_EQ(boxed.canopy_position_m, 6) << "half the length of a box that is shorter than usual";
+  EXPECT_EQ(flow_of(short_case + "box_m = [8, 8, 30]\n").canopy_position_m, whole.canopy_position_m);
+  // A core alone and cells alone: the box stays.
+  const FlowSettings cored = flow_of(short_case + "core = { size_m = [4.4, 4.4, 5] }\n");
+  EXPECT_EQ(cored.box_m, whole.box_m);
+  EXPECT_EQ(cored.core.growth, whole.core.growth);
+  const FlowSettings coarse = flow_of(short_case + "cells = [60, 60, 70]\n");
+  EXPECT_EQ(coarse.box_m, whole.box_m);
+  EXPECT_EQ(coarse.core.size_m, whole.core.size_m);
+}
+
+TEST(Resolved, ABoxThatACoreWouldHalfFillHasUniformCells) {
+  EXPECT_EQ(flow_of(valid_case).core.size_m, Vec3{});
+  EXPECT_EQ(flow_of(short_case + "box_m = [8, 7.5, 10]\n").core.size_m, Vec3{})
+      << "2 x 1.8 x 2.1 m is 7.56 m";
+  EXPECT_EQ(flow_of(short_case + "box_m = [8, 7.6, 10]\n").core.size_m, d * (Vec3{1.8, 1.8, 2.2}));
+}
+
+TEST(Resolved, TheMeanOfIterationsIsOfNoMoreThanThereAre) {
+  EXPECT_EQ(flow_of(short_case).average_over, 60);
+  EXPECT_EQ(flow_of(short_case + "max_iterations = 40\n").average_over, 40);
+}
+
+TEST(Resolved, ClothWithCalibratedCoefficientsStandsInThePapersBox) {
+  const Case given =
+      parse_case(of_calibrated_cloth(replaced(short_case, "= 3.0\nvent", "= 1.0\nvent")), "paper");
+  const FlowSettings flow = resolve(given).flow;
+  EXPECT_EQ(flow.porosity_model, PorosityModel::paper);
+  EXPECT_EQ(flow.box_m, (Vec3{2, 2, 4}));
+  EXPECT_EQ(flow.canopy_position_m, 2);
+  EXPECT_EQ(flow.core.size_m, Vec3{});
+  EXPECT_EQ(flow.sides, Sides::zero_gradient);
+  EXPECT_EQ(flow.outlet, Outlet::fixed_pressure);
+  EXPECT_EQ(flow.residual, 1e-5);
+  EXPECT_EQ(flow.average_over, 0);
+  EXPECT_EQ(resolve(given).coupling.drag_tolerance, 1e-3);
+  EXPECT_EQ(flow_problem(given).porous.size(), 1u);
+}
+
+TEST(Resolved, WhatIsChangedLaterIsFollowedAgain) {
+  Case given = parse_case(short_case, "short");
+  given.parachute.canopy = FlatCircular{1.5, 0.15};
+  EXPECT_NEAR(resolve(given).flow.box_m.x, 3 * d, 1e-9);
+  apply({.grid = std::array{60, 60, 70}}, given);
+  EXPECT_NEAR(resolve(given).flow.box_m.x, 3 * d, 1e-9);
+  EXPECT_EQ(resolve(given).flow.cells, (std::array{60, 60, 70}));
+}
+
+TEST(Resolved, EveryValueSaysWhatItFollowedFrom) {
+  Overrides overrides;
+  overrides.grid = std::array{60, 60, 70};
+  overrides.set = {parse_setting("flow.residual=1e-4", "--set")};
+  const Resolved resolved = resolve(parse_case(short_case + "sides = \"slip\"\n", "case.toml", overrides));
+  EXPECT_EQ(source_of(resolved, "flow.sides"), "given in case.toml, line 11");
+  EXPECT_EQ(source_of(resolved, "flow.cells"), "given by --grid");
+  EXPECT_EQ(source_of(resolved, "flow.residual"), "given by --set");
+  EXPECT_EQ(source_of(resolved, "flow.box_m"), "6 x 6 x 9 inflated diameters of 2.1 m");
+  EXPECT_EQ(source_of(resolved, "flow.convection"), "the sheet's default");
+  EXPECT_EQ(source_of(resolved, "coupling.drag_tolerance"), "the sheet's default");
+}
+
+TEST(Resolved, TheReadmesBoxStaysWithTheCanopyWhereItStandsAlready) {
+  const FlowSettings plain = flow_of(readme_case());
+  EXPECT_EQ(plain.box_m, (Vec3{6, 6, 9}) * 0.7);
+  EXPECT_NEAR(plain.canopy_position_m, 2.8, 1e-12);
+  const FlowSettings placed = flow_of(readme_case() + "canopy_position_m = 2.8\n");
+  EXPECT_EQ(placed.box_m, plain.box_m);
+  EXPECT_EQ(placed.core.size_m, plain.core.size_m);
+  EXPECT_NEAR(placed.core.start_m, plain.core.start_m, 1e-12);
+}
+
+TEST(Resolved, ASheetIsRefusedForOpenFoamBeforeAnythingIsComputed) {
+  const Outcome outcome = outcome_of(short_case + "engine = \"openfoam\"\n");
+  ASSERT_EQ(outcome.problems.size(), 1u);
+  EXPECT_EQ(outcome.problems[0].key, "flow.engine");
+  EXPECT_NE(outcome.problems[0].message.find("f-111-physical"), std::string::npos);
+}
+
+TEST(Resolved, WhatOpenFoamHasNotIsRefusedWhenTheCaseIsRead) {
+  const std::string paper = of_calibrated_cloth(short_case) + "box_m = [8, 8, 10]\nengine = \"openfoam\"\n";
+  EXPECT_TRUE(outcome_of(paper).valid);
+  for (const std::string key : {"sides = \"entraining\"", "average_over = 20", "outlet = \"still-air\""}) {
+    const Outcome outcome = outcome_of(paper + key + "\n");
+    ASSERT_EQ(outcome.problems.size(), 1u) << key << outcome.message;
+    EXPECT_EQ(outcome.problems[0].key, "flow." + key.substr(0, key.find(' ')));
+  }
+}
+
+TEST(Resolved, TheBoxHoldsEveryFamilyOfTheExamples) {
+  for (const char* name : {"flat-circular", "conical", "hemispherical", "quarter-spherical", "extended-skirt",
+                           "ringslot", "cross", "elliptical"}) {
+    const Case given =
+        read_case(fs::path(RIPSTOP_SOURCE_DIR) / "examples" / name / "case.toml");  // checks the box
+    EXPECT_EQ(resolve(given).flow.porosity_model, PorosityModel::sheet) << name;
+    EXPECT_EQ(resolve(given).flow.cells[0], 80) << name;
+  }
+}
+
+}  // namespace
+}  // namespace ripstop

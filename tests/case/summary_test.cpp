@@ -1,0 +1,46 @@
+// What a case amounts to.
+#include "ripstop/case/summary.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+namespace ripstop {
+namespace {
+
+TEST(Summary, ClothTapeLinesAndRiserAreAllThatHasMass) {
+  for (const char* name : {"stratos-iv", "walrus", "adept", "flat-circular", "conical", "hemispherical",
+                           "quarter-spherical", "extended-skirt", "ringslot", "cross", "elliptical"}) {
+    Overrides coarse;
+    coarse.set = {{"parachute.mesh.cloth_nodes", "3000", "--set"},
+                  {"parachute.riser.length_m", "0.5", "--set"}};
+    const CaseSummary s = summarize(
+        read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples" / name / "case.toml", coarse));
+    for (const double part : {s.cloth_mass, s.tape_mass, s.line_mass, s.riser_mass})
+      EXPECT_GT(part, 0) << name;
+    EXPECT_NEAR(s.cloth_mass + s.tape_mass + s.line_mass + s.riser_mass, s.total_mass, 1e-9 * s.total_mass)
+        << name;
+  }
+}
+
+// A line goes on across the vent to the opposite one. The gores of 2 pi / 12 are cut flat, with the area of their
+// sector: the corners of the vent lie farther out than its radius.
+TEST(Summary, VentLinesAreLinesAndNotTape) {
+  const std::filesystem::path file =
+      std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples" / "flat-circular" / "case.toml";
+  Overrides plain, without;
+  plain.set = {{"parachute.mesh.cloth_nodes", "3000", "--set"}};
+  without.set = plain.set;
+  without.set.push_back({"parachute.vent_lines", "false", "--set"});
+  const Case given = read_case(file, plain);
+  const CaseSummary s = summarize(given), open = summarize(read_case(file, without));
+  EXPECT_NEAR(s.tape_mass, open.tape_mass, 1e-12);
+  const double half = std::numbers::pi / 12;
+  const double vent = 0.1 * std::sqrt(half / (std::sin(half) * std::cos(half)));
+  EXPECT_NEAR(s.line_mass - open.line_mass, 6 * vent * suspension_line(given).linear_density_kg_m, 1e-9);
+}
+
+}  // namespace
+}  // namespace ripstop
