@@ -42,7 +42,7 @@ void read_pressures(const FlowField& field, double dynamic_pressure, Result& res
     int k = grid.cell_at(2, load.point.z);
     if (grid.centre(2, k) > load.point.z) --k;
     const int i = grid.cell_at(0, load.point.x), j = grid.cell_at(1, load.point.y);
-    const double share = load.force.z / load.drop;
+    const double share = std::abs(load.force.z / load.drop);
     area += share;
     result.front += share * field.pressure[grid.index(i, j, k)];
     result.back += share * field.pressure[grid.index(i, j, k + 1)];

@@ -226,6 +226,32 @@ TEST(Sheet, LoadsForceOnTheFluidAndMomentumDeficitAreOne) {
   EXPECT_NEAR(field.momentum_deficit / field.porous_force.z, 1, 0.005);
 }
 
+// An S-fold between two cell centres: the air passes three layers, the middle one from its outer side.
+TEST(Sheet, LayersBetweenTheSameCentresShareTheDrop) {
+  const double a = 40, speed = 3;
+  FlowProblem problem;
+  problem.grid = {{0, 0, 0}, {1, 0.5, 2}, 8, 4, 16};
+  problem.sides = Sides::slip;
+  problem.outlet = Outlet::still_air;
+  problem.air.speed = speed;
+  problem.stopping.max_iterations = 400;
+  std::vector<Triangle>& surface = problem.sheets.emplace_back(Sheet{{}, a, 0}).surface;
+  for (const double z : {0.99, 1.0, 1.01}) {
+    const Vec3 p[] = {{-0.3, -0.3, z}, {1.3, -0.3, z}, {1.3, 0.8, z}, {-0.3, 0.8, z}};
+    const bool turned = z == 1.0;
+    surface.push_back(turned ? Triangle{p[0], p[2], p[1]} : Triangle{p[0], p[1], p[2]});
+    surface.push_back(turned ? Triangle{p[0], p[3], p[2]} : Triangle{p[0], p[2], p[3]});
+  }
+  const FlowField field = solve(*make_cartesian(threads(1)), problem);
+  ASSERT_EQ(field.sheet_loads.size(), 3u * 8 * 4);
+  for (const SheetLoad& load : field.sheet_loads) {
+    const bool turned = load.point.z == 1.0;
+    EXPECT_NEAR(load.drop, (turned ? -1 : 1) * a * speed, 0.01 * a * speed);
+    EXPECT_EQ(load.outward.z, turned ? -1 : 1);
+    EXPECT_GT(load.force.z, 0);
+  }
+}
+
 TEST(Sheet, FromWideOpenToImpermeableTheForceGrowsAndTheLeakVanishes) {
   double last = 0;
   for (const double a : {0.0, 5.0, 66.0, f111, 1e6}) {

@@ -4,15 +4,17 @@
     make validate-families            (or: families.py --ripstop build/bin/ripstop --runs runs/families)
 
 Runs `ripstop steady` on each with the library's cloth as a sheet, its own permeability, nothing calibrated: once with
-`coupling.load` "uniform", the default, and once with "of-flow". The drag of the families beside what Knacke's manual gives
+`coupling.load` "of-flow", the default, and once with "uniform". The drag of the families beside what Knacke's manual gives
 for the type goes into docs/tables/families.md, both loads side by side into docs/tables/loads.md; pictures and plots stay
 in the run folders, `load.png` and `pressure.png` first. Runs that are finished cost nothing. `--grid 40 40 50 --set
 KEY=VALUE` pass on to `ripstop`, for a quick look; the loads are then printed only.
 """
 import argparse
+import csv
 import json
 import math
 import pathlib
+import statistics
 import subprocess
 import sys
 import tomllib
@@ -23,7 +25,7 @@ import tables  # pylint: disable=wrong-import-position
 from campaign import SHEET_SPECIFIED  # pylint: disable=wrong-import-position
 
 CALIBRATED = "f-111"  # on Stratos IV: the cloth of the campaign, whose cases have the paper's box and porosity
-LOADS = ["uniform", "of-flow"]
+LOADS = ["of-flow", "uniform"]
 
 
 def examples():
@@ -37,12 +39,12 @@ FAMILIES, CAMPAIGN = examples()
 
 
 def folder_of(options, name, load):
-    return options.runs.resolve() / (name if load == "uniform" else f"{name}-{load}")
+    return options.runs.resolve() / (name if load == LOADS[0] else f"{name}-{load}")
 
 
 def run(options, name, load):
     command = [str(options.ripstop.resolve()), "steady", f"examples/{name}/case.toml", "--out", str(folder_of(options, name, load))]
-    settings = [f"coupling.load={load}", *(SHEET_SPECIFIED if name in CAMPAIGN else []), *options.set]
+    settings = [*(SHEET_SPECIFIED if name in CAMPAIGN else []), f"coupling.load={load}", *options.set]
     for setting in settings:
         command += ["--set", setting]
     if options.grid:
@@ -57,7 +59,7 @@ def run(options, name, load):
 def families_table(results):
     rows = []
     for name in FAMILIES:
-        r = results[name, "uniform"]
+        r = results[name, LOADS[0]]
         known = r.get("known_drag_coefficient")
         printed = f"{known[0]:.2f} to {known[1]:.2f}" if known else ""
         nominal = (4 / math.pi * r["reference_area_m2"]) ** 0.5
@@ -67,18 +69,28 @@ def families_table(results):
                          "wall s"], rows)
 
 
-def loads_table(results):
+def median_of(folder, column):
+    with open(folder / "pressure.csv", encoding="utf-8") as rows:
+        return statistics.median(float(row[column]) for row in csv.DictReader(rows))
+
+
+def loads_table(options, results):
     rows = []
     for (name, load), r in results.items():
         if r is None:
-            rows.append([name, load, "failed", *[""] * 6])
+            rows.append([name, load, "failed", *[""] * 10])
             continue
+        folder = folder_of(options, name, load)
+        moment = r["axial_moment_n_m"] / (r["drag_n"] * r["projected_diameter_m"] / 2)
         count = f"{r['coupling_iterations']}" + ("" if r["converged"] else ", not converged")
         remainder = f"{100 * r['load_remainder']:.2f}" if load == "of-flow" else ""
         rows.append([name, load, f"{r['drag_n']:.1f}", f"{r['projected_diameter_m']:.3f}", f"{r['skirt_diameter_m']:.3f}",
-                     f"{r['max_line_tension_n']:.1f}", f"{r['max_von_mises_n_m']:.0f}", remainder, count])
+                     f"{r['max_line_tension_n']:.1f}", f"{r['max_von_mises_n_m']:.0f}",
+                     f"{median_of(folder, 'cp_inside'):.2f}", f"{median_of(folder, 'cp_outside'):.2f}", remainder,
+                     f"{100 * abs(moment):.2f}", f"{100 * r['cut_gap']:.1f}", count])
     return tables.table(["example", "load", "drag N", "projected diameter m", "skirt m", "highest line tension N",
-                         "highest stress N/m", "remainder %", "coupling iterations"], rows)
+                         "highest stress N/m", "Cp inside", "Cp outside", "remainder %", "axial moment %", "cut gap %",
+                         "coupling iterations"], rows)
 
 
 def main():
@@ -89,8 +101,9 @@ def main():
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE")
     parser.add_argument("names", nargs="*", default=FAMILIES + CAMPAIGN, help="examples; all of them without a name")
     options = parser.parse_args()
-    results = {(name, load): run(options, name, load) for name in options.names for load in LOADS}
-    loads = loads_table(results)
+    done = {(name, load): run(options, name, load) for load in LOADS for name in options.names}
+    results = {(name, load): done[name, load] for name in options.names for load in LOADS}
+    loads = loads_table(options, results)
     print("\n".join(loads))
     if options.grid or options.set or options.names != FAMILIES + CAMPAIGN:
         return

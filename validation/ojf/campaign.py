@@ -42,7 +42,7 @@ COLUMNS = ["parachute", "speed_basis", "nominal_m_s", "speed_m_s", "density_kg_m
 SHEET_FLOW = ["flow.porosity_model=sheet", "flow.box_m=[6,6,9]", "flow.cells=[80,80,98]", "flow.canopy_position_m=4",
               "flow.core.size_m=[1.8,1.8,2.2]", "flow.core.growth=1.125", "flow.sides=entraining",
               "flow.convection=second-order", "flow.residual=3e-4", "flow.max_iterations=300", "flow.average_over=60",
-              "coupling.drag_tolerance=5e-3"]
+              "coupling.drag_tolerance=5e-3", "coupling.load=uniform"]
 # The pressure drop of the calibrated sheet is linear, or Ergun's; the one that fits Stratos IV better is taken.
 SHEET_KNOBS = {"permeabilities": "300,600,1200", "gammas": "0.3,0.4,0.5"}
 SHEET_SPECIFIED = [*SHEET_FLOW, "parachute.canopy_material=f-111-physical"]

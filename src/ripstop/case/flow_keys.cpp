@@ -164,9 +164,8 @@ void describe(Fields& fields, CouplingKeys& coupling) {
   fields
       .choice(
           "load", coupling.load, load_words(),
-          "The flow's force on the cloth. \"uniform\": one pressure difference; \"of-flow\": what the air "
-          "loses "
-          "on every piece of cloth (\"sheet\" model only); \"sampled\": the pressures read on both sides, "
+          "The flow's force on the cloth. \"of-flow\": what the air loses on every piece of cloth (\"sheet\" "
+          "model only); \"uniform\": one pressure difference; \"sampled\": the pressures read on both sides, "
           "scaled.")
       .absent(by_model(load_words(), sheet_defaults.load, paper_defaults.load));
   fields

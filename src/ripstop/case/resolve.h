@@ -42,7 +42,7 @@ inline constexpr ModelDefaults sheet_defaults{.cells = {80, 80, 98},
                                               .residual = 3e-4,
                                               .max_iterations = 300,
                                               .average_over = 60,
-                                              .load = CanopyLoad::uniform,
+                                              .load = CanopyLoad::of_flow,
                                               .drag_tolerance = 5e-3};
 
 /// The paper model's box [m], [NFM] section 5.

@@ -116,6 +116,9 @@ std::vector<CellStress> cell_stress(const Cloth& cloth, const ClothState& state)
 /// Tension of every irregular spring (Mesh::springs), T > 0 pulls [N].
 std::vector<double> spring_tensions(const Cloth& cloth, const ClothState& state);
 
+/// Force of the springs on every tied node (Mesh::ties), which it hands to its masters [N].
+std::vector<Vec3> tie_forces(const Cloth& cloth, const ClothState& state);
+
 /// Force that the cloth exerts on the fixed nodes, summed [N] (no damping, no loads).
 Vec3 force_on_fixed(const Cloth& cloth, const ClothState& state);
 /// The same for some of the fixed nodes, such as one clamp. Throws Error(bad_data) when one is not fixed.

@@ -59,6 +59,19 @@ std::vector<double> spring_tensions(const Cloth& cloth, const ClothState& state)
   return tension;
 }
 
+std::vector<Vec3> tie_forces(const Cloth& cloth, const ClothState& state) {
+  const std::vector<Vec3> x = positions(state, cloth);
+  std::vector<Vec3> on_node(x.size());
+  each_spring(cloth.mesh, [&](const SpringView& s) {
+    const Vec3 d = x[s.b] - x[s.a], pull = (tension_of(s, x) / norm(d)) * d;
+    on_node[s.a] += pull;
+    on_node[s.b] -= pull;
+  });
+  std::vector<Vec3> result;
+  for (const Tie& tie : cloth.mesh.ties) result.push_back(on_node[tie.node]);
+  return result;
+}
+
 Vec3 force_on(const Cloth& cloth, const ClothState& state, const std::vector<int>& fixed_nodes) {
   const std::vector<Vec3> x = positions(state, cloth);
   // Share of the force on a node that reaches these nodes: all of its own, the weights of a tied one's.

@@ -58,8 +58,8 @@ struct Sample {
   double area = 0;      // [m2]
 };
 
-// The force is that of the cloth's pressure on the part of the face that the cloth covers: beside a hem all
-// that the face loses acts there. Points of such faces lie beside the cloth and are brought on to its plane.
+// Beside a hem all that a face loses acts on the part of it that the cloth covers. Points of such faces lie
+// beside the cloth and are brought on to its plane.
 std::vector<Sample> samples_of(const std::vector<SheetLoad>& loads, const std::vector<Triangle>& surface) {
   std::vector<Sample> samples;
   samples.reserve(loads.size());
@@ -67,10 +67,8 @@ std::vector<Sample> samples_of(const std::vector<SheetLoad>& loads, const std::v
     if (!(load.area > 0)) continue;
     const Triangle& t = surface[load.triangle];
     const Vec3 normal = cross(t.b - t.a, t.c - t.a);
-    const double side = dot(normal, load.normal) < 0 ? -1 : 1;
     const Vec3 off = dot(load.point - t.a, normal) / dot(normal, normal) * normal;
-    samples.push_back(
-        {load.point - off, side * load.normal, side * dot(load.force, load.normal) / load.area, load.area});
+    samples.push_back({load.point - off, load.outward, load.drop / load.cover, load.area});
   }
   std::sort(samples.begin(), samples.end(),
             [](const Sample& a, const Sample& b) { return a.point.z < b.point.z; });

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "ripstop/canopy/cut_balance.h"
 #include "ripstop/core/error.h"
 #include "ripstop/flow/steady.h"
 
@@ -132,20 +133,16 @@ ClothLoad SteadySolver::answer_of(const FlowField& field, const std::vector<Tria
   return answer;
 }
 
-FlowField SteadySolver::iterate(SteadyState& state, const SteadyReport& report) {
-  const auto begin = std::chrono::steady_clock::now();
-  const CouplingSettings& settings = problem_.settings;
-  SteadyIteration now;
-  now.iteration = static_cast<int>(state.iterations.size()) + 1;
-
-  // Cloth equilibrium under the present pressure.
+// Cloth in equilibrium under the present load: a new shape, and what it says of itself.
+std::vector<Vec3> SteadySolver::next_shape(const SteadyState& state, SteadyIteration& now,
+                                           const SteadyReport& report) {
   ClothState cloth = cloth_state(state);
   const std::vector<double> no_pressure(cells_.size(), 0.0);
-  const Loads loads{state.pressure, node_forces({no_pressure, state.remainder}, cells_, state.shape)};
-  RelaxOptions relax_options;
-  relax_options.tolerance = settings.cloth_tolerance;
+  Loads loads{state.pressure, node_forces({no_pressure, state.remainder}, cells_, state.shape)};
+  RelaxOptions options;
+  options.tolerance = problem_.settings.cloth_tolerance;
   const RelaxResult relaxed =
-      relax(cloth, *cloth_, loads, relax_options, team_, [&](const RelaxProgress& progress) {
+      relax(cloth, *cloth_, loads, options, team_, [&](const RelaxProgress& progress) {
         if (report) report({SteadyStage::cloth, now.iteration, progress, {}});
       });
   if (!relaxed.converged) {
@@ -153,7 +150,7 @@ FlowField SteadySolver::iterate(SteadyState& state, const SteadyReport& report) 
         ExitCode::not_converged,
         fmt::format("coupling iteration {}: the cloth found no equilibrium, residual {:.2e} after {} steps "
                     "(wanted {:.1e}); a looser coupling.cloth_tolerance or a finer parachute.mesh may help",
-                    now.iteration, relaxed.residual, relaxed.steps, settings.cloth_tolerance));
+                    now.iteration, relaxed.residual, relaxed.steps, options.tolerance));
   }
   now.cloth_steps = relaxed.steps;
   now.cloth_residual = relaxed.residual;
@@ -165,10 +162,45 @@ FlowField SteadySolver::iterate(SteadyState& state, const SteadyReport& report) 
     size += dot(state.shape[i], state.shape[i]);
   }
   now.omega = std::sqrt(moved / size);
-  now.nodal_load = wrench_of({state.pressure, state.remainder}, cells_, shape).force.z;
+  const Wrench load = wrench_of({state.pressure, state.remainder}, cells_, shape);
+  now.nodal_load = load.force.z;
+  now.axial_moment = load.moment.z;
   now.line_tension = force_on_fixed(*cloth_, cloth).z;
+  const std::vector<Vec3> pressures = node_forces({state.pressure, {}}, cells_, shape);
+  for (std::size_t node = 0; node < shape.size(); ++node) loads.node_force[node] += pressures[node];
+  now.cut_gap = largest_cut_gap(problem_.mesh, *cloth_, cloth, loads.node_force);
+  return shape;
+}
 
-  // Flow through and around it.
+// Whether shape and drag stand still, the flow is solved and the ledger closes.
+bool SteadySolver::converged(const SteadyIteration& now) const {
+  const CouplingSettings& settings = problem_.settings;
+  return now.drag_change < settings.drag_tolerance && now.shape_change < settings.shape_tolerance_m &&
+         (now.flow_converged ||
+          (now.flow_averaged > 0 && within(now.momentum_deficit, now.fluid_force, ledger_tolerance))) &&
+         within(now.nodal_load, now.fluid_force, ledger_tolerance) &&
+         within(now.line_tension, now.fluid_force, ledger_tolerance);
+}
+
+// The next load, from the answers so far. The remainder follows the pressures' steps: it has no weight of its
+// own.
+void SteadySolver::step(SteadyState& state, const ClothLoad& answer) const {
+  std::vector<double> weight = area_;
+  weight.resize(area_.size() + 6, 0.0);
+  const std::vector<double> next =
+      state.accelerator.next(joined({state.pressure, state.remainder}), joined(answer), weight);
+  state.pressure.assign(next.begin(), next.end() - 6);
+  const double* r = next.data() + state.pressure.size();
+  state.remainder = {{r[0], r[1], r[2]}, {r[3], r[4], r[5]}};
+}
+
+FlowField SteadySolver::iterate(SteadyState& state, const SteadyReport& report) {
+  const auto begin = std::chrono::steady_clock::now();
+  const CouplingSettings& settings = problem_.settings;
+  SteadyIteration now;
+  now.iteration = static_cast<int>(state.iterations.size()) + 1;
+  const std::vector<Vec3> shape = next_shape(state, now, report);
+
   const std::vector<Triangle> surface = surface_of(cells_, shape);
   const std::vector<int> cut = cut_cells(problem_.flow.grid, surface);
   const bool nearly_there = !state.iterations.empty() &&
@@ -183,9 +215,6 @@ FlowField SteadySolver::iterate(SteadyState& state, const SteadyReport& report) 
   now.drag_deviation = field.average.drag_deviation;
   now.fluid_force = field.porous_force.z;
   now.momentum_deficit = field.momentum_deficit;
-
-  const ClothLoad answer = answer_of(field, surface, cut, shape, state, now);
-
   now.drag_change = state.iterations.empty()
                         ? std::numeric_limits<double>::infinity()
                         : std::abs(now.fluid_force / state.iterations.back().fluid_force - 1);
@@ -193,23 +222,12 @@ FlowField SteadySolver::iterate(SteadyState& state, const SteadyReport& report) 
   const double dx = std::cbrt(h.x * h.y * h.z);
   now.printed_tolerance =
       now.flow_residual * dx * dx / (problem_.reference_area * largest_coefficient(problem_.mesh));
-  state.converged =
-      now.drag_change < settings.drag_tolerance && now.shape_change < settings.shape_tolerance_m &&
-      (now.flow_converged ||
-       (now.flow_averaged > 0 && within(now.momentum_deficit, now.fluid_force, ledger_tolerance))) &&
-      within(now.nodal_load, now.fluid_force, ledger_tolerance) &&
-      within(now.line_tension, now.fluid_force, ledger_tolerance);
 
+  const ClothLoad answer = answer_of(field, surface, cut, shape, state, now);
+  state.converged = converged(now);
   state.shape = shape;
   state.applied = state.pressure;
-  // The remainder follows the pressures' steps: it has no weight of its own.
-  std::vector<double> weight = area_;
-  weight.resize(area_.size() + 6, 0.0);
-  const std::vector<double> next =
-      state.accelerator.next(joined({state.pressure, state.remainder}), joined(answer), weight);
-  state.pressure.assign(next.begin(), next.end() - 6);
-  const double* r = next.data() + state.pressure.size();
-  state.remainder = {{r[0], r[1], r[2]}, {r[3], r[4], r[5]}};
+  step(state, answer);
   now.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   state.iterations.push_back(now);
   return field;

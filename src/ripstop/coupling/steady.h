@@ -95,11 +95,14 @@ class SteadySolver {
   ClothState cloth_state(const SteadyState& state) const;
 
  private:
+  std::vector<Vec3> next_shape(const SteadyState& state, SteadyIteration& now, const SteadyReport& report);
   ClothLoad answer_of(const FlowField& field, const std::vector<Triangle>& surface,
                       const std::vector<int>& cut, const std::vector<Vec3>& shape, SteadyState& state,
                       SteadyIteration& now) const;
   FlowField solve_flow(const std::vector<Triangle>& surface, bool to_the_end, int iteration,
                        const SteadyReport& report);
+  bool converged(const SteadyIteration& now) const;
+  void step(SteadyState& state, const ClothLoad& answer) const;
 
   SteadyProblem problem_;
   std::unique_ptr<Flow> flow_;

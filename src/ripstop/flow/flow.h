@@ -52,9 +52,10 @@ struct Sheet {
 struct SheetLoad {
   int sheet = 0, triangle = 0;  // of FlowProblem::sheets
   Vec3 point;                   // on the triangle [m]
-  Vec3 normal;      // of the triangle, with a component along the face's normal that is not negative
-  double drop = 0;  // of the pressure along `normal`, mean over the face [Pa]
-  Vec3 force;       // on the sheet: drop times the face's area, along an axis of the grid [N]
+  Vec3 outward;                 // mean normal of the sheet there, unit, as the triangles' corners turn
+  double drop = 0;   // of the pressure from the sheet's inner side to its outer one, mean over the face [Pa]
+  Vec3 force;        // on the sheet: drop times the face's area, along an axis of the grid [N]
+  double cover = 1;  // the part of the face that the sheet covers: drop / cover is what the cloth there sees
   double area = 0;  // of the sheet that the face stands for, as far as it covers the face: a share n_a^2 [m2]
 };
 

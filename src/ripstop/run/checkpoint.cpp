@@ -11,7 +11,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Of SteadyState's list of members: one more with every change of it.
-constexpr int format_version = 3;
+constexpr int format_version = 4;
 
 }  // namespace
 

@@ -103,6 +103,9 @@ void SheetRows::lay_out() {
   law_.assign(size, 0);
   excess_.assign(size, 0);
   stiffness_.assign(size, 0);
+  std::vector<double> covered(size, 0);
+  for (const Face& face : faces_) covered[face.at] += face.cover;
+  for (Face& face : faces_) face.layer = face.cover / covered[face.at];
 }
 
 void SheetRows::begin(State& state, const Layout& layout) const {
@@ -136,7 +139,7 @@ void SheetRows::update(State& state, const Layout& layout, double momentum) {
     state.held[face.at] += std::exchange(state.change[face.at], 0.0);
     excess_[face.at] = stiffness_[face.at] = 0;
   }
-  for (Face& face : faces_) {
+  for (const Face& face : faces_) {
     const SheetFace& g = face.geometry;
     const auto [low, high] = cells(g, layout);
     const Array<double>& flux = g.axis == 0 ? fields.fx : g.axis == 1 ? fields.fy : fields.fz;
@@ -156,21 +159,19 @@ void SheetRows::update(State& state, const Layout& layout, double momentum) {
     // A jet that has yet to start, or that turns back, would offer no slope at all.
     const Cover brisk =
         cover_of(face.cover, resistance, density, std::max(speed, least_jet * momentum / density));
-    face.jump = beside.share * resistance * through;
-    face.stiffness = brisk.share * brisk.steep * (face.a + 2 * face.b * speed) * face.spread;
-    excess_[face.at] += face.jump;
-    stiffness_[face.at] += face.stiffness;
+    excess_[face.at] += beside.share * resistance * through;
+    stiffness_[face.at] += brisk.share * brisk.steep * (face.a + 2 * face.b * speed) * face.spread;
   }
   for (const Face& face : faces_) law_[face.at] = excess_[face.at];
   for (const Face& face : faces_) excess_[face.at] = law_[face.at] - state.held[face.at];
 }
 
+// Layers that part the same two centres, as in a fold, are passed by the same air: they share what the face
+// drops as far as each covers it.
 void SheetRows::settle(State& state) const {
   for (std::size_t n = 0; n < faces_.size(); ++n) {
     const Face& face = faces_[n];
-    const double whole = stiffness_[face.at];
-    state.drop[n] =
-        face.jump + (whole > 0 ? face.stiffness / whole * (state.change[face.at] - excess_[face.at]) : 0);
+    state.drop[n] = face.layer * (state.held[face.at] + state.change[face.at]);
   }
 }
 
@@ -239,9 +240,10 @@ std::vector<SheetLoad> SheetRows::loads(const State& state) const {
     load.sheet = faces_[n].sheet;
     load.triangle = g.triangle;
     load.point = g.point;
-    load.normal = g.normal;
-    load.drop = state.drop[n];
-    const double force = load.drop * faces_[n].area;
+    load.outward = g.outward;
+    load.drop = g.against ? -state.drop[n] : state.drop[n];
+    load.cover = faces_[n].cover;
+    const double force = state.drop[n] * faces_[n].area;
     load.force = {g.axis == 0 ? force : 0, g.axis == 1 ? force : 0, g.axis == 2 ? force : 0};
     const Face& face = faces_[n];
     load.area = face.cover * face.area * (g.axis == 0 ? g.normal.x : g.axis == 1 ? g.normal.y : g.normal.z);

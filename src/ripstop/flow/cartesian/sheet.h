@@ -63,8 +63,8 @@ class SheetRows {
     double area = 0;      // of the face [m2]
     double spread = 1;    // its area over that of the sheet it stands for
     double cover = 1;     // the part of it that the sheet covers
+    double layer = 1;     // its part of the face's drop
     std::size_t at = 0;   // in the dense rows
-    double jump = 0, stiffness = 0;
   };
   void add_faces(const Axis& x, const Axis& y, const Axis& z, const std::vector<Sheet>& sheets);
   void lay_out();

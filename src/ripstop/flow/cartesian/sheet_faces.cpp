@@ -222,10 +222,7 @@ class Columns {
   }
 
   /// Unit, its component along the axis not negative.
-  Vec3 normal_of(int triangle) const {
-    const Vec3 n = unit_normal(surface_[triangle]);
-    return point_of(n)[axis_] < 0 ? -1.0 * n : n;
-  }
+  Vec3 normal_of(Vec3 n) const { return point_of(n)[axis_] < 0 ? -1.0 * n : n; }
 
   double width_at(double at) const {
     return axes_[axis_]->width[std::clamp(cell_at(*axes_[axis_], at), 0, axes_[axis_]->n - 1)];
@@ -233,8 +230,8 @@ class Columns {
 
   /// Of the sheet that one line stands for, what goes to faces of this axis [m2].
   double share(const Hit& h, int cu, int cv) const {
-    return point_of(normal_of(h.triangle))[axis_] * axes_[u_]->width[cu] * axes_[v_]->width[cv] /
-           (lines * lines);
+    return std::abs(point_of(unit_normal(surface_[h.triangle]))[axis_]) * axes_[u_]->width[cu] *
+           axes_[v_]->width[cv] / (lines * lines);
   }
 
   /// The new face, or null where no two centres lie on either side.
@@ -253,7 +250,9 @@ class Columns {
     Point point;
     point[axis_] = at, point[u_] = centre(*axes_[u_], cu), point[v_] = centre(*axes_[v_], cv);
     face.point = {point[0], point[1], point[2]};
-    face.normal = normal_of(triangle);
+    face.outward = unit_normal(surface_[triangle]);
+    face.against = point_of(face.outward)[axis_] < 0;
+    face.normal = normal_of(face.outward);
     result.push_back(face);
     return &result.back();
   }
@@ -287,7 +286,7 @@ class Columns {
       }
       if (nearest < last) {
         result[nearest].area += share(h, cu, cv);
-        normals[nearest - first] += share(h, cu, cv) * normal_of(h.triangle);
+        normals[nearest - first] += share(h, cu, cv) * unit_normal(surface_[h.triangle]);
       } else if (h.hem) {
         beside.push_back(&h);
       } else {
@@ -296,7 +295,9 @@ class Columns {
     }
     for (std::size_t n = first; n < last; ++n) {
       const Vec3 sum = normals[n - first];
-      if (norm(sum) > 0) result[n].normal = sum / norm(sum);
+      if (!(norm(sum) > 0)) continue;
+      result[n].outward = sum / norm(sum);
+      result[n].normal = normal_of(result[n].outward);
     }
     hem_faces(beside, cu, cv, result, left_over);
   }

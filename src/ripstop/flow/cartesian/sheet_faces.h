@@ -14,9 +14,11 @@ struct SheetFace {
   int i = 0, j = 0, k = 0;  // the cell whose low face it is
   int triangle = 0;         // of the surface
   Vec3 point;               // where the line between the two centres meets the sheet [m]
-  Vec3 normal;       // of the sheet that it stands for, unit, its component along the axis not negative
-  bool hem = false;  // within two cells of an edge of the sheet
-  double area = 0;   // of the sheet that the face stands for [m2]; the faces' areas add up to the sheet's
+  Vec3 outward;          // mean normal of the sheet that it stands for, unit, as the triangles' corners turn
+  Vec3 normal;           // the same or its opposite: its component along the axis is not negative
+  bool against = false;  // the sheet's outer side is the low one where the line between the centres meets it
+  bool hem = false;      // within two cells of an edge of the sheet
+  double area = 0;       // of the sheet that the face stands for [m2]; the faces' areas add up to the sheet's
 };
 
 /// Every face between neighbouring cell centres that a triangle parts, in a fixed order. The faces of a

@@ -1,0 +1,95 @@
+#include "ripstop/canopy/cut_balance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace ripstop {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+double about_axis(Vec3 point, Vec3 force) {
+  return point.x * force.y - point.y * force.x;
+}
+
+/// How much cuts at z count, and the share of them that lie below z.
+struct Cuts {
+  double height, reach;
+
+  double weight(double z) const {
+    const double s = (z - height) / reach;
+    return std::abs(s) < 1 ? (1 + std::cos(pi * s)) / (2 * reach) : 0;
+  }
+  double below(double z) const {
+    const double s = std::clamp((z - height) / reach, -1.0, 1.0);
+    return 0.5 * (1 + s + std::sin(pi * s) / pi);
+  }
+};
+
+/// The row of the stress tensor that meets the z axis [N/m].
+Vec3 axial_traction(const CellStress& stress, Vec3 normal) {
+  const Vec3 first = stress.direction, second = cross(normal, first);
+  return stress.principal_max * first.z * first + stress.principal_min * second.z * second;
+}
+
+}  // namespace
+
+// The integral over z of the force through a cut is that of the stress's z row over the cloth.
+CutBalance cut_balance(const Mesh& mesh, const Cloth& cloth, const ClothState& state,
+                       const std::vector<Vec3>& load, double height, double reach) {
+  const std::vector<Vec3> x = positions(state, cloth), on_ties = tie_forces(cloth, state);
+  const std::vector<CellStress> stress = cell_stress(cloth, state);
+  const std::vector<double> tensions = spring_tensions(cloth, state);
+  const Cuts cuts{height, reach};
+  CutBalance sum;
+  const std::vector<Cell> cells = cells_of(mesh);
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    if (cells[c].corner[0] < 0) continue;
+    const auto [i, j, k, l] = cells[c].corner;
+    const Vec3 area = area_vector(x[i], x[j], x[k], x[l]), centre = 0.25 * (x[i] + x[j] + x[k] + x[l]);
+    if (!(norm(area) > 0)) continue;
+    const Vec3 force = norm(area) * cuts.weight(centre.z) * axial_traction(stress[c], area / norm(area));
+    sum.cloth_force += force.z;
+    sum.moment += about_axis(centre, force);
+  }
+  for (std::size_t s = 0; s < mesh.springs.size(); ++s) {
+    const Vec3 a = x[mesh.springs[s].a], b = x[mesh.springs[s].b];
+    const Vec3 force = tensions[s] * (cuts.below(b.z) - cuts.below(a.z)) / norm(b - a) * (b - a);
+    sum.cord_force += force.z;
+    sum.moment += about_axis(0.5 * (a + b), force);
+  }
+  for (std::size_t t = 0; t < mesh.ties.size(); ++t) {
+    const Tie& tie = mesh.ties[t];
+    const Vec3 force = on_ties[t] + load[tie.node];
+    for (const Tie::Master& master : tie.masters) {
+      const double share = master.weight * (cuts.below(x[tie.node].z) - cuts.below(x[master.node].z));
+      sum.seam_force += share * force.z;
+      sum.moment += share * about_axis(x[tie.node], force);
+    }
+  }
+  for (std::size_t node = 0; node < x.size(); ++node) {
+    sum.air_force += cuts.below(x[node].z) * load[node].z;
+    sum.air_moment += cuts.below(x[node].z) * about_axis(x[node], load[node]);
+  }
+  return sum;
+}
+
+double largest_cut_gap(const Mesh& mesh, const Cloth& cloth, const ClothState& state,
+                       const std::vector<Vec3>& load) {
+  const std::vector<Vec3> x = positions(state, cloth);
+  double low = 1e300, high = -1e300;
+  for (const Cell& cell : cells_of(mesh)) {
+    if (cell.corner[0] < 0) continue;
+    for (const int node : cell.corner) low = std::min(low, x[node].z), high = std::max(high, x[node].z);
+  }
+  double largest = 0;
+  for (const double share : {0.2, 0.35, 0.5, 0.65, 0.8}) {
+    const CutBalance cut =
+        cut_balance(mesh, cloth, state, load, low + share * (high - low), 0.2 * (high - low));
+    largest = std::max(largest, std::abs(cut.gap() / cut.air_force));
+  }
+  return largest;
+}
+
+}  // namespace ripstop

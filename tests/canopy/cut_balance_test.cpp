@@ -1,0 +1,60 @@
+// The stress field against the load, family by family: what a cut across the axis carries is what the air
+// does beyond it.
+#include "ripstop/canopy/cut_balance.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "../parachute/examples.h"
+#include "ripstop/case/assemble.h"
+#include "ripstop/coupling/sheet_transfer.h"
+
+namespace ripstop {
+namespace {
+
+class CutBalanceOf : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(All, CutBalanceOf, testing::ValuesIn(family_examples()), name_of_example);
+
+TEST_P(CutBalanceOf, TheStressFieldCarriesTheLoadBeyondEveryCut) {
+  const Mesh mesh = parachute_mesh(example(GetParam(), 6000));
+  const std::vector<Cell> cells = cells_of(mesh);
+  const ClothPtr cloth = make_cloth(mesh);
+  ClothState state = start_state(*cloth);
+  ThreadTeam team(2);
+  RelaxOptions options;
+  options.tolerance = 1e-3;
+  const std::vector<double> pressure(cells.size(), 240.0);
+  ASSERT_TRUE(relax(state, *cloth, {pressure, {}}, options, team).converged);
+  const std::vector<Vec3> load = node_forces({pressure, {}}, cells, positions(state, *cloth));
+  EXPECT_LT(largest_cut_gap(mesh, *cloth, state, load), 0.02);
+
+  // A tenth of the load that the stress knows nothing of is seen.
+  std::vector<Vec3> more = load;
+  for (Vec3& force : more) force = 1.1 * force;
+  EXPECT_GT(largest_cut_gap(mesh, *cloth, state, more), 0.05);
+}
+
+// A cord that hangs with a load at its end: every cut carries it.
+TEST(CutBalance, ACordCarriesWhatHangsOnIt) {
+  Mesh mesh;
+  mesh.start = {{0, 0, 0}, {0.1, 0, 1}};
+  mesh.mass = {1, 1};
+  mesh.laws = {SpringLaw{.coefficients = {1000}}};
+  mesh.parts = {"cord"};
+  mesh.springs = {{.a = 0, .b = 1, .rest_length = 1}};
+  mesh.fixed = {0};
+  const ClothPtr cloth = make_cloth(mesh);
+  const ClothState state = start_state(*cloth);
+  const double length = std::sqrt(1.01), tension = 1000 * (length - 1);
+  const CutBalance cut = cut_balance(mesh, *cloth, state, {{}, {0, 0, 3}}, 0.5, 0.2);
+  EXPECT_NEAR(cut.cord_force, tension / length, 1e-12);
+  EXPECT_EQ(cut.cloth_force, 0);
+  EXPECT_EQ(cut.seam_force, 0);
+  EXPECT_NEAR(cut.air_force, 3, 1e-12);
+  EXPECT_NEAR(cut.gap(), tension / length - 3, 1e-12);
+}
+
+}  // namespace
+}  // namespace ripstop
