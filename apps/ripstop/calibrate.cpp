@@ -12,6 +12,7 @@
 #include "progress.h"
 #include "ripstop/core/error.h"
 #include "ripstop/run/damping.h"
+#include "ripstop/run/run_folder.h"
 
 namespace ripstop {
 namespace {
@@ -48,9 +49,7 @@ int calibrate(const Options& options) {
                   [&](const DampingTrial& trial) { progress.line(trial_text(trial)); });
   const DampingCalibration& found = result.found;
   const fs::path folder =
-      options.out.empty()
-          ? fs::path("runs") / (options.opening.case_file.parent_path().filename().string() + "-damping")
-          : options.out;
+      options.out.empty() ? default_run_folder(options.opening.case_file, "damping") : options.out;
   write_damping(folder, result);
   if (options.json)
     fmt::print("{}", to_json(result));
@@ -76,7 +75,7 @@ void add_damping(CLI::App& parent, int& status) {
   command->add_option("--refinements", options->search.refinements, "Openings about the best of them")
       ->check(CLI::Range(0, 1000));
   command->add_option("--out", options->out,
-                      "Folder of the result (default: runs/<folder of the case>-damping)");
+                      "Folder of the result (default: runs/<name of the case>-damping)");
   add_json_option(*command, options->json);
   command->callback([options, &status] { status = calibrate(*options); });
 }

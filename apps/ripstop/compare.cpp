@@ -86,8 +86,7 @@ void add_compare(CLI::App& app, int& status) {
   command->add_option("--speed", options->overrides.speed, "Nominal speed [m/s]");
   command->add_flag("--linear", options->linear, "Against the linear model, which keeps only K_1")
       ->required();
-  command->add_option("--out", options->settings.folder,
-                      "Folder (default: runs/<folder of the case>-compare)");
+  command->add_option("--out", options->settings.folder, "Folder (default: runs/<name of the case>-compare)");
   command->callback([options, &status] { status = compare(*options); });
 }
 

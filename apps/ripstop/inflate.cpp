@@ -130,9 +130,7 @@ int run(const Options& options) {
   const auto begin = std::chrono::steady_clock::now();
   const Case given = opening_case(options.opening);
   const fs::path folder =
-      options.out.empty()
-          ? fs::path("runs") / (options.opening.case_file.parent_path().filename().string() + "-inflation")
-          : options.out;
+      options.out.empty() ? default_run_folder(options.opening.case_file, "inflation") : options.out;
   const LoadSource source = load_source(given, options.opening.steady_run);
   const int threads = threads_of(options.opening, given);
   if (options.check) {
@@ -172,8 +170,9 @@ void add_inflate(CLI::App& app, int& status) {
   add_opening_options(*command, options->opening);
   add_key_option(*command, "--damping", "inflation.damping_n_s_m3", "C_a a unit area [N s/m3]",
                  options->opening.overrides);
-  command->add_option("--out", options->out, "Run folder (default: runs/<folder of the case>-inflation)");
-  command->add_flag("--fresh", options->fresh, "Replace what the run folder holds; default: go on with it");
+  command->add_option("--out", options->out, "Run folder (default: runs/<name of the case>-inflation)");
+  command->add_flag("--fresh", options->fresh,
+                    "Replace what Ripstop wrote into the run folder; default: go on with it");
   command->add_flag("--check", options->check, "Fold, say strain, pressure and step, and stop");
   add_json_option(*command, options->json);
   command->callback([options, &status] { status = run(*options); });

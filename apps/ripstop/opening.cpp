@@ -3,33 +3,11 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
 #include "case_options.h"
-#include "ripstop/core/error.h"
-#include "ripstop/core/file.h"
+#include "ripstop/run/steady_folder.h"
 
 namespace ripstop {
-namespace {
-
-namespace fs = std::filesystem;
-
-double drag_of_run(const fs::path& folder) {
-  const fs::path file = folder / "result.json";
-  try {
-    const auto result = nlohmann::json::parse(read_file(file));
-    if (!result.value("converged", false)) {
-      throw Error(ExitCode::bad_data, fmt::format("{}: the steady run has not converged", file.string()));
-    }
-    return result.at("drag_n").get<double>();
-  } catch (const nlohmann::json::exception& error) {
-    throw Error(ExitCode::bad_data,
-                fmt::format("{}: not the result of ripstop steady ({})", file.string(), error.what()));
-  }
-}
-
-}  // namespace
-
 void add_opening_options(CLI::App& command, OpeningOptions& options) {
   command.add_option("case", options.case_file, "Case file (TOML) with an [inflation] table")->required();
   CLI::Option* steady = command
@@ -61,9 +39,9 @@ int threads_of(const OpeningOptions& options, const Case& opening) {
   return options.threads > 0 ? options.threads : opening.coupling.threads;
 }
 
-LoadSource load_source(const Case& opening, const fs::path& steady_run) {
+LoadSource load_source(const Case& opening, const std::filesystem::path& steady_run) {
   if (steady_run.empty()) return load_source(opening);
-  const double drag = drag_of_run(steady_run);
+  const double drag = drag_for_opening(steady_run, opening);
   return {fmt::format("steady run {}: {:.4g} N", steady_run.string(), drag), drag};
 }
 

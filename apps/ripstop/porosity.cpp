@@ -256,7 +256,7 @@ void add_calibrate_porosity(CLI::App& parent, int& status) {
                    "Places of the canopy within one cell along the flow, averaged")
       ->check(CLI::Range(1, 100));
   command->add_option("--out", options->settings.folder,
-                      "Folder (default: runs/<folder of the case>-porosity)");
+                      "Folder (default: runs/<name of the case>-porosity)");
   command->callback([options, &status] { status = calibrate(*options); });
 }
 

@@ -133,6 +133,7 @@ class Terminal : public SteadyObserver {
     progress_.line(iteration_header());
     for (const SteadyIteration& i : state.iterations) progress_.line(iteration_text(i));
   }
+  void warned(const std::string& text) override { progress_.line("ripstop: " + text); }
   void progress(const SteadyProgress& p, const SteadyState& state) override {
     double left = 0;
     if (!state.iterations.empty()) {
@@ -167,8 +168,7 @@ int dry_run(const Case& given, const fs::path& folder) {
 int run(const Options& options) {
   const Case given = read_case(options.case_file, options.overrides);
   const CouplingSettings coupling = resolve(given).coupling;
-  const fs::path folder =
-      options.out.empty() ? fs::path("runs") / options.case_file.parent_path().filename() : options.out;
+  const fs::path folder = options.out.empty() ? default_run_folder(options.case_file) : options.out;
   if (options.dry_run) return dry_run(given, folder);
   Terminal terminal(folder);
   const SteadyFolderRun done =
@@ -207,8 +207,9 @@ void add_steady(CLI::App& app, int& status) {
   add_case_options(*command, options->overrides);
   add_flow_options(*command, options->overrides);
   command->add_option("--hostfile", options->hostfile, "Hosts for MPI")->check(CLI::ExistingFile);
-  command->add_option("--out", options->out, "Run folder (default: runs/<folder of the case>)");
-  command->add_flag("--fresh", options->fresh, "Replace what the run folder holds; default: go on with it");
+  command->add_option("--out", options->out, "Run folder (default: runs/<name of the case>)");
+  command->add_flag("--fresh", options->fresh,
+                    "Replace what Ripstop wrote into the run folder; default: go on with it");
   command->add_flag("--dry-run", options->dry_run, "Say what would be done, and stop");
   add_json_option(*command, options->json);
   command->callback([options, &status] { status = run(*options); });

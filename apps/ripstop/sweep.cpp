@@ -101,7 +101,7 @@ void add_sweep(CLI::App& app, int& status) {
       ->expected(1)
       ->take_all();
   command->add_flag("--linear", options->overrides.linear, "Keep only K_1 of every material");
-  command->add_option("--out", options->settings.folder, "Folder (default: runs/<folder of the case>-sweep)");
+  command->add_option("--out", options->settings.folder, "Folder (default: runs/<name of the case>-sweep)");
   command->add_flag("--dry-run", options->dry_run, "Say what would be run, and stop");
   command->callback([options, &status] { status = sweep(*options); });
 }

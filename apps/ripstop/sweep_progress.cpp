@@ -9,6 +9,7 @@
 #include "json_option.h"
 #include "progress.h"
 #include "ripstop/core/error.h"
+#include "ripstop/run/run_folder.h"
 #include "ripstop/run/sweep_files.h"
 
 namespace ripstop {
@@ -30,10 +31,7 @@ void add_sweep_options(CLI::App& command, SweepOptions& options) {
 
 void finish(SweepOptions& options, const std::string& what) {
   options.settings.warm = !options.cold;
-  if (options.settings.folder.empty()) {
-    const std::string name = options.case_file.parent_path().filename().string();
-    options.settings.folder = std::filesystem::path("runs") / ((name.empty() ? "case" : name) + "-" + what);
-  }
+  if (options.settings.folder.empty()) options.settings.folder = default_run_folder(options.case_file, what);
 }
 
 std::vector<SweepRow> run_and_tell(const std::vector<SweepAxis>& axes, const std::vector<SweepPoint>& points,

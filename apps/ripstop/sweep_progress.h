@@ -22,7 +22,7 @@ struct SweepOptions {
 };
 /// Case, --flow, --ranks, --grid, --set, --jobs, --cold, --fields, --json, --out, --fresh.
 void add_sweep_options(CLI::App& command, SweepOptions& options);
-/// After parsing: the default folder runs/<folder of the case>-<what>.
+/// After parsing: the default folder runs/<name of the case>-<what>.
 void finish(SweepOptions& options, const std::string& what);
 
 /// Runs the points with one line of progress, a line for every end, and sweep.csv after each of them.

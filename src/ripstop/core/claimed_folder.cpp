@@ -43,7 +43,8 @@ std::vector<std::string> listed(const fs::path& folder) {
   if (!fs::exists(list_of(folder))) return names;
   std::istringstream lines(read_file(list_of(folder)));
   for (std::string line; std::getline(lines, line);) {
-    if (line.size() > 33 && line.substr(0, 32) == hash_bytes(line.substr(33))) names.push_back(line.substr(33));
+    if (line.size() > 33 && line.substr(0, 32) == hash_bytes(line.substr(33)))
+      names.push_back(line.substr(33));
   }
   return names;
 }
@@ -96,7 +97,7 @@ bool is_leftover(const std::vector<std::string>& names, const std::string& file)
   return !target.empty() && covers(names, (path.parent_path() / target).generic_string());
 }
 
-void remove(const fs::path& path) {
+void take_away(const fs::path& path) {
   std::error_code error;
   fs::remove_all(path, error);
   if (error) throw Error(ExitCode::io, fmt::format("cannot remove {}: {}", path.string(), error.message()));
@@ -151,15 +152,15 @@ fs::path ClaimedFolder::own(const std::string& name) {
 }
 
 void ClaimedFolder::clear() {
-  remove(seal_of(folder_));  // first: what is half removed is not finished
+  take_away(seal_of(folder_));  // first: what is half removed is not finished
   for (const std::string& name : names_) {
-    remove(folder_ / name);
+    take_away(folder_ / name);
     std::error_code full;  // a folder with anything else in it stays
     for (fs::path above = fs::path(name).parent_path(); !above.empty(); above = above.parent_path())
       if (!fs::remove(folder_ / above, full)) break;
   }
   for (const fs::directory_entry& record : fs::directory_iterator(folder_ / records))
-    if (record.path() != lock_of(folder_)) remove(record.path());
+    if (record.path() != lock_of(folder_)) take_away(record.path());
   names_.clear();
 }
 
@@ -177,7 +178,7 @@ void ClaimedFolder::note(const std::string& name, const std::string& text) const
 
 void ClaimedFolder::drop_leftovers() const {
   for (const std::string& file : files_below(folder_)) {
-    if (is_leftover(names_, file)) remove(folder_ / file);
+    if (is_leftover(names_, file)) take_away(folder_ / file);
   }
 }
 

@@ -1,5 +1,10 @@
 #include "ripstop/run/checkpoint.h"
 
+#include <fmt/format.h>
+
+#include <utility>
+#include <vector>
+
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/core/hash.h"
@@ -35,15 +40,36 @@ void save_checkpoint(const fs::path& folder, const SteadyState& state, const Flo
   write_sealed(folder / "current", name);
 }
 
-std::optional<SteadyState> load_checkpoint(const fs::path& folder, Flow& flow) {
-  if (!fs::exists(folder / "current")) return std::nullopt;
-  const std::string name = read_sealed(folder / "current");
-  if (name != "even" && name != "odd") {
-    throw Error(ExitCode::bad_data, fmt::format("{}: names no checkpoint", (folder / "current").string()));
+namespace {
+
+/// Of the two, the one that `current` names first.
+std::vector<std::string> in_turn(const fs::path& folder) {
+  std::vector<std::string> names = {"odd", "even"};
+  try {
+    if (read_sealed(folder / "current") == names[1]) std::swap(names[0], names[1]);
+  } catch (const Error&) {  // damaged, or never written: any whole one will do
   }
-  SteadyState state = steady_state_from_bytes(read_sealed(folder / name / "state"));
-  flow.restore(folder / name / "flow");
-  return state;
+  std::erase_if(names, [&](const std::string& name) { return !fs::exists(folder / name / "state"); });
+  return names;
+}
+
+}  // namespace
+
+std::optional<LoadedCheckpoint> load_checkpoint(const fs::path& folder, Flow& flow) {
+  std::string damage;
+  for (const std::string& name : in_turn(folder)) {
+    try {
+      LoadedCheckpoint loaded{steady_state_from_bytes(read_sealed(folder / name / "state")), damage};
+      flow.restore(folder / name / "flow");
+      return loaded;
+    } catch (const Error& error) {
+      if (damage.empty()) damage = error.what();
+    }
+  }
+  // One that nothing names was never whole: a start that was killed.
+  if (damage.empty() || !fs::exists(folder / "current")) return std::nullopt;
+  throw Error(ExitCode::bad_data,
+              damage + "; no other checkpoint of the run is whole: start again with --fresh");
 }
 
 }  // namespace ripstop

@@ -18,7 +18,13 @@ SteadyState steady_state_from_bytes(const std::string& bytes);
 /// Two folders in turn, and a sealed file that names the whole one: the last checkpoint stays good until the
 /// next is on the disk. Throws Error(io).
 void save_checkpoint(const std::filesystem::path& folder, const SteadyState& state, const Flow& flow);
-/// The last whole checkpoint, or nothing when there is none. Throws Error(bad_data) for a damaged one.
-std::optional<SteadyState> load_checkpoint(const std::filesystem::path& folder, Flow& flow);
+struct LoadedCheckpoint {
+  SteadyState state;
+  std::string
+      damage;  // of the newer checkpoint, in whose place this older one stands; empty: this is the newest
+};
+/// The last whole checkpoint, or nothing when there is none. Throws Error(bad_data) when all there are are
+/// damaged.
+std::optional<LoadedCheckpoint> load_checkpoint(const std::filesystem::path& folder, Flow& flow);
 
 }  // namespace ripstop

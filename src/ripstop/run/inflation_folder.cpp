@@ -29,15 +29,15 @@ double clock_now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-fs::path shape_file(const char* what, long long frame) {
+std::string shape_file(const char* what, long long frame) {
   return fmt::format("vtk/{}_{:04}.vtp", what, frame);
 }
 
 /// Writes every file of the opening before it passes on what it was told.
 class InflationFolder : public InflationObserver {
  public:
-  InflationFolder(const InflationFolderSettings& settings, InflationObserver& next)
-      : folder_(settings.run.folder), checkpoint_every_(settings.checkpoint_every_s), next_(next) {}
+  InflationFolder(ClaimedFolder& folder, const InflationFolderSettings& settings, InflationObserver& next)
+      : folder_(folder), checkpoint_every_(settings.checkpoint_every_s), next_(next) {}
 
   void begin(const Inflation& solver, InflationState& state, InflationHistory& history) override;
   void advanced(const Inflation& solver, const InflationState& state, const InflationHistory& history,
@@ -48,6 +48,7 @@ class InflationFolder : public InflationObserver {
  private:
   void write_start(const Inflation& solver, const InflationState& state) const;
   void write_shape(const Inflation& solver, const InflationState& state) const;
+  std::string tables_hash() const;
   /// Everything so far is on the disk when this returns.
   void save(const InflationState& state, const InflationHistory& history);
   void write_load_plot(const Inflation& solver, const std::vector<HistoryRow>& rows,
@@ -56,10 +57,10 @@ class InflationFolder : public InflationObserver {
 
   template <class Row>
   CsvLog table(const char* name, std::size_t kept) const {
-    return {folder_ / name, columns_of<Row>(), kept};
+    return {folder_.own(name), columns_of<Row>(), kept};
   }
 
-  fs::path folder_;
+  ClaimedFolder& folder_;
   double checkpoint_every_;  // [s]
   InflationObserver& next_;
   double saved_ = clock_now();                     // when [s]
@@ -73,11 +74,20 @@ std::vector<Row> rows_of(const fs::path& file) {
   return rows;
 }
 
+// The tables belong to the state of the checkpoint: it begins with their hash.
+std::string InflationFolder::tables_hash() const {
+  return hash_bytes(hash_file(folder_.own("history.csv")) + hash_file(folder_.own("balance.csv")));
+}
+
 void InflationFolder::begin(const Inflation& solver, InflationState& state, InflationHistory& history) {
-  const fs::path saved = folder_ / "checkpoint";
+  const fs::path saved = folder_.own("checkpoint");
   const bool goes_on = fs::exists(saved);
+  std::string tables;
   if (goes_on) {
-    InflationState earlier = inflation_state_from_bytes(read_sealed(saved));
+    const std::string bytes = read_sealed(saved);
+    tables = bytes.substr(0, bytes.find('\n'));
+    InflationState earlier =
+        inflation_state_from_bytes(bytes.substr(std::min(bytes.size(), tables.size() + 1)));
     if (earlier.cloth.x.size() != state.cloth.x.size()) {
       throw Error(ExitCode::bad_data,
                   fmt::format("{}: is of another mesh; start again with --fresh", saved.string()));
@@ -88,7 +98,15 @@ void InflationFolder::begin(const Inflation& solver, InflationState& state, Infl
   saved_frames_ = static_cast<std::size_t>(state.blocks * solver.problem().settings.frames / solver.blocks());
   table<HistoryRow>("history.csv", saved_rows_);
   table<InflationFrame>("balance.csv", saved_frames_);
-  history = {rows_of<HistoryRow>(folder_ / "history.csv"), rows_of<InflationFrame>(folder_ / "balance.csv")};
+  if (goes_on && tables != tables_hash()) {
+    throw Error(
+        ExitCode::bad_data,
+        fmt::format("{}: history.csv or balance.csv lost or changed since the checkpoint; start again with "
+                    "--fresh",
+                    folder_.path().string()));
+  }
+  history = {rows_of<HistoryRow>(folder_.own("history.csv")),
+             rows_of<InflationFrame>(folder_.own("balance.csv"))};
   if (!goes_on) write_start(solver, state);
   next_.begin(solver, state, history);
 }
@@ -110,7 +128,7 @@ void InflationFolder::save(const InflationState& state, const InflationHistory& 
   };
   add(table<HistoryRow>("history.csv", saved_rows_), history.rows, saved_rows_);
   add(table<InflationFrame>("balance.csv", saved_frames_), history.frames, saved_frames_);
-  write_sealed(folder_ / "checkpoint", to_bytes(state));
+  write_sealed(folder_.own("checkpoint"), tables_hash() + '\n' + to_bytes(state));
   saved_ = clock_now();
 }
 
@@ -122,21 +140,22 @@ void InflationFolder::ended(const Inflation& solver, const InflationState& state
   CsvTable lines{{"line", "peak_tension_n"}, {}};
   for (std::size_t i = 0; i < result.line_peaks.size(); ++i)
     lines.rows.push_back({static_cast<double>(i + 1), result.line_peaks[i]});
-  write_csv(folder_ / "lines.csv", lines);
+  write_csv(folder_.own("lines.csv"), lines);
   const InflationSettings& settings = solver.problem().settings;
   for (const char* what : {"canopy", "lines"}) {
     std::vector<VtkSeriesFile> series;
     for (int i = 0; i <= settings.frames; ++i) {
       series.push_back({settings.duration_s * i / settings.frames, shape_file(what, i)});
     }
-    write_pvd(folder_ / fmt::format("{}.pvd", what), series);
+    write_pvd(folder_.own(fmt::format("{}.pvd", what)), series);
   }
-  write_file(folder_ / "result.json", to_json(result));
+  write_file(folder_.own("result.json"), to_json(result));
+  folder_.seal();
   next_.ended(solver, state, history, result);
 }
 
 void InflationFolder::write_start(const Inflation& solver, const InflationState& state) const {
-  make_folder(folder_ / "vtk");
+  make_folder(folder_.path() / "vtk");
   const FoldedStart& folded = solver.folded();
   std::vector<double> flat(solver.mesh().cell_count(), 0.0);
   std::size_t cell = 0;
@@ -153,13 +172,13 @@ void InflationFolder::write_start(const Inflation& solver, const InflationState&
       }
     }
   }
-  write_canopy_picture(folder_ / "folded.png", solver.mesh(), folded.positions,
+  write_canopy_picture(folder_.own("folded.png"), solver.mesh(), folded.positions,
                        {fmt::format("folded start: {} folds between {:.3f} m and {:.3f} m", folded.folds,
                                     folded.inner_radius, folded.outer_radius),
                         "strips between the folds, in turn", flat, ColourRange{-0.5, 1.5}});
   const std::vector<Vec3> x = positions(state.cloth, solver.cloth());
-  write_vtp(folder_ / shape_file("canopy", 0), canopy_surface(solver.mesh(), x));
-  write_vtp(folder_ / shape_file("lines", 0), spring_lines(solver.mesh(), x));
+  write_vtp(folder_.own(shape_file("canopy", 0)), canopy_surface(solver.mesh(), x));
+  write_vtp(folder_.own(shape_file("lines", 0)), spring_lines(solver.mesh(), x));
 }
 
 void InflationFolder::write_shape(const Inflation& solver, const InflationState& state) const {
@@ -175,10 +194,10 @@ void InflationFolder::write_shape(const Inflation& solver, const InflationState&
       vtk_array_single("velocity_m_per_s", velocities(state.cloth, solver.cloth())));
   canopy.cell_arrays.push_back(vtk_array_single("von_mises_n_per_m", cloth_cells_only(solver.mesh(), mises)));
   canopy.cell_arrays.push_back(vtk_array_single("strain_max", cloth_cells_only(solver.mesh(), strain)));
-  write_vtp(folder_ / shape_file("canopy", index), canopy);
+  write_vtp(folder_.own(shape_file("canopy", index)), canopy);
   VtkSurface lines = spring_lines(solver.mesh(), x);
   lines.cell_arrays.push_back(vtk_array_single("tension_n", spring_tensions(solver.cloth(), state.cloth)));
-  write_vtp(folder_ / shape_file("lines", index), lines);
+  write_vtp(folder_.own(shape_file("lines", index)), lines);
 }
 
 void InflationFolder::write_load_plot(const Inflation& solver, const std::vector<HistoryRow>& rows,
@@ -197,7 +216,7 @@ void InflationFolder::write_load_plot(const Inflation& solver, const std::vector
                       low_pass(load.y, solver.row_duration(), settings.low_pass_hz), true, false};
     CsvTable table{{"time_s", "load_n"}, {}};
     for (std::size_t i = 0; i < rows.size(); ++i) table.rows.push_back({smooth.x[i], smooth.y[i]});
-    write_csv(folder_ / "history_low_pass.csv", table);
+    write_csv(folder_.own("history_low_pass.csv"), table);
     plot.series.push_back(std::move(smooth));
   }
   const auto level = [&](const std::string& name, std::optional<double> value_n) {
@@ -208,7 +227,7 @@ void InflationFolder::write_load_plot(const Inflation& solver, const std::vector
   level("Knacke", r.estimate.load);
   level("measured peak", settings.measured_peak_n);
   level("peak of the source's model", settings.printed_peak_n);
-  write_plot(folder_ / "load.png", plot);
+  write_plot(folder_.own("load.png"), plot);
 }
 
 void InflationFolder::write_shapes(const Inflation& solver, const InflationState& state,
@@ -217,7 +236,7 @@ void InflationFolder::write_shapes(const Inflation& solver, const InflationState
   for (const InflationShot& shot : state.shots) {
     shots.push_back({fmt::format("t = {:.1f} ms", 1000 * shot.time), shot.positions, shot.von_mises});
   }
-  write_contact_sheet(folder_ / "shapes.png", solver.mesh(), title, "von Mises stress [N/m]", shots);
+  write_contact_sheet(folder_.own("shapes.png"), solver.mesh(), title, "von Mises stress [N/m]", shots);
 }
 
 }  // namespace
@@ -234,9 +253,10 @@ std::optional<InflationResult> run_inflation_in(const InflationFolderSettings& s
                                                 const LoadSource& source,
                                                 const std::function<InflationProblem()>& problem,
                                                 InflationObserver& observer) {
-  open_run_folder(settings.run, given, "inflation; pressure from " + source.text, settings.threads);
+  const auto claimed =
+      open_run_folder(settings.run, given, "inflation; pressure from " + source.text, settings.threads);
   if (finished_result(settings.run.folder)) return std::nullopt;
-  InflationFolder files(settings, observer);
+  InflationFolder files(*claimed, settings, observer);
   return run_inflation(given, source, problem(), files).result;
 }
 

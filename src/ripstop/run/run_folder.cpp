@@ -50,9 +50,10 @@ bool holds_run(const RunSettings& settings, const Case& given, const std::string
   if (!earlier) {
     const std::vector<std::string> foreign = foreign_files(folder);
     if (foreign.empty()) return false;
-    throw Error(ExitCode::usage,
-                fmt::format("{}: is not empty ({}) and holds no run of this version of Ripstop; choose another --out",
-                            folder.string(), foreign.front()));
+    throw Error(
+        ExitCode::usage,
+        fmt::format("{}: is not empty ({}) and holds no run of this version of Ripstop; choose another --out",
+                    folder.string(), foreign.front()));
   }
   if (settings.fresh) return false;
   if (*earlier == inputs_hash(given, solver)) return true;
@@ -65,7 +66,7 @@ bool holds_run(const RunSettings& settings, const Case& given, const std::string
 
 std::unique_ptr<ClaimedFolder> open_run_folder(const RunSettings& settings, const Case& given,
                                                const std::string& solver, int threads) {
-  if (!fs::exists(settings.folder / ".ripstop")) holds_run(settings, given, solver);  // before a record is left there
+  holds_run(settings, given, solver);  // what it refuses is left without a trace
   auto folder = std::make_unique<ClaimedFolder>(settings.folder);
   const bool goes_on = holds_run(settings, given, solver);
   if (goes_on && fs::exists(settings.folder / "case.toml")) return folder;
@@ -92,10 +93,12 @@ std::optional<std::string> finished_result(const fs::path& folder) {
   if (!is_sealed(folder)) return std::nullopt;
   const std::vector<std::string> damaged = damaged_files(folder);
   if (!damaged.empty()) {
-    throw Error(ExitCode::bad_data,
-                fmt::format("{}: {} lost or changed since the run ended; put back what was there, or compute it again "
-                            "with --fresh",
-                            folder.string(), fmt::join(damaged, ", ")));
+    throw Error(
+        ExitCode::bad_data,
+        fmt::format(
+            "{}: {} lost or changed since the run ended; put back what was there, or compute it again "
+            "with --fresh",
+            folder.string(), fmt::join(damaged, ", ")));
   }
   return read_file(folder / "result.json");
 }

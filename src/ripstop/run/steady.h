@@ -102,6 +102,8 @@ class SteadyObserver {
   /// Before the first iteration. An observer that knows an earlier state puts it in the place of the cold
   /// start, and restores the flow that belongs to it.
   virtual void begin(const SteadyRun&, SteadyState&) {}
+  /// Of what went wrong without stopping the run.
+  virtual void warned(const std::string&) {}
   virtual void progress(const SteadyProgress&, const SteadyState&) {}
   virtual void iterated(const SteadyRun&, const SteadyState&, const FlowField&) {}
   virtual void ended(const SteadyRun&, const SteadyState&, const SteadyResult&) {}

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -27,12 +29,10 @@ namespace fs = std::filesystem;
 class SteadyFolder : public SteadyObserver {
  public:
   SteadyFolder(ClaimedFolder& folder, const SteadyFolderSettings& settings, SteadyObserver& next)
-      : folder_(folder),
-        fields_(settings.run.fields),
-        warm_from_(settings.warm_from),
-        next_(next) {}
+      : folder_(folder), fields_(settings.run.fields), warm_from_(settings.warm_from), next_(next) {}
 
   void begin(const SteadyRun& run, SteadyState& state) override;
+  void warned(const std::string& text) override { next_.warned(text); }
   void progress(const SteadyProgress& progress, const SteadyState& state) override {
     next_.progress(progress, state);
   }
@@ -57,12 +57,17 @@ class SteadyFolder : public SteadyObserver {
 
 void SteadyFolder::begin(const SteadyRun& run, SteadyState& state) {
   if (auto saved = load_checkpoint(folder_.own("checkpoint/"), run.solver.flow())) {
-    state = std::move(*saved);
+    state = std::move(saved->state);
+    if (!saved->damage.empty())
+      next_.warned(fmt::format("{}; goes on from the checkpoint before, iteration {}", saved->damage,
+                               state.iterations.size()));
   } else if (!warm_from_.empty()) {
     if (start_from(case_of_run(warm_from_), final_state(warm_from_), run, state))
       load_checkpoint(warm_from_ / "checkpoint", run.solver.flow());
   }
-  iterations(state.iterations.size());
+  std::vector<std::vector<double>> rows;  // of the checkpoint, whatever became of the table
+  for (const SteadyIteration& i : state.iterations) rows.push_back(row_of(i));
+  iterations(0).add_rows(rows);
   next_.begin(run, state);
 }
 
@@ -215,6 +220,33 @@ SteadyFolderRun run_steady_in(const SteadyFolderSettings& settings, const Case& 
   const fs::path flow_folder = engine_of(given).needs_folder ? claimed->own("flow/") : fs::path();
   SteadyFolder files(*claimed, settings, observer);
   return {false, run_steady(given, files, {threads, flow_folder, settings.hostfile}).result};
+}
+
+double drag_for_opening(const fs::path& folder, const Case& opening) {
+  const std::optional<std::string> text = finished_result(folder);
+  if (!text)
+    throw Error(ExitCode::usage, fmt::format("{}: holds no finished run of ripstop steady", folder.string()));
+  const SteadyResult result = steady_result_from_json(*text);
+  if (!result.converged)
+    throw Error(ExitCode::bad_data, fmt::format("{}: the steady run has not converged", folder.string()));
+  auto asked = nlohmann::json::parse(case_json(opening)).at("parachute");
+  auto had = nlohmann::json::parse(case_json(case_of_run(folder))).at("parachute");
+  asked.erase("mesh"), had.erase("mesh");
+  for (const auto& [key, value] : asked.items()) {
+    if (had.contains(key) && had.at(key) == value) continue;
+    throw Error(ExitCode::usage,
+                fmt::format("{}: is a run of another parachute: parachute.{} is {} there and {} here",
+                            folder.string(), key, had.value(key, nlohmann::json()).dump(), value.dump()));
+  }
+  const Air here = air(opening);
+  const auto check = [&](const char* what, double there, double now) {
+    if (std::abs(there - now) <= 1e-6 * now) return;
+    throw Error(ExitCode::usage, fmt::format("{}: is a run at another {}: {:g} there and {:g} here",
+                                             folder.string(), what, there, now));
+  };
+  check("speed (m/s)", result.speed, here.speed);
+  check("density (kg/m3)", result.density, here.density);
+  return result.drag;
 }
 
 SteadyState final_state(const fs::path& folder) {

@@ -29,6 +29,10 @@ struct SteadyFolderRun {
 SteadyFolderRun run_steady_in(const SteadyFolderSettings& settings, const Case& given,
                               SteadyObserver& observer);
 
+/// Drag of the converged run in a folder, for an opening of the same parachute, but for its mesh, in the same air.
+/// Throws Error(usage) for another parachute, speed or density, Error(bad_data) for a run that is damaged or has
+/// not converged.
+double drag_for_opening(const std::filesystem::path& folder, const Case& opening);
 /// The final state in the folder of a steady run. Throws Error(usage) when there is none.
 SteadyState final_state(const std::filesystem::path& folder);
 /// The case that was run there. Throws Error(usage) when there is none.

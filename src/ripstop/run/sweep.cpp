@@ -64,10 +64,12 @@ RunSettings run_settings(const SweepPoint& point, const SweepSettings& settings)
   return {settings.folder / point.folder, settings.fresh, settings.fields};
 }
 
-void open_sweep_folder(const std::vector<SweepPoint>& points, const SweepSettings& settings) {
+/// Claims the folder.
+std::unique_ptr<ClaimedFolder> open_sweep_folder(const std::vector<SweepPoint>& points,
+                                                 const SweepSettings& settings) {
   const fs::path& folder = settings.folder;
   const fs::path description = folder / "sweep.json";
-  if (fs::exists(folder) && !fs::is_empty(folder) && !fs::exists(description)) {
+  if (!fs::exists(description) && !foreign_files(folder).empty()) {
     throw Error(
         ExitCode::usage,
         fmt::format("{}: is not empty and holds no sweep of Ripstop (no sweep.json); choose another --out",
@@ -77,7 +79,7 @@ void open_sweep_folder(const std::vector<SweepPoint>& points, const SweepSetting
   for (const SweepPoint& point : points)
     holds_run(run_settings(point, settings), point.given,
               engine_of(point.given).name(engine_options(point.given)));
-  make_folder(folder);
+  auto claimed = std::make_unique<ClaimedFolder>(folder);
   nlohmann::ordered_json j;
   j["program"] = "ripstop";
   j["version"] = version();
@@ -90,6 +92,7 @@ void open_sweep_folder(const std::vector<SweepPoint>& points, const SweepSetting
          {"starts_from", point.start < 0 || !settings.warm ? json() : json(points[point.start].folder)}});
   }
   write_file(description, j.dump(2) + "\n");
+  return claimed;
 }
 
 /// The work of a sweep and who does what.

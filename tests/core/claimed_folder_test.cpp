@@ -1,0 +1,137 @@
+// One process a folder, and nothing is removed that Ripstop did not write.
+#include "ripstop/core/claimed_folder.h"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "ripstop/core/error.h"
+#include "ripstop/core/file.h"
+
+namespace ripstop {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ClaimedFolderTest : public testing::Test {
+ protected:
+  TemporaryFolder root{"claim"};
+  fs::path folder = root.path / "run";
+};
+
+TEST_F(ClaimedFolderTest, ClearRemovesWhatIsOnTheListAndNothingElse) {
+  {
+    ClaimedFolder claimed(folder);
+    write_file(claimed.own("run.json"), "{}");
+    make_folder(folder / "vtk");
+    write_file(claimed.own("vtk/a.vtp"), "a");
+    make_folder(claimed.own("checkpoint/") / "odd");
+    write_file(folder / "checkpoint/odd/state", "s");
+  }
+  write_file(folder / "thesis.txt", "mine");
+  write_file(folder / "vtk/mine.vtp", "mine");
+  ClaimedFolder again(folder);
+  EXPECT_EQ(again.names(), (std::vector<std::string>{"run.json", "vtk/a.vtp", "checkpoint/"}));
+  EXPECT_EQ(foreign_files(folder).size(), 2u);
+  again.clear();
+  EXPECT_FALSE(fs::exists(folder / "run.json"));
+  EXPECT_FALSE(fs::exists(folder / "vtk/a.vtp"));
+  EXPECT_FALSE(fs::exists(folder / "checkpoint"));
+  EXPECT_EQ(read_file(folder / "thesis.txt"), "mine");
+  EXPECT_EQ(read_file(folder / "vtk/mine.vtp"), "mine");
+  EXPECT_TRUE(again.names().empty());
+}
+
+TEST_F(ClaimedFolderTest, AFileThatIsThereAndNotOnTheListIsNotTaken) {
+  make_folder(folder);
+  write_file(folder / "result.json", "mine");
+  make_folder(folder / "vtk");
+  ClaimedFolder claimed(folder);
+  EXPECT_THROW(claimed.own("result.json"), Error);
+  EXPECT_THROW(claimed.own("vtk/"), Error);
+  claimed.clear();
+  EXPECT_EQ(read_file(folder / "result.json"), "mine");
+  EXPECT_TRUE(fs::exists(folder / "vtk"));
+}
+
+TEST_F(ClaimedFolderTest, ALineOfTheListThatWasDamagedProvesNothing) {
+  {
+    ClaimedFolder claimed(folder);
+    write_file(claimed.own("a.csv"), "a");
+    write_file(claimed.own("b.csv"), "b");
+  }
+  std::string list = read_file(folder / ".ripstop/files");
+  list.replace(list.find("a.csv"), 5, "x.csv");
+  write_file(folder / ".ripstop/files", list.substr(0, list.size() - 3));  // and the last line cut
+  write_file(folder / "x.csv", "mine");
+  ClaimedFolder again(folder);
+  EXPECT_TRUE(again.names().empty());
+  again.clear();
+  EXPECT_TRUE(fs::exists(folder / "a.csv") && fs::exists(folder / "b.csv") && fs::exists(folder / "x.csv"));
+}
+
+TEST_F(ClaimedFolderTest, TwoCannotHoldAFolderAndTheSecondSaysWhoDoes) {
+  ClaimedFolder claimed(folder);
+  try {
+    ClaimedFolder second(folder);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::usage);
+    EXPECT_NE(std::string(error.what()).find("process " + std::to_string(getpid())), std::string::npos)
+        << error.what();
+  }
+}
+
+TEST_F(ClaimedFolderTest, TheClaimEndsWithItsProcessHoweverThatEnds) {
+  int ready[2];
+  ASSERT_EQ(pipe(ready), 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    const ClaimedFolder claimed(folder);
+    [[maybe_unused]] const auto sent = write(ready[1], "x", 1);
+    pause();
+    _exit(0);
+  }
+  char byte = 0;
+  ASSERT_EQ(read(ready[0], &byte, 1), 1);
+  EXPECT_THROW(ClaimedFolder{folder}, Error);
+  kill(child, SIGKILL);
+  waitpid(child, nullptr, 0);
+  EXPECT_NO_THROW(ClaimedFolder{folder});
+  close(ready[0]), close(ready[1]);
+}
+
+TEST_F(ClaimedFolderTest, WhatAKillLeftOfAFileGoesAndALookAlikeStays) {
+  {
+    ClaimedFolder claimed(folder);
+    write_file(claimed.own("a.csv"), "a");
+  }
+  write_file(folder / ".a.csv.4711-3.tmp", "half");
+  write_file(folder / ".b.csv.4711-3.tmp", "of another program");
+  write_file(folder / ".a.csv.old.tmp", "of another program");
+  const ClaimedFolder again(folder);
+  EXPECT_FALSE(fs::exists(folder / ".a.csv.4711-3.tmp"));
+  EXPECT_TRUE(fs::exists(folder / ".b.csv.4711-3.tmp"));
+  EXPECT_TRUE(fs::exists(folder / ".a.csv.old.tmp"));
+}
+
+TEST_F(ClaimedFolderTest, ASealNoticesEveryFileThatIsLostOrChanged) {
+  ClaimedFolder claimed(folder);
+  for (const char* name : {"a", "b", "c"}) write_file(claimed.own(name), name);
+  EXPECT_FALSE(is_sealed(folder));
+  claimed.seal();
+  EXPECT_TRUE(is_sealed(folder));
+  EXPECT_TRUE(damaged_files(folder).empty());
+  write_file(folder / "a", "changed");
+  fs::remove(folder / "b");
+  EXPECT_EQ(damaged_files(folder), (std::vector<std::string>{"a", "b"}));
+  write_file(folder / ".ripstop/seal", "{}");
+  EXPECT_THROW(damaged_files(folder), Error);
+}
+
+}  // namespace
+}  // namespace ripstop
