@@ -104,14 +104,56 @@ TEST_F(Steady, WhereTheFlowDoesNotSettleItsMeanStandsOnceTheLedgerCloses) {
 }
 
 TEST_F(Steady, AFolderOfAnotherRunIsRefusedAndAFinishedOneIsOnlyShown) {
-  ASSERT_EQ(wait_for(start(command("run", "builtin"))), 0);
-  const auto written = fs::last_write_time(folder_ / "run" / "result.json");
+  const fs::path run = folder_ / "run";
+  const pid_t first = start(command("run", "builtin"));
+  while (!fs::exists(run / "run.json")) usleep(1000);
+  EXPECT_EQ(wait_for(start(command("run", "builtin"))), 2);  // the first works there
+  ASSERT_EQ(wait_for(first), 0);
+  const auto written = fs::last_write_time(run / "result.json");
   EXPECT_EQ(wait_for(start(command("run", "builtin"))), 0);
-  EXPECT_EQ(fs::last_write_time(folder_ / "run" / "result.json"), written);
+  EXPECT_EQ(fs::last_write_time(run / "result.json"), written);
   std::vector<std::string> other = command("run", "builtin");
   other[5] = "12";
   EXPECT_EQ(wait_for(start(other)), 2);
-  EXPECT_EQ(fs::last_write_time(folder_ / "run" / "result.json"), written);
+  EXPECT_EQ(fs::last_write_time(run / "result.json"), written);
+
+  // Whatever was lost or changed since is noticed; put back, the run is whole again.
+  for (const char* name :
+       {"result.json", "iterations.csv", "case.toml", "canopy.png", "vtk/canopy_001.vtp"}) {
+    const std::string whole = read_file(run / name);
+    write_file(run / name, whole.substr(0, whole.size() / 2));
+    EXPECT_EQ(wait_for(start(command("run", "builtin"))), 3) << name;
+    fs::remove(run / name);
+    EXPECT_EQ(wait_for(start(command("run", "builtin"))), 3) << name;
+    write_file(run / name, whole);
+  }
+  EXPECT_EQ(wait_for(start(command("run", "builtin"))), 0);
+}
+
+TEST_F(Steady, OnlyWhatRipstopWroteIsEverRemoved) {
+  // A start with a wrong key, killed before anything was computed, is in nobody's way.
+  std::vector<std::string> wrong = command("run", "builtin");
+  wrong.insert(wrong.end(), {"--set", "parachute.mesh.cloth_nodes=20000"});
+  const pid_t first = start(wrong);
+  while (!fs::exists(folder_ / "run" / "case.toml")) usleep(1000);
+  kill(first, SIGKILL);
+  wait_for(first);
+  write_file(folder_ / "run" / "thesis.txt", "mine");
+  EXPECT_EQ(wait_for(start(command("run", "builtin"))), 0);
+  std::vector<std::string> other = command("run", "builtin");
+  other.insert(other.end(), {"--set", "coupling.max_iterations=1", "--fresh"});
+  EXPECT_NE(wait_for(start(other)), 2);
+  EXPECT_EQ(read_file(folder_ / "run" / "thesis.txt"), "mine");
+
+  // A folder of other runs, and one of somebody else's, whatever it calls its files.
+  EXPECT_EQ(wait_for(start(command(".", "builtin"))), 2);
+  fs::create_directories(folder_ / "notes");
+  write_file(folder_ / "notes" / "run.json", "{\"my\": \"notes\"}");
+  std::vector<std::string> notes = command("notes", "builtin");
+  notes.push_back("--fresh");
+  EXPECT_EQ(wait_for(start(notes)), 2);
+  EXPECT_EQ(read_file(folder_ / "notes" / "run.json"), "{\"my\": \"notes\"}");
+  EXPECT_FALSE(fs::exists(folder_ / "notes" / ".ripstop"));
 }
 
 }  // namespace

@@ -69,7 +69,7 @@ std::unique_ptr<ClaimedFolder> open_run_folder(const RunSettings& settings, cons
   holds_run(settings, given, solver);  // what it refuses is left without a trace
   auto folder = std::make_unique<ClaimedFolder>(settings.folder);
   const bool goes_on = holds_run(settings, given, solver);
-  if (goes_on && fs::exists(settings.folder / "case.toml")) return folder;
+  if (goes_on && (is_sealed(settings.folder) || fs::exists(settings.folder / "case.toml"))) return folder;
   if (!goes_on) folder->clear();
   ordered_json run;
   run["program"] = "ripstop";

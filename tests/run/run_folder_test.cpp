@@ -1,0 +1,83 @@
+// Which folder a run takes, and what it refuses.
+#include "ripstop/run/run_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "ripstop/core/error.h"
+#include "ripstop/core/file.h"
+#include "ripstop/run/steady_folder.h"
+
+namespace ripstop {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(RunFolder, IsNamedAfterTheCase) {
+  EXPECT_EQ(default_run_folder("hemi.toml"), "runs/hemi");
+  EXPECT_EQ(default_run_folder("designs/hemi.toml", "sweep"), "runs/hemi-sweep");
+  EXPECT_EQ(default_run_folder("examples/stratos-iv/case.toml"), "runs/stratos-iv");
+  EXPECT_EQ(default_run_folder("/somewhere/main/case.toml", "inflation"), "runs/main-inflation");
+  EXPECT_EQ(default_run_folder("case.toml"), "runs" / fs::current_path().filename());
+}
+
+Case stratos() {
+  return read_case(fs::path(RIPSTOP_SOURCE_DIR) / "examples/stratos-iv/case.toml");
+}
+
+TEST(RunFolder, AStartThatGotNowhereGivesWayToTheCorrectedCase) {
+  const TemporaryFolder root("run-folder");
+  const fs::path folder = root.path / "run";
+  Case given = stratos();
+  open_run_folder({folder}, given, "engine", 1);
+  given.flow.speed_m_s = 20;
+  EXPECT_FALSE(holds_run({folder}, given, "engine"));
+  open_run_folder({folder}, given, "engine", 1);
+  EXPECT_TRUE(holds_run({folder}, given, "engine"));
+  fs::create_directories(folder / "checkpoint");  // now it has
+  given.flow.speed_m_s = 30;
+  EXPECT_THROW(holds_run({folder}, given, "engine"), Error);
+  EXPECT_FALSE(holds_run({folder, true}, given, "engine"));
+}
+
+TEST(RunFolder, AnOpeningTakesTheDragOfItsOwnParachuteOnly) {
+  const TemporaryFolder root("run-folder");
+  Case given = stratos();
+  {
+    const auto folder = open_run_folder({root.path / "run"}, given, "engine", 1);
+    SteadyResult result;
+    const Air stream = air(given);
+    result.speed = stream.speed, result.density = stream.density;
+    result.drag = 396.8, result.converged = true;
+    write_file(folder->own("result.json"), to_json(result));
+    EXPECT_THROW(drag_for_opening(root.path / "run", given), Error);  // has not ended
+    folder->seal();
+  }
+  const fs::path run = root.path / "run";
+  EXPECT_EQ(drag_for_opening(run, given), 396.8);
+  given.parachute.mesh.cloth_nodes = 3000;
+  EXPECT_EQ(drag_for_opening(run, given), 396.8);
+  const auto refusal = [&](const Case& other) -> std::string {
+    try {
+      drag_for_opening(run, other);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return {};
+  };
+  Case other = given;
+  other.flow.speed_m_s = 20;
+  EXPECT_NE(refusal(other).find("another speed"), std::string::npos) << refusal(other);
+  other = given;
+  other.parachute.gores = 8;
+  EXPECT_NE(refusal(other).find("parachute.gores is 6 there and 8 here"), std::string::npos)
+      << refusal(other);
+  std::string text = read_file(run / "result.json");
+  text.replace(text.find("396.8"), 5, "496.8");
+  write_file(run / "result.json", text);
+  EXPECT_NE(refusal(given).find("result.json"), std::string::npos) << refusal(given);
+}
+
+}  // namespace
+}  // namespace ripstop
