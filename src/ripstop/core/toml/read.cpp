@@ -83,7 +83,7 @@ class Reader {
   Reader(const Document& document, Origins& origins, std::vector<Problem>& problems)
       : file_(document.name), origins_(origins), problems_(problems) {}
 
-  void table(Fields fields, const Node& node, const std::string& prefix);
+  void table(const Fields& fields, const Node& node, const std::string& prefix);
 
  private:
   void value(const Field& field, const Node& node, const std::string& name);
@@ -279,7 +279,7 @@ void Reader::value(const Field& field, const Node& node, const std::string& name
   std::visit([&](const auto& target) { set(target, node, name); }, field.value);
 }
 
-void Reader::table(Fields fields, const Node& node, const std::string& prefix) {
+void Reader::table(const Fields& fields, const Node& node, const std::string& prefix) {
   origins_[prefix] = origin(node.place);
   bool has_base = false;
   bool kind_is_open = false;
@@ -351,13 +351,13 @@ class Checker {
     const std::string allowed = field.range.text();
     problems_.push_back({origin->second, name, fmt::format("{}", value), allowed, "must be " + allowed});
   }
-  void check(const Field& field, double* value, const std::string& name, const std::string&) {
+  void check(const Field& field, const double* value, const std::string& name, const std::string&) {
     number(field, *value, name);
   }
   void check(const Field& field, std::optional<double>* value, const std::string& name, const std::string&) {
     if (*value) number(field, **value, name);
   }
-  void check(const Field& field, int* value, const std::string& name, const std::string&) {
+  void check(const Field& field, const int* value, const std::string& name, const std::string&) {
     number(field, *value, name);
   }
   void check(const Field& field, Vec3* value, const std::string& name, const std::string&) {
@@ -394,8 +394,9 @@ class Checker {
 
 }  // namespace
 
-void read_table(Fields fields, const Document& document, Origins& origins, std::vector<Problem>& problems) {
-  Reader(document, origins, problems).table(std::move(fields), document.root, "");
+void read_table(const Fields& fields, const Document& document, Origins& origins,
+                std::vector<Problem>& problems) {
+  Reader(document, origins, problems).table(fields, document.root, "");
 }
 
 void check_values(const Fields& fields, const Origins& origins, std::vector<Problem>& problems) {

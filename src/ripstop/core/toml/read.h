@@ -13,7 +13,8 @@ namespace ripstop {
 /// Fills the structs behind `fields` and notes the origin of every key that could be read. Reports unknown
 /// keys, wrong types, NaN and infinity, words that are not in a list, and missing keys; ranges are left to
 /// check_values().
-void read_table(Fields fields, const Document& document, Origins& origins, std::vector<Problem>& problems);
+void read_table(const Fields& fields, const Document& document, Origins& origins,
+                std::vector<Problem>& problems);
 
 /// Reports every value with an origin that is outside its range. A default is not looked at.
 void check_values(const Fields& fields, const Origins& origins, std::vector<Problem>& problems);
