@@ -142,6 +142,7 @@ int run(const Options& options) {
     if (!options.json) {
       print_sources(given);
       print_mesh_warning(given);
+      print_grid_warning(given);
       print_porosity_warning(given);
     }
     return 0;

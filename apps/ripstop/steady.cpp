@@ -185,6 +185,7 @@ int run(const Options& options) {
     return status;
   }
   print_mesh_warning(given);
+  print_grid_warning(given);
   print_porosity_warning(given);
   print_material_warnings(given, result.stress.strain);
   if (!result.converged)

@@ -18,6 +18,23 @@ void print_mesh_warning(const Case& given) {
                asked, enough);
 }
 
+void print_grid_warning(const Case& given) {
+  constexpr double enough = 10;  // on five, of-flow jumps between shapes; docs/theory/coupling.md
+  const Resolved resolved = resolve(given);
+  if (resolved.coupling.load != CanopyLoad::of_flow) return;
+  const FlowGrid grid = flow_grid(resolved.flow);
+  const double across =
+      inflated_diameter(given.parachute) / grid.spacing({0, 0, resolved.flow.canopy_position_m}).x;
+  if (across < enough)
+    fmt::print(
+        stderr,
+        "warning: {:.0f} cells of the flow across the inflated canopy: with fewer than {:.0f} the air's own "
+        "load "
+        "jumps as cloth passes from cell to cell, and the coupling may not converge; more flow.cells, or "
+        "coupling.load = \"uniform\"\n",
+        across, enough);
+}
+
 void print_porosity_warning(const Case& given) {
   const Fabric& cloth = canopy_fabric(given);
   const PorosityModel used = resolve(given).flow.porosity_model;

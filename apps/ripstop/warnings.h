@@ -8,6 +8,9 @@ namespace ripstop {
 /// Says on standard error when the mesh is too coarse for the size of the inflated canopy.
 void print_mesh_warning(const Case& given);
 
+/// Says on standard error when the flow's cells are too coarse for the load that the case asks for.
+void print_grid_warning(const Case& given);
+
 /// Says on standard error when the cloth's coefficients are for another porosity model than the case's.
 void print_porosity_warning(const Case& given);
 

@@ -26,8 +26,8 @@ class JsonOption : public testing::Test {
 };
 
 TEST_F(JsonOption, OfFabricSaysWhatTheClothCarries) {
-  const json r =
-      result_of({"fabric", stratos, "--pressure", "240", "--set", "parachute.mesh.cloth_nodes=1500"});
+  const json r = result_of({"fabric", stratos, "--pressure", "240", "--set",
+                            "parachute.mesh.cloth_nodes=1500", "--set", "coupling.threads=1"});
   EXPECT_TRUE(r.at("converged"));
   EXPECT_EQ(r.at("pressure_pa"), 240);
   EXPECT_NEAR(r.at("line_tension_n").get<double>() / r.at("pressure_load_n").get<double>(), 1, 1e-3);
@@ -47,7 +47,8 @@ TEST_F(JsonOption, OfCouponAndPatternHasTheRowsOfTheirTables) {
 
 TEST_F(JsonOption, OfARunThatIsFinishedIsStillItsResult) {
   const std::vector<std::string> command = {"inflate",    stratos, "--pressure",    "500",
-                                            "--duration", "0.002", "--cloth-nodes", "1000"};
+                                            "--duration", "0.002", "--cloth-nodes", "1000",
+                                            "--threads",  "1"};
   const json first = result_of(command);
   EXPECT_GT(first.at("peak_load_n"), 0);
   EXPECT_EQ(result_of(command), first);
@@ -55,7 +56,7 @@ TEST_F(JsonOption, OfARunThatIsFinishedIsStillItsResult) {
 
 TEST_F(JsonOption, OfAnEquilibriumThatWasNotFoundComesWithItsExitCode) {
   const json r = result_of({"fabric", stratos, "--set", "parachute.mesh.cloth_nodes=1500", "--set",
-                            "coupling.cloth_tolerance=1e-16"},
+                            "coupling.threads=1", "--set", "coupling.cloth_tolerance=1e-16"},
                            4);
   EXPECT_FALSE(r.at("converged"));
 }

@@ -34,9 +34,12 @@ class Steady : public testing::Test {
   void TearDown() override { fs::remove_all(folder_); }
 
   std::vector<std::string> command(const std::string& out, const std::string& engine) const {
-    return {
-        "steady", (folder_ / "case.toml").string(), "--flow", engine, "--speed", "10", "--grid", "24,24,36",
-        "--out",  (folder_ / out).string()};
+    return {"steady",  (folder_ / "case.toml").string(),
+            "--flow",  engine,
+            "--speed", "10",
+            "--grid",  "24,24,36",
+            "--out",   (folder_ / out).string(),
+            "--set",   "coupling.threads=1"};
   }
   json result(const std::string& out) const { return json::parse(read_file(folder_ / out / "result.json")); }
 
@@ -94,11 +97,11 @@ TEST_F(Steady, WithTheBuiltInEngineTheDragIsThatOfOpenFoam) {
 // 7 % less momentum than the canopy takes.
 TEST_F(Steady, WhereTheFlowDoesNotSettleItsMeanStandsOnceTheLedgerCloses) {
   const std::string example = std::string(RIPSTOP_SOURCE_DIR) + "/examples/flat-circular/case.toml";
-  ASSERT_EQ(
-      wait_for(start({"steady", example, "--grid", "40,40,49", "--set", "parachute.mesh.cloth_nodes=1500",
-                      "--set", "flow.max_iterations=60", "--set", "flow.average_over=20", "--set",
-                      "flow.residual=1e-7", "--out", (folder_ / "run").string()})),
-      0);
+  ASSERT_EQ(wait_for(start({"steady", example, "--grid", "40,40,49", "--set",
+                            "parachute.mesh.cloth_nodes=1500", "--set", "flow.max_iterations=60", "--set",
+                            "flow.average_over=20", "--set", "flow.residual=1e-7", "--set",
+                            "coupling.threads=1", "--out", (folder_ / "run").string()})),
+            0);
   EXPECT_EQ(read_csv(folder_ / "run" / "iterations.csv").column("flow_averaged").back(), 20);
   expect_closed_ledger(result("run"));
 }

@@ -200,6 +200,7 @@ TEST(CartesianEngine, StartingOnCoarserGridsLeavesNoTraceInAFlowOfConstantDensit
   FlowProblem problem = open_box(48, 48, 72, 10);  // two coarser grids
   problem.porous[0].darcy /= 10, problem.porous[0].forchheimer /= 10;
   CartesianSettings settings;
+  settings.threads = 1;
   settings.compressible = false;
   const FlowField by_stages = solve(*make_cartesian(settings), problem);
   settings.grid_sequencing = false;

@@ -16,6 +16,7 @@ namespace {
 CartesianSettings settings(bool second_order) {
   CartesianSettings s;
   s.threads = 1;
+  s.threads = 1;
   s.second_order = second_order;
   return s;
 }

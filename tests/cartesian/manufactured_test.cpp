@@ -72,6 +72,7 @@ double error(int n, bool second_order) {
       for (int i = 0; i < grid.nx; ++i)
         problem.body_force[grid.index(i, j, k)] = made_up(place(i, j, k), centre).force;
   CartesianSettings settings;
+  settings.threads = 1;
   settings.compressible = false;
   settings.second_order = second_order;
   const FlowField field = solve(*make_cartesian(settings), problem);

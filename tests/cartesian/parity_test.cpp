@@ -35,6 +35,7 @@ TEST_P(Parity, DragAndFieldsAreThoseOfOpenFoam) {
   std::filesystem::remove_all(reference.folder);
   reference.incompressible = GetParam().incompressible;
   CartesianSettings settings;
+  settings.threads = 1;
   settings.compressible = !GetParam().incompressible;
   const FlowField theirs = solve(*make_openfoam(reference), problem);
   const FlowField ours = solve(*make_cartesian(settings), problem);

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "../printed_materials.h"
+#include "cloth.h"
 #include "ripstop/cloth/cloth.h"
 #include "ripstop/core/error.h"
 #include "ripstop/parachute/build.h"
@@ -30,19 +31,6 @@ Design walrus(int nodes = 50300) {
   design.canopy = DiskGapBand{1.3, 0.17, 0.085, 0.4};
   design.lines.length_m = 2.0;
   return design;
-}
-
-int cloth_nodes(const Mesh& mesh) {
-  int count = 0;
-  for (const Patch& patch : mesh.patches) count += patch.rows * patch.columns;
-  return count;
-}
-
-double cloth_area(const Mesh& mesh) {
-  double area = 0;
-  for (const Patch& patch : mesh.patches)
-    area = std::accumulate(patch.cell_area.begin(), patch.cell_area.end(), area);
-  return area;
 }
 
 TEST(DiskGapBand, TheClothIsThePatternsWithinATenthOfAPercent) {

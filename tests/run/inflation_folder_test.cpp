@@ -34,11 +34,11 @@ class InflationFolderTest : public ::testing::Test {
   }
   void TearDown() override { fs::remove_all(root); }
 
-  InflationProblem problem() const { return {parachute_mesh(given), given.inflation, 500, false, 2, 6}; }
+  InflationProblem problem() const { return {parachute_mesh(given), given.inflation, 500, false, 1, 6}; }
   std::optional<InflationResult> open(const char* name, InflationObserver& observer,
                                       bool fresh = false) const {
     return run_inflation_in(
-        {{root / name, fresh}, 2, 0}, given, {"given", {}}, [&] { return problem(); }, observer);
+        {{root / name, fresh}, 1, 0}, given, {"given", {}}, [&] { return problem(); }, observer);
   }
 };
 

@@ -9,14 +9,7 @@
 namespace ripstop {
 namespace {
 
-constexpr double inflated_over_nominal = 0.7;
 constexpr double least_box_over_core = 2;  // a core that fills more of the box than half of it gains little
-
-/// An arm or gore lies flat in the start shape and has to fit into the core too [m].
-double inflated_diameter(const Design& parachute) {
-  const double nominal = std::sqrt(4 / std::numbers::pi * nominal_area(parachute));
-  return std::max(inflated_over_nominal * nominal, start_diameter(parachute) / sheet_core.x);
-}
 
 std::string given_where(const Origins& origins, const std::string& key) {
   const auto found = origins.find(key);
@@ -99,6 +92,13 @@ void resolve_numerics(Follow& follow, Case& written, Resolved& resolved) {
 }
 
 }  // namespace
+
+// An arm or gore lies flat in the start shape and has to fit into the core too.
+double inflated_diameter(const Design& parachute) {
+  constexpr double inflated_over_nominal = 0.7;
+  const double nominal = std::sqrt(4 / std::numbers::pi * nominal_area(parachute));
+  return std::max(inflated_over_nominal * nominal, start_diameter(parachute) / sheet_core.x);
+}
 
 Resolved resolve(const Case& given) {
   Resolved resolved;

@@ -52,6 +52,9 @@ inline constexpr Vec3 paper_box{2, 2, 4};
 inline constexpr Vec3 sheet_box{6, 6, 9}, sheet_core{1.8, 1.8, 2.2};
 inline constexpr double sheet_skirt = 4;
 
+/// What the sheet's box is measured in [m].
+double inflated_diameter(const Design& parachute);
+
 struct CoreSettings {
   Vec3 size_m;         // 0: the cells are uniform along that axis
   double start_m = 0;  // from the inlet

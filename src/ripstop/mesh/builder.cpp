@@ -7,6 +7,14 @@
 namespace ripstop {
 namespace {
 
+// Index of a name, added where it is new.
+int index_of(const std::string& name, std::vector<std::string>& names) {
+  const auto known = std::find(names.begin(), names.end(), name);
+  if (known != names.end()) return static_cast<int>(known - names.begin());
+  names.push_back(name);
+  return static_cast<int>(names.size()) - 1;
+}
+
 // Adds what one cell gives to the springs that border, cross or span it.
 void add_cell_widths(Patch& patch, int row, int column, const CellWidths& w) {
   const auto wrap = [&](int c) { return (c % patch.columns + patch.columns) % patch.columns; };
@@ -29,6 +37,47 @@ void add_cell_widths(Patch& patch, int row, int column, const CellWidths& w) {
   add(shear_down, row, column + 1, w.shear);
 }
 
+// A cell of cloth with the corners `corners` as cut: its area, its share of the springs around it, and how long
+// those are that border and cross it.
+void add_cell(Patch& patch, int row, int column, const std::array<Vec3, 4>& corners, const WovenLaws& laws,
+              FabricCut grain) {
+  const auto [a, b, c, d] = corners;
+  const double h_row = 0.5 * (norm(b - a) + norm(c - d));
+  const double h_column = 0.5 * (norm(d - a) + norm(c - b));
+  const bool bias = grain == FabricCut::bias;
+  add_cell_widths(patch, row, column,
+                  bias ? bias_widths(h_row, h_column, laws) : cell_widths(h_row, h_column, laws));
+  const int cell = row * patch.columns + column, next = row * patch.columns + (column + 1) % patch.columns;
+  patch.rest_length[along_row][cell] = norm(b - a);
+  patch.rest_length[along_row][cell + patch.columns] = norm(c - d);
+  patch.rest_length[along_column][cell] = norm(d - a);
+  patch.rest_length[along_column][next] = norm(c - b);
+  patch.rest_length[shear_up][cell] = norm(c - a);
+  patch.rest_length[shear_down][next] = norm(d - b);
+  patch.cell_area[cell] = norm(area_vector(a, b, c, d));
+}
+
+// Springs over two cells are as long as both, or along a row of a curved start shape as long as it has them.
+void set_bending_lengths(Patch& patch, const PatchShape& shape, const std::vector<Vec3>& start) {
+  const auto at = [&](int row, int column) { return start[patch.node(row, column % patch.columns)]; };
+  for (int row = 0; row < patch.rows; ++row) {
+    for (int column = 0; column < patch.columns; ++column) {
+      const int i = row * patch.columns + column;
+      const int next = row * patch.columns + (column + 1) % patch.columns;
+      if (patch.width[bend_row][i] > 0) {
+        patch.rest_length[bend_row][i] =
+            shape.cut || shape.rolled_rows
+                ? patch.rest_length[along_row][i] + patch.rest_length[along_row][next]
+                : norm(at(row, column + 2) - at(row, column));
+      }
+      if (patch.width[bend_column][i] > 0) {
+        patch.rest_length[bend_column][i] =
+            patch.rest_length[along_column][i] + patch.rest_length[along_column][i + patch.columns];
+      }
+    }
+  }
+}
+
 }  // namespace
 
 double Path::length() const {
@@ -48,10 +97,7 @@ void Path::extend(const Path& next) {
 }
 
 int MeshBuilder::part(const std::string& name) {
-  const auto found = std::find(mesh.parts.begin(), mesh.parts.end(), name);
-  if (found != mesh.parts.end()) return static_cast<int>(found - mesh.parts.begin());
-  mesh.parts.push_back(name);
-  return static_cast<int>(mesh.parts.size()) - 1;
+  return index_of(name, mesh.parts);
 }
 
 int MeshBuilder::law(SpringLaw law) {
@@ -91,11 +137,7 @@ int MeshBuilder::add_patch(const std::string& name, const PatchShape& shape, con
   patch.columns = shape.columns;
   patch.periodic = shape.periodic;
   patch.first_node = mesh.node_count();
-  const auto known = std::find(mesh.fabric_names.begin(), mesh.fabric_names.end(), fabric.name);
-  patch.fabric = static_cast<int>(known - mesh.fabric_names.begin());
-  if (known == mesh.fabric_names.end()) mesh.fabric_names.push_back(fabric.name);
-
-  const bool bias = shape.grain == FabricCut::bias;
+  patch.fabric = index_of(fabric.name, mesh.fabric_names);
   const WovenLaws laws = shape.grain == FabricCut::across ? exchanged(laws_of(fabric)) : laws_of(fabric);
   set_laws(patch, laws, shape.grain);
   std::fill(std::begin(patch.damping), std::end(patch.damping), fabric.damping_n_s_m);
@@ -109,50 +151,21 @@ int MeshBuilder::add_patch(const std::string& name, const PatchShape& shape, con
   for (int row = 0; row < patch.rows; ++row) {
     for (int column = 0; column < patch.columns; ++column) add_node(shape.start(row, column), 0.0);
   }
-
   const auto at = [&](int row, int column) { return mesh.start[patch.node(row, column % patch.columns)]; };
-  const auto corners = [&](int row, int column) {
-    if (shape.cut) return shape.cut(row, column);
-    return std::array{at(row, column), at(row, column + 1), at(row + 1, column + 1), at(row + 1, column)};
-  };
   for (int row = 0; row + 1 < patch.rows; ++row) {
     for (int column = 0; column < (patch.periodic ? patch.columns : patch.columns - 1); ++column) {
-      const auto [a, b, c, d] = corners(row, column);
-      const double h_row = 0.5 * (norm(b - a) + norm(c - d));
-      const double h_column = 0.5 * (norm(d - a) + norm(c - b));
-      add_cell_widths(patch, row, column,
-                      bias ? bias_widths(h_row, h_column, laws) : cell_widths(h_row, h_column, laws));
+      const auto corners = shape.cut ? shape.cut(row, column)
+                                     : std::array{at(row, column), at(row, column + 1),
+                                                  at(row + 1, column + 1), at(row + 1, column)};
+      add_cell(patch, row, column, corners, laws, shape.grain);
       const int next = (column + 1) % patch.columns;
-      patch.rest_length[along_row][row * patch.columns + column] = norm(b - a);
-      patch.rest_length[along_row][(row + 1) * patch.columns + column] = norm(c - d);
-      patch.rest_length[along_column][row * patch.columns + column] = norm(d - a);
-      patch.rest_length[along_column][row * patch.columns + next] = norm(c - b);
-      patch.rest_length[shear_up][row * patch.columns + column] = norm(c - a);
-      patch.rest_length[shear_down][row * patch.columns + next] = norm(d - b);
-      const double area = norm(area_vector(a, b, c, d));
-      patch.cell_area[row * patch.columns + column] = area;
       for (const int node : {patch.node(row, column), patch.node(row, next), patch.node(row + 1, next),
                              patch.node(row + 1, column)}) {
-        mesh.mass[node] += 0.25 * area * fabric.areal_density_kg_m2;
+        mesh.mass[node] += 0.25 * patch.cell_area[row * patch.columns + column] * fabric.areal_density_kg_m2;
       }
     }
   }
-  for (int row = 0; row < patch.rows; ++row) {
-    for (int column = 0; column < patch.columns; ++column) {
-      const int i = row * patch.columns + column;
-      const int next = row * patch.columns + (column + 1) % patch.columns;
-      if (patch.width[bend_row][i] > 0) {
-        patch.rest_length[bend_row][i] =
-            shape.cut || shape.rolled_rows
-                ? patch.rest_length[along_row][i] + patch.rest_length[along_row][next]
-                : norm(at(row, column + 2) - at(row, column));
-      }
-      if (patch.width[bend_column][i] > 0) {
-        patch.rest_length[bend_column][i] =
-            patch.rest_length[along_column][i] + patch.rest_length[along_column][i + patch.columns];
-      }
-    }
-  }
+  set_bending_lengths(patch, shape, mesh.start);
   mesh.patches.push_back(std::move(patch));
   return static_cast<int>(mesh.patches.size()) - 1;
 }

@@ -86,7 +86,7 @@ class Reader {
   Reader(const Document& document, Origins& origins, std::vector<Problem>& problems)
       : file_(document.name), origins_(origins), problems_(problems) {}
 
-  void table(Fields fields, const Node& node, const std::string& prefix);
+  void table(const Fields& fields, const Node& node, const std::string& prefix);
 
  private:
   void value(const Field& field, const Node& node, const std::string& name);
@@ -273,7 +273,7 @@ void Reader::value(const Field& field, const Node& node, const std::string& name
   std::visit([&](const auto& target) { set(target, node, name); }, field.value);
 }
 
-void Reader::table(Fields fields, const Node& node, const std::string& prefix) {
+void Reader::table(const Fields& fields, const Node& node, const std::string& prefix) {
   origins_[prefix] = origin(node.place);
   bool has_base = false;
   bool kind_is_open = false;
@@ -363,7 +363,7 @@ class Checker {
     const std::string allowed = field.range.text();
     findings_.add(name, value, allowed, "must be " + allowed);
   }
-  void check(const Field& field, double* value, const std::string& name, const std::string&) {
+  void check(const Field& field, const double* value, const std::string& name, const std::string&) {
     number(field, *value, name);
   }
   template <class T>
@@ -371,7 +371,7 @@ class Checker {
              const std::string& prefix) {
     if (*value) check(field, &**value, name, prefix);
   }
-  void check(const Field& field, int* value, const std::string& name, const std::string&) {
+  void check(const Field& field, const int* value, const std::string& name, const std::string&) {
     number(field, *value, name);
   }
   void check(const Field& field, Vec3* value, const std::string& name, const std::string&) {
@@ -419,8 +419,9 @@ class Checker {
 
 }  // namespace
 
-void read_table(Fields fields, const Document& document, Origins& origins, std::vector<Problem>& problems) {
-  Reader(document, origins, problems).table(std::move(fields), document.root, "");
+void read_table(const Fields& fields, const Document& document, Origins& origins,
+                std::vector<Problem>& problems) {
+  Reader(document, origins, problems).table(fields, document.root, "");
 }
 
 void check_values(const Fields& fields, const Origins& origins, std::vector<Problem>& problems) {

@@ -13,7 +13,8 @@ namespace ripstop {
 /// Fills the structs behind `fields` and notes the origin of every key that could be read. Reports unknown
 /// keys, wrong types, NaN and infinity, words that are not in a list, and missing keys; what a value of the
 /// right type must be besides is left to check_values().
-void read_table(Fields fields, const Document& document, Origins& origins, std::vector<Problem>& problems);
+void read_table(const Fields& fields, const Document& document, Origins& origins,
+                std::vector<Problem>& problems);
 
 /// Reports every value outside its range, text that may not be, and lists of a wrong length, wherever the
 /// values came from; a key that already has a problem is not looked at again.

@@ -247,12 +247,16 @@ void Multigrid::cycle(std::size_t l, ThreadTeam* team, int rank) {
   sweep(1, false);
 }
 
+// `planes` are counted with the ghosts.
+void Multigrid::clear(Array<float>& a, IndexRange planes) const {
+  const std::ptrdiff_t plane = finest().layout.stride_z;
+  std::fill(a.begin() + planes.begin * plane, a.begin() + planes.end * plane, 0.0f);
+}
+
 void Multigrid::solve(ThreadTeam& team, int rank, int cycles) {
   coarsen(team, rank);
   MultigridLevel& top = finest();
-  const IndexRange planes = part_of(top.layout.nz + 2, rank, team.size());  // ghosts too
-  std::fill(top.e.begin() + static_cast<std::ptrdiff_t>(planes.begin) * top.layout.stride_z,
-            top.e.begin() + static_cast<std::ptrdiff_t>(planes.end) * top.layout.stride_z, 0.0f);
+  clear(top.e, part_of(top.layout.nz + 2, rank, team.size()));
   team.barrier();
   for (int c = 0; c < cycles; ++c) cycle(0, &team, rank);
 }
@@ -269,6 +273,44 @@ double Multigrid::sum(ThreadTeam& team, int rank, const Plane& of_plane) {
   return total;
 }
 
+double Multigrid::dot(ThreadTeam& team, int rank, const Array<float>& a, const Array<float>& b) {
+  const Layout& lay = finest().layout;
+  return sum(team, rank, [&](int k) {
+    double total = 0;
+    for (int j = 0; j < lay.ny; ++j) {
+      const std::ptrdiff_t at = lay.at(0, j, k);
+      double row = 0;
+#pragma omp simd reduction(+ : row)
+      for (int i = 0; i < lay.nx; ++i) row += static_cast<double>(a[at + i]) * static_cast<double>(b[at + i]);
+      total += row;
+    }
+    return total;
+  });
+}
+
+template <class Row>
+void Multigrid::each_row(ThreadTeam& team, int rank, const Row& work) {
+  const Layout& lay = finest().layout;
+  const IndexRange planes = part_of(lay.nz, rank, team.size());
+  for (int k = planes.begin; k < planes.end; ++k) {
+    for (int j = 0; j < lay.ny; ++j) work(j, k, lay.at(0, j, k));
+  }
+  team.barrier();
+}
+
+// image = A direction
+void Multigrid::take_image(ThreadTeam& team, int rank) {
+  MultigridLevel& top = finest();
+  each_row(team, rank, [&](int j, int k, std::ptrdiff_t at) {
+    MultigridRow row = row_of(top, j, k);
+    row.e = &direction_[at];
+    float* image = &image_[at];
+    for (int i = 0; i < row.n; ++i) image[i] = -row.rhs[i];
+    residual_row(row, image);
+    for (int i = 0; i < row.n; ++i) image[i] = -image[i];
+  });
+}
+
 void Multigrid::solve_conjugate(ThreadTeam& team, int rank, double reduction, int most) {
   MultigridLevel& top = finest();
   const Layout& lay = top.layout;
@@ -278,72 +320,34 @@ void Multigrid::solve_conjugate(ThreadTeam& team, int rank, double reduction, in
   }
   coarsen(team, rank);
   team.barrier();
-  const IndexRange planes = part_of(lay.nz, rank, team.size());
-  const IndexRange with_ghosts = part_of(lay.nz + 2, rank, team.size());
-  const auto clear = [&](Array<float>& a) {
-    std::fill(a.begin() + static_cast<std::ptrdiff_t>(with_ghosts.begin) * lay.stride_z,
-              a.begin() + static_cast<std::ptrdiff_t>(with_ghosts.end) * lay.stride_z, 0.0f);
-  };
-  const auto dot_of = [&](const Array<float>& a, const Array<float>& b) {
-    return sum(team, rank, [&](int k) {
-      double total = 0;
-      for (int j = 0; j < lay.ny; ++j) {
-        const std::ptrdiff_t at = lay.at(0, j, k);
-        double row = 0;
-#pragma omp simd reduction(+ : row)
-        for (int i = 0; i < lay.nx; ++i)
-          row += static_cast<double>(a[at + i]) * static_cast<double>(b[at + i]);
-        total += row;
-      }
-      return total;
-    });
-  };
-  const auto each_row = [&](auto&& work) {
-    for (int k = planes.begin; k < planes.end; ++k) {
-      for (int j = 0; j < lay.ny; ++j) work(j, k);
-    }
-    team.barrier();
-  };
-  clear(solution_), clear(direction_), clear(image_);
+  const IndexRange planes = part_of(lay.nz + 2, rank, team.size());
+  clear(solution_, planes), clear(direction_, planes), clear(image_, planes);
   team.barrier();
-  const double start = dot_of(top.rhs, top.rhs);
+  const double start = dot(team, rank, top.rhs, top.rhs);
   double curvature = 0;
   for (int n = 0; n < most && start > 0; ++n) {
-    clear(top.e);
+    clear(top.e, planes);
     team.barrier();
     cycle(0, &team, rank);
     // The new direction is made conjugate to the last one, whatever the cycle has become in between.
-    const double beta = curvature > 0 ? -dot_of(top.e, image_) / curvature : 0;
-    each_row([&](int j, int k) {
-      const std::ptrdiff_t at = lay.at(0, j, k);
+    const double beta = curvature > 0 ? -dot(team, rank, top.e, image_) / curvature : 0;
+    each_row(team, rank, [&](int, int, std::ptrdiff_t at) {
       const float b = static_cast<float>(beta);
       for (int i = 0; i < lay.nx; ++i) direction_[at + i] = top.e[at + i] + b * direction_[at + i];
     });
-    each_row([&](int j, int k) {  // image = A direction
-      MultigridRow row = row_of(top, j, k);
-      const std::ptrdiff_t at = lay.at(0, j, k);
-      row.e = &direction_[at];
-      float* image = &image_[at];
-      for (int i = 0; i < lay.nx; ++i) image[i] = -row.rhs[i];
-      residual_row(row, image);
-      for (int i = 0; i < lay.nx; ++i) image[i] = -image[i];
-    });
-    curvature = dot_of(direction_, image_);
+    take_image(team, rank);
+    curvature = dot(team, rank, direction_, image_);
     if (!(curvature > 0)) break;
-    const float alpha = static_cast<float>(dot_of(direction_, top.rhs) / curvature);
-    each_row([&](int j, int k) {
-      const std::ptrdiff_t at = lay.at(0, j, k);
+    const float alpha = static_cast<float>(dot(team, rank, direction_, top.rhs) / curvature);
+    each_row(team, rank, [&](int, int, std::ptrdiff_t at) {
       for (int i = 0; i < lay.nx; ++i) {
         solution_[at + i] += alpha * direction_[at + i];
         top.rhs[at + i] -= alpha * image_[at + i];
       }
     });
-    if (dot_of(top.rhs, top.rhs) <= reduction * reduction * start) break;
+    if (dot(team, rank, top.rhs, top.rhs) <= reduction * reduction * start) break;
   }
-  each_row([&](int j, int k) {
-    const std::ptrdiff_t at = lay.at(0, j, k);
-    std::copy_n(&solution_[at], lay.nx, &top.e[at]);
-  });
+  each_row(team, rank, [&](int, int, std::ptrdiff_t at) { std::copy_n(&solution_[at], lay.nx, &top.e[at]); });
 }
 
 double Multigrid::residual() const {

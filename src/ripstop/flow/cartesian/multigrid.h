@@ -53,6 +53,13 @@ class Multigrid {
   /// Sum over the planes of what `of_plane(k)` gives, in the order of the planes. Every rank gets it.
   template <class Plane>
   double sum(ThreadTeam& team, int rank, const Plane& of_plane);
+  /// Parts of solve_conjugate(), on the finest level; every rank calls them.
+  void clear(Array<float>& a, IndexRange planes) const;
+  double dot(ThreadTeam& team, int rank, const Array<float>& a, const Array<float>& b);
+  /// Calls work(j, k, index of cell 0 of the row), and waits for all ranks.
+  template <class Row>
+  void each_row(ThreadTeam& team, int rank, const Row& work);
+  void take_image(ThreadTeam& team, int rank);
 
   std::vector<MultigridLevel> levels_;
   Array<float> solution_, direction_, image_;  // of the conjugate gradients

@@ -12,95 +12,132 @@
 // iteration, that goes with dp. Solved for F, all terms are divided by 1 + C S / rho_f.
 #include <cmath>
 
-#include "ripstop/flow/cartesian/rows.h"
-#include "ripstop/flow/cartesian/simd.h"
+#include "ripstop/flow/cartesian/row_parts.h"
 
 namespace ripstop::cartesian {
 namespace {
 
-template <bool with_sheet>
-[[gnu::always_inline]] inline void pressure(PressureRow& row) {
-  const int n = row.m.n;
-  const std::ptrdiff_t sy = row.m.sy, sz = row.m.sz;
-  const double *wx = row.m.x_weight_low, *rdx = row.m.x_inverse_distance, *hx = row.m.x_width;
-  const CrossMetrics y = row.m.y, z = row.m.z;
-  const double *hu = row.hu, *hv = row.hv, *hw = row.hw, *ra = row.ra, *rc = row.rc, *rho = row.rho,
-               *p = row.p;
-  const SheetJumps held = row.held, more = row.excess, stiff = row.stiffness;
-  const double *old_x = row.fx, *old_y = row.fy, *old_z = row.fz;
-  const double *hwa = row.hw_above, *rhoa = row.rho_above, *raa = row.ra_above, *rca = row.rc_above,
-               *pa = row.p_above;
-  float *cx = row.cx, *cy = row.cy, *cz = row.cz, *cza = row.cz_above, *rhs = row.rhs;
-  const double area_x = row.y_width * row.z_width, y_width = row.y_width, z_width = row.z_width;
-  // Ends of the box as weights, so that the loop has no branches: the inlet's face carries the given speed,
-  // the outlet's takes the cell's values.
-  const double* inflow = row.inlet_speed;
-  const double inner = row.inlet ? 0 : 1;
-  const double wt = row.outlet ? 1 : z.weight_high, held_at = row.outlet ? row.mean_p : 0;
+// rho q on a face between two cells, interpolated linearly. `own` is rho q of the cell that looks.
+[[gnu::always_inline]] inline double on_low_face(double weight, double rho, double q, double own) {
+  return weight * rho * q + (1 - weight) * own;
+}
+[[gnu::always_inline]] inline double on_high_face(double weight, double own, double rho, double q) {
+  return weight * own + (1 - weight) * rho * q;
+}
 
+// rho q on the six faces of a cell.
+[[gnu::always_inline]] inline Faces times_density(const PressureRow& row, const double* of_cells,
+                                                  const double* above, std::ptrdiff_t i) {
+  const RowMetrics& m = row.m;
+  const double *rho = row.rho + i, *q = of_cells + i, *wx = m.x_weight_low + i, own = rho[0] * q[0];
+  return {on_low_face(wx[0], rho[-1], q[-1], own),
+          on_high_face(wx[1], own, rho[1], q[1]),
+          on_low_face(m.y.weight_low, rho[-m.sy], q[-m.sy], own),
+          on_high_face(m.y.weight_high, own, rho[m.sy], q[m.sy]),
+          on_low_face(m.z.weight_low, rho[-m.sz], q[-m.sz], own),
+          on_high_face(m.z.weight_high, own, row.rho_above[i], above[i])};
+}
+
+// (rho H/A)_f; `inner` is 0 where the face below is the inlet's, else 1.
+[[gnu::always_inline]] inline Faces free_fluxes(const PressureRow& row, double inner, std::ptrdiff_t i) {
+  const RowMetrics& m = row.m;
+  const double *rho = row.rho + i, *u = row.hu + i, *v = row.hv + i, *w = row.hw + i;
+  const double *wx = m.x_weight_low + i, fu = rho[0] * u[0], fv = rho[0] * v[0], fw = rho[0] * w[0];
+  return {on_low_face(wx[0], rho[-1], u[-1], fu),
+          on_high_face(wx[1], fu, rho[1], u[1]),
+          on_low_face(m.y.weight_low, rho[-m.sy], v[-m.sy], fv),
+          on_high_face(m.y.weight_high, fv, rho[m.sy], v[m.sy]),
+          row.inlet_speed[i] * rho[0] + inner * on_low_face(m.z.weight_low, rho[-m.sz], w[-m.sz], fw),
+          on_high_face(m.z.weight_high, fw, row.rho_above[i], row.hw_above[i])};
+}
+
+// Of the pressure over the faces of a cell [Pa].
+[[gnu::always_inline]] inline Faces differences(const PressureRow& row, std::ptrdiff_t i) {
+  const double* p = row.p + i;
+  const std::ptrdiff_t sy = row.m.sy, sz = row.m.sz;
+  return {p[0] - p[-1], p[1] - p[0], p[0] - p[-sy], p[sy] - p[0], p[0] - p[-sz], row.p_above[i] - p[0]};
+}
+
+// What a sheet on one face leaves of its flux, and its share of the conductances, see the header.
+struct Held {
+  double flux, share;
+};
+[[gnu::always_inline]] inline Held hold(double conductance, double stiffness, double excess, double density,
+                                        double old, double flux) {
+  const double t = conductance * stiffness / density, share = 1 / (1 + t);
+  return {share * (flux - conductance * excess + t * old), share};
+}
+
+// The fluxes f of the faces and their conductances g and c beside a sheet.
+[[gnu::always_inline]] inline void hold_faces(const PressureRow& row, std::ptrdiff_t i, Faces& f, Faces& g,
+                                              Faces& c) {
+  const RowMetrics& m = row.m;
+  const SheetJumps &excess = row.excess, &stiff = row.stiffness;
+  const double *rho = row.rho + i, *fx = row.fx + i, *fy = row.fy + i, *fz = row.fz + i, r = rho[0];
+  const double ww = m.x_weight_low[i], we = m.x_weight_low[i + 1], ws = m.y.weight_low, wn = m.y.weight_high,
+               wb = m.z.weight_low, wa = m.z.weight_high;
+  Held w =
+      hold(c.w * m.x_inverse_distance[i], stiff.x[i], excess.x[i], ww * rho[-1] + (1 - ww) * r, fx[0], f.w);
+  f.w = w.flux, g.w *= w.share, c.w *= w.share;
+  Held e = hold(c.e * m.x_inverse_distance[i + 1], stiff.x[i + 1], excess.x[i + 1],
+                we * r + (1 - we) * rho[1], fx[1], f.e);
+  f.e = e.flux, g.e *= e.share, c.e *= e.share;
+  Held s = hold(c.s * m.y.distance_low, stiff.y[i], excess.y[i], ws * rho[-m.sy] + (1 - ws) * r, fy[0], f.s);
+  f.s = s.flux, g.s *= s.share, c.s *= s.share;
+  Held n = hold(c.n * m.y.distance_high, stiff.y_high[i], excess.y_high[i], wn * r + (1 - wn) * rho[m.sy],
+                fy[m.sy], f.n);
+  f.n = n.flux, g.n *= n.share, c.n *= n.share;
+  Held b = hold(c.b * m.z.distance_low, stiff.z[i], excess.z[i], wb * rho[-m.sz] + (1 - wb) * r, fz[0], f.b);
+  f.b = b.flux, g.b *= b.share, c.b *= b.share;
+  Held a = hold(c.a * m.z.distance_high, stiff.z_high[i], excess.z_high[i],
+                wa * r + (1 - wa) * row.rho_above[i], fz[m.sz], f.a);
+  f.a = a.flux, g.a *= a.share, c.a *= a.share;
+}
+
+[[gnu::always_inline]] inline void add_held(const SheetJumps& held, std::ptrdiff_t i, Faces& difference) {
+  difference.w += held.x[i], difference.e += held.x[i + 1];
+  difference.s += held.y[i], difference.n += held.y_high[i];
+  difference.b += held.z[i], difference.a += held.z_high[i];
+}
+
+template <bool with_sheet>
+[[gnu::always_inline]] inline void pressure(PressureRow& results) {
+  PressureRow row = results;  // a copy: what the loop writes cannot be thought to change it
+  RowMetrics& m = row.m;
+  if (row.outlet) m.z.weight_high = 1;  // its faces take the cell's values
+  const double area_x = row.y_width * row.z_width, held_at = row.outlet ? row.mean_p : 0;
+  const double inner = row.inlet ? 0 : 1;
   double res = 0, scale = 0;
 #pragma omp simd reduction(+ : res, scale)
-  for (int i = 0; i < n; ++i) {
-    const double r = rho[i], g = r * ra[i], fu = r * hu[i], fv = r * hv[i], fw = r * hw[i], c = r * rc[i];
-    const double rw = rho[i - 1], re = rho[i + 1], rs = rho[i - sy], rn = rho[i + sy], rb = rho[i - sz],
-                 rt = rhoa[i];
-    const double ww = wx[i], we = wx[i + 1], ws = y.weight_low, wn = y.weight_high, wb = z.weight_low;
-
-    double gw = ww * rw * ra[i - 1] + (1 - ww) * g, ge = we * g + (1 - we) * re * ra[i + 1];
-    double gs = ws * rs * ra[i - sy] + (1 - ws) * g, gn = wn * g + (1 - wn) * rn * ra[i + sy];
-    double gb = wb * rb * ra[i - sz] + (1 - wb) * g, ga = wt * g + (1 - wt) * rt * raa[i];
-
-    double fxw = ww * rw * hu[i - 1] + (1 - ww) * fu, fxe = we * fu + (1 - we) * re * hu[i + 1];
-    double fys = ws * rs * hv[i - sy] + (1 - ws) * fv, fyn = wn * fv + (1 - wn) * rn * hv[i + sy];
-    double fzb = inflow[i] * r + inner * (wb * rb * hw[i - sz] + (1 - wb) * fw);
-    double fza = wt * fw + (1 - wt) * rt * hwa[i];
-
-    double cw = ww * rw * rc[i - 1] + (1 - ww) * c, cs = ws * rs * rc[i - sy] + (1 - ws) * c,
-           cb = wb * rb * rc[i - sz] + (1 - wb) * c;
-    double dw = p[i] - p[i - 1], de = p[i + 1] - p[i], ds = p[i] - p[i - sy], dn = p[i + sy] - p[i],
-           db = p[i] - p[i - sz], da = pa[i] - p[i];
+  for (int i = 0; i < m.n; ++i) {
+    Faces g = times_density(row, row.ra, row.ra_above, i), c = times_density(row, row.rc, row.rc_above, i);
+    Faces f = free_fluxes(row, inner, i), d = differences(row, i);
     if constexpr (with_sheet) {
-      dw += held.x[i], de += held.x[i + 1], ds += held.y[i], dn += held.y_high[i], db += held.z[i];
-      da += held.z_high[i];
-      const double ce = we * c + (1 - we) * re * rc[i + 1], cn = wn * c + (1 - wn) * rn * rc[i + sy],
-                   ca = wt * c + (1 - wt) * rt * rca[i];
-      const auto hold = [](double conductance, double stiffness, double excess, double density, double old,
-                           double& f, double& resist) {
-        const double t = conductance * stiffness / density, share = 1 / (1 + t);
-        f = share * (f - conductance * excess + t * old);
-        resist *= share;
-        return share;
-      };
-      cw *= hold(cw * rdx[i], stiff.x[i], more.x[i], ww * rw + (1 - ww) * r, old_x[i], fxw, gw);
-      hold(ce * rdx[i + 1], stiff.x[i + 1], more.x[i + 1], we * r + (1 - we) * re, old_x[i + 1], fxe, ge);
-      cs *= hold(cs * y.distance_low, stiff.y[i], more.y[i], ws * rs + (1 - ws) * r, old_y[i], fys, gs);
-      hold(cn * y.distance_high, stiff.y_high[i], more.y_high[i], wn * r + (1 - wn) * rn, old_y[i + sy], fyn,
-           gn);
-      cb *= hold(cb * z.distance_low, stiff.z[i], more.z[i], wb * rb + (1 - wb) * r, old_z[i], fzb, gb);
-      hold(ca * z.distance_high, stiff.z_high[i], more.z_high[i], wt * r + (1 - wt) * rt, old_z[i + sz], fza,
-           ga);
+      add_held(row.held, i, d);
+      hold_faces(row, i, f, g, c);
     }
-
-    const double area_y = hx[i] * z_width, area_z = hx[i] * y_width;
-    const double source = (fxe - fxw) * area_x + (fyn - fys) * area_y + (fza - fzb) * area_z;
-    const double at_outlet = ga * z.distance_high * area_z;
-    const double flow = (ge * rdx[i + 1] * de - gw * rdx[i] * dw) * area_x +
-                        (gn * y.distance_high * dn - gs * y.distance_low * ds) * area_y + at_outlet * da -
-                        gb * z.distance_low * area_z * db;
-    cx[i] = static_cast<float>(cw * (rdx[i] * area_x));
-    cy[i] = static_cast<float>(cs * (y.distance_low * area_y));
-    cz[i] = static_cast<float>(cb * (z.distance_low * area_z));
-    rhs[i] = static_cast<float>(flow - source);
+    const double area_y = m.x_width[i] * row.z_width, area_z = m.x_width[i] * row.y_width;
+    const double source = (f.e - f.w) * area_x + (f.n - f.s) * area_y + (f.a - f.b) * area_z;
+    const double at_outlet = g.a * m.z.distance_high * area_z;
+    const double flow =
+        (g.e * m.x_inverse_distance[i + 1] * d.e - g.w * m.x_inverse_distance[i] * d.w) * area_x +
+        (g.n * m.y.distance_high * d.n - g.s * m.y.distance_low * d.s) * area_y + at_outlet * d.a -
+        g.b * m.z.distance_low * area_z * d.b;
+    row.cx[i] = static_cast<float>(c.w * (m.x_inverse_distance[i] * area_x));
+    row.cy[i] = static_cast<float>(c.s * (m.y.distance_low * area_y));
+    row.cz[i] = static_cast<float>(c.b * (m.z.distance_low * area_z));
+    row.rhs[i] = static_cast<float>(flow - source);
 
     // Row sum of the matrix: only the outlet's faces hold on to a value from outside.
     const double mean = -at_outlet * held_at;
     res += std::fabs(flow - source);
     scale += std::fabs(flow - mean) + std::fabs(source - mean);
   }
-  for (int i = 0; row.outlet && i < n; ++i) {
-    cza[i] = static_cast<float>(rho[i] * rc[i] * z.distance_high * (hx[i] * y_width));
+  for (int i = 0; row.outlet && i < m.n; ++i) {
+    row.cz_above[i] =
+        static_cast<float>(row.rho[i] * row.rc[i] * m.z.distance_high * (m.x_width[i] * row.y_width));
   }
-  row.sum = {res, scale};
+  results.sum = {res, scale};
 }
 
 // F from its two parts without a sheet, and what it becomes with one.
@@ -110,118 +147,89 @@ template <bool with_sheet>
   return (free - conductance * excess + t * old) / (1 + t);
 }
 
-template <bool with_sheet>
-[[gnu::always_inline]] inline void flux(FluxRow& row) {
-  const int n = row.m.n;
-  const std::ptrdiff_t sy = row.m.sy, sz = row.m.sz;
-  const double *wx = row.m.x_weight_low, *rdx = row.m.x_inverse_distance;
-  const CrossMetrics y = row.m.y, z = row.m.z;
-  const double *hu = row.hu, *hv = row.hv, *hw = row.hw, *ra = row.ra, *rc = row.rc, *rho = row.rho,
-               *p = row.p;
+// Fluxes through `count` low faces along one axis; `step` leads from the cell above a face to the one below.
+struct FaceRow {
+  int count;
+  std::ptrdiff_t step;
+  const double *h, *held, *excess, *stiffness;
+  double *change, *flux;
+};
+
+// `weight` and `inverse_distance` give those of face i.
+template <bool with_sheet, class Weight, class Distance>
+[[gnu::always_inline]] inline void flux_along(const FluxRow& row, const FaceRow& face, const Weight& weight,
+                                              const Distance& inverse_distance) {
+  const std::ptrdiff_t step = face.step;
+  const double *h = face.h, *ra = row.ra, *rc = row.rc, *rho = row.rho, *p = row.p;
+  const double *held = face.held, *excess = face.excess, *stiffness = face.stiffness;
   const float* dp = row.dp;
-  double *fx = row.fx, *fy = row.fy, *fz = row.fz;
-  const SheetJumps held = row.held, excess = row.excess, stiff = row.stiffness;
-  double *change_x = row.change_x, *change_y = row.change_y, *change_z = row.change_z;
+  double *flux = face.flux, *change = face.change;
 #pragma omp simd
-  for (int i = 0; i < n + 1; ++i) {
-    const double low = wx[i] * rho[i - 1], high = (1 - wx[i]) * rho[i];
-    const double more = static_cast<double>(dp[i]) - static_cast<double>(dp[i - 1]);
-    const double c = low * rc[i - 1] + high * rc[i];
-    double jump = p[i] - p[i - 1];
-    if constexpr (with_sheet) jump += held.x[i];
-    double f = low * hu[i - 1] + high * hu[i] - rdx[i] * ((low * ra[i - 1] + high * ra[i]) * jump + c * more);
+  for (int i = 0; i < face.count; ++i) {
+    const double w = weight(i), rd = inverse_distance(i);
+    const double low = w * rho[i - step], high = (1 - w) * rho[i];
+    const double more = static_cast<double>(dp[i]) - static_cast<double>(dp[i - step]);
+    const double c = low * rc[i - step] + high * rc[i];
+    double jump = p[i] - p[i - step];
+    if constexpr (with_sheet) jump += held[i];
+    double f = low * h[i - step] + high * h[i] - rd * ((low * ra[i - step] + high * ra[i]) * jump + c * more);
     if constexpr (with_sheet) {
-      f = held_flux(f, rdx[i] * c, stiff.x[i], excess.x[i], low + high, fx[i]);
-      if (change_x) change_x[i] = excess.x[i] + stiff.x[i] * (f - fx[i]) / (low + high);
+      f = held_flux(f, rd * c, stiffness[i], excess[i], low + high, flux[i]);
+      if (change) change[i] = excess[i] + stiffness[i] * (f - flux[i]) / (low + high);
     }
-    fx[i] = f;
-  }
-#pragma omp simd
-  for (int i = 0; i < n; ++i) {
-    const double low = y.weight_low * rho[i - sy], high = (1 - y.weight_low) * rho[i];
-    const double more = static_cast<double>(dp[i]) - static_cast<double>(dp[i - sy]);
-    const double c = low * rc[i - sy] + high * rc[i];
-    double jump = p[i] - p[i - sy];
-    if constexpr (with_sheet) jump += held.y[i];
-    double f = low * hv[i - sy] + high * hv[i] -
-               y.distance_low * ((low * ra[i - sy] + high * ra[i]) * jump + c * more);
-    if constexpr (with_sheet) {
-      f = held_flux(f, y.distance_low * c, stiff.y[i], excess.y[i], low + high, fy[i]);
-      if (change_y) change_y[i] = excess.y[i] + stiff.y[i] * (f - fy[i]) / (low + high);
-    }
-    fy[i] = f;
-  }
-  if (row.inlet_speed) {
-    for (int i = 0; i < n; ++i) fz[i] = rho[i] * row.inlet_speed[i];
-    return;
-  }
-#pragma omp simd
-  for (int i = 0; i < n; ++i) {
-    const double low = z.weight_low * rho[i - sz], high = (1 - z.weight_low) * rho[i];
-    const double more = static_cast<double>(dp[i]) - static_cast<double>(dp[i - sz]);
-    const double c = low * rc[i - sz] + high * rc[i];
-    double jump = p[i] - p[i - sz];
-    if constexpr (with_sheet) jump += held.z[i];
-    double f = low * hw[i - sz] + high * hw[i] -
-               z.distance_low * ((low * ra[i - sz] + high * ra[i]) * jump + c * more);
-    if constexpr (with_sheet) {
-      f = held_flux(f, z.distance_low * c, stiff.z[i], excess.z[i], low + high, fz[i]);
-      if (change_z) change_z[i] = excess.z[i] + stiff.z[i] * (f - fz[i]) / (low + high);
-    }
-    fz[i] = f;
+    flux[i] = f;
   }
 }
 
 template <bool with_sheet>
-[[gnu::always_inline]] inline void velocity(VelocityRow& row) {
-  const int n = row.m.n;
-  const std::ptrdiff_t sy = row.m.sy, sz = row.m.sz;
-  const double *xl = row.m.x_slope_low, *xh = row.m.x_slope_high, *hx = row.m.x_width;
-  const CrossMetrics y = row.m.y, z = row.m.z;
-  const float* dp = row.dp;
-  const SheetJumps jump = row.held, change = row.change;
-  const double relax = row.relaxation;
-  const double *ra = row.ra, *rc = row.rc, *p = row.p, *hu = row.hu, *hv = row.hv, *hw = row.hw;
-  double *u = row.u, *v = row.v, *w = row.w, *rho = row.rho;
-  const double gas = row.gas_constant, p0 = row.pressure0, t0 = row.temperature, speed2 = row.speed2,
-               half_cp = row.half_cp;
+[[gnu::always_inline]] inline void flux(const FluxRow& row) {
+  const RowMetrics& m = row.m;
+  const SheetJumps &held = row.held, &excess = row.excess, &stiff = row.stiffness;
+  const auto constant = [](double value) { return [value](int) { return value; }; };
+  const auto of = [](const double* values) { return [values](int i) { return values[i]; }; };
+  flux_along<with_sheet>(row, {m.n + 1, 1, row.hu, held.x, excess.x, stiff.x, row.change_x, row.fx},
+                         of(m.x_weight_low), of(m.x_inverse_distance));
+  flux_along<with_sheet>(row, {m.n, m.sy, row.hv, held.y, excess.y, stiff.y, row.change_y, row.fy},
+                         constant(m.y.weight_low), constant(m.y.distance_low));
+  if (row.inlet_speed) {
+    for (int i = 0; i < m.n; ++i) row.fz[i] = row.rho[i] * row.inlet_speed[i];
+    return;
+  }
+  flux_along<with_sheet>(row, {m.n, m.sz, row.hw, held.z, excess.z, stiff.z, row.change_z, row.fz},
+                         constant(m.z.weight_low), constant(m.z.distance_low));
+}
+
+template <bool with_sheet>
+[[gnu::always_inline]] inline void velocity(VelocityRow& results) {
+  const VelocityRow row = results;  // a copy: what the loop writes cannot be thought to change it
+  const RowMetrics& m = row.m;
   double total_u = 0, total_v = 0, total_w = 0, total_p = 0;
 #pragma omp simd reduction(+ : total_u, total_v, total_w, total_p)
-  for (int i = 0; i < n; ++i) {
-    double px = xh[i] * (p[i + 1] - p[i]) + xl[i] * (p[i] - p[i - 1]);
-    double py = y.slope_high * (p[i + sy] - p[i]) + y.slope_low * (p[i] - p[i - sy]);
-    double pz = z.slope_high * (p[i + sz] - p[i]) + z.slope_low * (p[i] - p[i - sz]);
-    const auto more = [&](std::ptrdiff_t a) { return static_cast<double>(dp[i + a]); };
-    const double d0 = more(0);
-    double dx = xh[i] * (more(1) - d0) + xl[i] * (d0 - more(-1));
-    double dy = y.slope_high * (more(sy) - d0) + y.slope_low * (d0 - more(-sy));
-    double dz = z.slope_high * (more(sz) - d0) + z.slope_low * (d0 - more(-sz));
+  for (int i = 0; i < m.n; ++i) {
+    Gradient p = gradient(m, row.p, i), more = gradient(m, row.dp, i);
     if constexpr (with_sheet) {
-      px += xh[i] * jump.x[i + 1] + xl[i] * jump.x[i];
-      py += y.slope_high * jump.y_high[i] + y.slope_low * jump.y[i];
-      pz += z.slope_high * jump.z_high[i] + z.slope_low * jump.z[i];
-      dx += xh[i] * change.x[i + 1] + xl[i] * change.x[i];
-      dy += y.slope_high * change.y_high[i] + y.slope_low * change.y[i];
-      dz += z.slope_high * change.z_high[i] + z.slope_low * change.z[i];
+      add_jumps(m, row.held, i, p);
+      add_jumps(m, row.change, i, more);
     }
-    const double u1 = hu[i] - ra[i] * px - rc[i] * dx, v1 = hv[i] - ra[i] * py - rc[i] * dy,
-                 w1 = hw[i] - ra[i] * pz - rc[i] * dz;
-    const double p1 = p[i] + relax * d0;
-    u[i] = u1;
-    v[i] = v1;
-    w[i] = w1;
+    const double a = row.ra[i], c = row.rc[i], h = m.x_width[i];
+    const double u = row.hu[i] - a * p.x - c * more.x, v = row.hv[i] - a * p.y - c * more.y,
+                 w = row.hw[i] - a * p.z - c * more.z;
+    const double p1 = row.p[i] + row.relaxation * static_cast<double>(row.dp[i]);
+    row.u[i] = u;
+    row.v[i] = v;
+    row.w[i] = w;
     // Perfect gas at constant total enthalpy: T = T0 + (U0^2 - |U|^2) / (2 c_p).
-    const double temperature = t0 + half_cp * (speed2 - (u1 * u1 + v1 * v1 + w1 * w1));
-    rho[i] = gas > 0 ? (p0 + p1) / (gas * temperature) : rho[i];
-    total_u += u1 * hx[i];
-    total_v += v1 * hx[i];
-    total_w += w1 * hx[i];
-    total_p += p1 * hx[i];
+    const double temperature = row.temperature + row.half_cp * (row.speed2 - (u * u + v * v + w * w));
+    row.rho[i] = row.gas_constant > 0 ? (row.pressure0 + p1) / (row.gas_constant * temperature) : row.rho[i];
+    total_u += u * h;
+    total_v += v * h;
+    total_w += w * h;
+    total_p += p1 * h;
   }
-  row.total_u = total_u;
-  row.total_v = total_v;
-  row.total_w = total_w;
-  row.total_p = total_p;
+  results.total_u = total_u;
+  results.total_v = total_v;
+  results.total_w = total_w;
+  results.total_p = total_p;
 }
 
 RIPSTOP_ROW_KERNEL void plain_row(PressureRow& row) {

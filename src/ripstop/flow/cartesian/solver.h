@@ -81,8 +81,12 @@ class Solver {
   void convection(int k, IndexRange rows);  // convection.cpp
   void march(int rank, IndexRange rows);
   void eddy_viscosity(MarchRings& rings, int k, IndexRange rows) const;
+  bool northward() const { return s_.iteration % 2 == 0; }  // the way the rows of a plane are walked
   void turbulence(MarchRings& rings, int k, IndexRange rows);
+  TurbulenceRow turbulence_of(MarchRings& rings, int j, int k, IndexRange rows);
   void momentum(MarchRings& rings, int k, IndexRange rows);
+  void velocities_around(MarchRings& rings, int j, int k, IndexRange rows, MomentumRow& r) const;
+  MomentumRow momentum_of(MarchRings& rings, int j, int k, IndexRange rows);
   // The rest (stage_pressure.cpp).
   void matrix_ghosts(int k);
   void pressure(int k, IndexRange rows);

@@ -15,8 +15,7 @@
 // Convection is first-order upwind in the bounded form sum F (q_nb - q_P); the sinks are implicit.
 #include <cmath>
 
-#include "ripstop/flow/cartesian/rows.h"
-#include "ripstop/flow/cartesian/simd.h"
+#include "ripstop/flow/cartesian/row_parts.h"
 
 namespace ripstop::cartesian {
 namespace {
@@ -50,131 +49,137 @@ RIPSTOP_ROW_KERNEL void limit_row(int n, const double* limit, double* mut) {
 
 namespace {
 
-template <bool with_wall>
-[[gnu::always_inline]] inline void turbulence(TurbulenceRow& row) {
-  const int n = row.m.n;
-  const std::ptrdiff_t sy = row.m.sy, sz = row.m.sz, comp = row.component;
-  const double *rhx = row.m.x_inverse_width, *wx = row.m.x_weight_low, *rdx = row.m.x_inverse_distance,
-               *hx = row.m.x_width, *xl = row.m.x_slope_low, *xh = row.m.x_slope_high;
-  const CrossMetrics y = row.m.y, z = row.m.z;
-  const double *u = row.u, *v = row.v, *w = row.w, *k = row.k, *om = row.omega, *rho = row.rho;
-  const double *kb = row.k_below, *ka = row.k_above, *ob = row.omega_below, *oa = row.omega_above;
-  const double *ks = row.k_south, *kn = row.k_north, *os = row.omega_south, *on = row.omega_north;
-  const double *fx = row.fx, *fy = row.fy, *fz = row.fz;
-  const double *mut = row.mut, *mutb = row.mut_below, *muta = row.mut_above;
-  double *k_new = row.k_new, *om_new = row.omega_new, *mu_new = row.mu_new;
-  double *tx = row.tx, *ty = row.ty, *tz = row.tz;
-  const double* wall = row.wall;
-  double* limit_new = row.limit_new;
-  const double mu = row.viscosity, inverse_alpha = 1 / row.relaxation, mean_k = row.mean_k,
-               mean_om = row.mean_omega;
+// S of the header from the gradients of the three components [1/s2].
+[[gnu::always_inline]] inline double strain_rate(const Gradient& u, const Gradient& v, const Gradient& w,
+                                                 double divergence) {
+  return 2 * (u.x * u.x + v.y * v.y + w.z * w.z) + (u.y + v.x) * (u.y + v.x) + (u.z + w.x) * (u.z + w.x) +
+         (v.z + w.y) * (v.z + w.y) - (2.0 / 3) * divergence * divergence;
+}
 
+// What one of the two equations sees of the faces of a cell: inflow and diffusion per viscosity [1/m2], both
+// over the cell's width, and the eddy viscosity.
+[[gnu::always_inline]] inline Faces convection(const TurbulenceRow& row, std::ptrdiff_t i) {
+  const RowMetrics& m = row.m;
+  Faces in = inflow(m, row.fx, row.fy, row.fz, i);
+  const double h = m.x_inverse_width[i], hy = m.y.inverse_width, hz = m.z.inverse_width;
+  return {in.w * h, in.e * h, in.s * hy, in.n * hy, in.b * hz, in.a * hz};
+}
+[[gnu::always_inline]] inline Faces diffusion(const RowMetrics& m, std::ptrdiff_t i) {
+  const double h = m.x_inverse_width[i], hy = m.y.inverse_width, hz = m.z.inverse_width;
+  return {m.x_inverse_distance[i] * h, m.x_inverse_distance[i + 1] * h, m.y.distance_low * hy,
+          m.y.distance_high * hy,      m.z.distance_low * hz,           m.z.distance_high * hz};
+}
+
+// a_nb with the part `sigma` of the eddy viscosity `eddy`, c and d from above.
+[[gnu::always_inline]] inline Faces coefficients(const Faces& c, const Faces& d, const Faces& eddy,
+                                                 double sigma, double mu) {
+  return {c.w + (sigma * eddy.w + mu) * d.w, c.e + (sigma * eddy.e + mu) * d.e,
+          c.s + (sigma * eddy.s + mu) * d.s, c.n + (sigma * eddy.n + mu) * d.n,
+          c.b + (sigma * eddy.b + mu) * d.b, c.a + (sigma * eddy.a + mu) * d.a};
+}
+
+// The new value in a cell of diagonal q = neighbours + source, under-relaxed, and its residual.
+struct Update {
+  double value, residual, scale;
+};
+[[gnu::always_inline]] inline Update update(double off, double neighbours, double source, double diagonal,
+                                            double old, double mean_of_box, double inverse_alpha) {
+  const double relaxed = diagonal * inverse_alpha;
+  const double b = source + (relaxed - diagonal) * old;
+  const double mean = (relaxed - off) * mean_of_box;
+  return {larger((neighbours + b) / relaxed, floor), std::fabs(source + neighbours - diagonal * old),
+          std::fabs(relaxed * old - neighbours - mean) + std::fabs(b - mean)};
+}
+
+[[gnu::always_inline]] inline Update omega_update(const TurbulenceRow& row, const Faces& a, double strain,
+                                                  double cross, double inverse_alpha, std::ptrdiff_t i) {
+  const double off = sum(a), old = row.omega[i], rho = row.rho[i];
+  const double neighbours =
+      from_neighbours(a, row.omega, row.omega_south, row.omega_north, row.omega_below, row.omega_above, i);
+  const double source = rho * gamma2 * smaller(strain, (c1 * beta_star) * old * old) + positive(cross);
+  const double diagonal = off + rho * beta2 * old + positive(-cross) * (1 / old);
+  return update(off, neighbours, source, diagonal, old, row.mean_omega, inverse_alpha);
+}
+
+[[gnu::always_inline]] inline Update k_update(const TurbulenceRow& row, const Faces& a, double strain,
+                                              double omega, double inverse_alpha, std::ptrdiff_t i) {
+  const double off = sum(a), old = row.k[i], rho = row.rho[i];
+  const double neighbours = from_neighbours(a, row.k, row.k_south, row.k_north, row.k_below, row.k_above, i);
+  const double source = smaller(row.mut[i] * strain, rho * (c1 * beta_star) * old * omega);
+  const double diagonal = off + rho * beta_star * omega;
+  return update(off, neighbours, source, diagonal, old, row.mean_k, inverse_alpha);
+}
+
+// Factor of the eddy viscosity at distance `wall` from the cloth [m].
+[[gnu::always_inline]] inline double shear_stress_limit(double strain, double k, double omega, double rho,
+                                                        double viscosity, double wall) {
+  const double root = std::sqrt(k) / (beta_star * omega * wall);
+  const double arg = larger(2 * root, 500 * viscosity / (rho * wall * wall * omega));
+  const double x = smaller(arg * arg, 3), f2 = x * (27 + x * x) / (27 + 9 * x * x);  // tanh within 2.4 %
+  return 1 / larger(1, std::sqrt(positive(strain)) * f2 / (a1 * omega));
+}
+
+// Explicit part of the stress, mu dev2((grad U)^T): through an x face it carries mu grad(u) - 2/3 mu div U,
+// and so on.
+[[gnu::always_inline]] inline void write_stress(const TurbulenceRow& row, const Gradient& u,
+                                                const Gradient& v, const Gradient& w, double mu,
+                                                double divergence, std::ptrdiff_t i) {
+  const double trace = (2.0 / 3) * mu * divergence;
+  const std::ptrdiff_t j = i + row.component, k = i + 2 * row.component;
+  row.mu_new[i] = mu;
+  row.tx[i] = mu * u.x - trace;
+  row.tx[j] = mu * u.y;
+  row.tx[k] = mu * u.z;
+  row.ty[i] = mu * v.x;
+  row.ty[j] = mu * v.y - trace;
+  row.ty[k] = mu * v.z;
+  row.tz[i] = mu * w.x;
+  row.tz[j] = mu * w.y;
+  row.tz[k] = mu * w.z - trace;
+}
+
+template <bool with_wall>
+[[gnu::always_inline]] inline void turbulence(TurbulenceRow& results) {
+  const TurbulenceRow row = results;  // a copy: what the loop writes cannot be thought to change it
+  const RowMetrics& m = row.m;
+  const double inverse_alpha = 1 / row.relaxation;
   double res_k = 0, scale_k = 0, res_om = 0, scale_om = 0, total_k = 0, total_om = 0;
 #pragma omp simd reduction(+ : res_k, scale_k, res_om, scale_om, total_k, total_om)
-  for (int i = 0; i < n; ++i) {
-    const auto slope_x = [&](const double* q) {
-      return xh[i] * (q[i + 1] - q[i]) + xl[i] * (q[i] - q[i - 1]);
-    };
-    const auto slope_y = [&](const double* q) {
-      return y.slope_high * (q[i + sy] - q[i]) + y.slope_low * (q[i] - q[i - sy]);
-    };
-    const auto slope_z = [&](const double* q) {
-      return z.slope_high * (q[i + sz] - q[i]) + z.slope_low * (q[i] - q[i - sz]);
-    };
-    const double ux = slope_x(u), uy = slope_y(u), uz = slope_z(u);
-    const double vx = slope_x(v), vy = slope_y(v), vz = slope_z(v);
-    const double wx_ = slope_x(w), wy = slope_y(w), wz = slope_z(w);
-    const double divergence = ux + vy + wz;
-    const double strain = 2 * (ux * ux + vy * vy + wz * wz) + (uy + vx) * (uy + vx) +
-                          (uz + wx_) * (uz + wx_) + (vz + wy) * (vz + wy) -
-                          (2.0 / 3) * divergence * divergence;
-    const double k0 = k[i], om0 = om[i], r = rho[i], inverse_om = 1 / om0;
-    const double cross = (2 * sigma_omega) * r *
-                         (slope_x(k) * slope_x(om) + slope_y(k) * slope_y(om) + slope_z(k) * slope_z(om)) *
-                         inverse_om;
+  for (int i = 0; i < m.n; ++i) {
+    Gradient u = gradient(m, row.u, i), v = gradient(m, row.v, i), w = gradient(m, row.w, i);
+    const double divergence = u.x + v.y + w.z, strain = strain_rate(u, v, w, divergence);
+    Gradient of_k = gradient(m, row.k, i), of_omega = gradient(m, row.omega, i);
+    const double cross = (2 * sigma_omega) * row.rho[i] *
+                         (of_k.x * of_omega.x + of_k.y * of_omega.y + of_k.z * of_omega.z) *
+                         (1 / row.omega[i]);
 
-    // Eddy viscosity and convection on the six faces.
-    const double mw = wx[i] * mut[i - 1] + (1 - wx[i]) * mut[i];
-    const double me = wx[i + 1] * mut[i] + (1 - wx[i + 1]) * mut[i + 1];
-    const double ms = y.weight_low * mut[i - sy] + (1 - y.weight_low) * mut[i];
-    const double mn = y.weight_high * mut[i] + (1 - y.weight_high) * mut[i + sy];
-    const double mb = z.weight_low * mutb[i] + (1 - z.weight_low) * mut[i];
-    const double ma = z.weight_high * mut[i] + (1 - z.weight_high) * muta[i];
-    const double cw = positive(fx[i]) * rhx[i], ce = positive(-fx[i + 1]) * rhx[i];
-    const double cs = positive(fy[i]) * y.inverse_width, cn = positive(-fy[i + sy]) * y.inverse_width;
-    const double cb = positive(fz[i]) * z.inverse_width, ca = positive(-fz[i + sz]) * z.inverse_width;
-    const double dw = rdx[i] * rhx[i], de = rdx[i + 1] * rhx[i];
-    const double ds = y.distance_low * y.inverse_width, dn = y.distance_high * y.inverse_width;
-    const double db = z.distance_low * z.inverse_width, da = z.distance_high * z.inverse_width;
+    Faces c = convection(row, i), d = diffusion(m, i);
+    Faces eddy = on_faces(m, row.mut, row.mut_below, row.mut_above, i);
+    Faces a_omega = coefficients(c, d, eddy, sigma_omega, row.viscosity);
+    Update omega = omega_update(row, a_omega, strain, cross, inverse_alpha, i);
+    Faces a_k = coefficients(c, d, eddy, sigma_k, row.viscosity);
+    Update k = k_update(row, a_k, strain, omega.value, inverse_alpha, i);
+    row.omega_new[i] = omega.value;
+    row.k_new[i] = k.value;
+    res_om += omega.residual;
+    scale_om += omega.scale;
+    res_k += k.residual;
+    scale_k += k.scale;
+    total_k += k.value * m.x_width[i];
+    total_om += omega.value * m.x_width[i];
 
-    // omega
-    double om1;
-    {
-      const double aw = cw + (sigma_omega * mw + mu) * dw, ae = ce + (sigma_omega * me + mu) * de;
-      const double as = cs + (sigma_omega * ms + mu) * ds, an = cn + (sigma_omega * mn + mu) * dn;
-      const double ab = cb + (sigma_omega * mb + mu) * db, aa = ca + (sigma_omega * ma + mu) * da;
-      const double off = aw + ae + as + an + ab + aa;
-      const double neighbours =
-          aw * om[i - 1] + ae * om[i + 1] + as * os[i] + an * on[i] + ab * ob[i] + aa * oa[i];
-      const double source = r * gamma2 * smaller(strain, (c1 * beta_star) * om0 * om0) + positive(cross);
-      const double diagonal = off + r * beta2 * om0 + positive(-cross) * inverse_om;
-      const double relaxed = diagonal * inverse_alpha;
-      const double b = source + (relaxed - diagonal) * om0;
-      const double mean = (relaxed - off) * mean_om;
-      om1 = larger((neighbours + b) / relaxed, floor);
-      res_om += std::fabs(source + neighbours - diagonal * om0);
-      scale_om += std::fabs(relaxed * om0 - neighbours - mean) + std::fabs(b - mean);
-    }
-    // k
-    double k1;
-    {
-      const double aw = cw + (sigma_k * mw + mu) * dw, ae = ce + (sigma_k * me + mu) * de;
-      const double as = cs + (sigma_k * ms + mu) * ds, an = cn + (sigma_k * mn + mu) * dn;
-      const double ab = cb + (sigma_k * mb + mu) * db, aa = ca + (sigma_k * ma + mu) * da;
-      const double off = aw + ae + as + an + ab + aa;
-      const double neighbours =
-          aw * k[i - 1] + ae * k[i + 1] + as * ks[i] + an * kn[i] + ab * kb[i] + aa * ka[i];
-      const double source = smaller(mut[i] * strain, r * (c1 * beta_star) * k0 * om1);
-      const double diagonal = off + r * beta_star * om1;
-      const double relaxed = diagonal * inverse_alpha;
-      const double b = source + (relaxed - diagonal) * k0;
-      const double mean = (relaxed - off) * mean_k;
-      k1 = larger((neighbours + b) / relaxed, floor);
-      res_k += std::fabs(source + neighbours - diagonal * k0);
-      scale_k += std::fabs(relaxed * k0 - neighbours - mean) + std::fabs(b - mean);
-    }
-    k_new[i] = k1;
-    om_new[i] = om1;
-    total_k += k1 * hx[i];
-    total_om += om1 * hx[i];
-
-    // Explicit part of the stress, mu dev2((grad U)^T): through an x face it carries mu grad(u) - 2/3 mu div
-    // U, and so on.
-    double limited = 1;
+    double limit = 1;
     if constexpr (with_wall) {
-      const double root = std::sqrt(k1) / (beta_star * om1 * wall[i]);
-      const double arg = larger(2 * root, 500 * mu / (r * wall[i] * wall[i] * om1));
-      const double x = smaller(arg * arg, 3), f2 = x * (27 + x * x) / (27 + 9 * x * x);  // tanh within 2.4 %
-      limited = 1 / larger(1, std::sqrt(positive(strain)) * f2 / (a1 * om1));
-      limit_new[i] = limited;
+      limit = shear_stress_limit(strain, k.value, omega.value, row.rho[i], row.viscosity, row.wall[i]);
+      row.limit_new[i] = limit;
     }
-    const double me_ = mu + r * k1 / om1 * limited;
-    const double trace = (2.0 / 3) * me_ * divergence;
-    mu_new[i] = me_;
-    tx[i] = me_ * ux - trace;
-    tx[i + comp] = me_ * uy;
-    tx[i + 2 * comp] = me_ * uz;
-    ty[i] = me_ * vx;
-    ty[i + comp] = me_ * vy - trace;
-    ty[i + 2 * comp] = me_ * vz;
-    tz[i] = me_ * wx_;
-    tz[i + comp] = me_ * wy;
-    tz[i + 2 * comp] = me_ * wz - trace;
+    const double mu = row.viscosity + row.rho[i] * k.value / omega.value * limit;
+    write_stress(row, u, v, w, mu, divergence, i);
   }
-  row.k_sum = {res_k, scale_k};
-  row.omega_sum = {res_om, scale_om};
-  row.total_k = total_k;
-  row.total_omega = total_om;
+  results.k_sum = {res_k, scale_k};
+  results.omega_sum = {res_om, scale_om};
+  results.total_k = total_k;
+  results.total_omega = total_om;
 }
 
 RIPSTOP_ROW_KERNEL void open_row(TurbulenceRow& row) {

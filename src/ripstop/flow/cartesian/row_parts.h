@@ -1,0 +1,70 @@
+// What the row kernels are made of: gradients in a cell, and values on its six faces.
+//
+// Always inlined, so that they are compiled for the level of the kernel that calls them, see simd.h. What they
+// return is kept in variables that are neither const nor copied: of others g++ 12 makes memory, and of the
+// loop no vectors.
+#pragma once
+
+#include "ripstop/flow/cartesian/rows.h"
+#include "ripstop/flow/cartesian/simd.h"
+
+namespace ripstop::cartesian {
+
+struct Gradient {
+  double x, y, z;
+};
+
+/// One value on each face of a cell: west, east, south, north, below, above.
+struct Faces {
+  double w, e, s, n, b, a;
+};
+
+[[gnu::always_inline]] inline double sum(const Faces& f) {
+  return f.w + f.e + f.s + f.n + f.b + f.a;
+}
+
+/// Of q at cell i, [q]/m.
+template <class Number>
+[[gnu::always_inline]] inline Gradient gradient(const RowMetrics& m, const Number* q, std::ptrdiff_t i) {
+  const auto at = [&](std::ptrdiff_t step) { return static_cast<double>(q[i + step]); };
+  const double here = at(0);
+  return {m.x_slope_high[i] * (at(1) - here) + m.x_slope_low[i] * (here - at(-1)),
+          m.y.slope_high * (at(m.sy) - here) + m.y.slope_low * (here - at(-m.sy)),
+          m.z.slope_high * (at(m.sz) - here) + m.z.slope_low * (here - at(-m.sz))};
+}
+
+/// To the gradient of a quantity what its jumps at the faces of cell i add.
+[[gnu::always_inline]] inline void add_jumps(const RowMetrics& m, const SheetJumps& jump, std::ptrdiff_t i,
+                                             Gradient& g) {
+  g.x += m.x_slope_high[i] * jump.x[i + 1] + m.x_slope_low[i] * jump.x[i];
+  g.y += m.y.slope_high * jump.y_high[i] + m.y.slope_low * jump.y[i];
+  g.z += m.z.slope_high * jump.z_high[i] + m.z.slope_low * jump.z[i];
+}
+
+/// q interpolated to the faces of cell i; the neighbours along z have rows of their own.
+[[gnu::always_inline]] inline Faces on_faces(const RowMetrics& m, const double* q, const double* below,
+                                             const double* above, std::ptrdiff_t i) {
+  const double *w = m.x_weight_low + i, *c = q + i;
+  return {w[0] * c[-1] + (1 - w[0]) * c[0],
+          w[1] * c[0] + (1 - w[1]) * c[1],
+          m.y.weight_low * c[-m.sy] + (1 - m.y.weight_low) * c[0],
+          m.y.weight_high * c[0] + (1 - m.y.weight_high) * c[m.sy],
+          m.z.weight_low * below[i] + (1 - m.z.weight_low) * c[0],
+          m.z.weight_high * c[0] + (1 - m.z.weight_high) * above[i]};
+}
+
+/// Mass that flows into cell i through its faces, 0 where it flows out [kg/(m2 s)].
+[[gnu::always_inline]] inline Faces inflow(const RowMetrics& m, const double* fx, const double* fy,
+                                           const double* fz, std::ptrdiff_t i) {
+  return {positive(fx[i]),         positive(-fx[i + 1]), positive(fy[i]),
+          positive(-fy[i + m.sy]), positive(fz[i]),      positive(-fz[i + m.sz])};
+}
+
+/// sum a q_nb over the neighbours of cell i.
+[[gnu::always_inline]] inline double from_neighbours(const Faces& a, const double* q, const double* south,
+                                                     const double* north, const double* below,
+                                                     const double* above, std::ptrdiff_t i) {
+  return a.w * q[i - 1] + a.e * q[i + 1] + a.s * south[i] + a.n * north[i] + a.b * below[i] + a.a * above[i];
+}
+
+}  // namespace ripstop::cartesian

@@ -1,0 +1,25 @@
+// How much cloth a mesh has.
+#pragma once
+
+#include <numeric>
+
+#include "ripstop/mesh/mesh.h"
+
+namespace ripstop {
+
+/// Nodes that lie on a patch.
+inline int cloth_nodes(const Mesh& mesh) {
+  int count = 0;
+  for (const Patch& patch : mesh.patches) count += patch.rows * patch.columns;
+  return count;
+}
+
+/// As cut [m2].
+inline double cloth_area(const Mesh& mesh) {
+  double area = 0;
+  for (const Patch& patch : mesh.patches)
+    area = std::accumulate(patch.cell_area.begin(), patch.cell_area.end(), area);
+  return area;
+}
+
+}  // namespace ripstop
