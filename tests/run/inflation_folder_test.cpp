@@ -112,5 +112,27 @@ TEST_F(InflationFolderTest, ADamagedCheckpointIsNoticedAndOtherInputsAreRefused)
   EXPECT_TRUE(open("run", quiet, true));
 }
 
+TEST_F(InflationFolderTest, TablesThatDoNotBelongToTheCheckpointAreRefused) {
+  for (const char* name : {"history.csv", "balance.csv"}) {
+    for (const bool gone : {false, true}) {
+      const std::string folder = std::string(name) + (gone ? "-gone" : "-cut");
+      Killed killed;
+      killed.folder = root / folder;
+      EXPECT_THROW(open(folder.c_str(), killed), std::runtime_error);
+      write_file(killed.folder / "checkpoint", killed.checkpoint);
+      const fs::path file = root / folder / name;
+      const std::string whole = read_file(file);
+      gone ? void(fs::remove(file)) : write_file(file, whole.substr(0, whole.size() / 2));
+      InflationObserver quiet;
+      try {
+        open(folder.c_str(), quiet);
+        FAIL() << folder;
+      } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ExitCode::bad_data) << error.what();
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace ripstop
