@@ -81,7 +81,7 @@ HWY_INLINE Root root(V q) {
 }
 
 // The force over the length of a spring from p toward q is g (q - p) with
-//   e = |q - p| / L0 - 1,   T = w (both e + sum c_k max(e, 0)^k),   g = (T + C (dv . d) / |d|) / |d|
+//   e = |q - p| / L0 - 1,   T = w (both max(e, e_b) + sum c_k max(e, 0)^k),   g = (T + C (dv . d) / |d|) / |d|
 // [NFM] Eq. 2, 3, with C = damping + share viscosity w / L0. No spring (w = 0) has no damping either.
 // `taken` gains the damper's power.
 template <int degree, bool damped>
@@ -106,7 +106,8 @@ HWY_INLINE V pull(const PatchLayout& patch, int direction, const double* springs
     if constexpr (degree > 2) sum = hn::MulAdd(sum, stretch, hn::Set(tag, law.positive_part[1]));
     if constexpr (degree > 1) sum = hn::MulAdd(sum, stretch, hn::Set(tag, law.positive_part[0]));
   }
-  V tension = hn::Mul(width, hn::MulAdd(sum, stretch, hn::Mul(strain, hn::Set(tag, law.both))));
+  const V pushed = hn::Max(strain, hn::Set(tag, law.buckled));
+  V tension = hn::Mul(width, hn::MulAdd(sum, stretch, hn::Mul(pushed, hn::Set(tag, law.both))));
   if constexpr (damped) {
     const V rate = hn::Mul(dot(d, dv), length.inverse);
     const V damping =
@@ -252,7 +253,8 @@ void pull_blocks(const SpringForces& job, int begin_block, int end_block) {
       V sum = hn::Zero(tag);
       for (int k = springs.degree - 1; k >= 0; --k)
         sum = hn::Mul(hn::Add(sum, hn::Load(tag, law + k * lanes)), stretch);
-      V tension = hn::MulAdd(strain, hn::Load(tag, springs.both.data() + s), sum);
+      const V pushed = hn::Max(strain, hn::Load(tag, springs.buckled.data() + s));
+      V tension = hn::MulAdd(pushed, hn::Load(tag, springs.both.data() + s), sum);
       if constexpr (damped) {
         const Three dv = between(job.v);
         const V damping = hn::Load(tag, springs.damping.data() + s);
