@@ -77,7 +77,7 @@ TEST(Wrinkling, ASquareAirbagRisesAsInTheLiteratureOnCoarseAndFineCells) {
   }
   EXPECT_NEAR(coarse / fine, 1, 0.005);
   // Cloth that pushes holds it flat, the more the coarser.
-  EXPECT_LT(rise_of_an_airbag(16, 1e9), 0.18);
+  EXPECT_LT(rise_of_an_airbag(16, std::numeric_limits<double>::infinity()), 0.2);
 }
 
 // Mylar balloon (Taylor 1919, Paulsen 1994): two disks of inextensible cloth without hoop tension have an
@@ -108,7 +108,8 @@ Balloon mylar_balloon(int rows, int columns) {
   // The outer third: further in the hoops have hardly shrunk.
   for (int cell = 0; cell < rows / 3 * columns; ++cell) {
     const CellStress& stress = bag.stress[cell];
-    balloon.largest_second = std::max(balloon.largest_second, std::abs(stress.principal_min) / stress.principal_max);
+    balloon.largest_second =
+        std::max(balloon.largest_second, std::abs(stress.principal_min) / stress.principal_max);
   }
   balloon.thickness /= balloon.radius;
   balloon.radius /= flat;
