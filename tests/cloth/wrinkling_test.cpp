@@ -190,5 +190,32 @@ TEST(Wrinkling, AStripUnderPullAndMomentWrinklesOverSteinAndHedgepethsHeight) {
   }
 }
 
+// Rows of yarns alone: pulled along x, pushed together along y, untouched elsewhere.
+TEST(Wrinkling, StressSaysWhatIsTautWrinkledAndSlack) {
+  FabricSpec fabric;
+  fabric.xi = 0, fabric.eps = 0;
+  fabric.buckling_strain = buckling;
+  const Mesh mesh = rectangle(6, 9, 0.01, fabric);
+  const ClothPtr cloth = make_cloth(mesh);
+  const auto stretched = [&](double along, double across) {
+    std::vector<Vec3> x = mesh.start;
+    for (Vec3& p : x) p = {along * p.x, across * p.y, 0};
+    ClothState state = start_state(*cloth);
+    set_positions(state, *cloth, x);
+    return cell_stress(*cloth, state)[2 * 9 + 3];
+  };
+  const double k = SpringLaw{f111_curve}.tension(0.02);
+  const CellStress taut = stretched(1.02, 1.02);
+  EXPECT_EQ(taut.tautness, Tautness::taut);
+  EXPECT_NEAR(taut.warp, k / 1.02, 1e-9 * k);
+  EXPECT_NEAR(taut.weft, k / 1.02, 1e-9 * k);
+  const CellStress wrinkled = stretched(1.02, 0.9);
+  EXPECT_EQ(wrinkled.tautness, Tautness::wrinkled);
+  EXPECT_NEAR(wrinkled.weft, k / 0.9, 1e-9 * k);  // rows are weft
+  EXPECT_NEAR(wrinkled.warp, -buckling * f111_curve[0] / 1.02, 1e-9 * k);
+  EXPECT_NEAR(std::abs(wrinkled.direction.x), 1, 1e-12);
+  EXPECT_EQ(stretched(0.9, 0.95).tautness, Tautness::slack);
+}
+
 }  // namespace
 }  // namespace ripstop
