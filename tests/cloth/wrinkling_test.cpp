@@ -190,6 +190,25 @@ TEST(Wrinkling, AStripUnderPullAndMomentWrinklesOverSteinAndHedgepethsHeight) {
   }
 }
 
+TEST(Wrinkling, ARelaxationIsTheSameToTheLastBitOnAnyNumberOfThreads) {
+  FabricSpec fabric;
+  fabric.buckling_strain = buckling;
+  Mesh mesh = rectangle(21, 21, 0.01, fabric);
+  for (const int corner : {0, 20, 20 * 21, 21 * 21 - 1}) mesh.fixed.push_back(corner);
+  for (Vec3& p : mesh.start) p = 0.9 * p;  // slack between its corners
+  const ClothPtr cloth = make_cloth(mesh);
+  const Loads loads{std::vector<double>(mesh.cell_count(), 20.0), {}};
+  const auto relaxed = [&](int threads) {
+    ClothState state = start_state(*cloth);
+    ThreadTeam team(threads);
+    const RelaxResult result = relax(state, *cloth, loads, {1e-4, 100000}, team);
+    EXPECT_TRUE(result.converged) << result.residual;
+    return positions(state, *cloth);
+  };
+  const std::vector<Vec3> alone = relaxed(1);
+  for (const int threads : {2, 3}) EXPECT_EQ(relaxed(threads), alone) << threads;
+}
+
 // Rows of yarns alone: pulled along x, pushed together along y, untouched elsewhere.
 TEST(Wrinkling, StressSaysWhatIsTautWrinkledAndSlack) {
   FabricSpec fabric;
