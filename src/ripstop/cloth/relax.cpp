@@ -34,9 +34,9 @@ constexpr double margin = 1.2;    // on the masses, for stiffening between two r
 constexpr int steps_a_look = 50;  // between looks at the applied load and the report
 // Steps between two refreshes of the masses: they follow closely while the cloth is far from equilibrium.
 // Tape stiffens tenfold at strains that a wild start (sails with fullness, gathered cloth) or the jerk of
-// lines that come taut makes within a few steps.
-int steps_a_refresh(const RelaxResult& result) {
-  if (result.steps < 500) return 5;
+// lines that come taut makes within a few steps. Steps that run away are taken back where cloth wrinkles.
+int steps_a_refresh(const RelaxResult& result, bool wrinkles) {
+  if (result.steps < 500) return wrinkles ? 25 : 5;
   return result.residual > 1 ? steps_a_look : 400;
 }
 
@@ -143,7 +143,8 @@ class Relaxation {
         loads_(loads),
         options_(options),
         team_(team),
-        lightness_(wrinkles(cloth.mesh)),
+        wrinkles_(wrinkles(cloth.mesh)),
+        lightness_(wrinkles_),
         masses_(fictitious_masses(cloth, state, lightness_.floor)),
         stepper_(cloth, loads, state, masses_.inverse, team.size()),
         pivot_(pivot_of(cloth, state)),
@@ -154,7 +155,7 @@ class Relaxation {
 
   RelaxResult run(const std::function<void(const RelaxProgress&)>& report) {
     while (!result_.converged && result_.steps < options_.max_steps) {
-      const int refresh_after = steps_a_refresh(result_);
+      const int refresh_after = steps_a_refresh(result_, wrinkles_);
       const int count = std::min({steps_a_look, refresh_after, options_.max_steps - result_.steps});
       since_refresh_ += take_steps(count, applied());
       if (runs_away(state_, runaway_) && lightness_.shy()) {
@@ -234,6 +235,7 @@ class Relaxation {
   const Loads& loads_;
   const RelaxOptions& options_;
   ThreadTeam& team_;
+  bool wrinkles_;
   Lightness lightness_;
   Masses masses_;
   Stepper stepper_;
