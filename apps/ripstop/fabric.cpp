@@ -44,6 +44,9 @@ void print_result(const FabricResult& r, const fs::path& folder) {
   row("skirt diameter", fmt::format("{:.3f} m", r.size.skirt_diameter));
   row("highest line tension", fmt::format("{:.1f} N", r.max_line_tension));
   row("highest stress", fmt::format("{:.0f} N/m von Mises, on the {}", r.stress.von_mises, r.stress.patch));
+  row("highest yarn force",
+      fmt::format("{:.0f} N/m warp, {:.0f} N/m weft; {:.0f} % of the cloth wrinkled, {:.0f} % slack",
+                  r.stress.warp, r.stress.weft, 100 * r.stress.wrinkled, 100 * r.stress.slack));
   if (!folder.empty()) row("files", folder.string() + " (canopy.png, canopy.vtp, lines.vtp, result.json)");
 }
 

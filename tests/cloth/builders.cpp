@@ -63,7 +63,7 @@ int add_patch(Mesh& mesh, const PatchSpec& spec, const FabricSpec& fabric) {
   patch.columns = spec.columns;
   patch.periodic = spec.periodic;
   patch.first_node = mesh.node_count();
-  const SpringLaw whole{fabric.coefficients, fabric.compression};
+  const SpringLaw whole{fabric.coefficients, fabric.compression, fabric.buckling_strain};
   patch.law[along_row] = patch.law[along_column] = whole.scaled(1 - fabric.xi - fabric.eps);
   patch.law[shear_up] = patch.law[shear_down] = whole.scaled(fabric.xi / 2);
   patch.law[bend_row] = patch.law[bend_column] = whole.scaled(fabric.eps / 2);
@@ -152,7 +152,7 @@ Mesh medley(double damping, bool fixed, int degree) {
   outer.name = "outer", outer.rows = 5, outer.columns = 38, outer.periodic = true;
   outer.position = ring(38, 0.10, 0.012);
   FabricSpec other = fabric;
-  other.compression = 0.3, other.damping = 0.5 * damping;
+  other.compression = 0.3, other.buckling_strain = 0.05, other.damping = 0.5 * damping;
   add_patch(mesh, outer, other);
   PatchSpec flap;
   flap.name = "flap", flap.rows = 7, flap.columns = 11;
@@ -164,7 +164,7 @@ Mesh medley(double damping, bool fixed, int degree) {
 
   const Patch &a = mesh.patches[0], &b = mesh.patches[1], &c = mesh.patches[2];
   tie_to_coarser(mesh, b, a);
-  mesh.laws.push_back({{3064.2, 68823.4}, 1});
+  mesh.laws.push_back({{3064.2, 68823.4}, 1, 0.002});
   mesh.laws.push_back({{2118.95, 4896.33, 10.0}, 0});
   mesh.parts = {"tape", "line 0"};
   const auto join = [&](int p, int q, double scale, int law, int part) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <random>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@ struct FabricSpec {
   std::vector<double> coefficients = f111_curve;  // of the axial springs, [N/m]
   double xi = 0.2, eps = 0.01;
   double compression = 1;
+  double buckling_strain = std::numeric_limits<double>::infinity();
   double damping = 0;
   double areal_density = 0.0407;
 };

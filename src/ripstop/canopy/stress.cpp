@@ -61,9 +61,19 @@ StressPeak stress_peak(const Mesh& mesh, const std::vector<Vec3>& x, const std::
   StressPeak peak;
   const std::vector<Cell> cells = cells_of(mesh);
   std::size_t cell = 0;
+  double area = 0;
   for (const Patch& patch : mesh.patches) {
     for (int i = 0; i < (patch.rows - 1) * patch.columns; ++i, ++cell) {
       if (cells[cell].corner[0] < 0) continue;
+      area += patch.cell_area[i];
+      if (stress[cell].tautness == Tautness::wrinkled) peak.wrinkled += patch.cell_area[i];
+      if (stress[cell].tautness == Tautness::slack) peak.slack += patch.cell_area[i];
+      peak.warp = std::max(peak.warp, stress[cell].warp);
+      peak.weft = std::max(peak.weft, stress[cell].weft);
+      if (stress[cell].principal_max > peak.principal) {
+        peak.principal = stress[cell].principal_max;
+        peak.principal_direction = stress[cell].direction;
+      }
       peak.strain = std::max(peak.strain, stress[cell].max_strain);
       if (stress[cell].von_mises <= peak.von_mises) continue;
       peak.von_mises = stress[cell].von_mises;
@@ -72,6 +82,7 @@ StressPeak stress_peak(const Mesh& mesh, const std::vector<Vec3>& x, const std::
       for (const int node : cells[cell].corner) peak.place += 0.25 * x[node];
     }
   }
+  if (area > 0) peak.wrinkled /= area, peak.slack /= area;
   return peak;
 }
 

@@ -17,13 +17,27 @@ struct LineTension {
 };
 std::vector<LineTension> line_tensions(const CanopyMesh& mesh, const std::vector<double>& spring_tensions);
 
-/// Where the cloth carries most.
+/// Where the cloth carries most, and how much of it carries.
 struct StressPeak {
   double von_mises = 0;  // [N/m]
   double strain = 0;     // largest spring strain of the cloth
   Vec3 place;            // of the cell with the highest von Mises value [m]
   std::string patch;
+  double principal = 0;            // highest of the first principal forces [N/m]
+  Vec3 principal_direction;        // of that, unit
+  double warp = 0, weft = 0;       // highest along either yarn [N/m]
+  double wrinkled = 0, slack = 0;  // shares of the cloth's area as cut, see Tautness
 };
+/// What a sewer reads, for a result's list of members.
+template <class Peak, class Visit>
+void sewing_members(Peak& peak, Visit&& visit) {
+  visit("max_principal_n_m", peak.principal);
+  visit("max_principal_direction", peak.principal_direction);
+  visit("max_warp_n_m", peak.warp);
+  visit("max_weft_n_m", peak.weft);
+  visit("wrinkled_share", peak.wrinkled);
+  visit("slack_share", peak.slack);
+}
 StressPeak stress_peak(const Mesh& mesh, const std::vector<Vec3>& positions,
                        const std::vector<CellStress>& stress);
 

@@ -14,9 +14,6 @@
 namespace ripstop {
 namespace {
 
-// Symmetric 3 x 3: xx, yy, zz, xy, xz, yz.
-using Symmetric = std::array<double, 6>;
-
 // along n n^T + across (I - n n^T)
 void add(Symmetric& sum, double along, double across, Vec3 n) {
   const double d = along - across;
@@ -48,6 +45,25 @@ void hand_to_masters(const Mesh& mesh, std::vector<Symmetric>& blocks) {
 }
 
 }  // namespace
+
+std::vector<Symmetric> node_blocks(const Cloth& cloth, const ClothState& state, double floor) {
+  const std::vector<Vec3> x = positions(state, cloth);
+  std::vector<Symmetric> blocks(x.size(), Symmetric{});
+  each_spring(cloth.mesh, [&](const SpringView& s) {
+    const Vec3 d = x[s.b] - x[s.a];
+    const double length = norm(d);
+    const double strain = length / s.rest_length - 1;
+    const Vec3 n = length > 0 ? d / length : Vec3{1, 0, 0};
+    const double tangent = std::max(s.law->tangent(strain), strain < 0 ? s.law->tangent(0) : 0.0);
+    const double along = s.scale * tangent / s.rest_length;
+    const double across =
+        length > 0 ? std::max(floor * along, s.scale * s.law->tension(strain) / length) : along;
+    add(blocks[s.a], along, across, n);
+    add(blocks[s.b], along, across, n);
+  });
+  hand_to_masters(cloth.mesh, blocks);
+  return blocks;
+}
 
 NodeStiffness node_stiffness(const Cloth& cloth, const ClothState& state) {
   const Mesh& mesh = cloth.mesh;

@@ -105,11 +105,17 @@ struct RelaxResult {
 RelaxResult relax(ClothState& state, const Cloth& cloth, const Loads& loads, const RelaxOptions& options,
                   ThreadTeam& team, const std::function<void(const RelaxProgress&)>& report = {});
 
+/// Taut cloth is pulled along both principal directions, wrinkled cloth along one, slack cloth along none: a second
+/// force below 2 % of the first, a first one that would stretch a yarn by less than 1e-5.
+enum class Tautness { slack, wrinkled, taut };
+
 /// Membrane stress resultants of every cell, from the spring forces in virial form [N/m].
 struct CellStress {
   double principal_max = 0, principal_min = 0, von_mises = 0;  // [N/m]
   Vec3 direction;                                              // of principal_max, unit, in the cell's plane
-  double max_strain = 0;                                       // largest spring strain at the cell [-]
+  double warp = 0, weft = 0;  // along the yarns, as a strip test has it [N/m]
+  Tautness tautness = Tautness::slack;
+  double max_strain = 0;  // largest spring strain at the cell [-]
 };
 std::vector<CellStress> cell_stress(const Cloth& cloth, const ClothState& state);
 

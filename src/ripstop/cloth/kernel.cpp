@@ -81,7 +81,7 @@ HWY_INLINE Root root(V q) {
 }
 
 // The force over the length of a spring from p toward q is g (q - p) with
-//   e = |q - p| / L0 - 1,   T = w (both e + sum c_k max(e, 0)^k),   g = (T + C (dv . d) / |d|) / |d|
+//   e = |q - p| / L0 - 1,   T = w (both max(e, e_b) + sum c_k max(e, 0)^k),   g = (T + C (dv . d) / |d|) / |d|
 // [NFM] Eq. 2, 3, with C = damping + share viscosity w / L0. No spring (w = 0) has no damping either.
 // `taken` gains the damper's power.
 template <int degree, bool damped>
@@ -106,7 +106,8 @@ HWY_INLINE V pull(const PatchLayout& patch, int direction, const double* springs
     if constexpr (degree > 2) sum = hn::MulAdd(sum, stretch, hn::Set(tag, law.positive_part[1]));
     if constexpr (degree > 1) sum = hn::MulAdd(sum, stretch, hn::Set(tag, law.positive_part[0]));
   }
-  V tension = hn::Mul(width, hn::MulAdd(sum, stretch, hn::Mul(strain, hn::Set(tag, law.both))));
+  const V pushed = hn::Max(strain, hn::Set(tag, law.buckled));
+  V tension = hn::Mul(width, hn::MulAdd(sum, stretch, hn::Mul(pushed, hn::Set(tag, law.both))));
   if constexpr (damped) {
     const V rate = hn::Mul(dot(d, dv), length.inverse);
     const V damping =
@@ -252,7 +253,8 @@ void pull_blocks(const SpringForces& job, int begin_block, int end_block) {
       V sum = hn::Zero(tag);
       for (int k = springs.degree - 1; k >= 0; --k)
         sum = hn::Mul(hn::Add(sum, hn::Load(tag, law + k * lanes)), stretch);
-      V tension = hn::MulAdd(strain, hn::Load(tag, springs.both.data() + s), sum);
+      const V pushed = hn::Max(strain, hn::Load(tag, springs.buckled.data() + s));
+      V tension = hn::MulAdd(pushed, hn::Load(tag, springs.both.data() + s), sum);
       if constexpr (damped) {
         const Three dv = between(job.v);
         const V damping = hn::Load(tag, springs.damping.data() + s);
@@ -274,23 +276,19 @@ void pull_blocks(const SpringForces& job, int begin_block, int end_block) {
 
 enum class Damping { none, linear, quadratic };
 
-template <Damping damping, bool sums>
-HWY_INLINE RowSums motion(const RowMotion& row) {
+template <Damping damping>
+HWY_INLINE double motion(const RowMotion& row) {
   const V dt = hn::Set(tag, row.dt);
   // An accumulator for every lane of the row, so that every instruction set adds in the same order.
-  alignas(64) double squared[lanes] = {}, power[lanes] = {}, damped[lanes] = {};
+  alignas(64) double damped[lanes] = {};
   for (int lane = 0; lane < lanes; lane += static_cast<int>(hn::Lanes(tag))) {
-    V force_squared = hn::Zero(tag), force_speed = hn::Zero(tag), damped_power = hn::Zero(tag);
+    V damped_power = hn::Zero(tag);
     for (int m = 0; m < row.vectors; ++m) {
       const int i = m * lanes + lane, k = m * vector_stride + lane;
       const V inverse_mass = hn::Load(tag, row.inverse_mass + i);
       const auto moves = hn::Gt(inverse_mass, hn::Zero(tag));
       Three f = load(row.f + k);
       const Three old = load(row.v + k);
-      const V kick = hn::Mul(hn::Set(tag, row.kick), inverse_mass);
-      if constexpr (sums) {
-        force_squared = hn::Add(force_squared, hn::IfThenElseZero(moves, dot(f, f)));
-      }
       V c;
       if constexpr (damping != Damping::none) {
         c = hn::Set(tag, row.linear);
@@ -299,22 +297,48 @@ HWY_INLINE RowSums motion(const RowMotion& row) {
         c = hn::Mul(c, hn::Load(tag, row.area + i));
         f = subtract_scaled(f, c, old);
       }
-      const Three v = add_scaled(sums ? scaled(old, row.keep) : old, kick, f);
-      if constexpr (sums) force_speed = hn::Add(force_speed, hn::IfThenElseZero(moves, dot(f, old + v)));
+      const Three v = add_scaled(old, hn::Mul(dt, inverse_mass), f);
       if constexpr (damping != Damping::none)
         damped_power = hn::MulAdd(hn::Mul(hn::Set(tag, 0.5), c), dot(old, old + v), damped_power);
       store_where(moves, v, row.v + k);
       store_where(moves, add_scaled(load(row.x + k), dt, v), row.x + k);
     }
-    hn::Store(force_squared, tag, squared + lane);
-    hn::Store(force_speed, tag, power + lane);
     hn::Store(damped_power, tag, damped + lane);
   }
-  RowSums total;
-  for (int lane = 0; lane < lanes; ++lane) {
-    if constexpr (sums) total.force_squared += squared[lane], total.power += power[lane];
-    if constexpr (damping != Damping::none) total.damped += damped[lane];
+  double total = 0;
+  for (const double d : damped) total += d;
+  return total;
+}
+
+RowSums RelaxRow(const RowRelaxation& row) {
+  alignas(64) double squared[lanes] = {}, power[lanes] = {};
+  const V kick = hn::Set(tag, row.kick);
+  for (int lane = 0; lane < lanes; lane += static_cast<int>(hn::Lanes(tag))) {
+    V force_squared = hn::Zero(tag), force_speed = hn::Zero(tag);
+    for (int m = 0; m < row.vectors; ++m) {
+      const int k = m * vector_stride + lane;
+      const double* inverse = row.inverse_mass + 2 * m * vector_stride + lane;
+      const Three diagonal = load(inverse), off = load(inverse + vector_stride);  // off: xy, xz, yz
+      const auto moves = hn::Gt(diagonal.x, hn::Zero(tag));
+      const Three f = load(row.f + k), old = load(row.v + k);
+      // Column by column of W kick: for a mass alike along all directions to the last bit that of RowMotion.
+      const Three xs{hn::Mul(kick, diagonal.x), hn::Mul(kick, off.x), hn::Mul(kick, off.y)};
+      const Three ys{xs.y, hn::Mul(kick, diagonal.y), hn::Mul(kick, off.z)};
+      const Three zs{xs.z, ys.z, hn::Mul(kick, diagonal.z)};
+      Three v = scaled(old, row.keep);
+      v = {hn::MulAdd(xs.x, f.x, v.x), hn::MulAdd(ys.y, f.y, v.y), hn::MulAdd(zs.z, f.z, v.z)};
+      v = {hn::MulAdd(ys.x, f.y, v.x), hn::MulAdd(xs.y, f.x, v.y), hn::MulAdd(xs.z, f.x, v.z)};
+      v = {hn::MulAdd(zs.x, f.z, v.x), hn::MulAdd(zs.y, f.z, v.y), hn::MulAdd(ys.z, f.y, v.z)};
+      force_squared = hn::Add(force_squared, hn::IfThenElseZero(moves, dot(f, f)));
+      force_speed = hn::Add(force_speed, hn::IfThenElseZero(moves, dot(f, old + v)));
+      store_where(moves, v, row.v + k);
+      store_where(moves, load(row.x + k) + v, row.x + k);
+    }
+    hn::Store(force_squared, tag, squared + lane);
+    hn::Store(force_speed, tag, power + lane);
   }
+  RowSums total;
+  for (int lane = 0; lane < lanes; ++lane) total.force_squared += squared[lane], total.power += power[lane];
   return total;
 }
 
@@ -336,12 +360,9 @@ void PullSprings(const SpringForces& job, int begin_block, int end_block) {
   pull_blocks<true, true>(job, begin_block, end_block);
 }
 double MoveRow(const RowMotion& row) {
-  if (!row.area) return motion<Damping::none, false>(row).damped;
-  if (row.quadratic == 0) return motion<Damping::linear, false>(row).damped;
-  return motion<Damping::quadratic, false>(row).damped;
-}
-RowSums MoveRowWithSums(const RowMotion& row) {
-  return motion<Damping::none, true>(row);
+  if (!row.area) return motion<Damping::none>(row);
+  if (row.quadratic == 0) return motion<Damping::linear>(row);
+  return motion<Damping::quadratic>(row);
 }
 // q holds p / 8: q times the cross product of a cell's diagonals is a quarter of its load.
 double PressureWork(const RowWork& row) {
@@ -395,7 +416,7 @@ namespace ripstop {
 HWY_EXPORT(AddRowForces);
 HWY_EXPORT(PullSprings);
 HWY_EXPORT(MoveRow);
-HWY_EXPORT(MoveRowWithSums);
+HWY_EXPORT(RelaxRow);
 HWY_EXPORT(PressureWork);
 HWY_EXPORT(Target);
 
@@ -408,8 +429,8 @@ void pull_springs(const SpringForces& job, int begin_block, int end_block) {
 double move_row(const RowMotion& row) {
   return HWY_DYNAMIC_DISPATCH(MoveRow)(row);
 }
-RowSums move_row_with_sums(const RowMotion& row) {
-  return HWY_DYNAMIC_DISPATCH(MoveRowWithSums)(row);
+RowSums relax_row(const RowRelaxation& row) {
+  return HWY_DYNAMIC_DISPATCH(RelaxRow)(row);
 }
 double pressure_work(const RowWork& row) {
   return HWY_DYNAMIC_DISPATCH(PressureWork)(row);

@@ -21,12 +21,11 @@ struct RowForces {
 /// Returns the power of the springs' dampers [W], with the velocities before the step.
 double add_row_forces(const RowForces& row);
 
-/// v' = v + kick (f - c v) / m,  x' = x + dt v'   where 1 / m > 0; the rest stays.   [NFM] Eq. 6, 20
+/// v' = v + dt (f - c v) / m,  x' = x + dt v'   where 1 / m > 0; the rest stays.   [NFM] Eq. 6, 20
 /// with the absolute damping c = area (linear + quadratic |v|).
 struct RowMotion {
   int vectors;                 // without ghosts
-  double dt, kick;             // [s], the same but for a relaxation's first step
-  double keep;                 // factor on v in a relaxation; ignored by move_row
+  double dt;                   // [s]
   const double* inverse_mass;  // [1/kg]
   const double* area;          // that is damped [m2], 0 where 1 / m = 0; null: no damping
   double linear, quadratic;    // [N s/m3], [N s2/m4]
@@ -37,15 +36,23 @@ struct RowMotion {
 /// energy changes by exactly dt times the power of all forces on that mean velocity.
 double move_row(const RowMotion& row);
 
-/// Moves, and sums over the nodes with 1 / m > 0: |f|^2 before the move, and f . (v + v'), which is twice
+/// As RowMotion, with a mass of its own along every direction: v' = keep v + kick W f.
+struct RowRelaxation {
+  int vectors;        // without ghosts
+  double kick, keep;  // [-]
+  const double*
+      inverse_mass;  // W by node, [1/kg]: eight xx, yy, zz, xy, xz, yz a vector; xx = 0: the node stays
+  const double* f;
+  double *x, *v;
+};
+/// Moves, and sums over the nodes that move: |f|^2 before the move, and f . (v + v'), which is twice
 /// what the kinetic energy has gained. (f . v alone is biased: it is negative on average for every fast
 /// mode.)
 struct RowSums {
   double force_squared = 0;
   double power = 0;
-  double damped = 0;  // as move_row() returns it
 };
-RowSums move_row_with_sums(const RowMotion& row);
+RowSums relax_row(const RowRelaxation& row);
 
 /// Forces of the springs outside the lattice, in blocks of eight.
 struct SpringForces {

@@ -37,9 +37,11 @@ inline void put(double* vectors, int slot, Vec3 a) {
   p[0] = a.x, p[lanes] = a.y, p[2 * lanes] = a.z;
 }
 
-/// T = compression K_1 e + sum_k c_k max(e, 0)^k with c_1 = (1 - compression) K_1, c_k = K_k: no branch.
+/// T = compression K_1 max(e, e_b) + sum_k c_k max(e, 0)^k with c_1 = (1 - compression) K_1, c_k = K_k: no
+/// branch.
 struct FamilyLaw {
   double both = 0;                                 // compression K_1
+  double buckled = 0;                              // e_b <= 0, minus the buckling strain
   std::array<double, max_degree> positive_part{};  // c_1 .. c_n
 };
 
@@ -84,7 +86,7 @@ struct KeptSprings {
   int degree = 1;                  // the highest of their laws
   std::vector<std::int64_t> a, b;  // at(slot) of the ends
   AlignedDoubles inverse_rest, damping;
-  AlignedDoubles both;           // scale compression K_1, see FamilyLaw
+  AlignedDoubles both, buckled;  // scale compression K_1 and e_b, see FamilyLaw
   AlignedDoubles positive_part;  // scale c_k; eight of c_1, eight of c_2, ... of each block
 };
 

@@ -32,6 +32,8 @@ void check_law(const SpringLaw& law, const std::string& place) {
   if (static_cast<int>(law.coefficients.size()) > max_degree)
     refuse(
         fmt::format("{}a spring law of degree {}, at most {}", place, law.coefficients.size(), max_degree));
+  if (!(law.buckling_strain >= 0))
+    refuse(fmt::format("{}a spring law with buckling strain {}", place, law.buckling_strain));
 }
 
 void check_springs_along(const Patch& patch, int direction) {
@@ -111,6 +113,7 @@ FamilyLaw compile_law(const SpringLaw& law) {
   FamilyLaw compiled;
   if (law.coefficients.empty()) return compiled;
   compiled.both = law.compression * law.coefficients[0];
+  compiled.buckled = -law.buckling_strain;
   std::copy(law.coefficients.begin(), law.coefficients.end(), compiled.positive_part.begin());
   compiled.positive_part[0] -= compiled.both;
   return compiled;
@@ -246,7 +249,7 @@ void lay_out_springs(Cloth& cloth) {
   const std::size_t padded = static_cast<std::size_t>(springs.blocks) * lanes;
   springs.a.assign(padded, 0);
   springs.b.assign(padded, 0);
-  for (AlignedDoubles* values : {&springs.inverse_rest, &springs.damping, &springs.both})
+  for (AlignedDoubles* values : {&springs.inverse_rest, &springs.damping, &springs.both, &springs.buckled})
     values->assign(padded, 0.0);
   springs.positive_part.assign(padded * springs.degree, 0.0);
   for (std::size_t s = 0; s < mesh.springs.size(); ++s) {
@@ -257,6 +260,7 @@ void lay_out_springs(Cloth& cloth) {
     springs.inverse_rest[s] = 1 / spring.rest_length;
     springs.damping[s] = spring.damping;
     springs.both[s] = spring.scale * law.both;
+    springs.buckled[s] = law.buckled;
     for (int k = 0; k < springs.degree; ++k)
       springs.positive_part[(s / lanes * springs.degree + k) * lanes + s % lanes] =
           spring.scale * law.positive_part[k];

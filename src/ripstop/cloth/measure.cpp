@@ -44,6 +44,7 @@ AppliedLoad applied_load(const Cloth& cloth, const ClothState& state, const Load
   AppliedLoad load;
   for (std::size_t node = 0; node < force.size(); ++node) {
     load.norm += dot(force[node], force[node]);
+    load.sum += norm(force[node]);
     load.moment += cross(x[node] - pivot, force[node]);
   }
   load.norm = std::sqrt(load.norm);

@@ -27,7 +27,9 @@ std::optional<Vec3> pivot_of(const Cloth& cloth, const ClothState& state) {
   return first;
 }
 
-void stop_turning(const Cloth& cloth, ClothState& state, const std::vector<double>& mass, Vec3 pivot) {
+void stop_turning(const Cloth& cloth, ClothState& state, const std::vector<Symmetric>& masses, Vec3 pivot) {
+  std::vector<double> mass;
+  for (const Symmetric& m : masses) mass.push_back(std::max({m[0], m[1], m[2]}));
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
   Vec3 momentum;
   for (std::size_t node = 0; node < mass.size(); ++node) {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "ripstop/cloth/layout.h"
+#include "ripstop/cloth/bound.h"
 
 namespace ripstop {
 
@@ -13,7 +13,7 @@ namespace ripstop {
 std::optional<Vec3> pivot_of(const Cloth& cloth, const ClothState& state);
 
 /// Takes the turning about the pivot out of the velocities: v -= w x r with w = I^-1 sum m r x v.
-void stop_turning(const Cloth& cloth, ClothState& state, const std::vector<double>& mass, Vec3 pivot);
+void stop_turning(const Cloth& cloth, ClothState& state, const std::vector<Symmetric>& mass, Vec3 pivot);
 
 /// Adds the smallest forces (root sum of squares) on the free nodes that cancel a moment about the pivot:
 /// -t x r with t = G^-1 moment, G = sum (r^2 I - r r^T).

@@ -1,8 +1,9 @@
 // Equilibrium by dynamic relaxation with kinetic damping (Barnes 1999, Int. J. Space Structures 14).
 //
-// Fictitious masses m = margin kappa / 2, with kappa the node's stiffness of step_bound, make a step of 1
-// stable everywhere, so every part of the cloth moves as fast as it can. Whenever the kinetic energy passes a
-// peak, that is when sum f . (v + v') turns negative, all velocities are set to 0.
+// A node's fictitious mass is a tensor, half its block of the stiffness (node_blocks) with a margin: a step of 1 is
+// then stable everywhere, since x^T K x <= 2 sum x_i^T K_ii x_i. Cloth and lines are stretched by parts of a thousand,
+// so across a thread a node is a thousand times easier to move than along it, and moves as fast as it can in both.
+// Whenever the kinetic energy passes a peak, that is when sum f . (v + v') turns negative, all velocities are set to 0.
 //
 // Stops alone kill the slowest mode and may leave its overtones alone for ever (a bar pulled at its ends has
 // cos(n pi / 2) of them left after each). So between stops the motion is also damped at the rate 3 / t of
@@ -17,8 +18,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 #include "ripstop/cloth/bound.h"
+#include "ripstop/cloth/each_spring.h"
 #include "ripstop/cloth/pivot.h"
 #include "ripstop/cloth/stepper.h"
 #include "ripstop/core/error.h"
@@ -30,28 +34,91 @@ constexpr double margin = 1.2;    // on the masses, for stiffening between two r
 constexpr int steps_a_look = 50;  // between looks at the applied load and the report
 // Steps between two refreshes of the masses: they follow closely while the cloth is far from equilibrium.
 // Tape stiffens tenfold at strains that a wild start (sails with fullness, gathered cloth) or the jerk of
-// lines that come taut makes within a few steps.
-int steps_a_refresh(const RelaxResult& result) {
-  if (result.steps < 500) return 5;
+// lines that come taut makes within a few steps. Steps that run away are taken back where cloth wrinkles.
+int steps_a_refresh(const RelaxResult& result, bool wrinkles) {
+  if (result.steps < 500) return wrinkles ? 25 : 5;
   return result.residual > 1 ? steps_a_look : 400;
 }
 
-Stepper::Fictitious fictitious_masses(const Cloth& cloth, const ClothState& state) {
-  Stepper::Fictitious masses{node_stiffness(cloth, state).stiffness};
-  // A node without any stiffness (a hole in the cloth) rests where it is.
-  for (double& mass : masses.mass) mass *= 0.5 * margin;
-  for (int node : cloth.mesh.fixed) masses.mass[node] = 0;
-  for (const Tie& tie : cloth.mesh.ties) masses.mass[tie.node] = 0;
+/// The floor of node_blocks(): how much lighter a node is across its springs than along them. A node that moves far
+/// in few steps turns its springs, and the masses of before are too light then.
+struct Lightness {
+  double floor = 0.2, least = 0.02;
+  explicit Lightness(bool wrinkles) {
+    if (!wrinkles) floor = least = 1;
+  }
+  void dare() { floor = std::max(least, 0.9 * floor); }
+  bool shy() {
+    if (floor >= 1) return false;
+    floor = std::min(1.0, 4 * floor);
+    least = std::max(least, 0.4 * floor);
+    return true;
+  }
+};
+constexpr double runaway_speed = 0.2;  // of the shortest spring, a step
+
+struct Masses {
+  std::vector<Symmetric> mass;  // by node; 0: does not move
+  Stepper::Fictitious inverse;
+};
+
+Symmetric inverse_of(const Symmetric& a) {
+  const auto [xx, yy, zz, xy, xz, yz] = a;
+  if (xy == 0 && xz == 0 && yz == 0 && xx > 0) return {1 / xx, 1 / yy, 1 / zz, 0, 0, 0};
+  const Symmetric adjugate{yy * zz - yz * yz, xx * zz - xz * xz, xx * yy - xy * xy,
+                           xz * yz - xy * zz, xy * yz - xz * yy, xy * xz - xx * yz};
+  const double determinant = xx * adjugate[0] + xy * adjugate[3] + xz * adjugate[4];
+  if (!(determinant > 0)) return {};  // a node without any stiffness (a hole in the cloth) rests where it is
+  Symmetric inverse;
+  for (int i = 0; i < 6; ++i) inverse[i] = adjugate[i] / determinant;
+  return inverse;
+}
+
+// Cloth that pushes has many equilibria close together, and the way decides: it is the printed lattice's, with masses
+// alike along all directions and no soft start.
+bool wrinkles(const Mesh& mesh) {
+  return std::any_of(mesh.patches.begin(), mesh.patches.end(), [](const Patch& patch) {
+    return std::any_of(std::begin(patch.law), std::end(patch.law),
+                       [](const SpringLaw& law) { return std::isfinite(law.buckling_strain); });
+  });
+}
+
+Masses fictitious_masses(const Cloth& cloth, const ClothState& state, double floor) {
+  Masses masses;
+  if (wrinkles(cloth.mesh)) {
+    masses.mass = node_blocks(cloth, state, floor);
+  } else {
+    for (const double k : node_stiffness(cloth, state).stiffness) masses.mass.push_back({k, k, k, 0, 0, 0});
+  }
+  for (int node : cloth.mesh.fixed) masses.mass[node] = {};
+  for (const Tie& tie : cloth.mesh.ties) masses.mass[tie.node] = {};
+  masses.inverse.inverse_mass.reserve(masses.mass.size());
+  for (Symmetric& mass : masses.mass) {
+    for (double& component : mass) component *= 0.5 * margin;
+    masses.inverse.inverse_mass.push_back(inverse_of(mass));
+  }
   return masses;
 }
 
-double fictitious_energy(const Cloth& cloth, const ClothState& state, const std::vector<double>& mass) {
+double fictitious_energy(const Cloth& cloth, const ClothState& state, const std::vector<Symmetric>& mass) {
   double sum = 0;
   for (std::size_t node = 0; node < mass.size(); ++node) {
     const Vec3 v = get(state.v.data(), cloth.slot[node]);
-    sum += 0.5 * mass[node] * dot(v, v);
+    sum += 0.5 * dot(v, mass[node] * v);
   }
   return sum;
+}
+
+double shortest_spring(const Mesh& mesh) {
+  double shortest = std::numeric_limits<double>::infinity();
+  each_spring(mesh, [&](const SpringView& s) { shortest = std::min(shortest, s.rest_length); });
+  return shortest;
+}
+
+bool runs_away(const ClothState& state, double speed) {
+  for (const double v : state.v)
+    if (!(std::abs(v) <= speed)) return true;
+  return false;
 }
 
 void undo_last_move(ClothState& state, const Cloth& cloth) {
@@ -66,63 +133,180 @@ double mean_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   return sum / static_cast<double>(a.size());
 }
 
+/// Dynamic relaxation of one cloth, its steps and looks.
+class Relaxation {
+ public:
+  Relaxation(ClothState& state, const Cloth& cloth, const Loads& loads, const RelaxOptions& options,
+             ThreadTeam& team)
+      : state_(state),
+        cloth_(cloth),
+        loads_(loads),
+        options_(options),
+        team_(team),
+        wrinkles_(wrinkles(cloth.mesh)),
+        lightness_(wrinkles_),
+        masses_(fictitious_masses(cloth, state, lightness_.floor)),
+        stepper_(cloth, loads, state, masses_.inverse, team.size()),
+        pivot_(pivot_of(cloth, state)),
+        runaway_(runaway_speed * shortest_spring(cloth.mesh)),
+        good_(state) {
+    stop();
+  }
+
+  RelaxResult run(const std::function<void(const RelaxProgress&)>& report) {
+    while (!result_.converged && result_.steps < options_.max_steps) {
+      const int refresh_after = steps_a_refresh(result_, wrinkles_);
+      const int count = std::min({steps_a_look, refresh_after, options_.max_steps - result_.steps});
+      since_refresh_ += take_steps(count, applied());
+      if (runs_away(state_, runaway_) && lightness_.shy()) {
+        start_again();
+        continue;
+      }
+      check_health(cloth_, state_);
+      if (pivot_ && !result_.converged) stop_turning(cloth_, state_, masses_.mass, *pivot_);
+      good_ = state_;
+      if (report) report({result_.steps, result_.residual, fictitious_energy(cloth_, state_, masses_.mass)});
+      if (since_refresh_ < refresh_after || result_.converged) continue;
+      lightness_.dare();
+      refresh();
+    }
+    if (result_.converged) undo_last_move(state_, cloth_);  // the residual is that of the positions before it
+    std::fill(state_.v.begin(), state_.v.end(), 0.0);
+    return result_;
+  }
+
+ private:
+  /// The norm that residuals are compared with [N]; cancels the moment about a lone held point.
+  double applied() {
+    const AppliedLoad load = applied_load(cloth_, state_, loads_, pivot_.value_or(Vec3{}));
+    if (pivot_) {
+      std::vector<Vec3> force = loads_.node_force;
+      cancel_moment(cloth_, state_, load.moment, *pivot_, force);
+      stepper_.set_node_force(force);
+      result_.unbalanced_moment = norm(load.moment);
+    }
+    return std::max(load.norm, options_.least_load);
+  }
+
+  int take_steps(int count, double scale) {
+    int done = 0;
+    team_.run([&](int rank) {
+      for (int i = 0; i < count; ++i) {
+        stepper_.add_forces(rank);
+        team_.barrier();
+        stepper_.move_kept(rank);
+        team_.barrier();
+        const RowSums sums = stepper_.sums();
+        const double residual = std::sqrt(sums.force_squared) / scale;
+        const bool ends = residual <= options_.tolerance;
+        if (sums.power < 0 && !ends) stepper_.stop(rank);
+        stepper_.follow_masters(rank);
+        if (rank == 0) {
+          ++done;
+          result_.residual = residual;
+          result_.converged = ends;
+        }
+        team_.barrier();
+        if (ends) break;
+      }
+    });
+    result_.steps += done;
+    return done;
+  }
+
+  void stop() {
+    std::fill(state_.v.begin(), state_.v.end(), 0.0);
+    for (int rank = 0; rank < team_.size(); ++rank) stepper_.stop(rank);
+  }
+  void refresh() {
+    since_refresh_ = 0;
+    masses_ = fictitious_masses(cloth_, state_, lightness_.floor);
+    stepper_.set_masses(masses_.inverse);
+  }
+  void start_again() {
+    state_ = good_;
+    result_.converged = false;
+    stop();
+    refresh();
+  }
+
+  ClothState& state_;
+  const Cloth& cloth_;
+  const Loads& loads_;
+  const RelaxOptions& options_;
+  ThreadTeam& team_;
+  bool wrinkles_;
+  Lightness lightness_;
+  Masses masses_;
+  Stepper stepper_;
+  std::optional<Vec3> pivot_;
+  double runaway_;
+  ClothState good_;  // as it was after the last steps that did not run away
+  RelaxResult result_;
+  int since_refresh_ = 0;
+};
+
+// A flat canopy far from its inflated shape gets there over cloth and lines so soft that they are stretched by about
+// `strain`, however small the load: the steps that a shape takes go with the square root of stiffness over tension.
+// Lines and tape, in newtons, share the load; the numbers only choose the way.
+constexpr double soft_strains[] = {0.1, 0.02, 0.004};
+constexpr double soft_tolerance = 3e-3;
+constexpr int soft_steps = 3000;
+constexpr double far_residual = 0.5;
+constexpr double share_of_width = 4, share_of_springs = 12;
+
+/// Absent where nothing is stiffer than that.
+std::optional<Mesh> softened(const Mesh& mesh, double load, double strain) {
+  std::optional<Mesh> soft = mesh;
+  double least = 1;
+  double area = 0;
+  for (const Patch& patch : mesh.patches)
+    area += std::accumulate(patch.cell_area.begin(), patch.cell_area.end(), 0.0);
+  for (Patch& patch : soft->patches) {
+    double stiffest = 0;
+    for (const SpringLaw& law : patch.law) stiffest = std::max(stiffest, law.tangent(0));
+    const double factor = std::min(1.0, load / std::sqrt(area) / (share_of_width * strain * stiffest));
+    for (SpringLaw& law : patch.law) law = law.linearised().scaled(factor);
+    least = std::min(least, factor);
+  }
+  for (Spring& spring : soft->springs) {
+    const SpringLaw& law = mesh.laws[spring.law];
+    const double factor = std::min(1.0, load / (share_of_springs * strain * spring.scale * law.tangent(0)));
+    spring.law = static_cast<int>(soft->laws.size());
+    soft->laws.push_back(law.linearised().scaled(factor));
+    least = std::min(least, factor);
+  }
+  if (least == 1) soft.reset();
+  return soft;
+}
+
+bool far_from_equilibrium(ClothState state, const Cloth& cloth, const Loads& loads,
+                          const RelaxOptions& options, ThreadTeam& team) {
+  return Relaxation(state, cloth, loads, {options.tolerance, 1, options.least_load}, team).run({}).residual >
+         far_residual;
+}
+
 }  // namespace
 
 RelaxResult relax(ClothState& state, const Cloth& cloth, const Loads& loads, const RelaxOptions& options,
                   ThreadTeam& team, const std::function<void(const RelaxProgress&)>& report) {
   const std::vector<Vec3> start = positions(state, cloth);
-  std::fill(state.v.begin(), state.v.end(), 0.0);
-  Stepper::Fictitious masses = fictitious_masses(cloth, state);
-  Stepper stepper(cloth, loads, state, masses, team.size());
-  for (int rank = 0; rank < team.size(); ++rank) stepper.stop(rank);
-  RelaxResult result;
-  const std::optional<Vec3> pivot = pivot_of(cloth, state);
-  int since_refresh = 0;
-  while (!result.converged && result.steps < options.max_steps) {
-    const AppliedLoad applied = applied_load(cloth, state, loads, pivot.value_or(Vec3{}));
-    if (pivot) {
-      std::vector<Vec3> force = loads.node_force;
-      cancel_moment(cloth, state, applied.moment, *pivot, force);
-      stepper.set_node_force(force);
-      result.unbalanced_moment = norm(applied.moment);
-    }
-    const double scale = std::max(applied.norm, options.least_load);
-    const int refresh_after = steps_a_refresh(result);
-    const int count = std::min({steps_a_look, refresh_after, options.max_steps - result.steps});
-    int done = 0;
-    team.run([&](int rank) {
-      for (int i = 0; i < count; ++i) {
-        stepper.add_forces(rank);
-        team.barrier();
-        stepper.move_kept(rank);
-        team.barrier();
-        const RowSums sums = stepper.sums();
-        const double residual = std::sqrt(sums.force_squared) / scale;
-        const bool ends = residual <= options.tolerance;
-        if (sums.power < 0 && !ends) stepper.stop(rank);
-        stepper.follow_masters(rank);
-        if (rank == 0) {
-          ++done;
-          result.residual = residual;
-          result.converged = ends;
-        }
-        team.barrier();
-        if (ends) break;
-      }
-    });
-    result.steps += done;
-    check_health(cloth, state);
-    if (pivot && !result.converged) stop_turning(cloth, state, masses.mass, *pivot);
-    if (report) report({result.steps, result.residual, fictitious_energy(cloth, state, masses.mass)});
-    since_refresh += done;
-    if (since_refresh >= refresh_after && !result.converged) {
-      since_refresh = 0;
-      masses = fictitious_masses(cloth, state);
-      stepper.set_masses(masses);
+  int steps = 0;
+  if (wrinkles(cloth.mesh) && far_from_equilibrium(state, cloth, loads, options, team)) {
+    const double load = applied_load(cloth, state, loads).sum;
+    for (const double strain : soft_strains) {
+      if (!(load > 0)) break;
+      const std::optional<Mesh> mesh = softened(cloth.mesh, load, strain);
+      if (!mesh) break;
+      const ClothPtr soft = make_cloth(*mesh, cloth.options);
+      const int most = std::min(soft_steps, options.max_steps - steps);
+      steps +=
+          Relaxation(state, *soft, loads, {soft_tolerance, most, options.least_load}, team).run(report).steps;
     }
   }
-  if (result.converged) undo_last_move(state, cloth);  // the residual is that of the positions before it
-  std::fill(state.v.begin(), state.v.end(), 0.0);
+  const RelaxOptions rest{options.tolerance, std::max(1, options.max_steps - steps), options.least_load};
+  RelaxResult result = Relaxation(state, cloth, loads, rest, team).run(report);
+  result.steps += steps;
   result.mean_displacement = mean_distance(positions(state, cloth), start);
   return result;
 }

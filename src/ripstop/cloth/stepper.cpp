@@ -28,9 +28,16 @@ Stepper::Stepper(const Cloth& cloth, const Loads& loads, ClothState& state, doub
       sums_wanted_(false),
       pressure_(compile_pressure(cloth, loads)),
       node_force_(compile_node_force(cloth, loads)) {
-  Fictitious masses{cloth.total_mass};
-  for (int node : cloth.mesh.fixed) masses.mass[node] = 0;
-  set_masses(masses);
+  inverse_mass_.assign(cloth.slots, 0.0);
+  kept_inverse_mass_.assign(cloth.kept.size(), 0.0);
+  const auto inverse = [&](int node) {
+    return cloth.is_fixed[node] || !(cloth.total_mass[node] > 0) ? 0.0 : 1 / cloth.total_mass[node];
+  };
+  for (int node = 0; node < cloth.mesh.node_count(); ++node) inverse_mass_[cloth.slot[node]] = inverse(node);
+  for (std::size_t k = 0; k < cloth.kept.size(); ++k) {
+    kept_inverse_mass_[k] = inverse(cloth.kept[k].node);
+    inverse_mass_[cloth.kept[k].slot] = 0;
+  }
   kept_area_.assign(cloth.kept.size(), 0.0);
   if (cloth.options.absolute_damping > 0 || cloth.options.quadratic_damping > 0) {
     area_.assign(cloth.slots, 0.0);
@@ -58,14 +65,16 @@ Stepper::Stepper(const Cloth& cloth, const Loads& loads, ClothState& state, cons
 }
 
 void Stepper::set_masses(const Fictitious& masses) {
-  inverse_mass_.assign(cloth_.slots, 0.0);
-  kept_inverse_mass_.assign(cloth_.kept.size(), 0.0);
-  const auto inverse = [](double mass) { return mass > 0 ? 1 / mass : 0.0; };
+  inverse_tensor_.assign(6 * static_cast<std::size_t>(cloth_.slots), 0.0);
+  kept_inverse_tensor_.resize(cloth_.kept.size());
+  const auto tensor = [&](int slot) {
+    return inverse_tensor_.data() + 6 * static_cast<std::size_t>(slot / lanes * lanes) + slot % lanes;
+  };
   for (int node = 0; node < cloth_.mesh.node_count(); ++node)
-    inverse_mass_[cloth_.slot[node]] = inverse(masses.mass[node]);
+    for (int i = 0; i < 6; ++i) tensor(cloth_.slot[node])[i * lanes] = masses.inverse_mass[node][i];
   for (std::size_t k = 0; k < cloth_.kept.size(); ++k) {
-    kept_inverse_mass_[k] = inverse(masses.mass[cloth_.kept[k].node]);
-    inverse_mass_[cloth_.kept[k].slot] = 0;
+    kept_inverse_tensor_[k] = masses.inverse_mass[cloth_.kept[k].node];
+    for (int i = 0; i < 6; ++i) tensor(cloth_.kept[k].slot)[i * lanes] = 0;
   }
 }
 
@@ -185,10 +194,15 @@ void Stepper::complete_row(int row, double* f) {
 
 void Stepper::move(int row, const double* f, Pace pace) {
   const int first = cloth_.row_slot(row);
-  const RowMotion motion{cloth_.patches[cloth_.row_patch[row]].vectors,
+  const int vectors = cloth_.patches[cloth_.row_patch[row]].vectors;
+  if (sums_wanted_) {
+    row_sums_[row] = relax_row({vectors, pace.kick, pace.keep,
+                                inverse_tensor_.data() + 6 * static_cast<std::size_t>(first), f,
+                                state_.x.data() + at(first), state_.v.data() + at(first)});
+    return;
+  }
+  const RowMotion motion{vectors,
                          dt_,
-                         dt_ * pace.kick,
-                         pace.keep,
                          inverse_mass_.data() + first,
                          area_.empty() ? nullptr : area_.data() + first,
                          cloth_.options.absolute_damping,
@@ -196,12 +210,8 @@ void Stepper::move(int row, const double* f, Pace pace) {
                          f,
                          state_.x.data() + at(first),
                          state_.v.data() + at(first)};
-  if (sums_wanted_)
-    row_sums_[row] = move_row_with_sums(motion);
-  else if (record_)
-    row_damped_[row] += move_row(motion);
-  else
-    move_row(motion);
+  const double damped = move_row(motion);
+  if (record_) row_damped_[row] += damped;
 }
 
 void Stepper::move_kept(int rank) {
@@ -214,14 +224,20 @@ void Stepper::move_kept(int rank) {
   if (record_ && rank == 0) record_fixed_force();
 
   // The nodes of a row belong to the row's thread, which has moved its neighbours; the others are dealt out.
+  const auto move_nodes = [&](int begin, int end, RowSums& sums) {
+    if (sums_wanted_)
+      sums = relax_kept_nodes(begin, end, worker.pace);
+    else
+      move_kept_nodes(begin, end);
+  };
   for (int row = worker.begin_row; row < worker.end_row; ++row)
-    kept_sums_[row] = move_kept_nodes(cloth_.kept_of_row[row], cloth_.kept_of_row[row + 1], worker.pace);
+    move_nodes(cloth_.kept_of_row[row], cloth_.kept_of_row[row + 1], kept_sums_[row]);
   const IndexRange blocks =
       part_of(static_cast<int>(loose_sums_.size()), rank, static_cast<int>(workers_.size()));
   const int loose = cloth_.kept_of_row.back(), all = static_cast<int>(cloth_.kept.size());
   for (int block = blocks.begin; block < blocks.end; ++block)
-    loose_sums_[block] = move_kept_nodes(loose + block * kept_block,
-                                         std::min(all, loose + (block + 1) * kept_block), worker.pace);
+    move_nodes(loose + block * kept_block, std::min(all, loose + (block + 1) * kept_block),
+               loose_sums_[block]);
   if (sums_wanted_) {
     const double keep = keep_after(++worker.steps_since_stop);
     worker.pace = {0.5 * (1 + keep), keep};
@@ -236,20 +252,30 @@ Vec3 Stepper::force_on_kept(int k) const {
   return force;
 }
 
-RowSums Stepper::move_kept_nodes(int begin, int end, Pace pace) {
-  double* const x = state_.x.data();
-  double* const v = state_.v.data();
-  RowSums sums;
+void Stepper::move_kept_nodes(int begin, int end) {
   for (int k = begin; k < end; ++k) {
     if (kept_inverse_mass_[k] == 0) continue;
-    const Cloth::Kept& kept = cloth_.kept[k];
+    const int slot = cloth_.kept[k].slot;
+    const Vec3 now = get(state_.v.data(), slot) + (dt_ * kept_inverse_mass_[k]) * force_on_kept(k);
+    put(state_.v.data(), slot, now);
+    put(state_.x.data(), slot, get(state_.x.data(), slot) + dt_ * now);
+  }
+}
+
+RowSums Stepper::relax_kept_nodes(int begin, int end, Pace pace) {
+  RowSums sums;
+  for (int k = begin; k < end; ++k) {
+    Symmetric inverse = kept_inverse_tensor_[k];
+    if (inverse[0] == 0) continue;
+    for (double& component : inverse) component *= pace.kick;
+    const int slot = cloth_.kept[k].slot;
     const Vec3 force = force_on_kept(k);
-    const Vec3 old = get(v, kept.slot);
+    const Vec3 old = get(state_.v.data(), slot);
+    const Vec3 now = pace.keep * old + inverse * force;
     sums.force_squared += dot(force, force);
-    const Vec3 now = pace.keep * old + (dt_ * pace.kick * kept_inverse_mass_[k]) * force;
     sums.power += dot(force, old + now);
-    put(v, kept.slot, now);
-    put(x, kept.slot, get(x, kept.slot) + dt_ * now);
+    put(state_.v.data(), slot, now);
+    put(state_.x.data(), slot, get(state_.x.data(), slot) + now);
   }
   return sums;
 }

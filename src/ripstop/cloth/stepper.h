@@ -11,6 +11,7 @@
 
 #include <vector>
 
+#include "ripstop/cloth/bound.h"
 #include "ripstop/cloth/kernel.h"
 #include "ripstop/cloth/layout.h"
 
@@ -23,7 +24,7 @@ class Stepper {
 
   /// Fictitious masses, no damping, sums over the rows and kept nodes for the relaxation.
   struct Fictitious {
-    std::vector<double> mass;  // by node; 0: does not move
+    std::vector<Symmetric> inverse_mass;  // by node; 0: does not move
   };
   Stepper(const Cloth& cloth, const Loads& loads, ClothState& state, const Fictitious& masses, int threads);
   void set_masses(const Fictitious& masses);
@@ -68,7 +69,8 @@ class Stepper {
   void step_piece(Worker& worker, const Piece& piece);
   void complete_row(int row, double* f);
   void move(int row, const double* f, Pace pace);
-  RowSums move_kept_nodes(int begin, int end, Pace pace);
+  void move_kept_nodes(int begin, int end);
+  RowSums relax_kept_nodes(int begin, int end, Pace pace);
   Vec3 force_on_kept(int k) const;
   void record_fixed_force();
 
@@ -79,6 +81,8 @@ class Stepper {
   AlignedDoubles pressure_, node_force_;
   AlignedDoubles inverse_mass_, area_;                 // by slot; 0 for kept nodes; no areas: no damping
   std::vector<double> kept_inverse_mass_, kept_area_;  // by kept node; 0: does not move
+  AlignedDoubles inverse_tensor_;                      // of a relaxation, see RowRelaxation; by slot
+  std::vector<Symmetric> kept_inverse_tensor_;         // likewise, by kept node
   AlignedDoubles kept_force_;  // in vector layout: of kept nodes, from first_spring_force on of kept springs
   std::vector<Worker> workers_;
   std::vector<RowSums> row_sums_, kept_sums_, loose_sums_;

@@ -69,6 +69,16 @@ struct Frame {
   double area;
 };
 
+/// N in a frame [N/m].
+struct Resultant {
+  double uu = 0, vv = 0, uv = 0;
+
+  double along(const Frame& frame, Vec3 line) const {
+    const double u = dot(line, frame.u), v = dot(line, frame.v), square = u * u + v * v;
+    return square > 0 ? (uu * u * u + vv * v * v + 2 * uv * u * v) / square : 0;
+  }
+};
+
 Frame frame_of(const Cell& cell, const std::vector<Vec3>& x) {
   const Vec3 a = x[cell.corner[0]], b = x[cell.corner[1]], c = x[cell.corner[2]], d = x[cell.corner[3]];
   const Vec3 area = area_vector(a, b, c, d);
@@ -81,6 +91,37 @@ Frame frame_of(const Cell& cell, const std::vector<Vec3>& x) {
   if (!(length > 0)) return {{}, {}, 0};
   u = u / length;
   return {u, cross(n, u), size};
+}
+
+/// Along a yarn in the middle of the cell.
+Vec3 yarn(Direction direction, const Cell& cell, const std::vector<Vec3>& x) {
+  const Vec3 a = x[cell.corner[0]], b = x[cell.corner[1]], c = x[cell.corner[2]], d = x[cell.corner[3]];
+  switch (direction) {
+    case along_row:
+      return (b - a) + (c - d);
+    case along_column:
+      return (d - a) + (c - b);
+    case shear_up:
+      return c - a;
+    default:
+      return d - b;
+  }
+}
+
+constexpr double slack_strain = 1e-5, wrinkled_share = 0.02;
+
+void read_off(CellStress& stress, const Resultant& n, const Frame& frame) {
+  const double mean = 0.5 * (n.uu + n.vv), radius = std::hypot(0.5 * (n.uu - n.vv), n.uv);
+  stress.principal_max = mean + radius;
+  stress.principal_min = mean - radius;
+  const double angle = 0.5 * std::atan2(2 * n.uv, n.uu - n.vv);
+  stress.direction = std::cos(angle) * frame.u + std::sin(angle) * frame.v;
+  stress.von_mises = std::sqrt(std::max(0.0, n.uu * n.uu - n.uu * n.vv + n.vv * n.vv + 3 * n.uv * n.uv));
+}
+
+Tautness tautness_of(const CellStress& stress, const Patch& patch) {
+  if (!(stress.principal_max > slack_strain * patch.law[patch.warp].tangent(0))) return Tautness::slack;
+  return stress.principal_min > wrinkled_share * stress.principal_max ? Tautness::taut : Tautness::wrinkled;
 }
 
 }  // namespace
@@ -99,10 +140,7 @@ std::vector<CellStress> cell_stress(const Cloth& cloth, const ClothState& state)
   for (const Patch& patch : mesh.patches)
     first_cell.push_back(next), next += (patch.rows - 1) * patch.columns;
 
-  struct Sum {
-    double uu = 0, vv = 0, uv = 0;
-  };
-  std::vector<Sum> sums(cells.size());
+  std::vector<Resultant> sums(cells.size());
   std::vector<CellStress> stress(cells.size());
   each_spring(mesh, [&](const SpringView& s) {
     if (s.patch < 0) return;
@@ -124,17 +162,17 @@ std::vector<CellStress> cell_stress(const Cloth& cloth, const ClothState& state)
       stress[cell].max_strain = std::max(stress[cell].max_strain, strain);
     }
   });
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (!(frames[i].area > 0)) continue;
-    const double uu = sums[i].uu / frames[i].area, vv = sums[i].vv / frames[i].area,
-                 uv = sums[i].uv / frames[i].area;
-    const double mean = 0.5 * (uu + vv), radius = std::hypot(0.5 * (uu - vv), uv);
-    stress[i].principal_max = mean + radius;
-    stress[i].principal_min = mean - radius;
-    const double angle = 0.5 * std::atan2(2 * uv, uu - vv);
-    stress[i].direction = std::cos(angle) * frames[i].u + std::sin(angle) * frames[i].v;
-    stress[i].von_mises = std::sqrt(std::max(0.0, uu * uu - uu * vv + vv * vv + 3 * uv * uv));
-  }
+  std::size_t cell = 0;
+  for (const Patch& patch : mesh.patches)
+    for (int i = 0; i < (patch.rows - 1) * patch.columns; ++i, ++cell) {
+      const Frame& frame = frames[cell];
+      if (!(frame.area > 0)) continue;
+      const Resultant n{sums[cell].uu / frame.area, sums[cell].vv / frame.area, sums[cell].uv / frame.area};
+      read_off(stress[cell], n, frame);
+      stress[cell].warp = n.along(frame, yarn(patch.warp, cells[cell], x));
+      stress[cell].weft = n.along(frame, yarn(patch.weft, cells[cell], x));
+      stress[cell].tautness = tautness_of(stress[cell], patch);
+    }
   return stress;
 }
 

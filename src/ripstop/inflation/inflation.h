@@ -115,6 +115,7 @@ void each_member(T& s, Visit&& visit) {
   visit("strain", s.highest_stress.strain);
   visit("place", s.highest_stress.place);
   visit("patch", s.highest_stress.patch);
+  sewing_members(s.highest_stress, visit);
   visit("stress_time", s.highest_stress_time);
   visit("shots", s.shots);
 }

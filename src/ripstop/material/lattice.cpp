@@ -193,11 +193,9 @@ std::vector<double> refitted_yarn(const std::vector<double>& k, const std::vecto
   return relative_fit(strains, wanted, scale, static_cast<int>(k.size()));
 }
 
-}  // namespace
-
 // Alternating between the yarns' laws and what the diagonals take from them: they carry a tenth, so few
 // rounds do.
-WovenLaws woven_laws(const Fabric& fabric) {
+WovenLaws taut_laws(const Fabric& fabric) {
   const double xi = fabric.shear_fraction, eps = fabric.bending_fraction;
   if (fabric.weft_coefficients_n_m.empty()) {
     const LatticeLaws laws =
@@ -240,6 +238,18 @@ WovenLaws woven_laws(const Fabric& fabric) {
       fmt::format("no lattice returns the cloth's warp and weft curves up to strain {:.3g}: {:.2g} % off at "
                   "best; lower the tested strain or the shear fraction",
                   range, 100 * best));
+}
+
+}  // namespace
+
+// A pull along a yarn presses the yarns across by a Poisson's ratio's part of its strain, and a coupon is not
+// wrinkled by that: the laws are fitted as if nothing buckled.
+WovenLaws woven_laws(const Fabric& fabric) {
+  WovenLaws laws = taut_laws(fabric);
+  if (!fabric.buckling_strain) return laws;
+  for (SpringLaw* law : {&laws.warp, &laws.weft, &laws.shear, &laws.warp_bending, &laws.weft_bending})
+    law->buckling_strain = *fabric.buckling_strain;
+  return laws;
 }
 
 // A small strain of the cell, diagonals of stiffness k = K xi/2 and width w, L^2 = a^2 + b^2:

@@ -63,6 +63,13 @@ void check_law(const std::vector<double>& k, double tested_strain, const std::st
   }
 }
 
+void describe_buckling(Fields& fields, std::optional<double>& strain) {
+  fields
+      .number("buckling_strain", strain, from(0).up_to(1),
+              "Strain in compression beyond which it wrinkles and carries no more.")
+      .absent("never: as stiff at any strain");
+}
+
 }  // namespace
 
 void describe(Fields& fields, Fabric& fabric) {
@@ -82,7 +89,8 @@ void describe(Fields& fields, Fabric& fabric) {
   fields.number("bending_fraction", fabric.bending_fraction, from(0).below(1),
                 "eps, share of the bending springs ([NFM] Eq. 11).");
   fields.number("compression", fabric.compression, from(0).up_to(1),
-                "Stiffness in compression relative to K_1; 0: none.");
+                "Stiffness in compression relative to K_1, up to the buckling strain; 0: none.");
+  describe_buckling(fields, fabric.buckling_strain);
   fields.number("damping_n_s_m", fabric.damping_n_s_m, from(0).up_to(1000),
                 "Relative damping C of one spring.");
   fields.number("areal_density_kg_m2", fabric.areal_density_kg_m2, above(0).up_to(10), "Mass per area.")
@@ -144,7 +152,8 @@ void describe(Fields& fields, Tape& tape) {
       .required();
   fields.number("thickness_m", tape.thickness_m, above(0).up_to(0.1), "Thickness.").required();
   fields.number("compression", tape.compression, from(0).up_to(1),
-                "Stiffness in compression relative to K_1; 0: none.");
+                "Stiffness in compression relative to K_1, up to the buckling strain; 0: none.");
+  describe_buckling(fields, tape.buckling_strain);
   fields.number("damping_n_s_m", tape.damping_n_s_m, from(0).up_to(1000),
                 "Relative damping C of one spring.");
   fields.number("tested_strain", tape.tested_strain, from(0).up_to(5),

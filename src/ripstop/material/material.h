@@ -1,6 +1,7 @@
 // The materials a parachute is made of: plain tables, one struct for each TOML table.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,7 @@ struct Fabric {
   double shear_fraction = 0.2;                // xi
   double bending_fraction = 0.01;             // eps
   double compression = 1;                     // stiffness for e < 0 relative to K_1; see SpringLaw
+  std::optional<double> buckling_strain;      // absent: never wrinkles
   double damping_n_s_m = 0;                   // C of the relative damping of one spring [N s/m]
   double areal_density_kg_m2 = 0;
   double thickness_m = 0;
@@ -75,6 +77,7 @@ struct Tape {
   double linear_density_kg_m = 0;
   double thickness_m = 0;
   double compression = 1;
+  std::optional<double> buckling_strain;  // absent: never wrinkles
   double damping_n_s_m = 0;
   double tested_strain = 0;
 };

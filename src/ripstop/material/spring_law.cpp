@@ -1,10 +1,12 @@
 #include "ripstop/material/spring_law.h"
 
+#include <algorithm>
+
 namespace ripstop {
 
 double SpringLaw::tension(double strain) const {
   if (coefficients.empty()) return 0;
-  if (strain < 0) return compression * coefficients[0] * strain;
+  if (strain < 0) return compression * coefficients[0] * std::max(strain, -buckling_strain);
   double sum = 0;
   for (auto k = coefficients.rbegin(); k != coefficients.rend(); ++k) sum = (sum + *k) * strain;
   return sum;
@@ -12,6 +14,7 @@ double SpringLaw::tension(double strain) const {
 
 double SpringLaw::tangent(double strain) const {
   if (coefficients.empty()) return 0;
+  if (strain < -buckling_strain) return 0;
   if (strain < 0) return compression * coefficients[0];
   double sum = 0;
   for (auto k = coefficients.size(); k > 0; --k)
@@ -21,7 +24,10 @@ double SpringLaw::tangent(double strain) const {
 
 double SpringLaw::energy(double strain) const {
   if (coefficients.empty()) return 0;
-  if (strain < 0) return 0.5 * compression * coefficients[0] * strain * strain;
+  if (strain < 0) {
+    const double elastic = std::max(strain, -buckling_strain);
+    return compression * coefficients[0] * elastic * (strain - 0.5 * elastic);
+  }
   double sum = 0;
   for (auto k = coefficients.size(); k > 0; --k)
     sum = (sum + coefficients[k - 1] / static_cast<double>(k + 1)) * strain;

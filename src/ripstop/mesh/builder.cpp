@@ -121,6 +121,7 @@ void MeshBuilder::set_laws(Patch& patch, const WovenLaws& laws, FabricCut grain)
     patch.law[shear_up] = whole_yarn(laws.warp, laws.warp_bending);
     patch.law[shear_down] = whole_yarn(laws.weft, laws.weft_bending);
     patch.law[along_row] = patch.law[along_column] = laws.shear;
+    patch.warp = shear_up, patch.weft = shear_down;
     return;
   }
   patch.law[along_column] = laws.warp;
@@ -128,6 +129,7 @@ void MeshBuilder::set_laws(Patch& patch, const WovenLaws& laws, FabricCut grain)
   patch.law[shear_up] = patch.law[shear_down] = laws.shear;
   patch.law[bend_column] = laws.warp_bending;
   patch.law[bend_row] = laws.weft_bending;
+  if (grain == FabricCut::across) std::swap(patch.warp, patch.weft);
 }
 
 int MeshBuilder::add_patch(const std::string& name, const PatchShape& shape, const Fabric& fabric) {

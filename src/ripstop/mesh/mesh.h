@@ -37,8 +37,9 @@ struct Patch {
   std::vector<double> width[direction_count];
   /// Cell (row, column) has corners (row, column), (row, column+1), (row+1, column+1), (row+1, column);
   /// there are (rows - 1) x columns of them stored, [row * columns + column]; 0 where there is no cloth.
-  std::vector<double> cell_area;  // as cut, [m2]
-  int fabric = 0;                 // index into Mesh::fabric_names, for reports
+  std::vector<double> cell_area;                    // as cut, [m2]
+  int fabric = 0;                                   // index into Mesh::fabric_names, for reports
+  Direction warp = along_column, weft = along_row;  // the springs that lie along the yarns
 
   int node(int row, int column) const { return first_node + row * columns + column; }
   /// A spring's share is that of the cell that it bounds or crosses.

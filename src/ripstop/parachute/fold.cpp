@@ -355,9 +355,9 @@ CanopyMesh with_creases(const CanopyMesh& mesh, const FoldedStart& folded) {
 
 StartStrain start_strain(const Mesh& mesh, const std::vector<Vec3>& x) {
   StartStrain result;
-  const auto strain_of = [&](int a, int b, double rest, double compression) {
+  const auto strain_of = [&](int a, int b, double rest, const SpringLaw& law) {
     const double strain = norm(x[b] - x[a]) / rest - 1;
-    return strain > 0 || compression > 0 ? std::abs(strain) : 0.0;
+    return strain > 0 || law.tangent(strain) > 0 ? std::abs(strain) : 0.0;
   };
   for (const Patch& patch : mesh.patches) {
     for (int d = 0; d < direction_count; ++d) {
@@ -367,7 +367,7 @@ StartStrain start_strain(const Mesh& mesh, const std::vector<Vec3>& x) {
         const int other = (column + direction_offset[d].column + patch.columns) % patch.columns;
         const double strain =
             strain_of(patch.node(row, column), patch.node(row + direction_offset[d].row, other),
-                      patch.rest_length[d][i], patch.law[d].compression);
+                      patch.rest_length[d][i], patch.law[d]);
         if (d == bend_row || d == bend_column) {
           result.bending = std::max(result.bending, strain);
         } else if (strain > result.largest) {
@@ -378,8 +378,7 @@ StartStrain start_strain(const Mesh& mesh, const std::vector<Vec3>& x) {
     }
   }
   for (const Spring& spring : mesh.springs) {
-    const double strain =
-        strain_of(spring.a, spring.b, spring.rest_length, mesh.laws[spring.law].compression);
+    const double strain = strain_of(spring.a, spring.b, spring.rest_length, mesh.laws[spring.law]);
     if (strain <= result.largest) continue;
     result.largest = strain;
     result.part = mesh.parts[spring.part];

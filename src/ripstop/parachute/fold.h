@@ -43,8 +43,8 @@ CanopyMesh with_creases(const CanopyMesh& mesh, const FoldedStart& folded);
 
 /// What the springs feel at given positions.
 struct StartStrain {
-  /// Largest |strain| of all springs along and across the cloth, of tape and lines; a spring that carries no
-  /// compression counts only when stretched.
+  /// Largest |strain| of all springs along and across the cloth, of tape and lines; a spring that does
+  /// not resist being pushed further counts only when stretched.
   double largest = 0;
   std::string part;    // where: "disk", "line 3"
   double bending = 0;  // largest |strain| of the springs that resist bending

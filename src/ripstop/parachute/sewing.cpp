@@ -22,7 +22,9 @@ Path CanopyBuilder::radial(const std::vector<int>& patches, int part, int parts)
 }
 
 int CanopyBuilder::add_tape_law(const Tape& tape) {
-  return law({tape.coefficients_n_m, tape.compression});
+  SpringLaw pulled{tape.coefficients_n_m, tape.compression};
+  if (tape.buckling_strain) pulled.buckling_strain = *tape.buckling_strain;
+  return law(std::move(pulled));
 }
 
 void CanopyBuilder::add_tape(const Path& path, const Tape& tape, int tape_law, int tape_part) {

@@ -12,6 +12,7 @@
 #include "ripstop/output/picture.h"
 #include "ripstop/output/vtk.h"
 #include "ripstop/run/json.h"
+#include "ripstop/run/stress_arrays.h"
 
 namespace ripstop {
 
@@ -66,7 +67,7 @@ void write_fabric(const std::filesystem::path& folder, const FabricSolution& sol
   std::vector<double> mises;
   for (const CellStress& s : stress) mises.push_back(s.von_mises);
   VtkSurface canopy = canopy_surface(mesh, shape);
-  canopy.cell_arrays.push_back(vtk_array("von_mises_n_per_m", cloth_cells_only(mesh, mises)));
+  for (VtkArray& array : stress_arrays(mesh, stress)) canopy.cell_arrays.push_back(std::move(array));
   write_vtp(folder / "canopy.vtp", canopy);
   VtkSurface lines = spring_lines(mesh, shape);
   lines.cell_arrays.push_back(vtk_array("tension_n", tensions));

@@ -50,6 +50,7 @@ void each_member(T& r, Visit&& visit) {
   visit("max_von_mises_at_m", r.stress.place);
   visit("max_von_mises_on", r.stress.patch);
   visit("max_cloth_strain", r.stress.strain);
+  sewing_members(r.stress, visit);
   visit("nodes", r.nodes);
   visit("steps", r.steps);
   visit("residual", r.residual);

@@ -36,7 +36,7 @@ struct InflationResult {
   StressPeak stress;
   double stress_time = 0;              // [s]
   double break_load = 0;               // of the cloth [N/m]; 0: unknown; not in result.json
-  std::optional<double> cloth_margin;  // break load over stress
+  std::optional<double> cloth_margin;  // break load over the higher of both yarns' forces
   double energy_residual = 0;          // largest |residual| of all frames after the first tenth of the work
   OpeningEstimate estimate;
   long long steps = 0;
@@ -77,6 +77,7 @@ void each_member(T& r, Visit&& visit) {
   visit("max_von_mises_at_m", r.stress.place);
   visit("max_von_mises_on", r.stress.patch);
   visit("max_von_mises_time_s", r.stress_time);
+  sewing_members(r.stress, visit);
   visit("max_cloth_strain", r.stress.strain);
   visit("cloth_margin", r.cloth_margin);
   visit("energy_residual", r.energy_residual);

@@ -74,6 +74,7 @@ void each_member(T& r, Visit&& visit) {
   visit("max_von_mises_at_m", r.stress.place);
   visit("max_von_mises_on", r.stress.patch);
   visit("max_cloth_strain", r.stress.strain);
+  sewing_members(r.stress, visit);
   visit("coupling_iterations", r.iterations, in_table);
   visit("wall_time_s", r.wall_time, in_table);
   visit("converged", r.converged);

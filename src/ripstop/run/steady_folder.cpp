@@ -19,6 +19,7 @@
 #include "ripstop/output/vtk.h"
 #include "ripstop/run/checkpoint.h"
 #include "ripstop/run/engine.h"
+#include "ripstop/run/stress_arrays.h"
 
 namespace ripstop {
 namespace {
@@ -110,13 +111,6 @@ void SteadyFolder::write_fields(const SteadyRun& run, const SteadyState& state,
   const std::vector<double> tensions = spring_tensions(solver.cloth(), cloth);
   const std::size_t k = state.iterations.size();
 
-  std::vector<double> largest, smallest, mises, strain;
-  for (const CellStress& s : stress) {
-    largest.push_back(s.principal_max);
-    smallest.push_back(s.principal_min);
-    mises.push_back(s.von_mises);
-    strain.push_back(s.max_strain);
-  }
   VtkSurface canopy = canopy_surface(mesh, state.shape);
   std::vector<Vec3> displacement(state.shape.size());
   for (std::size_t i = 0; i < displacement.size(); ++i) displacement[i] = state.shape[i] - mesh.start[i];
@@ -127,10 +121,7 @@ void SteadyFolder::write_fields(const SteadyRun& run, const SteadyState& state,
   add("pressure_inside_pa", state.sides.inside);
   add("pressure_outside_pa", state.sides.outside);
   add("pressure_difference_applied_pa", state.applied);
-  add("stress_max_n_per_m", largest);
-  add("stress_min_n_per_m", smallest);
-  add("von_mises_n_per_m", mises);
-  add("strain_max", strain);
+  for (VtkArray& array : stress_arrays(mesh, stress)) canopy.cell_arrays.push_back(std::move(array));
   make_folder(folder_.path() / "vtk");
   write_vtp(folder_.own(fmt::format("vtk/canopy_{:03}.vtp", k)), canopy);
 
