@@ -87,9 +87,9 @@ def loads_table(options, results):
         rows.append([name, load, f"{r['drag_n']:.1f}", f"{r['projected_diameter_m']:.3f}", f"{r['skirt_diameter_m']:.3f}",
                      f"{r['max_line_tension_n']:.1f}", f"{r['max_von_mises_n_m']:.0f}",
                      f"{median_of(folder, 'cp_inside'):.2f}", f"{median_of(folder, 'cp_outside'):.2f}", remainder,
-                     f"{100 * abs(moment):.2f}", f"{100 * r['cut_gap']:.1f}", count])
+                     f"{100 * abs(moment):.2f}", f"{100 * r['section_gap']:.1f}", count])
     return tables.table(["example", "load", "drag N", "projected diameter m", "skirt m", "highest line tension N",
-                         "highest stress N/m", "Cp inside", "Cp outside", "remainder %", "axial moment %", "cut gap %",
+                         "highest stress N/m", "Cp inside", "Cp outside", "remainder %", "axial moment %", "section gap %",
                          "coupling iterations"], rows)
 
 

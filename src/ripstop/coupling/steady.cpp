@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "ripstop/canopy/cut_balance.h"
+#include "ripstop/canopy/section_balance.h"
 #include "ripstop/core/error.h"
 #include "ripstop/flow/steady.h"
 
@@ -168,7 +168,7 @@ std::vector<Vec3> SteadySolver::next_shape(const SteadyState& state, SteadyItera
   now.line_tension = force_on_fixed(*cloth_, cloth).z;
   const std::vector<Vec3> pressures = node_forces({state.pressure, {}}, cells_, shape);
   for (std::size_t node = 0; node < shape.size(); ++node) loads.node_force[node] += pressures[node];
-  now.cut_gap = largest_cut_gap(problem_.mesh, *cloth_, cloth, loads.node_force);
+  now.section_gap = largest_section_gap(problem_.mesh, *cloth_, cloth, loads.node_force);
   return shape;
 }
 

@@ -57,7 +57,7 @@ SteadyResult steady_result(const SteadySolver& solver, const SteadyState& state,
   r.transfer_factor = r.last.transfer_factor;
   r.load_remainder = r.last.load_remainder;
   r.axial_moment = r.last.axial_moment;
-  r.cut_gap = r.last.cut_gap;
+  r.section_gap = r.last.section_gap;
   r.ledger = {r.last.fluid_force, r.last.nodal_load, r.last.line_tension, r.last.momentum_deficit};
   if (const Measured* row = measured_row(given)) r.measured = *row;
   return r;

@@ -50,7 +50,7 @@ struct SteadyResult {
   int iterations = 0;
   double wall_time = 0;  // of all coupling iterations [s]
   bool converged = false;
-  double transfer_factor = 0, load_remainder = 0, axial_moment = 0, cut_gap = 0;
+  double transfer_factor = 0, load_remainder = 0, axial_moment = 0, section_gap = 0;
   Ledger ledger;
   std::optional<Measured> measured;  // the case's row for this speed
   SteadyIteration last;              // a row of iterations.csv; not in result.json
@@ -81,7 +81,7 @@ void each_member(T& r, Visit&& visit) {
   visit("transfer_factor", r.transfer_factor);
   visit("load_remainder", r.load_remainder);
   visit("axial_moment_n_m", r.axial_moment);
-  visit("cut_gap", r.cut_gap);
+  visit("section_gap", r.section_gap);
   visit("ledger", r.ledger);
   visit("measured", r.measured);
 }

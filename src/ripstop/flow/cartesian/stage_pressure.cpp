@@ -45,7 +45,7 @@ void Solver::pressure(int k, IndexRange rows) {
 
 // Fills the multigrid's correction.
 void Solver::correct(int rank) {
-  if (in_the_way_.sheets.shut()) {  // nothing passes round the sheet: coarse levels are cut in two
+  if (in_the_way_.sheets.shut()) {  // nothing passes round the sheet: coarse levels are halved
     multigrid_.solve_conjugate(team_, rank, 0.05, 20);
   } else if (!d_.grid.uniform()) {  // long thin cells, which a cycle alone does not smooth
     multigrid_.solve_conjugate(team_, rank, 0.2, 2 * d_.settings.pressure_cycles);

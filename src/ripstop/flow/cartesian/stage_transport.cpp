@@ -1,6 +1,6 @@
 // First half of an iteration: turbulence and momentum.
 //
-// The box is cut along y into blocks of fixed size, and each block is marched plane by plane from the inlet
+// The box is divided along y into blocks of fixed size, and each block is marched plane by plane from the inlet
 // to the outlet: a plane sees the new values of the plane before it, so a change travels with the stream
 // through the whole box in one iteration. In a plane the rows are walked up in one iteration and down in the
 // next, each seeing the new values of the row before it. All other neighbours are old values, read from

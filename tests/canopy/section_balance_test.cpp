@@ -1,6 +1,6 @@
-// The stress field against the load, family by family: what a cut across the axis carries is what the air
+// The stress field against the load, family by family: what a section across the axis carries is what the air
 // does beyond it.
-#include "ripstop/canopy/cut_balance.h"
+#include "ripstop/canopy/section_balance.h"
 
 #include <gtest/gtest.h>
 
@@ -14,10 +14,10 @@
 namespace ripstop {
 namespace {
 
-class CutBalanceOf : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(All, CutBalanceOf, testing::ValuesIn(family_examples()), name_of_example);
+class SectionBalanceOf : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(All, SectionBalanceOf, testing::ValuesIn(family_examples()), name_of_example);
 
-TEST_P(CutBalanceOf, TheStressFieldCarriesTheLoadBeyondEveryCut) {
+TEST_P(SectionBalanceOf, TheStressFieldCarriesTheLoadBeyondEverySection) {
   const Mesh mesh = parachute_mesh(example(GetParam(), 6000));
   const std::vector<Cell> cells = cells_of(mesh);
   const ClothPtr cloth = make_cloth(mesh);
@@ -28,16 +28,16 @@ TEST_P(CutBalanceOf, TheStressFieldCarriesTheLoadBeyondEveryCut) {
   const std::vector<double> pressure(cells.size(), 240.0);
   ASSERT_TRUE(relax(state, *cloth, {pressure, {}}, options, team).converged);
   const std::vector<Vec3> load = node_forces({pressure, {}}, cells, positions(state, *cloth));
-  EXPECT_LT(largest_cut_gap(mesh, *cloth, state, load), 0.02);
+  EXPECT_LT(largest_section_gap(mesh, *cloth, state, load), 0.02);
 
   // A tenth of the load that the stress knows nothing of is seen.
   std::vector<Vec3> more = load;
   for (Vec3& force : more) force = 1.1 * force;
-  EXPECT_GT(largest_cut_gap(mesh, *cloth, state, more), 0.05);
+  EXPECT_GT(largest_section_gap(mesh, *cloth, state, more), 0.05);
 }
 
-// A cord that hangs with a load at its end: every cut carries it.
-TEST(CutBalance, ACordCarriesWhatHangsOnIt) {
+// A cord that hangs with a load at its end: every section carries it.
+TEST(SectionBalance, ACordCarriesWhatHangsOnIt) {
   Mesh mesh;
   mesh.start = {{0, 0, 0}, {0.1, 0, 1}};
   mesh.mass = {1, 1};
@@ -48,12 +48,12 @@ TEST(CutBalance, ACordCarriesWhatHangsOnIt) {
   const ClothPtr cloth = make_cloth(mesh);
   const ClothState state = start_state(*cloth);
   const double length = std::sqrt(1.01), tension = 1000 * (length - 1);
-  const CutBalance cut = cut_balance(mesh, *cloth, state, {{}, {0, 0, 3}}, 0.5, 0.2);
-  EXPECT_NEAR(cut.cord_force, tension / length, 1e-12);
-  EXPECT_EQ(cut.cloth_force, 0);
-  EXPECT_EQ(cut.seam_force, 0);
-  EXPECT_NEAR(cut.air_force, 3, 1e-12);
-  EXPECT_NEAR(cut.gap(), tension / length - 3, 1e-12);
+  const SectionBalance balance = section_balance(mesh, *cloth, state, {{}, {0, 0, 3}}, 0.5, 0.2);
+  EXPECT_NEAR(balance.cord_force, tension / length, 1e-12);
+  EXPECT_EQ(balance.cloth_force, 0);
+  EXPECT_EQ(balance.seam_force, 0);
+  EXPECT_NEAR(balance.air_force, 3, 1e-12);
+  EXPECT_NEAR(balance.gap(), tension / length - 3, 1e-12);
 }
 
 }  // namespace

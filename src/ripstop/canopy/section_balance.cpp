@@ -1,4 +1,4 @@
-#include "ripstop/canopy/cut_balance.h"
+#include "ripstop/canopy/section_balance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,8 +13,8 @@ double about_axis(Vec3 point, Vec3 force) {
   return point.x * force.y - point.y * force.x;
 }
 
-/// How much cuts at z count, and the share of them that lie below z.
-struct Cuts {
+/// How much sections at z count, and the share of them that lie below z.
+struct Sections {
   double height, reach;
 
   double weight(double z) const {
@@ -35,27 +35,27 @@ Vec3 axial_traction(const CellStress& stress, Vec3 normal) {
 
 }  // namespace
 
-// The integral over z of the force through a cut is that of the stress's z row over the cloth.
-CutBalance cut_balance(const Mesh& mesh, const Cloth& cloth, const ClothState& state,
-                       const std::vector<Vec3>& load, double height, double reach) {
+// The integral over z of the force through a section is that of the stress's z row over the cloth.
+SectionBalance section_balance(const Mesh& mesh, const Cloth& cloth, const ClothState& state,
+                               const std::vector<Vec3>& load, double height, double reach) {
   const std::vector<Vec3> x = positions(state, cloth), on_ties = tie_forces(cloth, state);
   const std::vector<CellStress> stress = cell_stress(cloth, state);
   const std::vector<double> tensions = spring_tensions(cloth, state);
-  const Cuts cuts{height, reach};
-  CutBalance sum;
+  const Sections sections{height, reach};
+  SectionBalance sum;
   const std::vector<Cell> cells = cells_of(mesh);
   for (std::size_t c = 0; c < cells.size(); ++c) {
     if (cells[c].corner[0] < 0) continue;
     const auto [i, j, k, l] = cells[c].corner;
     const Vec3 area = area_vector(x[i], x[j], x[k], x[l]), centre = 0.25 * (x[i] + x[j] + x[k] + x[l]);
     if (!(norm(area) > 0)) continue;
-    const Vec3 force = norm(area) * cuts.weight(centre.z) * axial_traction(stress[c], area / norm(area));
+    const Vec3 force = norm(area) * sections.weight(centre.z) * axial_traction(stress[c], area / norm(area));
     sum.cloth_force += force.z;
     sum.moment += about_axis(centre, force);
   }
   for (std::size_t s = 0; s < mesh.springs.size(); ++s) {
     const Vec3 a = x[mesh.springs[s].a], b = x[mesh.springs[s].b];
-    const Vec3 force = tensions[s] * (cuts.below(b.z) - cuts.below(a.z)) / norm(b - a) * (b - a);
+    const Vec3 force = tensions[s] * (sections.below(b.z) - sections.below(a.z)) / norm(b - a) * (b - a);
     sum.cord_force += force.z;
     sum.moment += about_axis(0.5 * (a + b), force);
   }
@@ -63,20 +63,20 @@ CutBalance cut_balance(const Mesh& mesh, const Cloth& cloth, const ClothState& s
     const Tie& tie = mesh.ties[t];
     const Vec3 force = on_ties[t] + load[tie.node];
     for (const Tie::Master& master : tie.masters) {
-      const double share = master.weight * (cuts.below(x[tie.node].z) - cuts.below(x[master.node].z));
+      const double share = master.weight * (sections.below(x[tie.node].z) - sections.below(x[master.node].z));
       sum.seam_force += share * force.z;
       sum.moment += share * about_axis(x[tie.node], force);
     }
   }
   for (std::size_t node = 0; node < x.size(); ++node) {
-    sum.air_force += cuts.below(x[node].z) * load[node].z;
-    sum.air_moment += cuts.below(x[node].z) * about_axis(x[node], load[node]);
+    sum.air_force += sections.below(x[node].z) * load[node].z;
+    sum.air_moment += sections.below(x[node].z) * about_axis(x[node], load[node]);
   }
   return sum;
 }
 
-double largest_cut_gap(const Mesh& mesh, const Cloth& cloth, const ClothState& state,
-                       const std::vector<Vec3>& load) {
+double largest_section_gap(const Mesh& mesh, const Cloth& cloth, const ClothState& state,
+                           const std::vector<Vec3>& load) {
   const std::vector<Vec3> x = positions(state, cloth);
   double low = 1e300, high = -1e300;
   for (const Cell& cell : cells_of(mesh)) {
@@ -85,9 +85,9 @@ double largest_cut_gap(const Mesh& mesh, const Cloth& cloth, const ClothState& s
   }
   double largest = 0;
   for (const double share : {0.2, 0.35, 0.5, 0.65, 0.8}) {
-    const CutBalance cut =
-        cut_balance(mesh, cloth, state, load, low + share * (high - low), 0.2 * (high - low));
-    largest = std::max(largest, std::abs(cut.gap() / cut.air_force));
+    const SectionBalance balance =
+        section_balance(mesh, cloth, state, load, low + share * (high - low), 0.2 * (high - low));
+    largest = std::max(largest, std::abs(balance.gap() / balance.air_force));
   }
   return largest;
 }
