@@ -3,7 +3,14 @@
 namespace ripstop {
 
 PartMaterials part_materials(const Case& value) {
-  return {canopy_fabric(value), suspension_line(value), riser_line(value), reinforcement_tape(value)};
+  PartMaterials materials{canopy_fabric(value), suspension_line(value), riser_line(value),
+                          reinforcement_tape(value)};
+  PorosityModel model = value.flow.porosity_model;
+  if (model == PorosityModel::of_cloth) model = materials.canopy.porosity_model;
+  if (model != PorosityModel::sheet) return materials;
+  for (std::optional<double>* strain : {&materials.canopy.buckling_strain, &materials.tape.buckling_strain})
+    if (!*strain) *strain = wrinkling_strain;
+  return materials;
 }
 
 CanopyMesh parachute_mesh(const Case& value) {

@@ -67,7 +67,7 @@ void describe_buckling(Fields& fields, std::optional<double>& strain) {
   fields
       .number("buckling_strain", strain, from(0).up_to(1),
               "Strain in compression beyond which it wrinkles and carries no more.")
-      .absent("never: as stiff at any strain");
+      .absent("1e-6 in a case with the `sheet` model, else never");
 }
 
 }  // namespace

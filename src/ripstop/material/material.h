@@ -10,6 +10,10 @@ namespace ripstop {
 /// How cloth resists the air that passes it: `paper`, as porous cells; `sheet`, as a pressure drop across it.
 enum class PorosityModel { of_cloth, paper, sheet };
 
+/// Of cloth and tape in a case with the `sheet` model. Assumed: 0.03 N/m for F-111, Euler's load pi^2 B / w^2 of a
+/// strip w = 36 mm wide with B = 4e-6 N m; any value well below the strains of use gives the same shape.
+inline constexpr double wrinkling_strain = 1e-6;
+
 /// Canopy cloth. The coefficients are those of the cloth's own curve (load per width against strain, [N/m])
 /// as a uniaxial pull along a yarn gives it; the lattice's are derived from them so that a virtual coupon
 /// returns it.
