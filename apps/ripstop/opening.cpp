@@ -73,9 +73,13 @@ Case opening_case(const OpeningOptions& options) {
   if (options.pressure || !options.steady_run.empty()) inflation.drag_coefficient.reset();
   if (!options.steady_run.empty()) inflation.pressure_pa.reset();
   if (inflation.cloth_compression) {
+    const auto push = [&](auto& material) {
+      material.compression = *inflation.cloth_compression;
+      material.buckling_strain = 1;  // at any strain
+    };
     for (auto& [name, material] : value.materials) {
-      if (auto* fabric = std::get_if<Fabric>(&material)) fabric->compression = *inflation.cloth_compression;
-      if (auto* tape = std::get_if<Tape>(&material)) tape->compression = *inflation.cloth_compression;
+      if (auto* fabric = std::get_if<Fabric>(&material)) push(*fabric);
+      if (auto* tape = std::get_if<Tape>(&material)) push(*tape);
     }
   }
   // Chords of curved seams would strain the folded start.

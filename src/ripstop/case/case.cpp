@@ -159,8 +159,8 @@ void describe(Fields& fields, InflationSettings& inflation) {
       .absent("that of [parachute.mesh]");
   fields
       .number("cloth_compression", inflation.cloth_compression, from(0).up_to(1),
-              "Stiffness of cloth and tape in compression relative to K_1, in the opening.")
-      .absent("the materials' own");
+              "Stiffness of cloth and tape in compression relative to K_1 at any strain, in the opening.")
+      .absent("the materials' own, up to their buckling strain");
   fields.number("imperfection_m", inflation.imperfection_m, from(0).up_to(1),
                 "The folded cloth starts moved outward by this much times cos(harmonic x azimuth) at the "
                 "outer folds of "
