@@ -72,8 +72,9 @@ void print(const Case& value, const CaseSummary& s) {
   row("cloth", fmt::format("{:.4f} m2 as cut, {:.4f} m2 as meshed", s.computed_area, s.cloth_area));
   row("open", fmt::format("{:.2f} % geometric porosity: vent {:.4f} m2, slots and gaps {:.4f} m2",
                           100 * s.geometric_porosity, s.vent_area, s.slot_area));
-  row("mass", fmt::format("{:.4f} kg: cloth {:.4f}, tape {:.4f}, lines {:.4f}, riser {:.4f}", s.total_mass,
-                          s.cloth_mass, s.tape_mass, s.line_mass, s.riser_mass));
+  row("mass",
+      fmt::format("{:.4f} kg: cloth {:.4f}, tape {:.4f} ({:.0f} %), lines {:.4f}, riser {:.4f}", s.total_mass,
+                  s.cloth_mass, s.tape_mass, 100 * s.tape_mass / s.total_mass, s.line_mass, s.riser_mass));
   row("nodes", fmt::format("{}, of these {} of cloth ({} asked for, {} resolve its size)", s.nodes,
                            s.cloth_nodes, value.parachute.mesh.cloth_nodes, s.resolved_cloth_nodes));
   row("springs",
