@@ -7,18 +7,18 @@ namespace ripstop {
 
 /// Forces are axial, along +z [N].
 struct SteadyIteration {
-  int iteration = 0;             // from 1
-  double fluid_force = 0;        // of the fluid on the porous cells: the drag
-  double nodal_load = 0;         // sum of the pressure loads on the cloth's nodes
-  double line_tension = 0;       // of the cloth on its fixed end
-  double momentum_deficit = 0;   // through the faces of the flow's box
-  double transfer_factor = 0;    // fluid force over that of the pressures alone, as they came to the cloth
-  double load_remainder = 0;     // remainder_share() of the load; 0 but for CanopyLoad::of_flow
-  double axial_moment = 0;       // of the air's load about the canopy's axis [N m]
-  double section_gap = 0;            // largest_section_gap() of the cloth's stress and the load that made the shape
-  double drag_change = 0;        // relative to the iteration before; infinite at the first
-  double shape_change = 0;       // e_k = mean |x^{k+1} - x^k| [m], [NFM] Eq. 18
-  double omega = 0;              // |X_{k+1} - X_k| / |X_k|, [NFM] Eq. 19
+  int iteration = 0;            // from 1
+  double fluid_force = 0;       // of the fluid on the porous cells: the drag
+  double nodal_load = 0;        // sum of the pressure loads on the cloth's nodes
+  double line_tension = 0;      // of the cloth on its fixed end
+  double momentum_deficit = 0;  // through the faces of the flow's box
+  double transfer_factor = 0;   // fluid force over that of the pressures alone, as they came to the cloth
+  double load_remainder = 0;    // remainder_share() of the load; 0 but for CanopyLoad::of_flow
+  double axial_moment = 0;      // of the air's load about the canopy's axis [N m]
+  double section_gap = 0;   // largest_section_gap() of the cloth's stress and the load that made the shape
+  double drag_change = 0;   // relative to the iteration before; infinite at the first
+  double shape_change = 0;  // e_k = mean |x^{k+1} - x^k| [m], [NFM] Eq. 18
+  double omega = 0;         // |X_{k+1} - X_k| / |X_k|, [NFM] Eq. 19
   double printed_tolerance = 0;  // R dx^2 / (S0 K_max), what Eq. 19 asks of omega
   int cloth_steps = 0;
   double cloth_residual = 0;
