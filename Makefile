@@ -42,7 +42,7 @@ demo: build  ## Stratos IV at 30 m/s on the printed grid with the built-in flow 
 check: check-deps format-check  ## Build and pass the tests
 	@cmake --preset release > build-check.configure.log || { cat build-check.configure.log; exit 1; }
 	@cmake --build --preset release -j $(JOBS)
-	@ctest --preset release
+	@ctest --preset release -j $(JOBS)
 
 room: check-deps  ## Build and pass the tests of one room, or some of them: make room ROOM=cloth [TESTS='ClothLaws|ClothKernel']
 	@cmake --preset release > build-check.configure.log || { cat build-check.configure.log; exit 1; }
