@@ -28,9 +28,9 @@ void print_grid_warning(const Case& given) {
   if (across < enough)
     fmt::print(
         stderr,
-        "warning: {:.0f} cells of the flow across the inflated canopy: with fewer than {:.0f} the air's own "
-        "load "
-        "jumps as cloth passes from cell to cell, and the coupling may not converge; more flow.cells, or "
+        "warning: {:.0f} cells of the flow across the inflated canopy: with fewer than {:.0f} the air's "
+        "own load jumps as cloth passes from cell to cell, and the coupling may not converge; more "
+        "flow.cells, or "
         "coupling.load = \"uniform\"\n",
         across, enough);
 }

@@ -33,17 +33,26 @@ Vec3 axial_traction(const CellStress& stress, Vec3 normal) {
   return stress.principal_max * first.z * first + stress.principal_min * second.z * second;
 }
 
-}  // namespace
+/// What a state carries, the same for every section.
+struct Carried {
+  std::vector<Cell> cells;
+  std::vector<Vec3> x, on_ties;
+  std::vector<CellStress> stress;
+  std::vector<double> tensions;
+
+  Carried(const Mesh& mesh, const Cloth& cloth, const ClothState& state)
+      : cells(cells_of(mesh)),
+        x(positions(state, cloth)),
+        on_ties(tie_forces(cloth, state)),
+        stress(cell_stress(cloth, state)),
+        tensions(spring_tensions(cloth, state)) {}
+};
 
 // The integral over z of the force through a section is that of the stress's z row over the cloth.
-SectionBalance section_balance(const Mesh& mesh, const Cloth& cloth, const ClothState& state,
-                               const std::vector<Vec3>& load, double height, double reach) {
-  const std::vector<Vec3> x = positions(state, cloth), on_ties = tie_forces(cloth, state);
-  const std::vector<CellStress> stress = cell_stress(cloth, state);
-  const std::vector<double> tensions = spring_tensions(cloth, state);
-  const Sections sections{height, reach};
+SectionBalance balance_of(const Mesh& mesh, const Carried& carried, const std::vector<Vec3>& load,
+                          const Sections& sections) {
+  const auto& [cells, x, on_ties, stress, tensions] = carried;
   SectionBalance sum;
-  const std::vector<Cell> cells = cells_of(mesh);
   for (std::size_t c = 0; c < cells.size(); ++c) {
     if (cells[c].corner[0] < 0) continue;
     const auto [i, j, k, l] = cells[c].corner;
@@ -75,18 +84,26 @@ SectionBalance section_balance(const Mesh& mesh, const Cloth& cloth, const Cloth
   return sum;
 }
 
+}  // namespace
+
+SectionBalance section_balance(const Mesh& mesh, const Cloth& cloth, const ClothState& state,
+                               const std::vector<Vec3>& load, double height, double reach) {
+  return balance_of(mesh, {mesh, cloth, state}, load, {height, reach});
+}
+
 double largest_section_gap(const Mesh& mesh, const Cloth& cloth, const ClothState& state,
                            const std::vector<Vec3>& load) {
-  const std::vector<Vec3> x = positions(state, cloth);
+  const Carried carried(mesh, cloth, state);
+  const std::vector<Vec3>& x = carried.x;
   double low = 1e300, high = -1e300;
-  for (const Cell& cell : cells_of(mesh)) {
+  for (const Cell& cell : carried.cells) {
     if (cell.corner[0] < 0) continue;
     for (const int node : cell.corner) low = std::min(low, x[node].z), high = std::max(high, x[node].z);
   }
   double largest = 0;
   for (const double share : {0.2, 0.35, 0.5, 0.65, 0.8}) {
     const SectionBalance balance =
-        section_balance(mesh, cloth, state, load, low + share * (high - low), 0.2 * (high - low));
+        balance_of(mesh, carried, load, {low + share * (high - low), 0.2 * (high - low)});
     largest = std::max(largest, std::abs(balance.gap() / balance.air_force));
   }
   return largest;
