@@ -24,7 +24,8 @@ EngineRecord builtin() {
            .still_air_outlet = true,
            .averages = true,
            .ranks = false,
-           .other_air = true},
+           .other_air = true,
+           .time = true},
           [](const EngineOptions&) { return make_cartesian()->name(); },
           make};
 }
@@ -81,6 +82,7 @@ std::vector<Lack> lacks(const EngineRecord& engine, const Abilities& wanted) {
              {&Abilities::entraining_sides, {"flow.sides", "entraining", "zero-gradient or slip"}},
              {&Abilities::still_air_outlet, {"flow.outlet", "still-air", "fixed-pressure"}},
              {&Abilities::averages, {"flow.average_over", "more than 0", "0"}},
+             {&Abilities::time, {"flow.unsteady", "true", "false"}},
              {&Abilities::ranks, {"flow.ranks", "more than 1", "1"}}};
   std::vector<Lack> result;
   for (const auto& one : all)

@@ -30,6 +30,7 @@ struct Abilities {
   bool averages = false;          // a field after every iteration, for Stopping::average_over
   bool ranks = false;             // several processes
   bool other_air = false;         // a saved flow may start one of another speed or density
+  bool time = false;              // Flow::march()
 };
 
 struct EngineRecord {

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "ripstop/core/error.h"
+
 namespace ripstop {
 namespace {
 
@@ -63,6 +65,10 @@ Interval touched(double low, double high, const std::vector<double>& edges) {
 
 double largest_residual(const FlowProgress& p) {
   return std::max({p.residual_u, p.residual_p, p.residual_k, p.residual_omega, p.residual_e});
+}
+
+FlowStep Flow::march(int, double, const StepReport&) {
+  throw Error(ExitCode::usage, "this flow engine has no steps in time");
 }
 
 double sample(const FlowGrid& grid, const std::vector<double>& field, Vec3 point) {

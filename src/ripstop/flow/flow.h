@@ -128,6 +128,20 @@ struct FlowAdvance {
   bool stopped = false;  // the report wanted no more
 };
 
+/// One step in time as it comes.
+struct FlowStep {
+  int step = 0;        // from 1, since the march began
+  double time = 0;     // since then, at the end of the step [s]
+  double length = 0;   // of the step [s]
+  double courant = 0;  // largest Courant number of a cell, summed over the axes
+  Vec3 force;          // by the fluid on the porous cells and sheets [N]
+  double momentum_gap =
+      0;  // force, change of the box's momentum and what its faces pass, along z, added up [N]
+  double mass_defect = 0;  // mass that cells gain or lose, over what the stream brings into the box
+};
+/// Return false to stop.
+using StepReport = std::function<bool(const FlowStep&)>;
+
 /// A flow under way. It goes on from where it is, whatever was asked of it before.
 class Flow {
  public:
@@ -139,7 +153,11 @@ class Flow {
   /// At most so many iterations; fewer when every residual falls below `residual` or the report stops it.
   /// Throws Error(diverged) with iteration, field and place, Error(external) where a child program fails.
   virtual FlowAdvance advance(int iterations, double residual, const FlowReport& report = {}) = 0;
-  /// The last iteration's.
+  /// So many steps in time of the flow as it is now, each as long as a Courant number of `courant` lets it be;
+  /// fewer when the report stops it. Only where the engine's Abilities have time. Throws Error(diverged) as
+  /// advance() does. Returns the last step.
+  virtual FlowStep march(int steps, double courant, const StepReport& report = {});
+  /// The last iteration's or step's.
   virtual FlowField field() const = 0;
 
   /// Whether nothing has happened yet: the uniform stream as the problem has it.

@@ -18,6 +18,7 @@ struct CartesianSettings {
   double relax_velocity = 0.7;  // (0, 1]; the converged answer depends on it a little, through the face flux
   double relax_march = 0.8;     // (0, 1]; of the momentum step, no effect on the answer
   double relax_turbulence = 0.95;  // (0, 1]
+  bool small_eddies = true;  // in time: with the viscosity of what the cells do not resolve; false: the air's
 };
 
 /// Throws Error(usage) for settings outside their ranges.

@@ -48,11 +48,18 @@ bool converged(const FlowProgress& p, double tolerance) {
          p.residual_omega <= tolerance;
 }
 
+Error divergence(const Solver& solver, const std::string& when, const std::string& where,
+                 const std::string& remedy) {
+  const FlowGrid& grid = solver.grid();
+  return {ExitCode::diverged, fmt::format("the flow diverged {} on {} x {} x {} cells: {}; {} may help", when,
+                                          grid.nx, grid.ny, grid.nz, where, remedy)};
+}
+
 // A saved flow is one sealed file: what it was made for, the cloth, then everything that a State carries.
 constexpr const char* state_file = "cartesian.flow";
 
 struct Header {
-  char magic[8] = {'r', 'i', 'p', 'f', 'l', 'o', 'w', '3'};
+  char magic[8] = {'r', 'i', 'p', 'f', 'l', 'o', 'w', '4'};
   FlowGrid grid;
   Freestream air;
   Sides sides = Sides::zero_gradient;
@@ -124,6 +131,7 @@ class CartesianFlow final : public Flow {
   }
 
   FlowAdvance advance(int iterations, double residual, const FlowReport& report) override;
+  FlowStep march(int steps, double courant, const StepReport& report) override;
   FlowField field() const override { return solver_.field(); }
   bool untouched() const override { return solver_.state().untouched; }
 
@@ -156,11 +164,8 @@ FlowAdvance CartesianFlow::run(Solver& solver, int iterations, double residual,
                                const FlowReport& report) const {
   FlowAdvance now;
   const auto diverged = [&](const char* when, const std::string& where) {
-    const FlowGrid& grid = solver.grid();
-    return Error(ExitCode::diverged,
-                 fmt::format("the flow diverged {} iteration {} on {} x {} x {} cells: {}; flow.convection = "
-                             "\"upwind\", a wider and longer box (flow.box_m) or a coarser grid may help",
-                             when, solver.state().iteration, grid.nx, grid.ny, grid.nz, where));
+    return divergence(solver, fmt::format("{} iteration {}", when, solver.state().iteration), where,
+                      "flow.convection = \"upwind\", a wider and longer box (flow.box_m) or a coarser grid");
   };
   for (int n = 1; n <= iterations && !now.converged && !now.stopped; ++n) {
     now.last = solver.iterate();
@@ -179,6 +184,26 @@ FlowAdvance CartesianFlow::run(Solver& solver, int iterations, double residual,
 
 FlowAdvance CartesianFlow::advance(int iterations, double residual, const FlowReport& report) {
   return run(solver_, iterations, residual, report);
+}
+
+FlowStep CartesianFlow::march(int steps, double courant, const StepReport& report) {
+  if (steps < 1 || !(courant > 0 && courant <= 1))
+    throw Error(ExitCode::usage,
+                fmt::format("flow: {} steps at a Courant number of {}; at least one is wanted, "
+                            "and a number in (0, 1]",
+                            steps, courant));
+  FlowStep now;
+  const auto diverged = [&] {
+    return divergence(solver_, fmt::format("by step {}", now.step), solver_.first_bad_value(),
+                      "a smaller flow.watch.courant, a wider and longer box (flow.box_m) or a coarser grid");
+  };
+  for (int n = 0; n < steps; ++n) {
+    now = solver_.step(courant);
+    if (!std::isfinite(now.force.z + now.momentum_gap)) throw diverged();
+    if (report && !report(now)) break;
+  }
+  if (!solver_.shut() && !solver_.within_reason()) throw diverged();
+  return now;
 }
 
 void CartesianFlow::guess_from_coarser(const FlowGrid& grid, const PorousRows& porous, Solver& fine) const {
@@ -222,7 +247,9 @@ void CartesianFlow::restore(const std::filesystem::path& folder) {
   solver_.place(porous(), problem_.sheets);
   State state = solver_.state();
   each_carried(state, in);
-  if (!in.at_end() || !fits(state, solver_.state())) in.fail();
+  if (!in.at_end()) in.fail();
+  state.rate_u.empty() ? stop_the_clock(solver_.state()) : solver_.begin_time();
+  if (!fits(state, solver_.state())) in.fail();
   if (!(header.air == problem_.air)) scale(state, header.air, problem_.air);
   solver_.state() = std::move(state);
 }

@@ -279,10 +279,7 @@ double Multigrid::dot(ThreadTeam& team, int rank, const Array<float>& a, const A
     double total = 0;
     for (int j = 0; j < lay.ny; ++j) {
       const std::ptrdiff_t at = lay.at(0, j, k);
-      double row = 0;
-#pragma omp simd reduction(+ : row)
-      for (int i = 0; i < lay.nx; ++i) row += static_cast<double>(a[at + i]) * static_cast<double>(b[at + i]);
-      total += row;
+      total += dot_row(lay.nx, &a[at], &b[at]);
     }
     return total;
   });
@@ -304,10 +301,7 @@ void Multigrid::take_image(ThreadTeam& team, int rank) {
   each_row(team, rank, [&](int j, int k, std::ptrdiff_t at) {
     MultigridRow row = row_of(top, j, k);
     row.e = &direction_[at];
-    float* image = &image_[at];
-    for (int i = 0; i < row.n; ++i) image[i] = -row.rhs[i];
-    residual_row(row, image);
-    for (int i = 0; i < row.n; ++i) image[i] = -image[i];
+    image_row(row, &image_[at]);
   });
 }
 
@@ -332,18 +326,15 @@ void Multigrid::solve_conjugate(ThreadTeam& team, int rank, double reduction, in
     // The new direction is made conjugate to the last one, whatever the cycle has become in between.
     const double beta = curvature > 0 ? -dot(team, rank, top.e, image_) / curvature : 0;
     each_row(team, rank, [&](int, int, std::ptrdiff_t at) {
-      const float b = static_cast<float>(beta);
-      for (int i = 0; i < lay.nx; ++i) direction_[at + i] = top.e[at + i] + b * direction_[at + i];
+      turn_row(lay.nx, static_cast<float>(beta), &top.e[at], &direction_[at]);
     });
     take_image(team, rank);
     curvature = dot(team, rank, direction_, image_);
     if (!(curvature > 0)) break;
     const float alpha = static_cast<float>(dot(team, rank, direction_, top.rhs) / curvature);
     each_row(team, rank, [&](int, int, std::ptrdiff_t at) {
-      for (int i = 0; i < lay.nx; ++i) {
-        solution_[at + i] += alpha * direction_[at + i];
-        top.rhs[at + i] -= alpha * image_[at + i];
-      }
+      advance_row(lay.nx, alpha, &direction_[at], &solution_[at]);
+      advance_row(lay.nx, -alpha, &image_[at], &top.rhs[at]);
     });
     if (dot(team, rank, top.rhs, top.rhs) <= reduction * reduction * start) break;
   }

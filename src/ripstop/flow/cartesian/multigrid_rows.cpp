@@ -78,4 +78,34 @@ RIPSTOP_ROW_KERNEL void spread_row(int n, const float* q, const int* near, const
   for (int i = 0; i < n; ++i) e[i] += near_weight[i] * q[near[i]] + far_weight[i] * q[far[i]];
 }
 
+RIPSTOP_ROW_KERNEL void image_row(const MultigridRow& row, float* image) {
+  const int n = row.n;
+  const std::ptrdiff_t sy = row.sy, sz = row.sz;
+  const float *q = row.e, *x = row.cx, *y = row.cy, *z = row.cz;
+#pragma omp simd
+  for (int i = 0; i < n; ++i) {
+    const float sum = x[i] + x[i + 1] + y[i] + y[i + sy] + z[i] + z[i + sz];
+    const float in = x[i] * q[i - 1] + x[i + 1] * q[i + 1] + y[i] * q[i - sy] + y[i + sy] * q[i + sy] +
+                     z[i] * q[i - sz] + z[i + sz] * q[i + sz];
+    image[i] = sum * q[i] - in;
+  }
+}
+
+RIPSTOP_ROW_KERNEL double dot_row(int n, const float* a, const float* b) {
+  double sum = 0;
+#pragma omp simd reduction(+ : sum)
+  for (int i = 0; i < n; ++i) sum += static_cast<double>(a[i]) * static_cast<double>(b[i]);
+  return sum;
+}
+
+RIPSTOP_ROW_KERNEL void turn_row(int n, float factor, const float* b, float* a) {
+#pragma omp simd
+  for (int i = 0; i < n; ++i) a[i] = b[i] + factor * a[i];
+}
+
+RIPSTOP_ROW_KERNEL void advance_row(int n, float factor, const float* b, float* a) {
+#pragma omp simd
+  for (int i = 0; i < n; ++i) a[i] += factor * b[i];
+}
+
 }  // namespace ripstop::cartesian

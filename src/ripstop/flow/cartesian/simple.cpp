@@ -69,6 +69,7 @@ void Solver::start_uniform() {
   s_.force = {};
   s_.iteration = 0;
   s_.untouched = true;
+  stop_the_clock(s_);
   s_.eased = in_the_way_.sheets.empty() ? 0 : eased_iterations;
   in_the_way_.sheets.begin(s_, d_.layout);
 }
@@ -100,6 +101,7 @@ SheetJumps Solver::jumps(int j, int k, const std::vector<double>& values) const 
 }
 
 FlowProgress Solver::iterate() {
+  t_.in_time = false;
   SheetRows& sheets = in_the_way_.sheets;
   if (!sheets.empty()) sheets.update(s_, d_.layout, d_.air.density * d_.air.speed);
   team_.run([this](int rank) {

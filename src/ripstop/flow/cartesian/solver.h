@@ -1,5 +1,5 @@
-// One SIMPLE solver on one grid: a flow's state, and an iteration as named stages over the planes of the grid
-// (simple.cpp).
+// One solver on one grid: a flow's state, and an iteration (simple.cpp) or a step in time (time_step.cpp) as
+// named stages over the planes of the grid.
 #pragma once
 
 #include <array>
@@ -14,6 +14,7 @@
 #include "ripstop/flow/cartesian/sheet.h"
 #include "ripstop/flow/cartesian/state.h"
 #include "ripstop/flow/cartesian/sums.h"
+#include "ripstop/flow/cartesian/time_rows.h"
 
 namespace ripstop::cartesian {
 
@@ -47,6 +48,10 @@ struct Scratch {
   Array<double> new_k, new_omega, new_limit;
   Array<double> extra_u, extra_v, extra_w;  // force on the air and second-order convection; empty: upwind
   std::vector<MarchRings> rings;            // one a thread
+  bool in_time = false;                     // a step in time, not an iteration
+  double now = 1, before = 0;               // weights of the rates of a step
+  std::vector<double> mixing;               // of EddyRow::along
+  std::vector<double> fastest;              // Courant rate, one a plane [kg/(m3 s)]
   SumTable sums;
 };
 
@@ -63,6 +68,10 @@ class Solver {
   void place(PorousRows porous, const std::vector<Sheet>& sheets);
   /// One SIMPLE iteration; the residuals are those of the fields it started from.
   FlowProgress iterate();
+  /// What the first step in time needs: room for the rates, air of one density.
+  void begin_time();
+  /// One step in time, as long as the Courant number says.
+  FlowStep step(double courant);
   /// Whether every value is finite and within bounds that no flow of this air reaches.
   bool within_reason();
   /// The first cell that is not finite or beyond those bounds, as "field u at (x, y, z)"; empty if none.
@@ -81,6 +90,17 @@ class Solver {
   void convection(int k, IndexRange rows);  // convection.cpp
   void march(int rank, IndexRange rows);
   void eddy_viscosity(MarchRings& rings, int k, IndexRange rows) const;
+  // A step in time (time_step.cpp).
+  void choose_step(double courant);
+  void rates(int rank, IndexRange rows);
+  void eddies(MarchRings& rings, int k, IndexRange rows);
+  PassingRow passing_of(MarchRings& rings, int j, int k, IndexRange rows) const;
+  void pass_along_stream(MarchRings& rings, int k, IndexRange rows) const;
+  void pass_in_plane(MarchRings& rings, int k, IndexRange rows);
+  void rate(MarchRings& rings, int j, int k, IndexRange rows);
+  void courant(int k);
+  double brought() const;
+  FlowStep close_step(double momentum_before, double held_back);
   bool northward() const { return s_.iteration % 2 == 0; }  // the way the rows of a plane are walked
   void turbulence(MarchRings& rings, int k, IndexRange rows);
   TurbulenceRow turbulence_of(MarchRings& rings, int j, int k, IndexRange rows);

@@ -98,11 +98,12 @@ void Solver::flux(int k, IndexRange rows) {
 
 void Solver::relax_pressure(int k) {
   const MultigridLevel& top = multigrid_.finest();
+  const double share = t_.in_time ? 1 : d_.settings.relax_pressure;
   for (int j = 0; j < d_.grid.ny; ++j) {
     const std::ptrdiff_t at = d_.layout.at(0, j, k);
     double* p = &s_.f.p[at];
     const float* dp = &top.e[at];
-    for (int i = 0; i < d_.grid.nx; ++i) p[i] += d_.settings.relax_pressure * static_cast<double>(dp[i]);
+    for (int i = 0; i < d_.grid.nx; ++i) p[i] += share * static_cast<double>(dp[i]);
   }
   pressure_ghosts(d_, b_, s_, k);
 }
@@ -112,7 +113,7 @@ void Solver::velocity(int k, IndexRange rows) {
     const std::ptrdiff_t at = d_.layout.at(0, j, k);
     VelocityRow r;
     r.m = d_.metrics(j, k);
-    r.gas_constant = d_.settings.compressible ? gas_constant_of_air : 0;
+    r.gas_constant = d_.settings.compressible && !t_.in_time ? gas_constant_of_air : 0;
     r.pressure0 = d_.air.density * gas_constant_of_air * d_.air.temperature;
     r.temperature = d_.air.temperature;
     r.speed2 = d_.air.speed * d_.air.speed;
@@ -120,7 +121,7 @@ void Solver::velocity(int k, IndexRange rows) {
     r.ra = &t_.ra[at], r.rc = &t_.rc[at], r.p = &s_.f.p[at], r.dp = &multigrid_.finest().e[at];
     r.held = jumps(j, k, s_.held);
     r.change = jumps(j, k, s_.change);
-    r.relaxation = d_.settings.relax_pressure;
+    r.relaxation = t_.in_time ? 1 : d_.settings.relax_pressure;
     r.hu = &t_.hu[at], r.hv = &t_.hv[at], r.hw = &t_.hw[at];
     r.u = &s_.f.u[at], r.v = &s_.f.v[at], r.w = &s_.f.w[at], r.rho = &s_.f.rho[at];
     velocity_row(r);

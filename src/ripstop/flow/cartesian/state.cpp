@@ -69,6 +69,11 @@ State::State(const Layout& layout) {
   outlet_p = Array<double>(static_cast<std::size_t>(layout.stride_z));
 }
 
+void stop_the_clock(State& s) {
+  s.rate_u = s.rate_v = s.rate_w = {};
+  s.clock = {};
+}
+
 bool fits(const State& a, const State& b) {
   std::vector<std::size_t> sizes[2];
   int which = 0;
@@ -116,6 +121,7 @@ void scale(State& s, const Freestream& from, const Freestream& to) {
   by(s.outlet_p, pressure), by(s.held, pressure), by(s.change, pressure), by(s.drop, pressure);
   s.force = pressure * s.force;
   Means& m = s.mean;
+  stop_the_clock(s);
   m.u *= speed, m.v *= speed, m.w *= speed, m.p *= pressure, m.k *= speed * speed, m.omega *= speed;
 }
 

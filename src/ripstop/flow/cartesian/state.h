@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "ripstop/core/vec3.h"
@@ -26,6 +27,14 @@ struct Means {
   double u = 0, v = 0, w = 0, p = 0, k = 0, omega = 0;
 };
 
+/// Of the march in time; steps are counted from its beginning.
+struct Clock {
+  std::int64_t steps = 0;
+  double time = 0, step = 0;  // since the beginning, and the last one [s]
+  double courant_rate = 0;    // largest sum over the axes of |u| / width, in the present fields [1/s]
+  double brought = 0;         // momentum along z that the air brought through the box's faces, last rate [N]
+};
+
 struct State {
   explicit State(const Layout& layout);
 
@@ -37,9 +46,11 @@ struct State {
   std::vector<double> drop;    // of the pressure across the cloth on each such face [Pa]
   Vec3 force;                  // on porous cells and sheets [N]
   Means mean;
-  int iteration = 0;      // since the start
-  int eased = 0;          // iterations yet to come that take half steps
-  bool untouched = true;  // still the uniform stream
+  int iteration = 0;                     // since the start
+  int eased = 0;                         // iterations yet to come that take half steps
+  bool untouched = true;                 // still the uniform stream
+  Array<double> rate_u, rate_v, rate_w;  // of momentum, by the last step in time [N/m3]; empty: none yet
+  Clock clock;
 };
 
 /// visit(array of double) and visit(number) for everything in a State.
@@ -51,7 +62,11 @@ void each_carried(AnyState& s, Visit&& visit) {
     visit(*field);
   visit(s.held), visit(s.change), visit(s.drop), visit(s.force);
   visit(s.mean), visit(s.iteration), visit(s.eased), visit(s.untouched);
+  visit(s.rate_u), visit(s.rate_v), visit(s.rate_w), visit(s.clock);
 }
+
+/// The next step in time is a first one.
+void stop_the_clock(State& state);
 
 /// Whether every array of the one is as long as that of the other.
 bool fits(const State& a, const State& b);

@@ -31,6 +31,7 @@ struct Sums {
     drag_x,
     drag_y,
     drag_z,
+    mass_defect,
     count
   };
   double value[count] = {};

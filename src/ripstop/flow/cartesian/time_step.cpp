@@ -1,0 +1,332 @@
+// A step in time. What passes the faces of the cells by convection and stress is extrapolated from this step
+// and the last one (Adams and Bashforth, second order, for steps of unequal length); the pressure and the drop
+// across sheets hold at the end of it:
+//
+//   rho (u* - u) / dt = (1 + r/2) R(u) - r/2 R(u before) - grad p,     r = dt / dt before,
+//   u = u* - dt/rho grad dp,   p += dp,   such that the fluxes through the faces add up to nothing
+//
+// (van Kan 1986), with the stages of an iteration's pressure (stage_pressure.cpp), whose matrix is rho / dt
+// here. A sheet's law is linear about the drop and flux at the beginning of the step. The density is constant:
+// a canopy flies below Mach 0.3, where an isenthalpic one moves the drag by parts of a thousand.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "ripstop/flow/cartesian/solver.h"
+
+namespace ripstop::cartesian {
+namespace {
+
+constexpr double mixing_constant = 0.325;  // C_w, WALE with the linear schemes of a finite-volume code
+/// The pressure correction of a step is solved to this share of its start. What is left is mass that the next
+/// step finds and takes away.
+constexpr double reduction = 0.05;
+constexpr int most_cycles = 12;
+/// A step is kept while the Courant number is within this share of what was asked for, so that nearly all of
+/// them are alike; a new one lies between.
+constexpr double least_share = 0.75, new_share = 0.9;
+constexpr double most_growth = 1.2;  // of a step over the last one
+
+constexpr int mod(int k, int n) {
+  return (k + n) % n;
+}
+
+// Where a block's planes of momentum that passes lie in its rings: along the stream by plane, and across it a
+// row of faces for each component of the axes x, y and the next y.
+struct Passing {
+  double *u, *v, *w;
+};
+Passing along_stream(MarchRings& rings, const Layout& layout, int j, int k, IndexRange rows) {
+  double* p = &rings.predicted[mod(k, 2)][rings.at(layout, j, rows.begin)];
+  const auto component = static_cast<std::ptrdiff_t>(rings.plane);
+  return {p, p + component, p + 2 * component};
+}
+Passing across_stream(MarchRings& rings, const Layout& layout, int which) {
+  double* p = &rings.scratch[Layout::lead + std::ptrdiff_t{3} * which * layout.stride_y];
+  return {p, p + layout.stride_y, p + 2 * layout.stride_y};
+}
+
+FaceWeights weights_of(const Axis& axis, int face) {
+  FaceWeights weights;
+  weights.low = axis.weight_low[face];
+  if (face > 1) weights.ratio_low = axis.ratio_low[face];
+  if (face < axis.n - 1) weights.ratio_high = axis.ratio_high[face];
+  weights.inverse_distance = axis.inverse_distance[face];
+  return weights;
+}
+
+/// Beyond it the extrapolated stress of the air's own viscosity is unstable [s]; no limit but on tiny cells.
+double longest_viscous_step(const Discretisation& d) {
+  const auto steepest = [](const Axis& axis) {
+    const double inverse = *std::max_element(axis.inverse_width.begin(), axis.inverse_width.end());
+    return inverse * inverse;
+  };
+  return 0.2 * d.air.density / d.air.viscosity / (steepest(d.x) + steepest(d.y) + steepest(d.z));
+}
+
+}  // namespace
+
+void Solver::begin_time() {
+  for (Array<double>* rate : {&s_.rate_u, &s_.rate_v, &s_.rate_w}) *rate = Array<double>(d_.layout.values());
+  std::fill(s_.f.rho.begin(), s_.f.rho.end(), d_.air.density);
+  s_.clock = {};
+}
+
+// How long the next step is, and the weights of its rates.
+void Solver::choose_step(double courant_number) {
+  Clock& clock = s_.clock;
+  if (clock.steps == 0) {
+    for (int k = 0; k < d_.grid.nz; ++k) courant(k);
+    clock.courant_rate = *std::max_element(t_.fastest.begin(), t_.fastest.end()) / d_.air.density;
+  }
+  const double longest = std::min(courant_number / clock.courant_rate, longest_viscous_step(d_)),
+               before = clock.step;
+  const bool keep = before <= longest && before >= least_share * longest;
+  if (!keep) clock.step = new_share * longest;
+  if (clock.steps > 0) clock.step = std::min(clock.step, most_growth * before);
+  const double ratio = clock.steps > 0 ? clock.step / before : 0;
+  t_.now = 1 + 0.5 * ratio, t_.before = 0.5 * ratio;
+}
+
+FlowStep Solver::step(double courant_number) {
+  t_.in_time = true;
+  if (t_.mixing.empty()) {
+    for (const double width : d_.x.width) t_.mixing.push_back(std::cbrt(width * width));
+    t_.fastest.resize(d_.grid.nz);
+  }
+  if (s_.rate_u.empty()) begin_time();
+  choose_step(courant_number);
+  SheetRows& sheets = in_the_way_.sheets;
+  if (!sheets.empty()) sheets.update(s_, d_.layout, d_.air.density * d_.air.speed);
+  const double momentum_before = s_.mean.w, brought_before = std::exchange(s_.clock.brought, brought());
+  double pressed_back = 0;  // the outlet's pressure as the step has it
+  for (int j = 0; j < d_.grid.ny; ++j) {
+    for (int i = 0; i < d_.grid.nx; ++i)
+      pressed_back += d_.x.width[i] * d_.y.width[j] * s_.outlet_p[d_.layout.in_plane(i, j)];
+  }
+  team_.run([this](int rank) {
+    const IndexRange planes = part_of(d_.grid.nz, rank, team_.size());
+    const auto each_plane = [&](auto stage) {
+      for (int k = planes.begin; k < planes.end; ++k) stage(k);
+      team_.barrier();
+    };
+    const int count = block_count(d_.grid);
+    const IndexRange blocks = part_of(count, rank, team_.size());
+    const auto each_block = [&](auto stage) {
+      for (int b = blocks.begin; b < blocks.end; ++b) stage(part_of(d_.grid.ny, b, count));
+      team_.barrier();
+    };
+    const auto each_plane_of_a_block = [&](auto stage) {
+      each_block([&](IndexRange rows) {
+        for (int k = 0; k < d_.grid.nz; ++k) stage(k, rows);
+      });
+    };
+    each_block([&](IndexRange rows) { rates(rank, rows); });
+    each_plane([&](int k) { matrix_ghosts(k); });
+    each_plane_of_a_block([&](int k, IndexRange rows) { pressure(k, rows); });
+    multigrid_.solve_conjugate(team_, rank, reduction, most_cycles);
+    each_plane([&](int k) { correction_ghosts(d_, b_, multigrid_.finest().e, k); });
+    each_plane_of_a_block([&](int k, IndexRange rows) { flux(k, rows); });
+    each_plane_of_a_block([&](int k, IndexRange rows) { velocity(k, rows); });
+    each_plane([&](int k) { relax_pressure(k), velocity_ghosts(d_, b_, s_, k), courant(k); });
+    t_.sums.add_up(team_, rank);
+  });
+  const double brought_now = t_.now * s_.clock.brought - t_.before * brought_before;
+  return close_step(momentum_before, pressed_back - brought_now);
+}
+
+// A block from the inlet to the outlet. Each face along the stream is taken once, a plane ahead of the cells.
+void Solver::rates(int rank, IndexRange rows) {
+  MarchRings& rings = t_.rings[rank];
+  eddies(rings, 0, rows);
+  pass_along_stream(rings, 0, rows);
+  for (int k = 0; k < d_.grid.nz; ++k) {
+    if (k + 1 < d_.grid.nz) eddies(rings, k + 1, rows);
+    pass_along_stream(rings, k + 1, rows);
+    pass_in_plane(rings, k, rows);
+  }
+}
+
+// The block's rows and one more on each side, as far as the grid goes.
+void Solver::eddies(MarchRings& rings, int k, IndexRange rows) {
+  for (int j = std::max(rows.begin - 1, 0); j < std::min(rows.end + 1, d_.grid.ny); ++j) {
+    const std::ptrdiff_t at = d_.layout.at(0, j, k), in = rings.at(d_.layout, j, rows.begin);
+    EddyRow r;
+    r.m = d_.metrics(j, k);
+    r.viscosity = d_.air.viscosity, r.density = d_.air.density;
+    const double across = d_.y.width[j] * d_.z.width[k];
+    r.along = t_.mixing.data();
+    r.across = d_.settings.small_eddies ? mixing_constant * mixing_constant * std::cbrt(across * across) : 0;
+    r.u = &s_.f.u[at], r.v = &s_.f.v[at], r.w = &s_.f.w[at];
+    r.mu = &rings.mu[mod(k, 3)][in];
+    r.tx = &rings.tx[mod(k, 2)][in], r.ty = &rings.ty[mod(k, 2)][in], r.tz = &rings.tz[mod(k, 3)][in];
+    r.component = static_cast<std::ptrdiff_t>(rings.plane);
+    eddy_row(r);
+  }
+}
+
+/// What faces of all axes need of row j.
+PassingRow Solver::passing_of(MarchRings& rings, int j, int k, IndexRange rows) const {
+  const std::ptrdiff_t at = d_.layout.at(0, j, k);
+  PassingRow r;
+  r.count = d_.grid.nx;
+  r.u = &s_.f.u[at], r.v = &s_.f.v[at], r.w = &s_.f.w[at];
+  r.mu = r.mu_low = &rings.mu[mod(k, 3)][rings.at(d_.layout, j, rows.begin)];
+  r.component = static_cast<std::ptrdiff_t>(rings.plane);
+  return r;
+}
+
+// Through the low faces of plane k; plane nz has the outlet's.
+void Solver::pass_along_stream(MarchRings& rings, int k, IndexRange rows) const {
+  const std::ptrdiff_t sz = d_.layout.stride_z;
+  for (int j = rows.begin; j < rows.end; ++j) {
+    const std::ptrdiff_t at = d_.layout.at(0, j, k), in = rings.at(d_.layout, j, rows.begin);
+    Passing p = along_stream(rings, d_.layout, j, k, rows);
+    const double* flux = &s_.f.fz[at];
+    if (k == 0) {
+      std::fill_n(p.u, d_.grid.nx, 0.0), std::fill_n(p.v, d_.grid.nx, 0.0);
+      for (int i = 0; i < d_.grid.nx; ++i) p.w[i] = flux[i] * b_.inlet.speed(j)[i];
+      continue;
+    }
+    PassingRow r = passing_of(rings, j, k, rows);
+    r.flux = flux, r.step = sz, r.far_low = -2 * sz, r.far_high = sz;
+    r.pu = p.u, r.pv = p.v, r.pw = p.w;
+    if (k == d_.grid.nz) {
+      boundary_passing_row(r);
+      continue;
+    }
+    r.across = weights_of(d_.z, k);
+    r.mu_low = &rings.mu[mod(k - 1, 3)][in];
+    r.t = &rings.tz[mod(k, 3)][in], r.t_low = &rings.tz[mod(k - 1, 3)][in];
+    passing_row(r);
+  }
+}
+
+// Through the faces along x and y of plane k, and what all of them leave in its cells.
+void Solver::pass_in_plane(MarchRings& rings, int k, IndexRange rows) {
+  const std::ptrdiff_t sy = d_.layout.stride_y;
+  const auto across = [&](int j) {  // the low faces of row j
+    PassingRow r = passing_of(rings, j, k, rows);
+    const std::ptrdiff_t in = rings.at(d_.layout, j, rows.begin);
+    Passing p = across_stream(rings, d_.layout, 1 + mod(j, 2));
+    r.flux = &s_.f.fy[d_.layout.at(0, j, k)], r.step = sy, r.far_low = -2 * sy, r.far_high = sy;
+    r.pu = p.u, r.pv = p.v, r.pw = p.w;
+    if (j == 0 || j == d_.grid.ny) {
+      boundary_passing_row(r);
+      return side_stress_row(r, r.v, j == 0 ? r.mu : r.mu - sy, d_.y.inverse_width[j == 0 ? 0 : j - 1], r.pv);
+    }
+    r.across = weights_of(d_.y, j);
+    r.mu_low = r.mu - sy;
+    r.t = &rings.ty[mod(k, 2)][in], r.t_low = r.t - sy;
+    passing_row(r);
+  };
+  across(rows.begin);
+  for (int j = rows.begin; j < rows.end; ++j) {
+    across(j + 1);
+    PassingRow r = passing_of(rings, j, k, rows);
+    const std::ptrdiff_t in = rings.at(d_.layout, j, rows.begin);
+    Passing p = across_stream(rings, d_.layout, 0);
+    r.count = d_.grid.nx + 1;
+    r.along = &d_.x;
+    r.flux = &s_.f.fx[d_.layout.at(0, j, k)], r.step = 1, r.far_low = -2, r.far_high = 1;
+    r.mu_low = r.mu - 1;
+    r.t = &rings.tx[mod(k, 2)][in], r.t_low = r.t - 1;
+    r.pu = p.u, r.pv = p.v, r.pw = p.w;
+    passing_row(r);
+    rate(rings, j, k, rows);
+  }
+}
+
+void Solver::rate(MarchRings& rings, int j, int k, IndexRange rows) {
+  const std::ptrdiff_t at = d_.layout.at(0, j, k);
+  const double* zeros = &t_.zeros[Layout::lead];
+  const Passing x = across_stream(rings, d_.layout, 0), y = across_stream(rings, d_.layout, 1 + mod(j, 2)),
+                north = across_stream(rings, d_.layout, 1 + mod(j + 1, 2)),
+                z = along_stream(rings, d_.layout, j, k, rows),
+                above = along_stream(rings, d_.layout, j, k + 1, rows);
+  RateRow r;
+  r.m = d_.metrics(j, k);
+  r.xu = x.u, r.xv = x.v, r.xw = x.w;
+  r.yu = y.u, r.yv = y.v, r.yw = y.w, r.yu_high = north.u, r.yv_high = north.v, r.yw_high = north.w;
+  r.zu = z.u, r.zv = z.v, r.zw = z.w, r.zu_high = above.u, r.zv_high = above.v, r.zw_high = above.w;
+  const auto body = [&](const Array<double>& force) { return force.empty() ? zeros : &force[at]; };
+  r.body_u = body(in_the_way_.body_u), r.body_v = body(in_the_way_.body_v),
+  r.body_w = body(in_the_way_.body_w);
+  r.u = &s_.f.u[at], r.v = &s_.f.v[at], r.w = &s_.f.w[at], r.rho = &s_.f.rho[at];
+  r.linear = in_the_way_.porous.linear(j, k), r.quadratic = in_the_way_.porous.quadratic(j, k);
+  r.inverse_step = 1 / s_.clock.step;
+  r.now = t_.now, r.before = t_.before;
+  r.rate_u = &s_.rate_u[at], r.rate_v = &s_.rate_v[at], r.rate_w = &s_.rate_w[at];
+  r.hu = &t_.hu[at], r.hv = &t_.hv[at], r.hw = &t_.hw[at], r.ra = &t_.ra[at], r.rc = &t_.rc[at];
+  rate_row(r);
+}
+
+// The fastest cell of plane k, and the mass that its cells do not pass on.
+void Solver::courant(int k) {
+  t_.fastest[k] = 0;
+  for (int j = 0; j < d_.grid.ny; ++j) {
+    const std::ptrdiff_t at = d_.layout.at(0, j, k);
+    CourantRow r;
+    r.m = d_.metrics(j, k);
+    r.fx = &s_.f.fx[at], r.fy = &s_.f.fy[at], r.fz = &s_.f.fz[at];
+    courant_row(r);
+    t_.fastest[k] = std::max(t_.fastest[k], r.largest);
+    t_.sums.row(j, k)[Sums::mass_defect] = r.defect * d_.y.width[j] * d_.z.width[k];
+  }
+}
+
+// Momentum along z that the air brings through the faces of the box [N].
+double Solver::brought() const {
+  const Fields& f = s_.f;
+  double force = 0;
+  for (int j = 0; j < d_.grid.ny; ++j) {
+    for (int i = 0; i < d_.grid.nx; ++i) {
+      const std::ptrdiff_t in = d_.layout.at(i, j, 0), out = d_.layout.at(i, j, d_.grid.nz);
+      const double leaves = f.fz[out] * f.w[f.fz[out] > 0 ? out - d_.layout.stride_z : out];
+      force += d_.x.width[i] * d_.y.width[j] * (f.fz[in] * b_.inlet.speed(j)[i] - leaves);
+    }
+  }
+  for (int k = 0; k < d_.grid.nz; ++k) {
+    each_side_face(d_, f, k, [&](const SideFace& face) {
+      const auto inside = face.cell - d_.layout.at(0, 0, k);
+      const auto i = inside % d_.layout.stride_y, j = inside / d_.layout.stride_y;
+      const double area = (face.axis == 0 ? d_.y.width[j] : d_.x.width[i]) * d_.z.width[k];
+      force += area * face.inflow * f.w[face.inflow > 0 ? face.ghost : face.cell];
+    });
+  }
+  return force;
+}
+
+// `held_back`: what outlet and air take from the box's momentum in this step, but for the inlet's pressure.
+FlowStep Solver::close_step(double momentum_before, double held_back) {
+  const Sums& sum = t_.sums.total();
+  const double volume = d_.grid.size.x * d_.grid.size.y * d_.grid.size.z;
+  const auto mean = [&](Sums::Name name) { return sum.value[name] / volume; };
+  s_.mean.u = mean(Sums::u_mean), s_.mean.v = mean(Sums::v_mean), s_.mean.w = mean(Sums::w_mean);
+  s_.mean.p = mean(Sums::p_mean);
+  s_.force = {sum.value[Sums::drag_x], sum.value[Sums::drag_y], sum.value[Sums::drag_z]};
+  in_the_way_.sheets.settle(s_);
+  for (const SheetLoad& load : in_the_way_.sheets.loads(s_)) s_.force += load.force;
+  s_.untouched = false;
+  Clock& clock = s_.clock;
+  FlowStep step;
+  step.courant = clock.courant_rate * clock.step;
+  ++clock.steps;
+  clock.time += clock.step;
+  clock.courant_rate = *std::max_element(t_.fastest.begin(), t_.fastest.end()) / d_.air.density;
+  step.step = static_cast<int>(clock.steps);
+  step.time = clock.time, step.length = clock.step;
+  step.force = s_.force;
+  step.mass_defect =
+      sum.value[Sums::mass_defect] / (d_.air.density * d_.air.speed * d_.grid.size.x * d_.grid.size.y);
+  double pressed = 0;
+  for (int j = 0; j < d_.grid.ny; ++j) {
+    for (int i = 0; i < d_.grid.nx; ++i)
+      pressed += d_.x.width[i] * d_.y.width[j] * s_.f.p[d_.layout.at(i, j, 0)];
+  }
+  const double gained = d_.air.density * volume * (s_.mean.w - momentum_before) / clock.step;
+  step.momentum_gap = s_.force.z + gained + held_back - pressed;
+  return step;
+}
+
+}  // namespace ripstop::cartesian
