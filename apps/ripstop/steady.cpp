@@ -47,6 +47,15 @@ std::string progress_text(const SteadyProgress& p, double elapsed, double left) 
   const std::string time =
       left > 0 ? fmt::format("{} gone, about {} left", duration_text(elapsed), duration_text(left))
                : fmt::format("{} gone", duration_text(elapsed));
+  if (p.stage == SteadyStage::time) {
+    const FlowStep& step = p.time.step;
+    const std::string mean = p.time.mean != 0
+                                 ? fmt::format("mean {:.1f} +- {:.2g} N, {:.0f} % of the watch", p.time.mean,
+                                               p.time.standard_error, std::min(99.0, 100 * p.time.share))
+                                 : std::string("start-up");
+    return fmt::format("[{}] time: {:.3f} s, step {} of {:.2g} s, drag {:.1f} N, {} | {}", p.iteration,
+                       step.time, step.step, step.length, step.force.z, mean, time);
+  }
   if (p.stage == SteadyStage::cloth) {
     return fmt::format("[{}] cloth: step {}, residual {:.1e} | {}", p.iteration, p.cloth.steps,
                        p.cloth.residual, time);
@@ -79,8 +88,30 @@ std::string iteration_text(const SteadyIteration& iteration) {
   return text;
 }
 
+void print_row(const char* name, const std::string& text) {
+  fmt::print("  {:<26} {}\n", name, text);
+}
+
+void print_unsteady(const UnsteadyResult& unsteady) {
+  const Watched& w = unsteady.watched;
+  print_row("drag in time",
+            fmt::format("mean of {:.3f} s after {:.3f} s of start-up, {} steps; standard error {}, "
+                        "swings by {:.2g} N",
+                        w.time - w.start_up, w.start_up, w.steps,
+                        unsteady.standard_error ? fmt::format("{:.2g} N{}", *unsteady.standard_error,
+                                                              w.enough ? "" : ", MORE than was asked for")
+                                                : std::string("not known"),
+                        w.deviation));
+  print_row("side force",
+            fmt::format("{:.2g} +- {:.2g}, {:.2g} +- {:.2g} N; swings by {:.2g} N{}", w.side_force.x,
+                        w.side_error.x, w.side_force.y, w.side_error.y, w.side_deviation,
+                        w.swing > 0 ? fmt::format(", most at {:.3g} Hz (Strouhal number {:.2f})", w.swing,
+                                                  unsteady.strouhal)
+                                    : ""));
+}
+
 void print_result(const SteadyResult& r, const Case& given, const fs::path& folder) {
-  const auto row = [](const char* name, const std::string& text) { fmt::print("  {:<26} {}\n", name, text); };
+  const auto row = print_row;
   fmt::print("\n{}\n", r.title);
   row("speed, density", fmt::format("{:.4g} m/s, {:.4g} kg/m3", r.speed, r.density));
   const std::optional<Measured>& measured = r.measured;
@@ -112,7 +143,9 @@ void print_result(const SteadyResult& r, const Case& given, const fs::path& fold
   row("ledger",
       fmt::format("fluid {:.2f}, nodes {:.2f}, lines {:.2f}, momentum deficit {:.2f} N", r.last.fluid_force,
                   r.last.nodal_load, r.last.line_tension, r.last.momentum_deficit));
-  if (r.last.flow_averaged > 0)
+  if (r.unsteady) {
+    print_unsteady(*r.unsteady);
+  } else if (r.last.flow_averaged > 0)
     row("flow", fmt::format("did not settle: mean of its last {} iterations, drag {:.2f} +- {:.2f} N",
                             r.last.flow_averaged, r.last.fluid_force, r.last.drag_deviation));
   row("coupling", fmt::format("{} iterations, {}, {}", r.iterations,
@@ -210,6 +243,12 @@ void add_steady(CLI::App& app, int& status) {
   command->add_option("case", options->case_file, "Case file (TOML)")->required();
   add_case_options(*command, options->overrides);
   add_flow_options(*command, options->overrides);
+  command->add_flag_callback(
+      "--unsteady",
+      [options] {
+        options->overrides.set.push_back({"flow.unsteady", "true", "--unsteady"});
+      },
+      "Go on in time: the mean over a wake that sheds, with its standard error");
   command->add_option("--hostfile", options->hostfile, "Hosts for MPI")->check(CLI::ExistingFile);
   command->add_option("--out", options->out, "Run folder (default: runs/<name of the case>)");
   command->add_flag("--fresh", options->fresh,

@@ -40,7 +40,14 @@ FlowProblem flow_problem(const Case& given) {
 }
 
 SteadyProblem steady_problem(const Case& given) {
-  return {parachute_mesh(given), flow_problem(given), nominal_area(given.parachute), resolve(given).coupling};
+  SteadyProblem problem{parachute_mesh(given), flow_problem(given), nominal_area(given.parachute),
+                        resolve(given).coupling, std::nullopt};
+  if (given.flow.unsteady) {
+    const WatchKeys& keys = given.flow.watch;
+    problem.watch = {keys.courant, keys.standard_error, keys.shortest, keys.longest,
+                     inflated_diameter(given.parachute)};
+  }
+  return problem;
 }
 
 }  // namespace ripstop

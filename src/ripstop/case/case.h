@@ -24,6 +24,14 @@ namespace ripstop {
 enum class SpeedBasis { nominal, measured };
 enum class Convection { upwind, second_order };
 
+/// [flow.watch]: how long an unsteady flow is watched. Lengths are in times that the stream takes for one
+/// inflated diameter.
+struct WatchKeys {
+  double courant = 0.7;
+  double standard_error = 0.01;  // of the mean drag, relative
+  double shortest = 25, longest = 300;
+};
+
 /// The keys of [flow] whose defaults follow from nothing.
 struct FlowOptions {
   std::string engine = engines().front().word;
@@ -35,6 +43,8 @@ struct FlowOptions {
   double viscosity_ratio = 10;
   int ranks = 1;
   double time_limit_s = 0;  // of one flow solution; 0: none
+  bool unsteady = false;    // watched in time once the steady loop has ended
+  WatchKeys watch;
 };
 
 /// [flow.core] as given: the part of the flow's box with uniform cells, outside of which they grow.
@@ -91,6 +101,7 @@ struct Case {
 };
 
 void describe(Fields& fields, CoreKeys& core);
+void describe(Fields& fields, WatchKeys& watch);
 void describe(Fields& fields, FlowKeys& flow);
 void describe(Fields& fields, CouplingKeys& coupling);
 void describe(Fields& fields, InflationSettings& inflation);

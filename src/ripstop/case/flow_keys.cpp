@@ -128,6 +128,18 @@ void describe(Fields& fields, CoreKeys& core) {
       .absent(by_model(sheet_defaults.growth, paper_defaults.growth));
 }
 
+void describe(Fields& fields, WatchKeys& watch) {
+  fields.number("courant", watch.courant, above(0).up_to(1),
+                "Largest Courant number of a cell, summed over the axes: how long a step is.");
+  fields.number("standard_error", watch.standard_error, above(0).up_to(0.2),
+                "Of the mean drag, relative, at which the watch ends.");
+  fields.number(
+      "shortest", watch.shortest, from(5).up_to(1e5),
+      "Least time that the mean is taken over, in times that the stream takes for one inflated diameter.");
+  fields.number("longest", watch.longest, from(10).up_to(1e6),
+                "Longest watch in the same unit, start-up included; at least twice the shortest.");
+}
+
 void describe(Fields& fields, FlowKeys& flow) {
   Words<std::string> words;
   std::string meanings;
@@ -156,6 +168,11 @@ void describe(Fields& fields, FlowKeys& flow) {
   describe_space(fields, flow);
   describe_numerics(fields, flow);
   fields.integer("ranks", flow.ranks, from(1).up_to(4096), "Processes of the flow solver.");
+  fields.toggle(
+      "unsteady", flow.unsteady,
+      "Go on in time once the steady loop has ended: the mean over a wake that sheds, with its standard "
+      "error (built-in engine only).");
+  fields.table("watch", flow.watch, "How long an unsteady flow is watched.");
   fields.number("time_limit_s", flow.time_limit_s, from(0).up_to(1e7),
                 "Longest wall time of one flow solution; 0: none.");
 }

@@ -150,6 +150,7 @@ void check_engine(const Case& given, const FlowSettings& flow, Findings& finding
   wanted.still_air_outlet = flow.outlet == Outlet::still_air;
   wanted.averages = flow.average_over > 0;
   wanted.ranks = flow.ranks > 1;
+  wanted.time = flow.unsteady;
   for (const Lack& lack : lacks(engine_of(flow.engine), wanted)) {
     if (lack.key == "flow.porosity_model")  // all that follows from it is lacking too
       return findings.add(
@@ -168,6 +169,14 @@ void check_load(const Resolved& resolved, Findings& findings) {
   if (findings.sound({"coupling.load", "flow.porosity_model"}))
     findings.add("coupling.load", quoted("of-flow"), quoted("uniform"),
                  "what the air loses on every piece of cloth is known of a sheet only (flow.porosity_model)");
+}
+
+void check_watch(const FlowSettings& flow, Findings& findings) {
+  const WatchKeys& watch = flow.watch;
+  if (findings.sound({"flow.watch"}) && watch.longest < 2 * watch.shortest)
+    findings.add(
+        "flow.watch.longest", watch.longest, fmt::format("at least {:g}", 2 * watch.shortest),
+        "the longest watch must be at least twice as long as the shortest mean (flow.watch.shortest)");
 }
 
 void check_average(const FlowSettings& flow, Findings& findings) {
@@ -194,6 +203,7 @@ void check_settings(Case given, Findings& findings) {
     if (findings.sound({"flow.cells"})) check_cells(given, flow, findings);
   }
   check_average(flow, findings);
+  check_watch(flow, findings);
   check_engine(given, flow, findings);
   check_load(resolved, findings);
 }

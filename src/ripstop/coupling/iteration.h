@@ -26,7 +26,9 @@ struct SteadyIteration {
   double flow_residual = 0;     // largest of all equations
   bool flow_converged = false;  // to Stopping::residual
   int flow_averaged = 0;        // iterations of a flow that did not settle, whose mean stands; 0: none
-  double drag_deviation = 0;    // standard deviation of the drag over them [N]
+  double drag_deviation = 0;    // standard deviation of the drag over them, or over the watch [N]
+  bool in_time = false;         // the flow was watched in time; flow_iterations are its steps
+  double drag_error = 0;        // standard error of the mean drag of such a flow [N]
   int cut_cells = 0;
   double wall_time = 0;  // [s]
 };
@@ -53,6 +55,8 @@ void each_member(T& i, Visit&& visit) {
   visit("flow_converged", i.flow_converged);
   visit("flow_averaged", i.flow_averaged);
   visit("drag_deviation_n", i.drag_deviation);
+  visit("in_time", i.in_time);
+  visit("drag_error_n", i.drag_error);
   visit("cut_cells", i.cut_cells);
   visit("wall_time_s", i.wall_time, Shown{"time", 8, ""});
 }

@@ -97,9 +97,37 @@ FlowField SteadySolver::solve_flow(const std::vector<Triangle>& surface, bool to
   if (!to_the_end) stopping.settled_drag = settled;
   flow_->place(surface);
   return solve_to_rest(*flow_, stopping, [&](const FlowProgress& progress) {
-    if (report) report({SteadyStage::flow, iteration, {}, progress});
+    if (report) report({.stage = SteadyStage::flow, .iteration = iteration, .flow = progress});
     return true;
   });
+}
+
+FlowField SteadySolver::watch_flow(const std::vector<Triangle>& surface, SteadyState& state,
+                                   SteadyIteration& now, const SteadyReport& report) {
+  flow_->place(surface);
+  FlowField field =
+      watch(*flow_, problem_.flow, *problem_.watch, record_, [&](const WatchProgress& progress) {
+        if (report) report({.stage = SteadyStage::time, .iteration = now.iteration, .time = progress});
+        return true;
+      });
+  const auto& [steps, start_up, drag, side_x, side_y, swing, enough, slices] = record_;
+  state.watched = {.steps = static_cast<int>(steps.size()),
+                   .time = record_.watched(),
+                   .start_up = start_up,
+                   .drag = drag.mean,
+                   .error = drag.standard_error,
+                   .deviation = drag.deviation,
+                   .side_force = {side_x.mean, side_y.mean, 0},
+                   .side_error = {side_x.standard_error, side_y.standard_error, 0},
+                   .side_deviation = std::hypot(side_x.deviation, side_y.deviation),
+                   .swing = swing.frequency,
+                   .swing_share = swing.share,
+                   .enough = enough};
+  now.in_time = true;
+  now.drag_error = drag.standard_error;
+  field.last.iteration = state.watched.steps;
+  field.average.drag_deviation = drag.deviation;
+  return field;
 }
 
 // The flow's answer as a load on the cloth. A sheet leaves the pressure on either side clean up to the cloth.
@@ -143,7 +171,7 @@ std::vector<Vec3> SteadySolver::next_shape(const SteadyState& state, SteadyItera
   options.tolerance = problem_.settings.cloth_tolerance;
   const RelaxResult relaxed =
       relax(cloth, *cloth_, loads, options, team_, [&](const RelaxProgress& progress) {
-        if (report) report({SteadyStage::cloth, now.iteration, progress, {}});
+        if (report) report({.stage = SteadyStage::cloth, .iteration = now.iteration, .cloth = progress});
       });
   if (!relaxed.converged) {
     throw Error(
@@ -172,14 +200,27 @@ std::vector<Vec3> SteadySolver::next_shape(const SteadyState& state, SteadyItera
   return shape;
 }
 
-// Whether shape and drag stand still, the flow is solved and the ledger closes.
-bool SteadySolver::converged(const SteadyIteration& now) const {
+// Whether shape and drag stand still, the flow is solved and the ledger closes. Means over time are alike when
+// they differ by no more than twice the standard error of their difference.
+bool SteadySolver::converged(const SteadyState& state, const SteadyIteration& now) const {
   const CouplingSettings& settings = problem_.settings;
-  return now.drag_change < settings.drag_tolerance && now.shape_change < settings.shape_tolerance_m &&
+  const double error_before = state.iterations.empty() ? 0 : state.iterations.back().drag_error;
+  const double noise = 2 * std::hypot(now.drag_error, error_before) / std::abs(now.fluid_force);
+  const double ledger = ledger_tolerance + noise;
+  return now.drag_change < settings.drag_tolerance + noise && now.shape_change < settings.shape_tolerance_m &&
          (now.flow_converged ||
-          (now.flow_averaged > 0 && within(now.momentum_deficit, now.fluid_force, ledger_tolerance))) &&
-         within(now.nodal_load, now.fluid_force, ledger_tolerance) &&
-         within(now.line_tension, now.fluid_force, ledger_tolerance);
+          (now.flow_averaged > 0 && within(now.momentum_deficit, now.fluid_force, ledger))) &&
+         within(now.nodal_load, now.fluid_force, ledger) && within(now.line_tension, now.fluid_force, ledger);
+}
+
+// The steady flow has done its part: what it taught the accelerator does not hold for the means, whose noise
+// differences of iterations would only grow.
+void SteadySolver::go_on_in_time(SteadyState& state) const {
+  state.in_time = true;
+  state.converged = false;
+  state.accelerator = {};
+  state.accelerator.update = Acceleration::none;
+  state.accelerator.relaxation = problem_.settings.relaxation;
 }
 
 // The next load, from the answers so far. The remainder follows the pressures' steps: it has no weight of its
@@ -207,10 +248,11 @@ FlowField SteadySolver::iterate(SteadyState& state, const SteadyReport& report) 
   const bool of_flow = settings.load == CanopyLoad::of_flow;
   const bool nearly_there = !state.iterations.empty() && now.shape_change < settings.shape_tolerance_m &&
                             (of_flow || state.iterations.back().drag_change < settings.drag_tolerance);
-  FlowField field = solve_flow(surface, nearly_there, now.iteration, report);
+  FlowField field = state.in_time ? watch_flow(surface, state, now, report)
+                                  : solve_flow(surface, nearly_there, now.iteration, report);
   now.cut_cells = static_cast<int>(cut.size());
   now.flow_iterations = field.last.iteration;
-  now.flow_residual = largest_residual(field.last);
+  now.flow_residual = state.in_time ? 0 : largest_residual(field.last);
   now.flow_converged = field.converged;
   now.flow_averaged = field.average.iterations;
   now.drag_deviation = field.average.drag_deviation;
@@ -225,12 +267,13 @@ FlowField SteadySolver::iterate(SteadyState& state, const SteadyReport& report) 
       now.flow_residual * dx * dx / (problem_.reference_area * largest_coefficient(problem_.mesh));
 
   const ClothLoad answer = answer_of(field, surface, cut, shape, state, now);
-  state.converged = converged(now);
+  state.converged = converged(state, now);
   state.shape = shape;
   state.applied = state.pressure;
   step(state, answer);
   now.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   state.iterations.push_back(now);
+  if (state.converged && problem_.watch && !state.in_time) go_on_in_time(state);
   return field;
 }
 

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,9 +16,36 @@
 #include "ripstop/coupling/sheet_transfer.h"
 #include "ripstop/coupling/transfer.h"
 #include "ripstop/flow/flow.h"
+#include "ripstop/flow/unsteady.h"
 #include "ripstop/parachute/canopy_mesh.h"
 
 namespace ripstop {
+
+/// What a watch of the flow in time came to.
+struct Watched {
+  int steps = 0;
+  double time = 0, start_up = 0;              // in all, and what of it was discarded [s]
+  double drag = 0, error = 0, deviation = 0;  // mean, its standard error, standard deviation [N]
+  Vec3 side_force, side_error;                // means across the stream and their standard errors [N]
+  double side_deviation = 0;                  // root mean square of the side force about its mean [N]
+  double swing = 0, swing_share = 0;  // strongest frequency of the side force [1/s], its part of the power
+  bool enough = false;                // the standard error is what was asked for
+};
+template <Of<Watched> T, class Visit>
+void each_member(T& w, Visit&& visit) {
+  visit("steps", w.steps);
+  visit("time_s", w.time);
+  visit("start_up_s", w.start_up);
+  visit("drag_n", w.drag);
+  visit("standard_error_n", w.error);
+  visit("deviation_n", w.deviation);
+  visit("side_force_n", w.side_force);
+  visit("side_force_error_n", w.side_error);
+  visit("side_force_deviation_n", w.side_deviation);
+  visit("swing_hz", w.swing);
+  visit("swing_share", w.swing_share);
+  visit("enough", w.enough);
+}
 
 /// Everything that the next iteration depends on beside the flow engine's own memory: what a checkpoint
 /// holds.
@@ -29,6 +57,8 @@ struct SteadyState {
   SidePressures sides;           // as the last flow gave them [Pa]
   std::vector<double> applied;   // difference that made `shape` [Pa]
   Accelerator accelerator;
+  bool in_time = false;  // the flow is watched in time from the next iteration on
+  Watched watched;       // the last one
   bool converged = false;
 };
 
@@ -48,6 +78,8 @@ void each_member(T& s, Visit&& visit) {
   visit("guesses", s.accelerator.guesses);
   visit("residuals", s.accelerator.residuals);
   visit("aitken_factor", s.accelerator.aitken_factor);
+  visit("in_time", s.in_time);
+  visit("watched", s.watched);
   visit("converged", s.converged);
 }
 
@@ -56,21 +88,23 @@ struct SteadyProblem {
   FlowProblem flow;  // one PorousCells or one Sheet that has the resistance; where it is, is found here
   double reference_area = 0;  // S0 [m2]
   CouplingSettings settings;
+  std::optional<Watch> watch;  // once shape and drag stand still, the flow is watched in time
 };
 
-enum class SteadyStage { cloth, flow };
+enum class SteadyStage { cloth, flow, time };
 /// Live progress within an iteration; flow values are those of the last SIMPLE iteration.
 struct SteadyProgress {
   SteadyStage stage = SteadyStage::cloth;
   int iteration = 0;
-  RelaxProgress cloth;
-  FlowProgress flow;
+  RelaxProgress cloth = {};
+  FlowProgress flow = {};
+  WatchProgress time = {};
 };
 using SteadyReport = std::function<void(const SteadyProgress&)>;
 
 /// A flow need not be solved to its last digit while the shape still moves: it is left as soon as the drag
 /// has settled, and once the coupling looks converged it is solved to its residual. It goes on from iteration
-/// to iteration.
+/// to iteration. With a watch, the loop goes on from there with the mean of the flow in time and its load.
 class SteadySolver {
  public:
   /// Starts the flow; the engine must outlive the solver. Throws Error(usage) when the start shape does not fit
@@ -91,6 +125,8 @@ class SteadySolver {
   const Cloth& cloth() const { return *cloth_; }
   const CanopyMesh& mesh() const { return problem_.mesh; }
   const std::vector<Cell>& cells() const { return cells_; }
+  /// Of the last iteration, if that watched the flow in time.
+  const FlowRecord& record() const { return record_; }
   /// The cloth's state at `state.shape`, at rest.
   ClothState cloth_state(const SteadyState& state) const;
 
@@ -101,7 +137,10 @@ class SteadySolver {
                       SteadyIteration& now) const;
   FlowField solve_flow(const std::vector<Triangle>& surface, bool to_the_end, int iteration,
                        const SteadyReport& report);
-  bool converged(const SteadyIteration& now) const;
+  FlowField watch_flow(const std::vector<Triangle>& surface, SteadyState& state, SteadyIteration& now,
+                       const SteadyReport& report);
+  bool converged(const SteadyState& state, const SteadyIteration& now) const;
+  void go_on_in_time(SteadyState& state) const;
   void step(SteadyState& state, const ClothLoad& answer) const;
 
   SteadyProblem problem_;
@@ -110,6 +149,7 @@ class SteadySolver {
   std::vector<Cell> cells_;
   std::vector<double> area_;  // of the cells as cut [m2]
   ThreadTeam team_;
+  FlowRecord record_;
 };
 
 }  // namespace ripstop

@@ -4,35 +4,52 @@
 #include <cmath>
 
 namespace ripstop {
+namespace {
 
-// Mean and squares by Welford's updates, m += (x - m) / n, which lose nothing to the size of the mean.
+// m += share (x - m) for all that a field has means of; loses nothing to the size of the mean.
+void pull(FlowField& mean, const FlowField& field, double share) {
+  const auto towards = [share](auto& to, const auto& value) { to += share * (value - to); };
+  for (std::size_t cell = 0; cell < field.pressure.size(); ++cell) {
+    towards(mean.pressure[cell], field.pressure[cell]);
+    towards(mean.velocity[cell], field.velocity[cell]);
+  }
+  towards(mean.porous_force, field.porous_force);
+  towards(mean.momentum_deficit, field.momentum_deficit);
+  for (std::size_t face = 0; face < field.sheet_loads.size(); ++face) {
+    towards(mean.sheet_loads[face].drop, field.sheet_loads[face].drop);
+    towards(mean.sheet_loads[face].force, field.sheet_loads[face].force);
+  }
+  mean.last = field.last;
+  mean.converged = field.converged;
+}
+
+}  // namespace
+
 void FieldMean::add(const FlowField& field) {
+  FieldMean one;
+  one.mean_ = field;
   const double drag = field.porous_force.z;
+  one.mean_.average = {1, drag, 0, drag, drag};
+  add(one);
+}
+
+// Mean and squares of two sets together (Chan, Golub and LeVeque 1983).
+void FieldMean::add(const FieldMean& other) {
+  if (other.count() == 0) return;
   if (count() == 0) {
-    mean_ = field;
-    mean_.average = {1, drag, 0, drag, drag};
+    *this = other;
     return;
   }
   FlowAverage& average = mean_.average;
-  const double share = 1.0 / ++average.iterations;
-  const auto pull = [share](auto& mean, const auto& value) { mean += share * (value - mean); };
-  for (std::size_t cell = 0; cell < field.pressure.size(); ++cell) {
-    pull(mean_.pressure[cell], field.pressure[cell]);
-    pull(mean_.velocity[cell], field.velocity[cell]);
-  }
-  pull(mean_.porous_force, field.porous_force);
-  pull(mean_.momentum_deficit, field.momentum_deficit);
-  for (std::size_t face = 0; face < field.sheet_loads.size(); ++face) {
-    pull(mean_.sheet_loads[face].drop, field.sheet_loads[face].drop);
-    pull(mean_.sheet_loads[face].force, field.sheet_loads[face].force);
-  }
-  mean_.last = field.last;
-  mean_.converged = field.converged;
-  const double before = drag - average.drag;
-  pull(average.drag, drag);
-  squares_ += before * (drag - average.drag);
-  average.drag_low = std::min(average.drag_low, drag);
-  average.drag_high = std::max(average.drag_high, drag);
+  const FlowAverage& more = other.mean_.average;
+  const double both = average.iterations + more.iterations, share = more.iterations / both;
+  pull(mean_, other.mean_, share);
+  const double apart = more.drag - average.drag;
+  squares_ += other.squares_ + apart * apart * average.iterations * share;
+  average.iterations += more.iterations;
+  average.drag += share * apart;
+  average.drag_low = std::min(average.drag_low, more.drag_low);
+  average.drag_high = std::max(average.drag_high, more.drag_high);
 }
 
 FlowField FieldMean::mean() const {

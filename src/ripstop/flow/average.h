@@ -9,6 +9,8 @@ namespace ripstop {
 class FieldMean {
  public:
   void add(const FlowField& field);
+  /// All that another mean holds, of fields on the same grid round the same cloth.
+  void add(const FieldMean& other);
   int count() const { return mean_.average.iterations; }
   /// The mean so far, FlowField::average set; `last` and `converged` are those of the newest field.
   FlowField mean() const;

@@ -1,6 +1,7 @@
 #include "ripstop/run/steady.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -24,13 +25,24 @@ double dynamic_pressure(const Case& given) {
 // scales what it has.
 bool same_flow(const Case& a, const Case& b) {
   json first = json::parse(case_json(a)).at("flow"), second = json::parse(case_json(b)).at("flow");
-  std::vector<std::string> free = {"canopy_position_m"};
+  std::vector<std::string> free = {"canopy_position_m", "unsteady", "watch"};
   if (engine_of(a).can.other_air) {
     free.insert(free.end(), {"speed_m_s", "speed_basis", "density_kg_m3", "viscosity_pa_s", "temperature_k",
                              "turbulence_intensity", "viscosity_ratio"});
   }
   for (const std::string& key : free) first.erase(key), second.erase(key);
   return first == second;
+}
+
+UnsteadyResult unsteady_result(const Watched& watched, const Case& given) {
+  UnsteadyResult result;
+  result.watched = watched;
+  // Not a number in JSON.
+  if (std::isfinite(watched.error)) result.standard_error = watched.error;
+  for (double* error : {&result.watched.error, &result.watched.side_error.x, &result.watched.side_error.y})
+    if (!std::isfinite(*error)) *error = 0;
+  result.strouhal = watched.swing * inflated_diameter(given.parachute) / air(given).speed;
+  return result;
 }
 
 SteadyResult steady_result(const SteadySolver& solver, const SteadyState& state, const Case& given) {
@@ -59,6 +71,7 @@ SteadyResult steady_result(const SteadySolver& solver, const SteadyState& state,
   r.axial_moment = r.last.axial_moment;
   r.section_gap = r.last.section_gap;
   r.ledger = {r.last.fluid_force, r.last.nodal_load, r.last.line_tension, r.last.momentum_deficit};
+  if (state.in_time) r.unsteady = unsteady_result(state.watched, given);
   if (const Measured* row = measured_row(given)) r.measured = *row;
   return r;
 }

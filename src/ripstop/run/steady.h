@@ -37,6 +37,19 @@ void each_member(T& row, Visit&& visit) {
   visit("printed_linear_n", row.printed_linear_n);
 }
 
+/// Of a run that watched its flow in time: what the mean over the wake's swings is worth.
+struct UnsteadyResult {
+  Watched watched;                       // the last watch
+  std::optional<double> standard_error;  // of the mean drag [N]; absent: not known
+  double strouhal = 0;  // of the side force's strongest frequency, with the inflated diameter
+};
+template <Of<UnsteadyResult> T, class Visit>
+void each_member(T& u, Visit&& visit) {
+  visit("drag_standard_error_n", u.standard_error, or_null);
+  visit("strouhal", u.strouhal);
+  visit("watched", u.watched);
+}
+
 /// The numbers of one run: result.json.
 struct SteadyResult {
   std::string title;
@@ -52,6 +65,7 @@ struct SteadyResult {
   bool converged = false;
   double transfer_factor = 0, load_remainder = 0, axial_moment = 0, section_gap = 0;
   Ledger ledger;
+  std::optional<UnsteadyResult> unsteady;
   std::optional<Measured> measured;  // the case's row for this speed
   SteadyIteration last;              // a row of iterations.csv; not in result.json
 };
@@ -83,6 +97,7 @@ void each_member(T& r, Visit&& visit) {
   visit("axial_moment_n_m", r.axial_moment);
   visit("section_gap", r.section_gap);
   visit("ledger", r.ledger);
+  visit("unsteady", r.unsteady);
   visit("measured", r.measured);
 }
 std::string to_json(const SteadyResult& result);

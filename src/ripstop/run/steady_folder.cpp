@@ -20,6 +20,7 @@
 #include "ripstop/run/checkpoint.h"
 #include "ripstop/run/engine.h"
 #include "ripstop/run/stress_arrays.h"
+#include "ripstop/run/watch_files.h"
 
 namespace ripstop {
 namespace {
@@ -77,6 +78,7 @@ void SteadyFolder::iterated(const SteadyRun& run, const SteadyState& state, cons
     write_fields(run, state, flow);
     write_state(run, state);
   }
+  if (state.iterations.back().in_time) write_watch(folder_, run.given, run.solver.record());
   iterations(state.iterations.size() - 1).add(row_of(state.iterations.back()));
   save_checkpoint(folder_.own("checkpoint/"), state, run.solver.flow());
   next_.iterated(run, state, flow);

@@ -102,6 +102,7 @@ SheetJumps Solver::jumps(int j, int k, const std::vector<double>& values) const 
 
 FlowProgress Solver::iterate() {
   t_.in_time = false;
+  if (!s_.rate_u.empty()) stop_the_clock(s_);
   SheetRows& sheets = in_the_way_.sheets;
   if (!sheets.empty()) sheets.update(s_, d_.layout, d_.air.density * d_.air.speed);
   team_.run([this](int rank) {

@@ -1,0 +1,159 @@
+#include "ripstop/flow/unsteady.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "ripstop/core/error.h"
+#include "ripstop/flow/average.h"
+
+namespace ripstop {
+namespace {
+
+constexpr int steps_a_field = 8;       // between fields that the mean is made of
+constexpr int steps_a_look = 200;      // between looks at whether it is enough
+constexpr std::size_t most_parts = 8;  // of the mean: what is discarded is whole ones
+constexpr std::size_t most_slices = 24;
+constexpr double slice_every = 0.5;  // times that the stream takes for the length
+
+/// The mean of fields in parts of equal length, so that the start-up can be left out later. When there are too
+/// many parts, neighbours become one.
+class MeanInParts {
+ public:
+  explicit MeanInParts(double length) : length_(length) {}
+
+  void add(const FlowField& field, double time) {
+    if (parts_.empty() || time >= parts_.back().begin + length_) {
+      if (parts_.size() == most_parts) join();
+      if (parts_.empty() || time >= parts_.back().begin + length_) parts_.push_back({time, {}});
+    }
+    parts_.back().mean.add(field);
+  }
+
+  /// Of the parts that begin no earlier than `from`, the last one at least.
+  FlowField since(double from) const {
+    FieldMean mean;
+    for (std::size_t n = 0; n < parts_.size(); ++n)
+      if (parts_[n].begin >= from || n + 1 == parts_.size()) mean.add(parts_[n].mean);
+    return mean.mean();
+  }
+
+ private:
+  struct Part {
+    double begin;
+    FieldMean mean;
+  };
+
+  void join() {
+    std::vector<Part> joined;
+    for (std::size_t n = 0; n + 1 < parts_.size(); n += 2) {
+      parts_[n].mean.add(parts_[n + 1].mean);
+      joined.push_back(std::move(parts_[n]));
+    }
+    parts_ = std::move(joined);
+    length_ *= 2;
+  }
+
+  double length_;
+  std::vector<Part> parts_;
+};
+
+/// One axis of the force.
+Record record_of(const std::vector<FlowStep>& steps, double Vec3::*axis) {
+  Record record;
+  record.begin = steps.front().time - steps.front().length;
+  for (const FlowStep& step : steps) {
+    record.until.push_back(step.time);
+    record.values.push_back(step.force.*axis);
+  }
+  return record;
+}
+
+FlowField slice_of(const FlowField& field) {
+  const FlowGrid& grid = field.grid;
+  FlowField slice;
+  slice.grid = grid;
+  const int j = grid.cell_at(1, 0.5 * (grid.edge(1, 0) + grid.edge(1, grid.ny)));
+  slice.grid.origin.y = grid.edge(1, j), slice.grid.size.y = grid.width(1, j);
+  slice.grid.ny = 1, slice.grid.grading[1] = {};
+  for (int k = 0; k < grid.nz; ++k) {
+    for (int i = 0; i < grid.nx; ++i) {
+      slice.pressure.push_back(field.pressure[grid.index(i, j, k)]);
+      slice.velocity.push_back(field.velocity[grid.index(i, j, k)]);
+    }
+  }
+  return slice;
+}
+
+void check(const Watch& how) {
+  if (how.length > 0 && how.standard_error > 0 && how.shortest > 0 && how.longest >= 2 * how.shortest) return;
+  throw Error(ExitCode::usage,
+              fmt::format("flow: a watch of {} to {} times for {} m to a standard error of {}; all must be "
+                          "positive, and the longest at least twice the shortest",
+                          how.shortest, how.longest, how.length, how.standard_error));
+}
+
+}  // namespace
+
+double FlowRecord::watched() const {
+  return steps.empty() ? 0 : steps.back().time - steps.front().time + steps.front().length;
+}
+
+FlowField watch(Flow& flow, const FlowProblem& problem, const Watch& how, FlowRecord& record,
+                const WatchReport& report) {
+  check(how);
+  record = {};
+  const double unit = how.length / problem.air.speed;  // [s]
+  MeanInParts mean(how.shortest * unit / 4);
+  double next_slice = 0;
+  WatchProgress progress;
+  bool stopped = false;
+  const auto look = [&] {
+    const Record drag = record_of(record.steps, &Vec3::z);
+    record.start_up = end_of_start_up(drag) - drag.begin;
+    record.drag = estimate(drag, drag.begin + record.start_up);
+    progress.mean = record.drag.mean, progress.standard_error = record.drag.standard_error;
+    const double relative = record.drag.standard_error / std::abs(record.drag.mean);
+    record.enough =
+        relative <= how.standard_error && record.watched() - record.start_up >= how.shortest * unit;
+    // The error falls with the root of the time.
+    const double wanted = std::pow(relative / how.standard_error, 2) * (record.watched() - record.start_up);
+    progress.share =
+        record.watched() / std::clamp(record.start_up + wanted, how.shortest * unit, how.longest * unit);
+    return record.enough || record.watched() >= how.longest * unit;
+  };
+  do {
+    flow.march(steps_a_look, how.courant, [&](const FlowStep& step) {
+      record.steps.push_back(step);
+      const double time = record.watched();
+      if (record.steps.size() % steps_a_field == 0) {
+        FlowField field = flow.field();
+        if (time >= next_slice) {
+          next_slice = time + slice_every * unit;
+          record.slices.push_back({step.time, slice_of(field)});
+          if (record.slices.size() > most_slices) record.slices.erase(record.slices.begin());
+        }
+        mean.add(field, time);
+      }
+      progress.step = step;
+      stopped = report && !report(progress);
+      return !stopped;
+    });
+  } while (!stopped && !look());
+  if (record.steps.size() < steps_a_field) return flow.field();
+  const Record x = record_of(record.steps, &Vec3::x), y = record_of(record.steps, &Vec3::y);
+  const double from = x.begin + record.start_up;
+  record.side_x = estimate(x, from), record.side_y = estimate(y, from);
+  record.swing = strongest_frequency({x, y}, from);
+  FlowField field = mean.since(record.start_up);
+  // What the box's faces pass, less what its own momentum grows by: force and gap of every step.
+  double gap = 0;
+  for (const FlowStep& step : record.steps) gap += step.length * step.momentum_gap / record.watched();
+  field.momentum_deficit = field.porous_force.z - gap;
+  field.converged = record.enough;
+  return field;
+}
+
+}  // namespace ripstop

@@ -1,0 +1,52 @@
+// A flow watched in time until its mean drag is known well enough.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "ripstop/flow/flow.h"
+#include "ripstop/flow/statistics.h"
+
+namespace ripstop {
+
+/// How long to watch. Lengths are in times that the stream takes for one `length`.
+struct Watch {
+  double courant = 0.7;
+  double standard_error = 0.01;         // of the mean drag, relative, at which it ends
+  double shortest = 25, longest = 300;  // after the start-up, and in all
+  double length = 0;                    // [m], such as the canopy's inflated diameter
+};
+
+/// The plane y = 0 at one time: fields with ny = 1.
+struct FlowSlice {
+  double time = 0;  // [s]
+  FlowField field;
+};
+
+/// What was seen.
+struct FlowRecord {
+  std::vector<FlowStep> steps;
+  double start_up = 0;            // discarded, from the beginning of the watch [s]
+  Estimate drag, side_x, side_y;  // of the rest [N]
+  Peak swing;                     // of the side force
+  bool enough = false;            // the standard error came down to what was asked for
+  std::vector<FlowSlice> slices;  // the last ones, evenly in time
+
+  double watched() const;  // [s]
+};
+
+struct WatchProgress {
+  FlowStep step;
+  double mean = 0, standard_error = 0;  // of the drag so far [N]; 0: not yet known
+  double share = 0;                     // of the watch that lies behind, as far as can be told
+};
+using WatchReport = std::function<bool(const WatchProgress&)>;
+
+/// Marches on from where the flow is. Returns the mean over what is left without the start-up, with the mean
+/// loads, and in `record` how it went. FlowField::average says how many fields it is made of. Throws what
+/// Flow::march() throws, Error(usage) for a watch that cannot be.
+FlowField watch(Flow& flow, const FlowProblem& problem, const Watch& how, FlowRecord& record,
+                const WatchReport& report = {});
+
+}  // namespace ripstop

@@ -1,0 +1,14 @@
+// The files of a flow that was watched in time: history.csv and history.png, the wake as a series and a picture.
+#pragma once
+
+#include "ripstop/case/case.h"
+#include "ripstop/core/claimed_folder.h"
+#include "ripstop/flow/unsteady.h"
+
+namespace ripstop {
+
+/// history.csv (forces and step by step in time), history.png (drag with its running mean), wake.pvd and wake/
+/// (the middle plane at the last times), wake.png (speed in it). Throws Error(io).
+void write_watch(ClaimedFolder& folder, const Case& given, const FlowRecord& record);
+
+}  // namespace ripstop
