@@ -2,10 +2,12 @@
 //   bench_bodies [cells across the body on the finest of three grids [body [width of the box in diameters
 //                [turbulence intensity [sides: slip, entraining or zero-gradient]]]]]
 //   bench_bodies sides      what a near side does to disks
+//   bench_bodies in-time [cells across the body [body]]   steady flows and means over time side by side
 #include "ripstop/flow/bodies.h"
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
@@ -16,6 +18,7 @@
 #include "far_box.h"
 #include "ripstop/flow/cartesian/cartesian.h"
 #include "ripstop/flow/steady.h"
+#include "ripstop/flow/unsteady.h"
 #include "table.h"
 
 using namespace ripstop;
@@ -50,7 +53,7 @@ void read_pressures(const FlowField& field, double dynamic_pressure, Result& res
   result.front /= area * dynamic_pressure, result.back /= area * dynamic_pressure;
 }
 
-Result drag_coefficient(const Body& body, const FlowGrid& grid, double turbulence, Sides sides) {
+FlowProblem problem_of(const Body& body, const FlowGrid& grid, double turbulence, Sides sides) {
   FlowProblem problem;
   problem.grid = grid;
   problem.air.speed = 30;
@@ -58,20 +61,34 @@ Result drag_coefficient(const Body& body, const FlowGrid& grid, double turbulenc
   problem.sides = sides;
   problem.stopping.max_iterations = 600;
   problem.stopping.average_over = 100;
-  const double rho = problem.air.density, speed = problem.air.speed;
   // K = dp / (rho v^2 / 2) at the velocity v through the disk.
-  problem.sheets = {{body.surface, body.loss > 0 ? 0 : 1e6, body.loss * rho / 2}};
+  problem.sheets = {{body.surface, body.loss > 0 ? 0 : 1e6, body.loss * problem.air.density / 2}};
   problem.outlet = Outlet::still_air;
+  return problem;
+}
+
+double dynamic_pressure(const FlowProblem& problem) {
+  return 0.5 * problem.air.density * problem.air.speed * problem.air.speed;
+}
+
+CartesianSettings second_order() {
   CartesianSettings settings;
   settings.second_order = true;
-  const FlowField field = solve(*make_cartesian(settings), problem);
+  return settings;
+}
+
+Result result_of(const Body& body, const FlowProblem& problem, const FlowField& field) {
   const FlowAverage& mean = field.average;
-  const double dynamic_pressure = 0.5 * rho * speed * speed;
   Result result;
-  result.coefficient = field.porous_force.z / (dynamic_pressure * body.area);
+  result.coefficient = field.porous_force.z / (dynamic_pressure(problem) * body.area);
   if (mean.iterations > 0) result.change = (mean.drag_high - mean.drag_low) / mean.drag;
-  read_pressures(field, dynamic_pressure, result);
+  read_pressures(field, dynamic_pressure(problem), result);
   return result;
+}
+
+Result drag_coefficient(const Body& body, const FlowGrid& grid, double turbulence, Sides sides) {
+  const FlowProblem problem = problem_of(body, grid, turbulence, sides);
+  return result_of(body, problem, solve(*make_cartesian(second_order()), problem));
 }
 
 std::string off_by(double value, double reference) {
@@ -135,9 +152,66 @@ void compare_sides(int argc, char** argv) {
   }
 }
 
+std::vector<Body> bodies_in_time(Vec3 centre) {
+  std::vector<Body> bodies = all_bodies(centre);
+  Body away{"cup facing away", hemispherical_cup(1, centre), bodies[0].area, 0, 0.40};
+  for (Triangle& t : away.surface) {
+    for (Vec3* p : {&t.a, &t.b, &t.c}) p->z = 2 * centre.z - p->z;
+    std::swap(t.a, t.b);  // the same side stays outside
+  }
+  bodies.insert(bodies.begin() + 3, away);
+  return bodies;
+}
+
+/// A steady flow, then 60 times that the stream takes for the body's width, and more until the error is 1 %.
+void compare_in_time(int argc, char** argv) {
+  const int across = argc > 2 ? std::atoi(argv[2]) : 16;
+  const std::string only = argc > 3 ? argv[3] : "";
+  constexpr double box = 12;
+  print_table_head(
+      fmt::format(
+          "Drag coefficients of bodies 1 m across at 30 m/s on d/{}, steady and in time, box 12 x 12 x 18 m, "
+          "entraining sides",
+          across),
+      argc, argv,
+      {"body", "reference", "steady", "off by", "in time, standard error", "off by", "Cp front, back, steady",
+       "Cp front, back, in time", "Strouhal", "steps, start-up in all d/U", "minutes"});
+  for (const Body& body : bodies_in_time(place_in(box))) {
+    if (!only.empty() && body.name != only) continue;
+    const FlowProblem problem =
+        problem_of(body, far_box(1, box, across, place_in(box).z), 0.005, Sides::entraining);
+    const auto begin = std::chrono::steady_clock::now();
+    const auto engine = make_cartesian(second_order());
+    const auto flow = engine->start(problem);
+    const Result steady = result_of(body, problem, solve_to_rest(*flow, problem.stopping));
+    FlowRecord record;
+    Watch how;
+    how.shortest = 60, how.longest = 200, how.length = 1;
+    const Result mean = result_of(body, problem, watch(*flow, problem, how, record));
+    const double minutes =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() / 60;
+    const double in_time = 1 / (dynamic_pressure(problem) * body.area), unit = 1 / problem.air.speed;
+    print_row(
+        {body.name, fmt::format("{:.3f}", body.reference), fmt::format("{:.3f}", steady.coefficient),
+         off_by(steady.coefficient, body.reference),
+         fmt::format("{:.3f} +- {:.3f}", in_time * record.drag.mean, in_time * record.drag.standard_error),
+         off_by(in_time * record.drag.mean, body.reference),
+         fmt::format("{:.3f}, {:.3f}", steady.front, steady.back),
+         fmt::format("{:.3f}, {:.3f}", mean.front, mean.back),
+         fmt::format("{:.3f}", record.swing.frequency * unit),
+         fmt::format("{}, {:.0f} of {:.0f}", record.steps.size(), record.start_up / unit,
+                     record.watched() / unit),
+         fmt::format("{:.1f}", minutes)});
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc > 1 && std::string(argv[1]) == "in-time") {
+    compare_in_time(argc, argv);
+    return 0;
+  }
   if (argc > 1 && std::string(argv[1]) == "sides") {
     compare_sides(argc, argv);
     return 0;

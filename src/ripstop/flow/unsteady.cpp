@@ -112,7 +112,9 @@ FlowField watch(Flow& flow, const FlowProblem& problem, const Watch& how, FlowRe
   bool stopped = false;
   const auto look = [&] {
     const Record drag = record_of(record.steps, &Vec3::z);
-    record.start_up = end_of_start_up(drag) - drag.begin;
+    // At least until the stream has been through the box.
+    const double through = std::min(problem.grid.size.z / problem.air.speed, 0.5 * record.watched());
+    record.start_up = std::max(end_of_start_up(drag) - drag.begin, through);
     record.drag = estimate(drag, drag.begin + record.start_up);
     progress.mean = record.drag.mean, progress.standard_error = record.drag.standard_error;
     const double relative = record.drag.standard_error / std::abs(record.drag.mean);
