@@ -14,7 +14,8 @@ namespace ripstop {
 struct RunSettings {
   std::filesystem::path folder;
   bool fresh = false;  // throw away what Ripstop wrote there in an earlier run
-  bool fields = true;  // write shapes and flow for ParaView after every iteration
+  bool fields = true;  // write flow and shapes for ParaView after every iteration; else the last shape only
+  bool report = true;  // write report.html at the end
 };
 
 /// runs/<name of the case>: that of its file, or of the file's folder where the file is just "case.toml".
