@@ -8,11 +8,11 @@ PREFIX ?= /usr/local
 PACKAGES := build-essential cmake ninja-build pkg-config libtomlplusplus-dev libcli11-dev libfmt-dev \
   libeigen3-dev nlohmann-json3-dev libnlopt-dev libhwy-dev libpng-dev libcairo2-dev fonts-dejavu-core libxxhash-dev zlib1g-dev \
   openfoam openmpi-bin
-CHECK_PACKAGES := libgtest-dev libbenchmark-dev python3 python3-jsonschema python3-vtk9 clang-format
+CHECK_PACKAGES := libgtest-dev libbenchmark-dev python3 python3-jsonschema python3-vtk9 clang-format chromium
 
 export PATH := /usr/bin:$(PATH)
 
-.PHONY: help deps check-deps build demo check room sanitize tidy bench validate validate-ojf validate-families format format-check install package clean
+.PHONY: help deps check-deps build demo check room sanitize tidy bench validate validate-ojf validate-families report-libraries format format-check install package clean
 
 help:  ## This list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -77,6 +77,9 @@ validate-ojf: build  ## Calibrate on Stratos IV, predict WALRUS and ADEPT blind,
 
 validate-families: build  ## Drag of every family's example beside Knacke's values, into docs/tables: ten minutes; resumable
 	@/usr/bin/python3 validation/families/families.py --ripstop build/bin/ripstop
+
+report-libraries:  ## Make the report's three.js and uPlot again from npm, as package-lock.json pins them (needs node)
+	@cd src/ripstop/report/vendor && npm ci --silent && npm run --silent build && rm -rf node_modules
 
 format:  ## Format the sources
 	@git ls-files '*.h' '*.cpp' | xargs clang-format -i

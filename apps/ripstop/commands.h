@@ -22,5 +22,7 @@ void add_sweep(CLI::App& app, int& status);
 void add_compare(CLI::App& app, int& status);
 void add_photogrammetry(CLI::App& app, int& status);
 void add_import(CLI::App& app, int& status);
+void add_descent(CLI::App& app, int& status);
+void add_report(CLI::App& app, int& status);
 
 }  // namespace ripstop

@@ -14,6 +14,7 @@
 #include "opening.h"
 #include "progress.h"
 #include "ripstop/run/inflation_folder.h"
+#include "ripstop/run/report.h"
 #include "warnings.h"
 
 namespace ripstop {
@@ -90,6 +91,7 @@ void print_result(const InflationResult& r, const fs::path& folder, double wall_
       fmt::format("work in = kinetic + elastic + damped within {:.3f} %", 100 * r.energy_residual));
   row("files", fmt::format("{} (load.png, shapes.png, history.csv, canopy.pvd, result.json); {}",
                            folder.string(), duration_text(wall_time)));
+  if (fs::exists(folder / report_name)) row("report", (folder / report_name).string());
 }
 
 /// Where the opening starts, or goes on, and how far it is.

@@ -32,6 +32,8 @@ int main(int argc, char** argv) {
   add_sweep(app, status);
   add_compare(app, status);
   add_photogrammetry(app, status);
+  add_descent(app, status);
+  add_report(app, status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -1,5 +1,5 @@
-// ripstop photogrammetry: sizes read off camera images, corrected for perspective, beside the computed
-// canopy's.
+// ripstop photogrammetry: sizes read off camera images, corrected for perspective, beside
+// the computed canopy's.
 
 #include "ripstop/run/photogrammetry.h"
 

@@ -1,5 +1,5 @@
-// Live progress of long work on standard error: one line that is rewritten on a terminal, a line now and then
-// elsewhere.
+// Live progress of long work on standard error: one line that is rewritten on a terminal, a line
+// now and then elsewhere.
 #pragma once
 
 #include <chrono>

@@ -15,6 +15,7 @@
 #include "progress.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/error.h"
+#include "ripstop/run/report.h"
 #include "ripstop/run/steady_folder.h"
 #include "warnings.h"
 
@@ -152,6 +153,7 @@ void print_result(const SteadyResult& r, const Case& given, const fs::path& fold
                               r.converged ? "converged" : "NOT converged", duration_text(r.wall_time)));
   row("files", fmt::format("{} (canopy.png, canopy.pvd, {}, result.json)", folder.string(),
                            flow_grid(given).uniform() ? "flow.vti" : "flow.vtr"));
+  if (fs::exists(folder / report_name)) row("report", (folder / report_name).string());
 }
 
 class Terminal : public SteadyObserver {

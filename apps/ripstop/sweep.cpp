@@ -4,12 +4,14 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
 #include "commands.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
+#include "ripstop/run/report.h"
 #include "ripstop/run/sweep_files.h"
 #include "sweep_progress.h"
 
@@ -68,13 +70,17 @@ int sweep(Options& options) {
   write_csv(folder / "sweep.csv", sweep_table(axes, points, rows));
   write_file(folder / "result.json", json);
   write_sweep_plots(folder, title, axes, points, rows);
-  if (options.json)
+  const bool any = std::any_of(rows.begin(), rows.end(), [](const SweepRow& row) { return row.done; });
+  const std::string report = any ? write_report({folder}).string() : "";
+  if (options.json) {
     fmt::print("{}", json);
-  else
+  } else {
     fmt::print(
         "{} (and result.json, drag, drag_area, drag_coefficient, diameters, iterations, wall_time as .svg "
         "and .png)\n",
         (folder / "sweep.csv").string());
+    if (any) fmt::print("{}\n", report);
+  }
   std::fflush(stdout);
   require_all(points, rows);
   return 0;

@@ -28,8 +28,8 @@ void finish(SweepOptions& options, const std::string& what);
 /// Runs the points with one line of progress, a line for every end, and sweep.csv after each of them.
 std::vector<SweepRow> run_and_tell(const std::vector<SweepAxis>& axes, const std::vector<SweepPoint>& points,
                                    const SweepSettings& settings);
-/// Throws Error of the first failed run's message when one failed, Error(not_converged) when one did not
-/// converge.
+/// Throws Error of the first failed run's message when one failed, Error(not_converged)
+/// when one did not converge.
 void require_all(const std::vector<SweepPoint>& points, const std::vector<SweepRow>& rows);
 
 }  // namespace ripstop

@@ -79,8 +79,8 @@ TEST_F(Coupon, AlongTheYarnsItReturnsTheMeasuredCurve) {
   const SpringLaw curve{f111().coefficients_n_m, 1};
   for (int orientation : {0, 90})
     for (const CouponPoint& p : pull({0.2, 0.05, orientation, 8, 1}, {0.01, 0.05, 0.1, 0.2, 0.3}).points)
-      // The clamps hold the width and stiffen by 0.5 % at most: the rescaling of fit_coupons() takes that
-      // back.
+      // The clamps hold the width and stiffen by 0.5 % at most: the rescaling of
+      // fit_coupons() takes that back.
       EXPECT_NEAR(p.load / curve.tension(p.strain), 1, 0.005) << orientation << " deg, strain " << p.strain;
 }
 
@@ -122,9 +122,9 @@ TEST_F(Coupon, OnTheBiasItNecksAndItsClampCornersAreStressed) {
   EXPECT_LT(straight.corner_peak, 1.05);
 }
 
-// The cloth of a canopy cut on the bias, whose lattice does not follow the yarns, against the lattice that
-// does: the same load and the same neck. Bending springs, which only the latter has, and the cuts make the
-// rest.
+// The cloth of a canopy cut on the bias, whose lattice does not follow the yarns, against the
+// lattice that does: the same load and the same neck. Bending springs, which only the latter has,
+// and the cuts make the rest.
 TEST_F(Coupon, WithItsYarnsOnTheDiagonalsOfTheLatticeItIsTheSameCloth) {
   const std::vector<double> strains{0.005, 0.05, 0.15, 0.3};
   const CouponPull yarns = pull({0.2, 0.05, 45, 12, 1}, strains);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../blown_up.h"
 #include "../parachute/examples.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/coupling/sheet_transfer.h"
@@ -19,21 +20,15 @@ INSTANTIATE_TEST_SUITE_P(All, SectionBalanceOf, testing::ValuesIn(family_example
 
 TEST_P(SectionBalanceOf, TheStressFieldCarriesTheLoadBeyondEverySection) {
   const Mesh mesh = parachute_mesh(example(GetParam(), 6000));
-  const std::vector<Cell> cells = cells_of(mesh);
-  const ClothPtr cloth = make_cloth(mesh);
-  ClothState state = start_state(*cloth);
-  ThreadTeam team(2);
-  RelaxOptions options;
-  options.tolerance = 1e-3;
-  const std::vector<double> pressure(cells.size(), 240.0);
-  ASSERT_TRUE(relax(state, *cloth, {pressure, {}}, options, team).converged);
-  const std::vector<Vec3> load = node_forces({pressure, {}}, cells, positions(state, *cloth));
-  EXPECT_LT(largest_section_gap(mesh, *cloth, state, load), 0.02);
+  const BlownUp canopy = blown_up(mesh, 240, 1e-3);
+  const std::vector<Vec3> load =
+      node_forces({canopy.loads.cell_pressure, {}}, cells_of(mesh), canopy.positions());
+  EXPECT_LT(largest_section_gap(mesh, *canopy.cloth, canopy.state, load), 0.02);
 
   // A tenth of the load that the stress knows nothing of is seen.
   std::vector<Vec3> more = load;
   for (Vec3& force : more) force = 1.1 * force;
-  EXPECT_GT(largest_section_gap(mesh, *cloth, state, more), 0.05);
+  EXPECT_GT(largest_section_gap(mesh, *canopy.cloth, canopy.state, more), 0.05);
 }
 
 // A cord that hangs with a load at its end: every section carries it.

@@ -1,4 +1,4 @@
-// A small valid case as text, and ways to spoil it.
+// Small valid cases as text, and ways to spoil them.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -33,6 +33,19 @@ cells = [20, 20, 30]
 nominal_speed_m_s = 20
 measured_speed_m_s = 21
 density_kg_m3 = 1.199
+)";
+
+/// No more than a case must say.
+inline const std::string short_case = R"(
+[parachute]
+type = "flat-circular"
+nominal_diameter_m = 3.0
+vent_diameter_m = 0.3
+gores = 12
+lines = { count = 12, length_m = 3.0 }
+[flow]
+speed_m_s = 8
+density_kg_m3 = 1.2
 )";
 
 /// `text` with the one place where `from` stands replaced.

@@ -1,5 +1,5 @@
-// What follows where a case says nothing: from parachute, cloth and other values, never from which keys were
-// typed.
+// What follows where a case says nothing: from parachute, cloth and other values, never from
+// which keys were typed.
 #include "ripstop/case/resolve.h"
 
 #include <gtest/gtest.h>
@@ -19,17 +19,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const std::string short_case = R"(
-[parachute]
-type = "flat-circular"
-nominal_diameter_m = 3.0
-vent_diameter_m = 0.3
-gores = 12
-lines = { count = 12, length_m = 3.0 }
-[flow]
-speed_m_s = 8
-density_kg_m3 = 1.2
-)";
 constexpr double d = 0.7 * 3.0;  // its inflated diameter
 
 std::string of_calibrated_cloth(const std::string& text) {

@@ -98,8 +98,8 @@ TEST(ClothEquilibrium, APressurisedCylinderCarriesPressureTimesRadius) {
   EXPECT_NEAR(std::log2(coarse / fine), 2, 0.3);
 }
 
-// Zone of a sphere between the latitudes +-50 degrees, its rims held where a uniformly blown-up sphere has
-// them.
+// Zone of a sphere between the latitudes +-50 degrees, its rims held where a uniformly
+// blown-up sphere has them.
 double sphere_error(int columns) {
   const double radius = 0.25, strain = 0.01;
   const int rows = columns / 3 + 1;
@@ -163,8 +163,8 @@ TEST(ClothEquilibrium, APulledCouponGivesItsCurveBackForAnySpacing) {
     p.law[bend_row] = p.law[bend_column] = laws.bending;
     const ClothPtr cloth = make_cloth(mesh);
     for (double strain : {0.01, 0.1, 0.3}) {
-      // Pulled by forces on its ends: nothing is clamped, so the strain is homogeneous but for the last
-      // cells.
+      // Pulled by forces on its ends: nothing is clamped, so the strain is homogeneous
+      // but for the last cells.
       const double load = curve.tension(strain);
       Loads loads;
       loads.node_force.assign(mesh.node_count(), {});

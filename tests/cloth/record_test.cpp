@@ -33,8 +33,8 @@ Balance balance(const Mesh& mesh, const ClothOptions& options, double share_of_s
           record.damped};
 }
 
-// The kinetic energy is that of half a step ago, and lattice dampers are read at the old velocity: first
-// order.
+// The kinetic energy is that of half a step ago, and lattice dampers are read at the old
+// velocity: first order.
 TEST(StepRecord, TheWorkOfThePressureIsKineticElasticAndDampedEnergyToFirstOrderInTheStep) {
   for (const double spring_damping : {0.0, 0.02})
     for (const ClothOptions& options : {ClothOptions{false, 8.2, 0}, {false, 2.0, 0.3}}) {

@@ -129,8 +129,8 @@ struct Bent {
   double height, moment;  // wrinkled height over h, M / (P h)
 };
 
-// Least squares over the taut springs along the middle: the strain is linear over the height, 0 where wrinkles
-// begin.
+// Least squares over the taut springs along the middle: the strain is linear over the height,
+// 0 where wrinkles begin.
 double wrinkled_rows(const std::vector<double>& strain) {
   double n = 0, x = 0, y = 0, xx = 0, xy = 0;
   for (std::size_t row = 0; row < strain.size(); ++row) {

@@ -19,8 +19,8 @@ TEST(LineFit, OfPointsOnALineIsTheLineWithoutError) {
 }
 
 TEST(LineFit, HasTheErrorsOfTheTextbook) {
-  // Anscombe's first set (The American Statistician 27, 1973): 3.00 + 0.500 x, R2 = 0.67, errors 1.125,
-  // 0.118.
+  // Anscombe's first set (The American Statistician 27, 1973): 3.00 + 0.500 x,
+  // R2 = 0.67, errors 1.125, 0.118.
   const std::vector<double> x{10, 8, 13, 9, 11, 14, 6, 4, 12, 7, 5},
       y{8.04, 6.95, 7.58, 8.81, 8.33, 9.96, 7.24, 4.26, 10.84, 4.82, 5.68};
   const LineFit line = fit_line(x, y);

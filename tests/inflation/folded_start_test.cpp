@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include "../printed_materials.h"
+#include "../turned_symmetry.h"
 #include "ripstop/cloth/cloth.h"
 #include "ripstop/core/error.h"
 #include "ripstop/parachute/build.h"
@@ -86,18 +86,7 @@ TEST(FoldedStart, ARingsailKeepsItsSymmetryAndItsSlotsAreNoWiderThanTheirLines) 
   const Family sails = families()[6];
   const CanopyMesh mesh = build_mesh(sails.design, printed_materials());
   const FoldedStart start = folded_start(mesh, {sails.radius, 0, 0.05}, 8, team);
-  const double turn = 2 * std::numbers::pi / 8, c = std::cos(turn), s = std::sin(turn);
-  for (const Patch& patch : mesh.patches) {
-    for (int row = 0; row < patch.rows; ++row) {
-      for (int column = 0; column < patch.columns; ++column) {
-        const Vec3 p = start.positions[patch.node(row, column)];
-        const Vec3 q = start.positions[patch.node(row, (column + patch.columns / 8) % patch.columns)];
-        ASSERT_LT(norm(q - Vec3{c * p.x - s * p.y, s * p.x + c * p.y, p.z}), 1e-12);
-        const Vec3 mirror = start.positions[patch.node(row, (patch.columns - column) % patch.columns)];
-        ASSERT_LT(norm(mirror - Vec3{p.x, -p.y, p.z}), 1e-12);
-      }
-    }
-  }
+  EXPECT_LT(departure_from_symmetry(mesh, start.positions, 8), 1e-12);
   for (const LineRun& line : mesh.rigging.lines) {
     for (const int i : line.springs) {
       const Spring& spring = mesh.springs[i];

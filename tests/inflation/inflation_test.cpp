@@ -18,12 +18,9 @@ namespace ripstop {
 namespace {
 
 CanopyMesh small_canopy(int nodes = 1200) {
-  Design design;
+  Design design = printed_stratos(nodes);
   design.canopy = DiskGapBand{1.0, 0.2, 0.07, 0.3};
-  design.gores = 6;
   design.lines.count = 6;
-  design.lines.length_m = 1.5;
-  design.mesh.cloth_nodes = nodes;
   design.mesh.line_segment_m = 0.15;
   design.mesh.folds = 6;
   return build_mesh(design, printed_materials());

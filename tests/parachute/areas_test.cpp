@@ -1,5 +1,5 @@
-// Areas by each family's own definition, in closed form: S0, cloth, and the open share of it (vent, slots,
-// gaps).
+// Areas by each family's own definition, in closed form: S0, cloth, and the open share of
+// it (vent, slots, gaps).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -52,6 +52,37 @@ double flat_gores(const std::vector<double>& r, const std::vector<double>& z, in
   return area;
 }
 
+/// Of equal flat annuli from the skirt inward.
+Areas of_rings(const Ringslot& c) {
+  EXPECT_EQ(c.cone_angle_deg, 0);
+  const double whole = disk(c.nominal_diameter_m), outer = c.nominal_diameter_m / 2;
+  const double ring = (outer - c.vent_diameter_m / 2 - (c.rings - 1) * c.slot_height_m) / c.rings;
+  double open = disk(c.vent_diameter_m);
+  for (int i = 1; i < c.rings; ++i) {
+    const double r = outer - i * ring - (i - 1) * c.slot_height_m;
+    open += disk(2 * r) - disk(2 * (r - c.slot_height_m));
+  }
+  return {whole, whole - open, open};
+}
+
+/// Of zones of a sphere, sail and slot in turn, from the skirt up.
+Areas of_sails(const Ringsail& c) {
+  const double angle = c.half_angle_deg * degree, whole = disk(c.nominal_diameter_m);
+  const double radius = std::sqrt(whole / (2 * pi * (1 - std::cos(angle))));
+  const double vent = std::asin(c.vent_diameter_m / 2 / radius);
+  const std::vector<SailRow> rows = sail_rows(c);
+  double arc = angle - vent, heights = 0, open = disk(c.vent_diameter_m), covered = 0, from = angle;
+  for (const SailRow& row : rows) arc -= row.slot_deg * degree, heights += row.height;
+  for (const SailRow& row : rows) {
+    const double sail = arc * row.height / heights, slot = row.slot_deg * degree;
+    covered += zone(radius, from - sail, from);
+    open += zone(radius, from - sail - slot, from - sail);
+    from -= sail + slot;
+  }
+  EXPECT_NEAR(from, vent, 1e-12);
+  return {whole, covered, open};
+}
+
 Areas by_hand(const Design& design) {
   if (const auto* c = design.canopy.as<DiskGapBand>()) {
     const double cloth =
@@ -73,34 +104,8 @@ Areas by_hand(const Design& design) {
     const double whole = disk(c->disk_diameter_m) + skirt;
     return {whole, whole - disk(c->vent_diameter_m), disk(c->vent_diameter_m)};
   }
-  if (const auto* c = design.canopy.as<Ringslot>()) {
-    // Flat: annuli from the skirt inward.
-    EXPECT_EQ(c->cone_angle_deg, 0);
-    const double whole = disk(c->nominal_diameter_m), outer = c->nominal_diameter_m / 2;
-    const double ring = (outer - c->vent_diameter_m / 2 - (c->rings - 1) * c->slot_height_m) / c->rings;
-    double open = disk(c->vent_diameter_m);
-    for (int i = 1; i < c->rings; ++i) {
-      const double r = outer - i * ring - (i - 1) * c->slot_height_m;
-      open += disk(2 * r) - disk(2 * (r - c->slot_height_m));
-    }
-    return {whole, whole - open, open};
-  }
-  if (const auto* c = design.canopy.as<Ringsail>()) {
-    const double angle = c->half_angle_deg * degree, whole = disk(c->nominal_diameter_m);
-    const double radius = std::sqrt(whole / (2 * pi * (1 - std::cos(angle))));
-    const double vent = std::asin(c->vent_diameter_m / 2 / radius);
-    const std::vector<SailRow> rows = sail_rows(*c);
-    double arc = angle - vent, heights = 0, open = disk(c->vent_diameter_m), covered = 0, from = angle;
-    for (const SailRow& row : rows) arc -= row.slot_deg * degree, heights += row.height;
-    for (const SailRow& row : rows) {
-      const double sail = arc * row.height / heights, slot = row.slot_deg * degree;
-      covered += zone(radius, from - sail, from);
-      open += zone(radius, from - sail - slot, from - sail);
-      from -= sail + slot;
-    }
-    EXPECT_NEAR(from, vent, 1e-12);
-    return {whole, covered, open};
-  }
+  if (const auto* c = design.canopy.as<Ringslot>()) return of_rings(*c);
+  if (const auto* c = design.canopy.as<Ringsail>()) return of_sails(*c);
   if (const auto* c = design.canopy.as<Cross>()) {
     const double cloth = 2 * c->arm_length_m * c->arm_width_m - c->arm_width_m * c->arm_width_m;
     return {cloth, cloth, 0};
@@ -150,8 +155,8 @@ TEST_P(FamilyAreas, TheMeshLeavesTheSameAreaOpen) {
   Case given = example(GetParam());
   given.parachute.mesh.sewn_straight = false;  // else seams cut their corners between two nodes of a line
   if (given.parachute.canopy.as<Cross>()) GTEST_SKIP() << "a cross has no openings in its cloth";
-  // Round rings of a disk-gap-band are polygons with as many sides as columns, other canopies with their
-  // gores.
+  // Round rings of a disk-gap-band are polygons with as many sides as columns, other
+  // canopies with their gores.
   const bool round = given.parachute.canopy.as<DiskGapBand>();
   const CanopyMesh mesh = parachute_mesh(given);
   double open = 0;

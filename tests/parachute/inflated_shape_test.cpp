@@ -6,11 +6,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "../blown_up.h"
 #include "examples.h"
 #include "ripstop/canopy/shape.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/case/case.h"
-#include "ripstop/cloth/cloth.h"
 
 namespace ripstop {
 namespace {
@@ -35,15 +35,8 @@ bool falls_into_folds(const std::string& name) {
 TEST_P(InflatedShape, HasTheDiameterOfItsTypeAndTheSymmetryOfItsLines) {
   const Case given = example(GetParam(), 3000);
   const CanopyMesh mesh = parachute_mesh(given);
-  const ClothPtr cloth = make_cloth(mesh);
-  ClothState state = start_state(*cloth);
-  const Loads loads{std::vector<double>(mesh.cell_count(), 240.0), {}};
-  ThreadTeam team(1);
-  RelaxOptions options;
-  options.tolerance = 2e-3;
-  const RelaxResult result = relax(state, *cloth, loads, options, team);
-  ASSERT_TRUE(result.converged) << result.residual;
-  const std::vector<Vec3> x = positions(state, *cloth);
+  const BlownUp canopy = blown_up(mesh, 240, 2e-3);
+  const std::vector<Vec3> x = canopy.positions();
 
   const double nominal_diameter = std::sqrt(4 / std::numbers::pi * nominal_area(given.parachute));
   const double ratio = canopy_size(mesh, x).projected_diameter / nominal_diameter;
@@ -53,14 +46,14 @@ TEST_P(InflatedShape, HasTheDiameterOfItsTypeAndTheSymmetryOfItsLines) {
   RecordProperty("projected_over_nominal_diameter", std::to_string(ratio));
 
   // What the lines carry is what the pressure pushes.
-  EXPECT_NEAR(force_on_fixed(*cloth, state).z / pressure_force(*cloth, state, loads).z, 1, 0.01);
+  EXPECT_NEAR(canopy.held_share(), 1, 0.01);
 
   // The ends of lines that are cut alike stand at equal radii and carry equal loads. Where surplus cloth
   // falls into folds, which way each goes is undecided: folds differ, pull sideways and shift the loads.
   const int alike = given.parachute.gores;
   const bool folds = falls_into_folds(GetParam());
   const int apart = given.parachute.lines.count / alike;
-  const std::vector<double> tension = spring_tensions(*cloth, state);
+  const std::vector<double> tension = spring_tensions(*canopy.cloth, canopy.state);
   for (int first = 0; first < apart; ++first) {
     double least = 1e300, most = 0, least_tension = 1e300, most_tension = 0;
     for (int k = first; k < given.parachute.lines.count; k += apart) {
@@ -79,14 +72,7 @@ TEST_P(InflatedShape, HasTheDiameterOfItsTypeAndTheSymmetryOfItsLines) {
 
 double inflated_diameter(const Case& given) {
   const CanopyMesh mesh = parachute_mesh(given);
-  const ClothPtr cloth = make_cloth(mesh);
-  ClothState state = start_state(*cloth);
-  ThreadTeam team(1);
-  RelaxOptions options;
-  options.tolerance = 1e-3;
-  const Loads loads{std::vector<double>(mesh.cell_count(), 240.0), {}};
-  EXPECT_TRUE(relax(state, *cloth, loads, options, team).converged);
-  return canopy_size(mesh, positions(state, *cloth)).projected_diameter;
+  return canopy_size(mesh, blown_up(mesh, 240, 1e-3).positions()).projected_diameter;
 }
 
 // The other families' numbers need minutes: docs/guide/canopies.md has their table and its command.

@@ -1,5 +1,5 @@
-// A symmetric canopy under a symmetric load: the symmetric shape exists and is stable, and why a free run
-// misses it.
+// A symmetric canopy under a symmetric load: the symmetric shape exists and is stable, and
+// why a free run misses it.
 #include <gtest/gtest.h>
 
 #include <algorithm>

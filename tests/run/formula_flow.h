@@ -52,6 +52,9 @@ class FormulaFlow : public Flow {
     std::copy(bytes.begin(), bytes.end(), reinterpret_cast<char*>(&force_));
   }
 
+ protected:
+  void aim_at(double force) { target_ = force; }  // [N]
+
  private:
   FlowProblem problem_;
   double target_ = 0, force_ = 1;  // [N]

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <numbers>
 
+#include "../small_case.h"
 #include "ripstop/canopy/shape.h"
 #include "ripstop/core/file.h"
-#include "ripstop/parachute/flat_circular.h"
 #include "ripstop/run/compare.h"
 #include "ripstop/run/fabric.h"
 #include "ripstop/run/pattern.h"
@@ -19,19 +19,9 @@ namespace {
 namespace fs = std::filesystem;
 
 Case small_case() {
-  Case given;
+  Case given = flat_circular_case(1, 1000, 20);
   given.title = "A canopy made in code";
-  FlatCircular canopy;
-  canopy.nominal_diameter_m = 1;
-  canopy.vent_diameter_m = 0.1;
-  given.parachute.canopy = canopy;
   given.parachute.canopy_material = "f-111";
-  given.parachute.gores = 12;
-  given.parachute.lines.count = 12;
-  given.parachute.lines.length_m = 1;
-  given.parachute.mesh.cloth_nodes = 1000;
-  given.flow.speed_m_s = 20;
-  given.flow.density_kg_m3 = 1.2;
   given.flow.cells = {20, 20, 30};
   given.coupling.threads = 1;  // beside other tests, threads wait for each other
   apply({}, given);

@@ -1,5 +1,5 @@
-// Virtual coupons: cloth between two clamps, pulled by the cloth solver itself ([NFM], from tests to
-// springs).
+// Virtual coupons: cloth between two clamps, pulled by the cloth solver itself ([NFM],
+// from tests to springs).
 //
 // The pull is along y, the width along x. At 45 deg the yarns lie on the diagonals and the straight cuts run
 // through nodes, so every cell at a cut or a clamp is a half: a triangle of two yarn pieces, half of one

@@ -51,11 +51,11 @@ struct PorosityCalibration {
   bool outside = false;          // `knob` lies outside the trials
 };
 
-/// Least squares on the drag areas. For every condition the mean drag area over the shifts is joined by
-/// straight pieces between the knob's values, so that no law is forced on it; the lines serve the errors and
-/// the comparison with the published fit. Outside the trials their nearest piece goes on. Throws
-/// Error(bad_data) with fewer than two values of the knob for a condition, or when drag does not depend on
-/// it.
+/// Least squares on the drag areas. For every condition the mean drag area over the shifts is
+/// joined by straight pieces between the knob's values, so that no law is forced on it; the lines
+/// serve the errors and the comparison with the published fit. Outside the trials their nearest
+/// piece goes on. Throws Error(bad_data) with fewer than two values of the knob for a condition, or
+/// when drag does not depend on it.
 PorosityCalibration calibrate_porosity(const std::vector<MeasuredDrag>& measured,
                                        const std::vector<PorosityTrial>& trials, double reference_area);
 

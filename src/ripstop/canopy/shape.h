@@ -10,8 +10,8 @@
 
 namespace ripstop {
 
-/// Diameters of circles with the same area as the outline of the whole cloth and of the skirt, seen along z
-/// [m].
+/// Diameters of circles with the same area as the outline of the whole cloth and of the
+/// skirt, seen along z [m].
 struct CanopySize {
   double projected_diameter = 0, projected_area = 0;
   double skirt_diameter = 0;

@@ -77,13 +77,13 @@ class Importer {
     const bool circular =
         std::all_of(s.begin(), s.end(), [](const ChuteSection& section) { return section.circular; });
     gores_ = s.front().gores;
+    const bool disk_and_band =
+        circular && s.size() == 2 && (disk_gap_band(s[0], s[1]) || disk_gap_band(s[1], s[0]));
     if (circular && s.size() == 1 && is_vertical(s[0]) && gores_ == 2) {
       cross(s[0]);
-    } else if (circular && s.size() == 2 && disk_gap_band(s[0], s[1])) {
-    } else if (circular && s.size() == 2 && disk_gap_band(s[1], s[0])) {
     } else if (circular && s.size() == 1 && !is_vertical(s[0])) {
       one_disk(s[0]);
-    } else {
+    } else if (!disk_and_band) {
       profile();
     }
     cloth();

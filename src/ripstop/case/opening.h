@@ -18,8 +18,8 @@ struct LoadSource {
 /// The case on a mesh that can be folded, with the line segments and the compression that [inflation] gives.
 Case opening_case(const Case& given);
 
-/// What [inflation] asks for. Throws Error(usage) unless that is a pressure or a drag coefficient, and not
-/// both.
+/// What [inflation] asks for. Throws Error(usage) unless that is a pressure or a drag
+/// coefficient, and not both.
 LoadSource load_source(const Case& given);
 
 /// Of what opening_case() returns; dp from the equilibrium of a coarse mesh when a steady drag is asked for.

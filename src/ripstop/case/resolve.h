@@ -1,6 +1,6 @@
-// From what a case gives to what the solvers take. Every key that is absent follows from the parachute, its
-// cloth and the values of other keys, never from which keys were given: to write a value that follows changes
-// nothing.
+// From what a case gives to what the solvers take. Every key that is absent follows from the parachute,
+// its cloth and the values of other keys, never from which keys were given: to write a value that
+// follows changes nothing.
 #pragma once
 
 #include <string>

@@ -8,8 +8,8 @@
 #include <limits>
 #include <numbers>
 
-#include "ripstop/cloth/each_spring.h"
 #include "ripstop/core/error.h"
+#include "ripstop/mesh/each_spring.h"
 
 namespace ripstop {
 namespace {
@@ -99,8 +99,8 @@ NodeStiffness node_stiffness(const Cloth& cloth, const ClothState& state) {
   return result;
 }
 
-// With s_i an upper bound on lambda_max of node i's block of A = K dt^2 + 2 C dt over m_i, and t_s = s_j /
-// s_i,
+// With s_i an upper bound on lambda_max of node i's block of A = K dt^2 + 2 C dt over m_i, and
+// t_s = s_j / s_i,
 //   x^T A x = sum_s a_s (n . (x_i - x_j))^2 <= sum_s a_s [(1 + t_s) (n . x_i)^2 + (1 + 1/t_s) (n . x_j)^2]
 //           <= max_s (s_i + s_j)  x^T M x:
 // a block form of Gershgorin's circles that no rotation of the cloth changes. Here s_i = rho_i dt^2 + 2 c_i

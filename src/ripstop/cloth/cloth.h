@@ -1,5 +1,5 @@
-// The cloth: lumped masses, nonlinear springs, follower pressure, [NFM] section 2 as mended in
-// docs/theory/cloth.md.
+// The cloth: lumped masses, nonlinear springs, follower pressure, [NFM] section 2 as
+// mended in docs/theory/cloth.md.
 #pragma once
 
 #include <functional>
@@ -20,8 +20,8 @@ struct ClothOptions {
   double quadratic_damping = 0;  // the same for -C area |v| v [N s2/m4]
 };
 
-/// Pressure difference on every cell (inside minus outside, [Pa]; order of cells_of()), and optional point
-/// forces.
+/// Pressure difference on every cell (inside minus outside, [Pa]; order of cells_of()), and
+/// optional point forces.
 struct Loads {
   std::vector<double> cell_pressure;
   std::vector<Vec3> node_force;  // empty, or one a node [N]
@@ -34,8 +34,8 @@ struct ClothDeleter {
 };
 using ClothPtr = std::unique_ptr<Cloth, ClothDeleter>;
 
-/// Throws Error(bad_data) for a mesh that breaks its own rules (rest length <= 0, mass <= 0, tie to a tied
-/// node).
+/// Throws Error(bad_data) for a mesh that breaks its own rules (rest length <= 0,
+/// mass <= 0, tie to a tied node).
 ClothPtr make_cloth(const Mesh& mesh, const ClothOptions& options = {});
 
 /// Positions and velocities in kernel layout. Copyable: a copy is a checkpoint.

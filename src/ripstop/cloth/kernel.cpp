@@ -65,9 +65,9 @@ struct Root {
 // sqrt and 1 / sqrt of q > 0 to the last bit or two.
 HWY_INLINE Root root(V q) {
 #if HWY_TARGET == HWY_AVX3
-  // y0 = rsqrt14(q); r = 1 - q y0^2 < 2^-13; 1/sqrt(q) = y0 (1 - r)^(-1/2) = y0 (1 + r/2 + 3/8 r^2 + 5/16
-  // r^3), the next term is below 1e-16. One step of fourth order in place of two of Newton's, one operation
-  // less.
+  // y0 = rsqrt14(q); r = 1 - q y0^2 < 2^-13;
+  // 1/sqrt(q) = y0 (1 - r)^(-1/2) = y0 (1 + r/2 + 3/8 r^2 + 5/16 r^3), the next term is below 1e-16.
+  // One step of fourth order in place of two of Newton's, one operation less.
   const V y = V{_mm512_rsqrt14_pd(q.raw)};
   const V s = hn::Mul(q, y);
   const V r = hn::NegMulAdd(s, y, hn::Set(tag, 1.0));

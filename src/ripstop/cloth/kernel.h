@@ -46,8 +46,7 @@ struct RowRelaxation {
   double *x, *v;
 };
 /// Moves, and sums over the nodes that move: |f|^2 before the move, and f . (v + v'), which is twice
-/// what the kinetic energy has gained. (f . v alone is biased: it is negative on average for every fast
-/// mode.)
+/// what the kinetic energy has gained. (f . v alone is biased: negative on average for every fast mode.)
 struct RowSums {
   double force_squared = 0;
   double power = 0;

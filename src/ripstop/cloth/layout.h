@@ -1,15 +1,15 @@
 // The compiled cloth: how nodes, springs and ties lie in memory for the kernels. Internal to cloth/.
 //
 // A row of C columns is divided into 8 strips of M = ceil(C / 8) columns, and the strips are laid side by
-// side: vector m of the row holds columns m, M + m, 2M + m, ... So the neighbour at column + 1 is the next
-// vector in every lane: each load and store is aligned and no lanes are shuffled. Two ghost vectors at the
-// end of the row hold copies of the strips' (and, when periodic, the row's) first two columns; springs that
-// reach into them add their force there, and the row's end folds it back. Two rows of padding follow each
-// patch.
+// side: vector m of the row holds columns m, M + m, 2M + m, ... So the neighbour at column + 1 is the
+// next vector in every lane: each load and store is aligned and no lanes are shuffled. Two ghost vectors
+// at the end of the row hold copies of the strips' (and, when periodic, the row's) first two columns;
+// springs that reach into them add their force there, and the row's end folds it back. Two rows of
+// padding follow each patch.
 //
 //   slot of a node   patch.first + 8 * ((M + 2) * row + column % M) + column / M
-//   vector arrays    24 doubles a vector: 8 x, 8 y, 8 z; component c of slot i at 24 * (i / 8) + i % 8 + 8 *
-//   c
+//   vector arrays    24 doubles a vector: 8 x, 8 y, 8 z;
+//                    component c of slot i at 24 * (i / 8) + i % 8 + 8 * c
 #pragma once
 
 #include <array>
@@ -37,8 +37,8 @@ inline void put(double* vectors, int slot, Vec3 a) {
   p[0] = a.x, p[lanes] = a.y, p[2 * lanes] = a.z;
 }
 
-/// T = compression K_1 max(e, e_b) + sum_k c_k max(e, 0)^k with c_1 = (1 - compression) K_1, c_k = K_k: no
-/// branch.
+/// T = compression K_1 max(e, e_b) + sum_k c_k max(e, 0)^k, without a branch;
+/// c_1 = (1 - compression) K_1, c_k = K_k.
 struct FamilyLaw {
   double both = 0;                                 // compression K_1
   double buckled = 0;                              // e_b <= 0, minus the buckling strain
@@ -105,9 +105,9 @@ struct Cloth {
   std::vector<double> area;        // [m2] cloth of every node, by node
   std::vector<char> is_tied, is_fixed;
 
-  /// Fixed nodes, nodes with irregular springs, ties or masters of ties, and nodes outside patches, in the
-  /// order of their slots. The pass over the rows leaves them where they are and keeps the lattice's force on
-  /// them.
+  /// Fixed nodes, nodes with irregular springs, ties or masters of ties, and nodes outside patches, in
+  /// the order of their slots. The pass over the rows leaves them where they are and keeps the
+  /// lattice's force on them.
   struct Kept {
     int slot, node;
     int first_share, end_share;  // forces that are added to the lattice's, into `shares`

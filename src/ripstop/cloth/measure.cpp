@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "ripstop/cloth/bound.h"
-#include "ripstop/cloth/each_spring.h"
 #include "ripstop/cloth/layout.h"
 #include "ripstop/core/error.h"
+#include "ripstop/mesh/each_spring.h"
 
 namespace ripstop {
 namespace {

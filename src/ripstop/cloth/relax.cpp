@@ -22,10 +22,10 @@
 #include <numeric>
 
 #include "ripstop/cloth/bound.h"
-#include "ripstop/cloth/each_spring.h"
 #include "ripstop/cloth/pivot.h"
 #include "ripstop/cloth/stepper.h"
 #include "ripstop/core/error.h"
+#include "ripstop/mesh/each_spring.h"
 
 namespace ripstop {
 namespace {

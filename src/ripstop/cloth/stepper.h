@@ -40,8 +40,8 @@ class Stepper {
   /// From here on every step adds to `record`; finish_record() when the last step is done.
   void start_record(StepRecord& record);
   void finish_record();
-  /// After follow_masters: the work of the pressure since remember_positions() or start_record(). A barrier
-  /// between.
+  /// After follow_masters: the work of the pressure since remember_positions() or
+  /// start_record(). A barrier between.
   void add_pressure_work(int rank);
   void remember_positions(int rank);
 

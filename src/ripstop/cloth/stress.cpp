@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ripstop/cloth/each_spring.h"
 #include "ripstop/cloth/layout.h"
+#include "ripstop/mesh/each_spring.h"
 
 namespace ripstop {
 namespace {

@@ -33,8 +33,8 @@ class ClaimedFolder {
 
   /// A sealed word about the folder, kept beside the list. Throws Error(io).
   void note(const std::string& name, const std::string& text) const;
-  /// Seals the contents of all files on the list, folders with '/' left out: the work here is done. Throws
-  /// Error(io).
+  /// Seals the contents of all files on the list, folders with '/' left out: the work here is
+  /// done. Throws Error(io).
   void seal() const;
 
  private:
@@ -51,8 +51,8 @@ std::optional<std::string> noted(const std::filesystem::path& folder, const std:
 bool is_sealed(const std::filesystem::path& folder);
 /// Names of files that are lost or changed since seal(). Throws Error(bad_data) when the seal itself is.
 std::vector<std::string> damaged_files(const std::filesystem::path& folder);
-/// What is in a folder beside Ripstop's files and records, by name; nothing where the folder is not there. Throws
-/// Error(io).
+/// What is in a folder beside Ripstop's files and records, by name; nothing where the folder is not
+/// there. Throws Error(io).
 std::vector<std::string> foreign_files(const std::filesystem::path& folder);
 
 }  // namespace ripstop

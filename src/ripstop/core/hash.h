@@ -18,16 +18,16 @@ std::string hash_folder(const std::filesystem::path& folder);
 
 /// `bytes` under a first line with their size and hash, written in one step. Throws Error(io).
 void write_sealed(const std::filesystem::path& path, std::string_view bytes);
-/// The bytes given to write_sealed(). Throws Error(bad_data) if one of them, or the seal, was lost or
-/// changed.
+/// The bytes given to write_sealed(). Throws Error(bad_data) if one of them, or the
+/// seal, was lost or changed.
 std::string read_sealed(const std::filesystem::path& path);
 
 /// Name of the list of sizes and hashes that seal_folder() leaves in a folder.
 inline constexpr const char* seal_name = "contents.seal";
 /// Lists every file below `folder`; write it last, then the folder is complete. Throws Error(io).
 void seal_folder(const std::filesystem::path& folder);
-/// Throws Error(bad_data) naming the file that is missing, new or changed since seal_folder(), or the missing
-/// seal.
+/// Throws Error(bad_data) naming the file that is missing, new or changed since
+/// seal_folder(), or the missing seal.
 void check_folder(const std::filesystem::path& folder);
 
 }  // namespace ripstop

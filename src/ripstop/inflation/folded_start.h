@@ -1,5 +1,5 @@
-// The folded start of any canopy: without strain where its cloth allows it, else with the least that a
-// relaxation finds.
+// The folded start of any canopy: without strain where its cloth allows it, else with the least
+// that a relaxation finds.
 #pragma once
 
 #include "ripstop/core/thread_team.h"
@@ -7,11 +7,11 @@
 
 namespace ripstop {
 
-/// Disks, cylinders and cones of revolution as fold(), flat sheets as fold_sheet(). Canopies of gores start
-/// from the zigzag of zigzag_of_gores() and are relaxed without loads, all springs equally stiff, until none
-/// is strained by more than a part of ten thousand or little more is gained. `symmetry` is the number of
-/// turns that map the canopy as cut onto itself; the folded one keeps those that also map its folds. Throws
-/// as fold().
+/// Disks, cylinders and cones of revolution as fold(), flat sheets as fold_sheet(). Canopies of gores
+/// start from the zigzag of zigzag_of_gores() and are relaxed without loads, all springs equally stiff,
+/// until none is strained by more than a part of ten thousand or little more is gained. `symmetry` is the
+/// number of turns that map the canopy as cut onto itself; the folded one keeps those that also map its
+/// folds. Throws as fold().
 FoldedStart folded_start(const CanopyMesh& mesh, const Folding& folding, int symmetry, ThreadTeam& team);
 
 }  // namespace ripstop

@@ -20,13 +20,13 @@ struct InflationSummary {
   double smooth_peak_time = 0;  // [s]
 };
 
-/// Until the row's mean stays within 10 % of the steady load: [NFM]. With a low-pass, of the low-passed
-/// history.
+/// Until the row's mean stays within 10 % of the steady load: [NFM]. With a low-pass, of
+/// the low-passed history.
 InflationSummary summarise(const std::vector<HistoryRow>& rows, double low_pass_hz);
 
-/// Two passes, forth and back, of a second-order Butterworth filter: no delay, half the power twice (-6 dB)
-/// at `cutoff_hz`. `interval` [s] between equally spaced values. Throws Error(usage) at or above half their
-/// rate.
+/// Two passes, forth and back, of a second-order Butterworth filter: no delay, half the power twice
+/// (-6 dB) at `cutoff_hz`. `interval` [s] between equally spaced values. Throws Error(usage) at or
+/// above half their rate.
 std::vector<double> low_pass(const std::vector<double>& values, double interval, double cutoff_hz);
 
 }  // namespace ripstop

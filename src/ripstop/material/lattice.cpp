@@ -193,8 +193,8 @@ std::vector<double> refitted_yarn(const std::vector<double>& k, const std::vecto
   return relative_fit(strains, wanted, scale, static_cast<int>(k.size()));
 }
 
-// Alternating between the yarns' laws and what the diagonals take from them: they carry a tenth, so few
-// rounds do.
+// Alternating between the yarns' laws and what the diagonals take from them: they carry a
+// tenth, so few rounds do.
 WovenLaws taut_laws(const Fabric& fabric) {
   const double xi = fabric.shear_fraction, eps = fabric.bending_fraction;
   if (fabric.weft_coefficients_n_m.empty()) {

@@ -27,8 +27,8 @@ LatticeLaws lattice_laws(const std::vector<double>& coefficients, double xi, dou
 struct Resultants {
   double along = 0, across = 0;
 };
-/// Laws of a cloth whose warp and weft differ. Warp yarns lie along the columns (row + 1), weft yarns along
-/// the rows.
+/// Laws of a cloth whose warp and weft differ. Warp yarns lie along the columns (row + 1),
+/// weft yarns along the rows.
 struct WovenLaws {
   SpringLaw warp, weft, shear, warp_bending, weft_bending;
 };

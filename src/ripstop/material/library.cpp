@@ -63,19 +63,33 @@ void check_law(const std::vector<double>& k, double tested_strain, const std::st
   }
 }
 
-void describe_buckling(Fields& fields, std::optional<double>& strain) {
+void describe_source(Fields& fields, std::string& source, std::string& warning) {
+  fields.text("source", source, 500, "Where the numbers come from.");
+  fields.text("warning", warning, 2000, "What the fit of its tests found doubtful; every run repeats it.");
+}
+
+void describe_compression(Fields& fields, double& compression, std::optional<double>& buckling_strain) {
+  fields.number("compression", compression, from(0).up_to(1),
+                "Stiffness in compression relative to K_1, up to the buckling strain; 0: none.");
   fields
-      .number("buckling_strain", strain, from(0).up_to(1),
+      .number("buckling_strain", buckling_strain, from(0).up_to(1),
               "Strain in compression beyond which it wrinkles and carries no more.")
       .absent("never: as stiff at any strain");
+}
+
+void describe_damping(Fields& fields, double& damping) {
+  fields.number("damping_n_s_m", damping, from(0).up_to(1000), "Relative damping C of one spring.");
+}
+
+void describe_tested_strain(Fields& fields, double& strain) {
+  fields.number("tested_strain", strain, from(0).up_to(5),
+                "Largest strain of the tests behind the fit; 0: unknown.");
 }
 
 }  // namespace
 
 void describe(Fields& fields, Fabric& fabric) {
-  fields.text("source", fabric.source, 500, "Where the numbers come from.");
-  fields.text("warning", fabric.warning, 2000,
-              "What the fit of its tests found doubtful; every run repeats it.");
+  describe_source(fields, fabric.source, fabric.warning);
   fields
       .numbers("coefficients_n_m", fabric.coefficients_n_m, 1, 8,
                from(-coefficient_limit).up_to(coefficient_limit),
@@ -88,19 +102,15 @@ void describe(Fields& fields, Fabric& fabric) {
                 "xi, share of the shear springs ([NFM] Eq. 11).");
   fields.number("bending_fraction", fabric.bending_fraction, from(0).below(1),
                 "eps, share of the bending springs ([NFM] Eq. 11).");
-  fields.number("compression", fabric.compression, from(0).up_to(1),
-                "Stiffness in compression relative to K_1, up to the buckling strain; 0: none.");
-  describe_buckling(fields, fabric.buckling_strain);
-  fields.number("damping_n_s_m", fabric.damping_n_s_m, from(0).up_to(1000),
-                "Relative damping C of one spring.");
+  describe_compression(fields, fabric.compression, fabric.buckling_strain);
+  describe_damping(fields, fabric.damping_n_s_m);
   fields.number("areal_density_kg_m2", fabric.areal_density_kg_m2, above(0).up_to(10), "Mass per area.")
       .required();
   fields
       .number("thickness_m", fabric.thickness_m, above(0).up_to(0.1),
               "Thickness, for stresses in Pa and porosity.")
       .required();
-  fields.number("tested_strain", fabric.tested_strain, from(0).up_to(5),
-                "Largest strain of the tests behind the fit; 0: unknown.");
+  describe_tested_strain(fields, fabric.tested_strain);
   fields.number("break_load_n_m", fabric.break_load_n_m, from(0).up_to(1e7),
                 "Load per width at failure; 0: unknown.");
   fields.number("darcy", fabric.resistance.linear, from(0).up_to(1e12),
@@ -118,9 +128,7 @@ void describe(Fields& fields, Fabric& fabric) {
 }
 
 void describe(Fields& fields, Line& line) {
-  fields.text("source", line.source, 500, "Where the numbers come from.");
-  fields.text("warning", line.warning, 2000,
-              "What the fit of its tests found doubtful; every run repeats it.");
+  describe_source(fields, line.source, line.warning);
   fields
       .numbers("coefficients_n", line.coefficients_n, 1, 8, from(-coefficient_limit).up_to(coefficient_limit),
                "K_1..K_n of tension against strain, N ([NFM] Eq. 2); K_1 above 0.")
@@ -129,19 +137,15 @@ void describe(Fields& fields, Line& line) {
                 "eps, share of the springs to the next node but one.");
   fields.number("compression", line.compression, from(0).up_to(1),
                 "Stiffness in compression relative to K_1; 0: the line goes slack.");
-  fields.number("damping_n_s_m", line.damping_n_s_m, from(0).up_to(1000),
-                "Relative damping C of one spring.");
+  describe_damping(fields, line.damping_n_s_m);
   fields.number("linear_density_kg_m", line.linear_density_kg_m, above(0).up_to(100), "Mass per length.")
       .required();
-  fields.number("tested_strain", line.tested_strain, from(0).up_to(5),
-                "Largest strain of the tests behind the fit; 0: unknown.");
+  describe_tested_strain(fields, line.tested_strain);
   fields.number("break_load_n", line.break_load_n, from(0).up_to(1e9), "Tension at failure; 0: unknown.");
 }
 
 void describe(Fields& fields, Tape& tape) {
-  fields.text("source", tape.source, 500, "Where the numbers come from.");
-  fields.text("warning", tape.warning, 2000,
-              "What the fit of its tests found doubtful; every run repeats it.");
+  describe_source(fields, tape.source, tape.warning);
   fields
       .numbers("coefficients_n_m", tape.coefficients_n_m, 1, 8,
                from(-coefficient_limit).up_to(coefficient_limit),
@@ -151,13 +155,9 @@ void describe(Fields& fields, Tape& tape) {
   fields.number("linear_density_kg_m", tape.linear_density_kg_m, above(0).up_to(100), "Mass per length.")
       .required();
   fields.number("thickness_m", tape.thickness_m, above(0).up_to(0.1), "Thickness.").required();
-  fields.number("compression", tape.compression, from(0).up_to(1),
-                "Stiffness in compression relative to K_1, up to the buckling strain; 0: none.");
-  describe_buckling(fields, tape.buckling_strain);
-  fields.number("damping_n_s_m", tape.damping_n_s_m, from(0).up_to(1000),
-                "Relative damping C of one spring.");
-  fields.number("tested_strain", tape.tested_strain, from(0).up_to(5),
-                "Largest strain of the tests behind the fit; 0: unknown.");
+  describe_compression(fields, tape.compression, tape.buckling_strain);
+  describe_damping(fields, tape.damping_n_s_m);
+  describe_tested_strain(fields, tape.tested_strain);
 }
 
 void describe(Fields& fields, Material& material) {

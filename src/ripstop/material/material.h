@@ -32,9 +32,9 @@ inline PorousCellLaw as_cells(const ClothResistance& cloth) {
   return {cloth.linear, cloth.quadratic};
 }
 
-/// Canopy cloth. The coefficients are those of the cloth's own curve (load per width against strain, [N/m])
-/// as a uniaxial pull along a yarn gives it; the lattice's are derived from them so that a virtual coupon
-/// returns it.
+/// Canopy cloth. The coefficients are those of the cloth's own curve (load per width against strain,
+/// [N/m]) as a uniaxial pull along a yarn gives it; the lattice's are derived from them so that a
+/// virtual coupon returns it.
 struct Fabric {
   std::string name;
   std::string source;

@@ -1,8 +1,8 @@
 // What a solver of cloth steps: structured patches of lumped masses, and the short irregular rest.
 //
-// Node numbering is logical (no padding): node = patch.first_node + row * patch.columns + column, then the
-// nodes that lie on no patch. A solver is free to lay them out otherwise; whatever it returns is in this
-// numbering.
+// Node numbering is logical (no padding): node = patch.first_node + row * patch.columns + column,
+// then the nodes that lie on no patch. A solver is free to lay them out otherwise; whatever it
+// returns is in this numbering.
 #pragma once
 
 #include <string>

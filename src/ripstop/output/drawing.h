@@ -13,8 +13,8 @@
 namespace ripstop {
 
 /// White page of this size [pixel]; `draw` fills it. The ending of the path, .png or .svg, chooses the
-/// format. Throws Error(usage) for another ending, Error(bad_data) when Cairo refuses (text that is not
-/// UTF-8), Error(io).
+/// format. Throws Error(usage) for another ending, Error(bad_data) when Cairo refuses (text that is
+/// not UTF-8), Error(io).
 void write_drawing(const std::filesystem::path& path, int width, int height,
                    const std::function<void(cairo_t*)>& draw);
 

@@ -15,8 +15,8 @@ void write_pattern_dxf(const std::filesystem::path& path, const Piece& piece, co
 /// The same as an SVG that prints at true size, with a 100 mm bar to check the scale. Throws Error(io).
 void write_pattern_svg(const std::filesystem::path& path, const Piece& piece, const Allowances& allowances);
 
-/// The bill of materials as a table: part, material, count, finished and cut amount, unit, mass. Throws
-/// Error(io).
+/// The bill of materials as a table: part, material, count, finished and cut amount, unit,
+/// mass. Throws Error(io).
 void write_bill_csv(const std::filesystem::path& path, const Bill& bill);
 
 }  // namespace ripstop

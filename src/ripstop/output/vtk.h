@@ -71,8 +71,8 @@ struct VtkSeriesFile {
   double time = 0;  // the coupling iteration, or [s]
   std::filesystem::path file;
 };
-/// .pvd. Entries whose file does not exist (a run ended early, or was tidied up) are left out. Throws
-/// Error(io).
+/// .pvd. Entries whose file does not exist (a run ended early, or was tidied up) are left
+/// out. Throws Error(io).
 void write_pvd(const std::filesystem::path& path, const std::vector<VtkSeriesFile>& series);
 
 /// The cloth cells of a mesh as quads over all its nodes: point numbers are node numbers.
@@ -84,8 +84,8 @@ std::vector<double> cloth_cells_only(const Mesh& mesh, const std::vector<double>
 VtkSurface spring_lines(const Mesh& mesh, const std::vector<Vec3>& positions);
 /// Pressure and velocity of a flow, single precision: "pressure_pa", "velocity_m_per_s".
 VtkImage flow_image(const FlowField& field);
-/// The porous cells of a flow as boxes, with "cloth" (index into FlowProblem::porous), "darcy_per_m2" and
-/// "forchheimer_per_m".
+/// The porous cells of a flow as boxes, with "cloth" (index into FlowProblem::porous),
+/// "darcy_per_m2" and "forchheimer_per_m".
 VtkUnstructured porous_boxes(const FlowProblem& problem);
 
 }  // namespace ripstop

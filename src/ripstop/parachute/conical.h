@@ -19,8 +19,8 @@ struct Conical {
 void describe(Fields& fields, Conical& canopy);
 void check_shape(const Conical& canopy, const Design& design, Findings& findings);
 Experience experience(const Conical& canopy);
-/// S0 = pi/4 nominal_diameter^2, the area of the cone with its vent: a slant length of D0 / (2 sqrt(cos
-/// angle)).
+/// S0 = pi/4 nominal_diameter^2, the area of the cone with its vent: a slant length of
+/// D0 / (2 sqrt(cos angle)).
 GorePattern gore_pattern(const Conical& canopy, int gores);
 
 }  // namespace ripstop

@@ -15,8 +15,8 @@ struct CanopyFacts {
   double start_depth = 0;     // of the start shape, from the skirt downstream [m]
   double circumference = 0;   // largest, as cut: the mesh's columns lie round it [m]
 
-  /// Open share of the surface as constructed: vent, slots and gaps over these and the cloth without
-  /// fullness.
+  /// Open share of the surface as constructed: vent, slots and gaps over these and the
+  /// cloth without fullness.
   double geometric_porosity() const {
     const double open = vent_area + slot_area;
     return open / (open + covered_area);

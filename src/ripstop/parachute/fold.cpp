@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "ripstop/core/error.h"
+#include "ripstop/mesh/each_spring.h"
 #include "ripstop/parachute/hang.h"
 
 namespace ripstop {
@@ -355,34 +356,17 @@ CanopyMesh with_creases(const CanopyMesh& mesh, const FoldedStart& folded) {
 
 StartStrain start_strain(const Mesh& mesh, const std::vector<Vec3>& x) {
   StartStrain result;
-  const auto strain_of = [&](int a, int b, double rest, const SpringLaw& law) {
-    const double strain = norm(x[b] - x[a]) / rest - 1;
-    return strain > 0 || law.tangent(strain) > 0 ? std::abs(strain) : 0.0;
-  };
-  for (const Patch& patch : mesh.patches) {
-    for (int d = 0; d < direction_count; ++d) {
-      for (int i = 0; i < patch.rows * patch.columns; ++i) {
-        if (patch.width[d][i] <= 0) continue;
-        const int row = i / patch.columns, column = i % patch.columns;
-        const int other = (column + direction_offset[d].column + patch.columns) % patch.columns;
-        const double strain =
-            strain_of(patch.node(row, column), patch.node(row + direction_offset[d].row, other),
-                      patch.rest_length[d][i], patch.law[d]);
-        if (d == bend_row || d == bend_column) {
-          result.bending = std::max(result.bending, strain);
-        } else if (strain > result.largest) {
-          result.largest = strain;
-          result.part = patch.name;
-        }
-      }
+  each_spring(mesh, [&](const SpringView& s) {
+    double strain = norm(x[s.b] - x[s.a]) / s.rest_length - 1;
+    if (strain <= 0 && s.law->tangent(strain) <= 0) return;  // slack
+    strain = std::abs(strain);
+    if (s.patch >= 0 && (s.direction == bend_row || s.direction == bend_column)) {
+      result.bending = std::max(result.bending, strain);
+    } else if (strain > result.largest) {
+      result.largest = strain;
+      result.part = s.patch >= 0 ? mesh.patches[s.patch].name : mesh.parts[mesh.springs[s.index].part];
     }
-  }
-  for (const Spring& spring : mesh.springs) {
-    const double strain = strain_of(spring.a, spring.b, spring.rest_length, mesh.laws[spring.law]);
-    if (strain <= result.largest) continue;
-    result.largest = strain;
-    result.part = mesh.parts[spring.part];
-  }
+  });
   return result;
 }
 

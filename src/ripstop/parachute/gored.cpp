@@ -17,8 +17,8 @@ namespace {
 
 using std::numbers::pi;
 
-// A line sewn over a sharper corner than this is two runs: nodes tied between two nodes of the line lie on a
-// straight segment.
+// A line sewn over a sharper corner than this is two runs: nodes tied between two nodes of the line lie
+// on a straight segment.
 constexpr double sharp_corner = 20 * pi / 180;
 
 class Builder {

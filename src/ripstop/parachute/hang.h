@@ -15,8 +15,8 @@ struct LineLink {
   std::vector<double> lengths;  // rest lengths between them [m]
   double length() const;
 };
-/// Links between different pieces, and from the confluence; `piece` of every node, -1 for one that lies on no
-/// cloth.
+/// Links between different pieces, and from the confluence; `piece` of every node, -1 for one
+/// that lies on no cloth.
 std::vector<LineLink> line_links(const CanopyMesh& mesh, const std::vector<int>& piece);
 
 /// A link allows its far end to lie downstream of its near end by sqrt(length^2 - lateral^2): how far [m] the

@@ -11,8 +11,8 @@
 namespace ripstop {
 namespace {
 
-// Columns are halved where they are closer than this many times the mean spacing, or wider just below: 0.72
-// and 1.44.
+// Columns are halved where they are closer than this many times the mean spacing, or wider
+// just below: 0.72 and 1.44.
 constexpr double closest = 0.72;
 
 int cells_for(double length, double spacing) {
@@ -118,8 +118,8 @@ RingLayout lay_out_rings(const std::vector<Strip>& strips, double cloth_area, co
   double best_score = 1e300;
   for (int base = multiple; base <= 2 * edge_columns; base += multiple) {
     for (int columns = base; columns <= 2 * edge_columns; columns *= 2) {
-      // Squareness of the cells at the edge and at the vent, as logarithms of the spacing's departure from
-      // the mean.
+      // Squareness of the cells at the edge and at the vent, as logarithms of the spacing's
+      // departure from the mean.
       const double at_edge =
           square ? std::log(double(lay_out_squarely(strips, columns, spacing, multiple).nodes()) / nodes)
                  : std::log(columns / edge_columns);

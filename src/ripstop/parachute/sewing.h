@@ -1,5 +1,5 @@
-// What is sewn onto the cloth and hung on it: tape, suspension lines, vent lines, riser; the same for every
-// family.
+// What is sewn onto the cloth and hung on it: tape, suspension lines, vent lines, riser; the
+// same for every family.
 #pragma once
 
 #include <vector>
@@ -45,8 +45,8 @@ class CanopyBuilder : public MeshBuilder {
   CanopyMesh finish();
 
  private:
-  // Any cross-section of a chain is crossed by one axial and two bending springs: together they are the
-  // line's law.
+  // Any cross-section of a chain is crossed by one axial and two bending springs: together
+  // they are the line's law.
   struct ChainLaws {
     int axial, bending;
   };

@@ -10,8 +10,8 @@
 
 namespace ripstop {
 
-/// Every double bit for bit (CBOR). from_bytes() throws Error(bad_data) for anything to_bytes() did not
-/// write.
+/// Every double bit for bit (CBOR). from_bytes() throws Error(bad_data) for anything
+/// to_bytes() did not write.
 std::string to_bytes(const SteadyState& state);
 SteadyState steady_state_from_bytes(const std::string& bytes);
 
@@ -23,8 +23,8 @@ struct LoadedCheckpoint {
   std::string
       damage;  // of the newer checkpoint, in whose place this older one stands; empty: this is the newest
 };
-/// The last whole checkpoint, or nothing when there is none. Throws Error(bad_data) when all there are are
-/// damaged.
+/// The last whole checkpoint, or nothing when there is none. Throws Error(bad_data) when all
+/// there are are damaged.
 std::optional<LoadedCheckpoint> load_checkpoint(const std::filesystem::path& folder, Flow& flow);
 
 }  // namespace ripstop

@@ -1,5 +1,5 @@
-// The nonlinear model beside the linear one, which keeps K_1 alone of every law, and where their difference
-// comes from.
+// The nonlinear model beside the linear one, which keeps K_1 alone of every law, and where their
+// difference comes from.
 #pragma once
 
 #include <filesystem>

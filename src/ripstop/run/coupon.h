@@ -39,8 +39,8 @@ void each_member(T& r, Visit&& visit) {
 }
 std::string to_json(const CouponResult& result);
 
-/// Pulled to `strain` in equal steps; 0: to the strain that the fabric was tested to, or 0.1 where that is
-/// unknown.
+/// Pulled to `strain` in equal steps; 0: to the strain that the fabric was tested to, or 0.1
+/// where that is unknown.
 CouponResult run_coupon(const Fabric& fabric, const CouponShape& shape, double strain, int points,
                         ThreadTeam& team);
 

@@ -16,6 +16,7 @@
 #include "ripstop/output/plot.h"
 #include "ripstop/output/vtk.h"
 #include "ripstop/run/json.h"
+#include "ripstop/run/report.h"
 
 namespace ripstop {
 namespace {
@@ -37,7 +38,10 @@ std::string shape_file(const char* what, long long frame) {
 class InflationFolder : public InflationObserver {
  public:
   InflationFolder(ClaimedFolder& folder, const InflationFolderSettings& settings, InflationObserver& next)
-      : folder_(folder), checkpoint_every_(settings.checkpoint_every_s), next_(next) {}
+      : folder_(folder),
+        report_(settings.run.report),
+        checkpoint_every_(settings.checkpoint_every_s),
+        next_(next) {}
 
   void begin(const Inflation& solver, InflationState& state, InflationHistory& history) override;
   void advanced(const Inflation& solver, const InflationState& state, const InflationHistory& history,
@@ -61,6 +65,7 @@ class InflationFolder : public InflationObserver {
   }
 
   ClaimedFolder& folder_;
+  bool report_;
   double checkpoint_every_;  // [s]
   InflationObserver& next_;
   double saved_ = clock_now();                     // when [s]
@@ -150,6 +155,7 @@ void InflationFolder::ended(const Inflation& solver, const InflationState& state
     write_pvd(folder_.own(fmt::format("{}.pvd", what)), series);
   }
   write_file(folder_.own("result.json"), to_json(result));
+  if (report_) write_run_report(folder_);
   folder_.seal();
   next_.ended(solver, state, history, result);
 }

@@ -55,8 +55,8 @@ void each_member(T& run, Visit&& visit) {
   visit("diverged", run.diverged);
 }
 
-/// Differences of the built-in engine to OpenFOAM: drag relative, fields of the stream's speed and dynamic
-/// pressure.
+/// Differences of the built-in engine to OpenFOAM: drag relative, fields of the stream's
+/// speed and dynamic pressure.
 struct ParityRow {
   std::string canopy;
   ParityRun openfoam, builtin;

@@ -14,7 +14,8 @@ namespace ripstop {
 struct RunSettings {
   std::filesystem::path folder;
   bool fresh = false;  // throw away what Ripstop wrote there in an earlier run
-  bool fields = true;  // write shapes and flow for ParaView after every iteration
+  bool fields = true;  // write flow and shapes for ParaView after every iteration; else the last shape only
+  bool report = true;  // write report.html at the end
 };
 
 /// runs/<name of the case>: that of its file, or of the file's folder where the file is just "case.toml".
@@ -26,14 +27,14 @@ std::filesystem::path default_run_folder(const std::filesystem::path& case_file,
 /// unless `fresh`, and for one with files that are not Ripstop's and no run.
 bool holds_run(const RunSettings& settings, const Case& given, const std::string& solver);
 
-/// Opens or makes the folder of a run, claims it and writes run.json and case.toml. What is there of another run
-/// is removed as far as Ripstop wrote it; what holds_run() refuses is left as it is. Throws as ClaimedFolder does,
-/// too.
+/// Opens or makes the folder of a run, claims it and writes run.json and case.toml. What is there of another
+/// run is removed as far as Ripstop wrote it; what holds_run() refuses is left as it is. Throws as
+/// ClaimedFolder does.
 std::unique_ptr<ClaimedFolder> open_run_folder(const RunSettings& settings, const Case& given,
                                                const std::string& solver, int threads);
 
-/// result.json of a run that had ended. Throws Error(bad_data) when it or any other file of the run was lost or
-/// changed since.
+/// result.json of a run that had ended. Throws Error(bad_data) when it or any other file of the run was
+/// lost or changed since.
 std::optional<std::string> finished_result(const std::filesystem::path& folder);
 
 }  // namespace ripstop

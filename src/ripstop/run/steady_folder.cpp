@@ -19,6 +19,7 @@
 #include "ripstop/output/vtk.h"
 #include "ripstop/run/checkpoint.h"
 #include "ripstop/run/engine.h"
+#include "ripstop/run/report.h"
 #include "ripstop/run/stress_arrays.h"
 #include "ripstop/run/watch_files.h"
 
@@ -31,7 +32,11 @@ namespace fs = std::filesystem;
 class SteadyFolder : public SteadyObserver {
  public:
   SteadyFolder(ClaimedFolder& folder, const SteadyFolderSettings& settings, SteadyObserver& next)
-      : folder_(folder), fields_(settings.run.fields), warm_from_(settings.warm_from), next_(next) {}
+      : folder_(folder),
+        fields_(settings.run.fields),
+        report_(settings.run.report),
+        warm_from_(settings.warm_from),
+        next_(next) {}
 
   void begin(const SteadyRun& run, SteadyState& state) override;
   void warned(const std::string& text) override { next_.warned(text); }
@@ -43,7 +48,8 @@ class SteadyFolder : public SteadyObserver {
 
  private:
   void write_series(std::size_t iterations) const;
-  void write_fields(const SteadyRun& run, const SteadyState& state, const FlowField& field) const;
+  void write_shape(const SteadyRun& run, const SteadyState& state) const;
+  void write_flow(const FlowField& field) const;
   void write_state(const SteadyRun& run, const SteadyState& state) const;
   void write_drag_plot(const SteadyState& state, const std::string& title) const;
   void write_pressure(const SteadyRun& run, const SteadyState& state, const SteadyResult& result) const;
@@ -52,7 +58,7 @@ class SteadyFolder : public SteadyObserver {
   }
 
   ClaimedFolder& folder_;
-  bool fields_;
+  bool fields_, report_;
   fs::path warm_from_;
   SteadyObserver& next_;
 };
@@ -75,7 +81,8 @@ void SteadyFolder::begin(const SteadyRun& run, SteadyState& state) {
 
 void SteadyFolder::iterated(const SteadyRun& run, const SteadyState& state, const FlowField& flow) {
   if (fields_) {
-    write_fields(run, state, flow);
+    write_shape(run, state);
+    write_flow(flow);
     write_state(run, state);
   }
   if (state.iterations.back().in_time) write_watch(folder_, run.given, run.solver.record());
@@ -85,11 +92,16 @@ void SteadyFolder::iterated(const SteadyRun& run, const SteadyState& state, cons
 }
 
 void SteadyFolder::ended(const SteadyRun& run, const SteadyState& state, const SteadyResult& result) {
-  if (!fields_) write_state(run, state);
+  if (!fields_) {
+    write_shape(run, state);
+    write_state(run, state);
+  }
   write_stl(folder_.own("canopy.stl"), surface_of(run.solver.cells(), state.shape));
   write_drag_plot(state, result.title);
   write_pressure(run, state, result);
   write_file(folder_.own("result.json"), to_json(result));
+  if (report_)
+    if (const std::string failure = write_run_report(folder_); !failure.empty()) next_.warned(failure);
   folder_.seal();
   next_.ended(run, state, result);
 }
@@ -104,8 +116,7 @@ void SteadyFolder::write_series(std::size_t iterations) const {
   }
 }
 
-void SteadyFolder::write_fields(const SteadyRun& run, const SteadyState& state,
-                                const FlowField& field) const {
+void SteadyFolder::write_shape(const SteadyRun& run, const SteadyState& state) const {
   const SteadySolver& solver = run.solver;
   const CanopyMesh& mesh = solver.mesh();
   const ClothState cloth = solver.cloth_state(state);
@@ -131,6 +142,9 @@ void SteadyFolder::write_fields(const SteadyRun& run, const SteadyState& state,
   lines.cell_arrays.push_back(vtk_array("tension_n", tensions));
   write_vtp(folder_.own(fmt::format("vtk/lines_{:03}.vtp", k)), lines);
   write_series(k);
+}
+
+void SteadyFolder::write_flow(const FlowField& field) const {
   folder_.own(field.grid.uniform() ? "flow.vti" : "flow.vtr");
   write_image(folder_.path() / "flow", flow_image(field));
 }

@@ -61,7 +61,7 @@ double free_memory() {
 }
 
 RunSettings run_settings(const SweepPoint& point, const SweepSettings& settings) {
-  return {settings.folder / point.folder, settings.fresh, settings.fields};
+  return {settings.folder / point.folder, settings.fresh, settings.fields, false};
 }
 
 /// Claims the folder.

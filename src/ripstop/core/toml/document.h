@@ -31,8 +31,8 @@ struct Document {
   Node root;
 };
 
-/// Throws InputError(usage) with the place of the first mistake in the syntax; double keys are such a
-/// mistake.
+/// Throws InputError(usage) with the place of the first mistake in the syntax; double
+/// keys are such a mistake.
 Document parse_toml(const std::string& text, const std::string& name);
 /// Contents of a text file of at most 1 MiB. Throws Error(io).
 std::string read_text_file(const std::filesystem::path& file);

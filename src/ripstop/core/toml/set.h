@@ -18,8 +18,8 @@ struct Setting {
 /// "KEY=VALUE" as typed. Throws Error(usage) when there is no '=' or nothing on one side of it.
 Setting parse_setting(const std::string& text, const std::string& option);
 
-/// Values parted by commas outside brackets and quotes: "[1, 2],[3, 4]" are two. Throws Error(usage) for an
-/// empty one.
+/// Values parted by commas outside brackets and quotes: "[1, 2],[3, 4]" are two. Throws
+/// Error(usage) for an empty one.
 std::vector<std::string> split_values(const std::string& text);
 
 /// Puts the value into the tree; tables on the way are made. Throws InputError(usage) for a name that cannot

@@ -1,5 +1,5 @@
 // Every spring of a mesh, one after the other, in plain scalar code: for bounds, energies and stresses, which
-// are looked at now and then. Internal to cloth/.
+// are looked at now and then.
 #pragma once
 
 #include "ripstop/mesh/mesh.h"

@@ -1,0 +1,76 @@
+// ripstop descent: how fast a payload comes down under the parachute of a steady run.
+
+#include "ripstop/run/descent.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+
+#include "commands.h"
+#include "json_option.h"
+#include "ripstop/core/error.h"
+#include "ripstop/core/file.h"
+
+namespace ripstop {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  fs::path run, out;
+  double mass = 0;
+  std::vector<double> heights = {0, 300, 1000, 3000};
+  double ground = 0;
+  bool json = false;
+};
+
+void print_result(const Descent& d) {
+  fmt::print(
+      "{}\n  payload {:.4g} kg, parachute {:.3g} kg, drag area {:.4f} +- {:.4f} m2 (computed at {:.4g} "
+      "m/s)\n",
+      d.title, d.payload_mass, d.parachute_mass, d.drag_area, d.drag_area_uncertainty, d.run_speed);
+  fmt::print("{:>10} {:>9} {:>18} {:>22}\n", "height m", "kg/m3", "speed m/s",
+             fmt::format("to {:g} m, s", d.ground));
+  for (const DescentRow& row : d.rows)
+    fmt::print("{:>10.4g} {:>9.4f} {:>18} {:>22}\n", row.height, row.density,
+               fmt::format("{:.3f} +- {:.3f}", row.speed, row.speed_uncertainty),
+               row.time ? fmt::format("{:.1f} +- {:.1f}", *row.time, *row.time_uncertainty) : "-");
+}
+
+int descent(const Options& options) {
+  const Descent result =
+      run_descent(finished_steady(options.run), options.mass, options.heights, options.ground);
+  if (!options.out.empty()) {
+    make_folder(options.out);
+    write_file(options.out / "result.json", to_json(result));
+  }
+  if (options.json)
+    fmt::print("{}", to_json(result));
+  else
+    print_result(result);
+  for (const std::string& warning : result.warnings) fmt::print(stderr, "ripstop: {}\n", warning);
+  return 0;
+}
+
+}  // namespace
+
+void add_descent(CLI::App& app, int& status) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("descent", "Terminal speed and descent time from a steady run");
+  command->footer(
+      "+- is what the run itself leaves open (last change of the drag, averaging, ledger), not the model's "
+      "error.\n"
+      "Example: ripstop descent runs/stratos --mass 4 --height 300,1000");
+  command->add_option("run", options->run, "Folder of a finished run of ripstop steady")->required();
+  command->add_option("--mass", options->mass, "Mass of the payload, without the parachute [kg]")->required();
+  command->add_option("--height", options->heights, "Heights above sea level [m] (default: 0,300,1000,3000)")
+      ->delimiter(',');
+  command->add_option("--ground", options->ground, "Height where the descent ends [m] (default: 0)");
+  command->add_option("--out", options->out, "Folder for result.json (default: none)");
+  add_json_option(*command, options->json);
+  command->callback([options, &status] { status = descent(*options); });
+}
+
+}  // namespace ripstop

@@ -1,0 +1,13 @@
+// What hangs below a parachute, and what it weighs.
+#pragma once
+
+#include "ripstop/case/case.h"
+
+namespace ripstop {
+
+/// Of cloth, tape, lines and riser as meshed [kg].
+double parachute_mass(const Case& given);
+/// Of `payload` [kg] and the parachute that carries it; the canopy's drag holds both [N].
+double suspended_weight(const Case& given, double payload);
+
+}  // namespace ripstop

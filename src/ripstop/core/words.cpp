@@ -1,0 +1,134 @@
+#include "ripstop/core/words.h"
+
+#include <algorithm>
+#include <map>
+#include <string_view>
+
+namespace ripstop {
+namespace {
+
+struct Ending {
+  std::string_view key, unit;
+};
+// The longer ones first: the first that fits is taken.
+constexpr Ending endings[] = {
+    {"_n_s2_m4", "N s²/m⁴"},
+    {"_n_per_m", "N/m"},
+    {"_m_per_s", "m/s"},
+    {"_per_m2", "1/m²"},
+    {"_n_s_m3", "N s/m³"},
+    {"_kg_m3", "kg/m³"},
+    {"_kg_m2", "kg/m²"},
+    {"_per_m", "1/m"},
+    {"_kg_m", "kg/m"},
+    {"_n_m2", "N/m²"},
+    {"_m_s2", "m/s²"},
+    {"_n_s", "N s"},
+    {"_n_m", "N/m"},
+    {"_m_s", "m/s"},
+    {"_pa_s", "Pa s"},
+    {"_deg", "°"},
+    {"_m2", "m²"},
+    {"_m3", "m³"},
+    {"_mm", "mm"},
+    {"_ms", "ms"},
+    {"_kg", "kg"},
+    {"_hz", "Hz"},
+    {"_pa", "Pa"},
+    {"_n", "N"},
+    {"_m", "m"},
+    {"_s", "s"},
+    {"_k", "K"},
+    {"_j", "J"},
+};
+
+// Where the key's own words do not do.
+const std::map<std::string_view, Wording>& known() {
+  static const std::map<std::string_view, Wording> words = {
+      {"drag_coefficient", {"drag coefficient", ""}},
+      {"drag_area_m2", {"drag area", "m²"}},
+      {"reference_area_m2", {"reference area S₀", "m²"}},
+      {"known_drag_coefficient", {"usual drag coefficient in descent (Knacke)", ""}},
+      {"max_line_tension_n", {"highest line tension", "N"}},
+      {"max_von_mises_n_m", {"highest von Mises stress", "N/m"}},
+      {"max_von_mises_at_m", {"place of the highest stress (x, y, z)", "m"}},
+      {"max_von_mises_on", {"highest stress on the", ""}},
+      {"max_von_mises_time_s", {"time of the highest stress", "s"}},
+      {"max_cloth_strain", {"highest cloth strain", ""}},
+      {"max_principal_n_m", {"highest principal stress", "N/m"}},
+      {"max_principal_direction", {"its direction (x, y, z)", ""}},
+      {"max_warp_n_m", {"highest force along the warp", "N/m"}},
+      {"max_weft_n_m", {"highest force along the weft", "N/m"}},
+      {"wrinkled_share", {"share of the cloth that is wrinkled", ""}},
+      {"slack_share", {"share of the cloth that is slack", ""}},
+      {"transfer_factor", {"air's force over that of its pressures on the cloth", ""}},
+      {"load_remainder", {"load left over in the transfer", ""}},
+      {"axial_moment_n_m", {"moment about the axis", "N m"}},
+      {"section_gap", {"largest gap of stress and load through a section", ""}},
+      {"fluid_force_n", {"force of the air", "N"}},
+      {"nodal_load_n", {"load on the cloth's nodes", "N"}},
+      {"line_tension_n", {"tension of all lines", "N"}},
+      {"momentum_deficit_n", {"momentum that the air lost", "N"}},
+      {"printed_nonlinear_n", {"source's nonlinear model", "N"}},
+      {"printed_linear_n", {"source's linear model", "N"}},
+      {"nominal_speed_m_s", {"nominal speed", "m/s"}},
+      {"peak_load_n", {"peak load", "N"}},
+      {"low_pass_hz", {"low-pass cutoff", "Hz"}},
+      {"low_pass_peak_load_n", {"peak load, low-passed", "N"}},
+      {"low_pass_peak_time_s", {"time of the low-passed peak", "s"}},
+      {"low_pass_overshoot", {"overshoot, low-passed", ""}},
+      {"steady_load_deviation", {"deviation of the steady load", ""}},
+      {"overshoot", {"overshoot (peak over steady load)", ""}},
+      {"steady_drag_asked_n", {"steady drag asked for", "N"}},
+      {"damping_n_s_m3", {"damping", "N s/m³"}},
+      {"quadratic_damping_n_s2_m4", {"quadratic damping", "N s²/m⁴"}},
+      {"cloth_damping_least_share", {"cloth damping, least share kept", ""}},
+      {"cloth_damping_reduced_cells", {"share of cells with reduced cloth damping", ""}},
+      {"start_strain", {"largest strain of the folded start", ""}},
+      {"cloth_margin", {"cloth's margin to its breaking load", ""}},
+      {"energy_residual", {"largest residual of the energy balance", ""}},
+      {"knacke_load_n", {"Knacke's estimate of the peak", "N"}},
+      {"knacke_coefficient", {"Knacke's opening coefficient C_x", ""}},
+      {"knacke_source", {"source of that coefficient", ""}},
+      {"printed_peak_n", {"peak of the source's model", "N"}},
+      {"measured_peak_n", {"measured peak", "N"}},
+      {"von_mises_n_per_m", {"von Mises stress", "N/m"}},
+      {"stress_max_n_per_m", {"first principal stress", "N/m"}},
+      {"stress_min_n_per_m", {"second principal stress", "N/m"}},
+      {"warp_n_per_m", {"force along the warp", "N/m"}},
+      {"weft_n_per_m", {"force along the weft", "N/m"}},
+      {"tautness", {"tautness (0 slack, 1 wrinkled, 2 taut)", ""}},
+      {"strain_max", {"largest strain", ""}},
+      {"pressure_inside_pa", {"pressure inside", "Pa"}},
+      {"pressure_outside_pa", {"pressure outside", "Pa"}},
+      {"pressure_difference_applied_pa", {"pressure difference on the cloth", "Pa"}},
+      {"cp_load", {"load on the cloth", ""}},
+      {"free_tension_n", {"tension below the skirt", "N"}},
+      {"largest_tension_n", {"largest tension", "N"}},
+  };
+  return words;
+}
+
+}  // namespace
+
+Wording in_words(const std::string& key) {
+  const std::string name = key.substr(key.rfind('.') + 1);
+  if (const auto found = known().find(name); found != known().end()) return found->second;
+  Wording words{name, ""};
+  for (const Ending& ending : endings) {
+    if (!name.ends_with(ending.key) || name.size() == ending.key.size()) continue;
+    words = {name.substr(0, name.size() - ending.key.size()), std::string(ending.unit)};
+    break;
+  }
+  std::replace(words.text.begin(), words.text.end(), '_', ' ');
+  return words;
+}
+
+std::string in_words(const std::string& key, const std::string& value) {
+  if (key == "coupling.linear") return value == "true" ? "linear cloth" : "nonlinear cloth";
+  const Wording words = in_words(key);
+  if (value == "true" || value == "false") return (value == "true" ? "" : "no ") + words.text;
+  return words.text + " " + value + (words.unit.empty() ? "" : " " + words.unit);
+}
+
+}  // namespace ripstop

@@ -1,0 +1,21 @@
+// Keys of cases, tables and results as words and a unit, for people to read.
+#pragma once
+
+#include <string>
+
+namespace ripstop {
+
+struct Wording {
+  std::string text;  // "highest line tension"
+  std::string unit;  // "N"; empty: a plain number or no number at all
+
+  /// "highest line tension [N]"
+  std::string with_unit() const { return unit.empty() ? text : text + " [" + unit + "]"; }
+};
+
+/// Of a key such as "max_line_tension_n", or the full name of one, "flow.speed_m_s".
+Wording in_words(const std::string& key);
+/// A key and its value: "linear cloth", "vent diameter 0.09 m", "cells [50,50,75]".
+std::string in_words(const std::string& key, const std::string& value);
+
+}  // namespace ripstop

@@ -1,0 +1,26 @@
+// The U.S. Standard Atmosphere, 1976, up to 80 km.
+#pragma once
+
+namespace ripstop {
+
+/// Standard acceleration of gravity, of weights and of the standard atmosphere [m/s2].
+inline constexpr double standard_gravity = 9.80665;
+/// Heights that standard_air() takes [m].
+inline constexpr double lowest_height = -2000, highest_height = 80000;
+
+struct StandardAir {
+  double temperature = 0;  // [K]
+  double pressure = 0;     // [Pa]
+  double density = 0;      // [kg/m3]
+  double viscosity = 0;    // dynamic [Pa s]
+  double sound_speed = 0;  // [m/s]
+};
+
+/// Geometric height above mean sea level to the height that the layers are given in [m].
+double geopotential_height(double height);
+
+/// Of the day that the standard describes; `height` is geometric, above mean sea level [m]. Throws
+/// Error(usage) outside [lowest_height, highest_height].
+StandardAir standard_air(double height);
+
+}  // namespace ripstop

@@ -1,0 +1,79 @@
+// Plots by uPlot, in the theme's colours, with the time of the shape where they run over time.
+"use strict";
+
+const Plots = (() => {
+  const height = 250;
+
+  function columns(plot) {
+    const usable = (value) => (plot.logarithmic && !(value > 0) ? null : value);
+    const tables = plot.series.map((series) => {
+      // uPlot wants rising x; equal ones are told apart by nothing, so the last stands.
+      const order = series.x.map((_, i) => i).filter((i) => series.x[i] !== null).sort((a, b) => series.x[a] - series.x[b]);
+      return [order.map((i) => series.x[i]), order.map((i) => usable(series.y[i]))];
+    });
+    return uPlot.join(tables);
+  }
+
+  function axis(words, extra) {
+    return {
+      label: withUnit(words), stroke: Colours.variable("--ink"), labelSize: 24, labelFont: "12px system-ui, sans-serif",
+      font: "12px system-ui, sans-serif", grid: { stroke: Colours.variable("--soft"), width: 1 },
+      ticks: { stroke: Colours.variable("--rule"), width: 1 }, ...extra,
+    };
+  }
+
+  function series(one, index, plot) {
+    const colour = Colours.series(index);
+    return {
+      label: one.name, stroke: colour, width: 2, spanGaps: true, dash: one.dashed ? [7, 5] : undefined,
+      paths: one.line ? undefined : () => null,
+      points: { show: !one.line || one.x.length <= 40, size: one.line ? 5 : 9, fill: one.line ? colour : Colours.variable("--panel"), stroke: colour, width: 2 },
+      value: (_, value) => (value === null || value === undefined ? "–" : `${Numbers.shown(value, 4)}${plot.y.unit ? " " + plot.y.unit : ""}`),
+    };
+  }
+
+  function options(plot, width) {
+    return {
+      width, height,
+      scales: { x: { time: false }, y: { distr: plot.logarithmic ? 3 : 1 } },
+      axes: [axis(plot.x, { size: 34 }), axis(plot.y, { size: 62, values: (_, values) => values.map((v) => (v === null ? "" : Numbers.shown(v, 4))) })],
+      series: [{ label: plot.x.text, value: (_, v) => (v === null ? "–" : `${Numbers.shown(v, 4)}${plot.x.unit ? " " + plot.x.unit : ""}`) },
+               ...plot.series.map((one, i) => series(one, i, plot))],
+      legend: { live: true }, cursor: { drag: { x: true, y: false } },
+    };
+  }
+
+  /** A figure that is drawn when it is first shown; `clock` moves a line over plots of time, and is set by a click. */
+  class Figure {
+    constructor(plot, clock) {
+      this.plot = plot;
+      this.clock = plot.overTime ? clock : null;
+      this.body = element("div");
+      this.node = element("figure", { class: "plot panel", "data-plot": plot.id }, element("figcaption", {}, plot.title), this.body);
+      if (this.clock) this.clock.listen((time) => this.mark(time));
+    }
+    draw() {
+      const width = Math.max(240, this.node.clientWidth - 34);
+      if (this.drawn) this.drawn.destroy();
+      this.body.replaceChildren();
+      this.drawn = new uPlot(options(this.plot, width), columns(this.plot), this.body);
+      this.drawn.root.querySelector("canvas").setAttribute("role", "img");
+      this.drawn.root.querySelector("canvas").setAttribute("aria-label",
+        `${this.plot.title}: ${withUnit(this.plot.y)} over ${withUnit(this.plot.x)}`);
+      if (!this.clock) return;
+      this.now = element("div", { class: "now" });
+      this.drawn.over.append(this.now);
+      this.drawn.over.addEventListener("click", () => this.clock.set(this.drawn.posToVal(this.drawn.cursor.left, "x")));
+      this.mark(this.clock.time);
+    }
+    mark(time) {
+      if (this.now) this.now.style.left = `${this.drawn.valToPos(time, "x")}px`;
+    }
+    resize() {
+      if (this.drawn) this.drawn.setSize({ width: Math.max(240, this.node.clientWidth - 34), height });
+      if (this.clock && this.drawn) this.mark(this.clock.time);
+    }
+  }
+
+  return { Figure };
+})();

@@ -1,0 +1,57 @@
+#include "ripstop/run/finished_steady.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "ripstop/case/payload.h"
+#include "ripstop/core/error.h"
+#include "ripstop/run/run_folder.h"
+#include "ripstop/run/steady_folder.h"
+
+namespace ripstop {
+namespace {
+
+double uncertainty_of(const SteadyIteration& last) {
+  const double drag = last.fluid_force;
+  const double shares[] = {last.drag_change, last.drag_deviation / drag, std::abs(last.nodal_load / drag - 1),
+                           std::abs(last.momentum_deficit / drag - 1)};
+  double largest = 0;
+  for (const double share : shares)
+    if (std::isfinite(share)) largest = std::max(largest, share);
+  return largest;
+}
+
+bool is_of_steady(const std::string& text) {
+  const auto json = nlohmann::json::parse(text, nullptr, false);
+  return json.is_object() && json.contains("drag_n") && json.contains("coupling_iterations");
+}
+
+}  // namespace
+
+FinishedSteady finished_steady(const std::filesystem::path& folder) {
+  const std::optional<std::string> text = finished_result(folder);
+  if (!text || !is_of_steady(*text))
+    throw Error(
+        ExitCode::usage,
+        fmt::format("{}: holds no finished run of ripstop steady; make one by: ripstop steady CASE --out {}",
+                    folder.string(), folder.string()));
+  FinishedSteady run;
+  run.folder = folder;
+  run.result = steady_result_from_json(*text);
+  if (!run.result.converged)
+    throw Error(
+        ExitCode::bad_data,
+        fmt::format("{}: the steady run has not converged, so that its drag says nothing; give it more "
+                    "coupling.max_iterations and run it again with --fresh",
+                    folder.string()));
+  run.given = case_of_run(folder);
+  run.parachute_mass = parachute_mass(run.given);
+  run.result.last = final_state(folder).iterations.back();
+  run.drag_uncertainty = uncertainty_of(run.result.last);
+  return run;
+}
+
+}  // namespace ripstop

@@ -1,0 +1,25 @@
+// A steady run that has ended and converged, read back from its folder for what is made of its numbers.
+#pragma once
+
+#include <filesystem>
+
+#include "ripstop/case/case.h"
+#include "ripstop/run/steady.h"
+
+namespace ripstop {
+
+struct FinishedSteady {
+  std::filesystem::path folder;
+  Case given;
+  SteadyResult result;
+  double parachute_mass = 0;  // [kg]
+  /// How well the run knows its own drag, relative: the largest of its last change, the deviation of a flow that was
+  /// averaged, and what the ledger does not close. What the model does not have is not in it.
+  double drag_uncertainty = 0;
+};
+
+/// Throws Error(usage) for a folder without a finished run of `ripstop steady`, Error(bad_data) for one that is
+/// damaged or has not converged.
+FinishedSteady finished_steady(const std::filesystem::path& folder);
+
+}  // namespace ripstop

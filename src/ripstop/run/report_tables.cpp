@@ -1,0 +1,166 @@
+#include "ripstop/run/report_tables.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "ripstop/case/resolve.h"
+#include "ripstop/core/error.h"
+#include "ripstop/core/file.h"
+#include "ripstop/core/words.h"
+#include "ripstop/output/csv.h"
+#include "ripstop/run/pattern.h"
+
+namespace ripstop {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json parsed(const std::filesystem::path& file, const std::string& text) {
+  Json json = Json::parse(text, nullptr, false);
+  if (!json.is_object())
+    throw Error(ExitCode::bad_data, fmt::format("{}: is no result of Ripstop", file.string()));
+  return json;
+}
+
+std::string text_of(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_number_float()) return csv_number(value.get<double>());
+  if (value.is_null()) return "";
+  if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+  return value.dump();
+}
+
+std::string heading(std::string text) {
+  std::replace(text.begin(), text.end(), '_', ' ');
+  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
+}
+
+bool is_group(const Json& value) {
+  return value.is_object() || (value.is_array() && !value.empty() && value.front().is_object());
+}
+
+void add_group(std::vector<ReportTable>& tables, const std::string& key, const Json& group) {
+  ReportTable table{key, heading(in_words(key).text), "", {}, {}};
+  std::vector<std::pair<std::string, const Json*>> nested;
+  if (group.is_object()) {
+    table.columns = {{"", ""}, {"", ""}, {"unit", ""}};
+    for (const auto& [name, value] : group.items()) {
+      if (is_group(value)) {
+        nested.emplace_back(name, &value);
+        continue;
+      }
+      const Wording words = in_words(name);
+      table.rows.push_back({words.text, text_of(value), words.unit});
+    }
+  } else {
+    for (const Json& row : group)
+      for (const auto& [name, value] : row.items()) {
+        const Wording words = in_words(name);
+        if (std::none_of(table.columns.begin(), table.columns.end(),
+                         [&](const ReportColumn& column) { return column.text == words.text; }))
+          table.columns.push_back({words.text, words.unit});
+      }
+    for (const Json& row : group) {
+      std::vector<std::string> fields(table.columns.size());
+      for (const auto& [name, value] : row.items())
+        for (std::size_t c = 0; c < fields.size(); ++c)
+          if (table.columns[c].text == in_words(name).text) fields[c] = text_of(value);
+      table.rows.push_back(fields);
+    }
+  }
+  if (!table.rows.empty()) tables.push_back(table);
+  for (const auto& [name, value] : nested) add_group(tables, key + " " + name, *value);
+}
+
+}  // namespace
+
+void add_result(ReportRun& run, const std::string& text, const std::filesystem::path& file) {
+  const Json json = parsed(file, text);
+  for (const auto& [key, value] : json.items()) {
+    if (is_group(value))
+      add_group(run.tables, key, value);
+    else
+      run.values.push_back({key, value.dump(-1, ' ', false, Json::error_handler_t::replace)});
+  }
+  run.title = json.value("title", "");
+  run.converged = json.value("converged", true);
+}
+
+ReportTable bill_table(const Case& given) {
+  const PatternResult pattern = run_pattern(given, {}, 400);
+  ReportTable table{"bill",
+                    "Bill of materials",
+                    fmt::format("As cut, with the usual allowances, thread not counted: {:.4g} g, {:.3g} l "
+                                "packed by hand. ripstop pattern writes the pieces to scale.",
+                                1000 * pattern.bill.mass, 1000 * pattern.bill.packed_volume),
+                    {{"part", ""},
+                     {"material", ""},
+                     {"count", ""},
+                     {"finished", ""},
+                     {"cut", ""},
+                     {"unit", ""},
+                     {"mass", "g"}},
+                    {}};
+  for (const BillRow& row : pattern.bill.rows)
+    table.rows.push_back({row.part, row.material, fmt::format("{}", row.count),
+                          fmt::format("{:.3f}", row.finished), fmt::format("{:.3f}", row.cut),
+                          row.is_cloth ? "m²" : "m", fmt::format("{:.1f}", 1000 * row.mass)});
+  return table;
+}
+
+ReportTable sources_table(const Case& given) {
+  const Resolved resolved = resolve(given);
+  const Json written = Json::parse(case_json(resolved.written));
+  ReportTable table{"sources",
+                    "Values that follow where the case gives none",
+                    "",
+                    {{"key", ""}, {"value", ""}, {"from", ""}},
+                    {}};
+  for (const Source& source : resolved.sources) {
+    std::string pointer = "/" + source.key;
+    std::replace(pointer.begin(), pointer.end(), '.', '/');
+    const Json::json_pointer place(pointer);
+    table.rows.push_back(
+        {source.key, written.contains(place) ? text_of(written.at(place)) : "", source.from});
+  }
+  return table;
+}
+
+void add_provenance(ReportRun& run, const std::filesystem::path& run_json) {
+  const Json json = parsed(run_json, read_file(run_json));
+  for (const auto& [key, value] : json.items())
+    if (key != "case") run.provenance.emplace_back(in_words(key).text, text_of(value));
+}
+
+double number_of(const ReportRun& run, const std::string& key) {
+  for (const ReportValue& value : run.values) {
+    if (value.key != key) continue;
+    const Json json = Json::parse(value.json);
+    if (json.is_number()) return json.get<double>();
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+ReportTable comparison_table(const std::vector<ReportRun>& runs) {
+  ReportTable table{
+      "comparison", "Runs side by side", "Differences are from the first run.", {{"", ""}, {"unit", ""}}, {}};
+  for (const ReportRun& run : runs) table.columns.push_back({run.name, ""});
+  for (const ReportValue& value : runs.front().values) {
+    const Wording words = in_words(value.key);
+    std::vector<std::string> row = {words.text, words.unit};
+    bool everywhere = true;
+    for (const ReportRun& run : runs) {
+      const double number = number_of(run, value.key);
+      everywhere = everywhere && number == number;
+      row.push_back(csv_number(number));
+    }
+    if (everywhere) table.rows.push_back(row);
+  }
+  return table;
+}
+
+}  // namespace ripstop

@@ -1,0 +1,185 @@
+// The page as text: what is packed comes back, no text of a case becomes part of the page, and it stays small.
+#include "ripstop/report/report.h"
+
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "ripstop/report/assets.h"
+#include "ripstop/report/encode.h"
+
+namespace ripstop {
+namespace {
+
+using nlohmann::json;
+
+std::string from_base64(const std::string& text) {
+  std::string bytes;
+  unsigned group = 0;
+  int bits = 0;
+  for (char c : text) {
+    if (c == '=') break;
+    const std::string letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    group = group << 6 | static_cast<unsigned>(letters.find(c));
+    if ((bits += 6) >= 8) bytes += static_cast<char>(group >> (bits -= 8) & 255);
+  }
+  return bytes;
+}
+
+std::vector<std::uint32_t> unpacked(const std::string& text, std::size_t count, std::size_t components,
+                                    int bytes) {
+  std::string planes(count * static_cast<std::size_t>(bytes), '\0');
+  uLongf size = planes.size();
+  const std::string packed = from_base64(text);
+  EXPECT_EQ(uncompress(reinterpret_cast<Bytef*>(planes.data()), &size,
+                       reinterpret_cast<const Bytef*>(packed.data()), packed.size()),
+            Z_OK);
+  std::vector<std::uint32_t> values(count, 0);
+  const std::uint32_t mask = bytes == 2 ? 0xffff : 0xffffffff;
+  for (std::size_t i = 0; i < count; ++i) {
+    for (int b = 0; b < bytes; ++b)
+      values[i] |= static_cast<std::uint32_t>(static_cast<unsigned char>(planes[b * count + i])) << (8 * b);
+    if (i >= components) values[i] = (values[i] + values[i - components]) & mask;
+  }
+  return values;
+}
+
+TEST(Encode, Base64IsThatOfItsSpecification) {  // RFC 4648, section 10
+  EXPECT_EQ(base64(""), "");
+  EXPECT_EQ(base64("f"), "Zg==");
+  EXPECT_EQ(base64("fo"), "Zm8=");
+  EXPECT_EQ(base64("foo"), "Zm9v");
+  EXPECT_EQ(base64("foob"), "Zm9vYg==");
+  EXPECT_EQ(base64("fooba"), "Zm9vYmE=");
+  EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
+}
+
+TEST(Encode, WholeNumbersComeBack) {
+  const std::vector<std::uint32_t> values = {5, 0, 65535, 3, 1, 65534, 40000, 7};
+  for (int bytes : {2, 4})
+    for (int components : {1, 2, 4})
+      EXPECT_EQ(unpacked(pack_integers(values, components, bytes), 8, components, bytes), values);
+  const std::vector<std::uint32_t> large = {4'000'000'000, 1, 70000};
+  EXPECT_EQ(unpacked(pack_integers(large, 1, 4), 3, 1, 4), large);
+}
+
+TEST(Encode, ValuesComeBackWithinHalfAStepAndWhatIsNoNumberStaysNone) {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<double> values = {1.5, -20, none, 300, 2.25, 7, 2.25, none};
+  const Quantised q = quantise(values, 2, 1000);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (std::isnan(values[i]))
+      EXPECT_EQ(q.values[i], no_number);
+    else
+      EXPECT_NEAR(q.low[i % 2] + q.step[i % 2] * q.values[i], values[i], 0.5001 * q.step[i % 2]);
+  }
+  const Quantised same = quantise({4, 4, 4}, 1);
+  EXPECT_EQ(same.low[0] + same.step[0] * same.values[1], 4);
+}
+
+ReportRun hostile_run() {
+  const std::string text = "</script><script>document.title='taken'</script><!--<script>\xff\"'&";
+  ReportRun run;
+  run.kind = "steady";
+  run.name = run.title = text;
+  run.values = {{"title", json(text.substr(0, 50)).dump()},
+                {"max_von_mises_on", json(text.substr(0, 50)).dump()}};
+  run.warnings = {text};
+  run.case_file = text;
+  run.provenance = {{text, text}};
+  run.tables = {{"ledger", text, text, {{text, text}}, {{text}}}};
+  run.plots = {{"p", text, {text, text}, {text, text}, {{text, {1, 2}, {1, 2}, true, false}}, false, false}};
+  return run;
+}
+
+/// Elements of the page, as a browser's parser finds the ends of scripts.
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+  return found;
+}
+
+TEST(ReportPage, NoTextOfACaseBecomesAScriptOrEndsOne) {
+  Report report;
+  report.runs = {hostile_run()};
+  report.title = report.runs[0].title;
+  const std::string page = report_page(report);
+  Report plain;
+  plain.runs = {ReportRun{}};
+  EXPECT_EQ(count(page, "</script"), count(report_page(plain), "</script"));
+  EXPECT_EQ(count(page, "</script"), report_scripts().size() + 1);
+  EXPECT_EQ(count(page, "<!--<script"), 0u);
+  EXPECT_EQ(count(page, "<title>&lt;/script&gt;"), 1u);
+}
+
+TEST(ReportPage, AsksForNothingFromANetwork) {
+  const std::string page =
+      report_page({.title = "t", .runs = {hostile_run()}, .comparison = {}, .plots = {}});
+  EXPECT_NE(page.find("default-src 'none'"), std::string::npos);
+  const std::regex loads(R"((src|href)\s*=\s*["']?(https?:)?//)");
+  for (const Asset& asset : report_styles())
+    EXPECT_EQ(asset.text.find("url("), std::string_view::npos) << asset.name;
+  EXPECT_FALSE(std::regex_search(std::string(report_skeleton()), loads));
+  EXPECT_TRUE(is_report(page));
+  EXPECT_FALSE(is_report("<!doctype html><html></html>"));
+}
+
+/// Half a sphere of `rows` x `columns` cells, breathing over `frames`; every value is noise, which packs worst.
+ShapeView dome(int rows, int columns, int frames) {
+  ShapeView view;
+  view.part_names = {"line"};
+  for (int i = 0; i < rows; ++i)
+    for (int j = 0; j < columns; ++j) {
+      const int next = (j + 1) % columns, a = i * columns;
+      for (int node : {a + j, a + next, a + columns + next, a + columns + j}) view.quads.push_back(node);
+    }
+  const int nodes = (rows + 1) * columns;
+  for (int j = 0; j < 24; ++j) {
+    view.segments.insert(view.segments.end(), {rows * columns + j * columns / 24, nodes});
+    view.parts.push_back(0);
+  }
+  unsigned noise = 1;
+  const auto random = [&] { return (noise = noise * 1664525u + 1013904223u) / 4294967296.0; };
+  for (int f = 0; f < frames; ++f) {
+    ShapeFrame frame;
+    frame.time = 0.01 * f;
+    const double radius = 1 + 0.2 * std::sin(0.3 * f);
+    for (int i = 0; i <= rows; ++i)
+      for (int j = 0; j < columns; ++j) {
+        const double polar = 1.57 * (i + 1) / (rows + 1), angle = 6.2831853 * j / columns;
+        frame.points.insert(frame.points.end(), {radius * std::sin(polar) * std::cos(angle) + 1e-4 * random(),
+                                                 radius * std::sin(polar) * std::sin(angle) + 1e-4 * random(),
+                                                 radius * std::cos(polar) + 1e-4 * random()});
+      }
+    frame.points.insert(frame.points.end(), {0, 0, -2});
+    for (const char* key : {"von_mises_n_per_m", "strain_max"}) {
+      frame.cells.push_back({key, {}});
+      for (int cell = 0; cell < rows * columns; ++cell) frame.cells.back().values.push_back(1000 * random());
+    }
+    frame.line_values.assign(24, 10 + f);
+    view.frames.push_back(frame);
+  }
+  return view;
+}
+
+// Also what the browser's test measures the speed with: RIPSTOP_DOME names the file to leave.
+TEST(ReportPage, WithFiftyThousandMovingNodesIsAtMostTenMegabytes) {
+  Report report;
+  report.title = "dome";
+  report.runs.resize(1);
+  report.runs[0].kind = "opening";
+  report.runs[0].name = report.runs[0].title = "dome";
+  report.runs[0].shape = dome(199, 250, 30);
+  ASSERT_GE(report.runs[0].shape.frames[0].points.size() / 3, 50000u);
+  const std::string page = report_page(report);
+  EXPECT_LE(page.size(), largest_page);
+  if (const char* file = std::getenv("RIPSTOP_DOME")) std::ofstream(file) << page;
+}
+
+}  // namespace
+}  // namespace ripstop

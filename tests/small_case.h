@@ -1,0 +1,22 @@
+// A small flat circular canopy as a case made in code, as a caller of the library makes one.
+#pragma once
+
+#include "ripstop/case/case.h"
+#include "ripstop/parachute/flat_circular.h"
+
+namespace ripstop {
+
+/// `diameter_m` and lines as long, twelve gores; in air of 1.2 kg/m3.
+inline Case flat_circular_case(double diameter_m, int cloth_nodes, double speed_m_s) {
+  Case given;
+  given.parachute.canopy = FlatCircular{diameter_m, diameter_m / 10};
+  given.parachute.gores = 12;
+  given.parachute.lines.count = 12;
+  given.parachute.lines.length_m = diameter_m;
+  given.parachute.mesh.cloth_nodes = cloth_nodes;
+  given.flow.speed_m_s = speed_m_s;
+  given.flow.density_kg_m3 = 1.2;
+  return given;
+}
+
+}  // namespace ripstop
