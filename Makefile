@@ -44,10 +44,12 @@ check: check-deps format-check  ## Build and pass the tests
 	@cmake --build --preset release -j $(JOBS)
 	@ctest --preset release -j $(JOBS)
 
+ROOMS := $(notdir $(patsubst %/,%,$(dir $(wildcard tests/*/*_test.cpp))))
 room: check-deps  ## Build and pass the tests of one room, or some of them: make room ROOM=cloth [TESTS='ClothLaws|ClothKernel']
+	@test -n "$(filter $(ROOM),$(ROOMS))" || { echo "make room ROOM=... is one of: $(sort $(ROOMS))"; exit 2; }
 	@cmake --preset release > build-check.configure.log || { cat build-check.configure.log; exit 1; }
 	@cmake --build --preset release -j $(JOBS) --target test_$(ROOM)
-	@ctest --preset release -R '^$(ROOM)\.($(TESTS))'
+	@ctest --preset release -j $(JOBS) --no-tests=error -R '^$(ROOM)\.([^/]*/)?($(TESTS))'
 
 sanitize: check-deps  ## The tests that need no OpenFOAM, under the address and undefined-behaviour sanitizers
 	@cmake --preset sanitize

@@ -1,14 +1,17 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <exception>
 
 #include "commands.h"
 #include "ripstop/core/build_info.h"
 #include "ripstop/core/error.h"
 
-int main(int argc, char** argv) {
-  using namespace ripstop;
+namespace ripstop {
+namespace {
+
+int run(int argc, char** argv) {
   CLI::App app{
       "Ripstop predicts how a subsonic parachute flies: its inflated shape, drag, stresses and loads."};
   app.set_version_flag("--version", version());
@@ -42,9 +45,20 @@ int main(int argc, char** argv) {
   } catch (const Error& error) {
     fmt::print(stderr, "ripstop: {}\n", error.what());
     return static_cast<int>(error.code());
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "ripstop: internal error: {}\n", error.what());
-    return 70;
   }
   return status;
+}
+
+}  // namespace
+}  // namespace ripstop
+
+int main(int argc, char** argv) {
+  try {
+    return ripstop::run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "ripstop: internal error: %s\n", error.what());
+  } catch (...) {
+    std::fputs("ripstop: internal error\n", stderr);
+  }
+  return 70;
 }

@@ -29,8 +29,8 @@ double smooth(double x, double y, double z) {
   return std::exp(x + 0.7 * y - 0.4 * z);
 }
 
-// Mean error of convection by a uniform stream (a, b, c), upwind and with the correction, of a field that has
-// no extremum.
+// Mean error of convection by a uniform stream (a, b, c), upwind and with the correction, of a
+// field that has no extremum.
 struct Errors {
   double upwind = 0, limited = 0;
 };

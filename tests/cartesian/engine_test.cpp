@@ -130,8 +130,8 @@ TEST(CartesianEngine, TheForceOnTheCanopyIsTheMomentumThatTheBoxLoses) {
   EXPECT_NEAR(field.momentum_deficit / field.porous_force.z, 1, 0.002);  // the goal is 0.005
 }
 
-// Drop over a porous plug that fills a duct, over the law's: one-dimensional, nothing but the resistance
-// acts.
+// Drop over a porous plug that fills a duct, over the law's: one-dimensional, nothing
+// but the resistance acts.
 double plug_drop(int cells) {
   FlowProblem problem;
   problem.grid = {{0, 0, 0}, {1, 1, 4}, 4, 4, cells};

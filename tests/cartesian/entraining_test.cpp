@@ -10,8 +10,8 @@
 namespace ripstop {
 namespace {
 
-// A porous disk of 1 m (loss coefficient 2) in a box of `width` x `width` x 1.5 `width`, cells of 1/8 m about
-// it.
+// A porous disk of 1 m (loss coefficient 2) in a box of `width` x `width` x 1.5 `width`,
+// cells of 1/8 m about it.
 FlowField porous_disk(double width, Sides sides, int threads = 1) {
   FlowProblem problem;
   const int n = width > 4 ? 44 : 32;

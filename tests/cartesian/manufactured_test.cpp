@@ -29,8 +29,8 @@ struct Flow {
   Vec3 velocity, force;
 };
 
-// u = U e_z + curl(psi e_y), psi = A b(x) b(y) b(z), p = P b(x) b(y) b(z); the eddy is of unit size about
-// `c`.
+// u = U e_z + curl(psi e_y), psi = A b(x) b(y) b(z), p = P b(x) b(y) b(z); the eddy is
+// of unit size about `c`.
 Flow made_up(Vec3 at, Vec3 c) {
   const Bump x(at.x - c.x), y(at.y - c.y), z(at.z - c.z);
   const double a = eddy * speed;

@@ -212,8 +212,8 @@ TEST(ClothEquilibrium, AStripOfYarnsAloneCarriesItsTensionOverItsWidth) {
 }
 
 // Hencky's membrane, clamped flat at r = a. N = (E t p^2 a^2)^(1/3) n(r / a):
-//   n'' + 3 n'/s + 1 / (8 n^2) = 0,  n'(0) = 0,  n'(1) + (1 - nu) n(1) = 0,  w0 = (p a^4 / E t)^(1/3) int s /
-//   2n
+//   n'' + 3 n'/s + 1 / (8 n^2) = 0,  n'(0) = 0,  n'(1) + (1 - nu) n(1) = 0,
+//   w0 = (p a^4 / E t)^(1/3) int s / 2n
 struct Hencky {
   double centre_tension, centre_deflection;
 };

@@ -23,10 +23,16 @@ namespace ripstop {
 template <class T, class Struct>
 concept Of = std::same_as<std::remove_const_t<T>, Struct>;
 
+/// Takes any member: asks whether there is a list. A lambda in a concept is more than clang 14 understands.
+struct AnyMember {
+  template <class... Any>
+  void operator()(const char*, Any&&...) const {}
+};
+
 /// A struct with a list.
 template <class T>
 concept Listed = requires(T& value) {
-  each_member(value, [](const char*, auto&&...) {});
+  each_member(value, AnyMember{});
 };
 
 /// Also a column of the table that has a row a result.

@@ -19,9 +19,9 @@ struct SidePressures {
   std::vector<double> difference() const;
 };
 
-/// Reads the pressure one cell's thickness off the cloth on either side, from cells that no cloth cuts:
-/// within the cut cells the pressure is on its way from one side to the other. Cloth outside the grid gets
-/// zero.
+/// Reads the pressure one cell's thickness off the cloth on either side, from cells that no cloth
+/// cuts: within the cut cells the pressure is on its way from one side to the other. Cloth
+/// outside the grid gets zero.
 SidePressures sample_sides(const FlowField& field, const std::vector<int>& porous_cells,
                            const std::vector<Cell>& cells, const std::vector<Vec3>& positions);
 

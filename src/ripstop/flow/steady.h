@@ -1,5 +1,5 @@
-// From a flow under way to one at rest: pieces, settling, averaging, a second start; the same for every
-// engine.
+// From a flow under way to one at rest: pieces, settling, averaging, a second start; the
+// same for every engine.
 #pragma once
 
 #include "ripstop/flow/flow.h"

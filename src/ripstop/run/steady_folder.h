@@ -23,15 +23,15 @@ struct SteadyFolderRun {
   SteadyResult result;
 };
 
-/// run_steady() in a folder, from the first iteration or from where it was killed. Nothing is computed, and
-/// the observer is told nothing, when the folder holds the finished run. Throws as holds_run() and
-/// run_steady() do.
+/// run_steady() in a folder, from the first iteration or from where it was killed. Nothing is
+/// computed, and the observer is told nothing, when the folder holds the finished run. Throws as
+/// holds_run() and run_steady() do.
 SteadyFolderRun run_steady_in(const SteadyFolderSettings& settings, const Case& given,
                               SteadyObserver& observer);
 
-/// Drag of the converged run in a folder, for an opening of the same parachute, but for its mesh, in the same air.
-/// Throws Error(usage) for another parachute, speed or density, Error(bad_data) for a run that is damaged or has
-/// not converged.
+/// Drag of the converged run in a folder, for an opening of the same parachute, but for its mesh, in the same
+/// air. Throws Error(usage) for another parachute, speed or density, Error(bad_data) for a run that is
+/// damaged or has not converged.
 double drag_for_opening(const std::filesystem::path& folder, const Case& opening);
 /// The final state in the folder of a steady run. Throws Error(usage) when there is none.
 SteadyState final_state(const std::filesystem::path& folder);

@@ -6,9 +6,9 @@
 // The equation is under-relaxed first and the resistance is added after that, so that R enters the diagonal
 // and the face flux (through 1/A) unrelaxed.
 //
-// A cell that tight cloth shuts in has hardly any flux, so that A all but vanishes and any error of the
-// pressure would send its air off at once. Beside a sheet A is therefore no less than rho U / h of the free
-// stream.
+// A cell that tight cloth shuts in has hardly any flux, so that A all but vanishes and any error
+// of the pressure would send its air off at once. Beside a sheet A is therefore no less than
+// rho U / h of the free stream.
 #include <cmath>
 
 #include "ripstop/flow/cartesian/row_parts.h"

@@ -145,9 +145,9 @@ void SheetRows::update(State& state, const Layout& layout, double momentum) {
     const Array<double>& flux = g.axis == 0 ? fields.fx : g.axis == 1 ? fields.fy : fields.fz;
     const auto along = [&](Vec3 v) { return g.axis == 0 ? v.x : g.axis == 1 ? v.y : v.z; };
     const double density = 0.5 * (fields.rho[low] + fields.rho[high]);
-    // The law holds for what goes through the sheet. What of a cell's velocity runs along it crosses the face
-    // freely: the faces of slanted cloth are a staircase, and air that runs along the cloth must not climb
-    // it.
+    // The law holds for what goes through the sheet. What of a cell's velocity runs along it
+    // crosses the face freely: the faces of slanted cloth are a staircase, and air that runs along
+    // the cloth must not climb it.
     const auto sliding = [&](std::ptrdiff_t cell) {
       const Vec3 velocity{fields.u[cell], fields.v[cell], fields.w[cell]};
       return along(velocity) - dot(g.normal, velocity) / face.spread;
@@ -193,8 +193,8 @@ Array<double> SheetRows::distance(const Axis& x, const Axis& y, const Axis& z, c
     offer(g.i, g.j, g.k, f);
     offer(g.i - (g.axis == 0), g.j - (g.axis == 1), g.k - (g.axis == 2), f);
   }
-  // The nearest face of a cell is nearly always that of one of its neighbours: swept to and fro along each
-  // axis.
+  // The nearest face of a cell is nearly always that of one of its neighbours: swept to
+  // and fro along each axis.
   for (int pass = 0; pass < 2; ++pass) {
     for (int k = 0; k < nz_; ++k) {
       for (int j = 0; j < ny_; ++j) {

@@ -32,8 +32,8 @@ class SheetRows {
   /// Where row (j, k) of the faces across `axis` begins, n + 1 values; it has the low faces of its cells. 0:
   /// the row of zeros, not to be written.
   std::size_t offset(int axis, int j, int k) const { return offset_.empty() ? 0 : offset_[axis][row(j, k)]; }
-  /// What the law asks for beyond the jump that is held [Pa], and its slope over the face's own velocity
-  /// [Pa s/m].
+  /// What the law asks for beyond the jump that is held [Pa], and its slope over the face's
+  /// own velocity [Pa s/m].
   const std::vector<double>& excess() const { return excess_; }
   const std::vector<double>& stiffness() const { return stiffness_; }
 
@@ -46,8 +46,8 @@ class SheetRows {
   /// The drop on every face with its last change, into State::drop.
   void settle(State& state) const;
 
-  /// Distance of each cell's centre to the nearest face that a sheet parts [m], no less than half the least
-  /// cell.
+  /// Distance of each cell's centre to the nearest face that a sheet parts [m], no less
+  /// than half the least cell.
   Array<double> distance(const Axis& x, const Axis& y, const Axis& z, const Layout& layout) const;
   /// What the air does to the sheets, face by face.
   std::vector<SheetLoad> loads(const State& state) const;

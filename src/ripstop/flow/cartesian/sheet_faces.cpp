@@ -351,8 +351,8 @@ std::vector<SheetFace> sheet_faces(const Axis& x, const Axis& y, const Axis& z,
   std::vector<Share> left_over;
   for (int axis = 0; axis < 3; ++axis) Columns(axis, axes, surface, hem).faces(result, left_over);
 
-  // What is left, where the sheet runs nearly along an axis, goes to the squarest face of the cell it lies
-  // in.
+  // What is left, where the sheet runs nearly along an axis, goes to the squarest face
+  // of the cell it lies in.
   std::map<std::array<int, 3>, std::vector<std::size_t>> of_cell;
   for (std::size_t n = 0; n < result.size(); ++n) {
     const SheetFace& f = result[n];

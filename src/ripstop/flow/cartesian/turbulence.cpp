@@ -8,9 +8,9 @@
 //                                                  + 2 rho s_w grad k . grad omega / omega
 //   S = grad U : (grad U + grad U^T) - 2/3 (div U)^2
 //
-// Cloth taken as a sheet counts as a wall for the limiter of the shear stress, nu_t = k / max(omega, S F2 /
-// a1), with F2 from the distance to the cloth; F1 stays 0. Without it the wake is too short and its pressure
-// too low.
+// Cloth taken as a sheet counts as a wall for the limiter of the shear stress, nu_t = k / max(omega,
+// S F2 / a1), with F2 from the distance to the cloth; F1 stays 0. Without it the wake is too short
+// and its pressure too low.
 //
 // Convection is first-order upwind in the bounded form sum F (q_nb - q_P); the sinks are implicit.
 #include <cmath>

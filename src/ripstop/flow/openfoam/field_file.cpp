@@ -152,8 +152,8 @@ class Cursor {
     }
   }
 
-  /// The arch entry is a quoted string with ';' in it ("LSB;label=32;scalar=64"), so it is looked for as
-  /// text.
+  /// The arch entry is a quoted string with ';' in it ("LSB;label=32;scalar=64"), so it
+  /// is looked for as text.
   void check_arch() {
     const std::size_t end = text_.find('}');
     const std::string header = text_.substr(0, end);
