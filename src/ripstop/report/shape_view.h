@@ -18,7 +18,7 @@ struct ShapeFrame {
   double time = 0;                  // [s]
   std::vector<double> points;       // x, y, z [m]
   std::vector<CellValues> cells;    // as far as the file had them
-  std::vector<double> line_values;  // tension of each segment [N]; empty: unknown
+  std::vector<double> line_values;  // tension of each segment with its bending springs' [N]; empty: unknown
 };
 
 struct ShapeView {
@@ -30,7 +30,7 @@ struct ShapeView {
 };
 
 /// Of the files of vtk.h: canopy and lines, and the time of each pair. Throws Error(bad_data) for files that do
-/// not belong together, Error(io).
+/// not belong together, Error(io). Springs that bend a line are laid onto the segments below them.
 struct ShapeFiles {
   double time = 0;  // [s]
   std::filesystem::path canopy, lines;

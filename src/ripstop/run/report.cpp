@@ -7,6 +7,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "ripstop/case/assemble.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/core/words.h"
@@ -132,12 +133,14 @@ ReportRun report_of(const fs::path& folder) {
   const Case given = case_of_run(folder);
   run.case_file = read_file(folder / "case.toml");
   run.tables.push_back(bill_table(given));
-  run.tables.push_back(sources_table(given));
+  if (const ReportTable sources = sources_table(given, folder / "run.json"); !sources.rows.empty())
+    run.tables.push_back(sources);
   run.warnings = warnings_of(given, number_of(run, "max_cloth_strain"));
   if (!run.converged) run.warnings.insert(run.warnings.begin(), "The coupling did not converge.");
   add_provenance(run, folder / "run.json");
   run.plots = plots_of(run, folder);
   add_shape(run, folder);
+  if (!run.shape.frames.empty()) run.shape.part_names = parachute_mesh(given).parts;
   add_flow(run, folder);
   return run;
 }

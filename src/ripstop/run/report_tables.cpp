@@ -112,20 +112,18 @@ ReportTable bill_table(const Case& given) {
   return table;
 }
 
-ReportTable sources_table(const Case& given) {
-  const Resolved resolved = resolve(given);
-  const Json written = Json::parse(case_json(resolved.written));
-  ReportTable table{"sources",
-                    "Values that follow where the case gives none",
-                    "",
-                    {{"key", ""}, {"value", ""}, {"from", ""}},
-                    {}};
-  for (const Source& source : resolved.sources) {
-    std::string pointer = "/" + source.key;
+ReportTable sources_table(const Case& given, const std::filesystem::path& run_json) {
+  const Json run = parsed(run_json, read_file(run_json));
+  const Json written = Json::parse(case_json(resolve(given).written));
+  ReportTable table{
+      "sources", "Values that a case may leave out", "", {{"key", ""}, {"value", ""}, {"from", ""}}, {}};
+  for (const Json& source : run.value("sources", Json::array())) {
+    const std::string key = source.value("key", "");
+    std::string pointer = "/" + key;
     std::replace(pointer.begin(), pointer.end(), '.', '/');
     const Json::json_pointer place(pointer);
     table.rows.push_back(
-        {source.key, written.contains(place) ? text_of(written.at(place)) : "", source.from});
+        {key, written.contains(place) ? text_of(written.at(place)) : "", source.value("from", "")});
   }
   return table;
 }
@@ -133,7 +131,7 @@ ReportTable sources_table(const Case& given) {
 void add_provenance(ReportRun& run, const std::filesystem::path& run_json) {
   const Json json = parsed(run_json, read_file(run_json));
   for (const auto& [key, value] : json.items())
-    if (key != "case") run.provenance.emplace_back(in_words(key).text, text_of(value));
+    if (key != "case" && key != "sources") run.provenance.emplace_back(in_words(key).text, text_of(value));
 }
 
 double number_of(const ReportRun& run, const std::string& key) {

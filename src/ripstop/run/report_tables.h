@@ -14,8 +14,8 @@ namespace ripstop {
 void add_result(ReportRun& run, const std::string& json, const std::filesystem::path& file);
 
 ReportTable bill_table(const Case& given);
-/// Where every value of the case that was not given comes from.
-ReportTable sources_table(const Case& given);
+/// Values of the case that may be left out, and where each comes from, by run.json.
+ReportTable sources_table(const Case& given, const std::filesystem::path& run_json);
 /// Names and values of run.json, but for the case in it.
 void add_provenance(ReportRun& run, const std::filesystem::path& run_json);
 

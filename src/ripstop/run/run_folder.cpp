@@ -6,6 +6,7 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
+#include "ripstop/case/resolve.h"
 #include "ripstop/core/build_info.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
@@ -27,6 +28,14 @@ std::string now_utc() {
 
 std::string inputs_hash(const Case& given, const std::string& solver) {
   return hash_bytes(fmt::format("{}\n{}\n{}", version(), solver, case_json(given)));
+}
+
+/// Where the values come from that the case need not give.
+ordered_json sources_of(const Case& given) {
+  ordered_json list = ordered_json::array();
+  for (const Source& source : resolve(given).sources)
+    list.push_back({{"key", source.key}, {"given", source.given}, {"from", source.from}});
+  return list;
 }
 
 constexpr const char* inputs = "inputs";  // the note of what the run is of
@@ -83,6 +92,7 @@ std::unique_ptr<ClaimedFolder> open_run_folder(const RunSettings& settings, cons
   run["case_file"] = given.file.string();
   run["inputs_hash"] = inputs_hash(given, solver);
   run["case"] = ordered_json::parse(case_json(given));
+  run["sources"] = sources_of(given);
   folder->note(inputs, inputs_hash(given, solver));
   write_file(folder->own("run.json"), run.dump(2) + "\n");
   write_file(folder->own("case.toml"), case_toml(given));

@@ -32,11 +32,13 @@ const Plots = (() => {
     };
   }
 
+  const counts = (plot) => !plot.x.unit && plot.series.every((one) => one.x.every(Number.isInteger));
+
   function options(plot, width) {
     return {
       width, height,
       scales: { x: { time: false }, y: { distr: plot.logarithmic ? 3 : 1 } },
-      axes: [axis(plot.x, { size: 34 }), axis(plot.y, { size: 62, values: (_, values) => values.map((v) => (v === null ? "" : Numbers.shown(v, 4))) })],
+      axes: [axis(plot.x, { size: 34, ...(counts(plot) ? { incrs: [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000] } : {}) }), axis(plot.y, { size: 62, values: (_, values) => values.map((v) => (v === null ? "" : Numbers.shown(v, 4))) })],
       series: [{ label: plot.x.text, value: (_, v) => (v === null ? "–" : `${Numbers.shown(v, 4)}${plot.x.unit ? " " + plot.x.unit : ""}`) },
                ...plot.series.map((one, i) => series(one, i, plot))],
       legend: { live: true }, cursor: { drag: { x: true, y: false } },

@@ -2,15 +2,15 @@
 "use strict";
 
 const Tables = (() => {
-  function cell(text) {
+  function cell(text, right) {
     if (!Numbers.isNumber(text)) return element("td", {}, text);
-    return element("td", { class: "number", title: text }, Numbers.shown(Number(text)));
+    return element("td", { class: right ? "number" : undefined, title: text }, Numbers.shown(Number(text)));
   }
 
-  function heading(column, rows, index) {
+  /** Whether a column has numbers alone. */
+  function isNumeric(rows, index) {
     const filled = rows.map((row) => row[index]).filter((text) => text !== "");
-    const number = filled.length > 0 && filled.every(Numbers.isNumber);
-    return element("th", { scope: "col", class: number ? "number" : undefined }, withUnit(column));
+    return filled.length > 0 && filled.every(Numbers.isNumber);
   }
 
   function framed(id, title, note, table, kind = "") {
@@ -20,9 +20,10 @@ const Tables = (() => {
 
   /** A table as the program made it. */
   function plain(table) {
-    const head = table.columns.some((column) => column.text)
-      ? element("thead", {}, element("tr", {}, table.columns.map((column, i) => heading(column, table.rows, i)))) : null;
-    const body = element("tbody", {}, table.rows.map((row) => element("tr", {}, row.map(cell))));
+    const right = table.columns.map((_, i) => isNumeric(table.rows, i));
+    const head = table.columns.some((column) => column.text && column.text !== "unit")
+      ? element("thead", {}, element("tr", {}, table.columns.map((column, i) => element("th", { scope: "col", class: right[i] ? "number" : undefined }, withUnit(column))))) : null;
+    const body = element("tbody", {}, table.rows.map((row) => element("tr", {}, row.map((text, i) => cell(text, right[i])))));
     const kind = table.columns.length > 4 || table.id === "sources" ? "wide" : "";
     return framed(table.id, table.title, table.note, element("table", {}, head, body), kind);
   }

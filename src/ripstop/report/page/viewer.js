@@ -30,7 +30,6 @@ class Viewer {
     if (air) this.scene.add(air.plane, air.streamlines.mesh);
     const [low, high] = canopy.bounds();
     this.middle = new THREE.Vector3((low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2);
-    this.reach = 0.5 * Math.hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
     this.resize();
     this.look("oblique");
   }
@@ -39,8 +38,7 @@ class Viewer {
   look(view) {
     const direction = { oblique: [0.72, -0.62, 0.3], side: [1, 0, 0.0001], below: [0, -0.0001, -1], above: [0, -0.0001, 1] }[view];
     const toward = new THREE.Vector3(...direction).normalize();
-    const half = (Math.PI / 180) * 0.5 * this.camera.fov;
-    const distance = (1.04 * this.reach) / Math.sin(Math.min(half, Math.atan(Math.tan(half) * this.camera.aspect)));
+    const distance = this.fitting(toward);
     this.controls.target.copy(this.middle);
     this.camera.position.copy(this.middle).addScaledVector(toward, distance);
     this.camera.near = distance / 100;
@@ -48,6 +46,19 @@ class Viewer {
     this.camera.updateProjectionMatrix();
     this.controls.update();
     this.draw();
+  }
+
+  /** How far away, seen from `toward`, all of the canopy fits the stage: d >= z + |x| / tan(half the angle). */
+  fitting(toward) {
+    const right = new THREE.Vector3().crossVectors(this.camera.up, toward).normalize(), up = new THREE.Vector3().crossVectors(toward, right);
+    const tall = Math.tan((Math.PI / 360) * this.camera.fov), wide = tall * this.camera.aspect;
+    const p = this.canopy.points, at = new THREE.Vector3();
+    let distance = 0;
+    for (let i = 0; i < p.length; i += 3) {
+      at.set(p[i], p[i + 1], p[i + 2]).sub(this.middle);
+      distance = Math.max(distance, at.dot(toward) + Math.max(Math.abs(at.dot(right)) / wide, Math.abs(at.dot(up)) / tall));
+    }
+    return 1.06 * distance;
   }
 
   /** About the axis by `turn` and over it by `tilt` [rad], nearer by `zoom`. */
