@@ -255,6 +255,19 @@ TEST(Resolved, WhatOpenFoamHasNotIsRefusedWhenTheCaseIsRead) {
   }
 }
 
+TEST(Resolved, AnUnsteadyFlowWantsAnEngineThatHasTimeAndAWatchThatCanBe) {
+  EXPECT_TRUE(outcome_of(short_case + "unsteady = true\n").valid);
+  const Outcome engine = outcome_of(of_calibrated_cloth(short_case) +
+                                    "box_m = [8, 8, 10]\nengine = \"openfoam\"\nunsteady = true\n");
+  ASSERT_EQ(engine.problems.size(), 1u) << engine.message;
+  EXPECT_EQ(engine.problems[0].key, "flow.unsteady");
+  const Outcome watch = outcome_of(short_case + "[flow.watch]\nshortest = 60\nlongest = 100\n");
+  ASSERT_EQ(watch.problems.size(), 1u) << watch.message;
+  EXPECT_EQ(watch.problems[0].key, "flow.watch.longest");
+  EXPECT_EQ(outcome_of(short_case + "[flow.watch]\ncourant = 1.5\n").problems.at(0).key,
+            "flow.watch.courant");
+}
+
 TEST(Resolved, TheBoxHoldsEveryFamilyOfTheExamples) {
   for (const char* name : {"flat-circular", "conical", "hemispherical", "quarter-spherical", "extended-skirt",
                            "ringslot", "cross", "elliptical"}) {

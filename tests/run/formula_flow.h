@@ -53,7 +53,9 @@ class FormulaFlow : public Flow {
   }
 
  protected:
-  void aim_at(double force) { target_ = force; }  // [N]
+  void aim_at(double force) { target_ = force; }   // [N]
+  void stand_at(double force) { force_ = force; }  // [N]
+  double target() const { return target_; }        // [N]
 
  private:
   FlowProblem problem_;

@@ -1,0 +1,153 @@
+// A run that goes on in time: on a flow that is a formula, and in a folder with the built-in engine.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+
+#include "../small_case.h"
+#include "formula_flow.h"
+#include "ripstop/case/assemble.h"
+#include "ripstop/core/file.h"
+#include "ripstop/output/csv.h"
+#include "ripstop/run/checkpoint.h"
+#include "ripstop/run/steady_folder.h"
+
+namespace ripstop {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// In time its force swings about nine tenths of what it is at rest.
+class SwingingFlow final : public FormulaFlow {
+ public:
+  using FormulaFlow::FormulaFlow;
+
+  FlowStep march(int steps, double, const StepReport& report) override {
+    for (int n = 0; n < steps; ++n) {
+      now_.time = 0.002 * ++now_.step, now_.length = 0.002;
+      now_.force = {0, 0, target() * (0.9 + 0.1 * std::sin(40 * now_.time))};
+      stand_at(now_.force.z);
+      if (report && !report(now_)) break;
+    }
+    return now_;
+  }
+  void save(const fs::path& folder) const override {
+    FormulaFlow::save(folder);
+    write_file(folder / "step", std::to_string(now_.step));
+  }
+  void restore(const fs::path& folder) override {
+    FormulaFlow::restore(folder);
+    now_.step = std::stoi(read_file(folder / "step"));
+  }
+
+ private:
+  FlowStep now_;
+};
+
+struct SwingingEngine : FlowEngine {
+  std::string name() const override { return "swinging"; }
+  std::unique_ptr<Flow> start(const FlowProblem& problem) override {
+    return std::make_unique<SwingingFlow>(problem);
+  }
+};
+
+SteadyProblem swinging_problem() {
+  Case given = read_case(fs::path(RIPSTOP_SOURCE_DIR) / "examples/stratos-iv/case.toml");
+  given.parachute.mesh.cloth_nodes = 800;
+  given.flow.cells = {20, 20, 30};
+  given.flow.unsteady = true;
+  given.flow.watch.shortest = 20;
+  given.coupling.threads = 1;
+  return steady_problem(given);
+}
+
+struct Folder {
+  fs::path path = fs::temp_directory_path() / ("ripstop_unsteady_run_test_" + std::to_string(getpid()));
+  Folder() { fs::remove_all(path); }
+  ~Folder() { fs::remove_all(path); }
+};
+
+TEST(UnsteadyRun, EndsAtRestFirstAndThenWithTheMeanOverTime) {
+  SwingingEngine engine;
+  SteadySolver solver(swinging_problem(), engine);
+  SteadyState state = solver.start();
+  double at_rest = 0;
+  while (!solver.finished(state)) {
+    solver.iterate(state);
+    if (!state.iterations.back().in_time) at_rest = state.iterations.back().fluid_force;
+  }
+  ASSERT_TRUE(state.converged);
+  const SteadyIteration &last = state.iterations.back(), &before = *(state.iterations.end() - 2);
+  EXPECT_TRUE(last.in_time && before.in_time) << "one mean says nothing of the shape under its load";
+  EXPECT_NEAR(last.fluid_force / at_rest, 0.9, 0.03);
+  EXPECT_NEAR(last.nodal_load, before.fluid_force, 1e-3 * last.fluid_force) << "the cloth has the mean load";
+  EXPECT_TRUE(state.watched.enough);
+  EXPECT_LE(last.drag_error, 0.01 * last.fluid_force);
+  EXPECT_GT(last.drag_error, 0);
+  EXPECT_EQ(last.flow_iterations, static_cast<int>(solver.record().steps.size()));
+}
+
+TEST(UnsteadyRun, KilledBetweenIterationsItGoesOnBitForBit) {
+  const auto to_the_end = [](SteadySolver& solver, SteadyState& state) {
+    while (!solver.finished(state)) solver.iterate(state);
+  };
+  SwingingEngine engine;
+  SteadySolver whole(swinging_problem(), engine);
+  SteadyState undisturbed = whole.start();
+  to_the_end(whole, undisturbed);
+  const Folder folder;
+  {
+    SteadySolver solver(swinging_problem(), engine);
+    SteadyState state = solver.start();
+    while (!state.in_time || !state.iterations.back().in_time) solver.iterate(state);
+    save_checkpoint(folder.path, state, solver.flow());
+  }
+  SteadySolver solver(swinging_problem(), engine);
+  auto loaded = load_checkpoint(folder.path, solver.flow());
+  ASSERT_TRUE(loaded);
+  to_the_end(solver, loaded->state);
+  EXPECT_EQ(to_bytes(loaded->state).size(), to_bytes(undisturbed).size());
+  EXPECT_EQ(loaded->state.shape, undisturbed.shape);
+  EXPECT_EQ(loaded->state.watched.drag, undisturbed.watched.drag);
+  EXPECT_EQ(loaded->state.watched.time, undisturbed.watched.time);
+}
+
+TEST(UnsteadyRun, LeavesItsHistoryAndItsWakeInTheFolder) {
+  const Folder folder;
+  Case given = checked(flat_circular_case(1, 600, 20));
+  given.flow.box_m = Vec3{3, 3, 4};
+  given.flow.cells = {22, 22, 26};
+  given.flow.core.size_m = Vec3{0, 0, 0};
+  given.flow.unsteady = true;
+  given.flow.watch = {.courant = 0.7, .standard_error = 0.2, .shortest = 5, .longest = 20};
+  given.flow.max_iterations = 60;
+  given.flow.average_over = 20;
+  given.coupling.load = CanopyLoad::uniform;
+  given.coupling.drag_tolerance = 0.2;
+  given.coupling.shape_tolerance_m = 0.05;
+  given.coupling.threads = 1;
+  SteadyObserver nobody;
+  const SteadyFolderSettings settings{{folder.path, false}, 1, {}, {}};
+  const SteadyResult result = run_steady_in(settings, given, nobody).result;
+  ASSERT_TRUE(result.unsteady);
+  EXPECT_TRUE(result.converged);
+  const Watched& watched = result.unsteady->watched;
+  const CsvTable history = read_csv(folder.path / "history.csv");
+  EXPECT_EQ(history.rows.size(), static_cast<std::size_t>(watched.steps));
+  EXPECT_NEAR(
+      history.column("time_s").back() - history.column("time_s").front() + history.column("step_s")[0],
+      watched.time, 1e-9);
+  EXPECT_GT(watched.start_up, 0);
+  EXPECT_NEAR(watched.drag, result.drag, 0.02 * result.drag) << "of steps, and of fields";
+  for (const char* name : {"history.png", "wake.png", "wake.pvd", "wake/plane_000.vti"})
+    EXPECT_TRUE(fs::exists(folder.path / name)) << name;
+  const SteadyFolderRun again = run_steady_in(settings, given, nobody);
+  EXPECT_TRUE(again.already_finished);
+  ASSERT_TRUE(again.result.unsteady);
+  EXPECT_EQ(again.result.unsteady->standard_error, result.unsteady->standard_error);
+}
+
+}  // namespace
+}  // namespace ripstop
