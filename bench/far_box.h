@@ -10,14 +10,13 @@
 
 namespace ripstop {
 
-/// Box of `box` diameters d across and 1.5 times that long, with a core of cells of d / `across` about a body
-/// at x = y = 0 and z that grow by an eighth outside of it.
-inline FlowGrid far_box(double d, double box, int across, double z) {
+/// `box` filled with a core of cells of d / `across` about a body of diameter d at x = y = 0 and z, which grow
+/// by an eighth outside of it.
+inline FlowGrid about_body(FlowGrid box, double d, int across, double z) {
   const double from = 0.4 * d, past = 1.4 * d, half = 0.7 * d, growth = 1.125;
-  FlowGrid grid{{-box / 2 * d, -box / 2 * d, 0}, {box * d, box * d, 1.5 * box * d}, 0, 0, 0};
   const auto filled = [&](int& cells, int axis) {
     for (cells = 8;; ++cells) {
-      FlowGrid one = grid;
+      FlowGrid one = box;
       one.nx = axis == 0 ? cells : 8, one.ny = axis == 1 ? cells : 8, one.nz = axis == 2 ? cells : 8;
       const Vec3 low{axis == 0 ? -half : 0, axis == 1 ? -half : 0, axis == 2 ? z - from : 0},
           high{axis == 0 ? half : 0, axis == 1 ? half : 0, axis == 2 ? z + past : 0};
@@ -28,8 +27,14 @@ inline FlowGrid far_box(double d, double box, int across, double z) {
       }
     }
   };
-  filled(grid.nx, 0), filled(grid.ny, 1), filled(grid.nz, 2);
-  return graded(grid, {-half, -half, z - from}, {half, half, z + past}, growth);
+  filled(box.nx, 0), filled(box.ny, 1), filled(box.nz, 2);
+  return graded(box, {-half, -half, z - from}, {half, half, z + past}, growth);
+}
+
+/// In a box of `box` diameters d across and 1.5 times that long.
+inline FlowGrid far_box(double d, double box, int across, double z) {
+  return about_body({{-box / 2 * d, -box / 2 * d, 0}, {box * d, box * d, 1.5 * box * d}, 0, 0, 0}, d, across,
+                    z);
 }
 
 struct Order {

@@ -120,9 +120,9 @@ void print(const Case& given, const CaseSummary& s) {
       fmt::format("{}, the smallest {:.3g} mm ({})", s.springs, 1000 * s.smallest_spring, s.smallest_part));
   row("stable step", fmt::format("{:.3g} s, set by {}; the paper's bound gives {:.3g} s", s.step.stable_step,
                                  s.step.part, s.step.printed_step));
-  row("flow box", fmt::format("{} cells of {:.3g} x {:.3g} x {:.3g} mm, canopy blocks {:.1f} %", s.flow_cells,
-                              1000 * s.flow_spacing.x, 1000 * s.flow_spacing.y, 1000 * s.flow_spacing.z,
-                              100 * s.blockage));
+  row("flow box", fmt::format("{} cells of {:.3g} x {:.3g} x {:.3g} mm, canopy blocks {:.1f} %{}",
+                              s.flow_cells, 1000 * s.flow_spacing.x, 1000 * s.flow_spacing.y,
+                              1000 * s.flow_spacing.z, 100 * s.blockage, s.of_jet ? " of the nozzle" : ""));
   row("air", fmt::format("{:.4g} m/s, {:.4g} kg/m3", s.air.speed, s.air.density));
   row("problems", "none");
 }

@@ -115,6 +115,8 @@ void print_result(const SteadyResult& r, const Case& given, const fs::path& fold
   const auto row = print_row;
   fmt::print("\n{}\n", r.title);
   row("speed, density", fmt::format("{:.4g} m/s, {:.4g} kg/m3", r.speed, r.density));
+  row("speed before the canopy",
+      fmt::format("{:.4g} m/s, mean over its disk, one diameter before it", r.approach_speed));
   const std::optional<Measured>& measured = r.measured;
   if (measured && measured->drag_n) {
     row("drag measured",

@@ -12,7 +12,7 @@ namespace {
 struct Box {
   explicit Box(Sides sides, Outlet outlet)
       : d(FlowGrid{{0, 0, 0}, {1, 1, 2}, 4, 5, 6}, air(), {}, make_sides(sides)->pressure_end()),
-        b{uniform_inlet(d), make_sides(sides), make_outlet(outlet)},
+        b{make_inlet(d, {}), make_sides(sides), make_outlet(outlet)},
         s(d.layout) {
     double value = 1;
     for (Array<double>* q : {&s.f.u, &s.f.v, &s.f.w, &s.f.p, &s.f.k, &s.f.omega})
@@ -45,6 +45,23 @@ TEST(Boundary, TheFaceOfTheInletHasTheStreamsValues) {
   EXPECT_NEAR(in_face(box.s.f.u), 0, 1e-12);
   EXPECT_NEAR(in_face(box.s.f.k), 1.5 * 0.1 * 0.1, 1e-12);
   EXPECT_EQ(box.s.f.p[box.at(1, 2, -1)], box.s.f.p[box.at(1, 2, 0)]);
+}
+
+TEST(Boundary, AJetLeavesTheInletInsideItsNozzleAndNextToStillAirOutsideOfIt) {
+  Box box(Sides::entraining, Outlet::still_air);
+  const Jet jet{{NozzleShape::rectangle, 1, 0.8}, 0.1, 1e-6};
+  box.b.inlet = make_inlet(box.d, jet);
+  box.s.f.fx[box.at(0, 2, 3)] = 3;  // in through a side
+  box.ghosts();
+  const auto in_face = [&](int i, int j) {
+    return 0.5 * (box.s.f.w[box.at(i, j, 0)] + box.s.f.w[box.at(i, j, -1)]);
+  };
+  EXPECT_NEAR(in_face(0, 0), 20, 1e-9);  // cells of 0.25 x 0.2 m; the nozzle ends between them
+  EXPECT_NEAR(in_face(1, 1), 20, 1e-9);
+  EXPECT_NEAR(in_face(2, 1), 2, 1e-9);
+  EXPECT_NEAR(in_face(1, 2), 2, 1e-9);
+  EXPECT_NEAR(box.b.inlet.mean_speed, 2 + 0.2 * 18, 1e-9);
+  EXPECT_EQ(box.s.f.w[box.at(-1, 2, 3)], box.b.inlet.stream_speed);
 }
 
 TEST(Boundary, NothingPassesASlipSideAndNothingChangesAcrossAnOpenOne) {

@@ -21,6 +21,11 @@ using Json = nlohmann::ordered_json;
 
 constexpr double d = 0.7 * 3.0;  // its inflated diameter
 
+const std::string open_jet =
+    "tunnel = { kind = \"open-jet\", shape = \"rectangle\", width_m = 6, height_m = 5, nozzle_distance_m = "
+    "4.5, "
+    "collector_distance_m = 14, outside_speed = 0.03, shear_layer_m = 0.1 }\n";
+
 std::string of_calibrated_cloth(const std::string& text) {
   return replaced(text, "gores = 12", "gores = 12\ncanopy_material = \"f-111\"");
 }
@@ -75,6 +80,13 @@ const std::vector<std::pair<std::string, std::string>> cases = {
     {"sheet at another place", short_case + "canopy_position_m = 7.5\n"},
     {"sheet with few iterations", short_case + "max_iterations = 40\n"},
     {"sheet with slip", short_case + "sides = \"slip\"\nconvection = \"upwind\"\n"},
+    {"sheet in an open jet",
+     short_case + "tunnel = { kind = \"open-jet\", shape = \"octagon\", width_m = 6 }\n"},
+    {"sheet in a jet up to its collector", short_case + open_jet},
+    {"sheet between walls", short_case + "tunnel = { kind = \"closed\", width_m = 5, height_m = 4, "
+                                         "displacement_thickness_m = 0.03 }\n"},
+    {"paper in a jet", of_calibrated_cloth(replaced(short_case, "= 3.0\nvent", "= 1.0\nvent")) +
+                           "tunnel = { kind = \"open-jet\", width_m = 2 }\n"},
     {"paper", of_calibrated_cloth(replaced(short_case, "= 3.0\nvent", "= 1.0\nvent"))},
     {"paper's numbers as a sheet", of_calibrated_cloth(short_case) + "porosity_model = \"sheet\"\n"},
     {"a sheet's numbers as cells", replaced(short_case, "= 3.0\nvent", "= 1.0\nvent") +
@@ -153,6 +165,69 @@ TEST(Resolved, ASheetStandsInABoxThatScalesWithTheCanopy) {
   EXPECT_TRUE(problem.porous.empty());
   ASSERT_EQ(problem.sheets.size(), 1u);
   EXPECT_EQ(problem.sheets[0].linear, 8169.3);
+}
+
+TEST(Resolved, AnOpenJetStandsInAWideBoxOfStillAirThatBeginsAtTheNozzle) {
+  const Case given = parse_case(
+      short_case + "tunnel = { kind = \"open-jet\", shape = \"octagon\", width_m = 6 }\n", "case.toml");
+  const FlowSettings flow = resolve(given).flow;
+  EXPECT_EQ(flow.sides, Sides::entraining);
+  EXPECT_EQ(flow.outlet, Outlet::still_air);
+  EXPECT_NEAR(flow.box_m.x, 2.8 * 6, 1e-9);
+  EXPECT_NEAR(flow.canopy_position_m, 6, 1e-9);
+  EXPECT_NEAR(flow.box_m.z, 6 + 12, 1e-9);
+  const FlowProblem problem = flow_problem(given);
+  ASSERT_TRUE(problem.jet.has_value());
+  EXPECT_EQ(problem.jet->nozzle, (Nozzle{NozzleShape::octagon, 6, 0}));
+  EXPECT_EQ(problem.air.speed, 8);
+  const FlowSettings placed = flow_of(short_case + open_jet);
+  EXPECT_EQ(placed.canopy_position_m, 4.5);
+  EXPECT_EQ(placed.box_m.z, 14) << "the collector";
+  EXPECT_NEAR(placed.box_m.y, 2.8 * 5, 1e-9);
+  // The place of the canopy is the same distance.
+  const FlowSettings by_place =
+      flow_of(short_case + "canopy_position_m = 5\ntunnel = { kind = \"open-jet\", width_m = 6 }\n");
+  EXPECT_EQ(by_place.tunnel.nozzle_distance_m, 5);
+}
+
+TEST(Resolved, TheWallsOfAClosedTestSectionAreTheSidesOfTheBox) {
+  const FlowSettings flow =
+      flow_of(short_case +
+              "tunnel = { kind = \"closed\", width_m = 9, height_m = 5, displacement_thickness_m = 0.05 }\n");
+  EXPECT_EQ(flow.sides, Sides::slip);
+  EXPECT_NEAR(flow.box_m.x, 8.9, 1e-12);
+  EXPECT_NEAR(flow.box_m.y, 4.9, 1e-12);
+  EXPECT_NEAR(flow.box_m.z, 9 * d, 1e-12);
+  EXPECT_NEAR(flow.core.size_m.x, 1.8 * d, 1e-12);
+  EXPECT_EQ(flow.core.size_m.y, 0) << "too low for cells that grow";
+  EXPECT_FALSE(jet_of(flow.tunnel).has_value());
+}
+
+TEST(Resolved, WhatATunnelCannotBeIsSaidWithItsKey) {
+  const auto tunnel = [](const std::string& keys) { return short_case + "tunnel = { " + keys + " }\n"; };
+  const std::string jet = "kind = \"open-jet\", width_m = 6";
+  const std::pair<std::string, std::string> mistakes[] = {
+      {tunnel("kind = \"open-jet\""), "flow.tunnel.width_m"},
+      {tunnel("width_m = 6"), "flow.tunnel.width_m"},
+      {tunnel("kind = \"closed\", width_m = 6, shear_layer_m = 0.1"), "flow.tunnel.shear_layer_m"},
+      {tunnel(jet + ", displacement_thickness_m = 0.1"), "flow.tunnel.displacement_thickness_m"},
+      {tunnel(jet + ", height_m = 5"), "flow.tunnel.height_m"},
+      {tunnel("kind = \"closed\", width_m = 6, shape = \"octagon\""), "flow.tunnel.shape"},
+      {tunnel("kind = \"closed\", width_m = 6, displacement_thickness_m = 3.1"),
+       "flow.tunnel.displacement_thickness_m"},
+      {tunnel(jet + ", nozzle_distance_m = 5") + "canopy_position_m = 4\n", "flow.tunnel.nozzle_distance_m"},
+      {tunnel(jet + ", collector_distance_m = 12") + "box_m = [17, 17, 14]\n",
+       "flow.tunnel.collector_distance_m"},
+      {tunnel(jet) + "box_m = [8, 17, 18]\n", "flow.box_m[0]"},
+      {tunnel(jet) + "sides = \"zero-gradient\"\n", "flow.sides"},
+      {tunnel("kind = \"closed\", width_m = 6") + "sides = \"entraining\"\n", "flow.sides"},
+      {tunnel("kind = \"closed\", width_m = 6") + "box_m = [6, 7, 18]\n", "flow.box_m[1]"},
+  };
+  for (const auto& [text, key] : mistakes) {
+    const Outcome outcome = outcome_of(text);
+    ASSERT_EQ(outcome.problems.size(), 1u) << key << ": " << outcome.message;
+    EXPECT_EQ(outcome.problems[0].key, key) << outcome.message;
+  }
 }
 
 TEST(Resolved, EachPartOfTheBoxFollowsByItself) {
@@ -248,6 +323,10 @@ TEST(Resolved, ASheetIsRefusedForOpenFoamBeforeAnythingIsComputed) {
 TEST(Resolved, WhatOpenFoamHasNotIsRefusedWhenTheCaseIsRead) {
   const std::string paper = of_calibrated_cloth(short_case) + "box_m = [8, 8, 10]\nengine = \"openfoam\"\n";
   EXPECT_TRUE(outcome_of(paper).valid);
+  const Outcome jet = outcome_of(paper + "tunnel = { kind = \"open-jet\", width_m = 5 }\nsides = \"slip\"\n" +
+                                 "outlet = \"fixed-pressure\"\n");
+  ASSERT_EQ(jet.problems.size(), 1u) << jet.message;
+  EXPECT_EQ(jet.problems[0].key, "flow.tunnel.kind");
   for (const std::string key : {"sides = \"entraining\"", "average_over = 20", "outlet = \"still-air\""}) {
     const Outcome outcome = outcome_of(paper + key + "\n");
     ASSERT_EQ(outcome.problems.size(), 1u) << key << outcome.message;

@@ -150,11 +150,11 @@ SECTIONS = [
     (calibration, "calibration", "Porosity calibrated on Stratos IV", "calibrate", ["paper/calibration"]),
     (reproduction, "reproduction", "Stratos IV with the calibrated cloth", "reproduce openfoam",
      ["paper/stratos-iv-nominal", "paper/stratos-iv-measured", "openfoam-30"]),
-    (predictions, "predictions", "WALRUS and ADEPT, predicted", "predict sheet",
-     [f"{model}/{parachute}-{basis}" for model in ("paper", "sheet-calibrated", "sheet-specified") for parachute in ("walrus", "adept")
-      for basis in ("nominal", "measured")]),
-    (uncertainty, "uncertainty", "What the predictions depend on", "uncertain uncertain-sheet",
-     [f"{model}/uncertain-{parachute}" for model in ("paper", "sheet-calibrated") for parachute in ("stratos-iv", "walrus", "adept")]),
+    (predictions, "predictions", "WALRUS and ADEPT, predicted", "predict sheet jet",
+     [f"{model}/{parachute}-{basis}" for model in ("paper", "sheet-calibrated", "sheet-specified", "specified-jet")
+      for parachute in ("walrus", "adept") for basis in ("nominal", "measured")]),
+    (uncertainty, "uncertainty", "What the predictions depend on", "uncertain uncertain-sheet uncertain-jet",
+     [f"{model}/uncertain-{parachute}" for model in ("paper", "sheet-calibrated", "specified-jet") for parachute in ("stratos-iv", "walrus", "adept")]),
     (sheet, "sheet", "Stratos IV with the specified permeability", "sheet", ["sheet-specified/stratos-iv-nominal"]),
     (sheet_calibration, "sheet-calibration", "The sheet's law calibrated on Stratos IV", "sheet",
      ["sheet-calibrated/permeabilities", "sheet-calibrated/gammas"]),

@@ -25,6 +25,7 @@ FlowProblem flow_problem(const Case& given) {
   problem.air.viscosity_ratio = flow.viscosity_ratio;
   problem.sides = flow.sides;
   problem.outlet = flow.outlet;
+  problem.jet = jet_of(flow.tunnel);
   problem.stopping.residual = flow.residual;
   problem.stopping.max_iterations = flow.max_iterations;
   problem.stopping.average_over = flow.average_over;

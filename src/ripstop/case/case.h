@@ -14,6 +14,7 @@
 #include "ripstop/coupling/settings.h"
 #include "ripstop/flow/engines.h"
 #include "ripstop/flow/flow.h"
+#include "ripstop/flow/jet.h"
 #include "ripstop/inflation/settings.h"
 #include "ripstop/material/library.h"
 #include "ripstop/material/material.h"
@@ -54,6 +55,21 @@ struct CoreKeys {
   std::optional<double> growth;   // of a cell's width to that of its inner neighbour, at most
 };
 
+/// What the air comes out of: the endless stream, a nozzle into still air, or a closed test section.
+enum class TunnelKind { free_air, open_jet, closed };
+
+/// [flow.tunnel] as given.
+struct TunnelKeys {
+  TunnelKind kind = TunnelKind::free_air;
+  std::optional<NozzleShape> shape;
+  std::optional<double> width_m, height_m;
+  std::optional<double> nozzle_distance_m;     // nozzle to the skirt of the start shape
+  std::optional<double> collector_distance_m;  // from the nozzle; absent: the box ends where it would anyway
+  std::optional<double> outside_speed;         // over the nozzle's
+  std::optional<double> shear_layer_m;
+  std::optional<double> displacement_thickness_m;  // of each wall's boundary layer
+};
+
 /// [flow] as given. What is absent follows from parachute, cloth and the other keys: resolve.h.
 struct FlowKeys : FlowOptions {
   std::optional<double> density_kg_m3;
@@ -61,6 +77,7 @@ struct FlowKeys : FlowOptions {
   std::optional<Vec3> box_m;
   std::optional<std::array<int, 3>> cells;
   CoreKeys core;
+  TunnelKeys tunnel;
   std::optional<double> canopy_position_m;  // inlet to the skirt of the start shape
   std::optional<Convection> convection;
   std::optional<Sides> sides;
@@ -102,6 +119,7 @@ struct Case {
 
 void describe(Fields& fields, CoreKeys& core);
 void describe(Fields& fields, WatchKeys& watch);
+void describe(Fields& fields, TunnelKeys& tunnel);
 void describe(Fields& fields, FlowKeys& flow);
 void describe(Fields& fields, CouplingKeys& coupling);
 void describe(Fields& fields, InflationSettings& inflation);

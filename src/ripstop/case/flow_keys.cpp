@@ -140,6 +140,50 @@ void describe(Fields& fields, WatchKeys& watch) {
                 "Longest watch in the same unit, start-up included; at least twice the shortest.");
 }
 
+void describe(Fields& fields, TunnelKeys& tunnel) {
+  fields.choice(
+      "kind", tunnel.kind,
+      {{"free-air", TunnelKind::free_air},
+       {"open-jet", TunnelKind::open_jet},
+       {"closed", TunnelKind::closed}},
+      "\"free-air\": the stream fills the box; \"open-jet\": a nozzle blows into still air, and the "
+      "box begins at its end (built-in engine only); \"closed\": a test section whose walls are the "
+      "sides of the box. speed_m_s is the nozzle's, or the empty test section's.");
+  fields
+      .choice("shape", tunnel.shape,
+              {{"circle", NozzleShape::circle},
+               {"octagon", NozzleShape::octagon},
+               {"rectangle", NozzleShape::rectangle}},
+              "Of the nozzle, about the canopy's axis; a closed test section is a rectangle.")
+      .absent("`\"circle\"`; closed: `\"rectangle\"`");
+  fields
+      .number("width_m", tunnel.width_m, above(0).up_to(200),
+              "Diameter of a circle, across the flats of a regular octagon, width of a rectangle.")
+      .absent("refused, unless in free air");
+  fields.number("height_m", tunnel.height_m, above(0).up_to(200), "Of a rectangle.").absent("`width_m`");
+  fields
+      .number("nozzle_distance_m", tunnel.nozzle_distance_m, above(0).up_to(1000),
+              "From the end of the nozzle to the skirt of the undeformed start shape (open jet).")
+      .absent("`flow.canopy_position_m`, else `width_m`");
+  fields
+      .number("collector_distance_m", tunnel.collector_distance_m, above(0).up_to(1000),
+              "From the end of the nozzle to the collector, at the room's pressure, where the box ends (open "
+              "jet).")
+      .absent(fmt::format("no collector: at least {:g} `width_m` behind the skirt", jet_box_behind));
+  fields
+      .number("outside_speed", tunnel.outside_speed, from(0).up_to(0.5),
+              "Speed of the air round the nozzle over the nozzle's (open jet).")
+      .absent(fmt::format("`{:g}`", jet_outside_speed));
+  fields
+      .number("shear_layer_m", tunnel.shear_layer_m, above(0).up_to(10),
+              "Thickness of the jet's edge at the nozzle: the difference of speed over its largest slope.")
+      .absent(fmt::format("{:g} `width_m`", jet_shear_layer));
+  fields
+      .number("displacement_thickness_m", tunnel.displacement_thickness_m, from(0).up_to(10),
+              "Of the boundary layer of each wall, which stands that far further in (closed).")
+      .absent("`0`");
+}
+
 void describe(Fields& fields, FlowKeys& flow) {
   Words<std::string> words;
   std::string meanings;
@@ -166,6 +210,7 @@ void describe(Fields& fields, FlowKeys& flow) {
   fields.number("viscosity_ratio", flow.viscosity_ratio, above(0).up_to(1e5),
                 "Eddy viscosity over viscosity at the inlet (assumed).");
   describe_space(fields, flow);
+  fields.table("tunnel", flow.tunnel, "What the air comes out of; docs/guide/tunnel.md.");
   describe_numerics(fields, flow);
   fields.integer("ranks", flow.ranks, from(1).up_to(4096), "Processes of the flow solver.");
   fields.toggle(

@@ -37,38 +37,113 @@ class Follow {
   Resolved& resolved_;
 };
 
-void resolve_box(Follow& follow, const Design& parachute, FlowKeys& keys, FlowSettings& flow) {
-  const bool sheet = flow.porosity_model == PorosityModel::sheet;
-  const ModelDefaults& standard = sheet ? sheet_defaults : paper_defaults;
-  const std::string model = sheet ? "the sheet's default" : "the paper model's default";
-  const double d = inflated_diameter(parachute);
-  const auto diameters = [d](const Vec3& of) {
-    return fmt::format("{:g} x {:g} x {:g} inflated diameters of {:.3g} m", of.x, of.y, of.z, d);
+void resolve_tunnel(Follow& follow, FlowKeys& keys, TunnelSettings& tunnel) {
+  tunnel.kind = keys.tunnel.kind;
+  if (tunnel.kind == TunnelKind::free_air) return;
+  const auto take = [&](const char* key, auto& written, auto otherwise, std::string from) {
+    return follow(std::string("flow.tunnel.") + key, written, otherwise, std::move(from));
   };
-  flow.box_m = follow("flow.box_m", keys.box_m, sheet ? d * sheet_box : paper_box,
-                      sheet ? diameters(sheet_box) : model);
-  flow.cells = follow("flow.cells", keys.cells, standard.cells, model);
-  const double half = flow.box_m.z / 2, upstream = d * sheet_skirt;
-  flow.canopy_position_m =
-      sheet && upstream < half
-          ? follow("flow.canopy_position_m", keys.canopy_position_m, upstream,
-                   fmt::format("{:g} inflated diameters of {:.3g} m", sheet_skirt, d))
-          : follow("flow.canopy_position_m", keys.canopy_position_m, half, "half the length of the box");
+  TunnelKeys& given = keys.tunnel;
+  const bool jet = tunnel.kind == TunnelKind::open_jet;
+  Nozzle& nozzle = tunnel.nozzle;
+  nozzle.shape = take("shape", given.shape, jet ? NozzleShape::circle : NozzleShape::rectangle,
+                      jet ? "the open jet's default" : "the only one of a closed test section");
+  nozzle.width = given.width_m.value_or(0);  // its absence is told by validate()
+  if (nozzle.shape == NozzleShape::rectangle)
+    nozzle.height = take("height_m", given.height_m, nozzle.width, "as wide as high");
+  if (jet) {
+    const bool placed = keys.canopy_position_m.has_value();
+    tunnel.nozzle_distance_m =
+        take("nozzle_distance_m", given.nozzle_distance_m, placed ? *keys.canopy_position_m : nozzle.width,
+             placed ? "flow.canopy_position_m" : "one width of the nozzle");
+    tunnel.outside_speed =
+        take("outside_speed", given.outside_speed, jet_outside_speed, "the open jet's default");
+    tunnel.shear_layer_m = take("shear_layer_m", given.shear_layer_m, jet_shear_layer * nozzle.width,
+                                fmt::format("{:g} widths of the nozzle", jet_shear_layer));
+  } else {
+    tunnel.displacement_thickness_m = take("displacement_thickness_m", given.displacement_thickness_m, 0.0,
+                                           "walls without boundary layers");
+  }
+}
 
-  const Vec3 core = d * sheet_core, box = flow.box_m;
-  const bool wide = box.x >= least_box_over_core * core.x && box.y >= least_box_over_core * core.y &&
-                    box.z >= least_box_over_core * core.z;
-  flow.core.size_m = follow("flow.core.size_m", keys.core.size_m, sheet && wide ? core : Vec3{},
-                            !sheet  ? model
-                            : !wide ? "a side of the box is less than twice as long as a core for this canopy"
-                                    : diameters(sheet_core));
+struct BoxDefault {
+  Vec3 size;
+  std::string from;
+};
+
+/// d: inflated diameters [m].
+BoxDefault default_box(const FlowSettings& flow, const TunnelKeys& given, double d) {
+  const bool sheet = flow.porosity_model == PorosityModel::sheet;
+  BoxDefault box{sheet ? d * sheet_box : paper_box,
+                 sheet ? fmt::format("{:g} x {:g} x {:g} inflated diameters of {:.3g} m", sheet_box.x,
+                                     sheet_box.y, sheet_box.z, d)
+                       : "the paper model's default"};
+  const TunnelSettings& tunnel = flow.tunnel;
+  const double width = tunnel.nozzle.width, height = nozzle_height(tunnel.nozzle);
+  if (tunnel.kind == TunnelKind::closed) {
+    const double lost = 2 * tunnel.displacement_thickness_m;
+    return {{width - lost, height - lost, box.size.z}, "the test section; " + box.from};
+  }
+  if (tunnel.kind == TunnelKind::free_air) return box;
+  const double behind = std::max((sheet_box.z - sheet_skirt) * d, jet_box_behind * width);
+  return {
+      {std::max(sheet_box.x * d, jet_box_across * width), std::max(sheet_box.y * d, jet_box_across * height),
+       given.collector_distance_m ? *given.collector_distance_m : tunnel.nozzle_distance_m + behind},
+      fmt::format("{:g} widths of the nozzle or {:g} inflated diameters of {:.3g} m; {}", jet_box_across,
+                  sheet_box.x, d,
+                  given.collector_distance_m ? std::string("to the collector")
+                                             : fmt::format("{:g} or {:g} of them behind the skirt",
+                                                           jet_box_behind, sheet_box.z - sheet_skirt))};
+}
+
+void resolve_core(Follow& follow, double d, FlowKeys& keys, FlowSettings& flow) {
+  const bool sheet = flow.porosity_model == PorosityModel::sheet;
+  const std::string model = sheet ? "the sheet's default" : "the paper model's default";
+  const Vec3 box = flow.box_m;
+  Vec3 core = d * sheet_core;
+  std::string from = fmt::format("{:g} x {:g} x {:g} inflated diameters of {:.3g} m", sheet_core.x,
+                                 sheet_core.y, sheet_core.z, d);
+  const auto wide = [](double side, double of_core) { return side >= least_box_over_core * of_core; };
+  const bool all_wide = wide(box.x, core.x) && wide(box.y, core.y) && wide(box.z, core.z);
+  if (sheet && flow.tunnel.kind == TunnelKind::closed) {  // its sides are where they are
+    if (!wide(box.x, core.x)) core.x = 0;
+    if (!wide(box.y, core.y)) core.y = 0;
+    if (!wide(box.z, core.z)) core.z = 0;
+    if (!all_wide) from += "; 0 where the test section is less than twice as wide";
+  } else if (!sheet || !all_wide) {
+    core = {};
+    from = sheet ? "a side of the box is less than twice as long as a core for this canopy" : model;
+  }
+  flow.core.size_m = follow("flow.core.size_m", keys.core.size_m, core, from);
   const Vec3 size = flow.core.size_m;
   if (size.z > 0)
     flow.core.start_m =
         follow("flow.core.start_m", keys.core.start_m,
                std::max(0.0, std::min(flow.canopy_position_m - 0.25 * size.z, flow.box_m.z - size.z)),
                "a quarter of the core before the skirt");
-  flow.core.growth = follow("flow.core.growth", keys.core.growth, standard.growth, model);
+  flow.core.growth =
+      follow("flow.core.growth", keys.core.growth, (sheet ? sheet_defaults : paper_defaults).growth, model);
+}
+
+void resolve_box(Follow& follow, const Design& parachute, FlowKeys& keys, FlowSettings& flow) {
+  const bool sheet = flow.porosity_model == PorosityModel::sheet;
+  const bool jet = flow.tunnel.kind == TunnelKind::open_jet;
+  const std::string model = sheet ? "the sheet's default" : "the paper model's default";
+  const double d = inflated_diameter(parachute);
+  const BoxDefault box = default_box(flow, keys.tunnel, d);
+  flow.box_m = follow("flow.box_m", keys.box_m, box.size, box.from);
+  flow.cells = follow("flow.cells", keys.cells,
+                      sheet && jet ? jet_cells : (sheet ? sheet_defaults : paper_defaults).cells,
+                      sheet && jet ? "the sheet's default in the wide box of a jet" : model);
+  const double half = flow.box_m.z / 2, upstream = d * sheet_skirt;
+  flow.canopy_position_m =
+      jet ? follow("flow.canopy_position_m", keys.canopy_position_m, flow.tunnel.nozzle_distance_m,
+                   "flow.tunnel.nozzle_distance_m; the box begins at the nozzle")
+      : sheet && upstream < half
+          ? follow("flow.canopy_position_m", keys.canopy_position_m, upstream,
+                   fmt::format("{:g} inflated diameters of {:.3g} m", sheet_skirt, d))
+          : follow("flow.canopy_position_m", keys.canopy_position_m, half, "half the length of the box");
+  resolve_core(follow, d, keys, flow);
 }
 
 void resolve_numerics(Follow& follow, Case& written, Resolved& resolved) {
@@ -78,8 +153,16 @@ void resolve_numerics(Follow& follow, Case& written, Resolved& resolved) {
   const ModelDefaults& standard = sheet ? sheet_defaults : paper_defaults;
   const std::string model = sheet ? "the sheet's default" : "the paper model's default";
   flow.convection = follow("flow.convection", keys.convection, standard.convection, model);
-  flow.sides = follow("flow.sides", keys.sides, standard.sides, model);
-  flow.outlet = follow("flow.outlet", keys.outlet, standard.outlet, model);
+  const TunnelKind tunnel = flow.tunnel.kind;
+  flow.sides =
+      tunnel == TunnelKind::free_air
+          ? follow("flow.sides", keys.sides, standard.sides, model)
+          : follow(
+                "flow.sides", keys.sides, tunnel == TunnelKind::closed ? Sides::slip : Sides::entraining,
+                tunnel == TunnelKind::closed ? "the walls of the test section" : "still air round the jet");
+  flow.outlet = tunnel == TunnelKind::open_jet
+                    ? follow("flow.outlet", keys.outlet, Outlet::still_air, "still air round the jet")
+                    : follow("flow.outlet", keys.outlet, standard.outlet, model);
   flow.residual = follow("flow.residual", keys.residual, standard.residual, model);
   flow.max_iterations = follow("flow.max_iterations", keys.max_iterations, standard.max_iterations, model);
   flow.average_over = follow("flow.average_over", keys.average_over,
@@ -92,6 +175,11 @@ void resolve_numerics(Follow& follow, Case& written, Resolved& resolved) {
 }
 
 }  // namespace
+
+std::optional<Jet> jet_of(const TunnelSettings& tunnel) {
+  if (tunnel.kind != TunnelKind::open_jet) return {};
+  return Jet{tunnel.nozzle, tunnel.outside_speed, tunnel.shear_layer_m};
+}
 
 // An arm or gore lies flat in the start shape and has to fit into the core too.
 double inflated_diameter(const Design& parachute) {
@@ -117,6 +205,7 @@ Resolved resolve(const Case& given) {
   const Fabric& cloth = canopy_fabric(given);
   flow.porosity_model = follow("flow.porosity_model", written.flow.porosity_model, cloth.resistance.model,
                                fmt::format("what darcy and forchheimer of materials.{} are for", cloth.name));
+  resolve_tunnel(follow, written.flow, flow.tunnel);
   resolve_box(follow, parachute, written.flow, flow);
   resolve_numerics(follow, written, resolved);
   follow("inflation.line_segment_m", written.inflation.line_segment_m, parachute.mesh.line_segment_m,

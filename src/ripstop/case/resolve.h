@@ -52,6 +52,12 @@ inline constexpr Vec3 paper_box{2, 2, 4};
 inline constexpr Vec3 sheet_box{6, 6, 9}, sheet_core{1.8, 1.8, 2.2};
 inline constexpr double sheet_skirt = 4;
 
+/// A jet's box in nozzle widths: across the flow, and at least so long behind the skirt; what the sheet's cells
+/// become in so wide a box. docs/guide/tunnel.md says what they are worth.
+inline constexpr double jet_box_across = 2.8, jet_box_behind = 2, narrowest_jet_box = 1.5;
+inline constexpr std::array<int, 3> jet_cells{88, 88, 98};
+inline constexpr double jet_outside_speed = 0.02, jet_shear_layer = 0.035;  // the latter in nozzle widths
+
 /// What the sheet's box is measured in [m].
 double inflated_diameter(const Design& parachute);
 
@@ -61,12 +67,24 @@ struct CoreSettings {
   double growth = 0;
 };
 
+struct TunnelSettings {
+  TunnelKind kind = TunnelKind::free_air;
+  Nozzle nozzle;  // or closed test section
+  double nozzle_distance_m = 0;
+  double outside_speed = 0;
+  double shear_layer_m = 0;
+  double displacement_thickness_m = 0;
+};
+/// Nothing where there is no nozzle.
+std::optional<Jet> jet_of(const TunnelSettings& tunnel);
+
 /// FlowKeys with every value.
 struct FlowSettings : FlowOptions {
   double density_kg_m3 = 0;
   PorosityModel porosity_model = PorosityModel::sheet;
   Vec3 box_m;
   std::array<int, 3> cells{};
+  TunnelSettings tunnel;
   CoreSettings core;
   double canopy_position_m = 0;
   Convection convection = Convection::upwind;

@@ -69,7 +69,11 @@ CaseSummary summarize(const Case& given) {
   summary.flow_cells = static_cast<long long>(grid.nx) * grid.ny * grid.nz;
   summary.flow_spacing = grid.spacing();
   const double diameter = start_diameter(given.parachute);
-  summary.blockage = std::numbers::pi / 4 * diameter * diameter / (grid.size.x * grid.size.y);
+  const TunnelSettings tunnel = resolve(given).flow.tunnel;
+  const bool jet = tunnel.kind == TunnelKind::open_jet;
+  summary.blockage = std::numbers::pi / 4 * diameter * diameter /
+                     (jet ? nozzle_area(tunnel.nozzle) : grid.size.x * grid.size.y);
+  summary.of_jet = jet;
   summary.air = air(given);
   return summary;
 }

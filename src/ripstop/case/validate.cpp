@@ -73,6 +73,82 @@ void check_measured(const Case& given, Findings& findings) {
                     given.flow.speed_m_s, rows));
 }
 
+/// Keys that the kind of tunnel has no use for, and the width that it needs.
+void check_tunnel_keys(const TunnelKeys& tunnel, Findings& findings) {
+  const bool jet = tunnel.kind == TunnelKind::open_jet, closed = tunnel.kind == TunnelKind::closed;
+  const struct {
+    const char* key;
+    bool given, fits;
+    const char* belongs_to;
+  } keys[] = {{"shape", tunnel.shape.has_value(), jet || closed, "a tunnel"},
+              {"width_m", tunnel.width_m.has_value(), jet || closed, "a tunnel"},
+              {"height_m", tunnel.height_m.has_value(),
+               closed || (jet && tunnel.shape == NozzleShape::rectangle), "a rectangle"},
+              {"nozzle_distance_m", tunnel.nozzle_distance_m.has_value(), jet, "an open jet"},
+              {"collector_distance_m", tunnel.collector_distance_m.has_value(), jet, "an open jet"},
+              {"outside_speed", tunnel.outside_speed.has_value(), jet, "an open jet"},
+              {"shear_layer_m", tunnel.shear_layer_m.has_value(), jet, "an open jet"},
+              {"displacement_thickness_m", tunnel.displacement_thickness_m.has_value(), closed,
+               "a closed test section"}};
+  for (const auto& one : keys)
+    if (one.given && !one.fits)
+      findings.add(
+          std::string("flow.tunnel.") + one.key, "", "",
+          fmt::format("is a key of {}; flow.tunnel.kind and shape say what there is (remove the key, "
+                      "or set them)",
+                      one.belongs_to));
+  if ((jet || closed) && !tunnel.width_m && findings.sound({"flow.tunnel.width_m"}))
+    findings.add("flow.tunnel.width_m", "", "above 0 and at most 200",
+                 "is missing: the width of the nozzle, or of the test section");
+  const double width = tunnel.width_m.value_or(0), least = std::min(width, tunnel.height_m.value_or(width));
+  if (closed && width > 0 && tunnel.displacement_thickness_m.value_or(0) >= least / 2)
+    findings.add("flow.tunnel.displacement_thickness_m", *tunnel.displacement_thickness_m,
+                 fmt::format("below {:.6g}", least / 2), "nothing of the test section is left open");
+  if (closed && tunnel.shape.value_or(NozzleShape::rectangle) != NozzleShape::rectangle)
+    findings.add("flow.tunnel.shape", "", quoted("rectangle"),
+                 "the sides of the box are the walls of a closed test section, so that it is a rectangle");
+}
+
+/// Whether the box is the tunnel's.
+void check_tunnel(const Case& given, const FlowSettings& flow, Findings& findings) {
+  const TunnelKeys& keys = given.flow.tunnel;
+  const TunnelSettings& tunnel = flow.tunnel;
+  const double width = tunnel.nozzle.width, height = nozzle_height(tunnel.nozzle);
+  const double sides[] = {width, height}, box[] = {flow.box_m.x, flow.box_m.y};
+  if (tunnel.kind == TunnelKind::closed) {
+    for (int i = 0; i < 2; ++i) {
+      const double open = sides[i] - 2 * tunnel.displacement_thickness_m;
+      if (std::abs(box[i] - open) > 1e-9 * open)
+        findings.add(fmt::format("flow.box_m[{}]", i), box[i], fmt::format("{:.9g}", open),
+                     "the sides of the box are the walls of the closed test section (flow.tunnel)");
+    }
+    if (flow.sides != Sides::slip)
+      findings.add("flow.sides", "", quoted("slip"), "a closed test section (flow.tunnel.kind) has walls");
+  }
+  if (tunnel.kind != TunnelKind::open_jet) return;
+  for (int i = 0; i < 2; ++i)
+    if (box[i] < narrowest_jet_box * sides[i])
+      findings.add(fmt::format("flow.box_m[{}]", i), box[i],
+                   fmt::format("at least {:.6g}", narrowest_jet_box * sides[i]),
+                   "the box is too narrow for the still air round the nozzle (flow.tunnel)");
+  if (flow.sides == Sides::zero_gradient)
+    findings.add("flow.sides", quoted("zero-gradient"), "entraining or slip",
+                 "an open jet (flow.tunnel.kind) draws in air of the room through the sides");
+  const auto [key, value] = keys.nozzle_distance_m
+                                ? std::pair{"flow.tunnel.nozzle_distance_m", *keys.nozzle_distance_m}
+                                : std::pair{"flow.canopy_position_m", flow.canopy_position_m};
+  if (std::abs(flow.canopy_position_m - tunnel.nozzle_distance_m) > 1e-9 * tunnel.nozzle_distance_m)
+    findings.add(
+        key, value, fmt::format("{:.9g}", flow.canopy_position_m),
+        "the box begins at the nozzle, so that flow.canopy_position_m is the same distance (leave one "
+        "of the two out)");
+  if (keys.collector_distance_m && std::abs(*keys.collector_distance_m - flow.box_m.z) > 1e-9 * flow.box_m.z)
+    findings.add(
+        "flow.tunnel.collector_distance_m", *keys.collector_distance_m, fmt::format("{:.9g}", flow.box_m.z),
+        "the box ends at the collector, so that flow.box_m has the same length (leave one of the two "
+        "out)");
+}
+
 /// The start shape, and the inflated shape that it may turn into, have to lie inside the box.
 void check_box(const Case& given, const FlowSettings& flow, Findings& findings) {
   const Vec3 box = flow.box_m;
@@ -148,6 +224,7 @@ void check_engine(const Case& given, const FlowSettings& flow, Findings& finding
   wanted.sheets = flow.porosity_model == PorosityModel::sheet;
   wanted.entraining_sides = flow.sides == Sides::entraining;
   wanted.still_air_outlet = flow.outlet == Outlet::still_air;
+  wanted.jets = flow.tunnel.kind == TunnelKind::open_jet;
   wanted.averages = flow.average_over > 0;
   wanted.ranks = flow.ranks > 1;
   wanted.time = flow.unsteady;
@@ -196,8 +273,12 @@ void check_settings(Case given, Findings& findings) {
     given.flow.speed_basis = SpeedBasis::nominal;
     if (!given.flow.density_kg_m3) given.flow.density_kg_m3 = 1;
   }
+  check_tunnel_keys(given.flow.tunnel, findings);
+  if (!findings.sound({"flow.tunnel"})) return;
   const Resolved resolved = resolve(given);
   const FlowSettings& flow = resolved.flow;
+  if (findings.sound({"flow.box_m", "flow.canopy_position_m", "flow.sides"}))
+    check_tunnel(given, flow, findings);
   if (findings.sound({"flow.box_m", "flow.canopy_position_m"})) {
     check_box(given, flow, findings);
     if (findings.sound({"flow.cells"})) check_cells(given, flow, findings);

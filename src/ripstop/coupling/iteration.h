@@ -15,10 +15,11 @@ struct SteadyIteration {
   double transfer_factor = 0;   // fluid force over that of the pressures alone, as they came to the cloth
   double load_remainder = 0;    // remainder_share() of the load; 0 but for CanopyLoad::of_flow
   double axial_moment = 0;      // of the air's load about the canopy's axis [N m]
-  double section_gap = 0;   // largest_section_gap() of the cloth's stress and the load that made the shape
-  double drag_change = 0;   // relative to the iteration before; infinite at the first
-  double shape_change = 0;  // e_k = mean |x^{k+1} - x^k| [m], [NFM] Eq. 18
-  double omega = 0;         // |X_{k+1} - X_k| / |X_k|, [NFM] Eq. 19
+  double section_gap = 0;     // largest_section_gap() of the cloth's stress and the load that made the shape
+  double approach_speed = 0;  // approach_speed() [m/s]
+  double drag_change = 0;     // relative to the iteration before; infinite at the first
+  double shape_change = 0;    // e_k = mean |x^{k+1} - x^k| [m], [NFM] Eq. 18
+  double omega = 0;           // |X_{k+1} - X_k| / |X_k|, [NFM] Eq. 19
   double printed_tolerance = 0;  // R dx^2 / (S0 K_max), what Eq. 19 asks of omega
   int cloth_steps = 0;
   double cloth_residual = 0;
@@ -44,6 +45,7 @@ void each_member(T& i, Visit&& visit) {
   visit("load_remainder", i.load_remainder);
   visit("axial_moment_n_m", i.axial_moment);
   visit("section_gap", i.section_gap);
+  visit("approach_speed_m_s", i.approach_speed);
   visit("drag_change", i.drag_change, Shown{"d(drag)", 10, "{:.3f} %", 100});
   visit("shape_change_m", i.shape_change, Shown{"e_k mm", 10, "{:.3f}", 1000});
   visit("omega", i.omega, Shown{"omega", 9, "{:.1e}"});

@@ -9,6 +9,7 @@
 
 #include "ripstop/canopy/section_balance.h"
 #include "ripstop/core/error.h"
+#include "ripstop/coupling/approach.h"
 #include "ripstop/flow/steady.h"
 
 namespace ripstop {
@@ -258,6 +259,7 @@ FlowField SteadySolver::iterate(SteadyState& state, const SteadyReport& report) 
   now.drag_deviation = field.average.drag_deviation;
   now.fluid_force = field.porous_force.z;
   now.momentum_deficit = field.momentum_deficit;
+  now.approach_speed = approach_speed(field, problem_.mesh, shape);
   now.drag_change = state.iterations.empty()
                         ? std::numeric_limits<double>::infinity()
                         : std::abs(now.fluid_force / state.iterations.back().fluid_force - 1);

@@ -22,6 +22,7 @@ EngineRecord builtin() {
           {.sheets = true,
            .entraining_sides = true,
            .still_air_outlet = true,
+           .jets = true,
            .averages = true,
            .ranks = false,
            .other_air = true,
@@ -81,6 +82,7 @@ std::vector<Lack> lacks(const EngineRecord& engine, const Abilities& wanted) {
   } all[] = {{&Abilities::sheets, {"flow.porosity_model", "sheet", "paper"}},
              {&Abilities::entraining_sides, {"flow.sides", "entraining", "zero-gradient or slip"}},
              {&Abilities::still_air_outlet, {"flow.outlet", "still-air", "fixed-pressure"}},
+             {&Abilities::jets, {"flow.tunnel.kind", "open-jet", "free-air or closed"}},
              {&Abilities::averages, {"flow.average_over", "more than 0", "0"}},
              {&Abilities::time, {"flow.unsteady", "true", "false"}},
              {&Abilities::ranks, {"flow.ranks", "more than 1", "1"}}};

@@ -27,6 +27,7 @@ struct Abilities {
   bool sheets = false;            // the `sheet` model
   bool entraining_sides = false;  // Sides::entraining
   bool still_air_outlet = false;  // Outlet::still_air
+  bool jets = false;              // FlowProblem::jet
   bool averages = false;          // a field after every iteration, for Stopping::average_over
   bool ranks = false;             // several processes
   bool other_air = false;         // a saved flow may start one of another speed or density

@@ -5,11 +5,13 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "ripstop/core/vec3.h"
 #include "ripstop/flow/flow_grid.h"
+#include "ripstop/flow/jet.h"
 
 namespace ripstop {
 
@@ -84,6 +86,7 @@ struct FlowProblem {
   Freestream air;
   Sides sides = Sides::zero_gradient;
   Outlet outlet = Outlet::fixed_pressure;
+  std::optional<Jet> jet;  // through the inlet, air.speed the nozzle's; empty: the stream over all of it
   std::vector<PorousCells> porous;  // one entry a cloth
   std::vector<Sheet> sheets;        // the same for the `sheet` model
   std::vector<Vec3> body_force;     // on the air of each cell [N/m3]; empty: none

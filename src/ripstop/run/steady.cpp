@@ -52,6 +52,7 @@ SteadyResult steady_result(const SteadySolver& solver, const SteadyState& state,
   const Air stream = air(given);
   r.speed = stream.speed;
   r.density = stream.density;
+  r.approach_speed = r.last.approach_speed;
   r.drag = r.last.fluid_force;
   r.drag_area = r.drag / dynamic_pressure(given);
   r.reference_area = nominal_area(given.parachute);

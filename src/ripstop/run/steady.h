@@ -53,7 +53,8 @@ void each_member(T& u, Visit&& visit) {
 /// The numbers of one run: result.json.
 struct SteadyResult {
   std::string title;
-  double speed = 0, density = 0;                                // [m/s], [kg/m3]
+  double speed = 0, density = 0;  // [m/s], [kg/m3]
+  double approach_speed = 0;      // what comes to the canopy, coupling/approach.h [m/s]
   double drag = 0, drag_area = 0, drag_coefficient = 0;         // [N], [m2], -
   double reference_area = 0;                                    // S0 [m2]
   std::optional<std::array<double, 2>> known_drag_coefficient;  // Knacke's range of the type
@@ -73,6 +74,7 @@ template <Of<SteadyResult> T, class Visit>
 void each_member(T& r, Visit&& visit) {
   visit("title", r.title);
   visit("speed_m_s", r.speed, in_table);
+  visit("approach_speed_m_s", r.approach_speed, in_table);
   visit("density_kg_m3", r.density, in_table);
   visit("drag_n", r.drag, in_table);
   visit("drag_area_m2", r.drag_area, in_table);

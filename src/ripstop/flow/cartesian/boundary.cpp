@@ -58,6 +58,10 @@ std::unique_ptr<OutletBoundary> fixed_pressure_outlet() {
   return std::make_unique<OutletBoundary>();
 }
 
+Inlet make_inlet(const Discretisation& d, const std::optional<Jet>& jet) {
+  return jet ? jet_inlet(d, *jet) : uniform_inlet(d);
+}
+
 std::unique_ptr<SideBoundary> make_sides(Sides kind) {
   switch (kind) {
     case Sides::zero_gradient:
@@ -96,7 +100,7 @@ void velocity_ghosts(const Discretisation& d, const Boundaries& b, State& s, int
   side_ghosts(d, f.w, k, 1, 1), end_ghosts(d, b, f, k, b.inlet.w.data(), 0, f.w);
   side_ghosts(d, f.rho, k, 1, 1);
   b.sides->transported(d, f, k, 0, 0, f.u), b.sides->transported(d, f, k, 1, 0, f.v);
-  b.sides->transported(d, f, k, none, d.air.speed, f.w);
+  b.sides->transported(d, f, k, none, b.inlet.stream_speed, f.w);
   const Layout& layout = d.layout;
   const std::ptrdiff_t sz = layout.stride_z;
   for (int j = 0; j < layout.ny; ++j) {

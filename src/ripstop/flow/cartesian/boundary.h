@@ -1,9 +1,10 @@
 // The boundaries of the box, each one value that says what it is: ghosts, fluxes, conductances and its part
-// of the momentum ledger. A new kind is one file beside inlet_uniform.cpp, sides_slip.cpp,
-// sides_entraining.cpp or outlet_still_air.cpp, and its line in make_boundaries().
+// of the momentum ledger. A new kind is one file beside inlet_jet.cpp, sides_slip.cpp, sides_entraining.cpp
+// or outlet_still_air.cpp, and its line in boundary.cpp.
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "ripstop/flow/cartesian/discretisation.h"
 #include "ripstop/flow/cartesian/multigrid.h"
@@ -21,10 +22,13 @@ struct Inlet {
   const double* frequency(int j) const { return &omega[layout.in_plane(0, j)]; }
 
   Layout layout;
-  Array<double> w, k, omega;              // planes [m/s], [m2/s2], [1/s]
-  double stream_k = 0, stream_omega = 0;  // of the undisturbed stream, wherever else its air comes in
+  Array<double> w, k, omega;  // planes [m/s], [m2/s2], [1/s]
+  // Of the undisturbed air, wherever else it comes in.
+  double stream_speed = 0, stream_k = 0, stream_omega = 0;
+  double mean_speed = 0;  // over the inlet [m/s]
 };
 Inlet uniform_inlet(const Discretisation& d);
+Inlet jet_inlet(const Discretisation& d, const Jet& jet);
 
 /// A face in a side of the box: the axis across it, the ghost beyond, the cell inside, the mass flux per area
 /// into the box.
@@ -73,6 +77,7 @@ struct Boundaries {
   std::unique_ptr<SideBoundary> sides;
   std::unique_ptr<OutletBoundary> outlet;
 };
+Inlet make_inlet(const Discretisation& d, const std::optional<Jet>& jet);
 std::unique_ptr<SideBoundary> make_sides(Sides kind);
 std::unique_ptr<OutletBoundary> make_outlet(Outlet kind);
 

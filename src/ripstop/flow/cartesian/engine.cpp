@@ -16,6 +16,18 @@ namespace {
 
 using namespace cartesian;
 
+void check(const Jet& jet, const FlowGrid& grid) {
+  const double width = jet.nozzle.width, height = nozzle_height(jet.nozzle);
+  if (!(width > 0 && height > 0 && jet.shear_layer > 0 && jet.outside >= 0 && jet.outside < 1))
+    throw Error(ExitCode::usage, fmt::format("jet: a nozzle of {} x {} m, a shear layer of {} m and {} of "
+                                             "the speed outside make none",
+                                             width, height, jet.shear_layer, jet.outside));
+  if (width >= grid.size.x || height >= grid.size.y)
+    throw Error(ExitCode::usage, fmt::format("jet: a nozzle of {} x {} m does not fit into the inlet of {} x "
+                                             "{} m",
+                                             width, height, grid.size.x, grid.size.y));
+}
+
 void check(const FlowProblem& problem) {
   const FlowGrid& g = problem.grid;
   const auto usage = [](const std::string& message) { throw Error(ExitCode::usage, message); };
@@ -36,6 +48,7 @@ void check(const FlowProblem& problem) {
   positive_value("temperature", a.temperature);
   positive_value("turbulence intensity", a.turbulence_intensity);
   positive_value("viscosity ratio", a.viscosity_ratio);
+  if (problem.jet) check(*problem.jet, g);
   if (!problem.body_force.empty() &&
       problem.body_force.size() != static_cast<std::size_t>(problem.grid.cells())) {
     usage(fmt::format("flow: {} forces on the air for {} cells", problem.body_force.size(),
@@ -64,6 +77,7 @@ struct Header {
   Freestream air;
   Sides sides = Sides::zero_gradient;
   Outlet outlet = Outlet::fixed_pressure;
+  std::optional<Jet> jet;
 };
 static_assert(std::is_trivially_copyable_v<Header>);
 
@@ -225,7 +239,7 @@ void CartesianFlow::save(const std::filesystem::path& folder) const {
   Writer out;
   Header header;
   header.grid = problem_.grid, header.air = problem_.air;
-  header.sides = problem_.sides, header.outlet = problem_.outlet;
+  header.sides = problem_.sides, header.outlet = problem_.outlet, header.jet = problem_.jet;
   out(header);
   for (const PorousCells& cloth : problem_.porous) out(cloth.cells);
   for (const Sheet& sheet : problem_.sheets) out(sheet.surface), out(sheet.velocity);
@@ -240,7 +254,8 @@ void CartesianFlow::restore(const std::filesystem::path& folder) {
   const Header expected;
   in(header);
   if (std::memcmp(header.magic, expected.magic, sizeof header.magic) != 0) in.fail();
-  if (!(header.grid == problem_.grid) || header.sides != problem_.sides || header.outlet != problem_.outlet)
+  if (!(header.grid == problem_.grid) || header.sides != problem_.sides || header.outlet != problem_.outlet ||
+      !(header.jet == problem_.jet))
     throw Error(ExitCode::usage, (folder / state_file).string() + ": was made in another box of air");
   for (PorousCells& cloth : problem_.porous) in(cloth.cells);
   for (Sheet& sheet : problem_.sheets) in(sheet.surface), in(sheet.velocity);

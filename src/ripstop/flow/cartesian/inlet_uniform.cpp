@@ -16,6 +16,7 @@ Inlet uniform_inlet(const Discretisation& d) {
   const Freestream& air = d.air;
   // k = 3/2 (I U)^2, omega = k / nu_t.
   const double fluctuation = air.turbulence_intensity * air.speed;
+  inlet.stream_speed = inlet.mean_speed = air.speed;
   inlet.stream_k = 1.5 * fluctuation * fluctuation;
   inlet.stream_omega = inlet.stream_k / (air.viscosity_ratio * air.viscosity / air.density);
   std::fill(inlet.w.begin(), inlet.w.end(), air.speed);

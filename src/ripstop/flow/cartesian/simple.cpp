@@ -14,7 +14,7 @@ namespace {
 constexpr int eased_iterations = 30;
 
 Boundaries boundaries_of(const FlowProblem& problem, const Discretisation& d) {
-  return {uniform_inlet(d), make_sides(problem.sides), make_outlet(problem.outlet)};
+  return {make_inlet(d, problem.jet), make_sides(problem.sides), make_outlet(problem.outlet)};
 }
 
 void lay_out(const std::vector<Vec3>& force, const Discretisation& d, Obstacles& obstacles) {
@@ -60,12 +60,16 @@ Solver::Solver(const FlowProblem& problem, const FlowGrid& grid, PorousRows poro
 void Solver::start_uniform() {
   const auto fill = [](auto& values, double value) { std::fill(values.begin(), values.end(), value); };
   Fields& f = s_.f;
-  const double speed = d_.air.speed;
-  fill(f.u, 0), fill(f.v, 0), fill(f.w, speed), fill(f.p, 0), fill(f.rho, d_.air.density);
+  fill(f.u, 0), fill(f.v, 0), fill(f.p, 0), fill(f.rho, d_.air.density);
   fill(f.k, b_.inlet.stream_k), fill(f.omega, b_.inlet.stream_omega);
-  fill(f.fx, 0), fill(f.fy, 0), fill(f.fz, d_.air.density * speed);
+  fill(f.fx, 0), fill(f.fy, 0);
+  const std::size_t plane = b_.inlet.w.size();  // what comes in, through the whole box
+  for (std::size_t at = 0; at < f.w.size(); ++at) {
+    f.w[at] = b_.inlet.w[at % plane];
+    f.fz[at] = d_.air.density * f.w[at];
+  }
   fill(s_.limit, 1), fill(s_.outlet_p, 0);
-  s_.mean = {0, 0, speed, 0, b_.inlet.stream_k, b_.inlet.stream_omega};
+  s_.mean = {0, 0, b_.inlet.mean_speed, 0, b_.inlet.stream_k, b_.inlet.stream_omega};
   s_.force = {};
   s_.iteration = 0;
   s_.untouched = true;

@@ -272,6 +272,7 @@ void check(const FlowProblem& problem) {
     if (has) throw Error(ExitCode::usage, fmt::format("{} needs flow.engine = \"builtin\"", what));
   };
   refuse(!problem.sheets.empty(), "flow.porosity_model = \"sheet\"");
+  refuse(problem.jet.has_value(), "flow.tunnel.kind = \"open-jet\"");
   refuse(problem.sides == Sides::entraining, "flow.sides = \"entraining\"");
   refuse(problem.outlet == Outlet::still_air, "flow.outlet = \"still-air\"");
   refuse(!problem.body_force.empty(), "a force on the air");

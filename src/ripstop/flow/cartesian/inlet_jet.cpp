@@ -1,0 +1,27 @@
+// A nozzle's jet through the inlet, and about it air that next to stands still. All of it has the stream's k
+// and omega: the shear layer makes its own within a nozzle's width.
+#include <algorithm>
+
+#include "ripstop/flow/cartesian/boundary.h"
+
+namespace ripstop::cartesian {
+
+Inlet jet_inlet(const Discretisation& d, const Jet& jet) {
+  Inlet inlet = uniform_inlet(d);
+  const double speed = d.air.speed;
+  inlet.stream_speed = jet.outside * speed;
+  std::fill(inlet.w.begin(), inlet.w.end(), inlet.stream_speed);
+  double sum = 0;
+  for (int j = 0; j < d.grid.ny; ++j) {
+    for (int i = 0; i < d.grid.nx; ++i) {
+      const double share =
+          mean_speed_share(jet, d.x.edge[i], d.x.edge[i + 1], d.y.edge[j], d.y.edge[j + 1]);
+      inlet.w[d.layout.in_plane(i, j)] = share * speed;
+      sum += share * d.x.width[i] * d.y.width[j];
+    }
+  }
+  inlet.mean_speed = speed * sum / (d.grid.size.x * d.grid.size.y);
+  return inlet;
+}
+
+}  // namespace ripstop::cartesian
