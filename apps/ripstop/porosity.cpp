@@ -108,7 +108,7 @@ void write_plots(const fs::path& folder, const Case& given, const std::vector<Me
   const bool gamma = knob == PorosityKnob::gamma;
   Plot plot{given.title,
             {gamma ? "porosity \u03b3 of Ergun's law" : "permeability [CFM/ft\u00b2]"},
-            {fmt::format("C_D on {:.4f} m\u00b2", area)},
+            {fmt::format("drag coefficient C_D on {:.4f} m\u00b2", area)},
             {computed, line, band, reference}};
   if (gamma) plot.series.push_back(printed);
   for (const char* name : {"porosity.svg", "porosity.png"}) write_plot(folder / name, plot);

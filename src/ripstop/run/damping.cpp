@@ -45,7 +45,7 @@ void write_damping(const std::filesystem::path& folder, const DampingResult& res
     peak.y.push_back(100 * (t.peak / result.target.peak - 1));
   }
   write_csv(folder / "damping.csv", table);
-  write_plot(folder / "misfit.png", {result.title, {"C_a [N s/m3]"}, {"error [%]"}, {misfit, peak}});
+  write_plot(folder / "misfit.png", {result.title, {"damping C_a [N s/m³]"}, {"error [%]"}, {misfit, peak}});
   write_file(folder / "result.json", to_json(result));
 }
 

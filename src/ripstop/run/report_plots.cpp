@@ -85,6 +85,9 @@ std::vector<ReportPlot> steady_plots(const fs::path& folder) {
            plot("pressure", "Pressure along a gore", {"along the cloth from the vent", "m"},
                 {"pressure coefficient", ""}),
            {{"cp_inside", "inside"}, {"cp_outside", "outside"}, {"cp_load", "load on the cloth"}});
+  add_plot(plots, folder / "pressure.csv", "z_m",
+           plot("profile", "Profile", {"along the stream", "m"}, {"radius", "m"}),
+           {{"radius_m", "mean over the gores"}});
   return plots;
 }
 
@@ -187,6 +190,7 @@ std::vector<ReportPlot> comparison_plots(const std::vector<ReportRun>& runs, con
   // Of each plot the series that stands for it.
   for (const auto& [id, name] : {std::pair{"forces", "force of the air"},
                                  {"history", "drag"},
+                                 {"profile", "mean over the gores"},
                                  {"pressure", "load on the cloth"},
                                  {"lines", "largest anywhere on the line"},
                                  {"load", "load"},

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <map>
 #include <optional>
 
+#include "ripstop/core/words.h"
 #include "ripstop/output/plot.h"
 #include "ripstop/run/json.h"
 
@@ -69,6 +71,25 @@ std::vector<PlotSeries> known_drag(const Case& given, const Quantity& quantity) 
   return all;
 }
 
+/// The measured drag at the one speed of all runs, as a level over whatever else is varied.
+std::vector<PlotSeries> measured_levels(const std::vector<SweepPoint>& points, const Plot& plot,
+                                        const Quantity& quantity) {
+  const Measured* row = measured_row(points.front().given);
+  const auto same_air = [&](const SweepPoint& point) {
+    const Measured* other = measured_row(point.given);
+    return other && row && other->nominal_speed_m_s == row->nominal_speed_m_s &&
+           nominal_area(point.given.parachute) == nominal_area(points.front().given.parachute);
+  };
+  if (!row || !row->drag_n || !std::all_of(points.begin(), points.end(), same_air)) return {};
+  double low = plot.series.front().x.front(), high = low;
+  for (const PlotSeries& series : plot.series)
+    for (double x : series.x) low = std::min(low, x), high = std::max(high, x);
+  const Air stream = air(points.front().given);
+  const double level = quantity.of_drag(*row->drag_n, 0.5 * stream.density * stream.speed * stream.speed,
+                                        nominal_area(points.front().given.parachute));
+  return {{"measured", {low, high}, {level, level}, true, false, true}};
+}
+
 }  // namespace
 
 TextTable sweep_table(const std::vector<SweepAxis>& axes, const std::vector<SweepPoint>& points,
@@ -123,8 +144,7 @@ void write_sweep_plots(const std::filesystem::path& folder, const std::string& t
     std::string name;
     for (std::size_t d = 0; d < axes.size(); ++d) {
       if (d == *axis || axes[d].values.size() < 2) continue;
-      const std::string key = axes[d].name.substr(axes[d].name.rfind('.') + 1);
-      name += fmt::format("{}{} = {}", name.empty() ? "" : ", ", key, points[i].values[d]);
+      name += (name.empty() ? "" : ", ") + in_words(axes[d].name, points[i].values[d]);
     }
     if (rows[i].done) lines[name].push_back(i);
     any = any || rows[i].done;
@@ -134,11 +154,12 @@ void write_sweep_plots(const std::filesystem::path& folder, const std::string& t
   const auto draw =
       [&](const std::string& file, const std::string& label, const Quantity* known,
           const std::vector<std::pair<std::string, std::function<double(const SweepRow&)>>>& parts) {
-        Plot plot{title, {axes[*axis].name}, {label}, {}};
+        Plot plot{title, {in_words(axes[*axis].name).with_unit()}, {label}, {}};
         for (const auto& [part, value] : parts) {
           for (const auto& [name, members] : lines) {
             PlotSeries series;
             series.name = part + (part.empty() || name.empty() ? "" : ", ") + name;
+            series.dashed = plot.series.size() % 2 == 1;  // one that lies on its neighbour leaves it seen
             for (const std::size_t i : members) {
               series.x.push_back(*number(points[i].values[*axis]));
               series.y.push_back(value(rows[i]));
@@ -146,8 +167,9 @@ void write_sweep_plots(const std::filesystem::path& folder, const std::string& t
             plot.series.push_back(series);
           }
         }
-        if (over_speed && known && known->of_drag) {
-          for (const PlotSeries& series : known_drag(points.front().given, *known))
+        if (known && known->of_drag) {
+          for (const PlotSeries& series :
+               over_speed ? known_drag(points.front().given, *known) : measured_levels(points, plot, *known))
             plot.series.push_back(series);
         }
         for (const char* ending : {".svg", ".png"}) write_plot(folder / (file + ending), plot);

@@ -18,7 +18,8 @@ function colourBar(scale, name) {
   const node = element("div", { class: "bar", "data-bar": name, role: "img" }, about, ramp, element("div", { class: "ends" }, low, element("span"), high));
   const set = (words, range) => {
     about.textContent = withUnit(words);
-    low.textContent = Numbers.shown(range[0], 3);
+    const snapped = (value) => (Math.abs(value) < 2e-3 * (range[1] - range[0]) ? 0 : value);
+    low.textContent = Numbers.shown(snapped(range[0]), 3);
     node.querySelector(".ends span:nth-child(2)").textContent = Numbers.shown((range[0] + range[1]) / 2, 3);
     high.textContent = Numbers.shown(range[1], 3);
     node.setAttribute("aria-label", `Colours: ${withUnit(words)} from ${low.textContent} to ${high.textContent}`);

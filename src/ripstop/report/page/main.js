@@ -33,12 +33,14 @@ const Page = (() => {
     const stageSlot = element("div");
     const paper = element("div", { class: "paper" });
     const plots = plotGrid(run.plots, clock);
+    const force = run.shape && plots.figures.find((figure) => figure.plot.id === "load");  // beside the shape that it belongs to
+    force?.node.classList.add("wide-plot");
     const about = ["bill", "sources"];
     const own = run.tables.filter((table) => !about.includes(table.id)), rest = run.tables.filter((table) => about.includes(table.id));
     const node = element("section", { class: "run", id: `run-${index}`, role: "tabpanel", "aria-label": run.name },
       element("p", { class: "muted" }, `${run.kind === "opening" ? "Opening" : "Steady run"} · ${run.name}`, run.title && index > 0 ? ` · ${run.title}` : ""),
       headline(run), warnings(run),
-      run.shape ? element("h2", {}, run.kind === "opening" ? "Shape and force" : "Shape and air") : null, stageSlot, paper,
+      run.shape ? element("h2", {}, run.kind === "opening" ? "Shape and force" : "Shape and air") : null, stageSlot, paper, force?.node,
       run.plots.length ? element("h2", {}, "Plots") : null, plots.node,
       element("h2", {}, "Results"), element("div", { class: "tables" }, Tables.results(run.values), own.map(Tables.plain)),
       element("h2", {}, "What it is made of"), element("div", { class: "tables" }, rest.filter((table) => table.id === "bill").map(Tables.plain)),
@@ -57,8 +59,7 @@ const Page = (() => {
       return;
     }
     shown.stageSlot.replaceChildren(shapes.node);
-    if (shown.controls) shown.controls.air?.dispose();
-    shown.controls = new Controls(shown.run, shapes.viewer, shown.clock);
+    shown.controls ??= new Controls(shown.run, shapes.viewer, shown.clock);
     shapes.show(shown.controls);
   }
 
@@ -74,8 +75,7 @@ const Page = (() => {
   }
 
   function tabs(runs) {
-    const bar = document.getElementById("tabs");
-    bar.hidden = runs.length < 2;
+    const bar = element("nav", { id: "tabs", class: "tabs no-print", role: "tablist", "aria-label": "Runs", hidden: runs.length < 2 });
     bar.append(...runs.map((run, i) => element("button", { type: "button", role: "tab", "aria-controls": `run-${i}`, onclick: () => select(i) }, run.name)));
     bar.addEventListener("keydown", (event) => {
       const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
@@ -84,18 +84,18 @@ const Page = (() => {
       select(next);
       bar.children[next].focus();
     });
+    return bar;
   }
 
   /** Still pictures and all plots, for paper. */
   function preparePaper() {
     document.documentElement.dataset.printing = "";
+    for (const figure of figures) figure.draw();
     for (const one of sections) {
       one.node.hidden = false;
       one.node.querySelectorAll("details").forEach((details) => { details.open = true; });
-      for (const figure of one.plots) figure.draw();
-      if (!one.run.shape || !(shapes || sections.length)) continue;
       stage(one);
-      if (!shapes) continue;
+      if (!shapes || !one.controls) continue;
       const end = one.clock.end, shots = one.run.shape.frames.length > 1 ? [0, 0.2, 0.4, 0.6, 0.8, 1].map((share) => share * end) : [end];
       const [width, height] = shots.length > 1 ? [700, 560] : [1300, 800];
       const pictures = shots.map((time) => {
@@ -112,6 +112,7 @@ const Page = (() => {
   function backToScreen() {
     delete document.documentElement.dataset.printing;
     for (const one of sections) one.paper.replaceChildren();
+    for (const figure of figures) if (figure.drawn) figure.draw();
     select(Page.selected);
   }
 
@@ -141,8 +142,7 @@ const Page = (() => {
       over.figures.forEach((figure) => figure.draw());
     }
     report.runs.forEach((run, i) => sections.push(section(run, i)));
-    main.append(...sections.map((one) => one.node));
-    tabs(report.runs);
+    main.append(tabs(report.runs), ...sections.map((one) => one.node));
     themes();
     select(0);
     window.addEventListener("beforeprint", preparePaper);

@@ -2,7 +2,8 @@
 "use strict";
 
 const Plots = (() => {
-  const height = 250;
+  const height = 250, padding = 34;
+  const paper = { column: 306, page: 640, height: 200 };  // [px] of an A4 sheet within its margins
 
   function columns(plot) {
     const usable = (value) => (plot.logarithmic && !(value > 0) ? null : value);
@@ -24,19 +25,21 @@ const Plots = (() => {
 
   function series(one, index, plot) {
     const colour = Colours.series(index);
+    // Points without a line lie on each other: the first full, each next a wider ring about it.
+    const ring = one.line ? 0 : plot.series.slice(0, index).filter((other) => !other.line).length;
     return {
       label: one.name, stroke: colour, width: 2, spanGaps: true, dash: one.dashed ? [7, 5] : undefined,
       paths: one.line ? undefined : () => null,
-      points: { show: !one.line || one.x.length <= 40, size: one.line ? 5 : 9, fill: one.line ? colour : Colours.variable("--panel"), stroke: colour, width: 2 },
+      points: { show: !one.line || (one.x.length <= 40 && !one.dashed), size: one.line ? 5 : 8 + 5 * ring, fill: ring ? "transparent" : colour, stroke: colour, width: 2 },
       value: (_, value) => (value === null || value === undefined ? "–" : `${Numbers.shown(value, 4)}${plot.y.unit ? " " + plot.y.unit : ""}`),
     };
   }
 
   const counts = (plot) => !plot.x.unit && plot.series.every((one) => one.x.every(Number.isInteger));
 
-  function options(plot, width) {
+  function options(plot, size) {
     return {
-      width, height,
+      ...size,
       scales: { x: { time: false }, y: { distr: plot.logarithmic ? 3 : 1 } },
       axes: [axis(plot.x, { size: 34, ...(counts(plot) ? { incrs: [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000] } : {}) }), axis(plot.y, { size: 62, values: (_, values) => values.map((v) => (v === null ? "" : Numbers.shown(v, 4))) })],
       series: [{ label: plot.x.text, value: (_, v) => (v === null ? "–" : `${Numbers.shown(v, 4)}${plot.x.unit ? " " + plot.x.unit : ""}`) },
@@ -51,14 +54,19 @@ const Plots = (() => {
       this.plot = plot;
       this.clock = plot.overTime ? clock : null;
       this.body = element("div");
-      this.node = element("figure", { class: "plot panel", "data-plot": plot.id }, element("figcaption", {}, plot.title), this.body);
+      this.node = element("figure", { class: "plot panel", "data-plot": plot.id, tabindex: 0, title: "Arrow keys move along the values",
+        onkeydown: (event) => this.step(event) }, element("figcaption", {}, plot.title), this.body);
       if (this.clock) this.clock.listen((time) => this.mark(time));
     }
+    size() {
+      if ("printing" in document.documentElement.dataset)
+        return { width: this.node.classList.contains("wide-plot") ? paper.page : paper.column, height: paper.height };
+      return { width: Math.max(240, this.node.clientWidth - padding), height };
+    }
     draw() {
-      const width = Math.max(240, this.node.clientWidth - 34);
       if (this.drawn) this.drawn.destroy();
       this.body.replaceChildren();
-      this.drawn = new uPlot(options(this.plot, width), columns(this.plot), this.body);
+      this.drawn = new uPlot(options(this.plot, this.size()), columns(this.plot), this.body);
       this.drawn.root.querySelector("canvas").setAttribute("role", "img");
       this.drawn.root.querySelector("canvas").setAttribute("aria-label",
         `${this.plot.title}: ${withUnit(this.plot.y)} over ${withUnit(this.plot.x)}`);
@@ -68,11 +76,21 @@ const Plots = (() => {
       this.drawn.over.addEventListener("click", () => this.clock.set(this.drawn.posToVal(this.drawn.cursor.left, "x")));
       this.mark(this.clock.time);
     }
+    /** To the value before or behind the cursor's. */
+    step(event) {
+      const way = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
+      if (!way || !this.drawn) return;
+      event.preventDefault();
+      const along = this.drawn.data[0];
+      const next = Math.min(along.length - 1, Math.max(0, (this.drawn.cursor.idx ?? (way > 0 ? -1 : along.length)) + way));
+      this.drawn.setCursor({ left: this.drawn.valToPos(along[next], "x"), top: 20 });
+      if (this.clock) this.clock.set(along[next]);
+    }
     mark(time) {
       if (this.now) this.now.style.left = `${this.drawn.valToPos(time, "x")}px`;
     }
     resize() {
-      if (this.drawn) this.drawn.setSize({ width: Math.max(240, this.node.clientWidth - 34), height });
+      if (this.drawn) this.drawn.setSize(this.size());
       if (this.clock && this.drawn) this.mark(this.clock.time);
     }
   }

@@ -1,0 +1,36 @@
+// Keys as people read them.
+#include "ripstop/core/words.h"
+
+#include <gtest/gtest.h>
+
+namespace ripstop {
+namespace {
+
+TEST(Words, AKeyBecomesWordsAndAUnit) {
+  EXPECT_EQ(in_words("flow.speed_m_s").with_unit(), "speed [m/s]");
+  EXPECT_EQ(in_words("parachute.vent_diameter_m").with_unit(), "vent diameter [m]");
+  EXPECT_EQ(in_words("density_kg_m3").with_unit(), "density [kg/m³]");
+  EXPECT_EQ(in_words("max_line_tension_n").with_unit(), "highest line tension [N]");
+  EXPECT_EQ(in_words("damping_n_s_m3").with_unit(), "damping [N s/m³]");
+  EXPECT_EQ(in_words("coupling_iterations").with_unit(), "coupling iterations");
+}
+
+TEST(Words, AMomentIsNoForcePerWidth) {
+  EXPECT_EQ(in_words("axial_moment_n_m").unit, "N m");
+  EXPECT_EQ(in_words("max_von_mises_n_m").unit, "N/m");
+}
+
+TEST(Words, AnEndingIsAUnitOnlyBehindAName) {
+  EXPECT_EQ(in_words("n").with_unit(), "n");
+  EXPECT_EQ(in_words("_s").unit, "");
+}
+
+TEST(Words, AKeyAndItsValueAreAPhrase) {
+  EXPECT_EQ(in_words("coupling.linear", "true"), "linear cloth");
+  EXPECT_EQ(in_words("coupling.linear", "false"), "nonlinear cloth");
+  EXPECT_EQ(in_words("parachute.vent_diameter_m", "0.09"), "vent diameter 0.09 m");
+  EXPECT_EQ(in_words("parachute.tape.inner_hems", "false"), "no inner hems");
+}
+
+}  // namespace
+}  // namespace ripstop
