@@ -30,6 +30,8 @@ struct SteadyState {
   std::vector<double> applied;   // difference that made `shape` [Pa]
   Accelerator accelerator;
   bool converged = false;
+  double speed = 0;  // of the stream that this state is of, where a run seeks it; 0: that of the case [m/s]
+  int speeds = 0;    // tried so far
 };
 
 template <Of<SteadyState> T, class Visit>
@@ -49,6 +51,8 @@ void each_member(T& s, Visit&& visit) {
   visit("residuals", s.accelerator.residuals);
   visit("aitken_factor", s.accelerator.aitken_factor);
   visit("converged", s.converged);
+  visit("speed", s.speed);
+  visit("speeds", s.speeds);
 }
 
 struct SteadyProblem {
