@@ -2,7 +2,9 @@
 
 #include <cmath>
 
+#include "ripstop/case/payload.h"
 #include "ripstop/core/toml/fields.h"
+#include "ripstop/flight/atmosphere.h"
 
 namespace ripstop {
 namespace {
@@ -54,11 +56,15 @@ void describe(Fields& fields, Case& given) {
       .required();
   fields.table("coupling", given.coupling, "The steady loop between cloth and flow.");
   fields.table("inflation", given.inflation, "The opening of the folded canopy.");
+  fields.table("payload", given.payload, "What hangs below, in place of the flow's speed.");
+  fields.table("margins", given.margins,
+               "Safety and knock-down factors of the margins of cloth, tape, lines and riser.");
   fields.rows("measured", given.measured, "Wind-tunnel conditions to take air from and to compare with.");
 }
 
 const Measured* measured_row(const Case& given) {
-  const double wanted = given.flow.speed_m_s;
+  if (!given.flow.speed_m_s) return nullptr;
+  const double wanted = *given.flow.speed_m_s;
   for (const Measured& row : given.measured)
     if (std::abs(row.nominal_speed_m_s - wanted) <= 1e-9 * wanted) return &row;
   return nullptr;
@@ -67,10 +73,16 @@ const Measured* measured_row(const Case& given) {
 Air air(const Case& given) {
   const FlowKeys& flow = given.flow;
   const Measured* row = measured_row(given);
-  if (!row && (flow.speed_basis == SpeedBasis::measured || !flow.density_kg_m3))
+  if (!row && (flow.speed_basis == SpeedBasis::measured || !(flow.density_kg_m3 || flow.height_m)))
     throw Error(ExitCode::usage, "no row of [[measured]] has the nominal speed of this case");
-  return {flow.speed_basis == SpeedBasis::measured ? row->measured_speed_m_s : flow.speed_m_s,
-          flow.density_kg_m3 ? *flow.density_kg_m3 : row->density_kg_m3};
+  Air air;
+  air.density = flow.density_kg_m3 ? *flow.density_kg_m3
+                : flow.height_m    ? standard_air(*flow.height_m).density
+                                   : row->density_kg_m3;
+  air.speed = flow.speed_basis == SpeedBasis::measured ? row->measured_speed_m_s
+              : flow.speed_m_s                         ? *flow.speed_m_s
+                                                       : payload_first_speed(given, air.density);
+  return air;
 }
 
 const Fabric& canopy_fabric(const Case& given) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "ripstop/canopy/margins.h"
 #include "ripstop/core/toml/problem.h"
 #include "ripstop/core/toml/set.h"
 #include "ripstop/core/vec3.h"
@@ -36,10 +37,7 @@ struct WatchKeys {
 /// The keys of [flow] whose defaults follow from nothing.
 struct FlowOptions {
   std::string engine = engines().front().word;
-  double speed_m_s = 0;
   SpeedBasis speed_basis = SpeedBasis::nominal;
-  double viscosity_pa_s = 1.84e-5;
-  double temperature_k = 293.15;
   double turbulence_intensity = 0.005;
   double viscosity_ratio = 10;
   int ranks = 1;
@@ -72,7 +70,9 @@ struct TunnelKeys {
 
 /// [flow] as given. What is absent follows from parachute, cloth and the other keys: resolve.h.
 struct FlowKeys : FlowOptions {
-  std::optional<double> density_kg_m3;
+  std::optional<double> speed_m_s;  // absent: [payload] says what it has to hold
+  std::optional<double> height_m;   // above sea level, for density, temperature and viscosity
+  std::optional<double> density_kg_m3, temperature_k, viscosity_pa_s;
   std::optional<PorosityModel> porosity_model;
   std::optional<Vec3> box_m;
   std::optional<std::array<int, 3>> cells;
@@ -93,6 +93,11 @@ struct CouplingKeys : CouplingOptions {
   std::optional<double> drag_tolerance;
 };
 
+/// [payload] as given.
+struct PayloadKeys {
+  std::optional<double> mass_kg;  // below the parachute; a steady run finds the speed at which drag is weight
+};
+
 /// [[measured]]: one wind-tunnel condition.
 struct Measured {
   double nominal_speed_m_s = 0;
@@ -111,6 +116,8 @@ struct Case {
   FlowKeys flow;
   CouplingKeys coupling;
   InflationSettings inflation;
+  PayloadKeys payload;
+  MarginFactors margins;
   std::vector<Measured> measured;
 
   std::filesystem::path file;  // where it was read from; empty: not from a file
@@ -123,6 +130,8 @@ void describe(Fields& fields, TunnelKeys& tunnel);
 void describe(Fields& fields, FlowKeys& flow);
 void describe(Fields& fields, CouplingKeys& coupling);
 void describe(Fields& fields, InflationSettings& inflation);
+void describe(Fields& fields, PayloadKeys& payload);
+void describe(Fields& fields, MarginFactors& margins);
 void describe(Fields& fields, Measured& measured);
 void describe(Fields& fields, Case& given);
 
@@ -169,6 +178,7 @@ struct Air {
   double speed = 0;    // free stream, after speed_basis [m/s]
   double density = 0;  // [kg/m3]
 };
+/// Of a case with a payload and no speed, the speed is payload_first_speed(): where its search begins.
 Air air(const Case& given);
 
 /// The materials of the parachute's parts, looked up by the names in the design.

@@ -4,6 +4,7 @@
 
 #include "ripstop/case/resolve.h"
 #include "ripstop/core/toml/fields.h"
+#include "ripstop/flight/atmosphere.h"
 
 namespace ripstop {
 namespace {
@@ -193,18 +194,29 @@ void describe(Fields& fields, FlowKeys& flow) {
   }
   fields.choice("engine", flow.engine, words, "Flow solver: " + meanings + ".");
   fields
-      .number("speed_m_s", flow.speed_m_s, above(0).up_to(100),
-              "Free-stream speed; below Mach 0.3, where the canopy's flow model holds.")
-      .required();
+      .number(
+          "speed_m_s", flow.speed_m_s, above(0).up_to(100),
+          "Free-stream speed; below Mach 0.3, where the canopy's flow model holds. Beside payload.mass_kg: "
+          "where the search for the speed begins.")
+      .absent("needed, unless payload.mass_kg is given");
   fields.choice(
       "speed_basis", flow.speed_basis, {{"nominal", SpeedBasis::nominal}, {"measured", SpeedBasis::measured}},
       "\"nominal\": speed_m_s is used as it is; \"measured\": the measured speed of the row of [[measured]] "
       "whose nominal speed it is.");
+  fields
+      .number("height_m", flow.height_m, from(lowest_height).up_to(highest_height),
+              "Height above sea level, in place of density and temperature: those of the U.S. Standard "
+              "Atmosphere, "
+              "1976.")
+      .absent("the air is given by its density");
   fields.number("density_kg_m3", flow.density_kg_m3, above(0).up_to(20), "Density of the air.")
-      .absent("of the row of [[measured]] whose nominal speed is speed_m_s");
-  fields.number("viscosity_pa_s", flow.viscosity_pa_s, above(0).up_to(1e-2), "Dynamic viscosity.");
-  fields.number("temperature_k", flow.temperature_k, from(100).up_to(1000),
-                "Temperature of the air; the pressure follows from the density.");
+      .absent("of height_m, else of the row of [[measured]] whose nominal speed is speed_m_s");
+  fields.number("viscosity_pa_s", flow.viscosity_pa_s, above(0).up_to(1e-2), "Dynamic viscosity.")
+      .absent("of height_m, else `1.84e-05`");
+  fields
+      .number("temperature_k", flow.temperature_k, from(100).up_to(1000),
+              "Temperature of the air; the pressure follows from the density.")
+      .absent("of height_m, else `293.15`");
   fields.number("turbulence_intensity", flow.turbulence_intensity, above(0).up_to(1),
                 "At the inlet (assumed).");
   fields.number("viscosity_ratio", flow.viscosity_ratio, above(0).up_to(1e5),

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "ripstop/flight/atmosphere.h"
+
 namespace ripstop {
 namespace {
 
@@ -36,6 +38,32 @@ class Follow {
  private:
   Resolved& resolved_;
 };
+
+// A day in a tunnel: what the air is where neither its own keys nor a height say.
+constexpr double usual_viscosity = 1.84e-5;   // [Pa s]
+constexpr double usual_temperature = 293.15;  // [K]
+
+void resolve_air(Follow& follow, const Case& given, FlowKeys& keys, FlowSettings& flow) {
+  const Air stream = air(given);
+  flow.speed_m_s =
+      follow("flow.speed_m_s", keys.speed_m_s, stream.speed,
+             "payload.mass_kg and the family's usual drag: a first guess, the run finds the speed");
+  if (!given.flow.height_m) {
+    flow.density_kg_m3 = follow("flow.density_kg_m3", keys.density_kg_m3, stream.density,
+                                "the row of [[measured]] with this nominal speed");
+    flow.temperature_k =
+        follow("flow.temperature_k", keys.temperature_k, usual_temperature, "a day in a tunnel");
+    flow.viscosity_pa_s =
+        follow("flow.viscosity_pa_s", keys.viscosity_pa_s, usual_viscosity, "a day in a tunnel");
+    return;
+  }
+  const StandardAir standard = standard_air(*given.flow.height_m);
+  const std::string from =
+      fmt::format("the standard atmosphere at flow.height_m = {:g} m", *given.flow.height_m);
+  flow.density_kg_m3 = follow("flow.density_kg_m3", keys.density_kg_m3, standard.density, from);
+  flow.temperature_k = follow("flow.temperature_k", keys.temperature_k, standard.temperature, from);
+  flow.viscosity_pa_s = follow("flow.viscosity_pa_s", keys.viscosity_pa_s, standard.viscosity, from);
+}
 
 void resolve_tunnel(Follow& follow, FlowKeys& keys, TunnelSettings& tunnel) {
   tunnel.kind = keys.tunnel.kind;
@@ -200,8 +228,7 @@ Resolved resolve(const Case& given) {
          "the type's own definition");
   follow("parachute.lines.onto_disk_m", written.parachute.lines.onto_disk_m, line_length_on_disk(parachute),
          "up to the vent's edge");
-  flow.density_kg_m3 = follow("flow.density_kg_m3", written.flow.density_kg_m3, air(given).density,
-                              "the row of [[measured]] with this nominal speed");
+  resolve_air(follow, given, written.flow, flow);
   const Fabric& cloth = canopy_fabric(given);
   flow.porosity_model = follow("flow.porosity_model", written.flow.porosity_model, cloth.resistance.model,
                                fmt::format("what darcy and forchheimer of materials.{} are for", cloth.name));

@@ -80,6 +80,9 @@ std::optional<Jet> jet_of(const TunnelSettings& tunnel);
 
 /// FlowKeys with every value.
 struct FlowSettings : FlowOptions {
+  double speed_m_s = 0;  // as given, before speed_basis; with a payload, where the search begins
+  double viscosity_pa_s = 0;
+  double temperature_k = 0;
   double density_kg_m3 = 0;
   PorosityModel porosity_model = PorosityModel::sheet;
   Vec3 box_m;

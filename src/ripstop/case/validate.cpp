@@ -7,6 +7,7 @@
 
 #include "ripstop/case/resolve.h"
 #include "ripstop/core/toml/read.h"
+#include "ripstop/flight/atmosphere.h"
 
 namespace ripstop {
 namespace {
@@ -59,18 +60,47 @@ void check_measured(const Case& given, Findings& findings) {
                    "there is already a row of [[measured]] with this nominal speed");
     speeds.push_back(speed);
   }
-  if (measured_row(given)) return;
+  if (measured_row(given) || !given.flow.speed_m_s) return;
   const std::string rows = speeds.empty()
                                ? "there are no rows of [[measured]]"
                                : fmt::format("[[measured]] has rows for {}", fmt::join(speeds, ", "));
   if (given.flow.speed_basis == SpeedBasis::measured)
-    findings.add("flow.speed_m_s", given.flow.speed_m_s, fmt::format("{}", fmt::join(speeds, ", ")),
+    findings.add("flow.speed_m_s", *given.flow.speed_m_s, fmt::format("{}", fmt::join(speeds, ", ")),
                  "speed_basis = \"measured\" needs a row of [[measured]] with this nominal speed; " + rows);
-  else if (!given.flow.density_kg_m3 && findings.sound({"flow.density_kg_m3"}))
+  else if (!given.flow.density_kg_m3 && !given.flow.height_m &&
+           findings.sound({"flow.density_kg_m3", "flow.height_m"}))
     findings.add(
         "flow.density_kg_m3", "", "above 0 and at most 20",
         fmt::format("is missing, and no row of [[measured]] has the nominal speed {} to take it from; {}",
-                    given.flow.speed_m_s, rows));
+                    *given.flow.speed_m_s, rows));
+}
+
+/// The speed comes from itself or from the payload, the air from its own keys or from a height.
+void check_flight(const Case& given, Findings& findings) {
+  const FlowKeys& flow = given.flow;
+  const bool payload = given.payload.mass_kg.has_value();
+  if (!flow.speed_m_s && !payload && findings.sound({"flow.speed_m_s", "payload.mass_kg"}))
+    findings.add("flow.speed_m_s", "", "above 0 and at most 100",
+                 "is missing; write it, or [payload] with mass_kg, for which the steady run finds the speed");
+  if (payload && flow.speed_basis == SpeedBasis::measured && findings.sound({"flow.speed_basis"}))
+    findings.add("flow.speed_basis", quoted("measured"), quoted("nominal"),
+                 "a measured speed and one that is sought for payload.mass_kg exclude each other");
+  if (payload && !flow.speed_m_s && !flow.density_kg_m3 && !flow.height_m &&
+      findings.sound({"flow.density_kg_m3", "flow.height_m"}))
+    findings.add("flow.height_m", "", "",
+                 "is missing: a payload falls in air of a height or a density; write one");
+  if (!flow.height_m || !findings.sound({"flow.height_m"})) return;
+  const StandardAir air = standard_air(*flow.height_m);
+  const std::string instead = fmt::format("leave it out, or leave flow.height_m = {:g} out", *flow.height_m);
+  const auto agree = [&](const char* key, const std::optional<double>& value, double standard,
+                         const char* unit) {
+    if (!value || std::abs(*value / standard - 1) <= 1e-6 || !findings.sound({key})) return;
+    findings.add(key, *value, fmt::format("{:.6g}", standard),
+                 fmt::format("is not that of the standard atmosphere at flow.height_m, {:.6g} {}: {}",
+                             standard, unit, instead));
+  };
+  agree("flow.density_kg_m3", flow.density_kg_m3, air.density, "kg/m3");
+  agree("flow.temperature_k", flow.temperature_k, air.temperature, "K");
 }
 
 /// Keys that the kind of tunnel has no use for, and the width that it needs.
@@ -275,6 +305,8 @@ void check_settings(Case given, Findings& findings) {
   }
   check_tunnel_keys(given.flow.tunnel, findings);
   if (!findings.sound({"flow.tunnel"})) return;
+  if (!given.flow.speed_m_s) given.flow.speed_m_s = 1;  // told by check_flight()
+  if (!findings.sound({"flow.height_m"})) given.flow.height_m.reset();
   const Resolved resolved = resolve(given);
   const FlowSettings& flow = resolved.flow;
   if (findings.sound({"flow.box_m", "flow.canopy_position_m", "flow.sides"}))
@@ -298,6 +330,7 @@ void check(Case& given, std::vector<Problem>& problems) {
   check_design(given.parachute, findings);
   check_materials(given, findings);
   check_measured(given, findings);
+  check_flight(given, findings);
   check_settings(given, findings);
 }
 

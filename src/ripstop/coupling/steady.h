@@ -60,6 +60,8 @@ struct SteadyState {
   bool in_time = false;  // the flow is watched in time from the next iteration on
   Watched watched;       // the last one
   bool converged = false;
+  double speed = 0;  // of the stream that this state is of, where a run seeks it; 0: that of the case [m/s]
+  int speeds = 0;    // tried so far
 };
 
 template <Of<SteadyState> T, class Visit>
@@ -81,6 +83,8 @@ void each_member(T& s, Visit&& visit) {
   visit("in_time", s.in_time);
   visit("watched", s.watched);
   visit("converged", s.converged);
+  visit("speed", s.speed);
+  visit("speeds", s.speeds);
 }
 
 struct SteadyProblem {

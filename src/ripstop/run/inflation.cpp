@@ -52,6 +52,7 @@ InflationResult result_of(const Case& given, const LoadSource& source, const Inf
   r.stress_time = state.highest_stress_time;
   r.break_load = canopy_fabric(given).break_load_n_m;
   if (r.break_load > 0) r.cloth_margin = r.break_load / std::max(r.stress.warp, r.stress.weft);
+  r.margins = case_margins(given, solver.mesh(), state.record.peak_tension, r.stress);
   r.energy_residual = energy_residual(history.frames);
   r.estimate = opening_estimate(given.parachute, source.steady_drag.value_or(steady));
   r.steps = state.cloth.steps;

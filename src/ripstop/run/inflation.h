@@ -9,6 +9,7 @@
 #include "ripstop/core/members.h"
 #include "ripstop/inflation/opening_estimate.h"
 #include "ripstop/inflation/summary.h"
+#include "ripstop/run/margins.h"
 
 namespace ripstop {
 
@@ -34,8 +35,9 @@ struct InflationResult {
   std::vector<double> line_peaks;  // of each line over every step [N]; not in result.json
   double max_line_tension = 0;     // [N]
   StressPeak stress;
-  double stress_time = 0;              // [s]
-  double break_load = 0;               // of the cloth [N/m]; 0: unknown; not in result.json
+  double stress_time = 0;  // [s]
+  double break_load = 0;   // of the cloth [N/m]; 0: unknown; not in result.json
+  std::optional<Margins> margins;
   std::optional<double> cloth_margin;  // break load over the higher of both yarns' forces
   double energy_residual = 0;          // largest |residual| of all frames after the first tenth of the work
   OpeningEstimate estimate;
@@ -80,6 +82,7 @@ void each_member(T& r, Visit&& visit) {
   sewing_members(r.stress, visit);
   visit("max_cloth_strain", r.stress.strain);
   visit("cloth_margin", r.cloth_margin);
+  visit("margins", r.margins);
   visit("energy_residual", r.energy_residual);
   visit("knacke_load_n", r.estimate.load);
   visit("knacke_coefficient", r.estimate.coefficient);

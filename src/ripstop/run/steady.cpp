@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "ripstop/case/assemble.h"
-#include "ripstop/core/file.h"
 #include "ripstop/run/engine.h"
 #include "ripstop/run/json.h"
+#include "ripstop/run/steady_parts.h"
 
 namespace ripstop {
 namespace {
@@ -27,8 +27,8 @@ bool same_flow(const Case& a, const Case& b) {
   json first = json::parse(case_json(a)).at("flow"), second = json::parse(case_json(b)).at("flow");
   std::vector<std::string> free = {"canopy_position_m", "unsteady", "watch"};
   if (engine_of(a).can.other_air) {
-    free.insert(free.end(), {"speed_m_s", "speed_basis", "density_kg_m3", "viscosity_pa_s", "temperature_k",
-                             "turbulence_intensity", "viscosity_ratio"});
+    free.insert(free.end(), {"speed_m_s", "speed_basis", "height_m", "density_kg_m3", "viscosity_pa_s",
+                             "temperature_k", "turbulence_intensity", "viscosity_ratio"});
   }
   for (const std::string& key : free) first.erase(key), second.erase(key);
   return first == second;
@@ -44,6 +44,7 @@ UnsteadyResult unsteady_result(const Watched& watched, const Case& given) {
   result.strouhal = watched.swing * inflated_diameter(given.parachute) / air(given).speed;
   return result;
 }
+}  // namespace
 
 SteadyResult steady_result(const SteadySolver& solver, const SteadyState& state, const Case& given) {
   SteadyResult r;
@@ -61,9 +62,11 @@ SteadyResult steady_result(const SteadySolver& solver, const SteadyState& state,
   if (known.high > 0) r.known_drag_coefficient = {known.low, known.high};
   r.size = canopy_size(solver.mesh(), state.shape);
   const ClothState cloth = solver.cloth_state(state);
-  for (const LineTension& t : line_tensions(solver.mesh(), spring_tensions(solver.cloth(), cloth)))
+  const std::vector<double> tensions = spring_tensions(solver.cloth(), cloth);
+  for (const LineTension& t : line_tensions(solver.mesh(), tensions))
     r.max_line_tension = std::max(r.max_line_tension, t.largest_tension);
   r.stress = stress_peak(solver.mesh(), state.shape, cell_stress(solver.cloth(), cloth));
+  r.margins = case_margins(given, solver.mesh(), tensions, r.stress);
   r.iterations = r.last.iteration;
   for (const SteadyIteration& i : state.iterations) r.wall_time += i.wall_time;
   r.converged = state.converged;
@@ -77,8 +80,6 @@ SteadyResult steady_result(const SteadySolver& solver, const SteadyState& state,
   return r;
 }
 
-}  // namespace
-
 std::string to_json(const SteadyResult& result) {
   return json_text(result);
 }
@@ -87,20 +88,30 @@ SteadyResult steady_result_from_json(const std::string& text) {
   return from_json_text<SteadyResult>(text, "the result of a steady run");
 }
 
-SteadySolution run_steady(const Case& given, SteadyObserver& observer, const SteadySettings& settings) {
+SteadyParts steady_parts(const Case& given, const SteadySettings& settings) {
+  SteadyParts parts;
   SteadyProblem problem = steady_problem(given);
   const int threads = settings.threads > 0 ? settings.threads : problem.settings.threads;
   problem.settings.threads = threads;
-  std::optional<TemporaryFolder> temporary;
   const EngineRecord& record = engine_of(given);
   EngineOptions options = engine_options(given);
   options.threads = threads;
   options.folder = settings.flow_folder;
   options.hostfile = settings.hostfile;
-  if (record.needs_folder && options.folder.empty()) options.folder = temporary.emplace("flow").path;
-  const std::unique_ptr<FlowEngine> engine = record.make(options);
-  SteadySolver solver(std::move(problem), *engine);
-  const SteadyRun run{given, solver, engine->name()};
+  if (record.needs_folder && options.folder.empty()) {
+    parts.temporary = std::make_unique<TemporaryFolder>("flow");
+    options.folder = parts.temporary->path;
+  }
+  parts.engine = record.make(options);
+  parts.solver = std::make_unique<SteadySolver>(std::move(problem), *parts.engine);
+  return parts;
+}
+
+SteadySolution run_steady(const Case& given, SteadyObserver& observer, const SteadySettings& settings) {
+  if (given.payload.mass_kg) return run_with_payload(given, observer, settings);
+  const SteadyParts parts = steady_parts(given, settings);
+  SteadySolver& solver = *parts.solver;
+  const SteadyRun run{given, solver, parts.engine->name()};
   SteadySolution solution;
   SteadyState& state = solution.state;
   state = solver.start();
@@ -124,7 +135,9 @@ bool start_from(const Case& other, const SteadyState& end, const SteadyRun& run,
   state.shape = end.shape;
   state.pressure = end.pressure;
   const double shift = canopy_position(given) - canopy_position(other);
-  const double ratio = dynamic_pressure(given) / dynamic_pressure(other);
+  const double there =
+      end.speed > 0 ? 0.5 * air(other).density * end.speed * end.speed : dynamic_pressure(other);
+  const double ratio = dynamic_pressure(given) / there;
   for (Vec3& p : state.shape) p.z += shift;
   for (double& dp : state.pressure) dp *= ratio;
   state.remainder = {ratio * end.remainder.at_centre, ratio * end.remainder.twist};

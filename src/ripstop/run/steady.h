@@ -12,6 +12,7 @@
 #include "ripstop/core/members.h"
 #include "ripstop/coupling/steady.h"
 #include "ripstop/flow/flow.h"
+#include "ripstop/run/margins.h"
 
 namespace ripstop {
 
@@ -49,6 +50,23 @@ void each_member(T& u, Visit&& visit) {
   visit("strouhal", u.strouhal);
   visit("watched", u.watched);
 }
+/// What a run holds that sought its speed.
+struct HeldPayload {
+  double mass = 0, parachute_mass = 0;  // [kg]
+  double weight = 0;                    // of both [N]
+  double drag_over_weight = 0;          // 1 within payload_tolerance
+  int speeds = 0;                       // that were tried
+};
+template <Of<HeldPayload> T, class Visit>
+void each_member(T& p, Visit&& visit) {
+  visit("mass_kg", p.mass);
+  visit("parachute_mass_kg", p.parachute_mass);
+  visit("weight_n", p.weight);
+  visit("drag_over_weight", p.drag_over_weight);
+  visit("speeds_tried", p.speeds);
+}
+/// Of the drag to the weight, relative.
+inline constexpr double payload_tolerance = 1e-3;
 
 /// The numbers of one run: result.json.
 struct SteadyResult {
@@ -67,8 +85,10 @@ struct SteadyResult {
   double transfer_factor = 0, load_remainder = 0, axial_moment = 0, section_gap = 0;
   Ledger ledger;
   std::optional<UnsteadyResult> unsteady;
-  std::optional<Measured> measured;  // the case's row for this speed
-  SteadyIteration last;              // a row of iterations.csv; not in result.json
+  std::optional<HeldPayload> payload;  // of a case with one
+  std::optional<Margins> margins;      // absent in results of earlier versions
+  std::optional<Measured> measured;    // the case's row for this speed
+  SteadyIteration last;                // a row of iterations.csv; not in result.json
 };
 template <Of<SteadyResult> T, class Visit>
 void each_member(T& r, Visit&& visit) {
@@ -100,6 +120,8 @@ void each_member(T& r, Visit&& visit) {
   visit("section_gap", r.section_gap);
   visit("ledger", r.ledger);
   visit("unsteady", r.unsteady);
+  visit("payload", r.payload);
+  visit("margins", r.margins);
   visit("measured", r.measured);
 }
 std::string to_json(const SteadyResult& result);

@@ -1,0 +1,74 @@
+#include "ripstop/canopy/margins.h"
+
+#include <utility>
+
+namespace ripstop {
+namespace {
+
+struct Strength {
+  std::optional<double> value;
+  std::string from;
+};
+
+double curve(const std::vector<double>& coefficients, double strain) {
+  double sum = 0;
+  for (std::size_t k = coefficients.size(); k-- > 0;) sum = (sum + coefficients[k]) * strain;
+  return sum;
+}
+
+Strength strength_of(double break_load, const std::vector<double>& coefficients, double width,
+                     double tested_strain) {
+  if (break_load > 0) return {break_load, "break load"};
+  if (tested_strain > 0) return {width * curve(coefficients, tested_strain), "load at the tested strain"};
+  return {std::nullopt, "not known: the material has neither break load nor tested strain"};
+}
+
+Margin margin_of(std::string member, double load, std::string unit, Strength strength, double knock_down,
+                 double safety) {
+  Margin m;
+  m.member = std::move(member), m.load = load, m.unit = std::move(unit);
+  m.strength = strength.value, m.strength_from = std::move(strength.from);
+  m.knock_down = knock_down;
+  if (m.strength && load > 0) {
+    m.used = safety * load / (*m.strength * knock_down);
+    m.margin = 1 / *m.used - 1;
+  }
+  return m;
+}
+
+}  // namespace
+
+Margins margins_of(const MemberLoads& loads, const MarginFactors& f, const Fabric& cloth, const Tape& tape,
+                   const Line& line, const Line& riser) {
+  const double all = f.abrasion * f.moisture * f.fatigue * f.temperature;
+  const double sewn = all * f.seam_efficiency, joined = all * f.line_joint_efficiency;
+  Margins result;
+  auto& members = result.members;
+  members.push_back(
+      margin_of("cloth", loads.cloth, "N/m",
+                strength_of(cloth.break_load_n_m, cloth.coefficients_n_m, 1, cloth.tested_strain), sewn,
+                f.safety_factor));
+  if (loads.tape > 0)
+    members.push_back(margin_of("tape", loads.tape, "N",
+                                strength_of(0, tape.coefficients_n_m, tape.width_m, tape.tested_strain), sewn,
+                                f.safety_factor));
+  const Strength of_line = strength_of(line.break_load_n, line.coefficients_n, 1, line.tested_strain);
+  for (std::size_t i = 0; i < loads.lines.size(); ++i)
+    members.push_back(
+        margin_of("line " + std::to_string(i + 1), loads.lines[i], "N", of_line, joined, f.safety_factor));
+  if (loads.riser > 0)
+    members.push_back(margin_of("riser", loads.riser, "N",
+                                strength_of(riser.break_load_n, riser.coefficients_n, 1, riser.tested_strain),
+                                joined, f.safety_factor));
+  if (const Margin* least = weakest(result)) result.weakest = least->member;
+  return result;
+}
+
+const Margin* weakest(const Margins& margins) {
+  const Margin* least = nullptr;
+  for (const Margin& m : margins.members)
+    if (m.used && (!least || *m.used > *least->used)) least = &m;
+  return least;
+}
+
+}  // namespace ripstop

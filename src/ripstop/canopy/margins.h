@@ -1,0 +1,51 @@
+// How far every part is from breaking: its highest load over what is left of its strength.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ripstop/material/material.h"
+
+namespace ripstop {
+
+/// [margins] of a case file; sources beside the keys (case/flight_keys.cpp).
+struct MarginFactors {
+  double safety_factor = 1.5;          // on the load
+  double seam_efficiency = 0.8;        // of cloth and tape, shares of the strength from here on
+  double line_joint_efficiency = 0.8;  // of lines and riser
+  double abrasion = 0.95, moisture = 0.95, fatigue = 0.95, temperature = 1;
+};
+
+/// The highest loads of a shape or of an opening.
+struct MemberLoads {
+  double cloth = 0;           // along either yarn [N/m]
+  double tape = 0;            // [N]
+  std::vector<double> lines;  // [N]
+  double riser = 0;           // [N]; 0: there is none
+};
+
+struct Margin {
+  std::string member;  // "cloth", "tape", "line 3", "riser"
+  double load = 0;     // [N/m] of cloth, else [N]
+  std::string unit;
+  std::optional<double> strength;  // of the material as it is sold; absent: not known
+  std::string strength_from;
+  double knock_down = 1;         // share of it that is left
+  std::optional<double> used;    // safety factor times load over what is left; above 1 it does not hold
+  std::optional<double> margin;  // of safety: 1 / used - 1
+};
+
+struct Margins {
+  std::vector<Margin> members;
+  std::string weakest;  // of those whose strength is known; empty: none
+};
+
+/// Strength is the break load, or where a material has none, the load at the strain up to which it was tested.
+Margins margins_of(const MemberLoads& loads, const MarginFactors& factors, const Fabric& cloth,
+                   const Tape& tape, const Line& line, const Line& riser);
+
+/// The weakest member; null when no strength is known.
+const Margin* weakest(const Margins& margins);
+
+}  // namespace ripstop

@@ -1,0 +1,32 @@
+// The margins of a result, and the list of their members.
+#pragma once
+
+#include "ripstop/canopy/margins.h"
+#include "ripstop/canopy/stress.h"
+#include "ripstop/case/case.h"
+#include "ripstop/core/members.h"
+
+namespace ripstop {
+
+template <Of<Margin> T, class Visit>
+void each_member(T& m, Visit&& visit) {
+  visit("member", m.member);
+  visit("load", m.load);
+  visit("unit", m.unit);
+  visit("strength", m.strength);
+  visit("strength_from", m.strength_from);
+  visit("knock_down", m.knock_down);
+  visit("used", m.used);
+  visit("margin_of_safety", m.margin);
+}
+template <Of<Margins> T, class Visit>
+void each_member(T& m, Visit&& visit) {
+  visit("members", m.members);
+  visit("weakest_member", m.weakest);
+}
+
+/// `spring_tensions` of all springs outside the cloth, of a shape or the highest of an opening [N].
+Margins case_margins(const Case& given, const CanopyMesh& mesh, const std::vector<double>& spring_tensions,
+                     const StressPeak& stress);
+
+}  // namespace ripstop

@@ -1,0 +1,95 @@
+// A case with a payload in place of its speed, on a flow whose drag area is fixed: the answer is a closed form.
+#include "ripstop/case/payload.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "finished_run.h"
+#include "ripstop/flight/atmosphere.h"
+
+namespace ripstop {
+namespace {
+
+std::vector<Setting> falling(const std::string& mass, std::vector<Setting> more = {}) {
+  more.push_back({"payload.mass_kg", mass});
+  more.push_back({"flow.speed_basis", "nominal"});
+  more.push_back({"flow.density_kg_m3", "1.1"});
+  return more;
+}
+
+double closed_form(const Case& given) {
+  return std::sqrt(2 * suspended_weight(given, *given.payload.mass_kg) / (1.1 * SquareLawEngine::area));
+}
+
+TEST(Payload, TheRunFindsTheSpeedAtWhichDragIsWeight) {
+  for (const char* mass : {"3", "40"}) {
+    const Case given = square_law_case(falling(mass));
+    SteadyObserver nobody;
+    const SteadyResult r = run_steady(given, nobody).result;
+    EXPECT_TRUE(r.converged);
+    ASSERT_TRUE(r.payload);
+    EXPECT_NEAR(r.drag / r.payload->weight, 1, payload_tolerance);
+    EXPECT_NEAR(r.speed / closed_form(given), 1, payload_tolerance) << mass;
+    EXPECT_NEAR(r.drag_area, 2 * r.drag / (1.1 * r.speed * r.speed), 1e-9);
+    EXPECT_NEAR(r.payload->weight, (r.payload->mass + r.payload->parachute_mass) * standard_gravity, 1e-9);
+    EXPECT_GE(r.payload->speeds, 2);
+  }
+}
+
+TEST(Payload, WhereTheSearchBeginsDoesNotMatter) {
+  SteadyObserver nobody;
+  const auto from = [&](const char* speed) {
+    return run_steady(square_law_case(falling("10", {{"flow.speed_m_s", speed}})), nobody).result.speed;
+  };
+  EXPECT_NEAR(from("5") / from("40"), 1, 2 * payload_tolerance);
+}
+
+TEST(Payload, ItsFolderIsAFinishedRunAndIsFoundAgain) {
+  const TemporaryFolder folder("payload");
+  const SteadyResult first = fly_square_law(folder.path / "run", falling("5"));
+  EXPECT_TRUE(first.converged);
+  const SteadyResult again = fly_square_law(folder.path / "run", falling("5"));
+  EXPECT_EQ(again.speed, first.speed);
+  ASSERT_TRUE(again.payload);
+  EXPECT_EQ(again.payload->weight, first.payload->weight);
+  EXPECT_EQ(final_state(folder.path / "run").speed, first.speed);
+}
+
+/// Ends as a killed process does: by leaving.
+struct Killed : SteadyObserver {
+  int left = 0;
+  void iterated(const SteadyRun&, const SteadyState&, const FlowField&) override {
+    if (--left == 0) throw std::runtime_error("killed");
+  }
+};
+
+TEST(Payload, ARunThatWasKilledGoesOnAtTheSpeedThatItHadFound) {
+  const TemporaryFolder folder("payload-killed");
+  const Case given = square_law_case(falling("5"));
+  const auto settings = [&](const char* name) {
+    return SteadyFolderSettings{{folder.path / name, false}, 1, {}, {}};
+  };
+  SteadyObserver nobody;
+  const SteadyResult whole = run_steady_in(settings("whole"), given, nobody).result;
+  Killed killed;
+  killed.left = 2;
+  EXPECT_THROW(run_steady_in(settings("killed"), given, killed), std::runtime_error);
+  const SteadyResult resumed = run_steady_in(settings("killed"), given, nobody).result;
+  EXPECT_TRUE(resumed.converged);
+  EXPECT_NEAR(resumed.speed / whole.speed, 1, 1e-9);
+  EXPECT_EQ(resumed.iterations, whole.iterations);
+}
+
+TEST(Payload, ARunThatEndsBeforeTheDragIsTheWeightHasNotConverged) {
+  SteadyObserver nobody;
+  const SteadyResult r =
+      run_steady(square_law_case(falling("3", {{"coupling.max_iterations", "1"}, {"flow.speed_m_s", "40"}})),
+                 nobody)
+          .result;
+  EXPECT_FALSE(r.converged);
+  EXPECT_GT(std::abs(r.payload->drag_over_weight - 1), payload_tolerance);
+}
+
+}  // namespace
+}  // namespace ripstop
