@@ -23,8 +23,8 @@ using namespace ripstop;
 
 namespace {
 
-constexpr double speed = 20;            // [m/s]
-constexpr double shear_layer = 0.035;   // over the nozzle's width
+constexpr double speed = 20;                        // [m/s]
+constexpr double shear_layer = 0.035;               // over the nozzle's width
 constexpr double disk_area = std::numbers::pi / 4;  // of 1 m across [m2]
 
 FlowField solved(FlowProblem problem) {
@@ -99,12 +99,12 @@ void empty_jet(int across, double outside) {
 }
 
 void empty_jets(int finest, int argc, char** argv) {
-  print_table_head("An empty open jet, 1 m across, 20 m/s, box of 8 x 8 x 12 m", argc, argv,
-                   {"cells across the nozzle", "speed outside", "core, nozzle widths",
-                    "growth of the vorticity thickness", "of the width from 10 to 90 %",
-                    "momentum lost in the box", "residual"});
-  for (const auto& [across, outside] :
-       {std::pair{finest / 2, 0.02}, std::pair{finest, 0.02}, std::pair{finest, 0.05}})
+  print_table_head(
+      "An empty open jet, 1 m across, 20 m/s, box of 8 x 8 x 12 m", argc, argv,
+      {"cells across the nozzle", "speed outside", "core, nozzle widths", "growth of the vorticity thickness",
+       "of the width from 10 to 90 %", "momentum lost in the box", "residual"});
+  for (const auto& [across, outside] : {std::pair{finest / 2, 0.01}, std::pair{finest / 2, 0.02},
+                                        std::pair{finest / 2, 0.05}, std::pair{finest, 0.02}})
     empty_jet(across, outside);
 }
 
@@ -139,7 +139,8 @@ double bubble_volume(const FlowField& field, double z0) {
   return length > widest ? spheroid_effective_volume(length, widest) : 0;
 }
 
-Drag drag_of_disk(const FlowGrid& box, double loss, int across, double z, Sides sides, std::optional<Jet> jet) {
+Drag drag_of_disk(const FlowGrid& box, double loss, int across, double z, Sides sides,
+                  std::optional<Jet> jet) {
   FlowProblem problem;
   problem.grid = about_body(box, 1, across, z);
   problem.sides = sides;
@@ -181,8 +182,10 @@ void one_disk(const std::string& name, double loss, int across, std::vector<Plot
                fmt::format("{:.3f}", drag.approach), fmt::format("{:+.2f} %", 100 * drag.balance)});
   };
   row("free air", 0, free, 0);
-  PlotSeries walls{name + ", walls", {}, {}, true, true, false}, jets{name + ", open jet", {}, {}, true, true, false};
-  PlotSeries in_walls{name + ", walls: " + (loss > 0 ? "momentum theory" : "Maskell"), {}, {}, true, false, true};
+  PlotSeries walls{name + ", walls", {}, {}, true, true, false},
+      jets{name + ", open jet", {}, {}, true, true, false};
+  PlotSeries in_walls{
+      name + ", walls: " + (loss > 0 ? "momentum theory" : "Maskell"), {}, {}, true, false, true};
   PlotSeries in_jet{name + ", open jet: Glauert", {}, {}, true, false, true};
   const auto note = [](PlotSeries& series, double blockage, double ratio) {
     series.x.push_back(100 * blockage), series.y.push_back(100 * (ratio - 1));

@@ -8,9 +8,8 @@
 namespace ripstop {
 namespace {
 
-const Nozzle nozzles[] = {{NozzleShape::circle, 2.85, 0},
-                          {NozzleShape::octagon, 2.85, 0},
-                          {NozzleShape::rectangle, 2.85, 1.9}};
+const Nozzle nozzles[] = {
+    {NozzleShape::circle, 2.85, 0}, {NozzleShape::octagon, 2.85, 0}, {NozzleShape::rectangle, 2.85, 1.9}};
 
 // Summed over fine squares.
 double summed(const Nozzle& nozzle, auto value) {

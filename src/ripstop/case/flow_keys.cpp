@@ -172,7 +172,7 @@ void describe(Fields& fields, TunnelKeys& tunnel) {
               "jet).")
       .absent(fmt::format("no collector: at least {:g} `width_m` behind the skirt", jet_box_behind));
   fields
-      .number("outside_speed", tunnel.outside_speed, from(0).up_to(0.5),
+      .number("outside_speed", tunnel.outside_speed, from(0.01).up_to(0.5),
               "Speed of the air round the nozzle over the nozzle's (open jet).")
       .absent(fmt::format("`{:g}`", jet_outside_speed));
   fields

@@ -14,8 +14,7 @@ Inlet jet_inlet(const Discretisation& d, const Jet& jet) {
   double sum = 0;
   for (int j = 0; j < d.grid.ny; ++j) {
     for (int i = 0; i < d.grid.nx; ++i) {
-      const double share =
-          mean_speed_share(jet, d.x.edge[i], d.x.edge[i + 1], d.y.edge[j], d.y.edge[j + 1]);
+      const double share = mean_speed_share(jet, d.x.edge[i], d.x.edge[i + 1], d.y.edge[j], d.y.edge[j + 1]);
       inlet.w[d.layout.in_plane(i, j)] = share * speed;
       sum += share * d.x.width[i] * d.y.width[j];
     }

@@ -1,0 +1,25 @@
+#include "ripstop/coupling/approach.h"
+
+#include <gtest/gtest.h>
+
+namespace ripstop {
+namespace {
+
+// Mean of a + b x + c (x^2 + y^2) over a disk of radius R about the axis: a + c R^2 / 2; interpolation adds at
+// most c h^2 / 2.
+TEST(Approach, IsTheMeanOverTheAreaOfADisk) {
+  FlowField field;
+  field.grid = {{-1, -1, 0}, {2, 2, 1}, 80, 80, 4};
+  const FlowGrid& grid = field.grid;
+  field.velocity.resize(grid.cells());
+  for (int k = 0; k < grid.nz; ++k)
+    for (int j = 0; j < grid.ny; ++j)
+      for (int i = 0; i < grid.nx; ++i) {
+        const Vec3 p = grid.centre(i, j, k);
+        field.velocity[grid.index(i, j, k)] = {5, 6, 20 + 3 * p.x - 8 * (p.x * p.x + p.y * p.y)};
+      }
+  EXPECT_NEAR(mean_speed_over_disk(field, {0, 0, 0.5}, 1.2), 20 - 8 * 0.36 / 2, 8 * 0.025 * 0.025);
+}
+
+}  // namespace
+}  // namespace ripstop
