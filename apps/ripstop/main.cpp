@@ -33,6 +33,9 @@ int main(int argc, char** argv) {
   add_compare(app, status);
   add_photogrammetry(app, status);
   add_descent(app, status);
+  add_load(app, status);
+  add_size(app, status);
+  add_export(app, status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
