@@ -24,5 +24,8 @@ void add_photogrammetry(CLI::App& app, int& status);
 void add_import(CLI::App& app, int& status);
 void add_descent(CLI::App& app, int& status);
 void add_report(CLI::App& app, int& status);
+void add_load(CLI::App& app, int& status);
+void add_size(CLI::App& app, int& status);
+void add_export(CLI::App& app, int& status);
 
 }  // namespace ripstop

@@ -37,6 +37,9 @@ int run(int argc, char** argv) {
   add_photogrammetry(app, status);
   add_descent(app, status);
   add_report(app, status);
+  add_load(app, status);
+  add_size(app, status);
+  add_export(app, status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -12,6 +12,7 @@
 #include "case_options.h"
 #include "commands.h"
 #include "json_option.h"
+#include "margins.h"
 #include "progress.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/error.h"
@@ -143,6 +144,8 @@ void print_result(const SteadyResult& r, const Case& given, const fs::path& fold
   row("highest yarn force",
       fmt::format("{:.0f} N/m warp, {:.0f} N/m weft; {:.0f} % of the cloth wrinkled, {:.0f} % slack",
                   r.stress.warp, r.stress.weft, 100 * r.stress.wrinkled, 100 * r.stress.slack));
+  print_payload(r);
+  print_margins(r.margins);
   row("ledger",
       fmt::format("fluid {:.2f}, nodes {:.2f}, lines {:.2f}, momentum deficit {:.2f} N", r.last.fluid_force,
                   r.last.nodal_load, r.last.line_tension, r.last.momentum_deficit));

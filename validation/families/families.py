@@ -5,7 +5,7 @@
 
 Runs `ripstop steady` on each with the library's cloth as a sheet, its own permeability, nothing calibrated: once with
 `coupling.load` "of-flow", the default, and once with "uniform". The drag of the families beside what Knacke's manual gives
-for the type goes into docs/tables/families.md, both loads side by side into docs/tables/loads.md; pictures and plots stay
+for the type goes into docs/tables/families.md and as data for `ripstop size` into examples/families.json (shipped.py), both loads side by side into docs/tables/loads.md; pictures and plots stay
 in the run folders, `load.png` and `pressure.png` first. Runs that are finished cost nothing. `--grid 40 40 50 --set
 KEY=VALUE` pass on to `ripstop`, for a quick look; the loads are then printed only.
 """
@@ -21,6 +21,7 @@ import tomllib
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.path[:0] = [str(ROOT / "validation"), str(ROOT / "validation/ojf")]
+import shipped  # pylint: disable=wrong-import-position
 import tables  # pylint: disable=wrong-import-position
 from campaign import SHEET_SPECIFIED  # pylint: disable=wrong-import-position
 
@@ -111,6 +112,7 @@ def main():
         sys.exit("a run failed: no table is written")
     made = [run for name, load in results for run in tables.runs_below(folder_of(options, name, load))]
     tables.write("families", "Steady drag of every family's example", "make validate-families", made, families_table(results))
+    shipped.write()
     tables.write("loads", "The air's own load beside a uniform one", "make validate-families", made, loads)
 
 

@@ -1,0 +1,58 @@
+// ripstop export: a steady run as what flight simulators read.
+
+#include "ripstop/run/export.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+
+#include "commands.h"
+#include "ripstop/core/file.h"
+
+namespace ripstop {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string format, trigger = "apogee";
+  fs::path run, out;
+  std::optional<double> deployment_speed;
+};
+
+int export_run(const Options& options) {
+  const ExportedParachute p = exported(finished_steady(options.run), options.deployment_speed);
+  const std::string text = options.format == "rocketpy"     ? rocketpy_text(p, options.trigger)
+                           : options.format == "openrocket" ? openrocket_text(p)
+                                                            : to_json(p);
+  if (options.out.empty()) {
+    fmt::print("{}", text);
+    return 0;
+  }
+  if (options.out.has_parent_path()) make_folder(options.out.parent_path());
+  write_file(options.out, text);
+  fmt::print("{}\n", options.out.string());
+  return 0;
+}
+
+}  // namespace
+
+void add_export(CLI::App& app, int& status) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      app.add_subcommand("export", "A steady run's parachute for RocketPy, OpenRocket or as JSON");
+  command->footer("Example: ripstop export rocketpy runs/my-canopy --trigger 300 --out parachute.py");
+  command->add_option("format", options->format, "rocketpy, openrocket or json")
+      ->required()
+      ->check(CLI::IsMember({"rocketpy", "openrocket", "json"}));
+  command->add_option("run", options->run, "Folder of a finished run of ripstop steady")->required();
+  command->add_option("--trigger", options->trigger, "Of RocketPy: apogee, or a height above the ground [m]");
+  command->add_option("--deployment-speed", options->deployment_speed,
+                      "For the filling time, the lag [m/s] (default: the run's)");
+  command->add_option("--out", options->out, "File (default: standard output)");
+  command->callback([options, &status] { status = export_run(*options); });
+}
+
+}  // namespace ripstop

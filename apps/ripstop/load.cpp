@@ -1,0 +1,145 @@
+// ripstop load: what a parachute sees when it opens behind a given mass, by every method side by side.
+
+#include "ripstop/run/load.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <sstream>
+
+#include "case_options.h"
+#include "commands.h"
+#include "json_option.h"
+#include "ripstop/core/error.h"
+
+namespace ripstop {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  fs::path case_file, out = "runs/load";
+  Overrides overrides;
+  std::optional<double> mass, height;
+  LoadRequest request;
+  std::vector<std::string> reefing;
+  bool json = false;
+};
+
+ReefedStage parse_stage(const std::string& text) {
+  std::istringstream in(text);
+  ReefedStage stage;
+  char colon = 0, rest = 0;
+  if (!(in >> stage.share >> colon >> stage.duration) || colon != ':' || in >> rest)
+    throw Error(
+        ExitCode::usage,
+        fmt::format("--reef {}: write SHARE:SECONDS, as in --reef 0.1:3 for a tenth of the drag area, three "
+                    "seconds long",
+                    text));
+  return stage;
+}
+
+void print_stage(const StageLoads& s) {
+  fmt::print(
+      "\nat {:.2f} s: {:.3g} m/s, {:.4g} m, drag area {:.3g} to {:.3g} m2, filling {:.3g} s, A = {:.3g}, "
+      "R_m = {:.3g}\n",
+      s.begin, s.speed, s.height, s.drag_area_before, s.drag_area, s.filling_time, s.ballistic_parameter,
+      s.mass_ratio);
+  fmt::print("  {:<18} {:>10} {:>8}  {:<8}\n", "method", "load N", "at s", "applies");
+  for (const MethodLoad& m : s.methods)
+    fmt::print("  {:<18} {:>10.1f} {:>8} {:>8}  {}\n", m.method, m.load,
+               m.time > 0 ? fmt::format("{:.3f}", m.time) : "-", m.applies ? "yes" : "no", m.note);
+  fmt::print("  those that apply: {:.1f} to {:.1f} N, spread {:.0f} %\n", s.lowest, s.highest,
+             100 * s.spread);
+}
+
+void print_result(const LoadResult& r, const fs::path& folder) {
+  fmt::print("{}\n  payload {:.4g} kg, parachute {:.3g} kg, S0 {:.4g} m2\n", r.title, r.payload_mass,
+             r.parachute_mass, r.reference_area);
+  fmt::print(
+      "  C_D {:.3f}: {}\n  C_x {:.2f}: {}\n  filling over {:.3g} D0, (t/t_f)^{:g}, Ludtke's ^{:g}: {}\n",
+      r.drag_coefficient, r.drag_source, r.opening_coefficient, r.opening_source, r.filling_constant,
+      r.filling_exponent, r.ludtke_exponent, r.filling_source);
+  for (const StageLoads& stage : r.stages) print_stage(stage);
+  fmt::print("\nhighest load on the way {:.1f} N after {:.3f} s\n", r.peak_load, r.peak_time);
+  if (r.snatch)
+    fmt::print(
+        "snatch {:.1f} N ({:.3g} m/s apart), {:.1f} N a line{}\n", r.snatch->load, r.snatch->speed_difference,
+        r.snatch->line_load,
+        r.snatch->line_margin ? fmt::format(", break load over that {:.2f}", *r.snatch->line_margin) : "");
+  if (r.steady_reached)
+    fmt::print("steady descent at {:.3g} m/s after {:.2f} s and {:.3g} m\n", r.steady_speed, r.steady_time,
+               r.steady_drop);
+  else
+    fmt::print("NOT in steady descent on the ground: {:.3g} m/s after {:.2f} s\n", r.steady_speed,
+               r.steady_time);
+  fmt::print("{} (force.png, speed.png, trajectory.csv, result.json)\n", folder.string());
+}
+
+int load(Options& options) {
+  const Case given = read_case(options.case_file, options.overrides);
+  LoadRequest& request = options.request;
+  if (!options.mass && !given.payload.mass_kg)
+    throw Error(ExitCode::usage, "give the payload's mass: --mass KG, or [payload] mass_kg in the case");
+  request.payload_mass = options.mass ? *options.mass : *given.payload.mass_kg;
+  request.height = options.height ? *options.height : given.flow.height_m.value_or(request.height);
+  for (const std::string& text : options.reefing) request.reefing.push_back(parse_stage(text));
+  const LoadResult result = run_load(given, request);
+  write_load(options.out, result);
+  if (options.json)
+    fmt::print("{}", to_json(result));
+  else
+    print_result(result, options.out);
+  return 0;
+}
+
+void add_coefficients(CLI::App& command, LoadRequest& r) {
+  command.add_option("--drag-coefficient", r.drag_coefficient,
+                     "C_D on S0 (default: of --steady, else Knacke's)");
+  command.add_option("--opening-coefficient", r.opening_coefficient, "C_x (default: the family's)");
+  command.add_option("--filling-constant", r.filling_constant, "n of t_f = n D0 / v (default: the family's)");
+  command.add_option("--filling-exponent", r.filling_exponent,
+                     "Of the drag area over time (default: the family's)");
+  command.add_option("--impulse-integral", r.impulse_integral,
+                     "Mean over peak of the force while it fills, for momentum-impulse (default: 0.5)");
+  command.add_option("--steady", r.steady, "Run of ripstop steady that gives the drag area")
+      ->check(CLI::ExistingDirectory);
+  command.add_option("--opening", r.opening, "Run of ripstop inflate that gives the drag area over the way")
+      ->check(CLI::ExistingDirectory);
+  command.add_option("--snatch-speed", r.snatch_speed, "Speed difference when the lines come taut [m/s]");
+  command.add_option("--packed-area", r.packed_drag_area,
+                     "Or the drag area of the packed canopy with its pilot, to find it [m2]");
+  command.add_option("--payload-area", r.payload_drag_area, "And that of the payload [m2] (default: 0)");
+}
+
+}  // namespace
+
+void add_load(CLI::App& app, int& status) {
+  auto options = std::make_shared<Options>();
+  options->request.height = 1000;
+  CLI::App* command =
+      app.add_subcommand("load", "Opening and snatch loads behind a given mass, method by method");
+  command->footer(
+      "Example: ripstop load examples/flat-circular/case.toml --mass 2.4 --speed 25 --height 300 --reef "
+      "0.1:2");
+  command->add_option("case", options->case_file, "Case file (TOML)")->required();
+  command->add_option("--mass", options->mass, "Of the payload [kg] (default: payload.mass_kg of the case)");
+  command->add_option("--speed", options->request.speed, "Through the air when the lines come taut [m/s]")
+      ->required();
+  command->add_option("--height", options->height, "Above sea level [m] (default: flow.height_m, else 1000)");
+  command->add_option("--ground", options->request.ground, "Height of the ground [m] (default: 0)");
+  command->add_option("--angle", options->request.path_angle,
+                      "Of the way below the horizon [deg] (default: 90)");
+  command->add_option("--reef", options->reefing, "A reefed stage SHARE:SECONDS; repeatable, in order")
+      ->expected(1)
+      ->take_all();
+  add_coefficients(*command, options->request);
+  add_set_option(*command, options->overrides);
+  command->add_option("--out", options->out, "Folder (default: runs/load)");
+  add_json_option(*command, options->json);
+  command->callback([options, &status] { status = load(*options); });
+}
+
+}  // namespace ripstop

@@ -1,0 +1,13 @@
+// What a result says of its payload and its margins, as lines of its summary.
+#pragma once
+
+#include <optional>
+
+#include "ripstop/run/steady.h"
+
+namespace ripstop {
+
+void print_payload(const SteadyResult& result);
+void print_margins(const std::optional<Margins>& margins);
+
+}  // namespace ripstop

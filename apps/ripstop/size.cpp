@@ -1,0 +1,114 @@
+// ripstop size: which parachute lets a payload down at a wanted rate, as a case file.
+
+#include "ripstop/run/size.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+
+#include "commands.h"
+#include "json_option.h"
+#include "ripstop/core/error.h"
+#include "ripstop/core/file.h"
+#include "ripstop/run/steady_folder.h"
+
+namespace ripstop {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  SizeRequest request;
+  fs::path out = "my-canopy.toml";
+  bool verify = false, json = false;
+};
+
+void print_result(const SizeResult& r, const fs::path& file) {
+  const auto row = [](const char* name, const std::string& text) { fmt::print("  {:<20} {}\n", name, text); };
+  fmt::print("{}\n", r.given.title);
+  row("air", fmt::format("{:.4g} kg/m3", r.density));
+  row("drag coefficient",
+      fmt::format("{:.3f}, {}{}", r.drag_coefficient, r.drag_source,
+                  r.handbook_drag_coefficient
+                      ? fmt::format("; Knacke {:.2f} to {:.2f}", r.handbook_drag_coefficient->at(0),
+                                    r.handbook_drag_coefficient->at(1))
+                      : ""));
+  row("nominal diameter",
+      fmt::format("{:.3f} m{}, S0 {:.4g} m2", r.nominal_diameter,
+                  r.handbook_diameter ? fmt::format(" ({:.2f} to {:.2f} by the handbook)",
+                                                    r.handbook_diameter->at(1), r.handbook_diameter->at(0))
+                                      : "",
+                  r.nominal_area));
+  row("vent", fmt::format("{:.4f} m2, {:.2f} %", r.vent_area, 100 * r.vent_area / r.nominal_area));
+  row("gores, lines", fmt::format("{} gores, {} lines of {:.3f} m, {}", r.gores, r.line_count, r.line_length,
+                                  r.line_material));
+  row("mass", fmt::format("{:.3g} kg: cloth {:.3g}, tape {:.3g}, lines {:.3g}", r.parachute_mass,
+                          r.cloth_mass, r.tape_mass, r.line_mass));
+  row("packed volume", fmt::format("{:.3g} litres", 1000 * r.packed_volume));
+  row("opening load",
+      fmt::format("{:.0f} to {:.0f} N at {:.3g} m/s; a line then uses {:.0f} % of what is left of its "
+                  "strength",
+                  r.opening_load_low, r.opening_load, r.deployment_speed, 100 * r.line_used));
+  for (const SizeCheck& c : r.checks)
+    row("run", fmt::format("{:.3f} m comes down at {:.3f} m/s, C_D {:.3f}", c.nominal_diameter,
+                           c.descent_rate, c.drag_coefficient));
+  row("case", file.string());
+}
+
+/// Every run of --verify has its folder beside the case file.
+SteadyResult fly(const Options& options, const Case& given, int run) {
+  fs::path folder = options.out;
+  folder.replace_extension();
+  folder += fmt::format("-verify-{}", run);
+  fmt::print(stderr, "run {} in {}\n", run, folder.string());
+  SteadyObserver nobody;
+  return run_steady_in({{folder, false}, 0, {}, {}}, given, nobody).result;
+}
+
+int size(const Options& options) {
+  SizeResult result = run_size(options.request);
+  if (options.verify)
+    verify_size(options.request, result,
+                [&](const Case& given, int run) { return fly(options, given, run); });
+  if (options.out.has_parent_path()) make_folder(options.out.parent_path());
+  write_file(options.out, result.case_text);
+  if (options.json)
+    fmt::print("{}", to_json(result));
+  else
+    print_result(result, options.out);
+  for (const std::string& warning : result.warnings) fmt::print(stderr, "ripstop: {}\n", warning);
+  return 0;
+}
+
+}  // namespace
+
+void add_size(CLI::App& app, int& status) {
+  auto options = std::make_shared<Options>();
+  SizeRequest& r = options->request;
+  CLI::App* command =
+      app.add_subcommand("size", "The parachute for a payload and a descent rate, as a case file");
+  command->footer(
+      "The drag coefficient is the one that Ripstop has computed for the family (examples/families.json).\n"
+      "Example: ripstop size --mass 2.4 --descent-rate 5 --family flat-circular --height 300 --out my.toml");
+  command->add_option("--mass", r.payload_mass, "Of the payload, without the parachute [kg]")->required();
+  command->add_option("--descent-rate", r.descent_rate, "Wanted [m/s]")->required();
+  command->add_option("--family", r.family, "A folder of examples/ (default: flat-circular)");
+  auto* height =
+      command->add_option("--height", r.height, "Above sea level, where the rate is wanted [m] (default: 0)");
+  command->add_option("--density", r.density, "Of the air, in place of the height [kg/m3]")->excludes(height);
+  command->add_option("--drag-coefficient", r.drag_coefficient, "On S0 (default: computed for the family)");
+  command->add_option("--deployment-speed", r.deployment_speed,
+                      "For the opening load [m/s] (default: 20, at least 3 descent rates)");
+  command->add_option("--line-material", r.line_material,
+                      "Of the library (default: the lightest that holds)");
+  command->add_option("--packing-density", r.packing_density, "[kg/m3] (default: 400, by hand)");
+  command->add_flag("--verify", options->verify,
+                    "Run the case and change the diameter until the rate holds within 1 %");
+  command->add_option("--out", options->out, "Case file (default: my-canopy.toml)");
+  add_json_option(*command, options->json);
+  command->callback([options, &status] { status = size(*options); });
+}
+
+}  // namespace ripstop

@@ -1,0 +1,58 @@
+#include "ripstop/canopy/margins.h"
+
+#include <gtest/gtest.h>
+
+namespace ripstop {
+namespace {
+
+struct Materials {
+  Fabric cloth;
+  Tape tape;
+  Line line, riser;
+  Materials() {
+    cloth.break_load_n_m = 8000;
+    tape.coefficients_n_m = {3000, 60000};
+    tape.width_m = 0.02;
+    tape.tested_strain = 0.2;
+    line.break_load_n = 1800;
+    riser.coefficients_n = {200000, 500000};
+    riser.tested_strain = 0.04;
+  }
+};
+const MarginFactors none{1, 1, 1, 1, 1, 1, 1};
+
+TEST(Margins, WithoutFactorsAreBreakLoadOverLoad) {
+  const Materials m;
+  const Margins margins = margins_of({2000, 20, {300, 600}, 900}, none, m.cloth, m.tape, m.line, m.riser);
+  ASSERT_EQ(margins.members.size(), 5u);
+  EXPECT_DOUBLE_EQ(*margins.members[0].used, 0.25);
+  EXPECT_NEAR(*margins.members[1].strength, 0.02 * (3000 * 0.2 + 60000 * 0.04), 1e-9);
+  EXPECT_EQ(margins.members[1].strength_from, "load at the tested strain");
+  EXPECT_DOUBLE_EQ(*margins.members[3].margin, 2);
+  EXPECT_NEAR(*margins.members[4].strength, 200000 * 0.04 + 500000 * 0.0016, 1e-9);
+  EXPECT_EQ(margins.weakest, "tape");
+}
+
+TEST(Margins, EveryFactorWeakensItsOwnMembers) {
+  const Materials m;
+  const MarginFactors f{2, 0.5, 0.8, 0.9, 0.95, 1, 1};
+  const Margins margins = margins_of({2000, 20, {300, 600}, 900}, f, m.cloth, m.tape, m.line, m.riser);
+  EXPECT_DOUBLE_EQ(margins.members[0].knock_down, 0.5 * 0.9 * 0.95);
+  EXPECT_DOUBLE_EQ(*margins.members[0].used, 2 * 2000 / (8000 * 0.5 * 0.9 * 0.95));
+  EXPECT_DOUBLE_EQ(margins.members[2].knock_down, 0.8 * 0.9 * 0.95);
+}
+
+TEST(Margins, OfUnknownStrengthAreToldAndNeverTheWeakest) {
+  Materials m;
+  m.line.break_load_n = 0;
+  const Margins margins = margins_of({1, 0, {5000}, 0}, none, m.cloth, m.tape, m.line, m.riser);
+  ASSERT_EQ(margins.members.size(), 2u);  // no tape that pulls, no riser
+  EXPECT_FALSE(margins.members[1].used);
+  EXPECT_NE(margins.members[1].strength_from.find("not known"), std::string::npos);
+  EXPECT_EQ(margins.weakest, "cloth");
+  m.cloth.break_load_n_m = 0;
+  EXPECT_EQ(margins_of({1, 0, {5000}, 0}, none, m.cloth, m.tape, m.line, m.riser).weakest, "");
+}
+
+}  // namespace
+}  // namespace ripstop

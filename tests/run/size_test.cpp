@@ -1,0 +1,119 @@
+#include "ripstop/run/size.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <regex>
+
+#include "ripstop/case/payload.h"
+#include "ripstop/case/resolve.h"
+#include "ripstop/core/error.h"
+#include "ripstop/core/file.h"
+#include "ripstop/flight/atmosphere.h"
+
+namespace ripstop {
+namespace {
+
+SizeRequest request(const std::string& family = "flat-circular") {
+  SizeRequest r;
+  r.payload_mass = 2.4, r.descent_rate = 5, r.family = family, r.height = 300;
+  return r;
+}
+
+std::string refused(const SizeRequest& asked) {
+  try {
+    run_size(asked);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::usage);
+    return error.what();
+  }
+  ADD_FAILURE() << "accepted";
+  return "";
+}
+
+// Row by row: no number of the data is anything but the table's.
+TEST(Size, ItsDragIsThatOfTheTableOfFamilies) {
+  std::istringstream table(read_file(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "docs/tables/families.md"));
+  std::map<std::string, double> printed;
+  const std::regex row(R"(\| ([a-z-]+) \| ([0-9.]+) \|.*)");
+  for (std::string line; std::getline(table, line);)
+    if (std::smatch found; std::regex_match(line, found, row)) printed[found[1]] = std::stod(found[2]);
+  const std::vector<FamilyDrag> all = family_drags();
+  EXPECT_EQ(all.size(), printed.size());
+  EXPECT_GE(all.size(), 8u);
+  for (const FamilyDrag& drag : all) EXPECT_EQ(drag.drag_coefficient, printed.at(drag.family)) << drag.family;
+}
+
+TEST(Size, OfEveryFamilyHoldsPayloadAndParachuteAtTheRate) {
+  for (const FamilyDrag& drag : family_drags()) {
+    const SizeResult r = run_size(request(drag.family));
+    const double weight = (2.4 + r.parachute_mass) * standard_gravity;
+    const double force = 0.5 * standard_air(300).density * 25 * r.drag_coefficient * r.nominal_area;
+    EXPECT_NEAR(force / weight, 1, 2e-3) << drag.family;
+    EXPECT_NEAR(r.cloth_mass + r.tape_mass + r.line_mass, r.parachute_mass, 0.02 * r.parachute_mass)
+        << drag.family;
+    EXPECT_GT(r.packed_volume, 0);
+    EXPECT_GT(r.opening_load, 24) << drag.family;
+    EXPECT_GT(r.line_used, 0);
+    EXPECT_LE(r.line_used, 1);
+  }
+}
+
+TEST(Size, ItsCaseFileIsACaseOfThatParachute) {
+  for (const FamilyDrag& drag : family_drags()) {
+    const SizeResult r = run_size(request(drag.family));
+    const Case given = parse_case(r.case_text, "sized.toml");
+    EXPECT_NEAR(nominal_area(given.parachute) / r.nominal_area, 1, 1e-9) << drag.family;
+    EXPECT_EQ(given.payload.mass_kg, 2.4);
+    EXPECT_EQ(given.flow.height_m, 300);
+    EXPECT_NEAR(parachute_mass(given), r.parachute_mass, 1e-9) << drag.family;
+    EXPECT_NE(r.case_text.find("# "), std::string::npos);
+  }
+}
+
+// A flow whose drag coefficient is 10 % off the table's: the next diameter makes up for it.
+TEST(Size, VerifyChangesTheDiameterUntilTheRateHolds) {
+  const SizeRequest asked = request();
+  SizeResult r = run_size(asked);
+  const double before = r.nominal_diameter, coefficient = 0.9 * r.drag_coefficient;
+  int runs = 0;
+  const auto fly = [&](const Case& given, int) {
+    ++runs;
+    SteadyResult flown;
+    flown.converged = true;
+    flown.drag_coefficient = coefficient;
+    flown.speed = std::sqrt(2 * suspended_weight(given, *given.payload.mass_kg) /
+                            (air(given).density * coefficient * nominal_area(given.parachute)));
+    return flown;
+  };
+  verify_size(asked, r, fly);
+  EXPECT_EQ(runs, 2);
+  EXPECT_NEAR(r.nominal_diameter / before, std::sqrt(1 / 0.9), 0.01);
+  EXPECT_NEAR(r.checks.back().descent_rate, 5, 0.05);
+  const auto stuck = [&](const Case&, int) { return SteadyResult(); };
+  EXPECT_THROW(verify_size(asked, r, stuck), Error);
+}
+
+TEST(Size, WhatCannotBeIsRefused) {
+  SizeRequest asked = request("flat-circula");
+  EXPECT_NE(refused(asked).find("did you mean flat-circular?"), std::string::npos);
+  asked = request();
+  asked.payload_mass = -2.4;
+  EXPECT_NE(refused(asked).find("payload mass (kg) of -2.4"), std::string::npos);
+  asked = request();
+  asked.descent_rate = 0;
+  EXPECT_NE(refused(asked).find("descent rate"), std::string::npos);
+  asked = request();
+  asked.deployment_speed = 4;
+  EXPECT_NE(refused(asked).find("not below the deployment speed"), std::string::npos);
+  asked = request();
+  asked.line_material = "string";
+  EXPECT_NE(refused(asked).find("no such line"), std::string::npos);
+  asked = request();
+  asked.height = 90000;
+  EXPECT_NE(refused(asked).find("standard atmosphere"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace ripstop
