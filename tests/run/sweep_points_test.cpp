@@ -27,12 +27,14 @@ TEST(SweepPoints, AreEveryCombinationEachOneStepFromItsNeighbour) {
       continue;
     }
     const SweepPoint& neighbour = points[point.start];
-    const double step = std::abs(point.given.flow.speed_m_s - neighbour.given.flow.speed_m_s) / 5 +
-                        std::abs(canopy_fabric(point.given).resistance.linear -
-                                 canopy_fabric(neighbour.given).resistance.linear) /
-                            10;
+    const double step =
+        std::abs(point.given.flow.speed_m_s.value() - neighbour.given.flow.speed_m_s.value()) / 5 +
+        std::abs(canopy_fabric(point.given).resistance.linear -
+                 canopy_fabric(neighbour.given).resistance.linear) /
+            10;
     EXPECT_DOUBLE_EQ(step, 1) << point.folder;
-    EXPECT_LE(std::abs(neighbour.given.flow.speed_m_s - 20), std::abs(point.given.flow.speed_m_s - 20));
+    EXPECT_LE(std::abs(neighbour.given.flow.speed_m_s.value() - 20),
+              std::abs(point.given.flow.speed_m_s.value() - 20));
   }
   EXPECT_EQ(cold, 1);
   EXPECT_EQ(folders.size(), 10u);
