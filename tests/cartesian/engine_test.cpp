@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstring>
@@ -54,7 +55,8 @@ TEST(CartesianEngine, TheAnswerIsTheSameBitForBitOnOneTwoAndFourThreads) {
 }
 
 struct Folder {
-  std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "cartesian state";
+  std::filesystem::path path =
+      std::filesystem::path(testing::TempDir()) / ("cartesian state " + std::to_string(getpid()));
   ~Folder() { std::filesystem::remove_all(path); }
 };
 
