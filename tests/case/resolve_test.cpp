@@ -340,6 +340,9 @@ TEST(Resolved, AnUnsteadyFlowWantsAnEngineThatHasTimeAndAWatchThatCanBe) {
                                     "box_m = [8, 8, 10]\nengine = \"openfoam\"\nunsteady = true\n");
   ASSERT_EQ(engine.problems.size(), 1u) << engine.message;
   EXPECT_EQ(engine.problems[0].key, "flow.unsteady");
+  const Outcome payload = outcome_of(short_case + "unsteady = true\n[payload]\nmass_kg = 2\n");
+  ASSERT_EQ(payload.problems.size(), 1u) << payload.message;
+  EXPECT_EQ(payload.problems[0].key, "flow.unsteady");
   const Outcome watch = outcome_of(short_case + "[flow.watch]\nshortest = 60\nlongest = 100\n");
   ASSERT_EQ(watch.problems.size(), 1u) << watch.message;
   EXPECT_EQ(watch.problems[0].key, "flow.watch.longest");

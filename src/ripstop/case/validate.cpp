@@ -278,7 +278,12 @@ void check_load(const Resolved& resolved, Findings& findings) {
                  "what the air loses on every piece of cloth is known of a sheet only (flow.porosity_model)");
 }
 
-void check_watch(const FlowSettings& flow, Findings& findings) {
+void check_watch(const Case& given, const FlowSettings& flow, Findings& findings) {
+  if (flow.unsteady && given.payload.mass_kg)
+    findings.add(
+        "flow.unsteady", "true", "false",
+        "the speed at which drag is weight (payload.mass_kg) is sought with a flow at rest; a mean over time "
+        "is known less well than that asks: take the speed that was found into a case of its own");
   const WatchKeys& watch = flow.watch;
   if (findings.sound({"flow.watch"}) && watch.longest < 2 * watch.shortest)
     findings.add(
@@ -316,7 +321,7 @@ void check_settings(Case given, Findings& findings) {
     if (findings.sound({"flow.cells"})) check_cells(given, flow, findings);
   }
   check_average(flow, findings);
-  check_watch(flow, findings);
+  check_watch(given, flow, findings);
   check_engine(given, flow, findings);
   check_load(resolved, findings);
 }
