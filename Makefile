@@ -56,15 +56,17 @@ sanitize: check-deps  ## The tests that need no OpenFOAM, under the address and 
 	@cmake --build --preset sanitize -j $(JOBS)
 	@ctest --preset sanitize
 
-bench: check-deps  ## Benchmarks, more than an hour; their figures stand in docs/tables
+bench: check-deps  ## Benchmarks, some three hours; their figures stand in docs/tables
 	@cmake --preset release > /dev/null
 	@cmake --build --preset release -j $(JOBS)
 	@build-check/bench/bench_bodies sides | tee docs/tables/sides.md
 	@build-check/bench/bench_bodies 32 | tee docs/tables/bodies.md
+	@build-check/bench/bench_bodies in-time 16 | tee docs/tables/bodies-in-time.md
 	@build-check/bench/bench_sheet 40 4 | tee docs/tables/sheet-shifts.md
 	@build-check/bench/bench_cloth
 	@build-check/bench/bench_inflation
 	@build-check/bench/bench_flow --openfoam --large
+	@build-check/bench/bench_flow --in-time
 
 VALIDATE := build/bin/ripstop steady examples/stratos-iv/case.toml
 
