@@ -2,7 +2,8 @@
 //
 // --openfoam also times rhoPorousSimpleFoam and porousSimpleFoam with two ranks on the printed grid (some
 // twenty minutes on two free cores), each against the built-in engine with the same density, in the same run;
-// --large adds the grid of 12 million cells; --in-time counts steps in time instead, beside a sheet on graded cells. Figures of one run may be compared with each other.
+// --large adds the grid of 12 million cells; --in-time counts steps in time instead, beside a sheet on graded
+// cells. Figures of one run may be compared with each other.
 #include <fmt/format.h>
 #include <sys/resource.h>
 

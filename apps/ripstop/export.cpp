@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "commands.h"
+#include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 
 namespace ripstop {
@@ -20,9 +21,13 @@ struct Options {
   std::string format, trigger = "apogee";
   fs::path run, out;
   std::optional<double> deployment_speed;
+  bool force = false;
 };
 
 int export_run(const Options& options) {
+  if (!options.out.empty() && fs::exists(options.out) && !options.force)
+    throw Error(ExitCode::usage,
+                fmt::format("{} exists; choose another --out, or --force", options.out.string()));
   const ExportedParachute p = exported(finished_steady(options.run), options.deployment_speed);
   const std::string text = options.format == "rocketpy"     ? rocketpy_text(p, options.trigger)
                            : options.format == "openrocket" ? openrocket_text(p)
@@ -52,6 +57,7 @@ void add_export(CLI::App& app, int& status) {
   command->add_option("--deployment-speed", options->deployment_speed,
                       "For the filling time, the lag [m/s] (default: the run's)");
   command->add_option("--out", options->out, "File (default: standard output)");
+  command->add_flag("--force", options->force, "Replace an existing file");
   command->callback([options, &status] { status = export_run(*options); });
 }
 

@@ -20,7 +20,7 @@ struct Options {
   fs::path case_file;
   fs::path out = "pattern";
   Allowances allowances;
-  double packing_density = 400;
+  double packing_density = packed_by_hand;
   bool json = false;
 };
 

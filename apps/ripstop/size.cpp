@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 struct Options {
   SizeRequest request;
   fs::path out = "my-canopy.toml";
-  bool verify = false, json = false;
+  bool verify = false, json = false, force = false;
 };
 
 void print_result(const SizeResult& r, const fs::path& file) {
@@ -68,6 +68,9 @@ SteadyResult fly(const Options& options, const Case& given, int run) {
 }
 
 int size(const Options& options) {
+  if (fs::exists(options.out) && !options.force)
+    throw Error(ExitCode::usage,
+                fmt::format("{} exists; choose another --out, or --force", options.out.string()));
   SizeResult result = run_size(options.request);
   if (options.verify)
     verify_size(options.request, result,
@@ -107,6 +110,7 @@ void add_size(CLI::App& app, int& status) {
   command->add_flag("--verify", options->verify,
                     "Run the case and change the diameter until the rate holds within 1 %");
   command->add_option("--out", options->out, "Case file (default: my-canopy.toml)");
+  command->add_flag("--force", options->force, "Replace an existing case file");
   add_json_option(*command, options->json);
   command->callback([options, &status] { status = size(*options); });
 }

@@ -32,6 +32,18 @@ TEST_F(FlightCommands, SizeWritesACaseThatChecks) {
   EXPECT_TRUE(fs::exists(folder_.path / "load" / "force.png"));
 }
 
+TEST_F(FlightCommands, AFileThatIsThereStaysUnlessForced) {
+  write_file(in("my.toml"), "mine");
+  const std::vector<std::string> size = {"size", "--mass", "2.4",        "--descent-rate",
+                                         "5",    "--out",  in("my.toml")};
+  EXPECT_EQ(run(size), 2);
+  EXPECT_EQ(read_file(in("my.toml")), "mine");
+  std::vector<std::string> forced = size;
+  forced.push_back("--force");
+  EXPECT_EQ(run(forced), 0);
+  EXPECT_NE(read_file(in("my.toml")), "mine");
+}
+
 TEST_F(FlightCommands, BadInputIsRefusedAsUsage) {
   EXPECT_EQ(run({"size", "--mass", "-2.4", "--descent-rate", "5", "--out", in("my.toml")}), 2);
   EXPECT_EQ(run({"size", "--mass", "2.4", "--descent-rate", "50", "--deployment-speed", "20", "--out",

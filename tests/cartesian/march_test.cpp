@@ -63,7 +63,7 @@ TEST_P(Ledger, ClosesInEveryStep) {
   const double largest = 0.5 * 1.2 * 100 * pi / 4;  // q times the disk's area [N]
   int steps = 0;
   flow->march(60, 0.7, [&](const FlowStep& step) {
-    EXPECT_NEAR(step.momentum_gap, 0, 1e-3 * largest) << "step " << step.step;
+    EXPECT_NEAR(step.momentum_gap, 0, 1e-8 * largest) << "step " << step.step;
     EXPECT_LE(step.courant, 0.7 * 1.05) << "step " << step.step;
     if (step.step > 5) {
       EXPECT_LT(step.mass_defect, 1e-3) << "step " << step.step;

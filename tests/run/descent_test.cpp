@@ -57,6 +57,16 @@ TEST_F(DescentOfARun, ItsUncertaintyIsTheRunsOwn) {
   EXPECT_NEAR(d.rows[0].speed_uncertainty / d.rows[0].speed, 0.5 * finished.drag_uncertainty, 1e-12);
 }
 
+// A wake that swings by a tenth about a mean that is known to a thousandth.
+TEST(DragUncertainty, OfAMeanOverTimeIsItsStandardErrorAndNotItsSwing) {
+  SteadyIteration last;
+  last.fluid_force = last.nodal_load = last.momentum_deficit = 100;
+  last.drag_deviation = 10, last.drag_error = 0.1;
+  EXPECT_NEAR(drag_uncertainty(last), 0.1, 1e-12);
+  last.in_time = true;
+  EXPECT_NEAR(drag_uncertainty(last), 1e-3, 1e-12);
+}
+
 TEST_F(DescentOfARun, AFlightFarFromTheRunsIsWarnedOf) {
   const FinishedSteady finished = finished_steady(run());
   const double q = 0.5 * finished.result.density * finished.result.speed * finished.result.speed;

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "ripstop/material/spring_law.h"
+
 namespace ripstop {
 namespace {
 
@@ -10,16 +12,11 @@ struct Strength {
   std::string from;
 };
 
-double curve(const std::vector<double>& coefficients, double strain) {
-  double sum = 0;
-  for (std::size_t k = coefficients.size(); k-- > 0;) sum = (sum + coefficients[k]) * strain;
-  return sum;
-}
-
 Strength strength_of(double break_load, const std::vector<double>& coefficients, double width,
                      double tested_strain) {
   if (break_load > 0) return {break_load, "break load"};
-  if (tested_strain > 0) return {width * curve(coefficients, tested_strain), "load at the tested strain"};
+  if (tested_strain > 0)
+    return {width * SpringLaw{coefficients}.tension(tested_strain), "load at the tested strain"};
   return {std::nullopt, "not known: the material has neither break load nor tested strain"};
 }
 

@@ -212,8 +212,8 @@ std::optional<Jet> jet_of(const TunnelSettings& tunnel) {
 // An arm or gore lies flat in the start shape and has to fit into the core too.
 double inflated_diameter(const Design& parachute) {
   constexpr double inflated_over_nominal = 0.7;
-  const double nominal = std::sqrt(4 / std::numbers::pi * nominal_area(parachute));
-  return std::max(inflated_over_nominal * nominal, start_diameter(parachute) / sheet_core.x);
+  return std::max(inflated_over_nominal * nominal_diameter(parachute),
+                  start_diameter(parachute) / sheet_core.x);
 }
 
 Resolved resolve(const Case& given) {

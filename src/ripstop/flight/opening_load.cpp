@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "ripstop/core/error.h"
+#include "ripstop/core/positive.h"
 #include "ripstop/flight/atmosphere.h"
 
 namespace ripstop {
@@ -20,9 +21,7 @@ void check_conditions(const OpeningConditions& c) {
                                                 {"filling time (s)", c.filling_time},
                                                 {"exponent of the drag area", c.exponent},
                                                 {"opening coefficient C_x", c.opening_coefficient}};
-  for (const auto& [name, value] : all)
-    if (!(value > 0) || !std::isfinite(value))
-      throw Error(ExitCode::usage, fmt::format("an opening with a {} of {:g}: must be above 0", name, value));
+  for (const auto& [name, value] : all) require_positive(name, value);
   if (!(std::abs(c.path_angle) <= 90))
     throw Error(ExitCode::usage,
                 fmt::format("an opening on a way {:g} degrees below the horizon: must be from "

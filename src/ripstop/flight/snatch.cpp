@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "ripstop/core/error.h"
+#include "ripstop/core/positive.h"
 
 namespace ripstop {
 namespace {
@@ -89,8 +90,7 @@ class Row {
 };
 
 void check(double value, const std::string& what) {
-  if (!(value > 0) || !std::isfinite(value))
-    throw Error(ExitCode::usage, fmt::format("a snatch with a {} of {:g}: must be above 0", what, value));
+  require_positive("snatch with a " + what, value);
 }
 
 }  // namespace

@@ -1,13 +1,13 @@
 #include "ripstop/flight/trajectory.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <utility>
 
 #include "ripstop/core/error.h"
+#include "ripstop/core/positive.h"
 #include "ripstop/flight/atmosphere.h"
 
 namespace ripstop {
@@ -70,9 +70,7 @@ std::vector<FlightRow> fly(FlightState& state, double mass, const Leg& leg) {
                                                 {"speed (m/s)", state.speed},
                                                 {"step (s)", leg.step},
                                                 {"duration (s)", leg.duration}};
-  for (const auto& [name, value] : all)
-    if (!(value > 0) || !std::isfinite(value))
-      throw Error(ExitCode::usage, fmt::format("a flight with a {} of {:g}: must be above 0", name, value));
+  for (const auto& [name, value] : all) require_positive(std::string("flight with a ") + name, value);
   const Flight flight(state, mass, leg);
   const double begin = state.time, angle = state.path_angle * degree;
   Motion m{state.range, state.height, state.distance, state.speed * std::cos(angle),

@@ -26,26 +26,27 @@ void pull(FlowField& mean, const FlowField& field, double share) {
 }  // namespace
 
 void FieldMean::add(const FlowField& field) {
-  FieldMean one;
-  one.mean_ = field;
   const double drag = field.porous_force.z;
-  one.mean_.average = {1, drag, 0, drag, drag};
-  add(one);
+  take(field, {1, drag, 0, drag, drag}, 0);
+}
+
+void FieldMean::add(const FieldMean& other) {
+  if (other.count() > 0) take(other.mean_, other.mean_.average, other.squares_);
 }
 
 // Mean and squares of two sets together (Chan, Golub and LeVeque 1983).
-void FieldMean::add(const FieldMean& other) {
-  if (other.count() == 0) return;
+void FieldMean::take(const FlowField& field, const FlowAverage& more, double squares) {
   if (count() == 0) {
-    *this = other;
+    mean_ = field;
+    mean_.average = more;
+    squares_ = squares;
     return;
   }
   FlowAverage& average = mean_.average;
-  const FlowAverage& more = other.mean_.average;
-  const double both = average.iterations + more.iterations, share = more.iterations / both;
-  pull(mean_, other.mean_, share);
+  const double share = double(more.iterations) / (average.iterations + more.iterations);
+  pull(mean_, field, share);
   const double apart = more.drag - average.drag;
-  squares_ += other.squares_ + apart * apart * average.iterations * share;
+  squares_ += squares + apart * apart * average.iterations * share;
   average.iterations += more.iterations;
   average.drag += share * apart;
   average.drag_low = std::min(average.drag_low, more.drag_low);

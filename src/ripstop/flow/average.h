@@ -16,6 +16,9 @@ class FieldMean {
   FlowField mean() const;
 
  private:
+  /// `more` and `squares` are of the fields that `field` is the mean of.
+  void take(const FlowField& field, const FlowAverage& more, double squares);
+
   FlowField mean_;
   double squares_ = 0;  // sum of squared distances of the drag from its mean [N2]
 };

@@ -139,7 +139,7 @@ struct FlowStep {
   double courant = 0;  // largest Courant number of a cell, summed over the axes
   Vec3 force;          // by the fluid on the porous cells and sheets [N]
   double momentum_gap =
-      0;  // force, change of the box's momentum and what its faces pass, along z, added up [N]
+      0;  // force, change of the box's momentum and what its faces pass, along z, added up, forces on the air left out [N]
   double mass_defect = 0;  // mass that cells gain or lose, over what the stream brings into the box
 };
 /// Return false to stop.

@@ -10,6 +10,7 @@
 
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
+#include "ripstop/core/markup.h"
 
 namespace ripstop {
 namespace {
@@ -18,29 +19,6 @@ static_assert(std::endian::native == std::endian::little, "the raw data are decl
 
 [[noreturn]] void reject(const std::filesystem::path& path, const std::string& reason) {
   throw Error(ExitCode::bad_data, fmt::format("{} was not written: {}", path.string(), reason));
-}
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
 }
 
 template <class T>
@@ -85,7 +63,7 @@ template <class T>
 void add_array(Document& document, const std::string& name, int components, const std::vector<T>& values) {
   document.head += fmt::format(
       "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n",
-      type_name<T>(), escaped(name), components, document.appended.size());
+      type_name<T>(), escaped_markup(name), components, document.appended.size());
   append_compressed(document.appended, reinterpret_cast<const char*>(values.data()),
                     values.size() * sizeof(T));
 }
@@ -241,7 +219,7 @@ void write_pvd(const std::filesystem::path& path, const std::vector<VtkSeriesFil
     std::error_code ignored;
     if (!std::filesystem::exists(path.parent_path() / entry.file, ignored)) continue;
     text += fmt::format("<DataSet timestep=\"{}\" file=\"{}\"/>\n", entry.time,
-                        escaped(entry.file.generic_string()));
+                        escaped_markup(entry.file.generic_string()));
   }
   write_file(path, text + "</Collection>\n</VTKFile>\n");
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "ripstop/core/error.h"
@@ -220,6 +221,10 @@ double computed_area(const Design& design) {
 
 double nominal_area(const Design& design) {
   return design.nominal_area_m2.value_or(facts(design).nominal_area);
+}
+
+double nominal_diameter(const Design& design) {
+  return std::sqrt(4 / std::numbers::pi * nominal_area(design));
 }
 
 double line_length_on_disk(const Design& design) {

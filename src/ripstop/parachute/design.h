@@ -85,6 +85,8 @@ Experience experience(const Design& design);
 double computed_area(const Design& design);
 /// Reference area S0 of the coefficients: as given, else by the type's definition [m2].
 double nominal_area(const Design& design);
+/// Of the circle with that area, D0 [m].
+double nominal_diameter(const Design& design);
 /// How far the lines run onto the canopy, as given, else up to the vent's edge [m]: from the disk's edge
 /// (disk-gap-band) or from the skirt.
 double line_length_on_disk(const Design& design);

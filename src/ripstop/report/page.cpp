@@ -6,6 +6,7 @@
 
 #include "ripstop/core/build_info.h"
 #include "ripstop/core/hash.h"
+#include "ripstop/core/markup.h"
 #include "ripstop/core/words.h"
 #include "ripstop/output/colour.h"
 #include "ripstop/report/assets.h"
@@ -147,24 +148,6 @@ Json colour_table() {
   return base64(bytes);
 }
 
-/// As text of a page: nothing in it is taken for an element.
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (char c : text) {
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else if (c == '>')
-      result += "&gt;";
-    else if (c == '"')
-      result += "&quot;";
-    else
-      result += c;
-  }
-  return result;
-}
-
 /// JSON inside a script element, which ends at the first "</script" and may be confused by "<!--": no '<' is
 /// left. Broken UTF-8 becomes U+FFFD.
 std::string embedded(const Json& data) {
@@ -200,7 +183,7 @@ std::string page_of(const Report& report, const Thinning& thinning) {
   page += fmt::format(
       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src 'nonce-{}'; "
       "style-src 'unsafe-inline'; img-src data: blob:\">\n<title>{}</title>\n",
-      nonce, escaped(report.title));
+      nonce, escaped_markup(report.title));
   for (const Asset& style : report_styles()) page += fmt::format("<style>\n{}</style>\n", style.text);
   page += fmt::format("</head>\n{}", report_skeleton());
   page += "<script type=\"application/json\" id=\"report-data\">" + text + "</script>\n";

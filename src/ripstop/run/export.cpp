@@ -8,6 +8,8 @@
 
 #include "ripstop/core/build_info.h"
 #include "ripstop/core/error.h"
+#include "ripstop/core/markup.h"
+#include "ripstop/core/positive.h"
 #include "ripstop/run/filling.h"
 #include "ripstop/run/json.h"
 #include "ripstop/run/pattern.h"
@@ -15,27 +17,9 @@
 namespace ripstop {
 namespace {
 
-constexpr double by_hand = 400;  // packing density [kg/m3]
-
 /// A string literal that Python and JSON read alike.
 std::string literal(const std::string& text) {
   return nlohmann::json(text).dump(-1, ' ', true);
-}
-
-std::string xml(const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (c == '&')
-      safe += "&amp;";
-    else if (c == '<')
-      safe += "&lt;";
-    else if (c == '>')
-      safe += "&gt;";
-    else if (byte >= 0x20)
-      safe += c;
-  }
-  return safe;
 }
 
 std::string trigger_literal(const std::string& trigger) {
@@ -59,13 +43,12 @@ std::string to_json(const ExportedParachute& parachute) {
 ExportedParachute exported(const FinishedSteady& run, std::optional<double> deployment_speed) {
   const Design& design = run.given.parachute;
   const double speed = deployment_speed.value_or(run.result.speed);
-  if (!(speed > 0) || !std::isfinite(speed))
-    throw Error(ExitCode::usage, fmt::format("a deployment speed of {:g} m/s: must be above 0", speed));
+  require_positive("deployment speed (m/s)", speed);
   ExportedParachute p;
   p.title = run.result.title, p.run = run.folder.string();
   p.drag_area = run.result.drag_area, p.drag_area_uncertainty = run.drag_uncertainty * p.drag_area;
   p.nominal_area = run.result.reference_area;
-  p.nominal_diameter = std::sqrt(4 / std::numbers::pi * p.nominal_area);
+  p.nominal_diameter = nominal_diameter(design);
   p.drag_coefficient = run.result.drag_coefficient;
   p.radius = run.result.size.projected_diameter / 2, p.height = run.result.size.length;
   p.porosity = facts(design).geometric_porosity();
@@ -76,7 +59,7 @@ ExportedParachute exported(const FinishedSteady& run, std::optional<double> depl
   p.gores = design.gores, p.line_count = design.lines.count, p.line_length = design.lines.length_m;
   p.line_material = design.lines.material, p.line_density = suspension_line(run.given).linear_density_kg_m;
   p.cloth_material = design.canopy_material, p.cloth_density = canopy_fabric(run.given).areal_density_kg_m2;
-  p.packed_volume = run_pattern(run.given, {}, by_hand).bill.packed_volume;
+  p.packed_volume = run_pattern(run.given, {}, packed_by_hand).bill.packed_volume;
   p.packed_diameter = std::cbrt(2 * p.packed_volume / std::numbers::pi);
   p.packed_length = 2 * p.packed_diameter;
   return p;
@@ -93,7 +76,7 @@ std::string rocketpy_text(const ExportedParachute& p, const std::string& trigger
       "    radius={},\n    height={},\n    porosity={},\n    drag_coefficient={},\n)\n\n\n"
       "def add_to(rocket):\n    \"\"\"Adds the parachute to a rocketpy.Rocket.\"\"\"\n"
       "    return rocket.add_parachute(**parachute)\n",
-      xml(p.title), version(), p.drag_area, p.drag_area_uncertainty, p.lag_from, literal(p.title),
+      literal(p.title), version(), p.drag_area, p.drag_area_uncertainty, p.lag_from, literal(p.title),
       p.drag_area, trigger_literal(trigger), p.lag, p.radius, p.height, p.porosity, p.drag_coefficient);
 }
 
@@ -103,7 +86,7 @@ std::string openrocket_text(const ExportedParachute& p) {
     return fmt::format(
         "        <Material UnitsOfMeasure=\"{}\">\n            <Name>{}</Name>\n            <Density>{}"
         "</Density>\n            <Type>{}</Type>\n        </Material>\n",
-        unit, xml(name), density, type);
+        unit, escaped_markup(name), density, type);
   };
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\" standalone=\"yes\"?>\n<OpenRocketComponent>\n"
@@ -119,10 +102,10 @@ std::string openrocket_text(const ExportedParachute& p) {
       "            <LineMaterial Type=\"LINE\">{}</LineMaterial>\n        </Parachute>\n    </Components>\n"
       "</OpenRocketComponent>\n",
       material(p.cloth_material, p.cloth_density, "kg/m2", "SURFACE"),
-      material(p.line_material, p.line_density, "kg/m", "LINE"), xml(p.title),
-      xml(fmt::format("{}: C_D S {:.4f} m2, by Ripstop {}", p.title, p.drag_area, version())),
-      xml(p.cloth_material), p.mass, p.nominal_diameter, p.gores, p.packed_diameter, p.packed_length,
-      p.drag_coefficient, p.line_count, p.line_length, xml(p.line_material));
+      material(p.line_material, p.line_density, "kg/m", "LINE"), escaped_markup(p.title),
+      escaped_markup(fmt::format("{}: C_D S {:.4f} m2, by Ripstop {}", p.title, p.drag_area, version())),
+      escaped_markup(p.cloth_material), p.mass, p.nominal_diameter, p.gores, p.packed_diameter,
+      p.packed_length, p.drag_coefficient, p.line_count, p.line_length, escaped_markup(p.line_material));
 }
 
 }  // namespace ripstop

@@ -47,8 +47,7 @@ FabricSolution run_fabric(const Case& given, std::optional<double> pressure,
   r.pressure_load = pressure_force(*cloth, state, loads).z;
   r.line_tension = force_on_fixed(*cloth, state).z;
   r.size = canopy_size(mesh, shape);
-  r.projected_ratio =
-      r.size.projected_diameter / std::sqrt(4 / std::numbers::pi * nominal_area(given.parachute));
+  r.projected_ratio = r.size.projected_diameter / nominal_diameter(given.parachute);
   const KnownRange known = experience(given.parachute).projected_ratio;
   if (known.low > 0) r.known_projected_ratio = {known.low, known.high};
   for (const LineTension& t : line_tensions(mesh, tensions))

@@ -12,17 +12,20 @@
 #include "ripstop/run/steady_folder.h"
 
 namespace ripstop {
-namespace {
 
-double uncertainty_of(const SteadyIteration& last) {
+double drag_uncertainty(const SteadyIteration& last) {
   const double drag = last.fluid_force;
-  const double shares[] = {last.drag_change, last.drag_deviation / drag, std::abs(last.nodal_load / drag - 1),
+  // Of a mean over time its standard error counts, not how far the drag swings about it.
+  const double of_mean = last.in_time ? last.drag_error : last.drag_deviation;
+  const double shares[] = {last.drag_change, of_mean / drag, std::abs(last.nodal_load / drag - 1),
                            std::abs(last.momentum_deficit / drag - 1)};
   double largest = 0;
   for (const double share : shares)
     if (std::isfinite(share)) largest = std::max(largest, share);
   return largest;
 }
+
+namespace {
 
 bool is_of_steady(const std::string& text) {
   const auto json = nlohmann::json::parse(text, nullptr, false);
@@ -50,7 +53,7 @@ FinishedSteady finished_steady(const std::filesystem::path& folder) {
   run.given = case_of_run(folder);
   run.parachute_mass = parachute_mass(run.given);
   run.result.last = final_state(folder).iterations.back();
-  run.drag_uncertainty = uncertainty_of(run.result.last);
+  run.drag_uncertainty = drag_uncertainty(run.result.last);
   return run;
 }
 

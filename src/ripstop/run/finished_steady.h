@@ -8,14 +8,17 @@
 
 namespace ripstop {
 
+/// How well a run knows its own drag, relative: the largest of its last change, the deviation of a flow that was
+/// averaged or the standard error of one that was watched in time, and what the ledger does not close. What the
+/// model does not have is not in it.
+double drag_uncertainty(const SteadyIteration& last);
+
 struct FinishedSteady {
   std::filesystem::path folder;
   Case given;
   SteadyResult result;
-  double parachute_mass = 0;  // [kg]
-  /// How well the run knows its own drag, relative: the largest of its last change, the deviation of a flow that was
-  /// averaged, and what the ledger does not close. What the model does not have is not in it.
-  double drag_uncertainty = 0;
+  double parachute_mass = 0;    // [kg]
+  double drag_uncertainty = 0;  // drag_uncertainty() of its last iteration
 };
 
 /// Throws Error(usage) for a folder without a finished run of `ripstop steady`, Error(bad_data) for one that is

@@ -8,6 +8,7 @@
 
 #include "ripstop/case/payload.h"
 #include "ripstop/core/error.h"
+#include "ripstop/core/positive.h"
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/flight/descent.h"
 #include "ripstop/run/filling.h"
@@ -25,14 +26,9 @@ constexpr double hardly_slowed = 0.9;
 // Where gravity adds more to the speed during the filling than this share, formulas without gravity do not hold.
 constexpr double most_gravity = 0.3;
 
-void check_above_zero(const char* what, double value) {
-  if (!(value > 0) || !std::isfinite(value))
-    throw Error(ExitCode::usage, fmt::format("a {} of {:g}: must be above 0", what, value));
-}
-
 void check_request(const LoadRequest& request) {
-  check_above_zero("payload mass (kg)", request.payload_mass);
-  check_above_zero("speed at line stretch (m/s)", request.speed);
+  require_positive("payload mass (kg)", request.payload_mass);
+  require_positive("speed at line stretch (m/s)", request.speed);
   if (!(request.height > request.ground))
     throw Error(ExitCode::usage,
                 fmt::format("an opening at {:g} m above sea level: must be above the ground at {:g} m",
@@ -45,7 +41,7 @@ void check_request(const LoadRequest& request) {
           fmt::format("a reefed stage at {:g} of the drag area: must be above {:g}, the stage before, and "
                       "below 1",
                       stage.share, before));
-    check_above_zero("duration of a reefed stage (s)", stage.duration);
+    require_positive("duration of a reefed stage (s)", stage.duration);
     before = stage.share;
   }
 }
@@ -54,7 +50,7 @@ void check_request(const LoadRequest& request) {
 void choose_coefficients(const Case& given, const LoadRequest& request, LoadResult& r) {
   const Experience known = experience(given.parachute);
   r.reference_area = nominal_area(given.parachute);
-  r.nominal_diameter = std::sqrt(4 / std::numbers::pi * r.reference_area);
+  r.nominal_diameter = nominal_diameter(given.parachute);
   if (request.drag_coefficient) {
     r.drag_coefficient = *request.drag_coefficient, r.drag_source = "given";
   } else if (!request.steady.empty()) {
@@ -69,17 +65,17 @@ void choose_coefficients(const Case& given, const LoadRequest& request, LoadResu
     throw Error(ExitCode::usage,
                 "no drag coefficient is known of this family: give --drag-coefficient or --steady RUN");
   }
-  check_above_zero("drag coefficient", r.drag_coefficient);
+  require_positive("drag coefficient", r.drag_coefficient);
   r.opening_coefficient = request.opening_coefficient.value_or(known.opening_coefficient);
   r.opening_source = request.opening_coefficient ? "given" : known.opening_source;
-  check_above_zero("opening coefficient C_x", r.opening_coefficient);
+  require_positive("opening coefficient C_x", r.opening_coefficient);
   const KnownFilling filling = known_filling(given.parachute.canopy.family().type);
   r.filling_constant = request.filling_constant.value_or(filling.constant);
   r.filling_exponent = request.filling_exponent.value_or(filling.exponent);
   r.ludtke_exponent = request.filling_exponent.value_or(filling.ludtke_exponent);
   r.filling_source = request.filling_constant && request.filling_exponent ? "given" : filling.source;
-  check_above_zero("filling constant n", r.filling_constant);
-  check_above_zero("exponent of the drag area", r.filling_exponent);
+  require_positive("filling constant n", r.filling_constant);
+  require_positive("exponent of the drag area", r.filling_exponent);
 }
 
 void add_methods(const OpeningConditions& c, double ludtke_exponent, double integral, StageLoads& stage) {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
+#include <set>
 
 #include "ripstop/core/words.h"
 #include "ripstop/output/csv.h"
@@ -78,9 +78,7 @@ std::vector<ReportPlot> steady_plots(const fs::path& folder) {
             {"flow_residual", "residual of the flow"}});
   ReportPlot history = plot("history", "Drag over time", seconds, newtons);
   add_plot(plots, folder / "history.csv", "time_s", history,
-           {{"drag_n", "drag"},
-            {"fluid_force_n", "force of the air"},
-            {"line_tension_n", "tension of the lines"}});
+           {{"drag_n", "drag"}, {"force_x_n", "side force along x"}, {"force_y_n", "side force along y"}});
   add_plot(plots, folder / "pressure.csv", "arc_m",
            plot("pressure", "Pressure along a gore", {"along the cloth from the vent", "m"},
                 {"pressure coefficient", ""}),
@@ -154,16 +152,15 @@ ReportSeries known_drag(const Case& given, const char* name, std::optional<doubl
 
 void add_drag_over_speed(std::vector<ReportPlot>& plots, const std::vector<ReportRun>& runs,
                          const Case& given) {
-  std::map<double, double> drags;
-  for (const ReportRun& run : runs)
-    if (run.kind == "steady") drags[number_of(run, "speed_m_s")] = number_of(run, "drag_n");
-  if (drags.size() < 2) return;
-  ReportPlot made = plot("drag-speed", "Drag over speed", {"speed", "m/s"}, {"drag", "N"});
-  ReportSeries computed{"computed", {}, {}, drags.size() == runs.size(), false};
   std::vector<std::pair<double, double>> points;
   for (const ReportRun& run : runs)
     if (run.kind == "steady") points.emplace_back(number_of(run, "speed_m_s"), number_of(run, "drag_n"));
   std::sort(points.begin(), points.end());
+  std::set<double> speeds;
+  for (const auto& point : points) speeds.insert(point.first);
+  if (speeds.size() < 2) return;
+  ReportPlot made = plot("drag-speed", "Drag over speed", {"speed", "m/s"}, {"drag", "N"});
+  ReportSeries computed{"computed", {}, {}, speeds.size() == runs.size(), false};
   for (const auto& [speed, drag] : points) {
     computed.x.push_back(speed);
     computed.y.push_back(drag);

@@ -91,7 +91,7 @@ void add_result(ReportRun& run, const std::string& text, const std::filesystem::
 }
 
 ReportTable bill_table(const Case& given) {
-  const PatternResult pattern = run_pattern(given, {}, 400);
+  const PatternResult pattern = run_pattern(given, {}, packed_by_hand);
   ReportTable table{"bill",
                     "Bill of materials",
                     fmt::format("As cut, with the usual allowances, thread not counted: {:.4g} g, {:.3g} l "

@@ -12,6 +12,7 @@
 #include "ripstop/core/build_info.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
+#include "ripstop/core/positive.h"
 #include "ripstop/core/toml/fields.h"
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/flight/descent.h"
@@ -22,11 +23,6 @@
 
 namespace ripstop {
 namespace {
-
-void check_above_zero(const char* what, double value) {
-  if (!(value > 0) || !std::isfinite(value))
-    throw Error(ExitCode::usage, fmt::format("a {} of {:g}: must be above 0", what, value));
-}
 
 FamilyDrag drag_of(const std::string& family) {
   const std::vector<FamilyDrag> all = family_drags();
@@ -39,10 +35,6 @@ FamilyDrag drag_of(const std::string& family) {
   throw Error(ExitCode::usage,
               fmt::format("--family {}: no such family in examples/families.json; {}there are {}", family,
                           near.empty() ? "" : "did you mean " + near + "? ", fmt::join(names, ", ")));
-}
-
-double nominal_diameter(const Design& design) {
-  return std::sqrt(4 / std::numbers::pi * nominal_area(design));
 }
 
 /// The design scaled so that payload and parachute come down at the wanted rate; the parachute's mass follows its size.
@@ -187,10 +179,10 @@ std::string to_json(const SizeResult& result) {
 }
 
 SizeResult run_size(const SizeRequest& request) {
-  check_above_zero("payload mass (kg)", request.payload_mass);
-  check_above_zero("descent rate (m/s)", request.descent_rate);
-  if (request.density) check_above_zero("density (kg/m3)", *request.density);
-  check_above_zero("packing density (kg/m3)", request.packing_density);
+  require_positive("payload mass (kg)", request.payload_mass);
+  require_positive("descent rate (m/s)", request.descent_rate);
+  if (request.density) require_positive("density (kg/m3)", *request.density);
+  require_positive("packing density (kg/m3)", request.packing_density);
   SizeResult r;
   const FamilyDrag drag = drag_of(request.family);
   r.family = request.family, r.type = drag.type;
@@ -198,12 +190,12 @@ SizeResult run_size(const SizeRequest& request) {
   r.height = request.height;
   r.density = request.density ? *request.density : standard_air(request.height).density;
   r.drag_coefficient = request.drag_coefficient.value_or(drag.drag_coefficient);
-  check_above_zero("drag coefficient", r.drag_coefficient);
+  require_positive("drag coefficient", r.drag_coefficient);
   r.drag_source =
       request.drag_coefficient ? "given" : fmt::format("computed at {:g} m/s: {}", drag.speed, drag.made);
   r.handbook_drag_coefficient = drag.handbook;
   r.deployment_speed = request.deployment_speed.value_or(std::max(20.0, 3 * request.descent_rate));
-  check_above_zero("deployment speed (m/s)", r.deployment_speed);
+  require_positive("deployment speed (m/s)", r.deployment_speed);
   if (r.deployment_speed <= request.descent_rate)
     throw Error(ExitCode::usage,
                 fmt::format("a descent rate of {:g} m/s is not below the deployment speed of {:g} m/s",
@@ -227,7 +219,7 @@ void verify_size(const SizeRequest& request, SizeResult& r,
                   fmt::format("--verify: run {} has not converged, so that its descent rate "
                               "says nothing",
                               run));
-    r.checks.push_back({r.nominal_diameter, flown.speed, flown.drag_coefficient, ""});
+    r.checks.push_back({r.nominal_diameter, flown.speed, flown.drag_coefficient});
     if (std::abs(flown.speed / request.descent_rate - 1) <= tolerance) return;
     scale_lengths(r.given.parachute, flown.speed / request.descent_rate);
     r.drag_coefficient = flown.drag_coefficient, r.drag_source = "computed by --verify at the descent rate";

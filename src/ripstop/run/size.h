@@ -10,6 +10,7 @@
 
 #include "ripstop/case/case.h"
 #include "ripstop/core/members.h"
+#include "ripstop/parachute/cut.h"
 #include "ripstop/run/steady.h"
 
 namespace ripstop {
@@ -34,20 +35,18 @@ struct SizeRequest {
   std::optional<double> drag_coefficient;
   std::optional<double> deployment_speed;  // for the opening load [m/s]; absent: 20 m/s, or 3 descent rates
   std::optional<std::string> line_material;
-  double packing_density = 400;  // [kg/m3]
+  double packing_density = packed_by_hand;  // [kg/m3]
 };
 
 /// One run of --verify.
 struct SizeCheck {
   double nominal_diameter = 0, descent_rate = 0, drag_coefficient = 0;  // [m], [m/s], -
-  std::string run;
 };
 template <Of<SizeCheck> T, class Visit>
 void each_member(T& c, Visit&& visit) {
   visit("nominal_diameter_m", c.nominal_diameter);
   visit("descent_rate_m_s", c.descent_rate);
   visit("drag_coefficient", c.drag_coefficient);
-  visit("run", c.run);
 }
 
 /// result.json of `ripstop size`, without its case file.

@@ -161,8 +161,8 @@ struct SteadySolution {
   FlowField flow;  // round the final shape; empty when the observer's state was already the last
 };
 
-/// Runs to the end of the coupling; a converged result is not promised. Touches no file, but for an engine's that needs them.
-/// Throws as SteadySolver and the flow engine do.
+/// Runs to the end of the coupling; a converged result is not promised. Touches no file, but for an
+/// engine's that needs them. Throws as SteadySolver and the flow engine do.
 SteadySolution run_steady(const Case& given, SteadyObserver& observer, const SteadySettings& settings = {});
 
 /// For SteadyObserver::begin(): the shape in which a run of `other` ended, moved to this case's place, under

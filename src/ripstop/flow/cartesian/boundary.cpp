@@ -152,9 +152,9 @@ void correction_ghosts(const Discretisation& d, const Boundaries& b, Array<float
   }
 }
 
-double momentum_deficit(const Discretisation& d, const Boundaries& b, const State& s) {
+double momentum_through_sides(const Discretisation& d, const State& s) {
   const Fields& f = s.f;
-  double force = through_inlet_and_outlet(d, b, s);
+  double force = 0;
   for (int k = 0; k < d.layout.nz; ++k) {  // ghosts hold what air brings in
     each_side_face(d, f, k, [&](const SideFace& face) {
       const int i = static_cast<int>(face.cell - d.layout.at(0, 0, k)) % d.layout.stride_y;
@@ -164,6 +164,10 @@ double momentum_deficit(const Discretisation& d, const Boundaries& b, const Stat
     });
   }
   return force;
+}
+
+double momentum_deficit(const Discretisation& d, const Boundaries& b, const State& s) {
+  return through_inlet_and_outlet(d, b, s) + momentum_through_sides(d, s);
 }
 
 }  // namespace ripstop::cartesian

@@ -107,6 +107,8 @@ void side_ghosts(const Discretisation& d, Array<double>& q, int k, double across
 /// The correction has the pressure's ghosts while velocities are corrected; the solver wants zeros there.
 void correction_ghosts(const Discretisation& d, const Boundaries& b, Array<float>& e, int k);
 
+/// Momentum along z that the air brings through the sides [N].
+double momentum_through_sides(const Discretisation& d, const State& s);
 /// Momentum along z that the air brings through the faces of the box, pressure and diffusion included: the
 /// force on whatever is inside [N].
 double momentum_deficit(const Discretisation& d, const Boundaries& b, const State& s);

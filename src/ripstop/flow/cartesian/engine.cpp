@@ -77,7 +77,8 @@ struct Header {
   Freestream air;
   Sides sides = Sides::zero_gradient;
   Outlet outlet = Outlet::fixed_pressure;
-  std::optional<Jet> jet;
+  std::int64_t jets = 0;  // 0 or 1; an optional would have bytes that nobody has set
+  Jet jet = {};
 };
 static_assert(std::is_trivially_copyable_v<Header>);
 
@@ -151,8 +152,7 @@ class CartesianFlow final : public Flow {
 
   void guess() override {
     // A sheet across the whole box holds back pressures far beyond rho U^2, which would not survive being
-    // interpolated.
-    // On a coarse grid omega can grow without bound where a jet's room meets the outlet, and the finer grid
+    // interpolated. On a coarse grid omega can grow without bound where a jet's room meets the outlet, and the finer grid
     // does not lose it again; from the nozzle's profile a jet is there in as many iterations.
     if (settings_.grid_sequencing && !problem_.jet && problem_.grid.cells() > fewest_cells &&
         !solver_.shut() && problem_.body_force.empty())
@@ -241,7 +241,8 @@ void CartesianFlow::save(const std::filesystem::path& folder) const {
   Writer out;
   Header header;
   header.grid = problem_.grid, header.air = problem_.air;
-  header.sides = problem_.sides, header.outlet = problem_.outlet, header.jet = problem_.jet;
+  header.sides = problem_.sides, header.outlet = problem_.outlet;
+  if (problem_.jet) header.jets = 1, header.jet = *problem_.jet;
   out(header);
   for (const PorousCells& cloth : problem_.porous) out(cloth.cells);
   for (const Sheet& sheet : problem_.sheets) out(sheet.surface), out(sheet.velocity);
@@ -257,7 +258,7 @@ void CartesianFlow::restore(const std::filesystem::path& folder) {
   in(header);
   if (std::memcmp(header.magic, expected.magic, sizeof header.magic) != 0) in.fail();
   if (!(header.grid == problem_.grid) || header.sides != problem_.sides || header.outlet != problem_.outlet ||
-      !(header.jet == problem_.jet))
+      (header.jets == 1) != problem_.jet.has_value() || (problem_.jet && !(header.jet == *problem_.jet)))
     throw Error(ExitCode::usage, (folder / state_file).string() + ": was made in another box of air");
   for (PorousCells& cloth : problem_.porous) in(cloth.cells);
   for (Sheet& sheet : problem_.sheets) in(sheet.surface), in(sheet.velocity);
@@ -265,7 +266,10 @@ void CartesianFlow::restore(const std::filesystem::path& folder) {
   State state = solver_.state();
   each_carried(state, in);
   if (!in.at_end()) in.fail();
-  state.rate_u.empty() ? stop_the_clock(solver_.state()) : solver_.begin_time();
+  if (state.rate_u.empty())
+    stop_the_clock(solver_.state());
+  else
+    solver_.begin_time();
   if (!fits(state, solver_.state())) in.fail();
   if (!(header.air == problem_.air)) scale(state, header.air, problem_.air);
   solver_.state() = std::move(state);

@@ -110,33 +110,18 @@ FlowProgress Solver::iterate() {
   SheetRows& sheets = in_the_way_.sheets;
   if (!sheets.empty()) sheets.update(s_, d_.layout, d_.air.density * d_.air.speed);
   team_.run([this](int rank) {
-    const IndexRange planes = part_of(d_.grid.nz, rank, team_.size());
-    const auto each_plane = [&](auto stage) {
-      for (int k = planes.begin; k < planes.end; ++k) stage(k);
-      team_.barrier();
-    };
-    const int count = block_count(d_.grid);
-    const IndexRange blocks = part_of(count, rank, team_.size());
-    const auto each_block = [&](auto stage) {
-      for (int b = blocks.begin; b < blocks.end; ++b) stage(part_of(d_.grid.ny, b, count));
-      team_.barrier();
-    };
-    const auto each_plane_of_a_block = [&](auto stage) {
-      each_block([&](IndexRange rows) {
-        for (int k = 0; k < d_.grid.nz; ++k) stage(k, rows);
-      });
-    };
-    if (d_.settings.second_order) each_plane_of_a_block([&](int k, IndexRange rows) { convection(k, rows); });
-    each_block([&](IndexRange rows) { march(rank, rows); });
+    if (d_.settings.second_order)
+      each_plane_of_a_block(rank, [&](int k, IndexRange rows) { convection(k, rows); });
+    each_block(rank, [&](IndexRange rows) { march(rank, rows); });
     if (rank == 0) take_new_turbulence();
     team_.barrier();
-    each_plane([&](int k) { turbulence_ghosts(d_, b_, s_, k), matrix_ghosts(k); });
-    each_plane_of_a_block([&](int k, IndexRange rows) { pressure(k, rows); });
+    each_plane(rank, [&](int k) { turbulence_ghosts(d_, b_, s_, k), matrix_ghosts(k); });
+    each_plane_of_a_block(rank, [&](int k, IndexRange rows) { pressure(k, rows); });
     correct(rank);
-    each_plane([&](int k) { correction_ghosts(d_, b_, multigrid_.finest().e, k); });
-    each_plane_of_a_block([&](int k, IndexRange rows) { flux(k, rows); });
-    each_plane_of_a_block([&](int k, IndexRange rows) { velocity(k, rows); });
-    each_plane([&](int k) { relax_pressure(k), velocity_ghosts(d_, b_, s_, k); });
+    each_plane(rank, [&](int k) { correction_ghosts(d_, b_, multigrid_.finest().e, k); });
+    each_plane_of_a_block(rank, [&](int k, IndexRange rows) { flux(k, rows); });
+    each_plane_of_a_block(rank, [&](int k, IndexRange rows) { velocity(k, rows); });
+    each_plane(rank, [&](int k) { relax_pressure(k), velocity_ghosts(d_, b_, s_, k); });
     t_.sums.add_up(team_, rank);
   });
   return close_iteration();

@@ -86,6 +86,15 @@ class Solver {
   State& state() { return s_; }
 
  private:
+  // One thread's walk over its planes, its blocks of rows, or its blocks plane by plane; all threads meet after it.
+  template <class Stage>
+  void each_plane(int rank, const Stage& stage);
+  template <class Stage>
+  void each_block(int rank, const Stage& stage);
+  template <class Stage>
+  void each_plane_of_a_block(int rank, const Stage& stage);
+  /// The share of a pressure correction that is taken.
+  double pressure_share() const { return t_.in_time ? 1 : d_.settings.relax_pressure; }
   // Turbulence and momentum (stage_transport.cpp): H/A, 1/A, new k and omega.
   void convection(int k, IndexRange rows);  // convection.cpp
   void march(int rank, IndexRange rows);
@@ -136,7 +145,29 @@ class Solver {
   ThreadTeam& team_;
 };
 
-/// Blocks of rows that an iteration cuts the grid into; the same for any number of threads.
+/// Blocks of rows that the grid is divided into; the same for any number of threads.
 int block_count(const FlowGrid& grid);
+
+template <class Stage>
+void Solver::each_plane(int rank, const Stage& stage) {
+  const IndexRange planes = part_of(d_.grid.nz, rank, team_.size());
+  for (int k = planes.begin; k < planes.end; ++k) stage(k);
+  team_.barrier();
+}
+
+template <class Stage>
+void Solver::each_block(int rank, const Stage& stage) {
+  const int count = block_count(d_.grid);
+  const IndexRange blocks = part_of(count, rank, team_.size());
+  for (int b = blocks.begin; b < blocks.end; ++b) stage(part_of(d_.grid.ny, b, count));
+  team_.barrier();
+}
+
+template <class Stage>
+void Solver::each_plane_of_a_block(int rank, const Stage& stage) {
+  each_block(rank, [&](IndexRange rows) {
+    for (int k = 0; k < d_.grid.nz; ++k) stage(k, rows);
+  });
+}
 
 }  // namespace ripstop::cartesian

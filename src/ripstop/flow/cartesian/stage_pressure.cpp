@@ -98,7 +98,7 @@ void Solver::flux(int k, IndexRange rows) {
 
 void Solver::relax_pressure(int k) {
   const MultigridLevel& top = multigrid_.finest();
-  const double share = t_.in_time ? 1 : d_.settings.relax_pressure;
+  const double share = pressure_share();
   for (int j = 0; j < d_.grid.ny; ++j) {
     const std::ptrdiff_t at = d_.layout.at(0, j, k);
     double* p = &s_.f.p[at];
@@ -121,7 +121,7 @@ void Solver::velocity(int k, IndexRange rows) {
     r.ra = &t_.ra[at], r.rc = &t_.rc[at], r.p = &s_.f.p[at], r.dp = &multigrid_.finest().e[at];
     r.held = jumps(j, k, s_.held);
     r.change = jumps(j, k, s_.change);
-    r.relaxation = t_.in_time ? 1 : d_.settings.relax_pressure;
+    r.relaxation = pressure_share();
     r.hu = &t_.hu[at], r.hv = &t_.hv[at], r.hw = &t_.hw[at];
     r.u = &s_.f.u[at], r.v = &s_.f.v[at], r.w = &s_.f.w[at], r.rho = &s_.f.rho[at];
     velocity_row(r);

@@ -105,30 +105,14 @@ FlowStep Solver::step(double courant_number) {
       pressed_back += d_.x.width[i] * d_.y.width[j] * s_.outlet_p[d_.layout.in_plane(i, j)];
   }
   team_.run([this](int rank) {
-    const IndexRange planes = part_of(d_.grid.nz, rank, team_.size());
-    const auto each_plane = [&](auto stage) {
-      for (int k = planes.begin; k < planes.end; ++k) stage(k);
-      team_.barrier();
-    };
-    const int count = block_count(d_.grid);
-    const IndexRange blocks = part_of(count, rank, team_.size());
-    const auto each_block = [&](auto stage) {
-      for (int b = blocks.begin; b < blocks.end; ++b) stage(part_of(d_.grid.ny, b, count));
-      team_.barrier();
-    };
-    const auto each_plane_of_a_block = [&](auto stage) {
-      each_block([&](IndexRange rows) {
-        for (int k = 0; k < d_.grid.nz; ++k) stage(k, rows);
-      });
-    };
-    each_block([&](IndexRange rows) { rates(rank, rows); });
-    each_plane([&](int k) { matrix_ghosts(k); });
-    each_plane_of_a_block([&](int k, IndexRange rows) { pressure(k, rows); });
+    each_block(rank, [&](IndexRange rows) { rates(rank, rows); });
+    each_plane(rank, [&](int k) { matrix_ghosts(k); });
+    each_plane_of_a_block(rank, [&](int k, IndexRange rows) { pressure(k, rows); });
     multigrid_.solve_conjugate(team_, rank, reduction, most_cycles);
-    each_plane([&](int k) { correction_ghosts(d_, b_, multigrid_.finest().e, k); });
-    each_plane_of_a_block([&](int k, IndexRange rows) { flux(k, rows); });
-    each_plane_of_a_block([&](int k, IndexRange rows) { velocity(k, rows); });
-    each_plane([&](int k) { relax_pressure(k), velocity_ghosts(d_, b_, s_, k), courant(k); });
+    each_plane(rank, [&](int k) { correction_ghosts(d_, b_, multigrid_.finest().e, k); });
+    each_plane_of_a_block(rank, [&](int k, IndexRange rows) { flux(k, rows); });
+    each_plane_of_a_block(rank, [&](int k, IndexRange rows) { velocity(k, rows); });
+    each_plane(rank, [&](int k) { relax_pressure(k), velocity_ghosts(d_, b_, s_, k), courant(k); });
     t_.sums.add_up(team_, rank);
   });
   const double brought_now = t_.now * s_.clock.brought - t_.before * brought_before;
@@ -286,15 +270,7 @@ double Solver::brought() const {
       force += d_.x.width[i] * d_.y.width[j] * (f.fz[in] * b_.inlet.speed(j)[i] - leaves);
     }
   }
-  for (int k = 0; k < d_.grid.nz; ++k) {
-    each_side_face(d_, f, k, [&](const SideFace& face) {
-      const auto inside = face.cell - d_.layout.at(0, 0, k);
-      const auto i = inside % d_.layout.stride_y, j = inside / d_.layout.stride_y;
-      const double area = (face.axis == 0 ? d_.y.width[j] : d_.x.width[i]) * d_.z.width[k];
-      force += area * face.inflow * f.w[face.inflow > 0 ? face.ghost : face.cell];
-    });
-  }
-  return force;
+  return force + momentum_through_sides(d_, s_);
 }
 
 // `held_back`: what outlet and air take from the box's momentum in this step, but for the inlet's pressure.
