@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "ripstop/core/error.h"
+#include "ripstop/flow/average.h"
 #include "ripstop/flow/unsteady.h"
 
 namespace ripstop {
@@ -19,6 +20,7 @@ class Scripted final : public Flow {
     for (int n = 0; n < steps; ++n) {
       now_.length = 0.01, now_.time = 0.01 * ++now_.step;
       now_.force = {0.1 * force_(now_.time), 0, force_(now_.time)};
+      now_.momentum_gap = 0.25;
       if (report && !report(now_)) break;
     }
     return now_;
@@ -64,8 +66,47 @@ TEST(Watch, EndsWhenTheMeanIsKnownAndLeavesTheStartUpOut) {
   EXPECT_NEAR(record.drag.mean, 10, 0.2);
   EXPECT_NEAR(mean.porous_force.z, 10, 0.2);
   EXPECT_NEAR(mean.pressure[1], mean.porous_force.z, 1e-9);
+  EXPECT_NEAR(mean.momentum_deficit, mean.porous_force.z - 0.25, 1e-9);
   EXPECT_NEAR(record.side_x.mean, 0.1 * record.drag.mean, 1e-9);
   EXPECT_NEAR(record.swing.frequency, 5 / (2 * 3.14159265), 0.1);
+}
+
+TEST(Watch, TheStreamHasBeenThroughTheBoxBeforeTheMeanBegins) {
+  Scripted flow(
+      [](double t) { return 10 + 0.1 * std::sin(5 * t); });  // nothing that a start-up would show by
+  FlowProblem problem = stream();
+  problem.grid.size.z = 12;
+  FlowRecord record;
+  watch(flow, problem, half_a_second_a_length, record);
+  EXPECT_GE(record.start_up, 12 / 2.0);
+  EXPECT_GE(record.watched(), 12 / 2.0 + 20 * 0.5);
+}
+
+TEST(FieldMean, OfTwoMeansIsThatOfAllTheirFields) {
+  FieldMean all, first, second;
+  const double drags[] = {3, 5, 4, 9, 2, 7, 1};
+  for (int n = 0; n < 7; ++n) {
+    FlowField field;
+    field.pressure = {drags[n], -2 * drags[n]};
+    field.velocity = {{drags[n], 0, 0}, {}};
+    field.porous_force = {0, 0, drags[n]};
+    all.add(field);
+    (n < 3 ? first : second).add(field);
+  }
+  first.add(second);
+  const FlowField a = all.mean(), b = first.mean();
+  EXPECT_EQ(b.average.iterations, 7);
+  EXPECT_NEAR(a.average.drag_deviation,
+              std::sqrt(((1.4286 * 1.4286) + (0.5714 * 0.5714) + (0.4286 * 0.4286) + (4.5714 * 4.5714) +
+                         (2.4286 * 2.4286) + (2.5714 * 2.5714) + (3.4286 * 3.4286)) /
+                        6),
+              1e-4);
+  EXPECT_NEAR(b.average.drag_deviation, a.average.drag_deviation, 1e-12);
+  EXPECT_NEAR(b.average.drag, 31.0 / 7, 1e-12);
+  EXPECT_EQ(b.average.drag_low, 1);
+  EXPECT_EQ(b.average.drag_high, 9);
+  EXPECT_NEAR(b.pressure[1], -62.0 / 7, 1e-12);
+  EXPECT_NEAR(b.velocity[0].x, 31.0 / 7, 1e-12);
 }
 
 TEST(Watch, SaysSoWhenTheLongestWatchIsNotEnough) {
