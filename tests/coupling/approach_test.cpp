@@ -2,6 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "../small_case.h"
+#include "ripstop/canopy/shape.h"
+#include "ripstop/case/assemble.h"
+#include "ripstop/coupling/transfer.h"
+
 namespace ripstop {
 namespace {
 
@@ -19,6 +26,22 @@ TEST(Approach, IsTheMeanOverTheAreaOfADisk) {
         field.velocity[grid.index(i, j, k)] = {5, 6, 20 + 3 * p.x - 8 * (p.x * p.x + p.y * p.y)};
       }
   EXPECT_NEAR(mean_speed_over_disk(field, {0, 0, 0.5}, 1.2), 20 - 8 * 0.36 / 2, 8 * 0.025 * 0.025);
+}
+
+// In air whose speed rises with z the mean says where it was taken.
+TEST(Approach, IsOneProjectedDiameterBeforeTheCloth) {
+  const Case given = checked(flat_circular_case(1, 800, 20));
+  CanopyMesh mesh = parachute_mesh(given);
+  FlowField field;
+  field.grid = {{-1, -1, 0}, {2, 2, 8}, 8, 8, 160};
+  for (int cell = 0; cell < field.grid.cells(); ++cell)
+    field.velocity.push_back({0, 0, 2 * field.grid.centre(2, cell / 64)});
+  double front = 8;
+  for (const Triangle& t : surface_of(cells_of(mesh), mesh.start))
+    front = std::min({front, t.a.z, t.b.z, t.c.z});
+  const double diameter = canopy_size(mesh, mesh.start).projected_diameter;
+  ASSERT_GT(front, diameter);
+  EXPECT_NEAR(approach_speed(field, mesh, mesh.start), 2 * (front - diameter), 1e-9);
 }
 
 }  // namespace

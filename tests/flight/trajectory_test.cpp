@@ -114,6 +114,15 @@ TEST(Trajectory, EndsOnTheGround) {
   EXPECT_GT(rows.size(), 100u);
 }
 
+// From 20 m/s down, h = 20 t + g t^2 / 2, in steps of which the ground cuts one in the middle.
+TEST(Trajectory, LandsWhenItReachesTheGround) {
+  FlightState state{0, 0, 0, 50, 20, 90};
+  fly(state, 1, leg([](double, double) { return 0.0; }, 10, 0.3));
+  const double exact = (std::sqrt(400 + 2 * standard_gravity * 50) - 20) / standard_gravity;
+  EXPECT_NEAR(state.time, exact, 0.003);
+  EXPECT_NEAR(state.speed, 20 + standard_gravity * exact, 0.03);
+}
+
 TEST(Trajectory, AFillingGrowsToItsPeakAndComesBack) {
   const DragArea area = filling(1, 5, 2, 2, 1.6);
   EXPECT_DOUBLE_EQ(area(0, 0), 1);

@@ -42,6 +42,19 @@ std::string refused(const LoadRequest& asked) {
   return "";
 }
 
+// n D0 / v for the open canopy, with the root of the share of the area that a stage adds.
+TEST(Load, AStageFillsAsItsOwnShareOfTheAreaDoes) {
+  LoadRequest asked = request();
+  asked.reefing = {{0.1, 2}, {0.4, 2}};
+  const LoadResult r = run_load(flat_circular(), asked);
+  ASSERT_EQ(r.stages.size(), 3u);
+  const double shares[] = {0.1, 0.3, 0.6};
+  for (int n = 0; n < 3; ++n)
+    EXPECT_NEAR(r.stages[n].filling_time,
+                r.filling_constant * r.nominal_diameter / r.stages[n].speed * std::sqrt(shares[n]), 1e-12)
+        << n;
+}
+
 TEST(Load, PutsTheMethodsSideBySideAndSaysWhichApply) {
   const LoadResult r = run_load(flat_circular(), request());
   ASSERT_EQ(r.stages.size(), 1u);

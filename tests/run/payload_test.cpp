@@ -37,6 +37,21 @@ TEST(Payload, TheRunFindsTheSpeedAtWhichDragIsWeight) {
   }
 }
 
+TEST(RunMargins, TheRisersLoadIsTheDragAndTheLinesShareIt) {
+  SteadyObserver nobody;
+  const Case given = square_law_case({{"parachute.riser.length_m", "0.5"}});
+  const SteadyResult r = run_steady(given, nobody).result;
+  ASSERT_TRUE(r.converged && r.margins);
+  double riser = 0, lines = 0;
+  for (const Margin& m : r.margins->members) {
+    if (m.member == "riser") riser = m.load;
+    if (m.member.starts_with("line ")) lines += m.load;
+  }
+  EXPECT_NEAR(riser / r.drag, 1, 0.01);
+  EXPECT_GT(lines, r.drag);  // they are aslant
+  EXPECT_LT(lines, 1.2 * r.drag);
+}
+
 TEST(Payload, WhereTheSearchBeginsDoesNotMatter) {
   SteadyObserver nobody;
   const auto from = [&](const char* speed) {

@@ -46,6 +46,40 @@ TEST(SteadyRun, TheLedgerClosesAndTheLoadIsTheFlowsForce) {
   EXPECT_LT(last.drag_change, 1e-3);
 }
 
+/// Whose force is half a percent higher every time that the cloth is placed.
+class CreepingFlow final : public FormulaFlow {
+ public:
+  using FormulaFlow::FormulaFlow;
+  void place(const std::vector<Triangle>&, const std::vector<Vec3>&) override {
+    aim_at(300 * std::pow(1.005, ++placed_));
+  }
+
+ private:
+  int placed_ = 0;
+};
+
+struct CreepingEngine : FlowEngine {
+  std::string name() const override { return "creeping"; }
+  std::unique_ptr<Flow> start(const FlowProblem& problem) override {
+    return std::make_unique<CreepingFlow>(problem);
+  }
+};
+
+// Shape and ledger would do.
+TEST(SteadyRun, ADragThatStillChangesIsNotConverged) {
+  CreepingEngine engine;
+  SteadyProblem problem = small_problem();
+  problem.settings.max_iterations = 6;
+  SteadySolver solver(problem, engine);
+  SteadyState state = solver.start();
+  while (!solver.finished(state)) solver.iterate(state);
+  const SteadyIteration& last = state.iterations.back();
+  EXPECT_FALSE(state.converged);
+  EXPECT_NEAR(last.drag_change, 0.005, 1e-3);
+  EXPECT_LT(last.shape_change, problem.settings.shape_tolerance_m);
+  EXPECT_NEAR(last.nodal_load / last.fluid_force, 1, 0.01);
+}
+
 TEST(SteadyRun, ACheckpointGivesBackEveryBit) {
   FormulaEngine engine;
   SteadySolver solver(small_problem(), engine);

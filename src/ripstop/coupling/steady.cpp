@@ -214,16 +214,6 @@ bool SteadySolver::converged(const SteadyState& state, const SteadyIteration& no
          within(now.nodal_load, now.fluid_force, ledger) && within(now.line_tension, now.fluid_force, ledger);
 }
 
-// The steady flow has done its part: what it taught the accelerator does not hold for the means, whose noise
-// differences of iterations would only grow.
-void SteadySolver::go_on_in_time(SteadyState& state) const {
-  state.in_time = true;
-  state.converged = false;
-  state.accelerator = {};
-  state.accelerator.update = Acceleration::none;
-  state.accelerator.relaxation = problem_.settings.relaxation;
-}
-
 // The next load, from the answers so far. The remainder follows the pressures' steps: it has no weight of its
 // own.
 void SteadySolver::step(SteadyState& state, const ClothLoad& answer) const {
@@ -275,7 +265,11 @@ FlowField SteadySolver::iterate(SteadyState& state, const SteadyReport& report) 
   step(state, answer);
   now.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   state.iterations.push_back(now);
-  if (state.converged && problem_.watch && !state.in_time) go_on_in_time(state);
+  if (state.converged && problem_.watch && !state.in_time) {
+    state.in_time = true;
+    state.converged = false;
+    state.accelerator.update = Acceleration::none;  // differences of means over time are mostly noise
+  }
   return field;
 }
 

@@ -144,7 +144,6 @@ class SteadySolver {
   FlowField watch_flow(const std::vector<Triangle>& surface, SteadyState& state, SteadyIteration& now,
                        const SteadyReport& report);
   bool converged(const SteadyState& state, const SteadyIteration& now) const;
-  void go_on_in_time(SteadyState& state) const;
   void step(SteadyState& state, const ClothLoad& answer) const;
 
   SteadyProblem problem_;
