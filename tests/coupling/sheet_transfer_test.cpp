@@ -8,8 +8,7 @@
 #include <numbers>
 #include <random>
 
-#include "ripstop/coupling/transfer.h"
-#include "ripstop/flow/cartesian/sheet_faces.h"
+#include "loads_on_faces.h"
 
 namespace ripstop {
 namespace {
@@ -62,39 +61,8 @@ Surface plate(int n, double angle) {
   return s;
 }
 
-FlowGrid box(int n) {
-  return {{-0.803, -0.797, 0.3}, {1.6, 1.6, 1.6}, n, n, n};
-}
-
-using Field = std::function<double(Vec3)>;
-
-/// What a flow whose pressure drops by `drop` wherever the cloth stands would give on its faces.
-std::vector<SheetLoad> loads_of(const Surface& s, const FlowGrid& grid, const Field& drop) {
-  using cartesian::End;
-  const auto axis = [&](int a) {
-    return cartesian::make_axis(grid.edges(a), End::zero_gradient, End::zero_gradient);
-  };
-  const std::vector<Triangle> triangles = s.triangles();
-  std::vector<SheetLoad> loads;
-  for (const cartesian::SheetFace& f : cartesian::sheet_faces(axis(0), axis(1), axis(2), triangles)) {
-    const double h = grid.spacing().x, side = f.against ? -1 : 1;
-    const double slant = f.axis == 0 ? f.normal.x : f.axis == 1 ? f.normal.y : f.normal.z;
-    SheetLoad load;
-    load.triangle = f.triangle;
-    load.point = f.point;
-    load.outward = f.outward;
-    load.cover = f.hem ? std::min(1.0, f.area / (h * h * slant)) : 1;
-    load.area = load.cover * h * h * slant;
-    load.drop = load.cover * drop(f.point);
-    const double force = side * load.drop * h * h;
-    load.force = {f.axis == 0 ? force : 0, f.axis == 1 ? force : 0, f.axis == 2 ? force : 0};
-    loads.push_back(load);
-  }
-  return loads;
-}
-
 ClothLoad transfer(const Surface& s, const FlowGrid& grid, const Field& drop) {
-  return load_of_flow(loads_of(s, grid, drop), grid, s.triangles(), s.cells, s.x);
+  return load_of_flow(loads_of(s.triangles(), grid, drop), grid, s.triangles(), s.cells, s.x);
 }
 
 Vec3 centre_of(const Surface& s, std::size_t cell) {
@@ -236,7 +204,7 @@ TEST(SheetTransfer, AFieldAboutTheAxisGivesNoSideForceAndNoMoment) {
 TEST(SheetTransfer, AWavyCanopyUnderAUniformDropHasNoSideForce) {
   for (const double ripple : {0.08, 0.15}) {
     const Surface s = cap(60, 256, 6, 85, ripple);
-    const std::vector<SheetLoad> loads = loads_of(s, box(40), [](Vec3) { return 100.0; });
+    const std::vector<SheetLoad> loads = loads_of(s.triangles(), box(40), [](Vec3) { return 100.0; });
     const Wrench air = wrench_of(loads);
     EXPECT_LT(std::hypot(air.force.x, air.force.y), 0.01 * air.force.z) << ripple;
     const ClothLoad load = load_of_flow(loads, box(40), s.triangles(), s.cells, s.x);
@@ -253,7 +221,7 @@ TEST(SheetTransfer, TheRemainderIsSmallAndShrinksWithTheFlowsGrid) {
 
 TEST(SheetTransfer, ClothThatTheFlowsGridMissesTakesThePressureOfItsNeighbours) {
   Surface s = cap(30, 64);
-  std::vector<SheetLoad> loads = loads_of(s, box(32), [](Vec3) { return 80.0; });
+  std::vector<SheetLoad> loads = loads_of(s.triangles(), box(32), [](Vec3) { return 80.0; });
   std::erase_if(loads, [](const SheetLoad& load) { return load.point.x > 0; });
   const ClothLoad load = load_of_flow(loads, box(32), s.triangles(), s.cells, s.x);
   for (const double p : load.pressure) EXPECT_NEAR(p, 80, 1e-9);

@@ -34,8 +34,8 @@ TEST(OpeningLoad, TheForceFactorSolvesTheEquationOfMotion) {
             << a << " " << j << " " << largest;
 }
 
-// Ludtke, NOLTR 72-146, for solid cloth (j = 6): x = 16/49 (21 M / 4)^(6/7), up to M = 4/21, where the canopy is just
-// open.
+// Ludtke, NOLTR 72-146, for solid cloth (j = 6): x = 16/49 (21 M / 4)^(6/7), up to
+// M = 4/21, where the canopy is just open.
 TEST(OpeningLoad, OfSolidClothIsLudtkesClosedForm) {
   for (const double m : {0.01, 0.05, 0.15}) {
     const ForceFactor x = force_factor(m, 6);

@@ -1,5 +1,5 @@
-// What is exported obeys the rules of the format: Python that compiles and calls with RocketPy's own names, XML with
-// OpenRocket's elements.
+// What is exported obeys the rules of the format: Python that compiles and calls
+// with RocketPy's own names, XML with OpenRocket's elements.
 #include "ripstop/run/export.h"
 
 #include <gtest/gtest.h>

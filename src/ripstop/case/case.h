@@ -26,8 +26,8 @@ namespace ripstop {
 enum class SpeedBasis { nominal, measured };
 enum class Convection { upwind, second_order };
 
-/// [flow.watch]: how long an unsteady flow is watched. Lengths are in times that the stream takes for one
-/// inflated diameter.
+/// [flow.watch]: how long an unsteady flow is watched. Lengths are in times
+/// that the stream takes for one inflated diameter.
 struct WatchKeys {
   double courant = 0.7;
   double standard_error = 0.01;  // of the mean drag, relative

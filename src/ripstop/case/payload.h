@@ -7,8 +7,8 @@ namespace ripstop {
 
 /// Of cloth, tape, lines and riser as meshed [kg].
 double parachute_mass(const Case& given);
-/// Speed at which the usual drag of the canopy's family holds payload.mass_kg; where a search for the speed begins
-/// [m/s].
+/// Speed at which the usual drag of the canopy's family holds payload.mass_kg; where
+/// a search for the speed begins [m/s].
 double payload_first_speed(const Case& given, double density);
 /// Of `payload` [kg] and the parachute that carries it; the canopy's drag holds both [N].
 double suspended_weight(const Case& given, double payload);

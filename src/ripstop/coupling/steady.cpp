@@ -148,8 +148,8 @@ ClothLoad SteadySolver::answer_of(const FlowField& field, const std::vector<Tria
   }
   if (problem_.settings.load != CanopyLoad::sampled) return answer;
   // The flow's force on the cut cells also holds what the resistance takes along the cloth, and the staircase
-  // of cut cells is not the cloth: sampled differences do not add up to it. The factor between them is
-  // reported.
+  // of cut cells is not the cloth: sampled differences do not add up to
+  // it. The factor between them is reported.
   if (!(now.transfer_factor > 0) || !std::isfinite(now.transfer_factor)) {
     throw Error(
         ExitCode::diverged,
@@ -214,8 +214,8 @@ bool SteadySolver::converged(const SteadyState& state, const SteadyIteration& no
          within(now.nodal_load, now.fluid_force, ledger) && within(now.line_tension, now.fluid_force, ledger);
 }
 
-// The next load, from the answers so far. The remainder follows the pressures' steps: it has no weight of its
-// own.
+// The next load, from the answers so far. The remainder follows the pressures' steps:
+// it has no weight of its own.
 void SteadySolver::step(SteadyState& state, const ClothLoad& answer) const {
   std::vector<double> weight = area_;
   weight.resize(area_.size() + 6, 0.0);

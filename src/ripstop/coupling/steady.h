@@ -1,5 +1,5 @@
-// The steady loop of [NFM] section 6: cloth equilibrium -> cut cells -> flow -> pressure on both sides ->
-// next.
+// The steady loop of [NFM] section 6: cloth equilibrium -> cut cells -> flow
+// -> pressure on both sides -> next.
 #pragma once
 
 #include <functional>
@@ -47,8 +47,8 @@ void each_member(T& w, Visit&& visit) {
   visit("enough", w.enough);
 }
 
-/// Everything that the next iteration depends on beside the flow engine's own memory: what a checkpoint
-/// holds.
+/// Everything that the next iteration depends on beside the flow engine's
+/// own memory: what a checkpoint holds.
 struct SteadyState {
   std::vector<SteadyIteration> iterations;
   std::vector<Vec3> shape;       // X_k

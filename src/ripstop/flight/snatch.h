@@ -24,8 +24,8 @@ struct SnatchLoad {
 
 /// Two masses that move apart at `speed_difference` when the parts come taut, without drag while they stretch:
 /// the energy m_p m_c / (m_p + m_c) dv^2 / 2 is in the parts when their tension is largest. [kg], [m/s]. Throws
-/// Error(usage) for values that are not above 0, and where a part's curve turns over before it has taken that
-/// energy.
+/// Error(usage) for values that are not above 0, and where a part's curve turns
+/// over before it has taken that energy.
 SnatchLoad snatch_load(double payload_mass, double canopy_mass, double speed_difference,
                        const std::vector<SnatchPart>& parts);
 

@@ -33,8 +33,8 @@ struct Triangle {
   Vec3 a, b, c;
 };
 
-/// Cells with the isotropic resistance -(mu d + rho |u| f / 2) u per volume (`paper` model, method section
-/// 4).
+/// Cells with the isotropic resistance -(mu d + rho |u| f / 2) u
+/// per volume (`paper` model, method section 4).
 struct PorousCells {
   std::vector<int> cells;  // sorted, unique
   double darcy = 0;        // d [1/m2]
@@ -175,8 +175,8 @@ class Flow {
   /// the last bit. Throws Error(io).
   virtual void save(const std::filesystem::path& folder) const = 0;
   /// Of a problem with the same box, sides and outlet. Where the saved flow is of other air and the engine
-  /// can, it is scaled to this problem's; else Error(usage). Error(bad_data) or Error(io) for what save() did
-  /// not write.
+  /// can, it is scaled to this problem's; else Error(usage). Error(bad_data) or
+  /// Error(io) for what save() did not write.
   virtual void restore(const std::filesystem::path& folder) = 0;
 };
 

@@ -4,8 +4,8 @@ namespace ripstop {
 namespace {
 
 // n: Knacke, NWC TP 6575, Table 5-6, unreefed; Pflanz's exponents: Fig. 5-51, 1 for ribbon and ringslot, 2 for solid
-// cloth; Ludtke's: 6 for solid cloth (NOLTR 72-146), 2 for ringslot. Written down from memory, none checked against
-// the print.
+// cloth; Ludtke's: 6 for solid cloth (NOLTR 72-146), 2 for ringslot. Written
+// down from memory, none checked against the print.
 constexpr const char* handbook =
     "Knacke Table 5-6 and Fig. 5-51, Ludtke NOLTR 72-146; not checked against the prints";
 constexpr const char* as_solid = "not in the tables: as solid flat circular (assumed)";

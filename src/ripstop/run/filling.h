@@ -12,8 +12,8 @@ struct KnownFilling {
   const char* source = "";
 };
 
-/// By the family's word in [parachute] type; a word that is not in the tables gets a solid canopy's values and says
-/// so.
+/// By the family's word in [parachute] type; a word that is not in the tables
+/// gets a solid canopy's values and says so.
 KnownFilling known_filling(const std::string& type);
 
 }  // namespace ripstop

@@ -21,8 +21,8 @@ ReportRun report_of(const std::filesystem::path& folder);
 /// The same of all runs of a sweep's folder that have a result, or of the one run of any other.
 std::vector<ReportRun> reports_of(const std::filesystem::path& folder);
 
-/// One page of all these runs, compared where there are several. `given`: the case whose measured values stand
-/// beside them.
+/// One page of all these runs, compared where there are several. `given`:
+/// the case whose measured values stand beside them.
 Report report_on(std::vector<ReportRun> runs, const std::string& title);
 
 /// report.html of a run under way, before its folder is sealed. What went wrong is returned as text: a finished

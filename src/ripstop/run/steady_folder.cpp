@@ -219,8 +219,8 @@ SteadyFolderRun run_steady_in(const SteadyFolderSettings& settings, const Case& 
                               SteadyObserver& observer) {
   const fs::path& folder = settings.run.folder;
   const int threads = settings.threads > 0 ? settings.threads : given.coupling.threads;
-  // By the engine's name, before one is made: making it clears the flow's folder, which may still be another
-  // run's.
+  // By the engine's name, before one is made: making it clears the flow's
+  // folder, which may still be another run's.
   const auto claimed = open_run_folder(settings.run, given, engine_of(given).name(engine_options(given)),
                                        ThreadTeam(threads).size());
   if (const auto finished = finished_result(folder)) return {true, steady_result_from_json(*finished)};

@@ -7,8 +7,8 @@ namespace {
 
 constexpr int none = -1;  // no axis
 
-/// Beyond the inlet 2 q_inlet - q; beyond the outlet q where air leaves, 2 q_back - q where it would come
-/// back.
+/// Beyond the inlet 2 q_inlet - q; beyond the outlet q where air leaves,
+/// 2 q_back - q where it would come back.
 void end_ghosts(const Discretisation& d, const Boundaries& b, const Fields& f, int k, const double* inlet,
                 double back, Array<double>& q) {
   const Layout& layout = d.layout;

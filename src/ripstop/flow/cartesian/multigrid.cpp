@@ -158,8 +158,8 @@ void coarsen_planes(const MultigridLevel& fine, MultigridLevel& coarse, IndexRan
           const float* face = &fine.cx[from.at(0, jf, kf)];
           add_series_row(n, face, halved ? face - 1 : open.data(), halved ? face + 1 : open.data(),
                          sum.data());
-          // Beyond the sides there is nothing; the last cell of an odd row is a coarse cell alone: nothing
-          // inside it.
+          // Beyond the sides there is nothing; the last cell of an odd row
+          // is a coarse cell alone: nothing inside it.
           add_series_row(1, face, open.data(), halved ? face + 1 : open.data(), &first);
           if (n % 2 == 1 && halved) add_series_row(1, face + n - 1, face + n - 2, open.data(), &last);
           add_series_row(1, face + n, n % 2 == 0 && halved ? face + n - 1 : open.data(), open.data(), &end);

@@ -9,8 +9,8 @@ RIPSTOP_ROW_KERNEL void smooth_row(const MultigridRow& row, int parity) {
   const std::ptrdiff_t sy = row.sy, sz = row.sz;
   float* e = row.e;
   const float *rhs = row.rhs, *cx = row.cx, *cy = row.cy, *cz = row.cz;
-  // Cells of one colour read only the other colour: all of a piece of the row is computed aside, half of it
-  // kept.
+  // Cells of one colour read only the other colour: all of a piece of the
+  // row is computed aside, half of it kept.
   constexpr int piece = 256;
   alignas(64) float fresh[piece];
   for (int begin = 0; begin < n; begin += piece) {

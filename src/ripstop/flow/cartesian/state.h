@@ -1,5 +1,5 @@
-// What a flow carries from one iteration to the next, all of it: each_carried() is the one list, which saving
-// walks.
+// What a flow carries from one iteration to the next, all of it: each_carried()
+// is the one list, which saving walks.
 #pragma once
 
 #include <array>

@@ -212,8 +212,8 @@ constexpr char kForces[] = R"foam(    porousForces
 )foam";
 
 // The solver's own porous zones: their resistance is added after the momentum equation is under-relaxed. (The
-// porosity of fvOptions is relaxed with the rest; its converged drag differs by half a percent on 8 cm
-// cells.)
+// porosity of fvOptions is relaxed with the rest; its converged drag differs by
+// half a percent on 8 cm cells.)
 constexpr char kResistance[] = R"foam(porous{0}
 {{
     type DarcyForchheimer;
