@@ -12,7 +12,9 @@
 #include "json_option.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
+#include "ripstop/run/size_report.h"
 #include "ripstop/run/steady_folder.h"
+#include "steady_terminal.h"
 
 namespace ripstop {
 namespace {
@@ -25,7 +27,7 @@ struct Options {
   bool verify = false, json = false, force = false;
 };
 
-void print_result(const SizeResult& r, const fs::path& file) {
+void print_result(const SizeResult& r, const fs::path& file, const fs::path& page) {
   const auto row = [](const char* name, const std::string& text) { fmt::print("  {:<20} {}\n", name, text); };
   fmt::print("{}\n", r.given.title);
   row("air", fmt::format("{:.4g} kg/m3", r.density));
@@ -55,32 +57,59 @@ void print_result(const SizeResult& r, const fs::path& file) {
     row("run", fmt::format("{:.3f} m comes down at {:.3f} m/s, C_D {:.3f}", c.nominal_diameter,
                            c.descent_rate, c.drag_coefficient));
   row("case", file.string());
+  if (!page.empty()) row("report", page.string());
 }
 
 /// Every run of --verify has its folder beside the case file.
-SteadyResult fly(const Options& options, const Case& given, int run) {
+fs::path verify_folder(const Options& options, int run) {
   fs::path folder = options.out;
   folder.replace_extension();
   folder += fmt::format("-verify-{}", run);
-  fmt::print(stderr, "run {} in {}\n", run, folder.string());
-  SteadyObserver nobody;
-  return run_steady_in({{folder, false}, 0, {}, {}}, given, nobody).result;
+  return folder;
+}
+
+fs::path page_of(const Options& options) {
+  fs::path page = options.out;
+  return page.replace_extension(".html");
+}
+
+/// The page stands beside the case file. Returns its path, or an empty one where it could not be made: that is said.
+fs::path write_page(const Options& options, const SizeResult& result) {
+  const fs::path page = page_of(options);
+  try {
+    std::vector<fs::path> runs;
+    if (!result.checks.empty()) runs.push_back(verify_folder(options, int(result.checks.size())));
+    write_file(page, report_page(size_report(result, runs)));
+    return page;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "ripstop: no report was written: {}\n", error.what());
+    return {};
+  }
+}
+
+void refuse_existing(const Options& options) {
+  if (options.force) return;
+  for (const fs::path& file : {options.out, page_of(options)})
+    if (fs::exists(file))
+      throw Error(ExitCode::usage, fmt::format("{} exists; choose another --out, or --force", file.string()));
 }
 
 int size(const Options& options) {
-  if (fs::exists(options.out) && !options.force)
-    throw Error(ExitCode::usage,
-                fmt::format("{} exists; choose another --out, or --force", options.out.string()));
+  refuse_existing(options);
   SizeResult result = run_size(options.request);
   if (options.verify)
-    verify_size(options.request, result,
-                [&](const Case& given, int run) { return fly(options, given, run); });
+    verify_size(options.request, result, [&](const Case& given, int run) {
+      const fs::path folder = verify_folder(options, run);
+      SteadyTerminal terminal(folder);
+      return run_steady_in({{folder, false}, 0, {}, {}}, given, terminal).result;
+    });
   if (options.out.has_parent_path()) make_folder(options.out.parent_path());
   write_file(options.out, result.case_text);
+  const fs::path page = write_page(options, result);
   if (options.json)
     fmt::print("{}", to_json(result));
   else
-    print_result(result, options.out);
+    print_result(result, options.out, page);
   for (const std::string& warning : result.warnings) fmt::print(stderr, "ripstop: {}\n", warning);
   return 0;
 }

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -18,6 +16,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/run/report.h"
 #include "ripstop/run/steady_folder.h"
+#include "steady_terminal.h"
 #include "warnings.h"
 
 namespace ripstop {
@@ -34,61 +33,6 @@ struct Options {
   bool dry_run = false;
   bool json = false;
 };
-
-// Iterations still to come: as many as the drag's change needs at its rate of fall so far, five at the first.
-double iterations_left(const SteadyState& state, const CouplingSettings& settings) {
-  const auto& all = state.iterations;
-  if (all.size() < 3) return 5;
-  const double now = all.back().drag_change, before = all[all.size() - 2].drag_change;
-  if (now <= settings.drag_tolerance) return 1;
-  const double rate = std::min(0.7, now / before);
-  return 1 + std::log(settings.drag_tolerance / now) / std::log(rate);
-}
-
-std::string progress_text(const SteadyProgress& p, double elapsed, double left) {
-  const std::string time =
-      left > 0 ? fmt::format("{} gone, about {} left", duration_text(elapsed), duration_text(left))
-               : fmt::format("{} gone", duration_text(elapsed));
-  if (p.stage == SteadyStage::time) {
-    const FlowStep& step = p.time.step;
-    const std::string mean = p.time.mean != 0
-                                 ? fmt::format("mean {:.1f} +- {:.2g} N, {:.0f} % of the watch", p.time.mean,
-                                               p.time.standard_error, std::min(99.0, 100 * p.time.share))
-                                 : std::string("start-up");
-    return fmt::format("[{}] time: {:.3f} s, step {} of {:.2g} s, drag {:.1f} N, {} | {}", p.iteration,
-                       step.time, step.step, step.length, step.force.z, mean, time);
-  }
-  if (p.stage == SteadyStage::cloth) {
-    return fmt::format("[{}] cloth: step {}, residual {:.1e} | {}", p.iteration, p.cloth.steps,
-                       p.cloth.residual, time);
-  }
-  return fmt::format("[{}] flow: iteration {}, residuals U {:.1e} p {:.1e} k {:.1e}, drag {:.1f} N | {}",
-                     p.iteration, p.flow.iteration, p.flow.residual_u, p.flow.residual_p, p.flow.residual_k,
-                     p.flow.drag, time);
-}
-
-/// The members of an iteration that are shown, one under the other.
-std::string iteration_header() {
-  std::string text;
-  const SteadyIteration none;
-  each_member(none, [&](const char*, const auto&, auto... how) {
-    ((text += fmt::format("{:>{}} ", how.heading, how.width)), ...);
-  });
-  return text;
-}
-
-std::string shown(double value, const Shown& how) {
-  if (!std::isfinite(value)) return "-";
-  return *how.format ? fmt::format(fmt::runtime(how.format), how.factor * value) : duration_text(value);
-}
-
-std::string iteration_text(const SteadyIteration& iteration) {
-  std::string text;
-  each_member(iteration, [&](const char*, [[maybe_unused]] const auto& member, auto... how) {
-    ((text += fmt::format("{:>{}} ", shown(double(member), how), how.width)), ...);
-  });
-  return text;
-}
 
 void print_row(const char* name, const std::string& text) {
   fmt::print("  {:<26} {}\n", name, text);
@@ -161,45 +105,6 @@ void print_result(const SteadyResult& r, const Case& given, const fs::path& fold
   if (fs::exists(folder / report_name)) row("report", (folder / report_name).string());
 }
 
-class Terminal : public SteadyObserver {
- public:
-  explicit Terminal(const fs::path& folder) : folder_(folder) {}
-
-  void begin(const SteadyRun& run, SteadyState& state) override {
-    settings_ = resolve(run.given).coupling;
-    if (!state.iterations.empty()) {
-      progress_.line(fmt::format("going on after coupling iteration {} of {}", state.iterations.size(),
-                                 folder_.string()));
-    }
-    progress_.line(fmt::format("{}: {}, {} cloth nodes, {}", run.given.title, run.engine,
-                               run.solver.mesh().node_count(), folder_.string()));
-    progress_.line(iteration_header());
-    for (const SteadyIteration& i : state.iterations) progress_.line(iteration_text(i));
-  }
-  void warned(const std::string& text) override { progress_.line("ripstop: " + text); }
-  void progress(const SteadyProgress& p, const SteadyState& state) override {
-    double left = 0;
-    if (!state.iterations.empty()) {
-      left = iterations_left(state, settings_) * state.iterations.back().wall_time - (elapsed() - before_);
-    }
-    progress_.show(progress_text(p, elapsed(), left));
-  }
-  void iterated(const SteadyRun&, const SteadyState& state, const FlowField&) override {
-    before_ = elapsed();
-    progress_.line(iteration_text(state.iterations.back()));
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  double elapsed() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
-
-  const fs::path& folder_;
-  CouplingSettings settings_;
-  Progress progress_;
-  Clock::time_point begin_ = Clock::now();
-  double before_ = 0;  // elapsed at the end of the last iteration
-};
-
 int dry_run(const Case& given, const fs::path& folder) {
   const SteadyProblem problem = steady_problem(given);
   fmt::print("{}: {} nodes, {} x {} x {} cells, {:.4g} m/s, {} ranks; would run in {}\n", given.title,
@@ -213,7 +118,7 @@ int run(const Options& options) {
   const CouplingSettings coupling = resolve(given).coupling;
   const fs::path folder = options.out.empty() ? default_run_folder(options.case_file) : options.out;
   if (options.dry_run) return dry_run(given, folder);
-  Terminal terminal(folder);
+  SteadyTerminal terminal(folder);
   const SteadyFolderRun done =
       run_steady_in({{folder, options.fresh}, 0, options.hostfile, {}}, given, terminal);
   const SteadyResult& result = done.result;

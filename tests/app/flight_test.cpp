@@ -5,6 +5,7 @@
 
 #include "program.h"
 #include "ripstop/core/file.h"
+#include "ripstop/report/report.h"
 
 namespace ripstop {
 namespace {
@@ -26,6 +27,8 @@ TEST_F(FlightCommands, SizeWritesACaseThatChecks) {
   ASSERT_EQ(run({"size", "--mass", "2.4", "--descent-rate", "5", "--height", "300", "--out", in("my.toml")}),
             0);
   EXPECT_NE(printed().find("nominal diameter"), std::string::npos);
+  EXPECT_TRUE(printed().ends_with(in("my.html") + "\n")) << printed();  // the report's path last
+  EXPECT_TRUE(is_report(read_file(in("my.html"))));
   EXPECT_EQ(run({"check", in("my.toml")}), 0);
   EXPECT_EQ(run({"load", in("my.toml"), "--speed", "25", "--out", in("load")}), 0);
   EXPECT_NE(printed().find("Pflanz"), std::string::npos);
@@ -42,6 +45,8 @@ TEST_F(FlightCommands, AFileThatIsThereStaysUnlessForced) {
   forced.push_back("--force");
   EXPECT_EQ(run(forced), 0);
   EXPECT_NE(read_file(in("my.toml")), "mine");
+  fs::remove(in("my.toml"));
+  EXPECT_EQ(run(size), 2) << "my.html is there";
 }
 
 TEST_F(FlightCommands, BadInputIsRefusedAsUsage) {

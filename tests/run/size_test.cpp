@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <regex>
@@ -11,6 +12,8 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/flight/atmosphere.h"
+#include "ripstop/run/report_tables.h"
+#include "ripstop/run/size_report.h"
 
 namespace ripstop {
 namespace {
@@ -93,6 +96,23 @@ TEST(Size, VerifyChangesTheDiameterUntilTheRateHolds) {
   EXPECT_NEAR(r.checks.back().descent_rate, 5, 0.05);
   const auto stuck = [&](const Case&, int) { return SteadyResult(); };
   EXPECT_THROW(verify_size(asked, r, stuck), Error);
+}
+
+TEST(Size, ItsReportHasItsNumbersAndEveryMethodsLoad) {
+  const SizeResult r = run_size(request());
+  const Report report = size_report(r, {});
+  ASSERT_EQ(report.runs.size(), 1u);
+  const ReportRun& page = report.runs.front();
+  EXPECT_EQ(number_of(page, "nominal_diameter_m"), r.nominal_diameter);
+  for (const std::string& key : page.headline) EXPECT_FALSE(std::isnan(number_of(page, key))) << key;
+  const auto methods = std::find_if(page.tables.begin(), page.tables.end(), [](const ReportTable& table) {
+    return table.id.find("methods") != std::string::npos;
+  });
+  ASSERT_NE(methods, page.tables.end());
+  EXPECT_EQ(methods->rows.size(), r.opening.front().methods.size());
+  const std::vector<double>& force = page.plots.front().series.front().y;
+  EXPECT_GE(*std::max_element(force.begin(), force.end()), r.opening_load_low);
+  EXPECT_EQ(page.case_file, r.case_text);
 }
 
 TEST(Size, WhatCannotBeIsRefused) {

@@ -1,11 +1,13 @@
 #include "ripstop/report/assets.h"
 
 // The files become data of this object as they are; RIPSTOP_REPORT_DIR is set where this file is compiled.
+// NOLINTBEGIN(bugprone-macro-parentheses): it names what is declared
 #define RIPSTOP_ASSET(symbol, file)                                                                     \
   __asm__(".section .rodata\n.global " #symbol "\n" #symbol ":\n.incbin \"" RIPSTOP_REPORT_DIR "/" file \
           "\"\n.global " #symbol "_end\n" #symbol "_end:\n.byte 0\n.previous\n");                       \
   extern "C" const char symbol[];                                                                       \
   extern "C" const char symbol##_end[];
+// NOLINTEND(bugprone-macro-parentheses)
 
 RIPSTOP_ASSET(ripstop_report_skeleton, "page/page.html")
 RIPSTOP_ASSET(ripstop_report_uplot_css, "vendor/uplot.min.css")
@@ -27,7 +29,7 @@ RIPSTOP_ASSET(ripstop_report_main, "page/main.js")
 
 namespace ripstop {
 
-#define RIPSTOP_TEXT(symbol) std::string_view(symbol, static_cast<std::size_t>(symbol##_end - symbol))
+#define RIPSTOP_TEXT(symbol) std::string_view(symbol, static_cast<std::size_t>(symbol##_end - (symbol)))
 
 std::string_view report_skeleton() {
   return RIPSTOP_TEXT(ripstop_report_skeleton);

@@ -43,11 +43,29 @@ bool is_group(const Json& value) {
   return value.is_object() || (value.is_array() && !value.empty() && value.front().is_object());
 }
 
+/// Columns are all keys of all rows; what is a group in a row becomes a table of its own.
+ReportTable table_of_rows(const std::string& id, const Json& rows) {
+  ReportTable table{id, heading(in_words(id).text), "", {}, {}};
+  std::vector<std::string> keys;
+  for (const Json& row : rows)
+    for (const auto& [name, value] : row.items())
+      if (!is_group(value) && std::find(keys.begin(), keys.end(), name) == keys.end()) keys.push_back(name);
+  for (const std::string& key : keys) {
+    const Wording words = in_words(key);
+    table.columns.push_back({words.text, words.unit});
+  }
+  for (const Json& row : rows) {
+    std::vector<std::string> fields;
+    for (const std::string& key : keys) fields.push_back(row.contains(key) ? text_of(row[key]) : "");
+    table.rows.push_back(std::move(fields));
+  }
+  return table;
+}
+
 void add_group(std::vector<ReportTable>& tables, const std::string& key, const Json& group) {
-  ReportTable table{key, heading(in_words(key).text), "", {}, {}};
   std::vector<std::pair<std::string, const Json*>> nested;
+  ReportTable table{key, heading(in_words(key).text), "", {{"", ""}, {"", ""}, {"unit", ""}}, {}};
   if (group.is_object()) {
-    table.columns = {{"", ""}, {"", ""}, {"unit", ""}};
     for (const auto& [name, value] : group.items()) {
       if (is_group(value)) {
         nested.emplace_back(name, &value);
@@ -57,20 +75,11 @@ void add_group(std::vector<ReportTable>& tables, const std::string& key, const J
       table.rows.push_back({words.text, text_of(value), words.unit});
     }
   } else {
-    for (const Json& row : group)
-      for (const auto& [name, value] : row.items()) {
-        const Wording words = in_words(name);
-        if (std::none_of(table.columns.begin(), table.columns.end(),
-                         [&](const ReportColumn& column) { return column.text == words.text; }))
-          table.columns.push_back({words.text, words.unit});
-      }
-    for (const Json& row : group) {
-      std::vector<std::string> fields(table.columns.size());
-      for (const auto& [name, value] : row.items())
-        for (std::size_t c = 0; c < fields.size(); ++c)
-          if (table.columns[c].text == in_words(name).text) fields[c] = text_of(value);
-      table.rows.push_back(fields);
-    }
+    table = table_of_rows(key, group);
+    for (std::size_t i = 0; i < group.size(); ++i)
+      for (const auto& [name, value] : group[i].items())
+        if (is_group(value))
+          nested.emplace_back(group.size() > 1 ? fmt::format("{} {}", i + 1, name) : name, &value);
   }
   if (!table.rows.empty()) tables.push_back(table);
   for (const auto& [name, value] : nested) add_group(tables, key + " " + name, *value);

@@ -17,7 +17,6 @@
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/flight/descent.h"
 #include "ripstop/run/json.h"
-#include "ripstop/run/load.h"
 #include "ripstop/run/pattern.h"
 #include "ripstop/run/size_case.h"
 
@@ -55,15 +54,15 @@ void find_size(const SizeRequest& request, SizeResult& r) {
   }
 }
 
-double opening_load_of(const SizeRequest& request, SizeResult& r) {
+void find_opening(const SizeRequest& request, SizeResult& r) {
   LoadRequest asked;
   asked.payload_mass = request.payload_mass;
   asked.speed = r.deployment_speed;
   asked.height = std::max(r.height, 100.0);
   asked.drag_coefficient = r.drag_coefficient;
-  const LoadResult load = run_load(r.given, asked);
-  r.opening_load_low = load.stages.front().lowest;
-  return load.stages.front().highest;
+  LoadResult load = run_load(r.given, asked);
+  r.opening_load_low = load.stages.front().lowest, r.opening_load = load.stages.front().highest;
+  r.opening = std::move(load.stages), r.flight = std::move(load.flight);
 }
 
 /// Safety factor times the load of one line over what is left of its strength.
@@ -202,7 +201,7 @@ SizeResult run_size(const SizeRequest& request) {
                             request.descent_rate, r.deployment_speed));
   r.given = example_case(request, r);
   find_size(request, r);
-  r.opening_load = opening_load_of(request, r);
+  find_opening(request, r);
   choose_line(request, r);
   find_size(request, r);
   describe_parachute(request, r);

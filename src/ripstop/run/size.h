@@ -11,6 +11,7 @@
 #include "ripstop/case/case.h"
 #include "ripstop/core/members.h"
 #include "ripstop/parachute/cut.h"
+#include "ripstop/run/load.h"
 #include "ripstop/run/steady.h"
 
 namespace ripstop {
@@ -66,6 +67,8 @@ struct SizeResult {
   double deployment_speed = 0, opening_load = 0, opening_load_low = 0;      // [m/s], [N]
   double line_used = 0;  // of what is left of a line's strength, by the highest opening load with safety
   std::vector<SizeCheck> checks;
+  std::vector<StageLoads> opening;  // by every method, at the size found first
+  std::vector<FlightRow> flight;    // of that opening; not in result.json
   std::vector<std::string> warnings;
   Case given;             // the parachute
   std::string case_text;  // as a file, with comments
@@ -100,6 +103,7 @@ void each_member(T& r, Visit&& visit) {
   visit("opening_load_low_n", r.opening_load_low);
   visit("line_used", r.line_used);
   visit("checks", r.checks);
+  visit("opening", r.opening);
   visit("warnings", r.warnings);
 }
 std::string to_json(const SizeResult& result);

@@ -6,6 +6,7 @@ const Page = (() => {
   let shapes = null;  // the one ShapeSection, moved to the run that is shown
   const sections = [];
   const figures = [];
+  const kinds = { opening: "Opening", steady: "Steady run", size: "Sizing" };
 
   function headline(run) {
     const cards = run.headline.map((key) => run.values.find((value) => value.key === key)).filter((value) => value && value.value !== null);
@@ -38,7 +39,7 @@ const Page = (() => {
     const about = ["bill", "sources"];
     const own = run.tables.filter((table) => !about.includes(table.id)), rest = run.tables.filter((table) => about.includes(table.id));
     const node = element("section", { class: "run", id: `run-${index}`, role: "tabpanel", "aria-label": run.name },
-      element("p", { class: "muted" }, `${run.kind === "opening" ? "Opening" : "Steady run"} · ${run.name}`, run.title && index > 0 ? ` · ${run.title}` : ""),
+      element("p", { class: "muted" }, `${kinds[run.kind]} · ${run.name}`, run.title && index > 0 ? ` · ${run.title}` : ""),
       headline(run), warnings(run),
       run.shape ? element("h2", {}, run.kind === "opening" ? "Shape and force" : "Shape and air") : null, stageSlot, paper, force?.node,
       run.plots.length ? element("h2", {}, "Plots") : null, plots.node,

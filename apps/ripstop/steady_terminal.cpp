@@ -1,0 +1,103 @@
+#include "steady_terminal.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ripstop/case/resolve.h"
+
+namespace ripstop {
+namespace {
+
+// Iterations still to come: as many as the drag's change needs at its rate of fall so far, five at the first.
+double iterations_left(const SteadyState& state, const CouplingSettings& settings) {
+  const auto& all = state.iterations;
+  if (all.size() < 3) return 5;
+  const double now = all.back().drag_change, before = all[all.size() - 2].drag_change;
+  if (now <= settings.drag_tolerance) return 1;
+  const double rate = std::min(0.7, now / before);
+  return 1 + std::log(settings.drag_tolerance / now) / std::log(rate);
+}
+
+std::string progress_text(const SteadyProgress& p, double elapsed, double left) {
+  const std::string time =
+      left > 0 ? fmt::format("{} gone, about {} left", duration_text(elapsed), duration_text(left))
+               : fmt::format("{} gone", duration_text(elapsed));
+  if (p.stage == SteadyStage::time) {
+    const FlowStep& step = p.time.step;
+    const std::string mean = p.time.mean != 0
+                                 ? fmt::format("mean {:.1f} +- {:.2g} N, {:.0f} % of the watch", p.time.mean,
+                                               p.time.standard_error, std::min(99.0, 100 * p.time.share))
+                                 : std::string("start-up");
+    return fmt::format("[{}] time: {:.3f} s, step {} of {:.2g} s, drag {:.1f} N, {} | {}", p.iteration,
+                       step.time, step.step, step.length, step.force.z, mean, time);
+  }
+  if (p.stage == SteadyStage::cloth) {
+    return fmt::format("[{}] cloth: step {}, residual {:.1e} | {}", p.iteration, p.cloth.steps,
+                       p.cloth.residual, time);
+  }
+  return fmt::format("[{}] flow: iteration {}, residuals U {:.1e} p {:.1e} k {:.1e}, drag {:.1f} N | {}",
+                     p.iteration, p.flow.iteration, p.flow.residual_u, p.flow.residual_p, p.flow.residual_k,
+                     p.flow.drag, time);
+}
+
+/// The members of an iteration that are shown, one under the other.
+std::string iteration_header() {
+  std::string text;
+  const SteadyIteration none;
+  each_member(none, [&](const char*, const auto&, auto... how) {
+    ((text += fmt::format("{:>{}} ", how.heading, how.width)), ...);
+  });
+  return text;
+}
+
+std::string shown(double value, const Shown& how) {
+  if (!std::isfinite(value)) return "-";
+  return *how.format ? fmt::format(fmt::runtime(how.format), how.factor * value) : duration_text(value);
+}
+
+std::string iteration_text(const SteadyIteration& iteration) {
+  std::string text;
+  each_member(iteration, [&](const char*, [[maybe_unused]] const auto& member, auto... how) {
+    ((text += fmt::format("{:>{}} ", shown(double(member), how), how.width)), ...);
+  });
+  return text;
+}
+
+}  // namespace
+
+void SteadyTerminal::begin(const SteadyRun& run, SteadyState& state) {
+  settings_ = resolve(run.given).coupling;
+  if (!state.iterations.empty()) {
+    progress_.line(
+        fmt::format("going on after coupling iteration {} of {}", state.iterations.size(), folder_.string()));
+  }
+  progress_.line(fmt::format("{}: {}, {} cloth nodes, {}", run.given.title, run.engine,
+                             run.solver.mesh().node_count(), folder_.string()));
+  progress_.line(iteration_header());
+  for (const SteadyIteration& i : state.iterations) progress_.line(iteration_text(i));
+}
+
+void SteadyTerminal::warned(const std::string& text) {
+  progress_.line("ripstop: " + text);
+}
+
+void SteadyTerminal::progress(const SteadyProgress& p, const SteadyState& state) {
+  double left = 0;
+  if (!state.iterations.empty()) {
+    left = iterations_left(state, settings_) * state.iterations.back().wall_time - (elapsed() - before_);
+  }
+  progress_.show(progress_text(p, elapsed(), left));
+}
+
+void SteadyTerminal::iterated(const SteadyRun&, const SteadyState& state, const FlowField&) {
+  before_ = elapsed();
+  progress_.line(iteration_text(state.iterations.back()));
+}
+
+double SteadyTerminal::elapsed() const {
+  return std::chrono::duration<double>(Clock::now() - begin_).count();
+}
+
+}  // namespace ripstop
