@@ -14,9 +14,8 @@ namespace fs = std::filesystem;
 
 class FlightCommands : public testing::Test {
  protected:
-  int run(std::vector<std::string> arguments) {
-    return wait_for(start(arguments, (folder_.path / "out").string()));
-  }
+  int run(std::vector<std::string> arguments) { return wait_for(start(arguments, in("out"), in("error"))); }
+  std::string said() const { return read_file(folder_.path / "error"); }
   std::string printed() const { return read_file(folder_.path / "out"); }
   std::string in(const char* name) const { return (folder_.path / name).string(); }
   const std::string flat_ = RIPSTOP_SOURCE_DIR "/examples/flat-circular/case.toml";
@@ -49,19 +48,89 @@ TEST_F(FlightCommands, AFileThatIsThereStaysUnlessForced) {
   EXPECT_EQ(run(size), 2) << "my.html is there";
 }
 
-TEST_F(FlightCommands, BadInputIsRefusedAsUsage) {
-  EXPECT_EQ(run({"size", "--mass", "-2.4", "--descent-rate", "5", "--out", in("my.toml")}), 2);
-  EXPECT_EQ(run({"size", "--mass", "2.4", "--descent-rate", "50", "--deployment-speed", "20", "--out",
-                 in("my.toml")}),
-            2);
-  EXPECT_FALSE(fs::exists(folder_.path / "my.toml"));
-  EXPECT_EQ(run({"load", flat_, "--speed", "25"}), 2);  // no mass
-  EXPECT_EQ(run({"load", flat_, "--mass", "-1", "--speed", "25"}), 2);
-  EXPECT_EQ(run({"load", flat_, "--mass", "50", "--speed", "5"}), 2);
-  EXPECT_EQ(run({"load", flat_, "--mass", "2", "--speed", "25", "--reef", "0.1"}), 2);
-  EXPECT_EQ(run({"descent", in("none"), "--mass", "4"}), 2);
-  EXPECT_EQ(run({"export", "rocketpy", in("none")}), 2);
-  EXPECT_EQ(run({"export", "spacepy", in("none")}), 2);
+/// What a user types and what the message must name.
+struct Mistake {
+  std::vector<std::string> arguments;
+  std::string named;
+};
+
+TEST_F(FlightCommands, BadInputIsRefusedByWhatIsWrongAndLeavesNothingBehind) {
+  fs::create_directories(in("empty"));
+  const auto load = [&](std::vector<std::string> more) {
+    std::vector<std::string> all = {"load", flat_, "--out", in("load")};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  };
+  const auto opening = [&](std::vector<std::string> more) {
+    more.insert(more.end(), {"--mass", "2", "--speed", "25"});
+    return load(more);
+  };
+  const auto size = [&](std::vector<std::string> more) {
+    std::vector<std::string> all = {"size", "--out", in("my.toml")};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  };
+  const Mistake mistakes[] = {
+      {size({"--mass", "-2.4", "--descent-rate", "5"}), "payload mass (kg) of -2.4"},
+      {size({"--mass", "nan", "--descent-rate", "5"}), "payload mass (kg) of nan"},
+      {size({"--mass", "2.4", "--descent-rate", "-5"}), "descent rate (m/s) of -5"},
+      {size({"--mass", "2.4", "--descent-rate", "50", "--deployment-speed", "20"}),
+       "descent rate of 50 m/s is not below the deployment speed of 20 m/s"},
+      {size({"--mass", "2.4", "--descent-rate", "5", "--height", "99000"}), "height of 99000 m"},
+      {size({"--mass", "2.4", "--descent-rate", "5", "--density", "-1"}), "density (kg/m3) of -1"},
+      {size({"--mass", "2.4", "--descent-rate", "5", "--family", "conicl"}), "did you mean conical?"},
+      {load({"--speed", "25"}), "--mass KG"},
+      {load({"--mass", "-1", "--speed", "25"}), "payload mass (kg) of -1"},
+      {load({"--mass", "2", "--speed", "nan"}), "speed at line stretch (m/s) of nan"},
+      {load({"--mass", "50", "--speed", "5"}), "above the 5 m/s of the deployment"},
+      {opening({"--height", "90000"}), "height of 90000 m"},
+      {opening({"--height", "300", "--ground", "500"}), "above the ground at 500 m"},
+      {opening({"--angle", "120"}), "120 degrees below the horizon"},
+      {opening({"--reef", "0.1"}), "SHARE:SECONDS"},
+      {opening({"--reef", "1.2:3"}), "reefed stage at 1.2"},
+      {opening({"--reef", "0.1:-3"}), "duration of a reefed stage (s) of -3"},
+      {opening({"--drag-coefficient", "-1"}), "drag coefficient of -1"},
+      {opening({"--opening-coefficient", "0"}), "opening coefficient C_x of 0"},
+      {opening({"--filling-constant", "-8"}), "filling constant n of -8"},
+      {opening({"--filling-exponent", "0"}), "exponent of the drag area of 0"},
+      {opening({"--impulse-integral", "2"}), "mean over the peak force of 2"},
+      {opening({"--snatch-speed", "-3"}), "speed difference (m/s) of -3"},
+      {opening({"--packed-area", "-1"}), "packed canopy of -1"},
+      {opening({"--packed-area", "1", "--payload-area", "-1"}), "payload of -1"},
+      {opening({"--steady", in("empty")}), "holds no finished run of ripstop steady"},
+      {opening({"--opening", in("empty")}), "holds no finished run of ripstop inflate"},
+      {{"descent", in("empty"), "--mass", "4"}, "make one by: ripstop steady CASE"},
+      {{"descent", in("none"), "--mass", "4"}, "holds no finished run of ripstop steady"},
+      {{"export", "rocketpy", in("empty")}, "holds no finished run of ripstop steady"},
+      {{"export", "openrocket", in("none")}, "holds no finished run of ripstop steady"},
+      {{"export", "spacepy", in("empty")}, "spacepy"},
+      {{"check", flat_, "--set", "payload.mass_kg=-1"}, "payload.mass_kg = -1: must be above 0"},
+      {{"check", flat_, "--set", "margins.safety_factor=0.5"}, "must be at least 1 and at most 10"},
+      {{"check", flat_, "--set", "margins.seam_efficiency=1.5"}, "must be above 0 and at most 1"},
+  };
+  for (const Mistake& m : mistakes) {
+    EXPECT_EQ(run(m.arguments), 2) << m.named;
+    EXPECT_NE(said().find(m.named), std::string::npos) << m.named << " in: " << said();
+  }
+  EXPECT_FALSE(fs::exists(in("my.toml")));
+  EXPECT_FALSE(fs::exists(in("load")));
+}
+
+// One iteration of a coarse run is not a finished drag: nothing may be made of it.
+TEST_F(FlightCommands, ARunThatDidNotConvergeCarriesNoFlight) {
+  EXPECT_EQ(run({"steady", flat_, "--grid", "16,16,24", "--set", "parachute.mesh.cloth_nodes=500", "--set",
+                 "coupling.max_iterations=1", "--set", "coupling.threads=1", "--out", in("run")}),
+            4);
+  const std::vector<std::vector<std::string>> users = {
+      {"descent", in("run"), "--mass", "4"},
+      {"export", "rocketpy", in("run")},
+      {"load", flat_, "--mass", "2", "--speed", "25", "--steady", in("run"), "--out", in("load")}};
+  for (const std::vector<std::string>& arguments : users) {
+    EXPECT_EQ(run(arguments), 3) << arguments[0];
+    EXPECT_NE(said().find("has not converged, so that its drag says nothing"), std::string::npos) << said();
+  }
+  EXPECT_EQ(run({"descent", in("run"), "--mass", "-4"}), 3);
+  EXPECT_FALSE(fs::exists(in("load")));
 }
 
 }  // namespace

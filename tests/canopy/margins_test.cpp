@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "ripstop/canopy/stress.h"
+
 namespace ripstop {
 namespace {
 
@@ -52,6 +54,18 @@ TEST(Margins, OfUnknownStrengthAreToldAndNeverTheWeakest) {
   EXPECT_EQ(margins.weakest, "cloth");
   m.cloth.break_load_n_m = 0;
   EXPECT_EQ(margins_of({1, 0, {5000}, 0}, none, m.cloth, m.tape, m.line, m.riser).weakest, "");
+}
+
+// A chain of one strain: 0.9 of the law in the axial spring, 0.05 in each of two springs over two.
+TEST(Margins, AChainCarriesWhatItsAxialAndItsBendingSpringsDo) {
+  const double axial = 90;
+  EXPECT_NEAR(chain_tension(axial, 0.1, 0, 1), 90, 1e-12);  // nothing reaches over a single one
+  EXPECT_NEAR(chain_tension(axial, 0.1, 0, 2), 95, 1e-12);
+  EXPECT_NEAR(chain_tension(axial, 0.1, 1, 2), 95, 1e-12);
+  EXPECT_NEAR(chain_tension(axial, 0.1, 0, 5), 95, 1e-12);
+  EXPECT_NEAR(chain_tension(axial, 0.1, 2, 5), 100, 1e-12);
+  EXPECT_NEAR(chain_tension(axial, 0.1, 4, 5), 95, 1e-12);
+  EXPECT_EQ(chain_tension(axial, 0, 2, 5), 90);
 }
 
 }  // namespace

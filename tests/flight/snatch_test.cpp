@@ -63,6 +63,8 @@ TEST(Snatch, TheSpeedDifferenceLiesBetweenNoneAndAll) {
   EXPECT_LT(some, 40);
   EXPECT_GT(speed_difference_at_stretch({50, 0.1}, {2, 0.3}, 40, 1.2, 8), some);
   EXPECT_THROW(speed_difference_at_stretch({1, 1}, {2, 0.3}, 40, 1.2, 5), Error);
+  EXPECT_THROW(speed_difference_at_stretch({50, -0.1}, {2, 0.3}, 40, 1.2, 5), Error);
+  EXPECT_THROW(speed_difference_at_stretch({50, 0.1}, {2, -0.3}, 40, 1.2, 5), Error);
 }
 
 }  // namespace

@@ -3,12 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "finished_run.h"
 #include "ripstop/core/error.h"
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/flight/descent.h"
 #include "ripstop/output/csv.h"
+#include "ripstop/run/filling.h"
 
 namespace ripstop {
 namespace {
@@ -55,6 +57,19 @@ TEST(Load, AStageFillsAsItsOwnShareOfTheAreaDoes) {
         << n;
 }
 
+// Knacke, NWC TP 6575, Table 5-6 (page 5-44), unreefed, and Fig. 5-51 (page 5-59): read in github.com/nrdptel/hpr-sim,
+// crates/hpr-sim/src/recovery.rs, which was written beside the print.
+TEST(Load, FillingConstantsAreTheHandbooks) {
+  EXPECT_EQ(known_filling("flat-circular").constant, 8);
+  EXPECT_EQ(known_filling("extended-skirt").constant, 10);
+  EXPECT_EQ(known_filling("cross").constant, 11.7);
+  EXPECT_EQ(known_filling("ringslot").constant, 14);
+  EXPECT_EQ(known_filling("ringsail").constant, 7);
+  for (const char* solid : {"flat-circular", "conical", "extended-skirt"})
+    EXPECT_EQ(known_filling(solid).exponent, 2) << solid;
+  EXPECT_EQ(known_filling("ringslot").exponent, 1);
+}
+
 TEST(Load, PutsTheMethodsSideBySideAndSaysWhichApply) {
   const LoadResult r = run_load(flat_circular(), request());
   ASSERT_EQ(r.stages.size(), 1u);
@@ -81,6 +96,48 @@ TEST(Load, EndsInTheSteadyDescentOfItsMass) {
   EXPECT_NEAR(r.steady_speed / terminal_speed(r.payload_mass + r.parachute_mass,
                                               r.drag_coefficient * r.reference_area, density),
               1, 2e-3);
+}
+
+/// What the way through `rows` leaves open by the trapezoidal rule: of momentum over the first, of energy over the first.
+struct Balance {
+  double level = 0, down = 0, energy = 0;
+};
+Balance balance(const std::vector<FlightRow>& rows, double mass) {
+  const auto angle = [](const FlightRow& row) { return row.state.path_angle * std::numbers::pi / 180; };
+  const auto of = [&](const FlightRow& row) {
+    return Vec3{row.force * std::cos(angle(row)), row.force * std::sin(angle(row)),
+                row.force * row.state.speed};
+  };
+  Vec3 sum;
+  for (std::size_t i = 1; i < rows.size(); ++i)
+    sum = sum + (of(rows[i - 1]) + of(rows[i])) * (0.5 * (rows[i].state.time - rows[i - 1].state.time));
+  const FlightState &a = rows.front().state, &b = rows.back().state;
+  const auto change = [&](double (*turn)(double)) {
+    return mass * (b.speed * turn(angle(rows.back())) - a.speed * turn(angle(rows.front())));
+  };
+  const double momentum = mass * a.speed, energy = 0.5 * mass * a.speed * a.speed;
+  return {
+      (change([](double x) { return std::cos(x); }) + sum.x) / momentum,
+      (change([](double x) { return std::sin(x); }) + sum.y - mass * standard_gravity * (b.time - a.time)) /
+          momentum,
+      (0.5 * mass * b.speed * b.speed - energy + mass * standard_gravity * (b.height - a.height) + sum.z) /
+          energy};
+}
+
+// Over whole flights with every stage and every joint between them. The rule's own error goes with the square of the
+// steps, 400 a filling: some 1 / 400^2.
+TEST(Load, EveryFlightKeepsMomentumAndEnergy) {
+  for (const double angle : {0.0, 45.0, 90.0})
+    for (const double mass : {0.5, 8.0, 100.0})
+      for (const bool reefed : {false, true}) {
+        LoadRequest asked = request(mass, 70);
+        asked.path_angle = angle, asked.height = 3000;
+        if (reefed) asked.reefing = {{0.1, 2}, {0.4, 2}};
+        const LoadResult r = run_load(flat_circular(), asked);
+        const Balance left = balance(r.flight, r.payload_mass + r.parachute_mass);
+        for (const double open : {left.level, left.down, left.energy})
+          EXPECT_NEAR(open, 0, 1e-5) << angle << " " << mass << " " << reefed;
+      }
 }
 
 TEST(Load, AHeavyPayloadIsAtInfiniteMass) {
@@ -123,6 +180,11 @@ TEST(Load, WhatCannotBeIsRefused) {
   asked = request();
   asked.ground = 600;
   EXPECT_NE(refused(asked).find("above the ground"), std::string::npos);
+  for (const double angle : {120.0, -91.0, std::nan("")}) {
+    asked = request();
+    asked.path_angle = angle;
+    EXPECT_NE(refused(asked).find("below the horizon"), std::string::npos) << angle;
+  }
   asked = request();
   asked.steady = "/nowhere";
   EXPECT_NE(refused(asked).find("no finished run"), std::string::npos);

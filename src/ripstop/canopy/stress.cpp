@@ -57,6 +57,12 @@ std::vector<LineTension> line_tensions(const CanopyMesh& mesh, const std::vector
   return tensions;
 }
 
+double chain_tension(double axial, double bending_fraction, std::size_t at, std::size_t count) {
+  const int over = (at > 0) + (at + 1 < count);
+  const double share = 1 - bending_fraction;
+  return axial * (share + 0.5 * bending_fraction * over) / share;
+}
+
 StressPeak stress_peak(const Mesh& mesh, const std::vector<Vec3>& x, const std::vector<CellStress>& stress) {
   StressPeak peak;
   const std::vector<Cell> cells = cells_of(mesh);

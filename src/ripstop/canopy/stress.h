@@ -17,6 +17,11 @@ struct LineTension {
 };
 std::vector<LineTension> line_tensions(const CanopyMesh& mesh, const std::vector<double>& spring_tensions);
 
+/// What a chain carries at its axial spring `at` of `count`, whose tension is `axial` [N]. `bending_fraction` of the
+/// line's law is in two bending springs that lie over every axial one, but for one over the first and over the last,
+/// and none over a single one; where the strain hardly changes along the chain all of them are under the same strain.
+double chain_tension(double axial, double bending_fraction, std::size_t at, std::size_t count);
+
 /// Where the cloth carries most, and how much of it carries.
 struct StressPeak {
   double von_mises = 0;  // [N/m]

@@ -14,7 +14,7 @@ void describe(Fields& fields, PayloadKeys& payload) {
 }
 
 // Knacke, NWC TP 6575, 6.2, has safety factors of 1.5 (unmanned) to 2 and the losses below; the values were written
-// down from memory and not checked against the print.
+// down from memory and not checked against the print. No public text with his table was found.
 void describe(Fields& fields, MarginFactors& m) {
   fields.number(
       "safety_factor", m.safety_factor, from(1).up_to(10),

@@ -9,8 +9,10 @@
 namespace ripstop {
 
 void require_positive(const std::string& what, double value) {
-  if (!(value > 0) || !std::isfinite(value))
-    throw Error(ExitCode::usage, fmt::format("a {} of {:g}: must be above 0", what, value));
+  if (value > 0 && std::isfinite(value)) return;
+  const bool vowel = std::string("aeio").find(what.front()) != std::string::npos;
+  throw Error(ExitCode::usage,
+              fmt::format("{} {} of {:g}: must be above 0", vowel ? "an" : "a", what, value));
 }
 
 }  // namespace ripstop

@@ -139,9 +139,15 @@ double speed_difference_at_stretch(const Coasting& payload, const Coasting& cano
   check(speed, "speed (m/s)");
   check(density, "density (kg/m3)");
   check(length, "length (m) of lines and riser");
+  check(canopy.drag_area, "drag area (m2) of the packed canopy");
+  if (!(payload.drag_area >= 0))
+    throw Error(ExitCode::usage,
+                fmt::format("a snatch with a drag area (m2) of the payload of {:g}: must be 0 "
+                            "or above",
+                            payload.drag_area));
   const double bp = 0.5 * density * payload.drag_area / payload.mass;
   const double bc = 0.5 * density * canopy.drag_area / canopy.mass;
-  if (!(payload.drag_area >= 0) || !(bc > bp))
+  if (!(bc > bp))
     throw Error(
         ExitCode::usage,
         "the packed canopy has to be slowed more than the payload for the lines to be stretched: its drag "

@@ -222,7 +222,7 @@ Experience experience(const DiskGapBand&) {
   return {.projected_ratio = {0.65, 0.65},
           .drag_coefficient = {0.52, 0.58},
           .opening_coefficient = 1.3,
-          .opening_source = knacke_unchecked,
+          .opening_source = knacke_transcribed,
           .cloth_nodes = 1500};
 }
 

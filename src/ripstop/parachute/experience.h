@@ -8,7 +8,7 @@ struct KnownRange {
 };
 
 /// Ranges and C_x from T. W. Knacke, Parachute Recovery Systems Design Manual, NWC TP 6575 (1991), Tables 5-1
-/// (solid textile) and 5-2 (slotted canopies); the ranges are not checked against the print.
+/// (solid textile) and 5-2 (slotted canopies); the projected ratios are not checked against the print.
 struct Experience {
   KnownRange projected_ratio;      // projected over nominal diameter in steady flight
   KnownRange drag_coefficient;     // on the nominal area, in descent: what swings and glides is in it
@@ -21,14 +21,12 @@ struct Experience {
   int cloth_nodes = 0;
 };
 
-/// Flat circular, conical, hemispherical, extended skirt and cross: the transcription is parachute_design.m
-/// of the Stanford Student Space Initiative, which cites Knacke, 1992; flat circular and cross agree with a
-/// second one besides.
+/// C_x and the ranges of the drag coefficient agree with crates/hpr-sim/src/recovery.rs of github.com/nrdptel/hpr-sim,
+/// which names the printed pages 5-3 and 5-4; C_x of the solid canopies also with parachute_design.m of the Stanford
+/// Student Space Initiative. The disk-gap-band is in neither: C_x and drag agree with the table as OSCALC's manual
+/// reprints it (mwitty.com/content.php?id=5709156, text by character recognition).
 inline constexpr const char* knacke_transcribed =
     "Knacke, NWC TP 6575, Tables 5-1 and 5-2, infinite mass; value agrees with a public transcription, not "
     "checked against the print";
-/// Written down from memory: no public text with them was found, the tables are public as pictures only.
-inline constexpr const char* knacke_unchecked =
-    "Knacke, NWC TP 6575, Tables 5-1 and 5-2, infinite mass; value not checked against the print";
 
 }  // namespace ripstop

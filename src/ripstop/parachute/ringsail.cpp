@@ -120,9 +120,9 @@ GorePattern gore_pattern(const Ringsail& canopy, int gores) {
 
 Experience experience(const Ringsail&) {
   return {.projected_ratio = {0.69, 0.69},
-          .drag_coefficient = {0.75, 0.90},
+          .drag_coefficient = {0.75, 0.85},
           .opening_coefficient = 1.1,
-          .opening_source = knacke_unchecked,
+          .opening_source = knacke_transcribed,
           .cloth_nodes = 3000};
 }
 

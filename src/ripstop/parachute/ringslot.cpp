@@ -73,7 +73,7 @@ Experience experience(const Ringslot&) {
   return {.projected_ratio = {0.67, 0.70},
           .drag_coefficient = {0.56, 0.65},
           .opening_coefficient = 1.05,
-          .opening_source = knacke_unchecked,
+          .opening_source = knacke_transcribed,
           .cloth_nodes = 6000};
 }
 

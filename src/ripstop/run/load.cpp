@@ -33,6 +33,11 @@ void check_request(const LoadRequest& request) {
     throw Error(ExitCode::usage,
                 fmt::format("an opening at {:g} m above sea level: must be above the ground at {:g} m",
                             request.height, request.ground));
+  if (!(std::abs(request.path_angle) <= 90))
+    throw Error(ExitCode::usage,
+                fmt::format("a way {:g} degrees below the horizon: must be from -90, straight "
+                            "up, to 90, straight down",
+                            request.path_angle));
   double before = 0;
   for (const ReefedStage& stage : request.reefing) {
     if (!(stage.share > before && stage.share < 1))

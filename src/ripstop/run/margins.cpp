@@ -14,8 +14,10 @@ Margins case_margins(const Case& given, const CanopyMesh& mesh, const std::vecto
       loads.lines.push_back(t.largest_tension);
     for (const int spring : mesh.rigging.tape_springs)
       loads.tape = std::max(loads.tape, spring_tensions[spring]);
-    for (const int spring : mesh.rigging.riser_springs)
-      loads.riser = std::max(loads.riser, spring_tensions[spring] / (1 - riser.bending_fraction));
+    const std::vector<int>& chain = mesh.rigging.riser_springs;
+    for (std::size_t i = 0; i < chain.size(); ++i)
+      loads.riser = std::max(
+          loads.riser, chain_tension(spring_tensions[chain[i]], riser.bending_fraction, i, chain.size()));
   }
   return margins_of(loads, given.margins, canopy_fabric(given), reinforcement_tape(given),
                     suspension_line(given), riser);
