@@ -90,12 +90,16 @@ double error(int n, bool second_order) {
   return std::sqrt(sum / count) / speed;
 }
 
-TEST(MadeUpFlow, TheUpwindSolutionIsOfFirstOrderAndTheLimitedOneOfSecond) {
-  const double upwind[] = {error(16, false), error(32, false)},
-               limited[] = {error(16, true), error(32, true)};
-  EXPECT_NEAR(std::log2(upwind[0] / upwind[1]), 1, 0.1) << upwind[0] << " to " << upwind[1];
-  EXPECT_NEAR(std::log2(limited[0] / limited[1]), 2, 0.25) << limited[0] << " to " << limited[1];
-  EXPECT_LT(limited[1], 0.1 * upwind[1]);
+TEST(MadeUpFlow, TheUpwindSolutionIsOfFirstOrder) {
+  const double coarse = error(12, false), fine = error(24, false);
+  EXPECT_NEAR(std::log2(coarse / fine), 1, 0.1) << coarse << " to " << fine;
+}
+
+// On finer grids than the upwind one: from 12 to 24 cells a metre it still falls faster than it will.
+TEST(MadeUpFlow, TheLimitedSolutionIsOfSecondOrder) {
+  const double coarse = error(16, true), fine = error(32, true);
+  EXPECT_NEAR(std::log2(coarse / fine), 2, 0.25) << coarse << " to " << fine;
+  EXPECT_LT(coarse, 0.1 * error(16, false));
 }
 
 }  // namespace

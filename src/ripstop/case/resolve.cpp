@@ -68,8 +68,8 @@ void resolve_air(Follow& follow, const Case& given, FlowKeys& keys, FlowSettings
 void resolve_tunnel(Follow& follow, FlowKeys& keys, TunnelSettings& tunnel) {
   tunnel.kind = keys.tunnel.kind;
   if (tunnel.kind == TunnelKind::free_air) return;
-  const auto take = [&](const char* key, auto& written, auto otherwise, std::string from) {
-    return follow(std::string("flow.tunnel.") + key, written, otherwise, std::move(from));
+  const auto take = [&](const char* key, auto& written, auto otherwise, const std::string& from) {
+    return follow(std::string("flow.tunnel.") + key, written, otherwise, from);
   };
   TunnelKeys& given = keys.tunnel;
   const bool jet = tunnel.kind == TunnelKind::open_jet;

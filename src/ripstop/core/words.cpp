@@ -43,7 +43,7 @@ constexpr Ending endings[] = {
 };
 
 // Where the key's own words do not do.
-const std::map<std::string_view, Wording>& known() {
+const std::map<std::string_view, Wording>& known() {  // NOLINT(readability-function-size): a list
   static const std::map<std::string_view, Wording> words = {
       {"drag_coefficient", {"drag coefficient", ""}},
       {"drag_area_m2", {"drag area", "m²"}},

@@ -90,8 +90,8 @@ void write_flow_picture(const std::filesystem::path& path, const std::string& ti
   write_drawing(path, width, height, [&](cairo_t* page) {
     draw_text(page, margin, 36, title, {.size = 20, .bold = true});
     for (int n = 0; n < static_cast<int>(shots.size()); ++n) {
-      const double x = margin + (n % in_a_row) * (columns + margin),
-                   y = head + (n / in_a_row) * (rows + caption);
+      const int column = n % in_a_row, line = n / in_a_row;
+      const double x = margin + column * (columns + margin), y = head + line * (rows + caption);
       draw_raster(page, x, y, raster_of(*shots[n].field, window, range, columns, rows));
       draw_text(page, x, y + rows + 20, shots[n].caption, {.size = 15});
     }
