@@ -32,8 +32,7 @@ inline py::array view_of(const std::vector<Vec3>& points, py::handle owner) {
   return view_of(data, {static_cast<py::ssize_t>(points.size()), 3}, owner);
 }
 template <class Number>
-  requires std::is_arithmetic_v<Number>
-py::array view_of(const std::vector<Number>& values, py::handle owner) {
+requires std::is_arithmetic_v<Number> py::array view_of(const std::vector<Number>& values, py::handle owner) {
   return view_of(values.data(), {static_cast<py::ssize_t>(values.size())}, owner);
 }
 

@@ -17,9 +17,10 @@ DampingResult calibrate(const PyCase& given, const OptionalSource& steady, std::
   const py::gil_scoped_release release;
   const Opening opening = opening_of(given.given, steady, pressure, threads);
   damping_target(opening.given);
-  DampingResult result = run_damping(opening.given, opening.source,
-                                     opening_problem(opening.given, opening.source, opening.threads), search,
-                                     [&](const DampingTrial& trial) { listener.tell(trial); });
+  const auto alive = [&] { listener.listen(); };
+  DampingResult result = run_damping(
+      opening.given, opening.source, opening_problem(opening.given, opening.source, opening.threads, alive),
+      search, [&](const DampingTrial& trial) { listener.tell(trial); }, alive);
   if (out) write_damping(*out, result);
   return result;
 }
@@ -28,13 +29,15 @@ DampingResult calibrate(const PyCase& given, const OptionalSource& steady, std::
 
 void add_calibrate(py::module_& module) {
   add_class<DampingTrial>(module, "DampingTrial", "One opening with one C_a.");
-  add_result<DampingResult>(module, "Damping", "C_a from a measured opening: the numbers of its result.json.");
+  add_result<DampingResult>(module, "Damping",
+                            "C_a from a measured opening: the numbers of its result.json.");
   module.def(
       "calibrate_damping",
       [](PyCase given, const OptionalSource& steady, std::optional<double> pressure, double from, double to,
-         int points, int refinements, Callback<DampingTrial> progress, int threads, const std::optional<Path>& out) {
-        return calibrate(given, steady, pressure, {from, to, points, refinements}, std::move(progress), threads,
-                         out);
+         int points, int refinements, Callback<DampingTrial> progress, int threads,
+         const std::optional<Path>& out) {
+        return calibrate(given, steady, pressure, {from, to, points, refinements}, std::move(progress),
+                         threads, out);
       },
       py::arg("case"), py::kw_only(), py::arg("steady") = py::none(), py::arg("pressure_pa") = py::none(),
       py::arg("smallest") = 4.0, py::arg("largest") = 16.0, py::arg("points") = 7, py::arg("refinements") = 4,

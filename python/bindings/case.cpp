@@ -12,7 +12,9 @@ namespace {
 std::string toml_of(py::handle value);
 
 std::string toml_text(const std::string& text) {
-  return py::module_::import("json").attr("dumps")(text).cast<std::string>();  // TOML's basic strings are JSON's
+  return py::module_::import("json")
+      .attr("dumps")(text)
+      .cast<std::string>();  // TOML's basic strings are JSON's
 }
 
 std::string toml_list(py::handle items) {
@@ -41,13 +43,14 @@ std::string toml_of(py::handle value) {
 }
 
 /// Dots within part the names of tables, as in flow.speed_m_s.
-void add_settings(const py::dict& keys, const std::string& above, std::vector<Setting>& all) {
+void add_settings(const py::dict& keys, const std::string& above, std::vector<Setting>& all,
+                  const char* option = "--set") {
   for (const auto& [key, value] : keys) {
     const std::string name = above + py::str(key).cast<std::string>();
     if (py::isinstance<py::dict>(value))
-      add_settings(py::reinterpret_borrow<py::dict>(value), name + ".", all);
+      add_settings(py::reinterpret_borrow<py::dict>(value), name + ".", all, option);
     else
-      all.push_back({name, toml_of(value)});
+      all.push_back({name, toml_of(value), option});
   }
 }
 
@@ -63,6 +66,14 @@ PyCase from_toml(const std::string& text, const std::string& name, const py::dic
   made.text = text;
   made.name = name;
   add_settings(set, "", made.set);
+  parse(made);
+  return made;
+}
+
+PyCase from_dict(const py::dict& tables) {
+  PyCase made;
+  made.name = "from_dict";
+  add_settings(tables, "", made.set, "from_dict");
   parse(made);
   return made;
 }
@@ -97,21 +108,23 @@ py::object value_of(const PyCase& self, const std::string& key) {
 
 }  // namespace
 
-PyCase::PyCase(const Case& made) : given(made), text(case_toml(made)), name(made.file.string()), file(made.file) {}
+PyCase::PyCase(const Case& made)
+    : given(made), text(case_toml(made)), name(made.file.string()), file(made.file) {}
 
 void add_case(py::module_& module) {
-  py::class_<PyCase> type(module, "Case",
-                          "What a case file says: a parachute, its materials, the air and how to compute.\n\n"
-                          "Keys are those of the case file (docs/guide/case-file.md); units are in their names.\n"
-                          "A case is whole at any time: what is wrong with it raises InputError.");
-  type.def_static("read", &read, py::arg("file"), py::kw_only(), py::arg("set") = py::dict(),
-                  "Reads a case file (TOML). set: keys to put in place of the file's, as --set does:\n"
-                  "{\"flow.speed_m_s\": 20}. Raises InputError with every mistake, Error where it cannot be read.");
-  type.def_static("from_toml", &from_toml, py::arg("text"), py::arg("name") = "case", py::kw_only(),
-                  py::arg("set") = py::dict(),
-                  "The same from text; name stands for the file in messages.");
+  py::class_<PyCase> type(
+      module, "Case",
+      "What a case file says: a parachute, its materials, the air and how to compute.\n\n"
+      "Keys are those of the case file (docs/guide/case-file.md); units are in their names.\n"
+      "A case is whole at any time: what is wrong with it raises InputError.");
   type.def_static(
-      "from_dict", [](const py::dict& tables) { return from_toml("", "case", tables); }, py::arg("tables"),
+      "read", &read, py::arg("file"), py::kw_only(), py::arg("set") = py::dict(),
+      "Reads a case file (TOML). set: keys to put in place of the file's, as --set does:\n"
+      "{\"flow.speed_m_s\": 20}. Raises InputError with every mistake, Error where it cannot be read.");
+  type.def_static("from_toml", &from_toml, py::arg("text"), py::arg("name") = "case", py::kw_only(),
+                  py::arg("set") = py::dict(), "The same from text; name stands for the file in messages.");
+  type.def_static(
+      "from_dict", &from_dict, py::arg("tables"),
       "A case made in code: {\"flow\": {\"speed_m_s\": 20}, ...}; keys may be full names with dots.");
   type.def(
       "set",
@@ -125,16 +138,22 @@ void add_case(py::module_& module) {
   type.def("update", &set_keys, py::arg("keys"), "Sets several keys at once: {\"flow.speed_m_s\": 20, ...}.");
   type.def("get", &value_of, py::arg("key"),
            "The value of a key, or of a table of keys, with every default filled in. Raises KeyError.");
-  type.def("to_toml", [](const PyCase& self) { return case_toml(self.given); },
-           "The case with every default and material written out: what ripstop check --resolved prints.");
-  type.def("asdict", [](const PyCase& self) -> py::dict { return plain_of(case_json(self.given)); },
-           "The same as plain dictionaries.");
-  type.def("copy", [](const PyCase& self) { return self; }, "A case that can be changed by itself.");
+  type.def(
+      "to_toml", [](const PyCase& self) { return case_toml(self.given); },
+      "The case with every default and material written out: what ripstop check --resolved prints.");
+  type.def(
+      "asdict", [](const PyCase& self) -> py::dict { return plain_of(case_json(self.given)); },
+      "The same as plain dictionaries.");
+  type.def(
+      "copy", [](const PyCase& self) { return self; }, "A case that can be changed by itself.");
   type.def("__copy__", [](const PyCase& self) { return self; });
-  type.def("__deepcopy__", [](const PyCase& self, const py::object&) { return self; }, py::arg("memo"));
-  type.def_property_readonly("title", [](const PyCase& self) { return self.given.title; }, "The case's title.");
-  type.def_property_readonly("file", [](const PyCase& self) { return self.file.string(); },
-                             "The file that it was read from; empty: none.");
+  type.def(
+      "__deepcopy__", [](const PyCase& self, const py::object&) { return self; }, py::arg("memo"));
+  type.def_property_readonly(
+      "title", [](const PyCase& self) { return self.given.title; }, "The case's title.");
+  type.def_property_readonly(
+      "file", [](const PyCase& self) { return self.file.string(); },
+      "The file that it was read from; empty: none.");
   type.def("__repr__", [](const PyCase& self) {
     return "<ripstop.Case " + py::repr(py::str(self.given.title)).cast<std::string>() + ">";
   });

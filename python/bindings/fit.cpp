@@ -59,8 +59,8 @@ void each_member(T& c, Visit&& visit) {
 namespace ripstop::python {
 namespace {
 
-FitResult fit(const Path& file, bool coupons, int degree, bool zero_offset, Callback<FitProgress> progress, int threads,
-              const std::optional<Path>& out) {
+FitResult fit(const Path& file, bool coupons, int degree, bool zero_offset, Callback<FitProgress> progress,
+              int threads, const std::optional<Path>& out) {
   Listener listener(std::move(progress));
   const py::gil_scoped_release release;
   Bench bench = read_bench(file);
@@ -74,7 +74,7 @@ FitResult fit(const Path& file, bool coupons, int degree, bool zero_offset, Call
   return result;
 }
 
-std::optional<double> of_coupons(const FitResult& r, double Fabric::* member) {
+std::optional<double> of_coupons(const FitResult& r, double Fabric::*member) {
   if (!r.coupons) return {};
   return r.coupons->fabric.*member;
 }
@@ -93,16 +93,19 @@ void add_fit(py::module_& module) {
   py::class_<FitResult> type(module, "Fit", "A material from the records of a tensile bench.");
   add_json(type, [](const FitResult& r) -> const FitResult& { return r; });
   type.def("to_toml", &material_toml, "The material's file, with its provenance in comments.");
-  type.def_property_readonly("name", [](const FitResult& r) { return r.bench.name; }, "The material's name.");
+  type.def_property_readonly(
+      "name", [](const FitResult& r) { return r.bench.name; }, "The material's name.");
   type.def_property_readonly(
       "kind", [](const FitResult& r) { return kind_of(r.fit.material); }, "fabric, line or tape.");
   type.def_property_readonly(
-      "directions", [](const py::object& self) -> py::list {
+      "directions",
+      [](const py::object& self) -> py::list {
         return to_python(self.cast<const FitResult&>().fit.directions, self);
       },
       "A FittedDirection for each direction of pull.");
   type.def_property_readonly(
-      "coupons", [](const py::object& self) -> py::list {
+      "coupons",
+      [](const py::object& self) -> py::list {
         const FitResult& r = self.cast<const FitResult&>();
         if (!r.coupons) return py::list();
         return to_python(r.coupons->coupons, self);
@@ -114,9 +117,10 @@ void add_fit(py::module_& module) {
   type.def_property_readonly(
       "bending_fraction", [](const FitResult& r) { return of_coupons(r, &Fabric::bending_fraction); },
       "eps; None without coupons.");
-  type.def_property_readonly("notes", [](const FitResult& r) { return r.fit.notes; }, "What was decided and why.");
-  type.def_property_readonly("warnings", [](const FitResult& r) { return r.fit.warnings; },
-                             "What is doubtful about the material.");
+  type.def_property_readonly(
+      "notes", [](const FitResult& r) { return r.fit.notes; }, "What was decided and why.");
+  type.def_property_readonly(
+      "warnings", [](const FitResult& r) { return r.fit.warnings; }, "What is doubtful about the material.");
   type.def("__repr__", [](const FitResult& r) { return "<ripstop.Fit '" + r.bench.name + "'>"; });
   module.def("fit", &fit, py::arg("bench"), py::kw_only(), py::arg("coupons") = true, py::arg("degree") = 0,
              py::arg("zero_offset") = false, py::arg("progress") = py::none(), py::arg("threads") = 0,

@@ -23,10 +23,12 @@ void add_flight(py::module_& module) {
       py::arg("heights_m") = std::vector<double>{0, 300, 1000, 3000}, py::arg("ground_m") = 0.0,
       "Speed [m/s] and time to the ground [s] of a payload [kg] at heights above sea level [m]: ripstop\n"
       "descent. run: a Steady or the folder of one.");
-  add_result<ExportedParachute>(module, "ExportedParachute", "A steady run's parachute in numbers of flight simulators.")
-      .def("rocketpy", &rocketpy_text, py::arg("trigger") = "apogee",
-           "Python: the arguments of RocketPy's Rocket.add_parachute. trigger: \"apogee\", or a height above\n"
-           "the ground [m].")
+  add_result<ExportedParachute>(module, "ExportedParachute",
+                                "A steady run's parachute in numbers of flight simulators.")
+      .def(
+          "rocketpy", &rocketpy_text, py::arg("trigger") = "apogee",
+          "Python: the arguments of RocketPy's Rocket.add_parachute. trigger: \"apogee\", or a height above\n"
+          "the ground [m].")
       .def("openrocket", &openrocket_text, "A component database of OpenRocket with the parachute.");
   module.def(
       "export",

@@ -1,18 +1,17 @@
 // inflate(): an opening with its history, frames and shapes as arrays.
-#include "ripstop/run/inflation.h"
-
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
 #include "members.h"
 #include "module.h"
+#include "opening.h"
 #include "ripstop/case/opening.h"
+#include "ripstop/run/inflation.h"
 #include "ripstop/run/inflation_folder.h"
 #include "ripstop/run/json.h"
 #include "ripstop/run/steady_folder.h"
 #include "ripstop/run/warnings.h"
-#include "opening.h"
 #include "runs.h"
 
 namespace ripstop {
@@ -58,15 +57,17 @@ class Observer : public InflationObserver {
 };
 
 std::unique_ptr<PyInflation> inflate(const PyCase& given, const OptionalSource& steady,
-                                     std::optional<double> pressure, Callback<OpeningProgress> progress, int threads,
-                                     const std::optional<Path>& out, bool fresh) {
+                                     std::optional<double> pressure, Callback<OpeningProgress> progress,
+                                     int threads, const std::optional<Path>& out, bool fresh) {
   auto run = std::make_unique<PyInflation>();
   run->made = given;
   Listener listener(std::move(progress));
   Observer observer(listener, *run);
   const py::gil_scoped_release release;
   const Opening opening = opening_of(run->made.given, steady, pressure, threads);
-  const auto problem = [&] { return opening_problem(opening.given, opening.source, opening.threads); };
+  const auto problem = [&] {
+    return opening_problem(opening.given, opening.source, opening.threads, [&] { listener.listen(); });
+  };
   if (!out) {
     run_inflation(opening.given, opening.source, problem(), observer);
   } else if (!run_inflation_in({{*out, fresh}, opening.threads}, opening.given, opening.source, problem,
@@ -88,7 +89,7 @@ void add_arrays(py::class_<PyInflation>& type) {
       "frames", [](const py::object& self) { return table_of(run_of(self).history.frames, self); },
       "Energies, sizes and stress now and then, with the columns of balance.csv.");
   type.def_property_readonly(
-      "shots", [](const py::object& self) { return to_python(run_of(self).shots, self); },
+      "shots", [](const py::object& self) -> py::list { return to_python(run_of(self).shots, self); },
       "Shapes along the way, each an InflationShot.");
   type.def_property_readonly(
       "shape", [](const py::object& self) { return view_of(run_of(self).shape, self); },
@@ -135,34 +136,39 @@ Opening opening_of(const Case& given, const OptionalSource& steady, std::optiona
 }
 
 void add_inflate(py::module_& module) {
-  add_class<InflationShot>(module, "InflationShot", "A shape on the way: time [s], positions [m], von_mises [N/m].");
+  add_class<InflationShot>(module, "InflationShot",
+                           "A shape on the way: time [s], positions [m], von_mises [N/m].");
   add_class<OpeningProgress>(module, "OpeningProgress", "How far an opening is.");
-  py::class_<PyInflation> type(module, "Inflation", "An opening: the numbers of its result.json, and its arrays.");
+  py::class_<PyInflation> type(module, "Inflation",
+                               "An opening: the numbers of its result.json, and its arrays.");
   const auto result = [](const PyInflation& run) -> const InflationResult& { return run.result; };
   add_members(type, result);
   add_json(type, result);
   add_arrays(type);
-  type.def_property_readonly("case", [](const PyInflation& run) { return run.made; }, "The Case that was opened.");
+  type.def_property_readonly(
+      "case", [](const PyInflation& run) { return run.made; }, "The Case that was opened.");
   type.def_property_readonly(
       "warnings",
       [](const PyInflation& run) {
         std::vector<std::string> all = mesh_warnings(run.made.given);
-        for (const std::string& text : strain_warnings(run.made.given, run.result.stress.strain)) all.push_back(text);
+        for (const std::string& text : strain_warnings(run.made.given, run.result.stress.strain))
+          all.push_back(text);
         return all;
       },
       "What is not wrong but should be known about the result.");
-  module.def("inflate", &inflate, py::arg("case"), py::kw_only(), py::arg("steady") = py::none(),
-             py::arg("pressure_pa") = py::none(), py::arg("progress") = py::none(), py::arg("threads") = 0,
-             py::arg("out") = py::none(), py::arg("fresh") = false,
-             "How a folded canopy opens, and the load on the riser: ripstop inflate.\n\n"
-             "steady: a Steady or the folder of one: its drag sets the pressure.\n"
-             "pressure_pa: difference over the canopy [Pa]. None of both: what the case gives.\n"
-             "progress: called with an OpeningProgress after every step of the history's block; what it raises\n"
-             "  ends the run.\n"
-             "threads: 0: coupling.threads of the case.\n"
-             "out: a run folder, as of steady(); of a run that it holds finished, the numbers are read and the\n"
-             "  arrays are empty. None: nothing is written.\n\n"
-             "Loads in [N], times in [s].");
+  module.def(
+      "inflate", &inflate, py::arg("case"), py::kw_only(), py::arg("steady") = py::none(),
+      py::arg("pressure_pa") = py::none(), py::arg("progress") = py::none(), py::arg("threads") = 0,
+      py::arg("out") = py::none(), py::arg("fresh") = false,
+      "How a folded canopy opens, and the load on the riser: ripstop inflate.\n\n"
+      "steady: a Steady or the folder of one: its drag sets the pressure.\n"
+      "pressure_pa: difference over the canopy [Pa]. None of both: what the case gives.\n"
+      "progress: called with an OpeningProgress after every step of the history's block; what it raises\n"
+      "  ends the run.\n"
+      "threads: 0: coupling.threads of the case.\n"
+      "out: a run folder, as of steady(); of a run that it holds finished, the numbers are read and the\n"
+      "  arrays are empty. None: nothing is written.\n\n"
+      "Loads in [N], times in [s].");
 }
 
 }  // namespace ripstop::python

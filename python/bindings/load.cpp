@@ -35,10 +35,10 @@ void add_load(py::module_& module) {
   add_class<MethodLoad>(module, "MethodLoad", "The opening load by one method.");
   add_class<StageLoads>(module, "StageLoads", "The opening of one stage, by every method.");
   add_class<SnatchResult>(module, "Snatch", "The snatch load when the lines come taut.");
-  py::class_<LoadResult> type = add_result<LoadResult>(module, "Load", "Opening loads behind a mass, method by method.");
+  py::class_<LoadResult> type =
+      add_result<LoadResult>(module, "Load", "Opening loads behind a mass, method by method.");
   type.def_property_readonly(
-      "flight",
-      [](const py::object& self) { return table_of(self.cast<const LoadResult&>().flight, self); },
+      "flight", [](const py::object& self) { return table_of(self.cast<const LoadResult&>().flight, self); },
       "The payload's way from line stretch on, with the columns of trajectory.csv.");
   type.def_property_readonly(
       "record_flight",
@@ -47,11 +47,11 @@ void add_load(py::module_& module) {
   module.def(
       "load",
       [](PyCase given, double mass, double speed, double height, double ground, double angle,
-         const Reefing& reefing, const std::optional<SteadySource>& steady, const std::optional<Path>& opening,
-         std::optional<double> drag, std::optional<double> opening_coefficient,
-         std::optional<double> filling_constant, std::optional<double> filling_exponent,
-         std::optional<double> snatch_speed, std::optional<double> packed, double payload_drag_area,
-         const std::optional<Path>& out) {
+         const Reefing& reefing, const std::optional<SteadySource>& steady,
+         const std::optional<Path>& opening, std::optional<double> drag,
+         std::optional<double> opening_coefficient, std::optional<double> filling_constant,
+         std::optional<double> filling_exponent, std::optional<double> snatch_speed,
+         std::optional<double> packed, double payload_drag_area, const std::optional<Path>& out) {
         LoadRequest r;
         r.payload_mass = mass, r.speed = speed, r.height = height, r.ground = ground, r.path_angle = angle;
         r.drag_coefficient = drag, r.opening_coefficient = opening_coefficient;

@@ -108,14 +108,13 @@ void add_members(py::class_<Holder>& type, Get get) {
   each_member(value, [&](const char* name, const auto& member, auto&&...) {
     const int index = count++;
     const std::string doc = in_words(name).with_unit();
-    type.def_property_readonly(
-        name,
-        py::cpp_function(
-            [get, index](py::object self) {
-              return member_at(get(self.template cast<const Holder&>()), index, self);
-            },
-            py::is_method(type)),
-        doc.c_str());
+    type.def_property_readonly(name,
+                               py::cpp_function(
+                                   [get, index](py::object self) {
+                                     return member_at(get(self.template cast<const Holder&>()), index, self);
+                                   },
+                                   py::is_method(type)),
+                               doc.c_str());
     annotations[name] = type_name<std::decay_t<decltype(member)>>();
     names.append(name);
   });

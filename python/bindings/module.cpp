@@ -12,9 +12,10 @@ py::str text_of(py::handle object) {
   const char* between = "";
   for (const py::handle name : type.attr("__match_args__")) {
     const py::object value = object.attr(name);
-    const std::string shown = py::isinstance<py::array>(value) && py::len(value) > 3
-                                  ? "<array of " + std::to_string(py::len(value)) + ">"
-                                  : py::repr(value).cast<std::string>();
+    const bool array = py::isinstance<py::array>(value), list = py::isinstance<py::list>(value);
+    const std::string shown = (array || list) && py::len(value) > 3 ? (array ? "<array of " : "<list of ") +
+                                                                          std::to_string(py::len(value)) + ">"
+                                                                    : py::repr(value).cast<std::string>();
     text += between + name.cast<std::string>() + "=" + shown;
     between = ", ";
   }

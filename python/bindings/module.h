@@ -30,8 +30,8 @@ void add_flight(py::module_& module);
 /// A case with the text that it was read from, so that any key can be set anew as --set does.
 struct PyCase {
   Case given;
-  std::string text, name;       // TOML, and what stands for its file in messages
-  std::filesystem::path file;   // empty: not from a file
+  std::string text, name;      // TOML, and what stands for its file in messages
+  std::filesystem::path file;  // empty: not from a file
   std::vector<Setting> set;
 
   PyCase() = default;

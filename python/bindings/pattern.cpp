@@ -35,10 +35,12 @@ PatternResult pattern(const PyCase& given, const Allowances& allowances, double 
 
 void add_piece(py::module_& module) {
   py::class_<Piece> type(module, "Piece", "A flat piece of cloth, finished size.");
-  type.def_property_readonly("name", [](const Piece& p) { return p.name; }, "Of the piece.");
-  type.def_property_readonly("count", [](const Piece& p) { return p.count; }, "How many there are.");
-  type.def_property_readonly("grain_deg", [](const Piece& p) { return p.grain; },
-                             "Of the warp, from y toward x [deg]");
+  type.def_property_readonly(
+      "name", [](const Piece& p) { return p.name; }, "Of the piece.");
+  type.def_property_readonly(
+      "count", [](const Piece& p) { return p.count; }, "How many there are.");
+  type.def_property_readonly(
+      "grain_deg", [](const Piece& p) { return p.grain; }, "Of the warp, from y toward x [deg]");
   type.def_property_readonly(
       "outline",
       [](const py::object& self) { return view_of_outline(self.cast<const Piece&>().outline, self); },
@@ -59,10 +61,12 @@ void add_piece(py::module_& module) {
 }  // namespace
 
 void add_pattern(py::module_& module) {
-  add_class<BillRow>(module, "BillRow", "A row of the bill of materials; finished and cut in [m2] of cloth, else [m].");
+  add_class<BillRow>(module, "BillRow",
+                     "A row of the bill of materials; finished and cut in [m2] of cloth, else [m].");
   add_class<CutLength>(module, "CutLength", "Pieces of tape or line, finished.");
   add_piece(module);
-  py::class_<PatternResult> type = add_result<PatternResult>(module, "Pattern", "What to cut for a parachute.");
+  py::class_<PatternResult> type =
+      add_result<PatternResult>(module, "Pattern", "What to cut for a parachute.");
   type.def_property_readonly(
       "pieces",
       [](const py::object& self) {
@@ -80,14 +84,14 @@ void add_pattern(py::module_& module) {
       "A CutLength for each tape.");
   module.def(
       "pattern",
-      [](PyCase given, double seam, double hem, double line_loop, double tape_overlap,
-         double packing_density, const std::optional<Path>& out) {
+      [](PyCase given, double seam, double hem, double line_loop, double tape_overlap, double packing_density,
+         const std::optional<Path>& out) {
         return pattern(given, {seam, hem, line_loop, tape_overlap}, packing_density, out);
       },
       py::arg("case"), py::kw_only(), py::arg("seam_allowance_m") = Allowances{}.seam,
       py::arg("hem_allowance_m") = Allowances{}.hem, py::arg("line_loop_m") = Allowances{}.line_loop,
-      py::arg("tape_overlap_m") = Allowances{}.tape_overlap, py::arg("packing_density_kg_m3") = packed_by_hand,
-      py::arg("out") = py::none(),
+      py::arg("tape_overlap_m") = Allowances{}.tape_overlap,
+      py::arg("packing_density_kg_m3") = packed_by_hand, py::arg("out") = py::none(),
       "What to cut, and what it weighs: ripstop pattern. Lengths in [m], areas in [m2], masses in [kg].\n\n"
       "out: a folder for the drawings and the bill. None: nothing is written.");
 }

@@ -35,7 +35,7 @@ struct PySteady {
   PyCase made;
   SteadyResult result;
   SteadyState state;
-  FlowField flow;                 // empty where the run was finished already
+  FlowField flow;                  // empty where the run was finished already
   std::vector<CellStress> stress;  // likewise
   std::vector<Cell> cells;
   std::string engine;

@@ -66,18 +66,21 @@ PyCase scaled(const PyCase& self, double factor) {
 
 void add_size(py::module_& module) {
   add_class<SizeCheck>(module, "SizeCheck", "One run that verified a size.");
-  add_class<FamilyDrag>(module, "Family", "A canopy family and the drag that Ripstop has computed of its example.");
-  py::class_<SizeResult> type = add_result<SizeResult>(module, "Size", "The parachute for a payload and a rate.");
+  add_class<FamilyDrag>(module, "Family",
+                        "A canopy family and the drag that Ripstop has computed of its example.");
+  py::class_<SizeResult> type =
+      add_result<SizeResult>(module, "Size", "The parachute for a payload and a rate.");
   type.def_property_readonly("case", &case_of, "The parachute as a Case.");
-  type.def_property_readonly("case_text", [](const SizeResult& r) { return r.case_text; },
-                             "Its case file (TOML), with comments.");
+  type.def_property_readonly(
+      "case_text", [](const SizeResult& r) { return r.case_text; }, "Its case file (TOML), with comments.");
   module.def(
       "size",
       [](double payload, double rate, const std::string& family, double height, std::optional<double> density,
          std::optional<double> drag_coefficient, std::optional<double> deployment_speed,
-         std::optional<std::string> line_material, double packing_density, bool verify, Callback<SteadyIteration> progress) {
-        return size({payload, rate, family, height, density, drag_coefficient, deployment_speed, line_material,
-                     packing_density},
+         std::optional<std::string> line_material, double packing_density, bool verify,
+         Callback<SteadyIteration> progress) {
+        return size({payload, rate, family, height, density, drag_coefficient, deployment_speed,
+                     line_material, packing_density},
                     verify, std::move(progress));
       },
       py::arg("payload_mass_kg"), py::arg("descent_rate_m_s"), py::arg("family") = SizeRequest{}.family,
@@ -89,14 +92,17 @@ void add_size(py::module_& module) {
       "family: one of families(). height_m: above sea level, where the rate is wanted; density_kg_m3 in its\n"
       "  place.\n"
       "verify: fly it by steady runs until the rate is met; progress as of steady().");
-  module.def("families", &family_drags, "Every canopy family with the drag coefficient computed of its example.");
-  module.def("data_directory", [] { return data_directory().string(); },
-             "The folder with the shipped materials/ and examples/.");
+  module.def("families", &family_drags,
+             "Every canopy family with the drag coefficient computed of its example.");
+  module.def(
+      "data_directory", [] { return data_directory().string(); },
+      "The folder with the shipped materials/ and examples/.");
   const auto type_of_case = py::type::of<PyCase>();
-  py::setattr(type_of_case, "scaled",
-              py::cpp_function(&scaled, py::name("scaled"), py::is_method(type_of_case), py::arg("factor"),
-                               "Another case with every length of the parachute times `factor`, to a tenth of a\n"
-                               "millimetre; the mesh's own lengths stay."));
+  py::setattr(
+      type_of_case, "scaled",
+      py::cpp_function(&scaled, py::name("scaled"), py::is_method(type_of_case), py::arg("factor"),
+                       "Another case with every length of the parachute times `factor`, to a tenth of a\n"
+                       "millimetre; the mesh's own lengths stay."));
 }
 
 }  // namespace ripstop::python

@@ -75,7 +75,9 @@ py::array of_flow(const double* data, const FlowGrid& grid, bool vectors, py::ha
 
 void add_flow(py::module_& module) {
   py::class_<FlowField> type(module, "Flow", "The air in the flow's box; arrays of cells are [z, y, x].");
-  const auto self_of = [](const py::object& self) -> const FlowField& { return self.cast<const FlowField&>(); };
+  const auto self_of = [](const py::object& self) -> const FlowField& {
+    return self.cast<const FlowField&>();
+  };
   type.def_property_readonly(
       "pressure",
       [self_of](const py::object& self) {
@@ -98,8 +100,8 @@ void add_flow(py::module_& module) {
         return axes;
       },
       "Sides of the cells along x, y and z, one more than cells [m]");
-  type.def_property_readonly("converged", [](const FlowField& f) { return f.converged; },
-                             "Whether the flow met its residual.");
+  type.def_property_readonly(
+      "converged", [](const FlowField& f) { return f.converged; }, "Whether the flow met its residual.");
 }
 
 void add_arrays(py::class_<PySteady>& type) {
@@ -120,12 +122,8 @@ void add_arrays(py::class_<PySteady>& type) {
       "iterations", [](const py::object& self) { return table_of(run_of(self).state.iterations, self); },
       "A row for each coupling iteration, with the columns of iterations.csv.");
   type.def_property_readonly(
-      "flow",
-      [](const py::object& self) -> py::object {
-        const FlowField& flow = run_of(self).flow;
-        if (flow.velocity.empty()) return py::none();
-        return py::cast(&flow, py::return_value_policy::reference_internal, self);
-      },
+      "flow", [](const PySteady& run) { return run.flow.velocity.empty() ? nullptr : &run.flow; },
+      py::return_value_policy::reference_internal,
       "The air round the final shape, a Flow; None where the run was finished already.");
 }
 
@@ -145,33 +143,37 @@ void add_steady(py::module_& module) {
   add_class<Watched>(module, "Watched", "What a watch of the flow in time came to.");
   add_class<UnsteadyResult>(module, "UnsteadyResult", "What the mean over a wake that sheds is worth.");
   add_class<HeldPayload>(module, "HeldPayload", "What a run holds that sought its speed.");
-  add_class<Margin>(module, "Margin", "How far one part is from breaking; `unit` is that of load and strength.");
+  add_class<Margin>(module, "Margin",
+                    "How far one part is from breaking; `unit` is that of load and strength.");
   add_class<Margins>(module, "Margins", "How far every part is from breaking.");
   add_class<SteadyIteration>(module, "SteadyIteration", "What one coupling iteration says of itself.");
   add_flow(module);
-  py::class_<PySteady> type(module, "Steady", "A steady run: the numbers of its result.json, and its arrays.");
+  py::class_<PySteady> type(module, "Steady",
+                            "A steady run: the numbers of its result.json, and its arrays.");
   const auto result = [](const PySteady& run) -> const SteadyResult& { return run.result; };
   add_members(type, result);
   add_json(type, result);
   add_arrays(type);
-  type.def_property_readonly("case", [](const PySteady& run) { return run.made; }, "The Case that was run.");
-  type.def_property_readonly("engine", [](const PySteady& run) { return run.engine; },
-                             "The flow engine and its version; empty where the run was finished already.");
   type.def_property_readonly(
-      "warnings",
-      [](const PySteady& run) { return warnings_of(run.made.given, run.result.stress.strain); },
+      "case", [](const PySteady& run) { return run.made; }, "The Case that was run.");
+  type.def_property_readonly(
+      "engine", [](const PySteady& run) { return run.engine; },
+      "The flow engine and its version; empty where the run was finished already.");
+  type.def_property_readonly(
+      "warnings", [](const PySteady& run) { return warnings_of(run.made.given, run.result.stress.strain); },
       "What is not wrong but should be known about the result.");
-  module.def("steady", &steady, py::arg("case"), py::kw_only(), py::arg("progress") = py::none(),
-             py::arg("threads") = 0, py::arg("out") = py::none(), py::arg("fresh") = false,
-             "Inflated shape, drag and loads in a steady flow: ripstop steady.\n\n"
-             "progress: called with a SteadyIteration after every coupling iteration; what it raises ends the\n"
-             "  run.\n"
-             "threads: 0: coupling.threads of the case.\n"
-             "out: a run folder; a finished run of this case is read from it, one that was stopped goes on.\n"
-             "  None: nothing is written.\n"
-             "fresh: compute again what the folder holds.\n\n"
-             "A result that has not converged is returned: look at `converged`. Forces in [N], lengths in [m],\n"
-             "speeds in [m/s].");
+  module.def(
+      "steady", &steady, py::arg("case"), py::kw_only(), py::arg("progress") = py::none(),
+      py::arg("threads") = 0, py::arg("out") = py::none(), py::arg("fresh") = false,
+      "Inflated shape, drag and loads in a steady flow: ripstop steady.\n\n"
+      "progress: called with a SteadyIteration after every coupling iteration; what it raises ends the\n"
+      "  run.\n"
+      "threads: 0: coupling.threads of the case.\n"
+      "out: a run folder; a finished run of this case is read from it, one that was stopped goes on.\n"
+      "  None: nothing is written.\n"
+      "fresh: compute again what the folder holds.\n\n"
+      "A result that has not converged is returned: look at `converged`. Forces in [N], lengths in [m],\n"
+      "speeds in [m/s].");
 }
 
 }  // namespace ripstop::python

@@ -11,8 +11,17 @@ calibrate_damping, export. Results have the members of result.json as attributes
 arrays that are views of the library's own memory. Whatever goes wrong raises Error with the text of the program.
 """
 
+import os
+import pathlib
+
 from . import _ripstop
 from ._ripstop import *  # noqa: F403 - all that the stub of _ripstop lists
 from ._ripstop import __version__
 
 __all__ = [name for name in dir(_ripstop) if not name.startswith("_")]
+
+# A wheel brings materials and examples along; what is installed or built has them where the library looks.
+_data = pathlib.Path(__file__).parent / "data"
+if _data.is_dir():
+    os.environ.setdefault("RIPSTOP_DATA", str(_data))
+del os, pathlib

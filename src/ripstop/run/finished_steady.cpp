@@ -34,11 +34,10 @@ bool is_of_steady(const std::string& text) {
 
 void require_converged(const SteadyResult& result, const std::string& where) {
   if (result.converged) return;
-  throw Error(
-      ExitCode::bad_data,
-      fmt::format("{}the steady run has not converged, so that its drag says nothing; give it more "
-                  "coupling.max_iterations and run it again{}",
-                  where.empty() ? "" : where + ": ", where.empty() ? "" : " with --fresh"));
+  throw Error(ExitCode::bad_data,
+              fmt::format("{}the steady run has not converged, so that its drag says nothing; give it more "
+                          "coupling.max_iterations and run it again{}",
+                          where.empty() ? "" : where + ": ", where.empty() ? "" : " with --fresh"));
 }
 
 }  // namespace

@@ -246,14 +246,14 @@ double drag_for_opening(const Case& given, const SteadyResult& result, const std
   for (const auto& [key, value] : asked.items()) {
     if (had.contains(key) && had.at(key) == value) continue;
     throw Error(ExitCode::usage,
-                fmt::format("{}: is a run of another parachute: parachute.{} is {} there and {} here",
-                            where, key, had.value(key, nlohmann::json()).dump(), value.dump()));
+                fmt::format("{}: is a run of another parachute: parachute.{} is {} there and {} here", where,
+                            key, had.value(key, nlohmann::json()).dump(), value.dump()));
   }
   const Air here = air(opening);
   const auto check = [&](const char* what, double there, double now) {
     if (std::abs(there - now) <= 1e-6 * now) return;
-    throw Error(ExitCode::usage, fmt::format("{}: is a run at another {}: {:g} there and {:g} here",
-                                             where, what, there, now));
+    throw Error(ExitCode::usage,
+                fmt::format("{}: is a run at another {}: {:g} there and {:g} here", where, what, there, now));
   };
   check("speed (m/s)", result.speed, here.speed);
   check("density (kg/m3)", result.density, here.density);
