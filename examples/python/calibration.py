@@ -15,9 +15,11 @@ import ripstop
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--case", default=pathlib.Path(ripstop.data_directory(), "examples/stratos-iv/case.toml"))
-    parser.add_argument("--pressure", type=float, default=300, help="difference over the canopy [Pa]")
+    parser.add_argument("--pressure", type=float, help="difference over the canopy [Pa]; default: that of the case's drag")
     parser.add_argument("--cloth-nodes", type=int, default=3000)
     parser.add_argument("--duration", type=float, default=0.3, help="of every opening [s]")
+    parser.add_argument("--smallest", type=float, default=4, help="C_a [N s/m3]")
+    parser.add_argument("--largest", type=float, default=16, help="C_a [N s/m3]")
     parser.add_argument("--points", type=int, default=7, help="openings over the range of C_a")
     parser.add_argument("--refinements", type=int, default=4, help="openings about the best of them")
     parser.add_argument("--threads", type=int, default=0)
@@ -29,7 +31,8 @@ def main():
     case = ripstop.read_case(options.case, set={"parachute.mesh.cloth_nodes": options.cloth_nodes,
                                                 "inflation.duration_s": options.duration})
     found = ripstop.calibrate_damping(
-        case, pressure_pa=options.pressure, points=options.points, refinements=options.refinements, threads=options.threads,
+        case, pressure_pa=options.pressure, smallest=options.smallest, largest=options.largest, points=options.points, refinements=options.refinements,
+        threads=options.threads,
         progress=lambda t: print(f"C_a {t.damping_n_s_m3:8.4f}   peak {t.peak_n:8.1f} N   misfit {100 * t.misfit:6.2f} %"))
     if found.best_is_at_the_edge:
         print("the best C_a lies at the edge of the range: it is none")

@@ -9,6 +9,7 @@ highest of the methods that apply.
 """
 import argparse
 import csv
+import json
 import math
 import pathlib
 import sys
@@ -43,10 +44,10 @@ def arguments():
     parser.add_argument("--families", nargs="+", default=["flat-circular", "conical", "cross", "ringslot"])
     parser.add_argument("--diameters", nargs="+", type=float, default=[1.2, 1.5, 1.8], help="nominal [m]")
     parser.add_argument("--fly", action="store_true", help="compute every drag by a coupled run")
-    parser.add_argument("--set", nargs="*", default=[], metavar="KEY=VALUE", help="of every case, numbers only")
+    parser.add_argument("--set", nargs="*", default=[], metavar="KEY=VALUE", help="of every case; values as in JSON")
     parser.add_argument("--out", help="a CSV file; default: the terminal")
     options = parser.parse_args()
-    options.set = {key: float(value) if "." in value else int(value) for key, value in (text.split("=") for text in options.set)}
+    options.set = {key: json.loads(value) for key, value in (text.split("=", 1) for text in options.set)}
     return options
 
 
