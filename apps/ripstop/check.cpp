@@ -37,8 +37,9 @@ std::string text_of(const Json& value) {
 
 /// Every key that follows from others where it is not given: what stands, and why.
 void print_sources(const CheckResult& result) {
+  const Json report = Json::parse(to_json(result));
   fmt::print("\n");
-  for (const Json& source : Json::parse(to_json(result)).at("sources"))
+  for (const Json& source : report.at("sources"))
     fmt::print("  {:<28} {:<19} {}\n", source.at("key").get<std::string>(), text_of(source.at("value")),
                source.at("from").get<std::string>());
 }
