@@ -8,11 +8,15 @@ PREFIX ?= /usr/local
 PACKAGES := build-essential cmake ninja-build pkg-config libtomlplusplus-dev libcli11-dev libfmt-dev \
   libeigen3-dev nlohmann-json3-dev libnlopt-dev libhwy-dev libpng-dev libcairo2-dev fonts-dejavu-core libxxhash-dev zlib1g-dev \
   openfoam openmpi-bin
-CHECK_PACKAGES := libgtest-dev libbenchmark-dev python3 python3-jsonschema python3-vtk9 clang-format chromium
+# What the Python package needs, and what a wheel of it needs beyond that.
+PYTHON_PACKAGES := python3-dev pybind11-dev python3-numpy
+WHEEL_PACKAGES := python3-pip python3-setuptools python3-wheel
+CHECK_PACKAGES := libgtest-dev libbenchmark-dev python3 python3-jsonschema python3-vtk9 python3-venv clang-format chromium \
+  $(PYTHON_PACKAGES) $(WHEEL_PACKAGES)
 
 export PATH := /usr/bin:$(PATH)
 
-.PHONY: help deps check-deps build demo check room sanitize tidy bench validate validate-ojf validate-families report-libraries format format-check install package clean
+.PHONY: help deps check-deps build demo check room sanitize tidy bench validate validate-ojf validate-families report-libraries format format-check install-build install wheel package clean
 
 help:  ## This list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -96,10 +100,20 @@ tidy: check-deps  ## clang-tidy over src and apps, on all cores (no part of chec
 format-check:
 	@git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run -Werror
 
-install: build  ## Install below PREFIX (/usr/local)
+install-build: deps
+	$(call install_missing,$(PYTHON_PACKAGES))
+	@cmake --preset program -DCMAKE_INSTALL_PREFIX=$(PREFIX) -DRIPSTOP_PYTHON=ON > build.configure.log || { cat build.configure.log; exit 1; }
+	@cmake --build --preset program -j $(JOBS)
+
+install: install-build  ## Install program, library and Python package below PREFIX (/usr/local)
 	@$(SUDO) cmake --install build
 
-package: build  ## A Debian package in build/
+wheel: install-build  ## The Python package as a wheel in build/wheel/
+	$(call install_missing,$(WHEEL_PACKAGES))
+	@cmake --build --preset program -j $(JOBS) --target wheel
+	@ls build/wheel/*.whl
+
+package: install-build  ## Debian packages in build/
 	@cd build && cpack -G DEB
 
 clean:  ## Remove the build folders

@@ -1,20 +1,18 @@
 // ripstop check: everything about a case that can be said without a solver.
 
+#include "ripstop/run/check.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "case_options.h"
 #include "commands.h"
-#include "ripstop/case/resolve.h"
-#include "ripstop/case/summary.h"
 #include "ripstop/core/error.h"
-#include "warnings.h"
 
 namespace ripstop {
 namespace {
@@ -28,63 +26,6 @@ struct Options {
   bool resolved = false;
 };
 
-Json to_json(const Problem& problem) {
-  return {{"file", problem.origin.file},     {"line", problem.origin.line}, {"column", problem.origin.column},
-          {"option", problem.origin.option}, {"key", problem.key},          {"value", problem.value},
-          {"allowed", problem.allowed},      {"message", problem.message},  {"text", to_text(problem)}};
-}
-
-/// What stands in the written case under a full name such as "flow.core.size_m".
-const Json& value_of(const Json& written, const std::string& key) {
-  std::string pointer = "/" + key;
-  std::replace(pointer.begin(), pointer.end(), '.', '/');
-  return written.at(Json::json_pointer(pointer));
-}
-
-Json to_json(const std::vector<Source>& sources, const Json& written) {
-  Json list = Json::array();
-  for (const Source& source : sources)
-    list.push_back({{"key", source.key},
-                    {"value", value_of(written, source.key)},
-                    {"given", source.given},
-                    {"from", source.from}});
-  return list;
-}
-
-Json to_json(const Case& given, const CaseSummary& s) {
-  const Json written = Json::parse(case_json(given));
-  return {{"valid", true},
-          {"problems", Json::array()},
-          {"nominal_area_m2", s.nominal_area},
-          {"computed_area_m2", s.computed_area},
-          {"meshed_area_m2", s.cloth_area},
-          {"vent_area_m2", s.vent_area},
-          {"slot_area_m2", s.slot_area},
-          {"geometric_porosity", s.geometric_porosity},
-          {"mass_kg",
-           {{"cloth", s.cloth_mass},
-            {"tape", s.tape_mass},
-            {"lines", s.line_mass},
-            {"riser", s.riser_mass},
-            {"total", s.total_mass}}},
-          {"nodes", s.nodes},
-          {"cloth_nodes", s.cloth_nodes},
-          {"resolved_cloth_nodes", s.resolved_cloth_nodes},
-          {"springs", s.springs},
-          {"smallest_spring_m", s.smallest_spring},
-          {"smallest_spring_part", s.smallest_part},
-          {"stable_step_s", s.step.stable_step},
-          {"stable_step_part", s.step.part},
-          {"printed_step_s", s.step.printed_step},
-          {"flow_cells", s.flow_cells},
-          {"flow_spacing_m", {s.flow_spacing.x, s.flow_spacing.y, s.flow_spacing.z}},
-          {"blockage", s.blockage},
-          {"speed_m_s", s.air.speed},
-          {"density_kg_m3", s.air.density},
-          {"sources", to_json(resolve(given).sources, written)},
-          {"case", written}};
-}
-
 std::string text_of(const Json& value) {
   if (value.is_number_integer()) return fmt::format("{}", value.get<long long>());
   if (value.is_number()) return fmt::format("{:.5g}", value.get<double>());
@@ -95,12 +36,12 @@ std::string text_of(const Json& value) {
 }
 
 /// Every key that follows from others where it is not given: what stands, and why.
-void print_sources(const Case& given) {
-  const Json written = Json::parse(case_json(given));
-  const std::vector<Source> sources = resolve(given).sources;
+void print_sources(const CheckResult& result) {
+  const Json report = Json::parse(to_json(result));
   fmt::print("\n");
-  for (const Source& source : sources)
-    fmt::print("  {:<28} {:<19} {}\n", source.key, text_of(value_of(written, source.key)), source.from);
+  for (const Json& source : report.at("sources"))
+    fmt::print("  {:<28} {:<19} {}\n", source.at("key").get<std::string>(), text_of(source.at("value")),
+               source.at("from").get<std::string>());
 }
 
 void print(const Case& given, const CaseSummary& s) {
@@ -112,8 +53,8 @@ void print(const Case& given, const CaseSummary& s) {
   row("cloth", fmt::format("{:.4f} m2 as cut, {:.4f} m2 as meshed", s.computed_area, s.cloth_area));
   row("open", fmt::format("{:.2f} % geometric porosity: vent {:.4f} m2, slots and gaps {:.4f} m2",
                           100 * s.geometric_porosity, s.vent_area, s.slot_area));
-  row("mass", fmt::format("{:.4f} kg: cloth {:.4f}, tape {:.4f}, lines {:.4f}, riser {:.4f}", s.total_mass,
-                          s.cloth_mass, s.tape_mass, s.line_mass, s.riser_mass));
+  row("mass", fmt::format("{:.4f} kg: cloth {:.4f}, tape {:.4f}, lines {:.4f}, riser {:.4f}", s.mass.total,
+                          s.mass.cloth, s.mass.tape, s.mass.lines, s.mass.riser));
   row("nodes", fmt::format("{}, of these {} of cloth ({} asked for, {} resolve its size)", s.nodes,
                            s.cloth_nodes, given.parachute.mesh.cloth_nodes, s.resolved_cloth_nodes));
   row("springs",
@@ -134,23 +75,18 @@ int run(const Options& options) {
       fmt::print("{}", case_toml(given));
       return 0;
     }
-    const CaseSummary summary = summarize(given);
-    if (options.json)
-      fmt::print("{}\n", to_json(given, summary).dump(2));
-    else
-      print(given, summary);
-    if (!options.json) {
-      print_sources(given);
-      print_mesh_warning(given);
-      print_grid_warning(given);
-      print_porosity_warning(given);
+    const CheckResult result = run_check(given);
+    if (options.json) {
+      fmt::print("{}", to_json(result));
+      return 0;
     }
+    print(given, result.summary);
+    print_sources(result);
+    for (const std::string& text : result.warnings) fmt::print(stderr, "warning: {}\n", text);
     return 0;
   } catch (const InputError& error) {
     if (!options.json) throw;
-    Json report = {{"valid", false}, {"problems", Json::array()}};
-    for (const Problem& problem : error.problems()) report["problems"].push_back(to_json(problem));
-    fmt::print("{}\n", report.dump(2));
+    fmt::print("{}", to_json(error.problems()));
     return static_cast<int>(error.code());
   }
 }

@@ -18,9 +18,9 @@ TEST(Summary, ClothTapeLinesAndRiserAreAllThatHasMass) {
                   {"parachute.riser.length_m", "0.5", "--set"}};
     const CaseSummary s = summarize(
         read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples" / name / "case.toml", coarse));
-    for (const double part : {s.cloth_mass, s.tape_mass, s.line_mass, s.riser_mass})
+    for (const double part : {s.mass.cloth, s.mass.tape, s.mass.lines, s.mass.riser})
       EXPECT_GT(part, 0) << name;
-    EXPECT_NEAR(s.cloth_mass + s.tape_mass + s.line_mass + s.riser_mass, s.total_mass, 1e-9 * s.total_mass)
+    EXPECT_NEAR(s.mass.cloth + s.mass.tape + s.mass.lines + s.mass.riser, s.mass.total, 1e-9 * s.mass.total)
         << name;
   }
 }
@@ -36,10 +36,10 @@ TEST(Summary, VentLinesAreLinesAndNotTape) {
   without.set.push_back({"parachute.vent_lines", "false", "--set"});
   const Case given = read_case(file, plain);
   const CaseSummary s = summarize(given), open = summarize(read_case(file, without));
-  EXPECT_NEAR(s.tape_mass, open.tape_mass, 1e-12);
+  EXPECT_NEAR(s.mass.tape, open.mass.tape, 1e-12);
   const double half = std::numbers::pi / 12;
   const double vent = 0.1 * std::sqrt(half / (std::sin(half) * std::cos(half)));
-  EXPECT_NEAR(s.line_mass - open.line_mass, 6 * vent * suspension_line(given).linear_density_kg_m, 1e-9);
+  EXPECT_NEAR(s.mass.lines - open.mass.lines, 6 * vent * suspension_line(given).linear_density_kg_m, 1e-9);
 }
 
 }  // namespace

@@ -80,7 +80,7 @@ class Docs(unittest.TestCase):
         self.assertEqual([page.name for page in TABLES.glob("*.md") if f"tables/{page.name}" not in text], [])
 
     def test_no_file_is_longer_than_one_reads(self):
-        files = [*PAGES, *(file for folder in ("src", "apps", "tests", "bench", "validation") for ending in ("h", "cpp", "py")
+        files = [*PAGES, *(file for folder in ("src", "apps", "python", "tests", "bench", "examples", "validation") for ending in ("h", "cpp", "py")
                            for file in ROOT.glob(f"{folder}/**/*.{ending}"))]
         long = [f"{file.relative_to(ROOT)}: {lines}" for file in files if (lines := file.read_bytes().count(b"\n")) > LONGEST]
         self.assertEqual(long, [])

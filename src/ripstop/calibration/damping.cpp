@@ -17,7 +17,7 @@ double misfit_of(const DampingTrial& trial, const DampingTarget& target) {
   return std::sqrt(0.5 * (peak * peak + time * time));
 }
 
-DampingTrial open_with(double damping, const InflationProblem& problem) {
+DampingTrial open_with(double damping, const InflationProblem& problem, const std::function<void()>& alive) {
   InflationProblem own = problem;
   own.settings.damping_n_s_m3 = damping;
   Inflation solver(std::move(own));
@@ -26,6 +26,7 @@ DampingTrial open_with(double damping, const InflationProblem& problem) {
   while (state.blocks < solver.blocks()) {
     const std::vector<HistoryRow> block = solver.advance(state);
     rows.insert(rows.end(), block.begin(), block.end());
+    if (alive) alive();
   }
   const double low_pass_hz = problem.settings.low_pass_hz;
   const InflationSummary summary = summarise(rows, low_pass_hz);

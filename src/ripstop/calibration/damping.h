@@ -42,8 +42,9 @@ struct DampingCalibration {
 /// inflation time; a trial that did not settle where a time was measured counts as 100 % wrong in it.
 double misfit_of(const DampingTrial& trial, const DampingTarget& target);
 
-/// The whole opening. Deterministic. Throws as Inflation.
-DampingTrial open_with(double damping, const InflationProblem& problem);
+/// The whole opening. Deterministic. Throws as Inflation, and what `alive` throws, which is called now and then.
+DampingTrial open_with(double damping, const InflationProblem& problem,
+                       const std::function<void()>& alive = {});
 
 /// Smallest misfit over C_a. Throws Error(usage) for an empty range.
 DampingCalibration calibrate_damping(const DampingTarget& target, const DampingSearch& search,

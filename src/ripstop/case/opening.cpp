@@ -16,12 +16,14 @@ namespace {
 // differs by a few parts of a thousand.
 constexpr int equilibrium_nodes = 3000;
 
-double pressure_of(const Case& opening, const LoadSource& source, int threads) {
+double pressure_of(const Case& opening, const LoadSource& source, int threads,
+                   const std::function<void()>& alive) {
   if (!source.steady_drag) return *opening.inflation.pressure_pa;
   Case coarse = opening;
   coarse.parachute.mesh.cloth_nodes = std::min(equilibrium_nodes, opening.parachute.mesh.cloth_nodes);
   ThreadTeam team(threads);
-  return pressure_for(*source.steady_drag, parachute_mesh(coarse), opening.coupling.linear, team).pressure;
+  return pressure_for(*source.steady_drag, parachute_mesh(coarse), opening.coupling.linear, team, alive)
+      .pressure;
 }
 
 }  // namespace
@@ -57,11 +59,12 @@ LoadSource load_source(const Case& given) {
           drag};
 }
 
-InflationProblem opening_problem(const Case& opening, const LoadSource& source, int threads) {
+InflationProblem opening_problem(const Case& opening, const LoadSource& source, int threads,
+                                 const std::function<void()>& alive) {
   InflationProblem problem;
   problem.mesh = parachute_mesh(opening);
   problem.settings = opening.inflation;
-  problem.pressure = pressure_of(opening, source, threads);
+  problem.pressure = pressure_of(opening, source, threads, alive);
   problem.linear = opening.coupling.linear;
   problem.threads = threads;
   problem.symmetry = std::gcd(opening.parachute.gores, opening.parachute.lines.count);

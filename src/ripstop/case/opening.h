@@ -1,6 +1,7 @@
 // The opening of a case: its mesh, its pressure, and the problem that the solver takes.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -23,6 +24,8 @@ Case opening_case(const Case& given);
 LoadSource load_source(const Case& given);
 
 /// Of what opening_case() returns; dp from the equilibrium of a coarse mesh when a steady drag is asked for.
-InflationProblem opening_problem(const Case& opening, const LoadSource& source, int threads);
+/// `alive` is called now and then on the way; what it throws goes on to the caller.
+InflationProblem opening_problem(const Case& opening, const LoadSource& source, int threads,
+                                 const std::function<void()>& alive = {});
 
 }  // namespace ripstop

@@ -16,13 +16,13 @@ double length_of(const Mesh& mesh, const std::vector<int>& springs) {
 
 void weigh(const Case& given, const CanopyMesh& mesh, CaseSummary& summary) {
   const Rigging& rigging = mesh.rigging;
-  for (double mass : mesh.mass) summary.total_mass += mass;
-  summary.cloth_mass = summary.cloth_area * canopy_fabric(given).areal_density_kg_m2;
+  for (double mass : mesh.mass) summary.mass.total += mass;
+  summary.mass.cloth = summary.cloth_area * canopy_fabric(given).areal_density_kg_m2;
   double lines = length_of(mesh, rigging.vent_line_springs);
   for (const LineRun& line : rigging.lines) lines += length_of(mesh, line.springs);
-  summary.line_mass = lines * suspension_line(given).linear_density_kg_m;
-  summary.riser_mass = length_of(mesh, rigging.riser_springs) * riser_line(given).linear_density_kg_m;
-  summary.tape_mass = length_of(mesh, rigging.tape_springs) * reinforcement_tape(given).linear_density_kg_m;
+  summary.mass.lines = lines * suspension_line(given).linear_density_kg_m;
+  summary.mass.riser = length_of(mesh, rigging.riser_springs) * riser_line(given).linear_density_kg_m;
+  summary.mass.tape = length_of(mesh, rigging.tape_springs) * reinforcement_tape(given).linear_density_kg_m;
 }
 
 void count_springs(const Mesh& mesh, CaseSummary& summary) {

@@ -8,14 +8,18 @@
 
 namespace ripstop {
 
+/// Masses of a parachute's parts [kg].
+struct PartMasses {
+  double cloth = 0, tape = 0, lines = 0, riser = 0, total = 0;  // vent lines are lines too
+};
+
 struct CaseSummary {
   double cloth_area = 0;                // as meshed, a polygon inside the cut cloth [m2]
   double computed_area = 0;             // as cut [m2]
   double nominal_area = 0;              // S0 that coefficients refer to [m2]
   double vent_area = 0, slot_area = 0;  // open, as constructed [m2]
   double geometric_porosity = 0;        // their share of the whole surface without fullness
-  double cloth_mass = 0, tape_mass = 0, riser_mass = 0, total_mass = 0;  // [kg]
-  double line_mass = 0;                                                  // vent lines too [kg]
+  PartMasses mass;
   int nodes = 0, cloth_nodes = 0;
   int resolved_cloth_nodes = 0;  // see Experience::cloth_nodes
   int springs = 0;               // of the lattice and outside it

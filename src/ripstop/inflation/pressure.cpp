@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "ripstop/canopy/shape.h"
 #include "ripstop/cloth/cloth.h"
@@ -18,15 +19,18 @@ constexpr RelaxOptions relaxation{1e-3, 200000};
 
 class Equilibrium {
  public:
-  Equilibrium(const Mesh& mesh, bool linear, ThreadTeam& team)
+  Equilibrium(const Mesh& mesh, bool linear, ThreadTeam& team, std::function<void()> alive = {})
       : cells_(mesh.cell_count()),
         cloth_(make_cloth(mesh, {linear, 0, 0})),
         state_(start_state(*cloth_)),
-        team_(team) {}
+        team_(team),
+        alive_(std::move(alive)) {}
 
   UniformPressure under(double pressure) {
     const Loads loads{std::vector<double>(cells_, pressure), {}};
-    const RelaxResult result = relax(state_, *cloth_, loads, relaxation, team_);
+    const RelaxResult result = relax(state_, *cloth_, loads, relaxation, team_, [&](const RelaxProgress&) {
+      if (alive_) alive_();
+    });
     ++relaxations_;
     if (!result.converged) {
       throw Error(
@@ -44,6 +48,7 @@ class Equilibrium {
   ClothPtr cloth_;
   ClothState state_;
   ThreadTeam& team_;
+  std::function<void()> alive_;
   int relaxations_ = 0;
 };
 
@@ -53,10 +58,11 @@ UniformPressure load_under(double pressure, const Mesh& mesh, bool linear, Threa
   return Equilibrium(mesh, linear, team).under(pressure);
 }
 
-UniformPressure pressure_for(double load, const CanopyMesh& mesh, bool linear, ThreadTeam& team) {
+UniformPressure pressure_for(double load, const CanopyMesh& mesh, bool linear, ThreadTeam& team,
+                             const std::function<void()>& alive) {
   if (!(load > 0))
     throw Error(ExitCode::bad_data, fmt::format("a steady drag of {} N opens no canopy", load));
-  Equilibrium equilibrium(mesh, linear, team);
+  Equilibrium equilibrium(mesh, linear, team, alive);
   UniformPressure answer = equilibrium.under(load / skirt_area(mesh, mesh.start));  // a first guess
   while (std::abs(answer.load / load - 1) > load_tolerance) {
     if (answer.relaxations == most_relaxations) {

@@ -1,6 +1,8 @@
 // The uniform pressure difference that stands for the air.
 #pragma once
 
+#include <functional>
+
 #include "ripstop/core/thread_team.h"
 #include "ripstop/parachute/canopy_mesh.h"
 
@@ -18,6 +20,8 @@ UniformPressure load_under(double pressure, const Mesh& mesh, bool linear, Threa
 
 /// The dp with which the equilibrium carries `load` [N] within 0.1 %: dp = load / A(dp), [NFM] as mended. The
 /// shape hardly depends on dp, so two or three equilibria do. Throws Error(not_converged).
-UniformPressure pressure_for(double load, const CanopyMesh& mesh, bool linear, ThreadTeam& team);
+/// `alive` is called now and then on the way; what it throws ends the search.
+UniformPressure pressure_for(double load, const CanopyMesh& mesh, bool linear, ThreadTeam& team,
+                             const std::function<void()>& alive = {});
 
 }  // namespace ripstop

@@ -19,13 +19,13 @@ DampingTarget damping_target(const Case& given) {
 }
 
 DampingResult run_damping(const Case& given, const LoadSource& source, const InflationProblem& problem,
-                          const DampingSearch& search,
-                          const std::function<void(const DampingTrial&)>& report) {
+                          const DampingSearch& search, const std::function<void(const DampingTrial&)>& report,
+                          const std::function<void()>& alive) {
   DampingResult result;
   result.title = given.title;
   result.target = damping_target(given);
   result.found = calibrate_damping(
-      result.target, search, [&](double damping) { return open_with(damping, problem); }, report);
+      result.target, search, [&](double damping) { return open_with(damping, problem, alive); }, report);
   result.low_pass_hz = problem.settings.low_pass_hz;
   result.pressure = problem.pressure;
   result.pressure_from = source.text;

@@ -55,10 +55,11 @@ std::string to_json(const DampingResult& result);
 /// What the case says was measured. Throws Error(usage) when it says nothing.
 DampingTarget damping_target(const Case& given);
 
-/// calibrate_damping() on the case's measured opening, under the pressure of `problem`.
+/// calibrate_damping() on the case's measured opening, under the pressure of `problem`; `alive` as of open_with().
 DampingResult run_damping(const Case& given, const LoadSource& source, const InflationProblem& problem,
                           const DampingSearch& search,
-                          const std::function<void(const DampingTrial&)>& report = {});
+                          const std::function<void(const DampingTrial&)>& report = {},
+                          const std::function<void()>& alive = {});
 
 /// damping.csv, misfit.png and result.json.
 void write_damping(const std::filesystem::path& folder, const DampingResult& result);

@@ -32,7 +32,20 @@ bool is_of_steady(const std::string& text) {
   return json.is_object() && json.contains("drag_n") && json.contains("coupling_iterations");
 }
 
+void require_converged(const SteadyResult& result, const std::string& where) {
+  if (result.converged) return;
+  throw Error(ExitCode::bad_data,
+              fmt::format("{}the steady run has not converged, so that its drag says nothing; give it more "
+                          "coupling.max_iterations and run it again{}",
+                          where.empty() ? "" : where + ": ", where.empty() ? "" : " with --fresh"));
+}
+
 }  // namespace
+
+FinishedSteady finished_steady(const Case& given, const SteadyResult& result) {
+  require_converged(result, "");
+  return {{}, given, result, parachute_mass(given), drag_uncertainty(result.last)};
+}
 
 FinishedSteady finished_steady(const std::filesystem::path& folder) {
   const std::optional<std::string> text = finished_result(folder);
@@ -44,12 +57,7 @@ FinishedSteady finished_steady(const std::filesystem::path& folder) {
   FinishedSteady run;
   run.folder = folder;
   run.result = steady_result_from_json(*text);
-  if (!run.result.converged)
-    throw Error(
-        ExitCode::bad_data,
-        fmt::format("{}: the steady run has not converged, so that its drag says nothing; give it more "
-                    "coupling.max_iterations and run it again with --fresh",
-                    folder.string()));
+  require_converged(run.result, folder.string());
   run.given = case_of_run(folder);
   run.parachute_mass = parachute_mass(run.given);
   run.result.last = final_state(folder).iterations.back();

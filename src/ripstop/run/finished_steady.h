@@ -24,5 +24,7 @@ struct FinishedSteady {
 /// Throws Error(usage) for a folder without a finished run of `ripstop steady`, Error(bad_data) for one that is
 /// damaged or has not converged.
 FinishedSteady finished_steady(const std::filesystem::path& folder);
+/// Of a run in memory: its `folder` stays empty. Throws Error(bad_data) for one that has not converged.
+FinishedSteady finished_steady(const Case& given, const SteadyResult& result);
 
 }  // namespace ripstop

@@ -37,6 +37,20 @@ struct LoadRequest {
   std::filesystem::path steady, opening;  // folders of runs to take the drag area from; empty: none
 };
 
+/// A row of trajectory.csv.
+template <Of<FlightRow> T, class Visit>
+void each_member(T& row, Visit&& visit) {
+  visit("time_s", row.state.time);
+  visit("distance_m", row.state.distance);
+  visit("range_m", row.state.range);
+  visit("height_m", row.state.height);
+  visit("speed_m_s", row.state.speed);
+  visit("path_angle_deg", row.state.path_angle);
+  visit("drag_area_m2", row.drag_area);
+  visit("force_n", row.force);
+  visit("density_kg_m3", row.density);
+}
+
 struct MethodLoad {
   std::string method;
   double load = 0;  // [N]

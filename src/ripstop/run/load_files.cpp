@@ -13,12 +13,8 @@ constexpr double shown_after_peak =
     12;  // of the time to the last stage's peak: the long descent is left to the table
 
 CsvTable table_of(const std::vector<FlightRow>& rows) {
-  CsvTable table{{"time_s", "distance_m", "range_m", "height_m", "speed_m_s", "path_angle_deg",
-                  "drag_area_m2", "force_n", "density_kg_m3"},
-                 {}};
-  for (const FlightRow& row : rows)
-    table.rows.push_back({row.state.time, row.state.distance, row.state.range, row.state.height,
-                          row.state.speed, row.state.path_angle, row.drag_area, row.force, row.density});
+  CsvTable table{columns_of<FlightRow>(), {}};
+  for (const FlightRow& row : rows) table.rows.push_back(row_of(row));
   return table;
 }
 

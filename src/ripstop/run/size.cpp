@@ -116,8 +116,8 @@ void describe_parachute(const SizeRequest& request, SizeResult& r) {
   const PatternResult pattern = run_pattern(r.given, {}, request.packing_density);
   r.packed_volume = pattern.bill.packed_volume;
   const CaseSummary summary = summarize(r.given);
-  r.cloth_mass = summary.cloth_mass, r.tape_mass = summary.tape_mass;
-  r.line_mass = summary.line_mass + summary.riser_mass;
+  r.cloth_mass = summary.mass.cloth, r.tape_mass = summary.mass.tape;
+  r.line_mass = summary.mass.lines + summary.mass.riser;
   r.parachute_mass = parachute_mass(r.given);
   if (r.handbook_drag_coefficient) {
     const double scale = r.nominal_diameter * std::sqrt(r.drag_coefficient);

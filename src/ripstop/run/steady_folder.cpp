@@ -233,23 +233,27 @@ double drag_for_opening(const fs::path& folder, const Case& opening) {
   const std::optional<std::string> text = finished_result(folder);
   if (!text)
     throw Error(ExitCode::usage, fmt::format("{}: holds no finished run of ripstop steady", folder.string()));
-  const SteadyResult result = steady_result_from_json(*text);
+  return drag_for_opening(case_of_run(folder), steady_result_from_json(*text), folder.string(), opening);
+}
+
+double drag_for_opening(const Case& given, const SteadyResult& result, const std::string& where,
+                        const Case& opening) {
   if (!result.converged)
-    throw Error(ExitCode::bad_data, fmt::format("{}: the steady run has not converged", folder.string()));
+    throw Error(ExitCode::bad_data, fmt::format("{}: the steady run has not converged", where));
   auto asked = nlohmann::json::parse(case_json(opening)).at("parachute");
-  auto had = nlohmann::json::parse(case_json(case_of_run(folder))).at("parachute");
+  auto had = nlohmann::json::parse(case_json(given)).at("parachute");
   asked.erase("mesh"), had.erase("mesh");
   for (const auto& [key, value] : asked.items()) {
     if (had.contains(key) && had.at(key) == value) continue;
     throw Error(ExitCode::usage,
-                fmt::format("{}: is a run of another parachute: parachute.{} is {} there and {} here",
-                            folder.string(), key, had.value(key, nlohmann::json()).dump(), value.dump()));
+                fmt::format("{}: is a run of another parachute: parachute.{} is {} there and {} here", where,
+                            key, had.value(key, nlohmann::json()).dump(), value.dump()));
   }
   const Air here = air(opening);
   const auto check = [&](const char* what, double there, double now) {
     if (std::abs(there - now) <= 1e-6 * now) return;
-    throw Error(ExitCode::usage, fmt::format("{}: is a run at another {}: {:g} there and {:g} here",
-                                             folder.string(), what, there, now));
+    throw Error(ExitCode::usage,
+                fmt::format("{}: is a run at another {}: {:g} there and {:g} here", where, what, there, now));
   };
   check("speed (m/s)", result.speed, here.speed);
   check("density (kg/m3)", result.density, here.density);

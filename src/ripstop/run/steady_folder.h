@@ -33,6 +33,9 @@ SteadyFolderRun run_steady_in(const SteadyFolderSettings& settings, const Case& 
 /// air. Throws Error(usage) for another parachute, speed or density, Error(bad_data) for a run that is
 /// damaged or has not converged.
 double drag_for_opening(const std::filesystem::path& folder, const Case& opening);
+/// The same of a run of `given`, which messages call `where`.
+double drag_for_opening(const Case& given, const SteadyResult& result, const std::string& where,
+                        const Case& opening);
 /// The final state in the folder of a steady run. Throws Error(usage) when there is none.
 SteadyState final_state(const std::filesystem::path& folder);
 /// The case that was run there. Throws Error(usage) when there is none.

@@ -1,0 +1,52 @@
+// calibrate_damping(): C_a from a measured opening.
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "members.h"
+#include "module.h"
+#include "opening.h"
+#include "ripstop/run/damping.h"
+
+namespace ripstop::python {
+namespace {
+
+DampingResult calibrate(const PyCase& given, const OptionalSource& steady, std::optional<double> pressure,
+                        const DampingSearch& search, Callback<DampingTrial> progress, int threads,
+                        const std::optional<Path>& out) {
+  Listener listener(std::move(progress));
+  const py::gil_scoped_release release;
+  const Opening opening = opening_of(given.given, steady, pressure, threads);
+  damping_target(opening.given);
+  const auto alive = [&] { listener.listen(); };
+  DampingResult result = run_damping(
+      opening.given, opening.source, opening_problem(opening.given, opening.source, opening.threads, alive),
+      search, [&](const DampingTrial& trial) { listener.tell(trial); }, alive);
+  if (out) write_damping(*out, result);
+  return result;
+}
+
+}  // namespace
+
+void add_calibrate(py::module_& module) {
+  add_class<DampingTrial>(module, "DampingTrial", "One opening with one C_a.");
+  add_result<DampingResult>(module, "Damping",
+                            "C_a from a measured opening: the numbers of its result.json.");
+  module.def(
+      "calibrate_damping",
+      [](PyCase given, const OptionalSource& steady, std::optional<double> pressure, double from, double to,
+         int points, int refinements, Callback<DampingTrial> progress, int threads,
+         const std::optional<Path>& out) {
+        return calibrate(given, steady, pressure, {from, to, points, refinements}, std::move(progress),
+                         threads, out);
+      },
+      py::arg("case"), py::kw_only(), py::arg("steady") = py::none(), py::arg("pressure_pa") = py::none(),
+      py::arg("smallest") = 4.0, py::arg("largest") = 16.0, py::arg("points") = 7, py::arg("refinements") = 4,
+      py::arg("progress") = py::none(), py::arg("threads") = 0, py::arg("out") = py::none(),
+      "C_a [N s/m3] from the measured opening load of a reference parachute: ripstop calibrate damping.\n\n"
+      "steady, pressure_pa, threads: as of inflate().\n"
+      "smallest, largest: of C_a [N s/m3]; points: openings at equal ratios; refinements: about the best.\n"
+      "progress: called with a DampingTrial after every opening; what it raises ends the search.\n"
+      "out: a folder for the result's files. None: nothing is written.");
+}
+
+}  // namespace ripstop::python

@@ -1,0 +1,56 @@
+// Error and InputError as exceptions with the text that the program prints.
+#include <pybind11/stl.h>
+
+#include "members.h"
+#include "module.h"
+#include "ripstop/core/error.h"
+#include "ripstop/run/check.h"
+
+namespace ripstop::python {
+namespace {
+
+py::handle make_exception(py::module_& module, const char* name, py::handle base, const char* doc) {
+  const std::string full = std::string("ripstop.") + name;
+  PyObject* type = PyErr_NewExceptionWithDoc(full.c_str(), doc, base.ptr(), nullptr);
+  if (!type) throw py::error_already_set();
+  module.add_object(name, type);
+  return type;
+}
+
+void raise(py::handle type, const Error& error, const py::list& problems) {
+  py::object exception = type(error.what());
+  exception.attr("exit_code") = static_cast<int>(error.code());
+  if (!problems.empty()) exception.attr("problems") = problems;
+  PyErr_SetObject(type.ptr(), exception.ptr());
+}
+
+}  // namespace
+
+void add_errors(py::module_& module) {
+  add_class<Problem>(module, "Problem",
+                     "One mistake in an input: where it stands, its key, its value and what is allowed.")
+      .def("__str__", [](const Problem& problem) { return to_text(problem); });
+  // The module is never unloaded, nor are its types.
+  static const py::handle plain =
+      make_exception(module, "Error", PyExc_Exception,
+                     "What went wrong, with the text that the program prints.\n\n"
+                     "exit_code: the program's exit status: 2 usage or case file, 3 bad input data,\n"
+                     "4 not converged, 5 diverged, 6 external solver, 7 input/output.");
+  static const py::handle input =
+      make_exception(module, "InputError", plain,
+                     "Everything that is wrong with an input file or a setting, a line each.\n\n"
+                     "problems: a list of Problem.");
+  py::register_exception_translator([](std::exception_ptr pointer) {
+    try {
+      if (pointer) std::rethrow_exception(pointer);
+    } catch (const InputError& error) {
+      py::list problems;
+      for (const Problem& problem : error.problems()) problems.append(py::cast(problem));
+      raise(input, error, problems);
+    } catch (const Error& error) {
+      raise(plain, error, py::list());
+    }
+  });
+}
+
+}  // namespace ripstop::python

@@ -1,0 +1,44 @@
+// descent() and export(): what is made of a steady run's drag.
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "members.h"
+#include "module.h"
+#include "ripstop/run/descent.h"
+#include "ripstop/run/export.h"
+#include "runs.h"
+
+namespace ripstop::python {
+
+void add_flight(py::module_& module) {
+  add_class<DescentRow>(module, "DescentRow", "The descent at one height.");
+  add_result<Descent>(module, "Descent", "How a payload comes down under the parachute of a steady run.");
+  module.def(
+      "descent",
+      [](const SteadySource& run, double mass, const std::vector<double>& heights, double ground) {
+        const py::gil_scoped_release release;
+        return run_descent(finished(run), mass, heights, ground);
+      },
+      py::arg("run"), py::arg("payload_mass_kg"), py::kw_only(),
+      py::arg("heights_m") = std::vector<double>{0, 300, 1000, 3000}, py::arg("ground_m") = 0.0,
+      "Speed [m/s] and time to the ground [s] of a payload [kg] at heights above sea level [m]: ripstop\n"
+      "descent. run: a Steady or the folder of one.");
+  add_result<ExportedParachute>(module, "ExportedParachute",
+                                "A steady run's parachute in numbers of flight simulators.")
+      .def(
+          "rocketpy", &rocketpy_text, py::arg("trigger") = "apogee",
+          "Python: the arguments of RocketPy's Rocket.add_parachute. trigger: \"apogee\", or a height above\n"
+          "the ground [m].")
+      .def("openrocket", &openrocket_text, "A component database of OpenRocket with the parachute.");
+  module.def(
+      "export",
+      [](const SteadySource& run, std::optional<double> deployment_speed) {
+        const py::gil_scoped_release release;
+        return exported(finished(run), deployment_speed);
+      },
+      py::arg("run"), py::kw_only(), py::arg("deployment_speed_m_s") = py::none(),
+      "The parachute of a steady run for flight simulators: ripstop export. run: a Steady or the folder of\n"
+      "one. deployment_speed_m_s: for the filling time [m/s]; None: the run's own.");
+}
+
+}  // namespace ripstop::python

@@ -1,0 +1,174 @@
+// inflate(): an opening with its history, frames and shapes as arrays.
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "members.h"
+#include "module.h"
+#include "opening.h"
+#include "ripstop/case/opening.h"
+#include "ripstop/run/inflation.h"
+#include "ripstop/run/inflation_folder.h"
+#include "ripstop/run/json.h"
+#include "ripstop/run/steady_folder.h"
+#include "ripstop/run/warnings.h"
+#include "runs.h"
+
+namespace ripstop {
+/// Told after every block of an opening.
+struct OpeningProgress {
+  double time = 0, duration = 0;  // [s]
+  double load = 0;                // mean over the last interval [N]
+  double step = 0;                // [s]
+};
+template <Of<OpeningProgress> T, class Visit>
+void each_member(T& p, Visit&& visit) {
+  visit("time_s", p.time);
+  visit("duration_s", p.duration);
+  visit("load_n", p.load);
+  visit("step_s", p.step);
+}
+}  // namespace ripstop
+
+namespace ripstop::python {
+namespace {
+
+class Observer : public InflationObserver {
+ public:
+  Observer(Listener& listener, PyInflation& run) : listener_(listener), run_(run) {}
+  void begin(const Inflation& solver, InflationState&, InflationHistory&) override {
+    run_.cells = cells_of(solver.mesh());
+  }
+  void advanced(const Inflation& solver, const InflationState& state, const InflationHistory& history,
+                const InflationFrame*) override {
+    listener_.tell(OpeningProgress{state.cloth.time, solver.problem().settings.duration_s,
+                                   history.rows.back().mean, state.step});
+  }
+  void ended(const Inflation& solver, const InflationState& state, const InflationHistory& history,
+             const InflationResult& result) override {
+    run_.history = history, run_.result = result, run_.shots = state.shots;
+    run_.shape = positions(state.cloth, solver.cloth());
+    run_.velocity = velocities(state.cloth, solver.cloth());
+  }
+
+ private:
+  Listener& listener_;
+  PyInflation& run_;
+};
+
+std::unique_ptr<PyInflation> inflate(const PyCase& given, const OptionalSource& steady,
+                                     std::optional<double> pressure, Callback<OpeningProgress> progress,
+                                     int threads, const std::optional<Path>& out, bool fresh) {
+  auto run = std::make_unique<PyInflation>();
+  run->made = given;
+  Listener listener(std::move(progress));
+  Observer observer(listener, *run);
+  const py::gil_scoped_release release;
+  const Opening opening = opening_of(run->made.given, steady, pressure, threads);
+  const auto problem = [&] {
+    return opening_problem(opening.given, opening.source, opening.threads, [&] { listener.listen(); });
+  };
+  if (!out) {
+    run_inflation(opening.given, opening.source, problem(), observer);
+  } else if (!run_inflation_in({{*out, fresh}, opening.threads}, opening.given, opening.source, problem,
+                               observer)) {
+    run->result = from_json_text<InflationResult>(*finished_result(*out), "the result of an opening");
+  }
+  return run;
+}
+
+const PyInflation& run_of(const py::object& self) {
+  return self.cast<const PyInflation&>();
+}
+
+void add_arrays(py::class_<PyInflation>& type) {
+  type.def_property_readonly(
+      "history", [](const py::object& self) { return table_of(run_of(self).history.rows, self); },
+      "Load on the riser over time, a row an interval: time_s, load_mean_n, load_least_n, load_largest_n.");
+  type.def_property_readonly(
+      "frames", [](const py::object& self) { return table_of(run_of(self).history.frames, self); },
+      "Energies, sizes and stress now and then, with the columns of balance.csv.");
+  type.def_property_readonly(
+      "shots", [](const py::object& self) -> py::list { return to_python(run_of(self).shots, self); },
+      "Shapes along the way, each an InflationShot.");
+  type.def_property_readonly(
+      "shape", [](const py::object& self) { return view_of(run_of(self).shape, self); },
+      "Every node of the parachute at the end, x, y, z; z is downstream [m]");
+  type.def_property_readonly(
+      "velocity", [](const py::object& self) { return view_of(run_of(self).velocity, self); },
+      "Of every node at the end [m/s]");
+  type.def_property_readonly(
+      "cells", [](const py::object& self) { return view_of_cells(run_of(self).cells, self); },
+      "Nodes at the four corners of every cell of cloth; the first is -1 where there is none.");
+  type.def_property_readonly(
+      "line_peaks", [](const py::object& self) { return view_of(run_of(self).result.line_peaks, self); },
+      "Highest tension of each line over every step [N]");
+}
+
+}  // namespace
+
+Opening opening_of(const Case& given, const OptionalSource& steady, std::optional<double> pressure,
+                   int threads) {
+  if (steady && pressure)
+    throw Error(ExitCode::usage, "give the pressure once: pressure_pa or steady, not both");
+  Case changed = given;
+  Overrides overrides;
+  overrides.pressure = pressure;
+  apply(overrides, changed);
+  if (steady) {  // takes the place of what the case gives
+    changed.inflation.pressure_pa.reset();
+    changed.inflation.drag_coefficient.reset();
+  }
+  Opening opening;
+  opening.given = opening_case(changed);
+  opening.threads = threads > 0 ? threads : given.coupling.threads;
+  if (!steady) {
+    opening.source = load_source(opening.given);
+  } else if (const Path* folder = std::get_if<Path>(&*steady)) {
+    const double drag = drag_for_opening(*folder, opening.given);
+    opening.source = {fmt::format("steady run {}: {:.4g} N", folder->string(), drag), drag};
+  } else {
+    const PySteady& run = std::get<1>(*steady);
+    const double drag = drag_for_opening(run.made.given, run.result, "the steady run", opening.given);
+    opening.source = {fmt::format("steady run: {:.4g} N", drag), drag};
+  }
+  return opening;
+}
+
+void add_inflate(py::module_& module) {
+  add_class<InflationShot>(module, "InflationShot",
+                           "A shape on the way: time [s], positions [m], von_mises [N/m].");
+  add_class<OpeningProgress>(module, "OpeningProgress", "How far an opening is.");
+  py::class_<PyInflation> type(module, "Inflation",
+                               "An opening: the numbers of its result.json, and its arrays.");
+  const auto result = [](const PyInflation& run) -> const InflationResult& { return run.result; };
+  add_members(type, result);
+  add_json(type, result);
+  add_arrays(type);
+  type.def_property_readonly(
+      "case", [](const PyInflation& run) { return run.made; }, "The Case that was opened.");
+  type.def_property_readonly(
+      "warnings",
+      [](const PyInflation& run) {
+        std::vector<std::string> all = mesh_warnings(run.made.given);
+        for (const std::string& text : strain_warnings(run.made.given, run.result.stress.strain))
+          all.push_back(text);
+        return all;
+      },
+      "What is not wrong but should be known about the result.");
+  module.def(
+      "inflate", &inflate, py::arg("case"), py::kw_only(), py::arg("steady") = py::none(),
+      py::arg("pressure_pa") = py::none(), py::arg("progress") = py::none(), py::arg("threads") = 0,
+      py::arg("out") = py::none(), py::arg("fresh") = false,
+      "How a folded canopy opens, and the load on the riser: ripstop inflate.\n\n"
+      "steady: a Steady or the folder of one: its drag sets the pressure.\n"
+      "pressure_pa: difference over the canopy [Pa]. None of both: what the case gives.\n"
+      "progress: called with an OpeningProgress after every step of the history's block; what it raises\n"
+      "  ends the run.\n"
+      "threads: 0: coupling.threads of the case.\n"
+      "out: a run folder, as of steady(); of a run that it holds finished, the numbers are read and the\n"
+      "  arrays are empty. None: nothing is written.\n\n"
+      "Loads in [N], times in [s].");
+}
+
+}  // namespace ripstop::python

@@ -1,0 +1,62 @@
+// Python's module `_ripstop`: the functions of run/ and their results. The package `ripstop` has what users import.
+#include "module.h"
+
+#include "members.h"
+#include "ripstop/core/build_info.h"
+
+namespace ripstop::python {
+
+py::str text_of(py::handle object) {
+  const py::handle type = py::type::handle_of(object);
+  std::string text = type.attr("__name__").cast<std::string>() + "(";
+  const char* between = "";
+  for (const py::handle name : type.attr("__match_args__")) {
+    const py::object value = object.attr(name);
+    const bool array = py::isinstance<py::array>(value), list = py::isinstance<py::list>(value);
+    const std::string shown = (array || list) && py::len(value) > 3 ? (array ? "<array of " : "<list of ") +
+                                                                          std::to_string(py::len(value)) + ">"
+                                                                    : py::repr(value).cast<std::string>();
+    text += between + name.cast<std::string>() + "=" + shown;
+    between = ", ";
+  }
+  return text + ")";
+}
+
+py::object plain_of(const std::string& json) {
+  return py::module_::import("json").attr("loads")(json);
+}
+
+void Listener::listen() {
+  constexpr std::chrono::milliseconds often{50};  // what a person calls at once
+  const Clock::time_point now = Clock::now();
+  if (now - last_ < often) return;
+  last_ = now;
+  const py::gil_scoped_acquire lock;
+  check_signals();
+}
+
+void Listener::check_signals() {
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+}
+
+}  // namespace ripstop::python
+
+PYBIND11_MODULE(_ripstop, module) {
+  using namespace ripstop::python;  // NOLINT: the macro makes a function of its own
+  module.doc() = "The library of Ripstop as Python sees it. Import `ripstop`, not this.";
+  module.attr("__version__") = ripstop::version();
+  const py::object own_name = module.attr("__name__");
+  module.attr("__name__") = "ripstop";  // where users find the classes
+  add_errors(module);
+  add_case(module);
+  add_check(module);
+  add_steady(module);
+  add_inflate(module);
+  add_calibrate(module);
+  add_fit(module);
+  add_pattern(module);
+  add_size(module);
+  add_load(module);
+  add_flight(module);
+  module.attr("__name__") = own_name;
+}

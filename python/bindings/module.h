@@ -1,0 +1,84 @@
+// The parts of the module `_ripstop`, each in a file of its own, and what they share.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "ripstop/case/case.h"
+
+namespace ripstop::python {
+
+namespace py = pybind11;
+
+void add_errors(py::module_& module);
+void add_case(py::module_& module);
+void add_check(py::module_& module);
+void add_steady(py::module_& module);
+void add_inflate(py::module_& module);
+void add_calibrate(py::module_& module);
+void add_fit(py::module_& module);
+void add_pattern(py::module_& module);
+void add_size(py::module_& module);
+void add_load(py::module_& module);
+void add_flight(py::module_& module);
+
+/// A case with the text that it was read from, so that any key can be set anew as --set does.
+struct PyCase {
+  Case given;
+  std::string text, name;      // TOML, and what stands for its file in messages
+  std::filesystem::path file;  // empty: not from a file
+  std::vector<Setting> set;
+
+  PyCase() = default;
+  /// Of a case that the library made.
+  explicit PyCase(const Case& made);
+};
+
+/// Of a result: where it came from is told by the run's folder or, of a run in memory, by nothing.
+using Path = std::filesystem::path;
+
+inline bool is_callback(PyObject* object) {
+  return object == Py_None || PyCallable_Check(object) != 0;
+}
+/// None, or what is called with a copy of every `Progress`.
+template <class Progress>
+class Callback : public py::object {
+ public:
+  PYBIND11_OBJECT_DEFAULT(Callback, py::object, is_callback)
+};
+
+/// While the library computes on this thread without the interpreter's lock: Ctrl-C, and calls of Python.
+class Listener {
+ public:
+  /// `callback`: a Callback. Made and destroyed under the lock.
+  explicit Listener(py::object callback) : callback_(std::move(callback)) {}
+  /// Looks for signals now and then; throws what their handlers raise, as KeyboardInterrupt.
+  void listen();
+  /// Calls back with a copy of `progress`; throws what the callback raises.
+  template <class Progress>
+  void tell(const Progress& progress) {
+    const py::gil_scoped_acquire lock;
+    if (!callback_.is_none()) callback_(py::cast(progress, py::return_value_policy::copy));
+    check_signals();
+  }
+
+ private:
+  void check_signals();
+  using Clock = std::chrono::steady_clock;
+  py::object callback_;
+  Clock::time_point last_ = Clock::now();
+};
+
+}  // namespace ripstop::python
+
+/// In signatures and stubs.
+template <class Progress>
+struct pybind11::detail::handle_type_name<ripstop::python::Callback<Progress>> {
+  static constexpr auto name =
+      const_name("Optional[Callable[[") + make_caster<Progress>::name + const_name("], Any]]");
+};

@@ -1,0 +1,99 @@
+// pattern(): what to cut, with outlines as arrays.
+#include "ripstop/run/pattern.h"
+
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "members.h"
+#include "module.h"
+
+namespace ripstop {
+template <Of<CutLength> T, class Visit>
+void each_member(T& c, Visit&& visit) {
+  visit("name", c.name);
+  visit("count", c.count);
+  visit("length_m", c.length);
+}
+}  // namespace ripstop
+
+namespace ripstop::python {
+namespace {
+
+py::array view_of_outline(const std::vector<Point2>& outline, py::handle owner) {
+  static_assert(sizeof(Point2) == 2 * sizeof(double));
+  const double* data = outline.empty() ? nullptr : &outline.front().x;
+  return view_of(data, {static_cast<py::ssize_t>(outline.size()), 2}, owner);
+}
+
+PatternResult pattern(const PyCase& given, const Allowances& allowances, double packing_density,
+                      const std::optional<Path>& out) {
+  const py::gil_scoped_release release;
+  PatternResult result = run_pattern(given.given, allowances, packing_density);
+  if (out) write_pattern(*out, result);
+  return result;
+}
+
+void add_piece(py::module_& module) {
+  py::class_<Piece> type(module, "Piece", "A flat piece of cloth, finished size.");
+  type.def_property_readonly(
+      "name", [](const Piece& p) { return p.name; }, "Of the piece.");
+  type.def_property_readonly(
+      "count", [](const Piece& p) { return p.count; }, "How many there are.");
+  type.def_property_readonly(
+      "grain_deg", [](const Piece& p) { return p.grain; }, "Of the warp, from y toward x [deg]");
+  type.def_property_readonly(
+      "outline",
+      [](const py::object& self) { return view_of_outline(self.cast<const Piece&>().outline, self); },
+      "Corners x, y, counterclockwise, y toward the vent [m]");
+  type.def_property_readonly(
+      "hems",
+      [](const Piece& p) {
+        py::list hems;
+        for (const Edge edge : p.edges) hems.append(edge == Edge::hem);
+        return hems;
+      },
+      "Whether the edge from each corner to the next is a free one; else it is a seam.");
+  type.def("__repr__", [](const Piece& p) {
+    return "<ripstop.Piece '" + p.name + "', " + std::to_string(p.count) + " of them>";
+  });
+}
+
+}  // namespace
+
+void add_pattern(py::module_& module) {
+  add_class<BillRow>(module, "BillRow",
+                     "A row of the bill of materials; finished and cut in [m2] of cloth, else [m].");
+  add_class<CutLength>(module, "CutLength", "Pieces of tape or line, finished.");
+  add_piece(module);
+  py::class_<PatternResult> type =
+      add_result<PatternResult>(module, "Pattern", "What to cut for a parachute.");
+  type.def_property_readonly(
+      "pieces",
+      [](const py::object& self) {
+        py::list pieces;
+        for (const Piece& piece : self.cast<const PatternResult&>().pattern.pieces)
+          pieces.append(py::cast(&piece, py::return_value_policy::reference_internal, self));
+        return pieces;
+      },
+      "A Piece for each outline.");
+  type.def_property_readonly(
+      "tapes",
+      [](const py::object& self) -> py::list {
+        return to_python(self.cast<const PatternResult&>().pattern.tapes, self);
+      },
+      "A CutLength for each tape.");
+  module.def(
+      "pattern",
+      [](PyCase given, double seam, double hem, double line_loop, double tape_overlap, double packing_density,
+         const std::optional<Path>& out) {
+        return pattern(given, {seam, hem, line_loop, tape_overlap}, packing_density, out);
+      },
+      py::arg("case"), py::kw_only(), py::arg("seam_allowance_m") = Allowances{}.seam,
+      py::arg("hem_allowance_m") = Allowances{}.hem, py::arg("line_loop_m") = Allowances{}.line_loop,
+      py::arg("tape_overlap_m") = Allowances{}.tape_overlap,
+      py::arg("packing_density_kg_m3") = packed_by_hand, py::arg("out") = py::none(),
+      "What to cut, and what it weighs: ripstop pattern. Lengths in [m], areas in [m2], masses in [kg].\n\n"
+      "out: a folder for the drawings and the bill. None: nothing is written.");
+}
+
+}  // namespace ripstop::python

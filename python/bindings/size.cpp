@@ -1,0 +1,108 @@
+// size(): which parachute lets a payload down at a wanted rate; families and other sizes of a case.
+#include "ripstop/run/size.h"
+
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "members.h"
+#include "module.h"
+#include "ripstop/core/build_info.h"
+#include "ripstop/run/size_case.h"
+
+namespace ripstop {
+template <Of<FamilyDrag> T, class Visit>
+void each_member(T& f, Visit&& visit) {
+  visit("family", f.family);
+  visit("type", f.type);
+  visit("drag_coefficient", f.drag_coefficient);
+  visit("handbook_drag_coefficient", f.handbook);
+  visit("speed_m_s", f.speed);
+  visit("density_kg_m3", f.density);
+  visit("made", f.made);
+}
+}  // namespace ripstop
+
+namespace ripstop::python {
+namespace {
+
+/// Listens while verify_size() flies.
+class Observer : public SteadyObserver {
+ public:
+  explicit Observer(Listener& listener) : listener_(listener) {}
+  void progress(const SteadyProgress&, const SteadyState&) override { listener_.listen(); }
+  void iterated(const SteadyRun&, const SteadyState& state, const FlowField&) override {
+    listener_.tell(state.iterations.back());
+  }
+
+ private:
+  Listener& listener_;
+};
+
+SizeResult size(const SizeRequest& request, bool verify, Callback<SteadyIteration> progress) {
+  Listener listener(std::move(progress));
+  const py::gil_scoped_release release;
+  SizeResult result = run_size(request);
+  if (!verify) return result;
+  Observer observer(listener);
+  verify_size(request, result, [&](const Case& given, int) { return run_steady(given, observer).result; });
+  return result;
+}
+
+PyCase case_of(const SizeResult& result) {
+  PyCase made(result.given);
+  made.text = result.case_text;
+  made.name = "size";
+  return made;
+}
+
+PyCase scaled(const PyCase& self, double factor) {
+  if (!(factor > 0)) throw py::value_error("a parachute is scaled by a factor above 0");
+  Case given = self.given;
+  scale_lengths(given.parachute, factor);
+  return PyCase(checked(std::move(given)));
+}
+
+}  // namespace
+
+void add_size(py::module_& module) {
+  add_class<SizeCheck>(module, "SizeCheck", "One run that verified a size.");
+  add_class<FamilyDrag>(module, "Family",
+                        "A canopy family and the drag that Ripstop has computed of its example.");
+  py::class_<SizeResult> type =
+      add_result<SizeResult>(module, "Size", "The parachute for a payload and a rate.");
+  type.def_property_readonly("case", &case_of, "The parachute as a Case.");
+  type.def_property_readonly(
+      "case_text", [](const SizeResult& r) { return r.case_text; }, "Its case file (TOML), with comments.");
+  module.def(
+      "size",
+      [](double payload, double rate, const std::string& family, double height, std::optional<double> density,
+         std::optional<double> drag_coefficient, std::optional<double> deployment_speed,
+         std::optional<std::string> line_material, double packing_density, bool verify,
+         Callback<SteadyIteration> progress) {
+        return size({payload, rate, family, height, density, drag_coefficient, deployment_speed,
+                     line_material, packing_density},
+                    verify, std::move(progress));
+      },
+      py::arg("payload_mass_kg"), py::arg("descent_rate_m_s"), py::arg("family") = SizeRequest{}.family,
+      py::kw_only(), py::arg("height_m") = 0.0, py::arg("density_kg_m3") = py::none(),
+      py::arg("drag_coefficient") = py::none(), py::arg("deployment_speed_m_s") = py::none(),
+      py::arg("line_material") = py::none(), py::arg("packing_density_kg_m3") = packed_by_hand,
+      py::arg("verify") = false, py::arg("progress") = py::none(),
+      "The parachute that lets a payload [kg] down at a rate [m/s]: ripstop size.\n\n"
+      "family: one of families(). height_m: above sea level, where the rate is wanted; density_kg_m3 in its\n"
+      "  place.\n"
+      "verify: fly it by steady runs until the rate is met; progress as of steady().");
+  module.def("families", &family_drags,
+             "Every canopy family with the drag coefficient computed of its example.");
+  module.def(
+      "data_directory", [] { return data_directory().string(); },
+      "The folder with the shipped materials/ and examples/.");
+  const auto type_of_case = py::type::of<PyCase>();
+  py::setattr(
+      type_of_case, "scaled",
+      py::cpp_function(&scaled, py::name("scaled"), py::is_method(type_of_case), py::arg("factor"),
+                       "Another case with every length of the parachute times `factor`, to a tenth of a\n"
+                       "millimetre; the mesh's own lengths stay."));
+}
+
+}  // namespace ripstop::python

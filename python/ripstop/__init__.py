@@ -1,0 +1,27 @@
+"""How parachutes fly: shape, drag, stresses and loads, predicted.
+
+    import ripstop
+
+    case = ripstop.Case.read("case.toml", set={"flow.speed_m_s": 20})
+    run = ripstop.steady(case, progress=lambda i: print(i.iteration, i.drag_n))
+    print(run.drag_n, run.shape)
+
+What the program computes, its functions compute here: check, steady, inflate, fit, pattern, size, load, descent,
+calibrate_damping, export. Results have the members of result.json as attributes, whose names end with the unit, and
+arrays that are views of the library's own memory. Whatever goes wrong raises Error with the text of the program.
+"""
+
+import os
+import pathlib
+
+from . import _ripstop
+from ._ripstop import *  # noqa: F403 - all that the stub of _ripstop lists
+from ._ripstop import __version__
+
+__all__ = [name for name in dir(_ripstop) if not name.startswith("_")]
+
+# A wheel brings materials and examples along; what is installed or built has them where the library looks.
+_data = pathlib.Path(__file__).parent / "data"
+if _data.is_dir():
+    os.environ.setdefault("RIPSTOP_DATA", str(_data))
+del os, pathlib

@@ -1,0 +1,57 @@
+#include "ripstop/run/check.h"
+
+#include <algorithm>
+
+#include "ripstop/run/json.h"
+#include "ripstop/run/warnings.h"
+
+namespace ripstop {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// What stands in the written case under a full name such as "flow.core.size_m".
+const Json& value_of(const Json& written, const std::string& key) {
+  std::string pointer = "/" + key;
+  std::replace(pointer.begin(), pointer.end(), '.', '/');
+  return written.at(Json::json_pointer(pointer));
+}
+
+Json to_json(const std::vector<Source>& sources, const Json& written) {
+  Json list = Json::array();
+  for (const Source& source : sources)
+    list.push_back({{"key", source.key},
+                    {"value", value_of(written, source.key)},
+                    {"given", source.given},
+                    {"from", source.from}});
+  return list;
+}
+
+}  // namespace
+
+CheckResult run_check(const Case& given) {
+  CheckResult result{summarize(given), resolve(given).sources, mesh_warnings(given), given};
+  for (const std::vector<std::string>& more : {grid_warnings(given), porosity_warnings(given)})
+    result.warnings.insert(result.warnings.end(), more.begin(), more.end());
+  return result;
+}
+
+std::string to_json(const CheckResult& result) {
+  const Json written = Json::parse(case_json(result.given));
+  Json report = {{"valid", true}, {"problems", Json::array()}};
+  report.update(Json(result.summary));
+  report["sources"] = to_json(result.sources, written);
+  report["case"] = written;
+  return report.dump(2) + "\n";
+}
+
+std::string to_json(const std::vector<Problem>& problems) {
+  Json report = {{"valid", false}, {"problems", Json::array()}};
+  for (const Problem& problem : problems) {
+    Json& last = report["problems"].emplace_back(Json(problem));
+    last["text"] = to_text(problem);
+  }
+  return report.dump(2) + "\n";
+}
+
+}  // namespace ripstop

@@ -1,0 +1,203 @@
+"""Cases, errors and results without a coupled run: the same numbers and the same texts as the program's."""
+import copy
+import gc
+import json
+import pathlib
+import pickle
+import tempfile
+import unittest
+
+import numpy
+import ripstop
+import small
+
+
+class Cases(unittest.TestCase):
+    def test_a_case_file_and_its_settings_are_what_the_program_makes_of_them(self):
+        case = ripstop.Case.read(small.STRATOS, set={"flow.speed_m_s": 20, "parachute.canopy_material": "f-111"})
+        status, text, _ = small.program("check", small.STRATOS, "--resolved", "--speed", 20)
+        self.assertEqual((status, case.to_toml()), (0, text))
+        self.assertEqual(case.file, str(small.STRATOS))
+
+    def test_a_case_from_a_dictionary_is_that_from_text(self):
+        case = small.case()
+        again = ripstop.Case.from_toml(case.to_toml(), "again")
+        self.assertEqual(case.to_toml(), again.to_toml())
+        self.assertEqual(case.get("flow.cells"), [20, 20, 30])
+        self.assertEqual(case.asdict()["title"], small.TABLES["title"])
+        with self.assertRaises(KeyError):
+            case.get("flow.nothing")
+
+    def test_every_kind_of_value_can_be_set(self):
+        case = small.case()
+        case.set("flow.speed_m_s", numpy.float64(12.5))
+        case.set("flow.cells", numpy.array([16, 16, 26]))
+        case.set("flow.unsteady", True)
+        case.set("title", 'A "new" [canopy] = 1, of cloth\\')
+        case.set("measured", [{"nominal_speed_m_s": 10, "measured_speed_m_s": 9.5, "density_kg_m3": 1.2}])
+        self.assertEqual([case.get(key) for key in ("flow.speed_m_s", "flow.cells", "flow.unsteady", "title")],
+                         [12.5, [16, 16, 26], True, 'A "new" [canopy] = 1, of cloth\\'])
+        self.assertEqual(case.get("measured")[0]["measured_speed_m_s"], 9.5)
+        with self.assertRaises(TypeError):
+            case.set("flow.speed_m_s", object())
+
+    def test_a_wrong_setting_leaves_the_case_as_it_was(self):
+        case = small.case()
+        before = case.to_toml()
+        with self.assertRaises(ripstop.InputError):
+            case.set("flow.speed_m_s", -3)
+        self.assertEqual(case.to_toml(), before)
+
+    def test_copies_and_pickles_are_cases_of_their_own(self):
+        case = small.case()
+        others = [case.copy(), copy.copy(case), copy.deepcopy(case), pickle.loads(pickle.dumps(case))]
+        case.set("flow.speed_m_s", 7)
+        for other in others:
+            self.assertEqual(other.get("flow.speed_m_s"), 20)
+            other.set("flow.speed_m_s", 8)
+        self.assertEqual(case.get("flow.speed_m_s"), 7)
+
+    def test_another_size_scales_the_area_by_the_square(self):
+        case = small.case()
+        self.assertAlmostEqual(ripstop.check(case.scaled(1.5)).nominal_area_m2, 2.25 * ripstop.check(case).nominal_area_m2, places=9)
+
+
+class Errors(unittest.TestCase):
+    def both(self, error, call, *arguments):
+        """The exception of a call and the program's end say the same."""
+        with self.assertRaises(error) as caught:
+            call()
+        status, _, text = small.program(*arguments)
+        self.assertEqual(f"ripstop: {caught.exception}\n", text)
+        self.assertEqual(caught.exception.exit_code, status)
+        return caught.exception
+
+    def test_every_mistake_of_a_case_file_is_told_at_its_place(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder, "case.toml")
+            file.write_text(small.STRATOS.read_text().replace("gores = 6", "gores = -6\ngorse = 7"))
+            error = self.both(ripstop.InputError, lambda: ripstop.read_case(file), "check", file)
+        self.assertEqual(len(error.problems), 2)
+        self.assertEqual({(p.key, p.file) for p in error.problems}, {("parachute.gores", str(file)), ("parachute.gorse", str(file))})
+        self.assertEqual("\n".join(map(str, error.problems)), "\n".join(line.strip() for line in str(error).splitlines() if "case.toml:" in line))
+
+    def test_settings_are_refused_as_those_of_the_command_line(self):
+        for key, value, text in [("flow.speed_m_s", -3, "-3"), ("flow.spede", 3, "3"), ("materials.f-1111.darcy", 1, "1"),
+                                 ("flow.cells", [1, 2], "[1, 2]"), ("flow.engine", "openfaom", "openfaom")]:
+            with self.subTest(key):
+                self.both(ripstop.InputError, lambda: ripstop.read_case(small.STRATOS, set={key: value}),
+                          "check", small.STRATOS, "--set", f"{key}={text}")
+
+    def test_a_missing_file_and_a_folder_without_a_run(self):
+        with tempfile.TemporaryDirectory() as folder:
+            none = pathlib.Path(folder, "none.toml")
+            self.assertEqual(self.both(ripstop.Error, lambda: ripstop.read_case(none), "check", none).exit_code, 7)
+            self.both(ripstop.Error, lambda: ripstop.descent(folder, 2), "descent", folder, "--mass", 2)
+
+    def test_an_opening_without_a_pressure(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder, "case.toml")
+            file.write_text(small.case().to_toml())
+            self.both(ripstop.Error, lambda: ripstop.inflate(small.case()), "inflate", file, "--out", pathlib.Path(folder, "run"))
+
+    def test_an_error_of_the_input_is_an_error(self):
+        self.assertTrue(issubclass(ripstop.InputError, ripstop.Error))
+        self.assertFalse(issubclass(ripstop.Error, RuntimeError))
+
+
+class Results(unittest.TestCase):
+    def same_as_program(self, result, *arguments):
+        status, text, _ = small.program(*arguments, "--json")
+        self.assertEqual((status, result.to_json()), (0, text))
+        self.assertEqual(result.asdict(), json.loads(text))
+        for name, value in json.loads(text).items():
+            if isinstance(value, (int, float, str, bool)) and hasattr(result, name):
+                self.assertEqual(getattr(result, name), value, name)
+
+    def test_check(self):
+        case = ripstop.read_case(small.STRATOS)
+        check = ripstop.check(case)
+        self.same_as_program(check, "check", small.STRATOS)
+        self.assertEqual(check.mass_kg.total, check.asdict()["mass_kg"]["total"])
+        self.assertEqual({"key", "value", "given", "from"}, set(check.sources[0]))
+
+    def test_pattern(self):
+        with tempfile.TemporaryDirectory() as folder:
+            result = ripstop.pattern(ripstop.read_case(small.STRATOS), seam_allowance_m=0.02, out=pathlib.Path(folder, "a"))
+            self.same_as_program(result, "pattern", small.STRATOS, "--seam-allowance", 0.02, "--out", pathlib.Path(folder, "b"))
+            for file in pathlib.Path(folder, "a").iterdir():
+                self.assertEqual(file.read_bytes(), pathlib.Path(folder, "b", file.name).read_bytes(), file.name)
+        disk = result.pieces[0]
+        x, y = disk.outline.T
+        area = 0.5 * (x @ numpy.roll(y, -1) - y @ numpy.roll(x, -1))
+        self.assertGreater(area, 0)
+        self.assertEqual(len(disk.hems), len(disk.outline))
+
+    def test_size_and_load(self):
+        with tempfile.TemporaryDirectory() as folder:
+            size = ripstop.size(2.4, 5, "cross", height_m=300)
+            file = pathlib.Path(folder, "cross.toml")
+            self.same_as_program(size, "size", "--mass", 2.4, "--descent-rate", 5, "--family", "cross", "--height", 300, "--out", file)
+            self.assertEqual(size.case_text, file.read_text())
+            load = ripstop.load(size.case, 2.4, 25, height_m=300, reefing=[(0.1, 2)])
+            self.same_as_program(load, "load", file, "--mass", 2.4, "--speed", 25, "--height", 300, "--reef", "0.1:2",
+                                 "--out", pathlib.Path(folder, "load"))
+            table = numpy.genfromtxt(pathlib.Path(folder, "load", "trajectory.csv"), delimiter=",", names=True)
+        self.assertEqual(load.flight.dtype.names, table.dtype.names)
+        numpy.testing.assert_allclose(load.flight["force_n"], table["force_n"], rtol=1e-5)
+
+    def test_fit(self):
+        bench = small.SOURCE / "examples/fit-ripstop/bench.toml"
+        with tempfile.TemporaryDirectory() as folder:
+            fit = ripstop.fit(bench, coupons=False, threads=1)
+            status, text, _ = small.program("fit", bench, "--no-coupons", "--json", "--out", folder)
+            self.assertEqual((status, fit.to_json()), (0, text))
+            self.assertEqual(fit.to_toml(), next(pathlib.Path(folder).glob(fit.name + ".toml")).read_text())
+        warp = fit.directions[0]
+        powers = numpy.arange(1, warp.degree + 1)
+        numpy.testing.assert_allclose(warp.fit, warp.offset.value + (warp.strain[:, None] ** powers) @ warp.coefficients["value"], rtol=1e-9)
+        self.assertEqual((fit.kind, fit.shear_fraction, fit.coupons), ("fabric", None, []))
+
+    def test_a_result_reads_like_a_dataclass(self):
+        check = ripstop.check(small.case())
+        match check.mass_kg:
+            case ripstop.PartMasses(cloth, tape, lines, riser, total):
+                self.assertAlmostEqual(cloth + tape + lines + riser, total, places=12)
+        self.assertTrue(repr(check).startswith("Check(nominal_area_m2="))
+        self.assertEqual(tuple(type(check).__annotations__), type(check).__match_args__)
+        with self.assertRaises(AttributeError):
+            check.nodes = 3
+
+
+class Memory(unittest.TestCase):
+    def test_arrays_are_views_that_keep_their_result(self):
+        pattern = ripstop.pattern(small.case())
+        outline = pattern.pieces[0].outline
+        self.assertTrue(numpy.shares_memory(outline, pattern.pieces[0].outline))
+        self.assertFalse(outline.flags.owndata)
+        self.assertFalse(outline.flags.writeable)
+        with self.assertRaises(ValueError):
+            outline[0, 0] = 1
+        with self.assertRaises(ValueError):
+            outline.flags.writeable = True
+        values = outline.copy()
+        del pattern
+        gc.collect()
+        others = [ripstop.pattern(small.case()) for _ in range(5)]  # what was freed would be used again
+        numpy.testing.assert_array_equal(outline, values)
+        self.assertFalse(any(numpy.shares_memory(outline, other.pieces[0].outline) for other in others))
+
+    def test_a_table_lies_in_the_rows_of_the_library(self):
+        load = ripstop.load(small.case(), 2, 20)
+        force = load.flight["force_n"]
+        self.assertTrue(numpy.shares_memory(force, load.flight))
+        self.assertEqual(force.strides[0], load.flight.dtype.itemsize)
+        self.assertEqual(force.max(), load.peak_load_n)
+        expected = force.copy()
+        del load
+        gc.collect()
+        numpy.testing.assert_array_equal(force, expected)
+
+
+if __name__ == "__main__":
+    unittest.main()

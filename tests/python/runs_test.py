@@ -1,0 +1,238 @@
+"""Runs: the program's numbers, arrays that share the library's memory, progress, Ctrl-C, and the interpreter's lock."""
+import gc
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+import numpy
+import ripstop
+import small
+
+# Of a result, what two runs of the same case do not share.
+WALL_TIME = "wall_time_s"
+
+STOPPED = """
+import sys, time
+sys.path[:0] = {path!r}
+import ripstop, small
+case = small.{case}
+print("begun", flush=True)
+try:
+    ripstop.{call}
+except KeyboardInterrupt:
+    print("stopped", flush=True)
+"""
+
+
+def without_time(result):
+    result.pop(WALL_TIME)
+    return result
+
+
+class SteadyRuns(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.seen = []
+        cls.run_ = ripstop.steady(small.case(), progress=cls.seen.append)
+
+    def test_the_numbers_are_those_of_the_program(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder, "case.toml")
+            file.write_text(self.run_.case.to_toml())
+            out = pathlib.Path(folder, "run")
+            status, _, text = small.program("steady", file, "--out", out)
+            self.assertEqual(status, 0, text)
+            result = json.loads((out / "result.json").read_text())
+            self.assertEqual(without_time(self.run_.asdict()), without_time(result))
+            again = ripstop.steady(ripstop.read_case(file), out=out)  # is read, not computed
+            self.assertEqual(again.to_json(), (out / "result.json").read_text())
+            numpy.testing.assert_array_equal(again.shape, self.run_.shape)
+            self.assertIsNone(again.flow)
+            for mass in (1, 3):
+                self.assertEqual(ripstop.descent(self.run_, mass).heights[0].speed_m_s, ripstop.descent(out, mass).heights[0].speed_m_s)
+            _, lines, _ = small.program("export", "rocketpy", out)
+            self.assertEqual(ripstop.export(out).rocketpy(), lines)
+            self.assertEqual(ripstop.export(self.run_).drag_area_m2, ripstop.export(out).drag_area_m2)
+            memory, loaded = ripstop.load(self.run_.case, 2, 20, steady=self.run_), ripstop.load(self.run_.case, 2, 20, steady=out)
+            self.assertEqual(memory.peak_load_n, loaded.peak_load_n)
+
+    def test_a_folder_run_in_python_is_a_run_of_the_program(self):
+        with tempfile.TemporaryDirectory() as folder:
+            run = ripstop.steady(small.case(), out=folder)
+            self.assertEqual(without_time(run.asdict()), without_time(self.run_.asdict()))
+            numpy.testing.assert_array_equal(run.flow.velocity, self.run_.flow.velocity)
+            numpy.testing.assert_array_equal(run.shape, self.run_.shape)
+            self.assertEqual(pathlib.Path(folder, "result.json").read_text(), run.to_json())
+            status, text, _ = small.program("descent", folder, "--mass", 2, "--json")
+            self.assertEqual((status, text), (0, ripstop.descent(folder, 2).to_json()))
+
+    def test_progress_comes_with_every_iteration(self):
+        self.assertEqual([i.iteration for i in self.seen], list(range(1, self.run_.coupling_iterations + 1)))
+        numpy.testing.assert_array_equal([i.drag_n for i in self.seen], self.run_.iterations["drag_n"])
+        self.assertEqual(self.seen[-1].drag_n, self.run_.drag_n)
+
+    def test_arrays_say_what_the_numbers_say(self):
+        run = self.run_
+        self.assertEqual(run.stress["von_mises_n_m"].max(), run.max_von_mises_n_m)
+        cells = run.cells[run.cells[:, 0] >= 0]
+        a, b, c, d = (run.shape[cells[:, i]] for i in range(4))
+        area = 0.5 * numpy.cross(c - a, d - b)
+        load = (run.pressure_difference[run.cells[:, 0] >= 0, None] * area).sum(axis=0)
+        self.assertAlmostEqual(abs(load[2]) / run.ledger.nodal_load_n, 1, delta=0.02)
+        self.assertEqual(run.flow.velocity.shape, (30, 20, 20, 3))
+        self.assertEqual([len(edges) for edges in run.flow.edges], [21, 21, 31])
+        stream = run.flow.velocity[0, :, :, 2]
+        self.assertAlmostEqual(stream[0, 0] / run.speed_m_s, 1, delta=0.05)
+
+    def test_arrays_share_memory_and_outlive_their_result(self):
+        run = ripstop.steady(small.case(coupling__max_iterations=1))
+        arrays = [run.shape, run.cells, run.pressure_difference, run.iterations, run.stress, run.flow.pressure, run.flow.velocity]
+        again = [run.shape, run.cells, run.pressure_difference, run.iterations, run.stress, run.flow.pressure, run.flow.velocity]
+        for one, other in zip(arrays, again):
+            self.assertTrue(numpy.shares_memory(one, other))
+            self.assertFalse(one.flags.owndata or one.flags.writeable)
+        copies = [array.copy() for array in arrays]
+        place = run.max_von_mises_at_m
+        expected = place.copy()
+        del run, again
+        gc.collect()
+        ripstop.check(small.case())
+        for array, values in zip(arrays, copies):
+            numpy.testing.assert_array_equal(array, values)
+        numpy.testing.assert_array_equal(place, expected)
+        self.assertFalse(ripstop.steady(small.case(coupling__max_iterations=1)).converged)
+
+    def test_a_run_that_has_not_converged_carries_no_payload(self):
+        run = ripstop.steady(small.case(coupling__max_iterations=1))
+        with self.assertRaisesRegex(ripstop.Error, "has not converged") as caught:
+            ripstop.descent(run, 2)
+        self.assertEqual(caught.exception.exit_code, 3)
+
+
+class Openings(unittest.TestCase):
+    def test_the_numbers_are_those_of_the_program(self):
+        seen = []
+        run = ripstop.inflate(small.opening_case(), progress=seen.append)
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder, "case.toml")
+            file.write_text(small.opening_case().to_toml())
+            out = pathlib.Path(folder, "run")
+            status, text, error = small.program("inflate", file, "--out", out, "--json", "--threads", 1)
+            self.assertEqual(status, 0, error)
+            self.assertEqual(run.to_json(), text)
+            history = numpy.genfromtxt(out / "history.csv", delimiter=",", names=True)
+            read = ripstop.inflate(ripstop.read_case(file), out=out)
+            self.assertEqual((read.to_json(), len(read.history)), (text, 0))
+        self.assertEqual(run.history.dtype.names, history.dtype.names)
+        numpy.testing.assert_allclose(run.history["load_mean_n"], history["load_mean_n"], rtol=1e-5)
+        self.assertEqual(run.history["load_largest_n"].max(), run.peak_load_n)
+        self.assertEqual(run.line_peaks.max(), run.max_line_tension_n)
+        self.assertEqual(seen[-1].load_n, run.history["load_mean_n"][-1])
+        self.assertGreater(len(run.shots), 1)
+        self.assertEqual(run.shots[0].positions.shape, run.shape.shape)
+        times = [progress.time_s for progress in seen]
+        self.assertEqual(times, sorted(times))
+
+    def test_the_drag_of_a_run_in_memory_sets_the_pressure(self):
+        steady = ripstop.steady(small.case())
+        run = ripstop.inflate(small.case(), steady=steady)
+        self.assertEqual(run.steady_drag_asked_n, steady.drag_n)
+        with self.assertRaisesRegex(ripstop.Error, "another speed"):
+            ripstop.inflate(small.case(flow__speed_m_s=10), steady=steady)
+
+    def test_a_damping_is_found_and_told_on_the_way(self):
+        case = small.opening_case()
+        case.set("inflation.measured_peak_n", 500)
+        seen = []
+        found = ripstop.calibrate_damping(case, points=3, refinements=0, progress=seen.append)
+        self.assertEqual(len(found.trials), 3)
+        self.assertEqual(min(trial.misfit for trial in seen), found.misfit)
+
+
+class Interruptions(unittest.TestCase):
+    def test_what_a_callback_raises_ends_the_run_and_arrives(self):
+        class Enough(Exception):
+            pass
+
+        calls = []
+
+        def stop(progress):
+            calls.append(progress)
+            raise Enough("of this")
+
+        for call in (lambda: ripstop.steady(small.case(), progress=stop), lambda: ripstop.inflate(small.opening_case(), progress=stop),
+                     lambda: ripstop.fit(small.SOURCE / "examples/fit-ripstop/bench.toml", threads=1, progress=stop)):
+            calls.clear()
+            with self.assertRaisesRegex(Enough, "of this"):
+                call()
+            self.assertEqual(len(calls), 1)
+
+    def test_only_what_can_be_called_is_a_callback(self):
+        with self.assertRaises(TypeError):
+            ripstop.steady(small.case(), progress=3)
+
+    def stopped(self, case, call, wait):
+        """Seconds from the signal to the end."""
+        code = STOPPED.format(path=[str(pathlib.Path(__file__).parent)], case=case, call=call)
+        with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True) as child:
+            self.assertEqual(child.stdout.readline(), "begun\n")
+            time.sleep(wait)
+            begin = time.monotonic()
+            child.send_signal(signal.SIGINT)
+            output, _ = child.communicate(timeout=60)
+            self.assertEqual((output, child.returncode), ("stopped\n", 0))
+        return time.monotonic() - begin
+
+    def test_ctrl_c_stops_a_steady_run_within_a_flow_iteration_or_so(self):
+        # Twelve times as many cells: without the signal, minutes; an iteration of the flow takes a good tenth of a second.
+        self.assertLess(self.stopped("case(flow__cells=[50, 50, 60])", "steady(case)", 1.5), 3)
+
+    def test_ctrl_c_stops_an_opening_and_a_calibration(self):
+        long = "opening_case(); case.update({'inflation.duration_s': 5, 'inflation.measured_peak_n': 500})"
+        self.assertLess(self.stopped(long, "inflate(case)", 0.7), 2)
+        self.assertLess(self.stopped(long, "calibrate_damping(case)", 0.7), 2)
+
+    def test_other_threads_run_while_the_library_computes(self):
+        counted, done = [0], threading.Event()
+
+        def count():
+            while not done.is_set():
+                counted[0] += 1
+                time.sleep(0.001)
+
+        counter = threading.Thread(target=count)
+        counter.start()
+        before = counted[0]
+        begin = time.monotonic()
+        ripstop.steady(small.case(coupling__max_iterations=1))
+        passed, steps = time.monotonic() - begin, counted[0] - before
+        done.set()
+        counter.join()
+        # With the lock held it would count once or twice.
+        self.assertGreater(steps, 20 * passed)
+        self.assertGreater(steps, 10)
+
+    def test_two_runs_at_once_have_the_numbers_of_one(self):
+        results = [None, None]
+
+        def run(i):
+            results[i] = ripstop.steady(small.case(coupling__max_iterations=2)).drag_n
+
+        threads = [threading.Thread(target=run, args=(i,)) for i in range(2)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(results[0], results[1])
+        self.assertIsNotNone(results[0])
+
+
+if __name__ == "__main__":
+    unittest.main()
