@@ -14,6 +14,7 @@
 #include "ripstop/case/resolve.h"
 #include "ripstop/case/summary.h"
 #include "ripstop/core/error.h"
+#include "ripstop/run/warnings.h"
 #include "warnings.h"
 
 namespace ripstop {
@@ -55,6 +56,7 @@ Json to_json(const Case& given, const CaseSummary& s) {
   const Json written = Json::parse(case_json(given));
   return {{"valid", true},
           {"problems", Json::array()},
+          {"warnings", case_warnings(given)},
           {"nominal_area_m2", s.nominal_area},
           {"computed_area_m2", s.computed_area},
           {"meshed_area_m2", s.cloth_area},
@@ -78,6 +80,7 @@ Json to_json(const Case& given, const CaseSummary& s) {
           {"printed_step_s", s.step.printed_step},
           {"flow_cells", s.flow_cells},
           {"flow_spacing_m", {s.flow_spacing.x, s.flow_spacing.y, s.flow_spacing.z}},
+          {"memory_bytes", s.memory},
           {"blockage", s.blockage},
           {"speed_m_s", s.air.speed},
           {"density_kg_m3", s.air.density},
@@ -123,8 +126,12 @@ void print(const Case& given, const CaseSummary& s) {
   row("flow box", fmt::format("{} cells of {:.3g} x {:.3g} x {:.3g} mm, canopy blocks {:.1f} %{}",
                               s.flow_cells, 1000 * s.flow_spacing.x, 1000 * s.flow_spacing.y,
                               1000 * s.flow_spacing.z, 100 * s.blockage, s.of_jet ? " of the nozzle" : ""));
+  row("memory", fmt::format("about {:.2g} GB for a steady run", 1e-9 * s.memory));
   row("air", fmt::format("{:.4g} m/s, {:.4g} kg/m3", s.air.speed, s.air.density));
-  row("problems", "none");
+  const std::size_t warnings = case_warnings(given).size();
+  row("problems", warnings == 0 ? "none"
+                                : fmt::format("none that stops a run, {} warning{} below", warnings,
+                                              warnings == 1 ? "" : "s"));
 }
 
 int run(const Options& options) {
@@ -141,9 +148,8 @@ int run(const Options& options) {
       print(given, summary);
     if (!options.json) {
       print_sources(given);
-      print_mesh_warning(given);
-      print_grid_warning(given);
-      print_porosity_warning(given);
+      std::fflush(stdout);
+      print_case_warnings(given);
     }
     return 0;
   } catch (const InputError& error) {

@@ -226,6 +226,30 @@ TEST(Chute, APointListIsReadLineByLine) {
   EXPECT_THROW(read_chute(with(R"(0.2,0\nnonsense)"), "x"), Error);
 }
 
+// openchute's own ringsail draws its slots as sections of 0 gores.
+TEST(Chute, ASectionOfNoGoresIsASlotAndNoCloth) {
+  const std::string text = text_of("sails");
+  const ChuteFile file = read_chute(text, "x");
+  ASSERT_GE(file.sections.size(), 2u);
+  std::string slot = text;
+  const std::size_t sections = slot.find("\"chute_sections\""), gores = slot.find("\"gores\": 8", sections);
+  ASSERT_NE(gores, std::string::npos);
+  slot.replace(gores, 10, "\"gores\": 0");
+  const ChuteFile open = read_chute(slot, "x");
+  EXPECT_EQ(open.sections.size(), file.sections.size() - 1);
+  EXPECT_TRUE(says(open.not_mapped, "of 0 gores"));
+}
+
+TEST(Chute, AKeyThatIsThereTwiceIsRefused) {
+  const std::string text = text_of("sails");
+  std::string twice = text;
+  twice.insert(twice.find("\"gores\""), "\"gores\": 9, ");
+  EXPECT_THROW(read_chute(twice, "x"), Error);
+  read_chute(text, "x");
+  std::string deep = "{\"name\": " + std::string(100'000, '[') + std::string(100'000, ']') + "}";
+  EXPECT_THROW(read_chute(deep, "x"), Error);
+}
+
 // A file cut short or with a byte changed is refused or read, never worse.
 TEST(Chute, BrokenFilesAreRefused) {
   const std::string text = text_of("odd");
