@@ -118,8 +118,7 @@ ParityResult flow_parity(const ParitySettings& settings, const ParityEvents& eve
   require_inside(problem.grid, settings.surface);
   const std::vector<int> cut =
       cut_cells(problem.grid, settings.surface.empty() ? rigid_disk_gap_band({0, 0, 2}) : settings.surface);
-  if (cut.empty())
-    throw Error(ExitCode::bad_data, "the surface cuts no cell: its triangles have no area");
+  if (cut.empty()) throw Error(ExitCode::bad_data, "the surface cuts no cell: its triangles have no area");
   std::optional<TemporaryFolder> temporary;
   const std::filesystem::path folder =
       settings.folder.empty() ? temporary.emplace("flow-parity").path : settings.folder;
