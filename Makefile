@@ -8,6 +8,7 @@ PREFIX ?= /usr/local
 PACKAGES := build-essential cmake ninja-build pkg-config libtomlplusplus-dev libcli11-dev libfmt-dev \
   libeigen3-dev nlohmann-json3-dev libnlopt-dev libhwy-dev libpng-dev libcairo2-dev fonts-dejavu-core libxxhash-dev zlib1g-dev \
   openfoam openmpi-bin
+FUZZ_PACKAGES := clang libclang-rt-14-dev
 # What the Python package needs, and what a wheel of it needs beyond that.
 PYTHON_PACKAGES := python3-dev pybind11-dev python3-numpy
 WHEEL_PACKAGES := python3-pip python3-setuptools python3-wheel
@@ -16,7 +17,7 @@ CHECK_PACKAGES := libgtest-dev libbenchmark-dev python3 python3-jsonschema pytho
 
 export PATH := /usr/bin:$(PATH)
 
-.PHONY: help deps check-deps build demo check room sanitize tidy bench validate validate-ojf validate-families report-libraries format format-check install-build install wheel package clean
+.PHONY: help deps check-deps build demo check room sanitize fuzz tidy bench validate validate-ojf validate-families report-libraries format format-check install-build install wheel package clean
 
 help:  ## This list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -59,6 +60,14 @@ sanitize: check-deps  ## The tests that need no OpenFOAM, under the address and 
 	@cmake --preset sanitize
 	@cmake --build --preset sanitize -j $(JOBS)
 	@ctest --preset sanitize
+
+READERS ?= case setting material bench record chute measured image stl vtk checkpoint openfoam
+SECONDS ?= 60
+fuzz: check-deps  ## Fuzz every reader with coverage: make fuzz [SECONDS=60] [READERS='case chute']; goes on with its corpus
+	$(call install_missing,$(FUZZ_PACKAGES))
+	@cmake --preset fuzz > /dev/null
+	@cmake --build --preset fuzz -j $(JOBS)
+	@fuzz/run.sh $(SECONDS) $(READERS)
 
 bench: check-deps  ## Benchmarks, some three hours; their figures stand in docs/tables
 	@cmake --preset release > /dev/null

@@ -8,6 +8,7 @@
 
 #include "commands.h"
 #include "json_option.h"
+#include "number_option.h"
 #include "opening.h"
 #include "progress.h"
 #include "ripstop/core/error.h"
@@ -34,6 +35,7 @@ std::string trial_text(const DampingTrial& t) {
 }
 
 int calibrate(const Options& options) {
+  check_search(options.search);
   const Case given = opening_case(options.opening);
   const DampingTarget target = damping_target(given);
   const LoadSource source = load_source(given, options.opening.steady_run);
@@ -68,12 +70,13 @@ void add_damping(CLI::App& parent, int& status) {
       parent.add_subcommand("damping", "C_a from the measured opening load of a reference parachute");
   command->footer("Example: ripstop calibrate damping examples/stratos-iv/case.toml --cloth-nodes 3000");
   add_opening_options(*command, options->opening);
-  command->add_option("--from", options->search.from, "Smallest C_a [N s/m3]")->check(CLI::PositiveNumber);
-  command->add_option("--to", options->search.to, "Largest C_a [N s/m3]")->check(CLI::PositiveNumber);
-  command->add_option("--points", options->search.points, "Openings at equal ratios of C_a")
-      ->check(CLI::Range(3, 1000));
-  command->add_option("--refinements", options->search.refinements, "Openings about the best of them")
-      ->check(CLI::Range(0, 1000));
+  const Range damping = above(0).up_to(key_range("inflation.damping_n_s_m3").high);
+  add_number(*command, "--from", options->search.from, damping, "Smallest C_a [N s/m3]");
+  add_number(*command, "--to", options->search.to, damping, "Largest C_a [N s/m3]");
+  add_number(*command, "--points", options->search.points, from(3).up_to(1000),
+             "Openings at equal ratios of C_a");
+  add_number(*command, "--refinements", options->search.refinements, from(0).up_to(1000),
+             "Openings about the best of them");
   command->add_option("--out", options->out,
                       "Folder of the result (default: runs/<name of the case>-damping)");
   add_json_option(*command, options->json);

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "number_option.h"
+
 namespace ripstop {
 
 void add_set_option(CLI::App& command, Overrides& overrides) {
@@ -22,36 +24,30 @@ void add_set_option(CLI::App& command, Overrides& overrides) {
 
 void add_key_option(CLI::App& command, const std::string& option, const std::string& key,
                     const std::string& help, Overrides& overrides) {
-  command.add_option_function<std::string>(
-      option,
-      [&overrides, option, key](const std::string& value) {
-        overrides.set.push_back({key, value, option});
-      },
-      help);
+  command
+      .add_option_function<std::string>(
+          option,
+          [&overrides, option, key](const std::string& value) {
+            overrides.set.push_back({key, value, option});
+          },
+          with_range(help, key_range(key)))
+      ->type_name(key_type(key));
 }
 
 void add_flow_options(CLI::App& command, Overrides& overrides) {
   std::vector<std::string> words;
   for (const EngineRecord& engine : engines()) words.push_back(engine.word);
-  command
-      .add_option_function<std::vector<int>>(
-          "--grid",
-          [&overrides](const std::vector<int>& cells) {
-            overrides.grid = {cells[0], cells[1], cells[2]};
-          },
-          "Cells NX,NY,NZ of the flow's box")
-      ->delimiter(',')
-      ->expected(3);
+  add_three(command, "--grid", overrides.grid, key_range("flow.cells"), "Cells NX,NY,NZ of the flow's box");
   command
       .add_option_function<std::string>(
           "--flow", [&overrides](const std::string& engine) { overrides.engine = engine; }, "Flow engine")
       ->check(CLI::IsMember(words))
       ->option_text(fmt::format("{}", fmt::join(words, "|")));
-  command.add_option("--ranks", overrides.ranks, "MPI processes of one flow");
+  add_key_number(command, "--ranks", "flow.ranks", overrides.ranks, "MPI processes of one flow");
 }
 
 void add_case_options(CLI::App& command, Overrides& overrides) {
-  command.add_option("--speed", overrides.speed, "Nominal speed [m/s]");
+  add_key_number(command, "--speed", "flow.speed_m_s", overrides.speed, "Nominal speed [m/s]");
   command.add_flag("--linear", overrides.linear, "Keep only K_1 of every material: the paper's linear model");
   add_set_option(command, overrides);
 }

@@ -44,7 +44,7 @@ void print_sources(const CheckResult& result) {
                source.at("from").get<std::string>());
 }
 
-void print(const Case& given, const CaseSummary& s) {
+void print(const Case& given, const CaseSummary& s, std::size_t warnings) {
   const auto row = [](const char* name, const std::string& text) { fmt::print("  {:<18} {}\n", name, text); };
   fmt::print("{}\n", given.title.empty() ? given.file.string() : given.title);
   row("nominal area",
@@ -64,8 +64,11 @@ void print(const Case& given, const CaseSummary& s) {
   row("flow box", fmt::format("{} cells of {:.3g} x {:.3g} x {:.3g} mm, canopy blocks {:.1f} %{}",
                               s.flow_cells, 1000 * s.flow_spacing.x, 1000 * s.flow_spacing.y,
                               1000 * s.flow_spacing.z, 100 * s.blockage, s.of_jet ? " of the nozzle" : ""));
+  row("memory", fmt::format("about {:.2g} GB for a steady run", 1e-9 * s.memory));
   row("air", fmt::format("{:.4g} m/s, {:.4g} kg/m3", s.air.speed, s.air.density));
-  row("problems", "none");
+  row("problems", warnings == 0 ? "none"
+                                : fmt::format("none that stops a run, {} warning{} below", warnings,
+                                              warnings == 1 ? "" : "s"));
 }
 
 int run(const Options& options) {
@@ -80,8 +83,9 @@ int run(const Options& options) {
       fmt::print("{}", to_json(result));
       return 0;
     }
-    print(given, result.summary);
+    print(given, result.summary, result.warnings.size());
     print_sources(result);
+    std::fflush(stdout);
     for (const std::string& text : result.warnings) fmt::print(stderr, "warning: {}\n", text);
     return 0;
   } catch (const InputError& error) {

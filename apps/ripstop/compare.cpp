@@ -10,6 +10,7 @@
 
 #include "commands.h"
 #include "json_option.h"
+#include "number_option.h"
 #include "ripstop/run/steady_folder.h"
 #include "ripstop/run/sweep_files.h"
 #include "sweep_progress.h"
@@ -83,7 +84,7 @@ void add_compare(CLI::App& app, int& status) {
       "the tape in turn.\n"
       "Example: ripstop compare examples/stratos-iv/case.toml --linear --speed 30");
   add_sweep_options(*command, *options);
-  command->add_option("--speed", options->overrides.speed, "Nominal speed [m/s]");
+  add_key_number(*command, "--speed", "flow.speed_m_s", options->overrides.speed, "Nominal speed [m/s]");
   command->add_flag("--linear", options->linear, "Against the linear model, which keeps only K_1")
       ->required();
   command->add_option("--out", options->settings.folder, "Folder (default: runs/<name of the case>-compare)");

@@ -13,6 +13,7 @@
 #include "commands.h"
 #include "fit_report.h"
 #include "json_option.h"
+#include "number_option.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/run/fit.h"
@@ -111,20 +112,19 @@ void add_coupon(CLI::App& app, int& status) {
   command->add_option("--bench", options->bench,
                       "Test campaign (TOML) to compare with; its coupons are pulled");
   command->add_option("--orientation", options->shape.orientation, "Pull at 0, 45 or 90 deg to the warp")
-      ->check(CLI::IsMember({0, 45, 90}));
+      ->check(CLI::IsMember({0, 45, 90}))
+      ->option_text("0|45|90");
   command->add_flag(
       "--bias-lattice", options->shape.bias_lattice,
       "At 45 deg: the lattice along the pull and the yarns on its diagonals, as in a canopy cut "
       "on the bias");
-  command->add_option("--length", options->shape.length, "Between the clamps [m]")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--width", options->shape.width, "[m]")->check(CLI::PositiveNumber);
-  command->add_option("--cells", options->shape.cells, "Lattice cells across the width")
-      ->check(CLI::Range(2, 200));
-  command->add_option("--strain", options->strain, "Of the last point; default: the tested strain")
-      ->check(CLI::Range(0.0, 2.0));
-  command->add_option("--points", options->points, "Points of the curve")->check(CLI::Range(1, 1000));
-  command->add_option("--threads", options->threads, "Threads; 0: all")->check(CLI::Range(0, 256));
+  add_number(*command, "--length", options->shape.length, above(0).up_to(100), "Between the clamps [m]");
+  add_number(*command, "--width", options->shape.width, above(0).up_to(10), "Of the coupon [m]");
+  add_number(*command, "--cells", options->shape.cells, from(2).up_to(200), "Lattice cells across the width");
+  add_number(*command, "--strain", options->strain, above(0).up_to(2),
+             "Of the last point (default: the tested strain)");
+  add_number(*command, "--points", options->points, from(1).up_to(1000), "Points of the curve");
+  add_number(*command, "--threads", options->threads, key_range("coupling.threads"), "Threads; 0: all");
   command->add_option("--out", options->out,
                       "Folder for result.json, the curve, a picture and a file for ParaView");
   add_json_option(*command, options->json);

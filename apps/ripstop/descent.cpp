@@ -10,8 +10,10 @@
 
 #include "commands.h"
 #include "json_option.h"
+#include "number_option.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
+#include "ripstop/flight/atmosphere.h"
 
 namespace ripstop {
 namespace {
@@ -64,10 +66,13 @@ void add_descent(CLI::App& app, int& status) {
       "error.\n"
       "Example: ripstop descent runs/stratos --mass 4 --height 300,1000");
   command->add_option("run", options->run, "Folder of a finished run of ripstop steady")->required();
-  command->add_option("--mass", options->mass, "Mass of the payload, without the parachute [kg]")->required();
-  command->add_option("--height", options->heights, "Heights above sea level [m] (default: 0,300,1000,3000)")
-      ->delimiter(',');
-  command->add_option("--ground", options->ground, "Height where the descent ends [m] (default: 0)");
+  add_number(*command, "--mass", options->mass, key_range("payload.mass_kg"),
+             "Mass of the payload, without the parachute [kg]")
+      ->required();
+  const Range height = from(lowest_height).up_to(highest_height);
+  add_numbers(*command, "--height", options->heights, height,
+              "Heights above sea level [m] (default: 0,300,1000,3000)");
+  add_number(*command, "--ground", options->ground, height, "Height where the descent ends [m] (default: 0)");
   command->add_option("--out", options->out, "Folder for result.json (default: none)");
   add_json_option(*command, options->json);
   command->callback([options, &status] { status = descent(*options); });

@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "commands.h"
+#include "number_option.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 
@@ -54,8 +55,8 @@ void add_export(CLI::App& app, int& status) {
       ->check(CLI::IsMember({"rocketpy", "openrocket", "json"}));
   command->add_option("run", options->run, "Folder of a finished run of ripstop steady")->required();
   command->add_option("--trigger", options->trigger, "Of RocketPy: apogee, or a height above the ground [m]");
-  command->add_option("--deployment-speed", options->deployment_speed,
-                      "For the filling time, the lag [m/s] (default: the run's)");
+  add_number(*command, "--deployment-speed", options->deployment_speed, above(0).up_to(1000),
+             "For the filling time, the lag [m/s] (default: the run's)");
   command->add_option("--out", options->out, "File (default: standard output)");
   command->add_flag("--force", options->force, "Replace an existing file");
   command->callback([options, &status] { status = export_run(*options); });

@@ -12,6 +12,7 @@
 #include "case_options.h"
 #include "commands.h"
 #include "json_option.h"
+#include "number_option.h"
 #include "progress.h"
 #include "ripstop/core/error.h"
 #include "warnings.h"
@@ -83,8 +84,8 @@ void add_fabric(CLI::App& app, int& status) {
       app.add_subcommand("fabric", "The cloth under a given pressure, without a flow: a quick look");
   command->footer("Example: ripstop fabric examples/stratos-iv/case.toml --pressure 500 --out look");
   command->add_option("case", options->case_file, "Case file (TOML)")->required();
-  command->add_option("--pressure", options->pressure,
-                      "Pressure over the whole canopy [Pa]; default: the dynamic pressure");
+  add_number(*command, "--pressure", options->pressure, key_range("inflation.pressure_pa"),
+             "Pressure over the whole canopy [Pa] (default: the dynamic pressure)");
   add_case_options(*command, options->overrides);
   command->add_option("--out", options->out, "Folder for result.json, a picture and files for ParaView");
   add_json_option(*command, options->json);

@@ -13,6 +13,7 @@
 #include "commands.h"
 #include "fit_report.h"
 #include "json_option.h"
+#include "number_option.h"
 #include "progress.h"
 
 namespace ripstop {
@@ -115,12 +116,12 @@ void add_fit(CLI::App& app, int& status) {
   command->footer("Example: ripstop fit examples/fit-ripstop/bench.toml --out my-cloth");
   command->add_option("bench", options->bench, "Test campaign (TOML): records, mass, thickness")->required();
   command->add_option("--out", options->out, "Folder for the material and its plots; default: runs/<name>");
-  command->add_option("--degree", options->degree, "Degree of the curves; default: the lowest with R2 > 0.95")
-      ->check(CLI::Range(1, 8));
+  add_number(*command, "--degree", options->degree, from(1).up_to(8),
+             "Degree of the curves (default: the lowest with R2 > 0.95)");
   command->add_flag("--zero-offset", options->zero_offset, "Fit through zero load at zero strain (K_0 = 0)");
   command->add_flag("--no-coupons", options->no_coupons, "Leave out xi, eps and the virtual coupons");
   add_json_option(*command, options->json);
-  command->add_option("--threads", options->threads, "Threads; 0: all")->check(CLI::Range(0, 256));
+  add_number(*command, "--threads", options->threads, key_range("coupling.threads"), "Threads; 0: all");
   command->callback([options, &status] { status = run(*options); });
 }
 

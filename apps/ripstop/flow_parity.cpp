@@ -12,6 +12,7 @@
 
 #include "commands.h"
 #include "json_option.h"
+#include "number_option.h"
 #include "progress.h"
 #include "ripstop/core/error.h"
 #include "ripstop/output/stl.h"
@@ -22,7 +23,6 @@ namespace {
 
 struct Options {
   ParitySettings settings;
-  std::vector<int> cells = {25, 25, 38};
   std::filesystem::path surface;
   bool json = false;
 };
@@ -53,7 +53,6 @@ void print_row(const ParityRow& row) {
 
 int run(const Options& options) {
   ParitySettings settings = options.settings;
-  std::copy_n(options.cells.begin(), 3, settings.cells.begin());
   if (!options.surface.empty()) settings.surface = read_stl(options.surface);
   Progress progress;
   ParityEvents events;
@@ -87,11 +86,10 @@ void add_flow_parity(CLI::App& app, int& status) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand(
       "flow-parity", "Run the built-in flow engine and OpenFOAM on the same cells and compare them");
-  command->add_option("--cells", options->cells, "Cells along x, y and z of the 2 x 2 x 4 m box")
-      ->expected(3)
-      ->check(CLI::Range(4, 2000));
-  command->add_option("--speed", options->settings.speed, "Free stream [m/s]")->check(CLI::Range(0.1, 100.0));
-  command->add_option("--density", options->settings.density, "Air [kg/m3]")->check(CLI::Range(0.1, 10.0));
+  add_three(*command, "--cells", options->settings.cells, key_range("flow.cells"),
+            "Cells along x, y and z of the 2 x 2 x 4 m box");
+  add_number(*command, "--speed", options->settings.speed, from(0.1).up_to(100), "Free stream [m/s]");
+  add_number(*command, "--density", options->settings.density, from(0.1).up_to(10), "Air [kg/m3]");
   command
       ->add_option(
           "--surface", options->surface,
@@ -99,10 +97,10 @@ void add_flow_parity(CLI::App& app, int& status) {
       ->check(CLI::ExistingFile);
   command->add_option("--folder", options->settings.folder,
                       "Where OpenFOAM's case goes and stays; default: a temporary folder");
-  command->add_option("--ranks", options->settings.ranks, "OpenFOAM's MPI processes")
-      ->check(CLI::Range(1, 1024));
-  command->add_option("--threads", options->settings.threads, "Threads of the built-in engine; 0: all")
-      ->check(CLI::Range(0, 1024));
+  add_number(*command, "--ranks", options->settings.ranks, key_range("flow.ranks"),
+             "OpenFOAM's MPI processes");
+  add_number(*command, "--threads", options->settings.threads, key_range("coupling.threads"),
+             "Threads of the built-in engine; 0: all");
   command->add_flag("--incompressible", options->settings.incompressible,
                     "Constant density in both engines: porousSimpleFoam in place of rhoPorousSimpleFoam");
   command->add_flag("--slip", options->settings.slip,

@@ -3,13 +3,16 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
 #include "commands.h"
+#include "number_option.h"
 #include "ripstop/case/case.h"
 #include "ripstop/case/chute_import.h"
 #include "ripstop/core/file.h"
+#include "ripstop/core/visible.h"
 
 namespace ripstop {
 namespace {
@@ -23,10 +26,17 @@ struct Options {
   ChuteImportOptions import;
 };
 
+/// Of the file's own words nothing may move the cursor.
+std::string in_one_line(const std::string& text) {
+  std::string line = visible(text);
+  std::replace(line.begin(), line.end(), '\n', ' ');
+  return line;
+}
+
 void print_list(const char* title, const std::vector<std::string>& sentences) {
   if (sentences.empty()) return;
   fmt::print("{}\n", title);
-  for (const std::string& sentence : sentences) fmt::print("  - {}\n", sentence);
+  for (const std::string& sentence : sentences) fmt::print("  - {}\n", in_one_line(sentence));
 }
 
 int run(const Options& options) {
@@ -35,7 +45,7 @@ int run(const Options& options) {
     throw Error(ExitCode::usage, fmt::format("{} exists; choose another --out, or --force", out.string()));
   const ChuteFile file = read_chute(read_file(options.file), options.file.string());
   const ChuteImport result = import_chute(file, options.import, options.file.filename().string());
-  fmt::print("{} ({}): type = \"{}\"\n", file.name, options.file.string(), result.type);
+  fmt::print("{} ({}): type = \"{}\"\n", in_one_line(file.name), options.file.string(), result.type);
   print_list("maps", result.mapped);
   print_list("maps with a change", result.changed);
   print_list("does not map", result.not_mapped);
@@ -58,16 +68,12 @@ void add_import(CLI::App& app, int& status) {
   command->add_option("file", options->file, "Design of openchute (.chute)")->required();
   command->add_option("--out", options->out, "Case file to write; default: the file's name with .toml");
   command->add_flag("--force", options->force, "Replace an existing case file");
-  command->add_option("--lines", options->import.line_count, "Number of lines; default: one a gore")
-      ->check(CLI::Range(3, 500));
-  command
-      ->add_option("--line-length", options->import.line_length,
-                   "Length of a line [m]; default: the nominal diameter")
-      ->check(CLI::Range(0.001, 1000.0));
-  command
-      ->add_option("--vent-diameter", options->import.vent_diameter,
-                   "Where the gores end in a point [m]; default: 4 % of the widest diameter")
-      ->check(CLI::Range(1e-4, 100.0));
+  add_number(*command, "--lines", options->import.line_count, key_range("parachute.lines.count"),
+             "Number of lines (default: one a gore)");
+  add_number(*command, "--line-length", options->import.line_length, key_range("parachute.lines.length_m"),
+             "Length of a line [m] (default: the nominal diameter)");
+  add_number(*command, "--vent-diameter", options->import.vent_diameter, from(1e-4).up_to(100),
+             "Where the gores end in a point [m] (default: 4 % of the widest diameter)");
   command->callback([options, &status] { status = run(*options); });
 }
 

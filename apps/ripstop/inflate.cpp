@@ -7,14 +7,17 @@
 #include <chrono>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "case_options.h"
 #include "commands.h"
 #include "json_option.h"
 #include "opening.h"
 #include "progress.h"
+#include "ripstop/core/error.h"
 #include "ripstop/run/inflation_folder.h"
 #include "ripstop/run/report.h"
+#include "stopping.h"
 #include "warnings.h"
 
 namespace ripstop {
@@ -42,8 +45,9 @@ void print_start(const Inflation& solver, const InflationState& state, const Loa
         "cloth_damping_s is weakened in {:.1f} % of the cells, to {:.2f} of itself at least, for the step's "
         "sake\n",
         100 * limit.reduced_cells, limit.least_share);
-  fmt::print("nodes {}, step {:.3e} s (largest stable {:.3e} s), {} threads\n", solver.mesh().node_count(),
-             state.step, state.step / solver.problem().settings.step_fraction, solver.threads());
+  fmt::print("nodes {}, step {:.3e} s (largest stable {:.3e} s), {} threads; about {} on one thread\n",
+             solver.mesh().node_count(), state.step, state.step / solver.problem().settings.step_fraction,
+             solver.threads(), duration_text(opening_seconds(solver, state)));
 }
 
 void print_result(const InflationResult& r, const fs::path& folder, double wall_time) {
@@ -63,8 +67,9 @@ void print_result(const InflationResult& r, const fs::path& folder, double wall_
   if (s.printed_peak_n) row("peak of the source's model", fmt::format("{:.1f} N", *s.printed_peak_n));
   row("Knacke's estimate",
       fmt::format("{:.1f} N, C_x = {:g} (infinite mass)", r.estimate.load, r.estimate.coefficient));
-  row("steady load", fmt::format("{:.1f} N +- {:.1f} % over the last fifth", r.summary.steady_load,
-                                 100 * r.summary.unsteadiness));
+  row(r.settled ? "steady load" : "last load, NOT steady",
+      fmt::format("{:.1f} N +- {:.1f} % over the last fifth", r.summary.steady_load,
+                  100 * r.summary.unsteadiness));
   if (r.steady_drag_returned) {
     row("steady drag returned",
         fmt::format("{:+.2f} % of {:.1f} N", 100 * (*r.steady_drag_returned - 1), *r.source.steady_drag));
@@ -128,6 +133,18 @@ class Terminal : public InflationObserver {
   long long first_ = 0;
 };
 
+/// What never settled has no steady load, and what is taken as a share of it says nothing.
+int status_of(bool settled, const Case& given) {
+  if (settled) return 0;
+  std::fflush(stdout);
+  fmt::print(
+      stderr,
+      "not settled within inflation.duration_s = {:g} s: the load has not stayed within 10 % of its mean "
+      "for the last tenth of that time; take a longer one (--duration)\n",
+      given.inflation.duration_s);
+  return static_cast<int>(ExitCode::not_converged);
+}
+
 int run(const Options& options) {
   const auto begin = std::chrono::steady_clock::now();
   const Case given = opening_case(options.opening);
@@ -135,22 +152,26 @@ int run(const Options& options) {
       options.out.empty() ? default_run_folder(options.opening.case_file, "inflation") : options.out;
   const LoadSource source = load_source(given, options.opening.steady_run);
   const int threads = threads_of(options.opening, given);
+  const InflationFolderSettings settings{{folder, options.fresh}, threads};
   if (options.check) {
+    check_inflation_in(settings, given, source);
     const Inflation solver(opening_problem(given, source, threads));
     print_start(solver, solver.start(), source);
     return 0;
   }
+  goes_on_when_repeated();
   Progress progress;
   Terminal terminal(source, folder, options.json, progress);
   const auto problem = [&] {
     progress.show("equilibrium under the steady load");
     return opening_problem(given, source, threads);
   };
-  const auto result = run_inflation_in({{folder, options.fresh}, threads}, given, source, problem, terminal);
+  const auto result = run_inflation_in(settings, given, source, problem, terminal);
   if (!result) {
-    fmt::print("{}", *finished_result(folder));
+    const std::string finished = *finished_result(folder);
+    fmt::print("{}", finished);
     fmt::print(stderr, "{} holds the finished run; --fresh computes it again\n", folder.string());
-    return 0;
+    return status_of(nlohmann::json::parse(finished).value("settled", true), given);
   }
   const double wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (options.json)
@@ -159,7 +180,7 @@ int run(const Options& options) {
     print_result(*result, folder, wall_time);
   print_mesh_warning(given);
   print_material_warnings(given, result->stress.strain);
-  return 0;
+  return status_of(result->settled, given);
 }
 
 }  // namespace

@@ -12,7 +12,9 @@
 #include "case_options.h"
 #include "commands.h"
 #include "json_option.h"
+#include "number_option.h"
 #include "ripstop/core/error.h"
+#include "ripstop/flight/atmosphere.h"
 
 namespace ripstop {
 namespace {
@@ -96,22 +98,26 @@ int load(Options& options) {
 }
 
 void add_coefficients(CLI::App& command, LoadRequest& r) {
-  command.add_option("--drag-coefficient", r.drag_coefficient,
-                     "C_D on S0 (default: of --steady, else Knacke's)");
-  command.add_option("--opening-coefficient", r.opening_coefficient, "C_x (default: the family's)");
-  command.add_option("--filling-constant", r.filling_constant, "n of t_f = n D0 / v (default: the family's)");
-  command.add_option("--filling-exponent", r.filling_exponent,
-                     "Of the drag area over time (default: the family's)");
-  command.add_option("--impulse-integral", r.impulse_integral,
-                     "Mean over peak of the force while it fills, for momentum-impulse (default: 0.5)");
+  add_number(command, "--drag-coefficient", r.drag_coefficient, key_range("inflation.drag_coefficient"),
+             "C_D on S0 (default: of --steady, else Knacke's)");
+  add_number(command, "--opening-coefficient", r.opening_coefficient, above(0).up_to(10),
+             "C_x (default: the family's)");
+  add_number(command, "--filling-constant", r.filling_constant, above(0).up_to(1000),
+             "n of t_f = n D0 / v (default: the family's)");
+  add_number(command, "--filling-exponent", r.filling_exponent, above(0).up_to(20),
+             "Of the drag area over time (default: the family's)");
+  add_number(command, "--impulse-integral", r.impulse_integral, above(0).up_to(1),
+             "Mean over peak of the force while it fills, for momentum-impulse (default: 0.5)");
   command.add_option("--steady", r.steady, "Run of ripstop steady that gives the drag area")
       ->check(CLI::ExistingDirectory);
   command.add_option("--opening", r.opening, "Run of ripstop inflate that gives the drag area over the way")
       ->check(CLI::ExistingDirectory);
-  command.add_option("--snatch-speed", r.snatch_speed, "Speed difference when the lines come taut [m/s]");
-  command.add_option("--packed-area", r.packed_drag_area,
-                     "Or the drag area of the packed canopy with its pilot, to find it [m2]");
-  command.add_option("--payload-area", r.payload_drag_area, "And that of the payload [m2] (default: 0)");
+  add_number(command, "--snatch-speed", r.snatch_speed, above(0).up_to(1000),
+             "Speed difference when the lines come taut [m/s]");
+  add_number(command, "--packed-area", r.packed_drag_area, above(0).up_to(1e4),
+             "Or the drag area of the packed canopy with its pilot, to find it [m2]");
+  add_number(command, "--payload-area", r.payload_drag_area, from(0).up_to(1e4),
+             "And that of the payload [m2] (default: 0)");
 }
 
 }  // namespace
@@ -125,13 +131,17 @@ void add_load(CLI::App& app, int& status) {
       "Example: ripstop load examples/flat-circular/case.toml --mass 2.4 --speed 25 --height 300 --reef "
       "0.1:2");
   command->add_option("case", options->case_file, "Case file (TOML)")->required();
-  command->add_option("--mass", options->mass, "Of the payload [kg] (default: payload.mass_kg of the case)");
-  command->add_option("--speed", options->request.speed, "Through the air when the lines come taut [m/s]")
+  add_number(*command, "--mass", options->mass, key_range("payload.mass_kg"),
+             "Of the payload [kg] (default: payload.mass_kg of the case)");
+  add_number(*command, "--speed", options->request.speed, above(0).up_to(1000),
+             "Through the air when the lines come taut [m/s]")
       ->required();
-  command->add_option("--height", options->height, "Above sea level [m] (default: flow.height_m, else 1000)");
-  command->add_option("--ground", options->request.ground, "Height of the ground [m] (default: 0)");
-  command->add_option("--angle", options->request.path_angle,
-                      "Of the way below the horizon [deg] (default: 90)");
+  const Range height = from(lowest_height).up_to(highest_height);
+  add_number(*command, "--height", options->height, height,
+             "Above sea level [m] (default: flow.height_m, else 1000)");
+  add_number(*command, "--ground", options->request.ground, height, "Height of the ground [m] (default: 0)");
+  add_number(*command, "--angle", options->request.path_angle, from(-90).up_to(90),
+             "Of the way below the horizon [deg] (default: 90)");
   command->add_option("--reef", options->reefing, "A reefed stage SHARE:SECONDS; repeatable, in order")
       ->expected(1)
       ->take_all();

@@ -1,25 +1,116 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
+#include <new>
+#include <system_error>
 
 #include "commands.h"
 #include "ripstop/core/build_info.h"
 #include "ripstop/core/error.h"
+#include "ripstop/core/toml/problem.h"
+#include "ripstop/core/visible.h"
+#include "stopping.h"
 
 namespace ripstop {
 namespace {
 
+int failed(ExitCode code, const std::string& message) {
+  std::fprintf(stderr, "ripstop: %s\n", visible(message).c_str());
+  return static_cast<int>(code);
+}
+
+/// What the words before the first option name: the command, and the word that is none of its commands.
+struct Called {
+  const CLI::App* command = nullptr;
+  std::string words = "ripstop", unknown = {};
+};
+
+Called called(const CLI::App& app, int argc, char** argv) {
+  Called so_far{&app};
+  for (int i = 1; i < argc && argv[i][0] != '-'; ++i) {
+    const auto commands = so_far.command->get_subcommands({});
+    const auto next = std::find_if(commands.begin(), commands.end(),
+                                   [&](const CLI::App* one) { return one->get_name() == argv[i]; });
+    if (commands.empty()) break;
+    if (next == commands.end()) {
+      so_far.unknown = argv[i];
+      break;
+    }
+    so_far.command = *next;
+    so_far.words += std::string(" ") + argv[i];
+  }
+  return so_far;
+}
+
+std::string suggestion(const std::string& word, const std::vector<std::string>& candidates) {
+  const std::string near = nearest(word, candidates);
+  return near.empty() ? "" : fmt::format("; did you mean {}?", near);
+}
+
+/// One sentence, and where help is: a page of help would hide it.
+std::string usage_message(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
+  const Called at = called(app, argc, argv);
+  std::string text = error.what();
+  if (!at.unknown.empty()) {
+    std::vector<std::string> commands;
+    for (const CLI::App* one : at.command->get_subcommands({})) commands.push_back(one->get_name());
+    text = fmt::format("\"{}\" is no command{}", at.unknown, suggestion(at.unknown, commands));
+  } else if (dynamic_cast<const CLI::ExtrasError*>(&error)) {
+    std::vector<std::string> options;
+    for (const CLI::Option* one : at.command->get_options())
+      for (const std::string& name : one->get_lnames()) options.push_back("--" + name);
+    const std::vector<std::string> rest = app.remaining(true);
+    const auto word =
+        std::find_if(rest.begin(), rest.end(), [](const auto& w) { return w.starts_with("-"); });
+    const std::string option = word == rest.end() ? "" : word->substr(0, word->find('='));
+    text = option.empty()
+               ? fmt::format("\"{}\" is more than {} takes", rest.empty() ? "" : rest.front(), at.words)
+               : fmt::format("{} is no option of {}{}", option, at.words, suggestion(option, options));
+  }
+  return fmt::format("{} ({} --help lists what there is)", text, at.words);
+}
+
+int parse(CLI::App& app, int argc, char** argv, const int& status) {
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& done) {  // --help, --version
+    return app.exit(done);
+  } catch (const CLI::ParseError& error) {
+    return failed(ExitCode::usage, usage_message(app, error, argc, argv));
+  } catch (const Error& error) {
+    return failed(error.code(), error.what());
+  } catch (const std::bad_alloc&) {
+    return failed(ExitCode::resources, "not enough memory: take fewer nodes, cells or runs side by side");
+  } catch (const std::system_error& error) {  // of output or of a folder
+    return failed(ExitCode::io, error.what());
+  }
+  return status;
+}
+
+/// A result that nobody got is no success.
+int written(int status) {
+  errno = 0;
+  const bool fine = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+  if (fine || status != 0) return status;
+  return failed(ExitCode::io, fmt::format("standard output could not be written{}{}", errno ? ": " : "",
+                                          errno ? std::strerror(errno) : ""));
+}
+
 int run(int argc, char** argv) {
+  say_when_stopped();
   CLI::App app{
       "Ripstop predicts how a subsonic parachute flies: its inflated shape, drag, stresses and loads."};
   app.set_version_flag("--version", version());
   app.require_subcommand(1);
-  app.failure_message(CLI::FailureMessage::help);
   app.footer(
       "Exit codes: 0 done, 2 usage or case file, 3 bad input data, 4 not converged, 5 diverged,\n"
-      "6 external solver, 7 input/output. Each command has its own --help with an example.");
+      "6 external solver, 7 input/output, 8 not enough memory or threads, 70 internal error,\n"
+      "128 + N ended by signal N. Each command has its own --help with an example.");
   int status = 0;
   add_check(app, status);
   add_schema(app, status);
@@ -40,16 +131,7 @@ int run(int argc, char** argv) {
   add_load(app, status);
   add_size(app, status);
   add_export(app, status);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    const int code = app.exit(error);
-    return code == 0 ? 0 : static_cast<int>(ExitCode::usage);
-  } catch (const Error& error) {
-    fmt::print(stderr, "ripstop: {}\n", error.what());
-    return static_cast<int>(error.code());
-  }
-  return status;
+  return written(parse(app, argc, argv, status));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "case_options.h"
+#include "number_option.h"
 #include "ripstop/run/steady_folder.h"
 
 namespace ripstop {
@@ -14,16 +15,17 @@ void add_opening_options(CLI::App& command, OpeningOptions& options) {
                             .add_option("--steady", options.steady_run,
                                         "Run folder of ripstop steady: its drag sets the pressure")
                             ->check(CLI::ExistingDirectory);
-  command.add_option("--pressure", options.overrides.pressure, "Pressure difference over the canopy [Pa]")
+  add_key_number(command, "--pressure", "inflation.pressure_pa", options.overrides.pressure,
+                 "Pressure difference over the canopy [Pa]")
       ->excludes(steady);
   add_key_option(command, "--duration", "inflation.duration_s", "Time from deployment to the end [s]",
                  options.overrides);
   add_key_option(command, "--cloth-nodes", "parachute.mesh.cloth_nodes", "Nodes of the cloth aimed at",
                  options.overrides);
-  command.add_option("--speed", options.overrides.speed, "Nominal speed [m/s]");
+  add_key_number(command, "--speed", "flow.speed_m_s", options.overrides.speed, "Nominal speed [m/s]");
   add_set_option(command, options.overrides);
-  command.add_option("--threads", options.threads, "Threads (default: as in [coupling])")
-      ->check(CLI::Range(1, 1024));
+  add_number(command, "--threads", options.threads, from(1).up_to(key_range("coupling.threads").high),
+             "Threads (default: as in [coupling])");
 }
 
 Case opening_case(const OpeningOptions& options) {

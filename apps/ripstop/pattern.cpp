@@ -10,6 +10,7 @@
 
 #include "commands.h"
 #include "json_option.h"
+#include "number_option.h"
 
 namespace ripstop {
 namespace {
@@ -62,17 +63,15 @@ void add_pattern(CLI::App& app, int& status) {
   command->add_option("case", options->case_file, "Case file (TOML)")->required();
   command->add_option("--out", options->out, "Folder for the files")->capture_default_str();
   const auto length = [&](const char* name, double& value, const char* text) {
-    command->add_option(name, value, text)->check(CLI::Range(0.0, 1.0))->capture_default_str();
+    add_number(*command, name, value, from(0).up_to(1), fmt::format("{} (default: {:g})", text, value));
   };
   length("--seam-allowance", options->allowances.seam, "Cloth beyond a seam [m]");
   length("--hem-allowance", options->allowances.hem, "Cloth beyond a free edge [m]");
   length("--line-loop", options->allowances.line_loop, "Line beyond either end, for its loop [m]");
   length("--tape-overlap", options->allowances.tape_overlap, "Tape beyond its finished length [m]");
-  command
-      ->add_option("--packing-density", options->packing_density,
-                   "[kg/m3]: about 400 packed by hand, 600 under a press")
-      ->check(CLI::Range(50.0, 1500.0))
-      ->capture_default_str();
+  add_number(*command, "--packing-density", options->packing_density, from(50).up_to(1500),
+             fmt::format("About 400 packed by hand, 600 under a press [kg/m3] (default: {:g})",
+                         options->packing_density));
   add_json_option(*command, options->json);
   command->callback([options, &status] { status = run(*options); });
 }

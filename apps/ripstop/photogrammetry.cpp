@@ -11,6 +11,7 @@
 
 #include "commands.h"
 #include "json_option.h"
+#include "number_option.h"
 #include "ripstop/core/error.h"
 
 namespace ripstop {
@@ -80,8 +81,8 @@ void add_photogrammetry(CLI::App& app, int& status) {
   command->add_option("image", options->image, "Sizes read off an image (TOML)")->check(CLI::ExistingFile);
   command->add_option("--run", options->run, "Run folder of ripstop steady to compare with")
       ->check(CLI::ExistingDirectory);
-  command->add_option("--distance", options->distance, "Distance of the camera [m]; default: as in the file")
-      ->check(CLI::PositiveNumber);
+  add_number(*command, "--distance", options->distance, above(0).up_to(1e4),
+             "Distance of the camera [m] (default: as in the file)");
   command->add_option("--out", options->out, "Folder (default: runs/photogrammetry)");
   add_json_option(*command, options->json);
   command->callback([options, &status] { status = photogrammetry(*options); });

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "number_option.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/output/csv.h"
@@ -237,24 +238,15 @@ void add_calibrate_porosity(CLI::App& parent, int& status) {
           "--measured", options->measured,
           "Measured points (CSV); default: the rows of [[measured]] with a drag, on the case's basis")
       ->check(CLI::ExistingFile);
-  CLI::Option* gammas = command
-                            ->add_option("--gammas", options->gammas,
-                                         "Values of Ergun's porosity (default: 0.18,0.20,0.22,0.24)")
-                            ->delimiter(',')
-                            ->check(CLI::Range(0.01, 0.99));
-  command
-      ->add_option("--permeabilities", options->permeabilities,
-                   "In its place: values of the permeability [CFM/ft2 at half an inch of water], b = 0")
-      ->delimiter(',')
-      ->check(CLI::Range(1e-3, 9999.0))
+  CLI::Option* gammas = add_numbers(*command, "--gammas", options->gammas, from(0.01).up_to(0.99),
+                                    "Values of Ergun's porosity (default: 0.18,0.20,0.22,0.24)");
+  add_numbers(*command, "--permeabilities", options->permeabilities, from(1e-3).up_to(9999),
+              "In its place: values of the permeability [CFM/ft2 at half an inch of water], b = 0")
       ->excludes(gammas);
-  command
-      ->add_option("--thickness", options->thickness, "t of Ergun's law [m]; [NFM]'s a and b ask for 1.2e-4")
-      ->check(CLI::PositiveNumber);
-  command
-      ->add_option("--shifts", options->shifts,
-                   "Places of the canopy within one cell along the flow, averaged")
-      ->check(CLI::Range(1, 100));
+  add_number(*command, "--thickness", options->thickness, above(0).up_to(0.1),
+             "t of Ergun's law [m]; [NFM]'s a and b ask for 1.2e-4");
+  add_number(*command, "--shifts", options->shifts, from(1).up_to(100),
+             "Places of the canopy within one cell along the flow, averaged");
   command->add_option("--out", options->settings.folder,
                       "Folder (default: runs/<name of the case>-porosity)");
   command->callback([options, &status] { status = calibrate(*options); });

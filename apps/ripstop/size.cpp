@@ -10,8 +10,10 @@
 
 #include "commands.h"
 #include "json_option.h"
+#include "number_option.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
+#include "ripstop/flight/atmosphere.h"
 #include "ripstop/run/size_report.h"
 #include "ripstop/run/steady_folder.h"
 #include "steady_terminal.h"
@@ -124,18 +126,25 @@ void add_size(CLI::App& app, int& status) {
   command->footer(
       "The drag coefficient is the one that Ripstop has computed for the family (examples/families.json).\n"
       "Example: ripstop size --mass 2.4 --descent-rate 5 --family flat-circular --height 300 --out my.toml");
-  command->add_option("--mass", r.payload_mass, "Of the payload, without the parachute [kg]")->required();
-  command->add_option("--descent-rate", r.descent_rate, "Wanted [m/s]")->required();
+  add_number(*command, "--mass", r.payload_mass, key_range("payload.mass_kg"),
+             "Of the payload, without the parachute [kg]")
+      ->required();
+  add_number(*command, "--descent-rate", r.descent_rate, key_range("flow.speed_m_s"), "Wanted [m/s]")
+      ->required();
   command->add_option("--family", r.family, "A folder of examples/ (default: flat-circular)");
-  auto* height =
-      command->add_option("--height", r.height, "Above sea level, where the rate is wanted [m] (default: 0)");
-  command->add_option("--density", r.density, "Of the air, in place of the height [kg/m3]")->excludes(height);
-  command->add_option("--drag-coefficient", r.drag_coefficient, "On S0 (default: computed for the family)");
-  command->add_option("--deployment-speed", r.deployment_speed,
-                      "For the opening load [m/s] (default: 20, at least 3 descent rates)");
+  auto* height = add_number(*command, "--height", r.height, from(lowest_height).up_to(highest_height),
+                            "Above sea level, where the rate is wanted [m] (default: 0)");
+  add_number(*command, "--density", r.density, key_range("flow.density_kg_m3"),
+             "Of the air, in place of the height [kg/m3]")
+      ->excludes(height);
+  add_number(*command, "--drag-coefficient", r.drag_coefficient, key_range("inflation.drag_coefficient"),
+             "On S0 (default: computed for the family)");
+  add_number(*command, "--deployment-speed", r.deployment_speed, above(0).up_to(1000),
+             "For the opening load [m/s] (default: 20, at least 3 descent rates)");
   command->add_option("--line-material", r.line_material,
                       "Of the library (default: the lightest that holds)");
-  command->add_option("--packing-density", r.packing_density, "[kg/m3] (default: 400, by hand)");
+  add_number(*command, "--packing-density", r.packing_density, from(50).up_to(1500),
+             "Of the packed parachute [kg/m3] (default: 400, by hand)");
   command->add_flag("--verify", options->verify,
                     "Run the case and change the diameter until the rate holds within 1 %");
   command->add_option("--out", options->out, "Case file (default: my-canopy.toml)");

@@ -13,10 +13,12 @@
 #include "margins.h"
 #include "progress.h"
 #include "ripstop/case/assemble.h"
+#include "ripstop/case/cost.h"
 #include "ripstop/core/error.h"
 #include "ripstop/run/report.h"
 #include "ripstop/run/steady_folder.h"
 #include "steady_terminal.h"
+#include "stopping.h"
 #include "warnings.h"
 
 namespace ripstop {
@@ -105,11 +107,14 @@ void print_result(const SteadyResult& r, const Case& given, const fs::path& fold
   if (fs::exists(folder / report_name)) row("report", (folder / report_name).string());
 }
 
-int dry_run(const Case& given, const fs::path& folder) {
+int dry_run(const SteadyFolderSettings& settings, const Case& given) {
+  const fs::path& folder = settings.run.folder;
+  check_steady_in(settings, given);
   const SteadyProblem problem = steady_problem(given);
-  fmt::print("{}: {} nodes, {} x {} x {} cells, {:.4g} m/s, {} ranks; would run in {}\n", given.title,
-             problem.mesh.node_count(), problem.flow.grid.nx, problem.flow.grid.ny, problem.flow.grid.nz,
-             problem.flow.air.speed, given.flow.ranks, folder.string());
+  fmt::print("{}: {} nodes, {} x {} x {} cells, {:.4g} m/s, {} ranks, about {:.2g} GB; would run in {}\n",
+             given.title, problem.mesh.node_count(), problem.flow.grid.nx, problem.flow.grid.ny,
+             problem.flow.grid.nz, problem.flow.air.speed, given.flow.ranks, 1e-9 * cost_of(given).memory,
+             folder.string());
   return 0;
 }
 
@@ -117,10 +122,11 @@ int run(const Options& options) {
   const Case given = read_case(options.case_file, options.overrides);
   const CouplingSettings coupling = resolve(given).coupling;
   const fs::path folder = options.out.empty() ? default_run_folder(options.case_file) : options.out;
-  if (options.dry_run) return dry_run(given, folder);
+  const SteadyFolderSettings settings{{folder, options.fresh}, 0, options.hostfile, {}};
+  if (options.dry_run) return dry_run(settings, given);
+  goes_on_when_repeated();
   SteadyTerminal terminal(folder);
-  const SteadyFolderRun done =
-      run_steady_in({{folder, options.fresh}, 0, options.hostfile, {}}, given, terminal);
+  const SteadyFolderRun done = run_steady_in(settings, given, terminal);
   const SteadyResult& result = done.result;
   if (options.json || done.already_finished)
     fmt::print("{}", to_json(result));
@@ -132,9 +138,7 @@ int run(const Options& options) {
     fmt::print(stderr, "{} holds the finished run; --fresh computes it again\n", folder.string());
     return status;
   }
-  print_mesh_warning(given);
-  print_grid_warning(given);
-  print_porosity_warning(given);
+  print_case_warnings(given);
   print_material_warnings(given, result.stress.strain);
   if (!result.converged)
     fmt::print(stderr,

@@ -57,6 +57,7 @@ int sweep(Options& options) {
   const std::vector<SweepPoint> points = sweep_points(options.case_file, options.overrides, axes);
   const std::filesystem::path& folder = options.settings.folder;
   if (options.dry_run) {
+    check_sweep(points, options.settings);
     for (const SweepPoint& point : points)
       fmt::print("{}{}\n", (folder / point.folder).string(),
                  options.cold || point.start < 0 ? "" : ", from " + points[point.start].folder);

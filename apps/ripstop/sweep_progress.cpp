@@ -7,10 +7,12 @@
 
 #include "case_options.h"
 #include "json_option.h"
+#include "number_option.h"
 #include "progress.h"
 #include "ripstop/core/error.h"
 #include "ripstop/run/run_folder.h"
 #include "ripstop/run/sweep_files.h"
+#include "stopping.h"
 
 namespace ripstop {
 
@@ -18,10 +20,8 @@ void add_sweep_options(CLI::App& command, SweepOptions& options) {
   command.add_option("case", options.case_file, "Case file (TOML)")->required();
   add_flow_options(command, options.overrides);
   add_set_option(command, options.overrides);
-  command
-      .add_option("--jobs", options.settings.jobs,
-                  "Runs side by side (default: as many as cores and free memory allow)")
-      ->check(CLI::Range(1, 1024));
+  add_number(command, "--jobs", options.settings.jobs, from(1).up_to(1024),
+             "Runs side by side (default: as many as cores and free memory allow)");
   command.add_flag("--cold", options.cold, "Start every run from the flat canopy, not from its neighbour");
   command.add_flag("--fields", options.settings.fields,
                    "Keep shapes and flow of every iteration for ParaView");
@@ -43,6 +43,7 @@ std::vector<SweepRow> run_and_tell(const std::vector<SweepAxis>& axes, const std
                           points[i].values[d]);
     return text;
   };
+  goes_on_when_repeated();
   Progress progress;
   const auto begin = std::chrono::steady_clock::now();
   std::map<std::size_t, std::string> running;

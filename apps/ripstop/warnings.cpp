@@ -5,13 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "ripstop/core/visible.h"
 #include "ripstop/run/warnings.h"
 
 namespace ripstop {
 namespace {
 
 void print_all(const std::vector<std::string>& warnings) {
-  for (const std::string& text : warnings) fmt::print(stderr, "warning: {}\n", text);
+  for (const std::string& text : warnings) fmt::print(stderr, "warning: {}\n", visible(text));
 }
 
 }  // namespace
@@ -20,12 +21,8 @@ void print_mesh_warning(const Case& given) {
   print_all(mesh_warnings(given));
 }
 
-void print_grid_warning(const Case& given) {
-  print_all(grid_warnings(given));
-}
-
-void print_porosity_warning(const Case& given) {
-  print_all(porosity_warnings(given));
+void print_case_warnings(const Case& given) {
+  print_all(case_warnings(given));
 }
 
 void print_material_warnings(const Case& given, double largest_cloth_strain) {

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "program.h"
 #include "ripstop/core/file.h"
-#include "ripstop/core/process.h"
 
 namespace ripstop {
 namespace {
@@ -16,26 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::string stratos = RIPSTOP_SOURCE_DIR "/examples/stratos-iv/case.toml";
-
-struct Finished {
-  int code = -1;
-  std::string output;
-};
-
-Finished ripstop_with(std::vector<std::string> arguments, const fs::path& data = RIPSTOP_SOURCE_DIR) {
-  Finished run;
-  ProcessRequest request;
-  request.arguments = {RIPSTOP_PROGRAM};
-  request.arguments.insert(request.arguments.end(), arguments.begin(), arguments.end());
-  request.environment = {{"RIPSTOP_DATA", data.string()}};
-  request.time_limit_s = 120;
-  request.on_line = [&](const std::string& line) {
-    run.output += line + "\n";
-    return true;
-  };
-  run.code = run_process(request).exit_code;
-  return run;
-}
 
 class Check : public testing::Test {
  protected:
@@ -121,6 +101,13 @@ TEST_F(Check, AMeshTooCoarseForTheCanopysSizeIsSaid) {
   EXPECT_EQ(coarse.code, 0);
   EXPECT_NE(coarse.output.find("warning: parachute.mesh.cloth_nodes = 4000"), std::string::npos)
       << coarse.output;
+  // It does not say "none" beside a warning.
+  EXPECT_NE(fine.output.find("problems           none\n"), std::string::npos) << fine.output;
+  EXPECT_NE(coarse.output.find("problems           none that stops a run, 1 warning below\n"),
+            std::string::npos)
+      << coarse.output;
+  const Finished json = ripstop_with({"check", (folder_ / "coarse.toml").string(), "--json"});
+  EXPECT_EQ(nlohmann::json::parse(json.output).at("warnings").size(), 1u);
 }
 
 TEST_F(Check, TheProblemsOfACaseComeAsTextAndAsJson) {

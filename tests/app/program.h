@@ -5,8 +5,11 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <string>
 #include <vector>
+
+#include "ripstop/core/process.h"
 
 namespace ripstop {
 
@@ -30,6 +33,32 @@ inline int wait_for(pid_t child) {
   int status = 0;
   waitpid(child, &status, 0);
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+struct Finished {
+  int code = -1;
+  std::string output;  // and errors
+  bool timed_out = false;
+};
+
+/// The whole of it, with its output and its errors in one text.
+inline Finished ripstop_with(const std::vector<std::string>& arguments,
+                             const std::filesystem::path& data = RIPSTOP_SOURCE_DIR,
+                             double time_limit_s = 120) {
+  Finished run;
+  ProcessRequest request;
+  request.arguments = {RIPSTOP_PROGRAM};
+  request.arguments.insert(request.arguments.end(), arguments.begin(), arguments.end());
+  request.environment = {{"RIPSTOP_DATA", data.string()}};
+  request.time_limit_s = time_limit_s;
+  request.on_line = [&](const std::string& line) {
+    run.output += line + "\n";
+    return true;
+  };
+  const ProcessResult result = run_process(request);
+  run.code = result.signal != 0 ? 128 + result.signal : result.exit_code;
+  run.timed_out = result.timed_out;
+  return run;
 }
 
 }  // namespace ripstop

@@ -120,7 +120,7 @@ TEST(Chute, NothingOfTheFileIsSilentlyLeftOut) {
   for (const char* words : {"9 lines", "--line-length", "those of F-111", "sewn to it", "flow:"})
     EXPECT_TRUE(says(result.assumed, words)) << words;
   const Case given = parse_case(result.case_text, "case.toml");
-  EXPECT_EQ(given.title, "Odd \"one\" ");
+  EXPECT_EQ(given.title, "Odd \"one\"\\x07");
   EXPECT_NE(result.case_text.find("# Instruction: One step"), std::string::npos);
   // From the drawn-in skirt up, though the file has it second and downward.
   const auto& canopy = *given.parachute.canopy.as<ProfileCanopy>();
@@ -224,6 +224,29 @@ TEST(Chute, APointListIsReadLineByLine) {
   EXPECT_NEAR(file.sections[0].points[2].r, 0.02, 1e-12);
   EXPECT_NEAR(file.sections[0].points[1].y, 0.25, 1e-12);
   EXPECT_THROW(read_chute(with(R"(0.2,0\nnonsense)"), "x"), Error);
+}
+
+// openchute's own ringsail draws its slots as sections of 0 gores.
+TEST(Chute, ASectionOfNoGoresIsASlotAndNoCloth) {
+  const std::string text = text_of("sails");
+  const ChuteFile file = read_chute(text, "x");
+  ASSERT_GE(file.sections.size(), 2u);
+  std::string slot = text;
+  const std::size_t gores = slot.find("\"gores\": ", slot.find("\"chute_sections\"")) + 9;
+  slot.replace(gores, slot.find(',', gores) - gores, "0");
+  const ChuteFile open = read_chute(slot, "x");
+  EXPECT_EQ(open.sections.size(), file.sections.size() - 1);
+  EXPECT_TRUE(says(open.not_mapped, "of 0 gores"));
+}
+
+TEST(Chute, AKeyThatIsThereTwiceIsRefused) {
+  const std::string text = text_of("sails");
+  std::string twice = text;
+  twice.insert(twice.find("\"gores\""), "\"gores\": 9, ");
+  EXPECT_THROW(read_chute(twice, "x"), Error);
+  read_chute(text, "x");
+  std::string deep = "{\"name\": " + std::string(100'000, '[') + std::string(100'000, ']') + "}";
+  EXPECT_THROW(read_chute(deep, "x"), Error);
 }
 
 // A file cut short or with a byte changed is refused or read, never worse.

@@ -184,7 +184,7 @@ const std::vector<Mistake> mistakes = {
      "count = 9999999999",
      "case.toml:10:9",
      "parachute.lines.count",
-     "2147483647",
+     "9999999999",
      {"at most 500"}},
     {"NoSpeed",
      "speed_m_s = 20\nbox",

@@ -74,6 +74,18 @@ TEST_F(FieldFile, EveryCutOfAFileIsNoticed) {
   EXPECT_THROW(read_field(path_, 1, 3), Error);
 }
 
+// Before so much is allocated.
+TEST_F(FieldFile, AListLongerThanItsFileIsRefused) {
+  for (const char* format : {"binary", "ascii"}) {
+    write(header(format) + "internalField nonuniform List<vector> 3999999999((1 2 3)(4 5 6));");
+    EXPECT_THROW(read_field(path_, 3, 3999999999), Error) << format;
+    write(header(format) + "3999999999(1 2 3)");
+    EXPECT_THROW(read_labels(path_), Error) << format;
+  }
+  write(header("ascii") + "2(1 1e300)");
+  EXPECT_THROW(read_labels(path_), Error);
+}
+
 TEST_F(FieldFile, OtherNumberFormatsAreRefused) {
   write(
       "FoamFile { version 2.0; format binary; class labelList; arch \"LSB;label=64;scalar=64\"; object "

@@ -35,6 +35,27 @@ struct BenchFile : ::testing::Test {
   }
 };
 
+TEST_F(BenchFile, OneRecordCountsOnce) {
+  SyntheticRecord line;
+  line.width = 0;
+  line.load = [](double e) { return 20e3 * e; };
+  line.failure_strain = 0.1;
+  const std::string head =
+      "kind = \"line\"\nname = \"cord\"\nsource = \"synthetic\"\nlinear_density_kg_m = 2e-3\n";
+  const std::string two = coupons("a", 2, line);
+  fit_material(bench(head + two));
+  write_file(folder.path / "copy.csv", read_file(folder.path / "a-0.csv"));
+  for (const char* again : {"a-0.csv", "copy.csv"}) {
+    try {
+      fit_material(bench(head + two + "[[coupon]]\nfile = \"" + again + "\"\n"));
+      ADD_FAILURE() << again;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::bad_data);
+      EXPECT_NE(std::string(error.what()).find("are the same record"), std::string::npos) << error.what();
+    }
+  }
+}
+
 TEST_F(BenchFile, ALineComesBackInNewtons) {
   SyntheticRecord line;
   line.width = 0;

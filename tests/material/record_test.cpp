@@ -168,6 +168,20 @@ TEST_F(Bench, AFewPointsOutOfOrderArePutInTheirPlace) {
   EXPECT_NE(b.trimmed.front().find("out of order"), std::string::npos);
 }
 
+TEST_F(Bench, ARecordThatWasCutOrHasSurplusValuesIsRefused) {
+  const std::string whole = line("# length: 1 m\nextension [mm],force [N]", 100);
+  EXPECT_EQ(read(whole).force.size(), 40u);
+  refused([&] { read(whole.substr(0, whole.size() - 2)); }, ":42:", "cut in mid-number");
+  refused([&] { read("extension [mm],force [N]\n1,2\n3,4,5\n", coupon); }, ":3:", "3 values for 2 columns");
+  EXPECT_EQ(read("extension [mm],force [N]\n1,2,\n", coupon).force.size(), 1u);  // an empty one is none
+}
+
+TEST_F(Bench, ARecordThatEndsBeforeTheBreakIsTold) {
+  const std::string rising = line("# length: 1 m\nextension [mm],force [N]", 100);
+  EXPECT_FALSE(clean_record(read(rising), LoadKind::whole).breaks);
+  EXPECT_TRUE(clean_record(read(rising + "40,500\n41,100\n42,90\n"), LoadKind::whole).breaks);
+}
+
 TEST_F(Bench, ALineNeedsNoWidthAndClothDoes) {
   const std::string text = line("# length: 1 m\nextension [mm],force [N]", 100);
   EXPECT_NEAR(clean_record(read(text), LoadKind::whole).failure_load, 3700, 250);

@@ -43,9 +43,18 @@ TEST(Csv, EveryDoubleComesBackBitForBit) {
   EXPECT_TRUE(std::isnan(read_csv(folder.path / "nan.csv").rows[0][0]));
 }
 
+TEST(Csv, AColumnThatIsThereTwiceAndATableCutInMidNumberAreRefused) {
+  const TemporaryFolder folder("csv-cut");
+  write_file(folder.path / "twice.csv", "speed_m_s,drag_n,speed_m_s\n1,2,3\n");
+  EXPECT_THROW(read_csv(folder.path / "twice.csv"), Error);
+  write_file(folder.path / "cut.csv", "speed_m_s,drag_n\n10,43.1\n20,15");  // of 152.3
+  EXPECT_THROW(read_csv(folder.path / "cut.csv"), Error);
+}
+
 TEST(Csv, CommentsBlanksAndWindowsLineEndsAreRead) {
   const TemporaryFolder folder("csv-loose");
-  write_file(folder.path / "t.csv", "# from a tunnel\r\nspeed_m_per_s, drag_n\r\n\r\n 10 ,43.1\r\n15,100.2");
+  write_file(folder.path / "t.csv",
+             "# from a tunnel\r\nspeed_m_per_s, drag_n\r\n\r\n 10 ,43.1\r\n15,100.2\r\n");
   const CsvTable table = read_csv(folder.path / "t.csv");
   EXPECT_EQ(table.column("drag_n"), (std::vector<double>{43.1, 100.2}));
   EXPECT_THROW(table.column("drag"), Error);

@@ -86,5 +86,18 @@ TEST(Stl, CutTextAndNonFiniteSurfacesAreErrors) {
   EXPECT_FALSE(std::filesystem::exists(folder.path / "b.stl"));
 }
 
+TEST(Stl, ASurfaceWithoutTrianglesOrWithInfiniteOnesIsRefused) {
+  const TemporaryFolder folder("stl-empty");
+  write_stl(folder.path / "none.stl", {});
+  EXPECT_THROW(read_stl(folder.path / "none.stl"), Error);
+  write_stl(folder.path / "s.stl", {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}});
+  EXPECT_EQ(read_stl(folder.path / "s.stl").size(), 1u);
+  std::string bytes = read_file(folder.path / "s.stl");
+  const float infinite = std::numeric_limits<float>::infinity();
+  std::memcpy(bytes.data() + 84 + 12, &infinite, sizeof infinite);
+  write_file(folder.path / "s.stl", bytes);
+  EXPECT_THROW(read_stl(folder.path / "s.stl"), Error);
+}
+
 }  // namespace
 }  // namespace ripstop

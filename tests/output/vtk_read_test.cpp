@@ -39,6 +39,26 @@ TEST_F(VtkRead, ASurfaceComesBackBitForBit) {
   EXPECT_EQ(back.find("CellData", "b"), nullptr);
 }
 
+TEST_F(VtkRead, ADamagedHeadIsRefusedBeforeAnythingIsMadeOfIt) {
+  FlowField field;
+  field.grid.size = {1, 1, 1};
+  field.grid.nx = field.grid.ny = field.grid.nz = 2;
+  field.pressure.assign(8, 1);
+  field.velocity.assign(8, {});
+  const std::string whole = read_file(write_image(folder.path / "flow", flow_image(field)));
+  const auto refused = [&](const std::string& from, const std::string& to) {
+    std::string text = whole;
+    const std::size_t at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    write_file(file("damaged.vti"), text.replace(at, from.size(), to));
+    EXPECT_THROW(read_vtk(file("damaged.vti")), Error) << to;
+  };
+  for (const char* extent : {"0 2000000000", "0 1e300", "0 nan"})
+    refused("WholeExtent=\"0 2", std::string("WholeExtent=\"") + extent);
+  refused("offset=\"0\"", "offset=\"-1\"");
+  refused("NumberOfComponents=\"", "NumberOfComponents=\"1e300");
+}
+
 // Larger than one block of the compression.
 TEST_F(VtkRead, AFieldAndItsGridComeBack) {
   FlowField field;

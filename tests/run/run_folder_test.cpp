@@ -79,5 +79,31 @@ TEST(RunFolder, AnOpeningTakesTheDragOfItsOwnParachuteOnly) {
   EXPECT_NE(refusal(given).find("result.json"), std::string::npos) << refusal(given);
 }
 
+TEST(RunFolder, AResultOfOtherInputsIsNotBelieved) {
+  const TemporaryFolder root("run-folder");
+  const Case given = stratos();
+  const auto folder = open_run_folder({root.path / "run"}, given, "engine", 1);
+  const std::string own = inputs_of_run(root.path / "run").value();
+  SteadyResult result;
+  result.inputs_hash = own;
+  write_file(folder->own("result.json"), to_json(result));
+  folder->seal();
+  EXPECT_EQ(steady_result_from_json(finished_result(root.path / "run").value()).inputs_hash, own);
+  result.inputs_hash = std::string(32, '0');
+  write_file(folder->own("result.json"), to_json(result));
+  folder->seal();
+  EXPECT_THROW(finished_result(root.path / "run"), Error);
+}
+
+TEST(RunFolder, ACheckRefusesWhatTheRunWouldAndTouchesNothing) {
+  const TemporaryFolder root("run-folder");
+  Case given = stratos();
+  const SteadyFolderSettings settings{{root.path / "run"}, 1, {}, {}};
+  check_steady_in(settings, given);
+  EXPECT_FALSE(fs::exists(root.path / "run"));
+  const ClaimedFolder held(root.path / "run");
+  EXPECT_THROW(check_steady_in(settings, given), Error);  // somebody works there
+}
+
 }  // namespace
 }  // namespace ripstop

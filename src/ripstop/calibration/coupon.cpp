@@ -15,6 +15,7 @@ namespace ripstop {
 namespace {
 
 constexpr int most_cells = 400;
+constexpr double most_nodes = 4e5, most_of_square = 2e6;
 
 CouponMesh straight_coupon(const Fabric& fabric, const CouponShape& shape) {
   const double across = shape.width / shape.cells;
@@ -229,6 +230,21 @@ double corner_peak(const CouponMesh& coupon, const std::vector<double>& stress) 
   return sum > 0 ? peak / (sum / count) : 0;
 }
 
+/// Before anything is allocated: a lattice along the yarns of a coupon at 45 deg lies in a square about all of it.
+void check_size(const CouponShape& shape) {
+  const double slender = shape.length / (shape.width * shape.aspect), cells = shape.cells;
+  const bool diagonal = shape.orientation == 45 && !shape.bias_lattice;
+  const double nodes = (diagonal ? 2 : 1) * slender * cells * (cells + 1);
+  const double square = diagonal ? std::pow(cells * (slender + 1) + 1, 2) : 0;
+  if (nodes <= most_nodes && square <= most_of_square) return;
+  throw Error(
+      ExitCode::usage,
+      fmt::format("a coupon of {:g} m x {:g} m with {} cells across has about {:.3g} nodes, more than "
+                  "{:.0e}: make it shorter or wider, or take fewer cells",
+                  shape.length, shape.width, shape.cells, std::max(nodes, square),
+                  square > most_of_square ? most_of_square : most_nodes));
+}
+
 }  // namespace
 
 CouponMesh coupon_mesh(const Fabric& fabric, const CouponShape& shape) {
@@ -239,6 +255,7 @@ CouponMesh coupon_mesh(const Fabric& fabric, const CouponShape& shape) {
         fmt::format("a coupon of {} m x {} m at {} deg with {} cells across cannot be built: 2 to {} cells, "
                     "0, 45 or 90 deg",
                     shape.length, shape.width, shape.orientation, shape.cells, most_cells));
+  check_size(shape);
   CouponMesh coupon = shape.orientation == 45 && !shape.bias_lattice ? DiagonalBuilder(fabric, shape).build()
                                                                      : straight_coupon(fabric, shape);
   for (const auto* clamp : {&coupon.lower_clamp, &coupon.upper_clamp})

@@ -40,15 +40,19 @@ DampingTrial open_with(double damping, const InflationProblem& problem, const st
   return trial;
 }
 
-DampingCalibration calibrate_damping(const DampingTarget& target, const DampingSearch& search,
-                                     const std::function<DampingTrial(double)>& open,
-                                     const std::function<void(const DampingTrial&)>& report) {
+void check_search(const DampingSearch& search) {
   if (!(search.from > 0 && search.to > search.from && search.points >= 3)) {
     throw Error(ExitCode::usage,
                 fmt::format("a search for C_a needs 0 < from < to and at least 3 points, not {} to {} "
                             "with {}",
                             search.from, search.to, search.points));
   }
+}
+
+DampingCalibration calibrate_damping(const DampingTarget& target, const DampingSearch& search,
+                                     const std::function<DampingTrial(double)>& open,
+                                     const std::function<void(const DampingTrial&)>& report) {
+  check_search(search);
   DampingCalibration result;
   const auto attempt = [&](double damping) {
     DampingTrial trial = open(damping);

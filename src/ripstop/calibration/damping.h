@@ -46,6 +46,9 @@ double misfit_of(const DampingTrial& trial, const DampingTarget& target);
 DampingTrial open_with(double damping, const InflationProblem& problem,
                        const std::function<void()>& alive = {});
 
+/// Throws Error(usage) for an empty range or too few points, before any opening is run.
+void check_search(const DampingSearch& search);
+
 /// Smallest misfit over C_a. Throws Error(usage) for an empty range.
 DampingCalibration calibrate_damping(const DampingTarget& target, const DampingSearch& search,
                                      const std::function<DampingTrial(double damping)>& open,

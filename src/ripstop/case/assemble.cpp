@@ -1,5 +1,9 @@
 #include "ripstop/case/assemble.h"
 
+#include <fmt/format.h>
+
+#include "ripstop/case/cost.h"
+
 namespace ripstop {
 
 PartMaterials part_materials(const Case& given) {
@@ -7,6 +11,8 @@ PartMaterials part_materials(const Case& given) {
 }
 
 CanopyMesh parachute_mesh(const Case& given) {
+  const Cost cost = cost_of(given);
+  require_memory(cost.cloth_memory, fmt::format("a mesh of {:.3g} nodes", cost.nodes));
   CanopyMesh mesh = build_mesh(given.parachute, part_materials(given));
   const double z = canopy_position(given);
   for (Vec3& p : mesh.start) p.z += z;

@@ -52,8 +52,8 @@ struct Node {
     return json->get<double>();
   }
   int count() const {
-    if (!json->is_number_integer() || json->get<double>() < 1 || json->get<double>() > 500)
-      fail("must be a whole number from 1 to 500");
+    if (!json->is_number_integer() || json->get<double>() < 0 || json->get<double>() > 500)
+      fail("must be a whole number from 0 to 500");
     return json->get<int>();
   }
   std::string text() const {
@@ -84,7 +84,8 @@ class Reader {
                       root_.at("global_seam_allowance").number()));
     read_names();
     for (const Node& section : root_.at("chute_sections").items()) read_section(section);
-    if (file_.sections.empty()) root_.at("chute_sections").fail("there is no section, so nothing to cut");
+    if (file_.sections.empty())
+      root_.at("chute_sections").fail("there is no section with gores, so nothing to cut");
     return std::move(file_);
   }
 
@@ -198,6 +199,11 @@ class Reader {
     ChuteSection section;
     section.place = node.place;
     section.gores = node.at("gores").count();
+    if (section.gores == 0) {  // how openchute draws a slot or a vent
+      file_.not_mapped.push_back(
+          fmt::format("{}: of 0 gores: no cloth is cut, it shows where the canopy is open", node.place));
+      return;
+    }
     const Node type = node.at("section_type");
     if (type.has("Circular")) {
       section.circular = true;
@@ -362,6 +368,24 @@ class Reader {
   Names names_;
 };
 
+/// JSON whose objects have every key once: of two, a reader takes the one and another program the other.
+Json parsed(std::string_view text, const std::string& file) {
+  constexpr int deepest = 64;
+  std::vector<std::set<std::string>> keys;
+  const auto look = [&](int depth, Json::parse_event_t event, Json& value) {
+    if (depth > deepest)
+      throw Error(ExitCode::bad_data,
+                  fmt::format("{}: nested more than {} deep; is this a .chute file?", file, deepest));
+    if (event == Json::parse_event_t::object_start) keys.emplace_back();
+    if (event == Json::parse_event_t::object_end) keys.pop_back();
+    if (event == Json::parse_event_t::key && !keys.back().insert(value.get<std::string>()).second)
+      throw Error(ExitCode::bad_data, fmt::format("{}: the key \"{}\" is there twice in one object", file,
+                                                  value.get<std::string>()));
+    return true;
+  };
+  return Json::parse(text, look);
+}
+
 }  // namespace
 
 ChuteFile read_chute(std::string_view text, const std::string& file) {
@@ -369,7 +393,7 @@ ChuteFile read_chute(std::string_view text, const std::string& file) {
     throw Error(ExitCode::bad_data, fmt::format("{}: larger than 16 MB; is this a .chute file?", file));
   Json json;
   try {
-    json = Json::parse(text);
+    json = parsed(text, file);
   } catch (const Json::exception& error) {
     throw Error(ExitCode::bad_data, fmt::format("{}: not JSON: {}", file, error.what()));
   }

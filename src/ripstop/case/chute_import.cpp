@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "ripstop/core/error.h"
+#include "ripstop/core/visible.h"
 #include "ripstop/parachute/conical.h"
 #include "ripstop/parachute/cross.h"
 #include "ripstop/parachute/design.h"
@@ -22,24 +23,28 @@ using std::numbers::pi;
 
 constexpr double same = 1e-6;  // [m]
 
-/// Quoted as TOML has it, without control characters.
-std::string quoted(const std::string& text, std::size_t longest) {
-  std::string result;
-  for (const char c : text.substr(0, longest)) {
-    if (c == '"' || c == '\\') result += '\\';
-    result += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
-  }
-  // A cut inside a character of several bytes would not be UTF-8.
-  while (text.size() > longest && !result.empty() && (static_cast<unsigned char>(result.back()) & 0x80))
-    result.pop_back();
-  return '"' + result + '"';
+/// Control characters, those of several bytes too, become what can be seen; line breaks and tabs blanks.
+std::string in_one_line(const std::string& text) {
+  std::string result = visible(text);
+  for (char& c : result)
+    if (c == '\n' || c == '\t') c = ' ';
+  return result;
 }
 
-std::string in_one_line(const std::string& text) {
-  std::string result = text;
-  for (char& c : result)
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
-  return result;
+/// Quoted as TOML has it, without control characters.
+std::string quoted(const std::string& text, std::size_t longest) {
+  std::string whole = in_one_line(text);
+  if (whole.size() > longest) {
+    whole.resize(longest);
+    // A cut inside a character of several bytes would not be UTF-8.
+    while (!whole.empty() && (static_cast<unsigned char>(whole.back()) & 0x80)) whole.pop_back();
+  }
+  std::string result;
+  for (const char c : whole) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += c;
+  }
+  return '"' + result + '"';
 }
 
 std::string list(const std::vector<double>& values) {

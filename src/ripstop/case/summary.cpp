@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "ripstop/case/assemble.h"
+#include "ripstop/case/cost.h"
 
 namespace ripstop {
 namespace {
@@ -44,6 +45,7 @@ void count_springs(const Mesh& mesh, CaseSummary& summary) {
 
 CaseSummary summarize(const Case& given) {
   CaseSummary summary;
+  summary.memory = cost_of(given).memory;
   const CanopyMesh mesh = parachute_mesh(given);
   for (const Patch& patch : mesh.patches) {
     summary.cloth_nodes += patch.rows * patch.columns;

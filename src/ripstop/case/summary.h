@@ -28,6 +28,7 @@ struct CaseSummary {
   StepBound step;                // of the start shape
   long long flow_cells = 0;
   Vec3 flow_spacing;    // [m]
+  double memory = 0;    // of a steady run, about [bytes]
   double blockage = 0;  // disk of the start shape's diameter over the cross-section of the box or the nozzle
   bool of_jet = false;  // of the nozzle
   Air air;

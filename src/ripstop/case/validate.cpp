@@ -298,6 +298,20 @@ void check_average(const FlowSettings& flow, Findings& findings) {
                  "a flow solution has no more iterations than that");
 }
 
+/// How much an opening writes and how fine its lines are.
+void check_inflation(const Case& given, Findings& findings) {
+  constexpr double most_rows = 1e7;  // 400 MB of history
+  const InflationSettings& inflation = given.inflation;
+  const double rows = inflation.history_hz * inflation.duration_s;
+  if (findings.sound({"inflation.history_hz", "inflation.duration_s"}) && rows > most_rows)
+    findings.add("inflation.history_hz", inflation.history_hz,
+                 fmt::format("at most {:.4g}", most_rows / inflation.duration_s),
+                 fmt::format("{:.3g} rows over inflation.duration_s = {:g} s; {:.0e} are the most", rows,
+                             inflation.duration_s, most_rows));
+  if (inflation.line_segment_m && findings.sound({"parachute.mesh.line_segment_m"}))
+    check_line_nodes(given.parachute, "inflation.line_segment_m", *inflation.line_segment_m, findings);
+}
+
 /// What asks for values that follow from parachute and cloth.
 void check_settings(Case given, Findings& findings) {
   const std::string& cloth = given.parachute.canopy_material;
@@ -336,6 +350,7 @@ void check(Case& given, std::vector<Problem>& problems) {
   check_materials(given, findings);
   check_measured(given, findings);
   check_flight(given, findings);
+  check_inflation(given, findings);
   check_settings(given, findings);
 }
 

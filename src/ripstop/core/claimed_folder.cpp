@@ -97,6 +97,14 @@ bool is_leftover(const std::vector<std::string>& names, const std::string& file)
   return !target.empty() && covers(names, (path.parent_path() / target).generic_string());
 }
 
+[[noreturn]] void refuse_claimed(const fs::path& folder) {
+  std::string holder = read_file(lock_of(folder));
+  if (!holder.empty() && holder.back() == '\n') holder.pop_back();
+  throw Error(ExitCode::usage,
+              fmt::format("{}: {} works in this folder; wait for it to end, or choose another --out",
+                          folder.string(), holder.empty() ? "another run" : holder));
+}
+
 void take_away(const fs::path& path) {
   std::error_code error;
   fs::remove_all(path, error);
@@ -119,11 +127,7 @@ ClaimedFolder::ClaimedFolder(fs::path folder) : folder_(std::move(folder)) {
       throw Error(ExitCode::io, fmt::format("cannot lock {}: {}", lock_of(folder_).string(),
                                             std::generic_category().message(reason)));
     }
-    std::string holder = read_file(lock_of(folder_));
-    if (!holder.empty() && holder.back() == '\n') holder.pop_back();
-    throw Error(ExitCode::usage,
-                fmt::format("{}: {} works in this folder; wait for it to end, or choose another --out",
-                            folder_.string(), holder.empty() ? "another run" : holder));
+    refuse_claimed(folder_);
   }
   const std::string text = fmt::format("process {} on {}\n", ::getpid(), host_name());
   if (::ftruncate(lock_, 0) != 0 || ::pwrite(lock_, text.data(), text.size(), 0) < 0) {
@@ -133,6 +137,14 @@ ClaimedFolder::ClaimedFolder(fs::path folder) : folder_(std::move(folder)) {
   }
   names_ = listed(folder_);
   drop_leftovers();
+}
+
+void require_unclaimed(const fs::path& folder) {
+  const int lock = ::open(lock_of(folder).c_str(), O_RDWR | O_CLOEXEC);
+  if (lock < 0) return;  // nobody has worked here, or the claim will say why it cannot be read
+  const bool held = ::flock(lock, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  ::close(lock);
+  if (held) refuse_claimed(folder);
 }
 
 ClaimedFolder::~ClaimedFolder() {

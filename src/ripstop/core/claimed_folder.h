@@ -45,6 +45,8 @@ class ClaimedFolder {
   std::vector<std::string> names_;
 };
 
+/// Throws what ClaimedFolder would throw where another process works in the folder; makes nothing.
+void require_unclaimed(const std::filesystem::path& folder);
 /// What note() left. Throws Error(bad_data) when it is damaged.
 std::optional<std::string> noted(const std::filesystem::path& folder, const std::string& name);
 /// Whether seal() was the last word.

@@ -14,6 +14,7 @@ enum class ExitCode {
   diverged = 5,       // NaN, runaway stretch, unstable step
   external = 6,       // OpenFOAM or another child program
   io = 7,             // a file could not be read or written
+  resources = 8,      // this machine has not the memory or the threads for it
 };
 
 class Error : public std::runtime_error {

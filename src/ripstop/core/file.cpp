@@ -94,11 +94,15 @@ void write_file(const std::filesystem::path& path, std::string_view bytes) {
 }
 
 std::string read_file(const std::filesystem::path& path) {
-  const Descriptor fd(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  const Descriptor fd(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));  // a pipe would block
   if (fd.get() < 0) fail("read", path, errno);
   struct stat status = {};
   if (::fstat(fd.get(), &status) != 0) fail("read", path, errno);
   if (S_ISDIR(status.st_mode)) fail("read", path, EISDIR);
+  if (!S_ISREG(status.st_mode))
+    throw Error(ExitCode::io, fmt::format("cannot read {}: it is no file but a pipe or a device; write what "
+                                          "comes out of it into a file",
+                                          path.string()));
   std::string bytes(static_cast<size_t>(status.st_size), '\0');
   size_t done = 0;
   for (;;) {  // the size is a hint only: a file may grow, and /proc says 0

@@ -1,8 +1,12 @@
 #include "ripstop/core/thread_team.h"
 
+#include <fmt/format.h>
 #include <sched.h>
 
 #include <algorithm>
+#include <system_error>
+
+#include "ripstop/core/error.h"
 
 namespace ripstop {
 namespace {
@@ -31,10 +35,23 @@ int usable_processors() {
 
 ThreadTeam::ThreadTeam(int threads)
     : size_(threads > 0 ? threads : usable_processors()), may_spin_(size_ <= usable_processors()) {
-  for (int rank = 1; rank < size_; ++rank) threads_.emplace_back([this, rank] { worker(rank); });
+  try {
+    for (int rank = 1; rank < size_; ++rank) threads_.emplace_back([this, rank] { worker(rank); });
+  } catch (const std::system_error& error) {
+    const std::size_t started = threads_.size() + 1;
+    stop();
+    throw Error(ExitCode::resources,
+                fmt::format("only {} of {} threads could be started ({}): ask for fewer (--threads, "
+                            "coupling.threads, --jobs)",
+                            started, size_, error.code().message()));
+  }
 }
 
 ThreadTeam::~ThreadTeam() {
+  stop();
+}
+
+void ThreadTeam::stop() {
   stop_.store(true, std::memory_order_release);
   job_.fetch_add(1, std::memory_order_release);
   job_.notify_all();

@@ -22,7 +22,8 @@ constexpr IndexRange part_of(int count, int rank, int parts) {
 
 class ThreadTeam {
  public:
-  /// `threads` >= 1; the calling thread is rank 0. 0 means: as many as the process may run on.
+  /// `threads` >= 1; the calling thread is rank 0. 0 means: as many as the process may run on. Throws
+  /// Error(resources) when so many cannot be started.
   explicit ThreadTeam(int threads = 0);
   ~ThreadTeam();
   ThreadTeam(const ThreadTeam&) = delete;
@@ -39,6 +40,7 @@ class ThreadTeam {
 
  private:
   void worker(int rank);
+  void stop();
 
   int size_;
   bool may_spin_;  // no more threads than processors

@@ -8,6 +8,7 @@
 
 #include "ripstop/core/error.h"
 #include "ripstop/inflation/folded_start.h"
+#include "ripstop/inflation/summary.h"
 
 namespace ripstop {
 namespace {
@@ -60,6 +61,8 @@ Inflation::Inflation(InflationProblem problem) : problem_(std::move(problem)), t
   const double block = frame / blocks_per_frame_;
   rows_per_block_ = std::max(1, static_cast<int>(std::ceil(block * s.history_hz - 1e-9)));
   row_ = block / rows_per_block_;
+  if (s.low_pass_hz > 0)
+    low_pass({}, row_, s.low_pass_hz);  // refuses at the beginning what it would at the end
   ClothState begin = start_state(*cloth_);
   set_positions(begin, *cloth_, with_imperfection());
   elastic_at_start_ = elastic_energy(*cloth_, begin);

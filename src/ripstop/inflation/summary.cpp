@@ -60,6 +60,10 @@ std::vector<double> low_pass(const std::vector<double>& values, double interval,
   return back;
 }
 
+bool settled(const InflationSummary& summary, double duration) {
+  return summary.inflation_time && *summary.inflation_time <= 0.9 * duration;
+}
+
 InflationSummary summarise(const std::vector<HistoryRow>& rows, double low_pass_hz) {
   InflationSummary summary;
   if (rows.empty()) return summary;

@@ -24,6 +24,10 @@ struct InflationSummary {
 /// the low-passed history.
 InflationSummary summarise(const std::vector<HistoryRow>& rows, double low_pass_hz);
 
+/// Whether the steady load may be called one: the load has stayed within 10 % of it for the last tenth of the
+/// opening's `duration` [s] at least, half of what it is the mean of.
+bool settled(const InflationSummary& summary, double duration);
+
 /// Two passes, forth and back, of a second-order Butterworth filter: no delay, half the power twice
 /// (-6 dB) at `cutoff_hz`. `interval` [s] between equally spaced values. Throws Error(usage) at or
 /// above half their rate.

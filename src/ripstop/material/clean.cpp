@@ -154,6 +154,10 @@ double cut_failure(Pull& pull) {
                 fmt::format("the force only falls from here on ({:.4g} N to {:.4g} N): this is not a pull to "
                             "failure; is the displacement in the right column and direction?",
                             *top, smooth.back()));
+  // A bench that stops by itself still writes some points of the fall.
+  constexpr double fallen = 0.9;
+  pull.clean.breaks =
+      *std::min_element(pull.f.begin() + static_cast<std::ptrdiff_t>(peak), pull.f.end()) < fallen * *top;
   if (peak + 1 < count)
     pull.say(fmt::format("{} points after the peak of {:.4g} N left out (from line {})", count - peak - 1,
                          *top, pull.line[peak + 1]));

@@ -21,6 +21,7 @@ struct CleanRecord {
   double slack = 0;                  // [m] taken off the displacement
   double force_offset = 0;           // [N] taken off the force
   double noise = 0;                  // standard deviation of the load about its neighbours, as `load`
+  bool breaks = true;                // the force falls after its highest value
   std::vector<std::string> trimmed;  // what was left out or moved, one sentence each
 };
 

@@ -43,9 +43,22 @@ std::vector<CleanRecord> clean_all(const Bench& bench, MaterialFit& fit) {
                                           file.string(), bench.file.string())
                             : fmt::format("{}: orientation {} deg; cloth is pulled at 0, 45 or 90",
                                           file.string(), angle));
-    fit.inputs.push_back({coupon.file, hash_file(file)});
+    const std::string hash = hash_file(file);
+    for (const auto& [name, known] : fit.inputs)
+      if (known == hash)
+        throw Error(
+            ExitCode::bad_data,
+            fmt::format("{}: {} and {} are the same record; one pull counts once, else it narrows the "
+                        "scatter that it does not know",
+                        bench.file.string(), name, coupon.file));
+    fit.inputs.push_back({coupon.file, hash});
     records.push_back(clean_record(record, load_kind(bench.kind)));
     records.back().name = coupon.file;
+    if (!records.back().breaks)
+      fit.warnings.push_back(fmt::format(
+          "{} ends at its highest force: no break is seen, so that the strength is this or more (is the "
+          "record whole?)",
+          coupon.file));
   }
   return records;
 }

@@ -196,9 +196,13 @@ struct Reader {
   void read_row(const std::string& line, int line_number) {
     const std::vector<std::string> fields = split(line, separator);
     if (take_units(fields)) return;
-    if (fields.size() < columns.size())
+    const bool surplus = std::any_of(fields.begin() + std::min(fields.size(), columns.size()), fields.end(),
+                                     [](const std::string& field) { return !field.empty(); });
+    if (fields.size() < columns.size() || surplus)
       refuse(file, line_number,
-             fmt::format("{} values for {} columns: is the file whole?", fields.size(), columns.size()));
+             fmt::format(
+                 "{} values for {} columns: {}", fields.size(), columns.size(),
+                 surplus ? "do the header's names and the values belong together?" : "is the file whole?"));
     const auto value = [&](int column) {
       const std::optional<double> v = number(fields[column], separator);
       if (!v || !std::isfinite(*v))
@@ -234,6 +238,10 @@ TensileRecord read_record(const std::filesystem::path& file, const Coupon& given
 TensileRecord parse_record(const std::string& bytes, const std::filesystem::path& file, const Coupon& given,
                            const RecordFormat& format) {
   if (bytes.size() > most_bytes) refuse(file, 0, "larger than 64 MiB: this is no tensile record");
+  if (!bytes.empty() && bytes.back() != '\n' && bytes.back() != '\r')
+    refuse(file, static_cast<int>(std::count(bytes.begin(), bytes.end(), '\n')) + 1,
+           "the last line has no end: the record may be cut in mid-number; take the whole file, or end the "
+           "line");
   Reader reader{file, format};
   reader.record.file = file;
   std::string_view rest = bytes;

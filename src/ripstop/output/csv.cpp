@@ -60,6 +60,10 @@ CsvTable parse(const std::filesystem::path& path, std::string_view text) {
     const std::vector<std::string_view> fields = fields_of(line);
     if (table.columns.empty()) {
       table.columns.assign(fields.begin(), fields.end());
+      for (std::size_t i = 0; i < fields.size(); ++i)
+        if (std::find(fields.begin(), fields.begin() + i, fields[i]) != fields.begin() + i)
+          throw Error(ExitCode::bad_data, fmt::format("{}:{}: the column \"{}\" is there twice",
+                                                      path.string(), number, fields[i]));
       continue;
     }
     if (fields.size() != table.columns.size()) {
@@ -130,7 +134,13 @@ std::string csv_number(double value) {
 }
 
 CsvTable read_csv(const std::filesystem::path& path) {
-  return parse(path, read_file(path));
+  const std::string text = read_file(path);
+  if (!text.empty() && text.back() != '\n' && text.back() != '\r')
+    throw Error(ExitCode::bad_data,
+                fmt::format("{}:{}: the last line has no end: the table may be cut in mid-number; take the "
+                            "whole file, or end the line",
+                            path.string(), std::count(text.begin(), text.end(), '\n') + 1));
+  return parse(path, text);
 }
 
 CsvLog::CsvLog(std::filesystem::path path, std::vector<std::string> columns,

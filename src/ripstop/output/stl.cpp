@@ -68,11 +68,17 @@ std::vector<Triangle> read_stl(const std::filesystem::path& path) {
                                                     : "is no binary STL, or not a whole one";
     throw Error(ExitCode::bad_data, fmt::format("{} {}", path.string(), reason));
   }
+  if (count == 0)
+    throw Error(ExitCode::bad_data,
+                fmt::format("{} holds no triangle: there is no surface in it", path.string()));
   std::vector<Triangle> surface(count);
   const char* at = bytes.data() + begin + sizeof(float) * 3;
   for (Triangle& triangle : surface) {
     triangle = {corner(at), corner(at + 12), corner(at + 24)};
     at += triangle_size;
+    if (!is_finite(triangle.a) || !is_finite(triangle.b) || !is_finite(triangle.c))
+      throw Error(ExitCode::bad_data, fmt::format("{}: a corner of triangle {} is not a finite number",
+                                                  path.string(), &triangle - surface.data() + 1));
   }
   return surface;
 }

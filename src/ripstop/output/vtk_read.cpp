@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <string_view>
@@ -92,6 +93,12 @@ std::vector<double> decoded(const Path& path, std::string_view type, const std::
   reject(path, fmt::format("has an array of the unknown type {}", type));
 }
 
+/// A whole number of the head, before anything is made of so many.
+std::size_t whole(const Path& path, double value, double most) {
+  if (!(value >= 0 && value <= most) || value != std::floor(value)) reject(path, "has a damaged head");
+  return static_cast<std::size_t>(value);
+}
+
 /// Of an ImageData; a RectilinearGrid has them as arrays.
 std::array<std::vector<double>, 3> image_edges(const Path& path, std::string_view element) {
   const std::vector<double> extent = numbers(attribute(element, "WholeExtent")),
@@ -100,8 +107,8 @@ std::array<std::vector<double>, 3> image_edges(const Path& path, std::string_vie
   if (extent.size() != 6 || origin.size() != 3 || spacing.size() != 3) reject(path, "has a damaged head");
   std::array<std::vector<double>, 3> edges;
   for (std::size_t axis = 0; axis < 3; ++axis)
-    for (int i = 0; i <= int(extent[2 * axis + 1]); ++i)
-      edges[axis].push_back(origin[axis] + i * spacing[axis]);
+    for (std::size_t i = 0, end = whole(path, extent[2 * axis + 1], 1e6); i <= end; ++i)
+      edges[axis].push_back(origin[axis] + double(i) * spacing[axis]);
   return edges;
 }
 
@@ -136,9 +143,10 @@ VtkFile read_vtk(const Path& path) {
     const std::vector<double> where = numbers(attribute(element, "offset"));
     const std::vector<double> components = numbers(attribute(element, "NumberOfComponents"));
     if (where.size() != 1 || components.size() != 1) reject(path, "has a damaged head");
-    file.arrays.push_back(
-        {section, std::string(attribute(element, "Name")), int(components[0]),
-         decoded(path, attribute(element, "type"), inflate(path, data, static_cast<std::size_t>(where[0])))});
+    file.arrays.push_back({section, std::string(attribute(element, "Name")),
+                           static_cast<int>(whole(path, components[0], 1000)),
+                           decoded(path, attribute(element, "type"),
+                                   inflate(path, data, whole(path, where[0], double(data.size()))))});
   }
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (const VtkData* edges = file.find("Coordinates", std::string(1, "xyz"[axis])))

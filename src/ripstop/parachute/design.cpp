@@ -34,6 +34,7 @@ void check_lines(const Design& design, Findings& findings) {
     findings.add("parachute.mesh.line_segment_m", design.mesh.line_segment_m,
                  fmt::format("at most {}", lines.length_m / 2),
                  fmt::format("a line of {} m needs at least two springs", lines.length_m));
+  check_line_nodes(design, "parachute.mesh.line_segment_m", design.mesh.line_segment_m, findings);
 }
 
 /// Lines and seams both lie on columns of the mesh, so its columns are a multiple of both counts.
@@ -196,6 +197,19 @@ void check_inner_hems(const Design& design, Findings& findings) {
   if (!design.tape.inner_hems)
     findings.add("parachute.tape.inner_hems", "false", "true",
                  "only canopies of gores can leave their inner edges without tape");
+}
+
+void check_line_nodes(const Design& design, const std::string& key, double line_segment, Findings& findings) {
+  constexpr double most_nodes = 2e6;  // as many as the cloth may have
+  if (!findings.sound({key, "parachute.lines.length_m", "parachute.lines.count", "parachute.riser.length_m"}))
+    return;
+  const double length = design.lines.count * design.lines.length_m + design.riser.length_m;
+  if (length <= most_nodes * line_segment) return;
+  findings.add(
+      key, line_segment, fmt::format("at least {:.3g}", length / most_nodes),
+      fmt::format("{:.4g} m of lines and riser would have {:.3g} nodes, and {:.0e} are the most; make "
+                  "it at least {:.3g} m",
+                  length, length / line_segment, most_nodes, std::ceil(1e3 * length / most_nodes) / 1e3));
 }
 
 void check_design(const Design& design, Findings& findings) {

@@ -77,6 +77,8 @@ void check_inner_hems(const Design& design, Findings& findings);
 
 /// Reports what single ranges do not show: a vent wider than the disk, lines that cannot meet on the axis.
 void check_design(const Design& design, Findings& findings);
+/// Refuses springs of lines and riser so short that they make more nodes than a mesh may have; `key` says whose.
+void check_line_nodes(const Design& design, const std::string& key, double line_segment, Findings& findings);
 
 /// Sizes of the canopy, by its family's own definitions.
 CanopyFacts facts(const Design& design);

@@ -30,15 +30,13 @@ Json to_json(const std::vector<Source>& sources, const Json& written) {
 }  // namespace
 
 CheckResult run_check(const Case& given) {
-  CheckResult result{summarize(given), resolve(given).sources, mesh_warnings(given), given};
-  for (const std::vector<std::string>& more : {grid_warnings(given), porosity_warnings(given)})
-    result.warnings.insert(result.warnings.end(), more.begin(), more.end());
-  return result;
+  return {summarize(given), resolve(given).sources, case_warnings(given), given};
 }
 
 std::string to_json(const CheckResult& result) {
   const Json written = Json::parse(case_json(result.given));
   Json report = {{"valid", true}, {"problems", Json::array()}};
+  report["warnings"] = result.warnings;
   report.update(Json(result.summary));
   report["sources"] = to_json(result.sources, written);
   report["case"] = written;

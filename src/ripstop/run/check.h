@@ -51,6 +51,7 @@ void each_member(T& s, Visit&& visit) {
   visit("printed_step_s", s.step.printed_step);
   visit("flow_cells", s.flow_cells);
   visit("flow_spacing_m", s.flow_spacing);
+  visit("memory_bytes", s.memory);
   visit("blockage", s.blockage);
   visit("speed_m_s", s.air.speed);
   visit("density_kg_m3", s.air.density);

@@ -1,5 +1,7 @@
 #include "ripstop/run/inflation.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -55,6 +57,7 @@ InflationResult result_of(const Case& given, const LoadSource& source, const Inf
   r.margins = case_margins(given, solver.mesh(), state.record.peak_tension, r.stress);
   r.energy_residual = energy_residual(history.frames);
   r.estimate = opening_estimate(given.parachute, source.steady_drag.value_or(steady));
+  r.settled = settled(r.summary, solver.problem().settings.duration_s);
   r.steps = state.cloth.steps;
   r.step_changes = state.step_changes;
   return r;
@@ -66,12 +69,24 @@ std::string to_json(const InflationResult& result) {
   return json_text(result);
 }
 
+double opening_seconds(const Inflation& solver, const InflationState& start) {
+  constexpr double nodes_a_second = 1.25e8;  // docs/tables/performance.md
+  return solver.problem().settings.duration_s / start.step * solver.mesh().node_count() / nodes_a_second;
+}
+
 InflationSolution run_inflation(const Case& given, const LoadSource& source, InflationProblem problem,
                                 InflationObserver& observer) {
   Inflation solver(std::move(problem));
   InflationSolution solution;
   auto& [result, state, history] = solution;
   state = solver.start();
+  constexpr double year = 3.15e7;
+  if (const double seconds = opening_seconds(solver, state); seconds > year)
+    throw Error(
+        ExitCode::usage,
+        fmt::format("inflation.duration_s = {:g}: at steps of {:.2g} s that would take {:.2g} years; take "
+                    "a shorter time, or longer springs (inflation.line_segment_m)",
+                    solver.problem().settings.duration_s, state.step, seconds / year));
   observer.begin(solver, state, history);
   while (state.blocks < solver.blocks()) {
     const std::vector<HistoryRow> rows = solver.advance(state);

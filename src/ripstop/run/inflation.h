@@ -16,12 +16,14 @@ namespace ripstop {
 /// The numbers of one opening: result.json.
 struct InflationResult {
   std::string title;
+  std::optional<std::string> inputs_hash;  // of a run in a folder: that of its run.json
   double peak_load = 0, peak_time = 0;     // over every step [N], [s]
   std::optional<double> low_pass;          // cutoff [Hz]; absent, as what follows from it: none asked for
   std::optional<double> smooth_peak;       // low-passed [N]
   std::optional<double> smooth_peak_time;  // [s]
   std::optional<double> smooth_overshoot;  // over the steady load
   InflationSummary summary;
+  bool settled = false;  // the steady load is one: settled() of the summary
   double overshoot = 0;  // peak over steady load
   double impulse = 0;    // [N s]
   double pressure = 0;   // [Pa]
@@ -47,6 +49,7 @@ struct InflationResult {
 template <Of<InflationResult> T, class Visit>
 void each_member(T& r, Visit&& visit) {
   visit("title", r.title);
+  visit("inputs_hash", r.inputs_hash);
   visit("peak_load_n", r.peak_load);
   visit("peak_time_s", r.peak_time);
   visit("low_pass_hz", r.low_pass);
@@ -58,6 +61,7 @@ void each_member(T& r, Visit&& visit) {
   visit("settling_time_s", r.summary.settling_time);
   visit("steady_load_n", r.summary.steady_load);
   visit("steady_load_deviation", r.summary.unsteadiness);
+  visit("settled", r.settled);
   visit("overshoot", r.overshoot);
   visit("impulse_n_s", r.impulse);
   visit("pressure_pa", r.pressure);
@@ -121,7 +125,11 @@ struct InflationSolution {
   InflationHistory history;
 };
 
-/// The whole opening of the case under the pressure of `problem`. Throws as Inflation.
+/// How long an opening will take on one thread, about, at the step that it begins with [s].
+double opening_seconds(const Inflation& solver, const InflationState& start);
+
+/// The whole opening of the case under the pressure of `problem`. Throws as Inflation,
+/// and Error(usage) where it would take more than a year.
 InflationSolution run_inflation(const Case& given, const LoadSource& source, InflationProblem problem,
                                 InflationObserver& observer);
 

@@ -154,7 +154,9 @@ void InflationFolder::ended(const Inflation& solver, const InflationState& state
     }
     write_pvd(folder_.own(fmt::format("{}.pvd", what)), series);
   }
-  write_file(folder_.own("result.json"), to_json(result));
+  InflationResult named = result;
+  named.inputs_hash = inputs_of_run(folder_.path());
+  write_file(folder_.own("result.json"), to_json(named));
   if (report_) write_run_report(folder_);
   folder_.seal();
   next_.ended(solver, state, history, result);
@@ -255,15 +257,30 @@ InflationState inflation_state_from_bytes(const std::string& bytes) {
   return from_cbor<InflationState>(bytes, format_version, "a checkpoint of an opening");
 }
 
+namespace {
+
+std::string solver_of(const LoadSource& source) {
+  return "inflation; pressure from " + source.text;
+}
+
+}  // namespace
+
+void check_inflation_in(const InflationFolderSettings& settings, const Case& given,
+                        const LoadSource& source) {
+  require_unclaimed(settings.run.folder);
+  if (holds_run(settings.run, given, solver_of(source))) finished_result(settings.run.folder);
+}
+
 std::optional<InflationResult> run_inflation_in(const InflationFolderSettings& settings, const Case& given,
                                                 const LoadSource& source,
                                                 const std::function<InflationProblem()>& problem,
                                                 InflationObserver& observer) {
-  const auto claimed =
-      open_run_folder(settings.run, given, "inflation; pressure from " + source.text, settings.threads);
+  const auto claimed = open_run_folder(settings.run, given, solver_of(source), settings.threads);
   if (finished_result(settings.run.folder)) return std::nullopt;
   InflationFolder files(*claimed, settings, observer);
-  return run_inflation(given, source, problem(), files).result;
+  InflationResult result = run_inflation(given, source, problem(), files).result;
+  result.inputs_hash = inputs_of_run(settings.run.folder);
+  return result;
 }
 
 }  // namespace ripstop

@@ -26,6 +26,9 @@ std::optional<InflationResult> run_inflation_in(const InflationFolderSettings& s
                                                 const std::function<InflationProblem()>& problem,
                                                 InflationObserver& observer);
 
+/// Throws what run_inflation_in() would throw before it asks for the problem, and touches nothing.
+void check_inflation_in(const InflationFolderSettings& settings, const Case& given, const LoadSource& source);
+
 /// Every double bit for bit. inflation_state_from_bytes() throws Error(bad_data) for anything else.
 std::string to_bytes(const InflationState& state);
 InflationState inflation_state_from_bytes(const std::string& bytes);

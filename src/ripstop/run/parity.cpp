@@ -1,5 +1,7 @@
 #include "ripstop/run/parity.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -78,6 +80,29 @@ ParityRow compare_engines(const ParitySettings& settings, const std::filesystem:
   return row;
 }
 
+/// A canopy that lies elsewhere has no drag, which both engines would agree on.
+void require_inside(const FlowGrid& grid, const std::vector<Triangle>& surface) {
+  if (surface.empty()) return;
+  Vec3 low = surface.front().a, high = low;
+  for (const Triangle& triangle : surface) {
+    for (const Vec3 p : {triangle.a, triangle.b, triangle.c}) {
+      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+  }
+  const Vec3 end = grid.origin + grid.size;
+  if (low.x > grid.origin.x && low.y > grid.origin.y && low.z > grid.origin.z && high.x < end.x &&
+      high.y < end.y && high.z < end.z)
+    return;
+  throw Error(
+      ExitCode::bad_data,
+      fmt::format("the surface reaches from ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g}) m; it must "
+                  "lie inside the box from ({:g}, {:g}, {:g}) to ({:g}, {:g}, {:g}) m: move it there "
+                  "(is it in millimetres?)",
+                  low.x, low.y, low.z, high.x, high.y, high.z, grid.origin.x, grid.origin.y, grid.origin.z,
+                  end.x, end.y, end.z));
+}
+
 }  // namespace
 
 std::string to_json(const ParityResult& result) {
@@ -90,8 +115,10 @@ ParityResult flow_parity(const ParitySettings& settings, const ParityEvents& eve
   problem.air.speed = settings.speed;
   problem.air.density = settings.density;
   if (settings.slip) problem.sides = Sides::slip;
+  require_inside(problem.grid, settings.surface);
   const std::vector<int> cut =
       cut_cells(problem.grid, settings.surface.empty() ? rigid_disk_gap_band({0, 0, 2}) : settings.surface);
+  if (cut.empty()) throw Error(ExitCode::bad_data, "the surface cuts no cell: its triangles have no area");
   std::optional<TemporaryFolder> temporary;
   const std::filesystem::path folder =
       settings.folder.empty() ? temporary.emplace("flow-parity").path : settings.folder;

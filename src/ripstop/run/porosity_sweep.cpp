@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "ripstop/case/resolve.h"
+#include "ripstop/core/error.h"
 
 namespace ripstop {
 
@@ -32,6 +33,9 @@ std::vector<double> cell_shifts(const Case& given, int shifts) {
 
 std::vector<SweepAxis> porosity_axes(const Case& given, const PorositySweep& sweep,
                                      const std::vector<MeasuredDrag>& measured) {
+  if (sweep.values.size() < 2)
+    throw Error(ExitCode::usage,
+                "one value of the porosity shows no slope: give two or more, parted by commas");
   SweepAxis condition{"condition", {}, {}}, knob{knob_name(sweep.knob), {}, {}}, shift{"shift_m", {}, {}};
   for (const MeasuredDrag& point : measured) {
     std::string name = fmt::format("{}", point.nominal_speed);

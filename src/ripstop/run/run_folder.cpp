@@ -99,6 +99,10 @@ std::unique_ptr<ClaimedFolder> open_run_folder(const RunSettings& settings, cons
   return folder;
 }
 
+std::optional<std::string> inputs_of_run(const fs::path& folder) {
+  return noted(folder, inputs);
+}
+
 std::optional<std::string> finished_result(const fs::path& folder) {
   if (!is_sealed(folder)) return std::nullopt;
   const std::vector<std::string> damaged = damaged_files(folder);
@@ -110,7 +114,15 @@ std::optional<std::string> finished_result(const fs::path& folder) {
             "with --fresh",
             folder.string(), fmt::join(damaged, ", ")));
   }
-  return read_file(folder / "result.json");
+  const std::string text = read_file(folder / "result.json");
+  const ordered_json result = ordered_json::parse(text, nullptr, false);
+  const auto of = result.is_object() ? result.find("inputs_hash") : result.end();
+  if (!result.is_object() || (of != result.end() && *of != ordered_json(inputs_of_run(folder).value_or(""))))
+    throw Error(
+        ExitCode::bad_data,
+        fmt::format("{}: result.json is not of the inputs of this folder; compute it again with --fresh",
+                    folder.string()));
+  return text;
 }
 
 }  // namespace ripstop

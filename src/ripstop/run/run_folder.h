@@ -33,8 +33,11 @@ bool holds_run(const RunSettings& settings, const Case& given, const std::string
 std::unique_ptr<ClaimedFolder> open_run_folder(const RunSettings& settings, const Case& given,
                                                const std::string& solver, int threads);
 
+/// Hash of what the run of this folder is of (`inputs_hash` of run.json and result.json).
+std::optional<std::string> inputs_of_run(const std::filesystem::path& folder);
+
 /// result.json of a run that had ended. Throws Error(bad_data) when it or any other file of the run was
-/// lost or changed since.
+/// lost or changed since, or is of other inputs than the folder.
 std::optional<std::string> finished_result(const std::filesystem::path& folder);
 
 }  // namespace ripstop

@@ -1,5 +1,7 @@
 #include "ripstop/run/steady.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -7,6 +9,7 @@
 #include <vector>
 
 #include "ripstop/case/assemble.h"
+#include "ripstop/case/cost.h"
 #include "ripstop/run/engine.h"
 #include "ripstop/run/json.h"
 #include "ripstop/run/steady_parts.h"
@@ -107,7 +110,14 @@ SteadyParts steady_parts(const Case& given, const SteadySettings& settings) {
   return parts;
 }
 
+void require_steady_memory(const Case& given) {
+  const Cost cost = cost_of(given);
+  require_memory(cost.memory,
+                 fmt::format("a steady run on {:.3g} cells and {:.3g} nodes", cost.cells, cost.nodes));
+}
+
 SteadySolution run_steady(const Case& given, SteadyObserver& observer, const SteadySettings& settings) {
+  require_steady_memory(given);
   if (given.payload.mass_kg) return run_with_payload(given, observer, settings);
   const SteadyParts parts = steady_parts(given, settings);
   SteadySolver& solver = *parts.solver;

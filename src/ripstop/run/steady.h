@@ -71,8 +71,9 @@ inline constexpr double payload_tolerance = 1e-3;
 /// The numbers of one run: result.json.
 struct SteadyResult {
   std::string title;
-  double speed = 0, density = 0;  // [m/s], [kg/m3]
-  double approach_speed = 0;      // what comes to the canopy, coupling/approach.h [m/s]
+  std::optional<std::string> inputs_hash;  // of a run in a folder: that of its run.json
+  double speed = 0, density = 0;           // [m/s], [kg/m3]
+  double approach_speed = 0;               // what comes to the canopy, coupling/approach.h [m/s]
   double drag = 0, drag_area = 0, drag_coefficient = 0;         // [N], [m2], -
   double reference_area = 0;                                    // S0 [m2]
   std::optional<std::array<double, 2>> known_drag_coefficient;  // Knacke's range of the type
@@ -93,6 +94,7 @@ struct SteadyResult {
 template <Of<SteadyResult> T, class Visit>
 void each_member(T& r, Visit&& visit) {
   visit("title", r.title);
+  visit("inputs_hash", r.inputs_hash);
   visit("speed_m_s", r.speed, in_table);
   visit("approach_speed_m_s", r.approach_speed, in_table);
   visit("density_kg_m3", r.density, in_table);
@@ -125,6 +127,8 @@ void each_member(T& r, Visit&& visit) {
   visit("measured", r.measured);
 }
 std::string to_json(const SteadyResult& result);
+/// Throws Error(resources) when this machine has not the memory for a steady run of the case.
+void require_steady_memory(const Case& given);
 /// Throws Error(bad_data) when `json` is no result of a steady run.
 SteadyResult steady_result_from_json(const std::string& json);
 

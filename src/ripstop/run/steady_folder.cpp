@@ -99,7 +99,9 @@ void SteadyFolder::ended(const SteadyRun& run, const SteadyState& state, const S
   write_stl(folder_.own("canopy.stl"), surface_of(run.solver.cells(), state.shape));
   write_drag_plot(state, result.title);
   write_pressure(run, state, result);
-  write_file(folder_.own("result.json"), to_json(result));
+  SteadyResult named = result;
+  named.inputs_hash = inputs_of_run(folder_.path());
+  write_file(folder_.own("result.json"), to_json(named));
   if (report_)
     if (const std::string failure = write_run_report(folder_); !failure.empty()) next_.warned(failure);
   folder_.seal();
@@ -226,7 +228,18 @@ SteadyFolderRun run_steady_in(const SteadyFolderSettings& settings, const Case& 
   if (const auto finished = finished_result(folder)) return {true, steady_result_from_json(*finished)};
   const fs::path flow_folder = engine_of(given).needs_folder ? claimed->own("flow/") : fs::path();
   SteadyFolder files(*claimed, settings, observer);
-  return {false, run_steady(given, files, {threads, flow_folder, settings.hostfile}).result};
+  SteadyResult result = run_steady(given, files, {threads, flow_folder, settings.hostfile}).result;
+  result.inputs_hash = inputs_of_run(folder);
+  return {false, std::move(result)};
+}
+
+void check_steady_in(const SteadyFolderSettings& settings, const Case& given) {
+  const fs::path& folder = settings.run.folder;
+  require_unclaimed(folder);
+  const bool goes_on =
+      holds_run(settings.run, given, engine_of(given).name(engine_options(given)));  // the engine is there
+  if (goes_on && finished_result(folder)) return;
+  require_steady_memory(given);
 }
 
 double drag_for_opening(const fs::path& folder, const Case& opening) {

@@ -29,6 +29,9 @@ struct SteadyFolderRun {
 SteadyFolderRun run_steady_in(const SteadyFolderSettings& settings, const Case& given,
                               SteadyObserver& observer);
 
+/// Throws what run_steady_in() would throw before it computes, and touches nothing.
+void check_steady_in(const SteadyFolderSettings& settings, const Case& given);
+
 /// Drag of the converged run in a folder, for an opening of the same parachute, but for its mesh, in the same
 /// air. Throws Error(usage) for another parachute, speed or density, Error(bad_data) for a run that is
 /// damaged or has not converged.

@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <condition_variable>
-#include <fstream>
 #include <map>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <system_error>
 #include <thread>
 
+#include "ripstop/case/cost.h"
 #include "ripstop/case/resolve.h"
 #include "ripstop/core/build_info.h"
 #include "ripstop/core/file.h"
@@ -23,8 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-// Measured: 0.97 GB for 1.5 million cells and 26,000 nodes with the built-in engine.
-constexpr double bytes_a_cell = 700, bytes_a_run = 2e8;
+constexpr double most_runs = 10'000;
 
 std::string part_of_name(const std::string& text) {
   std::string name;
@@ -50,16 +50,6 @@ std::string folder_name(const std::vector<SweepAxis>& axes, const std::vector<st
   return axes.empty() ? "run" : name;
 }
 
-double free_memory() {
-  std::ifstream file("/proc/meminfo");
-  std::string word;
-  while (file >> word) {
-    double kilobytes = 0;
-    if (word == "MemAvailable:" && file >> kilobytes) return 1024 * kilobytes;
-  }
-  return 4e9;
-}
-
 RunSettings run_settings(const SweepPoint& point, const SweepSettings& settings) {
   return {settings.folder / point.folder, settings.fresh, settings.fields, false};
 }
@@ -69,16 +59,7 @@ std::unique_ptr<ClaimedFolder> open_sweep_folder(const std::vector<SweepPoint>& 
                                                  const SweepSettings& settings) {
   const fs::path& folder = settings.folder;
   const fs::path description = folder / "sweep.json";
-  if (!fs::exists(description) && !foreign_files(folder).empty()) {
-    throw Error(
-        ExitCode::usage,
-        fmt::format("{}: is not empty and holds no sweep of Ripstop (no sweep.json); choose another --out",
-                    folder.string()));
-  }
-  // Before anything of an earlier sweep is touched.
-  for (const SweepPoint& point : points)
-    holds_run(run_settings(point, settings), point.given,
-              engine_of(point.given).name(engine_options(point.given)));
+  check_sweep(points, settings);  // before anything of an earlier sweep is touched
   auto claimed = std::make_unique<ClaimedFolder>(folder);
   nlohmann::ordered_json j;
   j["program"] = "ripstop";
@@ -241,6 +222,13 @@ std::vector<SweepPoint> sweep_points(const fs::path& case_file, const Overrides&
                     fmt::format("{}: the value {} is there twice", axis.name, axis.values[i]));
     }
   }
+  double runs = 1;
+  for (const SweepAxis& axis : axes) runs *= double(axis.values.size());
+  if (runs > most_runs)
+    throw Error(ExitCode::usage,
+                fmt::format("{:.0f} runs (every combination of the values); at most {:.0f} are "
+                            "done in one sweep: vary less at once",
+                            runs, most_runs));
   std::vector<SweepPoint> points;
   std::map<std::vector<std::size_t>, int> index;
   std::map<std::string, int> names;
@@ -275,13 +263,26 @@ std::vector<SweepPoint> sweep_points(const fs::path& case_file, const Overrides&
   return points;
 }
 
+void check_sweep(const std::vector<SweepPoint>& points, const SweepSettings& settings) {
+  const fs::path& folder = settings.folder;
+  if (!fs::exists(folder / "sweep.json") && !foreign_files(folder).empty()) {
+    throw Error(
+        ExitCode::usage,
+        fmt::format("{}: is not empty and holds no sweep of Ripstop (no sweep.json); choose another --out",
+                    folder.string()));
+  }
+  require_unclaimed(folder);
+  for (const SweepPoint& point : points)
+    check_steady_in({run_settings(point, settings), 0, {}, {}}, point.given);
+}
+
 int fitting_jobs(const std::vector<SweepPoint>& points) {
   const int cores = ThreadTeam().size();
   double bytes = 0;
   int ranks = 1;
   for (const SweepPoint& point : points) {
     const FlowSettings flow = resolve(point.given).flow;
-    bytes = std::max(bytes, bytes_a_run + bytes_a_cell * flow.cells[0] * flow.cells[1] * flow.cells[2]);
+    bytes = std::max(bytes, cost_of(point.given).memory);
     if (engine_of(point.given).can.ranks) ranks = std::max(ranks, flow.ranks);
   }
   const int by_memory = static_cast<int>(std::min(1e6, 0.8 * free_memory() / bytes));
@@ -295,7 +296,11 @@ std::vector<SweepRow> run_sweep(const std::vector<SweepPoint>& points, const Swe
                               std::max(1, static_cast<int>(points.size())));
   Board board(points, settings, events, jobs);
   std::vector<std::thread> workers;
-  for (int i = 1; i < jobs; ++i) workers.emplace_back([&] { board.work(); });
+  try {
+    for (int i = 1; i < jobs; ++i) workers.emplace_back([&] { board.work(); });
+  } catch (const std::system_error&) {
+    // Those that could be started, and this one, do the work.
+  }
   board.work();
   for (std::thread& worker : workers) worker.join();
   return std::move(board).rows();

@@ -33,7 +33,8 @@ struct SweepPoint {
 
 /// Every combination of the axes' values (a table's rows are one axis). The middle of all axes starts cold,
 /// every other point from its neighbour one step nearer to the middle, so that the order of work does not
-/// change results. Throws what read_case() throws, Error(usage) for a value twice on one axis.
+/// change results. Throws what read_case() throws, Error(usage) for a value twice on one axis and for more than
+/// 10,000 combinations, before any case is read.
 std::vector<SweepPoint> sweep_points(const std::filesystem::path& case_file, const Overrides& overrides,
                                      const std::vector<SweepAxis>& axes);
 
@@ -59,6 +60,9 @@ struct SweepEvents {
   std::function<void(std::size_t point, const SteadyProgress&, const SteadyState&)> progress;
   std::function<void(std::size_t point, const std::vector<SweepRow>&)> ended;  // with a result or an error
 };
+
+/// Throws what run_sweep() in this folder would throw before its first run, and touches nothing.
+void check_sweep(const std::vector<SweepPoint>& points, const SweepSettings& settings);
 
 /// How many of these runs fit side by side into this machine's cores and free memory.
 int fitting_jobs(const std::vector<SweepPoint>& points);

@@ -53,11 +53,17 @@ std::vector<std::string> strain_warnings(const Case& given, double largest_cloth
   return all;
 }
 
-std::vector<std::string> warnings_of(const Case& given, double largest_cloth_strain) {
+std::vector<std::string> case_warnings(const Case& given) {
   std::vector<std::string> all = mesh_warnings(given);
-  for (const std::vector<std::string>& more :
-       {grid_warnings(given), porosity_warnings(given), strain_warnings(given, largest_cloth_strain)})
+  for (const std::vector<std::string>& more : {grid_warnings(given), porosity_warnings(given)})
     all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+std::vector<std::string> warnings_of(const Case& given, double largest_cloth_strain) {
+  std::vector<std::string> all = case_warnings(given);
+  const std::vector<std::string> strain = strain_warnings(given, largest_cloth_strain);
+  all.insert(all.end(), strain.begin(), strain.end());
   return all;
 }
 

@@ -14,6 +14,8 @@ std::vector<std::string> mesh_warnings(const Case& given);
 std::vector<std::string> grid_warnings(const Case& given);
 /// Permeability of another model than the one that is used.
 std::vector<std::string> porosity_warnings(const Case& given);
+/// What is doubtful before anything is computed: the three above.
+std::vector<std::string> case_warnings(const Case& given);
 /// Materials stretched beyond their tests, and such.
 std::vector<std::string> strain_warnings(const Case& given, double largest_cloth_strain);
 /// All of them.

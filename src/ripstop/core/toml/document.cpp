@@ -93,6 +93,10 @@ std::string read_text_file(const std::filesystem::path& file) {
   std::error_code failure;
   if (std::filesystem::is_directory(file, failure))
     throw Error(ExitCode::io, fmt::format("{}: is a folder, not a file", file.string()));
+  if (std::filesystem::exists(file, failure) && !std::filesystem::is_regular_file(file, failure))
+    throw Error(ExitCode::io, fmt::format("{}: is no file but a pipe or a device; write what comes out of it "
+                                          "into a file",
+                                          file.string()));
   std::ifstream stream(file, std::ios::binary);
   if (!stream)
     throw Error(ExitCode::io, fmt::format("{}: cannot be opened; is the path right?", file.string()));

@@ -9,6 +9,8 @@
 #include <limits>
 #include <set>
 
+#include "ripstop/core/visible.h"
+
 namespace ripstop {
 namespace {
 
@@ -126,6 +128,7 @@ class Reader {
   const std::string& file_;
   Origins& origins_;
   std::vector<Problem>& problems_;
+  Range range_;  // of the key that is read
 };
 
 bool Reader::is_a(Node::Type type, const Node& node, const std::string& name, const std::string& expected) {
@@ -182,9 +185,13 @@ void Reader::set(int& target, const Node& node, const std::string& name) {
   if (!is_integral(node))
     return report(node, name, "an integer",
                   is_number(node) ? "must be a whole number" : "must be an integer, not " + type_name(node));
-  // A number beyond int is beyond every range too: the nearest int keeps it out of range.
+  // Beyond int is beyond every range: told here, as the number that was given.
   constexpr double limit = std::numeric_limits<int>::max();
-  target = static_cast<int>(std::clamp(node.number, -limit, limit));
+  if (std::abs(node.number) > limit) {
+    const std::string allowed = range_.text().empty() ? fmt::format("at most {}", limit) : range_.text();
+    return report(node, name, allowed, "must be " + allowed);
+  }
+  target = static_cast<int>(node.number);
   accept(node, name);
 }
 
@@ -270,6 +277,7 @@ void Reader::unknown(const Node& node, const std::string& prefix, const std::vec
 }
 
 void Reader::value(const Field& field, const Node& node, const std::string& name) {
+  range_ = field.range;
   std::visit([&](const auto& target) { set(target, node, name); }, field.value);
 }
 
@@ -329,11 +337,10 @@ void Reader::table(const Fields& fields, const Node& node, const std::string& pr
 /// What a text must be and is not, as Problem::allowed and Problem::message; both empty when it is.
 std::pair<std::string, std::string> refusal(const Text& target) {
   const std::string& text = *target.value;
-  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
   const auto starts_character = [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; };
   if (target.is_name && !is_name(text))
     return {"a name", "must be a name of at most 64 letters, digits, '.', '_' and '-'"};
-  if (std::any_of(text.begin(), text.end(), is_control))
+  if (has_control(text))
     return {"text without control characters", "must not have line breaks or control characters"};
   if (std::count_if(text.begin(), text.end(), starts_character) > target.max_length) {
     const std::string allowed = fmt::format("at most {} characters", target.max_length);
@@ -441,13 +448,8 @@ std::string quoted(const std::string& text) {
   while (end < text.size() && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80)
     --end;  // whole characters
   std::string result = "\"";
-  for (char c : text.substr(0, end)) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20 || byte == 0x7f)
-      result += fmt::format("\\x{:02x}", byte);
-    else
-      result += c;
-  }
+  for (const char c : visible(text.substr(0, end)))
+    result += c == '\n' ? "\\x0a" : c == '\t' ? "\\x09" : std::string(1, c);
   return result + (end < text.size() ? "...\"" : "\"");
 }
 

@@ -2,13 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
+#include <limits>
 
 #include "ripstop/core/error.h"
+#include "ripstop/core/file.h"
 
 namespace ripstop::openfoam {
 namespace {
@@ -18,12 +21,10 @@ namespace {
 class Cursor {
  public:
   explicit Cursor(const std::filesystem::path& path) : path_(path) {
-    std::ifstream in(path, std::ios::binary | std::ios::ate);
-    if (!in) throw Error(ExitCode::io, fmt::format("OpenFOAM's file {} is missing", path.string()));
-    text_.resize(static_cast<std::size_t>(in.tellg()));
-    in.seekg(0);
-    in.read(text_.data(), static_cast<std::streamsize>(text_.size()));
-    if (!in) fail("cannot be read");
+    std::error_code error;
+    if (!std::filesystem::exists(path, error))
+      throw Error(ExitCode::io, fmt::format("OpenFOAM's file {} is missing", path.string()));
+    text_ = read_file(path);
     read_header();
   }
 
@@ -67,6 +68,20 @@ class Cursor {
     if (!(value >= 0 && value < 4e9)) fail("a list has no valid length");
     return static_cast<std::size_t>(value);
   }
+  /// A length that was damaged is noticed before so much is allocated: a number in text takes two characters.
+  void require_room(std::size_t count, std::size_t bytes) const {
+    if (count > (text_.size() - std::min(at_, text_.size())) / (binary_ ? bytes : 2))
+      fail(fmt::format("a list of {} numbers is longer than the rest of the file", count));
+  }
+
+  /// A whole number as OpenFOAM's labels are: 32 bits.
+  int label() {
+    const double value = number();
+    constexpr double most = std::numeric_limits<int>::max();
+    if (!(std::abs(value) <= most) || value != std::floor(value))
+      fail("a label is no whole number of 32 bits");
+    return static_cast<int>(value);
+  }
   /// To the end of this entry, over nested braces and brackets. Only for entries without binary blocks.
   void skip_entry() {
     for (int depth = 0;;) {
@@ -80,6 +95,7 @@ class Cursor {
 
   /// count values of `components` numbers: "(binary block)" or ASCII.
   std::vector<double> numbers(std::size_t count, int components) {
+    require_room(count * static_cast<std::size_t>(components), sizeof(double));
     std::vector<double> values(count * static_cast<std::size_t>(components));
     if (values.empty()) {
       if (peek() == "(") next(), expect(")");
@@ -99,6 +115,7 @@ class Cursor {
     return values;
   }
   std::vector<int> labels(std::size_t count) {
+    require_room(count, sizeof(int));
     std::vector<int> values(count);
     if (values.empty()) return values;
     expect("(");
@@ -106,7 +123,7 @@ class Cursor {
       static_assert(sizeof(int) == sizeof(std::int32_t));
       block(values.data(), values.size() * sizeof(int));
     } else {
-      for (int& value : values) value = static_cast<int>(number());
+      for (int& value : values) value = label();
     }
     expect(")");
     return values;
@@ -236,7 +253,9 @@ std::vector<int> read_labels(const std::filesystem::path& path) {
 
 std::vector<Patch> read_boundary(const std::filesystem::path& path) {
   Cursor file(path);
-  std::vector<Patch> patches(file.size());
+  const std::size_t count = file.size();
+  file.require_room(count, 1);
+  std::vector<Patch> patches(count);
   file.expect("(");
   for (Patch& patch : patches) {
     patch.name = file.next();
@@ -244,7 +263,7 @@ std::vector<Patch> read_boundary(const std::filesystem::path& path) {
     for (std::string key = file.next(); key != "}"; key = file.next()) {
       if (key.empty()) file.fail("ends within a patch");
       if (key == "nFaces" || key == "startFace") {
-        (key == "nFaces" ? patch.faces : patch.start) = static_cast<int>(file.number());
+        (key == "nFaces" ? patch.faces : patch.start) = file.label();
         file.expect(";");
       } else {
         file.skip_entry();

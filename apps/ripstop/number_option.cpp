@@ -1,0 +1,172 @@
+#include "number_option.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+#include "ripstop/case/case.h"
+#include "ripstop/core/error.h"
+#include "ripstop/core/visible.h"
+
+namespace ripstop {
+namespace {
+
+constexpr const char *number_type = "NUMBER", *integer_type = "INTEGER";
+
+[[noreturn]] void refuse(const std::string& option, const std::string& text, const std::string& why) {
+  throw Error(ExitCode::usage, fmt::format("{} = {}: {}", option, visible(text), why));
+}
+
+double parsed(const std::string& option, const std::string& text) {
+  double value = 0;
+  const char* last = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data() + (text.starts_with('+') ? 1 : 0), last, value);
+  if (error == std::errc::result_out_of_range) refuse(option, text, "must be a finite number");
+  if (error != std::errc() || stop != last) refuse(option, text, "must be a number");
+  return value;
+}
+
+double in_range(const std::string& option, const std::string& text, Range range) {
+  const double value = parsed(option, text);
+  if (!std::isfinite(value)) refuse(option, text, "must be a finite number");
+  if (!range.contains(value)) refuse(option, text, "must be " + range.text());
+  return value;
+}
+
+int whole(const std::string& option, const std::string& text, Range range) {
+  const double value = in_range(option, text, range);
+  if (value != std::floor(value) || std::abs(value) > std::numeric_limits<int>::max())
+    refuse(option, text, "must be a whole number");
+  return static_cast<int>(value);
+}
+
+template <class Take>
+CLI::Option* add(CLI::App& command, const std::string& option, const std::string& help, const char* type,
+                 Take take) {
+  return command.add_option_function<std::string>(option, take, help)->type_name(type);
+}
+
+/// `values` is an array or an optional one.
+template <class Values>
+CLI::Option* three(CLI::App& command, const std::string& option, Values& values, Range range,
+                   const std::string& help) {
+  return command
+      .add_option_function<std::vector<std::string>>(
+          option,
+          [&values, option, range](const std::vector<std::string>& texts) {
+            std::array<int, 3> read{};
+            for (std::size_t i = 0; i < 3; ++i) read[i] = whole(option, texts.at(i), range);
+            values = read;
+          },
+          with_range(help, range))
+      ->delimiter(',')
+      ->expected(3)
+      ->type_name("INTEGERS");
+}
+
+/// Of one key, however deep its table lies.
+std::optional<Field> find_key(const Fields& fields, const std::string& key) {
+  const std::string first = key.substr(0, key.find('.'));
+  for (const Field& field : fields.list()) {
+    if (field.key != first) continue;
+    if (first == key) return field;
+    if (const auto* table = std::get_if<Subtable>(&field.value))
+      return find_key(table->fields(), key.substr(first.size() + 1));
+  }
+  return {};
+}
+
+Field key_field(const std::string& key) {
+  Case scratch;
+  Fields fields;
+  describe(fields, scratch);
+  const std::optional<Field> found = find_key(fields, key);
+  if (!found) throw std::logic_error("no key " + key);
+  return *found;
+}
+
+}  // namespace
+
+Range key_range(const std::string& key) {
+  return key_field(key).range;
+}
+
+std::string key_type(const std::string& key) {
+  const Field field = key_field(key);
+  const bool integer =
+      std::holds_alternative<int*>(field.value) || std::holds_alternative<std::optional<int>*>(field.value);
+  return integer ? integer_type : number_type;
+}
+
+std::string with_range(const std::string& help, Range range) {
+  return range.text().empty() ? help : help + "; " + range.text();
+}
+
+CLI::Option* add_number(CLI::App& command, const std::string& option, double& value, Range range,
+                        const std::string& help) {
+  return add(command, option, with_range(help, range), number_type,
+             [&value, option, range](const std::string& text) { value = in_range(option, text, range); });
+}
+
+CLI::Option* add_number(CLI::App& command, const std::string& option, std::optional<double>& value,
+                        Range range, const std::string& help) {
+  return add(command, option, with_range(help, range), number_type,
+             [&value, option, range](const std::string& text) { value = in_range(option, text, range); });
+}
+
+CLI::Option* add_number(CLI::App& command, const std::string& option, int& value, Range range,
+                        const std::string& help) {
+  return add(command, option, with_range(help, range), integer_type,
+             [&value, option, range](const std::string& text) { value = whole(option, text, range); });
+}
+
+CLI::Option* add_number(CLI::App& command, const std::string& option, std::optional<int>& value, Range range,
+                        const std::string& help) {
+  return add(command, option, with_range(help, range), integer_type,
+             [&value, option, range](const std::string& text) { value = whole(option, text, range); });
+}
+
+CLI::Option* add_numbers(CLI::App& command, const std::string& option, std::vector<double>& values,
+                         Range range, const std::string& help) {
+  return command
+      .add_option_function<std::vector<std::string>>(
+          option,
+          [&values, option, range](const std::vector<std::string>& texts) {
+            values.clear();
+            for (const std::string& text : texts) values.push_back(in_range(option, text, range));
+          },
+          with_range(help, range))
+      ->delimiter(',')
+      ->type_name("NUMBERS");
+}
+
+CLI::Option* add_three(CLI::App& command, const std::string& option, std::array<int, 3>& values, Range range,
+                       const std::string& help) {
+  return three(command, option, values, range, help);
+}
+
+CLI::Option* add_three(CLI::App& command, const std::string& option,
+                       std::optional<std::array<int, 3>>& values, Range range, const std::string& help) {
+  return three(command, option, values, range, help);
+}
+
+CLI::Option* add_key_number(CLI::App& command, const std::string& option, const std::string& key,
+                            std::optional<double>& value, const std::string& help) {
+  return add(command, option, with_range(help, key_range(key)), number_type,
+             [&value, option](const std::string& text) { value = parsed(option, text); });
+}
+
+CLI::Option* add_key_number(CLI::App& command, const std::string& option, const std::string& key,
+                            std::optional<int>& value, const std::string& help) {
+  return add(command, option, with_range(help, key_range(key)), integer_type,
+             [&value, option, range = key_range(key)](const std::string& text) {
+               const double number = parsed(option, text);
+               const bool fits = std::abs(number) <= std::numeric_limits<int>::max();
+               value = whole(option, text, fits ? Range{} : range);
+             });
+}
+
+}  // namespace ripstop

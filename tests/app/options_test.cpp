@@ -1,0 +1,123 @@
+// Every option is a key with its range, in every command, and what is typed wrong is said in one sentence.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <regex>
+#include <sstream>
+
+#include "program.h"
+#include "ripstop/core/file.h"
+
+namespace ripstop {
+namespace {
+
+const std::string examples = RIPSTOP_SOURCE_DIR "/examples/";
+const std::string stratos = examples + "stratos-iv/case.toml";
+
+/// Commands as typed, with what they need beside the option that is tried.
+const std::map<std::string, std::vector<std::string>> commands = {
+    {"check", {stratos}},
+    {"schema", {}},
+    {"steady", {stratos, "--dry-run"}},
+    {"fabric", {stratos}},
+    {"fit", {examples + "fit-ripstop/bench.toml"}},
+    {"coupon", {"f-111"}},
+    {"inflate", {stratos, "--check"}},
+    {"pattern", {stratos}},
+    {"import", {examples + "elliptical/elliptical.chute"}},
+    {"flow-parity", {}},
+    {"calibrate damping", {stratos}},
+    {"calibrate porosity", {stratos}},
+    {"sweep", {stratos, "--speeds", "10", "--dry-run"}},
+    {"compare", {stratos, "--linear"}},
+    {"photogrammetry", {RIPSTOP_SOURCE_DIR "/validation/ojf/stratos-iv-images.toml"}},
+    {"descent", {"none"}},
+    {"report", {"none"}},
+    {"load", {stratos}},
+    {"size", {}},
+    {"export", {"json", "none"}}};
+
+std::vector<std::string> words(const std::string& text) {
+  std::istringstream in(text);
+  return {std::istream_iterator<std::string>(in), {}};
+}
+
+std::vector<std::string> matches(const std::string& text, const char* pattern) {
+  const std::regex all(pattern, std::regex::multiline);
+  std::vector<std::string> found;
+  for (std::sregex_iterator i(text.begin(), text.end(), all), end; i != end; ++i) found.push_back((*i)[1]);
+  return found;
+}
+
+TEST(Options, TheTableOfThisTestHasEveryCommand) {
+  for (const std::string parent : {"", "calibrate "}) {
+    std::vector<std::string> help = words(parent);
+    help.push_back("--help");
+    const std::string text = ripstop_with(help).output;
+    const std::size_t list = text.find("Subcommands:");
+    ASSERT_NE(list, std::string::npos) << text;
+    const std::vector<std::string> names = matches(text.substr(list), "^  ([a-z-]+) ");
+    EXPECT_GE(names.size(), 2u);
+    for (const std::string& name : names)
+      EXPECT_TRUE(name == "calibrate" || commands.contains(parent + name)) << parent + name;
+  }
+}
+
+TEST(Options, NoNumberOfAnyCommandIsTakenBeyondItsRange) {
+  int tried = 0;
+  for (const auto& [command, needed] : commands) {
+    std::vector<std::string> help = words(command);
+    help.push_back("--help");
+    const std::string text = ripstop_with(help).output;
+    EXPECT_TRUE(matches(text, "^  (--[a-z-]+) (?:FLOAT|INT|UINT)(?![A-Z])").empty())
+        << command << ": an option without a range: " << text;
+    for (const std::string& option : matches(text, "^  (--[a-z-]+) (?:NUMBER|INTEGER)")) {
+      const bool three = option == "--grid" || option == "--cells";
+      const bool of_three = three && command != "coupon";
+      for (const std::string value : {"nan", "inf", "1e300", "-1e300", "12abc"}) {
+        std::vector<std::string> arguments = words(command);
+        arguments.insert(arguments.end(), needed.begin(), needed.end());
+        arguments.push_back(option + "=" + value + (of_three ? "," + value + "," + value : ""));
+        const Finished run = ripstop_with(arguments, RIPSTOP_SOURCE_DIR, 20);
+        EXPECT_EQ(run.code, 2) << command << " " << arguments.back() << ": " << run.output;
+        EXPECT_NE(run.output.find(option), std::string::npos) << command << " " << run.output;
+        EXPECT_LT(run.output.size(), 400u) << run.output;  // no limit of 300 digits
+        ++tried;
+      }
+    }
+  }
+  EXPECT_GT(tried, 250);  // of some 60 options
+}
+
+TEST(Options, TheHelpShowsTheRange) {
+  EXPECT_NE(ripstop_with({"inflate", "--help"}).output.find("above 0 and at most 1000"), std::string::npos);
+  const std::string coupon = ripstop_with({"coupon", "--help"}).output;
+  EXPECT_NE(coupon.find("above 0 and at most 2"), std::string::npos) << coupon;
+}
+
+TEST(Options, AKeyIsShownAsItWasGiven) {
+  const Finished run = ripstop_with({"check", stratos, "--set", "parachute.mesh.cloth_nodes=1e12"});
+  EXPECT_EQ(run.code, 2);
+  EXPECT_NE(run.output.find("parachute.mesh.cloth_nodes = 1000000000000: must be at least 500 and at most"),
+            std::string::npos)
+      << run.output;
+}
+
+TEST(Options, AMistypedCommandOrOptionIsNamedWithWhatWasMeant) {
+  const Finished command = ripstop_with({"chekc", stratos});
+  EXPECT_EQ(command.code, 2);
+  EXPECT_NE(command.output.find("\"chekc\" is no command; did you mean check?"), std::string::npos)
+      << command.output;
+  const Finished nested = ripstop_with({"calibrate", "dampign", stratos});
+  EXPECT_EQ(nested.code, 2);
+  EXPECT_NE(nested.output.find("did you mean damping?"), std::string::npos) << nested.output;
+  const Finished option = ripstop_with({"check", stratos, "--sped", "20"});
+  EXPECT_EQ(option.code, 2);
+  EXPECT_NE(option.output.find("did you mean --speed?"), std::string::npos) << option.output;
+  EXPECT_NE(option.output.find("ripstop check --help"), std::string::npos) << option.output;
+  for (const Finished& run : {command, nested, option, ripstop_with({"check"})})
+    EXPECT_LT(run.output.size(), 300u) << run.output;  // one sentence, not a page of help
+}
+
+}  // namespace
+}  // namespace ripstop
