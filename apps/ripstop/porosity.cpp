@@ -190,6 +190,7 @@ int calibrate(Options& options) {
   if (sweep.knob == PorosityKnob::permeability) sweep.values = options.permeabilities;
   if (sweep.values.empty()) sweep.values = {0.18, 0.20, 0.22, 0.24};
   std::sort(sweep.values.begin(), sweep.values.end());
+  require_slope(sweep);
   const PorosityKnob knob = sweep.knob;
   const std::vector<MeasuredDrag> measured = measured_points(options, given);
   const std::vector<SweepAxis> axes = porosity_axes(given, sweep, measured);

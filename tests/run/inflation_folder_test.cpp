@@ -93,7 +93,10 @@ TEST_F(InflationFolderTest, InMemoryTheOpeningIsThatOfTheFolder) {
   const auto in_folder = open("run", quiet);
   ASSERT_TRUE(in_folder);
   EXPECT_FALSE(open("run", quiet));  // finished: only shown
-  const InflationSolution in_memory = run_inflation(given, {"given", {}}, problem(), quiet);
+  InflationSolution in_memory = run_inflation(given, {"given", {}}, problem(), quiet);
+  EXPECT_FALSE(in_memory.result.inputs_hash);  // that of a folder's run.json
+  in_memory.result.inputs_hash = in_folder->inputs_hash;
+  EXPECT_TRUE(in_folder->inputs_hash);
   EXPECT_EQ(to_json(in_memory.result), to_json(*in_folder));
   EXPECT_EQ(read_file(root / "run" / "result.json"), to_json(*in_folder));
 }

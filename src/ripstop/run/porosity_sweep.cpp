@@ -31,11 +31,14 @@ std::vector<double> cell_shifts(const Case& given, int shifts) {
   return all;
 }
 
-std::vector<SweepAxis> porosity_axes(const Case& given, const PorositySweep& sweep,
-                                     const std::vector<MeasuredDrag>& measured) {
+void require_slope(const PorositySweep& sweep) {
   if (sweep.values.size() < 2)
     throw Error(ExitCode::usage,
                 "one value of the porosity shows no slope: give two or more, parted by commas");
+}
+
+std::vector<SweepAxis> porosity_axes(const Case& given, const PorositySweep& sweep,
+                                     const std::vector<MeasuredDrag>& measured) {
   SweepAxis condition{"condition", {}, {}}, knob{knob_name(sweep.knob), {}, {}}, shift{"shift_m", {}, {}};
   for (const MeasuredDrag& point : measured) {
     std::string name = fmt::format("{}", point.nominal_speed);

@@ -23,6 +23,9 @@ std::string knob_name(PorosityKnob knob);  // "gamma"
 /// How far the canopy is shifted along the flow: evenly over one of the cells that it lies in [m].
 std::vector<double> cell_shifts(const Case& given, int shifts);
 
+/// Throws Error(usage) for fewer than two values of the knob, of which no calibration can be made.
+void require_slope(const PorositySweep& sweep);
+
 /// Measured point, value of the knob and shift, the last the fastest. The cells stay where they are when the
 /// canopy is shifted.
 std::vector<SweepAxis> porosity_axes(const Case& given, const PorositySweep& sweep,
