@@ -55,8 +55,8 @@ PYBIND11_MODULE(_ripstop, module) {
   add_calibrate(module);
   add_fit(module);
   add_pattern(module);
-  add_size(module);
   add_load(module);
+  add_size(module);  // has the load's stages
   add_flight(module);
   module.attr("__name__") = own_name;
 }

@@ -90,7 +90,9 @@ TEST(Expression, MistakesAreToldWithTheirPlace) {
   expect_refused("\"a\"", "is not understood");
   expect_refused("1..2", "does not belong here");
   expect_refused(std::string(1000, '('), "inside each other");
-  expect_refused(std::string(1000, '-') + "1", "inside each other");
+  std::string deep(1000, '-');
+  deep += '1';
+  expect_refused(deep, "inside each other");
 }
 
 TEST(Expression, NamesAreFoundWithoutTheirValues) {
