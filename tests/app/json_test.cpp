@@ -26,8 +26,8 @@ class JsonOption : public testing::Test {
 };
 
 TEST_F(JsonOption, OfFabricSaysWhatTheClothCarries) {
-  const json r = result_of({"fabric", stratos, "--pressure", "240", "--set",
-                            "parachute.mesh.cloth_nodes=200", "--set", "coupling.threads=1"});
+  const json r = result_of({"fabric", stratos, "--pressure", "240", "--set", "parachute.mesh.cloth_nodes=200",
+                            "--set", "coupling.threads=1"});
   EXPECT_TRUE(r.at("converged"));
   EXPECT_EQ(r.at("pressure_pa"), 240);
   EXPECT_NEAR(r.at("line_tension_n").get<double>() / r.at("pressure_load_n").get<double>(), 1, 1e-3);
