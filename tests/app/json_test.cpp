@@ -26,8 +26,8 @@ class JsonOption : public testing::Test {
 };
 
 TEST_F(JsonOption, OfFabricSaysWhatTheClothCarries) {
-  const json r = result_of({"fabric", stratos, "--pressure", "240", "--set", "parachute.mesh.cloth_nodes=200",
-                            "--set", "coupling.threads=1"});
+  const json r = result_of({"fabric", stratos, "--pressure", "240", "--set",
+                            "parachute.mesh.cloth_nodes=1500", "--set", "coupling.threads=1"});
   EXPECT_TRUE(r.at("converged"));
   EXPECT_EQ(r.at("pressure_pa"), 240);
   EXPECT_NEAR(r.at("line_tension_n").get<double>() / r.at("pressure_load_n").get<double>(), 1, 1e-3);
@@ -57,7 +57,7 @@ TEST_F(JsonOption, OfARunThatIsFinishedIsStillItsResult) {
 }
 
 TEST_F(JsonOption, OfAnEquilibriumThatWasNotFoundComesWithItsExitCode) {
-  const json r = result_of({"fabric", stratos, "--set", "parachute.mesh.cloth_nodes=200", "--set",
+  const json r = result_of({"fabric", stratos, "--set", "parachute.mesh.cloth_nodes=500", "--set",
                             "coupling.threads=1", "--set", "coupling.cloth_tolerance=1e-16"},
                            4);
   EXPECT_FALSE(r.at("converged"));
