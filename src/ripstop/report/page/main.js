@@ -137,7 +137,7 @@ const Page = (() => {
     document.getElementById("version").textContent = report.version;
     Colours.setCloth(report.colours);
     for (const run of report.runs) await Promise.all([Data.unpackAll(run.shape ?? null), Data.unpackAll(run.flow ?? null)]);
-    if (report.runs.length > 1) {
+    if (report.comparison.rows.length || report.plots.length) {
       const over = plotGrid(report.plots, null);
       main.append(element("section", { class: "run", id: "comparison" }, element("h2", {}, "Comparison"), over.node, element("div", { class: "tables" }, Tables.comparison(report.comparison))));
       over.figures.forEach((figure) => figure.draw());
