@@ -31,8 +31,7 @@ def signature(name, doc):
     if not first.startswith(name + "("):
         return "(self) -> Any", doc.strip()
     text = typed(first[len(name):])
-    text = re.sub(r"(\w+): (.*?)( = [^,)]*|(?=[,)]))", lambda m: m[0], text)
-    return text.replace("self: " + text[7:].split(",")[0].split(")")[0], "self", 1) if text.startswith("(self: ") else text, rest.strip()
+    return re.sub(r"^\(self: [^,)]*", "(self", text), rest.strip()
 
 
 def docstring(text, indent):

@@ -13,6 +13,7 @@
 #include "case_options.h"
 #include "commands.h"
 #include "ripstop/core/error.h"
+#include "ripstop/run/json.h"
 
 namespace ripstop {
 namespace {
@@ -37,11 +38,10 @@ std::string text_of(const Json& value) {
 
 /// Every key that follows from others where it is not given: what stands, and why.
 void print_sources(const CheckResult& result) {
-  const Json report = Json::parse(to_json(result));
+  const Json written = Json::parse(case_json(result.given));
   fmt::print("\n");
-  for (const Json& source : report.at("sources"))
-    fmt::print("  {:<28} {:<19} {}\n", source.at("key").get<std::string>(), text_of(source.at("value")),
-               source.at("from").get<std::string>());
+  for (const Source& source : result.sources)
+    fmt::print("  {:<28} {:<19} {}\n", source.key, text_of(written.at(place_of(source.key))), source.from);
 }
 
 void print(const Case& given, const CaseSummary& s, std::size_t warnings) {

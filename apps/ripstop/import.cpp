@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -26,17 +25,10 @@ struct Options {
   ChuteImportOptions import;
 };
 
-/// Of the file's own words nothing may move the cursor.
-std::string in_one_line(const std::string& text) {
-  std::string line = visible(text);
-  std::replace(line.begin(), line.end(), '\n', ' ');
-  return line;
-}
-
 void print_list(const char* title, const std::vector<std::string>& sentences) {
   if (sentences.empty()) return;
   fmt::print("{}\n", title);
-  for (const std::string& sentence : sentences) fmt::print("  - {}\n", in_one_line(sentence));
+  for (const std::string& sentence : sentences) fmt::print("  - {}\n", visible_line(sentence));
 }
 
 int run(const Options& options) {
@@ -45,7 +37,7 @@ int run(const Options& options) {
     throw Error(ExitCode::usage, fmt::format("{} exists; choose another --out, or --force", out.string()));
   const ChuteFile file = read_chute(read_file(options.file), options.file.string());
   const ChuteImport result = import_chute(file, options.import, options.file.filename().string());
-  fmt::print("{} ({}): type = \"{}\"\n", in_one_line(file.name), options.file.string(), result.type);
+  fmt::print("{} ({}): type = \"{}\"\n", visible_line(file.name), options.file.string(), result.type);
   print_list("maps", result.mapped);
   print_list("maps with a change", result.changed);
   print_list("does not map", result.not_mapped);

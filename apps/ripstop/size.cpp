@@ -17,6 +17,7 @@
 #include "ripstop/run/size_report.h"
 #include "ripstop/run/steady_folder.h"
 #include "steady_terminal.h"
+#include "stopping.h"
 
 namespace ripstop {
 namespace {
@@ -99,12 +100,14 @@ void refuse_existing(const Options& options) {
 int size(const Options& options) {
   refuse_existing(options);
   SizeResult result = run_size(options.request);
-  if (options.verify)
+  if (options.verify) {
+    goes_on_when_repeated();  // its runs do
     verify_size(options.request, result, [&](const Case& given, int run) {
       const fs::path folder = verify_folder(options, run);
       SteadyTerminal terminal(folder);
       return run_steady_in({{folder, false}, 0, {}, {}}, given, terminal).result;
     });
+  }
   if (options.out.has_parent_path()) make_folder(options.out.parent_path());
   write_file(options.out, result.case_text);
   const fs::path page = write_page(options, result);

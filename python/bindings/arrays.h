@@ -36,7 +36,8 @@ requires std::is_arithmetic_v<Number> py::array view_of(const std::vector<Number
   return view_of(values.data(), {static_cast<py::ssize_t>(values.size())}, owner);
 }
 
-/// Whether every member of a listed struct is a number, a choice or a vector of three: rows of such a struct are a table.
+/// Whether every member of a listed struct is a number, a choice or a vector of three: rows of such a struct are a
+/// table.
 template <Listed Row>
 bool is_table_row() {
   bool all = true;

@@ -35,7 +35,8 @@ void add_errors(py::module_& module) {
       make_exception(module, "Error", PyExc_Exception,
                      "What went wrong, with the text that the program prints.\n\n"
                      "exit_code: the program's exit status: 2 usage or case file, 3 bad input data,\n"
-                     "4 not converged, 5 diverged, 6 external solver, 7 input/output.");
+                     "4 not converged, 5 diverged, 6 external solver, 7 input/output,\n"
+                     "8 not enough memory or threads.");
   static const py::handle input =
       make_exception(module, "InputError", plain,
                      "Everything that is wrong with an input file or a setting, a line each.\n\n"

@@ -39,7 +39,6 @@ struct PyCase {
   explicit PyCase(const Case& made);
 };
 
-/// Of a result: where it came from is told by the run's folder or, of a run in memory, by nothing.
 using Path = std::filesystem::path;
 
 inline bool is_callback(PyObject* object) {

@@ -30,7 +30,7 @@ class Inputs : public testing::Test {
     EXPECT_EQ(run.code, code) << arguments.front() << ": " << run.output;
     EXPECT_NE(run.output.find(words), std::string::npos) << arguments.front() << ": " << run.output;
   }
-  /// Whether the file's text has all of these words, in a program that may take so much address space.
+  /// Exit code of the program when it may take so much address space.
   int limited(const std::vector<std::string>& arguments, rlim_t bytes) const {
     const pid_t child = fork();
     if (child == 0) {

@@ -94,6 +94,9 @@ TEST(Size, VerifyChangesTheDiameterUntilTheRateHolds) {
   EXPECT_EQ(runs, 2);
   EXPECT_NEAR(r.nominal_diameter / before, std::sqrt(1 / 0.9), 0.01);
   EXPECT_NEAR(r.checks.back().descent_rate, 5, 0.05);
+  // Opening load and margin are of the size that holds.
+  EXPECT_NEAR(r.opening.front().drag_area, r.drag_coefficient * r.nominal_area, 1e-6);
+  EXPECT_EQ(r.opening.front().highest, r.opening_load);
   const auto stuck = [&](const Case&, int) { return SteadyResult(); };
   EXPECT_THROW(verify_size(asked, r, stuck), Error);
 }

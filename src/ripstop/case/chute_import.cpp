@@ -23,17 +23,9 @@ using std::numbers::pi;
 
 constexpr double same = 1e-6;  // [m]
 
-/// Control characters, those of several bytes too, become what can be seen; line breaks and tabs blanks.
-std::string in_one_line(const std::string& text) {
-  std::string result = visible(text);
-  for (char& c : result)
-    if (c == '\n' || c == '\t') c = ' ';
-  return result;
-}
-
 /// Quoted as TOML has it, without control characters.
 std::string quoted(const std::string& text, std::size_t longest) {
-  std::string whole = in_one_line(text);
+  std::string whole = visible_line(text);
   if (whole.size() > longest) {
     whole.resize(longest);
     // A cut inside a character of several bytes would not be UTF-8.
@@ -335,13 +327,13 @@ class Importer {
 
   void cloth() {
     const ChuteSection& first = file_.sections.front();
-    mapped("{}.fabric: \"{}\", {:.6g} g/m2", first.place, in_one_line(first.fabric),
+    mapped("{}.fabric: \"{}\", {:.6g} g/m2", first.place, visible_line(first.fabric),
            1000 * first.areal_density);
     for (const ChuteSection& s : file_.sections)
       if (s.fabric != first.fabric || s.areal_density != first.areal_density)
         result_.not_mapped.push_back(
             fmt::format("{}.fabric: \"{}\", {:.6g} g/m2; Ripstop's canopy is of one cloth, that of {}",
-                        s.place, in_one_line(s.fabric), 1000 * s.areal_density, first.place));
+                        s.place, visible_line(s.fabric), 1000 * s.areal_density, first.place));
     assumed("stiffness, strength and porosity of the cloth: those of F-111, the file has its mass only");
   }
 
@@ -372,7 +364,7 @@ class Importer {
 
   std::string header() const {
     std::string text = fmt::format("# From {} by `ripstop import`.\n", quoted(std::string(source_), 500));
-    for (const std::string& step : file_.instructions) text += "# Instruction: " + in_one_line(step) + "\n";
+    for (const std::string& step : file_.instructions) text += "# Instruction: " + visible_line(step) + "\n";
     text += fmt::format(
         "title = {}\n\n[parachute]\ntype = \"{}\"\ngores = {}\ncanopy_material = "
         "\"imported-cloth\"\n",

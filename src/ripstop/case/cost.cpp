@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <fstream>
-#include <limits>
+#include <optional>
 
 #include "ripstop/case/resolve.h"
 #include "ripstop/core/error.h"

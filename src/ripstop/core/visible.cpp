@@ -52,6 +52,13 @@ std::string visible(std::string_view text) {
   return shown;
 }
 
+std::string visible_line(std::string_view text) {
+  std::string line = visible(text);
+  for (char& c : line)
+    if (c == '\n' || c == '\t') c = ' ';
+  return line;
+}
+
 bool has_control(std::string_view text) {
   while (!text.empty()) {
     const Character c = first_of(text);

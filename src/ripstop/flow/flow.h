@@ -138,8 +138,8 @@ struct FlowStep {
   double length = 0;   // of the step [s]
   double courant = 0;  // largest Courant number of a cell, summed over the axes
   Vec3 force;          // by the fluid on the porous cells and sheets [N]
-  double momentum_gap =
-      0;  // force, change of the box's momentum and what its faces pass, along z, added up, forces on the air left out [N]
+  /// Force, change of the box's momentum and what its faces pass, along z, added up; forces on the air left out [N].
+  double momentum_gap = 0;
   double mass_defect = 0;  // mass that cells gain or lose, over what the stream brings into the box
 };
 /// Return false to stop.

@@ -1,7 +1,5 @@
 #include "ripstop/run/check.h"
 
-#include <algorithm>
-
 #include "ripstop/run/json.h"
 #include "ripstop/run/warnings.h"
 
@@ -10,18 +8,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What stands in the written case under a full name such as "flow.core.size_m".
-const Json& value_of(const Json& written, const std::string& key) {
-  std::string pointer = "/" + key;
-  std::replace(pointer.begin(), pointer.end(), '.', '/');
-  return written.at(Json::json_pointer(pointer));
-}
-
 Json to_json(const std::vector<Source>& sources, const Json& written) {
   Json list = Json::array();
   for (const Source& source : sources)
     list.push_back({{"key", source.key},
-                    {"value", value_of(written, source.key)},
+                    {"value", written.at(place_of(source.key))},
                     {"given", source.given},
                     {"from", source.from}});
   return list;

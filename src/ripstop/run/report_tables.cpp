@@ -11,6 +11,7 @@
 #include "ripstop/core/file.h"
 #include "ripstop/core/words.h"
 #include "ripstop/output/csv.h"
+#include "ripstop/run/json.h"
 #include "ripstop/run/pattern.h"
 
 namespace ripstop {
@@ -128,9 +129,7 @@ ReportTable sources_table(const Case& given, const std::filesystem::path& run_js
       "sources", "Values that a case may leave out", "", {{"key", ""}, {"value", ""}, {"from", ""}}, {}};
   for (const Json& source : run.value("sources", Json::array())) {
     const std::string key = source.value("key", "");
-    std::string pointer = "/" + key;
-    std::replace(pointer.begin(), pointer.end(), '.', '/');
-    const Json::json_pointer place(pointer);
+    const auto place = place_of(key);
     table.rows.push_back(
         {key, written.contains(place) ? text_of(written.at(place)) : "", source.value("from", "")});
   }

@@ -87,7 +87,7 @@ void choose_line(const SizeRequest& request, SizeResult& r) {
     const double used = used_of(r.given, *line, r.opening_load);
     const bool known = used > 0;
     if (!request.line_material && (!known || used > 1)) continue;
-    if (!best || line->linear_density_kg_m < best->linear_density_kg_m) best = *line, r.line_used = used;
+    if (!best || line->linear_density_kg_m < best->linear_density_kg_m) best = *line;
   }
   if (request.line_material && !best)
     throw Error(ExitCode::usage,
@@ -97,7 +97,6 @@ void choose_line(const SizeRequest& request, SizeResult& r) {
         fmt::format("no line of the library holds {:.0f} N on {} lines with the default margins: take "
                     "more lines, reefing or another line",
                     r.opening_load, r.given.parachute.lines.count));
-    r.line_used = used_of(r.given, suspension_line(r.given), r.opening_load);
     return;
   }
   Design& design = r.given.parachute;
@@ -107,6 +106,8 @@ void choose_line(const SizeRequest& request, SizeResult& r) {
 }
 
 void describe_parachute(const SizeRequest& request, SizeResult& r) {
+  find_opening(request, r);
+  r.line_used = used_of(r.given, suspension_line(r.given), r.opening_load);
   const Design& design = r.given.parachute;
   r.nominal_area = nominal_area(design);
   r.nominal_diameter = nominal_diameter(design);

@@ -67,7 +67,7 @@ struct SizeResult {
   double deployment_speed = 0, opening_load = 0, opening_load_low = 0;      // [m/s], [N]
   double line_used = 0;  // of what is left of a line's strength, by the highest opening load with safety
   std::vector<SizeCheck> checks;
-  std::vector<StageLoads> opening;  // by every method, at the size found first
+  std::vector<StageLoads> opening;  // by every method
   std::vector<FlightRow> flight;    // of that opening; not in result.json
   std::vector<std::string> warnings;
   Case given;             // the parachute

@@ -152,8 +152,8 @@ class CartesianFlow final : public Flow {
 
   void guess() override {
     // A sheet across the whole box holds back pressures far beyond rho U^2, which would not survive being
-    // interpolated. On a coarse grid omega can grow without bound where a jet's room meets the outlet, and the finer grid
-    // does not lose it again; from the nozzle's profile a jet is there in as many iterations.
+    // interpolated. On a coarse grid omega can grow without bound where a jet's room meets the outlet, and
+    // the finer grid does not lose it again; from the nozzle's profile a jet is there in as many iterations.
     if (settings_.grid_sequencing && !problem_.jet && problem_.grid.cells() > fewest_cells &&
         !solver_.shut() && problem_.body_force.empty())
       guess_from_coarser(problem_.grid, porous(), solver_);
