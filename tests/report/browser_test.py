@@ -158,6 +158,17 @@ class Report(unittest.TestCase):
         self.assertGreater(self.js(left), 0.5)
         self.assertNotEqual(self.colours(), middle)
 
+    def test_a_sizing_shows_its_numbers_and_every_method(self):
+        result = json.loads(ripstop("size", "--mass", "2.4", "--descent-rate", "5", "--json", "--out", str(self.folder / "size.toml")))
+        self.open(self.folder / "size.html")
+        self.assertIn("Sizing", self.js("Page.shown().node.innerText"))
+        shown = self.js("Page.shown().node.querySelector('[data-card=nominal_diameter_m] dd').title")
+        self.assertEqual(float(shown), result["nominal_diameter_m"])
+        loads = self.js("[...document.querySelectorAll('[data-table=\"opening methods\"] tbody tr')].map((row) => row.cells[1].title || row.cells[1].innerText)")
+        for text, method in zip(loads, result["opening"][0]["methods"], strict=True):
+            self.assertAlmostEqual(number(text), method["load_n"], delta=1e-4 * method["load_n"])
+        self.assertIsNone(self.js("document.querySelector('#comparison')"))
+
     def test_several_runs_are_compared(self):
         self.open(self.both)
         self.assertEqual(self.js("document.querySelectorAll('#tabs button').length"), 2)

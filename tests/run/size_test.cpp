@@ -115,6 +115,7 @@ TEST(Size, ItsReportHasItsNumbersAndEveryMethodsLoad) {
   EXPECT_EQ(methods->rows.size(), r.opening.front().methods.size());
   const std::vector<double>& force = page.plots.front().series.front().y;
   EXPECT_GE(*std::max_element(force.begin(), force.end()), r.opening_load_low);
+  EXPECT_EQ(page.plots.back().series.front().y.front(), r.deployment_speed);
   EXPECT_EQ(page.case_file, r.case_text);
 }
 

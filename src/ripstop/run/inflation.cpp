@@ -1,7 +1,5 @@
 #include "ripstop/run/inflation.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -80,13 +78,6 @@ InflationSolution run_inflation(const Case& given, const LoadSource& source, Inf
   InflationSolution solution;
   auto& [result, state, history] = solution;
   state = solver.start();
-  constexpr double year = 3.15e7;
-  if (const double seconds = opening_seconds(solver, state); seconds > year)
-    throw Error(
-        ExitCode::usage,
-        fmt::format("inflation.duration_s = {:g}: at steps of {:.2g} s that would take {:.2g} years; take "
-                    "a shorter time, or longer springs (inflation.line_segment_m)",
-                    solver.problem().settings.duration_s, state.step, seconds / year));
   observer.begin(solver, state, history);
   while (state.blocks < solver.blocks()) {
     const std::vector<HistoryRow> rows = solver.advance(state);

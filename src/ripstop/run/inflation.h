@@ -128,8 +128,7 @@ struct InflationSolution {
 /// How long an opening will take on one thread, about, at the step that it begins with [s].
 double opening_seconds(const Inflation& solver, const InflationState& start);
 
-/// The whole opening of the case under the pressure of `problem`. Throws as Inflation,
-/// and Error(usage) where it would take more than a year.
+/// The whole opening of the case under the pressure of `problem`. Throws as Inflation.
 InflationSolution run_inflation(const Case& given, const LoadSource& source, InflationProblem problem,
                                 InflationObserver& observer);
 
