@@ -103,8 +103,8 @@ format:  ## Format the sources
 
 tidy: check-deps  ## clang-tidy over src and apps, on all cores (no part of check: some ten minutes)
 	$(call install_missing,clang-tidy)
-	@cmake --preset release > /dev/null
-	@run-clang-tidy -quiet -p build-check -j $(JOBS) '^$(CURDIR)/(src|apps)/'
+	@cmake --preset debug > /dev/null
+	@run-clang-tidy -quiet -p build-debug -j $(JOBS) '^$(CURDIR)/(src|apps)/'
 
 format-check:
 	@git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run -Werror

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct CalibrateArguments {
   OpeningOptions opening;
   DampingSearch search;
   fs::path out;
@@ -34,7 +34,7 @@ std::string trial_text(const DampingTrial& t) {
       t.inflation_time ? fmt::format("{:6.1f} ms", 1000 * *t.inflation_time) : "not yet", t.misfit);
 }
 
-int calibrate(const Options& options) {
+int calibrate(const CalibrateArguments& options) {
   check_search(options.search);
   const Case given = opening_case(options.opening);
   const DampingTarget target = damping_target(given);
@@ -65,7 +65,7 @@ int calibrate(const Options& options) {
 }
 
 void add_damping(CLI::App& parent, int& status) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CalibrateArguments>();
   CLI::App* command =
       parent.add_subcommand("damping", "C_a from the measured opening load of a reference parachute");
   command->footer("Example: ripstop calibrate damping examples/stratos-iv/case.toml --cloth-nodes 3000");

@@ -20,7 +20,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct CheckArguments {
   std::filesystem::path case_file;
   Overrides overrides;
   bool json = false;
@@ -71,7 +71,7 @@ void print(const Case& given, const CaseSummary& s, std::size_t warnings) {
                                               warnings == 1 ? "" : "s"));
 }
 
-int run(const Options& options) {
+int run(const CheckArguments& options) {
   try {
     const Case given = read_case(options.case_file, options.overrides);
     if (options.resolved) {
@@ -98,7 +98,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_check(CLI::App& app, int& status) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CheckArguments>();
   CLI::App* command = app.add_subcommand(
       "check", "Everything about a case without a solver: problems, areas, masses, time step");
   command->footer("Example: ripstop check examples/stratos-iv/case.toml --speed 25 --json");

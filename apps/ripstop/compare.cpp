@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options : SweepOptions {
+struct CompareArguments : SweepOptions {
   bool linear = false;
 };
 
@@ -52,7 +52,7 @@ void print(const Comparison& comparison) {
   fmt::print("  strains are means over the springs of each part\n");
 }
 
-int compare(Options& options) {
+int compare(CompareArguments& options) {
   finish(options, "compare");
   // The neighbour's flow field would hide a difference smaller than the residual: every run starts cold.
   options.settings.warm = false;
@@ -76,7 +76,7 @@ int compare(Options& options) {
 }  // namespace
 
 void add_compare(CLI::App& app, int& status) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CompareArguments>();
   CLI::App* command = app.add_subcommand("compare", "Two models of one case side by side");
   command->footer(
       "Runs the case as it is, with K_1 alone for every material, and with K_1 alone for the cloth, the "

@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct CouponArguments {
   std::string material;
   fs::path bench;
   fs::path out;
@@ -50,7 +50,7 @@ int finish(const Fabric& fabric, double largest_strain, bool converged) {
   return 0;
 }
 
-int compare(const Options& options, const Fabric& fabric, ThreadTeam& team) {
+int compare(const CouponArguments& options, const Fabric& fabric, ThreadTeam& team) {
   const Bench bench = read_bench(options.bench);
   const MaterialFit fit = fit_material(bench);
   const std::vector<CouponComparison> coupons =
@@ -84,7 +84,7 @@ void print_result(const CouponResult& r) {
     fmt::print("{:>9.4f} {:>12.2f} {:>9.4f} {:>12.3f}\n", p.strain, p.load, p.waist, p.corner_peak);
 }
 
-int pull(const Options& options, const Fabric& fabric, ThreadTeam& team) {
+int pull(const CouponArguments& options, const Fabric& fabric, ThreadTeam& team) {
   const CouponResult result = run_coupon(fabric, options.shape, options.strain, options.points, team);
   if (!options.out.empty()) write_coupon_result(options.out, result);
   if (options.json)
@@ -94,7 +94,7 @@ int pull(const Options& options, const Fabric& fabric, ThreadTeam& team) {
   return finish(fabric, result.pull.largest_strain, result.pull.converged);
 }
 
-int run(const Options& options) {
+int run(const CouponArguments& options) {
   const Fabric fabric = fabric_of(options.material);
   ThreadTeam team(options.threads);
   return options.bench.empty() ? pull(options, fabric, team) : compare(options, fabric, team);
@@ -103,7 +103,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_coupon(CLI::App& app, int& status) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CouponArguments>();
   CLI::App* command =
       app.add_subcommand("coupon", "Pulls a virtual coupon of a fabric with the cloth solver");
   command->footer("Example: ripstop coupon f-111 --orientation 45 --strain 0.2 --out coupon-45");

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct DescentArguments {
   fs::path run, out;
   double mass = 0;
   std::vector<double> heights = {0, 300, 1000, 3000};
@@ -41,7 +41,7 @@ void print_result(const Descent& d) {
                row.time ? fmt::format("{:.1f} +- {:.1f}", *row.time, *row.time_uncertainty) : "-");
 }
 
-int descent(const Options& options) {
+int descent(const DescentArguments& options) {
   const Descent result =
       run_descent(finished_steady(options.run), options.mass, options.heights, options.ground);
   if (!options.out.empty()) {
@@ -59,7 +59,7 @@ int descent(const Options& options) {
 }  // namespace
 
 void add_descent(CLI::App& app, int& status) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DescentArguments>();
   CLI::App* command = app.add_subcommand("descent", "Terminal speed and descent time from a steady run");
   command->footer(
       "+- is what the run itself leaves open (last change of the drag, averaging, ledger), not the model's "

@@ -18,14 +18,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct ExportArguments {
   std::string format, trigger = "apogee";
   fs::path run, out;
   std::optional<double> deployment_speed;
   bool force = false;
 };
 
-int export_run(const Options& options) {
+int export_run(const ExportArguments& options) {
   if (!options.out.empty() && fs::exists(options.out) && !options.force)
     throw Error(ExitCode::usage,
                 fmt::format("{} exists; choose another --out, or --force", options.out.string()));
@@ -46,7 +46,7 @@ int export_run(const Options& options) {
 }  // namespace
 
 void add_export(CLI::App& app, int& status) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ExportArguments>();
   CLI::App* command =
       app.add_subcommand("export", "A steady run's parachute for RocketPy, OpenRocket or as JSON");
   command->footer("Example: ripstop export rocketpy runs/my-canopy --trigger 300 --out parachute.py");

@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct FabricArguments {
   fs::path case_file;
   Overrides overrides;
   std::optional<double> pressure;
@@ -51,7 +51,7 @@ void print_result(const FabricResult& r, const fs::path& folder) {
   if (!folder.empty()) row("files", folder.string() + " (canopy.png, canopy.vtp, lines.vtp, result.json)");
 }
 
-int run(const Options& options) {
+int run(const FabricArguments& options) {
   const Case given = read_case(options.case_file, options.overrides);
   Progress progress;
   const FabricSolution solution = run_fabric(given, options.pressure, [&](const RelaxProgress& p) {
@@ -79,7 +79,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_fabric(CLI::App& app, int& status) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<FabricArguments>();
   CLI::App* command =
       app.add_subcommand("fabric", "The cloth under a given pressure, without a flow: a quick look");
   command->footer("Example: ripstop fabric examples/stratos-iv/case.toml --pressure 500 --out look");

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct FitArguments {
   fs::path bench;
   fs::path out;
   int degree = 0;
@@ -80,7 +80,7 @@ void print_fit(const FitResult& result) {
   for (const std::string& note : fit.notes) fmt::print("note: {}\n", note);
 }
 
-int run(const Options& options) {
+int run(const FitArguments& options) {
   Bench bench = read_bench(options.bench);
   if (options.degree > 0) bench.degree = options.degree;
   if (options.zero_offset) bench.zero_offset = true;
@@ -111,7 +111,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_fit(CLI::App& app, int& status) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<FitArguments>();
   CLI::App* command = app.add_subcommand("fit", "From tensile test records to a material file");
   command->footer("Example: ripstop fit examples/fit-ripstop/bench.toml --out my-cloth");
   command->add_option("bench", options->bench, "Test campaign (TOML): records, mass, thickness")->required();

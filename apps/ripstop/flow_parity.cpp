@@ -21,7 +21,7 @@
 namespace ripstop {
 namespace {
 
-struct Options {
+struct FlowParityArguments {
   ParitySettings settings;
   std::filesystem::path surface;
   bool json = false;
@@ -51,7 +51,7 @@ void print_row(const ParityRow& row) {
              theirs.wall_time, ours.wall_time, theirs.converged && ours.converged ? "" : "  not converged");
 }
 
-int run(const Options& options) {
+int run(const FlowParityArguments& options) {
   ParitySettings settings = options.settings;
   if (!options.surface.empty()) settings.surface = read_stl(options.surface);
   Progress progress;
@@ -83,7 +83,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_flow_parity(CLI::App& app, int& status) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<FlowParityArguments>();
   CLI::App* command = app.add_subcommand(
       "flow-parity", "Run the built-in flow engine and OpenFOAM on the same cells and compare them");
   add_three(*command, "--cells", options->settings.cells, key_range("flow.cells"),

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct ImportArguments {
   fs::path file;
   fs::path out;  // empty: the file's name with .toml, here
   bool force = false;
@@ -31,7 +31,7 @@ void print_list(const char* title, const std::vector<std::string>& sentences) {
   for (const std::string& sentence : sentences) fmt::print("  - {}\n", visible_line(sentence));
 }
 
-int run(const Options& options) {
+int run(const ImportArguments& options) {
   const fs::path out = options.out.empty() ? fs::path(options.file.stem().string() + ".toml") : options.out;
   if (fs::exists(out) && !options.force)
     throw Error(ExitCode::usage, fmt::format("{} exists; choose another --out, or --force", out.string()));
@@ -53,7 +53,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_import(CLI::App& app, int& status) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ImportArguments>();
   CLI::App* command = app.add_subcommand(
       "import", "A case from a .chute file of openchute, with a list of what maps and what does not");
   command->footer("Example: ripstop import examples/elliptical/elliptical.chute --out elliptical.toml");

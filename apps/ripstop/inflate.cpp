@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct InflateArguments {
   OpeningOptions opening;
   fs::path out;
   bool fresh = false, check = false, json = false;
@@ -145,7 +145,7 @@ int status_of(bool settled, const Case& given) {
   return static_cast<int>(ExitCode::not_converged);
 }
 
-int run(const Options& options) {
+int run(const InflateArguments& options) {
   const auto begin = std::chrono::steady_clock::now();
   const Case given = opening_case(options.opening);
   const fs::path folder =
@@ -186,7 +186,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_inflate(CLI::App& app, int& status) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<InflateArguments>();
   CLI::App* command =
       app.add_subcommand("inflate", "How a folded canopy opens, and the load it puts on the riser");
   command->footer("Example: ripstop inflate examples/stratos-iv/case.toml --steady runs/stratos-iv");

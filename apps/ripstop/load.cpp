@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct LoadArguments {
   fs::path case_file, out = "runs/load";
   Overrides overrides;
   std::optional<double> mass, height;
@@ -80,7 +80,7 @@ void print_result(const LoadResult& r, const fs::path& folder) {
   fmt::print("{} (force.png, speed.png, trajectory.csv, result.json)\n", folder.string());
 }
 
-int load(Options& options) {
+int load(LoadArguments& options) {
   const Case given = read_case(options.case_file, options.overrides);
   LoadRequest& request = options.request;
   if (!options.mass && !given.payload.mass_kg)
@@ -123,7 +123,7 @@ void add_coefficients(CLI::App& command, LoadRequest& r) {
 }  // namespace
 
 void add_load(CLI::App& app, int& status) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<LoadArguments>();
   options->request.height = 1000;
   CLI::App* command =
       app.add_subcommand("load", "Opening and snatch loads behind a given mass, method by method");

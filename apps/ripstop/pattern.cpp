@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct PatternArguments {
   fs::path case_file;
   fs::path out = "pattern";
   Allowances allowances;
@@ -36,7 +36,7 @@ void print_bill(const Bill& bill) {
   fmt::print("{:<24} {:>73.1f} g\n", "all, without thread", 1000 * bill.mass);
 }
 
-int run(const Options& options) {
+int run(const PatternArguments& options) {
   const PatternResult result =
       run_pattern(read_case(options.case_file), options.allowances, options.packing_density);
   write_pattern(options.out, result);
@@ -55,7 +55,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_pattern(CLI::App& app, int& status) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PatternArguments>();
   CLI::App* command = app.add_subcommand(
       "pattern",
       "What to cut: outlines to scale, lengths of tape and line, bill of materials, packed volume");

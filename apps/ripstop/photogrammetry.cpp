@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct PhotogrammetryArguments {
   fs::path image, run, out = "runs/photogrammetry";
   std::optional<double> distance;
   bool json = false;
@@ -46,7 +46,7 @@ void print_result(const Photogrammetry& result) {
     for (const SeenSize& size : *sizes) print_size(size);
 }
 
-int photogrammetry(const Options& options) {
+int photogrammetry(const PhotogrammetryArguments& options) {
   if (options.image.empty() && options.run.empty())
     throw Error(ExitCode::usage, "give an image file, --run RUN, or both");
   std::optional<Image> image;
@@ -70,7 +70,7 @@ int photogrammetry(const Options& options) {
 }  // namespace
 
 void add_photogrammetry(CLI::App& app, int& status) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PhotogrammetryArguments>();
   CLI::App* command = app.add_subcommand("photogrammetry",
                                          "Sizes from camera images, corrected, beside the computed canopy's");
   command->footer(

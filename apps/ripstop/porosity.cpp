@@ -28,19 +28,19 @@ using nlohmann::ordered_json;
 // [NFM] section on porosity, Stratos IV: C_D = -1.7794 gamma + 0.9195, R2 = 0.989.
 constexpr double printed_slope = -1.7794, printed_intercept = 0.9195;
 
-struct Options : SweepOptions {
+struct PorosityArguments : SweepOptions {
   fs::path measured;
   std::vector<double> gammas, permeabilities;
   double thickness = 1.2e-4;
   int shifts = 3;
 };
 
-PorosityKnob knob_of(const Options& options) {
+PorosityKnob knob_of(const PorosityArguments& options) {
   return options.permeabilities.empty() ? PorosityKnob::gamma : PorosityKnob::permeability;
 }
 
 /// The file's points, or the rows of [[measured]] that have a drag, on the case's basis.
-std::vector<MeasuredDrag> measured_points(const Options& options, const Case& given) {
+std::vector<MeasuredDrag> measured_points(const PorosityArguments& options, const Case& given) {
   if (options.measured.empty()) {
     const std::vector<MeasuredDrag> points = measured_drag(given);
     if (points.empty())
@@ -127,7 +127,7 @@ ordered_json line_json(const LineFit& line) {
 
 void write_result(const fs::path& folder, const Case& given, const std::vector<MeasuredDrag>& measured,
                   const PorosityCalibration& found, PorosityKnob knob, const PressureDrop& law,
-                  const Options& options, double area) {
+                  const PorosityArguments& options, double area) {
   ordered_json j;
   j["title"] = given.title;
   j["knob"] = knob_name(knob);
@@ -183,7 +183,7 @@ void print_result(const std::vector<MeasuredDrag>& measured, const PorosityCalib
       material, law.linear, material, law.quadratic);
 }
 
-int calibrate(Options& options) {
+int calibrate(PorosityArguments& options) {
   finish(options, "porosity");
   const Case given = read_case(options.case_file, options.overrides);
   PorositySweep sweep{knob_of(options), options.gammas, options.thickness, options.shifts};
@@ -223,7 +223,7 @@ int calibrate(Options& options) {
 }  // namespace
 
 void add_calibrate_porosity(CLI::App& parent, int& status) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PorosityArguments>();
   CLI::App* command = parent.add_subcommand(
       "porosity", "Porosity of the cloth from the measured drag of a reference parachute");
   command->footer(

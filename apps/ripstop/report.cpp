@@ -14,7 +14,7 @@
 namespace ripstop {
 namespace {
 
-struct Options {
+struct ReportArguments {
   std::vector<std::filesystem::path> runs;
   std::filesystem::path out;
 };
@@ -22,7 +22,7 @@ struct Options {
 }  // namespace
 
 void add_report(CLI::App& app, int& status) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ReportArguments>();
   CLI::App* command = app.add_subcommand(
       "report", "Finished runs as one HTML file: shape in 3D, flow, plots, tables, several runs compared");
   command->footer(

@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct SizeArguments {
   SizeRequest request;
   fs::path out = "my-canopy.toml";
   bool verify = false, json = false, force = false;
@@ -64,20 +64,20 @@ void print_result(const SizeResult& r, const fs::path& file, const fs::path& pag
 }
 
 /// Every run of --verify has its folder beside the case file.
-fs::path verify_folder(const Options& options, int run) {
+fs::path verify_folder(const SizeArguments& options, int run) {
   fs::path folder = options.out;
   folder.replace_extension();
   folder += fmt::format("-verify-{}", run);
   return folder;
 }
 
-fs::path page_of(const Options& options) {
+fs::path page_of(const SizeArguments& options) {
   fs::path page = options.out;
   return page.replace_extension(".html");
 }
 
 /// The page stands beside the case file. Returns its path, or an empty one where it could not be made: that is said.
-fs::path write_page(const Options& options, const SizeResult& result) {
+fs::path write_page(const SizeArguments& options, const SizeResult& result) {
   const fs::path page = page_of(options);
   try {
     std::vector<fs::path> runs;
@@ -90,14 +90,14 @@ fs::path write_page(const Options& options, const SizeResult& result) {
   }
 }
 
-void refuse_existing(const Options& options) {
+void refuse_existing(const SizeArguments& options) {
   if (options.force) return;
   for (const fs::path& file : {options.out, page_of(options)})
     if (fs::exists(file))
       throw Error(ExitCode::usage, fmt::format("{} exists; choose another --out, or --force", file.string()));
 }
 
-int size(const Options& options) {
+int size(const SizeArguments& options) {
   refuse_existing(options);
   SizeResult result = run_size(options.request);
   if (options.verify) {
@@ -122,7 +122,7 @@ int size(const Options& options) {
 }  // namespace
 
 void add_size(CLI::App& app, int& status) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SizeArguments>();
   SizeRequest& r = options->request;
   CLI::App* command =
       app.add_subcommand("size", "The parachute for a payload and a descent rate, as a case file");

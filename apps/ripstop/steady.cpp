@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct SteadyArguments {
   fs::path case_file;
   Overrides overrides;
   fs::path hostfile;
@@ -118,7 +118,7 @@ int dry_run(const SteadyFolderSettings& settings, const Case& given) {
   return 0;
 }
 
-int run(const Options& options) {
+int run(const SteadyArguments& options) {
   const Case given = read_case(options.case_file, options.overrides);
   const CouplingSettings coupling = resolve(given).coupling;
   const fs::path folder = options.out.empty() ? default_run_folder(options.case_file) : options.out;
@@ -152,7 +152,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_steady(CLI::App& app, int& status) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SteadyArguments>();
   CLI::App* command = app.add_subcommand("steady", "Inflated shape, drag and loads in a steady flow");
   command->footer(
       "Example: ripstop steady examples/stratos-iv/case.toml --speed 30 --grid 50,50,75 --ranks 2");

@@ -18,13 +18,13 @@
 namespace ripstop {
 namespace {
 
-struct Options : SweepOptions {
+struct SweepArguments : SweepOptions {
   std::vector<std::string> speeds, vary, rows;
   bool dry_run = false;
 };
 
 /// "a=1,2" is an axis of two values; "--row a=1 b=2" one row of a table, all rows together one axis.
-std::vector<SweepAxis> axes_of(const Options& options) {
+std::vector<SweepAxis> axes_of(const SweepArguments& options) {
   std::vector<SweepAxis> axes;
   if (!options.speeds.empty()) axes.push_back(sweep_axis("flow.speed_m_s", options.speeds, "--speeds"));
   for (const std::string& text : options.vary) {
@@ -51,7 +51,7 @@ std::vector<SweepAxis> axes_of(const Options& options) {
   return axes;
 }
 
-int sweep(Options& options) {
+int sweep(SweepArguments& options) {
   finish(options, "sweep");
   const std::vector<SweepAxis> axes = axes_of(options);
   const std::vector<SweepPoint> points = sweep_points(options.case_file, options.overrides, axes);
@@ -90,7 +90,7 @@ int sweep(Options& options) {
 }  // namespace
 
 void add_sweep(CLI::App& app, int& status) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SweepArguments>();
   CLI::App* command = app.add_subcommand("sweep", "One case over several speeds, or over any of its keys");
   command->footer(
       "Several --vary make every combination; --row gives single rows, each a list of settings.\n"

@@ -33,9 +33,9 @@ void each_member(T& p, Visit&& visit) {
 namespace ripstop::python {
 namespace {
 
-class Observer : public InflationObserver {
+class OpeningListener : public InflationObserver {
  public:
-  Observer(Listener& listener, PyInflation& run) : listener_(listener), run_(run) {}
+  OpeningListener(Listener& listener, PyInflation& run) : listener_(listener), run_(run) {}
   void begin(const Inflation& solver, InflationState&, InflationHistory&) override {
     run_.cells = cells_of(solver.mesh());
   }
@@ -62,7 +62,7 @@ std::unique_ptr<PyInflation> inflate(const PyCase& given, const OptionalSource& 
   auto run = std::make_unique<PyInflation>();
   run->made = given;
   Listener listener(std::move(progress));
-  Observer observer(listener, *run);
+  OpeningListener observer(listener, *run);
   const py::gil_scoped_release release;
   const Opening opening = opening_of(run->made.given, steady, pressure, threads);
   const auto problem = [&] {

@@ -26,9 +26,9 @@ namespace ripstop::python {
 namespace {
 
 /// Listens while verify_size() flies.
-class Observer : public SteadyObserver {
+class SizeListener : public SteadyObserver {
  public:
-  explicit Observer(Listener& listener) : listener_(listener) {}
+  explicit SizeListener(Listener& listener) : listener_(listener) {}
   void progress(const SteadyProgress&, const SteadyState&) override { listener_.listen(); }
   void iterated(const SteadyRun&, const SteadyState& state, const FlowField&) override {
     listener_.tell(state.iterations.back());
@@ -43,7 +43,7 @@ SizeResult size(const SizeRequest& request, bool verify, Callback<SteadyIteratio
   const py::gil_scoped_release release;
   SizeResult result = run_size(request);
   if (!verify) return result;
-  Observer observer(listener);
+  SizeListener observer(listener);
   verify_size(request, result, [&](const Case& given, int) { return run_steady(given, observer).result; });
   return result;
 }

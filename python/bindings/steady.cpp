@@ -15,9 +15,9 @@ namespace ripstop::python {
 namespace {
 
 /// Tells Python of every iteration, and keeps what a folder's run does not return.
-class Observer : public SteadyObserver {
+class SteadyListener : public SteadyObserver {
  public:
-  Observer(Listener& listener, PySteady& run) : listener_(listener), run_(run) {}
+  SteadyListener(Listener& listener, PySteady& run) : listener_(listener), run_(run) {}
   void begin(const SteadyRun& run, SteadyState&) override { run_.engine = run.engine; }
   void progress(const SteadyProgress&, const SteadyState&) override { listener_.listen(); }
   void iterated(const SteadyRun&, const SteadyState& state, const FlowField& flow) override {
@@ -34,7 +34,7 @@ class Observer : public SteadyObserver {
   PySteady& run_;
 };
 
-void compute(PySteady& run, Observer& observer, int threads, bool fresh) {
+void compute(PySteady& run, SteadyListener& observer, int threads, bool fresh) {
   const Case& given = run.made.given;
   if (run.folder.empty()) {
     SteadySolution solution = run_steady(given, observer, {threads, {}, {}});
@@ -56,7 +56,7 @@ std::unique_ptr<PySteady> steady(const PyCase& given, Callback<SteadyIteration> 
   run->made = given;
   if (out) run->folder = *out;
   Listener listener(std::move(progress));
-  Observer observer(listener, *run);
+  SteadyListener observer(listener, *run);
   const py::gil_scoped_release release;
   compute(*run, observer, threads, fresh);
   return run;

@@ -15,8 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string stratos = RIPSTOP_SOURCE_DIR "/examples/stratos-iv/case.toml";
-
 class Check : public testing::Test {
  protected:
   void SetUp() override {

@@ -18,9 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string examples = RIPSTOP_SOURCE_DIR "/examples/";
-const std::string stratos = examples + "stratos-iv/case.toml";
-
 class Inputs : public testing::Test {
  protected:
   std::string in(const std::string& name) const { return (folder_.path / name).string(); }

@@ -21,7 +21,6 @@ class JsonOption : public testing::Test {
     EXPECT_EQ(text, read_file(std::filesystem::path(out) / "result.json")) << arguments.front();
     return json::parse(text);
   }
-  const std::string stratos = RIPSTOP_SOURCE_DIR "/examples/stratos-iv/case.toml";
   TemporaryFolder folder_{"json-option"};
 };
 

@@ -11,9 +11,6 @@
 namespace ripstop {
 namespace {
 
-const std::string examples = RIPSTOP_SOURCE_DIR "/examples/";
-const std::string stratos = examples + "stratos-iv/case.toml";
-
 /// Commands as typed, with what they need beside the option that is tried.
 const std::map<std::string, std::vector<std::string>> commands = {
     {"check", {stratos}},

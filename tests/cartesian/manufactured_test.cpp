@@ -10,7 +10,7 @@
 namespace ripstop {
 namespace {
 
-constexpr double speed = 10, eddy = 0.2, density = 1.2, viscosity = 0.24, swing = 20;
+constexpr double stream = 10, eddy = 0.2, density = 1.2, viscosity = 0.24, swing = 20;
 
 // b(s) = (1 - s^2)^5 for |s| < 1, and its derivatives: smooth at the rim, nothing beyond it.
 struct Bump {
@@ -33,9 +33,9 @@ struct Flow {
 // of unit size about `c`.
 Flow made_up(Vec3 at, Vec3 c) {
   const Bump x(at.x - c.x), y(at.y - c.y), z(at.z - c.z);
-  const double a = eddy * speed;
+  const double a = eddy * stream;
   Flow flow;
-  const double u = -a * x.value * y.value * z.first, w = speed + a * x.first * y.value * z.value;
+  const double u = -a * x.value * y.value * z.first, w = stream + a * x.first * y.value * z.value;
   flow.velocity = {u, 0, w};
   const double ux = -a * x.first * y.value * z.first, uz = -a * x.value * y.value * z.second;
   const double wx = a * x.second * y.value * z.value, wz = a * x.first * y.value * z.first;
@@ -54,7 +54,7 @@ double error(int n, bool second_order) {
   FlowProblem problem;
   problem.grid = {{-1, -1, 0}, {2, 2, 3}, 2 * n, 2 * n, 3 * n};
   // Next to no turbulence: its eddy viscosity is a millionth of the air's.
-  problem.air = {.speed = speed,
+  problem.air = {.speed = stream,
                  .density = density,
                  .viscosity = viscosity,
                  .turbulence_intensity = 1e-4,
@@ -87,7 +87,7 @@ double error(int n, bool second_order) {
         const Vec3 off = field.velocity[grid.index(i, j, k)] - made_up(at, centre).velocity;
         sum += dot(off, off), ++count;
       }
-  return std::sqrt(sum / count) / speed;
+  return std::sqrt(sum / count) / stream;
 }
 
 TEST(MadeUpFlow, TheUpwindSolutionIsOfFirstOrder) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <numbers>
 #include <tuple>
 
 #include "ripstop/core/error.h"
@@ -19,7 +20,7 @@ using cartesian::End;
 using cartesian::sheet_faces;
 using cartesian::SheetFace;
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 constexpr double f111 = 8169.3;  // a of F-111 at 3 CFM [Pa s/m]
 
 Axis uniform(double low, double size, int n) {

@@ -22,12 +22,12 @@ namespace {
 constexpr double pi = std::numbers::pi;
 const std::filesystem::path source = RIPSTOP_SOURCE_DIR;
 
-std::string text_of(const std::string& name) {
+std::string chute_text(const std::string& name) {
   return read_file(name == "elliptical" ? source / "examples/elliptical/elliptical.chute"
                                         : source / "tests/case/chute" / (name + ".chute"));
 }
 ChuteImport imported(const std::string& name, const ChuteImportOptions& options = {}) {
-  return import_chute(read_chute(text_of(name), name), options, name);
+  return import_chute(read_chute(chute_text(name), name), options, name);
 }
 bool says(const std::vector<std::string>& list, const std::string& words) {
   return std::any_of(list.begin(), list.end(),
@@ -56,7 +56,8 @@ TEST(Chute, AGoreHasTheOutlineThatOpenchuteCuts) {
 
 TEST(Chute, TheShippedCaseIsWhatTheImportWrites) {
   const std::string shipped = read_file(source / "examples/elliptical/case.toml");
-  EXPECT_EQ(shipped, import_chute(read_chute(text_of("elliptical"), "x"), {}, "elliptical.chute").case_text);
+  EXPECT_EQ(shipped,
+            import_chute(read_chute(chute_text("elliptical"), "x"), {}, "elliptical.chute").case_text);
 }
 
 TEST(Chute, DiskAndBandBecomeADiskGapBandOfTheSameSizes) {
@@ -80,7 +81,7 @@ TEST(Chute, TwoGoresOfACylinderAreTheStripsOfACross) {
 }
 
 TEST(Chute, OneConeBecomesAConicalCanopyOfTheSameArea) {
-  std::string text = text_of("disk-gap-band");
+  std::string text = chute_text("disk-gap-band");
   const std::size_t second = text.find("\"section_type\"", text.find("\"section_type\"") + 5);
   text = text.substr(0, text.rfind(",", second)) + "]}";
   const Case flat = parse_case(import_chute(read_chute(text, "x"), {}, "x").case_text, "case.toml");
@@ -150,14 +151,14 @@ TEST(Chute, WhatIsAskedForReplacesWhatIsAssumed) {
   EXPECT_FALSE(says(result.assumed, "lines of"));
 }
 
-struct Mistake {
+struct BadChute {
   const char* name;
   const char* file;
   const char* from;
   const char* to;
   const char* message;
 };
-const Mistake mistakes[] = {
+const BadChute bad_chutes[] = {
     {"UnknownName", "elliptical", "flatness*radius", "flatnes*radius",
      "parameter_values[1].expression: \"flatnes*radius\", character 1: unknown name \"flatnes\"; did you "
      "mean "
@@ -187,13 +188,13 @@ const Mistake mistakes[] = {
     {"WideCross", "cross", "\"value\": 3.0", "\"value\": 0.5", "wider than long"},
 };
 
-class ChuteMistake : public testing::TestWithParam<Mistake> {};
-INSTANTIATE_TEST_SUITE_P(Every, ChuteMistake, testing::ValuesIn(mistakes),
+class ChuteMistake : public testing::TestWithParam<BadChute> {};
+INSTANTIATE_TEST_SUITE_P(Every, ChuteMistake, testing::ValuesIn(bad_chutes),
                          [](const auto& mistake) { return mistake.param.name; });
 
 TEST_P(ChuteMistake, IsToldWithFileAndPlace) {
-  const Mistake& mistake = GetParam();
-  std::string text = text_of(mistake.file);
+  const BadChute& mistake = GetParam();
+  std::string text = chute_text(mistake.file);
   const bool last = std::string(mistake.name) == "GoresThatDiffer";  // the first is that of the whole file
   const std::size_t place = last ? text.rfind(mistake.from) : text.find(mistake.from);
   ASSERT_NE(place, std::string::npos);
@@ -209,7 +210,7 @@ TEST_P(ChuteMistake, IsToldWithFileAndPlace) {
 }
 
 TEST(Chute, APointListIsReadLineByLine) {
-  std::string text = text_of("odd");
+  std::string text = chute_text("odd");
   const std::size_t begin = text.find("{", text.find("\"objects\": [") + 12);
   const std::size_t end = text.find("]", text.find("\"expressions\"", begin));
   const std::size_t close = text.find("}", text.find("}", end) + 1);
@@ -228,7 +229,7 @@ TEST(Chute, APointListIsReadLineByLine) {
 
 // openchute's own ringsail draws its slots as sections of 0 gores.
 TEST(Chute, ASectionOfNoGoresIsASlotAndNoCloth) {
-  const std::string text = text_of("sails");
+  const std::string text = chute_text("sails");
   const ChuteFile file = read_chute(text, "x");
   ASSERT_GE(file.sections.size(), 2u);
   std::string slot = text;
@@ -240,7 +241,7 @@ TEST(Chute, ASectionOfNoGoresIsASlotAndNoCloth) {
 }
 
 TEST(Chute, AKeyThatIsThereTwiceIsRefused) {
-  const std::string text = text_of("sails");
+  const std::string text = chute_text("sails");
   std::string twice = text;
   twice.insert(twice.find("\"gores\""), "\"gores\": 9, ");
   EXPECT_THROW(read_chute(twice, "x"), Error);
@@ -251,7 +252,7 @@ TEST(Chute, AKeyThatIsThereTwiceIsRefused) {
 
 // A file cut short or with a byte changed is refused or read, never worse.
 TEST(Chute, BrokenFilesAreRefused) {
-  const std::string text = text_of("odd");
+  const std::string text = chute_text("odd");
   for (std::size_t size = 0; size + 2 < text.size(); size += 13)
     EXPECT_THROW(read_chute(text.substr(0, size), "x"), Error) << size;
   int refused = 0;

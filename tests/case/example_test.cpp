@@ -4,12 +4,11 @@
 #include <cmath>
 #include <filesystem>
 
+#include "fixture.h"
 #include "ripstop/case/resolve.h"
 
 namespace ripstop {
 namespace {
-
-const std::filesystem::path examples = std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples";
 
 TEST(Example, StratosIvHasThePrintedAreaAndItsDefaultsAreThePapers) {
   const Case given = read_case(examples / "stratos-iv" / "case.toml");

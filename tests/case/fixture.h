@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,17 @@ nominal_speed_m_s = 20
 measured_speed_m_s = 21
 density_kg_m3 = 1.199
 )";
+
+inline const std::filesystem::path examples = std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples";
+
+/// What the value of a key was resolved from.
+inline const std::string& source_of(const Resolved& resolved, const std::string& key) {
+  for (const Source& source : resolved.sources)
+    if (source.key == key) return source.from;
+  ADD_FAILURE() << key << " has no source";
+  static const std::string none;
+  return none;
+}
 
 /// No more than a case must say.
 inline const std::string short_case = R"(

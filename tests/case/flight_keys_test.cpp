@@ -10,12 +10,6 @@ std::string with_flow(const std::string& keys) {
   return replaced(valid_case, "speed_m_s = 20\nbox", keys + "\nbox");
 }
 
-std::string source_of(const Resolved& resolved, const std::string& key) {
-  for (const Source& source : resolved.sources)
-    if (source.key == key) return source.from;
-  return "";
-}
-
 TEST(FlightKeys, AHeightGivesTheStandardAtmosphere) {
   const Case given = parse_case(with_flow("speed_m_s = 12\nheight_m = 3000"), "case.toml");
   const Resolved resolved = resolve(given);

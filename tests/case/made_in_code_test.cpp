@@ -15,7 +15,7 @@ Case made() {
   return flat_circular_case(3.0, 2000, 8);
 }
 
-const std::string written =
+const std::string written_case =
     replaced(short_case, "length_m = 3.0 }", "length_m = 3.0 }\nmesh = { cloth_nodes = 2000 }");
 
 std::vector<std::string> messages(const std::vector<Problem>& problems) {
@@ -31,9 +31,9 @@ std::vector<std::string> messages(const std::vector<Problem>& problems) {
 TEST(MadeInCode, IsTheCaseThatAFileWithTheSameValuesIs) {
   EXPECT_TRUE(validate(made()).empty());
   const Case given = checked(made());
-  EXPECT_EQ(case_json(given), case_json(parse_case(written, "case.toml")));
+  EXPECT_EQ(case_json(given), case_json(parse_case(written_case, "case.toml")));
   EXPECT_EQ(steady_problem(given).mesh.node_count(),
-            steady_problem(parse_case(written, "case.toml")).mesh.node_count());
+            steady_problem(parse_case(written_case, "case.toml")).mesh.node_count());
 }
 
 TEST(MadeInCode, IsToldTheSameMistakesWithoutFileAndLine) {
@@ -45,7 +45,7 @@ TEST(MadeInCode, IsToldTheSameMistakesWithoutFileAndLine) {
   given.coupling.relaxation = 0;
   given.inflation.sheet_s.clear();
   given.title = "two\nlines";
-  std::string text = replaced(written, "speed_m_s = 8", "speed_m_s = 200\ncells = [20, 20, 1]");
+  std::string text = replaced(written_case, "speed_m_s = 8", "speed_m_s = 200\ncells = [20, 20, 1]");
   text = replaced(text, "length_m = 3.0 }", "length_m = 1.0, material = \"f-111\" }");
   text = "title = \"two\\nlines\"\n" + text + "[coupling]\nrelaxation = 0\n";
   std::vector<std::string> expected = messages(outcome_of(text).problems);

@@ -21,7 +21,7 @@ void PrintTo(const Mistake& mistake, std::ostream* stream) {
 
 const std::string materials_end = "density_kg_m3 = 1.199\n";
 
-const std::vector<Mistake> mistakes = {
+const std::vector<Mistake> all_mistakes = {
     // Words and types.
     {"UnknownKey",
      "gores = 6",
@@ -436,11 +436,11 @@ TEST_P(EveryMistake, IsToldWithPlaceKeyValueAndWhatIsAllowed) {
   EXPECT_TRUE(found) << outcome.message;
 }
 
-INSTANTIATE_TEST_SUITE_P(Case, EveryMistake, testing::ValuesIn(mistakes),
+INSTANTIATE_TEST_SUITE_P(Case, EveryMistake, testing::ValuesIn(all_mistakes),
                          [](const auto& row) { return row.param.name; });
 
 TEST(Mistakes, OneMistakeIsOneProblem) {
-  for (const Mistake& mistake : mistakes) {
+  for (const Mistake& mistake : all_mistakes) {
     EXPECT_EQ(outcome_of(replaced(valid_case, mistake.from, mistake.to)).problems.size(), 1u)
         << outcome_of(replaced(valid_case, mistake.from, mistake.to)).message;
   }

@@ -34,14 +34,6 @@ FlowSettings flow_of(const std::string& text) {
   return resolve(parse_case(text, "case.toml")).flow;
 }
 
-const std::string& source_of(const Resolved& resolved, const std::string& key) {
-  for (const Source& source : resolved.sources)
-    if (source.key == key) return source.from;
-  ADD_FAILURE() << key << " has no source";
-  static const std::string none;
-  return none;
-}
-
 /// Every key that stands in a table, with its value as TOML.
 void collect(const Json& node, const std::string& name, std::vector<Setting>& leaves) {
   if (node.is_object()) {
@@ -58,13 +50,13 @@ void collect(const Json& node, const std::string& name, std::vector<Setting>& le
 namespace fs = std::filesystem;
 
 /// A file of the repository.
-std::string text_of(const char* file) {
+std::string shipped_text(const char* file) {
   return read_text_file(fs::path(RIPSTOP_SOURCE_DIR) / file);
 }
 
 /// The ten lines of the README.
 std::string readme_case() {
-  const std::string readme = text_of("README.md"), fence = "```";
+  const std::string readme = shipped_text("README.md"), fence = "```";
   const std::size_t begin = readme.find(fence + "toml\n") + fence.size() + 5;
   return readme.substr(begin, readme.find(fence, begin) - begin);
 }
@@ -92,10 +84,10 @@ const std::vector<std::pair<std::string, std::string>> cases = {
     {"a sheet's numbers as cells", replaced(short_case, "= 3.0\nvent", "= 1.0\nvent") +
                                        "porosity_model = \"paper\"\nbox_m = [2.5, 2.5, 5]\n"},
     {"README", readme_case()},
-    {"Stratos IV, with its opening", text_of("examples/stratos-iv/case.toml")},
-    {"ringslot", text_of("examples/ringslot/case.toml")},
-    {"cross", text_of("examples/cross/case.toml")},
-    {"elliptical, a profile", text_of("examples/elliptical/case.toml")},
+    {"Stratos IV, with its opening", shipped_text("examples/stratos-iv/case.toml")},
+    {"ringslot", shipped_text("examples/ringslot/case.toml")},
+    {"cross", shipped_text("examples/cross/case.toml")},
+    {"elliptical, a profile", shipped_text("examples/elliptical/case.toml")},
     {"an opening under a pressure of its own",
      short_case + "[inflation]\npressure_pa = 200\nline_segment_m = 0.1\n"},
 };

@@ -1,29 +1,19 @@
 // Whatever bytes a case file has, it is a valid case or a told mistake.
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <random>
 #include <set>
-#include <sstream>
 
 #include "fixture.h"
 #include "ripstop/case/assemble.h"
+#include "ripstop/core/file.h"
 #include "ripstop/parachute/disk_gap_band.h"
 
 namespace ripstop {
 namespace {
 
-std::string text_of(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  std::stringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
-
-const std::filesystem::path examples = std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples";
-
 std::string example_text() {
-  return text_of(examples / "stratos-iv" / "case.toml");
+  return read_file(examples / "stratos-iv" / "case.toml");
 }
 
 std::vector<std::string> all_example_texts() {
@@ -31,7 +21,7 @@ std::vector<std::string> all_example_texts() {
   for (const auto& folder : std::filesystem::directory_iterator(examples))
     if (exists(folder.path() / "case.toml")) files.insert(folder.path() / "case.toml");
   std::vector<std::string> texts;
-  for (const auto& file : files) texts.push_back(text_of(file));
+  for (const auto& file : files) texts.push_back(read_file(file));
   return texts;
 }
 

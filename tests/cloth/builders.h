@@ -13,6 +13,8 @@
 
 namespace ripstop::testing {
 
+inline constexpr double gravity = 9.81;  // [m/s2]
+
 struct FabricSpec {
   std::vector<double> coefficients = f111_curve;  // of the axial springs, [N/m]
   double xi = 0.2, eps = 0.01;

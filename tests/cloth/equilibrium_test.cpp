@@ -12,8 +12,6 @@ namespace {
 using namespace testing;
 using std::numbers::pi;
 
-constexpr double gravity = 9.81;
-
 TEST(ClothEquilibrium, AHangingChainIsAnElasticCatenary) {
   // 2 m of chain of w N/m over a span of 1.6 m, T = K e; s along the unstretched chain, V = w L / 2:
   //   x = H s / K + H / w [asinh(V / H) - asinh((V - w s) / H)]

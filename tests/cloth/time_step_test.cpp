@@ -11,8 +11,6 @@ namespace {
 
 using namespace testing;
 
-constexpr double gravity = 9.81;
-
 Loads weight_of(const Mesh& mesh) {
   Loads loads;
   for (double mass : reference_masses(mesh)) loads.node_force.push_back({0, 0, -gravity * mass});

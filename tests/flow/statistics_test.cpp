@@ -74,7 +74,7 @@ TEST(Statistics, TheStandardErrorAllowsForWhatTheFlowRemembers) {
     int covered = 0;
     constexpr int records = 200;
     for (unsigned seed = 0; seed < records; ++seed) {
-      const Estimate e = estimate(remembering(memory, 200, 4000, seed), 0);
+      const MeanOverTime e = mean_over_time(remembering(memory, 200, 4000, seed), 0);
       squares += e.mean * e.mean / records;
       estimates += e.standard_error / records;
       covered += std::abs(e.mean) < 2 * e.standard_error ? 1 : 0;

@@ -12,9 +12,9 @@ namespace ripstop {
 namespace {
 
 /// Steps of 0.01 s; the field's pressure and force are those of a function of time.
-class Scripted final : public Flow {
+class ForceOverTime final : public Flow {
  public:
-  explicit Scripted(std::function<double(double)> force) : force_(std::move(force)) {}
+  explicit ForceOverTime(std::function<double(double)> force) : force_(std::move(force)) {}
 
   FlowStep march(int steps, double, const StepReport& report) override {
     for (int n = 0; n < steps; ++n) {
@@ -54,7 +54,7 @@ FlowProblem stream() {
 constexpr Watch half_a_second_a_length{0.7, 0.01, 20, 200, 1};
 
 TEST(Watch, EndsWhenTheMeanIsKnownAndLeavesTheStartUpOut) {
-  Scripted flow([](double t) { return 10 + 20 * std::exp(-t / 2) + std::sin(5 * t); });
+  ForceOverTime flow([](double t) { return 10 + 20 * std::exp(-t / 2) + std::sin(5 * t); });
   FlowRecord record;
   const FlowField mean = watch(flow, stream(), half_a_second_a_length, record);
   EXPECT_TRUE(record.enough);
@@ -72,7 +72,7 @@ TEST(Watch, EndsWhenTheMeanIsKnownAndLeavesTheStartUpOut) {
 }
 
 TEST(Watch, TheStreamHasBeenThroughTheBoxBeforeTheMeanBegins) {
-  Scripted flow(
+  ForceOverTime flow(
       [](double t) { return 10 + 0.1 * std::sin(5 * t); });  // nothing that a start-up would show by
   FlowProblem problem = stream();
   problem.grid.size.z = 12;
@@ -110,7 +110,7 @@ TEST(FieldMean, OfTwoMeansIsThatOfAllTheirFields) {
 }
 
 TEST(Watch, SaysSoWhenTheLongestWatchIsNotEnough) {
-  Scripted flow([](double t) { return 10 + 5 * std::sin(0.4 * t); });
+  ForceOverTime flow([](double t) { return 10 + 5 * std::sin(0.4 * t); });
   FlowRecord record;
   const FlowField mean = watch(flow, stream(), half_a_second_a_length, record);
   EXPECT_FALSE(record.enough);
@@ -119,7 +119,7 @@ TEST(Watch, SaysSoWhenTheLongestWatchIsNotEnough) {
 }
 
 TEST(Watch, AReportMayStopItAndTheSliceIsTheMiddlePlane) {
-  Scripted flow([](double) { return 10.0; });
+  ForceOverTime flow([](double) { return 10.0; });
   FlowRecord record;
   int reports = 0;
   watch(flow, stream(), half_a_second_a_length, record,
@@ -133,7 +133,7 @@ TEST(Watch, AReportMayStopItAndTheSliceIsTheMiddlePlane) {
 }
 
 TEST(Watch, RefusesOneThatCannotBe) {
-  Scripted flow([](double) { return 10.0; });
+  ForceOverTime flow([](double) { return 10.0; });
   FlowRecord record;
   for (const Watch& wrong :
        {Watch{0.7, 0, 20, 200, 1}, Watch{0.7, 0.01, 20, 30, 1}, Watch{0.7, 0.01, 20, 200, 0}})

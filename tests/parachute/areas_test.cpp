@@ -22,7 +22,8 @@
 namespace ripstop {
 namespace {
 
-constexpr double pi = std::numbers::pi, degree = pi / 180;
+using std::numbers::pi;
+constexpr double degree = pi / 180;
 
 struct Areas {
   double nominal, covered, open;  // S0; cloth without fullness; vent, slots and gaps [m2]

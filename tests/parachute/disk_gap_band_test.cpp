@@ -21,7 +21,7 @@
 namespace ripstop {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Design stratos(int nodes = 25600) {
   return printed_stratos(nodes);

@@ -23,7 +23,7 @@
 namespace ripstop {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 CanopyMesh mesh_of(const Case& given) {
   CanopyMesh mesh = parachute_mesh(given);
@@ -295,11 +295,12 @@ TEST(Ringsail, AdeptHasSeventyTwoSailsOnAboutElevenThousandNodes) {
       covered += pattern.gores * (b.height - a.height) * 0.5 * (a.chord + b.chord);
       with_fullness += pattern.gores * (b.height - a.height) * 0.5 * (a.width + b.width);
     }
-  const double degree = pi / 180;
-  const double vent = std::asin(0.03 / radius), row = (60 * degree - vent - 6 * degree) / 8.5;
+  const double per_degree = pi / 180;
+  const double vent = std::asin(0.03 / radius), row = (60 * per_degree - vent - 6 * per_degree) / 8.5;
   const auto cap = [&](double angle) { return 2 * pi * radius * radius * (1 - std::cos(angle)); };
-  const double upper = vent + 0.5 * row, lower = upper + 3 * degree + row;
-  const double open = cap(vent) + cap(upper + 3 * degree) - cap(upper) + cap(lower + 3 * degree) - cap(lower);
+  const double upper = vent + 0.5 * row, lower = upper + 3 * per_degree + row;
+  const double open =
+      cap(vent) + cap(upper + 3 * per_degree) - cap(upper) + cap(lower + 3 * per_degree) - cap(lower);
   EXPECT_NEAR(covered, pi / 4 - open, 1e-4);
   EXPECT_NEAR(computed_area(given.parachute), with_fullness, 1e-12);
 }

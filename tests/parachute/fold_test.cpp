@@ -15,7 +15,7 @@
 namespace ripstop {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Design disk_gap_band(int nodes, int gores, int lines) {
   Design design = printed_stratos(nodes);
@@ -24,7 +24,7 @@ Design disk_gap_band(int nodes, int gores, int lines) {
   return design;
 }
 
-CanopyMesh stratos() {
+CanopyMesh stratos_mesh() {
   return build_mesh(disk_gap_band(25600, 6, 18), printed_materials());
 }
 
@@ -33,7 +33,7 @@ double radius(Vec3 p) {
 }
 
 TEST(Fold, EveryFoldThatFitsKeepsAllLengthsAndEveryTie) {
-  const CanopyMesh mesh = stratos();
+  const CanopyMesh mesh = stratos_mesh();
   for (const double r : {0.1, 0.2, 0.45}) {
     for (const int folds : {9, 18}) {
       const FoldedStart start = fold(mesh, {r, folds, 0});
@@ -49,7 +49,7 @@ TEST(Fold, EveryFoldThatFitsKeepsAllLengthsAndEveryTie) {
 }
 
 TEST(Fold, TheSkirtsFoldsLieOnEitherSideOfTheGivenRadius) {
-  const CanopyMesh mesh = stratos();
+  const CanopyMesh mesh = stratos_mesh();
   const FoldedStart start = fold(mesh, {0.1, 0, 0});
   EXPECT_EQ(start.folds, 18);  // one a line
   EXPECT_NEAR(0.5 * (start.inner_radius + start.outer_radius), 0.1, 1e-12);
@@ -74,13 +74,13 @@ TEST(Fold, TheSkirtsFoldsLieOnEitherSideOfTheGivenRadius) {
 }
 
 TEST(Fold, TheFoldedCanopyHasTheSymmetryOfItsFolds) {
-  const CanopyMesh mesh = stratos();
+  const CanopyMesh mesh = stratos_mesh();
   const FoldedStart start = fold(mesh, {0.1, 18, 0});
   EXPECT_LT(departure_from_symmetry(mesh, start.positions, 18), 1e-14);
 }
 
 TEST(Fold, SlackLinesAreLongerThanTheirWayByTheGivenLengthAndKeepTheirOwn) {
-  const CanopyMesh mesh = stratos();
+  const CanopyMesh mesh = stratos_mesh();
   const double slack = 0.08;
   const FoldedStart start = fold(mesh, {0.1, 18, slack});
   EXPECT_LT(start_strain(mesh, start.positions).largest, 1e-9);
@@ -105,7 +105,7 @@ TEST(Fold, LinesThatEndOnInnerAndOuterFoldsAreSlackWhereTheirWayIsShorter) {
 }
 
 TEST(Fold, ARadiusOrNumberOfFoldsThatDoesNotFitIsRefusedWithWhatWould) {
-  const CanopyMesh mesh = stratos();
+  const CanopyMesh mesh = stratos_mesh();
   const auto message = [&](const Folding& folding) -> std::string {
     try {
       fold(mesh, folding);

@@ -75,6 +75,8 @@ constinit const CanopyFamily Biconical::family = family_of<Biconical>("biconical
 
 namespace {
 
+using std::numbers::pi;
+
 const char* const text = R"([parachute]
 type = "biconical"
 skirt_diameter_m = 1.0
@@ -173,7 +175,6 @@ TEST(NewFamily, OutsideOfTheListItCannotBeWritten) {
 // Frusta of cones: the sum of the radii times pi times the slant length.
 TEST(NewFamily, HasTheClothOfItsConesInPatternMeshAndDrawing) {
   const Design design = biconical();
-  const double pi = std::numbers::pi;
   const double cloth =
       pi * (0.9 * 0.1 / std::cos(Biconical::steep) + 0.45 * 0.35 / std::cos(Biconical::shallow));
   EXPECT_NEAR(computed_area(design), cloth, 1e-9);

@@ -18,7 +18,7 @@
 namespace ripstop {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// The 2 N turns and reflections of a canopy of N gores as permutations of its nodes.
 struct Symmetry {

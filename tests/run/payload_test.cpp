@@ -82,7 +82,7 @@ TEST(Payload, ItsFolderIsAFinishedRunAndIsFoundAgain) {
 }
 
 /// Ends as a killed process does: by leaving.
-struct Killed : SteadyObserver {
+struct KilledInTime : SteadyObserver {
   int left = 0;
   void iterated(const SteadyRun&, const SteadyState&, const FlowField&) override {
     if (--left == 0) throw std::runtime_error("killed");
@@ -97,7 +97,7 @@ TEST(Payload, ARunThatWasKilledGoesOnAtTheSpeedThatItHadFound) {
   };
   SteadyObserver nobody;
   const SteadyResult whole = run_steady_in(settings("whole"), given, nobody).result;
-  Killed killed;
+  KilledInTime killed;
   killed.left = 2;
   EXPECT_THROW(run_steady_in(settings("killed"), given, killed), std::runtime_error);
   const SteadyResult resumed = run_steady_in(settings("killed"), given, nobody).result;

@@ -26,12 +26,6 @@ SteadyProblem small_problem(CanopyLoad load = CanopyLoad::uniform) {
   return steady_problem(given);
 }
 
-struct Folder {
-  fs::path path = fs::temp_directory_path() / ("ripstop_steady_run_test_" + std::to_string(getpid()));
-  Folder() { fs::remove_all(path); }
-  ~Folder() { fs::remove_all(path); }
-};
-
 TEST(SteadyRun, TheLedgerClosesAndTheLoadIsTheFlowsForce) {
   FormulaEngine engine;
   SteadySolver solver(small_problem(), engine);
@@ -100,7 +94,7 @@ TEST(SteadyRun, ARunThatWasKilledBetweenIterationsGoesOnBitForBit) {
   SteadyState undisturbed = whole.start();
   for (int k = 0; k < 3; ++k) whole.iterate(undisturbed);
 
-  Folder folder;
+  TemporaryFolder folder("steady_run");
   {
     FormulaEngine engine;
     SteadySolver solver(small_problem(), engine);
@@ -128,7 +122,7 @@ TEST(SteadyRun, ADamagedCheckpointIsNeverReadAsOne) {
   SteadySolver solver(small_problem(), engine);
   SteadyState state = solver.start();
   solver.iterate(state);
-  Folder folder;
+  TemporaryFolder folder("steady_run");
   EXPECT_FALSE(load_checkpoint(folder.path, solver.flow()));
   save_checkpoint(folder.path, state, solver.flow());
   const fs::path file = folder.path / "odd" / "state";
@@ -151,7 +145,7 @@ TEST(SteadyRun, TheOlderCheckpointStandsInForADamagedOne) {
     FormulaEngine engine;
     SteadySolver solver(small_problem(), engine);
     SteadyState state = solver.start();
-    Folder folder;
+    TemporaryFolder folder("steady_run");
     for (int k = 0; k < 2; ++k) {
       solver.iterate(state);
       save_checkpoint(folder.path, state, solver.flow());

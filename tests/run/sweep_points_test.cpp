@@ -8,14 +8,14 @@
 namespace ripstop {
 namespace {
 
-const std::filesystem::path stratos =
+const std::filesystem::path stratos_case =
     std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/stratos-iv/case.toml";
 
 TEST(SweepPoints, AreEveryCombinationEachOneStepFromItsNeighbour) {
   const std::vector<SweepAxis> axes = {
       sweep_axis("flow.speed_m_s", {"10", "15", "20", "25", "30"}, "--speeds"),
       sweep_axis("materials.f-111.darcy", {"50", "60"}, "--vary")};
-  const std::vector<SweepPoint> points = sweep_points(stratos, {}, axes);
+  const std::vector<SweepPoint> points = sweep_points(stratos_case, {}, axes);
   ASSERT_EQ(points.size(), 10u);
   std::set<std::string> folders;
   int cold = 0;
@@ -41,13 +41,15 @@ TEST(SweepPoints, AreEveryCombinationEachOneStepFromItsNeighbour) {
 }
 
 TEST(SweepPoints, TakeTheDensityOfTheirOwnSpeed) {
-  const auto points = sweep_points(stratos, {}, {sweep_axis("flow.speed_m_s", {"10", "25"}, "--speeds")});
+  const auto points =
+      sweep_points(stratos_case, {}, {sweep_axis("flow.speed_m_s", {"10", "25"}, "--speeds")});
   EXPECT_DOUBLE_EQ(air(points[0].given).density, 1.202);
   EXPECT_DOUBLE_EQ(air(points[1].given).density, 1.204);
 }
 
 TEST(SweepPoints, WithAValueTwiceAreRefused) {
-  EXPECT_THROW(sweep_points(stratos, {}, {sweep_axis("flow.speed_m_s", {"10", "10"}, "--speeds")}), Error);
+  EXPECT_THROW(sweep_points(stratos_case, {}, {sweep_axis("flow.speed_m_s", {"10", "10"}, "--speeds")}),
+               Error);
 }
 
 TEST(SteadyResult, OfATextThatIsNoResultIsRefused) {

@@ -63,12 +63,6 @@ SteadyProblem swinging_problem() {
   return steady_problem(given);
 }
 
-struct Folder {
-  fs::path path = fs::temp_directory_path() / ("ripstop_unsteady_run_test_" + std::to_string(getpid()));
-  Folder() { fs::remove_all(path); }
-  ~Folder() { fs::remove_all(path); }
-};
-
 TEST(UnsteadyRun, EndsAtRestFirstAndThenWithTheMeanOverTime) {
   SwingingEngine engine;
   SteadySolver solver(swinging_problem(), engine);
@@ -97,7 +91,7 @@ TEST(UnsteadyRun, KilledBetweenIterationsItGoesOnBitForBit) {
   SteadySolver whole(swinging_problem(), engine);
   SteadyState undisturbed = whole.start();
   to_the_end(whole, undisturbed);
-  const Folder folder;
+  const TemporaryFolder folder("unsteady_run");
   {
     SteadySolver solver(swinging_problem(), engine);
     SteadyState state = solver.start();
@@ -115,7 +109,7 @@ TEST(UnsteadyRun, KilledBetweenIterationsItGoesOnBitForBit) {
 }
 
 TEST(UnsteadyRun, LeavesItsHistoryAndItsWakeInTheFolder) {
-  const Folder folder;
+  const TemporaryFolder folder("unsteady_run");
   Case given = checked(flat_circular_case(1, 600, 20));
   given.flow.box_m = Vec3{3, 3, 4};
   given.flow.cells = {22, 22, 26};

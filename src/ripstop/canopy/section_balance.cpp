@@ -7,7 +7,7 @@
 namespace ripstop {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 double about_axis(Vec3 point, Vec3 force) {
   return point.x * force.y - point.y * force.x;

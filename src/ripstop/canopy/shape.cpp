@@ -8,7 +8,7 @@
 namespace ripstop {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 double circle_of(double area) {
   return std::sqrt(4 * area / pi);

@@ -63,8 +63,8 @@ double end_of_start_up(const Record& record) {
   return record.begin + best * (record.end() - record.begin) / parts;
 }
 
-Estimate estimate(const Record& record, double from) {
-  Estimate result;
+MeanOverTime mean_over_time(const Record& record, double from) {
+  MeanOverTime result;
   double largest = 0;
   for (const int parts : {6, 8, 12, 16, 24, 32, 48, 64}) {
     const std::vector<double> means = means_over_parts(record, from, parts);

@@ -23,7 +23,7 @@ std::vector<double> means_over_parts(const Record& record, double from, int part
 /// were independent (MSER; White 1997), sought in the first half of the record.
 double end_of_start_up(const Record& record);
 
-struct Estimate {
+struct MeanOverTime {
   double mean = 0;
   double standard_error = 0;  // infinite for a record without variation in time to judge by
   double deviation = 0;       // standard deviation of the record itself
@@ -31,7 +31,7 @@ struct Estimate {
 /// Of the record from `from` on. The standard error is that of the means over equal parts of it, the largest
 /// for six and more parts: parts that are shorter than what the flow remembers look more certain than they are
 /// (blocking; Flyvbjerg and Petersen 1989).
-Estimate estimate(const Record& record, double from);
+MeanOverTime mean_over_time(const Record& record, double from);
 
 /// The frequency [1/s] with the most power, of a few records of the same times together, and what share of the
 /// power lies within one step of frequency of it; 0 where the record is shorter than four periods of it.

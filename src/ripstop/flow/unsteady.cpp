@@ -115,7 +115,7 @@ FlowField watch(Flow& flow, const FlowProblem& problem, const Watch& how, FlowRe
     // At least until the stream has been through the box.
     const double through = std::min(problem.grid.size.z / problem.air.speed, 0.5 * record.watched());
     record.start_up = std::max(end_of_start_up(drag) - drag.begin, through);
-    record.drag = estimate(drag, drag.begin + record.start_up);
+    record.drag = mean_over_time(drag, drag.begin + record.start_up);
     progress.mean = record.drag.mean, progress.standard_error = record.drag.standard_error;
     const double relative = record.drag.standard_error / std::abs(record.drag.mean);
     record.enough =
@@ -147,7 +147,7 @@ FlowField watch(Flow& flow, const FlowProblem& problem, const Watch& how, FlowRe
   if (record.steps.size() < steps_a_field) return flow.field();
   const Record x = record_of(record.steps, &Vec3::x), y = record_of(record.steps, &Vec3::y);
   const double from = x.begin + record.start_up;
-  record.side_x = estimate(x, from), record.side_y = estimate(y, from);
+  record.side_x = mean_over_time(x, from), record.side_y = mean_over_time(y, from);
   record.swing = strongest_frequency({x, y}, from);
   FlowField field = mean.since(record.start_up);
   // What the box's faces pass, less what its own momentum grows by: force and gap of every step.

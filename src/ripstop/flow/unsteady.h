@@ -29,10 +29,10 @@ struct FlowRecord {
   std::vector<FlowStep> steps;
   double start_up = 0;  // discarded, from the beginning of the watch: until the record has settled, and
                         // at least until the stream has been through the box [s]
-  Estimate drag, side_x, side_y;  // of the rest [N]
-  Peak swing;                     // of the side force
-  bool enough = false;            // the standard error came down to what was asked for
-  std::vector<FlowSlice> slices;  // the last ones, evenly in time
+  MeanOverTime drag, side_x, side_y;  // of the rest [N]
+  Peak swing;                         // of the side force
+  bool enough = false;                // the standard error came down to what was asked for
+  std::vector<FlowSlice> slices;      // the last ones, evenly in time
 
   double watched() const;  // [s]
 };

@@ -14,7 +14,7 @@
 namespace ripstop {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // What lies along one radial: nodes from the skirt up the band, and from the disk's edge to the vent.
 struct Radial {

@@ -16,7 +16,7 @@
 namespace ripstop {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double same = 1e-9;  // lengths closer than this are equal [m]
 constexpr double folded_strain = 1e-9;
 

@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Of InflationState's list of members: one more with every change of it.
-constexpr int format_version = 2;
+constexpr int opening_format = 2;
 
 double clock_now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -250,11 +250,11 @@ void InflationFolder::write_shapes(const Inflation& solver, const InflationState
 }  // namespace
 
 std::string to_bytes(const InflationState& state) {
-  return to_cbor(state, format_version);
+  return to_cbor(state, opening_format);
 }
 
 InflationState inflation_state_from_bytes(const std::string& bytes) {
-  return from_cbor<InflationState>(bytes, format_version, "a checkpoint of an opening");
+  return from_cbor<InflationState>(bytes, opening_format, "a checkpoint of an opening");
 }
 
 namespace {

@@ -14,7 +14,7 @@
 namespace ripstop {
 namespace {
 
-std::optional<double> number(const std::string& text) {
+std::optional<double> number_in(const std::string& text) {
   double value = 0;
   const char* last = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), last, value);
@@ -25,7 +25,7 @@ std::optional<double> number(const std::string& text) {
 std::optional<std::size_t> drawn_axis(const std::vector<SweepAxis>& axes) {
   for (std::size_t d = 0; d < axes.size(); ++d) {
     bool numbers = axes[d].values.size() > 1;
-    for (const std::string& value : axes[d].values) numbers = numbers && number(value);
+    for (const std::string& value : axes[d].values) numbers = numbers && number_in(value);
     if (numbers) return d;
   }
   return std::nullopt;
@@ -161,7 +161,7 @@ void write_sweep_plots(const std::filesystem::path& folder, const std::string& t
             series.name = part + (part.empty() || name.empty() ? "" : ", ") + name;
             series.dashed = plot.series.size() % 2 == 1;  // one that lies on its neighbour leaves it seen
             for (const std::size_t i : members) {
-              series.x.push_back(*number(points[i].values[*axis]));
+              series.x.push_back(*number_in(points[i].values[*axis]));
               series.y.push_back(value(rows[i]));
             }
             plot.series.push_back(series);

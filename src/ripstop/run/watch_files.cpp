@@ -14,8 +14,8 @@
 namespace ripstop {
 namespace {
 
-constexpr std::size_t most_points = 2000;  // of a line in the plot
-constexpr std::size_t shots = 6;           // in the picture
+constexpr std::size_t most_plotted = 2000;  // of a line in the plot
+constexpr std::size_t shots = 6;            // in the picture
 
 void write_history(ClaimedFolder& folder, const FlowRecord& record) {
   CsvTable table{{"time_s", "step_s", "courant", "force_x_n", "force_y_n", "drag_n", "momentum_gap_n"}, {}};
@@ -37,7 +37,7 @@ void plot_history(ClaimedFolder& folder, const Case& given, const FlowRecord& re
   for (PlotSeries& series : plot.series) series.markers = false;
   plot.series[1].dashed = true;
   const double begin = record.steps.front().time - record.steps.front().length;
-  const std::size_t every = std::max<std::size_t>(1, record.steps.size() / most_points);
+  const std::size_t every = std::max<std::size_t>(1, record.steps.size() / most_plotted);
   double sum = 0, since = 0;
   for (std::size_t n = 0; n < record.steps.size(); ++n) {
     const FlowStep& step = record.steps[n];

@@ -67,7 +67,7 @@ std::string key_literal(const std::string& key) {
   return bare == std::string::npos ? key : text_literal(key);
 }
 
-std::string joined(const std::string& prefix, const std::string& key) {
+std::string dotted(const std::string& prefix, const std::string& key) {
   return prefix.empty() ? key_literal(key) : prefix + "." + key_literal(key);
 }
 
@@ -91,7 +91,7 @@ void write_toml(const Fields& fields, const std::string& prefix, std::string& ou
     if (!literal.empty()) out += field.key + " = " + literal + "\n";
   }
   for (const Field& field : all) {
-    const std::string name = joined(prefix, field.key);
+    const std::string name = dotted(prefix, field.key);
     if (const auto* sub = std::get_if<Subtable>(&field.value)) {
       out += "\n[" + name + "]\n";
       write_toml(sub->fields(), name, out);
@@ -102,8 +102,8 @@ void write_toml(const Fields& fields, const std::string& prefix, std::string& ou
       }
     } else if (const auto* tables = std::get_if<NamedTables>(&field.value)) {
       for (const std::string& entry : tables->names()) {
-        out += "\n[" + joined(name, entry) + "]\n";
-        write_toml(tables->entry(entry), joined(name, entry), out);
+        out += "\n[" + dotted(name, entry) + "]\n";
+        write_toml(tables->entry(entry), dotted(name, entry), out);
       }
     }
   }
