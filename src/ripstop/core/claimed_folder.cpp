@@ -37,11 +37,18 @@ std::string host_name() {
   return ::gethostname(name, sizeof name - 1) == 0 ? name : "unknown host";
 }
 
+std::string line_of(const std::string& name) {
+  return hash_bytes(name) + ' ' + name + '\n';
+}
+
+std::string list_in(const fs::path& folder) {
+  return fs::exists(list_of(folder)) ? read_file(list_of(folder)) : "";
+}
+
 // Lines whose hash does not fit, as the last one after a kill, prove nothing and are left out.
 std::vector<std::string> listed(const fs::path& folder) {
   std::vector<std::string> names;
-  if (!fs::exists(list_of(folder))) return names;
-  std::istringstream lines(read_file(list_of(folder)));
+  std::istringstream lines(list_in(folder));
   for (std::string line; std::getline(lines, line);) {
     if (line.size() > 33 && line.substr(0, 32) == hash_bytes(line.substr(33)))
       names.push_back(line.substr(33));
@@ -136,6 +143,7 @@ ClaimedFolder::ClaimedFolder(fs::path folder) : folder_(std::move(folder)) {
                                           std::generic_category().message(errno)));
   }
   names_ = listed(folder_);
+  drop_broken_lines();
   drop_leftovers();
 }
 
@@ -158,7 +166,7 @@ fs::path ClaimedFolder::own(const std::string& name) {
     throw Error(ExitCode::usage,
                 fmt::format("{}: is there already and not Ripstop's; choose another --out", path.string()));
   }
-  append_to_file(list_of(folder_), hash_bytes(name) + ' ' + name + '\n');
+  append_to_file(list_of(folder_), line_of(name));
   names_.push_back(name);
   return path;
 }
@@ -186,6 +194,13 @@ void ClaimedFolder::seal() const {
 
 void ClaimedFolder::note(const std::string& name, const std::string& text) const {
   write_sealed(folder_ / records / name, text);
+}
+
+// What is added after half a line would be lost with it.
+void ClaimedFolder::drop_broken_lines() const {
+  std::string whole;
+  for (const std::string& name : names_) whole += line_of(name);
+  if (whole != list_in(folder_)) write_file(list_of(folder_), whole);
 }
 
 void ClaimedFolder::drop_leftovers() const {

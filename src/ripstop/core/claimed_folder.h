@@ -38,6 +38,7 @@ class ClaimedFolder {
   void seal() const;
 
  private:
+  void drop_broken_lines() const;
   void drop_leftovers() const;
 
   std::filesystem::path folder_;
