@@ -135,6 +135,10 @@ TIMES_OF_REPORT = [(re.compile(rb'("text":"wall time","unit":"s","value":)[-+0-9
                    (re.compile(rb'\["started","[^"]*"\]'), b"[]"), (re.compile(rb"nonce(=\"|-)[0-9a-f]{32}"), b"nonce")]
 
 
+# Cairo numbers the parts of an SVG from the beginning of the process on.
+NUMBERED = re.compile(rb"\b(surface|source|image|mask|clip|glyph|pattern|linear|radial|group|compositing-group|filter)-?[0-9]+(-[0-9]+)*\b")
+
+
 def columns_without_time(text):
     rows = [line.split(",") for line in text.decode().splitlines()]
     if not rows or "wall_time_s" not in rows[0]:
@@ -153,6 +157,8 @@ def contents(folder):
         text = path.read_bytes()
         if name.endswith(".csv"):
             text = columns_without_time(text)
+        if name.endswith(".svg"):
+            text = NUMBERED.sub(rb"\1", text)
         for pattern, plain in TIMES if name.endswith(".json") else TIMES_OF_REPORT if name.endswith(".html") else []:
             text = pattern.sub(plain, text)
         found[name] = text
@@ -162,7 +168,8 @@ def contents(folder):
 def differences(folder, whole, but=lambda name: False):
     """Names of files that differ, or that only one of both folders has."""
     one, other = contents(folder), contents(whole)
-    return sorted(name for name in one.keys() | other.keys() if one.get(name) != other.get(name) and not but(name))
+    unlike = [name for name in one.keys() | other.keys() if one.get(name) != other.get(name) and not but(name)]
+    return sorted(unlike, key=lambda name: (not name.endswith((".csv", ".json", ".toml")), name))  # numbers first
 
 
 def last_line(text):
