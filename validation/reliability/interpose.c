@@ -45,7 +45,7 @@ static void* real(const char* name) {
 }
 
 __attribute__((constructor)) static void begin(void) {
-  if (strcmp(program_invocation_short_name, "ripstop") != 0) return;
+  if (strncmp(program_invocation_short_name, "ripstop", 7) != 0) return;
   self = getpid();
   if (getenv("TORTURE_BACK")) back = atof(getenv("TORTURE_BACK"));
   REAL(clock_gettime)(CLOCK_MONOTONIC, &began);

@@ -129,7 +129,7 @@ class Bench:
 
 
 # Wall-clock figures, the time of day, and what is of them: hashes, random words made of them, the process's number.
-IGNORED = re.compile(r"^(.*/)?\.ripstop/(lock|seal)$|^(.*/)?checkpoint/(odd|even)/state$|^wall_time\.(svg|png)$|^(.*/)?flow/log\.|^calls$")
+IGNORED = re.compile(r"^(.*/)?\.ripstop/(lock|seal|started)$|^(.*/)?checkpoint/(odd|even)/state$|^wall_time\.(svg|png)$|^(.*/)?flow/log\.|^calls$")
 TIMES = [(re.compile(rb'"(wall_time_s|seconds)": [-+0-9.e]+'), rb'"\1": 0'), (re.compile(rb'"started": "[^"]*"'), b'"started": ""')]
 TIMES_OF_REPORT = [(re.compile(rb'("text":"wall time","unit":"s","value":)[-+0-9.e]+'), rb"\1"), (re.compile(rb'\["wall time","s",[^\]]*\]'), b"[]"),
                    (re.compile(rb'\["started","[^"]*"\]'), b"[]"), (re.compile(rb"nonce(=\"|-)[0-9a-f]{32}"), b"nonce")]
