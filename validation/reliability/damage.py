@@ -39,7 +39,7 @@ def given_by(bench, words, run, out):
     out.mkdir()
     arguments = [word.format(case=bench.case, run=run, out=out, image=IMAGE) for word in words.split()]
     code, text, err = bench.run([str(bench.program), *arguments])
-    left = trial.contents(out)
+    left = {name: text.replace(str(run).encode(), b"RUN") for name, text in trial.contents(out).items()}
     if words == "report {run}":
         left = trial.contents(run).get("report.html")
     return code, (text.replace(str(run), "RUN").replace(str(out), "OUT"), left), err
