@@ -17,7 +17,7 @@ CHECK_PACKAGES := libgtest-dev libbenchmark-dev python3 python3-jsonschema pytho
 
 export PATH := /usr/bin:$(PATH)
 
-.PHONY: help deps check-deps build demo check room sanitize fuzz tidy bench validate validate-ojf validate-families report-libraries format format-check install-build install wheel package clean
+.PHONY: help deps check-deps build demo check room sanitize fuzz tidy bench validate validate-ojf validate-families torture report-libraries format format-check install-build install wheel package clean
 
 help:  ## This list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -94,6 +94,9 @@ validate-ojf: build  ## Calibrate on Stratos IV, predict WALRUS and ADEPT blind,
 
 validate-families: build  ## Drag of every family's example beside Knacke's values, into docs/tables: ten minutes; resumable
 	@/usr/bin/python3 validation/families/families.py --ripstop build/bin/ripstop
+
+torture: build  ## Kills, failing writes, damaged files, lying programs over tiny runs, into docs/tables: hours; resumable
+	@/usr/bin/python3 validation/reliability/torture.py --ripstop build/bin/ripstop $(TORTURE)
 
 report-libraries:  ## Make the report's three.js and uPlot again from npm, as package-lock.json pins them (needs node)
 	@cd src/ripstop/report/vendor && npm ci --silent && npm run --silent build && rm -rf node_modules

@@ -64,6 +64,7 @@ int compare(CompareArguments& options) {
   const Comparison comparison =
       compare_models(points, rows, [&](std::size_t i) { return final_state(folder / points[i].folder); });
   write_comparison(folder, comparison);
+  seal_sweep(folder);
   if (options.json) {
     fmt::print("{}", to_json(comparison));
     return 0;

@@ -55,7 +55,8 @@ int compare(const CouponArguments& options, const Fabric& fabric, ThreadTeam& te
   const MaterialFit fit = fit_material(bench);
   const std::vector<CouponComparison> coupons =
       compare_coupons(fit, fabric, options.shape.cells, options.points, team);
-  const std::string json = coupons_json(fabric.name, coupons);
+  const std::string json = coupons_json(
+      fabric, bench, fit, fmt::format("{} cells, {} points\n", options.shape.cells, options.points), coupons);
   if (!options.out.empty()) {
     make_folder(options.out);
     for (const CouponComparison& c : coupons) write_coupon(options.out, c.name, c.coupon, c.pull);

@@ -105,6 +105,7 @@ class Terminal : public InflationObserver {
   Terminal(const LoadSource& source, const fs::path& folder, bool quiet, Progress& progress)
       : source_(source), folder_(folder), quiet_(quiet), progress_(progress) {}
 
+  void warned(const std::string& text) override { progress_.line("ripstop: " + text); }
   void begin(const Inflation& solver, InflationState& state, InflationHistory&) override {
     if (state.blocks > 0)
       progress_.line(fmt::format("going on at {:.2f} ms of {}", 1000 * state.cloth.time, folder_.string()));

@@ -209,6 +209,7 @@ int calibrate(PorosityArguments& options) {
   const PressureDrop law = cloth_of(knob, found.knob, options.thickness);
   write_plots(folder, given, measured, trials, found, knob, area);
   write_result(folder, given, measured, found, knob, law, options, area);
+  seal_sweep(folder);
   if (options.json) {
     fmt::print("{}", read_file(folder / "result.json"));
   } else {

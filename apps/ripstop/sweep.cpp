@@ -71,6 +71,7 @@ int sweep(SweepArguments& options) {
   write_csv(folder / "sweep.csv", sweep_table(axes, points, rows));
   write_file(folder / "result.json", json);
   write_sweep_plots(folder, title, axes, points, rows);
+  seal_sweep(folder);
   const bool any = std::any_of(rows.begin(), rows.end(), [](const SweepRow& row) { return row.done; });
   const std::string report = any ? write_report({folder}).string() : "";
   if (options.json) {

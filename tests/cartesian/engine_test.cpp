@@ -4,9 +4,11 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <new>
 #include <string>
 
 #include "ripstop/core/error.h"
+#include "ripstop/core/file.h"
 #include "ripstop/flow/bodies.h"
 #include "ripstop/flow/cartesian/cartesian.h"
 #include "ripstop/flow/steady.h"
@@ -91,6 +93,23 @@ TEST(CartesianEngine, AFlowThatWasSavedAtAnyIterationGoesOnBitForBit) {
       EXPECT_TRUE(same_bits(resumed->field(), unbroken->field())) << saved_after;
     }
   }
+}
+
+/// In memory that held something else before.
+std::string saved_from_memory_of(unsigned char byte) {
+  alignas(FlowProblem) static unsigned char memory[sizeof(FlowProblem)];
+  std::memset(memory, byte, sizeof memory);
+  auto* problem = new (memory) FlowProblem;
+  problem->grid = {{-1, -1, 0}, {2, 2, 4}, 16, 16, 24};
+  problem->air.speed = 10;
+  const Folder folder;
+  make_cartesian(with_threads(1))->start(*problem)->save(folder.path);
+  problem->~FlowProblem();
+  return read_file(folder.path / "cartesian.flow");
+}
+
+TEST(CartesianEngine, TheSameFlowMakesTheSameFile) {
+  EXPECT_TRUE(saved_from_memory_of(0x00) == saved_from_memory_of(0xff));
 }
 
 TEST(CartesianEngine, AFlowInAnotherBoxOrADamagedFileIsRefused) {

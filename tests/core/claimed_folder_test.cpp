@@ -74,6 +74,44 @@ TEST_F(ClaimedFolderTest, ALineOfTheListThatWasDamagedProvesNothing) {
   EXPECT_TRUE(fs::exists(folder / "a.csv") && fs::exists(folder / "b.csv") && fs::exists(folder / "x.csv"));
 }
 
+TEST_F(ClaimedFolderTest, WhatIsListedAfterHalfALineIsNotLostWithIt) {
+  {
+    ClaimedFolder claimed(folder);
+    write_file(claimed.own("a.csv"), "a");
+  }
+  const fs::path list = folder / ".ripstop/files";
+  const std::string whole = read_file(list);
+  append_to_file(list, whole.substr(0, 11));  // the process was killed
+  {
+    ClaimedFolder next(folder);
+    write_file(next.own("b.csv"), "b");
+  }
+  EXPECT_EQ(ClaimedFolder(folder).names(), (std::vector<std::string>{"a.csv", "b.csv"}));
+}
+
+TEST_F(ClaimedFolderTest, WhatWasKeptIsKnownToBeLostOrChangedUntilItIsWrittenAgain) {
+  {
+    ClaimedFolder claimed(folder);
+    for (const char* name : {"a", "b", "c"}) write_file(claimed.own(name), name);
+    claimed.keep();
+    write_file(claimed.own("c"), "written again");
+    EXPECT_TRUE(claimed.lost().empty());
+  }
+  write_file(folder / "a", "changed");
+  fs::remove(folder / "b");
+  append_to_file(folder / ".ripstop/kept", "half a line");
+  ClaimedFolder again(folder);
+  EXPECT_EQ(again.lost(), (std::vector<std::string>{"a", "b"}));
+  for (const char* name : {"a", "b"}) write_file(again.own(name), name);
+  EXPECT_TRUE(again.lost().empty());
+  again.keep();
+  EXPECT_TRUE(ClaimedFolder(root.path / "other").lost().empty());
+  again.seal();
+  EXPECT_FALSE(fs::exists(folder / ".ripstop/kept"));
+  again.unseal();
+  EXPECT_FALSE(is_sealed(folder));
+}
+
 TEST_F(ClaimedFolderTest, TwoCannotHoldAFolderAndTheSecondSaysWhoDoes) {
   ClaimedFolder claimed(folder);
   try {

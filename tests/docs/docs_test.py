@@ -79,6 +79,14 @@ class Docs(unittest.TestCase):
         text = "".join(page.read_text() for page in PAGES)
         self.assertEqual([page.name for page in TABLES.glob("*.md") if f"tables/{page.name}" not in text], [])
 
+    def test_every_test_that_holds_a_promise_exists(self):
+        missing = []
+        for room, suite, name in re.findall(r"`(\w+)\.(\w+)\.(\w+)`", (ROOT / "docs/reliability.md").read_text()):
+            text = "".join(file.read_text() for file in (ROOT / "tests" / room).glob("*.cpp"))
+            if not re.search(rf"TEST(_[FP])?\({suite},\s*{name}\)", text):
+                missing.append(f"{room}.{suite}.{name}")
+        self.assertEqual(missing, [])
+
     def test_no_file_is_longer_than_one_reads(self):
         files = [*PAGES, *(file for folder in ("src", "apps", "python", "tests", "bench", "examples", "validation") for ending in ("h", "cpp", "py")
                            for file in ROOT.glob(f"{folder}/**/*.{ending}"))]

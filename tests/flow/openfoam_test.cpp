@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "ripstop/core/error.h"
+#include "ripstop/core/file.h"
 #include "ripstop/core/process.h"
 #include "ripstop/flow/bodies.h"
 #include "ripstop/flow/openfoam/case_reader.h"
@@ -230,19 +231,27 @@ TEST_F(OpenFoam, AHalfWrittenStateIsRefused) {
       flow->restore(folder);
       FAIL() << "restored from " << folder;
     } catch (const Error& error) {
-      EXPECT_EQ(error.code(), ExitCode::io);
+      EXPECT_EQ(error.code(), ExitCode::bad_data);
       EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
     }
   };
   flow->save(root_ / "cut");
   fs::resize_file(root_ / "cut/part0/U", 1000);
-  refused(root_ / "cut", "cut short");
+  refused(root_ / "cut", "part0/U");
+  flow->save(root_ / "flipped");
+  std::string field = read_file(root_ / "flipped/part0/p");
+  field[field.size() / 2] ^= 1;
+  write_file(root_ / "flipped/part0/p", field);
+  refused(root_ / "flipped", "part0/p");
+  flow->save(root_ / "no_seal");
+  fs::remove(root_ / "no_seal/contents.seal");
+  refused(root_ / "no_seal", "contents.seal");
   flow->save(root_ / "no_marker");
   fs::remove(root_ / "no_marker/saved.json");
   refused(root_ / "no_marker", "saved.json");
   flow->save(root_ / "bad_marker");
   fs::resize_file(root_ / "bad_marker/saved.json", 50);
-  refused(root_ / "bad_marker", "damaged");
+  refused(root_ / "bad_marker", "saved.json");
   flow->save(root_ / "two_ranks");
   EXPECT_THROW(engine("other", 2)->start(problem)->restore(root_ / "two_ranks"), Error);
 }

@@ -1,7 +1,10 @@
 #include "ripstop/core/file.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <fstream>
@@ -44,6 +47,21 @@ TEST(WriteFile, BytesComeBackAndNothingElseIsLeft) {
     EXPECT_TRUE(read_file(folder.path / "a") == content);
   }
   EXPECT_EQ(files_in(folder.path), 1u);
+}
+
+TEST(WriteFile, WhatAKilledWriterLeftGoesAndWhatALivingOneWritesStays) {
+  const TemporaryFolder folder("file-left");
+  overwrite(folder.path / ".a.4711-3.tmp", "half");
+  overwrite(folder.path / ".b.4711-3.tmp", "of another file");
+  overwrite(folder.path / ".a.4712-0.tmp", "of a writer that lives");
+  const int living = ::open((folder.path / ".a.4712-0.tmp").c_str(), O_RDWR);
+  ASSERT_EQ(::flock(living, LOCK_EX), 0);
+  write_file(folder.path / "a", "whole");
+  EXPECT_FALSE(std::filesystem::exists(folder.path / ".a.4711-3.tmp"));
+  EXPECT_TRUE(std::filesystem::exists(folder.path / ".b.4711-3.tmp"));
+  EXPECT_TRUE(std::filesystem::exists(folder.path / ".a.4712-0.tmp"));
+  EXPECT_EQ(read_file(folder.path / "a"), "whole");
+  ::close(living);
 }
 
 TEST(WriteFile, AFailedWriteLeavesTheOldFileAndNoRubbish) {

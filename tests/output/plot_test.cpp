@@ -1,6 +1,8 @@
 #include "ripstop/output/plot.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <limits>
 
@@ -62,6 +64,23 @@ TEST(Plot, MarkersLieWhereTheirValuesAre) {
   EXPECT_NEAR(middle.x, 0.5 * (low.x + high.x), 0.2);
   EXPECT_NEAR(middle.y, 0.5 * (low.y + high.y), 0.2);
   EXPECT_NEAR(marker_at(10, 0.5, true).x, middle.x, 0.2);  // halfway from 1 to 100 on a logarithmic axis
+}
+
+TEST(Plot, IsTheSamePictureWhateverTheProcessDrewBefore) {
+  const TemporaryFolder folder("plot-order");
+  const Plot plot{"title", {"time [s]"}, {"load [N]"}, {{"load", {0, 1, 2}, {1, 3, 2}}}};
+  for (const std::string before : {".png", ".svg"}) {  // fonts are prepared once a process
+    const pid_t child = fork();
+    if (child == 0) {
+      write_plot(folder.path / ("before" + before), plot);
+      write_plot(folder.path / ("after" + before + ".png"), plot);
+      _exit(0);
+    }
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    ASSERT_EQ(status, 0);
+  }
+  EXPECT_TRUE(read_file(folder.path / "after.png.png") == read_file(folder.path / "after.svg.png"));
 }
 
 TEST(Plot, ALineHasAGapWhereAValueIsMissing) {

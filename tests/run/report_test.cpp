@@ -63,6 +63,32 @@ TEST_F(RunReport, IsSealedWithItsRunAndMadeAgainUnlessTheRunIsDamaged) {
   EXPECT_EQ(damaged_files(folder), std::vector<std::string>{"lines.csv"});
 }
 
+TEST_F(RunReport, OfADamagedOrUnfinishedRunIsRefusedWhereverItIsToGo) {
+  const fs::path a = run("a"), b = run("b"), out = root.path / "both.html";
+  std::string text = read_file(b / "result.json");
+  text.replace(text.find("\"drag_n\": ") + 10, 1, "9");
+  write_file(b / "result.json", text);
+  EXPECT_THROW(write_report({a, b}, out), Error);
+  EXPECT_THROW(write_report({b}, out), Error);
+  fs::remove(a / ".ripstop/seal");
+  EXPECT_THROW(write_report({a}, out), Error);
+  EXPECT_FALSE(fs::exists(out));
+}
+
+TEST_F(RunReport, ThatCannotBeWrittenLeavesTheRunToBeRepeated) {
+  const fs::path folder = run("a");
+  fs::remove(folder / ".ripstop/seal");
+  fs::remove(folder / "report.html");
+  fs::create_directories(folder / "report.html");  // no file can take its place
+  SteadyObserver nobody;
+  EXPECT_THROW(run_steady_in({{folder}, 1, {}, {}}, small(10), nobody), Error);
+  EXPECT_FALSE(is_sealed(folder));
+  fs::remove(folder / "report.html");
+  run_steady_in({{folder}, 1, {}, {}}, small(10), nobody);
+  EXPECT_TRUE(finished_result(folder));
+  EXPECT_TRUE(is_report(read_file(folder / "report.html")));
+}
+
 TEST_F(RunReport, HasEveryNumberOfItsResult) {
   const fs::path folder = run("a");
   const ReportRun made = report_of(folder);

@@ -21,6 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* records = ".ripstop";
+constexpr const char* released = "released";  // in place of the hash of what is to be written again
 
 fs::path lock_of(const fs::path& folder) {
   return folder / records / "lock";
@@ -37,16 +38,36 @@ std::string host_name() {
   return ::gethostname(name, sizeof name - 1) == 0 ? name : "unknown host";
 }
 
+fs::path kept_of(const fs::path& folder) {
+  return folder / records / "kept";
+}
+
+std::string line_of(const std::string& text) {
+  return hash_bytes(text) + ' ' + text + '\n';
+}
+
 // Lines whose hash does not fit, as the last one after a kill, prove nothing and are left out.
-std::vector<std::string> listed(const fs::path& folder) {
-  std::vector<std::string> names;
-  if (!fs::exists(list_of(folder))) return names;
-  std::istringstream lines(read_file(list_of(folder)));
+std::vector<std::string> lines_of(const fs::path& file) {
+  std::vector<std::string> texts;
+  if (!fs::exists(file)) return texts;
+  std::istringstream lines(read_file(file));
   for (std::string line; std::getline(lines, line);) {
     if (line.size() > 33 && line.substr(0, 32) == hash_bytes(line.substr(33)))
-      names.push_back(line.substr(33));
+      texts.push_back(line.substr(33));
   }
-  return names;
+  return texts;
+}
+
+// What is added after half a line would be lost with it.
+void drop_broken_lines(const fs::path& file) {
+  if (!fs::exists(file)) return;
+  std::string whole;
+  for (const std::string& text : lines_of(file)) whole += line_of(text);
+  if (whole != read_file(file)) write_file(file, whole);
+}
+
+std::vector<std::string> listed(const fs::path& folder) {
+  return lines_of(list_of(folder));
 }
 
 bool is_folder_name(const std::string& name) {
@@ -58,17 +79,6 @@ bool covers(const std::vector<std::string>& names, const std::string& name) {
   return std::any_of(names.begin(), names.end(), [&](const std::string& own) {
     return own == name || (is_folder_name(own) && name.starts_with(own));
   });
-}
-
-/// ".NAME.PID-N.tmp", as write_file() names it: NAME; else nothing.
-std::string written_as(const std::string& file) {
-  if (!file.starts_with('.') || !file.ends_with(".tmp")) return {};
-  const std::string body = file.substr(1, file.size() - 5);
-  const std::size_t dot = body.rfind('.');
-  if (dot == std::string::npos || dot == 0) return {};
-  const std::string number = body.substr(dot + 1);
-  const bool numbers = !number.empty() && number.find_first_not_of("0123456789-") == std::string::npos;
-  return numbers ? body.substr(0, dot) : std::string{};
 }
 
 /// Files below the folder by their relative names, but for Ripstop's records.
@@ -135,7 +145,16 @@ ClaimedFolder::ClaimedFolder(fs::path folder) : folder_(std::move(folder)) {
     throw Error(ExitCode::io, fmt::format("cannot write {}: {}", lock_of(folder_).string(),
                                           std::generic_category().message(errno)));
   }
+  drop_broken_lines(list_of(folder_));
   names_ = listed(folder_);
+  if (is_sealed(folder_)) {
+    take_away(kept_of(folder_));  // the seal has taken its place
+  } else {
+    drop_broken_lines(kept_of(folder_));
+    for (const std::string& line : lines_of(kept_of(folder_)))
+      kept_[line.substr(line.find(' ') + 1)] = line.substr(0, line.find(' '));
+    std::erase_if(kept_, [](const auto& entry) { return entry.second == released; });
+  }
   drop_leftovers();
 }
 
@@ -153,12 +172,13 @@ ClaimedFolder::~ClaimedFolder() {
 
 fs::path ClaimedFolder::own(const std::string& name) {
   const fs::path path = folder_ / name;
+  if (kept_.erase(name)) append_to_file(kept_of(folder_), line_of(std::string(released) + ' ' + name));
   if (covers(names_, name)) return path;
   if (fs::exists(path)) {
     throw Error(ExitCode::usage,
                 fmt::format("{}: is there already and not Ripstop's; choose another --out", path.string()));
   }
-  append_to_file(list_of(folder_), hash_bytes(name) + ' ' + name + '\n');
+  append_to_file(list_of(folder_), line_of(name));
   names_.push_back(name);
   return path;
 }
@@ -174,6 +194,24 @@ void ClaimedFolder::clear() {
   for (const fs::directory_entry& record : fs::directory_iterator(folder_ / records))
     if (record.path() != lock_of(folder_)) take_away(record.path());
   names_.clear();
+  kept_.clear();
+}
+
+void ClaimedFolder::keep() {
+  std::string lines;
+  for (const std::string& name : names_) {
+    if (is_folder_name(name) || kept_.contains(name) || !fs::exists(folder_ / name)) continue;
+    kept_[name] = hash_file(folder_ / name);
+    lines += line_of(kept_[name] + ' ' + name);
+  }
+  if (!lines.empty()) append_to_file(kept_of(folder_), lines);
+}
+
+std::vector<std::string> ClaimedFolder::lost() const {
+  std::vector<std::string> names;
+  for (const auto& [name, hash] : kept_)
+    if (!fs::exists(folder_ / name) || hash_file(folder_ / name) != hash) names.push_back(name);
+  return names;
 }
 
 void ClaimedFolder::seal() const {
@@ -182,6 +220,11 @@ void ClaimedFolder::seal() const {
     if (!is_folder_name(name) && fs::exists(folder_ / name)) contents[name] = hash_file(folder_ / name);
   }
   write_sealed(seal_of(folder_), contents.dump(2) + "\n");
+  take_away(kept_of(folder_));
+}
+
+void ClaimedFolder::unseal() const {
+  take_away(seal_of(folder_));
 }
 
 void ClaimedFolder::note(const std::string& name, const std::string& text) const {

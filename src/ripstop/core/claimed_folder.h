@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,7 +10,7 @@
 namespace ripstop {
 
 /// The folder keeps its records in `.ripstop/`: `lock` (who works in it), `files` (what Ripstop wrote, one line a
-/// name with the line's own hash), notes and, of a finished run, `seal`.
+/// name with the line's own hash), notes and `kept`, the hashes of files while it runs, or of a finished run `seal`.
 class ClaimedFolder {
  public:
   /// Makes the folder if need be and locks it for as long as this object, or its process, lives. Removes what
@@ -31,11 +32,20 @@ class ClaimedFolder {
   /// Removes all that is on the list, and folders that are then empty; everything else stays. Throws Error(io).
   void clear();
 
+  /// All files on the list, folders with '/' left out, are now as the run will find them when it goes on; their
+  /// hashes stand in `.ripstop/kept` when this returns. own() of one releases it: it is about to be written
+  /// again. Throws Error(io).
+  void keep();
+  /// Names of files that are lost or changed since keep().
+  std::vector<std::string> lost() const;
+
   /// A sealed word about the folder, kept beside the list. Throws Error(io).
   void note(const std::string& name, const std::string& text) const;
   /// Seals the contents of all files on the list, folders with '/' left out: the work here is
   /// done. Throws Error(io).
   void seal() const;
+  /// The work goes on. Throws Error(io).
+  void unseal() const;
 
  private:
   void drop_leftovers() const;
@@ -43,6 +53,7 @@ class ClaimedFolder {
   std::filesystem::path folder_;
   int lock_ = -1;
   std::vector<std::string> names_;
+  std::map<std::string, std::string> kept_;  // name -> hash of what is in it
 };
 
 /// Throws what ClaimedFolder would throw where another process works in the folder; makes nothing.

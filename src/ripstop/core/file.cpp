@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -71,15 +72,47 @@ std::filesystem::path temporary_name(const std::filesystem::path& path) {
   return folder_of(path) / fmt::format(".{}.{}-{}.tmp", path.filename().string(), ::getpid(), counter++);
 }
 
+/// A temporary file that nobody else has: its lock says that its writer lives, wherever that runs.
+int open_temporary(const std::filesystem::path& path, std::filesystem::path& temporary) {
+  for (;;) {
+    temporary = temporary_name(path);
+    const int fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (fd < 0 && errno == EEXIST) continue;  // left by a killed process with the same number
+    if (fd < 0) return fd;
+    const bool own =
+        ::flock(fd, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;  // some file systems have no locks
+    struct stat status = {};
+    if (own && ::fstat(fd, &status) == 0 && status.st_nlink > 0) return fd;
+    ::close(fd);  // somebody took it for a leftover before it was locked
+  }
+}
+
+void drop_leftovers(const std::filesystem::path& path) {
+  std::error_code error;
+  std::filesystem::directory_iterator entry(folder_of(path), error);
+  for (; !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) {
+    if (written_as(entry->path().filename()) != path.filename()) continue;
+    const Descriptor fd(::open(entry->path().c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
+    if (fd.get() >= 0 && ::flock(fd.get(), LOCK_EX | LOCK_NB) == 0) ::unlink(entry->path().c_str());
+  }
+}
+
 }  // namespace
 
+std::string written_as(const std::string& file) {
+  if (!file.starts_with('.') || !file.ends_with(".tmp") || file.size() < 6) return {};
+  const std::string body = file.substr(1, file.size() - 5);
+  const std::size_t dot = body.rfind('.');
+  if (dot == std::string::npos || dot == 0) return {};
+  const std::string number = body.substr(dot + 1);
+  const bool numbers = !number.empty() && number.find_first_not_of("0123456789-") == std::string::npos;
+  return numbers ? body.substr(0, dot) : std::string{};
+}
+
 void write_file(const std::filesystem::path& path, std::string_view bytes) {
-  std::filesystem::path temporary = temporary_name(path);
-  int opened = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  while (opened < 0 && errno == EEXIST) {  // left by a killed process with the same number
-    temporary = temporary_name(path);
-    opened = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  }
+  drop_leftovers(path);
+  std::filesystem::path temporary;
+  const int opened = open_temporary(path, temporary);
   if (opened < 0) fail("write", path, errno);
   Descriptor fd(opened);
   int reason = write_all(fd.get(), bytes);

@@ -8,9 +8,13 @@
 namespace ripstop {
 
 /// Replaces `path` by `bytes` in one step: a temporary file in the same folder, fsync, rename, fsync of the
-/// folder. Whoever opens `path` meanwhile, or after a kill or a power cut, finds the old content or the new.
+/// folder. Whoever opens `path` meanwhile, or after a kill or a power cut, finds the old content or the new. What
+/// a killed process left of its own temporary file for `path` goes.
 /// Throws Error(io) with the path and the system's reason; the old file is then untouched.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
+
+/// ".NAME.PID-N.tmp", as write_file() names what it has not yet renamed: NAME; else nothing.
+std::string written_as(const std::string& file);
 
 /// The whole file. Throws Error(io).
 std::string read_file(const std::filesystem::path& path);

@@ -34,6 +34,16 @@ void check(cairo_status_t status, const std::filesystem::path& path) {
               fmt::format("{} could not be drawn: {}", path.string(), cairo_status_to_string(status)));
 }
 
+/// Said outright: else a font keeps what the first picture of the process, .png or .svg, made of it.
+void set_font_options(cairo_t* page) {
+  const std::unique_ptr<cairo_font_options_t, decltype(&cairo_font_options_destroy)> options(
+      cairo_font_options_create(), cairo_font_options_destroy);
+  cairo_font_options_set_antialias(options.get(), CAIRO_ANTIALIAS_GRAY);
+  cairo_font_options_set_hint_style(options.get(), CAIRO_HINT_STYLE_NONE);
+  cairo_font_options_set_hint_metrics(options.get(), CAIRO_HINT_METRICS_OFF);
+  cairo_set_font_options(page, options.get());
+}
+
 void choose_font(cairo_t* page, const TextStyle& style) {
   cairo_select_font_face(page, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,
                          style.bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
@@ -55,6 +65,7 @@ void write_drawing(const std::filesystem::path& path, int width, int height,
                         cairo_surface_destroy);
   {
     const Page page(cairo_create(surface.get()), cairo_destroy);
+    set_font_options(page.get());
     fill_box(page.get(), 0, 0, width, height, {1, 1, 1});
     draw(page.get());
     check(cairo_status(page.get()), path);

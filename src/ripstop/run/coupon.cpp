@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "ripstop/core/build_info.h"
 #include "ripstop/core/file.h"
+#include "ripstop/core/hash.h"
+#include "ripstop/material/library.h"
 #include "ripstop/output/csv.h"
 #include "ripstop/output/sheet_picture.h"
 #include "ripstop/output/vtk.h"
@@ -19,7 +22,10 @@ CouponResult run_coupon(const Fabric& fabric, const CouponShape& shape, double s
   if (!(strain > 0)) strain = fabric.tested_strain > 0 ? fabric.tested_strain : 0.1;
   std::vector<double> strains;
   for (int i = 1; i <= points; ++i) strains.push_back(strain * i / points);
-  CouponResult result{fabric.name, shape.orientation, coupon_mesh(fabric, shape), {}};
+  const std::string asked =
+      fmt::format("{}\n{}\n{} {} {} {} {} {} {}", version(), material_to_toml(fabric), shape.orientation,
+                  shape.bias_lattice, shape.length, shape.width, shape.cells, strain, points);
+  CouponResult result{fabric.name, hash_bytes(asked), shape.orientation, coupon_mesh(fabric, shape), {}};
   result.pull = pull_coupon(result.coupon, strains, {}, team);
   return result;
 }

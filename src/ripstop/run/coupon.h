@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "ripstop/calibration/coupon.h"
@@ -22,13 +23,15 @@ void each_member(T& point, Visit&& visit) {
 /// result.json of `ripstop coupon`.
 struct CouponResult {
   std::string material;
-  int orientation = 0;  // [deg]
+  std::optional<std::string> inputs_hash;  // of version, material and what was asked for
+  int orientation = 0;                     // [deg]
   CouponMesh coupon;
   CouponPull pull;
 };
 template <Of<CouponResult> T, class Visit>
 void each_member(T& r, Visit&& visit) {
   visit("material", r.material);
+  visit("inputs_hash", r.inputs_hash);
   visit("orientation_deg", r.orientation);
   visit("length_m", r.coupon.length);
   visit("width_m", r.coupon.width);

@@ -1,10 +1,13 @@
 #include "ripstop/run/damping.h"
 
+#include <fmt/format.h>
+
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/output/csv.h"
 #include "ripstop/output/plot.h"
 #include "ripstop/run/json.h"
+#include "ripstop/run/run_folder.h"
 
 namespace ripstop {
 
@@ -23,6 +26,9 @@ DampingResult run_damping(const Case& given, const LoadSource& source, const Inf
                           const std::function<void()>& alive) {
   DampingResult result;
   result.title = given.title;
+  result.inputs_hash = inputs_hash(
+      given, fmt::format("damping {} to {}, {} points, {} refinements; pressure {} from {}", search.from,
+                         search.to, search.points, search.refinements, problem.pressure, source.text));
   result.target = damping_target(given);
   result.found = calibrate_damping(
       result.target, search, [&](double damping) { return open_with(damping, problem, alive); }, report);

@@ -26,6 +26,7 @@ void each_member(T& trial, Visit&& visit) {
 /// result.json of `ripstop calibrate damping`.
 struct DampingResult {
   std::string title;
+  std::optional<std::string> inputs_hash;  // of version, case, load and range searched
   DampingCalibration found;
   DampingTarget target;
   double low_pass_hz = 0;
@@ -36,6 +37,7 @@ struct DampingResult {
 template <Of<DampingResult> T, class Visit>
 void each_member(T& r, Visit&& visit) {
   visit("title", r.title);
+  visit("inputs_hash", r.inputs_hash);
   visit("damping_n_s_m3", r.found.best.damping);
   visit("misfit", r.found.best.misfit);
   visit("peak_load_n", r.found.best.peak);

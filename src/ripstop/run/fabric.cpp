@@ -12,6 +12,7 @@
 #include "ripstop/output/picture.h"
 #include "ripstop/output/vtk.h"
 #include "ripstop/run/json.h"
+#include "ripstop/run/run_folder.h"
 #include "ripstop/run/stress_arrays.h"
 
 namespace ripstop {
@@ -27,6 +28,7 @@ FabricSolution run_fabric(const Case& given, std::optional<double> pressure,
   const Air stream = air(given);
   r.title = given.title;
   r.pressure = pressure.value_or(0.5 * stream.density * stream.speed * stream.speed);
+  r.inputs_hash = inputs_hash(given, fmt::format("fabric under {} Pa", r.pressure));
   r.tolerance = given.coupling.cloth_tolerance;
   mesh = parachute_mesh(given);
   ClothOptions cloth_options;

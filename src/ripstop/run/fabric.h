@@ -19,9 +19,10 @@ namespace ripstop {
 /// result.json of `ripstop fabric`.
 struct FabricResult {
   std::string title;
-  double pressure = 0;       // over the whole canopy [Pa]
-  double pressure_load = 0;  // axial, on the cloth [N]
-  double line_tension = 0;   // axial sum, on the fixed end [N]
+  std::optional<std::string> inputs_hash;  // of version, case and pressure
+  double pressure = 0;                     // over the whole canopy [Pa]
+  double pressure_load = 0;                // axial, on the cloth [N]
+  double line_tension = 0;                 // axial sum, on the fixed end [N]
   CanopySize size;
   double projected_ratio = 0;                                  // projected over nominal diameter
   std::optional<std::array<double, 2>> known_projected_ratio;  // Knacke's range of the type, in flight
@@ -36,6 +37,7 @@ struct FabricResult {
 template <Of<FabricResult> T, class Visit>
 void each_member(T& r, Visit&& visit) {
   visit("title", r.title);
+  visit("inputs_hash", r.inputs_hash);
   visit("pressure_pa", r.pressure);
   visit("pressure_load_n", r.pressure_load);
   visit("line_tension_n", r.line_tension);

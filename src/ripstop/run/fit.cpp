@@ -9,6 +9,7 @@
 #include "ripstop/core/build_info.h"
 #include "ripstop/core/file.h"
 #include "ripstop/core/hash.h"
+#include "ripstop/material/library.h"
 #include "ripstop/output/csv.h"
 #include "ripstop/output/plot.h"
 #include "ripstop/run/coupon.h"
@@ -38,6 +39,14 @@ Json to_json(const Estimate& e) {
           {"standard_error", number(e.standard_error)},
           {"low", number(e.low)},
           {"high", number(e.high)}};
+}
+
+/// Hash of version, campaign with its records, and what else was asked for.
+std::string inputs_of(const Bench& bench, const MaterialFit& fit, const std::string& asked) {
+  std::string text = fmt::format("{}\n{}\n{}\n{}\n{}\n", version(), asked, hash_file(bench.file),
+                                 bench.degree, bench.zero_offset);
+  for (const RecordOrigin& input : fit.inputs) text += input.hash + "\n";
+  return hash_bytes(text);
 }
 
 Json to_json(const std::vector<CouponComparison>& coupons) {
@@ -96,8 +105,13 @@ std::filesystem::path write_fit(const std::filesystem::path& folder, const FitRe
   return file;
 }
 
-std::string coupons_json(const std::string& material, const std::vector<CouponComparison>& coupons) {
-  return Json{{"material", material}, {"coupons", to_json(coupons)}}.dump(2) + "\n";
+std::string coupons_json(const Fabric& material, const Bench& bench, const MaterialFit& fit,
+                         const std::string& asked, const std::vector<CouponComparison>& coupons) {
+  return Json{{"material", material.name},
+              {"inputs_hash", inputs_of(bench, fit, asked + material_to_toml(material))},
+              {"coupons", to_json(coupons)}}
+             .dump(2) +
+         "\n";
 }
 
 void write_curves(const std::filesystem::path& folder, const MaterialFit& fit, const Bench& bench,
@@ -170,6 +184,7 @@ std::string to_json(const FitResult& result) {
   const auto& [bench, fit, coupons] = result;
   Json root;
   root["name"] = bench.name;
+  root["inputs_hash"] = inputs_of(bench, fit, coupons ? "with coupons" : "without coupons");
   root["kind"] = kind_of(fit.material);
   root["ripstop"] = version();
   root["campaign"] = {{"file", bench.file.filename().string()}, {"hash", hash_file(bench.file)}};

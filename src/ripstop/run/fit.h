@@ -34,8 +34,10 @@ void write_curves(const std::filesystem::path& folder, const MaterialFit& fit, c
 std::string material_toml(const FitResult& result);
 /// Everything of the fit: result.json.
 std::string to_json(const FitResult& result);
-/// Coupons of `material` beside the records of a bench: result.json of `ripstop coupon --bench`.
-std::string coupons_json(const std::string& material, const std::vector<CouponComparison>& coupons);
+/// Coupons of `material` beside the records of a bench: result.json of `ripstop coupon --bench`. `asked` is what
+/// was asked for beside both.
+std::string coupons_json(const Fabric& material, const Bench& bench, const MaterialFit& fit,
+                         const std::string& asked, const std::vector<CouponComparison>& coupons);
 
 std::string interval_text(const Estimate& estimate);
 const char* load_unit(const DirectionFit& direction);  // "N" of a line, else "N/m"

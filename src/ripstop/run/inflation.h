@@ -109,6 +109,7 @@ struct InflationHistory {
 class InflationObserver {
  public:
   virtual ~InflationObserver() = default;
+  virtual void warned(const std::string&) {}
   /// Before the first block. An observer that knows an earlier state puts it, and its history, in the place
   /// of the folded start.
   virtual void begin(const Inflation&, InflationState&, InflationHistory&) {}

@@ -112,6 +112,7 @@ void InflationFolder::begin(const Inflation& solver, InflationState& state, Infl
   }
   history = {rows_of<HistoryRow>(folder_.own("history.csv")),
              rows_of<InflationFrame>(folder_.own("balance.csv"))};
+  refuse_lost(folder_);
   if (!goes_on) write_start(solver, state);
   next_.begin(solver, state, history);
 }
@@ -133,6 +134,7 @@ void InflationFolder::save(const InflationState& state, const InflationHistory& 
   };
   add(table<HistoryRow>("history.csv", saved_rows_), history.rows, saved_rows_);
   add(table<InflationFrame>("balance.csv", saved_frames_), history.frames, saved_frames_);
+  folder_.keep();
   write_sealed(folder_.own("checkpoint"), tables_hash() + '\n' + to_bytes(state));
   saved_ = clock_now();
 }
@@ -157,7 +159,8 @@ void InflationFolder::ended(const Inflation& solver, const InflationState& state
   InflationResult named = result;
   named.inputs_hash = inputs_of_run(folder_.path());
   write_file(folder_.own("result.json"), to_json(named));
-  if (report_) write_run_report(folder_);
+  if (report_)
+    if (const std::string failure = write_run_report(folder_); !failure.empty()) next_.warned(failure);
   folder_.seal();
   next_.ended(solver, state, history, result);
 }

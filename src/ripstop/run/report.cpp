@@ -96,14 +96,7 @@ void check_out(const fs::path& out) {
 
 /// The page into a sealed folder, all of whose other files are as they were when it was sealed.
 fs::path write_into(const fs::path& folder, const std::string& page) {
-  std::vector<std::string> damaged = damaged_files(folder);
-  std::erase(damaged, report_name);
-  if (!damaged.empty())
-    throw Error(
-        ExitCode::bad_data,
-        fmt::format("{}: {} lost or changed since the run ended; put back what was there, or compute it "
-                    "again with --fresh",
-                    folder.string(), fmt::join(damaged, ", ")));
+  require_whole(folder, report_name);
   ClaimedFolder claimed(folder);
   write_file(claimed.own(report_name), page);
   claimed.seal();
@@ -146,13 +139,18 @@ ReportRun report_of(const fs::path& folder) {
 }
 
 std::vector<ReportRun> reports_of(const fs::path& folder) {
-  if (!is_sweep(folder)) return {report_of(folder)};
-  const auto sweep = nlohmann::ordered_json::parse(read_file(folder / "result.json"), nullptr, false);
+  if (is_sealed(folder)) require_whole(folder, report_name);
   std::vector<ReportRun> runs;
+  if (!is_sweep(folder)) runs.push_back(report_of(folder));
+  if (!is_sealed(folder))
+    throw Error(ExitCode::usage,
+                fmt::format("{}: has not ended; wait for it, or repeat its command", folder.string()));
+  if (!is_sweep(folder)) return runs;
+  const auto sweep = nlohmann::ordered_json::parse(read_file(folder / "result.json"), nullptr, false);
   if (sweep.is_object() && sweep.contains("runs")) {
     for (const auto& row : sweep["runs"]) {
       if (!row.contains("result")) continue;
-      runs.push_back(report_of(folder / row.value("folder", "")));
+      runs.push_back(reports_of(folder / row.value("folder", "")).front());
       std::string name;
       for (const auto& [key, value] : row["values"].items())
         name += (name.empty() ? "" : ", ") + in_words(key, value.template get<std::string>());
@@ -182,6 +180,8 @@ std::string write_run_report(ClaimedFolder& folder) {
     write_file(folder.own(report_name), report_page(report_on({std::move(run)}, title)));
     return {};
   } catch (const std::exception& error) {
+    const auto* known = dynamic_cast<const Error*>(&error);
+    if (known && known->code() == ExitCode::io) throw;  // the same command will write it once there is room
     return fmt::format("no report was written: {}", error.what());
   }
 }
@@ -199,9 +199,6 @@ fs::path write_report(const std::vector<fs::path>& folders, const fs::path& out)
     title = fmt::format("{} runs", runs.size());
   const std::string page = report_page(report_on(std::move(runs), title));
   if (own && is_sealed(folders.front())) return write_into(folders.front(), page);
-  if (own && !is_sweep(folders.front()))
-    throw Error(ExitCode::usage,
-                fmt::format("{}: has not ended; wait for it, or give --out", folders.front().string()));
   write_file(target, page);
   return target;
 }

@@ -18,7 +18,8 @@ inline constexpr const char* report_name = "report.html";
 /// Of a run whose result.json is written, sealed or not. Throws Error(usage) for a folder without one, Error(bad_data)
 /// for files that cannot be read.
 ReportRun report_of(const std::filesystem::path& folder);
-/// The same of all runs of a sweep's folder that have a result, or of the one run of any other.
+/// The same of all runs of a sweep's folder that have a result, or of the one run of any other; all of them ended
+/// and whole, else Error(usage) or Error(bad_data).
 std::vector<ReportRun> reports_of(const std::filesystem::path& folder);
 
 /// One page of all these runs, compared where there are several. `given`:
@@ -26,7 +27,7 @@ std::vector<ReportRun> reports_of(const std::filesystem::path& folder);
 Report report_on(std::vector<ReportRun> runs, const std::string& title);
 
 /// report.html of a run under way, before its folder is sealed. What went wrong is returned as text: a finished
-/// computation is worth more than its picture.
+/// computation is worth more than its picture. Throws Error(io) only.
 std::string write_run_report(ClaimedFolder& folder);
 
 /// report.html of a finished run or sweep in its own folder, of which everything else is checked first and sealed

@@ -26,10 +26,6 @@ std::string now_utc() {
                      utc.tm_hour, utc.tm_min, utc.tm_sec);
 }
 
-std::string inputs_hash(const Case& given, const std::string& solver) {
-  return hash_bytes(fmt::format("{}\n{}\n{}", version(), solver, case_json(given)));
-}
-
 /// Where the values come from that the case need not give.
 ordered_json sources_of(const Case& given) {
   ordered_json list = ordered_json::array();
@@ -38,7 +34,8 @@ ordered_json sources_of(const Case& given) {
   return list;
 }
 
-constexpr const char* inputs = "inputs";  // the note of what the run is of
+constexpr const char* inputs = "inputs";    // the note of what the run is of
+constexpr const char* started = "started";  // and of when it was begun
 
 /// A start that was refused, failed or was killed before anything was computed is in nobody's way.
 bool has_got_anywhere(const fs::path& folder) {
@@ -78,8 +75,9 @@ std::unique_ptr<ClaimedFolder> open_run_folder(const RunSettings& settings, cons
   holds_run(settings, given, solver);  // what it refuses is left without a trace
   auto folder = std::make_unique<ClaimedFolder>(settings.folder);
   const bool goes_on = holds_run(settings, given, solver);
-  if (goes_on && (is_sealed(settings.folder) || fs::exists(settings.folder / "case.toml"))) return folder;
+  if (goes_on && is_sealed(settings.folder)) return folder;
   if (!goes_on) folder->clear();
+  const std::string begun = noted(settings.folder, started).value_or(now_utc());
   ordered_json run;
   run["program"] = "ripstop";
   run["version"] = version();
@@ -88,32 +86,47 @@ std::unique_ptr<ClaimedFolder> open_run_folder(const RunSettings& settings, cons
   run["threads"] = threads;
   run["ranks"] = given.flow.ranks;
   run["flow_engine"] = solver;
-  run["started"] = now_utc();
+  run["started"] = begun;
   run["case_file"] = given.file.string();
   run["inputs_hash"] = inputs_hash(given, solver);
   run["case"] = ordered_json::parse(case_json(given));
   run["sources"] = sources_of(given);
+  folder->note(started, begun);
   folder->note(inputs, inputs_hash(given, solver));
   write_file(folder->own("run.json"), run.dump(2) + "\n");
   write_file(folder->own("case.toml"), case_toml(given));
   return folder;
 }
 
+std::string inputs_hash(const Case& given, const std::string& what) {
+  return hash_bytes(fmt::format("{}\n{}\n{}", version(), what, case_json(given)));
+}
+
 std::optional<std::string> inputs_of_run(const fs::path& folder) {
   return noted(folder, inputs);
 }
 
+void require_whole(const fs::path& folder, const std::string& except) {
+  std::vector<std::string> damaged = damaged_files(folder);
+  std::erase(damaged, except);
+  if (damaged.empty()) return;
+  throw Error(
+      ExitCode::bad_data,
+      fmt::format("{}: {} lost or changed since the run ended; put back what was there, or compute it "
+                  "again with --fresh",
+                  folder.string(), fmt::join(damaged, ", ")));
+}
+
+void refuse_lost(const ClaimedFolder& folder) {
+  if (const std::vector<std::string> lost = folder.lost(); !lost.empty())
+    throw Error(ExitCode::bad_data,
+                fmt::format("{}: {} lost or changed since the checkpoint; start again with --fresh",
+                            folder.path().string(), fmt::join(lost, ", ")));
+}
+
 std::optional<std::string> finished_result(const fs::path& folder) {
   if (!is_sealed(folder)) return std::nullopt;
-  const std::vector<std::string> damaged = damaged_files(folder);
-  if (!damaged.empty()) {
-    throw Error(
-        ExitCode::bad_data,
-        fmt::format(
-            "{}: {} lost or changed since the run ended; put back what was there, or compute it again "
-            "with --fresh",
-            folder.string(), fmt::join(damaged, ", ")));
-  }
+  require_whole(folder);
   const std::string text = read_file(folder / "result.json");
   const ordered_json result = ordered_json::parse(text, nullptr, false);
   const auto of = result.is_object() ? result.find("inputs_hash") : result.end();

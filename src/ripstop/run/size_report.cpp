@@ -47,7 +47,7 @@ Report size_report(const SizeResult& result, const std::vector<std::filesystem::
   Report report;
   report.title = result.given.title;
   report.runs.push_back(sizing(result));
-  for (const std::filesystem::path& folder : runs) report.runs.push_back(report_of(folder));
+  for (const std::filesystem::path& folder : runs) report.runs.push_back(reports_of(folder).front());
   return report;
 }
 

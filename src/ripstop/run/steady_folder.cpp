@@ -70,12 +70,16 @@ void SteadyFolder::begin(const SteadyRun& run, SteadyState& state) {
       next_.warned(fmt::format("{}; goes on from the checkpoint before, iteration {}", saved->damage,
                                state.iterations.size()));
   } else if (!warm_from_.empty()) {
-    if (start_from(case_of_run(warm_from_), final_state(warm_from_), run, state))
-      load_checkpoint(warm_from_ / "checkpoint", run.solver.flow());
+    if (start_from(case_of_run(warm_from_), final_state(warm_from_), run, state)) {
+      const auto neighbour = load_checkpoint(warm_from_ / "checkpoint", run.solver.flow());
+      if (neighbour && !neighbour->damage.empty())  // an older one would make other numbers
+        throw Error(ExitCode::bad_data, neighbour->damage);
+    }
   }
   std::vector<std::vector<double>> rows;  // of the checkpoint, whatever became of the table
   for (const SteadyIteration& i : state.iterations) rows.push_back(row_of(i));
   iterations(0).add_rows(rows);
+  refuse_lost(folder_);
   next_.begin(run, state);
 }
 
@@ -87,6 +91,7 @@ void SteadyFolder::iterated(const SteadyRun& run, const SteadyState& state, cons
   }
   if (state.iterations.back().in_time) write_watch(folder_, run.given, run.solver.record());
   iterations(state.iterations.size() - 1).add(row_of(state.iterations.back()));
+  folder_.keep();
   save_checkpoint(folder_.own("checkpoint/"), state, run.solver.flow());
   next_.iterated(run, state, flow);
 }

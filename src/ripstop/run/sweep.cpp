@@ -54,6 +54,15 @@ RunSettings run_settings(const SweepPoint& point, const SweepSettings& settings)
   return {settings.folder / point.folder, settings.fresh, settings.fields, false};
 }
 
+/// What is made anew from the runs whenever a sweep is met again.
+std::vector<std::string> sweep_files() {
+  std::vector<std::string> names = {"sweep.json", "sweep.csv", "result.json", "profile.csv"};
+  for (const char* plot : {"drag", "drag_area", "drag_coefficient", "diameters", "iterations", "wall_time",
+                           "profile", "porosity"})
+    for (const char* ending : {".svg", ".png"}) names.push_back(std::string(plot) + ending);
+  return names;
+}
+
 /// Claims the folder.
 std::unique_ptr<ClaimedFolder> open_sweep_folder(const std::vector<SweepPoint>& points,
                                                  const SweepSettings& settings) {
@@ -61,6 +70,8 @@ std::unique_ptr<ClaimedFolder> open_sweep_folder(const std::vector<SweepPoint>& 
   const fs::path description = folder / "sweep.json";
   check_sweep(points, settings);  // before anything of an earlier sweep is touched
   auto claimed = std::make_unique<ClaimedFolder>(folder);
+  claimed->unseal();
+  for (const std::string& name : sweep_files()) claimed->own(name);
   nlohmann::ordered_json j;
   j["program"] = "ripstop";
   j["version"] = version();
@@ -188,8 +199,8 @@ class Board {
     if (settings_.folder.empty()) return;
     for (std::size_t i = 0; i < points_.size(); ++i) {
       bool needed = settings_.fields || stage_[i] != Stage::ended;
-      for (std::size_t k = 0; k < points_.size() && !needed; ++k)
-        needed = settings_.warm && points_[k].start == static_cast<int>(i) && stage_[k] != Stage::ended;
+      for (std::size_t k = 0; k < points_.size() && !needed; ++k)  // one that failed may be tried again
+        needed = settings_.warm && points_[k].start == static_cast<int>(i) && !rows_[k].done;
       if (!needed) drop_flow_checkpoint(settings_.folder / points_[i].folder);
     }
   }
@@ -276,6 +287,10 @@ void check_sweep(const std::vector<SweepPoint>& points, const SweepSettings& set
     check_steady_in({run_settings(point, settings), 0, {}, {}}, point.given);
 }
 
+void seal_sweep(const fs::path& folder) {
+  ClaimedFolder(folder).seal();
+}
+
 int fitting_jobs(const std::vector<SweepPoint>& points) {
   const int cores = ThreadTeam().size();
   double bytes = 0;
@@ -291,7 +306,8 @@ int fitting_jobs(const std::vector<SweepPoint>& points) {
 
 std::vector<SweepRow> run_sweep(const std::vector<SweepPoint>& points, const SweepSettings& settings,
                                 const SweepEvents& events) {
-  if (!settings.folder.empty()) open_sweep_folder(points, settings);
+  std::unique_ptr<ClaimedFolder> claimed;  // until the last run has ended
+  if (!settings.folder.empty()) claimed = open_sweep_folder(points, settings);
   const int jobs = std::clamp(settings.jobs > 0 ? settings.jobs : fitting_jobs(points), 1,
                               std::max(1, static_cast<int>(points.size())));
   Board board(points, settings, events, jobs);

@@ -64,6 +64,9 @@ struct SweepEvents {
 /// Throws what run_sweep() in this folder would throw before its first run, and touches nothing.
 void check_sweep(const std::vector<SweepPoint>& points, const SweepSettings& settings);
 
+/// All tables and plots of the sweep are written: whoever reads its folder notices when one was lost or changed.
+void seal_sweep(const std::filesystem::path& folder);
+
 /// How many of these runs fit side by side into this machine's cores and free memory.
 int fitting_jobs(const std::vector<SweepPoint>& points);
 

@@ -55,12 +55,13 @@ void plot_history(ClaimedFolder& folder, const Case& given, const FlowRecord& re
 
 void write_wake(ClaimedFolder& folder, const Case& given, const FlowRecord& record) {
   if (record.slices.empty()) return;
-  make_folder(folder.own("wake/"));
+  make_folder(folder.path() / "wake");
   std::vector<VtkSeriesFile> series;
   for (std::size_t n = 0; n < record.slices.size(); ++n) {
     const FlowSlice& slice = record.slices[n];
-    const auto file =
-        write_image(folder.path() / fmt::format("wake/plane_{:03}", n), flow_image(slice.field));
+    const std::string name = fmt::format("wake/plane_{:03}", n);
+    folder.own(name + (slice.field.grid.uniform() ? ".vti" : ".vtr"));
+    const auto file = write_image(folder.path() / name, flow_image(slice.field));
     series.push_back({slice.time, std::filesystem::path("wake") / file.filename()});
   }
   write_pvd(folder.own("wake.pvd"), series);

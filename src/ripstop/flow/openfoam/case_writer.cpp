@@ -21,6 +21,15 @@ double kinematic_viscosity(const Freestream& air) {
   return air.viscosity / air.density;
 }
 
+}  // namespace
+
+void close_written(std::ofstream& out, const fs::path& path) {
+  out.close();
+  if (!out) throw Error(ExitCode::io, fmt::format("cannot write {}: is the disk full?", path.string()));
+}
+
+namespace {
+
 /// Every file starts with OpenFOAM's header. Note for writers: a keyword directly before "(" reads as one
 /// word, so there is always a space.
 void write_dictionary(const fs::path& path, const std::string& kind, const std::string& body) {
@@ -31,8 +40,7 @@ void write_dictionary(const fs::path& path, const std::string& kind, const std::
              "FoamFile\n{{\n    version 2.0;\n    format ascii;\n    class {};\n    object {};\n}}\n\n",
              kind, path.filename().string())
       << body;
-  out.close();
-  if (!out) throw Error(ExitCode::io, fmt::format("cannot write {}: is the disk full?", path.string()));
+  close_written(out, path);
 }
 
 /// The six faces of the box and what a field has on them.
@@ -334,6 +342,7 @@ void write_case(const fs::path& folder, const FlowProblem& problem, const OpenFo
   std::ofstream readme(folder / kReadme);
   readme << fmt::format(kReadmeText, grid.nx, grid.ny, grid.nz, problem.air.density, problem.air.speed,
                         problem.sides == Sides::slip ? "slip" : "open", kStopFile, run);
+  close_written(readme, folder / kReadme);
 }
 
 void write_initial_fields(const fs::path& folder, const FlowProblem& problem, bool incompressible) {

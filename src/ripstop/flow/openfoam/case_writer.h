@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,9 @@ struct RunControl {
 /// Throws Error(usage) naming the number that is out of its range, or what only the built-in engine has.
 void check(const FlowProblem& problem);
 void check_run(int iterations, double residual);
+
+/// Throws Error(io) when not all that was written is in the file.
+void close_written(std::ofstream& out, const std::filesystem::path& path);
 
 /// system/ (without controlDict), constant/, and a README that says what the case is and how to run it.
 void write_case(const std::filesystem::path& folder, const FlowProblem& problem,

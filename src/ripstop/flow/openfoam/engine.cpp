@@ -202,6 +202,7 @@ class OpenFoamFlow final : public Flow {
       return true;
     };
     const ProcessResult result = run_process(request);
+    close_written(log_stream, log_file(tool));
     if (!result.succeeded()) {
       throw Error(ExitCode::external, fmt::format("OpenFOAM's {} failed: {}. {} (whole log: {})", tool,
                                                   describe(result), log.fatal(), log_file(tool).string()));
@@ -236,6 +237,7 @@ class OpenFoamFlow final : public Flow {
       return !log.not_a_number();
     };
     const ProcessResult result = run_process(request);
+    close_written(log_stream, log_file(installation_.solver));
     fs::remove(folder_ / kStopFile);
     return result;
   }

@@ -6,10 +6,11 @@
 
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "ripstop/core/error.h"
+#include "ripstop/core/file.h"
+#include "ripstop/core/hash.h"
 
 namespace ripstop::openfoam {
 namespace {
@@ -18,7 +19,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr const char* kMarker = "saved.json";
-constexpr int kFormat = 2;
+constexpr int kFormat = 3;
 
 [[noreturn]] void fail(const fs::path& path, const char* what) {
   throw Error(ExitCode::io, fmt::format("{}: {}: {}", path.string(), what, std::strerror(errno)));
@@ -102,54 +103,31 @@ bool operator==(const Basis& a, const Basis& b) {
 
 void save_state(const fs::path& folder, const Basis& basis, const std::vector<fs::path>& parts,
                 const std::string& time) {
-  fs::create_directories(folder);
-  if (fs::remove(folder / kMarker)) flush(folder);  // from here until the end the folder counts as empty
-  json files = json::object();
+  make_folder(folder);
+  if (fs::remove(folder / seal_name)) flush(folder);  // from here until the end the folder counts as empty
   for (std::size_t part = 0; part < parts.size(); ++part) {
     const fs::path from = parts[part] / time, to = folder / part_name(part);
     fs::remove_all(to);
     fs::copy(from, to, fs::copy_options::recursive);
-    for (const auto& entry : fs::recursive_directory_iterator(to)) {
-      flush(entry.path());
-      if (entry.is_regular_file()) files[fs::relative(entry.path(), folder).string()] = entry.file_size();
-    }
+    for (const auto& entry : fs::recursive_directory_iterator(to)) flush(entry.path());
     flush(to);
   }
   const json marker = {{"what", "flow fields saved by Ripstop from an OpenFOAM case"},
                        {"format", kFormat},
                        {"time", time},
-                       {"basis", describe_basis(basis)},
-                       {"file_sizes", files}};
-  const fs::path unfinished = folder / (std::string(kMarker) + ".new");
-  std::ofstream out(unfinished);
-  out << marker.dump(2) << '\n';
-  out.close();
-  if (!out) fail(unfinished, "cannot be written");
-  flush(unfinished);
-  fs::rename(unfinished, folder / kMarker);
-  flush(folder);
+                       {"basis", describe_basis(basis)}};
+  write_file(folder / kMarker, marker.dump(2) + "\n");
+  seal_folder(folder);
 }
 
 SavedState read_state(const fs::path& folder) {
   const fs::path path = folder / kMarker;
-  std::ifstream in(path);
-  if (!in) {
-    throw Error(ExitCode::io,
-                fmt::format("{} holds no completely saved flow: {} is missing", folder.string(), kMarker));
-  }
+  check_folder(folder);
   try {
-    const json marker = json::parse(in);
+    const json marker = json::parse(read_file(path));
     if (marker.at("format") != kFormat) {
       throw Error(ExitCode::io, fmt::format("{} has format {}; this version reads {}", path.string(),
                                             marker.at("format").dump(), kFormat));
-    }
-    for (const auto& [name, size] : marker.at("file_sizes").items()) {
-      std::error_code error;
-      const auto found = fs::file_size(folder / name, error);
-      if (error || found != size.get<std::uintmax_t>()) {
-        throw Error(ExitCode::io, fmt::format("{} is missing or cut short: this saved flow cannot be used",
-                                              (folder / name).string()));
-      }
     }
     SavedState state{basis_from(marker.at("basis")), marker.at("time")};
     if (state.time.empty() || state.time.find_first_not_of("0123456789") != std::string::npos) {

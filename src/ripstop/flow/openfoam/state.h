@@ -1,4 +1,4 @@
-// The saved state of a flow: its newest fields, and a marker of our own that is written last.
+// The saved state of a flow: its newest fields and what they are of, in a sealed folder.
 #pragma once
 
 #include <filesystem>
@@ -25,11 +25,11 @@ struct SavedState {
   std::string time;  // name of the time folder
 };
 
-/// Copies folder `time` of every part (one a rank) and flushes it to the disk before the marker. The mesh is
+/// Copies folder `time` of every part (one a rank), flushes it to the disk and seals the folder. The mesh is
 /// not copied: blockMesh and decomposePar make the same one again.
 void save_state(const std::filesystem::path& folder, const Basis& basis,
                 const std::vector<std::filesystem::path>& parts, const std::string& time);
-/// Throws Error(io) when there is no marker or a file has another size than when it was saved.
+/// Throws Error(bad_data) where anything was lost or changed since it was saved.
 SavedState read_state(const std::filesystem::path& folder);
 void copy_state(const std::filesystem::path& folder, const SavedState& state,
                 const std::vector<std::filesystem::path>& parts);

@@ -1,0 +1,215 @@
+#!/usr/bin/env python3
+"""Kills, full disks, damage and lies: what a run folder promises, tried over and over.
+
+    make torture                      (or: torture.py --ripstop build/bin/ripstop --stage kill --count 100)
+
+Stages, each a list of trials in an order that a fixed seed gives, so that trial k is always the same:
+
+    kill    SIGKILL at a random moment, and at every call that writes; the same command again must leave the folder of an
+            undisturbed run, byte for byte but for times of day and wall-clock figures
+    fail    every call that writes fails once (ENOSPC, EIO, half a write, half a write and then no room): exit code 7 and a
+            message that names the file; the same command again must leave the undisturbed folder
+    damage  every file of a finished and of an interrupted folder cut in half, with one byte flipped, and removed: each
+            command that reads the folder must say so or give what it gives of the undisturbed folder
+    others  two processes in one folder, the time of day going backwards, OpenFOAM replaced by programs that fail
+
+Finished trials are lines of trials.jsonl in --work; the same command goes on with the rest, and tries again what failed when
+the program is another one. The table goes into docs/tables/torture.md.
+"""
+import argparse
+import collections
+import datetime
+import pathlib
+import platform
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+sys.path[:0] = [str(pathlib.Path(__file__).resolve().parent), str(pathlib.Path(__file__).resolve().parent.parent)]
+import damage  # pylint: disable=wrong-import-position
+import others  # pylint: disable=wrong-import-position
+import tables  # pylint: disable=wrong-import-position
+import trial  # pylint: disable=wrong-import-position
+
+SEED = 21
+RANDOM_KILLS = {"steady": 50, "inflate": 50, "sweep": 25, "sweep-2": 25, "damping": 20, "porosity": 15, "openfoam": 6}  # trials
+KILLED_AT_WRITES = {"steady": 1, "inflate": 1, "sweep": 3, "damping": 1, "porosity": 3, "openfoam": 12}  # every so many-th
+FAILING = {"steady": 1, "inflate": 1, "sweep": 3, "damping": 1, "porosity": 3, "openfoam": 12, "fabric": 1, "coupon": 1, "fit": 1}
+
+
+def resumed(bench, name, folder, killed):
+    """The same command again, then its folder beside the undisturbed one."""
+    whole, wanted, _, _ = bench.undisturbed(name)
+    code, out, err = bench.run(bench.command(name, folder / "out"), trial.FASTER.get(name))
+    said = trial.last_line(err) or trial.last_line(out)
+    if code != wanted:
+        return {"ok": False, "kills": killed, "said": f"resumed: exit code {code}: {said}"}
+    unlike = trial.differences(folder / "out", whole)
+    if unlike:
+        return {"ok": False, "kills": killed, "said": "differ: " + ", ".join(unlike[:8])}
+    if name in ("steady", "inflate", "openfoam"):  # the seal fits, and the finished run is only shown
+        code, _, err = bench.run(bench.command(name, folder / "out"))
+        if code != wanted or "holds the finished run" not in err:
+            return {"ok": False, "kills": killed, "said": f"shown again: exit code {code}: {trial.last_line(err)}"}
+    return {"ok": True, "kills": killed}
+
+
+def killed_at_random(bench, name, number):
+    """Up to ten times one after the other, each time within what the whole run takes."""
+    rng = random.Random(f"{SEED} {name} {number}")
+    seconds = bench.undisturbed(name)[2]
+    folder, kills, moments = bench.folder("trial"), 0, []
+    for _ in range(rng.randint(1, 10)):
+        moments.append(round(rng.uniform(0, seconds), 4))
+        child = bench.start(bench.command(name, folder / "out"), trial.FASTER.get(name, {}))
+        try:
+            child.communicate(timeout=moments[-1])
+            break  # it has ended
+        except subprocess.TimeoutExpired:
+            child.kill()
+            child.communicate()
+            kills += 1
+    return {**resumed(bench, name, folder, kills), "moments_s": moments}
+
+
+def killed_at(bench, name, number):
+    """At a write, and up to three times more at writes of what goes on from there."""
+    rng = random.Random(f"{SEED} {name} {number} at write")
+    folder, kills, writes = bench.folder("trial"), 0, [number]
+    while True:
+        fault = {**trial.FASTER.get(name, {}), "TORTURE_ROOT": str(folder / "out"), "TORTURE_AT": str(writes[-1]), "TORTURE_DO": "kill"}
+        code, _, err = bench.run(bench.command(name, folder / "out"), fault)
+        kills += code == -signal.SIGKILL
+        if code != -signal.SIGKILL or kills == 4:
+            break
+        writes.append(rng.randint(1, len(bench.undisturbed(name)[3])))
+    if kills == 0:
+        return {"ok": False, "kills": 0, "said": f"was not killed but ended with {code}: {trial.last_line(err)}"}
+    return {**resumed(bench, name, folder, kills), "writes": writes}
+
+
+def failing_at(bench, name, number, reason):
+    """felt: the command failed; else what failed was in nobody's way."""
+    folder = bench.folder("trial")
+    whole, wanted, _, calls = bench.undisturbed(name)
+    kind, path = calls[number - 1]
+    code, out, err = bench.run(bench.command(name, folder / "out"),
+                               {**trial.FASTER.get(name, {}), "TORTURE_ROOT": str(folder / "out"), "TORTURE_AT": str(number), "TORTURE_DO": reason})
+    file = named_by(path)
+    row = {"call": f"{kind} {file}", "felt": code != wanted}
+    if code == wanted:
+        unlike = trial.differences(folder / "out", whole)
+        if unlike:
+            return {**row, "ok": False, "said": "exit code as if nothing had been, but these differ: " + ", ".join(unlike[:8])}
+        return {**row, **resumed(bench, name, folder, 0)}
+    if code != 7 or (file not in err + out and str(folder) not in err + out):
+        return {**row, "ok": False, "said": f"exit code {code}: {trial.last_line(err)}"}
+    if reason == "short":
+        return {**row, "ok": False, "said": f"half a write is no failure, yet exit code {code}: {trial.last_line(err)}"}
+    return {**row, **resumed(bench, name, folder, 0)}
+
+
+def named_by(path):
+    """The file that a call is about: ".result.json.4711-3.tmp" is result.json."""
+    name = pathlib.Path(path).name
+    return name[1:].rsplit(".", 2)[0] if name.endswith(".tmp") else name
+
+
+def kill_trials(bench, rng):
+    trials = [(f"kill {name} at random {k}", name, killed_at_random, (name, k)) for name, count in RANDOM_KILLS.items() for k in range(count)]
+    for name, every in KILLED_AT_WRITES.items():
+        for n in range(1, len(bench.undisturbed(name)[3]) + 1, every):
+            trials.append((f"kill {name} at write {n}", name, killed_at, (name, n)))
+    rng.shuffle(trials)
+    return trials
+
+
+def fail_trials(bench, rng):
+    trials = []
+    for name, every in FAILING.items():
+        calls = bench.undisturbed(name)[3]
+        for n in range(1, len(calls) + 1, every):
+            for reason in ["ENOSPC", "EIO", *(["short", "full"] if calls[n - 1][0] == "write" else [])]:
+                trials.append((f"fail {name} {reason} at {n}", name, failing_at, (name, n, reason)))
+    rng.shuffle(trials)
+    return trials
+
+
+STAGES = {"kill": kill_trials, "fail": fail_trials, "damage": damage.trials, "others": others.trials}
+
+
+def run(options, bench, log, stage):
+    trials = [t for t in STAGES[stage](bench, random.Random(SEED)) if options.only in t[0]]
+    todo = [t for t in trials if options.again or log.wants(t[0])][:options.count]
+    print(f"{stage}: {len(trials)} trials, {len(todo)} to do", flush=True)
+    begin = time.monotonic()
+    for done, (name, case, function, arguments) in enumerate(todo, 1):
+        started = time.monotonic()
+        row = {"trial": name, "stage": stage, "case": case, **function(bench, *arguments), "seconds": round(time.monotonic() - started, 2),
+               "day": f"{datetime.date.today()}", "commit": options.commit}
+        log.add(row)
+        left = (time.monotonic() - begin) / done * (len(todo) - done)
+        if not row["ok"] or done % 20 == 0 or done == len(todo):
+            print(f"{done}/{len(todo)} {name}: {'ok' if row['ok'] else 'FAILED: ' + row['said']} | about {left / 60:.0f} min left", flush=True)
+    shutil.rmtree(bench.work / "trial", ignore_errors=True)
+
+
+def processor():
+    for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines():
+        if line.startswith("model name"):
+            return line.split(":", 1)[1].strip()
+    return platform.machine()
+
+
+def write_table(options, log):
+    counted = collections.defaultdict(lambda: [0, 0, 0, 0, 0.0])
+    for row in log.done.values():
+        kind = f"{row['stage']}, at random moments" if " at random " in row["trial"] else f"{row['stage']}, at writes" if row["stage"] == "kill" else row["stage"]
+        entry = counted[kind, row["case"]]
+        for k, more in enumerate([1, row.get("kills", 0), row.get("felt", False), not row["ok"], row["seconds"]]):
+            entry[k] += more
+    rows = [[kind, case, str(n), str(kills) if "kill" in kind else "", str(felt) if kind == "fail" else "", str(failed), f"{seconds / 60:.1f}"]
+            for (kind, case), (n, kills, felt, failed, seconds) in sorted(counted.items())]
+    total = [sum(column) for column in zip(*counted.values())] or [0] * 5
+    rows.append(["**all**", "", *map(str, total[:4]), f"{total[4] / 60:.1f}"])
+    days = sorted({row["day"] for row in log.done.values()})
+    named = list(dict.fromkeys(f"{d.day} {d:%B %Y}" for d in (datetime.date.fromisoformat(day) for day in (days[0], days[-1]))))
+    commits = collections.Counter(row["commit"] for row in log.done.values())
+    bad = [[row["trial"], row["said"]] for row in sorted(log.done.values(), key=lambda row: row["trial"]) if not row["ok"]]
+    lines = ["# Kills, failing writes, damaged files and lies", "",
+             f"`make torture`: {processor()}, {' to '.join(named)}; "
+             + "trials by commit: " + ", ".join(f"{commit} {n}" for commit, n in sorted(commits.items())) + ".", "",
+             *tables.table(["what", "command", "trials", "SIGKILLs", "felt", "failed", "min"], rows)]
+    if bad:
+        lines += ["Failed:", "", *tables.table(["trial", "what was seen"], [[name, said.replace("|", "/")] for name, said in bad])]
+    options.table.write_text("\n".join(lines).rstrip("\n") + "\n")
+    print("\n".join(lines))
+    return len(bad)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--ripstop", type=pathlib.Path, default=trial.ROOT / "build/bin/ripstop")
+    parser.add_argument("--work", type=pathlib.Path, default=trial.ROOT / "runs/torture", help="folder of the trials and of trials.jsonl")
+    parser.add_argument("--stage", choices=STAGES, action="append", help="only this; repeatable (default: all)")
+    parser.add_argument("--count", type=int, help="at most so many trials of each stage, of those that are left")
+    parser.add_argument("--only", default="", help="only trials with these words in their name, as in 'kill sweep'")
+    parser.add_argument("--again", action="store_true", help="also what is done")
+    parser.add_argument("--table", type=pathlib.Path, default=trial.ROOT / "docs/tables/torture.md")
+    options = parser.parse_args()
+    options.commit = subprocess.run(["git", "describe", "--always", "--dirty"], cwd=trial.ROOT, capture_output=True, text=True, check=False).stdout.strip()
+    bench = trial.Bench(options.ripstop, options.work)
+    log = trial.Log(options.work / "trials.jsonl", bench.hash)
+    try:
+        for stage in options.stage or STAGES:
+            run(options, bench, log, stage)
+    except KeyboardInterrupt:
+        print("stopped; the same command goes on", file=sys.stderr)
+    return 1 if log.done and write_table(options, log) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
