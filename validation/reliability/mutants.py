@@ -312,18 +312,26 @@ def side_by_side(jobs, work, what):
         yield from pool.map(one, work)
 
 
-def reach(jobs, key, slowest):
-    """What every test comes by, by a run of it without a mutant."""
-    sources = {room: sha(key, *(p.read_text() for p in sorted((ROOT / "tests" / room).glob("*.[ch]*")))) for room in test_rooms()}
+def reach(jobs, key, slowest, which):
+    """What every test comes by, by a run of it without a mutant; of those that are named by `which` or known already."""
+    sources = {room: {p.name: p.read_text() for p in sorted((ROOT / "tests" / room).glob("*.[ch]*"))} for room in test_rooms()}
+
+    def made_of(room, test):
+        """The hash of the mutants and of what the test is made of: its file and the room's headers."""
+        suite, name = test.split(".")[0].split("/")[-1], test.split(".")[1].split("/")[0]
+        own = [n for n, text in sources[room].items() if n.endswith(".cpp") and suite in text and name in text] or list(sources[room])
+        return sha(key, *(text for n, text in sources[room].items() if n in own or n.endswith(".h")))
+
     known = json.loads(REACH.read_text()) if REACH.exists() else {}
     tests = [(room, test) for room, test in all_tests()]
     known = {name: known[name] for name in (f"{room}.{test}" for room, test in tests) if name in known}
-    missing = [(room, test) for room, test in tests if known.get(f"{room}.{test}", {}).get("key") != sources[room]]
+    known = {name: entry for name, entry in known.items() if entry["key"] == made_of(*name.split(".", 1))}
+    missing = [(room, test) for room, test in tests if f"{room}.{test}" not in known and re.search(which, f"{room}.{test}")]
 
     def one(bench, item):
         room, test = item
         passed, _, seconds = bench.run(room, [test], slowest)
-        return item, {"key": sources[room], "passed": passed, "seconds": round(seconds, 2), "by": bench.came_by()}
+        return item, {"key": made_of(room, test), "passed": passed, "seconds": round(seconds, 2), "by": bench.came_by()}
 
     for k, ((room, test), entry) in enumerate(side_by_side(jobs, missing, one)):
         known[f"{room}.{test}"] = entry
@@ -442,6 +450,7 @@ def main():
     parser.add_argument("--number", type=int, default=400, help="mutants of the sample")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--slowest", type=float, default=60, help="a test that takes longer, s, is left out")
+    parser.add_argument("--tests", default="", help="only those tests whose names, room.Suite.Test, this expression finds")
     parser.add_argument("--most", type=float, default=300, help="seconds of tests, as without a mutant, that a mutant is met by")
     parser.add_argument("--again", action="store_true", help="run survivors again")
     parser.add_argument("--table", action="store_true", help="only the table of what the log has")
@@ -454,7 +463,7 @@ def main():
         dropped = {n for n, m in enumerate(mutants) if m["name"] + m["of"] in dropped}
     else:
         dropped, key = compile_all(mutants, options.jobs)
-        tests = reach(options.jobs, key, options.slowest)
+        tests = reach(options.jobs, key, options.slowest, options.tests)
         work = [(n, m) for n, m in enumerate(mutants) if n not in dropped and
                 not (entry := log.get((m["name"], m["of"]), {})).get("caught", False) and (not entry or options.again)]
         work.sort(key=lambda w: sha(w[1]["name"]))
