@@ -23,11 +23,5 @@ TEST(FlowParity, ASurfaceThatLeavesTheBoxOnAnySideIsRefused) {
   }
 }
 
-TEST(FlowParity, ASurfaceWithoutAreaIsRefused) {
-  ParitySettings settings;
-  settings.surface = {{{0, 0, 2}, {0, 0, 2}, {0, 0, 2}}};
-  EXPECT_THROW(flow_parity(settings), Error);
-}
-
 }  // namespace
 }  // namespace ripstop

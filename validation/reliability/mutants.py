@@ -309,7 +309,8 @@ def side_by_side(jobs, work, what):
             benches.put(bench)
 
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        yield from pool.map(one, work)
+        for done in concurrent.futures.as_completed([pool.submit(one, item) for item in work]):
+            yield done.result()
 
 
 def reach(jobs, key, slowest, which):
