@@ -17,7 +17,7 @@ CHECK_PACKAGES := libgtest-dev libbenchmark-dev python3 python3-jsonschema pytho
 
 export PATH := /usr/bin:$(PATH)
 
-.PHONY: help deps check-deps build demo check room sanitize fuzz tidy bench validate validate-ojf validate-families torture report-libraries format format-check install-build install wheel package clean
+.PHONY: help deps check-deps build demo check room sanitize sanitize-thread fuzz mutants coverage tidy bench validate validate-ojf validate-families torture report-libraries format format-check install-build install wheel package clean
 
 help:  ## This list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -56,10 +56,15 @@ room: check-deps  ## Build and pass the tests of one room, or some of them: make
 	@cmake --build --preset release -j $(JOBS) --target test_$(ROOM)
 	@ctest --preset release -j $(JOBS) --no-tests=error -R '^$(ROOM)\.([^/]*/)?($(TESTS))'
 
-sanitize: check-deps  ## The tests that need no OpenFOAM, under the address and undefined-behaviour sanitizers
-	@cmake --preset sanitize
+sanitize: check-deps  ## All tests under the address and undefined-behaviour sanitizers: an hour
+	@cmake --preset sanitize > /dev/null
 	@cmake --build --preset sanitize -j $(JOBS)
 	@ctest --preset sanitize
+
+sanitize-thread: check-deps  ## All tests under the thread sanitizer: an hour and more
+	@cmake --preset sanitize-thread > /dev/null
+	@cmake --build --preset sanitize-thread -j $(JOBS)
+	@ctest --preset sanitize-thread
 
 READERS ?= case setting material bench record chute measured image stl vtk checkpoint openfoam
 SECONDS ?= 60
@@ -68,6 +73,16 @@ fuzz: check-deps  ## Fuzz every reader with coverage: make fuzz [SECONDS=60] [RE
 	@cmake --preset fuzz > /dev/null
 	@cmake --build --preset fuzz -j $(JOBS)
 	@fuzz/run.sh $(SECONDS) $(READERS)
+
+mutants: check-deps  ## Changes the sources in some 460 places and looks which the tests notice, into docs/tables: two hours; resumable
+	@/usr/bin/python3 validation/reliability/mutants.py --jobs $(JOBS) $(MUTANTS)
+
+coverage: check-deps  ## Lines of src/ that the tests run, without OpenFOAM's, into docs/tables: an hour
+	@cmake --preset coverage > /dev/null
+	@cmake --build --preset coverage -j $(JOBS)
+	@find build-coverage -name '*.gcda' -delete
+	@ctest --preset coverage -j $(JOBS)
+	@/usr/bin/python3 validation/reliability/coverage.py
 
 bench: check-deps  ## Benchmarks, some three hours; their figures stand in docs/tables
 	@cmake --preset release > /dev/null

@@ -7,8 +7,23 @@
 #include <filesystem>
 #include <numbers>
 
+#include "ripstop/case/cost.h"
+
 namespace ripstop {
 namespace {
+
+// Stratos IV on 1.5 million cells with 26,000 nodes took 0.97 GB.
+TEST(Cost, OfTheRunThatWasMeasuredIsItsMemoryAndHalfAsMuchAtMost) {
+  Overrides printed;
+  printed.grid = {100, 100, 150};
+  const Case given =
+      read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/stratos-iv/case.toml", printed);
+  const Cost cost = cost_of(given);
+  EXPECT_EQ(cost.cells, 1.5e6);
+  EXPECT_GT(cost.memory, 0.97e9);
+  EXPECT_LT(cost.memory, 1.5 * 0.97e9);
+  EXPECT_LT(cost.cloth_memory, 0.1 * cost.memory);
+}
 
 TEST(Summary, ClothTapeLinesAndRiserAreAllThatHasMass) {
   for (const char* name : {"stratos-iv", "walrus", "adept", "flat-circular", "conical", "hemispherical",

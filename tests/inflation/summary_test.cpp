@@ -67,6 +67,28 @@ TEST(Summary, ASingleSwingOutOfTheBandMovesTheInflationTimeNotTheSettlingTime) {
   EXPECT_DOUBLE_EQ(*after.settling_time, *before.settling_time);
 }
 
+// Slow against the low-pass, so that its first crest stays; one row far above it does not.
+TEST(Summary, TheSmoothPeakIsTheCrestAndNotASpikeOfOneRow) {
+  const double omega = 2 * std::numbers::pi * 10;
+  std::vector<HistoryRow> rows = decaying(400, 0.5, omega, 1e-3, 10000);
+  double crest = 0, at = 0;
+  for (const HistoryRow& row : rows)
+    if (row.mean > crest) crest = row.mean, at = row.time;
+  rows[5000].mean += 600;
+  const InflationSummary s = summarise(rows, 100);
+  EXPECT_NEAR(s.smooth_peak, crest, 1e-3 * crest);
+  EXPECT_NEAR(s.smooth_peak_time, at, 2e-3);
+}
+
+TEST(Summary, AnOpeningHasSettledWhenItsLastTenthIsQuiet) {
+  InflationSummary s;
+  EXPECT_FALSE(settled(s, 2));  // never within the band
+  s.inflation_time = 1.8;
+  EXPECT_TRUE(settled(s, 2));
+  s.inflation_time = 1.81;
+  EXPECT_FALSE(settled(s, 2));
+}
+
 TEST(LowPass, ItKeepsSlowTonesHalvesTheCutoffAndDropsFastOnesWithoutDelay) {
   const double interval = 1e-4, cutoff = 100;
   const auto gain = [&](double hz) {

@@ -139,6 +139,16 @@ TEST_F(BenchFile, FlowReadingsGiveTheClothItsPressureDrop) {
   EXPECT_NEAR(fit.permeability.r2, 1, 1e-9);
 }
 
+TEST_F(BenchFile, OneThatIsNoTomlIsRefusedWithItsLine) {
+  try {
+    bench("kind = \"fabric\"\nname = [\n");
+    FAIL() << "was read";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.code(), ExitCode::usage);
+    EXPECT_NE(std::string(error.what()).find("bench.toml:"), std::string::npos) << error.what();
+  }
+}
+
 TEST_F(BenchFile, EveryMistakeInACampaignIsToldAtOnce) {
   try {
     bench(

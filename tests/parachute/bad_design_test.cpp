@@ -49,7 +49,7 @@ const BadDesign bad_designs[] = {
      "above 0"},
     {"VentSmallerThanACell", "hemispherical", "vent_diameter_m = 0.08", "vent_diameter_m = 0.004",
      "parachute.vent_diameter_m", "smaller than a cell of the mesh"},
-    {"ProfileWithAVentSmallerThanACell", "elliptical", "0.054]", "0.002]", "parachute.pieces[0].radius_m",
+    {"ProfileWithAVentSmallerThanACell", "elliptical", "0.054]", "0.002]", "parachute.pieces[0].radius_m[60]",
      "smaller than a cell of the mesh"},
     {"VentLinesOfAnOddNumberOfLines", "quarter-spherical", "count = 12", "count = 9", "parachute.lines.count",
      "set parachute.vent_lines = false"},
@@ -90,6 +90,28 @@ TEST_P(BadDesignTest, IsRefusedWithKeyAndReason) {
           problem.key == bad.key && (problem.message + problem.allowed).find(bad.reason) != std::string::npos;
     EXPECT_TRUE(found) << error.what();
   }
+}
+
+// What stands under a key is what the key holds: half the diameter, and half a cell as the least.
+TEST(BadDesign, AVentOfAProfileIsToldAsTheRadiusThatItIs) {
+  std::string text = read_file(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/elliptical/case.toml");
+  text.replace(text.find("0.054]"), 6, "0.002]");
+  std::string value, allowed;
+  try {
+    parse_case(text, "case.toml");
+  } catch (const InputError& error) {
+    ASSERT_EQ(error.problems().size(), 1u);
+    value = error.problems().front().value, allowed = error.problems().front().allowed;
+  }
+  EXPECT_EQ(value, "0.002");
+  ASSERT_EQ(allowed.rfind("at least ", 0), 0u) << allowed;
+  const std::string least = allowed.substr(9);
+  const std::size_t place = text.find("0.002]");
+  EXPECT_THROW(parse_case(text.replace(place, 5, std::to_string(0.98 * std::stod(least))), "case.toml"),
+               InputError);
+  const std::size_t end = text.find(']', place);
+  EXPECT_NO_THROW(
+      parse_case(text.replace(place, end - place, std::to_string(1.02 * std::stod(least))), "case.toml"));
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
@@ -11,6 +13,7 @@
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
+#include "ripstop/inflation/summary.h"
 
 namespace ripstop {
 namespace {
@@ -99,6 +102,25 @@ TEST_F(InflationFolderTest, InMemoryTheOpeningIsThatOfTheFolder) {
   EXPECT_TRUE(in_folder->inputs_hash);
   EXPECT_EQ(to_json(in_memory.result), to_json(*in_folder));
   EXPECT_EQ(read_file(root / "run" / "result.json"), to_json(*in_folder));
+}
+
+TEST_F(InflationFolderTest, ItsResultIsWhatItsHistoryAndFramesSay) {
+  given.inflation.low_pass_hz = 1000;
+  InflationObserver quiet;
+  const auto [result, state, history] = run_inflation(given, {"given", {}}, problem(), quiet);
+  const InflationSummary summary = summarise(history.rows, 1000);
+  ASSERT_TRUE(result.smooth_peak && result.smooth_peak_time && result.smooth_overshoot);
+  EXPECT_GT(*result.smooth_peak, 0);
+  EXPECT_EQ(*result.smooth_peak, summary.smooth_peak);
+  EXPECT_EQ(*result.smooth_peak_time, summary.smooth_peak_time);
+  EXPECT_DOUBLE_EQ(*result.smooth_overshoot, summary.smooth_peak / summary.steady_load);
+  EXPECT_DOUBLE_EQ(result.overshoot, state.peak_load / summary.steady_load);
+  double worst = 0;
+  for (const InflationFrame& frame : history.frames)
+    if (frame.pressure_work >= 0.1 * history.frames.back().pressure_work)
+      worst = std::max(worst, std::abs(frame.residual));
+  EXPECT_GT(worst, 0);
+  EXPECT_EQ(result.energy_residual, worst);
 }
 
 TEST_F(InflationFolderTest, ADamagedCheckpointIsNoticedAndOtherInputsAreRefused) {

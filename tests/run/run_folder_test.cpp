@@ -5,8 +5,10 @@
 
 #include <filesystem>
 
+#include "ripstop/core/build_info.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
+#include "ripstop/core/hash.h"
 #include "ripstop/run/steady_folder.h"
 
 namespace ripstop {
@@ -77,6 +79,14 @@ TEST(RunFolder, AnOpeningTakesTheDragOfItsOwnParachuteOnly) {
   text.replace(text.find("396.8"), 5, "496.8");
   write_file(run / "result.json", text);
   EXPECT_NE(refusal(given).find("result.json"), std::string::npos) << refusal(given);
+}
+
+TEST(RunFolder, ItsInputsAreProgramEngineAndCase) {
+  const TemporaryFolder root("run-folder");
+  const Case given = stratos();
+  open_run_folder({root.path / "run"}, given, "engine", 1);
+  EXPECT_EQ(inputs_of_run(root.path / "run"),
+            hash_bytes(version() + std::string("\nengine\n") + case_json(given)));
 }
 
 TEST(RunFolder, AResultOfOtherInputsIsNotBelieved) {

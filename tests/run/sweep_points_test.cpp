@@ -52,6 +52,21 @@ TEST(SweepPoints, WithAValueTwiceAreRefused) {
                Error);
 }
 
+TEST(SweepPoints, OfMoreThanTenThousandRunsAreRefusedBeforeTheyAreMade) {
+  std::vector<std::string> many;
+  for (int i = 0; i < 101; ++i) many.push_back(std::to_string(10 + i));
+  std::vector<std::string> fewer(many.begin(), many.end() - 1);
+  const auto axes = {sweep_axis("flow.speed_m_s", many, "--speeds"),
+                     sweep_axis("flow.viscosity_ratio", fewer, "--vary")};
+  try {
+    sweep_points(stratos, {}, axes);
+    FAIL() << "10100 runs were accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::usage);
+    EXPECT_NE(std::string(error.what()).find("10100 runs"), std::string::npos) << error.what();
+  }
+}
+
 TEST(SteadyResult, OfATextThatIsNoResultIsRefused) {
   EXPECT_THROW(steady_result_from_json("{}"), Error);
   EXPECT_THROW(steady_result_from_json("nonsense"), Error);

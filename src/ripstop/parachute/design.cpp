@@ -173,15 +173,16 @@ void check_vent(double vent, double diameter, bool lines, const Design& design, 
   check_vent_lines(lines, design, findings);
 }
 
-void check_vent_cells(double vent, const std::string& key, const Design& design, Findings& findings) {
+void check_vent_cells(double vent, const std::string& key, const Design& design, Findings& findings,
+                      double of_diameter) {
   if (!findings.sound(shape_keys(design)) ||
       !findings.sound({"parachute.gores", "parachute.mesh.cloth_nodes"}))
     return;
   const double cell = std::sqrt(computed_area(design) / design.mesh.cloth_nodes);
   if (vent < cell)
     findings.add(
-        key, vent, fmt::format("at least {:.3g}", cell),
-        fmt::format("the vent is smaller than a cell of the mesh, {:.3g} m with "
+        key, of_diameter * vent, fmt::format("at least {:.3g}", of_diameter * cell),
+        fmt::format("the vent's diameter is smaller than a cell of the mesh, {:.3g} m with "
                     "parachute.mesh.cloth_nodes = {}; make it larger, or ask for at least {:.0f} nodes",
                     cell, design.mesh.cloth_nodes, std::ceil(computed_area(design) / (vent * vent))));
 }

@@ -69,8 +69,9 @@ void describe_vent(Fields& fields, double& diameter, bool& lines);
 /// A vent smaller than the canopy of `diameter` [m], and lines in pairs where they go on across it.
 void check_vent(double vent, double diameter, bool lines, const Design& design, Findings& findings);
 /// A vent at least as wide as a cell of the mesh: a finer rim than that would set the time step. Call when
-/// the shape is otherwise sound.
-void check_vent_cells(double vent, const std::string& key, const Design& design, Findings& findings);
+/// the shape is otherwise sound. The key holds `of_diameter` times the diameter `vent`: 0.5 where it is a radius.
+void check_vent_cells(double vent, const std::string& key, const Design& design, Findings& findings,
+                      double of_diameter = 1);
 void check_vent_lines(bool lines, const Design& design, Findings& findings);
 /// For families whose tape is all there or not at all: no edge between skirt and vent without it.
 void check_inner_hems(const Design& design, Findings& findings);

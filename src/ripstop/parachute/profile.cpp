@@ -170,8 +170,10 @@ void check_shape(const ProfileCanopy& canopy, const Design& design, Findings& fi
   if (last >= widest)
     findings.add(fmt::format("{}[{}].radius_m", pieces, canopy.pieces.size() - 1), last,
                  fmt::format("below {:.6g}", widest), "the canopy does not narrow toward a vent");
-  check_vent_cells(2 * last, fmt::format("{}[{}].radius_m", pieces, canopy.pieces.size() - 1), design,
-                   findings);
+  check_vent_cells(2 * last,
+                   fmt::format("{}[{}].radius_m[{}]", pieces, canopy.pieces.size() - 1,
+                               canopy.pieces.back().radius_m.size() - 1),
+                   design, findings, 0.5);
   check_vent_lines(canopy.vent_lines, design, findings);
 }
 

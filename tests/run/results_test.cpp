@@ -1,0 +1,112 @@
+// Every number of a result is that of the state and the history it was made of.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "finished_run.h"
+#include "ripstop/case/assemble.h"
+#include "ripstop/inflation/opening_estimate.h"
+#include "ripstop/run/fabric.h"
+#include "ripstop/run/inflation.h"
+#include "ripstop/run/steady.h"
+
+namespace ripstop {
+namespace {
+
+Case small_opening() {
+  Case given = read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples" / "stratos-iv" / "case.toml");
+  given.parachute.mesh.cloth_nodes = 1500;
+  given.parachute.lines.count = 6;
+  given.parachute.mesh.folds = 6;
+  given.parachute.mesh.line_segment_m = 0.15;
+  given.inflation.initial_radius_m = 0.2;
+  given.inflation.duration_s = 8e-3;
+  given.inflation.frames = 8;
+  return given;
+}
+
+TEST(Results, OfAnOpeningAreThoseOfItsStateHistoryAndCase) {
+  const Case given = small_opening();
+  InflationObserver quiet;
+  const LoadSource source{"given", 400};
+  const auto [result, state, history] =
+      run_inflation(given, source, {parachute_mesh(given), given.inflation, 500, false, 1, 6}, quiet);
+  EXPECT_EQ(result.title, given.title);
+  double peak = 0, impulse = 0;
+  for (const HistoryRow& row : history.rows) {
+    peak = std::max(peak, row.largest);
+    impulse += row.mean * (history.rows[1].time - history.rows[0].time);
+  }
+  EXPECT_EQ(result.peak_load, peak);
+  EXPECT_NEAR(result.impulse, impulse, 1e-9 * impulse);
+  EXPECT_EQ(result.pressure, 500);
+  EXPECT_EQ(result.steady_drag_returned, result.summary.steady_load / 400);
+  EXPECT_EQ(result.estimate.load, opening_estimate(given.parachute, 400).load);
+  EXPECT_EQ(result.steps, state.cloth.steps);
+  EXPECT_EQ(result.step_changes, state.step_changes);
+  EXPECT_GT(result.steps, 1000);
+  EXPECT_EQ(result.folds, 6);
+  EXPECT_NEAR(result.inner_fold_radius, result.outer_fold_radius, 0.2);
+  EXPECT_LT(result.inner_fold_radius, result.outer_fold_radius);
+
+  double stress = 0, at = 0;
+  for (const InflationFrame& frame : history.frames)
+    if (frame.stress.von_mises > stress) stress = frame.stress.von_mises, at = frame.time;
+  EXPECT_EQ(result.stress.von_mises, stress);
+  EXPECT_EQ(result.stress_time, at);
+  EXPECT_EQ(result.max_line_tension, *std::max_element(result.line_peaks.begin(), result.line_peaks.end()));
+  EXPECT_EQ(result.break_load, canopy_fabric(given).break_load_n_m);
+  ASSERT_GT(result.break_load, 0);
+  EXPECT_EQ(result.cloth_margin, result.break_load / std::max(result.stress.warp, result.stress.weft));
+  ASSERT_TRUE(result.margins);
+  EXPECT_FALSE(result.margins->members.empty());
+}
+
+TEST(Results, OfASteadyRunAreThoseOfItsLastIterationAndState) {
+  const Case given = square_law_case();
+  SteadyObserver quiet;
+  const auto [result, state, flow] = run_steady(given, quiet);
+  ASSERT_FALSE(state.iterations.empty());
+  const SteadyIteration& last = state.iterations.back();
+  EXPECT_TRUE(result.converged);
+  EXPECT_EQ(result.iterations, static_cast<int>(state.iterations.size()));
+  for (std::size_t i = 0; i < state.iterations.size(); ++i)
+    EXPECT_EQ(state.iterations[i].iteration, static_cast<int>(i) + 1);
+  EXPECT_EQ(result.drag, flow.porous_force.z);
+  EXPECT_NEAR(result.drag_area, SquareLawEngine::area, 1e-3 * SquareLawEngine::area);
+  EXPECT_EQ(result.drag_coefficient, result.drag_area / nominal_area(given.parachute));
+  EXPECT_EQ(result.ledger.fluid_force, last.fluid_force);
+  EXPECT_EQ(result.ledger.nodal_load, last.nodal_load);
+  EXPECT_EQ(result.ledger.line_tension, last.line_tension);
+  EXPECT_EQ(result.ledger.momentum_deficit, last.momentum_deficit);
+  EXPECT_GT(last.section_gap, 0);
+  EXPECT_EQ(result.section_gap, last.section_gap);
+  EXPECT_EQ(result.axial_moment, last.axial_moment);
+  EXPECT_EQ(result.transfer_factor, last.transfer_factor);
+  EXPECT_EQ(result.load_remainder, last.load_remainder);
+  EXPECT_EQ(result.approach_speed, last.approach_speed);
+  EXPECT_EQ(result.speed, air(given).speed);
+  EXPECT_EQ(result.density, air(given).density);
+  double wall = 0;
+  for (const SteadyIteration& i : state.iterations) wall += i.wall_time;
+  EXPECT_EQ(result.wall_time, wall);
+  EXPECT_GT(wall, 0);
+  EXPECT_EQ(result.size.projected_diameter,
+            canopy_size(parachute_mesh(given), state.shape).projected_diameter);
+  ASSERT_TRUE(result.margins);
+  EXPECT_GT(result.stress.von_mises, 0);
+  // What all lines carry is the drag; the most loaded one has no less than the mean.
+  EXPECT_GE(result.max_line_tension, last.line_tension / given.parachute.lines.count);
+}
+
+TEST(Results, OneIterationIsOneAndHasNotConverged) {
+  SteadyObserver quiet;
+  const SteadySolution once = run_steady(square_law_case({{"coupling.max_iterations", "1"}}), quiet);
+  EXPECT_EQ(once.state.iterations.size(), 1u);
+  EXPECT_EQ(once.result.iterations, 1);
+  EXPECT_FALSE(once.result.converged);
+}
+
+}  // namespace
+}  // namespace ripstop
