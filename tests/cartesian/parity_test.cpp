@@ -58,7 +58,7 @@ TEST_P(Parity, DragAndFieldsAreThoseOfOpenFoam) {
 INSTANTIATE_TEST_SUITE_P(Canopies, Parity,
                          testing::Values(Pair{"open", 6.598, 3.745, 10, false},
                                          Pair{"nearly_solid", 1000, 1000, 10, false},
-                                         Pair{"printed_incompressible", 65.98, 37.45, 30, true}),
+                                         Pair{"printed_incompressible", 65.98, 37.45, 10, true}),
                          [](const auto& test) { return test.param.name; });
 
 }  // namespace

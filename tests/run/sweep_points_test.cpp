@@ -59,7 +59,7 @@ TEST(SweepPoints, OfMoreThanTenThousandRunsAreRefusedBeforeTheyAreMade) {
   const auto axes = {sweep_axis("flow.speed_m_s", many, "--speeds"),
                      sweep_axis("flow.viscosity_ratio", fewer, "--vary")};
   try {
-    sweep_points(stratos, {}, axes);
+    sweep_points(stratos_case, {}, axes);
     FAIL() << "10100 runs were accepted";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::usage);
