@@ -5,6 +5,7 @@
 
 #include <sstream>
 
+#include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/flow/openfoam/state.h"
 
@@ -74,6 +75,13 @@ TEST(SavedFlow, ComesBackWithTheGridAndTheAirThatItWasSavedFor) {
   EXPECT_EQ(back.basis.air.viscosity_ratio, 7);
   EXPECT_EQ(back.basis.ranks, 6);
   EXPECT_TRUE(back.basis.second_order && back.basis.incompressible && back.basis.sides == Sides::slip);
+  const fs::path marker = folder.path / "saved/saved.json";
+  const std::string whole = read_file(marker);
+  for (const char* time : {"", "12a", "../0", "-1"}) {
+    std::string text = whole;
+    write_file(marker, text.replace(text.find("\"120\""), 5, "\"" + std::string(time) + "\""));
+    EXPECT_THROW(read_state(folder.path / "saved"), Error) << time;
+  }
   Basis other = basis;
   other.grid.grading[1].after += 1;
   EXPECT_FALSE(back.basis == other);

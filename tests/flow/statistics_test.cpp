@@ -88,6 +88,11 @@ TEST(Statistics, TheStandardErrorAllowsForWhatTheFlowRemembers) {
   }
 }
 
+TEST(Statistics, ARecordThatSaysNothingHasNoFiniteError) {
+  EXPECT_EQ(estimate(record_of(100, 5000, [](double) { return 0.0; }), 0).standard_error,
+            std::numeric_limits<double>::infinity());
+}
+
 TEST(Statistics, AnOscillationHasItsFrequencyAndNoiseHasNone) {
   const auto wave = [](double t) { return 3 + std::sin(2 * pi * 0.31 * t); };
   const Peak peak = strongest_frequency({record_of(100, 5000, wave)}, 0);

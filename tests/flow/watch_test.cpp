@@ -90,6 +90,8 @@ TEST(FieldMean, OfTwoMeansIsThatOfAllTheirFields) {
     field.pressure = {drags[n], -2 * drags[n]};
     field.velocity = {{drags[n], 0, 0}, {}};
     field.porous_force = {0, 0, drags[n]};
+    field.sheet_loads.resize(2);
+    for (SheetLoad& load : field.sheet_loads) load.drop = 3 * drags[n], load.force = {0, drags[n], 0};
     all.add(field);
     (n < 3 ? first : second).add(field);
   }
@@ -107,6 +109,10 @@ TEST(FieldMean, OfTwoMeansIsThatOfAllTheirFields) {
   EXPECT_EQ(b.average.drag_high, 9);
   EXPECT_NEAR(b.pressure[1], -62.0 / 7, 1e-12);
   EXPECT_NEAR(b.velocity[0].x, 31.0 / 7, 1e-12);
+  for (const SheetLoad& load : b.sheet_loads) {
+    EXPECT_NEAR(load.drop, 3 * 31.0 / 7, 1e-12);
+    EXPECT_NEAR(load.force.y, 31.0 / 7, 1e-12);
+  }
 }
 
 TEST(Watch, SaysSoWhenTheLongestWatchIsNotEnough) {

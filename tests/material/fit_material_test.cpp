@@ -88,11 +88,12 @@ TEST_F(BenchFile, ATapeComesBackPerWidth) {
   const MaterialFit fit =
       fit_material(bench("kind = \"tape\"\nname = \"seam\"\nsource = \"synthetic\"\n"
                          "linear_density_kg_m = 6.0e-3\nwidth_m = 0.02\nthickness_m = 5e-4\n"
-                         "degree = 2\n" +
+                         "degree = 2\ncompression = 0.25\n" +
                          records));
   const Tape seam = std::get<Tape>(fit.material);
   EXPECT_NEAR(SpringLaw({seam.coefficients_n_m, 1}).tension(0.4), tape.load(0.4), 0.06 * tape.load(0.4));
   EXPECT_EQ(seam.width_m, 0.02);
+  EXPECT_EQ(seam.compression, 0.25);
 }
 
 TEST_F(BenchFile, AWeftOfItsOwnIsFoundAndALikeOneIsNot) {

@@ -73,6 +73,7 @@ TEST(PatternFiles, TheSvgPrintsAtTrueSize) {
   const TemporaryFolder folder("pattern");
   write_pattern_svg(folder.path / "gore.svg", triangle, {.seam = 0, .hem = 0});
   const std::string text = read_file(folder.path / "gore.svg");
+  EXPECT_NE(text.find("<polyline"), std::string::npos);  // the grain's arrow
   std::smatch size;
   ASSERT_TRUE(std::regex_search(
       text, size,

@@ -55,7 +55,9 @@ TEST_F(VtkRead, ADamagedHeadIsRefusedBeforeAnythingIsMadeOfIt) {
   };
   for (const char* extent : {"0 2000000000", "0 1e300", "0 nan"})
     refused("WholeExtent=\"0 2", std::string("WholeExtent=\"") + extent);
-  refused("offset=\"0\"", "offset=\"-1\"");
+  for (const char* offset : {"-1", "0.5", "1e300"})
+    refused("offset=\"0\"", std::string("offset=\"") + offset + "\"");
+  refused("NumberOfComponents=\"", "NumberOfComponents=\"-");
   refused("NumberOfComponents=\"", "NumberOfComponents=\"1e300");
 }
 

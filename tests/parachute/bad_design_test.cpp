@@ -35,6 +35,8 @@ const BadDesign bad_designs[] = {
     {"TwoGores", "conical", "gores = 12", "gores = 2", "parachute.gores", "at least 3"},
     {"ArmsLongerThanTheLinesCanSpan", "cross", "length_m = 1.2", "length_m = 0.6", "parachute.lines.length_m",
      "too short to meet on the axis"},
+    {"RingsailsVentWiderThanItsSkirt", "adept", "vent_diameter_m = 0.06", "vent_diameter_m = 6",
+     "parachute.vent_diameter_m", "the vent must be smaller than the canopy"},
     {"CrossWithoutArms", "cross", "arm_width_m = 0.396", "arm_width_m = 1.2", "parachute.arm_width_m",
      "there are no arms"},
     {"CrossWithSixArms", "cross", "gores = 4", "gores = 6", "parachute.gores", "its four arms"},

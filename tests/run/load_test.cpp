@@ -195,8 +195,12 @@ TEST(Load, WhatCannotBeIsRefused) {
 
 TEST(Load, ItsFilesHaveTheWholeWay) {
   const TemporaryFolder folder("load");
-  const LoadResult r = run_load(flat_circular(), request());
+  LoadResult r = run_load(flat_circular(), request());
   write_load(folder.path, r);
+  EXPECT_FALSE(std::filesystem::exists(folder.path / "trajectory_computed.csv"));
+  r.record_flight.assign(r.flight.begin(), r.flight.begin() + 10);
+  write_load(folder.path, r);
+  EXPECT_EQ(read_csv(folder.path / "trajectory_computed.csv").rows.size(), 10u);
   const CsvTable table = read_csv(folder.path / "trajectory.csv");
   EXPECT_EQ(table.rows.size(), r.flight.size());
   const std::vector<double> force = table.column("force_n"), time = table.column("time_s");

@@ -7,6 +7,7 @@
 #include "finished_run.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/inflation/opening_estimate.h"
+#include "ripstop/output/vtk_read.h"
 #include "ripstop/run/fabric.h"
 #include "ripstop/run/inflation.h"
 #include "ripstop/run/steady.h"
@@ -98,6 +99,31 @@ TEST(Results, OfASteadyRunAreThoseOfItsLastIterationAndState) {
   EXPECT_GT(result.stress.von_mises, 0);
   // What all lines carry is the drag; the most loaded one has no less than the mean.
   EXPECT_GE(result.max_line_tension, last.line_tension / given.parachute.lines.count);
+}
+
+TEST(Results, OfClothUnderAPressureAreThoseOfItsShapeAndItsFiles) {
+  const FabricSolution cloth = run_fabric(square_law_case(), 240);
+  const auto most =
+      std::max_element(cloth.stress.begin(), cloth.stress.end(),
+                       [](const CellStress& a, const CellStress& b) { return a.von_mises < b.von_mises; });
+  EXPECT_EQ(cloth.result.stress.von_mises, most->von_mises);
+  Vec3 centre;
+  for (const int node : cells_of(cloth.mesh)[most - cloth.stress.begin()].corner)
+    centre += 0.25 * cloth.shape[node];
+  EXPECT_NEAR(norm(cloth.result.stress.place - centre), 0, 1e-12);
+  EXPECT_EQ(cloth.result.size.projected_diameter, canopy_size(cloth.mesh, cloth.shape).projected_diameter);
+  EXPECT_GT(cloth.result.size.projected_diameter, 0);
+
+  const TemporaryFolder folder("fabric");
+  write_fabric(folder.path, cloth);
+  const VtkFile canopy = read_vtk(folder.path / "canopy.vtp");
+  ASSERT_TRUE(canopy.find("Points", "Points"));
+  EXPECT_EQ(canopy.find("Points", "Points")->values[2], cloth.shape[0].z);
+  const VtkFile lines = read_vtk(folder.path / "lines.vtp");
+  ASSERT_TRUE(lines.find("CellData", "tension_n"));
+  EXPECT_EQ(lines.find("CellData", "tension_n")->values.size(), cloth.tensions.size());
+  for (const char* file : {"canopy.png", "result.json"})
+    EXPECT_TRUE(std::filesystem::exists(folder.path / file)) << file;
 }
 
 TEST(Results, OneIterationIsOneAndHasNotConverged) {

@@ -1,0 +1,86 @@
+// Many runs in one folder: what each leaves, and what one that fails does to the others.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "finished_run.h"
+#include "ripstop/core/error.h"
+#include "ripstop/run/sweep.h"
+
+namespace ripstop {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// 20 m/s from nothing, 15 and 25 m/s from it.
+std::vector<SweepPoint> three_speeds() {
+  std::vector<SweepPoint> points;
+  for (const char* speed : {"20", "15", "25"})
+    points.push_back({{speed},
+                      square_law_case({{"flow.speed_m_s", speed}}),
+                      std::string("v") + speed,
+                      points.empty() ? -1 : 0});
+  return points;
+}
+
+bool has_flow(const fs::path& run) {
+  return fs::exists(run / "checkpoint/even/flow") || fs::exists(run / "checkpoint/odd/flow");
+}
+
+TEST(SweepFolder, AFlowFieldStaysUntilNobodyStartsFromIt) {
+  const TemporaryFolder root("sweep");
+  const std::vector<SweepPoint> points = three_speeds();
+  SweepSettings settings;
+  settings.folder = root.path / "sweep";
+  settings.jobs = 1;
+  std::vector<std::size_t> order;
+  SweepEvents events;
+  events.ended = [&](std::size_t point, const std::vector<SweepRow>& rows) {
+    order.push_back(point);
+    EXPECT_TRUE(rows[point].done) << rows[point].error;
+    EXPECT_EQ(has_flow(settings.folder / points[0].folder), order.size() < points.size());
+    for (std::size_t leaf = 1; leaf < points.size(); ++leaf)
+      EXPECT_FALSE(has_flow(settings.folder / points[leaf].folder)) << leaf;
+  };
+  for (const SweepRow& row : run_sweep(points, settings, events)) {
+    EXPECT_TRUE(row.done);
+    EXPECT_NEAR(row.result.drag_area, SquareLawEngine::area, 1e-2);
+  }
+  EXPECT_EQ(order, (std::vector<std::size_t>{0, 1, 2}));
+
+  settings.folder = root.path / "with-fields";
+  settings.fields = true;
+  run_sweep({points[0]}, settings);
+  EXPECT_TRUE(has_flow(settings.folder / points[0].folder));
+}
+
+struct NoWind : FlowEngine {
+  std::string name() const override { return "no wind"; }
+  std::unique_ptr<Flow> start(const FlowProblem&) override {
+    throw Error(ExitCode::diverged, "there is no wind today");
+  }
+};
+
+TEST(SweepFolder, ARunThatFailsIsToldInItsRowAndTheOthersGoOn) {
+  static const bool added = [] {
+    add_engine({"no-wind",
+                "fails",
+                {},
+                [](const EngineOptions&) { return std::string("no wind 1"); },
+                [](const EngineOptions&) { return std::make_unique<NoWind>(); }});
+    return true;
+  }();
+  ASSERT_TRUE(added);
+  std::vector<SweepPoint> points = three_speeds();
+  points[1].given.flow.engine = "no-wind";
+  SweepSettings settings;
+  settings.jobs = 1;
+  const std::vector<SweepRow> rows = run_sweep(points, settings);
+  EXPECT_TRUE(rows[0].done && rows[2].done);
+  EXPECT_FALSE(rows[1].done);
+  EXPECT_EQ(rows[1].error, "there is no wind today");
+  EXPECT_EQ(rows[1].code, ExitCode::diverged);
+}
+
+}  // namespace
+}  // namespace ripstop
