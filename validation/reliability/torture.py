@@ -182,6 +182,8 @@ def write_table(options, log):
     lines = ["# Kills, failing writes, damaged files and lies", "",
              f"`make torture`: {processor()}, {' to '.join(named)}; "
              + "trials by commit: " + ", ".join(f"{commit} {n}" for commit, n in sorted(commits.items())) + ".", "",
+             "Felt: the command failed, with exit code 7 and the file's name; else the failing call was in nobody's way and the files are "
+             "those of the undisturbed run. Failed: not what is [promised](../reliability.md).", "",
              *tables.table(["what", "command", "trials", "SIGKILLs", "felt", "failed", "min"], rows)]
     if bad:
         lines += ["Failed:", "", *tables.table(["trial", "what was seen"], [[name, said.replace("|", "/")] for name, said in bad])]
