@@ -89,7 +89,7 @@ TEST(Statistics, TheStandardErrorAllowsForWhatTheFlowRemembers) {
 }
 
 TEST(Statistics, ARecordThatSaysNothingHasNoFiniteError) {
-  EXPECT_EQ(estimate(record_of(100, 5000, [](double) { return 0.0; }), 0).standard_error,
+  EXPECT_EQ(mean_over_time(record_of(100, 5000, [](double) { return 0.0; }), 0).standard_error,
             std::numeric_limits<double>::infinity());
 }
 
