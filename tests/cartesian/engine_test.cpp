@@ -296,8 +296,15 @@ TEST(CartesianEngine, SaysWhatIsWrongWithTheProblem) {
   problem.porous[0].cells.push_back(problem.grid.cells());
   EXPECT_THROW(solve(*make_cartesian(), problem), Error);
   problem = open_box(12, 12, 16, 10);
-  problem.air.speed = -1;
-  EXPECT_THROW(solve(*make_cartesian(), problem), Error);
+  for (double Freestream::*number :
+       {&Freestream::speed, &Freestream::density, &Freestream::viscosity, &Freestream::temperature,
+        &Freestream::turbulence_intensity, &Freestream::viscosity_ratio}) {
+    for (const double wrong : {-1.0, 0.0, std::nan("")}) {
+      problem = open_box(12, 12, 16, 10);
+      problem.air.*number = wrong;
+      EXPECT_THROW(make_cartesian()->start(problem), Error) << wrong;
+    }
+  }
   CartesianSettings settings;
   settings.relax_pressure = 0;
   EXPECT_THROW(make_cartesian(settings), Error);

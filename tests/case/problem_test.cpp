@@ -21,6 +21,22 @@ TEST(Mistakes, AllOfThemAreToldAtOnceInTheOrderOfTheFile) {
   EXPECT_TRUE(outcome.message.starts_with("4 problems:\n")) << outcome.message;
 }
 
+TEST(Mistakes, TheFlowsOwnLoadIsOfASheetOnly) {
+  const auto with = [](const std::string& model) {
+    return outcome_of(
+        replaced(valid_case, "[[measured]]",
+                 "porosity_model = \"" + model + "\"\n[coupling]\nload = \"of-flow\"\n[[measured]]"));
+  };
+  EXPECT_TRUE(with("sheet").problems.empty()) << with("sheet").message;
+  const Outcome paper = with("paper");
+  ASSERT_EQ(paper.problems.size(), 1u) << paper.message;
+  EXPECT_EQ(paper.problems[0].key, "coupling.load");
+  EXPECT_NE(paper.message.find("known of a sheet only"), std::string::npos);
+  const Outcome misspelt = with("papr");
+  ASSERT_EQ(misspelt.problems.size(), 1u) << misspelt.message;
+  EXPECT_EQ(misspelt.problems[0].key, "flow.porosity_model");
+}
+
 TEST(Mistakes, AnEmptyFileMissesItsTables) {
   const Outcome outcome = outcome_of("");
   ASSERT_EQ(outcome.problems.size(), 2u) << outcome.message;

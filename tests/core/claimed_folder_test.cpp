@@ -46,6 +46,13 @@ TEST_F(ClaimedFolderTest, ClearRemovesWhatIsOnTheListAndNothingElse) {
   EXPECT_TRUE(again.names().empty());
 }
 
+TEST_F(ClaimedFolderTest, WhoLooksWhetherItIsClaimedDoesNotClaimIt) {
+  { ClaimedFolder before(folder); }
+  require_unclaimed(folder);
+  require_unclaimed(folder);
+  EXPECT_NO_THROW(ClaimedFolder again(folder));
+}
+
 TEST_F(ClaimedFolderTest, AFileThatIsThereAndNotOnTheListIsNotTaken) {
   make_folder(folder);
   write_file(folder / "result.json", "mine");

@@ -80,6 +80,14 @@ TEST(Summary, TheSmoothPeakIsTheCrestAndNotASpikeOfOneRow) {
   EXPECT_NEAR(s.smooth_peak_time, at, 2e-3);
 }
 
+TEST(Summary, TheUnsteadinessIsTheDeviationOfTheLastFifthOverItsMean) {
+  std::vector<HistoryRow> rows;
+  for (int i = 1; i <= 1000; ++i) rows.push_back({i * 1e-3, i <= 800 ? 9000.0 : i % 2 ? 440.0 : 360.0, 0, 0});
+  const InflationSummary s = summarise(rows, 0);
+  EXPECT_NEAR(s.steady_load, 400, 1e-9);
+  EXPECT_NEAR(s.unsteadiness, 0.1, 1e-12);
+}
+
 TEST(Summary, AnOpeningHasSettledWhenItsLastTenthIsQuiet) {
   InflationSummary s;
   EXPECT_FALSE(settled(s, 2));  // never within the band

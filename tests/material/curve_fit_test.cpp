@@ -55,6 +55,20 @@ TEST(CurveFit, ExactRecordsGiveTheirCoefficientsBack) {
   EXPECT_EQ(fit.rising_until, fit.tested_strain);
 }
 
+// Of two samples Student's t has one degree of freedom: 12.7 standard errors either way.
+TEST(CurveFit, TwoSamplesHaveAnErrorAndAWideInterval) {
+  std::mt19937 random(5);
+  const CurveFit fit = fit_curve(mean_curve(bench_of(f111_record(), 2, random)), 2, {});
+  for (const Estimate& k : fit.k) {
+    EXPECT_GT(k.standard_error, 0);
+    EXPECT_TRUE(std::isfinite(k.standard_error));
+    EXPECT_NEAR((k.high - k.value) / k.standard_error, 12.7062, 1e-3);
+    EXPECT_NEAR((k.value - k.low) / k.standard_error, 12.7062, 1e-3);
+  }
+  const CurveFit single = fit_curve(mean_curve(bench_of(f111_record(), 1, random)), 2, {});
+  EXPECT_TRUE(std::isnan(single.k[0].standard_error));
+}
+
 // The claim of a 95 % interval is that it holds in 95 of 100 campaigns. 400 campaigns of five samples: the
 // count is binomial with a standard deviation of 1.1 %, so 95 +- 3.3 % is three of them.
 TEST(CurveFit, IntervalsAndBandsHoldAsOftenAsTheyClaim) {

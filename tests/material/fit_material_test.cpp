@@ -140,6 +140,17 @@ TEST_F(BenchFile, FlowReadingsGiveTheClothItsPressureDrop) {
   EXPECT_NEAR(fit.permeability.r2, 1, 1e-9);
 }
 
+// Zero-porosity cloth lets through 0 to 3 cubic feet a minute.
+TEST_F(BenchFile, AFlowBelowOneCubicFootIsOne) {
+  const Bench read = bench(
+      "kind = \"fabric\"\nname = \"c\"\nsource = \"synthetic\"\nareal_density_kg_m2 = 0.0407\n"
+      "thickness_m = 7.6e-5\n[[coupon]]\nfile = \"a.csv\"\n[[flow]]\npressure_pa = 0.5\ncfm = 0.4\n"
+      "[[flow]]\npressure_pa = 124.5\nvelocity_m_s = 0.002\n");
+  ASSERT_EQ(read.flows.size(), 2u);
+  EXPECT_EQ(read.flows[0].cfm, 0.4);
+  EXPECT_EQ(read.flows[1].velocity_m_s, 0.002);
+}
+
 TEST_F(BenchFile, OneThatIsNoTomlIsRefusedWithItsLine) {
   try {
     bench("kind = \"fabric\"\nname = [\n");

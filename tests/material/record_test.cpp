@@ -150,6 +150,20 @@ TEST_F(Bench, SlackOffsetAndFailureAreCutAndSaid) {
     EXPECT_NEAR(record.load[i], wanted.load(record.strain[i]), 0.02 * wanted.load(0.33));
 }
 
+// The level of five points before the pull is no load cell's offset: ten it takes.
+TEST_F(Bench, AnOffsetIsReadOffTenPointsAtLeast) {
+  for (const int idle : {6, 60}) {
+    std::string text = "# length: 200 mm\n# width: 50 mm\n# orientation: 0 deg\nextension [mm],force [N]\n";
+    for (int i = 0; i < 200; ++i) {
+      const double pull = i < idle ? 0.0 : 5.0 * (i - idle);
+      text += fmt::format("{:.4f},{:.4f}\n", 0.2 * i, 3 + pull);
+    }
+    text += fmt::format("{:.4f},1.0\n", 0.2 * 200);
+    const CleanRecord record = clean(text);
+    EXPECT_NEAR(record.force_offset, idle == 60 ? 3 : 0, 1e-9) << idle;
+  }
+}
+
 TEST_F(Bench, AFewPointsOutOfOrderArePutInTheirPlace) {
   std::mt19937 random(5);
   SyntheticRecord wanted;

@@ -86,6 +86,8 @@ TEST_F(InflationFolderTest, AKilledRunGoesOnAndItsHistoryIsByteIdentical) {
   EXPECT_EQ(resumed.first_block, Inflation(problem()).blocks() / 2);
   EXPECT_EQ(resumed.rows, undisturbed.rows);
   EXPECT_EQ(resumed.frames, undisturbed.frames);
+  for (const char* picture : {"folded.png", "vtk/canopy_0000.vtp", "vtk/lines_0000.vtp"})
+    EXPECT_TRUE(fs::exists(root / "whole" / picture)) << picture;
   for (const char* table : {"history.csv", "balance.csv", "lines.csv", "result.json"}) {
     EXPECT_EQ(read_file(root / "killed" / table), read_file(root / "whole" / table)) << table;
   }

@@ -29,6 +29,11 @@ TEST(PorositySweep, LeavesTheBoxAndTheCellsOfTheCaseAsTheyAre) {
   }
 }
 
+TEST(PorositySweep, NamesItsKnobAsItsKey) {
+  EXPECT_EQ(knob_name(PorosityKnob::gamma), "gamma");
+  EXPECT_EQ(knob_name(PorosityKnob::permeability), "permeability_cfm");
+}
+
 TEST(PorositySweep, ShiftsTheCanopyEvenlyOverOneOfTheCellsThatItLiesIn) {
   for (const char* example : {"flat-circular", "stratos-iv"}) {
     const Case given = read_case(examples / example / "case.toml");

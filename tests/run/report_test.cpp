@@ -144,6 +144,11 @@ TEST(ReportTables, GroupsAndListsOfAResultAreTables) {
   EXPECT_EQ(run.tables[0].columns.size(), 3u);
   EXPECT_EQ(run.tables[0].rows[0], (std::vector<std::string>{"line 1", "2.5", ""}));
   EXPECT_EQ(run.tables[1].rows[0], (std::vector<std::string>{"force of the air", "1", "N"}));
+  ReportRun words;
+  add_result(words, R"({"ledger": {"sewn": true, "cut": false, "none": null, "count": 3}})", "result.json");
+  std::vector<std::string> values;
+  for (const auto& row : words.tables.at(0).rows) values.push_back(row.at(1));
+  EXPECT_EQ(values, (std::vector<std::string>{"yes", "no", "", "3"}));
   EXPECT_THROW(add_result(run, "[1]", "result.json"), Error);
 }
 

@@ -6,8 +6,12 @@
 
 #include "finished_run.h"
 #include "ripstop/case/assemble.h"
+#include "ripstop/core/thread_team.h"
+#include "ripstop/coupling/pressure_profile.h"
 #include "ripstop/inflation/opening_estimate.h"
+#include "ripstop/material/library.h"
 #include "ripstop/output/vtk_read.h"
+#include "ripstop/run/coupon.h"
 #include "ripstop/run/fabric.h"
 #include "ripstop/run/inflation.h"
 #include "ripstop/run/steady.h"
@@ -52,6 +56,8 @@ TEST(Results, OfAnOpeningAreThoseOfItsStateHistoryAndCase) {
   EXPECT_LT(result.inner_fold_radius, result.outer_fold_radius);
 
   double stress = 0, at = 0;
+  for (const InflationFrame& frame : history.frames) EXPECT_GT(frame.step, 0);
+  EXPECT_EQ(history.frames.back().step, state.step);
   for (const InflationFrame& frame : history.frames)
     if (frame.stress.von_mises > stress) stress = frame.stress.von_mises, at = frame.time;
   EXPECT_EQ(result.stress.von_mises, stress);
@@ -124,6 +130,34 @@ TEST(Results, OfClothUnderAPressureAreThoseOfItsShapeAndItsFiles) {
   EXPECT_EQ(lines.find("CellData", "tension_n")->values.size(), cloth.tensions.size());
   for (const char* file : {"canopy.png", "result.json"})
     EXPECT_TRUE(std::filesystem::exists(folder.path / file)) << file;
+}
+
+TEST(Results, ThePressureProfileGoesFromTheVentToTheSkirt) {
+  const FabricSolution cloth = run_fabric(square_law_case(), 240);
+  const std::vector<Cell> cells = cells_of(cloth.mesh);
+  const std::vector<double> inside(cells.size(), 30), outside(cells.size(), -70), load(cells.size(), 240);
+  const std::vector<PressureRing> rings = pressure_profile(cells, cloth.shape, {inside, outside}, load, 10);
+  ASSERT_GT(rings.size(), 5u);
+  ASSERT_LE(rings.size(), 10u);
+  EXPECT_EQ(rings.front().arc, 0);
+  for (std::size_t i = 0; i < rings.size(); ++i) {
+    EXPECT_NEAR(rings[i].inside, 30, 1e-9);
+    EXPECT_NEAR(rings[i].outside, -70, 1e-9);
+    EXPECT_NEAR(rings[i].load, 240, 1e-9);
+    if (i > 0) EXPECT_GT(rings[i].arc, rings[i - 1].arc);
+  }
+  EXPECT_LT(rings.front().radius, rings.back().radius);
+}
+
+TEST(Results, ACouponIsPulledToTheTestedStrainUnlessAnotherIsAsked) {
+  const Fabric fabric = std::get<Fabric>(library_material("f-111"));
+  CouponShape shape;
+  shape.cells = 4, shape.length = 0.05;
+  ThreadTeam team(1);
+  const CouponResult tested = run_coupon(fabric, shape, 0, 2, team);
+  ASSERT_EQ(tested.pull.points.size(), 2u);
+  EXPECT_NEAR(tested.pull.points.back().strain, fabric.tested_strain > 0 ? fabric.tested_strain : 0.1, 1e-12);
+  EXPECT_NEAR(run_coupon(fabric, shape, 0.02, 2, team).pull.points.back().strain, 0.02, 1e-12);
 }
 
 TEST(Results, OneIterationIsOneAndHasNotConverged) {

@@ -326,13 +326,14 @@ def reach(jobs, key, slowest, which):
     known = json.loads(REACH.read_text()) if REACH.exists() else {}
     tests = [(room, test) for room, test in all_tests()]
     known = {name: known[name] for name in (f"{room}.{test}" for room, test in tests) if name in known}
-    known = {name: entry for name, entry in known.items() if entry["key"] == made_of(*name.split(".", 1))}
+    known = {name: entry for name, entry in known.items()
+             if entry["key"] == made_of(*name.split(".", 1)) and (entry["passed"] or entry.get("limit", 0) >= slowest)}
     missing = [(room, test) for room, test in tests if f"{room}.{test}" not in known and re.search(which, f"{room}.{test}")]
 
     def one(bench, item):
         room, test = item
         passed, _, seconds = bench.run(room, [test], slowest)
-        return item, {"key": made_of(room, test), "passed": passed, "seconds": round(seconds, 2), "by": bench.came_by()}
+        return item, {"key": made_of(room, test), "passed": passed, "seconds": round(seconds, 2), "by": bench.came_by(), "limit": slowest}
 
     for k, ((room, test), entry) in enumerate(side_by_side(jobs, missing, one)):
         known[f"{room}.{test}"] = entry
@@ -343,11 +344,11 @@ def reach(jobs, key, slowest, which):
     return {name: entry for name, entry in known.items() if entry["passed"]}
 
 
-def batches(mutant, number, tests, most):
-    """Tests that come by a mutant, a program at a time: own room first, the quick ones together."""
+def batches(mutant, number, tests, most, passed):
+    """Tests that come by a mutant and have not passed with it, a program at a time: own room first, the quick ones together."""
     by_room, left_out = collections.defaultdict(list), 0
     for name, entry in tests.items():
-        if number in entry["by"]:
+        if number in entry["by"] and passed.get(name) != entry["key"]:
             room, test = name.split(".", 1)
             by_room[room].append((entry["seconds"], test))
     own = {"openfoam": "flow"}.get(mutant["room"], mutant["room"])
@@ -369,11 +370,12 @@ def batches(mutant, number, tests, most):
         yield 0, "", left_out
 
 
-def meet(bench, number, mutant, tests, most):
-    """The verdict on a mutant."""
+def meet(bench, number, mutant, tests, most, earlier):
+    """The verdict on a mutant, after that of an earlier run."""
+    ran = dict(earlier.get("passed", {}))
     verdict = {"name": mutant["name"], "of": mutant["of"], "room": mutant["room"], "kind": mutant["m"].kind, "line": mutant["m"].line,
-               "caught": False, "by": "", "tests": 0, "left_out": 0, "seconds": 0.0, "day": f"{datetime.date.today()}"}
-    for seconds, room, names in batches(mutant, number, tests, most):
+               "caught": False, "by": "", "tests": len(ran), "left_out": 0, "seconds": earlier.get("seconds", 0.0), "day": f"{datetime.date.today()}"}
+    for seconds, room, names in batches(mutant, number, tests, most, dict(ran)):
         if not room:
             verdict["left_out"] = names
             break
@@ -382,6 +384,7 @@ def meet(bench, number, mutant, tests, most):
             verdict["seconds"] += took
             verdict["tests"] += len(names)
             if passed:
+                ran.update({f"{room}.{name}": tests[f"{room}.{name}"]["key"] for name in names})
                 break
             alone = tests.get(f"{room}.{why}", {"seconds": 5})["seconds"]
             if took < 10 + SLOWER * seconds or bench.run(room, [why], 20 + 2 * SLOWER * alone)[0]:  # the machine is not to blame
@@ -390,6 +393,8 @@ def meet(bench, number, mutant, tests, most):
         if verdict["caught"]:
             break
     verdict["seconds"] = round(verdict["seconds"], 1)
+    if not verdict["caught"]:
+        verdict["passed"] = ran
     return verdict
 
 
@@ -472,7 +477,7 @@ def main():
         lock = threading.Lock()
         with LOG.open("a", encoding="utf-8") as file:
             def one(bench, item):
-                verdict = meet(bench, *item, tests, options.most)
+                verdict = meet(bench, *item, tests, options.most, log.get((item[1]["name"], item[1]["of"]), {}))
                 with lock:
                     file.write(json.dumps(verdict) + "\n")
                     file.flush()
