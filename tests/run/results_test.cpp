@@ -144,7 +144,9 @@ TEST(Results, ThePressureProfileGoesFromTheVentToTheSkirt) {
     EXPECT_NEAR(rings[i].inside, 30, 1e-9);
     EXPECT_NEAR(rings[i].outside, -70, 1e-9);
     EXPECT_NEAR(rings[i].load, 240, 1e-9);
-    if (i > 0) EXPECT_GT(rings[i].arc, rings[i - 1].arc);
+    if (i > 0) {
+      EXPECT_GT(rings[i].arc, rings[i - 1].arc);
+    }
   }
   EXPECT_LT(rings.front().radius, rings.back().radius);
 }
