@@ -56,12 +56,12 @@ room: check-deps  ## Build and pass the tests of one room, or some of them: make
 	@cmake --build --preset release -j $(JOBS) --target test_$(ROOM)
 	@ctest --preset release -j $(JOBS) --no-tests=error -R '^$(ROOM)\.([^/]*/)?($(TESTS))'
 
-sanitize: check-deps  ## All tests under the address and undefined-behaviour sanitizers: an hour
+sanitize: check-deps  ## All tests under the address and undefined-behaviour sanitizers
 	@cmake --preset sanitize > /dev/null
 	@cmake --build --preset sanitize -j $(JOBS)
 	@ctest --preset sanitize
 
-sanitize-thread: check-deps  ## All tests under the thread sanitizer: an hour and more
+sanitize-thread: check-deps  ## All tests under the thread sanitizer
 	@cmake --preset sanitize-thread > /dev/null
 	@cmake --build --preset sanitize-thread -j $(JOBS)
 	@ctest --preset sanitize-thread
@@ -74,10 +74,10 @@ fuzz: check-deps  ## Fuzz every reader with coverage: make fuzz [SECONDS=60] [RE
 	@cmake --build --preset fuzz -j $(JOBS)
 	@fuzz/run.sh $(SECONDS) $(READERS)
 
-mutants: check-deps  ## Changes the sources in some 460 places and looks which the tests notice, into docs/tables: two hours; resumable
+mutants: check-deps  ## Changes the sources in some 460 places and looks which the tests notice, into docs/tables: hours; resumable
 	@/usr/bin/python3 validation/reliability/mutants.py --jobs $(JOBS) $(MUTANTS)
 
-coverage: check-deps  ## Lines of src/ that the tests run, without OpenFOAM's, into docs/tables: an hour
+coverage: check-deps  ## Lines of src/ that the tests run, without OpenFOAM's, into docs/tables
 	@cmake --preset coverage > /dev/null
 	@cmake --build --preset coverage -j $(JOBS)
 	@find build-coverage -name '*.gcda' -delete

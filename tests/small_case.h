@@ -1,6 +1,8 @@
 // A small flat circular canopy as a case made in code, as a caller of the library makes one.
 #pragma once
 
+#include <filesystem>
+
 #include "ripstop/case/case.h"
 #include "ripstop/parachute/flat_circular.h"
 
@@ -16,6 +18,19 @@ inline Case flat_circular_case(double diameter_m, int cloth_nodes, double speed_
   given.parachute.mesh.cloth_nodes = cloth_nodes;
   given.flow.speed_m_s = speed_m_s;
   given.flow.density_kg_m3 = 1.2;
+  return given;
+}
+
+/// Stratos IV on a coarse mesh with six lines: the first 8 ms of its opening.
+inline Case small_opening() {
+  Case given = read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/stratos-iv/case.toml");
+  given.parachute.mesh.cloth_nodes = 1500;
+  given.parachute.lines.count = 6;
+  given.parachute.mesh.folds = 6;
+  given.parachute.mesh.line_segment_m = 0.15;
+  given.inflation.initial_radius_m = 0.2;
+  given.inflation.duration_s = 8e-3;
+  given.inflation.frames = 8;
   return given;
 }
 

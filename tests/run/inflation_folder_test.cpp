@@ -10,6 +10,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "../small_case.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
@@ -23,18 +24,9 @@ namespace fs = std::filesystem;
 class InflationFolderTest : public ::testing::Test {
  protected:
   fs::path root = fs::temp_directory_path() / ("ripstop-opening-" + std::to_string(getpid()));
-  Case given = read_case(fs::path(RIPSTOP_SOURCE_DIR) / "examples" / "stratos-iv" / "case.toml");
+  Case given = small_opening();
 
-  void SetUp() override {
-    given.parachute.mesh.cloth_nodes = 1500;
-    given.parachute.lines.count = 6;
-    given.parachute.mesh.folds = 6;
-    given.parachute.mesh.line_segment_m = 0.15;
-    given.inflation.initial_radius_m = 0.2;
-    given.inflation.duration_s = 8e-3;
-    given.inflation.frames = 8;
-    given.inflation.sheet_s = {0, 0.004};
-  }
+  void SetUp() override { given.inflation.sheet_s = {0, 0.004}; }
   void TearDown() override { fs::remove_all(root); }
 
   InflationProblem problem() const { return {parachute_mesh(given), given.inflation, 500, false, 1, 6}; }
@@ -158,6 +150,24 @@ TEST_F(InflationFolderTest, TablesThatDoNotBelongToTheCheckpointAreRefused) {
         EXPECT_EQ(error.code(), ExitCode::bad_data) << error.what();
       }
     }
+  }
+}
+
+TEST_F(InflationFolderTest, NoticesWhatWasChangedOfEarlierFrames) {
+  Killed killed;
+  killed.folder = root / "run";
+  EXPECT_THROW(open("run", killed), std::runtime_error);
+  const fs::path file = killed.folder / "vtk/canopy_0001.vtp";
+  std::string bytes = read_file(file);
+  bytes[bytes.size() / 2] ^= 1;
+  write_file(file, bytes);
+  InflationObserver quiet;
+  try {
+    open("run", quiet);
+    FAIL() << "a changed shape was taken for the run's own";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::bad_data);
+    EXPECT_NE(std::string(error.what()).find("vtk/canopy_0001.vtp"), std::string::npos) << error.what();
   }
 }
 

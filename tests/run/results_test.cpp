@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "../small_case.h"
 #include "finished_run.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/thread_team.h"
@@ -18,18 +19,6 @@
 
 namespace ripstop {
 namespace {
-
-Case small_opening() {
-  Case given = read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples" / "stratos-iv" / "case.toml");
-  given.parachute.mesh.cloth_nodes = 1500;
-  given.parachute.lines.count = 6;
-  given.parachute.mesh.folds = 6;
-  given.parachute.mesh.line_segment_m = 0.15;
-  given.inflation.initial_radius_m = 0.2;
-  given.inflation.duration_s = 8e-3;
-  given.inflation.frames = 8;
-  return given;
-}
 
 TEST(Results, OfAnOpeningAreThoseOfItsStateHistoryAndCase) {
   const Case given = small_opening();

@@ -27,9 +27,9 @@ std::filesystem::path default_run_folder(const std::filesystem::path& case_file,
 /// unless `fresh`, and for one with files that are not Ripstop's and no run.
 bool holds_run(const RunSettings& settings, const Case& given, const std::string& solver);
 
-/// Opens or makes the folder of a run, claims it and writes run.json and case.toml, unless the run has ended. What is there of
-/// another run is removed as far as Ripstop wrote it; what holds_run() refuses is left as it is.
-/// Throws as ClaimedFolder does.
+/// Opens or makes the folder of a run, claims it and writes run.json and case.toml, unless the run has ended. What is
+/// there of another run is removed as far as Ripstop wrote it; what holds_run() refuses is left as it is. Throws as
+/// ClaimedFolder does.
 std::unique_ptr<ClaimedFolder> open_run_folder(const RunSettings& settings, const Case& given,
                                                const std::string& solver, int threads);
 
