@@ -22,8 +22,9 @@ inline Case flat_circular_case(double diameter_m, int cloth_nodes, double speed_
 }
 
 /// Stratos IV on a coarse mesh with six lines: the first 8 ms of its opening.
-inline Case small_opening() {
-  Case given = read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/stratos-iv/case.toml");
+inline Case small_opening(const Overrides& overrides = {}) {
+  Case given =
+      read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/stratos-iv/case.toml", overrides);
   given.parachute.mesh.cloth_nodes = 1500;
   given.parachute.lines.count = 6;
   given.parachute.mesh.folds = 6;
@@ -31,6 +32,18 @@ inline Case small_opening() {
   given.inflation.initial_radius_m = 0.2;
   given.inflation.duration_s = 8e-3;
   given.inflation.frames = 8;
+  return given;
+}
+
+/// The same in air that flows, on cells of 8 to 11 cm: the first 4 ms.
+inline Case small_opening_in_air() {
+  Overrides cloth;
+  cloth.set = {{"parachute.canopy_material", "f-111-physical", ""}, {"flow.porosity_model", "sheet", ""}};
+  Case given = small_opening(cloth);
+  given.flow.cells = {24, 24, 36};
+  given.inflation.air = AirModel::coupled;
+  given.inflation.duration_s = 4e-3;
+  given.inflation.frames = 4;
   return given;
 }
 

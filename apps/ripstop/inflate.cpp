@@ -38,16 +38,22 @@ void print_start(const Inflation& solver, const InflationState& state, const Loa
              folded.inner_radius, folded.outer_radius);
   fmt::print("  largest strain {:.2e}{}\n", strain.largest,
              strain.part.empty() ? "" : " (" + strain.part + "); wanted below 1e-3");
-  fmt::print("pressure {:.2f} Pa ({})\n", solver.problem().pressure, source.text);
+  if (const auto& air = solver.problem().air)
+    fmt::print("{}: {} x {} x {} cells\n", source.text, air->flow.grid.nx, air->flow.grid.ny,
+               air->flow.grid.nz);
+  else
+    fmt::print("pressure {:.2f} Pa ({})\n", solver.problem().pressure, source.text);
   const ViscosityLimit& limit = solver.viscosity_limit();
   if (limit.least_share < 1)
     fmt::print(
         "cloth_damping_s is weakened in {:.1f} % of the cells, to {:.2f} of itself at least, for the step's "
         "sake\n",
         100 * limit.reduced_cells, limit.least_share);
-  fmt::print("nodes {}, step {:.3e} s (largest stable {:.3e} s), {} threads; about {} on one thread\n",
-             solver.mesh().node_count(), state.step, state.step / solver.problem().settings.step_fraction,
-             solver.threads(), duration_text(opening_seconds(solver, state)));
+  fmt::print(
+      "nodes {}, step {:.3e} s (largest stable {:.3e} s), {} threads; the cloth alone takes about {} on one "
+      "thread\n",
+      solver.mesh().node_count(), state.step, state.step / solver.problem().settings.step_fraction,
+      solver.threads(), duration_text(opening_seconds(solver, state)));
 }
 
 void print_result(const InflationResult& r, const fs::path& folder, double wall_time) {
@@ -194,6 +200,15 @@ void add_inflate(CLI::App& app, int& status) {
   add_opening_options(*command, options->opening);
   add_key_option(*command, "--damping", "inflation.damping_n_s_m3", "C_a a unit area [N s/m3]",
                  options->opening.overrides);
+  command
+      ->add_option_function<std::string>(
+          "--air",
+          [options](const std::string& air) {
+            options->opening.overrides.set.push_back({"inflation.air", air, "--air"});
+          },
+          "What presses: one pressure for all of the cloth, or the air as it flows, in time with the cloth")
+      ->check(CLI::IsMember({"uniform", "coupled"}))
+      ->option_text("uniform|coupled");
   command->add_option("--out", options->out, "Run folder (default: runs/<name of the case>-inflation)");
   command->add_flag("--fresh", options->fresh,
                     "Replace what Ripstop wrote into the run folder; default: go on with it");

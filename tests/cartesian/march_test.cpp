@@ -152,7 +152,7 @@ class Vortices {
     }
   }
 
-  FlowStep step(double courant) { return solver_.step(courant); }
+  FlowStep step(double courant) { return solver_.step(solver_.next_step(courant)); }
 
   /// Root mean square in the middle plane.
   double error(double time) const {
@@ -234,7 +234,7 @@ class CarriedVortices {
 
   FlowStep to(double time, double courant) {
     FlowStep step;
-    while (step.time < time) step = solver_.step(courant);
+    while (step.time < time) step = solver_.step(solver_.next_step(courant));
     return step;
   }
 

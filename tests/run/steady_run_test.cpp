@@ -44,7 +44,7 @@ TEST(SteadyRun, TheLedgerClosesAndTheLoadIsTheFlowsForce) {
 class CreepingFlow final : public FormulaFlow {
  public:
   using FormulaFlow::FormulaFlow;
-  void place(const std::vector<Triangle>&, const std::vector<Vec3>&) override {
+  void place(const std::vector<Triangle>&, const SheetMotion&) override {
     aim_at(300 * std::pow(1.005, ++placed_));
   }
 

@@ -17,6 +17,16 @@ void describe_start(Fields& fields, InflationSettings& inflation) {
                 "By which the lines are longer than their way from confluence to skirt.");
 }
 
+/// What presses.
+void describe_air(Fields& fields, InflationSettings& inflation) {
+  fields.choice(
+      "air", inflation.air, {{"uniform", AirModel::uniform}, {"coupled", AirModel::coupled}},
+      "What presses on the cloth: one pressure for all of it, with a damping; or the air of [flow], "
+      "stepped in time together with the cloth, which takes no pressure and no C_a.");
+  fields.number("courant", inflation.courant, above(0).up_to(1),
+                "Largest Courant number of the air's steps, with air = \"coupled\".");
+}
+
 /// The pressure over the canopy.
 void describe_pressure(Fields& fields, InflationSettings& inflation) {
   fields
@@ -98,6 +108,7 @@ void describe_known(Fields& fields, InflationSettings& inflation) {
 
 void describe(Fields& fields, InflationSettings& inflation) {
   describe_start(fields, inflation);
+  describe_air(fields, inflation);
   describe_pressure(fields, inflation);
   describe_damping(fields, inflation);
   describe_mesh(fields, inflation);

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "ripstop/case/assemble.h"
+#include "ripstop/case/cost.h"
 #include "ripstop/core/error.h"
 #include "ripstop/inflation/pressure.h"
 
@@ -46,6 +47,8 @@ Case opening_case(const Case& given) {
 
 LoadSource load_source(const Case& given) {
   const InflationSettings& inflation = given.inflation;
+  if (inflation.air == AirModel::coupled)
+    return {fmt::format("the air at {:g} m/s, stepped with the cloth", air(given).speed), {}};
   if (inflation.pressure_pa.has_value() == inflation.drag_coefficient.has_value()) {
     throw Error(ExitCode::usage,
                 "give the pressure once: inflation.pressure_pa, inflation.drag_coefficient, --pressure "
@@ -64,7 +67,14 @@ InflationProblem opening_problem(const Case& opening, const LoadSource& source, 
   InflationProblem problem;
   problem.mesh = parachute_mesh(opening);
   problem.settings = opening.inflation;
-  problem.pressure = pressure_of(opening, source, threads, alive);
+  if (opening.inflation.air == AirModel::coupled) {
+    const Cost cost = cost_of(opening);
+    require_memory(cost.memory, fmt::format("an opening in {:.3g} cells of air", cost.cells));
+    problem.air = AirProblem{flow_problem(opening), opening.inflation.courant, nullptr};
+    problem.settings.damping_n_s_m3 = problem.settings.quadratic_damping_n_s2_m4 = 0;
+  } else {
+    problem.pressure = pressure_of(opening, source, threads, alive);
+  }
   problem.linear = opening.coupling.linear;
   problem.threads = threads;
   problem.symmetry = std::gcd(opening.parachute.gores, opening.parachute.lines.count);

@@ -291,6 +291,19 @@ void check_watch(const Case& given, const FlowSettings& flow, Findings& findings
         "the longest watch must be at least twice as long as the shortest mean (flow.watch.shortest)");
 }
 
+/// An opening in its own air steps a sheet and the built-in engine together.
+void check_opening_air(const Case& given, const FlowSettings& flow, Findings& findings) {
+  if (given.inflation.air != AirModel::coupled) return;
+  if (!findings.sound({"flow.porosity_model", "flow.engine"})) return;
+  if (flow.porosity_model != PorosityModel::sheet)
+    findings.add("inflation.air", quoted("coupled"), quoted("uniform"),
+                 "the air is stepped with cloth that is a sheet (flow.porosity_model)");
+  else if (!engine_of(given.flow.engine).can.time)
+    findings.add(
+        "inflation.air", quoted("coupled"), quoted("uniform"),
+        fmt::format("the flow engine {} (flow.engine) has no steps in time", quoted(given.flow.engine)));
+}
+
 void check_average(const FlowSettings& flow, Findings& findings) {
   if (findings.sound({"flow.average_over", "flow.max_iterations"}) && flow.average_over > flow.max_iterations)
     findings.add("flow.average_over", flow.average_over,
@@ -335,6 +348,7 @@ void check_settings(Case given, Findings& findings) {
     if (findings.sound({"flow.cells"})) check_cells(given, flow, findings);
   }
   check_average(flow, findings);
+  check_opening_air(given, flow, findings);
   check_watch(given, flow, findings);
   check_engine(given, flow, findings);
   check_load(resolved, findings);

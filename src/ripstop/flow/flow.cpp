@@ -67,8 +67,20 @@ double largest_residual(const FlowProgress& p) {
   return std::max({p.residual_u, p.residual_p, p.residual_k, p.residual_omega, p.residual_e});
 }
 
+namespace {
+Error no_time() {
+  return {ExitCode::usage, "this flow engine has no steps in time"};
+}
+}  // namespace
+
 FlowStep Flow::march(int, double, const StepReport&) {
-  throw Error(ExitCode::usage, "this flow engine has no steps in time");
+  throw no_time();
+}
+double Flow::longest_step(double) {
+  throw no_time();
+}
+FlowStep Flow::step(double) {
+  throw no_time();
 }
 
 double sample(const FlowGrid& grid, const std::vector<double>& field, Vec3 point) {

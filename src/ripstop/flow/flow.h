@@ -41,13 +41,22 @@ struct PorousCells {
   double forchheimer = 0;  // f [1/m]
 };
 
+/// How a sheet moves, triangle by triangle. Cloth that has a mass gives way: over a step dt it moves by
+/// dt / mass more than said here for every pascal beyond `pressure`.
+struct SheetMotion {
+  std::vector<Vec3> velocity;      // [m/s]; empty: at rest
+  std::vector<Vec3> acceleration;  // under `pressure` [m/s2]; empty: none
+  std::vector<double> mass;        // of a unit area [kg/m2]; empty: it moves as said, whatever the air does
+  std::vector<double> pressure;    // inside over outside, which the velocity follows from [Pa]; as `mass`
+};
+
 /// Cloth as a surface without thickness, across which the pressure drops by a v + b v |v| with v the air's
 /// velocity along its normal, relative to the cloth ([NFM] Eq. 15; `sheet` model, method section 4).
 struct Sheet {
   std::vector<Triangle> surface;
-  double linear = 0;                // a [Pa s/m]
-  double quadratic = 0;             // b [Pa s2/m2]
-  std::vector<Vec3> velocity = {};  // of each triangle [m/s]; empty: at rest
+  double linear = 0;     // a [Pa s/m]
+  double quadratic = 0;  // b [Pa s2/m2]
+  SheetMotion motion = {};
 };
 
 /// What the air does to a sheet at one face of the grid.
@@ -151,8 +160,8 @@ class Flow {
   virtual ~Flow() = default;
 
   /// The cloth lies here now: every sheet and every porous zone of the problem takes this surface, and sheets
-  /// the velocity of its triangles (empty: at rest). The air goes on from where it is.
-  virtual void place(const std::vector<Triangle>& surface, const std::vector<Vec3>& velocity = {}) = 0;
+  /// its motion. The air goes on from where it is.
+  virtual void place(const std::vector<Triangle>& surface, const SheetMotion& motion = {}) = 0;
   /// At most so many iterations; fewer when every residual falls below `residual` or the report stops it.
   /// Throws Error(diverged) with iteration, field and place, Error(external) where a child program fails.
   virtual FlowAdvance advance(int iterations, double residual, const FlowReport& report = {}) = 0;
@@ -160,8 +169,14 @@ class Flow {
   /// fewer when the report stops it. Only where the engine's Abilities have time. Throws Error(diverged) as
   /// advance() does. Returns the last step.
   virtual FlowStep march(int steps, double courant, const StepReport& report = {});
+  /// How long the next step in time may be for a Courant number of `courant` [s], and one that is so long, or
+  /// shorter: for whoever steps something beside the air. As march() otherwise.
+  virtual double longest_step(double courant);
+  virtual FlowStep step(double length);
   /// The last iteration's or step's.
   virtual FlowField field() const = 0;
+  /// What it does to the sheets: FlowField::sheet_loads.
+  virtual std::vector<SheetLoad> sheet_loads() const { return field().sheet_loads; }
 
   /// Whether nothing has happened yet: the uniform stream as the problem has it.
   virtual bool untouched() const = 0;

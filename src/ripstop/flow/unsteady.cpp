@@ -71,7 +71,17 @@ Record record_of(const std::vector<FlowStep>& steps, double Vec3::*axis) {
   return record;
 }
 
-FlowField slice_of(const FlowField& field) {
+void check(const Watch& how) {
+  if (how.length > 0 && how.standard_error > 0 && how.shortest > 0 && how.longest >= 2 * how.shortest) return;
+  throw Error(ExitCode::usage,
+              fmt::format("flow: a watch of {} to {} times for {} m to a standard error of {}; all must be "
+                          "positive, and the longest at least twice the shortest",
+                          how.shortest, how.longest, how.length, how.standard_error));
+}
+
+}  // namespace
+
+FlowField middle_plane(const FlowField& field) {
   const FlowGrid& grid = field.grid;
   FlowField slice;
   slice.grid = grid;
@@ -86,16 +96,6 @@ FlowField slice_of(const FlowField& field) {
   }
   return slice;
 }
-
-void check(const Watch& how) {
-  if (how.length > 0 && how.standard_error > 0 && how.shortest > 0 && how.longest >= 2 * how.shortest) return;
-  throw Error(ExitCode::usage,
-              fmt::format("flow: a watch of {} to {} times for {} m to a standard error of {}; all must be "
-                          "positive, and the longest at least twice the shortest",
-                          how.shortest, how.longest, how.length, how.standard_error));
-}
-
-}  // namespace
 
 double FlowRecord::watched() const {
   return steps.empty() ? 0 : steps.back().time - steps.front().time + steps.front().length;
@@ -134,7 +134,7 @@ FlowField watch(Flow& flow, const FlowProblem& problem, const Watch& how, FlowRe
         FlowField field = flow.field();
         if (time >= next_slice) {
           next_slice = time + slice_every * unit;
-          record.slices.push_back({step.time, slice_of(field)});
+          record.slices.push_back({step.time, middle_plane(field)});
           if (record.slices.size() > most_slices) record.slices.erase(record.slices.begin());
         }
         mean.add(field, time);

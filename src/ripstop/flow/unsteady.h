@@ -10,6 +10,9 @@
 
 namespace ripstop {
 
+/// The plane y = 0 of a field, as one with ny = 1.
+FlowField middle_plane(const FlowField& field);
+
 /// How long to watch. Lengths are in times that the stream takes for one `length`.
 struct Watch {
   double courant = 0.7;

@@ -21,6 +21,18 @@ constexpr double longest_block = 2e-3;  // [s]
 constexpr double share_over_two_cells = 2.0 / 3;
 // How often one block is tried with a smaller step before its divergence is the user's.
 constexpr int most_tries = 4;
+// Of the time in which the stream passes a cell: no row is longer where there is air, whose steps are whole
+// numbers of rows and as long as its fastest cell allows.
+constexpr double longest_row_in_air = 0.03;
+
+double least_rows_in(const FlowProblem& flow) {
+  double least = 1e300;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int n = axis == 0 ? flow.grid.nx : axis == 1 ? flow.grid.ny : flow.grid.nz;
+    for (int c = 0; c < n; ++c) least = std::min(least, flow.grid.width(axis, c));
+  }
+  return flow.air.speed / (longest_row_in_air * least);  // [1/s]
+}
 
 }  // namespace
 
@@ -59,13 +71,15 @@ Inflation::Inflation(InflationProblem problem) : problem_(std::move(problem)), t
   const double frame = s.duration_s / s.frames;
   blocks_per_frame_ = std::max(1, static_cast<int>(std::ceil(frame / longest_block - 1e-9)));
   const double block = frame / blocks_per_frame_;
-  rows_per_block_ = std::max(1, static_cast<int>(std::ceil(block * s.history_hz - 1e-9)));
+  const double rows = std::max(s.history_hz, problem_.air ? least_rows_in(problem_.air->flow) : 0.0);
+  rows_per_block_ = std::max(1, static_cast<int>(std::ceil(block * rows - 1e-9)));
   row_ = block / rows_per_block_;
   if (s.low_pass_hz > 0)
     low_pass({}, row_, s.low_pass_hz);  // refuses at the beginning what it would at the end
   ClothState begin = start_state(*cloth_);
   set_positions(begin, *cloth_, with_imperfection());
   elastic_at_start_ = elastic_energy(*cloth_, begin);
+  if (problem_.air) air_ = std::make_unique<OpeningAir>(*problem_.air, mesh_);
 }
 
 InflationState Inflation::start() const {
@@ -90,7 +104,8 @@ std::vector<Vec3> Inflation::with_imperfection() const {
   return x;
 }
 
-std::vector<HistoryRow> Inflation::advance(InflationState& state) {
+std::vector<HistoryRow> Inflation::advance(InflationState& state, std::vector<AirRow>* air_rows) {
+  if (air_) return compute_block_in_air(state, air_rows);
   const double fraction = problem_.settings.step_fraction;
   for (int tries = 1;; ++tries) {
     InflationState next = state;
@@ -156,6 +171,59 @@ std::vector<HistoryRow> Inflation::compute_block(InflationState& state) {
   return rows;
 }
 
+std::vector<HistoryRow> Inflation::compute_block_in_air(InflationState& state,
+                                                        std::vector<AirRow>* air_rows) {
+  std::vector<Vec3> x = positions(state.cloth, *cloth_);
+  if (state.blocks == 0) air_->settle(x);
+  std::vector<HistoryRow> history;
+  while (static_cast<int>(history.size()) < rows_per_block_) {
+    // A step of the air is a whole number of rows, as many as it allows, all alike as far as that goes.
+    const int left = rows_per_block_ - static_cast<int>(history.size());
+    const int steps = static_cast<int>(std::ceil(left * row_ / air_->longest_step()));
+    const int rows = std::max(1, left / steps);
+    AirRow row;
+    const Loads loads = air_->step(x, rows * row_, state.air, row);
+    step_in_air(state, loads, rows, history);
+    row.time = state.cloth.time;
+    if (air_rows) air_rows->push_back(row);
+    std::vector<Vec3> now = positions(state.cloth, *cloth_);
+    air_->moved(x, now, rows * row_, loads, state.air);
+    x = std::move(now);
+  }
+  ++state.blocks;
+  take_shots(state);
+  return history;
+}
+
+// So many rows under one load.
+void Inflation::step_in_air(InflationState& state, const Loads& loads, int rows,
+                            std::vector<HistoryRow>& history) {
+  const double fraction = problem_.settings.step_fraction;
+  const long long first = state.blocks * rows_per_block_ + static_cast<long long>(history.size());
+  state.step = fraction * step_bound(*cloth_, state.cloth).stable_step;
+  for (int tries = 1;; ++tries) {
+    InflationState next = state;
+    const int steps = static_cast<int>(std::ceil(row_ / next.step));
+    const double dt = row_ / steps;
+    double stable = 0;
+    try {
+      ripstop::step(next.cloth, *cloth_, loads, dt, steps * rows, team_, &next.record);
+      stable = step_bound(*cloth_, next.cloth).stable_step;
+    } catch (const Error& error) {
+      if (error.code() != ExitCode::diverged || tries == most_tries) throw;
+      stable = 0.5 * dt;
+    }
+    if (dt <= stable) {
+      next.cloth.time = static_cast<double>(first + rows) * row_;
+      for (int i = 0; i < rows; ++i) history.push_back(row_of_history(next, first + i, steps, dt, i * steps));
+      state = std::move(next);
+      return;
+    }
+    state.step = fraction * stable;
+    ++state.step_changes;
+  }
+}
+
 // One shot at most for every instant that has come; instants closer than a block share one.
 void Inflation::take_shots(InflationState& state) const {
   const std::vector<double>& instants = problem_.settings.sheet_s;
@@ -173,7 +241,7 @@ InflationFrame Inflation::frame(InflationState& state) const {
   const std::vector<Vec3> x = positions(state.cloth, *cloth_);
   InflationFrame frame;
   frame.time = state.cloth.time;
-  frame.pressure_work = state.record.pressure_work;
+  frame.pressure_work = state.record.pressure_work + state.air.work;
   frame.damped = state.record.damped;
   frame.kinetic = kinetic_energy(*cloth_, state.cloth);
   frame.elastic = elastic_energy(*cloth_, state.cloth);

@@ -2,6 +2,8 @@
 // inflation as mended in docs/theory/inflation.md.
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +11,7 @@
 #include "ripstop/canopy/stress.h"
 #include "ripstop/cloth/cloth.h"
 #include "ripstop/core/members.h"
+#include "ripstop/inflation/air.h"
 #include "ripstop/inflation/settings.h"
 #include "ripstop/parachute/fold.h"
 
@@ -17,10 +20,11 @@ namespace ripstop {
 struct InflationProblem {
   CanopyMesh mesh;  // as cut; fold lines and line damping are applied by the solver
   InflationSettings settings;
-  double pressure = 0;  // dp [Pa]
+  double pressure = 0;  // dp [Pa], without `air`
   bool linear = false;  // keep only K_1 of every law
   int threads = 0;
   int symmetry = 1;  // turns by 2 pi / symmetry map the parachute as cut onto itself
+  std::optional<AirProblem> air = {};
 };
 
 /// Axial load on the riser (downstream > 0) over one interval of the history.
@@ -91,6 +95,7 @@ struct InflationState {
   double peak_time = 0;  // [s]
   double impulse = 0;    // [N s]
   int step_changes = 0;  // how often strain made the step smaller
+  AirMemory air;         // where the opening has air
   StressPeak highest_stress;
   double highest_stress_time = 0;  // [s]
   std::vector<InflationShot> shots;
@@ -117,6 +122,7 @@ void each_member(T& s, Visit&& visit) {
   visit("patch", s.highest_stress.patch);
   sewing_members(s.highest_stress, visit);
   visit("stress_time", s.highest_stress_time);
+  visit("air", s.air);
   visit("shots", s.shots);
 }
 
@@ -133,9 +139,9 @@ class Inflation {
   int rows_per_block() const { return rows_per_block_; }
   double row_duration() const { return row_; }  // [s]
 
-  /// One block. The step is `step_fraction` of the largest stable one; when strain has made that smaller than
+  /// One block; what the air did in it is added to `air_rows`. The step is `step_fraction` of the largest stable one; when strain has made that smaller than
   /// the step by the block's end, the block is computed again. Throws Error(diverged).
-  std::vector<HistoryRow> advance(InflationState& state);
+  std::vector<HistoryRow> advance(InflationState& state, std::vector<AirRow>* air_rows = nullptr);
   InflationFrame frame(InflationState& state) const;
 
   const CanopyMesh& mesh() const { return mesh_; }
@@ -144,11 +150,15 @@ class Inflation {
   /// How much weaker the cloth's dampers are than `cloth_damping_s` says, so that they do not set the step.
   const ViscosityLimit& viscosity_limit() const { return viscosity_limit_; }
   const InflationProblem& problem() const { return problem_; }
+  /// The air of a coupled opening, which goes on with it; null under a uniform pressure.
+  OpeningAir* air() const { return air_.get(); }
   int threads() const { return team_.size(); }
   std::vector<double> peak_tension_of_lines(const InflationState& state) const;  // [N]
 
  private:
   std::vector<HistoryRow> compute_block(InflationState& state);
+  std::vector<HistoryRow> compute_block_in_air(InflationState& state, std::vector<AirRow>* air_rows);
+  void step_in_air(InflationState& state, const Loads& loads, int rows, std::vector<HistoryRow>& history);
   HistoryRow row_of_history(InflationState& state, long long index, int steps, double dt, int from) const;
   void take_shots(InflationState& state) const;
   std::vector<Vec3> with_imperfection() const;
@@ -159,6 +169,7 @@ class Inflation {
   ViscosityLimit viscosity_limit_;
   ClothPtr cloth_;
   ThreadTeam team_;
+  std::unique_ptr<OpeningAir> air_;
   int blocks_per_frame_ = 1, rows_per_block_ = 1;
   double row_ = 0;               // [s]
   double elastic_at_start_ = 0;  // of an imperfection, or of a start that folds with some strain [J]

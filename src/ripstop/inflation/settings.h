@@ -6,7 +6,13 @@
 
 namespace ripstop {
 
+/// What presses on the cloth: one pressure for all of it and a damping, or the air as it flows.
+enum class AirModel { uniform, coupled };
+
 struct InflationSettings {
+  AirModel air = AirModel::uniform;
+  double courant = 0.5;  // of the air's steps, `coupled`
+
   std::optional<double> initial_radius_m;  // of the folded skirt, midway between inner and outer folds
   int folds = 0;                           // 0: one a line
   double slack_m = 0;                      // lines longer than their way from confluence to skirt

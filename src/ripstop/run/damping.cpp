@@ -24,6 +24,7 @@ DampingTarget damping_target(const Case& given) {
 DampingResult run_damping(const Case& given, const LoadSource& source, const InflationProblem& problem,
                           const DampingSearch& search, const std::function<void(const DampingTrial&)>& report,
                           const std::function<void()>& alive) {
+  if (problem.air) throw Error(ExitCode::usage, "inflation.air = \"coupled\" has no damping to calibrate");
   DampingResult result;
   result.title = given.title;
   result.inputs_hash = inputs_hash(

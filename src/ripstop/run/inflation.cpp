@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "ripstop/run/engine.h"
 #include "ripstop/run/json.h"
 
 namespace ripstop {
@@ -37,7 +38,9 @@ InflationResult result_of(const Case& given, const LoadSource& source, const Inf
   }
   r.overshoot = r.peak_load / steady;
   r.impulse = state.impulse;
-  r.pressure = solver.problem().pressure;
+  if (!solver.air()) r.pressure = solver.problem().pressure;
+  for (const AirRow& row : history.air)
+    r.drag_area = std::max(r.drag_area.value_or(row.drag_area), row.drag_area);
   r.source = source;
   if (source.steady_drag) r.steady_drag_returned = steady / *source.steady_drag;
   r.settings = settings;
@@ -74,13 +77,18 @@ double opening_seconds(const Inflation& solver, const InflationState& start) {
 
 InflationSolution run_inflation(const Case& given, const LoadSource& source, InflationProblem problem,
                                 InflationObserver& observer) {
+  if (problem.air) {
+    EngineOptions options = engine_options(given);
+    options.threads = problem.threads;
+    problem.air->engine = engine_of(given).make(options);
+  }
   Inflation solver(std::move(problem));
   InflationSolution solution;
   auto& [result, state, history] = solution;
   state = solver.start();
   observer.begin(solver, state, history);
   while (state.blocks < solver.blocks()) {
-    const std::vector<HistoryRow> rows = solver.advance(state);
+    const std::vector<HistoryRow> rows = solver.advance(state, &history.air);
     history.rows.insert(history.rows.end(), rows.begin(), rows.end());
     const bool at_frame = solver.at_frame(state);
     if (at_frame) history.frames.push_back(solver.frame(state));

@@ -23,10 +23,11 @@ struct InflationResult {
   std::optional<double> smooth_peak_time;  // [s]
   std::optional<double> smooth_overshoot;  // over the steady load
   InflationSummary summary;
-  bool settled = false;  // the steady load is one: settled() of the summary
-  double overshoot = 0;  // peak over steady load
-  double impulse = 0;    // [N s]
-  double pressure = 0;   // [Pa]
+  bool settled = false;             // the steady load is one: settled() of the summary
+  double overshoot = 0;             // peak over steady load
+  double impulse = 0;               // [N s]
+  std::optional<double> pressure;   // uniform [Pa]
+  std::optional<double> drag_area;  // C_D S in the air, the largest of a step [m2]
   LoadSource source;
   std::optional<double> steady_drag_returned;  // steady load over the drag that was asked for
   InflationSettings settings;
@@ -65,6 +66,7 @@ void each_member(T& r, Visit&& visit) {
   visit("overshoot", r.overshoot);
   visit("impulse_n_s", r.impulse);
   visit("pressure_pa", r.pressure);
+  visit("drag_area_peak_m2", r.drag_area);
   visit("pressure_from", r.source.text);
   visit("steady_drag_asked_n", r.source.steady_drag);
   visit("steady_drag_returned", r.steady_drag_returned);
@@ -103,6 +105,7 @@ std::string to_json(const InflationResult& result);
 struct InflationHistory {
   std::vector<HistoryRow> rows;
   std::vector<InflationFrame> frames;
+  std::vector<AirRow> air;  // a step of the air each; none under a uniform pressure
 };
 
 /// Told of an opening as it goes; what it is not interested in, it leaves out.

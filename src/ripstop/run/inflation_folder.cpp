@@ -11,6 +11,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/core/hash.h"
+#include "ripstop/flow/unsteady.h"
 #include "ripstop/output/csv.h"
 #include "ripstop/output/picture.h"
 #include "ripstop/output/plot.h"
@@ -24,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Of InflationState's list of members: one more with every change of it.
-constexpr int opening_format = 2;
+constexpr int opening_format = 3;
 
 double clock_now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -32,6 +33,13 @@ double clock_now() {
 
 std::string shape_file(const char* what, long long frame) {
   return fmt::format("vtk/{}_{:04}.vtp", what, frame);
+}
+
+/// Of the air's state, in turn.
+constexpr const char* air_names[] = {"even", "odd"};
+
+std::string air_file(const Inflation& solver, long long frame) {
+  return fmt::format("vtk/air_{:04}.{}", frame, solver.problem().air->flow.grid.uniform() ? "vti" : "vtr");
 }
 
 /// Writes every file of the opening before it passes on what it was told.
@@ -54,7 +62,9 @@ class InflationFolder : public InflationObserver {
   void write_shape(const Inflation& solver, const InflationState& state) const;
   std::string tables_hash() const;
   /// Everything so far is on the disk when this returns.
-  void save(const InflationState& state, const InflationHistory& history);
+  void save(const Inflation& solver, const InflationState& state, const InflationHistory& history);
+  void write_air(const Inflation& solver, long long frame) const;
+  void write_air_plot(const InflationHistory& history, const InflationResult& result) const;
   void write_load_plot(const Inflation& solver, const std::vector<HistoryRow>& rows,
                        const InflationResult& result) const;
   void write_shapes(const Inflation& solver, const InflationState& state, const std::string& title) const;
@@ -68,8 +78,10 @@ class InflationFolder : public InflationObserver {
   bool report_;
   double checkpoint_every_;  // [s]
   InflationObserver& next_;
-  double saved_ = clock_now();                     // when [s]
-  std::size_t saved_rows_ = 0, saved_frames_ = 0;  // of the history, that the tables have
+  double saved_ = clock_now();  // when [s]
+  bool with_air_ = false;
+  std::size_t saved_rows_ = 0, saved_frames_ = 0, saved_air_ = 0;  // of the history, that the tables have
+  int air_ = 0;  // which of its two folders the next checkpoint's air goes to
 };
 
 template <class Row>
@@ -81,12 +93,15 @@ std::vector<Row> rows_of(const fs::path& file) {
 
 // The tables belong to the state of the checkpoint: it begins with their hash.
 std::string InflationFolder::tables_hash() const {
-  return hash_bytes(hash_file(folder_.own("history.csv")) + hash_file(folder_.own("balance.csv")));
+  std::string hashes = hash_file(folder_.own("history.csv")) + hash_file(folder_.own("balance.csv"));
+  if (with_air_) hashes += hash_file(folder_.own("air.csv"));
+  return hash_bytes(hashes);
 }
 
 void InflationFolder::begin(const Inflation& solver, InflationState& state, InflationHistory& history) {
   const fs::path saved = folder_.own("checkpoint");
   const bool goes_on = fs::exists(saved);
+  with_air_ = solver.air() != nullptr;
   std::string tables;
   if (goes_on) {
     const std::string bytes = read_sealed(saved);
@@ -98,11 +113,19 @@ void InflationFolder::begin(const Inflation& solver, InflationState& state, Infl
                   fmt::format("{}: is of another mesh; start again with --fresh", saved.string()));
     }
     state = std::move(earlier);
+    if (with_air_) {  // the hash is followed by the folder of its air
+      air_ = tables.ends_with(air_names[1]) ? 1 : 0;
+      tables.resize(tables.find(' '));
+      solver.air()->restore(folder_.own("air/") / air_names[air_]);
+      air_ = 1 - air_;
+    }
   }
   saved_rows_ = static_cast<std::size_t>(state.blocks * solver.rows_per_block());
   saved_frames_ = static_cast<std::size_t>(state.blocks * solver.problem().settings.frames / solver.blocks());
   table<HistoryRow>("history.csv", saved_rows_);
   table<InflationFrame>("balance.csv", saved_frames_);
+  saved_air_ = static_cast<std::size_t>(state.air.steps);
+  if (with_air_) table<AirRow>("air.csv", saved_air_);
   if (goes_on && tables != tables_hash()) {
     throw Error(
         ExitCode::bad_data,
@@ -111,7 +134,9 @@ void InflationFolder::begin(const Inflation& solver, InflationState& state, Infl
                     folder_.path().string()));
   }
   history = {rows_of<HistoryRow>(folder_.own("history.csv")),
-             rows_of<InflationFrame>(folder_.own("balance.csv"))};
+             rows_of<InflationFrame>(folder_.own("balance.csv")),
+             {}};
+  if (with_air_) history.air = rows_of<AirRow>(folder_.own("air.csv"));
   refuse_lost(folder_);
   if (!goes_on) write_start(solver, state);
   next_.begin(solver, state, history);
@@ -121,12 +146,13 @@ void InflationFolder::advanced(const Inflation& solver, const InflationState& st
                                const InflationHistory& history, const InflationFrame* frame) {
   if (frame) {
     write_shape(solver, state);
-    if (clock_now() - saved_ > checkpoint_every_) save(state, history);
+    if (clock_now() - saved_ > (with_air_ ? 6 : 1) * checkpoint_every_) save(solver, state, history);
   }
   next_.advanced(solver, state, history, frame);
 }
 
-void InflationFolder::save(const InflationState& state, const InflationHistory& history) {
+void InflationFolder::save(const Inflation& solver, const InflationState& state,
+                           const InflationHistory& history) {
   const auto add = [](CsvLog log, const auto& all, std::size_t& done) {
     std::vector<std::vector<double>> rows;
     for (; done < all.size(); ++done) rows.push_back(row_of(all[done]));
@@ -134,16 +160,24 @@ void InflationFolder::save(const InflationState& state, const InflationHistory& 
   };
   add(table<HistoryRow>("history.csv", saved_rows_), history.rows, saved_rows_);
   add(table<InflationFrame>("balance.csv", saved_frames_), history.frames, saved_frames_);
+  if (with_air_) add(table<AirRow>("air.csv", saved_air_), history.air, saved_air_);
+  std::string tables = tables_hash();
+  if (with_air_) {  // the last checkpoint keeps its own until this one is whole
+    solver.air()->save(folder_.own("air/") / air_names[air_]);
+    tables += fmt::format(" {}", air_names[air_]);
+    air_ = 1 - air_;
+  }
   folder_.keep();
-  write_sealed(folder_.own("checkpoint"), tables_hash() + '\n' + to_bytes(state));
+  write_sealed(folder_.own("checkpoint"), tables + '\n' + to_bytes(state));
   saved_ = clock_now();
 }
 
 void InflationFolder::ended(const Inflation& solver, const InflationState& state,
                             const InflationHistory& history, const InflationResult& result) {
-  save(state, history);
+  save(solver, state, history);
   write_load_plot(solver, history.rows, result);
   write_shapes(solver, state, result.title);
+  if (with_air_) write_air_plot(history, result);
   CsvTable lines{{"line", "peak_tension_n"}, {}};
   for (std::size_t i = 0; i < result.line_peaks.size(); ++i)
     lines.rows.push_back({static_cast<double>(i + 1), result.line_peaks[i]});
@@ -155,6 +189,14 @@ void InflationFolder::ended(const Inflation& solver, const InflationState& state
       series.push_back({settings.duration_s * i / settings.frames, shape_file(what, i)});
     }
     write_pvd(folder_.own(fmt::format("{}.pvd", what)), series);
+  }
+  if (with_air_) {
+    std::vector<VtkSeriesFile> series;
+    for (int i = 1; i <= settings.frames; ++i)
+      series.push_back({settings.duration_s * i / settings.frames, air_file(solver, i)});
+    write_pvd(folder_.own("air.pvd"), series);
+    std::error_code ignored;  // nothing will go on from it
+    fs::remove_all(folder_.path() / "air", ignored);
   }
   InflationResult named = result;
   named.inputs_hash = inputs_of_run(folder_.path());
@@ -209,6 +251,22 @@ void InflationFolder::write_shape(const Inflation& solver, const InflationState&
   VtkSurface lines = spring_lines(solver.mesh(), x);
   lines.cell_arrays.push_back(vtk_array_single("tension_n", spring_tensions(solver.cloth(), state.cloth)));
   write_vtp(folder_.own(shape_file("lines", index)), lines);
+  if (with_air_) write_air(solver, index);
+}
+
+void InflationFolder::write_air(const Inflation& solver, long long frame) const {
+  const fs::path file = folder_.own(air_file(solver, frame));
+  write_image(fs::path(file).replace_extension(), flow_image(middle_plane(solver.air()->flow().field())));
+}
+
+void InflationFolder::write_air_plot(const InflationHistory& history, const InflationResult& r) const {
+  PlotSeries area{"C_D S", {}, {}, true, false};
+  for (const AirRow& row : history.air) area.x.push_back(row.time), area.y.push_back(row.drag_area);
+  PlotSeries projected{"projected area", {}, {}, true, false, true};
+  for (const InflationFrame& frame : history.frames)
+    projected.x.push_back(frame.time), projected.y.push_back(frame.size.projected_area);
+  write_plot(folder_.own("drag_area.png"),
+             {r.title, {"time from deployment [s]"}, {"area [m\u00b2]"}, {area, projected}});
 }
 
 void InflationFolder::write_load_plot(const Inflation& solver, const std::vector<HistoryRow>& rows,

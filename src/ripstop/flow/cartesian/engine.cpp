@@ -72,7 +72,7 @@ Error divergence(const Solver& solver, const std::string& when, const std::strin
 constexpr const char* state_file = "cartesian.flow";
 
 struct Header {
-  char magic[8] = {'r', 'i', 'p', 'f', 'l', 'o', 'w', '5'};
+  char magic[8] = {'r', 'i', 'p', 'f', 'l', 'o', 'w', '6'};
   FlowGrid grid;
   Freestream air;
   Sides sides = Sides::zero_gradient;
@@ -90,6 +90,10 @@ void each_number(AnyHeader& h, Visit&& visit) {
   visit(h.air), visit(h.sides), visit(h.outlet), visit(h.jets);
   visit(h.jet.nozzle.shape), visit(h.jet.nozzle.width), visit(h.jet.nozzle.height);
   visit(h.jet.outside), visit(h.jet.shear_layer);
+}
+template <class AnyMotion, class Visit>
+void each_array(AnyMotion& m, Visit&& visit) {
+  visit(m.velocity), visit(m.acceleration), visit(m.mass), visit(m.pressure);
 }
 static_assert(sizeof(Grading) == 4 * sizeof(double) + 2 * sizeof(int) &&
               sizeof(Freestream) == 6 * sizeof(double));
@@ -148,8 +152,8 @@ class CartesianFlow final : public Flow {
         team_(team),
         solver_(problem, problem.grid, porous(), settings, team) {}
 
-  void place(const std::vector<Triangle>& surface, const std::vector<Vec3>& velocity) override {
-    for (Sheet& sheet : problem_.sheets) sheet.surface = surface, sheet.velocity = velocity;
+  void place(const std::vector<Triangle>& surface, const SheetMotion& motion) override {
+    for (Sheet& sheet : problem_.sheets) sheet.surface = surface, sheet.motion = motion;
     if (!problem_.porous.empty()) {
       const std::vector<int> cells = cut_cells(problem_.grid, surface);
       for (PorousCells& cloth : problem_.porous) cloth.cells = cells;
@@ -159,7 +163,10 @@ class CartesianFlow final : public Flow {
 
   FlowAdvance advance(int iterations, double residual, const FlowReport& report) override;
   FlowStep march(int steps, double courant, const StepReport& report) override;
+  double longest_step(double courant) override { return solver_.longest_step(in_range(courant)); }
+  FlowStep step(double length) override;
   FlowField field() const override { return solver_.field(); }
+  std::vector<SheetLoad> sheet_loads() const override { return solver_.sheet_loads(); }
   bool untouched() const override { return solver_.state().untouched; }
 
   void guess() override {
@@ -178,6 +185,12 @@ class CartesianFlow final : public Flow {
  private:
   static constexpr int fewest_cells = 20000;  // that a coarser grid is worth
 
+  static double in_range(double courant) {
+    if (courant > 0 && courant <= 1) return courant;
+    throw Error(ExitCode::usage,
+                fmt::format("flow: a Courant number of {}; a number in (0, 1] is wanted", courant));
+  }
+  Error diverged_by(const FlowStep& now) const;
   PorousRows porous() const { return {problem_.grid, problem_.porous, problem_.air.viscosity}; }
   FlowAdvance run(Solver& solver, int iterations, double residual, const FlowReport& report) const;
   void guess_from_coarser(const FlowGrid& grid, const PorousRows& porous, Solver& fine) const;
@@ -215,23 +228,25 @@ FlowAdvance CartesianFlow::advance(int iterations, double residual, const FlowRe
 }
 
 FlowStep CartesianFlow::march(int steps, double courant, const StepReport& report) {
-  if (steps < 1 || !(courant > 0 && courant <= 1))
-    throw Error(ExitCode::usage,
-                fmt::format("flow: {} steps at a Courant number of {}; at least one is wanted, "
-                            "and a number in (0, 1]",
-                            steps, courant));
+  if (steps < 1) throw Error(ExitCode::usage, fmt::format("flow: {} steps; at least one is wanted", steps));
   FlowStep now;
-  const auto diverged = [&] {
-    return divergence(solver_, fmt::format("by step {}", now.step), solver_.first_bad_value(),
-                      "a smaller flow.watch.courant, a wider and longer box (flow.box_m) or a coarser grid");
-  };
   for (int n = 0; n < steps; ++n) {
-    now = solver_.step(courant);
-    if (!std::isfinite(now.force.z + now.momentum_gap)) throw diverged();
+    now = step(solver_.next_step(in_range(courant)));
     if (report && !report(now)) break;
   }
-  if (!solver_.shut() && !solver_.within_reason()) throw diverged();
+  if (!solver_.shut() && !solver_.within_reason()) throw diverged_by(now);
   return now;
+}
+
+FlowStep CartesianFlow::step(double length) {
+  const FlowStep now = solver_.step(length);
+  if (!std::isfinite(now.force.z + now.momentum_gap)) throw diverged_by(now);
+  return now;
+}
+
+Error CartesianFlow::diverged_by(const FlowStep& now) const {
+  return divergence(solver_, fmt::format("by step {}", now.step), solver_.first_bad_value(),
+                    "a smaller Courant number, a wider and longer box (flow.box_m) or a coarser grid");
 }
 
 void CartesianFlow::guess_from_coarser(const FlowGrid& grid, const PorousRows& porous, Solver& fine) const {
@@ -257,7 +272,7 @@ void CartesianFlow::save(const std::filesystem::path& folder) const {
   if (problem_.jet) header.jets = 1, header.jet = *problem_.jet;
   each_number(header, out);
   for (const PorousCells& cloth : problem_.porous) out(cloth.cells);
-  for (const Sheet& sheet : problem_.sheets) out(sheet.surface), out(sheet.velocity);
+  for (const Sheet& sheet : problem_.sheets) out(sheet.surface), each_array(sheet.motion, out);
   each_carried(solver_.state(), out);
   make_folder(folder);
   write_sealed(folder / state_file, out.bytes);
@@ -273,7 +288,7 @@ void CartesianFlow::restore(const std::filesystem::path& folder) {
       (header.jets == 1) != problem_.jet.has_value() || (problem_.jet && !(header.jet == *problem_.jet)))
     throw Error(ExitCode::usage, (folder / state_file).string() + ": was made in another box of air");
   for (PorousCells& cloth : problem_.porous) in(cloth.cells);
-  for (Sheet& sheet : problem_.sheets) in(sheet.surface), in(sheet.velocity);
+  for (Sheet& sheet : problem_.sheets) in(sheet.surface), each_array(sheet.motion, in);
   solver_.place(porous(), problem_.sheets);
   State state = solver_.state();
   each_carried(state, in);

@@ -25,6 +25,10 @@ std::pair<std::ptrdiff_t, std::ptrdiff_t> cells(const SheetFace& g, const Layout
   return {high - (g.axis == 0 ? 1 : g.axis == 1 ? layout.stride_y : layout.stride_z), high};
 }
 
+/// Of the bend of the air's velocity at a sheet that moves, which a disk's drag as it drifts asks for: 0 and 0.5
+/// leave more of a swing as it goes from face to face.
+constexpr double kinked = 0.25;
+
 constexpr double least_jet = 0.25;  // of U, in the slope only: the answer does not depend on it
 
 struct Cover {
@@ -41,6 +45,17 @@ Cover cover_of(double c, double resistance, double density, double speed) {
   const double cloth = c * resistance, both = jet + cloth;
   if (both <= 0) return {c, 1};
   return {c * jet / both, (jet + 2 * cloth) / both};
+}
+
+/// A resistance in series with cloth that gives way by `yields` a unit of drop.
+double giving_way(double resistance, double yields) {
+  return resistance / (1 + yields * resistance);
+}
+
+/// v of v + yields (a + b |v|) v = asked.
+double passing(double asked, double yields, double a, double b) {
+  const double linear = 1 + yields * a;
+  return 2 * asked / (linear + std::sqrt(linear * linear + 4 * yields * b * std::abs(asked)));
 }
 
 }  // namespace
@@ -64,9 +79,12 @@ void SheetRows::add_faces(const Axis& x, const Axis& y, const Axis& z, const std
                   fmt::format("sheet: a = {} Pa s/m and b = {} Pa s2/m2 must be finite and not negative",
                               sheet.linear, sheet.quadratic));
     }
-    if (!sheet.velocity.empty() && sheet.velocity.size() != sheet.surface.size()) {
-      throw Error(ExitCode::bad_data, fmt::format("sheet: {} velocities for {} triangles",
-                                                  sheet.velocity.size(), sheet.surface.size()));
+    const SheetMotion& motion = sheet.motion;
+    for (const std::size_t count :
+         {motion.velocity.size(), motion.acceleration.size(), motion.mass.size(), motion.pressure.size()}) {
+      if (count != 0 && count != sheet.surface.size())
+        throw Error(ExitCode::bad_data,
+                    fmt::format("sheet: the motion of {} triangles for {}", count, sheet.surface.size()));
     }
     for (const SheetFace& geometry : sheet_faces(x, y, z, sheet.surface)) {
       Face face;
@@ -74,7 +92,17 @@ void SheetRows::add_faces(const Axis& x, const Axis& y, const Axis& z, const std
       face.sheet = s;
       face.a = sheet.linear, face.b = sheet.quadratic;
       const SheetFace& g = geometry;
-      if (!sheet.velocity.empty()) face.moving = dot(g.normal, sheet.velocity[g.triangle]);
+      if (!motion.velocity.empty()) {
+        face.moving = dot(g.normal, motion.velocity[g.triangle]);
+        const Axis& axis = g.axis == 0 ? x : g.axis == 1 ? y : z;
+        const int c = g.axis == 0 ? g.i : g.axis == 1 ? g.j : g.k;
+        const double off = (g.axis == 0 ? g.point.x : g.axis == 1 ? g.point.y : g.point.z) - axis.edge[c];
+        face.beyond = off * axis.inverse_width[off > 0 ? c : c - 1];
+        if (c < 3 || c + 3 > axis.n) face.beyond = 0;
+      }
+      if (!motion.acceleration.empty()) face.gaining = dot(g.normal, motion.acceleration[g.triangle]);
+      if (!motion.mass.empty()) face.mass = motion.mass[g.triangle];
+      if (!motion.pressure.empty()) face.known = (g.against ? -1 : 1) * motion.pressure[g.triangle];
       face.area = (g.axis == 0 ? 1 : x.width[g.i]) * (g.axis == 1 ? 1 : y.width[g.j]) *
                   (g.axis == 2 ? 1 : z.width[g.k]);
       face.spread = face.area / std::max(g.area, 1e-2 * face.area);
@@ -105,7 +133,16 @@ void SheetRows::lay_out() {
   stiffness_.assign(size, 0);
   std::vector<double> covered(size, 0);
   for (const Face& face : faces_) covered[face.at] += face.cover;
-  for (Face& face : faces_) face.layer = face.cover / covered[face.at];
+  for (Face& face : faces_) {
+    face.layer = face.cover / covered[face.at];
+    // Between two layers the air's velocity is not that beyond both of them.
+    const SheetFace& g = face.geometry;
+    const int next = face.beyond > 0 ? 1 : -1;
+    const std::size_t row_at =
+        offset_[g.axis][row(g.j + (g.axis == 1 ? next : 0), g.k + (g.axis == 2 ? next : 0))];
+    if (face.beyond != 0 && row_at != 0 && covered[row_at + g.i + (g.axis == 0 ? next : 0)] > 0)
+      face.beyond = 0;
+  }
 }
 
 void SheetRows::begin(State& state, const Layout& layout) const {
@@ -133,13 +170,13 @@ void SheetRows::begin(State& state, const Layout& layout, const SheetRows& befor
   }
 }
 
-void SheetRows::update(State& state, const Layout& layout, double momentum) {
+void SheetRows::update(State& state, const Layout& layout, double momentum, double step) {
   const Fields& fields = state.f;
   for (const Face& face : faces_) {
     state.held[face.at] += std::exchange(state.change[face.at], 0.0);
     excess_[face.at] = stiffness_[face.at] = 0;
   }
-  for (const Face& face : faces_) {
+  for (Face& face : faces_) {
     const SheetFace& g = face.geometry;
     const auto [low, high] = cells(g, layout);
     const Array<double>& flux = g.axis == 0 ? fields.fx : g.axis == 1 ? fields.fy : fields.fz;
@@ -152,26 +189,47 @@ void SheetRows::update(State& state, const Layout& layout, double momentum) {
       const Vec3 velocity{fields.u[cell], fields.v[cell], fields.w[cell]};
       return along(velocity) - dot(g.normal, velocity) / face.spread;
     };
-    const double through =
-        face.spread * (flux[high] / density - shared(sliding(low), sliding(high))) - face.moving;
-    const double speed = std::abs(through), resistance = face.a + face.b * speed;
-    const Cover beside = cover_of(face.cover, resistance, density, speed);
+    double through = face.spread * (flux[high] / density - shared(sliding(low), sliding(high)));
+    // A sheet that moves is not at its face but between it and the next one, and so is the velocity that the
+    // law asks for: else the air would be struck whenever the sheet comes into another cell.
+    if (face.beyond != 0) {
+      // Of faces that no sheet parts, so many further along the axis.
+      const auto at_face = [&](int n) {
+        const std::ptrdiff_t above = high + n * (high - low);
+        return face.spread * (flux[above] / density - 0.5 * (sliding(above) + sliding(above - (high - low))));
+      };
+      const int way = face.beyond > 0 ? 1 : -1;
+      const double share = std::abs(face.beyond), next = at_face(way);
+      const double kink = at_face(-way) - through - next + at_face(2 * way);
+      through += share * (next - through) - kinked * share * (1 - share) * kink;
+    }
+    through -= face.moving + step * face.gaining;
+    const double yields = face.mass > 0 ? step / face.mass : 0, asked = through + yields * face.known;
+    const double speed = std::abs(yields > 0 ? passing(asked, yields, face.a, face.b) : through);
+    const double resistance = giving_way(face.a + face.b * speed, yields),
+                 steepness = giving_way(face.a + 2 * face.b * speed, yields);
+    const Cover beside = cover_of(face.cover, resistance, density, std::abs(through));
     // A jet that has yet to start, or that turns back, would offer no slope at all.
-    const Cover brisk =
-        cover_of(face.cover, resistance, density, std::max(speed, least_jet * momentum / density));
-    excess_[face.at] += beside.share * resistance * through;
-    stiffness_[face.at] += brisk.share * brisk.steep * (face.a + 2 * face.b * speed) * face.spread;
+    const Cover brisk = cover_of(face.cover, resistance, density,
+                                 std::max(std::abs(through), least_jet * momentum / density));
+    face.drop = beside.share * resistance * asked;
+    face.slope = brisk.share * brisk.steep * steepness * face.spread;
+    excess_[face.at] += face.drop;
+    stiffness_[face.at] += face.slope;
   }
   for (const Face& face : faces_) law_[face.at] = excess_[face.at];
   for (const Face& face : faces_) excess_[face.at] = law_[face.at] - state.held[face.at];
 }
 
 // Layers that part the same two centres, as in a fold, are passed by the same air: they share what the face
-// drops as far as each covers it.
+// drops as far as each covers it; where they give way, as each does.
 void SheetRows::settle(State& state) const {
   for (std::size_t n = 0; n < faces_.size(); ++n) {
     const Face& face = faces_[n];
-    state.drop[n] = face.layer * (state.held[face.at] + state.change[face.at]);
+    const double whole = state.held[face.at] + state.change[face.at];
+    state.drop[n] = face.mass > 0 && stiffness_[face.at] > 0
+                        ? face.drop + face.slope / stiffness_[face.at] * (whole - law_[face.at])
+                        : face.layer * whole;
   }
 }
 

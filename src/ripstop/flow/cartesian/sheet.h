@@ -41,8 +41,9 @@ class SheetRows {
   void begin(State& state, const Layout& layout) const;
   /// The same after the cloth has moved from `before`: faces that were there keep theirs.
   void begin(State& state, const Layout& layout, const SheetRows& before) const;
-  /// The law at the present velocities. `momentum` is rho U of the free stream [kg/(m2 s)].
-  void update(State& state, const Layout& layout, double momentum);
+  /// The law at the present velocities. `momentum` is rho U of the free stream [kg/(m2 s)], `step` how long
+  /// cloth with a mass has to give way [s].
+  void update(State& state, const Layout& layout, double momentum, double step = 0);
   /// The drop on every face with its last change, into State::drop.
   void settle(State& state) const;
 
@@ -60,11 +61,16 @@ class SheetRows {
     int sheet = 0;
     double a = 0, b = 0;  // of the law
     double moving = 0;    // velocity of the sheet along its normal [m/s]
-    double area = 0;      // of the face [m2]
-    double spread = 1;    // its area over that of the sheet it stands for
-    double cover = 1;     // the part of it that the sheet covers
-    double layer = 1;     // its part of the face's drop
-    std::size_t at = 0;   // in the dense rows
+    double gaining = 0;   // its acceleration [m/s2]
+    double mass = 0;      // of a unit area [kg/m2]; 0: does not give way
+    double known = 0;     // drop along the normal that its velocity follows from [Pa]
+    double beyond = 0;    // how far the sheet lies from the face towards the next one, signed, in cells
+    double drop = 0, slope = 0;  // by the law at the last update [Pa], [Pa s/m]
+    double area = 0;             // of the face [m2]
+    double spread = 1;           // its area over that of the sheet it stands for
+    double cover = 1;            // the part of it that the sheet covers
+    double layer = 1;            // its part of the face's drop
+    std::size_t at = 0;          // in the dense rows
   };
   void add_faces(const Axis& x, const Axis& y, const Axis& z, const std::vector<Sheet>& sheets);
   void lay_out();

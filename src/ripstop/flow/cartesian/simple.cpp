@@ -92,8 +92,7 @@ void Solver::place(PorousRows porous, const std::vector<Sheet>& sheets) {
   in_the_way_.porous = std::move(porous);
   const SheetRows before = std::exchange(in_the_way_.sheets, SheetRows(d_.x, d_.y, d_.z, sheets));
   in_the_way_.sheets.begin(s_, d_.layout, before);
-  in_the_way_.wall =
-      in_the_way_.sheets.empty() ? Array<double>() : in_the_way_.sheets.distance(d_.x, d_.y, d_.z, d_.layout);
+  in_the_way_.wall = {};
 }
 
 /// The rows of one quantity that the faces of row (j, k) have; null where no sheet passes.
@@ -108,7 +107,10 @@ FlowProgress Solver::iterate() {
   t_.in_time = false;
   if (!s_.rate_u.empty()) stop_the_clock(s_);
   SheetRows& sheets = in_the_way_.sheets;
-  if (!sheets.empty()) sheets.update(s_, d_.layout, d_.air.density * d_.air.speed);
+  if (!sheets.empty()) {
+    if (in_the_way_.wall.empty()) in_the_way_.wall = sheets.distance(d_.x, d_.y, d_.z, d_.layout);
+    sheets.update(s_, d_.layout, d_.air.density * d_.air.speed);
+  }
   team_.run([this](int rank) {
     if (d_.settings.second_order)
       each_plane_of_a_block(rank, [&](int k, IndexRange rows) { convection(k, rows); });

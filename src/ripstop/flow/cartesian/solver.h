@@ -22,7 +22,7 @@ namespace ripstop::cartesian {
 struct Obstacles {
   PorousRows porous;
   SheetRows sheets;
-  Array<double> wall;                    // distance to the nearest sheet [m]; empty: no sheets
+  Array<double> wall;  // distance to the nearest sheet [m]; empty: no sheets, or not asked for yet
   Array<double> body_u, body_v, body_w;  // force on the air [N/m3]; empty: none
 };
 
@@ -70,13 +70,18 @@ class Solver {
   FlowProgress iterate();
   /// What the first step in time needs: room for the rates, air of one density.
   void begin_time();
-  /// One step in time, as long as the Courant number says.
-  FlowStep step(double courant);
+  /// What a Courant number allows [s].
+  double longest_step(double courant_number);
+  /// Of that, what keeps steps alike [s].
+  double next_step(double courant_number);
+  /// One step in time [s].
+  FlowStep step(double length);
   /// Whether every value is finite and within bounds that no flow of this air reaches.
   bool within_reason();
   /// The first cell that is not finite or beyond those bounds, as "field u at (x, y, z)"; empty if none.
   std::string first_bad_value() const;
   FlowField field() const;
+  std::vector<SheetLoad> sheet_loads() const { return in_the_way_.sheets.loads(s_); }
 
   const Discretisation& discretisation() const { return d_; }
   const FlowGrid& grid() const { return d_.grid; }
@@ -100,7 +105,6 @@ class Solver {
   void march(int rank, IndexRange rows);
   void eddy_viscosity(MarchRings& rings, int k, IndexRange rows) const;
   // A step in time (time_step.cpp).
-  void choose_step(double courant);
   void rates(int rank, IndexRange rows);
   void eddies(MarchRings& rings, int k, IndexRange rows);
   PassingRow passing_of(MarchRings& rings, int j, int k, IndexRange rows) const;

@@ -72,32 +72,34 @@ void Solver::begin_time() {
   s_.clock = {};
 }
 
-// How long the next step is, and the weights of its rates.
-void Solver::choose_step(double courant_number) {
-  Clock& clock = s_.clock;
-  if (clock.steps == 0) {
+double Solver::longest_step(double courant_number) {
+  t_.in_time = true;
+  t_.fastest.resize(d_.grid.nz);
+  if (s_.rate_u.empty()) begin_time();
+  if (s_.clock.steps == 0) {
     for (int k = 0; k < d_.grid.nz; ++k) courant(k);
-    clock.courant_rate = *std::max_element(t_.fastest.begin(), t_.fastest.end()) / d_.air.density;
+    s_.clock.courant_rate = *std::max_element(t_.fastest.begin(), t_.fastest.end()) / d_.air.density;
   }
-  const double longest = std::min(courant_number / clock.courant_rate, longest_viscous_step(d_)),
-               before = clock.step;
-  const bool keep = before <= longest && before >= least_share * longest;
-  if (!keep) clock.step = new_share * longest;
-  if (clock.steps > 0) clock.step = std::min(clock.step, most_growth * before);
-  const double ratio = clock.steps > 0 ? clock.step / before : 0;
-  t_.now = 1 + 0.5 * ratio, t_.before = 0.5 * ratio;
+  return std::min(courant_number / s_.clock.courant_rate, longest_viscous_step(d_));
 }
 
-FlowStep Solver::step(double courant_number) {
-  t_.in_time = true;
+double Solver::next_step(double courant_number) {
+  const double longest = longest_step(courant_number), before = s_.clock.step;
+  if (before <= longest && before >= least_share * longest) return before;
+  const double wanted = new_share * longest;
+  return s_.clock.steps > 0 ? std::min(wanted, most_growth * before) : wanted;
+}
+
+FlowStep Solver::step(double length) {
+  longest_step(1);  // begins, where nothing has
   if (t_.mixing.empty()) {
     for (const double width : d_.x.width) t_.mixing.push_back(std::cbrt(width * width));
-    t_.fastest.resize(d_.grid.nz);
   }
-  if (s_.rate_u.empty()) begin_time();
-  choose_step(courant_number);
+  const double ratio = s_.clock.steps > 0 ? length / s_.clock.step : 0;
+  s_.clock.step = length;
+  t_.now = 1 + 0.5 * ratio, t_.before = 0.5 * ratio;
   SheetRows& sheets = in_the_way_.sheets;
-  if (!sheets.empty()) sheets.update(s_, d_.layout, d_.air.density * d_.air.speed);
+  if (!sheets.empty()) sheets.update(s_, d_.layout, d_.air.density * d_.air.speed, s_.clock.step);
   const double momentum_before = s_.mean.w, brought_before = std::exchange(s_.clock.brought, brought());
   double pressed_back = 0;  // the outlet's pressure as the step has it
   for (int j = 0; j < d_.grid.ny; ++j) {

@@ -58,7 +58,7 @@ class OpenFoamFlow final : public Flow {
     prepare();
   }
 
-  void place(const std::vector<Triangle>& surface, const std::vector<Vec3>&) override {
+  void place(const std::vector<Triangle>& surface, const SheetMotion&) override {
     const std::vector<int> cells = cut_cells(problem_.grid, surface);
     for (PorousCells& cloth : problem_.porous) cloth.cells = cells;
     check(problem_);
