@@ -41,13 +41,12 @@ struct PorousCells {
   double forchheimer = 0;  // f [1/m]
 };
 
-/// How a sheet moves, triangle by triangle. Cloth that has a mass gives way: over a step dt it moves by
-/// dt / mass more than said here for every pascal beyond `pressure`.
+/// How a sheet moves, triangle by triangle, while the air takes a step: with `velocity` where `pressure` is the
+/// drop across it, and by `yields` faster along its normal for every pascal more.
 struct SheetMotion {
-  std::vector<Vec3> velocity;      // [m/s]; empty: at rest
-  std::vector<Vec3> acceleration;  // under `pressure` [m/s2]; empty: none
-  std::vector<double> mass;        // of a unit area [kg/m2]; empty: it moves as said, whatever the air does
-  std::vector<double> pressure;    // inside over outside, which the velocity follows from [Pa]; as `mass`
+  std::vector<Vec3> velocity;    // [m/s]; empty: at rest
+  std::vector<double> yields;    // [m/(s Pa)]; empty: it moves as said, whatever the air does
+  std::vector<double> pressure;  // inside over outside [Pa]; empty: none
 };
 
 /// Cloth as a surface without thickness, across which the pressure drops by a v + b v |v| with v the air's

@@ -10,6 +10,11 @@
 namespace ripstop {
 namespace {
 
+/// Of the velocity that a constant load gives in a step, its mean over the latter half. That of the whole step, a
+/// half, would let the load swing from step to step; the velocity at its end has in it whatever the cloth's own
+/// vibrations make of an instant.
+constexpr double latter_half = 0.75;
+
 FlowProblem with_surface(FlowProblem problem, std::vector<Triangle> surface) {
   if (problem.sheets.size() != 1)
     throw Error(ExitCode::usage, "an opening in its own air takes the canopy as one sheet");
@@ -47,7 +52,8 @@ OpeningAir::OpeningAir(const AirProblem& problem, const Mesh& mesh)
       speed_(problem.flow.air.speed),
       dynamic_pressure_(0.5 * problem.flow.air.density * speed_ * speed_),
       cells_(cells_of(mesh)),
-      mass_(least_mass(mesh, cells_)) {
+      mass_(least_mass(mesh, cells_)),
+      nodes_(mesh.start.size()) {
   flow_ = engine_->start(with_surface(problem.flow, surface_of(cells_, mesh.start)));
 }
 
@@ -61,17 +67,23 @@ void OpeningAir::settle(const std::vector<Vec3>& positions) {
   for (double passed = 0; passed < last - first;) passed += speed_ * flow_->step(longest_step()).length;
 }
 
-Loads OpeningAir::step(const std::vector<Vec3>& positions, double length, AirMemory& memory, AirRow& row) {
+Loads OpeningAir::last_load(const AirMemory& memory) const {
+  if (memory.pressure.empty()) return {std::vector<double>(cells_.size(), 0.0), std::vector<Vec3>(nodes_)};
+  return {memory.pressure, memory.force};
+}
+
+Loads OpeningAir::step(const std::vector<Vec3>& positions, const std::vector<Vec3>& velocity, double length,
+                       AirMemory& memory, AirRow& row) {
   const std::vector<Triangle> surface = surface_of(cells_, positions);
+  const std::vector<double> pressure = last_load(memory).cell_pressure;
   SheetMotion motion;
-  motion.mass = mass_;
-  memory.velocity.resize(cells_.size()), memory.acceleration.resize(cells_.size());
-  memory.pressure.resize(cells_.size());
+  for (const double mass : mass_) motion.yields.push_back(latter_half * length / mass);
   for (std::size_t c = 0; c < cells_.size(); ++c) {
     if (cells_[c].corner[0] < 0) continue;
-    motion.velocity.insert(motion.velocity.end(), 2, memory.velocity[c]);
-    motion.acceleration.insert(motion.acceleration.end(), 2, memory.acceleration[c]);
-    motion.pressure.insert(motion.pressure.end(), 2, memory.pressure[c]);
+    Vec3 mean;
+    for (const int node : cells_[c].corner) mean += 0.25 * velocity[node];
+    motion.velocity.insert(motion.velocity.end(), 2, mean);
+    motion.pressure.insert(motion.pressure.end(), 2, pressure[c]);
   }
   flow_->place(surface, motion);
   const FlowStep step = flow_->step(length);
@@ -81,25 +93,10 @@ Loads OpeningAir::step(const std::vector<Vec3>& positions, double length, AirMem
   row.drag_area = row.drag / dynamic_pressure_;
   row.momentum_gap = step.momentum_gap, row.mass_defect = step.mass_defect;
   row.remainder = remainder_share(load, cells_, positions);
-  memory.pressure = load.pressure;
+  memory.pressure = std::exchange(load.pressure, std::vector<double>(cells_.size(), 0.0));
+  memory.force = node_forces(load, cells_, positions);
   ++memory.steps;
-  Loads loads;
-  loads.cell_pressure = std::exchange(load.pressure, std::vector<double>(cells_.size(), 0.0));
-  loads.node_force = node_forces(load, cells_, positions);
-  return loads;
-}
-
-void OpeningAir::moved(const std::vector<Vec3>& from, const std::vector<Vec3>& to, double length,
-                       const Loads& loads, AirMemory& memory) const {
-  for (std::size_t c = 0; c < cells_.size(); ++c) {
-    if (cells_[c].corner[0] < 0) continue;
-    Vec3 way;
-    for (const int node : cells_[c].corner) way += 0.25 * (to[node] - from[node]);
-    const Vec3 velocity = way / length;
-    memory.acceleration[c] = (velocity - memory.velocity[c]) / length;
-    memory.velocity[c] = velocity;
-  }
-  for (std::size_t n = 0; n < to.size(); ++n) memory.work += dot(loads.node_force[n], to[n] - from[n]);
+  return last_load(memory);
 }
 
 }  // namespace ripstop

@@ -1,9 +1,9 @@
 // The air that a canopy opens in, stepped in time together with its cloth.
 //
 // Light cloth in heavy air: a load that is handed over after each step would throw the cloth farther than the
-// air lets it go. So the air is told before its step how the cloth gives way, dt / m for every pascal beyond
-// what it has carried, and finds the drop across it with that (a Robin condition; Banks, Henshaw and
-// Schwendeman 2014, Fernandez, Mullaert and Vidrascu 2015). Then the cloth is stepped under that drop.
+// air lets it go. So the cloth is stepped tentatively under its last load; the air is told how it would move
+// and how it gives way to more, finds the drop across it with that (a Robin condition; Banks, Henshaw and
+// Schwendeman 2014, Fernandez, Mullaert and Vidrascu 2015), and the cloth is stepped under that drop.
 #pragma once
 
 #include <filesystem>
@@ -23,19 +23,18 @@ struct AirProblem {
   std::shared_ptr<FlowEngine> engine;
 };
 
-/// What the next step of the air needs of the last one of the cloth, one a cell.
+/// What the next step needs of the last one.
 struct AirMemory {
-  std::vector<Vec3> velocity, acceleration;  // mean over the step [m/s], and its change [m/s2]
-  std::vector<double> pressure;              // that pressed in it [Pa]
-  double work = 0;                           // done by what of the air's load is not pressure, so far [J]
-  long long steps = 0;                       // of the air
+  std::vector<double> pressure;  // Loads::cell_pressure of the last step [Pa]
+  std::vector<Vec3> force;       // Loads::node_force of the last step [N]
+  double work = 0;               // done by what of the air's load is not pressure, so far [J]
+  long long steps = 0;           // of the air
 };
 
 template <Of<AirMemory> T, class Visit>
 void each_member(T& m, Visit&& visit) {
-  visit("velocity", m.velocity);
-  visit("acceleration", m.acceleration);
   visit("pressure", m.pressure);
+  visit("force", m.force);
   visit("work", m.work);
   visit("steps", m.steps);
 }
@@ -76,11 +75,12 @@ class OpeningAir {
   void settle(const std::vector<Vec3>& positions);
   /// That the next step of the air may have [s].
   double longest_step() { return flow_->longest_step(courant_); }
-  /// One step of the air about cloth that lies at `positions` at its beginning: the load in it.
-  Loads step(const std::vector<Vec3>& positions, double length, AirMemory& memory, AirRow& row);
-  /// What the cloth did under that load.
-  void moved(const std::vector<Vec3>& from, const std::vector<Vec3>& to, double length, const Loads& loads,
-             AirMemory& memory) const;
+  /// The last step's load on the cloth.
+  Loads last_load(const AirMemory& memory) const;
+  /// One step of the air about cloth that lies at `positions` at its beginning and would move with `velocity`, a
+  /// node, in the latter half of it under the last load: the load in it.
+  Loads step(const std::vector<Vec3>& positions, const std::vector<Vec3>& velocity, double length,
+             AirMemory& memory, AirRow& row);
 
   const Flow& flow() const { return *flow_; }
   void save(const std::filesystem::path& folder) const { flow_->save(folder); }
@@ -93,6 +93,7 @@ class OpeningAir {
   double courant_, speed_, dynamic_pressure_;
   std::vector<Cell> cells_;
   std::vector<double> mass_;  // of every triangle of the surface, a unit area [kg/m2]
+  std::size_t nodes_ = 0;
 };
 
 }  // namespace ripstop

@@ -182,17 +182,32 @@ std::vector<HistoryRow> Inflation::compute_block_in_air(InflationState& state,
     const int steps = static_cast<int>(std::ceil(left * row_ / air_->longest_step()));
     const int rows = std::max(1, left / steps);
     AirRow row;
-    const Loads loads = air_->step(x, rows * row_, state.air, row);
+    const Loads loads = air_->step(x, tentative_velocity(state, rows * row_), rows * row_, state.air, row);
     step_in_air(state, loads, rows, history);
     row.time = state.cloth.time;
     if (air_rows) air_rows->push_back(row);
     std::vector<Vec3> now = positions(state.cloth, *cloth_);
-    air_->moved(x, now, rows * row_, loads, state.air);
+    for (std::size_t n = 0; n < x.size(); ++n) state.air.work += dot(loads.node_force[n], now[n] - x[n]);
     x = std::move(now);
   }
   ++state.blocks;
   take_shots(state);
   return history;
+}
+
+// Of every node, in the latter half of a step of the air, were the last load to go on.
+std::vector<Vec3> Inflation::tentative_velocity(const InflationState& state, double length) {
+  const double stable = problem_.settings.step_fraction * step_bound(*cloth_, state.cloth).stable_step;
+  const int half = static_cast<int>(std::ceil(0.5 * length / stable));
+  const double dt = 0.5 * length / half;
+  const Loads loads = air_->last_load(state.air);
+  ClothState cloth = state.cloth;
+  ripstop::step(cloth, *cloth_, loads, dt, half, team_);
+  const std::vector<Vec3> middle = positions(cloth, *cloth_);
+  ripstop::step(cloth, *cloth_, loads, dt, half, team_);
+  std::vector<Vec3> velocity = positions(cloth, *cloth_);
+  for (std::size_t n = 0; n < velocity.size(); ++n) velocity[n] = (velocity[n] - middle[n]) / (0.5 * length);
+  return velocity;
 }
 
 // So many rows under one load.

@@ -93,7 +93,7 @@ void each_number(AnyHeader& h, Visit&& visit) {
 }
 template <class AnyMotion, class Visit>
 void each_array(AnyMotion& m, Visit&& visit) {
-  visit(m.velocity), visit(m.acceleration), visit(m.mass), visit(m.pressure);
+  visit(m.velocity), visit(m.yields), visit(m.pressure);
 }
 static_assert(sizeof(Grading) == 4 * sizeof(double) + 2 * sizeof(int) &&
               sizeof(Freestream) == 6 * sizeof(double));

@@ -80,8 +80,7 @@ void SheetRows::add_faces(const Axis& x, const Axis& y, const Axis& z, const std
                               sheet.linear, sheet.quadratic));
     }
     const SheetMotion& motion = sheet.motion;
-    for (const std::size_t count :
-         {motion.velocity.size(), motion.acceleration.size(), motion.mass.size(), motion.pressure.size()}) {
+    for (const std::size_t count : {motion.velocity.size(), motion.yields.size(), motion.pressure.size()}) {
       if (count != 0 && count != sheet.surface.size())
         throw Error(ExitCode::bad_data,
                     fmt::format("sheet: the motion of {} triangles for {}", count, sheet.surface.size()));
@@ -100,8 +99,7 @@ void SheetRows::add_faces(const Axis& x, const Axis& y, const Axis& z, const std
         face.beyond = off * axis.inverse_width[off > 0 ? c : c - 1];
         if (c < 3 || c + 3 > axis.n) face.beyond = 0;
       }
-      if (!motion.acceleration.empty()) face.gaining = dot(g.normal, motion.acceleration[g.triangle]);
-      if (!motion.mass.empty()) face.mass = motion.mass[g.triangle];
+      if (!motion.yields.empty()) face.yields = motion.yields[g.triangle];
       if (!motion.pressure.empty()) face.known = (g.against ? -1 : 1) * motion.pressure[g.triangle];
       face.area = (g.axis == 0 ? 1 : x.width[g.i]) * (g.axis == 1 ? 1 : y.width[g.j]) *
                   (g.axis == 2 ? 1 : z.width[g.k]);
@@ -170,7 +168,7 @@ void SheetRows::begin(State& state, const Layout& layout, const SheetRows& befor
   }
 }
 
-void SheetRows::update(State& state, const Layout& layout, double momentum, double step) {
+void SheetRows::update(State& state, const Layout& layout, double momentum) {
   const Fields& fields = state.f;
   for (const Face& face : faces_) {
     state.held[face.at] += std::exchange(state.change[face.at], 0.0);
@@ -203,8 +201,8 @@ void SheetRows::update(State& state, const Layout& layout, double momentum, doub
       const double kink = at_face(-way) - through - next + at_face(2 * way);
       through += share * (next - through) - kinked * share * (1 - share) * kink;
     }
-    through -= face.moving + step * face.gaining;
-    const double yields = face.mass > 0 ? step / face.mass : 0, asked = through + yields * face.known;
+    through -= face.moving;
+    const double yields = face.yields, asked = through + yields * face.known;
     const double speed = std::abs(yields > 0 ? passing(asked, yields, face.a, face.b) : through);
     const double resistance = giving_way(face.a + face.b * speed, yields),
                  steepness = giving_way(face.a + 2 * face.b * speed, yields);
@@ -227,7 +225,7 @@ void SheetRows::settle(State& state) const {
   for (std::size_t n = 0; n < faces_.size(); ++n) {
     const Face& face = faces_[n];
     const double whole = state.held[face.at] + state.change[face.at];
-    state.drop[n] = face.mass > 0 && stiffness_[face.at] > 0
+    state.drop[n] = face.yields > 0 && stiffness_[face.at] > 0
                         ? face.drop + face.slope / stiffness_[face.at] * (whole - law_[face.at])
                         : face.layer * whole;
   }

@@ -41,9 +41,8 @@ class SheetRows {
   void begin(State& state, const Layout& layout) const;
   /// The same after the cloth has moved from `before`: faces that were there keep theirs.
   void begin(State& state, const Layout& layout, const SheetRows& before) const;
-  /// The law at the present velocities. `momentum` is rho U of the free stream [kg/(m2 s)], `step` how long
-  /// cloth with a mass has to give way [s].
-  void update(State& state, const Layout& layout, double momentum, double step = 0);
+  /// The law at the present velocities. `momentum` is rho U of the free stream [kg/(m2 s)].
+  void update(State& state, const Layout& layout, double momentum);
   /// The drop on every face with its last change, into State::drop.
   void settle(State& state) const;
 
@@ -61,9 +60,8 @@ class SheetRows {
     int sheet = 0;
     double a = 0, b = 0;  // of the law
     double moving = 0;    // velocity of the sheet along its normal [m/s]
-    double gaining = 0;   // its acceleration [m/s2]
-    double mass = 0;      // of a unit area [kg/m2]; 0: does not give way
-    double known = 0;     // drop along the normal that its velocity follows from [Pa]
+    double yields = 0;    // by which it is faster for every pascal beyond ... [m/(s Pa)]
+    double known = 0;     // ... this drop along the normal [Pa]
     double beyond = 0;    // how far the sheet lies from the face towards the next one, signed, in cells
     double drop = 0, slope = 0;  // by the law at the last update [Pa], [Pa s/m]
     double area = 0;             // of the face [m2]

@@ -99,7 +99,7 @@ FlowStep Solver::step(double length) {
   s_.clock.step = length;
   t_.now = 1 + 0.5 * ratio, t_.before = 0.5 * ratio;
   SheetRows& sheets = in_the_way_.sheets;
-  if (!sheets.empty()) sheets.update(s_, d_.layout, d_.air.density * d_.air.speed, s_.clock.step);
+  if (!sheets.empty()) sheets.update(s_, d_.layout, d_.air.density * d_.air.speed);
   const double momentum_before = s_.mean.w, brought_before = std::exchange(s_.clock.brought, brought());
   double pressed_back = 0;  // the outlet's pressure as the step has it
   for (int j = 0; j < d_.grid.ny; ++j) {
