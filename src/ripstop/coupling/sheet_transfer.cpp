@@ -2,7 +2,10 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 namespace ripstop {
 namespace {
@@ -70,33 +73,81 @@ std::vector<Sample> samples_of(const std::vector<SheetLoad>& loads, const std::v
     const Vec3 off = dot(load.point - t.a, normal) / dot(normal, normal) * normal;
     samples.push_back({load.point - off, load.outward, load.drop / load.cover, load.area});
   }
-  std::sort(samples.begin(), samples.end(),
-            [](const Sample& a, const Sample& b) { return a.point.z < b.point.z; });
   return samples;
 }
 
+/// Samples by where they lie, in boxes of `width` about the sheet.
+class Boxes {
+ public:
+  Boxes(std::vector<Sample> samples, double width) : width_(width) {
+    Vec3 high{-1e300, -1e300, -1e300};
+    low_ = {1e300, 1e300, 1e300};
+    for (const Sample& s : samples) {
+      low_ = {std::min(low_.x, s.point.x), std::min(low_.y, s.point.y), std::min(low_.z, s.point.z)};
+      high = {std::max(high.x, s.point.x), std::max(high.y, s.point.y), std::max(high.z, s.point.z)};
+    }
+    count_ = {box(high.x, low_.x) + 1, box(high.y, low_.y) + 1, box(high.z, low_.z) + 1};
+    begin_.assign(std::size_t(count_[0]) * count_[1] * count_[2] + 1, 0);
+    for (const Sample& s : samples) ++begin_[of(s) + 1];
+    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+    sorted_.resize(samples.size());
+    std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
+    for (const Sample& s : samples) sorted_[next[of(s)]++] = s;
+  }
+
+  /// All within `radius` of `centre`, and some that are not.
+  template <class Visit>
+  void near(Vec3 centre, double radius, const Visit& visit) const {
+    const auto range = [&](double at, double low, int count) {
+      return std::pair(std::clamp(box(at - radius, low), 0, count - 1),
+                       std::clamp(box(at + radius, low), 0, count - 1));
+    };
+    const auto [x0, x1] = range(centre.x, low_.x, count_[0]);
+    const auto [y0, y1] = range(centre.y, low_.y, count_[1]);
+    const auto [z0, z1] = range(centre.z, low_.z, count_[2]);
+    for (int z = z0; z <= z1; ++z) {
+      for (int y = y0; y <= y1; ++y) {
+        for (std::size_t n = begin_[index(x0, y, z)]; n < begin_[index(x1, y, z) + 1]; ++n) visit(sorted_[n]);
+      }
+    }
+  }
+
+ private:
+  int box(double at, double low) const {
+    return static_cast<int>(std::clamp(std::floor((at - low) / width_), -1e6, 1e6));
+  }
+  std::size_t index(int x, int y, int z) const {
+    return x + static_cast<std::size_t>(count_[0]) * (y + static_cast<std::size_t>(count_[1]) * z);
+  }
+  std::size_t of(const Sample& s) const {
+    return index(box(s.point.x, low_.x), box(s.point.y, low_.y), box(s.point.z, low_.z));
+  }
+
+  double width_;
+  Vec3 low_;
+  std::array<int, 3> count_{};
+  std::vector<std::size_t> begin_;
+  std::vector<Sample> sorted_;
+};
+
 // The plane through the samples within `radius` that look the same way, by weighted least squares: pressures
 // that are linear in space come out as they are. Nothing where there is no such sample.
-bool plane_through(const std::vector<Sample>& samples, Vec3 centre, Vec3 normal, double radius,
-                   double& pressure) {
-  const auto below = [](const Sample& s, double z) { return s.point.z < z; };
-  const auto begin = std::lower_bound(samples.begin(), samples.end(), centre.z - radius, below);
-  const auto end = std::lower_bound(begin, samples.end(), centre.z + radius, below);
+bool plane_through(const Boxes& samples, Vec3 centre, Vec3 normal, double radius, double& pressure) {
   double weights = 0, mean = 0;
   Eigen::Vector3d at = Eigen::Vector3d::Zero(), slope = Eigen::Vector3d::Zero();
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  for (auto s = begin; s != end; ++s) {
-    const Vec3 d = (s->point - centre) / radius;
-    const double inside = 1 - dot(d, d), facing = dot(s->outward, normal);
-    if (inside <= 0 || facing <= 0) continue;
-    const double w = s->area * facing * inside * inside;
+  samples.near(centre, radius, [&](const Sample& s) {
+    const Vec3 d = (s.point - centre) / radius;
+    const double inside = 1 - dot(d, d), facing = dot(s.outward, normal);
+    if (inside <= 0 || facing <= 0) return;
+    const double w = s.area * facing * inside * inside;
     const Eigen::Vector3d e(d.x, d.y, d.z);
     weights += w;
-    mean += w * s->pressure;
+    mean += w * s.pressure;
     at += w * e;
-    slope += w * s->pressure * e;
+    slope += w * s.pressure * e;
     spread += w * e * e.transpose();
-  }
+  });
   if (!(weights > 0)) return false;
   mean /= weights;
   at /= weights;
@@ -109,17 +160,19 @@ bool plane_through(const std::vector<Sample>& samples, Vec3 centre, Vec3 normal,
   return true;
 }
 
-std::vector<double> pressures(const std::vector<Sample>& samples, const FlowGrid& grid,
-                              const Patchwork& cloth) {
+std::vector<double> pressures(std::vector<Sample> samples, const FlowGrid& grid, const Patchwork& cloth) {
   std::vector<double> result(cloth.area.size(), 0.0);
-  for (std::size_t c = 0; c < result.size() && !samples.empty(); ++c) {
+  if (samples.empty()) return result;
+  const Vec3 cell = grid.spacing(samples.front().point);
+  const Boxes boxes(std::move(samples), 0.5 * reach * std::max({cell.x, cell.y, cell.z}));
+  for (std::size_t c = 0; c < result.size(); ++c) {
     const double area = norm(cloth.area[c]);
     if (!(area > 0)) continue;
     const Vec3 h = grid.spacing(cloth.centre[c]);
     // Cloth that no face stands for, at a seam or fold smaller than the cells, takes what is nearest.
     double radius = reach * std::max({h.x, h.y, h.z});
     const double farthest = norm(grid.size);
-    while (!plane_through(samples, cloth.centre[c], cloth.area[c] / area, radius, result[c]) &&
+    while (!plane_through(boxes, cloth.centre[c], cloth.area[c] / area, radius, result[c]) &&
            radius < farthest) {
       radius *= 1.5;
     }
