@@ -53,6 +53,24 @@ TEST(March, AUniformStreamStaysUniform) {
   for (const double p : field.pressure) ASSERT_NEAR(p, 0, 1e-9);
 }
 
+// In a box that goes with something that is slowed down, unevenly.
+TEST(March, AStreamThatIsSlowedDownStaysUniform) {
+  FlowProblem problem = disk_in_a_box(0, Sides::entraining);
+  problem.sheets.clear();
+  const auto engine = make_cartesian(with_threads(1));
+  const auto flow = engine->start(problem);
+  double speed = 10;
+  for (int n = 0; n < 20; ++n) {
+    const double slowed = -30 * (1 + n % 3), length = 1e-3 * (1 + n % 2);
+    speed += slowed * length;
+    flow->stream(speed, slowed);
+    EXPECT_NEAR(flow->step(length).momentum_gap, 0, 1e-8);
+  }
+  const FlowField field = flow->field();
+  for (const Vec3& u : field.velocity) ASSERT_NEAR(norm(u - Vec3{0, 0, speed}), 0, 1e-10);
+  for (const double p : field.pressure) ASSERT_NEAR(p, 0, 1e-8);
+}
+
 class Ledger : public testing::TestWithParam<std::tuple<double, Sides>> {};
 
 // In the first steps the pressure has to find its way about a body that stands in the stream at once.

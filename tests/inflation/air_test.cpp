@@ -13,6 +13,16 @@ namespace {
 
 constexpr double duct_speed = 10, resistance = 40, springs = 2000;  // [m/s], [Pa s/m], [Pa/m]
 
+FlowProblem closed_duct() {
+  FlowProblem duct;
+  duct.grid = {{0, 0, 0}, {1, 1, 2}, 4, 4, 16};
+  duct.air.speed = duct_speed;
+  duct.sides = Sides::slip;
+  duct.outlet = Outlet::still_air;
+  duct.sheets = {{{}, resistance, 0}};
+  return duct;
+}
+
 /// A square of cloth across a duct of 1 m2, every node on a spring along the duct. It has no springs in its plane: under
 /// one pressure it moves as a piston does.
 Mesh piston(double mass) {
@@ -51,16 +61,10 @@ Mesh piston(double mass) {
 
 /// How far the piston has come after `duration`, in steps of the air of `step`.
 double piston_moved(double mass, double step, double duration) {
-  FlowProblem duct;
-  duct.grid = {{0, 0, 0}, {1, 1, 2}, 4, 4, 16};
-  duct.air.speed = duct_speed;
-  duct.sides = Sides::slip;
-  duct.outlet = Outlet::still_air;
-  duct.sheets = {{{}, resistance, 0}};
   CartesianSettings settings;
   settings.threads = 1, settings.compressible = false;
   const Mesh mesh = piston(mass);
-  OpeningAir air({duct, 0.5, make_cartesian(settings)}, mesh);
+  OpeningAir air({closed_duct(), 0.5, make_cartesian(settings)}, mesh);
   const ClothPtr cloth = make_cloth(mesh);
   ThreadTeam team(1);
   ClothState state = start_state(*cloth);
@@ -110,6 +114,27 @@ TEST(OpeningAir, APistonOfAnyMassMovesAsItsEquationSays) {
     EXPECT_NEAR(long_steps / right, 1, 0.1) << mass;
     EXPECT_GT(std::abs(long_steps - right), 1.6 * std::abs(short_steps - right)) << mass;
   }
+}
+
+// Under a pull that stays the same a payload falls as anything does.
+TEST(OpeningAir, APayloadIsSlowedDownByWhatTheRiserPulls) {
+  CartesianSettings settings;
+  settings.threads = 1, settings.compressible = false;
+  constexpr double mass = 2, gravity = 9, pull = 30, step = 1e-3;
+  const Mesh mesh = piston(0.04);
+  OpeningAir air({closed_duct(), 0.5, make_cartesian(settings), Payload{mass, gravity}}, mesh);
+  AirMemory memory;
+  AirRow row;
+  const std::vector<Vec3> still(mesh.start.size());
+  for (int n = 0; n < 10; ++n) {
+    air.step(mesh.start, still, step, memory, row);
+    air.fly(pull, step, memory);
+    EXPECT_NEAR(row.momentum_gap, 0, 1e-6) << n;
+  }
+  // The pull of a step slows the next one down.
+  EXPECT_NEAR(memory.speed, duct_speed + 10 * step * gravity - 9 * step * pull / mass, 1e-9);
+  EXPECT_EQ(row.speed, memory.speed);
+  EXPECT_NEAR(memory.path, 10 * step * duct_speed, 1e-3);
 }
 
 }  // namespace

@@ -90,8 +90,9 @@ TEST_F(InflationFolderTest, InItsOwnAirAKilledRunGoesOnByteIdentical) {
   const auto open_in_air = [&](const char* name, InflationObserver& observer) {
     const Case opening = opening_case(given);
     const LoadSource source = load_source(opening);
-    return run_inflation_in({{root / name}, 1, 0}, opening, source,
-                            [&] { return opening_problem(opening, source, 1); }, observer);
+    return run_inflation_in(
+        {{root / name}, 1, 0}, opening, source, [&] { return opening_problem(opening, source, 1); },
+        observer);
   };
   struct KilledAt3ms : InflationObserver {
     void advanced(const Inflation&, const InflationState& state, const InflationHistory&,
@@ -106,7 +107,8 @@ TEST_F(InflationFolderTest, InItsOwnAirAKilledRunGoesOnByteIdentical) {
   ASSERT_TRUE(open_in_air("killed", resumed));
   EXPECT_EQ(resumed.first_block, 3);
   EXPECT_FALSE(fs::exists(root / "killed/air"));  // nothing goes on from it
-  for (const char* table : {"history.csv", "balance.csv", "air.csv", "lines.csv", "result.json", "vtk/air_0004.vti"})
+  for (const char* table :
+       {"history.csv", "balance.csv", "air.csv", "lines.csv", "result.json", "vtk/air_0004.vti"})
     EXPECT_EQ(read_file(root / "killed" / table), read_file(root / "whole" / table)) << table;
 }
 

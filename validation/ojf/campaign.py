@@ -14,6 +14,8 @@ Stages, each from what the ones before it left; without a name all of them run:
     uncertain  what each prediction of the paper model depends on                        -> uncertainty.csv
     uncertain-sheet  the same for the calibrated sheet                                   -> uncertainty.csv
     uncertain-jet    what is not known of the jet: where the nozzle ended, how the speed was taken  -> uncertainty.csv
+    openings   the three openings of the campaign in their own air, in the open jet, nothing calibrated; what they depend
+               on, on Stratos IV                                                       -> openings.csv
     compare    nonlinear beside linear on Stratos IV at 30 m/s
     openfoam   Stratos IV at 30 m/s with OpenFOAM
     report     tables in docs/tables, plots
@@ -86,6 +88,15 @@ JET_VARIATIONS = {
     "grid": [("a fifth coarser", ["flow.cells=[70,70,78]"])],
     "turbulence": [("intensity 5 %", ["flow.turbulence_intensity=0.05"])],
 }
+# The openings: speed [m/s], density [kg/m3], radius of the folded skirt [m]; what slack cloth carries as in the examples.
+OPENINGS = {"stratos-iv": (27.1, 1.2, 0.1), "walrus": (27.43, 1.204, 0.2), "adept": (27, 1.205, 0.1)}
+OPENING = ["inflation.duration_s=0.6", "inflation.frames=120", "inflation.line_segment_m=0.06",
+           "inflation.cloth_compression=0.1", "inflation.cloth_damping_s=1e-5", "inflation.low_pass_hz=100",
+           "parachute.mesh.cloth_nodes=12800"]
+OPENING_VARIATIONS = {"air 1.25 times as fine": ["flow.cells=[110,110,122]"], "cloth twice as fine": ["parachute.mesh.cloth_nodes=25600"],
+                      "half the step": ["inflation.courant=0.25"], "half the folds": ["inflation.folds=9"]}
+OPENING_COLUMNS = ["parachute", "air", "variation", "speed_m_s", "density_kg_m3", "initial_radius_m", "peak_100hz_n", "peak_n",
+                   "peak_time_s", "filling_time_s", "steady_n", "wall_time_s", "peak_100hz_pm_n"]
 # Cells, and the size of the printed ones over theirs. The `paper` model resists for the length of a cell: its
 # coefficients are multiplied by this ratio, which keeps the resistance of the cloth's area.
 GRIDS = [("40,40,60", 0.4), ("50,50,75", 0.5), ("64,64,96", 0.64)]
@@ -96,12 +107,12 @@ class Campaign:
     def __init__(self, options):
         self.ripstop, self.runs, self.jobs = options.ripstop, options.runs, options.jobs
 
-    def call(self, *arguments):
+    def call(self, *arguments, also=()):
         """Runs ripstop; a failure ends the stage, and the same command again goes on."""
         command = [str(self.ripstop), *map(str, arguments)]
         print("$ ripstop " + " ".join(command[1:]), flush=True)
         code = subprocess.run(command, cwd=ROOT, check=False).returncode
-        if code != 0:
+        if code != 0 and code not in also:
             sys.exit(f"ripstop ended with exit code {code}; `campaign.py` again goes on from here")
 
     def sweep(self, parachute, out, settings, *axes):
@@ -364,6 +375,40 @@ def stage_openfoam(campaign):
     campaign.call(*command)
 
 
+def open_in_air(campaign, parachute, name, settings):
+    speed, density, radius = OPENINGS[parachute]
+    folder = campaign.runs / "openings" / name
+    command = ["inflate", f"validation/ojf/{parachute}.toml", "--air", "coupled", "--speed", speed, "--out", folder]
+    for setting in [*JET_SPECIFIED, *OPENING, f"flow.density_kg_m3={density}", f"inflation.initial_radius_m={radius}",
+                    *settings]:
+        command += ["--set", setting]
+    began = time.monotonic()
+    campaign.call(*command, also=(4,))  # not settled: the peak is there all the same
+    result = json.loads((folder / "result.json").read_text())
+    wall = folder.parent / f"{name}.seconds"
+    if not wall.exists():
+        wall.write_text(f"{time.monotonic() - began:.0f}")
+    return {"parachute": parachute, "air": "coupled", "speed_m_s": speed, "density_kg_m3": density,
+            "initial_radius_m": radius, "peak_100hz_n": f"{result['low_pass_peak_load_n']:.1f}",
+            "peak_n": f"{result['peak_load_n']:.1f}", "peak_time_s": f"{result['low_pass_peak_time_s']:.4f}",
+            "filling_time_s": f"{result.get('filling_time_s') or float('nan'):.4f}",
+            "steady_n": f"{result['steady_load_n']:.1f}", "wall_time_s": wall.read_text()}
+
+
+def stage_openings(campaign):
+    rows = [open_in_air(campaign, parachute, parachute, []) for parachute in PARACHUTES]
+    base, changes = float(rows[0]["peak_100hz_n"]), []
+    for label, settings in OPENING_VARIATIONS.items():
+        row = open_in_air(campaign, "stratos-iv", "stratos-iv " + label, settings)
+        rows.append({**row, "variation": label})
+        changes.append(float(row["peak_100hz_n"]) / base - 1)
+    share = sum(change ** 2 for change in changes) ** 0.5  # of the peak, as if each came by itself
+    for row in rows:
+        if "variation" not in row:
+            row["peak_100hz_pm_n"] = f"{share * float(row['peak_100hz_n']):.1f}"
+    write_table(HERE / "openings.csv", OPENING_COLUMNS, rows)
+
+
 def stage_report(campaign):
     plots = HERE / "plots"
     plots.mkdir(exist_ok=True)
@@ -380,7 +425,7 @@ def stage_report(campaign):
 
 STAGES = {"calibrate": stage_calibrate, "predict": stage_predict, "reproduce": stage_reproduce, "sheet": stage_sheet,
           "jet": stage_jet, "uncertain": stage_uncertain, "uncertain-sheet": stage_uncertain_sheet,
-          "uncertain-jet": stage_uncertain_jet, "compare": stage_compare,
+          "uncertain-jet": stage_uncertain_jet, "openings": stage_openings, "compare": stage_compare,
           "openfoam": stage_openfoam, "report": stage_report}
 
 

@@ -25,6 +25,14 @@ void describe_air(Fields& fields, InflationSettings& inflation) {
       "stepped in time together with the cloth, which takes no pressure and no C_a.");
   fields.number("courant", inflation.courant, above(0).up_to(1),
                 "Largest Courant number of the air's steps, with air = \"coupled\".");
+  fields.choice(
+      "mass", inflation.mass,
+      {{"infinite", InflationSettings::Mass::infinite}, {"payload", InflationSettings::Mass::payload}},
+      "What the riser's end does in its own air: held in the stream, as in a tunnel; or it is the "
+      "payload.mass_kg, which the opening slows down.");
+  fields.number(
+      "flight_angle_deg", inflation.flight_angle_deg, from(-90).up_to(90),
+      "Of the payload's path below the horizon, 90 straight down: how much of its weight drives it.");
 }
 
 /// The pressure over the canopy.

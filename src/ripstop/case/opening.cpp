@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "ripstop/case/assemble.h"
 #include "ripstop/case/cost.h"
 #include "ripstop/core/error.h"
+#include "ripstop/flight/atmosphere.h"
 #include "ripstop/inflation/pressure.h"
 
 namespace ripstop {
@@ -70,7 +73,11 @@ InflationProblem opening_problem(const Case& opening, const LoadSource& source, 
   if (opening.inflation.air == AirModel::coupled) {
     const Cost cost = cost_of(opening);
     require_memory(cost.memory, fmt::format("an opening in {:.3g} cells of air", cost.cells));
-    problem.air = AirProblem{flow_problem(opening), opening.inflation.courant, nullptr};
+    problem.air = AirProblem{flow_problem(opening), opening.inflation.courant};
+    if (opening.inflation.mass == InflationSettings::Mass::payload)
+      problem.air->payload =
+          Payload{*opening.payload.mass_kg,
+                  standard_gravity * std::sin(opening.inflation.flight_angle_deg * std::numbers::pi / 180)};
     problem.settings.damping_n_s_m3 = problem.settings.quadratic_damping_n_s2_m4 = 0;
   } else {
     problem.pressure = pressure_of(opening, source, threads, alive);

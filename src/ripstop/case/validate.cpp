@@ -293,6 +293,16 @@ void check_watch(const Case& given, const FlowSettings& flow, Findings& findings
 
 /// An opening in its own air steps a sheet and the built-in engine together.
 void check_opening_air(const Case& given, const FlowSettings& flow, Findings& findings) {
+  const bool flies = given.inflation.mass == InflationSettings::Mass::payload;
+  const auto refuse = [&](const char* why) {
+    findings.add("inflation.mass", quoted("payload"), quoted("infinite"), why);
+  };
+  if (flies && given.inflation.air != AirModel::coupled)
+    refuse("a payload flies in its own air only (inflation.air = \"coupled\")");
+  else if (flies && !given.payload.mass_kg)
+    refuse("the payload has no mass (payload.mass_kg)");
+  else if (flies && flow.tunnel.kind != TunnelKind::free_air)
+    refuse("nothing flies in a tunnel (flow.tunnel)");
   if (given.inflation.air != AirModel::coupled) return;
   if (!findings.sound({"flow.porosity_model", "flow.engine"})) return;
   if (flow.porosity_model != PorosityModel::sheet)

@@ -82,6 +82,9 @@ double Flow::longest_step(double) {
 FlowStep Flow::step(double) {
   throw no_time();
 }
+void Flow::stream(double, double) {
+  throw no_time();
+}
 
 double sample(const FlowGrid& grid, const std::vector<double>& field, Vec3 point) {
   return trilinear(grid, field, point);

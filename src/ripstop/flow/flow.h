@@ -172,6 +172,9 @@ class Flow {
   /// shorter: for whoever steps something beside the air. As march() otherwise.
   virtual double longest_step(double courant);
   virtual FlowStep step(double length);
+  /// Before a step in time: the undisturbed stream has this speed at its end, and changes as fast as the box, which
+  /// goes with something in flight, is slowed down [m/s], [m/s2]. Holds from then on. Throws Error(usage) in a jet.
+  virtual void stream(double speed, double acceleration);
   /// The last iteration's or step's.
   virtual FlowField field() const = 0;
   /// What it does to the sheets: FlowField::sheet_loads.

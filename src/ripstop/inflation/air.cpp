@@ -50,25 +50,17 @@ OpeningAir::OpeningAir(const AirProblem& problem, const Mesh& mesh)
       grid_(problem.flow.grid),
       courant_(problem.courant),
       speed_(problem.flow.air.speed),
-      dynamic_pressure_(0.5 * problem.flow.air.density * speed_ * speed_),
+      density_(problem.flow.air.density),
+      payload_(problem.payload),
+      node_mass_(mesh.mass),
       cells_(cells_of(mesh)),
-      mass_(least_mass(mesh, cells_)),
-      nodes_(mesh.start.size()) {
+      mass_(least_mass(mesh, cells_)) {
   flow_ = engine_->start(with_surface(problem.flow, surface_of(cells_, mesh.start)));
 }
 
-void OpeningAir::settle(const std::vector<Vec3>& positions) {
-  double first = 1e300, last = -1e300;
-  for (const Cell& cell : cells_) {
-    if (cell.corner[0] < 0) continue;
-    first = std::min(first, positions[cell.corner[0]].z), last = std::max(last, positions[cell.corner[0]].z);
-  }
-  flow_->place(surface_of(cells_, positions));
-  for (double passed = 0; passed < last - first;) passed += speed_ * flow_->step(longest_step()).length;
-}
-
 Loads OpeningAir::last_load(const AirMemory& memory) const {
-  if (memory.pressure.empty()) return {std::vector<double>(cells_.size(), 0.0), std::vector<Vec3>(nodes_)};
+  if (memory.pressure.empty())
+    return {std::vector<double>(cells_.size(), 0.0), std::vector<Vec3>(node_mass_.size())};
   return {memory.pressure, memory.force};
 }
 
@@ -86,17 +78,31 @@ Loads OpeningAir::step(const std::vector<Vec3>& positions, const std::vector<Vec
     motion.pressure.insert(motion.pressure.end(), 2, pressure[c]);
   }
   flow_->place(surface, motion);
+  if (memory.steps == 0) memory.speed = speed_, memory.acceleration = payload_ ? payload_->gravity : 0;
+  row.speed = memory.speed + length * memory.acceleration;
+  if (payload_) flow_->stream(row.speed, memory.acceleration);
   const FlowStep step = flow_->step(length);
   ClothLoad load = load_of_flow(flow_->sheet_loads(), grid_, surface, cells_, positions);
   row.length = length, row.courant = step.courant;
   row.drag = step.force.z, row.side_x = step.force.x, row.side_y = step.force.y;
-  row.drag_area = row.drag / dynamic_pressure_;
+  row.drag_area = row.drag / (0.5 * density_ * row.speed * row.speed);
   row.momentum_gap = step.momentum_gap, row.mass_defect = step.mass_defect;
   row.remainder = remainder_share(load, cells_, positions);
   memory.pressure = std::exchange(load.pressure, std::vector<double>(cells_.size(), 0.0));
   memory.force = node_forces(load, cells_, positions);
+  if (payload_) {  // weight, and what a frame that is slowed down does to what is in it
+    for (std::size_t n = 0; n < node_mass_.size(); ++n)
+      memory.force[n].z += node_mass_[n] * (memory.acceleration - payload_->gravity);
+  }
   ++memory.steps;
   return last_load(memory);
+}
+
+void OpeningAir::fly(double pull, double length, AirMemory& memory) const {
+  if (!payload_) return;
+  memory.path += length * (memory.speed + 0.5 * length * memory.acceleration);
+  memory.speed += length * memory.acceleration;
+  memory.acceleration = payload_->gravity - pull / payload_->mass;
 }
 
 }  // namespace ripstop

@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "ripstop/cloth/cloth.h"
@@ -17,18 +18,26 @@
 
 namespace ripstop {
 
+/// What hangs at the riser's end and flies, along the axis of the box.
+struct Payload {
+  double mass = 0;     // [kg]
+  double gravity = 0;  // along its path [m/s2]
+};
+
 struct AirProblem {
   FlowProblem flow;  // one sheet, the canopy; its surface is left to the opening
   double courant = 0.5;
-  std::shared_ptr<FlowEngine> engine;
+  std::shared_ptr<FlowEngine> engine = {};
+  std::optional<Payload> payload = {};  // absent: the riser's end is held
 };
 
 /// What the next step needs of the last one.
 struct AirMemory {
-  std::vector<double> pressure;  // Loads::cell_pressure of the last step [Pa]
-  std::vector<Vec3> force;       // Loads::node_force of the last step [N]
-  double work = 0;               // done by what of the air's load is not pressure, so far [J]
-  long long steps = 0;           // of the air
+  std::vector<double> pressure;                  // Loads::cell_pressure of the last step [Pa]
+  std::vector<Vec3> force;                       // Loads::node_force of the last step [N]
+  double work = 0;                               // done by what of the air's load is not pressure, so far [J]
+  long long steps = 0;                           // of the air
+  double speed = 0, acceleration = 0, path = 0;  // of the payload [m/s], [m/s2], [m]
 };
 
 template <Of<AirMemory> T, class Visit>
@@ -37,6 +46,9 @@ void each_member(T& m, Visit&& visit) {
   visit("force", m.force);
   visit("work", m.work);
   visit("steps", m.steps);
+  visit("speed", m.speed);
+  visit("acceleration", m.acceleration);
+  visit("path", m.path);
 }
 
 /// One step of the air.
@@ -46,6 +58,7 @@ struct AirRow {
   double courant = 0;                       // largest in the box
   double drag = 0, side_x = 0, side_y = 0;  // of the air on the canopy [N]
   double drag_area = 0;                     // drag over the stream's dynamic pressure, C_D S [m2]
+  double speed = 0, path = 0;               // of the stream [m/s]; what the payload has flown [m]
   double momentum_gap = 0;                  // FlowStep::momentum_gap [N]
   double mass_defect = 0;                   // FlowStep::mass_defect
   double remainder = 0;                     // remainder_share() of the load
@@ -60,6 +73,8 @@ void each_member(T& row, Visit&& visit) {
   visit("side_force_x_n", row.side_x);
   visit("side_force_y_n", row.side_y);
   visit("drag_area_m2", row.drag_area);
+  visit("speed_m_s", row.speed);
+  visit("path_m", row.path);
   visit("momentum_gap_n", row.momentum_gap);
   visit("mass_defect", row.mass_defect);
   visit("load_remainder", row.remainder);
@@ -71,8 +86,6 @@ class OpeningAir {
   /// mesh as it is cut.
   OpeningAir(const AirProblem& problem, const Mesh& mesh);
 
-  /// The stream about cloth that is held, until it has passed it once.
-  void settle(const std::vector<Vec3>& positions);
   /// That the next step of the air may have [s].
   double longest_step() { return flow_->longest_step(courant_); }
   /// The last step's load on the cloth.
@@ -82,6 +95,9 @@ class OpeningAir {
   Loads step(const std::vector<Vec3>& positions, const std::vector<Vec3>& velocity, double length,
              AirMemory& memory, AirRow& row);
 
+  /// With what the riser pulled at its end in that step, in the mean [N]: the payload flies on.
+  void fly(double pull, double length, AirMemory& memory) const;
+
   const Flow& flow() const { return *flow_; }
   void save(const std::filesystem::path& folder) const { flow_->save(folder); }
   void restore(const std::filesystem::path& folder) { flow_->restore(folder); }
@@ -90,10 +106,11 @@ class OpeningAir {
   std::shared_ptr<FlowEngine> engine_;
   std::unique_ptr<Flow> flow_;
   FlowGrid grid_;
-  double courant_, speed_, dynamic_pressure_;
+  double courant_, speed_, density_;
+  std::optional<Payload> payload_;
+  std::vector<double> node_mass_;  // [kg]
   std::vector<Cell> cells_;
   std::vector<double> mass_;  // of every triangle of the surface, a unit area [kg/m2]
-  std::size_t nodes_ = 0;
 };
 
 }  // namespace ripstop

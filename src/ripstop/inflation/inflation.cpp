@@ -24,6 +24,8 @@ constexpr int most_tries = 4;
 // Of the time in which the stream passes a cell: no row is longer where there is air, whose steps are whole
 // numbers of rows and as long as its fastest cell allows.
 constexpr double longest_row_in_air = 0.03;
+// Of a row: no flow of the stream's air asks for so little.
+constexpr double shortest_step_in_air = 0.05;
 
 double least_rows_in(const FlowProblem& flow) {
   double least = 1e300;
@@ -174,17 +176,26 @@ std::vector<HistoryRow> Inflation::compute_block(InflationState& state) {
 std::vector<HistoryRow> Inflation::compute_block_in_air(InflationState& state,
                                                         std::vector<AirRow>* air_rows) {
   std::vector<Vec3> x = positions(state.cloth, *cloth_);
-  if (state.blocks == 0) air_->settle(x);
   std::vector<HistoryRow> history;
   while (static_cast<int>(history.size()) < rows_per_block_) {
     // A step of the air is a whole number of rows, as many as it allows, all alike as far as that goes.
     const int left = rows_per_block_ - static_cast<int>(history.size());
-    const int steps = static_cast<int>(std::ceil(left * row_ / air_->longest_step()));
+    const double longest = air_->longest_step();
+    if (!(longest > shortest_step_in_air * row_))
+      throw Error(ExitCode::diverged,
+                  fmt::format("at {:.6g} s the air would need steps of {:.3g} s: it has diverged; a smaller "
+                              "inflation.courant or a finer grid (flow.cells) may help",
+                              state.cloth.time, longest));
+    const int steps = static_cast<int>(std::ceil(left * row_ / longest));
     const int rows = std::max(1, left / steps);
     AirRow row;
     const Loads loads = air_->step(x, tentative_velocity(state, rows * row_), rows * row_, state.air, row);
     step_in_air(state, loads, rows, history);
     row.time = state.cloth.time;
+    double pull = 0;
+    for (int n = 1; n <= rows; ++n) pull += history[history.size() - n].mean / rows;
+    air_->fly(pull, rows * row_, state.air);
+    row.path = state.air.path;
     if (air_rows) air_rows->push_back(row);
     std::vector<Vec3> now = positions(state.cloth, *cloth_);
     for (std::size_t n = 0; n < x.size(); ++n) state.air.work += dot(loads.node_force[n], now[n] - x[n]);

@@ -28,6 +28,7 @@ struct InflationResult {
   double impulse = 0;               // [N s]
   std::optional<double> pressure;   // uniform [Pa]
   std::optional<double> drag_area;  // C_D S in the air, the largest of a step [m2]
+  std::optional<double> end_speed;  // of a payload that flies [m/s]
   LoadSource source;
   std::optional<double> steady_drag_returned;  // steady load over the drag that was asked for
   InflationSettings settings;
@@ -67,6 +68,7 @@ void each_member(T& r, Visit&& visit) {
   visit("impulse_n_s", r.impulse);
   visit("pressure_pa", r.pressure);
   visit("drag_area_peak_m2", r.drag_area);
+  visit("speed_at_end_m_s", r.end_speed);
   visit("pressure_from", r.source.text);
   visit("steady_drag_asked_n", r.source.steady_drag);
   visit("steady_drag_returned", r.steady_drag_returned);

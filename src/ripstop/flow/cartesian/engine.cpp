@@ -72,7 +72,7 @@ Error divergence(const Solver& solver, const std::string& when, const std::strin
 constexpr const char* state_file = "cartesian.flow";
 
 struct Header {
-  char magic[8] = {'r', 'i', 'p', 'f', 'l', 'o', 'w', '6'};
+  char magic[8] = {'r', 'i', 'p', 'f', 'l', 'o', 'w', '7'};
   FlowGrid grid;
   Freestream air;
   Sides sides = Sides::zero_gradient;
@@ -165,6 +165,11 @@ class CartesianFlow final : public Flow {
   FlowStep march(int steps, double courant, const StepReport& report) override;
   double longest_step(double courant) override { return solver_.longest_step(in_range(courant)); }
   FlowStep step(double length) override;
+  void stream(double speed, double acceleration) override {
+    if (problem_.jet)
+      throw Error(ExitCode::usage, "flow: the speed of a jet does not change: nothing flies in a tunnel");
+    solver_.stream(speed, acceleration);
+  }
   FlowField field() const override { return solver_.field(); }
   std::vector<SheetLoad> sheet_loads() const override { return solver_.sheet_loads(); }
   bool untouched() const override { return solver_.state().untouched; }
@@ -300,6 +305,7 @@ void CartesianFlow::restore(const std::filesystem::path& folder) {
   if (!fits(state, solver_.state())) in.fail();
   if (!(header.air == problem_.air)) scale(state, header.air, problem_.air);
   solver_.state() = std::move(state);
+  if (solver_.state().clock.stream > 0) solver_.let_stream_in();
 }
 
 class CartesianEngine final : public FlowEngine {

@@ -50,8 +50,9 @@ struct Scratch {
   std::vector<MarchRings> rings;            // one a thread
   bool in_time = false;                     // a step in time, not an iteration
   double now = 1, before = 0;               // weights of the rates of a step
-  std::vector<double> mixing;               // of EddyRow::along
-  std::vector<double> fastest;              // Courant rate, one a plane [kg/(m3 s)]
+  Array<double> pull;           // a row: force on the air of a stream that changes [N/m3]; empty: none
+  std::vector<double> mixing;   // of EddyRow::along
+  std::vector<double> fastest;  // Courant rate, one a plane [kg/(m3 s)]
   SumTable sums;
 };
 
@@ -70,6 +71,10 @@ class Solver {
   FlowProgress iterate();
   /// What the first step in time needs: room for the rates, air of one density.
   void begin_time();
+  /// The undisturbed stream at the end of the next step, where it changes [m/s], [m/s2].
+  void stream(double speed, double acceleration);
+  /// The same, into the inlet.
+  void let_stream_in();
   /// What a Courant number allows [s].
   double longest_step(double courant_number);
   /// Of that, what keeps steps alike [s].

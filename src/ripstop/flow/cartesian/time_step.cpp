@@ -69,7 +69,19 @@ double longest_viscous_step(const Discretisation& d) {
 void Solver::begin_time() {
   for (Array<double>* rate : {&s_.rate_u, &s_.rate_v, &s_.rate_w}) *rate = Array<double>(d_.layout.values());
   std::fill(s_.f.rho.begin(), s_.f.rho.end(), d_.air.density);
-  s_.clock = {};
+  const Clock before = std::exchange(s_.clock, {});
+  s_.clock.stream = before.stream, s_.clock.gaining = before.gaining;
+}
+
+// The box goes with something that is slowed down: in it all air feels what the stream does.
+void Solver::stream(double speed, double acceleration) {
+  s_.clock.stream = speed, s_.clock.gaining = acceleration;
+}
+
+void Solver::let_stream_in() {
+  Inlet& inlet = b_.inlet;
+  std::fill(inlet.w.begin(), inlet.w.end(), s_.clock.stream);
+  inlet.stream_speed = inlet.mean_speed = s_.clock.stream;
 }
 
 double Solver::longest_step(double courant_number) {
@@ -98,6 +110,10 @@ FlowStep Solver::step(double length) {
   const double ratio = s_.clock.steps > 0 ? length / s_.clock.step : 0;
   s_.clock.step = length;
   t_.now = 1 + 0.5 * ratio, t_.before = 0.5 * ratio;
+  if (s_.clock.stream > 0) {  // such that what is extrapolated is what the stream gains in this step
+    s_.clock.pulled = (s_.clock.gaining + t_.before * s_.clock.pulled) / t_.now;
+    t_.pull.assign(t_.zeros.size(), d_.air.density * s_.clock.pulled);
+  }
   SheetRows& sheets = in_the_way_.sheets;
   if (!sheets.empty()) sheets.update(s_, d_.layout, d_.air.density * d_.air.speed);
   const double momentum_before = s_.mean.w, brought_before = std::exchange(s_.clock.brought, brought());
@@ -108,6 +124,10 @@ FlowStep Solver::step(double length) {
   }
   team_.run([this](int rank) {
     each_block(rank, [&](IndexRange rows) { rates(rank, rows); });
+    if (s_.clock.stream > 0) {  // rates are those of the beginning of the step
+      if (rank == 0) let_stream_in();
+      team_.barrier();
+    }
     each_plane(rank, [&](int k) { matrix_ghosts(k); });
     each_plane_of_a_block(rank, [&](int k, IndexRange rows) { pressure(k, rows); });
     multigrid_.solve_conjugate(team_, rank, reduction, most_cycles);
@@ -237,7 +257,7 @@ void Solver::rate(MarchRings& rings, int j, int k, IndexRange rows) {
   r.zu = z.u, r.zv = z.v, r.zw = z.w, r.zu_high = above.u, r.zv_high = above.v, r.zw_high = above.w;
   const auto body = [&](const Array<double>& force) { return force.empty() ? zeros : &force[at]; };
   r.body_u = body(in_the_way_.body_u), r.body_v = body(in_the_way_.body_v),
-  r.body_w = body(in_the_way_.body_w);
+  r.body_w = t_.pull.empty() ? body(in_the_way_.body_w) : &t_.pull[Layout::lead];
   r.u = &s_.f.u[at], r.v = &s_.f.v[at], r.w = &s_.f.w[at], r.rho = &s_.f.rho[at];
   r.linear = in_the_way_.porous.linear(j, k), r.quadratic = in_the_way_.porous.quadratic(j, k);
   r.inverse_step = 1 / s_.clock.step;
@@ -303,7 +323,8 @@ FlowStep Solver::close_step(double momentum_before, double held_back) {
       pressed += d_.x.width[i] * d_.y.width[j] * s_.f.p[d_.layout.at(i, j, 0)];
   }
   const double gained = d_.air.density * volume * (s_.mean.w - momentum_before) / clock.step;
-  step.momentum_gap = s_.force.z + gained + held_back - pressed;
+  const double pulled = d_.air.density * volume * clock.gaining;
+  step.momentum_gap = s_.force.z + gained + held_back - pressed - pulled;
   return step;
 }
 
