@@ -18,6 +18,7 @@ the program is another one. The table goes into docs/tables/torture.md.
 """
 import argparse
 import collections
+import concurrent.futures
 import datetime
 import pathlib
 import platform
@@ -146,15 +147,25 @@ def run(options, bench, log, stage):
     todo = [t for t in trials if options.again or log.wants(t[0])][:options.count]
     print(f"{stage}: {len(trials)} trials, {len(todo)} to do", flush=True)
     begin = time.monotonic()
-    for done, (name, case, function, arguments) in enumerate(todo, 1):
+
+    def tried(name, case, function, arguments):
         started = time.monotonic()
-        row = {"trial": name, "stage": stage, "case": case, **function(bench, *arguments), "seconds": round(time.monotonic() - started, 2),
-               "day": f"{datetime.date.today()}", "commit": options.commit}
-        log.add(row)
-        left = (time.monotonic() - begin) / done * (len(todo) - done)
-        if not row["ok"] or done % 20 == 0 or done == len(todo):
-            print(f"{done}/{len(todo)} {name}: {'ok' if row['ok'] else 'FAILED: ' + row['said']} | about {left / 60:.0f} min left", flush=True)
-    shutil.rmtree(bench.work / "trial", ignore_errors=True)
+        return {"trial": name, "stage": stage, "case": case, **function(bench, *arguments), "seconds": round(time.monotonic() - started, 2),
+                "day": f"{datetime.date.today()}", "commit": options.commit}
+
+    with concurrent.futures.ThreadPoolExecutor(options.jobs, "lane") as pool:
+        try:
+            for done, ended in enumerate(concurrent.futures.as_completed([pool.submit(tried, *t) for t in todo]), 1):
+                row = ended.result()
+                log.add(row)
+                left = (time.monotonic() - begin) / done * (len(todo) - done)
+                if not row["ok"] or done % 20 == 0 or done == len(todo):
+                    print(f"{done}/{len(todo)} {row['trial']}: {'ok' if row['ok'] else 'FAILED: ' + row['said']} | about {left / 60:.0f} min left", flush=True)
+        except BaseException:
+            pool.shutdown(cancel_futures=True)
+            raise
+    for folder in bench.work.glob("trial-*"):
+        shutil.rmtree(folder, ignore_errors=True)
 
 
 def processor():
@@ -198,6 +209,7 @@ def main():
     parser.add_argument("--work", type=pathlib.Path, default=trial.ROOT / "runs/torture", help="folder of the trials and of trials.jsonl")
     parser.add_argument("--stage", choices=STAGES, action="append", help="only this; repeatable (default: all)")
     parser.add_argument("--count", type=int, help="at most so many trials of each stage, of those that are left")
+    parser.add_argument("--jobs", type=int, default=1, help="trials at a time")
     parser.add_argument("--only", default="", help="only trials with these words in their name, as in 'kill sweep'")
     parser.add_argument("--again", action="store_true", help="also what is done")
     parser.add_argument("--table", type=pathlib.Path, default=trial.ROOT / "docs/tables/torture.md")
