@@ -129,14 +129,18 @@ def kill_trials(bench, rng):
 
 
 def fail_trials(bench, rng):
-    trials = []
+    """Every call for one reason each, then every call for the next: what --count leaves are reasons, not calls."""
+    rounds = [[] for _ in range(4)]
     for name, every in FAILING.items():
         calls = bench.undisturbed(name)[3]
         for n in range(1, len(calls) + 1, every):
-            for reason in ["ENOSPC", "EIO", *(["short", "full"] if calls[n - 1][0] == "write" else [])]:
-                trials.append((f"fail {name} {reason} at {n}", name, failing_at, (name, n, reason)))
-    rng.shuffle(trials)
-    return trials
+            reasons = ["ENOSPC", "EIO", *(["short", "full"] if calls[n - 1][0] == "write" else [])]
+            first = rng.randrange(len(reasons))
+            for k, reason in enumerate(reasons[first:] + reasons[:first]):
+                rounds[k].append((f"fail {name} {reason} at {n}", name, failing_at, (name, n, reason)))
+    for trials in rounds:
+        rng.shuffle(trials)
+    return sum(rounds, [])
 
 
 STAGES = {"kill": kill_trials, "fail": fail_trials, "damage": damage.trials, "others": others.trials}
