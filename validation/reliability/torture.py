@@ -219,6 +219,7 @@ def main():
     parser.add_argument("--table", type=pathlib.Path, default=trial.ROOT / "docs/tables/torture.md")
     options = parser.parse_args()
     options.commit = subprocess.run(["git", "describe", "--always", "--dirty"], cwd=trial.ROOT, capture_output=True, text=True, check=False).stdout.strip()
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background jobs ignore it, and so would what they start
     bench = trial.Bench(options.ripstop, options.work)
     log = trial.Log(options.work / "trials.jsonl", bench.hash)
     try:
