@@ -66,13 +66,13 @@ sanitize-thread: check-deps  ## All tests under the thread sanitizer
 	@cmake --build --preset sanitize-thread -j $(JOBS)
 	@ctest --preset sanitize-thread
 
-READERS ?= case setting material bench record chute measured image stl vtk checkpoint openfoam
+READERS ?=
 SECONDS ?= 60
-fuzz: check-deps  ## Fuzz every reader with coverage: make fuzz [SECONDS=60] [READERS='case chute']; goes on with its corpus
+fuzz: check-deps  ## Fuzz every reader with coverage, into docs/tables: make fuzz [SECONDS=60] [READERS='case chute']; goes on with its corpus
 	$(call install_missing,$(FUZZ_PACKAGES))
 	@cmake --preset fuzz > /dev/null
 	@cmake --build --preset fuzz -j $(JOBS)
-	@fuzz/run.sh $(SECONDS) $(READERS)
+	@/usr/bin/python3 validation/reliability/fuzz.py --seconds $(SECONDS) --jobs $(JOBS) $(READERS)
 
 mutants: check-deps  ## Changes the sources in some 460 places and looks which the tests notice, into docs/tables: hours; resumable
 	@/usr/bin/python3 validation/reliability/mutants.py --jobs $(JOBS) $(MUTANTS)

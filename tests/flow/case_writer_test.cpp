@@ -67,7 +67,7 @@ TEST(SavedFlow, ComesBackWithTheGridAndTheAirThatItWasSavedFor) {
   basis.sides = Sides::slip;
   basis.ranks = 6;
   basis.second_order = basis.incompressible = true;
-  save_state(folder.path / "saved", basis, {}, "120");
+  save_state(folder.path / "saved", basis, {folder.path / "case", {}}, "120");
   const SavedState back = read_state(folder.path / "saved");
   EXPECT_EQ(back.time, "120");
   EXPECT_EQ(back.basis.grid, basis.grid);

@@ -220,6 +220,29 @@ TEST_F(OpenFoam, ARestoredFlowGoesOnByteForByte) {
   }
 }
 
+TEST_F(OpenFoam, ARestoredCaseIsTheSavedOneAlsoForARunByHand) {
+  for (const int ranks : {1, 2}) {
+    FlowProblem problem = disc_in_box();
+    problem.stopping.max_iterations = 3;
+    const std::string suffix = std::to_string(ranks), first = "first" + suffix, second = "second" + suffix;
+    const auto own = engine(first, ranks), others = engine(second, ranks);
+    const auto flow = own->start(problem);
+    solve_to_rest(*flow, problem.stopping);
+    flow->save(root_ / ("saved" + suffix));
+    others->start(problem)->restore(root_ / ("saved" + suffix));
+    int files = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(root_ / first)) {
+      const std::string name = fs::relative(entry.path(), root_ / first);
+      if (!entry.is_regular_file() || name.starts_with("log.") || name.starts_with("postProcessing"))
+        continue;
+      ASSERT_TRUE(fs::exists(root_ / second / name)) << name;
+      EXPECT_TRUE(read_file(entry.path()) == read_file(root_ / second / name)) << name;
+      ++files;
+    }
+    EXPECT_GT(files, 20);
+  }
+}
+
 TEST_F(OpenFoam, AHalfWrittenStateIsRefused) {
   FlowProblem problem = disc_in_box();
   problem.stopping.max_iterations = 2;

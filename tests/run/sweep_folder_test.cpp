@@ -82,5 +82,41 @@ TEST(SweepFolder, ARunThatFailsIsToldInItsRowAndTheOthersGoOn) {
   EXPECT_EQ(rows[1].code, ExitCode::diverged);
 }
 
+struct NoDisk : FlowEngine {
+  std::string name() const override { return "no disk"; }
+  std::unique_ptr<Flow> start(const FlowProblem&) override {
+    throw Error(ExitCode::io, "the disk is full today");
+  }
+};
+
+TEST(SweepFolder, ARunWhoseNeighbourFailedByTheDiskWaitsForTheNextCall) {
+  static const bool added = [] {
+    add_engine({"no-disk",
+                "fails",
+                {},
+                [](const EngineOptions&) { return std::string("no disk 1"); },
+                [](const EngineOptions&) { return std::make_unique<NoDisk>(); }});
+    return true;
+  }();
+  ASSERT_TRUE(added);
+  const TemporaryFolder root("sweep");
+  std::vector<SweepPoint> points = three_speeds();
+  points[0].given.flow.engine = "no-disk";
+  SweepSettings settings;
+  settings.folder = root.path / "sweep";
+  settings.jobs = 1;
+  const std::vector<SweepRow> rows = run_sweep(points, settings);
+  EXPECT_EQ(rows[0].error, "the disk is full today");
+  for (const std::size_t leaf : {1, 2}) {
+    EXPECT_FALSE(rows[leaf].done);
+    EXPECT_EQ(rows[leaf].code, ExitCode::io);
+    EXPECT_NE(rows[leaf].error.find("v20"), std::string::npos) << rows[leaf].error;
+    EXPECT_FALSE(fs::exists(settings.folder / points[leaf].folder));
+  }
+  settings.warm = false;  // nobody starts from anybody
+  points.pop_back();
+  EXPECT_TRUE(run_sweep(points, settings)[1].done);
+}
+
 }  // namespace
 }  // namespace ripstop

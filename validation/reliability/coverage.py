@@ -24,7 +24,7 @@ BUILD = ROOT / "build-coverage"
 def lines_run():
     """{file: {line: whether a test came by}} of src/."""
     found = collections.defaultdict(lambda: collections.defaultdict(bool))
-    for notes in sorted((BUILD / "CMakeFiles/ripstop.dir").rglob("*.gcno")):
+    for notes in sorted(note for part in ("ripstop", "ripstop_text") for note in (BUILD / f"CMakeFiles/{part}.dir").rglob("*.gcno")):
         told = subprocess.run(["gcov-12", "--json-format", "--stdout", str(notes)], cwd=BUILD, text=True, check=True,
                               stdout=subprocess.PIPE, stderr=subprocess.DEVNULL).stdout
         for report in map(json.loads, told.splitlines()):

@@ -47,6 +47,11 @@ def given_by(bench, words, run, out):
 
 def readers(bench, name):
     """words -> what the command gives of the undisturbed folder; made once."""
+    with bench.lock:
+        return readers_alone(bench, name)
+
+
+def readers_alone(bench, name):
     key = f"readers of {name}"
     if key not in bench.known:
         run = bench.folder(f"read-{name}") / "out"
@@ -96,6 +101,11 @@ def finished(bench, name, file, how):
 
 def interrupted_folder(bench, name):
     """A folder that a kill in the middle left; made once."""
+    with bench.lock:
+        return interrupted_folder_alone(bench, name)
+
+
+def interrupted_folder_alone(bench, name):
     key = f"interrupted {name}"
     if key not in bench.known:
         run = bench.folder(f"half-{name}") / "out"

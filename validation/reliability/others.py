@@ -3,6 +3,7 @@ import os
 import shutil
 import signal
 import stat
+import subprocess
 import time
 
 import trial
@@ -65,7 +66,11 @@ def openfoam_hangs(bench, stop):
     while not mark.exists() and child.poll() is None:
         time.sleep(0.02)
     child.send_signal(stop)
-    child.communicate(timeout=trial.LIMIT_S)
+    try:
+        child.communicate(timeout=trial.LIMIT_S)
+    except subprocess.TimeoutExpired:
+        os.killpg(child.pid, signal.SIGKILL)
+        return {"ok": False, "said": f"still running {trial.LIMIT_S} s after {stop.name}"}
     process = int(mark.read_text())
     for _ in range(400):  # the group ends within its grace of five seconds
         if not alive(process):

@@ -18,6 +18,7 @@ the program is another one. The table goes into docs/tables/torture.md.
 """
 import argparse
 import collections
+import concurrent.futures
 import datetime
 import pathlib
 import platform
@@ -128,14 +129,18 @@ def kill_trials(bench, rng):
 
 
 def fail_trials(bench, rng):
-    trials = []
+    """Every call for one reason each, then every call for the next: what --count leaves are reasons, not calls."""
+    rounds = [[] for _ in range(4)]
     for name, every in FAILING.items():
         calls = bench.undisturbed(name)[3]
         for n in range(1, len(calls) + 1, every):
-            for reason in ["ENOSPC", "EIO", *(["short", "full"] if calls[n - 1][0] == "write" else [])]:
-                trials.append((f"fail {name} {reason} at {n}", name, failing_at, (name, n, reason)))
-    rng.shuffle(trials)
-    return trials
+            reasons = ["ENOSPC", "EIO", *(["short", "full"] if calls[n - 1][0] == "write" else [])]
+            first = rng.randrange(len(reasons))
+            for k, reason in enumerate(reasons[first:] + reasons[:first]):
+                rounds[k].append((f"fail {name} {reason} at {n}", name, failing_at, (name, n, reason)))
+    for trials in rounds:
+        rng.shuffle(trials)
+    return sum(rounds, [])
 
 
 STAGES = {"kill": kill_trials, "fail": fail_trials, "damage": damage.trials, "others": others.trials}
@@ -146,15 +151,25 @@ def run(options, bench, log, stage):
     todo = [t for t in trials if options.again or log.wants(t[0])][:options.count]
     print(f"{stage}: {len(trials)} trials, {len(todo)} to do", flush=True)
     begin = time.monotonic()
-    for done, (name, case, function, arguments) in enumerate(todo, 1):
+
+    def tried(name, case, function, arguments):
         started = time.monotonic()
-        row = {"trial": name, "stage": stage, "case": case, **function(bench, *arguments), "seconds": round(time.monotonic() - started, 2),
-               "day": f"{datetime.date.today()}", "commit": options.commit}
-        log.add(row)
-        left = (time.monotonic() - begin) / done * (len(todo) - done)
-        if not row["ok"] or done % 20 == 0 or done == len(todo):
-            print(f"{done}/{len(todo)} {name}: {'ok' if row['ok'] else 'FAILED: ' + row['said']} | about {left / 60:.0f} min left", flush=True)
-    shutil.rmtree(bench.work / "trial", ignore_errors=True)
+        return {"trial": name, "stage": stage, "case": case, **function(bench, *arguments), "seconds": round(time.monotonic() - started, 2),
+                "day": f"{datetime.date.today()}", "commit": options.commit}
+
+    with concurrent.futures.ThreadPoolExecutor(options.jobs, "lane") as pool:
+        try:
+            for done, ended in enumerate(concurrent.futures.as_completed([pool.submit(tried, *t) for t in todo]), 1):
+                row = ended.result()
+                log.add(row)
+                left = (time.monotonic() - begin) / done * (len(todo) - done)
+                if not row["ok"] or done % 20 == 0 or done == len(todo):
+                    print(f"{done}/{len(todo)} {row['trial']}: {'ok' if row['ok'] else 'FAILED: ' + row['said']} | about {left / 60:.0f} min left", flush=True)
+        except BaseException:
+            pool.shutdown(cancel_futures=True)
+            raise
+    for folder in bench.work.glob("trial-*"):
+        shutil.rmtree(folder, ignore_errors=True)
 
 
 def processor():
@@ -198,11 +213,13 @@ def main():
     parser.add_argument("--work", type=pathlib.Path, default=trial.ROOT / "runs/torture", help="folder of the trials and of trials.jsonl")
     parser.add_argument("--stage", choices=STAGES, action="append", help="only this; repeatable (default: all)")
     parser.add_argument("--count", type=int, help="at most so many trials of each stage, of those that are left")
+    parser.add_argument("--jobs", type=int, default=1, help="trials at a time")
     parser.add_argument("--only", default="", help="only trials with these words in their name, as in 'kill sweep'")
     parser.add_argument("--again", action="store_true", help="also what is done")
     parser.add_argument("--table", type=pathlib.Path, default=trial.ROOT / "docs/tables/torture.md")
     options = parser.parse_args()
     options.commit = subprocess.run(["git", "describe", "--always", "--dirty"], cwd=trial.ROOT, capture_output=True, text=True, check=False).stdout.strip()
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background jobs ignore it, and so would what they start
     bench = trial.Bench(options.ripstop, options.work)
     log = trial.Log(options.work / "trials.jsonl", bench.hash)
     try:

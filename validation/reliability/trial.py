@@ -7,6 +7,7 @@ import re
 import shutil
 import signal
 import subprocess
+import threading
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
@@ -80,11 +81,11 @@ class Bench:
         subprocess.run(["cc", "-shared", "-fPIC", "-O1", "-o", self.preload, source, "-ldl"], check=True)
         own = [source, *sorted(source.parent.glob("*.py"))]
         self.hash = hashlib.sha256(b"".join(path.read_bytes() for path in [self.program, *own])).hexdigest()[:12]
-        self.known = {}
+        self.known, self.lock = {}, threading.RLock()  # what is made once, by whichever lane needs it first
 
     def folder(self, name):
-        """A new, empty place."""
-        path = self.work / name
+        """A new, empty place; "trial" is another one in every lane."""
+        path = self.work / (f"{name}-{threading.current_thread().name}" if name == "trial" else name)
         shutil.rmtree(path, ignore_errors=True)
         path.mkdir(parents=True)
         return path
@@ -94,7 +95,8 @@ class Bench:
         return [str(self.program), *words, *more, "--out", str(out)]
 
     def environment(self, preloaded=None, **more):
-        env = {**os.environ, "RIPSTOP_DATA": str(ROOT), **more}
+        # Pages of two megabytes: pictures and fields are new memory in every one of the short runs.
+        env = {**os.environ, "RIPSTOP_DATA": str(ROOT), "GLIBC_TUNABLES": "glibc.malloc.hugetlb=1", **more}
         if preloaded is not None:
             env |= {"LD_PRELOAD": str(self.preload), **preloaded}
         return env
@@ -116,6 +118,10 @@ class Bench:
 
     def undisturbed(self, name):
         """(folder, exit code, seconds, counted calls) of the run that nothing happened to; made once."""
+        with self.lock:
+            return self.undisturbed_alone(name)
+
+    def undisturbed_alone(self, name):
         if name not in self.known:
             root = self.folder(f"whole-{name}")
             log = root / "calls"

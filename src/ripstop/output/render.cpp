@@ -16,28 +16,34 @@ Vec3 unit(Vec3 a) {
   return length > 0 ? a / length : Vec3{};
 }
 
+double square_of(double a) {
+  return a * a;
+}
+
 enum class Hit : char { nothing, surface, line, line_rim };
 
-/// The nearest hit of every ray so far.
+/// The nearest hit so far of every ray of some rows of the picture: as many as a cache holds.
 struct Buffer {
-  int width, height;
+  int width, top = 0, bottom = 0;  // rows top .. bottom - 1
   std::vector<double> depth;
   std::vector<Colour> colour;
   std::vector<Hit> hit;
 
-  Buffer(int w, int h)
-      : width(w),
-        height(h),
-        depth(static_cast<std::size_t>(w) * h, std::numeric_limits<double>::infinity()),
-        colour(depth.size()),
-        hit(depth.size(), Hit::nothing) {}
-  std::size_t at(int x, int y) const { return static_cast<std::size_t>(y) * width + x; }
+  Buffer(int w, int rows)
+      : width(w), depth(static_cast<std::size_t>(w) * rows), colour(depth.size()), hit(depth.size()) {}
+  void begin(int first, int end) {
+    top = first;
+    bottom = end;
+    std::fill(depth.begin(), depth.end(), std::numeric_limits<double>::infinity());
+    std::fill(hit.begin(), hit.end(), Hit::nothing);
+  }
+  std::size_t at(int x, int y) const { return static_cast<std::size_t>(y - top) * width + x; }
 };
 
-/// Pixels whose centre may lie in [low, high], within 0 .. count.
-std::pair<int, int> pixel_range(double low, double high, int count) {
-  return {static_cast<int>(std::clamp(std::ceil(low - 0.5), 0.0, 1.0 * count)),
-          static_cast<int>(std::clamp(std::floor(high - 0.5) + 1, 0.0, 1.0 * count))};
+/// Pixels whose centre may lie in [low, high], within begin .. end.
+std::pair<int, int> pixel_range(double low, double high, int begin, int end) {
+  return {static_cast<int>(std::clamp(std::ceil(low - 0.5), 1.0 * begin, 1.0 * end)),
+          static_cast<int>(std::clamp(std::floor(high - 0.5) + 1, 1.0 * begin, 1.0 * end))};
 }
 
 struct Vertex {
@@ -60,9 +66,9 @@ void fill(Buffer& buffer, const Camera& camera, const Vertex& a, const Vertex& b
   const double area = (b.at.x - a.at.x) * (c.at.y - a.at.y) - (b.at.y - a.at.y) * (c.at.x - a.at.x);
   if (!a.at.visible || !b.at.visible || !c.at.visible || area == 0) return;
   const auto [x0, x1] =
-      pixel_range(std::min({a.at.x, b.at.x, c.at.x}), std::max({a.at.x, b.at.x, c.at.x}), buffer.width);
-  const auto [y0, y1] =
-      pixel_range(std::min({a.at.y, b.at.y, c.at.y}), std::max({a.at.y, b.at.y, c.at.y}), buffer.height);
+      pixel_range(std::min({a.at.x, b.at.x, c.at.x}), std::max({a.at.x, b.at.x, c.at.x}), 0, buffer.width);
+  const auto [y0, y1] = pixel_range(std::min({a.at.y, b.at.y, c.at.y}), std::max({a.at.y, b.at.y, c.at.y}),
+                                    buffer.top, buffer.bottom);
   for (int y = y0; y < y1; ++y) {
     for (int x = x0; x < x1; ++x) {
       const double px = x + 0.5, py = y + 0.5;
@@ -87,13 +93,14 @@ void draw_segment(Buffer& buffer, const Projected& a, const Projected& b, double
                   Colour colour, Hit kind) {
   if (!a.visible || !b.visible) return;
   const double half = 0.5 * width, dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
-  const auto [x0, x1] = pixel_range(std::min(a.x, b.x) - half, std::max(a.x, b.x) + half, buffer.width);
-  const auto [y0, y1] = pixel_range(std::min(a.y, b.y) - half, std::max(a.y, b.y) + half, buffer.height);
+  const auto [x0, x1] = pixel_range(std::min(a.x, b.x) - half, std::max(a.x, b.x) + half, 0, buffer.width);
+  const auto [y0, y1] =
+      pixel_range(std::min(a.y, b.y) - half, std::max(a.y, b.y) + half, buffer.top, buffer.bottom);
   for (int y = y0; y < y1; ++y) {
     for (int x = x0; x < x1; ++x) {
       const double px = x + 0.5 - a.x, py = y + 0.5 - a.y;
       const double along = square > 0 ? std::clamp((px * dx + py * dy) / square, 0.0, 1.0) : 0;
-      if (std::hypot(px - along * dx, py - along * dy) > half) continue;
+      if (square_of(px - along * dx) + square_of(py - along * dy) > half * half) continue;
       const double depth = a.depth + along * (b.depth - a.depth) - nearer;
       const std::size_t i = buffer.at(x, y);
       const bool over_rim = kind == Hit::line && buffer.hit[i] == Hit::line_rim;
@@ -106,16 +113,16 @@ void draw_segment(Buffer& buffer, const Projected& a, const Projected& b, double
 }
 
 /// Darkens the rim of the nearer surface where the one behind it is farther by more than `step`: edges and
-/// folds of one colour stay apart.
+/// folds of one colour stay apart. Right in the rows that have `reach` more about them.
 void outline(Buffer& buffer, double step, int reach) {
   std::vector<char> rim(buffer.depth.size(), 0);
-  for (int y = 0; y < buffer.height; ++y) {
+  for (int y = buffer.top; y < buffer.bottom; ++y) {
     for (int x = 0; x < buffer.width; ++x) {
       const std::size_t i = buffer.at(x, y);
       if (buffer.hit[i] != Hit::surface) continue;
       for (const auto& [ox, oy] : {std::array{reach, 0}, {-reach, 0}, {0, reach}, {0, -reach}}) {
         const int nx = x + ox, ny = y + oy;
-        if (nx < 0 || ny < 0 || nx >= buffer.width || ny >= buffer.height) continue;
+        if (nx < 0 || ny < buffer.top || nx >= buffer.width || ny >= buffer.bottom) continue;
         if (buffer.depth[buffer.at(nx, ny)] - buffer.depth[i] > step) rim[i] = 1;
       }
     }
@@ -127,16 +134,14 @@ void outline(Buffer& buffer, double step, int reach) {
   }
 }
 
-/// Mean of samples x samples rays a pixel, premultiplied by the share that hit something.
-Raster averaged(const Buffer& buffer, int samples) {
-  Raster raster{buffer.width / samples, buffer.height / samples, {}};
-  raster.argb.reserve(static_cast<std::size_t>(raster.width) * raster.height);
-  for (int y = 0; y < raster.height; ++y) {
+/// Adds rows of the picture: means of samples x samples rays a pixel, premultiplied by the share that hit something.
+void add_averaged(Raster& raster, const Buffer& buffer, int begin, int end, int samples) {
+  for (int y = begin; y < end; ++y) {
     for (int x = 0; x < raster.width; ++x) {
       double sum[4] = {};  // alpha, red, green, blue
       for (int k = 0; k < samples * samples; ++k) {
         const std::size_t i = buffer.at(x * samples + k % samples, y * samples + k / samples);
-        if (buffer.depth[i] == std::numeric_limits<double>::infinity()) continue;
+        if (buffer.hit[i] == Hit::nothing) continue;
         const Colour& c = buffer.colour[i];
         sum[0] += 1;
         sum[1] += c.red;
@@ -144,13 +149,14 @@ Raster averaged(const Buffer& buffer, int samples) {
         sum[3] += c.blue;
       }
       std::uint32_t pixel = 0;
-      for (double part : sum) {
-        pixel = pixel << 8 | static_cast<std::uint32_t>(std::lround(255 * part / (samples * samples)));
+      if (sum[0] > 0) {
+        for (double part : sum) {
+          pixel = pixel << 8 | static_cast<std::uint32_t>(std::lround(255 * part / (samples * samples)));
+        }
       }
       raster.argb.push_back(pixel);
     }
   }
-  return raster;
 }
 
 }  // namespace
@@ -204,33 +210,43 @@ Camera fitted(Camera camera, const std::vector<Vec3>& points, double aspect, dou
 }
 
 Raster render(const Scene& scene, const Camera& camera, int width, int height, int samples) {
-  Buffer buffer(width * samples, height * samples);
+  const int all_rows = height * samples;
   std::vector<Vertex> vertices(scene.points.size());
   for (std::size_t i = 0; i < vertices.size(); ++i) {
-    vertices[i].at = project(camera, scene.points[i], buffer.width, buffer.height);
+    vertices[i].at = project(camera, scene.points[i], width * samples, all_rows);
   }
   for (const Scene::Quad& quad : scene.quads) {
     const auto [a, b, c, d] = quad.corner;
     const Vec3 normal = cross(scene.points[c] - scene.points[a], scene.points[d] - scene.points[b]);
     for (int corner : quad.corner) vertices[corner].normal += normal;
   }
-  for (const Scene::Quad& quad : scene.quads) {
-    const auto [a, b, c, d] = quad.corner;
-    fill(buffer, camera, vertices[a], vertices[b], vertices[c], quad.colour);
-    fill(buffer, camera, vertices[a], vertices[c], vertices[d], quad.colour);
-  }
-  outline(buffer, 0.012 * camera.height, std::max(1, samples / 2));
-  // Lines sewn on the cloth show on both of its sides, with a light rim that parts them from dark cloth.
+  const int reach = std::max(1, samples / 2);
   const double nearer = 0.006 * camera.height;
-  for (const SceneLine& line : scene.lines) {
-    draw_segment(buffer, vertices[line.a].at, vertices[line.b].at, (line.width + 1.4) * samples, nearer,
-                 rim_colour, Hit::line_rim);
+  constexpr int rows = 16;  // of pixels at a time
+  Buffer buffer(width * samples, rows * samples + 2 * reach);
+  Raster raster{width, height, {}};
+  raster.argb.reserve(static_cast<std::size_t>(width) * height);
+  for (int begin = 0; begin < height; begin += rows) {
+    const int end = std::min(begin + rows, height);
+    buffer.begin(std::max(begin * samples - reach, 0), std::min(end * samples + reach, all_rows));
+    for (const Scene::Quad& quad : scene.quads) {
+      const auto [a, b, c, d] = quad.corner;
+      fill(buffer, camera, vertices[a], vertices[b], vertices[c], quad.colour);
+      fill(buffer, camera, vertices[a], vertices[c], vertices[d], quad.colour);
+    }
+    outline(buffer, 0.012 * camera.height, reach);
+    // Lines sewn on the cloth show on both of its sides, with a light rim that parts them from dark cloth.
+    for (const SceneLine& line : scene.lines) {
+      draw_segment(buffer, vertices[line.a].at, vertices[line.b].at, (line.width + 1.4) * samples, nearer,
+                   rim_colour, Hit::line_rim);
+    }
+    for (const SceneLine& line : scene.lines) {
+      draw_segment(buffer, vertices[line.a].at, vertices[line.b].at, line.width * samples, nearer,
+                   line.colour, Hit::line);
+    }
+    add_averaged(raster, buffer, begin, end, samples);
   }
-  for (const SceneLine& line : scene.lines) {
-    draw_segment(buffer, vertices[line.a].at, vertices[line.b].at, line.width * samples, nearer, line.colour,
-                 Hit::line);
-  }
-  return averaged(buffer, samples);
+  return raster;
 }
 
 }  // namespace ripstop

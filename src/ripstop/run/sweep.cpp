@@ -139,7 +139,16 @@ class Board {
     return answer;
   }
 
+  // A run that starts from nothing where it is to start from its neighbour has other last digits for good. A
+  // neighbour that failed by the disk will not fail when the command is repeated, so that this run waits for that;
+  // one that diverged always does.
   SweepRow run(std::size_t i, int threads) {
+    const int start = start_of(i);
+    if (start >= 0 && !rows_[start].done && rows_[start].code == ExitCode::io) {
+      return failed(fmt::format("was not begun: {}, which it starts from, failed; repeat the command",
+                                points_[start].folder),
+                    ExitCode::io);
+    }
     try {
       return settings_.folder.empty() ? run_in_memory(i, threads) : run_in_folder(i, threads);
     } catch (const Error& error) {

@@ -92,7 +92,7 @@ class OpenFoamFlow final : public Flow {
   void start_afresh() override { prepare(); }
 
   void save(const fs::path& folder) const override {
-    save_state(folder, basis(), part_folders(), latest_time(part_folder(0)));
+    save_state(folder, basis(), {folder_, part_folders()}, latest_time(part_folder(0)));
   }
 
   void restore(const fs::path& folder) override {
@@ -112,7 +112,7 @@ class OpenFoamFlow final : public Flow {
                                                "other air",
                                                folder.string()));
     }
-    copy_state(folder, state, part_folders());
+    copy_state(folder, state, {folder_, part_folders()});
     purge(state.time);
   }
 

@@ -95,23 +95,46 @@ fs::path part_name(std::size_t part) {
   return fmt::format("part{}", part);
 }
 
+/// What a call writes of its problem (engine.cpp, write_problem), where it lies and where it is saved.
+std::vector<std::pair<fs::path, fs::path>> problem_files(const CaseFolders& folders, const fs::path& saved) {
+  const fs::path zones = "constant/polyMesh/cellZones";
+  std::vector<std::pair<fs::path, fs::path>> files;
+  for (const fs::path file :
+       {"constant/porosityProperties", "constant/cellZones", "system/controlDict", "system/fvSolution"})
+    files.emplace_back(folders.whole / file, saved / "problem" / file.filename());
+  files.emplace_back(folders.whole / zones, saved / "problem/cellZones.mesh");
+  for (std::size_t part = 0; part < folders.parts.size(); ++part)
+    if (folders.parts[part] != folders.whole)
+      files.emplace_back(folders.parts[part] / zones,
+                         saved / "problem" / ("cellZones." + part_name(part).string()));
+  return files;
+}
+
 }  // namespace
 
 bool operator==(const Basis& a, const Basis& b) {
   return describe_basis(a) == describe_basis(b);
 }
 
-void save_state(const fs::path& folder, const Basis& basis, const std::vector<fs::path>& parts,
+void save_state(const fs::path& folder, const Basis& basis, const CaseFolders& case_folders,
                 const std::string& time) {
   make_folder(folder);
   if (fs::remove(folder / seal_name)) flush(folder);  // from here until the end the folder counts as empty
-  for (std::size_t part = 0; part < parts.size(); ++part) {
-    const fs::path from = parts[part] / time, to = folder / part_name(part);
+  for (std::size_t part = 0; part < case_folders.parts.size(); ++part) {
+    const fs::path from = case_folders.parts[part] / time, to = folder / part_name(part);
     fs::remove_all(to);
     fs::copy(from, to, fs::copy_options::recursive);
     for (const auto& entry : fs::recursive_directory_iterator(to)) flush(entry.path());
     flush(to);
   }
+  fs::remove_all(folder / "problem");
+  make_folder(folder / "problem");
+  for (const auto& [from, to] : problem_files(case_folders, folder)) {
+    if (!fs::exists(from)) continue;  // a flow that nobody advanced has no cells
+    fs::copy_file(from, to);
+    flush(to);
+  }
+  flush(folder / "problem");
   const json marker = {{"what", "flow fields saved by Ripstop from an OpenFOAM case"},
                        {"format", kFormat},
                        {"time", time},
@@ -139,11 +162,13 @@ SavedState read_state(const fs::path& folder) {
   }
 }
 
-void copy_state(const fs::path& folder, const SavedState& state, const std::vector<fs::path>& parts) {
-  for (std::size_t part = 0; part < parts.size(); ++part) {
-    fs::remove_all(parts[part] / state.time);
-    fs::copy(folder / part_name(part), parts[part] / state.time, fs::copy_options::recursive);
+void copy_state(const fs::path& folder, const SavedState& state, const CaseFolders& to) {
+  for (std::size_t part = 0; part < to.parts.size(); ++part) {
+    fs::remove_all(to.parts[part] / state.time);
+    fs::copy(folder / part_name(part), to.parts[part] / state.time, fs::copy_options::recursive);
   }
+  for (const auto& [lies, saved] : problem_files(to, folder))
+    if (fs::exists(saved)) fs::copy_file(saved, lies, fs::copy_options::overwrite_existing);
 }
 
 }  // namespace ripstop::openfoam

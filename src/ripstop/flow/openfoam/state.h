@@ -25,13 +25,19 @@ struct SavedState {
   std::string time;  // name of the time folder
 };
 
-/// Copies folder `time` of every part (one a rank), flushes it to the disk and seals the folder. The mesh is
-/// not copied: blockMesh and decomposePar make the same one again.
-void save_state(const std::filesystem::path& folder, const Basis& basis,
-                const std::vector<std::filesystem::path>& parts, const std::string& time);
+/// Where a case's files are: the case, and its parts, one a rank; with one rank the part is the case.
+struct CaseFolders {
+  std::filesystem::path whole;
+  std::vector<std::filesystem::path> parts;
+};
+
+/// Copies folder `time` of every part and what the last call wrote of the problem (cells, resistances, control),
+/// so that a restored case runs by hand as well; flushes it all to the disk and seals the folder. The mesh is not
+/// copied: blockMesh and decomposePar make the same one again.
+void save_state(const std::filesystem::path& folder, const Basis& basis, const CaseFolders& from,
+                const std::string& time);
 /// Throws Error(bad_data) where anything was lost or changed since it was saved.
 SavedState read_state(const std::filesystem::path& folder);
-void copy_state(const std::filesystem::path& folder, const SavedState& state,
-                const std::vector<std::filesystem::path>& parts);
+void copy_state(const std::filesystem::path& folder, const SavedState& state, const CaseFolders& to);
 
 }  // namespace ripstop::openfoam

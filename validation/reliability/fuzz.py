@@ -1,0 +1,119 @@
+#!/usr/bin/env python3
+"""Fuzzes every reader under clang's libFuzzer with the harnesses of build-fuzz/, and counts what was executed.
+
+    make fuzz                         (or: fuzz.py --seconds 600 --jobs 2 case chute)
+
+The corpus of a reader stays in build-fuzz/corpus/<reader>, so that the next call goes on with it; a find lies beside it as
+find-<reader>-*. A call is a line of build-fuzz/runs.jsonl; their sum goes into docs/tables/fuzz.md. A find is tried again
+with every call and stays open until the reader takes it or says why not.
+"""
+import argparse
+import collections
+import concurrent.futures
+import datetime
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import time
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+sys.path.insert(0, str(HERE.parent))
+import tables  # pylint: disable=wrong-import-position
+
+BUILD = ROOT / "build-fuzz"
+PROGRAMS = BUILD / "fuzz"
+READERS = ["case", "setting", "material", "bench", "record", "chute", "measured", "image", "stl", "vtk", "checkpoint", "openfoam"]
+SLOWEST_S, MEMORY_MB, LONGEST = 10, 1024, 65536
+LIMITS = [f"-timeout={SLOWEST_S}", f"-rss_limit_mb={MEMORY_MB}"]
+ENVIRONMENT = {**os.environ, "RIPSTOP_DATA": str(ROOT)}
+
+
+def corpus(reader):
+    """The folder, with the seeds as files whose names follow from their places: a corpus has no folders."""
+    folder = BUILD / "corpus" / reader
+    folder.mkdir(parents=True, exist_ok=True)
+    for seed in map(pathlib.Path, filter(None, (PROGRAMS / f"{reader}.seeds").read_text().splitlines())):
+        for file in [seed] if seed.is_file() else sorted(path for path in seed.rglob("*") if path.is_file()):
+            (folder / f"seed-{str(file).replace('/', '_')}").write_bytes(file.read_bytes())
+    return folder
+
+
+def number(pattern, text):
+    found = re.findall(pattern, text)
+    return int(found[-1]) if found else 0
+
+
+def fuzz(reader, seconds):
+    folder, log = corpus(reader), BUILD / f"{reader}.log"
+    begin = time.monotonic()
+    with open(log, "w", encoding="utf-8") as out:
+        code = subprocess.run([PROGRAMS / f"fuzz_{reader}", f"-max_total_time={seconds}", *LIMITS, f"-max_len={LONGEST}", "-print_final_stats=1",
+                               f"-artifact_prefix={BUILD}/find-{reader}-", folder], env=ENVIRONMENT, stdout=out, stderr=out, check=False).returncode
+    text = log.read_text(errors="replace")
+    return {"reader": reader, "code": code, "executions": number(r"stat::number_of_executed_units: *(\d+)", text),
+            "peak_rss_mb": number(r"stat::peak_rss_mb: *(\d+)", text), "edges": number(r"cov: (\d+)", text),
+            "corpus": len(list(folder.iterdir())), "seconds": round(time.monotonic() - begin, 1)}
+
+
+def open_finds(reader):
+    """Finds of this and earlier calls that still are some."""
+    finds = sorted(BUILD.glob(f"find-{reader}-*"))
+    return [find.name for find in finds
+            if subprocess.run([PROGRAMS / f"fuzz_{reader}", *LIMITS, find], env=ENVIRONMENT, capture_output=True, check=False).returncode != 0]
+
+
+def write_table(runs, still_open):
+    machine = next((line.split(":")[1].strip() for line in open("/proc/cpuinfo", encoding="utf-8") if line.startswith("model name")), "unknown")
+    rows, executions, calls_with_finds, seconds = [], 0, 0, 0.0
+    for reader in READERS:
+        own = [run for run in runs if run["reader"] == reader]
+        if not own:
+            continue
+        rows.append([reader, f"{sum(run['executions'] for run in own):,}", f"{sum(run['seconds'] for run in own) / 60:.0f}", str(own[-1]["edges"]),
+                     str(own[-1]["corpus"]), str(max(run["peak_rss_mb"] for run in own)), str(sum(run["code"] != 0 for run in own)),
+                     str(len(still_open[reader]))])
+        executions += sum(run["executions"] for run in own)
+        calls_with_finds += sum(run["code"] != 0 for run in own)
+        seconds += sum(run["seconds"] for run in own)
+    rows.append(["**all**", f"{executions:,}", f"{seconds / 60:.0f}", "", "", "", str(calls_with_finds), str(sum(map(len, still_open.values())))])
+    commits = collections.Counter(run["commit"] for run in runs)
+    lines = [f"Any bytes, up to {LONGEST // 1024} kB, grown from the corpus by what they reach, under the address and undefined-behaviour sanitizers. "
+             f"A find crashes, takes over {SLOWEST_S} s or over {MEMORY_MB} MB (the sanitizers' own included), or throws what is no `Error`; found: calls "
+             "that ended with one. Open: finds that the harness of the last call still stumbles over. "
+             "Calls by commit: " + ", ".join(f"{commit} {count}" for commit, count in sorted(commits.items())) + ".", "",
+             *tables.table(["reader", "executions", "min", "edges reached", "corpus, files", "peak memory, MB", "found", "open"], rows)]
+    tables.write("fuzz", "Readers given any bytes", "make fuzz", [{"started": run["day"], "processor": machine} for run in runs], lines)
+    print(f"{executions:,} executions in all")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("readers", nargs="*", choices=[*READERS, []], help="default: all")
+    parser.add_argument("--seconds", type=int, default=60, help="of each reader")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="readers at a time")
+    options = parser.parse_args()
+    subprocess.run([PROGRAMS / "fuzz_make_seeds", PROGRAMS / "seeds"], check=True)
+    commit = subprocess.run(["git", "describe", "--always", "--dirty"], cwd=ROOT, capture_output=True, text=True, check=False).stdout.strip()
+    record = BUILD / "runs.jsonl"
+    readers = options.readers or READERS
+    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        for ended in concurrent.futures.as_completed([pool.submit(fuzz, reader, options.seconds) for reader in readers]):
+            run = {**ended.result(), "day": f"{datetime.date.today()}", "commit": commit}
+            with open(record, "a", encoding="utf-8") as file:
+                file.write(json.dumps(run) + "\n")
+            print(f"{run['reader']}: {run['executions']:,} executions, {run['peak_rss_mb']} MB" + (f", ends with {run['code']}" if run["code"] else ""), flush=True)
+    runs = [json.loads(line) for line in record.read_text().splitlines()]
+    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        still_open = dict(zip(READERS, pool.map(open_finds, READERS)))
+    write_table(runs, still_open)
+    for name in sum(still_open.values(), []):
+        print(f"open: build-fuzz/{name}")
+    return 1 if any(still_open.values()) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
