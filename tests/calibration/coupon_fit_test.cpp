@@ -4,6 +4,7 @@
 
 #include <fstream>
 #include <random>
+#include <set>
 
 #include "../f111_curve.h"
 #include "../material/synthetic.h"
@@ -117,7 +118,10 @@ TEST_F(CouponFitting, TheOptimumDoesNotDependOnTheStart) {
       options.bending_threshold = threshold;
       options.final_cells = 6;
       options.final_points = 4;
-      found.push_back(fit_coupons(material, campaign.bench, options, team));
+      std::set<double> bending;
+      found.push_back(fit_coupons(material, campaign.bench, options, team,
+                                  [&](int, double, double eps, double) { bending.insert(eps); }));
+      EXPECT_EQ(bending.size() > 1, threshold == 0) << shear;
     }
     for (const CouponFit& fit : found) {
       EXPECT_NEAR(fit.fabric.shear_fraction, found[0].fabric.shear_fraction, 0.001) << threshold;
@@ -203,6 +207,12 @@ TEST(RealRecords, NylonRibbonsAreMetBetterThanThePapersYardstick) {
   EXPECT_GT(r2_of(fit, "warp"), 0.979);
   EXPECT_GT(r2_of(fit, "weft"), 0.979);
   EXPECT_GT(r2_of(fit, "bias"), 0.994);
+  // The clamps' factor is one for all yarns.
+  const auto& tested = std::get<Fabric>(material.material);
+  ASSERT_FALSE(tested.weft_coefficients_n_m.empty());
+  for (std::size_t k = 0; k < tested.weft_coefficients_n_m.size(); ++k)
+    EXPECT_DOUBLE_EQ(fit.fabric.weft_coefficients_n_m[k], fit.rescale * tested.weft_coefficients_n_m[k]);
+  EXPECT_NE(fit.rescale, 1);
 }
 
 TEST(Examples, TheSyntheticCampaignGivesItsTruthBackWithinItsIntervals) {

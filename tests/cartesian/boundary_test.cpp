@@ -64,6 +64,24 @@ TEST(Boundary, AJetLeavesTheInletInsideItsNozzleAndNextToStillAirOutsideOfIt) {
   EXPECT_EQ(box.s.f.w[box.at(-1, 2, 3)], box.b.inlet.stream_speed);
 }
 
+TEST(Boundary, TheDensityOfEveryOutermostCellIsThatBeyondIt) {
+  Box box(Sides::slip, Outlet::fixed_pressure);
+  for (int k = 0; k < 6; ++k)
+    for (int j = 0; j < 5; ++j)
+      for (int i = 0; i < 4; ++i) box.s.f.rho[box.at(i, j, k)] = 1 + 0.1 * i + 0.01 * j + 0.001 * k;
+  box.ghosts();
+  const Array<double>& rho = box.s.f.rho;
+  for (int j = 0; j < 5; ++j)
+    for (int i = 0; i < 4; ++i) {
+      EXPECT_EQ(rho[box.at(i, j, -1)], rho[box.at(i, j, 0)]) << i << " " << j;
+      EXPECT_EQ(rho[box.at(i, j, 6)], rho[box.at(i, j, 5)]) << i << " " << j;
+    }
+  for (int k = 0; k < 6; ++k) {
+    EXPECT_EQ(rho[box.at(1, -1, k)], rho[box.at(1, 0, k)]) << k;
+    EXPECT_EQ(rho[box.at(-1, 2, k)], rho[box.at(0, 2, k)]) << k;
+  }
+}
+
 TEST(Boundary, NothingPassesASlipSideAndNothingChangesAcrossAnOpenOne) {
   for (const Sides sides : {Sides::slip, Sides::zero_gradient}) {
     Box box(sides, Outlet::fixed_pressure);

@@ -232,6 +232,77 @@ TEST(CartesianEngine, StartingOnCoarserGridsLeavesNoTraceInAFlowOfConstantDensit
   EXPECT_NEAR(norm(by_stages.velocity[corner] - at_once.velocity[corner]), 0, 1e-3 * problem.air.speed);
 }
 
+TEST(CartesianEngine, EveryIterationSaysItsNumberAndWhatItLeavesOpen) {
+  int before = 0;
+  const auto engine = make_cartesian(with_threads(1));
+  const auto flow = engine->start(open_box(12, 12, 16, 10));
+  flow->advance(8, 0, [&](const FlowProgress& progress) {
+    EXPECT_EQ(progress.iteration, ++before);
+    for (const double residual :
+         {progress.residual_u, progress.residual_p, progress.residual_k, progress.residual_omega}) {
+      EXPECT_GT(residual, 0) << progress.iteration;
+      EXPECT_LE(residual, 2) << progress.iteration;
+    }
+    return true;
+  });
+  EXPECT_EQ(before, 8);
+}
+
+TEST(CartesianEngine, AfterAFreshStartItIsTheFlowThatBegins) {
+  FlowProblem problem = open_box(12, 12, 16, 10);
+  problem.porous[0].cells.pop_back();  // on one side only
+  const auto engine = make_cartesian(with_threads(1));
+  const auto first = engine->start(problem), second = engine->start(problem);
+  first->advance(7, 0);
+  first->start_afresh();
+  first->advance(3, 0), second->advance(3, 0);
+  EXPECT_TRUE(same_bits(first->field(), second->field()));
+}
+
+/// The largest difference of a velocity to that of the box turned about the stream's axis, x for y, over the speed.
+double turned_apart(const FlowField& a, const FlowField& b, double speed) {
+  double apart = 0;
+  for (int k = 0; k < a.grid.nz; ++k)
+    for (int j = 0; j < a.grid.ny; ++j)
+      for (int i = 0; i < a.grid.nx; ++i) {
+        const Vec3 u = a.velocity[a.grid.index(i, j, k)], v = b.velocity[b.grid.index(j, i, k)];
+        apart = std::max(apart, norm(u - Vec3{v.y, v.x, v.z}) / speed);
+      }
+  return apart;
+}
+
+// Neither axis across the stream is the first one, at rest or in time: what one has in its rows the other has in
+// its planes.
+TEST(CartesianEngine, AMirroredFlowIsTheMirrorImage) {
+  const auto problem = [](bool mirrored) {
+    FlowProblem p;
+    p.air.speed = 10;
+    p.air.viscosity = 0.05;
+    p.sides = Sides::slip;
+    p.outlet = Outlet::still_air;
+    p.stopping.residual = 1e-7;
+    p.stopping.max_iterations = 2000;
+    const auto swap = [&](Vec3 v) { return mirrored ? Vec3{v.y, v.x, v.z} : v; };
+    p.grid = {swap({-1, -1.2, 0}), swap({2, 2.4, 3}), mirrored ? 14 : 12, mirrored ? 12 : 14, 18};
+    std::vector<Triangle> cloth = disk(0.5, {0.13, 0.31, 1.2});
+    for (Triangle& t : cloth) {
+      t = {swap(t.a), swap(t.b), swap(t.c)};
+      if (mirrored) std::swap(t.b, t.c);
+    }
+    p.sheets = {{cloth, 30, 2}};
+    return p;
+  };
+  CartesianSettings settings = with_threads(1);
+  settings.second_order = true, settings.compressible = false;
+  const auto engine = make_cartesian(settings);
+  const FlowField a = solve(*engine, problem(false)), b = solve(*engine, problem(true));
+  ASSERT_TRUE(a.converged && b.converged);
+  EXPECT_LT(turned_apart(a, b, 10), 1e-4);
+  const auto one = engine->start(problem(false)), other = engine->start(problem(true));
+  one->march(12, 0.7), other->march(12, 0.7);
+  EXPECT_LT(turned_apart(one->field(), other->field(), 10), 1e-4);
+}
+
 TEST(CartesianEngine, TheReportCanStopTheRunAndTheFieldIsThenUnconverged) {
   const FlowField field = solve(*make_cartesian(with_threads(1)), open_box(12, 12, 16, 10),
                                 [](const FlowProgress& progress) { return progress.iteration < 3; });

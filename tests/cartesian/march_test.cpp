@@ -13,6 +13,7 @@
 #include "ripstop/flow/bodies.h"
 #include "ripstop/flow/cartesian/cartesian.h"
 #include "ripstop/flow/cartesian/solver.h"
+#include "ripstop/flow/cartesian/time_rows.h"
 
 namespace ripstop {
 namespace {
@@ -315,6 +316,21 @@ TEST(March, EddiesThatAreNotResolvedTakeFromThoseThatAre) {
     return vortices.error_and_size(vortices.to(1, 0.6).time).second;
   };
   EXPECT_LT(left(true) / left(false), 0.999);
+}
+
+TEST(PassingRow, ThroughTheBoundaryTheAirBringsWhatItHadWhereItComesFrom) {
+  const double u[] = {1, 2, 3}, v[] = {4, 5, 6}, w[] = {7, 8, 9}, flux[] = {10, -10};
+  double pu[2], pv[2], pw[2];
+  cartesian::PassingRow r;
+  r.count = 2, r.step = 1, r.flux = flux;
+  r.u = u + 1, r.v = v + 1, r.w = w + 1;
+  r.pu = pu, r.pv = pv, r.pw = pw;
+  boundary_passing_row(r);
+  const double low[] = {pu[0], pv[0], pw[0]}, high[] = {pu[1], pv[1], pw[1]};
+  for (const int i : {0, 1, 2}) {
+    EXPECT_EQ(low[i], 10 * (1 + 3 * i)) << i;
+    EXPECT_EQ(high[i], -10 * (3 + 3 * i)) << i;
+  }
 }
 
 // Linear fields on unequal cells have the same gradient everywhere.

@@ -1,3 +1,5 @@
+#include "ripstop/flow/cartesian/sheet.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -216,8 +218,29 @@ CartesianSettings threads(int count) {
   return settings;
 }
 
+// Half a cell at least; on its columns the plane has a point straight below or above every cell.
+TEST(Sheet, TheDistanceToAPlaneIsThatStraightToIt) {
+  const Axis x = uniform(0, 1, 4), y = uniform(0, 1, 5), z = uniform(0, 3, 12);
+  const Vec3 p[] = {{-1, -1, 1.53}, {2, -1, 1.53}, {2, 2, 1.53}, {-1, 2, 1.53}};
+  const cartesian::SheetRows rows(x, y, z, {{{{p[0], p[1], p[2]}, {p[0], p[2], p[3]}}, 40, 2}});
+  const cartesian::Layout layout(4, 5, 12);
+  const cartesian::Array<double> distance = rows.distance(x, y, z, layout);
+  for (int k = 0; k < 12; ++k)
+    for (int j = 0; j < 5; ++j)
+      for (int i = 0; i < 4; ++i)
+        EXPECT_NEAR(distance[layout.at(i, j, k)], std::max(0.1, std::abs(0.25 * (k + 0.5) - 1.53)), 1e-12)
+            << k;
+}
+
 TEST(Sheet, LoadsForceOnTheFluidAndMomentumDeficitAreOne) {
-  const FlowField field = solve(*make_cartesian(threads(1)), canopy(26, 10, 66, 37.45));
+  const FlowProblem problem = canopy(26, 10, 66, 37.45);
+  const FlowField field = solve(*make_cartesian(threads(1)), problem);
+  ASSERT_FALSE(field.sheet_loads.empty());
+  for (const SheetLoad& load : field.sheet_loads) {  // each on its triangle; at hems within a cell beside it
+    const Triangle& t = problem.sheets.at(load.sheet).surface.at(load.triangle);
+    const double side = std::max({norm(t.b - t.a), norm(t.c - t.b), norm(t.a - t.c)});
+    EXPECT_LT(norm((t.a + t.b + t.c) / 3 - load.point), side + norm(problem.grid.spacing())) << load.triangle;
+  }
   EXPECT_TRUE(field.converged);
   Vec3 sum{};
   for (const SheetLoad& load : field.sheet_loads) sum += load.force;

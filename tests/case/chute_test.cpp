@@ -87,6 +87,7 @@ TEST(Chute, OneConeBecomesAConicalCanopyOfTheSameArea) {
   const Case flat = parse_case(import_chute(read_chute(text, "x"), {}, "x").case_text, "case.toml");
   ASSERT_TRUE(flat.parachute.canopy.as<FlatCircular>());
   EXPECT_NEAR(computed_area(flat.parachute), pi * (0.36 - 0.054 * 0.054), 1e-8);
+  EXPECT_TRUE(says(import_chute(read_chute(text, "x"), {}, "x").mapped, "flat disk of 1.2 m"));
   const std::size_t inner = text.find("\"0\"", text.find("\"expressions\""));
   text.replace(inner, 3, "\"0.3\"");
   const ChuteImport result = import_chute(read_chute(text, "x"), {}, "x");
@@ -228,6 +229,28 @@ TEST(Chute, APointListIsReadLineByLine) {
 }
 
 // openchute's own ringsail draws its slots as sections of 0 gores.
+TEST(Chute, ANumberThatIsNotItsFormulasIsSaidWhereverItStands) {
+  const std::string text = chute_text("odd");
+  const std::string stored[] = {"\"start_angle\": 0.0", "\"radius_x\": 0.3", "\"radius_y\": 0.35",
+                                "\"center\": [\n          0.2", ",\n          0.0\n         ]"};
+  for (const std::string& number : stored) {
+    std::string other = text;
+    const std::size_t at = other.find(number, other.find("\"ellipse\""));
+    ASSERT_NE(at, std::string::npos) << number;
+    const std::size_t digits = number.find("0.") + at;
+    other.replace(digits, 3, "0.7");
+    EXPECT_TRUE(says(import_chute(read_chute(other, "x"), {}, "x").changed, "the file holds 0.7")) << number;
+  }
+}
+
+TEST(Chute, ALongNameIsCutBetweenLetters) {
+  std::string text = chute_text("odd");
+  const std::string name = R"(Odd \"one\"\u0007)";
+  text.replace(text.find(name), name.size(), std::string(99, 'a') + "\u00e9\u00e9");
+  const Case given = parse_case(import_chute(read_chute(text, "x"), {}, "x").case_text, "case.toml");
+  EXPECT_EQ(given.title, std::string(99, 'a'));
+}
+
 TEST(Chute, ASectionOfNoGoresIsASlotAndNoCloth) {
   const std::string text = chute_text("sails");
   const ChuteFile file = read_chute(text, "x");

@@ -407,6 +407,13 @@ const std::vector<Mistake> all_mistakes = {
      "materials.cord.base",
      "\"spectra\"",
      {"did you mean \"spectra-line\"?"}},
+    {"BaseThatIsNoText",
+     materials_end,
+     materials_end + "[materials.cord]\nbase = 7\n",
+     "case.toml:23:8",
+     "materials.cord.base",
+     "7",
+     {"must be text, not"}},
     // Syntax.
     {"DoubleKey", "gores = 6", "gores = 6\ngores = 7", "case.toml:9:", "", "", {"not valid TOML", "gores"}},
     {"OpenQuote", "\"small\"", "\"small", "case.toml:1:", "", "", {"not valid TOML"}},

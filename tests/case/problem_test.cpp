@@ -35,6 +35,12 @@ TEST(Mistakes, TheFlowsOwnLoadIsOfASheetOnly) {
   const Outcome misspelt = with("papr");
   ASSERT_EQ(misspelt.problems.size(), 1u) << misspelt.message;
   EXPECT_EQ(misspelt.problems[0].key, "flow.porosity_model");
+  // What follows from the misspelt word is no mistake of its own.
+  const Outcome calibrated = outcome_of(
+      replaced(replaced(valid_case, "gores = 6", "gores = 6\ncanopy_material = \"f-111\""), "[[measured]]",
+               "porosity_model = \"papr\"\n[coupling]\nload = \"of-flow\"\n[[measured]]"));
+  ASSERT_EQ(calibrated.problems.size(), 1u) << calibrated.message;
+  EXPECT_EQ(calibrated.problems[0].key, "flow.porosity_model");
 }
 
 TEST(Mistakes, AnEmptyFileMissesItsTables) {
@@ -58,6 +64,9 @@ TEST(Mistakes, AnOptionReplacesAMistakeInTheFile) {
   EXPECT_TRUE(
       outcome_of(replaced(valid_case, "speed_m_s = 20\nbox", "speed_m_s = 2000\nbox"), {.speed = 20}).valid);
   EXPECT_TRUE(outcome_of(replaced(valid_case, "speed_m_s = 20\nbox", "box"), {.speed = 20}).valid);
+  EXPECT_TRUE(
+      outcome_of(replaced(valid_case, "speed_m_s = 20\nbox", "speed_m_s = \"fast\"\nbox"), {.speed = 20})
+          .valid);
 }
 
 TEST(Mistakes, ARefusedOptionLeavesTheCaseAsItWas) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "builders.h"
+#include "ripstop/cloth/bound.h"
 
 namespace ripstop {
 namespace {
@@ -172,6 +173,17 @@ TEST(ClothLaws, AClosedSurfaceFeelsNoNetPressure) {
   set_positions(state, *cloth, x);
   const Loads loads{std::vector<double>(mesh.cell_count(), 1000.0), {}};
   EXPECT_LT(norm(pressure_force(*cloth, state, loads)), 1e-13 * 1000);
+}
+
+TEST(ClothLaws, OnAFlatClothThePressureIsTheSumOfWhatItsNodesCarry) {
+  const Mesh mesh = rectangle(6, 9, 0.02);
+  const ClothPtr cloth = make_cloth(mesh);
+  const Loads loads{std::vector<double>(mesh.cell_count(), 300.0), {}};
+  const AppliedLoad load = applied_load(*cloth, start_state(*cloth), loads, {0.08, 0.05, 0});
+  const double whole = 300 * (5 * 8 * 0.02 * 0.02);
+  EXPECT_NEAR(load.sum, whole, 1e-12 * whole);
+  EXPECT_LT(load.norm, whole);
+  EXPECT_NEAR(norm(load.moment), 0, 1e-12 * whole);  // about the middle
 }
 
 TEST(ClothLaws, ALineThatGoesSlackPushesNothing) {

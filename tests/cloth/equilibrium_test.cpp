@@ -330,6 +330,22 @@ TEST(ClothEquilibrium, RelaxationEndsWhereDampedTimeStepsEnd) {
   EXPECT_LT(apart, 1e-7 * rise);
 }
 
+// A line's nodes lie outside of the lattice's rows, which threads share out.
+TEST(ClothEquilibrium, ALineRelaxesTheSameOnAnyNumberOfThreads) {
+  const Mesh mesh = chain(40, {0, 0, 0}, {0.9, 0, 0.3}, 0.025, {{200, 0}, 1}, 0.1);
+  const ClothPtr cloth = make_cloth(mesh);
+  Loads loads;
+  for (const double mass : reference_masses(mesh)) loads.node_force.push_back({0, 0, -gravity * mass});
+  std::vector<std::vector<Vec3>> ends;
+  for (const int threads : {1, 2, 3}) {
+    ThreadTeam team(threads);
+    ClothState state = start_state(*cloth);
+    relax(state, *cloth, loads, {1e-6, 5000}, team);
+    ends.push_back(positions(state, *cloth));
+    EXPECT_EQ(ends.back(), ends.front()) << threads;
+  }
+}
+
 TEST(ClothEquilibrium, RelaxationEndsOnTheResidualItReportsAndIsTheSameOnAnyNumberOfThreads) {
   const Mesh mesh = clamped_square(21, 0.2, 0);
   const ClothPtr cloth = make_cloth(mesh);

@@ -87,8 +87,19 @@ void expect_reference_forces() {
         }
 }
 
-TEST(ClothKernel, ForcesAgreeWithTheScalarReferenceOnEveryInstructionSet) {
+double work_of_pressure() {
+  const Mesh mesh = rectangle(7, 21, 0.01);
+  const ClothPtr cloth = make_cloth(mesh);
+  ClothState state = start_state(*cloth);
+  ThreadTeam team(1);
+  StepRecord record;
+  step(state, *cloth, {std::vector<double>(mesh.cell_count(), 400.0), {}}, 1e-6, 200, team, &record);
+  return record.pressure_work;
+}
+
+TEST(ClothKernel, ForcesAndWorkAgreeWithTheScalarReferenceOnEveryInstructionSet) {
   std::set<std::string> tried;
+  std::vector<double> works;
   for (const auto target : {HWY_AVX3, HWY_AVX2, HWY_SSE4, HWY_SCALAR}) {
     if ((hwy::SupportedTargets() & target) == 0 && target != HWY_SCALAR) continue;
     hwy::SetSupportedTargetsForTest(target);
@@ -96,10 +107,13 @@ TEST(ClothKernel, ForcesAgreeWithTheScalarReferenceOnEveryInstructionSet) {
     tried.insert(kernel_target());
     SCOPED_TRACE(kernel_target());
     expect_reference_forces();
+    works.push_back(work_of_pressure());
+    EXPECT_NEAR(works.back() / works.front(), 1, 1e-12);
     hwy::SetSupportedTargetsForTest(0);
   }
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
   EXPECT_GE(tried.size(), 2u);
+  EXPECT_GT(works.front(), 0);
 }
 
 TEST(ClothKernel, TenThousandStepsAreTheSameToTheLastBitOnAnyNumberOfThreads) {

@@ -144,6 +144,24 @@ TEST(TimeStep, TheBoundOfAnAlignedLatticeIsTheSumOfItsFamilies) {
   EXPECT_NEAR(step_bound(*cloth, start_state(*cloth)).stable_step / (2 / std::sqrt(omega2)), 1, 0.06);
 }
 
+TEST(TimeStep, ANodeThatIsTiedToOneOtherMovesAsThatOneDoes) {
+  for (const double stiff : {0.01, 100.0}) {  // the spring of the tied node over the other one
+    Mesh sewn = chain(2, {0, 0, 0}, {0, 0, 2}, 1, {{50}, 1}, 0);
+    sewn.springs[1].scale *= stiff;
+    sewn.mass = {5, 0.2, 0.05};
+    Mesh tied = sewn;
+    tied.start.push_back(tied.start[1]);
+    tied.mass = {5, 0.1, 0.05, 0.1};
+    tied.ties.push_back({3, {{1, 1.0}}});
+    Spring& last = tied.springs[1];
+    (last.a == 1 ? last.a : last.b) = 3;
+    const ClothPtr one = make_cloth(sewn), two = make_cloth(tied);
+    const StepBound a = step_bound(*one, start_state(*one)), b = step_bound(*two, start_state(*two));
+    EXPECT_DOUBLE_EQ(a.stable_step, b.stable_step) << stiff;
+    EXPECT_DOUBLE_EQ(a.printed_step, b.printed_step) << stiff;
+  }
+}
+
 TEST(TimeStep, AStepAboveTheBoundIsRefusedWithItsPlace) {
   const Mesh mesh = medley(0, true);
   const ClothPtr cloth = make_cloth(mesh);

@@ -62,6 +62,9 @@ TEST(Snatch, TheSpeedDifferenceLiesBetweenNoneAndAll) {
   EXPECT_GT(some, 0);
   EXPECT_LT(some, 40);
   EXPECT_GT(speed_difference_at_stretch({50, 0.1}, {2, 0.3}, 40, 1.2, 8), some);
+  // A payload without drag at v, a canopy at v / (1 + b v t): b v t = 1 at half the speed and (1 - ln 2) / b apart.
+  const double b = 0.5 * 1.2 * 0.3 / 2;
+  EXPECT_NEAR(speed_difference_at_stretch({50, 0}, {2, 0.3}, 40, 1.2, (1 - std::log(2)) / b), 20, 1e-9);
   EXPECT_THROW(speed_difference_at_stretch({1, 1}, {2, 0.3}, 40, 1.2, 5), Error);
   EXPECT_THROW(speed_difference_at_stretch({50, -0.1}, {2, 0.3}, 40, 1.2, 5), Error);
   EXPECT_THROW(speed_difference_at_stretch({50, 0.1}, {2, -0.3}, 40, 1.2, 5), Error);

@@ -68,17 +68,49 @@ std::vector<Family> families() {
           {"cross", design_of(cross, 4, 16), 0.15}};
 }
 
-TEST(FoldedStart, EveryFamilyFoldsToTheGivenRadiusWithoutStrain) {
+class EveryFamily : public testing::TestWithParam<Family> {};
+INSTANTIATE_TEST_SUITE_P(All, EveryFamily, testing::ValuesIn(families()), [](const auto& family) {
+  std::string name = family.param.name;
+  std::erase_if(name, [](char c) { return c == ' ' || c == '-'; });
+  return name;
+});
+
+TEST_P(EveryFamily, FoldsToTheGivenRadiusWithoutStrain) {
   ThreadTeam team(1);
-  for (const Family& family : families()) {
-    const CanopyMesh mesh = build_mesh(family.design, printed_materials());
-    const int symmetry = std::gcd(family.design.gores, family.design.lines.count);
-    const FoldedStart start = folded_start(mesh, {family.radius, 0, 0}, symmetry, team);
-    const StartStrain strain = start_strain(with_creases(mesh, start), start.positions);
-    EXPECT_LT(strain.largest, 1e-3) << family.name << ": " << strain.part;
-    EXPECT_NEAR(0.5 * (start.inner_radius + start.outer_radius) / family.radius, 1, 0.02) << family.name;
-    EXPECT_GT(start.outer_radius, start.inner_radius) << family.name;
-  }
+  const Family& family = GetParam();
+  const CanopyMesh mesh = build_mesh(family.design, printed_materials());
+  const int symmetry = std::gcd(family.design.gores, family.design.lines.count);
+  const FoldedStart start = folded_start(mesh, {family.radius, 0, 0}, symmetry, team);
+  const StartStrain strain = start_strain(with_creases(mesh, start), start.positions);
+  EXPECT_LT(strain.largest, 1e-3) << strain.part;
+  EXPECT_NEAR(0.5 * (start.inner_radius + start.outer_radius) / family.radius, 1, 0.02);
+  EXPECT_GT(start.outer_radius, start.inner_radius);
+}
+
+// Along a diagonal of its cells a fold crosses their other diagonals and no spring else.
+TEST(FoldedStart, OfACrossOnlySpringsThatAFoldShortensAreLeftOut) {
+  ThreadTeam team(1);
+  const Family cross = families()[7];
+  const CanopyMesh mesh = build_mesh(cross.design, printed_materials());
+  const FoldedStart start = folded_start(mesh, {cross.radius, 0, 0}, 4, team);
+  const CanopyMesh creased = with_creases(mesh, start);
+  int kept = 0, left_out = 0;
+  for (std::size_t p = 0; p < mesh.patches.size(); ++p)
+    for (const Direction d : {shear_up, shear_down, bend_row, bend_column}) {
+      const Patch& patch = mesh.patches[p];
+      for (int i = 0; i < patch.rows * patch.columns; ++i) {
+        if (patch.width[d][i] <= 0) continue;
+        const int row = i / patch.columns + direction_offset[d].row;
+        const int column = i % patch.columns + direction_offset[d].column;
+        const double length =
+            norm(start.positions[patch.node(row, column)] - start.positions[patch.first_node + i]);
+        const bool shortened = length < 0.99 * patch.rest_length[d][i];
+        EXPECT_EQ(creased.patches[p].width[d][i], shortened ? 0 : patch.width[d][i]) << i;
+        ++(shortened ? left_out : kept);
+      }
+    }
+  EXPECT_GT(left_out, 0);
+  EXPECT_GT(kept, 10 * left_out);
 }
 
 TEST(FoldedStart, ARingsailKeepsItsSymmetryAndItsSlotsAreNoWiderThanTheirLines) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "ripstop/core/file.h"
+#include "ripstop/core/toml/problem.h"
 #include "ripstop/material/fit_material.h"
 #include "ripstop/material/permeability.h"
 #include "ripstop/material/spring_law.h"
@@ -20,6 +22,24 @@ TEST(Library, EveryMaterialSaysWhereItsNumbersComeFrom) {
   EXPECT_GE(everything().size(), 20u);
   for (const Material& material : everything())
     std::visit([](const auto& m) { EXPECT_GT(m.source.size(), 20u) << m.name; }, material);
+}
+
+TEST(Library, AMaterialFileThatCannotBeClothIsRefused) {
+  const TemporaryFolder folder("material");
+  Fabric cloth = std::get<Fabric>(library_material("f-111"));
+  cloth.shear_fraction = 0.6, cloth.bending_fraction = 0.1;
+  write_file(folder.path / "cloth.toml", material_to_toml(cloth));
+  EXPECT_EQ(std::get<Fabric>(read_material(folder.path / "cloth.toml")).shear_fraction, 0.6);
+  cloth.bending_fraction = 0.4;  // nothing is left for the yarns
+  write_file(folder.path / "cloth.toml", material_to_toml(cloth));
+  try {
+    read_material(folder.path / "cloth.toml");
+    FAIL() << "was accepted";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.code(), ExitCode::bad_data);
+    ASSERT_EQ(error.problems().size(), 1u) << error.what();
+    EXPECT_EQ(error.problems()[0].key, "shear_fraction");
+  }
 }
 
 TEST(Library, EveryClothBreaksWhereItsCurveReachesItsBreakingLoad) {

@@ -8,6 +8,7 @@
 #include "read_png.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
+#include "ripstop/output/flow_picture.h"
 
 namespace ripstop {
 namespace {
@@ -78,6 +79,25 @@ TEST(CanopyPicture, EachCellHasItsOwnColourInItsPlace) {
   EXPECT_GT(high[1], high[2] + 60);
   EXPECT_GT(low[2], low[1] + 30);
   EXPECT_GT(low[0], low[1] + 30);
+}
+
+TEST(FlowPicture, TheStreamGoesFromLeftToRightThroughTheColoursOfItsSpeeds) {
+  const TemporaryFolder folder("flow-picture");
+  FlowField field;
+  field.grid = {{-1, 0, 0}, {2, 0.1, 4}, 20, 1, 40};
+  for (int k = 0; k < 40; ++k)
+    for (int i = 0; i < 20; ++i) field.velocity.push_back({0, 0, k < 20 ? 0.0 : 5.0});
+  write_flow_picture(folder.path / "p.png", "title", {{"t = 1 s", &field}});
+  const Png png = read_png(folder.path / "p.png");
+  const auto middle = [&](Colour colour) {  // of the pixels that have it, along the page
+    double sum = 0, count = 0;
+    for (int y = 0; y < png.height; ++y)
+      for (int x = 0; x < png.width; ++x)
+        if (png.shows(x, y, colour)) sum += x, ++count;
+    EXPECT_GT(count, 0.02 * png.width * png.height);  // more than the scale has of it
+    return sum / count;
+  };
+  EXPECT_LT(middle(scale_colour(0)), middle(scale_colour(1)));
 }
 
 TEST(CanopyPicture, TheTitleIsThereOnlyWhenItIsGiven) {

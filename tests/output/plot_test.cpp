@@ -83,6 +83,19 @@ TEST(Plot, IsTheSamePictureWhateverTheProcessDrewBefore) {
   EXPECT_TRUE(read_file(folder.path / "after.png.png") == read_file(folder.path / "after.svg.png"));
 }
 
+TEST(Plot, ItsLegendShowsEverySeriesThatHasAName) {
+  const TemporaryFolder folder("plot-legend");
+  Plot plot{"", {"x", false, 0, 3}, {"y", false, 0, 1}, {}};
+  for (const double x : {1.0, 2.0}) plot.series.push_back({"", {x}, {0.5}, false, true, false});
+  write_plot(folder.path / "none.png", plot);
+  plot.series[0].name = "one", plot.series[1].name = "two";
+  write_plot(folder.path / "named.png", plot);
+  const Png none = read_png(folder.path / "none.png"), named = read_png(folder.path / "named.png");
+  for (const std::size_t i : {0, 1})  // its marker once more
+    EXPECT_NEAR(spot_of(named, series_colour(i)).count / (2.0 * spot_of(none, series_colour(i)).count), 1,
+                0.1);
+}
+
 TEST(Plot, ALineHasAGapWhereAValueIsMissing) {
   const TemporaryFolder folder("plot-gap");
   const double nan = std::numeric_limits<double>::quiet_NaN();

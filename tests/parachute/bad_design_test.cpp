@@ -64,6 +64,9 @@ const BadDesign bad_designs[] = {
      "such a waist is not meshed"},
     {"ProfileSewnToNothing", "elliptical", "radius_m = [", "sewn = true\nradius_m = [",
      "parachute.pieces[0].sewn", "there is none to be sewn to"},
+    {"MoreLineNodesThanThereMayBe", "flat-circular", "length_m = 1.0\n\n[parachute.mesh]",
+     "length_m = 500\n\n[parachute.mesh]\nline_segment_m = 0.001", "parachute.mesh.line_segment_m",
+     "6000 m of lines and riser would have 6e+06 nodes"},
     {"LinesPastTheVent", "conical", "length_m = 1.0", "length_m = 1.0\nonto_disk_m = 0.6",
      "parachute.lines.onto_disk_m", "past the vent's edge"},
 };

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "ripstop/core/file.h"
@@ -46,20 +47,25 @@ TEST(FlowView, ALinearFieldIsThatOfThePlacesThatItNames) {
       }
 }
 
-// Beyond the outermost centres the field is that of the outermost cells.
+// Beyond the outermost centres the field is that of the outermost cells, which are wide where the grid is graded.
 TEST(FlowView, AtTheEdgeOfTheBoxStandsTheOutermostCell) {
   const TemporaryFolder folder("flow-view");
   FlowField field;
-  field.grid = {{0, 0, 0}, {1, 1, 1}, 2, 2, 2};
-  for (int cell = 0; cell < 8; ++cell) {
-    field.pressure.push_back(cell % 2);
+  field.grid = graded({{-2, -2, 0}, {4, 4, 6}, 20, 20, 26}, {-0.7, -0.7, 2}, {0.7, 0.7, 3.5}, 1.2);
+  const FlowGrid& grid = field.grid;
+  for (int cell = 0; cell < grid.cells(); ++cell) {
+    field.pressure.push_back(grid.centre(0, cell % grid.nx));
     field.velocity.push_back({0, 0, 1});
   }
   const FlowView view =
-      read_flow(write_image(folder.path / "flow", flow_image(field)), {0.1, 0.1, 0.1}, {0.9, 0.9, 0.9});
-  EXPECT_NEAR(view.origin.x - 0.5 * view.spacing.x, 0, 1e-9);
-  EXPECT_NEAR(view.pressure.front(), 0, 1e-6);
-  EXPECT_NEAR(view.pressure.back(), 1, 1e-6);
+      read_flow(write_image(folder.path / "flow", flow_image(field)), {-1.9, -1.9, 0.1}, {1.9, 1.9, 5.9});
+  EXPECT_NEAR(view.origin.x - 0.5 * view.spacing.x, -2, 1e-9);
+  const double first = grid.centre(0, 0), last = grid.centre(0, grid.nx - 1);
+  ASSERT_LT(view.origin.x, first);
+  for (std::size_t cell = 0; cell < view.pressure.size(); ++cell) {
+    const double x = view.origin.x + view.spacing.x * static_cast<double>(cell % view.cells[0]);
+    ASSERT_NEAR(view.pressure[cell], std::clamp(x, first, last), 1e-6) << cell;
+  }
 }
 
 }  // namespace

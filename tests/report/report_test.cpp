@@ -167,6 +167,21 @@ ShapeView dome(int rows, int columns, int frames) {
   return view;
 }
 
+TEST(ReportPage, HasEveryFrameOfASmallOpeningInItsOrder) {
+  Report report;
+  report.runs.resize(1);
+  report.runs[0].kind = "opening";
+  report.runs[0].shape = dome(4, 8, 5);
+  const std::string page = report_page(report), begin = "id=\"report-data\">";
+  const std::size_t at = page.find(begin) + begin.size();
+  const json data = json::parse(page.substr(at, page.find("</script>", at) - at));
+  const json& shape = data.at("runs")[0].at("shape");
+  EXPECT_EQ(shape.at("framesComputed"), 5);
+  std::vector<double> times;
+  for (const json& frame : shape.at("frames")) times.push_back(frame.at("time"));
+  EXPECT_EQ(times, (std::vector<double>{0, 0.01, 0.02, 0.03, 0.04}));
+}
+
 // Also what the browser's test measures the speed with: RIPSTOP_DOME names the file to leave.
 TEST(ReportPage, WithFiftyThousandMovingNodesIsAtMostTenMegabytes) {
   Report report;

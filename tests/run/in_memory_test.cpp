@@ -112,6 +112,8 @@ TEST_F(InMemory, ASweepStartsFromItsNeighboursAndItsModelsAreCompared) {
     EXPECT_TRUE(row.result.converged);
   }
   const Comparison both = compare_models(points, rows, [&](std::size_t i) { return rows[i].state; });
+  EXPECT_EQ(both.title, given.title);
+  EXPECT_GT(both.models[1].profile_change, 0);
   EXPECT_EQ(both.models[0].drag_difference, 0);
   EXPECT_EQ(both.models[0].profile_change, 0);
   EXPECT_NE(both.models[1].drag_difference, 0);

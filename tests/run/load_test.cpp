@@ -2,15 +2,19 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "../small_case.h"
 #include "finished_run.h"
+#include "ripstop/case/assemble.h"
 #include "ripstop/core/error.h"
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/flight/descent.h"
 #include "ripstop/output/csv.h"
 #include "ripstop/run/filling.h"
+#include "ripstop/run/inflation_folder.h"
 
 namespace ripstop {
 namespace {
@@ -70,6 +74,19 @@ TEST(Load, FillingConstantsAreTheHandbooks) {
   EXPECT_EQ(known_filling("ringslot").exponent, 1);
 }
 
+/// Of the methods that apply: what a stage says about all of them.
+void expect_judged(const StageLoads& stage) {
+  double highest = 0, lowest = 1e300, sum = 0;
+  int count = 0;
+  for (const MethodLoad& m : stage.methods)
+    if (m.applies)
+      highest = std::max(highest, m.load), lowest = std::min(lowest, m.load), sum += m.load, ++count;
+  ASSERT_GT(count, 0);
+  EXPECT_EQ(stage.highest, highest);
+  EXPECT_EQ(stage.lowest, lowest);
+  EXPECT_NEAR(stage.spread, (highest - lowest) / (sum / count), 1e-12);
+}
+
 TEST(Load, PutsTheMethodsSideBySideAndSaysWhichApply) {
   const LoadResult r = run_load(flat_circular(), request());
   ASSERT_EQ(r.stages.size(), 1u);
@@ -86,6 +103,7 @@ TEST(Load, PutsTheMethodsSideBySideAndSaysWhichApply) {
       EXPECT_NE(m.note, "") << m.method;
     }
   }
+  expect_judged(stage);
   EXPECT_TRUE(method(stage, "trajectory").applies);
 }
 
@@ -138,6 +156,21 @@ TEST(Load, EveryFlightKeepsMomentumAndEnergy) {
         for (const double open : {left.level, left.down, left.energy})
           EXPECT_NEAR(open, 0, 1e-5) << angle << " " << mass << " " << reefed;
       }
+}
+
+TEST(Load, AComputedOpeningIsOneOfTheMethodsThatAreJudged) {
+  const TemporaryFolder folder("load-opening");
+  const Case given = small_opening();
+  InflationObserver quiet;
+  run_inflation_in(
+      {{folder.path / "run", false}, 1, 0}, given, {"given", {}},
+      [&] { return InflationProblem{parachute_mesh(given), given.inflation, 500, false, 1, 6}; }, quiet);
+  LoadRequest asked = request();
+  asked.opening = folder.path / "run";
+  const LoadResult r = run_load(given, asked);
+  ASSERT_EQ(r.stages.size(), 1u);
+  EXPECT_EQ(method(r.stages[0], "computed opening").load, *r.record_peak_load);
+  expect_judged(r.stages[0]);
 }
 
 TEST(Load, AHeavyPayloadIsAtInfiniteMass) {

@@ -23,5 +23,22 @@ TEST(FlowParity, ASurfaceThatLeavesTheBoxOnAnySideIsRefused) {
   }
 }
 
+// In the stream's speed and dynamic pressure, as root mean square over the cells.
+TEST(FlowParity, FieldsThatDifferInAQuarterOfTheCellsDifferByHalfOfThat) {
+  Freestream air;
+  air.speed = 10, air.density = 1.2;
+  FlowField a, b;
+  for (int cell = 0; cell < 8; ++cell) {
+    a.pressure.push_back(5), b.pressure.push_back(cell < 2 ? 5 + 0.04 * 60 : 5);
+    a.velocity.push_back({0, 1, 9}), b.velocity.push_back({cell < 2 ? 0.3 : 0, 1, 9});
+  }
+  ParityRow row;
+  compare_fields(a, b, air, row);
+  EXPECT_NEAR(row.pressure, 0.02, 1e-12);
+  EXPECT_NEAR(row.largest_pressure, 0.04, 1e-12);
+  EXPECT_NEAR(row.velocity, 0.015, 1e-12);
+  EXPECT_NEAR(row.largest_velocity, 0.03, 1e-12);
+}
+
 }  // namespace
 }  // namespace ripstop

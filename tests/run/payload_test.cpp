@@ -51,14 +51,16 @@ TEST(RunMargins, TheRisersLoadIsWhatHangsOnItHoweverManyPiecesItHas) {
     given.materials.insert_or_assign(line.name, line);
     const SteadyResult r = run_steady(given, nobody).result;
     ASSERT_TRUE(r.converged && r.margins);
-    double riser = 0, lines = 0;
+    double riser = 0, lines = 0, cloth = 0;
     for (const Margin& m : r.margins->members) {
       if (m.member == "riser") riser = m.load;
+      if (m.member == "cloth") cloth = m.load;
       if (m.member.starts_with("line ")) lines += m.load;
     }
     EXPECT_NEAR(riser / r.ledger.line_tension, 1, std::string(length) == "0.5" ? 1.5e-3 : 1e-5) << length;
     EXPECT_GT(lines, r.drag);  // they are aslant
     EXPECT_LT(lines, 1.2 * r.drag);
+    EXPECT_EQ(cloth, std::max(r.stress.warp, r.stress.weft));
   }
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "../output/read_png.h"
 #include "../small_case.h"
 #include "finished_run.h"
 #include "ripstop/case/assemble.h"
@@ -11,9 +12,11 @@
 #include "ripstop/coupling/pressure_profile.h"
 #include "ripstop/inflation/opening_estimate.h"
 #include "ripstop/material/library.h"
+#include "ripstop/output/plot.h"
 #include "ripstop/output/vtk_read.h"
 #include "ripstop/run/coupon.h"
 #include "ripstop/run/fabric.h"
+#include "ripstop/run/fit.h"
 #include "ripstop/run/inflation.h"
 #include "ripstop/run/steady.h"
 
@@ -149,6 +152,27 @@ TEST(Results, ACouponIsPulledToTheTestedStrainUnlessAnotherIsAsked) {
   ASSERT_EQ(tested.pull.points.size(), 2u);
   EXPECT_NEAR(tested.pull.points.back().strain, fabric.tested_strain > 0 ? fabric.tested_strain : 0.1, 1e-12);
   EXPECT_NEAR(run_coupon(fabric, shape, 0.02, 2, team).pull.points.back().strain, 0.02, 1e-12);
+}
+
+TEST(Results, OfAFitAreWhatItsCouponsFoundAndItsPlotsHaveTheMeasuredPoints) {
+  Bench bench = read_bench(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/fit-ripstop/bench.toml");
+  bench.shear_fraction = 0.2, bench.bending_fraction = 0.01;  // only the clamps are to be taken back
+  ThreadTeam team(1);
+  const FitResult result = run_fit(bench, true, team);
+  ASSERT_TRUE(result.coupons);
+  EXPECT_NE(result.coupons->rescale, 1);
+  EXPECT_EQ(std::get<Fabric>(result.fit.material).coefficients_n_m, result.coupons->fabric.coefficients_n_m);
+
+  const TemporaryFolder folder("fit");
+  write_curves(folder.path, result.fit, bench, {});
+  const Png plot = read_png(folder.path / "curve-warp.png");
+  const std::size_t samples = result.fit.direction("warp")->samples.size();
+  for (std::size_t i = 0; i < samples; ++i) {
+    int pixels = 0;  // of some 40 markers, less what others hide; a legend has one
+    for (int y = 0; y < plot.height; ++y)
+      for (int x = 0; x < plot.width; ++x) pixels += plot.shows(x, y, series_colour(i));
+    EXPECT_GT(pixels, 250) << i;
+  }
 }
 
 TEST(Results, OneIterationIsOneAndHasNotConverged) {

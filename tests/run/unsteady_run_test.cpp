@@ -13,6 +13,7 @@
 #include "ripstop/output/csv.h"
 #include "ripstop/run/checkpoint.h"
 #include "ripstop/run/steady_folder.h"
+#include "ripstop/run/watch_files.h"
 
 namespace ripstop {
 namespace {
@@ -106,6 +107,14 @@ TEST(UnsteadyRun, KilledBetweenIterationsItGoesOnBitForBit) {
   EXPECT_EQ(loaded->state.shape, undisturbed.shape);
   EXPECT_EQ(loaded->state.watched.drag, undisturbed.watched.drag);
   EXPECT_EQ(loaded->state.watched.time, undisturbed.watched.time);
+}
+
+TEST(UnsteadyRun, WithoutAStepItLeavesNoHistory) {
+  const TemporaryFolder folder("unwatched");
+  ClaimedFolder claimed(folder.path / "run");
+  write_watch(claimed, flat_circular_case(1, 600, 20), FlowRecord{});
+  EXPECT_TRUE(claimed.names().empty());
+  EXPECT_FALSE(fs::exists(folder.path / "run/history.csv"));
 }
 
 TEST(UnsteadyRun, LeavesItsHistoryAndItsWakeInTheFolder) {

@@ -42,6 +42,8 @@ ParityRun timed(FlowEngine& engine, const FlowProblem& problem, const std::strin
   return run;
 }
 
+}  // namespace
+
 void compare_fields(const FlowField& a, const FlowField& b, const Freestream& air, ParityRow& row) {
   const double dynamic = 0.5 * air.density * air.speed * air.speed;
   const auto cells = static_cast<double>(a.pressure.size());
@@ -56,6 +58,8 @@ void compare_fields(const FlowField& a, const FlowField& b, const Freestream& ai
   row.velocity = std::sqrt(row.velocity);
   row.pressure = std::sqrt(row.pressure);
 }
+
+namespace {
 
 ParityRow compare_engines(const ParitySettings& settings, const std::filesystem::path& folder,
                           const FlowProblem& problem, const std::string& canopy, const ParityEvents& events) {

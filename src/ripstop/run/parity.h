@@ -79,6 +79,9 @@ void each_member(T& row, Visit&& visit) {
   visit("within", row.within);
 }
 
+/// What two fields on one grid differ by: fills the row's differences of velocity and pressure.
+void compare_fields(const FlowField& a, const FlowField& b, const Freestream& air, ParityRow& row);
+
 struct ParityResult {
   std::array<int, 3> cells = {};
   int porous_cells = 0;

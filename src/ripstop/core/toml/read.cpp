@@ -283,13 +283,14 @@ void Reader::value(const Field& field, const Node& node, const std::string& name
 
 void Reader::table(const Fields& fields, const Node& node, const std::string& prefix) {
   origins_[prefix] = origin(node.place);
-  bool has_base = false;
+  bool has_base = false, names_base = false;  // the one that is meant may have what is missing
   bool kind_is_open = false;
   std::vector<Field> all = fields.list();
   for (const Field& field : fields.list()) {
     const Node* given = node.find(field.key);
     const std::string name = joined(prefix, field.key);
     if (const auto* base = std::get_if<Base>(&field.value); base && given) {
+      names_base = true;
       if (!is_a(Node::Type::text, *given, name, "text")) continue;
       const std::string refusal = base->load(given->text);
       if (!refusal.empty()) report(*given, name, "", refusal);
@@ -323,7 +324,7 @@ void Reader::table(const Fields& fields, const Node& node, const std::string& pr
       unknown(member, prefix, known);
   }
   for (const Field& field : all) {
-    if (!field.is_required || has_base || node.find(field.key)) continue;
+    if (!field.is_required || names_base || node.find(field.key)) continue;
     std::string message = "is missing";
     if (const std::string range = field.range.text(); !range.empty()) message += "; give a number " + range;
     if (std::holds_alternative<Subtable>(field.value))

@@ -1,0 +1,48 @@
+// The canopy of the report is that of the files that the run left.
+#include "ripstop/report/shape_view.h"
+
+#include <gtest/gtest.h>
+
+#include "ripstop/core/error.h"
+#include "ripstop/core/file.h"
+#include "ripstop/output/vtk.h"
+
+namespace ripstop {
+namespace {
+
+struct ShapeOfFiles : testing::Test {
+  TemporaryFolder folder{"shape-view"};
+
+  /// A cell of cloth, and a line of two segments with the spring that bends it over both.
+  ShapeFiles write(double time, const std::vector<int>& cell) {
+    VtkSurface canopy, lines;
+    canopy.points = {{0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+    canopy.polygons.add(cell);
+    lines.points = {{0, 0, 1 + time}, {0, 0, 0.5}, {0, 0, 0}};
+    for (const auto& ends : {std::array{0, 1}, {0, 2}, {1, 2}}) lines.lines.add(ends);
+    lines.cell_arrays = {vtk_array("part", std::vector<std::int32_t>{4, 4, 4}),
+                         vtk_array("tension_n", std::vector<double>{10, 3, 12})};
+    const ShapeFiles files{time, folder.path / (std::to_string(time) + "-canopy.vtp"),
+                           folder.path / (std::to_string(time) + "-lines.vtp")};
+    write_vtp(files.canopy, canopy), write_vtp(files.lines, lines);
+    return files;
+  }
+};
+
+TEST_F(ShapeOfFiles, WhatBendsALineIsNoLineAndItsTensionIsTheLines) {
+  const ShapeView view = read_shape({write(0, {0, 1, 2, 3}), write(0.1, {0, 1, 2, 3})});
+  EXPECT_EQ(view.quads, (std::vector<int>{0, 1, 2, 3}));
+  EXPECT_EQ(view.segments, (std::vector<int>{0, 1, 1, 2}));
+  EXPECT_EQ(view.parts, (std::vector<int>{4, 4}));
+  ASSERT_EQ(view.frames.size(), 2u);
+  for (const ShapeFrame& frame : view.frames)
+    EXPECT_EQ(frame.line_values, (std::vector<double>{13, 15}));
+  EXPECT_EQ(view.frames[1].time, 0.1);
+}
+
+TEST_F(ShapeOfFiles, CellsOfAnotherKindAreRefused) {
+  EXPECT_THROW(read_shape({write(0, {0, 1, 2})}), Error);
+}
+
+}  // namespace
+}  // namespace ripstop
