@@ -82,6 +82,27 @@ TEST(SweepFolder, ARunThatFailsIsToldInItsRowAndTheOthersGoOn) {
   EXPECT_EQ(rows[1].code, ExitCode::diverged);
 }
 
+TEST(SweepFolder, ARunThatFailedAtItsSealIsRepeatedFromItsOwnFlow) {
+  const TemporaryFolder root("sweep");
+  const std::vector<SweepPoint> points = {three_speeds()[0]};
+  SweepSettings settings;
+  settings.folder = root.path / "sweep";
+  settings.jobs = 1;
+  const fs::path run = settings.folder / points[0].folder, seal = run / ".ripstop/seal";
+  SweepEvents in_the_way;
+  in_the_way.progress = [&](std::size_t, const SteadyProgress&, const SteadyState&) {
+    fs::create_directories(seal / "in the way");
+  };
+  const SweepRow failed = run_sweep(points, settings, in_the_way)[0];
+  EXPECT_FALSE(failed.done);
+  EXPECT_EQ(failed.code, ExitCode::io) << failed.error;
+  EXPECT_TRUE(fs::exists(run / "result.json"));
+  EXPECT_TRUE(has_flow(run));
+  fs::remove_all(seal);
+  const SweepRow again = run_sweep(points, settings)[0];
+  EXPECT_TRUE(again.done) << again.error;
+}
+
 struct NoDisk : FlowEngine {
   std::string name() const override { return "no disk"; }
   std::unique_ptr<Flow> start(const FlowProblem&) override {

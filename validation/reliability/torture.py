@@ -148,7 +148,10 @@ STAGES = {"kill": kill_trials, "fail": fail_trials, "damage": damage.trials, "ot
 
 def run(options, bench, log, stage):
     trials = [t for t in STAGES[stage](bench, random.Random(SEED)) if options.only in t[0]]
-    todo = [t for t in trials if options.again or log.wants(t[0])][:options.count]
+    todo = [t for t in trials if options.again or log.wants(t[0])]
+    if options.failed:
+        todo = [t for t in todo if t[0] in log.done and not log.done[t[0]]["ok"]]
+    todo = todo[:options.count]
     print(f"{stage}: {len(trials)} trials, {len(todo)} to do", flush=True)
     begin = time.monotonic()
 
@@ -215,6 +218,7 @@ def main():
     parser.add_argument("--count", type=int, help="at most so many trials of each stage, of those that are left")
     parser.add_argument("--jobs", type=int, default=1, help="trials at a time")
     parser.add_argument("--only", default="", help="only trials with these words in their name, as in 'kill sweep'")
+    parser.add_argument("--failed", action="store_true", help="only what failed with another program")
     parser.add_argument("--again", action="store_true", help="also what is done")
     parser.add_argument("--table", type=pathlib.Path, default=trial.ROOT / "docs/tables/torture.md")
     options = parser.parse_args()

@@ -203,11 +203,12 @@ class Board {
     return row;
   }
 
-  // A flow field of a printed grid is 130 MB: it goes as soon as no other run is to start from it.
+  // A flow field of a printed grid is 130 MB: it goes as soon as no other run is to start from it. One that failed goes
+  // on from its own, also where nothing but the seal is missing.
   void drop_what_nobody_needs() const {
     if (settings_.folder.empty()) return;
     for (std::size_t i = 0; i < points_.size(); ++i) {
-      bool needed = settings_.fields || stage_[i] != Stage::ended;
+      bool needed = settings_.fields || stage_[i] != Stage::ended || !rows_[i].done;
       for (std::size_t k = 0; k < points_.size() && !needed; ++k)  // one that failed may be tried again
         needed = settings_.warm && points_[k].start == static_cast<int>(i) && !rows_[k].done;
       if (!needed) drop_flow_checkpoint(settings_.folder / points_[i].folder);
