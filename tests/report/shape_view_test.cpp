@@ -35,8 +35,7 @@ TEST_F(ShapeOfFiles, WhatBendsALineIsNoLineAndItsTensionIsTheLines) {
   EXPECT_EQ(view.segments, (std::vector<int>{0, 1, 1, 2}));
   EXPECT_EQ(view.parts, (std::vector<int>{4, 4}));
   ASSERT_EQ(view.frames.size(), 2u);
-  for (const ShapeFrame& frame : view.frames)
-    EXPECT_EQ(frame.line_values, (std::vector<double>{13, 15}));
+  for (const ShapeFrame& frame : view.frames) EXPECT_EQ(frame.line_values, (std::vector<double>{13, 15}));
   EXPECT_EQ(view.frames[1].time, 0.1);
 }
 
