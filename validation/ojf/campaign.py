@@ -15,7 +15,7 @@ Stages, each from what the ones before it left; without a name all of them run:
     uncertain-sheet  the same for the calibrated sheet                                   -> uncertainty.csv
     uncertain-jet    what is not known of the jet: where the nozzle ended, how the speed was taken  -> uncertainty.csv
     openings   the three openings of the campaign in their own air, in the open jet, nothing calibrated; what they depend
-               on, on Stratos IV                                                       -> openings.csv
+               on, on Stratos IV                                                       -> openings.csv, openings-varied.csv
     compare    nonlinear beside linear on Stratos IV at 30 m/s
     openfoam   Stratos IV at 30 m/s with OpenFOAM
     report     tables in docs/tables, plots
@@ -93,10 +93,14 @@ OPENINGS = {"stratos-iv": (27.1, 1.2, 0.1), "walrus": (27.43, 1.204, 0.2), "adep
 OPENING = ["inflation.duration_s=0.6", "inflation.frames=120", "inflation.line_segment_m=0.06",
            "inflation.cloth_compression=0.1", "inflation.cloth_damping_s=1e-5", "inflation.low_pass_hz=100",
            "parachute.mesh.cloth_nodes=12800"]
-OPENING_VARIATIONS = {"air 1.25 times as fine": ["flow.cells=[110,110,122]"], "cloth twice as fine": ["parachute.mesh.cloth_nodes=25600"],
-                      "half the step": ["inflation.courant=0.25"], "half the folds": ["inflation.folds=9"]}
-OPENING_COLUMNS = ["parachute", "air", "variation", "speed_m_s", "density_kg_m3", "initial_radius_m", "peak_100hz_n", "peak_n",
+# Of Stratos IV; what they change is taken for the other two.
+OPENING_VARIATIONS = {"air 1.25 times as fine": ["flow.cells=[110,110,122]"], "half the folds": ["inflation.folds=9"],
+                      "half the step": ["inflation.courant=0.25"]}
+OPENING_COLUMNS = ["parachute", "air", "speed_m_s", "density_kg_m3", "initial_radius_m", "peak_100hz_n", "peak_n",
                    "peak_time_s", "filling_time_s", "steady_n", "wall_time_s", "peak_100hz_pm_n"]
+# Under the uniform pressure of their steady load (docs/validation.md) and the damping that Stratos IV was fitted with.
+DAMPED = {"stratos-iv": [], "walrus": ["--pressure", "528"], "adept": ["--pressure", "593"]}
+DAMPING = ["--damping", "6.969", "--duration", "0.2"]
 # Cells, and the size of the printed ones over theirs. The `paper` model resists for the length of a cell: its
 # coefficients are multiplied by this ratio, which keeps the resistance of the cloth's area.
 GRIDS = [("40,40,60", 0.4), ("50,50,75", 0.5), ("64,64,96", 0.64)]
@@ -375,37 +379,48 @@ def stage_openfoam(campaign):
     campaign.call(*command)
 
 
-def open_in_air(campaign, parachute, name, settings):
+def opening(campaign, parachute, name, air, command):
+    """A row of openings.csv."""
     speed, density, radius = OPENINGS[parachute]
     folder = campaign.runs / "openings" / name
-    command = ["inflate", f"validation/ojf/{parachute}.toml", "--air", "coupled", "--speed", speed, "--out", folder]
-    for setting in [*JET_SPECIFIED, *OPENING, f"flow.density_kg_m3={density}", f"inflation.initial_radius_m={radius}",
-                    *settings]:
-        command += ["--set", setting]
     began = time.monotonic()
-    campaign.call(*command, also=(4,))  # not settled: the peak is there all the same
+    campaign.call(*command, "--out", folder, also=(4,))  # not settled: the peak is there all the same
     result = json.loads((folder / "result.json").read_text())
     wall = folder.parent / f"{name}.seconds"
     if not wall.exists():
         wall.write_text(f"{time.monotonic() - began:.0f}")
-    return {"parachute": parachute, "air": "coupled", "speed_m_s": speed, "density_kg_m3": density,
-            "initial_radius_m": radius, "peak_100hz_n": f"{result['low_pass_peak_load_n']:.1f}",
-            "peak_n": f"{result['peak_load_n']:.1f}", "peak_time_s": f"{result['low_pass_peak_time_s']:.4f}",
-            "filling_time_s": f"{result.get('filling_time_s') or float('nan'):.4f}",
+    return {"parachute": parachute, "air": air, "speed_m_s": speed, "density_kg_m3": density, "initial_radius_m": radius,
+            "peak_100hz_n": f"{result['low_pass_peak_load_n']:.1f}", "peak_n": f"{result['peak_load_n']:.1f}",
+            "peak_time_s": f"{result['low_pass_peak_time_s']:.4f}", "filling_time_s": f"{result['filling_time_s']:.4f}",
             "steady_n": f"{result['steady_load_n']:.1f}", "wall_time_s": wall.read_text()}
+
+
+def open_in_air(campaign, parachute, name, settings):
+    speed, density, radius = OPENINGS[parachute]
+    command = ["inflate", f"validation/ojf/{parachute}.toml", "--air", "coupled", "--speed", speed]
+    for setting in [*JET_SPECIFIED, *OPENING, f"flow.density_kg_m3={density}", f"inflation.initial_radius_m={radius}",
+                    *settings]:
+        command += ["--set", setting]
+    return opening(campaign, parachute, name, "coupled", command)
 
 
 def stage_openings(campaign):
     rows = [open_in_air(campaign, parachute, parachute, []) for parachute in PARACHUTES]
-    base, changes = float(rows[0]["peak_100hz_n"]), []
+    base, varied = float(rows[0]["peak_100hz_n"]), []
     for label, settings in OPENING_VARIATIONS.items():
         row = open_in_air(campaign, "stratos-iv", "stratos-iv " + label, settings)
-        rows.append({**row, "variation": label})
-        changes.append(float(row["peak_100hz_n"]) / base - 1)
-    share = sum(change ** 2 for change in changes) ** 0.5  # of the peak, as if each came by itself
+        change = 100 * (float(row["peak_100hz_n"]) / base - 1)
+        varied.append({"variation": label, **{c: row[c] for c in OPENING_COLUMNS[5:10]}, "peak_percent": f"{change:.1f}"})
+    share = sum(float(row["peak_percent"]) ** 2 for row in varied) ** 0.5 / 100  # as if each came by itself
     for row in rows:
-        if "variation" not in row:
-            row["peak_100hz_pm_n"] = f"{share * float(row['peak_100hz_n']):.1f}"
+        row["peak_100hz_pm_n"] = f"{share * float(row['peak_100hz_n']):.0f}"
+    write_table(HERE / "openings-varied.csv", list(varied[0]), varied)
+    for parachute, pressure in DAMPED.items():
+        speed, density, _ = OPENINGS[parachute]
+        command = ["inflate", f"examples/{parachute}/case.toml", *pressure, *DAMPING]
+        if parachute == "adept":
+            command += ["--speed", speed, "--set", f"flow.density_kg_m3={density}"]
+        rows.append(opening(campaign, parachute, parachute + " damped", "damped", command))
     write_table(HERE / "openings.csv", OPENING_COLUMNS, rows)
 
 

@@ -195,8 +195,6 @@ void InflationFolder::ended(const Inflation& solver, const InflationState& state
     for (int i = 1; i <= settings.frames; ++i)
       series.push_back({settings.duration_s * i / settings.frames, air_file(solver, i)});
     write_pvd(folder_.own("air.pvd"), series);
-    std::error_code ignored;  // nothing will go on from it
-    fs::remove_all(folder_.path() / "air", ignored);
   }
   InflationResult named = result;
   named.inputs_hash = inputs_of_run(folder_.path());
@@ -204,6 +202,8 @@ void InflationFolder::ended(const Inflation& solver, const InflationState& state
   if (report_)
     if (const std::string failure = write_run_report(folder_); !failure.empty()) next_.warned(failure);
   folder_.seal();
+  std::error_code ignored;  // nothing will go on from it
+  if (with_air_) fs::remove_all(folder_.path() / "air", ignored);
   next_.ended(solver, state, history, result);
 }
 
@@ -266,7 +266,7 @@ void InflationFolder::write_air_plot(const InflationHistory& history, const Infl
   for (const InflationFrame& frame : history.frames)
     projected.x.push_back(frame.time), projected.y.push_back(frame.size.projected_area);
   write_plot(folder_.own("drag_area.png"),
-             {r.title, {"time from deployment [s]"}, {"area [m\u00b2]"}, {area, projected}});
+             {r.title, {"time from deployment [s]"}, {"area [m²]"}, {area, projected}});
 }
 
 void InflationFolder::write_load_plot(const Inflation& solver, const std::vector<HistoryRow>& rows,
