@@ -326,6 +326,23 @@ TEST(Resolved, WhatOpenFoamHasNotIsRefusedWhenTheCaseIsRead) {
   }
 }
 
+TEST(Resolved, AnOpeningInItsOwnAirWantsASheetAndAPayloadThatFliesAMass) {
+  const auto key_of = [](const std::string& more, const std::string& start = short_case) {
+    const Outcome outcome = outcome_of(start + more);
+    return outcome.problems.empty() ? "none" : outcome.problems[0].key + ": " + outcome.problems[0].value;
+  };
+  const std::string coupled = "[inflation]\nair = \"coupled\"\n", flies = "mass = \"payload\"\n";
+  EXPECT_EQ(key_of(coupled), "none");
+  EXPECT_EQ(key_of(coupled, of_calibrated_cloth(short_case) + "box_m = [8, 8, 10]\n"),
+            "inflation.air: \"coupled\"");
+  EXPECT_EQ(key_of(coupled + flies), "inflation.mass: \"payload\"");
+  EXPECT_EQ(key_of(coupled + flies + "[payload]\nmass_kg = 2\n"), "none");
+  EXPECT_EQ(key_of("[inflation]\n" + flies + "[payload]\nmass_kg = 2\n"), "inflation.mass: \"payload\"");
+  EXPECT_EQ(
+      key_of(coupled + flies + "[payload]\nmass_kg = 2\n[flow.tunnel]\nkind = \"open-jet\"\nwidth_m = 3\n"),
+      "inflation.mass: \"payload\"");
+}
+
 TEST(Resolved, AnUnsteadyFlowWantsAnEngineThatHasTimeAndAWatchThatCanBe) {
   EXPECT_TRUE(outcome_of(short_case + "unsteady = true\n").valid);
   const Outcome engine = outcome_of(of_calibrated_cloth(short_case) +
