@@ -90,7 +90,7 @@ JET_VARIATIONS = {
 }
 # The openings: speed [m/s], density [kg/m3], radius of the folded skirt [m]; what slack cloth carries as in the examples.
 OPENINGS = {"stratos-iv": (27.1, 1.2, 0.1), "walrus": (27.43, 1.204, 0.2), "adept": (27, 1.205, 0.1)}
-OPENING = ["inflation.duration_s=0.6", "inflation.frames=120", "inflation.line_segment_m=0.06",
+OPENING = ["inflation.duration_s=0.45", "inflation.frames=90", "inflation.line_segment_m=0.06",
            "inflation.cloth_compression=0.1", "inflation.cloth_damping_s=1e-5", "inflation.low_pass_hz=100",
            "parachute.mesh.cloth_nodes=12800"]
 # Of Stratos IV; what they change is taken for the other two.

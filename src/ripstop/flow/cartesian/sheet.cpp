@@ -90,8 +90,9 @@ void SheetRows::add_faces(const Axis& x, const Axis& y, const Axis& z, const std
       face.geometry = geometry;
       face.sheet = s;
       face.a = sheet.linear, face.b = sheet.quadratic;
-      const SheetFace& g = geometry;
+      const SheetFace& g = face.geometry;
       if (!motion.velocity.empty()) {
+        face.geometry.normal = geometry.across;
         face.moving = dot(g.normal, motion.velocity[g.triangle]);
         const Axis& axis = g.axis == 0 ? x : g.axis == 1 ? y : z;
         const int c = g.axis == 0 ? g.i : g.axis == 1 ? g.j : g.k;
@@ -105,7 +106,10 @@ void SheetRows::add_faces(const Axis& x, const Axis& y, const Axis& z, const std
                   (g.axis == 2 ? 1 : z.width[g.k]);
       face.spread = face.area / std::max(g.area, 1e-2 * face.area);
       const double normal = g.axis == 0 ? g.normal.x : g.axis == 1 ? g.normal.y : g.normal.z;
-      if (g.hem) face.cover = std::min(1.0, g.area / (face.area * std::max(normal, 1e-3)));
+      // Of crumpled cloth layers share out the area: what one of them is left with says nothing of the air's way.
+      if (g.hem)
+        face.cover =
+            motion.velocity.empty() ? std::min(1.0, g.area / (face.area * std::max(normal, 1e-3))) : g.seen;
       faces_.push_back(face);
     }
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bitset>
 #include <cmath>
 #include <map>
 #include <set>
@@ -252,7 +253,7 @@ class Columns {
     face.point = {point[0], point[1], point[2]};
     face.outward = unit_normal(surface_[triangle]);
     face.against = point_of(face.outward)[axis_] < 0;
-    face.normal = normal_of(face.outward);
+    face.normal = face.across = normal_of(face.outward);
     result.push_back(face);
     return &result.back();
   }
@@ -269,8 +270,9 @@ class Columns {
       if (face) face->hem = h.hem;
     }
     const std::size_t last = result.size();
-    std::vector<Vec3> normals(last - first);  // of all that a face stands for, by area
+    std::vector<Vec3> normals(last - first), turned(last - first);  // of all that a face stands for, by area
     std::vector<const Hit*> beside;  // near a hem, lines that meet the sheet where the central one does not
+    std::vector<std::bitset<lines * lines>> met(last - first);
     for (const Hit& h : hits) {
       std::size_t nearest = last;
       double closest = 1;
@@ -283,10 +285,12 @@ class Columns {
                            std::min(0.5 * slant / std::max(normal[axis_], 1e-3), longest * width_at(h.at));
         const double apart = std::abs(at[axis_] - h.at) / far;
         if (apart < closest) closest = apart, nearest = n;
+        if (apart < 1) met[n - first].set(h.line);
       }
       if (nearest < last) {
         result[nearest].area += share(h, cu, cv);
         normals[nearest - first] += share(h, cu, cv) * unit_normal(surface_[h.triangle]);
+        turned[nearest - first] += share(h, cu, cv) * normal_of(unit_normal(surface_[h.triangle]));
       } else if (h.hem) {
         beside.push_back(&h);
       } else {
@@ -294,7 +298,9 @@ class Columns {
       }
     }
     for (std::size_t n = first; n < last; ++n) {
+      result[n].seen = static_cast<double>(met[n - first].count()) / (lines * lines);
       const Vec3 sum = normals[n - first];
+      if (norm(turned[n - first]) > 0) result[n].across = turned[n - first] / norm(turned[n - first]);
       if (!(norm(sum) > 0)) continue;
       result[n].outward = sum / norm(sum);
       result[n].normal = normal_of(result[n].outward);
@@ -320,7 +326,12 @@ class Columns {
       }
       const Hit* middle = across.empty() ? nullptr : across[across.size() / 2];
       SheetFace* face = middle ? add(middle->at, middle->triangle, cu, cv, result) : nullptr;
-      if (face) face->hem = true;
+      if (face) {
+        std::bitset<lines * lines> met;
+        for (const Hit* h : across) met.set(h->line);
+        face->hem = true;
+        face->seen = static_cast<double>(met.count()) / (lines * lines);
+      }
       for (std::size_t n = begin; n < end; ++n) {
         face ? void(face->area += share(*beside[n], cu, cv))
              : left_over.push_back({cell_of(*beside[n], cu, cv), share(*beside[n], cu, cv)});

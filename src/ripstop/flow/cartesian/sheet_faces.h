@@ -19,6 +19,8 @@ struct SheetFace {
   bool against = false;  // the sheet's outer side is the low one where the line between the centres meets it
   bool hem = false;      // within two cells of an edge of the sheet
   double area = 0;       // of the sheet that the face stands for [m2]; the faces' areas add up to the sheet's
+  Vec3 across;           // mean of the normals with all layers turned so that they look along the axis, unit
+  double seen = 1;       // of the lines through the face, those that meet the sheet about it, whichever layer
 };
 
 /// Every face between neighbouring cell centres that a triangle parts, in a fixed order. The faces of a
