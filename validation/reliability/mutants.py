@@ -13,7 +13,8 @@ that take longer than --slowest seconds are left out, and Python's and the brows
 The log, build-mutants/log.jsonl, has a line a verdict with the hash of the mutant's file; what stands in it is not run
 again, but for survivors with --again (after new tests). Whoever has read a survivor and found it equivalent (no input
 can tell), harmless (speed, text, a tie, a limit chosen at will) or a hole says so with the reason in judged.json. The
-table is docs/tables/mutants.md.
+table is docs/tables/mutants.md. A sample that tests were written for says little of the code around it: --fresh 300 takes
+as many more that nobody has looked at, and the table has their share beside it.
 """
 import argparse
 import collections
@@ -407,23 +408,27 @@ def read_log():
     return found
 
 
-def write_table(mutants, dropped, log, command):
+def write_table(mutants, dropped, log, command, asked):
+    """Of those whose names are `asked`; of the others of `mutants`, which are beyond the sample, in a sentence."""
     judged = json.loads(JUDGED.read_text()) if JUDGED.exists() else {}
-    rows, total, survivors, days = {}, collections.Counter(), [], set()
+    rows, total, survivors, days, beyond, earlier, unmet = {}, collections.Counter(), [], set(), collections.Counter(), 0, 0
     for number, mutant in enumerate(mutants):
-        count = rows.setdefault(mutant["room"], collections.Counter())
+        sampled = mutant["name"] in asked
+        count = rows.setdefault(mutant["room"], collections.Counter()) if sampled else beyond
         entry = log.get((mutant["name"], mutant["of"]))
         if number in dropped or not entry:
             count["dropped" if number in dropped else "to do"] += 1
             continue
         days.add(entry["day"])
+        earlier += sampled and entry.get("seeded", False)
         count["run"] += 1
         if entry["caught"]:
             count["caught"] += 1
             continue
         kind, reason = judged.get(mutant["name"], ["not judged", ""])
         count[kind] += 1
-        survivors.append((kind, mutant["path"].removeprefix("src/ripstop/"), str(mutant["m"].line), entry, reason, mutant["m"]))
+        unmet += kind == "not judged" and entry["left_out"] > 0
+        survivors.append((kind if sampled else f"beyond the sample, {kind}", mutant["path"].removeprefix("src/ripstop/"), str(mutant["m"].line), entry, reason, mutant["m"]))
     for count in rows.values():
         total.update(count)
 
@@ -436,14 +441,23 @@ def write_table(mutants, dropped, log, command):
         text = " ".join(text.split()).replace("|", "\\|")
         return f"`{text if len(text) < 90 else text[:87] + '...'}`"
 
-    lines = [f"{len(mutants)} sampled, {total['dropped']} of them do not compile, {total['to do']} not run yet. Python's "
-             "and the browser's tests are left out, and those that take longer than the command's limit.", ""]
+    lines = [f"{len(asked)} sampled, {total['dropped']} of them do not compile, {total['to do']} not run yet. Python's "
+             "and the browser's tests are left out, and those that take longer than the command's limit."]
+    if earlier:
+        lines[0] += f" {earlier} verdicts, on files that have not changed since, are those of an earlier run."
+    lines += [""]
     lines += tables.table(["room", "run", "equivalent", "harmless", "left", "caught", "of those left"],
                           [*(row(name, rows[name]) for name in sorted(rows)), row("all", total)])
+    if beyond["run"]:
+        held = beyond["run"] - beyond["equivalent"] - beyond["harmless"]
+        lines += [f"Of {beyond['run']} mutants beyond the sample (`--fresh`), for which no test was written, {beyond['caught']} of "
+                  f"{held} that are neither equivalent nor harmless were caught: {100 * beyond['caught'] / max(1, held):.0f} %.", ""]
+    if unmet:
+        lines += [f"{unmet} survivors that are not judged were not met by all tests that come by them.", ""]
     lines += ["## Survivors", "", "*Equivalent*: no input tells. *Harmless*: speed, the text of a message, a tie, a limit chosen at will.", ""]
     lines += tables.table(["where", "what was put", "for what", "judged", "why"],
                           [[f"{path}:{line}", code(m.mutant) if m.mutant else f"no `{m.text}`", code(m.text), kind, reason]
-                           for kind, path, line, entry, reason, m in sorted(survivors, key=lambda s: (s[0] != "hole", s[0], s[1], int(s[2])))])
+                           for kind, path, line, entry, reason, m in sorted(survivors, key=lambda s: (s[0].startswith("beyond"), s[0] != "hole", s[0], s[1], int(s[2])))])
     processor = next((l.split(":")[1].strip() for l in open("/proc/cpuinfo", encoding="utf-8") if l.startswith("model name")), "unknown")
     runs = [{"started": day, "processor": processor} for day in days or {f"{datetime.date.today()}"}]
     tables.write("mutants", "Mutants of the sources and the tests that catch them", command, runs, lines)
@@ -454,6 +468,7 @@ def write_table(mutants, dropped, log, command):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--number", type=int, default=400, help="mutants of the sample")
+    parser.add_argument("--fresh", type=int, default=0, help="as many more beyond it, which are told by themselves")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--slowest", type=float, default=60, help="a test that takes longer, s, is left out")
     parser.add_argument("--tests", default="", help="only those tests whose names, room.Suite.Test, this expression finds")
@@ -462,7 +477,8 @@ def main():
     parser.add_argument("--table", action="store_true", help="only the table of what the log has")
     options = parser.parse_args()
     WORK.mkdir(exist_ok=True)
-    mutants = all_mutants(options.number)
+    mutants = all_mutants(options.number + options.fresh)
+    asked = {m["name"] for m in (all_mutants(options.number) if options.fresh else mutants)}
     log = read_log()
     if options.table:
         dropped = json.loads((WORK / "dropped.json").read_text()) if (WORK / "dropped.json").exists() else []
@@ -485,7 +501,7 @@ def main():
             for verdict in side_by_side(options.jobs, work, one):
                 log[verdict["name"], verdict["of"]] = verdict
                 print(("caught  " if verdict["caught"] else "SURVIVED"), verdict["name"], verdict["by"], flush=True)
-    write_table(mutants, dropped, log, "make mutants")
+    write_table(mutants, dropped, log, "make mutants" + (f' MUTANTS="--fresh {options.fresh}"' if options.fresh else ""), asked)
 
 
 if __name__ == "__main__":
