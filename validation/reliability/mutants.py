@@ -13,8 +13,7 @@ that take longer than --slowest seconds are left out, and Python's and the brows
 The log, build-mutants/log.jsonl, has a line a verdict with the hash of the mutant's file; what stands in it is not run
 again, but for survivors with --again (after new tests). Whoever has read a survivor and found it equivalent (no input
 can tell), harmless (speed, text, a tie, a limit chosen at will) or a hole says so with the reason in judged.json. The
-table is docs/tables/mutants.md. A sample that tests were written for says little of the code around it: --fresh 300 takes
-as many more that nobody has looked at, and the table has their share beside it.
+table is docs/tables/mutants.md. --fresh 300 takes as many more, which no test was written for, and tells their share beside.
 """
 import argparse
 import collections
@@ -409,8 +408,7 @@ def read_log():
 
 
 def write_table(mutants, dropped, log, command, asked):
-    """Of those whose names are `asked`; of the others of `mutants`, which are beyond the sample, in a sentence."""
-    judged = json.loads(JUDGED.read_text()) if JUDGED.exists() else {}
+    judged = json.loads(JUDGED.read_text())
     rows, total, survivors, days, beyond, earlier, unmet = {}, collections.Counter(), [], set(), collections.Counter(), 0, 0
     for number, mutant in enumerate(mutants):
         sampled = mutant["name"] in asked
@@ -420,14 +418,12 @@ def write_table(mutants, dropped, log, command, asked):
             count["dropped" if number in dropped else "to do"] += 1
             continue
         days.add(entry["day"])
-        earlier += sampled and entry.get("seeded", False)
-        count["run"] += 1
+        count["run"], earlier = count["run"] + 1, earlier + (sampled and entry.get("seeded", False))
         if entry["caught"]:
             count["caught"] += 1
             continue
         kind, reason = judged.get(mutant["name"], ["not judged", ""])
-        count[kind] += 1
-        unmet += kind == "not judged" and entry["left_out"] > 0
+        count[kind], unmet = count[kind] + 1, unmet + (kind == "not judged" and entry["left_out"] > 0)
         survivors.append((kind if sampled else f"beyond the sample, {kind}", mutant["path"].removeprefix("src/ripstop/"), str(mutant["m"].line), entry, reason, mutant["m"]))
     for count in rows.values():
         total.update(count)
@@ -442,18 +438,14 @@ def write_table(mutants, dropped, log, command, asked):
         return f"`{text if len(text) < 90 else text[:87] + '...'}`"
 
     lines = [f"{len(asked)} sampled, {total['dropped']} of them do not compile, {total['to do']} not run yet. Python's "
-             "and the browser's tests are left out, and those that take longer than the command's limit."]
-    if earlier:
-        lines[0] += f" {earlier} verdicts, on files that have not changed since, are those of an earlier run."
-    lines += [""]
+             "and the browser's tests are left out, and those that take longer than the command's limit."
+             + (f" {earlier} verdicts, on files that have not changed since, are those of an earlier run." if earlier else ""), ""]
     lines += tables.table(["room", "run", "equivalent", "harmless", "left", "caught", "of those left"],
                           [*(row(name, rows[name]) for name in sorted(rows)), row("all", total)])
-    if beyond["run"]:
-        held = beyond["run"] - beyond["equivalent"] - beyond["harmless"]
+    if held := beyond["caught"] + beyond["not judged"] + beyond["hole"]:
         lines += [f"Of {beyond['run']} mutants beyond the sample (`--fresh`), for which no test was written, {beyond['caught']} of "
-                  f"{held} that are neither equivalent nor harmless were caught: {100 * beyond['caught'] / max(1, held):.0f} %.", ""]
-    if unmet:
-        lines += [f"{unmet} survivors that are not judged were not met by all tests that come by them.", ""]
+                  f"{held} that are neither equivalent nor harmless were caught: {100 * beyond['caught'] / held:.0f} %.", ""]
+    lines += [f"{unmet} survivors that are not judged were not met by all tests that come by them.", ""] if unmet else []
     lines += ["## Survivors", "", "*Equivalent*: no input tells. *Harmless*: speed, the text of a message, a tie, a limit chosen at will.", ""]
     lines += tables.table(["where", "what was put", "for what", "judged", "why"],
                           [[f"{path}:{line}", code(m.mutant) if m.mutant else f"no `{m.text}`", code(m.text), kind, reason]
@@ -478,7 +470,7 @@ def main():
     options = parser.parse_args()
     WORK.mkdir(exist_ok=True)
     mutants = all_mutants(options.number + options.fresh)
-    asked = {m["name"] for m in (all_mutants(options.number) if options.fresh else mutants)}
+    asked = {m["name"] for m in all_mutants(options.number)}
     log = read_log()
     if options.table:
         dropped = json.loads((WORK / "dropped.json").read_text()) if (WORK / "dropped.json").exists() else []
