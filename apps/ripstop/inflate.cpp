@@ -162,7 +162,7 @@ int run(const InflateArguments& options) {
   const InflationFolderSettings settings{{folder, options.fresh}, threads};
   if (options.check) {
     check_inflation_in(settings, given, source);
-    const Inflation solver(opening_problem(given, source, threads));
+    const Inflation solver(with_engine(given, opening_problem(given, source, threads)));
     print_start(solver, solver.start(), source);
     return 0;
   }

@@ -70,6 +70,17 @@ TEST_F(Inputs, WhatCannotWorkIsRefusedBeforeItCostsAnything) {
   EXPECT_FALSE(fs::exists(in("p")));
 }
 
+TEST_F(Inputs, AnOpeningInItsOwnAirIsCheckedAndRefusedWhereItsClothIsNoSheet) {
+  const std::string flat = (fs::path(RIPSTOP_SOURCE_DIR) / "examples/flat-circular/case.toml").string();
+  const Finished check = ripstop_with({"inflate", flat, "--air", "coupled", "--cloth-nodes", "1500",
+                                       "--check", "--set", "inflation.initial_radius_m=0.15"});
+  EXPECT_EQ(check.code, 0) << check.output;
+  EXPECT_NE(check.output.find("the air at 20 m/s, stepped with the cloth: 80 x 80 x 98 cells"),
+            std::string::npos)
+      << check.output;
+  refused({"inflate", stratos, "--air", "coupled"}, 2, "flow.porosity_model");
+}
+
 TEST_F(Inputs, ADryRunRefusesWhatTheRunRefuses) {
   fs::create_directories(in("mine"));
   write_file(in("mine/notes.txt"), "mine");

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "ripstop/core/error.h"
 #include "ripstop/flow/cartesian/cartesian.h"
 
 namespace ripstop {
@@ -114,6 +115,14 @@ TEST(OpeningAir, APistonOfAnyMassMovesAsItsEquationSays) {
     EXPECT_NEAR(long_steps / right, 1, 0.1) << mass;
     EXPECT_GT(std::abs(long_steps - right), 1.6 * std::abs(short_steps - right)) << mass;
   }
+}
+
+TEST(OpeningAir, IsRefusedWithoutAnEngineOrWithoutASheet) {
+  const Mesh mesh = piston(0.04);
+  EXPECT_THROW(OpeningAir({closed_duct(), 0.5, nullptr}, mesh), Error);
+  FlowProblem bare = closed_duct();
+  bare.sheets.clear();
+  EXPECT_THROW(OpeningAir({bare, 0.5, make_cartesian({})}, mesh), Error);
 }
 
 // Under a pull that stays the same a payload falls as anything does.

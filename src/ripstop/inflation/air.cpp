@@ -55,6 +55,7 @@ OpeningAir::OpeningAir(const AirProblem& problem, const Mesh& mesh)
       node_mass_(mesh.mass),
       cells_(cells_of(mesh)),
       mass_(least_mass(mesh, cells_)) {
+  if (!engine_) throw Error(ExitCode::usage, "an opening in its own air needs a flow engine");
   flow_ = engine_->start(with_surface(problem.flow, surface_of(cells_, mesh.start)));
 }
 

@@ -76,14 +76,17 @@ double opening_seconds(const Inflation& solver, const InflationState& start) {
   return solver.problem().settings.duration_s / start.step * solver.mesh().node_count() / nodes_a_second;
 }
 
+InflationProblem with_engine(const Case& given, InflationProblem problem) {
+  if (!problem.air) return problem;
+  EngineOptions options = engine_options(given);
+  options.threads = problem.threads;
+  problem.air->engine = engine_of(given).make(options);
+  return problem;
+}
+
 InflationSolution run_inflation(const Case& given, const LoadSource& source, InflationProblem problem,
                                 InflationObserver& observer) {
-  if (problem.air) {
-    EngineOptions options = engine_options(given);
-    options.threads = problem.threads;
-    problem.air->engine = engine_of(given).make(options);
-  }
-  Inflation solver(std::move(problem));
+  Inflation solver(with_engine(given, std::move(problem)));
   InflationSolution solution;
   auto& [result, state, history] = solution;
   state = solver.start();

@@ -134,7 +134,10 @@ struct InflationSolution {
 /// How long an opening will take on one thread, about, at the step that it begins with [s].
 double opening_seconds(const Inflation& solver, const InflationState& start);
 
-/// The whole opening of the case under the pressure of `problem`. Throws as Inflation.
+/// An opening in its own air has the case's flow engine; others are left as they are.
+InflationProblem with_engine(const Case& given, InflationProblem problem);
+
+/// The whole opening of the case under the pressure, or in the air, of `problem`. Throws as Inflation.
 InflationSolution run_inflation(const Case& given, const LoadSource& source, InflationProblem problem,
                                 InflationObserver& observer);
 
