@@ -139,8 +139,9 @@ class Inflation {
   int rows_per_block() const { return rows_per_block_; }
   double row_duration() const { return row_; }  // [s]
 
-  /// One block; what the air did in it is added to `air_rows`. The step is `step_fraction` of the largest stable one; when strain has made that smaller than
-  /// the step by the block's end, the block is computed again. Throws Error(diverged).
+  /// One block; what the air did in it is added to `air_rows`. The step is `step_fraction` of the largest stable
+  /// one; when strain has made that smaller than the step by the block's end, the block is computed again, in air
+  /// the step of the air. Throws Error(diverged).
   std::vector<HistoryRow> advance(InflationState& state, std::vector<AirRow>* air_rows = nullptr);
   InflationFrame frame(InflationState& state) const;
 
