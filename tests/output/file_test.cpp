@@ -121,6 +121,9 @@ TEST(Files, EveryFailureNamesThePathAndTheReason) {
   expect(message_of(ExitCode::io, [&] { make_folder(below); }), below, "Not a directory");
   expect(message_of(ExitCode::io, [&] { make_folder(folder.path / "file"); }), "file", "Not a directory");
   expect(message_of(ExitCode::io, [&] { hash_folder(missing); }), missing, "No such file");
+  const std::string kernels = "/proc/self/comm";  // nobody's to remove
+  expect(message_of(ExitCode::io, [&] { remove_path(kernels); }), kernels, "cannot remove");
+  remove_path(missing);
   EXPECT_EQ(read_file(folder.path / "file"), "x");
 }
 

@@ -115,12 +115,6 @@ bool is_leftover(const std::vector<std::string>& names, const std::string& file)
                           folder.string(), holder.empty() ? "another run" : holder));
 }
 
-void take_away(const fs::path& path) {
-  std::error_code error;
-  fs::remove_all(path, error);
-  if (error) throw Error(ExitCode::io, fmt::format("cannot remove {}: {}", path.string(), error.message()));
-}
-
 }  // namespace
 
 ClaimedFolder::ClaimedFolder(fs::path folder) : folder_(std::move(folder)) {
@@ -148,7 +142,7 @@ ClaimedFolder::ClaimedFolder(fs::path folder) : folder_(std::move(folder)) {
   drop_broken_lines(list_of(folder_));
   names_ = listed(folder_);
   if (is_sealed(folder_)) {
-    take_away(kept_of(folder_));  // the seal has taken its place
+    remove_path(kept_of(folder_));  // the seal has taken its place
   } else {
     drop_broken_lines(kept_of(folder_));
     for (const std::string& line : lines_of(kept_of(folder_)))
@@ -184,15 +178,15 @@ fs::path ClaimedFolder::own(const std::string& name) {
 }
 
 void ClaimedFolder::clear() {
-  take_away(seal_of(folder_));  // first: what is half removed is not finished
+  remove_path(seal_of(folder_));  // first: what is half removed is not finished
   for (const std::string& name : names_) {
-    take_away(folder_ / name);
+    remove_path(folder_ / name);
     std::error_code full;  // a folder with anything else in it stays
     for (fs::path above = fs::path(name).parent_path(); !above.empty(); above = above.parent_path())
       if (!fs::remove(folder_ / above, full)) break;
   }
   for (const fs::directory_entry& record : fs::directory_iterator(folder_ / records))
-    if (record.path() != lock_of(folder_)) take_away(record.path());
+    if (record.path() != lock_of(folder_)) remove_path(record.path());
   names_.clear();
   kept_.clear();
 }
@@ -220,11 +214,11 @@ void ClaimedFolder::seal() const {
     if (!is_folder_name(name) && fs::exists(folder_ / name)) contents[name] = hash_file(folder_ / name);
   }
   write_sealed(seal_of(folder_), contents.dump(2) + "\n");
-  take_away(kept_of(folder_));
+  remove_path(kept_of(folder_));
 }
 
 void ClaimedFolder::unseal() const {
-  take_away(seal_of(folder_));
+  remove_path(seal_of(folder_));
 }
 
 void ClaimedFolder::note(const std::string& name, const std::string& text) const {
@@ -233,7 +227,7 @@ void ClaimedFolder::note(const std::string& name, const std::string& text) const
 
 void ClaimedFolder::drop_leftovers() const {
   for (const std::string& file : files_below(folder_)) {
-    if (is_leftover(names_, file)) take_away(folder_ / file);
+    if (is_leftover(names_, file)) remove_path(folder_ / file);
   }
 }
 

@@ -166,6 +166,12 @@ void append_to_file(const std::filesystem::path& path, std::string_view bytes) {
   if (reason != 0) fail("append to", path, reason);
 }
 
+void remove_path(const std::filesystem::path& path) {
+  std::error_code error;
+  std::filesystem::remove_all(path, error);
+  if (error) fail("remove", path, error.value());
+}
+
 TemporaryFolder::TemporaryFolder(const std::string& name) {
   std::string pattern = (std::filesystem::temp_directory_path() / ("ripstop-" + name + "-XXXXXX")).string();
   if (!::mkdtemp(pattern.data())) fail("create folder", pattern, errno);

@@ -22,6 +22,9 @@ std::string read_file(const std::filesystem::path& path);
 /// Creates the folder and those above it; it may exist. Throws Error(io).
 void make_folder(const std::filesystem::path& folder);
 
+/// Removes a file, or a folder with all that is in it; it may be gone already. Throws Error(io).
+void remove_path(const std::filesystem::path& path);
+
 /// Adds `bytes` at the end of a file, which is created if need be, and waits until they are on the disk. A
 /// kill may leave a part of them: for formats that can drop a broken tail. Throws Error(io).
 void append_to_file(const std::filesystem::path& path, std::string_view bytes);

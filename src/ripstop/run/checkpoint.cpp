@@ -31,8 +31,7 @@ SteadyState steady_state_from_bytes(const std::string& bytes) {
 void save_checkpoint(const fs::path& folder, const SteadyState& state, const Flow& flow) {
   make_folder(folder);
   const std::string name = state.iterations.size() % 2 == 0 ? "even" : "odd";
-  std::error_code ignored;
-  fs::remove_all(folder / name, ignored);
+  remove_path(folder / name);
   make_folder(folder / name);
   write_sealed(folder / name / "state", to_bytes(state));
   make_folder(folder / name / "flow");

@@ -38,6 +38,11 @@ std::string shape_file(const char* what, long long frame) {
 /// Of the air's state, in turn.
 constexpr const char* air_names[] = {"even", "odd"};
 
+// Nothing goes on from it when the opening is sealed.
+void drop_air_checkpoint(const fs::path& folder) {
+  remove_path(folder / "air");
+}
+
 std::string air_file(const Inflation& solver, long long frame) {
   return fmt::format("vtk/air_{:04}.{}", frame, solver.problem().air->flow.grid.uniform() ? "vti" : "vtr");
 }
@@ -202,8 +207,7 @@ void InflationFolder::ended(const Inflation& solver, const InflationState& state
   if (report_)
     if (const std::string failure = write_run_report(folder_); !failure.empty()) next_.warned(failure);
   folder_.seal();
-  std::error_code ignored;  // nothing will go on from it
-  if (with_air_) fs::remove_all(folder_.path() / "air", ignored);
+  drop_air_checkpoint(folder_.path());
   next_.ended(solver, state, history, result);
 }
 
@@ -337,7 +341,10 @@ std::optional<InflationResult> run_inflation_in(const InflationFolderSettings& s
                                                 const std::function<InflationProblem()>& problem,
                                                 InflationObserver& observer) {
   const auto claimed = open_run_folder(settings.run, given, solver_of(source), settings.threads);
-  if (finished_result(settings.run.folder)) return std::nullopt;
+  if (finished_result(settings.run.folder)) {
+    drop_air_checkpoint(settings.run.folder);
+    return std::nullopt;
+  }
   InflationFolder files(*claimed, settings, observer);
   InflationResult result = run_inflation(given, source, problem(), files).result;
   result.inputs_hash = inputs_of_run(settings.run.folder);

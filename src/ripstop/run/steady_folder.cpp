@@ -296,8 +296,7 @@ Case case_of_run(const fs::path& folder) {
 
 void drop_flow_checkpoint(const fs::path& folder) {
   if (!fs::exists(folder / "result.json")) return;
-  std::error_code ignored;
-  for (const char* name : {"even", "odd"}) fs::remove_all(folder / "checkpoint" / name / "flow", ignored);
+  for (const char* name : {"even", "odd"}) remove_path(folder / "checkpoint" / name / "flow");
 }
 
 }  // namespace ripstop

@@ -44,6 +44,7 @@ SteadyState final_state(const std::filesystem::path& folder);
 /// The case that was run there. Throws Error(usage) when there is none.
 Case case_of_run(const std::filesystem::path& folder);
 /// Gives back the disk space of the flow field in the checkpoint of a finished run; final_state() stays.
+/// Throws Error(io).
 void drop_flow_checkpoint(const std::filesystem::path& folder);
 
 }  // namespace ripstop

@@ -117,7 +117,11 @@ class Board {
       lock.lock();
       rows_[next] = std::move(row);
       stage_[next] = Stage::ended;
-      drop_what_nobody_needs();
+      try {
+        drop_what_nobody_needs();
+      } catch (const Error& error) {  // the run itself is whole: the same command tries only this again
+        rows_[next] = failed(error.what(), error.code());
+      }
       if (events_.ended) events_.ended(static_cast<std::size_t>(next), rows_);
       changed_.notify_all();
     }
@@ -153,6 +157,8 @@ class Board {
       return settings_.folder.empty() ? run_in_memory(i, threads) : run_in_folder(i, threads);
     } catch (const Error& error) {
       return failed(error.what(), error.code());
+    } catch (const std::system_error& error) {
+      return failed(error.what(), ExitCode::io);
     } catch (const std::exception& error) {
       return failed(error.what(), ExitCode::external);
     }

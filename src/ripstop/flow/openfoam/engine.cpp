@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "ripstop/core/error.h"
+#include "ripstop/core/file.h"
 #include "ripstop/core/process.h"
 #include "ripstop/flow/openfoam/case_reader.h"
 #include "ripstop/flow/openfoam/case_writer.h"
@@ -44,7 +45,7 @@ void clear(const fs::path& folder) {
     const bool time = !name.empty() && std::isdigit(static_cast<unsigned char>(name[0]));
     if (time || name == "constant" || name == "system" || name == "postProcessing" || name == kStopFile ||
         name.starts_with("log.") || name.starts_with("processor")) {
-      fs::remove_all(entry.path());
+      remove_path(entry.path());
     }
   }
 }
@@ -285,7 +286,7 @@ class OpenFoamFlow final : public Flow {
       for (const auto& entry : fs::directory_iterator(part)) {
         const std::string name = entry.path().filename();
         if (name != keep && name != "0" && std::isdigit(static_cast<unsigned char>(name[0]))) {
-          fs::remove_all(entry.path());
+          remove_path(entry.path());
         }
       }
     }

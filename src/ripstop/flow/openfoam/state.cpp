@@ -122,12 +122,12 @@ void save_state(const fs::path& folder, const Basis& basis, const CaseFolders& c
   if (fs::remove(folder / seal_name)) flush(folder);  // from here until the end the folder counts as empty
   for (std::size_t part = 0; part < case_folders.parts.size(); ++part) {
     const fs::path from = case_folders.parts[part] / time, to = folder / part_name(part);
-    fs::remove_all(to);
+    remove_path(to);
     fs::copy(from, to, fs::copy_options::recursive);
     for (const auto& entry : fs::recursive_directory_iterator(to)) flush(entry.path());
     flush(to);
   }
-  fs::remove_all(folder / "problem");
+  remove_path(folder / "problem");
   make_folder(folder / "problem");
   for (const auto& [from, to] : problem_files(case_folders, folder)) {
     if (!fs::exists(from)) continue;  // a flow that nobody advanced has no cells
@@ -164,7 +164,7 @@ SavedState read_state(const fs::path& folder) {
 
 void copy_state(const fs::path& folder, const SavedState& state, const CaseFolders& to) {
   for (std::size_t part = 0; part < to.parts.size(); ++part) {
-    fs::remove_all(to.parts[part] / state.time);
+    remove_path(to.parts[part] / state.time);
     fs::copy(folder / part_name(part), to.parts[part] / state.time, fs::copy_options::recursive);
   }
   for (const auto& [lies, saved] : problem_files(to, folder))
