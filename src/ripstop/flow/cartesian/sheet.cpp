@@ -180,7 +180,8 @@ void SheetRows::update(State& state, const Layout& layout, double momentum) {
   }
   for (Face& face : faces_) {
     const SheetFace& g = face.geometry;
-    const auto [low, high] = cells(g, layout);
+    const std::pair sides = cells(g, layout);
+    const std::ptrdiff_t low = sides.first, high = sides.second;  // a lambda of clang 14 takes no binding
     const Array<double>& flux = g.axis == 0 ? fields.fx : g.axis == 1 ? fields.fy : fields.fz;
     const auto along = [&](Vec3 v) { return g.axis == 0 ? v.x : g.axis == 1 ? v.y : v.z; };
     const double density = 0.5 * (fields.rho[low] + fields.rho[high]);
