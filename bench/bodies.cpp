@@ -3,6 +3,7 @@
 //                [turbulence intensity [sides: slip, entraining or zero-gradient]]]]]
 //   bench_bodies sides      what a near side does to disks
 //   bench_bodies in-time [cells across the body [body]]   steady flows and means over time side by side
+//   bench_bodies openfoam [cells across the body [body]]   built-in engine and OpenFOAM on the same cells
 #include "ripstop/flow/bodies.h"
 
 #include <fmt/format.h>
@@ -16,7 +17,9 @@
 #include <vector>
 
 #include "far_box.h"
+#include "ripstop/core/file.h"
 #include "ripstop/flow/cartesian/cartesian.h"
+#include "ripstop/flow/openfoam/openfoam.h"
 #include "ripstop/flow/steady.h"
 #include "ripstop/flow/unsteady.h"
 #include "table.h"
@@ -163,6 +166,50 @@ std::vector<Body> bodies_in_time(Vec3 centre) {
   return bodies;
 }
 
+/// The same sheet among the same cells, by both engines.
+void compare_engines(int argc, char** argv) {
+  const int across = argc > 2 ? std::atoi(argv[2]) : 12;
+  const std::string only = argc > 3 ? argv[3] : "";
+  constexpr double box = 12;
+  print_table_head(
+      fmt::format(
+          "Drag coefficients of bodies 1 m across at 30 m/s on d/{}, built-in engine and OpenFOAM, box 12 x "
+          "12 x 18 m, slip sides",
+          across),
+      argc, argv,
+      {"body", "reference", "built-in", "OpenFOAM", "beside the built-in", "area of OpenFOAM's faces",
+       "for its area", "OpenFOAM's ledger", "Cp front, back, built-in", "Cp front, back, OpenFOAM",
+       "minutes"});
+  for (const Body& body : all_bodies(place_in(box))) {
+    if (!only.empty() && body.name != only) continue;
+    FlowProblem problem = problem_of(body, far_box(1, box, across, place_in(box).z), 0.005, Sides::slip);
+    problem.outlet = Outlet::fixed_pressure;
+    auto minutes = [begin = std::chrono::steady_clock::now()]() mutable {
+      const auto before = std::exchange(begin, std::chrono::steady_clock::now());
+      return std::chrono::duration<double>(begin - before).count() / 60;
+    };
+    const Result ours = result_of(body, problem, solve(*make_cartesian(second_order()), problem));
+    const double own = minutes();
+    const TemporaryFolder folder("bodies");
+    OpenFoamSettings settings;
+    settings.folder = folder.path / "case";
+    settings.second_order = true;
+    problem.stopping.average_over = 0;
+    problem.stopping.residual = 1e-4;
+    const FlowField field = solve(*make_openfoam(settings), problem);
+    const Result theirs = result_of(body, problem, field);
+    double area = 0;
+    for (const SheetLoad& load : field.sheet_loads) area += std::abs(load.force.z / load.drop);
+    const double drag = field.porous_force.z;
+    print_row({body.name, fmt::format("{:.3f}", body.reference), fmt::format("{:.3f}", ours.coefficient),
+               fmt::format("{:.3f}", theirs.coefficient), off_by(theirs.coefficient, ours.coefficient),
+               off_by(area, body.area), off_by(theirs.coefficient * body.area / area, ours.coefficient),
+               off_by(field.momentum_deficit, drag), fmt::format("{:.3f}, {:.3f}", ours.front, ours.back),
+               fmt::format("{:.3f}, {:.3f}", theirs.front, theirs.back),
+               fmt::format("{:.1f}, {:.1f}", own, minutes())});
+  }
+}
+
 /// A steady flow, then 60 times that the stream takes for the body's width, and more until the error is 1 %.
 void compare_in_time(int argc, char** argv) {
   const int across = argc > 2 ? std::atoi(argv[2]) : 16;
@@ -210,6 +257,10 @@ void compare_in_time(int argc, char** argv) {
 int main(int argc, char** argv) {
   if (argc > 1 && std::string(argv[1]) == "in-time") {
     compare_in_time(argc, argv);
+    return 0;
+  }
+  if (argc > 1 && std::string(argv[1]) == "openfoam") {
+    compare_engines(argc, argv);
     return 0;
   }
   if (argc > 1 && std::string(argv[1]) == "sides") {

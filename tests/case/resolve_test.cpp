@@ -12,6 +12,7 @@
 #include "fixture.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/file.h"
+#include "ripstop/flow/engines.h"
 #include "ripstop/parachute/flat_circular.h"
 
 namespace ripstop {
@@ -305,8 +306,24 @@ TEST(Resolved, TheReadmesBoxStaysWithTheCanopyWhereItStandsAlready) {
   EXPECT_NEAR(placed.core.start_m, plain.core.start_m, 1e-12);
 }
 
-TEST(Resolved, ASheetIsRefusedForOpenFoamBeforeAnythingIsComputed) {
-  const Outcome outcome = outcome_of(short_case + "engine = \"openfoam\"\n");
+TEST(Resolved, OfASheetOpenFoamTakesTheDefaultsThatItHas) {
+  const Case given = parse_case(short_case + "engine = \"openfoam\"\n", "case.toml");
+  const FlowSettings flow = resolve(given).flow;
+  EXPECT_EQ(flow.porosity_model, PorosityModel::sheet);
+  EXPECT_EQ(flow.sides, Sides::slip);
+  EXPECT_EQ(flow.outlet, Outlet::fixed_pressure);
+  EXPECT_EQ(flow.average_over, 0);
+  const FlowSettings own = resolve(parse_case(short_case, "case.toml")).flow;
+  EXPECT_EQ(own.sides, Sides::entraining);
+  EXPECT_EQ(own.outlet, Outlet::still_air);
+  EXPECT_EQ(own.average_over, 60);
+}
+
+TEST(Resolved, ASheetIsRefusedForAnEngineWithoutSheetsBeforeAnythingIsComputed) {
+  EngineRecord engine = engine_of("openfoam");
+  engine.word = "without-sheets", engine.can.sheets = false;
+  add_engine(engine);
+  const Outcome outcome = outcome_of(short_case + "engine = \"without-sheets\"\n");
   ASSERT_EQ(outcome.problems.size(), 1u);
   EXPECT_EQ(outcome.problems[0].key, "flow.engine");
   EXPECT_NE(outcome.problems[0].message.find("f-111-physical"), std::string::npos);

@@ -38,7 +38,7 @@ TEST(Engines, WhatAnEngineHasNotIsSaidByTheKeysOfACase) {
                           {.sheets = true, .entraining_sides = true, .averages = true, .ranks = true});
   std::set<std::string> keys;
   for (const Lack& one : lack) keys.insert(one.key);
-  EXPECT_EQ(keys, (std::set<std::string>{"flow.porosity_model", "flow.sides", "flow.average_over"}));
+  EXPECT_EQ(keys, (std::set<std::string>{"flow.sides", "flow.average_over"}));
 }
 
 }  // namespace

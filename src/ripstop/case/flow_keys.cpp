@@ -71,8 +71,7 @@ void describe_space(Fields& fields, FlowKeys& flow) {
           "porosity_model", flow.porosity_model,
           {{"paper", PorosityModel::paper}, {"sheet", PorosityModel::sheet}},
           "\"paper\": the cloth's darcy and forchheimer as resistance of every cell that the canopy cuts; "
-          "\"sheet\": as the pressure drop a v + b v|v| across the cloth, whatever the cells "
-          "(built-in engine only).")
+          "\"sheet\": as the pressure drop a v + b v|v| across the cloth, whatever the cells.")
       .absent("what the canopy cloth's coefficients are for");
 }
 

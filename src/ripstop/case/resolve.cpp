@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "ripstop/flight/atmosphere.h"
+#include "ripstop/flow/engines.h"
 
 namespace ripstop {
 namespace {
@@ -174,27 +175,43 @@ void resolve_box(Follow& follow, const Design& parachute, FlowKeys& keys, FlowSe
   resolve_core(follow, d, keys, flow);
 }
 
+/// What the engine has; of one that there is not, which check_engine() tells, everything.
+Abilities abilities_of(const std::string& engine) {
+  for (const EngineRecord& one : engines())
+    if (one.word == engine) return one.can;
+  return {.entraining_sides = true, .still_air_outlet = true, .averages = true};
+}
+
 void resolve_numerics(Follow& follow, Case& written, Resolved& resolved) {
   FlowSettings& flow = resolved.flow;
   FlowKeys& keys = written.flow;
   const bool sheet = flow.porosity_model == PorosityModel::sheet;
   const ModelDefaults& standard = sheet ? sheet_defaults : paper_defaults;
   const std::string model = sheet ? "the sheet's default" : "the paper model's default";
+  const Abilities can = abilities_of(flow.engine);
+  const std::string lacking = fmt::format("the flow engine \"{}\" has not the sheet's default", flow.engine);
+  const bool sides_lack = standard.sides == Sides::entraining && !can.entraining_sides,
+             outlet_lacks = standard.outlet == Outlet::still_air && !can.still_air_outlet,
+             averages_lack = standard.average_over > 0 && !can.averages;
   flow.convection = follow("flow.convection", keys.convection, standard.convection, model);
   const TunnelKind tunnel = flow.tunnel.kind;
   flow.sides =
       tunnel == TunnelKind::free_air
-          ? follow("flow.sides", keys.sides, standard.sides, model)
+          ? follow("flow.sides", keys.sides, sides_lack ? Sides::slip : standard.sides,
+                   sides_lack ? lacking : model)
           : follow(
                 "flow.sides", keys.sides, tunnel == TunnelKind::closed ? Sides::slip : Sides::entraining,
                 tunnel == TunnelKind::closed ? "the walls of the test section" : "still air round the jet");
-  flow.outlet = tunnel == TunnelKind::open_jet
-                    ? follow("flow.outlet", keys.outlet, Outlet::still_air, "still air round the jet")
-                    : follow("flow.outlet", keys.outlet, standard.outlet, model);
+  flow.outlet =
+      tunnel == TunnelKind::open_jet
+          ? follow("flow.outlet", keys.outlet, Outlet::still_air, "still air round the jet")
+          : follow("flow.outlet", keys.outlet, outlet_lacks ? Outlet::fixed_pressure : standard.outlet,
+                   outlet_lacks ? lacking : model);
   flow.residual = follow("flow.residual", keys.residual, standard.residual, model);
   flow.max_iterations = follow("flow.max_iterations", keys.max_iterations, standard.max_iterations, model);
   flow.average_over = follow("flow.average_over", keys.average_over,
-                             std::min(standard.average_over, flow.max_iterations), model);
+                             averages_lack ? 0 : std::min(standard.average_over, flow.max_iterations),
+                             averages_lack ? lacking : model);
   CouplingSettings& coupling = resolved.coupling;
   static_cast<CouplingOptions&>(coupling) = written.coupling;
   coupling.load = follow("coupling.load", written.coupling.load, standard.load, model);

@@ -42,8 +42,8 @@ EngineRecord openfoam_rho_porous() {
     return make_openfoam(settings);
   };
   return {"openfoam",
-          "OpenFOAM's rhoPorousSimpleFoam with the same equations",
-          {.ranks = true},
+          "OpenFOAM's rhoPorousSimpleFoam with the same equations, its simpleFoam for sheets",
+          {.sheets = true, .ranks = true},
           [](const EngineOptions& options) {
             return "OpenFOAM " + openfoam::find_installation({}, options.ranks > 1).version;
           },

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "ripstop/core/error.h"
+#include "ripstop/flow/openfoam/foam_file.h"
 #include "ripstop/flow/openfoam/installation.h"
 #include "ripstop/flow/openfoam/openfoam.h"
 
@@ -32,21 +33,17 @@ namespace {
 
 /// Every file starts with OpenFOAM's header. Note for writers: a keyword directly before "(" reads as one
 /// word, so there is always a space.
-void write_dictionary(const fs::path& path, const std::string& kind, const std::string& body) {
+void write_dictionary(const fs::path& path, const std::string& kind, const std::string& body,
+                      const std::string& format = "ascii") {
   fs::create_directories(path.parent_path());
   std::ofstream out(path, std::ios::binary);
-  out << fmt::format(
-             "// Written by Ripstop; a change by hand is lost at the next solve.\n"
-             "FoamFile\n{{\n    version 2.0;\n    format ascii;\n    class {};\n    object {};\n}}\n\n",
-             kind, path.filename().string())
-      << body;
+  out << foam_header(kind, path.filename().string(), format) << body;
   close_written(out, path);
 }
 
 /// The six faces of the box and what a field has on them.
 std::string boundary(const std::string& inlet, const std::string& outlet, const std::string& sides) {
-  return fmt::format("boundaryField\n{{\n    inlet {{ {} }}\n    outlet {{ {} }}\n    sides {{ {} }}\n}}\n",
-                     inlet, outlet, sides);
+  return fmt::format("    inlet {{ {} }}\n    outlet {{ {} }}\n    sides {{ {} }}\n", inlet, outlet, sides);
 }
 
 /// Transported fields: given at the inlet, and at the outlet where air comes back in.
@@ -54,11 +51,6 @@ std::string carried(const std::string& value, const std::string& back_flow, cons
   return boundary(fmt::format("type fixedValue; value uniform {};", value),
                   fmt::format("type inletOutlet; inletValue uniform {}; value uniform {};", back_flow, value),
                   sides);
-}
-
-/// Exponents of kg, m, s, K.
-std::string field(const std::string& dimensions, const std::string& value, const std::string& faces) {
-  return fmt::format("dimensions [{} 0 0 0];\n\ninternalField uniform {};\n\n{}", dimensions, value, faces);
 }
 
 /// blockMesh's grading of one axis: parts of the length, of the cells, and last over first width.
@@ -138,7 +130,7 @@ mixture
 // Terms of one solver only are listed too (e, rho, limits of p, the two names of the stress): the other never
 // asks for them.
 constexpr char kSchemes[] = R"foam(ddtSchemes {{ default steadyState; }}
-gradSchemes {{ default Gauss linear; }}
+gradSchemes {{ default Gauss linear; limited cellLimited Gauss linear 1; }}
 divSchemes
 {{
     default none;
@@ -242,7 +234,7 @@ constexpr char kResistance[] = R"foam(porous{0}
 )foam";
 
 constexpr char kReadmeText[] =
-    R"foam(An OpenFOAM case written by Ripstop: steady flow through porous cells in a box,
+    R"foam(An OpenFOAM case written by Ripstop: steady flow through {} in a box,
 {} x {} x {} cells, air of {:.6g} kg/m3 at {:.6g} m/s, {} sides.
 Ripstop owns this folder and overwrites it.
 
@@ -250,11 +242,17 @@ To run it by hand, with OpenFOAM's programs in PATH and WM_PROJECT_DIR set
 (Debian: export WM_PROJECT_DIR=/usr/share/openfoam):
 
     rm -f {}
-    blockMesh
-    cp constant/cellZones constant/polyMesh/
-{}
-The porous cells are in constant/cellZones, their resistances in
+{}{}
+{})foam";
+
+constexpr char kOfPorousCells[] =
+    R"foam(The porous cells are in constant/cellZones, their resistances in
 constant/porosityProperties. blockMesh and cp are needed only to make the mesh anew.
+)foam";
+
+constexpr char kOfSheets[] =
+    R"foam(The mesh in constant/polyMesh is Ripstop's: the cloth lies in the patches cloth*. What passes those
+that are walls is a part of the case, in the field U; Ripstop renews it as the pressure changes.
 )foam";
 
 void range(const char* what, double value, double low, double high, const char* unit) {
@@ -279,7 +277,6 @@ void check(const FlowProblem& problem) {
   const auto refuse = [](bool has, const char* what) {
     if (has) throw Error(ExitCode::usage, fmt::format("{} needs flow.engine = \"builtin\"", what));
   };
-  refuse(!problem.sheets.empty(), "flow.porosity_model = \"sheet\"");
   refuse(problem.jet.has_value(), "flow.tunnel.kind = \"open-jet\"");
   refuse(problem.sides == Sides::entraining, "flow.sides = \"entraining\"");
   refuse(problem.outlet == Outlet::still_air, "flow.outlet = \"still-air\"");
@@ -314,9 +311,12 @@ void check(const FlowProblem& problem) {
 
 void write_case(const fs::path& folder, const FlowProblem& problem, const OpenFoamSettings& settings) {
   const FlowGrid& grid = problem.grid;
-  write_dictionary(folder / "system/blockMeshDict", "dictionary", mesh_dictionary(grid));
+  if (problem.sheets.empty())
+    write_dictionary(folder / "system/blockMeshDict", "dictionary", mesh_dictionary(grid));
+  // At the edge of a sheet without thickness an unlimited gradient throws the flow off.
+  const char* second_order = problem.sheets.empty() ? "linearUpwind grad(U)" : "linearUpwind limited";
   write_dictionary(folder / "system/fvSchemes", "dictionary",
-                   fmt::format(kSchemes, settings.second_order ? "linearUpwind grad(U)" : "upwind"));
+                   fmt::format(kSchemes, settings.second_order ? second_order : "upwind"));
   const std::array<int, 3> parts = split(grid, settings.ranks);
   write_dictionary(folder / "system/decomposeParDict", "dictionary",
                    fmt::format("numberOfSubdomains {};\nmethod hierarchical;\n"
@@ -333,19 +333,24 @@ void write_case(const fs::path& folder, const FlowProblem& problem, const OpenFo
   }
   write_dictionary(folder / "constant/turbulenceProperties", "dictionary",
                    "simulationType RAS;\nRAS { RASModel kOmegaSST; turbulence on; printCoeffs off; }\n");
-  const char* solver = solver_name(settings.incompressible);
+  const char* solver = solver_name(settings.incompressible, !problem.sheets.empty());
   const std::string run = settings.ranks > 1 ? fmt::format(
                                                    "    decomposePar\n    mpirun -np {} {} -parallel\n"
                                                    "    reconstructPar -latestTime\n",
                                                    settings.ranks, solver)
                                              : fmt::format("    {}\n", solver);
   std::ofstream readme(folder / kReadme);
-  readme << fmt::format(kReadmeText, grid.nx, grid.ny, grid.nz, problem.air.density, problem.air.speed,
-                        problem.sides == Sides::slip ? "slip" : "open", kStopFile, run);
+  const bool sheets = !problem.sheets.empty();
+  readme << fmt::format(kReadmeText, sheets ? "sheets" : "porous cells", grid.nx, grid.ny, grid.nz,
+                        problem.air.density, problem.air.speed,
+                        problem.sides == Sides::slip ? "slip" : "open", kStopFile,
+                        sheets ? "" : "    blockMesh\n    cp constant/cellZones constant/polyMesh/\n", run,
+                        sheets ? kOfSheets : kOfPorousCells);
   close_written(readme, folder / kReadme);
 }
 
-void write_initial_fields(const fs::path& folder, const FlowProblem& problem, bool incompressible) {
+void write_fields(const fs::path& folder, const FlowProblem& problem, bool incompressible,
+                  const FieldText& cells, const FieldText& cloth) {
   const Freestream& air = problem.air;
   const std::string open = problem.sides == Sides::slip ? "type slip;" : "type zeroGradient;";
   const auto number = [](double value) { return fmt::format("{:.17g}", value); };
@@ -355,24 +360,26 @@ void write_initial_fields(const fs::path& folder, const FlowProblem& problem, bo
   const double k = 1.5 * fluctuation * fluctuation;
   const double omega = k / (kinematic_viscosity(air) * air.viscosity_ratio);
   const std::string calculated = "type calculated; value uniform 0;";
-  const fs::path zero = folder / "0";
-  write_dictionary(
-      zero / "p", "volScalarField",
-      field(incompressible ? "0 2 -2 0" : "1 -1 -2 0", p,
-            boundary("type zeroGradient;", fmt::format("type fixedValue; value uniform {};", p), open)));
-  write_dictionary(zero / "U", "volVectorField",
-                   field("0 1 -1 0", velocity, carried(velocity, "(0 0 0)", open)));
+  const auto write = [&](const std::string& name, const char* kind, const char* dimensions,
+                         const std::string& uniform, const std::string& faces) {
+    const std::string inner = cells ? cells(name) : "";
+    const std::string body =
+        fmt::format("dimensions [{} 0 0 0];\n\ninternalField {};\n\nboundaryField\n{{\n{}{}}}\n", dimensions,
+                    inner.empty() ? "uniform " + uniform : inner, faces, cloth ? cloth(name) : "");
+    write_dictionary(folder / name, kind, body, cells ? "binary" : "ascii");
+  };
+  write("p", "volScalarField", incompressible ? "0 2 -2 0" : "1 -1 -2 0", p,
+        boundary("type zeroGradient;", fmt::format("type fixedValue; value uniform {};", p), open));
+  write("U", "volVectorField", "0 1 -1 0", velocity, carried(velocity, "(0 0 0)", open));
   const auto write_carried = [&](const char* name, const char* dimensions, const std::string& value) {
-    write_dictionary(zero / name, "volScalarField", field(dimensions, value, carried(value, value, open)));
+    write(name, "volScalarField", dimensions, value, carried(value, value, open));
   };
   write_carried("k", "0 2 -2 0", number(k));
   write_carried("omega", "0 0 -1 0", number(omega));
-  write_dictionary(zero / "nut", "volScalarField",
-                   field("0 2 -1 0", number(k / omega), boundary(calculated, calculated, calculated)));
+  write("nut", "volScalarField", "0 2 -1 0", number(k / omega), boundary(calculated, calculated, calculated));
   if (incompressible) return;
   write_carried("T", "0 0 0 1", number(air.temperature));
-  write_dictionary(zero / "alphat", "volScalarField",
-                   field("1 -1 -1 0", "0", boundary(calculated, calculated, calculated)));
+  write("alphat", "volScalarField", "1 -1 -1 0", "0", boundary(calculated, calculated, calculated));
 }
 
 void write_control(const fs::path& folder, const FlowProblem& problem, bool incompressible,
@@ -382,7 +389,7 @@ void write_control(const fs::path& folder, const FlowProblem& problem, bool inco
                              : fmt::format(kForces, incompressible ? "rhoInf" : "rho", problem.air.density);
   write_dictionary(folder / "system/controlDict", "dictionary",
                    fmt::format(kControl, control.start + control.iterations, control.iterations, kStopFile,
-                               forces, solver_name(incompressible)));
+                               forces, solver_name(incompressible, !problem.sheets.empty())));
 }
 
 void write_solution(const fs::path& folder, double residual) {

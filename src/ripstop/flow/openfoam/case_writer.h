@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -29,9 +30,12 @@ void close_written(std::ofstream& out, const std::filesystem::path& path);
 /// system/ (without controlDict), constant/, and a README that says what the case is and how to run it.
 void write_case(const std::filesystem::path& folder, const FlowProblem& problem,
                 const OpenFoamSettings& settings);
-/// Uniform fields in folder/0.
-void write_initial_fields(const std::filesystem::path& folder, const FlowProblem& problem,
-                          bool incompressible);
+/// Of a field by its name: what the cells have, "nonuniform List<scalar> ...", or what stands on the patches of cloth,
+/// "cloth_low { ... }"; nothing where it has none.
+using FieldText = std::function<std::string(const std::string& field)>;
+/// The fields in `folder`, a time's: the uniform stream where `cells` says nothing.
+void write_fields(const std::filesystem::path& folder, const FlowProblem& problem, bool incompressible,
+                  const FieldText& cells = {}, const FieldText& cloth = {});
 /// system/controlDict. A file named kStopFile in the case folder makes the solver write and end.
 void write_control(const std::filesystem::path& folder, const FlowProblem& problem, bool incompressible,
                    const RunControl& control);

@@ -56,7 +56,8 @@ std::string version_of(const std::string& line) {
 
 }  // namespace
 
-const char* solver_name(bool incompressible) {
+const char* solver_name(bool incompressible, bool sheets) {
+  if (sheets) return "simpleFoam";
   return incompressible ? "porousSimpleFoam" : "rhoPorousSimpleFoam";
 }
 

@@ -15,8 +15,8 @@ struct Installation {
   std::string solver;             // name of its program
 };
 
-/// rhoPorousSimpleFoam or porousSimpleFoam.
-const char* solver_name(bool incompressible);
+/// rhoPorousSimpleFoam or porousSimpleFoam; of sheets simpleFoam.
+const char* solver_name(bool incompressible, bool sheets = false);
 
 /// Throws Error(external): program missing (with the package to install), not of the openfoam.com line, or
 /// without its etc/controlDict.

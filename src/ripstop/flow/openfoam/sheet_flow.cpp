@@ -1,0 +1,341 @@
+#include "ripstop/flow/openfoam/sheet_flow.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "ripstop/core/error.h"
+#include "ripstop/core/file.h"
+#include "ripstop/flow/openfoam/baffles.h"
+#include "ripstop/flow/openfoam/case_reader.h"
+#include "ripstop/flow/openfoam/case_writer.h"
+#include "ripstop/flow/openfoam/foam_file.h"
+#include "ripstop/flow/openfoam/programs.h"
+#include "ripstop/flow/openfoam/state.h"
+
+namespace ripstop::openfoam {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kBegin = "0";  // the folder of the time that a run begins with
+constexpr double small = 1e-3;   // of the stream's speed: a change of what passes that waits
+constexpr const char* cell_fields[] = {"p", "U", "k", "omega"};
+
+int components_of(const std::string& field) {
+  return field == "U" ? 3 : 1;
+}
+
+Installation with_simple_foam(Installation installation, int ranks) {
+  installation.solver = solver_name(true, true);
+  program(installation, installation.solver);
+  if (ranks > 1) program(installation, "reconstructPar");
+  return installation;
+}
+
+Vec3 along(int axis, double value) {
+  return {axis == 0 ? value : 0, axis == 1 ? value : 0, axis == 2 ? value : 0};
+}
+
+/// Where the cloth lies elsewhere, or what passes tight cloth has changed, the run begins anew with the cells' values of
+/// the last one, in the folder of time 0; else it goes on.
+class SheetFlow final : public Flow {
+ public:
+  SheetFlow(const FlowProblem& problem, const OpenFoamSettings& settings, const fs::path& folder,
+            const Installation& installation)
+      : problem_(problem), settings_(settings), folder_(folder), programs_(settings, folder, installation) {
+    settings_.incompressible = true;
+    check(problem_);
+    fs::create_directories(folder_);
+    start_afresh();
+  }
+
+  void place(const std::vector<Triangle>& surface, const SheetMotion&) override {
+    for (Sheet& sheet : problem_.sheets) sheet.surface = surface;
+    lay_cloth();
+  }
+
+  FlowAdvance advance(int iterations, double residual, const FlowReport& report) override {
+    check_run(iterations, residual);
+    FlowAdvance now;
+    int done = 0;
+    while (done < iterations && !now.converged && !now.stopped) {
+      const int piece = std::min(Stopping::piece, iterations - done);
+      SolverLog log(false);
+      run(piece, residual, log, now.stopped, [&](FlowProgress progress) {
+        progress.iteration += done;
+        progress.drag = drag_;
+        return !report || report(progress);
+      });
+      now.last = log.progress();
+      now.last.iteration += done;
+      now.last.drag = drag_;
+      now.converged = log.converged();
+      done = now.last.iteration;
+    }
+    return now;
+  }
+
+  FlowField field() const override {
+    FlowField field = read_case(mesh_, time_, problem_, true);
+    field.sheet_loads = loads_;
+    for (const SheetLoad& load : loads_) field.porous_force += load.force;
+    return field;
+  }
+  std::vector<SheetLoad> sheet_loads() const override { return loads_; }
+
+  bool untouched() const override { return untouched_; }
+  void start_afresh() override {
+    clear_case(folder_);
+    programs_.need_space(problem_.grid);
+    write_case(folder_, problem_, settings_);
+    write_solution(folder_, problem_.stopping.residual);
+    time_ = kBegin;
+    untouched_ = true;
+    drag_ = 0;
+    loads_.clear();
+    write_fields(folder_ / kBegin, problem_, true);
+    lay_cloth();
+  }
+
+  void save(const fs::path& folder) const override {
+    save_state(folder, basis(), {folder_, {folder_}}, time_);
+  }
+  void restore(const fs::path& folder) override {
+    const SavedState state = read_state(folder);
+    if (!(state.basis == basis()))
+      throw Error(ExitCode::usage,
+                  fmt::format("the flow saved in {} was made in another box of air, in other air or "
+                              "with other settings of OpenFOAM",
+                              folder.string()));
+    copy_state(folder, state, {folder_, {folder_}});
+    time_ = state.time;
+    untouched_ = false;
+    lay_cloth();
+  }
+
+ private:
+  Basis basis() const {
+    return {problem_.grid, problem_.air, problem_.sides, settings_.ranks, settings_.second_order, true};
+  }
+  std::vector<fs::path> part_folders() const {
+    if (settings_.ranks == 1) return {folder_};
+    std::vector<fs::path> parts;
+    for (int rank = 0; rank < settings_.ranks; ++rank)
+      parts.push_back(folder_ / fmt::format("processor{}", rank));
+    return parts;
+  }
+
+  void lay_cloth() {
+    patches_ = baffles_of(problem_);
+    write_mesh(folder_ / "constant/polyMesh", problem_.grid, patches_);
+    mesh_ = read_mesh(folder_, 1);
+    through_.clear();
+    goes_on_ = false;
+  }
+
+  std::vector<double> values(const std::string& field) const {
+    const std::size_t count = static_cast<std::size_t>(problem_.grid.cells()),
+                      parts = static_cast<std::size_t>(components_of(field));
+    FieldData data = read_field(folder_ / time_ / field, components_of(field), count);
+    if (data.inner.size() == count * parts) return std::move(data.inner);
+    std::vector<double> all(count * parts);
+    for (std::size_t n = 0; n < all.size(); ++n) all[n] = data.inner[n % parts];
+    return all;
+  }
+  /// Over the density [m2/s2].
+  std::vector<double> pressures() const { return values("p"); }
+
+  /// Across tight cloth, along the axis [Pa].
+  double drop(const Baffle& baffle, const std::vector<double>& p) const {
+    return problem_.air.density * (p[baffle.low] - p[baffle.high]);
+  }
+  /// What passes the faces of tight cloth [m/s], all of them, a step closer to what the pressure asks for.
+  std::vector<double> through_tight(const std::vector<double>& p) const {
+    std::vector<double> through;
+    for (const BafflePatch& patch : patches_) {
+      if (patch.loose) continue;
+      for (const Baffle& baffle : patch.baffles) {
+        const double asked = passing(baffle, problem_.sheets, drop(baffle, p));
+        const double before = through_.empty() ? 0 : through_[through.size()];
+        through.push_back(before + pace(baffle, problem_) * (asked - before));
+      }
+    }
+    return through;
+  }
+
+  /// What stands on the patches of the cloth in a field.
+  std::string on_cloth(const std::string& field) const {
+    std::string text;
+    for (const BafflePatch& patch : patches_) {
+      const std::string entry = patch.loose ? on_loose(field, patch) : on_tight(field, patch);
+      for (const char* side : {"_low", "_high"})
+        text += fmt::format("    {}{} {{ {} }}\n", patch.name, side, entry);
+    }
+    return text;
+  }
+  std::string on_loose(const std::string& field, const BafflePatch& patch) const {
+    if (field != "p") return "type cyclic;";
+    return fmt::format(
+        "type porousBafflePressure; patchType cyclic; D {:.17g}; I {:.17g}; length 1; jump uniform 0; value "
+        "uniform 0;",
+        patch.linear / problem_.air.viscosity, 2 * patch.quadratic / problem_.air.density);
+  }
+  std::string on_tight(const std::string& field, const BafflePatch& patch) const {
+    if (field == "nut") return "type fixedValue; value uniform 0;";  // else it pulls on the wall
+    if (field != "U") return "type zeroGradient;";
+    std::vector<double> through;
+    for (std::size_t n = 0; n < patch.baffles.size(); ++n) {
+      const Vec3 v = along(patch.baffles[n].axis, through_[n]);
+      through.insert(through.end(), {v.x, v.y, v.z});
+    }
+    return fmt::format("type fixedNormalSlip; fixedValue nonuniform List<vector> {};",
+                       binary_list(through, 3));
+  }
+
+  /// The cells' values as time 0 of the mesh as it is now, with what passes tight cloth now.
+  void begin_anew() {
+    std::map<std::string, std::vector<double>> cells;
+    for (const char* field : cell_fields) cells[field] = values(field);
+    through_ = through_tight(cells["p"]);
+    const fs::path start = folder_ / "start";
+    write_fields(
+        start, problem_, true,
+        [&](const std::string& field) {
+          const auto found = cells.find(field);
+          if (found == cells.end()) return std::string();
+          const int parts = components_of(field);
+          return fmt::format("nonuniform List<{}> {}", parts == 3 ? "vector" : "scalar",
+                             binary_list(found->second, parts));
+        },
+        [&](const std::string& field) { return on_cloth(field); });
+    purge("");
+    fs::rename(start, folder_ / kBegin);
+    time_ = kBegin;
+  }
+
+  bool has_to_begin_anew() const {
+    if (!goes_on_) return true;
+    const std::vector<double> now = through_tight(pressures());
+    double change = 0;
+    for (std::size_t n = 0; n < now.size(); ++n) change = std::max(change, std::abs(now[n] - through_[n]));
+    return change > small * problem_.air.speed;
+  }
+
+  /// Leaves only the fields of one time.
+  void purge(const std::string& keep) const {
+    std::vector<fs::path> folders = part_folders();
+    if (settings_.ranks > 1) folders.push_back(folder_);
+    for (const fs::path& folder : folders) {
+      if (!fs::exists(folder)) continue;
+      for (std::string time = latest_time(folder); !time.empty(); time = latest_time(folder)) {
+        if (time == keep) break;
+        remove_path(folder / time);
+      }
+    }
+  }
+
+  void run(int iterations, double residual, SolverLog& log, bool& stopped, const FlowReport& report) {
+    const bool anew = has_to_begin_anew();
+    if (anew) begin_anew();
+    const std::string before = time_;
+    write_solution(folder_, residual);
+    write_control(folder_, problem_, true, {std::stod(before), iterations});
+    if (anew && settings_.ranks > 1) {
+      for (const fs::path& part : part_folders()) remove_path(part);
+      programs_.run_tool("decomposePar");
+    }
+    fs::remove(folder_ / kStopFile);
+    const ProcessResult result = programs_.run_solver(report, log, stopped);
+    if (settings_.ranks > 1) programs_.run_tool("reconstructPar");
+    time_ = latest_time(folder_);
+    if (time_ == before)
+      throw Error(ExitCode::external,
+                  fmt::format("{} ended with {} but left no fields in {}; see {}", programs_.solver(),
+                              describe(result), folder_.string(), programs_.solver_log().string()));
+    for (const fs::path& part : part_folders()) remove_path(part / before);
+    remove_path(folder_ / before);
+    goes_on_ = true;
+    untouched_ = false;
+    find_loads();
+  }
+
+  /// Drop on every face of a patch, along its axis [Pa]: the pressure's across tight cloth, the law's for what passes
+  /// loose cloth.
+  std::vector<double> drops(const BafflePatch& patch, const std::vector<double>& p,
+                            const FieldData& flux) const {
+    std::vector<double> drops;
+    for (std::size_t n = 0; n < patch.baffles.size(); ++n) {
+      const Baffle& baffle = patch.baffles[n];
+      if (!patch.loose) {
+        drops.push_back(drop(baffle, p));
+        continue;
+      }
+      const double v = flux.at(flux.patches.at(patch.name + "_low"), n) / baffle.area;
+      drops.push_back(patch.linear * v + patch.quadratic * v * std::abs(v));
+    }
+    return drops;
+  }
+
+  void find_loads() {
+    const std::vector<double> p = pressures();
+    const FieldData flux = read_field(folder_ / time_ / "phi", 1, mesh_.front().inner_faces());
+    loads_.clear();
+    drag_ = 0;
+    for (const BafflePatch& patch : patches_) {
+      const std::vector<double> whole = drops(patch, p, flux);
+      for (std::size_t n = 0; n < patch.baffles.size(); ++n) add_loads(patch.baffles[n], whole[n]);
+    }
+    for (const SheetLoad& load : loads_) drag_ += load.force.z;
+  }
+
+  /// The drop acts on the whole face; layers share it as they resist.
+  void add_loads(const Baffle& baffle, double drop) {
+    const double v = std::abs(passing(baffle, problem_.sheets, drop));
+    std::vector<double> part;
+    double sum = 0;
+    for (const Layer& layer : baffle.layers) {
+      const Sheet& sheet = problem_.sheets[layer.sheet];
+      part.push_back(sheet.linear / layer.slant + sheet.quadratic * v / (layer.slant * layer.slant));
+      sum += part.back();
+    }
+    for (std::size_t n = 0; n < part.size(); ++n) {
+      const cartesian::SheetFace& face = baffle.layers[n].face;
+      const double own = sum > 0 ? drop * part[n] / sum : drop / static_cast<double>(part.size());
+      SheetLoad load;
+      load.sheet = baffle.layers[n].sheet;
+      load.triangle = face.triangle;
+      load.point = face.point;
+      load.outward = face.outward;
+      load.drop = face.against ? -own : own;
+      load.force = along(face.axis, own * baffle.area);
+      load.area = baffle.area * dot(face.normal, along(face.axis, 1));
+      loads_.push_back(load);
+    }
+  }
+
+  FlowProblem problem_;
+  OpenFoamSettings settings_;
+  fs::path folder_;
+  Programs programs_;
+  std::vector<BafflePatch> patches_;
+  std::vector<MeshPart> mesh_;
+  std::string time_ = kBegin;
+  bool untouched_ = true;
+  bool goes_on_ = false;         // the fields of time_ are of the mesh as it is
+  std::vector<double> through_;  // tight cloth, as OpenFOAM has it [m/s]
+  std::vector<SheetLoad> loads_;
+  double drag_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Flow> start_sheet_flow(const FlowProblem& problem, const OpenFoamSettings& settings,
+                                       const fs::path& folder, const Installation& installation) {
+  return std::make_unique<SheetFlow>(problem, settings, folder,
+                                     with_simple_foam(installation, settings.ranks));
+}
+
+}  // namespace ripstop::openfoam

@@ -1,0 +1,17 @@
+// Flow through sheets on OpenFOAM: simpleFoam on the cells of the grid, with the cloth in the faces that it parts.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "ripstop/flow/flow.h"
+#include "ripstop/flow/openfoam/installation.h"
+#include "ripstop/flow/openfoam/openfoam.h"
+
+namespace ripstop::openfoam {
+
+/// A flow of constant density. It owns `folder`, OpenFOAM's case. Throws Error(usage) for what OpenFOAM has not.
+std::unique_ptr<Flow> start_sheet_flow(const FlowProblem& problem, const OpenFoamSettings& settings,
+                                       const std::filesystem::path& folder, const Installation& installation);
+
+}  // namespace ripstop::openfoam

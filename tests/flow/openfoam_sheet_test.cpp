@@ -1,0 +1,196 @@
+// Sheets on OpenFOAM beside what is known.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "ripstop/core/error.h"
+#include "ripstop/core/file.h"
+#include "ripstop/core/process.h"
+#include "ripstop/flow/bodies.h"
+#include "ripstop/flow/openfoam/baffles.h"
+#include "ripstop/flow/openfoam/installation.h"
+#include "ripstop/flow/openfoam/openfoam.h"
+#include "ripstop/flow/steady.h"
+
+namespace ripstop {
+namespace {
+
+/// A rectangle by its corner and two sides.
+std::vector<Triangle> rectangle(Vec3 corner, Vec3 u, Vec3 v) {
+  return {{corner, corner + u, corner + u + v}, {corner, corner + u + v, corner + v}};
+}
+
+/// A sheet across a whole duct of 4 x 4 x 20 cells.
+FlowProblem screen_in_duct(double linear, double quadratic) {
+  FlowProblem problem;
+  problem.grid = {{0, 0, 0}, {0.4, 0.4, 2.0}, 4, 4, 20};
+  problem.air.speed = 10;
+  problem.sides = Sides::slip;
+  problem.sheets = {{rectangle({-1, -1, 1.03}, {3, 0, 0}, {0, 3, 0}), linear, quadratic}};
+  problem.stopping.max_iterations = 300;
+  return problem;
+}
+
+/// A plate of 1 m in a box of 4 m, four cells across.
+FlowProblem plate_in_box(double linear, double quadratic) {
+  FlowProblem problem;
+  problem.grid = {{-2, -2, 0}, {4, 4, 5}, 16, 16, 20};
+  problem.air.speed = 10;
+  problem.sides = Sides::slip;
+  problem.sheets = {{square_plate(1, {0, 0, 2.02}), linear, quadratic}};
+  problem.stopping.max_iterations = 300;
+  return problem;
+}
+
+class OpenFoamSheet : public testing::Test {
+ protected:
+  std::unique_ptr<FlowEngine> sheets_on_openfoam(const std::string& name, int ranks = 1) const {
+    OpenFoamSettings settings;
+    settings.folder = folder_.path / name;
+    settings.ranks = ranks;
+    settings.second_order = true;
+    return make_openfoam(settings);
+  }
+  FlowField solved(const FlowProblem& problem, int ranks = 1) const {
+    return solve(*sheets_on_openfoam("case", ranks), problem);
+  }
+  TemporaryFolder folder_{"openfoam-sheet"};
+};
+
+TEST_F(OpenFoamSheet, AScreenAcrossADuctTakesThePressureOfItsLaw) {
+  const FlowField field = solved(screen_in_duct(3, 0.5));
+  const double drop = 3 * 10 + 0.5 * 100;
+  EXPECT_NEAR(field.pressure[0], drop, 5e-3 * drop);
+  EXPECT_NEAR(field.porous_force.z, drop * 0.16, 1e-6 * drop);
+  EXPECT_NEAR(field.momentum_deficit, drop * 0.16, 5e-3 * drop * 0.16);
+}
+
+// The momentum that the box loses is the force on the sheet, whether the pressure jumps across it or what passes is given.
+TEST_F(OpenFoamSheet, TheBoxLosesTheMomentumThatThePlateTakes) {
+  const FlowField loose = solved(plate_in_box(2, 0.1));
+  EXPECT_NEAR(loose.momentum_deficit, loose.porous_force.z, 0.02 * loose.porous_force.z);
+  const FlowField tight = solved(plate_in_box(30, 0));
+  EXPECT_NEAR(tight.momentum_deficit, tight.porous_force.z, 0.01 * tight.porous_force.z);
+  const FlowField shut = solved(plate_in_box(1e6, 0));
+  EXPECT_NEAR(shut.momentum_deficit, shut.porous_force.z, 0.01 * shut.porous_force.z);
+  EXPECT_LT(loose.porous_force.z, tight.porous_force.z);
+  EXPECT_LT(tight.porous_force.z, shut.porous_force.z);
+}
+
+TEST_F(OpenFoamSheet, AirComesOutOfThePlateAsItsPressureAsksForAndElseComesBack) {
+  const auto behind = [](const FlowField& field) { return field.velocity[field.grid.index(8, 8, 8)].z; };
+  const FlowField field = solved(plate_in_box(30, 0));
+  ASSERT_EQ(field.sheet_loads.size(), 16u);
+  for (const SheetLoad& load : field.sheet_loads) {
+    EXPECT_GT(load.outward.z * load.drop, 0);
+    EXPECT_NEAR(load.area, 0.0625, 1e-12);
+  }
+  const double passes = std::abs(field.sheet_loads[10].drop) / 30;
+  EXPECT_GT(behind(field), 0.25 * passes);
+  EXPECT_LT(behind(field), passes);
+  EXPECT_LT(behind(solved(plate_in_box(1e6, 0))), 0);
+}
+
+TEST_F(OpenFoamSheet, TwoRanksGiveTheDragOfOne) {
+  const double one = solved(plate_in_box(30, 0)).porous_force.z;
+  EXPECT_NEAR(solved(plate_in_box(30, 0), 2).porous_force.z, one, 2e-3 * one);
+}
+
+TEST_F(OpenFoamSheet, ARestoredFlowGoesOnByteForByteWhenTheClothIsPlaced) {
+  const FlowProblem problem = plate_in_box(30, 0);
+  const std::vector<Triangle> moved = square_plate(1, {0, 0, 2.3});
+  const auto goes_on = [&](Flow& flow) {
+    flow.place(moved);
+    flow.advance(30, 1e-9);
+    return flow.field();
+  };
+  FlowField whole;
+  {
+    const auto engine = sheets_on_openfoam("whole");
+    const auto flow = engine->start(problem);
+    EXPECT_TRUE(flow->untouched());
+    flow->advance(40, 1e-9);
+    EXPECT_FALSE(flow->untouched());
+    flow->save(folder_.path / "saved");
+    whole = goes_on(*flow);
+  }
+  const auto engine = sheets_on_openfoam("resumed");
+  const auto flow = engine->start(problem);
+  flow->restore(folder_.path / "saved");
+  const FlowField resumed = goes_on(*flow);
+  EXPECT_EQ(whole.pressure, resumed.pressure);
+  EXPECT_EQ(whole.porous_force.z, resumed.porous_force.z);
+  EXPECT_NE(whole.porous_force.z, 0);
+}
+
+TEST_F(OpenFoamSheet, AreTheFacesThatASlantedSheetParts) {
+  FlowProblem problem = plate_in_box(1e4, 0);
+  // At 45 degrees to y and z, from side to side of the box.
+  problem.sheets[0].surface = rectangle({-3, -1.53, 1.02}, {6, 0, 0}, {0, 3, 3});
+  double passes = 0;
+  int slanted = 0;
+  for (const openfoam::BafflePatch& patch : openfoam::baffles_of(problem)) {
+    EXPECT_FALSE(patch.loose);
+    for (const openfoam::Baffle& baffle : patch.baffles) {
+      ASSERT_EQ(baffle.layers.size(), 1u);
+      EXPECT_EQ(baffle.high - baffle.low, baffle.axis == 0 ? 1 : baffle.axis == 1 ? 16 : 256);
+      passes += baffle.layers[0].slant * baffle.area;
+      slanted += baffle.axis == 1;
+      // a v of the law, with the face's own velocity v: the sheet's times the slant
+      EXPECT_NEAR(openfoam::passing(baffle, problem.sheets, 50), 50 / 1e4 * baffle.layers[0].slant, 1e-12);
+    }
+  }
+  EXPECT_GT(slanted, 0);
+  EXPECT_NEAR(passes, 4 * 3 * std::sqrt(2.0),
+              0.05 * 4 * 3 * std::sqrt(2.0));  // of its edge half a cell is left out
+}
+
+TEST_F(OpenFoamSheet, LayersInOneFaceStandInSeries) {
+  FlowProblem problem = plate_in_box(1e3, 0);
+  problem.sheets.push_back({square_plate(1, {0, 0, 2.03}), 0, 200});
+  const std::vector<openfoam::BafflePatch> patches = openfoam::baffles_of(problem);
+  ASSERT_EQ(patches.size(), 1u);
+  ASSERT_EQ(patches[0].baffles.size(), 16u);
+  const openfoam::Baffle& baffle = patches[0].baffles[5];
+  ASSERT_EQ(baffle.layers.size(), 2u);
+  const double v = openfoam::passing(baffle, problem.sheets, -60);
+  EXPECT_LT(v, 0);
+  EXPECT_NEAR(1e3 * v - 200 * v * v, -60, 1e-9);
+}
+
+TEST_F(OpenFoamSheet, TheMeshIsOneThatOpenFoamFindsSound) {
+  FlowProblem problem = plate_in_box(30, 0);
+  problem.sheets.push_back({rectangle({-1, -1, 3.1}, {2, 0, 0.4}, {0, 2, 0}), 2, 0});
+  const auto flow = sheets_on_openfoam("case")->start(problem);
+  flow->advance(1, 1e-9);
+  const openfoam::Installation installation = openfoam::find_installation({}, false);
+  ProcessRequest request;
+  request.arguments = {openfoam::program(installation, "checkMesh").string()};
+  request.working_folder = folder_.path / "case";
+  request.environment = openfoam::environment(installation);
+  bool sound = false;
+  int patches = 0;
+  request.on_line = [&](const std::string& line) {
+    sound |= line == "Mesh OK.";
+    patches += line.find("cloth") != std::string::npos && line.find("ok (") != std::string::npos;
+    return true;
+  };
+  EXPECT_TRUE(run_process(request).succeeded());
+  EXPECT_TRUE(sound);
+  EXPECT_GE(patches, 4);
+}
+
+TEST_F(OpenFoamSheet, WhatOnlyTheBuiltInEngineHasIsRefused) {
+  FlowProblem problem = plate_in_box(30, 0);
+  problem.sides = Sides::entraining;
+  try {
+    sheets_on_openfoam("case")->start(problem);
+    FAIL() << "no Error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::usage);
+    EXPECT_STREQ(error.what(), "flow.sides = \"entraining\" needs flow.engine = \"builtin\"");
+  }
+}
+
+}  // namespace
+}  // namespace ripstop
