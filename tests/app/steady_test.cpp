@@ -90,6 +90,32 @@ TEST_F(Steady, WithOpenFoamTheDragIsThatOfTheBuiltInEngineAndAKilledRunEndsWithT
             whole.at("coupling_iterations").get<std::size_t>());
 }
 
+// Sheets on OpenFOAM: three coupling iterations on coarse cells, one of them broken off.
+TEST_F(Steady, WithSheetsOnOpenFoamAKilledRunEndsWithTheSameNumbers) {
+  const auto run = [&](const std::string& out) {
+    return start({"steady", std::string(RIPSTOP_SOURCE_DIR) + "/examples/flat-circular/case.toml", "--flow",
+                  "openfoam", "--grid", "20,20,25", "--set", "parachute.mesh.cloth_nodes=500", "--set",
+                  "coupling.threads=1", "--set", "coupling.max_iterations=3", "--set", "flow.residual=1e-2",
+                  "--out", (folder_ / out).string()});
+  };
+  constexpr int not_converged = 4;
+  ASSERT_EQ(wait_for(run("whole")), not_converged);
+  const json whole = result("whole");
+  EXPECT_GT(whole.at("drag_n").get<double>(), 50);
+  const pid_t child = run("killed");
+  while (!fs::exists(folder_ / "killed" / "checkpoint" / "current")) {
+    ASSERT_EQ(waitpid(child, nullptr, WNOHANG), 0) << "ended before its first checkpoint";
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  kill(child, SIGKILL);
+  wait_for(child);
+  ASSERT_EQ(wait_for(run("killed")), not_converged);
+  const json resumed = result("killed");
+  for (const char* key : {"drag_n", "projected_diameter_m", "max_line_tension_n", "max_von_mises_n_m"})
+    EXPECT_EQ(resumed.at(key), whole.at(key)) << key;
+  EXPECT_EQ(read_csv(folder_ / "killed" / "iterations.csv").rows.size(), 3u);
+}
+
 // The drag alone has settled after three coupling iterations, with the wake still growing: the box then loses
 // 7 % less momentum than the canopy takes.
 TEST_F(Steady, WhereTheFlowDoesNotSettleItsMeanStandsOnceTheLedgerCloses) {

@@ -107,7 +107,7 @@ TEST_F(FieldFile, BoundaryListsItsFaces) {
 }
 
 TEST(SolverLog, AnIterationEndsWithItsForces) {
-  SolverLog log(true);
+  SolverLog log(SolverLog::Forces::porous);
   const std::vector<std::string> lines = {
       "trapFpe: Floating point exception trapping enabled (FOAM_SIGFPE).",
       "Time = 41",

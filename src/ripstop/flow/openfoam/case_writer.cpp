@@ -200,8 +200,8 @@ constexpr char kForces[] = R"foam(    porousForces
     {{
         type forces;
         libs ("libforces.so");
-        patches ();
-        porosity true;
+        patches ({});
+        porosity {};
         rho {};
         rhoInf {:.17g};
         CofR (0 0 0);
@@ -384,12 +384,15 @@ void write_fields(const fs::path& folder, const FlowProblem& problem, bool incom
 
 void write_control(const fs::path& folder, const FlowProblem& problem, bool incompressible,
                    const RunControl& control) {
+  const bool sheets = !problem.sheets.empty();
   const std::string forces =
-      problem.porous.empty() ? ""
-                             : fmt::format(kForces, incompressible ? "rhoInf" : "rho", problem.air.density);
+      !sheets && problem.porous.empty()
+          ? ""
+          : fmt::format(kForces, sheets ? "\"cloth.*\"" : "", sheets ? "false" : "true",
+                        incompressible ? "rhoInf" : "rho", problem.air.density);
   write_dictionary(folder / "system/controlDict", "dictionary",
                    fmt::format(kControl, control.start + control.iterations, control.iterations, kStopFile,
-                               forces, solver_name(incompressible, !problem.sheets.empty())));
+                               forces, solver_name(incompressible, sheets)));
 }
 
 void write_solution(const fs::path& folder, double residual) {

@@ -60,7 +60,7 @@ class OpenFoamFlow final : public Flow {
     write_problem(iterations, residual);
     const std::string start = latest_time(part_folder(0));
     fs::remove(folder_ / kStopFile);
-    SolverLog log(!problem_.porous.empty());
+    SolverLog log(problem_.porous.empty() ? SolverLog::Forces::none : SolverLog::Forces::porous);
     FlowAdvance now;
     const ProcessResult result = programs_.run_solver(report, log, now.stopped);
     const std::string time = latest_time(part_folder(0));

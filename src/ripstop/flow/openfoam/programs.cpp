@@ -46,7 +46,7 @@ ProcessRequest Programs::request_for(std::vector<std::string> arguments) const {
 void Programs::run_tool(const std::string& tool) const {
   ProcessRequest request = request_for({program(installation_, tool).string()});
   std::ofstream log_stream(log_file(tool));
-  SolverLog log(false);
+  SolverLog log(SolverLog::Forces::none);
   request.on_line = [&](const std::string& line) {
     log_stream << line << '\n';
     log.feed(line);

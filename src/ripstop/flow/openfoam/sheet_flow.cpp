@@ -63,15 +63,13 @@ class SheetFlow final : public Flow {
     int done = 0;
     while (done < iterations && !now.converged && !now.stopped) {
       const int piece = std::min(Stopping::piece, iterations - done);
-      SolverLog log(false);
+      SolverLog log(SolverLog::Forces::pressure);
       run(piece, residual, log, now.stopped, [&](FlowProgress progress) {
         progress.iteration += done;
-        progress.drag = drag_;
         return !report || report(progress);
       });
       now.last = log.progress();
       now.last.iteration += done;
-      now.last.drag = drag_;
       now.converged = log.converged();
       done = now.last.iteration;
     }
@@ -94,7 +92,6 @@ class SheetFlow final : public Flow {
     write_solution(folder_, problem_.stopping.residual);
     time_ = kBegin;
     untouched_ = true;
-    drag_ = 0;
     loads_.clear();
     write_fields(folder_ / kBegin, problem_, true);
     lay_cloth();
@@ -283,12 +280,10 @@ class SheetFlow final : public Flow {
     const std::vector<double> p = pressures();
     const FieldData flux = read_field(folder_ / time_ / "phi", 1, mesh_.front().inner_faces());
     loads_.clear();
-    drag_ = 0;
     for (const BafflePatch& patch : patches_) {
       const std::vector<double> whole = drops(patch, p, flux);
       for (std::size_t n = 0; n < patch.baffles.size(); ++n) add_loads(patch.baffles[n], whole[n]);
     }
-    for (const SheetLoad& load : loads_) drag_ += load.force.z;
   }
 
   /// The drop acts on the whole face; layers share it as they resist.
@@ -327,7 +322,6 @@ class SheetFlow final : public Flow {
   bool goes_on_ = false;         // the fields of time_ are of the mesh as it is
   std::vector<double> through_;  // tight cloth, as OpenFOAM has it [m/s]
   std::vector<SheetLoad> loads_;
-  double drag_ = 0;
 };
 
 }  // namespace

@@ -62,12 +62,12 @@ bool SolverLog::feed(const std::string& line) {
   if (contains(line, "Sum of moments")) in_forces_ = false;
 
   bool complete = false;
-  if (in_forces_ && contains(line, "Porous")) {
+  if (in_forces_ && contains(line, forces_ == Forces::pressure ? "Pressure" : "Porous")) {
     if (!read_vector(line, force_) || !is_finite(force_)) not_a_number_ = true;
     now_.drag = force_.z;
     complete = true;
   }
-  if (!forces_ && line.starts_with("ExecutionTime")) complete = true;
+  if (forces_ == Forces::none && line.starts_with("ExecutionTime")) complete = true;
   if (!complete || !iterating_) return false;
   iterating_ = false;
   done_ = now_;

@@ -9,14 +9,15 @@ namespace ripstop::openfoam {
 
 class SolverLog {
  public:
-  /// `forces`: the forces function object is on, so that an iteration ends with its lines.
-  explicit SolverLog(bool forces) : forces_(forces) {}
+  /// The forces function object, if it is on: an iteration ends with its line for porous cells or for pressure.
+  enum class Forces { none, porous, pressure };
+  explicit SolverLog(Forces forces) : forces_(forces) {}
 
-  /// True when this line completes an iteration: progress() and porous_force() are then its own.
+  /// True when this line completes an iteration: progress() and force() are then its own.
   bool feed(const std::string& line);
 
   const FlowProgress& progress() const { return done_; }
-  Vec3 porous_force() const { return force_; }
+  Vec3 force() const { return force_; }
   bool converged() const { return converged_; }
   bool not_a_number() const { return not_a_number_; }
   bool floating_point_trap() const { return trap_; }
@@ -30,7 +31,7 @@ class SolverLog {
  private:
   void residual(const std::string& line);
 
-  bool forces_;
+  Forces forces_;
   bool in_forces_ = false, iterating_ = false;
   bool converged_ = false, not_a_number_ = false, trap_ = false, out_of_memory_ = false;
   int fatal_lines_ = 0;
