@@ -28,7 +28,10 @@ Image seen_from_four_metres() {
 ComputedCanopy two_patches() {
   return {"A canopy",
           "",
-          {{0, 0, 0.0, 1.0, 0.4, 0.6}, {0, 1, 0.3, 0.9, 0.35, 0.55}, {1, 0, 0.4, 0.8, 0.3, 0.5}, {1, 1, 0.6, 0.1, 0.04, 0.06}},
+          {{0, 0, 0.0, 1.0, 0.4, 0.6},
+           {0, 1, 0.3, 0.9, 0.35, 0.55},
+           {1, 0, 0.4, 0.8, 0.3, 0.5},
+           {1, 1, 0.6, 0.1, 0.04, 0.06}},
           {{"D_st", 1.0}, {"L_tot", 0.6}, {"L_disk", 0.2}}};
 }
 
@@ -52,7 +55,8 @@ TEST(PhotogrammetryRun, AnImageAloneIsCorrectedAndNothingIsComputed) {
 TEST(PhotogrammetryRun, ACanopyAloneHasItsSizesAndNoCamera) {
   const Photogrammetry r = run_photogrammetry({}, two_patches());
   EXPECT_EQ(r.title, "A canopy");
-  EXPECT_FALSE(r.camera_distance || r.distance_given || r.root_mean_square || r.diameters || r.lengths || r.run);
+  EXPECT_FALSE(r.camera_distance || r.distance_given || r.root_mean_square || r.diameters || r.lengths ||
+               r.run);
   EXPECT_EQ(r.computed, two_patches().sizes);
   ASSERT_TRUE(r.profile);
   EXPECT_EQ(r.profile->size(), 4u);
@@ -120,7 +124,8 @@ TEST(PhotogrammetryRun, ItsPictureHasTheComputedProfileAndTheSeenPoints) {
   Image nameless = seen_from_four_metres();
   nameless.diameters = {{"D", 1.0, {}}};
   nameless.lengths.clear();
-  EXPECT_FALSE(std::filesystem::exists(written("nameless", run_photogrammetry(nameless, {})) / "profile.png"));
+  EXPECT_FALSE(
+      std::filesystem::exists(written("nameless", run_photogrammetry(nameless, {})) / "profile.png"));
 }
 
 }  // namespace

@@ -57,16 +57,19 @@ TEST_F(ReportPlots, OfASteadyRunHaveTheColumnsOfItsTables) {
   ReportRun run;
   run.kind = "steady";
   const std::vector<ReportPlot> plots = plots_of(run, folder.path);
-  ASSERT_EQ(ids_of(plots), (std::vector<std::string>{"forces", "changes", "history", "pressure", "profile", "lines"}));
+  ASSERT_EQ(ids_of(plots),
+            (std::vector<std::string>{"forces", "changes", "history", "pressure", "profile", "lines"}));
   expect_columns(plots[0], 0, {1, 2, 3, 4});
   expect_columns(plots[1], 0, {5, 6, 7});
   expect_columns(plots[2], 0, {1, 2, 3});
   expect_columns(plots[3], 0, {3, 4, 5});
   expect_columns(plots[4], 2, {1});
   expect_columns(plots[5], 0, {1, 2});
-  EXPECT_EQ(names_of(plots[0]), (std::vector<std::string>{"force of the air", "load on the cloth", "tension of the lines",
-                                                          "momentum that the air lost"}));
-  EXPECT_EQ(names_of(plots[5]), (std::vector<std::string>{"below the skirt", "largest anywhere on the line"}));
+  EXPECT_EQ(names_of(plots[0]),
+            (std::vector<std::string>{"force of the air", "load on the cloth", "tension of the lines",
+                                      "momentum that the air lost"}));
+  EXPECT_EQ(names_of(plots[5]),
+            (std::vector<std::string>{"below the skirt", "largest anywhere on the line"}));
   for (const ReportPlot& plot : plots) {
     EXPECT_EQ(plot.logarithmic, plot.id == "changes") << plot.id;
     EXPECT_FALSE(plot.over_time) << plot.id;
@@ -84,17 +87,21 @@ TEST_F(ReportPlots, OfASteadyRunHaveTheColumnsOfItsTables) {
 TEST_F(ReportPlots, OfAnOpeningHaveItsLevelsAndRunOverTheTimeOfItsFrames) {
   table("history.csv", {"time_s", "load_mean_n", "load_largest_n"});
   table("history_low_pass.csv", {"time_s", "load_n"});
-  table("balance.csv", {"time_s", "projected_diameter_m", "skirt_diameter_m", "max_von_mises_n_m", "pressure_work_j",
-                        "kinetic_energy_j", "elastic_energy_j", "damped_energy_j"});
+  table("balance.csv", {"time_s", "projected_diameter_m", "skirt_diameter_m", "max_von_mises_n_m",
+                        "pressure_work_j", "kinetic_energy_j", "elastic_energy_j", "damped_energy_j"});
   table("lines.csv", {"line", "peak_tension_n"});
   ReportRun run;
   run.kind = "opening";
-  run.values = {{"steady_load_n", "40.5"}, {"knacke_load_n", "60"}, {"measured_peak_n", "null"}, {"printed_peak_n", "70"}};
+  run.values = {{"steady_load_n", "40.5"},
+                {"knacke_load_n", "60"},
+                {"measured_peak_n", "null"},
+                {"printed_peak_n", "70"}};
   const std::vector<ReportPlot> plots = plots_of(run, folder.path);
   ASSERT_EQ(ids_of(plots), (std::vector<std::string>{"load", "size", "stress", "energy", "lines"}));
   const ReportPlot& load = plots[0];
-  EXPECT_EQ(names_of(load), (std::vector<std::string>{"largest in the interval", "load", "low-passed", "steady",
-                                                      "Knacke's estimate", "peak of the source's model"}));
+  EXPECT_EQ(names_of(load),
+            (std::vector<std::string>{"largest in the interval", "load", "low-passed", "steady",
+                                      "Knacke's estimate", "peak of the source's model"}));
   EXPECT_EQ(load.series[0].y, (Numbers{21, 22}));
   EXPECT_EQ(load.series[1].y, (Numbers{11, 12}));
   EXPECT_EQ(load.series[2].y, (Numbers{11, 12}));
@@ -128,7 +135,10 @@ TEST_F(ReportPlots, OfManyRowsKeepEveryPeak) {
   const auto series_of = [&](int count) {
     CsvTable history{{"time_s", "load_mean_n", "load_largest_n"}, {}};
     for (int i = 0; i < count; ++i)
-      history.rows.push_back({0.5 * i, 0.01 * i, i % 997 == 0 ? 1000.0 + i : i % 991 == 0 ? -1000.0 - i : 0.0});
+      history.rows.push_back({0.5 * i, 0.01 * i,
+                              i % 997 == 0   ? 1000.0 + i
+                              : i % 991 == 0 ? -1000.0 - i
+                                             : 0.0});
     write_csv(folder.path / "history.csv", history);
     ReportRun run;
     run.kind = "opening";

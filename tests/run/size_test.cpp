@@ -68,6 +68,9 @@ TEST(Size, ItsCaseFileIsACaseOfThatParachute) {
     const SizeResult r = run_size(sized(drag.family));
     const Case given = parse_case(r.case_text, "sized.toml");
     EXPECT_NEAR(nominal_area(given.parachute) / r.nominal_area, 1, 1e-9) << drag.family;
+    EXPECT_EQ(given.title, drag.family + " for 2.4 kg at 5 m/s");
+    EXPECT_EQ(r.given.title, given.title);
+    EXPECT_EQ(given.flow.speed_m_s, 5);
     EXPECT_EQ(given.payload.mass_kg, 2.4);
     EXPECT_EQ(given.flow.height_m, 300);
     EXPECT_NEAR(parachute_mass(given), r.parachute_mass, 1e-9) << drag.family;
