@@ -45,7 +45,8 @@ TEST_F(FitFiles, TheMaterialSaysWhereItComesFromAndReadsBack) {
   }
   for (const std::string& note : result.fit.notes) has(note);
   EXPECT_EQ(text.find("virtual"), std::string::npos);  // no coupon was pulled
-  for (const char* name : {"result.json", "fit.json"}) EXPECT_EQ(read_file(folder / name), to_json(result)) << name;
+  for (const char* name : {"result.json", "fit.json"})
+    EXPECT_EQ(read_file(folder / name), to_json(result)) << name;
 }
 
 TEST_F(FitFiles, ACurvesTableHasMeanSpreadFitAndBandAtEveryStrain) {

@@ -38,7 +38,7 @@ struct OpeningRecords : testing::Test {
 };
 
 const CsvTable opening_history{{"time_s", "load_mean_n", "load_largest_n"},
-                       {{0.1, -6, 1}, {0.2, 30, 99}, {0.2, 500, 500}, {0.3, 120, 130}}};
+                               {{0.1, -6, 1}, {0.2, 30, 99}, {0.2, 500, 500}, {0.3, 120, 130}}};
 
 TEST_F(OpeningRecords, IsLoadOverDynamicPressureOverTheWayAndGoesOnWithoutARepeatedTime) {
   write(opening_history, 90);
@@ -63,8 +63,9 @@ TEST_F(OpeningRecords, TakesTheLowPassedLoadWhereThereIsOne) {
 TEST_F(OpeningRecords, OfAnotherParachuteOrWithoutALoadIsRefused) {
   write(opening_history, 90);
   const Case larger = checked(flat_circular_case(2.1, 600, 10));
-  EXPECT_EQ(refusal(ExitCode::usage, larger),
-            folder.string() + ": is an opening of another parachute: S0 is 3.14159 m2 there and 3.46361 m2 here");
+  EXPECT_EQ(
+      refusal(ExitCode::usage, larger),
+      folder.string() + ": is an opening of another parachute: S0 is 3.14159 m2 there and 3.46361 m2 here");
   write(opening_history, 0);
   EXPECT_EQ(refusal(ExitCode::bad_data, given), folder.string() + ": its history has no load");
   write({opening_history.columns, {}}, 90);

@@ -62,7 +62,8 @@ TEST(SteadyFiles, HaveTheNumbersOfTheStateThatTheRunEndedIn) {
   const CsvTable iterations = read_csv(folder.path / "iterations.csv");
   EXPECT_EQ(iterations.columns, columns_of<SteadyIteration>());
   ASSERT_EQ(iterations.rows.size(), count);
-  for (std::size_t i = 0; i < count; ++i) EXPECT_EQ(iterations.rows[i], row_of(ending.state.iterations[i])) << i;
+  for (std::size_t i = 0; i < count; ++i)
+    EXPECT_EQ(iterations.rows[i], row_of(ending.state.iterations[i])) << i;
 
   const CsvTable lines = read_csv(folder.path / "lines.csv");
   const std::vector<LineTension> tensions = line_tensions(mesh, ending.tensions);
@@ -91,13 +92,18 @@ TEST(SteadyFiles, HaveTheNumbersOfTheStateThatTheRunEndedIn) {
   const VtkFile canopy = read_vtk(folder.path / ("vtk/canopy_" + last + ".vtp"));
   EXPECT_EQ(numbers(canopy, "Points", "Points"), flat(ending.state.shape));
   std::vector<Vec3> displacement;
-  for (std::size_t i = 0; i < mesh.start.size(); ++i) displacement.push_back(ending.state.shape[i] - mesh.start[i]);
+  for (std::size_t i = 0; i < mesh.start.size(); ++i)
+    displacement.push_back(ending.state.shape[i] - mesh.start[i]);
   EXPECT_EQ(numbers(canopy, "PointData", "displacement_m"), flat(displacement));
-  EXPECT_EQ(numbers(canopy, "CellData", "pressure_inside_pa"), cloth_cells_only(mesh, ending.state.sides.inside));
-  EXPECT_EQ(numbers(canopy, "CellData", "pressure_outside_pa"), cloth_cells_only(mesh, ending.state.sides.outside));
-  EXPECT_EQ(numbers(canopy, "CellData", "pressure_difference_applied_pa"), cloth_cells_only(mesh, ending.state.applied));
+  EXPECT_EQ(numbers(canopy, "CellData", "pressure_inside_pa"),
+            cloth_cells_only(mesh, ending.state.sides.inside));
+  EXPECT_EQ(numbers(canopy, "CellData", "pressure_outside_pa"),
+            cloth_cells_only(mesh, ending.state.sides.outside));
+  EXPECT_EQ(numbers(canopy, "CellData", "pressure_difference_applied_pa"),
+            cloth_cells_only(mesh, ending.state.applied));
   for (const VtkArray& array : ending.arrays)
-    EXPECT_EQ(numbers(canopy, "CellData", array.name), std::get<std::vector<double>>(array.values)) << array.name;
+    EXPECT_EQ(numbers(canopy, "CellData", array.name), std::get<std::vector<double>>(array.values))
+        << array.name;
   const VtkFile springs = read_vtk(folder.path / ("vtk/lines_" + last + ".vtp"));
   EXPECT_EQ(numbers(springs, "CellData", "tension_n"), ending.tensions);
   EXPECT_EQ(numbers(springs, "Points", "Points"), flat(ending.state.shape));
@@ -121,7 +127,8 @@ TEST(SteadyFiles, HaveTheNumbersOfTheStateThatTheRunEndedIn) {
       EXPECT_GT(pixels, 20) << picture << " " << series;
     }
   }
-  for (const char* picture : {"canopy.png", "load.png"}) EXPECT_GT(read_png(folder.path / picture).width, 0) << picture;
+  for (const char* picture : {"canopy.png", "load.png"})
+    EXPECT_GT(read_png(folder.path / picture).width, 0) << picture;
   EXPECT_EQ(fs::file_size(folder.path / "canopy.stl"),
             84 + 50 * surface_of(cells_of(mesh), ending.state.shape).size());  // binary STL
 }
@@ -131,17 +138,19 @@ TEST(StressArrays, HaveOneValueOfEveryClothCell) {
   std::vector<CellStress> stress(mesh.cell_count());
   for (std::size_t i = 0; i < stress.size(); ++i) {
     const double n = 10.0 * double(i);
-    stress[i].principal_max = n + 1, stress[i].principal_min = n + 2, stress[i].warp = n + 3, stress[i].weft = n + 4;
+    stress[i].principal_max = n + 1, stress[i].principal_min = n + 2, stress[i].warp = n + 3,
+    stress[i].weft = n + 4;
     stress[i].von_mises = n + 5, stress[i].max_strain = n + 6, stress[i].direction = {n, n + 7, n + 8};
     stress[i].tautness = i % 2 == 0 ? Tautness::taut : Tautness::wrinkled;
   }
-  const char* names[] = {"stress_max_n_per_m", "stress_min_n_per_m", "warp_n_per_m", "weft_n_per_m", "tautness",
-                         "von_mises_n_per_m",  "strain_max",         "stress_max_direction"};
+  const char* names[] = {"stress_max_n_per_m", "stress_min_n_per_m", "warp_n_per_m", "weft_n_per_m",
+                         "tautness",           "von_mises_n_per_m",  "strain_max",   "stress_max_direction"};
   const std::vector<VtkArray> arrays = stress_arrays(mesh, stress);
   ASSERT_EQ(arrays.size(), std::size(names));
   for (std::size_t k = 0; k < arrays.size(); ++k) EXPECT_EQ(arrays[k].name, names[k]);
   const std::vector<Cell> cells = cells_of(mesh);
-  const auto cloth = std::size_t(std::count_if(cells.begin(), cells.end(), [](const Cell& c) { return c.corner[0] >= 0; }));
+  const auto cloth =
+      std::size_t(std::count_if(cells.begin(), cells.end(), [](const Cell& c) { return c.corner[0] >= 0; }));
   const auto values = [&](int k) { return std::get<std::vector<double>>(arrays[k].values); };
   const double added[] = {1, 2, 3, 4, 0, 5, 6};
   for (int k = 0; k < 7; ++k) {
