@@ -88,9 +88,10 @@ TEST(RingLayout, TooFewNodesForTheSeamsAndLinesAreRefused) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::usage);
-    EXPECT_STREQ(error.what(),
-                 "parachute.mesh.cloth_nodes = 50: too few for 12 gores and 7 lines, whose seams and radials need "
-                 "columns in multiples of 84; ask for more nodes");
+    EXPECT_STREQ(
+        error.what(),
+        "parachute.mesh.cloth_nodes = 50: too few for 12 gores and 7 lines, whose seams and radials need "
+        "columns in multiples of 84; ask for more nodes");
   }
 }
 
@@ -206,9 +207,11 @@ TEST(FamilyExperience, IsTheHandbooks) {
   const struct {
     const char* example;
     double low, high, opening;
-  } printed[] = {{"flat-circular", 0.75, 0.80, 1.7},  {"conical", 0.75, 0.90, 1.8},   {"hemispherical", 0.62, 0.77, 1.6},
-                 {"extended-skirt", 0.78, 0.87, 1.4}, {"cross", 0.60, 0.85, 1.15},    {"ringslot", 0.56, 0.65, 1.05},
-                 {"stratos-iv", 0.52, 0.58, 1.3},     {"quarter-spherical", 0, 0, 1.6}, {"elliptical", 0, 0, 1.8}};
+  } printed[] = {{"flat-circular", 0.75, 0.80, 1.7}, {"conical", 0.75, 0.90, 1.8},
+                 {"hemispherical", 0.62, 0.77, 1.6}, {"extended-skirt", 0.78, 0.87, 1.4},
+                 {"cross", 0.60, 0.85, 1.15},        {"ringslot", 0.56, 0.65, 1.05},
+                 {"stratos-iv", 0.52, 0.58, 1.3},    {"quarter-spherical", 0, 0, 1.6},
+                 {"elliptical", 0, 0, 1.8}};
   for (const auto& row : printed) {
     const Experience known = experience(example(row.example).parachute);
     EXPECT_EQ(known.drag_coefficient.low, row.low) << row.example;
