@@ -23,15 +23,16 @@ struct WrittenFiles : testing::Test {
 
   WrittenFiles() {
     problem.grid = {{-1, -2, -3}, {2, 4, 8}, 4, 5, 16};
-    problem.air.speed = 12, problem.air.density = 1.1, problem.air.viscosity = 1.7e-5, problem.air.temperature = 280;
+    problem.air.speed = 12, problem.air.density = 1.1, problem.air.viscosity = 1.7e-5,
+    problem.air.temperature = 280;
     problem.air.turbulence_intensity = 0.02, problem.air.viscosity_ratio = 5;
     problem.porous = {{{3, 7, 11}, 1.5e6, 250}, {{4}, 2e6, 0}};
   }
   /// Without its header, which names class and file.
   std::string body(const std::string& file, const std::string& kind = "dictionary") const {
     const std::string text = read_file(folder.path / file);
-    const std::string head = "FoamFile\n{\n    version 2.0;\n    format ascii;\n    class " + kind + ";\n    object " +
-                             fs::path(file).filename().string() + ";\n}\n\n";
+    const std::string head = "FoamFile\n{\n    version 2.0;\n    format ascii;\n    class " + kind +
+                             ";\n    object " + fs::path(file).filename().string() + ";\n}\n\n";
     const std::size_t at = text.find(head);
     EXPECT_NE(at, std::string::npos) << text;
     return at == std::string::npos ? text : text.substr(at + head.size());
@@ -69,7 +70,8 @@ TEST_F(WrittenFiles, ConvectionOfTheVelocityIsAsAskedAndOfTheRestUpwind) {
     settings.second_order = second;
     write_case(folder.path, problem, settings);
     const std::string schemes = body("system/fvSchemes");
-    EXPECT_TRUE(has(schemes, second ? "div(phi,U) bounded Gauss linearUpwind grad(U);" : "div(phi,U) bounded Gauss upwind;"));
+    EXPECT_TRUE(has(schemes, second ? "div(phi,U) bounded Gauss linearUpwind grad(U);"
+                                    : "div(phi,U) bounded Gauss upwind;"));
     for (const char* name : {"k", "omega", "e"})
       EXPECT_TRUE(has(schemes, std::string("div(phi,") + name + ") bounded Gauss upwind;")) << name;
   }
@@ -107,8 +109,8 @@ TEST_F(WrittenFiles, UniformFieldsAreThoseOfTheStreamOnAllFaces) {
       EXPECT_TRUE(has(body("0/omega", "volScalarField"), "[0 0 -1 0 0 0 0]"));
       EXPECT_TRUE(has(body("0/nut", "volScalarField"), "[0 2 -1 0 0 0 0]"));
       for (const char* name : {"p", "U", "k", "omega"})
-        EXPECT_TRUE(has(read_file(folder.path / "0" / name), sides == Sides::slip ? "sides { type slip; }"
-                                                                                   : "sides { type zeroGradient; }"));
+        EXPECT_TRUE(has(read_file(folder.path / "0" / name),
+                        sides == Sides::slip ? "sides { type slip; }" : "sides { type zeroGradient; }"));
       EXPECT_EQ(fs::exists(folder.path / "0/T"), !incompressible);
       EXPECT_EQ(fs::exists(folder.path / "0/alphat"), !incompressible);
       if (incompressible) continue;
@@ -148,11 +150,14 @@ TEST_F(WrittenFiles, EveryZoneHasItsCellsAndItsResistance) {
   write_resistance(folder.path, problem.porous);
   const std::string resistance = body("constant/porosityProperties");
   std::vector<std::string> zones;
-  const std::regex zone(R"(porous(\d)\n\{\n    type DarcyForchheimer;\n    active yes;\n    cellZone porous(\d);\n    )"
-                        R"(DarcyForchheimerCoeffs\n    \{\n        d \(([^)]*)\);\n        f \(([^)]*)\);)");
-  for (std::sregex_iterator at(resistance.begin(), resistance.end(), zone); at != std::sregex_iterator(); ++at)
+  const std::regex zone(
+      R"(porous(\d)\n\{\n    type DarcyForchheimer;\n    active yes;\n    cellZone porous(\d);\n    )"
+      R"(DarcyForchheimerCoeffs\n    \{\n        d \(([^)]*)\);\n        f \(([^)]*)\);)");
+  for (std::sregex_iterator at(resistance.begin(), resistance.end(), zone); at != std::sregex_iterator();
+       ++at)
     zones.push_back((*at)[1].str() + "/" + (*at)[2].str() + "/" + (*at)[3].str() + "/" + (*at)[4].str());
-  EXPECT_EQ(zones, (std::vector<std::string>{"0/0/1500000 1500000 1500000/250 250 250", "1/1/2000000 2000000 2000000/0 0 0"}));
+  EXPECT_EQ(zones, (std::vector<std::string>{"0/0/1500000 1500000 1500000/250 250 250",
+                                             "1/1/2000000 2000000 2000000/0 0 0"}));
   write_zones(folder.path / "constant", {problem.porous[0].cells, problem.porous[1].cells});
   EXPECT_EQ(body("constant/cellZones", "regIOobject"),
             "2\n(\nporous0\n{\n    type cellZone;\n    cellLabels List<label> 3(3\n7\n11\n);\n}\n"
@@ -176,8 +181,8 @@ std::vector<double> list_after(const std::string& text, const std::string& word)
 TEST_F(WrittenFiles, TheMeshHasTheCornersTheCellsAndTheWidthsOfTheGrid) {
   write_case(folder.path, problem, settings);
   std::string mesh = body("system/blockMeshDict");
-  EXPECT_EQ(list_after(mesh, "vertices\n"),
-            (std::vector<double>{-1, -2, -3, 1, -2, -3, 1, 2, -3, -1, 2, -3, -1, -2, 5, 1, -2, 5, 1, 2, 5, -1, 2, 5}));
+  EXPECT_EQ(list_after(mesh, "vertices\n"), (std::vector<double>{-1, -2, -3, 1, -2, -3, 1, 2, -3, -1, 2, -3,
+                                                                 -1, -2, 5,  1, -2, 5,  1, 2, 5,  -1, 2, 5}));
   EXPECT_TRUE(has(mesh, "hex (0 1 2 3 4 5 6 7) (4 5 16) simpleGrading (1 1 1)")) << mesh;
 
   problem.grid = graded(problem.grid, {-1, -2, 0}, {1, 2, 1.5}, 1.3);
@@ -198,7 +203,8 @@ TEST_F(WrittenFiles, TheMeshHasTheCornersTheCellsAndTheWidthsOfTheGrid) {
     double whole = 0;
     for (int i = 0; i < cells; ++i) whole += std::pow(ratio, i);
     for (int i = 0; i < cells; ++i, ++cell)
-      EXPECT_NEAR(grid.edge(2, cell + 1) - grid.edge(2, cell), length * std::pow(ratio, i) / whole, 1e-9) << cell;
+      EXPECT_NEAR(grid.edge(2, cell + 1) - grid.edge(2, cell), length * std::pow(ratio, i) / whole, 1e-9)
+          << cell;
   }
   EXPECT_EQ(cell, 16);
   EXPECT_EQ(grid.edge(2, 16), 5);
@@ -209,14 +215,18 @@ TEST_F(WrittenFiles, TheReadmeSaysWhatTheCaseIsAndHowToRunIt) {
   write_case(folder.path, problem, settings);
   std::string readme = read_file(folder.path / "README.txt");
   EXPECT_TRUE(has(readme, "4 x 5 x 16 cells, air of 1.1 kg/m3 at 12 m/s, slip sides.")) << readme;
-  EXPECT_TRUE(has(readme, "    rm -f stop\n    blockMesh\n    cp constant/cellZones constant/polyMesh/\n    rhoPorousSimpleFoam\n"))
+  EXPECT_TRUE(has(readme,
+                  "    rm -f stop\n    blockMesh\n    cp constant/cellZones constant/polyMesh/\n    "
+                  "rhoPorousSimpleFoam\n"))
       << readme;
   settings.ranks = 4, settings.incompressible = true;
   problem.sides = Sides::zero_gradient;
   write_case(folder.path, problem, settings);
   readme = read_file(folder.path / "README.txt");
   EXPECT_TRUE(has(readme, "open sides")) << readme;
-  EXPECT_TRUE(has(readme, "    decomposePar\n    mpirun -np 4 porousSimpleFoam -parallel\n    reconstructPar -latestTime\n"))
+  EXPECT_TRUE(
+      has(readme,
+          "    decomposePar\n    mpirun -np 4 porousSimpleFoam -parallel\n    reconstructPar -latestTime\n"))
       << readme;
 }
 
@@ -250,25 +260,43 @@ TEST_F(WrittenFiles, ANumberOutOfItsRangeIsNamedWithTheRange) {
     std::function<void(FlowProblem&)> change;
     const char* says;
   } wrong[] = {
-      {[](FlowProblem& p) { p.grid.ny = 4001; }, "flow: number of cells along an axis is 4001 ; it must lie in [1, 4000]"},
-      {[](FlowProblem& p) { p.grid.nx = p.grid.ny = p.grid.nz = 600; }, "flow: number of cells is 2.16e+08 ; it must lie in [1, 2e+08]"},
-      {[](FlowProblem& p) { p.grid.size.y = 2e6; }, "flow: size of the box is 2e+06 m; it must lie in [1e-06, 1e+06]"},
-      {[](FlowProblem& p) { p.grid.origin.z = -2e6; }, "flow: corner of the box is -2e+06 m; it must lie in [-1e+06, 1e+06]"},
-      {[](FlowProblem& p) { p.air.speed = 151; }, "flow: air speed is 151 m/s (subsonic: Mach below 0.45); it must lie in [0.001, 150]"},
-      {[](FlowProblem& p) { p.air.density = 101; }, "flow: air density is 101 kg/m3; it must lie in [0.0001, 100]"},
+      {[](FlowProblem& p) { p.grid.ny = 4001; },
+       "flow: number of cells along an axis is 4001 ; it must lie in [1, 4000]"},
+      {[](FlowProblem& p) { p.grid.nx = p.grid.ny = p.grid.nz = 600; },
+       "flow: number of cells is 2.16e+08 ; it must lie in [1, 2e+08]"},
+      {[](FlowProblem& p) { p.grid.size.y = 2e6; },
+       "flow: size of the box is 2e+06 m; it must lie in [1e-06, 1e+06]"},
+      {[](FlowProblem& p) { p.grid.origin.z = -2e6; },
+       "flow: corner of the box is -2e+06 m; it must lie in [-1e+06, 1e+06]"},
+      {[](FlowProblem& p) { p.air.speed = 151; },
+       "flow: air speed is 151 m/s (subsonic: Mach below 0.45); it must lie in [0.001, 150]"},
+      {[](FlowProblem& p) { p.air.density = 101; },
+       "flow: air density is 101 kg/m3; it must lie in [0.0001, 100]"},
       {[](FlowProblem& p) { p.air.viscosity = 2; }, "flow: viscosity is 2 Pa s; it must lie in [1e-07, 1]"},
-      {[](FlowProblem& p) { p.air.temperature = 99; }, "flow: air temperature is 99 K; it must lie in [100, 2000]"},
-      {[](FlowProblem& p) { p.air.turbulence_intensity = 2; }, "flow: turbulence intensity is 2 ; it must lie in [1e-06, 1]"},
-      {[](FlowProblem& p) { p.air.viscosity_ratio = 0; }, "flow: viscosity ratio is 0 ; it must lie in [1e-06, 1e+06]"},
-      {[](FlowProblem& p) { p.porous[0].darcy = -1; }, "flow: Darcy coefficient is -1 1/m2; it must lie in [0, 1e+15]"},
-      {[](FlowProblem& p) { p.porous[1].forchheimer = 2e12; }, "flow: Forchheimer coefficient is 2e+12 1/m; it must lie in [0, 1e+12]"},
-      {[](FlowProblem& p) { p.porous[0].cells[1] = 320; }, "flow: index of a porous cell is 320 ; it must lie in [0, 319]"},
-      {[](FlowProblem& p) { p.porous[1].cells[0] = 7; }, "flow: cell 7 is porous twice; a cell has one resistance"},
-      {[](FlowProblem& p) { p.sides = Sides::entraining; }, "flow.sides = \"entraining\" needs flow.engine = \"builtin\""},
-      {[](FlowProblem& p) { p.outlet = Outlet::still_air; }, "flow.outlet = \"still-air\" needs flow.engine = \"builtin\""},
-      {[](FlowProblem& p) { p.jet.emplace(); }, "flow.tunnel.kind = \"open-jet\" needs flow.engine = \"builtin\""},
-      {[](FlowProblem& p) { p.body_force.resize(320); }, "a force on the air needs flow.engine = \"builtin\""},
-      {[](FlowProblem& p) { p.sheets.emplace_back(); }, "flow.porosity_model = \"sheet\" needs flow.engine = \"builtin\""},
+      {[](FlowProblem& p) { p.air.temperature = 99; },
+       "flow: air temperature is 99 K; it must lie in [100, 2000]"},
+      {[](FlowProblem& p) { p.air.turbulence_intensity = 2; },
+       "flow: turbulence intensity is 2 ; it must lie in [1e-06, 1]"},
+      {[](FlowProblem& p) { p.air.viscosity_ratio = 0; },
+       "flow: viscosity ratio is 0 ; it must lie in [1e-06, 1e+06]"},
+      {[](FlowProblem& p) { p.porous[0].darcy = -1; },
+       "flow: Darcy coefficient is -1 1/m2; it must lie in [0, 1e+15]"},
+      {[](FlowProblem& p) { p.porous[1].forchheimer = 2e12; },
+       "flow: Forchheimer coefficient is 2e+12 1/m; it must lie in [0, 1e+12]"},
+      {[](FlowProblem& p) { p.porous[0].cells[1] = 320; },
+       "flow: index of a porous cell is 320 ; it must lie in [0, 319]"},
+      {[](FlowProblem& p) { p.porous[1].cells[0] = 7; },
+       "flow: cell 7 is porous twice; a cell has one resistance"},
+      {[](FlowProblem& p) { p.sides = Sides::entraining; },
+       "flow.sides = \"entraining\" needs flow.engine = \"builtin\""},
+      {[](FlowProblem& p) { p.outlet = Outlet::still_air; },
+       "flow.outlet = \"still-air\" needs flow.engine = \"builtin\""},
+      {[](FlowProblem& p) { p.jet.emplace(); },
+       "flow.tunnel.kind = \"open-jet\" needs flow.engine = \"builtin\""},
+      {[](FlowProblem& p) { p.body_force.resize(320); },
+       "a force on the air needs flow.engine = \"builtin\""},
+      {[](FlowProblem& p) { p.sheets.emplace_back(); },
+       "flow.porosity_model = \"sheet\" needs flow.engine = \"builtin\""},
   };
   for (const auto& one : wrong) {
     FlowProblem asked = sound;
