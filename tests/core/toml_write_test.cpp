@@ -1,11 +1,10 @@
 // What is written of a table reads back, and a reader of the file sees plain text.
-#include "ripstop/core/toml/write.h"
-
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
 #include "ripstop/core/toml/fields.h"
+#include "ripstop/core/toml/write.h"
 
 namespace ripstop {
 namespace {
