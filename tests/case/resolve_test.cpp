@@ -252,6 +252,16 @@ TEST(Resolved, ABoxThatACoreWouldHalfFillHasUniformCells) {
   EXPECT_EQ(flow_of(short_case + "box_m = [8, 7.6, 10]\n").core.size_m, d * (Vec3{1.8, 1.8, 2.2}));
 }
 
+TEST(Resolved, WhatTheCaseSaysOfTheCouplingStays) {
+  Case given = parse_case(short_case, "case.toml");
+  given.coupling.max_iterations = 7, given.coupling.shape_tolerance_m = 3e-3,
+  given.coupling.cloth_tolerance = 7e-4;
+  const CouplingSettings coupling = resolve(given).coupling;
+  EXPECT_EQ(coupling.max_iterations, 7);
+  EXPECT_EQ(coupling.shape_tolerance_m, 3e-3);
+  EXPECT_EQ(coupling.cloth_tolerance, 7e-4);
+}
+
 TEST(Resolved, ACoreThatHasNoRoomSaysWhy) {
   const auto from = [](const std::string& text) -> std::string {
     for (const Source& one : resolve(parse_case(text, "case.toml")).sources)
