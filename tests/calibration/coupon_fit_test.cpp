@@ -228,6 +228,9 @@ TEST(Examples, TheSyntheticCampaignGivesItsTruthBackWithinItsIntervals) {
   const CouponFit fit = fit_coupons(material, bench, {}, team);
   EXPECT_LT(fit.shear_low, true_shear);
   EXPECT_GT(fit.shear_high, true_shear);
+  // Samples whose stiffness scatters by some percent leave xi open by about as much, not by all of its range.
+  EXPECT_NEAR(0.5 * (fit.shear_low + fit.shear_high), fit.fabric.shear_fraction, 1e-12);
+  EXPECT_LT(fit.shear_high - fit.shear_low, 0.5 * true_shear);
 }
 
 }  // namespace

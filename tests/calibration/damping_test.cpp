@@ -28,6 +28,43 @@ TEST(DampingCalibration, TheValueThatMadeThePeakIsFound) {
   EXPECT_EQ(found.trials.size(), 21u);
 }
 
+// The first points lie in equal ratios from end to end; then a golden section between the best one's neighbours, in
+// logarithms.
+TEST(DampingCalibration, ItsTrialsAreAGridInLogarithmsAndAGoldenSectionAboutItsBest) {
+  const DampingTarget target{oscillator(8.7).peak, {}};
+  std::vector<double> told;
+  const auto listen = [&](const DampingTrial& trial) { told.push_back(trial.damping); };
+  const DampingCalibration grid = calibrate_damping(target, {4, 16, 5, 0}, oscillator, listen);
+  ASSERT_EQ(told.size(), 5u);
+  for (int i = 0; i < 5; ++i) EXPECT_NEAR(told[i], 4 * std::pow(2, 0.5 * i), 1e-12) << i;
+  EXPECT_NEAR(grid.best.damping, 8, 1e-12);
+  EXPECT_NEAR(grid.best.misfit, std::abs(grid.best.peak / target.peak - 1), 1e-12);
+  told.clear();
+  calibrate_damping(target, {4, 16, 5, 4}, oscillator, listen);
+  ASSERT_EQ(told.size(), 9u);
+  const double low = std::log(4 * std::sqrt(2)), high = std::log(8 * std::sqrt(2)),
+               golden = (std::sqrt(5) - 1) / 2;
+  const double a = high - golden * (high - low), b = low + golden * (high - low);
+  EXPECT_NEAR(std::log(told[5]), a, 1e-9);
+  EXPECT_NEAR(std::log(told[6]), b, 1e-9);
+  // 8.7 is nearer to b: it goes on above a, then about that.
+  EXPECT_NEAR(std::log(told[7]), a + golden * (high - a), 1e-9);
+}
+
+TEST(DampingCalibration, ASearchThatIsNoneIsRefused) {
+  for (const DampingSearch& search : {DampingSearch{0, 16, 5, 4}, {4, 4, 5, 4}, {4, 16, 2, 4}}) {
+    try {
+      calibrate_damping({600, {}}, search, oscillator);
+      ADD_FAILURE() << search.from << " " << search.to << " " << search.points;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::usage);
+      EXPECT_NE(std::string(error.what()).find("needs 0 < from < to and at least 3 points"),
+                std::string::npos);
+    }
+  }
+  EXPECT_NO_THROW(calibrate_damping({600, {}}, {4, 16, 3, 0}, oscillator));
+}
+
 TEST(DampingCalibration, PeakAndTimeThatContradictEachOtherShareTheError) {
   const DampingTarget target{oscillator(6).peak, 1.0 / 12};
   const DampingCalibration found = calibrate_damping(target, {4, 16, 7, 14}, oscillator);

@@ -9,6 +9,7 @@
 
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
+#include "ripstop/core/hash.h"
 #include "ripstop/flow/bodies.h"
 #include "ripstop/flow/cartesian/cartesian.h"
 #include "ripstop/flow/steady.h"
@@ -380,6 +381,26 @@ TEST(CartesianEngine, SaysWhatIsWrongWithTheProblem) {
   settings.relax_pressure = 0;
   EXPECT_THROW(make_cartesian(settings), Error);
   EXPECT_THROW(make_cartesian()->start(open_box(12, 12, 16, 10))->save("/proc/nowhere"), Error);
+}
+
+// Sealed, so that its seal says nothing: as a version whose flows have fewer numbers would have written it.
+TEST(CartesianEngine, AFlowWithFewerNumbersThanItsGridIsNoneOfThisVersion) {
+  const TemporaryFolder folder("cut-flow");
+  const auto engine = make_cartesian();
+  const auto flow = engine->start(open_box(12, 12, 16, 10));
+  flow->save(folder.path);
+  const std::filesystem::path file = std::filesystem::directory_iterator(folder.path)->path();
+  const std::string whole = read_sealed(file);
+  for (const std::size_t size : {whole.size() - 1, whole.size() / 2, std::size_t(10)}) {
+    write_sealed(file, whole.substr(0, size));
+    try {
+      flow->restore(folder.path);
+      ADD_FAILURE() << size;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::bad_data);
+      EXPECT_EQ(std::string(error.what()), file.string() + ": not a flow saved by this version");
+    }
+  }
 }
 
 }  // namespace

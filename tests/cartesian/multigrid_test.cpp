@@ -53,5 +53,23 @@ TEST(Multigrid, EveryCycleTakesAwayMostOfTheResidualOnOddGridsToo) {
   }
 }
 
+// Of a solution of zero it is what stands on the right, over all cells.
+TEST(Multigrid, TheResidualIsTheSumOverAllCellsWithoutTheirSigns) {
+  const Axis x = uniform(9, 2, End::zero_gradient, End::zero_gradient);
+  const Axis z = uniform(12, 4, End::zero_gradient, End::fixed_value);
+  Multigrid multigrid(x, x, z);
+  MultigridLevel& level = multigrid.finest();
+  fill(level, x, x, z, 1);
+  double sum = 0;
+  for (int k = 0; k < 12; ++k)
+    for (int j = 0; j < 9; ++j)
+      for (int i = 0; i < 9; ++i) sum += std::abs(level.rhs[level.layout.at(i, j, k)]);
+  EXPECT_NEAR(multigrid.residual() / sum, 1, 1e-6);
+  for (int k = 0; k < 12; ++k)
+    for (int j = 0; j < 9; ++j)
+      for (int i = 0; i < 9; ++i) level.rhs[level.layout.at(i, j, k)] = 0;
+  EXPECT_EQ(multigrid.residual(), 0);
+}
+
 }  // namespace
 }  // namespace ripstop::cartesian

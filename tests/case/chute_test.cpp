@@ -177,6 +177,8 @@ const BadChute bad_chutes[] = {
      "EllipseArc: the key \"radius_x\" is missing"},
     {"NoNumber", "elliptical", "\"value\": 0.9", "\"value\": \"0.9\"",
      "input_values[0].value: must be a number"},
+    {"NoStoredNumber", "cross", "0.3819718634205488,", "\"wide\",",
+     "Circular.line.begin[0]: must be a number"},
     {"UnknownShape", "elliptical", "\"EllipseArc\"", "\"Spline\"",
      "objects[0]: must be \"Line\", \"EllipseArc\" or \"PointList\""},
     {"TwoGores", "elliptical", "\"gores\": 10", "\"gores\": 2", "Ripstop needs at least 3"},

@@ -253,6 +253,29 @@ TEST(Resolved, ABoxThatACoreWouldHalfFillHasUniformCells) {
   EXPECT_EQ(flow_of(short_case + "box_m = [8, 7.6, 10]\n").core.size_m, d * (Vec3{1.8, 1.8, 2.2}));
 }
 
+TEST(Resolved, WhatTheCaseSaysOfTheCouplingStays) {
+  Case given = parse_case(short_case, "case.toml");
+  given.coupling.max_iterations = 7, given.coupling.shape_tolerance_m = 3e-3,
+  given.coupling.cloth_tolerance = 7e-4;
+  const CouplingSettings coupling = resolve(given).coupling;
+  EXPECT_EQ(coupling.max_iterations, 7);
+  EXPECT_EQ(coupling.shape_tolerance_m, 3e-3);
+  EXPECT_EQ(coupling.cloth_tolerance, 7e-4);
+}
+
+TEST(Resolved, ACoreThatHasNoRoomSaysWhy) {
+  const auto from = [](const std::string& text) -> std::string {
+    for (const Source& one : resolve(parse_case(text, "case.toml")).sources)
+      if (one.key == "flow.core.size_m") return one.from;
+    return "";
+  };
+  EXPECT_EQ(from(short_case), "1.8 x 1.8 x 2.2 inflated diameters of 2.1 m");
+  EXPECT_EQ(from(short_case + "box_m = [8, 7.5, 10]\n"),
+            "a side of the box is less than twice as long as a core for this canopy");
+  EXPECT_EQ(from(of_calibrated_cloth(replaced(short_case, "= 3.0\nvent", "= 1.0\nvent"))),
+            "the paper model's default");
+}
+
 TEST(Resolved, TheMeanOfIterationsIsOfNoMoreThanThereAre) {
   EXPECT_EQ(flow_of(short_case).average_over, 60);
   EXPECT_EQ(flow_of(short_case + "max_iterations = 40\n").average_over, 40);

@@ -119,6 +119,23 @@ TEST_F(ClaimedFolderTest, WhatWasKeptIsKnownToBeLostOrChangedUntilItIsWrittenAga
   EXPECT_FALSE(is_sealed(folder));
 }
 
+// Between the seal and the removal of what it takes the place of, the process may be killed.
+TEST_F(ClaimedFolderTest, ASealTakesThePlaceOfWhatWasKeptBefore) {
+  std::string kept;
+  {
+    ClaimedFolder claimed(folder);
+    write_file(claimed.own("a"), "first");
+    claimed.keep();
+    kept = read_file(folder / ".ripstop/kept");
+    write_file(claimed.own("a"), "second");
+    claimed.seal();
+  }
+  write_file(folder / ".ripstop/kept", kept);
+  const ClaimedFolder again(folder);
+  EXPECT_TRUE(again.lost().empty());
+  EXPECT_FALSE(fs::exists(folder / ".ripstop/kept"));
+}
+
 TEST_F(ClaimedFolderTest, TwoCannotHoldAFolderAndTheSecondSaysWhoDoes) {
   ClaimedFolder claimed(folder);
   try {

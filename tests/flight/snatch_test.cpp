@@ -66,6 +66,28 @@ TEST(Snatch, TheSpeedDifferenceLiesBetweenNoneAndAll) {
   const double b = 0.5 * 1.2 * 0.3 / 2;
   EXPECT_NEAR(speed_difference_at_stretch({50, 0}, {2, 0.3}, 40, 1.2, (1 - std::log(2)) / b), 20, 1e-9);
   EXPECT_THROW(speed_difference_at_stretch({1, 1}, {2, 0.3}, 40, 1.2, 5), Error);
+  const auto refusal = [](double payload, double canopy, double speed, double density, double length,
+                          double area) -> std::string {
+    try {
+      speed_difference_at_stretch({payload, 0.1}, {canopy, area}, speed, density, length);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::usage);
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(refusal(50, 2, 40, 1.2, 5, 0.3), "accepted");
+  for (const double wrong : {0.0, -1.0, std::nan("")}) {
+    EXPECT_NE(refusal(wrong, 2, 40, 1.2, 5, 0.3).find("payload mass (kg)"), std::string::npos) << wrong;
+    EXPECT_NE(refusal(50, wrong, 40, 1.2, 5, 0.3).find("canopy mass (kg)"), std::string::npos) << wrong;
+    EXPECT_NE(refusal(50, 2, wrong, 1.2, 5, 0.3).find("speed (m/s)"), std::string::npos) << wrong;
+    EXPECT_NE(refusal(50, 2, 40, wrong, 5, 0.3).find("density (kg/m3)"), std::string::npos) << wrong;
+    EXPECT_NE(refusal(50, 2, 40, 1.2, wrong, 0.3).find("length (m) of lines and riser"), std::string::npos)
+        << wrong;
+    EXPECT_NE(refusal(50, 2, 40, 1.2, 5, wrong).find("drag area (m2) of the packed canopy"),
+              std::string::npos)
+        << wrong;
+  }
   EXPECT_THROW(speed_difference_at_stretch({50, -0.1}, {2, 0.3}, 40, 1.2, 5), Error);
   EXPECT_THROW(speed_difference_at_stretch({50, 0.1}, {2, -0.3}, 40, 1.2, 5), Error);
 }

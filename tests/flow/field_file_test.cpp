@@ -106,6 +106,73 @@ TEST_F(FieldFile, BoundaryListsItsFaces) {
   EXPECT_EQ(patches[1].start, 116);
 }
 
+TEST_F(FieldFile, ADictionaryWithinAPatchIsNotThePatchsOwn) {
+  write(
+      "FoamFile { version 2.0; format ascii; class polyBoundaryMesh; object boundary; }\n"
+      "2 ( inlet { inner { nFaces 99; startFace 98; } nFaces 16; startFace 100; } side { nFaces 3; startFace "
+      "116; } )");
+  const std::vector<Patch> patches = read_boundary(path_);
+  ASSERT_EQ(patches.size(), 2u);
+  EXPECT_EQ(patches[0].faces, 16);
+  EXPECT_EQ(patches[0].start, 100);
+  EXPECT_EQ(patches[1].name, "side");
+  EXPECT_EQ(patches[1].faces, 3);
+}
+
+TEST_F(FieldFile, AMistakeIsToldWithFileAndPlace) {
+  const auto refusal = [&](const std::string& text) -> std::string {
+    write(text);
+    try {
+      read_field(path_, 1, 2);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::io);
+      return error.what();
+    }
+    return "read";
+  };
+  const auto told = [&](const std::string& text, const std::string& what, std::size_t near) {
+    return "OpenFOAM's file " + path_.string() + ": " + what + " (near byte " + std::to_string(near) +
+           " of " + std::to_string(text.size()) + "); a full disk or a killed solver leaves such files";
+  };
+  // The list would be as long as the rest of the file, were it not for its bracket.
+  const std::string list = "internalField nonuniform List<scalar> 2(";
+  std::string text = header("binary") + list + bytes({1, 2}).substr(0, 15);
+  EXPECT_EQ(refusal(text), told(text, "1 bytes of data are missing", header("binary").size() + list.size()));
+  text = header("ascii") + "internalField uniform x;";
+  EXPECT_EQ(refusal(text), told(text, "'x' is not a number", text.size() - 1));
+  text = header("ascii") + "internalField constant 3;";
+  EXPECT_EQ(refusal(text), told(text, "'constant' is neither uniform nor nonuniform", text.size() - 3));
+  text = header("ascii") + "internalField nonuniform List<scalar> -1();";
+  EXPECT_EQ(refusal(text), told(text, "a list has no valid length", text.size() - 3));
+  text = header("ascii") + "internalField nonuniform List<scalar> 3(1 2 3);boundaryField { }";
+  EXPECT_EQ(refusal(text), told(text, "holds 3 values where the mesh has 2", text.size()));
+  text = header("ascii") + "internalField uniform 3;";
+  EXPECT_EQ(refusal(text), told(text, "has no internalField or no boundaryField", text.size()));
+  text = "internalField uniform 3;";
+  EXPECT_EQ(refusal(text), told(text, "has no OpenFOAM header", 13));
+  fs::remove(path_);
+  try {
+    read_labels(path_);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(std::string(error.what()), "OpenFOAM's file " + path_.string() + " is missing");
+  }
+}
+
+TEST_F(FieldFile, LabelsAreWholeNumbersOf32Bits) {
+  write(header("ascii") + "// a comment ) 7\n4(0 /* not 5 */ -1 2147483647 12)");
+  EXPECT_EQ(read_labels(path_), (std::vector<int>{0, -1, 2147483647, 12}));
+  for (const char* list : {"1(1.5)", "1(2147483648)", "1(nan)", "2(1)", "1(1", "1(1 2)"}) {
+    write(header("ascii") + list);
+    EXPECT_THROW(read_labels(path_), Error) << list;
+  }
+  const std::vector<int> labels = {7, -8, 9};
+  write(header("binary") + "3(" + std::string(reinterpret_cast<const char*>(labels.data()), 12) + ")");
+  EXPECT_EQ(read_labels(path_), labels);
+  write(header("binary") + "0()");
+  EXPECT_TRUE(read_labels(path_).empty());
+}
+
 TEST(SolverLog, AnIterationEndsWithItsForces) {
   SolverLog log(SolverLog::Forces::porous);
   const std::vector<std::string> lines = {

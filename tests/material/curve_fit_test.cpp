@@ -55,6 +55,32 @@ TEST(CurveFit, ExactRecordsGiveTheirCoefficientsBack) {
   EXPECT_EQ(fit.rising_until, fit.tested_strain);
 }
 
+TEST(CurveFit, TheMeanCurveGoesAsFarAsTheFirstSampleThatFailedAndKeepsEachSamplesEnd) {
+  std::mt19937 random(3);
+  const std::vector<CleanRecord> samples = bench_of(f111_record(), 4, random);
+  const MeanCurve curve = mean_curve(samples);
+  ASSERT_EQ(curve.names.size(), 4u);
+  ASSERT_EQ(curve.failure_strain.size(), 4u);
+  ASSERT_EQ(curve.failure_load.size(), 4u);
+  ASSERT_EQ(curve.samples.size(), 4u);
+  double first = samples[0].failure_strain;
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(curve.names[i], samples[i].name);
+    EXPECT_EQ(curve.failure_strain[i], samples[i].failure_strain);
+    EXPECT_EQ(curve.failure_load[i], samples[i].failure_load);
+    first = std::min(first, samples[i].failure_strain);
+  }
+  EXPECT_EQ(curve.tested_strain, first);
+  const double step = curve.strain[1] - curve.strain[0];
+  EXPECT_NEAR(curve.strain.front(), 0.5 * step, 1e-12);
+  EXPECT_NEAR(curve.strain.back(), first - 0.5 * step, 1e-12);
+  for (std::size_t k = 0; k < curve.strain.size(); ++k) {
+    double sum = 0;
+    for (const std::vector<double>& sample : curve.samples) sum += sample.at(k);
+    EXPECT_NEAR(curve.load[k], sum / 4, 1e-9 * sum) << k;
+  }
+}
+
 // Of two samples Student's t has one degree of freedom: 12.7 standard errors either way.
 TEST(CurveFit, TwoSamplesHaveAnErrorAndAWideInterval) {
   std::mt19937 random(5);

@@ -216,6 +216,24 @@ TEST(Lattice, SliversKeepPositiveWidths) {
   }
 }
 
+TEST(Lattice, EverySpringOfAClothThatBucklesDoes) {
+  Fabric fabric;
+  fabric.coefficients_n_m = f111_curve, fabric.tested_strain = 0.3;
+  fabric.shear_fraction = 0.2, fabric.bending_fraction = 0.01;
+  const auto each = [](WovenLaws& laws) {
+    return std::vector<SpringLaw*>{&laws.warp, &laws.weft, &laws.shear, &laws.warp_bending,
+                                   &laws.weft_bending};
+  };
+  WovenLaws stiff = woven_laws(fabric);
+  fabric.buckling_strain = 2e-5;
+  WovenLaws buckling = woven_laws(fabric);
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_EQ(each(buckling)[i]->buckling_strain, 2e-5) << i;
+    EXPECT_NE(each(stiff)[i]->buckling_strain, 2e-5) << i;
+    EXPECT_EQ(each(buckling)[i]->coefficients, each(stiff)[i]->coefficients) << i;
+  }
+}
+
 TEST(Lattice, ImpossibleClothIsRefused) {
   EXPECT_THROW(lattice_laws(f111_curve, 0.6, 0.5, 1, 0.1), Error);
   EXPECT_THROW(lattice_laws({30006, -200000}, 0.2, 0.01, 1, 0.33), Error);

@@ -6,10 +6,12 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "finished_run.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/process.h"
+#include "ripstop/run/filling.h"
 
 namespace ripstop {
 namespace {
@@ -86,6 +88,39 @@ int(parachute.find("Sides").text), int(parachute.find("LineCount").text)
 )";
   const ExportedParachute p = parachute();
   EXPECT_NEAR(std::stod(python(script, openrocket_text(p))), p.drag_area, 1e-9);
+}
+
+TEST_F(Export, EveryNumberIsThatOfTheRunOrOfItsDesign) {
+  const FinishedSteady run = finished_steady(folder_->path / "run");
+  const ExportedParachute p = exported(run);
+  const Design& design = run.given.parachute;
+  EXPECT_EQ(p.title, run.result.title);
+  EXPECT_EQ(p.run, (folder_->path / "run").string());
+  EXPECT_EQ(p.drag_area, run.result.drag_area);
+  EXPECT_DOUBLE_EQ(p.drag_area_uncertainty, run.drag_uncertainty * p.drag_area);
+  EXPECT_EQ(p.drag_coefficient, run.result.drag_coefficient);
+  EXPECT_DOUBLE_EQ(p.nominal_area, nominal_area(design));
+  EXPECT_DOUBLE_EQ(p.nominal_diameter, std::sqrt(4 / std::numbers::pi * p.nominal_area));
+  EXPECT_DOUBLE_EQ(2 * p.radius, run.result.size.projected_diameter);
+  EXPECT_EQ(p.height, run.result.size.length);
+  EXPECT_DOUBLE_EQ(p.porosity, facts(design).geometric_porosity());
+  EXPECT_DOUBLE_EQ(p.lag, 10 * p.nominal_diameter / run.result.speed);  // disk-gap-band: ten diameters
+  EXPECT_DOUBLE_EQ(exported(run, 5).lag, 2 * p.nominal_diameter);
+  EXPECT_EQ(exported(run, 5).lag_from,
+            std::string("filling over 10 D0 at 5 m/s: ") + known_filling("disk-gap-band").source);
+  EXPECT_EQ(p.mass, run.parachute_mass);
+  EXPECT_EQ(p.gores, design.gores);
+  EXPECT_EQ(p.line_count, design.lines.count);
+  EXPECT_EQ(p.line_length, design.lines.length_m);
+  EXPECT_EQ(p.line_material, design.lines.material);
+  EXPECT_EQ(p.cloth_material, design.canopy_material);
+  EXPECT_EQ(p.line_density, suspension_line(run.given).linear_density_kg_m);
+  EXPECT_EQ(p.cloth_density, canopy_fabric(run.given).areal_density_kg_m2);
+  // A cylinder twice as long as wide.
+  EXPECT_DOUBLE_EQ(p.packed_length, 2 * p.packed_diameter);
+  EXPECT_NEAR(
+      std::numbers::pi / 4 * p.packed_diameter * p.packed_diameter * p.packed_length / p.packed_volume, 1,
+      1e-12);
 }
 
 TEST_F(Export, JsonHasEveryNumber) {

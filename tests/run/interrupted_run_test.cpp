@@ -6,6 +6,7 @@
 
 #include "finished_run.h"
 #include "ripstop/core/error.h"
+#include "ripstop/output/csv.h"
 
 namespace ripstop {
 namespace {
@@ -40,6 +41,20 @@ TEST_F(InterruptedRun, MakesItsCaseAndDescriptionAnew) {
   EXPECT_EQ(read_file(folder / "case.toml"), given);
   EXPECT_EQ(read_file(folder / "run.json"), description);  // `started` too
   EXPECT_TRUE(finished_result(folder));
+}
+
+TEST_F(InterruptedRun, MakesTheTableOfItsIterationsAnewFromTheCheckpoint) {
+  CsvTable table = read_csv(folder / "iterations.csv");
+  table.rows = {table.rows.at(0), table.rows.at(0)};
+  table.rows[0][1] = 7;
+  write_csv(folder / "iterations.csv", table);
+  fly_square_law(folder);
+  table = read_csv(folder / "iterations.csv");
+  const std::vector<SteadyIteration> all = final_state(folder).iterations;
+  EXPECT_EQ(table.columns, columns_of<SteadyIteration>());
+  ASSERT_EQ(table.rows.size(), all.size());
+  ASSERT_GE(all.size(), 2u);
+  for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(table.rows[i], row_of(all[i])) << i;
 }
 
 TEST_F(InterruptedRun, NoticesWhatWasChangedOfEarlierIterations) {

@@ -203,6 +203,151 @@ TEST(Load, WithASnatchSpeedHasTheSnatchLoad) {
   EXPECT_NEAR(r.snatch->line_load * 12, r.snatch->load, 1e-9 * r.snatch->load);
 }
 
+// Every estimate is that of flight/opening_load.h, whose own tests have its numbers, in the conditions of its stage.
+TEST(Load, EveryMethodIsAskedInTheConditionsOfItsStage) {
+  LoadRequest asked = request(8, 60);
+  asked.path_angle = 30, asked.height = 2000, asked.impulse_integral = 0.4;
+  asked.reefing = {{0.3, 2}};
+  const LoadResult r = run_load(flat_circular(), asked);
+  ASSERT_EQ(r.stages.size(), 2u);
+  const double open = r.drag_coefficient * r.reference_area;
+  EXPECT_EQ(r.stages[0].height, 2000);
+  EXPECT_EQ(r.stages[0].speed, 60);
+  for (const StageLoads& stage : r.stages) {
+    const bool last = &stage == &r.stages.back();
+    EXPECT_DOUBLE_EQ(stage.drag_area, last ? open : 0.3 * open);
+    EXPECT_DOUBLE_EQ(stage.drag_area_before, last ? 0.3 * open : 0);
+    EXPECT_EQ(stage.density, standard_air(stage.height).density);
+    const auto begin = std::find_if(r.flight.begin(), r.flight.end(),
+                                    [&](const FlightRow& row) { return row.state.time >= stage.begin; });
+    ASSERT_NE(begin, r.flight.end());
+    EXPECT_EQ(begin->state.speed, stage.speed);
+    EXPECT_EQ(begin->state.height, stage.height);
+    OpeningConditions c{r.payload_mass + r.parachute_mass,
+                        stage.speed,
+                        stage.density,
+                        stage.drag_area,
+                        stage.filling_time,
+                        2,
+                        r.opening_coefficient,
+                        begin->state.path_angle};
+    EXPECT_DOUBLE_EQ(stage.ballistic_parameter, ballistic_parameter(c));
+    EXPECT_DOUBLE_EQ(stage.mass_ratio, mass_ratio(c));
+    EXPECT_DOUBLE_EQ(method(stage, "infinite mass").load, infinite_mass_load(c).load);
+    EXPECT_EQ(method(stage, "infinite mass").time, 0);
+    EXPECT_DOUBLE_EQ(method(stage, "Pflanz").load, pflanz_load(c).load);
+    EXPECT_DOUBLE_EQ(method(stage, "Pflanz").time, pflanz_load(c).time);
+    const MomentumImpulse impulse = momentum_impulse_load(c, 0.4);
+    EXPECT_DOUBLE_EQ(method(stage, "momentum-impulse").load, impulse.load.load);
+    EXPECT_EQ(method(stage, "momentum-impulse").applies, !last);
+    const bool slowed = pflanz_load(c).load <= 0.9 * infinite_mass_load(c).load;
+    c.exponent = 6;  // Ludtke's of solid cloth
+    EXPECT_DOUBLE_EQ(method(stage, "Ludtke").load, ludtke_load(c).load);
+    EXPECT_DOUBLE_EQ(method(stage, "Ludtke").time, ludtke_load(c).time);
+    for (const char* fills : {"Pflanz", "Ludtke"}) {
+      EXPECT_EQ(method(stage, fills).applies, !last);
+      EXPECT_EQ(method(stage, fills).note, last ? "fills from nothing, this stage does not" : "");
+    }
+    EXPECT_EQ(method(stage, "infinite mass").applies, !slowed);
+    EXPECT_EQ(method(stage, "infinite mass").note,
+              slowed ? "an upper bound: the speed falls while the canopy fills"
+                     : "the speed hardly falls while the canopy fills");
+    EXPECT_EQ(method(stage, "momentum-impulse").note.find("fills from nothing; leaves ") == 0, last);
+  }
+  // The highest force of the whole flight, and of each stage its own.
+  const auto highest =
+      std::max_element(r.flight.begin(), r.flight.end(),
+                       [](const FlightRow& a, const FlightRow& b) { return a.force < b.force; });
+  EXPECT_EQ(r.peak_load, highest->force);
+  EXPECT_EQ(r.peak_time, highest->state.time);
+  for (const StageLoads& stage : r.stages) {
+    const MethodLoad& flown = method(stage, "trajectory");
+    const auto row = std::find_if(r.flight.begin(), r.flight.end(),
+                                  [&](const FlightRow& other) { return other.force == flown.load; });
+    ASSERT_NE(row, r.flight.end());
+    EXPECT_NEAR(row->state.time - stage.begin, flown.time, 1e-12);
+  }
+  EXPECT_EQ(r.steady_time, r.flight.back().state.time);
+  EXPECT_EQ(r.steady_speed, r.flight.back().state.speed);
+  EXPECT_EQ(r.steady_drop, 2000 - r.flight.back().state.height);
+}
+
+TEST(Load, WhatFillsSlowlyUnderGravityIsNotForMethodsWithoutIt) {
+  const StageLoads stage = run_load(flat_circular(), request(8, 15)).stages[0];
+  const double share = standard_gravity * stage.filling_time / 15;
+  ASSERT_GT(share, 0.3);
+  EXPECT_FALSE(method(stage, "Pflanz").applies || method(stage, "Ludtke").applies);
+  const std::string note = method(stage, "Pflanz").note;
+  EXPECT_EQ(note.find("has no gravity, which adds "), 0u) << note;
+  EXPECT_NEAR(std::stod(note.substr(27)), 100 * share, 0.51) << note;
+  LoadRequest level = request(8, 15);
+  level.path_angle = 0;  // none along the way
+  EXPECT_TRUE(method(run_load(flat_circular(), level).stages[0], "Pflanz").applies);
+}
+
+// Between two legs no row is left out and none is there twice.
+TEST(Load, TheRowsOfItsLegsFollowEachOtherWithoutAGap) {
+  LoadRequest asked = request(8, 60);
+  asked.reefing = {{0.1, 2}, {0.4, 2}};
+  const std::vector<FlightRow> rows = run_load(flat_circular(), asked).flight;
+  const auto step = [&](std::size_t i) { return rows[i].state.time - rows[i - 1].state.time; };
+  EXPECT_EQ(rows[0].state.time, 0);
+  for (std::size_t i = 2; i + 1 < rows.size(); ++i) {
+    EXPECT_GT(step(i), 0) << i;
+    EXPECT_LT(step(i), 1.01 * std::max(step(i - 1), step(i + 1))) << i;
+  }
+}
+
+TEST(Load, WhatIsGivenTakesTheHandbooksPlace) {
+  LoadRequest asked = request();
+  const LoadResult own = run_load(flat_circular(), asked);
+  EXPECT_DOUBLE_EQ(own.drag_coefficient, 0.775);
+  EXPECT_EQ(own.drag_source, "middle of 0.75 to 0.80 (Knacke)");
+  EXPECT_EQ(own.opening_coefficient, 1.7);
+  EXPECT_EQ(own.filling_constant, 8);
+  EXPECT_EQ(own.filling_exponent, 2);
+  EXPECT_EQ(own.ludtke_exponent, 6);
+  EXPECT_EQ(own.filling_source, known_filling("flat-circular").source);
+  EXPECT_NE(own.opening_source, "given");
+  asked.filling_constant = 5;
+  EXPECT_EQ(run_load(flat_circular(), asked).filling_source,
+            own.filling_source);  // the exponents are still its
+  asked.drag_coefficient = 0.6, asked.opening_coefficient = 1.5, asked.filling_exponent = 1;
+  const LoadResult given = run_load(flat_circular(), asked);
+  EXPECT_EQ(given.drag_coefficient, 0.6);
+  EXPECT_EQ(given.opening_coefficient, 1.5);
+  EXPECT_EQ(given.filling_constant, 5);
+  EXPECT_EQ(given.filling_exponent, 1);
+  EXPECT_EQ(given.ludtke_exponent, 1);
+  for (const std::string& source : {given.drag_source, given.opening_source, given.filling_source})
+    EXPECT_EQ(source, "given");
+}
+
+TEST(Load, TheSnatchOfAPackedCanopyFollowsFromHowItIsSlowed) {
+  Case given = flat_circular();
+  given.parachute.riser.length_m = 0.5;
+  Line line = suspension_line(given);
+  line.break_load_n = 400;
+  given.materials.insert_or_assign(line.name, line);
+  LoadRequest asked = request();
+  asked.packed_drag_area = 0.05, asked.payload_drag_area = 0.01;
+  const LoadResult r = run_load(given, asked);
+  ASSERT_TRUE(r.snatch);
+  const Design& design = given.parachute;
+  const double apart = speed_difference_at_stretch({2.4, 0.01}, {r.parachute_mass, 0.05}, 30,
+                                                   standard_air(500).density, design.lines.length_m + 0.5);
+  EXPECT_DOUBLE_EQ(r.snatch->speed_difference, apart);
+  const SnatchLoad load =
+      snatch_load(2.4, r.parachute_mass, apart,
+                  {{"", suspension_line(given).coefficients_n, design.lines.count, design.lines.length_m},
+                   {"", riser_line(given).coefficients_n, 1, 0.5}});
+  EXPECT_DOUBLE_EQ(r.snatch->load, load.load);
+  EXPECT_DOUBLE_EQ(r.snatch->time, load.time);
+  EXPECT_DOUBLE_EQ(r.snatch->stretch, load.stretch);
+  EXPECT_DOUBLE_EQ(r.snatch->line_load, load.load / design.lines.count);
+  EXPECT_DOUBLE_EQ(r.snatch->line_margin.value(), 400 / r.snatch->line_load);
+}
+
 TEST(Load, WhatCannotBeIsRefused) {
   EXPECT_NE(refused(request(-2)).find("payload mass (kg) of -2"), std::string::npos);
   EXPECT_NE(refused(request(2, 0)).find("speed at line stretch (m/s) of 0"), std::string::npos);

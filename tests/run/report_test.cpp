@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -102,6 +104,18 @@ TEST_F(RunReport, HasEveryNumberOfItsResult) {
     }
   }
   EXPECT_EQ(made.values.size(), plain);
+  EXPECT_EQ(made.name, "a");
+  EXPECT_EQ(made.kind, "steady");
+  EXPECT_EQ(made.headline.size(), 6u);
+  for (const std::string& key : made.headline) EXPECT_FALSE(std::isnan(number_of(made, key))) << key;
+  EXPECT_EQ(made.case_file, read_file(folder / "case.toml"));
+  std::vector<std::string> tables, plots;
+  for (const ReportTable& table : made.tables) tables.push_back(table.id);
+  for (const ReportPlot& plot : made.plots) plots.push_back(plot.id);
+  for (const char* id : {"bill", "sources", "ledger"})
+    EXPECT_EQ(std::count(tables.begin(), tables.end(), id), 1) << id;
+  EXPECT_EQ(plots, (std::vector<std::string>{"forces", "changes", "pressure", "profile", "lines"}));
+  EXPECT_FALSE(made.warnings.empty());  // so few nodes
   EXPECT_FALSE(made.shape.frames.empty());
   EXPECT_FALSE(made.flow.pressure.empty());
   EXPECT_EQ(made.shape.frames[0].line_values.size(), made.shape.parts.size());

@@ -12,7 +12,9 @@
 #include "ripstop/coupling/pressure_profile.h"
 #include "ripstop/inflation/opening_estimate.h"
 #include "ripstop/material/library.h"
+#include "ripstop/output/csv.h"
 #include "ripstop/output/plot.h"
+#include "ripstop/output/vtk.h"
 #include "ripstop/output/vtk_read.h"
 #include "ripstop/run/coupon.h"
 #include "ripstop/run/fabric.h"
@@ -158,6 +160,30 @@ TEST(Results, ACouponIsPulledToTheTestedStrainUnlessAnotherIsAsked) {
   ASSERT_EQ(tested.pull.points.size(), 2u);
   EXPECT_NEAR(tested.pull.points.back().strain, fabric.tested_strain > 0 ? fabric.tested_strain : 0.1, 1e-12);
   EXPECT_NEAR(run_coupon(fabric, shape, 0.02, 2, team).pull.points.back().strain, 0.02, 1e-12);
+}
+
+TEST(Results, OfACouponAreInTheFilesOfANewFolder) {
+  const Fabric fabric = std::get<Fabric>(library_material("f-111"));
+  CouponShape shape;
+  shape.cells = 4, shape.length = 0.05, shape.orientation = 90;
+  ThreadTeam team(1);
+  const CouponResult result = run_coupon(fabric, shape, 0.03, 3, team);
+  EXPECT_EQ(result.orientation, 90);
+  for (int i = 0; i < 3; ++i) EXPECT_DOUBLE_EQ(result.pull.points.at(i).strain, 0.01 * (i + 1));
+  const TemporaryFolder root("coupon");
+  const std::filesystem::path folder = root.path / "new/coupon";
+  write_coupon_result(folder, result);
+  const CsvTable table = read_csv(folder / "coupon.csv");
+  EXPECT_EQ(table.columns, columns_of<CouponPoint>());
+  ASSERT_EQ(table.rows.size(), 3u);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(table.rows[i], row_of(result.pull.points[i])) << i;
+  EXPECT_EQ(read_file(folder / "result.json"), to_json(result));
+  const VtkFile cloth = read_vtk(folder / "coupon-90.vtp");
+  ASSERT_TRUE(cloth.find("CellData", "von_mises_n_per_m"));
+  EXPECT_EQ(cloth.find("CellData", "von_mises_n_per_m")->values,
+            cloth_cells_only(result.coupon.mesh, result.pull.von_mises));
+  EXPECT_EQ(cloth.find("Points", "Points")->values[4], result.pull.positions[1].y);
+  EXPECT_GT(read_png(folder / "coupon-90.png").width, 0);
 }
 
 TEST(Results, OfAFitAreWhatItsCouponsFoundAndItsPlotsHaveTheMeasuredPoints) {

@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <ctime>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
+#include "ripstop/case/resolve.h"
 #include "ripstop/core/build_info.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
@@ -87,6 +90,45 @@ TEST(RunFolder, ItsInputsAreProgramEngineAndCase) {
   open_run_folder({root.path / "run"}, given, "engine", 1);
   EXPECT_EQ(inputs_of_run(root.path / "run"),
             hash_bytes(version() + std::string("\nengine\n") + case_json(given)));
+}
+
+TEST(RunFolder, ItsDescriptionSaysWhatMadeItAndOfWhat) {
+  const TemporaryFolder root("run-folder");
+  Case given = stratos();
+  given.flow.ranks = 3;
+  open_run_folder({root.path / "run"}, given, "an engine 7", 2);
+  const auto run = nlohmann::ordered_json::parse(read_file(root.path / "run/run.json"));
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : run.items()) keys.push_back(key);
+  EXPECT_EQ(keys, (std::vector<std::string>{"program", "version", "compiler", "processor", "threads", "ranks",
+                                            "flow_engine", "started", "case_file", "inputs_hash", "case",
+                                            "sources"}));
+  EXPECT_EQ(run["program"], "ripstop");
+  EXPECT_EQ(run["version"], version());
+  EXPECT_EQ(run["threads"], 2);
+  EXPECT_EQ(run["ranks"], 3);
+  EXPECT_EQ(run["flow_engine"], "an engine 7");
+  const std::tm now = [] {
+    const std::time_t t = std::time(nullptr);
+    std::tm utc{};
+    gmtime_r(&t, &utc);
+    return utc;
+  }();
+  std::tm begun{};
+  ASSERT_TRUE(strptime(run["started"].get<std::string>().c_str(), "%Y-%m-%dT%H:%M:%SZ", &begun));
+  std::tm later = now;
+  EXPECT_NEAR(std::difftime(timegm(&later), timegm(&begun)), 0, 60);
+  EXPECT_EQ(run["case_file"], given.file.string());
+  EXPECT_EQ(run["inputs_hash"], inputs_of_run(root.path / "run").value());
+  EXPECT_EQ(run["case"], nlohmann::ordered_json::parse(case_json(given)));
+  const std::vector<Source> sources = resolve(given).sources;
+  ASSERT_EQ(run["sources"].size(), sources.size());
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    EXPECT_EQ(run["sources"][i]["key"], sources[i].key);
+    EXPECT_EQ(run["sources"][i]["given"], sources[i].given) << sources[i].key;
+    EXPECT_EQ(run["sources"][i]["from"], sources[i].from) << sources[i].key;
+  }
+  EXPECT_EQ(read_file(root.path / "run/case.toml"), case_toml(given));
 }
 
 TEST(RunFolder, AResultOfOtherInputsIsNotBelieved) {

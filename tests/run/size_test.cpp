@@ -18,7 +18,7 @@
 namespace ripstop {
 namespace {
 
-SizeRequest request(const std::string& family = "flat-circular") {
+SizeRequest sized(const std::string& family = "flat-circular") {
   SizeRequest r;
   r.payload_mass = 2.4, r.descent_rate = 5, r.family = family, r.height = 300;
   return r;
@@ -50,7 +50,7 @@ TEST(Size, ItsDragIsThatOfTheTableOfFamilies) {
 
 TEST(Size, OfEveryFamilyHoldsPayloadAndParachuteAtTheRate) {
   for (const FamilyDrag& drag : family_drags()) {
-    const SizeResult r = run_size(request(drag.family));
+    const SizeResult r = run_size(sized(drag.family));
     const double weight = (2.4 + r.parachute_mass) * standard_gravity;
     const double force = 0.5 * standard_air(300).density * 25 * r.drag_coefficient * r.nominal_area;
     EXPECT_NEAR(force / weight, 1, 2e-3) << drag.family;
@@ -65,9 +65,12 @@ TEST(Size, OfEveryFamilyHoldsPayloadAndParachuteAtTheRate) {
 
 TEST(Size, ItsCaseFileIsACaseOfThatParachute) {
   for (const FamilyDrag& drag : family_drags()) {
-    const SizeResult r = run_size(request(drag.family));
+    const SizeResult r = run_size(sized(drag.family));
     const Case given = parse_case(r.case_text, "sized.toml");
     EXPECT_NEAR(nominal_area(given.parachute) / r.nominal_area, 1, 1e-9) << drag.family;
+    EXPECT_EQ(given.title, drag.family + " for 2.4 kg at 5 m/s");
+    EXPECT_EQ(r.given.title, given.title);
+    EXPECT_EQ(given.flow.speed_m_s, 5);
     EXPECT_EQ(given.payload.mass_kg, 2.4);
     EXPECT_EQ(given.flow.height_m, 300);
     EXPECT_NEAR(parachute_mass(given), r.parachute_mass, 1e-9) << drag.family;
@@ -77,7 +80,7 @@ TEST(Size, ItsCaseFileIsACaseOfThatParachute) {
 
 // A flow whose drag coefficient is 10 % off the table's: the next diameter makes up for it.
 TEST(Size, VerifyChangesTheDiameterUntilTheRateHolds) {
-  const SizeRequest asked = request();
+  const SizeRequest asked = sized();
   SizeResult r = run_size(asked);
   const double before = r.nominal_diameter, coefficient = 0.9 * r.drag_coefficient;
   int runs = 0;
@@ -102,7 +105,7 @@ TEST(Size, VerifyChangesTheDiameterUntilTheRateHolds) {
 }
 
 TEST(Size, ItsReportHasItsNumbersAndEveryMethodsLoad) {
-  const SizeResult r = run_size(request());
+  const SizeResult r = run_size(sized());
   const Report report = size_report(r, {});
   ASSERT_EQ(report.runs.size(), 1u);
   const ReportRun& page = report.runs.front();
@@ -123,21 +126,21 @@ TEST(Size, ItsReportHasItsNumbersAndEveryMethodsLoad) {
 }
 
 TEST(Size, WhatCannotBeIsRefused) {
-  SizeRequest asked = request("flat-circula");
+  SizeRequest asked = sized("flat-circula");
   EXPECT_NE(refused(asked).find("did you mean flat-circular?"), std::string::npos);
-  asked = request();
+  asked = sized();
   asked.payload_mass = -2.4;
   EXPECT_NE(refused(asked).find("payload mass (kg) of -2.4"), std::string::npos);
-  asked = request();
+  asked = sized();
   asked.descent_rate = 0;
   EXPECT_NE(refused(asked).find("descent rate"), std::string::npos);
-  asked = request();
+  asked = sized();
   asked.deployment_speed = 4;
   EXPECT_NE(refused(asked).find("not below the deployment speed"), std::string::npos);
-  asked = request();
+  asked = sized();
   asked.line_material = "string";
   EXPECT_NE(refused(asked).find("no such line"), std::string::npos);
-  asked = request();
+  asked = sized();
   asked.height = 90000;
   EXPECT_NE(refused(asked).find("standard atmosphere"), std::string::npos);
 }

@@ -40,6 +40,31 @@ TEST(SteadyRun, TheLedgerClosesAndTheLoadIsTheFlowsForce) {
   EXPECT_LT(last.drag_change, 1e-3);
 }
 
+TEST(SteadyRun, AnIterationTellsHowFarTheClothMovedAndInHowManySteps) {
+  FormulaEngine engine;
+  SteadySolver solver(small_problem(), engine);
+  SteadyState state = solver.start();
+  for (int k = 0; k < 2; ++k) {
+    const std::vector<Vec3> before = state.shape;
+    solver.iterate(state);
+    double moved = 0, size = 0;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      moved += dot(state.shape[i] - before[i], state.shape[i] - before[i]);
+      size += dot(before[i], before[i]);
+    }
+    const SteadyIteration& now = state.iterations.back();
+    EXPECT_DOUBLE_EQ(now.omega, std::sqrt(moved / size));
+    EXPECT_GT(now.shape_change, 0);
+    EXPECT_LT(now.shape_change,
+              std::sqrt(moved / double(before.size())) * (1 + 1e-9));  // a mean, of distances
+    EXPECT_GT(now.cloth_steps, 10);
+    EXPECT_GT(now.cloth_residual, 0);
+    EXPECT_LE(now.cloth_residual, small_problem().settings.cloth_tolerance);
+    EXPECT_GT(now.cut_cells, 0);
+    EXPECT_GT(now.flow_iterations, 0);
+  }
+}
+
 /// Whose force is half a percent higher every time that the cloth is placed.
 class CreepingFlow final : public FormulaFlow {
  public:

@@ -13,7 +13,7 @@
 namespace ripstop {
 namespace {
 
-const std::filesystem::path stratos =
+const std::filesystem::path stratos_file =
     std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/stratos-iv/case.toml";
 
 struct SweepFiles : testing::Test {
@@ -24,7 +24,7 @@ struct SweepFiles : testing::Test {
 
   void sweep(std::vector<SweepAxis> over) {
     axes = std::move(over);
-    points = sweep_points(stratos, {}, axes);
+    points = sweep_points(stratos_file, {}, axes);
     rows.assign(points.size(), {});
     for (std::size_t i = 0; i < rows.size(); ++i) {
       rows[i].done = true;

@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "finished_run.h"
+#include "ripstop/core/build_info.h"
 #include "ripstop/core/error.h"
 #include "ripstop/run/sweep.h"
 
@@ -47,6 +49,15 @@ TEST(SweepFolder, AFlowFieldStaysUntilNobodyStartsFromIt) {
     EXPECT_NEAR(row.result.drag_area, SquareLawEngine::area, 1e-2);
   }
   EXPECT_EQ(order, (std::vector<std::size_t>{0, 1, 2}));
+  const auto described = nlohmann::json::parse(read_file(settings.folder / "sweep.json"));
+  EXPECT_EQ(described.at("program"), "ripstop");
+  EXPECT_EQ(described.at("version"), version());
+  ASSERT_EQ(described.at("runs").size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(described["runs"][i]["folder"], points[i].folder);
+    EXPECT_EQ(described["runs"][i]["values"], points[i].values);
+    EXPECT_EQ(described["runs"][i]["starts_from"], i == 0 ? nlohmann::json() : nlohmann::json("v20"));
+  }
 
   settings.folder = root.path / "with-fields";
   settings.fields = true;
