@@ -200,7 +200,7 @@ class Flow {
 class FlowEngine {
  public:
   virtual ~FlowEngine() = default;
-  virtual std::string name() const = 0;  // "OpenFOAM 1912 (rhoPorousSimpleFoam)"
+  virtual std::string name() const = 0;  // "OpenFOAM 1912"
   /// Throws Error(usage) or Error(bad_data) for a problem that no flow can have, or not this engine's. The
   /// engine must outlive its flows.
   virtual std::unique_ptr<Flow> start(const FlowProblem& problem) = 0;

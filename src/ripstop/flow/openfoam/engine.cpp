@@ -196,7 +196,7 @@ class OpenFoam final : public FlowEngine {
   }
 
   std::string name() const override {
-    return fmt::format("OpenFOAM {} ({})", installation_.version, installation_.solver);
+    return "OpenFOAM " + installation_.version;
   }
   std::unique_ptr<Flow> start(const FlowProblem& problem) override {
     if (!problem.sheets.empty()) return start_sheet_flow(problem, settings_, folder_, installation_);
