@@ -244,7 +244,7 @@ void check_steady_in(const SteadyFolderSettings& settings, const Case& given) {
   const bool goes_on =
       holds_run(settings.run, given, engine_of(given).name(engine_options(given)));  // the engine is there
   if (goes_on && finished_result(folder)) return;
-  require_steady_memory(given);
+  if (!settings.elsewhere) require_steady_memory(given);
 }
 
 double drag_for_opening(const fs::path& folder, const Case& opening) {

@@ -14,6 +14,7 @@
 #include "ripstop/case/resolve.h"
 #include "ripstop/core/build_info.h"
 #include "ripstop/core/file.h"
+#include "ripstop/core/shell.h"
 #include "ripstop/core/thread_team.h"
 #include "ripstop/run/engine.h"
 #include "ripstop/run/steady_folder.h"
@@ -26,26 +27,12 @@ using nlohmann::json;
 
 constexpr double most_runs = 10'000;
 
-std::string part_of_name(const std::string& text) {
-  std::string name;
-  for (const char c : text) {
-    const bool kept = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-                      c == '.' || c == '-' || c == '_' || c == '+';
-    if (kept)
-      name += c;
-    else if (!name.empty() && name.back() != '-')
-      name += '-';
-  }
-  while (!name.empty() && name.back() == '-') name.pop_back();
-  return name.substr(0, 80);
-}
-
 /// "speed_m_s=20_gamma=0.2"; the last part of a key's name is enough for people.
 std::string folder_name(const std::vector<SweepAxis>& axes, const std::vector<std::size_t>& at) {
   std::string name;
   for (std::size_t d = 0; d < axes.size(); ++d) {
     const std::string key = axes[d].name.substr(axes[d].name.rfind('.') + 1);
-    name += fmt::format("{}{}={}", d ? "_" : "", part_of_name(key), part_of_name(axes[d].values[at[d]]));
+    name += fmt::format("{}{}={}", d ? "_" : "", plain_name(key), plain_name(axes[d].values[at[d]]));
   }
   return axes.empty() ? "run" : name;
 }
