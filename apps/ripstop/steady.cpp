@@ -178,7 +178,10 @@ void add_steady(CLI::App& app, int& status) {
         options->overrides.set.push_back({"flow.unsteady", "true", "--unsteady"});
       },
       "Go on in time: the mean over a wake that sheds, with its standard error");
-  command->add_option("--hostfile", options->hostfile, "Hosts for MPI")->check(CLI::ExistingFile);
+  command
+      ->add_option("--hostfile", options->hostfile,
+                   "Hosts that MPI may put the ranks on, a line each: name slots=4")
+      ->check(CLI::ExistingFile);
   command->add_option("--out", options->out, "Run folder (default: runs/<name of the case>)");
   command->add_flag("--fresh", options->fresh,
                     "Replace what Ripstop wrote into the run folder; default: go on with it");

@@ -9,6 +9,7 @@
 #include "ripstop/core/process.h"
 #include "ripstop/flow/openfoam/case_reader.h"
 #include "ripstop/flow/openfoam/case_writer.h"
+#include "ripstop/flow/openfoam/hostfile.h"
 #include "ripstop/flow/openfoam/installation.h"
 #include "ripstop/flow/openfoam/openfoam.h"
 #include "ripstop/flow/openfoam/solver_log.h"
@@ -219,9 +220,9 @@ class OpenFoamFlow final : public Flow {
         arguments.insert(arguments.end(),
                          {"--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1"});
       } else {
-        arguments.insert(arguments.end(),
-                         {"--hostfile", fs::absolute(settings_.hostfile).string(), "-x", "WM_PROJECT_DIR"});
+        arguments.insert(arguments.end(), {"--hostfile", fs::absolute(settings_.hostfile).string()});
       }
+      arguments.insert(arguments.end(), {"-x", "WM_PROJECT_DIR"});  // Slurm's hosts are not in a file
     }
     arguments.push_back(program(installation_, installation_.solver).string());
     if (settings_.ranks > 1) arguments.push_back("-parallel");
@@ -306,10 +307,7 @@ class OpenFoam final : public FlowEngine {
       throw Error(ExitCode::usage,
                   fmt::format("OpenFOAM: ranks is {}; it must be 1 or more", settings.ranks));
     }
-    if (!settings.hostfile.empty() && !fs::exists(settings.hostfile)) {
-      throw Error(ExitCode::usage,
-                  fmt::format("OpenFOAM: the hostfile {} does not exist", settings.hostfile.string()));
-    }
+    if (!settings.hostfile.empty()) require_slots(settings.hostfile, settings.ranks);
     check_folder(folder_);
     installation_ = find_installation(settings.program_folder, settings.ranks > 1, settings.incompressible);
   }
