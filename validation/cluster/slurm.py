@@ -24,12 +24,14 @@ OPENFOAM = [*trial.COMMANDS["openfoam"].split(), "--ranks", "2"]
 SWEEP = ["sweep", "{case}", "--speeds", "20,22,24"]
 
 
+THREADS_OF_REPORT = re.compile(rb'\["threads","\d+"\]')
 THREADS = re.compile(rb'"threads": \d+')  # a run has its job's cores, a sweep here shares this machine's
 
 
 def differences(folder, whole):
     """As of a kill, but for the number of threads, on which no figure depends."""
-    with unittest.mock.patch.object(trial, "TIMES", [*trial.TIMES, (THREADS, b"")]):
+    with (unittest.mock.patch.object(trial, "TIMES", [*trial.TIMES, (THREADS, b"")]),
+          unittest.mock.patch.object(trial, "TIMES_OF_REPORT", [*trial.TIMES_OF_REPORT, (THREADS_OF_REPORT, b"")])):
         return trial.differences(folder, whole)
 
 
