@@ -40,7 +40,7 @@ void add_batch_options(CLI::App& command, BatchOptions& options) {
           ->option_text("slurm");
   for (const char* other : {"--fresh", "--dry-run", "--check", "--hostfile", "--json"})
     if (CLI::Option* option = command.get_option_no_throw(other)) batch->excludes(option);
-  add_number(command, "--hours", options.hours, above(0).up_to(8760),
+  add_number(command, "--hours", options.hours, from(0.1).up_to(8760),
              "Time limit of a job of --batch [h] (default: an estimate; it goes on in the next job)")
       ->needs(batch);
   add_number(

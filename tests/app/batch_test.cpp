@@ -67,7 +67,7 @@ TEST_F(Batch, AScriptIsWrittenInPlaceOfTheRunAndDoesWhatTheCommandDoes) {
 }
 
 TEST_F(Batch, ASweepsElementsLeaveWhatTheSweepGoesOnFrom) {
-  const std::vector<std::string> sweep = command("sweep", "sweep", {"--speeds", "10,12,14"});
+  const std::vector<std::string> sweep = command("sweep", "sweep", {"--speeds", "10,15,20"});
   std::vector<std::string> batch = sweep;
   batch.insert(batch.end(), {"--batch=slurm", "--jobs", "2"});
   const Finished written = ripstop_with(batch);
@@ -108,7 +108,7 @@ TEST_F(Batch, WhatAScriptCannotDoIsRefused) {
   EXPECT_EQ(line.code, 2) << line.output;
   EXPECT_NE(line.output.find("choose another --out"), std::string::npos) << line.output;
   const Finished only =
-      ripstop_with(command("sweep", "none", {"--speeds", "10,12", "--only", "speed_m_s=11"}));
+      ripstop_with(command("sweep", "none", {"--speeds", "10,15", "--only", "speed_m_s=11"}));
   EXPECT_EQ(only.code, 2) << only.output;
   EXPECT_NE(only.output.find("did you mean speed_m_s=10?"), std::string::npos) << only.output;
 }

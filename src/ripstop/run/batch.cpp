@@ -96,8 +96,9 @@ near_the_limit() {
     exit 8
   fi
   echo "Near the time limit: back into the queue" >&2
-  scontrol requeue "$SLURM_JOB_ID"
-  exit 0
+  scontrol requeue "$SLURM_JOB_ID" && exit 0
+  echo "Slurm does not take it back: submit the script again, and the run goes on" >&2
+  exit 8
 }
 began_with=$(checkpoint_state)
 "${command[@]}" &
