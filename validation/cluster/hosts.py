@@ -2,6 +2,7 @@
 """steady --flow openfoam --ranks 2 --hostfile on two hosts, which are network namespaces of this machine with an address each and no
 ssh: Open MPI starts its daemon on the second through a script that enters it. Compared with both ranks on this machine. As root."""
 import argparse
+import json
 import os
 import pathlib
 import shutil
@@ -79,14 +80,14 @@ exec ip netns exec "$host" sh -c "$*"
         done = subprocess.run(["ip", "netns", "exec", hosts.names[0], *words, "--hostfile", str(hostfile), "--out", str(work / "two/run")],
                               capture_output=True, text=True, env=environment)
         entered = (work / "entered").read_text().split() if (work / "entered").exists() else []
-        sent = subprocess.run(["ip", "-n", hosts.names[0], "-s", "link"], capture_output=True, text=True).stdout
+        links = json.loads(subprocess.run(["ip", "-j", "-s", "-n", hosts.names[0], "link"], capture_output=True, text=True, check=True).stdout)
+        sent = sum(link["stats64"]["tx"]["bytes"] for link in links if link["ifname"].startswith("rip"))
     if done.returncode != 0 or not entered:
         print(f"FAILED: exit code {done.returncode}, entered {entered}: {done.stderr[-800:]}; see {work}")
         return 1
     unlike = trial.differences(work / "two/run", work / "here/run")
-    print(f"{'ok' if not unlike else 'FAILED'}: 2 ranks on {len(ADDRESSES)} hosts, {len(entered)} daemons started on {set(entered)}, files "
-          f"{'the same as on one' if not unlike else 'that differ: ' + ' '.join(unlike[:8])}")
-    print(sent)
+    print(f"{'ok' if not unlike else 'FAILED'}: 2 ranks on {len(ADDRESSES)} hosts, {set(entered)} entered {len(entered)} times, {1e-6 * sent:.1f} MB over the "
+          f"cable, files {'the same as on one' if not unlike else 'that differ: ' + ' '.join(unlike[:8])}")
     shutil.rmtree(work)
     return 1 if unlike else 0
 
