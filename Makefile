@@ -8,6 +8,7 @@ PREFIX ?= /usr/local
 PACKAGES := build-essential cmake ninja-build pkg-config libtomlplusplus-dev libcli11-dev libfmt-dev \
   libeigen3-dev nlohmann-json3-dev libnlopt-dev libhwy-dev libpng-dev libcairo2-dev fonts-dejavu-core libxxhash-dev zlib1g-dev \
   openfoam openmpi-bin
+SLURM_PACKAGES := slurmctld slurmd slurm-client munge
 FUZZ_PACKAGES := clang libclang-rt-14-dev
 # What the Python package needs, and what a wheel of it needs beyond that.
 PYTHON_PACKAGES := python3-dev pybind11-dev python3-numpy
@@ -17,7 +18,7 @@ CHECK_PACKAGES := libgtest-dev libbenchmark-dev python3 python3-jsonschema pytho
 
 export PATH := /usr/bin:$(PATH)
 
-.PHONY: help deps check-deps build demo check room sanitize sanitize-thread fuzz mutants coverage tidy bench validate validate-ojf validate-families torture report-libraries format format-check install-build install wheel package clean
+.PHONY: help deps check-deps build demo check room sanitize sanitize-thread fuzz mutants coverage tidy bench validate validate-ojf validate-families torture test-slurm test-hosts scaling report-libraries format format-check install-build install wheel package clean
 
 help:  ## This list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -113,6 +114,17 @@ validate-families: build  ## Drag of every family's example beside Knacke's valu
 
 torture: build  ## Kills, failing writes, damaged files, lying programs over tiny runs, into docs/tables: hours; resumable
 	@/usr/bin/python3 validation/reliability/torture.py --ripstop build/bin/ripstop $(TORTURE)
+
+test-slurm: build  ## Batch scripts through a real Slurm of two nodes on this machine (as root), into docs/tables: some minutes
+	$(call install_missing,$(SLURM_PACKAGES))
+	@/usr/bin/python3 validation/cluster/slurm.py --ripstop build/bin/ripstop $(SLURM)
+
+test-hosts: build  ## OpenFOAM's ranks on two hosts, network namespaces of this machine (as root)
+	$(call install_missing,iproute2)
+	@/usr/bin/python3 validation/cluster/hosts.py --ripstop build/bin/ripstop
+
+scaling: build  ## OpenFOAM's time an iteration on 1, 2, 4 ... ranks up to the cores, into docs/tables; on an idle machine
+	@/usr/bin/python3 validation/cluster/ranks.py --ripstop build/bin/ripstop
 
 report-libraries:  ## Make the report's three.js and uPlot again from npm, as package-lock.json pins them (needs node)
 	@cd src/ripstop/report/vendor && npm ci --silent && npm run --silent build && rm -rf node_modules

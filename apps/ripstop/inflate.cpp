@@ -9,6 +9,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "batch_option.h"
 #include "case_options.h"
 #include "commands.h"
 #include "json_option.h"
@@ -27,6 +28,7 @@ namespace fs = std::filesystem;
 
 struct InflateArguments {
   OpeningOptions opening;
+  BatchOptions batch;
   fs::path out;
   bool fresh = false, check = false, json = false;
 };
@@ -160,6 +162,12 @@ int run(const InflateArguments& options) {
   const LoadSource source = load_source(given, options.opening.steady_run);
   const int threads = threads_of(options.opening, given);
   const InflationFolderSettings settings{{folder, options.fresh}, threads};
+  if (options.batch.wanted()) {
+    check_inflation_in(settings, given, source);
+    const BatchNeeds needs = opening_needs(given, threads, options.batch.cores.value_or(0));
+    write_and_tell(folder, slurm_files(batch_job(options.batch, folder, needs)), "sbatch", "run.sbatch");
+    return 0;
+  }
   if (options.check) {
     check_inflation_in(settings, given, source);
     const Inflation solver(with_engine(given, opening_problem(given, source, threads)));
@@ -214,6 +222,7 @@ void add_inflate(CLI::App& app, int& status) {
                     "Replace what Ripstop wrote into the run folder; default: go on with it");
   command->add_flag("--check", options->check, "Fold, say strain, pressure and step, and stop");
   add_json_option(*command, options->json);
+  add_batch_options(*command, options->batch);
   command->callback([options, &status] { status = run(*options); });
 }
 

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "batch_option.h"
 #include "case_options.h"
 #include "commands.h"
 #include "json_option.h"
@@ -29,6 +30,7 @@ namespace fs = std::filesystem;
 struct SteadyArguments {
   fs::path case_file;
   Overrides overrides;
+  BatchOptions batch;
   fs::path hostfile;
   fs::path out;
   bool fresh = false;
@@ -118,11 +120,21 @@ int dry_run(const SteadyFolderSettings& settings, const Case& given) {
   return 0;
 }
 
+int write_scripts(const SteadyArguments& options, const SteadyFolderSettings& settings, const Case& given) {
+  check_steady_in(settings, given);
+  const fs::path& folder = settings.run.folder;
+  const BatchJob job = batch_job(options.batch, folder, steady_needs(given, options.batch.cores.value_or(0)));
+  write_and_tell(folder, slurm_files(job), "sbatch", "run.sbatch");
+  return 0;
+}
+
 int run(const SteadyArguments& options) {
   const Case given = read_case(options.case_file, options.overrides);
   const CouplingSettings coupling = resolve(given).coupling;
   const fs::path folder = options.out.empty() ? default_run_folder(options.case_file) : options.out;
-  const SteadyFolderSettings settings{{folder, options.fresh}, 0, options.hostfile, {}};
+  const SteadyFolderSettings settings{
+      {folder, options.fresh}, 0, options.hostfile, {}, options.batch.wanted()};
+  if (options.batch.wanted()) return write_scripts(options, settings, given);
   if (options.dry_run) return dry_run(settings, given);
   goes_on_when_repeated();
   SteadyTerminal terminal(folder);
@@ -155,7 +167,8 @@ void add_steady(CLI::App& app, int& status) {
   auto options = std::make_shared<SteadyArguments>();
   CLI::App* command = app.add_subcommand("steady", "Inflated shape, drag and loads in a steady flow");
   command->footer(
-      "Example: ripstop steady examples/stratos-iv/case.toml --speed 30 --grid 50,50,75 --ranks 2");
+      "Example: ripstop steady examples/stratos-iv/case.toml --speed 30 --grid 50,50,75\n"
+      "         ripstop steady examples/stratos-iv/case.toml --flow openfoam --ranks 16 --batch slurm");
   command->add_option("case", options->case_file, "Case file (TOML)")->required();
   add_case_options(*command, options->overrides);
   add_flow_options(*command, options->overrides);
@@ -165,12 +178,16 @@ void add_steady(CLI::App& app, int& status) {
         options->overrides.set.push_back({"flow.unsteady", "true", "--unsteady"});
       },
       "Go on in time: the mean over a wake that sheds, with its standard error");
-  command->add_option("--hostfile", options->hostfile, "Hosts for MPI")->check(CLI::ExistingFile);
+  command
+      ->add_option("--hostfile", options->hostfile,
+                   "Hosts that MPI may put the ranks on, a line each: name slots=4")
+      ->check(CLI::ExistingFile);
   command->add_option("--out", options->out, "Run folder (default: runs/<name of the case>)");
   command->add_flag("--fresh", options->fresh,
                     "Replace what Ripstop wrote into the run folder; default: go on with it");
   command->add_flag("--dry-run", options->dry_run, "Say what would be done, and stop");
   add_json_option(*command, options->json);
+  add_batch_options(*command, options->batch);
   command->callback([options, &status] { status = run(*options); });
 }
 

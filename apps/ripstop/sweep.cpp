@@ -8,11 +8,14 @@
 #include <cstdio>
 #include <memory>
 
+#include "batch_option.h"
 #include "commands.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/run/report.h"
 #include "ripstop/run/sweep_files.h"
+#include "steady_terminal.h"
+#include "stopping.h"
 #include "sweep_progress.h"
 
 namespace ripstop {
@@ -20,7 +23,9 @@ namespace {
 
 struct SweepArguments : SweepOptions {
   std::vector<std::string> speeds, vary, rows;
-  bool dry_run = false;
+  BatchOptions batch;
+  std::string only;  // folder of one run
+  bool dry_run = false, gather = false;
 };
 
 /// "a=1,2" is an axis of two values; "--row a=1 b=2" one row of a table, all rows together one axis.
@@ -51,11 +56,61 @@ std::vector<SweepAxis> axes_of(const SweepArguments& options) {
   return axes;
 }
 
+int write_scripts(const SweepArguments& options, const std::vector<SweepPoint>& points) {
+  SweepSettings settings = options.settings;
+  settings.elsewhere = true;
+  BatchNeeds needs;
+  for (const SweepPoint& point : points) {  // each job could hold the largest
+    const BatchNeeds one = steady_needs(point.given, options.batch.cores.value_or(0));
+    if (one.hours >= needs.hours) needs.hours = one.hours, needs.limited = one.limited;
+    needs.ranks = std::max(needs.ranks, one.ranks);
+    needs.cores = std::max(needs.cores, one.cores);
+    needs.memory = std::max(needs.memory, one.memory);
+  }
+  BatchSweep sweep{batch_job(options.batch, settings.folder, needs), {}, settings.jobs};
+  const auto waves = sweep_waves(points, settings.warm);
+  for (const std::vector<std::size_t>& wave : waves) {
+    sweep.waves.emplace_back();
+    for (const std::size_t i : wave) sweep.waves.back().push_back(points[i].folder);
+  }
+  const std::vector<BatchFile> files = slurm_files(sweep);
+  prepare_sweep(points, settings);
+  write_and_tell(settings.folder, files, "bash", "submit");
+  fmt::print("{} runs in {} after another{}\n", points.size(),
+             waves.size() == 1 ? "one array, not one" : fmt::format("{} arrays, one", waves.size()),
+             waves.size() == 1 ? "" : ", as each starts from its neighbour; --cold needs one array only");
+  return 0;
+}
+
+int run_only(const SweepArguments& options, const std::vector<SweepPoint>& points) {
+  const auto point = std::find_if(points.begin(), points.end(),
+                                  [&](const SweepPoint& one) { return one.folder == options.only; });
+  if (point == points.end()) {
+    std::vector<std::string> names;
+    for (const SweepPoint& one : points) names.push_back(one.folder);
+    const std::string near = nearest(options.only, names);
+    throw Error(ExitCode::usage, fmt::format("--only {}: is no run of this sweep{}", options.only,
+                                             near.empty() ? "" : "; did you mean " + near + "?"));
+  }
+  goes_on_when_repeated();
+  SteadyTerminal terminal(options.settings.folder / point->folder);
+  const SteadyResult result =
+      run_sweep_point(points, options.settings, static_cast<std::size_t>(point - points.begin()), terminal);
+  if (options.json)
+    fmt::print("{}", to_json(result));
+  else
+    fmt::print("{}: {:.2f} N, {:.4f} m2, {} iterations{}\n", point->folder, result.drag, result.drag_area,
+               result.iterations, result.converged ? "" : ", NOT converged");
+  return result.converged ? 0 : static_cast<int>(ExitCode::not_converged);
+}
+
 int sweep(SweepArguments& options) {
   finish(options, "sweep");
   const std::vector<SweepAxis> axes = axes_of(options);
   const std::vector<SweepPoint> points = sweep_points(options.case_file, options.overrides, axes);
   const std::filesystem::path& folder = options.settings.folder;
+  if (options.batch.wanted()) return write_scripts(options, points);
+  if (!options.only.empty()) return run_only(options, points);
   if (options.dry_run) {
     check_sweep(points, options.settings);
     for (const SweepPoint& point : points)
@@ -65,7 +120,8 @@ int sweep(SweepArguments& options) {
                options.settings.jobs ? options.settings.jobs : fitting_jobs(points));
     return 0;
   }
-  const std::vector<SweepRow> rows = run_and_tell(axes, points, options.settings);
+  const std::vector<SweepRow> rows =
+      options.gather ? gather_sweep(points, options.settings) : run_and_tell(axes, points, options.settings);
   const std::string& title = points.front().given.title;
   const std::string json = sweep_json(title, axes, points, rows);
   write_csv(folder / "sweep.csv", sweep_table(axes, points, rows));
@@ -99,7 +155,8 @@ void add_sweep(CLI::App& app, int& status) {
       "Example: ripstop sweep examples/stratos-iv/case.toml --speeds 10,15,20,25,30\n"
       "         ripstop sweep examples/stratos-iv/case.toml --vary parachute.vent_diameter_m=0.07,0.09,0.11 "
       "\\\n"
-      "           --vary flow.cells=[50,50,75],[80,80,120]");
+      "           --vary flow.cells=[50,50,75],[80,80,120]\n"
+      "         ripstop sweep examples/stratos-iv/case.toml --speeds 10,15,20,25,30 --batch slurm");
   add_sweep_options(*command, *options);
   command->add_option("--speeds", options->speeds, "Nominal speeds [m/s], as in 10,15,20")->delimiter(',');
   command->add_option("--vary", options->vary, "KEY=V1,V2,...: values of any key of the case; repeatable")
@@ -110,7 +167,19 @@ void add_sweep(CLI::App& app, int& status) {
       ->take_all();
   command->add_flag("--linear", options->overrides.linear, "Keep only K_1 of every material");
   command->add_option("--out", options->settings.folder, "Folder (default: runs/<name of the case>-sweep)");
-  command->add_flag("--dry-run", options->dry_run, "Say what would be run, and stop");
+  CLI::Option* dry_run = command->add_flag("--dry-run", options->dry_run, "Say what would be run, and stop");
+  CLI::Option* only = command
+                          ->add_option("--only", options->only,
+                                       "One run of the sweep, by its folder's name, as in a job of --batch")
+                          ->excludes(dry_run);
+  CLI::Option* gather =
+      command
+          ->add_flag("--gather", options->gather, "Table and plots of what has come back; computes nothing")
+          ->excludes(dry_run)
+          ->excludes(only);
+  for (CLI::Option* one : {only, gather}) one->excludes(command->get_option("--fresh"));
+  add_batch_options(*command, options->batch);
+  command->get_option("--batch")->excludes(only)->excludes(gather);
   command->callback([options, &status] { status = sweep(*options); });
 }
 

@@ -1,6 +1,7 @@
 #include "ripstop/core/thread_team.h"
 
 #include <gtest/gtest.h>
+#include <stdlib.h>
 
 #include <atomic>
 #include <vector>
@@ -34,6 +35,18 @@ TEST(ThreadTeam, TheBarrierKeepsPhasesApartAlsoWithMoreThreadsThanCores) {
   });
   EXPECT_EQ(count.load(), 10000);
   EXPECT_EQ(wrong.load(), 0);
+}
+
+TEST(ThreadTeam, TakesNoMoreOfANodeThanSlurmGaveTheJob) {
+  const int all = ThreadTeam().size();
+  setenv("SLURM_CPUS_ON_NODE", "1", 1);
+  EXPECT_EQ(ThreadTeam().size(), 1);
+  EXPECT_EQ(ThreadTeam(2).size(), 2);  // as asked for
+  for (const char* nonsense : {"100000", "0", "-1", "many", ""}) {
+    setenv("SLURM_CPUS_ON_NODE", nonsense, 1);
+    EXPECT_EQ(ThreadTeam().size(), all) << nonsense;
+  }
+  unsetenv("SLURM_CPUS_ON_NODE");
 }
 
 }  // namespace

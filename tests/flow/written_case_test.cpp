@@ -91,7 +91,7 @@ TEST_F(WrittenFiles, UniformFieldsAreThoseOfTheStreamOnAllFaces) {
     for (const Sides sides : {Sides::slip, Sides::zero_gradient}) {
       fs::remove_all(folder.path / "0");
       problem.sides = sides;
-      write_initial_fields(folder.path, problem, incompressible);
+      write_fields(folder.path / "0", problem, incompressible);
       const double pressure = incompressible ? 0 : outlet_pressure(problem.air);
       EXPECT_EQ(value("p", 1), pressure);
       EXPECT_EQ(read_field(folder.path / "0/p", 1, 1).patches.at("outlet"), std::vector<double>{pressure});

@@ -34,6 +34,13 @@ struct Abilities {
   bool time = false;              // Flow::march()
 };
 
+/// What an engine takes of a machine, measured once: for the estimates of a batch job.
+struct EngineCost {
+  double cell_time = 1e-7;  // of a cell and iteration [core s]
+  double cell_memory = 0;   // beyond Cost::memory [bytes]
+  double rank_memory = 0;   // of each process of its own [bytes]
+};
+
 struct EngineRecord {
   std::string word;     // of flow.engine
   std::string meaning;  // for the reference, one clause
@@ -42,6 +49,7 @@ struct EngineRecord {
   std::function<std::string(const EngineOptions&)> name;
   std::function<std::unique_ptr<FlowEngine>(const EngineOptions&)> make;
   bool needs_folder = false;  // EngineOptions::folder
+  EngineCost takes = {};
 };
 
 /// All engines; the first one is the default.

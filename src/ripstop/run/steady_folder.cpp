@@ -225,6 +225,7 @@ void SteadyFolder::write_drag_plot(const SteadyState& state, const std::string& 
 SteadyFolderRun run_steady_in(const SteadyFolderSettings& settings, const Case& given,
                               SteadyObserver& observer) {
   const fs::path& folder = settings.run.folder;
+  require_hosts(settings.hostfile, given);
   const int threads = settings.threads > 0 ? settings.threads : given.coupling.threads;
   // By the engine's name, before one is made: making it clears the flow's
   // folder, which may still be another run's.
@@ -240,11 +241,12 @@ SteadyFolderRun run_steady_in(const SteadyFolderSettings& settings, const Case& 
 
 void check_steady_in(const SteadyFolderSettings& settings, const Case& given) {
   const fs::path& folder = settings.run.folder;
+  require_hosts(settings.hostfile, given);
   require_unclaimed(folder);
   const bool goes_on =
       holds_run(settings.run, given, engine_of(given).name(engine_options(given)));  // the engine is there
   if (goes_on && finished_result(folder)) return;
-  require_steady_memory(given);
+  if (!settings.elsewhere) require_steady_memory(given);
 }
 
 double drag_for_opening(const fs::path& folder, const Case& opening) {

@@ -16,6 +16,7 @@ struct SteadyFolderSettings {
   int threads = 0;                  // of this run; 0: coupling.threads
   std::filesystem::path hostfile;   // for MPI; empty: none
   std::filesystem::path warm_from;  // folder of a finished run to start from; empty: cold
+  bool elsewhere = false;           // another machine runs it: this one's memory does not matter
 };
 
 struct SteadyFolderRun {

@@ -14,6 +14,7 @@
 #include "ripstop/case/resolve.h"
 #include "ripstop/core/build_info.h"
 #include "ripstop/core/file.h"
+#include "ripstop/core/shell.h"
 #include "ripstop/core/thread_team.h"
 #include "ripstop/run/engine.h"
 #include "ripstop/run/steady_folder.h"
@@ -26,26 +27,12 @@ using nlohmann::json;
 
 constexpr double most_runs = 10'000;
 
-std::string part_of_name(const std::string& text) {
-  std::string name;
-  for (const char c : text) {
-    const bool kept = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-                      c == '.' || c == '-' || c == '_' || c == '+';
-    if (kept)
-      name += c;
-    else if (!name.empty() && name.back() != '-')
-      name += '-';
-  }
-  while (!name.empty() && name.back() == '-') name.pop_back();
-  return name.substr(0, 80);
-}
-
 /// "speed_m_s=20_gamma=0.2"; the last part of a key's name is enough for people.
 std::string folder_name(const std::vector<SweepAxis>& axes, const std::vector<std::size_t>& at) {
   std::string name;
   for (std::size_t d = 0; d < axes.size(); ++d) {
     const std::string key = axes[d].name.substr(axes[d].name.rfind('.') + 1);
-    name += fmt::format("{}{}={}", d ? "_" : "", part_of_name(key), part_of_name(axes[d].values[at[d]]));
+    name += fmt::format("{}{}={}", d ? "_" : "", plain_name(key), plain_name(axes[d].values[at[d]]));
   }
   return axes.empty() ? "run" : name;
 }
@@ -63,12 +50,21 @@ std::vector<std::string> sweep_files() {
   return names;
 }
 
+void check_sweep_folder(const fs::path& folder) {
+  if (!fs::exists(folder / "sweep.json") && !foreign_files(folder).empty()) {
+    throw Error(
+        ExitCode::usage,
+        fmt::format("{}: is not empty and holds no sweep of Ripstop (no sweep.json); choose another --out",
+                    folder.string()));
+  }
+  require_unclaimed(folder);
+}
+
 /// Claims the folder.
 std::unique_ptr<ClaimedFolder> open_sweep_folder(const std::vector<SweepPoint>& points,
                                                  const SweepSettings& settings) {
   const fs::path& folder = settings.folder;
   const fs::path description = folder / "sweep.json";
-  check_sweep(points, settings);  // before anything of an earlier sweep is touched
   auto claimed = std::make_unique<ClaimedFolder>(folder);
   claimed->unseal();
   for (const std::string& name : sweep_files()) claimed->own(name);
@@ -144,14 +140,21 @@ class Board {
   }
 
   // A run that starts from nothing where it is to start from its neighbour has other last digits for good. A
-  // neighbour that failed by the disk will not fail when the command is repeated, so that this run waits for that;
-  // one that diverged always does.
+  // neighbour that failed by the disk, or that another process works on, will not fail when the command is repeated, so
+  // that this run waits for that; one that diverged always does.
   SweepRow run(std::size_t i, int threads) {
     const int start = start_of(i);
-    if (start >= 0 && !rows_[start].done && rows_[start].code == ExitCode::io) {
+    if (start >= 0 && rows_[start].waits) {
       return failed(fmt::format("was not begun: {}, which it starts from, failed; repeat the command",
                                 points_[start].folder),
                     ExitCode::io);
+    }
+    try {
+      if (!settings_.folder.empty()) require_unclaimed(settings_.folder / points_[i].folder);
+    } catch (const Error& error) {
+      SweepRow row = failed(error.what(), error.code());
+      row.waits = true;
+      return row;
     }
     try {
       return settings_.folder.empty() ? run_in_memory(i, threads) : run_in_folder(i, threads);
@@ -165,19 +168,19 @@ class Board {
   }
 
   SweepRow run_in_folder(std::size_t i, int threads) {
-    SteadyFolderSettings run{run_settings(points_[i], settings_), threads, {}, {}};
+    SteadyFolderSettings run{run_settings(points_[i], settings_), threads, {}, {}, false};
     if (const int start = start_of(i); start >= 0) {
       const fs::path neighbour = settings_.folder / points_[start].folder;
       if (fs::exists(neighbour / "result.json")) run.warm_from = neighbour;
     }
     Follower follower(*this, i);
-    return {true, "", ExitCode::done, run_steady_in(run, points_[i].given, follower).result, {}};
+    return {true, "", ExitCode::done, false, run_steady_in(run, points_[i].given, follower).result, {}};
   }
 
   SweepRow run_in_memory(std::size_t i, int threads) {
     Follower follower(*this, i);
     SteadySolution solution = run_steady(points_[i].given, follower, {threads, {}, {}});
-    return {true, "", ExitCode::done, std::move(solution.result), std::move(solution.state)};
+    return {true, "", ExitCode::done, false, std::move(solution.result), std::move(solution.state)};
   }
 
   /// Tells the sweep's listener of one run; starts it from its neighbour in memory.
@@ -206,6 +209,7 @@ class Board {
     SweepRow row;
     row.error = why;
     row.code = code;
+    row.waits = code == ExitCode::io;
     return row;
   }
 
@@ -291,16 +295,9 @@ std::vector<SweepPoint> sweep_points(const fs::path& case_file, const Overrides&
 }
 
 void check_sweep(const std::vector<SweepPoint>& points, const SweepSettings& settings) {
-  const fs::path& folder = settings.folder;
-  if (!fs::exists(folder / "sweep.json") && !foreign_files(folder).empty()) {
-    throw Error(
-        ExitCode::usage,
-        fmt::format("{}: is not empty and holds no sweep of Ripstop (no sweep.json); choose another --out",
-                    folder.string()));
-  }
-  require_unclaimed(folder);
+  check_sweep_folder(settings.folder);
   for (const SweepPoint& point : points)
-    check_steady_in({run_settings(point, settings), 0, {}, {}}, point.given);
+    check_steady_in({run_settings(point, settings), 0, {}, {}, settings.elsewhere}, point.given);
 }
 
 void seal_sweep(const fs::path& folder) {
@@ -323,7 +320,10 @@ int fitting_jobs(const std::vector<SweepPoint>& points) {
 std::vector<SweepRow> run_sweep(const std::vector<SweepPoint>& points, const SweepSettings& settings,
                                 const SweepEvents& events) {
   std::unique_ptr<ClaimedFolder> claimed;  // until the last run has ended
-  if (!settings.folder.empty()) claimed = open_sweep_folder(points, settings);
+  if (!settings.folder.empty()) {
+    check_sweep(points, settings);  // before anything of an earlier sweep is touched
+    claimed = open_sweep_folder(points, settings);
+  }
   const int jobs = std::clamp(settings.jobs > 0 ? settings.jobs : fitting_jobs(points), 1,
                               std::max(1, static_cast<int>(points.size())));
   Board board(points, settings, events, jobs);
@@ -336,6 +336,66 @@ std::vector<SweepRow> run_sweep(const std::vector<SweepPoint>& points, const Swe
   board.work();
   for (std::thread& worker : workers) worker.join();
   return std::move(board).rows();
+}
+
+std::vector<std::vector<std::size_t>> sweep_waves(const std::vector<SweepPoint>& points, bool warm) {
+  std::vector<std::vector<std::size_t>> waves;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    std::size_t wave = 0;
+    if (warm)
+      for (int start = points[i].start; start >= 0; start = points[start].start) ++wave;
+    if (wave >= waves.size()) waves.resize(wave + 1);
+    waves[wave].push_back(i);
+  }
+  return waves;
+}
+
+void prepare_sweep(const std::vector<SweepPoint>& points, const SweepSettings& settings) {
+  check_sweep(points, settings);
+  open_sweep_folder(points, settings);
+}
+
+SteadyResult run_sweep_point(const std::vector<SweepPoint>& points, const SweepSettings& settings,
+                             std::size_t point, SteadyObserver& observer) {
+  if (!fs::exists(settings.folder / "sweep.json"))
+    throw Error(ExitCode::usage, fmt::format("{}: holds no sweep yet: write it there with --batch first",
+                                             settings.folder.string()));
+  SteadyFolderSettings run{run_settings(points[point], settings), 0, {}, {}, false};
+  const int start = settings.warm ? points[point].start : -1;
+  if (start >= 0 && !is_sealed(run.run.folder)) {
+    run.warm_from = settings.folder / points[start].folder;
+    if (!is_sealed(run.warm_from))  // from nothing it would have other last digits
+      throw Error(ExitCode::io, fmt::format("{}: was not begun: {}, which it starts from, has not ended; "
+                                            "submit again, or let ripstop sweep go on",
+                                            points[point].folder, points[start].folder));
+  }
+  return run_steady_in(run, points[point].given, observer).result;
+}
+
+std::vector<SweepRow> gather_sweep(const std::vector<SweepPoint>& points, const SweepSettings& settings) {
+  check_sweep_folder(settings.folder);
+  const auto claimed = open_sweep_folder(points, settings);
+  std::vector<SweepRow> rows(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const RunSettings run = run_settings(points[i], settings);
+    const Case& given = points[i].given;
+    SweepRow& row = rows[i];
+    row.waits = true;
+    row.code = ExitCode::io;
+    row.error = "has not come back: submit again, or let ripstop sweep go on";
+    try {
+      if (!holds_run(run, given, engine_of(given).name(engine_options(given)))) continue;
+      if (const auto text = finished_result(run.folder))
+        row = {true, "", ExitCode::done, false, steady_result_from_json(*text), {}};
+    } catch (const Error& error) {
+      row.code = error.code();
+      row.error = error.what();
+    }
+  }
+  const bool all = std::all_of(rows.begin(), rows.end(), [](const SweepRow& row) { return row.done; });
+  if (all && !settings.fields)
+    for (const SweepPoint& point : points) drop_flow_checkpoint(settings.folder / point.folder);
+  return rows;
 }
 
 }  // namespace ripstop

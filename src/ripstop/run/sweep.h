@@ -41,9 +41,10 @@ std::vector<SweepPoint> sweep_points(const std::filesystem::path& case_file, con
 struct SweepSettings {
   std::filesystem::path folder;  // empty: in memory
   bool fresh = false;
-  bool warm = true;     // false: every run starts cold
-  bool fields = false;  // shapes and flow of every iteration for ParaView
-  int jobs = 0;         // runs side by side; 0: as many as cores and free memory allow
+  bool warm = true;        // false: every run starts cold
+  bool fields = false;     // shapes and flow of every iteration for ParaView
+  int jobs = 0;            // runs side by side; 0: as many as cores and free memory allow
+  bool elsewhere = false;  // other machines run it: this one's memory does not matter
 };
 
 /// How one run of a sweep ended.
@@ -51,6 +52,7 @@ struct SweepRow {
   bool done = false;               // there is a result
   std::string error;               // why there is none
   ExitCode code = ExitCode::done;  // of that error
+  bool waits = false;              // the next call may end otherwise: the disk, another process in its folder
   SteadyResult result;
   SteadyState state;  // the last one of a sweep in memory; else final_state() of the run's folder has it
 };
@@ -75,5 +77,20 @@ int fitting_jobs(const std::vector<SweepPoint>& points);
 /// holds something else.
 std::vector<SweepRow> run_sweep(const std::vector<SweepPoint>& points, const SweepSettings& settings,
                                 const SweepEvents& events = {});
+
+/// The runs in waves: each starts from one of an earlier wave, or cold. What run_sweep() does side by side, other
+/// machines may do wave by wave, with the same numbers.
+std::vector<std::vector<std::size_t>> sweep_waves(const std::vector<SweepPoint>& points, bool warm);
+
+/// Makes the folder of a sweep whose runs are done one by one elsewhere. Throws as check_sweep() does.
+void prepare_sweep(const std::vector<SweepPoint>& points, const SweepSettings& settings);
+
+/// One run in a folder that prepare_sweep() made. It claims its own folder only, so that others may run beside it.
+/// Throws Error(io) where the run that it starts from has not ended, and as run_steady_in() does.
+SteadyResult run_sweep_point(const std::vector<SweepPoint>& points, const SweepSettings& settings,
+                             std::size_t point, SteadyObserver& observer);
+
+/// The rows of all runs that have ended, computing nothing; the others are failed ones that wait.
+std::vector<SweepRow> gather_sweep(const std::vector<SweepPoint>& points, const SweepSettings& settings);
 
 }  // namespace ripstop

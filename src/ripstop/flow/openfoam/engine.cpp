@@ -10,6 +10,7 @@
 #include "ripstop/core/process.h"
 #include "ripstop/flow/openfoam/case_reader.h"
 #include "ripstop/flow/openfoam/case_writer.h"
+#include "ripstop/flow/openfoam/hostfile.h"
 #include "ripstop/flow/openfoam/installation.h"
 #include "ripstop/flow/openfoam/openfoam.h"
 #include "ripstop/flow/openfoam/programs.h"
@@ -187,17 +188,12 @@ class OpenFoam final : public FlowEngine {
       throw Error(ExitCode::usage,
                   fmt::format("OpenFOAM: ranks is {}; it must be 1 or more", settings.ranks));
     }
-    if (!settings.hostfile.empty() && !fs::exists(settings.hostfile)) {
-      throw Error(ExitCode::usage,
-                  fmt::format("OpenFOAM: the hostfile {} does not exist", settings.hostfile.string()));
-    }
+    if (!settings.hostfile.empty()) require_slots(settings.hostfile, settings.ranks);
     check_folder(folder_);
     installation_ = find_installation(settings.program_folder, settings.ranks > 1, settings.incompressible);
   }
 
-  std::string name() const override {
-    return "OpenFOAM " + installation_.version;
-  }
+  std::string name() const override { return "OpenFOAM " + installation_.version; }
   std::unique_ptr<Flow> start(const FlowProblem& problem) override {
     if (!problem.sheets.empty()) return start_sheet_flow(problem, settings_, folder_, installation_);
     return std::make_unique<OpenFoamFlow>(problem, settings_, folder_, installation_);

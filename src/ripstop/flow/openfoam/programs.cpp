@@ -70,9 +70,9 @@ ProcessResult Programs::run_solver(const FlowReport& report, SolverLog& log, boo
       arguments.insert(arguments.end(),
                        {"--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1"});
     } else {
-      arguments.insert(arguments.end(),
-                       {"--hostfile", fs::absolute(settings_.hostfile).string(), "-x", "WM_PROJECT_DIR"});
+      arguments.insert(arguments.end(), {"--hostfile", fs::absolute(settings_.hostfile).string()});
     }
+    arguments.insert(arguments.end(), {"-x", "WM_PROJECT_DIR"});  // Slurm's hosts are not in a file
   }
   arguments.push_back(program(installation_, installation_.solver).string());
   if (settings_.ranks > 1) arguments.push_back("-parallel");
