@@ -168,7 +168,7 @@ std::vector<Body> bodies_in_time(Vec3 centre) {
 
 /// The same sheet among the same cells, by both engines.
 void compare_engines(int argc, char** argv) {
-  const int across = argc > 2 ? std::atoi(argv[2]) : 12;
+  const int across = argc > 2 ? std::atoi(argv[2]) : 8;
   const std::string only = argc > 3 ? argv[3] : "";
   constexpr double box = 12;
   print_table_head(

@@ -295,8 +295,6 @@ TEST_F(WrittenFiles, ANumberOutOfItsRangeIsNamedWithTheRange) {
        "flow.tunnel.kind = \"open-jet\" needs flow.engine = \"builtin\""},
       {[](FlowProblem& p) { p.body_force.resize(320); },
        "a force on the air needs flow.engine = \"builtin\""},
-      {[](FlowProblem& p) { p.sheets.emplace_back(); },
-       "flow.porosity_model = \"sheet\" needs flow.engine = \"builtin\""},
   };
   for (const auto& one : wrong) {
     FlowProblem asked = sound;
