@@ -114,8 +114,8 @@ TEST(Results, OfClothUnderAPressureAreThoseOfItsShapeAndItsFiles) {
                        [](const CellStress& a, const CellStress& b) { return a.von_mises < b.von_mises; });
   EXPECT_EQ(cloth.result.stress.von_mises, most->von_mises);
   Vec3 centre;
-  for (const int node : cells_of(cloth.mesh)[most - cloth.stress.begin()].corner)
-    centre += 0.25 * cloth.shape[node];
+  const auto cell = cells_of(cloth.mesh)[most - cloth.stress.begin()];
+  for (const int node : cell.corner) centre += 0.25 * cloth.shape[node];
   EXPECT_NEAR(norm(cloth.result.stress.place - centre), 0, 1e-12);
   EXPECT_EQ(cloth.result.size.projected_diameter, canopy_size(cloth.mesh, cloth.shape).projected_diameter);
   EXPECT_GT(cloth.result.size.projected_diameter, 0);
