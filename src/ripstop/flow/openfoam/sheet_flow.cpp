@@ -70,7 +70,7 @@ class SheetFlow final : public Flow {
       });
       now.last = log.progress();
       now.last.iteration += done;
-      now.converged = log.converged();
+      now.converged = log.converged() && !has_to_begin_anew();  // what passes has come to rest as well
       done = now.last.iteration;
     }
     return now;
@@ -142,9 +142,6 @@ class SheetFlow final : public Flow {
     for (std::size_t n = 0; n < all.size(); ++n) all[n] = data.inner[n % parts];
     return all;
   }
-  /// Over the density [m2/s2].
-  std::vector<double> pressures() const { return values("p"); }
-
   /// Across tight cloth, along the axis [Pa].
   double drop(const Baffle& baffle, const std::vector<double>& p) const {
     return problem_.air.density * (p[baffle.low] - p[baffle.high]);
@@ -215,7 +212,7 @@ class SheetFlow final : public Flow {
 
   bool has_to_begin_anew() const {
     if (!goes_on_) return true;
-    const std::vector<double> now = through_tight(pressures());
+    const std::vector<double> now = through_tight(pressure_);
     double change = 0;
     for (std::size_t n = 0; n < now.size(); ++n) change = std::max(change, std::abs(now[n] - through_[n]));
     return change > small * problem_.air.speed;
@@ -277,11 +274,11 @@ class SheetFlow final : public Flow {
   }
 
   void find_loads() {
-    const std::vector<double> p = pressures();
+    pressure_ = values("p");
     const FieldData flux = read_field(folder_ / time_ / "phi", 1, mesh_.front().inner_faces());
     loads_.clear();
     for (const BafflePatch& patch : patches_) {
-      const std::vector<double> whole = drops(patch, p, flux);
+      const std::vector<double> whole = drops(patch, pressure_, flux);
       for (std::size_t n = 0; n < patch.baffles.size(); ++n) add_loads(patch.baffles[n], whole[n]);
     }
   }
@@ -319,8 +316,9 @@ class SheetFlow final : public Flow {
   std::vector<MeshPart> mesh_;
   std::string time_ = kBegin;
   bool untouched_ = true;
-  bool goes_on_ = false;         // the fields of time_ are of the mesh as it is
-  std::vector<double> through_;  // tight cloth, as OpenFOAM has it [m/s]
+  bool goes_on_ = false;          // the fields of time_ are of the mesh as it is
+  std::vector<double> through_;   // tight cloth, as OpenFOAM has it [m/s]
+  std::vector<double> pressure_;  // of time_, over the density, where the run goes on [m2/s2]
   std::vector<SheetLoad> loads_;
 };
 
