@@ -366,6 +366,19 @@ TEST(Resolved, WhatOpenFoamHasNotIsRefusedWhenTheCaseIsRead) {
   }
 }
 
+TEST(Resolved, AFittedMeshIsOpenFoamsAndOfASheet) {
+  const std::string fitted = "mesh = \"fitted\"\ncloth_levels = 2\n", openfoam = "engine = \"openfoam\"\n";
+  const auto key_of = [](const std::string& flow) {
+    const Outcome outcome = outcome_of(flow);
+    return outcome.problems.empty() ? "none" : outcome.problems[0].key;
+  };
+  EXPECT_EQ(key_of(short_case + openfoam + fitted), "none");
+  EXPECT_EQ(key_of(short_case + fitted), "flow.mesh");
+  EXPECT_EQ(key_of(of_calibrated_cloth(short_case) + "box_m = [8, 8, 10]\n" + openfoam + fitted),
+            "flow.mesh");
+  EXPECT_EQ(key_of(short_case + openfoam + "cloth_levels = 2\n"), "flow.cloth_levels");
+}
+
 TEST(Resolved, AnOpeningInItsOwnAirWantsASheetAndAPayloadThatFliesAMass) {
   const auto key_of = [](const std::string& more, const std::string& start = short_case) {
     const Outcome outcome = outcome_of(start + more);

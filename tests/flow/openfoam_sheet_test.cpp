@@ -44,15 +44,27 @@ FlowProblem plate_in_box(double linear, double quadratic) {
 
 class OpenFoamSheet : public testing::Test {
  protected:
-  std::unique_ptr<FlowEngine> sheets_on_openfoam(const std::string& name, int ranks = 1) const {
+  OpenFoamSettings settings(const std::string& name, int ranks = 1) const {
     OpenFoamSettings settings;
     settings.folder = folder_.path / name;
     settings.ranks = ranks;
     settings.second_order = true;
-    return make_openfoam(settings);
+    return settings;
+  }
+  std::unique_ptr<FlowEngine> sheets_on_openfoam(const std::string& name, int ranks = 1) const {
+    return make_openfoam(settings(name, ranks));
   }
   FlowField solved(const FlowProblem& problem, int ranks = 1) const {
     return solve(*sheets_on_openfoam("case", ranks), problem);
+  }
+  std::unique_ptr<FlowEngine> fitted(const std::string& name, int levels, int ranks = 1) const {
+    OpenFoamSettings with = settings(name, ranks);
+    with.fitted_mesh = true;
+    with.cloth_levels = levels;
+    return make_openfoam(with);
+  }
+  FlowField solved_fitted(const FlowProblem& problem, int levels, int ranks = 1) const {
+    return solve(*fitted("case", levels, ranks), problem);
   }
   TemporaryFolder folder_{"openfoam-sheet"};
 };
@@ -133,9 +145,9 @@ TEST_F(OpenFoamSheet, AreTheFacesThatASlantedSheetParts) {
     EXPECT_FALSE(patch.loose);
     for (const openfoam::Baffle& baffle : patch.baffles) {
       ASSERT_EQ(baffle.layers.size(), 1u);
-      EXPECT_EQ(baffle.high - baffle.low, baffle.axis == 0 ? 1 : baffle.axis == 1 ? 16 : 256);
-      passes += baffle.layers[0].slant * baffle.area;
-      slanted += baffle.axis == 1;
+      EXPECT_EQ(baffle.high - baffle.low, baffle.area.x > 0 ? 1 : baffle.area.y > 0 ? 16 : 256);
+      passes += baffle.layers[0].slant * norm(baffle.area);
+      slanted += baffle.area.y > 0;
       // a v of the law, with the face's own velocity v: the sheet's times the slant
       EXPECT_NEAR(openfoam::passing(baffle, problem.sheets, 50), 50 / 1e4 * baffle.layers[0].slant, 1e-12);
     }
@@ -178,6 +190,84 @@ TEST_F(OpenFoamSheet, TheMeshIsOneThatOpenFoamFindsSound) {
   EXPECT_TRUE(run_process(request).succeeded());
   EXPECT_TRUE(sound);
   EXPECT_GE(patches, 4);
+}
+
+TEST_F(OpenFoamSheet, AScreenThatCellsAreMovedOntoTakesThePressureOfItsLaw) {
+  FlowProblem problem = screen_in_duct(3, 0.5);
+  problem.sheets[0].surface = rectangle({0, 0, 1.03}, {0.4, 0, 0}, {0, 0.4, 0});
+  const FlowField field = solved_fitted(problem, 0);
+  const double drop = 3 * 10 + 0.5 * 100;
+  EXPECT_NEAR(field.pressure[0], drop, 5e-3 * drop);
+  EXPECT_NEAR(field.porous_force.z, drop * 0.16, 1e-4 * drop);
+  for (const SheetLoad& load : field.sheet_loads) EXPECT_NEAR(load.point.z, 1.03, 1e-12);
+}
+
+/// A cup of 1 m, whose mouth faces the stream, in a box of 4 m.
+FlowProblem cup_in_box() {
+  FlowProblem problem = plate_in_box(1e6, 0);
+  problem.sheets[0].surface = hemispherical_cup(1, {0.03, -0.02, 2.02});
+  return problem;
+}
+
+TEST_F(OpenFoamSheet, CellsMovedOntoACupHaveItsFrontAndTakeTheMomentumThatTheBoxLoses) {
+  const FlowField field = solved_fitted(cup_in_box(), 2);
+  double front = 0, area = 0;
+  for (const SheetLoad& load : field.sheet_loads) {
+    front += std::abs(load.force.z / load.drop);
+    area += load.area;
+    const Vec3 out = load.point - Vec3{0.03, -0.02, 2.02};  // of the sphere
+    EXPECT_NEAR(norm(out), 0.5, 0.01);
+    EXPECT_GT(dot(load.outward, out) / norm(out), 0.8);  // faces at the rim lean
+  }
+  EXPECT_NEAR(front, 0.25 * M_PI, 0.01 * 0.25 * M_PI);
+  EXPECT_NEAR(area, 0.5 * M_PI, 0.01 * 0.5 * M_PI);
+  EXPECT_NEAR(field.momentum_deficit, field.porous_force.z, 0.01 * field.porous_force.z);
+}
+
+TEST_F(OpenFoamSheet, TwoRanksGiveTheDragOfOneOnCellsMovedOntoACup) {
+  const double one = solved_fitted(cup_in_box(), 1).porous_force.z;
+  EXPECT_NEAR(solved_fitted(cup_in_box(), 1, 2).porous_force.z, one, 2e-3 * one);
+}
+
+TEST_F(OpenFoamSheet, ARestoredFlowGoesOnByteForByteWhenCellsAreMovedOntoTheClothAnew) {
+  const FlowProblem problem = cup_in_box();
+  const auto goes_on = [&](Flow& flow) {
+    flow.place(hemispherical_cup(0.9, {0, 0, 2.1}));
+    flow.advance(10, 1e-9);
+    return flow.field();
+  };
+  FlowField whole, before;
+  {
+    const auto engine = fitted("whole", 1);
+    const auto flow = engine->start(problem);
+    flow->advance(40, 1e-9);
+    flow->save(folder_.path / "saved");
+    before = flow->field();
+    whole = goes_on(*flow);
+  }
+  const auto engine = fitted("resumed", 1);
+  FlowProblem bare = problem;
+  bare.sheets[0].surface.clear();  // where the cloth lay is in the saved mesh
+  const auto flow = engine->start(bare);
+  flow->restore(folder_.path / "saved");
+  EXPECT_EQ(flow->field().pressure, before.pressure);
+  const FlowField resumed = goes_on(*flow);
+  EXPECT_EQ(whole.pressure, resumed.pressure);
+  EXPECT_EQ(whole.porous_force.z, resumed.porous_force.z);
+  EXPECT_GT(whole.porous_force.z, 0.5 * before.porous_force.z);
+}
+
+TEST_F(OpenFoamSheet, CellsTooCoarseForTheClothAreRefused) {
+  FlowProblem problem = plate_in_box(1e6, 0);
+  problem.sheets[0].surface = hemispherical_cup(0.4, {0.03, -0.02, 2.02});
+  try {
+    fitted("case", 0)->start(problem);
+    FAIL() << "no Error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::external);
+    EXPECT_NE(std::string(error.what()).find("too coarse for gaps or folds of the cloth"), std::string::npos)
+        << error.what();
+  }
 }
 
 TEST_F(OpenFoamSheet, WhatOnlyTheBuiltInEngineHasIsRefused) {

@@ -25,6 +25,8 @@ namespace ripstop {
 
 enum class SpeedBasis { nominal, measured };
 enum class Convection { upwind, second_order };
+/// Cells that the cloth parts where it stands between their centres, or that are moved onto it.
+enum class FlowMesh { grid, fitted };
 
 /// [flow.watch]: how long an unsteady flow is watched. Lengths are in times
 /// that the stream takes for one inflated diameter.
@@ -40,6 +42,8 @@ struct FlowOptions {
   SpeedBasis speed_basis = SpeedBasis::nominal;
   double turbulence_intensity = 0.005;
   double viscosity_ratio = 10;
+  FlowMesh mesh = FlowMesh::grid;
+  int cloth_levels = 0;  // fitted: times that the cells at the cloth are halved
   int ranks = 1;
   double time_limit_s = 0;  // of one flow solution; 0: none
   bool unsteady = false;    // watched in time once the steady loop has ended

@@ -223,6 +223,12 @@ void describe(Fields& fields, FlowKeys& flow) {
   describe_space(fields, flow);
   fields.table("tunnel", flow.tunnel, "What the air comes out of; docs/guide/tunnel.md.");
   describe_numerics(fields, flow);
+  fields.choice(
+      "mesh", flow.mesh, {{"grid", FlowMesh::grid}, {"fitted", FlowMesh::fitted}},
+      "\"grid\": cloth parts the box's cells where it stands between their centres; \"fitted\": cells are "
+      "moved onto the cloth (OpenFOAM's snappyHexMesh, for the \"sheet\" model).");
+  fields.integer("cloth_levels", flow.cloth_levels, from(0).up_to(4),
+                 "Times that the cells at the cloth are halved (fitted).");
   fields.integer("ranks", flow.ranks, from(1).up_to(4096), "Processes of the flow solver.");
   fields.toggle(
       "unsteady", flow.unsteady,

@@ -257,6 +257,7 @@ void check_engine(const Case& given, const FlowSettings& flow, Findings& finding
   wanted.jets = flow.tunnel.kind == TunnelKind::open_jet;
   wanted.averages = flow.average_over > 0;
   wanted.ranks = flow.ranks > 1;
+  wanted.fitted_meshes = flow.mesh == FlowMesh::fitted;
   wanted.time = flow.unsteady;
   for (const Lack& lack : lacks(engine_of(flow.engine), wanted)) {
     if (lack.key == "flow.porosity_model")  // all that follows from it is lacking too
@@ -268,6 +269,12 @@ void check_engine(const Case& given, const FlowSettings& flow, Findings& finding
     findings.add(lack.key, lack.value, lack.instead,
                  fmt::format("the flow engine {} (flow.engine) has not that", quoted(flow.engine)));
   }
+  if (wanted.fitted_meshes && !wanted.sheets && findings.sound({"flow.porosity_model"}))
+    findings.add("flow.mesh", quoted("fitted"), quoted("grid"),
+                 "only cloth that is a sheet (flow.porosity_model) has a place that cells can be moved to");
+  if (flow.cloth_levels > 0 && !wanted.fitted_meshes)
+    findings.add("flow.cloth_levels", flow.cloth_levels, "0",
+                 "cells are halved at the cloth in a fitted mesh (flow.mesh)");
 }
 
 void check_load(const Resolved& resolved, Findings& findings) {

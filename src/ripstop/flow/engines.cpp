@@ -25,6 +25,7 @@ EngineRecord builtin() {
            .jets = true,
            .averages = true,
            .ranks = false,
+           .fitted_meshes = false,
            .other_air = true,
            .time = true},
           [](const EngineOptions&) { return make_cartesian()->name(); },
@@ -37,13 +38,15 @@ EngineRecord openfoam_rho_porous() {
     settings.folder = options.folder;
     settings.ranks = options.ranks;
     settings.second_order = options.second_order;
+    settings.fitted_mesh = options.fitted_mesh;
+    settings.cloth_levels = options.cloth_levels;
     settings.hostfile = options.hostfile;
     if (options.time_limit_s > 0) settings.time_limit_s = options.time_limit_s;
     return make_openfoam(settings);
   };
   return {"openfoam",
           "OpenFOAM's rhoPorousSimpleFoam with the same equations, its simpleFoam for sheets",
-          {.sheets = true, .ranks = true},
+          {.sheets = true, .ranks = true, .fitted_meshes = true},
           [](const EngineOptions& options) {
             return "OpenFOAM " + openfoam::find_installation({}, options.ranks > 1).version;
           },
@@ -87,7 +90,8 @@ std::vector<Lack> lacks(const EngineRecord& engine, const Abilities& wanted) {
              {&Abilities::jets, {"flow.tunnel.kind", "open-jet", "free-air or closed"}},
              {&Abilities::averages, {"flow.average_over", "more than 0", "0"}},
              {&Abilities::time, {"flow.unsteady", "true", "false"}},
-             {&Abilities::ranks, {"flow.ranks", "more than 1", "1"}}};
+             {&Abilities::ranks, {"flow.ranks", "more than 1", "1"}},
+             {&Abilities::fitted_meshes, {"flow.mesh", "fitted", "grid"}}};
   std::vector<Lack> result;
   for (const auto& one : all)
     if (wanted.*one.ability && !(engine.can.*one.ability)) result.push_back(one.lack);

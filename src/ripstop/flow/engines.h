@@ -15,6 +15,8 @@ namespace ripstop {
 /// What a run says to whichever engine it has; what an engine has no use for it leaves alone.
 struct EngineOptions {
   bool second_order = false;       // convection of the velocity; false: upwind
+  bool fitted_mesh = false;        // cells moved onto the sheets
+  int cloth_levels = 0;            // fitted: times that the cells at the cloth are halved
   int threads = 0;                 // 0: as many as the process may run on
   int ranks = 1;                   // processes
   std::filesystem::path folder;    // of an engine's own files
@@ -30,6 +32,7 @@ struct Abilities {
   bool jets = false;              // FlowProblem::jet
   bool averages = false;          // a field after every iteration, for Stopping::average_over
   bool ranks = false;             // several processes
+  bool fitted_meshes = false;     // EngineOptions::fitted_mesh
   bool other_air = false;         // a saved flow may start one of another speed or density
   bool time = false;              // Flow::march()
 };

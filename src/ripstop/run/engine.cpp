@@ -13,6 +13,8 @@ const EngineRecord& engine_of(const Case& given) {
 EngineOptions engine_options(const Case& given) {
   EngineOptions options;
   options.second_order = resolve(given).flow.convection == Convection::second_order;
+  options.fitted_mesh = given.flow.mesh == FlowMesh::fitted;
+  options.cloth_levels = given.flow.cloth_levels;
   options.ranks = given.flow.ranks;
   options.time_limit_s = given.flow.time_limit_s;
   return options;

@@ -5,9 +5,9 @@
 #include <bitset>
 #include <cmath>
 #include <map>
-#include <set>
-#include <tuple>
 #include <utility>
+
+#include "ripstop/flow/hems.h"
 
 namespace ripstop::cartesian {
 namespace {
@@ -33,54 +33,12 @@ double centre(const Axis& axis, int c) {
   return 0.5 * (axis.edge[c] + axis.edge[c + 1]);
 }
 
-/// Cells within two of an edge that belongs to one triangle only.
+/// Cells within two of a hem.
 class NearHem {
  public:
   NearHem(const std::array<const Axis*, 3>& axes, const std::vector<Triangle>& surface) : axes_(axes) {
-    using Corner = std::tuple<double, double, double>;
-    const auto corner = [](Vec3 v) { return Corner{v.x, v.y, v.z}; };
-    std::map<std::pair<Corner, Corner>, int> uses;
-    const auto each_edge = [&](auto&& visit) {
-      for (const Triangle& t : surface) {
-        const Vec3 v[] = {t.a, t.b, t.c};
-        for (int e = 0; e < 3; ++e) {
-          const Vec3 p = v[e], q = v[(e + 1) % 3];
-          if (corner(p) != corner(q))
-            visit(p, q, std::pair<Corner, Corner>(std::minmax(corner(p), corner(q))));
-        }
-      }
-    };
-    each_edge([&](Vec3, Vec3, const auto& key) { ++uses[{key.first, key.second}]; });
-    std::map<Corner, std::vector<Corner>> single;  // ends of the edges of one triangle only
-    for (const auto& [edge, count] : uses) {
-      if (count == 1) single[edge.first].push_back(edge.second), single[edge.second].push_back(edge.first);
-    }
-    // Where a coarser part of a mesh meets a finer one, one long edge lies along two short ones: no hem.
-    const auto vector_of = [](const Corner& c) {
-      return Vec3{std::get<0>(c), std::get<1>(c), std::get<2>(c)};
-    };
-    std::set<std::pair<Corner, Corner>> joined;
-    for (const auto& [p, ends] : single) {
-      for (const Corner& q : ends) {
-        if (!(p < q)) continue;
-        for (const Corner& m : ends) {
-          const Vec3 a = vector_of(p), b = vector_of(q), c = vector_of(m);
-          const std::vector<Corner>& beyond = single[q];
-          if (m == q || norm(c - 0.5 * (a + b)) > 0.3 * norm(b - a) ||
-              std::find(beyond.begin(), beyond.end(), m) == beyond.end()) {
-            continue;
-          }
-          joined.insert({p, q});
-          joined.insert(std::minmax(p, m));
-          joined.insert(std::minmax(m, q));
-        }
-      }
-    }
     near_.assign(static_cast<std::size_t>(axes[0]->n) * axes[1]->n * axes[2]->n, 0);
-    each_edge([&](Vec3 p, Vec3 q, const auto& key) {
-      const std::pair<Corner, Corner> edge{key.first, key.second};
-      if (uses[edge] == 1 && !joined.contains(edge)) mark(p, q);
-    });
+    for (const auto& [p, q] : hems(surface)) mark(p, q);
   }
 
   bool at(const Point& p) const {

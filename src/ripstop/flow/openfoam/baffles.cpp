@@ -9,6 +9,7 @@
 #include <unordered_set>
 
 #include "ripstop/core/file.h"
+#include "ripstop/flow/cartesian/sheet_faces.h"
 #include "ripstop/flow/openfoam/foam_file.h"
 
 namespace ripstop::openfoam {
@@ -30,6 +31,15 @@ double component(Vec3 v, int axis) {
   return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }
 
+Vec3 along(int axis, double value) {
+  return {axis == 0 ? value : 0, axis == 1 ? value : 0, axis == 2 ? value : 0};
+}
+
+/// The one that a face of the grid lies across.
+int axis_of(const Baffle& baffle) {
+  return baffle.area.x > 0 ? 0 : baffle.area.y > 0 ? 1 : 2;
+}
+
 /// Sums of a / slant and b / slant^2: the law of all layers for what passes through the face.
 std::array<double, 2> law_of(const Baffle& baffle, const std::vector<Sheet>& sheets) {
   std::array<double, 2> law{};
@@ -47,9 +57,8 @@ double velocity(double a, double b, double drop) {
 }
 
 /// Of the pressure over what passes at the stream's dynamic pressure [Pa s/m].
-double slope_of(const Baffle& baffle, const FlowProblem& problem) {
-  const auto [a, b] = law_of(baffle, problem.sheets);
-  return a + 2 * b * velocity(a, b, 0.5 * problem.air.density * problem.air.speed * problem.air.speed);
+double slope_of(double a, double b, const Freestream& air) {
+  return a + 2 * b * velocity(a, b, 0.5 * air.density * air.speed * air.speed);
 }
 
 std::vector<Baffle> all_baffles(const FlowProblem& problem) {
@@ -63,12 +72,14 @@ std::vector<Baffle> all_baffles(const FlowProblem& problem) {
       double area = 1;
       for (int other = 0; other < 3; ++other)
         if (other != face.axis) area *= grid.width(other, at[other]);
-      const double along = std::max(component(face.normal, face.axis), 1e-3);
-      if (face.hem && face.area / (area * along) < covered) continue;
+      const double slant = std::max(component(face.normal, face.axis), 1e-3);
+      if (face.hem && face.area / (area * slant) < covered) continue;
       const int high = grid.index(face.i, face.j, face.k), low = high - steps[face.axis];
       Baffle& baffle = found[{low, face.axis}];
-      baffle.axis = face.axis, baffle.low = low, baffle.high = high, baffle.area = area;
-      baffle.layers.push_back({face, s, std::clamp(face.area / area, 1e-2, 1.0)});
+      baffle.low = low, baffle.high = high, baffle.area = along(face.axis, area);
+      baffle.layers.push_back({s, face.triangle, face.point, face.outward, face.against,
+                               area * component(face.normal, face.axis),
+                               std::clamp(face.area / area, 1e-2, 1.0)});
     }
   }
   std::vector<Baffle> baffles;
@@ -84,8 +95,17 @@ double passing(const Baffle& baffle, const std::vector<Sheet>& sheets, double dr
 }
 
 double pace(const Baffle& baffle, const FlowProblem& problem) {
-  const double slope = slope_of(baffle, problem), flow = 2 * problem.air.density * problem.air.speed;
+  const auto [a, b] = law_of(baffle, problem.sheets);
+  const double slope = slope_of(a, b, problem.air), flow = 2 * problem.air.density * problem.air.speed;
   return slope / (slope + flow);
+}
+
+bool is_loose(double linear, double quadratic, const Freestream& air) {
+  return slope_of(linear, quadratic, air) <= tight * air.density * air.speed;
+}
+
+bool shuts(double across, const FlowGrid& grid) {
+  return across > 0.9 * grid.size.x * grid.size.y;
 }
 
 std::vector<BafflePatch> baffles_of(const FlowProblem& problem) {
@@ -96,11 +116,11 @@ std::vector<BafflePatch> baffles_of(const FlowProblem& problem) {
   BafflePatch walls{"cloth", false, 0, 0, {}};
   std::vector<Baffle> baffles = all_baffles(problem);
   double across = 0;
-  for (const Baffle& baffle : baffles) across += baffle.axis == 2 ? baffle.area : 0;
-  const bool shut = across > 0.9 * problem.grid.size.x * problem.grid.size.y;
+  for (const Baffle& baffle : baffles) across += baffle.area.z;
+  const bool shut = shuts(across, problem.grid);
   for (Baffle& baffle : baffles) {
     const auto [a, b] = law_of(baffle, problem.sheets);
-    if (!shut && slope_of(baffle, problem) > tight * problem.air.density * problem.air.speed) {
+    if (!shut && !is_loose(a, b, problem.air)) {
       walls.baffles.push_back(std::move(baffle));
       continue;
     }
@@ -166,7 +186,7 @@ struct Faces {
 void add_inner(const FlowGrid& grid, const std::vector<BafflePatch>& patches, Faces& faces) {
   std::unordered_set<long long> parted;
   for (const BafflePatch& patch : patches)
-    for (const Baffle& baffle : patch.baffles) parted.insert(3LL * baffle.low + baffle.axis);
+    for (const Baffle& baffle : patch.baffles) parted.insert(3LL * baffle.low + axis_of(baffle));
   const Corners corners(grid);
   const int steps[] = {1, grid.nx, grid.nx * grid.ny};
   for (int cell = 0; cell < grid.cells(); ++cell) {
@@ -210,11 +230,11 @@ void add_cloth(const FlowGrid& grid, const std::vector<BafflePatch>& patches, Fa
                  : "type wall;";
     };
     for (const Baffle& baffle : patch.baffles)
-      faces.add(corners.face(baffle.low, baffle.axis, true), baffle.low);
+      faces.add(corners.face(baffle.low, axis_of(baffle), true), baffle.low);
     faces.end_patch(patch.name + "_low", type("_high"));
     for (const Baffle& baffle : patch.baffles) {
       // The same four corners the other way round, the first one first: so cyclic patches find each other.
-      std::array<int, 4> face = corners.face(baffle.low, baffle.axis, true);
+      std::array<int, 4> face = corners.face(baffle.low, axis_of(baffle), true);
       std::swap(face[1], face[3]);
       faces.add(face, baffle.high);
     }

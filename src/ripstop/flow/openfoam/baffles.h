@@ -1,27 +1,28 @@
-// Sheets among the cells of a grid as OpenFOAM has them: faces with a patch on either side.
+// Sheets among cells as OpenFOAM has them: faces with a patch on either side.
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "ripstop/flow/cartesian/sheet_faces.h"
 #include "ripstop/flow/flow.h"
 
 namespace ripstop::openfoam {
 
-/// Of a sheet, what stands for it in one face of the grid.
+/// Of a sheet, what stands for it in one face of the mesh.
 struct Layer {
-  cartesian::SheetFace face;
-  int sheet = 0;
-  double slant = 1;  // what passes through the face is the sheet's own velocity times this
+  int sheet = 0, triangle = 0;  // of FlowProblem::sheets
+  Vec3 point;                   // on the triangle [m]
+  Vec3 outward;                 // normal of the sheet there, unit
+  bool against = false;         // the sheet's outer side is the low one
+  double area = 0;              // of the sheet that the face stands for, as a load has it [m2]
+  double slant = 1;             // what passes through the face is the sheet's own velocity times this
 };
 
-/// A face of the grid that cloth parts: its low side is a face of cell `low`, its high side one of cell `high`.
+/// A face of the mesh that cloth parts: its low side is a face of cell `low`, its high side one of cell `high`.
 struct Baffle {
-  int axis = 0;
   int low = 0, high = 0;  // cells
-  double area = 0;        // [m2]
+  Vec3 area;              // times the normal from low to high [m2]
   std::vector<Layer> layers;
 };
 
@@ -35,17 +36,22 @@ struct BafflePatch {
   std::vector<Baffle> baffles;       // in the order of the patches' faces
 };
 
-/// The faces whose larger part a sheet covers. Cloth is loose where the slope of the pressure over what passes is less
+/// The faces of the grid whose larger part a sheet covers. Cloth is loose where the slope of the pressure over what passes is less
 /// than half of rho U: OpenFOAM's jump follows the flow of the iteration before, and across denser cloth it does not come
 /// to rest. There what passes follows the pressure. Across a sheet that shuts the whole box the flow is given, and all of
 /// it is loose.
 std::vector<BafflePatch> baffles_of(const FlowProblem& problem);
 
+/// Whether a law is that of loose cloth, in a box that the cloth does not shut.
+bool is_loose(double linear, double quadratic, const Freestream& air);
+/// `across`: the cloth's area across the stream [m2].
+bool shuts(double across, const FlowGrid& grid);
+
 /// The part of the way that what passes a face may go at once towards what the pressure asks for: the pressure before
 /// cloth falls by some 2 rho U for every m/s that passes.
 double pace(const Baffle& baffle, const FlowProblem& problem);
 
-/// Velocity through the face at which the pressure drops by `drop` along the axis [Pa], [m/s].
+/// Velocity from low to high at which the pressure drops by `drop` that way [Pa], [m/s].
 double passing(const Baffle& baffle, const std::vector<Sheet>& sheets, double drop);
 
 /// constant/polyMesh of the grid, with the patches inlet, outlet, sides and those of the baffles. Throws Error(io).

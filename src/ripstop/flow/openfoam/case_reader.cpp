@@ -133,16 +133,24 @@ FlowField read_case(const std::vector<MeshPart>& parts, const std::string& time,
     const FieldData velocity = read_field(folder / "U", 3, count);
     const FieldData rho = incompressible ? FieldData{1, {unit}, {}} : read_field(folder / "rho", 1, count);
     const FieldData phi = read_field(folder / "phi", 1, part.inner_faces());
+    const auto gauge = [&](std::size_t local) { return unit * p.at(p.inner, local) - outlet; };
+    const auto moves = [&](std::size_t local) -> Vec3 {
+      return {velocity.at(velocity.inner, local, 0), velocity.at(velocity.inner, local, 1),
+              velocity.at(velocity.inner, local, 2)};
+    };
     for (std::size_t local = 0; local < count; ++local) {
       const int cell = part.global(local);
-      const Vec3 u{velocity.at(velocity.inner, local, 0), velocity.at(velocity.inner, local, 1),
-                   velocity.at(velocity.inner, local, 2)};
-      field.pressure[cell] = unit * p.at(p.inner, local) - outlet;
-      field.velocity[cell] = u;
+      const Vec3 u = moves(local);
+      field.pressure[cell] += part.weight(local) * gauge(local);
+      field.velocity[cell] += part.weight(local) * u;
       // Force of the air on the porous cells: (mu d + rho |u| f / 2) u V.
       const double drag = mu * resistance.darcy[cell] +
                           0.5 * rho.at(rho.inner, local) * norm(u) * resistance.forchheimer[cell];
       field.porous_force += drag * grid.cell_volume(cell) * u;
+    }
+    for (const auto& [cell, nearest] : part.stand_ins) {
+      field.pressure[cell] = gauge(nearest);
+      field.velocity[cell] = moves(nearest);
     }
     field.momentum_deficit += outflow_of_momentum(part, phi, unit, velocity, field.pressure, problem);
   }

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ripstop/flow/flow.h"
@@ -14,7 +15,9 @@ namespace ripstop::openfoam {
 struct MeshPart {
   std::filesystem::path folder;  // holds constant/ and the time folders
   std::vector<int> cells;        // index in the grid of every cell; empty: the same
-  std::vector<int> owner;        // cell of each face
+  std::vector<double> share;     // of the volume of all that lie in that cell of the grid; empty: 1
+  std::vector<std::pair<int, int>> stand_ins;  // cells of the grid that none lies in, and the nearest one
+  std::vector<int> owner;                      // cell of each face
   std::vector<Patch> patches;
 
   std::size_t count(const FlowGrid& grid) const { return cells.empty() ? grid.cells() : cells.size(); }
@@ -24,6 +27,7 @@ struct MeshPart {
     return faces;
   }
   int global(std::size_t cell) const { return cells.empty() ? static_cast<int>(cell) : cells[cell]; }
+  double weight(std::size_t cell) const { return share.empty() ? 1 : share[cell]; }
 };
 
 /// One part for 1 rank, else one for each processor folder.

@@ -29,17 +29,15 @@ void close_written(std::ofstream& out, const fs::path& path) {
   if (!out) throw Error(ExitCode::io, fmt::format("cannot write {}: is the disk full?", path.string()));
 }
 
-namespace {
-
-/// Every file starts with OpenFOAM's header. Note for writers: a keyword directly before "(" reads as one
-/// word, so there is always a space.
 void write_dictionary(const fs::path& path, const std::string& kind, const std::string& body,
-                      const std::string& format = "ascii") {
+                      const std::string& format) {
   fs::create_directories(path.parent_path());
   std::ofstream out(path, std::ios::binary);
   out << foam_header(kind, path.filename().string(), format) << body;
   close_written(out, path);
 }
+
+namespace {
 
 /// The six faces of the box and what a field has on them.
 std::string boundary(const std::string& inlet, const std::string& outlet, const std::string& sides) {
@@ -311,7 +309,7 @@ void check(const FlowProblem& problem) {
 
 void write_case(const fs::path& folder, const FlowProblem& problem, const OpenFoamSettings& settings) {
   const FlowGrid& grid = problem.grid;
-  if (problem.sheets.empty())
+  if (problem.sheets.empty() || settings.fitted_mesh)
     write_dictionary(folder / "system/blockMeshDict", "dictionary", mesh_dictionary(grid));
   // At the edge of a sheet without thickness an unlimited gradient throws the flow off.
   const char* second_order = problem.sheets.empty() ? "linearUpwind grad(U)" : "linearUpwind limited";

@@ -27,6 +27,11 @@ void check_run(int iterations, double residual);
 /// Throws Error(io) when not all that was written is in the file.
 void close_written(std::ofstream& out, const std::filesystem::path& path);
 
+/// One of OpenFOAM's files, with its header. Note for writers: a keyword directly before "(" reads as one word, so there
+/// is always a space. Throws Error(io).
+void write_dictionary(const std::filesystem::path& path, const std::string& kind, const std::string& body,
+                      const std::string& format = "ascii");
+
 /// system/ (without controlDict), constant/, and a README that says what the case is and how to run it.
 void write_case(const std::filesystem::path& folder, const FlowProblem& problem,
                 const OpenFoamSettings& settings);

@@ -251,6 +251,30 @@ std::vector<int> read_labels(const std::filesystem::path& path) {
   return file.labels(count);
 }
 
+std::vector<Vec3> read_points(const std::filesystem::path& path) {
+  Cursor file(path);
+  const std::size_t count = file.size();
+  const std::vector<double> numbers = file.numbers(count, 3);
+  std::vector<Vec3> points(count);
+  for (std::size_t n = 0; n < count; ++n)
+    points[n] = {numbers[3 * n], numbers[3 * n + 1], numbers[3 * n + 2]};
+  return points;
+}
+
+FaceList read_faces(const std::filesystem::path& path) {
+  Cursor file(path);
+  FaceList faces;
+  const std::size_t begins = file.size();
+  faces.begins = file.labels(begins);
+  const std::size_t corners = file.size();
+  faces.corners = file.labels(corners);
+  bool ordered = !faces.begins.empty() && faces.begins.front() == 0;
+  for (std::size_t n = 1; n < faces.begins.size(); ++n) ordered &= faces.begins[n] >= faces.begins[n - 1] + 3;
+  if (!ordered || static_cast<std::size_t>(faces.begins.back()) != corners)
+    file.fail("the faces' corners are not as many as it says");
+  return faces;
+}
+
 std::vector<Patch> read_boundary(const std::filesystem::path& path) {
   Cursor file(path);
   const std::size_t count = file.size();

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "ripstop/core/vec3.h"
+
 namespace ripstop::openfoam {
 
 /// Values of one field on cells (or inner faces) and patches, `components` numbers a value. A uniform list is
@@ -27,6 +29,16 @@ struct FieldData {
 FieldData read_field(const std::filesystem::path& path, int components, std::size_t count);
 /// A polyMesh/owner or cellProcAddressing file.
 std::vector<int> read_labels(const std::filesystem::path& path);
+
+/// polyMesh/points.
+std::vector<Vec3> read_points(const std::filesystem::path& path);
+
+/// Face n has the corners from begins[n] to begins[n + 1].
+struct FaceList {
+  std::vector<int> begins, corners;
+};
+/// polyMesh/faces in binary.
+FaceList read_faces(const std::filesystem::path& path);
 
 struct Patch {
   std::string name;

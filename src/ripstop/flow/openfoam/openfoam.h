@@ -16,6 +16,8 @@ struct OpenFoamSettings {
   double time_limit_s = 24 * 3600;       // for one solve
   std::filesystem::path program_folder;  // where OpenFOAM's programs are; empty: PATH
   bool second_order = false;             // linearUpwind for U in place of the printed first-order upwind
+  bool fitted_mesh = false;     // of sheets: cells moved onto the cloth by snappyHexMesh, not parted by it
+  int cloth_levels = 0;         // fitted: times that the cells at the cloth are halved
   bool incompressible = false;  // porousSimpleFoam: constant density, no energy; temperature plays no part
 };
 

@@ -43,20 +43,25 @@ ProcessRequest Programs::request_for(std::vector<std::string> arguments) const {
   return request;
 }
 
-void Programs::run_tool(const std::string& tool) const {
-  ProcessRequest request = request_for({program(installation_, tool).string()});
+void Programs::run_tool(const std::string& tool, const std::vector<std::string>& arguments,
+                        const std::string& help, const Lines& lines) const {
+  std::vector<std::string> words = {program(installation_, tool).string()};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  ProcessRequest request = request_for(std::move(words));
   std::ofstream log_stream(log_file(tool));
   SolverLog log(SolverLog::Forces::none);
   request.on_line = [&](const std::string& line) {
     log_stream << line << '\n';
     log.feed(line);
+    if (lines) lines(line);
     return true;
   };
   const ProcessResult result = run_process(request);
   close_written(log_stream, log_file(tool));
   if (!result.succeeded()) {
-    throw Error(ExitCode::external, fmt::format("OpenFOAM's {} failed: {}. {} (whole log: {})", tool,
-                                                describe(result), log.fatal(), log_file(tool).string()));
+    throw Error(ExitCode::external,
+                fmt::format("OpenFOAM's {} failed: {}. {}{}{} (whole log: {})", tool, describe(result),
+                            log.fatal(), help.empty() ? "" : " ", help, log_file(tool).string()));
   }
 }
 

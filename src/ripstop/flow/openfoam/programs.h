@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -26,8 +27,11 @@ class Programs {
   /// moment, and ranks have a copy of the mesh. Asked for with room to spare.
   /// Throws Error(io).
   void need_space(const FlowGrid& grid) const;
-  /// One of OpenFOAM's tools. Throws Error(external) where it fails.
-  void run_tool(const std::string& tool) const;
+  using Lines = std::function<void(const std::string& line)>;
+  /// One of OpenFOAM's tools, with its arguments; `lines` sees what it prints. Throws Error(external) where it fails,
+  /// with what may help.
+  void run_tool(const std::string& tool, const std::vector<std::string>& arguments = {},
+                const std::string& help = {}, const Lines& lines = {}) const;
   /// `stopped`: the report wanted no more. Throws Error(diverged) and Error(external) as Flow::advance() does.
   ProcessResult run_solver(const FlowReport& report, SolverLog& log, bool& stopped) const;
 

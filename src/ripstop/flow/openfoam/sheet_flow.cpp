@@ -11,6 +11,7 @@
 #include "ripstop/flow/openfoam/baffles.h"
 #include "ripstop/flow/openfoam/case_reader.h"
 #include "ripstop/flow/openfoam/case_writer.h"
+#include "ripstop/flow/openfoam/fitted_mesh.h"
 #include "ripstop/flow/openfoam/foam_file.h"
 #include "ripstop/flow/openfoam/programs.h"
 #include "ripstop/flow/openfoam/state.h"
@@ -28,15 +29,13 @@ int components_of(const std::string& field) {
   return field == "U" ? 3 : 1;
 }
 
-Installation with_simple_foam(Installation installation, int ranks) {
+Installation with_simple_foam(Installation installation, const OpenFoamSettings& settings) {
   installation.solver = solver_name(true, true);
   program(installation, installation.solver);
-  if (ranks > 1) program(installation, "reconstructPar");
+  if (settings.ranks > 1) program(installation, "reconstructPar");
+  if (settings.fitted_mesh)
+    for (const char* tool : {"snappyHexMesh", "createBaffles", "checkMesh"}) program(installation, tool);
   return installation;
-}
-
-Vec3 along(int axis, double value) {
-  return {axis == 0 ? value : 0, axis == 1 ? value : 0, axis == 2 ? value : 0};
 }
 
 /// Where the cloth lies elsewhere, or what passes tight cloth has changed, the run begins anew with the cells' values of
@@ -54,7 +53,10 @@ class SheetFlow final : public Flow {
 
   void place(const std::vector<Triangle>& surface, const SheetMotion&) override {
     for (Sheet& sheet : problem_.sheets) sheet.surface = surface;
+    if (!settings_.fitted_mesh) return lay_cloth();
+    const Cells before = cells_on_grid();
     lay_cloth();
+    write_cells(on_mesh(before));
   }
 
   FlowAdvance advance(int iterations, double residual, const FlowReport& report) override {
@@ -90,16 +92,15 @@ class SheetFlow final : public Flow {
     programs_.need_space(problem_.grid);
     write_case(folder_, problem_, settings_);
     write_solution(folder_, problem_.stopping.residual);
-    time_ = kBegin;
+    write_control(folder_, problem_, true, {0, 1});  // OpenFOAM's tools ask for one
     untouched_ = true;
     loads_.clear();
-    write_fields(folder_ / kBegin, problem_, true);
     lay_cloth();
+    time_ = kBegin;
+    write_fields(folder_ / kBegin, problem_, true);
   }
 
-  void save(const fs::path& folder) const override {
-    save_state(folder, basis(), {folder_, {folder_}}, time_);
-  }
+  void save(const fs::path& folder) const override { save_state(folder, basis(), folders(), time_); }
   void restore(const fs::path& folder) override {
     const SavedState state = read_state(folder);
     if (!(state.basis == basis()))
@@ -107,16 +108,19 @@ class SheetFlow final : public Flow {
                   fmt::format("the flow saved in {} was made in another box of air, in other air or "
                               "with other settings of OpenFOAM",
                               folder.string()));
-    copy_state(folder, state, {folder_, {folder_}});
+    if (!settings_.fitted_mesh) lay_cloth();
+    copy_state(folder, state, folders());
     time_ = state.time;
     untouched_ = false;
-    lay_cloth();
+    if (settings_.fitted_mesh) read_cloth();
   }
 
  private:
   Basis basis() const {
-    return {problem_.grid, problem_.air, problem_.sides, settings_.ranks, settings_.second_order, true};
+    return {problem_.grid,          problem_.air, problem_.sides,        settings_.ranks,
+            settings_.second_order, true,         settings_.fitted_mesh, settings_.cloth_levels};
   }
+  CaseFolders folders() const { return {folder_, {folder_}, settings_.fitted_mesh}; }
   std::vector<fs::path> part_folders() const {
     if (settings_.ranks == 1) return {folder_};
     std::vector<fs::path> parts;
@@ -126,15 +130,65 @@ class SheetFlow final : public Flow {
   }
 
   void lay_cloth() {
+    if (settings_.fitted_mesh) {
+      purge("");
+      make_fitted_mesh(folder_, problem_, settings_.cloth_levels, programs_);
+      return read_cloth();
+    }
     patches_ = baffles_of(problem_);
     write_mesh(folder_ / "constant/polyMesh", problem_.grid, patches_);
     mesh_ = read_mesh(folder_, 1);
     through_.clear();
     goes_on_ = false;
   }
+  void read_cloth() {
+    FittedMesh fitted = read_fitted_mesh(folder_, problem_);
+    patches_ = std::move(fitted.patches);
+    mesh_ = {std::move(fitted.part)};
+    through_.clear();
+    goes_on_ = false;
+  }
+
+  /// Of every field the values of all cells.
+  using Cells = std::map<std::string, std::vector<double>>;
+  Cells all_values() const {
+    Cells cells;
+    for (const char* field : cell_fields) cells[field] = values(field);
+    return cells;
+  }
+  /// Means over the cells of the mesh in each cell of the grid.
+  Cells cells_on_grid() const {
+    Cells on_grid;
+    const MeshPart& part = mesh_.front();
+    for (const auto& [field, values] : all_values()) {
+      const std::size_t parts = static_cast<std::size_t>(components_of(field));
+      std::vector<double>& means = on_grid[field];
+      means.resize(parts * static_cast<std::size_t>(problem_.grid.cells()));
+      for (std::size_t n = 0; n < values.size(); ++n)
+        means[parts * static_cast<std::size_t>(part.global(n / parts)) + n % parts] +=
+            part.weight(n / parts) * values[n];
+      for (const auto& [cell, nearest] : part.stand_ins)
+        for (std::size_t c = 0; c < parts; ++c)
+          means[parts * static_cast<std::size_t>(cell) + c] =
+              values[parts * static_cast<std::size_t>(nearest) + c];
+    }
+    return on_grid;
+  }
+  Cells on_mesh(const Cells& on_grid) const {
+    Cells on_mesh;
+    const MeshPart& part = mesh_.front();
+    for (const auto& [field, means] : on_grid) {
+      const std::size_t parts = static_cast<std::size_t>(components_of(field));
+      std::vector<double>& values = on_mesh[field];
+      values.resize(parts * part.count(problem_.grid));
+      for (std::size_t n = 0; n < values.size(); ++n)
+        values[n] = means[parts * static_cast<std::size_t>(part.global(n / parts)) + n % parts];
+    }
+    return on_mesh;
+  }
 
   std::vector<double> values(const std::string& field) const {
-    const std::size_t count = static_cast<std::size_t>(problem_.grid.cells()),
+    const std::size_t count = mesh_.front().count(problem_.grid),
                       parts = static_cast<std::size_t>(components_of(field));
     FieldData data = read_field(folder_ / time_ / field, components_of(field), count);
     if (data.inner.size() == count * parts) return std::move(data.inner);
@@ -142,7 +196,7 @@ class SheetFlow final : public Flow {
     for (std::size_t n = 0; n < all.size(); ++n) all[n] = data.inner[n % parts];
     return all;
   }
-  /// Across tight cloth, along the axis [Pa].
+  /// Across tight cloth, from low to high [Pa].
   double drop(const Baffle& baffle, const std::vector<double>& p) const {
     return problem_.air.density * (p[baffle.low] - p[baffle.high]);
   }
@@ -181,19 +235,26 @@ class SheetFlow final : public Flow {
     if (field == "nut") return "type fixedValue; value uniform 0;";  // else it pulls on the wall
     if (field != "U") return "type zeroGradient;";
     std::vector<double> through;
+    std::size_t first = 0;  // of through_, of this patch
+    for (const BafflePatch& other : patches_) {
+      if (&other == &patch) break;
+      if (!other.loose) first += other.baffles.size();
+    }
     for (std::size_t n = 0; n < patch.baffles.size(); ++n) {
-      const Vec3 v = along(patch.baffles[n].axis, through_[n]);
+      const Vec3 area = patch.baffles[n].area, v = through_[first + n] / norm(area) * area;
       through.insert(through.end(), {v.x, v.y, v.z});
     }
     return fmt::format("type fixedNormalSlip; fixedValue nonuniform List<vector> {};",
                        binary_list(through, 3));
   }
 
-  /// The cells' values as time 0 of the mesh as it is now, with what passes tight cloth now.
+  /// The cells' values as time 0, with what passes tight cloth now.
   void begin_anew() {
-    std::map<std::string, std::vector<double>> cells;
-    for (const char* field : cell_fields) cells[field] = values(field);
-    through_ = through_tight(cells["p"]);
+    const Cells cells = all_values();
+    through_ = through_tight(cells.at("p"));
+    write_cells(cells, [&](const std::string& field) { return on_cloth(field); });
+  }
+  void write_cells(const Cells& cells, const FieldText& cloth = {}) {
     const fs::path start = folder_ / "start";
     write_fields(
         start, problem_, true,
@@ -204,7 +265,7 @@ class SheetFlow final : public Flow {
           return fmt::format("nonuniform List<{}> {}", parts == 3 ? "vector" : "scalar",
                              binary_list(found->second, parts));
         },
-        [&](const std::string& field) { return on_cloth(field); });
+        cloth);
     purge("");
     fs::rename(start, folder_ / kBegin);
     time_ = kBegin;
@@ -256,7 +317,7 @@ class SheetFlow final : public Flow {
     find_loads();
   }
 
-  /// Drop on every face of a patch, along its axis [Pa]: the pressure's across tight cloth, the law's for what passes
+  /// Drop on every face of a patch, from low to high [Pa]: the pressure's across tight cloth, the law's for what passes
   /// loose cloth.
   std::vector<double> drops(const BafflePatch& patch, const std::vector<double>& p,
                             const FieldData& flux) const {
@@ -267,7 +328,7 @@ class SheetFlow final : public Flow {
         drops.push_back(drop(baffle, p));
         continue;
       }
-      const double v = flux.at(flux.patches.at(patch.name + "_low"), n) / baffle.area;
+      const double v = flux.at(flux.patches.at(patch.name + "_low"), n) / norm(baffle.area);
       drops.push_back(patch.linear * v + patch.quadratic * v * std::abs(v));
     }
     return drops;
@@ -294,16 +355,16 @@ class SheetFlow final : public Flow {
       sum += part.back();
     }
     for (std::size_t n = 0; n < part.size(); ++n) {
-      const cartesian::SheetFace& face = baffle.layers[n].face;
+      const Layer& layer = baffle.layers[n];
       const double own = sum > 0 ? drop * part[n] / sum : drop / static_cast<double>(part.size());
       SheetLoad load;
-      load.sheet = baffle.layers[n].sheet;
-      load.triangle = face.triangle;
-      load.point = face.point;
-      load.outward = face.outward;
-      load.drop = face.against ? -own : own;
-      load.force = along(face.axis, own * baffle.area);
-      load.area = baffle.area * dot(face.normal, along(face.axis, 1));
+      load.sheet = layer.sheet;
+      load.triangle = layer.triangle;
+      load.point = layer.point;
+      load.outward = layer.outward;
+      load.drop = layer.against ? -own : own;
+      load.force = own * baffle.area;
+      load.area = layer.area;
       loads_.push_back(load);
     }
   }
@@ -326,8 +387,7 @@ class SheetFlow final : public Flow {
 
 std::unique_ptr<Flow> start_sheet_flow(const FlowProblem& problem, const OpenFoamSettings& settings,
                                        const fs::path& folder, const Installation& installation) {
-  return std::make_unique<SheetFlow>(problem, settings, folder,
-                                     with_simple_foam(installation, settings.ranks));
+  return std::make_unique<SheetFlow>(problem, settings, folder, with_simple_foam(installation, settings));
 }
 
 }  // namespace ripstop::openfoam

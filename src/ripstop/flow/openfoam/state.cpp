@@ -68,7 +68,9 @@ json describe_basis(const Basis& basis) {
       {"slip_sides", basis.sides == Sides::slip},
       {"ranks", basis.ranks},
       {"second_order", basis.second_order},
-      {"incompressible", basis.incompressible}};
+      {"incompressible", basis.incompressible},
+      {"fitted_mesh", basis.fitted_mesh},
+      {"cloth_levels", basis.cloth_levels}};
 }
 
 Basis basis_from(const json& j) {
@@ -88,6 +90,8 @@ Basis basis_from(const json& j) {
   basis.ranks = j.at("ranks");
   basis.second_order = j.at("second_order");
   basis.incompressible = j.value("incompressible", false);  // before there was a choice it was not said
+  basis.fitted_mesh = j.value("fitted_mesh", false);
+  basis.cloth_levels = j.value("cloth_levels", 0);
   return basis;
 }
 
@@ -103,6 +107,9 @@ std::vector<std::pair<fs::path, fs::path>> problem_files(const CaseFolders& fold
        {"constant/porosityProperties", "constant/cellZones", "system/controlDict", "system/fvSolution"})
     files.emplace_back(folders.whole / file, saved / "problem" / file.filename());
   files.emplace_back(folders.whole / zones, saved / "problem/cellZones.mesh");
+  if (folders.with_mesh)
+    for (const fs::path file : {"points", "faces", "owner", "neighbour", "boundary"})
+      files.emplace_back(folders.whole / "constant/polyMesh" / file, saved / "problem" / file);
   for (std::size_t part = 0; part < folders.parts.size(); ++part)
     if (folders.parts[part] != folders.whole)
       files.emplace_back(folders.parts[part] / zones,

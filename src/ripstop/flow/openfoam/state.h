@@ -17,6 +17,8 @@ struct Basis {
   int ranks = 1;
   bool second_order = false;
   bool incompressible = false;
+  bool fitted_mesh = false;
+  int cloth_levels = 0;
 };
 bool operator==(const Basis& a, const Basis& b);
 
@@ -29,6 +31,7 @@ struct SavedState {
 struct CaseFolders {
   std::filesystem::path whole;
   std::vector<std::filesystem::path> parts;
+  bool with_mesh = false;  // one that nothing but the same tools on the same cloth make again
 };
 
 /// Copies folder `time` of every part and what the last call wrote of the problem (cells, resistances, control),
