@@ -7,6 +7,7 @@
 
 #include "ripstop/core/error.h"
 #include "ripstop/core/process.h"
+#include "ripstop/flow/bodies.h"
 #include "ripstop/flow/openfoam/openfoam.h"
 #include "ripstop/flow/steady.h"
 
@@ -141,6 +142,69 @@ TEST_F(OpenFoamFailure, OpenFoamsOwnMessageIsPassedOn) {
   EXPECT_PRED2(says, text, "keyword div(phi,U) is undefined");
   EXPECT_PRED2(says, text, "exit code 1");
   EXPECT_PRED2(says, text, "log.rhoPorousSimpleFoam");
+}
+
+/// A disk on a mesh that follows it, with OpenFOAM's programs but for one.
+class FittedMeshFailure : public OpenFoamFailure {
+ protected:
+  void SetUp() override {
+    OpenFoamFailure::SetUp();
+    problem_.porous.clear();
+    problem_.grid = {{-1, -1, 0}, {2, 2, 2}, 8, 8, 8};
+    problem_.sides = Sides::slip;
+    problem_.sheets = {{disk(1, {0, 0, 1}), 1e6, 0}};
+    settings_.fitted_mesh = true;
+    settings_.cloth_levels = 1;
+  }
+  void all_but(const std::string& one, const std::string& body, int ranks = 1) {
+    settings_.ranks = ranks;
+    for (const char* name : {"blockMesh", "rhoPorousSimpleFoam", "simpleFoam", "snappyHexMesh",
+                             "createBaffles", "checkMesh", "decomposePar", "reconstructPar"}) {
+      if (name == one)
+        script(one, body);
+      else
+        fs::create_symlink(find_program(name), root_ / "bin" / name);
+    }
+  }
+};
+
+TEST_F(FittedMeshFailure, AMissingToolIsNamedWithThePackage) {
+  all_but("createBaffles", "exit 0");
+  fs::remove(root_ / "bin/createBaffles");
+  const std::string text = message(ExitCode::external);
+  EXPECT_PRED2(says, text, "createBaffles");
+  EXPECT_PRED2(says, text, "apt install openfoam");
+}
+
+TEST_F(FittedMeshFailure, EachToolThatFailsIsNamedWithWhatItSaidAndWhatMayHelp) {
+  const std::string fails =
+      "echo '--> FOAM FATAL ERROR: '\necho 'No faces found'\necho 'FOAM exiting'\nexit 1";
+  for (const std::string tool : {"snappyHexMesh", "createBaffles", "decomposePar", "reconstructPar"}) {
+    SCOPED_TRACE(tool);
+    all_but(tool, fails, tool.ends_with("Par") ? 2 : 1);
+    const std::string text = message(ExitCode::external);
+    EXPECT_PRED2(says, text, "OpenFOAM's " + tool + " failed: exit code 1");
+    EXPECT_PRED2(says, text, "No faces found");
+    EXPECT_PRED2(says, text, "log." + tool);
+    EXPECT_EQ(says(text, "another flow.cloth_levels"), !tool.ends_with("Par"));
+    fs::remove_all(root_ / "bin");
+    fs::create_directories(root_ / "bin");
+  }
+}
+
+TEST_F(FittedMeshFailure, WhatCheckMeshFindsFaultWithIsNotSolvedOn) {
+  all_but("checkMesh",
+          "echo ' ***Max skewness = 7, 3 highly skew faces detected'\necho 'Failed 1 mesh checks.'");
+  const std::string text = message(ExitCode::external);
+  EXPECT_PRED2(says, text, "checkMesh finds fault");
+  EXPECT_PRED2(says, text, "Max skewness = 7, 3 highly skew faces");
+  EXPECT_PRED2(says, text, "another flow.cloth_levels");
+  EXPECT_FALSE(fs::exists(root_ / "case/log.simpleFoam"));
+}
+
+TEST_F(FittedMeshFailure, AMeshThatLeftTheClothOutIsRefused) {
+  all_but("snappyHexMesh", "mkdir -p constant/polyMesh");  // the grid as blockMesh made it, without a zone
+  EXPECT_PRED2(says, message(ExitCode::external), "OpenFOAM's mesh has 0 m2 of faces");
 }
 
 TEST_F(OpenFoamFailure, NumbersOutOfRangeAreNamedAndNothingIsWritten) {

@@ -253,6 +253,16 @@ constexpr char kOfSheets[] =
 that are walls is a part of the case, in the field U; Ripstop renews it as the pressure changes.
 )foam";
 
+constexpr char kOfFittedMesh[] =
+    R"foam(constant/polyMesh is the mesh that snappyHexMesh made about the cloth of constant/triSurface, with the cloth in
+the patches cloth*. What passes those that are walls is a part of the case, in the field U; Ripstop renews it as the
+pressure changes. To make the mesh anew:
+
+    blockMesh
+    snappyHexMesh -overwrite
+    createBaffles -overwrite
+)foam";
+
 void range(const char* what, double value, double low, double high, const char* unit) {
   if (!(value >= low && value <= high)) {
     throw Error(ExitCode::usage, fmt::format("flow: {} is {:g} {}; it must lie in [{:g}, {:g}]", what, value,
@@ -343,7 +353,9 @@ void write_case(const fs::path& folder, const FlowProblem& problem, const OpenFo
                         problem.air.density, problem.air.speed,
                         problem.sides == Sides::slip ? "slip" : "open", kStopFile,
                         sheets ? "" : "    blockMesh\n    cp constant/cellZones constant/polyMesh/\n", run,
-                        sheets ? kOfSheets : kOfPorousCells);
+                        !sheets                ? kOfPorousCells
+                        : settings.fitted_mesh ? kOfFittedMesh
+                                               : kOfSheets);
   close_written(readme, folder / kReadme);
 }
 

@@ -11,9 +11,9 @@
 
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
+#include "ripstop/flow/hems.h"
 #include "ripstop/flow/openfoam/case_writer.h"
 #include "ripstop/flow/openfoam/field_file.h"
-#include "ripstop/flow/hems.h"
 #include "ripstop/output/stl.h"
 
 namespace ripstop::openfoam {
@@ -137,14 +137,16 @@ void write_snappy(const fs::path& folder, const FlowProblem& problem, int levels
     write_stl(folder / "constant/triSurface" / (name + ".stl"), problem.sheets[s].surface);
     geometry += fmt::format("    {0}.stl {{ type triSurfaceMesh; name {0}; }}\n", name);
     features += fmt::format("        {{ file \"{}.eMesh\"; level {}; }}\n", name, levels);
-    surfaces += fmt::format("        {0} {{ level ({1} {1}); faceZone {0}; faceType internal; }}\n", name, levels);
+    surfaces +=
+        fmt::format("        {0} {{ level ({1} {1}); faceZone {0}; faceType internal; }}\n", name, levels);
     write_hems(folder / "constant/triSurface" / (name + ".eMesh"), problem.sheets[s].surface);
     const Sheet& sheet = problem.sheets[s];
     const bool loose = is_loose_in(problem, sheet);
     const auto patch = [&](const char* side, const char* other) {
-      return fmt::format("{0}_{1}; {2}", name, side,
-                         loose ? fmt::format("type cyclic; matchTolerance 1e-4; neighbourPatch {}_{};", name, other)
-                               : "type wall;");
+      return fmt::format(
+          "{0}_{1}; {2}", name, side,
+          loose ? fmt::format("type cyclic; matchTolerance 1e-4; neighbourPatch {}_{};", name, other)
+                : "type wall;");
     };
     baffles += fmt::format(
         "    {0}\n    {{\n        type faceZone; zoneName {0};\n        patches\n        {{\n"
@@ -176,7 +178,8 @@ struct Size {
 /// Points and faces of constant/polyMesh.
 class Geometry {
  public:
-  explicit Geometry(const fs::path& mesh) : points_(read_points(mesh / "points")), faces_(read_faces(mesh / "faces")) {
+  explicit Geometry(const fs::path& mesh)
+      : points_(read_points(mesh / "points")), faces_(read_faces(mesh / "faces")) {
     for (const int point : faces_.corners)
       if (point < 0 || static_cast<std::size_t>(point) >= points_.size())
         throw Error(ExitCode::io, (mesh / "faces").string() + " names a point that there is not");
@@ -188,7 +191,8 @@ class Geometry {
     const Vec3 middle = centre(face);
     const int begin = faces_.begins[face], end = faces_.begins[face + 1];
     for (int n = begin; n < end; ++n)
-      surface.push_back({middle, points_[faces_.corners[n]], points_[faces_.corners[n + 1 < end ? n + 1 : begin]]});
+      surface.push_back(
+          {middle, points_[faces_.corners[n]], points_[faces_.corners[n + 1 < end ? n + 1 : begin]]});
   }
   Vec3 centre(std::size_t face) const {
     Vec3 sum;
@@ -221,7 +225,8 @@ class Geometry {
 
 /// The grid's cell that each cell of the mesh lies in by the middle of its faces' middles, its part of the volume of all
 /// that lie there, and who stands in where none does.
-void find_cells(const Geometry& geometry, const std::vector<int>& neighbour, const FlowGrid& grid, MeshPart& part) {
+void find_cells(const Geometry& geometry, const std::vector<int>& neighbour, const FlowGrid& grid,
+                MeshPart& part) {
   int last = 0;
   for (const auto& cells : {std::cref(part.owner), std::cref(neighbour)})
     for (const int cell : cells.get()) last = std::max(last, cell);
@@ -249,8 +254,7 @@ void find_cells(const Geometry& geometry, const std::vector<int>& neighbour, con
   for (std::size_t cell = 0; cell < count; ++cell) part.share[cell] = volume[cell] / whole[part.cells[cell]];
   for (int cell = 0; cell < grid.cells(); ++cell) {
     if (whole[cell] > 0) continue;
-    const Vec3 at =
-        grid.centre(cell % grid.nx, cell / grid.nx % grid.ny, cell / (grid.nx * grid.ny));
+    const Vec3 at = grid.centre(cell % grid.nx, cell / grid.nx % grid.ny, cell / (grid.nx * grid.ny));
     const auto apart = [&](std::size_t other) { return norm(centre[other] / faces[other] - at); };
     std::size_t nearest = 0;
     for (std::size_t other = 1; other < count; ++other)
@@ -318,20 +322,24 @@ class Nearest {
 const Patch& patch_of(const MeshPart& part, const std::string& name) {
   for (const Patch& patch : part.patches)
     if (patch.name == name) return patch;
-  throw Error(ExitCode::external, fmt::format("OpenFOAM's mesh in {} has no patch {}", part.folder.string(), name));
+  throw Error(ExitCode::external,
+              fmt::format("OpenFOAM's mesh in {} has no patch {}", part.folder.string(), name));
 }
 
-std::vector<Baffle> baffles_on(int number, const Sheet& sheet, const MeshPart& part, const Geometry& geometry) {
+std::vector<Baffle> baffles_on(int number, const Sheet& sheet, const MeshPart& part,
+                               const Geometry& geometry) {
   const std::string name = name_of(static_cast<std::size_t>(number));
   const Patch &low = patch_of(part, name + "_low"), &high = patch_of(part, name + "_high");
   const Nearest nearest(sheet.surface);
   std::vector<Baffle> baffles;
   std::vector<Triangle> faces;
   for (int n = 0; n < low.faces; ++n) {
-    const std::size_t face = static_cast<std::size_t>(low.start + n), other = static_cast<std::size_t>(high.start + n);
+    const std::size_t face = static_cast<std::size_t>(low.start + n),
+                      other = static_cast<std::size_t>(high.start + n);
     if (low.faces != high.faces || !geometry.same(face, other))
-      throw Error(ExitCode::external, fmt::format("OpenFOAM's mesh in {} has two sides of {} that do not lie on one another",
-                                                  part.folder.string(), name));
+      throw Error(ExitCode::external,
+                  fmt::format("OpenFOAM's mesh in {} has two sides of {} that do not lie on one another",
+                              part.folder.string(), name));
     Baffle baffle;
     baffle.low = part.owner[face], baffle.high = part.owner[other];
     baffle.area = geometry.area(face);
@@ -349,11 +357,14 @@ std::vector<Baffle> baffles_on(int number, const Sheet& sheet, const MeshPart& p
   const Size size(faces), whole(sheet.surface);
   const auto alike = [](double a, double b) { return std::abs(a - b) <= tolerance * b; };
   if (!alike(size.area, whole.area) || !alike(size.rim, whole.rim))
-    throw Error(ExitCode::external,
-                fmt::format("OpenFOAM's mesh has {:.4g} m2 of faces with {:.4g} m of rims on {:.4g} m2 of cloth with {:.4g} m: "
-                            "its cells are too coarse for gaps or folds of the cloth; take more (flow.cells) or halve them "
-                            "more often (flow.cloth_levels)",
-                            size.area, size.rim, whole.area, whole.rim));
+    throw Error(
+        ExitCode::external,
+        fmt::format(
+            "OpenFOAM's mesh has {:.4g} m2 of faces with {:.4g} m of rims on {:.4g} m2 of cloth with {:.4g} "
+            "m: "
+            "its cells are too coarse for gaps or folds of the cloth; take more (flow.cells) or halve them "
+            "more often (flow.cloth_levels)",
+            size.area, size.rim, whole.area, whole.rim));
   const double slant = whole.area / size.area;
   for (Baffle& baffle : baffles)
     for (Layer& layer : baffle.layers) layer.area *= slant, layer.slant = slant;
@@ -361,17 +372,21 @@ std::vector<Baffle> baffles_on(int number, const Sheet& sheet, const MeshPart& p
 }
 
 constexpr const char* finer =
-    "cells that are more alike along the three axes (flow.cells, flow.core.size_m) or another flow.cloth_levels may help";
+    "cells that are more alike along the three axes (flow.cells, flow.core.size_m) or another "
+    "flow.cloth_levels may help";
 
 }  // namespace
 
-void make_fitted_mesh(const fs::path& folder, const FlowProblem& problem, int levels, const Programs& programs) {
+void make_fitted_mesh(const fs::path& folder, const FlowProblem& problem, int levels,
+                      const Programs& programs) {
   remove_path(folder / "constant/polyMesh");
   remove_path(folder / "constant/triSurface");
   make_folder(folder / "constant/triSurface");
   write_snappy(folder, problem, levels);
   programs.run_tool("blockMesh");
-  if (std::all_of(problem.sheets.begin(), problem.sheets.end(), [](const Sheet& s) { return s.surface.empty(); })) return;
+  if (std::all_of(problem.sheets.begin(), problem.sheets.end(),
+                  [](const Sheet& s) { return s.surface.empty(); }))
+    return;
   programs.run_tool("snappyHexMesh", {"-overwrite"}, finer);
   programs.run_tool("createBaffles", {"-overwrite"}, finer);
   std::string faults;
@@ -380,8 +395,9 @@ void make_fitted_mesh(const fs::path& folder, const FlowProblem& problem, int le
     if (stars != std::string::npos) faults += (faults.empty() ? "" : "; ") + line.substr(stars + 3);
   });
   if (!faults.empty())
-    throw Error(ExitCode::external, fmt::format("OpenFOAM's checkMesh finds fault with the mesh in {}: {}. {}",
-                                                folder.string(), faults, finer));
+    throw Error(ExitCode::external,
+                fmt::format("OpenFOAM's checkMesh finds fault with the mesh in {}: {}. {}", folder.string(),
+                            faults, finer));
 }
 
 FittedMesh read_fitted_mesh(const fs::path& folder, const FlowProblem& problem) {

@@ -1,0 +1,232 @@
+// The built-in engine beside OpenFOAM on a mesh that follows the cloth: rigid bodies, and inflated canopies from the STL
+// of a run.
+//   bench_judge FOLDER ACROSS [BODY ...]
+//     FOLDER  of OpenFOAM's case and the plots
+//     ACROSS  cells across the body, the built-in engine's; those of OpenFOAM's mesh are half as wide at the cloth and twice
+//             as wide elsewhere
+//     BODY    disk, plate, cup, porous-disk, or NAME=FILE.stl:A:B, cloth with the law A v + B v |v| [Pa]; without one the
+//             four bodies
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "far_box.h"
+#include "ripstop/core/error.h"
+#include "ripstop/flow/bodies.h"
+#include "ripstop/flow/cartesian/cartesian.h"
+#include "ripstop/flow/openfoam/openfoam.h"
+#include "ripstop/flow/steady.h"
+#include "ripstop/output/plot.h"
+#include "ripstop/output/stl.h"
+#include "table.h"
+
+using namespace ripstop;
+
+namespace {
+
+constexpr double box = 12;    // widths of the body
+constexpr double speed = 20;  // [m/s]
+constexpr double tight = 1e6;
+
+struct Body {
+  std::string name;
+  Sheet sheet;
+  double width = 0, front = 0;  // of the body across the stream [m], and its area across the stream [m2]
+  double rear = 0;              // its highest z [m]
+};
+
+/// Moved such that the axis is x = y = 0 and the foremost point lies where a far box has its body.
+Body measured(std::string name, Sheet sheet, Vec3 axis) {
+  double low = INFINITY, high = -INFINITY, radius = 0;
+  for (const Triangle& t : sheet.surface) {
+    for (const Vec3& p : {t.a, t.b, t.c}) {
+      low = std::min(low, p.z), high = std::max(high, p.z);
+      radius = std::max(radius, std::hypot(p.x - axis.x, p.y - axis.y));
+    }
+  }
+  const Vec3 shift = Vec3{0, 0, 0.45 * 1.5 * box * 2 * radius - low} - Vec3{axis.x, axis.y, 0};
+  for (Triangle& t : sheet.surface)
+    for (Vec3* p : {&t.a, &t.b, &t.c}) *p += shift;
+  double front = 0;
+  for (const Triangle& t : sheet.surface) front += 0.5 * std::abs(cross(t.b - t.a, t.c - t.a).z);
+  return {std::move(name), std::move(sheet), 2 * radius, front, high + shift.z};
+}
+
+Body body_of(const std::string& word) {
+  constexpr double density = 1.2;
+  if (word == "disk") return measured(word, {disk(1, {}), tight, 0}, {});
+  if (word == "plate") return measured(word, {square_plate(1, {}), tight, 0}, {});
+  if (word == "cup") return measured(word, {hemispherical_cup(1, {}), tight, 0}, {});
+  if (word == "porous-disk") return measured(word, {disk(1, {}), 0, density / 2}, {});  // K = 1
+  const std::size_t is = word.find('='), b = word.rfind(':'), a = word.rfind(':', b - 1);
+  if (is == std::string::npos || b == std::string::npos || a == std::string::npos || a < is)
+    throw Error(ExitCode::usage, word + " is no body: disk, plate, cup, porous-disk or NAME=FILE.stl:A:B");
+  Sheet sheet{read_stl(word.substr(is + 1, a - is - 1)), std::stod(word.substr(a + 1, b - a - 1)),
+              std::stod(word.substr(b + 1))};
+  Vec3 middle;
+  double area = 0;
+  for (const Triangle& t : sheet.surface) {
+    const double part = norm(cross(t.b - t.a, t.c - t.a));
+    middle += part / 3 * (t.a + t.b + t.c), area += part;
+  }
+  return measured(word.substr(0, is), std::move(sheet), middle / area);
+}
+
+FlowProblem problem_of(const Body& body, int across) {
+  FlowProblem problem;
+  problem.grid = far_box(body.width, box, across, 0.45 * 1.5 * box * body.width);
+  problem.air.speed = speed;
+  problem.sides = Sides::slip;
+  problem.sheets = {body.sheet};
+  problem.stopping.max_iterations = 600;
+  return problem;
+}
+
+struct Result {
+  double drag = 0, ledger = 0, minutes = 0;
+  std::vector<double> drop;                 // by bin, over the dynamic pressure
+  std::vector<std::vector<double>> behind;  // one and three widths behind, by radius, over the stream's speed
+};
+
+constexpr int bins = 18, radii = 25;
+constexpr double widest = 1.25;  // of the profiles, in widths
+
+/// The place on a canopy from the axis, 0, to the rim, 1: by radius for what is flat, else by the angle about the
+/// middle of the mouth.
+double place(const Body& body, Vec3 p) {
+  const double mouth = 0.45 * 1.5 * box * body.width, r = std::hypot(p.x, p.y);
+  if (body.rear - mouth < 0.05 * body.width) return 2 * r / body.width;
+  return std::atan2(r, std::max(p.z - mouth, 0.0)) / (std::numbers::pi / 2);
+}
+
+Result result_of(const Body& body, const FlowProblem& problem, const FlowField& field) {
+  const double q = 0.5 * problem.air.density * speed * speed;
+  Result result;
+  result.drag = field.porous_force.z / (q * body.front);
+  result.ledger = field.momentum_deficit / field.porous_force.z - 1;
+  std::vector<double> weight(bins);
+  result.drop.resize(bins);
+  for (const SheetLoad& load : field.sheet_loads) {
+    const int bin = std::clamp(static_cast<int>(bins * place(body, load.point)), 0, bins - 1);
+    result.drop[bin] += load.area * std::abs(load.drop / load.cover) / q, weight[bin] += load.area;
+  }
+  for (int bin = 0; bin < bins; ++bin) result.drop[bin] = weight[bin] > 0 ? result.drop[bin] / weight[bin] : NAN;
+  for (const double distance : {1.0, 3.0}) {
+    std::vector<double> profile;
+    for (int r = 0; r < radii; ++r) {
+      const double radius = widest * body.width * r / (radii - 1);
+      constexpr int round = 24;
+      double sum = 0;
+      for (int n = 0; n < round; ++n) {
+        const double angle = 2 * std::numbers::pi * n / round;
+        sum += sample(field.grid, field.velocity,
+                      {radius * std::cos(angle), radius * std::sin(angle), body.rear + distance * body.width})
+                   .z;
+      }
+      profile.push_back(sum / round / speed);
+    }
+    result.behind.push_back(profile);
+  }
+  return result;
+}
+
+template <class Solve>
+Result timed(const Body& body, const FlowProblem& problem, const Solve& solved) {
+  const auto begin = std::chrono::steady_clock::now();
+  const FlowField field = solved();
+  Result result = result_of(body, problem, field);
+  result.minutes = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() / 60;
+  return result;
+}
+
+Result builtin(const Body& body, int across) {
+  FlowProblem problem = problem_of(body, across);
+  problem.stopping.average_over = 100;
+  CartesianSettings settings;
+  settings.second_order = true;
+  return timed(body, problem, [&] { return solve(*make_cartesian(settings), problem); });
+}
+
+Result openfoam(const Body& body, int across, const std::filesystem::path& folder) {
+  FlowProblem problem = problem_of(body, across / 2);
+  problem.stopping.residual = 1e-4;
+  OpenFoamSettings settings;
+  settings.folder = folder;
+  settings.second_order = true;
+  settings.fitted_mesh = true;
+  settings.cloth_levels = 2;
+  return timed(body, problem, [&] { return solve(*make_openfoam(settings), problem); });
+}
+
+/// Root of the mean square of the differences, where both have a value.
+double apart(const std::vector<double>& a, const std::vector<double>& b) {
+  double sum = 0, count = 0;
+  for (std::size_t n = 0; n < a.size(); ++n)
+    if (std::isfinite(a[n] + b[n])) sum += (a[n] - b[n]) * (a[n] - b[n]), ++count;
+  return std::sqrt(sum / count);
+}
+
+void draw(const std::filesystem::path& folder, const Body& body, int across, const Result& ours, const Result& theirs) {
+  Plot pressure{body.name + fmt::format(": pressure across the cloth, {} cells across", across),
+                {"place on a gore, 0 axis, 1 rim", false, 0.0, 1.0},
+                {"pressure inside less outside, over the dynamic pressure"},
+                {}};
+  std::vector<double> places;
+  for (int bin = 0; bin < bins; ++bin) places.push_back((bin + 0.5) / bins);
+  pressure.series = {{"built-in", places, ours.drop}, {"OpenFOAM, mesh on the cloth", places, theirs.drop}};
+  write_plot(folder / fmt::format("{}-{}-pressure.svg", body.name, across), pressure);
+  Plot wake{body.name + fmt::format(": wake, {} cells across", across),
+            {"radius over the width"},
+            {"velocity along the stream over the stream's"},
+            {}};
+  std::vector<double> radius;
+  for (int r = 0; r < radii; ++r) radius.push_back(widest * r / (radii - 1));
+  for (const int n : {0, 1}) {
+    const std::string where = n == 0 ? "one width behind" : "three widths behind";
+    wake.series.push_back({"built-in, " + where, radius, ours.behind[n]});
+    wake.series.push_back({"OpenFOAM, " + where, radius, theirs.behind[n], true, true, true});
+  }
+  write_plot(folder / fmt::format("{}-{}-wake.svg", body.name, across), wake);
+}
+
+std::string percent(double share) {
+  return fmt::format("{:+.1f} %", 100 * share);
+}
+
+void judge(const std::filesystem::path& folder, const Body& body, int across) {
+  const Result ours = builtin(body, across), theirs = openfoam(body, across, folder / "case");
+  draw(folder, body, across, ours, theirs);
+  print_row({body.name, fmt::format("{}", across), fmt::format("{:.3f}", ours.drag), fmt::format("{:.3f}", theirs.drag),
+             percent(ours.drag / theirs.drag - 1), percent(ours.ledger), percent(theirs.ledger),
+             fmt::format("{:.3f}", apart(ours.drop, theirs.drop)),
+             fmt::format("{:.3f}, {:.3f}", apart(ours.behind[0], theirs.behind[0]),
+                         apart(ours.behind[1], theirs.behind[1])),
+             fmt::format("{:.1f}, {:.1f}", ours.minutes, theirs.minutes)});
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 3) {
+    fmt::print(stderr, "bench_judge FOLDER ACROSS [disk|plate|cup|porous-disk|NAME=FILE.stl:A:B ...]\n");
+    return 2;
+  }
+  const std::filesystem::path folder = argv[1];
+  const int across = std::atoi(argv[2]);
+  std::vector<std::string> words(argv + 3, argv + argc);
+  if (words.empty()) words = {"disk", "plate", "cup", "porous-disk"};
+  std::filesystem::create_directories(folder);
+  print_table_head("Rigid bodies and inflated canopies: the built-in engine beside OpenFOAM on a mesh that follows the cloth",
+                   argc, argv,
+                   {"body", "cells across", "drag on its front, built-in", "OpenFOAM", "built-in beside OpenFOAM",
+                    "ledger, built-in", "OpenFOAM's", "pressure across the cloth, apart (rms)",
+                    "wake at 1 and 3 widths, apart (rms)", "minutes, built-in, OpenFOAM"});
+  for (const std::string& word : words) judge(folder, body_of(word), across);
+}
