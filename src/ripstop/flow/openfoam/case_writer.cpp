@@ -153,7 +153,7 @@ constexpr char kSolution[] = R"foam(solvers
 }}
 SIMPLE
 {{
-    nNonOrthogonalCorrectors 0;
+    nNonOrthogonalCorrectors {3};
     nUCorrectors 2;
     pMinFactor {1};
     pMaxFactor {2};
@@ -405,9 +405,9 @@ void write_control(const fs::path& folder, const FlowProblem& problem, bool inco
                                forces, solver_name(incompressible, sheets)));
 }
 
-void write_solution(const fs::path& folder, double residual) {
+void write_solution(const fs::path& folder, double residual, int corrections) {
   write_dictionary(folder / "system/fvSolution", "dictionary",
-                   fmt::format(kSolution, residual, kLowestPressure, kHighestPressure));
+                   fmt::format(kSolution, residual, kLowestPressure, kHighestPressure, corrections));
 }
 
 void write_resistance(const fs::path& folder, const std::vector<PorousCells>& porous) {

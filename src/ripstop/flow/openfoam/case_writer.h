@@ -44,8 +44,9 @@ void write_fields(const std::filesystem::path& folder, const FlowProblem& proble
 /// system/controlDict. A file named kStopFile in the case folder makes the solver write and end.
 void write_control(const std::filesystem::path& folder, const FlowProblem& problem, bool incompressible,
                    const RunControl& control);
-/// system/fvSolution holds the residual to be reached, constant/porosityProperties the resistances.
-void write_solution(const std::filesystem::path& folder, double residual);
+/// system/fvSolution holds the residual to be reached, constant/porosityProperties the resistances. `corrections`: of the
+/// pressure an iteration, for cells that are not at right angles.
+void write_solution(const std::filesystem::path& folder, double residual, int corrections = 0);
 void write_resistance(const std::filesystem::path& folder, const std::vector<PorousCells>& porous);
 /// cellZones with one zone a list.
 void write_zones(const std::filesystem::path& folder, const std::vector<std::vector<int>>& zones);
