@@ -5,6 +5,7 @@
 #include <bitset>
 #include <cmath>
 #include <map>
+#include <unordered_map>
 #include <utility>
 
 #include "ripstop/flow/hems.h"
@@ -38,7 +39,30 @@ class NearHem {
  public:
   NearHem(const std::array<const Axis*, 3>& axes, const std::vector<Triangle>& surface) : axes_(axes) {
     near_.assign(static_cast<std::size_t>(axes[0]->n) * axes[1]->n * axes[2]->n, 0);
-    for (const auto& [p, q] : hems(surface)) mark(p, q);
+    const std::vector<Hem> all = hems(surface);
+    for (const Hem& hem : all) mark(hem);
+  }
+
+  /// Whether the sheet ends before it gets to where a point is, by the hem that is nearest to it.
+  bool beyond(Vec3 point) const {
+    int c[3];
+    const Point at = point_of(point);
+    for (int a = 0; a < 3; ++a) c[a] = std::clamp(cell_at(*axes_[a], at[a]), 0, axes_[a]->n - 1);
+    const auto found = of_cell_.find(index(c[0], c[1], c[2]));
+    if (found == of_cell_.end()) return false;
+    double least = 1e300;
+    bool beyond = false;
+    for (const std::size_t n : found->second) {
+      const Hem& hem = hems_[n];
+      const Vec3 along = hem.to - hem.from;
+      const double share = std::clamp(dot(point - hem.from, along) / dot(along, along), 0.0, 1.0);
+      const Vec3 apart = point - (hem.from + share * along);
+      if (norm(apart) > least * (1 + 1e-9)) continue;
+      const bool out = dot(apart, hem.inward) < 0;
+      beyond = norm(apart) < least * (1 - 1e-9) ? out : beyond || out;
+      least = norm(apart);
+    }
+    return beyond;
   }
 
   bool at(const Point& p) const {
@@ -55,7 +79,9 @@ class NearHem {
     return i + static_cast<std::size_t>(axes_[0]->n) * (j + static_cast<std::size_t>(axes_[1]->n) * k);
   }
 
-  void mark(Vec3 p, Vec3 q) {
+  void mark(const Hem& hem) {
+    const Vec3 p = hem.from, q = hem.to;
+    hems_.push_back(hem);
     double width = 1e300;
     for (const Axis* axis : axes_)
       width = std::min(width, *std::min_element(axis->width.begin(), axis->width.end()));
@@ -73,7 +99,11 @@ class NearHem {
       if (outside) continue;
       for (int k = low[2]; k <= high[2]; ++k) {
         for (int j = low[1]; j <= high[1]; ++j) {
-          for (int i = low[0]; i <= high[0]; ++i) near_[index(i, j, k)] = 1;
+          for (int i = low[0]; i <= high[0]; ++i) {
+            near_[index(i, j, k)] = 1;
+            std::vector<std::size_t>& here = of_cell_[index(i, j, k)];
+            if (here.empty() || here.back() != hems_.size() - 1) here.push_back(hems_.size() - 1);
+          }
         }
       }
     }
@@ -81,6 +111,8 @@ class NearHem {
 
   std::array<const Axis*, 3> axes_;
   std::vector<char> near_;
+  std::vector<Hem> hems_;
+  std::unordered_map<std::size_t, std::vector<std::size_t>> of_cell_;  // hems that it is near to
 };
 
 /// Sheet in a cell that found no face of its own axis.
@@ -128,10 +160,10 @@ class Columns {
  public:
   Columns(int axis, const std::array<const Axis*, 3>& axes, const std::vector<Triangle>& surface,
           const NearHem& hem)
-      : axis_(axis), u_((axis + 1) % 3), v_((axis + 2) % 3), axes_(axes), surface_(surface) {
+      : axis_(axis), u_((axis + 1) % 3), v_((axis + 2) % 3), axes_(axes), surface_(surface), hem_(hem) {
     const std::vector<double> us = line_positions(*axes[u_]), vs = line_positions(*axes[v_]);
     hits_.resize(static_cast<std::size_t>(axes[u_]->n) * axes[v_]->n);
-    for (int t = 0; t < static_cast<int>(surface.size()); ++t) project(t, us, vs, hem);
+    for (int t = 0; t < static_cast<int>(surface.size()); ++t) project(t, us, vs);
   }
 
   void faces(std::vector<SheetFace>& result, std::vector<Share>& left_over) {
@@ -144,7 +176,7 @@ class Columns {
   }
 
  private:
-  void project(int t, const std::vector<double>& us, const std::vector<double>& vs, const NearHem& hem) {
+  void project(int t, const std::vector<double>& us, const std::vector<double>& vs) {
     const Point p[] = {point_of(surface_[t].a), point_of(surface_[t].b), point_of(surface_[t].c)};
     const double area =
         (p[1][u_] - p[0][u_]) * (p[2][v_] - p[0][v_]) - (p[1][v_] - p[0][v_]) * (p[2][u_] - p[0][u_]);
@@ -174,7 +206,7 @@ class Columns {
         hit.line = static_cast<int>(iu % lines + lines * (iv % lines));
         Point point;
         point[axis_] = hit.at, point[u_] = u, point[v_] = v;
-        hit.hem = hem.at(point);
+        hit.hem = hem_.at(point);
         hits_[iu / lines + static_cast<std::size_t>(axes_[u_]->n) * (iv / lines)].push_back(hit);
       }
     }
@@ -256,7 +288,7 @@ class Columns {
       }
     }
     for (std::size_t n = first; n < last; ++n) {
-      result[n].seen = static_cast<double>(met[n - first].count()) / (lines * lines);
+      if (result[n].hem) result[n].cover = cover(result[n], point_of(result[n].point), met[n - first], cu, cv);
       const Vec3 sum = normals[n - first];
       if (norm(turned[n - first]) > 0) result[n].across = turned[n - first] / norm(turned[n - first]);
       if (!(norm(sum) > 0)) continue;
@@ -284,11 +316,15 @@ class Columns {
       }
       const Hit* middle = across.empty() ? nullptr : across[across.size() / 2];
       SheetFace* face = middle ? add(middle->at, middle->triangle, cu, cv, result) : nullptr;
+      if (face && !beyond(*face, on_line(middle->at, cu, cv, middle->line), cu, cv, centre_line, centre_line)) {
+        result.pop_back();
+        face = nullptr;
+      }
       if (face) {
         std::bitset<lines * lines> met;
         for (const Hit* h : across) met.set(h->line);
         face->hem = true;
-        face->seen = static_cast<double>(met.count()) / (lines * lines);
+        face->cover = cover(*face, on_line(middle->at, cu, cv, middle->line), met, cu, cv);
       }
       for (std::size_t n = begin; n < end; ++n) {
         face ? void(face->area += share(*beside[n], cu, cv))
@@ -296,6 +332,35 @@ class Columns {
       }
       begin = end;
     }
+  }
+
+  /// The part of a face that is not open. A line that does not meet the sheet finds it ended, or bent out of the
+  /// column: there it goes on beside the face, and nothing is open.
+  double cover(const SheetFace& face, Point at, const std::bitset<lines * lines>& met, int cu, int cv) const {
+    int open = 0;
+    for (int line = 0; line < lines * lines; ++line)
+      open += !met[line] && beyond(face, at, cu, cv, line % lines, line / lines);
+    return 1 - static_cast<double>(open) / (lines * lines);
+  }
+  Point on_line(double at, int cu, int cv, int line) const {
+    Point point;
+    point[axis_] = at;
+    point[u_] = position(*axes_[u_], cu, line % lines), point[v_] = position(*axes_[v_], cv, line / lines);
+    return point;
+  }
+  static double position(const Axis& axis, int c, int s) { return axis.edge[c] + (s + 0.5) / lines * axis.width[c]; }
+  /// Whether the sheet ends before a line of the column, in its plane through `at`, as far as that is between the face's
+  /// two centres.
+  bool beyond(const SheetFace& face, Point at, int cu, int cv, int su, int sv) const {
+    const Point normal = point_of(face.normal);
+    const int cells[] = {face.i, face.j, face.k}, cell = cells[axis_];
+    const double u = position(*axes_[u_], cu, su), v = position(*axes_[v_], cv, sv);
+    Point point;
+    point[u_] = u, point[v_] = v;
+    point[axis_] = std::clamp(
+        at[axis_] - (normal[u_] * (u - at[u_]) + normal[v_] * (v - at[v_])) / std::max(normal[axis_], 1e-3),
+        centre(*axes_[axis_], cell - 1), centre(*axes_[axis_], cell));
+    return hem_.beyond({point[0], point[1], point[2]});
   }
 
   std::array<int, 3> cell_of(const Hit& h, int cu, int cv) const {
@@ -307,6 +372,7 @@ class Columns {
   int axis_, u_, v_;
   std::array<const Axis*, 3> axes_;
   const std::vector<Triangle>& surface_;
+  const NearHem& hem_;
   std::vector<std::vector<Hit>> hits_;
 };
 

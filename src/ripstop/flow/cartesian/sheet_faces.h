@@ -20,7 +20,7 @@ struct SheetFace {
   bool hem = false;      // within two cells of an edge of the sheet
   double area = 0;       // of the sheet that the face stands for [m2]; the faces' areas add up to the sheet's
   Vec3 across;           // mean of the normals with all layers turned so that they look along the axis, unit
-  double seen = 1;       // of the lines through the face, those that meet the sheet about it, whichever layer
+  double cover = 1;      // the part of the face that is not open beside a hem
 };
 
 /// Every face between neighbouring cell centres that a triangle parts, in a fixed order. The faces of a
