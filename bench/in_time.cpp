@@ -136,8 +136,8 @@ March builtin(const FlowProblem& problem, double length, int steps, int threads)
   return march;
 }
 
-March pimple_foam(const FlowProblem& problem, const std::vector<openfoam::BafflePatch>& cloth, double length, int steps,
-                   int ranks, const std::filesystem::path& folder) {
+March pimple_foam(const FlowProblem& problem, const std::vector<openfoam::BafflePatch>& cloth, double length,
+                  int steps, int ranks, const std::filesystem::path& folder) {
   using namespace openfoam;
   Installation installation = find_installation({}, ranks > 1, true);
   installation.solver = "pimpleFoam";
@@ -153,9 +153,10 @@ March pimple_foam(const FlowProblem& problem, const std::vector<openfoam::Baffle
   write_dictionary(folder / "system/fvSolution", "dictionary", solution);
   write_dictionary(folder / "system/controlDict", "dictionary",
                    fmt::format(control, (steps + 0.5) * length, length, problem.air.density));
-  write_dictionary(folder / "constant/turbulenceProperties", "dictionary",
-                   "simulationType LES;\nLES { LESModel WALE; delta cubeRootVol; turbulence on; printCoeffs off; "
-                   "cubeRootVolCoeffs { deltaCoeff 1; } }\n");
+  write_dictionary(
+      folder / "constant/turbulenceProperties", "dictionary",
+      "simulationType LES;\nLES { LESModel WALE; delta cubeRootVol; turbulence on; printCoeffs off; "
+      "cubeRootVolCoeffs { deltaCoeff 1; } }\n");
   write_mesh(folder / "constant/polyMesh", problem.grid, cloth);
   write_fields(folder / "0", problem, true, {}, [&](const std::string& field) {
     std::string text;
@@ -206,21 +207,26 @@ int main(int argc, char** argv) {
   const March ours = builtin(problem, length, steps, ranks),
               theirs = pimple_foam(problem, cloth, length, steps, ranks, folder / "case");
   print_table_head(
-      fmt::format("A square plate set into a stream at once, d/{}: the built-in engine in time and pimpleFoam", across), argc,
-      argv, {"", "built-in", "pimpleFoam", "built-in beside pimpleFoam"});
+      fmt::format(
+          "A square plate set into a stream at once, d/{}: the built-in engine in time and pimpleFoam",
+          across),
+      argc, argv, {"", "built-in", "pimpleFoam", "built-in beside pimpleFoam"});
   const auto steps_of = [](const March& march) { return march.drag.values.size(); };
   const auto rate = [&](const March& march) {
     return 1e-6 * (static_cast<double>(steps_of(march)) - 1) * problem.grid.cells() / march.seconds;
   };
-  print_row({"cells, steps, threads or ranks", fmt::format("{}, {}, {}", problem.grid.cells(), steps_of(ours), ranks),
+  print_row({"cells, steps, threads or ranks",
+             fmt::format("{}, {}, {}", problem.grid.cells(), steps_of(ours), ranks),
              fmt::format("{}, {}, {}", problem.grid.cells(), steps_of(theirs), ranks), ""});
-  print_row({"area of the faces [m2]", fmt::format("{:.4f}", area_of(problem)), fmt::format("{:.4f}", faces), ""});
-  print_row({"million cell-steps a second", fmt::format("{:.2f}", rate(ours)), fmt::format("{:.3f}", rate(theirs)),
-             fmt::format("{:.1f} times", rate(ours) / rate(theirs))});
+  print_row(
+      {"area of the faces [m2]", fmt::format("{:.4f}", area_of(problem)), fmt::format("{:.4f}", faces), ""});
+  print_row({"million cell-steps a second", fmt::format("{:.2f}", rate(ours)),
+             fmt::format("{:.3f}", rate(theirs)), fmt::format("{:.1f} times", rate(ours) / rate(theirs))});
   for (const double at : {0.1, 0.25, 0.5, 1.0, 1.5, 2.0}) {
     const std::size_t n = static_cast<std::size_t>(std::lround(at / speed / length)) - 1;
     if (n >= std::min(steps_of(ours), steps_of(theirs))) continue;
-    print_row({fmt::format("drag coefficient after {} d/U", at), fmt::format("{:.3f}", ours.drag.values[n] / unit),
+    print_row({fmt::format("drag coefficient after {} d/U", at),
+               fmt::format("{:.3f}", ours.drag.values[n] / unit),
                fmt::format("{:.3f}", theirs.drag.values[n] / unit),
                fmt::format("{:+.1f} %", 100 * (ours.drag.values[n] / theirs.drag.values[n] - 1))});
   }
@@ -231,7 +237,8 @@ int main(int argc, char** argv) {
     };
     print_row({"mean of the second half, standard error", mean(ours), mean(theirs), ""});
   }
-  Plot plot{"A square plate set into a stream at once", {"time [d/U]"}, {"drag coefficient", false, 0.0, 3.0}, {}};
+  Plot plot{
+      "A square plate set into a stream at once", {"time [d/U]"}, {"drag coefficient", false, 0.0, 3.0}, {}};
   for (const auto& [name, march] : {std::pair{"built-in", &ours}, std::pair{"pimpleFoam", &theirs}}) {
     PlotSeries series{name, {}, {}, true, false};
     for (std::size_t n = 0; n < steps_of(*march); ++n) {

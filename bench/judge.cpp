@@ -117,7 +117,8 @@ Result result_of(const Body& body, const FlowProblem& problem, const FlowField& 
     const int bin = std::clamp(static_cast<int>(bins * place(body, load.point)), 0, bins - 1);
     result.drop[bin] += load.area * std::abs(load.drop / load.cover) / q, weight[bin] += load.area;
   }
-  for (int bin = 0; bin < bins; ++bin) result.drop[bin] = weight[bin] > 0 ? result.drop[bin] / weight[bin] : NAN;
+  for (int bin = 0; bin < bins; ++bin)
+    result.drop[bin] = weight[bin] > 0 ? result.drop[bin] / weight[bin] : NAN;
   for (const double distance : {1.0, 3.0}) {
     std::vector<double> profile;
     for (int r = 0; r < radii; ++r) {
@@ -173,7 +174,8 @@ double apart(const std::vector<double>& a, const std::vector<double>& b) {
   return std::sqrt(sum / count);
 }
 
-void draw(const std::filesystem::path& folder, const Body& body, int across, const Result& ours, const Result& theirs) {
+void draw(const std::filesystem::path& folder, const Body& body, int across, const Result& ours,
+          const Result& theirs) {
   Plot pressure{body.name + fmt::format(": pressure across the cloth, {} cells across", across),
                 {"place on a gore, 0 axis, 1 rim", false, 0.0, 1.0},
                 {"pressure inside less outside, over the dynamic pressure"},
@@ -203,9 +205,9 @@ std::string percent(double share) {
 void judge(const std::filesystem::path& folder, const Body& body, int across) {
   const Result ours = builtin(body, across), theirs = openfoam(body, across, folder / "case");
   draw(folder, body, across, ours, theirs);
-  print_row({body.name, fmt::format("{}", across), fmt::format("{:.3f}", ours.drag), fmt::format("{:.3f}", theirs.drag),
-             percent(ours.drag / theirs.drag - 1), percent(ours.ledger), percent(theirs.ledger),
-             fmt::format("{:.3f}", apart(ours.drop, theirs.drop)),
+  print_row({body.name, fmt::format("{}", across), fmt::format("{:.3f}", ours.drag),
+             fmt::format("{:.3f}", theirs.drag), percent(ours.drag / theirs.drag - 1), percent(ours.ledger),
+             percent(theirs.ledger), fmt::format("{:.3f}", apart(ours.drop, theirs.drop)),
              fmt::format("{:.3f}, {:.3f}", apart(ours.behind[0], theirs.behind[0]),
                          apart(ours.behind[1], theirs.behind[1])),
              fmt::format("{:.1f}, {:.1f}", ours.minutes, theirs.minutes)});
@@ -223,10 +225,12 @@ int main(int argc, char** argv) {
   std::vector<std::string> words(argv + 3, argv + argc);
   if (words.empty()) words = {"disk", "plate", "cup", "porous-disk"};
   std::filesystem::create_directories(folder);
-  print_table_head("Rigid bodies and inflated canopies: the built-in engine beside OpenFOAM on a mesh that follows the cloth",
-                   argc, argv,
-                   {"body", "cells across", "drag on its front, built-in", "OpenFOAM", "built-in beside OpenFOAM",
-                    "ledger, built-in", "OpenFOAM's", "pressure across the cloth, apart (rms)",
-                    "wake at 1 and 3 widths, apart (rms)", "minutes, built-in, OpenFOAM"});
+  print_table_head(
+      "Rigid bodies and inflated canopies: the built-in engine beside OpenFOAM on a mesh that follows the "
+      "cloth",
+      argc, argv,
+      {"body", "cells across", "drag on its front, built-in", "OpenFOAM", "built-in beside OpenFOAM",
+       "ledger, built-in", "OpenFOAM's", "pressure across the cloth, apart (rms)",
+       "wake at 1 and 3 widths, apart (rms)", "minutes, built-in, OpenFOAM"});
   for (const std::string& word : words) judge(folder, body_of(word), across);
 }
