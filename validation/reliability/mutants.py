@@ -13,7 +13,8 @@ that take longer than --slowest seconds are left out, and Python's and the brows
 The log, build-mutants/log.jsonl, has a line a verdict with the hash of the mutant's file; what stands in it is not run
 again, but for survivors with --again (after new tests). Whoever has read a survivor and found it equivalent (no input
 can tell), harmless (speed, text, a tie, a limit chosen at will) or a hole says so with the reason in judged.json. The
-table is docs/tables/mutants.md. --fresh 300 takes as many more, which no test was written for, and tells their share beside.
+table is docs/tables/mutants.md. --fresh 300 takes as many more, which no test was written for, and tells their share beside;
+where tests were written for the survivors of an earlier such slice, --after 900 takes them from behind the first 900 of the order.
 """
 import argparse
 import collections
@@ -461,6 +462,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--number", type=int, default=400, help="mutants of the sample")
     parser.add_argument("--fresh", type=int, default=0, help="as many more beyond it, which are told by themselves")
+    parser.add_argument("--after", type=int, default=0, help="where in the order of the mutants the fresh ones begin (default: behind the sample)")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--slowest", type=float, default=60, help="a test that takes longer, s, is left out")
     parser.add_argument("--tests", default="", help="only those tests whose names, room.Suite.Test, this expression finds")
@@ -469,8 +471,10 @@ def main():
     parser.add_argument("--table", action="store_true", help="only the table of what the log has")
     options = parser.parse_args()
     WORK.mkdir(exist_ok=True)
-    mutants = all_mutants(options.number + options.fresh)
+    options.after = max(options.after, options.number)
     asked = {m["name"] for m in all_mutants(options.number)}
+    seen = {m["name"] for m in sample(options.after)} - asked
+    mutants = [m for m in all_mutants(options.after + options.fresh) if m["name"] not in seen]
     log = read_log()
     if options.table:
         dropped = json.loads((WORK / "dropped.json").read_text()) if (WORK / "dropped.json").exists() else []
@@ -480,7 +484,7 @@ def main():
         tests = reach(options.jobs, key, options.slowest, options.tests)
         work = [(n, m) for n, m in enumerate(mutants) if n not in dropped and
                 not (entry := log.get((m["name"], m["of"]), {})).get("caught", False) and (not entry or options.again)]
-        work.sort(key=lambda w: sha(w[1]["name"]))
+        work.sort(key=lambda w: (w[1]["name"] in asked, sha(w[1]["name"])))  # the fresh ones first
         print(f"{len(mutants) - len(dropped)} mutants, {len(work)} to run, {len(tests)} tests", flush=True)
         lock = threading.Lock()
         with LOG.open("a", encoding="utf-8") as file:
