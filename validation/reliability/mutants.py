@@ -13,8 +13,9 @@ that take longer than --slowest seconds are left out, and Python's and the brows
 The log, build-mutants/log.jsonl, has a line a verdict with the hash of the mutant's file; what stands in it is not run
 again, but for survivors with --again (after new tests). Whoever has read a survivor and found it equivalent (no input
 can tell), harmless (speed, text, a tie, a limit chosen at will) or a hole says so with the reason in judged.json. The
-table is docs/tables/mutants.md. --fresh 300 takes as many more, which no test was written for, and tells their share beside;
-where tests were written for the survivors of an earlier such slice, --after 900 takes them from behind the first 900 of the order.
+table is docs/tables/mutants.md. --fresh 300 takes as many more, which no test was written for, meets them first and has a table
+of its own, mutants-fresh.md; where tests were written for the survivors of an earlier such slice, --after 900 takes them from
+behind the first 900 of the order.
 """
 import argparse
 import collections
@@ -44,6 +45,7 @@ WORK = ROOT / "build-mutants"
 TREE, LOG, REACH = WORK / "tree", WORK / "log.jsonl", WORK / "reach.json"
 JUDGED, NAMED = HERE / "judged.json", HERE / "named.json"
 BUILD = TREE / "build-check"
+MOST = 300
 SLOWER = 3  # a test that takes this many times as long as without a mutant has failed
 PLAIN_FILES = {"assets.cpp", "build_info.cpp"}  # data; version
 
@@ -408,54 +410,62 @@ def read_log():
     return found
 
 
-def write_table(mutants, dropped, log, command, asked):
+def write_table(name, title, mutants, dropped, log, command, of_what):
+    """Of (number, mutant); where none of them was met, the table stays as it is."""
     judged = json.loads(JUDGED.read_text())
-    rows, total, survivors, days, beyond, earlier, unmet = {}, collections.Counter(), [], set(), collections.Counter(), 0, 0
-    for number, mutant in enumerate(mutants):
-        sampled = mutant["name"] in asked
-        count = rows.setdefault(mutant["room"], collections.Counter()) if sampled else beyond
+    rows, total, survivors, days, unmet = {}, collections.Counter(), [], set(), 0
+    for number, mutant in mutants:
+        count = rows.setdefault(mutant["room"], collections.Counter())
         entry = log.get((mutant["name"], mutant["of"]))
         if number in dropped or not entry:
             count["dropped" if number in dropped else "to do"] += 1
             continue
         days.add(entry["day"])
-        count["run"], earlier = count["run"] + 1, earlier + (sampled and entry.get("seeded", False))
+        count["run"] += 1
         if entry["caught"]:
             count["caught"] += 1
             continue
         kind, reason = judged.get(mutant["name"], ["not judged", ""])
-        count[kind], unmet = count[kind] + 1, unmet + (kind == "not judged" and entry["left_out"] > 0)
-        survivors.append((kind if sampled else f"beyond the sample, {kind}", mutant["path"].removeprefix("src/ripstop/"), str(mutant["m"].line), entry, reason, mutant["m"]))
+        count[kind], unmet = count[kind] + 1, unmet + (kind in ("not judged", "hole") and entry["left_out"] > 0)
+        survivors.append((kind, mutant["path"].removeprefix("src/ripstop/"), str(mutant["m"].line), reason, mutant["m"]))
     for count in rows.values():
         total.update(count)
+    if not total["run"]:
+        return
 
-    def row(name, c):
+    def row(room, c):
         held = c["run"] - c["equivalent"] - c["harmless"]
         share = f"{100 * c['caught'] / held:.0f} %" if held else ""
-        return [name, str(c["run"]), str(c["equivalent"]), str(c["harmless"]), str(held), str(c["caught"]), share]
+        return [room, str(c["run"]), str(c["equivalent"]), str(c["harmless"]), str(held), str(c["caught"]), share]
 
     def code(text):
         text = " ".join(text.split()).replace("|", "\\|")
         return f"`{text if len(text) < 90 else text[:87] + '...'}`"
 
-    lines = [f"{len(asked)} sampled, {total['dropped']} of them do not compile, {total['to do']} not run yet. Python's "
-             "and the browser's tests are left out, and those that take longer than the command's limit."
-             + (f" {earlier} verdicts, on files that have not changed since, are those of an earlier run." if earlier else ""), ""]
+    lines = [f"{len(mutants)} {of_what}, {total['dropped']} of them do not compile, {total['to do']} not run yet. Python's and the browser's "
+             "tests are left out, and those that take longer than the command's limit.", ""]
     lines += tables.table(["room", "run", "equivalent", "harmless", "left", "caught", "of those left"],
-                          [*(row(name, rows[name]) for name in sorted(rows)), row("all", total)])
-    if held := beyond["caught"] + beyond["not judged"] + beyond["hole"]:
-        lines += [f"Of {beyond['run']} mutants beyond the sample (`--fresh`), for which no test was written, {beyond['caught']} of "
-                  f"{held} that are neither equivalent nor harmless were caught: {100 * beyond['caught'] / held:.0f} %.", ""]
-    lines += [f"{unmet} survivors that are not judged were not met by all tests that come by them.", ""] if unmet else []
+                          [*(row(room, rows[room]) for room in sorted(rows)), row("all", total)])
+    lines += [f"{unmet} survivors that are not judged equivalent or harmless were not met by all tests that come by them.", ""] if unmet else []
     lines += ["## Survivors", "", "*Equivalent*: no input tells. *Harmless*: speed, the text of a message, a tie, a limit chosen at will.", ""]
     lines += tables.table(["where", "what was put", "for what", "judged", "why"],
                           [[f"{path}:{line}", code(m.mutant) if m.mutant else f"no `{m.text}`", code(m.text), kind, reason]
-                           for kind, path, line, entry, reason, m in sorted(survivors, key=lambda s: (s[0].startswith("beyond"), s[0] != "hole", s[0], s[1], int(s[2])))])
+                           for kind, path, line, reason, m in sorted(survivors, key=lambda s: (s[0] != "hole", s[0], s[1], int(s[2])))])
     processor = next((l.split(":")[1].strip() for l in open("/proc/cpuinfo", encoding="utf-8") if l.startswith("model name")), "unknown")
-    runs = [{"started": day, "processor": processor} for day in days or {f"{datetime.date.today()}"}]
-    tables.write("mutants", "Mutants of the sources and the tests that catch them", command, runs, lines)
+    tables.write(name, title, command, [{"started": day, "processor": processor} for day in sorted(days)], lines)
     held = total["run"] - total["equivalent"] - total["harmless"]
-    print(f"{total['run']} run, {held} neither equivalent nor harmless, {total['caught']} caught, {total['not judged']} not judged")
+    print(f"{name}: {total['run']} run, {held} neither equivalent nor harmless, {total['caught']} caught, {total['not judged']} not judged")
+
+
+def write_tables(mutants, asked, dropped, log, options):
+    numbered = list(enumerate(mutants))
+    given = "".join(f" --{name} {value:g}" for name, value in (("after", options.after), ("fresh", options.fresh), ("most", options.most))
+                    if value != {"after": options.number, "fresh": 0, "most": MOST}[name])
+    command = "make mutants" + (f' MUTANTS="{given.strip()}"' if given else "")
+    write_table("mutants", "Mutants of the sources and the tests that catch them", [(n, m) for n, m in numbered if m["name"] in asked], dropped,
+                log, command, "sampled and named")
+    write_table("mutants-fresh", "Fresh mutants of the sources, which no test was written for", [(n, m) for n, m in numbered if m["name"] not in asked],
+                dropped, log, command, f"behind the first {options.after} in the order of the sample")
 
 
 def main():
@@ -466,8 +476,8 @@ def main():
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--slowest", type=float, default=60, help="a test that takes longer, s, is left out")
     parser.add_argument("--tests", default="", help="only those tests whose names, room.Suite.Test, this expression finds")
-    parser.add_argument("--most", type=float, default=300, help="seconds of tests, as without a mutant, that a mutant is met by")
-    parser.add_argument("--again", action="store_true", help="run survivors again")
+    parser.add_argument("--most", type=float, default=MOST, help="seconds of tests, as without a mutant, that a mutant is met by")
+    parser.add_argument("--again", action="store_true", help="run survivors again that are not judged equivalent or harmless")
     parser.add_argument("--table", action="store_true", help="only the table of what the log has")
     options = parser.parse_args()
     WORK.mkdir(exist_ok=True)
@@ -482,8 +492,9 @@ def main():
     else:
         dropped, key = compile_all(mutants, options.jobs)
         tests = reach(options.jobs, key, options.slowest, options.tests)
+        settled = {name for name, (kind, _) in json.loads(JUDGED.read_text()).items() if kind != "hole"}
         work = [(n, m) for n, m in enumerate(mutants) if n not in dropped and
-                not (entry := log.get((m["name"], m["of"]), {})).get("caught", False) and (not entry or options.again)]
+                not (entry := log.get((m["name"], m["of"]), {})).get("caught", False) and (not entry or (options.again and m["name"] not in settled))]
         work.sort(key=lambda w: (w[1]["name"] in asked, sha(w[1]["name"])))  # the fresh ones first
         print(f"{len(mutants) - len(dropped)} mutants, {len(work)} to run, {len(tests)} tests", flush=True)
         lock = threading.Lock()
@@ -497,7 +508,7 @@ def main():
             for verdict in side_by_side(options.jobs, work, one):
                 log[verdict["name"], verdict["of"]] = verdict
                 print(("caught  " if verdict["caught"] else "SURVIVED"), verdict["name"], verdict["by"], flush=True)
-    write_table(mutants, dropped, log, "make mutants" + (f' MUTANTS="--fresh {options.fresh}"' if options.fresh else ""), asked)
+    write_tables(mutants, asked, dropped, log, options)
 
 
 if __name__ == "__main__":
