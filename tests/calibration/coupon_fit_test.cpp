@@ -221,6 +221,9 @@ TEST(RealRecords, NylonRibbonsAreMetBetterThanThePapersYardstick) {
   ThreadTeam team(1);
   const MaterialFit material = fit_material(bench);
   EXPECT_TRUE(material.weft_differs);
+  EXPECT_EQ(
+      std::count(material.notes.begin(), material.notes.end(), "warp and weft differ: each has its curve"),
+      1);
   const CouponFit fit = fit_coupons(material, bench, {}, team);
   EXPECT_GT(r2_of(fit, "warp"), 0.979);
   EXPECT_GT(r2_of(fit, "weft"), 0.979);
