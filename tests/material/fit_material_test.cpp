@@ -163,6 +163,10 @@ TEST_F(BenchFile, FlowReadingsGiveTheClothItsPressureDrop) {
   };
   EXPECT_EQ(held(bent), 1);
   EXPECT_EQ(held(fit), 0);
+  const auto told = std::get<Fabric>(
+      fit_material(bench("shear_fraction = 0.3\nbending_fraction = 0.02\n" + head)).material);
+  EXPECT_EQ(told.shear_fraction, 0.3);
+  EXPECT_EQ(told.bending_fraction, 0.02);
   const MaterialFit none = fit_material(bench(head));
   EXPECT_FALSE(none.has_permeability);
   EXPECT_EQ(notes(none, "darcy"), 0);
