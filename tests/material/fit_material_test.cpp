@@ -167,6 +167,12 @@ TEST_F(BenchFile, FlowReadingsGiveTheClothItsPressureDrop) {
       fit_material(bench("shear_fraction = 0.3\nbending_fraction = 0.02\n" + head)).material);
   EXPECT_EQ(told.shear_fraction, 0.3);
   EXPECT_EQ(told.bending_fraction, 0.02);
+  try {
+    bench("kind = \"line\"\nname = \"c\"\nsource = \"synthetic\"\nlinear_density_kg_m = 2e-3\n");
+    ADD_FAILURE() << "a bench without a record was accepted";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("write a [[coupon]]"), std::string::npos) << error.what();
+  }
   const MaterialFit none = fit_material(bench(head));
   EXPECT_FALSE(none.has_permeability);
   EXPECT_EQ(notes(none, "darcy"), 0);
