@@ -38,14 +38,13 @@ import time
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 sys.path[:0] = [str(HERE), str(HERE.parent)]
+import mutants_table  # pylint: disable=wrong-import-position
 import sites  # pylint: disable=wrong-import-position
-import tables  # pylint: disable=wrong-import-position
 
 WORK = ROOT / "build-mutants"
 TREE, LOG, REACH = WORK / "tree", WORK / "log.jsonl", WORK / "reach.json"
-JUDGED, NAMED = HERE / "judged.json", HERE / "named.json"
+NAMED = HERE / "named.json"
 BUILD = TREE / "build-check"
-MOST = 300
 SLOWER = 3  # a test that takes this many times as long as without a mutant has failed
 PLAIN_FILES = {"assets.cpp", "build_info.cpp"}  # data; version
 
@@ -410,64 +409,6 @@ def read_log():
     return found
 
 
-def write_table(name, title, mutants, dropped, log, command, of_what):
-    """Of (number, mutant); where none of them was met, the table stays as it is."""
-    judged = json.loads(JUDGED.read_text())
-    rows, total, survivors, days, unmet = {}, collections.Counter(), [], set(), 0
-    for number, mutant in mutants:
-        count = rows.setdefault(mutant["room"], collections.Counter())
-        entry = log.get((mutant["name"], mutant["of"]))
-        if number in dropped or not entry:
-            count["dropped" if number in dropped else "to do"] += 1
-            continue
-        days.add(entry["day"])
-        count["run"] += 1
-        if entry["caught"]:
-            count["caught"] += 1
-            continue
-        kind, reason = judged.get(mutant["name"], ["not judged", ""])
-        count[kind], unmet = count[kind] + 1, unmet + (kind in ("not judged", "hole") and entry["left_out"] > 0)
-        survivors.append((kind, mutant["path"].removeprefix("src/ripstop/"), str(mutant["m"].line), reason, mutant["m"]))
-    for count in rows.values():
-        total.update(count)
-    if not total["run"]:
-        return
-
-    def row(room, c):
-        held = c["run"] - c["equivalent"] - c["harmless"]
-        share = f"{100 * c['caught'] / held:.0f} %" if held else ""
-        return [room, str(c["run"]), str(c["equivalent"]), str(c["harmless"]), str(held), str(c["caught"]), share]
-
-    def code(text):
-        text = " ".join(text.split()).replace("|", "\\|")
-        return f"`{text if len(text) < 90 else text[:87] + '...'}`"
-
-    lines = [f"{len(mutants)} {of_what}, {total['dropped']} of them do not compile, {total['to do']} not run yet. Python's and the browser's "
-             "tests are left out, and those that take longer than the command's limit.", ""]
-    lines += tables.table(["room", "run", "equivalent", "harmless", "left", "caught", "of those left"],
-                          [*(row(room, rows[room]) for room in sorted(rows)), row("all", total)])
-    lines += [f"{unmet} survivors that are not judged equivalent or harmless were not met by all tests that come by them.", ""] if unmet else []
-    lines += ["## Survivors", "", "*Equivalent*: no input tells. *Harmless*: speed, the text of a message, a tie, a limit chosen at will.", ""]
-    lines += tables.table(["where", "what was put", "for what", "judged", "why"],
-                          [[f"{path}:{line}", code(m.mutant) if m.mutant else f"no `{m.text}`", code(m.text), kind, reason]
-                           for kind, path, line, reason, m in sorted(survivors, key=lambda s: (s[0] != "hole", s[0], s[1], int(s[2])))])
-    processor = next((l.split(":")[1].strip() for l in open("/proc/cpuinfo", encoding="utf-8") if l.startswith("model name")), "unknown")
-    tables.write(name, title, command, [{"started": day, "processor": processor} for day in sorted(days)], lines)
-    held = total["run"] - total["equivalent"] - total["harmless"]
-    print(f"{name}: {total['run']} run, {held} neither equivalent nor harmless, {total['caught']} caught, {total['not judged']} not judged")
-
-
-def write_tables(mutants, asked, dropped, log, options):
-    numbered = list(enumerate(mutants))
-    given = "".join(f" --{name} {value:g}" for name, value in (("after", options.after), ("fresh", options.fresh), ("most", options.most))
-                    if value != {"after": options.number, "fresh": 0, "most": MOST}[name])
-    command = "make mutants" + (f' MUTANTS="{given.strip()}"' if given else "")
-    write_table("mutants", "Mutants of the sources and the tests that catch them", [(n, m) for n, m in numbered if m["name"] in asked], dropped,
-                log, command, "sampled and named")
-    write_table("mutants-fresh", "Fresh mutants of the sources, which no test was written for", [(n, m) for n, m in numbered if m["name"] not in asked],
-                dropped, log, command, f"behind the first {options.after} in the order of the sample")
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--number", type=int, default=400, help="mutants of the sample")
@@ -476,7 +417,7 @@ def main():
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--slowest", type=float, default=60, help="a test that takes longer, s, is left out")
     parser.add_argument("--tests", default="", help="only those tests whose names, room.Suite.Test, this expression finds")
-    parser.add_argument("--most", type=float, default=MOST, help="seconds of tests, as without a mutant, that a mutant is met by")
+    parser.add_argument("--most", type=float, default=mutants_table.MOST, help="seconds of tests, as without a mutant, that a mutant is met by")
     parser.add_argument("--again", action="store_true", help="run survivors again that are not judged equivalent or harmless")
     parser.add_argument("--table", action="store_true", help="only the table of what the log has")
     options = parser.parse_args()
@@ -492,7 +433,7 @@ def main():
     else:
         dropped, key = compile_all(mutants, options.jobs)
         tests = reach(options.jobs, key, options.slowest, options.tests)
-        settled = {name for name, (kind, _) in json.loads(JUDGED.read_text()).items() if kind != "hole"}
+        settled = {name for name, (kind, _) in mutants_table.judged().items() if kind != "hole"}
         work = [(n, m) for n, m in enumerate(mutants) if n not in dropped and
                 not (entry := log.get((m["name"], m["of"]), {})).get("caught", False) and (not entry or (options.again and m["name"] not in settled))]
         work.sort(key=lambda w: (w[1]["name"] in asked, sha(w[1]["name"])))  # the fresh ones first
@@ -508,7 +449,7 @@ def main():
             for verdict in side_by_side(options.jobs, work, one):
                 log[verdict["name"], verdict["of"]] = verdict
                 print(("caught  " if verdict["caught"] else "SURVIVED"), verdict["name"], verdict["by"], flush=True)
-    write_tables(mutants, asked, dropped, log, options)
+    mutants_table.write_both(mutants, asked, dropped, log, options)
 
 
 if __name__ == "__main__":
