@@ -93,6 +93,23 @@ TEST_F(CouponFitting, CleanRecordsGiveXiBack) {
   EXPECT_GT(r2_of(fit, "warp"), 0.9999);
   EXPECT_GT(r2_of(fit, "bias"), 0.9999);
   EXPECT_LT(fit.seconds, 120);
+  // Two samples are the fewest that leave an interval.
+  EXPECT_LT(fit.shear_low, fit.fabric.shear_fraction);
+  EXPECT_GT(fit.shear_high, fit.fabric.shear_fraction);
+}
+
+TEST_F(CouponFitting, WithoutA45DegPullNothingIsSearchedAndThatIsSaid) {
+  Campaign campaign(1, *bias, 2);
+  campaign.bench.coupons.resize(2);
+  CouponFitOptions quick;
+  quick.final_cells = 6;
+  quick.start_bending = 0.03;
+  const CouponFit fit = fit_coupons(fit_material(campaign.bench), campaign.bench, quick, team);
+  EXPECT_FALSE(fit.searched);
+  ASSERT_EQ(fit.notes.size(), 1u);
+  EXPECT_NE(fit.notes[0].find("no 45 deg pull"), std::string::npos);
+  EXPECT_NE(fit.notes[0].find("eps = 0.03 are not measured"), std::string::npos) << fit.notes[0];
+  EXPECT_TRUE(std::isnan(fit.shear_low) && std::isnan(fit.shear_high));
 }
 
 // [NFM] reaches R2 = 0.979 at 0 deg and 0.994 at 45 deg: the yardstick for records with a bench's noise.
@@ -134,9 +151,10 @@ TEST_F(CouponFitting, PullsInThePlaneDoNotDetermineEpsAndThatIsSaid) {
   const Campaign campaign(31, *bias);
   CouponFitOptions quick;
   quick.final_cells = 6;
+  quick.start_bending = 0.02;
   const CouponFit fit = fit_coupons(fit_material(campaign.bench), campaign.bench, quick, team);
   EXPECT_LT(fit.bending_effect, 0.02);
-  EXPECT_EQ(fit.fabric.bending_fraction, 0.01);
+  EXPECT_EQ(fit.fabric.bending_fraction, quick.start_bending);
   EXPECT_NE(fit.notes.front().find("do not determine"), std::string::npos);
 }
 
@@ -203,6 +221,9 @@ TEST(RealRecords, NylonRibbonsAreMetBetterThanThePapersYardstick) {
   ThreadTeam team(1);
   const MaterialFit material = fit_material(bench);
   EXPECT_TRUE(material.weft_differs);
+  EXPECT_EQ(
+      std::count(material.notes.begin(), material.notes.end(), "warp and weft differ: each has its curve"),
+      1);
   const CouponFit fit = fit_coupons(material, bench, {}, team);
   EXPECT_GT(r2_of(fit, "warp"), 0.979);
   EXPECT_GT(r2_of(fit, "weft"), 0.979);

@@ -5,7 +5,10 @@
 
 #include <cmath>
 
+#include "../printed_materials.h"
 #include "ripstop/core/error.h"
+#include "ripstop/parachute/build.h"
+#include "ripstop/parachute/disk_gap_band.h"
 
 namespace ripstop {
 namespace {
@@ -76,6 +79,32 @@ TEST(DampingCalibration, PeakAndTimeThatContradictEachOtherShareTheError) {
 TEST(DampingCalibration, ABestValueAtTheEdgeOfTheRangeIsSaidToBeNone) {
   EXPECT_TRUE(calibrate_damping({oscillator(40).peak, {}}, {4, 16, 5, 4}, oscillator).at_edge);
   EXPECT_THROW(calibrate_damping({600, {}}, {16, 4, 5, 4}, oscillator), Error);
+}
+
+/// A small disk-gap-band, folded, at the beginning of its opening.
+InflationProblem short_opening(double low_pass_hz) {
+  Design design = printed_stratos(600);
+  design.canopy = DiskGapBand{1.0, 0.2, 0.07, 0.3};
+  design.lines.count = 6;
+  design.mesh.line_segment_m = 0.15;
+  design.mesh.folds = 6;
+  InflationProblem problem{build_mesh(design, printed_materials()), {}, 200, false, 1};
+  problem.settings.initial_radius_m = 0.2;
+  problem.settings.duration_s = 0.02;
+  problem.settings.frames = 4;
+  problem.settings.low_pass_hz = low_pass_hz;
+  problem.symmetry = 6;
+  return problem;
+}
+
+// What is measured is filtered; what happens is not.
+TEST(DampingCalibration, AFilterOfTheLoadChangesThePeakThatIsComparedAndNotTheOpening) {
+  const DampingTrial plain = open_with(8, short_opening(0)), filtered = open_with(8, short_opening(100));
+  EXPECT_GT(plain.every_step_peak, 0);
+  EXPECT_EQ(plain.peak, plain.every_step_peak);
+  EXPECT_EQ(filtered.every_step_peak, plain.every_step_peak);
+  EXPECT_LT(filtered.peak, filtered.every_step_peak);
+  EXPECT_LT(open_with(80, short_opening(0)).every_step_peak, plain.every_step_peak);
 }
 
 }  // namespace

@@ -61,8 +61,11 @@ TEST(PartStrains, OfAnEvenlyStretchedCanopyAreTheStretch) {
   std::vector<Vec3> larger = mesh.start;
   for (Vec3& p : larger) p = 1.02 * p;
   const auto before = part_strains(mesh, mesh.start), after = part_strains(mesh, larger);
-  for (const char* part : {"lines", "tape", "cloth"})
+  for (const char* part : {"lines", "tape", "cloth"}) {
     EXPECT_NEAR(after.at(part).mean, 1.02 * (1 + before.at(part).mean) - 1, 1e-12) << part;
+    EXPECT_NEAR(after.at(part).largest, 1.02 * (1 + before.at(part).largest) - 1, 1e-12) << part;
+    EXPECT_GE(before.at(part).largest, before.at(part).mean) << part;
+  }
   EXPECT_NEAR(before.at("cloth").mean, 0, 1e-3);
   EXPECT_NEAR(before.at("lines").mean, 0, 1e-6);
 }

@@ -35,6 +35,14 @@ struct Box {
   State s;
 };
 
+// What the sides draw in is the air round the nozzle.
+TEST(Boundary, TheStreamOfAJetIsTheAirRoundItsNozzle) {
+  const Box box(Sides::entraining, Outlet::still_air);
+  const Inlet inlet = make_inlet(box.d, Jet{{NozzleShape::circle, 0.2, 0}, 0.1, 0.01});
+  EXPECT_NEAR(inlet.stream_speed, 0.1 * 20, 1e-12);
+  EXPECT_NEAR(inlet.w[box.d.layout.in_plane(3, 4)], inlet.stream_speed, 1e-9);  // a corner, far from the axis
+}
+
 TEST(Boundary, TheFaceOfTheInletHasTheStreamsValues) {
   Box box(Sides::zero_gradient, Outlet::fixed_pressure);
   box.ghosts();

@@ -49,6 +49,16 @@ TEST(CartesianEngine, AnEmptyBoxKeepsItsUniformStream) {
   EXPECT_EQ(field.porous_force, Vec3{});
 }
 
+// OpenFOAM's measure: |b - A x| over |A x - A X| + |b - A X|, with the mean of x as X. Of what is uniform both are alike.
+TEST(CartesianEngine, TheResidualOfUniformTurbulenceIsOne) {
+  FlowProblem problem = open_box(8, 8, 12, 10);
+  problem.porous.clear();
+  const auto engine = make_cartesian(with_threads(1));
+  const FlowProgress first = engine->start(problem)->advance(1, 0).last;
+  EXPECT_NEAR(first.residual_k, 1, 1e-9);
+  EXPECT_NEAR(first.residual_omega, 1, 1e-9);
+}
+
 TEST(CartesianEngine, TheAnswerIsTheSameBitForBitOnOneTwoAndFourThreads) {
   FlowProblem problem = open_box(26, 23, 38, 10);  // large enough for grid sequencing
   problem.stopping.max_iterations = 12;

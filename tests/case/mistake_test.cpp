@@ -453,5 +453,14 @@ TEST(Mistakes, OneMistakeIsOneProblem) {
   }
 }
 
+TEST(Mistakes, ALineThatIsTooLongIsToldWithItsNumber) {
+  try {
+    parse_case("title = \"a\"\n\n# " + std::string(5000, 'x') + "\n", "case.toml");
+    ADD_FAILURE() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("case.toml:3:1"), std::string::npos) << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace ripstop

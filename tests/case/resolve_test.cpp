@@ -422,5 +422,14 @@ TEST(Resolved, TheBoxHoldsEveryFamilyOfTheExamples) {
   }
 }
 
+TEST(Resolved, TheCellsOfTheBoxAreThoseOfItsAxes) {
+  FlowSettings flow;
+  flow.box_m = {2, 3, 4};
+  flow.cells = {20, 33, 44};
+  const FlowGrid grid = flow_grid(flow);
+  EXPECT_EQ((std::array{grid.nx, grid.ny, grid.nz}), (std::array{20, 33, 44}));
+  EXPECT_EQ(grid.origin, (Vec3{-1, -1.5, 0}));
+}
+
 }  // namespace
 }  // namespace ripstop

@@ -45,8 +45,9 @@ TEST(Set, OfAKeyThatDoesNotExistNamesTheNearestAndTheOption) {
   EXPECT_NE(text.find("\"cells\""), std::string::npos) << text;
   EXPECT_NE(refusal("materials.f-11.darcy=1").find("f-111"), std::string::npos);
   EXPECT_NE(refusal("flow.engine=opnfoam").find("\"openfoam\""), std::string::npos);
-  for (const char* wrong : {"flow", "flow.cells=", "flow..x=1", "flow.cells[9]=1", "flow.cells[a]=1", "=3",
-                            "flow.cells=[1", "flow.speed_m_s.x=1", "flow=1", "flow.speed_m_s=-3"})
+  for (const char* wrong :
+       {"flow", "flow.cells=", "flow..x=1", "flow.cells[9]=1", "flow.cells[a]=1", "flow.cells[0)=20", "=3",
+        "flow.cells=[1", "flow.speed_m_s.x=1", "flow=1", "flow.speed_m_s=-3"})
     EXPECT_NE(refusal(wrong), "accepted") << wrong;
 }
 

@@ -45,6 +45,14 @@ TEST(TimeStep, AnOscillatingSpringConvergesInFirstOrder) {
   EXPECT_NEAR(order(error[1], error[2]), 1, 0.03);
 }
 
+// [NFM] Eq. 8: one spring against one mass.
+TEST(TimeStep, ThePrintedOneIsTheRootOfTheLeastMassOverStiffness) {
+  Mesh mesh = chain(2, {0, 0, 0}, {0, 0, 2}, 1, {{50}, 1}, 0);
+  mesh.mass = {0.5, 0.5, 0.2};
+  const ClothPtr cloth = make_cloth(mesh);
+  EXPECT_NEAR(step_bound(*cloth, start_state(*cloth)).printed_step, std::sqrt(0.2 / 50), 1e-12);
+}
+
 TEST(TimeStep, AnElasticPendulumConvergesInFirstOrder) {
   const double k = 400, mass = 0.1;
   Mesh mesh = chain(1, {0, 0, 0}, {0.8, 0, -0.6}, 1.0, {{k, 100}, 1}, 0);

@@ -77,6 +77,8 @@ TEST(Expression, MistakesAreToldWithTheirPlace) {
   expect_refused("math::sqrt(0-1)", "has no finite value");
   expect_refused("0.0^-1", "the power has no finite value");
   expect_refused("1e300*1e300", "not a finite number");
+  expect_refused("1 + 1e999", "character 5: this is not a number");
+  expect_refused(".", "character 1: this is not a number");
   expect_refused("math::hypot(1)", "takes 2 number(s), not 1");
   expect_refused("min()", "takes at least one number, not 0");
   expect_refused("math::sin 1", "is a function");

@@ -70,7 +70,8 @@ TEST(Process, ExitCodeAndSignalAreTold) {
 
 TEST(Process, FolderAndEnvironmentAreTheChildsOwn) {
   std::string seen;
-  ProcessRequest request = shell("echo $PWD $RIPSTOP_WORD");
+  ASSERT_NE(std::getenv("PATH"), nullptr);
+  ProcessRequest request = shell("echo $PWD $RIPSTOP_WORD $PATH");
   request.working_folder = "/usr";
   request.environment = {{"RIPSTOP_WORD", "yes"}};
   request.on_line = [&](const std::string& line) {
@@ -78,7 +79,7 @@ TEST(Process, FolderAndEnvironmentAreTheChildsOwn) {
     return true;
   };
   run_process(request);
-  EXPECT_EQ(seen, "/usr yes");
+  EXPECT_EQ(seen, std::string("/usr yes ") + std::getenv("PATH"));  // what was not said is inherited
   EXPECT_EQ(std::getenv("RIPSTOP_WORD"), nullptr);
 }
 

@@ -153,6 +153,26 @@ TEST_F(BenchFile, FlowReadingsGiveTheClothItsPressureDrop) {
   EXPECT_NEAR(std::get<Fabric>(one.material).resistance.linear, 400, 1e-6);
   EXPECT_EQ(std::get<Fabric>(one.material).resistance.quadratic, 0);
   EXPECT_EQ(notes(one, "air permeability from one pressure: b = 0 is a choice"), 1);
+  const MaterialFit bent = fit_material(bench(head + "[[flow]]\npressure_pa = 100\nvelocity_m_s = 0.2\n"
+                                                     "[[flow]]\npressure_pa = 150\nvelocity_m_s = 0.4\n"));
+  EXPECT_EQ(std::get<Fabric>(bent.material).resistance.quadratic, 0);
+  const auto held = [](const MaterialFit& of) {
+    return std::count_if(of.warnings.begin(), of.warnings.end(), [](const std::string& warning) {
+      return warning.find("air permeability: a or b came out negative") != std::string::npos;
+    });
+  };
+  EXPECT_EQ(held(bent), 1);
+  EXPECT_EQ(held(fit), 0);
+  const auto told = std::get<Fabric>(
+      fit_material(bench("shear_fraction = 0.3\nbending_fraction = 0.02\n" + head)).material);
+  EXPECT_EQ(told.shear_fraction, 0.3);
+  EXPECT_EQ(told.bending_fraction, 0.02);
+  try {
+    bench("kind = \"line\"\nname = \"c\"\nsource = \"synthetic\"\nlinear_density_kg_m = 2e-3\n");
+    ADD_FAILURE() << "a bench without a record was accepted";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("write a [[coupon]]"), std::string::npos) << error.what();
+  }
   const MaterialFit none = fit_material(bench(head));
   EXPECT_FALSE(none.has_permeability);
   EXPECT_EQ(notes(none, "darcy"), 0);

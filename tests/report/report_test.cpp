@@ -167,14 +167,27 @@ ShapeView dome(int rows, int columns, int frames) {
   return view;
 }
 
+json data_of(const Report& report) {
+  const std::string page = report_page(report), begin = "id=\"report-data\">";
+  const std::size_t at = page.find(begin) + begin.size();
+  return json::parse(page.substr(at, page.find("</script>", at) - at));
+}
+
+TEST(ReportPage, SaysOfEveryRunWhatMadeIt) {
+  Report report;
+  report.runs.resize(2);
+  report.runs[0].provenance = {{"version", "1.2"}, {"threads", "3"}};
+  const json runs = data_of(report).at("runs");
+  EXPECT_EQ(runs.at(0).at("provenance"), json::parse(R"([["version", "1.2"], ["threads", "3"]])"));
+  EXPECT_TRUE(runs.at(1).at("provenance").empty());
+}
+
 TEST(ReportPage, HasEveryFrameOfASmallOpeningInItsOrder) {
   Report report;
   report.runs.resize(1);
   report.runs[0].kind = "opening";
   report.runs[0].shape = dome(4, 8, 5);
-  const std::string page = report_page(report), begin = "id=\"report-data\">";
-  const std::size_t at = page.find(begin) + begin.size();
-  const json data = json::parse(page.substr(at, page.find("</script>", at) - at));
+  const json data = data_of(report);
   const json& shape = data.at("runs")[0].at("shape");
   EXPECT_EQ(shape.at("framesComputed"), 5);
   std::vector<double> times;

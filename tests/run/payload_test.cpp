@@ -37,6 +37,34 @@ TEST(Payload, TheRunFindsTheSpeedAtWhichDragIsWeight) {
   }
 }
 
+// An engine that cannot go on from its flow at another speed begins again at each.
+TEST(Payload, AFlowThatCannotBeScaledStartsAfreshAtEverySpeed) {
+  static int started = 0;
+  static const bool added = [] {
+    struct Counted : SquareLawEngine {
+      std::unique_ptr<Flow> start(const FlowProblem& problem) override {
+        ++started;
+        return SquareLawEngine::start(problem);
+      }
+    };
+    add_engine({"square-law-afresh",
+                "a fixed drag area, one speed",
+                {},
+                [](const EngineOptions&) { return std::string("square law 1"); },
+                [](const EngineOptions&) { return std::make_unique<Counted>(); }});
+    return true;
+  }();
+  ASSERT_TRUE(added);
+  Case given = square_law_case(falling("3"));
+  given.flow.engine = "square-law-afresh";
+  SteadyObserver nobody;
+  const SteadyResult r = run_steady(given, nobody).result;
+  EXPECT_TRUE(r.converged);
+  EXPECT_NEAR(r.speed / closed_form(given), 1, payload_tolerance);
+  ASSERT_TRUE(r.payload);
+  EXPECT_EQ(started, r.payload->speeds);
+}
+
 // All that hangs on the riser goes through its fixed end, whose force the ledger has. One piece of it has no spring
 // against bending over it, two have one each, more of them two but at the ends: with a tenth of the law in them, the
 // axial spring over 1 - 0.1 would be 5 to 11 % too much. That the end is stretched a little more than its neighbour

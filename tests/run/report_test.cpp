@@ -132,6 +132,8 @@ TEST_F(RunReport, ComparesRunsAndRefusesWhatIsNoRunOrNoReport) {
   EXPECT_EQ(write_report({a, b}, out), out);
   EXPECT_EQ(write_report({a, b}, out), out);
   const Report report = report_on({report_of(a), report_of(b)}, "both");
+  ASSERT_EQ(report.runs.size(), 2u);
+  EXPECT_EQ(report.runs[1].name, "b");
   EXPECT_EQ(report.comparison.columns.size(), 4u);
   ASSERT_FALSE(report.plots.empty());
   EXPECT_EQ(report.plots[0].id, "drag-speed");

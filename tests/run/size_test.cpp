@@ -48,6 +48,13 @@ TEST(Size, ItsDragIsThatOfTheTableOfFamilies) {
   for (const FamilyDrag& drag : all) EXPECT_EQ(drag.drag_coefficient, printed.at(drag.family)) << drag.family;
 }
 
+TEST(Size, SaysWhereItsDragCoefficientIsFrom) {
+  EXPECT_EQ(run_size(sized()).drag_source.find("computed at "), 0u) << run_size(sized()).drag_source;
+  SizeRequest given = sized();
+  given.drag_coefficient = 0.8;
+  EXPECT_EQ(run_size(given).drag_source, "given");
+}
+
 TEST(Size, OfEveryFamilyHoldsPayloadAndParachuteAtTheRate) {
   for (const FamilyDrag& drag : family_drags()) {
     const SizeResult r = run_size(sized(drag.family));

@@ -6,8 +6,10 @@
 
 #include "finished_run.h"
 #include "ripstop/core/build_info.h"
+#include "ripstop/core/claimed_folder.h"
 #include "ripstop/core/error.h"
 #include "ripstop/run/sweep.h"
+#include "ripstop/run/sweep_files.h"
 
 namespace ripstop {
 namespace {
@@ -44,7 +46,8 @@ TEST(SweepFolder, AFlowFieldStaysUntilNobodyStartsFromIt) {
     for (std::size_t leaf = 1; leaf < points.size(); ++leaf)
       EXPECT_FALSE(has_flow(settings.folder / points[leaf].folder)) << leaf;
   };
-  for (const SweepRow& row : run_sweep(points, settings, events)) {
+  const std::vector<SweepRow> rows = run_sweep(points, settings, events);
+  for (const SweepRow& row : rows) {
     EXPECT_TRUE(row.done);
     EXPECT_NEAR(row.result.drag_area, SquareLawEngine::area, 1e-2);
   }
@@ -58,6 +61,13 @@ TEST(SweepFolder, AFlowFieldStaysUntilNobodyStartsFromIt) {
     EXPECT_EQ(described["runs"][i]["values"], points[i].values);
     EXPECT_EQ(described["runs"][i]["starts_from"], i == 0 ? nlohmann::json() : nlohmann::json("v20"));
   }
+
+  // What is not on the list stays for ever, also when the sweep is made anew.
+  write_sweep_plots(settings.folder, "", {sweep_axis("flow.speed_m_s", {"20", "15", "25"}, "--speeds")},
+                    points, rows);
+  EXPECT_TRUE(fs::exists(settings.folder / "drag.svg") && fs::exists(settings.folder / "wall_time.png"));
+  for (const std::string& file : foreign_files(settings.folder))
+    EXPECT_NE(file.find('/'), std::string::npos) << file;
 
   settings.folder = root.path / "with-fields";
   settings.fields = true;

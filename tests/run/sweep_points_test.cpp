@@ -3,6 +3,7 @@
 #include <set>
 
 #include "ripstop/core/error.h"
+#include "ripstop/run/compare.h"
 #include "ripstop/run/sweep.h"
 
 namespace ripstop {
@@ -86,6 +87,19 @@ TEST(SteadyResult, ComesBackFromItsJsonAndOnlyWhatIsAbsentIsLeftOut) {
   EXPECT_NE(json.find("\"drag_n\": 0.3333333333333333"), std::string::npos) << json;
   EXPECT_EQ(json.find("known_drag_coefficient"), std::string::npos) << json;
   EXPECT_EQ(json.find("printed_linear_n"), std::string::npos) << json;
+}
+
+TEST(SweepPoints, OfLinearModelsEveryKindOfLineKeepsItsFirstCoefficientOnly) {
+  Case given = read_case(stratos_case);
+  Line riser = riser_line(given);
+  riser.name = given.parachute.riser.material = "strap";
+  riser.coefficients_n = {1000, 200, 30};
+  given.materials.insert_or_assign(riser.name, riser);
+  const SweepAxis models = linear_models(given);
+  ASSERT_EQ(models.values[3], "linear lines");
+  ASSERT_EQ(models.settings[3].size(), 2u);
+  EXPECT_EQ(models.settings[3][1].key, "materials.strap.coefficients_n");
+  EXPECT_EQ(models.settings[3][1].value, "[1000]");
 }
 
 }  // namespace

@@ -7,13 +7,16 @@ Of all that the operators of sites.py make of src/ripstop's .cpp files, a sample
 lines, one mutation a line, picked by a hash of the line and not by its place, so that a change of one file leaves the
 sample of the others. All are compiled in at once, each behind a condition that an environment variable makes true, into
 build-mutants/; what does not compile is dropped. Every test runs once by itself and says which mutants it comes by; a
-mutant is then met by the tests that come by it, its own room's first, until one fails, or takes three times as long and does not so without it. Tests
-that take longer than --slowest seconds are left out, and Python's and the browser's.
+mutant is then met by the tests that come by it, its own room's first, until one fails, or takes three times as long,
+twice, and does not so without it. Tests that take longer than --slowest seconds are left out, and Python's and the
+browser's.
 
 The log, build-mutants/log.jsonl, has a line a verdict with the hash of the mutant's file; what stands in it is not run
 again, but for survivors with --again (after new tests). Whoever has read a survivor and found it equivalent (no input
 can tell), harmless (speed, text, a tie, a limit chosen at will) or a hole says so with the reason in judged.json. The
-table is docs/tables/mutants.md. --fresh 300 takes as many more, which no test was written for, and tells their share beside.
+table is docs/tables/mutants.md. --fresh 300 takes as many more, which no test was written for, meets them first and has a table
+of its own, mutants-fresh.md; where tests were written for the survivors of an earlier such slice, --after 900 takes them from
+behind the first 900 of the order.
 """
 import argparse
 import collections
@@ -36,12 +39,12 @@ import time
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 sys.path[:0] = [str(HERE), str(HERE.parent)]
+import mutants_table  # pylint: disable=wrong-import-position
 import sites  # pylint: disable=wrong-import-position
-import tables  # pylint: disable=wrong-import-position
 
 WORK = ROOT / "build-mutants"
 TREE, LOG, REACH = WORK / "tree", WORK / "log.jsonl", WORK / "reach.json"
-JUDGED, NAMED = HERE / "judged.json", HERE / "named.json"
+NAMED = HERE / "named.json"
 BUILD = TREE / "build-check"
 SLOWER = 3  # a test that takes this many times as long as without a mutant has failed
 PLAIN_FILES = {"assets.cpp", "build_info.cpp"}  # data; version
@@ -387,7 +390,8 @@ def meet(bench, number, mutant, tests, most, earlier):
                 ran.update({f"{room}.{name}": tests[f"{room}.{name}"]["key"] for name in names})
                 break
             alone = tests.get(f"{room}.{why}", {"seconds": 5})["seconds"]
-            if took < 10 + SLOWER * seconds or bench.run(room, [why], 20 + 2 * SLOWER * alone)[0]:  # the machine is not to blame
+            longer = 20 + 2 * SLOWER * alone
+            if took < 10 + SLOWER * seconds or (not bench.run(room, [why], longer, number)[0] and bench.run(room, [why], longer)[0]):
                 verdict["caught"], verdict["by"] = True, f"{room}.{why}"
             names = [n for n in names if n != why] if why in names else []
         if verdict["caught"]:
@@ -407,70 +411,23 @@ def read_log():
     return found
 
 
-def write_table(mutants, dropped, log, command, asked):
-    judged = json.loads(JUDGED.read_text())
-    rows, total, survivors, days, beyond, earlier, unmet = {}, collections.Counter(), [], set(), collections.Counter(), 0, 0
-    for number, mutant in enumerate(mutants):
-        sampled = mutant["name"] in asked
-        count = rows.setdefault(mutant["room"], collections.Counter()) if sampled else beyond
-        entry = log.get((mutant["name"], mutant["of"]))
-        if number in dropped or not entry:
-            count["dropped" if number in dropped else "to do"] += 1
-            continue
-        days.add(entry["day"])
-        count["run"], earlier = count["run"] + 1, earlier + (sampled and entry.get("seeded", False))
-        if entry["caught"]:
-            count["caught"] += 1
-            continue
-        kind, reason = judged.get(mutant["name"], ["not judged", ""])
-        count[kind], unmet = count[kind] + 1, unmet + (kind == "not judged" and entry["left_out"] > 0)
-        survivors.append((kind if sampled else f"beyond the sample, {kind}", mutant["path"].removeprefix("src/ripstop/"), str(mutant["m"].line), entry, reason, mutant["m"]))
-    for count in rows.values():
-        total.update(count)
-
-    def row(name, c):
-        held = c["run"] - c["equivalent"] - c["harmless"]
-        share = f"{100 * c['caught'] / held:.0f} %" if held else ""
-        return [name, str(c["run"]), str(c["equivalent"]), str(c["harmless"]), str(held), str(c["caught"]), share]
-
-    def code(text):
-        text = " ".join(text.split()).replace("|", "\\|")
-        return f"`{text if len(text) < 90 else text[:87] + '...'}`"
-
-    lines = [f"{len(asked)} sampled, {total['dropped']} of them do not compile, {total['to do']} not run yet. Python's "
-             "and the browser's tests are left out, and those that take longer than the command's limit."
-             + (f" {earlier} verdicts, on files that have not changed since, are those of an earlier run." if earlier else ""), ""]
-    lines += tables.table(["room", "run", "equivalent", "harmless", "left", "caught", "of those left"],
-                          [*(row(name, rows[name]) for name in sorted(rows)), row("all", total)])
-    if held := beyond["caught"] + beyond["not judged"] + beyond["hole"]:
-        lines += [f"Of {beyond['run']} mutants beyond the sample (`--fresh`), for which no test was written, {beyond['caught']} of "
-                  f"{held} that are neither equivalent nor harmless were caught: {100 * beyond['caught'] / held:.0f} %.", ""]
-    lines += [f"{unmet} survivors that are not judged were not met by all tests that come by them.", ""] if unmet else []
-    lines += ["## Survivors", "", "*Equivalent*: no input tells. *Harmless*: speed, the text of a message, a tie, a limit chosen at will.", ""]
-    lines += tables.table(["where", "what was put", "for what", "judged", "why"],
-                          [[f"{path}:{line}", code(m.mutant) if m.mutant else f"no `{m.text}`", code(m.text), kind, reason]
-                           for kind, path, line, entry, reason, m in sorted(survivors, key=lambda s: (s[0].startswith("beyond"), s[0] != "hole", s[0], s[1], int(s[2])))])
-    processor = next((l.split(":")[1].strip() for l in open("/proc/cpuinfo", encoding="utf-8") if l.startswith("model name")), "unknown")
-    runs = [{"started": day, "processor": processor} for day in days or {f"{datetime.date.today()}"}]
-    tables.write("mutants", "Mutants of the sources and the tests that catch them", command, runs, lines)
-    held = total["run"] - total["equivalent"] - total["harmless"]
-    print(f"{total['run']} run, {held} neither equivalent nor harmless, {total['caught']} caught, {total['not judged']} not judged")
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--number", type=int, default=400, help="mutants of the sample")
     parser.add_argument("--fresh", type=int, default=0, help="as many more beyond it, which are told by themselves")
+    parser.add_argument("--after", type=int, default=0, help="where in the order of the mutants the fresh ones begin (default: behind the sample)")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--slowest", type=float, default=60, help="a test that takes longer, s, is left out")
     parser.add_argument("--tests", default="", help="only those tests whose names, room.Suite.Test, this expression finds")
-    parser.add_argument("--most", type=float, default=300, help="seconds of tests, as without a mutant, that a mutant is met by")
-    parser.add_argument("--again", action="store_true", help="run survivors again")
+    parser.add_argument("--most", type=float, default=mutants_table.MOST, help="seconds of tests, as without a mutant, that a mutant is met by")
+    parser.add_argument("--again", action="store_true", help="run survivors again that are not judged equivalent or harmless")
     parser.add_argument("--table", action="store_true", help="only the table of what the log has")
     options = parser.parse_args()
     WORK.mkdir(exist_ok=True)
-    mutants = all_mutants(options.number + options.fresh)
+    options.after = max(options.after, options.number)
     asked = {m["name"] for m in all_mutants(options.number)}
+    seen = {m["name"] for m in sample(options.after)} - asked
+    mutants = [m for m in all_mutants(options.after + options.fresh) if m["name"] not in seen]
     log = read_log()
     if options.table:
         dropped = json.loads((WORK / "dropped.json").read_text()) if (WORK / "dropped.json").exists() else []
@@ -478,9 +435,10 @@ def main():
     else:
         dropped, key = compile_all(mutants, options.jobs)
         tests = reach(options.jobs, key, options.slowest, options.tests)
+        settled = {name for name, (kind, _) in mutants_table.judged().items() if kind != "hole"}
         work = [(n, m) for n, m in enumerate(mutants) if n not in dropped and
-                not (entry := log.get((m["name"], m["of"]), {})).get("caught", False) and (not entry or options.again)]
-        work.sort(key=lambda w: sha(w[1]["name"]))
+                not (entry := log.get((m["name"], m["of"]), {})).get("caught", False) and (not entry or (options.again and m["name"] not in settled))]
+        work.sort(key=lambda w: (w[1]["name"] in asked, sha(w[1]["name"])))  # the fresh ones first
         print(f"{len(mutants) - len(dropped)} mutants, {len(work)} to run, {len(tests)} tests", flush=True)
         lock = threading.Lock()
         with LOG.open("a", encoding="utf-8") as file:
@@ -493,7 +451,7 @@ def main():
             for verdict in side_by_side(options.jobs, work, one):
                 log[verdict["name"], verdict["of"]] = verdict
                 print(("caught  " if verdict["caught"] else "SURVIVED"), verdict["name"], verdict["by"], flush=True)
-    write_table(mutants, dropped, log, "make mutants" + (f' MUTANTS="--fresh {options.fresh}"' if options.fresh else ""), asked)
+    mutants_table.write_both(mutants, asked, dropped, log, options)
 
 
 if __name__ == "__main__":

@@ -199,7 +199,10 @@ class Relaxation {
         const RowSums sums = stepper_.sums();
         const double residual = std::sqrt(sums.force_squared) / scale;
         const bool ends = residual <= options_.tolerance;
-        if (sums.power < 0 && !ends) stepper_.stop(rank);
+        if (sums.power < 0 && !ends) {
+          stepper_.stop(rank);
+          team_.barrier();  // tied nodes take the velocities of other ranks' rows
+        }
         stepper_.follow_masters(rank);
         if (rank == 0) {
           ++done;

@@ -33,8 +33,8 @@ class Stepper {
   void add_forces(int rank);
   void move_kept(int rank);
   void follow_masters(int rank);
-  /// After move_kept: sets the velocities of the rank's nodes to 0; their next kick is half a step's, as a
-  /// leapfrog starts from rest (a whole one diverges when stops follow each other).
+  /// After move_kept, with a barrier before follow_masters: sets the velocities of the rank's nodes to 0; their next
+  /// kick is half a step's, as a leapfrog starts from rest (a whole one diverges when stops follow each other).
   void stop(int rank);
 
   /// From here on every step adds to `record`; finish_record() when the last step is done.

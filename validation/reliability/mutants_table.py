@@ -1,0 +1,70 @@
+"""The tables of mutants.py: the sample with what was asked for by name, and fresh mutants, which no test was written for."""
+import collections
+import json
+import pathlib
+
+import tables
+
+MOST = 300  # seconds of tests that a mutant is met by
+
+
+def judged():
+    """What a reader says of survivors: {name: [equivalent, harmless or hole, why]}."""
+    return json.loads((pathlib.Path(__file__).parent / "judged.json").read_text())
+
+
+def write_one(name, title, mutants, dropped, log, command, of_what):
+    """Of (number, mutant); where less than half of them were met, the table stays as it is."""
+    judgements, rows, total, survivors, days, unmet = judged(), {}, collections.Counter(), [], set(), 0
+    for number, mutant in mutants:
+        count = rows.setdefault(mutant["room"], collections.Counter())
+        entry = log.get((mutant["name"], mutant["of"]))
+        if number in dropped or not entry:
+            count["dropped" if number in dropped else "to do"] += 1
+            continue
+        days.add(entry["day"])
+        count["run"] += 1
+        if entry["caught"]:
+            count["caught"] += 1
+            continue
+        kind, reason = judgements.get(mutant["name"], ["not judged", ""])
+        count[kind], unmet = count[kind] + 1, unmet + (kind in ("not judged", "hole") and entry["left_out"] > 0)
+        survivors.append((kind, mutant["path"].removeprefix("src/ripstop/"), str(mutant["m"].line), reason, mutant["m"]))
+    for count in rows.values():
+        total.update(count)
+    if 2 * total["run"] < len(mutants):
+        return
+
+    def row(room, c):
+        held = c["run"] - c["equivalent"] - c["harmless"]
+        share = f"{100 * c['caught'] / held:.0f} %" if held else ""
+        return [room, str(c["run"]), str(c["equivalent"]), str(c["harmless"]), str(held), str(c["caught"]), share]
+
+    def code(text):
+        text = " ".join(text.split()).replace("|", "\\|")
+        return f"`{text if len(text) < 90 else text[:87] + '...'}`"
+
+    lines = [f"{len(mutants)} {of_what}, {total['dropped']} of them do not compile, {total['to do']} not run yet. Python's and the browser's "
+             "tests are left out, and those that take longer than the command's limit.", ""]
+    lines += tables.table(["room", "run", "equivalent", "harmless", "left", "caught", "of those left"],
+                          [*(row(room, rows[room]) for room in sorted(rows)), row("all", total)])
+    lines += [f"{unmet} survivors that are not judged equivalent or harmless were not met by all tests that come by them.", ""] if unmet else []
+    lines += ["## Survivors", "", "*Equivalent*: no input tells. *Harmless*: speed, the text of a message, a tie, a limit chosen at will.", ""]
+    lines += tables.table(["where", "what was put", "for what", "judged", "why"],
+                          [[f"{path}:{line}", code(m.mutant) if m.mutant else f"no `{m.text}`", code(m.text), kind, reason]
+                           for kind, path, line, reason, m in sorted(survivors, key=lambda s: (s[0] != "hole", s[0], s[1], int(s[2])))])
+    processor = next((l.split(":")[1].strip() for l in open("/proc/cpuinfo", encoding="utf-8") if l.startswith("model name")), "unknown")
+    tables.write(name, title, command, [{"started": day, "processor": processor} for day in sorted(days)], lines)
+    held = total["run"] - total["equivalent"] - total["harmless"]
+    print(f"{name}: {total['run']} run, {held} neither equivalent nor harmless, {total['caught']} caught, {total['not judged']} not judged")
+
+
+def write_both(mutants, asked, dropped, log, options):
+    numbered = list(enumerate(mutants))
+    given = "".join(f" --{name} {value:g}" for name, value in (("after", options.after), ("fresh", options.fresh), ("most", options.most))
+                    if value != {"after": options.number, "fresh": 0, "most": MOST}[name])
+    command = "make mutants" + (f' MUTANTS="{given.strip()}"' if given else "")
+    write_one("mutants", "Mutants of the sources and the tests that catch them", [(n, m) for n, m in numbered if m["name"] in asked], dropped,
+                log, command, "sampled and named")
+    write_one("mutants-fresh", "Fresh mutants of the sources, which no test was written for", [(n, m) for n, m in numbered if m["name"] not in asked],
+                dropped, log, command, f"behind the first {options.after} in the order of the sample")
