@@ -97,6 +97,8 @@ bench: check-deps  ## Benchmarks, some three hours; their figures stand in docs/
 	@build-check/bench/bench_inflation
 	@build-check/bench/bench_flow --openfoam --large
 	@build-check/bench/bench_flow --in-time
+	@build-check/bench/bench_in_time runs/in-time/16 16 2 1 | tee docs/tables/pimplefoam.md
+	@build-check/bench/bench_in_time runs/in-time/8 8 60 1 | tee docs/tables/pimplefoam-mean.md
 
 VALIDATE := build/bin/ripstop steady examples/stratos-iv/case.toml
 

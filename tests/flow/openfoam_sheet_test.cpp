@@ -259,6 +259,23 @@ TEST_F(OpenFoamSheet, ARestoredFlowGoesOnByteForByteWhenCellsAreMovedOntoTheClot
   EXPECT_GT(whole.porous_force.z, 0.5 * before.porous_force.z);
 }
 
+// A closed box of little more than a cell, beside a plate: without an opening its cell would have no pressure.
+TEST_F(OpenFoamSheet, ACellThatClothShutsInIsOpened) {
+  FlowProblem problem = plate_in_box(1e6, 0);
+  std::vector<Triangle>& cloth = problem.sheets[0].surface;
+  cloth = square_plate(1.5, {0, 0, 2.02});
+  const Vec3 low{-0.02, -0.02, 3.23}, x{0.29, 0, 0}, y{0, 0.29, 0}, z{0, 0, 0.29};
+  for (const auto& [corner, u, v] :
+       {std::tuple{low, y, x}, {low, x, z}, {low, z, y}, {low + z, x, y}, {low + y, z, x}, {low + x, y, z}})
+    for (const Triangle& t : rectangle(corner, u, v)) cloth.push_back(t);
+  const auto engine = fitted("case", 0);
+  const auto flow = engine->start(problem);
+  flow->advance(25, 1e-9);
+  int of_box = 0;
+  for (const SheetLoad& load : flow->sheet_loads()) of_box += load.point.z > 3;
+  EXPECT_EQ(of_box, 5);
+}
+
 TEST_F(OpenFoamSheet, CellsTooCoarseForTheClothAreRefused) {
   FlowProblem problem = plate_in_box(1e6, 0);
   problem.sheets[0].surface = hemispherical_cup(0.4, {0.03, -0.02, 2.02});

@@ -93,6 +93,21 @@ class Cursor {
     }
   }
 
+  /// "List<bool> n(...);" with a byte a flag in binary, or "List<bool> n{flag};".
+  void skip_flags() {
+    expect("List<bool>");
+    const std::size_t count = size();
+    if (binary_ && peek() == "(") {
+      next();
+      if (count > text_.size() - at_) fail("flags are missing");
+      at_ += count;
+      expect(")");
+      expect(";");
+    } else {
+      skip_entry();
+    }
+  }
+
   /// count values of `components` numbers: "(binary block)" or ASCII.
   std::vector<double> numbers(std::size_t count, int components) {
     require_room(count * static_cast<std::size_t>(components), sizeof(double));
@@ -273,6 +288,33 @@ FaceList read_faces(const std::filesystem::path& path) {
   if (!ordered || static_cast<std::size_t>(faces.begins.back()) != corners)
     file.fail("the faces' corners are not as many as it says");
   return faces;
+}
+
+std::vector<FaceZone> read_face_zones(const std::filesystem::path& path) {
+  Cursor file(path);
+  const std::size_t count = file.size();
+  file.require_room(count, 1);
+  std::vector<FaceZone> zones(count);
+  if (count == 0) return zones;
+  file.expect("(");
+  for (FaceZone& zone : zones) {
+    zone.name = file.next();
+    file.expect("{");
+    for (std::string key = file.next(); key != "}"; key = file.next()) {
+      if (key.empty()) file.fail("ends within a zone");
+      if (key == "faceLabels") {
+        file.expect("List<label>");
+        const std::size_t faces = file.size();
+        zone.faces = file.labels(faces);
+        file.expect(";");
+      } else if (key == "flipMap") {
+        file.skip_flags();
+      } else {
+        file.skip_entry();
+      }
+    }
+  }
+  return zones;
 }
 
 std::vector<Patch> read_boundary(const std::filesystem::path& path) {

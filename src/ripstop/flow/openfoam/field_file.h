@@ -40,6 +40,13 @@ struct FaceList {
 /// polyMesh/faces in binary.
 FaceList read_faces(const std::filesystem::path& path);
 
+struct FaceZone {
+  std::string name;
+  std::vector<int> faces;
+};
+/// polyMesh/faceZones; which way the faces look is left out.
+std::vector<FaceZone> read_face_zones(const std::filesystem::path& path);
+
 struct Patch {
   std::string name;
   int start = 0;  // first face

@@ -1,6 +1,7 @@
 #include "ripstop/flow/openfoam/fitted_mesh.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -223,14 +224,18 @@ class Geometry {
   FaceList faces_;
 };
 
+int cells_of(const std::vector<int>& owner, const std::vector<int>& neighbour) {
+  int last = 0;
+  for (const auto& cells : {std::cref(owner), std::cref(neighbour)})
+    for (const int cell : cells.get()) last = std::max(last, cell);
+  return last + 1;
+}
+
 /// The grid's cell that each cell of the mesh lies in by the middle of its faces' middles, its part of the volume of all
 /// that lie there, and who stands in where none does.
 void find_cells(const Geometry& geometry, const std::vector<int>& neighbour, const FlowGrid& grid,
                 MeshPart& part) {
-  int last = 0;
-  for (const auto& cells : {std::cref(part.owner), std::cref(neighbour)})
-    for (const int cell : cells.get()) last = std::max(last, cell);
-  const std::size_t count = static_cast<std::size_t>(last) + 1;
+  const std::size_t count = static_cast<std::size_t>(cells_of(part.owner, neighbour));
   std::vector<Vec3> centre(count);
   std::vector<double> volume(count), faces(count);
   const auto add = [&](int cell, Vec3 middle, Vec3 area) {
@@ -371,6 +376,53 @@ std::vector<Baffle> baffles_on(int number, const Sheet& sheet, const MeshPart& p
   return baffles;
 }
 
+/// Cells that cloth shuts in on all sides, in the creases of folds, have no pressure. Each such pocket gets one of its
+/// faces back, and is part of what lies there.
+void open_pockets(const fs::path& mesh) {
+  constexpr double large = 0.01;                // of all cells: a closed body is no crease
+  if (!fs::exists(mesh / "faceZones")) return;  // no face on the cloth: told where the faces are counted
+  std::vector<FaceZone> zones = read_face_zones(mesh / "faceZones");
+  const std::vector<int> owner = read_labels(mesh / "owner"), neighbour = read_labels(mesh / "neighbour");
+  std::vector<char> cloth(neighbour.size());
+  for (const FaceZone& zone : zones)
+    for (const int face : zone.faces)
+      if (face >= 0 && static_cast<std::size_t>(face) < cloth.size()) cloth[face] = 1;
+  std::vector<int> leader, size;
+  const auto first_of = [&](int cell) {
+    while (leader[cell] != cell) cell = leader[cell] = leader[leader[cell]];
+    return cell;
+  };
+  const auto join = [&](int one, int other) {
+    one = first_of(one), other = first_of(other);
+    if (one == other) return;
+    if (size[one] < size[other]) std::swap(one, other);
+    leader[other] = one, size[one] += size[other];
+  };
+  leader.resize(static_cast<std::size_t>(cells_of(owner, neighbour)));
+  for (std::size_t cell = 0; cell < leader.size(); ++cell) leader[cell] = static_cast<int>(cell);
+  size.assign(leader.size(), 1);
+  for (std::size_t face = 0; face < neighbour.size(); ++face)
+    if (!cloth[face]) join(owner[face], neighbour[face]);
+  bool opened = false;
+  for (FaceZone& zone : zones) {
+    std::erase_if(zone.faces, [&](int face) {
+      const int one = first_of(owner[face]), other = first_of(neighbour[face]);
+      if (one == other || std::min(size[one], size[other]) > large * static_cast<double>(leader.size()))
+        return false;
+      join(one, other);
+      return opened = true;
+    });
+  }
+  if (!opened) return;
+  std::string body = fmt::format("{}\n(\n", zones.size());
+  for (const FaceZone& zone : zones)
+    body += fmt::format(
+        "{}\n{{\n    type faceZone;\n    faceLabels List<label> {}({});\n    flipMap List<bool> "
+        "{}{{0}};\n}}\n",
+        zone.name, zone.faces.size(), fmt::join(zone.faces, " "), zone.faces.size());
+  write_dictionary(mesh / "faceZones", "regIOobject", body + ")\n");
+}
+
 constexpr const char* finer =
     "cells that are more alike along the three axes (flow.cells, flow.core.size_m) or another "
     "flow.cloth_levels may help";
@@ -388,10 +440,12 @@ void make_fitted_mesh(const fs::path& folder, const FlowProblem& problem, int le
                   [](const Sheet& s) { return s.surface.empty(); }))
     return;
   programs.run_tool("snappyHexMesh", {"-overwrite"}, finer);
+  open_pockets(folder / "constant/polyMesh");
   programs.run_tool("createBaffles", {"-overwrite"}, finer);
   std::string faults;
   programs.run_tool("checkMesh", {"-constant"}, finer, [&](const std::string& line) {
     const std::size_t stars = line.find("***");
+    if (line.find("*Number of regions") != std::string::npos) faults += "cloth shuts cells in; ";
     if (stars != std::string::npos) faults += (faults.empty() ? "" : "; ") + line.substr(stars + 3);
   });
   if (!faults.empty())
