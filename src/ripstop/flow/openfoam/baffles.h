@@ -36,8 +36,8 @@ struct BafflePatch {
   std::vector<Baffle> baffles;       // in the order of the patches' faces
 };
 
-/// The faces of the grid whose larger part a sheet covers. Cloth is loose where the slope of the pressure over what passes is less
-/// than half of rho U: OpenFOAM's jump follows the flow of the iteration before, and across denser cloth it does not come
+/// The faces of the grid whose larger part a sheet covers. Cloth is loose where the slope of the pressure over what
+/// passes is less than half of rho U: OpenFOAM's jump follows the flow of the iteration before, and across denser cloth it does not come
 /// to rest. There what passes follows the pressure. Across a sheet that shuts the whole box the flow is given, and all of
 /// it is loose.
 std::vector<BafflePatch> baffles_of(const FlowProblem& problem);

@@ -256,8 +256,9 @@ that are walls is a part of the case, in the field U; Ripstop renews it as the p
 constexpr char kOfFittedMesh[] =
     R"foam(constant/polyMesh is the mesh that snappyHexMesh made about the cloth of constant/triSurface, with the cloth in
 the patches cloth*. What passes those that are walls is a part of the case, in the field U; Ripstop renews it as the
-pressure changes. To make the mesh anew:
+pressure changes. To make the mesh anew (Ripstop also opens cells that cloth shuts in, before createBaffles):
 
+    rm -r constant/polyMesh
     blockMesh
     snappyHexMesh -overwrite
     createBaffles -overwrite

@@ -442,16 +442,16 @@ void make_fitted_mesh(const fs::path& folder, const FlowProblem& problem, int le
   programs.run_tool("snappyHexMesh", {"-overwrite"}, finer);
   open_pockets(folder / "constant/polyMesh");
   programs.run_tool("createBaffles", {"-overwrite"}, finer);
-  std::string faults;
+  std::vector<std::string> faults;
   programs.run_tool("checkMesh", {"-constant"}, finer, [&](const std::string& line) {
     const std::size_t stars = line.find("***");
-    if (line.find("*Number of regions") != std::string::npos) faults += "cloth shuts cells in; ";
-    if (stars != std::string::npos) faults += (faults.empty() ? "" : "; ") + line.substr(stars + 3);
+    if (line.find("*Number of regions") != std::string::npos) faults.emplace_back("cloth shuts cells in");
+    if (stars != std::string::npos) faults.push_back(line.substr(stars + 3));
   });
   if (!faults.empty())
     throw Error(ExitCode::external,
-                fmt::format("OpenFOAM's checkMesh finds fault with the mesh in {}: {}. {}", folder.string(),
-                            faults, finer));
+                fmt::format("OpenFOAM's checkMesh finds fault with the mesh in {}: {}; {}", folder.string(),
+                            fmt::join(faults, "; "), finer));
 }
 
 FittedMesh read_fitted_mesh(const fs::path& folder, const FlowProblem& problem) {
