@@ -31,7 +31,7 @@ inline std::vector<SheetLoad> loads_of(const std::vector<Triangle>& triangles, c
     load.triangle = f.triangle;
     load.point = f.point;
     load.outward = f.outward;
-    load.cover = f.hem ? std::min(1.0, f.area / (h * h * slant)) : 1;
+    load.cover = f.cover;
     load.area = load.cover * h * h * slant;
     load.drop = load.cover * drop(f.point);
     const double force = side * load.drop * h * h;

@@ -202,13 +202,16 @@ TEST(SheetTransfer, AFieldAboutTheAxisGivesNoSideForceAndNoMoment) {
 // Faces along which the sheet runs stand for cloth that turns to either side of them: their mean normal says
 // nothing about the side on which the air presses. Wrong there, and a closed ring of cloth has a side force.
 TEST(SheetTransfer, AWavyCanopyUnderAUniformDropHasNoSideForce) {
-  for (const double ripple : {0.08, 0.15}) {
-    const Surface s = cap(60, 256, 6, 85, ripple);
-    const std::vector<SheetLoad> loads = loads_of(s.triangles(), box(40), [](Vec3) { return 100.0; });
-    const Wrench air = wrench_of(loads);
-    EXPECT_LT(std::hypot(air.force.x, air.force.y), 0.01 * air.force.z) << ripple;
-    const ClothLoad load = load_of_flow(loads, box(40), s.triangles(), s.cells, s.x);
-    EXPECT_LT(remainder_share(load, s.cells, s.x), 0.01) << ripple;
+  for (const int n : {36, 40, 44, 48}) {
+    for (const double ripple : {0.08, 0.15}) {
+      const Surface s = cap(60, 256, 6, 85, ripple);
+      const std::vector<SheetLoad> loads = loads_of(s.triangles(), box(n), [](Vec3) { return 100.0; });
+      const Wrench air = wrench_of(loads);
+      EXPECT_LT(std::hypot(air.force.x, air.force.y), 0.001 * air.force.z) << n << " " << ripple;
+      // The hem lies along the stream: of the area across it the faces have as much as a staircase has.
+      const ClothLoad load = load_of_flow(loads, box(n), s.triangles(), s.cells, s.x);
+      EXPECT_LT(remainder_share(load, s.cells, s.x), 0.02) << n << " " << ripple;
+    }
   }
 }
 

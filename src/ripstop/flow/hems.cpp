@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 #include <tuple>
+#include <utility>
 
 namespace ripstop {
 namespace {
@@ -47,22 +48,24 @@ std::set<Edge> joined(const std::map<Edge, int>& uses) {
 
 }  // namespace
 
-std::vector<std::pair<Vec3, Vec3>> hems(const std::vector<Triangle>& surface) {
+std::vector<Hem> hems(const std::vector<Triangle>& surface) {
   const auto each_edge = [&](auto&& visit) {
     for (const Triangle& t : surface) {
       const Vec3 v[] = {t.a, t.b, t.c};
       for (int e = 0; e < 3; ++e) {
         const Vec3 p = v[e], q = v[(e + 1) % 3];
-        if (corner(p) != corner(q)) visit(p, q, Edge(std::minmax(corner(p), corner(q))));
+        if (corner(p) != corner(q)) visit(p, q, v[(e + 2) % 3], Edge(std::minmax(corner(p), corner(q))));
       }
     }
   };
   std::map<Edge, int> uses;
-  each_edge([&](Vec3, Vec3, const Edge& edge) { ++uses[edge]; });
+  each_edge([&](Vec3, Vec3, Vec3, const Edge& edge) { ++uses[edge]; });
   const std::set<Edge> none = joined(uses);
-  std::vector<std::pair<Vec3, Vec3>> hems;
-  each_edge([&](Vec3 p, Vec3 q, const Edge& edge) {
-    if (uses[edge] == 1 && !none.contains(edge)) hems.emplace_back(p, q);
+  std::vector<Hem> hems;
+  each_edge([&](Vec3 p, Vec3 q, Vec3 third, const Edge& edge) {
+    if (uses[edge] != 1 || none.contains(edge)) return;
+    const Vec3 inside = third - p, across = inside - dot(inside, q - p) / dot(q - p, q - p) * (q - p);
+    hems.push_back({p, q, norm(across) > 0 ? across / norm(across) : Vec3{}});
   });
   return hems;
 }

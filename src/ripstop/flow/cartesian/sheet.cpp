@@ -105,11 +105,7 @@ void SheetRows::add_faces(const Axis& x, const Axis& y, const Axis& z, const std
       face.area = (g.axis == 0 ? 1 : x.width[g.i]) * (g.axis == 1 ? 1 : y.width[g.j]) *
                   (g.axis == 2 ? 1 : z.width[g.k]);
       face.spread = face.area / std::max(g.area, 1e-2 * face.area);
-      const double normal = g.axis == 0 ? g.normal.x : g.axis == 1 ? g.normal.y : g.normal.z;
-      // Of crumpled cloth layers share out the area: what one of them is left with says nothing of the air's way.
-      if (g.hem)
-        face.cover =
-            motion.velocity.empty() ? std::min(1.0, g.area / (face.area * std::max(normal, 1e-3))) : g.seen;
+      face.cover = g.cover;
       faces_.push_back(face);
     }
   }

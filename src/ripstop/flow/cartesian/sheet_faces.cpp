@@ -5,6 +5,7 @@
 #include <bitset>
 #include <cmath>
 #include <map>
+#include <unordered_map>
 #include <utility>
 
 #include "ripstop/flow/hems.h"
@@ -33,12 +34,30 @@ double centre(const Axis& axis, int c) {
   return 0.5 * (axis.edge[c] + axis.edge[c + 1]);
 }
 
-/// Cells within two of a hem.
+/// Whether the sheet ends before it gets to where a point is, by the hem that is nearest to it.
+bool ended(Vec3 point, const std::vector<Hem>& hems) {
+  double least = 1e300;
+  bool ended = false;
+  for (const Hem& hem : hems) {
+    const Vec3 along = hem.to - hem.from;
+    const double share = std::clamp(dot(point - hem.from, along) / dot(along, along), 0.0, 1.0);
+    const Vec3 apart = point - (hem.from + share * along);
+    const double distance = norm(apart);
+    if (distance > least * (1 + 1e-9)) continue;
+    const bool out = dot(apart, hem.inward) < 0;
+    ended = distance < least * (1 - 1e-9) ? out : ended || out;  // two that meet in a corner
+    least = distance;
+  }
+  return ended;
+}
+
+/// The hems, and what lies within two cells of them.
 class NearHem {
  public:
-  NearHem(const std::array<const Axis*, 3>& axes, const std::vector<Triangle>& surface) : axes_(axes) {
+  NearHem(const std::array<const Axis*, 3>& axes, const std::vector<Triangle>& surface)
+      : axes_(axes), hems_(hems(surface)) {
     near_.assign(static_cast<std::size_t>(axes[0]->n) * axes[1]->n * axes[2]->n, 0);
-    for (const auto& [p, q] : hems(surface)) mark(p, q);
+    for (std::size_t hem = 0; hem < hems_.size(); ++hem) mark(hem);
   }
 
   bool at(const Point& p) const {
@@ -50,37 +69,58 @@ class NearHem {
     return near_[index(c[0], c[1], c[2])] != 0;
   }
 
+  std::vector<Hem> about(const std::array<int, 3>& cell) const {
+    std::vector<Hem> result;
+    for_cells_about(cell.data(), [&](std::size_t c) {
+      const auto found = in_cell_.find(c);
+      if (found == in_cell_.end()) return;
+      for (const std::size_t hem : found->second) result.push_back(hems_[hem]);
+    });
+    return result;
+  }
+
  private:
   std::size_t index(int i, int j, int k) const {
     return i + static_cast<std::size_t>(axes_[0]->n) * (j + static_cast<std::size_t>(axes_[1]->n) * k);
   }
 
-  void mark(Vec3 p, Vec3 q) {
+  template <class Visit>
+  void for_cells_about(const int* cell, const Visit& visit) const {
+    int low[3], high[3];
+    for (int a = 0; a < 3; ++a)
+      low[a] = std::max(cell[a] - 2, 0), high[a] = std::min(cell[a] + 2, axes_[a]->n - 1);
+    for (int k = low[2]; k <= high[2]; ++k)
+      for (int j = low[1]; j <= high[1]; ++j)
+        for (int i = low[0]; i <= high[0]; ++i) visit(index(i, j, k));
+  }
+
+  void mark(std::size_t hem) {
+    const Vec3 p = hems_[hem].from, q = hems_[hem].to;
     double width = 1e300;
     for (const Axis* axis : axes_)
       width = std::min(width, *std::min_element(axis->width.begin(), axis->width.end()));
     const int steps = 1 + static_cast<int>(norm(q - p) / width);
     for (int s = 0; s <= steps; ++s) {
       const Point at = point_of(p + (static_cast<double>(s) / steps) * (q - p));
-      int low[3], high[3];
+      int cell[3];
       bool outside = false;
       for (int a = 0; a < 3; ++a) {
-        const int c = cell_at(*axes_[a], at[a]);
+        cell[a] = cell_at(*axes_[a], at[a]);
         outside = outside || at[a] < axes_[a]->edge.front() - 2 * axes_[a]->width.front() ||
                   at[a] > axes_[a]->edge.back() + 2 * axes_[a]->width.back();
-        low[a] = std::max(c - 2, 0), high[a] = std::min(c + 2, axes_[a]->n - 1);
       }
       if (outside) continue;
-      for (int k = low[2]; k <= high[2]; ++k) {
-        for (int j = low[1]; j <= high[1]; ++j) {
-          for (int i = low[0]; i <= high[0]; ++i) near_[index(i, j, k)] = 1;
-        }
-      }
+      for_cells_about(cell, [&](std::size_t c) { near_[c] = 1; });
+      for (int a = 0; a < 3; ++a) cell[a] = std::clamp(cell[a], 0, axes_[a]->n - 1);
+      std::vector<std::size_t>& here = in_cell_[index(cell[0], cell[1], cell[2])];
+      if (here.empty() || here.back() != hem) here.push_back(hem);
     }
   }
 
   std::array<const Axis*, 3> axes_;
+  std::vector<Hem> hems_;
   std::vector<char> near_;
+  std::unordered_map<std::size_t, std::vector<std::size_t>> in_cell_;  // hems that pass through it
 };
 
 /// Sheet in a cell that found no face of its own axis.
@@ -96,16 +136,17 @@ struct Hit {
   bool hem = false;
 };
 
-/// Positions of the lines along one axis.
+/// Position of a cell's line s along one axis.
+double line_position(const Axis& axis, int c, int s) {
+  return s == centre_line ? centre(axis, c) : axis.edge[c] + (s + 0.5) / lines * axis.width[c];
+}
+
+/// Of all lines along one axis.
 std::vector<double> line_positions(const Axis& axis) {
   std::vector<double> positions;
   positions.reserve(static_cast<std::size_t>(axis.n) * lines);
-  for (int c = 0; c < axis.n; ++c) {
-    for (int s = 0; s < lines; ++s) {
-      positions.push_back(s == centre_line ? centre(axis, c)
-                                           : axis.edge[c] + (s + 0.5) / lines * axis.width[c]);
-    }
-  }
+  for (int c = 0; c < axis.n; ++c)
+    for (int s = 0; s < lines; ++s) positions.push_back(line_position(axis, c, s));
   return positions;
 }
 
@@ -128,10 +169,10 @@ class Columns {
  public:
   Columns(int axis, const std::array<const Axis*, 3>& axes, const std::vector<Triangle>& surface,
           const NearHem& hem)
-      : axis_(axis), u_((axis + 1) % 3), v_((axis + 2) % 3), axes_(axes), surface_(surface) {
+      : axis_(axis), u_((axis + 1) % 3), v_((axis + 2) % 3), axes_(axes), surface_(surface), hem_(hem) {
     const std::vector<double> us = line_positions(*axes[u_]), vs = line_positions(*axes[v_]);
     hits_.resize(static_cast<std::size_t>(axes[u_]->n) * axes[v_]->n);
-    for (int t = 0; t < static_cast<int>(surface.size()); ++t) project(t, us, vs, hem);
+    for (int t = 0; t < static_cast<int>(surface.size()); ++t) project(t, us, vs);
   }
 
   void faces(std::vector<SheetFace>& result, std::vector<Share>& left_over) {
@@ -144,7 +185,7 @@ class Columns {
   }
 
  private:
-  void project(int t, const std::vector<double>& us, const std::vector<double>& vs, const NearHem& hem) {
+  void project(int t, const std::vector<double>& us, const std::vector<double>& vs) {
     const Point p[] = {point_of(surface_[t].a), point_of(surface_[t].b), point_of(surface_[t].c)};
     const double area =
         (p[1][u_] - p[0][u_]) * (p[2][v_] - p[0][v_]) - (p[1][v_] - p[0][v_]) * (p[2][u_] - p[0][u_]);
@@ -174,7 +215,7 @@ class Columns {
         hit.line = static_cast<int>(iu % lines + lines * (iv % lines));
         Point point;
         point[axis_] = hit.at, point[u_] = u, point[v_] = v;
-        hit.hem = hem.at(point);
+        hit.hem = hem_.at(point);
         hits_[iu / lines + static_cast<std::size_t>(axes_[u_]->n) * (iv / lines)].push_back(hit);
       }
     }
@@ -256,7 +297,8 @@ class Columns {
       }
     }
     for (std::size_t n = first; n < last; ++n) {
-      result[n].seen = static_cast<double>(met[n - first].count()) / (lines * lines);
+      if (result[n].hem)
+        result[n].cover = covered(open_lines(result[n], point_of(result[n].point), met[n - first], cu, cv));
       const Vec3 sum = normals[n - first];
       if (norm(turned[n - first]) > 0) result[n].across = turned[n - first] / norm(turned[n - first]);
       if (!(norm(sum) > 0)) continue;
@@ -287,8 +329,15 @@ class Columns {
       if (face) {
         std::bitset<lines * lines> met;
         for (const Hit* h : across) met.set(h->line);
-        face->hem = true;
-        face->seen = static_cast<double>(met.count()) / (lines * lines);
+        const auto open = open_lines(*face, on_line(middle->at, cu, cv, middle->line), met, cu, cv);
+        // The central line, too, has to find the sheet ended, and not bent out of the column.
+        if (open[centre_line * (lines + 1)]) {
+          face->hem = true;
+          face->cover = covered(open);
+        } else {
+          result.pop_back();
+          face = nullptr;
+        }
       }
       for (std::size_t n = begin; n < end; ++n) {
         face ? void(face->area += share(*beside[n], cu, cv))
@@ -296,6 +345,40 @@ class Columns {
       }
       begin = end;
     }
+  }
+
+  /// Of the lines of a column those that find the sheet of a face ended. Where a line does not meet it and it has not
+  /// ended, it has bent out of the column: there it goes on beside the face, and nothing is open. `at`: a point of the
+  /// sheet in the column.
+  std::bitset<lines * lines> open_lines(const SheetFace& face, const Point& at,
+                                        const std::bitset<lines * lines>& met, int cu, int cv) const {
+    std::bitset<lines * lines> open;
+    if (met.all()) return open;
+    const std::vector<Hem> hems = hem_.about({face.i, face.j, face.k});
+    const Point normal = point_of(face.normal);
+    const int cells[] = {face.i, face.j, face.k}, cell = cells[axis_];
+    for (int line = 0; line < lines * lines; ++line) {
+      if (met[line]) continue;
+      // In the plane through `at`, as far as that lies between the two centres.
+      Point p = on_line(at[axis_], cu, cv, line);
+      const double slant =
+          (normal[u_] * (p[u_] - at[u_]) + normal[v_] * (p[v_] - at[v_])) / std::max(normal[axis_], 1e-3);
+      p[axis_] = std::clamp(at[axis_] - slant, centre(*axes_[axis_], cell - 1), centre(*axes_[axis_], cell));
+      open[line] = ended({p[0], p[1], p[2]}, hems);
+    }
+    return open;
+  }
+
+  static double covered(const std::bitset<lines * lines>& open) {
+    return 1 - static_cast<double>(open.count()) / (lines * lines);
+  }
+
+  Point on_line(double at, int cu, int cv, int line) const {
+    Point point;
+    point[axis_] = at;
+    point[u_] = line_position(*axes_[u_], cu, line % lines),
+    point[v_] = line_position(*axes_[v_], cv, line / lines);
+    return point;
   }
 
   std::array<int, 3> cell_of(const Hit& h, int cu, int cv) const {
@@ -307,6 +390,7 @@ class Columns {
   int axis_, u_, v_;
   std::array<const Axis*, 3> axes_;
   const std::vector<Triangle>& surface_;
+  const NearHem& hem_;
   std::vector<std::vector<Hit>> hits_;
 };
 

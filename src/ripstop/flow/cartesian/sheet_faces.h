@@ -20,12 +20,13 @@ struct SheetFace {
   bool hem = false;      // within two cells of an edge of the sheet
   double area = 0;       // of the sheet that the face stands for [m2]; the faces' areas add up to the sheet's
   Vec3 across;           // mean of the normals with all layers turned so that they look along the axis, unit
-  double seen = 1;       // of the lines through the face, those that meet the sheet about it, whichever layer
+  double cover = 1;      // the part of the face that is not open; less than 1 beside a hem only
 };
 
 /// Every face between neighbouring cell centres that a triangle parts, in a fixed order. The faces of a
 /// closed surface are watertight: a line through a shared edge or corner meets exactly one of the triangles.
-/// At hems a face is kept as long as the sheet covers any of 5 x 5 lines through the column of cells.
+/// Beside a hem a face is kept as long as the sheet covers any of 5 x 5 lines through the column of cells; what it does
+/// not cover is open where the sheet has ended, and not where it has bent out of the column.
 ///
 /// An element dA of the sheet with normal n goes to the faces across x, y and z in the shares n_x^2, n_y^2
 /// and n_z^2, sampled on those lines: air that passes along the normal crosses the faces in these shares.

@@ -72,8 +72,7 @@ std::vector<Baffle> all_baffles(const FlowProblem& problem) {
       double area = 1;
       for (int other = 0; other < 3; ++other)
         if (other != face.axis) area *= grid.width(other, at[other]);
-      const double slant = std::max(component(face.normal, face.axis), 1e-3);
-      if (face.hem && face.area / (area * slant) < covered) continue;
+      if (face.cover < covered) continue;
       const int high = grid.index(face.i, face.j, face.k), low = high - steps[face.axis];
       Baffle& baffle = found[{low, face.axis}];
       baffle.low = low, baffle.high = high, baffle.area = along(face.axis, area);

@@ -122,7 +122,7 @@ void write_hems(const fs::path& path, const std::vector<Triangle>& surface) {
     return at->second;
   };
   const auto all = hems(surface);
-  for (const auto& [from, to] : all) {
+  for (const auto& [from, to, inward] : all) {
     const std::size_t begin = number_of(from), end = number_of(to);
     edges += fmt::format("({} {})\n", begin, end);
   }
@@ -172,7 +172,7 @@ struct Size {
 
   explicit Size(const std::vector<Triangle>& surface) {
     for (const Triangle& t : surface) area += 0.5 * norm(cross(t.b - t.a, t.c - t.a));
-    for (const auto& [from, to] : hems(surface)) rim += norm(to - from);
+    for (const Hem& hem : hems(surface)) rim += norm(hem.to - hem.from);
   }
 };
 
