@@ -4,8 +4,8 @@
 //     FOLDER  of OpenFOAM's case and the plots
 //     ACROSS  cells across the body, the built-in engine's; those of OpenFOAM's mesh are half as wide at the cloth and twice
 //             as wide elsewhere
-//     BODY    disk, plate, cup, porous-disk, or NAME=FILE.stl:A:B, cloth with the law A v + B v |v| [Pa]; without one the
-//             four bodies
+//     BODY    disk, plate, cup, porous-disk, disk-gap-band (rigid_disk_gap_band()), or NAME=FILE.stl:A:B, cloth with the law
+//             A v + B v |v| [Pa]; without one the five bodies
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -31,9 +31,9 @@ using namespace ripstop;
 
 namespace {
 
-constexpr double box = 12;    // widths of the body
-constexpr double speed = 20;  // [m/s]
-constexpr double tight = 1e6;
+constexpr double box = 12;                    // widths of the body
+constexpr double speed = 20;                  // [m/s]
+constexpr double tight = 1e6, f111 = 8169.3;  // [Pa s/m]
 
 struct Body {
   std::string name;
@@ -64,10 +64,12 @@ Body body_of(const std::string& word) {
   if (word == "disk") return measured(word, {disk(1, {}), tight, 0}, {});
   if (word == "plate") return measured(word, {square_plate(1, {}), tight, 0}, {});
   if (word == "cup") return measured(word, {hemispherical_cup(1, {}), tight, 0}, {});
+  if (word == "disk-gap-band") return measured(word, {rigid_disk_gap_band({}), f111, 0}, {});
   if (word == "porous-disk") return measured(word, {disk(1, {}), 0, density / 2}, {});  // K = 1
   const std::size_t is = word.find('='), b = word.rfind(':'), a = word.rfind(':', b - 1);
   if (is == std::string::npos || b == std::string::npos || a == std::string::npos || a < is)
-    throw Error(ExitCode::usage, word + " is no body: disk, plate, cup, porous-disk or NAME=FILE.stl:A:B");
+    throw Error(ExitCode::usage,
+                word + " is no body: disk, plate, cup, porous-disk, disk-gap-band or NAME=FILE.stl:A:B");
   Sheet sheet{read_stl(word.substr(is + 1, a - is - 1)), std::stod(word.substr(a + 1, b - a - 1)),
               std::stod(word.substr(b + 1))};
   Vec3 middle;
@@ -85,7 +87,7 @@ FlowProblem problem_of(const Body& body, int across) {
   problem.air.speed = speed;
   problem.sides = Sides::slip;
   problem.sheets = {body.sheet};
-  problem.stopping.max_iterations = 600;
+  problem.stopping.max_iterations = 1200;
   return problem;
 }
 
@@ -217,13 +219,15 @@ void judge(const std::filesystem::path& folder, const Body& body, int across) {
 
 int main(int argc, char** argv) {
   if (argc < 3) {
-    fmt::print(stderr, "bench_judge FOLDER ACROSS [disk|plate|cup|porous-disk|NAME=FILE.stl:A:B ...]\n");
+    fmt::print(
+        stderr,
+        "bench_judge FOLDER ACROSS [disk|plate|cup|porous-disk|disk-gap-band|NAME=FILE.stl:A:B ...]\n");
     return 2;
   }
   const std::filesystem::path folder = argv[1];
   const int across = std::atoi(argv[2]);
   std::vector<std::string> words(argv + 3, argv + argc);
-  if (words.empty()) words = {"disk", "plate", "cup", "porous-disk"};
+  if (words.empty()) words = {"disk", "plate", "cup", "porous-disk", "disk-gap-band"};
   std::filesystem::create_directories(folder);
   print_table_head(
       "Rigid bodies and inflated canopies: the built-in engine beside OpenFOAM on a mesh that follows the "

@@ -14,13 +14,31 @@ namespace {
 using namespace ripstop;
 namespace fs = std::filesystem;
 
+std::string header(const std::string& format, const std::string& kind) {
+  return "FoamFile\n{\n version 2.0;\n format " + format + ";\n class " + kind +
+         ";\n arch \"LSB;label=32;scalar=64\";\n object seed;\n}\n";
+}
+
 std::string field(const std::string& format, const std::string& list) {
-  return "FoamFile\n{\n version 2.0;\n format " + format +
-         ";\n class volVectorField;\n arch \"LSB;label=32;scalar=64\";\n object U;\n}\n"
-         "dimensions [0 1 -1 0 0 0 0];\ninternalField nonuniform List<vector> 2(" +
-         list +
+  return header(format, "volVectorField") +
+         "dimensions [0 1 -1 0 0 0 0];\ninternalField nonuniform List<vector> 2(" + list +
          ");\nboundaryField\n{\n inlet { type fixedValue; value uniform (0 0 7); }\n sides { type "
          "zeroGradient; }\n}\n";
+}
+
+std::string binary(const std::vector<int>& labels) {
+  return std::to_string(labels.size()) + "(" +
+         std::string(reinterpret_cast<const char*>(labels.data()), labels.size() * sizeof(int)) + ")";
+}
+
+/// The points, faces and zones of a mesh.
+void write_mesh(const fs::path& folder) {
+  write_file(folder / "points", header("ascii", "vectorField") + "3((0 0 0)(1 0 0)(0 1 0))\n");
+  write_file(folder / "faces", header("binary", "faceCompactList") + binary({0, 3, 7}) + "\n" +
+                                   binary({0, 1, 2, 0, 2, 3, 4}) + "\n");
+  write_file(folder / "faceZones", header("binary", "regIOobject") +
+                                       "1(cloth { type faceZone; faceLabels List<label> " + binary({5, 6}) +
+                                       "; flipMap List<bool> 2(" + std::string("\0\1", 2) + "); })\n");
 }
 
 void write_checkpoints(const fs::path& folder) {
@@ -59,5 +77,6 @@ int main(int argc, char** argv) {
   write_file(root / "openfoam" / "binary",
              field("binary", {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double)}));
   write_file(root / "openfoam" / "ascii", field("ascii", "(1 2 3)(4 -5 6e-300)"));
+  write_mesh(root / "openfoam");
   return 0;
 }

@@ -1,4 +1,4 @@
-// What OpenFOAM wrote: fields, label lists, patches.
+// What OpenFOAM wrote: fields, label lists, patches, a mesh's points, faces and zones.
 #include "reader.h"
 #include "ripstop/flow/openfoam/field_file.h"
 
@@ -10,5 +10,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       fuzz::told([&] { openfoam::read_field(file.path(), components, count); });
   fuzz::told([&] { openfoam::read_labels(file.path()); });
   fuzz::told([&] { openfoam::read_boundary(file.path()); });
+  fuzz::told([&] { openfoam::read_points(file.path()); });
+  fuzz::told([&] { openfoam::read_faces(file.path()); });
+  fuzz::told([&] { openfoam::read_face_zones(file.path()); });
   return 0;
 }

@@ -173,6 +173,35 @@ TEST_F(FieldFile, LabelsAreWholeNumbersOf32Bits) {
   EXPECT_TRUE(read_labels(path_).empty());
 }
 
+TEST_F(FieldFile, FacesHaveTheCornersThatTheirListSays) {
+  const auto faces = [&](const std::string& begins, const std::string& corners) {
+    write(header("ascii") + begins + "\n" + corners + "\n");
+    return read_faces(path_);
+  };
+  const FaceList two = faces("3(0 3 7)", "7(0 1 2 0 2 3 4)");
+  EXPECT_EQ(two.begins, (std::vector<int>{0, 3, 7}));
+  EXPECT_EQ(two.corners, (std::vector<int>{0, 1, 2, 0, 2, 3, 4}));
+  EXPECT_THROW(faces("3(0 3 6)", "7(0 1 2 0 2 3 4)"), Error);  // other corners than it says
+  EXPECT_THROW(faces("3(0 2 7)", "7(0 1 2 0 2 3 4)"), Error);  // a face of two corners
+  EXPECT_THROW(faces("3(1 4 7)", "7(0 1 2 0 2 3 4)"), Error);
+  EXPECT_THROW(faces("3(0 2147483647 7)", "7(0 1 2 0 2 3 4)"), Error);
+  EXPECT_THROW(faces("0()", "0()"), Error);
+}
+
+TEST_F(FieldFile, ZonesHaveTheirFaces) {
+  write(header("ascii") +
+        "2(cloth { type faceZone; faceLabels List<label> 2(5 6); flipMap List<bool> 2{0}; }\n"
+        "band { type faceZone; faceLabels List<label> 1(9); flipMap List<bool> 1(1); })\n");
+  const std::vector<FaceZone> zones = read_face_zones(path_);
+  ASSERT_EQ(zones.size(), 2u);
+  EXPECT_EQ(zones[0].name, "cloth");
+  EXPECT_EQ(zones[0].faces, (std::vector<int>{5, 6}));
+  EXPECT_EQ(zones[1].name, "band");
+  EXPECT_EQ(zones[1].faces, std::vector<int>{9});
+  write(header("ascii") + "1(cloth { type faceZone; faceLabels List<label> 2(5 6);");
+  EXPECT_THROW(read_face_zones(path_), Error);
+}
+
 TEST(SolverLog, AnIterationEndsWithItsForces) {
   SolverLog log(SolverLog::Forces::porous);
   const std::vector<std::string> lines = {

@@ -3,8 +3,8 @@
 
     make judge        (or: judge.py --ripstop build/bin/ripstop --bench build-check/bench/bench_judge --across 24)
 
-`ripstop steady` inflates a flat circular canopy, a ringsail (ADEPT) and a disk-gap-band (Stratos IV), with cloth as specified
-and nothing calibrated, at 20 m/s, in runs/judge; finished runs cost nothing. Their shapes, held rigid, and four bodies then
+`ripstop steady` inflates a flat circular canopy, a ringsail (ADEPT) and Stratos IV, with cloth as specified
+and nothing calibrated, at 20 m/s, in runs/judge; finished runs cost nothing. Their shapes, held rigid, and five bodies then
 stand in both engines (bench_judge). The table is docs/tables/judge.md; the plots of the flat circular canopy go beside it,
 the others stay in runs/judge.
 """
@@ -21,8 +21,8 @@ sys.path[:0] = [str(ROOT / "validation"), str(ROOT / "validation/ojf")]
 from campaign import SHEET_SPECIFIED  # pylint: disable=wrong-import-position
 
 SHAPES = {"flat-circular": ("flat-circular", []), "ringsail": ("adept", SHEET_SPECIFIED),
-          "disk-gap-band": ("stratos-iv", SHEET_SPECIFIED)}
-BODIES = ["disk", "plate", "cup", "porous-disk"]
+          "stratos-iv": ("stratos-iv", SHEET_SPECIFIED)}
+BODIES = ["disk", "plate", "cup", "porous-disk", "disk-gap-band"]
 
 
 def shape(options, name):

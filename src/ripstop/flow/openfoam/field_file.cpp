@@ -104,7 +104,9 @@ class Cursor {
       expect(")");
       expect(";");
     } else {
+      const bool uniform = peek() == "{";
       skip_entry();
+      if (uniform) expect(";");
     }
   }
 
@@ -284,7 +286,8 @@ FaceList read_faces(const std::filesystem::path& path) {
   const std::size_t corners = file.size();
   faces.corners = file.labels(corners);
   bool ordered = !faces.begins.empty() && faces.begins.front() == 0;
-  for (std::size_t n = 1; n < faces.begins.size(); ++n) ordered &= faces.begins[n] >= faces.begins[n - 1] + 3;
+  for (std::size_t n = 1; n < faces.begins.size(); ++n)
+    ordered = ordered && faces.begins[n] >= 3 && faces.begins[n] - 3 >= faces.begins[n - 1];
   if (!ordered || static_cast<std::size_t>(faces.begins.back()) != corners)
     file.fail("the faces' corners are not as many as it says");
   return faces;
