@@ -15,6 +15,7 @@ namespace {
 
 constexpr int lines = 5;  // a cell and direction; odd, so that one goes through the centre
 constexpr int centre_line = lines / 2;
+constexpr int finer = 3;         // points beside a hem for each line and direction
 constexpr double reach = 1.5;    // cells: hits of neighbouring lines that belong to one crossing ...
 constexpr double longest = 6.0;  // ... and what is added at most where the sheet is slanted
 
@@ -39,14 +40,14 @@ bool ended(Vec3 point, const std::vector<Hem>& hems) {
   double least = 1e300;
   bool ended = false;
   for (const Hem& hem : hems) {
-    const Vec3 along = hem.to - hem.from;
-    const double share = std::clamp(dot(point - hem.from, along) / dot(along, along), 0.0, 1.0);
-    const Vec3 apart = point - (hem.from + share * along);
-    const double distance = norm(apart);
-    if (distance > least * (1 + 1e-9)) continue;
+    const Vec3 along = hem.to - hem.from, from = point - hem.from;
+    const double share = std::clamp(dot(from, along) / dot(along, along), 0.0, 1.0);
+    const Vec3 apart = from - share * along;
+    const double square = dot(apart, apart);
+    if (square > least * (1 + 1e-9)) continue;
     const bool out = dot(apart, hem.inward) < 0;
-    ended = distance < least * (1 - 1e-9) ? out : ended || out;  // two that meet in a corner
-    least = distance;
+    ended = square < least * (1 - 1e-9) ? out : ended || out;  // two that meet in a corner
+    least = square;
   }
   return ended;
 }
@@ -69,9 +70,12 @@ class NearHem {
     return near_[index(c[0], c[1], c[2])] != 0;
   }
 
-  std::vector<Hem> about(const std::array<int, 3>& cell) const {
+  /// Those within two cells of one along an axis, and one to the sides.
+  std::vector<Hem> about(const std::array<int, 3>& cell, int axis) const {
     std::vector<Hem> result;
-    for_cells_about(cell.data(), [&](std::size_t c) {
+    std::array<int, 3> far{1, 1, 1};
+    far[axis] = 2;
+    for_cells_about(cell, far, [&](std::size_t c) {
       const auto found = in_cell_.find(c);
       if (found == in_cell_.end()) return;
       for (const std::size_t hem : found->second) result.push_back(hems_[hem]);
@@ -85,10 +89,11 @@ class NearHem {
   }
 
   template <class Visit>
-  void for_cells_about(const int* cell, const Visit& visit) const {
+  void for_cells_about(const std::array<int, 3>& cell, const std::array<int, 3>& far,
+                       const Visit& visit) const {
     int low[3], high[3];
     for (int a = 0; a < 3; ++a)
-      low[a] = std::max(cell[a] - 2, 0), high[a] = std::min(cell[a] + 2, axes_[a]->n - 1);
+      low[a] = std::max(cell[a] - far[a], 0), high[a] = std::min(cell[a] + far[a], axes_[a]->n - 1);
     for (int k = low[2]; k <= high[2]; ++k)
       for (int j = low[1]; j <= high[1]; ++j)
         for (int i = low[0]; i <= high[0]; ++i) visit(index(i, j, k));
@@ -102,7 +107,7 @@ class NearHem {
     const int steps = 1 + static_cast<int>(norm(q - p) / width);
     for (int s = 0; s <= steps; ++s) {
       const Point at = point_of(p + (static_cast<double>(s) / steps) * (q - p));
-      int cell[3];
+      std::array<int, 3> cell;
       bool outside = false;
       for (int a = 0; a < 3; ++a) {
         cell[a] = cell_at(*axes_[a], at[a]);
@@ -110,7 +115,7 @@ class NearHem {
                   at[a] > axes_[a]->edge.back() + 2 * axes_[a]->width.back();
       }
       if (outside) continue;
-      for_cells_about(cell, [&](std::size_t c) { near_[c] = 1; });
+      for_cells_about(cell, {2, 2, 2}, [&](std::size_t c) { near_[c] = 1; });
       for (int a = 0; a < 3; ++a) cell[a] = std::clamp(cell[a], 0, axes_[a]->n - 1);
       std::vector<std::size_t>& here = in_cell_[index(cell[0], cell[1], cell[2])];
       if (here.empty() || here.back() != hem) here.push_back(hem);
@@ -136,7 +141,7 @@ struct Hit {
   bool hem = false;
 };
 
-/// Position of a cell's line s along one axis.
+/// Of a cell's line s along one axis.
 double line_position(const Axis& axis, int c, int s) {
   return s == centre_line ? centre(axis, c) : axis.edge[c] + (s + 0.5) / lines * axis.width[c];
 }
@@ -298,7 +303,7 @@ class Columns {
     }
     for (std::size_t n = first; n < last; ++n) {
       if (result[n].hem)
-        result[n].cover = covered(open_lines(result[n], point_of(result[n].point), met[n - first], cu, cv));
+        result[n].cover = 1 - opening(result[n], point_of(result[n].point), met[n - first], cu, cv).share;
       const Vec3 sum = normals[n - first];
       if (norm(turned[n - first]) > 0) result[n].across = turned[n - first] / norm(turned[n - first]);
       if (!(norm(sum) > 0)) continue;
@@ -329,12 +334,14 @@ class Columns {
       if (face) {
         std::bitset<lines * lines> met;
         for (const Hit* h : across) met.set(h->line);
-        const auto open = open_lines(*face, on_line(middle->at, cu, cv, middle->line), met, cu, cv);
-        // The central line, too, has to find the sheet ended, and not bent out of the column.
-        if (open[centre_line * (lines + 1)]) {
-          face->hem = true;
-          face->cover = covered(open);
-        } else {
+        Point at;
+        at[axis_] = middle->at;
+        at[u_] = line_position(*axes_[u_], cu, middle->line % lines);
+        at[v_] = line_position(*axes_[v_], cv, middle->line / lines);
+        const Opening open = opening(*face, at, met, cu, cv);
+        face->hem = true;
+        face->cover = 1 - open.share;
+        if (!open.at_centre) {
           result.pop_back();
           face = nullptr;
         }
@@ -347,38 +354,59 @@ class Columns {
     }
   }
 
-  /// Of the lines of a column those that find the sheet of a face ended. Where a line does not meet it and it has not
-  /// ended, it has bent out of the column: there it goes on beside the face, and nothing is open. `at`: a point of the
-  /// sheet in the column.
-  std::bitset<lines * lines> open_lines(const SheetFace& face, const Point& at,
-                                        const std::bitset<lines * lines>& met, int cu, int cv) const {
-    std::bitset<lines * lines> open;
+  /// Whether the lines about one are as it is.
+  static bool alike_about(const std::bitset<lines * lines>& past, int line) {
+    const int s = line % lines, t = line / lines;
+    for (int v = std::max(t - 1, 0); v <= std::min(t + 1, lines - 1); ++v)
+      for (int u = std::max(s - 1, 0); u <= std::min(s + 1, lines - 1); ++u)
+        if (past[u + lines * v] != past[line]) return false;
+    return true;
+  }
+
+  struct Opening {
+    double share = 0;
+    bool at_centre = false;  // on the central line the sheet has ended, and not bent out of the column
+  };
+  /// What the sheet leaves open of a face. Where a line does not meet it and it has not ended, it has bent out of the
+  /// column: there it goes on beside the face, and nothing is open. `at`: a point of the sheet in the column.
+  Opening opening(const SheetFace& face, const Point& at, const std::bitset<lines * lines>& met, int cu,
+                  int cv) const {
+    Opening open;
     if (met.all()) return open;
-    const std::vector<Hem> hems = hem_.about({face.i, face.j, face.k});
+    const std::vector<Hem> hems = hem_.about({face.i, face.j, face.k}, axis_);
+    if (hems.empty()) return open;
     const Point normal = point_of(face.normal);
     const int cells[] = {face.i, face.j, face.k}, cell = cells[axis_];
-    for (int line = 0; line < lines * lines; ++line) {
-      if (met[line]) continue;
-      // In the plane through `at`, as far as that lies between the two centres.
-      Point p = on_line(at[axis_], cu, cv, line);
+    // In the plane through `at`, as far as that lies between the two centres; share_u, share_v: of the cell's width.
+    const auto ends = [&](double share_u, double share_v) {
+      Point p;
+      p[u_] = axes_[u_]->edge[cu] + share_u * axes_[u_]->width[cu];
+      p[v_] = axes_[v_]->edge[cv] + share_v * axes_[v_]->width[cv];
       const double slant =
           (normal[u_] * (p[u_] - at[u_]) + normal[v_] * (p[v_] - at[v_])) / std::max(normal[axis_], 1e-3);
       p[axis_] = std::clamp(at[axis_] - slant, centre(*axes_[axis_], cell - 1), centre(*axes_[axis_], cell));
-      open[line] = ended({p[0], p[1], p[2]}, hems);
+      return ended({p[0], p[1], p[2]}, hems);
+    };
+    std::bitset<lines * lines> past;
+    for (int line = 0; line < lines * lines; ++line)
+      past[line] = ends((line % lines + 0.5) / lines, (line / lines + 0.5) / lines);
+    const std::bitset<lines* lines> missed = past & ~met;
+    open.at_centre = missed[centre_line * (lines + 1)];
+    if (missed.none()) return open;
+    // A hem along the grid would pass the lines row by row: about it what is open is looked for more finely.
+    int points = 0;
+    for (int line = 0; line < lines * lines; ++line) {
+      if (met[line] && past[line]) continue;
+      if (alike_about(past, line)) {
+        points += past[line] ? finer * finer : 0;
+        continue;
+      }
+      for (int n = 0; n < finer * finer; ++n)
+        points += ends((line % lines + (n % finer + 0.5) / finer) / lines,
+                       (line / lines + (n / finer + 0.5) / finer) / lines);
     }
+    open.share = static_cast<double>(points) / (lines * lines * finer * finer);
     return open;
-  }
-
-  static double covered(const std::bitset<lines * lines>& open) {
-    return 1 - static_cast<double>(open.count()) / (lines * lines);
-  }
-
-  Point on_line(double at, int cu, int cv, int line) const {
-    Point point;
-    point[axis_] = at;
-    point[u_] = line_position(*axes_[u_], cu, line % lines),
-    point[v_] = line_position(*axes_[v_], cv, line / lines);
-    return point;
   }
 
   std::array<int, 3> cell_of(const Hit& h, int cu, int cv) const {
