@@ -143,7 +143,10 @@ TEST(UnsteadyRun, LeavesItsHistoryAndItsWakeInTheFolder) {
       history.column("time_s").back() - history.column("time_s").front() + history.column("step_s")[0],
       watched.time, 1e-9);
   EXPECT_GT(watched.start_up, 0);
-  EXPECT_NEAR(watched.drag, result.drag, 0.02 * result.drag) << "of steps, and of fields";
+  // Of all steps without the start-up, and of every eighth field in whole parts: the same but for what so short a watch
+  // leaves open.
+  EXPECT_GT(watched.error, 0);
+  EXPECT_NEAR(watched.drag, result.drag, watched.error);
   for (const char* name : {"history.png", "wake.png", "wake.pvd", "wake/plane_000.vti"})
     EXPECT_TRUE(fs::exists(folder.path / name)) << name;
   const SteadyFolderRun again = run_steady_in(settings, given, nobody);

@@ -5,8 +5,8 @@
 
 `ripstop steady` inflates a flat circular canopy, a ringsail (ADEPT) and Stratos IV, with cloth as specified
 and nothing calibrated, at 20 m/s, in runs/judge; finished runs cost nothing. Their shapes, held rigid, and five bodies then
-stand in both engines (bench_judge). The table is docs/tables/judge.md; the plots of the flat circular canopy go beside it,
-the others stay in runs/judge.
+stand in both engines (bench_judge). The table is docs/tables/judge.md; the plots of the cup and of the flat circular canopy
+go beside it, the others stay in runs/judge.
 """
 import argparse
 import json
@@ -59,8 +59,9 @@ def main():
     if options.names:
         return
     (ROOT / "docs/tables/judge.md").write_text("".join(lines))
-    for what in ("pressure", "wake"):
-        shutil.copy(ROOT / folder / f"flat-circular-{options.across}-{what}.svg", ROOT / f"docs/tables/judge-{what}.svg")
+    for body in ("cup", "flat-circular"):
+        for what in ("pressure", "wake"):
+            shutil.copy(ROOT / folder / f"{body}-{options.across}-{what}.svg", ROOT / f"docs/tables/judge-{body}-{what}.svg")
 
 
 if __name__ == "__main__":
