@@ -160,6 +160,7 @@ Result builtin(const Body& body, int across) {
 Result openfoam(const Body& body, int across, const std::filesystem::path& folder) {
   FlowProblem problem = problem_of(body, across / 2);
   problem.stopping.residual = 1e-4;
+  problem.stopping.max_iterations = 600;
   OpenFoamSettings settings;
   settings.folder = folder;
   settings.second_order = true;
