@@ -114,7 +114,7 @@ validate-ojf: build  ## Calibrate on Stratos IV, predict WALRUS and ADEPT blind,
 validate-families: build  ## Drag of every family's example beside Knacke's values, into docs/tables: ten minutes; resumable
 	@/usr/bin/python3 validation/families/families.py --ripstop build/bin/ripstop
 
-judge: check-deps build  ## The built-in engine beside OpenFOAM on meshes that follow the cloth, into docs/tables: about an hour
+judge: check-deps build  ## The built-in engine beside OpenFOAM on meshes that follow the cloth, into docs/tables: an hour and more
 	@cmake --preset release > /dev/null
 	@cmake --build --preset release -j $(JOBS) --target bench_judge
 	@/usr/bin/python3 validation/openfoam/judge.py --ripstop build/bin/ripstop

@@ -442,8 +442,8 @@ def stage_report(campaign):
 
 
 STAGES = {"calibrate": stage_calibrate, "predict": stage_predict, "reproduce": stage_reproduce, "sheet": stage_sheet,
-          "sheet-calibrated": stage_sheet_calibrated, "jet": stage_jet, "uncertain": stage_uncertain, "uncertain-sheet": stage_uncertain_sheet,
-          "uncertain-jet": stage_uncertain_jet, "openings": stage_openings, "compare": stage_compare,
+          "sheet-calibrated": stage_sheet_calibrated, "jet": stage_jet, "uncertain": stage_uncertain,
+          "uncertain-sheet": stage_uncertain_sheet, "uncertain-jet": stage_uncertain_jet, "openings": stage_openings, "compare": stage_compare,
           "openfoam": stage_openfoam, "report": stage_report}
 
 

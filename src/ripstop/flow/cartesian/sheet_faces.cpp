@@ -58,6 +58,8 @@ class NearHem {
   NearHem(const std::array<const Axis*, 3>& axes, const std::vector<Triangle>& surface)
       : axes_(axes), hems_(hems(surface)) {
     near_.assign(static_cast<std::size_t>(axes[0]->n) * axes[1]->n * axes[2]->n, 0);
+    for (const Axis* axis : axes)
+      least_width_ = std::min(least_width_, *std::min_element(axis->width.begin(), axis->width.end()));
     for (std::size_t hem = 0; hem < hems_.size(); ++hem) mark(hem);
   }
 
@@ -101,10 +103,7 @@ class NearHem {
 
   void mark(std::size_t hem) {
     const Vec3 p = hems_[hem].from, q = hems_[hem].to;
-    double width = 1e300;
-    for (const Axis* axis : axes_)
-      width = std::min(width, *std::min_element(axis->width.begin(), axis->width.end()));
-    const int steps = 1 + static_cast<int>(norm(q - p) / width);
+    const int steps = 1 + static_cast<int>(norm(q - p) / least_width_);
     for (int s = 0; s <= steps; ++s) {
       const Point at = point_of(p + (static_cast<double>(s) / steps) * (q - p));
       std::array<int, 3> cell;
@@ -124,6 +123,7 @@ class NearHem {
 
   std::array<const Axis*, 3> axes_;
   std::vector<Hem> hems_;
+  double least_width_ = 1e300;
   std::vector<char> near_;
   std::unordered_map<std::size_t, std::vector<std::size_t>> in_cell_;  // hems that pass through it
 };
