@@ -107,6 +107,24 @@ TEST(SheetFaces, BesideAHemAFaceIsOpenWhereTheSheetHasEndedAndNotWhereItHasBentA
   EXPECT_GT(part, 100);
 }
 
+// A hem along the grid passes all lines of a row at once.
+TEST(SheetFaces, AHemAlongTheGridCoversAFaceByAsMuchAsItPasses) {
+  const double h = 0.05;
+  const Axis x = uniform(-1, 2, 40), z = uniform(0, 2, 40);
+  for (double share = 0.2; share < 0.85; share += 0.05) {
+    const double low = -0.4, high = 0.3 + share * h;
+    const std::vector<Triangle> surface = {{{low, low, 1.013}, {high, low, 1.013}, {high, 0.5, 1.013}},
+                                           {{low, low, 1.013}, {high, 0.5, 1.013}, {low, 0.5, 1.013}}};
+    int faces = 0;
+    for (const SheetFace& f : sheet_faces(x, x, z, surface)) {
+      if (f.i != 26 || f.j < 15 || f.j > 26) continue;
+      EXPECT_NEAR(f.cover, share, 0.04) << f.j;
+      ++faces;
+    }
+    EXPECT_EQ(faces, 12) << share;
+  }
+}
+
 struct Duct {
   double drop = 0;    // of the pressure from end to end over the law's
   double ripple = 0;  // largest pressure off the two levels, a cell or more from the sheet, over the law's
