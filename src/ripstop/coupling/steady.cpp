@@ -23,6 +23,10 @@ constexpr double settled = 5e-4;
 // grows keeps some of it.
 constexpr double ledger_tolerance = 0.01;
 
+// Answers that Anderson combines. A flow that does not come to rest, jets through slots, answers the same shape now so,
+// now so; the answers after these are averaged, with steps that shrink as 1/n (Robbins and Monro 1951).
+constexpr int accelerated = 5;
+
 double largest_coefficient(const Mesh& mesh) {
   double largest = 0;
   for (const Patch& patch : mesh.patches) {
@@ -217,6 +221,11 @@ bool SteadySolver::converged(const SteadyState& state, const SteadyIteration& no
 // The next load, from the answers so far. The remainder follows the pressures' steps:
 // it has no weight of its own.
 void SteadySolver::step(SteadyState& state, const ClothLoad& answer) const {
+  const int answers = static_cast<int>(state.iterations.size()) + 1;
+  if (answers > accelerated && !state.in_time && problem_.settings.acceleration == Acceleration::anderson) {
+    state.accelerator.update = Acceleration::none;
+    state.accelerator.relaxation = problem_.settings.relaxation / (1 + answers - accelerated);
+  }
   std::vector<double> weight = area_;
   weight.resize(area_.size() + 6, 0.0);
   const std::vector<double> next =
@@ -269,6 +278,7 @@ FlowField SteadySolver::iterate(SteadyState& state, const SteadyReport& report) 
     state.in_time = true;
     state.converged = false;
     state.accelerator.update = Acceleration::none;  // differences of means over time are mostly noise
+    state.accelerator.relaxation = settings.relaxation;
   }
   return field;
 }
