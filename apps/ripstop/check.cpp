@@ -12,6 +12,7 @@
 
 #include "case_options.h"
 #include "commands.h"
+#include "progress.h"
 #include "ripstop/core/error.h"
 #include "ripstop/run/json.h"
 
@@ -66,6 +67,9 @@ void print(const Case& given, const CaseSummary& s, std::size_t warnings) {
                               s.flow_cells, 1000 * s.flow_spacing.x, 1000 * s.flow_spacing.y,
                               1000 * s.flow_spacing.z, 100 * s.blockage, s.of_jet ? " of the nozzle" : ""));
   row("memory", fmt::format("about {:.2g} GB for a steady run", 1e-9 * s.memory));
+  row("time",
+      fmt::format("about {} of one core for a steady run with the built-in engine, half to twice as usual",
+                  rough_duration(s.core_time)));
   row("air", fmt::format("{:.4g} m/s, {:.4g} kg/m3", s.air.speed, s.air.density));
   row("problems", warnings == 0 ? "none"
                                 : fmt::format("none that stops a run, {} warning{} below", warnings,

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <utility>
 
 namespace ripstop {
 
@@ -37,6 +38,15 @@ std::string duration_text(double seconds) {
   const long s = std::lround(std::max(0.0, seconds));
   if (s >= 3600) return fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
   return fmt::format("{}:{:02}", s / 60, s % 60);
+}
+
+std::string rough_duration(double seconds) {
+  const auto [value, unit] = seconds < 120    ? std::pair{seconds, "s"}
+                             : seconds < 7200 ? std::pair{seconds / 60, "min"}
+                                              : std::pair{seconds / 3600, "h"};
+  if (value < 10) return fmt::format("{:.1f} {}", value, unit);
+  const double digit = std::pow(10, std::floor(std::log10(value)) - 1);  // two of them
+  return fmt::format("{:.0f} {}", digit * std::round(value / digit), unit);
 }
 
 }  // namespace ripstop

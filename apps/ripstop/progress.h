@@ -24,5 +24,7 @@ class Progress {
 
 /// "1:05", "2:03:20".
 std::string duration_text(double seconds);
+/// Of an estimate: "50 s", "12 min", "3.1 h".
+std::string rough_duration(double seconds);
 
 }  // namespace ripstop

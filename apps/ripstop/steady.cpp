@@ -16,6 +16,7 @@
 #include "ripstop/case/assemble.h"
 #include "ripstop/case/cost.h"
 #include "ripstop/core/error.h"
+#include "ripstop/run/engine.h"
 #include "ripstop/run/report.h"
 #include "ripstop/run/steady_folder.h"
 #include "steady_terminal.h"
@@ -113,10 +114,13 @@ int dry_run(const SteadyFolderSettings& settings, const Case& given) {
   const fs::path& folder = settings.run.folder;
   check_steady_in(settings, given);
   const SteadyProblem problem = steady_problem(given);
-  fmt::print("{}: {} nodes, {} x {} x {} cells, {:.4g} m/s, {} ranks, about {:.2g} GB; would run in {}\n",
+  const Cost cost = cost_of(given);
+  // Only the built-in engine's is known well enough, and how long one is watched in time only a run knows.
+  const bool known = engine_of(given).word == engines().front().word && !given.flow.unsteady;
+  fmt::print("{}: {} nodes, {} x {} x {} cells, {:.4g} m/s, {} ranks, about {:.2g} GB{}; would run in {}\n",
              given.title, problem.mesh.node_count(), problem.flow.grid.nx, problem.flow.grid.ny,
-             problem.flow.grid.nz, problem.flow.air.speed, given.flow.ranks, 1e-9 * cost_of(given).memory,
-             folder.string());
+             problem.flow.grid.nz, problem.flow.air.speed, given.flow.ranks, 1e-9 * cost.memory,
+             known ? fmt::format(" and {} of one core", rough_duration(cost.time)) : "", folder.string());
   return 0;
 }
 

@@ -25,6 +25,29 @@ TEST(Cost, OfTheRunThatWasMeasuredIsItsMemoryAndHalfAsMuchAtMost) {
   EXPECT_LT(cost.cloth_memory, 0.1 * cost.memory);
 }
 
+// time ripstop steady examples/stratos-iv/case.toml --grid 40,40,60 --set coupling.threads=1: 11.6 s of one core.
+TEST(Cost, TimeIsAboutThatOfARunThatWasMeasuredAndGrowsWithCellsAndNodes) {
+  const auto time = [](int across, const char* nodes) {
+    Overrides overrides;
+    overrides.grid = {across, across, 3 * across / 2};
+    overrides.set = {{"parachute.mesh.cloth_nodes", nodes, "--set"}};
+    return cost_of(read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/stratos-iv/case.toml",
+                             overrides))
+        .time;
+  };
+  const double measured = time(40, "25600");
+  EXPECT_GT(measured, 0.5 * 11.6);
+  EXPECT_LT(measured, 2 * 11.6);
+  EXPECT_NEAR((time(160, "25600") - measured) / (time(80, "25600") - measured), 63 / 7.0, 1e-9);
+  EXPECT_NEAR((time(40, "102400") - measured) / (time(40, "51200") - measured), 3, 1e-9);
+  Overrides printed;
+  printed.grid = {40, 40, 60};
+  EXPECT_EQ(summarize(read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/stratos-iv/case.toml",
+                                printed))
+                .core_time,
+            measured);
+}
+
 TEST(Summary, ClothTapeLinesAndRiserAreAllThatHasMass) {
   for (const char* name : {"stratos-iv", "walrus", "adept", "flat-circular", "conical", "hemispherical",
                            "quarter-spherical", "extended-skirt", "ringslot", "cross", "elliptical"}) {

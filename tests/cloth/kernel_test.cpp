@@ -55,7 +55,7 @@ void expect_reference_forces() {
       for (bool pressed : {false, true})
         for (int variant = 0; variant < 3; ++variant) {
           const Driven d =
-              driven(degree, damping, pressed, variant != 0, variant == 1, variant == 2 ? 8.2 : 0);
+              driven(degree, damping, pressed, variant != 0, variant == 1, variant == 2 ? 0.41 * degree : 0);
           const std::vector<Vec3> force = reference_forces(d.mesh, d.options, d.loads, d.x, d.v);
           const std::vector<double> mass = reference_masses(d.mesh);
           const ClothPtr cloth = make_cloth(d.mesh, d.options);

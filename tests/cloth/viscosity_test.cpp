@@ -91,6 +91,19 @@ TEST(Viscosity, OnlyCellsWhoseDampersWouldSetTheStepLoseSomeOfTheirs) {
   EXPECT_EQ(limit_viscosity(weak, {}, weak.start, 0.97).least_share, 1);
 }
 
+TEST(Viscosity, ClothWithoutDampersIsNotAmongTheCellsThatAreReduced) {
+  const ViscosityLimit alone = [] {
+    Mesh mesh = with_small_cells(1e-6);
+    return limit_viscosity(mesh, {}, mesh.start, 0.97);
+  }();
+  Mesh mesh = with_small_cells(1e-6);
+  const auto position = [](int row, int column) { return Vec3{0.01 * column, 1 + 0.01 * row, 0}; };
+  add_patch(mesh, {.rows = 20, .columns = 20, .position = position, .rest = position}, {});
+  const ViscosityLimit beside = limit_viscosity(mesh, {}, mesh.start, 0.97);
+  EXPECT_EQ(beside.reduced_cells, alone.reduced_cells);
+  EXPECT_TRUE(mesh.patches[1].viscosity_share.empty());
+}
+
 TEST(Viscosity, ALimitOfWhatIsLimitedChangesNothing) {
   Mesh once = with_small_cells(1e-5);
   limit_viscosity(once, {}, once.start, 0.97);

@@ -82,6 +82,18 @@ TEST(Watch, TheStreamHasBeenThroughTheBoxBeforeTheMeanBegins) {
   EXPECT_GE(record.watched(), 12 / 2.0 + 20 * 0.5);
 }
 
+// The velocity of this flow is the time; parts are a quarter of the shortest watch, here half a second.
+TEST(Watch, TheMeanFieldLeavesTheStartUpOutToAPart) {
+  ForceOverTime flow([](double t) { return 10 + 0.1 * std::sin(20 * t); });
+  FlowProblem problem = stream();
+  problem.grid.size.z = 4;
+  FlowRecord record;
+  const FlowField mean = watch(flow, problem, {0.7, 0.01, 20, 200, 0.2}, record);
+  EXPECT_GE(record.start_up, 4 / 2.0);
+  EXPECT_LE(record.watched(), 8 * 0.5);  // as many parts as are kept, none of them joined yet
+  EXPECT_NEAR(mean.velocity[1].z, 0.5 * (record.start_up + record.watched()), 0.5 * 0.5);
+}
+
 TEST(FieldMean, OfTwoMeansIsThatOfAllTheirFields) {
   FieldMean all, first, second;
   const double drags[] = {3, 5, 4, 9, 2, 7, 1};

@@ -85,6 +85,11 @@ TEST_P(EveryFamily, FoldsToTheGivenRadiusWithoutStrain) {
   EXPECT_LT(strain.largest, 1e-3) << strain.part;
   EXPECT_NEAR(0.5 * (start.inner_radius + start.outer_radius) / family.radius, 1, 0.02);
   EXPECT_GT(start.outer_radius, start.inner_radius);
+  // The vent lies downstream of the skirt, whose first fold is where it was.
+  const Patch &skirt = mesh.patches.front(), &last = mesh.patches.back();
+  const Vec3 fold = start.positions[skirt.node(0, 0)], was = mesh.start[skirt.node(0, 0)];
+  EXPECT_GT(fold.x * was.x + fold.y * was.y, 0);
+  EXPECT_GT(start.positions[last.node(last.rows - 1, 0)].z, fold.z);
 }
 
 // Along a diagonal of its cells a fold crosses their other diagonals and no spring else.

@@ -95,6 +95,21 @@ TEST(Inflation, TheDampersOfTheClothAreInTheBalance) {
   EXPECT_LT(std::abs(solver.frame(state).residual), 0.01);
 }
 
+TEST(Inflation, TheDampersOfTheClothTakeLittleFromTheStep) {
+  InflationProblem problem = small_problem(500, 0.02);
+  const auto stable_step = [&](double damping) {
+    problem.settings.cloth_damping_s = damping;
+    Inflation solver(problem);
+    InflationState state = solver.start();
+    const bool limited = solver.viscosity_limit().least_share < 1;
+    EXPECT_EQ(limited, damping > 0);
+    return solver.frame(state).stable_step;
+  };
+  const double without = stable_step(0);
+  // The canopy's own damping takes a thousandth more.
+  EXPECT_GT(stable_step(1e-4) / without, 0.995 * problem.settings.cloth_damping_step_share);
+}
+
 TEST(Inflation, ASymmetricStartOpensSymmetrically) {
   Inflation solver(small_problem(500, 0.02));
   InflationState state = solver.start();

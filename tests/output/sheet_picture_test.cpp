@@ -65,8 +65,16 @@ TEST(SheetPicture, ShowsEveryCellInItsColourAndTheOutlineAsItWasCut) {
 }
 
 TEST(SheetPicture, AValueForEveryCellIsAskedFor) {
-  Mesh mesh;
-  EXPECT_THROW(write_sheet_picture("nowhere.png", mesh, {}, {"", "", {1}, {}}), Error);
+  const auto refused = [](const std::vector<Vec3>& positions, const std::vector<double>& values) {
+    try {
+      write_sheet_picture("nowhere.png", Mesh(), positions, {"", "", values, {}});
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string("drawn");
+  };
+  EXPECT_EQ(refused({}, {1}), "a picture of 0 cells and 0 nodes got 1 values and 0 positions");
+  EXPECT_EQ(refused({{}, {}}, {}), "a picture of 0 cells and 0 nodes got 0 values and 2 positions");
 }
 
 }  // namespace

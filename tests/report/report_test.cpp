@@ -182,6 +182,37 @@ TEST(ReportPage, SaysOfEveryRunWhatMadeIt) {
   EXPECT_TRUE(runs.at(1).at("provenance").empty());
 }
 
+TEST(ReportPage, HasTheStreamlinesByTheirPointsWithTheSpeedAtEach) {
+  Report report;
+  report.runs.resize(1);
+  FlowView& flow = report.runs[0].flow;
+  flow.pressure = {1, 2}, flow.speed = {3, 4};
+  flow.streamlines = {0.1, -2, 30, 0.2, -1, 20, 0.3, 4, 25, 0.4, 5, 40};
+  flow.lengths = {3, 1};
+  flow.streamline_speed = {10, 12, 11, 9};
+  const json page = data_of(report).at("runs")[0].at("flow");
+  const auto values = [&](const char* key, std::size_t components) {
+    const json& packed = page.at(key);
+    EXPECT_EQ(packed.at("components"), components) << key;
+    const std::size_t count = packed.at("n");
+    std::vector<double> found;
+    for (const std::uint32_t step : unpacked(packed.at("data"), count, components, packed.at("bytes"))) {
+      const std::size_t k = found.size() % components;
+      found.push_back(packed.at("low")[k].get<double>() + packed.at("step")[k].get<double>() * step);
+    }
+    return found;
+  };
+  const std::vector<double> points = values("streamlines", 3), speed = values("streamlineSpeed", 1);
+  ASSERT_EQ(points.size(), flow.streamlines.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double span = i % 3 == 0 ? 0.3 : i % 3 == 1 ? 7 : 20;
+    EXPECT_NEAR(points[i], flow.streamlines[i], 1e-4 * span) << i;
+  }
+  ASSERT_EQ(speed.size(), 4u);
+  EXPECT_NEAR(speed[1], 12, 0.01);
+  EXPECT_EQ(page.at("lengths").at("n"), 2);
+}
+
 TEST(ReportPage, HasEveryFrameOfASmallOpeningInItsOrder) {
   Report report;
   report.runs.resize(1);

@@ -92,6 +92,19 @@ TEST(RunMargins, TheRisersLoadIsWhatHangsOnItHoweverManyPiecesItHas) {
   }
 }
 
+TEST(Payload, WithoutASpeedTheSearchBeginsWhereTheFamilysUsualDragHoldsIt) {
+  Case given = square_law_case(falling("3"));
+  given.flow.speed_m_s.reset();
+  struct First : SteadyObserver {
+    double speed = 0;
+    void begin(const SteadyRun& run, SteadyState&) override { speed = *run.given.flow.speed_m_s; }
+  } first;
+  const SteadyResult r = run_steady(given, first).result;
+  EXPECT_DOUBLE_EQ(first.speed, payload_first_speed(given, 1.1));
+  EXPECT_TRUE(r.converged);
+  EXPECT_NEAR(r.speed / closed_form(given), 1, payload_tolerance);
+}
+
 TEST(Payload, WhereTheSearchBeginsDoesNotMatter) {
   SteadyObserver nobody;
   const auto from = [&](const char* speed) {

@@ -30,12 +30,13 @@ class RunReport : public testing::Test {
     runs = std::make_unique<TemporaryFolder>("ripstop-runs-for-reports");
     SteadyObserver nobody;
     for (const auto& [name, speed] : {std::pair{"a", 10.0}, {"b", 20.0}})
-      run_steady_in({{runs->path / name}, 1, {}, {}}, small(speed), nobody);
+      run_steady_in({{runs->path / name}, 1, {}, {}}, small(name, speed), nobody);
   }
   static void TearDownTestSuite() { runs.reset(); }
 
-  static Case small(double speed) {
+  static Case small(const std::string& title, double speed) {
     Case given = read_case(fs::path(RIPSTOP_SOURCE_DIR) / "examples/stratos-iv/case.toml");
+    given.title = title;
     given.parachute.mesh.cloth_nodes = 600;
     given.parachute.mesh.line_segment_m = 0.3;
     given.flow.cells = std::array{16, 16, 24};
@@ -83,10 +84,10 @@ TEST_F(RunReport, ThatCannotBeWrittenLeavesTheRunToBeRepeated) {
   fs::remove(folder / "report.html");
   fs::create_directories(folder / "report.html");  // no file can take its place
   SteadyObserver nobody;
-  EXPECT_THROW(run_steady_in({{folder}, 1, {}, {}}, small(10), nobody), Error);
+  EXPECT_THROW(run_steady_in({{folder}, 1, {}, {}}, small("a", 10), nobody), Error);
   EXPECT_FALSE(is_sealed(folder));
   fs::remove(folder / "report.html");
-  run_steady_in({{folder}, 1, {}, {}}, small(10), nobody);
+  run_steady_in({{folder}, 1, {}, {}}, small("a", 10), nobody);
   EXPECT_TRUE(finished_result(folder));
   EXPECT_TRUE(is_report(read_file(folder / "report.html")));
 }
@@ -129,8 +130,10 @@ TEST_F(RunReport, HasEveryNumberOfItsResult) {
 
 TEST_F(RunReport, ComparesRunsAndRefusesWhatIsNoRunOrNoReport) {
   const fs::path a = run("a"), b = run("b"), out = root.path / "both.html";
+  EXPECT_EQ(write_report({a}, out), out);
+  EXPECT_NE(read_file(out).find("<title>a</title>"), std::string::npos);
   EXPECT_EQ(write_report({a, b}, out), out);
-  EXPECT_EQ(write_report({a, b}, out), out);
+  EXPECT_NE(read_file(out).find("<title>2 runs</title>"), std::string::npos);
   const Report report = report_on({report_of(a), report_of(b)}, "both");
   ASSERT_EQ(report.runs.size(), 2u);
   EXPECT_EQ(report.runs[1].name, "b");

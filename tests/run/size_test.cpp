@@ -91,8 +91,8 @@ TEST(Size, VerifyChangesTheDiameterUntilTheRateHolds) {
   SizeResult r = run_size(asked);
   const double before = r.nominal_diameter, coefficient = 0.9 * r.drag_coefficient;
   int runs = 0;
-  const auto fly = [&](const Case& given, int) {
-    ++runs;
+  const auto fly = [&](const Case& given, int run) {
+    EXPECT_EQ(run, ++runs);
     SteadyResult flown;
     flown.converged = true;
     flown.drag_coefficient = coefficient;

@@ -109,6 +109,28 @@ TEST(UnsteadyRun, KilledBetweenIterationsItGoesOnBitForBit) {
   EXPECT_EQ(loaded->state.watched.time, undisturbed.watched.time);
 }
 
+// Uneven steps, the first two of them the start-up.
+TEST(UnsteadyRun, TheMeanInItsPlotEndsAtThatOfItsRecord) {
+  FlowRecord record;
+  double time = 0, sum = 0;
+  for (int n = 0; n < 6; ++n) {
+    FlowStep step;
+    step.length = 0.1 * (1 + n % 2);
+    step.time = time += step.length;
+    step.force = {0.1 * n, -0.2 * n, 10. + n * n};
+    if (n >= 2) sum += step.length * step.force.z;
+    record.steps.push_back(step);
+  }
+  record.start_up = 0.3 + 1e-9;
+  const Plot plot = history_plot("canopy", record);
+  ASSERT_EQ(plot.series.size(), 4u);
+  EXPECT_EQ(plot.series[0].y, (std::vector<double>{10, 11, 14, 19, 26, 35}));
+  ASSERT_EQ(plot.series[1].y.size(), 4u);
+  EXPECT_NEAR(plot.series[1].y.back(), sum / 0.6, 1e-12);
+  EXPECT_NEAR(plot.series[1].x.back(), 0.9, 1e-12);
+  EXPECT_DOUBLE_EQ(plot.series[3].y.back(), -1);
+}
+
 TEST(UnsteadyRun, WithoutAStepItLeavesNoHistory) {
   const TemporaryFolder folder("unwatched");
   ClaimedFolder claimed(folder.path / "run");

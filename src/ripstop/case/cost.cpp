@@ -17,6 +17,11 @@ namespace {
 constexpr double bytes_a_cell = 700, bytes_a_run = 2e8;
 // Measured (time -f %M): 360 MB for 400,000 nodes of cloth (fabric), 716 MB for 900,000 of lines (check).
 constexpr double bytes_a_node = 1000;
+// About the means of 32 runs on 627,200 cells with 8,000 to 50,300 nodes (iterations.csv of make validate-ojf, families
+// and judge), one core each beside other work: 27 of them took half to twice what this says, the quickest a quarter, a
+// cross that needed 12 coupling iterations five times.
+constexpr double flow_iterations = 600, cell_time = 1e-7;  // of a cell and iteration [core s]
+constexpr double cloth_steps = 25000, node_time = 1.5e-8;  // of a node and step [core s]
 
 /// The number behind `name` in a file of lines "name value", nothing where there is none.
 std::optional<double> number_in(const char* file, const std::string& name) {
@@ -48,6 +53,7 @@ Cost cost_of(const Case& given) {
   cost.cells = double(flow.cells[0]) * flow.cells[1] * flow.cells[2];
   cost.cloth_memory = bytes_a_node * cost.nodes;
   cost.memory = bytes_a_run + cost.cloth_memory + bytes_a_cell * cost.cells;
+  cost.time = flow_iterations * cell_time * cost.cells + cloth_steps * node_time * cost.nodes;
   return cost;
 }
 

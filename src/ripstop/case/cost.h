@@ -12,6 +12,7 @@ struct Cost {
   double cells = 0;         // of the flow
   double cloth_memory = 0;  // of all that computes the canopy alone [bytes]
   double memory = 0;        // of a steady run with the built-in engine [bytes]
+  double time = 0;          // of the same to rest on one core [s]; half to twice as much is usual
 };
 Cost cost_of(const Case& given);
 

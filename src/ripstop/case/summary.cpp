@@ -45,7 +45,8 @@ void count_springs(const Mesh& mesh, CaseSummary& summary) {
 
 CaseSummary summarize(const Case& given) {
   CaseSummary summary;
-  summary.memory = cost_of(given).memory;
+  const Cost cost = cost_of(given);
+  summary.memory = cost.memory, summary.core_time = cost.time;
   const CanopyMesh mesh = parachute_mesh(given);
   for (const Patch& patch : mesh.patches) {
     summary.cloth_nodes += patch.rows * patch.columns;

@@ -27,10 +27,11 @@ struct CaseSummary {
   std::string smallest_part;     // where it is
   StepBound step;                // of the start shape
   long long flow_cells = 0;
-  Vec3 flow_spacing;    // [m]
-  double memory = 0;    // of a steady run, about [bytes]
-  double blockage = 0;  // disk of the start shape's diameter over the cross-section of the box or the nozzle
-  bool of_jet = false;  // of the nozzle
+  Vec3 flow_spacing;     // [m]
+  double memory = 0;     // of a steady run, about [bytes]
+  double core_time = 0;  // of the same with the built-in engine to rest, see Cost::time [s]
+  double blockage = 0;   // disk of the start shape's diameter over the cross-section of the box or the nozzle
+  bool of_jet = false;   // of the nozzle
   Air air;
 };
 

@@ -13,7 +13,7 @@ namespace ripstop {
 namespace {
 
 /// A field on the cells of a rectilinear grid, trilinear between their centres.
-struct Field {
+struct GridField {
   std::array<std::vector<double>, 3> edges;  // [m]
   std::vector<double> pressure, velocity;    // one, three a cell
 
@@ -30,7 +30,7 @@ struct Between {
   std::size_t low, high;
   double weight;  // of high
 };
-Between between(const Field& field, std::size_t axis, double x) {
+Between between(const GridField& field, std::size_t axis, double x) {
   const std::vector<double>& edges = field.edges[axis];
   const std::size_t last = field.count(axis) - 1;
   const auto above =
@@ -43,7 +43,7 @@ Between between(const Field& field, std::size_t axis, double x) {
   return {low, high, std::clamp((x - from) / (to - from), 0.0, 1.0)};
 }
 
-Sample sample(const Field& field, Vec3 at) {
+Sample sample(const GridField& field, Vec3 at) {
   const Between x = between(field, 0, at.x), y = between(field, 1, at.y), z = between(field, 2, at.z);
   Sample sum;
   for (int corner = 0; corner < 8; ++corner) {
@@ -59,7 +59,7 @@ Sample sample(const Field& field, Vec3 at) {
   return sum;
 }
 
-Field read_field(const std::filesystem::path& path) {
+GridField read_field(const std::filesystem::path& path) {
   VtkFile file = read_vtk(path);
   const VtkData* pressure = file.find("CellData", "pressure_pa");
   const VtkData* velocity = file.find("CellData", "velocity_m_per_s");
@@ -71,7 +71,7 @@ Field read_field(const std::filesystem::path& path) {
   return {file.edges, pressure->values, velocity->values};
 }
 
-double narrowest(const Field& field) {
+double narrowest(const GridField& field) {
   double width = field.edges[0].back() - field.edges[0].front();
   for (const std::vector<double>& edges : field.edges)
     for (std::size_t i = 1; i < edges.size(); ++i) width = std::min(width, edges[i] - edges[i - 1]);
@@ -86,7 +86,7 @@ struct Box {
 };
 
 /// A diameter about the canopy, more behind it, as far as the flow's own box goes.
-Box surroundings(const Field& field, Vec3 low, Vec3 high) {
+Box surroundings(const GridField& field, Vec3 low, Vec3 high) {
   const double wide = std::max(high.x - low.x, high.y - low.y);
   const Vec3 first{field.edges[0].front(), field.edges[1].front(), field.edges[2].front()};
   const Vec3 last{field.edges[0].back(), field.edges[1].back(), field.edges[2].back()};
@@ -97,7 +97,7 @@ Box surroundings(const Field& field, Vec3 low, Vec3 high) {
 }
 
 /// Midpoint rule, dx/ds = u/|u| over steps of `step`; `way` -1 goes upstream.
-std::vector<Vec3> streamline(const Field& field, const Box& box, Vec3 at, double step, double way,
+std::vector<Vec3> streamline(const GridField& field, const Box& box, Vec3 at, double step, double way,
                              double slowest) {
   std::vector<Vec3> points;
   constexpr int most = 2400;
@@ -112,7 +112,7 @@ std::vector<Vec3> streamline(const Field& field, const Box& box, Vec3 at, double
   return points;
 }
 
-void add_streamline(FlowView& view, const Field& field, const std::vector<Vec3>& points) {
+void add_streamline(FlowView& view, const GridField& field, const std::vector<Vec3>& points) {
   constexpr std::size_t kept = 3;  // every so many points; the line is drawn straight in between
   if (points.size() < 4 * kept) return;
   int length = 0;
@@ -123,7 +123,7 @@ void add_streamline(FlowView& view, const Field& field, const std::vector<Vec3>&
   view.lengths.push_back(length);
 }
 
-void add_streamlines(FlowView& view, const Field& field, const Box& box, Vec3 low, Vec3 high) {
+void add_streamlines(FlowView& view, const GridField& field, const Box& box, Vec3 low, Vec3 high) {
   const Vec3 middle = 0.5 * (low + high);
   const double radius = 0.25 * (high.x - low.x + high.y - low.y), step = 0.02 * radius;
   const double slowest = 1e-3 * norm(sample(field, {middle.x, middle.y, box.low.z}).velocity);
@@ -143,7 +143,7 @@ void add_streamlines(FlowView& view, const Field& field, const Box& box, Vec3 lo
 }  // namespace
 
 FlowView read_flow(const std::filesystem::path& file, Vec3 low, Vec3 high, int most_cells) {
-  const Field field = read_field(file);
+  const GridField field = read_field(file);
   const Box box = surroundings(field, low, high);
   const Vec3 size = box.high - box.low;
   const double h = std::max(narrowest(field), std::cbrt(size.x * size.y * size.z / most_cells));

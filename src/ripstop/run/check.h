@@ -52,6 +52,7 @@ void each_member(T& s, Visit&& visit) {
   visit("flow_cells", s.flow_cells);
   visit("flow_spacing_m", s.flow_spacing);
   visit("memory_bytes", s.memory);
+  visit("core_time_s", s.core_time);
   visit("blockage", s.blockage);
   visit("speed_m_s", s.air.speed);
   visit("density_kg_m3", s.air.density);

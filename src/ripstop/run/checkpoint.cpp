@@ -48,7 +48,6 @@ std::vector<std::string> in_turn(const fs::path& folder) {
     if (read_sealed(folder / "current") == names[1]) std::swap(names[0], names[1]);
   } catch (const Error&) {  // damaged, or never written: any whole one will do
   }
-  std::erase_if(names, [&](const std::string& name) { return !fs::exists(folder / name / "state"); });
   return names;
 }
 

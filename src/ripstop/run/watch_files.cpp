@@ -25,34 +25,6 @@ void write_history(ClaimedFolder& folder, const FlowRecord& record) {
   write_csv(folder.own("history.csv"), table);
 }
 
-void plot_history(ClaimedFolder& folder, const Case& given, const FlowRecord& record) {
-  Plot plot;
-  plot.title = fmt::format("{}: drag {:.1f} N, standard error {:.2g} N", given.title, record.drag.mean,
-                           record.drag.standard_error);
-  plot.x.label = "time [s]";
-  plot.y.label = "force [N]";
-  const char* names[] = {"drag", "its mean so far, without the start-up", "side force along x",
-                         "side force along y"};
-  for (const char* name : names) plot.series.emplace_back().name = name;
-  for (PlotSeries& series : plot.series) series.markers = false;
-  plot.series[1].dashed = true;
-  const double begin = record.steps.front().time - record.steps.front().length;
-  const std::size_t every = std::max<std::size_t>(1, record.steps.size() / most_plotted);
-  double sum = 0, since = 0;
-  for (std::size_t n = 0; n < record.steps.size(); ++n) {
-    const FlowStep& step = record.steps[n];
-    const double time = step.time - begin;
-    if (time > record.start_up) sum += step.length * step.force.z, since += step.length;
-    if (n % every != 0) continue;
-    const auto add = [&](int series, double value) {
-      plot.series[series].x.push_back(time), plot.series[series].y.push_back(value);
-    };
-    add(0, step.force.z), add(2, step.force.x), add(3, step.force.y);
-    if (since > 0) add(1, sum / since);
-  }
-  write_plot(folder.own("history.png"), plot);
-}
-
 void write_wake(ClaimedFolder& folder, const Case& given, const FlowRecord& record) {
   if (record.slices.empty()) return;
   make_folder(folder.path() / "wake");
@@ -77,10 +49,38 @@ void write_wake(ClaimedFolder& folder, const Case& given, const FlowRecord& reco
 
 }  // namespace
 
+Plot history_plot(const std::string& title, const FlowRecord& record) {
+  Plot plot;
+  plot.title = fmt::format("{}: drag {:.1f} N, standard error {:.2g} N", title, record.drag.mean,
+                           record.drag.standard_error);
+  plot.x.label = "time [s]";
+  plot.y.label = "force [N]";
+  const char* names[] = {"drag", "its mean so far, without the start-up", "side force along x",
+                         "side force along y"};
+  for (const char* name : names) plot.series.emplace_back().name = name;
+  for (PlotSeries& series : plot.series) series.markers = false;
+  plot.series[1].dashed = true;
+  const double begin = record.steps.front().time - record.steps.front().length;
+  const std::size_t every = std::max<std::size_t>(1, record.steps.size() / most_plotted);
+  double sum = 0, since = 0;
+  for (std::size_t n = 0; n < record.steps.size(); ++n) {
+    const FlowStep& step = record.steps[n];
+    const double time = step.time - begin;
+    if (time > record.start_up) sum += step.length * step.force.z, since += step.length;
+    if (n % every != 0) continue;
+    const auto add = [&](int series, double value) {
+      plot.series[series].x.push_back(time), plot.series[series].y.push_back(value);
+    };
+    add(0, step.force.z), add(2, step.force.x), add(3, step.force.y);
+    if (since > 0) add(1, sum / since);
+  }
+  return plot;
+}
+
 void write_watch(ClaimedFolder& folder, const Case& given, const FlowRecord& record) {
   if (record.steps.empty()) return;
   write_history(folder, record);
-  plot_history(folder, given, record);
+  write_plot(folder.own("history.png"), history_plot(given.title, record));
   write_wake(folder, given, record);
 }
 

@@ -1,0 +1,37 @@
+#include <gtest/gtest.h>
+
+#include "ripstop/canopy/stress.h"
+
+namespace ripstop {
+namespace {
+
+// Cells of 1, 2 and 5 m2 and a hole beside them.
+TEST(StressPeak, SharesAreOfTheClothsAreaAndPeaksOfItsCells) {
+  Mesh mesh;
+  Patch patch;
+  patch.name = "sheet";
+  patch.rows = 2;
+  patch.columns = 5;
+  patch.cell_area = {1, 2, 5, 0, 0};
+  mesh.patches = {patch};
+  for (const double y : {0., 1.})
+    for (const double x : {0., 1., 3., 8., 9.}) mesh.start.push_back({x, y, 0});
+  std::vector<CellStress> stress(5);
+  stress[0] = {30, 10, 26, {1, 0, 0}, 30, 10, Tautness::taut, 0.02};
+  stress[1] = {40, 0, 40, {0, 1, 0}, 5, 40, Tautness::wrinkled, 0.03};
+  stress[2] = {0, 0, 0, {}, 0, 0, Tautness::slack, -0.01};
+  const StressPeak peak = stress_peak(mesh, mesh.start, stress);
+  EXPECT_DOUBLE_EQ(peak.wrinkled, 2. / 8);
+  EXPECT_DOUBLE_EQ(peak.slack, 5. / 8);
+  EXPECT_EQ(peak.principal, 40);
+  EXPECT_EQ(peak.principal_direction, (Vec3{0, 1, 0}));
+  EXPECT_EQ(peak.warp, 30);
+  EXPECT_EQ(peak.weft, 40);
+  EXPECT_EQ(peak.strain, 0.03);
+  EXPECT_EQ(peak.von_mises, 40);
+  EXPECT_EQ(peak.patch, "sheet");
+  EXPECT_EQ(peak.place, (Vec3{2, 0.5, 0}));
+}
+
+}  // namespace
+}  // namespace ripstop
