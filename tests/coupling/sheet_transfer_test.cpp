@@ -246,7 +246,8 @@ TEST(SheetTransfer, WhatAFaceLosesInAFoldThinnerThanACellIsNotBelieved) {
     return std::abs(a.point.x - b.point.x) + std::abs(a.point.y - b.point.y) < 1e-9;
   };
   const auto layers = [&](const SheetLoad& load) {
-    return std::count_if(loads.begin(), loads.end(), [&](const SheetLoad& o) { return same_column(load, o); });
+    return std::count_if(loads.begin(), loads.end(),
+                         [&](const SheetLoad& o) { return same_column(load, o); });
   };
   int folded = 0;
   for (SheetLoad& load : loads)

@@ -81,7 +81,7 @@ class Stepper {
   double dt_;
   bool damped_, sums_wanted_, damped_lattice_ = false;
   AlignedDoubles pressure_, node_force_;
-  AlignedDoubles hold_at_, hold_stiffness_;  // in vector layout; empty: not held
+  AlignedDoubles hold_at_, hold_stiffness_;            // in vector layout; empty: not held
   AlignedDoubles inverse_mass_, area_;                 // by slot; 0 for kept nodes; no areas: no damping
   std::vector<double> kept_inverse_mass_, kept_area_;  // by kept node; 0: does not move
   AlignedDoubles inverse_tensor_;                      // of a relaxation, see RowRelaxation; by slot
