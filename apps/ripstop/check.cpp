@@ -54,8 +54,9 @@ void print(const Case& given, const CaseSummary& s, std::size_t warnings) {
   row("cloth", fmt::format("{:.4f} m2 as cut, {:.4f} m2 as meshed", s.computed_area, s.cloth_area));
   row("open", fmt::format("{:.2f} % geometric porosity: vent {:.4f} m2, slots and gaps {:.4f} m2",
                           100 * s.geometric_porosity, s.vent_area, s.slot_area));
-  row("mass", fmt::format("{:.4f} kg: cloth {:.4f}, tape {:.4f}, lines {:.4f}, riser {:.4f}", s.mass.total,
-                          s.mass.cloth, s.mass.tape, s.mass.lines, s.mass.riser));
+  row("mass",
+      fmt::format("{:.4f} kg: cloth {:.4f}, tape {:.4f} ({:.0f} %), lines {:.4f}, riser {:.4f}", s.mass.total,
+                  s.mass.cloth, s.mass.tape, 100 * s.mass.tape / s.mass.total, s.mass.lines, s.mass.riser));
   row("nodes", fmt::format("{}, of these {} of cloth ({} asked for, {} resolve its size)", s.nodes,
                            s.cloth_nodes, given.parachute.mesh.cloth_nodes, s.resolved_cloth_nodes));
   row("springs",

@@ -157,11 +157,13 @@ int run(const SteadyArguments& options) {
   print_case_warnings(given);
   print_material_warnings(given, result.stress.strain);
   if (!result.converged)
-    fmt::print(stderr,
-               "not converged within {} coupling iterations: drag still changed by {:.2g} (wanted {:.2g}), "
-               "shape by {:.2g} m (wanted {:.2g}), or the ledger is not closed within 1 %\n",
-               result.iterations, result.last.drag_change, coupling.drag_tolerance, result.last.shape_change,
-               coupling.shape_tolerance_m);
+    fmt::print(
+        stderr,
+        "not converged within {} coupling iterations: drag still changed by {:.2g} (wanted {:.2g}), "
+        "shape by {:.2g} m (wanted {:.2g}), the ledger is not closed within 1 %, or slack cloth is held to "
+        "the last shape by {:.2g} of the load (2 % at most)\n",
+        result.iterations, result.last.drag_change, coupling.drag_tolerance, result.last.shape_change,
+        coupling.shape_tolerance_m, result.last.cloth_held);
   return status;
 }
 

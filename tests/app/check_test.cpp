@@ -109,10 +109,10 @@ TEST_F(Check, AMeshTooCoarseForTheCanopysSizeIsSaid) {
   const Finished fine = ripstop_with({"check", write("fine.toml", text).string()});
   EXPECT_EQ(fine.code, 0);
   EXPECT_EQ(fine.output.find("warning"), std::string::npos) << fine.output;
-  text.replace(at, 19, "cloth_nodes = 4000");
+  text.replace(at, 19, "cloth_nodes = 1000");
   const Finished coarse = ripstop_with({"check", write("coarse.toml", text).string()});
   EXPECT_EQ(coarse.code, 0);
-  EXPECT_NE(coarse.output.find("warning: parachute.mesh.cloth_nodes = 4000"), std::string::npos)
+  EXPECT_NE(coarse.output.find("warning: parachute.mesh.cloth_nodes = 1000"), std::string::npos)
       << coarse.output;
   // It does not say "none" beside a warning.
   EXPECT_NE(fine.output.find("problems           none\n"), std::string::npos) << fine.output;

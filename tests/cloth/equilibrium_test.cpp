@@ -393,5 +393,29 @@ TEST(ClothEquilibrium, RelaxationEndsOnTheResidualItReportsAndIsTheSameOnAnyNumb
   }
 }
 
+// Nothing else holds it: under a force on every node by its area the cloth goes as far as f / hold, wrinkled or not.
+TEST(ClothEquilibrium, HeldClothGoesAsFarAsItsHoldLets) {
+  for (const double buckling : {1e-6, std::numeric_limits<double>::infinity()}) {
+    FabricSpec fabric;
+    fabric.buckling_strain = buckling;
+    const Mesh mesh = rectangle(9, 13, 0.02, fabric);
+    const ClothPtr cloth = make_cloth(mesh);
+    const Vec3 by_area{30, 0, -40};  // [Pa]
+    Loads loads;
+    for (const double mass : mesh.mass) loads.node_force.push_back(mass / fabric.areal_density * by_area);
+    ClothState state = start_state(*cloth);
+    ThreadTeam team(1);
+    RelaxOptions options;
+    options.tolerance = 1e-8;
+    options.hold = 1000;
+    const RelaxResult result = relax(state, *cloth, loads, options, team);
+    EXPECT_TRUE(result.converged) << result.residual;
+    EXPECT_NEAR(result.held, 1, 1e-6);
+    const std::vector<Vec3> x = positions(state, *cloth);
+    for (std::size_t node = 0; node < x.size(); ++node)
+      EXPECT_LT(norm(x[node] - mesh.start[node] - by_area / options.hold), 1e-8) << node;
+  }
+}
+
 }  // namespace
 }  // namespace ripstop

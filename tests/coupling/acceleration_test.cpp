@@ -67,6 +67,20 @@ TEST(Accelerator, AFixedPointStaysWhereItIs) {
   EXPECT_EQ(accelerator.next(x, x, weight), x);
 }
 
+TEST(Accelerator, AnswersThatJitterAreAveraged) {
+  Accelerator accelerator;
+  const std::vector<double> weight(3, 1.0);
+  std::vector<double> x(3, 7.0);
+  double sum = 7;
+  const double answers[] = {104, 96, 101, 99, 95, 105};
+  for (int n = 0; n < 6; ++n) {
+    accelerator.average(1);
+    x = accelerator.next(x, std::vector<double>(3, answers[n]), weight);
+    sum += answers[n];
+    EXPECT_NEAR(x.front(), sum / (n + 2), 1e-12 * sum) << n;
+  }
+}
+
 TEST(Accelerator, ACopyGoesOnAsTheOriginalDoes) {
   Accelerator original;
   std::vector<double> x(8, 0.0);

@@ -29,7 +29,14 @@ std::vector<std::pair<int, int>> neighbours(const std::vector<Cell>& cells) {
 }
 
 struct Canopy {
-  Mesh mesh = parachute_mesh(example("flat-circular", 3000));
+  explicit Canopy(PorosityModel model) : mesh(mesh_of(model)) {}
+  static Mesh mesh_of(PorosityModel model) {
+    Case given = example("flat-circular", 3000);
+    given.flow.porosity_model = model;
+    return parachute_mesh(given);
+  }
+
+  Mesh mesh;
   std::vector<Cell> cells = cells_of(mesh);
   BlownUp blown = blown_up(mesh, 240, 1e-4);
   std::vector<Vec3> x = blown.positions();
@@ -62,10 +69,11 @@ double root_mean_square(const std::vector<double>& values) {
   return std::sqrt(sum / double(values.size()));
 }
 
-// 6.7 cm of air to 1.7 cm of cloth. What neighbouring cells' stresses differ by beyond what they do under the smooth
-// pressure is the staircase. Each face's force left on the cell that its point is in shows that it would be seen.
-TEST(StressStaircase, StressUnderAirOfCoarseCellsIsThatUnderTheSmoothPressure) {
-  const Canopy canopy;
+enum class Handing { load_of_flow, left_where_it_is };
+
+/// By how much neighbouring cells' stresses differ beyond what they do under the smooth pressure, over the stress.
+double staircase(PorosityModel model, Handing handing) {
+  const Canopy canopy(model);
   const double skirt = canopy.skirt();
   const FlowGrid grid{{-0.803, -0.797, skirt - 0.3}, {1.6, 1.6, 0.8}, 24, 24, 12};
   const Field drop = [&](Vec3 p) {
@@ -75,33 +83,39 @@ TEST(StressStaircase, StressUnderAirOfCoarseCellsIsThatUnderTheSmoothPressure) {
   const std::vector<SheetLoad> faces = loads_of(surface, grid, drop);
   const std::size_t count = canopy.cells.size();
 
-  Loads smooth{std::vector<double>(count), {}}, left{std::vector<double>(count), {}};
+  Loads smooth{std::vector<double>(count), {}}, handed{std::vector<double>(count), {}};
   for (std::size_t c = 0; c < count; ++c) {
     Vec3 centre;
     for (const int node : canopy.cells[c].corner) centre += 0.25 * canopy.x[node];
     smooth.cell_pressure[c] = drop(centre);
   }
-  const std::size_t triangles_a_cell = surface.size() / count;
-  for (const SheetLoad& face : faces) {
-    const std::size_t c = face.triangle / triangles_a_cell;
-    double area = 0;
-    for (std::size_t k = 0; k < triangles_a_cell; ++k) area += area_of(surface[c * triangles_a_cell + k]);
-    left.cell_pressure[c] += dot(face.force, face.outward) / area;
+  if (handing == Handing::load_of_flow) {
+    handed.cell_pressure = load_of_flow(faces, grid, surface, canopy.cells, canopy.x).pressure;
+  } else {
+    const std::size_t triangles_a_cell = surface.size() / count;
+    for (const SheetLoad& face : faces) {
+      const std::size_t c = face.triangle / triangles_a_cell;
+      double area = 0;
+      for (std::size_t k = 0; k < triangles_a_cell; ++k) area += area_of(surface[c * triangles_a_cell + k]);
+      handed.cell_pressure[c] += dot(face.force, face.outward) / area;
+    }
   }
-  const Loads handed{load_of_flow(faces, grid, surface, canopy.cells, canopy.x).pressure, {}};
+  const std::vector<double> exact = canopy.stress_under(smooth), got = canopy.stress_under(handed);
+  std::vector<double> jumps;
+  for (const auto& [a, b] : canopy.pairs) jumps.push_back(got[a] - exact[a] - got[b] + exact[b]);
+  return root_mean_square(jumps) / root_mean_square(exact);
+}
 
-  const std::vector<double> exact = canopy.stress_under(smooth);
-  const auto staircase = [&](const Loads& loads) {
-    const std::vector<double> got = canopy.stress_under(loads);
-    std::vector<double> jumps;
-    for (const auto& [a, b] : canopy.pairs) jumps.push_back(got[a] - exact[a] - got[b] + exact[b]);
-    return root_mean_square(jumps) / root_mean_square(exact);
-  };
-  const double of_flow = staircase(handed), of_faces = staircase(left);
+// 6.7 cm of air to 1.7 cm of cloth. Each face's force left on the cell that its point is in shows that a staircase would
+// be seen, in cloth that pushes: slack cloth finds no equilibrium under it.
+TEST(StressStaircase, StressUnderAirOfCoarseCellsIsThatUnderTheSmoothPressure) {
+  const double of_flow = staircase(PorosityModel::sheet, Handing::load_of_flow);
+  const double pushing = staircase(PorosityModel::paper, Handing::load_of_flow);
   RecordProperty("of_flow", std::to_string(of_flow));
-  RecordProperty("of_faces", std::to_string(of_faces));
+  RecordProperty("pushing", std::to_string(pushing));
   EXPECT_LT(of_flow, 0.005);
-  EXPECT_GT(of_faces, 0.05);
+  EXPECT_LT(pushing, 0.005);
+  EXPECT_GT(staircase(PorosityModel::paper, Handing::left_where_it_is), 0.05);
 }
 
 }  // namespace

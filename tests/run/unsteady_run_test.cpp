@@ -143,7 +143,7 @@ TEST(UnsteadyRun, LeavesItsHistoryAndItsWakeInTheFolder) {
   const TemporaryFolder folder("unsteady_run");
   Case given = checked(flat_circular_case(1, 600, 20));
   given.flow.box_m = Vec3{3, 3, 4};
-  given.flow.cells = {22, 22, 26};
+  given.flow.cells = {24, 24, 28};
   given.flow.core.size_m = Vec3{0, 0, 0};
   given.flow.unsteady = true;
   given.flow.watch = {.courant = 0.7, .standard_error = 0.2, .shortest = 5, .longest = 20};

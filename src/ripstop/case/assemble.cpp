@@ -7,7 +7,12 @@
 namespace ripstop {
 
 PartMaterials part_materials(const Case& given) {
-  return {canopy_fabric(given), suspension_line(given), riser_line(given), reinforcement_tape(given)};
+  PartMaterials materials{canopy_fabric(given), suspension_line(given), riser_line(given),
+                          reinforcement_tape(given)};
+  if (resolve(given).flow.porosity_model != PorosityModel::sheet) return materials;
+  for (std::optional<double>* strain : {&materials.canopy.buckling_strain, &materials.tape.buckling_strain})
+    if (!*strain) *strain = wrinkling_strain;
+  return materials;
 }
 
 CanopyMesh parachute_mesh(const Case& given) {

@@ -35,11 +35,15 @@ double pressure_of(const Case& opening, const LoadSource& source, int threads,
 Case opening_case(const Case& given) {
   Case opening = given;
   const InflationSettings& inflation = opening.inflation;
-  if (inflation.cloth_compression) {
-    for (auto& [name, material] : opening.materials) {
-      if (auto* fabric = std::get_if<Fabric>(&material)) fabric->compression = *inflation.cloth_compression;
-      if (auto* tape = std::get_if<Tape>(&material)) tape->compression = *inflation.cloth_compression;
-    }
+  // Cloth that wrinkles has no length below which it does not crumple: its peak would hang on the mesh.
+  const auto push = [&](auto& material) {
+    if (inflation.cloth_compression) material.compression = *inflation.cloth_compression;
+    if (inflation.cloth_compression || !material.buckling_strain)
+      material.buckling_strain = 1;  // at any strain
+  };
+  for (auto& [name, material] : opening.materials) {
+    if (auto* fabric = std::get_if<Fabric>(&material)) push(*fabric);
+    if (auto* tape = std::get_if<Tape>(&material)) push(*tape);
   }
   MeshSettings& mesh = opening.parachute.mesh;
   mesh.sewn_straight = false;  // chords of curved seams would strain the folded start

@@ -86,6 +86,7 @@ struct RelaxOptions {
   double tolerance = 1e-4;  // on |residual force| / |applied force|, both root sums of squares over the nodes
   int max_steps = 200000;
   double least_load = 0;  // [N] stands for the applied load where that is smaller: held ends pull, not loads
+  double hold = 0;        // pulls every node back to where it started, by area of cloth [Pa/m]
 };
 struct RelaxProgress {
   int steps = 0;
@@ -99,6 +100,7 @@ struct RelaxResult {
   /// Of the loads about the only held point [N m]: nothing but other loads can balance it, so it is left out
   /// of the residual. 0 for a cloth held at several points.
   double unbalanced_moment = 0;
+  double held = 0;               // of RelaxOptions::hold at the end, norm over that of the applied force
   double mean_displacement = 0;  // e_k, [NFM] Eq. 18, over the whole relaxation [m]
 };
 /// Equilibrium under `loads` by dynamic relaxation with kinetic damping on fictitious masses (Barnes).

@@ -79,17 +79,23 @@ Symmetric inverse_of(const Symmetric& a) {
 bool wrinkles(const Mesh& mesh) {
   return std::any_of(mesh.patches.begin(), mesh.patches.end(), [](const Patch& patch) {
     return std::any_of(std::begin(patch.law), std::end(patch.law),
-                       [](const SpringLaw& law) { return std::isfinite(law.buckling_strain); });
+                       [](const SpringLaw& law) { return law.buckling_strain < 1; });
   });
 }
 
-Masses fictitious_masses(const Cloth& cloth, const ClothState& state, double floor) {
+Masses fictitious_masses(const Cloth& cloth, const ClothState& state, double floor, double hold) {
   Masses masses;
   if (wrinkles(cloth.mesh)) {
     masses.mass = node_blocks(cloth, state, floor);
   } else {
     for (const double k : node_stiffness(cloth, state).stiffness) masses.mass.push_back({k, k, k, 0, 0, 0});
   }
+  for (std::size_t node = 0; hold > 0 && node < masses.mass.size(); ++node)
+    for (int i = 0; i < 3; ++i) masses.mass[node][i] += hold * cloth.area[node];
+  for (const Tie& tie : cloth.mesh.ties)
+    for (const auto& master : tie.masters)
+      for (int i = 0; hold > 0 && i < 3; ++i)
+        masses.mass[master.node][i] += master.weight * hold * cloth.area[tie.node];
   for (int node : cloth.mesh.fixed) masses.mass[node] = {};
   for (const Tie& tie : cloth.mesh.ties) masses.mass[tie.node] = {};
   masses.inverse.inverse_mass.reserve(masses.mass.size());
@@ -136,8 +142,9 @@ double mean_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
 /// Dynamic relaxation of one cloth, its steps and looks.
 class Relaxation {
  public:
+  /// Held, if so, toward `start`.
   Relaxation(ClothState& state, const Cloth& cloth, const Loads& loads, const RelaxOptions& options,
-             ThreadTeam& team)
+             ThreadTeam& team, const ClothState& start)
       : state_(state),
         cloth_(cloth),
         loads_(loads),
@@ -145,11 +152,12 @@ class Relaxation {
         team_(team),
         wrinkles_(wrinkles(cloth.mesh)),
         lightness_(wrinkles_),
-        masses_(fictitious_masses(cloth, state, lightness_.floor)),
+        masses_(fictitious_masses(cloth, state, lightness_.floor, options.hold)),
         stepper_(cloth, loads, state, masses_.inverse, team.size()),
         pivot_(pivot_of(cloth, state)),
         runaway_(runaway_speed * shortest_spring(cloth.mesh)),
         good_(state) {
+    if (options.hold > 0) stepper_.hold(options.hold, start.x);
     stop();
   }
 
@@ -223,7 +231,7 @@ class Relaxation {
   }
   void refresh() {
     since_refresh_ = 0;
-    masses_ = fictitious_masses(cloth_, state_, lightness_.floor);
+    masses_ = fictitious_masses(cloth_, state_, lightness_.floor, options_.hold);
     stepper_.set_masses(masses_.inverse);
   }
   void start_again() {
@@ -285,15 +293,16 @@ std::optional<Mesh> softened(const Mesh& mesh, double load, double strain) {
 
 bool far_from_equilibrium(ClothState state, const Cloth& cloth, const Loads& loads,
                           const RelaxOptions& options, ThreadTeam& team) {
-  return Relaxation(state, cloth, loads, {options.tolerance, 1, options.least_load}, team).run({}).residual >
-         far_residual;
+  const RelaxOptions look{options.tolerance, 1, options.least_load, options.hold};
+  const ClothState start = state;
+  return Relaxation(state, cloth, loads, look, team, start).run({}).residual > far_residual;
 }
 
 }  // namespace
 
 RelaxResult relax(ClothState& state, const Cloth& cloth, const Loads& loads, const RelaxOptions& options,
                   ThreadTeam& team, const std::function<void(const RelaxProgress&)>& report) {
-  const std::vector<Vec3> start = positions(state, cloth);
+  const ClothState start = state;
   int steps = 0;
   if (wrinkles(cloth.mesh) && far_from_equilibrium(state, cloth, loads, options, team)) {
     const double load = applied_load(cloth, state, loads).sum;
@@ -303,14 +312,24 @@ RelaxResult relax(ClothState& state, const Cloth& cloth, const Loads& loads, con
       if (!mesh) break;
       const ClothPtr soft = make_cloth(*mesh, cloth.options);
       const int most = std::min(soft_steps, options.max_steps - steps);
-      steps +=
-          Relaxation(state, *soft, loads, {soft_tolerance, most, options.least_load}, team).run(report).steps;
+      const RelaxOptions roughly{soft_tolerance, most, options.least_load, options.hold};
+      steps += Relaxation(state, *soft, loads, roughly, team, start).run(report).steps;
     }
   }
-  const RelaxOptions rest{options.tolerance, std::max(1, options.max_steps - steps), options.least_load};
-  RelaxResult result = Relaxation(state, cloth, loads, rest, team).run(report);
+  RelaxOptions rest = options;
+  rest.max_steps = std::max(1, options.max_steps - steps);
+  RelaxResult result = Relaxation(state, cloth, loads, rest, team, start).run(report);
   result.steps += steps;
-  result.mean_displacement = mean_distance(positions(state, cloth), start);
+  const std::vector<Vec3> before = positions(start, cloth), now = positions(state, cloth);
+  result.mean_displacement = mean_distance(now, before);
+  if (options.hold > 0) {
+    double squared = 0;
+    for (std::size_t node = 0; node < now.size(); ++node) {
+      const Vec3 force = options.hold * cloth.area[node] * (now[node] - before[node]);
+      squared += dot(force, force);
+    }
+    result.held = std::sqrt(squared) / std::max(applied_load(cloth, state, loads).norm, options.least_load);
+  }
   return result;
 }
 

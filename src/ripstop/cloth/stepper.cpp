@@ -82,6 +82,15 @@ void Stepper::set_node_force(const std::vector<Vec3>& force) {
   node_force_ = compile_node_force(cloth_, {{}, force});
 }
 
+void Stepper::hold(double per_area, const AlignedDoubles& at) {
+  hold_at_ = at;
+  hold_stiffness_.assign(at.size(), 0.0);
+  for (int node = 0; node < cloth_.mesh.node_count(); ++node) {
+    const double k = per_area * cloth_.area[node];
+    put(hold_stiffness_.data(), cloth_.slot[node], {k, k, k});
+  }
+}
+
 void Stepper::prepare(int threads) {
   damped_lattice_ = damped_ && std::any_of(cloth_.patches.begin(), cloth_.patches.end(),
                                            [](const PatchLayout& patch) { return patch.damped; });
@@ -181,6 +190,11 @@ void Stepper::complete_row(int row, double* f) {
   if (!node_force_.empty()) {
     const double* point = node_force_.data() + at(first);
     for (int i = 0; i < 3 * lanes * patch.vectors; ++i) f[i] += point[i];
+  }
+  if (!hold_at_.empty()) {
+    const double *stiffness = hold_stiffness_.data() + at(first), *from = hold_at_.data() + at(first),
+                 *x = state_.x.data() + at(first);
+    for (int i = 0; i < 3 * lanes * patch.vectors; ++i) f[i] += stiffness[i] * (from[i] - x[i]);
   }
   for (int k = cloth_.kept_of_row[row]; k < cloth_.kept_of_row[row + 1]; ++k) {
     const Vec3 v = get(state_.v.data(), cloth_.kept[k].slot);

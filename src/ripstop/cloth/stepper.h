@@ -29,6 +29,8 @@ class Stepper {
   Stepper(const Cloth& cloth, const Loads& loads, ClothState& state, const Fictitious& masses, int threads);
   void set_masses(const Fictitious& masses);
   void set_node_force(const std::vector<Vec3>& force);
+  /// Of a relaxation: pulls every node toward where it is in `at` (vector layout), by area of cloth [Pa/m].
+  void hold(double per_area, const AlignedDoubles& at);
 
   void add_forces(int rank);
   void move_kept(int rank);
@@ -79,6 +81,7 @@ class Stepper {
   double dt_;
   bool damped_, sums_wanted_, damped_lattice_ = false;
   AlignedDoubles pressure_, node_force_;
+  AlignedDoubles hold_at_, hold_stiffness_;            // in vector layout; empty: not held
   AlignedDoubles inverse_mass_, area_;                 // by slot; 0 for kept nodes; no areas: no damping
   std::vector<double> kept_inverse_mass_, kept_area_;  // by kept node; 0: does not move
   AlignedDoubles inverse_tensor_;                      // of a relaxation, see RowRelaxation; by slot

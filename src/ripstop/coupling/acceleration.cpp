@@ -59,6 +59,11 @@ void subtract_anderson(std::vector<double>& next, const Accelerator& a, const st
 
 }  // namespace
 
+void Accelerator::average(double whole) {
+  update = Acceleration::none;
+  relaxation /= 1 + relaxation / whole;
+}
+
 std::vector<double> Accelerator::next(const std::vector<double>& x, const std::vector<double>& g,
                                       const std::vector<double>& weight) {
   const std::vector<double> residual = difference(g, x);

@@ -16,6 +16,10 @@ struct Accelerator {
   std::vector<std::vector<double>> guesses, residuals;  // newest last
   double aitken_factor = 0;
 
+  /// From here on answers are averaged in place of combined: a call before each next() makes the relaxation 1/2, 1/3,
+  /// ... of `whole`, so that x becomes the mean of itself and all answers since (Robbins and Monro 1951).
+  void average(double whole);
+
   /// x and g(x) -> next x. The norm weighs entry i by weight[i] (areas of the cells). Sizes must agree.
   std::vector<double> next(const std::vector<double>& x, const std::vector<double>& g,
                            const std::vector<double>& weight);

@@ -23,6 +23,8 @@ struct SteadyIteration {
   double printed_tolerance = 0;  // R dx^2 / (S0 K_max), what Eq. 19 asks of omega
   int cloth_steps = 0;
   double cloth_residual = 0;
+  double cloth_hold = 0;  // RelaxOptions::hold [Pa/m]; 0: the cloth found its equilibrium by itself
+  double cloth_held = 0;  // RelaxResult::held
   int flow_iterations = 0;
   double flow_residual = 0;     // largest of all equations
   bool flow_converged = false;  // to Stopping::residual
@@ -52,6 +54,8 @@ void each_member(T& i, Visit&& visit) {
   visit("printed_tolerance", i.printed_tolerance, Shown{"Eq. 19", 9, "{:.1e}"});
   visit("cloth_steps", i.cloth_steps, Shown{"cloth", 7, "{:.0f}"});
   visit("cloth_residual", i.cloth_residual);
+  visit("cloth_hold_pa_m", i.cloth_hold);
+  visit("cloth_held", i.cloth_held);
   visit("flow_iterations", i.flow_iterations, Shown{"flow", 6, "{:.0f}"});
   visit("flow_residual", i.flow_residual);
   visit("flow_converged", i.flow_converged);

@@ -130,15 +130,31 @@ class Boxes {
   std::vector<Sample> sorted_;
 };
 
+// Between layers that lie closer than a cell's width the grid has no air of its own: what such a face drops is that of
+// a closed pocket, or of all layers together.
+bool folded(const Boxes& samples, const Sample& sample, const FlowGrid& grid) {
+  const Vec3 h = grid.spacing(sample.point);
+  const double width = std::max({h.x, h.y, h.z});
+  bool found = false;
+  samples.near(sample.point, width, [&](const Sample& s) {
+    const Vec3 d = s.point - sample.point;
+    found = found || (dot(s.outward, sample.outward) < 0 && dot(d, d) < width * width);
+  });
+  return found;
+}
+
+enum class Side { same, either };
+
 // The plane through the samples within `radius` that look the same way, by weighted least squares: pressures
 // that are linear in space come out as they are. Nothing where there is no such sample.
-bool plane_through(const Boxes& samples, Vec3 centre, Vec3 normal, double radius, double& pressure) {
+bool plane_through(const Boxes& samples, Vec3 centre, Vec3 normal, double radius, Side side,
+                   double& pressure) {
   double weights = 0, mean = 0;
   Eigen::Vector3d at = Eigen::Vector3d::Zero(), slope = Eigen::Vector3d::Zero();
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   samples.near(centre, radius, [&](const Sample& s) {
     const Vec3 d = (s.point - centre) / radius;
-    const double inside = 1 - dot(d, d), facing = dot(s.outward, normal);
+    const double inside = 1 - dot(d, d), facing = side == Side::either ? 1 : dot(s.outward, normal);
     if (inside <= 0 || facing <= 0) return;
     const double w = s.area * facing * inside * inside;
     const Eigen::Vector3d e(d.x, d.y, d.z);
@@ -164,17 +180,24 @@ std::vector<double> pressures(std::vector<Sample> samples, const FlowGrid& grid,
   std::vector<double> result(cloth.area.size(), 0.0);
   if (samples.empty()) return result;
   const Vec3 cell = grid.spacing(samples.front().point);
-  const Boxes boxes(std::move(samples), 0.5 * reach * std::max({cell.x, cell.y, cell.z}));
+  const double width = 0.5 * reach * std::max({cell.x, cell.y, cell.z});
+  const Boxes all(samples, width);
+  std::vector<Sample> believed;
+  for (const Sample& s : samples)
+    if (!folded(all, s, grid)) believed.push_back(s);
+  const Boxes boxes(believed.empty() ? std::move(samples) : std::move(believed), width);
   for (std::size_t c = 0; c < result.size(); ++c) {
     const double area = norm(cloth.area[c]);
     if (!(area > 0)) continue;
     const Vec3 h = grid.spacing(cloth.centre[c]);
-    // Cloth that no face stands for, at a seam or fold smaller than the cells, takes what is nearest.
+    // Cloth that no face stands for, at a seam or in a fold smaller than the cells, takes what is nearest.
     double radius = reach * std::max({h.x, h.y, h.z});
     const double farthest = norm(grid.size);
-    while (!plane_through(boxes, cloth.centre[c], cloth.area[c] / area, radius, result[c]) &&
+    Side side = Side::same;
+    while (!plane_through(boxes, cloth.centre[c], cloth.area[c] / area, radius, side, result[c]) &&
            radius < farthest) {
       radius *= 1.5;
+      side = Side::either;
     }
   }
   return result;

@@ -22,6 +22,18 @@ constexpr double settled = 5e-4;
 // is a mean over iterations that did not converge, to the momentum that the box loses: a wake that still
 // grows keeps some of it.
 constexpr double ledger_tolerance = 0.01;
+// Largest RelaxResult::held at convergence: half of what the staircase of the flow's cells leaves over in the load.
+constexpr double held_tolerance = 0.02;
+
+// A flow that does not come to rest, jets through slots, answers the same shape now so, now so. When after so many
+// iterations the drag still changes by more than the time before, answers are no longer extrapolated but averaged.
+constexpr int accelerated = 5;
+
+// Slack cloth under the pressures of a shape that it has left may find no equilibrium: a loose edge turns over and over.
+// The air would give way to it. After so many steps the cloth is held to the last shape instead, by as much per metre as
+// is asked for here, in mean pressures over the root of the cloth's area; as the loop comes to rest that force vanishes.
+constexpr int steps_unheld = 40000;
+constexpr double first_hold = 3, strongest_hold = 48, stronger = 4;
 
 double largest_coefficient(const Mesh& mesh) {
   double largest = 0;
@@ -31,6 +43,13 @@ double largest_coefficient(const Mesh& mesh) {
     }
   }
   return largest;
+}
+
+/// Mean magnitude over the root of the cloth's area [Pa/m].
+double pressure_per_width(const std::vector<double>& pressure, const std::vector<double>& area) {
+  double sum = 0, whole = 0;
+  for (std::size_t c = 0; c < area.size(); ++c) sum += std::abs(pressure[c]) * area[c], whole += area[c];
+  return sum / std::pow(whole, 1.5);
 }
 
 bool within(double a, double b, double tolerance) {
@@ -165,23 +184,38 @@ ClothLoad SteadySolver::answer_of(const FlowField& field, const std::vector<Tria
 // Cloth in equilibrium under the present load: a new shape, and what it says of itself.
 std::vector<Vec3> SteadySolver::next_shape(const SteadyState& state, SteadyIteration& now,
                                            const SteadyReport& report) {
-  ClothState cloth = cloth_state(state);
+  ClothState cloth;
   const std::vector<double> no_pressure(cells_.size(), 0.0);
   Loads loads{state.pressure, node_forces({no_pressure, state.remainder}, cells_, state.shape)};
   RelaxOptions options;
   options.tolerance = problem_.settings.cloth_tolerance;
-  const RelaxResult relaxed =
-      relax(cloth, *cloth_, loads, options, team_, [&](const RelaxProgress& progress) {
-        if (report) report({.stage = SteadyStage::cloth, .iteration = now.iteration, .cloth = progress});
-      });
+  const bool first = state.iterations.empty();
+  if (!first) options.max_steps = steps_unheld;
+  const auto relax_cloth = [&] {
+    cloth = cloth_state(state);
+    const RelaxResult result =
+        relax(cloth, *cloth_, loads, options, team_, [&](const RelaxProgress& progress) {
+          if (report) report({.stage = SteadyStage::cloth, .iteration = now.iteration, .cloth = progress});
+        });
+    now.cloth_steps += result.steps;
+    return result;
+  };
+  options.hold = first ? 0 : state.iterations.back().cloth_hold;
+  RelaxResult relaxed = relax_cloth();
+  const double unit = pressure_per_width(state.pressure, area_);
+  while (!first && !relaxed.converged && options.hold < strongest_hold * unit) {
+    options.hold = std::max(first_hold * unit, stronger * options.hold);
+    relaxed = relax_cloth();
+  }
   if (!relaxed.converged) {
     throw Error(
         ExitCode::not_converged,
         fmt::format("coupling iteration {}: the cloth found no equilibrium, residual {:.2e} after {} steps "
                     "(wanted {:.1e}); a looser coupling.cloth_tolerance or a finer parachute.mesh may help",
-                    now.iteration, relaxed.residual, relaxed.steps, options.tolerance));
+                    now.iteration, relaxed.residual, now.cloth_steps, options.tolerance));
   }
-  now.cloth_steps = relaxed.steps;
+  now.cloth_hold = options.hold;
+  now.cloth_held = relaxed.held;
   now.cloth_residual = relaxed.residual;
   now.shape_change = relaxed.mean_displacement;
   const std::vector<Vec3> shape = positions(cloth, *cloth_);
@@ -209,6 +243,7 @@ bool SteadySolver::converged(const SteadyState& state, const SteadyIteration& no
   const double noise = 2 * std::hypot(now.drag_error, error_before) / std::abs(now.fluid_force);
   const double ledger = ledger_tolerance + noise;
   return now.drag_change < settings.drag_tolerance + noise && now.shape_change < settings.shape_tolerance_m &&
+         now.cloth_held < held_tolerance &&
          (now.flow_converged ||
           (now.flow_averaged > 0 && within(now.momentum_deficit, now.fluid_force, ledger))) &&
          within(now.nodal_load, now.fluid_force, ledger) && within(now.line_tension, now.fluid_force, ledger);
@@ -216,11 +251,18 @@ bool SteadySolver::converged(const SteadyState& state, const SteadyIteration& no
 
 // The next load, from the answers so far. The remainder follows the pressures' steps:
 // it has no weight of its own.
-void SteadySolver::step(SteadyState& state, const ClothLoad& answer) const {
+void SteadySolver::step(SteadyState& state, const ClothLoad& answer, double drag_change) const {
+  const CouplingSettings& settings = problem_.settings;
+  Accelerator& accelerator = state.accelerator;
+  if (settings.acceleration == Acceleration::anderson && !state.in_time) {
+    const bool jitters = static_cast<int>(state.iterations.size()) >= accelerated &&
+                         drag_change > state.iterations.back().drag_change;
+    if (jitters || accelerator.update == Acceleration::none) accelerator.average(settings.relaxation);
+  }
   std::vector<double> weight = area_;
   weight.resize(area_.size() + 6, 0.0);
   const std::vector<double> next =
-      state.accelerator.next(joined({state.pressure, state.remainder}), joined(answer), weight);
+      accelerator.next(joined({state.pressure, state.remainder}), joined(answer), weight);
   state.pressure.assign(next.begin(), next.end() - 6);
   const double* r = next.data() + state.pressure.size();
   state.remainder = {{r[0], r[1], r[2]}, {r[3], r[4], r[5]}};
@@ -262,13 +304,14 @@ FlowField SteadySolver::iterate(SteadyState& state, const SteadyReport& report) 
   state.converged = converged(state, now);
   state.shape = shape;
   state.applied = state.pressure;
-  step(state, answer);
+  step(state, answer, now.drag_change);
   now.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   state.iterations.push_back(now);
   if (state.converged && problem_.watch && !state.in_time) {
     state.in_time = true;
     state.converged = false;
     state.accelerator.update = Acceleration::none;  // differences of means over time are mostly noise
+    state.accelerator.relaxation = settings.relaxation;
   }
   return field;
 }

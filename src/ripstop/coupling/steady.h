@@ -144,7 +144,7 @@ class SteadySolver {
   FlowField watch_flow(const std::vector<Triangle>& surface, SteadyState& state, SteadyIteration& now,
                        const SteadyReport& report);
   bool converged(const SteadyState& state, const SteadyIteration& now) const;
-  void step(SteadyState& state, const ClothLoad& answer) const;
+  void step(SteadyState& state, const ClothLoad& answer, double drag_change) const;
 
   SteadyProblem problem_;
   std::unique_ptr<Flow> flow_;

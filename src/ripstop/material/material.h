@@ -32,6 +32,10 @@ inline PorousCellLaw as_cells(const ClothResistance& cloth) {
   return {cloth.linear, cloth.quadratic};
 }
 
+/// Of cloth and tape in steady runs with the `sheet` model. Assumed: 0.03 N/m for F-111, Euler's load pi^2 B / w^2 of a
+/// strip w = 36 mm wide with B = 4e-6 N m; any value well below the strains of use gives the same shape.
+inline constexpr double wrinkling_strain = 1e-6;
+
 /// Canopy cloth. The coefficients are those of the cloth's own curve (load per width against strain,
 /// [N/m]) as a uniaxial pull along a yarn gives it; the lattice's are derived from them so that a
 /// virtual coupon returns it.
@@ -44,7 +48,7 @@ struct Fabric {
   double shear_fraction = 0.2;                // xi
   double bending_fraction = 0.01;             // eps
   double compression = 1;                     // stiffness for e < 0 relative to K_1; see SpringLaw
-  std::optional<double> buckling_strain;      // absent: never wrinkles
+  std::optional<double> buckling_strain;      // absent: see wrinkling_strain
   double damping_n_s_m = 0;                   // C of the relative damping of one spring [N s/m]
   double areal_density_kg_m2 = 0;
   double thickness_m = 0;
@@ -77,7 +81,7 @@ struct Tape {
   double linear_density_kg_m = 0;
   double thickness_m = 0;
   double compression = 1;
-  std::optional<double> buckling_strain;  // absent: never wrinkles
+  std::optional<double> buckling_strain;  // absent: see wrinkling_strain
   double damping_n_s_m = 0;
   double tested_strain = 0;
 };

@@ -38,7 +38,7 @@ Experience experience(const Conical&) {
           .drag_coefficient = {0.75, 0.90},
           .opening_coefficient = 1.8,
           .opening_source = knacke_transcribed,
-          .cloth_nodes = 12000};
+          .cloth_nodes = 1500};
 }
 
 constinit const CanopyFamily Conical::family = family_of<Conical>("conical", "conical");

@@ -203,7 +203,7 @@ Experience experience(const Cross&) {
           .drag_coefficient = {0.60, 0.85},
           .opening_coefficient = 1.15,  // 1.1 to 1.2
           .opening_source = knacke_transcribed,
-          .cloth_nodes = 25000};
+          .cloth_nodes = 1500};
 }
 
 constinit const CanopyFamily Cross::family = family_of<Cross>("cross", "cross");

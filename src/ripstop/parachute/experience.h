@@ -15,9 +15,9 @@ struct Experience {
   double opening_coefficient = 0;  // C_x: peak over steady drag at infinite mass
   const char* opening_source = "";
   /// Cloth nodes from which on the projected diameter under uniform pressure changes by less than 1 % when
-  /// the mesh is made finer; it is too large below. Measured on the examples with up to 100,000 nodes
-  /// (docs/guide/canopies.md, How fine a mesh), 12 gores or as they are. What counts is the spacing over the
-  /// canopy's size, so the number holds for other sizes; 8 and 24 gores need about as many.
+  /// the mesh is made finer. Measured on the examples, whose cloth wrinkles or stands taut, from 1,500 to 25,000
+  /// nodes (docs/guide/canopies.md, How fine a mesh). What counts is the spacing over the canopy's size, so the
+  /// number holds for other sizes.
   int cloth_nodes = 0;
 };
 

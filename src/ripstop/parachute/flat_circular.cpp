@@ -31,7 +31,7 @@ Experience experience(const FlatCircular&) {
           .drag_coefficient = {0.75, 0.80},
           .opening_coefficient = 1.7,
           .opening_source = knacke_transcribed,
-          .cloth_nodes = 12000};
+          .cloth_nodes = 1500};
 }
 
 constinit const CanopyFamily FlatCircular::family = family_of<FlatCircular>("flat-circular", "flat-circular");

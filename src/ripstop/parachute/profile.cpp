@@ -208,7 +208,7 @@ Experience experience(const ProfileCanopy&) {
       .drag_coefficient = {},
       .opening_coefficient = 1.8,
       .opening_source = "not in Knacke's tables: the largest value of the solid canopies, on the safe side",
-      .cloth_nodes = 11000};
+      .cloth_nodes = 1500};
 }
 
 constinit const CanopyFamily ProfileCanopy::family = family_of<ProfileCanopy>("profile", "elliptical");
