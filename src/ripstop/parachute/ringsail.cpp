@@ -123,7 +123,7 @@ Experience experience(const Ringsail&) {
           .drag_coefficient = {0.75, 0.85},
           .opening_coefficient = 1.1,
           .opening_source = knacke_transcribed,
-          .cloth_nodes = 3000};
+          .cloth_nodes = 1500};
 }
 
 constinit const CanopyFamily Ringsail::family = family_of<Ringsail>("ringsail", "adept");
