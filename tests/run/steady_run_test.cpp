@@ -208,6 +208,29 @@ TEST(SteadyRun, CheckpointsThatAreAllGoneAreNoFreshStart) {
   EXPECT_THROW(load_checkpoint(folder.path, solver.flow()), Error);
 }
 
+// Every placing finds 5 % more or less than 300 N, in turn.
+struct JitteringEngine : FormulaEngine {
+  struct Jittering : FormulaFlow {
+    using FormulaFlow::FormulaFlow;
+    void place(const std::vector<Triangle>&, const SheetMotion&) override {
+      aim_at(++placed % 2 == 0 ? 285 : 315);
+    }
+    int placed = 0;
+  };
+  std::unique_ptr<Flow> start(const FlowProblem& problem) override {
+    return std::make_unique<Jittering>(problem);
+  }
+};
+
+TEST(SteadyRun, AnswersThatGoToAndFroAreAveraged) {
+  JitteringEngine engine;
+  SteadySolver solver(small_problem(), engine);
+  SteadyState state = solver.start();
+  while (state.iterations.size() < 16) solver.iterate(state);
+  for (std::size_t n = 12; n < 16; ++n) EXPECT_NEAR(state.iterations[n].nodal_load, 300, 6) << n;
+  EXPECT_FALSE(state.converged);
+}
+
 TEST(SteadyRun, SampledPressuresAreScaledToTheFlowsForce) {
   FormulaEngine engine;
   SteadySolver solver(small_problem(CanopyLoad::sampled), engine);

@@ -90,12 +90,15 @@ Masses fictitious_masses(const Cloth& cloth, const ClothState& state, double flo
   } else {
     for (const double k : node_stiffness(cloth, state).stiffness) masses.mass.push_back({k, k, k, 0, 0, 0});
   }
-  for (std::size_t node = 0; hold > 0 && node < masses.mass.size(); ++node)
-    for (int i = 0; i < 3; ++i) masses.mass[node][i] += hold * cloth.area[node];
-  for (const Tie& tie : cloth.mesh.ties)
-    for (const auto& master : tie.masters)
-      for (int i = 0; hold > 0 && i < 3; ++i)
-        masses.mass[master.node][i] += master.weight * hold * cloth.area[tie.node];
+  const auto hold_more = [&](int node, double stiffness) {
+    for (int i = 0; i < 3; ++i) masses.mass[node][i] += stiffness;
+  };
+  if (hold > 0) {
+    for (int node = 0; node < cloth.mesh.node_count(); ++node) hold_more(node, hold * cloth.area[node]);
+    for (const Tie& tie : cloth.mesh.ties)
+      for (const auto& master : tie.masters)
+        hold_more(master.node, master.weight * hold * cloth.area[tie.node]);
+  }
   for (int node : cloth.mesh.fixed) masses.mass[node] = {};
   for (const Tie& tie : cloth.mesh.ties) masses.mass[tie.node] = {};
   masses.inverse.inverse_mass.reserve(masses.mass.size());
@@ -291,10 +294,10 @@ std::optional<Mesh> softened(const Mesh& mesh, double load, double strain) {
   return soft;
 }
 
-bool far_from_equilibrium(ClothState state, const Cloth& cloth, const Loads& loads,
+bool far_from_equilibrium(const ClothState& start, const Cloth& cloth, const Loads& loads,
                           const RelaxOptions& options, ThreadTeam& team) {
   const RelaxOptions look{options.tolerance, 1, options.least_load, options.hold};
-  const ClothState start = state;
+  ClothState state = start;
   return Relaxation(state, cloth, loads, look, team, start).run({}).residual > far_residual;
 }
 
@@ -304,7 +307,7 @@ RelaxResult relax(ClothState& state, const Cloth& cloth, const Loads& loads, con
                   ThreadTeam& team, const std::function<void(const RelaxProgress&)>& report) {
   const ClothState start = state;
   int steps = 0;
-  if (wrinkles(cloth.mesh) && far_from_equilibrium(state, cloth, loads, options, team)) {
+  if (wrinkles(cloth.mesh) && far_from_equilibrium(start, cloth, loads, options, team)) {
     const double load = applied_load(cloth, state, loads).sum;
     for (const double strain : soft_strains) {
       if (!(load > 0)) break;

@@ -173,7 +173,8 @@ void remove_path(const std::filesystem::path& path) {
 }
 
 TemporaryFolder::TemporaryFolder(const std::string& name) {
-  std::string pattern = (std::filesystem::temp_directory_path() / ("ripstop-" + name + "-XXXXXX")).string();
+  std::string pattern =
+      (std::filesystem::temp_directory_path() / ("ripstop-" + name + "-" + std::string(6, 'X'))).string();
   if (!::mkdtemp(pattern.data())) fail("create folder", pattern, errno);
   path = pattern;
 }
