@@ -208,12 +208,13 @@ TEST(SteadyRun, CheckpointsThatAreAllGoneAreNoFreshStart) {
   EXPECT_THROW(load_checkpoint(folder.path, solver.flow()), Error);
 }
 
-// Every placing finds 5 % more or less than 300 N, in turn.
+// Every placing finds up to 20 % more or less than 300 N, in no order.
 struct JitteringEngine : FormulaEngine {
   struct Jittering : FormulaFlow {
     using FormulaFlow::FormulaFlow;
     void place(const std::vector<Triangle>&, const SheetMotion&) override {
-      aim_at(++placed % 2 == 0 ? 285 : 315);
+      ++placed;
+      aim_at(240 + 12 * (placed * placed * placed * 7 % 11));
     }
     int placed = 0;
   };
@@ -222,12 +223,20 @@ struct JitteringEngine : FormulaEngine {
   }
 };
 
+// 324, 252, 264, 336, 312, 300, 276, ... N: the seventh answer is the first after five whose change is the larger one.
 TEST(SteadyRun, AnswersThatGoToAndFroAreAveraged) {
   JitteringEngine engine;
   SteadySolver solver(small_problem(), engine);
   SteadyState state = solver.start();
-  while (state.iterations.size() < 16) solver.iterate(state);
-  for (std::size_t n = 12; n < 16; ++n) EXPECT_NEAR(state.iterations[n].nodal_load, 300, 6) << n;
+  while (state.iterations.size() < 6) solver.iterate(state);
+  EXPECT_EQ(state.accelerator.update, Acceleration::anderson);
+  solver.iterate(state);
+  for (int n = 2; n < 8; ++n) {
+    const SteadyIteration before = state.iterations.back();
+    solver.iterate(state);
+    const double mean = before.nodal_load + (before.fluid_force - before.nodal_load) / n;
+    EXPECT_NEAR(state.iterations.back().nodal_load, mean, 0.003 * mean) << n;
+  }
   EXPECT_FALSE(state.converged);
 }
 
