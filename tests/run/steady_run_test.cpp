@@ -17,10 +17,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-SteadyProblem small_problem(CanopyLoad load = CanopyLoad::uniform) {
+SteadyProblem small_problem(CanopyLoad load = CanopyLoad::uniform,
+                            PorosityModel model = PorosityModel::paper) {
   Case given = read_case(fs::path(RIPSTOP_SOURCE_DIR) / "examples/stratos-iv/case.toml");
   given.parachute.mesh.cloth_nodes = 800;
   given.flow.cells = {20, 20, 30};
+  given.flow.porosity_model = model;
   given.coupling.load = load;
   given.coupling.threads = 1;
   return steady_problem(given);
@@ -206,6 +208,31 @@ TEST(SteadyRun, CheckpointsThatAreAllGoneAreNoFreshStart) {
   save_checkpoint(folder.path, state, solver.flow());
   fs::remove_all(folder.path / "odd");
   EXPECT_THROW(load_checkpoint(folder.path, solver.flow()), Error);
+}
+
+// Rings of cloth that are pushed outward and inward in turn.
+TEST(SteadyRun, ClothThatFindsNoRestIsHeldToItsLastShapeAndSaysSo) {
+  FormulaEngine engine;
+  SteadySolver solver(small_problem(CanopyLoad::sampled, PorosityModel::sheet), engine);
+  SteadyState state = solver.start();
+  solver.iterate(state);
+  EXPECT_EQ(state.iterations.back().cloth_hold, 0);
+  EXPECT_EQ(state.iterations.back().cloth_held, 0);
+  for (std::size_t c = 0; c < state.pressure.size(); ++c) {
+    if (solver.cells()[c].corner[0] < 0) continue;
+    const Vec3 x = state.shape[solver.cells()[c].corner[0]];
+    state.pressure[c] = std::sin(30 * std::hypot(x.x, x.y)) > 0 ? -900 : 1000;  // [Pa]
+  }
+  solver.iterate(state);
+  const SteadyIteration held = state.iterations.back();
+  EXPECT_GT(held.cloth_hold, 0);
+  EXPECT_GT(held.cloth_held, 0.02);
+  EXPECT_GT(held.cloth_steps, 40000);
+  EXPECT_LE(held.cloth_residual, small_problem().settings.cloth_tolerance);
+  EXPECT_FALSE(state.converged);
+  solver.iterate(state);
+  EXPECT_GE(state.iterations.back().cloth_hold, held.cloth_hold);
+  EXPECT_LT(state.iterations.back().cloth_held, held.cloth_held);
 }
 
 // Every placing finds up to 20 % more or less than 300 N, in no order.
