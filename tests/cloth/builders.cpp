@@ -204,7 +204,9 @@ std::vector<Vec3> reference_forces(const Mesh& mesh, const ClothOptions& options
     const Vec3 d = x[q] - x[p];
     const double length = norm(d);
     const Vec3 n = d / length;
-    const Vec3 force = (scale * law.tension(length / rest - 1) + damping * dot(v[q] - v[p], n)) * n;
+    const double strain = length / rest - 1;
+    const double taken = strain > -law.buckling_strain ? damping : 0;  // what has wrinkled loses nothing
+    const Vec3 force = (scale * law.tension(strain) + taken * dot(v[q] - v[p], n)) * n;
     f[p] += force;
     f[q] -= force;
   };

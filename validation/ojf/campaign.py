@@ -88,11 +88,10 @@ JET_VARIATIONS = {
     "grid": [("a fifth coarser", ["flow.cells=[70,70,78]"])],
     "turbulence": [("intensity 5 %", ["flow.turbulence_intensity=0.05"])],
 }
-# The openings: speed [m/s], density [kg/m3], radius of the folded skirt [m]; what slack cloth carries as in the examples.
+# The openings: speed [m/s], density [kg/m3], radius of the folded skirt [m]; the cloth's damping as in the examples.
 OPENINGS = {"stratos-iv": (27.1, 1.2, 0.1), "walrus": (27.43, 1.204, 0.2), "adept": (27, 1.205, 0.1)}
 OPENING = ["inflation.duration_s=0.45", "inflation.frames=90", "inflation.line_segment_m=0.06",
-           "inflation.cloth_compression=0.1", "inflation.cloth_damping_s=1e-5", "inflation.low_pass_hz=100",
-           "parachute.mesh.cloth_nodes=12800"]
+           "inflation.cloth_damping_s=1e-5", "inflation.low_pass_hz=100", "parachute.mesh.cloth_nodes=12800"]
 # Of Stratos IV; what they change is taken for the other two.
 OPENING_VARIATIONS = {"air 1.25 times as fine": ["flow.cells=[110,110,122]"], "half the folds": ["inflation.folds=9"],
                       "half the step": ["inflation.courant=0.25"]}

@@ -35,15 +35,17 @@ double pressure_of(const Case& opening, const LoadSource& source, int threads,
 Case opening_case(const Case& given) {
   Case opening = given;
   const InflationSettings& inflation = opening.inflation;
-  // Cloth that wrinkles has no length below which it does not crumple: its peak would hang on the mesh.
-  const auto push = [&](auto& material) {
-    if (inflation.cloth_compression) material.compression = *inflation.cloth_compression;
-    if (inflation.cloth_compression || !material.buckling_strain)
+  const auto wrinkle = [&](auto& material) {
+    if (inflation.cloth_compression) {
+      material.compression = *inflation.cloth_compression;
       material.buckling_strain = 1;  // at any strain
+    } else if (!material.buckling_strain) {
+      material.buckling_strain = wrinkling_strain;
+    }
   };
   for (auto& [name, material] : opening.materials) {
-    if (auto* fabric = std::get_if<Fabric>(&material)) push(*fabric);
-    if (auto* tape = std::get_if<Tape>(&material)) push(*tape);
+    if (auto* fabric = std::get_if<Fabric>(&material)) wrinkle(*fabric);
+    if (auto* tape = std::get_if<Tape>(&material)) wrinkle(*tape);
   }
   MeshSettings& mesh = opening.parachute.mesh;
   mesh.sewn_straight = false;  // chords of curved seams would strain the folded start

@@ -82,7 +82,8 @@ HWY_INLINE Root root(V q) {
 
 // The force over the length of a spring from p toward q is g (q - p) with
 //   e = |q - p| / L0 - 1,   T = w (both max(e, e_b) + sum c_k max(e, 0)^k),   g = (T + C (dv . d) / |d|) / |d|
-// [NFM] Eq. 2, 3, with C = damping + share viscosity w / L0. No spring (w = 0) has no damping either.
+// [NFM] Eq. 2, 3, with C = damping + share viscosity w / L0, and 0 where e <= e_b: what has wrinkled carries no loss.
+// No spring (w = 0) has no damping either.
 // `taken` gains the damper's power.
 template <int degree, bool damped>
 HWY_INLINE V pull(const PatchLayout& patch, int direction, const double* springs, V share, Three d, Three dv,
@@ -113,7 +114,7 @@ HWY_INLINE V pull(const PatchLayout& patch, int direction, const double* springs
     const V damping =
         hn::MulAdd(hn::Mul(width, inverse_rest), hn::Mul(share, hn::Set(tag, patch.viscosity[direction])),
                    hn::IfThenElseZero(hn::Gt(width, hn::Zero(tag)), hn::Set(tag, patch.damping[direction])));
-    const V damper = hn::Mul(damping, rate);
+    const V damper = hn::IfThenElseZero(hn::Gt(strain, hn::Set(tag, law.buckled)), hn::Mul(damping, rate));
     tension = hn::Add(damper, tension);
     taken = hn::MulAdd(damper, rate, taken);
   }
@@ -253,11 +254,13 @@ void pull_blocks(const SpringForces& job, int begin_block, int end_block) {
       V sum = hn::Zero(tag);
       for (int k = springs.degree - 1; k >= 0; --k)
         sum = hn::Mul(hn::Add(sum, hn::Load(tag, law + k * lanes)), stretch);
-      const V pushed = hn::Max(strain, hn::Load(tag, springs.buckled.data() + s));
+      const V buckled = hn::Load(tag, springs.buckled.data() + s);
+      const V pushed = hn::Max(strain, buckled);
       V tension = hn::MulAdd(pushed, hn::Load(tag, springs.both.data() + s), sum);
       if constexpr (damped) {
         const Three dv = between(job.v);
-        const V damping = hn::Load(tag, springs.damping.data() + s);
+        const V damping =
+            hn::IfThenElseZero(hn::Gt(strain, buckled), hn::Load(tag, springs.damping.data() + s));
         const V rate = hn::Mul(dot(d, dv), length.inverse);
         tension = hn::MulAdd(damping, rate, tension);
         if constexpr (recorded) {
