@@ -189,6 +189,7 @@ Air air(const Case& given);
 const Fabric& canopy_fabric(const Case& given);
 const Line& suspension_line(const Case& given);
 const Line& riser_line(const Case& given);
-const Tape& reinforcement_tape(const Case& given);
+/// Null where the parachute has none.
+const Tape* reinforcement_tape(const Case& given);
 
 }  // namespace ripstop
