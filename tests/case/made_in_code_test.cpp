@@ -16,7 +16,8 @@ Case made() {
 }
 
 const std::string written_case =
-    replaced(short_case, "length_m = 3.0 }", "length_m = 3.0 }\nmesh = { cloth_nodes = 2000 }");
+    replaced(short_case, "length_m = 3.0 }",
+             "length_m = 3.0 }\ntape = { material = \"nylon-tape\" }\nmesh = { cloth_nodes = 2000 }");
 
 std::vector<std::string> messages(const std::vector<Problem>& problems) {
   std::vector<std::string> texts;

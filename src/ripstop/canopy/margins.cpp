@@ -46,9 +46,10 @@ Margins margins_of(const MemberLoads& loads, const MarginFactors& f, const Fabri
                 strength_of(cloth.break_load_n_m, cloth.coefficients_n_m, 1, cloth.tested_strain), sewn,
                 f.safety_factor));
   if (tape && loads.tape > 0)
-    members.push_back(margin_of("tape", loads.tape, "N",
-                                strength_of(tape->break_load_n, tape->coefficients_n_m, tape->width_m, tape->tested_strain),
-                                sewn, f.safety_factor));
+    members.push_back(
+        margin_of("tape", loads.tape, "N",
+                  strength_of(tape->break_load_n, tape->coefficients_n_m, tape->width_m, tape->tested_strain),
+                  sewn, f.safety_factor));
   const Strength of_line = strength_of(line.break_load_n, line.coefficients_n, 1, line.tested_strain);
   for (std::size_t i = 0; i < loads.lines.size(); ++i)
     members.push_back(

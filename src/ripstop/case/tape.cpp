@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "ripstop/case/payload.h"
@@ -42,6 +43,7 @@ bool slots_need_tape(const Design& design) {
 }  // namespace
 
 TapeMaterial tape_for(const Case& given, double line_load) {
+  line_load = std::max(1e-9, line_load);  // what is wrong with air and area is told elsewhere
   const std::optional<double> hem = used_of_hem(given, line_load);
   if (hem && *hem <= 1 && !slots_need_tape(given.parachute))
     return {no_tape, fmt::format("a hem of {:g} mm of the cloth holds a line's {:.3g} N ({:.0f} % used)",
@@ -56,11 +58,14 @@ TapeMaterial tape_for(const Case& given, double line_load) {
     if (*share <= 1 && (!lightest || tape->linear_density_kg_m < lightest->linear_density_kg_m))
       lightest = tape;
   }
-  if (!strongest) throw Error(ExitCode::usage, "the case has no tape of known strength to choose from: name one (parachute.tape.material)");
+  if (!strongest)
+    throw Error(ExitCode::usage,
+                "the case has no tape of known strength to choose from: name one (parachute.tape.material)");
   const Tape& chosen = lightest ? *lightest : *strongest;
-  return {chosen.name, fmt::format("{} a line's {:.3g} N ({:.0f} % used)",
-                                   lightest ? "the lightest tape that holds" : "the strongest tape, too weak for",
-                                   line_load, 100 * *used_of_tape(given, line_load, chosen))};
+  return {chosen.name,
+          fmt::format("{} a line's {:.3g} N ({:.0f} % used)",
+                      lightest ? "the lightest tape that holds" : "the strongest tape, too weak for",
+                      line_load, 100 * *used_of_tape(given, line_load, chosen))};
 }
 
 TapeMaterial tape_material(const Case& given) {

@@ -64,7 +64,8 @@ std::string parachute_text(const SizeResult& r) {
       continue;
     }
     const std::string key = (table.empty() || rows ? "" : table + ".") + line.substr(0, line.find(' '));
-    const bool chosen = key == "lines.material" || key == "tape.material" || key == "canopy_material" || key == "type";
+    const bool chosen =
+        key == "lines.material" || key == "tape.material" || key == "canopy_material" || key == "type";
     if (!rows && !chosen && !r.given.origins.contains("parachute." + key)) continue;
     const std::string comment = comment_on(key, r);
     text += head + line + (comment.empty() ? "" : "  # " + comment) + "\n";
