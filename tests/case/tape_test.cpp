@@ -28,6 +28,15 @@ const Source& tape_source(const Resolved& resolved) {
   throw std::runtime_error("nothing said of the tape");
 }
 
+// The tables of docs/ were computed with it.
+TEST(Tape, OfEveryExampleIsNamed) {
+  for (const CanopyFamily* family : families()) {
+    const Case given =
+        read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples" / family->example / "case.toml");
+    EXPECT_EQ(given.parachute.tape.material, "nylon-tape") << family->example;
+  }
+}
+
 // [NFM]'s tape would be 19 g there.
 TEST(Tape, OfASmallCanopyIsLighterThanItsCloth) {
   const PartMasses named = summarize(checked(flat_circular_case(0.5, 1500, 10))).mass;
