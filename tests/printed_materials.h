@@ -17,9 +17,10 @@ inline PartMaterials printed_materials() {
   m.line.coefficients_n = {211895, 489633};
   m.line.linear_density_kg_m = 2e-3;
   m.riser = m.line;
-  m.tape.coefficients_n_m = {3064.2, 68823.4};
-  m.tape.width_m = 0.02;
-  m.tape.linear_density_kg_m = 6e-3;
+  m.tape.emplace();
+  m.tape->coefficients_n_m = {3064.2, 68823.4};
+  m.tape->width_m = 0.02;
+  m.tape->linear_density_kg_m = 6e-3;
   return m;
 }
 

@@ -15,6 +15,7 @@ inline Case flat_circular_case(double diameter_m, int cloth_nodes, double speed_
   given.parachute.gores = 12;
   given.parachute.lines.count = 12;
   given.parachute.lines.length_m = diameter_m;
+  given.parachute.tape.material = "nylon-tape";
   given.parachute.mesh.cloth_nodes = cloth_nodes;
   given.flow.speed_m_s = speed_m_s;
   given.flow.density_kg_m3 = 1.2;

@@ -40,13 +40,16 @@ void print(const Comparison& comparison) {
   }
   const ComparedModel &a = models[0], &b = models[1];
   const double area = 2 * std::log(b.projected_diameter / a.projected_diameter);
-  const double all = std::log(b.drag / a.drag),
-               alone = models[2].drag + models[3].drag + models[4].drag - 3 * a.drag;
+  const double all = std::log(b.drag / a.drag);
+  double beyond = b.drag - a.drag;
+  std::string alone;
+  for (std::size_t i = 2; i < models.size(); ++i) {
+    const double change = models[i].drag - a.drag;
+    beyond -= change;
+    alone += fmt::format("{}{} {:+.3f}", alone.empty() ? "" : ", ", models[i].model.substr(7), change);
+  }
   fmt::print("\nlinear - nonlinear: {:+.3f} N ({:+.3f} %)\n", b.drag - a.drag, 100 * b.drag_difference);
-  fmt::print(
-      "  each material alone: cloth {:+.3f}, lines {:+.3f}, tape {:+.3f} N; together beyond their sum "
-      "{:+.3f} N\n",
-      models[2].drag - a.drag, models[3].drag - a.drag, models[4].drag - a.drag, b.drag - a.drag - alone);
+  fmt::print("  each material alone: {} N; together beyond their sum {:+.3f} N\n", alone, beyond);
   fmt::print("  by projected area {:+.3f} %, by drag per projected area {:+.3f} %\n", 100 * area,
              100 * (all - area));
   fmt::print("  strains are means over the springs of each part\n");

@@ -49,6 +49,7 @@ void print_result(const SizeResult& r, const fs::path& file, const fs::path& pag
   row("vent", fmt::format("{:.4f} m2, {:.2f} %", r.vent_area, 100 * r.vent_area / r.nominal_area));
   row("gores, lines", fmt::format("{} gores, {} lines of {:.3f} m, {}", r.gores, r.line_count, r.line_length,
                                   r.line_material));
+  row("tape", fmt::format("{}: {}", r.tape_material, r.tape_source));
   row("mass", fmt::format("{:.3g} kg: cloth {:.3g}, tape {:.3g}, lines {:.3g}", r.parachute_mass,
                           r.cloth_mass, r.tape_mass, r.line_mass));
   row("packed volume", fmt::format("{:.3g} litres", 1000 * r.packed_volume));

@@ -5,7 +5,7 @@
 
 Mass and packed volume are of the parachute as cut. The drag coefficient is the one that Ripstop has computed of the family
 (examples/families.json), or with --fly a coupled run of the very parachute, which takes its minutes. The opening load is the
-highest of the methods that apply.
+highest of the methods that apply. Tape is the example's in every size: --set 'parachute.tape.material="none"' for small ones.
 """
 import argparse
 import csv

@@ -48,6 +48,29 @@ TEST_F(Check, MassesAndAreasAreThoseOfThePattern) {
   EXPECT_EQ(report["case"]["flow"]["density_kg_m3"], 1.2);
 }
 
+TEST_F(Check, SaysWhichTapeTheLoadAsksForAndItsShareOfTheMass) {
+  const auto checked_at = [&](const char* speed) {
+    return ripstop_with(
+        {"check", write("small.toml",
+                        "[parachute]\ntype = \"flat-circular\"\nnominal_diameter_m = 0.5\n"
+                        "vent_diameter_m = 0.05\ngores = 8\nlines = { count = 8, length_m = 0.5 }\n"
+                        "[flow]\ndensity_kg_m3 = 1.2\nspeed_m_s = " +
+                            std::string(speed) + "\n")
+                      .string()});
+  };
+  const Finished slow = checked_at("10"), fast = checked_at("100");
+  EXPECT_NE(slow.output.find("tape 0.0000 (0 %)"), std::string::npos) << slow.output;
+  EXPECT_NE(
+      slow.output.find("parachute.tape.material      none                a hem of 20 mm of the cloth holds"),
+      std::string::npos)
+      << slow.output;
+  EXPECT_NE(fast.output.find(
+                "parachute.tape.material      nylon-tape-200-lbf  the lightest tape that holds a line's "),
+            std::string::npos)
+      << fast.output;
+  EXPECT_NE(fast.output.find("when it opens at 100 m/s"), std::string::npos) << fast.output;
+}
+
 TEST_F(Check, AndADryRunSayAboutHowLongARunTakes) {
   const Finished table = ripstop_with({"check", stratos}), json = ripstop_with({"check", stratos, "--json"});
   EXPECT_NE(table.output.find("  time               about 100 s of one core"), std::string::npos)
@@ -76,7 +99,7 @@ TEST_F(Check, SaysOfEveryValueThatMayBeLeftOutWhatItFollowedFrom) {
     if (folder != std::string::npos) line.erase(folder, std::string(RIPSTOP_SOURCE_DIR "/").size());
     shown += "    " + line + "\n";
   }
-  EXPECT_EQ(lines, 22);
+  EXPECT_EQ(lines, 23);
   EXPECT_NE(read_file(RIPSTOP_SOURCE_DIR "/docs/guide/case-file.md").find(shown), std::string::npos) << shown;
   const auto report = nlohmann::json::parse(ripstop_with({"check", flat, "--json"}).output);
   for (const auto& source : report["sources"]) {

@@ -25,7 +25,7 @@ const MarginFactors none{1, 1, 1, 1, 1, 1, 1};
 
 TEST(Margins, WithoutFactorsAreBreakLoadOverLoad) {
   const Materials m;
-  const Margins margins = margins_of({2000, 20, {300, 600}, 900}, none, m.cloth, m.tape, m.line, m.riser);
+  const Margins margins = margins_of({2000, 20, {300, 600}, 900}, none, m.cloth, &m.tape, m.line, m.riser);
   ASSERT_EQ(margins.members.size(), 5u);
   EXPECT_DOUBLE_EQ(*margins.members[0].used, 0.25);
   EXPECT_NEAR(*margins.members[1].strength, 0.02 * (3000 * 0.2 + 60000 * 0.04), 1e-9);
@@ -38,7 +38,7 @@ TEST(Margins, WithoutFactorsAreBreakLoadOverLoad) {
 TEST(Margins, EveryFactorWeakensItsOwnMembers) {
   const Materials m;
   const MarginFactors f{2, 0.5, 0.8, 0.9, 0.95, 1, 1};
-  const Margins margins = margins_of({2000, 20, {300, 600}, 900}, f, m.cloth, m.tape, m.line, m.riser);
+  const Margins margins = margins_of({2000, 20, {300, 600}, 900}, f, m.cloth, &m.tape, m.line, m.riser);
   EXPECT_DOUBLE_EQ(margins.members[0].knock_down, 0.5 * 0.9 * 0.95);
   EXPECT_DOUBLE_EQ(*margins.members[0].used, 2 * 2000 / (8000 * 0.5 * 0.9 * 0.95));
   EXPECT_DOUBLE_EQ(margins.members[2].knock_down, 0.8 * 0.9 * 0.95);
@@ -47,13 +47,22 @@ TEST(Margins, EveryFactorWeakensItsOwnMembers) {
 TEST(Margins, OfUnknownStrengthAreToldAndNeverTheWeakest) {
   Materials m;
   m.line.break_load_n = 0;
-  const Margins margins = margins_of({1, 0, {5000}, 0}, none, m.cloth, m.tape, m.line, m.riser);
+  const Margins margins = margins_of({1, 0, {5000}, 0}, none, m.cloth, &m.tape, m.line, m.riser);
   ASSERT_EQ(margins.members.size(), 2u);  // no tape that pulls, no riser
   EXPECT_FALSE(margins.members[1].used);
   EXPECT_NE(margins.members[1].strength_from.find("not known"), std::string::npos);
   EXPECT_EQ(margins.weakest, "cloth");
   m.cloth.break_load_n_m = 0;
-  EXPECT_EQ(margins_of({1, 0, {5000}, 0}, none, m.cloth, m.tape, m.line, m.riser).weakest, "");
+  EXPECT_EQ(margins_of({1, 0, {5000}, 0}, none, m.cloth, &m.tape, m.line, m.riser).weakest, "");
+}
+
+TEST(Margins, OfATapeAreOnItsBreakLoadWhereItHasOne) {
+  Materials m;
+  m.tape.break_load_n = 200;
+  const Margins margins = margins_of({1, 20, {}, 0}, none, m.cloth, &m.tape, m.line, m.riser);
+  EXPECT_DOUBLE_EQ(*margins.members.at(1).used, 0.1);
+  EXPECT_EQ(margins.members[1].strength_from, "break load");
+  EXPECT_EQ(margins_of({1, 20, {}, 0}, none, m.cloth, nullptr, m.line, m.riser).members.size(), 1u);
 }
 
 // A chain of one strain: 0.9 of the law in the axial spring, 0.05 in each of two springs over two.

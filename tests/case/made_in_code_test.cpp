@@ -16,7 +16,8 @@ Case made() {
 }
 
 const std::string written_case =
-    replaced(short_case, "length_m = 3.0 }", "length_m = 3.0 }\nmesh = { cloth_nodes = 2000 }");
+    replaced(short_case, "length_m = 3.0 }",
+             "length_m = 3.0 }\ntape = { material = \"nylon-tape\" }\nmesh = { cloth_nodes = 2000 }");
 
 std::vector<std::string> messages(const std::vector<Problem>& problems) {
   std::vector<std::string> texts;
@@ -93,7 +94,7 @@ TEST(Opening, IsMeshedToFoldWithTheSegmentsAndTheCompressionThatItGives) {
   EXPECT_EQ(opening.parachute.mesh.folds, 12);
   EXPECT_EQ(opening.parachute.mesh.line_segment_m, 0.1);
   EXPECT_EQ(canopy_fabric(opening).compression, 0.25);
-  EXPECT_EQ(reinforcement_tape(opening).compression, 0.25);
+  EXPECT_EQ(reinforcement_tape(opening)->compression, 0.25);
   const Case plain = opening_case(checked(made()));
   EXPECT_EQ(plain.parachute.mesh.line_segment_m, made().parachute.mesh.line_segment_m);
   EXPECT_EQ(case_json(opening_case(opening)), case_json(opening));

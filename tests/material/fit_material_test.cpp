@@ -94,6 +94,7 @@ TEST_F(BenchFile, ATapeComesBackPerWidth) {
   EXPECT_NEAR(SpringLaw({seam.coefficients_n_m, 1}).tension(0.4), tape.load(0.4), 0.06 * tape.load(0.4));
   EXPECT_EQ(seam.width_m, 0.02);
   EXPECT_EQ(seam.compression, 0.25);
+  EXPECT_NEAR(seam.break_load_n, 0.02 * tape.load(0.6), 0.1 * 0.02 * tape.load(0.6));
 }
 
 TEST_F(BenchFile, AWeftOfItsOwnIsFoundAndALikeOneIsNot) {

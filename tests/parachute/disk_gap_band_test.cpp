@@ -53,7 +53,7 @@ TEST(DiskGapBand, TheMassIsThatOfClothTapeAndLines) {
   const double seams = 6 * (0.3 + 0.455);
   const double lines = 18 * (1.5 + 0.3 + 0.07 + 0.455);
   const double expected = computed_area(design) * m.canopy.areal_density_kg_m2 +
-                          (hems + seams) * m.tape.linear_density_kg_m + lines * m.line.linear_density_kg_m;
+                          (hems + seams) * m.tape->linear_density_kg_m + lines * m.line.linear_density_kg_m;
   EXPECT_NEAR(std::accumulate(mesh.mass.begin(), mesh.mass.end(), 0.0) / expected, 1, 1e-4);
   // The taut line reaches from the skirt to the confluence.
   EXPECT_NEAR(norm(mesh.start[mesh.rigging.confluence] - mesh.start[mesh.rigging.skirt_nodes[0]]), 1.5,

@@ -59,7 +59,7 @@ TEST_P(Family, ClothAndTapeAndLinesHaveTheirMassAndNothingElseHas) {
   const CanopyMesh mesh = mesh_of(given);
   double expected = cloth_area(mesh) * canopy_fabric(given).areal_density_kg_m2;
   for (const int spring : mesh.rigging.tape_springs)
-    expected += mesh.springs[spring].rest_length * reinforcement_tape(given).linear_density_kg_m;
+    expected += mesh.springs[spring].rest_length * reinforcement_tape(given)->linear_density_kg_m;
   for (const LineRun& line : mesh.rigging.lines)
     for (const int spring : line.springs)
       expected += mesh.springs[spring].rest_length * suspension_line(given).linear_density_kg_m;

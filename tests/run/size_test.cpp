@@ -70,6 +70,26 @@ TEST(Size, OfEveryFamilyHoldsPayloadAndParachuteAtTheRate) {
   }
 }
 
+TEST(Size, TapeHoldsTheOpeningLoadAndIsNoneWhereAHemDoes) {
+  const SizeResult light = run_size(sized());
+  EXPECT_EQ(light.tape_material, "none");
+  EXPECT_EQ(light.tape_mass, 0);
+  SizeRequest asked = sized();
+  asked.payload_mass = 100, asked.deployment_speed = 30;
+  const SizeResult heavy = run_size(asked);
+  const Case given = parse_case(heavy.case_text, "sized.toml");
+  const Tape* tape = reinforcement_tape(given);
+  ASSERT_TRUE(tape);
+  EXPECT_EQ(tape->name, heavy.tape_material);
+  const double left = tape->break_load_n * 0.8 * 0.95 * 0.95 * 0.95 / 1.5;
+  EXPECT_GE(left, 0.9 * heavy.opening_load / heavy.line_count);  // chosen before the last change of size
+  EXPECT_GT(heavy.tape_mass, 0);
+  EXPECT_NE(
+      heavy.case_text.find("material = \"" + heavy.tape_material + "\"  # the lightest tape that holds"),
+      std::string::npos)
+      << heavy.case_text;
+}
+
 TEST(Size, ItsCaseFileIsACaseOfThatParachute) {
   for (const FamilyDrag& drag : family_drags()) {
     const SizeResult r = run_size(sized(drag.family));

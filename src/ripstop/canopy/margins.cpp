@@ -35,7 +35,7 @@ Margin margin_of(std::string member, double load, std::string unit, Strength str
 
 }  // namespace
 
-Margins margins_of(const MemberLoads& loads, const MarginFactors& f, const Fabric& cloth, const Tape& tape,
+Margins margins_of(const MemberLoads& loads, const MarginFactors& f, const Fabric& cloth, const Tape* tape,
                    const Line& line, const Line& riser) {
   const double all = f.abrasion * f.moisture * f.fatigue * f.temperature;
   const double sewn = all * f.seam_efficiency, joined = all * f.line_joint_efficiency;
@@ -45,10 +45,11 @@ Margins margins_of(const MemberLoads& loads, const MarginFactors& f, const Fabri
       margin_of("cloth", loads.cloth, "N/m",
                 strength_of(cloth.break_load_n_m, cloth.coefficients_n_m, 1, cloth.tested_strain), sewn,
                 f.safety_factor));
-  if (loads.tape > 0)
-    members.push_back(margin_of("tape", loads.tape, "N",
-                                strength_of(0, tape.coefficients_n_m, tape.width_m, tape.tested_strain), sewn,
-                                f.safety_factor));
+  if (tape && loads.tape > 0)
+    members.push_back(
+        margin_of("tape", loads.tape, "N",
+                  strength_of(tape->break_load_n, tape->coefficients_n_m, tape->width_m, tape->tested_strain),
+                  sewn, f.safety_factor));
   const Strength of_line = strength_of(line.break_load_n, line.coefficients_n, 1, line.tested_strain);
   for (std::size_t i = 0; i < loads.lines.size(); ++i)
     members.push_back(

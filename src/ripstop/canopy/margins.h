@@ -42,8 +42,9 @@ struct Margins {
 };
 
 /// Strength is the break load, or where a material has none, the load at the strain up to which it was tested.
+/// `tape` is null where there is none.
 Margins margins_of(const MemberLoads& loads, const MarginFactors& factors, const Fabric& cloth,
-                   const Tape& tape, const Line& line, const Line& riser);
+                   const Tape* tape, const Line& line, const Line& riser);
 
 /// The weakest member; null when no strength is known.
 const Margin* weakest(const Margins& margins);

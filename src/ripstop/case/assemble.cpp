@@ -7,11 +7,11 @@
 namespace ripstop {
 
 PartMaterials part_materials(const Case& given) {
-  PartMaterials materials{canopy_fabric(given), suspension_line(given), riser_line(given),
-                          reinforcement_tape(given)};
+  PartMaterials materials{canopy_fabric(given), suspension_line(given), riser_line(given), std::nullopt};
+  if (const Tape* tape = reinforcement_tape(given)) materials.tape = *tape;
   if (resolve(given).flow.porosity_model != PorosityModel::sheet) return materials;
-  for (std::optional<double>* strain : {&materials.canopy.buckling_strain, &materials.tape.buckling_strain})
-    if (!*strain) *strain = wrinkling_strain;
+  if (!materials.canopy.buckling_strain) materials.canopy.buckling_strain = wrinkling_strain;
+  if (materials.tape && !materials.tape->buckling_strain) materials.tape->buckling_strain = wrinkling_strain;
   return materials;
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "ripstop/case/payload.h"
+#include "ripstop/case/tape.h"
 #include "ripstop/core/toml/fields.h"
 #include "ripstop/flight/atmosphere.h"
 
@@ -94,8 +95,9 @@ const Line& suspension_line(const Case& given) {
 const Line& riser_line(const Case& given) {
   return material<Line>(given, given.parachute.riser.material);
 }
-const Tape& reinforcement_tape(const Case& given) {
-  return material<Tape>(given, given.parachute.tape.material);
+const Tape* reinforcement_tape(const Case& given) {
+  const std::string name = tape_material(given).name;
+  return name == no_tape ? nullptr : &material<Tape>(given, name);
 }
 
 }  // namespace ripstop

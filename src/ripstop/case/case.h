@@ -156,8 +156,8 @@ struct Overrides {
 /// Everything that is wrong with a case, from a file or made in code. Throws InputError(bad_data) for a
 /// broken library material.
 std::vector<Problem> validate(const Case& given);
-/// The case with every material that its parachute names, from the library where the case has it not. Throws
-/// InputError(usage) with everything that validate() finds besides the problems that are `known` already.
+/// The case with every material that its parachute names, from the library where the case has it not, and the
+/// library's tapes where it names none. Throws InputError(usage) with everything that validate() finds besides the problems that are `known` already.
 Case checked(Case given, std::vector<Problem> known = {});
 
 /// Reads and checks. Throws as checked(), and Error(io) when the file cannot be read.
@@ -189,6 +189,7 @@ Air air(const Case& given);
 const Fabric& canopy_fabric(const Case& given);
 const Line& suspension_line(const Case& given);
 const Line& riser_line(const Case& given);
-const Tape& reinforcement_tape(const Case& given);
+/// Null where the parachute has none.
+const Tape* reinforcement_tape(const Case& given);
 
 }  // namespace ripstop

@@ -383,7 +383,9 @@ class Importer {
     if (!options_.line_count) assumed("{} lines: the file has none (--lines)", line_count());
     if (!options_.line_length)
       assumed("lines of {:.6g} m, about the nominal diameter (--line-length)", length);
-    assumed("Spectra line; nylon tape along seams and hems; no riser");
+    assumed(
+        "Spectra line; no riser; tape along seams and hems where the load at the flow's speed asks for it "
+        "(parachute.tape.material)");
     assumed("flow: air at 20 degrees, 10 m/s; mesh: 11200 nodes");
     const ChuteSection& first = file_.sections.front();
     return pieces_ +

@@ -1,5 +1,7 @@
 #include "ripstop/case/payload.h"
 
+#include <algorithm>
+
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/error.h"
 #include "ripstop/flight/atmosphere.h"
@@ -21,10 +23,18 @@ double suspended_weight(const Case& given, double payload) {
 double payload_first_speed(const Case& given, double density) {
   if (!given.payload.mass_kg)
     throw Error(ExitCode::usage, "the case has neither flow.speed_m_s nor payload.mass_kg");
-  constexpr double unknown = 0.75;  // C_D of families that the tables do not have (assumed)
+  return terminal_speed(*given.payload.mass_kg, usual_drag_coefficient(given) * nominal_area(given.parachute),
+                        density);
+}
+
+double usual_drag_coefficient(const Case& given) {
+  constexpr double unknown = 0.75;  // of families that the tables do not have (assumed)
   const KnownRange known = experience(given.parachute).drag_coefficient;
-  const double coefficient = known.high > 0 ? 0.5 * (known.low + known.high) : unknown;
-  return terminal_speed(*given.payload.mass_kg, coefficient * nominal_area(given.parachute), density);
+  return known.high > 0 ? 0.5 * (known.low + known.high) : unknown;
+}
+
+double usual_deployment_speed(double descent_rate) {
+  return std::max(20.0, 3 * descent_rate);
 }
 
 }  // namespace ripstop

@@ -10,6 +10,10 @@ double parachute_mass(const Case& given);
 /// Speed at which the usual drag of the canopy's family holds payload.mass_kg; where
 /// a search for the speed begins [m/s].
 double payload_first_speed(const Case& given, double density);
+/// The middle of the family's range on the nominal area.
+double usual_drag_coefficient(const Case& given);
+/// Three times the descent rate, at least 20 m/s (assumed).
+double usual_deployment_speed(double descent_rate);
 /// Of `payload` [kg] and the parachute that carries it; the canopy's drag holds both [N].
 double suspended_weight(const Case& given, double payload);
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "ripstop/case/tape.h"
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/flow/engines.h"
 
@@ -43,6 +44,17 @@ class Follow {
 // A day in a tunnel: what the air is where neither its own keys nor a height say.
 constexpr double usual_viscosity = 1.84e-5;   // [Pa s]
 constexpr double usual_temperature = 293.15;  // [K]
+
+/// Of the tapes that were there to choose from, the one that is taken stays.
+void resolve_tape(Follow& follow, const Case& given, Case& written) {
+  const TapeMaterial tape = tape_material(given);
+  follow("parachute.tape.material", written.parachute.tape.material, tape.name, tape.from);
+  if (given.parachute.tape.material) return;
+  std::erase_if(written.materials, [&](const auto& material) {
+    return std::holds_alternative<Tape>(material.second) && material.first != tape.name &&
+           !given.origins.contains("materials." + material.first);
+  });
+}
 
 void resolve_air(Follow& follow, const Case& given, FlowKeys& keys, FlowSettings& flow) {
   const Air stream = air(given);
@@ -245,6 +257,7 @@ Resolved resolve(const Case& given) {
          "the type's own definition");
   follow("parachute.lines.onto_disk_m", written.parachute.lines.onto_disk_m, line_length_on_disk(parachute),
          "up to the vent's edge");
+  resolve_tape(follow, given, written);
   resolve_air(follow, given, written.flow, flow);
   const Fabric& cloth = canopy_fabric(given);
   flow.porosity_model = follow("flow.porosity_model", written.flow.porosity_model, cloth.resistance.model,

@@ -23,7 +23,8 @@ void weigh(const Case& given, const CanopyMesh& mesh, CaseSummary& summary) {
   for (const LineRun& line : rigging.lines) lines += length_of(mesh, line.springs);
   summary.mass.lines = lines * suspension_line(given).linear_density_kg_m;
   summary.mass.riser = length_of(mesh, rigging.riser_springs) * riser_line(given).linear_density_kg_m;
-  summary.mass.tape = length_of(mesh, rigging.tape_springs) * reinforcement_tape(given).linear_density_kg_m;
+  if (const Tape* tape = reinforcement_tape(given))
+    summary.mass.tape = length_of(mesh, rigging.tape_springs) * tape->linear_density_kg_m;
 }
 
 void count_springs(const Mesh& mesh, CaseSummary& summary) {

@@ -38,6 +38,15 @@ void find_material(Case& given, const std::string& key, const std::string& name,
                  fmt::format("is a {}; a {} is needed here", kind_of(found->second), needed));
 }
 
+/// What a parachute that names no tape may take.
+void add_library_tapes(Case& given) {
+  for (const std::string& name : library_names()) {
+    if (given.materials.contains(name)) continue;
+    const Material material = library_material(name);
+    if (std::holds_alternative<Tape>(material)) given.materials.emplace(name, material);
+  }
+}
+
 void check_materials(Case& given, Findings& findings) {
   for (auto& [name, material] : given.materials) {
     set_name(material, name);
@@ -47,7 +56,10 @@ void check_materials(Case& given, Findings& findings) {
   find_material<Fabric>(given, "parachute.canopy_material", parachute.canopy_material, findings);
   find_material<Line>(given, "parachute.lines.material", parachute.lines.material, findings);
   find_material<Line>(given, "parachute.riser.material", parachute.riser.material, findings);
-  find_material<Tape>(given, "parachute.tape.material", parachute.tape.material, findings);
+  if (!parachute.tape.material)
+    add_library_tapes(given);
+  else if (*parachute.tape.material != no_tape)
+    find_material<Tape>(given, "parachute.tape.material", *parachute.tape.material, findings);
 }
 
 void check_measured(const Case& given, Findings& findings) {

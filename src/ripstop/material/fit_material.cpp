@@ -234,6 +234,7 @@ Material make_material(const Bench& bench, const MaterialFit& fit) {
     tape.linear_density_kg_m = *bench.linear_density_kg_m;
     tape.thickness_m = *bench.thickness_m;
     tape.compression = bench.compression;
+    tape.break_load_n = weakest(fit) * tape.width_m;
     return tape;
   }
   Fabric fabric;

@@ -158,6 +158,7 @@ void describe(Fields& fields, Tape& tape) {
   describe_compression(fields, tape.compression, tape.buckling_strain);
   describe_damping(fields, tape.damping_n_s_m);
   describe_tested_strain(fields, tape.tested_strain);
+  fields.number("break_load_n", tape.break_load_n, from(0).up_to(1e9), "Tension at failure; 0: unknown.");
 }
 
 void describe(Fields& fields, Material& material) {

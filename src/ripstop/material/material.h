@@ -84,6 +84,7 @@ struct Tape {
   std::optional<double> buckling_strain;  // absent: see wrinkling_strain
   double damping_n_s_m = 0;
   double tested_strain = 0;
+  double break_load_n = 0;  // 0: unknown
 };
 
 }  // namespace ripstop

@@ -1,6 +1,8 @@
 // From a design to the mesh of lumped masses: one line of dispatch for every canopy family.
 #pragma once
 
+#include <optional>
+
 #include "ripstop/material/material.h"
 #include "ripstop/parachute/canopy_mesh.h"
 #include "ripstop/parachute/design.h"
@@ -11,7 +13,7 @@ struct PartMaterials {
   Fabric canopy;
   Line line;
   Line riser;
-  Tape tape;
+  std::optional<Tape> tape;  // none: seams and hems of the cloth alone
 };
 
 /// The start shape has its skirt in the plane z = 0 and its mouth toward -z; see the family's own header.

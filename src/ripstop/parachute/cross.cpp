@@ -55,7 +55,7 @@ class Builder {
     for (int arm = 0; arm < arms; ++arm) add_arm(arm);
     add_middle();
     add_outline();
-    add_tapes();
+    if (materials_.tape) add_tapes(*materials_.tape);
     std::vector<Path> ends;
     const int per_arm = design_.lines.count / arms;
     for (int arm = 0; arm < arms; ++arm)
@@ -69,7 +69,7 @@ class Builder {
   void add_arm(int arm);
   void add_middle();
   void add_outline();
-  void add_tapes();
+  void add_tapes(const Tape& tape);
 
   int node(int patch, int row, int column) const { return builder_.mesh.patches[patch].node(row, column); }
 
@@ -121,8 +121,7 @@ void Builder::add_outline() {
   }
 }
 
-void Builder::add_tapes() {
-  const Tape& tape = materials_.tape;
+void Builder::add_tapes(const Tape& tape) {
   const int law = builder_.add_tape_law(tape);
   if (design_.tape.hems) {
     const int part = builder_.part("hem tape");

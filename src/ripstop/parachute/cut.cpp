@@ -134,8 +134,9 @@ Bill bill_of(const CutPattern& pattern, const Design& design, const PartMaterial
     bill.rows.push_back(
         {part.name, material, part.count, part.count * part.length, cut, false, cut * density});
   };
-  for (const CutLength& tape : pattern.tapes)
-    add_length(tape, materials.tape.name, allowances.tape_overlap, materials.tape.linear_density_kg_m);
+  if (materials.tape)
+    for (const CutLength& tape : pattern.tapes)
+      add_length(tape, materials.tape->name, allowances.tape_overlap, materials.tape->linear_density_kg_m);
   std::vector<CutLength> lines = pattern.lines;
   lines.insert(lines.begin(),
                {"suspension line", design.lines.count, design.lines.length_m + pattern.line_on_canopy});

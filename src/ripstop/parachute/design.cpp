@@ -94,7 +94,12 @@ void describe(Fields& fields, LineSet& lines) {
 }
 
 void describe(Fields& fields, TapeLayout& tape) {
-  fields.name("material", tape.material, "Material of the reinforcement, of kind \"tape\".");
+  fields
+      .name("material", tape.material,
+            "Material of the reinforcement, of kind \"tape\"; \"none\": seams and hems of the cloth alone.")
+      .absent(
+          "`\"none\"` where a hem of the cloth holds the load of one line at the opening, else the lightest "
+          "tape that does");
   fields.toggle("seams", tape.seams, "Tape along the seams between gores (assumed).");
   fields.toggle("hems", tape.hems, "Tape along the vent and all other edges of the cloth (assumed).");
   fields.toggle(

@@ -21,9 +21,10 @@ struct LineSet {
   std::optional<double> onto_disk_m;  // from the disk's edge inward; absent: to the vent's edge (assumed)
 };
 
+inline constexpr const char* no_tape = "none";
 /// [parachute.tape]: sewn along gore seams, and along the hems of vent, disk edge and both edges of the band.
 struct TapeLayout {
-  std::string material = "nylon-tape";
+  std::optional<std::string> material;  // a name or no_tape; absent: follows from the load, case/tape.h
   bool seams = true;
   bool hems = true;
   bool inner_hems = true;  // of gored canopies: also on edges between the skirt and the vent

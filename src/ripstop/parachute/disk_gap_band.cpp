@@ -33,9 +33,7 @@ class Builder {
     const RingLayout layout = lay_out_rings({band, disk}, facts(d_, design_.gores).cloth_area, design_);
     add_band(layout.strips[0].front());
     add_disk(layout.strips[1]);
-    tape_law_ = builder_.add_tape_law(materials_.tape);
-    if (design_.tape.hems) add_hem_tape();
-    if (design_.tape.seams) add_seam_tape();
+    if (materials_.tape) add_tapes(*materials_.tape);
     add_sewn_lines();
     builder_.rigging.band_patches = {band_};
     builder_.rigging.disk_patches = rings_;
@@ -45,8 +43,7 @@ class Builder {
  private:
   void add_band(const Ring& ring);
   void add_disk(const std::vector<Ring>& rings);
-  void add_hem_tape();
-  void add_seam_tape();
+  void add_tapes(const Tape& tape);
   void add_sewn_lines();
   Radial radial_at(int part, int parts) const;
 
@@ -58,7 +55,6 @@ class Builder {
   CanopyBuilder builder_;
   int band_ = -1;
   std::vector<int> rings_;
-  int tape_law_ = -1;
 };
 
 void Builder::add_band(const Ring& ring) {
@@ -97,21 +93,22 @@ void Builder::add_disk(const std::vector<Ring>& rings) {
   }
 }
 
-void Builder::add_hem_tape() {
-  const int part = builder_.part("hem tape");
-  const int vent = rings_.back();
-  for (const Path& hem : {builder_.row(band_, 0), builder_.row(band_, patch(band_).rows - 1),
-                          builder_.row(rings_.front(), 0), builder_.row(vent, patch(vent).rows - 1)}) {
-    builder_.add_tape(hem, materials_.tape, tape_law_, part);
+void Builder::add_tapes(const Tape& tape) {
+  const int law = builder_.add_tape_law(tape);
+  if (design_.tape.hems) {
+    const int part = builder_.part("hem tape");
+    const int vent = rings_.back();
+    for (const Path& hem : {builder_.row(band_, 0), builder_.row(band_, patch(band_).rows - 1),
+                            builder_.row(rings_.front(), 0), builder_.row(vent, patch(vent).rows - 1)})
+      builder_.add_tape(hem, tape, law, part);
   }
-}
-
-void Builder::add_seam_tape() {
-  const int part = builder_.part("seam tape");
-  for (int gore = 0; gore < design_.gores; ++gore) {
-    const Radial seam = radial_at(gore, design_.gores);
-    builder_.add_tape(seam.band, materials_.tape, tape_law_, part);
-    builder_.add_tape(seam.disk, materials_.tape, tape_law_, part);
+  if (design_.tape.seams) {
+    const int part = builder_.part("seam tape");
+    for (int gore = 0; gore < design_.gores; ++gore) {
+      const Radial seam = radial_at(gore, design_.gores);
+      builder_.add_tape(seam.band, tape, law, part);
+      builder_.add_tape(seam.disk, tape, law, part);
+    }
   }
 }
 

@@ -8,6 +8,7 @@ struct CanopyFacts {
   double nominal_area = 0;    // S0 by the definition of the type [m2]
   double vent_area = 0;       // flat [m2]
   double slot_area = 0;       // of slots and gaps as constructed, between the radials [m2]
+  int vertical_tapes = 0;     // in every gore between its seams, across the slots
   double covered_area = 0;    // the cloth without its fullness [m2]
   double line_run = 0;        // how far lines can run onto the canopy; from where, the family says [m]
   double skirt_radius = 0;    // of the points where the lines leave the canopy, start shape [m]

@@ -95,6 +95,7 @@ CanopyFacts facts(const GorePattern& pattern) {
   const int n = pattern.gores;
   CanopyFacts facts;
   facts.nominal_area = pattern.nominal_area;
+  facts.vertical_tapes = pattern.vertical_tapes;
   facts.line_run = length_along(pattern, 0.5);
   double widest = 0;
   for (const GoreStrip& strip : pattern.strips) {

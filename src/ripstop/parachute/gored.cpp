@@ -39,7 +39,7 @@ class Builder {
     for (std::size_t i = 0; i < strips.size(); ++i) add_strip(static_cast<int>(i), layout.strips[i]);
     for (std::size_t i = 1; i < strips.size(); ++i) attach(static_cast<int>(i));
     builder_.set_skirt(patches_.front().front());
-    add_tapes();
+    if (materials_.tape) add_tapes(*materials_.tape);
     add_sewn_lines();
     return builder_.finish();
   }
@@ -47,8 +47,8 @@ class Builder {
  private:
   void add_strip(int index, const std::vector<Ring>& rings);
   void attach(int index);
-  void add_tapes();
-  void add_vertical_tapes(int law);
+  void add_tapes(const Tape& tape);
+  void add_vertical_tapes(const Tape& tape, int law);
   void add_sewn_lines();
 
   Vec3 start(int strip, double height, int gore, double across) const;
@@ -151,10 +151,11 @@ void Builder::attach(int index) {
   }
   const Patch &below = patch(lower), &above = patch(upper);
   if (strip.slot > 0) {
-    if (!design_.tape.seams && !lines_reach_vent_)
+    if (!(design_.tape.seams && materials_.tape) && !lines_reach_vent_)
       throw Error(ExitCode::usage,
                   fmt::format("nothing spans the slot below the {}: let the lines run up to the vent (leave "
-                              "out parachute.lines.onto_disk_m) or set parachute.tape.seams = true",
+                              "out parachute.lines.onto_disk_m) or set parachute.tape.seams = true and name "
+                              "a parachute.tape.material",
                               strip.name));
     return;
   }
@@ -202,9 +203,8 @@ std::vector<Path> Builder::runs_along(int part, int parts) const {
   return runs;
 }
 
-void Builder::add_tapes() {
-  const int law = builder_.add_tape_law(materials_.tape);
-  const Tape& tape = materials_.tape;
+void Builder::add_tapes(const Tape& tape) {
+  const int law = builder_.add_tape_law(tape);
   if (design_.tape.hems) {
     const int part = builder_.part("hem tape");
     for (std::size_t i = 0; i < patches_.size(); ++i) {
@@ -220,11 +220,11 @@ void Builder::add_tapes() {
     for (int gore = 0; gore < pattern_.gores; ++gore)
       builder_.add_tape(along(gore, pattern_.gores), tape, law, part);
   }
-  add_vertical_tapes(law);
+  add_vertical_tapes(tape, law);
 }
 
 // At the columns nearest to equal parts of the gore; the columns of all strips lie on the same rays.
-void Builder::add_vertical_tapes(int law) {
+void Builder::add_vertical_tapes(const Tape& tape, int law) {
   if (pattern_.vertical_tapes == 0) return;
   const int part = builder_.part("vertical tape");
   int coarsest = 1 << 30;
@@ -236,8 +236,7 @@ void Builder::add_vertical_tapes(int law) {
   for (int gore = 0; gore < pattern_.gores; ++gore) {
     for (const int column : chosen) {
       if (column == 0 || column == coarsest) continue;
-      builder_.add_tape(along(gore * coarsest + column, pattern_.gores * coarsest), materials_.tape, law,
-                        part);
+      builder_.add_tape(along(gore * coarsest + column, pattern_.gores * coarsest), tape, law, part);
     }
   }
 }

@@ -45,6 +45,10 @@ void describe(Fields& fields, Ringslot& canopy) {
 void check_shape(const Ringslot& canopy, const Design& design, Findings& findings) {
   const Layout layout = layout_of(canopy);
   check_vent(canopy.vent_diameter_m, 2 * layout.slant * layout.cosine, canopy.vent_lines, design, findings);
+  if (canopy.vertical_tapes > 0 && design.tape.material == no_tape &&
+      findings.sound({"parachute.vertical_tapes"}))
+    findings.add("parachute.vertical_tapes", canopy.vertical_tapes, "0",
+                 "parachute.tape.material is \"none\": there is nothing to make them of");
   if (!findings.sound(shape_keys(design))) return;
   if (canopy.slot_height_m >= layout.ring_height)
     findings.add(

@@ -70,14 +70,14 @@ ComparedModel model_of(const SweepPoint& point, const SteadyResult& result, cons
 SweepAxis linear_models(const Case& given) {
   if (given.coupling.linear)
     throw Error(ExitCode::usage, "the case is linear itself (coupling.linear = true): nothing to compare");
-  const Tape& tape = reinforcement_tape(given);
-  return {"model",
-          {"nonlinear", "linear", "linear cloth", "linear lines", "linear tape"},
-          {{},
-           {{"coupling.linear", "true", "--linear"}},
-           linear_cloth(given),
-           linear_lines(given),
-           only_first(tape, tape.coefficients_n_m, "coefficients_n_m")}};
+  SweepAxis axis{"model",
+                 {"nonlinear", "linear", "linear cloth", "linear lines"},
+                 {{}, {{"coupling.linear", "true", "--linear"}}, linear_cloth(given), linear_lines(given)}};
+  if (const Tape* tape = reinforcement_tape(given)) {
+    axis.values.push_back("linear tape");
+    axis.settings.push_back(only_first(*tape, tape->coefficients_n_m, "coefficients_n_m"));
+  }
+  return axis;
 }
 
 std::string to_json(const Comparison& comparison) {

@@ -15,7 +15,8 @@
 
 namespace ripstop {
 
-/// The case as it is; with K_1 alone for every material; and for the cloth, the lines and the tape in turn.
+/// The case as it is; with K_1 alone for every material; and for the cloth, the lines and the tape, if there is one,
+/// in turn.
 /// Throws Error(usage) for a case that is linear itself.
 SweepAxis linear_models(const Case& given);
 

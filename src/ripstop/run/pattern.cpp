@@ -21,6 +21,7 @@ PatternResult run_pattern(const Case& given, const Allowances& allowances, doubl
   result.packing_density = packing_density;
   result.allowances = allowances;
   result.pattern = cut_pattern(given.parachute);
+  if (!reinforcement_tape(given)) result.pattern.tapes.clear();
   result.bill = bill_of(result.pattern, given.parachute, part_materials(given), allowances, packing_density);
   return result;
 }

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "ripstop/case/tape.h"
 #include "ripstop/run/engine.h"
 #include "ripstop/run/steady_parts.h"
 
@@ -47,6 +48,7 @@ SteadySolution run_with_payload(const Case& given, SteadyObserver& observer, con
   const double weight = suspended_weight(given, *given.payload.mass_kg);
   const int most = given.coupling.max_iterations;
   Case now = given;
+  now.parachute.tape.material = tape_material(given).name;  // one parachute at every speed
   now.flow.speed_m_s = air(given).speed;
   SteadyParts parts = steady_parts(now, settings);
   SteadySolution solution;

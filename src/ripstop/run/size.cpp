@@ -9,6 +9,7 @@
 
 #include "ripstop/case/payload.h"
 #include "ripstop/case/summary.h"
+#include "ripstop/case/tape.h"
 #include "ripstop/core/build_info.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
@@ -69,8 +70,7 @@ void find_opening(const SizeRequest& request, SizeResult& r) {
 double used_of(const Case& given, const Line& line, double load) {
   MemberLoads loads;
   loads.lines = {load / given.parachute.lines.count};
-  const Margins margins =
-      margins_of(loads, given.margins, canopy_fabric(given), reinforcement_tape(given), line, line);
+  const Margins margins = margins_of(loads, given.margins, canopy_fabric(given), nullptr, line, line);
   const Margin* of_line = nullptr;
   for (const Margin& m : margins.members)
     if (m.member == "line 1") of_line = &m;
@@ -103,6 +103,12 @@ void choose_line(const SizeRequest& request, SizeResult& r) {
   design.lines.material = best->name;
   if (design.riser.length_m == 0) design.riser.material = best->name;
   r.given.materials.insert_or_assign(best->name, *best);
+}
+
+void choose_tape(SizeResult& r) {
+  TapeMaterial tape = tape_for(r.given, r.opening_load / r.given.parachute.lines.count);
+  r.given.parachute.tape.material = tape.name;
+  r.tape_material = std::move(tape.name), r.tape_source = std::move(tape.from);
 }
 
 void describe_parachute(const SizeRequest& request, SizeResult& r) {
@@ -138,7 +144,9 @@ Case example_case(const SizeRequest& request, const SizeResult& r) {
   fresh.title =
       fmt::format("{} for {:g} kg at {:g} m/s", request.family, request.payload_mass, request.descent_rate);
   fresh.parachute = given.parachute;
+  fresh.parachute.tape.material.reset();  // follows from size and load
   fresh.origins = given.origins;
+  fresh.origins.erase("parachute.tape.material");
   fresh.payload.mass_kg = request.payload_mass;
   if (request.density)
     fresh.flow.density_kg_m3 = r.density;
@@ -194,7 +202,7 @@ SizeResult run_size(const SizeRequest& request) {
   r.drag_source =
       request.drag_coefficient ? "given" : fmt::format("computed at {:g} m/s: {}", drag.speed, drag.made);
   r.handbook_drag_coefficient = drag.handbook;
-  r.deployment_speed = request.deployment_speed.value_or(std::max(20.0, 3 * request.descent_rate));
+  r.deployment_speed = request.deployment_speed.value_or(usual_deployment_speed(request.descent_rate));
   require_positive("deployment speed (m/s)", r.deployment_speed);
   if (r.deployment_speed <= request.descent_rate)
     throw Error(ExitCode::usage,
@@ -204,6 +212,7 @@ SizeResult run_size(const SizeRequest& request) {
   find_size(request, r);
   find_opening(request, r);
   choose_line(request, r);
+  choose_tape(r);
   find_size(request, r);
   describe_parachute(request, r);
   return r;

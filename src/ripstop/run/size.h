@@ -61,7 +61,7 @@ struct SizeResult {
   double nominal_diameter = 0, nominal_area = 0, vent_area = 0;  // [m], [m2]
   int gores = 0, line_count = 0;
   double line_length = 0;  // [m]
-  std::string line_material, canopy_material;
+  std::string line_material, tape_material, tape_source, canopy_material;
   double parachute_mass = 0, cloth_mass = 0, tape_mass = 0, line_mass = 0;  // [kg]
   double packed_volume = 0;                                                 // [m3]
   double deployment_speed = 0, opening_load = 0, opening_load_low = 0;      // [m/s], [N]
@@ -92,6 +92,8 @@ void each_member(T& r, Visit&& visit) {
   visit("line_count", r.line_count);
   visit("line_length_m", r.line_length);
   visit("line_material", r.line_material);
+  visit("tape_material", r.tape_material);
+  visit("tape_material_from", r.tape_source);
   visit("canopy_material", r.canopy_material);
   visit("parachute_mass_kg", r.parachute_mass);
   visit("cloth_mass_kg", r.cloth_mass);

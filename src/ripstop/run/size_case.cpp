@@ -42,6 +42,7 @@ std::string comment_on(const std::string& key, const SizeResult& r) {
     return fmt::format("{:.2f} % of the area", 100 * r.vent_area / r.nominal_area);
   if (key == "lines.material")
     return fmt::format("{:.0f} % of its strength after losses and safety at the opening", 100 * r.line_used);
+  if (key == "tape.material") return r.tape_source;
   return "";
 }
 
@@ -63,7 +64,8 @@ std::string parachute_text(const SizeResult& r) {
       continue;
     }
     const std::string key = (table.empty() || rows ? "" : table + ".") + line.substr(0, line.find(' '));
-    const bool chosen = key == "lines.material" || key == "canopy_material" || key == "type";
+    const bool chosen =
+        key == "lines.material" || key == "tape.material" || key == "canopy_material" || key == "type";
     if (!rows && !chosen && !r.given.origins.contains("parachute." + key)) continue;
     const std::string comment = comment_on(key, r);
     text += head + line + (comment.empty() ? "" : "  # " + comment) + "\n";

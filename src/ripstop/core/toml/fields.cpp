@@ -45,6 +45,9 @@ Field& Fields::text(std::string key, std::string& value, int max_length, std::st
 Field& Fields::name(std::string key, std::string& value, std::string doc) {
   return add(std::move(key), Text{&value, true, 64}, {}, std::move(doc));
 }
+Field& Fields::name(std::string key, std::optional<std::string>& value, std::string doc) {
+  return add(std::move(key), &value, {}, std::move(doc));
+}
 Field& Fields::vector(std::string key, Vec3& value, Range range, std::string doc) {
   return add(std::move(key), &value, range, std::move(doc));
 }

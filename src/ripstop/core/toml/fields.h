@@ -105,6 +105,7 @@ struct Base {
 struct Field {
   using Value = std::variant<double*, int*, bool*, Vec3*, std::array<int, 3>*, std::optional<double>*,
                              std::optional<int>*, std::optional<Vec3>*, std::optional<std::array<int, 3>>*,
+                             std::optional<std::string>*,  // a name
                              NumberList, Text, Choice, Subtable, Rows, NamedTables, Kind, Base>;
   std::string key;
   std::string doc;  // one sentence for the reference, unit and source included
@@ -127,6 +128,7 @@ class Fields {
   Field& text(std::string key, std::string& value, int max_length, std::string doc);
   /// Safe as part of a file name.
   Field& name(std::string key, std::string& value, std::string doc);
+  Field& name(std::string key, std::optional<std::string>& value, std::string doc);
   Field& vector(std::string key, Vec3& value, Range range, std::string doc);
   Field& vector(std::string key, std::optional<Vec3>& value, Range range, std::string doc);
   Field& integers(std::string key, std::array<int, 3>& value, Range range, std::string doc);

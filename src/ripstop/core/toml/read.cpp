@@ -101,6 +101,7 @@ class Reader {
   void set(Vec3& target, const Node& node, const std::string& name);
   void set(std::array<int, 3>& target, const Node& node, const std::string& name);
   void set(const NumberList& target, const Node& node, const std::string& name);
+  void set(std::string& target, const Node& node, const std::string& name);
   void set(const Text& target, const Node& node, const std::string& name);
   void set(const Choice& target, const Node& node, const std::string& name);
   void set(const Subtable& target, const Node& node, const std::string& name);
@@ -224,10 +225,14 @@ void Reader::set(const NumberList& target, const Node& node, const std::string& 
   accept(node, name);
 }
 
-void Reader::set(const Text& target, const Node& node, const std::string& name) {
+void Reader::set(std::string& target, const Node& node, const std::string& name) {
   if (!is_a(Node::Type::text, node, name, "text")) return;
-  *target.value = node.text;
+  target = node.text;
   accept(node, name);
+}
+
+void Reader::set(const Text& target, const Node& node, const std::string& name) {
+  set(*target.value, node, name);
 }
 
 void Reader::set(const Choice& target, const Node& node, const std::string& name) {
@@ -412,6 +417,9 @@ class Checker {
   }
   void check(const Field&, const Kind& kind, const std::string& name, const std::string& prefix) {
     if (findings_.sound({name})) table(kind.select(kind.get()), prefix);
+  }
+  void check(const Field& field, std::string* text, const std::string& name, const std::string& prefix) {
+    check(field, Text{text, true, 64}, name, prefix);
   }
   void check(const Field&, const Text& text, const std::string& name, const std::string&) {
     const auto [allowed, message] = refusal(text);

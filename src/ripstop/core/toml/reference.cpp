@@ -43,6 +43,7 @@ struct Describe {
   Columns operator()(const NumberList& list) const {
     return {fmt::format("{} to {} numbers", list.min_count, list.max_count), "", range()};
   }
+  Columns operator()(const std::string*) const { return {"name", "", ""}; }
   Columns operator()(const Text& text) const {
     return {text.is_name ? "name" : "text", text.value->empty() ? "" : code("\"{}\"", *text.value),
             text.is_name ? "" : fmt::format("at most {} characters", text.max_length)};

@@ -59,6 +59,7 @@ struct ValueSchema {
   Json operator()(const NumberList& list) const {
     return list_schema(number_schema(field, "number"), list.min_count, list.max_count);
   }
+  Json operator()(const std::string*) const { return name_schema(); }
   Json operator()(const Text& text) const {
     Json schema = text.is_name ? name_schema()
                                : Json{{"type", "string"},

@@ -50,6 +50,7 @@ struct Literal {
   }
   std::string operator()(const std::array<int, 3>* value) const { return list_literal(*value); }
   std::string operator()(const NumberList& list) const { return list_literal(*list.value); }
+  std::string operator()(const std::string* name) const { return text_literal(*name); }
   std::string operator()(const Text& text) const { return text_literal(*text.value); }
   std::string operator()(const Choice& choice) const {
     const auto chosen = choice.get();

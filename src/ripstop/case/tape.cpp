@@ -1,0 +1,84 @@
+#include "ripstop/case/tape.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "ripstop/case/payload.h"
+#include "ripstop/core/error.h"
+#include "ripstop/flight/descent.h"
+#include "ripstop/parachute/cut.h"
+
+namespace ripstop {
+namespace {
+
+constexpr double hem_width = Allowances{}.hem;  // of cloth turned over along an edge [m]
+constexpr double unknown_opening = 1.8;         // C_x, the highest of the families' (assumed)
+
+/// Safety factor times the load over what is left of the strength; nothing where that is not known.
+std::optional<double> used(const Case& given, const MemberLoads& loads, const Tape* tape) {
+  return margins_of(loads, given.margins, canopy_fabric(given), tape, {}, {}).members.back().used;
+}
+
+std::optional<double> used_of_hem(const Case& given, double load) {
+  MemberLoads loads;
+  loads.cloth = load / hem_width;
+  return used(given, loads, nullptr);
+}
+
+std::optional<double> used_of_tape(const Case& given, double load, const Tape& tape) {
+  MemberLoads loads;
+  loads.tape = load;
+  return used(given, loads, &tape);
+}
+
+/// Slots that lines do not span, or that have tapes of their own.
+bool slots_need_tape(const Design& design) {
+  const CanopyFacts canopy = facts(design);
+  const bool lines_end_below = line_length_on_disk(design) < canopy.line_run * (1 - 1e-9);
+  return canopy.vertical_tapes > 0 || (canopy.slot_area > 0 && lines_end_below);
+}
+
+}  // namespace
+
+TapeMaterial tape_for(const Case& given, double line_load) {
+  line_load = std::max(1e-9, line_load);  // what is wrong with air and area is told elsewhere
+  const std::optional<double> hem = used_of_hem(given, line_load);
+  if (hem && *hem <= 1 && !slots_need_tape(given.parachute))
+    return {no_tape, fmt::format("a hem of {:g} mm of the cloth holds a line's {:.3g} N ({:.0f} % used)",
+                                 1000 * hem_width, line_load, 100 * *hem)};
+  const Tape *lightest = nullptr, *strongest = nullptr;
+  double least_used = 0;
+  for (const auto& [name, material] : given.materials) {
+    const Tape* tape = std::get_if<Tape>(&material);
+    const std::optional<double> share = tape ? used_of_tape(given, line_load, *tape) : std::nullopt;
+    if (!share) continue;
+    if (!strongest || *share < least_used) strongest = tape, least_used = *share;
+    if (*share <= 1 && (!lightest || tape->linear_density_kg_m < lightest->linear_density_kg_m))
+      lightest = tape;
+  }
+  if (!strongest)
+    throw Error(ExitCode::usage,
+                "the case has no tape of known strength to choose from: name one (parachute.tape.material)");
+  const Tape& chosen = lightest ? *lightest : *strongest;
+  return {chosen.name,
+          fmt::format("{} a line's {:.3g} N ({:.0f} % used)",
+                      lightest ? "the lightest tape that holds" : "the strongest tape, too weak for",
+                      line_load, 100 * *used_of_tape(given, line_load, chosen))};
+}
+
+TapeMaterial tape_material(const Case& given) {
+  if (given.parachute.tape.material) return {*given.parachute.tape.material, "given"};
+  const Air stream = air(given);
+  const bool sinks = given.payload.mass_kg && given.inflation.mass != InflationSettings::Mass::payload;
+  const double speed = sinks ? usual_deployment_speed(stream.speed) : stream.speed;
+  const double known = experience(given.parachute).opening_coefficient;
+  const double load = (known > 0 ? known : unknown_opening) * usual_drag_coefficient(given) *
+                      nominal_area(given.parachute) * 0.5 * stream.density * speed * speed;
+  TapeMaterial tape = tape_for(given, load / given.parachute.lines.count);
+  tape.from += fmt::format(" when it opens at {:.3g} m/s", speed);
+  return tape;
+}
+
+}  // namespace ripstop
