@@ -13,6 +13,7 @@ TEST(StressPeak, SharesAreOfTheClothsAreaAndPeaksOfItsCells) {
   patch.rows = 2;
   patch.columns = 5;
   patch.cell_area = {1, 2, 5, 0, 0};
+  for (const Direction d : {along_row, along_column}) patch.rest_length[d].assign(10, 1.0);
   mesh.patches = {patch};
   for (const double y : {0., 1.})
     for (const double x : {0., 1., 3., 8., 9.}) mesh.start.push_back({x, y, 0});
@@ -31,6 +32,31 @@ TEST(StressPeak, SharesAreOfTheClothsAreaAndPeaksOfItsCells) {
   EXPECT_EQ(peak.von_mises, 40);
   EXPECT_EQ(peak.patch, "sheet");
   EXPECT_EQ(peak.place, (Vec3{2, 0.5, 0}));
+}
+
+// 100 N pull on the corner cell of a square sheet, whatever the cells.
+TEST(StressPeak, APointLoadIsSpreadOverTheStripThatStrengthIsMeasuredOn) {
+  for (const int cells : {15, 30, 35}) {
+    Mesh mesh;
+    const double h = 0.3 / cells;
+    Patch patch;
+    patch.rows = patch.columns = cells + 1;
+    const std::size_t count = patch.rows * patch.columns;
+    patch.cell_area.assign(count - patch.columns, 0.0);
+    for (int row = 0; row < cells; ++row)
+      for (int column = 0; column < cells; ++column) patch.cell_area[row * patch.columns + column] = h * h;
+    for (const Direction d : {along_row, along_column}) patch.rest_length[d].assign(count, h);
+    for (int row = 0; row <= cells; ++row)
+      for (int column = 0; column <= cells; ++column) mesh.start.push_back({column * h, row * h, 0});
+    mesh.patches = {patch};
+    std::vector<CellStress> stress(count - patch.columns);
+    const double width = strip_width / 2 + h / 2;  // of the square about the corner's cell, in one direction
+    stress[0].warp = stress[0].von_mises = 100 / h;
+    const StressPeak peak = stress_peak(mesh, mesh.start, stress);
+    EXPECT_NEAR(peak.warp, 100 * h / (width * width), 1e-9) << cells;
+    EXPECT_EQ(peak.von_mises, peak.warp);
+    EXPECT_EQ(peak.weft, 0);
+  }
 }
 
 }  // namespace

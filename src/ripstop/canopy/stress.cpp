@@ -63,6 +63,45 @@ double chain_tension(double axial, double bending_fraction, std::size_t at, std:
   return axial * (share + 0.5 * bending_fraction * over) / share;
 }
 
+namespace {
+
+/// How much of the cell `away` rows or columns from its middle cell a strip covers that is `cells` wide.
+double covered(double cells, int away) {
+  return std::clamp(0.5 * cells + 0.5 - std::abs(away), 0.0, 1.0);
+}
+
+/// Mean over the cloth of a square about cell (row, column), `strip` wide as cut [m], as far as the patch goes.
+CellStress over_strip(const Patch& patch, const CellStress* stress, int row, int column, double strip) {
+  const auto index = [&](int r, int c) { return r * patch.columns + c; };
+  const int middle = index(row, column);
+  const double columns = std::max(1.0, strip / patch.rest_length[along_row][middle]),
+               rows = std::max(1.0, strip / patch.rest_length[along_column][middle]);
+  const int column_reach = std::min(static_cast<int>(0.5 * columns + 0.5), (patch.columns - 1) / 2),
+            row_reach = static_cast<int>(0.5 * rows + 0.5);
+  CellStress mean = stress[middle];
+  double weights = 0;
+  mean.von_mises = mean.principal_max = mean.warp = mean.weft = 0;
+  for (int dr = -row_reach; dr <= row_reach; ++dr) {
+    if (row + dr < 0 || row + dr >= patch.rows - 1) continue;
+    for (int dc = -column_reach; dc <= column_reach; ++dc) {
+      int c = column + dc;
+      if (patch.periodic) c = (c + patch.columns) % patch.columns;
+      if (c < 0 || c >= patch.columns) continue;
+      const int i = index(row + dr, c);
+      const double weight = covered(rows, dr) * covered(columns, dc) * patch.cell_area[i];
+      weights += weight;
+      mean.von_mises += weight * stress[i].von_mises;
+      mean.principal_max += weight * stress[i].principal_max;
+      mean.warp += weight * stress[i].warp;
+      mean.weft += weight * stress[i].weft;
+    }
+  }
+  for (double* value : {&mean.von_mises, &mean.principal_max, &mean.warp, &mean.weft}) *value /= weights;
+  return mean;
+}
+
+}  // namespace
+
 StressPeak stress_peak(const Mesh& mesh, const std::vector<Vec3>& x, const std::vector<CellStress>& stress) {
   StressPeak peak;
   const std::vector<Cell> cells = cells_of(mesh);
@@ -74,15 +113,17 @@ StressPeak stress_peak(const Mesh& mesh, const std::vector<Vec3>& x, const std::
       area += patch.cell_area[i];
       if (stress[cell].tautness == Tautness::wrinkled) peak.wrinkled += patch.cell_area[i];
       if (stress[cell].tautness == Tautness::slack) peak.slack += patch.cell_area[i];
-      peak.warp = std::max(peak.warp, stress[cell].warp);
-      peak.weft = std::max(peak.weft, stress[cell].weft);
-      if (stress[cell].principal_max > peak.principal) {
-        peak.principal = stress[cell].principal_max;
-        peak.principal_direction = stress[cell].direction;
+      const CellStress mean =
+          over_strip(patch, &stress[cell - i], i / patch.columns, i % patch.columns, strip_width);
+      peak.warp = std::max(peak.warp, mean.warp);
+      peak.weft = std::max(peak.weft, mean.weft);
+      if (mean.principal_max > peak.principal) {
+        peak.principal = mean.principal_max;
+        peak.principal_direction = mean.direction;
       }
-      peak.strain = std::max(peak.strain, stress[cell].max_strain);
-      if (stress[cell].von_mises <= peak.von_mises) continue;
-      peak.von_mises = stress[cell].von_mises;
+      peak.strain = std::max(peak.strain, mean.max_strain);
+      if (mean.von_mises <= peak.von_mises) continue;
+      peak.von_mises = mean.von_mises;
       peak.patch = patch.name;
       peak.place = {};
       for (const int node : cells[cell].corner) peak.place += 0.25 * x[node];

@@ -22,11 +22,15 @@ std::vector<LineTension> line_tensions(const CanopyMesh& mesh, const std::vector
 /// and none over a single one; where the strain hardly changes along the chain all of them are under the same strain.
 double chain_tension(double axial, double bending_fraction, std::size_t at, std::size_t count);
 
-/// Where the cloth carries most, and how much of it carries.
+/// Strength is that of a strip so wide (ISO 13934-1) [m].
+inline constexpr double strip_width = 0.05;
+
+/// Where the cloth carries most, and how much of it carries. Stresses are means over a square of cloth as wide as such a
+/// strip, or as much of it as there is: where a line pulls on a corner, those of cells grow without end as cells shrink.
 struct StressPeak {
   double von_mises = 0;  // [N/m]
   double strain = 0;     // largest spring strain of the cloth
-  Vec3 place;            // of the cell with the highest von Mises value [m]
+  Vec3 place;            // of the cell about which von Mises is highest [m]
   std::string patch;
   double principal = 0;            // highest of the first principal forces [N/m]
   Vec3 principal_direction;        // of that, unit
