@@ -34,6 +34,22 @@ TEST(StressPeak, SharesAreOfTheClothsAreaAndPeaksOfItsCells) {
   EXPECT_EQ(peak.place, (Vec3{2, 0.5, 0}));
 }
 
+// Half as wide as cut, a cell has twice the force per present width.
+TEST(StressPeak, GatheredClothCountsWithItsWidthAsCut) {
+  Mesh mesh;
+  Patch patch;
+  patch.rows = patch.columns = 2;
+  patch.cell_area = {0.02, 0};
+  for (const Direction d : {along_row, along_column}) patch.rest_length[d].assign(4, 0.1);
+  mesh.patches = {patch};
+  mesh.start = {{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}, {0.1, 0.1, 0}};
+  std::vector<CellStress> stress(2);
+  stress[0].warp = stress[0].principal_max = 80;
+  const StressPeak peak = stress_peak(mesh, mesh.start, stress);
+  EXPECT_NEAR(peak.warp, 40, 1e-12);
+  EXPECT_NEAR(peak.principal, 40, 1e-12);
+}
+
 // 100 N pull on the corner cell of a square sheet, whatever the cells.
 TEST(StressPeak, APointLoadIsSpreadOverTheStripThatStrengthIsMeasuredOn) {
   for (const int cells : {15, 30, 35}) {

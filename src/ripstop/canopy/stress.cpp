@@ -70,6 +70,22 @@ double covered(double cells, int away) {
   return std::clamp(0.5 * cells + 0.5 - std::abs(away), 0.0, 1.0);
 }
 
+/// The cells' stresses in forces per width as cut, where cloth is gathered: its strength is one of its width.
+std::vector<CellStress> per_cut_width(const Mesh& mesh, const std::vector<Cell>& cells,
+                                      const std::vector<Vec3>& x, std::vector<CellStress> stress) {
+  std::size_t cell = 0;
+  for (const Patch& patch : mesh.patches) {
+    for (int i = 0; i < (patch.rows - 1) * patch.columns; ++i, ++cell) {
+      const auto [a, b, c, d] = cells[cell].corner;
+      if (a < 0) continue;
+      const double share = std::min(1.0, norm(area_vector(x[a], x[b], x[c], x[d])) / patch.cell_area[i]);
+      CellStress& s = stress[cell];
+      for (double* value : {&s.von_mises, &s.principal_max, &s.warp, &s.weft}) *value *= share;
+    }
+  }
+  return stress;
+}
+
 /// Mean over the cloth of a square about cell (row, column), `strip` wide as cut [m], as far as the patch goes.
 CellStress over_strip(const Patch& patch, const CellStress* stress, int row, int column, double strip) {
   const auto index = [&](int r, int c) { return r * patch.columns + c; };
@@ -102,9 +118,10 @@ CellStress over_strip(const Patch& patch, const CellStress* stress, int row, int
 
 }  // namespace
 
-StressPeak stress_peak(const Mesh& mesh, const std::vector<Vec3>& x, const std::vector<CellStress>& stress) {
+StressPeak stress_peak(const Mesh& mesh, const std::vector<Vec3>& x, const std::vector<CellStress>& of_cells) {
   StressPeak peak;
   const std::vector<Cell> cells = cells_of(mesh);
+  const std::vector<CellStress> stress = per_cut_width(mesh, cells, x, of_cells);
   std::size_t cell = 0;
   double area = 0;
   for (const Patch& patch : mesh.patches) {

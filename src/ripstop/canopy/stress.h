@@ -27,6 +27,7 @@ inline constexpr double strip_width = 0.05;
 
 /// Where the cloth carries most, and how much of it carries. Stresses are means over a square of cloth as wide as such a
 /// strip, or as much of it as there is: where a line pulls on a corner, those of cells grow without end as cells shrink.
+/// Cloth that is gathered counts with its width as cut.
 struct StressPeak {
   double von_mises = 0;  // [N/m]
   double strain = 0;     // largest spring strain of the cloth
@@ -48,7 +49,7 @@ void sewing_members(Peak& peak, Visit&& visit) {
   visit("slack_share", peak.slack);
 }
 StressPeak stress_peak(const Mesh& mesh, const std::vector<Vec3>& positions,
-                       const std::vector<CellStress>& stress);
+                       const std::vector<CellStress>& of_cells);
 
 struct Strains {
   double mean = 0, largest = 0;

@@ -127,8 +127,7 @@ Tautness tautness_of(const CellStress& stress, const Patch& patch) {
 }  // namespace
 
 // N = 1/A sum over the cell's share of springs T l n (x) n, in the present quad's plane: force per present
-// length (Cauchy), so a pressurised cylinder shows p R and a sphere p R / 2 at the present radius. Cloth that is gathered
-// counts with its area as cut: its strength is one of its width.
+// length (Cauchy), so a pressurised cylinder shows p R and a sphere p R / 2 at the present radius.
 std::vector<CellStress> cell_stress(const Cloth& cloth, const ClothState& state) {
   const Mesh& mesh = cloth.mesh;
   const std::vector<Vec3> x = positions(state, cloth);
@@ -168,8 +167,7 @@ std::vector<CellStress> cell_stress(const Cloth& cloth, const ClothState& state)
     for (int i = 0; i < (patch.rows - 1) * patch.columns; ++i, ++cell) {
       const Frame& frame = frames[cell];
       if (!(frame.area > 0)) continue;
-      const double area = std::max(frame.area, patch.cell_area[i]);
-      const Resultant n{sums[cell].uu / area, sums[cell].vv / area, sums[cell].uv / area};
+      const Resultant n{sums[cell].uu / frame.area, sums[cell].vv / frame.area, sums[cell].uv / frame.area};
       read_off(stress[cell], n, frame);
       stress[cell].warp = n.along(frame, yarn(patch.warp, cells[cell], x));
       stress[cell].weft = n.along(frame, yarn(patch.weft, cells[cell], x));
