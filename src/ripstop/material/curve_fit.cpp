@@ -65,17 +65,15 @@ std::vector<std::vector<double>> fit_samples(const MeanCurve& curve, int degree,
   return c;
 }
 
-Estimate estimate(const std::vector<double>& values, double confidence) {
+/// `reach` in standard errors.
+Estimate estimate(const std::vector<double>& values, double reach) {
   Estimate result;
   result.value = mean(values);
   const double none = std::numeric_limits<double>::quiet_NaN();
   result.standard_error =
       values.size() < 2 ? none : standard_deviation(values) / std::sqrt(static_cast<double>(values.size()));
-  const double reach =
-      values.size() < 2 ? none
-                        : result.standard_error * student_t(confidence, static_cast<int>(values.size()) - 1);
-  result.low = result.value - reach;
-  result.high = result.value + reach;
+  result.low = result.value - reach * result.standard_error;
+  result.high = result.value + reach * result.standard_error;
   return result;
 }
 
@@ -130,10 +128,11 @@ CurveFit fit_curve(const MeanCurve& curve, int degree, const FitOptions& options
 
   const std::vector<std::vector<double>> own = fit_samples(curve, degree, options);
   const std::vector<std::vector<double>> higher = fit_samples(curve, degree + degrees_of_bias, options);
+  const double reach = student_t(options.confidence, std::max(1, static_cast<int>(curve.samples.size()) - 1));
   const auto over = [&](const std::vector<std::vector<double>>& samples, auto&& value) {
     std::vector<double> values;
     for (const std::vector<double>& c : samples) values.push_back(value(c));
-    return estimate(values, options.confidence);
+    return estimate(values, reach);
   };
   /// The fit's own value, with the interval of the higher degree.
   const auto with_bias = [&](auto&& value) {
@@ -237,7 +236,8 @@ int choose_degree(const std::vector<MeanCurve>& curves, const FitOptions& option
     return lowest_with_r2(curves, options);
   const auto pulls_back = [&](int degree) {
     return std::all_of(curves.begin(), curves.end(), [&](const MeanCurve& curve) {
-      return fit_curve(curve, degree, options).k.front().value > 0;
+      const int first = first_power(options);
+      return fit_polynomial(curve.strain, curve.load, first, degree, weights(curve, options))[1 - first] > 0;
     });
   };
   std::vector<int> degrees(static_cast<std::size_t>(options.highest_degree));
