@@ -22,7 +22,7 @@ constexpr std::size_t fewest_points = 12;
 constexpr double most_out_of_order = 0.05;  // share of the points
 constexpr double toe_part = 0.3;            // of the peak force
 constexpr std::size_t fewest_toe_points = 8;
-constexpr int most_toe_terms = 4;           // of the curve that finds the start
+constexpr int most_toe_terms = 4;  // of the curve that finds the start
 constexpr int points_per_toe_term = 8;
 constexpr double clear_of_noise = 8;     // standard deviations; the range of a thousand points is 7
 constexpr double least_slip = 0.02;      // of the peak force
@@ -303,7 +303,8 @@ double find_start(Pull& pull, double peak) {
   if (start + fewest_points / 2 > pull.x.size())
     pull.refuse(pull.line.back(), "the force rises only at the very end: no curve can be fitted");
   std::size_t end = start;
-  while (end < pull.x.size() && (end < start + fewest_toe_points || smooth[end] - offset < toe_part * peak)) ++end;
+  while (end < pull.x.size() && (end < start + fewest_toe_points || smooth[end] - offset < toe_part * peak))
+    ++end;
   if (end < start + 3) return pull.x[start];
   const std::span<const double> x(pull.x.data(), end), f(pull.f.data(), end);
   // Slack ends before the first loaded point; a record that starts under load is continued to zero, but no
