@@ -146,6 +146,8 @@ TEST(Copies, AreKnownHoweverTheyAreChanged) {
         {"shifted and half", thinned(whole, [](std::size_t i) { return i % 2 == 1; })},
         {"without its start", thinned(whole, [](std::size_t i) { return i > 4; })},
         {"a tenth of the rows gone", thinned(whole, [](std::size_t i) { return i % 10 != 3; })},
+        {"cut at both ends",
+         thinned(whole, [&](std::size_t i) { return i > 8 && i < middle_of(whole) * 8 / 5; })},
         {"resampled", resampled_record(whole, 300)}};
     for (auto& [change, copy] : copies) {
       for (std::size_t i = 0; i < copy.force.size(); ++i) {

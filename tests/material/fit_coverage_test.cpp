@@ -28,6 +28,7 @@ struct CoverageLaw {
   double odd_slack = 0.002;  // of every third sample
   double noise = 0.003;
   int samples = 5;
+  int points = 400;
 };
 
 const std::function<double(double)> cubic = [](double e) {
@@ -56,6 +57,8 @@ std::vector<CoverageLaw> laws_that_hold() {
       {"cubic, 2 samples", cubic, 52e3, 0.3, 0.002, 0.05, 0.002, 0.003, 2},
       {"cubic, 10 samples", cubic, 52e3, 0.3, 0.002, 0.05, 0.002, 0.003, 10},
       {"cubic, noise 0.1 %", cubic, 52e3, 0.3, 0.002, 0.05, 0.002, 0.001},
+      {"knee, 60 points a record", [](double e) { return 9000 * (1 - exp(-e / 0.12)); }, 75e3, 0.3, 0.002,
+       0.05, 0.002, 0.003, 5, 60},
   };
 }
 
@@ -85,6 +88,7 @@ Found run_campaigns(const CoverageLaw& law) {
   wanted.failure_strain = law.failure_strain;
   wanted.width = law.width;
   wanted.noise = law.noise;
+  wanted.points = law.points;
   if (law.width == 0) wanted.length = 0.5;
   std::mt19937 random(1922);
   Found found;

@@ -21,9 +21,9 @@ namespace {
 constexpr std::size_t fewest_points = 12;
 constexpr double most_out_of_order = 0.05;  // share of the points
 constexpr double toe_part = 0.3;            // of the peak force
-constexpr std::size_t fewest_toe_points = 8;
+constexpr std::size_t fewest_toe_points = 12;
 constexpr int most_toe_terms = 4;  // of the curve that finds the start
-constexpr int points_per_toe_term = 8;
+constexpr int points_per_toe_term = 4;
 constexpr double clear_of_noise = 8;     // standard deviations; the range of a thousand points is 7
 constexpr double least_slip = 0.02;      // of the peak force
 constexpr double least_strain = 0.0025;  // at failure; stiff aramid yields 2 %

@@ -9,7 +9,7 @@ namespace ripstop {
 namespace {
 
 constexpr std::size_t fewest = 48;  // points in common
-constexpr std::size_t most = 600;
+constexpr std::size_t most = 240;
 constexpr double likely_copied = 0.3;
 constexpr double least_noise = 1e-9;  // of the highest load: rounding
 
