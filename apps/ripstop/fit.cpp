@@ -117,8 +117,10 @@ void add_fit(CLI::App& app, int& status) {
   command->add_option("bench", options->bench, "Test campaign (TOML): records, mass, thickness")->required();
   command->add_option("--out", options->out, "Folder for the material and its plots; default: runs/<name>");
   add_number(*command, "--degree", options->degree, from(1).up_to(8),
-             "Degree of the curves (default: the lowest with R2 > 0.95)");
-  command->add_flag("--zero-offset", options->zero_offset, "Fit through zero load at zero strain (K_0 = 0)");
+             "Degree of the curves (default: degree_rule of the campaign)");
+  command->add_flag(
+      "--zero-offset", options->zero_offset,
+      "Fit through zero load at zero strain (K_0 = 0), the default, whatever the campaign says");
   command->add_flag("--no-coupons", options->no_coupons, "Leave out xi, eps and the virtual coupons");
   add_json_option(*command, options->json);
   add_number(*command, "--threads", options->threads, key_range("coupling.threads"), "Threads; 0: all");

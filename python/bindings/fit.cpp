@@ -128,7 +128,8 @@ void add_fit(py::module_& module) {
              "From tensile test records to a material: ripstop fit.\n\n"
              "bench: the campaign's file (TOML).\n"
              "coupons: find xi and eps by virtual coupons.\n"
-             "degree: of the curves; 0: the lowest with R2 > 0.95. zero_offset: no load without strain.\n"
+             "degree: of the curves; 0: as the campaign says. zero_offset: no load without strain, whatever "
+             "it says.\n"
              "progress: called with a FitProgress after every coupon; what it raises ends the search.\n"
              "threads: 0: all. out: a folder for the material and its plots. None: nothing is written.\n\n"
              "Loads in [N/m] of cloth and tape, in [N] of a line.");

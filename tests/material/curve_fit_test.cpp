@@ -88,11 +88,75 @@ TEST(CurveFit, TwoSamplesHaveAnErrorAndAWideInterval) {
   for (const Estimate& k : fit.k) {
     EXPECT_GT(k.standard_error, 0);
     EXPECT_TRUE(std::isfinite(k.standard_error));
-    EXPECT_NEAR((k.high - k.value) / k.standard_error, 12.7062, 1e-3);
-    EXPECT_NEAR((k.value - k.low) / k.standard_error, 12.7062, 1e-3);
   }
+  EXPECT_NEAR((fit.k[1].high - fit.k[1].value) / fit.k[1].standard_error, 12.7062, 1e-3);
+  EXPECT_NEAR((fit.k[1].value - fit.k[1].low) / fit.k[1].standard_error, 12.7062, 1e-3);
   const CurveFit single = fit_curve(mean_curve(bench_of(f111_record(), 1, random)), 2, {});
-  EXPECT_TRUE(std::isnan(single.k[0].standard_error));
+  for (double none : {single.k[0].standard_error, single.k[0].low, single.k[0].high, single.band_low[9]})
+    EXPECT_TRUE(std::isnan(none));
+}
+
+// K_1 and the band are those of a fit two degrees higher, where that lies about the fit.
+TEST(CurveFit, TheBandOfADegreeTooLowHoldsTheFitAndTheLaw) {
+  std::mt19937 random(6);
+  SyntheticRecord bent = f111_record();
+  bent.load = [](double e) { return 52e3 * e - 220e3 * e * e + 450e3 * e * e * e; };
+  bent.noise = 1e-3;
+  const MeanCurve curve = mean_curve(bench_of(bent, 5, random));
+  const CurveFit low = fit_curve(curve, 1, {}), enough = fit_curve(curve, 3, {});
+  EXPECT_LT(low.k[0].value, 0.8 * 52e3);
+  EXPECT_EQ(low.k[0].low, low.k[0].value);
+  EXPECT_GT(low.k[0].high, 52e3);
+  const std::size_t at = 20;
+  EXPECT_EQ(low.band_low[at], low.fit[at]);
+  EXPECT_NEAR(low.band_high[at], enough.band_high[at], 0.02 * enough.fit[at]);
+  EXPECT_LT(enough.k[0].low, enough.k[0].value);
+  EXPECT_LT(enough.k[0].high - enough.k[0].low, 0.5 * (low.k[0].high - low.k[0].low));
+}
+
+// (working / strain)^2 beyond the working strain, with which a straight line through a parabola's points keeps near its
+// start; by the rule of [NFM] every point counts alike.
+TEST(CurveFit, WorkingStrainsCountMost) {
+  FitOptions options;
+  EXPECT_EQ(strain_weight(0.05, options), 1);
+  EXPECT_NEAR(strain_weight(0.1, options), 0.25, 1e-15);
+  CleanRecord a;
+  for (int i = 0; i <= 300; ++i) {
+    a.strain.push_back(1e-3 * i);
+    a.load.push_back(polynomial(f111_curve, 1, a.strain.back()));
+  }
+  a.failure_strain = 0.3;
+  const MeanCurve curve = mean_curve({a, a});
+  double top = 0, bottom = 0, alike_top = 0, alike_bottom = 0;
+  for (std::size_t i = 0; i < curve.strain.size(); ++i) {
+    const double e = curve.strain[i], w = strain_weight(e, options);
+    top += w * e * curve.load[i], bottom += w * e * e;
+    alike_top += e * curve.load[i], alike_bottom += e * e;
+  }
+  EXPECT_NEAR(fit_curve(curve, 1, options).k[0].value, top / bottom, 1e-6);
+  options.rule = DegreeRule::nfm;
+  EXPECT_EQ(strain_weight(0.1, options), 1);
+  EXPECT_NEAR(fit_curve(curve, 1, options).k[0].value, alike_top / alike_bottom, 1e-6);
+  EXPECT_LT(alike_top / alike_bottom, top / bottom - 500);
+}
+
+// Two samples that are multiples of one parabola: each predicts the other but for the stiffness, and a straight line
+// misses the bend as well.
+TEST(CurveFit, ThePredictionErrorIsThatOfTheSampleLeftOut) {
+  CleanRecord a;
+  for (int i = 0; i <= 300; ++i) {
+    a.strain.push_back(1e-3 * i);
+    a.load.push_back(polynomial(f111_curve, 1, a.strain.back()));
+  }
+  a.failure_strain = 0.3;
+  CleanRecord b = a;
+  for (double& load : b.load) load *= 1.1;
+  const MeanCurve curve = mean_curve({a, b});
+  EXPECT_NEAR(prediction_error({curve}, 2, {}), std::pow(0.1 / 1.05, 2), 1e-9);
+  EXPECT_GT(prediction_error({curve}, 1, {}), 1.05 * std::pow(0.1 / 1.05, 2));
+  EXPECT_EQ(choose_degree({curve}, {}), 2);
+  EXPECT_TRUE(std::isnan(prediction_error({mean_curve({a})}, 2, {})));
+  EXPECT_EQ(choose_degree({mean_curve({a})}, {}), 1);  // by R2
 }
 
 // The claim of a 95 % interval is that it holds in 95 of 100 campaigns. 400 campaigns of five samples: the
@@ -146,6 +210,8 @@ TEST(CurveFit, TheLowestSufficientDegreeIsChosenForEveryDirection) {
   EXPECT_EQ(choose_degree({a}, {}), 1);
   EXPECT_GE(choose_degree({a, b}, {}), 2);
   FitOptions strict;
+  strict.rule = DegreeRule::nfm;
+  EXPECT_EQ(choose_degree({a, b}, strict), 2);
   strict.wanted_r2 = 0.9999999;
   strict.highest_degree = 2;
   EXPECT_THROW(choose_degree({a, b}, strict), Error);
@@ -175,12 +241,12 @@ TEST(CurveFit, AResidualLoadIsReportedAndZeroedOnRequest) {
   CleanRecord b = a;
   for (double& load : b.load) load *= 1.02;
   const MeanCurve curve = mean_curve({a, b});
-  const CurveFit with = fit_curve(curve, 1, {});
+  FitOptions free;
+  free.zero_offset = false;
+  const CurveFit with = fit_curve(curve, 1, free);
   EXPECT_NEAR(with.offset.value, 202, 1e-6);
   EXPECT_NEAR(with.k[0].value, 20200, 1e-4);
-  FitOptions zero;
-  zero.zero_offset = true;
-  const CurveFit without = fit_curve(curve, 1, zero);
+  const CurveFit without = fit_curve(curve, 1, {});
   EXPECT_EQ(without.offset.value, 0);
   EXPECT_GT(without.k[0].value, 20200);
 }

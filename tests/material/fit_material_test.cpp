@@ -13,6 +13,10 @@
 namespace ripstop {
 namespace {
 
+const std::string fabric_head =
+    "kind = \"fabric\"\nname = \"c\"\nsource = \"synthetic\"\nareal_density_kg_m2 = 0.0407\nthickness_m = "
+    "7.6e-5\n";
+
 struct BenchFile : ::testing::Test {
   TemporaryFolder folder{"bench"};
   std::mt19937 random{29};
@@ -54,6 +58,110 @@ TEST_F(BenchFile, OneRecordCountsOnce) {
       EXPECT_NE(std::string(error.what()).find("are the same record"), std::string::npos) << error.what();
     }
   }
+}
+
+TEST_F(BenchFile, ACopyIsRefusedHoweverItIsWritten) {
+  SyntheticRecord cloth;
+  cloth.load = [](double e) { return 30006 * e - 18936 * e * e; };
+  const std::string head = fabric_head + coupons("a", 3, cloth);
+  EXPECT_TRUE(fit_material(bench(head)).warnings.empty());
+  const TensileRecord whole = read_record(folder.path / "a-1.csv");
+  std::string copy = "# length: 200 mm\n# width: 50 mm\n# orientation: 0 deg\nforce [lbf];extension [in]\n";
+  for (std::size_t i = 3; i < whole.force.size(); i += 2)
+    copy += fmt::format("{:.4f};{:.5f}\n", 1.04 * whole.force[i] / 4.4482216, whole.displacement[i] / 0.0254);
+  write_file(folder.path / "new.csv", copy);
+  try {
+    fit_material(bench(head + "[[coupon]]\nfile = \"new.csv\"\n"));
+    ADD_FAILURE() << "a copy was taken";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::bad_data);
+    EXPECT_NE(std::string(error.what()).find("a-1.csv and new.csv share their noise"), std::string::npos)
+        << error.what();
+  }
+}
+
+TEST_F(BenchFile, NoiseSharedInPartIsDoubtedAndKept) {
+  SyntheticRecord cloth;
+  cloth.load = [](double e) { return 30006 * e - 18936 * e * e; };
+  const std::string head = fabric_head + coupons("a", 2, cloth);
+  const TensileRecord whole = read_record(folder.path / "a-0.csv");
+  const double peak = *std::max_element(whole.force.begin(), whole.force.end());
+  std::normal_distribution<double> normal;
+  std::string copy = "# length: 200 mm\n# width: 50 mm\n# orientation: 0 deg\nforce [N],extension [m]\n";
+  for (std::size_t i = 0; i < whole.force.size(); ++i)
+    copy += fmt::format("{:.6f},{:.8f}\n", whole.force[i] + 2.5e-4 * peak * normal(random),
+                        whole.displacement[i]);
+  write_file(folder.path / "new.csv", copy);
+  const MaterialFit fit = fit_material(bench(head + "[[coupon]]\nfile = \"new.csv\"\n"));
+  ASSERT_EQ(fit.warnings.size(), 1u);
+  EXPECT_NE(fit.warnings[0].find("a-0.csv and new.csv share their noise"), std::string::npos)
+      << fit.warnings[0];
+  EXPECT_NE(material_warnings(fit.material, 0).at(0).find("is one a copy"), std::string::npos);
+}
+
+TEST_F(BenchFile, AGripThatSlipsWarnsForEver) {
+  SyntheticRecord cloth;
+  cloth.load = [](double e) { return 30006 * e - 18936 * e * e; };
+  const std::string head = fabric_head + coupons("a", 3, cloth);
+  // At 12 % strain the force falls by a third; from there it rises as before.
+  const TensileRecord whole = read_record(folder.path / "a-1.csv");
+  std::string slipped = "# length: 200 mm\n# width: 50 mm\n# orientation: 0 deg\nforce [N],extension [m]\n";
+  for (std::size_t i = 0; i < whole.force.size(); ++i)
+    slipped += fmt::format("{:.6f},{:.8f}\n", whole.force[i] - (whole.displacement[i] > 0.026 ? 55 : 0),
+                           whole.displacement[i]);
+  write_file(folder.path / "a-1.csv", slipped);
+  const MaterialFit fit = fit_material(bench(head));
+  EXPECT_GT(fit.directions.front().fit.r2, 0.95);
+  ASSERT_EQ(fit.warnings.size(), 1u);
+  EXPECT_TRUE(fit.warnings[0].starts_with("a-1.csv: the force falls from")) << fit.warnings[0];
+  EXPECT_NE(fit.warnings[0].find("did a grip slip"), std::string::npos) << fit.warnings[0];
+  EXPECT_NE(material_warnings(fit.material, 0).at(0).find("did a grip slip"), std::string::npos);
+}
+
+// A cubic law with K_1 = 52,000 N/m, with slack of 30 % of the pull in every sample, and in every third. The rule of [NFM]
+// takes a straight line, which loses a third of K_1 with R2 above 0.95: its interval says so.
+TEST_F(BenchFile, ACubicLawWithSlackKeepsItsStiffness) {
+  SyntheticRecord cloth;
+  cloth.load = [](double e) { return 52e3 * e - 150e3 * e * e + 275e3 * e * e * e; };
+  cloth.failure_strain = 0.3;
+  cloth.noise = 1e-3;
+  for (const double usual : {0.018, 0.0}) {
+    std::string records;
+    for (int i = 0; i < 6; ++i) {
+      cloth.slack = i % 3 == 0 ? 0.018 : usual;
+      records += coupons(fmt::format("cubic-{}-{}", usual, i), 1, cloth);
+    }
+    const MaterialFit fit = fit_material(bench(fabric_head + records));
+    const CurveFit& curve = fit.directions.front().fit;
+    EXPECT_EQ(curve.degree, 3);
+    EXPECT_NEAR(curve.k[0].value, 52e3, 2e3);
+    EXPECT_LT(curve.k[0].low, 52e3);
+    EXPECT_GT(curve.k[0].high, 52e3);
+    EXPECT_LT(curve.k[0].high - curve.k[0].low, 0.2 * 52e3);
+    const std::vector<double>& strain = fit.directions.front().curve.strain;
+    for (std::size_t i = 0; strain[i] < 0.05; ++i) {
+      EXPECT_LT(curve.band_low[i], cloth.load(strain[i])) << strain[i];
+      EXPECT_GT(curve.band_high[i], cloth.load(strain[i])) << strain[i];
+    }
+    const MaterialFit paper = fit_material(bench("degree_rule = \"nfm\"\n" + fabric_head + records));
+    const CurveFit& line = paper.directions.front().fit;
+    EXPECT_EQ(line.degree, 1);
+    EXPECT_GT(line.r2, 0.95);
+    EXPECT_LT(line.k[0].value, 0.7 * 52e3);
+    EXPECT_GT(line.k[0].high, 0.97 * 52e3);
+    EXPECT_NE(paper.notes.front().find("degree 1: the lowest with R2 above 0.95"), std::string::npos);
+  }
+}
+
+TEST_F(BenchFile, ALoadWithoutStrainIsMeasuredByTheWorkingStrain) {
+  SyntheticRecord bent;
+  bent.load = [](double e) { return 5e3 * e + 80e3 * e * e; };
+  const std::string records = coupons("a", 3, bent);
+  const MaterialFit fit = fit_material(bench("degree = 1\nzero_offset = false\n" + fabric_head + records));
+  ASSERT_FALSE(fit.warnings.empty());
+  EXPECT_NE(fit.warnings[0].find("of its load at strain 0.05"), std::string::npos) << fit.warnings[0];
+  EXPECT_EQ(fit_material(bench("degree = 1\n" + fabric_head + records)).directions.front().fit.offset.value,
+            0);
 }
 
 TEST_F(BenchFile, ALineComesBackInNewtons) {

@@ -51,7 +51,7 @@ double polynomial(std::span<const double> c, int first, double x) {
 }
 
 std::vector<double> fit_polynomial(std::span<const double> x, std::span<const double> y, int first,
-                                   int degree) {
+                                   int degree, std::span<const double> weight) {
   const auto count = static_cast<Eigen::Index>(x.size());
   const Eigen::Index n = degree - first + 1;
   if (count < n || x.size() != y.size())
@@ -63,8 +63,10 @@ std::vector<double> fit_polynomial(std::span<const double> x, std::span<const do
   Eigen::MatrixXd a(count, n);
   Eigen::VectorXd b(count);
   for (Eigen::Index i = 0; i < count; ++i) {
-    b[i] = y[i];
-    for (Eigen::Index j = 0; j < n; ++j) a(i, j) = std::pow(x[i] / range, static_cast<double>(j + first));
+    const double scale = weight.empty() ? 1.0 : std::sqrt(weight[i]);
+    b[i] = scale * y[i];
+    for (Eigen::Index j = 0; j < n; ++j)
+      a(i, j) = scale * std::pow(x[i] / range, static_cast<double>(j + first));
   }
   const Eigen::VectorXd solution = a.colPivHouseholderQr().solve(b);
   std::vector<double> c(n);

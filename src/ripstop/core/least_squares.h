@@ -9,10 +9,11 @@ namespace ripstop {
 /// sum_k c_k x^k, k from `first`.
 double polynomial(std::span<const double> c, int first, double x);
 
-/// Least squares for y = sum_k c_k x^k with k = first .. degree (first 0 or 1). The columns are scaled, so
-/// strains of 1e-3 and degree 6 are harmless. Throws Error(bad_data) with fewer points than coefficients.
+/// Least squares for y = sum_k c_k x^k with k = first .. degree (first 0 or 1); `weight` of the squared misfit at every
+/// point, empty: alike. The columns are scaled, so strains of 1e-3 and degree 10 are harmless. Throws
+/// Error(bad_data) with fewer points than coefficients.
 std::vector<double> fit_polynomial(std::span<const double> x, std::span<const double> y, int first,
-                                   int degree);
+                                   int degree, std::span<const double> weight = {});
 
 /// 1 - sum (y - fit)^2 / sum (y - mean y)^2; 1 for a constant y that is met, else minus infinity.
 double r_squared(std::span<const double> y, std::span<const double> fit);

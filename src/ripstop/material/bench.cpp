@@ -49,11 +49,20 @@ void describe(Fields& fields, Bench& bench) {
                 "Thickness; needed for fabric and tape.");
   fields.number("width_m", bench.width_m, above(0).up_to(1), "Width of a tape; needed for one.");
   fields.integer("degree", bench.degree, from(0).up_to(8),
-                 "Degree of the curve; 0: the lowest with R2 above wanted_r2 in every orientation.");
-  fields.number("wanted_r2", bench.wanted_r2, above(0).below(1), "For the automatic degree.");
+                 "Degree of the curves; 0: chosen by degree_rule, one for all orientations.");
+  fields.choice("degree_rule", bench.degree_rule,
+                {{"cross-validation", DegreeRule::cross_validation}, {"nfm", DegreeRule::nfm}},
+                "The lowest degree that predicts a sample from the others as well as any; or, of unweighted "
+                "points, the "
+                "lowest with R2 above wanted_r2 in every orientation ([NFM]).");
+  fields.number("wanted_r2", bench.wanted_r2, above(0).below(1), "For degree_rule = \"nfm\".");
+  fields.number("working_strain", bench.working_strain, from(1e-3).up_to(4),
+                "Points up to here count alike, those beyond by (working_strain / strain)^2.");
   fields.number("confidence", bench.confidence, above(0).below(1), "Of intervals and bands.");
-  fields.toggle("zero_offset", bench.zero_offset,
-                "Fit through zero load at zero strain (K_0 = 0: no residual stress).");
+  fields.toggle(
+      "zero_offset", bench.zero_offset,
+      "Fit through zero load at zero strain (K_0 = 0: no residual stress); false: K_0 is fitted too, and no "
+      "spring carries it.");
   fields.toggle("single_samples", bench.single_samples,
                 "Accept one record for an orientation; it then has no confidence band.");
   fields.choice(

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "ripstop/material/curve_fit.h"
+
 namespace ripstop {
 
 class Fields;
@@ -31,10 +33,12 @@ struct Bench {
   BenchKind kind = BenchKind::fabric;
   std::string name, source;
   std::optional<double> areal_density_kg_m2, linear_density_kg_m, thickness_m, width_m;
-  int degree = 0;  // 0: the lowest with R2 above wanted_r2 in every direction
+  int degree = 0;  // 0: degree_rule chooses
+  DegreeRule degree_rule = DegreeRule::cross_validation;
   double wanted_r2 = 0.95;
+  double working_strain = 0.05;
   double confidence = 0.95;
-  bool zero_offset = false;
+  bool zero_offset = true;
   bool single_samples = false;
   WeftChoice weft = WeftChoice::automatic;
   double compression = 1;

@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
 #include <numeric>
+#include <optional>
 #include <queue>
 #include <span>
 
@@ -19,8 +21,13 @@ namespace {
 constexpr std::size_t fewest_points = 12;
 constexpr double most_out_of_order = 0.05;  // share of the points
 constexpr double toe_part = 0.3;            // of the peak force
-constexpr double least_strain = 0.0025;     // at failure; stiff aramid yields 2 %
-constexpr double most_strain = 3.5;         // at failure; a bias pull of loose cloth reaches 1
+constexpr std::size_t fewest_toe_points = 12;
+constexpr int most_toe_terms = 4;  // of the curve that finds the start
+constexpr int points_per_toe_term = 4;
+constexpr double clear_of_noise = 8;     // standard deviations; the range of a thousand points is 7
+constexpr double least_slip = 0.02;      // of the peak force
+constexpr double least_strain = 0.0025;  // at failure; stiff aramid yields 2 %
+constexpr double most_strain = 3.5;      // at failure; a bias pull of loose cloth reaches 1
 
 struct Pull {
   const TensileRecord& record;
@@ -136,6 +143,82 @@ void check_jumps(const Pull& pull, double peak) {
   }
 }
 
+/// A fall of the force that is taken back.
+struct Fall {
+  std::size_t trough = 0;
+  double from = 0, to = 0;
+};
+
+/// Standard deviation of the force about its neighbours a fortieth of the points away, so that errors which neighbours
+/// share count too.
+double wide_noise_of(const std::vector<double>& f) {
+  const std::size_t reach = std::clamp<std::size_t>(f.size() / 40, 1, 10);
+  std::vector<double> second;
+  for (std::size_t i = reach; i + reach < f.size(); ++i)
+    second.push_back(std::abs(f[i - reach] - 2 * f[i] + f[i + reach]));
+  return median(second) / (0.6745 * std::sqrt(6.0));
+}
+
+/// Falls that are clear of noise, each followed by a rise of at least half of it: yarns that break do not carry again
+/// what they carried, a grip that holds again does.
+std::vector<Fall> falls_of(const std::vector<double>& smooth, double clear) {
+  std::vector<Fall> falls;
+  double top = smooth.front();
+  std::size_t trough = 0;
+  for (std::size_t i = 0; i < smooth.size(); ++i) {
+    if (smooth[i] < smooth[trough]) trough = i;
+    const double fall = top - smooth[trough];
+    const bool taken_back = fall >= clear && smooth[i] - smooth[trough] >= std::max(clear, 0.5 * fall);
+    if (taken_back) falls.push_back({trough, top, smooth[trough]});
+    if (taken_back || smooth[i] > top) top = smooth[i], trough = i;
+  }
+  return falls;
+}
+
+/// Where the force stands still between two stretches, each as long, over which it rises clearly. Index of the middle of
+/// the flattest such stretch.
+std::optional<std::size_t> plateau_of(const Pull& pull, std::size_t peak, double clear) {
+  constexpr double still = 0.15;  // of the smaller of both rises; the knee of a nylon has a third
+  std::optional<std::size_t> found;
+  double flattest = still;
+  for (std::size_t window = std::max<std::size_t>(6, peak / 48); 3 * window <= peak; window += window / 2) {
+    const std::size_t half = std::max<std::size_t>(1, window / 6);
+    const auto level = [&](std::size_t i) { return mean(std::span(pull.f).subspan(i - half, 2 * half + 1)); };
+    for (std::size_t i = half; i + 3 * window + half <= peak; i += half) {
+      const double a = level(i), b = level(i + window), c = level(i + 2 * window), d = level(i + 3 * window);
+      const double least = std::min(b - a, d - c);
+      if (least < clear || c - b >= flattest * least) continue;
+      flattest = (c - b) / least;
+      found = i + window + window / 2;
+    }
+  }
+  return found;
+}
+
+/// What a grip that slips leaves in the force, in words; empty: nothing. `strain_of` an index.
+std::string slip_of(const Pull& pull, const std::function<double(std::size_t)>& strain_of) {
+  const std::vector<double> smooth = smoothed(pull.f);
+  const auto peak = static_cast<std::size_t>(std::max_element(smooth.begin(), smooth.end()) - smooth.begin());
+  const double clear = std::max(clear_of_noise * wide_noise_of(pull.f), least_slip * smooth[peak]);
+  const std::vector<Fall> falls = falls_of(smooth, clear);
+  if (!falls.empty()) {
+    const Fall& worst = *std::max_element(falls.begin(), falls.end(), [](const Fall& a, const Fall& b) {
+      return a.from - a.to < b.from - b.to;
+    });
+    return fmt::format(
+        "the force falls from {:.4g} N to {:.4g} N by strain {:.3g} (line {}) and rises again{}: did "
+        "a grip slip, or yarns break?",
+        worst.from, worst.to, strain_of(worst.trough), pull.line[worst.trough],
+        falls.size() > 1 ? fmt::format(", the worst of {} falls", falls.size()) : "");
+  }
+  if (const std::optional<std::size_t> flat = plateau_of(pull, peak, clear))
+    return fmt::format(
+        "the force stands still about {:.4g} N at strain {:.3g} (line {}) and goes on rising after it: "
+        "did a grip slip?",
+        smooth[*flat], strain_of(*flat), pull.line[*flat]);
+  return "";
+}
+
 /// Leaves out what follows the highest force.
 double cut_failure(Pull& pull) {
   const std::vector<double> smooth = smoothed(pull.f);
@@ -165,19 +248,29 @@ double cut_failure(Pull& pull) {
   return *top;
 }
 
-/// Squared misfit of a pull that begins at `zero`: nothing before it, c1 u + c2 u^2 with c1 >= 0 after it.
-double toe_misfit(std::span<const double> x, std::span<const double> f, double zero) {
-  double s2 = 0, s3 = 0, s4 = 0, f1 = 0, f2 = 0, sum = 0;
+/// Squared misfit of a pull that begins at `zero`: nothing before it, sum_k c_k u^k with k = 1 .. terms and c_1 >= 0
+/// after it.
+double toe_misfit(std::span<const double> x, std::span<const double> f, double zero, int terms) {
+  Eigen::MatrixXd products = Eigen::MatrixXd::Zero(terms, terms);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(terms), powers(terms);
+  double sum = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
-    const double u = std::max(0.0, x[i] - zero);
-    s2 += u * u, s3 += u * u * u, s4 += u * u * u * u;
-    f1 += f[i] * u, f2 += f[i] * u * u;
     sum += f[i] * f[i];
+    if (x[i] <= zero) continue;
+    powers[0] = (x[i] - zero) / (x.back() - zero);
+    for (int k = 1; k < terms; ++k) powers[k] = powers[k - 1] * powers[0];
+    products.selfadjointView<Eigen::Lower>().rankUpdate(powers);
+    right += f[i] * powers;
   }
-  const double determinant = s2 * s4 - s3 * s3;
-  if (!(determinant > 1e-12 * s2 * s4)) return s2 > 0 ? sum - f1 * f1 / s2 : sum;
-  const double c1 = (f1 * s4 - f2 * s3) / determinant, c2 = (f2 * s2 - f1 * s3) / determinant;
-  return c1 > 0 ? sum - c1 * f1 - c2 * f2 : sum - f2 * f2 / s4;
+  const auto solved = [&](int from) {  // c_k from this k on, and what they leave
+    const int n = terms - from;
+    const Eigen::MatrixXd left = products.bottomRightCorner(n, n);
+    const Eigen::VectorXd of_right = right.tail(n),
+                          c = left.selfadjointView<Eigen::Lower>().ldlt().solve(of_right);
+    return std::pair(c[0], sum - c.dot(of_right));
+  };
+  const auto [c1, misfit] = solved(0);
+  return c1 > 0 ? misfit : solved(1).second;
 }
 
 /// Displacement where the pull begins; takes the load cell's offset off the forces.
@@ -210,20 +303,22 @@ double find_start(Pull& pull, double peak) {
   if (start + fewest_points / 2 > pull.x.size())
     pull.refuse(pull.line.back(), "the force rises only at the very end: no curve can be fitted");
   std::size_t end = start;
-  while (end < pull.x.size() && smooth[end] - offset < toe_part * peak) ++end;
+  while (end < pull.x.size() && (end < start + fewest_toe_points || smooth[end] - offset < toe_part * peak))
+    ++end;
   if (end < start + 3) return pull.x[start];
   const std::span<const double> x(pull.x.data(), end), f(pull.f.data(), end);
   // Slack ends before the first loaded point; a record that starts under load is continued to zero, but no
   // farther than twice the way of its first slope.
   const double slope = (f[end - 1] - f[start]) / (x[end - 1] - x[start]);
   const double reach = slope > 0 ? 2 * std::max(0.0, f[0]) / slope : 0.0;
+  const int terms = std::clamp(static_cast<int>(end - start) / points_per_toe_term, 2, most_toe_terms);
   double low = x[0] - reach, high = x[start] + 0.1 * (x[end - 1] - x[start]);
   for (int round = 0; round < 4; ++round) {
     constexpr int tries = 60;
     const double step = (high - low) / tries;
-    double best = low, least = toe_misfit(x, f, low);
+    double best = low, least = toe_misfit(x, f, low, terms);
     for (int i = 1; i <= tries; ++i) {
-      const double misfit = toe_misfit(x, f, low + i * step);
+      const double misfit = toe_misfit(x, f, low + i * step, terms);
       if (misfit < least) least = misfit, best = low + i * step;
     }
     low = best - step, high = best + step;
@@ -250,6 +345,7 @@ CleanRecord clean_record(const TensileRecord& record, LoadKind kind) {
                 fmt::format("{} measurements; a curve needs {}", record.force.size(), fewest_points));
 
   sort_by_order(pull);
+  const Pull whole = pull;
   const double peak = cut_failure(pull);
   check_jumps(pull, peak);
   const double start = find_start(pull, peak);
@@ -268,6 +364,7 @@ CleanRecord clean_record(const TensileRecord& record, LoadKind kind) {
   if (clean.strain.size() < fewest_points / 2)
     pull.refuse(pull.line.empty() ? record.line.back() : pull.line.back(),
                 fmt::format("only {} measurements between slack and failure", clean.strain.size()));
+  clean.slip = slip_of(whole, [&](std::size_t i) { return (whole.x[i] - start) / clean.length; });
   clean.noise = noise_of(clean.load);
   clean.failure_strain = clean.strain.back();
   clean.failure_load = (peak - clean.force_offset) / per;

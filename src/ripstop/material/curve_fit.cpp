@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <span>
 
 #include "ripstop/core/error.h"
@@ -14,7 +15,9 @@ namespace ripstop {
 namespace {
 
 constexpr int grid_points = 200;
-constexpr double most_ratio = 10;  // between two samples of the same cloth
+constexpr double most_ratio = 10;   // between two samples of the same cloth
+constexpr int degrees_of_bias = 2;  // above the fit, to see what it misses
+constexpr double as_good = 1.01;    // times the least prediction error
 
 /// Averages of the points within half a step of each grid strain, interpolated where there are none.
 std::vector<double> resampled(const CleanRecord& record, const std::vector<double>& grid) {
@@ -43,21 +46,34 @@ std::vector<double> resampled(const CleanRecord& record, const std::vector<doubl
   return result;
 }
 
-double value_at(const std::vector<double>& c, int first, double e) {
-  return polynomial(c, first, e);
+std::vector<double> weights(const MeanCurve& curve, const FitOptions& options) {
+  std::vector<double> result;
+  for (double strain : curve.strain) result.push_back(strain_weight(strain, options));
+  return result;
 }
 
-Estimate estimate(const std::vector<double>& values, double confidence) {
+int first_power(const FitOptions& options) {
+  return options.zero_offset ? 1 : 0;
+}
+
+/// Coefficients of every sample.
+std::vector<std::vector<double>> fit_samples(const MeanCurve& curve, int degree, const FitOptions& options) {
+  const std::vector<double> weight = weights(curve, options);
+  std::vector<std::vector<double>> c;
+  for (const auto& sample : curve.samples)
+    c.push_back(fit_polynomial(curve.strain, sample, first_power(options), degree, weight));
+  return c;
+}
+
+/// `reach` in standard errors.
+Estimate estimate(const std::vector<double>& values, double reach) {
   Estimate result;
   result.value = mean(values);
   const double none = std::numeric_limits<double>::quiet_NaN();
   result.standard_error =
       values.size() < 2 ? none : standard_deviation(values) / std::sqrt(static_cast<double>(values.size()));
-  const double reach =
-      values.size() < 2 ? none
-                        : result.standard_error * student_t(confidence, static_cast<int>(values.size()) - 1);
-  result.low = result.value - reach;
-  result.high = result.value + reach;
+  result.low = result.value - reach * result.standard_error;
+  result.high = result.value + reach * result.standard_error;
   return result;
 }
 
@@ -105,28 +121,38 @@ MeanCurve mean_curve(const std::vector<CleanRecord>& samples) {
 }
 
 CurveFit fit_curve(const MeanCurve& curve, int degree, const FitOptions& options) {
-  const int first = options.zero_offset ? 1 : 0;
+  const int first = first_power(options);
   CurveFit result;
   result.degree = degree;
   result.tested_strain = curve.tested_strain;
 
-  std::vector<std::vector<double>> c;  // of every sample
-  for (const auto& sample : curve.samples) c.push_back(fit_polynomial(curve.strain, sample, first, degree));
-  const auto over_samples = [&](auto&& value) {
+  const std::vector<std::vector<double>> own = fit_samples(curve, degree, options);
+  const std::vector<std::vector<double>> higher = fit_samples(curve, degree + degrees_of_bias, options);
+  const double reach = student_t(options.confidence, std::max(1, static_cast<int>(curve.samples.size()) - 1));
+  const auto over = [&](const std::vector<std::vector<double>>& samples, auto&& value) {
     std::vector<double> values;
-    for (const auto& one : c) values.push_back(value(one));
-    return estimate(values, options.confidence);
+    for (const std::vector<double>& c : samples) values.push_back(value(c));
+    return estimate(values, reach);
+  };
+  /// The fit's own value, with the interval of the higher degree.
+  const auto with_bias = [&](auto&& value) {
+    Estimate e = over(own, value);
+    const Estimate unbiased = over(higher, value);
+    e.low = std::min(e.value, unbiased.low);
+    e.high = std::max(e.value, unbiased.high);
+    if (curve.samples.size() < 2) e.low = e.high = std::numeric_limits<double>::quiet_NaN();
+    return e;
   };
   for (int k = first; k <= degree; ++k) {
-    const Estimate e = over_samples([&](const std::vector<double>& one) { return one[k - first]; });
+    const auto coefficient = [&](const std::vector<double>& c) { return c[k - first]; };
+    const Estimate e = k == 1 ? with_bias(coefficient) : over(own, coefficient);
     if (k == 0)
       result.offset = e;
     else
       result.k.push_back(e);
   }
   for (double strain : curve.strain) {
-    const Estimate e =
-        over_samples([&](const std::vector<double>& one) { return value_at(one, first, strain); });
+    const Estimate e = with_bias([&](const std::vector<double>& c) { return polynomial(c, first, strain); });
     result.fit.push_back(e.value);
     result.band_low.push_back(e.low);
     result.band_high.push_back(e.high);
@@ -151,8 +177,40 @@ CurveFit fit_curve(const MeanCurve& curve, int degree, const FitOptions& options
   return result;
 }
 
-int choose_degree(const std::vector<MeanCurve>& curves, const FitOptions& options) {
-  if (options.degree) return *options.degree;
+double strain_weight(double strain, const FitOptions& options) {
+  if (options.rule == DegreeRule::nfm || strain <= options.working_strain) return 1;
+  return std::pow(options.working_strain / strain, 2);
+}
+
+double prediction_error(const std::vector<MeanCurve>& curves, int degree, const FitOptions& options) {
+  const int first = first_power(options);
+  std::vector<double> errors;
+  for (const MeanCurve& curve : curves) {
+    if (curve.samples.size() < 2) continue;
+    const auto n = static_cast<double>(curve.samples.size());
+    const std::vector<std::vector<double>> c = fit_samples(curve, degree, options);
+    std::vector<double> sum(c.front().size());
+    for (const std::vector<double>& one : c)
+      for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += one[k];
+    const std::vector<double> weight = weights(curve, options);
+    double error = 0, load = 0;
+    for (std::size_t i = 0; i < c.size(); ++i) {
+      std::vector<double> others = sum;  // the fit is linear: the others' mean is their fit
+      for (std::size_t k = 0; k < sum.size(); ++k) others[k] = (sum[k] - c[i][k]) / (n - 1);
+      for (std::size_t j = 0; j < weight.size(); ++j) {
+        error += weight[j] * std::pow(curve.samples[i][j] - polynomial(others, first, curve.strain[j]), 2);
+        load += weight[j] * std::pow(curve.load[j], 2);
+      }
+    }
+    errors.push_back(error / load);
+  }
+  return errors.empty() ? std::numeric_limits<double>::quiet_NaN() : mean(errors);
+}
+
+namespace {
+
+/// The rule of [NFM].
+int lowest_with_r2(const std::vector<MeanCurve>& curves, const FitOptions& options) {
   const MeanCurve* worst = nullptr;
   double worst_r2 = 1;
   for (int degree = 1; degree <= options.highest_degree; ++degree) {
@@ -168,6 +226,30 @@ int choose_degree(const std::vector<MeanCurve>& curves, const FitOptions& option
               fmt::format("no polynomial up to degree {} follows the {:.0f} deg curve with R2 above {} (best "
                           "{:.3f}); look at its records, or choose a degree",
                           options.highest_degree, worst->orientation, options.wanted_r2, worst_r2));
+}
+
+}  // namespace
+
+int choose_degree(const std::vector<MeanCurve>& curves, const FitOptions& options) {
+  if (options.degree) return *options.degree;
+  if (options.rule == DegreeRule::nfm || std::isnan(prediction_error(curves, 1, options)))
+    return lowest_with_r2(curves, options);
+  const auto pulls_back = [&](int degree) {
+    return std::all_of(curves.begin(), curves.end(), [&](const MeanCurve& curve) {
+      const int first = first_power(options);
+      return fit_polynomial(curve.strain, curve.load, first, degree, weights(curve, options))[1 - first] > 0;
+    });
+  };
+  std::vector<int> degrees(static_cast<std::size_t>(options.highest_degree));
+  std::iota(degrees.begin(), degrees.end(), 1);
+  if (std::any_of(degrees.begin(), degrees.end(), pulls_back))
+    std::erase_if(degrees, [&](int degree) { return !pulls_back(degree); });
+  std::vector<double> errors;
+  for (int degree : degrees) errors.push_back(prediction_error(curves, degree, options));
+  const double enough = as_good * *std::min_element(errors.begin(), errors.end());
+  std::size_t i = 0;
+  while (errors[i] > enough) ++i;
+  return degrees[i];
 }
 
 }  // namespace ripstop

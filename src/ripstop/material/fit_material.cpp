@@ -9,6 +9,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/hash.h"
 #include "ripstop/core/least_squares.h"
+#include "ripstop/material/copies.h"
 #include "ripstop/material/units.h"
 
 namespace ripstop {
@@ -59,8 +60,24 @@ std::vector<CleanRecord> clean_all(const Bench& bench, MaterialFit& fit) {
           "{} ends at its highest force: no break is seen, so that the strength is this or more (is the "
           "record whole?)",
           coupon.file));
+    if (!records.back().slip.empty())
+      fit.warnings.push_back(fmt::format("{}: {}", coupon.file, records.back().slip));
   }
   return records;
+}
+
+void check_copies(const Bench& bench, const std::vector<CleanRecord>& records, MaterialFit& fit) {
+  for (const auto& [first, second, own_noise] : find_copies(records)) {
+    const std::string text = fmt::format("{} and {} share their noise but for {:.1f} %", records[first].name,
+                                         records[second].name, 100 * own_noise);
+    if (own_noise < surely_copied)
+      throw Error(
+          ExitCode::bad_data,
+          fmt::format("{}: {}: they are one pull, copied, whatever its scale, units, rows or start; one pull "
+                      "counts once, else it narrows the scatter that it does not know",
+                      bench.file.string(), text));
+    fit.warnings.push_back(text + ": is one a copy of the other? Then it narrows the scatter");
+  }
 }
 
 DirectionFit direction_of(const std::string& name, const std::vector<CleanRecord>& samples,
@@ -166,15 +183,29 @@ void check_plausible(const Bench& bench, const MaterialFit& fit) {
                     most_density));
 }
 
+std::string why_degree(const std::vector<MeanCurve>& curves, int degree, const FitOptions& options) {
+  const double error = prediction_error(curves, degree, options);
+  if (options.rule == DegreeRule::nfm || std::isnan(error))
+    return fmt::format("degree {}: the lowest with R2 above {}{}", degree, options.wanted_r2,
+                       options.rule == DegreeRule::nfm ? "" : "; one sample a direction predicts no other");
+  return fmt::format(
+      "degree {}: the lowest that predicts a sample from the others as well as any, within {:.2g} % "
+      "(weighted to strains up to {:.3g})",
+      degree, 100 * std::sqrt(error), options.working_strain);
+}
+
 void make_fits(const Bench& bench, MaterialFit& fit) {
   FitOptions options;
   if (bench.degree > 0) options.degree = bench.degree;
+  options.rule = bench.degree_rule;
   options.wanted_r2 = bench.wanted_r2;
+  options.working_strain = bench.working_strain;
   options.confidence = bench.confidence;
   options.zero_offset = bench.zero_offset;
   std::vector<MeanCurve> curves;
   for (const DirectionFit& direction : fit.directions) curves.push_back(direction.curve);
   const int degree = choose_degree(curves, options);
+  if (!options.degree) fit.notes.push_back(why_degree(curves, degree, options));
   for (DirectionFit& direction : fit.directions) {
     direction.fit = fit_curve(direction.curve, degree, options);
     const CurveFit& f = direction.fit;
@@ -183,11 +214,14 @@ void make_fits(const Bench& bench, MaterialFit& fit) {
           fmt::format("the {} fit of degree {} turns over at strain {:.3g}, inside the tested "
                       "{:.3g}: used up to there only",
                       direction.name, degree, f.rising_until, f.tested_strain));
-    if (std::abs(f.offset.value) > 0.02 * direction.curve.load.back())
-      fit.warnings.push_back(fmt::format(
-          "the {} fit has K_0 = {:.3g}, {:.1f} % of its highest load, which no "
-          "spring law carries; fit with zero_offset = true",
-          direction.name, f.offset.value, 100 * std::abs(f.offset.value) / direction.curve.load.back()));
+    const double working = std::min(bench.working_strain, f.tested_strain);
+    const double carried = polynomial(f.coefficients(), 1, working);
+    if (std::abs(f.offset.value) > 0.02 * carried)
+      fit.warnings.push_back(
+          fmt::format("the {} fit has K_0 = {:.3g}, {:.1f} % of its load at strain {:.3g}, which no spring "
+                      "law carries; fit with "
+                      "zero_offset = true",
+                      direction.name, f.offset.value, 100 * std::abs(f.offset.value) / carried, working));
     if (f.k.front().value <= 0)
       throw Error(ExitCode::bad_data,
                   fmt::format("the {} fit of degree {} starts with K_1 = {:.4g}: cloth pulls "
@@ -263,7 +297,9 @@ const DirectionFit* MaterialFit::direction(const std::string& name) const {
 
 MaterialFit fit_material(const Bench& bench) {
   MaterialFit fit;
-  gather_directions(bench, clean_all(bench, fit), fit);
+  const std::vector<CleanRecord> records = clean_all(bench, fit);
+  check_copies(bench, records, fit);
+  gather_directions(bench, records, fit);
   check_plausible(bench, fit);
   make_fits(bench, fit);
   if (!bench.flows.empty()) {

@@ -40,7 +40,7 @@ struct MaterialFit {
 
 /// Reads, cleans and fits every record of the campaign. xi and eps are those of the campaign or the defaults;
 /// calibration/coupon_fit.h finds them. Throws Error(bad_data) for records that cannot be what they claim:
-/// see read_record(), clean_record(), mean_curve(); for one sample only; for a strength per mass that no
+/// see read_record(), clean_record(), mean_curve(); for one sample only; for a record that is a copy of another; for a strength per mass that no
 /// fibre has or a density no cloth has, which is how units wrong by 1000 show.
 MaterialFit fit_material(const Bench& bench);
 

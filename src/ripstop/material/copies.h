@@ -1,0 +1,28 @@
+// Samples that are copies of one another: a copy narrows the scatter by a pull that nobody made.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "ripstop/material/clean.h"
+
+namespace ripstop {
+
+/// How much of the noise of one record is not that of another: their difference, after the best shift and scale, beside
+/// the noise of each. 0: the same noise, hence the same pull, however scaled, shifted, thinned out or rounded; near 1
+/// or above: two pulls. Noise is what is left of neighbouring points after a cubic (fourth differences), in at most
+/// 240 points. 1 where the records have too few points in common, or no noise to know them by.
+double own_noise(const CleanRecord& a, const CleanRecord& b);
+
+struct Copy {
+  std::size_t first = 0, second = 0;  // of the records
+  double own_noise = 0;
+};
+
+/// Every pair that shares most of its noise: own_noise() below 0.3.
+std::vector<Copy> find_copies(const std::vector<CleanRecord>& records);
+
+/// Below this two records are one pull; up to 0.3 it is likely.
+inline constexpr double surely_copied = 0.1;
+
+}  // namespace ripstop
