@@ -118,7 +118,8 @@ CellStress over_strip(const Patch& patch, const CellStress* stress, int row, int
 
 }  // namespace
 
-StressPeak stress_peak(const Mesh& mesh, const std::vector<Vec3>& x, const std::vector<CellStress>& of_cells) {
+StressPeak stress_peak(const Mesh& mesh, const std::vector<Vec3>& x,
+                       const std::vector<CellStress>& of_cells) {
   StressPeak peak;
   const std::vector<Cell> cells = cells_of(mesh);
   const std::vector<CellStress> stress = per_cut_width(mesh, cells, x, of_cells);

@@ -74,7 +74,7 @@ void describe_compression(Fields& fields, double& compression, std::optional<dou
   fields
       .number("buckling_strain", buckling_strain, from(0).up_to(1),
               "Strain in compression beyond which it wrinkles and carries no more.")
-      .absent("1e-6 in steady runs with the `sheet` model, else never");
+      .absent("1e-6 in steady runs with the `sheet` model and in openings, else never");
 }
 
 void describe_damping(Fields& fields, double& damping) {

@@ -32,8 +32,8 @@ inline PorousCellLaw as_cells(const ClothResistance& cloth) {
   return {cloth.linear, cloth.quadratic};
 }
 
-/// Of cloth and tape in steady runs with the `sheet` model. Assumed: 0.03 N/m for F-111, Euler's load pi^2 B / w^2 of a
-/// strip w = 36 mm wide with B = 4e-6 N m; any value well below the strains of use gives the same shape.
+/// Of cloth and tape in steady runs with the `sheet` model and in openings. Assumed: 0.03 N/m for F-111, Euler's load
+/// pi^2 B / w^2 of a strip w = 36 mm wide with B = 4e-6 N m; any value well below the strains of use gives the same shape.
 inline constexpr double wrinkling_strain = 1e-6;
 
 /// Canopy cloth. The coefficients are those of the cloth's own curve (load per width against strain,
