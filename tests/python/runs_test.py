@@ -80,7 +80,9 @@ class SteadyRuns(unittest.TestCase):
 
     def test_arrays_say_what_the_numbers_say(self):
         run = self.run_
-        self.assertEqual(run.stress["von_mises_n_m"].max(), run.max_von_mises_n_m)
+        highest = run.stress["von_mises_n_m"].max()  # of a cell; the number is a mean over 50 mm
+        self.assertLessEqual(run.max_von_mises_n_m, highest)
+        self.assertGreater(run.max_von_mises_n_m, 0.9 * highest)
         cells = run.cells[run.cells[:, 0] >= 0]
         a, b, c, d = (run.shape[cells[:, i]] for i in range(4))
         area = 0.5 * numpy.cross(c - a, d - b)

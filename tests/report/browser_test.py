@@ -104,13 +104,15 @@ class Report(unittest.TestCase):
         self.assertEqual(self.js("document.title"), title)
         self.assertEqual(self.js("document.querySelectorAll('img').length"), 0)
 
-    def test_the_highest_value_on_the_cloth_is_that_of_the_result(self):
+    def test_the_highest_value_on_the_cloth_is_that_of_the_cell_about_which_the_result_has_its_own(self):
         self.open(self.steady / "report.html")
         self.js("document.querySelector('.stage canvas').focus()")
         self.browser.press("h")
         said = self.js("document.querySelector('.probe').innerText")
         highest = json.loads((self.steady / "result.json").read_text())["max_von_mises_n_m"]
-        self.assertAlmostEqual(number(re.search(r"stress: (\S+) N/m", said)[1]), highest, delta=1e-3 * highest)
+        shown = number(re.search(r"stress: (\S+) N/m", said)[1])  # of a cell, where the result has a mean over 50 mm
+        self.assertGreaterEqual(shown, highest)
+        self.assertLess(shown, 1.05 * highest)
         # The probe under a mouse on the marker is the same cell's.
         box = self.js("(() => { const m = document.querySelector('.marker').getBoundingClientRect(); return [m.x + 6, m.y + 6]; })()")
         self.browser.mouse("mouseMoved", *box)

@@ -112,11 +112,11 @@ TEST(Results, OfClothUnderAPressureAreThoseOfItsShapeAndItsFiles) {
   const auto most =
       std::max_element(cloth.stress.begin(), cloth.stress.end(),
                        [](const CellStress& a, const CellStress& b) { return a.von_mises < b.von_mises; });
-  EXPECT_EQ(cloth.result.stress.von_mises, most->von_mises);
-  Vec3 centre;
-  const auto cell = cells_of(cloth.mesh)[most - cloth.stress.begin()];
-  for (const int node : cell.corner) centre += 0.25 * cloth.shape[node];
-  EXPECT_NEAR(norm(cloth.result.stress.place - centre), 0, 1e-12);
+  const StressPeak peak = stress_peak(cloth.mesh, cloth.shape, cloth.stress);
+  EXPECT_EQ(cloth.result.stress.von_mises, peak.von_mises);
+  EXPECT_EQ(cloth.result.stress.place, peak.place);
+  EXPECT_LE(peak.von_mises, most->von_mises);  // a mean over cells, which are nearly as wide as the strip
+  EXPECT_GT(peak.von_mises, 0.95 * most->von_mises);
   EXPECT_EQ(cloth.result.size.projected_diameter, canopy_size(cloth.mesh, cloth.shape).projected_diameter);
   EXPECT_GT(cloth.result.size.projected_diameter, 0);
 
