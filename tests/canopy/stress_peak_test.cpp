@@ -50,6 +50,21 @@ TEST(StressPeak, GatheredClothCountsWithItsWidthAsCut) {
   EXPECT_NEAR(peak.principal, 40, 1e-12);
 }
 
+// 20 mm wide: all of it counts, from the corner too.
+TEST(StressPeak, APatchNarrowerThanTheStripCountsAsFarAsItGoes) {
+  Mesh mesh;
+  Patch patch;
+  patch.rows = 2, patch.columns = 5;
+  patch.cell_area = {25e-6, 25e-6, 25e-6, 25e-6, 0};
+  for (const Direction d : {along_row, along_column}) patch.rest_length[d].assign(10, 0.005);
+  mesh.patches = {patch};
+  for (int row = 0; row < 2; ++row)
+    for (int column = 0; column < 5; ++column) mesh.start.push_back({0.005 * column, 0.005 * row, 0});
+  std::vector<CellStress> stress(5);
+  stress[0].warp = 40;
+  EXPECT_NEAR(stress_peak(mesh, mesh.start, stress).warp, 10, 1e-12);
+}
+
 // 100 N pull on the corner cell of a square sheet, whatever the cells.
 TEST(StressPeak, APointLoadIsSpreadOverTheStripThatStrengthIsMeasuredOn) {
   for (const int cells : {15, 30, 35}) {

@@ -95,9 +95,20 @@ TEST(Opening, IsMeshedToFoldWithTheSegmentsAndTheCompressionThatItGives) {
   EXPECT_EQ(opening.parachute.mesh.line_segment_m, 0.1);
   EXPECT_EQ(canopy_fabric(opening).compression, 0.25);
   EXPECT_EQ(reinforcement_tape(opening)->compression, 0.25);
+  EXPECT_EQ(canopy_fabric(opening).buckling_strain, 1);
+  EXPECT_EQ(reinforcement_tape(opening)->buckling_strain, 1);
   const Case plain = opening_case(checked(made()));
   EXPECT_EQ(plain.parachute.mesh.line_segment_m, made().parachute.mesh.line_segment_m);
   EXPECT_EQ(case_json(opening_case(opening)), case_json(opening));
+}
+
+TEST(Opening, WrinklesUnlessAMaterialOrTheOpeningSaysOtherwise) {
+  Case given = checked(made());
+  std::get<Tape>(given.materials.at(*given.parachute.tape.material)).buckling_strain = 0.01;
+  const Case opening = opening_case(given);
+  EXPECT_EQ(canopy_fabric(opening).buckling_strain, wrinkling_strain);
+  EXPECT_EQ(canopy_fabric(opening).compression, canopy_fabric(given).compression);
+  EXPECT_EQ(reinforcement_tape(opening)->buckling_strain, 0.01);
 }
 
 TEST(Opening, TakesItsPressureFromOneSource) {

@@ -41,30 +41,6 @@ void add_cloth(Gathered& cloth, const Patch& patch, const std::vector<Vec3>& x) 
   }
 }
 
-}  // namespace
-
-std::vector<LineTension> line_tensions(const CanopyMesh& mesh, const std::vector<double>& spring_tensions) {
-  std::vector<LineTension> tensions;
-  for (const LineRun& line : mesh.rigging.lines) {
-    LineTension t;
-    t.radial = line.radial;
-    for (const int spring : line.springs) {
-      t.largest_tension = std::max(t.largest_tension, spring_tensions[spring] / line.axial_share);
-    }
-    t.free_tension = spring_tensions[line.springs[line.free_springs / 2]] / line.axial_share;
-    tensions.push_back(t);
-  }
-  return tensions;
-}
-
-double chain_tension(double axial, double bending_fraction, std::size_t at, std::size_t count) {
-  const int over = (at > 0) + (at + 1 < count);
-  const double share = 1 - bending_fraction;
-  return axial * (share + 0.5 * bending_fraction * over) / share;
-}
-
-namespace {
-
 /// How much of the cell `away` rows or columns from its middle cell a strip covers that is `cells` wide.
 double covered(double cells, int away) {
   return std::clamp(0.5 * cells + 0.5 - std::abs(away), 0.0, 1.0);
@@ -86,14 +62,15 @@ std::vector<CellStress> per_cut_width(const Mesh& mesh, const std::vector<Cell>&
   return stress;
 }
 
-/// Mean over the cloth of a square about cell (row, column), `strip` wide as cut [m], as far as the patch goes.
-CellStress over_strip(const Patch& patch, const CellStress* stress, int row, int column, double strip) {
+/// With the mean forces over a square of cloth about cell (row, column), strip_width wide as cut, as far as the patch goes.
+CellStress over_strip(const Patch& patch, const CellStress* stress, int row, int column) {
   const auto index = [&](int r, int c) { return r * patch.columns + c; };
   const int middle = index(row, column);
-  const double columns = std::max(1.0, strip / patch.rest_length[along_row][middle]),
-               rows = std::max(1.0, strip / patch.rest_length[along_column][middle]);
-  const int column_reach = std::min(static_cast<int>(0.5 * columns + 0.5), (patch.columns - 1) / 2),
-            row_reach = static_cast<int>(0.5 * rows + 0.5);
+  const double columns = std::max(1.0, strip_width / patch.rest_length[along_row][middle]),
+               rows = std::max(1.0, strip_width / patch.rest_length[along_column][middle]);
+  int column_reach = static_cast<int>(0.5 * columns + 0.5);
+  const int row_reach = static_cast<int>(0.5 * rows + 0.5);
+  if (patch.periodic) column_reach = std::min(column_reach, (patch.columns - 1) / 2);
   CellStress mean = stress[middle];
   double weights = 0;
   mean.von_mises = mean.principal_max = mean.warp = mean.weft = 0;
@@ -118,6 +95,26 @@ CellStress over_strip(const Patch& patch, const CellStress* stress, int row, int
 
 }  // namespace
 
+std::vector<LineTension> line_tensions(const CanopyMesh& mesh, const std::vector<double>& spring_tensions) {
+  std::vector<LineTension> tensions;
+  for (const LineRun& line : mesh.rigging.lines) {
+    LineTension t;
+    t.radial = line.radial;
+    for (const int spring : line.springs) {
+      t.largest_tension = std::max(t.largest_tension, spring_tensions[spring] / line.axial_share);
+    }
+    t.free_tension = spring_tensions[line.springs[line.free_springs / 2]] / line.axial_share;
+    tensions.push_back(t);
+  }
+  return tensions;
+}
+
+double chain_tension(double axial, double bending_fraction, std::size_t at, std::size_t count) {
+  const int over = (at > 0) + (at + 1 < count);
+  const double share = 1 - bending_fraction;
+  return axial * (share + 0.5 * bending_fraction * over) / share;
+}
+
 StressPeak stress_peak(const Mesh& mesh, const std::vector<Vec3>& x,
                        const std::vector<CellStress>& of_cells) {
   StressPeak peak;
@@ -131,8 +128,7 @@ StressPeak stress_peak(const Mesh& mesh, const std::vector<Vec3>& x,
       area += patch.cell_area[i];
       if (stress[cell].tautness == Tautness::wrinkled) peak.wrinkled += patch.cell_area[i];
       if (stress[cell].tautness == Tautness::slack) peak.slack += patch.cell_area[i];
-      const CellStress mean =
-          over_strip(patch, &stress[cell - i], i / patch.columns, i % patch.columns, strip_width);
+      const CellStress mean = over_strip(patch, &stress[cell - i], i / patch.columns, i % patch.columns);
       peak.warp = std::max(peak.warp, mean.warp);
       peak.weft = std::max(peak.weft, mean.weft);
       if (mean.principal_max > peak.principal) {

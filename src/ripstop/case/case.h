@@ -157,7 +157,8 @@ struct Overrides {
 /// broken library material.
 std::vector<Problem> validate(const Case& given);
 /// The case with every material that its parachute names, from the library where the case has it not, and the
-/// library's tapes where it names none. Throws InputError(usage) with everything that validate() finds besides the problems that are `known` already.
+/// library's tapes where it names none. Throws InputError(usage) with everything that validate() finds besides the
+/// problems that are `known` already.
 Case checked(Case given, std::vector<Problem> known = {});
 
 /// Reads and checks. Throws as checked(), and Error(io) when the file cannot be read.

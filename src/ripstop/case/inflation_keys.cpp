@@ -73,8 +73,7 @@ void describe_mesh(Fields& fields, InflationSettings& inflation) {
   fields
       .number("cloth_compression", inflation.cloth_compression, from(0).up_to(1),
               "Stiffness of cloth and tape in compression relative to K_1 at any strain, in the opening, in "
-              "place of "
-              "wrinkles; 1 is the spring that [NFM] prints.")
+              "place of wrinkles; 1 is the spring that [NFM] prints.")
       .absent("cloth and tape wrinkle, at their buckling strain or 1e-6");
   fields.number("imperfection_m", inflation.imperfection_m, from(0).up_to(1),
                 "The folded cloth starts moved outward by this much times cos(harmonic x azimuth) at the "

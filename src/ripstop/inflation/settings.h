@@ -38,7 +38,7 @@ struct InflationSettings {
 
   std::optional<double> line_segment_m;  // of the opening's mesh, in place of [parachute.mesh]'s
 
-  std::optional<double> cloth_compression;  // of cloth and tape, in place of their materials'
+  std::optional<double> cloth_compression;  // of cloth and tape, in place of wrinkles
 
   double duration_s = 0.5;
   double history_hz = 5000;  // rows of the history a second, at least
