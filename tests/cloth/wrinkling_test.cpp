@@ -14,6 +14,16 @@ using std::numbers::pi;
 
 constexpr double buckling = 1e-6;
 
+// Cloth of modulus E h, Poisson's ratio 1/3: C_xx = (1 - xi + B) K, C_xy = C_gg = B K with B = xi / (2 sqrt2) are
+// isotropic where 1 - xi = 2 B, and E h = 8/3 B K.
+FabricSpec isotropic(double modulus) {
+  FabricSpec fabric;
+  fabric.xi = 1 / (1 + std::numbers::sqrt2 / 2), fabric.eps = 0;
+  fabric.coefficients = {modulus * 3 / 8 * 2 * std::numbers::sqrt2 / fabric.xi};
+  fabric.buckling_strain = buckling;
+  return fabric;
+}
+
 // Two sheets of the same cut, tied at their rims and blown up by `pressure` from a slight bulge.
 struct Bag {
   std::vector<Vec3> upper, lower;
@@ -48,12 +58,7 @@ Bag blown_up(const PatchSpec& sheet, const FabricSpec& fabric, double pressure,
 // literature of airbags (Contri and Schrefler 1988 onward).
 double rise_of_an_airbag(int cells, double buckling_strain) {
   const double side = 1.2 / std::numbers::sqrt2, h = side / cells;
-  FabricSpec fabric;
-  // C_xx = (1 - xi + B) K, C_xy = C_gg = B K with B = xi / (2 sqrt2); isotropic where 1 - xi = 2 B: then
-  // Poisson's ratio is 1/3 and the modulus 8/3 B K.
-  fabric.xi = 1 / (1 + std::numbers::sqrt2 / 2), fabric.eps = 0;
-  const double b = fabric.xi / (2 * std::numbers::sqrt2);
-  fabric.coefficients = {588e6 * 0.6e-3 / (8.0 / 3 * b)};
+  FabricSpec fabric = isotropic(588e6 * 0.6e-3);
   fabric.buckling_strain = buckling_strain;
   PatchSpec sheet;
   sheet.rows = sheet.columns = cells + 1;
@@ -188,6 +193,48 @@ TEST(Wrinkling, AStripUnderPullAndMomentWrinklesOverSteinAndHedgepethsHeight) {
     EXPECT_GT(bent.height, 0.1);
     EXPECT_NEAR(bent.height, 3 * bent.moment - 0.5, 0.006) << ratio;
   }
+}
+
+// Annulus between a fixed rim of radius 2 a and a hub of radius a that is turned: its torque over 4 pi E h a^2 angle.
+double twisted_annulus(int rows) {
+  const double hub = 0.1, modulus = 1e5, angle = 1e-3;
+  const int columns = static_cast<int>(std::lround(2 * pi * (rows - 1) / std::log(2)));  // cells are squares
+  PatchSpec annulus;
+  annulus.rows = rows, annulus.columns = columns, annulus.periodic = true;
+  const auto at = [=](int row, double turn) {
+    const double r = 2 * hub * std::pow(0.5, static_cast<double>(row) / (rows - 1));
+    return Vec3{r * std::cos(turn), r * std::sin(turn), 0};
+  };
+  annulus.rest = [=](int row, int column) { return at(row, 2 * pi * column / columns); };
+  annulus.position = [=](int row, int column) {
+    return at(row, 2 * pi * column / columns + angle * row / (rows - 1));
+  };
+  Mesh mesh;
+  add_patch(mesh, annulus, isotropic(modulus));
+  for (const int row : {0, rows - 1})
+    for (int column = 0; column < columns; ++column) mesh.fixed.push_back(mesh.patches[0].node(row, column));
+  const ClothPtr cloth = make_cloth(mesh);
+  ClothState state = start_state(*cloth);
+  ThreadTeam team(1);
+  EXPECT_TRUE(relax(state, *cloth, {}, {1e-4, 100000, 1}, team).converged);
+  double torque = 0;
+  for (int column = 0; column < columns; ++column) {
+    const int node = mesh.patches[0].node(rows - 1, column);
+    const Vec3 force = force_on(*cloth, state, {node}), x = mesh.start[node];
+    torque += x.y * force.x - x.x * force.y;
+  }
+  return torque / (4 * pi * modulus * hub * hub * angle);
+}
+
+// Mansfield 1968: s^2 / ln((4 - s^2) / (1 - s^2)) at its largest. Pure shear has E h / 4 in a tension field; a lattice
+// that wrinkles spring by spring has one diagonal left, B K / 2 = 3/16 E h: three quarters.
+TEST(Wrinkling, ATwistedAnnulusHasThreeQuartersOfMansfieldsTorque) {
+  double mansfield = 0;
+  for (double s = 0.01; s < 1; s += 0.001)
+    mansfield = std::max(mansfield, s * s / std::log((4 - s * s) / (1 - s * s)));
+  const double coarse = twisted_annulus(9), fine = twisted_annulus(33);
+  EXPECT_NEAR(fine / mansfield, 0.74, 0.01);
+  EXPECT_NEAR(coarse / fine, 1, 0.025);
 }
 
 TEST(Wrinkling, ARelaxationIsTheSameToTheLastBitOnAnyNumberOfThreads) {
