@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "case_options.h"
 #include "commands.h"
@@ -70,6 +71,14 @@ void print(const Case& given, const CaseSummary& s, std::size_t warnings) {
   row("time",
       fmt::format("about {} of one core for a steady run with the built-in engine, half to twice as usual",
                   rough_duration(s.core_time)));
+  for (std::size_t i = 0; i < given.inflation.reefing.size(); ++i) {
+    const ReefingStage& stage = given.inflation.reefing[i];
+    row(i == 0 ? "reefing" : "",
+        fmt::format("line of {:g} m, {:.1f} % of the skirt's {:.4g} m, reefing ratio {:.3f}, cut at {:g} s",
+                    stage.line_m, 100 * stage.line_m / skirt_circumference(given.parachute),
+                    skirt_circumference(given.parachute),
+                    stage.line_m / std::numbers::pi / nominal_diameter(given.parachute), stage.cut_s));
+  }
   row("air", fmt::format("{:.4g} m/s, {:.4g} kg/m3", s.air.speed, s.air.density));
   row("problems", warnings == 0 ? "none"
                                 : fmt::format("none that stops a run, {} warning{} below", warnings,

@@ -58,6 +58,28 @@ void print_start(const Inflation& solver, const InflationState& state, const Loa
       solver.threads(), duration_text(opening_seconds(solver, state)));
 }
 
+/// Of a reefed opening, a line a stage.
+void print_stages(const InflationResult& r) {
+  if (!r.stages) return;
+  for (std::size_t i = 0; i < r.stages->size(); ++i) {
+    const StageSummary& stage = (*r.stages)[i];
+    std::string text = fmt::format("peak {:.1f} N at {:.1f} ms", stage.peak_load, 1000 * stage.peak_time);
+    if (stage.smooth_peak) text += fmt::format(", low-passed {:.1f} N", *stage.smooth_peak);
+    text += fmt::format("; {:.1f} N at its end, {:.1f} ms", stage.last_load, 1000 * stage.end);
+    if (stage.drag_area) text += fmt::format(", C_D S {:.4g} m2", *stage.drag_area);
+    if (stage.line_peak)
+      text += fmt::format("; line {:.1f} N at {:.1f} ms", *stage.line_peak, 1000 * *stage.line_peak_time);
+    const std::string name =
+        stage.line ? fmt::format("stage {}, line {:g} m", i + 1, *stage.line) : std::string("open");
+    fmt::print("  {:<26} {}\n", name, text);
+  }
+  if (!r.margins) return;
+  for (const Margin& m : r.margins->members)
+    if (m.member.starts_with("reefing") && m.margin)
+      fmt::print("  {:<26} margin of safety {:+.2f}: {:.0f} N of {:.0f} N ({})\n", m.member, *m.margin,
+                 m.load, *m.strength, m.strength_from);
+}
+
 void print_result(const InflationResult& r, const fs::path& folder, double wall_time) {
   const auto row = [](const char* name, const std::string& text) { fmt::print("  {:<26} {}\n", name, text); };
   const InflationSettings& s = r.settings;
@@ -94,14 +116,15 @@ void print_result(const InflationResult& r, const fs::path& folder, double wall_
                        ? fmt::format("{:.3f}, low-passed {:.3f}", r.overshoot, *r.smooth_overshoot)
                        : fmt::format("{:.3f}", r.overshoot));
   row("impulse", fmt::format("{:.3f} N s", r.impulse));
+  print_stages(r);
   row("highest line tension", fmt::format("{:.1f} N", r.max_line_tension));
   row("highest stress", fmt::format("{:.0f} N/m von Mises on the {} at {:.1f} ms{}", r.stress.von_mises,
                                     r.stress.patch, 1000 * r.stress_time,
                                     r.cloth_margin ? fmt::format(", margin {:.1f} to its {:.0f} N/m",
                                                                  *r.cloth_margin, r.break_load)
                                                    : ""));
-  row("energy balance",
-      fmt::format("work in = kinetic + elastic + damped within {:.3f} %", 100 * r.energy_residual));
+  row("energy balance", fmt::format("work in = kinetic + elastic + damped{} within {:.3f} %",
+                                    r.stages ? " + cut" : "", 100 * r.energy_residual));
   row("files", fmt::format("{} (load.png, shapes.png, history.csv, canopy.pvd, result.json); {}",
                            folder.string(), duration_text(wall_time)));
   if (fs::exists(folder / report_name)) row("report", (folder / report_name).string());

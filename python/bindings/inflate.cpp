@@ -84,7 +84,9 @@ const PyInflation& run_of(const py::object& self) {
 void add_arrays(py::class_<PyInflation>& type) {
   type.def_property_readonly(
       "history", [](const py::object& self) { return table_of(run_of(self).history.rows, self); },
-      "Load on the riser over time, a row an interval: time_s, load_mean_n, load_least_n, load_largest_n.");
+      "Load on the riser over time, a row an interval: time_s, load_mean_n, load_least_n, load_largest_n, "
+      "and the "
+      "tension of the reefing line.");
   type.def_property_readonly(
       "frames", [](const py::object& self) { return table_of(run_of(self).history.frames, self); },
       "Energies, sizes and stress now and then, with the columns of balance.csv.");
@@ -138,6 +140,7 @@ Opening opening_of(const Case& given, const OptionalSource& steady, std::optiona
 void add_inflate(py::module_& module) {
   add_class<InflationShot>(module, "InflationShot",
                            "A shape on the way: time [s], positions [m], von_mises [N/m].");
+  add_class<StageSummary>(module, "StageSummary", "What a stage of a reefed opening does, from cut to cut.");
   add_class<OpeningProgress>(module, "OpeningProgress", "How far an opening is.");
   py::class_<PyInflation> type(module, "Inflation",
                                "An opening: the numbers of its result.json, and its arrays.");

@@ -50,14 +50,15 @@ Margins margins_of(const MemberLoads& loads, const MarginFactors& f, const Fabri
         margin_of("tape", loads.tape, "N",
                   strength_of(tape->break_load_n, tape->coefficients_n_m, tape->width_m, tape->tested_strain),
                   sewn, f.safety_factor));
-  const Strength of_line = strength_of(line.break_load_n, line.coefficients_n, 1, line.tested_strain);
+  const auto add_line = [&](std::string member, double load, const Line& material) {
+    const Strength strength =
+        strength_of(material.break_load_n, material.coefficients_n, 1, material.tested_strain);
+    members.push_back(margin_of(std::move(member), load, "N", strength, joined, f.safety_factor));
+  };
   for (std::size_t i = 0; i < loads.lines.size(); ++i)
-    members.push_back(
-        margin_of("line " + std::to_string(i + 1), loads.lines[i], "N", of_line, joined, f.safety_factor));
-  if (loads.riser > 0)
-    members.push_back(margin_of("riser", loads.riser, "N",
-                                strength_of(riser.break_load_n, riser.coefficients_n, 1, riser.tested_strain),
-                                joined, f.safety_factor));
+    add_line("line " + std::to_string(i + 1), loads.lines[i], line);
+  if (loads.riser > 0) add_line("riser", loads.riser, riser);
+  for (const MemberLoads::OtherLine& other : loads.others) add_line(other.member, other.load, other.material);
   if (const Margin* least = weakest(result)) result.weakest = least->member;
   return result;
 }

@@ -23,10 +23,17 @@ struct MemberLoads {
   double tape = 0;            // [N]
   std::vector<double> lines;  // [N]
   double riser = 0;           // [N]; 0: there is none
+  /// Lines of another material each.
+  struct OtherLine {
+    std::string member;
+    double load = 0;  // [N]
+    Line material;
+  };
+  std::vector<OtherLine> others = {};
 };
 
 struct Margin {
-  std::string member;  // "cloth", "tape", "line 3", "riser"
+  std::string member;  // "cloth", "tape", "line 3", "riser", "reefing line 1"
   double load = 0;     // [N/m] of cloth, else [N]
   std::string unit;
   std::optional<double> strength;  // of the material as it is sold; absent: not known

@@ -95,6 +95,9 @@ const Line& suspension_line(const Case& given) {
 const Line& riser_line(const Case& given) {
   return material<Line>(given, given.parachute.riser.material);
 }
+const Line& reefing_line(const Case& given, const ReefingStage& stage) {
+  return material<Line>(given, stage.material.value_or(given.parachute.lines.material));
+}
 const Tape* reinforcement_tape(const Case& given) {
   const std::string name = tape_material(given).name;
   return name == no_tape ? nullptr : &material<Tape>(given, name);

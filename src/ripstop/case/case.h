@@ -133,6 +133,7 @@ void describe(Fields& fields, WatchKeys& watch);
 void describe(Fields& fields, TunnelKeys& tunnel);
 void describe(Fields& fields, FlowKeys& flow);
 void describe(Fields& fields, CouplingKeys& coupling);
+void describe(Fields& fields, ReefingStage& stage);
 void describe(Fields& fields, InflationSettings& inflation);
 void describe(Fields& fields, PayloadKeys& payload);
 void describe(Fields& fields, MarginFactors& margins);
@@ -190,6 +191,7 @@ Air air(const Case& given);
 const Fabric& canopy_fabric(const Case& given);
 const Line& suspension_line(const Case& given);
 const Line& riser_line(const Case& given);
+const Line& reefing_line(const Case& given, const ReefingStage& stage);
 /// Null where the parachute has none.
 const Tape* reinforcement_tape(const Case& given);
 

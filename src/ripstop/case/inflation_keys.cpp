@@ -115,6 +115,21 @@ void describe_known(Fields& fields, InflationSettings& inflation) {
 
 }  // namespace
 
+void describe(Fields& fields, ReefingStage& stage) {
+  fields
+      .number("line_m", stage.line_m, above(0).up_to(1000),
+              "Length of the reefing line, once round through a ring where every line meets the skirt; at "
+              "most the "
+              "skirt's circumference, and longer than that of the stage before.")
+      .required();
+  fields
+      .number("cut_s", stage.cut_s, above(0).up_to(1000),
+              "Time from deployment at which the line is cut, at the next look at the step (2 ms at most).")
+      .required();
+  fields.name("material", stage.material, "Line of the library or of this case: its stiffness and strength.")
+      .absent("that of the suspension lines");
+}
+
 void describe(Fields& fields, InflationSettings& inflation) {
   describe_start(fields, inflation);
   describe_air(fields, inflation);
@@ -123,6 +138,10 @@ void describe(Fields& fields, InflationSettings& inflation) {
   describe_mesh(fields, inflation);
   describe_run(fields, inflation);
   describe_known(fields, inflation);
+  fields.rows("reefing", inflation.reefing,
+              "A stage of reefing: a line through rings at the skirt, until it is cut. Stages in order; "
+              "after the last "
+              "the canopy is fully open.");
 }
 
 }  // namespace ripstop

@@ -88,6 +88,10 @@ InflationProblem opening_problem(const Case& opening, const LoadSource& source, 
   } else {
     problem.pressure = pressure_of(opening, source, threads, alive);
   }
+  for (const ReefingStage& stage : opening.inflation.reefing) {
+    const Line& line = reefing_line(opening, stage);
+    problem.reefing.push_back({stage.line_m, stage.cut_s, {line.coefficients_n, 0}});
+  }
   problem.linear = opening.coupling.linear;
   problem.threads = threads;
   problem.symmetry = std::gcd(opening.parachute.gores, opening.parachute.lines.count);

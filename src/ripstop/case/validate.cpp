@@ -56,6 +56,9 @@ void check_materials(Case& given, Findings& findings) {
   find_material<Fabric>(given, "parachute.canopy_material", parachute.canopy_material, findings);
   find_material<Line>(given, "parachute.lines.material", parachute.lines.material, findings);
   find_material<Line>(given, "parachute.riser.material", parachute.riser.material, findings);
+  for (std::size_t i = 0; i < given.inflation.reefing.size(); ++i)
+    if (const auto& name = given.inflation.reefing[i].material)
+      find_material<Line>(given, fmt::format("inflation.reefing[{}].material", i), *name, findings);
   if (!parachute.tape.material)
     add_library_tapes(given);
   else if (*parachute.tape.material != no_tape)
@@ -340,6 +343,31 @@ void check_average(const FlowSettings& flow, Findings& findings) {
                  "a flow solution has no more iterations than that");
 }
 
+/// Lines get longer from cut to cut, and one longer than the skirt is round would hold nothing.
+void check_reefing(const Case& given, Findings& findings) {
+  const std::vector<ReefingStage>& stages = given.inflation.reefing;
+  const auto rises = [&](std::size_t i, const char* name, double before, double value, const char* why) {
+    const std::string key = fmt::format("inflation.reefing[{}].{}", i, name);
+    if (value <= before && findings.sound({key, fmt::format("inflation.reefing[{}].{}", i - 1, name)}))
+      findings.add(key, value, fmt::format("above {:g}", before), why);
+  };
+  for (std::size_t i = 1; i < stages.size(); ++i) {
+    rises(i, "cut_s", stages[i - 1].cut_s, stages[i].cut_s,
+          "a stage's line is cut after that of the stage before");
+    rises(i, "line_m", stages[i - 1].line_m, stages[i].line_m,
+          "a line no longer than the one before would let nothing open when that is cut");
+  }
+  if (!findings.sound(shape_keys(given.parachute))) return;
+  const double round = skirt_circumference(given.parachute);
+  for (std::size_t i = 0; i < stages.size(); ++i) {
+    const std::string key = fmt::format("inflation.reefing[{}].line_m", i);
+    if (stages[i].line_m >= round && findings.sound({key}))
+      findings.add(
+          key, stages[i].line_m, fmt::format("below {:.4g}", round),
+          fmt::format("the skirt is {:.4g} m round: this line holds nothing together (leave it out)", round));
+  }
+}
+
 /// How much an opening writes and how fine its lines are.
 void check_inflation(const Case& given, Findings& findings) {
   constexpr double most_rows = 1e7;  // 400 MB of history
@@ -394,6 +422,7 @@ void check(Case& given, std::vector<Problem>& problems) {
   check_measured(given, findings);
   check_flight(given, findings);
   check_inflation(given, findings);
+  check_reefing(given, findings);
   check_settings(given, findings);
 }
 

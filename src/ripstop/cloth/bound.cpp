@@ -14,6 +14,9 @@
 namespace ripstop {
 namespace {
 
+/// A drawstring shorter than this by its strain is not pulled before the bound is looked at again.
+constexpr double far_from_taut = -0.5;
+
 // along n n^T + across (I - n n^T)
 void add(Symmetric& sum, double along, double across, Vec3 n) {
   const double d = along - across;
@@ -65,6 +68,44 @@ std::vector<Symmetric> node_blocks(const Cloth& cloth, const ClothState& state, 
   return blocks;
 }
 
+// With u_i the gradient of the length at ring i, K = k u u^T + T sum 1/l (I - n n^T) over its parts, and
+//   k (sum u_i . x_i)^2 <= k sum |u_j| sum |u_i| |x_i|^2     (Cauchy and Schwarz, weights |u_i|),
+//   T/l |x_i - x_j|^2 <= 2 T/l (|x_i|^2 + |x_j|^2).
+StringShares string_shares(const Cloth& cloth, const ClothState& state) {
+  StringShares shares;
+  const Mesh& mesh = cloth.mesh;
+  if (!mesh.drawstring) return shares;
+  const Drawstring& string = *mesh.drawstring;
+  shares.stiffness.assign(mesh.node_count(), 0.0);
+  shares.damping.assign(mesh.node_count(), 0.0);
+  const double strain = drawn_length(cloth, state) / string.rest_length - 1;
+  if (strain < far_from_taut) return shares;
+  const double k = string.law.tangent(std::max(strain, 0.0)) / string.rest_length;
+  const double tension = string.law.tension(std::max(strain, 0.0));
+  const std::size_t count = string.rings.size();
+  std::vector<Vec3> gradient(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t next = (i + 1) % count;
+    const Vec3 d = get(state.x.data(), cloth.rings[next]) - get(state.x.data(), cloth.rings[i]);
+    const double length = norm(d);
+    if (!(length > 0)) continue;
+    gradient[i] -= d / length;
+    gradient[next] += d / length;
+    for (const std::size_t end : {i, next}) shares.stiffness[string.rings[end]] += 2 * tension / length;
+  }
+  double sum = 0;
+  for (const Vec3 u : gradient) sum += norm(u);
+  for (std::size_t i = 0; i < count; ++i) {
+    shares.stiffness[string.rings[i]] += k * norm(gradient[i]) * sum;
+    shares.damping[string.rings[i]] += string.damping * norm(gradient[i]) * sum;
+  }
+  for (const Tie& tie : mesh.ties)
+    for (const auto& master : tie.masters)
+      for (std::vector<double>* share : {&shares.stiffness, &shares.damping})
+        (*share)[master.node] += master.weight * (*share)[tie.node];
+  return shares;
+}
+
 NodeStiffness node_stiffness(const Cloth& cloth, const ClothState& state) {
   const Mesh& mesh = cloth.mesh;
   const int count = mesh.node_count();
@@ -96,6 +137,7 @@ NodeStiffness node_stiffness(const Cloth& cloth, const ClothState& state) {
     hand_to_masters(mesh, damping);
     for (int node = 0; node < count; ++node) result.damping[node] = largest_eigenvalue(damping[node]);
   }
+  result.string = string_shares(cloth, state);
   return result;
 }
 
@@ -107,7 +149,7 @@ NodeStiffness node_stiffness(const Cloth& cloth, const ClothState& state) {
 // dt. A tied end has (n . x)^2 <= sum w (n . x_master)^2 (Jensen), so its block goes to its masters and its s
 // is the largest of theirs; a fixed end has none. With the absolute damping c_a,
 //   (rho_i + rho_j) dt^2 + 2 (c_i + c_j + c_a) dt < 4
-// for every spring keeps both roots of every mode of semi-implicit Euler inside the unit circle. The
+// (and what a drawstring adds at either end, of which it is a sum over nodes already) for every spring keeps both roots of every mode of semi-implicit Euler inside the unit circle. The
 // pressure's own stiffness is left out: a few hundred pascal against 1e4 N/m over a cell of millimetres.
 StepBound step_bound(const Cloth& cloth, const ClothState& state) {
   return step_bound(cloth, state, node_stiffness(cloth, state));
@@ -117,10 +159,14 @@ StepBound step_bound(const Cloth& cloth, const ClothState& state, const NodeStif
   const Mesh& mesh = cloth.mesh;
   const int count = mesh.node_count();
   std::vector<double> rho(count, 0.0), rate(count, 0.0), area = cloth.area;
+  std::vector<double> string_rho(count, 0.0), string_rate(count, 0.0);
   for (int i = 0; i < count; ++i) {
     if (cloth.is_tied[i] || cloth.is_fixed[i]) continue;
     rho[i] = node.stiffness[i] / cloth.total_mass[i];
     rate[i] = node.damping[i] / cloth.total_mass[i];
+    if (node.string.stiffness.empty()) continue;
+    string_rho[i] = node.string.stiffness[i] / cloth.total_mass[i];
+    string_rate[i] = node.string.damping[i] / cloth.total_mass[i];
   }
   std::vector<int> tie_of(count, -1);
   for (std::size_t t = 0; t < mesh.ties.size(); ++t) {
@@ -138,13 +184,19 @@ StepBound step_bound(const Cloth& cloth, const ClothState& state, const NodeStif
 
   StepBound bound;
   bound.stable_step = bound.printed_step = std::numeric_limits<double>::infinity();
-  const auto look_at = [&](int a, int b) {
-    const double omega2 = rho[a] + rho[b], c = rate[a] + rate[b] + absolute;
-    if (!(omega2 > 0 || c > 0)) return;
-    // The positive root of omega^2 dt^2 + 2 c dt - 4, in the form that does not cancel.
+  // The positive root of omega^2 dt^2 + 2 c dt - 4, in the form that does not cancel; whether it is the least yet.
+  const auto allow = [&](double omega2, double c) {
+    if (!(omega2 > 0 || c > 0)) return false;
     const double step = 4 / (c + std::sqrt(c * c + 4 * omega2));
-    if (step >= bound.stable_step) return;
+    if (step >= bound.stable_step) return false;
     bound.stable_step = step;
+    return true;
+  };
+  const auto look_at = [&](int a, int b) {
+    const double omega2 = rho[a] + rho[b] + std::max(string_rho[a], string_rho[b]);
+    const double c = rate[a] + rate[b] + std::max(string_rate[a], string_rate[b]) + absolute;
+    if (!allow(omega2, c)) return;
+    const double step = bound.stable_step;
     bound.node = rho[a] + rate[a] / step > rho[b] + rate[b] / step ? a : b;
   };
   const auto with_masters = [&](int end, const auto& visit) {
@@ -160,6 +212,8 @@ StepBound step_bound(const Cloth& cloth, const ClothState& state, const NodeStif
     if (stiffness > 0 && mass > 0)
       bound.printed_step = std::min(bound.printed_step, std::sqrt(mass / stiffness));
   });
+  for (int i = 0; i < count; ++i)  // rings that nothing else holds
+    if (string_rho[i] > 0 && allow(string_rho[i], string_rate[i] + absolute)) bound.node = i;
   if (bound.node >= 0) bound.part = place_of(mesh, bound.node);
   return bound;
 }

@@ -19,10 +19,18 @@ inline Vec3 operator*(const Symmetric& a, Vec3 b) {
 /// spring k n n^T + max(T / l, floor k) (I - n n^T), with the tangent k of its first pull where it is slack.
 std::vector<Symmetric> node_blocks(const Cloth& cloth, const ClothState& state, double floor);
 
+/// Of a drawstring, by node, tied rings' handed to their masters: x^T K x <= sum stiffness_i |x_i|^2 for its tangent
+/// stiffness K, and likewise of its damper [N/m], [N s/m]. Empty without one.
+struct StringShares {
+  std::vector<double> stiffness, damping;
+};
+StringShares string_shares(const Cloth& cloth, const ClothState& state);
+
 /// lambda_max of the diagonal block of the tangent stiffness, by node [N/m], tied nodes' handed to their
 /// masters; likewise of the relative damping [N s/m]. See step_bound.
 struct NodeStiffness {
   std::vector<double> stiffness, damping;
+  StringShares string;
   double largest_strain = 0;
   int stretched_node = -1;
 };

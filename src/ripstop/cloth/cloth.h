@@ -73,6 +73,7 @@ ViscosityLimit limit_viscosity(Mesh& mesh, const ClothOptions& options, const st
 struct StepRecord {
   std::vector<Vec3> fixed_force;     // on the fixed nodes at the start of every step of the last call [N]
   std::vector<double> peak_tension;  // of every irregular spring over all steps, its damper included [N]
+  std::vector<double> drawstring;    // its tension in every step of the last call, likewise [N]; empty: none
   double pressure_work = 0;          // [J]
   double damped = 0;                 // taken by absolute and relative damping [J]
 };
@@ -126,6 +127,9 @@ std::vector<double> spring_tensions(const Cloth& cloth, const ClothState& state)
 
 /// Force of the springs on every tied node (Mesh::ties), which it hands to its masters [N].
 std::vector<Vec3> tie_forces(const Cloth& cloth, const ClothState& state);
+
+/// Length of the drawstring once round its rings [m]. The cloth has one.
+double drawn_length(const Cloth& cloth, const ClothState& state);
 
 /// Force that the cloth exerts on the fixed nodes, summed [N] (no damping, no loads).
 Vec3 force_on_fixed(const Cloth& cloth, const ClothState& state);

@@ -115,12 +115,14 @@ struct Cloth {
   std::vector<Kept> kept;
   std::vector<int> kept_of_row;  // row_count + 1 edges into `kept`; nodes outside patches follow
   struct Share {
-    int source;  // kept node or, from first_spring_force on, kept spring
+    int source;  // kept node or, from first_spring_force on, kept spring, then parts of the drawstring
     double weight;
   };
   std::vector<Share> shares;
   KeptSprings springs;
   int first_spring_force = 0;  // the number of kept nodes, rounded up to a whole vector
+  std::vector<int> rings;      // slots of the drawstring's rings, its first again at the end; empty: none
+  int first_string_force = 0;  // behind the springs' forces, those of the drawstring's parts
 
   struct Master {
     int slot;

@@ -94,6 +94,15 @@ void check_ties(const Mesh& mesh) {
     if (!node_exists(node) || tied[node]) refuse(fmt::format("fixed node {} is tied or absent", node));
 }
 
+void check_drawstring(const Drawstring& string, int node_count) {
+  check_law(string.law, "");
+  if (string.rings.size() < 2 || !(string.rest_length > 0))
+    refuse(
+        fmt::format("a drawstring with {} rings, rest length {} m", string.rings.size(), string.rest_length));
+  for (const int node : string.rings)
+    if (node < 0 || node >= node_count) refuse(fmt::format("a drawstring runs through node {}", node));
+}
+
 void check(const Mesh& mesh) {
   check_nodes(mesh);
   const int count = mesh.node_count();
@@ -107,6 +116,7 @@ void check(const Mesh& mesh) {
   }
   for (const SpringLaw& law : mesh.laws) check_law(law, "");
   check_ties(mesh);
+  if (mesh.drawstring) check_drawstring(*mesh.drawstring, count);
 }
 
 FamilyLaw compile_law(const SpringLaw& law) {
@@ -274,6 +284,8 @@ std::vector<int> keep_nodes(Cloth& cloth) {
   for (const Patch& patch : mesh.patches)
     std::fill_n(special.begin() + patch.first_node, patch.rows * patch.columns, char{0});
   for (const Spring& s : mesh.springs) special[s.a] = special[s.b] = 1;
+  if (mesh.drawstring)
+    for (const int ring : mesh.drawstring->rings) special[ring] = 1;
   for (int node : mesh.fixed) special[node] = 1;  // whose force is recorded
   for (const Tie& tie : mesh.ties) {
     special[tie.node] = 1;
@@ -287,8 +299,8 @@ std::vector<int> keep_nodes(Cloth& cloth) {
   return kept_index;
 }
 
-// What is added to the lattice's force on every kept node: its springs, in the mesh's order, then its tied
-// nodes with their springs.
+// What is added to the lattice's force on every kept node: its springs, in the mesh's order, its parts of the
+// drawstring, then its tied nodes with theirs.
 void share_spring_forces(Cloth& cloth, const std::vector<int>& kept_index) {
   const Mesh& mesh = cloth.mesh;
   const int kept_count = static_cast<int>(cloth.kept.size());
@@ -299,6 +311,17 @@ void share_spring_forces(Cloth& cloth, const std::vector<int>& kept_index) {
     const int source = cloth.first_spring_force + static_cast<int>(s);
     own[kept_index[spring.a]].push_back({source, 1});
     own[kept_index[spring.b]].push_back({source, -1});
+  }
+  cloth.first_string_force = cloth.first_spring_force + cloth.springs.blocks * lanes;
+  if (mesh.drawstring) {
+    const std::vector<int>& rings = mesh.drawstring->rings;
+    for (std::size_t i = 0; i < rings.size(); ++i) {
+      const int source = cloth.first_string_force + static_cast<int>(i);
+      own[kept_index[rings[i]]].push_back({source, 1});
+      own[kept_index[rings[(i + 1) % rings.size()]]].push_back({source, -1});
+      cloth.rings.push_back(cloth.slot[rings[i]]);
+    }
+    cloth.rings.push_back(cloth.rings.front());
   }
   std::vector<std::vector<Cloth::Share>> all = own;
   for (const Tie& tie : mesh.ties) {
@@ -356,6 +379,7 @@ ClothPtr make_cloth(const Mesh& mesh, const ClothOptions& options) {
     for (Patch& patch : cloth->mesh.patches)
       for (SpringLaw& law : patch.law) law = law.linearised();
     for (SpringLaw& law : cloth->mesh.laws) law = law.linearised();
+    if (cloth->mesh.drawstring) cloth->mesh.drawstring->law = cloth->mesh.drawstring->law.linearised();
   }
   cloth->is_tied.assign(mesh.node_count(), 0);
   cloth->is_fixed.assign(mesh.node_count(), 0);

@@ -16,6 +16,27 @@ double tension_of(const SpringView& s, const std::vector<Vec3>& x) {
   return s.scale * s.law->tension(norm(x[s.b] - x[s.a]) / s.rest_length - 1);
 }
 
+/// The pull between the ends of every spring, and of every part of the drawstring: visit(a, b, force on a).
+template <class Visit>
+void each_pull(const Cloth& cloth, const std::vector<Vec3>& x, Visit&& visit) {
+  each_spring(cloth.mesh, [&](const SpringView& s) {
+    const Vec3 d = x[s.b] - x[s.a];
+    visit(s.a, s.b, (tension_of(s, x) / norm(d)) * d);
+  });
+  if (!cloth.mesh.drawstring) return;
+  const Drawstring& string = *cloth.mesh.drawstring;
+  const std::vector<int>& rings = string.rings;
+  double length = 0;
+  for (std::size_t i = 0; i < rings.size(); ++i)
+    length += norm(x[rings[(i + 1) % rings.size()]] - x[rings[i]]);
+  const double tension = string.law.tension(std::max(length / string.rest_length - 1, 0.0));
+  for (std::size_t i = 0; i < rings.size(); ++i) {
+    const int next = rings[(i + 1) % rings.size()];
+    const Vec3 d = x[next] - x[rings[i]];
+    if (norm(d) > 0) visit(rings[i], next, (tension / norm(d)) * d);
+  }
+}
+
 std::vector<Vec3> load_on_nodes(const Cloth& cloth, const std::vector<Vec3>& x, const Loads& loads) {
   std::vector<Vec3> force = loads.node_force;
   force.resize(x.size());
@@ -60,13 +81,19 @@ std::vector<double> spring_tensions(const Cloth& cloth, const ClothState& state)
   return tension;
 }
 
+double drawn_length(const Cloth& cloth, const ClothState& state) {
+  double length = 0;
+  for (std::size_t i = 1; i < cloth.rings.size(); ++i)
+    length += norm(get(state.x.data(), cloth.rings[i]) - get(state.x.data(), cloth.rings[i - 1]));
+  return length;
+}
+
 std::vector<Vec3> tie_forces(const Cloth& cloth, const ClothState& state) {
   const std::vector<Vec3> x = positions(state, cloth);
   std::vector<Vec3> on_node(x.size());
-  each_spring(cloth.mesh, [&](const SpringView& s) {
-    const Vec3 d = x[s.b] - x[s.a], pull = (tension_of(s, x) / norm(d)) * d;
-    on_node[s.a] += pull;
-    on_node[s.b] -= pull;
+  each_pull(cloth, x, [&](int a, int b, Vec3 pull) {
+    on_node[a] += pull;
+    on_node[b] -= pull;
   });
   std::vector<Vec3> result;
   for (const Tie& tie : cloth.mesh.ties) result.push_back(on_node[tie.node]);
@@ -86,11 +113,8 @@ Vec3 force_on(const Cloth& cloth, const ClothState& state, const std::vector<int
   for (const Tie& tie : cloth.mesh.ties)
     for (const auto& master : tie.masters) share[tie.node] += master.weight * own[master.node];
   Vec3 sum;
-  each_spring(cloth.mesh, [&](const SpringView& s) {
-    const double net = share[s.a] - share[s.b];
-    if (net == 0) return;
-    const Vec3 d = x[s.b] - x[s.a];
-    sum += (net * tension_of(s, x) / norm(d)) * d;
+  each_pull(cloth, x, [&](int a, int b, Vec3 pull) {
+    if (share[a] != share[b]) sum += (share[a] - share[b]) * pull;
   });
   return sum;
 }
@@ -111,6 +135,10 @@ double elastic_energy(const Cloth& cloth, const ClothState& state) {
   each_spring(cloth.mesh, [&](const SpringView& s) {
     sum += s.scale * s.rest_length * s.law->energy(norm(x[s.b] - x[s.a]) / s.rest_length - 1);
   });
+  if (const auto& string = cloth.mesh.drawstring) {
+    const double strain = drawn_length(cloth, state) / string->rest_length - 1;
+    sum += string->rest_length * string->law.energy(std::max(strain, 0.0));
+  }
   return sum;
 }
 

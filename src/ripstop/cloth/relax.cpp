@@ -99,6 +99,8 @@ Masses fictitious_masses(const Cloth& cloth, const ClothState& state, double flo
       for (const auto& master : tie.masters)
         hold_more(master.node, master.weight * hold * cloth.area[tie.node]);
   }
+  if (const StringShares string = string_shares(cloth, state); !string.stiffness.empty())
+    for (int node = 0; node < cloth.mesh.node_count(); ++node) hold_more(node, 0.5 * string.stiffness[node]);
   for (int node : cloth.mesh.fixed) masses.mass[node] = {};
   for (const Tie& tie : cloth.mesh.ties) masses.mass[tie.node] = {};
   masses.inverse.inverse_mass.reserve(masses.mass.size());

@@ -42,6 +42,8 @@ void step(ClothState& state, const Cloth& cloth, const Loads& loads, double dt, 
   if (record) {
     record->fixed_force.clear();
     record->fixed_force.reserve(count);
+    record->drawstring.clear();
+    if (cloth.mesh.drawstring) record->drawstring.reserve(count);
     record->peak_tension.resize(cloth.mesh.springs.size(), 0.0);
     stepper.start_record(*record);
   }

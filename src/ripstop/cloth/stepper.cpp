@@ -94,7 +94,8 @@ void Stepper::hold(double per_area, const AlignedDoubles& at) {
 void Stepper::prepare(int threads) {
   damped_lattice_ = damped_ && std::any_of(cloth_.patches.begin(), cloth_.patches.end(),
                                            [](const PatchLayout& patch) { return patch.damped; });
-  kept_force_.assign(at(cloth_.first_spring_force + cloth_.springs.blocks * lanes), 0.0);
+  const int parts = static_cast<int>(cloth_.rings.size());
+  kept_force_.assign(at(cloth_.first_string_force + (parts + lanes) / lanes * lanes), 0.0);
   row_sums_.assign(cloth_.row_count, RowSums{});
   const int loose = static_cast<int>(cloth_.kept.size()) - cloth_.kept_of_row.back();
   kept_sums_.assign(cloth_.row_count, RowSums{});
@@ -139,11 +140,41 @@ void Stepper::add_forces(int rank) {
                 record_ ? spring_taken_.data() : nullptr, record_ ? spring_peak_.data() : nullptr},
                blocks.begin, blocks.end);
   for (const Piece& piece : worker.pieces) step_piece(worker, piece);
+  if (rank == 0) pull_drawstring();
   // Nodes outside patches have no lattice force; a point force may act on them.
   if (rank == 0)
     for (std::size_t k = cloth_.kept_of_row.back(); k < cloth_.kept.size(); ++k)
       put(kept_force_.data(), static_cast<int>(k),
           node_force_.empty() ? Vec3{} : get(node_force_.data(), cloth_.kept[k].slot));
+}
+
+// One tension along all of a string that slides through its rings: with n the direction of a part,
+//   e = sum l / L0 - 1,   T = law(e) + C d(sum l)/dt where e > 0,   T n on the ring at a part's beginning, -T n at its end.
+void Stepper::pull_drawstring() {
+  if (cloth_.rings.empty()) return;
+  const Drawstring& string = *cloth_.mesh.drawstring;
+  const std::size_t parts = cloth_.rings.size() - 1;
+  const auto between = [&](const AlignedDoubles& vectors, std::size_t i) {
+    return get(vectors.data(), cloth_.rings[i + 1]) - get(vectors.data(), cloth_.rings[i]);
+  };
+  double length = 0, rate = 0;
+  for (std::size_t i = 0; i < parts; ++i) {
+    const Vec3 d = between(state_.x, i);
+    const double part = norm(d);
+    length += part;
+    if (damped_ && part > 0) rate += dot(d, between(state_.v, i)) / part;
+  }
+  const double strain = length / string.rest_length - 1;
+  const double damper = strain > 0 ? string.damping * rate : 0.0;
+  const double tension = string.law.tension(std::max(strain, 0.0)) + damper;
+  for (std::size_t i = 0; i < parts; ++i) {
+    const Vec3 d = between(state_.x, i);
+    const double part = norm(d);
+    const Vec3 n = part > 0 ? d / part : Vec3{};
+    put(kept_force_.data(), cloth_.first_string_force + static_cast<int>(i), tension * n);
+    if (record_) take(string_dampers_[i], damper * n, between(state_.v, i));
+  }
+  if (record_) record_->drawstring.push_back(tension);
 }
 
 void Stepper::step_piece(Worker& worker, const Piece& piece) {
@@ -322,6 +353,7 @@ void Stepper::start_record(StepRecord& record) {
   row_work_.assign(cloth_.row_count, 0.0);
   row_damped_.assign(cloth_.row_count, 0.0);
   kept_dampers_.assign(cloth_.kept.size(), Damper{});
+  string_dampers_.assign(cloth_.rings.size(), Damper{});
   const int springs = cloth_.springs.blocks * lanes;
   spring_damper_.assign(at(springs), 0.0);
   spring_taken_.assign(springs, 0.0);
@@ -368,6 +400,11 @@ void Stepper::finish_record() {
   for (std::size_t k = 0; k < cloth_.kept.size(); ++k) {
     take(kept_dampers_[k], {}, get(state_.v.data(), cloth_.kept[k].slot));
     damped += kept_dampers_[k].energy;
+  }
+  for (std::size_t i = 0; i + 1 < cloth_.rings.size(); ++i) {
+    const Vec3 dv = get(state_.v.data(), cloth_.rings[i + 1]) - get(state_.v.data(), cloth_.rings[i]);
+    take(string_dampers_[i], {}, dv);
+    damped += string_dampers_[i].energy;
   }
   const KeptSprings& springs = cloth_.springs;
   for (std::size_t s = 0; s < record_->peak_tension.size(); ++s) {

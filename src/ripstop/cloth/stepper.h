@@ -74,6 +74,7 @@ class Stepper {
   void move_kept_nodes(int begin, int end);
   RowSums relax_kept_nodes(int begin, int end, Pace pace);
   Vec3 force_on_kept(int k) const;
+  void pull_drawstring();
   void record_fixed_force();
 
   const Cloth& cloth_;
@@ -86,7 +87,8 @@ class Stepper {
   std::vector<double> kept_inverse_mass_, kept_area_;  // by kept node; 0: does not move
   AlignedDoubles inverse_tensor_;                      // of a relaxation, see RowRelaxation; by slot
   std::vector<Symmetric> kept_inverse_tensor_;         // likewise, by kept node
-  AlignedDoubles kept_force_;  // in vector layout: of kept nodes, from first_spring_force on of kept springs
+  // In vector layout: of kept nodes, of kept springs, of the drawstring's parts (see Cloth::Share).
+  AlignedDoubles kept_force_;
   std::vector<Worker> workers_;
   std::vector<RowSums> row_sums_, kept_sums_, loose_sums_;
 
@@ -102,6 +104,7 @@ class Stepper {
   std::vector<double> row_work_, row_damped_;  // [J], over dt [W]; by row
   std::vector<Damper> kept_dampers_;
   AlignedDoubles spring_damper_, spring_taken_, spring_peak_;  // likewise, see SpringForces
+  std::vector<Damper> string_dampers_;                         // of the drawstring's parts
   std::vector<int> fixed_kept_;                                // kept nodes that are fixed
 };
 

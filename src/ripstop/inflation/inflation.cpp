@@ -68,7 +68,8 @@ Inflation::Inflation(InflationProblem problem) : problem_(std::move(problem)), t
   const ClothOptions options{problem_.linear, s.damping_n_s_m3, s.quadratic_damping_n_s2_m4};
   if (s.cloth_damping_s > 0)
     viscosity_limit_ = limit_viscosity(mesh_, options, folded_.positions, s.cloth_damping_step_share);
-  cloth_ = make_cloth(mesh_, options);
+  add_reefing_lines(options);
+  cloths_.push_back(make_cloth(mesh_, options));
 
   const double frame = s.duration_s / s.frames;
   blocks_per_frame_ = std::max(1, static_cast<int>(std::ceil(frame / longest_block - 1e-9)));
@@ -78,19 +79,52 @@ Inflation::Inflation(InflationProblem problem) : problem_(std::move(problem)), t
   row_ = block / rows_per_block_;
   if (s.low_pass_hz > 0)
     low_pass({}, row_, s.low_pass_hz);  // refuses at the beginning what it would at the end
-  ClothState begin = start_state(*cloth_);
-  set_positions(begin, *cloth_, with_imperfection());
-  elastic_at_start_ = elastic_energy(*cloth_, begin);
+  ClothState begin = start_state(cloth());
+  set_positions(begin, cloth(), with_imperfection());
+  elastic_at_start_ = elastic_energy(cloth(), begin);
   if (problem_.air) air_ = std::make_unique<OpeningAir>(*problem_.air, mesh_);
 }
 
 InflationState Inflation::start() const {
   InflationState state;
-  state.cloth = start_state(*cloth_);
-  set_positions(state.cloth, *cloth_, with_imperfection());
-  state.step = problem_.settings.step_fraction * step_bound(*cloth_, state.cloth).stable_step;
+  state.cloth = start_state(cloth());
+  set_positions(state.cloth, cloth(), with_imperfection());
+  state.step = problem_.settings.step_fraction * step_bound(cloth_of(state), state.cloth).stable_step;
   take_shots(state);
   return state;
+}
+
+void Inflation::add_reefing_lines(const ClothOptions& options) {
+  Mesh reefed = mesh_;
+  for (std::size_t i = 0; i < problem_.reefing.size(); ++i) {
+    const ReefingLine& line = problem_.reefing[i];
+    const double damping = problem_.settings.line_damping_s * line.law.tangent(0) / line.length;
+    reefed.drawstring = Drawstring{line_joints(mesh_), line.length, line.law, damping};
+    cloths_.push_back(make_cloth(reefed, options));
+  }
+  if (problem_.reefing.empty()) return;
+  ClothState folded = start_state(*cloths_.front());
+  set_positions(folded, *cloths_.front(), folded_.positions);
+  const double needed = drawn_length(*cloths_.front(), folded), length = problem_.reefing.front().length;
+  if (needed > length)
+    throw Error(
+        ExitCode::usage,
+        fmt::format("inflation.reefing[0].line_m = {:g}: the folded skirt is {:.4g} m round, more than its "
+                    "reefing line; a smaller inflation.initial_radius_m fits into it",
+                    length, needed));
+}
+
+// The energy of the line goes with it.
+bool Inflation::cut_what_is_due(InflationState& state) const {
+  const std::vector<ReefingLine>& lines = problem_.reefing;
+  const double now = state.cloth.time;
+  const std::size_t before = state.cuts.size();
+  while (state.cuts.size() < lines.size() && lines[state.cuts.size()].cut <= now * (1 + 1e-12)) {
+    state.cut_energy += elastic_energy(cloth_of(state), state.cloth);
+    state.cuts.push_back(now);
+    state.cut_energy -= elastic_energy(cloth_of(state), state.cloth);
+  }
+  return state.cuts.size() > before;
 }
 
 std::vector<Vec3> Inflation::with_imperfection() const {
@@ -114,8 +148,9 @@ std::vector<HistoryRow> Inflation::advance(InflationState& state, std::vector<Ai
     double stable = 0;
     try {
       std::vector<HistoryRow> rows = compute_block(next);
-      stable = step_bound(*cloth_, next.cloth).stable_step;
+      stable = step_bound(cloth_of(next), next.cloth).stable_step;
       if (next.step <= stable) {
+        if (cut_what_is_due(next)) stable = step_bound(cloth_of(next), next.cloth).stable_step;
         // Down with the bound at once, up only when it has risen clearly.
         if (fraction * stable < next.step || fraction * stable > 1.1 * next.step)
           next.step = fraction * stable;
@@ -138,6 +173,11 @@ HistoryRow Inflation::row_of_history(InflationState& state, long long index, int
   const double begin = static_cast<double>(index) * row_;
   const auto load = [&](int k) { return state.record.fixed_force[from + k].z; };
   HistoryRow row{static_cast<double>(index + 1) * row_, 0, load(0), load(0)};
+  const std::vector<double>& reefing = state.record.drawstring;
+  for (int k = from; k < from + steps && !reefing.empty(); ++k) {
+    row.reefing_mean += reefing[k] / steps;
+    row.reefing_largest = std::max(row.reefing_largest, reefing[k]);
+  }
   for (int k = 0; k < steps; ++k) {
     row.mean += load(k) / steps;
     row.least = std::min(row.least, load(k));
@@ -165,7 +205,7 @@ std::vector<HistoryRow> Inflation::compute_block(InflationState& state) {
     const double begin = static_cast<double>(index) * row_;
     const double share = rising ? std::min(1.0, (begin + 0.5 * row_) / s.ramp_s) : 1.0;
     loads.cell_pressure.assign(mesh_.cell_count(), share * problem_.pressure);
-    ripstop::step(state.cloth, *cloth_, loads, dt, steps * together, team_, &state.record);
+    ripstop::step(state.cloth, cloth_of(state), loads, dt, steps * together, team_, &state.record);
     state.cloth.time = static_cast<double>(index + together) * row_;
     for (int i = 0; i < together; ++i) rows.push_back(row_of_history(state, index + i, steps, dt, i * steps));
   }
@@ -175,7 +215,7 @@ std::vector<HistoryRow> Inflation::compute_block(InflationState& state) {
 
 std::vector<HistoryRow> Inflation::compute_block_in_air(InflationState& state,
                                                         std::vector<AirRow>* air_rows) {
-  std::vector<Vec3> x = positions(state.cloth, *cloth_);
+  std::vector<Vec3> x = positions(state.cloth, cloth());
   std::vector<HistoryRow> history;
   while (static_cast<int>(history.size()) < rows_per_block_) {
     // A step of the air is a whole number of rows, as many as it allows, all alike as far as that goes.
@@ -197,26 +237,29 @@ std::vector<HistoryRow> Inflation::compute_block_in_air(InflationState& state,
     air_->fly(pull, rows * row_, state.air);
     row.path = state.air.path;
     if (air_rows) air_rows->push_back(row);
-    std::vector<Vec3> now = positions(state.cloth, *cloth_);
+    std::vector<Vec3> now = positions(state.cloth, cloth());
     for (std::size_t n = 0; n < x.size(); ++n) state.air.work += dot(loads.node_force[n], now[n] - x[n]);
     x = std::move(now);
   }
   ++state.blocks;
+  cut_what_is_due(state);
   take_shots(state);
   return history;
 }
 
 // Of every node, in the latter half of a step of the air, were the last load to go on.
 std::vector<Vec3> Inflation::tentative_velocity(const InflationState& state, double length) {
-  const double stable = problem_.settings.step_fraction * step_bound(*cloth_, state.cloth).stable_step;
+  const double stable =
+      problem_.settings.step_fraction * step_bound(cloth_of(state), state.cloth).stable_step;
   const int half = static_cast<int>(std::ceil(0.5 * length / stable));
   const double dt = 0.5 * length / half;
   const Loads loads = air_->last_load(state.air);
+  const Cloth& with_line = cloth_of(state);
   ClothState cloth = state.cloth;
-  ripstop::step(cloth, *cloth_, loads, dt, half, team_);
-  const std::vector<Vec3> middle = positions(cloth, *cloth_);
-  ripstop::step(cloth, *cloth_, loads, dt, half, team_);
-  std::vector<Vec3> velocity = positions(cloth, *cloth_);
+  ripstop::step(cloth, with_line, loads, dt, half, team_);
+  const std::vector<Vec3> middle = positions(cloth, with_line);
+  ripstop::step(cloth, with_line, loads, dt, half, team_);
+  std::vector<Vec3> velocity = positions(cloth, with_line);
   for (std::size_t n = 0; n < velocity.size(); ++n) velocity[n] = (velocity[n] - middle[n]) / (0.5 * length);
   return velocity;
 }
@@ -226,15 +269,15 @@ void Inflation::step_in_air(InflationState& state, const Loads& loads, int rows,
                             std::vector<HistoryRow>& history) {
   const double fraction = problem_.settings.step_fraction;
   const long long first = state.blocks * rows_per_block_ + static_cast<long long>(history.size());
-  state.step = fraction * step_bound(*cloth_, state.cloth).stable_step;
+  state.step = fraction * step_bound(cloth_of(state), state.cloth).stable_step;
   for (int tries = 1;; ++tries) {
     InflationState next = state;
     const int steps = static_cast<int>(std::ceil(row_ / next.step));
     const double dt = row_ / steps;
     double stable = 0;
     try {
-      ripstop::step(next.cloth, *cloth_, loads, dt, steps * rows, team_, &next.record);
-      stable = step_bound(*cloth_, next.cloth).stable_step;
+      ripstop::step(next.cloth, cloth_of(next), loads, dt, steps * rows, team_, &next.record);
+      stable = step_bound(cloth_of(state), next.cloth).stable_step;
     } catch (const Error& error) {
       if (error.code() != ExitCode::diverged || tries == most_tries) throw;
       stable = 0.5 * dt;
@@ -257,26 +300,28 @@ void Inflation::take_shots(InflationState& state) const {
   if (std::none_of(instants.begin(), instants.end(),
                    [&](double t) { return t > last && t <= now * (1 + 1e-12); }))
     return;
-  InflationShot shot{now, positions(state.cloth, *cloth_), {}};
-  for (const CellStress& stress : cell_stress(*cloth_, state.cloth))
+  InflationShot shot{now, positions(state.cloth, cloth()), {}};
+  for (const CellStress& stress : cell_stress(cloth(), state.cloth))
     shot.von_mises.push_back(stress.von_mises);
   state.shots.push_back(std::move(shot));
 }
 
 InflationFrame Inflation::frame(InflationState& state) const {
-  const std::vector<Vec3> x = positions(state.cloth, *cloth_);
+  const std::vector<Vec3> x = positions(state.cloth, cloth());
   InflationFrame frame;
   frame.time = state.cloth.time;
   frame.pressure_work = state.record.pressure_work + state.air.work;
   frame.damped = state.record.damped;
-  frame.kinetic = kinetic_energy(*cloth_, state.cloth);
-  frame.elastic = elastic_energy(*cloth_, state.cloth);
-  const double left = frame.pressure_work + elastic_at_start_ - frame.kinetic - frame.elastic - frame.damped;
+  frame.cut = state.cut_energy;
+  frame.kinetic = kinetic_energy(cloth(), state.cloth);
+  frame.elastic = elastic_energy(cloth_of(state), state.cloth);
+  const double left =
+      frame.pressure_work + elastic_at_start_ - frame.kinetic - frame.elastic - frame.damped - frame.cut;
   frame.residual = frame.pressure_work > 0 ? left / frame.pressure_work : 0;
   frame.step = state.step;
-  frame.stable_step = step_bound(*cloth_, state.cloth).stable_step;
+  frame.stable_step = step_bound(cloth_of(state), state.cloth).stable_step;
   frame.size = canopy_size(mesh_, x);
-  frame.stress = stress_peak(mesh_, x, cell_stress(*cloth_, state.cloth));
+  frame.stress = stress_peak(mesh_, x, cell_stress(cloth(), state.cloth));
   frame.asymmetry = asymmetry(mesh_, x, std::gcd(problem_.symmetry, folded_.folds));
   if (frame.stress.von_mises > state.highest_stress.von_mises) {
     state.highest_stress = frame.stress;

@@ -17,6 +17,13 @@
 
 namespace ripstop {
 
+/// A line through rings at the joints of skirt and lines, until it is cut.
+struct ReefingLine {
+  double length = 0;  // [m]
+  double cut = 0;     // [s]
+  SpringLaw law;      // [N]
+};
+
 struct InflationProblem {
   CanopyMesh mesh;  // as cut; fold lines and line damping are applied by the solver
   InflationSettings settings;
@@ -25,12 +32,14 @@ struct InflationProblem {
   int threads = 0;
   int symmetry = 1;  // turns by 2 pi / symmetry map the parachute as cut onto itself
   std::optional<AirProblem> air = {};
+  std::vector<ReefingLine> reefing = {};  // in the order of their cuts
 };
 
 /// Axial load on the riser (downstream > 0) over one interval of the history.
 struct HistoryRow {
-  double time = 0;                          // its end [s]
-  double mean = 0, least = 0, largest = 0;  // over all its steps [N]
+  double time = 0;                               // its end [s]
+  double mean = 0, least = 0, largest = 0;       // over all its steps [N]
+  double reefing_mean = 0, reefing_largest = 0;  // tension of the reefing line, likewise [N]
 };
 
 template <Of<HistoryRow> T, class Visit>
@@ -39,6 +48,8 @@ void each_member(T& row, Visit&& visit) {
   visit("load_mean_n", row.mean);
   visit("load_least_n", row.least);
   visit("load_largest_n", row.largest);
+  visit("reefing_line_mean_n", row.reefing_mean);
+  visit("reefing_line_largest_n", row.reefing_largest);
 }
 
 /// Now and then along the way.
@@ -50,6 +61,7 @@ struct InflationFrame {
   CanopySize size;
   StressPeak stress;
   double asymmetry = 0;  // largest distance of a node from where a turn by 2 pi / symmetry puts its like [m]
+  double cut = 0;        // elastic energy that went with reefing lines when they were cut [J]
 };
 
 template <Of<InflationFrame> T, class Visit>
@@ -69,6 +81,7 @@ void each_member(T& frame, Visit&& visit) {
   visit("max_von_mises_n_m", frame.stress.von_mises);
   visit("max_cloth_strain", frame.stress.strain);
   visit("asymmetry_m", frame.asymmetry);
+  visit("cut_energy_j", frame.cut);
 }
 
 /// A shape for the contact sheet.
@@ -89,13 +102,15 @@ void each_member(T& shot, Visit&& visit) {
 struct InflationState {
   ClothState cloth;
   StepRecord record;
-  double step = 0;       // [s]
-  long long blocks = 0;  // done
-  double peak_load = 0;  // over every step [N]
-  double peak_time = 0;  // [s]
-  double impulse = 0;    // [N s]
-  int step_changes = 0;  // how often strain made the step smaller
-  AirMemory air;         // where the opening has air
+  double step = 0;           // [s]
+  long long blocks = 0;      // done
+  double peak_load = 0;      // over every step [N]
+  double peak_time = 0;      // [s]
+  double impulse = 0;        // [N s]
+  int step_changes = 0;      // how often strain made the step smaller
+  std::vector<double> cuts;  // of the reefing lines that have been cut, when [s]
+  double cut_energy = 0;     // see InflationFrame [J]
+  AirMemory air;             // where the opening has air
   StressPeak highest_stress;
   double highest_stress_time = 0;  // [s]
   std::vector<InflationShot> shots;
@@ -116,6 +131,8 @@ void each_member(T& s, Visit&& visit) {
   visit("peak_time", s.peak_time);
   visit("impulse", s.impulse);
   visit("step_changes", s.step_changes);
+  visit("cuts", s.cuts);
+  visit("cut_energy", s.cut_energy);
   visit("von_mises", s.highest_stress.von_mises);
   visit("strain", s.highest_stress.strain);
   visit("place", s.highest_stress.place);
@@ -146,7 +163,8 @@ class Inflation {
   InflationFrame frame(InflationState& state) const;
 
   const CanopyMesh& mesh() const { return mesh_; }
-  const Cloth& cloth() const { return *cloth_; }
+  /// Without reefing line.
+  const Cloth& cloth() const { return *cloths_.back(); }
   const FoldedStart& folded() const { return folded_; }
   /// How much weaker the cloth's dampers are than `cloth_damping_s` says, so that they do not set the step.
   const ViscosityLimit& viscosity_limit() const { return viscosity_limit_; }
@@ -162,6 +180,10 @@ class Inflation {
   std::vector<Vec3> tentative_velocity(const InflationState& state, double length);
   void step_in_air(InflationState& state, const Loads& loads, int rows, std::vector<HistoryRow>& history);
   HistoryRow row_of_history(InflationState& state, long long index, int steps, double dt, int from) const;
+  const Cloth& cloth_of(const InflationState& state) const { return *cloths_[state.cuts.size()]; }
+  void add_reefing_lines(const ClothOptions& options);
+  /// Whether a line was.
+  bool cut_what_is_due(InflationState& state) const;
   void take_shots(InflationState& state) const;
   std::vector<Vec3> with_imperfection() const;
 
@@ -169,7 +191,7 @@ class Inflation {
   CanopyMesh mesh_;
   FoldedStart folded_;
   ViscosityLimit viscosity_limit_;
-  ClothPtr cloth_;
+  std::vector<ClothPtr> cloths_;  // with the reefing line of every stage, at last without
   ThreadTeam team_;
   std::unique_ptr<OpeningAir> air_;
   int blocks_per_frame_ = 1, rows_per_block_ = 1;

@@ -2,12 +2,20 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace ripstop {
 
 /// What presses on the cloth: one pressure for all of it and a damping, or the air as it flows.
 enum class AirModel { uniform, coupled };
+
+/// [[inflation.reefing]]: one stage, whose line holds the skirt together until it is cut.
+struct ReefingStage {
+  double line_m = 0;                    // once round through the rings, unloaded
+  double cut_s = 0;                     // from deployment
+  std::optional<std::string> material;  // absent: the suspension lines'
+};
 
 struct InflationSettings {
   AirModel air = AirModel::uniform;
@@ -19,6 +27,8 @@ struct InflationSettings {
   std::optional<double> initial_radius_m;  // of the folded skirt, midway between inner and outer folds
   int folds = 0;                           // 0: one a line
   double slack_m = 0;                      // lines longer than their way from confluence to skirt
+
+  std::vector<ReefingStage> reefing;  // in the order of their cuts, each longer than the one before
 
   std::optional<double> pressure_pa;       // dp over the canopy
   std::optional<double> drag_coefficient;  // on S0: dp such that the steady drag is C_D S0 q

@@ -42,6 +42,30 @@ std::optional<double> settling_time(const std::vector<double>& load, double stea
   return static_cast<double>(begin) * interval;
 }
 
+std::vector<double> means_of(const std::vector<HistoryRow>& rows) {
+  std::vector<double> means;
+  for (const HistoryRow& row : rows) means.push_back(row.mean);
+  return means;
+}
+
+/// How many rows have ended by a time.
+template <class Row>
+std::ptrdiff_t rows_until(const std::vector<Row>& rows, double time) {
+  const double with_rounding = time * (1 + 1e-9);
+  return std::upper_bound(rows.begin(), rows.end(), with_rounding,
+                          [](double t, const Row& row) { return t < row.time; }) -
+         rows.begin();
+}
+
+/// Over the rows that end in (from, to], the last of them at least.
+template <class Row>
+double mean_between(const std::vector<Row>& rows, double from, double to, double Row::*member) {
+  const std::ptrdiff_t end = rows_until(rows, to), begin = std::min(rows_until(rows, from), end - 1);
+  double sum = 0;
+  for (std::ptrdiff_t i = std::max<std::ptrdiff_t>(begin, 0); i < end; ++i) sum += rows[i].*member;
+  return end > 0 ? sum / static_cast<double>(end - std::max<std::ptrdiff_t>(begin, 0)) : 0;
+}
+
 }  // namespace
 
 std::vector<double> low_pass(const std::vector<double>& values, double interval, double cutoff_hz) {
@@ -64,11 +88,43 @@ bool settled(const InflationSummary& summary, double duration) {
   return summary.inflation_time && *summary.inflation_time <= 0.9 * duration;
 }
 
+std::vector<StageSummary> summarise_stages(const std::vector<HistoryRow>& rows,
+                                           const std::vector<AirRow>& air, const std::vector<double>& lines,
+                                           const std::vector<double>& cuts, double low_pass_hz) {
+  std::vector<StageSummary> stages;
+  if (rows.empty()) return stages;
+  std::vector<double> smooth;
+  if (low_pass_hz > 0) smooth = low_pass(means_of(rows), rows.front().time, low_pass_hz);
+  for (std::size_t i = 0; i <= cuts.size(); ++i) {
+    StageSummary stage;
+    stage.begin = i == 0 ? 0 : cuts[i - 1];
+    stage.end = i < cuts.size() ? cuts[i] : rows.back().time;
+    if (i < lines.size()) stage.line = lines[i];
+    const auto first = rows.begin() + rows_until(rows, stage.begin);
+    const auto last = rows.begin() + rows_until(rows, stage.end);
+    if (first == last) continue;
+    const auto peak = std::max_element(first, last, [](auto& a, auto& b) { return a.largest < b.largest; });
+    stage.peak_load = peak->largest, stage.peak_time = peak->time;
+    if (!smooth.empty())
+      stage.smooth_peak =
+          *std::max_element(smooth.begin() + (first - rows.begin()), smooth.begin() + (last - rows.begin()));
+    const double fifth = stage.end - 0.2 * (stage.end - stage.begin);
+    stage.last_load = mean_between(rows, fifth, stage.end, &HistoryRow::mean);
+    if (!air.empty()) stage.drag_area = mean_between(air, fifth, stage.end, &AirRow::drag_area);
+    if (stage.line) {
+      const auto pulled = std::max_element(
+          first, last, [](auto& a, auto& b) { return a.reefing_largest < b.reefing_largest; });
+      stage.line_peak = pulled->reefing_largest, stage.line_peak_time = pulled->time;
+    }
+    stages.push_back(stage);
+  }
+  return stages;
+}
+
 InflationSummary summarise(const std::vector<HistoryRow>& rows, double low_pass_hz) {
   InflationSummary summary;
   if (rows.empty()) return summary;
-  std::vector<double> load;
-  for (const HistoryRow& row : rows) load.push_back(row.mean);
+  std::vector<double> load = means_of(rows);
   const std::size_t last = rows.size() - std::max<std::size_t>(1, rows.size() / 5);
   const double count = static_cast<double>(rows.size() - last);
   for (std::size_t i = last; i < rows.size(); ++i) summary.steady_load += load[i] / count;

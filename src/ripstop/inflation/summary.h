@@ -24,6 +24,38 @@ struct InflationSummary {
 /// the low-passed history.
 InflationSummary summarise(const std::vector<HistoryRow>& rows, double low_pass_hz);
 
+/// One stage of a reefed opening, from cut to cut; what comes after the last is one too. Times within a row.
+struct StageSummary {
+  std::optional<double> line;            // length of its reefing line [m]; absent: the open canopy
+  double begin = 0, end = 0;             // [s]
+  double peak_load = 0;                  // over every step [N]
+  double peak_time = 0;                  // [s]
+  std::optional<double> smooth_peak;     // of the low-passed history [N]
+  double last_load = 0;                  // mean over the last fifth of the stage [N]
+  std::optional<double> drag_area;       // likewise C_D S in its own air [m2]
+  std::optional<double> line_peak;       // tension of the reefing line over every step [N]
+  std::optional<double> line_peak_time;  // [s]
+};
+
+template <Of<StageSummary> T, class Visit>
+void each_member(T& s, Visit&& visit) {
+  visit("line_m", s.line);
+  visit("begin_s", s.begin);
+  visit("end_s", s.end);
+  visit("peak_load_n", s.peak_load);
+  visit("peak_time_s", s.peak_time);
+  visit("low_pass_peak_load_n", s.smooth_peak);
+  visit("load_at_end_n", s.last_load);
+  visit("drag_area_at_end_m2", s.drag_area);
+  visit("line_peak_n", s.line_peak);
+  visit("line_peak_time_s", s.line_peak_time);
+}
+
+/// Of an opening whose `lines` [m] were cut at `cuts` [s], as far as it has come. `air` may be empty.
+std::vector<StageSummary> summarise_stages(const std::vector<HistoryRow>& rows,
+                                           const std::vector<AirRow>& air, const std::vector<double>& lines,
+                                           const std::vector<double>& cuts, double low_pass_hz);
+
 /// Whether the steady load may be called one: the load has stayed within 10 % of it for the last tenth of the
 /// opening's `duration` [s] at least, half of what it is the mean of.
 bool settled(const InflationSummary& summary, double duration);

@@ -5,6 +5,7 @@
 // returns is in this numbering.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -77,6 +78,16 @@ struct Tie {
   std::vector<Master> masters;
 };
 
+/// A cord without mass that runs without friction, once round, through rings at nodes: one tension along all of it,
+/// T = law(e) with e = length / rest_length - 1 of the polygon through the rings, nothing where e < 0. Its energy is
+/// rest_length times the law's at e, whatever way the length is shared out between the rings.
+struct Drawstring {
+  std::vector<int> rings;  // nodes in order; the last is followed by the first
+  double rest_length = 0;  // [m]
+  SpringLaw law;           // [N]
+  double damping = 0;      // C of the rate of the whole length, where it is taut [N s/m]
+};
+
 struct Mesh {
   std::vector<Vec3> start;   // positions at the start of a run [m]
   std::vector<double> mass;  // [kg]; of a tied node: its own, before it is handed to the masters
@@ -84,6 +95,7 @@ struct Mesh {
   std::vector<SpringLaw> laws;  // of `springs`; [N/m] per width or [N]
   std::vector<Spring> springs;
   std::vector<Tie> ties;
+  std::optional<Drawstring> drawstring;
   std::vector<int> fixed;          // nodes that do not move
   std::vector<std::string> parts;  // of `springs`, names for messages: "hem tape", "line 7"
   std::vector<std::string> fabric_names;

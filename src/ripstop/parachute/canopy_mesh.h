@@ -33,4 +33,12 @@ struct CanopyMesh : Mesh {
   Rigging rigging;
 };
 
+/// Where the lines meet the skirt, nodes in the order of the lines, which is that round the canopy.
+inline std::vector<int> line_joints(const CanopyMesh& mesh) {
+  std::vector<int> joints;
+  for (const LineRun& line : mesh.rigging.lines)
+    joints.push_back(mesh.springs[line.springs[line.free_springs - 1]].b);
+  return joints;
+}
+
 }  // namespace ripstop

@@ -251,6 +251,10 @@ double line_length_on_disk(const Design& design) {
   return design.lines.onto_disk_m.value_or(facts(design).line_run);
 }
 
+double skirt_circumference(const Design& design) {
+  return 2 * std::numbers::pi * facts(design).skirt_radius;
+}
+
 double start_diameter(const Design& design) {
   return facts(design).start_diameter;
 }

@@ -94,6 +94,8 @@ double nominal_diameter(const Design& design);
 /// How far the lines run onto the canopy, as given, else up to the vent's edge [m]: from the disk's edge
 /// (disk-gap-band) or from the skirt.
 double line_length_on_disk(const Design& design);
+/// Of the circle through the points where the lines leave the canopy, start shape [m].
+double skirt_circumference(const Design& design);
 /// Largest diameter of the start shape [m], and its length from the skirt downstream [m].
 double start_diameter(const Design& design);
 double start_depth(const Design& design);

@@ -21,6 +21,23 @@ double energy_residual(const std::vector<InflationFrame>& frames) {
   return worst;
 }
 
+/// Nothing of an opening that is not reefed.
+std::optional<std::vector<StageSummary>> stages_of(const Inflation& solver, const InflationState& state,
+                                                   const InflationHistory& history) {
+  if (solver.problem().reefing.empty()) return {};
+  std::vector<double> lines;
+  for (const ReefingLine& line : solver.problem().reefing) lines.push_back(line.length);
+  return summarise_stages(history.rows, history.air, lines, state.cuts,
+                          solver.problem().settings.low_pass_hz);
+}
+
+std::vector<double> line_peaks(const std::optional<std::vector<StageSummary>>& stages) {
+  std::vector<double> peaks;
+  for (const StageSummary& stage : stages.value_or(std::vector<StageSummary>{}))
+    if (stage.line_peak) peaks.push_back(*stage.line_peak);
+  return peaks;
+}
+
 InflationResult result_of(const Case& given, const LoadSource& source, const Inflation& solver,
                           const InflationState& state, const InflationHistory& history) {
   const InflationSettings& settings = solver.problem().settings;
@@ -56,7 +73,8 @@ InflationResult result_of(const Case& given, const LoadSource& source, const Inf
   r.stress_time = state.highest_stress_time;
   r.break_load = canopy_fabric(given).break_load_n_m;
   if (r.break_load > 0) r.cloth_margin = r.break_load / std::max(r.stress.warp, r.stress.weft);
-  r.margins = case_margins(given, solver.mesh(), state.record.peak_tension, r.stress);
+  r.stages = stages_of(solver, state, history);
+  r.margins = case_margins(given, solver.mesh(), state.record.peak_tension, r.stress, line_peaks(r.stages));
   r.energy_residual = energy_residual(history.frames);
   r.estimate = opening_estimate(given.parachute, source.steady_drag.value_or(steady));
   r.settled = settled(r.summary, solver.problem().settings.duration_s);

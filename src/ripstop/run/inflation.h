@@ -23,12 +23,13 @@ struct InflationResult {
   std::optional<double> smooth_peak_time;  // [s]
   std::optional<double> smooth_overshoot;  // over the steady load
   InflationSummary summary;
-  bool settled = false;             // the steady load is one: settled() of the summary
-  double overshoot = 0;             // peak over steady load
-  double impulse = 0;               // [N s]
-  std::optional<double> pressure;   // uniform [Pa]
-  std::optional<double> drag_area;  // C_D S in the air, the largest of a step [m2]
-  std::optional<double> end_speed;  // of a payload that flies [m/s]
+  std::optional<std::vector<StageSummary>> stages;  // of a reefed opening
+  bool settled = false;                             // the steady load is one: settled() of the summary
+  double overshoot = 0;                             // peak over steady load
+  double impulse = 0;                               // [N s]
+  std::optional<double> pressure;                   // uniform [Pa]
+  std::optional<double> drag_area;                  // C_D S in the air, the largest of a step [m2]
+  std::optional<double> end_speed;                  // of a payload that flies [m/s]
   LoadSource source;
   std::optional<double> steady_drag_returned;  // steady load over the drag that was asked for
   InflationSettings settings;
@@ -63,6 +64,7 @@ void each_member(T& r, Visit&& visit) {
   visit("settling_time_s", r.summary.settling_time);
   visit("steady_load_n", r.summary.steady_load);
   visit("steady_load_deviation", r.summary.unsteadiness);
+  visit("stages", r.stages);
   visit("settled", r.settled);
   visit("overshoot", r.overshoot);
   visit("impulse_n_s", r.impulse);

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
+#include <type_traits>
 #include <utility>
 
 #include "ripstop/core/error.h"
@@ -25,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Of InflationState's list of members: one more with every change of it.
-constexpr int opening_format = 3;
+constexpr int opening_format = 4;
 
 double clock_now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -74,9 +75,31 @@ class InflationFolder : public InflationObserver {
                        const InflationResult& result) const;
   void write_shapes(const Inflation& solver, const InflationState& state, const std::string& title) const;
 
+  /// What is only of a reefed opening stands at the end of a row.
+  template <class Row>
+  std::vector<double> written(const Row& row) const {
+    std::vector<double> values = row_of(row);
+    values.resize(values.size() - unwritten<Row>());
+    return values;
+  }
   template <class Row>
   CsvLog table(const char* name, std::size_t kept) const {
-    return {folder_.own(name), columns_of<Row>(), kept};
+    std::vector<std::string> columns = columns_of<Row>();
+    columns.resize(columns.size() - unwritten<Row>());
+    return {folder_.own(name), std::move(columns), kept};
+  }
+  template <class Row>
+  std::vector<Row> rows_of(const char* name) const {
+    std::vector<Row> rows;
+    for (std::vector<double> row : read_csv(folder_.own(name)).rows) {
+      row.resize(row.size() + unwritten<Row>());
+      rows.push_back(from_row<Row>(row));
+    }
+    return rows;
+  }
+  template <class Row>
+  std::size_t unwritten() const {
+    return reefed_ ? 0 : std::is_same_v<Row, HistoryRow> ? 2 : std::is_same_v<Row, InflationFrame> ? 1 : 0;
   }
 
   ClaimedFolder& folder_;
@@ -84,17 +107,10 @@ class InflationFolder : public InflationObserver {
   double checkpoint_every_;  // [s]
   InflationObserver& next_;
   double saved_ = clock_now();  // when [s]
-  bool with_air_ = false;
+  bool with_air_ = false, reefed_ = false;
   std::size_t saved_rows_ = 0, saved_frames_ = 0, saved_air_ = 0;  // of the history, that the tables have
   int air_ = 0;  // which of its two folders the next checkpoint's air goes to
 };
-
-template <class Row>
-std::vector<Row> rows_of(const fs::path& file) {
-  std::vector<Row> rows;
-  for (const std::vector<double>& row : read_csv(file).rows) rows.push_back(from_row<Row>(row));
-  return rows;
-}
 
 // The tables belong to the state of the checkpoint: it begins with their hash.
 std::string InflationFolder::tables_hash() const {
@@ -107,6 +123,7 @@ void InflationFolder::begin(const Inflation& solver, InflationState& state, Infl
   const fs::path saved = folder_.own("checkpoint");
   const bool goes_on = fs::exists(saved);
   with_air_ = solver.air() != nullptr;
+  reefed_ = !solver.problem().reefing.empty();
   std::string tables;
   if (goes_on) {
     const std::string bytes = read_sealed(saved);
@@ -138,10 +155,8 @@ void InflationFolder::begin(const Inflation& solver, InflationState& state, Infl
                     "--fresh",
                     folder_.path().string()));
   }
-  history = {rows_of<HistoryRow>(folder_.own("history.csv")),
-             rows_of<InflationFrame>(folder_.own("balance.csv")),
-             {}};
-  if (with_air_) history.air = rows_of<AirRow>(folder_.own("air.csv"));
+  history = {rows_of<HistoryRow>("history.csv"), rows_of<InflationFrame>("balance.csv"), {}};
+  if (with_air_) history.air = rows_of<AirRow>("air.csv");
   refuse_lost(folder_);
   if (!goes_on) write_start(solver, state);
   next_.begin(solver, state, history);
@@ -158,9 +173,9 @@ void InflationFolder::advanced(const Inflation& solver, const InflationState& st
 
 void InflationFolder::save(const Inflation& solver, const InflationState& state,
                            const InflationHistory& history) {
-  const auto add = [](CsvLog log, const auto& all, std::size_t& done) {
+  const auto add = [&](CsvLog log, const auto& all, std::size_t& done) {
     std::vector<std::vector<double>> rows;
-    for (; done < all.size(); ++done) rows.push_back(row_of(all[done]));
+    for (; done < all.size(); ++done) rows.push_back(written(all[done]));
     log.add_rows(rows);
   };
   add(table<HistoryRow>("history.csv", saved_rows_), history.rows, saved_rows_);
@@ -296,6 +311,19 @@ void InflationFolder::write_load_plot(const Inflation& solver, const std::vector
     if (value_n)
       plot.series.push_back({name, {0, settings.duration_s}, {*value_n, *value_n}, true, false, true});
   };
+  if (reefed_) {
+    PlotSeries line{"tension of the reefing line", load.x, {}, true, false};
+    for (const HistoryRow& row : rows) line.y.push_back(row.reefing_mean);
+    plot.series.push_back(std::move(line));
+  }
+  for (const StageSummary& stage : r.stages.value_or(std::vector<StageSummary>{}))
+    if (stage.begin > 0)
+      plot.series.push_back({fmt::format("cut at {:g} s", stage.begin),
+                             {stage.begin, stage.begin},
+                             {0, r.peak_load},
+                             true,
+                             false,
+                             true});
   level("steady", r.summary.steady_load);
   level("Knacke", r.estimate.load);
   level("measured peak", settings.measured_peak_n);

@@ -25,8 +25,9 @@ void each_member(T& m, Visit&& visit) {
   visit("weakest_member", m.weakest);
 }
 
-/// `spring_tensions` of all springs outside the cloth, of a shape or the highest of an opening [N].
+/// `spring_tensions` of all springs outside the cloth, of a shape or the highest of an opening [N], and the highest
+/// ones of the reefing lines of so many stages.
 Margins case_margins(const Case& given, const CanopyMesh& mesh, const std::vector<double>& spring_tensions,
-                     const StressPeak& stress);
+                     const StressPeak& stress, const std::vector<double>& reefing_tensions = {});
 
 }  // namespace ripstop

@@ -27,6 +27,12 @@ OpeningRecord opening_record(const fs::path& folder, const Case& given) {
                 fmt::format("{}: is an opening of another parachute: S0 is {:g} m2 there and {:g} m2 "
                             "here",
                             folder.string(), there, here));
+  if (!run.inflation.reefing.empty())
+    throw Error(
+        ExitCode::usage,
+        fmt::format("{}: is a reefed opening, whose lines were cut at times: its drag area is none over the "
+                    "way through the air",
+                    folder.string()));
   const Air stream = air(run);
   const double q = 0.5 * stream.density * stream.speed * stream.speed;
   const fs::path smooth = folder / "history_low_pass.csv";
