@@ -39,7 +39,8 @@ SEED = 21
 RANDOM_KILLS = {"steady": 50, "inflate": 50, "sweep": 25, "sweep-2": 25, "damping": 20, "porosity": 15, "openfoam": 6}  # trials
 KILLED_AT_WRITES = {"steady": 1, "inflate": 1, "sweep": 3, "damping": 1, "porosity": 3, "openfoam": 12}  # every so many-th
 FAILING = {"steady": 1, "inflate": 1, "sweep": 1, "damping": 1, "porosity": 1, "openfoam": 12, "fabric": 1, "coupon": 1, "fit": 1}
-FAILING_IN_RUNS = 12  # in the folders of a sweep's runs: their calls are those of `steady`, all of which are tried
+FAILING_IN_RUNS = 12  # in the folders of a sweep's runs: their calls are those of `steady`, all of which are tried,
+REMOVALS = {"unlink", "unlinkat", "remove", "rmdir"}  # but for these, which are the sweep's own
 
 
 def resumed(bench, name, folder, killed):
@@ -134,7 +135,7 @@ def fail_trials(bench, rng):
     rounds = [[] for _ in range(4)]
     for name, every in FAILING.items():
         root, _, _, calls = bench.undisturbed(name)
-        in_run = [any("=" in part for part in pathlib.Path(path).relative_to(root).parts[:1]) for _, path in calls]
+        in_run = [kind not in REMOVALS and any("=" in part for part in pathlib.Path(path).relative_to(root).parts[:1]) for kind, path in calls]
         numbers = [n for n in range(1, len(calls) + 1) if not in_run[n - 1]][::every] + [n for n in range(1, len(calls) + 1) if in_run[n - 1]][::FAILING_IN_RUNS]
         for n in numbers:
             reasons = ["ENOSPC", "EIO", *(["short", "full"] if calls[n - 1][0] == "write" else [])]
@@ -215,7 +216,7 @@ def write_table(options, log):
              + "trials by commit: " + ", ".join(f"{commit} {n}" for commit, n in sorted(commits.items())) + ".", "",
              "Felt: the command failed, with exit code 7 and the file's name; else the failing call was in nobody's way and the files are "
              "those of the undisturbed run. Failed: not what is [promised](../reliability.md). Of: how many trials there are, where what was asked "
-             f"for has them; of the calls in the folders of a sweep's runs, which are those of `steady`, it has every {FAILING_IN_RUNS}th, of "
+             f"for has them; of the calls in the folders of a sweep's runs, which are those of `steady` but for what the sweep removes there, it has every {FAILING_IN_RUNS}th, of "
              f"OpenFOAM's every {FAILING['openfoam']}th.", "",
              *tables.table(["what", "command", "trials", "of", "SIGKILLs", "felt", "failed", "min"], rows)]
     if bad:
