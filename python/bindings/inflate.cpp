@@ -86,7 +86,7 @@ void add_arrays(py::class_<PyInflation>& type) {
       "history", [](const py::object& self) { return table_of(run_of(self).history.rows, self); },
       "Load on the riser over time, a row an interval: time_s, load_mean_n, load_least_n, load_largest_n, "
       "and the "
-      "tension of the reefing line.");
+      "tension of the reefing line, reefing_line_mean_n and reefing_line_largest_n (0 where there is none).");
   type.def_property_readonly(
       "frames", [](const py::object& self) { return table_of(run_of(self).history.frames, self); },
       "Energies, sizes and stress now and then, with the columns of balance.csv.");
