@@ -43,7 +43,7 @@ void print_sources(const CheckResult& result) {
   const Json written = Json::parse(case_json(result.given));
   fmt::print("\n");
   for (const Source& source : result.sources)
-    fmt::print("  {:<28} {:<19} {}\n", source.key, text_of(written.at(place_of(source.key))), source.from);
+    fmt::print("  {:<28} {:<19} {}\n", source.key, text_of(written.at(pointer_of(source.key))), source.from);
 }
 
 void print(const Case& given, const CaseSummary& s, std::size_t warnings) {

@@ -194,6 +194,8 @@ def lay_out(mutants, dropped):
             source, places[path] = mutated(path, by_place, dropped)
             text = source.encode()
         if path == "CMakeLists.txt":  # last, so that it counts: mutants warn, and kernels take minutes at more
+            # Without those that have mutants the others would be joined in groups that no other build has, where names clash.
+            text += b"\nset_target_properties(ripstop_text PROPERTIES UNITY_BUILD OFF)"
             text += "".join(f'\nset_property(SOURCE {p} APPEND PROPERTY COMPILE_OPTIONS "-w;-O1")' for p in sorted(by_file)).encode() + b"\n"
         put(TREE / path, text)
     put(TREE / "src/ripstop_mutants.h", HEADER.encode())
@@ -413,11 +415,11 @@ def read_log():
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--number", type=int, default=400, help="mutants of the sample")
+    parser.add_argument("--number", type=int, default=mutants_table.NUMBER, help="mutants of the sample")
     parser.add_argument("--fresh", type=int, default=0, help="as many more beyond it, which are told by themselves")
     parser.add_argument("--after", type=int, default=0, help="where in the order of the mutants the fresh ones begin (default: behind the sample)")
     parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--slowest", type=float, default=60, help="a test that takes longer, s, is left out")
+    parser.add_argument("--slowest", type=float, default=mutants_table.SLOWEST, help="a test that takes longer, s, is left out")
     parser.add_argument("--tests", default="", help="only those tests whose names, room.Suite.Test, this expression finds")
     parser.add_argument("--most", type=float, default=mutants_table.MOST, help="seconds of tests, as without a mutant, that a mutant is met by")
     parser.add_argument("--again", action="store_true", help="run survivors again that are not judged equivalent or harmless")

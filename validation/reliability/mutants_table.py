@@ -5,7 +5,9 @@ import pathlib
 
 import tables
 
+NUMBER = 400  # mutants of the sample
 MOST = 300  # seconds of tests that a mutant is met by
+SLOWEST = 60  # seconds: a test that takes longer is left out
 
 
 def judged():
@@ -61,8 +63,8 @@ def write_one(name, title, mutants, dropped, log, command, of_what):
 
 def write_both(mutants, asked, dropped, log, options):
     numbered = list(enumerate(mutants))
-    given = "".join(f" --{name} {value:g}" for name, value in (("after", options.after), ("fresh", options.fresh), ("most", options.most))
-                    if value != {"after": options.number, "fresh": 0, "most": MOST}[name])
+    usual = {"number": NUMBER, "after": options.number, "fresh": 0, "most": MOST, "slowest": SLOWEST}
+    given = "".join(f" --{name} {getattr(options, name):g}" for name, value in usual.items() if getattr(options, name) != value)
     command = "make mutants" + (f' MUTANTS="{given.strip()}"' if given else "")
     write_one("mutants", "Mutants of the sources and the tests that catch them", [(n, m) for n, m in numbered if m["name"] in asked], dropped,
                 log, command, "sampled and named")

@@ -12,7 +12,7 @@ Json to_json(const std::vector<Source>& sources, const Json& written) {
   Json list = Json::array();
   for (const Source& source : sources)
     list.push_back({{"key", source.key},
-                    {"value", written.at(place_of(source.key))},
+                    {"value", written.at(pointer_of(source.key))},
                     {"given", source.given},
                     {"from", source.from}});
   return list;

@@ -65,7 +65,7 @@ struct nlohmann::adl_serializer<T> {
 namespace ripstop {
 
 /// Where a case as JSON has the value of a key: "flow.core.size_m" is /flow/core/size_m.
-inline nlohmann::ordered_json::json_pointer place_of(const std::string& key) {
+inline nlohmann::ordered_json::json_pointer pointer_of(const std::string& key) {
   std::string pointer = "/" + key;
   std::replace(pointer.begin(), pointer.end(), '.', '/');
   return nlohmann::ordered_json::json_pointer(pointer);

@@ -129,7 +129,7 @@ ReportTable sources_table(const Case& given, const std::filesystem::path& run_js
       "sources", "Values that a case may leave out", "", {{"key", ""}, {"value", ""}, {"from", ""}}, {}};
   for (const Json& source : run.value("sources", Json::array())) {
     const std::string key = source.value("key", "");
-    const auto place = place_of(key);
+    const auto place = pointer_of(key);
     table.rows.push_back(
         {key, written.contains(place) ? text_of(written.at(place)) : "", source.value("from", "")});
   }

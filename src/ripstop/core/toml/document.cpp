@@ -16,19 +16,19 @@ constexpr std::size_t max_file_bytes = 1 << 20;
 // The parser nests a table for every dot of a key: a bound on the line bounds the depth of its recursion.
 constexpr std::size_t max_line_bytes = 4000;
 
-Place place_of(const toml::source_position& position) {
+Place place_at(const toml::source_position& position) {
   return {static_cast<int>(position.line), static_cast<int>(position.column)};
 }
 
 Node converted(const toml::node& source) {
   Node node;
-  node.place = place_of(source.source().begin);
+  node.place = place_at(source.source().begin);
   if (const auto* table = source.as_table()) {
     node.type = Node::Type::table;
     for (const auto& [key, value] : *table) {
       Node member = converted(value);
       member.key = key.str();
-      member.key_place = place_of(key.source().begin);
+      member.key_place = place_at(key.source().begin);
       node.items.push_back(std::move(member));
     }
   } else if (const auto* array = source.as_array()) {
@@ -85,7 +85,7 @@ Document parse_toml(const std::string& text, const std::string& name) {
   try {
     return {name, converted(toml::parse(text, name))};
   } catch (const toml::parse_error& error) {
-    refuse(name, place_of(error.source().begin), "not valid TOML: " + std::string(error.description()));
+    refuse(name, place_at(error.source().begin), "not valid TOML: " + std::string(error.description()));
   }
 }
 
