@@ -218,8 +218,14 @@ TEST(ReportPage, HasEveryFrameOfASmallOpeningInItsOrder) {
   report.runs.resize(1);
   report.runs[0].kind = "opening";
   report.runs[0].shape = dome(4, 8, 5);
+  std::vector<int>& parts = report.runs[0].shape.parts;
+  report.runs[0].shape.part_names = {"line", "riser"};
+  parts[3] = parts[7] = 1;
   const json data = data_of(report);
   const json& shape = data.at("runs")[0].at("shape");
+  EXPECT_EQ(shape.at("parts").at("components"), 1);
+  const std::vector<std::uint32_t> named = unpacked(shape.at("parts").at("data"), parts.size(), 1, 4);
+  EXPECT_EQ(std::vector<int>(named.begin(), named.end()), parts);
   EXPECT_EQ(shape.at("framesComputed"), 5);
   std::vector<double> times;
   for (const json& frame : shape.at("frames")) times.push_back(frame.at("time"));

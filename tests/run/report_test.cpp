@@ -151,6 +151,17 @@ TEST_F(RunReport, ComparesRunsAndRefusesWhatIsNoRunOrNoReport) {
   EXPECT_THROW(write_report({}), Error);
 }
 
+TEST(ReportTables, ARunThatDidNotConvergeIsOneThatDidNot) {
+  for (const bool converged : {true, false}) {
+    ReportRun run;
+    add_result(run, converged ? R"({"converged": true})" : R"({"converged": false})", "result.json");
+    EXPECT_EQ(run.converged, converged);
+  }
+  ReportRun run;  // what has nothing to converge
+  add_result(run, "{}", "result.json");
+  EXPECT_TRUE(run.converged);
+}
+
 TEST(ReportTables, GroupsAndListsOfAResultAreTables) {
   ReportRun run;
   add_result(

@@ -55,6 +55,18 @@ TEST(Size, SaysWhereItsDragCoefficientIsFrom) {
   EXPECT_EQ(run_size(given).drag_source, "given");
 }
 
+// C_D D^2 is the same for the same load at the same speed: with more drag the canopy is smaller.
+TEST(Size, TheHandbooksDiametersHaveTheSameDragAreaAsTheOneFound) {
+  const SizeResult r = run_size(sized());
+  ASSERT_TRUE(r.handbook_drag_coefficient && r.handbook_diameter);
+  const double wanted = r.drag_coefficient * r.nominal_diameter * r.nominal_diameter;
+  for (const int end : {0, 1}) {
+    const double diameter = r.handbook_diameter->at(end);
+    EXPECT_NEAR(r.handbook_drag_coefficient->at(end) * diameter * diameter / wanted, 1, 1e-12) << end;
+  }
+  EXPECT_NE(r.handbook_diameter->at(0), r.handbook_diameter->at(1));
+}
+
 TEST(Size, OfEveryFamilyHoldsPayloadAndParachuteAtTheRate) {
   for (const FamilyDrag& drag : family_drags()) {
     const SizeResult r = run_size(sized(drag.family));
@@ -138,6 +150,8 @@ TEST(Size, ItsReportHasItsNumbersAndEveryMethodsLoad) {
   const ReportRun& page = report.runs.front();
   EXPECT_EQ(number_of(page, "nominal_diameter_m"), r.nominal_diameter);
   for (const std::string& key : page.headline) EXPECT_FALSE(std::isnan(number_of(page, key))) << key;
+  for (const char* key : {"nominal_diameter_m", "parachute_mass_kg", "opening_load_n"})
+    EXPECT_EQ(std::count(page.headline.begin(), page.headline.end(), key), 1) << key;
   const auto methods = std::find_if(page.tables.begin(), page.tables.end(), [](const ReportTable& table) {
     return table.id.find("methods") != std::string::npos;
   });
