@@ -1,6 +1,7 @@
 // The run folder of an opening: a killed run goes on, and its tables are the undisturbed run's byte for byte.
 #include "ripstop/run/inflation_folder.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -15,6 +16,9 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/inflation/summary.h"
+#include "ripstop/output/vtk.h"
+#include "ripstop/output/vtk_read.h"
+#include "ripstop/run/report.h"
 
 namespace ripstop {
 namespace {
@@ -110,6 +114,73 @@ TEST_F(InflationFolderTest, InItsOwnAirAKilledRunGoesOnByteIdentical) {
   for (const char* table :
        {"history.csv", "balance.csv", "air.csv", "lines.csv", "result.json", "vtk/air_0004.vti"})
     EXPECT_EQ(read_file(root / "killed" / table), read_file(root / "whole" / table)) << table;
+}
+
+// Killed when the air of the next checkpoint was on the disk and that checkpoint was not.
+TEST_F(InflationFolderTest, TheAirOfACheckpointStaysUntilTheNextOneIsWhole) {
+  given = small_opening_in_air();
+  const auto open_in_air = [&](const char* name, InflationObserver& observer) {
+    const Case opening = opening_case(given);
+    const LoadSource source = load_source(opening);
+    return run_inflation_in(
+        {{root / name}, 1, 0}, opening, source, [&] { return opening_problem(opening, source, 1); },
+        observer);
+  };
+  struct KilledBetween : InflationObserver {
+    fs::path folder;
+    std::string checkpoint;
+    void advanced(const Inflation&, const InflationState& state, const InflationHistory&,
+                  const InflationFrame*) override {
+      if (state.blocks == 2) checkpoint = read_file(folder / "checkpoint");
+      if (state.blocks == 3) throw std::runtime_error("killed");
+    }
+  } killed;
+  killed.folder = root / "killed";
+  Resumed undisturbed, resumed;
+  ASSERT_TRUE(open_in_air("whole", undisturbed));
+  EXPECT_THROW(open_in_air("killed", killed), std::runtime_error);
+  write_file(killed.folder / "checkpoint", killed.checkpoint);
+  ASSERT_TRUE(open_in_air("killed", resumed));
+  EXPECT_EQ(resumed.first_block, 2);
+  for (const char* table : {"history.csv", "balance.csv", "air.csv", "result.json", "vtk/air_0004.vti"})
+    EXPECT_EQ(read_file(root / "killed" / table), read_file(root / "whole" / table)) << table;
+}
+
+// Frames of several blocks: what is drawn is the cloth at the frame's time, in its file and in the report.
+TEST_F(InflationFolderTest, AFramesShapeIsThatOfItsTime) {
+  given.inflation.frames = 2;
+  struct Seen : InflationObserver {
+    std::vector<std::vector<Vec3>> shapes;
+    std::vector<double> times = {0};
+    long long blocks = 0;
+    void advanced(const Inflation& solver, const InflationState& state, const InflationHistory&,
+                  const InflationFrame* frame) override {
+      blocks = solver.blocks();
+      if (!frame) return;
+      shapes.push_back(canopy_surface(solver.mesh(), positions(state.cloth, solver.cloth())).points);
+      times.push_back(state.cloth.time);
+    }
+  } seen;
+  ASSERT_TRUE(open("run", seen));
+  ASSERT_GT(seen.blocks, 2);
+  ASSERT_EQ(seen.shapes.size(), 2u);
+  for (std::size_t k = 0; k < seen.shapes.size(); ++k) {
+    const VtkFile file = read_vtk(root / "run" / fmt::format("vtk/canopy_{:04}.vtp", k + 1));
+    const VtkData* points = nullptr;
+    for (const VtkData& array : file.arrays)
+      if (array.section == "Points") points = &array;
+    ASSERT_TRUE(points);
+    ASSERT_EQ(points->values.size(), 3 * seen.shapes[k].size());
+    double apart = 0;
+    for (std::size_t i = 0; i < seen.shapes[k].size(); ++i) {
+      const double* p = &points->values[3 * i];
+      apart = std::max(apart, norm(Vec3{p[0], p[1], p[2]} - seen.shapes[k][i]));
+    }
+    EXPECT_LT(apart, 1e-6) << k;
+  }
+  const std::vector<ShapeFrame> drawn = report_of(root / "run").shape.frames;
+  ASSERT_EQ(drawn.size(), seen.times.size());
+  for (std::size_t k = 0; k < drawn.size(); ++k) EXPECT_NEAR(drawn[k].time, seen.times[k], 1e-12) << k;
 }
 
 TEST_F(InflationFolderTest, InMemoryTheOpeningIsThatOfTheFolder) {
