@@ -98,6 +98,30 @@ TEST_F(CouponFitting, CleanRecordsGiveXiBack) {
   EXPECT_GT(fit.shear_high, fit.fabric.shear_fraction);
 }
 
+// Yarns that pull two percent more move xi as far as a bias curve of two percent less.
+TEST_F(CouponFitting, XisIntervalIsAsWideForSamplesOfTheYarnsThatScatterAsForThoseOfTheBias) {
+  CouponFitOptions quick;
+  quick.final_cells = 6;
+  double width[2];
+  for (const int which : {0, 1}) {
+    const Campaign campaign(1, *bias, 2, 0, 0);
+    std::mt19937 random(2);
+    SyntheticRecord stiffer;
+    stiffer.orientation = which == 0 ? 0 : 45;
+    const std::function<double(double)> usual =
+        which == 0 ? [](double e) { return polynomial(f111_curve, 1, e); } : *bias;
+    stiffer.load = [&](double e) { return 1.02 * usual(e); };
+    stiffer.scatter = stiffer.failure_scatter = stiffer.noise = 0;
+    stiffer.failure_strain = 0.3;
+    write_file(campaign.folder.path / fmt::format("{}-1.csv", stiffer.orientation),
+               synthetic_csv(stiffer, random));
+    const CouponFit fit = fit_coupons(fit_material(campaign.bench), campaign.bench, quick, team);
+    width[which] = fit.shear_high - fit.shear_low;
+  }
+  EXPECT_GT(width[0], 0);
+  EXPECT_NEAR(width[1] / width[0], 1, 0.1);
+}
+
 TEST_F(CouponFitting, WithoutA45DegPullNothingIsSearchedAndThatIsSaid) {
   Campaign campaign(1, *bias, 2);
   campaign.bench.coupons.resize(2);

@@ -164,6 +164,21 @@ TEST_F(BenchFile, ALoadWithoutStrainIsMeasuredByTheWorkingStrain) {
             0);
 }
 
+// Of cloth that stiffens, a straight line is as stiff as the strains that it is to be right at.
+TEST_F(BenchFile, AFitIsThatOfTheStrainsUpToTheWorkingStrain) {
+  SyntheticRecord bent;
+  bent.load = [](double e) { return 5e3 * e + 80e3 * e * e; };
+  const std::string records = coupons("a", 3, bent);
+  const auto stiffness = [&](const char* working) {
+    return fit_material(bench(working + fabric_head + "degree = 1\n" + records)).directions[0].fit.k[0].value;
+  };
+  const double low = stiffness("working_strain = 0.01\n"), usual = stiffness(""),
+               high = stiffness("working_strain = 0.3\n");
+  EXPECT_LT(low, 0.96 * usual);
+  EXPECT_GT(high, 1.2 * usual);
+  EXPECT_EQ(stiffness("working_strain = 0.05\n"), usual);
+}
+
 TEST_F(BenchFile, ALineComesBackInNewtons) {
   SyntheticRecord line;
   line.width = 0;

@@ -47,6 +47,28 @@ TEST(Lattice, AUniaxialPullGivesTheMeasuredCurveBack) {
   }
 }
 
+// Also where no lattice of the curves' own degree does.
+TEST(Lattice, APullAlongEitherYarnGivesThatYarnsCurveBack) {
+  for (const double shear : {0.1, 0.3})
+    for (const double compression : {1.0, 0.1}) {
+      Fabric fabric;
+      fabric.coefficients_n_m = f111_curve;
+      fabric.weft_coefficients_n_m = {20000, 100000};
+      fabric.tested_strain = 0.33;
+      fabric.shear_fraction = shear, fabric.bending_fraction = 0.01;
+      fabric.compression = compression;
+      const WovenLaws laws = woven_laws(fabric);
+      for (const bool weft : {false, true}) {
+        const SpringLaw curve{weft ? fabric.weft_coefficients_n_m : fabric.coefficients_n_m, 1};
+        for (double part : {0.01, 0.1, 0.37, 0.64, 0.9, 1.0}) {
+          const double e = part * fabric.tested_strain;
+          EXPECT_NEAR(woven_uniaxial_load(laws, e, weft) / curve.tension(e), 1, 1.2e-3)
+              << "strain " << e << " weft " << weft << " xi " << shear;
+        }
+      }
+    }
+}
+
 TEST(Lattice, TheUnmendedLatticeCarriesOnly865ThousandthsOfItsCurve) {
   const double xi = 0.2, eps = 0.01;
   const SpringLaw whole{{30006}, 1};
