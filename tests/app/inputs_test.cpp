@@ -149,6 +149,12 @@ TEST_F(Inputs, APipeInPlaceOfAFileDoesNotBlock) {
     refused(command, 7, "a pipe or a device");
 }
 
+TEST_F(Inputs, AFolderInPlaceOfAFileIsToldAsOne) {
+  for (const std::vector<std::string>& command :
+       std::vector<std::vector<std::string>>{{"check", examples}, {"fit", examples}})
+    refused(command, 7, "is a folder");
+}
+
 TEST_F(Inputs, NoEscapeOfAFileReachesTheTerminal) {
   std::string text = read_file(examples + "elliptical/elliptical.chute");
   const std::size_t name = text.find("\"name\": \"") + 9;

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "ripstop/case/cost.h"
+#include "ripstop/parachute/disk_gap_band.h"
 
 namespace ripstop {
 namespace {
@@ -61,6 +62,16 @@ TEST(Summary, ClothTapeLinesAndRiserAreAllThatHasMass) {
     EXPECT_NEAR(s.mass.cloth + s.mass.tape + s.mass.lines + s.mass.riser, s.mass.total, 1e-9 * s.mass.total)
         << name;
   }
+}
+
+TEST(Summary, TheGapOfADiskGapBandIsOpenAreaAllRoundTheDisk) {
+  const Case given = read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/stratos-iv/case.toml");
+  const auto* canopy = given.parachute.canopy.as<DiskGapBand>();
+  ASSERT_TRUE(canopy);
+  const CaseSummary s = summarize(given);
+  EXPECT_NEAR(s.slot_area, std::numbers::pi * canopy->disk_diameter_m * canopy->gap_height_m, 1e-12);
+  const double open = s.vent_area + s.slot_area;
+  EXPECT_NEAR(s.geometric_porosity, open / (open + s.nominal_area), 1e-12);
 }
 
 // A line goes on across the vent to the opposite one. The gores of 2 pi / 12 are cut flat, with the area of their

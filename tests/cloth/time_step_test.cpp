@@ -196,6 +196,13 @@ TEST(TimeStep, LoadsThatAreNotFiniteAreFound) {
   ThreadTeam team(1);
   EXPECT_THROW(step(state, *cloth, loads, 1e-7, 10, team), Error);
   EXPECT_THROW(step(state, *cloth, {{1.0, 2.0}, {}}, 1e-7, 10, team), Error);  // wrong length
+  state = start_state(*cloth);
+  try {  // before the others have heard of it
+    step(state, *cloth, loads, 1e-7, 1, team);
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("node 12 "), std::string::npos) << error.what();
+  }
 }
 
 TEST(TimeStep, ClothThatIsTornApartIsReported) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
@@ -200,6 +201,23 @@ TEST_F(OpenFoamSheet, AScreenThatCellsAreMovedOntoTakesThePressureOfItsLaw) {
   EXPECT_NEAR(field.pressure[0], drop, 5e-3 * drop);
   EXPECT_NEAR(field.porous_force.z, drop * 0.16, 1e-4 * drop);
   for (const SheetLoad& load : field.sheet_loads) EXPECT_NEAR(load.point.z, 1.03, 1e-12);
+}
+
+TEST_F(OpenFoamSheet, WhatMovedCellsPushIsPushedWhereTheirFacesAre) {
+  FlowProblem problem = screen_in_duct(3, 0.5);
+  problem.sheets[0].surface = rectangle({0.4, 0.4, 1.03}, {-0.4, 0, 0}, {0, -0.4, 0});
+  problem.stopping.max_iterations = 1;
+  const FlowField field = solved_fitted(problem, 0);
+  ASSERT_EQ(field.sheet_loads.size(), 16u);
+  std::set<std::pair<int, int>> cells;
+  for (const SheetLoad& load : field.sheet_loads) {
+    const double i = load.point.x / 0.1 - 0.5, j = load.point.y / 0.1 - 0.5;
+    EXPECT_NEAR(i, std::round(i), 0.01);
+    EXPECT_NEAR(j, std::round(j), 0.01);
+    EXPECT_NEAR(load.point.z, 1.03, 1e-12);
+    cells.insert({static_cast<int>(std::round(i)), static_cast<int>(std::round(j))});
+  }
+  EXPECT_EQ(cells.size(), 16u);
 }
 
 /// A cup of 1 m, whose mouth faces the stream, in a box of 4 m.

@@ -151,6 +151,15 @@ TEST(Hash, OfAFolderIsThatOfItsNamesAndContentsWhereverItLies) {
   EXPECT_NE(hash_folder(folder.path / "two"), hash);
 }
 
+TEST(Hash, OfAFolderWithADeviceInItIsRefused) {
+  const TemporaryFolder folder("hash");
+  write_file(folder.path / "a", "1");
+  std::filesystem::create_symlink("/dev/null", folder.path / "b");  // a pipe there would not end
+  const std::string message = message_of(ExitCode::io, [&] { hash_folder(folder.path); });
+  EXPECT_NE(message.find((folder.path / "b").string()), std::string::npos) << message;
+  message_of(ExitCode::io, [&] { seal_folder(folder.path); });
+}
+
 TEST(Sealed, EveryTruncationAndEveryChangedByteIsNoticed) {
   const TemporaryFolder folder("sealed");
   const std::filesystem::path path = folder.path / "state";

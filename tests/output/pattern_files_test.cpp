@@ -90,5 +90,33 @@ TEST(PatternFiles, TheSvgPrintsAtTrueSize) {
   EXPECT_NEAR(std::abs(polygon_area(outline)), 1e5, 1);
 }
 
+TEST(PatternFiles, TheSvgHasTheCutAndTheFinishedOutlineWithPaperAllRound) {
+  const TemporaryFolder folder("pattern");
+  write_pattern_svg(folder.path / "gore.svg", triangle, {.seam = 0.01, .hem = 0.02});
+  const std::string text = read_file(folder.path / "gore.svg");
+  std::smatch size;
+  ASSERT_TRUE(std::regex_search(text, size, std::regex(R"x(width="([0-9.]+)mm" height="([0-9.]+)mm")x")));
+  const double width = std::stod(size[1]), height = std::stod(size[2]);
+  const std::regex polygon(R"x(<polygon points="([0-9., -]+)")x");
+  std::vector<double> areas;
+  double left = width, right = 0, top = height, bottom = 0;
+  for (std::sregex_iterator found(text.begin(), text.end(), polygon), end; found != end; ++found) {
+    std::istringstream stream((*found)[1]);
+    std::vector<Point2> outline;
+    char comma = 0;
+    for (Point2 p; stream >> p.x >> comma >> p.y;) {
+      outline.push_back(p);
+      left = std::min(left, p.x), right = std::max(right, p.x);
+      top = std::min(top, p.y), bottom = std::max(bottom, p.y);
+    }
+    areas.push_back(std::abs(polygon_area(outline)));
+  }
+  ASSERT_EQ(areas.size(), 2u);
+  EXPECT_NEAR(areas[1], 1e5, 1);
+  EXPECT_GT(areas[0], 1.05 * areas[1]);
+  for (const double edge : {left, width - right, top}) EXPECT_NEAR(edge, 10, 1e-3);
+  EXPECT_GE(height - bottom, 10);  // the bar and the name are there
+}
+
 }  // namespace
 }  // namespace ripstop
