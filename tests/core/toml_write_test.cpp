@@ -34,6 +34,25 @@ Fields fields_of(Keys& keys) {
   return fields;
 }
 
+struct Row {
+  double height = 1;
+};
+void describe(Fields& fields, Row& row) {
+  fields.number("height", row.height, Range{}, "");
+}
+
+TEST(TomlWrite, OfTablesThatMayBeManyJsonHasAListAlsoOfNone) {
+  std::vector<Row> rows;
+  const auto json = [&] {
+    Fields fields;
+    fields.rows("rows", rows, "");
+    return nlohmann::json::parse(to_json(fields));
+  };
+  EXPECT_EQ(json(), nlohmann::json::parse(R"({"rows": []})"));
+  rows.resize(2);
+  EXPECT_EQ(json(), nlohmann::json::parse(R"({"rows": [{"height": 1}, {"height": 1}]})"));
+}
+
 TEST(TomlWrite, EveryKindOfValueHasItsOwnLineAndAnAbsentOneHasNone) {
   Keys keys;
   keys.text = "a b ~";

@@ -75,6 +75,17 @@ TEST_F(SweepElsewhere, LeavesTheNumbersOfASweepHereWhichGoesOnWithWhatHasNotCome
     EXPECT_EQ(iterations(settings_.folder, i), iterations(here.folder, i)) << i;
 }
 
+TEST_F(SweepElsewhere, ARunThatCameBackDamagedIsTold) {
+  prepare_sweep(points_, settings_);
+  run(1);
+  const fs::path damaged = settings_.folder / points_[1].folder / "lines.csv";
+  write_file(damaged, "line\n1\n");
+  const SweepRow row = gather_sweep(points_, settings_)[1];
+  EXPECT_FALSE(row.done);
+  EXPECT_EQ(row.code, ExitCode::bad_data);
+  EXPECT_NE(row.error.find("lines.csv"), std::string::npos) << row.error;
+}
+
 TEST_F(SweepElsewhere, AllOfWhichCameBackNeedsNoFlowFieldAnyMore) {
   prepare_sweep(points_, settings_);
   for (const auto& wave : sweep_waves(points_, true))
