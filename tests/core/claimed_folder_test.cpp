@@ -119,6 +119,20 @@ TEST_F(ClaimedFolderTest, WhatWasKeptIsKnownToBeLostOrChangedUntilItIsWrittenAga
   EXPECT_FALSE(is_sealed(folder));
 }
 
+TEST_F(ClaimedFolderTest, WhatWasLostOfAnInterruptedFoldersListComesBackFromWhatWasKept) {
+  {
+    ClaimedFolder claimed(folder);
+    for (const char* name : {"a", "b", "c"}) write_file(claimed.own(name), name);
+    claimed.keep();
+    claimed.own("c");  // and killed before it was written again
+  }
+  const fs::path list = folder / ".ripstop/files";
+  write_file(list, read_file(list).substr(0, 40));  // which cuts b's line
+  const std::vector<std::string> names = {"a", "b", "c"};
+  EXPECT_EQ(ClaimedFolder(folder).names(), names);
+  EXPECT_EQ(ClaimedFolder(folder).names(), names) << "as written";
+}
+
 // Between the seal and the removal of what it takes the place of, the process may be killed.
 TEST_F(ClaimedFolderTest, ASealTakesThePlaceOfWhatWasKeptBefore) {
   std::string kept;
@@ -193,6 +207,36 @@ TEST_F(ClaimedFolderTest, ASealNoticesEveryFileThatIsLostOrChanged) {
   EXPECT_EQ(damaged_files(folder), (std::vector<std::string>{"a", "b"}));
   write_file(folder / ".ripstop/seal", "{}");
   EXPECT_THROW(damaged_files(folder), Error);
+}
+
+TEST_F(ClaimedFolderTest, WhatWasLostOfASealedFoldersListComesBackFromItsSeal) {
+  const std::vector<std::string> names = {"a", "checkpoint/", "b", "never written"};
+  {
+    ClaimedFolder claimed(folder);
+    for (const std::string& name : names) claimed.own(name);
+    for (const char* name : {"a", "b"}) write_file(folder / name, name);
+    claimed.seal();
+  }
+  const fs::path list = folder / ".ripstop/files", seal = folder / ".ripstop/seal";
+  const std::string whole = read_file(list), sealed = read_file(seal);
+  std::string flipped = whole;
+  flipped[1] ^= 1;
+  for (const std::string& damaged : {std::string(), whole.substr(0, whole.size() / 2), flipped}) {
+    write_file(list, damaged);
+    ClaimedFolder claimed(folder);
+    EXPECT_EQ(claimed.names(), names);
+    EXPECT_EQ(read_file(list), whole);
+    claimed.seal();  // as after a report: no file is left out
+    EXPECT_EQ(read_file(seal), sealed);
+    EXPECT_TRUE(damaged_files(folder).empty());
+  }
+  fs::remove(list);
+  ClaimedFolder(folder).clear();
+  EXPECT_FALSE(fs::exists(folder / "a") || fs::exists(folder / "b"));
+
+  write_file(seal, "no seal");  // which is told by who looks what is damaged
+  write_file(list, whole.substr(0, whole.find('\n') + 1));
+  EXPECT_EQ(ClaimedFolder(folder).names(), std::vector<std::string>{"a"});
 }
 
 }  // namespace

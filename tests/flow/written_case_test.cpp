@@ -230,6 +230,15 @@ TEST_F(WrittenFiles, TheReadmeSaysWhatTheCaseIsAndHowToRunIt) {
       << readme;
 }
 
+TEST_F(WrittenFiles, OfACaseThatFailedHalfWayTheFolderIsKnownAsOurs) {
+  for (const char* in_the_way : {"system", "constant"}) {
+    std::ofstream(folder.path / in_the_way) << "a file";
+    EXPECT_ANY_THROW(write_case(folder.path, problem, settings));
+    EXPECT_TRUE(fs::exists(folder.path / kReadme)) << in_the_way;
+    for (const char* name : {"system", "constant", kReadme}) remove_path(folder.path / name);
+  }
+}
+
 TEST_F(WrittenFiles, WhatDoesNotFitOnTheDiskIsNoticedWhenItIsClosed) {
   const fs::path full = "/dev/full";
   if (!fs::exists(full)) GTEST_SKIP() << "no device that is always full";

@@ -89,6 +89,34 @@ TEST_F(InflationFolderTest, AKilledRunGoesOnAndItsHistoryIsByteIdentical) {
   }
 }
 
+TEST_F(InflationFolderTest, AReefedRunThatIsKilledBeforeOrAfterTheCutGoesOnByteIdentical) {
+  const auto open_reefed = [&](const std::string& name, InflationObserver& observer) {
+    const Case opening = opening_case(given);
+    const LoadSource source = load_source(opening);
+    return run_inflation_in(
+        {{root / name}, 1, 0}, opening, source, [&] { return opening_problem(opening, source, 1); },
+        observer);
+  };
+  for (const double cut : {0.0035, 0.006}) {
+    given.inflation.reefing = {{0.5, cut, {}}};
+    const std::string name = fmt::format("cut at {}", cut);
+    Resumed undisturbed, resumed;
+    const auto whole = open_reefed(name, undisturbed);
+    ASSERT_TRUE(whole && whole->stages);
+    ASSERT_EQ(whole->stages->size(), 2u);
+    EXPECT_GT(whole->stages->at(0).line_peak.value(), 0) << name;
+
+    Killed killed;
+    killed.folder = root / (name + ", killed");
+    EXPECT_THROW(open_reefed(name + ", killed", killed), std::runtime_error);
+    write_file(killed.folder / "checkpoint", killed.checkpoint);
+    ASSERT_TRUE(open_reefed(name + ", killed", resumed));
+    EXPECT_GT(resumed.first_block, 0);
+    for (const char* table : {"history.csv", "balance.csv", "lines.csv", "result.json"})
+      EXPECT_EQ(read_file(killed.folder / table), read_file(root / name / table)) << name << ' ' << table;
+  }
+}
+
 TEST_F(InflationFolderTest, InItsOwnAirAKilledRunGoesOnByteIdentical) {
   given = small_opening_in_air();
   const auto open_in_air = [&](const char* name, InflationObserver& observer) {

@@ -160,5 +160,40 @@ TEST(SweepFolder, ARunWhoseNeighbourFailedByTheDiskWaitsForTheNextCall) {
   EXPECT_TRUE(run_sweep(points, settings)[1].done);
 }
 
+TEST(SweepFolder, ARunWhoseNeighbourIsDamagedIsNotStartedFromNothing) {
+  const TemporaryFolder root("sweep");
+  const std::vector<SweepPoint> points = three_speeds();
+  SweepSettings settings;
+  settings.folder = root.path / "sweep";
+  settings.jobs = 1;
+  settings.fields = true;
+  ASSERT_TRUE(run_sweep(points, settings)[0].done);
+  const fs::path middle = settings.folder / points[0].folder, checkpoint = middle / "checkpoint";
+  const auto without_leaves = [&] {
+    for (const std::size_t leaf : {1, 2}) fs::remove_all(settings.folder / points[leaf].folder);
+    return run_sweep(points, settings);
+  };
+
+  const std::string current = read_file(checkpoint / "current");
+  fs::remove(checkpoint / "current");  // of a finished run
+  for (const std::size_t leaf : {1, 2}) {
+    const SweepRow row = without_leaves()[leaf];
+    EXPECT_FALSE(row.done);
+    EXPECT_EQ(row.code, ExitCode::bad_data);
+    EXPECT_NE(row.error.find("v20/checkpoint/current"), std::string::npos) << row.error;
+  }
+
+  write_file(checkpoint / "current", current);
+  fs::remove(middle / ".ripstop/seal");  // of one that had not ended
+  for (const char* name : {"even", "odd"}) fs::remove(checkpoint / name / "state");
+  const std::vector<SweepRow> rows = without_leaves();
+  EXPECT_EQ(rows[0].code, ExitCode::bad_data) << rows[0].error;
+  for (const std::size_t leaf : {1, 2}) {
+    EXPECT_FALSE(rows[leaf].done);
+    EXPECT_NE(rows[leaf].error.find("was not begun: v20"), std::string::npos) << rows[leaf].error;
+    EXPECT_FALSE(fs::exists(settings.folder / points[leaf].folder));
+  }
+}
+
 }  // namespace
 }  // namespace ripstop

@@ -93,7 +93,7 @@ def finished(bench, name, file, how):
     code, _, err = bench.run(bench.command(name, run), trial.FASTER.get(name))
     noticed += code != wanted
     # OpenFOAM's own case and the checkpoint are what the run went on from: nothing more is made of them by this command.
-    unlike = trial.differences(run, whole, lambda n: "checkpoint" in n or "flow/" in n or ".ripstop/" in n)
+    unlike = trial.differences(run, whole, lambda n: "checkpoint" in n or "flow/" in n)
     wrong.append(judge("again", code, wanted, not unlike, err + " " + " ".join(unlike[:5]), file, run))
     wrong = [text for text in wrong if text]
     return {"ok": not wrong, "noticed": noticed, "said": "; ".join(wrong)}
@@ -122,8 +122,11 @@ def interrupted(bench, name, file, how):
     shutil.copytree(interrupted_folder(bench, name), run)
     spoil(run / file, how, random.Random(f"{name} {file} {how}"))
     whole, wanted, _, _ = bench.undisturbed(name)
+    # Of a sweep's runs that have ended, as in finished().
+    ended = [folder.name for folder in run.iterdir() if (folder / ".ripstop/seal").exists()]
     code, _, err = bench.run(bench.command(name, run), trial.FASTER.get(name))
-    unlike = trial.differences(run, whole) if code == wanted else []
+    past = tuple(f"{name}/checkpoint/" for name in ended)
+    unlike = trial.differences(run, whole, lambda n: n.startswith(past)) if code == wanted else []
     wrong = judge("again", code, wanted, not unlike, err + " differ: " + ", ".join(unlike[:8]), file, run)
     if not wrong and code != wanted and "--fresh" in err:  # the advice holds
         code, _, err = bench.run([*bench.command(name, run), "--fresh"], trial.FASTER.get(name))

@@ -81,6 +81,35 @@ bool covers(const std::vector<std::string>& names, const std::string& name) {
   });
 }
 
+/// What the seal says of all names on the list, in its order: the hash, nothing of folders and of what was not written.
+nlohmann::ordered_json sealed_contents(const fs::path& folder) {
+  auto contents = nlohmann::ordered_json::parse(read_sealed(seal_of(folder)), nullptr, false);
+  if (!contents.is_object())
+    throw Error(ExitCode::bad_data, fmt::format("{}: is no seal of Ripstop", seal_of(folder).string()));
+  return contents;
+}
+
+/// Of a finished folder the seal knows the list too: what was lost of it comes back.
+std::vector<std::string> listed_or_sealed(const fs::path& folder) {
+  const std::vector<std::string> names = listed(folder);
+  if (!is_sealed(folder)) return names;
+  std::vector<std::string> whole;
+  try {
+    const auto contents = sealed_contents(folder);
+    for (const auto& [name, hash] : contents.items()) whole.push_back(name);
+  } catch (const Error&) {  // told by who asks what is damaged
+    return names;
+  }
+  if (std::all_of(whole.begin(), whole.end(), [&](const auto& name) { return covers(names, name); }))
+    return names;
+  for (const std::string& name : names)
+    if (!covers(whole, name)) whole.push_back(name);
+  std::string lines;
+  for (const std::string& name : whole) lines += line_of(name);
+  write_file(list_of(folder), lines);
+  return whole;
+}
+
 /// Files below the folder by their relative names, but for Ripstop's records.
 std::vector<std::string> files_below(const fs::path& folder) {
   std::vector<std::string> files;
@@ -140,13 +169,15 @@ ClaimedFolder::ClaimedFolder(fs::path folder) : folder_(std::move(folder)) {
                                           std::generic_category().message(errno)));
   }
   drop_broken_lines(list_of(folder_));
-  names_ = listed(folder_);
+  names_ = listed_or_sealed(folder_);
   if (is_sealed(folder_)) {
     remove_path(kept_of(folder_));  // the seal has taken its place
   } else {
     drop_broken_lines(kept_of(folder_));
     for (const std::string& line : lines_of(kept_of(folder_)))
       kept_[line.substr(line.find(' ') + 1)] = line.substr(0, line.find(' '));
+    for (const auto& [name, hash] : kept_)
+      if (!covers(names_, name)) add(name);  // its line was lost
     std::erase_if(kept_, [](const auto& entry) { return entry.second == released; });
   }
   drop_leftovers();
@@ -172,9 +203,13 @@ fs::path ClaimedFolder::own(const std::string& name) {
     throw Error(ExitCode::usage,
                 fmt::format("{}: is there already and not Ripstop's; choose another --out", path.string()));
   }
+  add(name);
+  return path;
+}
+
+void ClaimedFolder::add(const std::string& name) {
   append_to_file(list_of(folder_), line_of(name));
   names_.push_back(name);
-  return path;
 }
 
 void ClaimedFolder::clear() {
@@ -211,7 +246,8 @@ std::vector<std::string> ClaimedFolder::lost() const {
 void ClaimedFolder::seal() const {
   nlohmann::ordered_json contents = nlohmann::ordered_json::object();
   for (const std::string& name : names_) {
-    if (!is_folder_name(name) && fs::exists(folder_ / name)) contents[name] = hash_file(folder_ / name);
+    auto& hash = contents[name];
+    if (!is_folder_name(name) && fs::exists(folder_ / name)) hash = hash_file(folder_ / name);
   }
   write_sealed(seal_of(folder_), contents.dump(2) + "\n");
   remove_path(kept_of(folder_));
@@ -242,11 +278,10 @@ bool is_sealed(const fs::path& folder) {
 }
 
 std::vector<std::string> damaged_files(const fs::path& folder) {
-  const auto contents = nlohmann::ordered_json::parse(read_sealed(seal_of(folder)), nullptr, false);
-  if (!contents.is_object())
-    throw Error(ExitCode::bad_data, fmt::format("{}: is no seal of Ripstop", seal_of(folder).string()));
+  const auto contents = sealed_contents(folder);
   std::vector<std::string> names;
   for (const auto& [name, hash] : contents.items()) {
+    if (hash.is_null()) continue;
     if (!fs::exists(folder / name) || hash_file(folder / name) != hash) names.push_back(name);
   }
   return names;

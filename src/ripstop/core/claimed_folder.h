@@ -14,7 +14,8 @@ namespace ripstop {
 class ClaimedFolder {
  public:
   /// Makes the folder if need be and locks it for as long as this object, or its process, lives. Removes what
-  /// a kill left of files being written. Throws Error(usage) saying who holds it, Error(io).
+  /// a kill left of files being written; what was lost of the list comes back from the seal or what keep() wrote.
+  /// Throws Error(usage) saying who holds it, Error(io).
   explicit ClaimedFolder(std::filesystem::path folder);
   ~ClaimedFolder();
   ClaimedFolder(const ClaimedFolder&) = delete;
@@ -41,13 +42,14 @@ class ClaimedFolder {
 
   /// A sealed word about the folder, kept beside the list. Throws Error(io).
   void note(const std::string& name, const std::string& text) const;
-  /// Seals the contents of all files on the list, folders with '/' left out: the work here is
+  /// Seals the list and the contents of all files on it, folders with '/' left out: the work here is
   /// done. Throws Error(io).
   void seal() const;
   /// The work goes on. Throws Error(io).
   void unseal() const;
 
  private:
+  void add(const std::string& name);
   void drop_leftovers() const;
 
   std::filesystem::path folder_;

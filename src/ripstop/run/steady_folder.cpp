@@ -282,9 +282,11 @@ double drag_for_opening(const Case& given, const SteadyResult& result, const std
 
 SteadyState final_state(const fs::path& folder) {
   const fs::path checkpoint = folder / "checkpoint";
-  if (!fs::exists(folder / "result.json") || !fs::exists(checkpoint / "current")) {
+  if (!fs::exists(folder / "result.json"))
     throw Error(ExitCode::usage, fmt::format("{}: holds no finished run of ripstop steady", folder.string()));
-  }
+  if (!fs::exists(checkpoint / "current"))
+    throw Error(ExitCode::bad_data, fmt::format("{}: is lost; compute the run again with --fresh",
+                                                (checkpoint / "current").string()));
   return steady_state_from_bytes(read_sealed(checkpoint / read_sealed(checkpoint / "current") / "state"));
 }
 

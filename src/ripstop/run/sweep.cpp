@@ -140,8 +140,8 @@ class Board {
   }
 
   // A run that starts from nothing where it is to start from its neighbour has other last digits for good. A
-  // neighbour that failed by the disk, or that another process works on, will not fail when the command is repeated, so
-  // that this run waits for that; one that diverged always does.
+  // neighbour that failed by the disk, that was damaged, or that another process works on, will not fail when that is
+  // mended and the command repeated, so that this run waits for that; one that diverged always does.
   SweepRow run(std::size_t i, int threads) {
     const int start = start_of(i);
     if (start >= 0 && rows_[start].waits) {
@@ -209,7 +209,7 @@ class Board {
     SweepRow row;
     row.error = why;
     row.code = code;
-    row.waits = code == ExitCode::io;
+    row.waits = code == ExitCode::io || code == ExitCode::bad_data;
     return row;
   }
 

@@ -264,6 +264,26 @@ pressure changes. To make the mesh anew (Ripstop also opens cells that cloth shu
     createBaffles -overwrite
 )foam";
 
+void write_readme(const fs::path& folder, const FlowProblem& problem, const OpenFoamSettings& settings) {
+  const FlowGrid& grid = problem.grid;
+  const char* solver = solver_name(settings.incompressible, !problem.sheets.empty());
+  const std::string run = settings.ranks > 1 ? fmt::format(
+                                                   "    decomposePar\n    mpirun -np {} {} -parallel\n"
+                                                   "    reconstructPar -latestTime\n",
+                                                   settings.ranks, solver)
+                                             : fmt::format("    {}\n", solver);
+  std::ofstream readme(folder / kReadme);
+  const bool sheets = !problem.sheets.empty();
+  readme << fmt::format(kReadmeText, sheets ? "sheets" : "porous cells", grid.nx, grid.ny, grid.nz,
+                        problem.air.density, problem.air.speed,
+                        problem.sides == Sides::slip ? "slip" : "open", kStopFile,
+                        sheets ? "" : "    blockMesh\n    cp constant/cellZones constant/polyMesh/\n", run,
+                        !sheets                ? kOfPorousCells
+                        : settings.fitted_mesh ? kOfFittedMesh
+                                               : kOfSheets);
+  close_written(readme, folder / kReadme);
+}
+
 void range(const char* what, double value, double low, double high, const char* unit) {
   if (!(value >= low && value <= high)) {
     throw Error(ExitCode::usage, fmt::format("flow: {} is {:g} {}; it must lie in [{:g}, {:g}]", what, value,
@@ -319,6 +339,7 @@ void check(const FlowProblem& problem) {
 }
 
 void write_case(const fs::path& folder, const FlowProblem& problem, const OpenFoamSettings& settings) {
+  write_readme(folder, problem, settings);  // first: where the rest fails the folder is known as ours
   const FlowGrid& grid = problem.grid;
   if (problem.sheets.empty() || settings.fitted_mesh)
     write_dictionary(folder / "system/blockMeshDict", "dictionary", mesh_dictionary(grid));
@@ -342,22 +363,6 @@ void write_case(const fs::path& folder, const FlowProblem& problem, const OpenFo
   }
   write_dictionary(folder / "constant/turbulenceProperties", "dictionary",
                    "simulationType RAS;\nRAS { RASModel kOmegaSST; turbulence on; printCoeffs off; }\n");
-  const char* solver = solver_name(settings.incompressible, !problem.sheets.empty());
-  const std::string run = settings.ranks > 1 ? fmt::format(
-                                                   "    decomposePar\n    mpirun -np {} {} -parallel\n"
-                                                   "    reconstructPar -latestTime\n",
-                                                   settings.ranks, solver)
-                                             : fmt::format("    {}\n", solver);
-  std::ofstream readme(folder / kReadme);
-  const bool sheets = !problem.sheets.empty();
-  readme << fmt::format(kReadmeText, sheets ? "sheets" : "porous cells", grid.nx, grid.ny, grid.nz,
-                        problem.air.density, problem.air.speed,
-                        problem.sides == Sides::slip ? "slip" : "open", kStopFile,
-                        sheets ? "" : "    blockMesh\n    cp constant/cellZones constant/polyMesh/\n", run,
-                        !sheets                ? kOfPorousCells
-                        : settings.fitted_mesh ? kOfFittedMesh
-                                               : kOfSheets);
-  close_written(readme, folder / kReadme);
 }
 
 void write_fields(const fs::path& folder, const FlowProblem& problem, bool incompressible,
