@@ -125,6 +125,10 @@ void print_result(const InflationResult& r, const fs::path& folder, double wall_
                                                    : ""));
   row("energy balance", fmt::format("work in = kinetic + elastic + damped{} within {:.3f} %",
                                     r.stages ? " + cut" : "", 100 * r.energy_residual));
+  if (s.contact_pa > 0)
+    row("contact of cloth",
+        fmt::format("pressed together by {:.0f} % at most; {:.2f} % of the edges pierced cloth",
+                    100 * r.contact_depth, 100 * r.pierced));
   row("files", fmt::format("{} (load.png, shapes.png, history.csv, canopy.pvd, result.json); {}",
                            folder.string(), duration_text(wall_time)));
   if (fs::exists(folder / report_name)) row("report", (folder / report_name).string());

@@ -57,6 +57,28 @@ TEST(Inflation, TheFoldedStateAtRestStaysAtRest) {
   EXPECT_LT(farthest, 1e-9);
 }
 
+TEST(Inflation, ClothDoesNotPassThroughClothUnlessItIsAskedTo) {
+  double pierced[2], depth[2];
+  for (const bool contact : {false, true}) {
+    InflationProblem problem = small_problem(500, 0.03);
+    if (!contact) problem.settings.contact_pa = 0;
+    Inflation solver(problem);
+    InflationState state = solver.start();
+    pierced[contact] = depth[contact] = 0;
+    while (state.blocks < solver.blocks()) {
+      solver.advance(state);
+      const InflationFrame frame = solver.frame(state);
+      pierced[contact] = std::max(pierced[contact], frame.pierced);
+      depth[contact] = std::max(depth[contact], frame.contact_depth);
+    }
+  }
+  EXPECT_GT(pierced[false], 0.05);
+  EXPECT_LT(pierced[true], 0.5 * pierced[false]) << "at folds that began nearer to each other, layers pass";
+  EXPECT_EQ(depth[false], 0);
+  EXPECT_GT(depth[true], 0.01);
+  EXPECT_LT(depth[true], 0.8);
+}
+
 TEST(Inflation, TheImpulseOnTheRiserIsThatOfThePressureLessTheMomentum) {
   InflationProblem problem = small_problem(500, 0.01);
   problem.settings.damping_n_s_m3 = 0;

@@ -75,10 +75,13 @@ void describe_mesh(Fields& fields, InflationSettings& inflation) {
               "Stiffness of cloth and tape in compression relative to K_1 at any strain, in the opening, in "
               "place of wrinkles; 1 is the spring that [NFM] prints.")
       .absent("cloth and tape wrinkle, at their buckling strain or 1e-6");
+  fields.number("contact_pa", inflation.contact_pa, from(0).up_to(1e6),
+                "Pressure that would press two layers of cloth into one; 0: cloth passes through cloth.");
+  fields.number("contact_friction", inflation.contact_friction, from(0).up_to(2),
+                "Coulomb's coefficient of cloth on cloth (assumed).");
   fields.number("imperfection_m", inflation.imperfection_m, from(0).up_to(1),
                 "The folded cloth starts moved outward by this much times cos(harmonic x azimuth) at the "
-                "outer folds of "
-                "the skirt, in proportion to the radius elsewhere; 0: symmetric.");
+                "outer folds of the skirt, in proportion to the radius elsewhere; 0: symmetric.");
   fields.integer("imperfection_harmonic", inflation.imperfection_harmonic, from(1).up_to(1000),
                  "Waves round the axis of that imperfection.");
 }
@@ -140,8 +143,7 @@ void describe(Fields& fields, InflationSettings& inflation) {
   describe_known(fields, inflation);
   fields.rows("reefing", inflation.reefing,
               "A stage of reefing: a line through rings at the skirt, until it is cut. Stages in order; "
-              "after the last "
-              "the canopy is fully open.");
+              "after the last the canopy is fully open.");
 }
 
 }  // namespace ripstop

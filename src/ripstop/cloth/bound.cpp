@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+#include "ripstop/cloth/contact.h"
 #include "ripstop/core/error.h"
 #include "ripstop/mesh/each_spring.h"
 
@@ -149,8 +150,10 @@ NodeStiffness node_stiffness(const Cloth& cloth, const ClothState& state) {
 // dt. A tied end has (n . x)^2 <= sum w (n . x_master)^2 (Jensen), so its block goes to its masters and its s
 // is the largest of theirs; a fixed end has none. With the absolute damping c_a,
 //   (rho_i + rho_j) dt^2 + 2 (c_i + c_j + c_a) dt < 4
-// (and what a drawstring adds at either end, of which it is a sum over nodes already) for every spring keeps both roots of every mode of semi-implicit Euler inside the unit circle. The
-// pressure's own stiffness is left out: a few hundred pascal against 1e4 N/m over a cell of millimetres.
+// for every spring (and what a drawstring adds at either end, of which it is a sum over nodes already) keeps both
+// roots of every mode of semi-implicit Euler inside the unit circle. The pressure's own stiffness is left out: a few
+// hundred pascal against 1e4 N/m over a cell of millimetres. Contacts act in kicks of their own length, which is a step
+// at least.
 StepBound step_bound(const Cloth& cloth, const ClothState& state) {
   return step_bound(cloth, state, node_stiffness(cloth, state));
 }
@@ -215,6 +218,7 @@ StepBound step_bound(const Cloth& cloth, const ClothState& state, const NodeStif
   for (int i = 0; i < count; ++i)  // rings that nothing else holds
     if (string_rho[i] > 0 && allow(string_rho[i], string_rate[i] + absolute)) bound.node = i;
   if (bound.node >= 0) bound.part = place_of(mesh, bound.node);
+  if (cloth.contact && allow(std::pow(2 * cloth.contact->fastest, 2), 0)) bound.part = "contact of cloth";
   return bound;
 }
 

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,10 +15,18 @@
 
 namespace ripstop {
 
+/// Cloth does not pass through cloth (docs/theory/cloth.md): nodes of different places of it push each other apart.
+struct ContactOptions {
+  double pressure = 20e3;    // that would press two layers of nodes into one [Pa]
+  double friction = 0.2;     // Coulomb's coefficient
+  std::vector<Vec3> folded;  // by node [m]: nodes may be as close as they are here
+};
+
 struct ClothOptions {
   bool linear = false;           // keep only K_1 of every law
   double absolute_damping = 0;   // C_a per unit area of cloth [N s/m3]; force -C_a * area * v, [NFM] Eq. 20
   double quadratic_damping = 0;  // the same for -C area |v| v [N s2/m4]
+  std::optional<ContactOptions> contact = {};  // of make_cloth(); relax() leaves it out
 };
 
 /// Pressure difference on every cell (inside minus outside, [Pa]; order of cells_of()), and
@@ -127,6 +136,17 @@ std::vector<double> spring_tensions(const Cloth& cloth, const ClothState& state)
 
 /// Force of the springs on every tied node (Mesh::ties), which it hands to its masters [N].
 std::vector<Vec3> tie_forces(const Cloth& cloth, const ClothState& state);
+
+struct ContactReport {
+  int pairs = 0;       // of nodes that push each other
+  double deepest = 0;  // largest 1 - r / d of a pair: 1 where nodes lie in one place
+  double energy = 0;   // [J]
+};
+ContactReport contact_report(const Cloth& cloth, const ClothState& state);
+
+/// Share of the edges of cells that pierce a cell elsewhere on the cloth, by the positions `x` alone. What lies within
+/// three edges of each other at Mesh::start is not asked.
+double pierced_share(const Mesh& mesh, const std::vector<Vec3>& x);
 
 /// Length of the drawstring once round its rings [m]. The cloth has one.
 double drawn_length(const Cloth& cloth, const ClothState& state);

@@ -14,6 +14,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "ripstop/cloth/cloth.h"
@@ -90,6 +91,8 @@ struct KeptSprings {
   AlignedDoubles positive_part;  // scale c_k; eight of c_1, eight of c_2, ... of each block
 };
 
+struct ContactLayout;
+
 struct Cloth {
   Mesh mesh;  // with linearised laws, when so asked
   ClothOptions options;
@@ -135,6 +138,8 @@ struct Cloth {
   std::vector<Follower> followers;  // tied nodes in the order of their slots
   std::vector<Master> masters;
   std::vector<int> followers_of_row;  // row_count + 1 edges into `followers`
+
+  std::shared_ptr<const ContactLayout> contact;  // null: cloth passes through cloth
 
   int patch_row(int row) const { return row - patches[row_patch[row]].first_row; }
   int row_slot(int row) const {

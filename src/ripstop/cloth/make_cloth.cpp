@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ripstop/cloth/contact.h"
 #include "ripstop/cloth/layout.h"
 #include "ripstop/core/error.h"
 
@@ -394,6 +395,7 @@ ClothPtr make_cloth(const Mesh& mesh, const ClothOptions& options) {
   follow_masters(*cloth);
   cloth->kept_of_row = edges_of_rows(*cloth, cloth->kept);
   cloth->followers_of_row = edges_of_rows(*cloth, cloth->followers);
+  if (options.contact) cloth->contact = std::make_shared<ContactLayout>(contact_layout(mesh, *cloth));
   return cloth;
 }
 

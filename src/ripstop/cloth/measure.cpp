@@ -16,6 +16,13 @@ double tension_of(const SpringView& s, const std::vector<Vec3>& x) {
   return s.scale * s.law->tension(norm(x[s.b] - x[s.a]) / s.rest_length - 1);
 }
 
+double length_round(const std::vector<int>& rings, const std::vector<Vec3>& x) {
+  double length = 0;
+  for (std::size_t i = 0; i < rings.size(); ++i)
+    length += norm(x[rings[(i + 1) % rings.size()]] - x[rings[i]]);
+  return length;
+}
+
 /// The pull between the ends of every spring, and of every part of the drawstring: visit(a, b, force on a).
 template <class Visit>
 void each_pull(const Cloth& cloth, const std::vector<Vec3>& x, Visit&& visit) {
@@ -26,10 +33,7 @@ void each_pull(const Cloth& cloth, const std::vector<Vec3>& x, Visit&& visit) {
   if (!cloth.mesh.drawstring) return;
   const Drawstring& string = *cloth.mesh.drawstring;
   const std::vector<int>& rings = string.rings;
-  double length = 0;
-  for (std::size_t i = 0; i < rings.size(); ++i)
-    length += norm(x[rings[(i + 1) % rings.size()]] - x[rings[i]]);
-  const double tension = string.law.tension(std::max(length / string.rest_length - 1, 0.0));
+  const double tension = string.law.tension(std::max(length_round(rings, x) / string.rest_length - 1, 0.0));
   for (std::size_t i = 0; i < rings.size(); ++i) {
     const int next = rings[(i + 1) % rings.size()];
     const Vec3 d = x[next] - x[rings[i]];
@@ -82,10 +86,7 @@ std::vector<double> spring_tensions(const Cloth& cloth, const ClothState& state)
 }
 
 double drawn_length(const Cloth& cloth, const ClothState& state) {
-  double length = 0;
-  for (std::size_t i = 1; i < cloth.rings.size(); ++i)
-    length += norm(get(state.x.data(), cloth.rings[i]) - get(state.x.data(), cloth.rings[i - 1]));
-  return length;
+  return cloth.mesh.drawstring ? length_round(cloth.mesh.drawstring->rings, positions(state, cloth)) : 0;
 }
 
 std::vector<Vec3> tie_forces(const Cloth& cloth, const ClothState& state) {
@@ -139,7 +140,7 @@ double elastic_energy(const Cloth& cloth, const ClothState& state) {
     const double strain = drawn_length(cloth, state) / string->rest_length - 1;
     sum += string->rest_length * string->law.energy(std::max(strain, 0.0));
   }
-  return sum;
+  return sum + contact_report(cloth, state).energy;
 }
 
 double kinetic_energy(const Cloth& cloth, const ClothState& state) {

@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "ripstop/cloth/bound.h"
+#include "ripstop/cloth/contact.h"
 #include "ripstop/cloth/stepper.h"
 #include "ripstop/core/error.h"
 
@@ -47,6 +49,9 @@ void step(ClothState& state, const Cloth& cloth, const Loads& loads, double dt, 
     record->peak_tension.resize(cloth.mesh.springs.size(), 0.0);
     stepper.start_record(*record);
   }
+  std::optional<Contact> contact;
+  if (cloth.contact) contact.emplace(*cloth.contact, team.size());
+  const int a_kick = contact ? contact->steps_a_kick(dt) : 0;
   const int all = count;
   int done = 0;
   while (count > 0) {
@@ -55,6 +60,11 @@ void step(ClothState& state, const Cloth& cloth, const Loads& loads, double dt, 
     const int now = static_cast<int>(std::min<long long>(count, steps_between_checks - since));
     team.run([&](int rank) {
       for (int i = 0; i < now; ++i) {
+        if (contact && (done + i) % a_kick == 0) {
+          contact->kick(rank, team, state, std::min(a_kick, all - done - i) * dt);
+          stepper.follow_masters(rank);
+          team.barrier();
+        }
         stepper.add_forces(rank);
         team.barrier();
         stepper.move_kept(rank);
@@ -74,6 +84,7 @@ void step(ClothState& state, const Cloth& cloth, const Loads& loads, double dt, 
     check_health(cloth, state);
   }
   if (record) stepper.finish_record();
+  if (record && contact) record->damped += contact->damped();
 }
 
 }  // namespace ripstop

@@ -87,6 +87,8 @@ const std::map<std::string_view, Wording>& known() {  // NOLINT(readability-func
       {"start_strain", {"largest strain of the folded start", ""}},
       {"cloth_margin", {"cloth's margin to its breaking load", ""}},
       {"energy_residual", {"largest residual of the energy balance", ""}},
+      {"contact_depth", {"deepest contact of cloth, share of the distance of layers", ""}},
+      {"pierced_edges", {"share of the cloth's edges that pierce cloth", ""}},
       {"knacke_load_n", {"Knacke's estimate of the peak", "N"}},
       {"knacke_coefficient", {"Knacke's opening coefficient C_x", ""}},
       {"knacke_source", {"source of that coefficient", ""}},

@@ -65,7 +65,8 @@ Inflation::Inflation(InflationProblem problem) : problem_(std::move(problem)), t
   folded_ = folded_start(problem_.mesh, {*s.initial_radius_m, s.folds, s.slack_m}, problem_.symmetry, team_);
   mesh_ = with_creases(problem_.mesh, folded_);
   damp_springs(mesh_, s.line_damping_s, s.cloth_damping_s);
-  const ClothOptions options{problem_.linear, s.damping_n_s_m3, s.quadratic_damping_n_s2_m4};
+  ClothOptions options{problem_.linear, s.damping_n_s_m3, s.quadratic_damping_n_s2_m4};
+  if (s.contact_pa > 0) options.contact = ContactOptions{s.contact_pa, s.contact_friction, folded_.positions};
   if (s.cloth_damping_s > 0)
     viscosity_limit_ = limit_viscosity(mesh_, options, folded_.positions, s.cloth_damping_step_share);
   add_reefing_lines(options);
@@ -322,6 +323,8 @@ InflationFrame Inflation::frame(InflationState& state) const {
   frame.stable_step = step_bound(cloth_of(state), state.cloth).stable_step;
   frame.size = canopy_size(mesh_, x);
   frame.stress = stress_peak(mesh_, x, cell_stress(cloth(), state.cloth));
+  frame.contact_depth = contact_report(cloth_of(state), state.cloth).deepest;
+  frame.pierced = pierced_share(mesh_, x);
   frame.asymmetry = asymmetry(mesh_, x, std::gcd(problem_.symmetry, folded_.folds));
   if (frame.stress.von_mises > state.highest_stress.von_mises) {
     state.highest_stress = frame.stress;

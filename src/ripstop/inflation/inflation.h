@@ -61,7 +61,9 @@ struct InflationFrame {
   CanopySize size;
   StressPeak stress;
   double asymmetry = 0;  // largest distance of a node from where a turn by 2 pi / symmetry puts its like [m]
-  double cut = 0;        // elastic energy that went with reefing lines when they were cut [J]
+  double contact_depth = 0;  // largest share of their distance by which layers are pressed into each other
+  double pierced = 0;        // share of the cloth's edges that pierce cloth, see pierced_share()
+  double cut = 0;            // elastic energy that went with reefing lines when they were cut [J]
 };
 
 template <Of<InflationFrame> T, class Visit>
@@ -81,6 +83,8 @@ void each_member(T& frame, Visit&& visit) {
   visit("max_von_mises_n_m", frame.stress.von_mises);
   visit("max_cloth_strain", frame.stress.strain);
   visit("asymmetry_m", frame.asymmetry);
+  visit("contact_depth", frame.contact_depth);
+  visit("pierced_edges", frame.pierced);
   visit("cut_energy_j", frame.cut);
 }
 

@@ -48,6 +48,9 @@ struct InflationSettings {
 
   std::optional<double> line_segment_m;  // of the opening's mesh, in place of [parachute.mesh]'s
 
+  double contact_pa = 20e3;  // that would press two layers of cloth into one; 0: they pass through each other
+  double contact_friction = 0.2;
+
   std::optional<double> cloth_compression;  // of cloth and tape, in place of wrinkles
 
   double duration_s = 0.5;

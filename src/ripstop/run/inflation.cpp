@@ -76,6 +76,10 @@ InflationResult result_of(const Case& given, const LoadSource& source, const Inf
   r.stages = stages_of(solver, state, history);
   r.margins = case_margins(given, solver.mesh(), state.record.peak_tension, r.stress, line_peaks(r.stages));
   r.energy_residual = energy_residual(history.frames);
+  for (const InflationFrame& frame : history.frames) {
+    r.contact_depth = std::max(r.contact_depth, frame.contact_depth);
+    r.pierced = std::max(r.pierced, frame.pierced);
+  }
   r.estimate = opening_estimate(given.parachute, source.steady_drag.value_or(steady));
   r.settled = settled(r.summary, solver.problem().settings.duration_s);
   r.steps = state.cloth.steps;

@@ -45,6 +45,7 @@ struct InflationResult {
   std::optional<Margins> margins;
   std::optional<double> cloth_margin;  // break load over the higher of both yarns' forces
   double energy_residual = 0;          // largest |residual| of all frames after the first tenth of the work
+  double contact_depth = 0, pierced = 0;  // largest of all frames, see InflationFrame
   OpeningEstimate estimate;
   long long steps = 0;
   int step_changes = 0;
@@ -94,6 +95,8 @@ void each_member(T& r, Visit&& visit) {
   visit("cloth_margin", r.cloth_margin);
   visit("margins", r.margins);
   visit("energy_residual", r.energy_residual);
+  visit("contact_depth", r.contact_depth);
+  visit("pierced_edges", r.pierced);
   visit("knacke_load_n", r.estimate.load);
   visit("knacke_coefficient", r.estimate.coefficient);
   visit("knacke_source", r.estimate.source);
