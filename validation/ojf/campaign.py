@@ -101,8 +101,8 @@ OPENING_COLUMNS = ["parachute", "air", "speed_m_s", "density_kg_m3", "initial_ra
                    "peak_time_s", "filling_time_s", "steady_n", "wall_time_s", "peak_100hz_pm_n"]
 # Under the uniform pressure of their steady load (docs/validation.md) and the damping that Stratos IV was fitted with.
 # C_a is that which is calibrated on Stratos IV, for ADEPT with cloth that pushes, as its example's does.
-DAMPED = {"stratos-iv": ["--damping", "5.92"], "walrus": ["--damping", "5.92", "--pressure", "528"],
-          "adept": ["--damping", "6.969", "--pressure", "593"]}
+DAMPED = {"stratos-iv": ["--damping", "10.39"], "walrus": ["--damping", "10.39", "--pressure", "528"],
+          "adept": ["--damping", "10.51", "--pressure", "593"]}
 # Cells, and the size of the printed ones over theirs. The `paper` model resists for the length of a cell: its
 # coefficients are multiplied by this ratio, which keeps the resistance of the cloth's area.
 GRIDS = [("40,40,60", 0.4), ("50,50,75", 0.5), ("64,64,96", 0.64)]
