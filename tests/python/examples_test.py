@@ -39,7 +39,7 @@ class Examples(unittest.TestCase):
         self.assertAlmostEqual(float(row["drag_coefficient"]), known, delta=0.4)
 
     def test_a_calibration(self):
-        text = self.run_example("calibration.py", "--cloth-nodes", 500, "--duration", 0.05, "--smallest", 2, "--largest", 40, "--points", 4,
+        text = self.run_example("calibration.py", "--cloth-nodes", 500, "--duration", 0.1, "--smallest", 4, "--largest", 16, "--points", 4,
                                 "--refinements", 1, "--threads", 1)
         self.assertEqual(text.count("misfit"), 5)
         self.assertRegex(text, r"C_a = [\d.]+ N s/m3: peak [\d.]+ N, measured [\d.]+ N\n$")
