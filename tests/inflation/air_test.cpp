@@ -4,9 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "ripstop/core/error.h"
+#include "ripstop/flight/atmosphere.h"
+#include "ripstop/flight/trajectory.h"
 #include "ripstop/flow/cartesian/cartesian.h"
 
 namespace ripstop {
@@ -144,6 +147,34 @@ TEST(OpeningAir, APayloadIsSlowedDownByWhatTheRiserPulls) {
   EXPECT_NEAR(memory.speed, duct_speed + 10 * step * gravity - 9 * step * pull / mass, 1e-9);
   EXPECT_EQ(row.speed, memory.speed);
   EXPECT_NEAR(memory.path, 10 * step * duct_speed, 1e-3);
+}
+
+// A constant drag area has it fly as a mass point flies, which has another method: in speed, in height, and as far as
+// weight turns its path.
+TEST(OpeningAir, APayloadsPathTurnsAsThatOfAMassPoint) {
+  CartesianSettings settings;
+  settings.threads = 1, settings.compressible = false;
+  constexpr double mass = 2, area = 0.05, step = 1e-4;
+  constexpr int steps = 10'000;
+  const Mesh mesh = piston(0.04);
+  for (const double angle : {90.0, 30.0, 0.0, -60.0}) {
+    OpeningAir air({closed_duct(), 0.5, make_cartesian(settings), Payload{mass, standard_gravity, angle}},
+                   mesh);
+    AirMemory memory;
+    AirRow row;
+    air.step(mesh.start, std::vector<Vec3>(mesh.start.size()), step, memory, row);
+    for (int n = 0; n < steps; ++n)
+      air.fly(0.5 * standard_air(0).density * memory.speed * memory.speed * area, step, memory);
+    FlightState flown{0, 0, 0, 0, duct_speed, angle};
+    fly(flown, mass, {[](double, double) { return area; }, steps * step, 1e-3, -100});
+    EXPECT_NEAR(memory.speed / flown.speed, 1, 2e-3) << angle;
+    EXPECT_NEAR(memory.angle * 180 / std::numbers::pi, flown.path_angle, 0.1) << angle;
+    EXPECT_NEAR(memory.path / flown.distance, 1, 2e-3) << angle;
+    EXPECT_NEAR(memory.fallen, -flown.height, 0.01) << angle;
+    if (angle == 90) {
+      EXPECT_NEAR(memory.fallen, memory.path, 1e-12);
+    }
+  }
 }
 
 }  // namespace

@@ -30,9 +30,8 @@ void describe_air(Fields& fields, InflationSettings& inflation) {
       {{"infinite", InflationSettings::Mass::infinite}, {"payload", InflationSettings::Mass::payload}},
       "What the riser's end does in its own air: held in the stream, as in a tunnel; or it is the "
       "payload.mass_kg, which the opening slows down.");
-  fields.number(
-      "flight_angle_deg", inflation.flight_angle_deg, from(-90).up_to(90),
-      "Of the payload's path below the horizon, 90 straight down: how much of its weight drives it.");
+  fields.number("flight_angle_deg", inflation.flight_angle_deg, from(-90).up_to(90),
+                "Of the payload's path below the horizon at deployment, 90 straight down; weight turns it.");
 }
 
 /// The pressure over the canopy.

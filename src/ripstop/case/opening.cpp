@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include "ripstop/case/assemble.h"
@@ -82,8 +80,7 @@ InflationProblem opening_problem(const Case& opening, const LoadSource& source, 
     problem.air = AirProblem{flow_problem(opening), opening.inflation.courant};
     if (opening.inflation.mass == InflationSettings::Mass::payload)
       problem.air->payload =
-          Payload{*opening.payload.mass_kg,
-                  standard_gravity * std::sin(opening.inflation.flight_angle_deg * std::numbers::pi / 180)};
+          Payload{*opening.payload.mass_kg, standard_gravity, opening.inflation.flight_angle_deg};
     problem.settings.damping_n_s_m3 = problem.settings.quadratic_damping_n_s2_m4 = 0;
   } else {
     problem.pressure = pressure_of(opening, source, threads, alive);

@@ -1,6 +1,8 @@
 #include "ripstop/inflation/air.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "ripstop/core/error.h"
@@ -14,6 +16,8 @@ namespace {
 /// half, would let the load swing from step to step; the velocity at its end has in it whatever the cloth's own
 /// vibrations make of an instant.
 constexpr double latter_half = 0.75;
+
+constexpr double degree = std::numbers::pi / 180;
 
 FlowProblem with_surface(FlowProblem problem, std::vector<Triangle> surface) {
   if (problem.sheets.size() != 1)
@@ -59,6 +63,10 @@ OpeningAir::OpeningAir(const AirProblem& problem, const Mesh& mesh)
   flow_ = engine_->start(with_surface(problem.flow, surface_of(cells_, mesh.start)));
 }
 
+double OpeningAir::pull_of_weight(double angle) const {
+  return payload_->gravity * std::sin(angle);
+}
+
 Loads OpeningAir::last_load(const AirMemory& memory) const {
   if (memory.pressure.empty())
     return {std::vector<double>(cells_.size(), 0.0), std::vector<Vec3>(node_mass_.size())};
@@ -79,7 +87,10 @@ Loads OpeningAir::step(const std::vector<Vec3>& positions, const std::vector<Vec
     motion.pressure.insert(motion.pressure.end(), 2, pressure[c]);
   }
   flow_->place(surface, motion);
-  if (memory.steps == 0) memory.speed = speed_, memory.acceleration = payload_ ? payload_->gravity : 0;
+  if (memory.steps == 0) {
+    memory.speed = speed_;
+    if (payload_) memory.angle = payload_->angle * degree, memory.acceleration = pull_of_weight(memory.angle);
+  }
   row.speed = memory.speed + length * memory.acceleration;
   if (payload_) flow_->stream(row.speed, memory.acceleration);
   const FlowStep step = flow_->step(length);
@@ -93,7 +104,7 @@ Loads OpeningAir::step(const std::vector<Vec3>& positions, const std::vector<Vec
   memory.force = node_forces(load, cells_, positions);
   if (payload_) {  // weight, and what a frame that is slowed down does to what is in it
     for (std::size_t n = 0; n < node_mass_.size(); ++n)
-      memory.force[n].z += node_mass_[n] * (memory.acceleration - payload_->gravity);
+      memory.force[n].z += node_mass_[n] * (memory.acceleration - pull_of_weight(memory.angle));
   }
   ++memory.steps;
   return last_load(memory);
@@ -101,9 +112,13 @@ Loads OpeningAir::step(const std::vector<Vec3>& positions, const std::vector<Vec
 
 void OpeningAir::fly(double pull, double length, AirMemory& memory) const {
   if (!payload_) return;
-  memory.path += length * (memory.speed + 0.5 * length * memory.acceleration);
+  const double way = length * (memory.speed + 0.5 * length * memory.acceleration);
+  const double turn = std::atan2(length * payload_->gravity * std::cos(memory.angle), memory.speed);
+  memory.path += way;
+  memory.fallen += way * std::sin(memory.angle + 0.5 * turn);
   memory.speed += length * memory.acceleration;
-  memory.acceleration = payload_->gravity - pull / payload_->mass;
+  memory.angle += turn;
+  memory.acceleration = pull_of_weight(memory.angle) - pull / payload_->mass;
 }
 
 }  // namespace ripstop

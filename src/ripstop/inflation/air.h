@@ -18,10 +18,11 @@
 
 namespace ripstop {
 
-/// What hangs at the riser's end and flies, along the axis of the box.
+/// What hangs at the riser's end and flies along the axis of the box, which turns with its path.
 struct Payload {
   double mass = 0;     // [kg]
-  double gravity = 0;  // along its path [m/s2]
+  double gravity = 0;  // [m/s2]
+  double angle = 90;   // of its path below the horizon at deployment [deg]
 };
 
 struct AirProblem {
@@ -38,6 +39,7 @@ struct AirMemory {
   double work = 0;                               // done by what of the air's load is not pressure, so far [J]
   long long steps = 0;                           // of the air
   double speed = 0, acceleration = 0, path = 0;  // of the payload [m/s], [m/s2], [m]
+  double angle = 0, fallen = 0;                  // of its path below the horizon [rad], height lost [m]
 };
 
 template <Of<AirMemory> T, class Visit>
@@ -49,6 +51,8 @@ void each_member(T& m, Visit&& visit) {
   visit("speed", m.speed);
   visit("acceleration", m.acceleration);
   visit("path", m.path);
+  visit("angle", m.angle);
+  visit("fallen", m.fallen);
 }
 
 /// One step of the air.
@@ -59,6 +63,7 @@ struct AirRow {
   double drag = 0, side_x = 0, side_y = 0;  // of the air on the canopy [N]
   double drag_area = 0;                     // drag over the stream's dynamic pressure, C_D S [m2]
   double speed = 0, path = 0;               // of the stream [m/s]; what the payload has flown [m]
+  double angle = 0, fallen = 0;             // of its path below the horizon [deg], height lost [m]
   double momentum_gap = 0;                  // FlowStep::momentum_gap [N]
   double mass_defect = 0;                   // FlowStep::mass_defect
   double remainder = 0;                     // remainder_share() of the load
@@ -75,6 +80,8 @@ void each_member(T& row, Visit&& visit) {
   visit("drag_area_m2", row.drag_area);
   visit("speed_m_s", row.speed);
   visit("path_m", row.path);
+  visit("path_angle_deg", row.angle);
+  visit("height_lost_m", row.fallen);
   visit("momentum_gap_n", row.momentum_gap);
   visit("mass_defect", row.mass_defect);
   visit("load_remainder", row.remainder);
@@ -95,7 +102,8 @@ class OpeningAir {
   Loads step(const std::vector<Vec3>& positions, const std::vector<Vec3>& velocity, double length,
              AirMemory& memory, AirRow& row);
 
-  /// With what the riser pulled at its end in that step, in the mean [N]: the payload flies on.
+  /// With what the riser pulled at its end in that step, in the mean [N]: the payload flies on, its path turned
+  /// by the weight across it.
   void fly(double pull, double length, AirMemory& memory) const;
 
   const Flow& flow() const { return *flow_; }
@@ -103,6 +111,8 @@ class OpeningAir {
   void restore(const std::filesystem::path& folder) { flow_->restore(folder); }
 
  private:
+  double pull_of_weight(double angle) const;  // along the path, a unit mass [m/s2]
+
   std::shared_ptr<FlowEngine> engine_;
   std::unique_ptr<Flow> flow_;
   FlowGrid grid_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "ripstop/core/error.h"
@@ -236,7 +237,8 @@ std::vector<HistoryRow> Inflation::compute_block_in_air(InflationState& state,
     double pull = 0;
     for (int n = 1; n <= rows; ++n) pull += history[history.size() - n].mean / rows;
     air_->fly(pull, rows * row_, state.air);
-    row.path = state.air.path;
+    row.path = state.air.path, row.fallen = state.air.fallen;
+    row.angle = state.air.angle * 180 / std::numbers::pi;
     if (air_rows) air_rows->push_back(row);
     std::vector<Vec3> now = positions(state.cloth, cloth());
     for (std::size_t n = 0; n < x.size(); ++n) state.air.work += dot(loads.node_force[n], now[n] - x[n]);

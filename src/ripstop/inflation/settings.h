@@ -22,7 +22,7 @@ struct InflationSettings {
   double courant = 0.5;  // of the air's steps, `coupled`
   /// The riser's end is held in the stream, or is the payload that flies.
   enum class Mass { infinite, payload } mass = Mass::infinite;
-  double flight_angle_deg = 90;  // of its path, below the horizon
+  double flight_angle_deg = 90;  // of its path at deployment, below the horizon
 
   std::optional<double> initial_radius_m;  // of the folded skirt, midway between inner and outer folds
   int folds = 0;                           // 0: one a line

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "ripstop/run/engine.h"
@@ -58,7 +59,11 @@ InflationResult result_of(const Case& given, const LoadSource& source, const Inf
   if (!solver.air()) r.pressure = solver.problem().pressure;
   for (const AirRow& row : history.air)
     r.drag_area = std::max(r.drag_area.value_or(row.drag_area), row.drag_area);
-  if (solver.air() && solver.problem().air->payload) r.end_speed = state.air.speed;
+  if (solver.air() && solver.problem().air->payload) {
+    r.end_speed = state.air.speed;
+    r.end_angle = state.air.angle * 180 / std::numbers::pi;
+    r.height_lost = state.air.fallen;
+  }
   r.source = source;
   if (source.steady_drag) r.steady_drag_returned = steady / *source.steady_drag;
   r.settings = settings;

@@ -29,7 +29,8 @@ struct InflationResult {
   double impulse = 0;                               // [N s]
   std::optional<double> pressure;                   // uniform [Pa]
   std::optional<double> drag_area;                  // C_D S in the air, the largest of a step [m2]
-  std::optional<double> end_speed;                  // of a payload that flies [m/s]
+  std::optional<double> end_speed, end_angle;       // of a payload that flies [m/s], of its path [deg]
+  std::optional<double> height_lost;                // by it since deployment [m]
   LoadSource source;
   std::optional<double> steady_drag_returned;  // steady load over the drag that was asked for
   InflationSettings settings;
@@ -72,6 +73,8 @@ void each_member(T& r, Visit&& visit) {
   visit("pressure_pa", r.pressure);
   visit("drag_area_peak_m2", r.drag_area);
   visit("speed_at_end_m_s", r.end_speed);
+  visit("path_angle_at_end_deg", r.end_angle);
+  visit("height_lost_m", r.height_lost);
   visit("pressure_from", r.source.text);
   visit("steady_drag_asked_n", r.source.steady_drag);
   visit("steady_drag_returned", r.steady_drag_returned);
