@@ -7,12 +7,17 @@ namespace ripstop {
 namespace {
 
 // m += share (x - m) for all that a field has means of; loses nothing to the size of the mean.
+FieldMean::Cells cells_of(const FlowField& field) {
+  return [&field](FlowField& mean, double share) {
+    for (std::size_t cell = 0; cell < field.pressure.size(); ++cell) {
+      mean.pressure[cell] += share * (field.pressure[cell] - mean.pressure[cell]);
+      mean.velocity[cell] += share * (field.velocity[cell] - mean.velocity[cell]);
+    }
+  };
+}
+
 void pull(FlowField& mean, const FlowField& field, double share) {
   const auto towards = [share](auto& to, const auto& value) { to += share * (value - to); };
-  for (std::size_t cell = 0; cell < field.pressure.size(); ++cell) {
-    towards(mean.pressure[cell], field.pressure[cell]);
-    towards(mean.velocity[cell], field.velocity[cell]);
-  }
   towards(mean.porous_force, field.porous_force);
   towards(mean.momentum_deficit, field.momentum_deficit);
   for (std::size_t face = 0; face < field.sheet_loads.size(); ++face) {
@@ -26,18 +31,25 @@ void pull(FlowField& mean, const FlowField& field, double share) {
 }  // namespace
 
 void FieldMean::add(const FlowField& field) {
+  add(field, cells_of(field));
+}
+
+void FieldMean::add(const FlowField& field, const Cells& cells) {
   const double drag = field.porous_force.z;
-  take(field, {1, drag, 0, drag, drag}, 0);
+  take(field, cells, {1, drag, 0, drag, drag}, 0);
 }
 
 void FieldMean::add(const FieldMean& other) {
-  if (other.count() > 0) take(other.mean_, other.mean_.average, other.squares_);
+  if (other.count() > 0) take(other.mean_, cells_of(other.mean_), other.mean_.average, other.squares_);
 }
 
 // Mean and squares of two sets together (Chan, Golub and LeVeque 1983).
-void FieldMean::take(const FlowField& field, const FlowAverage& more, double squares) {
+void FieldMean::take(const FlowField& field, const Cells& cells, const FlowAverage& more, double squares) {
   if (count() == 0) {
     mean_ = field;
+    mean_.pressure.resize(mean_.grid.cells());
+    mean_.velocity.resize(mean_.grid.cells());
+    cells(mean_, 1);
     mean_.average = more;
     squares_ = squares;
     return;
@@ -45,6 +57,7 @@ void FieldMean::take(const FlowField& field, const FlowAverage& more, double squ
   FlowAverage& average = mean_.average;
   const double share = double(more.iterations) / (average.iterations + more.iterations);
   pull(mean_, field, share);
+  cells(mean_, share);
   const double apart = more.drag - average.drag;
   squares_ += squares + apart * apart * average.iterations * share;
   average.iterations += more.iterations;

@@ -1,6 +1,8 @@
 // Mean of the iterates of a flow that does not settle.
 #pragma once
 
+#include <functional>
+
 #include "ripstop/flow/flow.h"
 
 namespace ripstop {
@@ -8,7 +10,12 @@ namespace ripstop {
 /// Running mean of fields on one grid, each weighing the same.
 class FieldMean {
  public:
+  /// Draws the pressures and velocities of the mean towards those of a field: m += share (x - m).
+  using Cells = std::function<void(FlowField& mean, double share)>;
+
   void add(const FlowField& field);
+  /// A field without its cells, which `cells` has: no copy of them is made.
+  void add(const FlowField& field, const Cells& cells);
   /// All that another mean holds, of fields on the same grid round the same cloth.
   void add(const FieldMean& other);
   int count() const { return mean_.average.iterations; }
@@ -17,7 +24,7 @@ class FieldMean {
 
  private:
   /// `more` and `squares` are of the fields that `field` is the mean of.
-  void take(const FlowField& field, const FlowAverage& more, double squares);
+  void take(const FlowField& field, const Cells& cells, const FlowAverage& more, double squares);
 
   FlowField mean_;
   double squares_ = 0;  // sum of squared distances of the drag from its mean [N2]

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "ripstop/core/error.h"
+#include "ripstop/flow/average.h"
 
 namespace ripstop {
 namespace {
@@ -72,6 +73,10 @@ Error no_time() {
   return {ExitCode::usage, "this flow engine has no steps in time"};
 }
 }  // namespace
+
+void Flow::add_to(FieldMean& mean) const {
+  mean.add(field());
+}
 
 FlowStep Flow::march(int, double, const StepReport&) {
   throw no_time();

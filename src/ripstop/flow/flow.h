@@ -153,6 +153,8 @@ struct FlowStep {
 /// Return false to stop.
 using StepReport = std::function<bool(const FlowStep&)>;
 
+class FieldMean;
+
 /// A flow under way. It goes on from where it is, whatever was asked of it before.
 class Flow {
  public:
@@ -177,6 +179,8 @@ class Flow {
   virtual void stream(double speed, double acceleration);
   /// The last iteration's or step's.
   virtual FlowField field() const = 0;
+  /// The same, as one more of those that a mean is over.
+  virtual void add_to(FieldMean& mean) const;
   /// What it does to the sheets: FlowField::sheet_loads.
   virtual std::vector<SheetLoad> sheet_loads() const { return field().sheet_loads; }
 

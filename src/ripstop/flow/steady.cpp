@@ -62,7 +62,7 @@ class Run {
     for (int n = 0; n < stopping_.average_over; ++n) {
       advance(1);
       if (now_.converged || now_.stopped) return last();
-      mean.add(flow_.field());
+      flow_.add_to(mean);
     }
     return told(mean.mean());
   }

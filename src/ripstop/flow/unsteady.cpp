@@ -24,12 +24,12 @@ class MeanInParts {
  public:
   explicit MeanInParts(double length) : length_(length) {}
 
-  void add(const FlowField& field, double time) {
+  void add(const Flow& flow, double time) {
     if (parts_.empty() || time >= parts_.back().begin + length_) {
       if (parts_.size() == most_parts) join();
       if (parts_.empty() || time >= parts_.back().begin + length_) parts_.push_back({time, {}});
     }
-    parts_.back().mean.add(field);
+    flow.add_to(parts_.back().mean);
   }
 
   /// Of the parts that begin no earlier than `from`, the last one at least.
@@ -131,13 +131,12 @@ FlowField watch(Flow& flow, const FlowProblem& problem, const Watch& how, FlowRe
       record.steps.push_back(step);
       const double time = record.watched();
       if (record.steps.size() % steps_a_field == 0) {
-        FlowField field = flow.field();
         if (time >= next_slice) {
           next_slice = time + slice_every * unit;
-          record.slices.push_back({step.time, middle_plane(field)});
+          record.slices.push_back({step.time, middle_plane(flow.field())});
           if (record.slices.size() > most_slices) record.slices.erase(record.slices.begin());
         }
-        mean.add(field, time);
+        mean.add(flow, time);
       }
       progress.step = step;
       stopped = report && !report(progress);

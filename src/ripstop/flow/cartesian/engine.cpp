@@ -171,6 +171,7 @@ class CartesianFlow final : public Flow {
     solver_.stream(speed, acceleration);
   }
   FlowField field() const override { return solver_.field(); }
+  void add_to(FieldMean& mean) const override { solver_.add_to(mean); }
   std::vector<SheetLoad> sheet_loads() const override { return solver_.sheet_loads(); }
   bool untouched() const override { return solver_.state().untouched; }
 

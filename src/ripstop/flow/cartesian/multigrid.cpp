@@ -208,7 +208,7 @@ void Multigrid::coarsen(ThreadTeam& team, int rank) {
   }
 }
 
-void Multigrid::cycle(std::size_t l, ThreadTeam* team, int rank) {
+void Multigrid::cycle(std::size_t l, bool from_zero, ThreadTeam* team, int rank) {
   MultigridLevel& level = levels_[l];
   const int parts = team ? team->size() : 1;
   const auto barrier = [&] {
@@ -217,10 +217,10 @@ void Multigrid::cycle(std::size_t l, ThreadTeam* team, int rank) {
   const IndexRange planes = part_of(level.layout.nz, rank, parts);
   // Both colours in one walk: the second runs a plane behind the first, while its neighbours are still in
   // cache. At the ends of a thread's planes it waits until the other threads have done their first colour.
-  const auto sweep = [&](int first, bool from_zero) {
+  const auto sweep = [&](int first, bool fresh) {
     const int second = 1 - first;
     for (int k = planes.begin; k < planes.end; ++k) {
-      smooth_plane(level, first, k, from_zero);
+      smooth_plane(level, first, k, fresh);
       if (k - 1 > planes.begin) smooth_plane(level, second, k - 1, false);
     }
     barrier();
@@ -228,7 +228,7 @@ void Multigrid::cycle(std::size_t l, ThreadTeam* team, int rank) {
     if (planes.end - 1 > planes.begin) smooth_plane(level, second, planes.end - 1, false);
     barrier();
   };
-  sweep(0, l > 0);
+  sweep(0, from_zero);
   if (l + 1 == levels_.size()) {
     for (int s = 1; s < coarsest_sweeps; ++s) sweep(0, false);
     return;
@@ -237,10 +237,10 @@ void Multigrid::cycle(std::size_t l, ThreadTeam* team, int rank) {
   restrict_planes(level, coarse, part_of(coarse.layout.nz, rank, parts));
   barrier();
   if (team && coarse.layout.nx * coarse.layout.ny * coarse.layout.nz < serial_cells) {
-    if (rank == 0) cycle(l + 1, nullptr, 0);
+    if (rank == 0) cycle(l + 1, true, nullptr, 0);
     barrier();
   } else {
-    cycle(l + 1, team, rank);
+    cycle(l + 1, true, team, rank);
   }
   prolong_planes(level, coarse, planes);
   barrier();
@@ -258,28 +258,29 @@ void Multigrid::solve(ThreadTeam& team, int rank, int cycles) {
   MultigridLevel& top = finest();
   clear(top.e, part_of(top.layout.nz + 2, rank, team.size()));
   team.barrier();
-  for (int c = 0; c < cycles; ++c) cycle(0, &team, rank);
+  for (int c = 0; c < cycles; ++c) cycle(0, c == 0, &team, rank);
 }
 
 template <class Plane>
-double Multigrid::sum(ThreadTeam& team, int rank, const Plane& of_plane) {
+Multigrid::Two Multigrid::sum(ThreadTeam& team, int rank, const Plane& of_plane) {
   const int nz = finest().layout.nz;
   const IndexRange planes = part_of(nz, rank, team.size());
   for (int k = planes.begin; k < planes.end; ++k) planes_[k] = of_plane(k);
   team.barrier();
-  double total = 0;
-  for (int k = 0; k < nz; ++k) total += planes_[k];
+  Two total{};
+  for (const Two& plane : planes_) total[0] += plane[0], total[1] += plane[1];
   team.barrier();
   return total;
 }
 
-double Multigrid::dot(ThreadTeam& team, int rank, const Array<float>& a, const Array<float>& b) {
+template <class Row>
+Multigrid::Two Multigrid::sum_of_rows(ThreadTeam& team, int rank, const Row& of_row) {
   const Layout& lay = finest().layout;
   return sum(team, rank, [&](int k) {
-    double total = 0;
+    Two total{};
     for (int j = 0; j < lay.ny; ++j) {
-      const std::ptrdiff_t at = lay.at(0, j, k);
-      total += dot_row(lay.nx, &a[at], &b[at]);
+      const Two row = of_row(j, k, lay.at(0, j, k));
+      total[0] += row[0], total[1] += row[1];
     }
     return total;
   });
@@ -290,19 +291,9 @@ void Multigrid::each_row(ThreadTeam& team, int rank, const Row& work) {
   const Layout& lay = finest().layout;
   const IndexRange planes = part_of(lay.nz, rank, team.size());
   for (int k = planes.begin; k < planes.end; ++k) {
-    for (int j = 0; j < lay.ny; ++j) work(j, k, lay.at(0, j, k));
+    for (int j = 0; j < lay.ny; ++j) work(lay.at(0, j, k));
   }
   team.barrier();
-}
-
-// image = A direction
-void Multigrid::take_image(ThreadTeam& team, int rank) {
-  MultigridLevel& top = finest();
-  each_row(team, rank, [&](int j, int k, std::ptrdiff_t at) {
-    MultigridRow row = row_of(top, j, k);
-    row.e = &direction_[at];
-    image_row(row, &image_[at]);
-  });
 }
 
 void Multigrid::solve_conjugate(ThreadTeam& team, int rank, double reduction, int most) {
@@ -315,30 +306,43 @@ void Multigrid::solve_conjugate(ThreadTeam& team, int rank, double reduction, in
   coarsen(team, rank);
   team.barrier();
   const IndexRange planes = part_of(lay.nz + 2, rank, team.size());
-  clear(solution_, planes), clear(direction_, planes), clear(image_, planes);
+  clear(top.e, planes), clear(solution_, planes), clear(direction_, planes), clear(image_, planes);
   team.barrier();
-  const double start = dot(team, rank, top.rhs, top.rhs);
+  const double start = sum_of_rows(team, rank, [&](int, int, std::ptrdiff_t at) {
+    return Two{dot_row(lay.nx, &top.rhs[at], &top.rhs[at])};
+  })[0];
   double curvature = 0;
   for (int n = 0; n < most && start > 0; ++n) {
-    clear(top.e, planes);
-    team.barrier();
-    cycle(0, &team, rank);
+    cycle(0, true, &team, rank);
     // The new direction is made conjugate to the last one, whatever the cycle has become in between.
-    const double beta = curvature > 0 ? -dot(team, rank, top.e, image_) / curvature : 0;
-    each_row(team, rank, [&](int, int, std::ptrdiff_t at) {
+    double beta = 0;
+    if (curvature > 0) {
+      const double along_image = sum_of_rows(team, rank, [&](int, int, std::ptrdiff_t at) {
+        return Two{dot_row(lay.nx, &top.e[at], &image_[at])};
+      })[0];
+      beta = -along_image / curvature;
+    }
+    each_row(team, rank, [&](std::ptrdiff_t at) {
       turn_row(lay.nx, static_cast<float>(beta), &top.e[at], &direction_[at]);
     });
-    take_image(team, rank);
-    curvature = dot(team, rank, direction_, image_);
+    // image = A direction
+    const Two along = sum_of_rows(team, rank, [&](int j, int k, std::ptrdiff_t at) {
+      MultigridRow row = row_of(top, j, k);
+      row.e = &direction_[at];
+      image_row(row, &image_[at]);
+      return Two{dot_row(lay.nx, row.e, &image_[at]), dot_row(lay.nx, row.e, row.rhs)};
+    });
+    curvature = along[0];
     if (!(curvature > 0)) break;
-    const float alpha = static_cast<float>(dot(team, rank, direction_, top.rhs) / curvature);
-    each_row(team, rank, [&](int, int, std::ptrdiff_t at) {
+    const float alpha = static_cast<float>(along[1] / curvature);
+    const double left = sum_of_rows(team, rank, [&](int, int, std::ptrdiff_t at) {
       advance_row(lay.nx, alpha, &direction_[at], &solution_[at]);
       advance_row(lay.nx, -alpha, &image_[at], &top.rhs[at]);
-    });
-    if (dot(team, rank, top.rhs, top.rhs) <= reduction * reduction * start) break;
+      return Two{dot_row(lay.nx, &top.rhs[at], &top.rhs[at])};
+    })[0];
+    if (left <= reduction * reduction * start) break;
   }
-  each_row(team, rank, [&](int, int, std::ptrdiff_t at) { std::copy_n(&solution_[at], lay.nx, &top.e[at]); });
+  each_row(team, rank, [&](std::ptrdiff_t at) { std::copy_n(&solution_[at], lay.nx, &top.e[at]); });
 }
 
 double Multigrid::residual() const {

@@ -6,6 +6,7 @@
 // smoothing: the order of the rows, and so the number of threads, does not matter to the last bit.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "ripstop/core/thread_team.h"
@@ -49,21 +50,24 @@ class Multigrid {
 
  private:
   void coarsen(ThreadTeam& team, int rank);
-  void cycle(std::size_t level, ThreadTeam* team, int rank);
-  /// Sum over the planes of what `of_plane(k)` gives, in the order of the planes. Every rank gets it.
+  /// `from_zero`: the level's e counts as zero, whatever it holds.
+  void cycle(std::size_t level, bool from_zero, ThreadTeam* team, int rank);
+  /// Parts of solve_conjugate(), on the finest level; every rank calls them. Sums are taken plane by plane, in the order
+  /// of the planes, and every rank gets them.
+  using Two = std::array<double, 2>;
   template <class Plane>
-  double sum(ThreadTeam& team, int rank, const Plane& of_plane);
-  /// Parts of solve_conjugate(), on the finest level; every rank calls them.
-  void clear(Array<float>& a, IndexRange planes) const;
-  double dot(ThreadTeam& team, int rank, const Array<float>& a, const Array<float>& b);
-  /// Calls work(j, k, index of cell 0 of the row), and waits for all ranks.
+  Two sum(ThreadTeam& team, int rank, const Plane& of_plane);
+  /// Of what of_row(j, k, index of cell 0 of the row) returns.
+  template <class Row>
+  Two sum_of_rows(ThreadTeam& team, int rank, const Row& of_row);
+  /// Calls work(index of cell 0 of the row), and waits for all ranks.
   template <class Row>
   void each_row(ThreadTeam& team, int rank, const Row& work);
-  void take_image(ThreadTeam& team, int rank);
+  void clear(Array<float>& a, IndexRange planes) const;
 
   std::vector<MultigridLevel> levels_;
   Array<float> solution_, direction_, image_;  // of the conjugate gradients
-  std::vector<double> planes_;
+  std::vector<Two> planes_;
 };
 
 }  // namespace ripstop::cartesian

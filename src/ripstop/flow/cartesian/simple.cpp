@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "ripstop/flow/average.h"
 #include "ripstop/flow/cartesian/solver.h"
 
 namespace ripstop::cartesian {
@@ -203,24 +204,43 @@ std::string Solver::first_bad_value() const {
 }
 
 FlowField Solver::field() const {
-  FlowField field;
-  field.grid = d_.grid;
+  FlowField field = field_without_cells();
   field.pressure.resize(d_.grid.cells());
   field.velocity.resize(d_.grid.cells());
-  for (int k = 0; k < d_.grid.nz; ++k) {
-    for (int j = 0; j < d_.grid.ny; ++j) {
-      for (int i = 0; i < d_.grid.nx; ++i) {
-        const std::ptrdiff_t at = d_.layout.at(i, j, k);
-        const int cell = d_.grid.index(i, j, k);
-        field.pressure[cell] = s_.f.p[at];
-        field.velocity[cell] = {s_.f.u[at], s_.f.v[at], s_.f.w[at]};
-      }
-    }
-  }
+  draw_cells(field, 1);
+  return field;
+}
+
+void Solver::add_to(FieldMean& mean) const {
+  mean.add(field_without_cells(), [this](FlowField& field, double share) { draw_cells(field, share); });
+}
+
+FlowField Solver::field_without_cells() const {
+  FlowField field;
+  field.grid = d_.grid;
   field.porous_force = s_.force;
   field.sheet_loads = in_the_way_.sheets.loads(s_);
   field.momentum_deficit = momentum_deficit(d_, b_, s_);
   return field;
+}
+
+// Pressures and velocities towards the state's.
+void Solver::draw_cells(FlowField& field, double share) const {
+  team_.run([&](int rank) {
+    const IndexRange planes = part_of(d_.grid.nz, rank, team_.size());
+    for (int k = planes.begin; k < planes.end; ++k) {
+      for (int j = 0; j < d_.grid.ny; ++j) {
+        const std::ptrdiff_t at = d_.layout.at(0, j, k);
+        const double *p = &s_.f.p[at], *u = &s_.f.u[at], *v = &s_.f.v[at], *w = &s_.f.w[at];
+        double* pressure = &field.pressure[d_.grid.index(0, j, k)];
+        Vec3* velocity = &field.velocity[d_.grid.index(0, j, k)];
+        for (int i = 0; i < d_.grid.nx; ++i) {
+          pressure[i] += share * (p[i] - pressure[i]);
+          velocity[i] += share * (Vec3{u[i], v[i], w[i]} - velocity[i]);
+        }
+      }
+    }
+  });
 }
 
 }  // namespace ripstop::cartesian

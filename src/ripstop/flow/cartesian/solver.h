@@ -86,6 +86,7 @@ class Solver {
   /// The first cell that is not finite or beyond those bounds, as "field u at (x, y, z)"; empty if none.
   std::string first_bad_value() const;
   FlowField field() const;
+  void add_to(FieldMean& mean) const;
   std::vector<SheetLoad> sheet_loads() const { return in_the_way_.sheets.loads(s_); }
 
   const Discretisation& discretisation() const { return d_; }
@@ -135,6 +136,8 @@ class Solver {
   void relax_pressure(int k);
   Vec3 porous_force_of_row(int j, int k) const;
 
+  FlowField field_without_cells() const;
+  void draw_cells(FlowField& field, double share) const;
   void take_new_turbulence();
   FlowProgress close_iteration();
   struct Bounded {
