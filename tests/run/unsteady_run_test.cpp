@@ -74,10 +74,17 @@ TEST(UnsteadyRun, EndsAtRestFirstAndThenWithTheMeanOverTime) {
     if (!state.iterations.back().in_time) at_rest = state.iterations.back().fluid_force;
   }
   ASSERT_TRUE(state.converged);
-  const SteadyIteration &last = state.iterations.back(), &before = *(state.iterations.end() - 2);
-  EXPECT_TRUE(last.in_time && before.in_time) << "one mean says nothing of the shape under its load";
+  const SteadyIteration& last = state.iterations.back();
+  double load = 0;
+  int means = 0;
+  for (const SteadyIteration& i : state.iterations) {
+    if (!i.in_time || i.iteration == last.iteration) continue;
+    load += i.fluid_force, ++means;
+    EXPECT_LT(i.flow_iterations, 0.5 * last.flow_iterations) << "before the cloth stands a watch is short";
+  }
+  ASSERT_GT(means, 0) << "one mean says nothing of the shape under its load";
   EXPECT_NEAR(last.fluid_force / at_rest, 0.9, 0.03);
-  EXPECT_NEAR(last.nodal_load, before.fluid_force, 1e-3 * last.fluid_force) << "the cloth has the mean load";
+  EXPECT_NEAR(last.nodal_load, load / means, 1e-3 * last.fluid_force) << "the cloth has the mean of all means";
   EXPECT_TRUE(state.watched.enough);
   EXPECT_LE(last.drag_error, 0.01 * last.fluid_force);
   EXPECT_GT(last.drag_error, 0);

@@ -9,11 +9,12 @@ Stages, each from what the ones before it left; without a name all of them run:
     reproduce  Stratos IV itself with the calibrated cloth, and its shape against images
     sheet      the cloth as a sheet of its specified permeability, nothing calibrated    -> predictions.csv
     sheet-calibrated  the same of a permeability that is calibrated on Stratos IV        -> predictions.csv
+    uncertain-jet  what is not known of the jet: where the nozzle ended, how the speed was taken  -> uncertainty.csv
     jet        the specified cloth, nothing calibrated, in the open jet of the tunnel that was there; Stratos IV in free
                air beside it                                                             -> predictions.csv
+    unsteady-jet  the same with a wake that sheds: means over time                       -> predictions.csv
     uncertain  what each prediction of the paper model depends on                        -> uncertainty.csv
     uncertain-sheet  the same for the calibrated sheet                                   -> uncertainty.csv
-    uncertain-jet    what is not known of the jet: where the nozzle ended, how the speed was taken  -> uncertainty.csv
     openings   the three openings of the campaign in their own air, in the open jet, nothing calibrated; what they depend
                on, on Stratos IV                                                       -> openings.csv, openings-varied.csv
     compare    nonlinear beside linear on Stratos IV at 30 m/s
@@ -25,6 +26,7 @@ knows a measured drag of WALRUS or ADEPT.
 import argparse
 import csv
 import json
+import math
 import pathlib
 import shutil
 import subprocess
@@ -42,7 +44,7 @@ MODELS = ("paper", "sheet-calibrated", "sheet-specified", "specified-jet", "spec
 # relative changes are taken for all speeds and for the printed grid, which stands among the grids.
 UNCERTAIN_SPEED = "20"
 COLUMNS = ["parachute", "speed_basis", "nominal_m_s", "speed_m_s", "density_kg_m3", "porosity_model", "fabric_model",
-           "drag_n", "drag_area_m2", "coupling_iterations", "wall_time_s"]
+           "drag_n", "drag_area_m2", "coupling_iterations", "wall_time_s", "standard_error_n", "uncertainty_n"]
 
 # The cloth as a sheet, far entraining sides, second order, cells of 4 cm about the canopy. The wake of tight cloth settles
 # slowly: the mean of the last iterations of each flow stands.
@@ -79,6 +81,7 @@ JET_FLOW = ["flow.tunnel.kind=open-jet", "flow.tunnel.shape=octagon", "flow.tunn
 JET_DISTANCE = "flow.tunnel.nozzle_distance_m=3"
 JET_SPECIFIED = [*SPECIFIED, *JET_FLOW, JET_DISTANCE]
 FREE_FLOW = ["flow.box_m=[8,8,9]", "flow.cells=[88,88,98]", "flow.canopy_position_m=3"]
+UNSTEADY = ["flow.unsteady=true", "flow.watch.standard_error=0.02"]
 JET_VARIATIONS = {
     "nozzle": [("2 m before the skirt", ["flow.tunnel.nozzle_distance_m=2", "flow.box_m=[8,8,8]"]),
                ("4 m before the skirt", ["flow.tunnel.nozzle_distance_m=4", "flow.box_m=[8,8,10]"])],
@@ -87,6 +90,9 @@ JET_VARIATIONS = {
     "still air": [("5 % of the speed", ["flow.tunnel.outside_speed=0.05"]), ("10 x 10 m", ["flow.box_m=[10,10,9]"])],
     "grid": [("a fifth coarser", ["flow.cells=[70,70,78]"])],
     "turbulence": [("intensity 5 %", ["flow.turbulence_intensity=0.05"])],
+    # The cloth's specification: 0.5 to 5 CFM/ft2; 3 is taken.
+    "permeability": [("0.5 CFM/ft2", ["materials.f-111-physical.darcy=49016"]),
+                     ("5 CFM/ft2", ["materials.f-111-physical.darcy=4901.6"])],
 }
 # The openings: speed [m/s], density [kg/m3], radius of the folded skirt [m]; the cloth's damping as in the examples.
 OPENINGS = {"stratos-iv": (27.1, 1.2, 0.1), "walrus": (27.43, 1.204, 0.2), "adept": (27, 1.205, 0.1)}
@@ -166,8 +172,9 @@ def frozen_sheet(campaign):
     return min(results, key=lambda result: result["root_mean_square_misfit"])
 
 
-def write_predictions(model, parachute, basis, rows):
-    """Replaces the rows of this model, parachute and basis in predictions.csv."""
+def write_predictions(model, parachute, basis, rows, uncertainty=None):
+    """Replaces the rows of this model, parachute and basis in predictions.csv. `uncertainty` is relative, without the
+    statistical error of a mean over time, which is taken together with it."""
     path = HERE / "predictions.csv"
     kept = []
     if path.exists():
@@ -175,12 +182,15 @@ def write_predictions(model, parachute, basis, rows):
             kept = [r for r in csv.DictReader(file)
                     if (r["porosity_model"], r["parachute"], r["speed_basis"]) != (model, parachute, basis)]
     for row in rows:
+        drag, error = float(row["drag_n"]), row.get("drag_standard_error_n")
         kept.append({
             "parachute": parachute, "speed_basis": basis, "nominal_m_s": row["flow.speed_m_s"],
             "speed_m_s": row["speed_m_s"], "density_kg_m3": row["density_kg_m3"], "porosity_model": model,
             "fabric_model": "linear" if row["coupling.linear"] == "true" else "nonlinear",
-            "drag_n": f"{float(row['drag_n']):.3f}", "drag_area_m2": f"{float(row['drag_area_m2']):.5f}",
-            "coupling_iterations": row["coupling_iterations"], "wall_time_s": f"{float(row['wall_time_s']):.1f}"})
+            "drag_n": f"{drag:.3f}", "drag_area_m2": f"{float(row['drag_area_m2']):.5f}",
+            "coupling_iterations": row["coupling_iterations"], "wall_time_s": f"{float(row['wall_time_s']):.1f}",
+            "standard_error_n": f"{error:.2f}" if error is not None else "",
+            "uncertainty_n": f"{math.hypot(uncertainty * drag, error or 0):.1f}" if uncertainty is not None else ""})
     kept.sort(key=lambda r: (MODELS.index(r["porosity_model"]), PARACHUTES.index(r["parachute"]), BASES.index(r["speed_basis"]),
                              r["fabric_model"] != "nonlinear", float(r["nominal_m_s"])))
     write_table(path, COLUMNS, kept)
@@ -258,17 +268,41 @@ def predict_sheet(campaign, model, cloth, calibration=None):
     provenance(campaign, model, calibration)
 
 
-def stage_jet(campaign):
+def predict_in_jet(campaign, model, settings):
     """All three, Stratos IV too, whose drag is known and goes into nothing."""
     for basis in BASES:
         for parachute in PARACHUTES:
-            rows = campaign.sweep(parachute, f"specified-jet/{parachute}-{basis}",
-                                  [*JET_SPECIFIED, f"flow.speed_basis={basis}"], "--speeds", SPEEDS[parachute],
-                                  "--vary", "coupling.linear=false")
-            write_predictions("specified-jet", parachute, basis, rows)
+            folder = f"{model}/{parachute}-{basis}"
+            rows = campaign.sweep(parachute, folder, [*JET_SPECIFIED, *settings, f"flow.speed_basis={basis}"], "--speeds",
+                                  SPEEDS[parachute], "--vary", "coupling.linear=false")
+            for row in rows:
+                result = json.loads((campaign.runs / folder / row["folder"] / "result.json").read_text())
+                row["drag_standard_error_n"] = (result.get("unsteady") or {}).get("drag_standard_error_n")
+            write_predictions(model, parachute, basis, rows, unknowns_of_jet(parachute))
+    provenance(campaign, model)
+
+
+def unknowns_of_jet(parachute):
+    """What is not known of the jet and the cloth, and the grid, as a share of the drag: the largest of each source,
+    together. None before the stage uncertain-jet."""
+    largest = {}
+    with open(HERE / "uncertainty.csv", newline="") as file:
+        for row in csv.DictReader(file):
+            if row["porosity_model"] != "specified-jet" or parachute not in (row["parachute"], "stratos-iv"):
+                continue
+            percent = abs(float(row["stratos_iv_percent" if parachute == "stratos-iv" else "frozen_percent"]))
+            largest[row["source"]] = max(largest.get(row["source"], 0), percent)
+    return math.sqrt(sum(percent**2 for percent in largest.values())) / 100 if largest else None
+
+
+def stage_unsteady_jet(campaign):
+    predict_in_jet(campaign, "specified-unsteady-jet", UNSTEADY)
+
+
+def stage_jet(campaign):
+    predict_in_jet(campaign, "specified-jet", [])
     campaign.sweep("stratos-iv", "specified-free/stratos-iv-nominal", [*SPECIFIED, *FREE_FLOW, "flow.speed_basis=nominal"],
                    "--speeds", SPEEDS["stratos-iv"], "--vary", "coupling.linear=false")
-    provenance(campaign, "specified-jet")
 
 
 def stage_uncertain_jet(campaign):
@@ -444,9 +478,9 @@ def stage_report(campaign):
 
 
 STAGES = {"calibrate": stage_calibrate, "predict": stage_predict, "reproduce": stage_reproduce, "sheet": stage_sheet,
-          "sheet-calibrated": stage_sheet_calibrated, "jet": stage_jet, "uncertain": stage_uncertain,
-          "uncertain-sheet": stage_uncertain_sheet, "uncertain-jet": stage_uncertain_jet, "openings": stage_openings, "compare": stage_compare,
-          "openfoam": stage_openfoam, "report": stage_report}
+          "sheet-calibrated": stage_sheet_calibrated, "uncertain-jet": stage_uncertain_jet, "jet": stage_jet,
+          "unsteady-jet": stage_unsteady_jet, "uncertain": stage_uncertain, "uncertain-sheet": stage_uncertain_sheet,
+          "openings": stage_openings, "compare": stage_compare, "openfoam": stage_openfoam, "report": stage_report}
 
 
 def main():

@@ -35,6 +35,10 @@ constexpr int accelerated = 5;
 constexpr int steps_unheld = 40000;
 constexpr double first_hold = 3, strongest_hold = 48, stronger = 4;
 
+// The cloth goes after the mean load in watches of a third of the length and certainty that are asked for. Once it
+// stands, one of the whole follows.
+constexpr double short_watch = 1.0 / 3;
+
 double largest_coefficient(const Mesh& mesh) {
   double largest = 0;
   for (const Patch& patch : mesh.patches) {
@@ -122,14 +126,15 @@ FlowField SteadySolver::solve_flow(const std::vector<Triangle>& surface, bool to
   });
 }
 
-FlowField SteadySolver::watch_flow(const std::vector<Triangle>& surface, SteadyState& state,
+FlowField SteadySolver::watch_flow(const std::vector<Triangle>& surface, bool to_the_end, SteadyState& state,
                                    SteadyIteration& now, const SteadyReport& report) {
+  Watch how = *problem_.watch;
+  if (!to_the_end) how.standard_error /= short_watch, how.shortest *= short_watch, how.longest *= short_watch;
   flow_->place(surface);
-  FlowField field =
-      watch(*flow_, problem_.flow, *problem_.watch, record_, [&](const WatchProgress& progress) {
-        if (report) report({.stage = SteadyStage::time, .iteration = now.iteration, .time = progress});
-        return true;
-      });
+  FlowField field = watch(*flow_, problem_.flow, how, record_, [&](const WatchProgress& progress) {
+    if (report) report({.stage = SteadyStage::time, .iteration = now.iteration, .time = progress});
+    return true;
+  });
   const auto& [steps, start_up, drag, side_x, side_y, swing, enough, slices] = record_;
   state.watched = {.steps = static_cast<int>(steps.size()),
                    .time = record_.watched(),
@@ -235,15 +240,27 @@ std::vector<Vec3> SteadySolver::next_shape(const SteadyState& state, SteadyItera
   return shape;
 }
 
-// Whether shape and drag stand still, the flow is solved and the ledger closes. Means over time are alike when
-// they differ by no more than twice the standard error of their difference.
+// How far chance in two means over time, each as sure as the last one, has the cloth lean to the side: twice the standard
+// error of the direction of the load, times the mean distance from the end that is held [m].
+double SteadySolver::lean_by_chance(const SteadyState& state) const {
+  if (state.iterations.empty() || !state.iterations.back().in_time) return 0;
+  const Vec3& held = state.shape[problem_.mesh.fixed.front()];
+  double distance = 0;
+  for (const Vec3& x : state.shape) distance += norm(x - held) / double(state.shape.size());
+  const Vec3& error = state.watched.side_error;
+  const double lean =
+      2 * std::sqrt(2.) * std::hypot(error.x, error.y) / std::abs(state.watched.drag) * distance;
+  return std::isfinite(lean) ? lean : 0;
+}
+
+// Whether drag and flow stand still and the ledger closes. Means over time are alike when they differ by no more than
+// twice the standard error of their difference.
 bool SteadySolver::converged(const SteadyState& state, const SteadyIteration& now) const {
   const CouplingSettings& settings = problem_.settings;
   const double error_before = state.iterations.empty() ? 0 : state.iterations.back().drag_error;
   const double noise = 2 * std::hypot(now.drag_error, error_before) / std::abs(now.fluid_force);
   const double ledger = ledger_tolerance + noise;
-  return now.drag_change < settings.drag_tolerance + noise && now.shape_change < settings.shape_tolerance_m &&
-         now.cloth_held < held_tolerance &&
+  return now.drag_change < settings.drag_tolerance + noise && now.cloth_held < held_tolerance &&
          (now.flow_converged ||
           (now.flow_averaged > 0 && within(now.momentum_deficit, now.fluid_force, ledger))) &&
          within(now.nodal_load, now.fluid_force, ledger) && within(now.line_tension, now.fluid_force, ledger);
@@ -259,6 +276,8 @@ void SteadySolver::step(SteadyState& state, const ClothLoad& answer, double drag
                          drag_change > state.iterations.back().drag_change;
     if (jitters || accelerator.update == Acceleration::none) accelerator.average(settings.relaxation);
   }
+  // What means over time have in common is the load, what they differ in is chance.
+  if (state.in_time && state.iterations.back().in_time) accelerator.average(settings.relaxation);
   std::vector<double> weight = area_;
   weight.resize(area_.size() + 6, 0.0);
   const std::vector<double> next =
@@ -279,9 +298,11 @@ FlowField SteadySolver::iterate(SteadyState& state, const SteadyReport& report) 
   const std::vector<int> cut = cut_cells(problem_.flow.grid, surface);
   // Under its own load a flow that was left early says little of how the drag settles.
   const bool of_flow = settings.load == CanopyLoad::of_flow;
-  const bool nearly_there = !state.iterations.empty() && now.shape_change < settings.shape_tolerance_m &&
+  const bool stands = now.shape_change < settings.shape_tolerance_m + lean_by_chance(state);
+  const bool nearly_there = !state.iterations.empty() && stands &&
                             (of_flow || state.iterations.back().drag_change < settings.drag_tolerance);
-  FlowField field = state.in_time ? watch_flow(surface, state, now, report)
+  const bool whole_watch = state.in_time && stands && state.iterations.back().in_time;
+  FlowField field = state.in_time ? watch_flow(surface, whole_watch, state, now, report)
                                   : solve_flow(surface, nearly_there, now.iteration, report);
   now.cut_cells = static_cast<int>(cut.size());
   now.flow_iterations = field.last.iteration;
@@ -301,7 +322,7 @@ FlowField SteadySolver::iterate(SteadyState& state, const SteadyReport& report) 
       now.flow_residual * dx * dx / (problem_.reference_area * largest_coefficient(problem_.mesh));
 
   const ClothLoad answer = answer_of(field, surface, cut, shape, state, now);
-  state.converged = converged(state, now);
+  state.converged = stands && whole_watch == state.in_time && converged(state, now);
   state.shape = shape;
   state.applied = state.pressure;
   step(state, answer, now.drag_change);

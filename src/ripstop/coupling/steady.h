@@ -141,8 +141,9 @@ class SteadySolver {
                       SteadyIteration& now) const;
   FlowField solve_flow(const std::vector<Triangle>& surface, bool to_the_end, int iteration,
                        const SteadyReport& report);
-  FlowField watch_flow(const std::vector<Triangle>& surface, SteadyState& state, SteadyIteration& now,
-                       const SteadyReport& report);
+  FlowField watch_flow(const std::vector<Triangle>& surface, bool to_the_end, SteadyState& state,
+                       SteadyIteration& now, const SteadyReport& report);
+  double lean_by_chance(const SteadyState& state) const;
   bool converged(const SteadyState& state, const SteadyIteration& now) const;
   void step(SteadyState& state, const ClothLoad& answer, double drag_change) const;
 
