@@ -253,14 +253,17 @@ double SteadySolver::lean_by_chance(const SteadyState& state) const {
   return std::isfinite(lean) ? lean : 0;
 }
 
-// Whether drag and flow stand still and the ledger closes. Means over time are alike when they differ by no more than
-// twice the standard error of their difference.
+// Whether drag and flow stand still and the ledger closes. Before a watch they need not do so better than the mean over
+// time will be sure. In time the ledger says all: the nodal load is the mean of the means before, which chance has differ
+// from this one by twice the standard error of the difference.
 bool SteadySolver::converged(const SteadyState& state, const SteadyIteration& now) const {
   const CouplingSettings& settings = problem_.settings;
-  const double error_before = state.iterations.empty() ? 0 : state.iterations.back().drag_error;
-  const double noise = 2 * std::hypot(now.drag_error, error_before) / std::abs(now.fluid_force);
-  const double ledger = ledger_tolerance + noise;
-  return now.drag_change < settings.drag_tolerance + noise && now.cloth_held < held_tolerance &&
+  double chance = problem_.watch ? problem_.watch->standard_error : 0;
+  if (state.in_time)
+    chance = 2 * std::hypot(now.drag_error, state.iterations.back().drag_error) / std::abs(now.fluid_force);
+  const double ledger = ledger_tolerance + chance;
+  return (state.in_time || now.drag_change < settings.drag_tolerance + chance) &&
+         now.cloth_held < held_tolerance &&
          (now.flow_converged ||
           (now.flow_averaged > 0 && within(now.momentum_deficit, now.fluid_force, ledger))) &&
          within(now.nodal_load, now.fluid_force, ledger) && within(now.line_tension, now.fluid_force, ledger);

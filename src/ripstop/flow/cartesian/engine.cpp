@@ -72,7 +72,7 @@ Error divergence(const Solver& solver, const std::string& when, const std::strin
 constexpr const char* state_file = "cartesian.flow";
 
 struct Header {
-  char magic[8] = {'r', 'i', 'p', 'f', 'l', 'o', 'w', '7'};
+  char magic[8] = {'r', 'i', 'p', 'f', 'l', 'o', 'w', '8'};
   FlowGrid grid;
   Freestream air;
   Sides sides = Sides::zero_gradient;

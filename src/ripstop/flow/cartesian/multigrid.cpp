@@ -296,7 +296,7 @@ void Multigrid::each_row(ThreadTeam& team, int rank, const Row& work) {
   team.barrier();
 }
 
-void Multigrid::solve_conjugate(ThreadTeam& team, int rank, double reduction, int most) {
+void Multigrid::solve_conjugate(ThreadTeam& team, int rank, double reduction, int most, Array<float>* last) {
   MultigridLevel& top = finest();
   const Layout& lay = top.layout;
   if (rank == 0 && planes_.empty()) {
@@ -308,23 +308,27 @@ void Multigrid::solve_conjugate(ThreadTeam& team, int rank, double reduction, in
   const IndexRange planes = part_of(lay.nz + 2, rank, team.size());
   clear(top.e, planes), clear(solution_, planes), clear(direction_, planes), clear(image_, planes);
   team.barrier();
+  if (last)
+    each_row(team, rank, [&](std::ptrdiff_t at) { std::copy_n(&(*last)[at], lay.nx, &direction_[at]); });
   const double start = sum_of_rows(team, rank, [&](int, int, std::ptrdiff_t at) {
     return Two{dot_row(lay.nx, &top.rhs[at], &top.rhs[at])};
   })[0];
   double curvature = 0;
-  for (int n = 0; n < most && start > 0; ++n) {
-    cycle(0, true, &team, rank);
-    // The new direction is made conjugate to the last one, whatever the cycle has become in between.
-    double beta = 0;
-    if (curvature > 0) {
-      const double along_image = sum_of_rows(team, rank, [&](int, int, std::ptrdiff_t at) {
-        return Two{dot_row(lay.nx, &top.e[at], &image_[at])};
-      })[0];
-      beta = -along_image / curvature;
+  for (int n = last ? 0 : 1; n <= most && start > 0; ++n) {
+    if (n > 0) {
+      cycle(0, true, &team, rank);
+      // The new direction is made conjugate to the last one, whatever the cycle has become in between.
+      double beta = 0;
+      if (curvature > 0) {
+        const double along_image = sum_of_rows(team, rank, [&](int, int, std::ptrdiff_t at) {
+          return Two{dot_row(lay.nx, &top.e[at], &image_[at])};
+        })[0];
+        beta = -along_image / curvature;
+      }
+      each_row(team, rank, [&](std::ptrdiff_t at) {
+        turn_row(lay.nx, static_cast<float>(beta), &top.e[at], &direction_[at]);
+      });
     }
-    each_row(team, rank, [&](std::ptrdiff_t at) {
-      turn_row(lay.nx, static_cast<float>(beta), &top.e[at], &direction_[at]);
-    });
     // image = A direction
     const Two along = sum_of_rows(team, rank, [&](int j, int k, std::ptrdiff_t at) {
       MultigridRow row = row_of(top, j, k);
@@ -333,7 +337,10 @@ void Multigrid::solve_conjugate(ThreadTeam& team, int rank, double reduction, in
       return Two{dot_row(lay.nx, row.e, &image_[at]), dot_row(lay.nx, row.e, row.rhs)};
     });
     curvature = along[0];
-    if (!(curvature > 0)) break;
+    if (!(curvature > 0)) {
+      if (n == 0) continue;  // nothing was solved before
+      break;
+    }
     const float alpha = static_cast<float>(along[1] / curvature);
     const double left = sum_of_rows(team, rank, [&](int, int, std::ptrdiff_t at) {
       advance_row(lay.nx, alpha, &direction_[at], &solution_[at]);
@@ -342,7 +349,10 @@ void Multigrid::solve_conjugate(ThreadTeam& team, int rank, double reduction, in
     })[0];
     if (left <= reduction * reduction * start) break;
   }
-  each_row(team, rank, [&](std::ptrdiff_t at) { std::copy_n(&solution_[at], lay.nx, &top.e[at]); });
+  each_row(team, rank, [&](std::ptrdiff_t at) {
+    std::copy_n(&solution_[at], lay.nx, &top.e[at]);
+    if (last) std::copy_n(&solution_[at], lay.nx, &(*last)[at]);
+  });
 }
 
 double Multigrid::residual() const {

@@ -71,6 +71,7 @@ State::State(const Layout& layout) {
 
 void stop_the_clock(State& s) {
   s.rate_u = s.rate_v = s.rate_w = {};
+  s.correction = {};
   s.clock = {};
 }
 

@@ -53,6 +53,7 @@ struct State {
   int eased = 0;                         // iterations yet to come that take half steps
   bool untouched = true;                 // still the uniform stream
   Array<double> rate_u, rate_v, rate_w;  // of momentum, by the last step in time [N/m3]; empty: none yet
+  Array<float> correction;               // of the pressure, by the last step in time [Pa]; empty: none yet
   Clock clock;
 };
 
@@ -65,7 +66,7 @@ void each_carried(AnyState& s, Visit&& visit) {
     visit(*field);
   visit(s.held), visit(s.change), visit(s.drop), visit(s.force);
   visit(s.mean), visit(s.iteration), visit(s.eased), visit(s.untouched);
-  visit(s.rate_u), visit(s.rate_v), visit(s.rate_w), visit(s.clock);
+  visit(s.rate_u), visit(s.rate_v), visit(s.rate_w), visit(s.correction), visit(s.clock);
 }
 
 /// The next step in time is a first one.

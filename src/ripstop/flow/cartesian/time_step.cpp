@@ -68,6 +68,7 @@ double longest_viscous_step(const Discretisation& d) {
 
 void Solver::begin_time() {
   for (Array<double>* rate : {&s_.rate_u, &s_.rate_v, &s_.rate_w}) *rate = Array<double>(d_.layout.values());
+  s_.correction = Array<float>(d_.layout.values());
   std::fill(s_.f.rho.begin(), s_.f.rho.end(), d_.air.density);
   const Clock before = std::exchange(s_.clock, {});
   s_.clock.stream = before.stream, s_.clock.gaining = before.gaining;
@@ -130,7 +131,8 @@ FlowStep Solver::step(double length) {
     }
     each_plane(rank, [&](int k) { matrix_ghosts(k); });
     each_plane_of_a_block(rank, [&](int k, IndexRange rows) { pressure(k, rows); });
-    multigrid_.solve_conjugate(team_, rank, reduction, most_cycles);
+    // A wake changes little in a step: most of the last one's correction comes again.
+    multigrid_.solve_conjugate(team_, rank, reduction, most_cycles, &s_.correction);
     each_plane(rank, [&](int k) { correction_ghosts(d_, b_, multigrid_.finest().e, k); });
     each_plane_of_a_block(rank, [&](int k, IndexRange rows) { flux(k, rows); });
     each_plane_of_a_block(rank, [&](int k, IndexRange rows) { velocity(k, rows); });
