@@ -53,6 +53,40 @@ TEST(Multigrid, EveryCycleTakesAwayMostOfTheResidualOnOddGridsToo) {
   }
 }
 
+// A wall with a hole, whose right side changes by a twentieth from one solution to the next.
+TEST(Multigrid, TheSolutionOfALikeProblemIsHalfTheWay) {
+  const Axis x = uniform(25, 2, End::zero_gradient, End::zero_gradient);
+  const Axis z = uniform(40, 4, End::zero_gradient, End::fixed_value);
+  Multigrid multigrid(x, x, z);
+  ThreadTeam team(1);
+  MultigridLevel& level = multigrid.finest();
+  const auto like = [&](int which) {
+    fill(level, x, x, z, 0.02f);
+    for (std::size_t n = 0; n < level.rhs.size(); ++n)
+      level.rhs[n] *= 1 + 0.05f * static_cast<float>(which * std::sin(0.1 * double(n)));
+  };
+  constexpr double reduction = 0.01;
+  constexpr int most = 20;
+  Array<float> last(level.layout.values());
+  like(0);
+  const int from_zero = multigrid.solve_conjugate(team, 0, reduction, most, &last);
+  like(0);
+  EXPECT_EQ(multigrid.solve_conjugate(team, 0, reduction, most, &last), 0) << "the same problem";
+  like(1);
+  const int from_nothing = multigrid.solve_conjugate(team, 0, reduction, most);
+  const Array<float> answer = level.e;
+  like(1);
+  const int from_last = multigrid.solve_conjugate(team, 0, reduction, most, &last);
+  EXPECT_EQ(from_zero, from_nothing);
+  EXPECT_LE(2 * from_last, from_nothing);
+  double apart = 0, size = 0;
+  for (std::size_t n = 0; n < answer.size(); ++n) {
+    apart += std::pow(answer[n] - level.e[n], 2), size += std::pow(answer[n], 2);
+    EXPECT_EQ(last[n], level.e[n]);
+  }
+  EXPECT_LT(std::sqrt(apart / size), 2 * reduction);
+}
+
 // Of a solution of zero it is what stands on the right, over all cells.
 TEST(Multigrid, TheResidualIsTheSumOverAllCellsWithoutTheirSigns) {
   const Axis x = uniform(9, 2, End::zero_gradient, End::zero_gradient);

@@ -9,6 +9,7 @@ import json
 import math
 import pathlib
 import sys
+import tomllib
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
 import tables  # pylint: disable=wrong-import-position
@@ -60,6 +61,39 @@ def sheet(runs):
     return table(["nominal m/s", "computed N", "computed m2", "measured N", "error %", "iterations", "wall s"], lines) if lines else []
 
 
+def jet(runs):
+    """Stratos IV with the specified permeability in the open jet, steady and in time, beside what was measured."""
+    case = tomllib.loads((HERE / "stratos-iv.toml").read_text())
+    known = {float(m["nominal_speed_m_s"]): m["drag_n"] for m in case["measured"]}
+    free = {float(r["speed_m_s"]): float(r["drag_n"]) for r in rows(runs / "specified-free/stratos-iv-nominal/sweep.csv")}
+    models = {m: {(r["speed_basis"], float(r["nominal_m_s"])): r for r in rows(HERE / "predictions.csv")
+                  if r["parachute"] == "stratos-iv" and r["porosity_model"] == m}
+              for m in ("specified-jet", "specified-unsteady-jet")}
+    steady, in_time = models.values()
+    lines, errors = [], []
+    for basis, speed in sorted(set(steady) | set(in_time), key=lambda key: (key[0] != "nominal", key[1])):
+        measured = known[speed]
+        off = lambda drag: f"{100 * (drag / measured - 1):+.1f}"
+        line = [basis, f"{speed:g}", f"{measured:.1f}"]
+        line += [f"{free[speed]:.1f}", off(free[speed])] if basis == "nominal" and speed in free else ["", ""]
+        for model in (steady, in_time):
+            row = model.get((basis, speed))
+            if not row:
+                line += ["", ""]
+                continue
+            error = f" +- {row['standard_error_n']}" if row["standard_error_n"] else ""
+            line += [f"{float(row['drag_n']):.1f}{error}", off(float(row["drag_n"]))]
+            if model is in_time and basis == "nominal":
+                errors.append(float(row["drag_n"]) / measured - 1)
+        lines.append(line)
+    text = table(["speed", "nominal m/s", "measured N", "free air, steady N", "error %", "jet, steady N", "error %",
+                  "jet, in time N, standard error", "error %"], lines) if lines else []
+    if errors:
+        text += ["", f"In time on the nominal speeds: mean error {100 * sum(errors) / len(errors):+.1f} %, mean of its size "
+                     f"{100 * sum(map(abs, errors)) / len(errors):.1f} %."]
+    return text
+
+
 def sheet_calibration(runs):
     return calibration(runs, "sheet-calibrated/permeabilities") + calibration(runs, "sheet-calibrated/gammas")
 
@@ -92,10 +126,10 @@ def reproduction(runs):
 
 def predictions(runs):
     lines = [[r["parachute"], r["speed_basis"], r["nominal_m_s"], r["porosity_model"], r["fabric_model"],
-              f"{float(r['drag_n']):.1f}", f"{float(r['drag_area_m2']):.4f}", r["coupling_iterations"],
-              f"{float(r['wall_time_s']):.0f}"] for r in rows(HERE / "predictions.csv")]
-    return table(["parachute", "basis", "nominal m/s", "porosity", "fabric", "drag N", "drag area m2", "iterations",
-                  "wall s"], lines) if lines else []
+              f"{float(r['drag_n']):.1f}", r["standard_error_n"], r["uncertainty_n"], f"{float(r['drag_area_m2']):.4f}",
+              r["coupling_iterations"], f"{float(r['wall_time_s']):.0f}"] for r in rows(HERE / "predictions.csv")]
+    return table(["parachute", "basis", "nominal m/s", "porosity", "fabric", "drag N", "standard error N", "all uncertainties N",
+                  "drag area m2", "iterations", "wall s"], lines) if lines else []
 
 
 def uncertainty(runs):
@@ -104,15 +138,17 @@ def uncertainty(runs):
         return []
     text = table(["porosity", "parachute", "source", "variation", "frozen %", "Stratos IV %", "ratio %"],
                  [list(r.values()) for r in done])
-    text += ["Largest of each source (porosity: frozen; all others: ratio), and their root of sum of squares, %:", ""]
+    text += ["Largest of each source (porosity, and all of specified-jet: frozen; all others: ratio), and their root of sum of squares, %:", ""]
     sources = list(dict.fromkeys(r["source"] for r in done))
     lines = []
     for model, parachute in dict.fromkeys((r["porosity_model"], r["parachute"]) for r in done):
         largest = {}
         for r in done:
             if (r["porosity_model"], r["parachute"]) == (model, parachute):
-                # The calibration's error is of the cloth itself: Stratos IV cannot take it away.
-                value = abs(float(r["frozen_percent" if r["source"] == "porosity" else "ratio_percent"]))
+                # The calibration's error is of the cloth itself: Stratos IV cannot take it away. Where nothing is calibrated
+                # it takes nothing away.
+                own = r["source"] == "porosity" or model == "specified-jet"
+                value = abs(float(r["frozen_percent" if own else "ratio_percent"]))
                 largest[r["source"]] = max(largest.get(r["source"], 0), value)
         total = math.sqrt(sum(v * v for v in largest.values()))
         lines.append([model, parachute, *(f"{largest[s]:.1f}" if s in largest else "" for s in sources), f"{total:.1f}",
@@ -150,12 +186,16 @@ SECTIONS = [
     (calibration, "calibration", "Porosity calibrated on Stratos IV", "calibrate", ["paper/calibration"]),
     (reproduction, "reproduction", "Stratos IV with the calibrated cloth", "reproduce openfoam",
      ["paper/stratos-iv-nominal", "paper/stratos-iv-measured", "openfoam-30"]),
-    (predictions, "predictions", "WALRUS and ADEPT, predicted", "predict sheet sheet-calibrated jet",
-     [f"{model}/{parachute}-{basis}" for model in ("paper", "sheet-calibrated", "sheet-specified", "specified-jet")
+    (predictions, "predictions", "WALRUS and ADEPT, predicted", "predict sheet sheet-calibrated jet unsteady-jet",
+     [f"{model}/{parachute}-{basis}"
+      for model in ("paper", "sheet-calibrated", "sheet-specified", "specified-jet", "specified-unsteady-jet")
       for parachute in ("walrus", "adept") for basis in ("nominal", "measured")]),
     (uncertainty, "uncertainty", "What the predictions depend on", "uncertain uncertain-sheet uncertain-jet",
      [f"{model}/uncertain-{parachute}" for model in ("paper", "sheet-calibrated", "specified-jet") for parachute in ("stratos-iv", "walrus", "adept")]),
     (sheet, "sheet", "Stratos IV with the specified permeability", "sheet", ["sheet-specified/stratos-iv-nominal"]),
+    (jet, "jet", "Stratos IV with the specified permeability in the open jet", "jet unsteady-jet",
+     [f"{model}/stratos-iv-{basis}" for model in ("specified-free", "specified-jet", "specified-unsteady-jet")
+      for basis in ("nominal", "measured")]),
     (sheet_calibration, "sheet-calibration", "The sheet's law calibrated on Stratos IV", "sheet-calibrated",
      ["sheet-calibrated/permeabilities", "sheet-calibrated/gammas"]),
     (comparison, "comparison", "Nonlinear beside linear at 30 m/s", "compare", ["compare"]),

@@ -296,7 +296,7 @@ void Multigrid::each_row(ThreadTeam& team, int rank, const Row& work) {
   team.barrier();
 }
 
-void Multigrid::solve_conjugate(ThreadTeam& team, int rank, double reduction, int most, Array<float>* last) {
+int Multigrid::solve_conjugate(ThreadTeam& team, int rank, double reduction, int most, Array<float>* last) {
   MultigridLevel& top = finest();
   const Layout& lay = top.layout;
   if (rank == 0 && planes_.empty()) {
@@ -314,9 +314,10 @@ void Multigrid::solve_conjugate(ThreadTeam& team, int rank, double reduction, in
     return Two{dot_row(lay.nx, &top.rhs[at], &top.rhs[at])};
   })[0];
   double curvature = 0;
+  int cycles = 0;
   for (int n = last ? 0 : 1; n <= most && start > 0; ++n) {
     if (n > 0) {
-      cycle(0, true, &team, rank);
+      cycle(0, true, &team, rank), ++cycles;
       // The new direction is made conjugate to the last one, whatever the cycle has become in between.
       double beta = 0;
       if (curvature > 0) {
@@ -353,6 +354,7 @@ void Multigrid::solve_conjugate(ThreadTeam& team, int rank, double reduction, in
     std::copy_n(&solution_[at], lay.nx, &top.e[at]);
     if (last) std::copy_n(&solution_[at], lay.nx, &(*last)[at]);
   });
+  return cycles;
 }
 
 double Multigrid::residual() const {

@@ -41,10 +41,11 @@ class Multigrid {
   void solve(ThreadTeam& team, int rank, int cycles);
 
   /// The same by conjugate gradients with a V cycle as preconditioner, until the residual has fallen to
-  /// `reduction` of its start (2-norm) or `most` cycles are spent. For walls that a cycle alone does not see
-  /// on its coarse levels. rhs is spent. The first direction is `last`, the solution of a like problem, which takes this one's
-  /// place there; without one, or where that is 0, it is a cycle's. Called by every rank of the team at once.
-  void solve_conjugate(ThreadTeam& team, int rank, double reduction, int most, Array<float>* last = nullptr);
+  /// `reduction` of its start (2-norm) or `most` cycles are spent; how many were. For walls that a cycle alone does
+  /// not see on its coarse levels. rhs is spent. The first direction is `last`, the solution of a like problem, which
+  /// takes this one's place there; without one, or where that is 0, it is a cycle's. Called by every rank of the team
+  /// at once.
+  int solve_conjugate(ThreadTeam& team, int rank, double reduction, int most, Array<float>* last = nullptr);
 
   /// sum |rhs - A e| on the finest level; for tests. One thread.
   double residual() const;
