@@ -194,8 +194,9 @@ std::vector<Vec3> SteadySolver::next_shape(const SteadyState& state, SteadyItera
   Loads loads{state.pressure, node_forces({no_pressure, state.remainder}, cells_, state.shape)};
   RelaxOptions options;
   options.tolerance = problem_.settings.cloth_tolerance;
-  const bool first = state.iterations.empty();
-  if (!first) options.max_steps = steps_unheld;
+  // A run that starts from its neighbour has a shape to be held to, the canopy as it is sewn is none.
+  const bool has_shape = !(state.shape == problem_.mesh.start);
+  if (has_shape) options.max_steps = steps_unheld;
   const auto relax_cloth = [&] {
     cloth = cloth_state(state);
     const RelaxResult result =
@@ -205,10 +206,10 @@ std::vector<Vec3> SteadySolver::next_shape(const SteadyState& state, SteadyItera
     now.cloth_steps += result.steps;
     return result;
   };
-  options.hold = first ? 0 : state.iterations.back().cloth_hold;
+  if (!state.iterations.empty()) options.hold = state.iterations.back().cloth_hold;
   RelaxResult relaxed = relax_cloth();
   const double unit = pressure_per_width(state.pressure, area_);
-  while (!first && !relaxed.converged && options.hold < strongest_hold * unit) {
+  while (has_shape && !relaxed.converged && options.hold < strongest_hold * unit) {
     options.hold = std::max(first_hold * unit, stronger * options.hold);
     relaxed = relax_cloth();
   }
