@@ -96,6 +96,18 @@ TEST(Plot, ItsLegendShowsEverySeriesThatHasAName) {
                 0.1);
 }
 
+TEST(Plot, ItsLegendHidesNothingWhereLinesLeaveRoomBetweenTheCorners) {
+  const TemporaryFolder folder("plot-between");
+  Plot plot{"", {"x", false, 0, 3}, {"y", false, 0, 1}, {}};
+  for (const double y : {0.93, 0.07}) plot.series.push_back({"", {0, 3}, {y, y}, true, false, false});
+  write_plot(folder.path / "none.png", plot);
+  plot.series[0].name = "high", plot.series[1].name = "low";
+  write_plot(folder.path / "named.png", plot);
+  const Png none = read_png(folder.path / "none.png"), named = read_png(folder.path / "named.png");
+  for (const std::size_t i : {0, 1})  // the whole line, and its sample
+    EXPECT_GT(spot_of(named, series_colour(i)).count, spot_of(none, series_colour(i)).count);
+}
+
 TEST(Plot, ALineHasAGapWhereAValueIsMissing) {
   const TemporaryFolder folder("plot-gap");
   const double nan = std::numeric_limits<double>::quiet_NaN();

@@ -326,7 +326,7 @@ FlowField SteadySolver::iterate(SteadyState& state, const SteadyReport& report) 
       now.flow_residual * dx * dx / (problem_.reference_area * largest_coefficient(problem_.mesh));
 
   const ClothLoad answer = answer_of(field, surface, cut, shape, state, now);
-  state.converged = stands && whole_watch == state.in_time && converged(state, now);
+  state.converged = stands && (whole_watch || !state.in_time) && converged(state, now);
   state.shape = shape;
   state.applied = state.pressure;
   step(state, answer, now.drag_change);

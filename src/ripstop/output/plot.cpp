@@ -186,7 +186,7 @@ std::vector<std::array<double, 2>> drawn_points(const PlotSeries& series, const 
   return points;
 }
 
-/// In the corner where it hides the least.
+/// In the corner where it hides the least, or between two of them where that is less.
 void draw_legend(cairo_t* page, const Plot& plot, const Scale& x, const Scale& y) {
   constexpr double row = 30, pad = 14, sample = 46;
   double width = 0;
@@ -199,20 +199,21 @@ void draw_legend(cairo_t* page, const Plot& plot, const Scale& x, const Scale& y
   if (rows == 0) return;
   width += sample + 3 * pad;
   const double height = rows * row + pad;
+  std::vector<std::array<double, 2>> points;
+  for (const PlotSeries& series : plot.series) {
+    for (const auto& point : drawn_points(series, x, y)) points.push_back(point);
+  }
   double best_x = 0, best_y = 0;
-  int fewest = std::numeric_limits<int>::max();
-  for (const auto& [cx, cy] : {std::array{right - width - 12, top + 12},
-                               {left + 12, top + 12},
-                               {right - width - 12, bottom - height - 12},
-                               {left + 12, bottom - height - 12}}) {
-    int hidden = 0;
-    for (const PlotSeries& series : plot.series) {
-      for (const auto& [at_x, at_y] : drawn_points(series, x, y)) {
-        const double px = at_x - cx, py = at_y - cy;
-        if (px > -12 && px < width + 12 && py > -12 && py < height + 12) ++hidden;
-      }
+  auto fewest = std::numeric_limits<std::ptrdiff_t>::max();
+  for (const double down : {0., 1., 0.5, 0.25, 0.75}) {
+    const double cy = top + 12 + down * (bottom - top - height - 24);
+    for (const double cx : {right - width - 12, left + 12}) {
+      const auto hidden = std::count_if(points.begin(), points.end(), [&](const auto& point) {
+        const double px = point[0] - cx, py = point[1] - cy;
+        return px > -12 && px < width + 12 && py > -12 && py < height + 12;
+      });
+      if (hidden < fewest) fewest = hidden, best_x = cx, best_y = cy;
     }
-    if (hidden < fewest) fewest = hidden, best_x = cx, best_y = cy;
   }
   fill_box(page, best_x, best_y, width, height, {1, 1, 1}, 0.88);
   double at = best_y + 0.5 * pad + 0.5 * row;
