@@ -90,17 +90,15 @@ JET_VARIATIONS = {
     "still air": [("5 % of the speed", ["flow.tunnel.outside_speed=0.05"]), ("10 x 10 m", ["flow.box_m=[10,10,9]"])],
     "grid": [("a fifth coarser", ["flow.cells=[70,70,78]"])],
     "turbulence": [("intensity 5 %", ["flow.turbulence_intensity=0.05"])],
-    # The cloth's specification: 0.5 to 5 CFM/ft2; 3 is taken.
-    "permeability": [("0.5 CFM/ft2", ["materials.f-111-physical.darcy=49016"]),
-                     ("5 CFM/ft2", ["materials.f-111-physical.darcy=4901.6"])],
+    "permeability": [(f"{cfm} CFM/ft2, of 3", [f"materials.f-111-physical.darcy={3 / cfm * 8169.3:.1f}"]) for cfm in (0.5, 5)],
 }
 # The openings: speed [m/s], density [kg/m3], radius of the folded skirt [m]; the cloth's damping as in the examples.
 OPENINGS = {"stratos-iv": (27.1, 1.2, 0.1), "walrus": (27.43, 1.204, 0.2), "adept": (27, 1.205, 0.1)}
 OPENING = ["inflation.duration_s=0.45", "inflation.frames=90", "inflation.line_segment_m=0.06",
            "inflation.cloth_damping_s=1e-5", "inflation.low_pass_hz=100", "parachute.mesh.cloth_nodes=12800"]
-# Of Stratos IV; what they change is taken for the other two.
 # Sails that wrinkle stay turned over and ADEPT shut.
 OPENING_OF = {"stratos-iv": [], "walrus": [], "adept": ["inflation.cloth_compression=0.1"]}
+# Of Stratos IV; what they change is taken for the other two.
 OPENING_VARIATIONS = {"air 1.25 times as fine": ["flow.cells=[110,110,122]"], "half the folds": ["inflation.folds=9"],
                       "half the step": ["inflation.courant=0.25"]}
 OPENING_COLUMNS = ["parachute", "air", "speed_m_s", "density_kg_m3", "initial_radius_m", "peak_100hz_n", "peak_n",
@@ -173,8 +171,7 @@ def frozen_sheet(campaign):
 
 
 def write_predictions(model, parachute, basis, rows, uncertainty=None):
-    """Replaces the rows of this model, parachute and basis in predictions.csv. `uncertainty` is relative, without the
-    statistical error of a mean over time, which is taken together with it."""
+    """Replaces the rows of this model, parachute and basis. `uncertainty` is relative, without a mean's standard error."""
     path = HERE / "predictions.csv"
     kept = []
     if path.exists():
@@ -283,8 +280,7 @@ def predict_in_jet(campaign, model, settings):
 
 
 def unknowns_of_jet(parachute):
-    """What is not known of the jet and the cloth, and the grid, as a share of the drag: the largest of each source,
-    together. None before the stage uncertain-jet."""
+    """The largest of each source in uncertain-jet, together, as a share of the drag. None before that stage."""
     largest = {}
     with open(HERE / "uncertainty.csv", newline="") as file:
         for row in csv.DictReader(file):
@@ -293,10 +289,6 @@ def unknowns_of_jet(parachute):
             percent = abs(float(row["stratos_iv_percent" if parachute == "stratos-iv" else "frozen_percent"]))
             largest[row["source"]] = max(largest.get(row["source"], 0), percent)
     return math.sqrt(sum(percent**2 for percent in largest.values())) / 100 if largest else None
-
-
-def stage_unsteady_jet(campaign):
-    predict_in_jet(campaign, "specified-unsteady-jet", UNSTEADY)
 
 
 def stage_jet(campaign):
@@ -479,8 +471,9 @@ def stage_report(campaign):
 
 STAGES = {"calibrate": stage_calibrate, "predict": stage_predict, "reproduce": stage_reproduce, "sheet": stage_sheet,
           "sheet-calibrated": stage_sheet_calibrated, "uncertain-jet": stage_uncertain_jet, "jet": stage_jet,
-          "unsteady-jet": stage_unsteady_jet, "uncertain": stage_uncertain, "uncertain-sheet": stage_uncertain_sheet,
-          "openings": stage_openings, "compare": stage_compare, "openfoam": stage_openfoam, "report": stage_report}
+          "unsteady-jet": lambda campaign: predict_in_jet(campaign, "specified-unsteady-jet", UNSTEADY),
+          "uncertain": stage_uncertain, "uncertain-sheet": stage_uncertain_sheet, "openings": stage_openings,
+          "compare": stage_compare, "openfoam": stage_openfoam, "report": stage_report}
 
 
 def main():
