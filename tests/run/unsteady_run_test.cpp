@@ -84,7 +84,8 @@ TEST(UnsteadyRun, EndsAtRestFirstAndThenWithTheMeanOverTime) {
   }
   ASSERT_GT(means, 0) << "one mean says nothing of the shape under its load";
   EXPECT_NEAR(last.fluid_force / at_rest, 0.9, 0.03);
-  EXPECT_NEAR(last.nodal_load, load / means, 1e-3 * last.fluid_force) << "the cloth has the mean of all means";
+  EXPECT_NEAR(last.nodal_load, load / means, 1e-3 * last.fluid_force)
+      << "the cloth has the mean of all means";
   EXPECT_TRUE(state.watched.enough);
   EXPECT_LE(last.drag_error, 0.01 * last.fluid_force);
   EXPECT_GT(last.drag_error, 0);
