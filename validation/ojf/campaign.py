@@ -206,7 +206,7 @@ def provenance(campaign, model, calibration=None):
     known = json.loads(path.read_text()) if path.exists() else {}
     commit = subprocess.run(["git", "-C", str(ROOT), "rev-parse", "--short", "HEAD"], capture_output=True, text=True,
                             check=False).stdout.strip()
-    run = json.loads(next((campaign.runs / model / "adept-nominal").glob("*/run.json")).read_text())
+    run = json.loads(next((campaign.runs / model).glob("*-nominal/*/run.json")).read_text())
     entry = {"commit": commit, "started": run["started"], "processor": run["processor"], "version": run["version"],
              "flow_engine": run["flow_engine"], "cells": run["case"]["flow"]["cells"], "box_m": run["case"]["flow"]["box_m"]}
     if calibration:

@@ -75,7 +75,8 @@ def jet(runs):
         measured = known[speed]
         off = lambda drag: f"{100 * (drag / measured - 1):+.1f}"
         line = [basis, f"{speed:g}", f"{measured:.1f}"]
-        line += [f"{free[speed]:.1f}", off(free[speed])] if basis == "nominal" and speed in free else ["", ""]
+        if free:
+            line += [f"{free[speed]:.1f}", off(free[speed])] if basis == "nominal" and speed in free else ["", ""]
         for model in (steady, in_time):
             row = model.get((basis, speed))
             if not row:
@@ -86,10 +87,11 @@ def jet(runs):
             if model is in_time and basis == "nominal":
                 errors.append(float(row["drag_n"]) / measured - 1)
         lines.append(line)
-    text = table(["speed", "nominal m/s", "measured N", "free air, steady N", "error %", "jet, steady N", "error %",
-                  "jet, in time N, standard error", "error %"], lines) if lines else []
+    head = ["speed", "nominal m/s", "measured N", *(["free air, steady N", "error %"] if free else []), "jet, steady N",
+            "error %", "jet, in time N, standard error", "error %"]
+    text = table(head, lines) if lines else []
     if errors:
-        text += ["", f"In time on the nominal speeds: mean error {100 * sum(errors) / len(errors):+.1f} %, mean of its size "
+        text += [f"In time on the nominal speeds: mean error {100 * sum(errors) / len(errors):+.1f} %, mean of its size "
                      f"{100 * sum(map(abs, errors)) / len(errors):.1f} %."]
     return text
 
