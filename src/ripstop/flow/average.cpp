@@ -47,9 +47,11 @@ void FieldMean::add(const FieldMean& other) {
 void FieldMean::take(const FlowField& field, const Cells& cells, const FlowAverage& more, double squares) {
   if (count() == 0) {
     mean_ = field;
-    mean_.pressure.resize(mean_.grid.cells());
-    mean_.velocity.resize(mean_.grid.cells());
-    cells(mean_, 1);
+    if (mean_.pressure.empty()) {
+      mean_.pressure.resize(mean_.grid.cells());
+      mean_.velocity.resize(mean_.grid.cells());
+      cells(mean_, 1);
+    }
     mean_.average = more;
     squares_ = squares;
     return;
