@@ -129,7 +129,7 @@ def reproduction(runs):
 def predictions(runs):
     lines = [[r["parachute"], r["speed_basis"], r["nominal_m_s"], r["porosity_model"], r["fabric_model"],
               f"{float(r['drag_n']):.1f}", r["standard_error_n"], r["uncertainty_n"], f"{float(r['drag_area_m2']):.4f}",
-              r["coupling_iterations"], f"{float(r['wall_time_s']):.0f}"] for r in rows(HERE / "predictions.csv")]
+              r["coupling_iterations"], f"{float(r['wall_time_s']):.0f}"] for r in rows(HERE / "predictions.csv") if r["parachute"] != "stratos-iv"]
     return table(["parachute", "basis", "nominal m/s", "porosity", "fabric", "drag N", "standard error N", "all uncertainties N",
                   "drag area m2", "iterations", "wall s"], lines) if lines else []
 
