@@ -117,7 +117,7 @@ void add_coefficients(CLI::App& command, LoadRequest& r) {
   add_number(command, "--packed-area", r.packed_drag_area, above(0).up_to(1e4),
              "Or the drag area of the packed canopy with its pilot, to find it [m2]");
   add_number(command, "--payload-area", r.payload_drag_area, from(0).up_to(1e4),
-             "And that of the payload [m2] (default: 0)");
+             "And that of the payload [m2] (default: payload.drag_area_m2 of the case)");
 }
 
 }  // namespace

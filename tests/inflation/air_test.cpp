@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <vector>
 
@@ -25,6 +27,13 @@ FlowProblem closed_duct() {
   duct.outlet = Outlet::still_air;
   duct.sheets = {{{}, resistance, 0}};
   return duct;
+}
+
+/// Payload::density from a height of deployment on [m].
+std::function<double(double)> thickening_below(double height) {
+  return [height](double fallen) {
+    return standard_air(height - fallen).density / standard_air(height).density;
+  };
 }
 
 /// A square of cloth across a duct of 1 m2, every node on a spring along the duct. It has no springs in its plane: under
@@ -149,32 +158,66 @@ TEST(OpeningAir, APayloadIsSlowedDownByWhatTheRiserPulls) {
   EXPECT_NEAR(memory.path, 10 * step * duct_speed, 1e-3);
 }
 
-// A constant drag area has it fly as a mass point flies, which has another method: in speed, in height, and as far as
+// A constant drag area, of which a part is its own, has it fly as a mass point flies, which has another method: in speed, in height, and as far as
 // weight turns its path.
 TEST(OpeningAir, APayloadsPathTurnsAsThatOfAMassPoint) {
   CartesianSettings settings;
   settings.threads = 1, settings.compressible = false;
-  constexpr double mass = 2, area = 0.05, step = 1e-4;
-  constexpr int steps = 10'000;
+  constexpr double mass = 2, area = 0.05, own_area = 0.02, step = 2e-3, height = 5000;
+  constexpr int steps = 20'000;
   const Mesh mesh = piston(0.04);
   for (const double angle : {90.0, 30.0, 0.0, -60.0}) {
-    OpeningAir air({closed_duct(), 0.5, make_cartesian(settings), Payload{mass, standard_gravity, angle}},
+    FlowProblem duct = closed_duct();
+    duct.air.density = standard_air(height).density;
+    OpeningAir air({duct, 0.5, make_cartesian(settings),
+                    Payload{mass, standard_gravity, angle, own_area, thickening_below(height)}},
                    mesh);
     AirMemory memory;
     AirRow row;
     air.step(mesh.start, std::vector<Vec3>(mesh.start.size()), step, memory, row);
-    for (int n = 0; n < steps; ++n)
-      air.fly(0.5 * standard_air(0).density * memory.speed * memory.speed * area, step, memory);
-    FlightState flown{0, 0, 0, 0, duct_speed, angle};
-    fly(flown, mass, {[](double, double) { return area; }, steps * step, 1e-3, -100});
+    for (int n = 0; n < steps; ++n) {
+      const double density = standard_air(height - memory.fallen).density;
+      air.fly(0.5 * density * memory.speed * memory.speed * area, step, memory);
+    }
+    FlightState flown{0, 0, 0, height, duct_speed, angle};
+    fly(flown, mass, {[](double, double) { return area + own_area; }, steps * step, step, 0});
     EXPECT_NEAR(memory.speed / flown.speed, 1, 2e-3) << angle;
     EXPECT_NEAR(memory.angle * 180 / std::numbers::pi, flown.path_angle, 0.1) << angle;
     EXPECT_NEAR(memory.path / flown.distance, 1, 2e-3) << angle;
-    EXPECT_NEAR(memory.fallen, -flown.height, 0.01) << angle;
+    const double fallen = height - flown.height;
+    EXPECT_GT(fallen, 500) << "enough for a denser air to be felt";
+    EXPECT_NEAR(memory.fallen / fallen, 1, 2e-3) << angle;
     if (angle == 90) {
-      EXPECT_NEAR(memory.fallen, memory.path, 1e-12);
+      EXPECT_NEAR(memory.fallen, memory.path, 1e-9 * fallen);
     }
   }
+}
+
+// Cloth that hardly gives way: what presses on it goes with the density where it is.
+TEST(OpeningAir, TheLoadGoesWithTheDensityOfTheHeight) {
+  CartesianSettings settings;
+  settings.threads = 1, settings.compressible = false;
+  constexpr double height = 5000, down = 3000;
+  const Mesh mesh = piston(1e6);
+  const auto first_step = [&](double fallen, double& brake) {
+    OpeningAir air(
+        {closed_duct(), 0.5, make_cartesian(settings), Payload{2, 0, 90, 0.1, thickening_below(height)}},
+        mesh);
+    AirMemory memory;
+    memory.fallen = fallen;
+    AirRow row;
+    air.step(mesh.start, std::vector<Vec3>(mesh.start.size()), 1e-3, memory, row);
+    brake = memory.acceleration;
+    return std::array{row.drag, row.drag_area, memory.pressure.front()};
+  };
+  double slow = 0, slower = 0;
+  const auto high = first_step(0, slow), low = first_step(down, slower);
+  const double thicker = standard_air(height - down).density / standard_air(height).density;
+  EXPECT_GT(thicker, 1.3);
+  EXPECT_NEAR(low[0] / high[0], thicker, 1e-3 * thicker);
+  EXPECT_NEAR(low[1] / high[1], 1, 1e-3);
+  EXPECT_NEAR(low[2] / high[2], thicker, 1e-3 * thicker);
+  EXPECT_NEAR(slower / slow, thicker, 1e-9);
 }
 
 }  // namespace

@@ -19,7 +19,8 @@ std::vector<Setting> falling(const std::string& mass, std::vector<Setting> more 
 }
 
 double closed_form(const Case& given) {
-  return std::sqrt(2 * suspended_weight(given, *given.payload.mass_kg) / (1.1 * SquareLawEngine::area));
+  return std::sqrt(2 * suspended_weight(given, *given.payload.mass_kg) /
+                   (1.1 * (SquareLawEngine::area + given.payload.drag_area_m2)));
 }
 
 TEST(Payload, TheRunFindsTheSpeedAtWhichDragIsWeight) {
@@ -35,6 +36,19 @@ TEST(Payload, TheRunFindsTheSpeedAtWhichDragIsWeight) {
     EXPECT_NEAR(r.payload->weight, (r.payload->mass + r.payload->parachute_mass) * standard_gravity, 1e-9);
     EXPECT_GE(r.payload->speeds, 2);
   }
+}
+
+// A body that is wide for its weight falls slower, and the canopy carries the less.
+TEST(Payload, ItsOwnDragHoldsItsPartOfTheWeight) {
+  const Case given =
+      square_law_case(falling("3", {{"payload.drag_area_m2", std::to_string(SquareLawEngine::area / 2)}}));
+  SteadyObserver nobody;
+  const SteadyResult r = run_steady(given, nobody).result;
+  EXPECT_TRUE(r.converged);
+  ASSERT_TRUE(r.payload);
+  EXPECT_NEAR(r.speed / closed_form(given), 1, payload_tolerance);
+  EXPECT_NEAR(r.drag / r.payload->weight, 2.0 / 3, payload_tolerance);
+  EXPECT_NEAR(r.payload->own_drag / r.payload->weight, 1.0 / 3, payload_tolerance);
 }
 
 // An engine that cannot go on from its flow at another speed begins again at each.

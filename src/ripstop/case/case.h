@@ -100,6 +100,7 @@ struct CouplingKeys : CouplingOptions {
 /// [payload] as given.
 struct PayloadKeys {
   std::optional<double> mass_kg;  // below the parachute; a steady run finds the speed at which drag is weight
+  double drag_area_m2 = 0;        // C_D S of what hangs below, in the undisturbed stream
 };
 
 /// [[measured]]: one wind-tunnel condition.

@@ -11,6 +11,10 @@ void describe(Fields& fields, PayloadKeys& payload) {
               "which the "
               "drag is the weight of both.")
       .absent("the speed is given");
+  fields.number(
+      "drag_area_m2", payload.drag_area_m2, from(0).up_to(1e4),
+      "C_D S of the payload itself, in the undisturbed stream: it holds a part of the weight in `ripstop "
+      "steady` and slows a payload that flies in an opening. Its wake on the canopy is not in it.");
 }
 
 // Knacke, NWC TP 6575, 6.2, has safety factors of 1.5 (unmanned) to 2 and the losses below; the values were written

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
+#include <optional>
 
 #include "ripstop/case/assemble.h"
 #include "ripstop/case/cost.h"
@@ -26,6 +28,14 @@ double pressure_of(const Case& opening, const LoadSource& source, int threads,
   ThreadTeam team(threads);
   return pressure_for(*source.steady_drag, parachute_mesh(coarse), opening.coupling.linear, team, alive)
       .pressure;
+}
+
+/// Payload::density in the standard atmosphere, where the case says how high it begins.
+std::function<double(double)> density_below(const std::optional<double>& height) {
+  if (!height) return {};
+  return [from = *height](double fallen) {
+    return standard_air(std::max(from - fallen, lowest_height)).density / standard_air(from).density;
+  };
 }
 
 }  // namespace
@@ -80,7 +90,8 @@ InflationProblem opening_problem(const Case& opening, const LoadSource& source, 
     problem.air = AirProblem{flow_problem(opening), opening.inflation.courant};
     if (opening.inflation.mass == InflationSettings::Mass::payload)
       problem.air->payload =
-          Payload{*opening.payload.mass_kg, standard_gravity, opening.inflation.flight_angle_deg};
+          Payload{*opening.payload.mass_kg, standard_gravity, opening.inflation.flight_angle_deg,
+                  opening.payload.drag_area_m2, density_below(opening.flow.height_m)};
     problem.settings.damping_n_s_m3 = problem.settings.quadratic_damping_n_s2_m4 = 0;
   } else {
     problem.pressure = pressure_of(opening, source, threads, alive);

@@ -56,7 +56,7 @@ inline constexpr double sheet_skirt = 4;
 /// become in so wide a box. docs/guide/tunnel.md says what they are worth.
 inline constexpr double jet_box_across = 2.8, jet_box_behind = 2, narrowest_jet_box = 1.5;
 inline constexpr std::array<int, 3> jet_cells{88, 88, 98};
-inline constexpr double jet_outside_speed = 0.02, jet_shear_layer = 0.035;  // the latter in nozzle widths
+inline constexpr double jet_outside_speed = 0.02, jet_shear_layer = 0.1;  // the latter in nozzle widths
 
 /// What the sheet's box is measured in [m].
 double inflated_diameter(const Design& parachute);

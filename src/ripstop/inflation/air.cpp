@@ -67,6 +67,15 @@ double OpeningAir::pull_of_weight(double angle) const {
   return payload_->gravity * std::sin(angle);
 }
 
+double OpeningAir::brake(const AirMemory& memory) const {
+  const double q = 0.5 * density_ * thickening(memory) * memory.speed * memory.speed;
+  return q * payload_->drag_area / payload_->mass;
+}
+
+double OpeningAir::thickening(const AirMemory& memory) const {
+  return payload_ && payload_->density ? payload_->density(memory.fallen) : 1;
+}
+
 Loads OpeningAir::last_load(const AirMemory& memory) const {
   if (memory.pressure.empty())
     return {std::vector<double>(cells_.size(), 0.0), std::vector<Vec3>(node_mass_.size())};
@@ -77,27 +86,36 @@ Loads OpeningAir::step(const std::vector<Vec3>& positions, const std::vector<Vec
                        AirMemory& memory, AirRow& row) {
   const std::vector<Triangle> surface = surface_of(cells_, positions);
   const std::vector<double> pressure = last_load(memory).cell_pressure;
+  // The engine's air has the density of deployment. A flow at one speed does not know its density, so what it does to
+  // the cloth goes with the density there.
+  const double thicker = thickening(memory);
   SheetMotion motion;
-  for (const double mass : mass_) motion.yields.push_back(latter_half * length / mass);
+  for (const double mass : mass_) motion.yields.push_back(thicker * latter_half * length / mass);
   for (std::size_t c = 0; c < cells_.size(); ++c) {
     if (cells_[c].corner[0] < 0) continue;
     Vec3 mean;
     for (const int node : cells_[c].corner) mean += 0.25 * velocity[node];
     motion.velocity.insert(motion.velocity.end(), 2, mean);
-    motion.pressure.insert(motion.pressure.end(), 2, pressure[c]);
+    motion.pressure.insert(motion.pressure.end(), 2, pressure[c] / thicker);
   }
   flow_->place(surface, motion);
   if (memory.steps == 0) {
     memory.speed = speed_;
-    if (payload_) memory.angle = payload_->angle * degree, memory.acceleration = pull_of_weight(memory.angle);
+    if (payload_) {
+      memory.angle = payload_->angle * degree;
+      memory.acceleration = pull_of_weight(memory.angle) - brake(memory);
+    }
   }
   row.speed = memory.speed + length * memory.acceleration;
   if (payload_) flow_->stream(row.speed, memory.acceleration);
   const FlowStep step = flow_->step(length);
-  ClothLoad load = load_of_flow(flow_->sheet_loads(), grid_, surface, cells_, positions);
+  std::vector<SheetLoad> loads = flow_->sheet_loads();
+  for (SheetLoad& one : loads) one.drop *= thicker, one.force = thicker * one.force;
+  ClothLoad load = load_of_flow(loads, grid_, surface, cells_, positions);
   row.length = length, row.courant = step.courant;
-  row.drag = step.force.z, row.side_x = step.force.x, row.side_y = step.force.y;
-  row.drag_area = row.drag / (0.5 * density_ * row.speed * row.speed);
+  const Vec3 force = thicker * step.force;
+  row.drag = force.z, row.side_x = force.x, row.side_y = force.y;
+  row.drag_area = row.drag / (0.5 * density_ * thicker * row.speed * row.speed);
   row.momentum_gap = step.momentum_gap, row.mass_defect = step.mass_defect;
   row.remainder = remainder_share(load, cells_, positions);
   memory.pressure = std::exchange(load.pressure, std::vector<double>(cells_.size(), 0.0));
@@ -118,7 +136,7 @@ void OpeningAir::fly(double pull, double length, AirMemory& memory) const {
   memory.fallen += way * std::sin(memory.angle + 0.5 * turn);
   memory.speed += length * memory.acceleration;
   memory.angle += turn;
-  memory.acceleration = pull_of_weight(memory.angle) - pull / payload_->mass;
+  memory.acceleration = pull_of_weight(memory.angle) - brake(memory) - pull / payload_->mass;
 }
 
 }  // namespace ripstop

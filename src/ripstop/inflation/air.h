@@ -7,6 +7,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -20,9 +21,12 @@ namespace ripstop {
 
 /// What hangs at the riser's end and flies along the axis of the box, which turns with its path.
 struct Payload {
-  double mass = 0;     // [kg]
-  double gravity = 0;  // [m/s2]
-  double angle = 90;   // of its path below the horizon at deployment [deg]
+  double mass = 0;       // [kg]
+  double gravity = 0;    // [m/s2]
+  double angle = 90;     // of its path below the horizon at deployment [deg]
+  double drag_area = 0;  // its own [m2]
+  /// Density so many metres below the place of deployment over that there; empty: the same.
+  std::function<double(double)> density = {};
 };
 
 struct AirProblem {
@@ -111,7 +115,9 @@ class OpeningAir {
   void restore(const std::filesystem::path& folder) { flow_->restore(folder); }
 
  private:
-  double pull_of_weight(double angle) const;  // along the path, a unit mass [m/s2]
+  double pull_of_weight(double angle) const;         // along the path, a unit mass [m/s2]
+  double brake(const AirMemory& memory) const;       // of the payload's own drag [m/s2]
+  double thickening(const AirMemory& memory) const;  // Payload::density where it is
 
   std::shared_ptr<FlowEngine> engine_;
   std::unique_ptr<Flow> flow_;

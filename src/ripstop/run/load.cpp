@@ -212,11 +212,12 @@ SnatchResult snatch_of(const Case& given, const LoadRequest& request, const Load
     parts.push_back({"the riser", riser_line(given).coefficients_n, 1, design.riser.length_m});
   SnatchResult snatch;
   snatch.speed_difference =
-      request.snatch_speed ? *request.snatch_speed
-                           : speed_difference_at_stretch({r.payload_mass, request.payload_drag_area},
-                                                         {r.parachute_mass, *request.packed_drag_area},
-                                                         request.speed, standard_air(request.height).density,
-                                                         design.lines.length_m + design.riser.length_m);
+      request.snatch_speed
+          ? *request.snatch_speed
+          : speed_difference_at_stretch(
+                {r.payload_mass, request.payload_drag_area.value_or(given.payload.drag_area_m2)},
+                {r.parachute_mass, *request.packed_drag_area}, request.speed,
+                standard_air(request.height).density, design.lines.length_m + design.riser.length_m);
   const SnatchLoad load = snatch_load(r.payload_mass, r.parachute_mass, snatch.speed_difference, parts);
   snatch.load = load.load, snatch.time = load.time, snatch.stretch = load.stretch;
   snatch.line_load = load.strand_load.front();

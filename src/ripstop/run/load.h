@@ -32,9 +32,9 @@ struct LoadRequest {
   std::vector<ReefedStage> reefing;
   std::optional<double> snatch_speed;  // difference of the speeds at line stretch [m/s]
   std::optional<double>
-      packed_drag_area;                   // of the packed canopy with its pilot, to find that difference [m2]
-  double payload_drag_area = 0;           // [m2]
-  std::filesystem::path steady, opening;  // folders of runs to take the drag area from; empty: none
+      packed_drag_area;  // of the packed canopy with its pilot, to find that difference [m2]
+  std::optional<double> payload_drag_area;  // [m2]; absent: the case's
+  std::filesystem::path steady, opening;    // folders of runs to take the drag area from; empty: none
 };
 
 /// A row of trajectory.csv.

@@ -1,5 +1,5 @@
 // A steady run of a case with a payload: the speed is changed between the coupling's iterations until the drag of a
-// converged one is the weight.
+// converged one and the payload's own are the weight.
 #include "ripstop/case/payload.h"
 
 #include <fmt/format.h>
@@ -36,8 +36,9 @@ SteadyParts at_speed(SteadyParts old, const Case& now, const SteadySettings& set
   return parts;
 }
 
-double drag_over_weight(const SteadyState& state, double weight) {
-  return state.iterations.back().fluid_force / weight;
+/// What the payload itself holds of its weight at the state's speed [N].
+double own_drag(const Case& given, double speed) {
+  return 0.5 * air(given).density * speed * speed * given.payload.drag_area_m2;
 }
 
 }  // namespace
@@ -56,6 +57,9 @@ SteadySolution run_with_payload(const Case& given, SteadyObserver& observer, con
   state = parts.solver->start();
   observer.begin({now, *parts.solver, parts.engine->name()}, state);
   if (state.speed == 0) state.speed = *now.flow.speed_m_s, state.speeds = 1;
+  const auto drag_over_weight = [&] {
+    return (state.iterations.back().fluid_force + own_drag(given, state.speed)) / weight;
+  };
   const auto take_speed = [&] {
     now.flow.speed_m_s = state.speed;
     parts = at_speed(std::move(parts), now, settings);
@@ -63,7 +67,7 @@ SteadySolution run_with_payload(const Case& given, SteadyObserver& observer, con
   if (state.speed != *now.flow.speed_m_s) take_speed();  // of a run that was killed
   for (;;) {
     if (!state.iterations.empty()) {
-      const double share = drag_over_weight(state, weight);
+      const double share = drag_over_weight();
       const bool held = std::abs(share - 1) <= payload_tolerance;
       const bool last = static_cast<int>(state.iterations.size()) >= most;
       if (last || (state.converged && held)) {
@@ -83,8 +87,8 @@ SteadySolution run_with_payload(const Case& given, SteadyObserver& observer, con
     observer.iterated(run, state, solution.flow);
   }
   solution.result = steady_result(*parts.solver, state, now);
-  solution.result.payload = {*given.payload.mass_kg, parachute_mass(given), weight,
-                             drag_over_weight(state, weight), state.speeds};
+  solution.result.payload = {*given.payload.mass_kg,       parachute_mass(given), weight,
+                             own_drag(given, state.speed), drag_over_weight(),    state.speeds};
   observer.ended({now, *parts.solver, parts.engine->name()}, state, solution.result);
   return solution;
 }

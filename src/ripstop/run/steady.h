@@ -54,7 +54,8 @@ void each_member(T& u, Visit&& visit) {
 struct HeldPayload {
   double mass = 0, parachute_mass = 0;  // [kg]
   double weight = 0;                    // of both [N]
-  double drag_over_weight = 0;          // 1 within payload_tolerance
+  double own_drag = 0;                  // of the payload itself [N]
+  double drag_over_weight = 0;          // of both drags, 1 within payload_tolerance
   int speeds = 0;                       // that were tried
 };
 template <Of<HeldPayload> T, class Visit>
@@ -62,6 +63,7 @@ void each_member(T& p, Visit&& visit) {
   visit("mass_kg", p.mass);
   visit("parachute_mass_kg", p.parachute_mass);
   visit("weight_n", p.weight);
+  visit("payload_drag_n", p.own_drag);
   visit("drag_over_weight", p.drag_over_weight);
   visit("speeds_tried", p.speeds);
 }
