@@ -1,9 +1,12 @@
 // What a tunnel does to the air, and to the drag of a disk in it.
 //   bench_tunnel empty [cells across the nozzle]       an open jet without a body
 //   bench_tunnel disks [cells across the disk [plot]]  disks in an open jet and between walls against free air
+//   bench_tunnel edges canopy.stl RESISTANCE           a canopy's shape, held, in open jets in time; skirt at z = 3 m,
+//                                                      RESISTANCE of its cloth [Pa s/m]
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
@@ -16,7 +19,9 @@
 #include "ripstop/flow/bodies.h"
 #include "ripstop/flow/cartesian/cartesian.h"
 #include "ripstop/flow/steady.h"
+#include "ripstop/flow/unsteady.h"
 #include "ripstop/output/plot.h"
+#include "ripstop/output/stl.h"
 #include "table.h"
 
 using namespace ripstop;
@@ -225,6 +230,71 @@ void disks(int across, const std::string& file, int argc, char** argv) {
                       series});
 }
 
+/// One jet that a held shape stands in, watched in time.
+struct JetInTime {
+  double distance = 3;   // from the nozzle to the skirt [m]
+  double edge = 0;       // its thickness [m]; 0: free air
+  double ahead = 0.57;   // how far before the skirt the fine cells begin [m]
+  int cells_along = 70;  // of the box, such that the fine ones are 6 cm long
+};
+
+constexpr double octagon_width = 2.85;  // [m]
+
+struct DragInTime {
+  MeanOverTime drag;      // [N]
+  double first_cell = 0;  // along the stream, behind the nozzle [m]
+};
+
+DragInTime drag_in_time(const std::vector<Triangle>& shape, double resistance, const JetInTime& how) {
+  FlowProblem problem;
+  problem.air.speed = speed;
+  problem.outlet = Outlet::still_air, problem.sides = Sides::entraining;
+  const double half = 0.93, z = how.distance;
+  problem.grid = graded({{-4, -4, 0}, {8, 8, z + 6}, 60, 60, how.cells_along}, {-half, -half, z - how.ahead},
+                        {half, half, z + 1.71}, 1.125);
+  if (how.edge > 0) problem.jet = Jet{{NozzleShape::octagon, octagon_width, 0}, 0.02, how.edge};
+  problem.sheets = {{shape, resistance, 0}};
+  for (Triangle& triangle : problem.sheets.front().surface)
+    for (Vec3* corner : {&triangle.a, &triangle.b, &triangle.c}) corner->z += z - 3;
+  CartesianSettings settings;
+  settings.second_order = true;
+  settings.threads = 1;
+  const auto engine = make_cartesian(settings);
+  const auto flow = engine->start(problem);
+  Watch watching;
+  watching.length = octagon_width;
+  watching.standard_error = 1e-6, watching.shortest = 12, watching.longest = 24;
+  FlowRecord record;
+  watch(*flow, problem, watching, record);
+  return {record.drag, problem.grid.width(2, 0)};
+}
+
+void edges(const std::string& surface, double resistance, int argc, char** argv) {
+  print_table_head(fmt::format("A canopy's shape, held, in time in jets from an octagon of {:g} m, {:g} m/s",
+                               octagon_width, speed),
+                   argc, argv,
+                   {"nozzle to skirt, m", "edge, m", "first cells behind the nozzle, m", "drag, N",
+                    "standard error, N", "against free air", "swing of the drag (rms)"});
+  const std::vector<Triangle> shape = read_stl(surface);
+  double free = 0;
+  for (const JetInTime& jet : std::array<JetInTime, 9>{{{},
+                                                        {.edge = 0.1},
+                                                        {.edge = 0.1, .ahead = 2.69, .cells_along = 110},
+                                                        {.edge = 0.15},
+                                                        {.edge = 0.285},
+                                                        {.edge = 0.285, .ahead = 2.69, .cells_along = 110},
+                                                        {.edge = 0.5},
+                                                        {.distance = 2, .edge = 0.285, .cells_along = 66},
+                                                        {.distance = 4, .edge = 0.285, .cells_along = 76}}}) {
+    const auto [drag, first_cell] = drag_in_time(shape, resistance, jet);
+    if (jet.edge == 0) free = drag.mean;
+    print_row({jet.edge > 0 ? fmt::format("{:g}", jet.distance) : "free air",
+               jet.edge > 0 ? fmt::format("{:g}", jet.edge) : "", fmt::format("{:.2f}", first_cell),
+               fmt::format("{:.1f}", drag.mean), fmt::format("{:.1f}", drag.standard_error),
+               percent(drag.mean / free), fmt::format("{:.1f} %", 100 * drag.deviation / drag.mean)});
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -234,7 +304,12 @@ int main(int argc, char** argv) {
     empty_jets(cells > 0 ? cells : 16, argc, argv);
   else if (what == "disks")
     disks(cells > 0 ? cells : 12, argc > 3 ? argv[3] : "", argc, argv);
+  else if (what == "edges" && argc == 4)
+    edges(argv[2], std::atof(argv[3]), argc, argv);
   else
-    return fmt::print(stderr, "usage: bench_tunnel empty [cells] | disks [cells [plot.png]]\n"), 2;
+    return fmt::print(stderr,
+                      "usage: bench_tunnel empty [cells] | disks [cells [plot.png]] | "
+                      "edges canopy.stl RESISTANCE\n"),
+           2;
   return 0;
 }

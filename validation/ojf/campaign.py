@@ -81,12 +81,11 @@ JET_FLOW = ["flow.tunnel.kind=open-jet", "flow.tunnel.shape=octagon", "flow.tunn
 JET_DISTANCE = "flow.tunnel.nozzle_distance_m=3"
 JET_SPECIFIED = [*SPECIFIED, *JET_FLOW, JET_DISTANCE]
 FREE_FLOW = ["flow.box_m=[8,8,9]", "flow.cells=[88,88,98]", "flow.canopy_position_m=3"]
-UNSTEADY = ["flow.unsteady=true", "flow.watch.standard_error=0.02"]
 JET_VARIATIONS = {
     "nozzle": [("2 m before the skirt", ["flow.tunnel.nozzle_distance_m=2", "flow.box_m=[8,8,8]"]),
                ("4 m before the skirt", ["flow.tunnel.nozzle_distance_m=4", "flow.box_m=[8,8,10]"])],
-    "jet's edge": [("0.3 m thick", ["flow.tunnel.shear_layer_m=0.3"]), ("round, of its area", [
-        "flow.tunnel.shape=circle", "flow.tunnel.width_m=2.927"])],
+    "jet's edge": [("0.15 m thick", ["flow.tunnel.shear_layer_m=0.15"]), ("0.5 m", ["flow.tunnel.shear_layer_m=0.5"]),
+                   ("round, of its area", ["flow.tunnel.shape=circle", "flow.tunnel.width_m=2.927"])],
     "still air": [("5 % of the speed", ["flow.tunnel.outside_speed=0.05"]), ("10 x 10 m", ["flow.box_m=[10,10,9]"])],
     "grid": [("a fifth coarser", ["flow.cells=[70,70,78]"])],
     "turbulence": [("intensity 5 %", ["flow.turbulence_intensity=0.05"])],
@@ -95,7 +94,8 @@ JET_VARIATIONS = {
 # The openings: speed [m/s], density [kg/m3], radius of the folded skirt [m]; the cloth's damping as in the examples.
 OPENINGS = {"stratos-iv": (27.1, 1.2, 0.1), "walrus": (27.43, 1.204, 0.2), "adept": (27, 1.205, 0.1)}
 OPENING = ["inflation.duration_s=0.45", "inflation.frames=90", "inflation.line_segment_m=0.06",
-           "inflation.cloth_damping_s=1e-5", "inflation.low_pass_hz=100", "parachute.mesh.cloth_nodes=12800"]
+           "inflation.cloth_damping_s=1e-5", "inflation.low_pass_hz=100", "parachute.mesh.cloth_nodes=12800",
+           "flow.tunnel.shear_layer_m=0.1"]
 # Sails that wrinkle stay turned over and ADEPT shut.
 OPENING_OF = {"stratos-iv": [], "walrus": [], "adept": ["inflation.cloth_compression=0.1"]}
 # Of Stratos IV; what they change is taken for the other two.
@@ -471,7 +471,7 @@ def stage_report(campaign):
 
 STAGES = {"calibrate": stage_calibrate, "predict": stage_predict, "reproduce": stage_reproduce, "sheet": stage_sheet,
           "sheet-calibrated": stage_sheet_calibrated, "uncertain-jet": stage_uncertain_jet, "jet": stage_jet,
-          "unsteady-jet": lambda campaign: predict_in_jet(campaign, "specified-unsteady-jet", UNSTEADY),
+          "unsteady-jet": lambda campaign: predict_in_jet(campaign, "specified-unsteady-jet", ["flow.unsteady=true"]),
           "uncertain": stage_uncertain, "uncertain-sheet": stage_uncertain_sheet, "openings": stage_openings,
           "compare": stage_compare, "openfoam": stage_openfoam, "report": stage_report}
 

@@ -17,7 +17,8 @@ struct Accelerator {
   double aitken_factor = 0;
 
   /// From here on answers are averaged in place of combined: a call before each next() makes the relaxation 1/2, 1/3,
-  /// ... of `whole`, so that x becomes the mean of itself and all answers since (Robbins and Monro 1951).
+  /// ... of `whole`, so that x becomes the mean of itself and all answers since (Robbins and Monro 1951). With `whole`
+  /// 2, from a relaxation of 1: 2/3, 1/2, 2/5, ..., and the n-th answer weighs n.
   void average(double whole);
 
   /// x and g(x) -> next x. The norm weighs entry i by weight[i] (areas of the cells). Sizes must agree.

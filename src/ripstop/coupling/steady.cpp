@@ -280,8 +280,9 @@ void SteadySolver::step(SteadyState& state, const ClothLoad& answer, double drag
                          drag_change > state.iterations.back().drag_change;
     if (jitters || accelerator.update == Acceleration::none) accelerator.average(settings.relaxation);
   }
-  // What means over time have in common is the load, what they differ in is chance.
-  if (state.in_time && state.iterations.back().in_time) accelerator.average(settings.relaxation);
+  // What means over time have in common is the load, what they differ in is chance. The first ones are of a wake that
+  // still had to form: each weighs as its number.
+  if (state.in_time && state.iterations.back().in_time) accelerator.average(2 * settings.relaxation);
   std::vector<double> weight = area_;
   weight.resize(area_.size() + 6, 0.0);
   const std::vector<double> next =
