@@ -158,8 +158,8 @@ TEST(OpeningAir, APayloadIsSlowedDownByWhatTheRiserPulls) {
   EXPECT_NEAR(memory.path, 10 * step * duct_speed, 1e-3);
 }
 
-// A constant drag area, of which a part is its own, has it fly as a mass point flies, which has another method: in speed, in height, and as far as
-// weight turns its path.
+// A constant drag area, of which a part is its own, has it fly as a mass point flies, which has another method: in speed,
+// in height, and as far as weight turns its path, through air that gets denser.
 TEST(OpeningAir, APayloadsPathTurnsAsThatOfAMassPoint) {
   CartesianSettings settings;
   settings.threads = 1, settings.compressible = false;
