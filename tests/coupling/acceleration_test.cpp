@@ -81,6 +81,21 @@ TEST(Accelerator, AnswersThatJitterAreAveraged) {
   }
 }
 
+TEST(Accelerator, AnswersThatSettleMayWeighTheMoreTheLaterTheyAre) {
+  Accelerator accelerator;
+  const std::vector<double> weight(3, 1.0);
+  std::vector<double> x(3, 7.0);
+  accelerator.update = Acceleration::none;
+  const double answers[] = {104, 96, 101, 99};
+  double sum = 0, weights = 0;
+  for (int n = 0; n < 4; ++n) {
+    if (n > 0) accelerator.average(2);
+    x = accelerator.next(x, std::vector<double>(3, answers[n]), weight);
+    sum += (n + 1) * answers[n], weights += n + 1;
+    EXPECT_NEAR(x.front(), sum / weights, 1e-12 * sum) << n;
+  }
+}
+
 TEST(Accelerator, ACopyGoesOnAsTheOriginalDoes) {
   Accelerator original;
   std::vector<double> x(8, 0.0);

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -80,17 +79,14 @@ TEST(UnsteadyRun, EndsAtRestFirstAndThenWithTheMeanOverTime) {
   }
   ASSERT_TRUE(state.converged);
   const SteadyIteration& last = state.iterations.back();
-  double load = 0;
-  int means = 0, weights = 0;
+  int means = 0;
   for (const SteadyIteration& i : state.iterations) {
     if (!i.in_time || i.iteration == last.iteration) continue;
-    weights += ++means, load += means * i.fluid_force;
+    ++means;
     EXPECT_LT(i.flow_iterations, 0.5 * last.flow_iterations) << "before the cloth stands a watch is short";
   }
   ASSERT_GT(means, 0) << "one mean says nothing of the shape under its load";
   EXPECT_NEAR(last.fluid_force / at_rest, 0.9, 0.03);
-  EXPECT_NEAR(last.nodal_load, load / weights, 1e-3 * last.fluid_force)
-      << "the cloth has the mean of all means, each of which weighs as its number";
   EXPECT_TRUE(state.watched.enough);
   EXPECT_LE(last.drag_error, 0.01 * last.fluid_force);
   EXPECT_GT(last.drag_error, 0);
@@ -108,12 +104,17 @@ TEST(UnsteadyRun, ClothThatLeansByChanceStands) {
     SteadySolver solver(problem, engine);
     SteadyState state = solver.start();
     while (!solver.finished(state)) solver.iterate(state);
-    return std::count_if(state.iterations.begin(), state.iterations.end(),
-                         [](const SteadyIteration& i) { return i.in_time; });
+    std::erase_if(state.iterations, [](const SteadyIteration& i) { return !i.in_time; });
+    return state.iterations;
   };
-  const auto upright = means(0), leaning = means(0.3);
-  EXPECT_GT(leaning, 0);
-  EXPECT_LT(leaning, upright);
+  const std::vector<SteadyIteration> upright = means(0), leaning = means(0.3);
+  EXPECT_FALSE(leaning.empty());
+  EXPECT_LT(leaning.size(), upright.size());
+  // The wake of the first means still had to form.
+  double load = 0, weight = 0, weights = 0;
+  for (auto mean = upright.begin(); mean + 1 != upright.end(); ++mean)
+    weights += ++weight, load += weight * mean->fluid_force;
+  EXPECT_NEAR(upright.back().nodal_load / (load / weights), 1, 5e-5) << "the n-th mean weighs n";
 }
 
 TEST(UnsteadyRun, KilledBetweenIterationsItGoesOnBitForBit) {
