@@ -91,6 +91,7 @@ bench: check-deps  ## Benchmarks, some three hours; their figures stand in docs/
 	@build-check/bench/bench_bodies sides | tee docs/tables/sides.md
 	@build-check/bench/bench_bodies 32 | tee docs/tables/bodies.md
 	@build-check/bench/bench_bodies in-time 16 | tee docs/tables/bodies-in-time.md
+	@build-check/bench/bench_bodies places 16 | tee docs/tables/bodies-places.md
 	@build-check/bench/bench_bodies openfoam 8 | tee docs/tables/bodies-openfoam.md
 	@build-check/bench/bench_sheet 40 4 | tee docs/tables/sheet-shifts.md
 	@build-check/bench/bench_cloth

@@ -4,14 +4,18 @@
 //   bench_bodies sides      what a near side does to disks
 //   bench_bodies in-time [cells across the body [body]]   steady flows and means over time side by side
 //   bench_bodies openfoam [cells across the body [body]]   built-in engine and OpenFOAM on the same cells
+//   bench_bodies places [cells across the body [canopy.stl RESISTANCE]]   what the cells' place does to bodies, or to a
+//                                              canopy's shape of 1 m with its skirt at z = 3 m and cloth of so many Pa s/m
 #include "ripstop/flow/bodies.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,6 +26,7 @@
 #include "ripstop/flow/openfoam/openfoam.h"
 #include "ripstop/flow/steady.h"
 #include "ripstop/flow/unsteady.h"
+#include "ripstop/output/stl.h"
 #include "table.h"
 
 using namespace ripstop;
@@ -252,9 +257,69 @@ void compare_in_time(int argc, char** argv) {
   }
 }
 
+/// Steady drag [N] in air of 20 m/s; the cells' middle lies `off` cells beside the axis along x, half as many along y.
+double drag_at_place(const Sheet& sheet, FlowGrid box, double half, double z, double off) {
+  const auto cells = [&](double x, double y) {
+    return graded(box, {x - half, y - half, z - 0.5}, {x + half, y + half, z + 1.5}, 1.125);
+  };
+  const Vec3 h = cells(0, 0).spacing();
+  FlowProblem problem;
+  problem.grid = cells(off * h.x, 0.5 * off * h.y);
+  problem.air.speed = 20;
+  problem.sides = Sides::entraining, problem.outlet = Outlet::still_air;
+  problem.sheets = {sheet};
+  problem.stopping = {.residual = 1e-5, .max_iterations = 300, .average_over = 100};
+  CartesianSettings settings;
+  settings.second_order = true;
+  settings.threads = 1;
+  return solve(*make_cartesian(settings), problem).porous_force.z;
+}
+
+void compare_places(int argc, char** argv) {
+  const int across = argc > 2 ? std::atoi(argv[2]) : 16;
+  constexpr double z = 3, narrowest = 0.65, widest = 0.75;
+  constexpr int widths = 8;
+  std::vector<std::pair<std::string, Sheet>> bodies;
+  if (argc > 4) {
+    bodies = {{"canopy", {read_stl(argv[3]), std::atof(argv[4]), 0}}};
+  } else {
+    bodies = {{"disk", {disk(1, {0, 0, z}), 1e6, 0}},
+              {"hemispherical cup", {hemispherical_cup(1, {0, 0, z}), 1e6, 0}},
+              {"rigid disk-gap-band of 0.65 m", {rigid_disk_gap_band({0, 0, z}), 1e6, 0}}};
+  }
+  const FlowGrid like = about_body({{-4, -4, 0}, {8, 8, 10}, 0, 0, 0}, 1, across, z);
+  const FlowGrid box{like.origin, like.size, like.nx, like.ny, like.nz};
+  print_table_head(
+      fmt::format("Steady drag on {} core widths of {:g} to {:g} m, about {} cells a metre, 20 m/s", widths,
+                  2 * narrowest, 2 * widest, across),
+      argc, argv,
+      {"body", "cells' middle beside the axis", "mean drag, N", "standard deviation", "lowest, N",
+       "highest, N"});
+  for (const auto& [name, sheet] : bodies) {
+    for (const double off : {0.0, 0.25}) {
+      std::vector<double> drags;
+      for (int n = 0; n < widths; ++n)
+        drags.push_back(
+            drag_at_place(sheet, box, narrowest + (widest - narrowest) * n / (widths - 1), z, off));
+      const double mean = std::accumulate(drags.begin(), drags.end(), 0.0) / widths;
+      double squares = 0;
+      for (const double drag : drags) squares += (drag - mean) * (drag - mean);
+      const auto [low, high] = std::minmax_element(drags.begin(), drags.end());
+      print_row({name, off == 0 ? "no" : fmt::format("{:g} cells along x, {:g} along y", off, off / 2),
+                 fmt::format("{:.1f}", mean),
+                 fmt::format("{:.1f} %", 100 * std::sqrt(squares / (widths - 1)) / mean),
+                 fmt::format("{:.1f}", *low), fmt::format("{:.1f}", *high)});
+    }
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc > 1 && std::string(argv[1]) == "places") {
+    compare_places(argc, argv);
+    return 0;
+  }
   if (argc > 1 && std::string(argv[1]) == "in-time") {
     compare_in_time(argc, argv);
     return 0;

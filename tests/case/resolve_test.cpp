@@ -246,6 +246,26 @@ TEST(Resolved, EachPartOfTheBoxFollowsByItself) {
   EXPECT_EQ(coarse.core.size_m, whole.core.size_m);
 }
 
+TEST(Resolved, InTimeTheCellsLieBesideTheCanopysAxis) {
+  EXPECT_EQ(flow_of(short_case).core.off_axis, 0);
+  EXPECT_EQ(flow_of(short_case + "unsteady = true\nbox_m = [8, 7.5, 10]\n").core.off_axis, 0)
+      << "uniform cells";
+  EXPECT_EQ(flow_of(short_case + "unsteady = true\ncore = { off_axis = 0 }\n").core.off_axis, 0);
+  const FlowSettings in_time = flow_of(short_case + "unsteady = true\n");
+  EXPECT_EQ(in_time.core.off_axis, 0.25);
+  const FlowGrid grid = flow_grid(in_time), steady = flow_grid(flow_of(short_case));
+  EXPECT_EQ(grid.nx, steady.nx);
+  for (const auto& [axis, off] : {std::pair{0, 0.25}, std::pair{1, 0.125}, std::pair{2, 0.0}}) {
+    const double cell = grid.width(axis, grid.count(axis) / 2);
+    const auto middle = [axis = axis](const FlowGrid& of) {
+      return 0.5 * (of.grading[axis].core_low + of.grading[axis].core_high);
+    };
+    EXPECT_NEAR(middle(grid) - middle(steady), off * cell, 2e-3 * cell) << axis;
+    EXPECT_NEAR(grid.edge(axis, 0), steady.edge(axis, 0), 1e-12) << "the box stays where it is";
+    EXPECT_NEAR(grid.edge(axis, grid.count(axis)), steady.edge(axis, steady.count(axis)), 1e-12);
+  }
+}
+
 TEST(Resolved, ABoxThatACoreWouldHalfFillHasUniformCells) {
   EXPECT_EQ(flow_of(valid_case).core.size_m, Vec3{});
   EXPECT_EQ(flow_of(short_case + "box_m = [8, 7.5, 10]\n").core.size_m, Vec3{})

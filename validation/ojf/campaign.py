@@ -116,6 +116,7 @@ BASE = GRIDS[1]
 class Campaign:
     def __init__(self, options):
         self.ripstop, self.runs, self.jobs = options.ripstop, options.runs, options.jobs
+        self.parachutes, self.bases = options.parachutes, options.bases
 
     def call(self, *arguments, also=()):
         """Runs ripstop; a failure ends the stage, and the same command again goes on."""
@@ -267,8 +268,8 @@ def predict_sheet(campaign, model, cloth, calibration=None):
 
 def predict_in_jet(campaign, model, settings):
     """All three, Stratos IV too, whose drag is known and goes into nothing."""
-    for basis in BASES:
-        for parachute in PARACHUTES:
+    for basis in campaign.bases:
+        for parachute in campaign.parachutes:
             folder = f"{model}/{parachute}-{basis}"
             rows = campaign.sweep(parachute, folder, [*JET_SPECIFIED, *settings, f"flow.speed_basis={basis}"], "--speeds",
                                   SPEEDS[parachute], "--vary", "coupling.linear=false")
@@ -396,18 +397,16 @@ def write_uncertainty(model, drags):
 
 
 def stage_compare(campaign):
-    command = ["compare", "validation/ojf/stratos-iv.toml", "--linear", "--speed", "30", "--out", campaign.runs / "compare"]
-    for setting in law(calibrated(campaign)):
-        command += ["--set", setting]
-    campaign.call(*command)
+    calibrated_at_30(campaign, "compare", "compare", "--linear")
 
 
 def stage_openfoam(campaign):
-    command = ["steady", "validation/ojf/stratos-iv.toml", "--speed", "30", "--flow", "openfoam", "--ranks", "2", "--out",
-               campaign.runs / "openfoam-30"]
-    for setting in law(calibrated(campaign)):
-        command += ["--set", setting]
-    campaign.call(*command)
+    calibrated_at_30(campaign, "openfoam-30", "steady", "--flow", "openfoam", "--ranks", "2")
+
+
+def calibrated_at_30(campaign, out, command, *options):
+    cloth = [word for setting in law(calibrated(campaign)) for word in ("--set", setting)]
+    campaign.call(command, "validation/ojf/stratos-iv.toml", *options, "--speed", "30", "--out", campaign.runs / out, *cloth)
 
 
 def opening(campaign, parachute, name, air, command):
@@ -469,8 +468,8 @@ def stage_report(campaign):
     subprocess.run([sys.executable, str(HERE / "report.py"), str(campaign.runs)], check=True)
 
 
-STAGES = {"calibrate": stage_calibrate, "predict": stage_predict, "reproduce": stage_reproduce, "sheet": stage_sheet,
-          "sheet-calibrated": stage_sheet_calibrated, "uncertain-jet": stage_uncertain_jet, "jet": stage_jet,
+STAGES = {"calibrate": stage_calibrate, "predict": stage_predict, "reproduce": stage_reproduce,
+          "sheet": stage_sheet, "sheet-calibrated": stage_sheet_calibrated, "uncertain-jet": stage_uncertain_jet, "jet": stage_jet,
           "unsteady-jet": lambda campaign: predict_in_jet(campaign, "specified-unsteady-jet", ["flow.unsteady=true"]),
           "uncertain": stage_uncertain, "uncertain-sheet": stage_uncertain_sheet, "openings": stage_openings,
           "compare": stage_compare, "openfoam": stage_openfoam, "report": stage_report}
@@ -482,12 +481,13 @@ def main():
     parser.add_argument("--ripstop", type=pathlib.Path, default=ROOT / "build/bin/ripstop")
     parser.add_argument("--runs", type=pathlib.Path, default=pathlib.Path("runs/ojf"))
     parser.add_argument("--jobs", type=int, help="runs side by side (default: ripstop's)")
+    for name, all_of in (("--parachutes", PARACHUTES), ("--bases", BASES)):
+        parser.add_argument(name, nargs="+", choices=all_of, default=all_of, help="of jet and unsteady-jet")
     options = parser.parse_args()
     for stage in options.stages or STAGES:
         if stage not in STAGES:
             parser.error(f"unknown stage {stage}; there are {', '.join(STAGES)}")
-    options.ripstop = options.ripstop.resolve()
-    options.runs = (ROOT / options.runs).resolve()
+    options.ripstop, options.runs = options.ripstop.resolve(), (ROOT / options.runs).resolve()
     campaign = Campaign(options)
     for stage in options.stages or STAGES:
         print(f"== {stage}", flush=True)

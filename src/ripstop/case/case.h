@@ -55,6 +55,8 @@ struct CoreKeys {
   std::optional<Vec3> size_m;     // 0: the cells are uniform along that axis
   std::optional<double> start_m;  // from the inlet
   std::optional<double> growth;   // of a cell's width to that of its inner neighbour, at most
+  std::optional<double>
+      off_axis;  // of its middle from the canopy's axis along x, half as much along y, in cells
 };
 
 /// What the air comes out of: the endless stream, a nozzle into still air, or a closed test section.

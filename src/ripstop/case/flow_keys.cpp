@@ -126,6 +126,12 @@ void describe(Fields& fields, CoreKeys& core) {
       .number("growth", core.growth, above(1).up_to(2),
               "Largest ratio of a cell's width to that of its inner neighbour.")
       .absent(by_model(sheet_defaults.growth, paper_defaults.growth));
+  fields
+      .number(
+          "off_axis", core.off_axis, from(0).up_to(0.5),
+          "How far the middle of the uniform cells lies beside the canopy's axis, in cells: so much along "
+          "x, half as much along y.")
+      .absent(fmt::format("`{:g}` for a sheet in time, else `0`", in_time_off_axis));
 }
 
 void describe(Fields& fields, WatchKeys& watch) {

@@ -164,6 +164,9 @@ void resolve_core(Follow& follow, double d, FlowKeys& keys, FlowSettings& flow) 
                "a quarter of the core before the skirt");
   flow.core.growth =
       follow("flow.core.growth", keys.core.growth, (sheet ? sheet_defaults : paper_defaults).growth, model);
+  const bool moves = sheet && keys.unsteady && size.x > 0 && size.y > 0;
+  flow.core.off_axis = follow("flow.core.off_axis", keys.core.off_axis, moves ? in_time_off_axis : 0.0,
+                              moves ? "of a flow in time" : "of a steady flow, and of uniform cells");
 }
 
 void resolve_box(Follow& follow, const Design& parachute, FlowKeys& keys, FlowSettings& flow) {
@@ -283,9 +286,15 @@ FlowGrid flow_grid(const FlowSettings& flow) {
   grid.nz = flow.cells[2];
   const Vec3 size = flow.core.size_m;
   if (size.x <= 0 && size.y <= 0 && size.z <= 0) return grid;
-  const double start = flow.core.start_m;
-  return graded(grid, {-0.5 * size.x, -0.5 * size.y, start}, {0.5 * size.x, 0.5 * size.y, start + size.z},
-                flow.core.growth);
+  const double start = flow.core.start_m, off = flow.core.off_axis;
+  const auto core_from = [&](double x, double y) {
+    return graded(grid, {x - 0.5 * size.x, y - 0.5 * size.y, start},
+                  {x + 0.5 * size.x, y + 0.5 * size.y, start + size.z}, flow.core.growth);
+  };
+  const FlowGrid on_axis = core_from(0, 0);
+  if (off == 0) return on_axis;
+  const Vec3 cell = on_axis.spacing();
+  return core_from(off * cell.x, 0.5 * off * cell.y);
 }
 
 FlowGrid flow_grid(const Case& given) {

@@ -51,6 +51,8 @@ inline constexpr Vec3 paper_box{2, 2, 4};
 /// docs/theory/flow-cartesian.md, Sides of the box, and docs/validation.md say what they are worth.
 inline constexpr Vec3 sheet_box{6, 6, 9}, sheet_core{1.8, 1.8, 2.2};
 inline constexpr double sheet_skirt = 4;
+/// CoreSettings::off_axis in time: no two of a canopy's four sides then lie alike on the cells.
+inline constexpr double in_time_off_axis = 0.25;
 
 /// A jet's box in nozzle widths: across the flow, and at least so long behind the skirt; what the sheet's cells
 /// become in so wide a box. docs/guide/tunnel.md says what they are worth.
@@ -65,6 +67,7 @@ struct CoreSettings {
   Vec3 size_m;         // 0: the cells are uniform along that axis
   double start_m = 0;  // from the inlet
   double growth = 0;
+  double off_axis = 0;  // of its middle from the canopy's axis along x, half as much along y, in cells
 };
 
 struct TunnelSettings {

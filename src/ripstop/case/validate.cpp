@@ -236,6 +236,10 @@ void check_cells(const Case& given, const FlowSettings& flow, Findings& findings
   if (core.z > 0 && flow.core.start_m > skirt)
     findings.add("flow.core.start_m", flow.core.start_m, fmt::format("at most {:.6g}", skirt),
                  fmt::format("the skirt, at {:.6g} m, lies before the fine core", skirt));
+  if (flow.core.off_axis > 0 && !(core.x > 0 && core.y > 0))
+    findings.add(
+        "flow.core.off_axis", flow.core.off_axis, "0",
+        "cells that are uniform from side to side (flow.core.size_m = 0) have their middle on the axis");
   if (!findings.sound({"flow.core.size_m", "flow.core.start_m"})) return;
   FlowGrid grid;
   try {
