@@ -18,7 +18,7 @@ CHECK_PACKAGES := libgtest-dev libbenchmark-dev python3 python3-jsonschema pytho
 
 export PATH := /usr/bin:$(PATH)
 
-.PHONY: help deps check-deps build demo check room sanitize sanitize-thread fuzz mutants coverage tidy bench validate validate-ojf validate-families judge torture test-slurm test-hosts scaling report-libraries format format-check install-build install wheel package clean
+.PHONY: help deps check-deps build demo check room sanitize sanitize-thread fuzz mutants coverage tidy bench validate validate-ojf validate-families validate-families-in-time judge torture test-slurm test-hosts scaling report-libraries format format-check install-build install wheel package clean
 
 help:  ## This list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -114,6 +114,9 @@ validate-ojf: build  ## Calibrate on Stratos IV, predict WALRUS and ADEPT blind,
 
 validate-families: build  ## Drag of every family's example beside Knacke's values, into docs/tables: ten minutes; resumable
 	@/usr/bin/python3 validation/families/families.py --ripstop build/bin/ripstop
+
+validate-families-in-time: build  ## The same with wakes that shed: means over time, into docs/tables: forty minutes; resumable
+	@/usr/bin/python3 validation/families/families.py --ripstop build/bin/ripstop --in-time
 
 judge: check-deps build  ## The built-in engine beside OpenFOAM on meshes that follow the cloth, into docs/tables: an hour and more
 	@cmake --preset release > /dev/null

@@ -2,7 +2,8 @@
 //   bench_bodies [cells across the body on the finest of three grids [body [width of the box in diameters
 //                [turbulence intensity [sides: slip, entraining or zero-gradient]]]]]
 //   bench_bodies sides      what a near side does to disks
-//   bench_bodies in-time [cells across the body [body]]   steady flows and means over time side by side
+//   bench_bodies in-time [cells across the body [body, or all [eddies: wale or des]]]   steady flows and means over time
+//                                              side by side, cells a quarter of one beside the axis
 //   bench_bodies openfoam [cells across the body [body]]   built-in engine and OpenFOAM on the same cells
 //   bench_bodies places [cells across the body [canopy.stl RESISTANCE]]   what the cells' place does to bodies, or to a
 //                                              canopy's shape of 1 m with its skirt at z = 3 m and cloth of so many Pa s/m
@@ -215,45 +216,54 @@ void compare_engines(int argc, char** argv) {
   }
 }
 
-/// A steady flow, then 60 times that the stream takes for the body's width, and more until the error is 1 %.
+/// A steady flow, then 60 times that the stream takes for the body's width, and more until the error is 1 %. The body
+/// stands on the cells as a canopy in time does.
 void compare_in_time(int argc, char** argv) {
   const int across = argc > 2 ? std::atoi(argv[2]) : 16;
-  const std::string only = argc > 3 ? argv[3] : "";
+  const std::string only = argc > 3 ? argv[3] : "all", only_eddies = argc > 4 ? argv[4] : "";
   constexpr double box = 12;
+  const Vec3 place = place_in(box) + Vec3{0.25 / across, 0.125 / across, 0};
+  constexpr std::pair<SmallEddies, const char*> kinds[] = {{SmallEddies::wale, "wale"},
+                                                           {SmallEddies::des, "des"}};
   print_table_head(
       fmt::format(
           "Drag coefficients of bodies 1 m across at 30 m/s on d/{}, steady and in time, box 12 x 12 x 18 m, "
           "entraining sides",
           across),
       argc, argv,
-      {"body", "reference", "steady", "off by", "in time, standard error", "off by", "Cp front, back, steady",
-       "Cp front, back, in time", "Strouhal", "steps, start-up in all d/U", "minutes"});
-  for (const Body& body : bodies_in_time(place_in(box))) {
-    if (!only.empty() && body.name != only) continue;
-    const FlowProblem problem =
-        problem_of(body, far_box(1, box, across, place_in(box).z), 0.005, Sides::entraining);
-    const auto begin = std::chrono::steady_clock::now();
-    const auto engine = make_cartesian(second_order());
-    const auto flow = engine->start(problem);
-    const Result steady = result_of(body, problem, solve_to_rest(*flow, problem.stopping));
-    FlowRecord record;
-    Watch how;
-    how.shortest = 60, how.longest = 200, how.length = 1;
-    const Result mean = result_of(body, problem, watch(*flow, problem, how, record));
-    const double minutes =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() / 60;
-    const double in_time = 1 / (dynamic_pressure(problem) * body.area), unit = 1 / problem.air.speed;
-    print_row(
-        {body.name, fmt::format("{:.3f}", body.reference), fmt::format("{:.3f}", steady.coefficient),
-         off_by(steady.coefficient, body.reference),
-         fmt::format("{:.3f} +- {:.3f}", in_time * record.drag.mean, in_time * record.drag.standard_error),
-         off_by(in_time * record.drag.mean, body.reference),
-         fmt::format("{:.3f}, {:.3f}", steady.front, steady.back),
-         fmt::format("{:.3f}, {:.3f}", mean.front, mean.back),
-         fmt::format("{:.3f}", record.swing.frequency * unit),
-         fmt::format("{}, {:.0f} of {:.0f}", record.steps.size(), record.start_up / unit,
-                     record.watched() / unit),
-         fmt::format("{:.1f}", minutes)});
+      {"body", "eddies", "reference", "steady", "off by", "in time, standard error", "off by",
+       "Cp front, back, steady", "Cp front, back, in time", "Strouhal", "steps, start-up in all d/U",
+       "minutes"});
+  for (const Body& body : bodies_in_time(place)) {
+    for (const auto& [eddies, word] : kinds) {
+      if ((only != "all" && body.name != only) || (!only_eddies.empty() && only_eddies != word)) continue;
+      const FlowProblem problem =
+          problem_of(body, far_box(1, box, across, place.z), 0.005, Sides::entraining);
+      const auto begin = std::chrono::steady_clock::now();
+      CartesianSettings settings = second_order();
+      settings.small_eddies = eddies;
+      const auto engine = make_cartesian(settings);
+      const auto flow = engine->start(problem);
+      const Result steady = result_of(body, problem, solve_to_rest(*flow, problem.stopping));
+      FlowRecord record;
+      Watch how;
+      how.shortest = 60, how.longest = 200, how.length = 1;
+      const Result mean = result_of(body, problem, watch(*flow, problem, how, record));
+      const double minutes =
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() / 60;
+      const double in_time = 1 / (dynamic_pressure(problem) * body.area), unit = 1 / problem.air.speed;
+      print_row(
+          {body.name, word, fmt::format("{:.3f}", body.reference), fmt::format("{:.3f}", steady.coefficient),
+           off_by(steady.coefficient, body.reference),
+           fmt::format("{:.3f} +- {:.3f}", in_time * record.drag.mean, in_time * record.drag.standard_error),
+           off_by(in_time * record.drag.mean, body.reference),
+           fmt::format("{:.3f}, {:.3f}", steady.front, steady.back),
+           fmt::format("{:.3f}, {:.3f}", mean.front, mean.back),
+           fmt::format("{:.3f}", record.swing.frequency * unit),
+           fmt::format("{}, {:.0f} of {:.0f}", record.steps.size(), record.start_up / unit,
+                       record.watched() / unit),
+           fmt::format("{:.1f}", minutes)});
+    }
   }
 }
 

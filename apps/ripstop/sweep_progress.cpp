@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "case_options.h"
 #include "json_option.h"
@@ -15,6 +16,24 @@
 #include "stopping.h"
 
 namespace ripstop {
+namespace {
+
+std::string short_text(const SteadyProgress& p) {
+  switch (p.stage) {
+    case SteadyStage::cloth:
+      return fmt::format("cloth {:.0e}", p.cloth.residual);
+    case SteadyStage::flow:
+      return fmt::format("flow {}, {:.1f} N", p.flow.iteration, p.flow.drag);
+    case SteadyStage::time:
+      break;
+  }
+  const WatchProgress& t = p.time;
+  return t.mean != 0 ? fmt::format("time {:.1f} +- {:.2g} N, {:.0f} %", t.mean, t.standard_error,
+                                   std::min(99.0, 100 * t.share))
+                     : fmt::format("time {}, {:.1f} N", t.step.step, t.step.force.z);
+}
+
+}  // namespace
 
 void add_sweep_options(CLI::App& command, SweepOptions& options) {
   command.add_option("case", options.case_file, "Case file (TOML)")->required();
@@ -50,10 +69,7 @@ std::vector<SweepRow> run_and_tell(const std::vector<SweepAxis>& axes, const std
   std::size_t ended = 0, ended_before = 0;
   SweepEvents events;
   events.progress = [&](std::size_t i, const SteadyProgress& p, const SteadyState&) {
-    running[i] =
-        p.stage == SteadyStage::cloth
-            ? fmt::format("{} [{}] cloth {:.0e}", name(i), p.iteration, p.cloth.residual)
-            : fmt::format("{} [{}] flow {}, {:.1f} N", name(i), p.iteration, p.flow.iteration, p.flow.drag);
+    running[i] = fmt::format("{} [{}] {}", name(i), p.iteration, short_text(p));
     const double gone = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     std::string text = fmt::format("{}/{}", ended, points.size());
     for (const auto& [k, what] : running) text += " | " + what;

@@ -20,9 +20,10 @@ namespace {
 
 using std::numbers::pi;
 
-CartesianSettings with_threads(int threads) {
+CartesianSettings with_threads(int threads, SmallEddies small_eddies = SmallEddies::wale) {
   CartesianSettings settings;
   settings.threads = threads;
+  settings.small_eddies = small_eddies;
   return settings;
 }
 
@@ -72,13 +73,13 @@ TEST(March, AStreamThatIsSlowedDownStaysUniform) {
   for (const double p : field.pressure) ASSERT_NEAR(p, 0, 1e-8);
 }
 
-class Ledger : public testing::TestWithParam<std::tuple<double, Sides>> {};
+class Ledger : public testing::TestWithParam<std::tuple<double, Sides, SmallEddies>> {};
 
 // In the first steps the pressure has to find its way about a body that stands in the stream at once.
 TEST_P(Ledger, ClosesInEveryStep) {
-  const auto [linear, sides] = GetParam();
+  const auto [linear, sides, eddies] = GetParam();
   const FlowProblem problem = disk_in_a_box(linear, sides);
-  const auto engine = make_cartesian(with_threads(1));
+  const auto engine = make_cartesian(with_threads(1, eddies));
   const auto flow = engine->start(problem);
   const double largest = 0.5 * 1.2 * 100 * pi / 4;  // q times the disk's area [N]
   int steps = 0;
@@ -96,12 +97,16 @@ TEST_P(Ledger, ClosesInEveryStep) {
 
 INSTANTIATE_TEST_SUITE_P(LooseAndTight, Ledger,
                          testing::Combine(testing::Values(10.0, 1e6),
-                                          testing::Values(Sides::slip, Sides::entraining)));
+                                          testing::Values(Sides::slip, Sides::entraining),
+                                          testing::Values(SmallEddies::wale, SmallEddies::des)));
 
-TEST(March, ThreadsDoNotMatterToTheLastBit) {
+class MarchWith : public testing::TestWithParam<SmallEddies> {};
+INSTANTIATE_TEST_SUITE_P(Eddies, MarchWith, testing::Values(SmallEddies::wale, SmallEddies::des));
+
+TEST_P(MarchWith, ThreadsDoNotMatterToTheLastBit) {
   const FlowProblem problem = disk_in_a_box(1e6, Sides::entraining);
   const auto marched = [&](int threads) {
-    const auto engine = make_cartesian(with_threads(threads));
+    const auto engine = make_cartesian(with_threads(threads, GetParam()));
     const auto flow = engine->start(problem);
     flow->march(8, 0.7);
     return flow->field();
@@ -111,10 +116,10 @@ TEST(March, ThreadsDoNotMatterToTheLastBit) {
   EXPECT_TRUE(same_bits(one, marched(4)));
 }
 
-TEST(March, WhatWasSavedGoesOnToTheLastBit) {
+TEST_P(MarchWith, WhatWasSavedGoesOnToTheLastBit) {
   const FlowProblem problem = disk_in_a_box(10, Sides::entraining);
   const auto folder = std::filesystem::path(testing::TempDir()) / "march state";
-  const auto engine = make_cartesian(with_threads(1));
+  const auto engine = make_cartesian(with_threads(1, GetParam()));
   for (const int saved_after : {1, 2, 7}) {
     const auto unbroken = engine->start(problem), resumed = engine->start(problem);
     unbroken->advance(3, 1e-9);
@@ -197,11 +202,7 @@ class Vortices {
     problem.sides = Sides::slip;
     return problem;
   }
-  static CartesianSettings resolved() {
-    CartesianSettings settings = with_threads(1);
-    settings.small_eddies = false;
-    return settings;
-  }
+  static CartesianSettings resolved() { return with_threads(1, SmallEddies::none); }
   static Vec3 exact(Vec3 at, double time) {
     const double amplitude = 0.3 * std::exp(-2 * viscosity / density * pi * pi * time);
     return {amplitude * std::sin(pi * at.x) * std::cos(pi * at.y),
@@ -230,10 +231,10 @@ TEST(March, TaylorsVorticesDecayWithErrorsOfSecondOrderInSpaceAndTime) {
 /// W - A cos kx sin k(z - Wt). Between slip walls, far from inlet and outlet.
 class CarriedVortices {
  public:
-  explicit CarriedVortices(int across, bool small_eddies = false)
+  explicit CarriedVortices(int across, SmallEddies small_eddies = SmallEddies::none)
       : problem_(of(across)),
         solver_(problem_, problem_.grid, cartesian::PorousRows(problem_.grid, {}, viscosity),
-                settings(small_eddies), team_) {
+                with_threads(1, small_eddies), team_) {
     auto& s = solver_.state();
     const auto& d = solver_.discretisation();
     const double h = 0.5 / across;
@@ -283,11 +284,6 @@ class CarriedVortices {
     problem.sides = Sides::slip;
     return problem;
   }
-  static CartesianSettings settings(bool small_eddies) {
-    CartesianSettings settings = with_threads(1);
-    settings.small_eddies = small_eddies;
-    return settings;
-  }
   static Vec3 exact(Vec3 at, double time) {
     const double z = at.z - speed * time;
     return {0.2 * std::sin(pi * at.x) * std::cos(pi * z), 0,
@@ -311,11 +307,70 @@ TEST(March, VorticesThatTheStreamCarriesKeepTheirSizeAndPlaceWithErrorsOfSecondO
 }
 
 TEST(March, EddiesThatAreNotResolvedTakeFromThoseThatAre) {
-  const auto left = [](bool small_eddies) {
+  const auto left = [](SmallEddies small_eddies) {
     CarriedVortices vortices(8, small_eddies);
     return vortices.error_and_size(vortices.to(1, 0.6).time).second;
   };
-  EXPECT_LT(left(true) / left(false), 0.999);
+  EXPECT_LT(left(SmallEddies::wale) / left(SmallEddies::none), 0.999);
+}
+
+/// Turbulence in a uniform stream, which the air carries along and nothing feeds.
+class DecayingTurbulence {
+ public:
+  explicit DecayingTurbulence(double start_k) {
+    auto& s = solver_.state();
+    solver_.begin_time();
+    std::fill(s.f.k.begin(), s.f.k.end(), start_k),
+        std::fill(s.f.omega.begin(), s.f.omega.end(), start_omega);
+  }
+  std::pair<double, double> after(double time, int steps) {
+    for (int n = 0; n < steps; ++n) solver_.step(time / steps);
+    const std::ptrdiff_t at = solver_.discretisation().layout.at(3, 4, 21);
+    return {solver_.state().f.k[at], solver_.state().f.omega[at]};
+  }
+  /// dk/dt = -b* k max(omega, root k / (b* C D)), d omega/dt = -b omega^2, by steps of a thousandth of the others'.
+  static std::pair<double, double> exact(double start_k, double time) {
+    constexpr int steps = 1000000;
+    const double dt = time / steps;
+    double k = start_k, omega = start_omega;
+    for (int n = 0; n < steps; ++n) {
+      k -= dt * 0.09 * k * std::max(omega, std::sqrt(k) / (0.09 * 0.61 * width));
+      omega -= dt * 0.0828 * omega * omega;
+    }
+    return {k, omega};
+  }
+
+ private:
+  static constexpr double start_omega = 4, width = 0.25;  // the widest side of a cell, along z
+  static FlowProblem of() {
+    FlowProblem problem;
+    problem.grid = {{0, 0, 0}, {1, 1, 6}, 8, 8, 24};
+    problem.air.speed = 1;
+    problem.sides = Sides::slip;
+    return problem;
+  }
+  FlowProblem problem_ = of();
+  ThreadTeam team_{1};
+  cartesian::Solver solver_{problem_, problem_.grid,
+                            cartesian::PorousRows(problem_.grid, {}, problem_.air.viscosity),
+                            with_threads(1, SmallEddies::des), team_};
+};
+
+// As fast as cells resolve them where they are larger than those, else by themselves.
+TEST(March, ModelledEddiesDecayAsTheModelsEquationsSay) {
+  const double time = 2;
+  for (const double start_k : {0.05, 5e-4}) {
+    const auto [k, omega] = DecayingTurbulence::exact(start_k, time);
+    std::vector<double> errors;
+    for (const int steps : {100, 200, 400}) {
+      const auto [found_k, found_omega] = DecayingTurbulence(start_k).after(time, steps);
+      EXPECT_NEAR(found_omega, omega, 0.02 * omega);
+      errors.push_back(std::abs(found_k / k - 1));
+    }
+    EXPECT_LT(errors.back(), 0.01) << start_k;
+    EXPECT_NEAR(errors[0] / errors[1], 2, 0.2) << start_k;
+    EXPECT_NEAR(errors[1] / errors[2], 2, 0.2) << start_k;
+  }
 }
 
 TEST(PassingRow, ThroughTheBoundaryTheAirBringsWhatItHadWhereItComesFrom) {

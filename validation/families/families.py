@@ -8,6 +8,9 @@ Runs `ripstop steady` on each with the library's cloth as a sheet, its own perme
 for the type goes into docs/tables/families.md and as data for `ripstop size` into examples/families.json (shipped.py), both loads side by side into docs/tables/loads.md; pictures and plots stay
 in the run folders, `load.png` and `pressure.png` first. Runs that are finished cost nothing. `--grid 40 40 50 --set
 KEY=VALUE` pass on to `ripstop`, for a quick look; the loads are then printed only.
+
+`families.py --in-time` (make validate-families-in-time) has every family's example with a wake that sheds in its place:
+means over time with their standard errors, into docs/tables/families-in-time.md.
 """
 import argparse
 import csv
@@ -27,6 +30,7 @@ from campaign import SHEET_SPECIFIED  # pylint: disable=wrong-import-position
 
 CALIBRATED = "f-111"  # on Stratos IV: the cloth of the campaign, whose cases have the paper's box and porosity
 LOADS = ["of-flow", "uniform"]
+IN_TIME = "in-time"  # in the place of a load: that of the flow, in time
 
 
 def examples():
@@ -45,7 +49,8 @@ def folder_of(options, name, load):
 
 def run(options, name, load):
     command = [str(options.ripstop.resolve()), "steady", f"examples/{name}/case.toml", "--out", str(folder_of(options, name, load))]
-    settings = [*(SHEET_SPECIFIED if name in CAMPAIGN else []), f"coupling.load={load}", *options.set]
+    how = "flow.unsteady=true" if load == IN_TIME else f"coupling.load={load}"
+    settings = [*(SHEET_SPECIFIED if name in CAMPAIGN else []), how, *options.set]
     for setting in settings:
         command += ["--set", setting]
     if options.grid:
@@ -57,14 +62,33 @@ def run(options, name, load):
     return json.loads((folder_of(options, name, load) / "result.json").read_text())
 
 
+def printed_range(r):
+    known = r.get("known_drag_coefficient")
+    return f"{known[0]:.2f} to {known[1]:.2f}" if known else ""
+
+
+def in_time_table(options, results):
+    rows = []
+    for name, r in results.items():
+        with open(folder_of(options, name, IN_TIME) / "iterations.csv", encoding="utf-8") as file:
+            steady = [float(row["drag_n"]) for row in csv.DictReader(file) if row["in_time"] == "0"][-1]
+        per_newton, watched, known = r["drag_coefficient"] / r["drag_n"], r["unsteady"], r.get("known_drag_coefficient")
+        error = per_newton * watched["drag_standard_error_n"]
+        low, high = known or (-math.inf, math.inf)
+        inside = "" if not known else "yes" if low - error <= r["drag_coefficient"] <= high + error else \
+            f"{100 * (r['drag_coefficient'] / (low if r['drag_coefficient'] < low else high) - 1):+.0f} %"
+        rows.append([name, f"{per_newton * steady:.3f}", f"{r['drag_coefficient']:.3f} +- {error:.3f}", printed_range(r), inside,
+                     f"{r['drag_n']:.1f}", str(r["coupling_iterations"]), f"{r['wall_time_s']:.0f}"])
+    return tables.table(["example", "steady", "drag coefficient in time, standard error", "Knacke, in descent", "inside", "drag N",
+                         "iterations", "wall s"], rows)
+
+
 def families_table(results):
     rows = []
     for name in FAMILIES:
         r = results[name, LOADS[0]]
-        known = r.get("known_drag_coefficient")
-        printed = f"{known[0]:.2f} to {known[1]:.2f}" if known else ""
         nominal = (4 / math.pi * r["reference_area_m2"]) ** 0.5
-        rows.append([name, f"{r['drag_coefficient']:.3f}", printed, f"{r['projected_diameter_m'] / nominal:.3f}",
+        rows.append([name, f"{r['drag_coefficient']:.3f}", printed_range(r), f"{r['projected_diameter_m'] / nominal:.3f}",
                      f"{r['drag_n']:.1f}", str(r["coupling_iterations"]), f"{r['wall_time_s']:.0f}"])
     return tables.table(["example", "drag coefficient", "Knacke, in descent", "projected / nominal diameter", "drag N", "iterations",
                          "wall s"], rows)
@@ -94,14 +118,29 @@ def loads_table(options, results):
                          "coupling iterations"], rows)
 
 
+def in_time(options):
+    results = {name: run(options, name, IN_TIME) for name in options.names if name in FAMILIES}
+    if None in results.values():
+        sys.exit("a run failed: no table is written")
+    table = in_time_table(options, results)
+    print("\n".join(table))
+    if list(results) == FAMILIES and not options.grid and not options.set:
+        made = [run for name in results for run in tables.runs_below(folder_of(options, name, IN_TIME))]
+        tables.write("families-in-time", "Every family's example with a wake that sheds", "make validate-families-in-time", made, table)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--ripstop", type=pathlib.Path, default=ROOT / "build/bin/ripstop")
     parser.add_argument("--runs", type=pathlib.Path, default=ROOT / "runs/families")
     parser.add_argument("--grid", type=int, nargs=3)
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE")
+    parser.add_argument("--in-time", action="store_true")
     parser.add_argument("names", nargs="*", default=FAMILIES + CAMPAIGN, help="examples; all of them without a name")
     options = parser.parse_args()
+    if options.in_time:
+        in_time(options)
+        return
     done = {(name, load): run(options, name, load) for load in LOADS for name in options.names}
     results = {(name, load): done[name, load] for name in options.names for load in LOADS}
     loads = loads_table(options, results)

@@ -33,6 +33,8 @@ import subprocess
 import sys
 import time
 
+from tunnel import FREE_FLOW, JET_BASE, JET_DISTANCE, JET_SPECIFIED, JET_VARIATIONS, SPECIFIED
+
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 SPEEDS = {"stratos-iv": "10,15,20,25,30", "walrus": "10,15,20,25,30", "adept": "10,20,30"}
@@ -71,25 +73,6 @@ SHEET_VARIATIONS = {
     "position": [("half a cell", ["flow.canopy_position_m=4.02", "flow.core.start_m=3.45"])],  # else the core goes along
     "sides": [("slip", ["flow.sides=slip"])],
     "turbulence": [("intensity 5 %", ["flow.turbulence_intensity=0.05"])],
-}
-# The Open Jet Facility as [NFM] has it: an octagonal nozzle of 2.85 m. How far before the canopy it ends, how thick its
-# edge is and where the speed was read, nobody says: the distance is assumed, all of it is varied. The rest is what stands
-# where a case says nothing; box and cells are given because the case files have the printed ones.
-SPECIFIED = ["flow.porosity_model=sheet", "parachute.canopy_material=f-111-physical"]
-JET_FLOW = ["flow.tunnel.kind=open-jet", "flow.tunnel.shape=octagon", "flow.tunnel.width_m=2.85", "flow.box_m=[8,8,9]",
-            "flow.cells=[88,88,98]"]
-JET_DISTANCE = "flow.tunnel.nozzle_distance_m=3"
-JET_SPECIFIED = [*SPECIFIED, *JET_FLOW, JET_DISTANCE]
-FREE_FLOW = ["flow.box_m=[8,8,9]", "flow.cells=[88,88,98]", "flow.canopy_position_m=3"]
-JET_VARIATIONS = {
-    "nozzle": [("2 m before the skirt", ["flow.tunnel.nozzle_distance_m=2", "flow.box_m=[8,8,8]"]),
-               ("4 m before the skirt", ["flow.tunnel.nozzle_distance_m=4", "flow.box_m=[8,8,10]"])],
-    "jet's edge": [("0.15 m thick", ["flow.tunnel.shear_layer_m=0.15"]), ("0.5 m", ["flow.tunnel.shear_layer_m=0.5"]),
-                   ("round, of its area", ["flow.tunnel.shape=circle", "flow.tunnel.width_m=2.927"])],
-    "still air": [("5 % of the speed", ["flow.tunnel.outside_speed=0.05"]), ("10 x 10 m", ["flow.box_m=[10,10,9]"])],
-    "grid": [("a fifth coarser", ["flow.cells=[70,70,78]"])],
-    "turbulence": [("intensity 5 %", ["flow.turbulence_intensity=0.05"])],
-    "permeability": [(f"{cfm} CFM/ft2, of 3", [f"materials.f-111-physical.darcy={3 / cfm * 8169.3:.1f}"]) for cfm in (0.5, 5)],
 }
 # The openings: speed [m/s], density [kg/m3], radius of the folded skirt [m]; the cloth's damping as in the examples.
 OPENINGS = {"stratos-iv": (27.1, 1.2, 0.1), "walrus": (27.43, 1.204, 0.2), "adept": (27, 1.205, 0.1)}
@@ -171,8 +154,8 @@ def frozen_sheet(campaign):
     return min(results, key=lambda result: result["root_mean_square_misfit"])
 
 
-def write_predictions(model, parachute, basis, rows, uncertainty=None):
-    """Replaces the rows of this model, parachute and basis. `uncertainty` is relative, without a mean's standard error."""
+def write_predictions(model, parachute, basis, rows):
+    """Replaces the rows of this model, parachute and basis."""
     path = HERE / "predictions.csv"
     kept = []
     if path.exists():
@@ -188,7 +171,7 @@ def write_predictions(model, parachute, basis, rows, uncertainty=None):
             "drag_n": f"{drag:.3f}", "drag_area_m2": f"{float(row['drag_area_m2']):.5f}",
             "coupling_iterations": row["coupling_iterations"], "wall_time_s": f"{float(row['wall_time_s']):.1f}",
             "standard_error_n": f"{error:.2f}" if error is not None else "",
-            "uncertainty_n": f"{math.hypot(uncertainty * drag, error or 0):.1f}" if uncertainty is not None else ""})
+            "uncertainty_n": ""})
     kept.sort(key=lambda r: (MODELS.index(r["porosity_model"]), PARACHUTES.index(r["parachute"]), BASES.index(r["speed_basis"]),
                              r["fabric_model"] != "nonlinear", float(r["nominal_m_s"])))
     write_table(path, COLUMNS, kept)
@@ -276,20 +259,28 @@ def predict_in_jet(campaign, model, settings):
             for row in rows:
                 result = json.loads((campaign.runs / folder / row["folder"] / "result.json").read_text())
                 row["drag_standard_error_n"] = (result.get("unsteady") or {}).get("drag_standard_error_n")
-            write_predictions(model, parachute, basis, rows, unknowns_of_jet(parachute))
+            write_predictions(model, parachute, basis, rows)
     provenance(campaign, model)
+    write_unknowns_of_jet()
 
 
-def unknowns_of_jet(parachute):
-    """The largest of each source in uncertain-jet, together, as a share of the drag. None before that stage."""
-    largest = {}
+def write_unknowns_of_jet():
+    """All uncertainties of the rows in the jet: the largest of each source in uncertain-jet, and a mean's standard error, together.
+    Empty before that stage."""
+    largest = {parachute: {} for parachute in PARACHUTES}  # by source, as a share of the drag
     with open(HERE / "uncertainty.csv", newline="") as file:
         for row in csv.DictReader(file):
-            if row["porosity_model"] != "specified-jet" or parachute not in (row["parachute"], "stratos-iv"):
-                continue
-            percent = abs(float(row["stratos_iv_percent" if parachute == "stratos-iv" else "frozen_percent"]))
-            largest[row["source"]] = max(largest.get(row["source"], 0), percent)
-    return math.sqrt(sum(percent**2 for percent in largest.values())) / 100 if largest else None
+            if row["porosity_model"] == "specified-jet":
+                for parachute, column in ((row["parachute"], "frozen_percent"), ("stratos-iv", "stratos_iv_percent")):
+                    of = largest[parachute]
+                    of[row["source"]] = max(of.get(row["source"], 0), abs(float(row[column])) / 100)
+    with open(HERE / "predictions.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    for row in rows:
+        if row["porosity_model"] in ("specified-jet", "specified-unsteady-jet") and largest[row["parachute"]]:
+            shares = [share * float(row["drag_n"]) for share in largest[row["parachute"]].values()]
+            row["uncertainty_n"] = f"{math.hypot(*shares, float(row['standard_error_n'] or 0)):.1f}"
+    write_table(HERE / "predictions.csv", COLUMNS, rows)
 
 
 def stage_jet(campaign):
@@ -303,7 +294,7 @@ def stage_uncertain_jet(campaign):
     rows = [("base", "", [f"flow.speed_m_s={UNCERTAIN_SPEED}", JET_DISTANCE])]
     rows += [(source, label, extra if any("nozzle_distance" in key for key in extra) else [*extra, JET_DISTANCE])
              for source, all_of in JET_VARIATIONS.items() for label, extra in all_of]
-    drags = varied_drags(campaign, "specified-jet", [*SPECIFIED, *JET_FLOW], rows)
+    drags = varied_drags(campaign, "specified-jet", JET_BASE, rows)
     for parachute in drags:
         folder = campaign.runs / f"specified-jet/uncertain-{parachute}"
         with open(folder / "sweep.csv", newline="") as file:
@@ -311,6 +302,7 @@ def stage_uncertain_jet(campaign):
         ratio = float(base["speed_m_s"]) / float(base["approach_speed_m_s"])
         drags[parachute].append(("speed", "read one diameter before the canopy", float(base["drag_n"]) * ratio**2))
     write_uncertainty("specified-jet", drags)
+    write_unknowns_of_jet()
 
 
 def stage_uncertain(campaign):

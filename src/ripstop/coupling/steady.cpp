@@ -126,6 +126,20 @@ FlowField SteadySolver::solve_flow(const std::vector<Triangle>& surface, bool to
   });
 }
 
+// Standard deviation of the means of all watches but the first, whose wake still had to form; 0 for fewer than three. A
+// flow that drifts more slowly than a watch is long has each of them look surer than it is.
+double scatter_of_means(const std::vector<SteadyIteration>& iterations, double now) {
+  std::vector<double> means;
+  for (const SteadyIteration& i : iterations)
+    if (i.in_time) means.push_back(i.fluid_force);
+  if (means.size() < 3) return 0;
+  means.front() = now;
+  double mean = 0, squares = 0;
+  for (const double drag : means) mean += drag / double(means.size());
+  for (const double drag : means) squares += (drag - mean) * (drag - mean);
+  return std::sqrt(squares / double(means.size() - 1));
+}
+
 FlowField SteadySolver::watch_flow(const std::vector<Triangle>& surface, bool to_the_end, SteadyState& state,
                                    SteadyIteration& now, const SteadyReport& report) {
   Watch how = *problem_.watch;
@@ -136,20 +150,21 @@ FlowField SteadySolver::watch_flow(const std::vector<Triangle>& surface, bool to
     return true;
   });
   const auto& [steps, start_up, drag, side_x, side_y, swing, enough, slices] = record_;
+  const double error = std::max(drag.standard_error, scatter_of_means(state.iterations, drag.mean));
   state.watched = {.steps = static_cast<int>(steps.size()),
                    .time = record_.watched(),
                    .start_up = start_up,
                    .drag = drag.mean,
-                   .error = drag.standard_error,
+                   .error = error,
                    .deviation = drag.deviation,
                    .side_force = {side_x.mean, side_y.mean, 0},
                    .side_error = {side_x.standard_error, side_y.standard_error, 0},
                    .side_deviation = std::hypot(side_x.deviation, side_y.deviation),
                    .swing = swing.frequency,
                    .swing_share = swing.share,
-                   .enough = enough};
+                   .enough = enough && error <= how.standard_error * std::abs(drag.mean)};
   now.in_time = true;
-  now.drag_error = drag.standard_error;
+  now.drag_error = error;
   field.last.iteration = state.watched.steps;
   field.average.drag_deviation = drag.deviation;
   return field;
@@ -306,7 +321,9 @@ FlowField SteadySolver::iterate(SteadyState& state, const SteadyReport& report) 
   const bool stands = now.shape_change < settings.shape_tolerance_m + lean_by_chance(state);
   const bool nearly_there = !state.iterations.empty() && stands &&
                             (of_flow || state.iterations.back().drag_change < settings.drag_tolerance);
-  const bool whole_watch = state.in_time && stands && state.iterations.back().in_time;
+  // Cloth that is still held to its last shape is not the one to watch for long.
+  const bool whole_watch =
+      state.in_time && stands && now.cloth_held < held_tolerance && state.iterations.back().in_time;
   FlowField field = state.in_time ? watch_flow(surface, whole_watch, state, now, report)
                                   : solve_flow(surface, nearly_there, now.iteration, report);
   now.cut_cells = static_cast<int>(cut.size());

@@ -8,6 +8,10 @@
 
 namespace ripstop {
 
+/// In time, the viscosity of what the cells do not resolve: none but the air's; by the velocity's gradient (WALE); by the
+/// k-omega SST model with the sink of detached-eddy simulation.
+enum class SmallEddies { none, wale, des };
+
 struct CartesianSettings {
   int threads = 0;              // 0: as many as the process may run on
   bool compressible = true;     // perfect gas at constant total enthalpy; false: constant density
@@ -18,7 +22,7 @@ struct CartesianSettings {
   double relax_velocity = 0.7;  // (0, 1]; the converged answer depends on it a little, through the face flux
   double relax_march = 0.8;     // (0, 1]; of the momentum step, no effect on the answer
   double relax_turbulence = 0.95;  // (0, 1]
-  bool small_eddies = true;  // in time: with the viscosity of what the cells do not resolve; false: the air's
+  SmallEddies small_eddies = SmallEddies::wale;
 };
 
 /// Throws Error(usage) for settings outside their ranges.

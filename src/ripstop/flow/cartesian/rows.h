@@ -39,6 +39,8 @@ struct TurbulenceRow {
   RowMetrics m;
   double viscosity = 0;   // mu [Pa s]
   double relaxation = 0;  // of k and omega
+  // In time, else 0: one over the step [1/s], and the largest width of the cells along y and z [m].
+  double inverse_step = 0, across = 0;
   double mean_k = 0, mean_omega = 0;
   const double *u = nullptr, *v = nullptr, *w = nullptr;
   const double *k = nullptr, *omega = nullptr, *rho = nullptr;
@@ -59,6 +61,8 @@ struct TurbulenceRow {
   double total_k = 0, total_omega = 0;  // of the new values, times the cell width
 };
 void turbulence_row(TurbulenceRow& row);
+/// k without the eddies that cells of these widths resolve
+void unresolved_row(int n, const double* width, double across, const double* omega, double* k);
 /// mut *= limit, that of the shear-stress limiter
 void limit_row(int n, const double* limit, double* mut);
 /// mut = rho k / omega

@@ -65,21 +65,23 @@ TurbulenceRow Solver::turbulence_of(MarchRings& rings, int j, int k, IndexRange 
   const std::ptrdiff_t sy = d_.layout.stride_y, sz = d_.layout.stride_z;
   const std::ptrdiff_t component = static_cast<std::ptrdiff_t>(rings.plane);
   const bool own = j >= rows.begin && j < rows.end;
+  const bool sees_new = own && !t_.in_time;
   TurbulenceRow r;
   r.m = d_.metrics(j, k);
   r.viscosity = d_.air.viscosity;
+  if (t_.in_time) r.inverse_step = 1 / s_.clock.step, r.across = std::max(d_.y.width[j], d_.z.width[k]);
   r.relaxation = d_.settings.relax_turbulence;
   r.mean_k = s_.mean.k;
   r.mean_omega = s_.mean.omega;
   r.u = &s_.f.u[at], r.v = &s_.f.v[at], r.w = &s_.f.w[at];
   r.k = &s_.f.k[at], r.omega = &s_.f.omega[at], r.rho = &s_.f.rho[at];
   const double *inlet_k = b_.inlet.turbulence(j), *inlet_omega = b_.inlet.frequency(j);
-  r.k_below = first ? inlet_k : own ? &t_.new_k[at - sz] : r.k - sz;
+  r.k_below = first ? inlet_k : sees_new ? &t_.new_k[at - sz] : r.k - sz;
   r.k_above = last ? inlet_k : r.k + sz;
-  r.omega_below = first ? inlet_omega : own ? &t_.new_omega[at - sz] : r.omega - sz;
+  r.omega_below = first ? inlet_omega : sees_new ? &t_.new_omega[at - sz] : r.omega - sz;
   r.omega_above = last ? inlet_omega : r.omega + sz;
-  const bool new_south = own && northward() && j > rows.begin,
-             new_north = own && !northward() && j + 1 < rows.end;
+  const bool new_south = sees_new && northward() && j > rows.begin,
+             new_north = sees_new && !northward() && j + 1 < rows.end;
   r.k_south = new_south ? &t_.new_k[at - sy] : r.k - sy;
   r.k_north = new_north ? &t_.new_k[at + sy] : r.k + sy;
   r.omega_south = new_south ? &t_.new_omega[at - sy] : r.omega - sy;
@@ -126,6 +128,19 @@ void Solver::turbulence(MarchRings& rings, int k, IndexRange rows) {
     sums[Sums::omega_residual] = r.omega_sum.residual, sums[Sums::omega_scale] = r.omega_sum.scale;
     sums[Sums::k_mean] = r.total_k * d_.y.width[j] * d_.z.width[k];
     sums[Sums::omega_mean] = r.total_omega * d_.y.width[j] * d_.z.width[k];
+  }
+}
+
+// A step in time of k and omega, with the velocities and neighbours of its beginning.
+void Solver::model_eddies(int rank, IndexRange rows) {
+  MarchRings& rings = t_.rings[rank];
+  eddy_viscosity(rings, 0, rows);
+  for (int k = 0; k < d_.grid.nz; ++k) {
+    if (k + 1 < d_.grid.nz) eddy_viscosity(rings, k + 1, rows);
+    for (int j = rows.begin; j < rows.end; ++j) {
+      TurbulenceRow r = turbulence_of(rings, j, k, rows);
+      turbulence_row(r);
+    }
   }
 }
 

@@ -70,6 +70,16 @@ void Solver::begin_time() {
   for (Array<double>* rate : {&s_.rate_u, &s_.rate_v, &s_.rate_w}) *rate = Array<double>(d_.layout.values());
   s_.correction = Array<float>(d_.layout.values());
   std::fill(s_.f.rho.begin(), s_.f.rho.end(), d_.air.density);
+  if (modelled()) {
+    for (int k = 0; k < d_.grid.nz; ++k) {
+      for (int j = 0; j < d_.grid.ny; ++j) {
+        const std::ptrdiff_t at = d_.layout.at(0, j, k);
+        unresolved_row(d_.grid.nx, d_.x.width.data(), std::max(d_.y.width[j], d_.z.width[k]), &s_.f.omega[at],
+                       &s_.f.k[at]);
+      }
+      turbulence_ghosts(d_, b_, s_, k);
+    }
+  }
   const Clock before = std::exchange(s_.clock, {});
   s_.clock.stream = before.stream, s_.clock.gaining = before.gaining;
 }
@@ -117,6 +127,8 @@ FlowStep Solver::step(double length) {
   }
   SheetRows& sheets = in_the_way_.sheets;
   if (!sheets.empty()) sheets.update(s_, d_.layout, d_.air.density * d_.air.speed);
+  if (modelled() && !sheets.empty() && in_the_way_.wall.empty())
+    in_the_way_.wall = sheets.distance(d_.x, d_.y, d_.z, d_.layout);
   const double momentum_before = s_.mean.w, brought_before = std::exchange(s_.clock.brought, brought());
   double pressed_back = 0;  // the outlet's pressure as the step has it
   for (int j = 0; j < d_.grid.ny; ++j) {
@@ -125,6 +137,12 @@ FlowStep Solver::step(double length) {
   }
   team_.run([this](int rank) {
     each_block(rank, [&](IndexRange rows) { rates(rank, rows); });
+    if (modelled()) {
+      each_block(rank, [&](IndexRange rows) { model_eddies(rank, rows); });
+      if (rank == 0) take_new_turbulence();
+      team_.barrier();
+      each_plane(rank, [&](int k) { turbulence_ghosts(d_, b_, s_, k); });
+    }
     if (s_.clock.stream > 0) {  // rates are those of the beginning of the step
       if (rank == 0) let_stream_in();
       team_.barrier();
@@ -164,7 +182,9 @@ void Solver::eddies(MarchRings& rings, int k, IndexRange rows) {
     r.viscosity = d_.air.viscosity, r.density = d_.air.density;
     const double across = d_.y.width[j] * d_.z.width[k];
     r.along = t_.mixing.data();
-    r.across = d_.settings.small_eddies ? mixing_constant * mixing_constant * std::cbrt(across * across) : 0;
+    const SmallEddies kind = d_.settings.small_eddies;
+    r.across = kind == SmallEddies::none ? 0 : mixing_constant * mixing_constant * std::cbrt(across * across);
+    if (kind == SmallEddies::des) r.k = &s_.f.k[at], r.omega = &s_.f.omega[at], r.limit = &s_.limit[at];
     r.u = &s_.f.u[at], r.v = &s_.f.v[at], r.w = &s_.f.w[at];
     r.mu = &rings.mu[mod(k, 3)][in];
     r.tx = &rings.tx[mod(k, 2)][in], r.ty = &rings.ty[mod(k, 2)][in], r.tz = &rings.tz[mod(k, 3)][in];

@@ -13,6 +13,10 @@
 // and its pressure too low.
 //
 // Convection is first-order upwind in the bounded form sum F (q_nb - q_P); the sinks are implicit.
+//
+// In time a step is Euler's, with what the faces bring at its beginning; and the sink of k is that of detached-eddy
+// simulation (Strelets 2001), rho b* omega k max(1, L / (C D)) with L = sqrt(k) / (b* omega) and D a cell's largest width.
+// A march begins without the eddies that the cells resolve: k is what L = C D leaves of it.
 #include <cmath>
 
 #include "ripstop/flow/cartesian/row_parts.h"
@@ -27,6 +31,7 @@ constexpr double beta2 = 0.0828;
 constexpr double beta_star = 0.09;
 constexpr double c1 = 10;        // production limiter
 constexpr double a1 = 0.31;      // shear-stress limiter
+constexpr double c_des = 0.61;   // of the outer set of constants
 constexpr double floor = 1e-15;  // of k and omega, as OpenFOAM's kMin and omegaMin
 
 }  // namespace
@@ -40,6 +45,15 @@ RIPSTOP_ROW_KERNEL void eddy_viscosity_row(int n, const double* rho, const doubl
                                            double* mut) {
 #pragma omp simd
   for (int i = 0; i < n; ++i) mut[i] = rho[i] * k[i] / omega[i];
+}
+
+RIPSTOP_ROW_KERNEL void unresolved_row(int n, const double* width, double across, const double* omega,
+                                       double* k) {
+#pragma omp simd
+  for (int i = 0; i < n; ++i) {
+    const double root = beta_star * c_des * omega[i] * larger(width[i], across);
+    k[i] = smaller(k[i], root * root);
+  }
 }
 
 RIPSTOP_ROW_KERNEL void limit_row(int n, const double* limit, double* mut) {
@@ -90,7 +104,14 @@ struct Update {
   return {larger((neighbours + b) / relaxed, floor), std::fabs(source + neighbours - diagonal * old),
           std::fabs(relaxed * old - neighbours - mean) + std::fabs(b - mean)};
 }
+// Or after a step in time, `inertia` the density over it: of the diagonal the sinks alone are implicit.
+[[gnu::always_inline]] inline Update stepped(double off, double neighbours, double source, double diagonal,
+                                             double old, double inertia) {
+  const double gained = neighbours - off * old + source;
+  return {larger((inertia * old + gained) / (inertia + diagonal - off), floor), 0, 0};
+}
 
+template <bool in_time>
 [[gnu::always_inline]] inline Update omega_update(const TurbulenceRow& row, const Faces& a, double strain,
                                                   double cross, double inverse_alpha, std::ptrdiff_t i) {
   const double off = sum(a), old = row.omega[i], rho = row.rho[i];
@@ -98,14 +119,21 @@ struct Update {
       from_neighbours(a, row.omega, row.omega_south, row.omega_north, row.omega_below, row.omega_above, i);
   const double source = rho * gamma2 * smaller(strain, (c1 * beta_star) * old * old) + positive(cross);
   const double diagonal = off + rho * beta2 * old + positive(-cross) * (1 / old);
+  if constexpr (in_time) return stepped(off, neighbours, source, diagonal, old, rho * row.inverse_step);
   return update(off, neighbours, source, diagonal, old, row.mean_omega, inverse_alpha);
 }
 
+template <bool in_time>
 [[gnu::always_inline]] inline Update k_update(const TurbulenceRow& row, const Faces& a, double strain,
                                               double omega, double inverse_alpha, std::ptrdiff_t i) {
   const double off = sum(a), old = row.k[i], rho = row.rho[i];
   const double neighbours = from_neighbours(a, row.k, row.k_south, row.k_north, row.k_below, row.k_above, i);
   const double source = smaller(row.mut[i] * strain, rho * (c1 * beta_star) * old * omega);
+  if constexpr (in_time) {
+    const double width = larger(row.m.x_width[i], row.across);
+    const double sink = larger(omega, std::sqrt(old) / (beta_star * c_des * width));
+    return stepped(off, neighbours, source, off + rho * beta_star * sink, old, rho * row.inverse_step);
+  }
   const double diagonal = off + rho * beta_star * omega;
   return update(off, neighbours, source, diagonal, old, row.mean_k, inverse_alpha);
 }
@@ -138,7 +166,7 @@ struct Update {
   row.tz[k] = mu * w.z - trace;
 }
 
-template <bool with_wall>
+template <bool with_wall, bool in_time>
 [[gnu::always_inline]] inline void turbulence(TurbulenceRow& results) {
   const TurbulenceRow row = results;  // a copy: what the loop writes cannot be thought to change it
   const RowMetrics& m = row.m;
@@ -156,9 +184,9 @@ template <bool with_wall>
     Faces c = convection(row, i), d = diffusion(m, i);
     Faces eddy = on_faces(m, row.mut, row.mut_below, row.mut_above, i);
     Faces a_omega = coefficients(c, d, eddy, sigma_omega, row.viscosity);
-    Update omega = omega_update(row, a_omega, strain, cross, inverse_alpha, i);
+    Update omega = omega_update<in_time>(row, a_omega, strain, cross, inverse_alpha, i);
     Faces a_k = coefficients(c, d, eddy, sigma_k, row.viscosity);
-    Update k = k_update(row, a_k, strain, omega.value, inverse_alpha, i);
+    Update k = k_update<in_time>(row, a_k, strain, omega.value, inverse_alpha, i);
     row.omega_new[i] = omega.value;
     row.k_new[i] = k.value;
     res_om += omega.residual;
@@ -183,15 +211,22 @@ template <bool with_wall>
 }
 
 RIPSTOP_ROW_KERNEL void open_row(TurbulenceRow& row) {
-  turbulence<false>(row);
+  turbulence<false, false>(row);
 }
 RIPSTOP_ROW_KERNEL void wall_row(TurbulenceRow& row) {
-  turbulence<true>(row);
+  turbulence<true, false>(row);
+}
+RIPSTOP_ROW_KERNEL void open_row_in_time(TurbulenceRow& row) {
+  turbulence<false, true>(row);
+}
+RIPSTOP_ROW_KERNEL void wall_row_in_time(TurbulenceRow& row) {
+  turbulence<true, true>(row);
 }
 
 }  // namespace
 
 void turbulence_row(TurbulenceRow& row) {
+  if (row.inverse_step > 0) return row.wall ? wall_row_in_time(row) : open_row_in_time(row);
   row.wall ? wall_row(row) : open_row(row);
 }
 
