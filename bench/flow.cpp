@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ripstop/flow/bodies.h"
@@ -149,13 +150,18 @@ FlowProblem sheet_case(double fineness) {
 
 void steps_in_time() {
   constexpr int warm = 10, timed = 40;
-  fmt::print("\nCell-steps a second in time, {} steps\n{:>12}{:>14}{:>14}{:>10}\n", timed, "cells",
-             "one thread", "two threads", "gain");
-  for (const double fineness : {1.0, 1.34}) {
+  fmt::print("\nCell-steps a second in time, {} steps\n{:>12}{:>8}{:>14}{:>14}{:>10}\n", timed, "cells",
+             "eddies", "one thread", "two threads", "gain");
+  for (const auto& [fineness, eddies] : {std::pair{1.0, SmallEddies::des},
+                                         {1.0, SmallEddies::wale},
+                                         {1.34, SmallEddies::des},
+                                         {1.34, SmallEddies::wale}}) {
     const FlowProblem problem = sheet_case(fineness);
     double rate[2] = {};
     for (const int threads : {1, 2}) {
-      const auto engine = make_cartesian(settings(threads, false));
+      CartesianSettings how = settings(threads, false);
+      how.small_eddies = eddies;
+      const auto engine = make_cartesian(how);
       const auto flow = engine->start(problem);
       flow->march(warm, 0.7);
       const auto begin = std::chrono::steady_clock::now();
@@ -163,8 +169,8 @@ void steps_in_time() {
       const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
       rate[threads - 1] = 1e-6 * timed * problem.grid.cells() / seconds;
     }
-    fmt::print("{:12}{:12.1f} M{:12.1f} M{:10.2f}\n", problem.grid.cells(), rate[0], rate[1],
-               rate[1] / rate[0]);
+    fmt::print("{:12}{:>8}{:12.1f} M{:12.1f} M{:10.2f}\n", problem.grid.cells(),
+               eddies == SmallEddies::des ? "des" : "wale", rate[0], rate[1], rate[1] / rate[0]);
   }
 }
 

@@ -22,7 +22,8 @@ double iterations_left(const SteadyState& state, const CouplingSettings& setting
 
 std::string progress_text(const SteadyProgress& p, double elapsed, double left) {
   const std::string time =
-      left > 0 ? fmt::format("{} gone, about {} left", duration_text(elapsed), duration_text(left))
+      left > 0 ? fmt::format("{} gone, about {} left{}", duration_text(elapsed), duration_text(left),
+                             p.stage == SteadyStage::time ? " of this watch" : "")
                : fmt::format("{} gone", duration_text(elapsed));
   if (p.stage == SteadyStage::time) {
     const FlowStep& step = p.time.step;
@@ -85,8 +86,11 @@ void SteadyTerminal::warned(const std::string& text) {
 
 void SteadyTerminal::progress(const SteadyProgress& p, const SteadyState& state) {
   double left = 0;
-  if (!state.iterations.empty()) {
-    left = iterations_left(state, settings_) * state.iterations.back().wall_time - (elapsed() - before_);
+  const double gone = elapsed() - before_, share = std::min(0.99, p.time.share);
+  if (p.stage == SteadyStage::time) {
+    if (share > 0) left = gone * (1 / share - 1);
+  } else if (!state.iterations.empty()) {
+    left = iterations_left(state, settings_) * state.iterations.back().wall_time - gone;
   }
   progress_.show(progress_text(p, elapsed(), left));
 }

@@ -118,9 +118,10 @@ TEST(UnsteadyRun, ClothThatLeansByChanceStands) {
   EXPECT_LT(leaning.size(), upright.size());
   // The wake of the first means still had to form.
   double load = 0, weight = 0, weights = 0;
-  for (auto mean = upright.begin(); mean + 1 != upright.end(); ++mean)
+  for (auto mean = upright.begin() + 1; mean + 1 != upright.end(); ++mean)
     weights += ++weight, load += weight * mean->fluid_force;
-  EXPECT_NEAR(upright.back().nodal_load / (load / weights), 1, 5e-5) << "the n-th mean weighs n";
+  EXPECT_NEAR(upright.back().nodal_load / (load / weights), 1, 5e-5)
+      << "the n-th mean after the first weighs n";
 }
 
 // Each watch by itself has its mean known to a hundredth.

@@ -34,6 +34,7 @@ struct WatchKeys {
   double courant = 0.7;
   double standard_error = 0.01;  // of the mean drag, relative
   double shortest = 25, longest = 300;
+  SmallEddies eddies = SmallEddies::des;
 };
 
 /// The keys of [flow] whose defaults follow from nothing.

@@ -144,6 +144,10 @@ void describe(Fields& fields, WatchKeys& watch) {
       "Least time that the mean is taken over, in times that the stream takes for one inflated diameter.");
   fields.number("longest", watch.longest, from(10).up_to(1e6),
                 "Longest watch in the same unit, start-up included; at least twice the shortest.");
+  fields.choice(
+      "eddies", watch.eddies, {{"des", SmallEddies::des}, {"wale", SmallEddies::wale}},
+      "Where the viscosity of eddies comes from that the cells do not resolve: \"des\", the k-omega SST "
+      "model with the sink of detached-eddy simulation; \"wale\", the velocity's gradient.");
 }
 
 void describe(Fields& fields, TunnelKeys& tunnel) {

@@ -34,6 +34,9 @@ constexpr int accelerated = 5;
 // is asked for here, in mean pressures over the root of the cloth's area; as the loop comes to rest that force vanishes.
 constexpr int steps_unheld = 40000;
 constexpr double first_hold = 3, strongest_hold = 48, stronger = 4;
+// In time a watch costs more than the cloth: where that is held too much, it is held to where it came, and so on, so often
+// at most, before the next one.
+constexpr int steps_in_hold = 4;
 
 // The cloth goes after the mean load in watches of a third of the length and certainty that are asked for. Once it
 // stands, one of the whole follows.
@@ -212,8 +215,7 @@ std::vector<Vec3> SteadySolver::next_shape(const SteadyState& state, SteadyItera
   // A run that starts from its neighbour has a shape to be held to, the canopy as it is sewn is none.
   const bool has_shape = !(state.shape == problem_.mesh.start);
   if (has_shape) options.max_steps = steps_unheld;
-  const auto relax_cloth = [&] {
-    cloth = cloth_state(state);
+  const auto relax_on = [&] {
     const RelaxResult result =
         relax(cloth, *cloth_, loads, options, team_, [&](const RelaxProgress& progress) {
           if (report) report({.stage = SteadyStage::cloth, .iteration = now.iteration, .cloth = progress});
@@ -221,12 +223,24 @@ std::vector<Vec3> SteadySolver::next_shape(const SteadyState& state, SteadyItera
     now.cloth_steps += result.steps;
     return result;
   };
+  const auto relax_cloth = [&] {
+    cloth = cloth_state(state);
+    return relax_on();
+  };
   if (!state.iterations.empty()) options.hold = state.iterations.back().cloth_hold;
   RelaxResult relaxed = relax_cloth();
   const double unit = pressure_per_width(state.pressure, area_);
   while (has_shape && !relaxed.converged && options.hold < strongest_hold * unit) {
     options.hold = std::max(first_hold * unit, stronger * options.hold);
     relaxed = relax_cloth();
+  }
+  for (int n = 1;
+       n < steps_in_hold && state.in_time && relaxed.converged && relaxed.held > held_tolerance / 4; ++n) {
+    const ClothState reached = cloth;
+    if (const RelaxResult further = relax_on(); further.converged)
+      relaxed = further;
+    else
+      cloth = reached;
   }
   if (!relaxed.converged) {
     throw Error(
@@ -238,10 +252,10 @@ std::vector<Vec3> SteadySolver::next_shape(const SteadyState& state, SteadyItera
   now.cloth_hold = options.hold;
   now.cloth_held = relaxed.held;
   now.cloth_residual = relaxed.residual;
-  now.shape_change = relaxed.mean_displacement;
   const std::vector<Vec3> shape = positions(cloth, *cloth_);
   double moved = 0, size = 0;
   for (std::size_t i = 0; i < shape.size(); ++i) {
+    now.shape_change += norm(shape[i] - state.shape[i]) / double(shape.size());
     moved += dot(shape[i] - state.shape[i], shape[i] - state.shape[i]);
     size += dot(state.shape[i], state.shape[i]);
   }
@@ -296,8 +310,9 @@ void SteadySolver::step(SteadyState& state, const ClothLoad& answer, double drag
     if (jitters || accelerator.update == Acceleration::none) accelerator.average(settings.relaxation);
   }
   // What means over time have in common is the load, what they differ in is chance. The first ones are of a wake that
-  // still had to form: each weighs as its number.
-  if (state.in_time && state.iterations.back().in_time) accelerator.average(2 * settings.relaxation);
+  // still had to form: that of the first watch of all gives way to the second, and then each weighs as its number.
+  if (const auto& all = state.iterations; state.in_time && all.back().in_time && all[all.size() - 2].in_time)
+    accelerator.average(2 * settings.relaxation);
   std::vector<double> weight = area_;
   weight.resize(area_.size() + 6, 0.0);
   const std::vector<double> next =

@@ -15,6 +15,7 @@ EngineRecord builtin() {
     CartesianSettings settings;
     settings.threads = options.threads;
     settings.second_order = options.second_order;
+    settings.small_eddies = options.small_eddies;
     return make_cartesian(settings);
   };
   return {"builtin",

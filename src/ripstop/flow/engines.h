@@ -14,14 +14,15 @@ namespace ripstop {
 
 /// What a run says to whichever engine it has; what an engine has no use for it leaves alone.
 struct EngineOptions {
-  bool second_order = false;       // convection of the velocity; false: upwind
-  bool fitted_mesh = false;        // cells moved onto the sheets
-  int cloth_levels = 0;            // fitted: times that the cells at the cloth are halved
-  int threads = 0;                 // 0: as many as the process may run on
-  int ranks = 1;                   // processes
-  std::filesystem::path folder;    // of an engine's own files
-  std::filesystem::path hostfile;  // for MPI; empty: this machine only
-  double time_limit_s = 0;         // of one child process; 0: none
+  bool second_order = false;                     // convection of the velocity; false: upwind
+  SmallEddies small_eddies = SmallEddies::wale;  // in time
+  bool fitted_mesh = false;                      // cells moved onto the sheets
+  int cloth_levels = 0;                          // fitted: times that the cells at the cloth are halved
+  int threads = 0;                               // 0: as many as the process may run on
+  int ranks = 1;                                 // processes
+  std::filesystem::path folder;                  // of an engine's own files
+  std::filesystem::path hostfile;                // for MPI; empty: this machine only
+  double time_limit_s = 0;                       // of one child process; 0: none
 };
 
 /// What a case may ask of an engine beyond the common ground.

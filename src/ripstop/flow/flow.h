@@ -139,6 +139,10 @@ struct FlowAdvance {
   bool stopped = false;  // the report wanted no more
 };
 
+/// Where the viscosity of eddies that the cells do not resolve comes from, in time: none but the air's; the velocity's
+/// gradient (WALE); the k-omega SST model with the sink of detached-eddy simulation.
+enum class SmallEddies { none, wale, des };
+
 /// One step in time as it comes.
 struct FlowStep {
   int step = 0;        // from 1, since the march began

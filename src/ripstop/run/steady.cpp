@@ -99,6 +99,7 @@ SteadyParts steady_parts(const Case& given, const SteadySettings& settings) {
   const EngineRecord& record = engine_of(given);
   EngineOptions options = engine_options(given);
   options.threads = threads;
+  options.small_eddies = given.flow.watch.eddies;
   options.folder = settings.flow_folder;
   options.hostfile = settings.hostfile;
   if (record.needs_folder && options.folder.empty()) {

@@ -8,10 +8,6 @@
 
 namespace ripstop {
 
-/// In time, the viscosity of what the cells do not resolve: none but the air's; by the velocity's gradient (WALE); by the
-/// k-omega SST model with the sink of detached-eddy simulation.
-enum class SmallEddies { none, wale, des };
-
 struct CartesianSettings {
   int threads = 0;              // 0: as many as the process may run on
   bool compressible = true;     // perfect gas at constant total enthalpy; false: constant density

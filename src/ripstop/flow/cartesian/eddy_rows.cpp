@@ -1,4 +1,4 @@
-// The eddies that the cells do not resolve: those of a turbulence model, or WALE (Nicoud and Ducros 1999),
+// The eddies that the cells do not resolve: WALE (Nicoud and Ducros 1999),
 //
 //   nu_t = (C_w width)^2 (Sd : Sd)^(3/2) / ((S : S)^(5/2) + (Sd : Sd)^(5/4)),
 //
@@ -32,38 +32,21 @@ constexpr double least = 1e-30;  // [1/s5], keeps 0/0 out of air at rest
   return square * root / (strain * strain * std::sqrt(strain) + square * std::sqrt(root) + least);
 }
 
-template <bool modelled>
-[[gnu::always_inline]] inline void eddies(EddyRow& results) {
+}  // namespace
+
+RIPSTOP_ROW_KERNEL void eddy_row(EddyRow& results) {
   const EddyRow row = results;  // a copy: what the loop writes cannot be thought to change it
   const RowMetrics& m = row.m;
   const std::ptrdiff_t second = row.component, third = 2 * row.component;
 #pragma omp simd
   for (int i = 0; i < m.n; ++i) {
     Gradient u = gradient(m, row.u, i), v = gradient(m, row.v, i), w = gradient(m, row.w, i);
-    double eddy = 0;
-    if constexpr (modelled)
-      eddy = row.k[i] / row.omega[i] * row.limit[i];
-    else
-      eddy = row.across * row.along[i] * eddy_rate(u, v, w);
-    const double mu = row.viscosity + row.density * eddy;
+    const double mu = row.viscosity + row.density * row.across * row.along[i] * eddy_rate(u, v, w);
     row.mu[i] = mu;
     row.tx[i] = mu * u.x, row.tx[i + second] = mu * u.y, row.tx[i + third] = mu * u.z;
     row.ty[i] = mu * v.x, row.ty[i + second] = mu * v.y, row.ty[i + third] = mu * v.z;
     row.tz[i] = mu * w.x, row.tz[i + second] = mu * w.y, row.tz[i + third] = mu * w.z;
   }
-}
-
-RIPSTOP_ROW_KERNEL void wale_row(EddyRow& row) {
-  eddies<false>(row);
-}
-RIPSTOP_ROW_KERNEL void modelled_row(EddyRow& row) {
-  eddies<true>(row);
-}
-
-}  // namespace
-
-void eddy_row(EddyRow& row) {
-  row.k ? modelled_row(row) : wale_row(row);
 }
 
 }  // namespace ripstop::cartesian

@@ -113,7 +113,7 @@ class Solver {
   // A step in time (time_step.cpp).
   void rates(int rank, IndexRange rows);
   void eddies(MarchRings& rings, int k, IndexRange rows);
-  void model_eddies(int rank, IndexRange rows);
+  void model_eddies(MarchRings& rings, int k, IndexRange rows);
   bool modelled() const { return d_.settings.small_eddies == SmallEddies::des; }
   PassingRow passing_of(MarchRings& rings, int j, int k, IndexRange rows) const;
   void pass_along_stream(MarchRings& rings, int k, IndexRange rows) const;

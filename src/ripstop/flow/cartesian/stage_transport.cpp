@@ -131,16 +131,13 @@ void Solver::turbulence(MarchRings& rings, int k, IndexRange rows) {
   }
 }
 
-// A step in time of k and omega, with the velocities and neighbours of its beginning.
-void Solver::model_eddies(int rank, IndexRange rows) {
-  MarchRings& rings = t_.rings[rank];
-  eddy_viscosity(rings, 0, rows);
-  for (int k = 0; k < d_.grid.nz; ++k) {
-    if (k + 1 < d_.grid.nz) eddy_viscosity(rings, k + 1, rows);
-    for (int j = rows.begin; j < rows.end; ++j) {
-      TurbulenceRow r = turbulence_of(rings, j, k, rows);
-      turbulence_row(r);
-    }
+// In time: viscosity and stress of plane k at the beginning of the step, k and omega at its end.
+void Solver::model_eddies(MarchRings& rings, int k, IndexRange rows) {
+  if (k == 0) eddy_viscosity(rings, 0, rows);
+  if (k + 1 < d_.grid.nz) eddy_viscosity(rings, k + 1, rows);
+  for (int j = std::max(rows.begin - 1, 0); j < std::min(rows.end + 1, d_.grid.ny); ++j) {
+    TurbulenceRow r = turbulence_of(rings, j, k, rows);
+    turbulence_row(r);
   }
 }
 

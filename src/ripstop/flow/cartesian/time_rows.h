@@ -16,8 +16,6 @@ struct EddyRow {
   const double* along = nullptr;  // part of the mixing length squared that changes along the row [m^(2/3)]
   double across = 0;              // and the rest of it [m^(4/3)]
   const double *u = nullptr, *v = nullptr, *w = nullptr;
-  const double *k = nullptr, *omega = nullptr,
-               *limit = nullptr;  // of a model that has it; null: by the gradient
   // Results.
   double* mu = nullptr;                                // mu + mu_t [Pa s]
   double *tx = nullptr, *ty = nullptr, *tz = nullptr;  // mu du_a/dx_c of the axes a, three components c each

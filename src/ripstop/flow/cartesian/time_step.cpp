@@ -138,7 +138,6 @@ FlowStep Solver::step(double length) {
   team_.run([this](int rank) {
     each_block(rank, [&](IndexRange rows) { rates(rank, rows); });
     if (modelled()) {
-      each_block(rank, [&](IndexRange rows) { model_eddies(rank, rows); });
       if (rank == 0) take_new_turbulence();
       team_.barrier();
       each_plane(rank, [&](int k) { turbulence_ghosts(d_, b_, s_, k); });
@@ -175,6 +174,7 @@ void Solver::rates(int rank, IndexRange rows) {
 
 // The block's rows and one more on each side, as far as the grid goes.
 void Solver::eddies(MarchRings& rings, int k, IndexRange rows) {
+  if (modelled()) return model_eddies(rings, k, rows);
   for (int j = std::max(rows.begin - 1, 0); j < std::min(rows.end + 1, d_.grid.ny); ++j) {
     const std::ptrdiff_t at = d_.layout.at(0, j, k), in = rings.at(d_.layout, j, rows.begin);
     EddyRow r;
@@ -182,9 +182,8 @@ void Solver::eddies(MarchRings& rings, int k, IndexRange rows) {
     r.viscosity = d_.air.viscosity, r.density = d_.air.density;
     const double across = d_.y.width[j] * d_.z.width[k];
     r.along = t_.mixing.data();
-    const SmallEddies kind = d_.settings.small_eddies;
-    r.across = kind == SmallEddies::none ? 0 : mixing_constant * mixing_constant * std::cbrt(across * across);
-    if (kind == SmallEddies::des) r.k = &s_.f.k[at], r.omega = &s_.f.omega[at], r.limit = &s_.limit[at];
+    const bool none = d_.settings.small_eddies == SmallEddies::none;
+    r.across = none ? 0 : mixing_constant * mixing_constant * std::cbrt(across * across);
     r.u = &s_.f.u[at], r.v = &s_.f.v[at], r.w = &s_.f.w[at];
     r.mu = &rings.mu[mod(k, 3)][in];
     r.tx = &rings.tx[mod(k, 2)][in], r.ty = &rings.ty[mod(k, 2)][in], r.tz = &rings.tz[mod(k, 3)][in];

@@ -201,8 +201,12 @@ template <bool with_wall, bool in_time>
       limit = shear_stress_limit(strain, k.value, omega.value, row.rho[i], row.viscosity, row.wall[i]);
       row.limit_new[i] = limit;
     }
-    const double mu = row.viscosity + row.rho[i] * k.value / omega.value * limit;
-    write_stress(row, u, v, w, mu, divergence, i);
+    if constexpr (in_time) {  // the stress that acts in this step
+      write_stress(row, u, v, w, row.viscosity + row.mut[i], 0, i);
+    } else {
+      const double mu = row.viscosity + row.rho[i] * k.value / omega.value * limit;
+      write_stress(row, u, v, w, mu, divergence, i);
+    }
   }
   results.k_sum = {res_k, scale_k};
   results.omega_sum = {res_om, scale_om};
