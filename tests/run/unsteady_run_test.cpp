@@ -140,6 +140,24 @@ TEST(UnsteadyRun, WatchesThatDifferAmongThemselvesAreAsSureAsThat) {
   EXPECT_FALSE(state.watched.enough) << "one hundredth was asked for";
 }
 
+// Under a load that is another than that of its shape. At rest it takes one step toward it for each flow.
+TEST(UnsteadyRun, HeldClothStepsOnBeforeTheNextWatch) {
+  SwingingEngine engine;
+  SteadySolver solver(swinging_problem(), engine);
+  SteadyState state = solver.start();
+  while (state.iterations.empty() || !state.iterations.back().in_time) solver.iterate(state);
+  for (std::size_t c = 0; c < state.pressure.size() / 2; ++c) state.pressure[c] *= 1.5;
+  state.iterations.back().cloth_hold = 2e4;
+  SteadyState at_rest = state;
+  at_rest.in_time = false;
+  solver.iterate(at_rest);
+  solver.iterate(state);
+  const SteadyIteration &one = at_rest.iterations.back(), &several = state.iterations.back();
+  EXPECT_GT(one.cloth_held, 0.01);
+  EXPECT_LT(several.cloth_held, 0.5 * one.cloth_held);
+  EXPECT_GT(several.shape_change, one.shape_change);
+}
+
 TEST(UnsteadyRun, KilledBetweenIterationsItGoesOnBitForBit) {
   const auto to_the_end = [](SteadySolver& solver, SteadyState& state) {
     while (!solver.finished(state)) solver.iterate(state);
