@@ -115,7 +115,7 @@ validate-ojf: build  ## Calibrate on Stratos IV, predict WALRUS and ADEPT blind,
 validate-families: build  ## Drag of every family's example beside Knacke's values, into docs/tables: ten minutes; resumable
 	@/usr/bin/python3 validation/families/families.py --ripstop build/bin/ripstop
 
-validate-families-in-time: build  ## The same with wakes that shed: means over time, into docs/tables: forty minutes; resumable
+validate-families-in-time: build  ## The same with wakes that shed, means over time, of the types in Knacke's manual: half an hour; resumable
 	@/usr/bin/python3 validation/families/families.py --ripstop build/bin/ripstop --in-time
 
 judge: check-deps build  ## The built-in engine beside OpenFOAM on meshes that follow the cloth, into docs/tables: an hour and more
