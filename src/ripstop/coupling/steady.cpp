@@ -63,6 +63,20 @@ bool within(double a, double b, double tolerance) {
   return std::abs(a - b) <= tolerance * std::abs(b);
 }
 
+// Standard deviation of the means of all watches but the first, whose wake still had to form; 0 for fewer than three. A
+// flow that drifts more slowly than a watch is long has each of them look surer than it is.
+double scatter_of_means(const std::vector<SteadyIteration>& iterations, double now) {
+  std::vector<double> means;
+  for (const SteadyIteration& i : iterations)
+    if (i.in_time) means.push_back(i.fluid_force);
+  if (means.size() < 3) return 0;
+  means.front() = now;
+  double mean = 0, squares = 0;
+  for (const double drag : means) mean += drag / double(means.size());
+  for (const double drag : means) squares += (drag - mean) * (drag - mean);
+  return std::sqrt(squares / double(means.size() - 1));
+}
+
 std::vector<double> joined(const ClothLoad& load) {
   const auto& [a, b] = load.remainder;
   std::vector<double> values = load.pressure;
@@ -127,20 +141,6 @@ FlowField SteadySolver::solve_flow(const std::vector<Triangle>& surface, bool to
     if (report) report({.stage = SteadyStage::flow, .iteration = iteration, .flow = progress});
     return true;
   });
-}
-
-// Standard deviation of the means of all watches but the first, whose wake still had to form; 0 for fewer than three. A
-// flow that drifts more slowly than a watch is long has each of them look surer than it is.
-double scatter_of_means(const std::vector<SteadyIteration>& iterations, double now) {
-  std::vector<double> means;
-  for (const SteadyIteration& i : iterations)
-    if (i.in_time) means.push_back(i.fluid_force);
-  if (means.size() < 3) return 0;
-  means.front() = now;
-  double mean = 0, squares = 0;
-  for (const double drag : means) mean += drag / double(means.size());
-  for (const double drag : means) squares += (drag - mean) * (drag - mean);
-  return std::sqrt(squares / double(means.size() - 1));
 }
 
 FlowField SteadySolver::watch_flow(const std::vector<Triangle>& surface, bool to_the_end, SteadyState& state,
