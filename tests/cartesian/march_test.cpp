@@ -3,13 +3,14 @@
 
 #include <cmath>
 #include <cstring>
-#include <filesystem>
 #include <numbers>
+#include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "ripstop/core/error.h"
+#include "ripstop/core/file.h"
 #include "ripstop/flow/bodies.h"
 #include "ripstop/flow/cartesian/cartesian.h"
 #include "ripstop/flow/cartesian/solver.h"
@@ -101,7 +102,10 @@ INSTANTIATE_TEST_SUITE_P(LooseAndTight, Ledger,
                                           testing::Values(SmallEddies::wale, SmallEddies::des)));
 
 class MarchWith : public testing::TestWithParam<SmallEddies> {};
-INSTANTIATE_TEST_SUITE_P(Eddies, MarchWith, testing::Values(SmallEddies::wale, SmallEddies::des));
+INSTANTIATE_TEST_SUITE_P(Eddies, MarchWith, testing::Values(SmallEddies::wale, SmallEddies::des),
+                         [](const auto& eddies) {
+                           return std::string(eddies.param == SmallEddies::des ? "des" : "wale");
+                         });
 
 TEST_P(MarchWith, ThreadsDoNotMatterToTheLastBit) {
   const FlowProblem problem = disk_in_a_box(1e6, Sides::entraining);
@@ -118,21 +122,20 @@ TEST_P(MarchWith, ThreadsDoNotMatterToTheLastBit) {
 
 TEST_P(MarchWith, WhatWasSavedGoesOnToTheLastBit) {
   const FlowProblem problem = disk_in_a_box(10, Sides::entraining);
-  const auto folder = std::filesystem::path(testing::TempDir()) / "march state";
+  const TemporaryFolder folder("march state");
   const auto engine = make_cartesian(with_threads(1, GetParam()));
   for (const int saved_after : {1, 2, 7}) {
     const auto unbroken = engine->start(problem), resumed = engine->start(problem);
     unbroken->advance(3, 1e-9);
     unbroken->march(saved_after, 0.7);
-    unbroken->save(folder);
+    unbroken->save(folder.path);
     resumed->march(2, 0.5);  // what it did before does not matter
-    resumed->restore(folder);
+    resumed->restore(folder.path);
     const FlowStep a = unbroken->march(5, 0.7), b = resumed->march(5, 0.7);
     EXPECT_EQ(a.step, saved_after + 5);
     EXPECT_EQ(a.time, b.time);
     EXPECT_TRUE(same_bits(unbroken->field(), resumed->field())) << saved_after;
   }
-  std::filesystem::remove_all(folder);
 }
 
 TEST(March, AfterIterationsItBeginsAnew) {
