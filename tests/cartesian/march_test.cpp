@@ -359,6 +359,25 @@ class DecayingTurbulence {
                             with_threads(1, SmallEddies::des), team_};
 };
 
+TEST(March, BeginsWithoutTheEddiesThatItsCellsResolve) {
+  FlowProblem problem;
+  problem.grid = {{0, 0, 0}, {1, 1, 6}, 8, 8, 24};
+  problem.air.speed = 1;
+  problem.sides = Sides::slip;
+  ThreadTeam team(1);
+  cartesian::Solver solver(problem, problem.grid,
+                           cartesian::PorousRows(problem.grid, {}, problem.air.viscosity),
+                           with_threads(1, SmallEddies::des), team);
+  auto& s = solver.state();
+  const std::ptrdiff_t large = solver.discretisation().layout.at(3, 4, 5), small = large + 1;
+  s.f.omega[large] = s.f.omega[small] = 4;
+  s.f.k[large] = 1, s.f.k[small] = 1e-6;
+  solver.begin_time();
+  EXPECT_NEAR(std::sqrt(s.f.k[large]) / (0.09 * 4), 0.61 * 0.25, 1e-12)
+      << "as long as 0.61 of the widest side";
+  EXPECT_EQ(s.f.k[small], 1e-6);
+}
+
 // As fast as cells resolve them where they are larger than those, else by themselves.
 TEST(March, ModelledEddiesDecayAsTheModelsEquationsSay) {
   const double time = 2;

@@ -189,12 +189,14 @@ template <bool with_wall, bool in_time>
     Update k = k_update<in_time>(row, a_k, strain, omega.value, inverse_alpha, i);
     row.omega_new[i] = omega.value;
     row.k_new[i] = k.value;
-    res_om += omega.residual;
-    scale_om += omega.scale;
-    res_k += k.residual;
-    scale_k += k.scale;
-    total_k += k.value * m.x_width[i];
-    total_om += omega.value * m.x_width[i];
+    if constexpr (!in_time) {
+      res_om += omega.residual;
+      scale_om += omega.scale;
+      res_k += k.residual;
+      scale_k += k.scale;
+      total_k += k.value * m.x_width[i];
+      total_om += omega.value * m.x_width[i];
+    }
 
     double limit = 1;
     if constexpr (with_wall) {
