@@ -261,29 +261,22 @@ void Multigrid::solve(ThreadTeam& team, int rank, int cycles) {
   for (int c = 0; c < cycles; ++c) cycle(0, c == 0, &team, rank);
 }
 
-template <class Plane>
-Multigrid::Two Multigrid::sum(ThreadTeam& team, int rank, const Plane& of_plane) {
-  const int nz = finest().layout.nz;
-  const IndexRange planes = part_of(nz, rank, team.size());
-  for (int k = planes.begin; k < planes.end; ++k) planes_[k] = of_plane(k);
+template <class Row>
+Multigrid::Sums Multigrid::sum_of_rows(ThreadTeam& team, int rank, const Row& of_row) {
+  const Layout& lay = finest().layout;
+  const auto add = [](Sums& to, const Sums& more) {
+    for (std::size_t c = 0; c < to.size(); ++c) to[c] += more[c];
+  };
+  const IndexRange planes = part_of(lay.nz, rank, team.size());
+  for (int k = planes.begin; k < planes.end; ++k) {
+    planes_[k] = {};
+    for (int j = 0; j < lay.ny; ++j) add(planes_[k], of_row(j, k, lay.at(0, j, k)));
+  }
   team.barrier();
-  Two total{};
-  for (const Two& plane : planes_) total[0] += plane[0], total[1] += plane[1];
+  Sums total{};
+  for (const Sums& plane : planes_) add(total, plane);
   team.barrier();
   return total;
-}
-
-template <class Row>
-Multigrid::Two Multigrid::sum_of_rows(ThreadTeam& team, int rank, const Row& of_row) {
-  const Layout& lay = finest().layout;
-  return sum(team, rank, [&](int k) {
-    Two total{};
-    for (int j = 0; j < lay.ny; ++j) {
-      const Two row = of_row(j, k, lay.at(0, j, k));
-      total[0] += row[0], total[1] += row[1];
-    }
-    return total;
-  });
 }
 
 template <class Row>
@@ -305,24 +298,22 @@ int Multigrid::solve_conjugate(ThreadTeam& team, int rank, double reduction, int
   }
   coarsen(team, rank);
   team.barrier();
+  Array<float>& solution = last ? *last : solution_;
   const IndexRange planes = part_of(lay.nz + 2, rank, team.size());
-  clear(top.e, planes), clear(solution_, planes), clear(direction_, planes), clear(image_, planes);
+  clear(top.e, planes);
+  if (!last) clear(solution, planes), clear(direction_, planes);
   team.barrier();
-  if (last)
-    each_row(team, rank, [&](std::ptrdiff_t at) { std::copy_n(&(*last)[at], lay.nx, &direction_[at]); });
-  const double start = sum_of_rows(team, rank, [&](int, int, std::ptrdiff_t at) {
-    return Two{dot_row(lay.nx, &top.rhs[at], &top.rhs[at])};
-  })[0];
-  double curvature = 0;
+  double start = 0, curvature = 0;
   int cycles = 0;
-  for (int n = last ? 0 : 1; n <= most && start > 0; ++n) {
+  const int first = last ? 0 : 1;
+  for (int n = first; n <= most; ++n) {
     if (n > 0) {
       cycle(0, true, &team, rank), ++cycles;
       // The new direction is made conjugate to the last one, whatever the cycle has become in between.
       double beta = 0;
       if (curvature > 0) {
         const double along_image = sum_of_rows(team, rank, [&](int, int, std::ptrdiff_t at) {
-          return Two{dot_row(lay.nx, &top.e[at], &image_[at])};
+          return Sums{dot_row(lay.nx, &top.e[at], &image_[at])};
         })[0];
         beta = -along_image / curvature;
       }
@@ -330,30 +321,33 @@ int Multigrid::solve_conjugate(ThreadTeam& team, int rank, double reduction, int
         turn_row(lay.nx, static_cast<float>(beta), &top.e[at], &direction_[at]);
       });
     }
-    // image = A direction
-    const Two along = sum_of_rows(team, rank, [&](int j, int k, std::ptrdiff_t at) {
+    // The first direction is the last solution, which lies where this one will.
+    Array<float>& direction = n == 0 ? solution : direction_;
+    const Sums along = sum_of_rows(team, rank, [&](int j, int k, std::ptrdiff_t at) {
       MultigridRow row = row_of(top, j, k);
-      row.e = &direction_[at];
-      image_row(row, &image_[at]);
-      return Two{dot_row(lay.nx, row.e, &image_[at]), dot_row(lay.nx, row.e, row.rhs)};
+      row.e = &direction[at];
+      const ImageSums sums = image_row(row, &image_[at]);
+      return Sums{sums.curvature, sums.descent, sums.square};
     });
+    if (n == first) start = along[2];
     curvature = along[0];
     if (!(curvature > 0)) {
-      if (n == 0) continue;  // nothing was solved before
-      break;
+      if (n > 0) break;
+      clear(solution, planes), clear(direction_, planes);  // nothing was solved before
+      team.barrier();
+      continue;
     }
     const float alpha = static_cast<float>(along[1] / curvature);
     const double left = sum_of_rows(team, rank, [&](int, int, std::ptrdiff_t at) {
-      advance_row(lay.nx, alpha, &direction_[at], &solution_[at]);
-      advance_row(lay.nx, -alpha, &image_[at], &top.rhs[at]);
-      return Two{dot_row(lay.nx, &top.rhs[at], &top.rhs[at])};
+      if (n == 0) {
+        std::copy_n(&solution[at], lay.nx, &direction_[at]);
+        std::fill_n(&solution[at], lay.nx, 0.0f);
+      }
+      return Sums{advance_row(lay.nx, alpha, &direction_[at], &image_[at], &solution[at], &top.rhs[at])};
     })[0];
     if (left <= reduction * reduction * start) break;
   }
-  each_row(team, rank, [&](std::ptrdiff_t at) {
-    std::copy_n(&solution_[at], lay.nx, &top.e[at]);
-    if (last) std::copy_n(&solution_[at], lay.nx, &(*last)[at]);
-  });
+  each_row(team, rank, [&](std::ptrdiff_t at) { std::copy_n(&solution[at], lay.nx, &top.e[at]); });
   return cycles;
 }
 

@@ -56,12 +56,10 @@ class Multigrid {
   void cycle(std::size_t level, bool from_zero, ThreadTeam* team, int rank);
   /// Parts of solve_conjugate(), on the finest level; every rank calls them. Sums are taken plane by plane, in the order
   /// of the planes, and every rank gets them.
-  using Two = std::array<double, 2>;
-  template <class Plane>
-  Two sum(ThreadTeam& team, int rank, const Plane& of_plane);
   /// Of what of_row(j, k, index of cell 0 of the row) returns.
+  using Sums = std::array<double, 3>;
   template <class Row>
-  Two sum_of_rows(ThreadTeam& team, int rank, const Row& of_row);
+  Sums sum_of_rows(ThreadTeam& team, int rank, const Row& of_row);
   /// Calls work(index of cell 0 of the row), and waits for all ranks.
   template <class Row>
   void each_row(ThreadTeam& team, int rank, const Row& work);
@@ -69,7 +67,7 @@ class Multigrid {
 
   std::vector<MultigridLevel> levels_;
   Array<float> solution_, direction_, image_;  // of the conjugate gradients
-  std::vector<Two> planes_;
+  std::vector<Sums> planes_;
 };
 
 }  // namespace ripstop::cartesian

@@ -84,17 +84,24 @@ RIPSTOP_ROW_KERNEL void spread_row(int n, const float* q, const int* near, const
   for (int i = 0; i < n; ++i) e[i] += near_weight[i] * q[near[i]] + far_weight[i] * q[far[i]];
 }
 
-RIPSTOP_ROW_KERNEL void image_row(const MultigridRow& row, float* image) {
+RIPSTOP_ROW_KERNEL ImageSums image_row(const MultigridRow& row, float* image) {
   const int n = row.n;
   const std::ptrdiff_t sy = row.sy, sz = row.sz;
-  const float *q = row.e, *x = row.cx, *y = row.cy, *z = row.cz;
-#pragma omp simd
+  const float *q = row.e, *rhs = row.rhs, *x = row.cx, *y = row.cy, *z = row.cz;
+  double curvature = 0, descent = 0, square = 0;
+#pragma omp simd reduction(+ : curvature, descent, square)
   for (int i = 0; i < n; ++i) {
     const float sum = x[i] + x[i + 1] + y[i] + y[i + sy] + z[i] + z[i + sz];
     const float in = x[i] * q[i - 1] + x[i + 1] * q[i + 1] + y[i] * q[i - sy] + y[i + sy] * q[i + sy] +
                      z[i] * q[i - sz] + z[i + sz] * q[i + sz];
-    image[i] = sum * q[i] - in;
+    const float of = sum * q[i] - in;
+    image[i] = of;
+    const double along = q[i], left = rhs[i];
+    curvature += along * static_cast<double>(of);
+    descent += along * left;
+    square += left * left;
   }
+  return {curvature, descent, square};
 }
 
 RIPSTOP_ROW_KERNEL double dot_row(int n, const float* a, const float* b) {
@@ -109,9 +116,17 @@ RIPSTOP_ROW_KERNEL void turn_row(int n, float factor, const float* b, float* a) 
   for (int i = 0; i < n; ++i) a[i] = b[i] + factor * a[i];
 }
 
-RIPSTOP_ROW_KERNEL void advance_row(int n, float factor, const float* b, float* a) {
-#pragma omp simd
-  for (int i = 0; i < n; ++i) a[i] += factor * b[i];
+RIPSTOP_ROW_KERNEL double advance_row(int n, float factor, const float* direction, const float* image,
+                                      float* solution, float* rhs) {
+  double square = 0;
+#pragma omp simd reduction(+ : square)
+  for (int i = 0; i < n; ++i) {
+    solution[i] += factor * direction[i];
+    const float left = rhs[i] - factor * image[i];
+    rhs[i] = left;
+    square += static_cast<double>(left) * static_cast<double>(left);
+  }
+  return square;
 }
 
 }  // namespace ripstop::cartesian

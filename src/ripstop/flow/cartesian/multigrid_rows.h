@@ -17,11 +17,16 @@ void smooth_row(const MultigridRow& row, int parity);
 void first_smooth_row(const MultigridRow& row, int parity);
 /// sum[i] += rhs - A e
 void residual_row(const MultigridRow& row, float* sum);
-/// Of the conjugate gradients: image = A e with the row's e; sum a b; a = b + factor a; a += factor b.
-void image_row(const MultigridRow& row, float* image);
+/// Of the conjugate gradients: image = A e with the row's e, and the sums e image, e rhs and rhs rhs; sum a b;
+/// a = b + factor a; a step along a direction, and what is left of rhs rhs.
+struct ImageSums {
+  double curvature, descent, square;
+};
+ImageSums image_row(const MultigridRow& row, float* image);
 double dot_row(int n, const float* a, const float* b);
 void turn_row(int n, float factor, const float* b, float* a);
-void advance_row(int n, float factor, const float* b, float* a);
+double advance_row(int n, float factor, const float* direction, const float* image, float* solution,
+                   float* rhs);
 /// sum[i] += conductance of a face in series with half of two others; zero if the face is closed.
 void add_series_row(int n, const float* face, const float* low, const float* high, float* sum);
 /// out = sum of four rows with weights.

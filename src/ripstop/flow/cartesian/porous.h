@@ -18,6 +18,7 @@ class PorousRows {
   /// The same resistance seen by a grid of half as many cells an axis: volume means.
   PorousRows(const PorousRows& fine, const FlowGrid& fine_grid, const FlowGrid& coarse);
 
+  bool empty() const { return linear_.size() <= static_cast<std::size_t>(nx_); }
   bool empty(int j, int k) const { return offset_[row(j, k)] == 0; }
   const double* linear(int j, int k) const { return linear_.data() + offset_[row(j, k)]; }        // mu d
   const double* quadratic(int j, int k) const { return quadratic_.data() + offset_[row(j, k)]; }  // f / 2

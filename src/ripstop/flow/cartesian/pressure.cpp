@@ -26,8 +26,13 @@ namespace {
 }
 
 // rho q on the six faces of a cell.
+template <bool uniform>
 [[gnu::always_inline]] inline Faces times_density(const PressureRow& row, const double* of_cells,
                                                   const double* above, std::ptrdiff_t i) {
+  if constexpr (uniform) {
+    const double all = row.rho[0] * of_cells[0];
+    return {all, all, all, all, all, all};
+  }
   const RowMetrics& m = row.m;
   const double *rho = row.rho + i, *q = of_cells + i, *wx = m.x_weight_low + i, own = rho[0] * q[0];
   return {on_low_face(wx[0], rho[-1], q[-1], own),
@@ -39,16 +44,18 @@ namespace {
 }
 
 // (rho H/A)_f; `inner` is 0 where the face below is the inlet's, else 1.
+template <bool uniform>
 [[gnu::always_inline]] inline Faces free_fluxes(const PressureRow& row, double inner, std::ptrdiff_t i) {
   const RowMetrics& m = row.m;
-  const double *rho = row.rho + i, *u = row.hu + i, *v = row.hv + i, *w = row.hw + i;
-  const double *wx = m.x_weight_low + i, fu = rho[0] * u[0], fv = rho[0] * v[0], fw = rho[0] * w[0];
-  return {on_low_face(wx[0], rho[-1], u[-1], fu),
-          on_high_face(wx[1], fu, rho[1], u[1]),
-          on_low_face(m.y.weight_low, rho[-m.sy], v[-m.sy], fv),
-          on_high_face(m.y.weight_high, fv, rho[m.sy], v[m.sy]),
-          row.inlet_speed[i] * rho[0] + inner * on_low_face(m.z.weight_low, rho[-m.sz], w[-m.sz], fw),
-          on_high_face(m.z.weight_high, fw, row.rho_above[i], row.hw_above[i])};
+  const auto rho = [&](std::ptrdiff_t step) { return row.rho[uniform ? 0 : i + step]; };
+  const double *u = row.hu + i, *v = row.hv + i, *w = row.hw + i, *wx = m.x_weight_low + i;
+  const double here = rho(0), fu = here * u[0], fv = here * v[0], fw = here * w[0];
+  return {on_low_face(wx[0], rho(-1), u[-1], fu),
+          on_high_face(wx[1], fu, rho(1), u[1]),
+          on_low_face(m.y.weight_low, rho(-m.sy), v[-m.sy], fv),
+          on_high_face(m.y.weight_high, fv, rho(m.sy), v[m.sy]),
+          row.inlet_speed[i] * here + inner * on_low_face(m.z.weight_low, rho(-m.sz), w[-m.sz], fw),
+          on_high_face(m.z.weight_high, fw, uniform ? here : row.rho_above[i], row.hw_above[i])};
 }
 
 // Of the pressure over the faces of a cell [Pa].
@@ -69,28 +76,30 @@ struct Held {
 }
 
 // The fluxes f of the faces and their conductances g and c beside a sheet.
+template <bool uniform>
 [[gnu::always_inline]] inline void hold_faces(const PressureRow& row, std::ptrdiff_t i, Faces& f, Faces& g,
                                               Faces& c) {
   const RowMetrics& m = row.m;
   const SheetJumps &excess = row.excess, &stiff = row.stiffness;
-  const double *rho = row.rho + i, *fx = row.fx + i, *fy = row.fy + i, *fz = row.fz + i, r = rho[0];
+  const auto rho = [&](std::ptrdiff_t step) { return row.rho[uniform ? 0 : i + step]; };
+  const double *fx = row.fx + i, *fy = row.fy + i, *fz = row.fz + i, r = rho(0);
   const double ww = m.x_weight_low[i], we = m.x_weight_low[i + 1], ws = m.y.weight_low, wn = m.y.weight_high,
                wb = m.z.weight_low, wa = m.z.weight_high;
   Held w =
-      hold(c.w * m.x_inverse_distance[i], stiff.x[i], excess.x[i], ww * rho[-1] + (1 - ww) * r, fx[0], f.w);
+      hold(c.w * m.x_inverse_distance[i], stiff.x[i], excess.x[i], ww * rho(-1) + (1 - ww) * r, fx[0], f.w);
   f.w = w.flux, g.w *= w.share, c.w *= w.share;
   Held e = hold(c.e * m.x_inverse_distance[i + 1], stiff.x[i + 1], excess.x[i + 1],
-                we * r + (1 - we) * rho[1], fx[1], f.e);
+                we * r + (1 - we) * rho(1), fx[1], f.e);
   f.e = e.flux, g.e *= e.share, c.e *= e.share;
-  Held s = hold(c.s * m.y.distance_low, stiff.y[i], excess.y[i], ws * rho[-m.sy] + (1 - ws) * r, fy[0], f.s);
+  Held s = hold(c.s * m.y.distance_low, stiff.y[i], excess.y[i], ws * rho(-m.sy) + (1 - ws) * r, fy[0], f.s);
   f.s = s.flux, g.s *= s.share, c.s *= s.share;
-  Held n = hold(c.n * m.y.distance_high, stiff.y_high[i], excess.y_high[i], wn * r + (1 - wn) * rho[m.sy],
+  Held n = hold(c.n * m.y.distance_high, stiff.y_high[i], excess.y_high[i], wn * r + (1 - wn) * rho(m.sy),
                 fy[m.sy], f.n);
   f.n = n.flux, g.n *= n.share, c.n *= n.share;
-  Held b = hold(c.b * m.z.distance_low, stiff.z[i], excess.z[i], wb * rho[-m.sz] + (1 - wb) * r, fz[0], f.b);
+  Held b = hold(c.b * m.z.distance_low, stiff.z[i], excess.z[i], wb * rho(-m.sz) + (1 - wb) * r, fz[0], f.b);
   f.b = b.flux, g.b *= b.share, c.b *= b.share;
   Held a = hold(c.a * m.z.distance_high, stiff.z_high[i], excess.z_high[i],
-                wa * r + (1 - wa) * row.rho_above[i], fz[m.sz], f.a);
+                wa * r + (1 - wa) * (uniform ? r : row.rho_above[i]), fz[m.sz], f.a);
   f.a = a.flux, g.a *= a.share, c.a *= a.share;
 }
 
@@ -100,7 +109,7 @@ struct Held {
   difference.b += held.z[i], difference.a += held.z_high[i];
 }
 
-template <bool with_sheet>
+template <bool with_sheet, bool uniform>
 [[gnu::always_inline]] inline void pressure(PressureRow& results) {
   PressureRow row = results;  // a copy: what the loop writes cannot be thought to change it
   RowMetrics& m = row.m;
@@ -110,11 +119,12 @@ template <bool with_sheet>
   double res = 0, scale = 0;
 #pragma omp simd reduction(+ : res, scale)
   for (int i = 0; i < m.n; ++i) {
-    Faces g = times_density(row, row.ra, row.ra_above, i), c = times_density(row, row.rc, row.rc_above, i);
-    Faces f = free_fluxes(row, inner, i), d = differences(row, i);
+    Faces g = times_density<uniform>(row, row.ra, row.ra_above, i);
+    Faces c = times_density<uniform>(row, row.rc, row.rc_above, i);
+    Faces f = free_fluxes<uniform>(row, inner, i), d = differences(row, i);
     if constexpr (with_sheet) {
       add_held(row.held, i, d);
-      hold_faces(row, i, f, g, c);
+      hold_faces<uniform>(row, i, f, g, c);
     }
     const double area_y = m.x_width[i] * row.z_width, area_z = m.x_width[i] * row.y_width;
     const double source = (f.e - f.w) * area_x + (f.n - f.s) * area_y + (f.a - f.b) * area_z;
@@ -156,7 +166,7 @@ struct FaceRow {
 };
 
 // `weight` and `inverse_distance` give those of face i.
-template <bool with_sheet, class Weight, class Distance>
+template <bool with_sheet, bool uniform, class Weight, class Distance>
 [[gnu::always_inline]] inline void flux_along(const FluxRow& row, const FaceRow& face, const Weight& weight,
                                               const Distance& inverse_distance) {
   const std::ptrdiff_t step = face.step;
@@ -167,12 +177,14 @@ template <bool with_sheet, class Weight, class Distance>
 #pragma omp simd
   for (int i = 0; i < face.count; ++i) {
     const double w = weight(i), rd = inverse_distance(i);
-    const double low = w * rho[i - step], high = (1 - w) * rho[i];
+    const std::ptrdiff_t below = uniform ? 0 : i - step, above = uniform ? 0 : i;
+    const double low = w * rho[below], high = (1 - w) * rho[above];
     const double more = static_cast<double>(dp[i]) - static_cast<double>(dp[i - step]);
-    const double c = low * rc[i - step] + high * rc[i];
+    const double c = low * rc[below] + high * rc[above];
     double jump = p[i] - p[i - step];
     if constexpr (with_sheet) jump += held[i];
-    double f = low * h[i - step] + high * h[i] - rd * ((low * ra[i - step] + high * ra[i]) * jump + c * more);
+    double f =
+        low * h[i - step] + high * h[i] - rd * ((low * ra[below] + high * ra[above]) * jump + c * more);
     if constexpr (with_sheet) {
       f = held_flux(f, rd * c, stiffness[i], excess[i], low + high, flux[i]);
       if (change) change[i] = excess[i] + stiffness[i] * (f - flux[i]) / (low + high);
@@ -181,22 +193,36 @@ template <bool with_sheet, class Weight, class Distance>
   }
 }
 
-template <bool with_sheet>
+template <bool with_sheet, bool uniform>
 [[gnu::always_inline]] inline void flux(const FluxRow& row) {
   const RowMetrics& m = row.m;
   const SheetJumps &held = row.held, &excess = row.excess, &stiff = row.stiffness;
   const auto constant = [](double value) { return [value](int) { return value; }; };
   const auto of = [](const double* values) { return [values](int i) { return values[i]; }; };
-  flux_along<with_sheet>(row, {m.n + 1, 1, row.hu, held.x, excess.x, stiff.x, row.change_x, row.fx},
-                         of(m.x_weight_low), of(m.x_inverse_distance));
-  flux_along<with_sheet>(row, {m.n, m.sy, row.hv, held.y, excess.y, stiff.y, row.change_y, row.fy},
-                         constant(m.y.weight_low), constant(m.y.distance_low));
+  flux_along<with_sheet, uniform>(row, {m.n + 1, 1, row.hu, held.x, excess.x, stiff.x, row.change_x, row.fx},
+                                  of(m.x_weight_low), of(m.x_inverse_distance));
+  flux_along<with_sheet, uniform>(row, {m.n, m.sy, row.hv, held.y, excess.y, stiff.y, row.change_y, row.fy},
+                                  constant(m.y.weight_low), constant(m.y.distance_low));
   if (row.inlet_speed) {
     for (int i = 0; i < m.n; ++i) row.fz[i] = row.rho[i] * row.inlet_speed[i];
     return;
   }
-  flux_along<with_sheet>(row, {m.n, m.sz, row.hw, held.z, excess.z, stiff.z, row.change_z, row.fz},
-                         constant(m.z.weight_low), constant(m.z.distance_low));
+  flux_along<with_sheet, uniform>(row, {m.n, m.sz, row.hw, held.z, excess.z, stiff.z, row.change_z, row.fz},
+                                  constant(m.z.weight_low), constant(m.z.distance_low));
+}
+
+// Of a perfect gas at constant total enthalpy: T = T0 + (U0^2 - |U|^2) / (2 c_p).
+[[gnu::always_inline]] inline void density(const VelocityRow& row) {
+  const double *u = row.u, *v = row.v, *w = row.w, *p = row.p;
+  const float* dp = row.dp;
+  double* rho = row.rho;
+#pragma omp simd
+  for (int i = 0; i < row.m.n; ++i) {
+    const double temperature =
+        row.temperature + row.half_cp * (row.speed2 - (u[i] * u[i] + v[i] * v[i] + w[i] * w[i]));
+    rho[i] = (row.pressure0 + p[i] + row.relaxation * static_cast<double>(dp[i])) /
+             (row.gas_constant * temperature);
+  }
 }
 
 template <bool with_sheet>
@@ -218,9 +244,6 @@ template <bool with_sheet>
     row.u[i] = u;
     row.v[i] = v;
     row.w[i] = w;
-    // Perfect gas at constant total enthalpy: T = T0 + (U0^2 - |U|^2) / (2 c_p).
-    const double temperature = row.temperature + row.half_cp * (row.speed2 - (u * u + v * v + w * w));
-    row.rho[i] = row.gas_constant > 0 ? (row.pressure0 + p1) / (row.gas_constant * temperature) : row.rho[i];
     total_u += u * h;
     total_v += v * h;
     total_w += w * h;
@@ -230,20 +253,33 @@ template <bool with_sheet>
   results.total_v = total_v;
   results.total_w = total_w;
   results.total_p = total_p;
+  if (row.rho) density(row);
 }
 
 RIPSTOP_ROW_KERNEL void plain_row(PressureRow& row) {
-  pressure<false>(row);
+  pressure<false, false>(row);
 }
 RIPSTOP_ROW_KERNEL void sheet_row(PressureRow& row) {
-  pressure<true>(row);
+  pressure<true, false>(row);
+}
+RIPSTOP_ROW_KERNEL void uniform_plain_row(PressureRow& row) {
+  pressure<false, true>(row);
+}
+RIPSTOP_ROW_KERNEL void uniform_sheet_row(PressureRow& row) {
+  pressure<true, true>(row);
 }
 
 RIPSTOP_ROW_KERNEL void plain_row(FluxRow& row) {
-  flux<false>(row);
+  flux<false, false>(row);
 }
 RIPSTOP_ROW_KERNEL void sheet_row(FluxRow& row) {
-  flux<true>(row);
+  flux<true, false>(row);
+}
+RIPSTOP_ROW_KERNEL void uniform_plain_row(FluxRow& row) {
+  flux<false, true>(row);
+}
+RIPSTOP_ROW_KERNEL void uniform_sheet_row(FluxRow& row) {
+  flux<true, true>(row);
 }
 
 RIPSTOP_ROW_KERNEL void plain_row(VelocityRow& row) {
@@ -256,9 +292,11 @@ RIPSTOP_ROW_KERNEL void sheet_row(VelocityRow& row) {
 }  // namespace
 
 void pressure_row(PressureRow& row) {
+  if (row.uniform) return row.held ? uniform_sheet_row(row) : uniform_plain_row(row);
   row.held ? sheet_row(row) : plain_row(row);
 }
 void flux_row(FluxRow& row) {
+  if (row.uniform) return row.held ? uniform_sheet_row(row) : uniform_plain_row(row);
   row.held ? sheet_row(row) : plain_row(row);
 }
 void velocity_row(VelocityRow& row) {

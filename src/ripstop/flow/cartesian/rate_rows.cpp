@@ -101,28 +101,48 @@ void passing_row(PassingRow& row) {
   along_row(from_face(row, 1, row.count - 2));
 }
 
-RIPSTOP_ROW_KERNEL void rate_row(RateRow& results) {
+namespace {
+
+template <bool uniform>
+[[gnu::always_inline]] inline void rates(RateRow& results) {
   const RateRow row = results;  // a copy: what the loop writes cannot be thought to change it
   const RowMetrics& m = row.m;
   const double y = m.y.inverse_width, z = m.z.inverse_width, now = row.now, before = row.before;
 #pragma omp simd
   for (int i = 0; i < m.n; ++i) {
     const double x = m.x_inverse_width[i];
-    const double u = row.u[i], v = row.v[i], w = row.w[i], inertia = row.rho[i] * row.inverse_step;
+    const double u = row.u[i], v = row.v[i], w = row.w[i];
+    const double inertia = row.rho[uniform ? 0 : i] * row.inverse_step;
     const double ru = row.body_u[i] - (x * (row.xu[i + 1] - row.xu[i]) + y * (row.yu_high[i] - row.yu[i]) +
                                        z * (row.zu_high[i] - row.zu[i]));
     const double rv = row.body_v[i] - (x * (row.xv[i + 1] - row.xv[i]) + y * (row.yv_high[i] - row.yv[i]) +
                                        z * (row.zv_high[i] - row.zv[i]));
     const double rw = row.body_w[i] - (x * (row.xw[i + 1] - row.xw[i]) + y * (row.yw_high[i] - row.yw[i]) +
                                        z * (row.zw_high[i] - row.zw[i]));
-    const double speed = std::sqrt(u * u + v * v + w * w);
-    const double r = 1 / (inertia + row.linear[i] + row.rho[i] * row.quadratic[i] * speed);
+    double r = row.ra[0];
+    if constexpr (!uniform) {
+      const double speed = std::sqrt(u * u + v * v + w * w);
+      r = 1 / (inertia + row.linear[i] + row.rho[i] * row.quadratic[i] * speed);
+      row.ra[i] = row.rc[i] = r;
+    }
     row.hu[i] = r * (inertia * u + now * ru - before * row.rate_u[i]);
     row.hv[i] = r * (inertia * v + now * rv - before * row.rate_v[i]);
     row.hw[i] = r * (inertia * w + now * rw - before * row.rate_w[i]);
-    row.ra[i] = row.rc[i] = r;
     row.rate_u[i] = ru, row.rate_v[i] = rv, row.rate_w[i] = rw;
   }
+}
+
+RIPSTOP_ROW_KERNEL void uniform_row(RateRow& row) {
+  rates<true>(row);
+}
+RIPSTOP_ROW_KERNEL void porous_row(RateRow& row) {
+  rates<false>(row);
+}
+
+}  // namespace
+
+void rate_row(RateRow& row) {
+  row.uniform ? uniform_row(row) : porous_row(row);
 }
 
 RIPSTOP_ROW_KERNEL void courant_row(CourantRow& results) {

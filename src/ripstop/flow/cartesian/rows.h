@@ -39,8 +39,8 @@ struct TurbulenceRow {
   RowMetrics m;
   double viscosity = 0;   // mu [Pa s]
   double relaxation = 0;  // of k and omega
-  // In time, else 0: one over the step [1/s], and the largest width of the cells along y and z [m].
-  double inverse_step = 0, across = 0;
+  // In time, else 0: one over the step [1/s], and over the largest width of the cells along y and z [1/m].
+  double inverse_step = 0, inverse_across = 0;
   double mean_k = 0, mean_omega = 0;
   const double *u = nullptr, *v = nullptr, *w = nullptr;
   const double *k = nullptr, *omega = nullptr, *rho = nullptr;
@@ -125,6 +125,7 @@ struct PressureRow {
   double y_width = 0, z_width = 0;
   const double *hu = nullptr, *hv = nullptr, *hw = nullptr;
   const double *ra = nullptr, *rc = nullptr, *rho = nullptr, *p = nullptr;
+  bool uniform = false;  // ra, rc and rho are those of cell 0 in all cells
   const double *hw_above = nullptr, *rho_above = nullptr, *ra_above = nullptr, *rc_above = nullptr,
                *p_above = nullptr;
   bool inlet = false;                   // the low z face brings inlet_speed * rho
@@ -144,6 +145,7 @@ struct FluxRow {
   RowMetrics m;
   const double *hu = nullptr, *hv = nullptr, *hw = nullptr;
   const double *ra = nullptr, *rc = nullptr, *rho = nullptr, *p = nullptr;
+  bool uniform = false;  // as above
   const float* dp = nullptr;
   const double* inlet_speed = nullptr;  // where the low z faces are the inlet's [m/s]; else null
   SheetJumps held, excess, stiffness;   // of the low faces
@@ -165,7 +167,7 @@ void outlet_flux_row(OutletRow& row);
 
 struct VelocityRow {
   RowMetrics m;
-  double gas_constant = 0;  // R [J/(kg K)]; 0: constant density
+  double gas_constant = 0;  // R [J/(kg K)]
   double pressure0 = 0;     // [Pa] absolute, at the outlet
   double temperature = 0;   // of the free stream [K]
   double speed2 = 0;        // of the free stream, squared
@@ -176,7 +178,7 @@ struct VelocityRow {
   double relaxation = 0;    // of the pressure
   const double *hu = nullptr, *hv = nullptr, *hw = nullptr;
   double *u = nullptr, *v = nullptr, *w = nullptr;
-  double* rho = nullptr;
+  double* rho = nullptr;                                      // null where it is constant
   double total_u = 0, total_v = 0, total_w = 0, total_p = 0;  // times the cell width
 };
 void velocity_row(VelocityRow& row);

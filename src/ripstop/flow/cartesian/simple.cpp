@@ -106,6 +106,7 @@ SheetJumps Solver::jumps(int j, int k, const std::vector<double>& values) const 
 
 FlowProgress Solver::iterate() {
   t_.in_time = false;
+  t_.all_inverse = 0;
   if (!s_.rate_u.empty()) stop_the_clock(s_);
   SheetRows& sheets = in_the_way_.sheets;
   if (!sheets.empty()) {

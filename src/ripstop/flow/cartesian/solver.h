@@ -43,8 +43,9 @@ struct MarchRings {
 struct Scratch {
   Scratch(const Discretisation& d, int threads);
 
-  Array<double> zeros;               // a row
+  Array<double> zeros, density;      // rows; the latter in time, where there is one density
   Array<double> hu, hv, hw, ra, rc;  // H / (A + R) [m/s], 1 / (A + R) [m3 s/kg]
+  double all_inverse = 0;            // what all of ra and rc are; 0: each has its own
   Array<double> new_k, new_omega, new_limit;
   Array<double> extra_u, extra_v, extra_w;  // force on the air and second-order convection; empty: upwind
   std::vector<MarchRings> rings;            // one a thread
@@ -104,6 +105,11 @@ class Solver {
   void each_block(int rank, const Stage& stage);
   template <class Stage>
   void each_plane_of_a_block(int rank, const Stage& stage);
+  /// Steps in time where no cell is porous have one density and one 1/A.
+  bool uniform() const { return t_.in_time && in_the_way_.porous.empty(); }
+  const double* density_of_row(int j, int k) const {
+    return t_.in_time ? &t_.density[Layout::lead] : &s_.f.rho[d_.layout.at(0, j, k)];
+  }
   /// The share of a pressure correction that is taken.
   double pressure_share() const { return t_.in_time ? 1 : d_.settings.relax_pressure; }
   // Turbulence and momentum (stage_transport.cpp): H/A, 1/A, new k and omega.

@@ -10,7 +10,7 @@ namespace ripstop::cartesian {
 void Solver::matrix_ghosts(int k) {
   const double mirror = b_.sides->mirror();
   side_ghosts(d_, t_.hu, k, mirror, 1), side_ghosts(d_, t_.hv, k, 1, mirror);
-  side_ghosts(d_, t_.ra, k, 1, 1), side_ghosts(d_, t_.rc, k, 1, 1);
+  if (!uniform()) side_ghosts(d_, t_.ra, k, 1, 1), side_ghosts(d_, t_.rc, k, 1, 1);
 }
 
 void Solver::pressure(int k, IndexRange rows) {
@@ -24,6 +24,7 @@ void Solver::pressure(int k, IndexRange rows) {
     r.z_width = d_.z.width[k];
     r.hu = &t_.hu[at], r.hv = &t_.hv[at], r.hw = &t_.hw[at];
     r.ra = &t_.ra[at], r.rc = &t_.rc[at], r.rho = &s_.f.rho[at], r.p = &s_.f.p[at];
+    r.uniform = uniform();
     r.hw_above = r.hw + sz, r.ra_above = r.ra + sz, r.rc_above = r.rc + sz, r.rho_above = r.rho + sz;
     r.p_above = last ? &s_.outlet_p[d_.layout.in_plane(0, j)] : r.p + sz;
     r.inlet = k == 0;
@@ -69,6 +70,7 @@ void Solver::flux(int k, IndexRange rows) {
     r.m = d_.pressure_metrics(j, k);
     r.hu = &t_.hu[at], r.hv = &t_.hv[at], r.hw = &t_.hw[at];
     r.ra = &t_.ra[at], r.rc = &t_.rc[at], r.rho = &s_.f.rho[at], r.p = &s_.f.p[at], r.dp = &top.e[at];
+    r.uniform = uniform();
     r.inlet_speed = k == 0 ? b_.inlet.speed(j) : nullptr;
     r.fx = &s_.f.fx[at], r.fy = &s_.f.fy[at], r.fz = &s_.f.fz[at];
     r.held = jumps(j, k, s_.held);
@@ -113,7 +115,7 @@ void Solver::velocity(int k, IndexRange rows) {
     const std::ptrdiff_t at = d_.layout.at(0, j, k);
     VelocityRow r;
     r.m = d_.metrics(j, k);
-    r.gas_constant = d_.settings.compressible && !t_.in_time ? gas_constant_of_air : 0;
+    r.gas_constant = gas_constant_of_air;
     r.pressure0 = d_.air.density * gas_constant_of_air * d_.air.temperature;
     r.temperature = d_.air.temperature;
     r.speed2 = d_.air.speed * d_.air.speed;
@@ -123,7 +125,8 @@ void Solver::velocity(int k, IndexRange rows) {
     r.change = jumps(j, k, s_.change);
     r.relaxation = pressure_share();
     r.hu = &t_.hu[at], r.hv = &t_.hv[at], r.hw = &t_.hw[at];
-    r.u = &s_.f.u[at], r.v = &s_.f.v[at], r.w = &s_.f.w[at], r.rho = &s_.f.rho[at];
+    r.u = &s_.f.u[at], r.v = &s_.f.v[at], r.w = &s_.f.w[at];
+    if (d_.settings.compressible && !t_.in_time) r.rho = &s_.f.rho[at];
     velocity_row(r);
     double* sums = t_.sums.row(j, k);
     const double area = d_.y.width[j] * d_.z.width[k];

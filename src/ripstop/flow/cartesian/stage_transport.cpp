@@ -53,7 +53,7 @@ void Solver::eddy_viscosity(MarchRings& rings, int k, IndexRange rows) const {
   for (int j = std::max(rows.begin - 2, 0); j < std::min(rows.end + 2, d_.grid.ny); ++j) {
     const std::ptrdiff_t at = d_.layout.at(0, j, k);
     double* mut = &rings.mut[mod(k, 3)][rings.at(d_.layout, j, rows.begin)];
-    eddy_viscosity_row(d_.grid.nx, &s_.f.rho[at], &s_.f.k[at], &s_.f.omega[at], mut);
+    eddy_viscosity_row(d_.grid.nx, density_of_row(j, k), &s_.f.k[at], &s_.f.omega[at], mut);
     if (!in_the_way_.wall.empty()) limit_row(d_.grid.nx, &s_.limit[at], mut);
   }
 }
@@ -69,12 +69,13 @@ TurbulenceRow Solver::turbulence_of(MarchRings& rings, int j, int k, IndexRange 
   TurbulenceRow r;
   r.m = d_.metrics(j, k);
   r.viscosity = d_.air.viscosity;
-  if (t_.in_time) r.inverse_step = 1 / s_.clock.step, r.across = std::max(d_.y.width[j], d_.z.width[k]);
+  if (t_.in_time)
+    r.inverse_step = 1 / s_.clock.step, r.inverse_across = 1 / std::max(d_.y.width[j], d_.z.width[k]);
   r.relaxation = d_.settings.relax_turbulence;
   r.mean_k = s_.mean.k;
   r.mean_omega = s_.mean.omega;
   r.u = &s_.f.u[at], r.v = &s_.f.v[at], r.w = &s_.f.w[at];
-  r.k = &s_.f.k[at], r.omega = &s_.f.omega[at], r.rho = &s_.f.rho[at];
+  r.k = &s_.f.k[at], r.omega = &s_.f.omega[at], r.rho = density_of_row(j, k);
   const double *inlet_k = b_.inlet.turbulence(j), *inlet_omega = b_.inlet.frequency(j);
   r.k_below = first ? inlet_k : sees_new ? &t_.new_k[at - sz] : r.k - sz;
   r.k_above = last ? inlet_k : r.k + sz;

@@ -68,6 +68,7 @@ struct RateRow {
   double *rate_u = nullptr, *rate_v = nullptr, *rate_w = nullptr;  // the last ones, then these [N/m3]
   double *hu = nullptr, *hv = nullptr, *hw = nullptr;              // [m/s]
   double *ra = nullptr, *rc = nullptr;                             // [m3 s/kg]
+  bool uniform = false;  // no porous cells, one density: ra and rc are there already, the same in all cells
 };
 void rate_row(RateRow& row);
 

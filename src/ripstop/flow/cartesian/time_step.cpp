@@ -118,6 +118,12 @@ FlowStep Solver::step(double length) {
   if (t_.mixing.empty()) {
     for (const double width : d_.x.width) t_.mixing.push_back(std::cbrt(width * width));
   }
+  if (t_.density.empty()) t_.density.assign(t_.zeros.size(), d_.air.density);
+  const double inverse = uniform() ? length / d_.air.density : 0;
+  if (inverse > 0 && t_.all_inverse != inverse) {
+    for (Array<double>* all : {&t_.ra, &t_.rc}) std::fill(all->begin(), all->end(), inverse);
+  }
+  t_.all_inverse = inverse;
   const double ratio = s_.clock.steps > 0 ? length / s_.clock.step : 0;
   s_.clock.step = length;
   t_.now = 1 + 0.5 * ratio, t_.before = 0.5 * ratio;
@@ -279,12 +285,13 @@ void Solver::rate(MarchRings& rings, int j, int k, IndexRange rows) {
   const auto body = [&](const Array<double>& force) { return force.empty() ? zeros : &force[at]; };
   r.body_u = body(in_the_way_.body_u), r.body_v = body(in_the_way_.body_v),
   r.body_w = t_.pull.empty() ? body(in_the_way_.body_w) : &t_.pull[Layout::lead];
-  r.u = &s_.f.u[at], r.v = &s_.f.v[at], r.w = &s_.f.w[at], r.rho = &s_.f.rho[at];
+  r.u = &s_.f.u[at], r.v = &s_.f.v[at], r.w = &s_.f.w[at], r.rho = density_of_row(j, k);
   r.linear = in_the_way_.porous.linear(j, k), r.quadratic = in_the_way_.porous.quadratic(j, k);
   r.inverse_step = 1 / s_.clock.step;
   r.now = t_.now, r.before = t_.before;
   r.rate_u = &s_.rate_u[at], r.rate_v = &s_.rate_v[at], r.rate_w = &s_.rate_w[at];
   r.hu = &t_.hu[at], r.hv = &t_.hv[at], r.hw = &t_.hw[at], r.ra = &t_.ra[at], r.rc = &t_.rc[at];
+  r.uniform = uniform();
   rate_row(r);
 }
 

@@ -130,8 +130,8 @@ template <bool in_time>
   const double neighbours = from_neighbours(a, row.k, row.k_south, row.k_north, row.k_below, row.k_above, i);
   const double source = smaller(row.mut[i] * strain, rho * (c1 * beta_star) * old * omega);
   if constexpr (in_time) {
-    const double width = larger(row.m.x_width[i], row.across);
-    const double sink = larger(omega, std::sqrt(old) / (beta_star * c_des * width));
+    const double inverse_width = smaller(row.m.x_inverse_width[i], row.inverse_across);
+    const double sink = larger(omega, 1 / (beta_star * c_des) * std::sqrt(old) * inverse_width);
     return stepped(off, neighbours, source, off + rho * beta_star * sink, old, rho * row.inverse_step);
   }
   const double diagonal = off + rho * beta_star * omega;
@@ -141,10 +141,11 @@ template <bool in_time>
 // Factor of the eddy viscosity at distance `wall` from the cloth [m].
 [[gnu::always_inline]] inline double shear_stress_limit(double strain, double k, double omega, double rho,
                                                         double viscosity, double wall) {
-  const double root = std::sqrt(k) / (beta_star * omega * wall);
-  const double arg = larger(2 * root, 500 * viscosity / (rho * wall * wall * omega));
-  const double x = smaller(arg * arg, 3), f2 = x * (27 + x * x) / (27 + 9 * x * x);  // tanh within 2.4 %
-  return 1 / larger(1, std::sqrt(positive(strain)) * f2 / (a1 * omega));
+  const double mass = rho * wall, once = 1 / (mass * wall * omega);
+  const double arg = larger(2 / beta_star * std::sqrt(k) * mass * once, 500 * viscosity * once);
+  const double x = smaller(arg * arg, 3);  // F2 = tanh(arg^2) within 2.4 % as a ratio of polynomials
+  const double over = x * (27 + x * x), under = (27 + 9 * x * x) * (a1 * omega);
+  return under / larger(under, std::sqrt(positive(strain)) * over);
 }
 
 // Explicit part of the stress, mu dev2((grad U)^T): through an x face it carries mu grad(u) - 2/3 mu div U,
