@@ -359,6 +359,19 @@ TEST(Sheet, TheAnswerIsTheSameBitForBitOnOneTwoAndFourThreads) {
   }
 }
 
+// As a coupled run has it: the canopy is placed once the air is there.
+TEST(Sheet, ACanopyPlacedInUntouchedAirIsMetAsOneThatStoodThere) {
+  const FlowProblem problem = canopy(26, 10, f111, 0);
+  FlowProblem bare = problem;
+  bare.sheets[0].surface.clear();
+  const auto engine = make_cartesian(threads(1));
+  const auto stood = engine->start(problem), placed = engine->start(bare);
+  placed->place(problem.sheets[0].surface);
+  stood->advance(5, 0), placed->advance(5, 0);
+  EXPECT_EQ(stood->field().porous_force, placed->field().porous_force);
+  EXPECT_EQ(stood->field().pressure, placed->field().pressure);
+}
+
 TEST(Sheet, SaysWhichCoefficientsItCannotTake) {
   EXPECT_THROW(solve(*make_cartesian(threads(1)), canopy(12, 10, -1, 0)), Error);
   EXPECT_THROW(solve(*make_cartesian(threads(1)), canopy(12, 10, 1, std::nan(""))), Error);

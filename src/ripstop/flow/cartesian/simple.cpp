@@ -55,7 +55,6 @@ Solver::Solver(const FlowProblem& problem, const FlowGrid& grid, PorousRows poro
   lay_out(problem.body_force, d_, in_the_way_);
   start_uniform();
   place(std::move(porous), problem.sheets);
-  s_.eased = in_the_way_.sheets.empty() ? 0 : eased_iterations;
 }
 
 void Solver::start_uniform() {
@@ -93,6 +92,7 @@ void Solver::place(PorousRows porous, const std::vector<Sheet>& sheets) {
   in_the_way_.porous = std::move(porous);
   const SheetRows before = std::exchange(in_the_way_.sheets, SheetRows(d_.x, d_.y, d_.z, sheets));
   in_the_way_.sheets.begin(s_, d_.layout, before);
+  if (s_.untouched) s_.eased = in_the_way_.sheets.empty() ? 0 : eased_iterations;
   in_the_way_.wall = {};
 }
 

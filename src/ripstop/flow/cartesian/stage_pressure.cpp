@@ -46,7 +46,9 @@ void Solver::pressure(int k, IndexRange rows) {
 
 // Fills the multigrid's correction.
 void Solver::correct(int rank) {
-  if (in_the_way_.sheets.shut()) {  // nothing passes round the sheet: coarse levels are halved
+  // Nothing passes round the sheet, so that coarse levels are halved; or a stream that has only just met a sheet, whose
+  // pressure is not there yet: what a rough answer leaves of it throws the air about.
+  if (in_the_way_.sheets.shut() || s_.eased > 0) {
     multigrid_.solve_conjugate(team_, rank, 0.05, 20);
   } else if (!d_.grid.uniform()) {  // long thin cells, which a cycle alone does not smooth
     multigrid_.solve_conjugate(team_, rank, 0.2, 2 * d_.settings.pressure_cycles);
