@@ -294,7 +294,8 @@ def stage_uncertain_jet(campaign):
     rows = [("base", "", [f"flow.speed_m_s={UNCERTAIN_SPEED}", JET_DISTANCE])]
     rows += [(source, label, extra if any("nozzle_distance" in key for key in extra) else [*extra, JET_DISTANCE])
              for source, all_of in JET_VARIATIONS.items() for label, extra in all_of]
-    drags = varied_drags(campaign, "specified-jet", JET_BASE, rows)
+    drags = varied_drags(campaign, "specified-jet", JET_BASE, rows,
+                         [p for p in PARACHUTES if p == "stratos-iv" or p in campaign.parachutes])
     for parachute in drags:
         folder = campaign.runs / f"specified-jet/uncertain-{parachute}"
         with open(folder / "sweep.csv", newline="") as file:
@@ -341,13 +342,13 @@ def porosity_rows(result, factor):
     return rows
 
 
-def varied_drags(campaign, model, settings, rows):
+def varied_drags(campaign, model, settings, rows, parachutes=PARACHUTES):
     """Parachute -> (source, label, drag) of every row."""
     arguments = []
     for _, _, extra in rows:
         arguments += ["--row", ",".join(extra)]
     drags = {}
-    for parachute in PARACHUTES:
+    for parachute in parachutes:
         done = campaign.sweep(parachute, f"{model}/uncertain-{parachute}", [f"flow.speed_m_s={UNCERTAIN_SPEED}", *settings],
                               *arguments)
         drags[parachute] = [(source, label, float(r["drag_n"])) for (source, label, _), r in zip(rows, done)]
@@ -368,14 +369,15 @@ def ergun(gamma, thickness, cloth, factor):
 
 def write_uncertainty(model, drags):
     """Change of drag of each variation with the frozen cloth, and as a ratio to Stratos IV under the same variation: what
-    is left when the cloth is calibrated again under it, to first order. Replaces the rows of this model in uncertainty.csv."""
+    is left when the cloth is calibrated again under it, to first order. Replaces the rows of this model and these
+    parachutes in uncertainty.csv."""
     path = HERE / "uncertainty.csv"
     table = []
     if path.exists():
         with open(path, newline="") as file:
-            table = [row for row in csv.DictReader(file) if row["porosity_model"] != model]
+            table = [row for row in csv.DictReader(file) if row["porosity_model"] != model or row["parachute"] not in drags]
     base = {p: next(drag for source, _, drag in rows if source == "base") for p, rows in drags.items()}
-    for parachute in BLIND:
+    for parachute in (p for p in BLIND if p in drags):
         for i, (source, label, drag) in enumerate(drags[parachute]):
             if source == "base":
                 continue
@@ -384,7 +386,7 @@ def write_uncertainty(model, drags):
             table.append({"porosity_model": model, "parachute": parachute, "source": source, "variation": label,
                           "frozen_percent": f"{100 * frozen:.2f}", "stratos_iv_percent": f"{100 * reference:.2f}",
                           "ratio_percent": f"{100 * ((1 + frozen) / (1 + reference) - 1):.2f}"})
-    table.sort(key=lambda row: row["porosity_model"])
+    table.sort(key=lambda row: (row["porosity_model"], BLIND.index(row["parachute"])))
     write_table(path, list(table[0]), table)
 
 
@@ -474,7 +476,8 @@ def main():
     parser.add_argument("--runs", type=pathlib.Path, default=pathlib.Path("runs/ojf"))
     parser.add_argument("--jobs", type=int, help="runs side by side (default: ripstop's)")
     for name, all_of in (("--parachutes", PARACHUTES), ("--bases", BASES)):
-        parser.add_argument(name, nargs="+", choices=all_of, default=all_of, help="of jet and unsteady-jet")
+        parser.add_argument(name, nargs="+", choices=all_of, default=all_of,
+                            help="of jet and unsteady-jet; parachutes of uncertain-jet too, beside Stratos IV")
     options = parser.parse_args()
     for stage in options.stages or STAGES:
         if stage not in STAGES:
