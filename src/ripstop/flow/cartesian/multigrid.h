@@ -54,9 +54,9 @@ class Multigrid {
   void coarsen(ThreadTeam& team, int rank);
   /// `from_zero`: the level's e counts as zero, whatever it holds.
   void cycle(std::size_t level, bool from_zero, ThreadTeam* team, int rank);
-  /// Parts of solve_conjugate(), on the finest level; every rank calls them. Sums are taken plane by plane, in the order
-  /// of the planes, and every rank gets them.
-  /// Of what of_row(j, k, index of cell 0 of the row) returns.
+  /// Parts of solve_conjugate(), on the finest level; every rank calls them.
+  /// Sums of what of_row(j, k, index of cell 0 of the row) returns, plane by plane in the order of the planes; every rank
+  /// gets them.
   using Sums = std::array<double, 3>;
   template <class Row>
   Sums sum_of_rows(ThreadTeam& team, int rank, const Row& of_row);
