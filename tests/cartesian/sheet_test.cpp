@@ -310,6 +310,11 @@ TEST(Sheet, LayersBetweenTheSameCentresShareTheDrop) {
     EXPECT_NEAR(load.drop, (turned ? -1 : 1) * a * speed, 0.01 * a * speed);
     EXPECT_EQ(load.outward.z, turned ? -1 : 1);
     EXPECT_GT(load.force.z, 0);
+    // The grid has no air between the layers.
+    EXPECT_EQ(load.inside.has_value(), load.point.z == 0.99);
+    EXPECT_EQ(load.outside.has_value(), load.point.z == 1.01);
+    EXPECT_NEAR(load.inside.value_or(3 * a * speed), 3 * a * speed, 0.01 * a * speed);
+    EXPECT_NEAR(load.outside.value_or(0), 0, 0.01 * a * speed);
   }
 }
 

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 namespace ripstop {
@@ -40,7 +42,9 @@ struct Patchwork {
     return t.at_centre + cross(t.twist, centre[cell] - middle);
   }
   Vec3 force(const ClothLoad& load, std::size_t cell) const {
-    return load.pressure[cell] * area[cell] + norm(area[cell]) * traction(load.remainder, cell);
+    Vec3 shear = traction(load.remainder, cell);
+    if (!load.of_folds.empty()) shear += load.of_folds[cell];
+    return load.pressure[cell] * area[cell] + norm(area[cell]) * shear;
   }
 };
 
@@ -57,8 +61,10 @@ Wrench acting_at(Vec3 point, Vec3 force) {
 /// Pressure of the cloth that one face stands for.
 struct Sample {
   Vec3 point, outward;
-  double pressure = 0;  // inside over outside [Pa]
-  double area = 0;      // [m2]
+  double pressure = 0;                    // inside over outside [Pa]
+  double area = 0;                        // [m2]
+  std::optional<double> inside, outside;  // of the pressure itself [Pa]
+  bool folded = false;                    // another layer lies nearer than a cell, and looks the other way
 };
 
 // Beside a hem all that a face loses acts on the part of it that the cloth covers. Points of such faces lie
@@ -71,7 +77,8 @@ std::vector<Sample> samples_of(const std::vector<SheetLoad>& loads, const std::v
     const Triangle& t = surface[load.triangle];
     const Vec3 normal = cross(t.b - t.a, t.c - t.a);
     const Vec3 off = dot(load.point - t.a, normal) / dot(normal, normal) * normal;
-    samples.push_back({load.point - off, load.outward, load.drop / load.cover, load.area});
+    samples.push_back(
+        {load.point - off, load.outward, load.drop / load.cover, load.area, load.inside, load.outside});
   }
   return samples;
 }
@@ -130,17 +137,24 @@ class Boxes {
   std::vector<Sample> sorted_;
 };
 
+double width_at(Vec3 point, const FlowGrid& grid) {
+  const Vec3 h = grid.spacing(point);
+  return std::max({h.x, h.y, h.z});
+}
+
 // Between layers that lie closer than a cell's width the grid has no air of its own: what such a face drops is that of
-// a closed pocket, or of all layers together.
-bool folded(const Boxes& samples, const Sample& sample, const FlowGrid& grid) {
-  const Vec3 h = grid.spacing(sample.point);
-  const double width = std::max({h.x, h.y, h.z});
-  bool found = false;
-  samples.near(sample.point, width, [&](const Sample& s) {
-    const Vec3 d = s.point - sample.point;
-    found = found || (dot(s.outward, sample.outward) < 0 && dot(d, d) < width * width);
-  });
-  return found;
+// a closed pocket, or of all layers together, and the pressure on the side of that pocket is nobody's.
+void find_folds(std::vector<Sample>& samples, const FlowGrid& grid, double box) {
+  const Boxes all(samples, box);
+  for (Sample& sample : samples) {
+    const double width = width_at(sample.point, grid);
+    all.near(sample.point, width, [&](const Sample& s) {
+      const Vec3 d = s.point - sample.point;
+      if (!(dot(s.outward, sample.outward) < 0) || !(dot(d, d) < width * width)) return;
+      sample.folded = true;
+      (dot(d, sample.outward) > 0 ? sample.outside : sample.inside).reset();
+    });
+  }
 }
 
 enum class Side { same, either };
@@ -176,22 +190,19 @@ bool plane_through(const Boxes& samples, Vec3 centre, Vec3 normal, double radius
   return true;
 }
 
-std::vector<double> pressures(std::vector<Sample> samples, const FlowGrid& grid, const Patchwork& cloth) {
+std::vector<double> pressures(const std::vector<Sample>& samples, const FlowGrid& grid,
+                              const Patchwork& cloth, double box) {
   std::vector<double> result(cloth.area.size(), 0.0);
   if (samples.empty()) return result;
-  const Vec3 cell = grid.spacing(samples.front().point);
-  const double width = 0.5 * reach * std::max({cell.x, cell.y, cell.z});
-  const Boxes all(samples, width);
   std::vector<Sample> believed;
   for (const Sample& s : samples)
-    if (!folded(all, s, grid)) believed.push_back(s);
-  const Boxes boxes(believed.empty() ? std::move(samples) : std::move(believed), width);
+    if (!s.folded) believed.push_back(s);
+  const Boxes boxes(believed.empty() ? samples : std::move(believed), box);
   for (std::size_t c = 0; c < result.size(); ++c) {
     const double area = norm(cloth.area[c]);
     if (!(area > 0)) continue;
-    const Vec3 h = grid.spacing(cloth.centre[c]);
     // Cloth that no face stands for, at a seam or in a fold smaller than the cells, takes what is nearest.
-    double radius = reach * std::max({h.x, h.y, h.z});
+    double radius = reach * width_at(cloth.centre[c], grid);
     const double farthest = norm(grid.size);
     Side side = Side::same;
     while (!plane_through(boxes, cloth.centre[c], cloth.area[c] / area, radius, side, result[c]) &&
@@ -199,6 +210,110 @@ std::vector<double> pressures(std::vector<Sample> samples, const FlowGrid& grid,
       radius *= 1.5;
       side = Side::either;
     }
+  }
+  return result;
+}
+
+// Mean of the pressure on one side of the cloth about a point, from as near as the grid knows it.
+double side_at(const Boxes& samples, Vec3 centre, double radius, double farthest,
+               std::optional<double> Sample::*side) {
+  double weights = 0, sum = 0;
+  for (; !(weights > 0) && radius < farthest; radius *= 1.5) {
+    samples.near(centre, radius, [&](const Sample& s) {
+      const Vec3 d = (s.point - centre) / radius;
+      const double inside = 1 - dot(d, d);
+      if (inside <= 0 || !(s.*side)) return;
+      const double w = s.area * inside * inside;
+      weights += w, sum += w * *(s.*side);
+    });
+  }
+  return weights > 0 ? sum / weights : 0;
+}
+
+// The air in a pleat stands in touch with that at its mouth, however narrow it is: cloth among folds takes the
+// difference of the pressures that the grid has on its two sides nearby. Elsewhere `pressure` stays.
+void press_into_folds(const Boxes& samples, const FlowGrid& grid, const Patchwork& cloth,
+                      std::vector<double>& pressure) {
+  const double farthest = norm(grid.size);
+  for (std::size_t c = 0; c < pressure.size(); ++c) {
+    const double radius = reach * width_at(cloth.centre[c], grid);
+    double all = 0, folded = 0;
+    if (norm(cloth.area[c]) > 0)
+      samples.near(cloth.centre[c], radius, [&](const Sample& s) {
+        const Vec3 d = (s.point - cloth.centre[c]) / radius;
+        const double w = s.area * std::pow(std::max(1 - dot(d, d), 0.0), 2);
+        all += w, folded += s.folded ? w : 0;
+      });
+    if (!(folded > 0)) continue;
+    const double difference = side_at(samples, cloth.centre[c], radius, farthest, &Sample::inside) -
+                              side_at(samples, cloth.centre[c], radius, farthest, &Sample::outside);
+    pressure[c] += folded / all * (difference - pressure[c]);
+  }
+}
+
+/// Sums on the points of a lattice, each value shared among the eight about it and read off in the same shares.
+template <class Value>
+class Lattice {
+ public:
+  Lattice(Vec3 low, double spacing) : low_(low), spacing_(spacing) {}
+
+  /// visit(value on a point, share) for the eight points.
+  template <class Visit>
+  void about(Vec3 x, const Visit& visit) {
+    const Vec3 at = (x - low_) / spacing_;
+    const double p[] = {at.x, at.y, at.z};
+    std::array<int, 3> first;
+    std::array<double, 3> part;
+    for (int a = 0; a < 3; ++a) first[a] = static_cast<int>(std::floor(p[a])), part[a] = p[a] - first[a];
+    for (int n = 0; n < 8; ++n) {
+      double share = 1;
+      std::array<int, 3> point = first;
+      for (int a = 0; a < 3; ++a) {
+        const bool upper = n >> a & 1;
+        share *= upper ? part[a] : 1 - part[a];
+        point[a] += upper;
+      }
+      visit(points_[point], share);
+    }
+  }
+
+ private:
+  Vec3 low_;
+  double spacing_;
+  std::map<std::array<int, 3>, Value> points_;
+};
+
+// What the air's force is beyond that of the pressures, where there are folds: a traction of the cloth nearby, so that
+// force that the air exerts on a part of the canopy stays there.
+std::vector<Vec3> fold_tractions(const std::vector<SheetLoad>& loads, const std::vector<Sample>& samples,
+                                 const FlowGrid& grid, const Patchwork& cloth,
+                                 const std::vector<double>& pressure) {
+  struct Sum {
+    Vec3 force;                            // that is left [N]
+    double area = 0, all = 0, folded = 0;  // of cloth, samples and samples in folds [m2]
+  };
+  std::vector<Vec3> result(cloth.area.size());
+  if (samples.empty()) return result;
+  Lattice<Sum> lattice({}, reach * width_at(cloth.middle, grid));
+  for (const SheetLoad& load : loads)
+    lattice.about(load.point, [&](Sum& sum, double share) { sum.force += share * load.force; });
+  for (const Sample& s : samples)
+    lattice.about(s.point, [&](Sum& sum, double share) {
+      sum.all += share * s.area, sum.folded += s.folded ? share * s.area : 0;
+    });
+  for (std::size_t c = 0; c < result.size(); ++c) {
+    if (!(norm(cloth.area[c]) > 0)) continue;
+    lattice.about(cloth.centre[c], [&](Sum& sum, double share) {
+      sum.force += -share * pressure[c] * cloth.area[c];
+      sum.area += share * norm(cloth.area[c]);
+    });
+  }
+  for (std::size_t c = 0; c < result.size(); ++c) {
+    if (!(norm(cloth.area[c]) > 0)) continue;
+    lattice.about(cloth.centre[c], [&](const Sum& sum, double share) {
+      if (sum.all > 0)
+        result[c] += share * sum.folded / sum.all / std::max(sum.area, 0.2 * sum.all) * sum.force;
+    });
   }
   return result;
 }
@@ -247,9 +362,16 @@ Wrench wrench_of(const ClothLoad& load, const std::vector<Cell>& cells, const st
 
 ClothLoad load_of_flow(const std::vector<SheetLoad>& loads, const FlowGrid& grid,
                        const std::vector<Triangle>& surface, const std::vector<Cell>& cells,
-                       const std::vector<Vec3>& x) {
+                       const std::vector<Vec3>& x, Folds folds) {
   const Patchwork cloth(cells, x);
-  ClothLoad load{pressures(samples_of(loads, surface), grid, cloth), {}};
+  std::vector<Sample> samples = samples_of(loads, surface);
+  const double box = samples.empty() ? 1 : 0.5 * reach * width_at(samples.front().point, grid);
+  find_folds(samples, grid, box);
+  ClothLoad load{pressures(samples, grid, cloth, box), {}, {}};
+  if (folds == Folds::filled && !samples.empty()) {
+    press_into_folds(Boxes(samples, box), grid, cloth, load.pressure);
+    load.of_folds = fold_tractions(loads, samples, grid, cloth, load.pressure);
+  }
   const Wrench air = wrench_of(loads), plain = wrench_of(load, cells, x);
   const Vec3 force = air.force - plain.force;
   load.remainder = smallest_traction(cloth, force, air.moment - plain.moment - cross(cloth.middle, force));
@@ -272,7 +394,8 @@ double remainder_share(const ClothLoad& load, const std::vector<Cell>& cells, co
   const Patchwork cloth(cells, x);
   double traction = 0, pressure = 0;
   for (std::size_t c = 0; c < cells.size(); ++c) {
-    const Vec3 t = cloth.traction(load.remainder, c);
+    Vec3 t = cloth.traction(load.remainder, c);
+    if (!load.of_folds.empty()) t += load.of_folds[c];
     traction += norm(cloth.area[c]) * dot(t, t);
     pressure += norm(cloth.area[c]) * load.pressure[c] * load.pressure[c];
   }

@@ -20,7 +20,12 @@ struct RigidTraction {
 struct ClothLoad {
   std::vector<double> pressure;  // inside over outside, one a cell, 0 where there is no cloth [Pa]
   RigidTraction remainder;
+  std::vector<Vec3> of_folds =
+      {};  // a force a unit area of each cell beside both, with Folds::filled; else none [Pa]
 };
+
+/// Few: an inflated canopy. Filled: one that opens, most of whose cloth lies in folds.
+enum class Folds { few, filled };
 
 /// Force and its moment about the origin.
 struct Wrench {
@@ -31,11 +36,14 @@ Wrench wrench_of(const std::vector<SheetLoad>& loads);
 Wrench wrench_of(const ClothLoad& load, const std::vector<Cell>& cells, const std::vector<Vec3>& positions);
 
 /// The pressure of every cell is the weighted plane through the pressures of the faces near it; the remainder
-/// is the smallest traction (in the mean square over the cloth) that makes force and moment those of `loads`.
+/// is the smallest traction (in the mean square over the cloth) that makes force and moment those of `loads`. Cloth in
+/// folds narrower than the flow's cells takes the pressure of open cloth nearby that looks the same way; with
+/// Folds::filled the difference of the pressures on its two sides nearby, as a pleat is open to the air at its mouth,
+/// and what the air's force on it is beyond that stays in its neighbourhood.
 /// `surface` is surface_of(cells, positions), the sheet that the loads stand on.
 ClothLoad load_of_flow(const std::vector<SheetLoad>& loads, const FlowGrid& grid,
                        const std::vector<Triangle>& surface, const std::vector<Cell>& cells,
-                       const std::vector<Vec3>& positions);
+                       const std::vector<Vec3>& positions, Folds folds = Folds::few);
 
 /// On every node, a quarter of the load of each cell that it is a corner of [N].
 std::vector<Vec3> node_forces(const ClothLoad& load, const std::vector<Cell>& cells,

@@ -23,6 +23,10 @@ void pull(FlowField& mean, const FlowField& field, double share) {
   for (std::size_t face = 0; face < field.sheet_loads.size(); ++face) {
     towards(mean.sheet_loads[face].drop, field.sheet_loads[face].drop);
     towards(mean.sheet_loads[face].force, field.sheet_loads[face].force);
+    if (field.sheet_loads[face].inside)
+      towards(*mean.sheet_loads[face].inside, *field.sheet_loads[face].inside);
+    if (field.sheet_loads[face].outside)
+      towards(*mean.sheet_loads[face].outside, *field.sheet_loads[face].outside);
   }
   mean.last = field.last;
   mean.converged = field.converged;

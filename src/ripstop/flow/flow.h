@@ -67,6 +67,9 @@ struct SheetLoad {
   Vec3 force;        // on the sheet: drop times the face's area, along an axis of the grid [N]
   double cover = 1;  // the part of the face that the sheet covers: drop / cover is what the cloth there sees
   double area = 0;  // of the sheet that the face stands for, as far as it covers the face: a share n_a^2 [m2]
+  /// Pressure on the sheet's own two sides, as far as the grid has air there: nothing on a side where another layer
+  /// lies before the next centre [Pa].
+  std::optional<double> inside, outside;
 };
 
 /// The four sides of the box. Slip: walls without friction. Zero gradient: nothing changes across them, air

@@ -110,8 +110,12 @@ Loads OpeningAir::step(const std::vector<Vec3>& positions, const std::vector<Vec
   if (payload_) flow_->stream(row.speed, memory.acceleration);
   const FlowStep step = flow_->step(length);
   std::vector<SheetLoad> loads = flow_->sheet_loads();
-  for (SheetLoad& one : loads) one.drop *= thicker, one.force = thicker * one.force;
-  ClothLoad load = load_of_flow(loads, grid_, surface, cells_, positions);
+  for (SheetLoad& one : loads) {
+    one.drop *= thicker, one.force = thicker * one.force;
+    if (one.inside) *one.inside *= thicker;
+    if (one.outside) *one.outside *= thicker;
+  }
+  ClothLoad load = load_of_flow(loads, grid_, surface, cells_, positions, Folds::filled);
   row.length = length, row.courant = step.courant;
   const Vec3 force = thicker * step.force;
   row.drag = force.z, row.side_x = force.x, row.side_y = force.y;

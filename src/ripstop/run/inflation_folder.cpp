@@ -266,6 +266,9 @@ void InflationFolder::write_shape(const Inflation& solver, const InflationState&
       vtk_array_single("velocity_m_per_s", velocities(state.cloth, solver.cloth())));
   canopy.cell_arrays.push_back(vtk_array_single("von_mises_n_per_m", cloth_cells_only(solver.mesh(), mises)));
   canopy.cell_arrays.push_back(vtk_array_single("strain_max", cloth_cells_only(solver.mesh(), strain)));
+  if (with_air_)
+    canopy.cell_arrays.push_back(vtk_array_single("pressure_difference_applied_pa",
+                                                  cloth_cells_only(solver.mesh(), state.air.pressure)));
   write_vtp(folder_.own(shape_file("canopy", index)), canopy);
   VtkSurface lines = spring_lines(solver.mesh(), x);
   lines.cell_arrays.push_back(vtk_array_single("tension_n", spring_tensions(solver.cloth(), state.cloth)));

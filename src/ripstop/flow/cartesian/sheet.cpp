@@ -288,7 +288,7 @@ Array<double> SheetRows::distance(const Axis& x, const Axis& y, const Axis& z, c
   return result;
 }
 
-std::vector<SheetLoad> SheetRows::loads(const State& state) const {
+std::vector<SheetLoad> SheetRows::loads(const State& state, const Layout& layout) const {
   std::vector<SheetLoad> result;
   result.reserve(faces_.size());
   for (std::size_t n = 0; n < faces_.size(); ++n) {
@@ -306,7 +306,29 @@ std::vector<SheetLoad> SheetRows::loads(const State& state) const {
     load.area = face.cover * face.area * (g.axis == 0 ? g.normal.x : g.axis == 1 ? g.normal.y : g.normal.z);
     result.push_back(load);
   }
+  add_sides(state, layout, result);
   return result;
+}
+
+void SheetRows::add_sides(const State& state, const Layout& layout, std::vector<SheetLoad>& loads) const {
+  const auto place = [](const SheetFace& g) {
+    return g.axis == 0 ? g.point.x : g.axis == 1 ? g.point.y : g.point.z;
+  };
+  std::map<std::size_t, std::pair<std::size_t, std::size_t>>
+      outermost;  // of the layers that part two centres
+  for (std::size_t n = 0; n < faces_.size(); ++n) {
+    auto& [low, high] = outermost.try_emplace(faces_[n].at, n, n).first->second;
+    if (place(faces_[n].geometry) < place(faces_[low].geometry)) low = n;
+    if (place(faces_[n].geometry) > place(faces_[high].geometry)) high = n;
+  }
+  for (const auto& [at, layers] : outermost) {
+    const auto [low, high] = layers;
+    const auto [below, above] = cells(faces_[low].geometry, layout);
+    const double mean = 0.5 * (state.f.p[below] + state.f.p[above]),
+                 half = 0.5 * (state.held[at] + state.change[at]);
+    (faces_[low].geometry.against ? loads[low].outside : loads[low].inside) = mean + half;
+    (faces_[high].geometry.against ? loads[high].inside : loads[high].outside) = mean - half;
+  }
 }
 
 }  // namespace ripstop::cartesian

@@ -50,7 +50,7 @@ class SheetRows {
   /// than half the least cell.
   Array<double> distance(const Axis& x, const Axis& y, const Axis& z, const Layout& layout) const;
   /// What the air does to the sheets, face by face.
-  std::vector<SheetLoad> loads(const State& state) const;
+  std::vector<SheetLoad> loads(const State& state, const Layout& layout) const;
 
  private:
   std::size_t row(int j, int k) const { return static_cast<std::size_t>(k) * (ny_ + 1) + j; }
@@ -72,6 +72,7 @@ class SheetRows {
   };
   void add_faces(const Axis& x, const Axis& y, const Axis& z, const std::vector<Sheet>& sheets);
   void lay_out();
+  void add_sides(const State& state, const Layout& layout, std::vector<SheetLoad>& loads) const;
 
   int nx_ = 0, ny_ = 0, nz_ = 0;
   std::vector<Face> faces_;

@@ -144,7 +144,7 @@ FlowProgress Solver::close_iteration() {
              mean(Sums::p_mean), mean(Sums::k_mean), mean(Sums::omega_mean)};
   s_.force = {sum.value[Sums::drag_x], sum.value[Sums::drag_y], sum.value[Sums::drag_z]};
   in_the_way_.sheets.settle(s_);
-  for (const SheetLoad& load : in_the_way_.sheets.loads(s_)) s_.force += load.force;
+  for (const SheetLoad& load : in_the_way_.sheets.loads(s_, d_.layout)) s_.force += load.force;
   ++s_.iteration;
   s_.eased = std::max(0, s_.eased - 1);
   s_.untouched = false;
@@ -220,7 +220,7 @@ FlowField Solver::field_without_cells() const {
   FlowField field;
   field.grid = d_.grid;
   field.porous_force = s_.force;
-  field.sheet_loads = in_the_way_.sheets.loads(s_);
+  field.sheet_loads = in_the_way_.sheets.loads(s_, d_.layout);
   field.momentum_deficit = momentum_deficit(d_, b_, s_);
   return field;
 }

@@ -88,7 +88,7 @@ class Solver {
   std::string first_bad_value() const;
   FlowField field() const;
   void add_to(FieldMean& mean) const;
-  std::vector<SheetLoad> sheet_loads() const { return in_the_way_.sheets.loads(s_); }
+  std::vector<SheetLoad> sheet_loads() const { return in_the_way_.sheets.loads(s_, d_.layout); }
 
   const Discretisation& discretisation() const { return d_; }
   const FlowGrid& grid() const { return d_.grid; }

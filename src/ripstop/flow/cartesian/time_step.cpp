@@ -332,7 +332,7 @@ FlowStep Solver::close_step(double momentum_before, double held_back) {
   s_.mean.p = mean(Sums::p_mean);
   s_.force = {sum.value[Sums::drag_x], sum.value[Sums::drag_y], sum.value[Sums::drag_z]};
   in_the_way_.sheets.settle(s_);
-  for (const SheetLoad& load : in_the_way_.sheets.loads(s_)) s_.force += load.force;
+  for (const SheetLoad& load : in_the_way_.sheets.loads(s_, d_.layout)) s_.force += load.force;
   s_.untouched = false;
   Clock& clock = s_.clock;
   FlowStep step;
