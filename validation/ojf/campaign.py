@@ -83,7 +83,7 @@ OPENING = ["inflation.duration_s=0.45", "inflation.frames=90", "inflation.line_s
 OPENING_OF = {"stratos-iv": [], "walrus": [], "adept": ["inflation.cloth_compression=0.1"]}
 # Of Stratos IV; what they change is taken for the other two.
 OPENING_VARIATIONS = {"air 1.25 times as fine": ["flow.cells=[110,110,122]"], "half the folds": ["inflation.folds=9"],
-                      "half the step": ["inflation.courant=0.25"]}
+                      "half the step": ["inflation.courant=0.25"], "twice the nodes": ["parachute.mesh.cloth_nodes=25600"]}
 OPENING_COLUMNS = ["parachute", "air", "speed_m_s", "density_kg_m3", "initial_radius_m", "peak_100hz_n", "peak_n",
                    "peak_time_s", "filling_time_s", "steady_n", "wall_time_s", "peak_100hz_pm_n"]
 # Under the uniform pressure of their steady load (docs/validation.md) and the damping that Stratos IV was fitted with.

@@ -94,8 +94,10 @@ void describe_run(Fields& fields, InflationSettings& inflation) {
       "its steps.");
   fields.number("low_pass_hz", inflation.low_pass_hz, from(0).up_to(1e6),
                 "Cutoff of a low-pass over the written history; the computation is not filtered; 0: none.");
-  fields.numbers("sheet_s", inflation.sheet_s, 1, 12, from(0).up_to(1000),
-                 "Instants whose shapes the contact sheet shows, at the next look at the step.");
+  fields.numbers(
+      "sheet_s", inflation.sheet_s, 0, 12, from(0).up_to(1000),
+      "Instants whose shapes the contact sheet shows, at the next look at the step; none: eight, up to "
+      "0.1 s or, with air = \"coupled\", to the end.");
   fields.integer("frames", inflation.frames, from(1).up_to(100000), "Shapes that are written.");
   fields.number("step_fraction", inflation.step_fraction, above(0).up_to(0.98),
                 "Time step over the largest stable one.");

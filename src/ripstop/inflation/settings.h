@@ -57,9 +57,8 @@ struct InflationSettings {
   double history_hz = 5000;  // rows of the history a second, at least
   double low_pass_hz = 0;    // of the written history only; 0: none
   int frames = 200;
-  std::vector<double> sheet_s = {0,    0.005, 0.01, 0.015,
-                                 0.02, 0.03,  0.04, 0.1};  // shapes on the contact sheet
-  double step_fraction = 0.9;                              // of the largest stable step
+  std::vector<double> sheet_s = {};  // shapes on the contact sheet
+  double step_fraction = 0.9;        // of the largest stable step
 
   std::optional<double> measured_peak_n;
   std::optional<double> measured_inflation_time_s;
