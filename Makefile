@@ -18,7 +18,7 @@ CHECK_PACKAGES := libgtest-dev libbenchmark-dev python3 python3-jsonschema pytho
 
 export PATH := /usr/bin:$(PATH)
 
-.PHONY: help deps check-deps build demo check room sanitize sanitize-thread fuzz mutants coverage tidy bench validate validate-ojf validate-families validate-families-in-time judge torture test-slurm test-hosts scaling report-libraries format format-check install-build install wheel package clean
+.PHONY: help deps check-deps build demo check room sanitize sanitize-thread fuzz mutants coverage tidy bench validate validate-ojf validate-families validate-families-in-time validate-openings judge torture test-slurm test-hosts scaling report-libraries format format-check install-build install wheel package clean
 
 help:  ## This list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -117,6 +117,9 @@ validate-families: build  ## Drag of every family's example beside Knacke's valu
 
 validate-families-in-time: build  ## The same with wakes that shed, means over time, of the types in Knacke's manual: half an hour; resumable
 	@/usr/bin/python3 validation/families/families.py --ripstop build/bin/ripstop --in-time
+
+validate-openings: build  ## The same types opened in their own air, infinite mass, into docs/tables: half an hour; resumable
+	@/usr/bin/python3 validation/families/families.py --ripstop build/bin/ripstop --openings
 
 judge: check-deps build  ## The built-in engine beside OpenFOAM on meshes that follow the cloth, into docs/tables: an hour and more
 	@cmake --preset release > /dev/null

@@ -11,6 +11,9 @@ KEY=VALUE` pass on to `ripstop`, for a quick look; the loads are then printed on
 
 `families.py --in-time` (make validate-families-in-time) has the families that Knacke's manual knows with a wake that sheds
 in its place: means over time with their standard errors, into docs/tables/families-in-time.md.
+
+`families.py --openings` (make validate-openings) opens them in their own air with the riser held, from a skirt of a quarter
+of the nominal diameter, into docs/tables/families-openings.md.
 """
 import argparse
 import csv
@@ -30,6 +33,8 @@ from campaign import SHEET_SPECIFIED  # pylint: disable=wrong-import-position
 
 CALIBRATED = "f-111"  # on Stratos IV: the cloth of the campaign, whose cases have the paper's box and porosity
 LOADS = ["of-flow", "uniform"]
+OPENING = ["inflation.duration_s=0.4", "inflation.frames=80", "inflation.cloth_damping_s=1e-5", "inflation.low_pass_hz=100"]
+MOUTHS = {"cross": 0.15}  # radius of the folded skirt [m] where 0.12 m cannot be folded
 IN_TIME = "in-time"  # in the place of a load: that of the flow, in time
 
 
@@ -117,9 +122,45 @@ def loads_table(options, results):
                          "coupling iterations"], rows)
 
 
+def in_handbook():
+    return {row["family"] for row in json.loads((ROOT / "examples/families.json").read_text())["families"]
+            if row["handbook_drag_coefficient"]}
+
+
+def opened(options, name):
+    """Result of the opening, and what the handbook says of its filling distance."""
+    ripstop, case, folder = str(options.ripstop.resolve()), f"examples/{name}/case.toml", folder_of(options, name, "opening")
+    command = [ripstop, "inflate", case, "--air", "coupled", "--out", str(folder)]
+    for setting in [*OPENING, f"inflation.initial_radius_m={MOUTHS.get(name, 0.12)}", *options.set]:
+        command += ["--set", setting]
+    print("$ ripstop " + " ".join(command[1:]), flush=True)
+    if subprocess.run(command, cwd=ROOT, check=False).returncode not in (0, 4):  # 4: not settled; the peak is there all the same
+        sys.exit(f"{name}: ripstop failed; the same command again goes on from here")
+    load = subprocess.run([ripstop, "load", case, "--mass", "1", "--speed", "20", "--json", "--out", str(folder.parent / f"{name}-load")],
+                          cwd=ROOT, check=True, capture_output=True, text=True)
+    return json.loads((folder / "result.json").read_text()), json.loads(load.stdout)
+
+
+def openings(options):
+    rows, made = [], []
+    for name in (name for name in options.names if name in in_handbook()):
+        r, handbook = opened(options, name)
+        run_of = tables.runs_below(folder_of(options, name, "opening"))
+        made += run_of
+        distance = 20 * r["filling_time_s"] / handbook["nominal_diameter_m"]
+        deviation = f"{r['steady_load_n']:.0f} +- {100 * r['steady_load_deviation']:.0f} %"
+        rows.append([name, deviation + ("" if r["settled"] else ", not settled"), f"{r['low_pass_peak_load_n']:.0f}",
+                     f"{1000 * r['low_pass_peak_time_s']:.0f}", f"{r['low_pass_overshoot']:.2f}", f"{r['knacke_coefficient']:g}",
+                     f"{distance:.1f}", f"{handbook['filling_constant']:g}", f"{100 * r['pierced_edges']:.1f}"])
+    table = tables.table(["example", "steady N", "peak at 100 Hz N", "at ms", "peak over steady", "Knacke C_x", "fills in diameters",
+                          "handbook, flying", "edges that pierce cloth %"], rows)
+    print("\n".join(table))
+    if len(rows) == len(in_handbook()) and not options.set:
+        tables.write("families-openings", "Families opened in their own air", "make validate-openings", made, table)
+
+
 def in_time(options):
-    known = {row["family"] for row in json.loads((ROOT / "examples/families.json").read_text())["families"]
-             if row["handbook_drag_coefficient"]}
+    known = in_handbook()
     results = {name: run(options, name, IN_TIME) for name in options.names if name in known}
     if None in results.values():
         sys.exit("a run failed: no table is written")
@@ -137,10 +178,11 @@ def main():
     parser.add_argument("--grid", type=int, nargs=3)
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE")
     parser.add_argument("--in-time", action="store_true")
+    parser.add_argument("--openings", action="store_true")
     parser.add_argument("names", nargs="*", default=FAMILIES + CAMPAIGN, help="examples; all of them without a name")
     options = parser.parse_args()
-    if options.in_time:
-        in_time(options)
+    if options.in_time or options.openings:
+        (in_time if options.in_time else openings)(options)
         return
     done = {(name, load): run(options, name, load) for load in LOADS for name in options.names}
     results = {(name, load): done[name, load] for name in options.names for load in LOADS}
