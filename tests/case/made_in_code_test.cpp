@@ -44,14 +44,14 @@ TEST(MadeInCode, IsToldTheSameMistakesWithoutFileAndLine) {
   given.parachute.lines.length_m = 1;
   given.parachute.lines.material = "f-111";
   given.coupling.relaxation = 0;
-  given.inflation.sheet_s.assign(13, 0.01);
+  given.inflation.sheet_s.assign(13, 1);
   given.title = "two\nlines";
   std::string text = replaced(written_case, "speed_m_s = 8", "speed_m_s = 200\ncells = [20, 20, 1]");
   text = replaced(text, "length_m = 3.0 }", "length_m = 1.0, material = \"f-111\" }");
   text = "title = \"two\\nlines\"\n" + text + "[coupling]\nrelaxation = 0\n";
   std::vector<std::string> expected = messages(outcome_of(text).problems);
   EXPECT_EQ(expected.size(), 6u);
-  expected.push_back("inflation.sheet_s = [0.01, 0.01, 0.01]: must have 0 to 12 numbers, not 13");
+  expected.push_back("inflation.sheet_s = [1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1]: must have 0 to 12 numbers, not 13");
   std::sort(expected.begin(), expected.end());
   const std::vector<Problem> problems = validate(given);
   EXPECT_EQ(messages(problems), expected);
