@@ -55,11 +55,6 @@ Case opening_case(const Case& given) {
     if (auto* fabric = std::get_if<Fabric>(&material)) wrinkle(*fabric);
     if (auto* tape = std::get_if<Tape>(&material)) wrinkle(*tape);
   }
-  std::vector<double>& shown = opening.inflation.sheet_s;
-  if (shown.empty()) {
-    shown = {0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 1};
-    for (double& instant : shown) instant *= inflation.air == AirModel::coupled ? inflation.duration_s : 0.1;
-  }
   MeshSettings& mesh = opening.parachute.mesh;
   mesh.sewn_straight = false;  // chords of curved seams would strain the folded start
   mesh.line_segment_m = *resolve(given).written.inflation.line_segment_m;

@@ -63,6 +63,10 @@ Inflation::Inflation(InflationProblem problem) : problem_(std::move(problem)), t
     throw Error(ExitCode::usage,
                 "inflation.initial_radius_m is not given: the radius of the folded skirt, for example 0.1");
   }
+  if (std::vector<double>& shown = problem_.settings.sheet_s; shown.empty()) {
+    shown = {0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 1};
+    for (double& instant : shown) instant *= problem_.air ? s.duration_s : 0.1;
+  }
   folded_ = folded_start(problem_.mesh, {*s.initial_radius_m, s.folds, s.slack_m}, problem_.symmetry, team_);
   mesh_ = with_creases(problem_.mesh, folded_);
   damp_springs(mesh_, s.line_damping_s, s.cloth_damping_s);
