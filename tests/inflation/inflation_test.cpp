@@ -57,6 +57,21 @@ TEST(Inflation, TheFoldedStateAtRestStaysAtRest) {
   EXPECT_LT(farthest, 1e-9);
 }
 
+// A block may end by rounding before the instant that it stands for.
+TEST(Inflation, EveryInstantIsShownOnceAndWithoutAnyEightAreChosen) {
+  InflationProblem problem = small_problem(0, 6e-3);
+  Inflation measured(problem);
+  InflationState first = measured.start();
+  measured.advance(first);
+  problem.settings.sheet_s = {0, first.cloth.time * (1 + 1e-13), first.cloth.time * (2 + 1e-13)};
+  Inflation solver(problem);
+  InflationState state = solver.start();
+  run(solver, state);
+  EXPECT_EQ(state.shots.size(), 3u);
+  EXPECT_EQ(measured.problem().settings.sheet_s.size(), 8u);
+  EXPECT_DOUBLE_EQ(measured.problem().settings.sheet_s.back(), 0.1);
+}
+
 TEST(Inflation, ClothDoesNotPassThroughClothUnlessItIsAskedTo) {
   double pierced[2], depth[2];
   for (const bool contact : {false, true}) {

@@ -305,7 +305,7 @@ void Inflation::take_shots(InflationState& state) const {
   const std::vector<double>& instants = problem_.settings.sheet_s;
   const double now = state.cloth.time, last = state.shots.empty() ? -1.0 : state.shots.back().time;
   if (std::none_of(instants.begin(), instants.end(),
-                   [&](double t) { return t > last && t <= now * (1 + 1e-12); }))
+                   [&](double t) { return t > last * (1 + 1e-12) && t <= now * (1 + 1e-12); }))
     return;
   InflationShot shot{now, positions(state.cloth, cloth()), {}};
   for (const CellStress& stress : cell_stress(cloth(), state.cloth))
