@@ -51,7 +51,8 @@ TEST(MadeInCode, IsToldTheSameMistakesWithoutFileAndLine) {
   text = "title = \"two\\nlines\"\n" + text + "[coupling]\nrelaxation = 0\n";
   std::vector<std::string> expected = messages(outcome_of(text).problems);
   EXPECT_EQ(expected.size(), 6u);
-  expected.push_back("inflation.sheet_s = [1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1]: must have 0 to 12 numbers, not 13");
+  expected.push_back(
+      "inflation.sheet_s = [1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1]: must have 0 to 12 numbers, not 13");
   std::sort(expected.begin(), expected.end());
   const std::vector<Problem> problems = validate(given);
   EXPECT_EQ(messages(problems), expected);
