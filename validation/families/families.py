@@ -34,7 +34,8 @@ from campaign import SHEET_SPECIFIED  # pylint: disable=wrong-import-position
 CALIBRATED = "f-111"  # on Stratos IV: the cloth of the campaign, whose cases have the paper's box and porosity
 LOADS = ["of-flow", "uniform"]
 # Of cloth of the usual permeability, as the handbook's canopies were.
-OPENING = ["parachute.canopy_material=mil-c-7020-type-i", "inflation.duration_s=0.4", "inflation.frames=80", "inflation.cloth_damping_s=1e-5", "inflation.low_pass_hz=100"]
+OPENING = ["parachute.canopy_material=mil-c-7020-type-i", "inflation.duration_s=0.4", "inflation.frames=80",
+           "inflation.cloth_damping_s=1e-5", "inflation.low_pass_hz=100"]
 MOUTHS = {"cross": 0.15}  # radius of the folded skirt [m] where 0.12 m cannot be folded
 IN_TIME = "in-time"  # in the place of a load: that of the flow, in time
 

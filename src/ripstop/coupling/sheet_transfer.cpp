@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -41,10 +41,13 @@ struct Patchwork {
   Vec3 traction(const RigidTraction& t, std::size_t cell) const {
     return t.at_centre + cross(t.twist, centre[cell] - middle);
   }
+  /// All that is not pressure.
+  Vec3 traction(const ClothLoad& load, std::size_t cell) const {
+    const Vec3 rigid = traction(load.remainder, cell);
+    return load.of_folds.empty() ? rigid : rigid + load.of_folds[cell];
+  }
   Vec3 force(const ClothLoad& load, std::size_t cell) const {
-    Vec3 shear = traction(load.remainder, cell);
-    if (!load.of_folds.empty()) shear += load.of_folds[cell];
-    return load.pressure[cell] * area[cell] + norm(area[cell]) * shear;
+    return load.pressure[cell] * area[cell] + norm(area[cell]) * traction(load, cell);
   }
 };
 
@@ -251,36 +254,55 @@ void press_into_folds(const Boxes& samples, const FlowGrid& grid, const Patchwor
   }
 }
 
-/// Sums on the points of a lattice, each value shared among the eight about it and read off in the same shares.
+/// Sums on the points of a lattice about some places, each value shared among the eight points about it and read off in
+/// the same shares.
 template <class Value>
 class Lattice {
  public:
-  Lattice(Vec3 low, double spacing) : low_(low), spacing_(spacing) {}
+  /// Values are at these places and no others.
+  Lattice(const std::vector<Vec3>& places, double spacing) : spacing_(spacing) {
+    std::array<int, 3> high;
+    first_.fill(std::numeric_limits<int>::max()), high.fill(std::numeric_limits<int>::min());
+    for (const Vec3& x : places) {
+      const std::array<double, 3> at = scaled(x);
+      for (int a = 0; a < 3; ++a) {
+        const int lower = static_cast<int>(std::floor(at[a]));
+        first_[a] = std::min(first_[a], lower), high[a] = std::max(high[a], lower);
+      }
+    }
+    std::size_t size = places.empty() ? 0 : 1;
+    for (int a = 0; a < 3 && size > 0; ++a) size *= count_[a] = high[a] - first_[a] + 2;
+    points_.resize(size);
+  }
 
   /// visit(value on a point, share) for the eight points.
   template <class Visit>
   void about(Vec3 x, const Visit& visit) {
-    const Vec3 at = (x - low_) / spacing_;
-    const double p[] = {at.x, at.y, at.z};
-    std::array<int, 3> first;
+    const std::array<double, 3> at = scaled(x);
+    std::array<int, 3> lower;
     std::array<double, 3> part;
-    for (int a = 0; a < 3; ++a) first[a] = static_cast<int>(std::floor(p[a])), part[a] = p[a] - first[a];
+    for (int a = 0; a < 3; ++a) {
+      lower[a] = static_cast<int>(std::floor(at[a])) - first_[a];
+      part[a] = at[a] - std::floor(at[a]);
+    }
     for (int n = 0; n < 8; ++n) {
       double share = 1;
-      std::array<int, 3> point = first;
-      for (int a = 0; a < 3; ++a) {
-        const bool upper = n >> a & 1;
-        share *= upper ? part[a] : 1 - part[a];
-        point[a] += upper;
-      }
+      std::size_t point = 0;
+      for (int a = 2; a >= 0; --a) point = point * count_[a] + lower[a] + (n >> a & 1);
+      for (int a = 0; a < 3; ++a) share *= n >> a & 1 ? part[a] : 1 - part[a];
       visit(points_[point], share);
     }
   }
 
  private:
-  Vec3 low_;
+  std::array<double, 3> scaled(Vec3 x) const {
+    const Vec3 at = x / spacing_;
+    return {at.x, at.y, at.z};
+  }
+
   double spacing_;
-  std::map<std::array<int, 3>, Value> points_;
+  std::array<int, 3> first_, count_{};
+  std::vector<Value> points_;
 };
 
 // What the air's force is beyond that of the pressures, where there are folds: a traction of the cloth nearby, so that
@@ -293,8 +315,12 @@ std::vector<Vec3> fold_tractions(const std::vector<SheetLoad>& loads, const std:
     double area = 0, all = 0, folded = 0;  // of cloth, samples and samples in folds [m2]
   };
   std::vector<Vec3> result(cloth.area.size());
-  if (samples.empty()) return result;
-  Lattice<Sum> lattice({}, reach * width_at(cloth.middle, grid));
+  std::vector<Vec3> places;
+  for (const SheetLoad& load : loads) places.push_back(load.point);
+  for (const Sample& s : samples) places.push_back(s.point);
+  for (std::size_t c = 0; c < result.size(); ++c)
+    if (norm(cloth.area[c]) > 0) places.push_back(cloth.centre[c]);
+  Lattice<Sum> lattice(places, reach * width_at(cloth.middle, grid));
   for (const SheetLoad& load : loads)
     lattice.about(load.point, [&](Sum& sum, double share) { sum.force += share * load.force; });
   for (const Sample& s : samples)
@@ -394,8 +420,7 @@ double remainder_share(const ClothLoad& load, const std::vector<Cell>& cells, co
   const Patchwork cloth(cells, x);
   double traction = 0, pressure = 0;
   for (std::size_t c = 0; c < cells.size(); ++c) {
-    Vec3 t = cloth.traction(load.remainder, c);
-    if (!load.of_folds.empty()) t += load.of_folds[c];
+    const Vec3 t = cloth.traction(load, c);
     traction += norm(cloth.area[c]) * dot(t, t);
     pressure += norm(cloth.area[c]) * load.pressure[c] * load.pressure[c];
   }

@@ -14,6 +14,10 @@
 namespace ripstop::cartesian {
 namespace {
 
+double along(int axis, Vec3 v) {
+  return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+}
+
 /// What two velocities have in common: their harmonic mean, nothing if they part.
 double shared(double a, double b) {
   return a * b > 0 ? 2 * a * b / (a + b) : 0;
@@ -96,7 +100,7 @@ void SheetRows::add_faces(const Axis& x, const Axis& y, const Axis& z, const std
         face.moving = dot(g.normal, motion.velocity[g.triangle]);
         const Axis& axis = g.axis == 0 ? x : g.axis == 1 ? y : z;
         const int c = g.axis == 0 ? g.i : g.axis == 1 ? g.j : g.k;
-        const double off = (g.axis == 0 ? g.point.x : g.axis == 1 ? g.point.y : g.point.z) - axis.edge[c];
+        const double off = along(g.axis, g.point) - axis.edge[c];
         face.beyond = off * axis.inverse_width[off > 0 ? c : c - 1];
         if (c < 3 || c + 3 > axis.n) face.beyond = 0;
       }
@@ -141,6 +145,14 @@ void SheetRows::lay_out() {
     if (face.beyond != 0 && row_at != 0 && covered[row_at + g.i + (g.axis == 0 ? next : 0)] > 0)
       face.beyond = 0;
   }
+  std::map<std::size_t, std::pair<Face*, Face*>> outermost;  // of the layers that part the same two centres
+  for (Face& face : faces_) {
+    auto& [low, high] = outermost.try_emplace(face.at, &face, &face).first->second;
+    const auto place = [](const Face* f) { return along(f->geometry.axis, f->geometry.point); };
+    if (place(&face) < place(low)) low = &face;
+    if (place(&face) > place(high)) high = &face;
+  }
+  for (const auto& [at, layers] : outermost) layers.first->lowest = layers.second->highest = true;
 }
 
 void SheetRows::begin(State& state, const Layout& layout) const {
@@ -179,14 +191,13 @@ void SheetRows::update(State& state, const Layout& layout, double momentum) {
     const std::pair sides = cells(g, layout);
     const std::ptrdiff_t low = sides.first, high = sides.second;  // a lambda of clang 14 takes no binding
     const Array<double>& flux = g.axis == 0 ? fields.fx : g.axis == 1 ? fields.fy : fields.fz;
-    const auto along = [&](Vec3 v) { return g.axis == 0 ? v.x : g.axis == 1 ? v.y : v.z; };
     const double density = 0.5 * (fields.rho[low] + fields.rho[high]);
     // The law holds for what goes through the sheet. What of a cell's velocity runs along it
     // crosses the face freely: the faces of slanted cloth are a staircase, and air that runs along
     // the cloth must not climb it.
     const auto sliding = [&](std::ptrdiff_t cell) {
       const Vec3 velocity{fields.u[cell], fields.v[cell], fields.w[cell]};
-      return along(velocity) - dot(g.normal, velocity) / face.spread;
+      return along(g.axis, velocity) - dot(g.normal, velocity) / face.spread;
     };
     double through = face.spread * (flux[high] / density - shared(sliding(low), sliding(high)));
     // A sheet that moves is not at its face but between it and the next one, and so is the velocity that the
@@ -292,43 +303,26 @@ std::vector<SheetLoad> SheetRows::loads(const State& state, const Layout& layout
   std::vector<SheetLoad> result;
   result.reserve(faces_.size());
   for (std::size_t n = 0; n < faces_.size(); ++n) {
-    const SheetFace& g = faces_[n].geometry;
+    const Face& face = faces_[n];
+    const SheetFace& g = face.geometry;
     SheetLoad load;
-    load.sheet = faces_[n].sheet;
+    load.sheet = face.sheet;
     load.triangle = g.triangle;
     load.point = g.point;
     load.outward = g.outward;
     load.drop = g.against ? -state.drop[n] : state.drop[n];
-    load.cover = faces_[n].cover;
-    const double force = state.drop[n] * faces_[n].area;
+    load.cover = face.cover;
+    const double force = state.drop[n] * face.area;
     load.force = {g.axis == 0 ? force : 0, g.axis == 1 ? force : 0, g.axis == 2 ? force : 0};
-    const Face& face = faces_[n];
-    load.area = face.cover * face.area * (g.axis == 0 ? g.normal.x : g.axis == 1 ? g.normal.y : g.normal.z);
+    load.area = face.cover * face.area * along(g.axis, g.normal);
+    const auto [below, above] = cells(g, layout);
+    const double mean = 0.5 * (state.f.p[below] + state.f.p[above]),
+                 half = 0.5 * (state.held[face.at] + state.change[face.at]);
+    if (face.lowest) (g.against ? load.outside : load.inside) = mean + half;
+    if (face.highest) (g.against ? load.inside : load.outside) = mean - half;
     result.push_back(load);
   }
-  add_sides(state, layout, result);
   return result;
-}
-
-void SheetRows::add_sides(const State& state, const Layout& layout, std::vector<SheetLoad>& loads) const {
-  const auto place = [](const SheetFace& g) {
-    return g.axis == 0 ? g.point.x : g.axis == 1 ? g.point.y : g.point.z;
-  };
-  std::map<std::size_t, std::pair<std::size_t, std::size_t>>
-      outermost;  // of the layers that part two centres
-  for (std::size_t n = 0; n < faces_.size(); ++n) {
-    auto& [low, high] = outermost.try_emplace(faces_[n].at, n, n).first->second;
-    if (place(faces_[n].geometry) < place(faces_[low].geometry)) low = n;
-    if (place(faces_[n].geometry) > place(faces_[high].geometry)) high = n;
-  }
-  for (const auto& [at, layers] : outermost) {
-    const auto [low, high] = layers;
-    const auto [below, above] = cells(faces_[low].geometry, layout);
-    const double mean = 0.5 * (state.f.p[below] + state.f.p[above]),
-                 half = 0.5 * (state.held[at] + state.change[at]);
-    (faces_[low].geometry.against ? loads[low].outside : loads[low].inside) = mean + half;
-    (faces_[high].geometry.against ? loads[high].inside : loads[high].outside) = mean - half;
-  }
 }
 
 }  // namespace ripstop::cartesian

@@ -63,16 +63,16 @@ class SheetRows {
     double yields = 0;    // by which it is faster for every pascal beyond ... [m/(s Pa)]
     double known = 0;     // ... this drop along the normal [Pa]
     double beyond = 0;    // how far the sheet lies from the face towards the next one, signed, in cells
-    double drop = 0, slope = 0;  // by the law at the last update [Pa], [Pa s/m]
-    double area = 0;             // of the face [m2]
-    double spread = 1;           // its area over that of the sheet it stands for
-    double cover = 1;            // the part of it that the sheet covers
-    double layer = 1;            // its part of the face's drop
-    std::size_t at = 0;          // in the dense rows
+    double drop = 0, slope = 0;            // by the law at the last update [Pa], [Pa s/m]
+    double area = 0;                       // of the face [m2]
+    double spread = 1;                     // its area over that of the sheet it stands for
+    double cover = 1;                      // the part of it that the sheet covers
+    double layer = 1;                      // its part of the face's drop
+    bool lowest = false, highest = false;  // of the layers that part the same two centres
+    std::size_t at = 0;                    // in the dense rows
   };
   void add_faces(const Axis& x, const Axis& y, const Axis& z, const std::vector<Sheet>& sheets);
   void lay_out();
-  void add_sides(const State& state, const Layout& layout, std::vector<SheetLoad>& loads) const;
 
   int nx_ = 0, ny_ = 0, nz_ = 0;
   std::vector<Face> faces_;
