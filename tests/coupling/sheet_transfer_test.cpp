@@ -296,10 +296,21 @@ struct Pocket {
   }
 };
 
+// Open cloth has what its faces drop, here less than its sides' pressures say.
 TEST(SheetTransfer, ClothInFoldsTakesThePressuresOnItsTwoSidesNearby) {
-  const Pocket f;
+  Pocket f;
+  for (SheetLoad& load : f.loads)
+    if (!f.in_fold(load.point)) load.drop = 50 * load.cover;
   const ClothLoad load = load_of_flow(f.loads, f.grid, f.s.triangles(), f.s.cells, f.s.x, Folds::filled);
-  for (const double p : load.pressure) EXPECT_NEAR(p, 80, 1e-9);
+  for (std::size_t c = 0; c < f.s.cells.size(); ++c) {
+    const double off = std::abs(centre_of(f.s, c).x);
+    if (off < 0.1) {
+      EXPECT_NEAR(load.pressure[c], 80, 1e-9) << off;
+    }
+    if (off > 0.36) {
+      EXPECT_NEAR(load.pressure[c], 50, 1e-9) << off;
+    }
+  }
 }
 
 TEST(SheetTransfer, ForceOnClothInFoldsStaysThere) {
