@@ -12,10 +12,11 @@
 namespace ripstop {
 namespace {
 
-/// Of the velocity that a constant load gives in a step, its mean over the latter half. That of the whole step, a
-/// half, would let the load swing from step to step; the velocity at its end has in it whatever the cloth's own
-/// vibrations make of an instant.
-constexpr double latter_half = 0.75;
+/// Of the velocity that a constant load gives at the end of so many steps, v' = v + dt f/m and x' = x + dt v', the mean
+/// over all of them: in one step the whole, in many a half.
+double mean_share(int steps) {
+  return 0.5 * (1 + 1.0 / steps);
+}
 
 constexpr double degree = std::numbers::pi / 180;
 
@@ -82,7 +83,7 @@ Loads OpeningAir::last_load(const AirMemory& memory) const {
   return {memory.pressure, memory.force};
 }
 
-Loads OpeningAir::step(const std::vector<Vec3>& positions, const std::vector<Vec3>& velocity, double length,
+Loads OpeningAir::step(const std::vector<Vec3>& positions, const ClothMotion& cloth, double length,
                        AirMemory& memory, AirRow& row) {
   const std::vector<Triangle> surface = surface_of(cells_, positions);
   const std::vector<double> pressure = last_load(memory).cell_pressure;
@@ -90,11 +91,11 @@ Loads OpeningAir::step(const std::vector<Vec3>& positions, const std::vector<Vec
   // the cloth goes with the density there.
   const double thicker = thickening(memory);
   SheetMotion motion;
-  for (const double mass : mass_) motion.yields.push_back(thicker * latter_half * length / mass);
+  for (const double mass : mass_) motion.yields.push_back(thicker * mean_share(cloth.steps) * length / mass);
   for (std::size_t c = 0; c < cells_.size(); ++c) {
     if (cells_[c].corner[0] < 0) continue;
     Vec3 mean;
-    for (const int node : cells_[c].corner) mean += 0.25 * velocity[node];
+    for (const int node : cells_[c].corner) mean += 0.25 * cloth.velocity[node];
     motion.velocity.insert(motion.velocity.end(), 2, mean);
     motion.pressure.insert(motion.pressure.end(), 2, pressure[c] / thicker);
   }

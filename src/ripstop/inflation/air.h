@@ -91,6 +91,12 @@ void each_member(T& row, Visit&& visit) {
   visit("load_remainder", row.remainder);
 }
 
+/// How the cloth would go through a step of the air under the last load.
+struct ClothMotion {
+  std::vector<Vec3> velocity;  // of every node, in the mean over the step [m/s]
+  int steps = 1;               // of the cloth, in which it is taken
+};
+
 class OpeningAir {
  public:
   /// Throws Error(usage) where the engine has no time, the flow no single sheet, or the box no room for the
@@ -101,10 +107,9 @@ class OpeningAir {
   double longest_step() { return flow_->longest_step(courant_); }
   /// The last step's load on the cloth.
   Loads last_load(const AirMemory& memory) const;
-  /// One step of the air about cloth that lies at `positions` at its beginning and would move with `velocity`, a
-  /// node, in the latter half of it under the last load: the load in it.
-  Loads step(const std::vector<Vec3>& positions, const std::vector<Vec3>& velocity, double length,
-             AirMemory& memory, AirRow& row);
+  /// One step of the air about cloth that lies at `positions` at its beginning: the load in it.
+  Loads step(const std::vector<Vec3>& positions, const ClothMotion& motion, double length, AirMemory& memory,
+             AirRow& row);
 
   /// With what the riser pulled at its end in that step, in the mean [N]: the payload flies on, its path turned
   /// by the weight across it.

@@ -235,7 +235,7 @@ std::vector<HistoryRow> Inflation::compute_block_in_air(InflationState& state,
     const int steps = static_cast<int>(std::ceil(left * row_ / longest));
     const int rows = std::max(1, left / steps);
     AirRow row;
-    const Loads loads = air_->step(x, tentative_velocity(state, rows * row_), rows * row_, state.air, row);
+    const Loads loads = air_->step(x, tentative_motion(state, rows * row_), rows * row_, state.air, row);
     step_in_air(state, loads, rows, history);
     row.time = state.cloth.time;
     double pull = 0;
@@ -254,21 +254,19 @@ std::vector<HistoryRow> Inflation::compute_block_in_air(InflationState& state,
   return history;
 }
 
-// Of every node, in the latter half of a step of the air, were the last load to go on.
-std::vector<Vec3> Inflation::tentative_velocity(const InflationState& state, double length) {
-  const double stable =
-      problem_.settings.step_fraction * step_bound(cloth_of(state), state.cloth).stable_step;
-  const int half = static_cast<int>(std::ceil(0.5 * length / stable));
-  const double dt = 0.5 * length / half;
-  const Loads loads = air_->last_load(state.air);
+// Of a step of the air, were the last load to go on.
+ClothMotion Inflation::tentative_motion(const InflationState& state, double length) {
   const Cloth& with_line = cloth_of(state);
+  const double stable = problem_.settings.step_fraction * step_bound(with_line, state.cloth).stable_step;
+  ClothMotion motion;
+  motion.steps = static_cast<int>(std::ceil(length / stable));
   ClothState cloth = state.cloth;
-  ripstop::step(cloth, with_line, loads, dt, half, team_);
-  const std::vector<Vec3> middle = positions(cloth, with_line);
-  ripstop::step(cloth, with_line, loads, dt, half, team_);
-  std::vector<Vec3> velocity = positions(cloth, with_line);
-  for (std::size_t n = 0; n < velocity.size(); ++n) velocity[n] = (velocity[n] - middle[n]) / (0.5 * length);
-  return velocity;
+  ripstop::step(cloth, with_line, air_->last_load(state.air), length / motion.steps, motion.steps, team_);
+  const std::vector<Vec3> before = positions(state.cloth, with_line);
+  motion.velocity = positions(cloth, with_line);
+  for (std::size_t n = 0; n < before.size(); ++n)
+    motion.velocity[n] = (motion.velocity[n] - before[n]) / length;
+  return motion;
 }
 
 // So many rows under one load.

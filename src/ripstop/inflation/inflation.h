@@ -181,7 +181,7 @@ class Inflation {
  private:
   std::vector<HistoryRow> compute_block(InflationState& state);
   std::vector<HistoryRow> compute_block_in_air(InflationState& state, std::vector<AirRow>* air_rows);
-  std::vector<Vec3> tentative_velocity(const InflationState& state, double length);
+  ClothMotion tentative_motion(const InflationState& state, double length);
   void step_in_air(InflationState& state, const Loads& loads, int rows, std::vector<HistoryRow>& history);
   HistoryRow row_of_history(InflationState& state, long long index, int steps, double dt, int from) const;
   const Cloth& cloth_of(const InflationState& state) const { return *cloths_[state.cuts.size()]; }

@@ -97,12 +97,13 @@ void SheetRows::add_faces(const Axis& x, const Axis& y, const Axis& z, const std
       const SheetFace& g = face.geometry;
       if (!motion.velocity.empty()) {
         face.geometry.normal = geometry.across;
-        face.moving = dot(g.normal, motion.velocity[g.triangle]);
+        face.moves = true, face.velocity = motion.velocity[g.triangle];
         const Axis& axis = g.axis == 0 ? x : g.axis == 1 ? y : z;
         const int c = g.axis == 0 ? g.i : g.axis == 1 ? g.j : g.k;
         const double off = along(g.axis, g.point) - axis.edge[c];
         face.beyond = off * axis.inverse_width[off > 0 ? c : c - 1];
         if (c < 3 || c + 3 > axis.n) face.beyond = 0;
+        face.apart = 1 / axis.inverse_distance[c];
       }
       if (!motion.yields.empty()) face.yields = motion.yields[g.triangle];
       if (!motion.pressure.empty()) face.known = (g.against ? -1 : 1) * motion.pressure[g.triangle];
@@ -180,7 +181,7 @@ void SheetRows::begin(State& state, const Layout& layout, const SheetRows& befor
   }
 }
 
-void SheetRows::update(State& state, const Layout& layout, double momentum) {
+void SheetRows::update(State& state, const Layout& layout, double momentum, double step) {
   const Fields& fields = state.f;
   for (const Face& face : faces_) {
     state.held[face.at] += std::exchange(state.change[face.at], 0.0);
@@ -192,28 +193,29 @@ void SheetRows::update(State& state, const Layout& layout, double momentum) {
     const std::ptrdiff_t low = sides.first, high = sides.second;  // a lambda of clang 14 takes no binding
     const Array<double>& flux = g.axis == 0 ? fields.fx : g.axis == 1 ? fields.fy : fields.fz;
     const double density = 0.5 * (fields.rho[low] + fields.rho[high]);
-    // The law holds for what goes through the sheet. What of a cell's velocity runs along it
+    // The law holds for what goes through the sheet, as the sheet sees it. What of a cell's velocity runs along it
     // crosses the face freely: the faces of slanted cloth are a staircase, and air that runs along
     // the cloth must not climb it.
     const auto sliding = [&](std::ptrdiff_t cell) {
-      const Vec3 velocity{fields.u[cell], fields.v[cell], fields.w[cell]};
+      const Vec3 velocity = Vec3{fields.u[cell], fields.v[cell], fields.w[cell]} - face.velocity;
       return along(g.axis, velocity) - dot(g.normal, velocity) / face.spread;
     };
-    double through = face.spread * (flux[high] / density - shared(sliding(low), sliding(high)));
+    const double goes = along(g.axis, face.velocity);
+    double through = face.spread * (flux[high] / density - goes - shared(sliding(low), sliding(high)));
     // A sheet that moves is not at its face but between it and the next one, and so is the velocity that the
     // law asks for: else the air would be struck whenever the sheet comes into another cell.
     if (face.beyond != 0) {
       // Of faces that no sheet parts, so many further along the axis.
       const auto at_face = [&](int n) {
         const std::ptrdiff_t above = high + n * (high - low);
-        return face.spread * (flux[above] / density - 0.5 * (sliding(above) + sliding(above - (high - low))));
+        return face.spread *
+               (flux[above] / density - goes - 0.5 * (sliding(above) + sliding(above - (high - low))));
       };
       const int way = face.beyond > 0 ? 1 : -1;
       const double share = std::abs(face.beyond), next = at_face(way);
       const double kink = at_face(-way) - through - next + at_face(2 * way);
       through += share * (next - through) - kinked * share * (1 - share) * kink;
     }
-    through -= face.moving;
     const double yields = face.yields, asked = through + yields * face.known;
     const double speed = std::abs(yields > 0 ? passing(asked, yields, face.a, face.b) : through);
     const double resistance = giving_way(face.a + face.b * speed, yields),
@@ -229,6 +231,24 @@ void SheetRows::update(State& state, const Layout& layout, double momentum) {
   }
   for (const Face& face : faces_) law_[face.at] = excess_[face.at];
   for (const Face& face : faces_) excess_[face.at] = law_[face.at] - state.held[face.at];
+  if (step > 0) hold_in_the_middle(state, layout, step);
+}
+
+// The drop acts through all of a step, so for second order in time it is that of the velocity in the middle, of which
+// the new one makes a half. With s = step slope / (rho h), h between the centres, a flux that is off by 1 is off by
+// (1 - (1 - share) s) / (1 + share s) at the next step; beyond s = 2 the share is such that this is 0.
+void SheetRows::hold_in_the_middle(const State& state, const Layout& layout, double step) {
+  std::vector<double>& share = middle_;
+  share.assign(stiffness_.size(), 0);
+  for (const Face& face : faces_) {
+    if (!face.moves || share[face.at] > 0) continue;
+    const auto [low, high] = cells(face.geometry, layout);
+    const double density = 0.5 * (state.f.rho[low] + state.f.rho[high]);
+    share[face.at] = std::max(0.5, 1 - density * face.apart / (step * stiffness_[face.at]));
+    stiffness_[face.at] *= share[face.at];
+  }
+  for (Face& face : faces_)
+    if (face.moves) face.slope *= share[face.at];
 }
 
 // Layers that part the same two centres, as in a fold, are passed by the same air: they share what the face

@@ -41,8 +41,9 @@ class SheetRows {
   void begin(State& state, const Layout& layout) const;
   /// The same after the cloth has moved from `before`: faces that were there keep theirs.
   void begin(State& state, const Layout& layout, const SheetRows& before) const;
-  /// The law at the present velocities. `momentum` is rho U of the free stream [kg/(m2 s)].
-  void update(State& state, const Layout& layout, double momentum);
+  /// The law at the present velocities. `momentum` is rho U of the free stream [kg/(m2 s)]; `step` [s] that of a
+  /// march, in which sheets that move hold in its middle.
+  void update(State& state, const Layout& layout, double momentum, double step = 0);
   /// The drop on every face with its last change, into State::drop.
   void settle(State& state) const;
 
@@ -59,10 +60,12 @@ class SheetRows {
     SheetFace geometry;
     int sheet = 0;
     double a = 0, b = 0;  // of the law
-    double moving = 0;    // velocity of the sheet along its normal [m/s]
-    double yields = 0;    // by which it is faster for every pascal beyond ... [m/(s Pa)]
-    double known = 0;     // ... this drop along the normal [Pa]
-    double beyond = 0;    // how far the sheet lies from the face towards the next one, signed, in cells
+    Vec3 velocity;        // of the sheet [m/s]
+    bool moves = false;
+    double yields = 0;  // by which it is faster along its normal for every pascal beyond ... [m/(s Pa)]
+    double known = 0;   // ... this drop along the normal [Pa]
+    double beyond = 0;  // how far the sheet lies from the face towards the next one, signed, in cells
+    double apart = 0;   // the centres on its two sides [m]
     double drop = 0, slope = 0;            // by the law at the last update [Pa], [Pa s/m]
     double area = 0;                       // of the face [m2]
     double spread = 1;                     // its area over that of the sheet it stands for
@@ -71,6 +74,7 @@ class SheetRows {
     bool lowest = false, highest = false;  // of the layers that part the same two centres
     std::size_t at = 0;                    // in the dense rows
   };
+  void hold_in_the_middle(const State& state, const Layout& layout, double step);
   void add_faces(const Axis& x, const Axis& y, const Axis& z, const std::vector<Sheet>& sheets);
   void lay_out();
 
@@ -78,7 +82,7 @@ class SheetRows {
   std::vector<Face> faces_;
   std::vector<std::vector<std::size_t>> offset_;  // one table an axis; 0: the row of zeros
   std::vector<char> touched_;
-  std::vector<double> law_, excess_, stiffness_;
+  std::vector<double> law_, excess_, stiffness_, middle_;
   bool shut_ = false;
 };
 

@@ -132,7 +132,7 @@ FlowStep Solver::step(double length) {
     t_.pull.assign(t_.zeros.size(), d_.air.density * s_.clock.pulled);
   }
   SheetRows& sheets = in_the_way_.sheets;
-  if (!sheets.empty()) sheets.update(s_, d_.layout, d_.air.density * d_.air.speed);
+  if (!sheets.empty()) sheets.update(s_, d_.layout, d_.air.density * d_.air.speed, length);
   if (modelled() && !sheets.empty() && in_the_way_.wall.empty())
     in_the_way_.wall = sheets.distance(d_.x, d_.y, d_.z, d_.layout);
   const double momentum_before = s_.mean.w, brought_before = std::exchange(s_.clock.brought, brought());
