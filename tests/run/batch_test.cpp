@@ -1,14 +1,17 @@
 // Batch scripts run by bash, with programs of a few lines in Slurm's place.
 #include "ripstop/run/batch.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <cmath>
 #include <fstream>
 #include <sstream>
 #include <thread>
 
 #include "finished_run.h"
+#include "ripstop/case/cost.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/process.h"
 
@@ -200,6 +203,59 @@ TEST_F(BatchOfASweep, AnElementRunsItsOwnRunAndTheLastJobGathers) {
   EXPECT_TRUE(bash({(scripts / "gather.sbatch").string()}).succeeded());
   EXPECT_EQ(text(root_.path / "got"), "sweep|--only=v=2|sweep|--only=v=3|sweep|--gather|");
   harmless();
+}
+
+// One process stays on one machine; the job that gathers is small and short, whatever a run takes.
+TEST_F(BatchOfASweep, OneRankIsAskedForOnOneMachineAndTheTableForAnHour) {
+  BatchSweep sweep{job({"program"}), {{"v=2"}}, 0};
+  const auto directives = [&](int file) {
+    std::istringstream lines(slurm_files(sweep)[file].text);
+    std::string found;
+    for (std::string line; std::getline(lines, line);)
+      if (line.starts_with("#SBATCH --n") || line.starts_with("#SBATCH --c") ||
+          line.starts_with("#SBATCH --t"))
+        found += line.substr(8) + " ";
+    return found;
+  };
+  EXPECT_EQ(directives(0), "--ntasks=2 --cpus-per-task=1 --time=150 ");
+  EXPECT_EQ(directives(1), "--nodes=1 --ntasks=1 --cpus-per-task=1 --time=60 ");
+  sweep.job.needs.ranks = 1, sweep.job.needs.cores = 4, sweep.job.needs.memory = 1.4999e9;
+  EXPECT_EQ(directives(0), "--nodes=1 --ntasks=1 --cpus-per-task=4 --time=150 ");
+  EXPECT_NE(slurm_files(sweep)[0].text.find("--mem=1500M"), std::string::npos);
+  EXPECT_EQ(slurm_files(sweep)[1].name, "gather.sbatch");
+}
+
+TEST(BatchNeeds, AreTheCostOfTheCaseAndOfItsEngine) {
+  Overrides overrides;
+  overrides.engine = "openfoam";
+  overrides.ranks = 6;
+  overrides.set = {{"flow.cells", "[200,200,300]"}, {"flow.max_iterations", "200"}};
+  const auto file = std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/stratos-iv/case.toml";
+  Case given = read_case(file, overrides);
+  const EngineCost takes = engine_of("openfoam").takes;
+  const Cost cost = cost_of(given);
+  BatchNeeds needs = steady_needs(given);
+  EXPECT_EQ(needs.cores, 1);  // ranks are the cores
+  EXPECT_DOUBLE_EQ(needs.memory, cost.memory + takes.cell_memory * cost.cells + takes.rank_memory * 6);
+  const double core_hours = 10 * 200 * cost.cells * takes.cell_time / 3600;  // ten couplings
+  EXPECT_EQ(needs.hours, std::ceil(core_hours / 6));
+  EXPECT_GT(needs.hours, 1);
+  EXPECT_EQ(needs.limited, fmt::format("about {:.2g} core hours, and an hour at least", core_hours));
+  EXPECT_EQ(steady_needs(given, 3).hours, std::ceil(core_hours / 6 / 3));
+  given.flow.max_iterations = 100000;  // three hundred are usual
+  EXPECT_EQ(steady_needs(given).hours, std::ceil(1.5 * core_hours / 6));
+  const BatchNeeds opening = opening_needs(given, 2);
+  EXPECT_EQ(opening.ranks, 1);
+  EXPECT_EQ(opening.cores, 2);
+  EXPECT_EQ(opening.hours, 24);
+  EXPECT_EQ(opening.limited, "nobody has measured what this one takes");
+  EXPECT_EQ(opening_needs(given, 2, 5).cores, 5);
+
+  Case small = square_law_case();
+  small.flow.unsteady = true;
+  EXPECT_EQ(steady_needs(small).hours, 24);
+  small.coupling.threads = 0;
+  EXPECT_EQ(steady_needs(small).cores, 4);
 }
 
 TEST(BatchNeeds, FollowFromTheCase) {

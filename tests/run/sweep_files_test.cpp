@@ -94,5 +94,50 @@ TEST_F(SweepFiles, NothingIsDrawnWithoutNumbersOrWithoutAResult) {
   EXPECT_TRUE(std::filesystem::is_empty(folder.path));
 }
 
+// At one speed what was measured there is a level; over speeds it is points; over two designs it is nothing.
+TEST_F(SweepFiles, WhatWasMeasuredStandsBesideTheDragAndNotBesideTheTime) {
+  const auto colours_of = [&](const char* file) {
+    const std::string svg = read_file(folder.path / file);
+    const std::regex colour(R"((stroke|fill)(=\"|:|: )rgb\([^)]*\))");
+    std::set<std::string> found;
+    for (std::sregex_iterator at(svg.begin(), svg.end(), colour); at != std::sregex_iterator(); ++at)
+      found.insert(std::regex_replace(at->str(), std::regex("stroke|fill"), ""));
+    return found.size();
+  };
+  const auto more_than_time = [&] {
+    write_sweep_plots(folder.path, "t", axes, points, rows);
+    return colours_of("drag.svg") - colours_of("wall_time.svg");
+  };
+  sweep({sweep_axis("materials.f-111.darcy", {"50", "60"}, "--vary")});
+  EXPECT_EQ(more_than_time(), 1u);
+  sweep({sweep_axis("parachute.lines.length_m", {"1.5", "1.6"}, "--vary")});
+  EXPECT_EQ(more_than_time(), 1u);
+  sweep({sweep_axis("parachute.vent_diameter_m", {"0.1", "0.12"}, "--vary"),
+         sweep_axis("flow.speed_m_s", {"20", "30"}, "--speeds")});
+  EXPECT_EQ(more_than_time(), 0u);  // of two speeds
+  sweep({speeds});
+  EXPECT_GE(more_than_time(), 1u);
+}
+
+TEST_F(SweepFiles, AxesWithoutASecondValueOrWithWordsAreNotDrawnOver) {
+  sweep({sweep_axis("flow.viscosity_ratio", {"10"}, "--vary"),
+         sweep_axis("materials.f-111.darcy", {"50", "60"}, "--vary")});
+  write_sweep_plots(folder.path, "second", axes, points, rows);
+  EXPECT_TRUE(std::filesystem::exists(folder.path / "drag.svg"));
+  std::filesystem::remove_all(folder.path);
+  std::filesystem::create_directories(folder.path);
+  sweep({sweep_axis("flow.viscosity_ratio", {"10"}, "--vary")});
+  write_sweep_plots(folder.path, "none", axes, points, rows);
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path));
+}
+
+TEST_F(SweepFiles, ARunThatHasNotBegunWaits) {
+  sweep({speeds});
+  rows[2] = {};
+  const TextTable table = sweep_table(axes, points, rows);
+  EXPECT_EQ(table.rows[2][table.columns.size() - 2], "waiting");
+  EXPECT_EQ(nlohmann::json::parse(sweep_json("t", axes, points, rows)).at("runs")[2].at("status"), "waiting");
+}
+
 }  // namespace
 }  // namespace ripstop

@@ -68,6 +68,32 @@ TEST(SweepPoints, OfMoreThanTenThousandRunsAreRefusedBeforeTheyAreMade) {
   }
 }
 
+TEST(SweepPoints, OfOneFolderNameAreNumbered) {
+  SweepAxis axis{"model", {"a b", "a-b", "a_b"}, {{}, {}, {}}};
+  std::set<std::string> folders;
+  const std::vector<SweepPoint> points = sweep_points(stratos_case, {}, {axis});
+  for (const SweepPoint& point : points) folders.insert(point.folder);
+  EXPECT_EQ(folders.size(), 3u);
+  EXPECT_EQ(sweep_points(stratos_case, {}, {}).at(0).folder, "run");
+  const auto two = sweep_points(
+      stratos_case, {},
+      {sweep_axis("flow.speed_m_s", {"10"}, ""), sweep_axis("materials.f-111.darcy", {"50"}, "")});
+  EXPECT_EQ(two.at(0).folder, "speed_m_s=10_darcy=50");
+}
+
+TEST(SweepPoints, AsManyRunSideBySideAsCoresMemoryAndPointsAllow) {
+  const auto points = sweep_points(stratos_case, {}, {sweep_axis("flow.speed_m_s", {"10", "20"}, "")});
+  EXPECT_EQ(fitting_jobs({points[0]}), 1);
+  EXPECT_GE(fitting_jobs(points), 1);
+  EXPECT_LE(fitting_jobs(points), 2);
+  std::vector<SweepPoint> large = points;
+  large[1].given.flow.cells = std::array{2000, 2000, 2000};
+  EXPECT_EQ(fitting_jobs(large), 1);
+  std::vector<SweepPoint> wide = points;
+  wide[0].given.flow.engine = "openfoam", wide[0].given.flow.ranks = 100000;
+  EXPECT_EQ(fitting_jobs(wide), 1);
+}
+
 TEST(SteadyResult, OfATextThatIsNoResultIsRefused) {
   EXPECT_THROW(steady_result_from_json("{}"), Error);
   EXPECT_THROW(steady_result_from_json("nonsense"), Error);
