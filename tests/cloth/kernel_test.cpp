@@ -182,6 +182,14 @@ TEST(ClothKernel, AMeshThatBreaksItsRulesIsRefused) {
   mesh.patches[2].width[along_row][10] = 0.01;  // beyond the last column
   mesh.patches[2].rest_length[along_row][10] = 0.01;
   EXPECT_TRUE(refused(mesh));
+  mesh = good;
+  mesh.laws[0].coefficients.assign(8, 100);  // as many as the kernels have
+  EXPECT_FALSE(refused(mesh));
+  mesh.laws[0].coefficients.push_back(100);
+  EXPECT_TRUE(refused(mesh));
+  mesh = good;
+  mesh.patches[0].law[shear_up].buckling_strain = -0.1;
+  EXPECT_TRUE(refused(mesh));
 }
 
 }  // namespace

@@ -114,5 +114,16 @@ TEST(Viscosity, ALimitOfWhatIsLimitedChangesNothing) {
   for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], 1e-12) << i;
 }
 
+TEST(Viscosity, WhatIsLeftOfACellsShareIsLoweredFurther) {
+  Mesh half = with_small_cells(50 * tau);
+  half.patches[0].viscosity_share.assign(std::size_t(half.patches[0].rows * half.patches[0].columns), 0.5);
+  const ClothOptions options;
+  const ViscosityLimit limit = limit_viscosity(half, options, half.start, 0.9);
+  ASSERT_LT(limit.least_share, 1);
+  double least = 1;
+  for (const double share : half.patches[0].viscosity_share) least = std::min(least, share);
+  EXPECT_NEAR(least, 0.5 * limit.least_share, 1e-12);
+}
+
 }  // namespace
 }  // namespace ripstop

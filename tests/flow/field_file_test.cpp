@@ -1,5 +1,6 @@
 #include "ripstop/flow/openfoam/field_file.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -232,6 +233,22 @@ TEST(SolverLog, AnIterationEndsWithItsForces) {
   EXPECT_EQ(now.drag, 350);
   EXPECT_TRUE(log.converged());
   EXPECT_FALSE(log.floating_point_trap());
+}
+
+TEST(SolverLog, TheNextIterationHasItsOwnResiduals) {
+  SolverLog log(SolverLog::Forces::none);
+  const auto iteration = [&](const char* time, double x, double y) {
+    log.feed(std::string("Time = ") + time);
+    for (const auto& [field, value] : {std::pair{"Ux", x}, {"Uy", y}, {"Uz", 0.5 * y}, {"p", 2 * x}})
+      log.feed(fmt::format("smoothSolver:  Solving for {}, Initial residual = {}, Final", field, value));
+    EXPECT_TRUE(log.feed("ExecutionTime = 1 s"));
+  };
+  iteration("1", 0.4, 0.3);
+  EXPECT_EQ(log.progress().residual_u, 0.4);
+  iteration("2", 0.1, 0.2);
+  EXPECT_EQ(log.progress().iteration, 2);
+  EXPECT_EQ(log.progress().residual_u, 0.2);
+  EXPECT_EQ(log.progress().residual_p, 0.2);
 }
 
 }  // namespace

@@ -94,6 +94,20 @@ TEST(Watch, TheMeanFieldLeavesTheStartUpOutToAPart) {
   EXPECT_NEAR(mean.velocity[1].z, 0.5 * (record.start_up + record.watched()), 0.5 * 0.5);
 }
 
+TEST(FieldMean, OfNothingAndAMeanIsThatMean) {
+  FieldMean some, none;
+  for (const double drag : {3.0, 5.0, 10.0}) {
+    FlowField field;
+    field.porous_force = {0, 0, drag};
+    some.add(field);
+  }
+  none.add(FieldMean());
+  EXPECT_EQ(none.count(), 0);
+  none.add(some);
+  EXPECT_EQ(none.count(), 3);
+  EXPECT_NEAR(none.mean().average.drag_deviation, std::sqrt(13.0), 1e-12);
+}
+
 TEST(FieldMean, OfTwoMeansIsThatOfAllTheirFields) {
   FieldMean all, first, second;
   const double drags[] = {3, 5, 4, 9, 2, 7, 1};

@@ -363,6 +363,16 @@ TEST(Load, WhatCannotBeIsRefused) {
     asked.path_angle = angle;
     EXPECT_NE(refused(asked).find("below the horizon"), std::string::npos) << angle;
   }
+  using Coefficient = std::optional<double> LoadRequest::*;
+  for (const auto& [coefficient, name] :
+       {std::pair<Coefficient, const char*>{&LoadRequest::drag_coefficient, "drag coefficient of 0"},
+        {&LoadRequest::opening_coefficient, "opening coefficient C_x of 0"},
+        {&LoadRequest::filling_constant, "filling constant n of 0"},
+        {&LoadRequest::filling_exponent, "exponent of the drag area of 0"}}) {
+    asked = request();
+    asked.*coefficient = 0.0;
+    EXPECT_NE(refused(asked).find(name), std::string::npos) << name << "\n" << refused(asked);
+  }
   asked = request();
   asked.steady = "/nowhere";
   EXPECT_NE(refused(asked).find("no finished run"), std::string::npos);

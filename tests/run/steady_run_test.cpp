@@ -42,6 +42,16 @@ TEST(SteadyRun, TheLedgerClosesAndTheLoadIsTheFlowsForce) {
   EXPECT_LT(last.drag_change, 1e-3);
 }
 
+TEST(SteadyRun, BeginsWithTheRelaxationAndTheUpdateOfItsSettings) {
+  FormulaEngine engine;
+  SteadyProblem problem = small_problem();
+  problem.settings.relaxation = 0.6;
+  problem.settings.acceleration = Acceleration::aitken;
+  const SteadyState state = SteadySolver(std::move(problem), engine).start();
+  EXPECT_EQ(state.accelerator.relaxation, 0.6);
+  EXPECT_EQ(state.accelerator.update, Acceleration::aitken);
+}
+
 TEST(SteadyRun, AnIterationTellsHowFarTheClothMovedAndInHowManySteps) {
   FormulaEngine engine;
   SteadySolver solver(small_problem(), engine);

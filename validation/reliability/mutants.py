@@ -418,6 +418,7 @@ def main():
     parser.add_argument("--number", type=int, default=mutants_table.NUMBER, help="mutants of the sample")
     parser.add_argument("--fresh", type=int, default=0, help="as many more beyond it, which are told by themselves")
     parser.add_argument("--after", type=int, default=0, help="where in the order of the mutants the fresh ones begin (default: behind the sample)")
+    parser.add_argument("--count", type=int, default=0, help="of the fresh ones only so many, picked by a hash of their names; 0: all")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--slowest", type=float, default=mutants_table.SLOWEST, help="a test that takes longer, s, is left out")
     parser.add_argument("--tests", default="", help="only those tests whose names, room.Suite.Test, this expression finds")
@@ -430,15 +431,23 @@ def main():
     asked = {m["name"] for m in all_mutants(options.number)}
     seen = {m["name"] for m in sample(options.after)} - asked
     mutants = [m for m in all_mutants(options.after + options.fresh) if m["name"] not in seen]
-    log = read_log()
+    log, left_out = read_log(), set()
+
+    def pick(dropped):
+        """With --count: the numbers of all other fresh ones."""
+        fresh = sorted((n for n, m in enumerate(mutants) if m["name"] not in asked and n not in dropped), key=lambda n: sha(mutants[n]["name"]))
+        return set(fresh[options.count:]) if options.count else set()
+
     if options.table:
         dropped = json.loads((WORK / "dropped.json").read_text()) if (WORK / "dropped.json").exists() else []
         dropped = {n for n, m in enumerate(mutants) if m["name"] + m["of"] in dropped}
+        left_out = pick(dropped)
     else:
         dropped, key = compile_all(mutants, options.jobs)
         tests = reach(options.jobs, key, options.slowest, options.tests)
+        left_out = pick(dropped)
         settled = {name for name, (kind, _) in mutants_table.judged().items() if kind != "hole"}
-        work = [(n, m) for n, m in enumerate(mutants) if n not in dropped and
+        work = [(n, m) for n, m in enumerate(mutants) if n not in dropped | left_out and
                 not (entry := log.get((m["name"], m["of"]), {})).get("caught", False) and (not entry or (options.again and m["name"] not in settled))]
         work.sort(key=lambda w: (w[1]["name"] in asked, sha(w[1]["name"])))  # the fresh ones first
         print(f"{len(mutants) - len(dropped)} mutants, {len(work)} to run, {len(tests)} tests", flush=True)
@@ -453,7 +462,7 @@ def main():
             for verdict in side_by_side(options.jobs, work, one):
                 log[verdict["name"], verdict["of"]] = verdict
                 print(("caught  " if verdict["caught"] else "SURVIVED"), verdict["name"], verdict["by"], flush=True)
-    mutants_table.write_both(mutants, asked, dropped, log, options)
+    mutants_table.write_both([(n, m) for n, m in enumerate(mutants) if n not in left_out], asked, dropped, log, options)
 
 
 if __name__ == "__main__":
