@@ -52,6 +52,7 @@ TEST(PorositySweep, GivesItsResultsBackAsTrialsOfTheirPoint) {
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i].result.drag_area = double(i);
   const std::vector<PorosityTrial> trials = porosity_trials(given, sweep, rows);
   const std::vector<SweepPoint> points = points_of("flat-circular", sweep);
+  ASSERT_EQ(trials.size(), rows.size());
   for (std::size_t i = 0; i < trials.size(); ++i) {
     EXPECT_EQ(trials[i].drag_area, double(i));
     EXPECT_EQ(trials[i].condition, i / 6);
