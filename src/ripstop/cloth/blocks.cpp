@@ -1,0 +1,182 @@
+#include "ripstop/cloth/blocks.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "ripstop/mesh/each_spring.h"
+
+namespace ripstop {
+namespace {
+
+// Some 300 blocks of cloth: their matrix is multiplied in every step and costs a fifth of it.
+constexpr double wanted_blocks = 300;
+constexpr double loose_blocks = 3;  // lines: their nodes within so many widths of a block move together
+constexpr double growth = 1.15;     // of C's diagonal, before it is inverted anew
+constexpr double ridge = 1e-6;      // holds what hangs on nothing, of C's diagonal
+
+double mean_length(const Patch& patch, Direction direction) {
+  double sum = 0;
+  int count = 0;
+  for (std::size_t i = 0; i < patch.width[direction].size(); ++i)
+    if (patch.width[direction][i] > 0) sum += patch.rest_length[direction][i], ++count;
+  return count > 0 ? sum / count : 0;
+}
+
+double block_size(const Mesh& mesh) {
+  double area = 0;
+  for (const Patch& patch : mesh.patches)
+    area += std::accumulate(patch.cell_area.begin(), patch.cell_area.end(), 0.0);
+  return std::sqrt(area / wanted_blocks);
+}
+
+int blocks_along(double length, double size) {
+  return std::max(1, static_cast<int>(std::lround(length / size)));
+}
+
+}  // namespace
+
+Blocks::Blocks(const Cloth& cloth)
+    : row_patch_(cloth.row_patch),
+      sum_of_kept_(cloth.kept.size()),
+      block_of_node_(cloth.mesh.node_count(), -1) {
+  const Mesh& mesh = cloth.mesh;
+  const double size = block_size(mesh);
+  int motions = 0;
+  for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
+    const Patch& patch = mesh.patches[p];
+    const PatchLayout& layout = cloth.patches[p];
+    const int around = blocks_along(patch.columns * mean_length(patch, along_row), size);
+    const int up = std::min(patch.rows, blocks_along(patch.rows * mean_length(patch, along_column), size));
+    const int chunks = std::clamp((around + lanes - 1) / lanes, 1, layout.vectors);
+    const int wide = std::min(around, chunks * lanes);
+    std::vector<int>& edges = edges_.emplace_back();
+    for (int c = 0; c <= chunks; ++c) edges.push_back(c * layout.vectors / chunks);
+    const auto row_block = [&](int row) { return row * up / patch.rows; };
+    for (int row = 0; row < patch.rows; ++row) {
+      first_chunk_.push_back(chunk_count());
+      for (int c = 0; c < chunks; ++c) motion_of_.push_back(motions + chunks * row_block(row) + c);
+    }
+    for (int b = 0; b < up; ++b)
+      for (int c = 0; c < chunks; ++c)
+        for (int lane = 0; lane < lanes; ++lane)
+          block_of_.push_back(count_ + wide * b + (lane * chunks + c) * wide / (chunks * lanes));
+    motions += up * chunks;
+    count_ += up * wide;
+  }
+  const int first_loose = cloth.kept_of_row.back();
+  for (int row = 0; row < cloth.row_count; ++row)
+    for (int k = cloth.kept_of_row[row]; k < cloth.kept_of_row[row + 1]; ++k) {
+      const int in_row = cloth.kept[k].slot - cloth.row_slot(row), vector = in_row / lanes;
+      const std::vector<int>& edge = edges(row);
+      const int chunk =
+          static_cast<int>(std::upper_bound(edge.begin(), edge.end(), vector) - edge.begin()) - 1;
+      sum_of_kept_[k] = 3 * lanes * (first_chunk(row) + chunk) + in_row % lanes;
+    }
+  // Nodes outside patches, by where they start.
+  const int first_chunk = chunk_count();
+  std::map<std::array<int, 3>, int> boxes;
+  for (int k = first_loose; k < static_cast<int>(cloth.kept.size()); ++k) {
+    const int loose = k - first_loose;
+    if (loose % lanes == 0) {
+      motion_of_.push_back(motions++);
+      block_of_.insert(block_of_.end(), lanes, -1);
+    }
+    sum_of_kept_[k] = 3 * lanes * (first_chunk + loose / lanes) + loose % lanes;
+    const int node = cloth.kept[k].node;
+    if (cloth.is_fixed[node] || cloth.is_tied[node]) continue;
+    const Vec3 x = mesh.start[node] / (loose_blocks * size);
+    const std::array<int, 3> box{static_cast<int>(std::floor(x.x)), static_cast<int>(std::floor(x.y)),
+                                 static_cast<int>(std::floor(x.z))};
+    const auto [found, added] = boxes.emplace(box, count_);
+    if (added) ++count_;
+    block_of_[lanes * (motions - 1) + loose % lanes] = found->second;
+  }
+  padded_ = (count_ + 2 * lanes - 1) / (2 * lanes) * (2 * lanes);
+
+  for (int row = 0; row < cloth.row_count; ++row) {
+    const int p = cloth.row_patch[row], r = cloth.patch_row(row);
+    const PatchLayout& layout = cloth.patches[p];
+    for (int c = 0; c + 1 < static_cast<int>(edges(row).size()); ++c)
+      for (int vector = edges(row)[c]; vector < edges(row)[c + 1]; ++vector)
+        for (int lane = 0; lane < lanes; ++lane) {
+          const int column = lane * layout.vectors + vector;
+          if (column < mesh.patches[p].columns)
+            block_of_node_[mesh.patches[p].node(r, column)] =
+                block_of_[lanes * motion_of_[first_chunk_[row] + c] + lane];
+        }
+  }
+  for (int k = first_loose; k < static_cast<int>(cloth.kept.size()); ++k)
+    block_of_node_[cloth.kept[k].node] = block_of_sum(sum_of_kept_[k]);
+  for (int node = 0; node < mesh.node_count(); ++node)
+    if (cloth.is_fixed[node] || cloth.is_tied[node]) block_of_node_[node] = -1;
+}
+
+void Blocks::set_stiffness(const Cloth& cloth, const ClothState& state, const std::vector<double>& also,
+                           double scale) {
+  const Mesh& mesh = cloth.mesh;
+  const std::vector<Vec3> x = positions(state, cloth);
+  std::vector<int> tie_of(mesh.node_count(), -1);
+  for (std::size_t t = 0; t < mesh.ties.size(); ++t) tie_of[mesh.ties[t].node] = static_cast<int>(t);
+  // A tied end is shared out to its masters (Jensen).
+  const auto each_block = [&](int node, const auto& visit) {
+    if (tie_of[node] < 0) return visit(block_of_node_[node], 1.0);
+    for (const Tie::Master& master : mesh.ties[tie_of[node]].masters)
+      visit(block_of_node_[master.node], master.weight);
+  };
+  Eigen::MatrixXd c = Eigen::MatrixXd::Zero(count_, count_);
+  each_spring(mesh, [&](const SpringView& s) {
+    const double strain = norm(x[s.b] - x[s.a]) / s.rest_length - 1;
+    const double k = s.scale * std::max(s.law->tangent(0), s.law->tangent(strain)) / s.rest_length;
+    each_block(s.a, [&](int a, double of_a) {
+      each_block(s.b, [&](int b, double of_b) {
+        if (a == b) return;
+        const double part = k * of_a * of_b;
+        if (a >= 0) c(a, a) += part;
+        if (b >= 0) c(b, b) += part;
+        if (a >= 0 && b >= 0) c(a, b) -= part, c(b, a) -= part;
+      });
+    });
+  });
+  for (int node = 0; node < mesh.node_count(); ++node)
+    if (block_of_node_[node] >= 0 && !also.empty())
+      c(block_of_node_[node], block_of_node_[node]) += also[node];
+  bool outgrown = diagonal_.empty();
+  for (int i = 0; i < count_ && !outgrown; ++i) outgrown = c(i, i) > growth * diagonal_[i];
+  if (!outgrown) return;
+  const double mean = c.trace() / count_;
+  diagonal_.resize(count_);
+  for (int i = 0; i < count_; ++i) {
+    diagonal_[i] = c(i, i);
+    c(i, i) += ridge * mean;
+  }
+  const Eigen::MatrixXd inverse = c.llt().solve(Eigen::MatrixXd::Identity(count_, count_));
+  inverse_.assign(static_cast<std::size_t>(padded_) * padded_, 0.0);
+  for (int i = 0; i < count_; ++i)
+    for (int j = 0; j < count_; ++j)
+      inverse_[static_cast<std::size_t>(lanes) * (static_cast<std::size_t>(i / lanes) * padded_ + j) +
+               i % lanes] = scale * inverse(i, j);
+}
+
+void Blocks::gather(const AlignedDoubles& sums, AlignedDoubles& r) const {
+  std::fill(r.begin(), r.end(), 0.0);
+  for (int chunk = 0; chunk < chunk_count(); ++chunk) {
+    const int* block = block_of_.data() + static_cast<std::size_t>(lanes) * motion_of_[chunk];
+    const double* sum = sums.data() + 3 * static_cast<std::size_t>(lanes) * chunk;
+    for (int lane = 0; lane < lanes; ++lane)
+      if (block[lane] >= 0)
+        for (int axis = 0; axis < 3; ++axis) r[axis * padded_ + block[lane]] += sum[axis * lanes + lane];
+  }
+}
+
+void Blocks::spread(int chunk, const double* y, double kick, double* motion) const {
+  const int* block = block_of_.data() + static_cast<std::size_t>(lanes) * motion_of_[chunk];
+  for (int lane = 0; lane < lanes; ++lane)
+    for (int axis = 0; axis < 3; ++axis)
+      motion[axis * lanes + lane] = block[lane] >= 0 ? kick * y[axis * padded_ + block[lane]] : 0.0;
+}
+
+}  // namespace ripstop
