@@ -113,12 +113,11 @@ Blocks::Blocks(const Cloth& cloth)
     block_of_node_[cloth.kept[k].node] = block_of_sum(sum_of_kept_[k]);
   for (int node = 0; node < mesh.node_count(); ++node)
     if (cloth.is_fixed[node] || cloth.is_tied[node]) block_of_node_[node] = -1;
+  list_crossings(cloth);
 }
 
-void Blocks::set_stiffness(const Cloth& cloth, const ClothState& state, const std::vector<double>& also,
-                           double scale) {
+void Blocks::list_crossings(const Cloth& cloth) {
   const Mesh& mesh = cloth.mesh;
-  const std::vector<Vec3> x = positions(state, cloth);
   std::vector<int> tie_of(mesh.node_count(), -1);
   for (std::size_t t = 0; t < mesh.ties.size(); ++t) tie_of[mesh.ties[t].node] = static_cast<int>(t);
   // A tied end is shared out to its masters (Jensen).
@@ -127,32 +126,38 @@ void Blocks::set_stiffness(const Cloth& cloth, const ClothState& state, const st
     for (const Tie::Master& master : mesh.ties[tie_of[node]].masters)
       visit(block_of_node_[master.node], master.weight);
   };
-  Eigen::MatrixXd c = Eigen::MatrixXd::Zero(count_, count_);
   each_spring(mesh, [&](const SpringView& s) {
-    const double strain = norm(x[s.b] - x[s.a]) / s.rest_length - 1;
-    const double k = s.scale * std::max(s.law->tangent(0), s.law->tangent(strain)) / s.rest_length;
     each_block(s.a, [&](int a, double of_a) {
       each_block(s.b, [&](int b, double of_b) {
-        if (a == b) return;
-        const double part = k * of_a * of_b;
-        if (a >= 0) c(a, a) += part;
-        if (b >= 0) c(b, b) += part;
-        if (a >= 0 && b >= 0) c(a, b) -= part, c(b, a) -= part;
+        if (a != b) crossings_.push_back({a, b, s.a, s.b, s.scale * of_a * of_b, s.rest_length, s.law});
       });
     });
   });
-  for (int node = 0; node < mesh.node_count(); ++node)
-    if (block_of_node_[node] >= 0 && !also.empty())
-      c(block_of_node_[node], block_of_node_[node]) += also[node];
-  bool outgrown = diagonal_.empty();
-  for (int i = 0; i < count_ && !outgrown; ++i) outgrown = c(i, i) > growth * diagonal_[i];
-  if (!outgrown) return;
-  const double mean = c.trace() / count_;
-  diagonal_.resize(count_);
-  for (int i = 0; i < count_; ++i) {
-    diagonal_[i] = c(i, i);
-    c(i, i) += ridge * mean;
+}
+
+void Blocks::set_stiffness(const Cloth& cloth, const ClothState& state, const std::vector<double>& also,
+                           double scale) {
+  std::vector<double> stiffness, diagonal(count_, 0.0);
+  stiffness.reserve(crossings_.size());
+  for (const Crossing& s : crossings_) {
+    const Vec3 d = get(state.x.data(), cloth.slot[s.node_b]) - get(state.x.data(), cloth.slot[s.node_a]);
+    const double strain = norm(d) / s.rest_length - 1;
+    const double tangent = std::max(s.law->coefficients[0], strain > 0 ? s.law->tangent(strain) : 0.0);
+    const double k = stiffness.emplace_back(s.scale * tangent / s.rest_length);
+    if (s.a >= 0) diagonal[s.a] += k;
+    if (s.b >= 0) diagonal[s.b] += k;
   }
+  for (std::size_t node = 0; node < also.size(); ++node)
+    if (block_of_node_[node] >= 0) diagonal[block_of_node_[node]] += also[node];
+  bool outgrown = diagonal_.empty();
+  for (int i = 0; i < count_ && !outgrown; ++i) outgrown = diagonal[i] > growth * diagonal_[i];
+  if (!outgrown) return;
+  diagonal_ = diagonal;
+  Eigen::MatrixXd c = Eigen::Map<Eigen::VectorXd>(diagonal.data(), count_).asDiagonal();
+  for (std::size_t i = 0; i < crossings_.size(); ++i)
+    if (const Crossing& s = crossings_[i]; s.a >= 0 && s.b >= 0)
+      c(s.a, s.b) -= stiffness[i], c(s.b, s.a) -= stiffness[i];
+  c.diagonal().array() += ridge * c.trace() / count_;
   const Eigen::MatrixXd inverse = c.llt().solve(Eigen::MatrixXd::Identity(count_, count_));
   inverse_.assign(static_cast<std::size_t>(padded_) * padded_, 0.0);
   for (int i = 0; i < count_; ++i)

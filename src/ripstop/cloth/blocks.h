@@ -47,6 +47,15 @@ class Blocks {
   int motion_of(int chunk) const { return motion_of_[chunk]; }
 
  private:
+  /// A spring between two blocks, or a block and what is held (-1), with the weights of the masters of tied ends.
+  struct Crossing {
+    int a, b;            // blocks
+    int node_a, node_b;  // its ends
+    double scale, rest_length;
+    const SpringLaw* law;  // the cloth's
+  };
+  void list_crossings(const Cloth& cloth);
+  std::vector<Crossing> crossings_;
   std::vector<double> diagonal_;  // of C when it was inverted
   AlignedDoubles inverse_;
   int count_ = 0, padded_ = 0;

@@ -39,18 +39,21 @@ void SumBlocks(const BlockSums& row) {
 
 void MoveBlocks(const BlockMotion& row) {
   for (int lane = 0; lane < lanes; lane += static_cast<int>(hn::Lanes(block_tag)))
-    for (int chunk = 0; chunk < row.chunks; ++chunk)
-      for (int axis = 0; axis < 3; ++axis) {
-        const BlockVector u = hn::Load(block_tag, row.motion + chunk * block_stride + axis * lanes + lane);
-        for (int m = row.edge[chunk]; m < row.edge[chunk + 1]; ++m) {
-          const auto moves = hn::Gt(hn::Load(block_tag, row.inverse_mass + 2 * m * block_stride + lane),
-                                    hn::Zero(block_tag));
-          const int at = m * block_stride + axis * lanes + lane;
-          // Other lanes are not touched: another thread may be moving them.
-          hn::BlendedStore(hn::Add(hn::Load(block_tag, row.v + at), u), moves, block_tag, row.v + at);
-          hn::BlendedStore(hn::Add(hn::Load(block_tag, row.x + at), u), moves, block_tag, row.x + at);
+    for (int chunk = 0; chunk < row.chunks; ++chunk) {
+      const double* motion = row.motion + chunk * block_stride + lane;
+      const BlockVector u[3] = {hn::Load(block_tag, motion), hn::Load(block_tag, motion + lanes),
+                                hn::Load(block_tag, motion + 2 * lanes)};
+      for (int m = row.edge[chunk]; m < row.edge[chunk + 1]; ++m) {
+        const auto moves =
+            hn::Gt(hn::Load(block_tag, row.inverse_mass + 2 * m * block_stride + lane), hn::Zero(block_tag));
+        double *x = row.x + m * block_stride + lane, *v = row.v + m * block_stride + lane;
+        // Other lanes are not touched: another thread may be moving them.
+        for (int axis = 0; axis < 3; ++axis, x += lanes, v += lanes) {
+          hn::BlendedStore(hn::Add(hn::Load(block_tag, v), u[axis]), moves, block_tag, v);
+          hn::BlendedStore(hn::Add(hn::Load(block_tag, x), u[axis]), moves, block_tag, x);
         }
       }
+    }
 }
 
 void MultiplyBlocks(const BlockProduct& job, int begin, int end) {
