@@ -4,19 +4,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <numeric>
+#include <set>
+#include <utility>
 
 #include "ripstop/mesh/each_spring.h"
 
 namespace ripstop {
 namespace {
 
-// Some 300 blocks of cloth: their matrix is multiplied in every step and costs a fifth of it.
-constexpr double wanted_blocks = 300;
-constexpr double loose_blocks = 3;  // lines: their nodes within so many widths of a block move together
-constexpr double growth = 1.15;     // of C's diagonal, before it is inverted anew
-constexpr double ridge = 1e-6;      // holds what hangs on nothing, of C's diagonal
+// Of cloth: their matrix is multiplied in every step and costs a tenth of it.
+constexpr double most_blocks = 300, nodes_a_block = 40;
+constexpr int loose_nodes = 3;   // of a line, that move together
+constexpr double growth = 1.15;  // of C's diagonal, before it is inverted anew
+constexpr double ridge = 1e-6;   // holds what hangs on nothing, of C's diagonal
 
 double mean_length(const Patch& patch, Direction direction) {
   double sum = 0;
@@ -30,11 +31,46 @@ double block_size(const Mesh& mesh) {
   double area = 0;
   for (const Patch& patch : mesh.patches)
     area += std::accumulate(patch.cell_area.begin(), patch.cell_area.end(), 0.0);
-  return std::sqrt(area / wanted_blocks);
+  return std::sqrt(area / std::min(most_blocks, mesh.node_count() / nodes_a_block));
 }
 
 int blocks_along(double length, double size) {
   return std::max(1, static_cast<int>(std::lround(length / size)));
+}
+
+/// Columns after which the springs outside the lattice repeat: those of a gore. All columns where they do not.
+int period(const Patch& patch, const std::vector<char>& joined) {
+  const auto repeats = [&](int columns) {
+    for (int row = 0; row < patch.rows; ++row)
+      for (int column = 0; column < patch.columns; ++column)
+        if (joined[patch.node(row, column)] != joined[patch.node(row, (column + columns) % patch.columns)])
+          return false;
+    return true;
+  };
+  if (patch.periodic)
+    for (int columns = 2; columns < patch.columns; ++columns)
+      if (patch.columns % columns == 0 && repeats(columns)) return columns;
+  return patch.columns;
+}
+
+/// Block of every column, some `wanted` in all. Blocks are alike in every gore and mirrored about its edge and its
+/// middle: what is symmetric stays so.
+std::vector<int> blocks_of_columns(const Patch& patch, const std::vector<char>& joined, double wanted) {
+  const int gore = period(patch, joined), gores = patch.columns / gore;
+  const int half = std::clamp(static_cast<int>(std::lround(0.5 * wanted / gores)), 1, std::max(1, gore / 4));
+  std::vector<int> block;
+  for (int column = 0; column < patch.columns; ++column) {
+    if (!patch.periodic) {
+      block.push_back((2 * column + 1) * half / patch.columns);
+      continue;
+    }
+    // The nearest multiple of gore / (2 half); what lies between two of them goes to the one nearer to the gore's edge.
+    const int in_gore = column % gore, mirrored = std::min(in_gore, gore - in_gore);
+    const int nearest = (4 * mirrored * half + gore - 1) / (2 * gore);
+    const int own = 2 * in_gore <= gore ? nearest : 2 * half - nearest;
+    block.push_back((column / gore * 2 * half + own) % (2 * half * gores));
+  }
+  return block;
 }
 
 }  // namespace
@@ -45,29 +81,14 @@ Blocks::Blocks(const Cloth& cloth)
       block_of_node_(cloth.mesh.node_count(), -1) {
   const Mesh& mesh = cloth.mesh;
   const double size = block_size(mesh);
-  int motions = 0;
+  std::vector<char> joined(mesh.node_count(), 0);
+  for (const Spring& spring : mesh.springs) joined[spring.a] = joined[spring.b] = 1;
   for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
     const Patch& patch = mesh.patches[p];
-    const PatchLayout& layout = cloth.patches[p];
-    const int around = blocks_along(patch.columns * mean_length(patch, along_row), size);
-    const int up = std::min(patch.rows, blocks_along(patch.rows * mean_length(patch, along_column), size));
-    const int chunks = std::clamp((around + lanes - 1) / lanes, 1, layout.vectors);
-    const int wide = std::min(around, chunks * lanes);
-    std::vector<int>& edges = edges_.emplace_back();
-    for (int c = 0; c <= chunks; ++c) edges.push_back(c * layout.vectors / chunks);
-    const auto row_block = [&](int row) { return row * up / patch.rows; };
-    for (int row = 0; row < patch.rows; ++row) {
-      first_chunk_.push_back(chunk_count());
-      for (int c = 0; c < chunks; ++c) motion_of_.push_back(motions + chunks * row_block(row) + c);
-    }
-    for (int b = 0; b < up; ++b)
-      for (int c = 0; c < chunks; ++c)
-        for (int lane = 0; lane < lanes; ++lane)
-          block_of_.push_back(count_ + wide * b + (lane * chunks + c) * wide / (chunks * lanes));
-    motions += up * chunks;
-    count_ += up * wide;
+    add_patch(patch, cloth.patches[p],
+              blocks_of_columns(patch, joined, patch.columns * mean_length(patch, along_row) / size),
+              std::min(patch.rows, blocks_along(patch.rows * mean_length(patch, along_column), size)));
   }
-  const int first_loose = cloth.kept_of_row.back();
   for (int row = 0; row < cloth.row_count; ++row)
     for (int k = cloth.kept_of_row[row]; k < cloth.kept_of_row[row + 1]; ++k) {
       const int in_row = cloth.kept[k].slot - cloth.row_slot(row), vector = in_row / lanes;
@@ -76,25 +97,7 @@ Blocks::Blocks(const Cloth& cloth)
           static_cast<int>(std::upper_bound(edge.begin(), edge.end(), vector) - edge.begin()) - 1;
       sum_of_kept_[k] = 3 * lanes * (first_chunk(row) + chunk) + in_row % lanes;
     }
-  // Nodes outside patches, by where they start.
-  const int first_chunk = chunk_count();
-  std::map<std::array<int, 3>, int> boxes;
-  for (int k = first_loose; k < static_cast<int>(cloth.kept.size()); ++k) {
-    const int loose = k - first_loose;
-    if (loose % lanes == 0) {
-      motion_of_.push_back(motions++);
-      block_of_.insert(block_of_.end(), lanes, -1);
-    }
-    sum_of_kept_[k] = 3 * lanes * (first_chunk + loose / lanes) + loose % lanes;
-    const int node = cloth.kept[k].node;
-    if (cloth.is_fixed[node] || cloth.is_tied[node]) continue;
-    const Vec3 x = mesh.start[node] / (loose_blocks * size);
-    const std::array<int, 3> box{static_cast<int>(std::floor(x.x)), static_cast<int>(std::floor(x.y)),
-                                 static_cast<int>(std::floor(x.z))};
-    const auto [found, added] = boxes.emplace(box, count_);
-    if (added) ++count_;
-    block_of_[lanes * (motions - 1) + loose % lanes] = found->second;
-  }
+  add_loose(cloth);
   padded_ = (count_ + 2 * lanes - 1) / (2 * lanes) * (2 * lanes);
 
   for (int row = 0; row < cloth.row_count; ++row) {
@@ -109,11 +112,65 @@ Blocks::Blocks(const Cloth& cloth)
                 block_of_[lanes * motion_of_[first_chunk_[row] + c] + lane];
         }
   }
-  for (int k = first_loose; k < static_cast<int>(cloth.kept.size()); ++k)
+  for (int k = cloth.kept_of_row.back(); k < static_cast<int>(cloth.kept.size()); ++k)
     block_of_node_[cloth.kept[k].node] = block_of_sum(sum_of_kept_[k]);
   for (int node = 0; node < mesh.node_count(); ++node)
     if (cloth.is_fixed[node] || cloth.is_tied[node]) block_of_node_[node] = -1;
   list_crossings(cloth);
+}
+
+void Blocks::add_patch(const Patch& patch, const PatchLayout& layout, const std::vector<int>& block_of_column,
+                       int up) {
+  std::vector<int>& edges = edges_.emplace_back();
+  const auto block_at = [&](int lane, int vector) {
+    const int column = lane * layout.vectors + vector;
+    return column < patch.columns ? block_of_column[column] : -1;
+  };
+  for (int vector = 0; vector < layout.vectors; ++vector) {
+    bool begins = vector == 0;
+    for (int lane = 0; lane < lanes && !begins; ++lane)
+      begins = block_at(lane, vector) >= 0 && block_at(lane, vector) != block_at(lane, vector - 1);
+    if (begins) edges.push_back(vector);
+  }
+  const int chunks = static_cast<int>(edges.size()), motions = static_cast<int>(block_of_.size()) / lanes;
+  for (int row = 0; row < patch.rows; ++row) {
+    first_chunk_.push_back(chunk_count());
+    for (int c = 0; c < chunks; ++c) motion_of_.push_back(motions + chunks * (row * up / patch.rows) + c);
+  }
+  const int around = 1 + *std::max_element(block_of_column.begin(), block_of_column.end());
+  for (int b = 0; b < up; ++b)
+    for (int c = 0; c < chunks; ++c)
+      for (int lane = 0; lane < lanes; ++lane) {
+        const int block = block_at(lane, edges[c]);
+        block_of_.push_back(block >= 0 ? count_ + around * b + block : -1);
+      }
+  edges.push_back(layout.vectors);
+  count_ += up * around;
+}
+
+// Nodes outside patches: so many in a row that are joined to each other, as along a line.
+void Blocks::add_loose(const Cloth& cloth) {
+  std::set<std::pair<int, int>> joined;
+  for (const Spring& spring : cloth.mesh.springs) joined.insert(std::minmax(spring.a, spring.b));
+  const int first_loose = cloth.kept_of_row.back(), first = chunk_count();
+  std::vector<std::pair<int, int>> by_node;
+  for (int k = first_loose; k < static_cast<int>(cloth.kept.size()); ++k) {
+    if ((k - first_loose) % lanes == 0) {
+      motion_of_.push_back(static_cast<int>(block_of_.size()) / lanes);
+      block_of_.insert(block_of_.end(), lanes, -1);
+    }
+    sum_of_kept_[k] = 3 * lanes * (first + (k - first_loose) / lanes) + (k - first_loose) % lanes;
+    by_node.emplace_back(cloth.kept[k].node, k);
+  }
+  std::sort(by_node.begin(), by_node.end());
+  int last = -1, in_block = 0;
+  for (const auto& [node, k] : by_node) {
+    if (cloth.is_fixed[node] || cloth.is_tied[node]) continue;
+    if (last < 0 || in_block == loose_nodes || !joined.count({last, node})) ++count_, in_block = 0;
+    const int sum = sum_of_kept_[k];
+    block_of_[lanes * motion_of_[sum / (3 * lanes)] + sum % (3 * lanes)] = count_ - 1;
+    last = node, ++in_block;
+  }
 }
 
 void Blocks::list_crossings(const Cloth& cloth) {

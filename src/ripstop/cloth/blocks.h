@@ -18,6 +18,8 @@ class Blocks {
   int count() const { return count_; }
   /// Rounded up to whole pairs of vectors; how long an array over the blocks is.
   int padded() const { return padded_; }
+  /// -1: fixed or tied.
+  int block_of(int node) const { return block_of_node_[node]; }
 
   /// With K the tangent stiffness and I the motion of the nodes with their blocks,
   ///   (I y)^T K I y <= y^T C y   for C = I^T L I,   L = sum k |x_i - x_j|^2 over the springs,
@@ -54,6 +56,10 @@ class Blocks {
     double scale, rest_length;
     const SpringLaw* law;  // the cloth's
   };
+  /// `up` blocks over its rows.
+  void add_patch(const Patch& patch, const PatchLayout& layout, const std::vector<int>& block_of_column,
+                 int up);
+  void add_loose(const Cloth& cloth);
   void list_crossings(const Cloth& cloth);
   std::vector<Crossing> crossings_;
   std::vector<double> diagonal_;  // of C when it was inverted
