@@ -193,7 +193,9 @@ class Relaxation {
         continue;
       }
       check_health(cloth_, state_);
-      if (pivot_ && !result_.converged) stop_turning(cloth_, state_, masses_.mass, *pivot_);
+      // With blocks a momentum is none of the nodes' masses alone: theirs taken out would turn the cloth. A moment that
+      // is cancelled turns nothing.
+      if (pivot_ && !result_.converged && !blocks_) stop_turning(cloth_, state_, masses_.mass, *pivot_);
       good_ = state_;
       if (report) report({result_.steps, result_.residual, fictitious_energy(cloth_, state_, masses_.mass)});
       if (since_refresh_ < refresh_after || result_.converged) continue;
