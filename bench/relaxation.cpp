@@ -16,8 +16,7 @@
 #include "ripstop/canopy/shape.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/cloth/cloth.h"
-#include "ripstop/cloth/kernel.h"
-#include "ripstop/core/build_info.h"
+#include "table.h"
 
 namespace {
 
@@ -80,10 +79,11 @@ Arguments arguments(int count, char** values) {
   return result;
 }
 
-void print_table(const Arguments& given) {
-  fmt::print(
-      "| example | pressure, Pa | steps | s | residual | projected diameter, m "
-      "|\n|---|---|---|---|---|---|\n");
+void print_table(const Arguments& given, int argc, char** argv) {
+  print_table_head(fmt::format("Equilibrium from flat, {} nodes, {} threads, to {:.0e} of the load",
+                               given.nodes, given.threads, given.tolerance),
+                   argc, argv,
+                   {"example", "pressure, Pa", "steps", "s", "residual", "projected diameter, m"});
   ThreadTeam team(given.threads);
   for (const std::string& name : given.examples) {
     const CanopyMesh mesh = example(name, given.nodes);
@@ -105,10 +105,10 @@ void print_table(const Arguments& given) {
 }
 
 // The whole way from flat, which is the same to the last bit on any number of threads, by turns on one and on two.
-void print_ratio(const Arguments& given) {
+void print_ratio(const Arguments& given, int argc, char** argv) {
   constexpr int turns = 5;
-  fmt::print(
-      "| example | pressure, Pa | steps | 1 thread, s | 2 threads, s | ratio |\n|---|---|---|---|---|---|\n");
+  print_table_head(fmt::format("Equilibrium from flat, {} nodes, one thread and two", given.nodes), argc,
+                   argv, {"example", "pressure, Pa", "steps", "1 thread, s", "2 threads, s", "ratio"});
   ThreadTeam alone(1), pair(2);
   for (const std::string& name : given.examples) {
     const CanopyMesh mesh = example(name, given.nodes);
@@ -138,9 +138,10 @@ void print_ratio(const Arguments& given) {
 
 }  // namespace
 
-int main(int count, char** values) {
-  const Arguments given = arguments(count, values);
-  fmt::print("{}, {}, kernels {}, {} nodes, {} threads, to {}\n\n", processor(), compiler(), kernel_target(),
-             given.nodes, given.threads, given.tolerance);
-  given.ratio ? print_ratio(given) : print_table(given);
+int main(int argc, char** argv) {
+  const Arguments given = arguments(argc, argv);
+  if (given.ratio)
+    print_ratio(given, argc, argv);
+  else
+    print_table(given, argc, argv);
 }
