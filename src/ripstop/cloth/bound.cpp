@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <utility>
 
 #include "ripstop/cloth/contact.h"
 #include "ripstop/core/error.h"
@@ -51,35 +50,23 @@ void hand_to_masters(const Mesh& mesh, std::vector<Symmetric>& blocks) {
 
 }  // namespace
 
-std::vector<Symmetric> node_blocks(const Cloth& cloth, const ClothState& state, double floor,
-                                   ThreadTeam& team) {
+std::vector<Symmetric> node_blocks(const Cloth& cloth, const ClothState& state, double floor) {
   const std::vector<Vec3> x = positions(state, cloth);
-  // In two parts whatever the team, whose sums are added in their order.
-  constexpr int parts = 2;
-  std::vector<Symmetric> blocks[parts];
-  team.run([&](int rank) {
-    const IndexRange mine = part_of(parts, rank, team.size());
-    for (int part = mine.begin; part < mine.end; ++part) {
-      std::vector<Symmetric>& sum = blocks[part];
-      sum.assign(x.size(), Symmetric{});
-      each_spring(cloth.mesh, part, parts, [&](const SpringView& s) {
-        const Vec3 d = x[s.b] - x[s.a];
-        const double length = norm(d);
-        const double strain = length / s.rest_length - 1;
-        const Vec3 n = length > 0 ? d / length : Vec3{1, 0, 0};
-        const double tangent = std::max(s.law->tangent(strain), strain < 0 ? s.law->tangent(0) : 0.0);
-        const double along = s.scale * tangent / s.rest_length;
-        const double across =
-            length > 0 ? std::max(floor * along, s.scale * s.law->tension(strain) / length) : along;
-        add(sum[s.a], along, across, n);
-        add(sum[s.b], along, across, n);
-      });
-    }
+  std::vector<Symmetric> blocks(x.size(), Symmetric{});
+  each_spring(cloth.mesh, [&](const SpringView& s) {
+    const Vec3 d = x[s.b] - x[s.a];
+    const double length = norm(d);
+    const double strain = length / s.rest_length - 1;
+    const Vec3 n = length > 0 ? d / length : Vec3{1, 0, 0};
+    const double tangent = std::max(s.law->tangent(strain), strain < 0 ? s.law->tangent(0) : 0.0);
+    const double along = s.scale * tangent / s.rest_length;
+    const double across =
+        length > 0 ? std::max(floor * along, s.scale * s.law->tension(strain) / length) : along;
+    add(blocks[s.a], along, across, n);
+    add(blocks[s.b], along, across, n);
   });
-  for (std::size_t node = 0; node < x.size(); ++node)
-    for (int i = 0; i < 6; ++i) blocks[0][node][i] += blocks[1][node][i];
-  hand_to_masters(cloth.mesh, blocks[0]);
-  return std::move(blocks[0]);
+  hand_to_masters(cloth.mesh, blocks);
+  return blocks;
 }
 
 // With u_i the gradient of the length at ring i, K = k u u^T + T sum 1/l (I - n n^T) over its parts, and

@@ -2,7 +2,6 @@
 // are looked at now and then.
 #pragma once
 
-#include "ripstop/core/thread_team.h"
 #include "ripstop/mesh/mesh.h"
 
 namespace ripstop {
@@ -17,13 +16,11 @@ struct SpringView {
   int index;                          // into Mesh::springs, -1: of the lattice
 };
 
-/// Part `part` of `parts`: some rows of every patch, some of the springs outside them.
 template <class Visit>
-void each_spring(const Mesh& mesh, int part, int parts, Visit&& visit) {
+void each_spring(const Mesh& mesh, Visit&& visit) {
   for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
     const Patch& patch = mesh.patches[p];
-    const IndexRange rows = part_of(patch.rows, part, parts);
-    for (int row = rows.begin; row < rows.end; ++row)
+    for (int row = 0; row < patch.rows; ++row)
       for (int column = 0; column < patch.columns; ++column)
         for (int d = 0; d < direction_count; ++d) {
           const std::size_t i = static_cast<std::size_t>(row) * patch.columns + column;
@@ -34,17 +31,11 @@ void each_spring(const Mesh& mesh, int part, int parts, Visit&& visit) {
                            patch.damping_of(d, row, column), static_cast<int>(p), row, column, d, -1});
         }
   }
-  const IndexRange springs = part_of(static_cast<int>(mesh.springs.size()), part, parts);
-  for (int s = springs.begin; s < springs.end; ++s) {
+  for (std::size_t s = 0; s < mesh.springs.size(); ++s) {
     const Spring& spring = mesh.springs[s];
     visit(SpringView{spring.a, spring.b, spring.rest_length, spring.scale, &mesh.laws[spring.law],
-                     spring.damping, -1, 0, 0, 0, s});
+                     spring.damping, -1, 0, 0, 0, static_cast<int>(s)});
   }
-}
-
-template <class Visit>
-void each_spring(const Mesh& mesh, Visit&& visit) {
-  each_spring(mesh, 0, 1, visit);
 }
 
 }  // namespace ripstop
