@@ -95,6 +95,8 @@ bench: check-deps  ## Benchmarks, some three hours; their figures stand in docs/
 	@build-check/bench/bench_bodies openfoam 8 | tee docs/tables/bodies-openfoam.md
 	@build-check/bench/bench_sheet 40 4 | tee docs/tables/sheet-shifts.md
 	@build-check/bench/bench_cloth
+	@build-check/bench/bench_relaxation | tee docs/tables/relaxation.md
+	@build-check/bench/bench_relaxation --ratio --pressures 80 stratos-iv flat-circular
 	@build-check/bench/bench_inflation
 	@build-check/bench/bench_flow --openfoam --large
 	@build-check/bench/bench_flow --in-time

@@ -74,6 +74,33 @@ struct RowWork {
 };
 double pressure_work(const RowWork& row);
 
+/// Of a relaxation's blocks (blocks.h): the force on each chunk of a row, over the nodes that move.
+struct BlockSums {
+  int chunks;
+  const int* edge;             // chunks + 1, in vectors
+  const double* inverse_mass;  // as in RowRelaxation
+  const double* f;
+  double* sum;  // in vector layout
+};
+void sum_blocks(const BlockSums& row);
+/// v' = v + u,  x' = x + u   with the u of each chunk.
+struct BlockMotion {
+  int chunks;
+  const int* edge;
+  const double* inverse_mass;
+  const double* motion;
+  double *x, *v;
+};
+void move_blocks(const BlockMotion& row);
+/// Elements [begin, end) of y = A r along all three axes, whole pairs of vectors.
+struct BlockProduct {
+  int padded;
+  const double* inverse;  // see Blocks::inverse()
+  const double* r;        // [3 x padded]
+  double* y;
+};
+void multiply_blocks(const BlockProduct& job, int begin, int end);
+
 /// "AVX-512", "AVX2", "SSE4", "scalar": what the kernels run on here.
 const char* kernel_target();
 

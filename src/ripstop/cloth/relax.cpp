@@ -11,6 +11,11 @@
 //   v' = t / (t + 3) v + (t + 3/2) / (t + 3) f / m
 // is leapfrog with implicit damping, stable for the same masses, and starts from rest with half a kick.
 //
+// A wave as long as the canopy hardly stretches a spring, and yet every node in it is as heavy as its springs are stiff.
+// So cloth that wrinkles moves in blocks besides (blocks.h), which are as heavy as the springs that leave them: with the
+// nodes' masses M and the blocks' bound C, x^T K x <= 2 sum x_i^T K_ii x_i and <= y^T C y, a step of 1 is stable for
+//   v' = keep v + kick (share W f + (1 - share) I C'^-1 I^T f),    C' = C / 4 with the same margin.
+//
 // A parachute hangs on one point and may turn about it. Under a follower pressure that is neutral: a small
 // moment of a wrinkled shape would turn it for ever. So the moment of the loads about that point is cancelled
 // by the smallest node forces that do, and the turning taken out of the velocities.
@@ -30,8 +35,10 @@
 namespace ripstop {
 namespace {
 
-constexpr double margin = 1.2;    // on the masses, for stiffening between two refreshes
-constexpr int steps_a_look = 50;  // between looks at the applied load and the report
+constexpr double margin = 1.2;       // on the masses, for stiffening between two refreshes
+constexpr double nodes_share = 0.8;  // of the motion, the rest is the blocks'
+constexpr int least_nodes = 500;     // of cloth that has blocks: small ones have no long waves
+constexpr int steps_a_look = 50;     // between looks at the applied load and the report
 // Steps between two refreshes of the masses: they follow closely while the cloth is far from equilibrium.
 // Tape stiffens tenfold at strains that a wild start (sails with fullness, gathered cloth) or the jerk of
 // lines that come taut makes within a few steps. Steps that run away are taken back where cloth wrinkles.
@@ -43,11 +50,12 @@ int steps_a_refresh(const RelaxResult& result, bool wrinkles) {
 /// The floor of node_blocks(): how much lighter a node is across its springs than along them. A node that moves far
 /// in few steps turns its springs, and the masses of before are too light then.
 struct Lightness {
-  double floor = 0.2, least = 0.02;
-  explicit Lightness(bool wrinkles) {
+  double floor = 0.2, least = 0.02, daring = 0.9;
+  Lightness(bool wrinkles, bool blocks) {
     if (!wrinkles) floor = least = 1;
+    if (blocks) least = 0.005, daring = 0.8;
   }
-  void dare() { floor = std::max(least, 0.9 * floor); }
+  void dare() { floor = std::max(least, daring * floor); }
   bool shy() {
     if (floor >= 1) return false;
     floor = std::min(1.0, 4 * floor);
@@ -83,29 +91,36 @@ bool wrinkles(const Mesh& mesh) {
   });
 }
 
-Masses fictitious_masses(const Cloth& cloth, const ClothState& state, double floor, double hold) {
+// Stiffness alike along all directions, of the hold and the drawstring, by node [N/m]: x^T K x <= sum k |x_i|^2.
+std::vector<double> round_stiffness(const Cloth& cloth, const ClothState& state, double hold) {
+  std::vector<double> stiffness(cloth.mesh.node_count(), 0.0);
+  if (hold > 0) {
+    for (int node = 0; node < cloth.mesh.node_count(); ++node) stiffness[node] = 2 * hold * cloth.area[node];
+    for (const Tie& tie : cloth.mesh.ties)
+      for (const auto& master : tie.masters)
+        stiffness[master.node] += 2 * master.weight * hold * cloth.area[tie.node];
+  }
+  if (const StringShares string = string_shares(cloth, state); !string.stiffness.empty())
+    for (int node = 0; node < cloth.mesh.node_count(); ++node) stiffness[node] += string.stiffness[node];
+  return stiffness;
+}
+
+/// `share` of the motion is that of the nodes by themselves.
+Masses fictitious_masses(const Cloth& cloth, const ClothState& state, double floor,
+                         const std::vector<double>& round, double share) {
   Masses masses;
   if (wrinkles(cloth.mesh)) {
     masses.mass = node_blocks(cloth, state, floor);
   } else {
     for (const double k : node_stiffness(cloth, state).stiffness) masses.mass.push_back({k, k, k, 0, 0, 0});
   }
-  const auto hold_more = [&](int node, double stiffness) {
-    for (int i = 0; i < 3; ++i) masses.mass[node][i] += stiffness;
-  };
-  if (hold > 0) {
-    for (int node = 0; node < cloth.mesh.node_count(); ++node) hold_more(node, hold * cloth.area[node]);
-    for (const Tie& tie : cloth.mesh.ties)
-      for (const auto& master : tie.masters)
-        hold_more(master.node, master.weight * hold * cloth.area[tie.node]);
-  }
-  if (const StringShares string = string_shares(cloth, state); !string.stiffness.empty())
-    for (int node = 0; node < cloth.mesh.node_count(); ++node) hold_more(node, 0.5 * string.stiffness[node]);
+  for (int node = 0; node < cloth.mesh.node_count(); ++node)
+    for (int i = 0; i < 3; ++i) masses.mass[node][i] += 0.5 * round[node];
   for (int node : cloth.mesh.fixed) masses.mass[node] = {};
   for (const Tie& tie : cloth.mesh.ties) masses.mass[tie.node] = {};
   masses.inverse.inverse_mass.reserve(masses.mass.size());
   for (Symmetric& mass : masses.mass) {
-    for (double& component : mass) component *= 0.5 * margin;
+    for (double& component : mass) component *= 0.5 * margin / share;
     masses.inverse.inverse_mass.push_back(inverse_of(mass));
   }
   return masses;
@@ -156,13 +171,15 @@ class Relaxation {
         options_(options),
         team_(team),
         wrinkles_(wrinkles(cloth.mesh)),
-        lightness_(wrinkles_),
-        masses_(fictitious_masses(cloth, state, lightness_.floor, options.hold)),
+        blocks_(has_blocks() ? std::optional<Blocks>(cloth) : std::nullopt),
+        lightness_(wrinkles_, blocks_.has_value()),
+        masses_(masses_now()),
         stepper_(cloth, loads, state, masses_.inverse, team.size()),
         pivot_(pivot_of(cloth, state)),
         runaway_(runaway_speed * shortest_spring(cloth.mesh)),
         good_(state) {
     if (options.hold > 0) stepper_.hold(options.hold, start.x);
+    if (blocks_) stepper_.set_blocks(&*blocks_);
     stop();
   }
 
@@ -176,7 +193,9 @@ class Relaxation {
         continue;
       }
       check_health(cloth_, state_);
-      if (pivot_ && !result_.converged) stop_turning(cloth_, state_, masses_.mass, *pivot_);
+      // With blocks a momentum is none of the nodes' masses alone: theirs taken out would turn the cloth. A moment that
+      // is cancelled turns nothing.
+      if (pivot_ && !result_.converged && !blocks_) stop_turning(cloth_, state_, masses_.mass, *pivot_);
       good_ = state_;
       if (report) report({result_.steps, result_.residual, fictitious_energy(cloth_, state_, masses_.mass)});
       if (since_refresh_ < refresh_after || result_.converged) continue;
@@ -209,9 +228,15 @@ class Relaxation {
         team_.barrier();
         stepper_.move_kept(rank);
         team_.barrier();
-        const RowSums sums = stepper_.sums();
+        RowSums sums = stepper_.sums();
         const double residual = std::sqrt(sums.force_squared) / scale;
         const bool ends = residual <= options_.tolerance;
+        if (blocks_ && !ends) {
+          stepper_.solve_blocks(rank);
+          team_.barrier();
+          sums.power += stepper_.move_blocks(rank);
+          team_.barrier();  // tied nodes follow other ranks' rows
+        }
         if (sums.power < 0 && !ends) {
           stepper_.stop(rank);
           team_.barrier();  // tied nodes take the velocities of other ranks' rows
@@ -234,9 +259,19 @@ class Relaxation {
     std::fill(state_.v.begin(), state_.v.end(), 0.0);
     for (int rank = 0; rank < team_.size(); ++rank) stepper_.stop(rank);
   }
+  /// A look at the residual needs none.
+  bool has_blocks() const {
+    return wrinkles_ && !cloth_.mesh.fixed.empty() && cloth_.mesh.node_count() >= least_nodes &&
+           options_.max_steps > 1;
+  }
+  Masses masses_now() {
+    const std::vector<double> round = round_stiffness(cloth_, state_, options_.hold);
+    if (blocks_) blocks_->set_stiffness(cloth_, state_, round, (1 - nodes_share) / (0.25 * margin));
+    return fictitious_masses(cloth_, state_, lightness_.floor, round, blocks_ ? nodes_share : 1);
+  }
   void refresh() {
     since_refresh_ = 0;
-    masses_ = fictitious_masses(cloth_, state_, lightness_.floor, options_.hold);
+    masses_ = masses_now();
     stepper_.set_masses(masses_.inverse);
   }
   void start_again() {
@@ -252,6 +287,7 @@ class Relaxation {
   const RelaxOptions& options_;
   ThreadTeam& team_;
   bool wrinkles_;
+  std::optional<Blocks> blocks_;
   Lightness lightness_;
   Masses masses_;
   Stepper stepper_;

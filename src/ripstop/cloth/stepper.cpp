@@ -8,7 +8,6 @@
 namespace ripstop {
 namespace {
 
-constexpr int kept_block = 64;  // kept nodes whose sums are added by one thread
 constexpr int rows_in_turn = 3;
 // What a kept node costs, over a vector of the lattice (measured on Stratos IV, AVX-512).
 constexpr double vectors_a_kept_node = 0.25;
@@ -244,6 +243,7 @@ void Stepper::move(int row, const double* f, Pace pace) {
     row_sums_[row] = relax_row({vectors, pace.kick, pace.keep,
                                 inverse_tensor_.data() + 6 * static_cast<std::size_t>(first), f,
                                 state_.x.data() + at(first), state_.v.data() + at(first)});
+    if (blocks_) sum_row_blocks(row, f);
     return;
   }
   const RowMotion motion{vectors,
@@ -284,6 +284,7 @@ void Stepper::move_kept(int rank) {
     move_nodes(loose + block * kept_block, std::min(all, loose + (block + 1) * kept_block),
                loose_sums_[block]);
   if (sums_wanted_) {
+    worker.block_kick = worker.pace.kick;
     const double keep = keep_after(++worker.steps_since_stop);
     worker.pace = {0.5 * (1 + keep), keep};
   }
@@ -315,6 +316,12 @@ RowSums Stepper::relax_kept_nodes(int begin, int end, Pace pace) {
     for (double& component : inverse) component *= pace.kick;
     const int slot = cloth_.kept[k].slot;
     const Vec3 force = force_on_kept(k);
+    if (blocks_) {
+      double* sum = block_sums_.data() + blocks_->sum_of_kept(k);
+      const Vec3 others = k < cloth_.kept_of_row.back() ? Vec3{sum[0], sum[lanes], sum[2 * lanes]} : Vec3{};
+      const Vec3 all = others + force;
+      sum[0] = all.x, sum[lanes] = all.y, sum[2 * lanes] = all.z;
+    }
     const Vec3 old = get(state_.v.data(), slot);
     const Vec3 now = pace.keep * old + inverse * force;
     sums.force_squared += dot(force, force);

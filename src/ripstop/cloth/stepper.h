@@ -11,11 +11,14 @@
 
 #include <vector>
 
+#include "ripstop/cloth/blocks.h"
 #include "ripstop/cloth/bound.h"
 #include "ripstop/cloth/kernel.h"
 #include "ripstop/cloth/layout.h"
 
 namespace ripstop {
+
+inline constexpr int kept_block = 64;  // kept nodes whose sums are added by one thread: whole vectors
 
 class Stepper {
  public:
@@ -32,8 +35,15 @@ class Stepper {
   /// Of a relaxation: pulls every node toward where it is in `at` (vector layout), by area of cloth [Pa/m].
   void hold(double per_area, const AlignedDoubles& at);
 
+  /// Of a relaxation: blocks that move besides; null: none.
+  void set_blocks(const Blocks* blocks);
+
   void add_forces(int rank);
   void move_kept(int rank);
+  /// After move_kept with a barrier: what every block moves by. And after another: moves the rank's nodes with
+  /// their blocks; returns what that adds to RowSums::power, the same on every rank.
+  void solve_blocks(int rank);
+  double move_blocks(int rank);
   void follow_masters(int rank);
   /// After move_kept, with a barrier before follow_masters: sets the velocities of the rank's nodes to 0; their next
   /// kick is half a step's, as a leapfrog starts from rest (a whole one diverges when stops follow each other).
@@ -66,6 +76,8 @@ class Stepper {
     AlignedDoubles buffer;  // three rows in turn, one for what nobody wants, the waiting rows
     std::size_t row_doubles = 0;
     std::vector<int> waiting;  // rows that move after the barrier, in order of their buffers
+    AlignedDoubles block_force, motion;
+    double block_kick = 0;  // of the step that is under way
   };
   void prepare(int threads);
   void step_piece(Worker& worker, const Piece& piece);
@@ -74,6 +86,8 @@ class Stepper {
   void move_kept_nodes(int begin, int end);
   RowSums relax_kept_nodes(int begin, int end, Pace pace);
   Vec3 force_on_kept(int k) const;
+  void sum_row_blocks(int row, const double* f);
+  void move_kept_with_blocks(int begin, int end, double kick);
   void pull_drawstring();
   void record_fixed_force();
 
@@ -87,6 +101,8 @@ class Stepper {
   std::vector<double> kept_inverse_mass_, kept_area_;  // by kept node; 0: does not move
   AlignedDoubles inverse_tensor_;                      // of a relaxation, see RowRelaxation; by slot
   std::vector<Symmetric> kept_inverse_tensor_;         // likewise, by kept node
+  const Blocks* blocks_ = nullptr;
+  AlignedDoubles block_sums_, block_move_;  // see Blocks: forces by chunk [N]; [3 x padded]
   // In vector layout: of kept nodes, of kept springs, of the drawstring's parts (see Cloth::Share).
   AlignedDoubles kept_force_;
   std::vector<Worker> workers_;
