@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ripstop/core/error.h"
+#include "ripstop/flow/flow.h"
 #include "ripstop/flow/flow_grid.h"
 
 namespace ripstop {
@@ -35,6 +36,23 @@ inline FlowGrid about_body(FlowGrid box, double d, int across, double z) {
 inline FlowGrid far_box(double d, double box, int across, double z) {
   return about_body({{-box / 2 * d, -box / 2 * d, 0}, {box * d, box * d, 1.5 * box * d}, 0, 0, 0}, d, across,
                     z);
+}
+
+/// A square plate of 1 m in a far box, of whole faces of the grid, so that every engine has the same one. Resistance in
+/// Pa s/m.
+inline FlowProblem plate_of_faces(double box, int across, double resistance, double speed) {
+  FlowProblem problem;
+  const double at = 0.45 * 1.5 * box;
+  FlowGrid& grid = problem.grid;
+  grid = far_box(1, box, across, at);
+  problem.air.speed = speed;
+  problem.sides = Sides::slip;
+  const int i = grid.cell_at(0, -0.5), j = grid.cell_at(1, -0.5);
+  const double x = grid.edge(0, i), y = grid.edge(1, j), z = grid.edge(2, grid.cell_at(2, at));
+  const Vec3 u{grid.edge(0, i + across) - x, 0, 0}, v{0, grid.edge(1, j + across) - y, 0}, corner{x, y, z};
+  problem.sheets = {
+      {{{corner, corner + u, corner + u + v}, {corner, corner + u + v, corner + v}}, resistance, 0}};
+  return problem;
 }
 
 struct Order {

@@ -99,21 +99,6 @@ double since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-/// A plate of whole faces of the grid, so that both engines have the same one.
-FlowProblem plate_of_faces(int across) {
-  FlowProblem problem;
-  const double at = 0.45 * 1.5 * box;
-  FlowGrid& grid = problem.grid;
-  grid = far_box(1, box, across, at);
-  problem.air.speed = speed;
-  problem.sides = Sides::slip;
-  const int i = grid.cell_at(0, -0.5), j = grid.cell_at(1, -0.5);
-  const double x = grid.edge(0, i), y = grid.edge(1, j), z = grid.edge(2, grid.cell_at(2, at));
-  const Vec3 u{grid.edge(0, i + across) - x, 0, 0}, v{0, grid.edge(1, j + across) - y, 0}, corner{x, y, z};
-  problem.sheets = {{{{corner, corner + u, corner + u + v}, {corner, corner + u + v, corner + v}}, 1e6, 0}};
-  return problem;
-}
-
 double area_of(const FlowProblem& problem) {
   double area = 0;
   for (const Triangle& t : problem.sheets[0].surface) area += 0.5 * norm(cross(t.b - t.a, t.c - t.a));
@@ -195,7 +180,7 @@ int main(int argc, char** argv) {
   const int across = argc > 2 ? std::atoi(argv[2]) : 16, ranks = argc > 4 ? std::atoi(argv[4]) : 2;
   const double time = argc > 3 ? std::atof(argv[3]) : 2;
   std::filesystem::create_directories(folder);
-  const FlowProblem problem = plate_of_faces(across);
+  const FlowProblem problem = plate_of_faces(box, across, 1e6, speed);
   const std::vector<openfoam::BafflePatch> cloth = openfoam::baffles_of(problem);
   double faces = 0;
   for (const openfoam::BafflePatch& patch : cloth)

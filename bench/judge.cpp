@@ -2,14 +2,14 @@
 // of a run.
 //   bench_judge FOLDER ACROSS [BODY ...]
 //     FOLDER  of OpenFOAM's case and the plots
-//     ACROSS  cells across the body, the built-in engine's; those of OpenFOAM's mesh are half as wide at the cloth and twice
-//             as wide elsewhere
+//     ACROSS  cells across the body, the built-in engine's, even; those of OpenFOAM's mesh are half as wide at the cloth and
+//             twice as wide elsewhere
 //     BODY    disk, plate, cup, porous-disk, disk-gap-band (rigid_disk_gap_band()), or NAME=FILE.stl:A:B, cloth with the law
 //             A v + B v |v| [Pa]; without one the five bodies
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -140,13 +140,36 @@ Result result_of(const Body& body, const FlowProblem& problem, const FlowField& 
   return result;
 }
 
+/// Of this process and of its children that have ended [min].
+double processor_minutes() {
+  double seconds = 0;
+  for (const int who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
+    rusage used{};
+    getrusage(who, &used);
+    for (const timeval& part : {used.ru_utime, used.ru_stime})
+      seconds += static_cast<double>(part.tv_sec) + 1e-6 * static_cast<double>(part.tv_usec);
+  }
+  return seconds / 60;
+}
+
 template <class Solve>
 Result timed(const Body& body, const FlowProblem& problem, const Solve& solved) {
-  const auto begin = std::chrono::steady_clock::now();
+  const double begin = processor_minutes();
   const FlowField field = solved();
   Result result = result_of(body, problem, field);
-  result.minutes = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() / 60;
+  result.minutes = processor_minutes() - begin;
   return result;
+}
+
+/// Every fiftieth iteration, on standard error.
+FlowReport told(const Body& body, const FlowProblem& problem, const std::string& engine) {
+  const double whole = 0.5 * problem.air.density * speed * speed * body.front;
+  return [=, name = body.name, most = problem.stopping.max_iterations](const FlowProgress& now) {
+    if (now.iteration % 50 == 0)
+      fmt::print(stderr, "{}, {}: iteration {} of at most {}, drag on its front {:.4f}, residual {:.1e}\n",
+                 name, engine, now.iteration, most, now.drag / whole, largest_residual(now));
+    return true;
+  };
 }
 
 Result builtin(const Body& body, int across) {
@@ -154,7 +177,8 @@ Result builtin(const Body& body, int across) {
   problem.stopping.average_over = 100;
   CartesianSettings settings;
   settings.second_order = true;
-  return timed(body, problem, [&] { return solve(*make_cartesian(settings), problem); });
+  return timed(body, problem,
+               [&] { return solve(*make_cartesian(settings), problem, told(body, problem, "built-in")); });
 }
 
 Result openfoam(const Body& body, int across, const std::filesystem::path& folder) {
@@ -166,7 +190,8 @@ Result openfoam(const Body& body, int across, const std::filesystem::path& folde
   settings.second_order = true;
   settings.fitted_mesh = true;
   settings.cloth_levels = 2;
-  return timed(body, problem, [&] { return solve(*make_openfoam(settings), problem); });
+  return timed(body, problem,
+               [&] { return solve(*make_openfoam(settings), problem, told(body, problem, "OpenFOAM")); });
 }
 
 /// Root of the mean square of the differences, where both have a value.
@@ -236,6 +261,6 @@ int main(int argc, char** argv) {
       argc, argv,
       {"body", "cells across", "drag on its front, built-in", "OpenFOAM", "built-in beside OpenFOAM",
        "ledger, built-in", "OpenFOAM's", "pressure across the cloth, apart (rms)",
-       "wake at 1 and 3 widths, apart (rms)", "minutes, built-in, OpenFOAM"});
+       "wake at 1 and 3 widths, apart (rms)", "processor minutes, built-in, OpenFOAM"});
   for (const std::string& word : words) judge(folder, body_of(word), across);
 }

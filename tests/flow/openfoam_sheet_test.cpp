@@ -240,6 +240,10 @@ TEST_F(OpenFoamSheet, CellsMovedOntoACupHaveItsFrontAndTakeTheMomentumThatTheBox
   EXPECT_NEAR(front, 0.25 * M_PI, 0.01 * 0.25 * M_PI);
   EXPECT_NEAR(area, 0.5 * M_PI, 0.01 * 0.5 * M_PI);
   EXPECT_NEAR(field.momentum_deficit, field.porous_force.z, 0.01 * field.porous_force.z);
+
+  const std::string log = read_file(folder_.path / "case" / "log.checkMesh"), word = "    cells:";
+  const double cells = std::stod(log.substr(log.find(word) + word.size()));
+  EXPECT_NEAR(fitted_cells(cup_in_box().grid, area, 2), cells, 0.15 * cells);
 }
 
 TEST_F(OpenFoamSheet, TwoRanksGiveTheDragOfOneOnCellsMovedOntoAPlate) {

@@ -21,6 +21,8 @@ import trial  # noqa: E402
 HOSTILE = "it's $(touch harm) `touch harm` #1 %j \"; touch harm; é"
 STEADY = ["steady", "{case}"]
 OPENFOAM = [*trial.COMMANDS["openfoam"].split(), "--ranks", "2"]
+SHEET = ["steady", "{case}", "--flow", "openfoam", "--ranks", "2"]
+FITTED = [*SHEET, "--set", "flow.mesh=fitted", "--set", "flow.cloth_levels=1"]
 SWEEP = ["sweep", "{case}", "--speeds", "20,22,24"]
 
 
@@ -113,13 +115,25 @@ def near_the_limit(t):
     t.tell("`steady` that meets its time limit after a checkpoint: requeued, goes on", f"{t.states(job)}, {restarts} restart", unlike)
 
 
-def openfoam(t):
-    whole = t.local("openfoam", OPENFOAM)
-    out = t.folder / "jobs/openfoam"
-    _, job = t.submit(OPENFOAM, out, "--nodes=2", "--ntasks-per-node=1")
+def ranks_on_nodes(t, name, arguments, what):
+    whole = t.local(name, arguments)
+    out = t.folder / "jobs" / name
+    _, job = t.submit(arguments, out, "--nodes=2", "--ntasks-per-node=1")
     t.ended()
     nodes = re.search(r"NumNodes=(\d+)", t.slurm.call("scontrol", "show", "job", str(job))).group(1)
-    t.tell(f"`steady --flow openfoam --ranks 2`, a rank on each of {nodes} nodes", t.states(job), differences(out, whole))
+    t.tell(f"{what}, a rank on each of {nodes} nodes", t.states(job), differences(out, whole))
+
+
+def openfoam(t):
+    ranks_on_nodes(t, "openfoam", OPENFOAM, "`steady --flow openfoam --ranks 2`, cloth of the `paper` model")
+
+
+def sheet(t):
+    ranks_on_nodes(t, "sheet", SHEET, "the same with sheets, faces of the box's own cells")
+
+
+def fitted(t):
+    ranks_on_nodes(t, "fitted", FITTED, "the same with sheets on a mesh that follows the cloth")
 
 
 def sweep(t):
@@ -154,7 +168,8 @@ def main():
     parser.add_argument("--keep", type=pathlib.Path, help="work in this folder, and leave it")
     parser.add_argument("--trials", nargs="*", help="some of them; the table is then not written")
     options = parser.parse_args()
-    trials = {"steady": one_run, "limit": near_the_limit, "openfoam": openfoam, "sweep": sweep, "cancelled": cancelled}
+    trials = {"steady": one_run, "limit": near_the_limit, "openfoam": openfoam, "sheet": sheet, "fitted": fitted,
+              "sweep": sweep, "cancelled": cancelled}
     work = options.keep or pathlib.Path(tempfile.mkdtemp(prefix="ripstop-slurm-"))
     shutil.rmtree(work, ignore_errors=True)
     begin = time.monotonic()

@@ -9,6 +9,7 @@
 
 #include "ripstop/case/resolve.h"
 #include "ripstop/core/error.h"
+#include "ripstop/flow/openfoam/openfoam.h"
 
 namespace ripstop {
 namespace {
@@ -51,6 +52,8 @@ Cost cost_of(const Case& given) {
                (design.lines.count * line + design.riser.length_m) / design.mesh.line_segment_m;
   const FlowSettings flow = resolve(given).flow;
   cost.cells = double(flow.cells[0]) * flow.cells[1] * flow.cells[2];
+  if (flow.cloth_levels > 0)
+    cost.cells = fitted_cells(flow_grid(flow), nominal_area(design), flow.cloth_levels);
   cost.cloth_memory = bytes_a_node * cost.nodes;
   cost.memory = bytes_a_run + cost.cloth_memory + bytes_a_cell * cost.cells;
   cost.time = flow_iterations * cell_time * cost.cells + cloth_steps * node_time * cost.nodes;

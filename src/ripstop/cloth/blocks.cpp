@@ -223,14 +223,19 @@ void Blocks::set_stiffness(const Cloth& cloth, const ClothState& state, const st
                i % lanes] = scale * inverse(i, j);
 }
 
-void Blocks::gather(const AlignedDoubles& sums, AlignedDoubles& r) const {
-  std::fill(r.begin(), r.end(), 0.0);
+void Blocks::gather(const AlignedDoubles& sums, AlignedDoubles& of_motions, AlignedDoubles& r) const {
+  constexpr std::size_t stride = 3 * lanes;
+  of_motions.assign(stride / lanes * block_of_.size(), 0.0);
   for (int chunk = 0; chunk < chunk_count(); ++chunk) {
-    const int* block = block_of_.data() + static_cast<std::size_t>(lanes) * motion_of_[chunk];
-    const double* sum = sums.data() + 3 * static_cast<std::size_t>(lanes) * chunk;
-    for (int lane = 0; lane < lanes; ++lane)
-      if (block[lane] >= 0)
-        for (int axis = 0; axis < 3; ++axis) r[axis * padded_ + block[lane]] += sum[axis * lanes + lane];
+    const double* sum = sums.data() + stride * chunk;
+    double* of_motion = of_motions.data() + stride * motion_of_[chunk];
+    for (std::size_t i = 0; i < stride; ++i) of_motion[i] += sum[i];
+  }
+  std::fill(r.begin(), r.end(), 0.0);
+  for (std::size_t at = 0; at < block_of_.size(); ++at) {
+    if (block_of_[at] < 0) continue;
+    const double* sum = of_motions.data() + stride * (at / lanes) + at % lanes;
+    for (int axis = 0; axis < 3; ++axis) r[axis * padded_ + block_of_[at]] += sum[axis * lanes];
   }
 }
 

@@ -41,8 +41,8 @@ class Blocks {
   int block_of_sum(int sum) const {
     return block_of_[lanes * motion_of_[sum / (3 * lanes)] + sum % (3 * lanes)];
   }
-  /// r [3 x padded] = the sums of every block.
-  void gather(const AlignedDoubles& sums, AlignedDoubles& r) const;
+  /// r [3 x padded] = the sums of every block, by way of those of chunks that move alike.
+  void gather(const AlignedDoubles& sums, AlignedDoubles& of_motions, AlignedDoubles& r) const;
   /// The chunk's motion: y [3 x padded] times `kick` in vector layout.
   void spread(int chunk, const double* y, double kick, double* motion) const;
   /// Chunks of the same number move alike.

@@ -50,10 +50,13 @@ void hand_to_masters(const Mesh& mesh, std::vector<Symmetric>& blocks) {
 
 }  // namespace
 
-std::vector<Symmetric> node_blocks(const Cloth& cloth, const ClothState& state, double floor) {
+std::vector<Symmetric> node_blocks(const Cloth& cloth, const ClothState& state, double floor,
+                                   ThreadTeam& team) {
+  const Mesh& mesh = cloth.mesh;
   const std::vector<Vec3> x = positions(state, cloth);
   std::vector<Symmetric> blocks(x.size(), Symmetric{});
-  each_spring(cloth.mesh, [&](const SpringView& s) {
+  // To its ends among the nodes [first, last).
+  const auto add_spring = [&](const SpringView& s, int first, int last) {
     const Vec3 d = x[s.b] - x[s.a];
     const double length = norm(d);
     const double strain = length / s.rest_length - 1;
@@ -62,10 +65,21 @@ std::vector<Symmetric> node_blocks(const Cloth& cloth, const ClothState& state, 
     const double along = s.scale * tangent / s.rest_length;
     const double across =
         length > 0 ? std::max(floor * along, s.scale * s.law->tension(strain) / length) : along;
-    add(blocks[s.a], along, across, n);
-    add(blocks[s.b], along, across, n);
+    for (const int end : {s.a, s.b})
+      if (first <= end && end < last) add(blocks[end], along, across, n);
+  };
+  // A thread looks at the springs of the rows before its own once more: every node has its sum in one order.
+  team.run([&](int rank) {
+    for (int p = 0; p < static_cast<int>(mesh.patches.size()); ++p) {
+      const Patch& patch = mesh.patches[p];
+      const IndexRange rows = part_of(patch.rows, rank, team.size());
+      each_spring_of_rows(mesh, p, std::max(0, rows.begin - ghosts), rows.end, [&](const SpringView& s) {
+        add_spring(s, patch.node(rows.begin, 0), patch.node(rows.end, 0));
+      });
+    }
   });
-  hand_to_masters(cloth.mesh, blocks);
+  each_irregular_spring(mesh, [&](const SpringView& s) { add_spring(s, 0, mesh.node_count()); });
+  hand_to_masters(mesh, blocks);
   return blocks;
 }
 

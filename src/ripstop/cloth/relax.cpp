@@ -107,10 +107,10 @@ std::vector<double> round_stiffness(const Cloth& cloth, const ClothState& state,
 
 /// `share` of the motion is that of the nodes by themselves.
 Masses fictitious_masses(const Cloth& cloth, const ClothState& state, double floor,
-                         const std::vector<double>& round, double share) {
+                         const std::vector<double>& round, double share, ThreadTeam& team) {
   Masses masses;
   if (wrinkles(cloth.mesh)) {
-    masses.mass = node_blocks(cloth, state, floor);
+    masses.mass = node_blocks(cloth, state, floor, team);
   } else {
     for (const double k : node_stiffness(cloth, state).stiffness) masses.mass.push_back({k, k, k, 0, 0, 0});
   }
@@ -267,7 +267,7 @@ class Relaxation {
   Masses masses_now() {
     const std::vector<double> round = round_stiffness(cloth_, state_, options_.hold);
     if (blocks_) blocks_->set_stiffness(cloth_, state_, round, (1 - nodes_share) / (0.25 * margin));
-    return fictitious_masses(cloth_, state_, lightness_.floor, round, blocks_ ? nodes_share : 1);
+    return fictitious_masses(cloth_, state_, lightness_.floor, round, blocks_ ? nodes_share : 1, team_);
   }
   void refresh() {
     since_refresh_ = 0;

@@ -76,7 +76,7 @@ class Stepper {
     AlignedDoubles buffer;  // three rows in turn, one for what nobody wants, the waiting rows
     std::size_t row_doubles = 0;
     std::vector<int> waiting;  // rows that move after the barrier, in order of their buffers
-    AlignedDoubles block_force, motion;
+    AlignedDoubles motion_force, block_force, motion;
     double block_kick = 0;  // of the step that is under way
   };
   void prepare(int threads);

@@ -23,7 +23,7 @@ void Stepper::sum_row_blocks(int row, const double* f) {
 
 void Stepper::solve_blocks(int rank) {
   Worker& worker = workers_[rank];
-  blocks_->gather(block_sums_, worker.block_force);
+  blocks_->gather(block_sums_, worker.motion_force, worker.block_force);
   const int pair = 2 * lanes;
   const IndexRange pairs = part_of(blocks_->padded() / pair, rank, static_cast<int>(workers_.size()));
   multiply_blocks({blocks_->padded(), blocks_->inverse(), worker.block_force.data(), block_move_.data()},

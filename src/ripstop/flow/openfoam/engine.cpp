@@ -126,7 +126,7 @@ class OpenFoamFlow final : public Flow {
   void prepare() {
     fs::create_directories(folder_);
     clear_case(folder_);
-    programs_.need_space(problem_.grid);
+    programs_.need_space(problem_.grid.cells());
     write_case(folder_, problem_, settings_);
     write_fields(folder_ / "0", problem_, settings_.incompressible);
     write_control(folder_, problem_, settings_.incompressible, {0, 1});  // OpenFOAM's tools ask for one

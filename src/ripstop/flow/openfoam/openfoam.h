@@ -31,4 +31,7 @@ struct OpenFoamSettings {
 /// iterations more before it sees the wish. For runs that must repeat exactly, limit the iterations instead.
 std::unique_ptr<FlowEngine> make_openfoam(const OpenFoamSettings& settings);
 
+/// About how many cells a fitted mesh has on a grid, of which `levels` times those at `cloth_area` [m2] are halved.
+double fitted_cells(const FlowGrid& grid, double cloth_area, int levels);
+
 }  // namespace ripstop

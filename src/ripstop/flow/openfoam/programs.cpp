@@ -25,8 +25,8 @@ void clear_case(const fs::path& folder) {
   }
 }
 
-void Programs::need_space(const FlowGrid& grid) const {
-  const double need = (settings_.ranks > 1 ? 0.9e3 : 0.7e3) * grid.cells();
+void Programs::need_space(double cells) const {
+  const double need = (settings_.ranks > 1 ? 0.9e3 : 0.7e3) * cells;
   const double have = static_cast<double>(fs::space(folder_).available);
   if (have < need) {
     throw Error(ExitCode::io, fmt::format("{} has {:.1f} GB free; this case needs about {:.1f} GB",

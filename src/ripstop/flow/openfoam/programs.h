@@ -26,7 +26,7 @@ class Programs {
   /// Measured at 1.5 million cells: mesh 0.11 kB a cell, a set of fields 0.10; a second set exists for a
   /// moment, and ranks have a copy of the mesh. Asked for with room to spare.
   /// Throws Error(io).
-  void need_space(const FlowGrid& grid) const;
+  void need_space(double cells) const;
   using Lines = std::function<void(const std::string& line)>;
   /// One of OpenFOAM's tools, with its arguments; `lines` sees what it prints. Throws Error(external) where it fails,
   /// with what may help.

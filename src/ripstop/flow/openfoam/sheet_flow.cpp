@@ -89,7 +89,10 @@ class SheetFlow final : public Flow {
   bool untouched() const override { return untouched_; }
   void start_afresh() override {
     clear_case(folder_);
-    programs_.need_space(problem_.grid);
+    double area = 0;
+    for (const Sheet& sheet : problem_.sheets)
+      for (const Triangle& t : sheet.surface) area += 0.5 * norm(cross(t.b - t.a, t.c - t.a));
+    programs_.need_space(fitted_cells(problem_.grid, area, settings_.cloth_levels));
     write_case(folder_, problem_, settings_);
     write_solution(folder_, problem_.stopping.residual, corrections());
     write_control(folder_, problem_, true, {0, 1});  // OpenFOAM's tools ask for one
