@@ -102,6 +102,7 @@ bench: check-deps  ## Benchmarks, some three hours; their figures stand in docs/
 	@build-check/bench/bench_flow --in-time
 	@build-check/bench/bench_in_time runs/in-time/16 16 2 1 | tee docs/tables/pimplefoam.md
 	@build-check/bench/bench_in_time runs/in-time/8 8 60 1 | tee docs/tables/pimplefoam-mean.md
+	@build-check/bench/bench_openfoam_baffle runs/baffle | tee docs/tables/openfoam-baffle.md
 
 VALIDATE := build/bin/ripstop steady examples/stratos-iv/case.toml
 

@@ -1,9 +1,10 @@
 // The built-in engine beside OpenFOAM on a mesh that follows the cloth: rigid bodies, and inflated canopies from the STL
 // of a run.
-//   bench_judge FOLDER ACROSS [BODY ...]
+//   bench_judge FOLDER ACROSS [--alone] [BODY ...]
 //     FOLDER  of OpenFOAM's case and the plots
 //     ACROSS  cells across the body, the built-in engine's, even; those of OpenFOAM's mesh are half as wide at the cloth and
 //             twice as wide elsewhere
+//     --alone without OpenFOAM
 //     BODY    disk, plate, cup, porous-disk, disk-gap-band (rigid_disk_gap_band()), or NAME=FILE.stl:A:B, cloth with the law
 //             A v + B v |v| [Pa]; without one the five bodies
 #include <fmt/format.h>
@@ -230,8 +231,14 @@ std::string percent(double share) {
   return fmt::format("{:+.1f} %", 100 * share);
 }
 
-void judge(const std::filesystem::path& folder, const Body& body, int across) {
-  const Result ours = builtin(body, across), theirs = openfoam(body, across, folder / "case");
+void judge(const std::filesystem::path& folder, const Body& body, int across, bool alone) {
+  const Result ours = builtin(body, across);
+  if (alone) {
+    print_row({body.name, fmt::format("{}", across), fmt::format("{:.3f}", ours.drag), "", "",
+               percent(ours.ledger), "", "", "", fmt::format("{:.1f}", ours.minutes)});
+    return;
+  }
+  const Result theirs = openfoam(body, across, folder / "case");
   draw(folder, body, across, ours, theirs);
   print_row({body.name, fmt::format("{}", across), fmt::format("{:.3f}", ours.drag),
              fmt::format("{:.3f}", theirs.drag), percent(ours.drag / theirs.drag - 1), percent(ours.ledger),
@@ -245,14 +252,15 @@ void judge(const std::filesystem::path& folder, const Body& body, int across) {
 
 int main(int argc, char** argv) {
   if (argc < 3) {
-    fmt::print(
-        stderr,
-        "bench_judge FOLDER ACROSS [disk|plate|cup|porous-disk|disk-gap-band|NAME=FILE.stl:A:B ...]\n");
+    fmt::print(stderr,
+               "bench_judge FOLDER ACROSS [--alone] "
+               "[disk|plate|cup|porous-disk|disk-gap-band|NAME=FILE.stl:A:B ...]\n");
     return 2;
   }
   const std::filesystem::path folder = argv[1];
   const int across = std::atoi(argv[2]);
   std::vector<std::string> words(argv + 3, argv + argc);
+  const bool alone = std::erase(words, "--alone") > 0;
   if (words.empty()) words = {"disk", "plate", "cup", "porous-disk", "disk-gap-band"};
   std::filesystem::create_directories(folder);
   print_table_head(
@@ -262,5 +270,5 @@ int main(int argc, char** argv) {
       {"body", "cells across", "drag on its front, built-in", "OpenFOAM", "built-in beside OpenFOAM",
        "ledger, built-in", "OpenFOAM's", "pressure across the cloth, apart (rms)",
        "wake at 1 and 3 widths, apart (rms)", "processor minutes, built-in, OpenFOAM"});
-  for (const std::string& word : words) judge(folder, body_of(word), across);
+  for (const std::string& word : words) judge(folder, body_of(word), across, alone);
 }

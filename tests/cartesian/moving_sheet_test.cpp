@@ -15,14 +15,26 @@ using std::numbers::pi;
 
 constexpr double air_density = 1.2, across_disk = 1;
 
-FlowProblem disk_in_air(double speed, double linear, double z) {
+/// Turned about its middle by an angle to the stream [rad].
+std::vector<Triangle> disk_at(double z, double angle = 0) {
+  const Vec3 middle{0.013, 0.021, z};
+  std::vector<Triangle> surface = disk(across_disk, middle);
+  for (Triangle& t : surface)
+    for (Vec3* p : {&t.a, &t.b, &t.c}) {
+      const Vec3 d = *p - middle;
+      *p = middle + Vec3{d.x * std::cos(angle), d.y, -d.x * std::sin(angle)};
+    }
+  return surface;
+}
+
+FlowProblem disk_in_air(double speed, double linear, double z, double angle = 0) {
   FlowProblem problem;
   problem.grid = graded({{-3, -3, 0}, {6, 6, 9}, 40, 40, 72}, {-0.75, -0.75, 2.0}, {0.75, 0.75, 5.5}, 1.2);
   problem.air.speed = speed;
   problem.air.density = air_density;
   problem.sides = Sides::entraining;
   problem.outlet = Outlet::still_air;
-  problem.sheets = {{disk(across_disk, {0.013, 0.021, z}), linear, 0}};
+  problem.sheets = {{disk_at(z, angle), linear, 0}};
   return problem;
 }
 
@@ -47,7 +59,7 @@ TEST(MovingSheet, ADiskThatIsSetInMotionHasItsAddedMass) {
   const auto flow = engine->start(disk_in_air(drift, 1e6, 4));
   double force = 0;
   for (int n = 0; n < 3; ++n) {
-    const std::vector<Triangle> surface = disk(across_disk, {0.013, 0.021, 4 + drift * n * step});
+    const std::vector<Triangle> surface = disk_at(4 + drift * n * step);
     flow->place(surface, all_with(surface, {0, 0, drift + gains * (n + 1) * step}));
     force = flow->step(step).force.z;
   }
@@ -60,13 +72,13 @@ struct Drift {
 };
 
 /// Of a disk that drifts upstream at 9 of the 10 m/s between it and the air.
-Drift drift_of(double linear) {
+Drift drift_of(double linear, double angle = 0) {
   constexpr double along = -9, stream = 1, cell = 0.075;
   const auto engine = engine_on_one_thread();
-  const auto flow = engine->start(disk_in_air(stream, linear, 4.9));
+  const auto flow = engine->start(disk_in_air(stream, linear, 4.9, angle));
   std::vector<double> drag;
   for (double z = 4.9; z > 2.6;) {
-    const std::vector<Triangle> surface = disk(across_disk, {0.013, 0.021, z});
+    const std::vector<Triangle> surface = disk_at(z, angle);
     flow->place(surface, all_with(surface, {0, 0, along}));
     const double length = cell / 8 / std::abs(along);  // eight steps a cell
     drag.push_back(flow->step(length).force.z / (0.5 * air_density * 100 * pi / 4));
@@ -85,12 +97,17 @@ Drift drift_of(double linear) {
   return drift;
 }
 
-TEST(MovingSheet, APorousDiskDriftsThroughTheGridWithoutASwing) {
-  const Drift drift = drift_of(30);
+class PorousDisk : public testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(Degrees, PorousDisk, testing::Values(0, 30),
+                         [](const auto& of) { return std::to_string(static_cast<int>(of.param)); });
+
+TEST_P(PorousDisk, DriftsThroughTheGridWithoutASwingAndHasTheDragOfOneAtRest) {
+  const double angle = GetParam() * pi / 180;
+  const Drift drift = drift_of(30, angle);
   EXPECT_LT(drift.swing, 0.03);
-  // The same disk at rest in a stream of 10 m/s, as long after its start.
+  // At rest in a stream of 10 m/s, as long after its start.
   const auto engine = engine_on_one_thread();
-  const auto flow = engine->start(disk_in_air(10, 30, 4));
+  const auto flow = engine->start(disk_in_air(10, 30, 4, angle));
   double time = 0, sum = 0, weight = 0;
   flow->march(1000, 0.5, [&](const FlowStep& step) {
     time = step.time;

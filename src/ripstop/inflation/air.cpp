@@ -8,6 +8,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/coupling/sheet_transfer.h"
 #include "ripstop/coupling/transfer.h"
+#include "ripstop/inflation/added_mass.h"
 
 namespace ripstop {
 namespace {
@@ -123,6 +124,7 @@ Loads OpeningAir::step(const std::vector<Vec3>& positions, const ClothMotion& cl
   row.drag_area = row.drag / (0.5 * density_ * thicker * row.speed * row.speed);
   row.momentum_gap = step.momentum_gap, row.mass_defect = step.mass_defect;
   row.remainder = remainder_share(load, cells_, positions);
+  row.added_mass = memory.added_mass;
   memory.pressure = std::exchange(load.pressure, std::vector<double>(cells_.size(), 0.0));
   memory.force = node_forces(load, cells_, positions);
   if (payload_) {  // weight, and what a frame that is slowed down does to what is in it
@@ -131,6 +133,11 @@ Loads OpeningAir::step(const std::vector<Vec3>& positions, const ClothMotion& cl
   }
   ++memory.steps;
   return last_load(memory);
+}
+
+void OpeningAir::weigh_air(const std::vector<Vec3>& positions, AirMemory& memory) const {
+  memory.added_mass =
+      thickening(memory) * ripstop::added_mass(*engine_, surface_of(cells_, positions), density_);
 }
 
 void OpeningAir::fly(double pull, double length, AirMemory& memory) const {

@@ -44,6 +44,7 @@ struct AirMemory {
   long long steps = 0;                           // of the air
   double speed = 0, acceleration = 0, path = 0;  // of the payload [m/s], [m/s2], [m]
   double angle = 0, fallen = 0;                  // of its path below the horizon [rad], height lost [m]
+  double added_mass = 0;                         // of the canopy when it was last looked at [kg]
 };
 
 template <Of<AirMemory> T, class Visit>
@@ -57,6 +58,7 @@ void each_member(T& m, Visit&& visit) {
   visit("path", m.path);
   visit("angle", m.angle);
   visit("fallen", m.fallen);
+  visit("added_mass", m.added_mass);
 }
 
 /// One step of the air.
@@ -71,6 +73,7 @@ struct AirRow {
   double momentum_gap = 0;                  // FlowStep::momentum_gap [N]
   double mass_defect = 0;                   // FlowStep::mass_defect
   double remainder = 0;                     // remainder_share() of the load
+  double added_mass = 0;                    // AirMemory::added_mass [kg]
 };
 
 template <Of<AirRow> T, class Visit>
@@ -89,6 +92,7 @@ void each_member(T& row, Visit&& visit) {
   visit("momentum_gap_n", row.momentum_gap);
   visit("mass_defect", row.mass_defect);
   visit("load_remainder", row.remainder);
+  visit("added_mass_kg", row.added_mass);
 }
 
 /// How the cloth would go through a step of the air under the last load.
@@ -110,6 +114,9 @@ class OpeningAir {
   /// One step of the air about cloth that lies at `positions` at its beginning: the load in it.
   Loads step(const std::vector<Vec3>& positions, const ClothMotion& motion, double length, AirMemory& memory,
              AirRow& row);
+
+  /// Takes the canopy's added mass as it lies at `positions`, about what a step costs.
+  void weigh_air(const std::vector<Vec3>& positions, AirMemory& memory) const;
 
   /// With what the riser pulled at its end in that step, in the mean [N]: the payload flies on, its path turned
   /// by the weight across it.

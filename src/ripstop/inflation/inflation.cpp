@@ -27,6 +27,7 @@ constexpr int most_tries = 4;
 constexpr double longest_row_in_air = 0.03;
 // Of a row: no flow of the stream's air asks for so little.
 constexpr double shortest_step_in_air = 0.05;
+constexpr int looks_at_added_mass = 25;  // in an opening
 
 double least_rows_in(const FlowProblem& flow) {
   double least = 1e300;
@@ -97,6 +98,7 @@ InflationState Inflation::start() const {
   set_positions(state.cloth, cloth(), with_imperfection());
   state.step = problem_.settings.step_fraction * step_bound(cloth_of(state), state.cloth).stable_step;
   take_shots(state);
+  if (air_) air_->weigh_air(positions(state.cloth, cloth()), state.air);
   return state;
 }
 
@@ -330,6 +332,9 @@ InflationFrame Inflation::frame(InflationState& state) const {
   frame.contact_depth = contact_report(cloth_of(state), state.cloth).deepest;
   frame.pierced = pierced_share(mesh_, x);
   frame.asymmetry = asymmetry(mesh_, x, std::gcd(problem_.symmetry, folded_.folds));
+  const long long every = std::max(1, problem_.settings.frames / looks_at_added_mass);
+  if (air_ && (state.blocks / blocks_per_frame_ % every == 0 || state.blocks == blocks()))
+    air_->weigh_air(x, state.air);
   if (frame.stress.von_mises > state.highest_stress.von_mises) {
     state.highest_stress = frame.stress;
     state.highest_stress_time = frame.time;

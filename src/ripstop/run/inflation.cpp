@@ -59,6 +59,7 @@ InflationResult result_of(const Case& given, const LoadSource& source, const Inf
   if (!solver.air()) r.pressure = solver.problem().pressure;
   for (const AirRow& row : history.air)
     r.drag_area = std::max(r.drag_area.value_or(row.drag_area), row.drag_area);
+  if (solver.air()) r.added_mass = state.air.added_mass;
   if (solver.air() && solver.problem().air->payload) {
     r.end_speed = state.air.speed;
     r.end_angle = state.air.angle * 180 / std::numbers::pi;

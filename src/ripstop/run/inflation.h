@@ -29,6 +29,7 @@ struct InflationResult {
   double impulse = 0;                               // [N s]
   std::optional<double> pressure;                   // uniform [Pa]
   std::optional<double> drag_area;                  // C_D S in the air, the largest of a step [m2]
+  std::optional<double> added_mass;                 // of the canopy at the end [kg]
   std::optional<double> end_speed, end_angle;       // of a payload that flies [m/s], of its path [deg]
   std::optional<double> height_lost;                // by it since deployment [m]
   LoadSource source;
@@ -72,6 +73,7 @@ void each_member(T& r, Visit&& visit) {
   visit("impulse_n_s", r.impulse);
   visit("pressure_pa", r.pressure);
   visit("drag_area_peak_m2", r.drag_area);
+  visit("added_mass_kg", r.added_mass);
   visit("speed_at_end_m_s", r.end_speed);
   visit("path_angle_at_end_deg", r.end_angle);
   visit("height_lost_m", r.height_lost);

@@ -26,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Of InflationState's list of members: one more with every change of it.
-constexpr int opening_format = 6;
+constexpr int opening_format = 7;
 
 double clock_now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -289,6 +289,10 @@ void InflationFolder::write_air_plot(const InflationHistory& history, const Infl
     projected.x.push_back(frame.time), projected.y.push_back(frame.size.projected_area);
   write_plot(folder_.own("drag_area.png"),
              {r.title, {"time from deployment [s]"}, {"area [m²]"}, {area, projected}});
+  PlotSeries added{"added mass", {}, {}, true, false};
+  for (const AirRow& row : history.air) added.x.push_back(row.time), added.y.push_back(row.added_mass);
+  write_plot(folder_.own("added_mass.png"),
+             {r.title, {"time from deployment [s]"}, {"added mass [kg]"}, {added}});
 }
 
 void InflationFolder::write_load_plot(const Inflation& solver, const std::vector<HistoryRow>& rows,

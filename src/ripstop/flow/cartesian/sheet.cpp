@@ -109,8 +109,8 @@ void SheetRows::add_faces(const Axis& x, const Axis& y, const Axis& z, const std
       if (!motion.pressure.empty()) face.known = (g.against ? -1 : 1) * motion.pressure[g.triangle];
       face.area = (g.axis == 0 ? 1 : x.width[g.i]) * (g.axis == 1 ? 1 : y.width[g.j]) *
                   (g.axis == 2 ? 1 : z.width[g.k]);
-      face.spread = face.area / std::max(g.area, 1e-2 * face.area);
       face.cover = g.cover;
+      face.spread = (face.moves ? face.cover : 1) * face.area / std::max(g.area, 1e-2 * face.area);
       faces_.push_back(face);
     }
   }
@@ -200,8 +200,10 @@ void SheetRows::update(State& state, const Layout& layout, double momentum, doub
       const Vec3 velocity = Vec3{fields.u[cell], fields.v[cell], fields.w[cell]} - face.velocity;
       return along(g.axis, velocity) - dot(g.normal, velocity) / face.spread;
     };
+    // Not of a sheet that moves: what runs along it is the last step's, in cells that it is passing through.
+    const double slides = face.moves ? 0 : shared(sliding(low), sliding(high));
     const double goes = along(g.axis, face.velocity);
-    double through = face.spread * (flux[high] / density - goes - shared(sliding(low), sliding(high)));
+    double through = face.spread * (flux[high] / density - goes - slides);
     // A sheet that moves is not at its face but between it and the next one, and so is the velocity that the
     // law asks for: else the air would be struck whenever the sheet comes into another cell.
     if (face.beyond != 0) {
