@@ -269,6 +269,6 @@ int main(int argc, char** argv) {
       argc, argv,
       {"body", "cells across", "drag on its front, built-in", "OpenFOAM", "built-in beside OpenFOAM",
        "ledger, built-in", "OpenFOAM's", "pressure across the cloth, apart (rms)",
-       "wake at 1 and 3 widths, apart (rms)", "processor minutes, built-in, OpenFOAM"});
+       "wake at 1 and 3 widths, apart (rms)", "minutes of a core, built-in, OpenFOAM"});
   for (const std::string& word : words) judge(folder, body_of(word), across, alone);
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "finished_run.h"
+#include "refusal.h"
 #include "ripstop/case/payload.h"
 #include "ripstop/core/error.h"
 #include "ripstop/flight/atmosphere.h"
@@ -21,16 +22,6 @@ class DescentOfARun : public testing::Test {
   }
   static void TearDownTestSuite() { folder_.reset(); }
   static std::filesystem::path run() { return folder_->path / "run"; }
-  static std::string refused(const std::function<void()>& what, ExitCode code) {
-    try {
-      what();
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code(), code) << error.what();
-      return error.what();
-    }
-    ADD_FAILURE() << "accepted";
-    return "";
-  }
   static inline std::unique_ptr<TemporaryFolder> folder_;
 };
 
@@ -77,22 +68,22 @@ TEST_F(DescentOfARun, AFlightFarFromTheRunsIsWarnedOf) {
 
 TEST_F(DescentOfARun, WhatCannotFlyIsRefused) {
   const FinishedSteady finished = finished_steady(run());
-  EXPECT_NE(refused([&] { run_descent(finished, -4, {0}); }, ExitCode::usage).find("-4 kg"),
+  EXPECT_NE(refusal_of([&] { run_descent(finished, -4, {0}); }, ExitCode::usage).find("-4 kg"),
             std::string::npos);
-  EXPECT_NE(refused([&] { run_descent(finished, std::nan(""), {0}); }, ExitCode::usage).find("above 0"),
+  EXPECT_NE(refusal_of([&] { run_descent(finished, std::nan(""), {0}); }, ExitCode::usage).find("above 0"),
             std::string::npos);
-  refused([&] { run_descent(finished, 4, {100000}); }, ExitCode::usage);
+  refusal_of([&] { run_descent(finished, 4, {100000}); }, ExitCode::usage);
 }
 
 TEST_F(DescentOfARun, AFolderWithoutAConvergedSteadyRunIsRefused) {
   const auto empty = folder_->path / "empty";
   std::filesystem::create_directories(empty);
-  EXPECT_NE(refused([&] { finished_steady(empty); }, ExitCode::usage).find("no finished run"),
+  EXPECT_NE(refusal_of([&] { finished_steady(empty); }, ExitCode::usage).find("no finished run"),
             std::string::npos);
-  refused([&] { finished_steady(folder_->path / "none"); }, ExitCode::usage);
+  refusal_of([&] { finished_steady(folder_->path / "none"); }, ExitCode::usage);
   const auto open = folder_->path / "open";
   EXPECT_FALSE(fly_square_law(open, {{"coupling.max_iterations", "1"}}).converged);
-  EXPECT_NE(refused([&] { finished_steady(open); }, ExitCode::bad_data).find("not converged"),
+  EXPECT_NE(refusal_of([&] { finished_steady(open); }, ExitCode::bad_data).find("not converged"),
             std::string::npos);
 }
 

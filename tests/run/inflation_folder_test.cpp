@@ -16,6 +16,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/inflation/summary.h"
+#include "ripstop/output/csv.h"
 #include "ripstop/output/vtk.h"
 #include "ripstop/output/vtk_read.h"
 #include "ripstop/run/report.h"
@@ -133,7 +134,12 @@ TEST_F(InflationFolderTest, InItsOwnAirAKilledRunGoesOnByteIdentical) {
     }
   } killed;
   Resumed undisturbed, resumed;
-  ASSERT_TRUE(open_in_air("whole", undisturbed));
+  const auto whole = open_in_air("whole", undisturbed);
+  ASSERT_TRUE(whole && whole->added_mass);
+  // Of the folded start in the first row, of the canopy as it stands at the end in the result.
+  const double at_start = read_csv(root / "whole/air.csv").column("added_mass_kg").front();
+  EXPECT_GT(at_start, 0);
+  EXPECT_GT(*whole->added_mass, at_start);
   EXPECT_THROW(open_in_air("killed", killed), std::runtime_error);
   EXPECT_TRUE(fs::exists(root / "killed/air"));
   ASSERT_TRUE(open_in_air("killed", resumed));

@@ -8,6 +8,7 @@
 
 #include "../small_case.h"
 #include "finished_run.h"
+#include "refusal.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/error.h"
 #include "ripstop/flight/atmosphere.h"
@@ -38,14 +39,7 @@ const MethodLoad& method(const StageLoads& stage, const std::string& name) {
 }
 
 std::string refused(const LoadRequest& asked) {
-  try {
-    run_load(flat_circular(), asked);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::usage);
-    return error.what();
-  }
-  ADD_FAILURE() << "accepted";
-  return "";
+  return refusal_of([&] { run_load(flat_circular(), asked); }, ExitCode::usage);
 }
 
 // n D0 / v for the open canopy, with the root of the share of the area that a stage adds.

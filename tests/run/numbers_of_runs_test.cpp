@@ -9,6 +9,7 @@
 
 #include "../small_case.h"
 #include "finished_run.h"
+#include "refusal.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/case/opening.h"
 #include "ripstop/core/error.h"
@@ -31,17 +32,6 @@ namespace ripstop {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string refusal_of(const std::function<void()>& what, ExitCode code) {
-  try {
-    what();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), code) << error.what();
-    return error.what();
-  }
-  ADD_FAILURE() << "accepted";
-  return "";
-}
 
 TEST(RunNumbers, OfAnEngineAreWhatTheCaseSaysToIt) {
   Case given = square_law_case();

@@ -5,8 +5,8 @@
 
 `ripstop steady` inflates a flat circular canopy, a ringsail (ADEPT) and Stratos IV, with cloth as specified
 and nothing calibrated, at 20 m/s, in runs/judge; finished runs cost nothing. Their shapes, held rigid, and five bodies then
-stand in both engines (bench_judge). The table is docs/tables/judge.md; the plots of the cup and of the flat circular canopy
-go beside it, the others stay in runs/judge.
+stand in both engines (bench_judge), the disk on coarser cells as well: what accuracy takes what time. The tables are
+docs/tables/judge.md; some plots go beside it, the others stay in runs/judge.
 """
 import argparse
 import json
@@ -18,11 +18,14 @@ import tomllib
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.path[:0] = [str(ROOT / "validation"), str(ROOT / "validation/ojf")]
+import tables  # pylint: disable=wrong-import-position
 from campaign import SHEET_SPECIFIED  # pylint: disable=wrong-import-position
 
 SHAPES = {"flat-circular": ("flat-circular", []), "ringsail": ("adept", SHEET_SPECIFIED),
           "stratos-iv": ("stratos-iv", SHEET_SPECIFIED)}
 BODIES = ["disk", "plate", "cup", "porous-disk", "disk-gap-band"]
+COARSER = [8, 12, 16]  # cells across the disk
+PLOTS = [("cup", "pressure"), ("cup", "wake"), ("flat-circular", "pressure"), ("flat-circular", "wake"), ("stratos-iv", "pressure")]
 
 
 def shape(options, name):
@@ -46,22 +49,43 @@ def main():
     parser.add_argument("names", nargs="*", help="bodies and shapes; all of them, and the table written, without a name")
     options = parser.parse_args()
     names = options.names or [*BODIES, *SHAPES]
-    words = [shape(options, name) if name in SHAPES else name for name in names]
-    folder = f"runs/judge/{options.across}"
-    command = [str(options.bench.resolve().relative_to(ROOT)), folder, str(options.across), *words]
+    lines = judged(options, options.across, [shape(options, name) if name in SHAPES else name for name in names])
+    if options.names:
+        return
+    disk = [line for across in COARSER for line in judged(options, across, ["disk"]) if line.startswith("| disk |")]
+    disk += [line for line in lines if line.startswith("| disk |")]
+    (ROOT / "docs/tables/judge.md").write_text("".join([*lines, *timed(disk)]))
+    for body, what in PLOTS:
+        shutil.copy(ROOT / f"runs/judge/{options.across}/{body}-{options.across}-{what}.svg", ROOT / f"docs/tables/judge-{body}-{what}.svg")
+
+
+def judged(options, across, words):
+    """What bench_judge prints, line by line."""
+    command = [str(options.bench.resolve().relative_to(ROOT)), f"runs/judge/{across}", str(across), *words]
+    lines = []
     with subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, text=True) as bench:
-        lines = []
         for line in bench.stdout:
             print(line, end="", flush=True)
             lines.append(line)
     if bench.returncode != 0:
         sys.exit(bench.returncode)
-    if options.names:
-        return
-    (ROOT / "docs/tables/judge.md").write_text("".join(lines))
-    for body in ("cup", "flat-circular"):
-        for what in ("pressure", "wake"):
-            shutil.copy(ROOT / folder / f"{body}-{options.across}-{what}.svg", ROOT / f"docs/tables/judge-{body}-{what}.svg")
+    return lines
+
+
+def timed(rows):
+    """Both engines' drag beside their own finest, and minutes, from rows of bench_judge, the finest last."""
+    cells = [[word.strip() for word in row.split("|")[1:-1]] for row in rows]
+    table = []
+    for row in cells:
+        minutes = row[9].split(", ")
+        one = [row[1]]
+        for drag, finest, time in ((row[2], cells[-1][2], minutes[0]), (row[3], cells[-1][3], minutes[1])):
+            one += [drag, f"{100 * (float(drag) / float(finest) - 1):+.1f} %", time]
+        table.append(one)
+    heads = ["cells across the disk"]
+    for engine in ("built-in", "OpenFOAM"):
+        heads += [f"{engine}, drag on its front", "beside its own finest", "minutes of a core"]
+    return ["\n## Time to the same accuracy\n\n", *(line + "\n" for line in tables.table(heads, table))]
 
 
 if __name__ == "__main__":
