@@ -5,25 +5,16 @@
 namespace ripstop {
 namespace {
 
-// Of points about the pivot: sum weight r r^T.
-class Spread {
- public:
-  void add(double weight, Vec3 r) {
-    const double products[] = {r.x * r.x, r.y * r.y, r.z * r.z, r.x * r.y, r.x * r.z, r.y * r.z};
-    for (int i = 0; i < 6; ++i) sum_[i] += weight * products[i];
-  }
-  /// Solves sum weight (r^2 I - r r^T) w = moment.
-  Vec3 turn(Vec3 moment) const {
-    const auto [xx, yy, zz, xy, xz, yz] = sum_;
-    Eigen::Matrix3d inertia;
-    inertia << yy + zz, -xy, -xz, -xy, xx + zz, -yz, -xz, -yz, xx + yy;
-    const Eigen::Vector3d w = inertia.fullPivLu().solve(Eigen::Vector3d(moment.x, moment.y, moment.z));
-    return {w.x(), w.y(), w.z()};
-  }
+// Solves sum weight (r^2 I - r r^T) w = moment.
+Vec3 turn(const Eigen::Matrix3d& inertia, Vec3 moment) {
+  const Eigen::Vector3d w = inertia.fullPivLu().solve(Eigen::Vector3d(moment.x, moment.y, moment.z));
+  return {w.x(), w.y(), w.z()};
+}
 
- private:
-  Symmetric sum_{};
-};
+void add_inertia(Eigen::Matrix3d& inertia, double weight, Vec3 r) {
+  const Eigen::Vector3d e(r.x, r.y, r.z);
+  inertia += weight * (e.squaredNorm() * Eigen::Matrix3d::Identity() - e * e.transpose());
+}
 
 }  // namespace
 
@@ -39,15 +30,15 @@ std::optional<Vec3> pivot_of(const Cloth& cloth, const ClothState& state) {
 void stop_turning(const Cloth& cloth, ClothState& state, const std::vector<Symmetric>& masses, Vec3 pivot) {
   std::vector<double> mass;
   for (const Symmetric& m : masses) mass.push_back(std::max({m[0], m[1], m[2]}));
-  Spread spread;
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
   Vec3 momentum;
   for (std::size_t node = 0; node < mass.size(); ++node) {
     if (mass[node] == 0) continue;
     const Vec3 r = get(state.x.data(), cloth.slot[node]) - pivot;
-    spread.add(mass[node], r);
+    add_inertia(inertia, mass[node], r);
     momentum += mass[node] * cross(r, get(state.v.data(), cloth.slot[node]));
   }
-  const Vec3 w = spread.turn(momentum);
+  const Vec3 w = turn(inertia, momentum);
   for (std::size_t node = 0; node < mass.size(); ++node) {
     if (mass[node] == 0) continue;
     const int slot = cloth.slot[node];
@@ -61,10 +52,10 @@ void cancel_moment(const Cloth& cloth, const ClothState& state, Vec3 moment, Vec
                    std::vector<Vec3>& force) {
   const auto free = [&](int node) { return !cloth.is_tied[node] && !cloth.is_fixed[node]; };
   const auto arm = [&](int node) { return get(state.x.data(), cloth.slot[node]) - pivot; };
-  Spread spread;
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
   for (int node = 0; node < cloth.mesh.node_count(); ++node)
-    if (free(node)) spread.add(1, arm(node));
-  const Vec3 t = spread.turn(moment);
+    if (free(node)) add_inertia(inertia, 1, arm(node));
+  const Vec3 t = turn(inertia, moment);
   force.resize(cloth.mesh.node_count());
   for (int node = 0; node < cloth.mesh.node_count(); ++node)
     if (free(node)) force[node] -= cross(t, arm(node));
