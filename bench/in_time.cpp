@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "far_box.h"
+#include "pimple_foam.h"
 #include "ripstop/core/file.h"
 #include "ripstop/flow/bodies.h"
 #include "ripstop/flow/cartesian/cartesian.h"
@@ -54,37 +55,6 @@ constexpr char solution[] = R"foam(solvers
 PIMPLE { nOuterCorrectors 1; nCorrectors 2; nNonOrthogonalCorrectors 0; }
 )foam";
 
-constexpr char control[] = R"foam(application pimpleFoam;
-startFrom startTime;
-startTime 0;
-stopAt endTime;
-endTime {0:.17g};
-deltaT {1:.17g};
-writeControl timeStep;
-writeInterval 1000000;
-writeFormat binary;
-writePrecision 12;
-writeCompression off;
-timeFormat general;
-timePrecision 12;
-runTimeModifiable false;
-functions
-{{
-    forces
-    {{
-        type forces;
-        libs ("libforces.so");
-        patches ("cloth.*");
-        rho rhoInf;
-        rhoInf {2:.17g};
-        CofR (0 0 0);
-        log true;
-        writeControl timeStep;
-        writeInterval 1;
-    }}
-}}
-)foam";
-
 struct March {
   Record drag;         // [N], a value a step
   double seconds = 0;  // wall, of all steps but the first
@@ -97,12 +67,6 @@ struct March {
 
 double since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
-
-double area_of(const FlowProblem& problem) {
-  double area = 0;
-  for (const Triangle& t : problem.sheets[0].surface) area += 0.5 * norm(cross(t.b - t.a, t.c - t.a));
-  return area;
 }
 
 March builtin(const FlowProblem& problem, double length, int steps, int threads) {
@@ -136,8 +100,7 @@ March pimple_foam(const FlowProblem& problem, const std::vector<openfoam::Baffle
   write_case(folder, problem, settings);
   write_dictionary(folder / "system/fvSchemes", "dictionary", schemes);
   write_dictionary(folder / "system/fvSolution", "dictionary", solution);
-  write_dictionary(folder / "system/controlDict", "dictionary",
-                   fmt::format(control, (steps + 0.5) * length, length, problem.air.density));
+  write_pimple_control(folder, length, steps, problem.air.density);
   write_dictionary(
       folder / "constant/turbulenceProperties", "dictionary",
       "simulationType LES;\nLES { LESModel WALE; delta cubeRootVol; turbulence on; printCoeffs off; "
@@ -185,7 +148,7 @@ int main(int argc, char** argv) {
   double faces = 0;
   for (const openfoam::BafflePatch& patch : cloth)
     for (const openfoam::Baffle& baffle : patch.baffles) faces += baffle.area.z;
-  const double unit = 0.5 * problem.air.density * speed * speed * area_of(problem);
+  const double unit = 0.5 * problem.air.density * speed * speed * surface_area(problem.sheets[0].surface);
   // The stream is half as fast again beside the rim: a Courant number of 0.45 there.
   const double length = 0.3 / across / speed;
   const int steps = static_cast<int>(std::lround(time / speed / length));
@@ -203,8 +166,8 @@ int main(int argc, char** argv) {
   print_row({"cells, steps, threads or ranks",
              fmt::format("{}, {}, {}", problem.grid.cells(), steps_of(ours), ranks),
              fmt::format("{}, {}, {}", problem.grid.cells(), steps_of(theirs), ranks), ""});
-  print_row(
-      {"area of the faces [m2]", fmt::format("{:.4f}", area_of(problem)), fmt::format("{:.4f}", faces), ""});
+  print_row({"area of the faces [m2]", fmt::format("{:.4f}", surface_area(problem.sheets[0].surface)),
+             fmt::format("{:.4f}", faces), ""});
   print_row({"million cell-steps a second", fmt::format("{:.2f}", rate(ours)),
              fmt::format("{:.3f}", rate(theirs)), fmt::format("{:.1f} times", rate(ours) / rate(theirs))});
   for (const double at : {0.1, 0.25, 0.5, 1.0, 1.5, 2.0}) {

@@ -9,11 +9,12 @@
 #include <cmath>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "far_box.h"
+#include "pimple_foam.h"
 #include "ripstop/core/error.h"
-#include "ripstop/flow/bodies.h"
 #include "ripstop/flow/cartesian/cartesian.h"
 #include "ripstop/flow/openfoam/baffles.h"
 #include "ripstop/flow/openfoam/case_reader.h"
@@ -80,15 +81,7 @@ void march_in_time(const std::filesystem::path& folder, const FlowProblem& probl
   using namespace openfoam;
   write_dictionary(folder / "system/fvSchemes", "dictionary", pimple_schemes);
   write_dictionary(folder / "system/fvSolution", "dictionary", pimple_solution);
-  write_dictionary(
-      folder / "system/controlDict", "dictionary",
-      fmt::format(
-          "application pimpleFoam; startFrom startTime; startTime 0; stopAt endTime;\nendTime {:.17g}; "
-          "deltaT {:.17g}; writeControl timeStep; writeInterval {};\nwriteFormat binary; writePrecision 17; "
-          "timeFormat general; timePrecision 12;\nfunctions {{ forces {{ type forces; libs "
-          "(\"libforces.so\"); patches (\"cloth.*\"); rho rhoInf; rhoInf {:.17g};\nCofR (0 0 0); log true; "
-          "writeControl timeStep; writeInterval 1; }} }}\n",
-          (steps + 0.5) * length, length, steps, problem.air.density));
+  write_pimple_control(folder, length, steps, problem.air.density);
 }
 
 std::string told(double force, double swing) {

@@ -26,6 +26,23 @@ TEST(Cost, OfTheRunThatWasMeasuredIsItsMemoryAndHalfAsMuchAtMost) {
   EXPECT_LT(cost.cloth_memory, 0.1 * cost.memory);
 }
 
+// log.checkMesh counts 103,562 cells of ripstop steady examples/flat-circular/case.toml --flow openfoam --grid 40 40 50
+// --set flow.mesh=fitted --set flow.cloth_levels=2, 283,321 with 60 60 75 and one level.
+TEST(Cost, OfAFittedMeshIsThatOfItsCells) {
+  const auto cells = [](std::array<int, 3> grid, const char* levels) {
+    Overrides fitted;
+    fitted.engine = "openfoam";
+    fitted.grid = grid;
+    fitted.set = {{"flow.mesh", "\"fitted\""}, {"flow.cloth_levels", levels}};
+    return cost_of(read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/flat-circular/case.toml",
+                             fitted))
+        .cells;
+  };
+  EXPECT_NEAR(cells({40, 40, 50}, "2"), 103562, 0.05 * 103562);
+  EXPECT_NEAR(cells({60, 60, 75}, "1"), 283321, 0.05 * 283321);
+  EXPECT_EQ(cells({40, 40, 50}, "0"), 80000);
+}
+
 // time ripstop steady examples/stratos-iv/case.toml --grid 40,40,60 --set coupling.threads=1: 11.6 s of one core.
 TEST(Cost, TimeIsAboutThatOfARunThatWasMeasuredAndGrowsWithCellsAndNodes) {
   const auto time = [](int across, const char* nodes) {

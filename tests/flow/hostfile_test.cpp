@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "../refusal.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/core/process.h"
@@ -21,14 +22,7 @@ using openfoam::parse_hosts;
 using openfoam::require_slots;
 
 std::string refusal(const std::string& text) {
-  try {
-    parse_hosts(text, "hosts");
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::usage);
-    return error.what();
-  }
-  ADD_FAILURE() << "taken: " << text;
-  return {};
+  return refusal_of([&] { parse_hosts(text, "hosts"); }, ExitCode::usage);
 }
 
 TEST(Hostfile, HasALineAHost) {

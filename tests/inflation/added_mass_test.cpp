@@ -6,7 +6,6 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <numbers>
-#include <utility>
 #include <vector>
 
 #include "ripstop/flow/bodies.h"
@@ -90,7 +89,7 @@ TEST(AddedMass, OfAHemisphericalCupIsThatOfPotentialFlow) {
   EXPECT_NEAR(computed(hemispherical_cup(2 * disk_radius, place)), exact, 0.08 * exact);
 }
 
-// As a canopy that has hardly opened: half as wide as it is long, four cells of the air from its axis to its mouth.
+// As a canopy that has hardly opened: half as wide as it is long, eight cells from its axis to its mouth.
 TEST(AddedMass, OfANarrowConeIsThatOfPotentialFlow) {
   constexpr double length = 2, mouth = 0.5;
   constexpr int around = 48, up = 24;

@@ -10,24 +10,12 @@
 #include <fstream>
 #include <thread>
 
+#include "../refusal.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/hash.h"
 
 namespace ripstop {
 namespace {
-
-/// The message of the Error that `action` throws.
-template <class Action>
-std::string message_of(ExitCode code, Action action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), code) << error.what();
-    return error.what();
-  }
-  ADD_FAILURE() << "no Error";
-  return {};
-}
 
 /// Without waiting for the disk, for tests that damage a file many times.
 void overwrite(const std::filesystem::path& path, const std::string& bytes) {
@@ -88,7 +76,7 @@ TEST(WriteFile, AFailedWriteLeavesTheOldFileAndNoRubbish) {
 }
 
 TEST(WriteFile, AFullDiskIsNamedAsTheReason) {
-  const std::string message = message_of(ExitCode::io, [] { append_to_file("/dev/full", "x"); });
+  const std::string message = refusal_of([] { append_to_file("/dev/full", "x"); }, ExitCode::io);
   EXPECT_EQ(message,
             "cannot append to /dev/full: No space left on device; free some space, or write elsewhere");
 }
@@ -114,15 +102,15 @@ TEST(Files, EveryFailureNamesThePathAndTheReason) {
     EXPECT_NE(message.find(reason), std::string::npos) << message;
   };
   const std::string missing = (folder.path / "none/a").string(), below = (folder.path / "file/a").string();
-  expect(message_of(ExitCode::io, [&] { write_file(missing, "x"); }), missing, "No such file");
-  expect(message_of(ExitCode::io, [&] { read_file(missing); }), missing, "No such file");
-  expect(message_of(ExitCode::io, [&] { read_file(folder.path); }), folder.path.string(), "Is a directory");
-  expect(message_of(ExitCode::io, [&] { write_file(folder.path, "x"); }), folder.path.string(), "directory");
-  expect(message_of(ExitCode::io, [&] { make_folder(below); }), below, "Not a directory");
-  expect(message_of(ExitCode::io, [&] { make_folder(folder.path / "file"); }), "file", "Not a directory");
-  expect(message_of(ExitCode::io, [&] { hash_folder(missing); }), missing, "No such file");
+  expect(refusal_of([&] { write_file(missing, "x"); }, ExitCode::io), missing, "No such file");
+  expect(refusal_of([&] { read_file(missing); }, ExitCode::io), missing, "No such file");
+  expect(refusal_of([&] { read_file(folder.path); }, ExitCode::io), folder.path.string(), "Is a directory");
+  expect(refusal_of([&] { write_file(folder.path, "x"); }, ExitCode::io), folder.path.string(), "directory");
+  expect(refusal_of([&] { make_folder(below); }, ExitCode::io), below, "Not a directory");
+  expect(refusal_of([&] { make_folder(folder.path / "file"); }, ExitCode::io), "file", "Not a directory");
+  expect(refusal_of([&] { hash_folder(missing); }, ExitCode::io), missing, "No such file");
   const std::string kernels = "/proc/self/comm";  // nobody's to remove
-  expect(message_of(ExitCode::io, [&] { remove_path(kernels); }), kernels, "cannot remove");
+  expect(refusal_of([&] { remove_path(kernels); }, ExitCode::io), kernels, "cannot remove");
   remove_path(missing);
   EXPECT_EQ(read_file(folder.path / "file"), "x");
 }
@@ -155,9 +143,9 @@ TEST(Hash, OfAFolderWithADeviceInItIsRefused) {
   const TemporaryFolder folder("hash");
   write_file(folder.path / "a", "1");
   std::filesystem::create_symlink("/dev/null", folder.path / "b");  // a pipe there would not end
-  const std::string message = message_of(ExitCode::io, [&] { hash_folder(folder.path); });
+  const std::string message = refusal_of([&] { hash_folder(folder.path); }, ExitCode::io);
   EXPECT_NE(message.find((folder.path / "b").string()), std::string::npos) << message;
-  message_of(ExitCode::io, [&] { seal_folder(folder.path); });
+  refusal_of([&] { seal_folder(folder.path); }, ExitCode::io);
 }
 
 TEST(Sealed, EveryTruncationAndEveryChangedByteIsNoticed) {
@@ -170,16 +158,16 @@ TEST(Sealed, EveryTruncationAndEveryChangedByteIsNoticed) {
   const std::filesystem::path damaged = folder.path / "damaged";
   for (std::size_t length = 0; length < sealed.size(); ++length) {
     overwrite(damaged, sealed.substr(0, length));
-    message_of(ExitCode::bad_data, [&] { read_sealed(damaged); });
+    refusal_of([&] { read_sealed(damaged); }, ExitCode::bad_data);
   }
   overwrite(damaged, sealed + "x");
-  message_of(ExitCode::bad_data, [&] { read_sealed(damaged); });
+  refusal_of([&] { read_sealed(damaged); }, ExitCode::bad_data);
   for (std::size_t i = 0; i < sealed.size(); ++i) {
     for (int flip : {0x01, 0x20, 0x80, 0xff}) {
       std::string changed = sealed;
       changed[i] = static_cast<char>(changed[i] ^ flip);
       overwrite(damaged, changed);
-      message_of(ExitCode::bad_data, [&] { read_sealed(damaged); });
+      refusal_of([&] { read_sealed(damaged); }, ExitCode::bad_data);
     }
   }
   write_sealed(path, "");
@@ -191,11 +179,11 @@ TEST(SealedFolder, NamesTheFileThatIsMissingNewOrChanged) {
   make_folder(folder.path / "sub");
   write_file(folder.path / "shape", "1");
   write_file(folder.path / "sub/flow", "2");
-  message_of(ExitCode::bad_data, [&] { check_folder(folder.path); });  // not sealed yet
+  refusal_of([&] { check_folder(folder.path); }, ExitCode::bad_data);  // not sealed yet
   seal_folder(folder.path);
   EXPECT_NO_THROW(check_folder(folder.path));
   const auto expect_named = [&](const std::string& name) {
-    const std::string message = message_of(ExitCode::bad_data, [&] { check_folder(folder.path); });
+    const std::string message = refusal_of([&] { check_folder(folder.path); }, ExitCode::bad_data);
     EXPECT_NE(message.find(name), std::string::npos) << message;
   };
   write_file(folder.path / "sub/flow", "3");

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
+#include "../refusal.h"
 #include "finished_run.h"
-#include "refusal.h"
 #include "ripstop/case/payload.h"
 #include "ripstop/core/error.h"
 #include "ripstop/flight/atmosphere.h"

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "../refusal.h"
 #include "../small_case.h"
 #include "finished_run.h"
-#include "refusal.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/error.h"
 #include "ripstop/flight/atmosphere.h"

@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "../refusal.h"
 #include "../small_case.h"
 #include "finished_run.h"
-#include "refusal.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/case/opening.h"
 #include "ripstop/core/error.h"

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../refusal.h"
 #include "../small_case.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
@@ -26,14 +27,7 @@ struct OpeningRecords : testing::Test {
     claimed->seal();
   }
   std::string refusal(ExitCode code, const Case& asked) const {
-    try {
-      opening_record(folder, asked);
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code(), code) << error.what();
-      return error.what();
-    }
-    ADD_FAILURE() << "accepted";
-    return "";
+    return refusal_of([&] { opening_record(folder, asked); }, code);
   }
 };
 

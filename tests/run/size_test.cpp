@@ -7,6 +7,7 @@
 #include <fstream>
 #include <regex>
 
+#include "../refusal.h"
 #include "ripstop/case/payload.h"
 #include "ripstop/case/resolve.h"
 #include "ripstop/core/error.h"
@@ -25,14 +26,7 @@ SizeRequest sized(const std::string& family = "flat-circular") {
 }
 
 std::string refused(const SizeRequest& asked) {
-  try {
-    run_size(asked);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::usage);
-    return error.what();
-  }
-  ADD_FAILURE() << "accepted";
-  return "";
+  return refusal_of([&] { run_size(asked); }, ExitCode::usage);
 }
 
 // Row by row: no number of the data is anything but the table's.

@@ -33,6 +33,12 @@ struct Triangle {
   Vec3 a, b, c;
 };
 
+inline double surface_area(const std::vector<Triangle>& surface) {
+  double area = 0;
+  for (const Triangle& t : surface) area += 0.5 * norm(cross(t.b - t.a, t.c - t.a));
+  return area;
+}
+
 /// Cells with the isotropic resistance -(mu d + rho |u| f / 2) u
 /// per volume (`paper` model, method section 4).
 struct PorousCells {

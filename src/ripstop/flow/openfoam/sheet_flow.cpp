@@ -90,8 +90,7 @@ class SheetFlow final : public Flow {
   void start_afresh() override {
     clear_case(folder_);
     double area = 0;
-    for (const Sheet& sheet : problem_.sheets)
-      for (const Triangle& t : sheet.surface) area += 0.5 * norm(cross(t.b - t.a, t.c - t.a));
+    for (const Sheet& sheet : problem_.sheets) area += surface_area(sheet.surface);
     programs_.need_space(fitted_cells(problem_.grid, area, settings_.cloth_levels));
     write_case(folder_, problem_, settings_);
     write_solution(folder_, problem_.stopping.residual, corrections());
