@@ -117,6 +117,29 @@ TEST_P(PorousDisk, DriftsThroughTheGridWithoutASwingAndHasTheDragOfOneAtRest) {
   EXPECT_NEAR(drift.mean / (sum / weight / (0.5 * air_density * 100 * pi / 4)), 1, 0.02);
 }
 
+// A porous disk that is let go falls faster until the air carries it: its drag is then K / (1 + K / 4)^2 of q S (Taylor,
+// R&M 2236, 1944). The grid falls along at the speed that it has at first.
+TEST(MovingSheet, ADiskThatFallsComesToItsTerminalSpeed) {
+  constexpr double loss = 1, mass = 1, gravity = 9.81, area = pi / 4 * across_disk * across_disk;
+  const double coefficient = loss / std::pow(1 + loss / 4, 2),
+               terminal = std::sqrt(2 * mass * gravity / (air_density * area * coefficient));
+  constexpr double first = 4.5, high = 5.2, step = 4e-3, duration = 2.2;
+  FlowProblem problem = disk_in_air(first, 0, high);
+  problem.sheets[0].quadratic = 0.5 * air_density * loss;
+  const auto engine = engine_on_one_thread();
+  const auto flow = engine->start(problem);
+  double z = high, rises = 0, sum = 0, count = 0;  // rises: through the grid [m/s]
+  for (double time = 0; time < duration; time += step) {
+    const std::vector<Triangle> surface = disk_at(z);
+    flow->place(surface, all_with(surface, {0, 0, rises}));
+    rises += step * (flow->step(step).force.z / mass - gravity);
+    z += step * rises;
+    if (time > 0.75 * duration) sum += first - rises, ++count;
+  }
+  EXPECT_GT(terminal, 1.2 * first);
+  EXPECT_NEAR(sum / count / terminal, 1, 0.02);
+}
+
 // With the law in the sheet's face and not where the sheet is the swing is more than twice the drag.
 TEST(MovingSheet, ATightDiskSwingsByAPartOfItsDragOnly) {
   EXPECT_LT(drift_of(1e6).swing, 0.15);
