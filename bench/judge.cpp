@@ -5,8 +5,8 @@
 //     ACROSS  cells across the body, the built-in engine's, even; those of OpenFOAM's mesh are half as wide at the cloth and
 //             twice as wide elsewhere
 //     --alone without OpenFOAM
-//     BODY    disk, plate, cup, porous-disk, disk-gap-band (rigid_disk_gap_band()), or NAME=FILE.stl:A:B, cloth with the law
-//             A v + B v |v| [Pa]; without one the five bodies
+//     BODY    disk, plate, cup, porous-disk-K (K v |v| rho / 2), disk-gap-band (rigid_disk_gap_band()), or
+//             NAME=FILE.stl:A:B, cloth with the law A v + B v |v| [Pa]; without one all but the last, K = 0.5, 1, 2
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -66,11 +66,14 @@ Body body_of(const std::string& word) {
   if (word == "plate") return measured(word, {square_plate(1, {}), tight, 0}, {});
   if (word == "cup") return measured(word, {hemispherical_cup(1, {}), tight, 0}, {});
   if (word == "disk-gap-band") return measured(word, {rigid_disk_gap_band({}), f111, 0}, {});
-  if (word == "porous-disk") return measured(word, {disk(1, {}), 0, density / 2}, {});  // K = 1
+  if (word.starts_with("porous-disk-")) {
+    const double loss = std::stod(word.substr(std::string("porous-disk-").size()));
+    return measured(word, {disk(1, {}), 0, loss * density / 2}, {});
+  }
   const std::size_t is = word.find('='), b = word.rfind(':'), a = word.rfind(':', b - 1);
   if (is == std::string::npos || b == std::string::npos || a == std::string::npos || a < is)
     throw Error(ExitCode::usage,
-                word + " is no body: disk, plate, cup, porous-disk, disk-gap-band or NAME=FILE.stl:A:B");
+                word + " is no body: disk, plate, cup, porous-disk-K, disk-gap-band or NAME=FILE.stl:A:B");
   Sheet sheet{read_stl(word.substr(is + 1, a - is - 1)), std::stod(word.substr(a + 1, b - a - 1)),
               std::stod(word.substr(b + 1))};
   Vec3 middle;
@@ -254,14 +257,15 @@ int main(int argc, char** argv) {
   if (argc < 3) {
     fmt::print(stderr,
                "bench_judge FOLDER ACROSS [--alone] "
-               "[disk|plate|cup|porous-disk|disk-gap-band|NAME=FILE.stl:A:B ...]\n");
+               "[disk|plate|cup|porous-disk-K|disk-gap-band|NAME=FILE.stl:A:B ...]\n");
     return 2;
   }
   const std::filesystem::path folder = argv[1];
   const int across = std::atoi(argv[2]);
   std::vector<std::string> words(argv + 3, argv + argc);
   const bool alone = std::erase(words, "--alone") > 0;
-  if (words.empty()) words = {"disk", "plate", "cup", "porous-disk", "disk-gap-band"};
+  if (words.empty())
+    words = {"disk", "plate", "cup", "porous-disk-0.5", "porous-disk-1", "porous-disk-2", "disk-gap-band"};
   std::filesystem::create_directories(folder);
   print_table_head(
       "Rigid bodies and inflated canopies: the built-in engine beside OpenFOAM on a mesh that follows the "

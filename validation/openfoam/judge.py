@@ -4,7 +4,7 @@
     make judge        (or: judge.py --ripstop build/bin/ripstop --bench build-check/bench/bench_judge --across 24)
 
 `ripstop steady` inflates a flat circular canopy, a ringsail (ADEPT) and Stratos IV, with cloth as specified
-and nothing calibrated, at 20 m/s, in runs/judge; finished runs cost nothing. Their shapes, held rigid, and five bodies then
+and nothing calibrated, at 20 m/s, in runs/judge; finished runs cost nothing. Their shapes, held rigid, and seven bodies then
 stand in both engines (bench_judge), the disk on coarser cells as well: what accuracy takes what time. The tables are
 docs/tables/judge.md; some plots go beside it, the others stay in runs/judge.
 """
@@ -23,7 +23,7 @@ from campaign import SHEET_SPECIFIED  # pylint: disable=wrong-import-position
 
 SHAPES = {"flat-circular": ("flat-circular", []), "ringsail": ("adept", SHEET_SPECIFIED),
           "stratos-iv": ("stratos-iv", SHEET_SPECIFIED)}
-BODIES = ["disk", "plate", "cup", "porous-disk", "disk-gap-band"]
+BODIES = ["disk", "plate", "cup", "porous-disk-0.5", "porous-disk-1", "porous-disk-2", "disk-gap-band"]
 COARSER = [8, 12, 16]  # cells across the disk
 PLOTS = [("cup", "pressure"), ("cup", "wake"), ("flat-circular", "pressure"), ("flat-circular", "wake"), ("stratos-iv", "pressure")]
 
