@@ -55,6 +55,27 @@ TEST(Boundary, TheFaceOfTheInletHasTheStreamsValues) {
   EXPECT_EQ(box.s.f.p[box.at(1, 2, -1)], box.s.f.p[box.at(1, 2, 0)]);
 }
 
+// In the outlet's face what leaves has the last cell's values, what comes back has no velocity and the stream's turbulence.
+TEST(Boundary, WhatComesBackThroughTheOutletIsTheStreamAtRest) {
+  Box box(Sides::zero_gradient, Outlet::fixed_pressure);
+  for (int j = 0; j < 5; ++j)
+    for (int i = 0; i < 4; ++i) box.s.f.fz[box.at(i, j, 6)] = (i + j) % 2 == 0 ? 3 : -3;
+  box.ghosts();
+  const Inlet& in = box.b.inlet;
+  const Fields& f = box.s.f;
+  ASSERT_GT(in.stream_k, 0);
+  for (int j = 0; j < 5; ++j)
+    for (int i = 0; i < 4; ++i) {
+      const bool leaves = (i + j) % 2 == 0;
+      const auto expect_in_face = [&](const Array<double>& q, double back) {
+        const double last = q[box.at(i, j, 5)], face = 0.5 * (last + q[box.at(i, j, 6)]);
+        EXPECT_NEAR(face, leaves ? last : back, 1e-12 * std::max(1.0, back)) << i << " " << j;
+      };
+      expect_in_face(f.u, 0), expect_in_face(f.v, 0), expect_in_face(f.w, 0);
+      expect_in_face(f.k, in.stream_k), expect_in_face(f.omega, in.stream_omega);
+    }
+}
+
 TEST(Boundary, AJetLeavesTheInletInsideItsNozzleAndNextToStillAirOutsideOfIt) {
   Box box(Sides::entraining, Outlet::still_air);
   const Jet jet{{NozzleShape::rectangle, 1, 0.8}, 0.1, 1e-6};

@@ -255,6 +255,27 @@ CartesianSettings threads(int count) {
 }
 
 // Half a cell at least; on its columns the plane has a point straight below or above every cell.
+// Rows that no sheet touches are computed as in open air.
+TEST(Sheet, TouchesTheRowsOfCellsOnBothItsSidesAndNoOthers) {
+  const int n = 10;
+  const Axis axis = uniform(0, 1, n);
+  for (const int across : {0, 1, 2}) {
+    Vec3 corner{0.31, 0.31, 0.31}, u{}, v{};
+    (across == 0 ? corner.x : across == 1 ? corner.y : corner.z) = 0.5;
+    (across == 0 ? u.y : u.x) = 0.28;
+    (across == 2 ? v.y : v.z) = 0.28;
+    const std::vector<Triangle> plate = {{corner, corner + u, corner + u + v},
+                                         {corner, corner + u + v, corner + v}};
+    const cartesian::SheetRows rows(axis, axis, axis, {{plate, f111, 0}});
+    for (int k = 0; k < n; ++k)
+      for (int j = 0; j < n; ++j) {
+        const bool in_j = across == 1 ? j == 4 || j == 5 : j >= 3 && j < 6;
+        const bool in_k = across == 2 ? k == 4 || k == 5 : k >= 3 && k < 6;
+        EXPECT_EQ(rows.touches(j, k), in_j && in_k) << across << ": " << j << " " << k;
+      }
+  }
+}
+
 TEST(Sheet, TheDistanceToAPlaneIsThatStraightToIt) {
   const Axis x = uniform(0, 1, 4), y = uniform(0, 1, 5), z = uniform(0, 3, 12);
   const Vec3 p[] = {{-1, -1, 1.53}, {2, -1, 1.53}, {2, 2, 1.53}, {-1, 2, 1.53}};

@@ -85,6 +85,19 @@ TEST(Render, ALineIsSeenBeforeTheClothAndHiddenBehindIt) {
   }
 }
 
+TEST(Render, TheNearerLineHidesTheFartherWhateverTheOrder) {
+  for (bool near_first : {true, false}) {
+    Scene scene;
+    scene.points = {{-0.9, 0, 0.5}, {0.9, 0, 0.5}, {0, -0.9, -0.5}, {0, 0.9, -0.5}};
+    scene.lines = {{0, 1, 5, blue}, {2, 3, 5, red}};
+    if (!near_first) std::swap(scene.lines[0], scene.lines[1]);
+    const Raster raster = render(scene, two_metres_high(), 64, 64, 1);
+    EXPECT_EQ(part(raster.argb[32 * 64 + 32], 'b'), 255u) << near_first;
+    EXPECT_EQ(part(raster.argb[32 * 64 + 32], 'r'), 0u) << near_first;
+    EXPECT_EQ(part(raster.argb[16 * 64 + 32], 'r'), 255u) << near_first;
+  }
+}
+
 TEST(Render, BothSidesOfTheClothLookTheSame) {
   Scene scene;
   add_rectangle(scene, -0.5, -0.5, 0.5, 0.5, 0, red);

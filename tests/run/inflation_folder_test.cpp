@@ -140,6 +140,8 @@ TEST_F(InflationFolderTest, InItsOwnAirAKilledRunGoesOnByteIdentical) {
   const double at_start = read_csv(root / "whole/air.csv").column("added_mass_kg").front();
   EXPECT_GT(at_start, 0);
   EXPECT_GT(*whole->added_mass, at_start);
+  for (const char* picture : {"load.png", "drag_area.png", "added_mass.png"})
+    EXPECT_TRUE(fs::exists(root / "whole" / picture)) << picture;
   EXPECT_THROW(open_in_air("killed", killed), std::runtime_error);
   EXPECT_TRUE(fs::exists(root / "killed/air"));
   ASSERT_TRUE(open_in_air("killed", resumed));
