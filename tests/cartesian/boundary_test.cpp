@@ -137,6 +137,34 @@ TEST(Boundary, AirThatIsEntrainedHasTheStreamsSpeedAndTotalPressure) {
   EXPECT_NEAR(in_face(4, 3), 0, 1e-12);
 }
 
+// Of what a side draws in only the velocity across the side is that of the air just inside.
+TEST(Boundary, WhatEachSideDrawsInIsTheStreamAndWhatItLetsOutIsTheAirInside) {
+  for (const double inflow : {3.0, -3.0}) {
+    Box box(Sides::entraining, Outlet::still_air);
+    Fields& f = box.s.f;
+    f.fx[box.at(0, 2, 3)] = inflow, f.fx[box.at(4, 2, 3)] = -inflow;
+    f.fy[box.at(2, 0, 3)] = inflow, f.fy[box.at(2, 5, 3)] = -inflow;
+    box.ghosts();
+    const Inlet& in = box.b.inlet;
+    const struct {
+      std::ptrdiff_t ghost, cell;
+      bool across_x;
+    } sides[] = {{box.at(-1, 2, 3), box.at(0, 2, 3), true},
+                 {box.at(4, 2, 3), box.at(3, 2, 3), true},
+                 {box.at(2, -1, 3), box.at(2, 0, 3), false},
+                 {box.at(2, 5, 3), box.at(2, 4, 3), false}};
+    for (const auto& side : sides) {
+      const auto expect_beyond = [&](const Array<double>& q, double stream, bool across) {
+        EXPECT_EQ(q[side.ghost], inflow > 0 && !across ? stream : q[side.cell])
+            << inflow << " " << side.ghost;
+      };
+      expect_beyond(f.u, 0, side.across_x), expect_beyond(f.v, 0, !side.across_x);
+      expect_beyond(f.w, in.stream_speed, false);
+      expect_beyond(f.k, in.stream_k, false), expect_beyond(f.omega, in.stream_omega, false);
+    }
+  }
+}
+
 TEST(Boundary, AirThatComesBackThroughTheOutletIsAtRestOrHasTheTotalPressureOfStillAir) {
   for (const Outlet outlet : {Outlet::fixed_pressure, Outlet::still_air}) {
     Box box(Sides::slip, outlet);

@@ -12,6 +12,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "../refusal.h"
 #include "../small_case.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/error.h"
@@ -277,6 +278,20 @@ TEST_F(InflationFolderTest, ADamagedCheckpointIsNoticedAndOtherInputsAreRefused)
   given.inflation.damping_n_s_m3 = 9;
   EXPECT_THROW(open("run", quiet), Error);
   EXPECT_TRUE(open("run", quiet, true));
+}
+
+TEST_F(InflationFolderTest, TheCheckpointOfAnotherMeshIsRefused) {
+  Killed killed, other;
+  killed.folder = root / "run", other.folder = root / "other";
+  EXPECT_THROW(open("run", killed), std::runtime_error);
+  given.parachute.mesh.cloth_nodes = 1000;
+  EXPECT_THROW(open("other", other), std::runtime_error);
+  given.parachute.mesh.cloth_nodes = 1500;
+  write_file(root / "run" / "checkpoint", other.checkpoint);
+  InflationObserver quiet;
+  const std::string message = refusal_of([&] { open("run", quiet); }, ExitCode::bad_data);
+  EXPECT_NE(message.find("checkpoint: is of another mesh; start again with --fresh"), std::string::npos)
+      << message;
 }
 
 TEST_F(InflationFolderTest, TablesThatDoNotBelongToTheCheckpointAreRefused) {
