@@ -4,7 +4,9 @@
 
 #include <cmath>
 #include <filesystem>
+#include <set>
 
+#include "../refusal.h"
 #include "formula_flow.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/error.h"
@@ -302,6 +304,29 @@ TEST(SteadyRun, ACanopyOutsideTheBoxIsRefused) {
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::usage);
     EXPECT_NE(std::string(error.what()).find("does not fit"), std::string::npos);
+  }
+}
+
+// Of cloth that does not close about an axis the outermost column is the first corner of its cells and no other.
+TEST(SteadyRun, AnEdgeOfTheClothOutsideTheBoxIsRefused) {
+  Case given = read_case(fs::path(RIPSTOP_SOURCE_DIR) / "examples/cross/case.toml");
+  given.parachute.mesh.cloth_nodes = 300;
+  given.flow.cells = {20, 20, 30};
+  given.coupling.threads = 1;
+  const SteadyProblem fits = steady_problem(given);
+  FormulaEngine engine;
+  EXPECT_NO_THROW(SteadySolver(fits, engine));
+  std::set<int> first, second;
+  for (const Cell& cell : cells_of(fits.mesh))
+    if (cell.corner[0] >= 0) first.insert(cell.corner[0]), second.insert(cell.corner[1]);
+  std::erase_if(first, [&](int node) { return second.contains(node); });
+  EXPECT_GT(first.size(), 5u);
+  for (const int node : first) {
+    SteadyProblem outside = fits;
+    outside.mesh.start[node].x -= 100;
+    EXPECT_NE(refusal_of([&] { SteadySolver(outside, engine); }, ExitCode::usage).find("cloth at (-"),
+              std::string::npos)
+        << node;
   }
 }
 

@@ -365,7 +365,7 @@ def batches(mutant, number, tests, most, passed):
             found.append((room != own, False, sum(s for s, _ in part), room, [t for _, t in part]))
         found += [(room != own, True, s, room, [t]) for s, t in list_of if s >= 1]
     spent = 0
-    for _, _, seconds, room, names in sorted(found, key=lambda b: (b[0] and b[1], b[0], b[2])):
+    for _, _, seconds, room, names in sorted(found, key=lambda b: (b[0] and b[1], b[0], b[2] / len(b[4]))):
         if spent + seconds > most and spent > 0:
             left_out += len(names)
             continue
