@@ -179,6 +179,28 @@ TEST(ProfileCanopies, ThePatternsStripsAreTheFlatGoresOfItsMeridian) {
   EXPECT_NEAR(pattern.nominal_area, trapezoids + vent, 1e-12);
 }
 
+// Its middle tilts outward about the upper edge.
+TEST(ProfileCanopies, AGoreThatBulgesMoreBelowThanAboveIsAsHighInItsMiddleAsOnThePattern) {
+  Case given = of_two_pieces(false);
+  ProfileCanopy canopy = *given.parachute.canopy.as<ProfileCanopy>();
+  canopy.pieces[1].leading_fullness = 0.1, canopy.pieces[1].trailing_fullness = 0.05;
+  canopy.pieces[1].height_m = {0.25, 0.45};
+  given.parachute.canopy = canopy;
+  const CanopyMesh mesh = parachute_mesh(given);
+  const Patch& patch = mesh.patches.back();
+  const double gore = 2 * pi / given.parachute.gores;
+  const double height = gore_pattern(canopy, given.parachute.gores).strips[1].length();
+  int middles = 0;
+  for (int column = 0; column < patch.columns; ++column) {
+    const Vec3 low = mesh.start[patch.node(0, column)], high = mesh.start[patch.node(patch.rows - 1, column)];
+    const double turns = std::atan2(low.y, low.x) / gore;
+    if (std::abs(turns - std::floor(turns) - 0.5) > 1e-6) continue;
+    EXPECT_NEAR(norm(high - low), height, 1e-9) << column;
+    ++middles;
+  }
+  EXPECT_EQ(middles, given.parachute.gores);
+}
+
 TEST(FoldsWithoutStrain, DisksCylindersAndConesDoAndAGoreThatBulgesDoesNot) {
   for (const char* name : {"stratos-iv", "walrus"})
     EXPECT_TRUE(folds_without_strain(parachute_mesh(example(name, 4000)))) << name;
