@@ -63,6 +63,17 @@ TEST_F(ShapeOfFiles, FramesOfTwoMeshesAreRefused) {
   EXPECT_NE(message.find("is of another mesh"), std::string::npos) << message;
 }
 
+TEST_F(ShapeOfFiles, ValuesThatAreNotOneACellAreRefused) {
+  const ShapeFiles first = write(0, {0, 1, 2, 3}), second = write(0.1, {0, 1, 2, 3});
+  VtkSurface canopy;
+  canopy.points = {{0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+  canopy.polygons.add(std::vector<int>{0, 1, 2, 3}), canopy.polygons.add(std::vector<int>{1, 2, 3, 0});
+  canopy.cell_arrays = {vtk_array("stress", std::vector<double>{1, 2})};
+  write_vtp(second.canopy, canopy);
+  const std::string message = refusal_of([&] { read_shape({first, second}); }, ExitCode::bad_data);
+  EXPECT_NE(message.find("has arrays of another length than its cells"), std::string::npos) << message;
+}
+
 TEST_F(ShapeOfFiles, CellsOfAnotherKindAreRefused) {
   EXPECT_THROW(read_shape({write(0, {0, 1, 2})}), Error);
 }
