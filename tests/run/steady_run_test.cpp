@@ -157,6 +157,39 @@ TEST(SteadyRun, ARunThatWasKilledBetweenIterationsGoesOnBitForBit) {
   EXPECT_EQ(state.iterations.back().fluid_force, undisturbed.iterations.back().fluid_force);
 }
 
+/// Whose flow cannot be saved once it is told so.
+struct FullDisk : FormulaEngine {
+  struct OnFullDisk : FormulaFlow {
+    OnFullDisk(const FlowProblem& problem, const bool& is_full) : FormulaFlow(problem), full(is_full) {}
+    void save(const fs::path& to) const override {
+      if (full) throw Error(ExitCode::io, "the disk is full");
+      FormulaFlow::save(to);
+    }
+    const bool& full;
+  };
+  std::unique_ptr<Flow> start(const FlowProblem& problem) override {
+    return std::make_unique<OnFullDisk>(problem, full);
+  }
+  bool full = false;
+};
+
+// The third checkpoint takes the place of the first, whose flow is not its own.
+TEST(SteadyRun, ACheckpointOfWhichOnlyAPartWasWrittenIsNotRead) {
+  TemporaryFolder folder("steady_half");
+  FullDisk engine;
+  SteadySolver solver(small_problem(), engine);
+  SteadyState state = solver.start();
+  for (int k = 0; k < 3; ++k) {
+    solver.iterate(state);
+    if (k < 2) save_checkpoint(folder.path, state, solver.flow());
+  }
+  engine.full = true;
+  EXPECT_THROW(save_checkpoint(folder.path, state, solver.flow()), Error);
+  EXPECT_EQ(load_checkpoint(folder.path, solver.flow()).value().state.iterations.size(), 2u);
+  fs::resize_file(folder.path / "even/state", 10);
+  EXPECT_THROW(load_checkpoint(folder.path, solver.flow()), Error) << "a state beside the flow of another";
+}
+
 TEST(SteadyRun, ADamagedCheckpointIsNeverReadAsOne) {
   FormulaEngine engine;
   SteadySolver solver(small_problem(), engine);
