@@ -107,6 +107,25 @@ Case of_two_pieces(bool sewn) {
   return given;
 }
 
+TEST(ProfileCanopies, EdgesOfUnequalFullnessAreNotSewnTogether) {
+  const auto problems = [](double below, double above) {
+    Case given = of_two_pieces(true);
+    ProfileCanopy canopy = *given.parachute.canopy.as<ProfileCanopy>();
+    canopy.pieces[0].trailing_fullness = below, canopy.pieces[1].leading_fullness = above;
+    given.parachute.canopy = canopy;
+    try {
+      checked(given);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(problems(0.1, 0.1), "");
+  EXPECT_NE(problems(0.1, 0.2).find("parachute.pieces[1].sewn = true: edges of unequal fullness"),
+            std::string::npos)
+      << problems(0.1, 0.2);
+}
+
 /// Of the nodes round one edge, those that a tie or one and the same node holds on the other piece.
 int held_nodes(const CanopyMesh& mesh) {
   const auto piece = [&](const char* name, bool last) {
