@@ -11,10 +11,10 @@
 namespace ripstop {
 namespace {
 
-struct Row {
+struct Height {
   double height = 1;
 };
-void describe(Fields& fields, Row& row) {
+void describe(Fields& fields, Height& row) {
   fields.number("height", row.height, Range{}, "");
 }
 struct Round {
@@ -26,7 +26,7 @@ void describe(Fields& fields, Round& round) {
 struct Flat {};
 void describe(Fields&, Flat&) {}
 
-struct Keys {
+struct EveryKind {
   std::variant<Flat, Round> kind;
   std::string text, name;
   std::optional<std::string> other_name;
@@ -40,12 +40,12 @@ struct Keys {
   std::array<int, 3> cells{};
   std::vector<double> list;
   int word = 0;
-  Row table;
-  std::vector<Row> rows;
-  std::map<std::string, Row> named;
+  Height table;
+  std::vector<Height> rows;
+  std::map<std::string, Height> named;
 };
 
-Fields fields_of(Keys& keys) {
+Fields fields_of_every_kind(EveryKind& keys) {
   Fields fields;
   fields.kind("kind", keys.kind, {"flat", "round"}, "");
   fields.text("text", keys.text, 100, "");
@@ -67,32 +67,32 @@ Fields fields_of(Keys& keys) {
   return fields;
 }
 
-const std::vector<std::string> lines = {"kind = \"round\"",
-                                        "text = \"a b\"",
-                                        "name = \"a\"",
-                                        "other_name = \"b\"",
-                                        "number = 1.5",
-                                        "maybe = 2",
-                                        "count = 3",
-                                        "maybe_count = 4",
-                                        "on = true",
-                                        "place = [1, 2, 3]",
-                                        "maybe_place = [4, 5, 6]",
-                                        "cells = [7, 8, 9]",
-                                        "list = [0.5, 0.25]",
-                                        "word = \"two\"",
-                                        "table = {height = 2}",
-                                        "rows = [{height = 3}, {height = 4}]",
-                                        "named = {c = {height = 5}}",
-                                        "radius = 6"};
+const std::vector<std::string> every_line = {"kind = \"round\"",
+                                             "text = \"a b\"",
+                                             "name = \"a\"",
+                                             "other_name = \"b\"",
+                                             "number = 1.5",
+                                             "maybe = 2",
+                                             "count = 3",
+                                             "maybe_count = 4",
+                                             "on = true",
+                                             "place = [1, 2, 3]",
+                                             "maybe_place = [4, 5, 6]",
+                                             "cells = [7, 8, 9]",
+                                             "list = [0.5, 0.25]",
+                                             "word = \"two\"",
+                                             "table = {height = 2}",
+                                             "rows = [{height = 3}, {height = 4}]",
+                                             "named = {c = {height = 5}}",
+                                             "radius = 6"};
 
 TEST(TomlRead, EveryKindOfValueIsTakenAndHasItsPlace) {
   std::string text;
-  for (const std::string& line : lines) text += line + "\n";
-  Keys keys;
+  for (const std::string& line : every_line) text += line + "\n";
+  EveryKind keys;
   Origins origins;
   std::vector<Problem> problems;
-  read_table(fields_of(keys), parse_toml(text, "keys.toml"), origins, problems);
+  read_table(fields_of_every_kind(keys), parse_toml(text, "keys.toml"), origins, problems);
   EXPECT_TRUE(problems.empty()) << to_text(problems.front());
   ASSERT_TRUE(std::holds_alternative<Round>(keys.kind));
   EXPECT_EQ(std::get<Round>(keys.kind).radius, 6);
@@ -113,8 +113,8 @@ TEST(TomlRead, EveryKindOfValueIsTakenAndHasItsPlace) {
   ASSERT_EQ(keys.rows.size(), 2u);
   EXPECT_EQ(keys.rows[1].height, 4);
   EXPECT_EQ(keys.named.at("c").height, 5);
-  for (std::size_t n = 0; n < lines.size(); ++n) {
-    const std::string key = lines[n].substr(0, lines[n].find(' '));
+  for (std::size_t n = 0; n < every_line.size(); ++n) {
+    const std::string key = every_line[n].substr(0, every_line[n].find(' '));
     if (key == "table") continue;  // its keys have their own
     ASSERT_TRUE(origins.contains(key)) << key;
     EXPECT_EQ(origins[key].line, static_cast<int>(n) + 1) << key;
@@ -125,15 +125,15 @@ TEST(TomlRead, EveryKindOfValueIsTakenAndHasItsPlace) {
 }
 
 TEST(TomlRead, AValueOfAnotherTypeIsToldAtItsPlaceAndLeavesWhatWasThere) {
-  for (std::size_t n = 0; n < lines.size(); ++n) {
-    const std::string key = lines[n].substr(0, lines[n].find(' '));
+  for (std::size_t n = 0; n < every_line.size(); ++n) {
+    const std::string key = every_line[n].substr(0, every_line[n].find(' '));
     std::string text;
-    for (std::size_t k = 0; k < lines.size(); ++k)
-      text += k == n ? key + (key == "on" ? " = 1\n" : " = true\n") : lines[k] + "\n";
-    Keys keys;
+    for (std::size_t k = 0; k < every_line.size(); ++k)
+      text += k == n ? key + (key == "on" ? " = 1\n" : " = true\n") : every_line[k] + "\n";
+    EveryKind keys;
     Origins origins;
     std::vector<Problem> problems;
-    read_table(fields_of(keys), parse_toml(text, "keys.toml"), origins, problems);
+    read_table(fields_of_every_kind(keys), parse_toml(text, "keys.toml"), origins, problems);
     ASSERT_FALSE(problems.empty()) << key;
     EXPECT_EQ(problems.front().key, key);
     EXPECT_EQ(problems.front().origin.line, static_cast<int>(n) + 1) << key;
