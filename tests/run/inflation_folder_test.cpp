@@ -157,7 +157,15 @@ TEST_F(InflationFolderTest, InItsOwnAirAKilledRunGoesOnByteIdentical) {
     const std::string name = fmt::format("killed after {}", blocks);
     EXPECT_THROW(open_in_air(name.c_str(), killed), std::runtime_error);
     EXPECT_TRUE(fs::exists(root / name / "air"));
-    Resumed resumed;
+    struct ResumedInAir : Resumed {
+      fs::path air;
+      void advanced(const Inflation&, const InflationState&, const InflationHistory&,
+                    const InflationFrame*) override {
+        for (const auto& entry : fs::directory_iterator(air))
+          EXPECT_TRUE(entry.path().filename() == "even" || entry.path().filename() == "odd") << entry.path();
+      }
+    } resumed;
+    resumed.air = root / name / "air";
     ASSERT_TRUE(open_in_air(name.c_str(), resumed));
     EXPECT_EQ(resumed.first_block, blocks);
     EXPECT_FALSE(fs::exists(root / name / "air"));  // nothing goes on from it
