@@ -136,6 +136,24 @@ TEST_F(CouponFitting, WithoutA45DegPullNothingIsSearchedAndThatIsSaid) {
   EXPECT_TRUE(std::isnan(fit.shear_low) && std::isnan(fit.shear_high));
 }
 
+// A record of another cloth in place of the one that the material was fitted to.
+TEST_F(CouponFitting, ALatticeThatDoesNotFollowItsRecordIsNamed) {
+  Campaign campaign(1, *bias, 2, 0, 0);
+  campaign.bench.coupons.resize(2);
+  CouponFitOptions quick;
+  quick.final_cells = 6;
+  MaterialFit fit = fit_material(campaign.bench);
+  EXPECT_TRUE(fit_coupons(fit, campaign.bench, quick, team).warnings.empty());
+  for (DirectionFit& direction : fit.directions)
+    for (std::size_t i = 0; i < direction.curve.load.size(); ++i)
+      direction.curve.load[i] = 1e4 * std::sqrt(direction.curve.strain[i]);
+  const CouponFit other = fit_coupons(fit, campaign.bench, quick, team);
+  ASSERT_EQ(other.warnings.size(), 1u);
+  EXPECT_EQ(other.warnings[0].find("the simulated warp coupon follows its record with R2 = "), 0u)
+      << other.warnings[0];
+  EXPECT_LT(r2_of(other, "warp"), 0.95);
+}
+
 // [NFM] reaches R2 = 0.979 at 0 deg and 0.994 at 45 deg: the yardstick for records with a bench's noise.
 TEST_F(CouponFitting, NoisyRecordsAreMetBetterThanThePapersYardstick) {
   for (unsigned seed : {11u, 12u}) {

@@ -26,6 +26,34 @@ TEST(Profile, OfTheStartShapeIsTheFlatDiskOverTheCylindricalBand) {
   EXPECT_NEAR(rings.back().diameter, 0.09, 2e-3);  // the vent
 }
 
+TEST(Profile, OfACanopyWithoutABandHasTheSizesOfSkirtWidestRowAndLength) {
+  const CanopyMesh mesh = parachute_mesh(
+      read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/flat-circular/case.toml", {}));
+  std::vector<Vec3> x = mesh.start;
+  const std::vector<ProfileRing> flat = canopy_profile(mesh, x);
+  double skirt = 0, vent = 1e9;
+  for (const ProfileRing& ring : flat)
+    skirt = std::max(skirt, ring.diameter), vent = std::min(vent, ring.diameter);
+  // A cup whose widest row lies a quarter of the way up, and whose skirt is drawn in.
+  for (Vec3& p : x) {
+    const double share = 2 * std::hypot(p.x, p.y) / skirt, in = share > 0.75 ? 1 - 1.5 * (share - 0.75) : 1;
+    p = {in * p.x, in * p.y, 2 - share};
+  }
+  const std::vector<ProfileRing> rings = canopy_profile(mesh, x);
+  double lowest = 1e9, widest = 0, at_skirt = 0;
+  for (const ProfileRing& ring : rings) {
+    if (ring.z < lowest) lowest = ring.z, at_skirt = ring.diameter;
+    widest = std::max(widest, ring.diameter);
+  }
+  const auto sizes = image_sizes(mesh, x);
+  EXPECT_EQ(sizes.size(), 3u);
+  EXPECT_EQ(sizes.at("D_st"), at_skirt);
+  EXPECT_NEAR(at_skirt, 0.625 * skirt, 1e-3 * skirt);
+  EXPECT_EQ(sizes.at("D_mid"), widest);
+  EXPECT_GT(widest, at_skirt);
+  EXPECT_NEAR(sizes.at("L_tot"), 1 - vent / skirt, 1e-3);
+}
+
 TEST(Profile, OfTheOutlineDoesNotDependOnTheNumberOfColumns) {
   const CanopyMesh coarse = parachute_mesh(stratos(1500)), fine = parachute_mesh(stratos(12000));
   const double few = canopy_size(coarse, coarse.start).projected_diameter;

@@ -55,6 +55,27 @@ TEST(Boundary, TheFaceOfTheInletHasTheStreamsValues) {
   EXPECT_EQ(box.s.f.p[box.at(1, 2, -1)], box.s.f.p[box.at(1, 2, 0)]);
 }
 
+// In the outlet's face what leaves has the last cell's values, what comes back has no velocity and the stream's turbulence.
+TEST(Boundary, WhatComesBackThroughTheOutletIsTheStreamAtRest) {
+  Box box(Sides::zero_gradient, Outlet::fixed_pressure);
+  for (int j = 0; j < 5; ++j)
+    for (int i = 0; i < 4; ++i) box.s.f.fz[box.at(i, j, 6)] = (i + j) % 2 == 0 ? 3 : -3;
+  box.ghosts();
+  const Inlet& in = box.b.inlet;
+  const Fields& f = box.s.f;
+  ASSERT_GT(in.stream_k, 0);
+  for (int j = 0; j < 5; ++j)
+    for (int i = 0; i < 4; ++i) {
+      const bool leaves = (i + j) % 2 == 0;
+      const auto expect_in_face = [&](const Array<double>& q, double back) {
+        const double last = q[box.at(i, j, 5)], face = 0.5 * (last + q[box.at(i, j, 6)]);
+        EXPECT_NEAR(face, leaves ? last : back, 1e-12 * std::max(1.0, back)) << i << " " << j;
+      };
+      expect_in_face(f.u, 0), expect_in_face(f.v, 0), expect_in_face(f.w, 0);
+      expect_in_face(f.k, in.stream_k), expect_in_face(f.omega, in.stream_omega);
+    }
+}
+
 TEST(Boundary, AJetLeavesTheInletInsideItsNozzleAndNextToStillAirOutsideOfIt) {
   Box box(Sides::entraining, Outlet::still_air);
   const Jet jet{{NozzleShape::rectangle, 1, 0.8}, 0.1, 1e-6};
@@ -114,6 +135,34 @@ TEST(Boundary, AirThatIsEntrainedHasTheStreamsSpeedAndTotalPressure) {
   };
   EXPECT_NEAR(in_face(-1, 0), -0.5 * 3 * 3 / 1.2, 1e-12);
   EXPECT_NEAR(in_face(4, 3), 0, 1e-12);
+}
+
+// Of what a side draws in only the velocity across the side is that of the air just inside.
+TEST(Boundary, WhatEachSideDrawsInIsTheStreamAndWhatItLetsOutIsTheAirInside) {
+  for (const double inflow : {3.0, -3.0}) {
+    Box box(Sides::entraining, Outlet::still_air);
+    Fields& f = box.s.f;
+    f.fx[box.at(0, 2, 3)] = inflow, f.fx[box.at(4, 2, 3)] = -inflow;
+    f.fy[box.at(2, 0, 3)] = inflow, f.fy[box.at(2, 5, 3)] = -inflow;
+    box.ghosts();
+    const Inlet& in = box.b.inlet;
+    const struct {
+      std::ptrdiff_t ghost, cell;
+      bool across_x;
+    } sides[] = {{box.at(-1, 2, 3), box.at(0, 2, 3), true},
+                 {box.at(4, 2, 3), box.at(3, 2, 3), true},
+                 {box.at(2, -1, 3), box.at(2, 0, 3), false},
+                 {box.at(2, 5, 3), box.at(2, 4, 3), false}};
+    for (const auto& side : sides) {
+      const auto expect_beyond = [&](const Array<double>& q, double stream, bool across) {
+        EXPECT_EQ(q[side.ghost], inflow > 0 && !across ? stream : q[side.cell])
+            << inflow << " " << side.ghost;
+      };
+      expect_beyond(f.u, 0, side.across_x), expect_beyond(f.v, 0, !side.across_x);
+      expect_beyond(f.w, in.stream_speed, false);
+      expect_beyond(f.k, in.stream_k, false), expect_beyond(f.omega, in.stream_omega, false);
+    }
+  }
 }
 
 TEST(Boundary, AirThatComesBackThroughTheOutletIsAtRestOrHasTheTotalPressureOfStillAir) {

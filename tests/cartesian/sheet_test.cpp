@@ -92,6 +92,34 @@ TEST(SheetFaces, TheSharesOfAllFacesAddUpToTheSheet) {
   }
 }
 
+// No length is meant in metres.
+TEST(SheetFaces, OfASheetInAGridAsManyTimesAsLargeAreTheSame) {
+  const Vec3 centre{0.013, -0.007, 2.031};
+  std::vector<Triangle> surface = hemispherical_cup(0.65, centre);
+  for (const Triangle& t : hemispherical_cup(0.61, centre))
+    surface.push_back(t);  // a second layer close to it
+  for (const Triangle& t : rigid_disk_gap_band({0.1, 0.05, 1.2})) surface.push_back(t);
+  const std::vector<SheetFace> once =
+      sheet_faces(uniform(-1, 2, 40), uniform(-1, 2, 40), uniform(0, 4, 60), surface);
+  ASSERT_GT(once.size(), 1000u);
+  for (const double scale : {1.0 / 64, 64.0}) {  // exact in floating point
+    std::vector<Triangle> scaled = surface;
+    for (Triangle& t : scaled) t.a *= scale, t.b *= scale, t.c *= scale;
+    const Axis x = uniform(-scale, 2 * scale, 40), z = uniform(0, 4 * scale, 60);
+    const std::vector<SheetFace> faces = sheet_faces(x, x, z, scaled);
+    ASSERT_EQ(faces.size(), once.size()) << scale;
+    for (std::size_t n = 0; n < faces.size(); ++n) {
+      const SheetFace &a = once[n], &b = faces[n];
+      ASSERT_EQ(std::tie(a.axis, a.i, a.j, a.k, a.triangle, a.against, a.hem),
+                std::tie(b.axis, b.i, b.j, b.k, b.triangle, b.against, b.hem));
+      ASSERT_NEAR(b.area / (scale * scale), a.area, 1e-12) << n;
+      ASSERT_NEAR(b.cover, a.cover, 1e-12) << n;
+      ASSERT_NEAR(norm(b.across - a.across), 0, 1e-12) << n;
+      ASSERT_NEAR(norm(b.outward - a.outward), 0, 1e-12) << n;
+    }
+  }
+}
+
 // A tube along z: beside its hems lines that do not meet it have mostly passed it by, and only the row in which it ends
 // is open in part.
 TEST(SheetFaces, BesideAHemAFaceIsOpenWhereTheSheetHasEndedAndNotWhereItHasBentAway) {
@@ -255,6 +283,27 @@ CartesianSettings threads(int count) {
 }
 
 // Half a cell at least; on its columns the plane has a point straight below or above every cell.
+// Rows that no sheet touches are computed as in open air.
+TEST(Sheet, TouchesTheRowsOfCellsOnBothItsSidesAndNoOthers) {
+  const int n = 10;
+  const Axis axis = uniform(0, 1, n);
+  for (const int across : {0, 1, 2}) {
+    Vec3 corner{0.31, 0.31, 0.31}, u{}, v{};
+    (across == 0 ? corner.x : across == 1 ? corner.y : corner.z) = 0.5;
+    (across == 0 ? u.y : u.x) = 0.28;
+    (across == 2 ? v.y : v.z) = 0.28;
+    const std::vector<Triangle> plate = {{corner, corner + u, corner + u + v},
+                                         {corner, corner + u + v, corner + v}};
+    const cartesian::SheetRows rows(axis, axis, axis, {{plate, f111, 0}});
+    for (int k = 0; k < n; ++k)
+      for (int j = 0; j < n; ++j) {
+        const bool in_j = across == 1 ? j == 4 || j == 5 : j >= 3 && j < 6;
+        const bool in_k = across == 2 ? k == 4 || k == 5 : k >= 3 && k < 6;
+        EXPECT_EQ(rows.touches(j, k), in_j && in_k) << across << ": " << j << " " << k;
+      }
+  }
+}
+
 TEST(Sheet, TheDistanceToAPlaneIsThatStraightToIt) {
   const Axis x = uniform(0, 1, 4), y = uniform(0, 1, 5), z = uniform(0, 3, 12);
   const Vec3 p[] = {{-1, -1, 1.53}, {2, -1, 1.53}, {2, 2, 1.53}, {-1, 2, 1.53}};

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <numbers>
 #include <numeric>
 
@@ -133,6 +134,43 @@ TEST(Chute, NothingOfTheFileIsSilentlyLeftOut) {
   EXPECT_NEAR(canopy.pieces[0].radius_m.front(), 0.2 + 0.3 * std::cos(0.5), 1e-8);
   EXPECT_NEAR(canopy.pieces[1].radius_m.back(), 0.02, 1e-8);
   EXPECT_FALSE(canopy.vent_lines);
+}
+
+/// `text` with the first `from` replaced.
+std::string with_first(std::string text, const std::string& from, const std::string& to) {
+  return text.replace(text.find(from), from.size(), to);
+}
+
+TEST(Chute, AnArcHasAsManyPointsFromWhereverItsAnglesCount) {
+  const auto points_of_first_piece = [](const std::string& text) {
+    const ChuteImport result = import_chute(read_chute(text, "odd"), {}, "odd");
+    const Case given = parse_case(result.case_text, "case.toml");
+    std::size_t most = 0;
+    for (const ProfilePiece& piece : given.parachute.canopy.as<ProfileCanopy>()->pieces)
+      most = std::max(most, piece.radius_m.size());
+    return most;
+  };
+  const std::string quarter = chute_text("odd");
+  std::string turned = with_first(quarter, "\"start_angle\": \"0\"", "\"start_angle\": \"pi\"");
+  turned = with_first(turned, "\"stop_angle\": \"pi/2\"", "\"stop_angle\": \"3*pi/2\"");
+  turned = with_first(turned, "\"rotation\": \"0.0\"", "\"rotation\": \"pi\"");
+  EXPECT_NE(turned, quarter);
+  EXPECT_GT(points_of_first_piece(quarter), 50u);
+  EXPECT_EQ(points_of_first_piece(turned), points_of_first_piece(quarter));
+}
+
+TEST(Chute, RoundPiecesAreCutAsTheGoresOfTheOthersWhicheverComesFirst) {
+  using Json = nlohmann::json;
+  for (const std::size_t round : {0, 1}) {
+    Json mixed = Json::parse(chute_text("disk-gap-band"));
+    Json& sections = mixed["chute_sections"];
+    sections[round]["gores"] = 8, sections[1 - round]["gores"] = 9;
+    const Json line = sections[1 - round]["section_type"]["Circular"];
+    sections[1 - round]["section_type"] = {{"Polygonal", {{"objects", {{{"Line", line}}}}}}};
+    const ChuteImport result = import_chute(read_chute(mixed.dump(), "mixed"), {}, "mixed");
+    EXPECT_TRUE(says(result.changed, "gores = 8: cut as 9 gores, like the other pieces")) << round;
+    EXPECT_EQ(parse_case(result.case_text, "case.toml").parachute.gores, 9) << round;
+  }
 }
 
 TEST(Chute, TheMeshHasTheClothOfThePattern) {

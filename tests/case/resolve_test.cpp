@@ -160,6 +160,32 @@ TEST(Resolved, ASheetStandsInABoxThatScalesWithTheCanopy) {
   EXPECT_EQ(problem.sheets[0].linear, 8169.3);
 }
 
+TEST(Resolved, TheProblemOfTheFlowHasEveryValueOfTheCase) {
+  const Case given = parse_case(
+      replaced(short_case, "density_kg_m3 = 1.2", "density_kg_m3 = 1.1") +
+          "viscosity_pa_s = 1.7e-5\ntemperature_k = 280\nturbulence_intensity = 0.02\n"
+          "viscosity_ratio = 5\nresidual = 2e-4\nmax_iterations = 70\naverage_over = 20\nunsteady = true\n"
+          "watch = { courant = 0.6, standard_error = 0.03, shortest = 40, longest = 90 }\n",
+      "case.toml");
+  const SteadyProblem problem = steady_problem(given);
+  EXPECT_EQ(problem.flow.air, (Freestream{8, 1.1, 1.7e-5, 280, 0.02, 5}));
+  EXPECT_EQ(problem.flow.stopping.residual, 2e-4);
+  EXPECT_EQ(problem.flow.stopping.max_iterations, 70);
+  EXPECT_EQ(problem.flow.stopping.average_over, 20);
+  EXPECT_EQ(problem.flow.grid.cells(), flow_grid(given).cells());
+  EXPECT_EQ(problem.flow.sides, Sides::entraining);
+  EXPECT_EQ(problem.flow.outlet, Outlet::still_air);
+  EXPECT_EQ(problem.reference_area, nominal_area(given.parachute));
+  EXPECT_EQ(problem.settings.drag_tolerance, resolve(given).coupling.drag_tolerance);
+  ASSERT_TRUE(problem.watch.has_value());
+  EXPECT_EQ(problem.watch->courant, 0.6);
+  EXPECT_EQ(problem.watch->standard_error, 0.03);
+  EXPECT_EQ(problem.watch->shortest, 40);
+  EXPECT_EQ(problem.watch->longest, 90);
+  EXPECT_EQ(problem.watch->length, inflated_diameter(given.parachute));
+  EXPECT_FALSE(steady_problem(parse_case(short_case, "short")).watch.has_value());
+}
+
 TEST(Resolved, AnOpenJetStandsInAWideBoxOfStillAirThatBeginsAtTheNozzle) {
   const Case given = parse_case(
       short_case + "tunnel = { kind = \"open-jet\", shape = \"octagon\", width_m = 6 }\n", "case.toml");

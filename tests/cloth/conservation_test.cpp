@@ -26,6 +26,24 @@ std::vector<Vec3> forces(const Mesh& mesh, const Cloth& cloth, const std::vector
   return f;
 }
 
+TEST(ClothLaws, ATiedNodeHandsOnWhatTheSpringsOnBothItsSidesPull) {
+  const Mesh mesh = medley(0, true);
+  const ClothPtr cloth = make_cloth(mesh);
+  ClothState state = start_state(*cloth);
+  set_positions(state, *cloth, shaken(mesh.start, 2e-3, 7));
+  const std::vector<Vec3> x = positions(state, *cloth);
+  Mesh loose = mesh;
+  loose.ties.clear(), loose.fixed.clear();
+  const std::vector<Vec3> pulls =
+      reference_forces(loose, {}, {}, x, std::vector<Vec3>(static_cast<std::size_t>(mesh.node_count())));
+  const std::vector<Vec3> handed_on = tie_forces(*cloth, state);
+  ASSERT_EQ(handed_on.size(), mesh.ties.size());
+  for (std::size_t k = 0; k < mesh.ties.size(); ++k) {
+    const Vec3 wanted = pulls[mesh.ties[k].node];
+    EXPECT_NEAR(norm(handed_on[k] - wanted), 0, 1e-9 * (1 + norm(wanted))) << k;
+  }
+}
+
 TEST(ClothLaws, InternalForcesAndMomentsSumToZero) {
   const Mesh mesh = medley(0.02, false);
   const ClothPtr cloth = make_cloth(mesh);

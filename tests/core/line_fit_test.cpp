@@ -38,6 +38,8 @@ TEST(LineFit, HasTheErrorsOfTheTextbook) {
 TEST(LineFit, NeedsTwoDifferentX) {
   EXPECT_THROW(fit_line(std::vector<double>{1, 1}, std::vector<double>{1, 2}), Error);
   EXPECT_THROW(fit_line(std::vector<double>{1}, std::vector<double>{1}), Error);
+  EXPECT_THROW(fit_line(std::vector<double>{1, 2, 3}, std::vector<double>{1, 2}), Error);
+  EXPECT_THROW(fit_line(std::vector<double>{}, std::vector<double>{}), Error);
 }
 
 }  // namespace

@@ -235,6 +235,32 @@ TEST(SolverLog, AnIterationEndsWithItsForces) {
   EXPECT_FALSE(log.floating_point_trap());
 }
 
+TEST(SolverLog, KnowsWhatEndedTheSolverByItsOwnWords) {
+  struct Words {
+    const char* line;
+    bool converged, not_a_number, trap, memory, fatal;
+  };
+  for (const Words& words : {
+           Words{"SIMPLE solution converged in 41 iterations", true, false, false, false, false},
+           Words{"Solving for p, Initial residual = nan, Final", false, true, false, false, false},
+           Words{"#1  Foam::sigFpe::sigHandler(int)", false, false, true, false, false},
+           Words{"terminate called after throwing an instance of 'std::bad_alloc'", false, false, false, true,
+                 false},
+           Words{"fork: Cannot allocate memory", false, false, false, true, false},
+           Words{"--> FOAM FATAL ERROR: ", false, false, false, false, true},
+           Words{"ExecutionTime = 1 s", false, false, false, false, false},
+       }) {
+    SolverLog log(SolverLog::Forces::none);
+    for (const char* line : {"Time = 1", words.line, "said next", "Time = 2"}) log.feed(line);
+    EXPECT_EQ(log.converged(), words.converged) << words.line;
+    EXPECT_EQ(log.not_a_number(), words.not_a_number) << words.line;
+    EXPECT_EQ(log.floating_point_trap(), words.trap) << words.line;
+    EXPECT_EQ(log.out_of_memory(), words.memory) << words.line;
+    EXPECT_EQ(log.fatal(), words.fatal ? "said next | Time = 2" : "") << words.line;
+    EXPECT_EQ(log.iteration(), 2) << words.line;
+  }
+}
+
 TEST(SolverLog, TheNextIterationHasItsOwnResiduals) {
   SolverLog log(SolverLog::Forces::none);
   const auto iteration = [&](const char* time, double x, double y) {

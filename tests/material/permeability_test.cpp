@@ -59,6 +59,19 @@ TEST(Permeability, ALawThatWouldPushAirUpstreamIsHeldAtZero) {
   EXPECT_TRUE(fit.on_bound);
   EXPECT_GE(fit.law.linear, 0);
   EXPECT_EQ(fit.law.quadratic, 0);
+  // And one that grows faster than its square: a would be. Relative errors count.
+  const std::vector<FlowPoint> steep = {{10, 0.1}, {60, 0.2}, {180, 0.3}};
+  const PermeabilityFit square = fit_permeability(steep);
+  EXPECT_TRUE(square.on_bound);
+  EXPECT_EQ(square.law.linear, 0);
+  const auto error = [&](double quadratic) {
+    double sum = 0;
+    for (const FlowPoint& p : steep)
+      sum += std::pow(pressure_drop({0, quadratic}, p.velocity) / p.pressure - 1, 2);
+    return sum;
+  };
+  EXPECT_LT(error(square.law.quadratic), error(1.001 * square.law.quadratic));
+  EXPECT_LT(error(square.law.quadratic), error(0.999 * square.law.quadratic));
 }
 
 TEST(Permeability, CfmTypedAsMetresASecondIsCaught) {

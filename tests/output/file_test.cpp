@@ -8,8 +8,10 @@
 
 #include <csignal>
 #include <fstream>
+#include <functional>
 #include <thread>
 
+#include "../flushes.h"
 #include "../refusal.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/hash.h"
@@ -79,6 +81,38 @@ TEST(WriteFile, AFullDiskIsNamedAsTheReason) {
   const std::string message = refusal_of([] { append_to_file("/dev/full", "x"); }, ExitCode::io);
   EXPECT_EQ(message,
             "cannot append to /dev/full: No space left on device; free some space, or write elsewhere");
+}
+
+// A name that is on the disk before its bytes would be an empty file after a power cut.
+TEST(WriteFile, TheBytesAreOnTheDiskBeforeTheNameAndThatIsBeforeItReturns) {
+  const TemporaryFolder folder("file-flushed");
+  write_file(folder.path / "a", "old");
+  Flushes flushes;
+  write_file(folder.path / "a", "new");
+  ASSERT_EQ(flushes.paths.size(), 2u);
+  EXPECT_EQ(written_as(flushes.paths[0].filename()), "a");  // not yet renamed
+  EXPECT_EQ(flushes.paths[1], folder.path);
+  append_to_file(folder.path / "a", "er");
+  ASSERT_EQ(flushes.paths.size(), 3u);
+  EXPECT_EQ(flushes.paths[2], folder.path / "a");
+  EXPECT_EQ(read_file(folder.path / "a"), "newer");
+}
+
+TEST(WriteFile, WhatDoesNotReachTheDiskIsNoSuccess) {
+  const TemporaryFolder folder("file-unflushed");
+  write_file(folder.path / "a", "old");
+  Flushes flushes;
+  const auto refused = [&](const std::string& failing, const std::function<void()>& what) {
+    flushes.failing = failing;
+    const std::string message = refusal_of(what, ExitCode::io);
+    EXPECT_NE(message.find("Input/output error"), std::string::npos) << message;
+    EXPECT_NE(message.find(folder.path.string()), std::string::npos) << message;
+  };
+  refused(".a.", [&] { write_file(folder.path / "a", "new"); });
+  EXPECT_EQ(read_file(folder.path / "a"), "old");
+  EXPECT_EQ(files_in(folder.path), 1u);
+  refused("file-unflushed", [&] { write_file(folder.path / "a", "new"); });
+  refused("a", [&] { append_to_file(folder.path / "a", "er"); });
 }
 
 TEST(WriteFile, AReaderSeesOneOfTheTwoContentsNeverAMixture) {

@@ -85,6 +85,37 @@ TEST(Render, ALineIsSeenBeforeTheClothAndHiddenBehindIt) {
   }
 }
 
+TEST(Render, TheNearerLineHidesTheFartherWhateverTheOrder) {
+  for (bool near_first : {true, false}) {
+    Scene scene;
+    scene.points = {{-0.9, 0, 0.5}, {0.9, 0, 0.5}, {0, -0.9, -0.5}, {0, 0.9, -0.5}};
+    scene.lines = {{0, 1, 5, blue}, {2, 3, 5, red}};
+    if (!near_first) std::swap(scene.lines[0], scene.lines[1]);
+    const Raster raster = render(scene, two_metres_high(), 64, 64, 1);
+    EXPECT_EQ(part(raster.argb[32 * 64 + 32], 'b'), 255u) << near_first;
+    EXPECT_EQ(part(raster.argb[32 * 64 + 32], 'r'), 0u) << near_first;
+    EXPECT_EQ(part(raster.argb[16 * 64 + 32], 'r'), 255u) << near_first;
+  }
+}
+
+TEST(Render, TheRimOfTheNearerSurfaceIsDarkAllRoundAndNotWhereItLiesOnTheFarther) {
+  for (const double behind : {-0.5, -1e-4}) {
+    Scene scene;
+    add_rectangle(scene, -0.8, -0.8, 0.8, 0.8, behind, red);
+    add_rectangle(scene, -0.5, -0.5, 0.5, 0.5, 0, blue);
+    const Raster raster = render(scene, two_metres_high(), 128, 128, 1);  // 64 pixels a metre
+    const auto blue_at = [&](int x, int y) { return part(raster.argb[y * 128 + x], 'b'); };
+    const std::uint32_t middle = blue_at(64, 64);
+    EXPECT_GT(middle, 100u);
+    for (const auto& [x, y] : {std::pair{32, 64}, {95, 64}, {64, 32}, {64, 95}}) {
+      if (behind < -0.1)
+        EXPECT_LT(blue_at(x, y) + 20, middle) << x << " " << y;
+      else
+        EXPECT_EQ(blue_at(x, y), middle) << x << " " << y;
+    }
+  }
+}
+
 TEST(Render, BothSidesOfTheClothLookTheSame) {
   Scene scene;
   add_rectangle(scene, -0.5, -0.5, 0.5, 0.5, 0, red);

@@ -107,6 +107,25 @@ Case of_two_pieces(bool sewn) {
   return given;
 }
 
+TEST(ProfileCanopies, EdgesOfUnequalFullnessAreNotSewnTogether) {
+  const auto problems = [](double below, double above) {
+    Case given = of_two_pieces(true);
+    ProfileCanopy canopy = *given.parachute.canopy.as<ProfileCanopy>();
+    canopy.pieces[0].trailing_fullness = below, canopy.pieces[1].leading_fullness = above;
+    given.parachute.canopy = canopy;
+    try {
+      checked(given);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(problems(0.1, 0.1), "");
+  EXPECT_NE(problems(0.1, 0.2).find("parachute.pieces[1].sewn = true: edges of unequal fullness"),
+            std::string::npos)
+      << problems(0.1, 0.2);
+}
+
 /// Of the nodes round one edge, those that a tie or one and the same node holds on the other piece.
 int held_nodes(const CanopyMesh& mesh) {
   const auto piece = [&](const char* name, bool last) {
@@ -177,6 +196,28 @@ TEST(ProfileCanopies, ThePatternsStripsAreTheFlatGoresOfItsMeridian) {
                                      upper * 0.5 * (chord(0.4) + chord(0.06)));
   const double vent = gores * 0.25 * chord(0.06) * chord(0.06) / std::tan(pi / gores);
   EXPECT_NEAR(pattern.nominal_area, trapezoids + vent, 1e-12);
+}
+
+// Its middle tilts outward about the upper edge.
+TEST(ProfileCanopies, AGoreThatBulgesMoreBelowThanAboveIsAsHighInItsMiddleAsOnThePattern) {
+  Case given = of_two_pieces(false);
+  ProfileCanopy canopy = *given.parachute.canopy.as<ProfileCanopy>();
+  canopy.pieces[1].leading_fullness = 0.1, canopy.pieces[1].trailing_fullness = 0.05;
+  canopy.pieces[1].height_m = {0.25, 0.45};
+  given.parachute.canopy = canopy;
+  const CanopyMesh mesh = parachute_mesh(given);
+  const Patch& patch = mesh.patches.back();
+  const double gore = 2 * pi / given.parachute.gores;
+  const double height = gore_pattern(canopy, given.parachute.gores).strips[1].length();
+  int middles = 0;
+  for (int column = 0; column < patch.columns; ++column) {
+    const Vec3 low = mesh.start[patch.node(0, column)], high = mesh.start[patch.node(patch.rows - 1, column)];
+    const double turns = std::atan2(low.y, low.x) / gore;
+    if (std::abs(turns - std::floor(turns) - 0.5) > 1e-6) continue;
+    EXPECT_NEAR(norm(high - low), height, 1e-9) << column;
+    ++middles;
+  }
+  EXPECT_EQ(middles, given.parachute.gores);
 }
 
 TEST(FoldsWithoutStrain, DisksCylindersAndConesDoAndAGoreThatBulgesDoesNot) {

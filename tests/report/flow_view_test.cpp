@@ -47,6 +47,33 @@ TEST(FlowView, ALinearFieldIsThatOfThePlacesThatItNames) {
       }
 }
 
+TEST(FlowView, EveryPointOfAStreamlineHasTheSpeedOfTheAirThere) {
+  const TemporaryFolder folder("flow-view");
+  FlowField field;
+  field.grid = {{-2, -3, -1}, {4, 6, 10}, 20, 24, 30};
+  for (int cell = 0; cell < field.grid.cells(); ++cell) {
+    field.pressure.push_back(0);
+    field.velocity.push_back({0, 0, 2 + field.grid.centre(0, cell % field.grid.nx)});
+  }
+  const FlowView view =
+      read_flow(write_image(folder.path / "flow", flow_image(field)), {-0.5, -0.6, 1}, {0.5, 0.6, 2}, 4000);
+  std::size_t points = 0;
+  for (const int length : view.lengths) points += static_cast<std::size_t>(length);
+  EXPECT_GT(view.lengths.size(), 100u);
+  ASSERT_EQ(view.streamlines.size(), 3 * points);
+  ASSERT_EQ(view.streamline_speed.size(), points);
+  for (std::size_t n = 0; n < points; ++n)
+    ASSERT_NEAR(view.streamline_speed[n], 2 + view.streamlines[3 * n], 1e-5) << n;
+  std::size_t first = 0;  // of a line
+  for (const int length : view.lengths) {
+    for (std::size_t n = first + 1; n < first + static_cast<std::size_t>(length); ++n) {
+      ASSERT_NEAR(view.streamlines[3 * n], view.streamlines[3 * first], 1e-9);
+      ASSERT_GT(view.streamlines[3 * n + 2], view.streamlines[3 * n - 1]);
+    }
+    first += static_cast<std::size_t>(length);
+  }
+}
+
 // Beyond the outermost centres the field is that of the outermost cells, which are wide where the grid is graded.
 TEST(FlowView, AtTheEdgeOfTheBoxStandsTheOutermostCell) {
   const TemporaryFolder folder("flow-view");

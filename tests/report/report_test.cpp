@@ -182,6 +182,32 @@ TEST(ReportPage, SaysOfEveryRunWhatMadeIt) {
   EXPECT_TRUE(runs.at(1).at("provenance").empty());
 }
 
+TEST(ReportPage, HasTablesAndPlotsWithTheirWordsUnitsAndNumbers) {
+  const ReportTable table{"ledger", "Ledger", "a note", {{"member", ""}, {"load", "N"}}, {{"line", "1.5"}}};
+  ReportPlot plot;
+  plot.id = "drag", plot.title = "Drag", plot.x = {"speed", "m/s"}, plot.y = {"drag", "N"};
+  plot.series = {{"computed", {1, 2}, {1.0 / 3, NAN}, false, true}};
+  plot.logarithmic = true;
+  Report report;
+  report.runs.resize(2);
+  report.runs[0].tables = {table};
+  report.runs[0].plots = {plot};
+  report.comparison = table;
+  plot.logarithmic = false, plot.over_time = true;
+  report.plots = {plot};
+  const json page = data_of(report);
+  const json of_table = json::parse(R"({"id": "ledger", "title": "Ledger", "note": "a note",
+      "columns": [{"text": "member", "unit": ""}, {"text": "load", "unit": "N"}], "rows": [["line", "1.5"]]})");
+  json of_plot = json::parse(R"({"id": "drag", "title": "Drag", "x": {"text": "speed", "unit": "m/s"},
+      "y": {"text": "drag", "unit": "N"}, "logarithmic": true, "overTime": false,
+      "series": [{"name": "computed", "x": [1, 2], "y": [0.333333, null], "line": false, "dashed": true}]})");
+  EXPECT_EQ(page.at("runs")[0].at("tables"), json::array({of_table}));
+  EXPECT_EQ(page.at("runs")[0].at("plots"), json::array({of_plot}));
+  EXPECT_EQ(page.at("comparison"), of_table);
+  of_plot["logarithmic"] = false, of_plot["overTime"] = true;
+  EXPECT_EQ(page.at("plots"), json::array({of_plot}));
+}
+
 TEST(ReportPage, HasTheStreamlinesByTheirPointsWithTheSpeedAtEach) {
   Report report;
   report.runs.resize(1);

@@ -9,8 +9,10 @@
 #include <cmath>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <stdexcept>
 
+#include "../refusal.h"
 #include "../small_case.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/error.h"
@@ -127,27 +129,50 @@ TEST_F(InflationFolderTest, InItsOwnAirAKilledRunGoesOnByteIdentical) {
         {{root / name}, 1, 0}, opening, source, [&] { return opening_problem(opening, source, 1); },
         observer);
   };
-  struct KilledAt3ms : InflationObserver {
+  struct KilledAfter : InflationObserver {
+    long long blocks = 0;
     void advanced(const Inflation&, const InflationState& state, const InflationHistory&,
                   const InflationFrame*) override {
-      if (state.cloth.time > 2.9e-3) throw std::runtime_error("killed");
+      if (state.blocks == blocks) throw std::runtime_error("killed");
     }
-  } killed;
-  Resumed undisturbed, resumed;
+  };
+  Resumed undisturbed;
   const auto whole = open_in_air("whole", undisturbed);
   ASSERT_TRUE(whole && whole->added_mass);
   // Of the folded start in the first row, of the canopy as it stands at the end in the result.
   const double at_start = read_csv(root / "whole/air.csv").column("added_mass_kg").front();
   EXPECT_GT(at_start, 0);
   EXPECT_GT(*whole->added_mass, at_start);
-  EXPECT_THROW(open_in_air("killed", killed), std::runtime_error);
-  EXPECT_TRUE(fs::exists(root / "killed/air"));
-  ASSERT_TRUE(open_in_air("killed", resumed));
-  EXPECT_EQ(resumed.first_block, 3);
-  EXPECT_FALSE(fs::exists(root / "killed/air"));  // nothing goes on from it
-  for (const char* table :
-       {"history.csv", "balance.csv", "air.csv", "lines.csv", "result.json", "vtk/air_0004.vti"})
-    EXPECT_EQ(read_file(root / "killed" / table), read_file(root / "whole" / table)) << table;
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(root / "whole")) names.insert(entry.path().filename());
+  EXPECT_EQ(names,
+            (std::set<std::string>{".ripstop",      "added_mass.png", "air.csv",     "air.pvd",
+                                   "balance.csv",   "canopy.pvd",     "case.toml",   "checkpoint",
+                                   "drag_area.png", "folded.png",     "history.csv", "history_low_pass.csv",
+                                   "lines.csv",     "lines.pvd",      "load.png",    "report.html",
+                                   "result.json",   "run.json",       "shapes.png",  "vtk"}));
+  for (const long long blocks : {2, 3}) {  // the air is in one of two folders in turn
+    KilledAfter killed;
+    killed.blocks = blocks;
+    const std::string name = fmt::format("killed after {}", blocks);
+    EXPECT_THROW(open_in_air(name.c_str(), killed), std::runtime_error);
+    EXPECT_TRUE(fs::exists(root / name / "air"));
+    struct ResumedInAir : Resumed {
+      fs::path air;
+      void advanced(const Inflation&, const InflationState&, const InflationHistory&,
+                    const InflationFrame*) override {
+        for (const auto& entry : fs::directory_iterator(air))
+          EXPECT_TRUE(entry.path().filename() == "even" || entry.path().filename() == "odd") << entry.path();
+      }
+    } resumed;
+    resumed.air = root / name / "air";
+    ASSERT_TRUE(open_in_air(name.c_str(), resumed));
+    EXPECT_EQ(resumed.first_block, blocks);
+    EXPECT_FALSE(fs::exists(root / name / "air"));  // nothing goes on from it
+    for (const char* table :
+         {"history.csv", "balance.csv", "air.csv", "lines.csv", "result.json", "vtk/air_0004.vti"})
+      EXPECT_EQ(read_file(root / name / table), read_file(root / "whole" / table)) << name << ' ' << table;
+  }
 }
 
 // Killed when the air of the next checkpoint was on the disk and that checkpoint was not.
@@ -261,6 +286,20 @@ TEST_F(InflationFolderTest, ADamagedCheckpointIsNoticedAndOtherInputsAreRefused)
   given.inflation.damping_n_s_m3 = 9;
   EXPECT_THROW(open("run", quiet), Error);
   EXPECT_TRUE(open("run", quiet, true));
+}
+
+TEST_F(InflationFolderTest, TheCheckpointOfAnotherMeshIsRefused) {
+  Killed killed, other;
+  killed.folder = root / "run", other.folder = root / "other";
+  EXPECT_THROW(open("run", killed), std::runtime_error);
+  given.parachute.mesh.cloth_nodes = 1000;
+  EXPECT_THROW(open("other", other), std::runtime_error);
+  given.parachute.mesh.cloth_nodes = 1500;
+  write_file(root / "run" / "checkpoint", other.checkpoint);
+  InflationObserver quiet;
+  const std::string message = refusal_of([&] { open("run", quiet); }, ExitCode::bad_data);
+  EXPECT_NE(message.find("checkpoint: is of another mesh; start again with --fresh"), std::string::npos)
+      << message;
 }
 
 TEST_F(InflationFolderTest, TablesThatDoNotBelongToTheCheckpointAreRefused) {

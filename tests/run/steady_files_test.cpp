@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "../output/read_png.h"
 #include "finished_run.h"
@@ -59,6 +60,12 @@ TEST(SteadyFiles, HaveTheNumbersOfTheStateThatTheRunEndedIn) {
   const std::size_t count = ending.state.iterations.size();
   ASSERT_GE(count, 2u);
 
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder.path)) names.insert(entry.path().filename());
+  EXPECT_EQ(names, (std::set<std::string>{".ripstop", "canopy.png", "canopy.pvd", "canopy.stl", "case.toml",
+                                          "checkpoint", "drag.png", "flow.vti", "iterations.csv", "lines.csv",
+                                          "lines.pvd", "load.png", "pressure.csv", "pressure.png",
+                                          "report.html", "result.json", "run.json", "vtk"}));
   const CsvTable iterations = read_csv(folder.path / "iterations.csv");
   EXPECT_EQ(iterations.columns, columns_of<SteadyIteration>());
   ASSERT_EQ(iterations.rows.size(), count);

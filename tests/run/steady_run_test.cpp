@@ -4,7 +4,9 @@
 
 #include <cmath>
 #include <filesystem>
+#include <set>
 
+#include "../refusal.h"
 #include "formula_flow.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/error.h"
@@ -155,6 +157,39 @@ TEST(SteadyRun, ARunThatWasKilledBetweenIterationsGoesOnBitForBit) {
   EXPECT_EQ(state.iterations.back().fluid_force, undisturbed.iterations.back().fluid_force);
 }
 
+/// Whose flow cannot be saved once it is told so.
+struct FullDisk : FormulaEngine {
+  struct OnFullDisk : FormulaFlow {
+    OnFullDisk(const FlowProblem& problem, const bool& is_full) : FormulaFlow(problem), full(is_full) {}
+    void save(const fs::path& to) const override {
+      if (full) throw Error(ExitCode::io, "the disk is full");
+      FormulaFlow::save(to);
+    }
+    const bool& full;
+  };
+  std::unique_ptr<Flow> start(const FlowProblem& problem) override {
+    return std::make_unique<OnFullDisk>(problem, full);
+  }
+  bool full = false;
+};
+
+// The third checkpoint takes the place of the first, whose flow is not its own.
+TEST(SteadyRun, ACheckpointOfWhichOnlyAPartWasWrittenIsNotRead) {
+  TemporaryFolder folder("steady_half");
+  FullDisk engine;
+  SteadySolver solver(small_problem(), engine);
+  SteadyState state = solver.start();
+  for (int k = 0; k < 3; ++k) {
+    solver.iterate(state);
+    if (k < 2) save_checkpoint(folder.path, state, solver.flow());
+  }
+  engine.full = true;
+  EXPECT_THROW(save_checkpoint(folder.path, state, solver.flow()), Error);
+  EXPECT_EQ(load_checkpoint(folder.path, solver.flow()).value().state.iterations.size(), 2u);
+  fs::resize_file(folder.path / "even/state", 10);
+  EXPECT_THROW(load_checkpoint(folder.path, solver.flow()), Error) << "a state beside the flow of another";
+}
+
 TEST(SteadyRun, ADamagedCheckpointIsNeverReadAsOne) {
   FormulaEngine engine;
   SteadySolver solver(small_problem(), engine);
@@ -302,6 +337,29 @@ TEST(SteadyRun, ACanopyOutsideTheBoxIsRefused) {
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::usage);
     EXPECT_NE(std::string(error.what()).find("does not fit"), std::string::npos);
+  }
+}
+
+// Of cloth that does not close about an axis the outermost column is the first corner of its cells and no other.
+TEST(SteadyRun, AnEdgeOfTheClothOutsideTheBoxIsRefused) {
+  Case given = read_case(fs::path(RIPSTOP_SOURCE_DIR) / "examples/cross/case.toml");
+  given.parachute.mesh.cloth_nodes = 300;
+  given.flow.cells = {20, 20, 30};
+  given.coupling.threads = 1;
+  const SteadyProblem fits = steady_problem(given);
+  FormulaEngine engine;
+  EXPECT_NO_THROW(SteadySolver(fits, engine));
+  std::set<int> first, second;
+  for (const Cell& cell : cells_of(fits.mesh))
+    if (cell.corner[0] >= 0) first.insert(cell.corner[0]), second.insert(cell.corner[1]);
+  std::erase_if(first, [&](int node) { return second.contains(node); });
+  EXPECT_GT(first.size(), 5u);
+  for (const int node : first) {
+    SteadyProblem outside = fits;
+    outside.mesh.start[node].x -= 100;
+    EXPECT_NE(refusal_of([&] { SteadySolver(outside, engine); }, ExitCode::usage).find("cloth at (-"),
+              std::string::npos)
+        << node;
   }
 }
 

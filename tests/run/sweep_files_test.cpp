@@ -80,6 +80,9 @@ TEST_F(SweepFiles, APlotHasALineForEveryValueOfTheOtherAxis) {
   sweep({speeds, sweep_axis("materials.f-111.darcy", {"50", "60"}, "--vary")});
   write_sweep_plots(folder.path, "two", axes, points, rows);
   EXPECT_EQ(colours(), one + 1);
+  // The second of two that may lie on one another is dashed.
+  const std::string drag = read_file(folder.path / "drag.svg");
+  EXPECT_NE(drag.find("stroke-dasharray"), std::string::npos);
   for (const char* file : {"drag", "drag_area", "drag_coefficient", "wall_time", "iterations", "diameters"})
     for (const char* ending : {".svg", ".png"})
       EXPECT_TRUE(std::filesystem::exists(folder.path / (std::string(file) + ending))) << file;

@@ -365,7 +365,7 @@ def batches(mutant, number, tests, most, passed):
             found.append((room != own, False, sum(s for s, _ in part), room, [t for _, t in part]))
         found += [(room != own, True, s, room, [t]) for s, t in list_of if s >= 1]
     spent = 0
-    for _, _, seconds, room, names in sorted(found, key=lambda b: (b[0] and b[1], b[0], b[2])):
+    for _, _, seconds, room, names in sorted(found, key=lambda b: (b[0] and b[1], b[0], b[2] / len(b[4]))):
         if spent + seconds > most and spent > 0:
             left_out += len(names)
             continue
@@ -419,6 +419,7 @@ def main():
     parser.add_argument("--fresh", type=int, default=0, help="as many more beyond it, which are told by themselves")
     parser.add_argument("--after", type=int, default=0, help="where in the order of the mutants the fresh ones begin (default: behind the sample)")
     parser.add_argument("--count", type=int, default=0, help="of the fresh ones only so many, picked by a hash of their names; 0: all")
+    parser.add_argument("--skip", type=int, default=0, help="and without so many, the first by that hash, that were met before")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--slowest", type=float, default=mutants_table.SLOWEST, help="a test that takes longer, s, is left out")
     parser.add_argument("--tests", default="", help="only those tests whose names, room.Suite.Test, this expression finds")
@@ -434,9 +435,9 @@ def main():
     log, left_out = read_log(), set()
 
     def pick(dropped):
-        """With --count: the numbers of all other fresh ones."""
+        """With --skip and --count: the numbers of all other fresh ones."""
         fresh = sorted((n for n, m in enumerate(mutants) if m["name"] not in asked and n not in dropped), key=lambda n: sha(mutants[n]["name"]))
-        return set(fresh[options.count:]) if options.count else set()
+        return set(fresh) - set(fresh[options.skip:][:options.count or None])
 
     if options.table:
         dropped = json.loads((WORK / "dropped.json").read_text()) if (WORK / "dropped.json").exists() else []

@@ -62,7 +62,7 @@ def write_one(name, title, mutants, dropped, log, command, of_what):
 
 
 def write_both(numbered, asked, dropped, log, options):
-    usual = {"number": NUMBER, "after": options.number, "fresh": 0, "count": 0, "most": MOST, "slowest": SLOWEST}
+    usual = {"number": NUMBER, "after": options.number, "fresh": 0, "count": 0, "skip": 0, "most": MOST, "slowest": SLOWEST}
     given = "".join(f" --{name} {getattr(options, name):g}" for name, value in usual.items() if getattr(options, name) != value)
     command = "make mutants" + (f' MUTANTS="{given.strip()}"' if given else "")
     write_one("mutants", "Mutants of the sources and the tests that catch them", [(n, m) for n, m in numbered if m["name"] in asked], dropped,

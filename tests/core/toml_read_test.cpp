@@ -1,0 +1,145 @@
+// What is read of a table is where the file has it: every key that is given has its place.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ripstop/core/toml/read.h"
+
+namespace ripstop {
+namespace {
+
+struct Height {
+  double height = 1;
+};
+void describe(Fields& fields, Height& row) {
+  fields.number("height", row.height, Range{}, "");
+}
+struct Round {
+  double radius = 1;
+};
+void describe(Fields& fields, Round& round) {
+  fields.number("radius", round.radius, Range{}, "");
+}
+struct Flat {};
+void describe(Fields&, Flat&) {}
+
+struct EveryKind {
+  std::variant<Flat, Round> kind;
+  std::string text, name;
+  std::optional<std::string> other_name;
+  double number = 0;
+  std::optional<double> maybe;
+  int count = 0;
+  std::optional<int> maybe_count;
+  bool on = false;
+  Vec3 place;
+  std::optional<Vec3> maybe_place;
+  std::array<int, 3> cells{};
+  std::vector<double> list;
+  int word = 0;
+  Height table;
+  std::vector<Height> rows;
+  std::map<std::string, Height> named;
+};
+
+Fields fields_of_every_kind(EveryKind& keys) {
+  Fields fields;
+  fields.kind("kind", keys.kind, {"flat", "round"}, "");
+  fields.text("text", keys.text, 100, "");
+  fields.name("name", keys.name, "");
+  fields.name("other_name", keys.other_name, "");
+  fields.number("number", keys.number, Range{}, "");
+  fields.number("maybe", keys.maybe, Range{}, "");
+  fields.integer("count", keys.count, Range{}, "");
+  fields.integer("maybe_count", keys.maybe_count, Range{}, "");
+  fields.toggle("on", keys.on, "");
+  fields.vector("place", keys.place, Range{}, "");
+  fields.vector("maybe_place", keys.maybe_place, Range{}, "");
+  fields.integers("cells", keys.cells, Range{}, "");
+  fields.numbers("list", keys.list, 0, 9, Range{}, "");
+  fields.choice("word", keys.word, {{"one", 1}, {"two", 2}}, "");
+  fields.table("table", keys.table, "");
+  fields.rows("rows", keys.rows, "");
+  fields.named_tables("named", keys.named, "");
+  return fields;
+}
+
+const std::vector<std::string> every_line = {"kind = \"round\"",
+                                             "text = \"a b\"",
+                                             "name = \"a\"",
+                                             "other_name = \"b\"",
+                                             "number = 1.5",
+                                             "maybe = 2",
+                                             "count = 3",
+                                             "maybe_count = 4",
+                                             "on = true",
+                                             "place = [1, 2, 3]",
+                                             "maybe_place = [4, 5, 6]",
+                                             "cells = [7, 8, 9]",
+                                             "list = [0.5, 0.25]",
+                                             "word = \"two\"",
+                                             "table = {height = 2}",
+                                             "rows = [{height = 3}, {height = 4}]",
+                                             "named = {c = {height = 5}}",
+                                             "radius = 6"};
+
+TEST(TomlRead, EveryKindOfValueIsTakenAndHasItsPlace) {
+  std::string text;
+  for (const std::string& line : every_line) text += line + "\n";
+  EveryKind keys;
+  Origins origins;
+  std::vector<Problem> problems;
+  read_table(fields_of_every_kind(keys), parse_toml(text, "keys.toml"), origins, problems);
+  EXPECT_TRUE(problems.empty()) << to_text(problems.front());
+  ASSERT_TRUE(std::holds_alternative<Round>(keys.kind));
+  EXPECT_EQ(std::get<Round>(keys.kind).radius, 6);
+  EXPECT_EQ(keys.text, "a b");
+  EXPECT_EQ(keys.name, "a");
+  EXPECT_EQ(keys.other_name, "b");
+  EXPECT_EQ(keys.number, 1.5);
+  EXPECT_EQ(keys.maybe, 2);
+  EXPECT_EQ(keys.count, 3);
+  EXPECT_EQ(keys.maybe_count, 4);
+  EXPECT_TRUE(keys.on);
+  EXPECT_EQ(keys.place, (Vec3{1, 2, 3}));
+  EXPECT_EQ(keys.maybe_place, (Vec3{4, 5, 6}));
+  EXPECT_EQ(keys.cells, (std::array<int, 3>{7, 8, 9}));
+  EXPECT_EQ(keys.list, (std::vector<double>{0.5, 0.25}));
+  EXPECT_EQ(keys.word, 2);
+  EXPECT_EQ(keys.table.height, 2);
+  ASSERT_EQ(keys.rows.size(), 2u);
+  EXPECT_EQ(keys.rows[1].height, 4);
+  EXPECT_EQ(keys.named.at("c").height, 5);
+  for (std::size_t n = 0; n < every_line.size(); ++n) {
+    const std::string key = every_line[n].substr(0, every_line[n].find(' '));
+    if (key == "table") continue;  // its keys have their own
+    ASSERT_TRUE(origins.contains(key)) << key;
+    EXPECT_EQ(origins[key].line, static_cast<int>(n) + 1) << key;
+    EXPECT_EQ(origins[key].file, "keys.toml") << key;
+  }
+  for (const char* key : {"table.height", "rows[1].height", "named.c.height"})
+    EXPECT_TRUE(origins.contains(key)) << key;
+}
+
+TEST(TomlRead, AValueOfAnotherTypeIsToldAtItsPlaceAndLeavesWhatWasThere) {
+  for (std::size_t n = 0; n < every_line.size(); ++n) {
+    const std::string key = every_line[n].substr(0, every_line[n].find(' '));
+    std::string text;
+    for (std::size_t k = 0; k < every_line.size(); ++k)
+      text += k == n ? key + (key == "on" ? " = 1\n" : " = true\n") : every_line[k] + "\n";
+    EveryKind keys;
+    Origins origins;
+    std::vector<Problem> problems;
+    read_table(fields_of_every_kind(keys), parse_toml(text, "keys.toml"), origins, problems);
+    ASSERT_FALSE(problems.empty()) << key;
+    EXPECT_EQ(problems.front().key, key);
+    EXPECT_EQ(problems.front().origin.line, static_cast<int>(n) + 1) << key;
+    EXPECT_FALSE(origins.contains(key)) << key;
+  }
+}
+
+}  // namespace
+}  // namespace ripstop
