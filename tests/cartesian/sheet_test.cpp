@@ -282,7 +282,6 @@ CartesianSettings threads(int count) {
   return settings;
 }
 
-// Half a cell at least; on its columns the plane has a point straight below or above every cell.
 // Rows that no sheet touches are computed as in open air.
 TEST(Sheet, TouchesTheRowsOfCellsOnBothItsSidesAndNoOthers) {
   const int n = 10;
@@ -304,6 +303,7 @@ TEST(Sheet, TouchesTheRowsOfCellsOnBothItsSidesAndNoOthers) {
   }
 }
 
+// Half a cell at least; on its columns the plane has a point straight below or above every cell.
 TEST(Sheet, TheDistanceToAPlaneIsThatStraightToIt) {
   const Axis x = uniform(0, 1, 4), y = uniform(0, 1, 5), z = uniform(0, 3, 12);
   const Vec3 p[] = {{-1, -1, 1.53}, {2, -1, 1.53}, {2, 2, 1.53}, {-1, 2, 1.53}};

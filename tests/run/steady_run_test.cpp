@@ -340,8 +340,8 @@ TEST(SteadyRun, ACanopyOutsideTheBoxIsRefused) {
   }
 }
 
-// Of cloth that does not close about an axis the outermost column is the first corner of its cells and no other.
-TEST(SteadyRun, AnEdgeOfTheClothOutsideTheBoxIsRefused) {
+// At the edges of cloth that does not close about an axis a node is one of the corners of its cells only.
+TEST(SteadyRun, AnyNodeOfTheClothOutsideTheBoxIsRefused) {
   Case given = read_case(fs::path(RIPSTOP_SOURCE_DIR) / "examples/cross/case.toml");
   given.parachute.mesh.cloth_nodes = 300;
   given.flow.cells = {20, 20, 30};
@@ -349,12 +349,11 @@ TEST(SteadyRun, AnEdgeOfTheClothOutsideTheBoxIsRefused) {
   const SteadyProblem fits = steady_problem(given);
   FormulaEngine engine;
   EXPECT_NO_THROW(SteadySolver(fits, engine));
-  std::set<int> first, second;
+  std::set<int> nodes;
   for (const Cell& cell : cells_of(fits.mesh))
-    if (cell.corner[0] >= 0) first.insert(cell.corner[0]), second.insert(cell.corner[1]);
-  std::erase_if(first, [&](int node) { return second.contains(node); });
-  EXPECT_GT(first.size(), 5u);
-  for (const int node : first) {
+    if (cell.corner[0] >= 0) nodes.insert(cell.corner, cell.corner + 4);
+  EXPECT_GT(nodes.size(), 200u);
+  for (const int node : nodes) {
     SteadyProblem outside = fits;
     outside.mesh.start[node].x -= 100;
     EXPECT_NE(refusal_of([&] { SteadySolver(outside, engine); }, ExitCode::usage).find("cloth at (-"),

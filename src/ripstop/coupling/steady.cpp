@@ -99,15 +99,17 @@ SteadySolver::SteadySolver(SteadyProblem problem, FlowEngine& engine)
   const FlowGrid& grid = problem_.flow.grid;
   const Vec3 far = grid.origin + grid.size;
   for (const Cell& cell : cells_) {
-    if (cell.corner[0] < 0) continue;
-    const Vec3 p = problem_.mesh.start[cell.corner[0]];
-    if (p.x < grid.origin.x || p.y < grid.origin.y || p.z < grid.origin.z || p.x > far.x || p.y > far.y ||
-        p.z > far.z) {
-      throw Error(
-          ExitCode::usage,
-          fmt::format("the canopy does not fit into the flow's box: cloth at ({:.3g}, {:.3g}, "
-                      "{:.3g}) m, box from ({:.3g}, {:.3g}, {:.3g}) to ({:.3g}, {:.3g}, {:.3g}) m",
-                      p.x, p.y, p.z, grid.origin.x, grid.origin.y, grid.origin.z, far.x, far.y, far.z));
+    for (const int node : cell.corner) {
+      if (node < 0) continue;
+      const Vec3 p = problem_.mesh.start[node];
+      if (p.x < grid.origin.x || p.y < grid.origin.y || p.z < grid.origin.z || p.x > far.x || p.y > far.y ||
+          p.z > far.z) {
+        throw Error(
+            ExitCode::usage,
+            fmt::format("the canopy does not fit into the flow's box: cloth at ({:.3g}, {:.3g}, "
+                        "{:.3g}) m, box from ({:.3g}, {:.3g}, {:.3g}) to ({:.3g}, {:.3g}, {:.3g}) m",
+                        p.x, p.y, p.z, grid.origin.x, grid.origin.y, grid.origin.z, far.x, far.y, far.z));
+      }
     }
   }
 }
