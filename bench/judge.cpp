@@ -16,6 +16,7 @@
 #include <filesystem>
 #include <numbers>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "far_box.h"
@@ -66,10 +67,9 @@ Body body_of(const std::string& word) {
   if (word == "plate") return measured(word, {square_plate(1, {}), tight, 0}, {});
   if (word == "cup") return measured(word, {hemispherical_cup(1, {}), tight, 0}, {});
   if (word == "disk-gap-band") return measured(word, {rigid_disk_gap_band({}), f111, 0}, {});
-  if (word.starts_with("porous-disk-")) {
-    const double loss = std::stod(word.substr(std::string("porous-disk-").size()));
-    return measured(word, {disk(1, {}), 0, loss * density / 2}, {});
-  }
+  constexpr std::string_view porous = "porous-disk-";
+  if (word.starts_with(porous))
+    return measured(word, {disk(1, {}), 0, std::stod(word.substr(porous.size())) * density / 2}, {});
   const std::size_t is = word.find('='), b = word.rfind(':'), a = word.rfind(':', b - 1);
   if (is == std::string::npos || b == std::string::npos || a == std::string::npos || a < is)
     throw Error(ExitCode::usage,

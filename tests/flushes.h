@@ -1,6 +1,7 @@
-#pragma once
 // What a test program flushes to the disk, in its order: the library's calls of fsync and fdatasync come here first. For
 // one source of a test program.
+#pragma once
+
 #include <sys/syscall.h>
 #include <unistd.h>
 

@@ -3,46 +3,14 @@
 
 #include <nlohmann/json.hpp>
 
-#include "ripstop/core/toml/fields.h"
 #include "ripstop/core/toml/write.h"
+#include "toml_keys.h"
 
 namespace ripstop {
 namespace {
 
-struct Keys {
-  std::string text;
-  double number = 0.1;
-  std::optional<double> absent, given = 2;
-  int count = 3;
-  bool on = true;
-  Vec3 place{1, -2.5, 1e-7};
-  std::array<int, 3> cells{4, 5, 6};
-  std::vector<double> list{1, 0.25};
-};
-
-Fields fields_of(Keys& keys) {
-  Fields fields;
-  fields.text("text", keys.text, 100, "");
-  fields.number("number", keys.number, Range{}, "");
-  fields.number("absent", keys.absent, Range{}, "");
-  fields.number("given", keys.given, Range{}, "");
-  fields.integer("count", keys.count, Range{}, "");
-  fields.toggle("on", keys.on, "");
-  fields.vector("place", keys.place, Range{}, "");
-  fields.integers("cells", keys.cells, Range{}, "");
-  fields.numbers("list", keys.list, 0, 9, Range{}, "");
-  return fields;
-}
-
-struct Row {
-  double height = 1;
-};
-void describe(Fields& fields, Row& row) {
-  fields.number("height", row.height, Range{}, "");
-}
-
 TEST(TomlWrite, OfTablesThatMayBeManyJsonHasAListAlsoOfNone) {
-  std::vector<Row> rows;
+  std::vector<Height> rows;
   const auto json = [&] {
     Fields fields;
     fields.rows("rows", rows, "");
@@ -54,7 +22,7 @@ TEST(TomlWrite, OfTablesThatMayBeManyJsonHasAListAlsoOfNone) {
 }
 
 TEST(TomlWrite, EveryKindOfValueHasItsOwnLineAndAnAbsentOneHasNone) {
-  Keys keys;
+  PlainKeys keys;
   keys.text = "a b ~";
   EXPECT_EQ(to_toml(fields_of(keys)),
             "text = \"a b ~\"\nnumber = 0.1\ngiven = 2\ncount = 3\non = true\nplace = [1, -2.5, 1e-07]\n"
@@ -62,7 +30,7 @@ TEST(TomlWrite, EveryKindOfValueHasItsOwnLineAndAnAbsentOneHasNone) {
 }
 
 TEST(TomlWrite, OnlyWhatCannotStandInATextIsEscaped) {
-  Keys keys;
+  PlainKeys keys;
   const auto line = [&](const std::string& text) {
     keys.text = text;
     const std::string toml = to_toml(fields_of(keys));
@@ -75,7 +43,7 @@ TEST(TomlWrite, OnlyWhatCannotStandInATextIsEscaped) {
 }
 
 TEST(TomlWrite, JsonHasTheSameValuesUnderTheSameKeys) {
-  Keys keys;
+  PlainKeys keys;
   keys.text = "a \"b\"";
   const auto json = nlohmann::ordered_json::parse(to_json(fields_of(keys)));
   EXPECT_EQ(json, nlohmann::ordered_json::parse(
