@@ -19,10 +19,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-SteadyProblem small_problem(CanopyLoad load = CanopyLoad::uniform,
-                            PorosityModel model = PorosityModel::paper) {
+SteadyProblem small_problem(CanopyLoad load = CanopyLoad::uniform, PorosityModel model = PorosityModel::paper,
+                            int cloth_nodes = 800) {
   Case given = read_case(fs::path(RIPSTOP_SOURCE_DIR) / "examples/stratos-iv/case.toml");
-  given.parachute.mesh.cloth_nodes = 800;
+  given.parachute.mesh.cloth_nodes = cloth_nodes;
   given.flow.cells = {20, 20, 30};
   given.flow.porosity_model = model;
   given.coupling.load = load;
@@ -283,6 +283,19 @@ TEST(SteadyRun, ClothThatFindsNoRestIsHeldToItsLastShapeAndSaysSo) {
   solver.iterate(state);
   EXPECT_GE(state.iterations.back().cloth_hold, held.cloth_hold);
   EXPECT_LT(state.iterations.back().cloth_held, held.cloth_held);
+}
+
+// To no force at all no cloth comes: it is tried unheld, and held by 3, 12 and 48 mean pressures a width.
+TEST(SteadyRun, ClothThatNoHoldBringsToRestIsGivenUpAfterTheStrongest) {
+  FormulaEngine engine;
+  SteadyProblem problem = small_problem(CanopyLoad::uniform, PorosityModel::sheet, 200);
+  SteadySolver solver(problem, engine);
+  SteadyState state = solver.start();
+  solver.iterate(state);
+  problem.settings.cloth_tolerance = 1e-30;
+  SteadySolver asks_for_too_much(problem, engine);
+  const std::string message = refusal_of([&] { asks_for_too_much.iterate(state); }, ExitCode::not_converged);
+  EXPECT_TRUE(message.find("after 160000 steps") != std::string::npos) << message;
 }
 
 // Every placing finds up to 20 % more or less than 300 N, in no order.
