@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "ripstop/canopy/stress.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/case/case.h"
@@ -24,6 +26,22 @@ TEST(Profile, OfTheStartShapeIsTheFlatDiskOverTheCylindricalBand) {
   EXPECT_NEAR(sizes.at("L_tot"), 0.37, 1e-9);
   const std::vector<ProfileRing> rings = canopy_profile(mesh, mesh.start);
   EXPECT_NEAR(rings.back().diameter, 0.09, 2e-3);  // the vent
+}
+
+TEST(Profile, OfABandThatWidensHasItsSizesFromTheSkirtUp) {
+  const CanopyMesh mesh = parachute_mesh(stratos(6000));
+  std::vector<Vec3> x = mesh.start;
+  const Patch& band = mesh.patches[mesh.rigging.band_patches.front()];
+  double lowest = 1e9;
+  for (int i = 0; i < band.rows * band.columns; ++i) lowest = std::min(lowest, x[band.first_node + i].z);
+  for (Vec3& p : x) {
+    const double wider = 1 + std::clamp(p.z - lowest, 0.0, 0.30);
+    p.x *= wider, p.y *= wider;
+  }
+  const auto sizes = image_sizes(mesh, x);
+  EXPECT_NEAR(sizes.at("D_st"), 1.0, 5e-3);
+  EXPECT_NEAR(sizes.at("D_mid"), 1.15, 0.03);
+  EXPECT_NEAR(sizes.at("D_end"), 1.3, 7e-3);
 }
 
 TEST(Profile, OfACanopyWithoutABandHasTheSizesOfSkirtWidestRowAndLength) {

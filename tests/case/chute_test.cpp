@@ -7,6 +7,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "../refusal.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/case/case.h"
 #include "ripstop/case/chute_import.h"
@@ -224,6 +225,7 @@ const BadChute bad_chutes[] = {
     {"UnknownShape", "elliptical", "\"EllipseArc\"", "\"Spline\"",
      "objects[0]: must be \"Line\", \"EllipseArc\" or \"PointList\""},
     {"TwoGores", "elliptical", "\"gores\": 10", "\"gores\": 2", "Ripstop needs at least 3"},
+    {"OnlySlots", "elliptical", "\"gores\": 10", "\"gores\": 0", "no section with gores, so nothing to cut"},
     {"HalfAGore", "elliptical", "\"gores\": 10", "\"gores\": 9.5", "whole number"},
     {"AcrossTheAxis", "elliptical", "\"0.5*pi-vent_angle\"", "\"0.7*pi\"", "the meridian crosses the axis"},
     {"NoLength", "elliptical", "\"0.5*pi-vent_angle\"", "\"0\"", "the arc has no length"},
@@ -269,7 +271,9 @@ TEST(Chute, APointListIsReadLineByLine) {
   ASSERT_EQ(file.sections[0].points.size(), 3u);
   EXPECT_NEAR(file.sections[0].points[2].r, 0.02, 1e-12);
   EXPECT_NEAR(file.sections[0].points[1].y, 0.25, 1e-12);
-  EXPECT_THROW(read_chute(with(R"(0.2,0\nnonsense)"), "x"), Error);
+  const std::string message =
+      refusal_of([&] { read_chute(with(R"(0.2,0\n\n0.1;1)"), "x"); }, ExitCode::bad_data);
+  EXPECT_NE(message.find("line 3: \"0.1;1\" is not a point x,y"), std::string::npos) << message;
 }
 
 // openchute's own ringsail draws its slots as sections of 0 gores.

@@ -50,7 +50,8 @@ TEST(Tape, OfASmallCanopyIsLighterThanItsCloth) {
 
 TEST(Tape, GrowsWithSpeedAndWithSize) {
   const auto mass_per_length = [](double diameter, double speed) {
-    const Tape* tape = reinforcement_tape(without_a_name(diameter, speed));
+    const Case given = without_a_name(diameter, speed);
+    const Tape* tape = reinforcement_tape(given);
     return tape ? tape->linear_density_kg_m : 0;
   };
   EXPECT_EQ(mass_per_length(1, 10), 0);

@@ -35,6 +35,15 @@ TEST(LineFit, HasTheErrorsOfTheTextbook) {
   EXPECT_GT(line.band(14), line.band(9));
 }
 
+TEST(LineFit, TwoPointsLieOnItAndSayNothingOfTheirError) {
+  const LineFit line = fit_line(std::vector<double>{1, 3}, std::vector<double>{2, -2});
+  EXPECT_NEAR(line.slope, -2, 1e-14);
+  EXPECT_EQ(line.scatter, 0);
+  EXPECT_EQ(line.slope_error, 0);
+  EXPECT_EQ(line.intercept_error, 0);
+  EXPECT_EQ(line.band(2), 0);
+}
+
 TEST(LineFit, NeedsTwoDifferentX) {
   EXPECT_THROW(fit_line(std::vector<double>{1, 1}, std::vector<double>{1, 2}), Error);
   EXPECT_THROW(fit_line(std::vector<double>{1}, std::vector<double>{1}), Error);

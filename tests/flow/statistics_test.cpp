@@ -98,6 +98,8 @@ TEST(Statistics, AnOscillationHasItsFrequencyAndNoiseHasNone) {
   const Peak peak = strongest_frequency({record_of(100, 5000, wave)}, 0);
   EXPECT_NEAR(peak.frequency, 0.31, 0.01);
   EXPECT_GT(peak.share, 0.95);
+  const auto between = [](double t) { return 3 + std::sin(2 * pi * 0.305 * t); };  // 30 and a half in all
+  EXPECT_GT(strongest_frequency({record_of(100, 5000, between)}, 0).share, 0.95) << "it leaks to no others";
   EXPECT_EQ(strongest_frequency({record_of(6, 500, wave)}, 0).frequency, 0) << "shorter than four periods";
   EXPECT_LT(strongest_frequency({remembering(0.05, 100, 5000, 3)}, 0).share, 0.3);
 }

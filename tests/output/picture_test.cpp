@@ -163,6 +163,27 @@ TEST(CanopyPicture, WhatCannotBeDrawnIsAnErrorAndNoFile) {
   EXPECT_TRUE(std::filesystem::is_empty(folder.path));
 }
 
+// Whoever looks is as far away as the canopy is large.
+TEST(CanopyPicture, ACanopyOfATenthOfTheSizeLooksAsTheLargeOne) {
+  const TemporaryFolder folder("picture-size");
+  const CanopyMesh mesh = two_cells();
+  std::vector<Vec3> large = mesh.start, small;
+  large[0].z = 2.6;  // not flat: perspective shows
+  for (const Vec3& x : large) small.push_back(0.1 * x);
+  write_canopy_picture(folder.path / "large.png", mesh, large, pressures());
+  write_canopy_picture(folder.path / "small.png", mesh, small, pressures());
+  const Png a = read_png(folder.path / "large.png"), b = read_png(folder.path / "small.png");
+  int other = 0, cloth = 0;
+  for (int y = 84; y < 728; ++y)
+    for (int x = 24; x < 1088; ++x)  // the oblique view, which has no scale in metres
+      for (int c = 0; c < 3; ++c) {
+        const std::size_t at = 3 * (static_cast<std::size_t>(y) * a.width + x) + c;
+        other += std::abs(a.rgb[at] - b.rgb[at]) > 8, cloth += a.rgb[at] < 200;
+      }
+  EXPECT_GT(cloth, 100'000);
+  EXPECT_LT(other, 100);
+}
+
 TEST(CanopyPicture, ACanopyCollapsedToAPointIsStillAPicture) {
   const TemporaryFolder folder("picture-point");
   const CanopyMesh mesh = two_cells();

@@ -150,6 +150,22 @@ TEST_P(Family, OnTheBiasTheCellsAreNearlySquareAndTheClothIsTheSame) {
   EXPECT_GE(step_bound(*cloth, start_state(*cloth)).stable_step, 4e-6);
 }
 
+// Arms hardly longer than they are wide still bend.
+TEST(Families, AnArmOfACrossHasTwoRowsOfCellsHoweverShort) {
+  for (const char* cut : {"block", "bias"}) {
+    Overrides overrides;
+    overrides.set = {{"parachute.arm_length_m", "0.7"},
+                     {"parachute.arm_width_m", "0.6"},
+                     {"parachute.cut", cut},
+                     {"parachute.mesh.cloth_nodes", "600"}};
+    const CanopyMesh mesh = parachute_mesh(
+        read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/cross/case.toml", overrides));
+    int least = 1000;
+    for (const Patch& patch : mesh.patches) least = std::min(least, patch.rows);
+    EXPECT_EQ(least, 3) << cut;
+  }
+}
+
 // Warp and weft unlike: cut across, the rows of the mesh are the warp; on the bias its
 // diagonals are the yarns.
 TEST_P(Family, TheYarnsLieAsTheClothIsCut) {

@@ -39,6 +39,7 @@ TEST(FlowParity, OfTheSameAirTheEnginesHaveTheSameDrag) {
     settings.canopies = {"printed"};
     const std::vector<ParityRow> rows = flow_parity(settings).rows;
     ASSERT_EQ(rows.size(), 1u);
+    EXPECT_EQ(rows[0].canopy, "printed");
     EXPECT_TRUE(rows[0].openfoam.converged && rows[0].builtin.converged);
     EXPECT_LT(std::abs(rows[0].drag), 1e-3) << incompressible;
     EXPECT_TRUE(rows[0].within);

@@ -133,6 +133,11 @@ TEST(SteadyFiles, HaveTheNumbersOfTheStateThatTheRunEndedIn) {
         for (int x = 0; x < plot.width; ++x) pixels += plot.shows(x, y, series_colour(series));
       EXPECT_GT(pixels, 20) << picture << " " << series;
     }
+    int ink = 0;  // of the title
+    for (int y = 0; y < plot.height / 16; ++y)
+      for (int x = 0; x < plot.width; ++x)
+        ink += plot.rgb[3 * (static_cast<std::size_t>(y) * plot.width + x)] < 100;
+    EXPECT_GT(ink, 200) << picture;
   }
   for (const char* picture : {"canopy.png", "load.png"})
     EXPECT_GT(read_png(folder.path / picture).width, 0) << picture;
