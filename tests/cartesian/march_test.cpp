@@ -240,6 +240,19 @@ class Vortices {
                             resolved(), team_};
 };
 
+TEST(March, AStepIsNoLongerThanViscosityAllows) {
+  FlowProblem problem;
+  problem.grid = {{0, 0, 0}, {1, 2, 4}, 8, 8, 8};
+  problem.air.speed = 1, problem.air.density = 1.2;
+  problem.sides = Sides::slip;
+  for (const double viscosity : {1.8e-5, 50.0}) {
+    problem.air.viscosity = viscosity;
+    const auto flow = make_cartesian(with_threads(1, SmallEddies::none))->start(problem);
+    const double by_viscosity = 0.2 * 1.2 / viscosity / (8 * 8 + 4 * 4 + 2 * 2);
+    EXPECT_NEAR(flow->longest_step(0.5) / std::min(0.25, by_viscosity), 1, 1e-9) << viscosity;
+  }
+}
+
 TEST(March, TaylorsVorticesDecayWithErrorsOfSecondOrderInSpaceAndTime) {
   std::vector<double> errors;
   for (const int across : {8, 16, 32}) {

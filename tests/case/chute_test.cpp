@@ -1,11 +1,14 @@
 // Designs of openchute: what maps is cut as openchute cuts it, and nothing of the file is silently left out.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <numeric>
+#include <set>
 
 #include "../refusal.h"
 #include "ripstop/case/assemble.h"
@@ -135,6 +138,49 @@ TEST(Chute, NothingOfTheFileIsSilentlyLeftOut) {
   EXPECT_NEAR(canopy.pieces[0].radius_m.front(), 0.2 + 0.3 * std::cos(0.5), 1e-8);
   EXPECT_NEAR(canopy.pieces[1].radius_m.back(), 0.02, 1e-8);
   EXPECT_FALSE(canopy.vent_lines);
+}
+
+/// Of every object of the file that is not openchute's own copy of a shape, the place.
+void places_of(const nlohmann::json& node, const std::string& at, std::vector<std::string>& places) {
+  if (!node.is_structured()) return;
+  if (node.is_object()) places.push_back(at);
+  for (const auto& [key, value] : node.items()) {
+    if (key == "ellipse" || key == "line" || key == "geo" || key == "fabric" || key == "colors" ||
+        key == "fullness" || key == "range" || key == "section_type" || key.rfind("modifier", 0) == 0 ||
+        key == "cuts")
+      continue;
+    places_of(value, at + "/" + key, places);
+  }
+  if (node.is_object() && node.contains("section_type")) {
+    const nlohmann::json& type = node.at("section_type");
+    places.push_back(at + "/section_type");
+    for (const auto& [key, value] : type.items()) {
+      places_of(value, at + "/section_type/" + key, places);
+      if (value.contains("objects"))
+        for (std::size_t k = 0; k < value.at("objects").size(); ++k)
+          for (const auto& [kind, object] : value.at("objects")[k].items())
+            places_of(object, fmt::format("{}/section_type/{}/objects/{}/{}", at, key, k, kind), places);
+    }
+  }
+}
+
+TEST(Chute, AKeyThatNobodyKnowsIsSaidWhereverItStands) {
+  std::set<std::string> kinds;
+  for (const char* name : {"elliptical", "odd", "cross", "sails"}) {
+    const nlohmann::json sound = nlohmann::json::parse(chute_text(name));
+    std::vector<std::string> places;
+    places_of(sound, "", places);
+    for (const std::string& place : places) {
+      nlohmann::json file = sound;
+      file[nlohmann::json::json_pointer(place + "/surplus")] = 1;
+      const ChuteFile read = read_chute(file.dump(), "x");
+      EXPECT_TRUE(says(read.not_mapped, "surplus: a key that Ripstop does not know")) << name << place;
+      const std::string kind = place.substr(place.rfind('/') + 1);
+      kinds.insert(std::isdigit(static_cast<unsigned char>(kind[0])) ? "" : kind);
+    }
+  }
+  EXPECT_EQ(kinds,
+            (std::set<std::string>{"", "Circular", "EllipseArc", "Line", "Polygonal", "section_type"}));
 }
 
 /// `text` with the first `from` replaced.

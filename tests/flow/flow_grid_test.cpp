@@ -41,6 +41,21 @@ TEST(GradedGrid, IsUniformInItsCoreAndGrowsOutwardByAConstantRatioWithinTheBound
   }
 }
 
+TEST(GradedGrid, OneCellOutsideOfTheCoreMakesItGraded) {
+  for (const bool before : {true, false}) {
+    FlowGrid grid{{0, 0, 0}, {4, 1, 1}, 3, 1, 1};
+    if (before)
+      grid.grading[0] = {2, 4, 1, 0, 2, 1};
+    else
+      grid.grading[0] = {0, 2, 0, 1, 1, 2};
+    EXPECT_FALSE(grid.uniform()) << before;
+    const std::vector<double> edges = grid.edges(0);
+    EXPECT_NEAR(edges[1], before ? 2 : 1, 1e-12);
+    EXPECT_NEAR(edges[2], before ? 3 : 2, 1e-12);
+    EXPECT_NEAR(edges[3], 4, 1e-12);
+  }
+}
+
 TEST(GradedGrid, VolumesFillTheBoxAndLinearFieldsAreSampledExactly) {
   const FlowGrid grid = wide_box();
   std::vector<double> linear(grid.cells());

@@ -172,6 +172,26 @@ TEST_F(OpenFoamSheet, LayersInOneFaceStandInSeries) {
   EXPECT_NEAR(1e3 * v - 200 * v * v, -60, 1e-9);
 }
 
+TEST_F(OpenFoamSheet, TightClothIsOnePatchAndLooseClothOneForEveryLaw) {
+  const auto patches = [](std::vector<double> linear) {
+    FlowProblem problem = plate_in_box(linear[0], 0);
+    for (std::size_t n = 1; n < linear.size(); ++n)
+      problem.sheets.push_back({square_plate(1, {0, 0, 2.03 + 0.5 * double(n)}), linear[n], 0});
+    std::vector<std::string> names;
+    for (const openfoam::BafflePatch& patch : openfoam::baffles_of(problem)) {
+      EXPECT_EQ(patch.loose, patch.name != "cloth") << patch.name;
+      EXPECT_FALSE(patch.baffles.empty()) << patch.name;
+      names.push_back(patch.name);
+    }
+    return names;
+  };
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(patches({1e6}), (Names{"cloth"}));
+  EXPECT_EQ(patches({2}), (Names{"cloth0"}));
+  EXPECT_EQ(patches({2, 5, 2}), (Names{"cloth0", "cloth1"}));
+  EXPECT_EQ(patches({1e6, 2, 5}), (Names{"cloth", "cloth1", "cloth2"}));
+}
+
 TEST_F(OpenFoamSheet, TheMeshIsOneThatOpenFoamFindsSound) {
   FlowProblem problem = plate_in_box(30, 0);
   problem.sheets.push_back({rectangle({-1, -1, 3.1}, {2, 0, 0.4}, {0, 2, 0}), 2, 0});

@@ -1,5 +1,6 @@
 #include "ripstop/output/picture.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -98,6 +99,27 @@ TEST(FlowPicture, TheStreamGoesFromLeftToRightThroughTheColoursOfItsSpeeds) {
     return sum / count;
   };
   EXPECT_LT(middle(scale_colour(0)), middle(scale_colour(1)));
+}
+
+TEST(FlowPicture, HasThreeShotsInARowAndARowForEachThree) {
+  const TemporaryFolder folder("flow-rows");
+  FlowField field;
+  field.grid = {{-1, 0, 0}, {2, 0.1, 4}, 4, 1, 8};
+  field.velocity.assign(32, {0, 0, 5});
+  std::vector<int> height, width;
+  std::vector<FlowShot> shots;
+  for (int n = 1; n <= 7; ++n) {
+    shots.push_back({fmt::format("shot {}", n), &field});
+    write_flow_picture(folder.path / "p.png", "title", shots);
+    const Png png = read_png(folder.path / "p.png");
+    height.push_back(png.height), width.push_back(png.width);
+  }
+  EXPECT_EQ(height[0], height[2]);
+  EXPECT_LT(height[2], height[3]);
+  EXPECT_EQ(height[3], height[5]);
+  EXPECT_EQ(height[6] - height[5], height[5] - height[2]);
+  EXPECT_LT(width[1], width[2]);
+  EXPECT_EQ(width[2], width[6]);
 }
 
 TEST(CanopyPicture, TheTitleIsThereOnlyWhenItIsGiven) {

@@ -66,6 +66,30 @@ TEST(Plot, MarkersLieWhereTheirValuesAre) {
   EXPECT_NEAR(marker_at(10, 0.5, true).x, middle.x, 0.2);  // halfway from 1 to 100 on a logarithmic axis
 }
 
+TEST(Plot, EveryDecadeOfALogarithmicAxisIsNamed) {
+  const TemporaryFolder folder("plot-decades");
+  const auto ink_below = [&](double to) {  // the axis' own line
+    Plot plot{"", {"", true, 1, to}, {"", false, 0, 1}, {{"", {1, to}, {0, 1}, true, false, false}}};
+    write_plot(folder.path / "p.png", plot);
+    const Png png = read_png(folder.path / "p.png");
+    const auto dark = [&](int x, int y) {
+      return png.rgb[3 * (static_cast<std::size_t>(y) * png.width + x)] < 120;
+    };
+    int axis = 0, most = 0, count = 0;
+    for (int y = 0; y < png.height; ++y) {
+      int in_row = 0;
+      for (int x = 0; x < png.width; ++x) in_row += dark(x, y);
+      if (in_row >= most) most = in_row, axis = y;
+    }
+    for (int y = axis + 8; y < png.height; ++y)
+      for (int x = 0; x < png.width; ++x) count += dark(x, y);
+    return count;
+  };
+  const int two = ink_below(10), six = ink_below(1e5);
+  EXPECT_GT(two, 60);
+  EXPECT_NEAR(double(six) / two, 3, 0.6);
+}
+
 TEST(Plot, IsTheSamePictureWhateverTheProcessDrewBefore) {
   const TemporaryFolder folder("plot-order");
   const Plot plot{"title", {"time [s]"}, {"load [N]"}, {{"load", {0, 1, 2}, {1, 3, 2}}}};

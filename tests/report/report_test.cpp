@@ -254,7 +254,11 @@ TEST(ReportPage, HasEveryFrameOfASmallOpeningInItsOrder) {
   EXPECT_EQ(std::vector<int>(named.begin(), named.end()), parts);
   EXPECT_EQ(shape.at("framesComputed"), 5);
   std::vector<double> times;
-  for (const json& frame : shape.at("frames")) times.push_back(frame.at("time"));
+  for (const json& frame : shape.at("frames")) {
+    times.push_back(frame.at("time"));
+    EXPECT_EQ(frame.at("tension").at("n"), parts.size());
+    EXPECT_EQ(frame.at("cells").size(), report.runs[0].shape.frames[0].cells.size());
+  }
   EXPECT_EQ(times, (std::vector<double>{0, 0.01, 0.02, 0.03, 0.04}));
 }
 

@@ -227,6 +227,51 @@ TEST_F(OpeningFiles, HaveTheClothAndTheLinesOfEveryFrameAndTheLinesPeaks) {
   EXPECT_GT(seen.checkpoints, 0);
 }
 
+TEST(LoadPlot, OfAReefedOpeningHasTheLineItsCutsAndEveryLevel) {
+  std::vector<HistoryRow> rows(40);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].time = 1e-3 * double(i + 1);
+    rows[i].mean = 100 + double(i), rows[i].largest = 200 + double(i), rows[i].reefing_mean = 50 + double(i);
+  }
+  InflationResult result;
+  result.title = "reefed";
+  result.peak_load = 300;
+  result.settings.duration_s = 0.04;
+  result.settings.low_pass_hz = 100;
+  result.settings.measured_peak_n = 240;
+  result.settings.printed_peak_n = 250;
+  result.summary.steady_load = 130;
+  result.estimate.load = 260;
+  const auto names = [](const Plot& plot) {
+    std::vector<std::string> list;
+    for (const PlotSeries& series : plot.series) list.push_back(series.name);
+    return list;
+  };
+  std::vector<std::string> expected{
+      "largest in the interval",   "load", "low-passed at 100 Hz", "steady", "Knacke", "measured peak",
+      "peak of the source's model"};
+  EXPECT_EQ(names(load_plot(rows, 1e-3, result)), expected);
+  result.stages = std::vector<StageSummary>(2);
+  result.stages->at(1).begin = 0.02;
+  expected.insert(expected.begin() + 3, {"tension of the reefing line", "cut at 0.02 s"});
+  const Plot plot = load_plot(rows, 1e-3, result);
+  EXPECT_EQ(names(plot), expected);
+  EXPECT_EQ(plot.title, "reefed");
+  EXPECT_EQ(plot.x.label, "time from deployment [s]");
+  EXPECT_EQ(plot.y.label, "axial load [N]");
+  EXPECT_EQ(plot.series[0].y[7], 207);
+  EXPECT_EQ(plot.series[1].y[7], 107);
+  EXPECT_EQ(plot.series[3].y[7], 57);
+  for (const std::size_t curve : {0, 1, 2, 3}) EXPECT_EQ(plot.series[curve].x[7], rows[7].time) << curve;
+  EXPECT_EQ(plot.series[4].x, (std::vector<double>{0.02, 0.02}));
+  EXPECT_EQ(plot.series[4].y, (std::vector<double>{0, 300}));
+  const double levels[] = {130, 260, 240, 250};
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(plot.series[5 + i].y, (std::vector<double>{levels[i], levels[i]})) << i;
+    EXPECT_EQ(plot.series[5 + i].x, (std::vector<double>{0, 0.04})) << i;
+  }
+}
+
 TEST_F(OpeningFiles, ACheckpointIsWrittenNoMoreOftenThanAsked) {
   Case given = small_opening();
   given.inflation.duration_s = 2e-3;

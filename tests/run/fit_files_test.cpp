@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "ripstop/core/build_info.h"
 #include "ripstop/core/file.h"
 #include "ripstop/core/hash.h"
 #include "ripstop/core/thread_team.h"
@@ -71,6 +72,7 @@ TEST_F(FitFiles, ACurvesTableHasMeanSpreadFitAndBandAtEveryStrain) {
 TEST_F(FitFiles, ResultJsonHasTheCampaignItsDirectionsAndTheAir) {
   const auto json = nlohmann::json::parse(to_json(result));
   EXPECT_EQ(json.at("name"), "synthetic-ripstop");
+  EXPECT_EQ(json.at("ripstop"), version());
   EXPECT_EQ(json.at("kind"), "fabric");
   EXPECT_EQ(json.at("campaign").at("file"), "bench.toml");
   EXPECT_EQ(json.at("campaign").at("hash"), hash_file(campaign));

@@ -165,6 +165,11 @@ TEST(Load, AComputedOpeningIsOneOfTheMethodsThatAreJudged) {
   ASSERT_EQ(r.stages.size(), 1u);
   EXPECT_EQ(method(r.stages[0], "computed opening").load, *r.record_peak_load);
   expect_judged(r.stages[0]);
+  // That canopy was not reefed.
+  asked.reefing = {{0.3, 1}};
+  const LoadResult reefed = run_load(given, asked);
+  for (const StageLoads& stage : reefed.stages)
+    for (const MethodLoad& one : stage.methods) EXPECT_NE(one.method, "computed opening");
 }
 
 TEST(Load, AHeavyPayloadIsAtInfiniteMass) {

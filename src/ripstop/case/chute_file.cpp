@@ -205,6 +205,7 @@ class Reader {
       return;
     }
     const Node type = node.at("section_type");
+    known(type, {"Circular", "Polygonal"});
     if (type.has("Circular")) {
       section.circular = true;
       const Node line = type.at("Circular");
@@ -323,6 +324,7 @@ class Reader {
   }
 
   void add_object(const Node& node, ChuteSection& section) {
+    known(node, {"Line", "EllipseArc", "PointList"});
     std::vector<MeridianPoint> points;
     if (node.has("Line")) {
       known(node.at("Line"), {"line", "expressions"});

@@ -71,8 +71,8 @@ class InflationFolder : public InflationObserver {
   void save(const Inflation& solver, const InflationState& state, const InflationHistory& history);
   void write_air(const Inflation& solver, long long frame) const;
   void write_air_plot(const InflationHistory& history, const InflationResult& result) const;
-  void write_load_plot(const Inflation& solver, const std::vector<HistoryRow>& rows,
-                       const InflationResult& result) const;
+  void write_load(const Inflation& solver, const std::vector<HistoryRow>& rows,
+                  const InflationResult& result) const;
   void write_shapes(const Inflation& solver, const InflationState& state, const std::string& title) const;
 
   /// What is only of a reefed opening stands at the end of a row.
@@ -195,7 +195,7 @@ void InflationFolder::save(const Inflation& solver, const InflationState& state,
 void InflationFolder::ended(const Inflation& solver, const InflationState& state,
                             const InflationHistory& history, const InflationResult& result) {
   save(solver, state, history);
-  write_load_plot(solver, history.rows, result);
+  write_load(solver, history.rows, result);
   write_shapes(solver, state, result.title);
   if (with_air_) write_air_plot(history, result);
   CsvTable lines{{"line", "peak_tension_n"}, {}};
@@ -295,47 +295,16 @@ void InflationFolder::write_air_plot(const InflationHistory& history, const Infl
              {r.title, {"time from deployment [s]"}, {"added mass [kg]"}, {added}});
 }
 
-void InflationFolder::write_load_plot(const Inflation& solver, const std::vector<HistoryRow>& rows,
-                                      const InflationResult& r) const {
-  const InflationSettings& settings = r.settings;
-  PlotSeries load{"load", {}, {}, true, false}, largest{"largest in the interval", {}, {}, true, false};
-  for (const HistoryRow& row : rows) {
-    load.x.push_back(row.time);
-    load.y.push_back(row.mean);
-    largest.x.push_back(row.time);
-    largest.y.push_back(row.largest);
-  }
-  Plot plot{r.title, {"time from deployment [s]"}, {"axial load [N]"}, {largest, load}};
-  if (settings.low_pass_hz > 0) {
-    PlotSeries smooth{fmt::format("low-passed at {:g} Hz", settings.low_pass_hz), load.x,
-                      low_pass(load.y, solver.row_duration(), settings.low_pass_hz), true, false};
-    CsvTable table{{"time_s", "load_n"}, {}};
-    for (std::size_t i = 0; i < rows.size(); ++i) table.rows.push_back({smooth.x[i], smooth.y[i]});
-    write_csv(folder_.own("history_low_pass.csv"), table);
-    plot.series.push_back(std::move(smooth));
-  }
-  const auto level = [&](const std::string& name, std::optional<double> value_n) {
-    if (value_n)
-      plot.series.push_back({name, {0, settings.duration_s}, {*value_n, *value_n}, true, false, true});
-  };
-  if (reefed_) {
-    PlotSeries line{"tension of the reefing line", load.x, {}, true, false};
-    for (const HistoryRow& row : rows) line.y.push_back(row.reefing_mean);
-    plot.series.push_back(std::move(line));
-  }
-  for (const StageSummary& stage : r.stages.value_or(std::vector<StageSummary>{}))
-    if (stage.begin > 0)
-      plot.series.push_back({fmt::format("cut at {:g} s", stage.begin),
-                             {stage.begin, stage.begin},
-                             {0, r.peak_load},
-                             true,
-                             false,
-                             true});
-  level("steady", r.summary.steady_load);
-  level("Knacke", r.estimate.load);
-  level("measured peak", settings.measured_peak_n);
-  level("peak of the source's model", settings.printed_peak_n);
-  write_plot(folder_.own("load.png"), plot);
+void InflationFolder::write_load(const Inflation& solver, const std::vector<HistoryRow>& rows,
+                                 const InflationResult& r) const {
+  write_plot(folder_.own("load.png"), load_plot(rows, solver.row_duration(), r));
+  if (!(r.settings.low_pass_hz > 0)) return;
+  std::vector<double> load;
+  for (const HistoryRow& row : rows) load.push_back(row.mean);
+  const std::vector<double> smooth = low_pass(load, solver.row_duration(), r.settings.low_pass_hz);
+  CsvTable table{{"time_s", "load_n"}, {}};
+  for (std::size_t i = 0; i < rows.size(); ++i) table.rows.push_back({rows[i].time, smooth[i]});
+  write_csv(folder_.own("history_low_pass.csv"), table);
 }
 
 void InflationFolder::write_shapes(const Inflation& solver, const InflationState& state,
@@ -348,6 +317,43 @@ void InflationFolder::write_shapes(const Inflation& solver, const InflationState
 }
 
 }  // namespace
+
+Plot load_plot(const std::vector<HistoryRow>& rows, double row_duration, const InflationResult& r) {
+  const InflationSettings& settings = r.settings;
+  PlotSeries load{"load", {}, {}, true, false}, largest{"largest in the interval", {}, {}, true, false};
+  for (const HistoryRow& row : rows) {
+    load.x.push_back(row.time);
+    load.y.push_back(row.mean);
+    largest.x.push_back(row.time);
+    largest.y.push_back(row.largest);
+  }
+  Plot plot{r.title, {"time from deployment [s]"}, {"axial load [N]"}, {largest, load}};
+  if (settings.low_pass_hz > 0)
+    plot.series.push_back({fmt::format("low-passed at {:g} Hz", settings.low_pass_hz), load.x,
+                           low_pass(load.y, row_duration, settings.low_pass_hz), true, false});
+  if (r.stages) {
+    PlotSeries line{"tension of the reefing line", load.x, {}, true, false};
+    for (const HistoryRow& row : rows) line.y.push_back(row.reefing_mean);
+    plot.series.push_back(std::move(line));
+  }
+  for (const StageSummary& stage : r.stages.value_or(std::vector<StageSummary>{}))
+    if (stage.begin > 0)
+      plot.series.push_back({fmt::format("cut at {:g} s", stage.begin),
+                             {stage.begin, stage.begin},
+                             {0, r.peak_load},
+                             true,
+                             false,
+                             true});
+  const auto level = [&](const std::string& name, std::optional<double> value_n) {
+    if (value_n)
+      plot.series.push_back({name, {0, settings.duration_s}, {*value_n, *value_n}, true, false, true});
+  };
+  level("steady", r.summary.steady_load);
+  level("Knacke", r.estimate.load);
+  level("measured peak", settings.measured_peak_n);
+  level("peak of the source's model", settings.printed_peak_n);
+  return plot;
+}
 
 std::string to_bytes(const InflationState& state) {
   return to_cbor(state, opening_format);

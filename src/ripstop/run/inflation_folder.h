@@ -5,8 +5,10 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "ripstop/case/case.h"
+#include "ripstop/output/plot.h"
 #include "ripstop/run/inflation.h"
 #include "ripstop/run/run_folder.h"
 
@@ -28,6 +30,9 @@ std::optional<InflationResult> run_inflation_in(const InflationFolderSettings& s
 
 /// Throws what run_inflation_in() would throw before it asks for the problem, and touches nothing.
 void check_inflation_in(const InflationFolderSettings& settings, const Case& given, const LoadSource& source);
+
+/// load.png: the load over time, and what it is to be looked at beside. `row_duration` [s] is that of a row.
+Plot load_plot(const std::vector<HistoryRow>& rows, double row_duration, const InflationResult& result);
 
 /// Every double bit for bit. inflation_state_from_bytes() throws Error(bad_data) for anything else.
 std::string to_bytes(const InflationState& state);
