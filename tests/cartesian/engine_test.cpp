@@ -62,6 +62,23 @@ TEST(CartesianEngine, TheResidualOfUniformTurbulenceIsOne) {
   EXPECT_GT(flow->advance(1, 0).last.residual_k, 0.5);
 }
 
+TEST(CartesianEngine, TheResidualOfAUniformStreamThatMeetsAPlugIsOneHoweverWeak) {
+  for (const double darcy : {1e6, 1e2}) {
+    FlowProblem problem;
+    problem.grid = {{0, 0, 0}, {1, 1, 2}, 4, 4, 16};
+    problem.sides = Sides::slip;
+    problem.air.speed = 10;
+    PorousCells plug;
+    plug.darcy = darcy;
+    for (int cell = 0; cell < problem.grid.cells(); ++cell)
+      if (cell / 16 / 4 == 1) plug.cells.push_back(cell);
+    problem.porous.push_back(plug);
+    CartesianSettings settings = with_threads(1);
+    settings.compressible = settings.grid_sequencing = false;
+    EXPECT_NEAR(make_cartesian(settings)->start(problem)->advance(1, 0).last.residual_u, 1, 1e-3) << darcy;
+  }
+}
+
 TEST(CartesianEngine, TheAnswerIsTheSameBitForBitOnOneTwoAndFourThreads) {
   FlowProblem problem = open_box(26, 23, 38, 10);  // large enough for grid sequencing
   problem.stopping.max_iterations = 12;

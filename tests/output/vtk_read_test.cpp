@@ -59,6 +59,7 @@ TEST_F(VtkRead, ADamagedHeadIsRefusedBeforeAnythingIsMadeOfIt) {
     refused("offset=\"0\"", std::string("offset=\"") + offset + "\"");
   refused("NumberOfComponents=\"", "NumberOfComponents=\"-");
   refused("NumberOfComponents=\"", "NumberOfComponents=\"1e300");
+  refused("<DataArray ", "<DataArray><DataArray ");
 }
 
 // Larger than one block of the compression.
