@@ -30,6 +30,9 @@ TEST(BadMesh, IsRefusedWithWhatIsWrong) {
   ASSERT_EQ(sound.ties.back().masters.size(), 2u);
   ASSERT_FALSE(sound.springs.empty());
   make_cloth(sound);
+  Mesh of_eight = sound;
+  of_eight.laws[0].coefficients.assign(8, 100);  // as many as the kernels have
+  make_cloth(of_eight);
   const int count = sound.node_count(), tied = sound.ties.back().node;
   const BadMesh bad_meshes[] = {
       {"masses for", [](Mesh& m) { m.mass.pop_back(); }},

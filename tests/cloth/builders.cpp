@@ -230,7 +230,10 @@ std::vector<Vec3> reference_forces(const Mesh& mesh, const ClothOptions& options
       if (c[0] >= 0) {
         const double pressure = loads.cell_pressure.empty() ? 0 : loads.cell_pressure[index];
         const Vec3 push = 0.25 * pressure * area_vector(x[c[0]], x[c[1]], x[c[2]], x[c[3]]);
-        for (int corner : c) f[corner] += push - (0.25 * area * options.absolute_damping) * v[corner];
+        for (int corner : c) {
+          const double damping = options.absolute_damping + options.quadratic_damping * norm(v[corner]);
+          f[corner] += push - (0.25 * area * damping) * v[corner];
+        }
       }
       ++index;
     }

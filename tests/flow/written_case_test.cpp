@@ -4,12 +4,14 @@
 #include <cmath>
 #include <fstream>
 #include <regex>
+#include <set>
 #include <sstream>
 
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/flow/openfoam/case_writer.h"
 #include "ripstop/flow/openfoam/field_file.h"
+#include "ripstop/flow/openfoam/programs.h"
 
 namespace ripstop::openfoam {
 namespace {
@@ -237,6 +239,23 @@ TEST_F(WrittenFiles, OfACaseThatFailedHalfWayTheFolderIsKnownAsOurs) {
     EXPECT_TRUE(fs::exists(folder.path / kReadme)) << in_the_way;
     for (const char* name : {"system", "constant", kReadme}) remove_path(folder.path / name);
   }
+}
+
+TEST(ClearCase, RemovesWhatOpenFoamWorksWithAndNothingElse) {
+  const TemporaryFolder folder("clear-case");
+  const auto content = [&] {
+    std::set<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder.path)) names.insert(entry.path().filename());
+    return names;
+  };
+  for (const char* part : {"0", "100", "0.5", "constant", "system", "postProcessing", "processor0", "notes"})
+    fs::create_directories(folder.path / part);
+  for (const char* file : {"constant/a", "100/U", "notes/mine", "thesis.txt", "log.simpleFoam", "logbook",
+                           openfoam::kStopFile, "case.foam"})
+    write_file(folder.path / file, "x");
+  openfoam::clear_case(folder.path);
+  EXPECT_EQ(content(), (std::set<std::string>{"notes", "thesis.txt", "logbook", "case.foam"}));
+  EXPECT_TRUE(fs::exists(folder.path / "notes/mine"));
 }
 
 TEST_F(WrittenFiles, WhatDoesNotFitOnTheDiskIsNoticedWhenItIsClosed) {
