@@ -154,7 +154,7 @@ TEST_P(Family, OnTheBiasTheCellsAreNearlySquareAndTheClothIsTheSame) {
 TEST(Families, AnArmOfACrossHasTwoRowsOfCellsHoweverShort) {
   for (const char* cut : {"block", "bias"}) {
     Overrides overrides;
-    overrides.set = {{"parachute.arm_length_m", "0.7"},
+    overrides.set = {{"parachute.arm_length_m", "0.61"},
                      {"parachute.arm_width_m", "0.6"},
                      {"parachute.cut", cut},
                      {"parachute.mesh.cloth_nodes", "600"}};
