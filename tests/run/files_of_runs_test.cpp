@@ -255,7 +255,7 @@ TEST(LoadPlot, OfAReefedOpeningHasTheLineItsCutsAndEveryLevel) {
   result.stages->at(1).begin = 0.02;
   expected.insert(expected.begin() + 3, {"tension of the reefing line", "cut at 0.02 s"});
   const Plot plot = load_plot(rows, 1e-3, result);
-  EXPECT_EQ(names(plot), expected);
+  ASSERT_EQ(names(plot), expected);
   EXPECT_EQ(plot.title, "reefed");
   EXPECT_EQ(plot.x.label, "time from deployment [s]");
   EXPECT_EQ(plot.y.label, "axial load [N]");
