@@ -124,6 +124,9 @@ TEST_F(OpenFoam, AirOfConstantDensityLosesExactlyWhatDarcyAndForchheimerSay) {
   const double drop = layer_pressure(field, 0) - layer_pressure(field, 39), u = problem.air.speed;
   EXPECT_NEAR(drop / ((problem.air.viscosity * 4e5 + 0.5 * 0.9 * u * 0.6) * u * 0.5), 1, 0.005);
   EXPECT_NEAR(field.porous_force.z / (drop * 0.04), 1, 1e-4);  // what goes out is as fast as what comes in
+  // What both programs said is kept.
+  EXPECT_NE(read_file(root_ / "case/log.blockMesh").find("nCells: 640"), std::string::npos);
+  EXPECT_NE(read_file(root_ / "case/log.porousSimpleFoam").find("Time = 2"), std::string::npos);
 }
 
 TEST_F(OpenFoam, TheBoxLosesTheMomentumThatThePorousCellsTake) {

@@ -17,6 +17,7 @@
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
+#include "ripstop/flow/cartesian/cartesian.h"
 #include "ripstop/inflation/summary.h"
 #include "ripstop/output/csv.h"
 #include "ripstop/output/vtk.h"
@@ -118,6 +119,23 @@ TEST_F(InflationFolderTest, AReefedRunThatIsKilledBeforeOrAfterTheCutGoesOnByteI
     for (const char* table : {"history.csv", "balance.csv", "lines.csv", "result.json"})
       EXPECT_EQ(read_file(killed.folder / table), read_file(root / name / table)) << name << ' ' << table;
   }
+}
+
+// However few are asked for: the air steps with the rows.
+TEST_F(InflationFolderTest, InItsOwnAirTheStreamPassesNoMoreThanAPartOfACellInARow) {
+  given = small_opening_in_air();
+  given.inflation.history_hz = 10;
+  given.inflation.low_pass_hz = 0;
+  const Case opening = opening_case(given);
+  InflationProblem problem = opening_problem(opening, load_source(opening), 1);
+  problem.air->engine = make_cartesian({});
+  const FlowGrid& grid = problem.air->flow.grid;
+  double least = 1e9;
+  for (int axis = 0; axis < 3; ++axis)
+    for (int c = 0; c < grid.count(axis); ++c) least = std::min(least, grid.width(axis, c));
+  const double passed = problem.air->flow.air.speed * Inflation(problem).row_duration() / least;
+  EXPECT_LE(passed, 0.03 * (1 + 1e-9));
+  EXPECT_GT(passed, 0.015);
 }
 
 TEST_F(InflationFolderTest, InItsOwnAirAKilledRunGoesOnByteIdentical) {

@@ -172,6 +172,16 @@ TEST(Load, AComputedOpeningIsOneOfTheMethodsThatAreJudged) {
     for (const MethodLoad& one : stage.methods) EXPECT_NE(one.method, "computed opening");
 }
 
+TEST(Load, TakesTheDragAreaOfASteadyRunAndNamesIt) {
+  const TemporaryFolder folder("load-steady");
+  fly_square_law(folder.path / "run");
+  LoadRequest asked = request();
+  asked.steady = folder.path / "run";
+  const LoadResult r = run_load(square_law_case(), asked);
+  EXPECT_NEAR(r.drag_coefficient * r.reference_area, 1.1, 1e-3);
+  EXPECT_EQ(r.drag_source, "steady run " + asked.steady.string() + ": 1.1 m2");
+}
+
 TEST(Load, AHeavyPayloadIsAtInfiniteMass) {
   LoadRequest asked = request(20000, 900);
   asked.path_angle = 0;
