@@ -286,7 +286,9 @@ TEST(CartesianEngine, AfterAFreshStartItIsTheFlowThatBegins) {
   const auto engine = make_cartesian(with_threads(1));
   const auto first = engine->start(problem), second = engine->start(problem);
   first->advance(7, 0);
+  EXPECT_FALSE(first->untouched());
   first->start_afresh();
+  EXPECT_TRUE(first->untouched());
   first->advance(3, 0), second->advance(3, 0);
   EXPECT_TRUE(same_bits(first->field(), second->field()));
 }

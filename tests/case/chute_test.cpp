@@ -104,6 +104,12 @@ TEST(Chute, OneConeBecomesAConicalCanopyOfTheSameArea) {
   ASSERT_TRUE(cone.parachute.canopy.as<Conical>());
   EXPECT_NEAR(computed_area(cone.parachute), pi * 0.654 * std::hypot(0.3, 0.546), 1e-8);
   EXPECT_TRUE(says(result.changed, "the file holds 0, its formula gives 0.3"));
+  // A metre higher it is the same cone.
+  text.replace(inner, 5, "\"1.3\"");
+  text.replace(text.find("\"0\"", inner), 3, "\"1\"");
+  const Case higher = parse_case(import_chute(read_chute(text, "x"), {}, "x").case_text, "case.toml");
+  ASSERT_TRUE(higher.parachute.canopy.as<Conical>());
+  EXPECT_NEAR(computed_area(higher.parachute), computed_area(cone.parachute), 1e-8);
 }
 
 TEST(Chute, SailsKeepTheirFullnessAndSlots) {
