@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
+#include <string>
 
 #include "ripstop/canopy/stress.h"
 #include "ripstop/case/assemble.h"
@@ -38,10 +40,14 @@ TEST(Profile, OfABandThatWidensHasItsSizesFromTheSkirtUp) {
     const double wider = 1 + std::clamp(p.z - lowest, 0.0, 0.30);
     p.x *= wider, p.y *= wider;
   }
-  const auto sizes = image_sizes(mesh, x);
+  std::map<std::string, double> sizes = image_sizes(mesh, x);
   EXPECT_NEAR(sizes.at("D_st"), 1.0, 5e-3);
   EXPECT_NEAR(sizes.at("D_mid"), 1.15, 0.03);
   EXPECT_NEAR(sizes.at("D_end"), 1.3, 7e-3);
+  for (Vec3& p : x) p.z = -p.z;  // whichever of its rows is the first
+  sizes = image_sizes(mesh, x);
+  EXPECT_NEAR(sizes.at("D_st"), 1.3, 7e-3);
+  EXPECT_NEAR(sizes.at("D_end"), 1.0, 5e-3);
 }
 
 TEST(Profile, OfACanopyWithoutABandHasTheSizesOfSkirtWidestRowAndLength) {

@@ -1,5 +1,4 @@
 // Designs of openchute: what maps is cut as openchute cuts it, and nothing of the file is silently left out.
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cctype>
@@ -152,21 +151,9 @@ void places_of(const nlohmann::json& node, const std::string& at, std::vector<st
   if (node.is_object()) places.push_back(at);
   for (const auto& [key, value] : node.items()) {
     if (key == "ellipse" || key == "line" || key == "geo" || key == "fabric" || key == "colors" ||
-        key == "fullness" || key == "range" || key == "section_type" || key.rfind("modifier", 0) == 0 ||
-        key == "cuts")
+        key == "fullness" || key == "range" || key.rfind("modifier", 0) == 0 || key == "cuts")
       continue;
     places_of(value, at + "/" + key, places);
-  }
-  if (node.is_object() && node.contains("section_type")) {
-    const nlohmann::json& type = node.at("section_type");
-    places.push_back(at + "/section_type");
-    for (const auto& [key, value] : type.items()) {
-      places_of(value, at + "/section_type/" + key, places);
-      if (value.contains("objects"))
-        for (std::size_t k = 0; k < value.at("objects").size(); ++k)
-          for (const auto& [kind, object] : value.at("objects")[k].items())
-            places_of(object, fmt::format("{}/section_type/{}/objects/{}/{}", at, key, k, kind), places);
-    }
   }
 }
 

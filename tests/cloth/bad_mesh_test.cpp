@@ -1,7 +1,6 @@
 // A mesh that no cloth can be made of is refused with what is wrong with it.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <functional>
 #include <limits>
 
@@ -73,10 +72,10 @@ TEST(BadMesh, IsRefusedWithWhatIsWrong) {
       {"is tied or absent", [&](Mesh& m) { m.fixed.push_back(count); }},
       {"is tied or absent", [](Mesh& m) { m.fixed.push_back(-1); }},
       {"spring -1 - ", [](Mesh& m) { m.springs[0].a = -1; }},
-      {"spring ", [&](Mesh& m) { m.springs[0].b = count; }},
-      {"spring ", [&](Mesh& m) { m.springs[0].a = count; }},
-      {"spring ", [](Mesh& m) { m.springs[0].b = -1; }},
-      {"spring ", [](Mesh& m) { m.springs[0].b = m.springs[0].a; }},
+      {" has rest length", [&](Mesh& m) { m.springs[0].b = count; }},
+      {" has rest length", [&](Mesh& m) { m.springs[0].a = count; }},
+      {" has rest length", [](Mesh& m) { m.springs[0].b = -1; }},
+      {" has rest length", [](Mesh& m) { m.springs[0].b = m.springs[0].a; }},
       {"rest length 0 m", [](Mesh& m) { m.springs[0].rest_length = 0; }},
       {"scale -1", [](Mesh& m) { m.springs[0].scale = -1; }},
       {"law -1", [](Mesh& m) { m.springs[0].law = -1; }},

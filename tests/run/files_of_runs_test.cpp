@@ -250,17 +250,19 @@ TEST(LoadPlot, OfAReefedOpeningHasTheLineItsCutsAndEveryLevel) {
   std::vector<std::string> expected{
       "largest in the interval",   "load", "low-passed at 100 Hz", "steady", "Knacke", "measured peak",
       "peak of the source's model"};
-  EXPECT_EQ(names(load_plot(rows, 1e-3, result)), expected);
+  const std::vector<double> smooth(rows.size(), 120);
+  EXPECT_EQ(names(load_plot(rows, smooth, result)), expected);
   result.stages = std::vector<StageSummary>(2);
   result.stages->at(1).begin = 0.02;
   expected.insert(expected.begin() + 3, {"tension of the reefing line", "cut at 0.02 s"});
-  const Plot plot = load_plot(rows, 1e-3, result);
+  const Plot plot = load_plot(rows, smooth, result);
   ASSERT_EQ(names(plot), expected);
   EXPECT_EQ(plot.title, "reefed");
   EXPECT_EQ(plot.x.label, "time from deployment [s]");
   EXPECT_EQ(plot.y.label, "axial load [N]");
   EXPECT_EQ(plot.series[0].y[7], 207);
   EXPECT_EQ(plot.series[1].y[7], 107);
+  EXPECT_EQ(plot.series[2].y, smooth);
   EXPECT_EQ(plot.series[3].y[7], 57);
   for (const std::size_t curve : {0, 1, 2, 3}) EXPECT_EQ(plot.series[curve].x[7], rows[7].time) << curve;
   EXPECT_EQ(plot.series[4].x, (std::vector<double>{0.02, 0.02}));
@@ -270,6 +272,8 @@ TEST(LoadPlot, OfAReefedOpeningHasTheLineItsCutsAndEveryLevel) {
     EXPECT_EQ(plot.series[5 + i].y, (std::vector<double>{levels[i], levels[i]})) << i;
     EXPECT_EQ(plot.series[5 + i].x, (std::vector<double>{0, 0.04})) << i;
   }
+  expected.erase(expected.begin() + 2);
+  EXPECT_EQ(names(load_plot(rows, {}, result)), expected);
 }
 
 TEST_F(OpeningFiles, ACheckpointIsWrittenNoMoreOftenThanAsked) {

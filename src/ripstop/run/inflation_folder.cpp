@@ -297,11 +297,13 @@ void InflationFolder::write_air_plot(const InflationHistory& history, const Infl
 
 void InflationFolder::write_load(const Inflation& solver, const std::vector<HistoryRow>& rows,
                                  const InflationResult& r) const {
-  write_plot(folder_.own("load.png"), load_plot(rows, solver.row_duration(), r));
-  if (!(r.settings.low_pass_hz > 0)) return;
-  std::vector<double> load;
-  for (const HistoryRow& row : rows) load.push_back(row.mean);
-  const std::vector<double> smooth = low_pass(load, solver.row_duration(), r.settings.low_pass_hz);
+  std::vector<double> smooth;
+  if (r.settings.low_pass_hz > 0) {
+    for (const HistoryRow& row : rows) smooth.push_back(row.mean);
+    smooth = low_pass(smooth, solver.row_duration(), r.settings.low_pass_hz);
+  }
+  write_plot(folder_.own("load.png"), load_plot(rows, smooth, r));
+  if (smooth.empty()) return;
   CsvTable table{{"time_s", "load_n"}, {}};
   for (std::size_t i = 0; i < rows.size(); ++i) table.rows.push_back({rows[i].time, smooth[i]});
   write_csv(folder_.own("history_low_pass.csv"), table);
@@ -318,7 +320,8 @@ void InflationFolder::write_shapes(const Inflation& solver, const InflationState
 
 }  // namespace
 
-Plot load_plot(const std::vector<HistoryRow>& rows, double row_duration, const InflationResult& r) {
+Plot load_plot(const std::vector<HistoryRow>& rows, const std::vector<double>& smooth,
+               const InflationResult& r) {
   const InflationSettings& settings = r.settings;
   PlotSeries load{"load", {}, {}, true, false}, largest{"largest in the interval", {}, {}, true, false};
   for (const HistoryRow& row : rows) {
@@ -328,9 +331,9 @@ Plot load_plot(const std::vector<HistoryRow>& rows, double row_duration, const I
     largest.y.push_back(row.largest);
   }
   Plot plot{r.title, {"time from deployment [s]"}, {"axial load [N]"}, {largest, load}};
-  if (settings.low_pass_hz > 0)
-    plot.series.push_back({fmt::format("low-passed at {:g} Hz", settings.low_pass_hz), load.x,
-                           low_pass(load.y, row_duration, settings.low_pass_hz), true, false});
+  if (!smooth.empty())
+    plot.series.push_back(
+        {fmt::format("low-passed at {:g} Hz", settings.low_pass_hz), load.x, smooth, true, false});
   if (r.stages) {
     PlotSeries line{"tension of the reefing line", load.x, {}, true, false};
     for (const HistoryRow& row : rows) line.y.push_back(row.reefing_mean);

@@ -31,8 +31,9 @@ std::optional<InflationResult> run_inflation_in(const InflationFolderSettings& s
 /// Throws what run_inflation_in() would throw before it asks for the problem, and touches nothing.
 void check_inflation_in(const InflationFolderSettings& settings, const Case& given, const LoadSource& source);
 
-/// load.png: the load over time, and what it is to be looked at beside. `row_duration` [s] is that of a row.
-Plot load_plot(const std::vector<HistoryRow>& rows, double row_duration, const InflationResult& result);
+/// load.png: the load over time, and what it is to be looked at beside. `smooth`: low-passed, by row [N]; empty: not.
+Plot load_plot(const std::vector<HistoryRow>& rows, const std::vector<double>& smooth,
+               const InflationResult& result);
 
 /// Every double bit for bit. inflation_state_from_bytes() throws Error(bad_data) for anything else.
 std::string to_bytes(const InflationState& state);
