@@ -34,7 +34,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--ripstop", type=pathlib.Path, required=True)
     parser.add_argument("--grids", nargs="*", default=["50,50,75", "100,100,150"])
-    parser.add_argument("--repeat", type=int, default=3, help="the least of so many, as other work only adds")
+    parser.add_argument("--repeat", type=int, default=2, help="the least of so many, as other work only adds")
     options = parser.parse_args()
     cores = len(os.sched_getaffinity(0))
     ranks = [n for n in (2 ** i for i in range(12)) if n <= cores]

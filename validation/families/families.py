@@ -36,7 +36,7 @@ LOADS = ["of-flow", "uniform"]
 # Of cloth of the usual permeability, as the handbook's canopies were.
 OPENING = ["parachute.canopy_material=mil-c-7020-type-i", "inflation.duration_s=0.4", "inflation.frames=80",
            "inflation.cloth_damping_s=1e-5", "inflation.low_pass_hz=100"]
-# Narrow rings that wrinkle turn over and stay so, and the canopy half open: docs/validation.md.
+# Narrow rings that wrinkle turn over and stay so, and the canopy half open: docs/theory/inflation.md.
 OPENING_OF = {"ringslot": ["inflation.cloth_compression=0.1"]}
 MOUTHS = {"cross": 0.15}  # radius of the folded skirt [m] where 0.12 m cannot be folded
 IN_TIME = "in-time"  # in the place of a load: that of the flow, in time
@@ -155,7 +155,7 @@ def openings(options):
         made += tables.runs_below(folder_of(options, name, "opening"))
         way = known["speed_m_s"] * r["low_pass_peak_time_s"] / handbook["nominal_diameter_m"]
         settled = "" if r["settled"] else ", not settled"
-        rows.append([name, f"{r['low_pass_peak_load_n']:.0f}", f"{1000 * r['low_pass_peak_time_s']:.0f}",
+        rows.append([", ".join([name, *(f"`{setting}`" for setting in OPENING_OF.get(name, []))]), f"{r['low_pass_peak_load_n']:.0f}", f"{1000 * r['low_pass_peak_time_s']:.0f}",
                      f"{r['steady_load_n']:.0f} +- {100 * r['steady_load_deviation']:.0f} %{settled}",
                      f"{r['low_pass_overshoot']:.2f}", f"{r['knacke_coefficient']:g}", f"{way:.1f}",
                      f"{handbook['filling_constant']:g}", f"{100 * r['pierced_edges']:.1f}"])
