@@ -14,7 +14,8 @@ namespace {
 
 TEST(OfFlow, ACanopyInFlightCarriesWhatTheAirLosesOnIt) {
   Overrides coarse;
-  coarse.grid = {40, 40, 50};  // ten cells across: with fewer the load may jump as cloth passes from cell to cell
+  // Ten cells across: with fewer the load may jump as cloth passes from cell to cell.
+  coarse.grid = {40, 40, 50};
   coarse.set = {
       {"parachute.mesh.cloth_nodes", "2000"}, {"coupling.load", "of-flow"}, {"coupling.threads", "1"}};
   const Case given =
