@@ -155,7 +155,8 @@ def openings(options):
         made += tables.runs_below(folder_of(options, name, "opening"))
         way = known["speed_m_s"] * r["low_pass_peak_time_s"] / handbook["nominal_diameter_m"]
         settled = "" if r["settled"] else ", not settled"
-        rows.append([", ".join([name, *(f"`{setting}`" for setting in OPENING_OF.get(name, []))]), f"{r['low_pass_peak_load_n']:.0f}", f"{1000 * r['low_pass_peak_time_s']:.0f}",
+        label = ", ".join([name, *(f"`{setting}`" for setting in OPENING_OF.get(name, []))])
+        rows.append([label, f"{r['low_pass_peak_load_n']:.0f}", f"{1000 * r['low_pass_peak_time_s']:.0f}",
                      f"{r['steady_load_n']:.0f} +- {100 * r['steady_load_deviation']:.0f} %{settled}",
                      f"{r['low_pass_overshoot']:.2f}", f"{r['knacke_coefficient']:g}", f"{way:.1f}",
                      f"{handbook['filling_constant']:g}", f"{100 * r['pierced_edges']:.1f}"])
