@@ -6,7 +6,7 @@
 namespace ripstop {
 namespace {
 
-constexpr int across = 48, along = 64;    // cells of the box
+constexpr int across = 64, along = 88;    // cells of the box
 constexpr double box = 3;                 // from the middle to its sides, in the surface's larger extent
 constexpr double margin = 0.2;            // of the fine cells about the surface
 constexpr double growth = 1.25;           // of cells outside of it
