@@ -100,7 +100,9 @@ bench: check-deps  ## Benchmarks, some three hours; their figures stand in docs/
 	@build-check/bench/bench_inflation
 	@build-check/bench/bench_flow --openfoam --large
 	@build-check/bench/bench_flow --in-time
-	@build-check/bench/bench_in_time runs/in-time/16 16 2 1 | tee docs/tables/pimplefoam.md
+	@{ build-check/bench/bench_in_time runs/in-time/16-2 16 2 2 && echo && \
+	  build-check/bench/bench_in_time runs/in-time/25-2 25 0.5 2 && echo && \
+	  build-check/bench/bench_in_time runs/in-time/32-2 32 0.25 2; } | tee docs/tables/pimplefoam.md
 	@build-check/bench/bench_in_time runs/in-time/8 8 60 1 | tee docs/tables/pimplefoam-mean.md
 	@build-check/bench/bench_openfoam_baffle runs/baffle | tee docs/tables/openfoam-baffle.md
 

@@ -164,8 +164,9 @@ def openings(options):
                           "way to the peak in diameters", "handbook's filling distance, flying", "edges that pierce cloth %"],
                          rows)
     print("\n".join(table))
+    foot = ["The handbook's filling distance is that of a payload that flies, in nominal diameters, as `ripstop load` takes it."]
     if len(rows) == len(in_handbook()) and not options.set:
-        tables.write("families-openings", "Families opened in their own air", "make validate-openings", made, table)
+        tables.write("families-openings", "Families opened in their own air", "make validate-openings", made, table + foot)
 
 
 def in_time(options):
@@ -175,7 +176,7 @@ def in_time(options):
         sys.exit("a run failed: no table is written")
     table = in_time_table(options, results)
     print("\n".join(table))
-    if known == set(results) and not options.grid and not options.set:
+    if set(known) == set(results) and not options.grid and not options.set:
         made = [run for name in results for run in tables.runs_below(folder_of(options, name, IN_TIME))]
         tables.write("families-in-time", "Families with a wake that sheds", "make validate-families-in-time", made, table)
 
@@ -204,7 +205,8 @@ def main():
     made = [run for name, load in results for run in tables.runs_below(folder_of(options, name, load))]
     tables.write("families", "Steady drag of every family's example", "make validate-families", made, families_table(results))
     shipped.write()
-    tables.write("loads", "The air's own load beside a uniform one", "make validate-families", made, loads)
+    foot = ["Cp: medians along the gore (`pressure.csv`). Axial moment: over drag times half the projected diameter."]
+    tables.write("loads", "The air's own load beside a uniform one", "make validate-families", made, loads + foot)
 
 
 if __name__ == "__main__":

@@ -36,6 +36,7 @@ import tables  # pylint: disable=wrong-import-position
 import trial  # pylint: disable=wrong-import-position
 
 SEED = 21
+TABLE = trial.ROOT / "docs/tables/torture.md"
 RANDOM_KILLS = {"steady": 50, "inflate": 50, "sweep": 25, "sweep-2": 25, "damping": 20, "porosity": 15, "openfoam": 6}  # trials
 KILLED_AT_WRITES = {"steady": 1, "inflate": 1, "sweep": 3, "damping": 1, "porosity": 3, "openfoam": 12}  # every so many-th
 FAILING = {"steady": 1, "inflate": 1, "sweep": 1, "damping": 1, "porosity": 1, "openfoam": 12, "fabric": 1, "coupon": 1, "fit": 1}
@@ -210,6 +211,8 @@ def write_table(options, log):
     commits = collections.Counter(row["commit"] for row in log.done.values())
     bad = [[row["trial"], row["said"]] for row in sorted(log.done.values(), key=lambda row: row["trial"]) if not row["ok"]]
     asked = "".join(f" --stage {stage}" for stage in options.stage or [])
+    if options.table != TABLE:
+        asked += f" --table {options.table}"
     command = f'make torture TORTURE="{asked.strip()}"' if asked else "make torture"
     lines = ["# Kills, failing writes, damaged files and lies", "",
              f"`{command}`: {processor()}, {' to '.join(named)}; "
@@ -236,7 +239,7 @@ def main():
     parser.add_argument("--only", default="", help="only trials with these words in their name, as in 'kill sweep'")
     parser.add_argument("--failed", action="store_true", help="only what failed with another program")
     parser.add_argument("--again", action="store_true", help="also what is done")
-    parser.add_argument("--table", type=pathlib.Path, default=trial.ROOT / "docs/tables/torture.md")
+    parser.add_argument("--table", type=pathlib.Path, default=TABLE)
     options = parser.parse_args()
     options.commit = subprocess.run(["git", "describe", "--always", "--dirty"], cwd=trial.ROOT, capture_output=True, text=True, check=False).stdout.strip()
     signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background jobs ignore it, and so would what they start

@@ -13,6 +13,7 @@ import tables  # pylint: disable=wrong-import-position
 
 HEAD = ["engine", "nominal m/s", "computed N", "measured N", "error %", "printed N", "drag area m2", "iterations", "converged",
         "ledger gap %", "wall s"]
+FOOT = "Ledger gap: the load on the nodes or the pull of the lines beside the air's force, whichever is farther off."
 
 
 def row(folder):
@@ -34,7 +35,7 @@ def main():
     if not done:
         sys.exit(f"{runs}: no finished run")
     rows, started = zip(*done)
-    tables.write("stratos-iv", "Steady drag of Stratos IV on the printed grid", "make validate", started, tables.table(HEAD, rows))
+    tables.write("stratos-iv", "Steady drag of Stratos IV on the printed grid", "make validate", started, tables.table(HEAD, rows) + [FOOT])
 
 
 if __name__ == "__main__":
