@@ -134,7 +134,7 @@ INSTANTIATE_TEST_SUITE_P(All, SymmetricShape,
 // symmetric part of that shape leads to the symmetric one, which keeps its symmetry to rounding without any
 // constraint, and to which the cloth comes back when it is shaken: it is stable.
 TEST_P(SymmetricShape, IsAnEquilibriumToWhichAShakenCanopyReturns) {
-  Canopy canopy(GetParam());
+  Canopy canopy(GetParam(), PorosityModel::paper);
   ASSERT_TRUE(canopy.relax_to(2e-3).converged);
   const std::vector<Vec3> free = canopy.shape();
   set_positions(canopy.state, *canopy.cloth, canopy.symmetry.mean(free));
