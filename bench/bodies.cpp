@@ -26,8 +26,8 @@
 #include "ripstop/flow/cartesian/cartesian.h"
 #include "ripstop/flow/openfoam/openfoam.h"
 #include "ripstop/flow/steady.h"
+#include "ripstop/flow/stl.h"
 #include "ripstop/flow/unsteady.h"
-#include "ripstop/output/stl.h"
 #include "table.h"
 
 using namespace ripstop;

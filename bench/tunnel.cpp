@@ -19,9 +19,9 @@
 #include "ripstop/flow/bodies.h"
 #include "ripstop/flow/cartesian/cartesian.h"
 #include "ripstop/flow/steady.h"
+#include "ripstop/flow/stl.h"
 #include "ripstop/flow/unsteady.h"
 #include "ripstop/output/plot.h"
-#include "ripstop/output/stl.h"
 #include "table.h"
 
 using namespace ripstop;

@@ -15,7 +15,7 @@
 #include "number_option.h"
 #include "progress.h"
 #include "ripstop/core/error.h"
-#include "ripstop/output/stl.h"
+#include "ripstop/flow/stl.h"
 #include "ripstop/run/parity.h"
 
 namespace ripstop {

@@ -11,7 +11,7 @@
 
 #include "program.h"
 #include "ripstop/core/file.h"
-#include "ripstop/output/stl.h"
+#include "ripstop/flow/stl.h"
 
 namespace ripstop {
 namespace {

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """What holds of every page and source file: links lead somewhere, pages say what is and not what was, prose is wrapped alike, files
 stay short."""
+import collections
 import pathlib
 import re
 import unittest
@@ -86,6 +87,24 @@ class Docs(unittest.TestCase):
             if not re.search(rf"TEST(_[FP])?\({suite},\s*{name}\)", text):
                 missing.append(f"{room}.{suite}.{name}")
         self.assertEqual(missing, [])
+
+    def test_rooms_look_to_their_left_only(self):
+        left = collections.defaultdict(set)
+        for line in re.findall(r"^    (\w[\w, ]* <- .*)$", (ROOT / "src/README.md").read_text(), re.MULTILINE):
+            groups = [group.split(", ") for group in line.split(" <- ")]
+            for known, rooms in zip(groups, groups[1:]):
+                for room in rooms:
+                    left[room].update(known)
+
+        def seen_from(room):
+            return {room}.union(*(seen_from(other) for other in left[room]))
+
+        rooms = {folder.name for folder in (ROOT / "src/ripstop").iterdir() if folder.is_dir()}
+        self.assertEqual(rooms - set(left), {"core"})
+        wrong = [f"{file.relative_to(ROOT)}: {other}" for room in rooms for file in (ROOT / "src/ripstop" / room).rglob("*.*")
+                 if file.suffix in (".h", ".cpp")
+                 for other in re.findall(r'#include "ripstop/(\w+)/', file.read_text()) if other not in seen_from(room)]
+        self.assertEqual(wrong, [])
 
     def test_no_file_is_longer_than_one_reads(self):
         files = [*PAGES, *(file for folder in ("src", "apps", "python", "tests", "bench", "examples", "validation") for ending in ("h", "cpp", "py")

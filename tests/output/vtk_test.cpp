@@ -11,7 +11,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/core/process.h"
-#include "ripstop/output/stl.h"
+#include "ripstop/flow/stl.h"
 
 namespace ripstop {
 namespace {
@@ -163,41 +163,14 @@ TEST(Vti, ABlockThatIsExactlyFullNeedsNoPartialOne) {
   expect_array(seen["cell_arrays"][0], "v", "double", 1, bits(values));
 }
 
-TEST(Vtu, VtkReadsBackPorousCellsAsBoxesInTheirPlace) {
-  const TemporaryFolder folder("vtu");
-  FlowProblem problem;
-  problem.grid = {{1, 2, 3}, {4, 3, 2}, 4, 3, 2};  // unit cells
-  problem.porous = {{{0, 23}, 1e7, 2e3}, {{5}, 0.1, 0.2}};
-  write_vtu(folder.path / "porous.vtu", porous_boxes(problem));
-
-  const json seen = seen_by_vtk(folder.path / "porous.vtu");
-  EXPECT_EQ(seen["class"], "vtkUnstructuredGrid");
-  const Vec3 corners[] = {{1, 2, 3}, {4, 4, 4}, {2, 3, 3}};  // lowest corner of cells 0, 23 and 5
-  std::vector<Vec3> points;
-  for (Vec3 corner : corners) {
-    for (int k : {0, 1}) {
-      for (int j : {0, 1}) {
-        for (int i : {0, 1}) points.push_back(corner + Vec3{1.0 * i, 1.0 * j, 1.0 * k});
-      }
-    }
-  }
-  expect_array(seen["points"], "Points", "double", 3, bits(flat(points)));
-  ASSERT_EQ(seen["cells"].size(), 3u);
-  EXPECT_EQ(seen["cells"][1], json::parse(R"({"type": 11, "points": [8, 9, 10, 11, 12, 13, 14, 15]})"));
-  expect_array(seen["cell_arrays"][0], "cloth", "int", 1, bits(std::vector<std::int32_t>{0, 0, 1}));
-  expect_array(seen["cell_arrays"][1], "darcy_per_m2", "double", 1, bits(std::vector<double>{1e7, 1e7, 0.1}));
-  expect_array(seen["cell_arrays"][2], "forchheimer_per_m", "double", 1,
-               bits(std::vector<double>{2e3, 2e3, 0.2}));
-}
-
-TEST(Vtu, ValuesThatAreNotFiniteOrDenormalSurvive) {
+TEST(Vtp, ValuesThatAreNotFiniteOrDenormalSurvive) {
   const TemporaryFolder folder("awkward");
-  VtkUnstructured grid;
-  grid.points.resize(awkward_values().size());
-  grid.point_arrays = {vtk_array("v", awkward_values())};
-  grid.cells.add(std::array{0, 1, 2, 3, 4, 5, 0, 1});
-  write_vtu(folder.path / "a.vtu", grid);
-  const json seen = seen_by_vtk(folder.path / "a.vtu");
+  VtkSurface surface;
+  surface.points.resize(awkward_values().size());
+  surface.point_arrays = {vtk_array("v", awkward_values())};
+  surface.polygons.add(std::array{0, 1, 2, 3, 4, 5});
+  write_vtp(folder.path / "a.vtp", surface);
+  const json seen = seen_by_vtk(folder.path / "a.vtp");
   expect_array(seen["point_arrays"][0], "v", "double", 1, bits(awkward_values()));
 }
 

@@ -88,7 +88,7 @@ OPENING_COLUMNS = ["parachute", "air", "speed_m_s", "density_kg_m3", "initial_ra
                    "peak_time_s", "filling_time_s", "steady_n", "wall_time_s", "peak_100hz_pm_n"]
 # Under the uniform pressure of their steady load (docs/validation.md) and the damping that Stratos IV was fitted with.
 # C_a is that which is calibrated on Stratos IV, for ADEPT with cloth that pushes, as its example's does.
-DAMPED = {"stratos-iv": ["--damping", "10.39"], "walrus": ["--damping", "10.39", "--pressure", "528"],
+DAMPED = {"stratos-iv": ["--damping", "10.39"], "walrus": ["--damping", "10.39", "--pressure", "534.5"],
           "adept": ["--damping", "10.51", "--pressure", "593"]}
 # Cells, and the size of the printed ones over theirs. The `paper` model resists for the length of a cell: its
 # coefficients are multiplied by this ratio, which keeps the resistance of the cloth's area.

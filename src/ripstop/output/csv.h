@@ -10,7 +10,7 @@
 namespace ripstop {
 
 struct CsvTable {
-  std::vector<std::string> columns;       // "speed_m_per_s", "drag_n"
+  std::vector<std::string> columns;       // "speed_m_s", "drag_n"
   std::vector<std::vector<double>> rows;  // as long as `columns`; NaN and infinities are written as such
 
   /// All values of a column. Throws Error(bad_data) naming the columns there are.

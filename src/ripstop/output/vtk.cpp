@@ -196,21 +196,6 @@ std::filesystem::path write_image(const std::filesystem::path& stem, const VtkIm
   return document.path;
 }
 
-void write_vtu(const std::filesystem::path& path, const VtkUnstructured& grid) {
-  Document document{path, {}, {}};
-  check_cells(document, grid.cells, grid.points.size());
-  document.head = fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", grid.points.size(),
-                              grid.cells.size());
-  add_arrays(document, "PointData", grid.point_arrays, grid.points.size());
-  add_arrays(document, "CellData", grid.cell_arrays, grid.cells.size());
-  add_points(document, grid.points);
-  document.head += "<Cells>\n";
-  add_cells(document, grid.cells);
-  add_array(document, "types", 1, std::vector<std::uint8_t>(grid.cells.size(), grid.cell_type));
-  document.head += "</Cells>\n</Piece>\n";
-  write(document, "UnstructuredGrid", "");
-}
-
 void write_pvd(const std::filesystem::path& path, const std::vector<VtkSeriesFile>& series) {
   std::string text =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" "
@@ -262,32 +247,6 @@ VtkImage flow_image(const FlowField& field) {
   return {field.grid,
           {vtk_array_single("pressure_pa", field.pressure),
            vtk_array_single("velocity_m_per_s", field.velocity)}};
-}
-
-VtkUnstructured porous_boxes(const FlowProblem& problem) {
-  VtkUnstructured boxes;
-  const FlowGrid& grid = problem.grid;
-  std::vector<std::int32_t> cloth;
-  std::vector<double> darcy, forchheimer;
-  for (std::size_t index = 0; index < problem.porous.size(); ++index) {
-    const PorousCells& porous = problem.porous[index];
-    for (int cell : porous.cells) {
-      const int i = cell % grid.nx, j = cell / grid.nx % grid.ny, k = cell / grid.nx / grid.ny;
-      std::array<int, 8> corners{};
-      for (int corner = 0; corner < 8; ++corner) {  // a voxel's points: x fastest, then y, then z
-        corners[corner] = static_cast<int>(boxes.points.size());
-        boxes.points.push_back({grid.edge(0, i + (corner & 1)), grid.edge(1, j + (corner >> 1 & 1)),
-                                grid.edge(2, k + (corner >> 2))});
-      }
-      boxes.cells.add(corners);
-      cloth.push_back(static_cast<std::int32_t>(index));
-      darcy.push_back(porous.darcy);
-      forchheimer.push_back(porous.forchheimer);
-    }
-  }
-  boxes.cell_arrays = {vtk_array("cloth", std::move(cloth)), vtk_array("darcy_per_m2", std::move(darcy)),
-                       vtk_array("forchheimer_per_m", std::move(forchheimer))};
-  return boxes;
 }
 
 }  // namespace ripstop

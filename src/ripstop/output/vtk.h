@@ -56,16 +56,6 @@ struct VtkImage {
 /// Writes `stem`.vti, or .vtr where the cells are not all alike, and returns which. Throws as write_vtp().
 std::filesystem::path write_image(const std::filesystem::path& stem, const VtkImage& image);
 
-/// Cells of one type by VTK's number, such as 11 (voxel).
-struct VtkUnstructured {
-  std::vector<Vec3> points;  // [m]
-  VtkCells cells;
-  std::uint8_t cell_type = 11;
-  std::vector<VtkArray> point_arrays, cell_arrays;
-};
-/// .vtu. Throws as write_vtp().
-void write_vtu(const std::filesystem::path& path, const VtkUnstructured& grid);
-
 /// One file of a series; `file` is relative to the folder of the .pvd.
 struct VtkSeriesFile {
   double time = 0;  // the coupling iteration, or [s]
@@ -84,8 +74,5 @@ std::vector<double> cloth_cells_only(const Mesh& mesh, const std::vector<double>
 VtkSurface spring_lines(const Mesh& mesh, const std::vector<Vec3>& positions);
 /// Pressure and velocity of a flow, single precision: "pressure_pa", "velocity_m_per_s".
 VtkImage flow_image(const FlowField& field);
-/// The porous cells of a flow as boxes, with "cloth" (index into FlowProblem::porous),
-/// "darcy_per_m2" and "forchheimer_per_m".
-VtkUnstructured porous_boxes(const FlowProblem& problem);
 
 }  // namespace ripstop

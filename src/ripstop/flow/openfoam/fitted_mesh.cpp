@@ -15,7 +15,7 @@
 #include "ripstop/flow/hems.h"
 #include "ripstop/flow/openfoam/case_writer.h"
 #include "ripstop/flow/openfoam/field_file.h"
-#include "ripstop/output/stl.h"
+#include "ripstop/flow/stl.h"
 
 namespace ripstop::openfoam {
 namespace {

@@ -1,4 +1,4 @@
-#include "ripstop/output/stl.h"
+#include "ripstop/flow/stl.h"
 
 #include <gtest/gtest.h>
 
