@@ -186,5 +186,6 @@ int main(int argc, char** argv) {
     for (const Way& way : in_time) row.push_back(tried(way));
     print_row(row);
   }
+  fmt::print("\n\"Box\": the force on the cloth, and the momentum that the box loses.\n");
   return 0;
 }

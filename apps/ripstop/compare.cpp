@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cmath>
 #include <memory>
 
 #include "commands.h"
@@ -39,19 +38,16 @@ void print(const Comparison& comparison) {
                strain("tape"), strain("cloth"));
   }
   const ComparedModel &a = models[0], &b = models[1];
-  const double area = 2 * std::log(b.projected_diameter / a.projected_diameter);
-  const double all = std::log(b.drag / a.drag);
-  double beyond = b.drag - a.drag;
   std::string alone;
   for (std::size_t i = 2; i < models.size(); ++i) {
-    const double change = models[i].drag - a.drag;
-    beyond -= change;
-    alone += fmt::format("{}{} {:+.3f}", alone.empty() ? "" : ", ", models[i].model.substr(7), change);
+    alone += fmt::format("{}{} {:+.3f}", alone.empty() ? "" : ", ", models[i].model.substr(7),
+                         models[i].drag - a.drag);
   }
   fmt::print("\nlinear - nonlinear: {:+.3f} N ({:+.3f} %)\n", b.drag - a.drag, 100 * b.drag_difference);
-  fmt::print("  each material alone: {} N; together beyond their sum {:+.3f} N\n", alone, beyond);
-  fmt::print("  by projected area {:+.3f} %, by drag per projected area {:+.3f} %\n", 100 * area,
-             100 * (all - area));
+  fmt::print("  each material alone: {} N; together beyond their sum {:+.3f} N\n", alone,
+             comparison.beyond_sum);
+  fmt::print("  by projected area {:+.3f} %, by drag per projected area {:+.3f} %\n",
+             100 * comparison.by_projected_area, 100 * comparison.by_drag_per_area);
   fmt::print("  strains are means over the springs of each part\n");
 }
 

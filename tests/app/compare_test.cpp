@@ -24,6 +24,11 @@ TEST(Compare, SplitsTheDifferenceOfTheLinearModelAndItsRunsServePhotogrammetry) 
   const json result = json::parse(read_file(folder / "compare/result.json"));
   ASSERT_EQ(result.at("models").size(), 5u);
   EXPECT_EQ(result.at("models")[0].at("drag_difference"), 0);
+  double together = 0;  // of all materials, less what each does alone
+  for (std::size_t i = 1; i < 5; ++i)
+    together += (i == 1 ? 1 : -1) * (result.at("models")[i].at("drag_n").get<double>() -
+                                     result.at("models")[0].at("drag_n").get<double>());
+  EXPECT_NEAR(result.at("beyond_sum_n").get<double>(), together, 1e-9);
   // K_2 of the published tape is positive: without it the tape is softer and stretches more.
   const auto tape = [&](int k) {
     return result.at("models")[k].at("strain").at("tape").at("mean").get<double>();

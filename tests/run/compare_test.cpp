@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "finished_run.h"
@@ -75,6 +76,7 @@ class ComparedModels : public testing::Test {
     }
     rows_[1].result.drag = 0.9 * rows_[0].result.drag;
     rows_[1].result.wall_time = 7;
+    rows_[1].result.size.projected_diameter = 1.02 * rows_[0].result.size.projected_diameter;
   }
   Comparison compared() const {
     return compare_models(points_, rows_, [&](std::size_t i) { return solutions_[i].state; });
@@ -109,6 +111,9 @@ TEST_F(ComparedModels, HaveTheNumbersOfTheirRunsAndOfWhatWasMeasured) {
     EXPECT_FALSE(m.strain.empty());
   }
   EXPECT_NEAR(c.models[1].drag_difference, -0.1, 1e-12);
+  EXPECT_NEAR(c.beyond_sum, -0.1 * c.models[0].drag, 1e-9);  // no material by itself is here
+  EXPECT_NEAR(c.by_projected_area, 2 * std::log(1.02), 1e-12);
+  EXPECT_NEAR(c.by_projected_area + c.by_drag_per_area, std::log(0.9), 1e-12);
   double widest = 0;  // of all rings, in radius
   for (std::size_t i = 0; i < c.models[0].profile.size(); ++i)
     widest =

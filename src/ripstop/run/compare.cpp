@@ -98,6 +98,11 @@ Comparison compare_models(const std::vector<SweepPoint>& points, const std::vect
     model.profile_change = profile_change(model, first);
     c.models.push_back(std::move(model));
   }
+  const ComparedModel &a = c.models.at(0), &b = c.models.at(1);
+  c.beyond_sum = b.drag - a.drag;
+  for (std::size_t i = 2; i < c.models.size(); ++i) c.beyond_sum -= c.models[i].drag - a.drag;
+  c.by_projected_area = 2 * std::log(b.projected_diameter / a.projected_diameter);
+  c.by_drag_per_area = std::log(b.drag / a.drag) - c.by_projected_area;
   if (const Measured* row = measured_row(given)) {
     c.measured_drag = row->drag_n;
     c.printed_nonlinear = row->printed_nonlinear_n;

@@ -57,7 +57,10 @@ struct Comparison {
   std::string title;
   double speed = 0;  // [m/s]
   double drag_tolerance = 0;
-  std::vector<ComparedModel> models;                                       // in the order of linear_models()
+  std::vector<ComparedModel> models;  // in the order of linear_models()
+  // Where the linear model's difference of drag comes from.
+  double beyond_sum = 0;                               // of each material's alone [N]
+  double by_projected_area = 0, by_drag_per_area = 0;  // ln of the drags' ratio, in two parts
   std::optional<double> measured_drag, printed_nonlinear, printed_linear;  // [N]
 };
 template <Of<Comparison> T, class Visit>
@@ -66,6 +69,9 @@ void each_member(T& c, Visit&& visit) {
   visit("speed_m_s", c.speed);
   visit("drag_tolerance", c.drag_tolerance);
   visit("models", c.models);
+  visit("beyond_sum_n", c.beyond_sum);
+  visit("by_projected_area", c.by_projected_area);
+  visit("by_drag_per_projected_area", c.by_drag_per_area);
   visit("measured_drag_n", c.measured_drag);
   visit("printed_nonlinear_n", c.printed_nonlinear);
   visit("printed_linear_n", c.printed_linear);
