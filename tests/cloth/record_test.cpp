@@ -33,15 +33,15 @@ Balance balance(const Mesh& mesh, const ClothOptions& options, double share_of_s
           record.damped};
 }
 
-// The kinetic energy is that of half a step ago, and lattice dampers are read at the old
-// velocity: first order.
+// The kinetic energy is that of half a step ago: first order. Dampers have the mean velocity of a step, those of the
+// lattice in one step of many.
 TEST(StepRecord, TheWorkOfThePressureIsKineticElasticAndDampedEnergyToFirstOrderInTheStep) {
   for (const double spring_damping : {0.0, 0.02})
     for (const ClothOptions& options : {ClothOptions{false, 8.2, 0}, {false, 2.0, 0.3}}) {
       const Mesh mesh = medley(spring_damping, true);
       const Balance coarse = balance(mesh, options, 0.2, 2e-3), fine = balance(mesh, options, 0.02, 2e-3);
-      EXPECT_LT(fine.residual(), 1e-3) << coarse.residual() << " " << spring_damping;
-      EXPECT_LT(fine.residual(), 0.2 * coarse.residual());
+      EXPECT_LT(fine.residual(), 2e-4) << coarse.residual() << " " << spring_damping;
+      EXPECT_LT(coarse.residual(), spring_damping > 0 ? 1e-3 : 6e-3) << spring_damping;
     }
 }
 

@@ -14,7 +14,8 @@ namespace {
 constexpr long long steps_between_checks = 2048;  // of the bound, which costs about as much as 40 steps
 // For the work of the pressure: the cloth moves a fraction of a cell meanwhile.
 constexpr int steps_between_looks = 16;
-constexpr double runaway_strain = 10;  // no fabric comes near: the cloth flies apart
+constexpr int steps_between_dampers = 64;  // a look costs as much as three steps
+constexpr double runaway_strain = 10;      // no fabric comes near: the cloth flies apart
 
 void check_step(const Cloth& cloth, const ClothState& state, double dt) {
   check_health(cloth, state);
@@ -61,8 +62,17 @@ void step(ClothState& state, const Cloth& cloth, const Loads& loads, double dt, 
     team.run([&](int rank) {
       for (int i = 0; i < now; ++i) {
         if (contact && (done + i) % a_kick == 0) {
+          if (record) {
+            stepper.close_dampers(rank);
+            team.barrier();
+          }
           contact->kick(rank, team, state, std::min(a_kick, all - done - i) * dt);
           stepper.follow_masters(rank);
+          team.barrier();
+        }
+        const bool looked = stepper.looks_at_dampers() && (state.steps + i) % steps_between_dampers == 0;
+        if (looked) {
+          stepper.remember_step(rank);
           team.barrier();
         }
         stepper.add_forces(rank);
@@ -71,6 +81,12 @@ void step(ClothState& state, const Cloth& cloth, const Loads& loads, double dt, 
         team.barrier();
         stepper.follow_masters(rank);
         team.barrier();
+        if (looked) {
+          stepper.change_of_step(rank);
+          team.barrier();
+          stepper.look_at_dampers(rank, steps_between_dampers);
+          team.barrier();
+        }
         if (!record || ((done + i + 1) % steps_between_looks != 0 && done + i + 1 != all)) continue;
         stepper.add_pressure_work(rank);
         team.barrier();

@@ -8,7 +8,6 @@
 namespace ripstop {
 namespace {
 
-constexpr int rows_in_turn = 3;
 // What a kept node costs, over a vector of the lattice (measured on Stratos IV, AVX-512).
 constexpr double vectors_a_kept_node = 0.25;
 
@@ -352,81 +351,6 @@ void Stepper::stop(int rank) {
   if (rank + 1 < static_cast<int>(workers_.size())) return;
   for (std::size_t k = cloth_.kept_of_row.back(); k < cloth_.kept.size(); ++k)
     put(state_.v.data(), cloth_.kept[k].slot, {});
-}
-
-void Stepper::start_record(StepRecord& record) {
-  record_ = &record;
-  before_ = state_.x;
-  row_work_.assign(cloth_.row_count, 0.0);
-  row_damped_.assign(cloth_.row_count, 0.0);
-  kept_dampers_.assign(cloth_.kept.size(), Damper{});
-  string_dampers_.assign(cloth_.rings.size(), Damper{});
-  const int springs = cloth_.springs.blocks * lanes;
-  spring_damper_.assign(at(springs), 0.0);
-  spring_taken_.assign(springs, 0.0);
-  spring_peak_.assign(springs, 0.0);
-  std::copy(record.peak_tension.begin(), record.peak_tension.end(), spring_peak_.begin());
-  for (std::size_t k = 0; k < cloth_.kept.size(); ++k)
-    if (cloth_.is_fixed[cloth_.kept[k].node]) fixed_kept_.push_back(static_cast<int>(k));
-}
-
-void Stepper::take(Damper& damper, Vec3 force, Vec3 v) {
-  damper.energy += 0.5 * dot(damper.force + force, v);
-  damper.force = force;
-}
-
-void Stepper::record_fixed_force() {
-  Vec3 sum;
-  for (const int k : fixed_kept_) sum += force_on_kept(k);
-  record_->fixed_force.push_back(sum);
-}
-
-void Stepper::add_pressure_work(int rank) {
-  if (pressure_.empty()) return;
-  const Worker& worker = workers_[rank];
-  for (int row = worker.begin_row; row < worker.end_row; ++row) {
-    const PatchLayout& patch = cloth_.patches[cloth_.row_patch[row]];
-    if (cloth_.patch_row(row) + 1 == patch.rows) continue;
-    const int slot = cloth_.row_slot(row), first = at(slot), next = first + 3 * patch.row_slots();
-    row_work_[row] += pressure_work({patch.vectors, pressure_.data() + slot, state_.x.data() + first,
-                                     state_.x.data() + next, before_.data() + first, before_.data() + next});
-  }
-}
-
-void Stepper::remember_positions(int rank) {
-  const Worker& worker = workers_[rank];
-  for (int row = worker.begin_row; row < worker.end_row; ++row) {
-    const int first = at(cloth_.row_slot(row));
-    std::copy_n(state_.x.data() + first, 3 * cloth_.patches[cloth_.row_patch[row]].row_slots(),
-                before_.data() + first);
-  }
-}
-
-void Stepper::finish_record() {
-  double damped = 0;
-  for (std::size_t k = 0; k < cloth_.kept.size(); ++k) {
-    take(kept_dampers_[k], {}, get(state_.v.data(), cloth_.kept[k].slot));
-    damped += kept_dampers_[k].energy;
-  }
-  for (std::size_t i = 0; i + 1 < cloth_.rings.size(); ++i) {
-    const Vec3 dv = get(state_.v.data(), cloth_.rings[i + 1]) - get(state_.v.data(), cloth_.rings[i]);
-    take(string_dampers_[i], {}, dv);
-    damped += string_dampers_[i].energy;
-  }
-  const KeptSprings& springs = cloth_.springs;
-  for (std::size_t s = 0; s < record_->peak_tension.size(); ++s) {
-    const auto speed = [&](std::int64_t end) {
-      const double* v = state_.v.data() + end;
-      return Vec3{v[0], v[lanes], v[2 * lanes]};
-    };
-    const Vec3 force = get(spring_damper_.data(), static_cast<int>(s));
-    damped += spring_taken_[s] + 0.5 * dot(force, speed(springs.b[s]) - speed(springs.a[s]));
-    record_->peak_tension[s] = spring_peak_[s];
-  }
-  for (const double power : row_damped_) damped += power;
-  record_->damped += dt_ * damped;
-  for (const double work : row_work_) record_->pressure_work += work;
-  record_ = nullptr;
 }
 
 RowSums Stepper::sums() const {

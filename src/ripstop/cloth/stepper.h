@@ -19,6 +19,7 @@
 namespace ripstop {
 
 inline constexpr int kept_block = 64;  // kept nodes whose sums are added by one thread: whole vectors
+inline constexpr int rows_in_turn = 3;
 
 class Stepper {
  public:
@@ -52,10 +53,18 @@ class Stepper {
   /// From here on every step adds to `record`; finish_record() when the last step is done.
   void start_record(StepRecord& record);
   void finish_record();
+  /// Before velocities change other than by a step: what the dampers outside the lattice have taken up to there.
+  void close_dampers(int rank);
   /// After follow_masters: the work of the pressure since remember_positions() or
   /// start_record(). A barrier between.
   void add_pressure_work(int rank);
   void remember_positions(int rank);
+  /// Of one step in so many, with a barrier after each: before add_forces; after follow_masters; and then: what the
+  /// lattice's dampers take beside what add_forces sums up.
+  bool looks_at_dampers() const { return record_ && damped_lattice_; }
+  void remember_step(int rank);
+  void change_of_step(int rank);
+  void look_at_dampers(int rank, int steps);
 
   /// After move_kept, the same on every rank: force residual and power before the last move.
   RowSums sums() const;
@@ -116,8 +125,9 @@ class Stepper {
   };
   static void take(Damper& damper, Vec3 force, Vec3 v);
   StepRecord* record_ = nullptr;
-  AlignedDoubles before_;                      // positions when the work was last looked at
-  std::vector<double> row_work_, row_damped_;  // [J], over dt [W]; by row
+  AlignedDoubles before_;                         // positions when the work was last looked at
+  AlignedDoubles step_x_, step_v_, step_change_;  // before a step whose dampers are looked at, and of v in it
+  std::vector<double> row_work_, row_damped_;     // [J], over dt [W]; by row
   std::vector<Damper> kept_dampers_;
   AlignedDoubles spring_damper_, spring_taken_, spring_peak_;  // likewise, see SpringForces
   std::vector<Damper> string_dampers_;                         // of the drawstring's parts
