@@ -3,7 +3,7 @@
 
 #include "ripstop/core/file.h"
 #include "ripstop/core/hash.h"
-#include "ripstop/output/stl.h"
+#include "ripstop/flow/stl.h"
 #include "ripstop/output/vtk.h"
 #include "ripstop/run/checkpoint.h"
 #include "ripstop/run/inflation_folder.h"

@@ -1,5 +1,5 @@
 // A surface.
-#include "ripstop/output/stl.h"
+#include "ripstop/flow/stl.h"
 
 #include "reader.h"
 
