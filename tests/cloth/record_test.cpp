@@ -41,7 +41,10 @@ TEST(StepRecord, TheWorkOfThePressureIsKineticElasticAndDampedEnergyToFirstOrder
       const Mesh mesh = medley(spring_damping, true);
       const Balance coarse = balance(mesh, options, 0.2, 2e-3), fine = balance(mesh, options, 0.02, 2e-3);
       EXPECT_LT(fine.residual(), 2e-4) << coarse.residual() << " " << spring_damping;
-      EXPECT_LT(coarse.residual(), spring_damping > 0 ? 1e-3 : 6e-3) << spring_damping;
+      if (spring_damping > 0)
+        EXPECT_LT(coarse.residual(), 1e-3);  // 3.2e-3 with the velocities before a step
+      else
+        EXPECT_LT(fine.residual(), 0.2 * coarse.residual());
     }
 }
 

@@ -99,6 +99,8 @@ class Stepper {
   void move_kept_with_blocks(int begin, int end, double kick);
   void pull_drawstring();
   void record_fixed_force();
+  template <class Work>
+  void each_row(int rank, const Work& work) const;
 
   const Cloth& cloth_;
   ClothState& state_;

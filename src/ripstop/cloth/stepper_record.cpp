@@ -47,32 +47,33 @@ void Stepper::add_pressure_work(int rank) {
   }
 }
 
-void Stepper::remember_positions(int rank) {
+/// Calls work(first, count) with where each of a rank's rows lies in a vector of the lattice.
+template <class Work>
+void Stepper::each_row(int rank, const Work& work) const {
   const Worker& worker = workers_[rank];
-  for (int row = worker.begin_row; row < worker.end_row; ++row) {
-    const int first = at(cloth_.row_slot(row));
-    std::copy_n(state_.x.data() + first, 3 * cloth_.patches[cloth_.row_patch[row]].row_slots(),
-                before_.data() + first);
-  }
+  for (int row = worker.begin_row; row < worker.end_row; ++row)
+    work(at(cloth_.row_slot(row)), 3 * cloth_.patches[cloth_.row_patch[row]].row_slots());
+}
+
+void Stepper::remember_positions(int rank) {
+  each_row(rank, [&](int first, int count) {
+    std::copy_n(state_.x.data() + first, count, before_.data() + first);
+  });
 }
 
 // The dampers of the lattice are read at the velocities before a step, and take F . (v + v') / 2 in it. What that makes
 // beside F . v is C n.v n.(v' - v) / 2 a spring, and with Q(u) the sum of C (n.u)^2 (Q(v') - Q(v) - Q(v' - v)) / 4.
 void Stepper::remember_step(int rank) {
-  const Worker& worker = workers_[rank];
-  for (int row = worker.begin_row; row < worker.end_row; ++row) {
-    const int first = at(cloth_.row_slot(row)), count = 3 * cloth_.patches[cloth_.row_patch[row]].row_slots();
+  each_row(rank, [&](int first, int count) {
     std::copy_n(state_.x.data() + first, count, step_x_.data() + first);
     std::copy_n(state_.v.data() + first, count, step_v_.data() + first);
-  }
+  });
 }
 
 void Stepper::change_of_step(int rank) {
-  const Worker& worker = workers_[rank];
-  for (int row = worker.begin_row; row < worker.end_row; ++row) {
-    const int first = at(cloth_.row_slot(row)), count = 3 * cloth_.patches[cloth_.row_patch[row]].row_slots();
+  each_row(rank, [&](int first, int count) {
     for (int i = first; i < first + count; ++i) step_change_[i] = state_.v[i] - step_v_[i];
-  }
+  });
 }
 
 void Stepper::look_at_dampers(int rank, int steps) {
