@@ -18,11 +18,11 @@ namespace {
 constexpr double bytes_a_cell = 700, bytes_a_run = 2e8;
 // Measured (time -f %M): 360 MB for 400,000 nodes of cloth (fabric), 716 MB for 900,000 of lines (check).
 constexpr double bytes_a_node = 1000;
-// About the means of 32 runs on 627,200 cells with 8,000 to 50,300 nodes (iterations.csv of make validate-ojf, families
-// and judge), one core each beside other work: 27 of them took half to twice what this says, the quickest a quarter, a
-// cross that needed 12 coupling iterations five times.
-constexpr double flow_iterations = 600, cell_time = 1e-7;  // of a cell and iteration [core s]
-constexpr double cloth_steps = 25000, node_time = 1.5e-8;  // of a node and step [core s]
+// About the means of the 22 runs of make validate-families on 627,200 cells with 8,000 to 50,300 nodes, from the flat
+// canopy (iterations.csv), one core each beside other work: 21 of them took half to twice what this says, a ringsail that
+// needed 16 coupling iterations five times.
+constexpr double flow_iterations = 1000, cell_time = 1.2e-7;  // of a cell and iteration [core s]
+constexpr double cloth_steps = 15000, node_time = 1.5e-8;     // of a node and step [core s]
 
 /// The number behind `name` in a file of lines "name value", nothing where there is none.
 std::optional<double> number_in(const char* file, const std::string& name) {

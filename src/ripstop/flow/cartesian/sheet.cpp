@@ -29,6 +29,17 @@ std::pair<std::ptrdiff_t, std::ptrdiff_t> cells(const SheetFace& g, const Layout
   return {high - (g.axis == 0 ? 1 : g.axis == 1 ? layout.stride_y : layout.stride_z), high};
 }
 
+/// From a cell to the next one on the side that the sheet's normal looks to, along the axis that is nearest to it.
+std::ptrdiff_t off_the_sheet(Vec3 normal, const Layout& layout) {
+  const double x = std::abs(normal.x), y = std::abs(normal.y), z = std::abs(normal.z);
+  if (x >= y && x >= z) return normal.x < 0 ? -1 : 1;
+  if (y >= z) return normal.y < 0 ? -layout.stride_y : layout.stride_y;
+  return normal.z < 0 ? -layout.stride_z : layout.stride_z;
+}
+
+/// Of the steps of a staircase of faces, whose axis lies within 30 degrees of the cloth: below this.
+constexpr double step_normal = 0.5;
+
 /// Of the bend of the air's velocity at a sheet that moves, which a disk's drag as it drifts asks for: 0 and 0.5
 /// leave more of a swing as it goes from face to face.
 constexpr double kinked = 0.25;
@@ -200,8 +211,12 @@ void SheetRows::update(State& state, const Layout& layout, double momentum, doub
       const Vec3 velocity = Vec3{fields.u[cell], fields.v[cell], fields.w[cell]} - face.velocity;
       return along(g.axis, velocity) - dot(g.normal, velocity) / face.spread;
     };
-    // Not of a sheet that moves: what runs along it is the last step's, in cells that it is passing through.
-    const double slides = face.moves ? 0 : shared(sliding(low), sliding(high));
+    // Not of a sheet that moves: what runs along it is the last step's, in cells that it is passing through. At a step of
+    // the staircase the cells beside the face are fed by what passes through it, and would ask for that: the next ones
+    // say what runs along the cloth.
+    const bool at_step = face.cover == 1 && along(g.axis, g.normal) < step_normal;
+    const std::ptrdiff_t off = at_step ? off_the_sheet(g.normal, layout) : 0;
+    const double slides = face.moves ? 0 : shared(sliding(low - off), sliding(high + off));
     const double goes = along(g.axis, face.velocity);
     double through = face.spread * (flux[high] / density - goes - slides);
     // A sheet that moves is not at its face but between it and the next one, and so is the velocity that the
