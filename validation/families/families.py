@@ -146,6 +146,18 @@ def opened(options, name):
     return json.loads((folder / "result.json").read_text()), json.loads(load.stdout)
 
 
+def pull_of_last_fifth(folder):
+    """Of the air on canopy and lines [N], and how far it is turned off the stream [deg]: a canopy that hangs free swings aside."""
+    with open(folder / "air.csv", encoding="utf-8") as file:
+        rows = [{key: float(row[key]) for key in ("time_s", "step_s", "drag_n", "side_force_x_n", "side_force_y_n")}
+                for row in csv.DictReader(file)]
+    rows = [row for row in rows if row["time_s"] > 0.8 * rows[-1]["time_s"]]
+    side = [math.hypot(row["side_force_x_n"], row["side_force_y_n"]) for row in rows]
+    steps = [row["step_s"] for row in rows]
+    pull = statistics.fmean([math.hypot(row["drag_n"], aside) for row, aside in zip(rows, side)], steps)
+    return pull, statistics.fmean([math.degrees(math.atan2(aside, row["drag_n"])) for row, aside in zip(rows, side)], steps)
+
+
 def openings(options):
     rows, made = [], []
     for name, known in in_handbook().items():
@@ -155,14 +167,16 @@ def openings(options):
         made += tables.runs_below(folder_of(options, name, "opening"))
         way = known["speed_m_s"] * r["low_pass_peak_time_s"] / handbook["nominal_diameter_m"]
         settled = "" if r["settled"] else ", not settled"
+        pull, aside = pull_of_last_fifth(folder_of(options, name, "opening"))
         label = ", ".join([name, *(f"`{setting}`" for setting in OPENING_OF.get(name, []))])
         rows.append([label, f"{r['low_pass_peak_load_n']:.0f}", f"{1000 * r['low_pass_peak_time_s']:.0f}",
                      f"{r['steady_load_n']:.0f} +- {100 * r['steady_load_deviation']:.0f} %{settled}",
-                     f"{r['low_pass_overshoot']:.2f}", f"{r['knacke_coefficient']:g}", f"{way:.1f}",
+                     f"{pull:.0f}, {aside:.0f} deg", f"{r['low_pass_peak_load_n'] / pull:.2f}",
+                     f"{r['knacke_coefficient']:g}", f"{way:.1f}",
                      f"{handbook['filling_constant']:g}", f"{100 * r['pierced_edges']:.1f}"])
-    table = tables.table(["example", "peak at 100 Hz N", "at ms", "last fifth N", "peak over it", "Knacke C_x",
-                          "way to the peak in diameters", "handbook's filling distance, flying", "edges that pierce cloth %"],
-                         rows)
+    table = tables.table(["example", "peak at 100 Hz N", "at ms", "last fifth, along the stream N", "its pull N, aside",
+                          "peak over the pull", "Knacke C_x", "way to the peak in diameters",
+                          "handbook's filling distance, flying", "edges that pierce cloth %"], rows)
     print("\n".join(table))
     foot = ["The handbook's filling distance is that of a payload that flies, in nominal diameters, as `ripstop load` takes it."]
     if len(rows) == len(in_handbook()) and not options.set:
