@@ -93,7 +93,7 @@ bench: check-deps  ## Benchmarks, some three hours; their figures stand in docs/
 	@build-check/bench/bench_bodies in-time 16 | tee docs/tables/bodies-in-time.md
 	@build-check/bench/bench_bodies places 16 | tee docs/tables/bodies-places.md
 	@build-check/bench/bench_bodies openfoam 8 | tee docs/tables/bodies-openfoam.md
-	@build-check/bench/bench_sheet 40 4 | tee docs/tables/sheet-shifts.md
+	@build-check/bench/bench_sheet 28 4 | tee docs/tables/sheet-shifts.md
 	@build-check/bench/bench_cloth
 	@build-check/bench/bench_relaxation | tee docs/tables/relaxation.md
 	@build-check/bench/bench_relaxation --ratio --pressures 80 stratos-iv flat-circular
