@@ -23,18 +23,22 @@ double shared(double a, double b) {
   return a * b > 0 ? 2 * a * b / (a + b) : 0;
 }
 
+/// From a cell to the next one along an axis.
+std::ptrdiff_t next_along(int axis, const Layout& layout) {
+  return axis == 0 ? 1 : axis == 1 ? layout.stride_y : layout.stride_z;
+}
+
 /// The cells on either side of a face.
 std::pair<std::ptrdiff_t, std::ptrdiff_t> cells(const SheetFace& g, const Layout& layout) {
   const std::ptrdiff_t high = layout.at(g.i, g.j, g.k);
-  return {high - (g.axis == 0 ? 1 : g.axis == 1 ? layout.stride_y : layout.stride_z), high};
+  return {high - next_along(g.axis, layout), high};
 }
 
 /// From a cell to the next one on the side that the sheet's normal looks to, along the axis that is nearest to it.
 std::ptrdiff_t off_the_sheet(Vec3 normal, const Layout& layout) {
   const double x = std::abs(normal.x), y = std::abs(normal.y), z = std::abs(normal.z);
-  if (x >= y && x >= z) return normal.x < 0 ? -1 : 1;
-  if (y >= z) return normal.y < 0 ? -layout.stride_y : layout.stride_y;
-  return normal.z < 0 ? -layout.stride_z : layout.stride_z;
+  const int axis = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
+  return (along(axis, normal) < 0 ? -1 : 1) * next_along(axis, layout);
 }
 
 /// Of the steps of a staircase of faces, whose axis lies within 30 degrees of the cloth: below this.
