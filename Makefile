@@ -85,12 +85,13 @@ coverage: check-deps  ## Lines of src/ that the tests run, without OpenFOAM's, i
 	@ctest --preset coverage -j $(JOBS)
 	@/usr/bin/python3 validation/reliability/coverage.py
 
-bench: check-deps  ## Benchmarks, some three hours; their figures stand in docs/tables
+bench: check-deps  ## Benchmarks, some four hours; their figures stand in docs/tables
 	@cmake --preset release > /dev/null
 	@cmake --build --preset release -j $(JOBS)
 	@build-check/bench/bench_bodies sides | tee docs/tables/sides.md
 	@build-check/bench/bench_bodies 32 | tee docs/tables/bodies.md
 	@build-check/bench/bench_bodies in-time 16 | tee docs/tables/bodies-in-time.md
+	@build-check/bench/bench_bodies in-time 25 all des | tee docs/tables/bodies-in-time-fine.md
 	@build-check/bench/bench_bodies places 16 | tee docs/tables/bodies-places.md
 	@build-check/bench/bench_bodies openfoam 8 | tee docs/tables/bodies-openfoam.md
 	@build-check/bench/bench_sheet 28 4 | tee docs/tables/sheet-shifts.md
