@@ -158,6 +158,13 @@ def pull_of_last_fifth(folder):
     return pull, statistics.fmean([math.degrees(math.atan2(aside, row["drag_n"])) for row, aside in zip(rows, side)], steps)
 
 
+def over_whole_area(r, known, nominal_diameter):
+    """The peak over the dynamic pressure of the whole area, and the same of the handbook's C_x and drag coefficients."""
+    of_area = known["density_kg_m3"] / 2 * known["speed_m_s"] ** 2 * math.pi / 4 * nominal_diameter ** 2  # [N]
+    low, high = (r["knacke_coefficient"] * drag for drag in known["handbook_drag_coefficient"])
+    return f"{r['low_pass_peak_load_n'] / of_area:.2f}", f"{low:.2f} to {high:.2f}"
+
+
 def openings(options):
     rows, made = [], []
     for name, known in in_handbook().items():
@@ -172,10 +179,10 @@ def openings(options):
         rows.append([label, f"{r['low_pass_peak_load_n']:.0f}", f"{1000 * r['low_pass_peak_time_s']:.0f}",
                      f"{r['steady_load_n']:.0f} +- {100 * r['steady_load_deviation']:.0f} %{settled}",
                      f"{pull:.0f}, {aside:.0f} deg", f"{r['low_pass_peak_load_n'] / pull:.2f}",
-                     f"{r['knacke_coefficient']:g}", f"{way:.1f}",
+                     f"{r['knacke_coefficient']:g}", *over_whole_area(r, known, handbook["nominal_diameter_m"]), f"{way:.1f}",
                      f"{handbook['filling_constant']:g}", f"{100 * r['pierced_edges']:.1f}"])
     table = tables.table(["example", "peak at 100 Hz N", "at ms", "last fifth, along the stream N", "its pull N, aside",
-                          "peak over the pull", "Knacke C_x", "way to the peak in diameters",
+                          "peak over the pull", "Knacke C_x", "peak over q S0", "Knacke C_x C_D", "way to the peak in diameters",
                           "handbook's filling distance, flying", "edges that pierce cloth %"], rows)
     print("\n".join(table))
     foot = ["The handbook's filling distance is that of a payload that flies, in nominal diameters, as `ripstop load` takes it."]

@@ -362,6 +362,10 @@ void PullSprings(const SpringForces& job, int begin_block, int end_block) {
   if (!job.peak) return pull_blocks<true, false>(job, begin_block, end_block);
   pull_blocks<true, true>(job, begin_block, end_block);
 }
+void AddRow(int count, const double* a, double* f) {
+  for (int i = 0; i < count; i += static_cast<int>(hn::Lanes(tag)))
+    hn::Store(hn::Add(hn::Load(tag, f + i), hn::Load(tag, a + i)), tag, f + i);
+}
 double MoveRow(const RowMotion& row) {
   if (!row.area) return motion<Damping::none>(row);
   if (row.quadratic == 0) return motion<Damping::linear>(row);
@@ -418,6 +422,7 @@ namespace ripstop {
 
 HWY_EXPORT(AddRowForces);
 HWY_EXPORT(PullSprings);
+HWY_EXPORT(AddRow);
 HWY_EXPORT(MoveRow);
 HWY_EXPORT(RelaxRow);
 HWY_EXPORT(PressureWork);
@@ -428,6 +433,9 @@ double add_row_forces(const RowForces& row) {
 }
 void pull_springs(const SpringForces& job, int begin_block, int end_block) {
   HWY_DYNAMIC_DISPATCH(PullSprings)(job, begin_block, end_block);
+}
+void add_row(int count, const double* a, double* f) {
+  HWY_DYNAMIC_DISPATCH(AddRow)(count, a, f);
 }
 double move_row(const RowMotion& row) {
   return HWY_DYNAMIC_DISPATCH(MoveRow)(row);

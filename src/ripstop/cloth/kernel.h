@@ -21,6 +21,9 @@ struct RowForces {
 /// Returns the power of the springs' dampers [W], with the velocities before the step.
 double add_row_forces(const RowForces& row);
 
+/// f += a over `count` doubles, whole vectors.
+void add_row(int count, const double* a, double* f);
+
 /// v' = v + dt (f - c v) / m,  x' = x + dt v'   where 1 / m > 0; the rest stays.   [NFM] Eq. 6, 20
 /// with the absolute damping c = area (linear + quadratic |v|).
 struct RowMotion {

@@ -106,6 +106,7 @@ struct Cloth {
   AlignedDoubles damper_shares;    // of damped patches, see PatchLayout
   std::vector<double> total_mass;  // [kg] with the share of tied nodes; 0 for a tied node; by node
   std::vector<double> area;        // [m2] cloth of every node, by node
+  std::vector<Cell> cells;         // cells_of() the mesh
   std::vector<char> is_tied, is_fixed;
 
   /// Fixed nodes, nodes with irregular springs, ties or masters of ties, and nodes outside patches, in

@@ -234,10 +234,10 @@ void share_mass_and_area(Cloth& cloth) {
   cloth.total_mass = mesh.mass;
   cloth.area.assign(mesh.node_count(), 0.0);
   std::size_t cell = 0;
-  const std::vector<Cell> cells = cells_of(mesh);
+  cloth.cells = cells_of(mesh);
   for (const Patch& patch : mesh.patches)
     for (int i = 0; i < (patch.rows - 1) * patch.columns; ++i) {
-      const Cell& c = cells[cell++];
+      const Cell& c = cloth.cells[cell++];
       if (c.corner[0] < 0) continue;
       for (int corner : c.corner) cloth.area[corner] += 0.25 * patch.cell_area[i];
     }

@@ -45,9 +45,8 @@ std::vector<Vec3> load_on_nodes(const Cloth& cloth, const std::vector<Vec3>& x, 
   std::vector<Vec3> force = loads.node_force;
   force.resize(x.size());
   if (!loads.cell_pressure.empty()) {
-    const std::vector<Cell> cells = cells_of(cloth.mesh);
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      const auto& c = cells[i].corner;
+    for (std::size_t i = 0; i < cloth.cells.size(); ++i) {
+      const auto& c = cloth.cells[i].corner;
       if (c[0] < 0) continue;
       const Vec3 each = 0.25 * loads.cell_pressure[i] * area_vector(x[c[0]], x[c[1]], x[c[2]], x[c[3]]);
       for (int corner : c) force[corner] += each;

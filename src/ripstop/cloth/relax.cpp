@@ -114,15 +114,19 @@ Masses fictitious_masses(const Cloth& cloth, const ClothState& state, double flo
   } else {
     for (const double k : node_stiffness(cloth, state).stiffness) masses.mass.push_back({k, k, k, 0, 0, 0});
   }
-  for (int node = 0; node < cloth.mesh.node_count(); ++node)
-    for (int i = 0; i < 3; ++i) masses.mass[node][i] += 0.5 * round[node];
   for (int node : cloth.mesh.fixed) masses.mass[node] = {};
   for (const Tie& tie : cloth.mesh.ties) masses.mass[tie.node] = {};
-  masses.inverse.inverse_mass.reserve(masses.mass.size());
-  for (Symmetric& mass : masses.mass) {
-    for (double& component : mass) component *= 0.5 * margin / share;
-    masses.inverse.inverse_mass.push_back(inverse_of(mass));
-  }
+  masses.inverse.inverse_mass.resize(masses.mass.size());
+  team.run([&](int rank) {
+    const IndexRange nodes = part_of(cloth.mesh.node_count(), rank, team.size());
+    for (int node = nodes.begin; node < nodes.end; ++node) {
+      Symmetric& mass = masses.mass[node];
+      if (!cloth.is_fixed[node] && !cloth.is_tied[node])
+        for (int i = 0; i < 3; ++i) mass[i] += 0.5 * round[node];
+      for (double& component : mass) component *= 0.5 * margin / share;
+      masses.inverse.inverse_mass[node] = inverse_of(mass);
+    }
+  });
   return masses;
 }
 

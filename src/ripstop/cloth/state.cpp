@@ -57,9 +57,9 @@ AlignedDoubles compile_pressure(const Cloth& cloth, const Loads& loads) {
     throw Error(ExitCode::bad_data, fmt::format("{} cell pressures for {} cells of the cloth",
                                                 pressure.size(), cloth.mesh.cell_count()));
   AlignedDoubles compiled(cloth.slots, 0.0);
-  const std::vector<Cell> cells = cells_of(cloth.mesh);
-  for (std::size_t i = 0; i < cells.size(); ++i)
-    if (cells[i].corner[0] >= 0) compiled[cloth.slot[cells[i].corner[0]]] = 0.125 * pressure[i];
+  for (std::size_t i = 0; i < cloth.cells.size(); ++i)
+    if (const int corner = cloth.cells[i].corner[0]; corner >= 0)
+      compiled[cloth.slot[corner]] = 0.125 * pressure[i];
   return compiled;
 }
 

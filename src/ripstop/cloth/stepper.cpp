@@ -216,16 +216,18 @@ void Stepper::complete_row(int row, double* f) {
   const int first = cloth_.row_slot(row);
   for (const PatchLayout::Copy& copy : patch.copies)
     for (int c = 0; c < 3; ++c) f[at(copy.source) + c * lanes] += f[at(copy.ghost) + c * lanes];
-  if (!node_force_.empty()) {
-    const double* point = node_force_.data() + at(first);
-    for (int i = 0; i < 3 * lanes * patch.vectors; ++i) f[i] += point[i];
-  }
+  if (!node_force_.empty()) add_row(3 * lanes * patch.vectors, node_force_.data() + at(first), f);
   if (!hold_at_.empty()) {
     const double *stiffness = hold_stiffness_.data() + at(first), *from = hold_at_.data() + at(first),
                  *x = state_.x.data() + at(first);
     for (int i = 0; i < 3 * lanes * patch.vectors; ++i) f[i] += stiffness[i] * (from[i] - x[i]);
   }
+  const bool damped = cloth_.options.absolute_damping > 0 || cloth_.options.quadratic_damping > 0;
   for (int k = cloth_.kept_of_row[row]; k < cloth_.kept_of_row[row + 1]; ++k) {
+    if (!damped) {
+      put(kept_force_.data(), k, get(f, cloth_.kept[k].slot - first));
+      continue;
+    }
     const Vec3 v = get(state_.v.data(), cloth_.kept[k].slot);
     double per_area = cloth_.options.absolute_damping;
     if (cloth_.options.quadratic_damping > 0) per_area += cloth_.options.quadratic_damping * norm(v);

@@ -131,7 +131,7 @@ Tautness tautness_of(const CellStress& stress, const Patch& patch) {
 std::vector<CellStress> cell_stress(const Cloth& cloth, const ClothState& state) {
   const Mesh& mesh = cloth.mesh;
   const std::vector<Vec3> x = positions(state, cloth);
-  const std::vector<Cell> cells = cells_of(mesh);
+  const std::vector<Cell>& cells = cloth.cells;
   std::vector<Frame> frames(cells.size());
   for (std::size_t i = 0; i < cells.size(); ++i)
     if (cells[i].corner[0] >= 0) frames[i] = frame_of(cells[i], x);

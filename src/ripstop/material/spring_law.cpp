@@ -4,24 +4,6 @@
 
 namespace ripstop {
 
-double SpringLaw::tension(double strain) const {
-  if (coefficients.empty()) return 0;
-  if (strain < 0) return compression * coefficients[0] * std::max(strain, -buckling_strain);
-  double sum = 0;
-  for (auto k = coefficients.rbegin(); k != coefficients.rend(); ++k) sum = (sum + *k) * strain;
-  return sum;
-}
-
-double SpringLaw::tangent(double strain) const {
-  if (coefficients.empty()) return 0;
-  if (strain < -buckling_strain) return 0;
-  if (strain < 0) return compression * coefficients[0];
-  double sum = 0;
-  for (auto k = coefficients.size(); k > 0; --k)
-    sum = sum * strain + static_cast<double>(k) * coefficients[k - 1];
-  return sum;
-}
-
 double SpringLaw::energy(double strain) const {
   if (coefficients.empty()) return 0;
   if (strain < 0) {

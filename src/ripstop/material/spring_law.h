@@ -1,6 +1,7 @@
 // The tension of one spring family as a function of its strain, [NFM] Eq. 2.
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <vector>
 
@@ -16,11 +17,29 @@ struct SpringLaw {
   double compression = 1;            // 0: tension only, 1: as stiff as the first pull
   double buckling_strain = std::numeric_limits<double>::infinity();  // >= 0; infinite: never
 
-  double tension(double strain) const;
-  double tangent(double strain) const;  // dT/de
-  double energy(double strain) const;   // integral of T from 0 to e
+  inline double tension(double strain) const;
+  inline double tangent(double strain) const;  // dT/de
+  double energy(double strain) const;          // integral of T from 0 to e
   SpringLaw scaled(double factor) const;
   SpringLaw linearised() const;  // keeps K_1 only: the paper's "linear model"
 };
+
+double SpringLaw::tension(double strain) const {
+  if (coefficients.empty()) return 0;
+  if (strain < 0) return compression * coefficients[0] * std::max(strain, -buckling_strain);
+  double sum = 0;
+  for (auto k = coefficients.rbegin(); k != coefficients.rend(); ++k) sum = (sum + *k) * strain;
+  return sum;
+}
+
+double SpringLaw::tangent(double strain) const {
+  if (coefficients.empty()) return 0;
+  if (strain < -buckling_strain) return 0;
+  if (strain < 0) return compression * coefficients[0];
+  double sum = 0;
+  for (auto k = coefficients.size(); k > 0; --k)
+    sum = sum * strain + static_cast<double>(k) * coefficients[k - 1];
+  return sum;
+}
 
 }  // namespace ripstop
