@@ -59,12 +59,11 @@ std::vector<Symmetric> node_blocks(const Cloth& cloth, const ClothState& state, 
   const auto add_spring = [&](const SpringView& s, int first, int last) {
     const Vec3 d = x[s.b] - x[s.a];
     const double length = norm(d);
-    const double strain = length / s.rest_length - 1;
+    const double pulled = std::max(length / s.rest_length - 1, 0.0);
     const Vec3 n = length > 0 ? d / length : Vec3{1, 0, 0};
-    const double tangent = std::max(s.law->tangent(strain), strain < 0 ? s.law->tangent(0) : 0.0);
-    const double along = s.scale * tangent / s.rest_length;
+    const double along = s.scale * std::max(s.law->tangent(pulled), 0.0) / s.rest_length;
     const double across =
-        length > 0 ? std::max(floor * along, s.scale * s.law->tension(strain) / length) : along;
+        length > 0 ? std::max(floor * along, s.scale * s.law->tension(pulled) / length) : along;
     for (const int end : {s.a, s.b})
       if (first <= end && end < last) add(blocks[end], along, across, n);
   };
