@@ -50,7 +50,8 @@ TEST(Blocks, TheirStiffnessBoundsThatOfTheClothThatMovesWithThem) {
   const ClothPtr cloth = make_cloth(mesh);
   ClothState state = start_state(*cloth);
   Blocks blocks(*cloth);
-  blocks.set_stiffness(*cloth, state, {}, 1);
+  ThreadTeam team(2);
+  blocks.set_stiffness(*cloth, state, {}, 1, team);
   const int padded = blocks.padded();
   const std::vector<Vec3> x = positions(state, *cloth);
   const auto energy = [&](const AlignedDoubles& y, double step) {

@@ -193,16 +193,21 @@ void Blocks::list_crossings(const Cloth& cloth) {
 }
 
 void Blocks::set_stiffness(const Cloth& cloth, const ClothState& state, const std::vector<double>& also,
-                           double scale) {
-  std::vector<double> stiffness, diagonal(count_, 0.0);
-  stiffness.reserve(crossings_.size());
-  for (const Crossing& s : crossings_) {
-    const Vec3 d = get(state.x.data(), cloth.slot[s.node_b]) - get(state.x.data(), cloth.slot[s.node_a]);
-    const double strain = norm(d) / s.rest_length - 1;
-    const double tangent = std::max(s.law->coefficients[0], strain > 0 ? s.law->tangent(strain) : 0.0);
-    const double k = stiffness.emplace_back(s.scale * tangent / s.rest_length);
-    if (s.a >= 0) diagonal[s.a] += k;
-    if (s.b >= 0) diagonal[s.b] += k;
+                           double scale, ThreadTeam& team) {
+  std::vector<double> stiffness(crossings_.size()), diagonal(count_, 0.0);
+  team.run([&](int rank) {
+    const IndexRange part = part_of(static_cast<int>(crossings_.size()), rank, team.size());
+    for (int i = part.begin; i < part.end; ++i) {
+      const Crossing& s = crossings_[i];
+      const Vec3 d = get(state.x.data(), cloth.slot[s.node_b]) - get(state.x.data(), cloth.slot[s.node_a]);
+      const double strain = norm(d) / s.rest_length - 1;
+      const double tangent = std::max(s.law->coefficients[0], strain > 0 ? s.law->tangent(strain) : 0.0);
+      stiffness[i] = s.scale * tangent / s.rest_length;
+    }
+  });
+  for (std::size_t i = 0; i < crossings_.size(); ++i) {
+    if (const int a = crossings_[i].a; a >= 0) diagonal[a] += stiffness[i];
+    if (const int b = crossings_[i].b; b >= 0) diagonal[b] += stiffness[i];
   }
   for (std::size_t node = 0; node < also.size(); ++node)
     if (block_of_node_[node] >= 0) diagonal[block_of_node_[node]] += also[node];

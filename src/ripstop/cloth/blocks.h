@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ripstop/cloth/layout.h"
+#include "ripstop/core/thread_team.h"
 
 namespace ripstop {
 
@@ -26,7 +27,7 @@ class Blocks {
   /// since k n n^T + T/l (1 - n n^T) <= k. Keeps `scale` times the inverse of C, for each direction alike; `also` is
   /// added to the diagonal, by node [N/m]. Looks at the present tangents and does nothing while none outgrew C.
   void set_stiffness(const Cloth& cloth, const ClothState& state, const std::vector<double>& also,
-                     double scale);
+                     double scale, ThreadTeam& team);
   /// In groups of eight rows: the inverse's element (i, j) at 8 (i / 8 * padded + j) + i % 8.
   const double* inverse() const { return inverse_.data(); }
 

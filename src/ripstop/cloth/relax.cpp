@@ -270,7 +270,7 @@ class Relaxation {
   }
   Masses masses_now() {
     const std::vector<double> round = round_stiffness(cloth_, state_, options_.hold);
-    if (blocks_) blocks_->set_stiffness(cloth_, state_, round, (1 - nodes_share) / (0.25 * margin));
+    if (blocks_) blocks_->set_stiffness(cloth_, state_, round, (1 - nodes_share) / (0.25 * margin), team_);
     return fictitious_masses(cloth_, state_, lightness_.floor, round, blocks_ ? nodes_share : 1, team_);
   }
   void refresh() {
