@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "even_axis.h"
 #include "ripstop/flow/cartesian/sheet.h"
 #include "ripstop/flow/cartesian/state.h"
 
@@ -14,12 +15,7 @@ namespace {
 using cartesian::Axis;
 using cartesian::sheet_faces;
 using cartesian::SheetFace;
-
-Axis even_axis(double low, double size, int n) {
-  std::vector<double> edges(n + 1);
-  for (int i = 0; i <= n; ++i) edges[i] = low + size * i / n;
-  return cartesian::make_axis(edges, cartesian::End::zero_gradient, cartesian::End::zero_gradient);
-}
+using testing::even_axis;
 
 /// What the law asks of one face of a sheet that leans by 17 degrees from the z axis, where the air stands but in the cells
 /// that are `off` cells along x from the two beside the face: there it runs along the sheet, as through the face.

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <tuple>
 
+#include "even_axis.h"
 #include "ripstop/core/error.h"
 #include "ripstop/flow/bodies.h"
 #include "ripstop/flow/cartesian/cartesian.h"
@@ -19,18 +20,12 @@ namespace ripstop {
 namespace {
 
 using cartesian::Axis;
-using cartesian::End;
 using cartesian::sheet_faces;
 using cartesian::SheetFace;
+using testing::even_axis;
 
 using std::numbers::pi;
 constexpr double f111 = 8169.3;  // a of F-111 at 3 CFM [Pa s/m]
-
-Axis uniform(double low, double size, int n) {
-  std::vector<double> edges(n + 1);
-  for (int i = 0; i <= n; ++i) edges[i] = low + size * i / n;
-  return cartesian::make_axis(edges, End::zero_gradient, End::zero_gradient);
-}
 
 double area_of(const std::vector<Triangle>& surface) {
   double sum = 0;
@@ -50,7 +45,7 @@ std::vector<Triangle> octahedron(Vec3 c, double radius) {
 
 TEST(SheetFaces, AClosedSurfacePartsItsInsideFromItsOutsideWithoutAHole) {
   const int n = 20;
-  const Axis x = uniform(-1, 2, n);
+  const Axis x = even_axis(-1, 2, n);
   for (const Vec3 centre : {Vec3{0.05, 0.05, 0.05}, Vec3{0.013, -0.021, 0.037}}) {
     const double radius =
         0.6 + 1e-7;  // no centre exactly on a face, where inside and outside have no meaning
@@ -81,7 +76,7 @@ TEST(SheetFaces, AClosedSurfacePartsItsInsideFromItsOutsideWithoutAHole) {
 }
 
 TEST(SheetFaces, TheSharesOfAllFacesAddUpToTheSheet) {
-  const Axis x = uniform(-1, 2, 40), z = uniform(0, 4, 60);
+  const Axis x = even_axis(-1, 2, 40), z = even_axis(0, 4, 60);
   for (const Vec3 centre : {Vec3{0, 0, 2}, Vec3{0.013, -0.007, 2.031}}) {
     for (const auto& surface :
          {disk(0.65, centre), hemispherical_cup(0.65, centre), rigid_disk_gap_band(centre)}) {
@@ -100,12 +95,12 @@ TEST(SheetFaces, OfASheetInAGridAsManyTimesAsLargeAreTheSame) {
     surface.push_back(t);  // a second layer close to it
   for (const Triangle& t : rigid_disk_gap_band({0.1, 0.05, 1.2})) surface.push_back(t);
   const std::vector<SheetFace> once =
-      sheet_faces(uniform(-1, 2, 40), uniform(-1, 2, 40), uniform(0, 4, 60), surface);
+      sheet_faces(even_axis(-1, 2, 40), even_axis(-1, 2, 40), even_axis(0, 4, 60), surface);
   ASSERT_GT(once.size(), 1000u);
   for (const double scale : {1.0 / 64, 64.0}) {  // exact in floating point
     std::vector<Triangle> scaled = surface;
     for (Triangle& t : scaled) t.a *= scale, t.b *= scale, t.c *= scale;
-    const Axis x = uniform(-scale, 2 * scale, 40), z = uniform(0, 4 * scale, 60);
+    const Axis x = even_axis(-scale, 2 * scale, 40), z = even_axis(0, 4 * scale, 60);
     const std::vector<SheetFace> faces = sheet_faces(x, x, z, scaled);
     ASSERT_EQ(faces.size(), once.size()) << scale;
     for (std::size_t n = 0; n < faces.size(); ++n) {
@@ -124,7 +119,7 @@ TEST(SheetFaces, OfASheetInAGridAsManyTimesAsLargeAreTheSame) {
 // is open in part.
 TEST(SheetFaces, BesideAHemAFaceIsOpenWhereTheSheetHasEndedAndNotWhereItHasBentAway) {
   const double h = 0.05, radius = 0.4137, low = 0.67, high = 1.39;  // 2/5 and 4/5 into their cells
-  const Axis x = uniform(-1, 2, 40), z = uniform(0, 2, 40);
+  const Axis x = even_axis(-1, 2, 40), z = even_axis(0, 2, 40);
   const auto surface = revolve({{radius, low}, {radius, high}}, {0.013, -0.007, 0}, 360);
   int part = 0;
   for (const SheetFace& f : sheet_faces(x, x, z, surface)) {
@@ -139,7 +134,7 @@ TEST(SheetFaces, BesideAHemAFaceIsOpenWhereTheSheetHasEndedAndNotWhereItHasBentA
 // A hem along the grid passes all lines of a row at once.
 TEST(SheetFaces, AHemAlongTheGridCoversAFaceByAsMuchAsItPasses) {
   const double h = 0.05;
-  const Axis x = uniform(-1, 2, 40), z = uniform(0, 2, 40);
+  const Axis x = even_axis(-1, 2, 40), z = even_axis(0, 2, 40);
   for (double share = 0.2; share < 0.85; share += 0.05) {
     const double low = -0.4, high = 0.3 + share * h;
     const std::vector<Triangle> surface = {{{low, low, 1.013}, {high, low, 1.013}, {high, 0.5, 1.013}},
@@ -287,7 +282,7 @@ CartesianSettings threads(int count) {
 // Rows that no sheet touches are computed as in open air.
 TEST(Sheet, TouchesTheRowsOfCellsOnBothItsSidesAndNoOthers) {
   const int n = 10;
-  const Axis axis = uniform(0, 1, n);
+  const Axis axis = even_axis(0, 1, n);
   for (const int across : {0, 1, 2}) {
     Vec3 corner{0.31, 0.31, 0.31}, u{}, v{};
     (across == 0 ? corner.x : across == 1 ? corner.y : corner.z) = 0.5;
@@ -307,7 +302,7 @@ TEST(Sheet, TouchesTheRowsOfCellsOnBothItsSidesAndNoOthers) {
 
 // Half a cell at least; on its columns the plane has a point straight below or above every cell.
 TEST(Sheet, TheDistanceToAPlaneIsThatStraightToIt) {
-  const Axis x = uniform(0, 1, 4), y = uniform(0, 1, 5), z = uniform(0, 3, 12);
+  const Axis x = even_axis(0, 1, 4), y = even_axis(0, 1, 5), z = even_axis(0, 3, 12);
   const Vec3 p[] = {{-1, -1, 1.53}, {2, -1, 1.53}, {2, 2, 1.53}, {-1, 2, 1.53}};
   const cartesian::SheetRows rows(x, y, z, {{{{p[0], p[1], p[2]}, {p[0], p[2], p[3]}}, 40, 2}});
   const cartesian::Layout layout(4, 5, 12);

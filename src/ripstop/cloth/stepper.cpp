@@ -36,14 +36,13 @@ Stepper::Stepper(const Cloth& cloth, const Loads& loads, ClothState& state, doub
     kept_inverse_mass_[k] = inverse(cloth.kept[k].node);
     inverse_mass_[cloth.kept[k].slot] = 0;
   }
-  kept_area_.assign(cloth.kept.size(), 0.0);
   if (cloth.options.absolute_damping > 0 || cloth.options.quadratic_damping > 0) {
     area_.assign(cloth.slots, 0.0);
     for (int node = 0; node < cloth.mesh.node_count(); ++node) {
       const int slot = cloth.slot[node];
       if (inverse_mass_[slot] > 0) area_[slot] = cloth.area[node];
     }
-    for (std::size_t k = 0; k < cloth.kept.size(); ++k) kept_area_[k] = cloth.area[cloth.kept[k].node];
+    for (const Cloth::Kept& kept : cloth.kept) kept_area_.push_back(cloth.area[kept.node]);
   }
   prepare(threads);
 }
@@ -58,7 +57,6 @@ Stepper::Stepper(const Cloth& cloth, const Loads& loads, ClothState& state, cons
       pressure_(compile_pressure(cloth, loads)),
       node_force_(compile_node_force(cloth, loads)) {
   set_masses(masses);
-  kept_area_.assign(cloth.kept.size(), 0.0);
   prepare(threads);
 }
 
@@ -222,18 +220,16 @@ void Stepper::complete_row(int row, double* f) {
                  *x = state_.x.data() + at(first);
     for (int i = 0; i < 3 * lanes * patch.vectors; ++i) f[i] += stiffness[i] * (from[i] - x[i]);
   }
-  const bool damped = cloth_.options.absolute_damping > 0 || cloth_.options.quadratic_damping > 0;
   for (int k = cloth_.kept_of_row[row]; k < cloth_.kept_of_row[row + 1]; ++k) {
-    if (!damped) {
-      put(kept_force_.data(), k, get(f, cloth_.kept[k].slot - first));
-      continue;
+    Vec3 drag;
+    if (!area_.empty()) {
+      const Vec3 v = get(state_.v.data(), cloth_.kept[k].slot);
+      double per_area = cloth_.options.absolute_damping;
+      if (cloth_.options.quadratic_damping > 0) per_area += cloth_.options.quadratic_damping * norm(v);
+      drag = (kept_area_[k] * per_area) * v;
+      if (record_) take(kept_dampers_[k], drag, v);
     }
-    const Vec3 v = get(state_.v.data(), cloth_.kept[k].slot);
-    double per_area = cloth_.options.absolute_damping;
-    if (cloth_.options.quadratic_damping > 0) per_area += cloth_.options.quadratic_damping * norm(v);
-    const Vec3 drag = (kept_area_[k] * per_area) * v;
     put(kept_force_.data(), k, get(f, cloth_.kept[k].slot - first) - drag);
-    if (record_) take(kept_dampers_[k], drag, v);
   }
 }
 
