@@ -15,9 +15,10 @@ namespace {
 
 // Of cloth: their matrix is multiplied in every step and costs a tenth of it.
 constexpr double most_blocks = 300, nodes_a_block = 40;
-constexpr int loose_nodes = 3;   // of a line, that move together
-constexpr double growth = 1.15;  // of C's diagonal, before it is inverted anew
-constexpr double ridge = 1e-6;   // holds what hangs on nothing, of C's diagonal
+constexpr int loose_nodes = 3;       // of a line, that move together
+constexpr double growth = 1.15;      // of C's diagonal, before it is inverted anew
+constexpr double ridge = 1e-6;       // holds what hangs on nothing, of C's diagonal
+constexpr int columns_at_once = 32;  // of the inverse
 
 double mean_length(const Patch& patch, Direction direction) {
   double sum = 0;
@@ -132,12 +133,16 @@ void Blocks::add_patch(const Patch& patch, const PatchLayout& layout, const std:
       begins = block_at(lane, vector) >= 0 && block_at(lane, vector) != block_at(lane, vector - 1);
     if (begins) edges.push_back(vector);
   }
-  const int chunks = static_cast<int>(edges.size()), motions = static_cast<int>(block_of_.size()) / lanes;
-  for (int row = 0; row < patch.rows; ++row) {
-    first_chunk_.push_back(chunk_count());
-    for (int c = 0; c < chunks; ++c) motion_of_.push_back(motions + chunks * (row * up / patch.rows) + c);
-  }
+  const int chunks = static_cast<int>(edges.size()), motions = motion_count();
   const int around = 1 + *std::max_element(block_of_column.begin(), block_of_column.end());
+  for (int row = 0; row < patch.rows; ++row) {
+    const int b = row * up / patch.rows, motion = motions + chunks * b, block = count_ + around * b;
+    first_chunk_.push_back(chunk_count());
+    if (groups_.empty() || groups_.back().motions.begin < motion)
+      groups_.push_back({{chunk_count(), 0}, {motion, motion + chunks}, {block, block + around}});
+    for (int c = 0; c < chunks; ++c) motion_of_.push_back(motion + c);
+    groups_.back().chunks.end = chunk_count();
+  }
   for (int b = 0; b < up; ++b)
     for (int c = 0; c < chunks; ++c)
       for (int lane = 0; lane < lanes; ++lane) {
@@ -156,7 +161,7 @@ void Blocks::add_loose(const Cloth& cloth) {
   std::vector<std::pair<int, int>> by_node;
   for (int k = first_loose; k < static_cast<int>(cloth.kept.size()); ++k) {
     if ((k - first_loose) % lanes == 0) {
-      motion_of_.push_back(static_cast<int>(block_of_.size()) / lanes);
+      motion_of_.push_back(motion_count());
       block_of_.insert(block_of_.end(), lanes, -1);
     }
     sum_of_kept_[k] = 3 * lanes * (first + (k - first_loose) / lanes) + (k - first_loose) % lanes;
@@ -164,6 +169,7 @@ void Blocks::add_loose(const Cloth& cloth) {
   }
   std::sort(by_node.begin(), by_node.end());
   int last = -1, in_block = 0;
+  const int motions = groups_.empty() ? 0 : groups_.back().motions.end, blocks = count_;
   for (const auto& [node, k] : by_node) {
     if (cloth.is_fixed[node] || cloth.is_tied[node]) continue;
     if (last < 0 || in_block == loose_nodes || !joined.count({last, node})) ++count_, in_block = 0;
@@ -171,6 +177,7 @@ void Blocks::add_loose(const Cloth& cloth) {
     block_of_[lanes * motion_of_[sum / (3 * lanes)] + sum % (3 * lanes)] = count_ - 1;
     last = node, ++in_block;
   }
+  groups_.push_back({{first, chunk_count()}, {motions, motion_count()}, {blocks, count_}});
 }
 
 void Blocks::list_crossings(const Cloth& cloth) {
@@ -220,27 +227,45 @@ void Blocks::set_stiffness(const Cloth& cloth, const ClothState& state, const st
     if (const Crossing& s = crossings_[i]; s.a >= 0 && s.b >= 0)
       c(s.a, s.b) -= stiffness[i], c(s.b, s.a) -= stiffness[i];
   c.diagonal().array() += ridge * c.trace() / count_;
-  const Eigen::MatrixXd inverse = c.llt().solve(Eigen::MatrixXd::Identity(count_, count_));
+  const Eigen::LLT<Eigen::MatrixXd> factor(c);
   inverse_.assign(static_cast<std::size_t>(padded_) * padded_, 0.0);
-  for (int i = 0; i < count_; ++i)
-    for (int j = 0; j < count_; ++j)
-      inverse_[static_cast<std::size_t>(lanes) * (static_cast<std::size_t>(i / lanes) * padded_ + j) +
-               i % lanes] = scale * inverse(i, j);
+  team.run([&](int rank) {  // so many columns at once, whatever the number of threads
+    const IndexRange mine = part_of((count_ + columns_at_once - 1) / columns_at_once, rank, team.size());
+    for (int first = columns_at_once * mine.begin; first < std::min(count_, columns_at_once * mine.end);
+         first += columns_at_once) {
+      const int columns = std::min(columns_at_once, count_ - first);
+      const Eigen::MatrixXd inverse =
+          factor.solve(Eigen::MatrixXd::Identity(count_, count_).middleCols(first, columns));
+      for (int i = 0; i < count_; ++i)
+        for (int j = 0; j < columns; ++j)
+          inverse_[static_cast<std::size_t>(lanes) *
+                       (static_cast<std::size_t>(i / lanes) * padded_ + first + j) +
+                   i % lanes] = scale * inverse(i, j);
+    }
+  });
 }
 
-void Blocks::gather(const AlignedDoubles& sums, AlignedDoubles& of_motions, AlignedDoubles& r) const {
-  constexpr std::size_t stride = 3 * lanes;
-  of_motions.assign(stride / lanes * block_of_.size(), 0.0);
-  for (int chunk = 0; chunk < chunk_count(); ++chunk) {
-    const double* sum = sums.data() + stride * chunk;
-    double* of_motion = of_motions.data() + stride * motion_of_[chunk];
-    for (std::size_t i = 0; i < stride; ++i) of_motion[i] += sum[i];
-  }
-  std::fill(r.begin(), r.end(), 0.0);
-  for (std::size_t at = 0; at < block_of_.size(); ++at) {
-    if (block_of_[at] < 0) continue;
-    const double* sum = of_motions.data() + stride * (at / lanes) + at % lanes;
-    for (int axis = 0; axis < 3; ++axis) r[axis * padded_ + block_of_[at]] += sum[axis * lanes];
+void Blocks::gather(const AlignedDoubles& sums, AlignedDoubles& of_motions, AlignedDoubles& r, int part,
+                    int parts) const {
+  constexpr int stride = 3 * lanes;
+  const IndexRange mine = part_of(chunk_count(), part, parts);
+  for (const Group& group : groups_) {
+    if (group.chunks.begin < mine.begin || group.chunks.begin >= mine.end) continue;
+    std::fill(of_motions.begin() + stride * group.motions.begin,
+              of_motions.begin() + stride * group.motions.end, 0.0);
+    for (int chunk = group.chunks.begin; chunk < group.chunks.end; ++chunk) {
+      const double* sum = sums.data() + stride * static_cast<std::size_t>(chunk);
+      double* of_motion = of_motions.data() + stride * static_cast<std::size_t>(motion_of_[chunk]);
+      for (int i = 0; i < stride; ++i) of_motion[i] += sum[i];
+    }
+    for (int axis = 0; axis < 3; ++axis)
+      std::fill(r.begin() + axis * padded_ + group.blocks.begin,
+                r.begin() + axis * padded_ + group.blocks.end, 0.0);
+    for (int at = lanes * group.motions.begin; at < lanes * group.motions.end; ++at) {
+      if (block_of_[at] < 0) continue;
+      const double* sum = of_motions.data() + stride * static_cast<std::size_t>(at / lanes) + at % lanes;
+      for (int axis = 0; axis < 3; ++axis) r[axis * padded_ + block_of_[at]] += sum[axis * lanes];
+    }
   }
 }
 

@@ -42,8 +42,11 @@ class Blocks {
   int block_of_sum(int sum) const {
     return block_of_[lanes * motion_of_[sum / (3 * lanes)] + sum % (3 * lanes)];
   }
-  /// r [3 x padded] = the sums of every block, by way of those of chunks that move alike.
-  void gather(const AlignedDoubles& sums, AlignedDoubles& of_motions, AlignedDoubles& r) const;
+  /// r [3 x padded] = the sums of every block, by way of those of chunks that move alike (`of_motions`, 24 doubles each).
+  /// What one of `parts` does for all: the blocks of about as many chunks.
+  void gather(const AlignedDoubles& sums, AlignedDoubles& of_motions, AlignedDoubles& r, int part,
+              int parts) const;
+  int motion_count() const { return static_cast<int>(block_of_.size()) / lanes; }
   /// The chunk's motion: y [3 x padded] times `kick` in vector layout.
   void spread(int chunk, const double* y, double kick, double* motion) const;
   /// Chunks of the same number move alike.
@@ -57,6 +60,10 @@ class Blocks {
     double scale, rest_length;
     const SpringLaw* law;  // the cloth's
   };
+  /// Motions and blocks that have to do with each other only, and their chunks: begin and end.
+  struct Group {
+    IndexRange chunks, motions, blocks;
+  };
   /// `up` blocks over its rows.
   void add_patch(const Patch& patch, const PatchLayout& layout, const std::vector<int>& block_of_column,
                  int up);
@@ -66,6 +73,7 @@ class Blocks {
   std::vector<double> diagonal_;  // of C when it was inverted
   AlignedDoubles inverse_;
   int count_ = 0, padded_ = 0;
+  std::vector<Group> groups_;  // in order of all three
   std::vector<int> row_patch_;
   std::vector<std::vector<int>> edges_;  // by patch
   std::vector<int> first_chunk_;         // by row

@@ -50,14 +50,16 @@ void hand_to_masters(const Mesh& mesh, std::vector<Symmetric>& blocks) {
 
 }  // namespace
 
-std::vector<Symmetric> node_blocks(const Cloth& cloth, const ClothState& state, double floor,
-                                   ThreadTeam& team) {
+void node_blocks(const Cloth& cloth, const ClothState& state, double floor, ThreadTeam& team,
+                 std::vector<Symmetric>& blocks) {
   const Mesh& mesh = cloth.mesh;
-  const std::vector<Vec3> x = positions(state, cloth);
-  std::vector<Symmetric> blocks(x.size(), Symmetric{});
+  blocks.resize(mesh.node_count());
+  const auto at_node = [&](int node) { return get(state.x.data(), cloth.slot[node]); };
   // To its ends among the nodes [first, last).
   const auto add_spring = [&](const SpringView& s, int first, int last) {
-    const Vec3 d = x[s.b] - x[s.a];
+    const auto among = [&](int end) { return first <= end && end < last; };
+    if (!among(s.a) && !among(s.b)) return;
+    const Vec3 d = at_node(s.b) - at_node(s.a);
     const double length = norm(d);
     const double pulled = std::max(length / s.rest_length - 1, 0.0);
     const Vec3 n = length > 0 ? d / length : Vec3{1, 0, 0};
@@ -65,10 +67,13 @@ std::vector<Symmetric> node_blocks(const Cloth& cloth, const ClothState& state, 
     const double across =
         length > 0 ? std::max(floor * along, s.scale * s.law->tension(pulled) / length) : along;
     for (const int end : {s.a, s.b})
-      if (first <= end && end < last) add(blocks[end], along, across, n);
+      if (among(end)) add(blocks[end], along, across, n);
   };
   // A thread looks at the springs of the rows before its own once more: every node has its sum in one order.
   team.run([&](int rank) {
+    const IndexRange nodes = part_of(mesh.node_count(), rank, team.size());
+    std::fill(blocks.begin() + nodes.begin, blocks.begin() + nodes.end, Symmetric{});
+    team.barrier();
     for (int p = 0; p < static_cast<int>(mesh.patches.size()); ++p) {
       const Patch& patch = mesh.patches[p];
       const IndexRange rows = part_of(patch.rows, rank, team.size());
@@ -76,10 +81,10 @@ std::vector<Symmetric> node_blocks(const Cloth& cloth, const ClothState& state, 
         add_spring(s, patch.node(rows.begin, 0), patch.node(rows.end, 0));
       });
     }
+    team.barrier();
+    each_irregular_spring(mesh, [&](const SpringView& s) { add_spring(s, nodes.begin, nodes.end); });
   });
-  each_irregular_spring(mesh, [&](const SpringView& s) { add_spring(s, 0, mesh.node_count()); });
   hand_to_masters(mesh, blocks);
-  return blocks;
 }
 
 // With u_i the gradient of the length at ring i, K = k u u^T + T sum 1/l (I - n n^T) over its parts, and

@@ -18,8 +18,8 @@ inline Vec3 operator*(const Symmetric& a, Vec3 b) {
 
 /// Diagonal blocks of the tangent stiffness, by node [N/m], tied nodes' handed to their masters: of every
 /// spring k n n^T + max(T / l, floor k) (I - n n^T), with the tangent k of its first pull where it is slack.
-std::vector<Symmetric> node_blocks(const Cloth& cloth, const ClothState& state, double floor,
-                                   ThreadTeam& team);
+void node_blocks(const Cloth& cloth, const ClothState& state, double floor, ThreadTeam& team,
+                 std::vector<Symmetric>& blocks);
 
 /// Of a drawstring, by node, tied rings' handed to their masters: x^T K x <= sum stiffness_i |x_i|^2 for its tangent
 /// stiffness K, and likewise of its damper [N/m], [N s/m]. Empty without one.

@@ -22,6 +22,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -106,12 +107,12 @@ std::vector<double> round_stiffness(const Cloth& cloth, const ClothState& state,
 }
 
 /// `share` of the motion is that of the nodes by themselves.
-Masses fictitious_masses(const Cloth& cloth, const ClothState& state, double floor,
-                         const std::vector<double>& round, double share, ThreadTeam& team) {
-  Masses masses;
+void set_fictitious_masses(Masses& masses, const Cloth& cloth, const ClothState& state, double floor,
+                           const std::vector<double>& round, double share, ThreadTeam& team) {
   if (wrinkles(cloth.mesh)) {
-    masses.mass = node_blocks(cloth, state, floor, team);
+    node_blocks(cloth, state, floor, team, masses.mass);
   } else {
+    masses.mass.clear();
     for (const double k : node_stiffness(cloth, state).stiffness) masses.mass.push_back({k, k, k, 0, 0, 0});
   }
   for (int node : cloth.mesh.fixed) masses.mass[node] = {};
@@ -127,7 +128,6 @@ Masses fictitious_masses(const Cloth& cloth, const ClothState& state, double flo
       masses.inverse.inverse_mass[node] = inverse_of(mass);
     }
   });
-  return masses;
 }
 
 double fictitious_energy(const Cloth& cloth, const ClothState& state, const std::vector<Symmetric>& mass) {
@@ -143,12 +143,6 @@ double shortest_spring(const Mesh& mesh) {
   double shortest = std::numeric_limits<double>::infinity();
   each_spring(mesh, [&](const SpringView& s) { shortest = std::min(shortest, s.rest_length); });
   return shortest;
-}
-
-bool runs_away(const ClothState& state, double speed) {
-  for (const double v : state.v)
-    if (!(std::abs(v) <= speed)) return true;
-  return false;
 }
 
 void undo_last_move(ClothState& state, const Cloth& cloth) {
@@ -177,7 +171,7 @@ class Relaxation {
         wrinkles_(wrinkles(cloth.mesh)),
         blocks_(has_blocks() ? std::optional<Blocks>(cloth) : std::nullopt),
         lightness_(wrinkles_, blocks_.has_value()),
-        masses_(masses_now()),
+        masses_(first_masses()),
         stepper_(cloth, loads, state, masses_.inverse, team.size()),
         pivot_(pivot_of(cloth, state)),
         runaway_(runaway_speed * shortest_spring(cloth.mesh)),
@@ -192,7 +186,7 @@ class Relaxation {
       const int refresh_after = steps_a_refresh(result_, wrinkles_);
       const int count = std::min({steps_a_look, refresh_after, options_.max_steps - result_.steps});
       since_refresh_ += take_steps(count, applied());
-      if (runs_away(state_, runaway_) && lightness_.shy()) {
+      if (runs_away() && lightness_.shy()) {
         start_again();
         continue;
       }
@@ -200,7 +194,7 @@ class Relaxation {
       // With blocks a momentum is none of the nodes' masses alone: theirs taken out would turn the cloth. A moment that
       // is cancelled turns nothing.
       if (pivot_ && !result_.converged && !blocks_) stop_turning(cloth_, state_, masses_.mass, *pivot_);
-      good_ = state_;
+      keep();
       if (report) report({result_.steps, result_.residual, fictitious_energy(cloth_, state_, masses_.mass)});
       if (since_refresh_ < refresh_after || result_.converged) continue;
       lightness_.dare();
@@ -236,6 +230,8 @@ class Relaxation {
         const double residual = std::sqrt(sums.force_squared) / scale;
         const bool ends = residual <= options_.tolerance;
         if (blocks_ && !ends) {
+          stepper_.gather_blocks(rank);
+          team_.barrier();
           stepper_.solve_blocks(rank);
           team_.barrier();
           sums.power += stepper_.move_blocks(rank);
@@ -268,15 +264,37 @@ class Relaxation {
     return wrinkles_ && !cloth_.mesh.fixed.empty() && cloth_.mesh.node_count() >= least_nodes &&
            options_.max_steps > 1;
   }
-  Masses masses_now() {
+  void set_masses(Masses& masses) {
     const std::vector<double> round = round_stiffness(cloth_, state_, options_.hold);
     if (blocks_) blocks_->set_stiffness(cloth_, state_, round, (1 - nodes_share) / (0.25 * margin), team_);
-    return fictitious_masses(cloth_, state_, lightness_.floor, round, blocks_ ? nodes_share : 1, team_);
+    set_fictitious_masses(masses, cloth_, state_, lightness_.floor, round, blocks_ ? nodes_share : 1, team_);
+  }
+  Masses first_masses() {
+    Masses masses;
+    set_masses(masses);
+    return masses;
   }
   void refresh() {
     since_refresh_ = 0;
-    masses_ = masses_now();
+    set_masses(masses_);
     stepper_.set_masses(masses_.inverse);
+  }
+  bool runs_away() {
+    std::atomic<bool> runs = false;
+    team_.run([&](int rank) {
+      const IndexRange mine = part_of(static_cast<int>(state_.v.size()), rank, team_.size());
+      bool fast = false;
+      for (int i = mine.begin; i < mine.end; ++i) fast |= !(std::abs(state_.v[i]) <= runaway_);
+      if (fast) runs = true;
+    });
+    return runs;
+  }
+  void keep() {
+    team_.run([&](int rank) {
+      const IndexRange mine = part_of(static_cast<int>(state_.v.size()), rank, team_.size());
+      std::copy(state_.x.begin() + mine.begin, state_.x.begin() + mine.end, good_.x.begin() + mine.begin);
+      std::copy(state_.v.begin() + mine.begin, state_.v.begin() + mine.end, good_.v.begin() + mine.begin);
+    });
   }
   void start_again() {
     state_ = good_;
@@ -297,7 +315,7 @@ class Relaxation {
   Stepper stepper_;
   std::optional<Vec3> pivot_;
   double runaway_;
-  ClothState good_;  // as it was after the last steps that did not run away
+  ClothState good_;  // positions and velocities as they were after the last steps that did not run away
   RelaxResult result_;
   int since_refresh_ = 0;
 };

@@ -41,8 +41,9 @@ class Stepper {
 
   void add_forces(int rank);
   void move_kept(int rank);
-  /// After move_kept with a barrier: what every block moves by. And after another: moves the rank's nodes with
-  /// their blocks; returns what that adds to RowSums::power, the same on every rank.
+  /// After move_kept with a barrier after each: forces on the blocks; what every block moves by; and the rank's nodes
+  /// with their blocks. That returns what it adds to RowSums::power, the same on every rank.
+  void gather_blocks(int rank);
   void solve_blocks(int rank);
   double move_blocks(int rank);
   void follow_masters(int rank);
@@ -85,7 +86,7 @@ class Stepper {
     AlignedDoubles buffer;  // three rows in turn, one for what nobody wants, the waiting rows
     std::size_t row_doubles = 0;
     std::vector<int> waiting;  // rows that move after the barrier, in order of their buffers
-    AlignedDoubles motion_force, block_force, motion;
+    AlignedDoubles motion;     // of the blocks along a row
     double block_kick = 0;  // of the step that is under way
   };
   void prepare(int threads);
@@ -113,7 +114,8 @@ class Stepper {
   AlignedDoubles inverse_tensor_;                      // of a relaxation, see RowRelaxation; by slot
   std::vector<Symmetric> kept_inverse_tensor_;         // likewise, by kept node
   const Blocks* blocks_ = nullptr;
-  AlignedDoubles block_sums_, block_move_;  // see Blocks: forces by chunk [N]; [3 x padded]
+  // See Blocks: forces by chunk and by what moves alike [N]; of blocks, [3 x padded].
+  AlignedDoubles block_sums_, motion_force_, block_force_, block_move_;
   // In vector layout: of kept nodes, of kept springs, of the drawstring's parts (see Cloth::Share).
   AlignedDoubles kept_force_;
   std::vector<Worker> workers_;

@@ -7,11 +7,9 @@ void Stepper::set_blocks(const Blocks* blocks) {
   blocks_ = blocks;
   if (!blocks) return;
   block_sums_.assign(3 * static_cast<std::size_t>(lanes) * blocks->chunk_count(), 0.0);
+  motion_force_.assign(3 * static_cast<std::size_t>(lanes) * blocks->motion_count(), 0.0);
   block_move_.assign(3 * static_cast<std::size_t>(blocks->padded()), 0.0);
-  for (Worker& worker : workers_) {
-    worker.block_force.assign(block_move_.size(), 0.0);
-    worker.motion.clear();
-  }
+  block_force_ = block_move_;
 }
 
 void Stepper::sum_row_blocks(int row, const double* f) {
@@ -21,12 +19,14 @@ void Stepper::sum_row_blocks(int row, const double* f) {
               block_sums_.data() + 3 * static_cast<std::size_t>(lanes) * blocks_->first_chunk(row)});
 }
 
+void Stepper::gather_blocks(int rank) {
+  blocks_->gather(block_sums_, motion_force_, block_force_, rank, static_cast<int>(workers_.size()));
+}
+
 void Stepper::solve_blocks(int rank) {
-  Worker& worker = workers_[rank];
-  blocks_->gather(block_sums_, worker.motion_force, worker.block_force);
   const int pair = 2 * lanes;
   const IndexRange pairs = part_of(blocks_->padded() / pair, rank, static_cast<int>(workers_.size()));
-  multiply_blocks({blocks_->padded(), blocks_->inverse(), worker.block_force.data(), block_move_.data()},
+  multiply_blocks({blocks_->padded(), blocks_->inverse(), block_force_.data(), block_move_.data()},
                   pair * pairs.begin, pair * pairs.end);
 }
 
@@ -54,7 +54,7 @@ double Stepper::move_blocks(int rank) {
   move_kept_with_blocks(std::min(all, loose + blocks.begin * kept_block),
                         std::min(all, loose + blocks.end * kept_block), kick);
   double power = 0;
-  for (std::size_t i = 0; i < block_move_.size(); ++i) power += worker.block_force[i] * block_move_[i];
+  for (std::size_t i = 0; i < block_move_.size(); ++i) power += block_force_[i] * block_move_[i];
   return kick * power;
 }
 
