@@ -186,11 +186,13 @@ class Relaxation {
       const int refresh_after = steps_a_refresh(result_, wrinkles_);
       const int count = std::min({steps_a_look, refresh_after, options_.max_steps - result_.steps});
       since_refresh_ += take_steps(count, applied());
-      if (runs_away() && lightness_.shy()) {
-        start_again();
-        continue;
+      if (runs_away()) {
+        if (lightness_.shy()) {
+          start_again();
+          continue;
+        }
+        check_health(cloth_, state_);
       }
-      check_health(cloth_, state_);
       // With blocks a momentum is none of the nodes' masses alone: theirs taken out would turn the cloth. A moment that
       // is cancelled turns nothing.
       if (pivot_ && !result_.converged && !blocks_) stop_turning(cloth_, state_, masses_.mass, *pivot_);
