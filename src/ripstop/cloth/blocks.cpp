@@ -76,7 +76,7 @@ std::vector<int> blocks_of_columns(const Patch& patch, const std::vector<char>& 
 
 }  // namespace
 
-Blocks::Blocks(const Cloth& cloth)
+Blocks::Blocks(const Cloth& cloth, const std::vector<char>& restricted)
     : row_patch_(cloth.row_patch),
       sum_of_kept_(cloth.kept.size()),
       block_of_node_(cloth.mesh.node_count(), -1) {
@@ -116,7 +116,8 @@ Blocks::Blocks(const Cloth& cloth)
   for (int k = cloth.kept_of_row.back(); k < static_cast<int>(cloth.kept.size()); ++k)
     block_of_node_[cloth.kept[k].node] = block_of_sum(sum_of_kept_[k]);
   for (int node = 0; node < mesh.node_count(); ++node)
-    if (cloth.is_fixed[node] || cloth.is_tied[node]) block_of_node_[node] = -1;
+    if (cloth.is_fixed[node] || cloth.is_tied[node] || (!restricted.empty() && restricted[node]))
+      block_of_node_[node] = -1;
   list_crossings(cloth);
 }
 

@@ -14,12 +14,13 @@ namespace ripstop {
 
 class Blocks {
  public:
-  explicit Blocks(const Cloth& cloth);
+  /// Nodes of `restricted` (by node; empty: none) move by themselves only.
+  explicit Blocks(const Cloth& cloth, const std::vector<char>& restricted = {});
 
   int count() const { return count_; }
   /// Rounded up to whole pairs of vectors; how long an array over the blocks is.
   int padded() const { return padded_; }
-  /// -1: fixed or tied.
+  /// -1: fixed, tied or restricted.
   int block_of(int node) const { return block_of_node_[node]; }
 
   /// With K the tangent stiffness and I the motion of the nodes with their blocks,
@@ -80,7 +81,7 @@ class Blocks {
   std::vector<int> motion_of_;           // by chunk
   std::vector<int> block_of_;            // by lane of a motion
   std::vector<int> sum_of_kept_;
-  std::vector<int> block_of_node_;  // -1: fixed or tied
+  std::vector<int> block_of_node_;  // see block_of()
 };
 
 }  // namespace ripstop

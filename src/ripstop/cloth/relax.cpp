@@ -30,6 +30,7 @@
 #include "ripstop/cloth/bound.h"
 #include "ripstop/cloth/pivot.h"
 #include "ripstop/cloth/stepper.h"
+#include "ripstop/cloth/wedge.h"
 #include "ripstop/core/error.h"
 #include "ripstop/mesh/each_spring.h"
 
@@ -83,6 +84,19 @@ Symmetric inverse_of(const Symmetric& a) {
   return inverse;
 }
 
+// With P the projection on what a node may move along: P a P, and that with something of a's size on the rest.
+Symmetric within(const Symmetric& p, const Symmetric& a) {
+  const Vec3 x = p * (a * (p * Vec3{1, 0, 0})), y = p * (a * (p * Vec3{0, 1, 0})),
+             z = p * (a * (p * Vec3{0, 0, 1}));
+  return {x.x, y.y, z.z, y.x, z.x, z.y};
+}
+Symmetric held_beside(const Symmetric& p, const Symmetric& a) {
+  Symmetric sum = within(p, a);
+  const double size = (a[0] + a[1] + a[2]) / 3;
+  for (int i = 0; i < 6; ++i) sum[i] += size * ((i < 3 ? 1 : 0) - p[i]);
+  return sum;
+}
+
 // Cloth that pushes has many equilibria close together, and the way decides: it is the printed lattice's, with masses
 // alike along all directions and no soft start.
 bool wrinkles(const Mesh& mesh) {
@@ -109,6 +123,7 @@ std::vector<double> round_stiffness(const Cloth& cloth, const ClothState& state,
 /// `share` of the motion is that of the nodes by themselves.
 void set_fictitious_masses(Masses& masses, const Cloth& cloth, const ClothState& state, double floor,
                            const std::vector<double>& round, double share, ThreadTeam& team) {
+  const std::vector<Symmetric>& freedom = masses.inverse.freedom;
   if (wrinkles(cloth.mesh)) {
     node_blocks(cloth, state, floor, team, masses.mass);
   } else {
@@ -125,7 +140,11 @@ void set_fictitious_masses(Masses& masses, const Cloth& cloth, const ClothState&
       if (!cloth.is_fixed[node] && !cloth.is_tied[node])
         for (int i = 0; i < 3; ++i) mass[i] += 0.5 * round[node];
       for (double& component : mass) component *= 0.5 * margin / share;
-      masses.inverse.inverse_mass[node] = inverse_of(mass);
+      Symmetric& inverse = masses.inverse.inverse_mass[node];
+      if (freedom.empty())
+        inverse = inverse_of(mass);
+      else
+        inverse = within(freedom[node], inverse_of(held_beside(freedom[node], mass)));
     }
   });
 }
@@ -160,20 +179,21 @@ double mean_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
 /// Dynamic relaxation of one cloth, its steps and looks.
 class Relaxation {
  public:
-  /// Held, if so, toward `start`.
+  /// Held, if so, toward `start`; of a wedge with its `freedom`.
   Relaxation(ClothState& state, const Cloth& cloth, const Loads& loads, const RelaxOptions& options,
-             ThreadTeam& team, const ClothState& start)
+             ThreadTeam& team, const ClothState& start, const std::vector<Symmetric>& freedom = {})
       : state_(state),
         cloth_(cloth),
         loads_(loads),
         options_(options),
         team_(team),
         wrinkles_(wrinkles(cloth.mesh)),
-        blocks_(has_blocks() ? std::optional<Blocks>(cloth) : std::nullopt),
+        freedom_(freedom),
+        blocks_(has_blocks() ? std::optional<Blocks>(std::in_place, cloth, restricted()) : std::nullopt),
         lightness_(wrinkles_, blocks_.has_value()),
         masses_(first_masses()),
         stepper_(cloth, loads, state, masses_.inverse, team.size()),
-        pivot_(pivot_of(cloth, state)),
+        pivot_(freedom.empty() ? pivot_of(cloth, state) : std::nullopt),
         runaway_(runaway_speed * shortest_spring(cloth.mesh)),
         good_(state) {
     if (options.hold > 0) stepper_.hold(options.hold, start.x);
@@ -266,6 +286,11 @@ class Relaxation {
     return wrinkles_ && !cloth_.mesh.fixed.empty() && cloth_.mesh.node_count() >= least_nodes &&
            options_.max_steps > 1;
   }
+  std::vector<char> restricted() const {
+    std::vector<char> result;
+    for (const Symmetric& p : freedom_) result.push_back(p[0] + p[1] + p[2] < 2.5);
+    return result;
+  }
   void set_masses(Masses& masses) {
     const std::vector<double> round = round_stiffness(cloth_, state_, options_.hold);
     if (blocks_) blocks_->set_stiffness(cloth_, state_, round, (1 - nodes_share) / (0.25 * margin), team_);
@@ -273,6 +298,7 @@ class Relaxation {
   }
   Masses first_masses() {
     Masses masses;
+    masses.inverse.freedom = freedom_;
     set_masses(masses);
     return masses;
   }
@@ -311,6 +337,7 @@ class Relaxation {
   const RelaxOptions& options_;
   ThreadTeam& team_;
   bool wrinkles_;
+  std::vector<Symmetric> freedom_;
   std::optional<Blocks> blocks_;
   Lightness lightness_;
   Masses masses_;
@@ -331,13 +358,13 @@ constexpr int soft_steps = 3000;
 constexpr double far_residual = 0.5;
 constexpr double share_of_width = 4, share_of_springs = 12;
 
-/// Absent where nothing is stiffer than that.
-std::optional<Mesh> softened(const Mesh& mesh, double load, double strain) {
+/// Absent where nothing is stiffer than that. `images` of the mesh make up the canopy that carries `load`.
+std::optional<Mesh> softened(const Mesh& mesh, double load, double strain, int images) {
   std::optional<Mesh> soft = mesh;
   double least = 1;
   double area = 0;
   for (const Patch& patch : mesh.patches)
-    area += std::accumulate(patch.cell_area.begin(), patch.cell_area.end(), 0.0);
+    area += images * std::accumulate(patch.cell_area.begin(), patch.cell_area.end(), 0.0);
   for (Patch& patch : soft->patches) {
     double stiffest = 0;
     for (const SpringLaw& law : patch.law) stiffest = std::max(stiffest, law.tangent(0));
@@ -356,11 +383,77 @@ std::optional<Mesh> softened(const Mesh& mesh, double load, double strain) {
   return soft;
 }
 
-bool far_from_equilibrium(const ClothState& start, const Cloth& cloth, const Loads& loads,
-                          const RelaxOptions& options, ThreadTeam& team) {
-  const RelaxOptions look{options.tolerance, 1, options.least_load, options.hold};
-  ClothState state = start;
-  return Relaxation(state, cloth, loads, look, team, start).run({}).residual > far_residual;
+/// The way from a start to rest, by soft cloth where it is far.
+class Way {
+ public:
+  /// Of a canopy, or of its wedge with `images` of it and its `freedom`.
+  Way(const Cloth& cloth, const Loads& loads, const RelaxOptions& options, ThreadTeam& team,
+      const std::function<void(const RelaxProgress&)>& report, int images = 1,
+      std::vector<Symmetric> freedom = {})
+      : cloth_(cloth),
+        loads_(loads),
+        options_(options),
+        team_(team),
+        report_(report),
+        images_(images),
+        freedom_(std::move(freedom)) {}
+
+  bool is_far(const ClothState& start) const {
+    const RelaxOptions look{options_.tolerance, 1, options_.least_load, options_.hold};
+    ClothState state = start;
+    return Relaxation(state, cloth_, loads_, look, team_, start, freedom_).run({}).residual > far_residual;
+  }
+
+  /// Held toward `start`, if so.
+  RelaxResult go(ClothState& state, const ClothState& start) const {
+    int steps = 0;
+    if (wrinkles(cloth_.mesh) && is_far(state)) steps = go_softly(state, start);
+    RelaxOptions rest = options_;
+    rest.max_steps = std::max(1, options_.max_steps - steps);
+    RelaxResult result = Relaxation(state, cloth_, loads_, rest, team_, start, freedom_).run(report_);
+    result.steps += steps;
+    return result;
+  }
+
+ private:
+  int go_softly(ClothState& state, const ClothState& start) const {
+    int steps = 0;
+    const double load = images_ * applied_load(cloth_, state, loads_).sum;
+    for (const double strain : soft_strains) {
+      if (!(load > 0)) break;
+      const std::optional<Mesh> mesh = softened(cloth_.mesh, load, strain, images_);
+      if (!mesh) break;
+      const ClothPtr soft = make_cloth(*mesh, cloth_.options);
+      const int most = std::min(soft_steps, options_.max_steps - steps);
+      const RelaxOptions roughly{soft_tolerance, most, options_.least_load, options_.hold};
+      steps += Relaxation(state, *soft, loads_, roughly, team_, start, freedom_).run(report_).steps;
+    }
+    return steps;
+  }
+
+  const Cloth& cloth_;
+  const Loads& loads_;
+  const RelaxOptions& options_;
+  ThreadTeam& team_;
+  const std::function<void(const RelaxProgress&)>& report_;
+  int images_;
+  std::vector<Symmetric> freedom_;
+};
+
+/// A canopy that is far from equilibrium goes most of the way as a wedge of it, under what its load has in common in all
+/// gores.
+void go_as_wedge(ClothState& state, const Cloth& cloth, const Loads& loads, const RelaxOptions& options,
+                 const std::function<void(const RelaxProgress&)>& report) {
+  const std::optional<Wedge> wedge = wedge_of(cloth.mesh, positions(state, cloth), loads);
+  if (!wedge) return;
+  ClothOptions of_wedge = cloth.options;
+  of_wedge.contact.reset();
+  const ClothPtr part = make_cloth(wedge->mesh, of_wedge);
+  const ClothState start = start_state(*part);
+  ClothState rests = start;
+  ThreadTeam alone(1);  // some hundred nodes
+  Way(*part, wedge->loads, options, alone, report, wedge->images, wedge->freedom).go(rests, start);
+  set_positions(state, cloth, wedge->whole(positions(rests, *part)));
 }
 
 }  // namespace
@@ -368,23 +461,10 @@ bool far_from_equilibrium(const ClothState& start, const Cloth& cloth, const Loa
 RelaxResult relax(ClothState& state, const Cloth& cloth, const Loads& loads, const RelaxOptions& options,
                   ThreadTeam& team, const std::function<void(const RelaxProgress&)>& report) {
   const ClothState start = state;
-  int steps = 0;
-  if (wrinkles(cloth.mesh) && far_from_equilibrium(start, cloth, loads, options, team)) {
-    const double load = applied_load(cloth, state, loads).sum;
-    for (const double strain : soft_strains) {
-      if (!(load > 0)) break;
-      const std::optional<Mesh> mesh = softened(cloth.mesh, load, strain);
-      if (!mesh) break;
-      const ClothPtr soft = make_cloth(*mesh, cloth.options);
-      const int most = std::min(soft_steps, options.max_steps - steps);
-      const RelaxOptions roughly{soft_tolerance, most, options.least_load, options.hold};
-      steps += Relaxation(state, *soft, loads, roughly, team, start).run(report).steps;
-    }
-  }
-  RelaxOptions rest = options;
-  rest.max_steps = std::max(1, options.max_steps - steps);
-  RelaxResult result = Relaxation(state, cloth, loads, rest, team, start).run(report);
-  result.steps += steps;
+  const Way way(cloth, loads, options, team, report);
+  if (wrinkles(cloth.mesh) && options.hold == 0 && way.is_far(state))
+    go_as_wedge(state, cloth, loads, options, report);
+  RelaxResult result = way.go(state, start);
   const std::vector<Vec3> before = positions(start, cloth), now = positions(state, cloth);
   result.mean_displacement = mean_distance(now, before);
   if (options.hold > 0) {

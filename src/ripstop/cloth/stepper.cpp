@@ -63,6 +63,7 @@ Stepper::Stepper(const Cloth& cloth, const Loads& loads, ClothState& state, cons
 void Stepper::set_masses(const Fictitious& masses) {
   inverse_tensor_.assign(6 * static_cast<std::size_t>(cloth_.slots), 0.0);
   kept_inverse_tensor_.resize(cloth_.kept.size());
+  if (!masses.freedom.empty()) kept_freedom_.resize(cloth_.kept.size());
   const auto tensor = [&](int slot) {
     return inverse_tensor_.data() + 6 * static_cast<std::size_t>(slot / lanes * lanes) + slot % lanes;
   };
@@ -70,6 +71,7 @@ void Stepper::set_masses(const Fictitious& masses) {
     for (int i = 0; i < 6; ++i) tensor(cloth_.slot[node])[i * lanes] = masses.inverse_mass[node][i];
   for (std::size_t k = 0; k < cloth_.kept.size(); ++k) {
     kept_inverse_tensor_[k] = masses.inverse_mass[cloth_.kept[k].node];
+    if (!masses.freedom.empty()) kept_freedom_[k] = masses.freedom[cloth_.kept[k].node];
     for (int i = 0; i < 6; ++i) tensor(cloth_.kept[k].slot)[i * lanes] = 0;
   }
 }
@@ -309,11 +311,12 @@ RowSums Stepper::relax_kept_nodes(int begin, int end, Pace pace) {
   RowSums sums;
   for (int k = begin; k < end; ++k) {
     Symmetric inverse = kept_inverse_tensor_[k];
-    if (inverse[0] == 0) continue;
+    if (inverse[2] == 0) continue;
     for (double& component : inverse) component *= pace.kick;
     const int slot = cloth_.kept[k].slot;
-    const Vec3 force = force_on_kept(k);
-    if (blocks_) {
+    Vec3 force = force_on_kept(k);
+    if (!kept_freedom_.empty()) force = kept_freedom_[k] * force;
+    if (blocks_ && !kept_alone_[k]) {
       double* sum = block_sums_.data() + blocks_->sum_of_kept(k);
       const Vec3 others = k < cloth_.kept_of_row.back() ? Vec3{sum[0], sum[lanes], sum[2 * lanes]} : Vec3{};
       const Vec3 all = others + force;

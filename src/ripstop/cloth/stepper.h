@@ -29,6 +29,9 @@ class Stepper {
   /// Fictitious masses, no damping, sums over the rows and kept nodes for the relaxation.
   struct Fictitious {
     std::vector<Symmetric> inverse_mass;  // by node; 0: does not move
+    /// Projection on what a node may move along, by node; only of nodes that springs outside the lattice touch is it
+    /// other than 1. Empty: all are free.
+    std::vector<Symmetric> freedom;
   };
   Stepper(const Cloth& cloth, const Loads& loads, ClothState& state, const Fictitious& masses, int threads);
   void set_masses(const Fictitious& masses);
@@ -87,7 +90,7 @@ class Stepper {
     std::size_t row_doubles = 0;
     std::vector<int> waiting;  // rows that move after the barrier, in order of their buffers
     AlignedDoubles motion;     // of the blocks along a row
-    double block_kick = 0;  // of the step that is under way
+    double block_kick = 0;     // of the step that is under way
   };
   void prepare(int threads);
   void step_piece(Worker& worker, const Piece& piece);
@@ -113,6 +116,8 @@ class Stepper {
   std::vector<double> kept_inverse_mass_, kept_area_;  // by kept node; 0: does not move
   AlignedDoubles inverse_tensor_;                      // of a relaxation, see RowRelaxation; by slot
   std::vector<Symmetric> kept_inverse_tensor_;         // likewise, by kept node
+  std::vector<Symmetric> kept_freedom_;                // see Fictitious
+  std::vector<char> kept_alone_;                       // whether a kept node moves with no block
   const Blocks* blocks_ = nullptr;
   // See Blocks: forces by chunk and by what moves alike [N]; of blocks, [3 x padded].
   AlignedDoubles block_sums_, motion_force_, block_force_, block_move_;

@@ -7,6 +7,8 @@ void Stepper::set_blocks(const Blocks* blocks) {
   blocks_ = blocks;
   if (!blocks) return;
   block_sums_.assign(3 * static_cast<std::size_t>(lanes) * blocks->chunk_count(), 0.0);
+  kept_alone_.clear();
+  for (const Cloth::Kept& kept : cloth_.kept) kept_alone_.push_back(blocks->block_of(kept.node) < 0);
   motion_force_.assign(3 * static_cast<std::size_t>(lanes) * blocks->motion_count(), 0.0);
   block_move_.assign(3 * static_cast<std::size_t>(blocks->padded()), 0.0);
   block_force_ = block_move_;
@@ -61,7 +63,7 @@ double Stepper::move_blocks(int rank) {
 void Stepper::move_kept_with_blocks(int begin, int end, double kick) {
   const int padded = blocks_->padded();
   for (int k = begin; k < end; ++k) {
-    if (kept_inverse_tensor_[k][0] == 0) continue;
+    if (kept_alone_[k]) continue;
     const int block = blocks_->block_of_sum(blocks_->sum_of_kept(k));
     if (block < 0) continue;
     const double* y = block_move_.data() + block;
