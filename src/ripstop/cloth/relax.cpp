@@ -356,7 +356,6 @@ constexpr double soft_strains[] = {0.1, 0.02, 0.004};
 constexpr double soft_tolerance = 3e-3;
 constexpr int soft_steps = 3000;
 constexpr double far_residual = 0.5;
-constexpr int least_nodes_of_a_team = 3000;  // fewer are stepped by one thread sooner
 constexpr double share_of_width = 4, share_of_springs = 12;
 
 /// Absent where nothing is stiffer than that. `images` of the mesh make up the canopy that carries `load`.
@@ -444,7 +443,7 @@ class Way {
 /// A canopy that is far from equilibrium goes most of the way as a wedge of it, under what its load has in common in all
 /// gores.
 void go_as_wedge(ClothState& state, const Cloth& cloth, const Loads& loads, const RelaxOptions& options,
-                 ThreadTeam& team, const std::function<void(const RelaxProgress&)>& report) {
+                 const std::function<void(const RelaxProgress&)>& report) {
   const std::optional<Wedge> wedge = wedge_of(cloth.mesh, positions(state, cloth), loads);
   if (!wedge) return;
   ClothOptions of_wedge = cloth.options;
@@ -452,9 +451,8 @@ void go_as_wedge(ClothState& state, const Cloth& cloth, const Loads& loads, cons
   const ClothPtr part = make_cloth(wedge->mesh, of_wedge);
   const ClothState start = start_state(*part);
   ClothState rests = start;
-  ThreadTeam alone(1);
-  ThreadTeam& some = part->mesh.node_count() < least_nodes_of_a_team ? alone : team;
-  Way(*part, wedge->loads, options, some, report, wedge->images, wedge->freedom).go(rests, start);
+  ThreadTeam alone(1);  // some hundred nodes
+  Way(*part, wedge->loads, options, alone, report, wedge->images, wedge->freedom).go(rests, start);
   set_positions(state, cloth, wedge->whole(positions(rests, *part)));
 }
 
@@ -465,7 +463,7 @@ RelaxResult relax(ClothState& state, const Cloth& cloth, const Loads& loads, con
   const ClothState start = state;
   const Way way(cloth, loads, options, team, report);
   if (wrinkles(cloth.mesh) && options.hold == 0 && way.is_far(state))
-    go_as_wedge(state, cloth, loads, options, team, report);
+    go_as_wedge(state, cloth, loads, options, report);
   RelaxResult result = way.go(state, start);
   const std::vector<Vec3> before = positions(start, cloth), now = positions(state, cloth);
   result.mean_displacement = mean_distance(now, before);

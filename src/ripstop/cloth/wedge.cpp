@@ -33,16 +33,10 @@ class Search {
     for (const Spring& spring : mesh.springs) springs_.emplace(std::minmax(spring.a, spring.b), &spring);
   }
 
-  /// As many planes as there are: 2n images, mirrored at angles 0 and pi / n. Patches that do not close about the axis, as
-  /// a cross has them, can be mirrored in two.
+  /// As many planes as there are: 2n images, mirrored at angles 0 and pi / n.
   std::optional<Wedge> widest(const Loads& loads) {
     int columns = 0;
-    bool closed = true;
-    for (const Patch& patch : mesh_.patches) {
-      closed = closed && patch.periodic;
-      columns = std::gcd(columns, patch.columns);
-    }
-    if (!closed) return wedge_between(2, loads);
+    for (const Patch& patch : mesh_.patches) columns = std::gcd(columns, patch.columns);
     for (int n = std::min(columns, most_images) / 2; n > 1; --n) {
       if (columns % (2 * n) != 0) continue;
       if (std::optional<Wedge> wedge = wedge_between(n, loads)) return wedge;
@@ -60,15 +54,13 @@ class Search {
     wedge.images = 2 * n;
     take_nodes(wedge);
     if (!find_images(wedge)) return {};
-    for (const Patch& patch : mesh_.patches)
-      if (const Part part = part_of_patch(patch); part.rows.end > part.rows.begin)
-        wedge.mesh.patches.push_back(half_of(patch, part));
+    for (const Patch& patch : mesh_.patches) wedge.mesh.patches.push_back(half_of(patch));
     if (!take_springs(wedge.mesh) || !take_ties(wedge.mesh)) return {};
     for (const int node : mesh_.fixed)
       if (own_[node] >= 0) wedge.mesh.fixed.push_back(own_[node]);
     wedge.mesh.fabric_names = mesh_.fabric_names;
     keep_plane_nodes(wedge);
-    if (!take_pressures(wedge, loads, cells_of(mesh_))) return {};
+    take_pressures(wedge, loads);
     return wedge;
   }
 
@@ -79,7 +71,10 @@ class Search {
     std::vector<int>& mirrored = mirrored_[plane];
     mirrored.assign(x_.size(), -1);
     for (const Patch& patch : mesh_.patches)
-      if (!find_mirrored(plane, patch)) return false;
+      for (int row = 0; row < patch.rows; ++row)
+        for (int column = 0; column < patch.columns; ++column)
+          mirrored[patch.node(row, column)] =
+              patch.node(row, (patch.columns + plane * patch.columns / n_ - column) % patch.columns);
     for (int node = loose_; node < mesh_.node_count(); ++node) {
       const Vec3 there = planes_[plane].mirrored(x_[node]);
       for (auto at = by_height_.lower_bound(there.z - same_place * size_);
@@ -98,36 +93,6 @@ class Search {
     });
   }
 
-  bool find_mirrored(int plane, const Patch& patch) {
-    const auto set = [&](const auto& image) {
-      for (int row = 0; row < patch.rows; ++row)
-        for (int column = 0; column < patch.columns; ++column)
-          mirrored_[plane][patch.node(row, column)] = image(row, column);
-    };
-    if (patch.periodic) {
-      const int sum = patch.columns + plane * patch.columns / n_;
-      set([&](int row, int column) { return patch.node(row, (sum - column) % patch.columns); });
-      return true;
-    }
-    const int last_row = patch.rows - 1, last_column = patch.columns - 1;
-    const auto place = [&](int row, int column) {
-      return planes_[plane].mirrored(x_[patch.node(row, column)]);
-    };
-    for (const Patch& other : mesh_.patches)
-      for (const bool upside_down : {false, true}) {
-        if (other.periodic || other.rows != patch.rows || other.columns != patch.columns) continue;
-        const auto image = [&](int row, int column) {
-          return other.node(upside_down ? last_row - row : row, upside_down ? column : last_column - column);
-        };
-        if (!near(place(0, 0), x_[image(0, 0)]) ||
-            !near(place(last_row, last_column), x_[image(last_row, last_column)]))
-          continue;
-        set(image);
-        return true;
-      }
-    return false;
-  }
-
   void take_nodes(Wedge& wedge) {
     own_.assign(x_.size(), -1);
     node_.clear();
@@ -137,9 +102,12 @@ class Search {
       wedge.mesh.start.push_back(x_[node]);
       wedge.mesh.mass.push_back(mesh_.mass[node]);
     };
-    for (int node = 0; node < mesh_.node_count(); ++node)
+    for (const Patch& patch : mesh_.patches)
+      for (int row = 0; row < patch.rows; ++row)
+        for (int column = 0; column <= patch.columns / (2 * n_); ++column) take(patch.node(row, column));
+    for (int node = loose_; node < mesh_.node_count(); ++node)
       if (planes_[0].distance(x_[node]) > -same_place * size_ &&
-          planes_[1].distance(x_[node]) < same_place * size_)
+          planes_[1].distance(x_[node]) < same_place * size_ && (x_[node].x > 0 || on_axis(x_[node])))
         take(node);
   }
 
@@ -167,48 +135,29 @@ class Search {
                        [](const Wedge::Image& i) { return i.node >= 0; });
   }
 
-  struct Part {  // of a patch, that lies in the wedge
-    IndexRange rows, columns;
-  };
-  Part part_of_patch(const Patch& patch) const {
-    Part part{{patch.rows, 0}, {patch.columns, 0}};
-    for (int row = 0; row < patch.rows; ++row)
-      for (int column = 0; column < patch.columns; ++column) {
-        if (own_[patch.node(row, column)] < 0) continue;
-        part.rows = {std::min(part.rows.begin, row), row + 1};
-        part.columns = {std::min(part.columns.begin, column), std::max(part.columns.end, column + 1)};
-      }
-    return part;
-  }
-
   /// What lies in a plane belongs to both of its sides.
-  Patch half_of(const Patch& patch, const Part& part) {
+  Patch half_of(const Patch& patch) {
     Patch half = patch;
     half.periodic = false;
-    half.rows = part.rows.end - part.rows.begin;
-    half.columns = part.columns.end - part.columns.begin;
-    half.first_node = own_[patch.node(part.rows.begin, part.columns.begin)];
+    half.columns = patch.columns / (2 * n_) + 1;
+    half.first_node = own_[patch.first_node];
     const std::size_t count = static_cast<std::size_t>(half.rows) * half.columns;
-    half.cell_area.assign(count - half.columns, 0.0);
+    half.cell_area.assign(patch.cell_area.size() / patch.columns * half.columns, 0.0);
     half.viscosity_share.clear();
     for (int d = 0; d < direction_count; ++d) {
       half.width[d].assign(count, 0.0);
       half.rest_length[d].assign(count, 0.0);
     }
+    const int last = half.columns - 1;
     for (int row = 0; row < half.rows; ++row)
-      for (int column = 0; column < half.columns; ++column) {
-        const int of_row = part.rows.begin + row, of_column = part.columns.begin + column;
+      for (int column = 0; column <= last; ++column) {
         const std::size_t i = static_cast<std::size_t>(row) * half.columns + column,
-                          of = static_cast<std::size_t>(of_row) * patch.columns + of_column;
-        if (row + 1 < half.rows && column + 1 < half.columns) half.cell_area[i] = patch.cell_area[of];
+                          of = static_cast<std::size_t>(row) * patch.columns + column;
+        if (column < last && i < half.cell_area.size()) half.cell_area[i] = patch.cell_area[of];
         for (int d = 0; d < direction_count; ++d) {
-          const int to_row = row + direction_offset[d].row, to_column = column + direction_offset[d].column;
-          if (to_row >= half.rows || to_column < 0 || to_column >= half.columns) continue;
-          const Vec3 a = x_[patch.node(of_row, of_column)],
-                     b = x_[patch.node(part.rows.begin + to_row, part.columns.begin + to_column)];
-          const bool in_plane = std::any_of(planes_.begin(), planes_.end(), [&](const Plane& plane) {
-            return lies_in(plane, a) && lies_in(plane, b);
-          });
+          const int to = column + direction_offset[d].column;
+          if (to < 0 || to > last) continue;
+          const bool in_plane = to == column && (column == 0 || column == last);
           half.width[d][i] = (in_plane ? 0.5 : 1) * patch.width[d][of];
           half.rest_length[d][i] = patch.rest_length[d][of];
         }
@@ -281,27 +230,22 @@ class Search {
     }
   }
 
-  /// In the mean over the images of a cell.
-  static bool take_pressures(Wedge& wedge, const Loads& loads, const std::vector<Cell>& cells) {
-    if (loads.cell_pressure.empty()) return true;
-    const std::vector<Cell> own = cells_of(wedge.mesh);
-    const auto corners = [](std::array<int, 4> c) {
-      std::sort(c.begin(), c.end());
-      return c;
-    };
-    std::map<std::array<int, 4>, std::size_t> by_corners;
-    for (std::size_t i = 0; i < own.size(); ++i)
-      if (const int* c = own[i].corner; c[0] >= 0) by_corners.emplace(corners({c[0], c[1], c[2], c[3]}), i);
-    wedge.loads.cell_pressure.assign(own.size(), 0.0);
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      const int* c = cells[i].corner;
-      if (c[0] < 0) continue;
-      const auto image = [&](int corner) { return wedge.image[c[corner]].node; };
-      const auto at = by_corners.find(corners({image(0), image(1), image(2), image(3)}));
-      if (at == by_corners.end()) return false;
-      wedge.loads.cell_pressure[at->second] += loads.cell_pressure[i] / wedge.images;
+  void take_pressures(Wedge& wedge, const Loads& loads) const {
+    if (loads.cell_pressure.empty()) return;
+    std::size_t first = 0;
+    for (std::size_t p = 0; p < mesh_.patches.size(); ++p) {
+      const Patch &whole = mesh_.patches[p], &half = wedge.mesh.patches[p];
+      const int cells = half.columns - 1, rows = static_cast<int>(whole.cell_area.size()) / whole.columns;
+      for (int row = 0; row < rows; ++row) {
+        std::vector<double> sum(half.columns, 0.0);
+        for (int column = 0; column < whole.columns; ++column) {
+          const int in = column % (2 * cells);
+          sum[std::min(in, 2 * cells - 1 - in)] += loads.cell_pressure[first + row * whole.columns + column];
+        }
+        for (const double s : sum) wedge.loads.cell_pressure.push_back(s / (2 * n_));
+      }
+      first += static_cast<std::size_t>(rows) * whole.columns;
     }
-    return true;
   }
 
   const Mesh& mesh_;
@@ -329,7 +273,9 @@ std::vector<Vec3> Wedge::whole(const std::vector<Vec3>& positions) const {
 }
 
 std::optional<Wedge> wedge_of(const Mesh& mesh, const std::vector<Vec3>& start, const Loads& loads) {
-  if (mesh.patches.empty() || mesh.drawstring || !loads.node_force.empty()) return {};
+  const bool closed = !mesh.patches.empty() && std::all_of(mesh.patches.begin(), mesh.patches.end(),
+                                                           [](const Patch& patch) { return patch.periodic; });
+  if (!closed || mesh.drawstring || !loads.node_force.empty()) return {};
   return Search(mesh, start).widest(loads);
 }
 
