@@ -81,14 +81,12 @@ OPENING = ["inflation.duration_s=0.45", "inflation.frames=90", "inflation.line_s
            "flow.tunnel.shear_layer_m=0.1", "flow.cells=[110,110,122]"]
 # Sails that wrinkle stay turned over and ADEPT shut.
 OPENING_OF = {"stratos-iv": [], "walrus": [], "adept": ["inflation.cloth_compression=0.1"]}
-# What a peak depends on; what is varied on Stratos IV alone is taken for the other two. Past the peak where it comes soon.
+# What a peak depends on, past it where it comes soon; what is varied on Stratos IV alone is taken for the other two.
 FINER, TO_THE_PEAK = "flow.cells=[138,138,152]", ["inflation.duration_s=0.2", "inflation.frames=40"]
-OPENING_VARIATIONS = [("stratos-iv", "air 1.25 times as fine", [FINER, *TO_THE_PEAK]),
-                      ("stratos-iv", "half the folds", ["inflation.folds=9"]),
+OPENING_VARIATIONS = [("stratos-iv", "air 1.25 times as fine", [FINER, *TO_THE_PEAK]), ("stratos-iv", "half the folds", ["inflation.folds=9"]),
                       ("stratos-iv", "half the step", ["inflation.courant=0.25", *TO_THE_PEAK]),
                       ("stratos-iv", "twice the nodes", ["parachute.mesh.cloth_nodes=25600", *TO_THE_PEAK]),
-                      ("walrus", "air 1.25 times as fine", [FINER, "inflation.duration_s=0.3", "inflation.frames=60"]),
-                      ("adept", "air 1.25 times as fine", [FINER])]
+                      ("walrus", "air 1.25 times as fine", [FINER, "inflation.duration_s=0.3", "inflation.frames=60"]), ("adept", "air 1.25 times as fine", [FINER])]
 OPENING_COLUMNS = ["parachute", "air", "speed_m_s", "density_kg_m3", "initial_radius_m", "peak_100hz_n", "peak_n",
                    "peak_time_s", "filling_time_s", "steady_n", "wall_time_s", "peak_100hz_pm_n"]
 # Under the uniform pressure of their steady load (docs/validation.md) and the damping that Stratos IV was fitted with.
@@ -443,9 +441,8 @@ def stage_openings(campaign):
         varied.append({"parachute": parachute, "variation": label, **{c: row[c] for c in OPENING_COLUMNS[5:8]},
                        "peak_percent": f"{100 * changes[parachute][label]:.1f}"})
     for row in rows:
-        own = {**changes["stratos-iv"], **changes[row["parachute"]]}
-        share = sum(change ** 2 for change in own.values()) ** 0.5  # as if each came by itself
-        row["peak_100hz_pm_n"] = f"{share * float(row['peak_100hz_n']):.0f}"
+        own = {**changes["stratos-iv"], **changes[row["parachute"]]}  # as if each came by itself
+        row["peak_100hz_pm_n"] = f"{math.hypot(*own.values()) * float(row['peak_100hz_n']):.0f}"
     write_table(HERE / "openings-varied.csv", list(varied[0]), varied)
     for parachute, settings in DAMPED.items():
         speed, density, _ = OPENINGS[parachute]

@@ -441,7 +441,7 @@ class Way {
 };
 
 /// A canopy that is far from equilibrium goes most of the way as a wedge of it, under what its load has in common in all
-/// gores.
+/// gores. One that comes to no rest is left as it was.
 void go_as_wedge(ClothState& state, const Cloth& cloth, const Loads& loads, const RelaxOptions& options,
                  const std::function<void(const RelaxProgress&)>& report) {
   const std::optional<Wedge> wedge = wedge_of(cloth.mesh, positions(state, cloth), loads);
@@ -452,7 +452,13 @@ void go_as_wedge(ClothState& state, const Cloth& cloth, const Loads& loads, cons
   const ClothState start = start_state(*part);
   ClothState rests = start;
   ThreadTeam alone(1);  // some hundred nodes
-  Way(*part, wedge->loads, options, alone, report, wedge->images, wedge->freedom).go(rests, start);
+  const Way way(*part, wedge->loads, options, alone, report, wedge->images, wedge->freedom);
+  try {
+    if (!way.go(rests, start).converged) return;
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::diverged) throw;
+    return;
+  }
   set_positions(state, cloth, wedge->whole(positions(rests, *part)));
 }
 
