@@ -106,7 +106,8 @@ void print_table(const Arguments& given, int argc, char** argv) {
   }
 }
 
-// The whole way from flat by the whole cloth, which is the same to the last bit on any number of threads, by turns on one and on two.
+// The whole way from flat by the whole cloth, which is the same to the last bit on any number of threads, by turns on
+// one and on two.
 void print_ratio(const Arguments& given, int argc, char** argv) {
   constexpr int turns = 5;
   print_table_head(fmt::format("Equilibrium from flat, {} nodes, one thread and two", given.nodes), argc,

@@ -1,4 +1,5 @@
-// A canopy's wedge: found where there is one, and at rest where the canopy is.
+// A canopy's wedge: found where there is one, and all of the canopy in it. That it rests where the canopy does:
+// parachute/symmetry_test.cpp.
 #include "ripstop/cloth/wedge.h"
 
 #include <gtest/gtest.h>
@@ -17,8 +18,8 @@ using std::numbers::pi;
 
 constexpr int gores = 8, columns_round = 8 * gores, disk_rows = 12;
 
-/// A flat disk with a vent, of cloth that wrinkles, its seams and hems taped, on lines to a point on the axis, with lines across
-/// the vent.
+/// A flat disk with a vent, of cloth that wrinkles, its seams and hems taped, with lines across the vent, on lines to a
+/// riser.
 Mesh canopy() {
   Mesh mesh;
   PatchSpec disk;
@@ -41,8 +42,9 @@ Mesh canopy() {
     mesh.springs.push_back({a, b, norm(mesh.start[a] - mesh.start[b]), 1, 0, 0, 0});
   };
   const Patch& patch = mesh.patches[0];
-  const int confluence = add_node({0, 0, -0.9});
-  mesh.fixed.push_back(confluence);
+  const int confluence = add_node({0, 0, -0.9}), end = add_node({0, 0, -1});
+  mesh.fixed.push_back(end);
+  join(end, confluence);
   for (const int row : {0, disk_rows - 1})
     for (int column = 0; column < columns_round; ++column)
       join(patch.node(row, column), patch.node(row, (column + 1) % columns_round));
@@ -79,6 +81,14 @@ TEST(Wedge, IsHalfAGoreWhoseImagesAreTheCanopy) {
   for (const double a : mesh.patches[0].cell_area) area += a;
   for (const double a : wedge->mesh.patches[0].cell_area) of_wedge += a;
   EXPECT_NEAR(2 * gores * of_wedge, area, 1e-12);
+  const auto stiffness = [](const Mesh& m) {  // of tape, lines and riser
+    double sum = 0;
+    for (const Spring& spring : m.springs) sum += spring.scale / spring.rest_length;
+    return sum;
+  };
+  // A line across the vent is two halves, each twice as stiff.
+  const double across = gores / 2 / 0.1;
+  EXPECT_NEAR(2 * gores * stiffness(wedge->mesh), stiffness(mesh) + 3 * across, 1e-9);
   EXPECT_NEAR(wedge->loads.cell_pressure[3 * wedge->mesh.patches[0].columns + 1],
               100 + columns_round / (2.0 * gores), 1e-12);
 }
@@ -95,10 +105,10 @@ TEST(Wedge, IsAsWideAsTheSpringsAreAlike) {
         {mesh.patches[0].node(4, column), mesh.patches[0].node(5, column), 0.03, 1, 0, 0, 0});
   EXPECT_EQ(images(mesh), gores) << "tape at every second seam";
   mesh = canopy();
-  mesh.springs[2 * columns_round + disk_rows + 1].rest_length *= 1.01;
+  mesh.springs[2 * columns_round + disk_rows + 2].rest_length *= 1.01;
   EXPECT_EQ(images(mesh), 4) << "one line across the vent is longer: mirrored along it and across";
   mesh = canopy();
-  mesh.springs[2 * columns_round + 3].rest_length *= 1.01;
+  mesh.springs[2 * columns_round + 4].rest_length *= 1.01;
   EXPECT_EQ(images(mesh), 0);
   mesh = canopy();
   mesh.start.back().x += 1e-4;

@@ -43,8 +43,8 @@ class Blocks {
   int block_of_sum(int sum) const {
     return block_of_[lanes * motion_of_[sum / (3 * lanes)] + sum % (3 * lanes)];
   }
-  /// r [3 x padded] = the sums of every block, by way of those of chunks that move alike (`of_motions`, 24 doubles each).
-  /// What one of `parts` does for all: the blocks of about as many chunks.
+  /// r [3 x padded] = the sums of every block, by way of those of chunks that move alike (`of_motions`, 24 doubles
+  /// each). What one of `parts` does for all: the blocks of about as many chunks.
   void gather(const AlignedDoubles& sums, AlignedDoubles& of_motions, AlignedDoubles& r, int part,
               int parts) const;
   int motion_count() const { return static_cast<int>(block_of_.size()) / lanes; }

@@ -16,6 +16,8 @@
 // nodes' masses M and the blocks' bound C, x^T K x <= 2 sum x_i^T K_ii x_i and <= y^T C y, a step of 1 is stable for
 //   v' = keep v + kick (share W f + (1 - share) I C'^-1 I^T f),    C' = C / 4 with the same margin.
 //
+// From afar half a gore goes ahead (wedge.h): nodes in its planes have masses and residuals along what they may move.
+//
 // A parachute hangs on one point and may turn about it. Under a follower pressure that is neutral: a small
 // moment of a wrinkled shape would turn it for ever. So the moment of the loads about that point is cancelled
 // by the smallest node forces that do, and the turning taken out of the velocities.
@@ -383,7 +385,7 @@ std::optional<Mesh> softened(const Mesh& mesh, double load, double strain, int i
   return soft;
 }
 
-/// The way from a start to rest, by soft cloth where it is far.
+/// The way from a start to rest, from afar by soft cloth.
 class Way {
  public:
   /// Of a canopy, or of its wedge with `images` of it and its `freedom`.
@@ -399,15 +401,15 @@ class Way {
         freedom_(std::move(freedom)) {}
 
   bool is_far(const ClothState& start) const {
+    if (!wrinkles(cloth_.mesh)) return false;
     const RelaxOptions look{options_.tolerance, 1, options_.least_load, options_.hold};
     ClothState state = start;
     return Relaxation(state, cloth_, loads_, look, team_, start, freedom_).run({}).residual > far_residual;
   }
 
   /// Held toward `start`, if so.
-  RelaxResult go(ClothState& state, const ClothState& start) const {
-    int steps = 0;
-    if (wrinkles(cloth_.mesh) && is_far(state)) steps = go_softly(state, start);
+  RelaxResult go(ClothState& state, const ClothState& start, bool from_afar) const {
+    const int steps = from_afar ? go_softly(state, start) : 0;
     RelaxOptions rest = options_;
     rest.max_steps = std::max(1, options_.max_steps - steps);
     RelaxResult result = Relaxation(state, cloth_, loads_, rest, team_, start, freedom_).run(report_);
@@ -440,12 +442,12 @@ class Way {
   std::vector<Symmetric> freedom_;
 };
 
-/// A canopy that is far from equilibrium goes most of the way as a wedge of it, under what its load has in common in all
-/// gores. One that comes to no rest is left as it was.
-void go_as_wedge(ClothState& state, const Cloth& cloth, const Loads& loads, const RelaxOptions& options,
+/// A canopy that is far from equilibrium goes most of the way as a wedge of it, under what its load has in common in
+/// all gores. Whether it came to rest so; if not, it is left as it was.
+bool go_as_wedge(ClothState& state, const Cloth& cloth, const Loads& loads, const RelaxOptions& options,
                  const std::function<void(const RelaxProgress&)>& report) {
   const std::optional<Wedge> wedge = wedge_of(cloth.mesh, positions(state, cloth), loads);
-  if (!wedge) return;
+  if (!wedge) return false;
   ClothOptions of_wedge = cloth.options;
   of_wedge.contact.reset();
   const ClothPtr part = make_cloth(wedge->mesh, of_wedge);
@@ -454,12 +456,13 @@ void go_as_wedge(ClothState& state, const Cloth& cloth, const Loads& loads, cons
   ThreadTeam alone(1);  // some hundred nodes
   const Way way(*part, wedge->loads, options, alone, report, wedge->images, wedge->freedom);
   try {
-    if (!way.go(rests, start).converged) return;
+    if (!way.go(rests, start, true).converged) return false;
   } catch (const Error& error) {
     if (error.code() != ExitCode::diverged) throw;
-    return;
+    return false;
   }
   set_positions(state, cloth, wedge->whole(positions(rests, *part)));
+  return true;
 }
 
 }  // namespace
@@ -468,9 +471,9 @@ RelaxResult relax(ClothState& state, const Cloth& cloth, const Loads& loads, con
                   ThreadTeam& team, const std::function<void(const RelaxProgress&)>& report) {
   const ClothState start = state;
   const Way way(cloth, loads, options, team, report);
-  if (wrinkles(cloth.mesh) && options.hold == 0 && way.is_far(state))
-    go_as_wedge(state, cloth, loads, options, report);
-  RelaxResult result = way.go(state, start);
+  bool far = way.is_far(state);
+  if (far && options.hold == 0) far = !go_as_wedge(state, cloth, loads, options, report);
+  RelaxResult result = way.go(state, start, far);
   const std::vector<Vec3> before = positions(start, cloth), now = positions(state, cloth);
   result.mean_displacement = mean_distance(now, before);
   if (options.hold > 0) {

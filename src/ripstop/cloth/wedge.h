@@ -24,10 +24,10 @@ struct Wedge {
   std::vector<Vec3> whole(const std::vector<Vec3>& positions) const;
 };
 
-/// Absent for a cloth that has no such planes through the z axis, one of them at column 0, at the positions `start`; with
-/// patches that do not close about the axis, a drawstring or forces on nodes. Pressures are taken in the mean over the
-/// images of a cell. Springs of the lattice that cross a plane between nodes (those to the next node but one) are left
-/// out.
+/// Absent for a cloth that has no such planes through the z axis, one of them at column 0, at the positions `start`;
+/// with patches that do not close about the axis, a drawstring or forces on nodes. Pressures are taken in the mean over
+/// the images of a cell. Springs of the lattice that cross a plane between nodes (those to the next node but one) are
+/// left out.
 std::optional<Wedge> wedge_of(const Mesh& mesh, const std::vector<Vec3>& start, const Loads& loads);
 
 }  // namespace ripstop
