@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "ripstop/core/error.h"
+#include "ripstop/coupling/transfer.h"
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/flight/trajectory.h"
 #include "ripstop/flow/cartesian/cartesian.h"
@@ -20,13 +21,14 @@ namespace {
 
 constexpr double duct_speed = 10, resistance = 40, springs = 2000;  // [m/s], [Pa s/m], [Pa/m]
 
-FlowProblem closed_duct() {
+/// 1 m2, as high and wide as `cells` of them.
+FlowProblem closed_duct(double speed = duct_speed, double linear = resistance, int cells = 4) {
   FlowProblem duct;
-  duct.grid = {{0, 0, 0}, {1, 1, 2}, 4, 4, 16};
-  duct.air.speed = duct_speed;
+  duct.grid = {{0, 0, 0}, {1, 1, 2}, cells, cells, 4 * cells};
+  duct.air.speed = speed;
   duct.sides = Sides::slip;
   duct.outlet = Outlet::still_air;
-  duct.sheets = {{{}, resistance, 0}};
+  duct.sheets = {{{}, linear, 0}};
   return duct;
 }
 
@@ -37,30 +39,43 @@ std::function<double(double)> thickening_below(double height) {
   };
 }
 
-/// A square of cloth across a duct of 1 m2, every node on a spring along the duct. It has no springs in its plane: under
-/// one pressure it moves as a piston does.
-Mesh piston(double mass) {
-  constexpr int n = 5;
-  constexpr double length = 4;  // of the springs, to be linear
+constexpr double sheet_at = 1.01;  // along the duct [m]
+
+/// A square of cloth of n x n nodes across the duct: yarns of `stiffness` [N/m] each way and no shear; without any it has
+/// no springs in its plane.
+Mesh across_the_duct(int n, double mass, double stiffness) {
+  const double spacing = 1.0 / (n - 1);
   Mesh mesh;
   Patch patch;
   patch.rows = patch.columns = n;
   patch.cell_area.assign(n * n, 0.0);
   for (int d = 0; d < direction_count; ++d) {
-    patch.law[d].coefficients = {1};
-    patch.rest_length[d].assign(n * n, 1.0), patch.width[d].assign(n * n, 0.0);
+    patch.law[d].coefficients = {stiffness > 0 ? stiffness : 1};
+    patch.rest_length[d].assign(n * n, spacing), patch.width[d].assign(n * n, 0.0);
   }
-  mesh.patches.push_back(patch);
-  mesh.laws.emplace_back().coefficients = {springs * length};
-  mesh.parts = {"spring"};
   for (int r = 0; r < n; ++r) {
     for (int c = 0; c < n; ++c) {
-      const double share = (r % (n - 1) ? 1 : 0.5) * (c % (n - 1) ? 1 : 0.5) / ((n - 1) * (n - 1));
-      mesh.start.push_back({double(c) / (n - 1), double(r) / (n - 1), 1.01});
+      const double share = (r % (n - 1) ? 1 : 0.5) * (c % (n - 1) ? 1 : 0.5) * spacing * spacing;
+      mesh.start.push_back({c * spacing, r * spacing, sheet_at});
       mesh.mass.push_back(mass * share);
-      if (r < n - 1 && c < n - 1) mesh.patches[0].cell_area[r * n + c] = 1.0 / ((n - 1) * (n - 1));
+      if (r < n - 1 && c < n - 1) patch.cell_area[r * n + c] = spacing * spacing;
+      if (stiffness > 0) {
+        patch.width[along_row][r * n + c] = c < n - 1 ? spacing : 0;
+        patch.width[along_column][r * n + c] = r < n - 1 ? spacing : 0;
+      }
     }
   }
+  mesh.patches.push_back(patch);
+  return mesh;
+}
+
+/// Every node on a spring along the duct: under one pressure the cloth moves as a piston does.
+Mesh piston(double mass) {
+  constexpr int n = 5;
+  constexpr double length = 4;  // of the springs, to be linear
+  Mesh mesh = across_the_duct(n, mass, 0);
+  mesh.laws.emplace_back().coefficients = {springs * length};
+  mesh.parts = {"spring"};
   for (int i = 0; i < n * n; ++i) {
     const Vec3 at = mesh.start[i];
     mesh.start.push_back(at - Vec3{0, 0, length}), mesh.mass.push_back(1);
@@ -73,32 +88,50 @@ Mesh piston(double mass) {
   return mesh;
 }
 
+CartesianSettings one_thread() {
+  CartesianSettings settings;
+  settings.threads = 1, settings.compressible = false;
+  return settings;
+}
+
+/// Cloth and air in turn, as an opening steps them.
+class Together {
+ public:
+  Together(const FlowProblem& flow, const Mesh& mesh)
+      : x(mesh.start), air_({flow, 0.5, make_cartesian(one_thread())}, mesh), cloth_(make_cloth(mesh)) {}
+
+  /// The cloth takes `least` steps or more, `share` of its stable one at most.
+  void step(double length, int least, double share) {
+    const double stable = share * step_bound(*cloth_, state_).stable_step;
+    ClothMotion motion;
+    motion.steps = std::max(least, static_cast<int>(std::ceil(length / stable)));
+    ClothState tried = state_;
+    ripstop::step(tried, *cloth_, air_.last_load(memory_), length / motion.steps, motion.steps, team_);
+    motion.velocity = positions(tried, *cloth_);
+    for (std::size_t i = 0; i < x.size(); ++i) motion.velocity[i] = (motion.velocity[i] - x[i]) / length;
+    AirRow row;
+    loads = air_.step(x, motion, length, memory_, row);
+    ripstop::step(state_, *cloth_, loads, length / motion.steps, motion.steps, team_);
+    x = positions(state_, *cloth_);
+  }
+
+  std::vector<Vec3> x;
+  Loads loads;
+
+ private:
+  OpeningAir air_;
+  ClothPtr cloth_;
+  ThreadTeam team_{1};
+  ClothState state_ = start_state(*cloth_);
+  AirMemory memory_;
+};
+
 /// How far the piston has come after `duration`, in steps of the air of `step`; the cloth takes `least` steps or more
 /// in each.
 double piston_moved(double mass, double step, double duration, int least) {
-  CartesianSettings settings;
-  settings.threads = 1, settings.compressible = false;
-  const Mesh mesh = piston(mass);
-  OpeningAir air({closed_duct(), 0.5, make_cartesian(settings)}, mesh);
-  const ClothPtr cloth = make_cloth(mesh);
-  ThreadTeam team(1);
-  ClothState state = start_state(*cloth);
-  AirMemory memory;
-  std::vector<Vec3> x = mesh.start;
-  for (int n = 0; n < std::lround(duration / step); ++n) {
-    const double stable = 0.2 * step_bound(*cloth, state).stable_step;
-    ClothMotion motion;
-    motion.steps = std::max(least, static_cast<int>(std::ceil(step / stable)));
-    ClothState tried = state;
-    ripstop::step(tried, *cloth, air.last_load(memory), step / motion.steps, motion.steps, team);
-    motion.velocity = positions(tried, *cloth);
-    for (std::size_t i = 0; i < x.size(); ++i) motion.velocity[i] = (motion.velocity[i] - x[i]) / step;
-    AirRow row;
-    const Loads loads = air.step(x, motion, step, memory, row);
-    ripstop::step(state, *cloth, loads, step / motion.steps, motion.steps, team);
-    x = positions(state, *cloth);
-  }
-  return x[12].z - 1.01;
+  Together duct(closed_duct(), piston(mass));
+  for (int n = 0; n < std::lround(duration / step); ++n) duct.step(step, least, 0.2);
+  return duct.x[12].z - sheet_at;
 }
 
 /// m x'' = a (U - x') - k x from rest.
@@ -143,6 +176,97 @@ TEST(OpeningAir, StepsOfAirAndClothTogetherAreOfSecondOrder) {
   }
 }
 
+/// Cloth that is clamped round the duct and bulges like the end of a bag.
+Mesh end_of_a_bag() {
+  constexpr int n = 17;
+  Mesh mesh = across_the_duct(n, 0.04, 6e4);
+  std::fill(std::begin(mesh.patches[0].damping), std::end(mesh.patches[0].damping), 0.6);  // 1e-5 s
+  for (int i = 0; i < n * n; ++i)
+    if (i < n || i >= n * (n - 1) || i % n == 0 || i % n == n - 1) mesh.fixed.push_back(i);
+  return mesh;
+}
+
+struct Bulge {
+  double volume = 0, area = 0, pressure = 0;  // [m3], [m2]; in the mean over the cells [Pa]
+};
+Bulge bulge_of(const Mesh& mesh, const std::vector<Vec3>& x, const Loads& loads) {
+  Bulge bulge;
+  for (const Triangle& t : surface_of(cells_of(mesh), x)) {
+    const Vec3 area = 0.5 * cross(t.b - t.a, t.c - t.a);
+    bulge.area += norm(area);
+    bulge.volume += std::abs(area.z) * ((t.a.z + t.b.z + t.c.z) / 3 - sheet_at);
+  }
+  for (const double p : loads.cell_pressure) bulge.pressure += p / (16 * 16);
+  return bulge;
+}
+
+/// What the bag holds under one pressure after another, by its cloth alone.
+std::vector<Bulge> blown_up_bags() {
+  const Mesh mesh = end_of_a_bag();
+  const ClothPtr cloth = make_cloth(mesh);
+  ThreadTeam team(1);
+  std::vector<Bulge> bags{bulge_of(mesh, mesh.start, {})};
+  for (double pressure = 1; pressure < 2000; pressure *= 1.5) {
+    ClothState state = start_state(*cloth);
+    const Loads loads{std::vector<double>(mesh.cell_count(), pressure), {}};
+    EXPECT_TRUE(relax(state, *cloth, loads, {}, team).converged) << pressure;
+    bags.push_back(bulge_of(mesh, positions(state, *cloth), loads));
+    bags.back().pressure = pressure;
+  }
+  return bags;
+}
+
+/// The bag of that volume: its area and its pressure's cube root go about straight in between.
+Bulge bag_of(double volume, const std::vector<Bulge>& bags) {
+  std::size_t n = 1;
+  while (n + 1 < bags.size() && bags[n].volume < volume) ++n;
+  const Bulge &a = bags[n - 1], &b = bags[n];
+  const double share = (volume - a.volume) / (b.volume - a.volume);
+  const double root = std::cbrt(a.pressure) + share * (std::cbrt(b.pressure) - std::cbrt(a.pressure));
+  return {volume, a.area + share * (b.area - a.area), root * root * root};
+}
+
+// A bag of cloth that is filled at a constant flow Q and leaks: dV/dt = Q - p A / a, with p and A those of the same cloth
+// blown up to V.
+TEST(OpeningAir, ABagThatIsFilledHoldsWhatDoesNotLeak) {
+  constexpr double flow = 1, leaks = 1000, step = 2.5e-4;
+  const std::vector<Bulge> bags = blown_up_bags();
+  const Mesh mesh = end_of_a_bag();
+  Together duct(closed_duct(flow, leaks, 16), mesh);
+  double volume = 0;
+  const auto fills = [&](double v) {
+    const Bulge bag = bag_of(v, bags);
+    return flow - bag.pressure * bag.area / leaks;
+  };
+  for (int n = 1; n <= 640; ++n) {
+    duct.step(step, 1, 0.9);
+    volume += step * fills(volume + 0.5 * step * fills(volume));
+    if (n % 64 != 0) continue;
+    const Bulge bag = bulge_of(mesh, duct.x, duct.loads), right = bag_of(volume, bags);
+    EXPECT_NEAR(bag.volume / volume, 1, 0.02) << n;
+    EXPECT_NEAR(bag.pressure, right.pressure, 20) << n;
+  }
+}
+
+// Where nothing leaks it holds what has flown in, and the pressure does not swing from step to step.
+TEST(OpeningAir, ATightBagHoldsWhatHasFlownIn) {
+  constexpr double flow = 1, step = 2.5e-4;
+  const Mesh mesh = end_of_a_bag();
+  Together duct(closed_duct(flow, 1e7, 16), mesh);
+  double last = 0;
+  for (int n = 1; n <= 320; ++n) {
+    duct.step(step, 1, 0.9);
+    const Bulge bag = bulge_of(mesh, duct.x, duct.loads);
+    if (n >= 64) {
+      EXPECT_NEAR(bag.volume / (n * step * flow), 1, 0.012) << n;
+    }
+    if (n >= 200) {
+      EXPECT_NEAR(bag.pressure / last, 1, 0.03) << n;
+    }
+    last = bag.pressure;
+  }
+}
+
 TEST(OpeningAir, IsRefusedWithoutAnEngineOrWithoutASheet) {
   const Mesh mesh = piston(0.04);
   EXPECT_THROW(OpeningAir({closed_duct(), 0.5, nullptr}, mesh), Error);
@@ -153,11 +277,9 @@ TEST(OpeningAir, IsRefusedWithoutAnEngineOrWithoutASheet) {
 
 // Under a pull that stays the same a payload falls as anything does.
 TEST(OpeningAir, APayloadIsSlowedDownByWhatTheRiserPulls) {
-  CartesianSettings settings;
-  settings.threads = 1, settings.compressible = false;
   constexpr double mass = 2, gravity = 9, pull = 30, step = 1e-3;
   const Mesh mesh = piston(0.04);
-  OpeningAir air({closed_duct(), 0.5, make_cartesian(settings), Payload{mass, gravity}}, mesh);
+  OpeningAir air({closed_duct(), 0.5, make_cartesian(one_thread()), Payload{mass, gravity}}, mesh);
   AirMemory memory;
   AirRow row;
   const std::vector<Vec3> still(mesh.start.size());
@@ -177,15 +299,13 @@ TEST(OpeningAir, APayloadIsSlowedDownByWhatTheRiserPulls) {
 // A constant drag area, of which a part is its own, has it fly as a mass point flies, which has another method: in speed,
 // in height, and as far as weight turns its path, through air that gets denser.
 TEST(OpeningAir, APayloadsPathTurnsAsThatOfAMassPoint) {
-  CartesianSettings settings;
-  settings.threads = 1, settings.compressible = false;
   constexpr double mass = 2, area = 0.05, own_area = 0.02, step = 2e-3, height = 5000;
   constexpr int steps = 20'000;
   const Mesh mesh = piston(0.04);
   for (const double angle : {90.0, 30.0, 0.0, -60.0}) {
     FlowProblem duct = closed_duct();
     duct.air.density = standard_air(height).density;
-    OpeningAir air({duct, 0.5, make_cartesian(settings),
+    OpeningAir air({duct, 0.5, make_cartesian(one_thread()),
                     Payload{mass, standard_gravity, angle, own_area, thickening_below(height)}},
                    mesh);
     AirMemory memory;
@@ -211,13 +331,11 @@ TEST(OpeningAir, APayloadsPathTurnsAsThatOfAMassPoint) {
 
 // Cloth that hardly gives way: what presses on it goes with the density where it is.
 TEST(OpeningAir, TheLoadGoesWithTheDensityOfTheHeight) {
-  CartesianSettings settings;
-  settings.threads = 1, settings.compressible = false;
   constexpr double height = 5000, down = 3000;
   const Mesh mesh = piston(1e6);
   const auto first_step = [&](double fallen, double& brake) {
     OpeningAir air(
-        {closed_duct(), 0.5, make_cartesian(settings), Payload{2, 0, 90, 0.1, thickening_below(height)}},
+        {closed_duct(), 0.5, make_cartesian(one_thread()), Payload{2, 0, 90, 0.1, thickening_below(height)}},
         mesh);
     AirMemory memory;
     memory.fallen = fallen;
