@@ -79,13 +79,13 @@ OPENINGS = {"stratos-iv": (27.1, 1.2, 0.1), "walrus": (27.43, 1.204, 0.2), "adep
 OPENING = ["inflation.duration_s=0.45", "inflation.frames=90", "inflation.line_segment_m=0.06",
            "inflation.cloth_damping_s=1e-5", "inflation.low_pass_hz=100", "parachute.mesh.cloth_nodes=12800",
            "flow.tunnel.shear_layer_m=0.1", "flow.cells=[110,110,122]"]
-# Sails that wrinkle stay turned over and ADEPT shut.
-OPENING_OF = {"stratos-iv": [], "walrus": [], "adept": ["inflation.cloth_compression=0.1"]}
+OPENING_OF = {"stratos-iv": [], "walrus": [], "adept": ["inflation.cloth_compression=0.1"]}  # sails that wrinkle stay shut
 # What a peak depends on, past it where it comes soon; what is varied on Stratos IV alone is taken for the other two.
 FINER, TO_THE_PEAK = "flow.cells=[138,138,152]", ["inflation.duration_s=0.2", "inflation.frames=40"]
 OPENING_VARIATIONS = [("stratos-iv", "air 1.25 times as fine", [FINER, *TO_THE_PEAK]), ("stratos-iv", "half the folds", ["inflation.folds=9"]),
                       ("stratos-iv", "half the step", ["inflation.courant=0.25", *TO_THE_PEAK]),
-                      ("stratos-iv", "twice the nodes", ["parachute.mesh.cloth_nodes=25600", *TO_THE_PEAK]),
+                      *[("stratos-iv", f"{label} the nodes", [f"parachute.mesh.cloth_nodes={nodes}", *TO_THE_PEAK])
+                        for label, nodes in (("0.7 times", 9000), ("1.4 times", 18000), ("twice", 25600))],
                       ("walrus", "air 1.25 times as fine", [FINER, "inflation.duration_s=0.3", "inflation.frames=60"]), ("adept", "air 1.25 times as fine", [FINER])]
 OPENING_COLUMNS = ["parachute", "air", "speed_m_s", "density_kg_m3", "initial_radius_m", "peak_100hz_n", "peak_n",
                    "peak_time_s", "filling_time_s", "steady_n", "wall_time_s", "peak_100hz_pm_n"]
@@ -117,8 +117,7 @@ class Campaign:
         arguments = ["sweep", f"validation/ojf/{parachute}.toml", "--out", folder, *axes]
         for setting in settings:
             arguments += ["--set", setting]
-        if self.jobs:
-            arguments += ["--jobs", self.jobs]
+        arguments += ["--jobs", self.jobs] if self.jobs else []
         self.call(*arguments)
         with open(folder / "sweep.csv", newline="") as file:
             return list(csv.DictReader(file))
@@ -127,8 +126,7 @@ class Campaign:
         command = ["calibrate", "porosity", "validation/ojf/stratos-iv.toml", "--out", self.runs / out, *arguments]
         for setting in settings:
             command += ["--set", setting]
-        if self.jobs:
-            command += ["--jobs", self.jobs]
+        command += ["--jobs", self.jobs] if self.jobs else []
         self.call(*command)
         return self.calibration(out)
 
@@ -441,8 +439,9 @@ def stage_openings(campaign):
         varied.append({"parachute": parachute, "variation": label, **{c: row[c] for c in OPENING_COLUMNS[5:8]},
                        "peak_percent": f"{100 * changes[parachute][label]:.1f}"})
     for row in rows:
-        own = {**changes["stratos-iv"], **changes[row["parachute"]]}  # as if each came by itself
-        row["peak_100hz_pm_n"] = f"{math.hypot(*own.values()) * float(row['peak_100hz_n']):.0f}"
+        own = sorted({**changes["stratos-iv"], **changes[row["parachute"]]}.items(), key=lambda one: abs(one[1]))
+        kinds = {label.split()[-1]: change for label, change in own}  # the largest of each, as if each came by itself
+        row["peak_100hz_pm_n"] = f"{math.hypot(*kinds.values()) * float(row['peak_100hz_n']):.0f}"
     write_table(HERE / "openings-varied.csv", list(varied[0]), varied)
     for parachute, settings in DAMPED.items():
         speed, density, _ = OPENINGS[parachute]
