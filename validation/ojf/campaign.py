@@ -440,7 +440,7 @@ def stage_openings(campaign):
                        "peak_percent": f"{100 * changes[parachute][label]:.1f}"})
     for row in rows:
         own = sorted({**changes["stratos-iv"], **changes[row["parachute"]]}.items(), key=lambda one: abs(one[1]))
-        kinds = {label.split()[-1]: change for label, change in own}  # the largest of each, as if each came by itself
+        kinds = {label.split()[-1]: change for label, change in own}  # by its last word: the largest of each
         row["peak_100hz_pm_n"] = f"{math.hypot(*kinds.values()) * float(row['peak_100hz_n']):.0f}"
     write_table(HERE / "openings-varied.csv", list(varied[0]), varied)
     for parachute, settings in DAMPED.items():
