@@ -125,7 +125,7 @@ TEST(MovingSheet, ADiskThatFallsComesToItsTerminalSpeed) {
                terminal = std::sqrt(2 * mass * gravity / (air_density * area * coefficient));
   constexpr double first = 4.5, high = 5.2, step = 4e-3, duration = 2.2;
   FlowProblem problem = disk_in_air(first, 0, high);
-  problem.sheets[0].quadratic = 0.5 * air_density * loss;
+  problem.sheets[0].law.quadratic = 0.5 * air_density * loss;
   const auto engine = engine_on_one_thread();
   const auto flow = engine->start(problem);
   double z = high, rises = 0, sum = 0, count = 0;  // rises: through the grid [m/s]

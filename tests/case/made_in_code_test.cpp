@@ -81,9 +81,9 @@ TEST(MadeInCode, AnEngineThatThereIsNotIsOneMistake) {
 TEST(MadeInCode, AMaterialOfItsOwnComesBeforeTheLibrarys) {
   Case given = made();
   Fabric cloth = std::get<Fabric>(library_material("f-111-physical"));
-  cloth.resistance = {PorosityModel::sheet, 100, 200};
+  cloth.resistance = {100, 200, {}, {}, {}};
   given.materials["f-111-physical"] = cloth;
-  EXPECT_EQ(flow_problem(resolve(checked(given))).sheets.at(0).quadratic, 200);
+  EXPECT_EQ(flow_problem(resolve(checked(given))).sheets.at(0).law.quadratic, 200);
 }
 
 TEST(Opening, IsMeshedToFoldWithTheSegmentsAndTheCompressionThatItGives) {

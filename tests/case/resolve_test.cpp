@@ -157,7 +157,7 @@ TEST(Resolved, ASheetStandsInABoxThatScalesWithTheCanopy) {
   const FlowProblem problem = flow_problem(resolve(given));
   EXPECT_TRUE(problem.porous.empty());
   ASSERT_EQ(problem.sheets.size(), 1u);
-  EXPECT_EQ(problem.sheets[0].linear, 8169.3);
+  EXPECT_EQ(problem.sheets[0].law.linear, 8169.3);
 }
 
 TEST(Resolved, TheProblemOfTheFlowHasEveryValueOfTheCase) {

@@ -36,8 +36,7 @@ FlowProblem flow_problem(const Settings& resolved) {
   problem.stopping.average_over = flow.average_over;
   const ClothResistance& cloth = resolved.materials().canopy.resistance;
   if (flow.porosity_model == PorosityModel::sheet) {
-    const PressureDrop drop = as_sheet(cloth);
-    problem.sheets = {{{}, drop.linear, drop.quadratic}};
+    problem.sheets = {{{}, as_sheet(cloth)}};
   } else {
     const PorousCellLaw cells = as_cells(cloth);
     problem.porous = {{{}, cells.darcy, cells.forchheimer}};

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "ripstop/core/pressure_drop.h"
 #include "ripstop/core/vec3.h"
 #include "ripstop/flow/flow_grid.h"
 #include "ripstop/flow/jet.h"
@@ -55,12 +56,11 @@ struct SheetMotion {
   std::vector<double> pressure;  // inside over outside [Pa]; empty: none
 };
 
-/// Cloth as a surface without thickness, across which the pressure drops by a v + b v |v| with v the air's
-/// velocity along its normal, relative to the cloth ([NFM] Eq. 15; `sheet` model, method section 4).
+/// Cloth as a surface without thickness, across which the pressure drops by its law of the air's velocity along its
+/// normal, relative to the cloth (`sheet` model, method section 4).
 struct Sheet {
   std::vector<Triangle> surface;
-  double linear = 0;     // a [Pa s/m]
-  double quadratic = 0;  // b [Pa s2/m2]
+  PressureDrop law;
   SheetMotion motion = {};
 };
 

@@ -72,9 +72,9 @@ double giving_way(double resistance, double yields) {
 }
 
 /// v of v + yields (a + b |v|) v = asked.
-double passing(double asked, double yields, double a, double b) {
-  const double linear = 1 + yields * a;
-  return 2 * asked / (linear + std::sqrt(linear * linear + 4 * yields * b * std::abs(asked)));
+double passing(double asked, double yields, const PressureDrop& law) {
+  const double linear = 1 + yields * law.linear;
+  return 2 * asked / (linear + std::sqrt(linear * linear + 4 * yields * law.quadratic * std::abs(asked)));
 }
 
 }  // namespace
@@ -93,10 +93,10 @@ void SheetRows::add_faces(const Axis& x, const Axis& y, const Axis& z, const std
   for (int s = 0; s < static_cast<int>(sheets.size()); ++s) {
     const Sheet& sheet = sheets[s];
     const auto fits = [](double value) { return std::isfinite(value) && value >= 0; };
-    if (!fits(sheet.linear) || !fits(sheet.quadratic)) {
+    if (!fits(sheet.law.linear) || !fits(sheet.law.quadratic)) {
       throw Error(ExitCode::bad_data,
                   fmt::format("sheet: a = {} Pa s/m and b = {} Pa s2/m2 must be finite and not negative",
-                              sheet.linear, sheet.quadratic));
+                              sheet.law.linear, sheet.law.quadratic));
     }
     const SheetMotion& motion = sheet.motion;
     for (const std::size_t count : {motion.velocity.size(), motion.yields.size(), motion.pressure.size()}) {
@@ -108,7 +108,7 @@ void SheetRows::add_faces(const Axis& x, const Axis& y, const Axis& z, const std
       Face face;
       face.geometry = geometry;
       face.sheet = s;
-      face.a = sheet.linear, face.b = sheet.quadratic;
+      face.law = sheet.law;
       const SheetFace& g = face.geometry;
       if (!motion.velocity.empty()) {
         face.geometry.normal = geometry.across;
@@ -238,9 +238,9 @@ void SheetRows::update(State& state, const Layout& layout, double momentum, doub
       through += share * (next - through) - kinked * share * (1 - share) * kink;
     }
     const double yields = face.yields, asked = through + yields * face.known;
-    const double speed = std::abs(yields > 0 ? passing(asked, yields, face.a, face.b) : through);
-    const double resistance = giving_way(face.a + face.b * speed, yields),
-                 steepness = giving_way(face.a + 2 * face.b * speed, yields);
+    const double speed = std::abs(yields > 0 ? passing(asked, yields, face.law) : through);
+    const double resistance = giving_way(face.law.linear + face.law.quadratic * speed, yields),
+                 steepness = giving_way(face.law.linear + 2 * face.law.quadratic * speed, yields);
     const Cover beside = cover_of(face.cover, resistance, density, std::abs(through));
     // A jet that has yet to start, or that turns back, would offer no slope at all.
     const Cover brisk = cover_of(face.cover, resistance, density,

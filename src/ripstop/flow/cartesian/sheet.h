@@ -59,7 +59,7 @@ class SheetRows {
   struct Face {
     SheetFace geometry;
     int sheet = 0;
-    double a = 0, b = 0;  // of the law
+    PressureDrop law;
     Vec3 velocity;        // of the sheet [m/s]
     bool moves = false;
     double yields = 0;  // by which it is faster along its normal for every pascal beyond ... [m/(s Pa)]

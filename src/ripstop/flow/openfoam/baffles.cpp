@@ -44,8 +44,8 @@ int axis_of(const Baffle& baffle) {
 std::array<double, 2> law_of(const Baffle& baffle, const std::vector<Sheet>& sheets) {
   std::array<double, 2> law{};
   for (const Layer& layer : baffle.layers) {
-    law[0] += sheets[layer.sheet].linear / layer.slant;
-    law[1] += sheets[layer.sheet].quadratic / (layer.slant * layer.slant);
+    law[0] += sheets[layer.sheet].law.linear / layer.slant;
+    law[1] += sheets[layer.sheet].law.quadratic / (layer.slant * layer.slant);
   }
   return law;
 }

@@ -33,7 +33,7 @@ bool is_loose_in(const FlowProblem& problem, const Sheet& sheet) {
   double across = 0;
   for (const Sheet& one : problem.sheets)
     for (const Triangle& t : one.surface) across += 0.5 * std::abs(cross(t.b - t.a, t.c - t.a).z);
-  return shuts(across, problem.grid) || is_loose(sheet.linear, sheet.quadratic, problem.air);
+  return shuts(across, problem.grid) || is_loose(sheet.law.linear, sheet.law.quadratic, problem.air);
 }
 
 constexpr char kSnappy[] = R"foam(castellatedMesh true;
@@ -468,7 +468,7 @@ FittedMesh read_fitted_mesh(const fs::path& folder, const FlowProblem& problem) 
     patch.baffles = baffles_on(static_cast<int>(s), sheet, mesh.part, geometry);
     patch.loose = is_loose_in(problem, sheet);
     const double slant = patch.baffles.front().layers.front().slant;
-    patch.linear = sheet.linear / slant, patch.quadratic = sheet.quadratic / (slant * slant);
+    patch.linear = sheet.law.linear / slant, patch.quadratic = sheet.law.quadratic / (slant * slant);
     mesh.patches.push_back(std::move(patch));
   }
   return mesh;

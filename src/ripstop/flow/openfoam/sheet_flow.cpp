@@ -355,7 +355,7 @@ class SheetFlow final : public Flow {
     double sum = 0;
     for (const Layer& layer : baffle.layers) {
       const Sheet& sheet = problem_.sheets[layer.sheet];
-      part.push_back(sheet.linear / layer.slant + sheet.quadratic * v / (layer.slant * layer.slant));
+      part.push_back(sheet.law.linear / layer.slant + sheet.law.quadratic * v / (layer.slant * layer.slant));
       sum += part.back();
     }
     for (std::size_t n = 0; n < part.size(); ++n) {
