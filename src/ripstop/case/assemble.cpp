@@ -43,10 +43,10 @@ FlowProblem flow_problem(const Case& given) {
   const ClothResistance& cloth = canopy_fabric(given).resistance;
   if (flow.porosity_model == PorosityModel::sheet) {
     const PressureDrop drop = as_sheet(cloth);
-    problem.sheets = {{{}, drop.linear, drop.quadratic}};
+    problem.bodies = {sheet_body({}, drop)};
   } else {
     const PorousCellLaw cells = as_cells(cloth);
-    problem.porous = {{{}, cells.darcy, cells.forchheimer}};
+    problem.bodies = {porous_body({{}, cells.darcy, cells.forchheimer})};
   }
   return problem;
 }

@@ -266,14 +266,14 @@ pressure changes. To make the mesh anew (Ripstop also opens cells that cloth shu
 
 void write_readme(const fs::path& folder, const FlowProblem& problem, const OpenFoamSettings& settings) {
   const FlowGrid& grid = problem.grid;
-  const char* solver = solver_name(settings.incompressible, !problem.sheets.empty());
+  const char* solver = solver_name(settings.incompressible, problem.has_sheets());
   const std::string run = settings.ranks > 1 ? fmt::format(
                                                    "    decomposePar\n    mpirun -np {} {} -parallel\n"
                                                    "    reconstructPar -latestTime\n",
                                                    settings.ranks, solver)
                                              : fmt::format("    {}\n", solver);
   std::ofstream readme(folder / kReadme);
-  const bool sheets = !problem.sheets.empty();
+  const bool sheets = problem.has_sheets();
   readme << fmt::format(kReadmeText, sheets ? "sheets" : "porous cells", grid.nx, grid.ny, grid.nz,
                         problem.air.density, problem.air.speed(),
                         problem.sides == Sides::slip ? "slip" : "open", kStopFile,
@@ -326,7 +326,10 @@ void check(const FlowProblem& problem) {
   range("turbulence intensity", air.turbulence_intensity, 1e-6, 1, "");
   range("viscosity ratio", air.viscosity_ratio, 1e-6, 1e6, "");
   std::vector<char> taken(static_cast<std::size_t>(grid.cells()), 0);
-  for (const PorousCells& porous : problem.porous) {
+  for (const FlowBody& body : problem.bodies) {
+    if (body.is_sheet()) continue;
+    refuse(problem.has_sheets(), "a porous body beside a sheet");
+    const PorousCells& porous = body.porous();
     range("Darcy coefficient", porous.darcy, 0, 1e15, "1/m2");
     range("Forchheimer coefficient", porous.forchheimer, 0, 1e12, "1/m");
     for (const int cell : porous.cells) {
@@ -343,10 +346,10 @@ void check(const FlowProblem& problem) {
 void write_case(const fs::path& folder, const FlowProblem& problem, const OpenFoamSettings& settings) {
   write_readme(folder, problem, settings);  // first: where the rest fails the folder is known as ours
   const FlowGrid& grid = problem.grid;
-  if (problem.sheets.empty() || settings.fitted_mesh)
+  if (!problem.has_sheets() || settings.fitted_mesh)
     write_dictionary(folder / "system/blockMeshDict", "dictionary", mesh_dictionary(grid));
   // At the edge of a sheet without thickness an unlimited gradient throws the flow off.
-  const char* second_order = problem.sheets.empty() ? "linearUpwind grad(U)" : "linearUpwind limited";
+  const char* second_order = !problem.has_sheets() ? "linearUpwind grad(U)" : "linearUpwind limited";
   write_dictionary(folder / "system/fvSchemes", "dictionary",
                    fmt::format(kSchemes, settings.second_order ? second_order : "upwind"));
   const std::array<int, 3> parts = split(grid, settings.ranks);
@@ -373,7 +376,8 @@ void write_fields(const fs::path& folder, const FlowProblem& problem, bool incom
   const std::string open = problem.sides == Sides::slip ? "type slip;" : "type zeroGradient;";
   const auto number = [](double value) { return fmt::format("{:.17g}", value); };
   const std::string p = number(incompressible ? 0 : outlet_pressure(air));
-  const std::string velocity = fmt::format("({:.17g} {:.17g} {:.17g})", air.velocity.x, air.velocity.y, air.velocity.z);
+  const std::string velocity =
+      fmt::format("({:.17g} {:.17g} {:.17g})", air.velocity.x, air.velocity.y, air.velocity.z);
   const double fluctuation = air.turbulence_intensity * air.speed();
   const double k = 1.5 * fluctuation * fluctuation;
   const double omega = k / (kinematic_viscosity(air) * air.viscosity_ratio);
@@ -402,12 +406,11 @@ void write_fields(const fs::path& folder, const FlowProblem& problem, bool incom
 
 void write_control(const fs::path& folder, const FlowProblem& problem, bool incompressible,
                    const RunControl& control) {
-  const bool sheets = !problem.sheets.empty();
+  const bool sheets = problem.has_sheets();
   const std::string forces =
-      !sheets && problem.porous.empty()
-          ? ""
-          : fmt::format(kForces, sheets ? "\"cloth.*\"" : "", sheets ? "false" : "true",
-                        incompressible ? "rhoInf" : "rho", problem.air.density);
+      problem.bodies.empty() ? ""
+                             : fmt::format(kForces, sheets ? "\"cloth.*\"" : "", sheets ? "false" : "true",
+                                           incompressible ? "rhoInf" : "rho", problem.air.density);
   write_dictionary(folder / "system/controlDict", "dictionary",
                    fmt::format(kControl, control.start + control.iterations, control.iterations, kStopFile,
                                forces, solver_name(incompressible, sheets)));
@@ -418,10 +421,11 @@ void write_solution(const fs::path& folder, double residual, int corrections) {
                    fmt::format(kSolution, residual, kLowestPressure, kHighestPressure, corrections));
 }
 
-void write_resistance(const fs::path& folder, const std::vector<PorousCells>& porous) {
+void write_resistance(const fs::path& folder, const std::vector<FlowBody>& bodies) {
   std::string body;
-  for (std::size_t zone = 0; zone < porous.size(); ++zone) {
-    body += fmt::format(kResistance, zone, porous[zone].darcy, porous[zone].forchheimer);
+  for (std::size_t zone = 0; zone < bodies.size(); ++zone) {
+    const PorousCells& porous = bodies[zone].porous();
+    body += fmt::format(kResistance, zone, porous.darcy, porous.forchheimer);
   }
   write_dictionary(folder / "constant/porosityProperties", "dictionary", body);
 }
