@@ -8,11 +8,13 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 GLOSSARY = "docs/reference/glossary.md"
-LONGEST_SENTENCE = 32  # words
+LONGEST_SENTENCE = 30  # words
 MEAN_SENTENCE = 18     # words, of a page
 LONGEST_HEADING = 9    # words
 
-REWRITTEN = ["docs/conventions.md", GLOSSARY, "docs/theory/cloth.md", "docs/validation/cloth.md"]
+REWRITTEN = [GLOSSARY, "docs/conventions.md",
+             "docs/theory/cloth.md", "docs/theory/coupling.md", "docs/theory/flow-cartesian.md",
+             "docs/validation/cloth.md", "docs/validation/coupling.md", "docs/validation/flow.md"]
 
 TABLES = "docs/tables/"  # made by commands
 ALL = sorted(str(page.relative_to(ROOT)) for page in
