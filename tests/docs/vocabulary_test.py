@@ -13,8 +13,8 @@ MEAN_SENTENCE = 18     # words, of a page
 LONGEST_HEADING = 9    # words
 
 REWRITTEN = [GLOSSARY, "docs/conventions.md",
-             *(f"docs/theory/{page}.md" for page in ("cloth", "coupling", "flow-cartesian", "flow-in-time", "inflation", "opening-load", "tunnel")),
-             *(f"docs/validation/{page}.md" for page in ("cloth", "coupling", "flow", "flow-in-time", "inflation", "opening-load", "tunnel"))]
+             *(f"docs/theory/{page}.md" for page in ("cloth", "coupling", "fit", "flow-cartesian", "flow-in-time", "inflation", "opening-load", "tunnel")),
+             *(f"docs/validation/{page}.md" for page in ("cloth", "coupling", "fit", "flow", "flow-in-time", "inflation", "opening-load", "tunnel"))]
 
 TABLES = "docs/tables/"  # made by commands
 ALL = sorted(str(page.relative_to(ROOT)) for page in
