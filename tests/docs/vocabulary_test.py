@@ -121,6 +121,9 @@ def faults(text):
     found += [f"equation in a code block: {line.strip()}" for line in page_lines(text)
               if re.match(r"    \S", line) and not COMMAND.match(line) and re.search(r"\S \^|\w\^|\bsum\b|\s[<>]=?\s|\w / \w|d\w+/dt", line)
               and " = " in line]
+    found += [f"GitHub drops the backslash of '{match[1]}' in an equation: {math}" for math in
+              re.findall(r"\$\$.*?\$\$|\$[^$\n]+\$", re.sub(r"`[^`]*`", "", "\n".join(page_lines(text))), re.DOTALL)
+              if (match := re.search(r"(\\[,;:!{}|])", math))]
     lengths = list(sentences(text))
     found += [f"{length} words: {sentence}" for sentence, length in lengths if length > LONGEST_SENTENCE]
     if lengths and (mean := statistics.mean(length for _, length in lengths if length > 3 or len(lengths) < 3)) > MEAN_SENTENCE:
