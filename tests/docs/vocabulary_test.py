@@ -124,6 +124,8 @@ def faults(text):
     found += [f"GitHub drops the backslash of '{match[1]}' in an equation: {math}" for math in
               re.findall(r"\$\$.*?\$\$|\$[^$\n]+\$", re.sub(r"`[^`]*`", "", "\n".join(page_lines(text))), re.DOTALL)
               if (match := re.search(r"(\\[,;:!{}|])", math))]
+    found += [f"line of an equation that Markdown reads as a list: {line}" for math in re.findall(r"\$\$.*?\$\$", text, re.DOTALL)
+              for line in math.splitlines() if re.match(r"\s*[-+*] ", line)]
     lengths = list(sentences(text))
     found += [f"{length} words: {sentence}" for sentence, length in lengths if length > LONGEST_SENTENCE]
     if lengths and (mean := statistics.mean(length for _, length in lengths if length > 3 or len(lengths) < 3)) > MEAN_SENTENCE:
