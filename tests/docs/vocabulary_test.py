@@ -14,6 +14,7 @@ LONGEST_HEADING = 9    # words
 
 REWRITTEN = [GLOSSARY, "docs/conventions.md",
              *sorted(str(page.relative_to(ROOT)) for page in ROOT.glob("docs/theory/*.md")),
+             *(f"docs/guide/{page}.md" for page in ("case-file", "inflate", "unsteady", "tunnel", "sweep")),
              *(f"docs/validation/{page}.md" for page in ("cloth", "coupling", "fit", "flow", "flow-in-time", "flow-openfoam", "inflation",
                                                          "opening-load", "tunnel"))]
 
@@ -84,7 +85,7 @@ def blocks(text):
     block = []
     display = False
     for line in [*page_lines(text), ""]:
-        code = re.match(r"    \S", line) and not block
+        code = re.match(r" {4,}\S", line) and not block and not display
         display ^= line.count("$$") % 2 == 1
         new = re.match(r"\s*(?:[-*]|\d+\.)\s", line) or line.startswith(("|", "#")) or not line.strip() or code
         if new and not display and block:
@@ -114,12 +115,12 @@ def headings(text):
 def faults(text):
     """Everything in a page that the rules of the language do not allow."""
     found = []
-    shown = plain("\n".join(line for line in page_lines(text) if not re.match(r"    \S", line) or re.match(r"\s+(?:[-*]|\d+\.) ", line)))
+    shown = plain("\n".join([*blocks(text), *(title for _, title in headings(text))]))
     for pattern, term in WORDS:
         found += [f"'{match.group()}' ({term}): ...{shown[max(0, match.start() - 40):match.end() + 30]!r}" for match in pattern.finditer(shown)]
     found += [f"ASCII equation: ...{shown[max(0, match.start() - 30):match.end() + 30]!r}" for match in ASCII_EQUATION.finditer(shown)]
     found += [f"equation in a code block: {line.strip()}" for line in page_lines(text)
-              if re.match(r"    \S", line) and not COMMAND.match(line) and re.search(r"\S \^|\w\^|\bsum\b|\s[<>]=?\s|\w / \w|d\w+/dt", line)
+              if re.match(r" {4,}\S", line) and not COMMAND.match(line) and re.search(r"\S \^|\w\^|\bsum\b|\s[<>]=?\s|\w / \w|d\w+/dt", line)
               and " = " in line]
     found += [f"GitHub drops the backslash of '{match[1]}' in an equation: {math}" for math in
               re.findall(r"\$\$.*?\$\$|\$[^$\n]+\$", re.sub(r"`[^`]*`", "", "\n".join(page_lines(text))), re.DOTALL)
