@@ -14,7 +14,8 @@ LONGEST_HEADING = 9    # words
 
 REWRITTEN = [GLOSSARY, "docs/conventions.md",
              *sorted(str(page.relative_to(ROOT)) for page in ROOT.glob("docs/theory/*.md")),
-             *(f"docs/guide/{page}.md" for page in ("canopies", "case-file", "inflate", "sweep", "tunnel", "unsteady")),
+             *(f"docs/guide/{page}.md" for page in ("canopies", "case-file", "cluster", "compare", "editor", "flight", "import", "inflate", "openfoam",
+                                                    "porosity", "python", "report", "sweep", "tunnel", "unsteady")),
              *(f"docs/validation/{page}.md" for page in ("canopies", "cloth", "coupling", "fit", "flow", "flow-in-time", "flow-openfoam", "inflation",
                                                          "opening-load", "tunnel"))]
 
