@@ -5,11 +5,13 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import xml.etree.ElementTree
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 OJF = ROOT / "validation/ojf"
 sys.path.insert(0, str(OJF))
 import score  # pylint: disable=wrong-import-position
+import score_plot  # pylint: disable=wrong-import-position
 
 
 class FrozenPredictions(unittest.TestCase):
@@ -60,9 +62,9 @@ class Scores(unittest.TestCase):
              for (parachute, speed), drag in made.items()], [])
 
     def test_are_signed_means_absolute_means_and_the_largest_error(self):
-        errors = score.drag_errors(self.rows("11"), self.KNOWN)
+        errors = score.drag_errors(self.rows("9.5"), self.KNOWN)
         line, = score.score_lines(errors)
-        self.assertEqual(line[3:8], ["3", "-3.0", "10.3", "-20.0", "2 of 3"])  # +10, -20 and +1 %
+        self.assertEqual(line[3:8], ["3", "-3.0", "10.3", "-20.0", "1 of 3"])  # +10, -20 and +1 %, +10, -10 and +2 N
         self.assertEqual(line[-2:], ["+10.0 / 10.0 / +10.0", "-9.5 / 10.5 / -20.0"])
 
     def test_say_where_no_uncertainty_was_stated(self):
@@ -88,6 +90,18 @@ class Scores(unittest.TestCase):
         self.assertEqual(lines["WALRUS", score.AIRS["coupled"]][5], "yes")
         self.assertIn("calibrated", lines["Stratos IV", score.AIRS["damped"]][4])
         self.assertNotIn("calibrated", lines["WALRUS", score.AIRS["damped"]][4])
+
+    def test_have_all_points_and_peaks_in_the_picture(self):
+        rows = score.predicted_uncertainties(score.frozen("predictions.csv"), score.frozen("uncertainty.csv"))
+        loads = score.plotted_loads(rows, score.measured_drags())
+        kinds = [load["kind"] for load in loads]
+        self.assertEqual([kinds.count(kind) for kind in ("nominal", "measured", "peak")], [13, 13, 3])
+        with tempfile.TemporaryDirectory() as folder:
+            picture = pathlib.Path(folder) / "picture.svg"
+            score_plot.draw(picture, loads, score.NAMES)
+            drawn = xml.etree.ElementTree.parse(picture).getroot().findall("{http://www.w3.org/2000/svg}polygon")
+        stars = [shape for shape in drawn if len(shape.get("points").split()) == 10]
+        self.assertEqual(len(stars), 2 * 3 + 1)  # both panels, and the legend
 
 
 if __name__ == "__main__":

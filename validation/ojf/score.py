@@ -15,6 +15,7 @@ import tomllib
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
+import score_plot  # pylint: disable=wrong-import-position
 import tables  # pylint: disable=wrong-import-position
 from report import largest_of_each_source  # pylint: disable=wrong-import-position
 from tables import table  # pylint: disable=wrong-import-position
@@ -75,24 +76,26 @@ def drag_area(point, basis, force="measured_drag_n"):
 
 
 def predicted_uncertainties(rows, varied):
-    """Adds "pm_percent" to prediction rows: the uncertainty stated with the prediction, None where none was."""
+    """Adds "pm_n" to prediction rows: the uncertainty stated with the prediction [N], None where none was stated."""
     together = {key: math.hypot(*of.values()) for key, of in largest_of_each_source(varied).items()}
     for row in rows:
-        row["pm_percent"] = together.get((row["porosity_model"], row["parachute"]))
-        if row["porosity_model"].endswith("jet"):
-            stated = row["uncertainty_n"]
-            row["pm_percent"] = 100 * float(stated) / float(row["drag_n"]) if stated else None
+        percent = together.get((row["porosity_model"], row["parachute"]))
+        row["pm_n"] = percent and percent / 100 * float(row["drag_n"])
+        if row["porosity_model"].endswith("jet"):  # with the standard error of its mean
+            row["pm_n"] = float(row["uncertainty_n"]) if row["uncertainty_n"] else None
     return rows
 
 
 def drag_errors(rows, known):
-    """(model, fabric, basis) -> parachute -> list of (nominal speed, signed error %, stated uncertainty %)."""
+    """(model, fabric, basis) -> parachute -> list of (nominal speed, signed error, stated uncertainty), the last two
+    in % of the measured drag."""
     errors = {}
     for row in rows:
         key = row["porosity_model"], row["fabric_model"], row["speed_basis"]
         measured = known[row["parachute"], float(row["nominal_m_s"])]["measured_drag_n"]
         errors.setdefault(key, {}).setdefault(row["parachute"], []).append(
-            (float(row["nominal_m_s"]), 100 * (float(row["drag_n"]) / measured - 1), row["pm_percent"]))
+            (float(row["nominal_m_s"]), 100 * (float(row["drag_n"]) / measured - 1),
+             row["pm_n"] and 100 * row["pm_n"] / measured))
     return errors
 
 
@@ -208,6 +211,21 @@ def later_lines(known):
     return ["## The same for later predictions, made with the measurements known", "", *scores(rows, known)]
 
 
+def plotted_loads(rows, known):
+    """Loads of the picture: the uncalibrated unsteady drags on both speed bases, the peaks of the coupled openings."""
+    loads = []
+    for row in rows:
+        if row["porosity_model"] == "specified-unsteady-jet":
+            nominal = row["speed_basis"] == "nominal"
+            loads.append({"parachute": row["parachute"], "kind": row["speed_basis"], "computed": float(row["drag_n"]),
+                          "measured": known[row["parachute"], float(row["nominal_m_s"])]["measured_drag_n"],
+                          "pm": row["pm_n"] if nominal else None})
+    peaks = {r["parachute"]: float(r["measured_peak_n"]) for r in csv_rows((HERE / "peaks.csv").read_text())}
+    return loads + [{"parachute": row["parachute"], "kind": "peak", "computed": float(row["peak_100hz_n"]),
+                     "measured": peaks[row["parachute"]], "pm": float(row["peak_100hz_pm_n"])}
+                    for row in frozen("openings.csv") if row["air"] == "coupled"]
+
+
 def report():
     known = measured_drags()
     rows = predicted_uncertainties(frozen("predictions.csv"), frozen("uncertainty.csv"))
@@ -229,6 +247,9 @@ def report():
              "are C / A - 1. No model whose drag area is constant can have a smaller rms error than that of the "
              "measured drag areas.", "", *table(head, constant_lines(known))]
     (tables.ROOT / "docs/tables/ojf-score.md").write_text("\n".join(text).rstrip("\n") + "\n")
+    picture = tables.ROOT / "docs/validation/blind-test.svg"
+    picture.parent.mkdir(exist_ok=True)
+    score_plot.draw(picture, plotted_loads(rows, known), NAMES)
 
 
 if __name__ == "__main__":
