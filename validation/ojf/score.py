@@ -183,6 +183,23 @@ def constant_lines(known):
     return lines
 
 
+def bias_lines(rows, known):
+    """Mean computed drag area over the constant one fitted to the measurements, and the variation of the computed ones."""
+    areas = {}
+    for row in rows:
+        if row["fabric_model"] == "nonlinear":
+            key = row["porosity_model"], row["parachute"], row["speed_basis"]
+            areas.setdefault(key, []).append(float(row["drag_area_m2"]))
+    lines = []
+    for (model, parachute, basis), computed in areas.items():
+        constant, _ = constant_drag_area([drag_area(known[key], basis) for key in sorted(known) if key[0] == parachute])
+        lines.append([MODELS[model], NAMES[parachute], basis, f"{sum(computed) / len(computed):.4f}",
+                      f"{100 * (sum(computed) / len(computed) / constant - 1):+.1f}",
+                      f"{100 * (computed[-1] / computed[0] - 1):+.1f}",
+                      f"{100 * (max(computed) / min(computed) - 1):.1f}"])
+    return lines
+
+
 def scores(rows, known):
     columns = "mean / mean absolute / largest"
     head = ["model", "cloth", "speed basis", "blind points", "mean error %", "mean absolute error %", "largest error %",
@@ -246,6 +263,9 @@ def report():
              "A = F / (rho v^2 / 2). C minimises the sum of (C / A - 1)^2 over the points of the parachute; the errors "
              "are C / A - 1. No model whose drag area is constant can have a smaller rms error than that of the "
              "measured drag areas.", "", *table(head, constant_lines(known))]
+    head = ["model", "parachute", "speed basis", "mean computed A, m2", "mean computed A / C - 1, %",
+            "first to last speed, %", "largest over smallest, %"]
+    text += ["The computed drag areas against C:", "", *table(head, bias_lines(rows, known))]
     (tables.ROOT / "docs/tables/ojf-score.md").write_text("\n".join(text).rstrip("\n") + "\n")
     picture = tables.ROOT / "docs/validation/blind-test.svg"
     picture.parent.mkdir(exist_ok=True)
