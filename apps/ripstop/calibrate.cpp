@@ -12,7 +12,7 @@
 #include "opening.h"
 #include "progress.h"
 #include "ripstop/core/error.h"
-#include "ripstop/run/damping.h"
+#include "ripstop/run/opening/damping.h"
 #include "ripstop/run/run_folder.h"
 
 namespace ripstop {

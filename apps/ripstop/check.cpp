@@ -1,6 +1,6 @@
 // ripstop check: everything about a case that can be said without a solver.
 
-#include "ripstop/run/check.h"
+#include "ripstop/run/sizing/check.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,6 +1,6 @@
 // ripstop compare: the nonlinear model beside the linear one, and where their difference comes from.
 
-#include "ripstop/run/compare.h"
+#include "ripstop/run/steady/compare.h"
 
 #include <fmt/format.h>
 
@@ -10,8 +10,8 @@
 #include "commands.h"
 #include "json_option.h"
 #include "number_option.h"
-#include "ripstop/run/steady_folder.h"
-#include "ripstop/run/sweep_files.h"
+#include "ripstop/run/steady/steady_folder.h"
+#include "ripstop/run/sweep/sweep_files.h"
 #include "sweep_progress.h"
 
 namespace ripstop {

@@ -1,6 +1,6 @@
 // ripstop fabric: the cloth under a given pressure, without a flow.
 
-#include "ripstop/run/fabric.h"
+#include "ripstop/run/sizing/fabric.h"
 
 #include <fmt/format.h>
 

@@ -16,8 +16,8 @@
 #include "opening.h"
 #include "progress.h"
 #include "ripstop/core/error.h"
-#include "ripstop/run/inflation_folder.h"
-#include "ripstop/run/report.h"
+#include "ripstop/run/opening/inflation_folder.h"
+#include "ripstop/run/report/report.h"
 #include "stopping.h"
 #include "warnings.h"
 

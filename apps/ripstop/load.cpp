@@ -1,6 +1,6 @@
 // ripstop load: what a parachute sees when it opens behind a given mass, by every method side by side.
 
-#include "ripstop/run/load.h"
+#include "ripstop/run/opening/load.h"
 
 #include <fmt/format.h>
 

@@ -6,7 +6,7 @@
 
 #include "case_options.h"
 #include "number_option.h"
-#include "ripstop/run/steady_folder.h"
+#include "ripstop/run/steady/steady_folder.h"
 
 namespace ripstop {
 void add_opening_options(CLI::App& command, OpeningOptions& options) {

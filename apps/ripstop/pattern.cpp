@@ -1,6 +1,6 @@
 // ripstop pattern: what to cut for the parachute of a case.
 
-#include "ripstop/run/pattern.h"
+#include "ripstop/run/sizing/pattern.h"
 
 #include <fmt/format.h>
 

@@ -15,8 +15,8 @@
 #include "ripstop/core/file.h"
 #include "ripstop/output/csv.h"
 #include "ripstop/output/plot.h"
-#include "ripstop/run/porosity_sweep.h"
-#include "ripstop/run/sweep_files.h"
+#include "ripstop/run/sweep/porosity_sweep.h"
+#include "ripstop/run/sweep/sweep_files.h"
 #include "sweep_progress.h"
 
 namespace ripstop {

@@ -1,6 +1,6 @@
 // ripstop size: which parachute lets a payload down at a wanted rate, as a case file.
 
-#include "ripstop/run/size.h"
+#include "ripstop/run/sizing/size.h"
 
 #include <fmt/format.h>
 
@@ -14,8 +14,8 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/flight/atmosphere.h"
-#include "ripstop/run/size_report.h"
-#include "ripstop/run/steady_folder.h"
+#include "ripstop/run/sizing/size_report.h"
+#include "ripstop/run/steady/steady_folder.h"
 #include "steady_terminal.h"
 #include "stopping.h"
 

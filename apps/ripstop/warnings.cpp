@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "ripstop/core/visible.h"
-#include "ripstop/run/warnings.h"
+#include "ripstop/run/steady/warnings.h"
 
 namespace ripstop {
 namespace {

@@ -3,8 +3,8 @@
 
 #include "ripstop/core/error.h"
 #include "ripstop/parachute/flat_circular.h"
-#include "ripstop/run/fabric.h"
-#include "ripstop/run/steady.h"
+#include "ripstop/run/sizing/fabric.h"
+#include "ripstop/run/steady/steady.h"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include "members.h"
 #include "module.h"
 #include "opening.h"
-#include "ripstop/run/damping.h"
+#include "ripstop/run/opening/damping.h"
 
 namespace ripstop::python {
 namespace {

@@ -1,5 +1,5 @@
 // check(): everything about a case that can be said without a solver.
-#include "ripstop/run/check.h"
+#include "ripstop/run/sizing/check.h"
 
 #include "members.h"
 #include "module.h"

@@ -7,11 +7,11 @@
 #include "module.h"
 #include "opening.h"
 #include "ripstop/case/opening.h"
-#include "ripstop/run/inflation.h"
-#include "ripstop/run/inflation_folder.h"
 #include "ripstop/run/json.h"
-#include "ripstop/run/steady_folder.h"
-#include "ripstop/run/warnings.h"
+#include "ripstop/run/opening/inflation.h"
+#include "ripstop/run/opening/inflation_folder.h"
+#include "ripstop/run/steady/steady_folder.h"
+#include "ripstop/run/steady/warnings.h"
 #include "runs.h"
 
 namespace ripstop {

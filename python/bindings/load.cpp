@@ -1,5 +1,5 @@
 // load(): opening and snatch loads behind a mass, with the way of the payload as a table.
-#include "ripstop/run/load.h"
+#include "ripstop/run/opening/load.h"
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>

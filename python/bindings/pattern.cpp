@@ -1,5 +1,5 @@
 // pattern(): what to cut, with outlines as arrays.
-#include "ripstop/run/pattern.h"
+#include "ripstop/run/sizing/pattern.h"
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>

@@ -1,5 +1,5 @@
 // steady(): a run with its state, its air and its stresses as arrays.
-#include "ripstop/run/steady.h"
+#include "ripstop/run/steady/steady.h"
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -7,8 +7,8 @@
 #include "members.h"
 #include "module.h"
 #include "ripstop/case/assemble.h"
-#include "ripstop/run/steady_folder.h"
-#include "ripstop/run/warnings.h"
+#include "ripstop/run/steady/steady_folder.h"
+#include "ripstop/run/steady/warnings.h"
 #include "runs.h"
 
 namespace ripstop::python {

@@ -10,8 +10,8 @@
 #include "ripstop/case/summary.h"
 #include "ripstop/core/error.h"
 #include "ripstop/parachute/ringslot.h"
-#include "ripstop/run/fabric.h"
-#include "ripstop/run/pattern.h"
+#include "ripstop/run/sizing/fabric.h"
+#include "ripstop/run/sizing/pattern.h"
 
 namespace ripstop {
 namespace {

@@ -83,7 +83,7 @@ class Docs(unittest.TestCase):
     def test_every_test_that_holds_a_promise_exists(self):
         missing = []
         for room, suite, name in re.findall(r"`(\w+)\.(\w+)\.(\w+)`", (ROOT / "docs/reliability.md").read_text()):
-            text = "".join(file.read_text() for file in (ROOT / "tests" / room).glob("*.cpp"))
+            text = "".join(file.read_text() for file in (ROOT / "tests" / room).rglob("*.cpp"))
             if not re.search(rf"TEST(_[FP])?\({suite},\s*{name}\)", text):
                 missing.append(f"{room}.{suite}.{name}")
         self.assertEqual(missing, [])

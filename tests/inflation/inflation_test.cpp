@@ -12,7 +12,7 @@
 #include "ripstop/inflation/pressure.h"
 #include "ripstop/parachute/build.h"
 #include "ripstop/parachute/disk_gap_band.h"
-#include "ripstop/run/inflation_folder.h"
+#include "ripstop/run/opening/inflation_folder.h"
 
 namespace ripstop {
 namespace {

@@ -10,7 +10,7 @@
 #include "ripstop/inflation/summary.h"
 #include "ripstop/parachute/build.h"
 #include "ripstop/parachute/disk_gap_band.h"
-#include "ripstop/run/inflation_folder.h"
+#include "ripstop/run/opening/inflation_folder.h"
 
 namespace ripstop {
 namespace {

@@ -13,9 +13,9 @@
 #include "ripstop/output/csv.h"
 #include "ripstop/output/vtk.h"
 #include "ripstop/output/vtk_read.h"
-#include "ripstop/run/inflation_folder.h"
-#include "ripstop/run/pattern.h"
-#include "ripstop/run/watch_files.h"
+#include "ripstop/run/opening/inflation_folder.h"
+#include "ripstop/run/sizing/pattern.h"
+#include "ripstop/run/steady/watch_files.h"
 
 namespace ripstop {
 namespace {

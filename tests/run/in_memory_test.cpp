@@ -7,11 +7,11 @@
 #include "../small_case.h"
 #include "ripstop/canopy/shape.h"
 #include "ripstop/core/file.h"
-#include "ripstop/run/compare.h"
-#include "ripstop/run/fabric.h"
-#include "ripstop/run/pattern.h"
-#include "ripstop/run/steady_folder.h"
-#include "ripstop/run/sweep.h"
+#include "ripstop/run/sizing/fabric.h"
+#include "ripstop/run/sizing/pattern.h"
+#include "ripstop/run/steady/compare.h"
+#include "ripstop/run/steady/steady_folder.h"
+#include "ripstop/run/sweep/sweep.h"
 
 namespace ripstop {
 namespace {

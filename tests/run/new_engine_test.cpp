@@ -4,10 +4,10 @@
 
 #include <filesystem>
 
-#include "formula_flow.h"
 #include "ripstop/core/toml/problem.h"
 #include "ripstop/run/engine.h"
-#include "ripstop/run/steady.h"
+#include "ripstop/run/steady/steady.h"
+#include "tests/run/steady/formula_flow.h"
 
 namespace ripstop {
 namespace {

@@ -9,7 +9,6 @@
 
 #include "../refusal.h"
 #include "../small_case.h"
-#include "finished_run.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/case/opening.h"
 #include "ripstop/core/error.h"
@@ -18,15 +17,16 @@
 #include "ripstop/inflation/opening_estimate.h"
 #include "ripstop/inflation/summary.h"
 #include "ripstop/material/library.h"
-#include "ripstop/run/damping.h"
-#include "ripstop/run/descent.h"
+#include "ripstop/run/descent/descent.h"
 #include "ripstop/run/engine.h"
-#include "ripstop/run/fabric.h"
-#include "ripstop/run/filling.h"
-#include "ripstop/run/fit.h"
-#include "ripstop/run/inflation_folder.h"
-#include "ripstop/run/load.h"
-#include "ripstop/run/porosity_sweep.h"
+#include "ripstop/run/material/fit.h"
+#include "ripstop/run/opening/damping.h"
+#include "ripstop/run/opening/filling.h"
+#include "ripstop/run/opening/inflation_folder.h"
+#include "ripstop/run/opening/load.h"
+#include "ripstop/run/sizing/fabric.h"
+#include "ripstop/run/sweep/porosity_sweep.h"
+#include "tests/run/steady/finished_run.h"
 
 namespace ripstop {
 namespace {

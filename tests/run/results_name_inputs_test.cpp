@@ -3,9 +3,9 @@
 
 #include "ripstop/core/thread_team.h"
 #include "ripstop/material/library.h"
-#include "ripstop/run/coupon.h"
-#include "ripstop/run/fabric.h"
-#include "ripstop/run/fit.h"
+#include "ripstop/run/material/coupon.h"
+#include "ripstop/run/material/fit.h"
+#include "ripstop/run/sizing/fabric.h"
 
 namespace ripstop {
 namespace {

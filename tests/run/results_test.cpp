@@ -6,7 +6,6 @@
 
 #include "../output/read_png.h"
 #include "../small_case.h"
-#include "finished_run.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/thread_team.h"
 #include "ripstop/coupling/pressure_profile.h"
@@ -16,11 +15,12 @@
 #include "ripstop/output/plot.h"
 #include "ripstop/output/vtk.h"
 #include "ripstop/output/vtk_read.h"
-#include "ripstop/run/coupon.h"
-#include "ripstop/run/fabric.h"
-#include "ripstop/run/fit.h"
-#include "ripstop/run/inflation.h"
-#include "ripstop/run/steady.h"
+#include "ripstop/run/material/coupon.h"
+#include "ripstop/run/material/fit.h"
+#include "ripstop/run/opening/inflation.h"
+#include "ripstop/run/sizing/fabric.h"
+#include "ripstop/run/steady/steady.h"
+#include "tests/run/steady/finished_run.h"
 
 namespace ripstop {
 namespace {

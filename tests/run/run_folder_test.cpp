@@ -12,7 +12,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/core/hash.h"
-#include "ripstop/run/steady_folder.h"
+#include "ripstop/run/steady/steady_folder.h"
 
 namespace ripstop {
 namespace {

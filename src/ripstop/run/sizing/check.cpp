@@ -1,0 +1,46 @@
+#include "ripstop/run/sizing/check.h"
+
+#include "ripstop/run/json.h"
+#include "ripstop/run/steady/warnings.h"
+
+namespace ripstop {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const std::vector<Source>& sources, const Json& written) {
+  Json list = Json::array();
+  for (const Source& source : sources)
+    list.push_back({{"key", source.key},
+                    {"value", written.at(pointer_of(source.key))},
+                    {"given", source.given},
+                    {"from", source.from}});
+  return list;
+}
+
+}  // namespace
+
+CheckResult run_check(const Case& given) {
+  return {summarize(given), resolve(given).sources, case_warnings(given), given};
+}
+
+std::string to_json(const CheckResult& result) {
+  const Json written = Json::parse(case_json(result.given));
+  Json report = {{"valid", true}, {"problems", Json::array()}};
+  report["warnings"] = result.warnings;
+  report.update(Json(result.summary));
+  report["sources"] = to_json(result.sources, written);
+  report["case"] = written;
+  return report.dump(2) + "\n";
+}
+
+std::string to_json(const std::vector<Problem>& problems) {
+  Json report = {{"valid", false}, {"problems", Json::array()}};
+  for (const Problem& problem : problems) {
+    Json& last = report["problems"].emplace_back(Json(problem));
+    last["text"] = to_text(problem);
+  }
+  return report.dump(2) + "\n";
+}
+
+}  // namespace ripstop
