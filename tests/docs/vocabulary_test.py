@@ -12,13 +12,15 @@ LONGEST_SENTENCE = 30  # words
 MEAN_SENTENCE = 18     # words, of a page
 LONGEST_HEADING = 9    # words
 
-REWRITTEN = ["CONTRIBUTING.md", "src/README.md", GLOSSARY,
-             *(f"docs/{page}.md" for page in ("README", "conventions", "performance", "reliability")),
-             *sorted(str(page.relative_to(ROOT)) for page in ROOT.glob("docs/theory/*.md")),
-             *(f"docs/guide/{page}.md" for page in ("canopies", "case-file", "cluster", "compare", "editor", "flight", "import", "inflate", "openfoam", "output-files",
-                                                    "porosity", "python", "report", "sweep", "tunnel", "unsteady")),
-             *(f"docs/validation/{page}.md" for page in ("canopies", "cloth", "coupling", "fit", "flow", "flow-in-time", "flow-openfoam", "inflation",
-                                                         "opening-load", "tunnel"))]
+REWRITTEN = [
+    "CONTRIBUTING.md", "src/README.md", GLOSSARY,
+    *(f"docs/{page}.md" for page in ("README", "conventions", "performance", "reliability")),
+    *(f"docs/guide/{page}.md" for page in (
+        "canopies", "case-file", "cluster", "compare", "editor", "flight", "import", "inflate", "openfoam", "output-files", "porosity", "python",
+        "report", "sweep", "tunnel", "unsteady")),
+    *sorted(str(page.relative_to(ROOT)) for page in ROOT.glob("docs/theory/*.md")),
+    *(f"docs/validation/{page}.md" for page in (
+        "canopies", "cloth", "coupling", "fit", "flow", "flow-in-time", "flow-openfoam", "inflation", "opening-load", "tunnel"))]
 
 TABLES = "docs/tables/"  # made by commands
 ALL = sorted(str(page.relative_to(ROOT)) for page in
