@@ -107,13 +107,15 @@ class Scores(unittest.TestCase):
 
 class DetailsOfAdept(unittest.TestCase):
     def test_have_an_unchanged_case_first_and_folders_of_their_own(self):
-        for load in adept.LOADS:
-            made = list(adept.commands(load))
+        for runs in adept.RUNS:
+            made = list(adept.commands(runs))
             self.assertEqual(made[0][2], "unchanged")
             self.assertEqual(len({name for *_, name in made}), len(made))
+            chosen = adept.RUNS[runs][1]
+            self.assertEqual(len(made), 1 + (len(chosen) if chosen else sum(map(len, adept.VARIATIONS.values()))))
 
     def test_vary_one_thing_of_the_unchanged_case(self):
-        (*_, unchanged, _), *varied = adept.commands("uniform")
+        (*_, unchanged, _), *varied = adept.commands("uniform load, 2.8 cm")
         for detail, _, label, _, arguments, _ in varied:
             self.assertEqual(arguments[:len(unchanged)], unchanged, f"{detail} {label}")
             self.assertGreater(len(arguments), len(unchanged), f"{detail} {label}")
@@ -134,9 +136,9 @@ class DetailsOfAdept(unittest.TestCase):
         self.assertEqual(allowed["sum"], (-7, 3))
 
     def test_shift_the_frozen_errors_by_their_range(self):
-        found = [{"load": "uniform", "detail": "slots", "change_percent": "-10"}]
+        found = [{"detail": "slots", "change_percent": "-10"}]
         root, _ = adept.interval_lines(found)
-        self.assertEqual(root[2:], ["-10.0 to +0.0", "+21.6", "+9.4 to +21.6", "+6.9", "-3.8 to +6.9"])
+        self.assertEqual(root[1:], ["-10.0 to +0.0", "+21.6", "+9.4 to +21.6", "+6.9", "-3.8 to +6.9"])
 
 
 if __name__ == "__main__":
