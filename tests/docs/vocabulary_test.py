@@ -20,7 +20,8 @@ REWRITTEN = [
         "report", "sweep", "tunnel", "unsteady")),
     *sorted(str(page.relative_to(ROOT)) for page in ROOT.glob("docs/theory/*.md")),
     *(f"docs/validation/{page}.md" for page in (
-        "canopies", "cloth", "coupling", "fit", "flow", "flow-in-time", "flow-openfoam", "inflation", "opening-load", "tunnel"))]
+        "canopies", "cloth", "coupling", "fit", "flow", "flow-in-time", "flow-openfoam", "inflation", "ojf", "opening-load",
+        "tunnel"))]
 
 TABLES = "docs/tables/"  # made by commands
 ALL = sorted(str(page.relative_to(ROOT)) for page in

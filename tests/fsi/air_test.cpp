@@ -103,7 +103,7 @@ class Together {
 
   /// The cloth takes `least` steps or more, `share` of its stable one at most.
   void step(double length, int least, double share) {
-    const double stable = share * step_bound(*cloth_, state_).stable_step;
+    const double stable = share * stability_limit(*cloth_, state_).stable_step;
     ClothMotion motion;
     motion.steps = std::max(least, static_cast<int>(std::ceil(length / stable)));
     ClothState tried = state_;

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The scores of the blind predictions, validation/ojf/score.py."""
+"""The scores of the blind predictions and the details of ADEPT, validation/ojf/score.py and adept.py."""
 import pathlib
 import subprocess
 import sys
@@ -10,6 +10,7 @@ import xml.etree.ElementTree
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 OJF = ROOT / "validation/ojf"
 sys.path.insert(0, str(OJF))
+import adept  # pylint: disable=wrong-import-position
 import score  # pylint: disable=wrong-import-position
 import score_plot  # pylint: disable=wrong-import-position
 
@@ -102,6 +103,42 @@ class Scores(unittest.TestCase):
             drawn = xml.etree.ElementTree.parse(picture).getroot().findall("{http://www.w3.org/2000/svg}polygon")
         stars = [shape for shape in drawn if len(shape.get("points").split()) == 10]
         self.assertEqual(len(stars), 2 * 3 + 1)  # both panels, and the legend
+
+
+class DetailsOfAdept(unittest.TestCase):
+    def test_have_an_unchanged_case_first_and_folders_of_their_own(self):
+        for runs in adept.RUNS:
+            made = list(adept.commands(runs))
+            self.assertEqual(made[0][2], "unchanged")
+            self.assertEqual(len({name for *_, name in made}), len(made))
+            chosen = adept.RUNS[runs][1]
+            self.assertEqual(len(made), 1 + (len(chosen) if chosen else sum(map(len, adept.VARIATIONS.values()))))
+
+    def test_vary_one_thing_of_the_unchanged_case(self):
+        (*_, unchanged, _), *varied = adept.commands("uniform load, 2.8 cm")
+        for detail, _, label, _, arguments, _ in varied:
+            self.assertEqual(arguments[:len(unchanged)], unchanged, f"{detail} {label}")
+            self.assertGreater(len(arguments), len(unchanged), f"{detail} {label}")
+
+    def test_rows_of_the_unchanged_layout_have_two_slots_and_no_fullness_at_the_skirt(self):
+        rows = adept.rows()
+        self.assertEqual(rows.count("{"), adept.SAILS)
+        self.assertEqual(rows.count("slot_deg=3"), 2)
+        self.assertTrue(rows.startswith("parachute.rows=[{height=1, slot_deg=0, leading_fullness=0.00000,"), rows)
+
+    def test_together_allow_the_root_of_the_sum_of_squares_or_the_sum_of_the_extremes_of_each(self):
+        changes = [("", 0), ("slots", -4), ("slots", 1), ("slots", -3), ("vent", -3), ("lines", 2),
+                   ("grid alignment", 50)]
+        found = [{"detail": detail, "change_percent": str(change)} for detail, change in changes]
+        allowed = adept.allowed(found)
+        self.assertAlmostEqual(allowed["root"][0], -5)
+        self.assertAlmostEqual(allowed["root"][1], 5**0.5)
+        self.assertEqual(allowed["sum"], (-7, 3))
+
+    def test_shift_the_frozen_errors_by_their_range(self):
+        found = [{"detail": "slots", "change_percent": "-10"}]
+        root, _ = adept.interval_lines(found)
+        self.assertEqual(root[1:], ["-10.0 to +0.0", "+21.6", "+9.4 to +21.6", "+6.9", "-3.8 to +6.9"])
 
 
 if __name__ == "__main__":

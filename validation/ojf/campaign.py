@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Calibrates on Stratos IV, freezes, predicts WALRUS and ADEPT blind, and asks how sure the predictions are.
+"""Calibrates on Stratos IV, predicts WALRUS and ADEPT, varies what the predictions depend on, and scores the frozen ones.
 
     make validate-ojf            (or: campaign.py --ripstop build/bin/ripstop --runs runs/ojf STAGE ...)
 
@@ -20,6 +20,7 @@ Stages, each from what the ones before it left; without a name all of them run:
     compare    nonlinear beside linear on Stratos IV at 30 m/s
     openfoam   Stratos IV at 30 m/s with OpenFOAM
     report     tables in docs/tables, plots
+    adept      drag of ADEPT against details of its sewing that are not published        -> adept-details.csv
     score      frozen predictions of WALRUS and ADEPT against their measurements         -> docs/tables/ojf-score.md
 Every stage is made of `ripstop` commands that go on where they were killed; finished ones cost nothing. No stage but
 `score` reads a measurement of WALRUS or ADEPT. The predictions that were made before these were known are in frozen/ and no stage
@@ -35,6 +36,7 @@ import subprocess
 import sys
 import time
 
+import adept
 import score
 from openings import DAMPED, OPENING, OPENING_OF, OPENING_VARIATIONS, OPENINGS
 from tunnel import FREE_FLOW, JET_BASE, JET_DISTANCE, JET_SPECIFIED, JET_VARIATIONS, SPECIFIED
@@ -458,7 +460,7 @@ STAGES = {"calibrate": stage_calibrate, "predict": stage_predict, "reproduce": s
           "unsteady-jet": lambda campaign: predict_in_jet(campaign, "specified-unsteady-jet", ["flow.unsteady=true"]),
           "uncertain": stage_uncertain, "uncertain-sheet": stage_uncertain_sheet, "openings": stage_openings,
           "compare": stage_compare, "openfoam": stage_openfoam, "report": stage_report,
-          "score": lambda campaign: score.report()}
+          "adept": adept.stage, "score": lambda campaign: score.report()}
 
 
 def main():

@@ -22,7 +22,7 @@ constexpr double settled = 5e-4;
 // is a mean over iterations that did not converge, to the momentum that the box loses: a wake that still
 // grows keeps some of it.
 constexpr double ledger_tolerance = 0.01;
-// Largest RelaxResult::held at convergence: half of what the staircase of the flow's cells leaves over in the load.
+// Largest RelaxResult::regularisation_share at convergence: half of what the staircase of the flow's cells leaves over in the load.
 constexpr double held_tolerance = 0.02;
 
 // A flow that does not come to rest, jets through slots, answers the same shape now so, now so. When after so many
@@ -229,15 +229,16 @@ std::vector<Vec3> SteadySolver::next_shape(const SteadyState& state, SteadyItera
     cloth = cloth_state(state);
     return relax_on();
   };
-  if (!state.iterations.empty()) options.hold = state.iterations.back().cloth_hold;
+  if (!state.iterations.empty()) options.regularisation = state.iterations.back().cloth_hold;
   RelaxResult relaxed = relax_cloth();
   const double unit = pressure_per_width(state.pressure, area_);
-  while (has_shape && !relaxed.converged && options.hold < strongest_hold * unit) {
-    options.hold = std::max(first_hold * unit, stronger * options.hold);
+  while (has_shape && !relaxed.converged && options.regularisation < strongest_hold * unit) {
+    options.regularisation = std::max(first_hold * unit, stronger * options.regularisation);
     relaxed = relax_cloth();
   }
-  for (int n = 1;
-       n < steps_in_hold && state.in_time && relaxed.converged && relaxed.held > held_tolerance / 4; ++n) {
+  for (int n = 1; n < steps_in_hold && state.in_time && relaxed.converged &&
+                  relaxed.regularisation_share > held_tolerance / 4;
+       ++n) {
     const ClothState reached = cloth;
     if (const RelaxResult further = relax_on(); further.converged)
       relaxed = further;
@@ -251,8 +252,8 @@ std::vector<Vec3> SteadySolver::next_shape(const SteadyState& state, SteadyItera
                     "(wanted {:.1e}); a looser coupling.cloth_tolerance or a finer parachute.mesh may help",
                     now.iteration, relaxed.residual, now.cloth_steps, options.tolerance));
   }
-  now.cloth_hold = options.hold;
-  now.cloth_held = relaxed.held;
+  now.cloth_hold = options.regularisation;
+  now.cloth_held = relaxed.regularisation_share;
   now.cloth_residual = relaxed.residual;
   const std::vector<Vec3> shape = positions(cloth, *cloth_);
   double moved = 0, size = 0;
