@@ -198,7 +198,7 @@ TEST(Resolved, AnOpenJetStandsInAWideBoxOfStillAirThatBeginsAtTheNozzle) {
   const FlowProblem problem = flow_problem(given);
   ASSERT_TRUE(problem.jet.has_value());
   EXPECT_EQ(problem.jet->nozzle, (Nozzle{NozzleShape::octagon, 6, 0}));
-  EXPECT_EQ(problem.air.speed, 8);
+  EXPECT_EQ(problem.air.speed(), 8);
   const FlowSettings placed = flow_of(short_case + open_jet);
   EXPECT_EQ(placed.canopy_position_m, 4.5);
   EXPECT_EQ(placed.box_m.z, 14) << "the collector";

@@ -26,7 +26,7 @@ constexpr double duct_speed = 10, resistance = 40, springs = 2000;  // [m/s], [P
 FlowProblem closed_duct(double speed = duct_speed, double linear = resistance, int cells = 4) {
   FlowProblem duct;
   duct.grid = {{0, 0, 0}, {1, 1, 2}, cells, cells, 4 * cells};
-  duct.air.speed = speed;
+  duct.air.velocity = {0, 0, speed};
   duct.sides = Sides::slip;
   duct.outlet = Outlet::still_air;
   duct.sheets = {{{}, linear, 0}};

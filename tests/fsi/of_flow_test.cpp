@@ -35,7 +35,7 @@ TEST(OfFlow, ACanopyInFlightCarriesWhatTheAirLosesOnIt) {
 
   // Inside the air of a tight canopy nearly rests; outside it has parted from the cloth.
   const Freestream& air = steady_problem(given).flow.air;
-  const double q = 0.5 * air.density * air.speed * air.speed;
+  const double q = 0.5 * air.density * air.speed() * air.speed();
   for (const PressureRing& ring :
        pressure_profile(solver.cells(), state.shape, state.sides, state.applied, 12)) {
     EXPECT_GT(ring.inside / q, 0.5) << ring.arc;

@@ -28,7 +28,7 @@ FlowProblem flow_problem(const Case& given) {
   const FlowSettings flow = resolve(given).flow;
   FlowProblem problem;
   problem.grid = flow_grid(flow);
-  problem.air.speed = air(given).speed;
+  problem.air.velocity = {0, 0, air(given).speed};
   problem.air.density = flow.density_kg_m3;
   problem.air.viscosity = flow.viscosity_pa_s;
   problem.air.temperature = flow.temperature_k;

@@ -28,7 +28,7 @@ FlowProblem still_air_about(const std::vector<Triangle>& surface, double density
   FlowProblem problem;
   problem.grid =
       graded({middle - corner, 2 * corner, across, across, along}, low - spare, high + spare, growth);
-  problem.air.speed = drift;
+  problem.air.velocity = {0, 0, drift};
   problem.air.density = density;
   problem.sides = Sides::entraining;
   problem.outlet = Outlet::still_air;

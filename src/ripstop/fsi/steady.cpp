@@ -118,7 +118,7 @@ SteadyState SteadySolver::start() const {
   SteadyState state;
   state.shape = problem_.mesh.start;
   const Freestream& air = problem_.flow.air;
-  state.pressure.assign(cells_.size(), 0.5 * air.density * air.speed * air.speed);
+  state.pressure.assign(cells_.size(), 0.5 * air.density * air.speed() * air.speed());
   state.accelerator.update = problem_.settings.acceleration;
   state.accelerator.relaxation = problem_.settings.relaxation;
   return state;
@@ -351,7 +351,7 @@ FlowField SteadySolver::iterate(SteadyState& state, const SteadyReport& report) 
   now.flow_averaged = field.average.iterations;
   now.drag_deviation = field.average.drag_deviation;
   now.fluid_force = field.porous_force.z;
-  now.momentum_deficit = field.momentum_deficit;
+  now.momentum_deficit = field.momentum_deficit.z;
   now.approach_speed = approach_speed(field, problem_.mesh, shape);
   now.drag_change = state.iterations.empty()
                         ? std::numeric_limits<double>::infinity()

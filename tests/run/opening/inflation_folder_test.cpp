@@ -133,7 +133,7 @@ TEST_F(InflationFolderTest, InItsOwnAirTheStreamPassesNoMoreThanAPartOfACellInAR
   double least = 1e9;
   for (int axis = 0; axis < 3; ++axis)
     for (int c = 0; c < grid.count(axis); ++c) least = std::min(least, grid.width(axis, c));
-  const double passed = problem.air->flow.air.speed * Inflation(problem).row_duration() / least;
+  const double passed = problem.air->flow.air.speed() * Inflation(problem).row_duration() / least;
   EXPECT_LE(passed, 0.03 * (1 + 1e-9));
   EXPECT_GT(passed, 0.015);
 }

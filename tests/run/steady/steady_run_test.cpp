@@ -75,7 +75,7 @@ TEST(SteadyRun, AnIterationTellsHowFarTheClothMovedAndInHowManySteps) {
     EXPECT_GT(now.cloth_residual, 0);
     EXPECT_LE(now.cloth_residual, small_problem().settings.cloth_tolerance);
     EXPECT_GT(now.cut_cells, 0);
-    EXPECT_DOUBLE_EQ(now.approach_speed, small_problem().flow.air.speed);  // all air of this flow has it
+    EXPECT_DOUBLE_EQ(now.approach_speed, small_problem().flow.air.speed());  // all air of this flow has it
     EXPECT_GT(now.flow_iterations, 0);
   }
 }
