@@ -40,7 +40,8 @@ TEST(Boundary, TheStreamOfAJetIsTheAirRoundItsNozzle) {
   const Box box(Sides::entraining, Outlet::still_air);
   const Inlet inlet = make_inlet(box.d, Jet{{NozzleShape::circle, 0.2, 0}, 0.1, 0.01});
   EXPECT_NEAR(inlet.stream.velocity.z, 0.1 * 20, 1e-12);
-  EXPECT_NEAR(inlet.w[box.d.layout.in_plane(3, 4)], inlet.stream.velocity.z, 1e-9);  // a corner, far from the axis
+  EXPECT_NEAR(inlet.w[box.d.layout.in_plane(3, 4)], inlet.stream.velocity.z,
+              1e-9);  // a corner, far from the axis
 }
 
 TEST(Boundary, TheFaceOfTheInletHasTheStreamsValues) {
@@ -190,7 +191,7 @@ TEST(Boundary, TheLedgerOfAUniformStreamIsZeroAndOfAStepItsPressureAndMomentum) 
   EXPECT_NEAR(momentum_deficit(box.d, box.b, box.s).z, 0, 1e-9);
   for (int j = 0; j < 5; ++j)
     for (int i = 0; i < 4; ++i) box.s.f.p[box.at(i, j, 0)] = 7, box.s.f.w[box.at(i, j, 5)] = 15;
-  box.s.f.k = Array<double>(box.d.layout.values(), 1e-12);               // next to no eddy viscosity
+  box.s.f.k = Array<double>(box.d.layout.values(), 1e-12);                 // next to no eddy viscosity
   EXPECT_NEAR(momentum_deficit(box.d, box.b, box.s).z, 7 + 24 * 5, 0.01);  // on 1 m2
 }
 

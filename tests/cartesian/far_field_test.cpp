@@ -23,7 +23,8 @@ CartesianSettings one_thread() {
 
 FlowProblem empty_box(Vec3 velocity) {
   FlowProblem problem;
-  problem.grid = graded({{-1, -1.1, -1.2}, {2, 2.2, 2.6}, 14, 13, 16}, {-0.3, -0.3, -0.3}, {0.3, 0.3, 0.4}, 1.2);
+  problem.grid =
+      graded({{-1, -1.1, -1.2}, {2, 2.2, 2.6}, 14, 13, 16}, {-0.3, -0.3, -0.3}, {0.3, 0.3, 0.4}, 1.2);
   problem.air.velocity = velocity;
   problem.sides = Sides::far_field;
   return problem;
@@ -181,7 +182,8 @@ TEST(Boundaries, AnUnknownWordIsRefusedWithThoseThatThereAre) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::usage);
-    EXPECT_NE(std::string(error.what()).find("zero-gradient, slip, entraining, far-field"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("zero-gradient, slip, entraining, far-field"),
+              std::string::npos);
   }
 }
 

@@ -256,7 +256,8 @@ TEST(Sheet, StepsOfClothAlongTheStreamDoNotHoldTheAirBack) {
       const FlowField field = solve(*make_cartesian(settings), problem);
       const double dynamic = 0.5 * problem.air.density * std::pow(problem.air.speed(), 2);
       const double tight = 2 * pi * std::pow(opening / chord, 2) * chord * 2 * pi * radius;  // m2
-      const double theory = tight * (1 - 2 / pi * std::atan(2 * problem.air.density * problem.air.speed() / a));
+      const double theory =
+          tight * (1 - 2 / pi * std::atan(2 * problem.air.density * problem.air.speed() / a));
       EXPECT_LT(field.porous_force.z / dynamic, 2 * theory) << opening << " " << a;
       EXPECT_GT(field.porous_force.z / dynamic, 0.5 * theory) << opening << " " << a;
     }

@@ -296,7 +296,9 @@ TEST_F(WrittenFiles, ANumberOutOfItsRangeIsNamedWithTheRange) {
        "flow: size of the box is 2e+06 m; it must lie in [1e-06, 1e+06]"},
       {[](FlowProblem& p) { p.grid.origin.z = -2e6; },
        "flow: corner of the box is -2e+06 m; it must lie in [-1e+06, 1e+06]"},
-      {[](FlowProblem& p) { p.air.velocity = {0, 0, 151}; },
+      {[](FlowProblem& p) {
+         p.air.velocity = {0, 0, 151};
+       },
        "flow: air speed is 151 m/s (subsonic: Mach below 0.45); it must lie in [0.001, 150]"},
       {[](FlowProblem& p) { p.air.density = 101; },
        "flow: air density is 101 kg/m3; it must lie in [0.0001, 100]"},

@@ -70,10 +70,12 @@ void check_stream(const Freestream& air) {
   constexpr double most_mach = 0.3, ratio_of_heats = 1.4;
   const double sound = std::sqrt(ratio_of_heats * gas_constant_of_air * air.temperature), speed = air.speed();
   if (speed > 0 && !(speed > most_mach * sound)) return;
-  throw Error(ExitCode::usage,
-              fmt::format("free stream: the speed = {:g} m/s must be above 0 and at most {:.4g} m/s, Mach {} at {:g} K; "
-                          "give another velocity, or the temperature that belongs to it",
-                          speed, most_mach * sound, most_mach, air.temperature));
+  throw Error(
+      ExitCode::usage,
+      fmt::format(
+          "free stream: the speed = {:g} m/s must be above 0 and at most {:.4g} m/s, Mach {} at {:g} K; "
+          "give another velocity, or the temperature that belongs to it",
+          speed, most_mach * sound, most_mach, air.temperature));
 }
 
 double largest_residual(const FlowProgress& p) {

@@ -92,8 +92,8 @@ struct Sides {
   bool operator==(const Sides&) const = default;
   static const Sides zero_gradient, slip, entraining, far_field;
 };
-inline constexpr Sides Sides::zero_gradient{"zero-gradient"}, Sides::slip{"slip"}, Sides::entraining{"entraining"},
-    Sides::far_field{"far-field"};
+inline constexpr Sides Sides::zero_gradient{"zero-gradient"}, Sides::slip{"slip"},
+    Sides::entraining{"entraining"}, Sides::far_field{"far-field"};
 
 /// The same for the end of the box.
 struct Outlet {

@@ -27,7 +27,7 @@ SteadyProblem small_problem(CanopyLoad load = CanopyLoad::uniform, PorosityModel
   given.flow.porosity_model = model;
   given.coupling.load = load;
   given.coupling.threads = 1;
-  return steady_problem(given);
+  return steady_problem(resolve(given));
 }
 
 TEST(SteadyRun, TheLedgerClosesAndTheLoadIsTheFlowsForce) {
@@ -359,7 +359,7 @@ TEST(SteadyRun, AnyNodeOfTheClothOutsideTheBoxIsRefused) {
   given.parachute.mesh.cloth_nodes = 300;
   given.flow.cells = {20, 20, 30};
   given.coupling.threads = 1;
-  const SteadyProblem fits = steady_problem(given);
+  const SteadyProblem fits = steady_problem(resolve(given));
   FormulaEngine engine;
   EXPECT_NO_THROW(SteadySolver(fits, engine));
   std::set<int> nodes;

@@ -51,8 +51,9 @@ void check(const FlowProblem& problem) {
   if (problem.jet) {
     check(*problem.jet, g);
     if (!a.along_z())
-      usage(fmt::format("jet: it leaves the nozzle along +z, not with ({:g}, {:g}, {:g}) m/s; turn the bodies instead",
-                        a.velocity.x, a.velocity.y, a.velocity.z));
+      usage(fmt::format(
+          "jet: it leaves the nozzle along +z, not with ({:g}, {:g}, {:g}) m/s; turn the bodies instead",
+          a.velocity.x, a.velocity.y, a.velocity.z));
     if (problem.sides == Sides::far_field)
       usage("jet: it comes through the inlet, which a far field does not have; choose entraining sides");
   }
@@ -83,7 +84,7 @@ struct Header {
   FlowGrid grid;
   Freestream air;
   std::string sides, outlet;  // words
-  int jets = 0;  // 0 or 1
+  int jets = 0;               // 0 or 1
   Jet jet = {};
 };
 /// One number after the other: between the members of a struct lie bytes that nobody has set, and the same flow is
@@ -175,10 +176,11 @@ class CartesianFlow final : public Flow {
     if (problem_.jet)
       throw Error(ExitCode::usage, "flow: the speed of a jet does not change: nothing flies in a tunnel");
     if (!solver_.open() && !(velocity.x == 0 && velocity.y == 0 && velocity.z >= 0))
-      throw Error(ExitCode::usage,
-                  fmt::format("flow: a stream of ({:g}, {:g}, {:g}) m/s does not enter through the inlet along +z; "
-                              "choose the sides \"{}\"",
-                              velocity.x, velocity.y, velocity.z, Sides::far_field.word));
+      throw Error(
+          ExitCode::usage,
+          fmt::format("flow: a stream of ({:g}, {:g}, {:g}) m/s does not enter through the inlet along +z; "
+                      "choose the sides \"{}\"",
+                      velocity.x, velocity.y, velocity.z, Sides::far_field.word));
     solver_.stream(velocity, acceleration);
   }
   FlowField field() const override { return solver_.field(); }
@@ -301,8 +303,9 @@ void CartesianFlow::restore(const std::filesystem::path& folder) {
   const Header expected;
   each_number(header, in);
   if (std::memcmp(header.magic, expected.magic, sizeof header.magic) != 0) in.fail();
-  if (!(header.grid == problem_.grid) || header.sides != problem_.sides.word || header.outlet != problem_.outlet.word ||
-      (header.jets == 1) != problem_.jet.has_value() || (problem_.jet && !(header.jet == *problem_.jet)))
+  if (!(header.grid == problem_.grid) || header.sides != problem_.sides.word ||
+      header.outlet != problem_.outlet.word || (header.jets == 1) != problem_.jet.has_value() ||
+      (problem_.jet && !(header.jet == *problem_.jet)))
     throw Error(ExitCode::usage, (folder / state_file).string() + ": was made in another box of air");
   for (PorousCells& cloth : problem_.porous) in(cloth.cells);
   for (Sheet& sheet : problem_.sheets) in(sheet.surface), each_array(sheet.motion, in);

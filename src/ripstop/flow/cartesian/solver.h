@@ -51,7 +51,8 @@ struct Scratch {
   std::vector<MarchRings> rings;            // one a thread
   bool in_time = false;                     // a step in time, not an iteration
   double now = 1, before = 0;               // weights of the rates of a step
-  Array<double> pull_u, pull_v, pull_w;     // rows: force on the air of a stream that changes [N/m3]; empty: none
+  Array<double> pull_u, pull_v,
+      pull_w;                   // rows: force on the air of a stream that changes [N/m3]; empty: none
   std::vector<double> mixing;   // of EddyRow::along
   std::vector<double> fastest;  // Courant rate, one a plane [kg/(m3 s)]
   SumTable sums;

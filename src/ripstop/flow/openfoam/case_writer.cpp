@@ -373,7 +373,8 @@ void write_fields(const fs::path& folder, const FlowProblem& problem, bool incom
   const std::string open = problem.sides == Sides::slip ? "type slip;" : "type zeroGradient;";
   const auto number = [](double value) { return fmt::format("{:.17g}", value); };
   const std::string p = number(incompressible ? 0 : outlet_pressure(air));
-  const std::string velocity = fmt::format("({:.17g} {:.17g} {:.17g})", air.velocity.x, air.velocity.y, air.velocity.z);
+  const std::string velocity =
+      fmt::format("({:.17g} {:.17g} {:.17g})", air.velocity.x, air.velocity.y, air.velocity.z);
   const double fluctuation = air.turbulence_intensity * air.speed();
   const double k = 1.5 * fluctuation * fluctuation;
   const double omega = k / (kinematic_viscosity(air) * air.viscosity_ratio);
