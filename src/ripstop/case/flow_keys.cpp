@@ -99,14 +99,12 @@ void describe_numerics(Fields& fields, FlowKeys& flow) {
               "Of the velocity. \"upwind\": first order, as [NFM]; \"second-order\": limited linear.")
       .absent(by_model(convection_words(), sheet_defaults.convection, paper_defaults.convection));
   fields
-      .choice(
-          "sides", flow.sides, sides_words(),
-          "The four sides of the box. " + boundary_meanings(&BoundaryRecord::sides))
+      .choice("sides", flow.sides, sides_words(),
+              "The four sides of the box. " + boundary_meanings(&BoundaryRecord::sides))
       .absent(by_model(sides_words(), sheet_defaults.sides, paper_defaults.sides));
   fields
-      .choice(
-          "outlet", flow.outlet, outlet_words(),
-          "The end of the box. " + boundary_meanings(&BoundaryRecord::outlet))
+      .choice("outlet", flow.outlet, outlet_words(),
+              "The end of the box. " + boundary_meanings(&BoundaryRecord::outlet))
       .absent(by_model(outlet_words(), sheet_defaults.outlet, paper_defaults.outlet));
   fields
       .number("residual", flow.residual, above(0).up_to(0.1),

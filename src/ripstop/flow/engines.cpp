@@ -110,7 +110,8 @@ std::vector<Lack> lacks(const EngineRecord& engine, const Abilities& wanted) {
     if (!wanted.has_boundary(row->word) || engine.can.has_boundary(row->word)) continue;
     std::string instead;
     for (const auto& other : boundaries())
-      if (bool(other->sides) == bool(row->sides) && engine.can.has_boundary(other->word)) instead += (instead.empty() ? "" : " or ") + other->word;
+      if (bool(other->sides) == bool(row->sides) && engine.can.has_boundary(other->word))
+        instead += (instead.empty() ? "" : " or ") + other->word;
     result.push_back({row->sides ? "flow.sides" : "flow.outlet", row->word, instead});
   }
   return result;

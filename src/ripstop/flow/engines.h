@@ -28,13 +28,13 @@ struct EngineOptions {
 
 /// What a case may ask of an engine beyond the common ground.
 struct Abilities {
-  bool sheets = false;            // the `sheet` model
-  bool jets = false;              // FlowProblem::jet
-  bool averages = false;          // a field after every iteration, for Stopping::average_over
-  bool ranks = false;             // several processes
-  bool fitted_meshes = false;     // EngineOptions::fitted_mesh
-  bool other_air = false;         // a saved flow may start one of another speed or density
-  bool time = false;              // Flow::march()
+  bool sheets = false;         // the `sheet` model
+  bool jets = false;           // FlowProblem::jet
+  bool averages = false;       // a field after every iteration, for Stopping::average_over
+  bool ranks = false;          // several processes
+  bool fitted_meshes = false;  // EngineOptions::fitted_mesh
+  bool other_air = false;      // a saved flow may start one of another speed or density
+  bool time = false;           // Flow::march()
   std::vector<std::string> boundaries = {"zero-gradient", "slip", "fixed-pressure"};  // words of boundaries.h
 
   bool has_boundary(std::string_view word) const;

@@ -60,7 +60,8 @@ inline Case square_law_case(std::vector<Setting> more = {}) {
 /// Runs the case into `folder`.
 inline SteadyResult fly_square_law(const std::filesystem::path& folder, std::vector<Setting> more = {}) {
   SteadyObserver nobody;
-  return run_steady_in({{folder, false}, 1, {}, {}}, square_law_case(std::move(more)), nobody).result;
+  return run_steady_in({{folder, false}, 1, {}, {}}, resolve(square_law_case(std::move(more))), nobody)
+      .result;
 }
 
 }  // namespace ripstop

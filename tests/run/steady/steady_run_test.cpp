@@ -9,7 +9,7 @@
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
-#include "ripstop/coupling/steady.h"
+#include "ripstop/fsi/steady.h"
 #include "ripstop/run/steady/checkpoint.h"
 #include "tests/refusal.h"
 #include "tests/run/steady/formula_flow.h"
@@ -27,7 +27,7 @@ SteadyProblem small_problem(CanopyLoad load = CanopyLoad::uniform, PorosityModel
   given.flow.porosity_model = model;
   given.coupling.load = load;
   given.coupling.threads = 1;
-  return steady_problem(given);
+  return steady_problem(resolve(given));
 }
 
 TEST(SteadyRun, TheLedgerClosesAndTheLoadIsTheFlowsForce) {
@@ -359,7 +359,7 @@ TEST(SteadyRun, AnyNodeOfTheClothOutsideTheBoxIsRefused) {
   given.parachute.mesh.cloth_nodes = 300;
   given.flow.cells = {20, 20, 30};
   given.coupling.threads = 1;
-  const SteadyProblem fits = steady_problem(given);
+  const SteadyProblem fits = steady_problem(resolve(given));
   FormulaEngine engine;
   EXPECT_NO_THROW(SteadySolver(fits, engine));
   std::set<int> nodes;

@@ -13,16 +13,26 @@ namespace {
 
 std::vector<std::unique_ptr<BoundaryRecord>> standard_boundaries() {
   std::vector<std::unique_ptr<BoundaryRecord>> rows;
-  const auto add = [&](BoundaryRecord record) { rows.push_back(std::make_unique<BoundaryRecord>(std::move(record))); };
+  const auto add = [&](BoundaryRecord record) {
+    rows.push_back(std::make_unique<BoundaryRecord>(std::move(record)));
+  };
   add({"zero-gradient", "open, as [NFM]", cartesian::open_sides, {}});
   add({"slip", "walls without friction", cartesian::slip_sides, {}});
-  add({"entraining", "air of the stream may come in with its total pressure (built-in engine only)",
-       cartesian::entraining_sides, {}});
-  add({"far-field", "the same through all six faces of the box, for a stream of any direction; there is no other outlet",
-       cartesian::far_field, {}});
-  add({"fixed-pressure", "it is held, and air that comes back has no momentum, as [NFM]", {},
+  add({"entraining",
+       "air of the stream may come in with its total pressure (built-in engine only)",
+       cartesian::entraining_sides,
+       {}});
+  add({"far-field",
+       "the same through all six faces of the box, for a stream of any direction; there is no other outlet",
+       cartesian::far_field,
+       {}});
+  add({"fixed-pressure",
+       "it is held, and air that comes back has no momentum, as [NFM]",
+       {},
        cartesian::fixed_pressure_outlet});
-  add({"still-air", "air that comes back has the total pressure of air at rest (built-in engine only)", {},
+  add({"still-air",
+       "air that comes back has the total pressure of air at rest (built-in engine only)",
+       {},
        cartesian::still_air_outlet});
   return rows;
 }
@@ -122,7 +132,8 @@ Vec3 stressed_in(const Discretisation& d, const State& s) {
       return high * (q[at + step] - q[at]) + low * (q[at] - q[at - step]);
     };
     const double mu = d.air.viscosity + f.rho[at] * f.k[at] / f.omega[at] * s.limit[at];
-    const Vec3 gradient{slope(1, m.x_slope_low[i], m.x_slope_high[i]), slope(m.sy, m.y.slope_low, m.y.slope_high),
+    const Vec3 gradient{slope(1, m.x_slope_low[i], m.x_slope_high[i]),
+                        slope(m.sy, m.y.slope_low, m.y.slope_high),
                         slope(m.sz, m.z.slope_low, m.z.slope_high)};
     force += ((face.low ? -1 : 1) * area_of(d, face, k) * mu) * gradient;
   });
@@ -177,7 +188,8 @@ auto make_part(std::string_view word, const char* what, Maker BoundaryRecord::*m
     if (row->word == word) return ((*row).*maker)();
     known += (known.empty() ? "" : ", ") + row->word;
   }
-  throw Error(ExitCode::usage, fmt::format("flow: the {} cannot be \"{}\"; choose one of {}", what, word, known));
+  throw Error(ExitCode::usage,
+              fmt::format("flow: the {} cannot be \"{}\"; choose one of {}", what, word, known));
 }
 }  // namespace
 
@@ -281,13 +293,13 @@ Vec3 pressed_in(const Discretisation& d, const Boundaries& b, const State& s, bo
   const bool sides_hold = b.sides->pressure_end() == End::fixed_value;
   std::array<double, 3> force = {0, 0, 0};
   each_face(d, s.f, [&](const BoxFace& face, int k) {
-    const bool outlet = face.axis == 2 && !face.low, holds = outlet || (face.axis == 2 ? b.open() : sides_hold);
+    const bool outlet = face.axis == 2 && !face.low,
+               holds = outlet || (face.axis == 2 ? b.open() : sides_hold);
     if (holds != where_held) return;
     const double inside = s.f.p[face.cell],
-                 p = !holds ? inside
-                     : outlet
-                         ? s.outlet_p[face.cell - d.layout.at(0, 0, k) + d.layout.in_plane(0, 0)]
-                         : 0.5 * (s.f.p[face.ghost] + inside),
+                 p = !holds   ? inside
+                     : outlet ? s.outlet_p[face.cell - d.layout.at(0, 0, k) + d.layout.in_plane(0, 0)]
+                              : 0.5 * (s.f.p[face.ghost] + inside),
                  pushes = area_of(d, face, k) * p;
     force[face.axis] += face.low ? pushes : -pushes;
   });

@@ -122,7 +122,8 @@ void each_end_face(const Discretisation& d, const Fields& f, int k, Visit&& visi
   const std::ptrdiff_t sz = layout.stride_z;
   for (int j = 0; j < layout.ny; ++j) {
     const std::ptrdiff_t at = layout.at(0, j, k);
-    for (std::ptrdiff_t c = at; k == 0 && c < at + layout.nx; ++c) visit(BoxFace{2, true, c - sz, c, f.fz[c]});
+    for (std::ptrdiff_t c = at; k == 0 && c < at + layout.nx; ++c)
+      visit(BoxFace{2, true, c - sz, c, f.fz[c]});
     for (std::ptrdiff_t c = at; k == layout.nz - 1 && c < at + layout.nx; ++c)
       visit(BoxFace{2, false, c + sz, c, -f.fz[c + sz]});
   }

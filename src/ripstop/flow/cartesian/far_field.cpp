@@ -39,11 +39,13 @@ class FarField final : public SideBoundary {
     each_face(d, f, k, [&](const BoxFace& face) {
       double held = 0;
       if (face.inflow > 0) {
-        const double along = component(stream.velocity, face.axis), enters = std::max(face.low ? along : -along, 0.0);
+        const double along = component(stream.velocity, face.axis),
+                     enters = std::max(face.low ? along : -along, 0.0);
         held = 0.5 * f.rho[face.cell] * enters * enters - 0.5 * face.inflow * face.inflow / f.rho[face.cell];
       }
       f.p[face.ghost] = 2 * held - f.p[face.cell];
-      if (face.axis == 2 && !face.low) s.outlet_p[face.cell - d.layout.at(0, 0, k) + d.layout.in_plane(0, 0)] = held;
+      if (face.axis == 2 && !face.low)
+        s.outlet_p[face.cell - d.layout.at(0, 0, k) + d.layout.in_plane(0, 0)] = held;
     });
   }
 

@@ -129,7 +129,9 @@ FlowStep Solver::step(double length) {
   s_.clock.step = length;
   t_.now = 1 + 0.5 * ratio, t_.before = 0.5 * ratio;
   if (s_.clock.changing) {  // such that what is extrapolated is what the stream gains in this step
-    const auto of_now = [&](double gaining, double pulled) { return (gaining + t_.before * pulled) / t_.now; };
+    const auto of_now = [&](double gaining, double pulled) {
+      return (gaining + t_.before * pulled) / t_.now;
+    };
     Vec3& pulled = s_.clock.pulled;
     const Vec3 gaining = s_.clock.gaining;
     pulled = {of_now(gaining.x, pulled.x), of_now(gaining.y, pulled.y), of_now(gaining.z, pulled.z)};
@@ -335,14 +337,14 @@ FlowStep Solver::close_step(Vec3 velocity_before, Vec3 held_back) {
   step.time = clock.time, step.length = clock.step;
   step.force = s_.force;
   const Vec3 size = d_.grid.size, stream = d_.air.velocity;
-  step.mass_defect =
-      sum.value[Sums::mass_defect] / (d_.air.density * std::abs(stream.z) * size.x * size.y +
-                                      d_.air.density * std::abs(stream.x) * size.y * size.z +
-                                      d_.air.density * std::abs(stream.y) * size.x * size.z);
+  step.mass_defect = sum.value[Sums::mass_defect] / (d_.air.density * std::abs(stream.z) * size.x * size.y +
+                                                     d_.air.density * std::abs(stream.x) * size.y * size.z +
+                                                     d_.air.density * std::abs(stream.y) * size.x * size.z);
   const double mass = d_.air.density * volume;
   const Vec3 velocity{s_.mean.u, s_.mean.v, s_.mean.w}, pressed = pressed_in(d_, b_, s_, false);
   const auto gap = [&](double Vec3::*a) {
-    const double gained = mass * (velocity.*a - velocity_before.*a) / clock.step, pulled = mass * clock.gaining.*a;
+    const double gained = mass * (velocity.*a - velocity_before.*a) / clock.step,
+                 pulled = mass * clock.gaining.*a;
     return s_.force.*a + gained + held_back.*a - pressed.*a - pulled;
   };
   step.momentum_gap = {gap(&Vec3::x), gap(&Vec3::y), gap(&Vec3::z)};

@@ -84,8 +84,8 @@ Basis basis_from(const json& j) {
                 grid.at("cells").at(2),
                 {grading(grid.at("grading").at(0)), grading(grid.at("grading").at(1)),
                  grading(grid.at("grading").at(2))}};
-  basis.air = {vec3(air.at("velocity_m_s")),     air.at("density_kg_m3"),        air.at("viscosity_pa_s"),
-               air.at("temperature_k"), air.at("turbulence_intensity"), air.at("viscosity_ratio")};
+  basis.air = {vec3(air.at("velocity_m_s")), air.at("density_kg_m3"),        air.at("viscosity_pa_s"),
+               air.at("temperature_k"),      air.at("turbulence_intensity"), air.at("viscosity_ratio")};
   basis.sides = j.at("slip_sides") ? Sides::slip : Sides::zero_gradient;
   basis.ranks = j.at("ranks");
   basis.second_order = j.at("second_order");
