@@ -119,7 +119,7 @@ int dry_run(const SteadyFolderSettings& settings, const Settings& resolved) {
   const bool known = engine_of(resolved).word == engines().front().word && !resolved.flow().unsteady;
   fmt::print("{}: {} nodes, {} x {} x {} cells, {:.4g} m/s, {} ranks, about {:.2g} GB{}; would run in {}\n",
              resolved.title(), problem.mesh.node_count(), problem.flow.grid.nx, problem.flow.grid.ny,
-             problem.flow.grid.nz, problem.flow.air.speed, resolved.flow().ranks, 1e-9 * cost.memory,
+             problem.flow.grid.nz, problem.flow.air.speed(), resolved.flow().ranks, 1e-9 * cost.memory,
              known ? fmt::format(" and {} of one core", rough_duration(cost.time)) : "", folder.string());
   return 0;
 }

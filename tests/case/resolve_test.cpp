@@ -155,9 +155,9 @@ TEST(Resolved, ASheetStandsInABoxThatScalesWithTheCanopy) {
   EXPECT_NEAR(grid.spacing().x / d, 0.04, 0.002);
   EXPECT_NEAR(grid.spacing().z / d, 0.04, 0.002);
   const FlowProblem problem = flow_problem(resolve(given));
-  EXPECT_TRUE(problem.porous.empty());
-  ASSERT_EQ(problem.sheets.size(), 1u);
-  EXPECT_EQ(problem.sheets[0].law.linear, 8169.3);
+  ASSERT_EQ(problem.bodies.size(), 1u);
+  ASSERT_TRUE(problem.bodies[0].is_sheet());
+  EXPECT_EQ(problem.bodies[0].drop().linear, 8169.3);
 }
 
 TEST(Resolved, TheProblemOfTheFlowHasEveryValueOfTheCase) {
@@ -198,7 +198,7 @@ TEST(Resolved, AnOpenJetStandsInAWideBoxOfStillAirThatBeginsAtTheNozzle) {
   const FlowProblem problem = flow_problem(resolve(given));
   ASSERT_TRUE(problem.jet.has_value());
   EXPECT_EQ(problem.jet->nozzle, (Nozzle{NozzleShape::octagon, 6, 0}));
-  EXPECT_EQ(problem.air.speed, 8);
+  EXPECT_EQ(problem.air.speed(), 8);
   const FlowSettings placed = flow_of(short_case + open_jet);
   EXPECT_EQ(placed.canopy_position_m, 4.5);
   EXPECT_EQ(placed.box_m.z, 14) << "the collector";
@@ -338,7 +338,7 @@ TEST(Resolved, ClothWithCalibratedCoefficientsStandsInThePapersBox) {
   EXPECT_EQ(flow.residual, 1e-5);
   EXPECT_EQ(flow.average_over, 0);
   EXPECT_EQ(resolve(given).coupling().drag_tolerance, 1e-3);
-  EXPECT_EQ(flow_problem(resolve(given)).porous.size(), 1u);
+  EXPECT_FALSE(flow_problem(resolve(given)).bodies.at(0).is_sheet());
 }
 
 TEST(Resolved, WhatIsChangedLaterIsFollowedAgain) {

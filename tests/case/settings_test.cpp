@@ -100,7 +100,7 @@ TEST(Settings, TheSpeedIsTheActualOneAndTheNominalOneIsNamedSo) {
   EXPECT_EQ(nominal.flow().speed_m_s, 30);
   EXPECT_EQ(measured.flow().speed_m_s, 27.1);
   EXPECT_EQ(measured.flow().nominal_speed_m_s, 30);
-  EXPECT_EQ(flow_problem(measured).air.speed, 27.1);
+  EXPECT_EQ(flow_problem(measured).air.speed(), 27.1);
   ASSERT_TRUE(measured.measured_row().has_value());
   EXPECT_EQ(measured.measured_row()->measured_speed_m_s, 27.1);
 }

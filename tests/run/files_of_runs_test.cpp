@@ -9,7 +9,7 @@
 #include "../small_case.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/file.h"
-#include "ripstop/inflation/summary.h"
+#include "ripstop/fsi/summary.h"
 #include "ripstop/output/csv.h"
 #include "ripstop/output/vtk.h"
 #include "ripstop/output/vtk_read.h"
@@ -70,7 +70,7 @@ FlowRecord watched_record(int steps, int slices) {
   for (int n = 1; n <= steps; ++n) {
     FlowStep step;
     step.step = n, step.time = 1 + 0.01 * n, step.length = 0.01, step.courant = 0.6;
-    step.force = {0.1 * n, 0.2 * n, 100.0 + n}, step.momentum_gap = 0.3;
+    step.force = {0.1 * n, 0.2 * n, 100.0 + n}, step.momentum_gap = {0, 0, 0.3};
     record.steps.push_back(step);
   }
   record.drag.mean = 123.45, record.drag.standard_error = 0.67;
@@ -95,7 +95,7 @@ TEST(WatchFiles, HistoryHasARowAStepAndTheWakeAFileASlice) {
   for (std::size_t n = 0; n < 5; ++n) {
     const FlowStep& s = record.steps[n];
     EXPECT_EQ(history.rows[n], (std::vector<double>{s.time, s.length, s.courant, s.force.x, s.force.y,
-                                                    s.force.z, s.momentum_gap}));
+                                                    s.force.z, s.momentum_gap.z}));
   }
   EXPECT_EQ(history.columns, (std::vector<std::string>{"time_s", "step_s", "courant", "force_x_n",
                                                        "force_y_n", "drag_n", "momentum_gap_n"}));

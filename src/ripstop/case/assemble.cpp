@@ -22,7 +22,7 @@ FlowProblem flow_problem(const Settings& resolved) {
   const FlowSettings& flow = resolved.flow();
   FlowProblem problem;
   problem.grid = flow_grid(flow);
-  problem.air.speed = flow.speed_m_s;
+  problem.air.velocity = {0, 0, flow.speed_m_s};
   problem.air.density = flow.density_kg_m3;
   problem.air.viscosity = flow.viscosity_pa_s;
   problem.air.temperature = flow.temperature_k;
@@ -36,10 +36,10 @@ FlowProblem flow_problem(const Settings& resolved) {
   problem.stopping.average_over = flow.average_over;
   const ClothResistance& cloth = resolved.materials().canopy.resistance;
   if (flow.porosity_model == PorosityModel::sheet) {
-    problem.sheets = {{{}, as_sheet(cloth)}};
+    problem.bodies = {sheet_body({}, as_sheet(cloth))};
   } else {
     const PorousCellLaw cells = as_cells(cloth);
-    problem.porous = {{{}, cells.darcy, cells.forchheimer}};
+    problem.bodies = {porous_body({{}, cells.darcy, cells.forchheimer})};
   }
   return problem;
 }

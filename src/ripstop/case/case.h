@@ -12,11 +12,11 @@
 #include "ripstop/core/toml/problem.h"
 #include "ripstop/core/toml/set.h"
 #include "ripstop/core/vec3.h"
-#include "ripstop/coupling/settings.h"
 #include "ripstop/flow/engines.h"
 #include "ripstop/flow/flow.h"
 #include "ripstop/flow/jet.h"
-#include "ripstop/inflation/settings.h"
+#include "ripstop/fsi/coupling_settings.h"
+#include "ripstop/fsi/inflation_settings.h"
 #include "ripstop/material/library.h"
 #include "ripstop/material/material.h"
 #include "ripstop/parachute/design.h"
@@ -132,8 +132,8 @@ struct Case {
   MarginFactors margins;
   std::vector<Measured> measured;
 
-  std::filesystem::path file;  // where it was read from; empty: not from a file
-  Origins origins;             // of every key that was given, for messages
+  std::filesystem::path file;             // where it was read from; empty: not from a file
+  Origins origins;                        // of every key that was given, for messages
   std::vector<std::string> deprecations;  // one for each key that was given by an old name, for people
 };
 

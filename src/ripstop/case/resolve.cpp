@@ -197,7 +197,7 @@ void resolve_box(Follow& follow, const Design& parachute, FlowKeys& keys, FlowSe
 Abilities abilities_of(const std::string& engine) {
   for (const EngineRecord& one : engines())
     if (one.word == engine) return one.can;
-  return {.entraining_sides = true, .still_air_outlet = true, .averages = true};
+  return engines().front().can;
 }
 
 void resolve_numerics(Follow& follow, Case& written, SettingsValues& values) {
@@ -208,8 +208,8 @@ void resolve_numerics(Follow& follow, Case& written, SettingsValues& values) {
   const std::string model = sheet ? "the sheet's default" : "the paper model's default";
   const Abilities can = abilities_of(flow.engine);
   const std::string lacking = fmt::format("the flow engine \"{}\" has not the sheet's default", flow.engine);
-  const bool sides_lack = standard.sides == Sides::entraining && !can.entraining_sides,
-             outlet_lacks = standard.outlet == Outlet::still_air && !can.still_air_outlet,
+  const bool sides_lack = !can.has_boundary(standard.sides.word),
+             outlet_lacks = !can.has_boundary(standard.outlet.word),
              averages_lack = standard.average_over > 0 && !can.averages;
   flow.convection = follow("flow.convection", keys.convection, standard.convection, model);
   const TunnelKind tunnel = flow.tunnel.kind;

@@ -68,7 +68,7 @@ CaseSummary summarize(const Settings& resolved) {
   ClothOptions options;
   options.linear = resolved.coupling().linear;
   const ClothPtr cloth = make_cloth(mesh, options);
-  summary.step = step_bound(*cloth, start_state(*cloth));
+  summary.step = stability_limit(*cloth, start_state(*cloth));
 
   const FlowGrid grid = flow_problem(resolved).grid;
   summary.flow_cells = static_cast<long long>(grid.nx) * grid.ny * grid.nz;

@@ -279,8 +279,7 @@ void check_engine(const Case& given, const FlowSettings& flow, Findings& finding
                         "there is no such flow engine");
   Abilities wanted;
   wanted.sheets = flow.porosity_model == PorosityModel::sheet;
-  wanted.entraining_sides = flow.sides == Sides::entraining;
-  wanted.still_air_outlet = flow.outlet == Outlet::still_air;
+  wanted.boundaries = {std::string(flow.sides.word), std::string(flow.outlet.word)};
   wanted.jets = flow.tunnel.kind == TunnelKind::open_jet;
   wanted.averages = flow.average_over > 0;
   wanted.ranks = flow.ranks > 1;

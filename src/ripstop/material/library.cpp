@@ -97,9 +97,10 @@ void describe_resistance(Fields& fields, ClothResistance& cloth) {
               "that velocity, b = 0.")
       .absent("a and b hold");
   fields
-      .number("darcy_1_m2", cloth.darcy_1_m2, from(0).up_to(1e12),
-              "d of porous cells, calibrated on cells of one size, for porosity_model = \"paper\"; in place of "
-              "a and b.")
+      .number(
+          "darcy_1_m2", cloth.darcy_1_m2, from(0).up_to(1e12),
+          "d of porous cells, calibrated on cells of one size, for porosity_model = \"paper\"; in place of "
+          "a and b.")
       .absent(none);
   fields
       .number("forchheimer_1_m", cloth.forchheimer_1_m, from(0).up_to(1e9),

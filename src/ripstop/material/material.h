@@ -21,7 +21,7 @@ struct PorousCellLaw {
 /// The permeability of a cloth as its keys give it, in one of three forms.
 struct ClothResistance {
   std::optional<double> pressure_drop_linear_pa_s_m, pressure_drop_quadratic_pa_s2_m2;
-  std::optional<double> permeability_cfm;  // see law_of_cfm()
+  std::optional<double> permeability_cfm;             // see law_of_cfm()
   std::optional<double> darcy_1_m2, forchheimer_1_m;  // of porous cells
 };
 /// That the keys are for; a case may use them with the other.

@@ -19,8 +19,8 @@ class SquareLawFlow : public FormulaFlow {
  public:
   SquareLawFlow(const FlowProblem& problem, double area)
       : FormulaFlow(problem),
-        force_(0.5 * problem.air.density * problem.air.speed * problem.air.speed * area) {}
-  void place(const std::vector<Triangle>&, const SheetMotion&) override { aim_at(force_); }
+        force_(0.5 * problem.air.density * problem.air.speed() * problem.air.speed() * area) {}
+  void place(std::size_t, const std::vector<Triangle>&, const SheetMotion&) override { aim_at(force_); }
 
  private:
   double force_;

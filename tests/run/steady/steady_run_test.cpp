@@ -9,7 +9,7 @@
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
-#include "ripstop/coupling/steady.h"
+#include "ripstop/fsi/steady.h"
 #include "ripstop/run/steady/checkpoint.h"
 #include "tests/refusal.h"
 #include "tests/run/steady/formula_flow.h"
@@ -75,7 +75,7 @@ TEST(SteadyRun, AnIterationTellsHowFarTheClothMovedAndInHowManySteps) {
     EXPECT_GT(now.cloth_residual, 0);
     EXPECT_LE(now.cloth_residual, small_problem().settings.cloth_tolerance);
     EXPECT_GT(now.cut_cells, 0);
-    EXPECT_DOUBLE_EQ(now.approach_speed, small_problem().flow.air.speed);  // all air of this flow has it
+    EXPECT_DOUBLE_EQ(now.approach_speed, small_problem().flow.air.speed());  // all air of this flow has it
     EXPECT_GT(now.flow_iterations, 0);
   }
 }
@@ -84,7 +84,7 @@ TEST(SteadyRun, AnIterationTellsHowFarTheClothMovedAndInHowManySteps) {
 class CreepingFlow final : public FormulaFlow {
  public:
   using FormulaFlow::FormulaFlow;
-  void place(const std::vector<Triangle>&, const SheetMotion&) override {
+  void place(std::size_t, const std::vector<Triangle>&, const SheetMotion&) override {
     aim_at(300 * std::pow(1.005, ++placed_));
   }
 
@@ -302,7 +302,7 @@ TEST(SteadyRun, ClothThatNoHoldBringsToRestIsGivenUpAfterTheStrongest) {
 struct JitteringEngine : FormulaEngine {
   struct Jittering : FormulaFlow {
     using FormulaFlow::FormulaFlow;
-    void place(const std::vector<Triangle>&, const SheetMotion&) override {
+    void place(std::size_t, const std::vector<Triangle>&, const SheetMotion&) override {
       ++placed;
       aim_at(240 + 12 * (placed * placed * placed * 7 % 11));
     }

@@ -20,8 +20,8 @@ constexpr std::size_t shots = 6;            // in the picture
 void write_history(ClaimedFolder& folder, const FlowRecord& record) {
   CsvTable table{{"time_s", "step_s", "courant", "force_x_n", "force_y_n", "drag_n", "momentum_gap_n"}, {}};
   for (const FlowStep& step : record.steps)
-    table.rows.push_back(
-        {step.time, step.length, step.courant, step.force.x, step.force.y, step.force.z, step.momentum_gap});
+    table.rows.push_back({step.time, step.length, step.courant, step.force.x, step.force.y, step.force.z,
+                          step.momentum_gap.z});
   write_csv(folder.own("history.csv"), table);
 }
 
