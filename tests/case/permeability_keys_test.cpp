@@ -25,25 +25,25 @@ const ClothResistance& resistance(const Settings& resolved) {
 TEST(PermeabilityKeys, APressureDropReachesTheSheetOfTheFlow) {
   const Settings resolved = settings_of(with_cloth(
       "f-111-physical", "pressure_drop_linear_pa_s_m = 400\npressure_drop_quadratic_pa_s2_m2 = 50\n"));
-  EXPECT_EQ(flow_problem(resolved).sheets.at(0).law, (PressureDrop{400, 50}));
+  EXPECT_EQ(flow_problem(resolved).bodies.at(0).drop(), (PressureDrop{400, 50}));
 }
 
 TEST(PermeabilityKeys, OneKeyKeepsTheOtherOfTheBase) {
   const Settings resolved =
       settings_of(with_cloth("f-111-physical", "pressure_drop_quadratic_pa_s2_m2 = 50\n"));
-  EXPECT_EQ(flow_problem(resolved).sheets.at(0).law, (PressureDrop{8169.3, 50}));
+  EXPECT_EQ(flow_problem(resolved).bodies.at(0).drop(), (PressureDrop{8169.3, 50}));
 }
 
 TEST(PermeabilityKeys, CfmIsALinearLawAndIsWrittenOutAsOne) {
   for (const char* base : {"f-111-physical", "f-111"}) {
     const Settings resolved = settings_of(with_cloth(base, "permeability_cfm = 40\n"));
     EXPECT_EQ(resolved.flow().porosity_model, PorosityModel::sheet) << base;
-    EXPECT_EQ(flow_problem(resolved).sheets.at(0).law, law_of_cfm(40)) << base;
-    EXPECT_NEAR(flow_problem(resolved).sheets.at(0).law.linear, 612.7, 0.1) << base;
+    EXPECT_EQ(flow_problem(resolved).bodies.at(0).drop(), law_of_cfm(40)) << base;
+    EXPECT_NEAR(flow_problem(resolved).bodies.at(0).drop().linear, 612.7, 0.1) << base;
     EXPECT_FALSE(resistance(resolved).permeability_cfm) << base;
     EXPECT_FALSE(resistance(resolved).darcy_1_m2) << base;
     const Settings again = settings_of(case_toml(resolved));
-    EXPECT_EQ(flow_problem(again).sheets.at(0).law, law_of_cfm(40)) << base;
+    EXPECT_EQ(flow_problem(again).bodies.at(0).drop(), law_of_cfm(40)) << base;
   }
 }
 
@@ -52,10 +52,10 @@ TEST(PermeabilityKeys, DarcyAndForchheimerAreForCells) {
       settings_of(with_cloth("f-111-physical", "darcy_1_m2 = 70\nforchheimer_1_m = 30\n"));
   EXPECT_EQ(resolved.flow().porosity_model, PorosityModel::paper);
   const FlowProblem problem = flow_problem(resolved);
-  ASSERT_EQ(problem.porous.size(), 1u);
-  EXPECT_EQ(problem.porous[0].darcy, 70);
-  EXPECT_EQ(problem.porous[0].forchheimer, 30);
-  EXPECT_TRUE(problem.sheets.empty());
+  ASSERT_EQ(problem.bodies.size(), 1u);
+  ASSERT_FALSE(problem.bodies[0].is_sheet());
+  EXPECT_EQ(problem.bodies[0].porous().darcy, 70);
+  EXPECT_EQ(problem.bodies[0].porous().forchheimer, 30);
 }
 
 TEST(PermeabilityKeys, TwoWaysInOneMaterialAreRefused) {
@@ -86,7 +86,7 @@ std::string told(const Settings& resolved) {
 TEST(OldPermeabilityKeys, TakeTheirMeaningFromTheModelKeyAndAreWarnedOf) {
   const Settings sheet = settings_of(
       with_cloth("f-111-physical", "darcy = 400\nforchheimer = 50\nporosity_model = \"sheet\"\n"));
-  EXPECT_EQ(flow_problem(sheet).sheets.at(0).law, (PressureDrop{400, 50}));
+  EXPECT_EQ(flow_problem(sheet).bodies.at(0).drop(), (PressureDrop{400, 50}));
   EXPECT_EQ(
       told(sheet),
       "materials.own.darcy is an old key: write materials.own.pressure_drop_linear_pa_s_m\n"
@@ -96,21 +96,22 @@ TEST(OldPermeabilityKeys, TakeTheirMeaningFromTheModelKeyAndAreWarnedOf) {
   const Settings paper =
       settings_of(with_cloth("f-111-physical", "darcy = 70\nforchheimer = 30\nporosity_model = \"paper\"\n"));
   EXPECT_EQ(paper.flow().porosity_model, PorosityModel::paper);
-  EXPECT_EQ(flow_problem(paper).porous.at(0).darcy, 70);
+  EXPECT_EQ(flow_problem(paper).bodies.at(0).porous().darcy, 70);
   EXPECT_NE(told(paper).find("write materials.own.darcy_1_m2\n"), std::string::npos) << told(paper);
   EXPECT_NE(told(paper).find("write materials.own.forchheimer_1_m\n"), std::string::npos) << told(paper);
 }
 
 TEST(OldPermeabilityKeys, WithoutTheModelKeyAreThoseOfTheBase) {
-  EXPECT_EQ(flow_problem(settings_of(with_cloth("f-111", "darcy = 70\n"))).porous.at(0).darcy, 70);
-  EXPECT_EQ(flow_problem(settings_of(with_cloth("f-111", "darcy = 70\n"))).porous.at(0).forchheimer, 37.45);
-  EXPECT_EQ(flow_problem(settings_of(with_cloth("f-111-physical", "darcy = 70\n"))).sheets.at(0).law,
+  EXPECT_EQ(flow_problem(settings_of(with_cloth("f-111", "darcy = 70\n"))).bodies.at(0).porous().darcy, 70);
+  EXPECT_EQ(flow_problem(settings_of(with_cloth("f-111", "darcy = 70\n"))).bodies.at(0).porous().forchheimer,
+            37.45);
+  EXPECT_EQ(flow_problem(settings_of(with_cloth("f-111-physical", "darcy = 70\n"))).bodies.at(0).drop(),
             (PressureDrop{70, 0}));
 }
 
 TEST(OldPermeabilityKeys, AModelKeyAloneTakesTheNumbersOfTheBase) {
   const Settings resolved = settings_of(with_cloth("f-111", "porosity_model = \"sheet\"\n"));
-  EXPECT_EQ(flow_problem(resolved).sheets.at(0).law, (PressureDrop{65.98, 37.45}));
+  EXPECT_EQ(flow_problem(resolved).bodies.at(0).drop(), (PressureDrop{65.98, 37.45}));
   EXPECT_EQ(resolved.flow().porosity_model, PorosityModel::sheet);
 }
 
@@ -118,7 +119,7 @@ TEST(OldPermeabilityKeys, OfTheCommandLineAreTakenAndTheirSourceStaysTheOption) 
   Overrides overrides;
   overrides.set = {parse_setting("materials.f-111-physical.darcy=250", "--set")};
   const Case given = parse_case(short_case, "case.toml", overrides);
-  EXPECT_EQ(flow_problem(resolve(given)).sheets.at(0).law.linear, 250);
+  EXPECT_EQ(flow_problem(resolve(given)).bodies.at(0).drop().linear, 250);
   ASSERT_EQ(given.deprecations.size(), 1u);
   EXPECT_EQ(given.origins.at("materials.f-111-physical.pressure_drop_linear_pa_s_m").option, "--set");
 }
