@@ -94,6 +94,7 @@ bench: check-deps  ## Benchmarks, some four hours; their figures stand in docs/t
 	@build-check/bench/bench_bodies in-time 25 all des | tee docs/tables/bodies-in-time-fine.md
 	@build-check/bench/bench_bodies places 16 | tee docs/tables/bodies-places.md
 	@build-check/bench/bench_bodies openfoam 8 | tee docs/tables/bodies-openfoam.md
+	@build-check/bench/bench_turned 8 16 24 | tee docs/tables/turned.md
 	@build-check/bench/bench_sheet 28 4 | tee docs/tables/sheet-shifts.md
 	@build-check/bench/bench_cloth
 	@build-check/bench/bench_relaxation | tee docs/tables/relaxation.md
@@ -115,7 +116,7 @@ validate: build  ## Stratos IV at five speeds on the printed grid with both engi
 	  $(VALIDATE) --speed $$v --flow openfoam --ranks $(JOBS) --out runs/validate/openfoam-$$v || exit; done
 	@/usr/bin/python3 validation/stratos-iv/table.py runs/validate
 
-validate-ojf: build  ## Calibrate on Stratos IV, predict WALRUS and ADEPT blind, into docs/tables: hours; resumable
+validate-ojf: build  ## Calibrate on Stratos IV, predict WALRUS and ADEPT, score the blind predictions, into docs/tables: hours; resumable
 	@/usr/bin/python3 validation/ojf/campaign.py --ripstop build/bin/ripstop $(STAGES)
 
 validate-families: build  ## Drag of every family's example beside Knacke's values, into docs/tables: ten minutes; resumable

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "builders.h"
-#include "ripstop/inflation/inflation.h"
+#include "ripstop/fsi/inflation.h"
 
 namespace ripstop {
 namespace {
