@@ -12,7 +12,7 @@ LONGEST = 500
 WIDEST = 120
 
 PAGES = sorted([ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md", ROOT / "src/README.md", ROOT / "materials/README.md",
-                *ROOT.glob("docs/**/*.md"), *ROOT.glob("examples/*/README.md"), *ROOT.glob("validation/*/README.md")])
+                *ROOT.glob("docs/**/*.md"), *ROOT.glob("examples/**/README.md"), *ROOT.glob("validation/*/README.md")])
 TABLES = ROOT / "docs/tables"  # made by commands; each says when
 GENERATED = [ROOT / f"docs/reference/{page}.md" for page in ("case-keys", "commands", "python")]  # by make reference
 
