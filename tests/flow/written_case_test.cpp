@@ -299,7 +299,9 @@ TEST_F(WrittenFiles, ANumberOutOfItsRangeIsNamedWithTheRange) {
       {[](FlowProblem& p) {
          p.air.velocity = {0, 0, 151};
        },
-       "flow: air speed is 151 m/s (subsonic: Mach below 0.45); it must lie in [0.001, 150]"},
+       "free stream: the speed = 151 m/s must be above 0 and at most 100.6 m/s, Mach 0.3 at 280 K; give "
+       "another "
+       "velocity, or the temperature that belongs to it"},
       {[](FlowProblem& p) { p.air.density = 101; },
        "flow: air density is 101 kg/m3; it must lie in [0.0001, 100]"},
       {[](FlowProblem& p) { p.air.viscosity = 2; }, "flow: viscosity is 2 Pa s; it must lie in [1e-07, 1]"},

@@ -174,7 +174,7 @@ struct FlowField {
   Vec3 porous_force;                   // by the fluid on all bodies [N]
   std::vector<BodyLoad> bodies;        // and on each of FlowProblem::bodies
   std::vector<SheetLoad> sheet_loads;  // their forces add up to the sheets' part of it
-  Vec3 momentum_deficit;               // force from the fluxes through the faces of the box [N]
+  Vec3 momentum_deficit;  // force from the fluxes through the faces of the box [N]; NaN: not known
   FlowProgress last;
   bool converged = false;
   FlowAverage average;  // where it has iterations, the fields and forces above are means over them
