@@ -26,10 +26,10 @@ constexpr double duct_speed = 10, resistance = 40, springs = 2000;  // [m/s], [P
 FlowProblem closed_duct(double speed = duct_speed, double linear = resistance, int cells = 4) {
   FlowProblem duct;
   duct.grid = {{0, 0, 0}, {1, 1, 2}, cells, cells, 4 * cells};
-  duct.air.speed = speed;
+  duct.air.velocity = {0, 0, speed};
   duct.sides = Sides::slip;
   duct.outlet = Outlet::still_air;
-  duct.sheets = {{{}, linear, 0}};
+  duct.bodies = {sheet_body({}, {linear, 0})};
   return duct;
 }
 
@@ -103,7 +103,7 @@ class Together {
 
   /// The cloth takes `least` steps or more, `share` of its stable one at most.
   void step(double length, int least, double share) {
-    const double stable = share * step_bound(*cloth_, state_).stable_step;
+    const double stable = share * stability_limit(*cloth_, state_).stable_step;
     ClothMotion motion;
     motion.steps = std::max(least, static_cast<int>(std::ceil(length / stable)));
     ClothState tried = state_;
@@ -269,7 +269,7 @@ TEST(OpeningAir, IsRefusedWithoutAnEngineOrWithoutASheet) {
   const Mesh mesh = piston(0.04);
   EXPECT_THROW(OpeningAir({closed_duct(), 0.5, nullptr}, mesh), Error);
   FlowProblem bare = closed_duct();
-  bare.sheets.clear();
+  bare.bodies.clear();
   EXPECT_THROW(OpeningAir({bare, 0.5, make_cartesian({})}, mesh), Error);
 }
 

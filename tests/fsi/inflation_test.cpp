@@ -250,7 +250,7 @@ TEST(Inflation, TheStepNeverExceedsTheStableOne) {
   InflationState state = solver.start();
   while (state.blocks < solver.blocks()) {
     solver.advance(state);
-    EXPECT_LE(state.step, step_bound(solver.cloth(), state.cloth).stable_step);
+    EXPECT_LE(state.step, stability_limit(solver.cloth(), state.cloth).stable_step);
   }
 }
 

@@ -22,9 +22,9 @@ double mean_share(int steps) {
 constexpr double degree = std::numbers::pi / 180;
 
 FlowProblem with_surface(FlowProblem problem, std::vector<Triangle> surface) {
-  if (problem.sheets.size() != 1)
+  if (problem.bodies.size() != 1 || !problem.has_sheets())
     throw Error(ExitCode::usage, "an opening in its own air takes the canopy as one sheet");
-  problem.sheets[0].surface = std::move(surface);
+  problem.bodies[0].surface = std::move(surface);
   return problem;
 }
 
@@ -55,7 +55,7 @@ OpeningAir::OpeningAir(const AirProblem& problem, const Mesh& mesh)
     : engine_(problem.engine),
       grid_(problem.flow.grid),
       courant_(problem.courant),
-      speed_(problem.flow.air.speed),
+      speed_(problem.flow.air.speed()),
       density_(problem.flow.air.density),
       payload_(problem.payload),
       node_mass_(mesh.mass),
@@ -100,7 +100,7 @@ Loads OpeningAir::step(const std::vector<Vec3>& positions, const ClothMotion& cl
     motion.velocity.insert(motion.velocity.end(), 2, mean);
     motion.pressure.insert(motion.pressure.end(), 2, pressure[c] / thicker);
   }
-  flow_->place(surface, motion);
+  flow_->place(0, surface, motion);
   if (memory.steps == 0) {
     memory.speed = speed_;
     if (payload_) {
@@ -109,7 +109,7 @@ Loads OpeningAir::step(const std::vector<Vec3>& positions, const ClothMotion& cl
     }
   }
   row.speed = memory.speed + length * memory.acceleration;
-  if (payload_) flow_->stream(row.speed, memory.acceleration);
+  if (payload_) flow_->stream({0, 0, row.speed}, {0, 0, memory.acceleration});
   const FlowStep step = flow_->step(length);
   std::vector<SheetLoad> loads = flow_->sheet_loads();
   for (SheetLoad& one : loads) {
@@ -122,7 +122,7 @@ Loads OpeningAir::step(const std::vector<Vec3>& positions, const ClothMotion& cl
   const Vec3 force = thicker * step.force;
   row.drag = force.z, row.side_x = force.x, row.side_y = force.y;
   row.drag_area = row.drag / (0.5 * density_ * thicker * row.speed * row.speed);
-  row.momentum_gap = step.momentum_gap, row.mass_defect = step.mass_defect;
+  row.momentum_gap = step.momentum_gap.z, row.mass_defect = step.mass_defect;
   row.remainder = remainder_share(load, cells_, positions);
   row.added_mass = memory.added_mass;
   memory.pressure = std::exchange(load.pressure, std::vector<double>(cells_.size(), 0.0));

@@ -35,7 +35,7 @@ double least_rows_in(const FlowProblem& flow) {
     const int n = axis == 0 ? flow.grid.nx : axis == 1 ? flow.grid.ny : flow.grid.nz;
     for (int c = 0; c < n; ++c) least = std::min(least, flow.grid.width(axis, c));
   }
-  return flow.air.speed / (longest_row_in_air * least);  // [1/s]
+  return flow.air.speed() / (longest_row_in_air * least);  // [1/s]
 }
 
 }  // namespace
@@ -96,7 +96,7 @@ InflationState Inflation::start() const {
   InflationState state;
   state.cloth = start_state(cloth());
   set_positions(state.cloth, cloth(), with_imperfection());
-  state.step = problem_.settings.step_fraction * step_bound(cloth_of(state), state.cloth).stable_step;
+  state.step = problem_.settings.step_fraction * stability_limit(cloth_of(state), state.cloth).stable_step;
   take_shots(state);
   if (air_) air_->weigh_air(positions(state.cloth, cloth()), state.air);
   return state;
@@ -156,9 +156,9 @@ std::vector<HistoryRow> Inflation::advance(InflationState& state, std::vector<Ai
     double stable = 0;
     try {
       std::vector<HistoryRow> rows = compute_block(next);
-      stable = step_bound(cloth_of(next), next.cloth).stable_step;
+      stable = stability_limit(cloth_of(next), next.cloth).stable_step;
       if (next.step <= stable) {
-        if (cut_what_is_due(next)) stable = step_bound(cloth_of(next), next.cloth).stable_step;
+        if (cut_what_is_due(next)) stable = stability_limit(cloth_of(next), next.cloth).stable_step;
         // Down with the bound at once, up only when it has risen clearly.
         if (fraction * stable < next.step || fraction * stable > 1.1 * next.step)
           next.step = fraction * stable;
@@ -259,7 +259,7 @@ std::vector<HistoryRow> Inflation::compute_block_in_air(InflationState& state,
 // Of a step of the air, were the last load to go on.
 ClothMotion Inflation::tentative_motion(const InflationState& state, double length) {
   const Cloth& with_line = cloth_of(state);
-  const double stable = problem_.settings.step_fraction * step_bound(with_line, state.cloth).stable_step;
+  const double stable = problem_.settings.step_fraction * stability_limit(with_line, state.cloth).stable_step;
   ClothMotion motion;
   motion.steps = static_cast<int>(std::ceil(length / stable));
   ClothState cloth = state.cloth;
@@ -276,7 +276,7 @@ void Inflation::step_in_air(InflationState& state, const Loads& loads, int rows,
                             std::vector<HistoryRow>& history) {
   const double fraction = problem_.settings.step_fraction;
   const long long first = state.blocks * rows_per_block_ + static_cast<long long>(history.size());
-  state.step = fraction * step_bound(cloth_of(state), state.cloth).stable_step;
+  state.step = fraction * stability_limit(cloth_of(state), state.cloth).stable_step;
   for (int tries = 1;; ++tries) {
     InflationState next = state;
     const int steps = static_cast<int>(std::ceil(row_ / next.step));
@@ -284,7 +284,7 @@ void Inflation::step_in_air(InflationState& state, const Loads& loads, int rows,
     double stable = 0;
     try {
       ripstop::step(next.cloth, cloth_of(next), loads, dt, steps * rows, team_, &next.record);
-      stable = step_bound(cloth_of(state), next.cloth).stable_step;
+      stable = stability_limit(cloth_of(state), next.cloth).stable_step;
     } catch (const Error& error) {
       if (error.code() != ExitCode::diverged || tries == most_tries) throw;
       stable = 0.5 * dt;
@@ -326,7 +326,7 @@ InflationFrame Inflation::frame(InflationState& state) const {
       frame.pressure_work + elastic_at_start_ - frame.kinetic - frame.elastic - frame.damped - frame.cut;
   frame.residual = frame.pressure_work > 0 ? left / frame.pressure_work : 0;
   frame.step = state.step;
-  frame.stable_step = step_bound(cloth_of(state), state.cloth).stable_step;
+  frame.stable_step = stability_limit(cloth_of(state), state.cloth).stable_step;
   frame.size = canopy_size(mesh_, x);
   frame.stress = stress_peak(mesh_, x, cell_stress(cloth(), state.cloth));
   frame.contact_depth = contact_report(cloth_of(state), state.cloth).deepest;

@@ -23,8 +23,8 @@ struct SteadyIteration {
   double printed_tolerance = 0;  // R dx^2 / (S0 K_max), what Eq. 19 asks of omega
   int cloth_steps = 0;
   double cloth_residual = 0;
-  double cloth_hold = 0;  // RelaxOptions::hold [Pa/m]; 0: the cloth found its equilibrium by itself
-  double cloth_held = 0;  // RelaxResult::held
+  double cloth_hold = 0;  // RelaxOptions::regularisation [Pa/m]; 0: the cloth found its equilibrium by itself
+  double cloth_held = 0;  // RelaxResult::regularisation_share
   int flow_iterations = 0;
   double flow_residual = 0;     // largest of all equations
   bool flow_converged = false;  // to Stopping::residual

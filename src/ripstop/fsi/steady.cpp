@@ -22,7 +22,7 @@ constexpr double settled = 5e-4;
 // is a mean over iterations that did not converge, to the momentum that the box loses: a wake that still
 // grows keeps some of it.
 constexpr double ledger_tolerance = 0.01;
-// Largest RelaxResult::held at convergence: half of what the staircase of the flow's cells leaves over in the load.
+// Largest RelaxResult::regularisation_share at convergence: half of what the staircase of the flow's cells leaves over in the load.
 constexpr double held_tolerance = 0.02;
 
 // A flow that does not come to rest, jets through slots, answers the same shape now so, now so. When after so many
@@ -118,7 +118,7 @@ SteadyState SteadySolver::start() const {
   SteadyState state;
   state.shape = problem_.mesh.start;
   const Freestream& air = problem_.flow.air;
-  state.pressure.assign(cells_.size(), 0.5 * air.density * air.speed * air.speed);
+  state.pressure.assign(cells_.size(), 0.5 * air.density * air.speed() * air.speed());
   state.accelerator.update = problem_.settings.acceleration;
   state.accelerator.relaxation = problem_.settings.relaxation;
   return state;
@@ -138,7 +138,7 @@ FlowField SteadySolver::solve_flow(const std::vector<Triangle>& surface, bool to
                                    const SteadyReport& report) {
   Stopping stopping = problem_.flow.stopping;
   if (!to_the_end) stopping.settled_drag = settled;
-  flow_->place(surface);
+  flow_->place(0, surface);
   return solve_to_rest(*flow_, stopping, [&](const FlowProgress& progress) {
     if (report) report({.stage = SteadyStage::flow, .iteration = iteration, .flow = progress});
     return true;
@@ -149,7 +149,7 @@ FlowField SteadySolver::watch_flow(const std::vector<Triangle>& surface, bool to
                                    SteadyIteration& now, const SteadyReport& report) {
   Watch how = *problem_.watch;
   if (!to_the_end) how.standard_error /= short_watch, how.shortest *= short_watch, how.longest *= short_watch;
-  flow_->place(surface);
+  flow_->place(0, surface);
   FlowField field = watch(*flow_, problem_.flow, how, record_, [&](const WatchProgress& progress) {
     if (report) report({.stage = SteadyStage::time, .iteration = now.iteration, .time = progress});
     return true;
@@ -179,7 +179,7 @@ FlowField SteadySolver::watch_flow(const std::vector<Triangle>& surface, bool to
 ClothLoad SteadySolver::answer_of(const FlowField& field, const std::vector<Triangle>& surface,
                                   const std::vector<int>& cut, const std::vector<Vec3>& shape,
                                   SteadyState& state, SteadyIteration& now) const {
-  const bool sheet = !problem_.flow.sheets.empty();
+  const bool sheet = problem_.flow.has_sheets();
   state.sides = sample_sides(field, sheet ? std::vector<int>{} : cut, cells_, shape);
   ClothLoad answer{state.sides.difference(), {}};
   if (problem_.settings.load == CanopyLoad::of_flow)
@@ -229,15 +229,16 @@ std::vector<Vec3> SteadySolver::next_shape(const SteadyState& state, SteadyItera
     cloth = cloth_state(state);
     return relax_on();
   };
-  if (!state.iterations.empty()) options.hold = state.iterations.back().cloth_hold;
+  if (!state.iterations.empty()) options.regularisation = state.iterations.back().cloth_hold;
   RelaxResult relaxed = relax_cloth();
   const double unit = pressure_per_width(state.pressure, area_);
-  while (has_shape && !relaxed.converged && options.hold < strongest_hold * unit) {
-    options.hold = std::max(first_hold * unit, stronger * options.hold);
+  while (has_shape && !relaxed.converged && options.regularisation < strongest_hold * unit) {
+    options.regularisation = std::max(first_hold * unit, stronger * options.regularisation);
     relaxed = relax_cloth();
   }
-  for (int n = 1;
-       n < steps_in_hold && state.in_time && relaxed.converged && relaxed.held > held_tolerance / 4; ++n) {
+  for (int n = 1; n < steps_in_hold && state.in_time && relaxed.converged &&
+                  relaxed.regularisation_share > held_tolerance / 4;
+       ++n) {
     const ClothState reached = cloth;
     if (const RelaxResult further = relax_on(); further.converged)
       relaxed = further;
@@ -251,8 +252,8 @@ std::vector<Vec3> SteadySolver::next_shape(const SteadyState& state, SteadyItera
                     "(wanted {:.1e}); a looser coupling.cloth_tolerance or a finer parachute.mesh may help",
                     now.iteration, relaxed.residual, now.cloth_steps, options.tolerance));
   }
-  now.cloth_hold = options.hold;
-  now.cloth_held = relaxed.held;
+  now.cloth_hold = options.regularisation;
+  now.cloth_held = relaxed.regularisation_share;
   now.cloth_residual = relaxed.residual;
   const std::vector<Vec3> shape = positions(cloth, *cloth_);
   double moved = 0, size = 0;
@@ -350,7 +351,7 @@ FlowField SteadySolver::iterate(SteadyState& state, const SteadyReport& report) 
   now.flow_averaged = field.average.iterations;
   now.drag_deviation = field.average.drag_deviation;
   now.fluid_force = field.porous_force.z;
-  now.momentum_deficit = field.momentum_deficit;
+  now.momentum_deficit = field.momentum_deficit.z;
   now.approach_speed = approach_speed(field, problem_.mesh, shape);
   now.drag_change = state.iterations.empty()
                         ? std::numeric_limits<double>::infinity()

@@ -58,9 +58,9 @@ PlotSeries seen_series(const Photogrammetry& result) {
 
 }  // namespace
 
-ComputedCanopy computed_canopy(const Case& given, const std::vector<Vec3>& shape) {
-  const CanopyMesh mesh = parachute_mesh(given);
-  return {given.title, "", canopy_profile(mesh, shape), image_sizes(mesh, shape)};
+ComputedCanopy computed_canopy(const Settings& resolved, const std::vector<Vec3>& shape) {
+  const CanopyMesh mesh = parachute_mesh(resolved);
+  return {resolved.title(), "", canopy_profile(mesh, shape), image_sizes(mesh, shape)};
 }
 
 ComputedCanopy computed_canopy(const std::filesystem::path& run) {

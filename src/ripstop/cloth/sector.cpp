@@ -1,4 +1,4 @@
-#include "ripstop/cloth/wedge.h"
+#include "ripstop/cloth/sector.h"
 
 #include <algorithm>
 #include <array>
@@ -34,34 +34,34 @@ class Search {
   }
 
   /// As many planes as there are: 2n images, mirrored at angles 0 and pi / n.
-  std::optional<Wedge> widest(const Loads& loads) {
+  std::optional<Sector> widest(const Loads& loads) {
     int columns = 0;
     for (const Patch& patch : mesh_.patches) columns = std::gcd(columns, patch.columns);
     for (int n = std::min(columns, most_images) / 2; n > 1; --n) {
       if (columns % (2 * n) != 0) continue;
-      if (std::optional<Wedge> wedge = wedge_between(n, loads)) return wedge;
+      if (std::optional<Sector> sector = sector_between(n, loads)) return sector;
     }
     return {};
   }
 
  private:
-  std::optional<Wedge> wedge_between(int n, const Loads& loads) {
+  std::optional<Sector> sector_between(int n, const Loads& loads) {
     n_ = n;
     planes_ = {Plane(0), Plane(std::numbers::pi / n)};
     for (const int plane : {0, 1})
       if (!find_mirrored(plane)) return {};
-    Wedge wedge;
-    wedge.images = 2 * n;
-    take_nodes(wedge);
-    if (!find_images(wedge)) return {};
-    for (const Patch& patch : mesh_.patches) wedge.mesh.patches.push_back(half_of(patch));
-    if (!take_springs(wedge.mesh) || !take_ties(wedge.mesh)) return {};
+    Sector sector;
+    sector.images = 2 * n;
+    take_nodes(sector);
+    if (!find_images(sector)) return {};
+    for (const Patch& patch : mesh_.patches) sector.mesh.patches.push_back(half_of(patch));
+    if (!take_springs(sector.mesh) || !take_ties(sector.mesh)) return {};
     for (const int node : mesh_.fixed)
-      if (own_[node] >= 0) wedge.mesh.fixed.push_back(own_[node]);
-    wedge.mesh.fabric_names = mesh_.fabric_names;
-    keep_plane_nodes(wedge);
-    take_pressures(wedge, loads);
-    return wedge;
+      if (own_[node] >= 0) sector.mesh.fixed.push_back(own_[node]);
+    sector.mesh.fabric_names = mesh_.fabric_names;
+    keep_plane_nodes(sector);
+    take_pressures(sector, loads);
+    return sector;
   }
 
   bool near(Vec3 a, Vec3 b) const { return norm(a - b) < same_place * size_; }
@@ -93,14 +93,14 @@ class Search {
     });
   }
 
-  void take_nodes(Wedge& wedge) {
+  void take_nodes(Sector& sector) {
     own_.assign(x_.size(), -1);
     node_.clear();
     const auto take = [&](int node) {
       own_[node] = static_cast<int>(node_.size());
       node_.push_back(node);
-      wedge.mesh.start.push_back(x_[node]);
-      wedge.mesh.mass.push_back(mesh_.mass[node]);
+      sector.mesh.start.push_back(x_[node]);
+      sector.mesh.mass.push_back(mesh_.mass[node]);
     };
     for (const Patch& patch : mesh_.patches)
       for (int row = 0; row < patch.rows; ++row)
@@ -114,15 +114,15 @@ class Search {
   bool on_axis(Vec3 x) const { return std::hypot(x.x, x.y) < same_place * size_; }
 
   /// By turns in one mirror and the other.
-  bool find_images(Wedge& wedge) {
-    wedge.image.assign(x_.size(), {});
-    sectors_.assign(x_.size(), {});
+  bool find_images(Sector& sector) {
+    sector.image.assign(x_.size(), {});
+    images_.assign(x_.size(), {});
     for (std::size_t own = 0; own < node_.size(); ++own) {
-      Wedge::Image image{static_cast<int>(own)};
+      Sector::Image image{static_cast<int>(own)};
       int node = node_[own];
       for (int k = 0; k < 2 * n_; ++k) {
-        if (wedge.image[node].node < 0) wedge.image[node] = image;
-        sectors_[node].set(k);
+        if (sector.image[node].node < 0) sector.image[node] = image;
+        images_[node].set(k);
         const int plane = k % 2 == 0 ? 1 : 0;
         const Plane& p = planes_[plane];
         const double c = p.cosine * p.cosine - p.sine * p.sine, s = 2 * p.cosine * p.sine;
@@ -131,8 +131,8 @@ class Search {
         node = mirrored_[plane][node];
       }
     }
-    return std::all_of(wedge.image.begin(), wedge.image.end(),
-                       [](const Wedge::Image& i) { return i.node >= 0; });
+    return std::all_of(sector.image.begin(), sector.image.end(),
+                       [](const Sector::Image& i) { return i.node >= 0; });
   }
 
   /// What lies in a plane belongs to both of its sides.
@@ -169,7 +169,7 @@ class Search {
     mesh.laws = mesh_.laws;
     mesh.parts = mesh_.parts;
     for (Spring spring : mesh_.springs) {
-      const bool inside = (sectors_[spring.a] & sectors_[spring.b]).any();
+      const bool inside = (images_[spring.a] & images_[spring.b]).any();
       if (!inside && !near(turned_half(x_[spring.a]), x_[spring.b])) return false;
       for (const auto& [a, b] : {std::pair{spring.a, spring.b}, std::pair{spring.b, spring.a}}) {
         if (own_[a] < 0 || (inside && own_[b] < 0)) continue;
@@ -206,8 +206,8 @@ class Search {
   }
 
   /// Nodes of the planes move in them. A spring without width has each of them stepped by itself, with its freedom.
-  void keep_plane_nodes(Wedge& wedge) const {
-    Mesh& mesh = wedge.mesh;
+  void keep_plane_nodes(Sector& sector) const {
+    Mesh& mesh = sector.mesh;
     std::vector<char> tied(mesh.start.size(), 0);
     for (const Tie& tie : mesh.ties) tied[tie.node] = 1;
     mesh.laws.push_back({{1}});
@@ -216,7 +216,7 @@ class Search {
     for (int node = 0; node < mesh.node_count(); ++node) {
       const bool first = lies_in(planes_[0], mesh.start[node]),
                  second = lies_in(planes_[1], mesh.start[node]);
-      Symmetric& free = wedge.freedom.emplace_back(Symmetric{1, 1, 1, 0, 0, 0});
+      Symmetric& free = sector.freedom.emplace_back(Symmetric{1, 1, 1, 0, 0, 0});
       if (!first && !second) continue;
       const Plane& plane = planes_[first ? 0 : 1];
       free = {plane.cosine * plane.cosine, plane.sine * plane.sine, 1, plane.cosine * plane.sine, 0, 0};
@@ -230,11 +230,11 @@ class Search {
     }
   }
 
-  void take_pressures(Wedge& wedge, const Loads& loads) const {
+  void take_pressures(Sector& sector, const Loads& loads) const {
     if (loads.cell_pressure.empty()) return;
     std::size_t first = 0;
     for (std::size_t p = 0; p < mesh_.patches.size(); ++p) {
-      const Patch &whole = mesh_.patches[p], &half = wedge.mesh.patches[p];
+      const Patch &whole = mesh_.patches[p], &half = sector.mesh.patches[p];
       const int cells = half.columns - 1, rows = static_cast<int>(whole.cell_area.size()) / whole.columns;
       for (int row = 0; row < rows; ++row) {
         std::vector<double> sum(half.columns, 0.0);
@@ -242,7 +242,7 @@ class Search {
           const int in = column % (2 * cells);
           sum[std::min(in, 2 * cells - 1 - in)] += loads.cell_pressure[first + row * whole.columns + column];
         }
-        for (const double s : sum) wedge.loads.cell_pressure.push_back(s / (2 * n_));
+        for (const double s : sum) sector.loads.cell_pressure.push_back(s / (2 * n_));
       }
       first += static_cast<std::size_t>(rows) * whole.columns;
     }
@@ -257,13 +257,13 @@ class Search {
   int n_ = 0;
   std::array<Plane, 2> planes_{Plane(0), Plane(0)};
   std::array<std::vector<int>, 2> mirrored_;
-  std::vector<int> own_, node_;                    // the wedge's number of a node, and back
-  std::vector<std::bitset<most_images>> sectors_;  // in which images a node lies
+  std::vector<int> own_, node_;                   // the sector's number of a node, and back
+  std::vector<std::bitset<most_images>> images_;  // in which images a node lies
 };
 
 }  // namespace
 
-std::vector<Vec3> Wedge::whole(const std::vector<Vec3>& positions) const {
+std::vector<Vec3> Sector::whole(const std::vector<Vec3>& positions) const {
   std::vector<Vec3> x;
   for (const Image& i : image) {
     const Vec3 p = positions[i.node];
@@ -272,7 +272,7 @@ std::vector<Vec3> Wedge::whole(const std::vector<Vec3>& positions) const {
   return x;
 }
 
-std::optional<Wedge> wedge_of(const Mesh& mesh, const std::vector<Vec3>& start, const Loads& loads) {
+std::optional<Sector> sector_of(const Mesh& mesh, const std::vector<Vec3>& start, const Loads& loads) {
   const bool closed = !mesh.patches.empty() && std::all_of(mesh.patches.begin(), mesh.patches.end(),
                                                            [](const Patch& patch) { return patch.periodic; });
   if (!closed || mesh.drawstring || !loads.node_force.empty()) return {};

@@ -1,6 +1,6 @@
-// A canopy's wedge: found where there is one, and all of the canopy in it. That it rests where the canopy does:
+// A canopy's sector: found where there is one, and all of the canopy in it. That it rests where the canopy does:
 // parachute/symmetry_test.cpp.
-#include "ripstop/cloth/wedge.h"
+#include "ripstop/cloth/sector.h"
 
 #include <gtest/gtest.h>
 
@@ -65,22 +65,22 @@ Loads even(const Mesh& mesh, double pressure) {
   return {std::vector<double>(mesh.cell_count(), pressure), {}};
 }
 
-TEST(Wedge, IsHalfAGoreWhoseImagesAreTheCanopy) {
+TEST(Sector, IsHalfAGoreWhoseImagesAreTheCanopy) {
   const Mesh mesh = canopy();
   Loads loads = even(mesh, 100);
   loads.cell_pressure[3 * columns_round + 1] +=
       columns_round;  // of one cell, in the second column of a half gore
-  const auto wedge = wedge_of(mesh, mesh.start, loads);
-  ASSERT_TRUE(wedge);
-  EXPECT_EQ(wedge->images, 2 * gores);
-  EXPECT_EQ(wedge->mesh.patches[0].columns, columns_round / gores / 2 + 1);
-  const std::vector<Vec3> again = wedge->whole(wedge->mesh.start);
+  const auto sector = sector_of(mesh, mesh.start, loads);
+  ASSERT_TRUE(sector);
+  EXPECT_EQ(sector->images, 2 * gores);
+  EXPECT_EQ(sector->mesh.patches[0].columns, columns_round / gores / 2 + 1);
+  const std::vector<Vec3> again = sector->whole(sector->mesh.start);
   ASSERT_EQ(again.size(), mesh.start.size());
   for (std::size_t i = 0; i < again.size(); ++i) EXPECT_LT(norm(again[i] - mesh.start[i]), 1e-14) << i;
-  double area = 0, of_wedge = 0;
+  double area = 0, of_sector = 0;
   for (const double a : mesh.patches[0].cell_area) area += a;
-  for (const double a : wedge->mesh.patches[0].cell_area) of_wedge += a;
-  EXPECT_NEAR(2 * gores * of_wedge, area, 1e-12);
+  for (const double a : sector->mesh.patches[0].cell_area) of_sector += a;
+  EXPECT_NEAR(2 * gores * of_sector, area, 1e-12);
   const auto stiffness = [](const Mesh& m) {  // of tape, lines and riser
     double sum = 0;
     for (const Spring& spring : m.springs) sum += spring.scale / spring.rest_length;
@@ -88,15 +88,15 @@ TEST(Wedge, IsHalfAGoreWhoseImagesAreTheCanopy) {
   };
   // A line across the vent is two halves, each twice as stiff.
   const double across = gores / 2 / 0.1;
-  EXPECT_NEAR(2 * gores * stiffness(wedge->mesh), stiffness(mesh) + 3 * across, 1e-9);
-  EXPECT_NEAR(wedge->loads.cell_pressure[3 * wedge->mesh.patches[0].columns + 1],
+  EXPECT_NEAR(2 * gores * stiffness(sector->mesh), stiffness(mesh) + 3 * across, 1e-9);
+  EXPECT_NEAR(sector->loads.cell_pressure[3 * sector->mesh.patches[0].columns + 1],
               100 + columns_round / (2.0 * gores), 1e-12);
 }
 
-TEST(Wedge, IsAsWideAsTheSpringsAreAlike) {
+TEST(Sector, IsAsWideAsTheSpringsAreAlike) {
   const auto images = [](const Mesh& mesh) {
-    const auto wedge = wedge_of(mesh, mesh.start, even(mesh, 100));
-    return wedge ? wedge->images : 0;
+    const auto sector = sector_of(mesh, mesh.start, even(mesh, 100));
+    return sector ? sector->images : 0;
   };
   Mesh mesh = canopy();
   const int every_second = columns_round / gores * 2;
@@ -114,7 +114,7 @@ TEST(Wedge, IsAsWideAsTheSpringsAreAlike) {
   mesh.start.back().x += 1e-4;
   EXPECT_EQ(images(mesh), 0);
   mesh = canopy();
-  EXPECT_FALSE(wedge_of(mesh, mesh.start, {{}, std::vector<Vec3>(mesh.node_count())}));
+  EXPECT_FALSE(sector_of(mesh, mesh.start, {{}, std::vector<Vec3>(mesh.node_count())}));
   mesh = rectangle(5, 9, 0.02);
   for (Vec3& x : mesh.start) x -= Vec3{0.08, 0.04, 0};
   EXPECT_EQ(images(mesh), 0);

@@ -1,4 +1,4 @@
-#include "ripstop/cloth/bound.h"
+#include "ripstop/cloth/stability_limit.h"
 
 #include <fmt/format.h>
 
@@ -172,11 +172,11 @@ NodeStiffness node_stiffness(const Cloth& cloth, const ClothState& state) {
 // roots of every mode of semi-implicit Euler inside the unit circle. The pressure's own stiffness is left out: a few
 // hundred pascal against 1e4 N/m over a cell of millimetres. Contacts act in kicks of their own length, which is a step
 // at least.
-StepBound step_bound(const Cloth& cloth, const ClothState& state) {
-  return step_bound(cloth, state, node_stiffness(cloth, state));
+StabilityLimit stability_limit(const Cloth& cloth, const ClothState& state) {
+  return stability_limit(cloth, state, node_stiffness(cloth, state));
 }
 
-StepBound step_bound(const Cloth& cloth, const ClothState& state, const NodeStiffness& node) {
+StabilityLimit stability_limit(const Cloth& cloth, const ClothState& state, const NodeStiffness& node) {
   const Mesh& mesh = cloth.mesh;
   const int count = mesh.node_count();
   std::vector<double> rho(count, 0.0), rate(count, 0.0), area = cloth.area;
@@ -203,22 +203,22 @@ StepBound step_bound(const Cloth& cloth, const ClothState& state, const NodeStif
     if (!cloth.is_tied[i] && !cloth.is_fixed[i])
       absolute = std::max(absolute, per_area * area[i] / cloth.total_mass[i]);
 
-  StepBound bound;
-  bound.stable_step = bound.printed_step = std::numeric_limits<double>::infinity();
+  StabilityLimit limit;
+  limit.stable_step = limit.printed_step = std::numeric_limits<double>::infinity();
   // The positive root of omega^2 dt^2 + 2 c dt - 4, in the form that does not cancel; whether it is the least yet.
   const auto allow = [&](double omega2, double c) {
     if (!(omega2 > 0 || c > 0)) return false;
     const double step = 4 / (c + std::sqrt(c * c + 4 * omega2));
-    if (step >= bound.stable_step) return false;
-    bound.stable_step = step;
+    if (step >= limit.stable_step) return false;
+    limit.stable_step = step;
     return true;
   };
   const auto look_at = [&](int a, int b) {
     const double omega2 = rho[a] + rho[b] + std::max(string_rho[a], string_rho[b]);
     const double c = rate[a] + rate[b] + std::max(string_rate[a], string_rate[b]) + absolute;
     if (!allow(omega2, c)) return;
-    const double step = bound.stable_step;
-    bound.node = rho[a] + rate[a] / step > rho[b] + rate[b] / step ? a : b;
+    const double step = limit.stable_step;
+    limit.node = rho[a] + rate[a] / step > rho[b] + rate[b] / step ? a : b;
   };
   const auto with_masters = [&](int end, const auto& visit) {
     if (tie_of[end] < 0) return visit(end);
@@ -231,13 +231,13 @@ StepBound step_bound(const Cloth& cloth, const ClothState& state, const NodeStif
                                  cloth.total_mass[s.b] > 0 ? cloth.total_mass[s.b] : mesh.mass[s.b]);
     const double stiffness = s.scale * s.law->tangent(0) / s.rest_length;
     if (stiffness > 0 && mass > 0)
-      bound.printed_step = std::min(bound.printed_step, std::sqrt(mass / stiffness));
+      limit.printed_step = std::min(limit.printed_step, std::sqrt(mass / stiffness));
   });
   for (int i = 0; i < count; ++i)  // rings that nothing else holds
-    if (string_rho[i] > 0 && allow(string_rho[i], string_rate[i] + absolute)) bound.node = i;
-  if (bound.node >= 0) bound.part = place_of(mesh, bound.node);
-  if (cloth.contact && allow(std::pow(2 * cloth.contact->fastest, 2), 0)) bound.part = "contact of cloth";
-  return bound;
+    if (string_rho[i] > 0 && allow(string_rho[i], string_rate[i] + absolute)) limit.node = i;
+  if (limit.node >= 0) limit.part = place_of(mesh, limit.node);
+  if (cloth.contact && allow(std::pow(2 * cloth.contact->fastest, 2), 0)) limit.part = "contact of cloth";
+  return limit;
 }
 
 void check_health(const Cloth& cloth, const ClothState& state) {

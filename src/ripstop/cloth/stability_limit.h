@@ -29,7 +29,7 @@ struct StringShares {
 StringShares string_shares(const Cloth& cloth, const ClothState& state);
 
 /// lambda_max of the diagonal block of the tangent stiffness, by node [N/m], tied nodes' handed to their
-/// masters; likewise of the relative damping [N s/m]. See step_bound.
+/// masters; likewise of the relative damping [N s/m]. See stability_limit.
 struct NodeStiffness {
   std::vector<double> stiffness, damping;
   StringShares string;
@@ -37,8 +37,8 @@ struct NodeStiffness {
   int stretched_node = -1;
 };
 NodeStiffness node_stiffness(const Cloth& cloth, const ClothState& state);
-/// As step_bound(cloth, state), whose node_stiffness() is known.
-StepBound step_bound(const Cloth& cloth, const ClothState& state, const NodeStiffness& node);
+/// As stability_limit(cloth, state), whose node_stiffness() is known.
+StabilityLimit stability_limit(const Cloth& cloth, const ClothState& state, const NodeStiffness& node);
 
 /// Pressure and point forces over the free nodes, tied nodes' handed on.
 struct AppliedLoad {

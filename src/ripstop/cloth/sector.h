@@ -5,16 +5,16 @@
 #include <optional>
 #include <vector>
 
-#include "ripstop/cloth/bound.h"
+#include "ripstop/cloth/stability_limit.h"
 
 namespace ripstop {
 
-struct Wedge {
+struct Sector {
   Mesh mesh;  // starts where the canopy does
   Loads loads;
   int images = 1;                  // that make up the canopy
   std::vector<Symmetric> freedom;  // by node: projection on the directions that the planes leave it
-  /// Of every node of the canopy: the wedge's node that it is an image of, and the map of x and y.
+  /// Of every node of the canopy: the sector's node that it is an image of, and the map of x and y.
   struct Image {
     int node = -1;
     double xx = 1, xy = 0, yx = 0, yy = 1;
@@ -28,6 +28,6 @@ struct Wedge {
 /// with patches that do not close about the axis, a drawstring or forces on nodes. Pressures are taken in the mean over
 /// the images of a cell. Springs of the lattice that cross a plane between nodes (those to the next node but one) are
 /// left out.
-std::optional<Wedge> wedge_of(const Mesh& mesh, const std::vector<Vec3>& start, const Loads& loads);
+std::optional<Sector> sector_of(const Mesh& mesh, const std::vector<Vec3>& start, const Loads& loads);
 
 }  // namespace ripstop
