@@ -9,6 +9,7 @@
 
 #include "ripstop/core/checked_int.h"
 #include "ripstop/core/error.h"
+#include "ripstop/core/quantity_error.h"
 #include "ripstop/fsi/folded_start.h"
 #include "ripstop/fsi/summary.h"
 
@@ -98,8 +99,8 @@ void damp_springs(Mesh& mesh, double line_time, double cloth_time) {
 Inflation::Inflation(InflationProblem problem) : problem_(std::move(problem)), team_(problem_.threads) {
   const InflationSettings& s = problem_.settings;
   if (!s.initial_radius_m) {
-    throw Error(ExitCode::usage,
-                "inflation.initial_radius_m is not given: the radius of the folded skirt, for example 0.1");
+    throw QuantityError(ExitCode::usage, "radius of the folded skirt is not given: for example 0.1 m",
+                        {"radius of the folded skirt"});
   }
   if (std::vector<double>& shown = problem_.settings.sheet_s; shown.empty()) {
     shown = {0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 1};
@@ -163,11 +164,13 @@ void Inflation::add_reefing_lines(const ClothOptions& options) {
   set_positions(folded, *cloths_.front(), folded_.positions);
   const double needed = drawn_length(*cloths_.front(), folded), length = problem_.reefing.front().length;
   if (needed > length)
-    throw Error(
+    throw QuantityError(
         ExitCode::usage,
-        fmt::format("inflation.reefing[0].line_m = {:g}: the folded skirt is {:.4g} m round, more than its "
-                    "reefing line; a smaller inflation.initial_radius_m fits into it",
-                    length, needed));
+        fmt::format(
+            "length of the first reefing line = {:g}: the folded skirt is {:.4g} m round, more than its "
+            "reefing line; a smaller radius of the folded skirt fits into it",
+            length, needed),
+        {"length of the first reefing line", "radius of the folded skirt"});
 }
 
 // The energy of the line goes with it.
@@ -278,10 +281,12 @@ std::vector<HistoryRow> Inflation::compute_block_in_air(InflationState& state,
     const int left = rows_per_block_ - static_cast<int>(history.size());
     const double longest = air_->longest_step();
     if (!(longest > shortest_step_in_air * row_))
-      throw Error(ExitCode::diverged,
-                  fmt::format("at {:.6g} s the air would need steps of {:.3g} s: it has diverged; a smaller "
-                              "inflation.courant or a finer grid (flow.cells) may help",
-                              state.cloth.time, longest));
+      throw QuantityError(
+          ExitCode::diverged,
+          fmt::format("at {:.6g} s the air would need steps of {:.3g} s: it has diverged; a smaller Courant "
+                      "number of the flow or a finer flow grid may help",
+                      state.cloth.time, longest),
+          {"Courant number of the flow", "flow grid"});
     const int steps = steps_in(left * row_, longest, state.cloth.time);
     const int rows = std::max(1, left / steps);
     AirRow row;

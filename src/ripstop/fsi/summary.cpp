@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "ripstop/core/error.h"
+#include "ripstop/core/quantity_error.h"
 
 namespace ripstop {
 namespace {
@@ -71,10 +72,13 @@ double mean_between(const std::vector<Row>& rows, double from, double to, double
 
 std::vector<double> low_pass(const std::vector<double>& values, double interval, double cutoff_hz) {
   if (!(cutoff_hz > 0 && cutoff_hz * interval < 0.5)) {
-    throw Error(ExitCode::usage,
-                fmt::format("inflation.low_pass_hz = {}: must be above 0 and below half the rate of the "
-                            "history, {:.6g} Hz; raise inflation.history_hz",
-                            cutoff_hz, 0.5 / interval));
+    throw QuantityError(
+        ExitCode::usage,
+        fmt::format(
+            "low-pass cutoff = {}: must be above 0 and below half the rate of the history, {:.6g} Hz; "
+            "raise the history rate",
+            cutoff_hz, 0.5 / interval),
+        {"low-pass cutoff", "the history rate"});
   }
   if (values.empty()) return {};
   const double k = std::tan(std::numbers::pi * cutoff_hz * interval);
