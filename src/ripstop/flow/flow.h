@@ -11,10 +11,10 @@
 #include <variant>
 #include <vector>
 
+#include "ripstop/core/pressure_drop.h"
 #include "ripstop/core/vec3.h"
 #include "ripstop/flow/flow_grid.h"
 #include "ripstop/flow/jet.h"
-#include "ripstop/material/permeability.h"
 
 namespace ripstop {
 
