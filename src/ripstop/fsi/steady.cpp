@@ -23,7 +23,8 @@ constexpr double settled = 5e-4;
 // is a mean over iterations that did not converge, to the momentum that the box loses: a wake that still
 // grows keeps some of it.
 constexpr double ledger_tolerance = 0.01;
-// Largest RelaxResult::regularisation_share at convergence: half of what the staircase of the flow's cells leaves over in the load.
+// Largest RelaxResult::regularisation_share at convergence: half of what the staircase of the flow's cells leaves over
+// in the load.
 constexpr double held_tolerance = 0.02;
 
 // A flow that does not come to rest, jets through slots, answers the same shape now so, now so. When after so many

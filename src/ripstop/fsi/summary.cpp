@@ -32,8 +32,9 @@ std::vector<double> butterworth(const std::vector<double>& x, double k) {
 // The beginning of the first window after which no window's root mean square deviation leaves the band.
 std::optional<double> settling_time(const std::vector<double>& load, double steady, double interval,
                                     double window_time) {
-  const auto window = static_cast<std::size_t>(std::lround(window_time / interval));
-  if (window == 0 || window > load.size()) return {};
+  const double rows = std::round(window_time / interval);
+  if (!(rows >= 1 && rows <= static_cast<double>(load.size()))) return {};
+  const auto window = static_cast<std::size_t>(rows);
   std::vector<double> before(load.size() + 1, 0.0);
   for (std::size_t i = 0; i < load.size(); ++i) before[i + 1] = before[i] + std::pow(load[i] / steady - 1, 2);
   std::size_t begin = load.size() - window + 1;
