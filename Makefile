@@ -16,9 +16,11 @@ WHEEL_PACKAGES := python3-pip python3-setuptools python3-wheel
 CHECK_PACKAGES := libgtest-dev libbenchmark-dev python3 python3-jsonschema python3-vtk9 python3-venv clang-format chromium \
   $(PYTHON_PACKAGES) $(WHEEL_PACKAGES)
 
+DOCS_PACKAGES := mkdocs-material libjs-katex fonts-katex doxygen
+
 export PATH := /usr/bin:$(PATH)
 
-.PHONY: help deps check-deps build demo check room sanitize sanitize-thread fuzz mutants coverage tidy bench validate validate-ojf validate-families validate-families-in-time validate-openings judge torture test-slurm test-hosts scaling report-libraries format format-check install-build install wheel package clean
+.PHONY: help deps check-deps build demo check room sanitize sanitize-thread fuzz mutants coverage tidy bench validate validate-ojf validate-families validate-families-in-time validate-openings judge torture test-slurm test-hosts scaling docs reference report-libraries format format-check install-build install wheel package clean
 
 help:  ## This list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -94,6 +96,7 @@ bench: check-deps  ## Benchmarks, some four hours; their figures stand in docs/t
 	@build-check/bench/bench_bodies in-time 25 all des | tee docs/tables/bodies-in-time-fine.md
 	@build-check/bench/bench_bodies places 16 | tee docs/tables/bodies-places.md
 	@build-check/bench/bench_bodies openfoam 8 | tee docs/tables/bodies-openfoam.md
+	@build-check/bench/bench_turned 8 16 24 | tee docs/tables/turned.md
 	@build-check/bench/bench_sheet 28 4 | tee docs/tables/sheet-shifts.md
 	@build-check/bench/bench_cloth
 	@build-check/bench/bench_relaxation | tee docs/tables/relaxation.md
@@ -145,6 +148,15 @@ test-hosts: build  ## OpenFOAM's ranks on two hosts, network namespaces of this 
 
 scaling: build  ## OpenFOAM's time an iteration on 1, 2, 4 ... ranks up to the cores, into docs/tables; on an idle machine
 	@/usr/bin/python3 validation/cluster/ranks.py --ripstop build/bin/ripstop
+
+docs:  ## The documentation as one site for a browser, in build-docs/site: pages, search, C++ interface; its links are checked
+	$(call install_missing,$(DOCS_PACKAGES))
+	@/usr/bin/python3 -B docs/site/build.py
+
+reference: check-deps  ## Write the generated pages of docs/reference: keys, commands, Python package
+	@cmake --preset release > build-check.configure.log || { cat build-check.configure.log; exit 1; }
+	@cmake --build --preset release -j $(JOBS) --target ripstop_program ripstop_python
+	@/usr/bin/python3 docs/site/reference.py --program build-check/bin/ripstop --stub build-check/python/ripstop/_ripstop.pyi
 
 report-libraries:  ## Make the report's three.js and uPlot again from npm, as package-lock.json pins them (needs node)
 	@cd src/ripstop/report/vendor && npm ci --silent && npm run --silent build && rm -rf node_modules

@@ -209,8 +209,8 @@ TEST_F(FittedMeshFailure, AMeshThatLeftTheClothOutIsRefused) {
 
 TEST_F(OpenFoamFailure, NumbersOutOfRangeAreNamedAndNothingIsWritten) {
   solver("exit 0");
-  problem_.air.velocity = {0, 0, -3};
-  EXPECT_PRED2(says, message(ExitCode::usage), "air speed is -3");
+  problem_.air.velocity = {};
+  EXPECT_PRED2(says, message(ExitCode::usage), "the speed = 0 m/s");
   problem_.air.velocity = {0, 0, NAN};
   message(ExitCode::usage);
   problem_.air.velocity = {0, 0, 10};

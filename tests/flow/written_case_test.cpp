@@ -123,6 +123,20 @@ TEST_F(WrittenFiles, UniformFieldsAreThoseOfTheStreamOnAllFaces) {
   }
 }
 
+TEST_F(WrittenFiles, AFarFieldIsOpenFoamsFreestreamOnAllSixFaces) {
+  problem.air.velocity = {3, 0, 4};
+  write_fields(folder.path / "0", problem, true);
+  const std::string velocity = read_file(folder.path / "0/U"), pressure = read_file(folder.path / "0/p"),
+                    k = read_file(folder.path / "0/k");
+  for (const char* face : {"inlet", "outlet", "sides"}) {
+    const std::string at = face;
+    EXPECT_TRUE(
+        has(velocity, (at + " { type freestreamVelocity; freestreamValue uniform (3 0 4); }").c_str()));
+    EXPECT_TRUE(has(pressure, (at + " { type freestreamPressure; freestreamValue uniform 0; }").c_str()));
+    EXPECT_TRUE(has(k, (at + " { type inletOutlet; inletValue uniform").c_str()));
+  }
+}
+
 TEST_F(WrittenFiles, ControlHasItsLastIterationAndTheForcesOfPorousCells) {
   write_control(folder.path, problem, false, {120, 30});
   std::string control = body("system/controlDict");
@@ -299,7 +313,9 @@ TEST_F(WrittenFiles, ANumberOutOfItsRangeIsNamedWithTheRange) {
       {[](FlowProblem& p) {
          p.air.velocity = {0, 0, 151};
        },
-       "flow: air speed is 151 m/s (subsonic: Mach below 0.45); it must lie in [0.001, 150]"},
+       "free stream: the speed = 151 m/s must be above 0 and at most 100.6 m/s, Mach 0.3 at 280 K; give "
+       "another "
+       "velocity, or the temperature that belongs to it"},
       {[](FlowProblem& p) { p.air.density = 101; },
        "flow: air density is 101 kg/m3; it must lie in [0.0001, 100]"},
       {[](FlowProblem& p) { p.air.viscosity = 2; }, "flow: viscosity is 2 Pa s; it must lie in [1e-07, 1]"},

@@ -84,11 +84,11 @@ void describe_space(Fields& fields, FlowKeys& flow) {
       .absent(by_model(fmt::format("half the length of the box, at most {:g} d", sheet_skirt),
                        "half the length of the box"));
   fields
-      .choice(
-          "porosity_model", flow.porosity_model,
-          {{"paper", PorosityModel::paper}, {"sheet", PorosityModel::sheet}},
-          "\"paper\": the cloth's darcy and forchheimer as resistance of every cell that the canopy cuts; "
-          "\"sheet\": as the pressure drop a v + b v|v| across the cloth, whatever the cells.")
+      .choice("porosity_model", flow.porosity_model,
+              {{"paper", PorosityModel::paper}, {"sheet", PorosityModel::sheet}},
+              "\"paper\": the cloth's darcy_1_m2 and forchheimer_1_m as resistance of every cell that the "
+              "canopy cuts; "
+              "\"sheet\": as the pressure drop a v + b v|v| across the cloth, whatever the cells.")
       .absent("what the canopy cloth's coefficients are for");
 }
 
@@ -242,6 +242,12 @@ void describe(Fields& fields, FlowKeys& flow) {
                 "At the inlet (assumed).");
   fields.number("viscosity_ratio", flow.viscosity_ratio, above(0).up_to(1e5),
                 "Eddy viscosity over viscosity at the inlet (assumed).");
+  fields.number("angle_of_attack_deg", flow.angle_of_attack_deg, from(0).up_to(90),
+                "Angle between the stream and the z axis. Only the flow problem of the library takes one "
+                "above 0; steady "
+                "runs and openings hold the canopy on the axis of the stream.");
+  fields.number("azimuth_deg", flow.azimuth_deg, from(-360).up_to(360),
+                "Of the plane of this angle: from the x axis towards the y axis.");
   describe_space(fields, flow);
   fields.table("tunnel", flow.tunnel, "What the air comes out of; docs/guide/tunnel.md.");
   describe_numerics(fields, flow);

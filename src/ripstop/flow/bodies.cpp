@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "ripstop/flow/projections.h"
+
 namespace ripstop {
 namespace {
 
@@ -51,6 +53,12 @@ std::vector<Triangle> hemispherical_cup(double diameter, Vec3 centre) {
     outline.push_back({n == arcs ? 0 : diameter / 2 * std::cos(angle), diameter / 2 * std::sin(angle)});
   }
   return revolve(outline, centre, segments);
+}
+
+std::vector<Triangle> turned(std::vector<Triangle> surface, Vec3 axis) {
+  for (Triangle& t : surface)
+    for (Vec3* p : {&t.a, &t.b, &t.c}) *p = turned(*p, axis);
+  return surface;
 }
 
 std::vector<Triangle> rigid_disk_gap_band(Vec3 centre) {

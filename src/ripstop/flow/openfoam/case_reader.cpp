@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
 
 #include "ripstop/core/error.h"
+#include "ripstop/flow/boundaries.h"
 #include "ripstop/flow/openfoam/case_writer.h"
 
 namespace ripstop::openfoam {
@@ -129,8 +131,10 @@ FlowField read_case(const std::vector<MeshPart>& parts, const std::string& time,
   // Incompressible: p [m2/s2] is 0 at the outlet, phi is in m3/s, and there is no field of the density.
   const double unit = incompressible ? problem.air.density : 1;
   const double outlet = incompressible ? 0 : outlet_pressure(problem.air);
+  const bool far = sides_of(problem) == Sides::far_field;
   FlowField field;
   field.grid = grid;
+  if (far) field.momentum_deficit = {NAN, NAN, NAN};  // not summed over faces of all directions
   field.bodies.resize(problem.bodies.size());
   field.pressure.resize(static_cast<std::size_t>(grid.cells()));
   field.velocity.resize(field.pressure.size());
@@ -168,7 +172,8 @@ FlowField read_case(const std::vector<MeshPart>& parts, const std::string& time,
       field.pressure[cell] = gauge(nearest);
       field.velocity[cell] = moves(nearest);
     }
-    field.momentum_deficit.z += outflow_of_momentum(part, phi, unit, velocity, field.pressure, problem);
+    if (!far)
+      field.momentum_deficit.z += outflow_of_momentum(part, phi, unit, velocity, field.pressure, problem);
   }
   check_range(field, incompressible ? INFINITY : outlet);
   return field;

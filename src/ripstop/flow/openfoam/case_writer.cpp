@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "ripstop/core/error.h"
+#include "ripstop/flow/boundaries.h"
 #include "ripstop/flow/openfoam/foam_file.h"
 #include "ripstop/flow/openfoam/installation.h"
 #include "ripstop/flow/openfoam/openfoam.h"
@@ -49,6 +50,11 @@ std::string carried(const std::string& value, const std::string& back_flow, cons
   return boundary(fmt::format("type fixedValue; value uniform {};", value),
                   fmt::format("type inletOutlet; inletValue uniform {}; value uniform {};", back_flow, value),
                   sides);
+}
+
+/// A far field on all six faces.
+std::string everywhere(const std::string& condition) {
+  return boundary(condition, condition, condition);
 }
 
 /// blockMesh's grading of one axis: parts of the length, of the cells, and last over first width.
@@ -274,13 +280,13 @@ void write_readme(const fs::path& folder, const FlowProblem& problem, const Open
                                              : fmt::format("    {}\n", solver);
   std::ofstream readme(folder / kReadme);
   const bool sheets = problem.has_sheets();
-  readme << fmt::format(kReadmeText, sheets ? "sheets" : "porous cells", grid.nx, grid.ny, grid.nz,
-                        problem.air.density, problem.air.speed(),
-                        problem.sides == Sides::slip ? "slip" : "open", kStopFile,
-                        sheets ? "" : "    blockMesh\n    cp constant/cellZones constant/polyMesh/\n", run,
-                        !sheets                ? kOfPorousCells
-                        : settings.fitted_mesh ? kOfFittedMesh
-                                               : kOfSheets);
+  readme << fmt::format(
+      kReadmeText, sheets ? "sheets" : "porous cells", grid.nx, grid.ny, grid.nz, problem.air.density,
+      problem.air.speed(), sides_of(problem) == Sides::zero_gradient ? "open" : sides_of(problem).word,
+      kStopFile, sheets ? "" : "    blockMesh\n    cp constant/cellZones constant/polyMesh/\n", run,
+      !sheets                ? kOfPorousCells
+      : settings.fitted_mesh ? kOfFittedMesh
+                             : kOfSheets);
   close_written(readme, folder / kReadme);
 }
 
@@ -307,10 +313,11 @@ void check(const FlowProblem& problem) {
     if (has) throw Error(ExitCode::usage, fmt::format("{} needs flow.engine = \"builtin\"", what));
   };
   refuse(problem.jet.has_value(), "flow.tunnel.kind = \"open-jet\"");
-  refuse(problem.sides != Sides::zero_gradient && problem.sides != Sides::slip,
-         fmt::format("flow.sides = \"{}\"", problem.sides.word));
-  refuse(problem.outlet != Outlet::fixed_pressure, fmt::format("flow.outlet = \"{}\"", problem.outlet.word));
-  refuse(!problem.air.along_z(), "a stream that is not along +z");
+  const Sides sides = sides_of(problem);
+  refuse(sides != Sides::zero_gradient && sides != Sides::slip && sides != Sides::far_field,
+         fmt::format("flow.sides = \"{}\"", sides.word));
+  refuse(sides != Sides::far_field && problem.outlet != Outlet::fixed_pressure,
+         fmt::format("flow.outlet = \"{}\"", problem.outlet.word));
   refuse(!problem.body_force.empty(), "a force on the air");
   const FlowGrid& grid = problem.grid;
   for (const int n : {grid.nx, grid.ny, grid.nz}) range("number of cells along an axis", n, 1, 4000, "");
@@ -319,12 +326,13 @@ void check(const FlowProblem& problem) {
   for (const double o : {grid.origin.x, grid.origin.y, grid.origin.z})
     range("corner of the box", o, -1e6, 1e6, "m");
   const Freestream& air = problem.air;
-  range("air speed", air.speed(), 1e-3, 150, "m/s (subsonic: Mach below 0.45)");
   range("air density", air.density, 1e-4, 100, "kg/m3");
   range("viscosity", air.viscosity, 1e-7, 1, "Pa s");
   range("air temperature", air.temperature, 100, 2000, "K");
+  check_stream(air);
   range("turbulence intensity", air.turbulence_intensity, 1e-6, 1, "");
   range("viscosity ratio", air.viscosity_ratio, 1e-6, 1e6, "");
+  check_bodies(problem);
   std::vector<char> taken(static_cast<std::size_t>(grid.cells()), 0);
   for (const FlowBody& body : problem.bodies) {
     if (body.is_sheet()) continue;
@@ -390,11 +398,18 @@ void write_fields(const fs::path& folder, const FlowProblem& problem, bool incom
                     inner.empty() ? "uniform " + uniform : inner, faces, cloth ? cloth(name) : "");
     write_dictionary(folder / name, kind, body, cells ? "binary" : "ascii");
   };
+  // OpenFOAM's far field: between given velocity and given pressure by the cosine of velocity and face.
+  const bool far = sides_of(problem) == Sides::far_field;
   write("p", "volScalarField", incompressible ? "0 2 -2 0" : "1 -1 -2 0", p,
-        boundary("type zeroGradient;", fmt::format("type fixedValue; value uniform {};", p), open));
-  write("U", "volVectorField", "0 1 -1 0", velocity, carried(velocity, "(0 0 0)", open));
+        far ? everywhere(fmt::format("type freestreamPressure; freestreamValue uniform {};", p))
+            : boundary("type zeroGradient;", fmt::format("type fixedValue; value uniform {};", p), open));
+  write("U", "volVectorField", "0 1 -1 0", velocity,
+        far ? everywhere(fmt::format("type freestreamVelocity; freestreamValue uniform {};", velocity))
+            : carried(velocity, "(0 0 0)", open));
   const auto write_carried = [&](const char* name, const char* dimensions, const std::string& value) {
-    write(name, "volScalarField", dimensions, value, carried(value, value, open));
+    write(name, "volScalarField", dimensions, value,
+          far ? everywhere(fmt::format("type inletOutlet; inletValue uniform {0}; value uniform {0};", value))
+              : carried(value, value, open));
   };
   write_carried("k", "0 2 -2 0", number(k));
   write_carried("omega", "0 0 -1 0", number(omega));

@@ -350,7 +350,7 @@ std::vector<Baffle> baffles_on(int number, const FlowBody& sheet, const MeshPart
     const auto [triangle, point] = nearest.to(geometry.centre(face));
     const Triangle& t = sheet.surface[triangle];
     Layer layer;
-    layer.sheet = number, layer.triangle = triangle, layer.point = point;
+    layer.body = number, layer.triangle = triangle, layer.point = point;
     layer.against = dot(cross(t.b - t.a, t.c - t.a), baffle.area) < 0;
     layer.area = norm(baffle.area);
     layer.outward = (layer.against ? -1 : 1) / layer.area * baffle.area;
