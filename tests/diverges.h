@@ -7,7 +7,7 @@
 
 #include "ripstop/core/error.h"
 
-namespace ripstop::testing {
+namespace ripstop {
 
 /// The message of the Error(diverged) that work() throws.
 template <class Work>
@@ -26,4 +26,4 @@ inline bool says(const std::string& message, const std::string& part) {
   return message.find(part) != std::string::npos;
 }
 
-}  // namespace ripstop::testing
+}  // namespace ripstop
