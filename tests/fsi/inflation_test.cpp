@@ -59,7 +59,6 @@ TEST(Inflation, TheFoldedStateAtRestStaysAtRest) {
 }
 
 TEST(Inflation, ALossOfStabilityIsAnErrorThatNamesTimeAndNode) {
-  using testing::divergence, testing::says;
   Inflation solver(small_problem(500, 5e-3));
   InflationState begun = solver.start();
   solver.advance(begun);
@@ -84,10 +83,8 @@ TEST(Inflation, AStableStepBelowThatOfAnyWholeClothIsAnErrorThatNamesTheNode) {
   for (SpringLaw& law : problem.mesh.laws)
     for (double& coefficient : law.coefficients) coefficient *= 1e14;
   const Inflation solver(problem);
-  const std::string message = testing::divergence([&] { solver.start(); });
-  EXPECT_TRUE(testing::says(message, "t = 0 s") && testing::says(message, "at node ") &&
-              testing::says(message, "may help"))
-      << message;
+  const std::string message = divergence([&] { solver.start(); });
+  EXPECT_TRUE(says(message, "t = 0 s") && says(message, "at node ") && says(message, "may help")) << message;
 }
 
 // A block may end by rounding before the instant that it stands for.
