@@ -56,8 +56,8 @@ SteadyProblem steady_problem(const Case& given) {
                         resolve(given).coupling, std::nullopt};
   if (given.flow.unsteady) {
     const WatchKeys& keys = given.flow.watch;
-    problem.watch = {keys.courant, keys.standard_error, keys.shortest, keys.longest,
-                     inflated_diameter(given.parachute)};
+    problem.averaging_window = {keys.courant, keys.standard_error, keys.shortest, keys.longest,
+                                inflated_diameter(given.parachute)};
   }
   return problem;
 }

@@ -37,7 +37,7 @@ bool same_flow(const Case& a, const Case& b) {
   return first == second;
 }
 
-UnsteadyResult unsteady_result(const Watched& watched, const Case& given) {
+UnsteadyResult unsteady_result(const WindowAverage& watched, const Case& given) {
   UnsteadyResult result;
   result.watched = watched;
   // Not a number in JSON.
@@ -74,11 +74,11 @@ SteadyResult steady_result(const SteadySolver& solver, const SteadyState& state,
   for (const SteadyIteration& i : state.iterations) r.wall_time += i.wall_time;
   r.converged = state.converged;
   r.transfer_factor = r.last.transfer_factor;
-  r.load_remainder = r.last.load_remainder;
+  r.load_remainder = r.last.residual_traction;
   r.axial_moment = r.last.axial_moment;
   r.section_gap = r.last.section_gap;
   r.ledger = {r.last.fluid_force, r.last.nodal_load, r.last.line_tension, r.last.momentum_deficit};
-  if (state.in_time) r.unsteady = unsteady_result(state.watched, given);
+  if (state.in_time) r.unsteady = unsteady_result(state.window, given);
   if (const Measured* row = measured_row(given)) r.measured = *row;
   return r;
 }
@@ -151,7 +151,7 @@ bool start_from(const Case& other, const SteadyState& end, const SteadyRun& run,
   const double ratio = dynamic_pressure(given) / there;
   for (Vec3& p : state.shape) p.z += shift;
   for (double& dp : state.pressure) dp *= ratio;
-  state.remainder = {ratio * end.remainder.at_centre, ratio * end.remainder.twist};
+  state.residual_traction = {ratio * end.residual_traction.at_centre, ratio * end.residual_traction.twist};
   return same_flow(given, other);
 }
 
