@@ -65,19 +65,19 @@ void read_pressures(const FlowField& field, double dynamic_pressure, Result& res
 FlowProblem problem_of(const Body& body, const FlowGrid& grid, double turbulence, Sides sides) {
   FlowProblem problem;
   problem.grid = grid;
-  problem.air.speed = 30;
+  problem.air.velocity = {0, 0, 30};
   problem.air.turbulence_intensity = turbulence;
   problem.sides = sides;
   problem.stopping.max_iterations = 600;
   problem.stopping.average_over = 100;
   // K = dp / (rho v^2 / 2) at the velocity v through the disk.
-  problem.sheets = {{body.surface, body.loss > 0 ? 0 : 1e6, body.loss * problem.air.density / 2}};
+  problem.bodies = {sheet_body(body.surface, {body.loss > 0 ? 0 : 1e6, body.loss * problem.air.density / 2})};
   problem.outlet = Outlet::still_air;
   return problem;
 }
 
 double dynamic_pressure(const FlowProblem& problem) {
-  return 0.5 * problem.air.density * problem.air.speed * problem.air.speed;
+  return 0.5 * problem.air.density * problem.air.speed() * problem.air.speed();
 }
 
 CartesianSettings second_order() {
@@ -210,7 +210,7 @@ void compare_engines(int argc, char** argv) {
     print_row({body.name, fmt::format("{:.3f}", body.reference), fmt::format("{:.3f}", ours.coefficient),
                fmt::format("{:.3f}", theirs.coefficient), off_by(theirs.coefficient, ours.coefficient),
                off_by(area, body.area), off_by(theirs.coefficient * body.area / area, ours.coefficient),
-               off_by(field.momentum_deficit, drag), fmt::format("{:.3f}, {:.3f}", ours.front, ours.back),
+               off_by(field.momentum_deficit.z, drag), fmt::format("{:.3f}, {:.3f}", ours.front, ours.back),
                fmt::format("{:.3f}, {:.3f}", theirs.front, theirs.back),
                fmt::format("{:.1f}, {:.1f}", own, minutes())});
   }
@@ -251,7 +251,7 @@ void compare_in_time(int argc, char** argv) {
       const Result mean = result_of(body, problem, watch(*flow, problem, how, record));
       const double minutes =
           std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() / 60;
-      const double in_time = 1 / (dynamic_pressure(problem) * body.area), unit = 1 / problem.air.speed;
+      const double in_time = 1 / (dynamic_pressure(problem) * body.area), unit = 1 / problem.air.speed();
       print_row(
           {body.name, word, fmt::format("{:.3f}", body.reference), fmt::format("{:.3f}", steady.coefficient),
            off_by(steady.coefficient, body.reference),
@@ -268,16 +268,16 @@ void compare_in_time(int argc, char** argv) {
 }
 
 /// Steady drag [N] in air of 20 m/s; the cells' middle lies `off` cells beside the axis along x, half as many along y.
-double drag_at_place(const Sheet& sheet, FlowGrid box, double half, double z, double off) {
+double drag_at_place(const FlowBody& sheet, FlowGrid box, double half, double z, double off) {
   const auto cells = [&](double x, double y) {
     return graded(box, {x - half, y - half, z - 0.5}, {x + half, y + half, z + 1.5}, 1.125);
   };
   const Vec3 h = cells(0, 0).spacing();
   FlowProblem problem;
   problem.grid = cells(off * h.x, 0.5 * off * h.y);
-  problem.air.speed = 20;
+  problem.air.velocity = {0, 0, 20};
   problem.sides = Sides::entraining, problem.outlet = Outlet::still_air;
-  problem.sheets = {sheet};
+  problem.bodies = {sheet};
   problem.stopping = {.residual = 1e-5, .max_iterations = 300, .average_over = 100};
   CartesianSettings settings;
   settings.second_order = true;
@@ -289,13 +289,13 @@ void compare_places(int argc, char** argv) {
   const int across = argc > 2 ? std::atoi(argv[2]) : 16;
   constexpr double z = 3, narrowest = 0.65, widest = 0.75;
   constexpr int widths = 8;
-  std::vector<std::pair<std::string, Sheet>> bodies;
+  std::vector<std::pair<std::string, FlowBody>> bodies;
   if (argc > 4) {
-    bodies = {{"canopy", {read_stl(argv[3]), std::atof(argv[4]), 0}}};
+    bodies = {{"canopy", sheet_body(read_stl(argv[3]), {std::atof(argv[4]), 0})}};
   } else {
-    bodies = {{"disk", {disk(1, {0, 0, z}), 1e6, 0}},
-              {"hemispherical cup", {hemispherical_cup(1, {0, 0, z}), 1e6, 0}},
-              {"rigid disk-gap-band of 0.65 m", {rigid_disk_gap_band({0, 0, z}), 1e6, 0}}};
+    bodies = {{"disk", sheet_body(disk(1, {0, 0, z}), {1e6, 0})},
+              {"hemispherical cup", sheet_body(hemispherical_cup(1, {0, 0, z}), {1e6, 0})},
+              {"rigid disk-gap-band of 0.65 m", sheet_body(rigid_disk_gap_band({0, 0, z}), {1e6, 0})}};
   }
   const FlowGrid like = about_body({{-4, -4, 0}, {8, 8, 10}, 0, 0, 0}, 1, across, z);
   const FlowGrid box{like.origin, like.size, like.nx, like.ny, like.nz};

@@ -18,7 +18,7 @@ void opening(benchmark::State& bench) {
   given.inflation.frames = 500;
   given.inflation.cloth_damping_s = 1e-6 * static_cast<double>(bench.range(3));
   UniformPressureOpening solver(
-      {parachute_mesh(given), given.inflation, 600, false, static_cast<int>(bench.range(1)), 6});
+      {parachute_mesh(resolve(given)), given.inflation, 600, false, static_cast<int>(bench.range(1)), 6});
   InflationState state = solver.start();
   for (int i = 0; i < 5; ++i) solver.advance(state);
   const long long first = state.cloth.steps;

@@ -60,7 +60,7 @@ int main(int argc, char** argv) {
   const int across = argc > 1 ? std::atoi(argv[1]) : 100;
   FlowProblem problem;
   problem.grid = {{-1, -1, 0}, {2, 2, 4}, across, across, across * 3 / 2};
-  problem.air.speed = 27.1;
+  problem.air.velocity = {0, 0, 27.1};
   problem.stopping.max_iterations = argc > 3 ? std::atoi(argv[3]) : 5;
   const fs::path folder = fs::temp_directory_path() / fmt::format("ripstop_cost_{}", getpid());
   OpenFoamSettings settings;
@@ -69,9 +69,9 @@ int main(int argc, char** argv) {
 
   const std::vector<Triangle> surface = cap();
   Stopwatch watch;
-  problem.porous = {{cut_cells(problem.grid, surface), 65.98, 37.45}};
-  fmt::print("{} triangles cut {} of {} cells: {:.4f} s\n", surface.size(), problem.porous[0].cells.size(),
-             problem.grid.cells(), watch.lap());
+  problem.bodies = {porous_body({cut_cells(problem.grid, surface), 65.98, 37.45})};
+  fmt::print("{} triangles cut {} of {} cells: {:.4f} s\n", surface.size(),
+             problem.bodies[0].porous().cells.size(), problem.grid.cells(), watch.lap());
   const auto engine = make_openfoam(settings);
   const FlowReport report = [&](const FlowProgress& now) {
     fmt::print("iteration {}: {:.2f} s, drag {:.2f} N, residual of p {:.2e}\n", now.iteration, watch.lap(),

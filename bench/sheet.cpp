@@ -28,12 +28,13 @@ constexpr Vec3 shifts[] = {{0, 0, 0},           {0.25, 0.175, 0.25}, {0.5, 0.35,
 double drag(const FlowGrid& grid, Vec3 shift, double a, double b) {
   FlowProblem problem;
   problem.grid = grid;
-  problem.air.speed = 30;
+  problem.air.velocity = {0, 0, 30};
   problem.sides = Sides::slip;
   problem.stopping.max_iterations = iterations;
   problem.stopping.average_over = averaged;
   const Vec3 h = grid.spacing();
-  problem.sheets = {{rigid_disk_gap_band({shift.x * h.x, shift.y * h.y, skirt + shift.z * h.z}), a, b}};
+  problem.bodies = {
+      sheet_body(rigid_disk_gap_band({shift.x * h.x, shift.y * h.y, skirt + shift.z * h.z}), {a, b})};
   problem.outlet = Outlet::still_air;
   CartesianSettings settings;
   settings.second_order = true;

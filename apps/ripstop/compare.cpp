@@ -55,7 +55,7 @@ int compare(CompareArguments& options) {
   finish(options, "compare");
   // The neighbour's flow field would hide a difference smaller than the residual: every run starts cold.
   options.settings.warm = false;
-  const SweepAxis axis = linear_models(read_case(options.case_file, options.overrides));
+  const SweepAxis axis = linear_models(read_settings(options.case_file, options.overrides));
   const std::vector<SweepPoint> points = sweep_points(options.case_file, options.overrides, {axis});
   const fs::path& folder = options.settings.folder;
   const std::vector<SweepRow> rows = run_and_tell({axis}, points, options.settings);

@@ -38,7 +38,7 @@ int main() {
   try {
     const ripstop::Case given = ripstop::checked(my_canopy());  // every mistake at once
 
-    const ripstop::FabricResult still = ripstop::run_fabric(given, 240).result;
+    const ripstop::FabricResult still = ripstop::run_fabric(resolve(given), 240).result;
     std::printf("under 240 Pa: %.3f m wide, %.0f N\n", still.size.projected_diameter, still.pressure_load);
 
     Progress progress;

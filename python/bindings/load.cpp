@@ -24,7 +24,7 @@ LoadResult load(const PyCase& given, LoadRequest request, const std::optional<St
     else if (!request.drag_coefficient)
       request.drag_coefficient = run.result.drag_area / nominal_area(given.given.parachute);
   }
-  LoadResult result = run_load(given.given, request);
+  LoadResult result = run_load(given.settings(), request);
   if (out) write_load(*out, result);
   return result;
 }

@@ -44,7 +44,8 @@ SizeResult size(const SizeRequest& request, bool verify, Callback<SteadyIteratio
   SizeResult result = run_size(request);
   if (!verify) return result;
   SizeListener observer(listener);
-  verify_size(request, result, [&](const Case& given, int) { return run_steady(given, observer).result; });
+  verify_size(request, result,
+              [&](const Settings& resolved, int) { return run_steady(resolved, observer).result; });
   return result;
 }
 

@@ -32,10 +32,10 @@ CartesianSettings with_threads(int threads, SmallEddies small_eddies = SmallEddi
 FlowProblem disk_in_a_box(double linear, Sides sides) {
   FlowProblem problem;
   problem.grid = graded({{-2, -2, 0}, {4, 4, 6}, 20, 20, 26}, {-0.7, -0.7, 2}, {0.7, 0.7, 3.5}, 1.2);
-  problem.air.speed = 10;
+  problem.air.velocity = {0, 0, 10};
   problem.sides = sides;
   problem.outlet = Outlet::still_air;
-  problem.sheets = {{disk(1, {0.01, 0.02, 2.52}), linear, 0}};
+  problem.bodies = {sheet_body(disk(1, {0.01, 0.02, 2.52}), {linear, 0})};
   return problem;
 }
 
@@ -47,7 +47,7 @@ bool same_bits(const FlowField& a, const FlowField& b) {
 
 TEST(March, AUniformStreamStaysUniform) {
   FlowProblem problem = disk_in_a_box(0, Sides::entraining);
-  problem.sheets.clear();
+  problem.bodies.clear();
   const auto engine = make_cartesian(with_threads(1));
   const auto flow = engine->start(problem);
   flow->march(20, 0.7);
@@ -59,15 +59,15 @@ TEST(March, AUniformStreamStaysUniform) {
 // In a box that goes with something that is slowed down, unevenly.
 TEST(March, AStreamThatIsSlowedDownStaysUniform) {
   FlowProblem problem = disk_in_a_box(0, Sides::entraining);
-  problem.sheets.clear();
+  problem.bodies.clear();
   const auto engine = make_cartesian(with_threads(1));
   const auto flow = engine->start(problem);
   double speed = 10;
   for (int n = 0; n < 20; ++n) {
     const double slowed = -30 * (1 + n % 3), length = 1e-3 * (1 + n % 2);
     speed += slowed * length;
-    flow->stream(speed, slowed);
-    EXPECT_NEAR(flow->step(length).momentum_gap, 0, 1e-8);
+    flow->stream({0, 0, speed}, {0, 0, slowed});
+    EXPECT_NEAR(flow->step(length).momentum_gap.z, 0, 1e-8);
   }
   const FlowField field = flow->field();
   for (const Vec3& u : field.velocity) ASSERT_NEAR(norm(u - Vec3{0, 0, speed}), 0, 1e-10);
@@ -85,7 +85,7 @@ TEST_P(Ledger, ClosesInEveryStep) {
   const double largest = 0.5 * 1.2 * 100 * pi / 4;  // q times the disk's area [N]
   int steps = 0;
   flow->march(60, 0.7, [&](const FlowStep& step) {
-    EXPECT_NEAR(step.momentum_gap, 0, 1e-8 * largest) << "step " << step.step;
+    EXPECT_NEAR(step.momentum_gap.z, 0, 1e-8 * largest) << "step " << step.step;
     EXPECT_LE(step.courant, 0.7 * 1.05) << "step " << step.step;
     if (step.step > 5) {
       EXPECT_LT(step.mass_defect, 1e-3) << "step " << step.step;
@@ -111,7 +111,7 @@ INSTANTIATE_TEST_SUITE_P(Eddies, MarchWith, testing::Values(SmallEddies::wale, S
 TEST_P(MarchWith, PorousCellsWithoutResistanceAreNotThere) {
   const auto marched = [&](bool porous) {
     FlowProblem problem = disk_in_a_box(1e4, Sides::entraining);
-    if (porous) problem.porous = {{{problem.grid.index(3, 4, 5)}, 0, 0}};
+    if (porous) problem.bodies = {porous_body({{problem.grid.index(3, 4, 5)}, 0, 0})};
     const auto engine = make_cartesian(with_threads(1, GetParam()));
     const auto flow = engine->start(problem);
     flow->march(3, 0.7);
@@ -223,7 +223,7 @@ class Vortices {
   static FlowProblem of(int across) {
     FlowProblem problem;
     problem.grid = {{0, 0, 0}, {1, 1, 6}, across, across, 3 * across};
-    problem.air.speed = 1, problem.air.density = density, problem.air.viscosity = viscosity;
+    problem.air.velocity = {0, 0, 1}, problem.air.density = density, problem.air.viscosity = viscosity;
     problem.sides = Sides::slip;
     return problem;
   }
@@ -243,7 +243,7 @@ class Vortices {
 TEST(March, AStepIsNoLongerThanViscosityAllows) {
   FlowProblem problem;
   problem.grid = {{0, 0, 0}, {1, 2, 4}, 8, 8, 8};
-  problem.air.speed = 1, problem.air.density = 1.2;
+  problem.air.velocity = {0, 0, 1}, problem.air.density = 1.2;
   problem.sides = Sides::slip;
   for (const double viscosity : {1.8e-5, 50.0}) {
     problem.air.viscosity = viscosity;
@@ -318,7 +318,7 @@ class CarriedVortices {
   static FlowProblem of(int across) {
     FlowProblem problem;
     problem.grid = {{0, 0, 0}, {1, 4.0 / across, 8}, across, 4, 8 * across};
-    problem.air.speed = speed, problem.air.density = density, problem.air.viscosity = viscosity;
+    problem.air.velocity = {0, 0, speed}, problem.air.density = density, problem.air.viscosity = viscosity;
     problem.sides = Sides::slip;
     return problem;
   }
@@ -383,7 +383,7 @@ class DecayingTurbulence {
   static FlowProblem of() {
     FlowProblem problem;
     problem.grid = {{0, 0, 0}, {1, 1, 6}, 8, 8, 24};
-    problem.air.speed = 1;
+    problem.air.velocity = {0, 0, 1};
     problem.sides = Sides::slip;
     return problem;
   }
@@ -397,7 +397,7 @@ class DecayingTurbulence {
 TEST(March, BeginsWithoutTheEddiesThatItsCellsResolve) {
   FlowProblem problem;
   problem.grid = {{0, 0, 0}, {1, 1, 6}, 8, 8, 24};
-  problem.air.speed = 1;
+  problem.air.velocity = {0, 0, 1};
   problem.sides = Sides::slip;
   ThreadTeam team(1);
   cartesian::Solver solver(problem, problem.grid,

@@ -18,7 +18,7 @@ TEST(Example, StratosIvHasThePrintedAreaAndItsDefaultsAreThePapers) {
   EXPECT_EQ(given.parachute.gores, 6);
   EXPECT_NEAR(line_length_on_disk(given.parachute), 0.455, 1e-12);
   EXPECT_EQ(given.measured.size(), 5u);
-  EXPECT_EQ(canopy_position(given), 2);
+  EXPECT_EQ(resolve(given).flow().canopy_position_m, 2);
 }
 
 TEST(Example, WalrusHasThePrintedNominalAreaAndTheMeasuredDrags) {

@@ -94,6 +94,8 @@ class Docs(unittest.TestCase):
         for file in (ROOT / "tests").glob("*/**/*.cpp"):
             for suite, name in re.findall(r"\bTEST(?:_[FP])?\((\w+),\s*(\w+)\)", file.read_text()):
                 tests[file.relative_to(ROOT / "tests").parts[0]] += [f"{suite}.{name}", f"All/{suite}.{name}/0"]
+        words = set(re.findall(r"\w+", "".join(file.read_text() for folder in ("src/ripstop", "python") for file in (ROOT / folder).rglob("*.*")
+                                             if file.suffix in (".h", ".cpp", ".py"))))
         wrong = []
         for page in PAGES:
             if page.name == "CHANGELOG.md" or TABLES in page.parents:
@@ -102,6 +104,7 @@ class Docs(unittest.TestCase):
             named = [*re.findall(r"`((?:[\w.-]+/)+[\w-]+\.(?:h|cpp|py))`", text), *re.findall(r"`((?:src|tests)/[\w./-]+)/?`", text)]
             wrong += [f"{at(page, 0)} {name}" for name in named
                       if not any((folder / name).exists() for folder in (ROOT, ROOT / "src/ripstop", ROOT / "tests", page.parent))]
+            wrong += [f"{at(page, 0)} {name}()" for name in re.findall(r"`(?:\w+::)?(\w+)\(\)`", text) if name not in words]
             wrong += [f"{at(page, 0)} bench_{name}" for name in re.findall(r"\bbench_(\w+)", text)
                       if not (ROOT / f"bench/{name}.cpp").exists()]
             for room, patterns in re.findall(r"\btest_(\w+)\s+--gtest_filter='([^']*)'", text):

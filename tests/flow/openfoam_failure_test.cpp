@@ -26,8 +26,8 @@ class OpenFoamFailure : public testing::Test {
     settings_.program_folder = root_ / "bin";
     settings_.time_limit_s = 60;
     problem_.grid = {{0, 0, 0}, {1, 1, 1}, 4, 4, 4};
-    problem_.air.speed = 10;
-    problem_.porous = {{{21, 22}, 100, 10}};
+    problem_.air.velocity = {0, 0, 10};
+    problem_.bodies = {porous_body({{21, 22}, 100, 10})};
     problem_.stopping.max_iterations = 3;
   }
   void TearDown() override { fs::remove_all(root_); }
@@ -149,10 +149,10 @@ class FittedMeshFailure : public OpenFoamFailure {
  protected:
   void SetUp() override {
     OpenFoamFailure::SetUp();
-    problem_.porous.clear();
+    problem_.bodies.clear();
     problem_.grid = {{-1, -1, 0}, {2, 2, 2}, 8, 8, 8};
     problem_.sides = Sides::slip;
-    problem_.sheets = {{disk(1, {0, 0, 1}), 1e6, 0}};
+    problem_.bodies = {sheet_body(disk(1, {0, 0, 1}), {1e6, 0})};
     settings_.fitted_mesh = true;
     settings_.cloth_levels = 1;
   }
@@ -209,23 +209,23 @@ TEST_F(FittedMeshFailure, AMeshThatLeftTheClothOutIsRefused) {
 
 TEST_F(OpenFoamFailure, NumbersOutOfRangeAreNamedAndNothingIsWritten) {
   solver("exit 0");
-  problem_.air.speed = -3;
-  EXPECT_PRED2(says, message(ExitCode::usage), "air speed is -3");
-  problem_.air.speed = NAN;
+  problem_.air.velocity = {};
+  EXPECT_PRED2(says, message(ExitCode::usage), "the speed = 0 m/s");
+  problem_.air.velocity = {0, 0, NAN};
   message(ExitCode::usage);
-  problem_.air.speed = 10;
-  problem_.porous[0].cells = {64};
+  problem_.air.velocity = {0, 0, 10};
+  problem_.bodies[0].porous().cells = {64};
   EXPECT_PRED2(says, message(ExitCode::usage), "porous cell is 64");
-  problem_.porous = {{{3}, 1, 1}, {{3}, 1, 1}};
+  problem_.bodies = {porous_body({{3}, 1, 1}, "first"), porous_body({{3}, 1, 1}, "second")};
   EXPECT_PRED2(says, message(ExitCode::usage), "porous twice");
   EXPECT_FALSE(fs::exists(root_ / "case"));
 }
 
 TEST_F(OpenFoamFailure, ABlockedDuctThatCannotPassItsFlowDiverges) {
   settings_.program_folder.clear();
-  problem_.air.speed = 150;
-  problem_.porous = {{{}, 0, 1e5}};
-  for (int cell = 16; cell < 32; ++cell) problem_.porous[0].cells.push_back(cell);
+  problem_.air.velocity = {0, 0, 150};
+  problem_.bodies = {porous_body({{}, 0, 1e5})};
+  for (int cell = 16; cell < 32; ++cell) problem_.bodies[0].porous().cells.push_back(cell);
   problem_.sides = Sides::slip;
   problem_.stopping.max_iterations = 60;
   EXPECT_PRED2(says, message(ExitCode::diverged), "ran into its limits");

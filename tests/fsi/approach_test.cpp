@@ -31,7 +31,7 @@ TEST(Approach, IsTheMeanOverTheAreaOfADisk) {
 // In air whose speed rises with z the mean says where it was taken.
 TEST(Approach, IsOneProjectedDiameterBeforeTheCloth) {
   const Case given = checked(flat_circular_case(1, 800, 20));
-  CanopyMesh mesh = parachute_mesh(given);
+  CanopyMesh mesh = parachute_mesh(resolve(given));
   FlowField field;
   field.grid = {{-1, -1, 0}, {2, 2, 8}, 8, 8, 160};
   for (int cell = 0; cell < field.grid.cells(); ++cell)

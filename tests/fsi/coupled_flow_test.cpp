@@ -26,10 +26,10 @@ constexpr double duct_speed = 10, resistance = 40, springs = 2000;  // [m/s], [P
 FlowProblem closed_duct(double speed = duct_speed, double linear = resistance, int cells = 4) {
   FlowProblem duct;
   duct.grid = {{0, 0, 0}, {1, 1, 2}, cells, cells, 4 * cells};
-  duct.air.speed = speed;
+  duct.air.velocity = {0, 0, speed};
   duct.sides = Sides::slip;
   duct.outlet = Outlet::still_air;
-  duct.sheets = {{{}, linear, 0}};
+  duct.bodies = {sheet_body({}, {linear, 0})};
   return duct;
 }
 
@@ -263,7 +263,7 @@ TEST(CoupledFlow, IsRefusedWithoutAnEngineOrWithoutASheet) {
   const Mesh mesh = piston(0.04);
   EXPECT_THROW(CoupledFlow({closed_duct(), 0.5, nullptr}, mesh), Error);
   FlowProblem bare = closed_duct();
-  bare.sheets.clear();
+  bare.bodies.clear();
   EXPECT_THROW(CoupledFlow({bare, 0.5, make_cartesian({})}, mesh), Error);
 }
 

@@ -33,7 +33,7 @@ struct Canopy {
   static Mesh mesh_of(PorosityModel model) {
     Case given = example("flat-circular", 3000);
     given.flow.porosity_model = model;
-    return parachute_mesh(given);
+    return parachute_mesh(resolve(given));
   }
 
   Mesh mesh;

@@ -26,8 +26,8 @@ namespace {
 using std::numbers::pi;
 
 CanopyMesh mesh_of(const Case& given) {
-  CanopyMesh mesh = parachute_mesh(given);
-  for (Vec3& p : mesh.start) p.z -= canopy_position(given);
+  CanopyMesh mesh = parachute_mesh(resolve(given));
+  for (Vec3& p : mesh.start) p.z -= resolve(given).flow().canopy_position_m;
   return mesh;
 }
 
@@ -158,8 +158,8 @@ TEST(Families, AnArmOfACrossHasTwoRowsOfCellsHoweverShort) {
                      {"parachute.arm_width_m", "0.6"},
                      {"parachute.cut", cut},
                      {"parachute.mesh.cloth_nodes", "600"}};
-    const CanopyMesh mesh = parachute_mesh(
-        read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/cross/case.toml", overrides));
+    const CanopyMesh mesh = parachute_mesh(resolve(
+        read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/cross/case.toml", overrides)));
     int least = 1000;
     for (const Patch& patch : mesh.patches) least = std::min(least, patch.rows);
     EXPECT_EQ(least, 3) << cut;
@@ -170,7 +170,7 @@ TEST(Families, AnArmOfACrossHasTwoRowsOfCellsHoweverShort) {
 // diagonals are the yarns.
 TEST_P(Family, TheYarnsLieAsTheClothIsCut) {
   Case given = example(GetParam(), 2500);
-  PartMaterials materials = part_materials(given);
+  PartMaterials materials = resolve(given).materials();
   materials.canopy.weft_coefficients_n_m = {18000, 5000};
   materials.canopy.tested_strain = 0.2;
   const auto laws = [&](FabricCut cut) {

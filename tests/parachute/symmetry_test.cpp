@@ -99,7 +99,7 @@ struct Canopy {
     // Rounding depends on the place along the axis: at 2.8 m relaxing the conical canopy makes 3e-11 m of it.
     given.flow.canopy_position_m = 2;
     given.flow.porosity_model = model;
-    mesh = parachute_mesh(given);
+    mesh = parachute_mesh(resolve(given));
     symmetry = symmetry_of(mesh, given.parachute.gores);
     cloth = make_cloth(mesh);
     state = start_state(*cloth);

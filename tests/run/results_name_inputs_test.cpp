@@ -17,7 +17,9 @@ TEST(ResultsNameTheirInputs, OtherInputsHaveAnotherHash) {
   given.parachute.mesh.cloth_nodes = 600;
   given.coupling.cloth_tolerance = 0.1;
   given.coupling.threads = 1;
-  const auto fabric = [&](double pressure) { return run_fabric(given, pressure).result.inputs_hash.value(); };
+  const auto fabric = [&](double pressure) {
+    return run_fabric(resolve(given), pressure).result.inputs_hash.value();
+  };
   EXPECT_EQ(fabric(100), fabric(100));
   EXPECT_NE(fabric(100), fabric(101));
 

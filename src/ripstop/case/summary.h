@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "ripstop/case/case.h"
+#include "ripstop/case/settings.h"
 #include "ripstop/cloth/cloth.h"
 
 namespace ripstop {
@@ -36,6 +36,6 @@ struct CaseSummary {
 };
 
 /// Builds the mesh and the cloth. Throws what they throw.
-CaseSummary summarize(const Case& given);
+CaseSummary summarize(const Settings& resolved);
 
 }  // namespace ripstop

@@ -1,8 +1,11 @@
 #include "ripstop/flow/flow.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "ripstop/core/error.h"
 #include "ripstop/flow/average.h"
@@ -64,6 +67,35 @@ Interval touched(double low, double high, const std::vector<double>& edges) {
 
 }  // namespace
 
+void check_stream(const Freestream& air) {
+  constexpr double most_mach = 0.3, ratio_of_heats = 1.4;
+  const double sound = std::sqrt(ratio_of_heats * gas_constant_of_air * air.temperature), speed = air.speed();
+  if (speed > 0 && !(speed > most_mach * sound)) return;
+  throw Error(
+      ExitCode::usage,
+      fmt::format(
+          "free stream: the speed = {:g} m/s must be above 0 and at most {:.4g} m/s, Mach {} at {:g} K; "
+          "give another velocity, or the temperature that belongs to it",
+          speed, most_mach * sound, most_mach, air.temperature));
+}
+
+FlowBody sheet_body(std::vector<Triangle> surface, PressureDrop law, std::string name) {
+  return {std::move(name), std::move(surface), law};
+}
+
+FlowBody porous_body(PorousCells cells, std::string name) {
+  return {std::move(name), {}, std::move(cells)};
+}
+
+bool FlowProblem::has_sheets() const {
+  return std::any_of(bodies.begin(), bodies.end(), [](const FlowBody& body) { return body.is_sheet(); });
+}
+
+std::vector<SheetLoad> loads_on(std::size_t body, std::vector<SheetLoad> loads) {
+  std::erase_if(loads, [body](const SheetLoad& load) { return static_cast<std::size_t>(load.body) != body; });
+  return loads;
+}
+
 double largest_residual(const FlowProgress& p) {
   return std::max({p.residual_u, p.residual_p, p.residual_k, p.residual_omega, p.residual_e});
 }
@@ -87,7 +119,7 @@ double Flow::longest_step(double) {
 FlowStep Flow::step(double) {
   throw no_time();
 }
-void Flow::stream(double, double) {
+void Flow::stream(Vec3, Vec3) {
   throw no_time();
 }
 

@@ -1,4 +1,4 @@
-// The air: a box of cells with cloth in it, as a problem, and a flow that goes on from where it is. Cloth is
+// The air: a box of cells with bodies in it, as a problem, and a flow that goes on from where it is. A body is
 // not known here but for its surface and its resistance.
 #pragma once
 
@@ -7,25 +7,34 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
 #include "ripstop/core/vec3.h"
 #include "ripstop/flow/flow_grid.h"
 #include "ripstop/flow/jet.h"
+#include "ripstop/material/permeability.h"
 
 namespace ripstop {
 
-/// Air that comes in through z = 0 with speed U, [NFM] section 5.
+/// The undisturbed air far from all bodies, [NFM] section 5. A jet, and boundaries other than the far field, need a
+/// velocity along +z.
 struct Freestream {
-  double speed = 0;                     // [m/s]
+  Vec3 velocity;                        // [m/s]
   double density = 1.2;                 // [kg/m3]
   double viscosity = 1.84e-5;           // mu [Pa s]
   double temperature = 293.15;          // [K]; the static pressure follows from the density
   double turbulence_intensity = 0.005;  // [-]
   double viscosity_ratio = 10;          // nu_t / nu at the inlet [-]
 
+  double speed() const { return norm(velocity); }  // U [m/s]
+  bool along_z() const { return velocity.x == 0 && velocity.y == 0 && velocity.z > 0; }
   bool operator==(const Freestream&) const = default;
 };
+
+/// Throws Error(usage) for a speed of zero or above Mach 0.3.
+void check_stream(const Freestream& air);
 
 inline constexpr double gas_constant_of_air = 8314.47 / 28.9647;  // R [J/(kg K)]
 
@@ -55,20 +64,36 @@ struct SheetMotion {
   std::vector<double> pressure;  // inside over outside [Pa]; empty: none
 };
 
-/// Cloth as a surface without thickness, across which the pressure drops by a v + b v |v| with v the air's
-/// velocity along its normal, relative to the cloth ([NFM] Eq. 15; `sheet` model, method section 4).
-struct Sheet {
+/// A body in the flow: a canopy, a screen, a payload. Its cloth resists either as a surface without thickness, across
+/// which the pressure drops by a v + b v |v| with v the air's velocity along its normal, relative to the cloth ([NFM]
+/// Eq. 15; `sheet` model, method section 4), or as porous cells.
+struct FlowBody {
+  std::string name;  // one of its own
   std::vector<Triangle> surface;
-  double linear = 0;     // a [Pa s/m]
-  double quadratic = 0;  // b [Pa s2/m2]
-  SheetMotion motion = {};
+  std::variant<PressureDrop, PorousCells> resistance;
+  SheetMotion motion = {};  // of a sheet
+  Vec3 moment_about = {};   // the point that its moment is about [m]
+
+  bool is_sheet() const { return std::holds_alternative<PressureDrop>(resistance); }
+  const PressureDrop& drop() const { return std::get<PressureDrop>(resistance); }
+  PressureDrop& drop() { return std::get<PressureDrop>(resistance); }
+  const PorousCells& porous() const { return std::get<PorousCells>(resistance); }
+  PorousCells& porous() { return std::get<PorousCells>(resistance); }
+};
+FlowBody sheet_body(std::vector<Triangle> surface, PressureDrop law, std::string name = "canopy");
+FlowBody porous_body(PorousCells cells, std::string name = "canopy");
+
+/// What the air does to a body.
+struct BodyLoad {
+  Vec3 force;   // [N]
+  Vec3 moment;  // about FlowBody::moment_about [N m]
 };
 
 /// What the air does to a sheet at one face of the grid.
 struct SheetLoad {
-  int sheet = 0, triangle = 0;  // of FlowProblem::sheets
-  Vec3 point;                   // on the triangle [m]
-  Vec3 outward;                 // mean normal of the sheet there, unit, as the triangles' corners turn
+  int body = 0, triangle = 0;  // of FlowProblem::bodies
+  Vec3 point;                  // on the triangle [m]
+  Vec3 outward;                // mean normal of the sheet there, unit, as the triangles' corners turn
   double drop = 0;   // of the pressure from the sheet's inner side to its outer one, mean over the face [Pa]
   Vec3 force;        // on the sheet: drop times the face's area, along an axis of the grid [N]
   double cover = 1;  // the part of the face that the sheet covers: drop / cover is what the cloth there sees
@@ -78,14 +103,23 @@ struct SheetLoad {
   std::optional<double> inside, outside;
 };
 
-/// The four sides of the box. Slip: walls without friction. Zero gradient: nothing changes across them, air
-/// goes in and out as it does just inside. Entraining: the outlet's pressure where air leaves; where it comes
-/// in, air of the stream at the stream's total pressure.
-enum class Sides { zero_gradient, slip, entraining };
+/// A kind of boundary for the four sides of the box, by its word; boundaries.h lists what each word means. The far
+/// field takes all six faces of the box, in place of inlet and outlet.
+struct Sides {
+  std::string_view word;
+  bool operator==(const Sides&) const = default;
+  static const Sides zero_gradient, slip, entraining, far_field;
+};
+inline constexpr Sides Sides::zero_gradient{"zero-gradient"}, Sides::slip{"slip"},
+    Sides::entraining{"entraining"}, Sides::far_field{"far-field"};
 
-/// The end of the box. Fixed pressure: it is held, and air that comes back has no momentum. Still air: what
-/// comes back has the total pressure of air at rest, so that a wake that sucks cannot draw it in ever faster.
-enum class Outlet { fixed_pressure, still_air };
+/// The same for the end of the box.
+struct Outlet {
+  std::string_view word;
+  bool operator==(const Outlet&) const = default;
+  static const Outlet fixed_pressure, still_air;
+};
+inline constexpr Outlet Outlet::fixed_pressure{"fixed-pressure"}, Outlet::still_air{"still-air"};
 
 /// When a flow counts as solved.
 struct Stopping {
@@ -101,14 +135,18 @@ struct Stopping {
 struct FlowProblem {
   FlowGrid grid;
   Freestream air;
-  Sides sides = Sides::zero_gradient;
+  Sides sides = Sides::zero_gradient;  // the far field wherever the stream is not along +z
   Outlet outlet = Outlet::fixed_pressure;
-  std::optional<Jet> jet;  // through the inlet, air.speed the nozzle's; empty: the stream over all of it
-  std::vector<PorousCells> porous;  // one entry a cloth
-  std::vector<Sheet> sheets;        // the same for the `sheet` model
-  std::vector<Vec3> body_force;     // on the air of each cell [N/m3]; empty: none
+  std::optional<Jet> jet;  // through the inlet, air.velocity the nozzle's; empty: the stream over all of it
+  std::vector<FlowBody> bodies;
+  std::vector<Vec3> body_force;  // on the air of each cell [N/m3]; empty: none
   Stopping stopping;
+
+  bool has_sheets() const;
 };
+/// Throws Error(usage) for two bodies of one name, for a body that leaves the box other than through walls, and for
+/// sheets that cut each other.
+void check_bodies(const FlowProblem& problem);
 
 /// One iteration as it comes; return false from the callback to stop early (the field counts as unconverged).
 struct FlowProgress {
@@ -133,9 +171,10 @@ struct FlowField {
   FlowGrid grid;
   std::vector<double> pressure;        // over the outlet's [Pa], one a cell
   std::vector<Vec3> velocity;          // [m/s]
-  Vec3 porous_force;                   // by the fluid on the porous cells and sheets [N]
+  Vec3 porous_force;                   // by the fluid on all bodies [N]
+  std::vector<BodyLoad> bodies;        // and on each of FlowProblem::bodies
   std::vector<SheetLoad> sheet_loads;  // their forces add up to the sheets' part of it
-  double momentum_deficit = 0;         // axial force from the fluxes through the faces of the box [N]
+  Vec3 momentum_deficit;  // force from the fluxes through the faces of the box [N]; NaN: not known
   FlowProgress last;
   bool converged = false;
   FlowAverage average;  // where it has iterations, the fields and forces above are means over them
@@ -154,13 +193,15 @@ enum class SmallEddies { none, wale, des };
 
 /// One step in time as it comes.
 struct FlowStep {
-  int step = 0;        // from 1, since the march began
-  double time = 0;     // since then, at the end of the step [s]
-  double length = 0;   // of the step [s]
-  double courant = 0;  // largest Courant number of a cell, summed over the axes
-  Vec3 force;          // by the fluid on the porous cells and sheets [N]
-  /// Force, change of the box's momentum and what its faces pass, along z, added up; forces on the air left out [N].
-  double momentum_gap = 0;
+  int step = 0;                  // from 1, since the march began
+  double time = 0;               // since then, at the end of the step [s]
+  double length = 0;             // of the step [s]
+  double courant = 0;            // largest Courant number of a cell, summed over the axes
+  Vec3 force;                    // by the fluid on all bodies [N]
+  std::vector<BodyLoad> bodies;  // and on each of FlowProblem::bodies
+  /// Force, change of the box's momentum and what its faces pass, added up; forces on the air left out, and across the
+  /// axis the viscous stress on slip sides [N].
+  Vec3 momentum_gap;
   double mass_defect = 0;  // mass that cells gain or lose, over what the stream brings into the box
 };
 /// Return false to stop.
@@ -173,9 +214,9 @@ class Flow {
  public:
   virtual ~Flow() = default;
 
-  /// The cloth lies here now: every sheet and every porous zone of the problem takes this surface, and sheets
-  /// its motion. The air goes on from where it is.
-  virtual void place(const std::vector<Triangle>& surface, const SheetMotion& motion = {}) = 0;
+  /// One of the problem's bodies lies here now, and moves so if it is a sheet. The air goes on from where it is.
+  virtual void place(std::size_t body, const std::vector<Triangle>& surface,
+                     const SheetMotion& motion = {}) = 0;
   /// At most so many iterations; fewer when every residual falls below `residual` or the report stops it.
   /// Throws Error(diverged) with iteration, field and place, Error(external) where a child program fails.
   virtual FlowAdvance advance(int iterations, double residual, const FlowReport& report = {}) = 0;
@@ -187,9 +228,11 @@ class Flow {
   /// shorter: for whoever steps something beside the air. As march() otherwise.
   virtual double longest_step(double courant);
   virtual FlowStep step(double length);
-  /// Before a step in time: the undisturbed stream has this speed at its end, and changes as fast as the box, which
-  /// goes with something in flight, is slowed down [m/s], [m/s2]. Holds from then on. Throws Error(usage) in a jet.
-  virtual void stream(double speed, double acceleration);
+  /// Before a step in time: the undisturbed stream has this velocity at the end of the step [m/s]. `acceleration` is
+  /// what it gains in a frame that is itself accelerated, as one that moves with a body in flight: a force on all of
+  /// the air [m/s2]. Both remain for later steps. Throws Error(usage) for a jet, and where a velocity that is not
+  /// along +z meets boundaries other than the far field.
+  virtual void stream(Vec3 velocity, Vec3 acceleration);
   /// The last iteration's or step's.
   virtual FlowField field() const = 0;
   /// The same, as one more of those that a mean is over.
@@ -222,6 +265,9 @@ class FlowEngine {
   /// engine must outlive its flows.
   virtual std::unique_ptr<Flow> start(const FlowProblem& problem) = 0;
 };
+
+/// Those of one body.
+std::vector<SheetLoad> loads_on(std::size_t body, std::vector<SheetLoad> loads);
 
 /// Trilinear interpolation between cell centres, constant beyond the outermost ones.
 double sample(const FlowGrid& grid, const std::vector<double>& field, Vec3 point);

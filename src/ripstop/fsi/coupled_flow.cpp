@@ -22,9 +22,9 @@ double mean_share(int steps) {
 std::unique_ptr<Flow> start_flow(const AirProblem& problem, std::vector<Triangle> surface) {
   if (!problem.engine) throw Error(ExitCode::usage, "an opening in its own air needs a flow engine");
   FlowProblem flow = problem.flow;
-  if (flow.sheets.size() != 1)
+  if (flow.bodies.size() != 1 || !flow.has_sheets())
     throw Error(ExitCode::usage, "an opening in its own air takes the canopy as one sheet");
-  flow.sheets[0].surface = std::move(surface);
+  flow.bodies[0].surface = std::move(surface);
   return problem.engine->start(flow);
 }
 
@@ -66,7 +66,7 @@ CoupledFlow::CoupledFlow(const AirProblem& problem, const Mesh& mesh)
     : engine_(problem.engine),
       grid_(problem.flow.grid),
       courant_(problem.courant),
-      speed_(problem.flow.air.speed),
+      speed_(problem.flow.air.speed()),
       density_(problem.flow.air.density),
       payload_(problem.payload),
       node_mass_(mesh.mass),
@@ -111,14 +111,14 @@ AirRow CoupledFlow::step(const std::vector<Vec3>& positions, const ClothMotion& 
     if (payload_) deploy(flight, *payload_, speed_, flow_.density());
   }
   const double speed = flight.speed + length * flight.acceleration;
-  if (payload_) flow_.stream(speed, flight.acceleration);
+  if (payload_) flow_.stream({0, 0, speed}, {0, 0, flight.acceleration});
   const FlowStep step = flow_.step(length);
   ++memory.steps;
   AirRow row;
   row.length = length, row.courant = step.courant, row.speed = speed;
   row.drag = step.force.z, row.side_x = step.force.x, row.side_y = step.force.y;
   row.drag_area = row.drag / (0.5 * flow_.density() * speed * speed);
-  row.momentum_gap = step.momentum_gap, row.mass_defect = step.mass_defect;
+  row.momentum_gap = step.momentum_gap.z, row.mass_defect = step.mass_defect;
   row.added_mass = memory.added_mass;
   return row;
 }

@@ -24,7 +24,7 @@ double least_rows_in(const FlowProblem& flow) {
     const int n = axis == 0 ? flow.grid.nx : axis == 1 ? flow.grid.ny : flow.grid.nz;
     for (int c = 0; c < n; ++c) least = std::min(least, flow.grid.width(axis, c));
   }
-  return flow.air.speed / (longest_row * least);  // [1/s]
+  return flow.air.speed() / (longest_row * least);  // [1/s]
 }
 
 double mean_load(const std::vector<HistoryRow>& history, int rows) {

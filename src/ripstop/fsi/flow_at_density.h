@@ -25,13 +25,14 @@ class FlowAtDensity {
   void place(const std::vector<Triangle>& surface, SheetMotion motion) {
     for (double& compliance : motion.yields) compliance *= ratio_;
     for (double& pressure : motion.pressure) pressure /= ratio_;
-    flow_->place(surface, motion);
+    flow_->place(0, surface, motion);
   }
-  void stream(double speed, double acceleration) { flow_->stream(speed, acceleration); }
+  void stream(Vec3 velocity, Vec3 acceleration) { flow_->stream(velocity, acceleration); }
   double longest_step(double courant) { return flow_->longest_step(courant); }
   FlowStep step(double length) {
     FlowStep step = flow_->step(length);
-    step.force = ratio_ * step.force;
+    step.force = ratio_ * step.force, step.momentum_gap = ratio_ * step.momentum_gap;
+    for (BodyLoad& body : step.bodies) body = {ratio_ * body.force, ratio_ * body.moment};
     return step;
   }
   std::vector<SheetLoad> sheet_loads() const {

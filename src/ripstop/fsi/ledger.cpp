@@ -42,7 +42,7 @@ void enter_flow(SteadyIteration& now, const SteadyState& state, const FlowField&
   now.flow_averaged = field.average.iterations;
   now.drag_deviation = field.average.drag_deviation;
   now.fluid_force = field.porous_force.z;
-  now.momentum_deficit = field.momentum_deficit;
+  now.momentum_deficit = field.momentum_deficit.z;
   now.approach_speed = approach_speed(field, mesh, shape);
   now.drag_change = state.iterations.empty()
                         ? std::numeric_limits<double>::infinity()

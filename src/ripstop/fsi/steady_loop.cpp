@@ -66,7 +66,7 @@ SteadyState SteadySolver::start() const {
   SteadyState state;
   state.shape = problem_.mesh.start;
   const Freestream& air = problem_.flow.air;
-  state.pressure.assign(cells_.size(), 0.5 * air.density * air.speed * air.speed);
+  state.pressure.assign(cells_.size(), 0.5 * air.density * air.speed() * air.speed());
   state.accelerator.update = problem_.settings.acceleration;
   state.accelerator.relaxation = problem_.settings.relaxation;
   return state;
@@ -91,14 +91,14 @@ FlowField SteadySolver::iterate(SteadyState& state, const SteadyReport& report) 
   // Move the surface, advance the flow.
   const CanopySurface canopy(cells_, shape, problem_.flow.grid);
   const bool in_full = convergence_.asks_for_full_flow(state, now);
-  flow_->place(canopy.triangles);
+  flow_->place(0, canopy.triangles);
   FlowField field = advance_flow(state, in_full, now.iteration, report);
   enter_flow(now, state, field, problem_.mesh, shape);
   now.cut_cells = static_cast<int>(canopy.cut_cells.size());
   now.printed_tolerance = printed_tolerance(now.flow_residual);
 
   // Transfer the load.
-  state.sides = sides_of_cloth(field, canopy, !problem_.flow.sheets.empty());
+  state.sides = sides_of_cloth(field, canopy, problem_.flow.has_sheets());
   const ClothLoad answer = load_on_cloth(problem_.settings.load, field, canopy, state.sides, now);
 
   // Convergence, and the load of the next iteration.

@@ -21,7 +21,7 @@ namespace ripstop {
 
 struct SteadyProblem {
   CanopyMesh mesh;            // start shape in the frame of the flow
-  FlowProblem flow;           // one PorousCells or one Sheet with the resistance; the loop finds its surface
+  FlowProblem flow;           // one body that has the resistance; the loop finds its surface
   double reference_area = 0;  // S0 [m2]
   CouplingSettings settings;
   std::optional<Watch> averaging_window;  // once shape and drag have settled, the flow is averaged in time

@@ -93,7 +93,7 @@ int(parachute.find("Sides").text), int(parachute.find("LineCount").text)
 TEST_F(Export, EveryNumberIsThatOfTheRunOrOfItsDesign) {
   const FinishedSteady run = finished_steady(folder_->path / "run");
   const ExportedParachute p = exported(run);
-  const Design& design = run.given.parachute;
+  const Design& design = run.resolved.parachute();
   EXPECT_EQ(p.title, run.result.title);
   EXPECT_EQ(p.run, (folder_->path / "run").string());
   EXPECT_EQ(p.drag_area, run.result.drag_area);
@@ -114,8 +114,8 @@ TEST_F(Export, EveryNumberIsThatOfTheRunOrOfItsDesign) {
   EXPECT_EQ(p.line_length, design.lines.length_m);
   EXPECT_EQ(p.line_material, design.lines.material);
   EXPECT_EQ(p.cloth_material, design.canopy_material);
-  EXPECT_EQ(p.line_density, suspension_line(run.given).linear_density_kg_m);
-  EXPECT_EQ(p.cloth_density, canopy_fabric(run.given).areal_density_kg_m2);
+  EXPECT_EQ(p.line_density, run.resolved.materials().line.linear_density_kg_m);
+  EXPECT_EQ(p.cloth_density, run.resolved.materials().canopy.areal_density_kg_m2);
   // A cylinder twice as long as wide.
   EXPECT_DOUBLE_EQ(p.packed_length, 2 * p.packed_diameter);
   EXPECT_NEAR(

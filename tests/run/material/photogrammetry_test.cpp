@@ -84,11 +84,11 @@ TEST(PhotogrammetryRun, TakesTheCanopyOfAFinishedRunAndNamesItsFolder) {
   const ComputedCanopy canopy = computed_canopy(folder.path / "run");
   EXPECT_EQ(canopy.run, (folder.path / "run").string());
   EXPECT_EQ(canopy.title, flown.title);
-  const Case given = case_of_run(folder.path / "run");
+  const Settings resolved = settings_of_run(folder.path / "run");
   const std::vector<Vec3> shape = final_state(folder.path / "run").shape;
-  EXPECT_EQ(canopy.sizes, image_sizes(parachute_mesh(given), shape));
-  EXPECT_EQ(canopy.sizes, computed_canopy(given, shape).sizes);
-  EXPECT_EQ(computed_canopy(given, shape).run, "");
+  EXPECT_EQ(canopy.sizes, image_sizes(parachute_mesh(resolved), shape));
+  EXPECT_EQ(canopy.sizes, computed_canopy(resolved, shape).sizes);
+  EXPECT_EQ(computed_canopy(resolved, shape).run, "");
   write_file(folder.path / "run/lines.csv", "line\n1\n");
   EXPECT_THROW(computed_canopy(folder.path / "run"), Error);
 }

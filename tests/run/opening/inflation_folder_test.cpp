@@ -39,11 +39,13 @@ class InflationFolderTest : public ::testing::Test {
   void SetUp() override { given.inflation.sheet_s = {0, 0.004}; }
   void TearDown() override { fs::remove_all(root); }
 
-  InflationProblem problem() const { return {parachute_mesh(given), given.inflation, 500, false, 1, 6}; }
+  InflationProblem problem() const {
+    return {parachute_mesh(resolve(given)), given.inflation, 500, false, 1, 6};
+  }
   std::optional<InflationResult> open(const char* name, InflationObserver& observer,
                                       bool fresh = false) const {
     return run_inflation_in(
-        {{root / name, fresh}, 1, 0}, given, {"given", {}}, [&] { return problem(); }, observer);
+        {{root / name, fresh}, 1, 0}, resolve(given), {"given", {}}, [&] { return problem(); }, observer);
   }
 };
 
@@ -98,10 +100,10 @@ TEST_F(InflationFolderTest, AKilledRunGoesOnAndItsHistoryIsByteIdentical) {
 TEST_F(InflationFolderTest, AReefedRunThatIsKilledBeforeOrAfterTheCutGoesOnByteIdentical) {
   const auto open_reefed = [&](const std::string& name, InflationObserver& observer) {
     const Case opening = opening_case(given);
-    const LoadSource source = load_source(opening);
+    const LoadSource source = load_source(resolve(opening));
     return run_inflation_in(
-        {{root / name}, 1, 0}, opening, source, [&] { return opening_problem(opening, source, 1); },
-        observer);
+        {{root / name}, 1, 0}, resolve(opening), source,
+        [&] { return opening_problem(resolve(opening), source, 1); }, observer);
   };
   for (const double cut : {0.0035, 0.006}) {
     given.inflation.reefing = {{0.5, cut, {}}};
@@ -129,13 +131,13 @@ TEST_F(InflationFolderTest, InItsOwnAirTheStreamPassesNoMoreThanAPartOfACellInAR
   given.inflation.history_hz = 10;
   given.inflation.low_pass_hz = 0;
   const Case opening = opening_case(given);
-  InflationProblem problem = opening_problem(opening, load_source(opening), 1);
+  InflationProblem problem = opening_problem(resolve(opening), load_source(resolve(opening)), 1);
   problem.air->engine = make_cartesian({});
   const FlowGrid& grid = problem.air->flow.grid;
   double least = 1e9;
   for (int axis = 0; axis < 3; ++axis)
     for (int c = 0; c < grid.count(axis); ++c) least = std::min(least, grid.width(axis, c));
-  const double passed = problem.air->flow.air.speed * CoupledOpening(problem).row_duration() / least;
+  const double passed = problem.air->flow.air.speed() * CoupledOpening(problem).row_duration() / least;
   EXPECT_LE(passed, 0.03 * (1 + 1e-9));
   EXPECT_GT(passed, 0.015);
 }
@@ -144,10 +146,10 @@ TEST_F(InflationFolderTest, InItsOwnAirAKilledRunGoesOnByteIdentical) {
   given = small_opening_in_air();
   const auto open_in_air = [&](const char* name, InflationObserver& observer) {
     const Case opening = opening_case(given);
-    const LoadSource source = load_source(opening);
+    const LoadSource source = load_source(resolve(opening));
     return run_inflation_in(
-        {{root / name}, 1, 0}, opening, source, [&] { return opening_problem(opening, source, 1); },
-        observer);
+        {{root / name}, 1, 0}, resolve(opening), source,
+        [&] { return opening_problem(resolve(opening), source, 1); }, observer);
   };
   struct KilledAfter : InflationObserver {
     long long blocks = 0;
@@ -200,10 +202,10 @@ TEST_F(InflationFolderTest, TheAirOfACheckpointStaysUntilTheNextOneIsWhole) {
   given = small_opening_in_air();
   const auto open_in_air = [&](const char* name, InflationObserver& observer) {
     const Case opening = opening_case(given);
-    const LoadSource source = load_source(opening);
+    const LoadSource source = load_source(resolve(opening));
     return run_inflation_in(
-        {{root / name}, 1, 0}, opening, source, [&] { return opening_problem(opening, source, 1); },
-        observer);
+        {{root / name}, 1, 0}, resolve(opening), source,
+        [&] { return opening_problem(resolve(opening), source, 1); }, observer);
   };
   struct KilledBetween : InflationObserver {
     fs::path folder;
@@ -267,7 +269,7 @@ TEST_F(InflationFolderTest, InMemoryTheOpeningIsThatOfTheFolder) {
   const auto in_folder = open("run", quiet);
   ASSERT_TRUE(in_folder);
   EXPECT_FALSE(open("run", quiet));  // finished: only shown
-  InflationSolution in_memory = run_inflation(given, {"given", {}}, problem(), quiet);
+  InflationSolution in_memory = run_inflation(resolve(given), {"given", {}}, problem(), quiet);
   EXPECT_FALSE(in_memory.result.inputs_hash);  // that of a folder's run.json
   in_memory.result.inputs_hash = in_folder->inputs_hash;
   EXPECT_TRUE(in_folder->inputs_hash);
@@ -278,7 +280,7 @@ TEST_F(InflationFolderTest, InMemoryTheOpeningIsThatOfTheFolder) {
 TEST_F(InflationFolderTest, ItsResultIsWhatItsHistoryAndFramesSay) {
   given.inflation.low_pass_hz = 1000;
   InflationObserver quiet;
-  const auto [result, state, history] = run_inflation(given, {"given", {}}, problem(), quiet);
+  const auto [result, state, history] = run_inflation(resolve(given), {"given", {}}, problem(), quiet);
   const InflationSummary summary = summarise(history.rows, 1000);
   ASSERT_TRUE(result.smooth_peak && result.smooth_peak_time && result.smooth_overshoot);
   EXPECT_GT(*result.smooth_peak, 0);

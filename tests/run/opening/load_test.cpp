@@ -39,14 +39,14 @@ const MethodLoad& method(const StageLoads& stage, const std::string& name) {
 }
 
 std::string refused(const LoadRequest& asked) {
-  return refusal_of([&] { run_load(flat_circular(), asked); }, ExitCode::usage);
+  return refusal_of([&] { run_load(resolve(flat_circular()), asked); }, ExitCode::usage);
 }
 
 // n D0 / v for the open canopy, with the root of the share of the area that a stage adds.
 TEST(Load, AStageFillsAsItsOwnShareOfTheAreaDoes) {
   LoadRequest asked = request();
   asked.reefing = {{0.1, 2}, {0.4, 2}};
-  const LoadResult r = run_load(flat_circular(), asked);
+  const LoadResult r = run_load(resolve(flat_circular()), asked);
   ASSERT_EQ(r.stages.size(), 3u);
   const double shares[] = {0.1, 0.3, 0.6};
   for (int n = 0; n < 3; ++n)
@@ -82,7 +82,7 @@ void expect_judged(const StageLoads& stage) {
 }
 
 TEST(Load, PutsTheMethodsSideBySideAndSaysWhichApply) {
-  const LoadResult r = run_load(flat_circular(), request());
+  const LoadResult r = run_load(resolve(flat_circular()), request());
   ASSERT_EQ(r.stages.size(), 1u);
   const StageLoads& stage = r.stages[0];
   EXPECT_EQ(stage.methods.size(), 5u);
@@ -102,7 +102,7 @@ TEST(Load, PutsTheMethodsSideBySideAndSaysWhichApply) {
 }
 
 TEST(Load, EndsInTheSteadyDescentOfItsMass) {
-  const LoadResult r = run_load(flat_circular(), request());
+  const LoadResult r = run_load(resolve(flat_circular()), request());
   EXPECT_TRUE(r.steady_reached);
   const double density = standard_air(500 - r.steady_drop).density;
   EXPECT_NEAR(r.steady_speed / terminal_speed(r.payload_mass + r.parachute_mass,
@@ -145,7 +145,7 @@ TEST(Load, EveryFlightKeepsMomentumAndEnergy) {
         LoadRequest asked = request(mass, 70);
         asked.path_angle = angle, asked.height = 3000;
         if (reefed) asked.reefing = {{0.1, 2}, {0.4, 2}};
-        const LoadResult r = run_load(flat_circular(), asked);
+        const LoadResult r = run_load(resolve(flat_circular()), asked);
         const Balance left = balance(r.flight, r.payload_mass + r.parachute_mass);
         for (const double open : {left.level, left.down, left.energy})
           EXPECT_NEAR(open, 0, 1e-5) << angle << " " << mass << " " << reefed;
@@ -157,17 +157,18 @@ TEST(Load, AComputedOpeningIsOneOfTheMethodsThatAreJudged) {
   const Case given = small_opening();
   InflationObserver quiet;
   run_inflation_in(
-      {{folder.path / "run", false}, 1, 0}, given, {"given", {}},
-      [&] { return InflationProblem{parachute_mesh(given), given.inflation, 500, false, 1, 6}; }, quiet);
+      {{folder.path / "run", false}, 1, 0}, resolve(given), {"given", {}},
+      [&] { return InflationProblem{parachute_mesh(resolve(given)), given.inflation, 500, false, 1, 6}; },
+      quiet);
   LoadRequest asked = request();
   asked.opening = folder.path / "run";
-  const LoadResult r = run_load(given, asked);
+  const LoadResult r = run_load(resolve(given), asked);
   ASSERT_EQ(r.stages.size(), 1u);
   EXPECT_EQ(method(r.stages[0], "computed opening").load, *r.record_peak_load);
   expect_judged(r.stages[0]);
   // That canopy was not reefed.
   asked.reefing = {{0.3, 1}};
-  const LoadResult reefed = run_load(given, asked);
+  const LoadResult reefed = run_load(resolve(given), asked);
   for (const StageLoads& stage : reefed.stages)
     for (const MethodLoad& one : stage.methods) EXPECT_NE(one.method, "computed opening");
 }
@@ -177,7 +178,7 @@ TEST(Load, TakesTheDragAreaOfASteadyRunAndNamesIt) {
   fly_square_law(folder.path / "run");
   LoadRequest asked = request();
   asked.steady = folder.path / "run";
-  const LoadResult r = run_load(square_law_case(), asked);
+  const LoadResult r = run_load(resolve(square_law_case()), asked);
   EXPECT_NEAR(r.drag_coefficient * r.reference_area, 1.1, 1e-3);
   EXPECT_EQ(r.drag_source, "steady run " + asked.steady.string() + ": 1.1 m2");
 }
@@ -185,16 +186,16 @@ TEST(Load, TakesTheDragAreaOfASteadyRunAndNamesIt) {
 TEST(Load, AHeavyPayloadIsAtInfiniteMass) {
   LoadRequest asked = request(20000, 900);
   asked.path_angle = 0;
-  const StageLoads stage = run_load(flat_circular(), asked).stages[0];
+  const StageLoads stage = run_load(resolve(flat_circular()), asked).stages[0];
   EXPECT_TRUE(method(stage, "infinite mass").applies);
   EXPECT_LT(stage.spread, 0.02);
 }
 
 TEST(Load, ReefingInStagesLowersTheHighestLoad) {
-  const double open = run_load(flat_circular(), request(8, 60)).peak_load;
+  const double open = run_load(resolve(flat_circular()), request(8, 60)).peak_load;
   LoadRequest asked = request(8, 60);
   asked.reefing = {{0.1, 2}, {0.4, 2}};
-  const LoadResult r = run_load(flat_circular(), asked);
+  const LoadResult r = run_load(resolve(flat_circular()), asked);
   ASSERT_EQ(r.stages.size(), 3u);
   EXPECT_LT(r.peak_load, 0.6 * open);
   EXPECT_NEAR(r.stages[1].begin, 2, 1e-9);
@@ -205,9 +206,9 @@ TEST(Load, ReefingInStagesLowersTheHighestLoad) {
 
 TEST(Load, WithASnatchSpeedHasTheSnatchLoad) {
   LoadRequest asked = request();
-  EXPECT_FALSE(run_load(flat_circular(), asked).snatch);
+  EXPECT_FALSE(run_load(resolve(flat_circular()), asked).snatch);
   asked.snatch_speed = 5;
-  const LoadResult r = run_load(flat_circular(), asked);
+  const LoadResult r = run_load(resolve(flat_circular()), asked);
   ASSERT_TRUE(r.snatch);
   EXPECT_NEAR(r.snatch->line_load * 12, r.snatch->load, 1e-9 * r.snatch->load);
 }
@@ -217,7 +218,7 @@ TEST(Load, EveryMethodIsAskedInTheConditionsOfItsStage) {
   LoadRequest asked = request(8, 60);
   asked.path_angle = 30, asked.height = 2000, asked.impulse_integral = 0.4;
   asked.reefing = {{0.3, 2}};
-  const LoadResult r = run_load(flat_circular(), asked);
+  const LoadResult r = run_load(resolve(flat_circular()), asked);
   ASSERT_EQ(r.stages.size(), 2u);
   const double open = r.drag_coefficient * r.reference_area;
   EXPECT_EQ(r.stages[0].height, 2000);
@@ -282,7 +283,7 @@ TEST(Load, EveryMethodIsAskedInTheConditionsOfItsStage) {
 }
 
 TEST(Load, WhatFillsSlowlyUnderGravityIsNotForMethodsWithoutIt) {
-  const StageLoads stage = run_load(flat_circular(), request(8, 15)).stages[0];
+  const StageLoads stage = run_load(resolve(flat_circular()), request(8, 15)).stages[0];
   const double share = standard_gravity * stage.filling_time / 15;
   ASSERT_GT(share, 0.3);
   EXPECT_FALSE(method(stage, "Pflanz").applies || method(stage, "Ludtke").applies);
@@ -291,14 +292,14 @@ TEST(Load, WhatFillsSlowlyUnderGravityIsNotForMethodsWithoutIt) {
   EXPECT_NEAR(std::stod(note.substr(27)), 100 * share, 0.51) << note;
   LoadRequest level = request(8, 15);
   level.path_angle = 0;  // none along the way
-  EXPECT_TRUE(method(run_load(flat_circular(), level).stages[0], "Pflanz").applies);
+  EXPECT_TRUE(method(run_load(resolve(flat_circular()), level).stages[0], "Pflanz").applies);
 }
 
 // Between two legs no row is left out and none is there twice.
 TEST(Load, TheRowsOfItsLegsFollowEachOtherWithoutAGap) {
   LoadRequest asked = request(8, 60);
   asked.reefing = {{0.1, 2}, {0.4, 2}};
-  const std::vector<FlightRow> rows = run_load(flat_circular(), asked).flight;
+  const std::vector<FlightRow> rows = run_load(resolve(flat_circular()), asked).flight;
   const auto step = [&](std::size_t i) { return rows[i].state.time - rows[i - 1].state.time; };
   EXPECT_EQ(rows[0].state.time, 0);
   for (std::size_t i = 2; i + 1 < rows.size(); ++i) {
@@ -309,7 +310,7 @@ TEST(Load, TheRowsOfItsLegsFollowEachOtherWithoutAGap) {
 
 TEST(Load, WhatIsGivenTakesTheHandbooksPlace) {
   LoadRequest asked = request();
-  const LoadResult own = run_load(flat_circular(), asked);
+  const LoadResult own = run_load(resolve(flat_circular()), asked);
   EXPECT_DOUBLE_EQ(own.drag_coefficient, 0.775);
   EXPECT_EQ(own.drag_source, "middle of 0.75 to 0.80 (Knacke)");
   EXPECT_EQ(own.opening_coefficient, 1.7);
@@ -319,10 +320,10 @@ TEST(Load, WhatIsGivenTakesTheHandbooksPlace) {
   EXPECT_EQ(own.filling_source, known_filling("flat-circular").source);
   EXPECT_NE(own.opening_source, "given");
   asked.filling_constant = 5;
-  EXPECT_EQ(run_load(flat_circular(), asked).filling_source,
+  EXPECT_EQ(run_load(resolve(flat_circular()), asked).filling_source,
             own.filling_source);  // the exponents are still its
   asked.drag_coefficient = 0.6, asked.opening_coefficient = 1.5, asked.filling_exponent = 1;
-  const LoadResult given = run_load(flat_circular(), asked);
+  const LoadResult given = run_load(resolve(flat_circular()), asked);
   EXPECT_EQ(given.drag_coefficient, 0.6);
   EXPECT_EQ(given.opening_coefficient, 1.5);
   EXPECT_EQ(given.filling_constant, 5);
@@ -340,7 +341,7 @@ TEST(Load, TheSnatchOfAPackedCanopyFollowsFromHowItIsSlowed) {
   given.materials.insert_or_assign(line.name, line);
   LoadRequest asked = request();
   asked.packed_drag_area = 0.05, asked.payload_drag_area = 0.01;
-  const LoadResult r = run_load(given, asked);
+  const LoadResult r = run_load(resolve(given), asked);
   ASSERT_TRUE(r.snatch);
   const Design& design = given.parachute;
   const double apart = speed_difference_at_stretch({2.4, 0.01}, {r.parachute_mass, 0.05}, 30,
@@ -392,7 +393,7 @@ TEST(Load, WhatCannotBeIsRefused) {
 
 TEST(Load, ItsFilesHaveTheWholeWay) {
   const TemporaryFolder folder("load");
-  LoadResult r = run_load(flat_circular(), request());
+  LoadResult r = run_load(resolve(flat_circular()), request());
   write_load(folder.path, r);
   EXPECT_FALSE(std::filesystem::exists(folder.path / "trajectory_computed.csv"));
   r.record_flight.assign(r.flight.begin(), r.flight.begin() + 10);

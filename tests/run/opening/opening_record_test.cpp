@@ -20,14 +20,14 @@ struct OpeningRecords : testing::Test {
 
   void write(const CsvTable& history, double steady, const CsvTable* smooth = nullptr) {
     std::filesystem::remove_all(folder);
-    const auto claimed = open_run_folder({folder}, given, "inflation", 1);
+    const auto claimed = open_run_folder({folder}, resolve(given), "inflation", 1);
     write_csv(claimed->own("history.csv"), history);
     if (smooth) write_csv(claimed->own("history_low_pass.csv"), *smooth);
     write_file(claimed->own("result.json"), "{\"steady_load_n\": " + csv_number(steady) + "}");
     claimed->seal();
   }
   std::string refusal(ExitCode code, const Case& asked) const {
-    return refusal_of([&] { opening_record(folder, asked); }, code);
+    return refusal_of([&] { opening_record(folder, resolve(asked)); }, code);
   }
 };
 
@@ -36,7 +36,7 @@ const CsvTable opening_history{{"time_s", "load_mean_n", "load_largest_n"},
 
 TEST_F(OpeningRecords, IsLoadOverDynamicPressureOverTheWayAndGoesOnWithoutARepeatedTime) {
   write(opening_history, 90);
-  const OpeningRecord record = opening_record(folder, given);
+  const OpeningRecord record = opening_record(folder, resolve(given));
   ASSERT_EQ(record.distance.size(), 3u);
   const double way[] = {1, 2, 3}, area[] = {0, 0.5, 2};
   for (int i = 0; i < 3; ++i) {
@@ -49,7 +49,7 @@ TEST_F(OpeningRecords, IsLoadOverDynamicPressureOverTheWayAndGoesOnWithoutARepea
 TEST_F(OpeningRecords, TakesTheLowPassedLoadWhereThereIsOne) {
   const CsvTable smooth{{"time_s", "load_n"}, {{0.5, 60}}};
   write(opening_history, 90, &smooth);
-  const OpeningRecord record = opening_record(folder, given);
+  const OpeningRecord record = opening_record(folder, resolve(given));
   EXPECT_EQ(record.distance, std::vector<double>{5});
   EXPECT_EQ(record.drag_area, std::vector<double>{1});
 }

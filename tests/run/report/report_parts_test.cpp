@@ -56,9 +56,9 @@ TEST_F(ReportParts, OfASteadyRunBeginWithItsDragAndEndWithWhatMadeIt) {
 }
 
 TEST_F(ReportParts, TheBillHasARowForEveryRowOfTheBill) {
-  const Case given = case_of_run(steady());
-  const Bill bill = run_pattern(given, {}, packed_by_hand).bill;
-  const ReportTable table = bill_table(given);
+  const Settings resolved = settings_of_run(steady());
+  const Bill bill = run_pattern(resolved, {}, packed_by_hand).bill;
+  const ReportTable table = bill_table(resolved);
   EXPECT_EQ(table.title, "Bill of materials");
   EXPECT_EQ(table.note.find(fmt::format(
                 "As cut, with the usual allowances, thread not counted: {:.4g} g, {:.3g} l packed by hand.",
@@ -80,8 +80,8 @@ TEST_F(ReportParts, TheBillHasARowForEveryRowOfTheBill) {
 }
 
 TEST_F(ReportParts, TheSourcesSayKeyValueAndWhereItIsFrom) {
-  const Case given = case_of_run(steady());
-  const ReportTable table = sources_table(given, steady() / "run.json");
+  const Settings resolved = settings_of_run(steady());
+  const ReportTable table = sources_table(resolved, steady() / "run.json");
   const auto sources = nlohmann::json::parse(read_file(steady() / "run.json")).at("sources");
   ASSERT_EQ(table.rows.size(), sources.size());
   ASSERT_GT(table.rows.size(), 5u);
@@ -92,7 +92,7 @@ TEST_F(ReportParts, TheSourcesSayKeyValueAndWhereItIsFrom) {
     EXPECT_EQ(table.rows[i].at(2), sources[i].at("from"));
     if (table.rows[i][0] != "flow.density_kg_m3") continue;
     density = true;
-    EXPECT_DOUBLE_EQ(std::stod(table.rows[i][1]), air(given).density);
+    EXPECT_DOUBLE_EQ(std::stod(table.rows[i][1]), resolved.flow().density_kg_m3);
   }
   EXPECT_TRUE(density);
 }
@@ -172,8 +172,9 @@ class ReportOfAnOpening : public testing::Test {
     given.inflation.low_pass_hz = 1000;
     InflationObserver quiet;
     ASSERT_TRUE(run_inflation_in(
-        {{folder_}, 1, 0}, given, {"given", {}},
-        [&] { return InflationProblem{parachute_mesh(given), given.inflation, 500, false, 1, 6}; }, quiet));
+        {{folder_}, 1, 0}, resolve(given), {"given", {}},
+        [&] { return InflationProblem{parachute_mesh(resolve(given)), given.inflation, 500, false, 1, 6}; },
+        quiet));
     for (int k = 1; k <= 8; ++k) times_.push_back(1e-3 * k);
   }
 };
@@ -186,7 +187,7 @@ TEST_F(ReportOfAnOpening, BeginsWithItsLoadsAndHasEveryFrame) {
   for (const std::string& key : run.headline) EXPECT_FALSE(std::isnan(number_of(run, key))) << key;
   ASSERT_EQ(run.shape.frames.size(), times_.size());
   for (std::size_t k = 0; k < times_.size(); ++k) EXPECT_NEAR(run.shape.frames[k].time, times_[k], 1e-9);
-  EXPECT_EQ(run.shape.part_names, parachute_mesh(case_of_run(folder_)).parts);
+  EXPECT_EQ(run.shape.part_names, parachute_mesh(settings_of_run(folder_)).parts);
   EXPECT_TRUE(run.flow.pressure.empty());
 }
 
@@ -220,14 +221,15 @@ TEST(ReportOfASweep, HasItsRunsByTheirValuesAndNoneOfThoseWithoutAResult) {
   const std::vector<SweepAxis> axes = {sweep_axis("flow.speed_m_s", {"15", "20", "25"}, "--speeds")};
   std::vector<SweepPoint> points;
   for (const char* speed : {"15", "20", "25"})
-    points.push_back({{speed}, square_law_case({{"flow.speed_m_s", speed}}), std::string("v") + speed, -1});
+    points.push_back(
+        {{speed}, resolve(square_law_case({{"flow.speed_m_s", speed}})), std::string("v") + speed, -1});
   SweepSettings settings;
   settings.folder = root.path / "sweep";
   settings.jobs = 1;
   prepare_sweep(points, settings);
   SteadyObserver nobody;  // one thread each: a team beside other tests waits for itself
   for (const SweepPoint& point : points)
-    run_steady_in({{settings.folder / point.folder, false, false, false}, 1, {}, {}}, point.given, nobody);
+    run_steady_in({{settings.folder / point.folder, false, false, false}, 1, {}, {}}, point.resolved, nobody);
   std::vector<SweepRow> rows = gather_sweep(points, settings);
   for (const SweepRow& row : rows) EXPECT_TRUE(row.done) << row.error;
   rows[1] = {};

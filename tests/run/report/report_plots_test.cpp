@@ -10,6 +10,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/output/csv.h"
+#include "tests/small_case.h"
 
 namespace ripstop {
 namespace {
@@ -169,7 +170,7 @@ ReportRun steady_run(const char* name, const char* speed, const char* drag) {
 }
 
 TEST_F(ReportPlots, OverSeveralRunsDragStandsOverSpeedBesideWhatWasMeasured) {
-  Case given;
+  Case given = checked(flat_circular_case(1, 1500, 10));
   given.measured.resize(2);
   given.measured[0].nominal_speed_m_s = 10, given.measured[0].measured_speed_m_s = 11;
   given.measured[0].drag_n = 50;
@@ -178,7 +179,7 @@ TEST_F(ReportPlots, OverSeveralRunsDragStandsOverSpeedBesideWhatWasMeasured) {
   const std::vector<ReportRun> runs = {steady_run("b", "20", "200"), steady_run("a", "10", "49"),
                                        steady_run("c", "20", "190")};
   given.flow.speed_basis = SpeedBasis::nominal;
-  ReportPlot drag = comparison_plots(runs, given).at(0);
+  ReportPlot drag = comparison_plots(runs, resolve(given)).at(0);
   EXPECT_EQ(drag.id, "drag-speed");
   EXPECT_EQ(names_of(drag), (std::vector<std::string>{"computed", "measured", "source's nonlinear model"}));
   EXPECT_EQ(drag.series[0].x, (Numbers{10, 20, 20}));
@@ -191,10 +192,10 @@ TEST_F(ReportPlots, OverSeveralRunsDragStandsOverSpeedBesideWhatWasMeasured) {
   EXPECT_FALSE(drag.series[1].line || drag.series[2].line);
 
   given.flow.speed_basis = SpeedBasis::measured;
-  drag = comparison_plots({runs[0], runs[1]}, given).at(0);
+  drag = comparison_plots({runs[0], runs[1]}, resolve(given)).at(0);
   EXPECT_TRUE(drag.series[0].line);
   EXPECT_EQ(drag.series[1].x, Numbers{11});
-  EXPECT_TRUE(comparison_plots({runs[0], runs[2]}, given).empty());  // one speed
+  EXPECT_TRUE(comparison_plots({runs[0], runs[2]}, resolve(given)).empty());  // one speed
 }
 
 TEST_F(ReportPlots, WhatTwoRunsHaveIsLaidOverEachOtherByTheRunsNames) {
@@ -205,7 +206,8 @@ TEST_F(ReportPlots, WhatTwoRunsHaveIsLaidOverEachOtherByTheRunsNames) {
     runs[i].kind = "opening", runs[i].name = std::string(1, char('a' + i));
     if (i != 1) runs[i].plots = plots_of(runs[i], folder.path);  // the second has no tables
   }
-  const std::vector<ReportPlot> plots = comparison_plots(runs, {});
+  const std::vector<ReportPlot> plots =
+      comparison_plots(runs, resolve(checked(flat_circular_case(1, 1500, 10))));
   ASSERT_EQ(ids_of(plots), (std::vector<std::string>{"load", "size"}));
   for (const ReportPlot& plot : plots) {
     EXPECT_EQ(names_of(plot), (std::vector<std::string>{"a", "c"}));
@@ -215,7 +217,8 @@ TEST_F(ReportPlots, WhatTwoRunsHaveIsLaidOverEachOtherByTheRunsNames) {
   EXPECT_EQ(plots[0].title, "Load on the riser: load");
   EXPECT_EQ(plots[1].title, "Diameters: projected");
   EXPECT_EQ(plots[1].y.unit, "m");
-  EXPECT_TRUE(comparison_plots({runs[0], runs[1]}, {}).empty());  // nothing to compare
+  EXPECT_TRUE(comparison_plots({runs[0], runs[1]}, resolve(checked(flat_circular_case(1, 1500, 10))))
+                  .empty());  // nothing to compare
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ class RunReport : public testing::Test {
     runs = std::make_unique<TemporaryFolder>("ripstop-runs-for-reports");
     SteadyObserver nobody;
     for (const auto& [name, speed] : {std::pair{"a", 10.0}, {"b", 20.0}})
-      run_steady_in({{runs->path / name}, 1, {}, {}}, small(name, speed), nobody);
+      run_steady_in({{runs->path / name}, 1, {}, {}}, resolve(small(name, speed)), nobody);
   }
   static void TearDownTestSuite() { runs.reset(); }
 
@@ -84,10 +84,10 @@ TEST_F(RunReport, ThatCannotBeWrittenLeavesTheRunToBeRepeated) {
   fs::remove(folder / "report.html");
   fs::create_directories(folder / "report.html");  // no file can take its place
   SteadyObserver nobody;
-  EXPECT_THROW(run_steady_in({{folder}, 1, {}, {}}, small("a", 10), nobody), Error);
+  EXPECT_THROW(run_steady_in({{folder}, 1, {}, {}}, resolve(small("a", 10)), nobody), Error);
   EXPECT_FALSE(is_sealed(folder));
   fs::remove(folder / "report.html");
-  run_steady_in({{folder}, 1, {}, {}}, small("a", 10), nobody);
+  run_steady_in({{folder}, 1, {}, {}}, resolve(small("a", 10)), nobody);
   EXPECT_TRUE(finished_result(folder));
   EXPECT_TRUE(is_report(read_file(folder / "report.html")));
 }

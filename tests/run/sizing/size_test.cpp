@@ -106,7 +106,7 @@ TEST(Size, ItsCaseFileIsACaseOfThatParachute) {
     EXPECT_EQ(given.flow.speed_m_s, 5);
     EXPECT_EQ(given.payload.mass_kg, 2.4);
     EXPECT_EQ(given.flow.height_m, 300);
-    EXPECT_NEAR(parachute_mass(given), r.parachute_mass, 1e-9) << drag.family;
+    EXPECT_NEAR(parachute_mass(resolve(given)), r.parachute_mass, 1e-9) << drag.family;
     EXPECT_NE(r.case_text.find("# "), std::string::npos);
   }
 }
@@ -122,7 +122,7 @@ TEST(Size, VerifyChangesTheDiameterUntilTheRateHolds) {
     SteadyResult flown;
     flown.converged = true;
     flown.drag_coefficient = coefficient;
-    flown.speed = std::sqrt(2 * suspended_weight(given, *given.payload.mass_kg) /
+    flown.speed = std::sqrt(2 * suspended_weight(resolve(given), *given.payload.mass_kg) /
                             (air(given).density * coefficient * nominal_area(given.parachute)));
     return flown;
   };

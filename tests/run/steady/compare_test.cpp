@@ -23,7 +23,7 @@ TEST(CompareModels, TheWeftAndTheTapeKeepTheirFirstCoefficientToo) {
   given.materials.insert_or_assign(cloth.name, cloth);
   given.parachute.tape.material = "none";
   given = checked(given);
-  SweepAxis axis = linear_models(given);
+  SweepAxis axis = linear_models(resolve(given));
   EXPECT_EQ(axis.name, "model");
   EXPECT_EQ(axis.values, (std::vector<std::string>{"nonlinear", "linear", "linear cloth", "linear lines"}));
   ASSERT_EQ(axis.settings.size(), 4u);
@@ -39,7 +39,7 @@ TEST(CompareModels, TheWeftAndTheTapeKeepTheirFirstCoefficientToo) {
   given.materials.insert_or_assign(cloth.name, cloth);
   given.parachute.tape.material = "nylon-tape";
   given = checked(given);
-  axis = linear_models(given);
+  axis = linear_models(resolve(given));
   ASSERT_EQ(axis.settings[2].size(), 2u);
   EXPECT_EQ(axis.settings[2][1].key, "materials.woven.weft_coefficients_n_m");
   EXPECT_EQ(axis.settings[2][1].value, "[600]");
@@ -48,11 +48,11 @@ TEST(CompareModels, TheWeftAndTheTapeKeepTheirFirstCoefficientToo) {
   EXPECT_EQ(axis.settings.at(4).at(0).key, "materials.nylon-tape.coefficients_n_m");
   // One line above and below the confluence is one law.
   given.parachute.riser.material = given.parachute.lines.material;
-  EXPECT_EQ(linear_models(checked(given)).settings[3].size(), 1u);
+  EXPECT_EQ(linear_models(resolve(checked(given))).settings[3].size(), 1u);
 
   given.coupling.linear = true;
   try {
-    linear_models(given);
+    linear_models(resolve(given));
     ADD_FAILURE() << "a linear case was compared";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::usage);
@@ -64,12 +64,10 @@ class ComparedModels : public testing::Test {
   void SetUp() override {
     SteadyObserver quiet;
     for (const char* model : {"nonlinear", "linear"}) {
-      points_.push_back({{model},
-                         square_law_case({{"flow.speed_basis", "nominal"}, {"flow.density_kg_m3", "1.2"}}),
-                         "",
-                         -1});
-      points_.back().given.coupling.linear = points_.size() > 1;
-      solutions_.push_back(run_steady(points_.back().given, quiet));
+      Case given = square_law_case({{"flow.speed_basis", "nominal"}, {"flow.density_kg_m3", "1.2"}});
+      given.coupling.linear = !points_.empty();
+      points_.push_back({{model}, resolve(given), "", -1});
+      solutions_.push_back(run_steady(points_.back().resolved, quiet));
       rows_.emplace_back();
       rows_.back().done = true;
       rows_.back().result = solutions_.back().result;
@@ -87,10 +85,13 @@ class ComparedModels : public testing::Test {
 };
 
 TEST_F(ComparedModels, HaveTheNumbersOfTheirRunsAndOfWhatWasMeasured) {
-  points_[0].given.measured = {{air(points_[0].given).speed, 21, 1.2, 400.0, 390.0, 380.0}};
+  const double speed = points_[0].resolved.flow().speed_m_s;
+  points_[0].resolved = edited(points_[0].resolved, [&](Case& given) {
+    given.measured = {{speed, 21, 1.2, 400.0, 390.0, 380.0}};
+  });
   const Comparison c = compared();
-  EXPECT_EQ(c.speed, air(points_[0].given).speed);
-  EXPECT_EQ(c.drag_tolerance, resolve(points_[0].given).coupling.drag_tolerance);
+  EXPECT_EQ(c.speed, speed);
+  EXPECT_EQ(c.drag_tolerance, points_[0].resolved.coupling().drag_tolerance);
   EXPECT_EQ(c.measured_drag, 400);
   EXPECT_EQ(c.printed_nonlinear, 390);
   EXPECT_EQ(c.printed_linear, 380);
@@ -107,7 +108,7 @@ TEST_F(ComparedModels, HaveTheNumbersOfTheirRunsAndOfWhatWasMeasured) {
     EXPECT_EQ(m.iterations, r.iterations);
     EXPECT_EQ(m.wall_time, r.wall_time);
     EXPECT_EQ(m.strain.size(),
-              part_strains(parachute_mesh(points_[i].given), solutions_[i].state.shape).size());
+              part_strains(parachute_mesh(points_[i].resolved), solutions_[i].state.shape).size());
     EXPECT_FALSE(m.strain.empty());
   }
   EXPECT_NEAR(c.models[1].drag_difference, -0.1, 1e-12);
@@ -120,7 +121,7 @@ TEST_F(ComparedModels, HaveTheNumbersOfTheirRunsAndOfWhatWasMeasured) {
         std::max(widest, std::abs(c.models[1].profile[i].diameter - c.models[0].profile[i].diameter) / 2);
   EXPECT_GT(widest, 0);
   EXPECT_DOUBLE_EQ(c.models[1].profile_change, widest);
-  points_[0].given.measured.clear();
+  points_[0].resolved = edited(points_[0].resolved, [](Case& given) { given.measured.clear(); });
   EXPECT_FALSE(compared().measured_drag);
 }
 

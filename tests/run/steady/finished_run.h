@@ -19,8 +19,8 @@ class SquareLawFlow : public FormulaFlow {
  public:
   SquareLawFlow(const FlowProblem& problem, double area)
       : FormulaFlow(problem),
-        force_(0.5 * problem.air.density * problem.air.speed * problem.air.speed * area) {}
-  void place(const std::vector<Triangle>&, const SheetMotion&) override { aim_at(force_); }
+        force_(0.5 * problem.air.density * problem.air.speed() * problem.air.speed() * area) {}
+  void place(std::size_t, const std::vector<Triangle>&, const SheetMotion&) override { aim_at(force_); }
 
  private:
   double force_;
@@ -60,7 +60,8 @@ inline Case square_law_case(std::vector<Setting> more = {}) {
 /// Runs the case into `folder`.
 inline SteadyResult fly_square_law(const std::filesystem::path& folder, std::vector<Setting> more = {}) {
   SteadyObserver nobody;
-  return run_steady_in({{folder, false}, 1, {}, {}}, square_law_case(std::move(more)), nobody).result;
+  return run_steady_in({{folder, false}, 1, {}, {}}, resolve(square_law_case(std::move(more))), nobody)
+      .result;
 }
 
 }  // namespace ripstop

@@ -17,8 +17,8 @@ class FormulaFlow : public Flow {
  public:
   explicit FormulaFlow(const FlowProblem& problem) : problem_(problem) {}
 
-  void place(const std::vector<Triangle>& surface, const SheetMotion&) override {
-    target_ = 0.05 * double(cut_cells(problem_.grid, surface).size()) * problem_.air.speed;
+  void place(std::size_t, const std::vector<Triangle>& surface, const SheetMotion&) override {
+    target_ = 0.05 * double(cut_cells(problem_.grid, surface).size()) * problem_.air.speed();
   }
   FlowAdvance advance(int iterations, double residual, const FlowReport& report) override {
     FlowAdvance done;
@@ -34,11 +34,11 @@ class FormulaFlow : public Flow {
     FlowField field;
     field.grid = problem_.grid;
     field.pressure.assign(problem_.grid.cells(), 0.0);
-    field.velocity.assign(problem_.grid.cells(), Vec3{0, 0, problem_.air.speed});
+    field.velocity.assign(problem_.grid.cells(), Vec3{0, 0, problem_.air.speed()});
     const int layer = problem_.grid.nx * problem_.grid.ny;
     std::fill_n(field.pressure.begin(), layer * 17, 100.0);  // up to z = 2.27 m: within the canopy
     field.porous_force = {0, 0, force_};
-    field.momentum_deficit = force_;
+    field.momentum_deficit = {0, 0, force_};
     return field;
   }
   bool untouched() const override { return force_ == 1; }

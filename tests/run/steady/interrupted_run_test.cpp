@@ -27,7 +27,8 @@ class InterruptedRun : public testing::Test {
 
   void SetUp() override {
     Stopped stopped;
-    EXPECT_THROW(run_steady_in({{folder}, 1, {}, {}}, square_law_case(), stopped), std::runtime_error);
+    EXPECT_THROW(run_steady_in({{folder}, 1, {}, {}}, resolve(square_law_case()), stopped),
+                 std::runtime_error);
   }
 };
 

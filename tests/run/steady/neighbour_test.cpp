@@ -18,10 +18,11 @@ class Neighbour : public testing::Test {
   }
   /// What start_from() says, and the state that it makes of the cold start of `given`.
   bool starts(const Case& given) {
-    const SteadyParts parts = steady_parts(given, {});
+    const Settings resolved = resolve(given);
+    const SteadyParts parts = steady_parts(resolved, {});
     state_ = parts.solver->start();
     cold_ = state_;
-    return start_from(other_, end_, {given, *parts.solver, "square law"}, state_);
+    return start_from(resolve(other_), end_, {resolved, *parts.solver, "square law"}, state_);
   }
   Case other_ = square_law_case({{"flow.speed_m_s", "20"}, {"flow.density_kg_m3", "1.2"}});
   SteadyState end_, state_, cold_;
@@ -51,7 +52,7 @@ TEST_F(Neighbour, ThatFoundItsSpeedCountsAtThatSpeed) {
 }
 
 TEST_F(Neighbour, OfACanopyElsewhereInTheBoxIsMovedThere) {
-  const double place = canopy_position(other_);
+  const double place = resolve(other_).flow().canopy_position_m;
   Case moved = other_;
   moved.flow.canopy_position_m = place + 0.125;
   EXPECT_TRUE(starts(moved));

@@ -49,7 +49,7 @@ TEST(FlowParity, OfTheSameAirTheEnginesHaveTheSameDrag) {
 // In the stream's speed and dynamic pressure, as root mean square over the cells.
 TEST(FlowParity, FieldsThatDifferInAQuarterOfTheCellsDifferByHalfOfThat) {
   Freestream air;
-  air.speed = 10, air.density = 1.2;
+  air.velocity = {0, 0, 10}, air.density = 1.2;
   FlowField a, b;
   for (int cell = 0; cell < 8; ++cell) {
     a.pressure.push_back(5), b.pressure.push_back(cell < 2 ? 5 + 0.04 * 60 : 5);

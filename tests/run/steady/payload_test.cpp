@@ -19,7 +19,7 @@ std::vector<Setting> falling(const std::string& mass, std::vector<Setting> more 
 }
 
 double closed_form(const Case& given) {
-  return std::sqrt(2 * suspended_weight(given, *given.payload.mass_kg) /
+  return std::sqrt(2 * suspended_weight(resolve(given), *given.payload.mass_kg) /
                    (1.1 * (SquareLawEngine::area + given.payload.drag_area_m2)));
 }
 
@@ -111,7 +111,7 @@ TEST(Payload, WithoutASpeedTheSearchBeginsWhereTheFamilysUsualDragHoldsIt) {
   given.flow.speed_m_s.reset();
   struct First : SteadyObserver {
     double speed = 0;
-    void begin(const SteadyRun& run, SteadyState&) override { speed = *run.given.flow.speed_m_s; }
+    void begin(const SteadyRun& run, SteadyState&) override { speed = run.resolved.flow().speed_m_s; }
   } first;
   const SteadyResult r = run_steady(given, first).result;
   EXPECT_DOUBLE_EQ(first.speed, payload_first_speed(given, 1.1));
@@ -153,11 +153,11 @@ TEST(Payload, ARunThatWasKilledGoesOnAtTheSpeedThatItHadFound) {
     return SteadyFolderSettings{{folder.path / name, false}, 1, {}, {}};
   };
   SteadyObserver nobody;
-  const SteadyResult whole = run_steady_in(settings("whole"), given, nobody).result;
+  const SteadyResult whole = run_steady_in(settings("whole"), resolve(given), nobody).result;
   KilledInTime killed;
   killed.left = 2;
-  EXPECT_THROW(run_steady_in(settings("killed"), given, killed), std::runtime_error);
-  const SteadyResult resumed = run_steady_in(settings("killed"), given, nobody).result;
+  EXPECT_THROW(run_steady_in(settings("killed"), resolve(given), killed), std::runtime_error);
+  const SteadyResult resumed = run_steady_in(settings("killed"), resolve(given), nobody).result;
   EXPECT_TRUE(resumed.converged);
   EXPECT_NEAR(resumed.speed / whole.speed, 1, 1e-9);
   EXPECT_EQ(resumed.iterations, whole.iterations);

@@ -55,8 +55,8 @@ TEST(SteadyFiles, HaveTheNumbersOfTheStateThatTheRunEndedIn) {
   const Case given = square_law_case({{"coupling.load", "uniform"}});
   Ending ending;
   const SteadyFolderSettings settings{{.folder = folder.path, .fields = true}, 1, {}, {}};
-  const SteadyResult result = run_steady_in(settings, given, ending).result;
-  const CanopyMesh mesh = parachute_mesh(given);
+  const SteadyResult result = run_steady_in(settings, resolve(given), ending).result;
+  const CanopyMesh mesh = parachute_mesh(resolve(given));
   const std::size_t count = ending.state.iterations.size();
   ASSERT_GE(count, 2u);
 
@@ -146,7 +146,7 @@ TEST(SteadyFiles, HaveTheNumbersOfTheStateThatTheRunEndedIn) {
 }
 
 TEST(StressArrays, HaveOneValueOfEveryClothCell) {
-  const CanopyMesh mesh = parachute_mesh(square_law_case());
+  const CanopyMesh mesh = parachute_mesh(resolve(square_law_case()));
   std::vector<CellStress> stress(mesh.cell_count());
   for (std::size_t i = 0; i < stress.size(); ++i) {
     const double n = 10.0 * double(i);
@@ -205,12 +205,12 @@ TEST(SteadyParts, TellTheEngineThreadsFolderAndHostsOfTheRunAndRanksAndLimitOfTh
   given.coupling.threads = 1;
   told().clear();
   {
-    const SteadyParts own = steady_parts(given, {2, "flow", "hosts"});
+    const SteadyParts own = steady_parts(resolve(given), {2, "flow", "hosts"});
     EXPECT_FALSE(own.temporary);
-    EXPECT_EQ(own.solver->mesh().start.size(), parachute_mesh(given).start.size());
+    EXPECT_EQ(own.solver->mesh().start.size(), parachute_mesh(resolve(given)).start.size());
   }
   {
-    const SteadyParts none = steady_parts(given, {});
+    const SteadyParts none = steady_parts(resolve(given), {});
     ASSERT_TRUE(none.temporary);
     EXPECT_EQ(told().back().folder, none.temporary->path);
     EXPECT_TRUE(fs::is_directory(none.temporary->path));
@@ -224,7 +224,7 @@ TEST(SteadyParts, TellTheEngineThreadsFolderAndHostsOfTheRunAndRanksAndLimitOfTh
   for (const EngineOptions& options : told()) {
     EXPECT_EQ(options.ranks, 3);
     EXPECT_EQ(options.time_limit_s, 77);
-    EXPECT_EQ(options.second_order, resolve(given).flow.convection == Convection::second_order);
+    EXPECT_EQ(options.second_order, resolve(given).flow().convection == Convection::second_order);
   }
 }
 

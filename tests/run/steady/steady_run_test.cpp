@@ -27,7 +27,7 @@ SteadyProblem small_problem(CanopyLoad load = CanopyLoad::uniform, PorosityModel
   given.flow.porosity_model = model;
   given.coupling.load = load;
   given.coupling.threads = 1;
-  return steady_problem(given);
+  return steady_problem(resolve(given));
 }
 
 TEST(SteadyRun, TheLedgerClosesAndTheLoadIsTheFlowsForce) {
@@ -75,7 +75,7 @@ TEST(SteadyRun, AnIterationTellsHowFarTheClothMovedAndInHowManySteps) {
     EXPECT_GT(now.cloth_residual, 0);
     EXPECT_LE(now.cloth_residual, small_problem().settings.cloth_tolerance);
     EXPECT_GT(now.cut_cells, 0);
-    EXPECT_DOUBLE_EQ(now.approach_speed, small_problem().flow.air.speed);  // all air of this flow has it
+    EXPECT_DOUBLE_EQ(now.approach_speed, small_problem().flow.air.speed());  // all air of this flow has it
     EXPECT_GT(now.flow_iterations, 0);
   }
 }
@@ -84,7 +84,7 @@ TEST(SteadyRun, AnIterationTellsHowFarTheClothMovedAndInHowManySteps) {
 class CreepingFlow final : public FormulaFlow {
  public:
   using FormulaFlow::FormulaFlow;
-  void place(const std::vector<Triangle>&, const SheetMotion&) override {
+  void place(std::size_t, const std::vector<Triangle>&, const SheetMotion&) override {
     aim_at(300 * std::pow(1.005, ++placed_));
   }
 
@@ -302,7 +302,7 @@ TEST(SteadyRun, ClothThatNoHoldBringsToRestIsGivenUpAfterTheStrongest) {
 struct JitteringEngine : FormulaEngine {
   struct Jittering : FormulaFlow {
     using FormulaFlow::FormulaFlow;
-    void place(const std::vector<Triangle>&, const SheetMotion&) override {
+    void place(std::size_t, const std::vector<Triangle>&, const SheetMotion&) override {
       ++placed;
       aim_at(240 + 12 * (placed * placed * placed * 7 % 11));
     }
@@ -359,7 +359,7 @@ TEST(SteadyRun, AnyNodeOfTheClothOutsideTheBoxIsRefused) {
   given.parachute.mesh.cloth_nodes = 300;
   given.flow.cells = {20, 20, 30};
   given.coupling.threads = 1;
-  const SteadyProblem fits = steady_problem(given);
+  const SteadyProblem fits = steady_problem(resolve(given));
   FormulaEngine engine;
   EXPECT_NO_THROW(SteadySolver(fits, engine));
   std::set<int> nodes;

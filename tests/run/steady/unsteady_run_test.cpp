@@ -27,8 +27,8 @@ class SwingingFlow final : public FormulaFlow {
   SwingingFlow(const FlowProblem& problem, double side, double mode)
       : FormulaFlow(problem), side_(side), mode_(mode) {}
 
-  void place(const std::vector<Triangle>& surface, const SheetMotion& motion) override {
-    FormulaFlow::place(surface, motion);
+  void place(std::size_t body, const std::vector<Triangle>& surface, const SheetMotion& motion) override {
+    FormulaFlow::place(body, surface, motion);
     mode_ = -mode_;
   }
   FlowStep march(int steps, double, const StepReport& report) override {
@@ -71,7 +71,7 @@ SteadyProblem swinging_problem() {
   given.flow.unsteady = true;
   given.flow.watch.shortest = 20;
   given.coupling.threads = 1;
-  return steady_problem(given);
+  return steady_problem(resolve(given));
 }
 
 TEST(UnsteadyRun, EndsAtRestFirstAndThenWithTheMeanOverTime) {
@@ -229,7 +229,7 @@ TEST(UnsteadyRun, LeavesItsHistoryAndItsWakeInTheFolder) {
   given.coupling.threads = 1;
   SteadyObserver nobody;
   const SteadyFolderSettings settings{{folder.path, false}, 1, {}, {}};
-  const SteadyResult result = run_steady_in(settings, given, nobody).result;
+  const SteadyResult result = run_steady_in(settings, resolve(given), nobody).result;
   ASSERT_TRUE(result.unsteady);
   EXPECT_TRUE(result.converged);
   const WindowAverage& watched = result.unsteady->watched;
@@ -245,7 +245,7 @@ TEST(UnsteadyRun, LeavesItsHistoryAndItsWakeInTheFolder) {
   EXPECT_NEAR(watched.drag, result.drag, watched.error);
   for (const char* name : {"history.png", "wake.png", "wake.pvd", "wake/plane_000.vti"})
     EXPECT_TRUE(fs::exists(folder.path / name)) << name;
-  const SteadyFolderRun again = run_steady_in(settings, given, nobody);
+  const SteadyFolderRun again = run_steady_in(settings, resolve(given), nobody);
   EXPECT_TRUE(again.already_finished);
   ASSERT_TRUE(again.result.unsteady);
   EXPECT_EQ(again.result.unsteady->standard_error, result.unsteady->standard_error);

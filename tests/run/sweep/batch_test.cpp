@@ -233,43 +233,43 @@ TEST(BatchNeeds, AreTheCostOfTheCaseAndOfItsEngine) {
   const auto file = std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/stratos-iv/case.toml";
   Case given = read_case(file, overrides);
   const EngineCost takes = engine_of("openfoam").takes;
-  const Cost cost = cost_of(given);
-  BatchNeeds needs = steady_needs(given);
+  const Cost cost = cost_of(resolve(given));
+  BatchNeeds needs = steady_needs(resolve(given));
   EXPECT_EQ(needs.cores, 1);  // ranks are the cores
   EXPECT_DOUBLE_EQ(needs.memory, cost.memory + takes.cell_memory * cost.cells + takes.rank_memory * 6);
   const double core_hours = 10 * 200 * cost.cells * takes.cell_time / 3600;  // ten couplings
   EXPECT_EQ(needs.hours, std::ceil(core_hours / 6));
   EXPECT_GT(needs.hours, 1);
   EXPECT_EQ(needs.limited, fmt::format("about {:.2g} core hours, and an hour at least", core_hours));
-  EXPECT_EQ(steady_needs(given, 3).hours, std::ceil(core_hours / 6 / 3));
+  EXPECT_EQ(steady_needs(resolve(given), 3).hours, std::ceil(core_hours / 6 / 3));
   given.flow.max_iterations = 100000;  // three hundred are usual
-  EXPECT_EQ(steady_needs(given).hours, std::ceil(1.5 * core_hours / 6));
-  const BatchNeeds opening = opening_needs(given, 2);
+  EXPECT_EQ(steady_needs(resolve(given)).hours, std::ceil(1.5 * core_hours / 6));
+  const BatchNeeds opening = opening_needs(resolve(given), 2);
   EXPECT_EQ(opening.ranks, 1);
   EXPECT_EQ(opening.cores, 2);
   EXPECT_EQ(opening.hours, 24);
   EXPECT_EQ(opening.limited, "nobody has measured what this one takes");
-  EXPECT_EQ(opening_needs(given, 2, 5).cores, 5);
+  EXPECT_EQ(opening_needs(resolve(given), 2, 5).cores, 5);
 
   Case small = square_law_case();
   small.flow.unsteady = true;
-  EXPECT_EQ(steady_needs(small).hours, 24);
+  EXPECT_EQ(steady_needs(resolve(small)).hours, 24);
   small.coupling.threads = 0;
-  EXPECT_EQ(steady_needs(small).cores, 4);
+  EXPECT_EQ(steady_needs(resolve(small)).cores, 4);
 }
 
 TEST(BatchNeeds, FollowFromTheCase) {
   const Case tiny = square_law_case();
-  EXPECT_EQ(steady_needs(tiny).ranks, 1);
-  EXPECT_EQ(steady_needs(tiny).cores, 1);  // its coupling.threads
-  EXPECT_EQ(steady_needs(tiny, 8).cores, 8);
-  EXPECT_EQ(steady_needs(tiny).hours, 1);
+  EXPECT_EQ(steady_needs(resolve(tiny)).ranks, 1);
+  EXPECT_EQ(steady_needs(resolve(tiny)).cores, 1);  // its coupling.threads
+  EXPECT_EQ(steady_needs(resolve(tiny), 8).cores, 8);
+  EXPECT_EQ(steady_needs(resolve(tiny)).hours, 1);
   Overrides overrides;
   overrides.engine = "openfoam";
   overrides.ranks = 16;
   overrides.set = {{"flow.cells", "[400,400,600]"}};
   const Case large = read_case(fs::path(RIPSTOP_SOURCE_DIR) / "examples/stratos-iv/case.toml", overrides);
-  const BatchNeeds needs = steady_needs(large);
+  const BatchNeeds needs = steady_needs(resolve(large));
   EXPECT_EQ(needs.ranks, 16);
   EXPECT_EQ(needs.cores, 1);
   EXPECT_GT(needs.memory, 96e6 * 1e3);

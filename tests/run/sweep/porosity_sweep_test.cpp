@@ -16,16 +16,16 @@ const fs::path examples = fs::path(RIPSTOP_SOURCE_DIR) / "examples";
 std::vector<SweepPoint> points_of(const char* example, const PorositySweep& sweep) {
   const fs::path file = examples / example / "case.toml";
   const Case given = read_case(file);
-  return sweep_points(file, {}, porosity_axes(given, sweep, {{5, 5, 1.2, 10}, {8, 7.5, 1.1, 20}}));
+  return sweep_points(file, {}, porosity_axes(resolve(given), sweep, {{5, 5, 1.2, 10}, {8, 7.5, 1.1, 20}}));
 }
 
 TEST(PorositySweep, LeavesTheBoxAndTheCellsOfTheCaseAsTheyAre) {
   for (const char* example : {"flat-circular", "cross", "stratos-iv", "adept"}) {
-    const FlowGrid own = flow_grid(read_case(examples / example / "case.toml"));
+    const FlowGrid own = flow_grid(resolve(read_case(examples / example / "case.toml")).flow());
     const std::vector<SweepPoint> points =
         points_of(example, {PorosityKnob::permeability, {1, 5}, 1.2e-4, 3});
     ASSERT_EQ(points.size(), 12u);
-    for (const SweepPoint& point : points) EXPECT_EQ(flow_grid(point.given), own) << example;
+    for (const SweepPoint& point : points) EXPECT_EQ(flow_grid(point.resolved.flow()), own) << example;
   }
 }
 
@@ -37,10 +37,12 @@ TEST(PorositySweep, NamesItsKnobAsItsKey) {
 TEST(PorositySweep, ShiftsTheCanopyEvenlyOverOneOfTheCellsThatItLiesIn) {
   for (const char* example : {"flat-circular", "stratos-iv"}) {
     const Case given = read_case(examples / example / "case.toml");
-    const double cell = flow_grid(given).spacing().z, place = canopy_position(given);
+    const double cell = flow_grid(resolve(given).flow()).spacing().z,
+                 place = resolve(given).flow().canopy_position_m;
     const std::vector<SweepPoint> points = points_of(example, {PorosityKnob::gamma, {0.2}, 1.2e-4, 3});
     for (std::size_t i = 0; i < points.size(); ++i)
-      EXPECT_NEAR(canopy_position(points[i].given) - place, cell * (double(i % 3) - 1) / 3, 1e-9 * place)
+      EXPECT_NEAR(points[i].resolved.flow().canopy_position_m - place, cell * (double(i % 3) - 1) / 3,
+                  1e-9 * place)
           << example;
   }
 }
@@ -50,15 +52,16 @@ TEST(PorositySweep, GivesItsResultsBackAsTrialsOfTheirPoint) {
   const PorositySweep sweep{PorosityKnob::gamma, {0.18, 0.22}, 1.2e-4, 3};
   std::vector<SweepRow> rows(12);
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i].result.drag_area = double(i);
-  const std::vector<PorosityTrial> trials = porosity_trials(given, sweep, rows);
+  const std::vector<PorosityTrial> trials = porosity_trials(resolve(given), sweep, rows);
   const std::vector<SweepPoint> points = points_of("flat-circular", sweep);
   ASSERT_EQ(trials.size(), rows.size());
   for (std::size_t i = 0; i < trials.size(); ++i) {
     EXPECT_EQ(trials[i].drag_area, double(i));
     EXPECT_EQ(trials[i].condition, i / 6);
     const PressureDrop law = cloth_of(PorosityKnob::gamma, trials[i].knob, 1.2e-4);
-    EXPECT_EQ(canopy_fabric(points[i].given).resistance.linear, law.linear);
-    EXPECT_NEAR(canopy_position(points[i].given), canopy_position(given) + trials[i].shift, 1e-9);
+    EXPECT_EQ(points[i].resolved.materials().canopy.resistance.linear, law.linear);
+    EXPECT_NEAR(points[i].resolved.flow().canopy_position_m,
+                resolve(given).flow().canopy_position_m + trials[i].shift, 1e-9);
   }
 }
 

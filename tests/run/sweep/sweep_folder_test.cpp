@@ -21,7 +21,7 @@ std::vector<SweepPoint> three_speeds() {
   std::vector<SweepPoint> points;
   for (const char* speed : {"20", "15", "25"})
     points.push_back({{speed},
-                      square_law_case({{"flow.speed_m_s", speed}}),
+                      resolve(square_law_case({{"flow.speed_m_s", speed}})),
                       std::string("v") + speed,
                       points.empty() ? -1 : 0});
   return points;
@@ -93,7 +93,7 @@ TEST(SweepFolder, ARunThatFailsIsToldInItsRowAndTheOthersGoOn) {
   }();
   ASSERT_TRUE(added);
   std::vector<SweepPoint> points = three_speeds();
-  points[1].given.flow.engine = "no-wind";
+  points[1].resolved = edited(points[1].resolved, [](Case& c) { c.flow.engine = "no-wind"; });
   SweepSettings settings;
   settings.jobs = 1;
   const std::vector<SweepRow> rows = run_sweep(points, settings);
@@ -143,7 +143,7 @@ TEST(SweepFolder, ARunWhoseNeighbourFailedByTheDiskWaitsForTheNextCall) {
   ASSERT_TRUE(added);
   const TemporaryFolder root("sweep");
   std::vector<SweepPoint> points = three_speeds();
-  points[0].given.flow.engine = "no-disk";
+  points[0].resolved = edited(points[0].resolved, [](Case& c) { c.flow.engine = "no-disk"; });
   SweepSettings settings;
   settings.folder = root.path / "sweep";
   settings.jobs = 1;

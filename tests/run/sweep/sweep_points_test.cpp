@@ -29,13 +29,13 @@ TEST(SweepPoints, AreEveryCombinationEachOneStepFromItsNeighbour) {
     }
     const SweepPoint& neighbour = points[point.start];
     const double step =
-        std::abs(point.given.flow.speed_m_s.value() - neighbour.given.flow.speed_m_s.value()) / 5 +
-        std::abs(canopy_fabric(point.given).resistance.linear -
-                 canopy_fabric(neighbour.given).resistance.linear) /
+        std::abs(point.resolved.flow().nominal_speed_m_s - neighbour.resolved.flow().nominal_speed_m_s) / 5 +
+        std::abs(point.resolved.materials().canopy.resistance.linear -
+                 neighbour.resolved.materials().canopy.resistance.linear) /
             10;
     EXPECT_DOUBLE_EQ(step, 1) << point.folder;
-    EXPECT_LE(std::abs(neighbour.given.flow.speed_m_s.value() - 20),
-              std::abs(point.given.flow.speed_m_s.value() - 20));
+    EXPECT_LE(std::abs(neighbour.resolved.flow().nominal_speed_m_s - 20),
+              std::abs(point.resolved.flow().nominal_speed_m_s - 20));
   }
   EXPECT_EQ(cold, 1);
   EXPECT_EQ(folders.size(), 10u);
@@ -44,8 +44,8 @@ TEST(SweepPoints, AreEveryCombinationEachOneStepFromItsNeighbour) {
 TEST(SweepPoints, TakeTheDensityOfTheirOwnSpeed) {
   const auto points =
       sweep_points(stratos_case, {}, {sweep_axis("flow.speed_m_s", {"10", "25"}, "--speeds")});
-  EXPECT_DOUBLE_EQ(air(points[0].given).density, 1.202);
-  EXPECT_DOUBLE_EQ(air(points[1].given).density, 1.204);
+  EXPECT_DOUBLE_EQ(points[0].resolved.flow().density_kg_m3, 1.202);
+  EXPECT_DOUBLE_EQ(points[1].resolved.flow().density_kg_m3, 1.204);
 }
 
 TEST(SweepPoints, WithAValueTwiceAreRefused) {
@@ -87,10 +87,13 @@ TEST(SweepPoints, AsManyRunSideBySideAsCoresMemoryAndPointsAllow) {
   EXPECT_GE(fitting_jobs(points), 1);
   EXPECT_LE(fitting_jobs(points), 2);
   std::vector<SweepPoint> large = points;
-  large[1].given.flow.cells = std::array{2000, 2000, 2000};
+  large[1].resolved = edited(large[1].resolved, [](Case& given) {
+    given.flow.cells = std::array{2000, 2000, 2000};
+  });
   EXPECT_EQ(fitting_jobs(large), 1);
   std::vector<SweepPoint> wide = points;
-  wide[0].given.flow.engine = "openfoam", wide[0].given.flow.ranks = 100000;
+  wide[0].resolved = edited(wide[0].resolved,
+                            [](Case& given) { given.flow.engine = "openfoam", given.flow.ranks = 100000; });
   EXPECT_EQ(fitting_jobs(wide), 1);
 }
 
@@ -121,7 +124,7 @@ TEST(SweepPoints, OfLinearModelsEveryKindOfLineKeepsItsFirstCoefficientOnly) {
   riser.name = given.parachute.riser.material = "strap";
   riser.coefficients_n = {1000, 200, 30};
   given.materials.insert_or_assign(riser.name, riser);
-  const SweepAxis models = linear_models(given);
+  const SweepAxis models = linear_models(resolve(given));
   ASSERT_EQ(models.values[3], "linear lines");
   ASSERT_EQ(models.settings[3].size(), 2u);
   EXPECT_EQ(models.settings[3][1].key, "materials.strap.coefficients_n");

@@ -41,7 +41,7 @@ std::string to_json(const ExportedParachute& parachute) {
 }
 
 ExportedParachute exported(const FinishedSteady& run, std::optional<double> deployment_speed) {
-  const Design& design = run.given.parachute;
+  const Design& design = run.resolved.parachute();
   const double speed = deployment_speed.value_or(run.result.speed);
   require_positive("deployment speed (m/s)", speed);
   ExportedParachute p;
@@ -57,9 +57,10 @@ ExportedParachute exported(const FinishedSteady& run, std::optional<double> depl
   p.lag_from = fmt::format("filling over {:g} D0 at {:.3g} m/s: {}", filling.constant, speed, filling.source);
   p.mass = run.parachute_mass;
   p.gores = design.gores, p.line_count = design.lines.count, p.line_length = design.lines.length_m;
-  p.line_material = design.lines.material, p.line_density = suspension_line(run.given).linear_density_kg_m;
-  p.cloth_material = design.canopy_material, p.cloth_density = canopy_fabric(run.given).areal_density_kg_m2;
-  p.packed_volume = run_pattern(run.given, {}, packed_by_hand).bill.packed_volume;
+  p.line_material = design.lines.material, p.line_density = run.resolved.materials().line.linear_density_kg_m;
+  p.cloth_material = design.canopy_material,
+  p.cloth_density = run.resolved.materials().canopy.areal_density_kg_m2;
+  p.packed_volume = run_pattern(run.resolved, {}, packed_by_hand).bill.packed_volume;
   p.packed_diameter = std::cbrt(2 * p.packed_volume / std::numbers::pi);
   p.packed_length = 2 * p.packed_diameter;
   return p;

@@ -58,14 +58,14 @@ PlotSeries seen_series(const Photogrammetry& result) {
 
 }  // namespace
 
-ComputedCanopy computed_canopy(const Case& given, const std::vector<Vec3>& shape) {
-  const CanopyMesh mesh = parachute_mesh(given);
-  return {given.title, "", canopy_profile(mesh, shape), image_sizes(mesh, shape)};
+ComputedCanopy computed_canopy(const Settings& resolved, const std::vector<Vec3>& shape) {
+  const CanopyMesh mesh = parachute_mesh(resolved);
+  return {resolved.title(), "", canopy_profile(mesh, shape), image_sizes(mesh, shape)};
 }
 
 ComputedCanopy computed_canopy(const std::filesystem::path& run) {
   finished_result(run);  // throws where anything of it was lost or changed
-  ComputedCanopy canopy = computed_canopy(case_of_run(run), final_state(run).shape);
+  ComputedCanopy canopy = computed_canopy(settings_of_run(run), final_state(run).shape);
   canopy.run = run.string();
   return canopy;
 }

@@ -9,7 +9,7 @@
 
 #include "ripstop/calibration/photogrammetry.h"
 #include "ripstop/canopy/shape.h"
-#include "ripstop/case/case.h"
+#include "ripstop/case/settings.h"
 #include "ripstop/core/members.h"
 
 namespace ripstop {
@@ -28,7 +28,7 @@ struct ComputedCanopy {
   std::vector<ProfileRing> profile;     // patch after patch
   std::map<std::string, double> sizes;  // [m]
 };
-ComputedCanopy computed_canopy(const Case& given, const std::vector<Vec3>& shape);
+ComputedCanopy computed_canopy(const Settings& resolved, const std::vector<Vec3>& shape);
 /// Of the folder of a finished steady run. Throws Error(usage).
 ComputedCanopy computed_canopy(const std::filesystem::path& run);
 

@@ -15,22 +15,22 @@ std::string to_json(const DampingResult& result) {
   return json_text(result);
 }
 
-DampingTarget damping_target(const Case& given) {
-  if (!given.inflation.measured_peak_n)
+DampingTarget damping_target(const Settings& resolved) {
+  if (!resolved.inflation().measured_peak_n)
     throw Error(ExitCode::usage, "inflation.measured_peak_n is not given: nothing to calibrate on");
-  return {*given.inflation.measured_peak_n, given.inflation.measured_inflation_time_s};
+  return {*resolved.inflation().measured_peak_n, resolved.inflation().measured_inflation_time_s};
 }
 
-DampingResult run_damping(const Case& given, const LoadSource& source, const InflationProblem& problem,
+DampingResult run_damping(const Settings& resolved, const LoadSource& source, const InflationProblem& problem,
                           const DampingSearch& search, const std::function<void(const DampingTrial&)>& report,
                           const std::function<void()>& alive) {
   if (problem.air) throw Error(ExitCode::usage, "inflation.air = \"coupled\" has no damping to calibrate");
   DampingResult result;
-  result.title = given.title;
+  result.title = resolved.title();
   result.inputs_hash = inputs_hash(
-      given, fmt::format("damping {} to {}, {} points, {} refinements; pressure {} from {}", search.from,
-                         search.to, search.points, search.refinements, problem.pressure, source.text));
-  result.target = damping_target(given);
+      resolved, fmt::format("damping {} to {}, {} points, {} refinements; pressure {} from {}", search.from,
+                            search.to, search.points, search.refinements, problem.pressure, source.text));
+  result.target = damping_target(resolved);
   result.found = calibrate_damping(
       result.target, search, [&](double damping) { return open_with(damping, problem, alive); }, report);
   result.low_pass_hz = problem.settings.low_pass_hz;

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "ripstop/calibration/damping.h"
-#include "ripstop/case/case.h"
+#include "ripstop/case/settings.h"
 #include "ripstop/core/members.h"
 #include "ripstop/run/opening/inflation.h"
 
@@ -55,10 +55,10 @@ void each_member(T& r, Visit&& visit) {
 std::string to_json(const DampingResult& result);
 
 /// What the case says was measured. Throws Error(usage) when it says nothing.
-DampingTarget damping_target(const Case& given);
+DampingTarget damping_target(const Settings& resolved);
 
 /// calibrate_damping() on the case's measured opening, under the pressure of `problem`; `alive` as of open_with().
-DampingResult run_damping(const Case& given, const LoadSource& source, const InflationProblem& problem,
+DampingResult run_damping(const Settings& resolved, const LoadSource& source, const InflationProblem& problem,
                           const DampingSearch& search,
                           const std::function<void(const DampingTrial&)>& report = {},
                           const std::function<void()>& alive = {});

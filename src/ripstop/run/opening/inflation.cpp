@@ -40,11 +40,11 @@ std::vector<double> line_peaks(const std::optional<std::vector<StageSummary>>& s
   return peaks;
 }
 
-InflationResult result_of(const Case& given, const LoadSource& source, const Opening& solver,
+InflationResult result_of(const Settings& resolved, const LoadSource& source, const Opening& solver,
                           const InflationState& state, const InflationHistory& history) {
   const InflationSettings& settings = solver.problem().settings;
   InflationResult r;
-  r.title = given.title;
+  r.title = resolved.title();
   r.peak_load = state.peak_load;
   r.peak_time = state.peak_time;
   r.summary = summarise(history.rows, settings.low_pass_hz);
@@ -78,16 +78,17 @@ InflationResult result_of(const Case& given, const LoadSource& source, const Ope
   r.max_line_tension = *std::max_element(r.line_peaks.begin(), r.line_peaks.end());
   r.stress = state.highest_stress;
   r.stress_time = state.highest_stress_time;
-  r.break_load = canopy_fabric(given).break_load_n_m;
+  r.break_load = resolved.materials().canopy.break_load_n_m;
   if (r.break_load > 0) r.cloth_margin = r.break_load / std::max(r.stress.warp, r.stress.weft);
   r.stages = stages_of(solver, state, history);
-  r.margins = case_margins(given, solver.mesh(), state.record.peak_tension, r.stress, line_peaks(r.stages));
+  r.margins =
+      case_margins(resolved, solver.mesh(), state.record.peak_tension, r.stress, line_peaks(r.stages));
   r.energy_residual = energy_residual(history.frames);
   for (const InflationFrame& frame : history.frames) {
     r.contact_depth = std::max(r.contact_depth, frame.contact_depth);
     r.pierced = std::max(r.pierced, frame.pierced);
   }
-  r.estimate = opening_estimate(given.parachute, source.steady_drag.value_or(steady));
+  r.estimate = opening_estimate(resolved.parachute(), source.steady_drag.value_or(steady));
   r.settled = settled(r.summary, solver.problem().settings.duration_s);
   r.steps = state.cloth.steps;
   r.step_changes = state.step_changes;
@@ -105,17 +106,17 @@ double opening_seconds(const Opening& solver, const InflationState& start) {
   return solver.problem().settings.duration_s / start.step * solver.mesh().node_count() / nodes_a_second;
 }
 
-InflationProblem with_engine(const Case& given, InflationProblem problem) {
+InflationProblem with_engine(const Settings& resolved, InflationProblem problem) {
   if (!problem.air) return problem;
-  EngineOptions options = engine_options(given);
+  EngineOptions options = engine_options(resolved);
   options.threads = problem.threads;
-  problem.air->engine = engine_of(given).make(options);
+  problem.air->engine = engine_of(resolved).make(options);
   return problem;
 }
 
-InflationSolution run_inflation(const Case& given, const LoadSource& source, InflationProblem problem,
+InflationSolution run_inflation(const Settings& resolved, const LoadSource& source, InflationProblem problem,
                                 InflationObserver& observer) {
-  const std::unique_ptr<Opening> opening = make_opening(with_engine(given, std::move(problem)));
+  const std::unique_ptr<Opening> opening = make_opening(with_engine(resolved, std::move(problem)));
   Opening& solver = *opening;
   InflationSolution solution;
   auto& [result, state, history] = solution;
@@ -128,7 +129,7 @@ InflationSolution run_inflation(const Case& given, const LoadSource& source, Inf
     if (at_frame) history.frames.push_back(solver.frame(state));
     observer.advanced(solver, state, history, at_frame ? &history.frames.back() : nullptr);
   }
-  result = result_of(given, source, solver, state, history);
+  result = result_of(resolved, source, solver, state, history);
   observer.ended(solver, state, history, result);
   return solution;
 }

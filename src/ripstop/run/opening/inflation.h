@@ -146,10 +146,10 @@ struct InflationSolution {
 double opening_seconds(const Opening& solver, const InflationState& start);
 
 /// An opening in its own air has the case's flow engine; others are left as they are.
-InflationProblem with_engine(const Case& given, InflationProblem problem);
+InflationProblem with_engine(const Settings& resolved, InflationProblem problem);
 
 /// The whole opening of the case under the pressure, or in the air, of `problem`. Throws as Opening.
-InflationSolution run_inflation(const Case& given, const LoadSource& source, InflationProblem problem,
+InflationSolution run_inflation(const Settings& resolved, const LoadSource& source, InflationProblem problem,
                                 InflationObserver& observer);
 
 }  // namespace ripstop

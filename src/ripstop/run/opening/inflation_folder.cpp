@@ -374,23 +374,23 @@ std::string solver_of(const LoadSource& source) {
 
 }  // namespace
 
-void check_inflation_in(const InflationFolderSettings& settings, const Case& given,
+void check_inflation_in(const InflationFolderSettings& settings, const Settings& resolved,
                         const LoadSource& source) {
   require_unclaimed(settings.run.folder);
-  if (holds_run(settings.run, given, solver_of(source))) finished_result(settings.run.folder);
+  if (holds_run(settings.run, resolved, solver_of(source))) finished_result(settings.run.folder);
 }
 
-std::optional<InflationResult> run_inflation_in(const InflationFolderSettings& settings, const Case& given,
-                                                const LoadSource& source,
+std::optional<InflationResult> run_inflation_in(const InflationFolderSettings& settings,
+                                                const Settings& resolved, const LoadSource& source,
                                                 const std::function<InflationProblem()>& problem,
                                                 InflationObserver& observer) {
-  const auto claimed = open_run_folder(settings.run, given, solver_of(source), settings.threads);
+  const auto claimed = open_run_folder(settings.run, resolved, solver_of(source), settings.threads);
   if (finished_result(settings.run.folder)) {
     drop_air_checkpoint(settings.run.folder);
     return std::nullopt;
   }
   InflationFolder files(*claimed, settings, observer);
-  InflationResult result = run_inflation(given, source, problem(), files).result;
+  InflationResult result = run_inflation(resolved, source, problem(), files).result;
   result.inputs_hash = inputs_of_run(settings.run.folder);
   return result;
 }

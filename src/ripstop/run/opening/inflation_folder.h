@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "ripstop/case/case.h"
+#include "ripstop/case/settings.h"
 #include "ripstop/output/plot.h"
 #include "ripstop/run/opening/inflation.h"
 #include "ripstop/run/run_folder.h"
@@ -23,13 +23,14 @@ struct InflationFolderSettings {
 /// run_inflation() in a folder, from the folded start or from where it was killed. Nothing when the folder
 /// holds the finished run, whose result.json is finished_result(folder). The problem is only asked for when
 /// there is something to compute. Throws as holds_run() and run_inflation() do.
-std::optional<InflationResult> run_inflation_in(const InflationFolderSettings& settings, const Case& given,
-                                                const LoadSource& source,
+std::optional<InflationResult> run_inflation_in(const InflationFolderSettings& settings,
+                                                const Settings& resolved, const LoadSource& source,
                                                 const std::function<InflationProblem()>& problem,
                                                 InflationObserver& observer);
 
 /// Throws what run_inflation_in() would throw before it asks for the problem, and touches nothing.
-void check_inflation_in(const InflationFolderSettings& settings, const Case& given, const LoadSource& source);
+void check_inflation_in(const InflationFolderSettings& settings, const Settings& resolved,
+                        const LoadSource& source);
 
 /// load.png: the load over time, and what it is to be looked at beside. `smooth`: low-passed, by row [N]; empty: not.
 Plot load_plot(const std::vector<HistoryRow>& rows, const std::vector<double>& smooth,

@@ -52,10 +52,10 @@ void check_request(const LoadRequest& request) {
 }
 
 /// Drag, opening and filling coefficients: as asked, else computed, else the handbook's of the family.
-void choose_coefficients(const Case& given, const LoadRequest& request, LoadResult& r) {
-  const Experience known = experience(given.parachute);
-  r.reference_area = nominal_area(given.parachute);
-  r.nominal_diameter = nominal_diameter(given.parachute);
+void choose_coefficients(const Settings& resolved, const LoadRequest& request, LoadResult& r) {
+  const Experience known = experience(resolved.parachute());
+  r.reference_area = nominal_area(resolved.parachute());
+  r.nominal_diameter = nominal_diameter(resolved.parachute());
   if (request.drag_coefficient) {
     r.drag_coefficient = *request.drag_coefficient, r.drag_source = "given";
   } else if (!request.steady.empty()) {
@@ -74,7 +74,7 @@ void choose_coefficients(const Case& given, const LoadRequest& request, LoadResu
   r.opening_coefficient = request.opening_coefficient.value_or(known.opening_coefficient);
   r.opening_source = request.opening_coefficient ? "given" : known.opening_source;
   require_positive("opening coefficient C_x", r.opening_coefficient);
-  const KnownFilling filling = known_filling(given.parachute.canopy.family().type);
+  const KnownFilling filling = known_filling(resolved.parachute().canopy.family().type);
   r.filling_constant = request.filling_constant.value_or(filling.constant);
   r.filling_exponent = request.filling_exponent.value_or(filling.exponent);
   r.ludtke_exponent = request.filling_exponent.value_or(filling.ludtke_exponent);
@@ -184,8 +184,8 @@ void fly_stages(const LoadRequest& request, LoadResult& r) {
   r.steady_reached = std::abs(state.speed / terminal - 1) < 2e-3;
 }
 
-void fly_record(const Case& given, const LoadRequest& request, LoadResult& r) {
-  const OpeningRecord record = opening_record(request.opening, given);
+void fly_record(const Settings& resolved, const LoadRequest& request, LoadResult& r) {
+  const OpeningRecord record = opening_record(request.opening, resolved);
   const double mass = r.payload_mass + r.parachute_mass;
   FlightState state{0, 0, 0, request.height, request.speed, request.path_angle};
   Leg leg;
@@ -203,19 +203,19 @@ void fly_record(const Case& given, const LoadRequest& request, LoadResult& r) {
   }
 }
 
-SnatchResult snatch_of(const Case& given, const LoadRequest& request, const LoadResult& r) {
-  const Design& design = given.parachute;
-  const Line& line = suspension_line(given);
+SnatchResult snatch_of(const Settings& resolved, const LoadRequest& request, const LoadResult& r) {
+  const Design& design = resolved.parachute();
+  const Line& line = resolved.materials().line;
   std::vector<SnatchPart> parts = {
       {"the lines", line.coefficients_n, design.lines.count, design.lines.length_m}};
   if (design.riser.length_m > 0)
-    parts.push_back({"the riser", riser_line(given).coefficients_n, 1, design.riser.length_m});
+    parts.push_back({"the riser", resolved.materials().riser.coefficients_n, 1, design.riser.length_m});
   SnatchResult snatch;
   snatch.speed_difference =
       request.snatch_speed
           ? *request.snatch_speed
           : speed_difference_at_stretch(
-                {r.payload_mass, request.payload_drag_area.value_or(given.payload.drag_area_m2)},
+                {r.payload_mass, request.payload_drag_area.value_or(resolved.payload().drag_area_m2)},
                 {r.parachute_mass, *request.packed_drag_area}, request.speed,
                 standard_air(request.height).density, design.lines.length_m + design.riser.length_m);
   const SnatchLoad load = snatch_load(r.payload_mass, r.parachute_mass, snatch.speed_difference, parts);
@@ -231,13 +231,13 @@ std::string to_json(const LoadResult& result) {
   return json_text(result);
 }
 
-LoadResult run_load(const Case& given, const LoadRequest& request) {
+LoadResult run_load(const Settings& resolved, const LoadRequest& request) {
   check_request(request);
   LoadResult r;
-  r.title = given.title;
+  r.title = resolved.title();
   r.payload_mass = request.payload_mass;
-  r.parachute_mass = parachute_mass(given);
-  choose_coefficients(given, request, r);
+  r.parachute_mass = parachute_mass(resolved);
+  choose_coefficients(resolved, request, r);
   const double descent =
       terminal_speed(r.payload_mass + r.parachute_mass, r.drag_coefficient * r.reference_area,
                      standard_air(request.height).density);
@@ -248,8 +248,8 @@ LoadResult run_load(const Case& given, const LoadRequest& request) {
                     "with a load there; take a higher speed, a smaller mass or a larger canopy",
                     descent, request.speed));
   fly_stages(request, r);
-  if (!request.opening.empty()) fly_record(given, request, r);
-  if (request.snatch_speed || request.packed_drag_area) r.snatch = snatch_of(given, request, r);
+  if (!request.opening.empty()) fly_record(resolved, request, r);
+  if (request.snatch_speed || request.packed_drag_area) r.snatch = snatch_of(resolved, request, r);
   return r;
 }
 

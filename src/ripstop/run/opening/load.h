@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "ripstop/case/case.h"
+#include "ripstop/case/settings.h"
 #include "ripstop/core/members.h"
 #include "ripstop/flight/opening_load.h"
 #include "ripstop/flight/snatch.h"
@@ -151,7 +151,7 @@ std::string to_json(const LoadResult& result);
 
 /// Throws Error(usage) for what is not above 0, a descent rate above the speed of deployment, stages that do not
 /// grow, and what finished_steady() and standard_air() refuse.
-LoadResult run_load(const Case& given, const LoadRequest& request);
+LoadResult run_load(const Settings& resolved, const LoadRequest& request);
 
 /// result.json, trajectory.csv, force.png and speed.png.
 void write_load(const std::filesystem::path& folder, const LoadResult& result);

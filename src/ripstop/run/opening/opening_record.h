@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "ripstop/case/case.h"
+#include "ripstop/case/settings.h"
 
 namespace ripstop {
 
@@ -17,6 +17,6 @@ struct OpeningRecord {
 
 /// Load over dynamic pressure of the finished `ripstop inflate` in a folder, low-passed where the run was. Throws
 /// Error(usage) for a folder without one or one of another parachute, Error(bad_data) for a damaged one.
-OpeningRecord opening_record(const std::filesystem::path& folder, const Case& given);
+OpeningRecord opening_record(const std::filesystem::path& folder, const Settings& resolved);
 
 }  // namespace ripstop

@@ -123,17 +123,17 @@ ReportRun report_of(const fs::path& folder) {
                                                 "projected_diameter_m",
                                                 "max_line_tension_n",
                                                 "max_von_mises_n_m"};
-  const Case given = case_of_run(folder);
+  const Settings resolved = settings_of_run(folder);
   run.case_file = read_file(folder / "case.toml");
-  run.tables.push_back(bill_table(given));
-  if (const ReportTable sources = sources_table(given, folder / "run.json"); !sources.rows.empty())
+  run.tables.push_back(bill_table(resolved));
+  if (const ReportTable sources = sources_table(resolved, folder / "run.json"); !sources.rows.empty())
     run.tables.push_back(sources);
-  run.warnings = warnings_of(given, number_of(run, "max_cloth_strain"));
+  run.warnings = warnings_of(resolved, number_of(run, "max_cloth_strain"));
   if (!run.converged) run.warnings.insert(run.warnings.begin(), "The coupling did not converge.");
   add_provenance(run, folder / "run.json");
   run.plots = plots_of(run, folder);
   add_shape(run, folder);
-  if (!run.shape.frames.empty()) run.shape.part_names = parachute_mesh(given).parts;
+  if (!run.shape.frames.empty()) run.shape.part_names = parachute_mesh(resolved).parts;
   add_flow(run, folder);
   return run;
 }
@@ -167,7 +167,7 @@ Report report_on(std::vector<ReportRun> runs, const std::string& title) {
   report.title = title;
   if (runs.size() > 1) {
     report.comparison = comparison_table(runs);
-    report.plots = comparison_plots(runs, parse_case(runs.front().case_file, "case.toml"));
+    report.plots = comparison_plots(runs, resolve(parse_case(runs.front().case_file, "case.toml")));
   }
   report.runs = std::move(runs);
   return report;

@@ -22,7 +22,7 @@ ReportRun report_of(const std::filesystem::path& folder);
 /// and whole, else Error(usage) or Error(bad_data).
 std::vector<ReportRun> reports_of(const std::filesystem::path& folder);
 
-/// One page of all these runs, compared where there are several. `given`:
+/// One page of all these runs, compared where there are several. `resolved`:
 /// the case whose measured values stand beside them.
 Report report_on(std::vector<ReportRun> runs, const std::string& title);
 

@@ -139,11 +139,11 @@ std::vector<ReportPlot> opening_plots(const ReportRun& run, const fs::path& fold
 }
 
 /// Drag of the case's measured rows over the speed that its speed_basis takes.
-ReportSeries known_drag(const Case& given, const char* name, std::optional<double> Measured::*drag) {
+ReportSeries known_drag(const Settings& resolved, const char* name, std::optional<double> Measured::*drag) {
   ReportSeries series{name, {}, {}, false, false};
-  for (const Measured& row : given.measured) {
+  for (const Measured& row : resolved.measured()) {
     if (!(row.*drag)) continue;
-    const bool nominal = given.flow.speed_basis == SpeedBasis::nominal;
+    const bool nominal = resolved.flow().speed_basis == SpeedBasis::nominal;
     series.x.push_back(nominal ? row.nominal_speed_m_s : row.measured_speed_m_s);
     series.y.push_back(*(row.*drag));
   }
@@ -151,7 +151,7 @@ ReportSeries known_drag(const Case& given, const char* name, std::optional<doubl
 }
 
 void add_drag_over_speed(std::vector<ReportPlot>& plots, const std::vector<ReportRun>& runs,
-                         const Case& given) {
+                         const Settings& resolved) {
   std::vector<std::pair<double, double>> points;
   for (const ReportRun& run : runs)
     if (run.kind == "steady") points.emplace_back(number_of(run, "speed_m_s"), number_of(run, "drag_n"));
@@ -167,8 +167,8 @@ void add_drag_over_speed(std::vector<ReportPlot>& plots, const std::vector<Repor
   }
   made.series.push_back(computed);
   for (ReportSeries& series :
-       std::vector{known_drag(given, "measured", &Measured::drag_n),
-                   known_drag(given, "source's nonlinear model", &Measured::printed_nonlinear_n)})
+       std::vector{known_drag(resolved, "measured", &Measured::drag_n),
+                   known_drag(resolved, "source's nonlinear model", &Measured::printed_nonlinear_n)})
     if (!series.x.empty()) made.series.push_back(series);
   plots.push_back(made);
 }
@@ -181,9 +181,9 @@ std::vector<ReportPlot> plots_of(const ReportRun& run, const fs::path& folder) {
   return plots;
 }
 
-std::vector<ReportPlot> comparison_plots(const std::vector<ReportRun>& runs, const Case& given) {
+std::vector<ReportPlot> comparison_plots(const std::vector<ReportRun>& runs, const Settings& resolved) {
   std::vector<ReportPlot> plots;
-  add_drag_over_speed(plots, runs, given);
+  add_drag_over_speed(plots, runs, resolved);
   // Of each plot the series that stands for it.
   for (const auto& [id, name] : {std::pair{"forces", "force of the air"},
                                  {"history", "drag"},

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "ripstop/case/case.h"
+#include "ripstop/case/settings.h"
 #include "ripstop/report/report.h"
 
 namespace ripstop {
@@ -12,8 +12,8 @@ namespace ripstop {
 /// Those whose tables are there. Throws Error(bad_data) for a table without its columns.
 std::vector<ReportPlot> plots_of(const ReportRun& run, const std::filesystem::path& folder);
 
-/// Drag over speed where speeds differ, with what `given` has as measured, and the plots that all runs have, laid
+/// Drag over speed where speeds differ, with what `resolved` has as measured, and the plots that all runs have, laid
 /// over each other.
-std::vector<ReportPlot> comparison_plots(const std::vector<ReportRun>& runs, const Case& given);
+std::vector<ReportPlot> comparison_plots(const std::vector<ReportRun>& runs, const Settings& resolved);
 
 }  // namespace ripstop

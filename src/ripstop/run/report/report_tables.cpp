@@ -6,7 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "ripstop/case/resolve.h"
+#include "ripstop/case/settings.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/core/words.h"
@@ -100,8 +100,8 @@ void add_result(ReportRun& run, const std::string& text, const std::filesystem::
   run.converged = json.value("converged", true);
 }
 
-ReportTable bill_table(const Case& given) {
-  const PatternResult pattern = run_pattern(given, {}, packed_by_hand);
+ReportTable bill_table(const Settings& resolved) {
+  const PatternResult pattern = run_pattern(resolved, {}, packed_by_hand);
   ReportTable table{"bill",
                     "Bill of materials",
                     fmt::format("As cut, with the usual allowances, thread not counted: {:.4g} g, {:.3g} l "
@@ -122,9 +122,9 @@ ReportTable bill_table(const Case& given) {
   return table;
 }
 
-ReportTable sources_table(const Case& given, const std::filesystem::path& run_json) {
+ReportTable sources_table(const Settings& resolved, const std::filesystem::path& run_json) {
   const Json run = parsed(run_json, read_file(run_json));
-  const Json written = Json::parse(case_json(resolve(given).written));
+  const Json written = Json::parse(case_json(resolved));
   ReportTable table{
       "sources", "Values that a case may leave out", "", {{"key", ""}, {"value", ""}, {"from", ""}}, {}};
   for (const Json& source : run.value("sources", Json::array())) {

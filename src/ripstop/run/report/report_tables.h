@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "ripstop/case/case.h"
+#include "ripstop/case/settings.h"
 #include "ripstop/report/report.h"
 
 namespace ripstop {
@@ -13,9 +13,9 @@ namespace ripstop {
 /// its name, is a table. Throws Error(bad_data) naming `file`.
 void add_result(ReportRun& run, const std::string& json, const std::filesystem::path& file);
 
-ReportTable bill_table(const Case& given);
+ReportTable bill_table(const Settings& resolved);
 /// Values of the case that may be left out, and where each comes from, by run.json.
-ReportTable sources_table(const Case& given, const std::filesystem::path& run_json);
+ReportTable sources_table(const Settings& resolved, const std::filesystem::path& run_json);
 /// Names and values of run.json, but for the case in it.
 void add_provenance(ReportRun& run, const std::filesystem::path& run_json);
 

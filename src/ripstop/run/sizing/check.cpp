@@ -13,6 +13,7 @@ Json to_json(const std::vector<Source>& sources, const Json& written) {
   for (const Source& source : sources)
     list.push_back({{"key", source.key},
                     {"value", written.at(pointer_of(source.key))},
+                    {"unit", source.unit},
                     {"given", source.given},
                     {"from", source.from}});
   return list;
@@ -20,12 +21,12 @@ Json to_json(const std::vector<Source>& sources, const Json& written) {
 
 }  // namespace
 
-CheckResult run_check(const Case& given) {
-  return {summarize(given), resolve(given).sources, case_warnings(given), given};
+CheckResult run_check(const Settings& resolved) {
+  return {summarize(resolved), resolved.sources(), case_warnings(resolved), resolved};
 }
 
 std::string to_json(const CheckResult& result) {
-  const Json written = Json::parse(case_json(result.given));
+  const Json written = Json::parse(case_json(result.resolved));
   Json report = {{"valid", true}, {"problems", Json::array()}};
   report["warnings"] = result.warnings;
   report.update(Json(result.summary));

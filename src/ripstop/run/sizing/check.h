@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "ripstop/case/resolve.h"
+#include "ripstop/case/settings.h"
 #include "ripstop/case/summary.h"
 #include "ripstop/core/members.h"
 #include "ripstop/core/toml/problem.h"
@@ -62,11 +62,11 @@ struct CheckResult {
   CaseSummary summary;
   std::vector<Source> sources;        // of every key whose value follows from others
   std::vector<std::string> warnings;  // what is known before a run
-  Case given;
+  Settings resolved;
 };
 
 /// Throws as summarize().
-CheckResult run_check(const Case& given);
+CheckResult run_check(const Settings& resolved);
 
 /// The report of `ripstop check --json`.
 std::string to_json(const CheckResult& result);

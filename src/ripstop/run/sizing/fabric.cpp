@@ -21,24 +21,24 @@ std::string to_json(const FabricResult& result) {
   return json_text(result);
 }
 
-FabricSolution run_fabric(const Case& given, std::optional<double> pressure,
+FabricSolution run_fabric(const Settings& resolved, std::optional<double> pressure,
                           const std::function<void(const RelaxProgress&)>& report) {
   FabricSolution solution;
   auto& [r, mesh, shape, stress, tensions] = solution;
-  const Air stream = air(given);
-  r.title = given.title;
-  r.pressure = pressure.value_or(0.5 * stream.density * stream.speed * stream.speed);
-  r.inputs_hash = inputs_hash(given, fmt::format("fabric under {} Pa", r.pressure));
-  r.tolerance = given.coupling.cloth_tolerance;
-  mesh = parachute_mesh(given);
+  const double speed = resolved.flow().speed_m_s;
+  r.title = resolved.title();
+  r.pressure = pressure.value_or(0.5 * resolved.flow().density_kg_m3 * speed * speed);
+  r.inputs_hash = inputs_hash(resolved, fmt::format("fabric under {} Pa", r.pressure));
+  r.tolerance = resolved.coupling().cloth_tolerance;
+  mesh = parachute_mesh(resolved);
   ClothOptions cloth_options;
-  cloth_options.linear = given.coupling.linear;
+  cloth_options.linear = resolved.coupling().linear;
   const ClothPtr cloth = make_cloth(mesh, cloth_options);
   ClothState state = start_state(*cloth);
   const Loads loads{std::vector<double>(mesh.cell_count(), r.pressure), {}};
   RelaxOptions relax_options;
   relax_options.tolerance = r.tolerance;
-  ThreadTeam team(given.coupling.threads);
+  ThreadTeam team(resolved.coupling().threads);
   const auto begin = std::chrono::steady_clock::now();
   const RelaxResult relaxed = relax(state, *cloth, loads, relax_options, team, report);
   r.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -49,8 +49,8 @@ FabricSolution run_fabric(const Case& given, std::optional<double> pressure,
   r.pressure_load = pressure_force(*cloth, state, loads).z;
   r.line_tension = force_on_fixed(*cloth, state).z;
   r.size = canopy_size(mesh, shape);
-  r.projected_ratio = r.size.projected_diameter / nominal_diameter(given.parachute);
-  const KnownRange known = experience(given.parachute).projected_ratio;
+  r.projected_ratio = r.size.projected_diameter / nominal_diameter(resolved.parachute());
+  const KnownRange known = experience(resolved.parachute()).projected_ratio;
   if (known.low > 0) r.known_projected_ratio = {known.low, known.high};
   for (const LineTension& t : line_tensions(mesh, tensions))
     r.max_line_tension = std::max(r.max_line_tension, t.largest_tension);

@@ -10,7 +10,7 @@
 
 #include "ripstop/canopy/shape.h"
 #include "ripstop/canopy/stress.h"
-#include "ripstop/case/case.h"
+#include "ripstop/case/settings.h"
 #include "ripstop/cloth/cloth.h"
 #include "ripstop/core/members.h"
 
@@ -71,7 +71,7 @@ struct FabricSolution {
 };
 
 /// Equilibrium under `pressure` [Pa]; absent: the case's dynamic pressure. Convergence is not promised.
-FabricSolution run_fabric(const Case& given, std::optional<double> pressure,
+FabricSolution run_fabric(const Settings& resolved, std::optional<double> pressure,
                           const std::function<void(const RelaxProgress&)>& report = {});
 
 /// canopy.png, canopy.vtp, lines.vtp and result.json.

@@ -13,16 +13,17 @@ std::string to_json(const PatternResult& result) {
   return json_text(result);
 }
 
-PatternResult run_pattern(const Case& given, const Allowances& allowances, double packing_density) {
+PatternResult run_pattern(const Settings& resolved, const Allowances& allowances, double packing_density) {
   PatternResult result;
-  result.title = given.title;
-  result.nominal_area = nominal_area(given.parachute);
-  result.cloth_area = computed_area(given.parachute);
+  result.title = resolved.title();
+  result.nominal_area = nominal_area(resolved.parachute());
+  result.cloth_area = computed_area(resolved.parachute());
   result.packing_density = packing_density;
   result.allowances = allowances;
-  result.pattern = cut_pattern(given.parachute);
-  if (!reinforcement_tape(given)) result.pattern.tapes.clear();
-  result.bill = bill_of(result.pattern, given.parachute, part_materials(given), allowances, packing_density);
+  result.pattern = cut_pattern(resolved.parachute());
+  if (!resolved.materials().tape) result.pattern.tapes.clear();
+  result.bill =
+      bill_of(result.pattern, resolved.parachute(), resolved.materials(), allowances, packing_density);
   return result;
 }
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "ripstop/case/case.h"
+#include "ripstop/case/settings.h"
 #include "ripstop/core/members.h"
 #include "ripstop/parachute/cut.h"
 
@@ -46,7 +46,7 @@ void each_member(T& r, Visit&& visit) {
 }
 std::string to_json(const PatternResult& result);
 
-PatternResult run_pattern(const Case& given, const Allowances& allowances, double packing_density);
+PatternResult run_pattern(const Settings& resolved, const Allowances& allowances, double packing_density);
 
 /// Every piece as DXF and SVG, bill.csv and result.json.
 void write_pattern(const std::filesystem::path& folder, const PatternResult& result);

@@ -50,7 +50,7 @@ void find_size(const SizeRequest& request, SizeResult& r) {
     factor = next;
     given.parachute = example;
     scale_lengths(given.parachute, factor);
-    mass = request.payload_mass + parachute_mass(given);
+    mass = request.payload_mass + parachute_mass(resolve(given));
     if (done) return;
   }
 }
@@ -61,7 +61,7 @@ void find_opening(const SizeRequest& request, SizeResult& r) {
   asked.speed = r.deployment_speed;
   asked.height = std::max(r.height, 100.0);
   asked.drag_coefficient = r.drag_coefficient;
-  LoadResult load = run_load(r.given, asked);
+  LoadResult load = run_load(resolve(r.given), asked);
   r.opening_load_low = load.stages.front().lowest, r.opening_load = load.stages.front().highest;
   r.opening = std::move(load.stages), r.flight = std::move(load.flight);
 }
@@ -120,12 +120,13 @@ void describe_parachute(const SizeRequest& request, SizeResult& r) {
   r.vent_area = facts(design).vent_area;
   r.gores = design.gores, r.line_count = design.lines.count, r.line_length = design.lines.length_m;
   r.line_material = design.lines.material, r.canopy_material = design.canopy_material;
-  const PatternResult pattern = run_pattern(r.given, {}, request.packing_density);
+  const Settings resolved = resolve(r.given);
+  const PatternResult pattern = run_pattern(resolved, {}, request.packing_density);
   r.packed_volume = pattern.bill.packed_volume;
-  const CaseSummary summary = summarize(r.given);
+  const CaseSummary summary = summarize(resolved);
   r.cloth_mass = summary.mass.cloth, r.tape_mass = summary.mass.tape;
   r.line_mass = summary.mass.lines + summary.mass.riser;
-  r.parachute_mass = parachute_mass(r.given);
+  r.parachute_mass = parachute_mass(resolved);
   if (r.handbook_drag_coefficient) {
     const double scale = r.nominal_diameter * std::sqrt(r.drag_coefficient);
     r.handbook_diameter = {scale / std::sqrt(r.handbook_drag_coefficient->at(0)),
@@ -219,10 +220,10 @@ SizeResult run_size(const SizeRequest& request) {
 }
 
 void verify_size(const SizeRequest& request, SizeResult& r,
-                 const std::function<SteadyResult(const Case&, int run)>& fly, double tolerance) {
+                 const std::function<SteadyResult(const Settings&, int run)>& fly, double tolerance) {
   constexpr int most = 4;
   for (int run = 1; run <= most; ++run) {
-    const SteadyResult flown = fly(parse_case(r.case_text, "the sized case"), run);
+    const SteadyResult flown = fly(resolve(parse_case(r.case_text, "the sized case")), run);
     if (!flown.converged)
       throw Error(ExitCode::not_converged,
                   fmt::format("--verify: run {} has not converged, so that its descent rate "

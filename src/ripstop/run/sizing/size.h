@@ -117,6 +117,6 @@ SizeResult run_size(const SizeRequest& request);
 /// Runs the case until its descent rate is the wanted one within `tolerance`, changing the diameter: v goes with
 /// 1 / D_0. Throws Error(not_converged) when a run has not converged or four of them do not get there.
 void verify_size(const SizeRequest& request, SizeResult& result,
-                 const std::function<SteadyResult(const Case&, int run)>& fly, double tolerance = 0.01);
+                 const std::function<SteadyResult(const Settings&, int run)>& fly, double tolerance = 0.01);
 
 }  // namespace ripstop

@@ -30,7 +30,7 @@ ReportRun sizing(const SizeResult& r) {
   run.title = r.given.title;
   run.headline = {"nominal_diameter_m", "drag_coefficient", "parachute_mass_kg",
                   "packed_volume_m3",   "opening_load_n",   "line_used"};
-  run.tables.push_back(bill_table(r.given));
+  run.tables.push_back(bill_table(resolve(r.given)));
   run.warnings = r.warnings;
   run.case_file = r.case_text;
   run.provenance = {{"made by", "ripstop size, Ripstop " + std::string(version())}};

@@ -22,8 +22,8 @@ std::vector<Setting> only_first(const Kind& material, const std::vector<double>&
            "--linear"}};
 }
 
-std::vector<Setting> linear_cloth(const Case& given) {
-  const Fabric& cloth = canopy_fabric(given);
+std::vector<Setting> linear_cloth(const Settings& resolved) {
+  const Fabric& cloth = resolved.materials().canopy;
   std::vector<Setting> settings = only_first(cloth, cloth.coefficients_n_m, "coefficients_n_m");
   if (!cloth.weft_coefficients_n_m.empty()) {
     const auto weft = only_first(cloth, cloth.weft_coefficients_n_m, "weft_coefficients_n_m");
@@ -32,8 +32,8 @@ std::vector<Setting> linear_cloth(const Case& given) {
   return settings;
 }
 
-std::vector<Setting> linear_lines(const Case& given) {
-  const Line &line = suspension_line(given), &riser = riser_line(given);
+std::vector<Setting> linear_lines(const Settings& resolved) {
+  const Line &line = resolved.materials().line, &riser = resolved.materials().riser;
   std::vector<Setting> settings = only_first(line, line.coefficients_n, "coefficients_n");
   if (riser.name != line.name) {
     const auto other = only_first(riser, riser.coefficients_n, "coefficients_n");
@@ -50,7 +50,7 @@ double profile_change(const ComparedModel& a, const ComparedModel& b) {
 }
 
 ComparedModel model_of(const SweepPoint& point, const SteadyResult& result, const SteadyState& end) {
-  const CanopyMesh mesh = parachute_mesh(point.given);
+  const CanopyMesh mesh = parachute_mesh(point.resolved);
   ComparedModel m;
   m.model = point.values.front();
   m.drag = result.drag;
@@ -67,13 +67,14 @@ ComparedModel model_of(const SweepPoint& point, const SteadyResult& result, cons
 
 }  // namespace
 
-SweepAxis linear_models(const Case& given) {
-  if (given.coupling.linear)
+SweepAxis linear_models(const Settings& resolved) {
+  if (resolved.coupling().linear)
     throw Error(ExitCode::usage, "the case is linear itself (coupling.linear = true): nothing to compare");
-  SweepAxis axis{"model",
-                 {"nonlinear", "linear", "linear cloth", "linear lines"},
-                 {{}, {{"coupling.linear", "true", "--linear"}}, linear_cloth(given), linear_lines(given)}};
-  if (const Tape* tape = reinforcement_tape(given)) {
+  SweepAxis axis{
+      "model",
+      {"nonlinear", "linear", "linear cloth", "linear lines"},
+      {{}, {{"coupling.linear", "true", "--linear"}}, linear_cloth(resolved), linear_lines(resolved)}};
+  if (const std::optional<Tape>& tape = resolved.materials().tape) {
     axis.values.push_back("linear tape");
     axis.settings.push_back(only_first(*tape, tape->coefficients_n_m, "coefficients_n_m"));
   }
@@ -86,11 +87,11 @@ std::string to_json(const Comparison& comparison) {
 
 Comparison compare_models(const std::vector<SweepPoint>& points, const std::vector<SweepRow>& rows,
                           const std::function<SteadyState(std::size_t)>& end_of) {
-  const Case& given = points.front().given;
+  const Settings& resolved = points.front().resolved;
   Comparison c;
-  c.title = given.title;
-  c.speed = air(given).speed;
-  c.drag_tolerance = resolve(given).coupling.drag_tolerance;
+  c.title = resolved.title();
+  c.speed = resolved.flow().speed_m_s;
+  c.drag_tolerance = resolved.coupling().drag_tolerance;
   for (std::size_t i = 0; i < points.size(); ++i) {
     ComparedModel model = model_of(points[i], rows[i].result, end_of(i));
     const ComparedModel& first = c.models.empty() ? model : c.models.front();
@@ -103,7 +104,7 @@ Comparison compare_models(const std::vector<SweepPoint>& points, const std::vect
   for (std::size_t i = 2; i < c.models.size(); ++i) c.beyond_sum -= c.models[i].drag - a.drag;
   c.by_projected_area = 2 * std::log(b.projected_diameter / a.projected_diameter);
   c.by_drag_per_area = std::log(b.drag / a.drag) - c.by_projected_area;
-  if (const Measured* row = measured_row(given)) {
+  if (const std::optional<Measured>& row = resolved.measured_row()) {
     c.measured_drag = row->drag_n;
     c.printed_nonlinear = row->printed_nonlinear_n;
     c.printed_linear = row->printed_linear_n;

@@ -18,7 +18,7 @@ namespace ripstop {
 /// The case as it is; with K_1 alone for every material; and for the cloth, the lines and the tape, if there is one,
 /// in turn.
 /// Throws Error(usage) for a case that is linear itself.
-SweepAxis linear_models(const Case& given);
+SweepAxis linear_models(const Settings& resolved);
 
 template <Of<Strains> T, class Visit>
 void each_member(T& strains, Visit&& visit) {

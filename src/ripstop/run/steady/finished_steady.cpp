@@ -42,9 +42,9 @@ void require_converged(const SteadyResult& result, const std::string& where) {
 
 }  // namespace
 
-FinishedSteady finished_steady(const Case& given, const SteadyResult& result) {
+FinishedSteady finished_steady(const Settings& resolved, const SteadyResult& result) {
   require_converged(result, "");
-  return {{}, given, result, parachute_mass(given), drag_uncertainty(result.last)};
+  return {{}, resolved, result, parachute_mass(resolved), drag_uncertainty(result.last)};
 }
 
 FinishedSteady finished_steady(const std::filesystem::path& folder) {
@@ -54,12 +54,10 @@ FinishedSteady finished_steady(const std::filesystem::path& folder) {
         ExitCode::usage,
         fmt::format("{}: holds no finished run of ripstop steady; make one by: ripstop steady CASE --out {}",
                     folder.string(), folder.string()));
-  FinishedSteady run;
-  run.folder = folder;
-  run.result = steady_result_from_json(*text);
-  require_converged(run.result, folder.string());
-  run.given = case_of_run(folder);
-  run.parachute_mass = parachute_mass(run.given);
+  const SteadyResult result = steady_result_from_json(*text);
+  require_converged(result, folder.string());
+  const Settings resolved = settings_of_run(folder);
+  FinishedSteady run{folder, resolved, result, parachute_mass(resolved)};
   run.result.last = final_state(folder).iterations.back();
   run.drag_uncertainty = drag_uncertainty(run.result.last);
   return run;

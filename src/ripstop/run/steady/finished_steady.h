@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "ripstop/case/case.h"
+#include "ripstop/case/settings.h"
 #include "ripstop/run/steady/steady.h"
 
 namespace ripstop {
@@ -15,7 +15,7 @@ double drag_uncertainty(const SteadyIteration& last);
 
 struct FinishedSteady {
   std::filesystem::path folder;
-  Case given;
+  Settings resolved;
   SteadyResult result;
   double parachute_mass = 0;    // [kg]
   double drag_uncertainty = 0;  // drag_uncertainty() of its last iteration
@@ -25,6 +25,6 @@ struct FinishedSteady {
 /// damaged or has not converged.
 FinishedSteady finished_steady(const std::filesystem::path& folder);
 /// Of a run in memory: its `folder` stays empty. Throws Error(bad_data) for one that has not converged.
-FinishedSteady finished_steady(const Case& given, const SteadyResult& result);
+FinishedSteady finished_steady(const Settings& resolved, const SteadyResult& result);
 
 }  // namespace ripstop

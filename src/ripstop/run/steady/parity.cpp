@@ -31,7 +31,7 @@ ParityRun timed(FlowEngine& engine, const FlowProblem& problem, const std::strin
       return true;
     });
     run.drag = field.porous_force.z;
-    run.momentum_deficit = field.momentum_deficit;
+    run.momentum_deficit = field.momentum_deficit.z;
     run.iterations = field.last.iteration;
     run.converged = field.converged;
   } catch (const Error& error) {  // the other engine and the other canopies are of interest all the same
@@ -45,10 +45,10 @@ ParityRun timed(FlowEngine& engine, const FlowProblem& problem, const std::strin
 }  // namespace
 
 void compare_fields(const FlowField& a, const FlowField& b, const Freestream& air, ParityRow& row) {
-  const double dynamic = 0.5 * air.density * air.speed * air.speed;
+  const double dynamic = 0.5 * air.density * air.speed() * air.speed();
   const auto cells = static_cast<double>(a.pressure.size());
   for (std::size_t cell = 0; cell < a.pressure.size(); ++cell) {
-    const double u = norm(a.velocity[cell] - b.velocity[cell]) / air.speed;
+    const double u = norm(a.velocity[cell] - b.velocity[cell]) / air.speed();
     const double p = std::abs(a.pressure[cell] - b.pressure[cell]) / dynamic;
     row.velocity += u * u / cells;
     row.pressure += p * p / cells;
@@ -116,7 +116,7 @@ std::string to_json(const ParityResult& result) {
 ParityResult flow_parity(const ParitySettings& settings, const ParityEvents& events) {
   FlowProblem problem;
   problem.grid = {{-1, -1, 0}, {2, 2, 4}, settings.cells[0], settings.cells[1], settings.cells[2]};
-  problem.air.speed = settings.speed;
+  problem.air.velocity = {0, 0, settings.speed};
   problem.air.density = settings.density;
   if (settings.slip) problem.sides = Sides::slip;
   require_inside(problem.grid, settings.surface);
@@ -132,7 +132,7 @@ ParityResult flow_parity(const ParitySettings& settings, const ParityEvents& eve
   for (const ParityCanopy& canopy : parity_canopies) {
     const std::vector<std::string>& asked = settings.canopies;
     if (!asked.empty() && std::find(asked.begin(), asked.end(), canopy.name) == asked.end()) continue;
-    problem.porous = {{cut, canopy.darcy, canopy.forchheimer}};
+    problem.bodies = {porous_body({cut, canopy.darcy, canopy.forchheimer})};
     result.rows.push_back(compare_engines(settings, folder, problem, canopy.name, events));
     if (events.row) events.row(result);
   }

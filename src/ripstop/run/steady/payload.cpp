@@ -6,7 +6,6 @@
 
 #include <cmath>
 
-#include "ripstop/case/tape.h"
 #include "ripstop/run/engine.h"
 #include "ripstop/run/steady/steady_parts.h"
 
@@ -24,7 +23,7 @@ void scale_pressures(SteadyState& state, double ratio) {
 }
 
 /// The same run at another speed; the flow goes on where the engine can scale it, else it starts afresh.
-SteadyParts at_speed(SteadyParts old, const Case& now, const SteadySettings& settings) {
+SteadyParts parts_at(SteadyParts old, const Settings& now, const SteadySettings& settings) {
   if (!engine_of(now).can.other_air) {
     old.solver.reset(), old.engine.reset();
     return steady_parts(now, settings);
@@ -38,34 +37,33 @@ SteadyParts at_speed(SteadyParts old, const Case& now, const SteadySettings& set
 }
 
 /// What the payload itself holds of its weight at the state's speed [N].
-double own_drag(const Case& given, double speed) {
-  return 0.5 * air(given).density * speed * speed * given.payload.drag_area_m2;
+double own_drag(const Settings& resolved, double speed) {
+  return 0.5 * resolved.flow().density_kg_m3 * speed * speed * resolved.payload().drag_area_m2;
 }
 
 }  // namespace
 
 // D goes with v^2 as long as the shape stays: the next speed is v (W / D)^(1/2). The coupling's own iteration on the
 // shape goes on meanwhile, so that the search costs about as many iterations as one run.
-SteadySolution run_with_payload(const Case& given, SteadyObserver& observer, const SteadySettings& settings) {
-  const double weight = suspended_weight(given, *given.payload.mass_kg);
-  const int most = given.coupling.max_iterations;
-  Case now = given;
-  now.parachute.tape.material = tape_material(given).name;  // one parachute at every speed
-  now.flow.speed_m_s = air(given).speed;
+SteadySolution run_with_payload(const Settings& resolved, SteadyObserver& observer,
+                                const SteadySettings& settings) {
+  const double weight = suspended_weight(resolved, *resolved.payload().mass_kg);
+  const int most = resolved.coupling().max_iterations;
+  Settings now = resolved;
   SteadyParts parts = steady_parts(now, settings);
   SteadySolution solution;
   SteadyState& state = solution.state;
   state = parts.solver->start();
   observer.begin({now, *parts.solver, parts.engine->name()}, state);
-  if (state.speed == 0) state.speed = *now.flow.speed_m_s, state.speeds = 1;
+  if (state.speed == 0) state.speed = now.flow().speed_m_s, state.speeds = 1;
   const auto drag_over_weight = [&] {
-    return (state.iterations.back().fluid_force + own_drag(given, state.speed)) / weight;
+    return (state.iterations.back().fluid_force + own_drag(resolved, state.speed)) / weight;
   };
   const auto take_speed = [&] {
-    now.flow.speed_m_s = state.speed;
-    parts = at_speed(std::move(parts), now, settings);
+    now = at_speed(now, state.speed);
+    parts = parts_at(std::move(parts), now, settings);
   };
-  if (state.speed != *now.flow.speed_m_s) take_speed();  // of a run that was killed
+  if (state.speed != now.flow().speed_m_s) take_speed();  // of a run that was killed
   for (;;) {
     if (!state.iterations.empty()) {
       const double share = drag_over_weight();
@@ -88,8 +86,8 @@ SteadySolution run_with_payload(const Case& given, SteadyObserver& observer, con
     observer.iterated(run, state, solution.flow);
   }
   solution.result = steady_result(*parts.solver, state, now);
-  solution.result.payload = {*given.payload.mass_kg,       parachute_mass(given), weight,
-                             own_drag(given, state.speed), drag_over_weight(),    state.speeds};
+  solution.result.payload = {*resolved.payload().mass_kg,     parachute_mass(resolved), weight,
+                             own_drag(resolved, state.speed), drag_over_weight(),       state.speeds};
   observer.ended({now, *parts.solver, parts.engine->name()}, state, solution.result);
   return solution;
 }

@@ -19,49 +19,35 @@ namespace {
 
 using nlohmann::json;
 
-double dynamic_pressure(const Case& given) {
-  const Air stream = air(given);
-  return 0.5 * stream.density * stream.speed * stream.speed;
+double dynamic_pressure(const Settings& resolved) {
+  const FlowSettings& flow = resolved.flow();
+  return 0.5 * flow.density_kg_m3 * flow.speed_m_s * flow.speed_m_s;
 }
 
-// Both solve on the same grid, so that a field of one can start the other; one of other air where the engine
-// scales what it has.
-bool same_flow(const Case& a, const Case& b) {
-  json first = json::parse(case_json(a)).at("flow"), second = json::parse(case_json(b)).at("flow");
-  std::vector<std::string> free = {"canopy_position_m", "unsteady", "watch"};
-  if (engine_of(a).can.other_air) {
-    free.insert(free.end(), {"speed_m_s", "speed_basis", "height_m", "density_kg_m3", "viscosity_pa_s",
-                             "temperature_k", "turbulence_intensity", "viscosity_ratio"});
-  }
-  for (const std::string& key : free) first.erase(key), second.erase(key);
-  return first == second;
-}
-
-UnsteadyResult unsteady_result(const WindowAverage& watched, const Case& given) {
+UnsteadyResult unsteady_result(const WindowAverage& watched, const Settings& resolved) {
   UnsteadyResult result;
   result.watched = watched;
   // Not a number in JSON.
   if (std::isfinite(watched.error)) result.standard_error = watched.error;
   for (double* error : {&result.watched.error, &result.watched.side_error.x, &result.watched.side_error.y})
     if (!std::isfinite(*error)) *error = 0;
-  result.strouhal = watched.swing * inflated_diameter(given.parachute) / air(given).speed;
+  result.strouhal = watched.swing * inflated_diameter(resolved.parachute()) / resolved.flow().speed_m_s;
   return result;
 }
 }  // namespace
 
-SteadyResult steady_result(const SteadySolver& solver, const SteadyState& state, const Case& given) {
+SteadyResult steady_result(const SteadySolver& solver, const SteadyState& state, const Settings& resolved) {
   SteadyResult r;
-  r.title = given.title;
+  r.title = resolved.title();
   r.last = state.iterations.back();
-  const Air stream = air(given);
-  r.speed = stream.speed;
-  r.density = stream.density;
+  r.speed = resolved.flow().speed_m_s;
+  r.density = resolved.flow().density_kg_m3;
   r.approach_speed = r.last.approach_speed;
   r.drag = r.last.fluid_force;
-  r.drag_area = r.drag / dynamic_pressure(given);
-  r.reference_area = nominal_area(given.parachute);
+  r.drag_area = r.drag / dynamic_pressure(resolved);
+  r.reference_area = nominal_area(resolved.parachute());
   r.drag_coefficient = r.drag_area / r.reference_area;
-  const KnownRange known = experience(given.parachute).drag_coefficient;
+  const KnownRange known = experience(resolved.parachute()).drag_coefficient;
   if (known.high > 0) r.known_drag_coefficient = {known.low, known.high};
   r.size = canopy_size(solver.mesh(), state.shape);
   const ClothState cloth = solver.cloth_state(state);
@@ -69,7 +55,7 @@ SteadyResult steady_result(const SteadySolver& solver, const SteadyState& state,
   for (const LineTension& t : line_tensions(solver.mesh(), tensions))
     r.max_line_tension = std::max(r.max_line_tension, t.largest_tension);
   r.stress = stress_peak(solver.mesh(), state.shape, cell_stress(solver.cloth(), cloth));
-  r.margins = case_margins(given, solver.mesh(), tensions, r.stress);
+  r.margins = case_margins(resolved, solver.mesh(), tensions, r.stress);
   r.iterations = r.last.iteration;
   for (const SteadyIteration& i : state.iterations) r.wall_time += i.wall_time;
   r.converged = state.converged;
@@ -78,8 +64,8 @@ SteadyResult steady_result(const SteadySolver& solver, const SteadyState& state,
   r.axial_moment = r.last.axial_moment;
   r.section_gap = r.last.section_gap;
   r.ledger = {r.last.fluid_force, r.last.nodal_load, r.last.line_tension, r.last.momentum_deficit};
-  if (state.in_time) r.unsteady = unsteady_result(state.window, given);
-  if (const Measured* row = measured_row(given)) r.measured = *row;
+  if (state.in_time) r.unsteady = unsteady_result(state.window, resolved);
+  r.measured = resolved.measured_row();
   return r;
 }
 
@@ -91,15 +77,15 @@ SteadyResult steady_result_from_json(const std::string& text) {
   return from_json_text<SteadyResult>(text, "the result of a steady run");
 }
 
-SteadyParts steady_parts(const Case& given, const SteadySettings& settings) {
+SteadyParts steady_parts(const Settings& resolved, const SteadySettings& settings) {
   SteadyParts parts;
-  SteadyProblem problem = steady_problem(given);
+  SteadyProblem problem = steady_problem(resolved);
   const int threads = settings.threads > 0 ? settings.threads : problem.settings.threads;
   problem.settings.threads = threads;
-  const EngineRecord& record = engine_of(given);
-  EngineOptions options = engine_options(given);
+  const EngineRecord& record = engine_of(resolved);
+  EngineOptions options = engine_options(resolved);
   options.threads = threads;
-  options.small_eddies = given.flow.watch.eddies;
+  options.small_eddies = resolved.flow().watch.eddies;
   options.folder = settings.flow_folder;
   options.hostfile = settings.hostfile;
   if (record.needs_folder && options.folder.empty()) {
@@ -111,18 +97,19 @@ SteadyParts steady_parts(const Case& given, const SteadySettings& settings) {
   return parts;
 }
 
-void require_steady_memory(const Case& given) {
-  const Cost cost = cost_of(given);
+void require_steady_memory(const Settings& resolved) {
+  const Cost cost = cost_of(resolved);
   require_memory(cost.memory,
                  fmt::format("a steady run on {:.3g} cells and {:.3g} nodes", cost.cells, cost.nodes));
 }
 
-SteadySolution run_steady(const Case& given, SteadyObserver& observer, const SteadySettings& settings) {
-  require_steady_memory(given);
-  if (given.payload.mass_kg) return run_with_payload(given, observer, settings);
-  const SteadyParts parts = steady_parts(given, settings);
+SteadySolution run_steady(const Settings& resolved, SteadyObserver& observer,
+                          const SteadySettings& settings) {
+  require_steady_memory(resolved);
+  if (resolved.payload().mass_kg) return run_with_payload(resolved, observer, settings);
+  const SteadyParts parts = steady_parts(resolved, settings);
   SteadySolver& solver = *parts.solver;
-  const SteadyRun run{given, solver, parts.engine->name()};
+  const SteadyRun run{resolved, solver, parts.engine->name()};
   SteadySolution solution;
   SteadyState& state = solution.state;
   state = solver.start();
@@ -132,27 +119,27 @@ SteadySolution run_steady(const Case& given, SteadyObserver& observer, const Ste
         solver.iterate(state, [&](const SteadyProgress& progress) { observer.progress(progress, state); });
     observer.iterated(run, state, solution.flow);
   }
-  solution.result = steady_result(solver, state, given);
+  solution.result = steady_result(solver, state, resolved);
   observer.ended(run, state, solution.result);
   return solution;
 }
 
-bool start_from(const Case& other, const SteadyState& end, const SteadyRun& run, SteadyState& state) {
-  const Case& given = run.given;
+bool start_from(const Settings& other, const SteadyState& end, const SteadyRun& run, SteadyState& state) {
+  const Settings& resolved = run.resolved;
   const bool same_mesh =
-      json::parse(case_json(given)).at("parachute") == json::parse(case_json(other)).at("parachute") &&
+      json::parse(case_json(resolved)).at("parachute") == json::parse(case_json(other)).at("parachute") &&
       end.shape.size() == state.shape.size() && end.pressure.size() == state.pressure.size();
   if (!same_mesh) return false;
   state.shape = end.shape;
   state.pressure = end.pressure;
-  const double shift = canopy_position(given) - canopy_position(other);
+  const double shift = resolved.flow().canopy_position_m - other.flow().canopy_position_m;
   const double there =
-      end.speed > 0 ? 0.5 * air(other).density * end.speed * end.speed : dynamic_pressure(other);
-  const double ratio = dynamic_pressure(given) / there;
+      end.speed > 0 ? 0.5 * other.flow().density_kg_m3 * end.speed * end.speed : dynamic_pressure(other);
+  const double ratio = dynamic_pressure(resolved) / there;
   for (Vec3& p : state.shape) p.z += shift;
   for (double& dp : state.pressure) dp *= ratio;
   state.residual_traction = {ratio * end.residual_traction.at_centre, ratio * end.residual_traction.twist};
-  return same_flow(given, other);
+  return same_flow(resolved.flow(), other.flow());
 }
 
 }  // namespace ripstop

@@ -8,7 +8,7 @@
 
 #include "ripstop/canopy/shape.h"
 #include "ripstop/canopy/stress.h"
-#include "ripstop/case/case.h"
+#include "ripstop/case/settings.h"
 #include "ripstop/core/members.h"
 #include "ripstop/flow/flow.h"
 #include "ripstop/fsi/steady_loop.h"
@@ -130,13 +130,13 @@ void each_member(T& r, Visit&& visit) {
 }
 std::string to_json(const SteadyResult& result);
 /// Throws Error(resources) when this machine has not the memory for a steady run of the case.
-void require_steady_memory(const Case& given);
+void require_steady_memory(const Settings& resolved);
 /// Throws Error(bad_data) when `json` is no result of a steady run.
 SteadyResult steady_result_from_json(const std::string& json);
 
 /// A run under way, as its observers see it.
 struct SteadyRun {
-  const Case& given;
+  const Settings& resolved;
   SteadySolver& solver;
   std::string engine;  // name and version
 };
@@ -169,10 +169,11 @@ struct SteadySolution {
 
 /// Runs to the end of the coupling; a converged result is not promised. Touches no file, but for an
 /// engine's that needs them. Throws as SteadySolver and the flow engine do.
-SteadySolution run_steady(const Case& given, SteadyObserver& observer, const SteadySettings& settings = {});
+SteadySolution run_steady(const Settings& resolved, SteadyObserver& observer,
+                          const SteadySettings& settings = {});
 
 /// For SteadyObserver::begin(): the shape in which a run of `other` ended, moved to this case's place, under
 /// its pressure at this case's q. Another mesh starts cold. Returns whether the flow of that run fits too.
-bool start_from(const Case& other, const SteadyState& end, const SteadyRun& run, SteadyState& state);
+bool start_from(const Settings& other, const SteadyState& end, const SteadyRun& run, SteadyState& state);
 
 }  // namespace ripstop

@@ -70,7 +70,7 @@ void SteadyFolder::begin(const SteadyRun& run, SteadyState& state) {
       next_.warned(fmt::format("{}; goes on from the checkpoint before, iteration {}", saved->damage,
                                state.iterations.size()));
   } else if (!warm_from_.empty()) {
-    if (start_from(case_of_run(warm_from_), final_state(warm_from_), run, state)) {
+    if (start_from(settings_of_run(warm_from_), final_state(warm_from_), run, state)) {
       const auto neighbour = load_checkpoint(warm_from_ / "checkpoint", run.solver.flow());
       if (neighbour && !neighbour->damage.empty())  // an older one would make other numbers
         throw Error(ExitCode::bad_data, neighbour->damage);
@@ -89,7 +89,7 @@ void SteadyFolder::iterated(const SteadyRun& run, const SteadyState& state, cons
     write_flow(flow);
     write_state(run, state);
   }
-  if (state.iterations.back().in_time) write_watch(folder_, run.given, run.solver.record());
+  if (state.iterations.back().in_time) write_watch(folder_, run.resolved, run.solver.record());
   iterations(state.iterations.size() - 1).add(row_of(state.iterations.back()));
   folder_.keep();
   save_checkpoint(folder_.own("checkpoint/"), state, run.solver.flow());
@@ -164,7 +164,7 @@ void SteadyFolder::write_state(const SteadyRun& run, const SteadyState& state) c
   for (const CellStress& s : cell_stress(solver.cloth(), cloth)) mises.push_back(s.von_mises);
   const std::vector<double> tensions = spring_tensions(solver.cloth(), cloth);
   write_canopy_picture(folder_.own("canopy.png"), mesh, state.shape,
-                       {fmt::format("{}, coupling iteration {}: drag {:.1f} N", run.given.title,
+                       {fmt::format("{}, coupling iteration {}: drag {:.1f} N", run.resolved.title(),
                                     state.iterations.size(), state.iterations.back().fluid_force),
                         "von Mises stress [N/m]",
                         mises,
@@ -222,46 +222,46 @@ void SteadyFolder::write_drag_plot(const SteadyState& state, const std::string& 
 
 }  // namespace
 
-SteadyFolderRun run_steady_in(const SteadyFolderSettings& settings, const Case& given,
+SteadyFolderRun run_steady_in(const SteadyFolderSettings& settings, const Settings& resolved,
                               SteadyObserver& observer) {
   const fs::path& folder = settings.run.folder;
-  require_hosts(settings.hostfile, given);
-  const int threads = settings.threads > 0 ? settings.threads : given.coupling.threads;
+  require_hosts(settings.hostfile, resolved);
+  const int threads = settings.threads > 0 ? settings.threads : resolved.coupling().threads;
   // By the engine's name, before one is made: making it clears the flow's
   // folder, which may still be another run's.
-  const auto claimed = open_run_folder(settings.run, given, engine_of(given).name(engine_options(given)),
-                                       ThreadTeam(threads).size());
+  const auto claimed = open_run_folder(
+      settings.run, resolved, engine_of(resolved).name(engine_options(resolved)), ThreadTeam(threads).size());
   if (const auto finished = finished_result(folder)) return {true, steady_result_from_json(*finished)};
-  const fs::path flow_folder = engine_of(given).needs_folder ? claimed->own("flow/") : fs::path();
+  const fs::path flow_folder = engine_of(resolved).needs_folder ? claimed->own("flow/") : fs::path();
   SteadyFolder files(*claimed, settings, observer);
-  SteadyResult result = run_steady(given, files, {threads, flow_folder, settings.hostfile}).result;
+  SteadyResult result = run_steady(resolved, files, {threads, flow_folder, settings.hostfile}).result;
   result.inputs_hash = inputs_of_run(folder);
   return {false, std::move(result)};
 }
 
-void check_steady_in(const SteadyFolderSettings& settings, const Case& given) {
+void check_steady_in(const SteadyFolderSettings& settings, const Settings& resolved) {
   const fs::path& folder = settings.run.folder;
-  require_hosts(settings.hostfile, given);
+  require_hosts(settings.hostfile, resolved);
   require_unclaimed(folder);
-  const bool goes_on =
-      holds_run(settings.run, given, engine_of(given).name(engine_options(given)));  // the engine is there
+  const bool goes_on = holds_run(settings.run, resolved,
+                                 engine_of(resolved).name(engine_options(resolved)));  // the engine is there
   if (goes_on && finished_result(folder)) return;
-  if (!settings.elsewhere) require_steady_memory(given);
+  if (!settings.elsewhere) require_steady_memory(resolved);
 }
 
-double drag_for_opening(const fs::path& folder, const Case& opening) {
+double drag_for_opening(const fs::path& folder, const Settings& opening) {
   const std::optional<std::string> text = finished_result(folder);
   if (!text)
     throw Error(ExitCode::usage, fmt::format("{}: holds no finished run of ripstop steady", folder.string()));
-  return drag_for_opening(case_of_run(folder), steady_result_from_json(*text), folder.string(), opening);
+  return drag_for_opening(settings_of_run(folder), steady_result_from_json(*text), folder.string(), opening);
 }
 
-double drag_for_opening(const Case& given, const SteadyResult& result, const std::string& where,
-                        const Case& opening) {
+double drag_for_opening(const Settings& resolved, const SteadyResult& result, const std::string& where,
+                        const Settings& opening) {
   if (!result.converged)
     throw Error(ExitCode::bad_data, fmt::format("{}: the steady run has not converged", where));
   auto asked = nlohmann::json::parse(case_json(opening)).at("parachute");
-  auto had = nlohmann::json::parse(case_json(given)).at("parachute");
+  auto had = nlohmann::json::parse(case_json(resolved)).at("parachute");
   asked.erase("mesh"), had.erase("mesh");
   for (const auto& [key, value] : asked.items()) {
     if (had.contains(key) && had.at(key) == value) continue;
@@ -269,14 +269,13 @@ double drag_for_opening(const Case& given, const SteadyResult& result, const std
                 fmt::format("{}: is a run of another parachute: parachute.{} is {} there and {} here", where,
                             key, had.value(key, nlohmann::json()).dump(), value.dump()));
   }
-  const Air here = air(opening);
   const auto check = [&](const char* what, double there, double now) {
     if (std::abs(there - now) <= 1e-6 * now) return;
     throw Error(ExitCode::usage,
                 fmt::format("{}: is a run at another {}: {:g} there and {:g} here", where, what, there, now));
   };
-  check("speed (m/s)", result.speed, here.speed);
-  check("density (kg/m3)", result.density, here.density);
+  check("speed (m/s)", result.speed, opening.flow().speed_m_s);
+  check("density (kg/m3)", result.density, opening.flow().density_kg_m3);
   return result.drag;
 }
 
@@ -290,12 +289,12 @@ SteadyState final_state(const fs::path& folder) {
   return steady_state_from_bytes(read_sealed(checkpoint / read_sealed(checkpoint / "current") / "state"));
 }
 
-Case case_of_run(const fs::path& folder) {
+Settings settings_of_run(const fs::path& folder) {
   if (!fs::exists(folder / "case.toml")) {
     throw Error(ExitCode::usage,
                 fmt::format("{}: has no case.toml; run ripstop steady again with --fresh", folder.string()));
   }
-  return read_case(folder / "case.toml");
+  return resolve(read_case(folder / "case.toml"));
 }
 
 void drop_flow_checkpoint(const fs::path& folder) {

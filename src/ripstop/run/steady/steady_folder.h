@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "ripstop/case/case.h"
+#include "ripstop/case/settings.h"
 #include "ripstop/run/run_folder.h"
 #include "ripstop/run/steady/steady.h"
 
@@ -27,23 +27,23 @@ struct SteadyFolderRun {
 /// run_steady() in a folder, from the first iteration or from where it was killed. Nothing is
 /// computed, and the observer is told nothing, when the folder holds the finished run. Throws as
 /// holds_run() and run_steady() do.
-SteadyFolderRun run_steady_in(const SteadyFolderSettings& settings, const Case& given,
+SteadyFolderRun run_steady_in(const SteadyFolderSettings& settings, const Settings& resolved,
                               SteadyObserver& observer);
 
 /// Throws what run_steady_in() would throw before it computes, and touches nothing.
-void check_steady_in(const SteadyFolderSettings& settings, const Case& given);
+void check_steady_in(const SteadyFolderSettings& settings, const Settings& resolved);
 
 /// Drag of the converged run in a folder, for an opening of the same parachute, but for its mesh, in the same
 /// air. Throws Error(usage) for another parachute, speed or density, Error(bad_data) for a run that is
 /// damaged or has not converged.
-double drag_for_opening(const std::filesystem::path& folder, const Case& opening);
-/// The same of a run of `given`, which messages call `where`.
-double drag_for_opening(const Case& given, const SteadyResult& result, const std::string& where,
-                        const Case& opening);
+double drag_for_opening(const std::filesystem::path& folder, const Settings& opening);
+/// The same of a run of `resolved`, which messages call `where`.
+double drag_for_opening(const Settings& resolved, const SteadyResult& result, const std::string& where,
+                        const Settings& opening);
 /// The final state in the folder of a steady run. Throws Error(usage) when there is none.
 SteadyState final_state(const std::filesystem::path& folder);
-/// The case that was run there. Throws Error(usage) when there is none.
-Case case_of_run(const std::filesystem::path& folder);
+/// The settings of the run there. Throws Error(usage) when there is none.
+Settings settings_of_run(const std::filesystem::path& folder);
 /// Gives back the disk space of the flow field in the checkpoint of a finished run; final_state() stays.
 /// Throws Error(io).
 void drop_flow_checkpoint(const std::filesystem::path& folder);

@@ -13,12 +13,13 @@ struct SteadyParts {
   std::unique_ptr<FlowEngine> engine;
   std::unique_ptr<SteadySolver> solver;
 };
-SteadyParts steady_parts(const Case& given, const SteadySettings& settings);
+SteadyParts steady_parts(const Settings& resolved, const SteadySettings& settings);
 
-/// Of the state in which a run of `given` ended.
-SteadyResult steady_result(const SteadySolver& solver, const SteadyState& state, const Case& given);
+/// Of the state in which the run ended.
+SteadyResult steady_result(const SteadySolver& solver, const SteadyState& state, const Settings& resolved);
 
 /// run_steady() of a case with payload.mass_kg.
-SteadySolution run_with_payload(const Case& given, SteadyObserver& observer, const SteadySettings& settings);
+SteadySolution run_with_payload(const Settings& resolved, SteadyObserver& observer,
+                                const SteadySettings& settings);
 
 }  // namespace ripstop

@@ -2,14 +2,14 @@
 
 #include <fmt/format.h>
 
-#include "ripstop/case/resolve.h"
+#include "ripstop/case/settings.h"
 #include "ripstop/material/fit_material.h"
 
 namespace ripstop {
 
-std::vector<std::string> mesh_warnings(const Case& given) {
-  const int asked = given.parachute.mesh.cloth_nodes;
-  const int enough = experience(given.parachute).cloth_nodes;
+std::vector<std::string> mesh_warnings(const Settings& resolved) {
+  const int asked = resolved.parachute().mesh.cloth_nodes;
+  const int enough = experience(resolved.parachute()).cloth_nodes;
   if (asked >= enough) return {};
   return {fmt::format(
       "parachute.mesh.cloth_nodes = {}: the projected diameter of this type may come out more than "
@@ -17,13 +17,12 @@ std::vector<std::string> mesh_warnings(const Case& given) {
       asked, enough)};
 }
 
-std::vector<std::string> grid_warnings(const Case& given) {
+std::vector<std::string> grid_warnings(const Settings& resolved) {
   constexpr double enough = 10;  // on five, of-flow jumps between shapes; docs/theory/coupling.md
-  const Resolved resolved = resolve(given);
-  if (resolved.coupling.load != CanopyLoad::of_flow) return {};
-  const FlowGrid grid = flow_grid(resolved.flow);
+  if (resolved.coupling().load != CanopyLoad::of_flow) return {};
+  const FlowGrid grid = flow_grid(resolved.flow());
   const double across =
-      inflated_diameter(given.parachute) / grid.spacing({0, 0, resolved.flow.canopy_position_m}).x;
+      inflated_diameter(resolved.parachute()) / grid.spacing({0, 0, resolved.flow().canopy_position_m}).x;
   if (across >= enough) return {};
   return {
       fmt::format("{:.0f} cells of the flow across the inflated canopy: with fewer than {:.0f} the air's "
@@ -33,9 +32,9 @@ std::vector<std::string> grid_warnings(const Case& given) {
                   across, enough)};
 }
 
-std::vector<std::string> porosity_warnings(const Case& given) {
-  const Fabric& cloth = canopy_fabric(given);
-  const PorosityModel used = resolve(given).flow.porosity_model;
+std::vector<std::string> porosity_warnings(const Settings& resolved) {
+  const Fabric& cloth = resolved.materials().canopy;
+  const PorosityModel used = resolved.flow().porosity_model;
   if (used == cloth.resistance.model) return {};
   const auto word = [](PorosityModel model) { return model == PorosityModel::paper ? "paper" : "sheet"; };
   return {
@@ -44,25 +43,25 @@ std::vector<std::string> porosity_warnings(const Case& given) {
                   word(used), cloth.name, word(cloth.resistance.model))};
 }
 
-std::vector<std::string> strain_warnings(const Case& given, double largest_cloth_strain) {
+std::vector<std::string> strain_warnings(const Settings& resolved, double largest_cloth_strain) {
   std::vector<std::string> all;
-  for (const auto& [name, material] : given.materials) {
-    const double strain = name == given.parachute.canopy_material ? largest_cloth_strain : 0.0;
+  for (const auto& [name, material] : resolved.written().materials) {
+    const double strain = name == resolved.parachute().canopy_material ? largest_cloth_strain : 0.0;
     for (const std::string& text : material_warnings(material, strain)) all.push_back(text);
   }
   return all;
 }
 
-std::vector<std::string> case_warnings(const Case& given) {
-  std::vector<std::string> all = mesh_warnings(given);
-  for (const std::vector<std::string>& more : {grid_warnings(given), porosity_warnings(given)})
+std::vector<std::string> case_warnings(const Settings& resolved) {
+  std::vector<std::string> all = mesh_warnings(resolved);
+  for (const std::vector<std::string>& more : {grid_warnings(resolved), porosity_warnings(resolved)})
     all.insert(all.end(), more.begin(), more.end());
   return all;
 }
 
-std::vector<std::string> warnings_of(const Case& given, double largest_cloth_strain) {
-  std::vector<std::string> all = case_warnings(given);
-  const std::vector<std::string> strain = strain_warnings(given, largest_cloth_strain);
+std::vector<std::string> warnings_of(const Settings& resolved, double largest_cloth_strain) {
+  std::vector<std::string> all = case_warnings(resolved);
+  const std::vector<std::string> strain = strain_warnings(resolved, largest_cloth_strain);
   all.insert(all.end(), strain.begin(), strain.end());
   return all;
 }

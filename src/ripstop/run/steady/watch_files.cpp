@@ -20,12 +20,12 @@ constexpr std::size_t shots = 6;            // in the picture
 void write_history(ClaimedFolder& folder, const FlowRecord& record) {
   CsvTable table{{"time_s", "step_s", "courant", "force_x_n", "force_y_n", "drag_n", "momentum_gap_n"}, {}};
   for (const FlowStep& step : record.steps)
-    table.rows.push_back(
-        {step.time, step.length, step.courant, step.force.x, step.force.y, step.force.z, step.momentum_gap});
+    table.rows.push_back({step.time, step.length, step.courant, step.force.x, step.force.y, step.force.z,
+                          step.momentum_gap.z});
   write_csv(folder.own("history.csv"), table);
 }
 
-void write_wake(ClaimedFolder& folder, const Case& given, const FlowRecord& record) {
+void write_wake(ClaimedFolder& folder, const Settings& resolved, const FlowRecord& record) {
   if (record.slices.empty()) return;
   make_folder(folder.path() / "wake");
   std::vector<VtkSeriesFile> series;
@@ -44,7 +44,7 @@ void write_wake(ClaimedFolder& folder, const Case& given, const FlowRecord& reco
     const FlowSlice& slice = record.slices[n];
     strip.push_back({fmt::format("t = {:.3f} s", slice.time), &slice.field});
   }
-  write_flow_picture(folder.own("wake.png"), given.title + ": the middle plane", strip);
+  write_flow_picture(folder.own("wake.png"), resolved.title() + ": the middle plane", strip);
 }
 
 }  // namespace
@@ -77,11 +77,11 @@ Plot history_plot(const std::string& title, const FlowRecord& record) {
   return plot;
 }
 
-void write_watch(ClaimedFolder& folder, const Case& given, const FlowRecord& record) {
+void write_watch(ClaimedFolder& folder, const Settings& resolved, const FlowRecord& record) {
   if (record.steps.empty()) return;
   write_history(folder, record);
-  write_plot(folder.own("history.png"), history_plot(given.title, record));
-  write_wake(folder, given, record);
+  write_plot(folder.own("history.png"), history_plot(resolved.title(), record));
+  write_wake(folder, resolved, record);
 }
 
 }  // namespace ripstop

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "ripstop/case/case.h"
+#include "ripstop/case/settings.h"
 #include "ripstop/core/claimed_folder.h"
 #include "ripstop/flow/unsteady.h"
 #include "ripstop/output/plot.h"
@@ -15,6 +15,6 @@ Plot history_plot(const std::string& title, const FlowRecord& record);
 
 /// history.csv (forces and step by step in time), history.png (drag with its running mean), wake.pvd and wake/
 /// (the middle plane at the last times), wake.png (speed in it). Throws Error(io).
-void write_watch(ClaimedFolder& folder, const Case& given, const FlowRecord& record);
+void write_watch(ClaimedFolder& folder, const Settings& resolved, const FlowRecord& record);
 
 }  // namespace ripstop

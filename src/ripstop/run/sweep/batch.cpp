@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "ripstop/case/cost.h"
-#include "ripstop/case/resolve.h"
+#include "ripstop/case/settings.h"
 #include "ripstop/core/build_info.h"
 #include "ripstop/core/claimed_folder.h"
 #include "ripstop/core/error.h"
@@ -113,11 +113,11 @@ std::string signals() {
   return fmt::format("#SBATCH --requeue\n#SBATCH --signal=B:USR1@{}\n", notice);
 }
 
-BatchNeeds needs_of(const Case& given, int cores) {
+BatchNeeds needs_of(const Settings& resolved, int cores) {
   BatchNeeds needs;
-  const EngineRecord& engine = engine_of(given);
-  const Cost cost = cost_of(given);
-  needs.ranks = engine.can.ranks ? given.flow.ranks : 1;
+  const EngineRecord& engine = engine_of(resolved);
+  const Cost cost = cost_of(resolved);
+  needs.ranks = engine.can.ranks ? resolved.flow().ranks : 1;
   needs.cores = cores > 0 ? cores : needs.ranks > 1 ? 1 : usual_cores;
   needs.memory = cost.memory + engine.takes.cell_memory * cost.cells + engine.takes.rank_memory * needs.ranks;
   needs.hours = unknown_limit;
@@ -127,20 +127,20 @@ BatchNeeds needs_of(const Case& given, int cores) {
 
 }  // namespace
 
-BatchNeeds steady_needs(const Case& given, int cores) {
-  const int threads = given.flow.ranks > 1 ? 0 : given.coupling.threads;
-  BatchNeeds needs = needs_of(given, cores > 0 ? cores : threads);
-  const FlowSettings flow = resolve(given).flow;
+BatchNeeds steady_needs(const Settings& resolved, int cores) {
+  const int threads = resolved.flow().ranks > 1 ? 0 : resolved.coupling().threads;
+  BatchNeeds needs = needs_of(resolved, cores > 0 ? cores : threads);
+  const FlowSettings flow = resolved.flow();
   if (flow.unsteady) return needs;
   const double iterations = usual_couplings * std::min(usual_iterations, double(flow.max_iterations));
-  const double time = iterations * cost_of(given).cells * engine_of(given).takes.cell_time;  // [core s]
+  const double time = iterations * cost_of(resolved).cells * engine_of(resolved).takes.cell_time;  // [core s]
   needs.hours = std::clamp(std::ceil(time / 3600 / needs.ranks / needs.cores), shortest_limit, longest_limit);
   needs.limited = fmt::format("about {:.2g} core hours, and an hour at least", time / 3600);
   return needs;
 }
 
-BatchNeeds opening_needs(const Case& given, int threads, int cores) {
-  BatchNeeds needs = needs_of(given, cores > 0 ? cores : threads);
+BatchNeeds opening_needs(const Settings& resolved, int threads, int cores) {
+  BatchNeeds needs = needs_of(resolved, cores > 0 ? cores : threads);
   needs.ranks = 1;
   return needs;
 }

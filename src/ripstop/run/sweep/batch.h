@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "ripstop/case/case.h"
+#include "ripstop/case/settings.h"
 
 namespace ripstop {
 
@@ -18,9 +18,9 @@ struct BatchNeeds {
   std::string limited;  // where the time limit comes from, for a comment
 };
 /// Of a steady run. `cores` 0: coupling.threads, else four where there is one rank.
-BatchNeeds steady_needs(const Case& given, int cores = 0);
+BatchNeeds steady_needs(const Settings& resolved, int cores = 0);
 /// Of an opening.
-BatchNeeds opening_needs(const Case& given, int threads, int cores = 0);
+BatchNeeds opening_needs(const Settings& resolved, int threads, int cores = 0);
 
 struct BatchJob {
   std::vector<std::string> command;      // program and arguments, as a process gets them

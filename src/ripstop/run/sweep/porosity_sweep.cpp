@@ -4,16 +4,16 @@
 
 #include <algorithm>
 
-#include "ripstop/case/resolve.h"
+#include "ripstop/case/settings.h"
 #include "ripstop/core/error.h"
 
 namespace ripstop {
 
-std::vector<MeasuredDrag> measured_drag(const Case& given) {
+std::vector<MeasuredDrag> measured_drag(const Settings& resolved) {
   std::vector<MeasuredDrag> points;
-  for (const Measured& row : given.measured) {
+  for (const Measured& row : resolved.measured()) {
     if (!row.drag_n) continue;
-    const bool nominal = given.flow.speed_basis == SpeedBasis::nominal;
+    const bool nominal = resolved.flow().speed_basis == SpeedBasis::nominal;
     points.push_back({row.nominal_speed_m_s, nominal ? row.nominal_speed_m_s : row.measured_speed_m_s,
                       row.density_kg_m3, *row.drag_n});
   }
@@ -24,8 +24,8 @@ std::string knob_name(PorosityKnob knob) {
   return knob == PorosityKnob::gamma ? "gamma" : "permeability_cfm";
 }
 
-std::vector<double> cell_shifts(const Case& given, int shifts) {
-  const double cell = flow_grid(given).spacing().z;
+std::vector<double> cell_shifts(const Settings& resolved, int shifts) {
+  const double cell = flow_grid(resolved.flow()).spacing().z;
   std::vector<double> all;
   for (int k = 0; k < shifts; ++k) all.push_back(cell * (k - 0.5 * (shifts - 1)) / shifts);
   return all;
@@ -37,7 +37,7 @@ void require_slope(const PorositySweep& sweep) {
                 "one value of the porosity shows no slope: give two or more, parted by commas");
 }
 
-std::vector<SweepAxis> porosity_axes(const Case& given, const PorositySweep& sweep,
+std::vector<SweepAxis> porosity_axes(const Settings& resolved, const PorositySweep& sweep,
                                      const std::vector<MeasuredDrag>& measured) {
   SweepAxis condition{"condition", {}, {}}, knob{knob_name(sweep.knob), {}, {}}, shift{"shift_m", {}, {}};
   for (const MeasuredDrag& point : measured) {
@@ -50,15 +50,15 @@ std::vector<SweepAxis> porosity_axes(const Case& given, const PorositySweep& swe
                                   {"flow.speed_basis", "nominal", "--measured"},
                                   {"flow.density_kg_m3", fmt::format("{}", point.density), "--measured"}});
   }
-  const std::string cloth = "materials." + given.parachute.canopy_material;
+  const std::string cloth = "materials." + resolved.parachute().canopy_material;
   for (const double value : sweep.values) {
     const PressureDrop law = cloth_of(sweep.knob, value, sweep.thickness);
     knob.values.push_back(fmt::format("{}", value));
     knob.settings.push_back({{cloth + ".darcy", fmt::format("{}", law.linear), "porosity"},
                              {cloth + ".forchheimer", fmt::format("{}", law.quadratic), "porosity"}});
   }
-  const FlowSettings flow = resolve(given).flow;
-  for (const double by : cell_shifts(given, sweep.shifts)) {
+  const FlowSettings flow = resolved.flow();
+  for (const double by : cell_shifts(resolved, sweep.shifts)) {
     shift.values.push_back(fmt::format("{:.4g}", by));
     std::vector<Setting> settings = {
         {"flow.canopy_position_m", fmt::format("{}", flow.canopy_position_m + by), "--shifts"}};
@@ -69,9 +69,9 @@ std::vector<SweepAxis> porosity_axes(const Case& given, const PorositySweep& swe
   return {condition, knob, shift};
 }
 
-std::vector<PorosityTrial> porosity_trials(const Case& given, const PorositySweep& sweep,
+std::vector<PorosityTrial> porosity_trials(const Settings& resolved, const PorositySweep& sweep,
                                            const std::vector<SweepRow>& rows) {
-  const std::vector<double> shifts = cell_shifts(given, sweep.shifts);
+  const std::vector<double> shifts = cell_shifts(resolved, sweep.shifts);
   std::vector<PorosityTrial> trials;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const std::size_t run = i / shifts.size();

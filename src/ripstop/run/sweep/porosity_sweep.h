@@ -4,13 +4,13 @@
 #include <vector>
 
 #include "ripstop/calibration/porosity.h"
-#include "ripstop/case/case.h"
+#include "ripstop/case/settings.h"
 #include "ripstop/run/sweep/sweep.h"
 
 namespace ripstop {
 
 /// The rows of [[measured]] that have a drag, on the case's basis; may be none.
-std::vector<MeasuredDrag> measured_drag(const Case& given);
+std::vector<MeasuredDrag> measured_drag(const Settings& resolved);
 
 struct PorositySweep {
   PorosityKnob knob = PorosityKnob::gamma;
@@ -21,16 +21,16 @@ struct PorositySweep {
 std::string knob_name(PorosityKnob knob);  // "gamma"
 
 /// How far the canopy is shifted along the flow: evenly over one of the cells that it lies in [m].
-std::vector<double> cell_shifts(const Case& given, int shifts);
+std::vector<double> cell_shifts(const Settings& resolved, int shifts);
 
 /// Throws Error(usage) for fewer than two values of the knob, of which no calibration can be made.
 void require_slope(const PorositySweep& sweep);
 
 /// Measured point, value of the knob and shift, the last the fastest. The cells stay where they are when the
 /// canopy is shifted.
-std::vector<SweepAxis> porosity_axes(const Case& given, const PorositySweep& sweep,
+std::vector<SweepAxis> porosity_axes(const Settings& resolved, const PorositySweep& sweep,
                                      const std::vector<MeasuredDrag>& measured);
-std::vector<PorosityTrial> porosity_trials(const Case& given, const PorositySweep& sweep,
+std::vector<PorosityTrial> porosity_trials(const Settings& resolved, const PorositySweep& sweep,
                                            const std::vector<SweepRow>& rows);
 
 }  // namespace ripstop

@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "ripstop/case/cost.h"
-#include "ripstop/case/resolve.h"
+#include "ripstop/case/settings.h"
 #include "ripstop/core/build_info.h"
 #include "ripstop/core/file.h"
 #include "ripstop/core/shell.h"
@@ -174,12 +174,12 @@ class Board {
       if (fs::exists(neighbour / "result.json")) run.warm_from = neighbour;
     }
     Follower follower(*this, i);
-    return {true, "", ExitCode::done, false, run_steady_in(run, points_[i].given, follower).result, {}};
+    return {true, "", ExitCode::done, false, run_steady_in(run, points_[i].resolved, follower).result, {}};
   }
 
   SweepRow run_in_memory(std::size_t i, int threads) {
     Follower follower(*this, i);
-    SteadySolution solution = run_steady(points_[i].given, follower, {threads, {}, {}});
+    SteadySolution solution = run_steady(points_[i].resolved, follower, {threads, {}, {}});
     return {true, "", ExitCode::done, false, std::move(solution.result), std::move(solution.state)};
   }
 
@@ -190,7 +190,7 @@ class Board {
     void begin(const SteadyRun& run, SteadyState& state) override {
       const int start = board_.start_of(point_);
       if (!board_.settings_.folder.empty() || start < 0 || !board_.rows_[start].done) return;
-      start_from(board_.points_[start].given, board_.rows_[start].state, run, state);
+      start_from(board_.points_[start].resolved, board_.rows_[start].state, run, state);
     }
     void progress(const SteadyProgress& progress, const SteadyState& state) override {
       if (!board_.events_.progress) return;
@@ -265,15 +265,14 @@ std::vector<SweepPoint> sweep_points(const fs::path& case_file, const Overrides&
   std::map<std::string, int> names;
   std::vector<std::size_t> at(axes.size(), 0);
   while (true) {
-    SweepPoint point;
     Overrides all = overrides;
+    std::vector<std::string> values;
     for (std::size_t d = 0; d < axes.size(); ++d) {
-      point.values.push_back(axes[d].values[at[d]]);
+      values.push_back(axes[d].values[at[d]]);
       const std::vector<Setting>& settings = axes[d].settings[at[d]];
       all.set.insert(all.set.end(), settings.begin(), settings.end());
     }
-    point.given = read_case(case_file, all);
-    point.folder = folder_name(axes, at);
+    SweepPoint point{std::move(values), resolve(read_case(case_file, all)), folder_name(axes, at)};
     if (const int twins = names[point.folder]++) point.folder += fmt::format("_{}", twins + 1);
     index[at] = static_cast<int>(points.size());
     points.push_back(std::move(point));
@@ -297,7 +296,7 @@ std::vector<SweepPoint> sweep_points(const fs::path& case_file, const Overrides&
 void check_sweep(const std::vector<SweepPoint>& points, const SweepSettings& settings) {
   check_sweep_folder(settings.folder);
   for (const SweepPoint& point : points)
-    check_steady_in({run_settings(point, settings), 0, {}, {}, settings.elsewhere}, point.given);
+    check_steady_in({run_settings(point, settings), 0, {}, {}, settings.elsewhere}, point.resolved);
 }
 
 void seal_sweep(const fs::path& folder) {
@@ -309,9 +308,8 @@ int fitting_jobs(const std::vector<SweepPoint>& points) {
   double bytes = 0;
   int ranks = 1;
   for (const SweepPoint& point : points) {
-    const FlowSettings flow = resolve(point.given).flow;
-    bytes = std::max(bytes, cost_of(point.given).memory);
-    if (engine_of(point.given).can.ranks) ranks = std::max(ranks, flow.ranks);
+    bytes = std::max(bytes, cost_of(point.resolved).memory);
+    if (engine_of(point.resolved).can.ranks) ranks = std::max(ranks, point.resolved.flow().ranks);
   }
   const int by_memory = static_cast<int>(std::min(1e6, 0.8 * free_memory() / bytes));
   return std::max(1, std::min({cores / ranks, by_memory, static_cast<int>(points.size())}));
@@ -369,7 +367,7 @@ SteadyResult run_sweep_point(const std::vector<SweepPoint>& points, const SweepS
                                             "submit again, or let ripstop sweep go on",
                                             points[point].folder, points[start].folder));
   }
-  return run_steady_in(run, points[point].given, observer).result;
+  return run_steady_in(run, points[point].resolved, observer).result;
 }
 
 std::vector<SweepRow> gather_sweep(const std::vector<SweepPoint>& points, const SweepSettings& settings) {
@@ -378,13 +376,13 @@ std::vector<SweepRow> gather_sweep(const std::vector<SweepPoint>& points, const 
   std::vector<SweepRow> rows(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const RunSettings run = run_settings(points[i], settings);
-    const Case& given = points[i].given;
+    const Settings& resolved = points[i].resolved;
     SweepRow& row = rows[i];
     row.waits = true;
     row.code = ExitCode::io;
     row.error = "has not come back: submit again, or let ripstop sweep go on";
     try {
-      if (!holds_run(run, given, engine_of(given).name(engine_options(given)))) continue;
+      if (!holds_run(run, resolved, engine_of(resolved).name(engine_options(resolved)))) continue;
       if (const auto text = finished_result(run.folder))
         row = {true, "", ExitCode::done, false, steady_result_from_json(*text), {}};
     } catch (const Error& error) {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "ripstop/case/case.h"
+#include "ripstop/case/settings.h"
 #include "ripstop/core/error.h"
 #include "ripstop/run/steady/steady.h"
 
@@ -26,7 +26,7 @@ SweepAxis sweep_axis(const std::string& key, const std::vector<std::string>& val
 
 struct SweepPoint {
   std::vector<std::string> values;  // one an axis
-  Case given;
+  Settings resolved;
   std::string folder;  // name inside the sweep's folder
   int start = -1;      // index of the neighbour whose result it starts from; -1: none
 };

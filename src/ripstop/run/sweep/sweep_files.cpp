@@ -52,17 +52,17 @@ constexpr Quantity quantities[] = {
 };
 
 /// What the case's rows of [[measured]] say, over the nominal speed.
-std::vector<PlotSeries> known_drag(const Case& given, const Quantity& quantity) {
+std::vector<PlotSeries> known_drag(const Settings& resolved, const Quantity& quantity) {
   std::vector<PlotSeries> all;
   const auto add = [&](const char* name, std::optional<double> Measured::*drag) {
     PlotSeries series{name, {}, {}, false, true, false};
-    for (const Measured& row : given.measured) {
+    for (const Measured& row : resolved.measured()) {
       if (!(row.*drag)) continue;
-      const bool nominal = given.flow.speed_basis == SpeedBasis::nominal;
+      const bool nominal = resolved.flow().speed_basis == SpeedBasis::nominal;
       const double speed = nominal ? row.nominal_speed_m_s : row.measured_speed_m_s;
       series.x.push_back(row.nominal_speed_m_s);
       series.y.push_back(quantity.of_drag(*(row.*drag), 0.5 * row.density_kg_m3 * speed * speed,
-                                          nominal_area(given.parachute)));
+                                          nominal_area(resolved.parachute())));
     }
     if (!series.x.empty()) all.push_back(series);
   };
@@ -74,19 +74,20 @@ std::vector<PlotSeries> known_drag(const Case& given, const Quantity& quantity) 
 /// The measured drag at the one speed of all runs, as a level over whatever else is varied.
 std::vector<PlotSeries> measured_levels(const std::vector<SweepPoint>& points, const Plot& plot,
                                         const Quantity& quantity) {
-  const Measured* row = measured_row(points.front().given);
+  const Settings& first = points.front().resolved;
+  const std::optional<Measured>& row = first.measured_row();
   const auto same_air = [&](const SweepPoint& point) {
-    const Measured* other = measured_row(point.given);
+    const std::optional<Measured>& other = point.resolved.measured_row();
     return other && row && other->nominal_speed_m_s == row->nominal_speed_m_s &&
-           nominal_area(point.given.parachute) == nominal_area(points.front().given.parachute);
+           nominal_area(point.resolved.parachute()) == nominal_area(first.parachute());
   };
   if (!row || !row->drag_n || !std::all_of(points.begin(), points.end(), same_air)) return {};
   double low = plot.series.front().x.front(), high = low;
   for (const PlotSeries& series : plot.series)
     for (double x : series.x) low = std::min(low, x), high = std::max(high, x);
-  const Air stream = air(points.front().given);
-  const double level = quantity.of_drag(*row->drag_n, 0.5 * stream.density * stream.speed * stream.speed,
-                                        nominal_area(points.front().given.parachute));
+  const double speed = first.flow().speed_m_s;
+  const double level = quantity.of_drag(*row->drag_n, 0.5 * first.flow().density_kg_m3 * speed * speed,
+                                        nominal_area(first.parachute()));
   return {{"measured", {low, high}, {level, level}, true, false, true}};
 }
 
@@ -168,8 +169,8 @@ void write_sweep_plots(const std::filesystem::path& folder, const std::string& t
           }
         }
         if (known && known->of_drag) {
-          for (const PlotSeries& series :
-               over_speed ? known_drag(points.front().given, *known) : measured_levels(points, plot, *known))
+          for (const PlotSeries& series : over_speed ? known_drag(points.front().resolved, *known)
+                                                     : measured_levels(points, plot, *known))
             plot.series.push_back(series);
         }
         for (const char* ending : {".svg", ".png"}) write_plot(folder / (file + ending), plot);
