@@ -1,9 +1,12 @@
 #include "ripstop/fsi/adaptive_stepper.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "ripstop/core/checked_int.h"
 #include "ripstop/core/error.h"
 
 namespace ripstop {
@@ -14,23 +17,47 @@ constexpr int most_tries = 4;
 // Rise of the stable step that makes the step longer.
 constexpr double clear_rise = 1.1;
 
+// No intact cloth needs a shorter step: the finest meshes have about 1e-7 s.
+constexpr double shortest_stable_step = 1e-9;  // [s]
+constexpr double most_steps = 1e7;             // in one call: the record of each has room in memory
+
 }  // namespace
 
-double AdaptiveStepper::allowed_step(const ClothState& state, const Cloth& cloth) const {
-  return fraction_ * stability_limit(cloth, state).stable_step;
+int steps_in(double duration, double step, double time, int rows) {
+  return checked_int(std::max(std::ceil(duration / step), 1.0), 1, most_steps / rows, [&] {
+    return fmt::format(
+        "t = {:.6g} s: {:.3g} s would take {:.3g} steps of {:.3g} s: the motion of the cloth has diverged, "
+        "or the time step is a very small share of the stable one",
+        time, duration * rows, rows * duration / step, step);
+  });
+}
+
+double AdaptiveStepper::stable_step(const InflationState& state, const Cloth& cloth) const {
+  const StabilityLimit limit = stability_limit(cloth, state.cloth);
+  if (limit.stable_step > shortest_stable_step) return limit.stable_step;
+  throw Error(
+      ExitCode::diverged,
+      fmt::format(
+          "t = {:.6g} s: the largest stable time step has fallen to {:.3g} s at node {} ({}): the "
+          "motion of the cloth has diverged. A smaller time step, more damping or lower loads may help",
+          state.cloth.time, limit.stable_step, limit.node, limit.part));
+}
+
+double AdaptiveStepper::allowed_step(const InflationState& state, const Cloth& cloth) const {
+  return fraction_ * stable_step(state, cloth);
 }
 
 AdaptiveStepper::Span AdaptiveStepper::advance(InflationState& state, const Cloth& cloth, const RowSpan& span,
                                                const std::function<const Loads&(long long)>& load_of) const {
-  if (kind_ == Step::renewed) state.step = allowed_step(state.cloth, cloth);
+  if (kind_ == Step::renewed) state.step = allowed_step(state, cloth);
   for (int tries = 1;; ++tries) {
-    const int steps = static_cast<int>(std::ceil(row_ / state.step));
+    const int steps = steps_in(row_, state.step, state.cloth.time, span.under_one_load);
     const double used = kind_ == Step::kept ? state.step : row_ / steps;
     double stable = 0;
     try {
       InflationState next = state;
       std::vector<HistoryRow> rows = compute(next, cloth, span, steps, load_of);
-      stable = stability_limit(cloth, next.cloth).stable_step;
+      stable = stable_step(next, cloth);
       if (used <= stable) {
         state = std::move(next);
         return {std::move(rows), stable};

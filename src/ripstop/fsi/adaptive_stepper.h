@@ -9,6 +9,10 @@
 
 namespace ripstop {
 
+/// Number of steps of at most `step` [s] in each of `rows` rows of `duration` [s], the first of which begins at `time` [s].
+/// Throws Error(diverged) for more than can be recorded.
+int steps_in(double duration, double step, double time, int rows = 1);
+
 /// Rows of the history that are computed in one piece, and computed again where their step was too long.
 struct RowSpan {
   long long first = 0;
@@ -26,8 +30,10 @@ class AdaptiveStepper {
   AdaptiveStepper(Step kind, double step_fraction, double row, ThreadTeam& team)
       : kind_(kind), fraction_(step_fraction), row_(row), team_(team) {}
 
-  /// `step_fraction` of the stability limit at the present strain [s].
-  double allowed_step(const ClothState& state, const Cloth& cloth) const;
+  /// The stability limit at the present strain [s]. Throws Error(diverged) for one that is too small for intact cloth.
+  double stable_step(const InflationState& state, const Cloth& cloth) const;
+  /// `step_fraction` of it [s].
+  double allowed_step(const InflationState& state, const Cloth& cloth) const;
 
   struct Span {
     std::vector<HistoryRow> rows;

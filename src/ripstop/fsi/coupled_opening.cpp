@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "ripstop/core/error.h"
+#include "ripstop/core/quantity_error.h"
 
 namespace ripstop {
 namespace {
@@ -25,6 +25,17 @@ double least_rows_in(const FlowProblem& flow) {
     for (int c = 0; c < n; ++c) least = std::min(least, flow.grid.width(axis, c));
   }
   return flow.air.speed() / (longest_row * least);  // [1/s]
+}
+
+/// work(), whose divergence is reported with the time at which it happened [s].
+template <class Work>
+auto with_time(double time, const Work& work) {
+  try {
+    return work();
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::diverged) throw;
+    throw Error(ExitCode::diverged, fmt::format("t = {:.6g} s: {}", time, error.what()));
+  }
 }
 
 double mean_load(const std::vector<HistoryRow>& history, int rows) {
@@ -61,12 +72,13 @@ std::vector<HistoryRow> CoupledOpening::advance(InflationState& state, std::vect
 int CoupledOpening::rows_of_next_step(const InflationState& state, int left) {
   const double longest = air_->longest_step();
   if (!(longest > shortest_step * row_duration()))
-    throw Error(ExitCode::diverged,
-                fmt::format("at {:.6g} s the air would need steps of {:.3g} s: it has diverged; a smaller "
-                            "inflation.courant or a finer grid (flow.cells) may help",
-                            state.cloth.time, longest));
-  const int steps = static_cast<int>(std::ceil(left * row_duration() / longest));
-  return std::max(1, left / steps);
+    throw QuantityError(
+        ExitCode::diverged,
+        fmt::format("at {:.6g} s the air would need steps of {:.3g} s: it has diverged; a smaller Courant "
+                    "number of the flow or a finer flow grid may help",
+                    state.cloth.time, longest),
+        {"Courant number of the flow", "flow grid"});
+  return std::max(1, left / steps_in(left * row_duration(), longest, state.cloth.time));
 }
 
 AirRow CoupledOpening::step(InflationState& state, int rows, std::vector<HistoryRow>& history) {
@@ -75,14 +87,17 @@ AirRow CoupledOpening::step(InflationState& state, int rows, std::vector<History
   const long long first = state.blocks * rows_per_block() + static_cast<long long>(history.size());
 
   // Predict the motion of the cloth under the last load.
-  const int steps =
-      static_cast<int>(std::ceil(length / stepper().allowed_step(state.cloth, cloth_of(state))));
+  const double step = stepper().allowed_step(state, cloth_of(state));
+  const int steps = steps_in(length, step, state.cloth.time);
   const ClothMotion predicted =
       predict_motion(state.cloth, cloth_of(state), air_->last_load(state.air), length, steps, team());
 
   // Step the flow about it, transfer its load.
-  AirRow row = air_->step(before, predicted, length, state.air);
-  const Loads loads = air_->transfer(before, state.air, row);
+  AirRow row;
+  const Loads loads = with_time(state.cloth.time, [&] {
+    row = air_->step(before, predicted, length, state.air);
+    return air_->transfer(before, state.air, row);
+  });
 
   // Correct: step the cloth under that load.
   const auto load_of = [&](long long) -> const Loads& { return loads; };

@@ -1,10 +1,13 @@
 #include "ripstop/fsi/opening.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
 
+#include "ripstop/core/checked_int.h"
 #include "ripstop/fsi/coupled_opening.h"
 #include "ripstop/fsi/summary.h"
 #include "ripstop/fsi/uniform_pressure_opening.h"
@@ -14,8 +17,15 @@ namespace {
 
 constexpr double longest_block = 2e-3;  // [s]
 
-int whole(double number) {
-  return std::max(1, static_cast<int>(std::ceil(number - 1e-9)));
+constexpr double most_parts = 1e7;
+
+/// As many blocks or rows as `count` rounded up, except for rounding errors.
+int parts_of(double count, const char* what) {
+  return checked_int(std::max(std::ceil(count - 1e-9), 1.0), 1, most_parts, [&] {
+    return fmt::format(
+        "inflation: {:.3g} {}: a shorter duration, more frames or a lower rate of the history is needed",
+        count, what);
+  });
 }
 
 InflationProblem with_snapshots(InflationProblem problem, double span) {
@@ -33,9 +43,11 @@ Opening::Opening(InflationProblem problem, double snapshot_span, double least_ro
     : problem_(with_snapshots(std::move(problem), snapshot_span)),
       team_(problem_.threads),
       cloths_(problem_.mesh, problem_.settings, problem_.reefing, problem_.symmetry, problem_.linear, team_),
-      blocks_per_frame_(whole(problem_.settings.duration_s / problem_.settings.frames / longest_block)),
-      rows_per_block_(whole(problem_.settings.duration_s / problem_.settings.frames / blocks_per_frame_ *
-                            std::max(problem_.settings.history_hz, least_rows))),
+      blocks_per_frame_(parts_of(problem_.settings.duration_s / problem_.settings.frames / longest_block,
+                                 "blocks for each frame")),
+      rows_per_block_(parts_of(problem_.settings.duration_s / problem_.settings.frames / blocks_per_frame_ *
+                                   std::max(problem_.settings.history_hz, least_rows),
+                               "rows of the history for each block")),
       row_(problem_.settings.duration_s / problem_.settings.frames / blocks_per_frame_ / rows_per_block_),
       stepper_(step, problem_.settings.step_fraction, row_, team_) {
   if (problem_.settings.low_pass_hz > 0)
@@ -45,7 +57,7 @@ Opening::Opening(InflationProblem problem, double snapshot_span, double least_ro
 InflationState Opening::start() const {
   InflationState state;
   state.cloth = cloths_.start();
-  state.step = stepper_.allowed_step(state.cloth, cloth_of(state));
+  state.step = stepper_.allowed_step(state, cloth_of(state));
   take_snapshot(state);
   return state;
 }

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "ripstop/core/error.h"
+#include "ripstop/core/quantity_error.h"
 #include "ripstop/fsi/folded_start.h"
 
 namespace ripstop {
@@ -18,8 +18,8 @@ constexpr double share_over_two_cells = 2.0 / 3;
 
 double required_radius(const InflationSettings& settings) {
   if (!settings.initial_radius_m) {
-    throw Error(ExitCode::usage,
-                "inflation.initial_radius_m is not given: the radius of the folded skirt, for example 0.1");
+    throw QuantityError(ExitCode::usage, "radius of the folded skirt is not given: for example 0.1 m",
+                        {"radius of the folded skirt"});
   }
   return *settings.initial_radius_m;
 }
@@ -72,11 +72,13 @@ void OpeningCloth::add_reefed_stages(const InflationSettings& settings, const Cl
   set_positions(folded, *stages_.front(), folded_.positions);
   const double needed = drawn_length(*stages_.front(), folded), length = reefing_.front().length;
   if (needed > length)
-    throw Error(
+    throw QuantityError(
         ExitCode::usage,
-        fmt::format("inflation.reefing[0].line_m = {:g}: the folded skirt is {:.4g} m round, more than its "
-                    "reefing line; a smaller inflation.initial_radius_m fits into it",
-                    length, needed));
+        fmt::format(
+            "length of the first reefing line = {:g}: the folded skirt is {:.4g} m round, more than its "
+            "reefing line; a smaller radius of the folded skirt fits into it",
+            length, needed),
+        {"length of the first reefing line", "radius of the folded skirt"});
 }
 
 std::vector<Vec3> OpeningCloth::with_imperfection(const InflationSettings& s) const {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "ripstop/core/error.h"
+#include "ripstop/core/quantity_error.h"
 #include "ripstop/fsi/flow_sampling.h"
 #include "ripstop/fsi/ledger.h"
 #include "ripstop/fsi/next_load.h"
@@ -126,11 +127,12 @@ Equilibrium SteadySolver::solve_cloth(const SteadyState& state, const Loads& loa
         if (report) report({.stage = SteadyStage::cloth, .iteration = now.iteration, .cloth = progress});
       });
   if (!found.converged) {
-    throw Error(
+    throw QuantityError(
         ExitCode::not_converged,
         fmt::format("coupling iteration {}: the cloth found no equilibrium, residual {:.2e} after {} steps "
-                    "(wanted {:.1e}); a looser coupling.cloth_tolerance or a finer parachute.mesh may help",
-                    now.iteration, found.residual, found.steps, options.tolerance));
+                    "(wanted {:.1e}); a looser cloth tolerance or a finer cloth mesh may help",
+                    now.iteration, found.residual, found.steps, options.tolerance),
+        {"cloth tolerance", "cloth mesh"});
   }
   now.cloth_steps = found.steps;
   now.cloth_residual = found.residual;

@@ -25,7 +25,7 @@ std::vector<HistoryRow> UniformPressureOpening::advance(InflationState& state, s
   };
   AdaptiveStepper::Span span = stepper().advance(
       state, cloth_of(state), {first, rows_per_block(), rising ? 1 : rows_per_block()}, load_of);
-  if (end_block(state)) span.stable_step = stability_limit(cloth_of(state), state.cloth).stable_step;
+  if (end_block(state)) span.stable_step = stepper().stable_step(state, cloth_of(state));
   stepper().follow(span.stable_step, state);
   return std::move(span.rows);
 }
