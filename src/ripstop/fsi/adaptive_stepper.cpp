@@ -24,7 +24,8 @@ constexpr double most_steps = 1e7;             // in one call: the record of eac
 }  // namespace
 
 int steps_in(double duration, double step, double time, int rows) {
-  return checked_int(std::max(std::ceil(duration / step), 1.0), 1, most_steps / rows, [&] {
+  const double count = step > 0 ? std::max(std::ceil(duration / step), 1.0) : INFINITY;
+  return checked_int(count, 1, most_steps / rows, [&] {
     return fmt::format(
         "t = {:.6g} s: {:.3g} s would take {:.3g} steps of {:.3g} s: the motion of the cloth has diverged, "
         "or the time step is a very small share of the stable one",
@@ -35,12 +36,12 @@ int steps_in(double duration, double step, double time, int rows) {
 double AdaptiveStepper::stable_step(const InflationState& state, const Cloth& cloth) const {
   const StabilityLimit limit = stability_limit(cloth, state.cloth);
   if (limit.stable_step > shortest_stable_step) return limit.stable_step;
+  const std::string place = limit.node < 0 ? limit.part : fmt::format("node {} ({})", limit.node, limit.part);
   throw Error(
       ExitCode::diverged,
-      fmt::format(
-          "t = {:.6g} s: the largest stable time step has fallen to {:.3g} s at node {} ({}): the "
-          "motion of the cloth has diverged. A smaller time step, more damping or lower loads may help",
-          state.cloth.time, limit.stable_step, limit.node, limit.part));
+      fmt::format("t = {:.6g} s: the largest stable time step has fallen to {:.3g} s at {}: the motion "
+                  "of the cloth has diverged. A smaller time step, more damping or lower loads may help",
+                  state.cloth.time, limit.stable_step, place));
 }
 
 double AdaptiveStepper::allowed_step(const InflationState& state, const Cloth& cloth) const {

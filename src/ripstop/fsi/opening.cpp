@@ -21,11 +21,12 @@ constexpr double most_parts = 1e7;
 
 /// As many blocks or rows as `count` rounded up, except for rounding errors.
 int parts_of(double count, const char* what) {
-  return checked_int(std::max(std::ceil(count - 1e-9), 1.0), 1, most_parts, [&] {
+  const auto message = [&] {
     return fmt::format(
         "inflation: {:.3g} {}: a shorter duration, more frames or a lower rate of the history is needed",
         count, what);
-  });
+  };
+  return checked_int(std::max(std::ceil(count - 1e-9), 1.0), 1, most_parts, message, ExitCode::usage);
 }
 
 InflationProblem with_snapshots(InflationProblem problem, double span) {

@@ -64,8 +64,8 @@ Wrench acting_at(Vec3 point, Vec3 force) {
   return {force, cross(point, force)};
 }
 
-constexpr double most_apart = 1e6;   // from each other, in boxes or points of a lattice along an axis
-constexpr double most_room = 1e8;  // boxes or points
+constexpr double most_apart = 1e6;  // from each other, in boxes or points of a lattice along an axis
+constexpr double most_room = 1e8;   // boxes or points
 
 std::string too_far() {
   return "the cloth reaches farther than any canopy: its motion has diverged; a smaller time step may help";
@@ -138,8 +138,8 @@ class Boxes {
 
  private:
   int box(double at, double low) const {
-    return checked_int(std::clamp(std::floor((at - low) / width_), -most_apart, most_apart), -most_apart, most_apart,
-                       too_far);
+    return checked_int(std::clamp(std::floor((at - low) / width_), -most_apart, most_apart), -most_apart,
+                       most_apart, too_far);
   }
   std::size_t index(int x, int y, int z) const {
     return x + static_cast<std::size_t>(count_[0]) * (y + static_cast<std::size_t>(count_[1]) * z);
