@@ -36,7 +36,8 @@ constexpr double most_steps = 1e7;             // in one call: what is recorded 
 
 /// Steps of at most `step` [s] in each of so many rows of `duration` [s], the first of which begins at `time` [s].
 int steps_in(double duration, double step, double time, int rows = 1) {
-  return checked_int(std::max(std::ceil(duration / step), 1.0), 1, most_steps / rows, [&] {
+  const double count = step > 0 ? std::max(std::ceil(duration / step), 1.0) : INFINITY;
+  return checked_int(count, 1, most_steps / rows, [&] {
     return fmt::format(
         "t = {:.6g} s: {:.3g} s would take {:.3g} steps of {:.3g} s: the motion of the cloth has diverged, "
         "or "
@@ -58,11 +59,12 @@ auto with_time(double time, const Work& work) {
 
 /// As many blocks or rows as `count` rounded up, but for rounding.
 int parts_of(double count, const char* what) {
-  return checked_int(std::max(std::ceil(count - 1e-9), 1.0), 1, most_steps, [&] {
+  const auto message = [&] {
     return fmt::format(
         "inflation: {:.3g} {}: a shorter duration, more frames or a lower rate of the history is needed",
         count, what);
-  });
+  };
+  return checked_int(std::max(std::ceil(count - 1e-9), 1.0), 1, most_steps, message, ExitCode::usage);
 }
 
 double least_rows_in(const FlowProblem& flow) {
@@ -141,12 +143,12 @@ InflationState Inflation::start() const {
 double Inflation::stable_step(const InflationState& state) const {
   const StabilityLimit limit = stability_limit(cloth_of(state), state.cloth);
   if (limit.stable_step > shortest_stable_step) return limit.stable_step;
+  const std::string place = limit.node < 0 ? limit.part : fmt::format("node {} ({})", limit.node, limit.part);
   throw Error(
       ExitCode::diverged,
-      fmt::format(
-          "t = {:.6g} s: the largest stable time step has fallen to {:.3g} s at node {} ({}): the "
-          "motion of the cloth has diverged. A smaller time step, more damping or lower loads may help",
-          state.cloth.time, limit.stable_step, limit.node, limit.part));
+      fmt::format("t = {:.6g} s: the largest stable time step has fallen to {:.3g} s at {}: the motion "
+                  "of the cloth has diverged. A smaller time step, more damping or lower loads may help",
+                  state.cloth.time, limit.stable_step, place));
 }
 
 void Inflation::add_reefing_lines(const ClothOptions& options) {
