@@ -145,7 +145,7 @@ struct SeenFrames : InflationObserver {
   std::vector<Seen> frames;
   fs::path folder;
   int checkpoints = 0;
-  void advanced(const Inflation& solver, const InflationState& state, const InflationHistory&,
+  void advanced(const Opening& solver, const InflationState& state, const InflationHistory&,
                 const InflationFrame* frame) override {
     checkpoints += fs::exists(folder / "checkpoint");
     if (!frame) return;

@@ -64,8 +64,8 @@ Wrench acting_at(Vec3 point, Vec3 force) {
   return {force, cross(point, force)};
 }
 
-constexpr double farthest = 1e6;   // from each other, in boxes or points of a lattice along an axis
-constexpr double most_room = 1e8;  // boxes or points
+constexpr double most_along = 1e6;  // from each other, in boxes or points of a lattice along an axis
+constexpr double most_room = 1e8;   // boxes or points
 
 std::string too_far() {
   return "the cloth reaches farther than any canopy: its motion has diverged; a smaller time step may help";
@@ -138,8 +138,8 @@ class Boxes {
 
  private:
   int box(double at, double low) const {
-    return checked_int(std::clamp(std::floor((at - low) / width_), -farthest, farthest), -farthest, farthest,
-                       too_far);
+    return checked_int(std::clamp(std::floor((at - low) / width_), -most_along, most_along), -most_along,
+                       most_along, too_far);
   }
   std::size_t index(int x, int y, int z) const {
     return x + static_cast<std::size_t>(count_[0]) * (y + static_cast<std::size_t>(count_[1]) * z);
@@ -281,7 +281,7 @@ class Lattice {
     for (const Vec3& x : places) {
       const std::array<double, 3> at = scaled(x);
       for (int a = 0; a < 3; ++a) {
-        const int lower = checked_int(std::floor(at[a]), -farthest, farthest, too_far);
+        const int lower = checked_int(std::floor(at[a]), -most_along, most_along, too_far);
         first_[a] = std::min(first_[a], lower), high[a] = std::max(high[a], lower);
       }
     }
@@ -297,7 +297,7 @@ class Lattice {
     std::array<int, 3> lower;
     std::array<double, 3> part;
     for (int a = 0; a < 3; ++a) {
-      lower[a] = checked_int(std::floor(at[a]), -farthest, farthest, too_far) - first_[a];
+      lower[a] = checked_int(std::floor(at[a]), -most_along, most_along, too_far) - first_[a];
       part[a] = at[a] - std::floor(at[a]);
     }
     for (int n = 0; n < 8; ++n) {
