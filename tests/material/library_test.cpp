@@ -7,7 +7,7 @@
 #include "ripstop/material/fit_material.h"
 #include "ripstop/material/permeability.h"
 #include "ripstop/material/spring_law.h"
-#include "ripstop/material/units.h"
+#include "ripstop/core/units.h"
 
 namespace ripstop {
 namespace {

@@ -9,8 +9,8 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/hash.h"
 #include "ripstop/core/least_squares.h"
+#include "ripstop/core/units.h"
 #include "ripstop/material/copies.h"
-#include "ripstop/material/units.h"
 
 namespace ripstop {
 namespace {
