@@ -65,7 +65,7 @@ void read_pressures(const FlowField& field, double dynamic_pressure, Result& res
 FlowProblem problem_of(const Body& body, const FlowGrid& grid, double turbulence, Sides sides) {
   FlowProblem problem;
   problem.grid = grid;
-  problem.air.speed = 30;
+  problem.air.velocity = {0, 0, 30};
   problem.air.turbulence_intensity = turbulence;
   problem.sides = sides;
   problem.stopping.max_iterations = 600;
@@ -77,7 +77,7 @@ FlowProblem problem_of(const Body& body, const FlowGrid& grid, double turbulence
 }
 
 double dynamic_pressure(const FlowProblem& problem) {
-  return 0.5 * problem.air.density * problem.air.speed * problem.air.speed;
+  return 0.5 * problem.air.density * problem.air.speed() * problem.air.speed();
 }
 
 CartesianSettings second_order() {
@@ -210,7 +210,7 @@ void compare_engines(int argc, char** argv) {
     print_row({body.name, fmt::format("{:.3f}", body.reference), fmt::format("{:.3f}", ours.coefficient),
                fmt::format("{:.3f}", theirs.coefficient), off_by(theirs.coefficient, ours.coefficient),
                off_by(area, body.area), off_by(theirs.coefficient * body.area / area, ours.coefficient),
-               off_by(field.momentum_deficit, drag), fmt::format("{:.3f}, {:.3f}", ours.front, ours.back),
+               off_by(field.momentum_deficit.z, drag), fmt::format("{:.3f}, {:.3f}", ours.front, ours.back),
                fmt::format("{:.3f}, {:.3f}", theirs.front, theirs.back),
                fmt::format("{:.1f}, {:.1f}", own, minutes())});
   }
@@ -251,7 +251,7 @@ void compare_in_time(int argc, char** argv) {
       const Result mean = result_of(body, problem, watch(*flow, problem, how, record));
       const double minutes =
           std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() / 60;
-      const double in_time = 1 / (dynamic_pressure(problem) * body.area), unit = 1 / problem.air.speed;
+      const double in_time = 1 / (dynamic_pressure(problem) * body.area), unit = 1 / problem.air.speed();
       print_row(
           {body.name, word, fmt::format("{:.3f}", body.reference), fmt::format("{:.3f}", steady.coefficient),
            off_by(steady.coefficient, body.reference),
@@ -275,7 +275,7 @@ double drag_at_place(const Sheet& sheet, FlowGrid box, double half, double z, do
   const Vec3 h = cells(0, 0).spacing();
   FlowProblem problem;
   problem.grid = cells(off * h.x, 0.5 * off * h.y);
-  problem.air.speed = 20;
+  problem.air.velocity = {0, 0, 20};
   problem.sides = Sides::entraining, problem.outlet = Outlet::still_air;
   problem.sheets = {sheet};
   problem.stopping = {.residual = 1e-5, .max_iterations = 300, .average_over = 100};

@@ -45,7 +45,7 @@ inline FlowProblem plate_of_faces(double box, int across, double resistance, dou
   const double at = 0.45 * 1.5 * box;
   FlowGrid& grid = problem.grid;
   grid = far_box(1, box, across, at);
-  problem.air.speed = speed;
+  problem.air.velocity = {0, 0, speed};
   problem.sides = Sides::slip;
   const int i = grid.cell_at(0, -0.5), j = grid.cell_at(1, -0.5);
   const double x = grid.edge(0, i), y = grid.edge(1, j), z = grid.edge(2, grid.cell_at(2, at));

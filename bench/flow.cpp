@@ -29,7 +29,7 @@ FlowProblem printed_case(double fineness) {
   FlowProblem problem;
   const auto cells = [&](double n) { return static_cast<int>(std::lround(n * fineness)); };
   problem.grid = {{-1, -1, 0}, {2, 2, 4}, cells(100), cells(100), cells(150)};
-  problem.air.speed = 30;
+  problem.air.velocity = {0, 0, 30};
   problem.porous.push_back({cut_cells(problem.grid, rigid_disk_gap_band({0, 0, 2})), 65.98, 37.45});
   return problem;
 }
@@ -108,7 +108,7 @@ double cold_solution(bool compressible) {
   const auto engine = make_cartesian(settings(2, true, compressible));
   const Timing t = run(*engine, problem);
   fmt::print("  {:.1f} s, {} iterations on the full grid, drag {:.3f} N, momentum deficit {:.3f} N, {}\n",
-             t.seconds, t.field.last.iteration, t.field.porous_force.z, t.field.momentum_deficit,
+             t.seconds, t.field.last.iteration, t.field.porous_force.z, t.field.momentum_deficit.z,
              t.field.converged ? "converged" : "NOT converged");
   fmt::print(
       "  {:.1f} s of processor time; what a loaded machine cannot distort much: {:.1f} M cell-iterations "
@@ -141,7 +141,7 @@ FlowProblem sheet_case(double fineness) {
   const auto cells = [&](double n) { return static_cast<int>(std::lround(n * fineness)); };
   problem.grid = graded({{-2.1, -2.1, 0}, {4.2, 4.2, 6.3}, cells(80), cells(80), cells(98)},
                         {-0.63, -0.63, 2.4}, {0.63, 0.63, 3.94}, 1.125);
-  problem.air.speed = 20;
+  problem.air.velocity = {0, 0, 20};
   problem.sides = Sides::entraining;
   problem.outlet = Outlet::still_air;
   problem.sheets = {{rigid_disk_gap_band({0, 0, 2.8}), 66, 37.45, {}}};

@@ -88,7 +88,7 @@ Body body_of(const std::string& word) {
 FlowProblem problem_of(const Body& body, int across) {
   FlowProblem problem;
   problem.grid = far_box(body.width, box, across, 0.45 * 1.5 * box * body.width);
-  problem.air.speed = speed;
+  problem.air.velocity = {0, 0, speed};
   problem.sides = Sides::slip;
   problem.sheets = {body.sheet};
   problem.stopping.max_iterations = 1200;
@@ -116,7 +116,7 @@ Result result_of(const Body& body, const FlowProblem& problem, const FlowField& 
   const double q = 0.5 * problem.air.density * speed * speed;
   Result result;
   result.drag = field.porous_force.z / (q * body.front);
-  result.ledger = field.momentum_deficit / field.porous_force.z - 1;
+  result.ledger = field.momentum_deficit.z / field.porous_force.z - 1;
   std::vector<double> weight(bins);
   result.drop.resize(bins);
   for (const SheetLoad& load : field.sheet_loads) {

@@ -150,7 +150,7 @@ std::string with_baffle(const FlowProblem& problem, const Way& way, const std::f
   const FlowField field =
       read_case(read_mesh(folder, 1), latest_time(folder), problem, settings.incompressible);
   return fmt::format("{}, {:.2f}", told(drag[last], (*high - *low) / std::abs(drag[last])),
-                     field.momentum_deficit);
+                     field.momentum_deficit.z);
 }
 
 }  // namespace

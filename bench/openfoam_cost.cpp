@@ -60,7 +60,7 @@ int main(int argc, char** argv) {
   const int across = argc > 1 ? std::atoi(argv[1]) : 100;
   FlowProblem problem;
   problem.grid = {{-1, -1, 0}, {2, 2, 4}, across, across, across * 3 / 2};
-  problem.air.speed = 27.1;
+  problem.air.velocity = {0, 0, 27.1};
   problem.stopping.max_iterations = argc > 3 ? std::atoi(argv[3]) : 5;
   const fs::path folder = fs::temp_directory_path() / fmt::format("ripstop_cost_{}", getpid());
   OpenFoamSettings settings;

@@ -21,7 +21,7 @@ int main() {
     for (const int layers : {1, 2, 3, 10}) {
       FlowProblem problem;
       problem.grid = {{0, 0, 0}, {0.2, 0.2, 2}, 4, 4, 40};
-      problem.air.speed = 5;  // slow, so that the gas keeps its density
+      problem.air.velocity = {0, 0, 5};  // slow, so that the gas keeps its density
       problem.sides = Sides::slip;
       PorousCells slab{{}, 0, 2 * kappa / problem.grid.spacing().z};
       for (int cell = 0; cell < 16 * layers; ++cell)

@@ -31,7 +31,7 @@ CanopyMesh example(const std::string& name, int nodes) {
   Case given = read_case(data_directory() / "examples" / name / "case.toml");
   given.parachute.mesh.cloth_nodes = nodes;
   given.flow.porosity_model = PorosityModel::sheet;
-  return parachute_mesh(given);
+  return parachute_mesh(resolve(given));
 }
 
 std::vector<std::string> all_examples() {

@@ -28,7 +28,7 @@ constexpr Vec3 shifts[] = {{0, 0, 0},           {0.25, 0.175, 0.25}, {0.5, 0.35,
 double drag(const FlowGrid& grid, Vec3 shift, double a, double b) {
   FlowProblem problem;
   problem.grid = grid;
-  problem.air.speed = 30;
+  problem.air.velocity = {0, 0, 30};
   problem.sides = Sides::slip;
   problem.stopping.max_iterations = iterations;
   problem.stopping.average_over = averaged;

@@ -33,7 +33,7 @@ constexpr double shear_layer = 0.035;               // over the nozzle's width
 constexpr double disk_area = std::numbers::pi / 4;  // of 1 m across [m2]
 
 FlowField solved(FlowProblem problem) {
-  problem.air.speed = speed;
+  problem.air.velocity = {0, 0, speed};
   problem.outlet = Outlet::still_air;
   problem.stopping.residual = 1e-5;
   problem.stopping.max_iterations = 500;
@@ -99,7 +99,7 @@ void empty_jet(int across, double outside) {
   const double momentum = 2 * dynamic_pressure() * disk_area;
   print_row({fmt::format("{}", across), fmt::format("{:g} %", 100 * outside), fmt::format("{:.1f}", core),
              fmt::format("{:.3f}", slope(z, vorticity)), fmt::format("{:.3f}", slope(z, wide)),
-             fmt::format("{:+.2f} %", 100 * field.momentum_deficit / momentum),
+             fmt::format("{:+.2f} %", 100 * field.momentum_deficit.z / momentum),
              fmt::format("{:.0e}", largest_residual(field.last))});
 }
 
@@ -155,7 +155,7 @@ Drag drag_of_disk(const FlowGrid& box, double loss, int across, double z, Sides 
   Drag result;
   const double force = field.porous_force.z;
   result.coefficient = force / (dynamic_pressure() * disk_area);
-  result.balance = field.momentum_deficit / force - 1;
+  result.balance = field.momentum_deficit.z / force - 1;
   result.bubble = bubble_volume(field, z);
   result.approach = axial(field, 0, 0, z - 1) / speed;
   double area = 0;
@@ -247,7 +247,7 @@ struct DragInTime {
 
 DragInTime drag_in_time(const std::vector<Triangle>& shape, double resistance, const JetInTime& how) {
   FlowProblem problem;
-  problem.air.speed = speed;
+  problem.air.velocity = {0, 0, speed};
   problem.outlet = Outlet::still_air, problem.sides = Sides::entraining;
   const double half = 0.93, z = how.distance;
   problem.grid = graded({{-4, -4, 0}, {8, 8, z + 6}, 60, 60, how.cells_along}, {-half, -half, z - how.ahead},

@@ -1,10 +1,10 @@
 // Checkpoints and results of runs: the seal, and below it what a seal would not find.
-#include "ripstop/run/checkpoint.h"
+#include "ripstop/run/steady/checkpoint.h"
 
 #include "reader.h"
 #include "ripstop/core/hash.h"
-#include "ripstop/run/inflation_folder.h"
-#include "ripstop/run/steady.h"
+#include "ripstop/run/opening/inflation_folder.h"
+#include "ripstop/run/steady/steady.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace ripstop;

@@ -5,9 +5,9 @@
 #include "ripstop/core/hash.h"
 #include "ripstop/flow/stl.h"
 #include "ripstop/output/vtk.h"
-#include "ripstop/run/checkpoint.h"
-#include "ripstop/run/inflation_folder.h"
-#include "ripstop/run/steady.h"
+#include "ripstop/run/opening/inflation_folder.h"
+#include "ripstop/run/steady/checkpoint.h"
+#include "ripstop/run/steady/steady.h"
 
 namespace {
 

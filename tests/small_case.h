@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "ripstop/case/case.h"
+#include "ripstop/case/settings.h"
 #include "ripstop/parachute/flat_circular.h"
 
 namespace ripstop {
@@ -20,6 +20,14 @@ inline Case flat_circular_case(double diameter_m, int cloth_nodes, double speed_
   given.flow.speed_m_s = speed_m_s;
   given.flow.density_kg_m3 = 1.2;
   return given;
+}
+
+/// The settings of the same case after an edit of it.
+template <class Edit>
+Settings edited(const Settings& resolved, Edit edit) {
+  Case given = resolved.written();
+  edit(given);
+  return resolve(given);
 }
 
 /// Stratos IV on a coarse mesh with six lines: the first 8 ms of its opening.

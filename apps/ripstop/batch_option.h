@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "ripstop/run/batch.h"
+#include "ripstop/run/sweep/batch.h"
 
 namespace CLI {
 class App;

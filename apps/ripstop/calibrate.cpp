@@ -12,7 +12,7 @@
 #include "opening.h"
 #include "progress.h"
 #include "ripstop/core/error.h"
-#include "ripstop/run/damping.h"
+#include "ripstop/run/opening/damping.h"
 #include "ripstop/run/run_folder.h"
 
 namespace ripstop {
@@ -36,18 +36,18 @@ std::string trial_text(const DampingTrial& t) {
 
 int calibrate(const CalibrateArguments& options) {
   check_search(options.search);
-  const Case given = opening_case(options.opening);
-  const DampingTarget target = damping_target(given);
-  const LoadSource source = load_source(given, options.opening.steady_run);
-  const InflationProblem problem = opening_problem(given, source, threads_of(options.opening, given));
+  const Settings resolved = opening_settings(options.opening);
+  const DampingTarget target = damping_target(resolved);
+  const LoadSource source = load_source(resolved, options.opening.steady_run);
+  const InflationProblem problem = opening_problem(resolved, source, threads_of(options.opening, resolved));
   Progress progress;
   progress.line(
-      fmt::format("{}: measured peak {:.1f} N{}; dp {:.2f} Pa ({}), {} nodes", given.title, target.peak,
+      fmt::format("{}: measured peak {:.1f} N{}; dp {:.2f} Pa ({}), {} nodes", resolved.title(), target.peak,
                   target.inflation_time ? fmt::format(", inflation time {:g} s", *target.inflation_time)
                                         : ", no inflation time",
                   problem.pressure, source.text, problem.mesh.node_count()));
   const DampingResult result =
-      run_damping(given, source, problem, options.search,
+      run_damping(resolved, source, problem, options.search,
                   [&](const DampingTrial& trial) { progress.line(trial_text(trial)); });
   const DampingCalibration& found = result.found;
   const fs::path folder =

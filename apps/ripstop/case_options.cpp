@@ -10,6 +10,14 @@
 
 namespace ripstop {
 
+Case read_given(const std::filesystem::path& file, const Overrides& overrides) {
+  return read_case(file, overrides);
+}
+
+Settings read_settings(const std::filesystem::path& file, const Overrides& overrides) {
+  return resolve(read_given(file, overrides));
+}
+
 void add_set_option(CLI::App& command, Overrides& overrides) {
   command
       .add_option_function<std::vector<std::string>>(

@@ -1,13 +1,18 @@
 // Options with which a command line changes a case.
 #pragma once
 
-#include "ripstop/case/case.h"
+#include "ripstop/case/settings.h"
 
 namespace CLI {
 class App;
 }
 
 namespace ripstop {
+
+/// A case file with what the command line changes.
+Case read_given(const std::filesystem::path& file, const Overrides& overrides = {});
+/// The settings of that case.
+Settings read_settings(const std::filesystem::path& file, const Overrides& overrides = {});
 
 /// --set KEY=VALUE, repeatable.
 void add_set_option(CLI::App& command, Overrides& overrides);

@@ -1,6 +1,6 @@
 // ripstop check: everything about a case that can be said without a solver.
 
-#include "ripstop/run/check.h"
+#include "ripstop/run/sizing/check.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -40,18 +40,18 @@ std::string text_of(const Json& value) {
 
 /// Every key that follows from others where it is not given: what stands, and why.
 void print_sources(const CheckResult& result) {
-  const Json written = Json::parse(case_json(result.given));
+  const Json written = Json::parse(case_json(result.resolved));
   fmt::print("\n");
   for (const Source& source : result.sources)
     fmt::print("  {:<28} {:<19} {}\n", source.key, text_of(written.at(pointer_of(source.key))), source.from);
 }
 
-void print(const Case& given, const CaseSummary& s, std::size_t warnings) {
+void print(const Settings& resolved, const CaseSummary& s, std::size_t warnings) {
   const auto row = [](const char* name, const std::string& text) { fmt::print("  {:<18} {}\n", name, text); };
-  fmt::print("{}\n", given.title.empty() ? given.file.string() : given.title);
+  const bool given = resolved.source("parachute.nominal_area_m2").given;
+  fmt::print("{}\n", resolved.title().empty() ? resolved.file().string() : resolved.title());
   row("nominal area",
-      fmt::format("{:.4f} m2{}", s.nominal_area,
-                  given.parachute.nominal_area_m2 ? " (given)" : " (by the type's definition)"));
+      fmt::format("{:.4f} m2{}", s.nominal_area, given ? " (given)" : " (by the type's definition)"));
   row("cloth", fmt::format("{:.4f} m2 as cut, {:.4f} m2 as meshed", s.computed_area, s.cloth_area));
   row("open", fmt::format("{:.2f} % geometric porosity: vent {:.4f} m2, slots and gaps {:.4f} m2",
                           100 * s.geometric_porosity, s.vent_area, s.slot_area));
@@ -59,7 +59,7 @@ void print(const Case& given, const CaseSummary& s, std::size_t warnings) {
       fmt::format("{:.4f} kg: cloth {:.4f}, tape {:.4f} ({:.0f} %), lines {:.4f}, riser {:.4f}", s.mass.total,
                   s.mass.cloth, s.mass.tape, 100 * s.mass.tape / s.mass.total, s.mass.lines, s.mass.riser));
   row("nodes", fmt::format("{}, of these {} of cloth ({} asked for, {} resolve its size)", s.nodes,
-                           s.cloth_nodes, given.parachute.mesh.cloth_nodes, s.resolved_cloth_nodes));
+                           s.cloth_nodes, resolved.parachute().mesh.cloth_nodes, s.resolved_cloth_nodes));
   row("springs",
       fmt::format("{}, the smallest {:.3g} mm ({})", s.springs, 1000 * s.smallest_spring, s.smallest_part));
   row("stable step", fmt::format("{:.3g} s, set by {}; the paper's bound gives {:.3g} s", s.step.stable_step,
@@ -71,13 +71,13 @@ void print(const Case& given, const CaseSummary& s, std::size_t warnings) {
   row("time",
       fmt::format("about {} of one core for a steady run with the built-in engine, half to twice as usual",
                   rough_duration(s.core_time)));
-  for (std::size_t i = 0; i < given.inflation.reefing.size(); ++i) {
-    const ReefingStage& stage = given.inflation.reefing[i];
+  for (std::size_t i = 0; i < resolved.inflation().reefing.size(); ++i) {
+    const ReefingStage& stage = resolved.inflation().reefing[i];
     row(i == 0 ? "reefing" : "",
         fmt::format("line of {:g} m, {:.1f} % of the skirt's {:.4g} m, reefing ratio {:.3f}, cut at {:g} s",
-                    stage.line_m, 100 * stage.line_m / skirt_circumference(given.parachute),
-                    skirt_circumference(given.parachute),
-                    stage.line_m / std::numbers::pi / nominal_diameter(given.parachute), stage.cut_s));
+                    stage.line_m, 100 * stage.line_m / skirt_circumference(resolved.parachute()),
+                    skirt_circumference(resolved.parachute()),
+                    stage.line_m / std::numbers::pi / nominal_diameter(resolved.parachute()), stage.cut_s));
   }
   row("air", fmt::format("{:.4g} m/s, {:.4g} kg/m3", s.air.speed, s.air.density));
   row("problems", warnings == 0 ? "none"
@@ -87,17 +87,17 @@ void print(const Case& given, const CaseSummary& s, std::size_t warnings) {
 
 int run(const CheckArguments& options) {
   try {
-    const Case given = read_case(options.case_file, options.overrides);
+    const Settings resolved = read_settings(options.case_file, options.overrides);
     if (options.resolved) {
-      fmt::print("{}", case_toml(given));
+      fmt::print("{}", case_toml(resolved));
       return 0;
     }
-    const CheckResult result = run_check(given);
+    const CheckResult result = run_check(resolved);
     if (options.json) {
       fmt::print("{}", to_json(result));
       return 0;
     }
-    print(given, result.summary, result.warnings.size());
+    print(resolved, result.summary, result.warnings.size());
     print_sources(result);
     std::fflush(stdout);
     for (const std::string& text : result.warnings) fmt::print(stderr, "warning: {}\n", text);

@@ -1,6 +1,6 @@
 // ripstop compare: the nonlinear model beside the linear one, and where their difference comes from.
 
-#include "ripstop/run/compare.h"
+#include "ripstop/run/steady/compare.h"
 
 #include <fmt/format.h>
 
@@ -10,8 +10,8 @@
 #include "commands.h"
 #include "json_option.h"
 #include "number_option.h"
-#include "ripstop/run/steady_folder.h"
-#include "ripstop/run/sweep_files.h"
+#include "ripstop/run/steady/steady_folder.h"
+#include "ripstop/run/sweep/sweep_files.h"
 #include "sweep_progress.h"
 
 namespace ripstop {
@@ -55,7 +55,7 @@ int compare(CompareArguments& options) {
   finish(options, "compare");
   // The neighbour's flow field would hide a difference smaller than the residual: every run starts cold.
   options.settings.warm = false;
-  const SweepAxis axis = linear_models(read_case(options.case_file, options.overrides));
+  const SweepAxis axis = linear_models(read_settings(options.case_file, options.overrides));
   const std::vector<SweepPoint> points = sweep_points(options.case_file, options.overrides, {axis});
   const fs::path& folder = options.settings.folder;
   const std::vector<SweepRow> rows = run_and_tell({axis}, points, options.settings);

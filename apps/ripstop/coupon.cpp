@@ -1,6 +1,6 @@
 // ripstop coupon: pulls a virtual coupon of a material, and compares it with its records.
 
-#include "ripstop/run/coupon.h"
+#include "ripstop/run/material/coupon.h"
 
 #include <fmt/format.h>
 
@@ -16,7 +16,7 @@
 #include "number_option.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
-#include "ripstop/run/fit.h"
+#include "ripstop/run/material/fit.h"
 
 namespace ripstop {
 namespace {

@@ -1,6 +1,6 @@
 // ripstop descent: how fast a payload comes down under the parachute of a steady run.
 
-#include "ripstop/run/descent.h"
+#include "ripstop/run/descent/descent.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // ripstop export: a steady run as what flight simulators read.
 
-#include "ripstop/run/export.h"
+#include "ripstop/run/descent/export.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // ripstop fabric: the cloth under a given pressure, without a flow.
 
-#include "ripstop/run/fabric.h"
+#include "ripstop/run/sizing/fabric.h"
 
 #include <fmt/format.h>
 
@@ -52,11 +52,11 @@ void print_result(const FabricResult& r, const fs::path& folder) {
 }
 
 int run(const FabricArguments& options) {
-  const Case given = read_case(options.case_file, options.overrides);
+  const Settings resolved = read_settings(options.case_file, options.overrides);
   Progress progress;
-  const FabricSolution solution = run_fabric(given, options.pressure, [&](const RelaxProgress& p) {
+  const FabricSolution solution = run_fabric(resolved, options.pressure, [&](const RelaxProgress& p) {
     progress.show(fmt::format("cloth: step {}, residual {:.1e} (wanted {:.0e})", p.steps, p.residual,
-                              given.coupling.cloth_tolerance));
+                              resolved.coupling().cloth_tolerance));
   });
   const FabricResult& r = solution.result;
   progress.line(fmt::format("{}: {} nodes under {:.4g} Pa, {} steps in {:.2f} s, residual {:.1e}", r.title,
@@ -66,8 +66,8 @@ int run(const FabricArguments& options) {
     fmt::print("{}", to_json(r));
   else
     print_result(r, options.out);
-  print_mesh_warning(given);
-  print_material_warnings(given, r.stress.strain);
+  print_mesh_warning(resolved);
+  print_material_warnings(resolved, r.stress.strain);
   if (!r.converged) {
     throw Error(ExitCode::not_converged,
                 fmt::format("no equilibrium within {} steps: residual {:.1e}, wanted {:.0e}", r.steps,

@@ -1,6 +1,6 @@
 // ripstop fit: from the records of a tensile bench to a material file.
 
-#include "ripstop/run/fit.h"
+#include "ripstop/run/material/fit.h"
 
 #include <fmt/format.h>
 

@@ -16,7 +16,7 @@
 #include "progress.h"
 #include "ripstop/core/error.h"
 #include "ripstop/flow/stl.h"
-#include "ripstop/run/parity.h"
+#include "ripstop/run/steady/parity.h"
 
 namespace ripstop {
 namespace {

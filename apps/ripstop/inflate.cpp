@@ -16,8 +16,8 @@
 #include "opening.h"
 #include "progress.h"
 #include "ripstop/core/error.h"
-#include "ripstop/run/inflation_folder.h"
-#include "ripstop/run/report.h"
+#include "ripstop/run/opening/inflation_folder.h"
+#include "ripstop/run/report/report.h"
 #include "stopping.h"
 #include "warnings.h"
 
@@ -170,34 +170,34 @@ class Terminal : public InflationObserver {
 };
 
 /// What never settled has no steady load, and what is taken as a share of it says nothing.
-int status_of(bool settled, const Case& given) {
+int status_of(bool settled, const Settings& resolved) {
   if (settled) return 0;
   std::fflush(stdout);
   fmt::print(
       stderr,
       "not settled within inflation.duration_s = {:g} s: the load has not stayed within 10 % of its mean "
       "for the last tenth of that time; take a longer one (--duration)\n",
-      given.inflation.duration_s);
+      resolved.inflation().duration_s);
   return static_cast<int>(ExitCode::not_converged);
 }
 
 int run(const InflateArguments& options) {
   const auto begin = std::chrono::steady_clock::now();
-  const Case given = opening_case(options.opening);
+  const Settings resolved = opening_settings(options.opening);
   const fs::path folder =
       options.out.empty() ? default_run_folder(options.opening.case_file, "inflation") : options.out;
-  const LoadSource source = load_source(given, options.opening.steady_run);
-  const int threads = threads_of(options.opening, given);
+  const LoadSource source = load_source(resolved, options.opening.steady_run);
+  const int threads = threads_of(options.opening, resolved);
   const InflationFolderSettings settings{{folder, options.fresh}, threads};
   if (options.batch.wanted()) {
-    check_inflation_in(settings, given, source);
-    const BatchNeeds needs = opening_needs(given, threads, options.batch.cores.value_or(0));
+    check_inflation_in(settings, resolved, source);
+    const BatchNeeds needs = opening_needs(resolved, threads, options.batch.cores.value_or(0));
     write_and_tell(folder, slurm_files(batch_job(options.batch, folder, needs)), "sbatch", "run.sbatch");
     return 0;
   }
   if (options.check) {
-    check_inflation_in(settings, given, source);
-    const Inflation solver(with_engine(given, opening_problem(given, source, threads)));
+    check_inflation_in(settings, resolved, source);
+    const Inflation solver(with_engine(resolved, opening_problem(resolved, source, threads)));
     print_start(solver, solver.start(), source);
     return 0;
   }
@@ -206,23 +206,23 @@ int run(const InflateArguments& options) {
   Terminal terminal(source, folder, options.json, progress);
   const auto problem = [&] {
     progress.show("equilibrium under the steady load");
-    return opening_problem(given, source, threads);
+    return opening_problem(resolved, source, threads);
   };
-  const auto result = run_inflation_in(settings, given, source, problem, terminal);
+  const auto result = run_inflation_in(settings, resolved, source, problem, terminal);
   if (!result) {
     const std::string finished = *finished_result(folder);
     fmt::print("{}", finished);
     fmt::print(stderr, "{} holds the finished run; --fresh computes it again\n", folder.string());
-    return status_of(nlohmann::json::parse(finished).value("settled", true), given);
+    return status_of(nlohmann::json::parse(finished).value("settled", true), resolved);
   }
   const double wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (options.json)
     fmt::print("{}", to_json(*result));
   else
     print_result(*result, folder, wall_time);
-  print_mesh_warning(given);
-  print_material_warnings(given, result->stress.strain);
-  return status_of(result->settled, given);
+  print_mesh_warning(resolved);
+  print_material_warnings(resolved, result->stress.strain);
+  return status_of(result->settled, resolved);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // ripstop load: what a parachute sees when it opens behind a given mass, by every method side by side.
 
-#include "ripstop/run/load.h"
+#include "ripstop/run/opening/load.h"
 
 #include <fmt/format.h>
 
@@ -81,14 +81,14 @@ void print_result(const LoadResult& r, const fs::path& folder) {
 }
 
 int load(LoadArguments& options) {
-  const Case given = read_case(options.case_file, options.overrides);
+  const Settings resolved = read_settings(options.case_file, options.overrides);
   LoadRequest& request = options.request;
-  if (!options.mass && !given.payload.mass_kg)
+  if (!options.mass && !resolved.payload().mass_kg)
     throw Error(ExitCode::usage, "give the payload's mass: --mass KG, or [payload] mass_kg in the case");
-  request.payload_mass = options.mass ? *options.mass : *given.payload.mass_kg;
-  request.height = options.height ? *options.height : given.flow.height_m.value_or(request.height);
+  request.payload_mass = options.mass ? *options.mass : *resolved.payload().mass_kg;
+  request.height = options.height ? *options.height : resolved.flow().height_m.value_or(request.height);
   for (const std::string& text : options.reefing) request.reefing.push_back(parse_stage(text));
-  const LoadResult result = run_load(given, request);
+  const LoadResult result = run_load(resolved, request);
   write_load(options.out, result);
   if (options.json)
     fmt::print("{}", to_json(result));

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "ripstop/run/steady.h"
+#include "ripstop/run/steady/steady.h"
 
 namespace ripstop {
 

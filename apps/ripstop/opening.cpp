@@ -6,7 +6,7 @@
 
 #include "case_options.h"
 #include "number_option.h"
-#include "ripstop/run/steady_folder.h"
+#include "ripstop/run/steady/steady_folder.h"
 
 namespace ripstop {
 void add_opening_options(CLI::App& command, OpeningOptions& options) {
@@ -28,20 +28,20 @@ void add_opening_options(CLI::App& command, OpeningOptions& options) {
              "Threads (default: as in [coupling])");
 }
 
-Case opening_case(const OpeningOptions& options) {
-  Case given = read_case(options.case_file, options.overrides);
+Settings opening_settings(const OpeningOptions& options) {
+  Case given = read_given(options.case_file, options.overrides);
   if (!options.steady_run.empty()) {  // takes the place of what the case gives
     given.inflation.pressure_pa.reset();
     given.inflation.drag_coefficient.reset();
   }
-  return opening_case(given);
+  return resolve(opening_case(given));
 }
 
-int threads_of(const OpeningOptions& options, const Case& opening) {
-  return options.threads > 0 ? options.threads : opening.coupling.threads;
+int threads_of(const OpeningOptions& options, const Settings& opening) {
+  return options.threads > 0 ? options.threads : opening.coupling().threads;
 }
 
-LoadSource load_source(const Case& opening, const std::filesystem::path& steady_run) {
+LoadSource load_source(const Settings& opening, const std::filesystem::path& steady_run) {
   if (steady_run.empty()) return load_source(opening);
   const double drag = drag_for_opening(steady_run, opening);
   return {fmt::format("steady run {}: {:.4g} N", steady_run.string(), drag), drag};

@@ -19,10 +19,10 @@ struct OpeningOptions {
 void add_opening_options(CLI::App& command, OpeningOptions& options);
 
 /// The opening of the case with what the command line changes.
-Case opening_case(const OpeningOptions& options);
-int threads_of(const OpeningOptions& options, const Case& opening);
+Settings opening_settings(const OpeningOptions& options);
+int threads_of(const OpeningOptions& options, const Settings& opening);
 
 /// As of the case, or of a steady run. Throws Error(bad_data) for a steady run without a result.
-LoadSource load_source(const Case& opening, const std::filesystem::path& steady_run);
+LoadSource load_source(const Settings& opening, const std::filesystem::path& steady_run);
 
 }  // namespace ripstop

@@ -1,6 +1,6 @@
 // ripstop pattern: what to cut for the parachute of a case.
 
-#include "ripstop/run/pattern.h"
+#include "ripstop/run/sizing/pattern.h"
 
 #include <fmt/format.h>
 
@@ -38,7 +38,7 @@ void print_bill(const Bill& bill) {
 
 int run(const PatternArguments& options) {
   const PatternResult result =
-      run_pattern(read_case(options.case_file), options.allowances, options.packing_density);
+      run_pattern(read_settings(options.case_file), options.allowances, options.packing_density);
   write_pattern(options.out, result);
   if (options.json) {
     fmt::print("{}", to_json(result));

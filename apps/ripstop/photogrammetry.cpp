@@ -1,7 +1,7 @@
 // ripstop photogrammetry: sizes read off camera images, corrected for perspective, beside
 // the computed canopy's.
 
-#include "ripstop/run/photogrammetry.h"
+#include "ripstop/run/material/photogrammetry.h"
 
 #include <fmt/format.h>
 

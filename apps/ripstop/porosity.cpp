@@ -15,8 +15,8 @@
 #include "ripstop/core/file.h"
 #include "ripstop/output/csv.h"
 #include "ripstop/output/plot.h"
-#include "ripstop/run/porosity_sweep.h"
-#include "ripstop/run/sweep_files.h"
+#include "ripstop/run/sweep/porosity_sweep.h"
+#include "ripstop/run/sweep/sweep_files.h"
 #include "sweep_progress.h"
 
 namespace ripstop {
@@ -40,9 +40,9 @@ PorosityKnob knob_of(const PorosityArguments& options) {
 }
 
 /// The file's points, or the rows of [[measured]] that have a drag, on the case's basis.
-std::vector<MeasuredDrag> measured_points(const PorosityArguments& options, const Case& given) {
+std::vector<MeasuredDrag> measured_points(const PorosityArguments& options, const Settings& resolved) {
   if (options.measured.empty()) {
-    const std::vector<MeasuredDrag> points = measured_drag(given);
+    const std::vector<MeasuredDrag> points = measured_drag(resolved);
     if (points.empty())
       throw Error(
           ExitCode::usage,
@@ -65,7 +65,7 @@ std::vector<MeasuredDrag> measured_points(const PorosityArguments& options, cons
   return points;
 }
 
-void write_plots(const fs::path& folder, const Case& given, const std::vector<MeasuredDrag>& measured,
+void write_plots(const fs::path& folder, const Settings& resolved, const std::vector<MeasuredDrag>& measured,
                  const std::vector<PorosityTrial>& trials, const PorosityCalibration& found,
                  PorosityKnob knob, double area) {
   PlotSeries computed{"computed, every speed and shift", {}, {}, false, true, false};
@@ -107,7 +107,7 @@ void write_plots(const fs::path& folder, const Case& given, const std::vector<Me
     reference.y.push_back(point.drag_area() / area);
   }
   const bool gamma = knob == PorosityKnob::gamma;
-  Plot plot{given.title,
+  Plot plot{resolved.title(),
             {gamma ? "porosity \u03b3 of Ergun's law" : "permeability [CFM/ft\u00b2]"},
             {fmt::format("drag coefficient C_D on {:.4f} m\u00b2", area)},
             {computed, line, band, reference}};
@@ -125,18 +125,18 @@ ordered_json line_json(const LineFit& line) {
           {"points", line.points}};
 }
 
-void write_result(const fs::path& folder, const Case& given, const std::vector<MeasuredDrag>& measured,
+void write_result(const fs::path& folder, const Settings& resolved, const std::vector<MeasuredDrag>& measured,
                   const PorosityCalibration& found, PorosityKnob knob, const PressureDrop& law,
                   const PorosityArguments& options, double area) {
   ordered_json j;
-  j["title"] = given.title;
+  j["title"] = resolved.title();
   j["knob"] = knob_name(knob);
   j["value"] = found.knob;
   j["standard_error"] = found.error();
   j["standard_error_measured"] = found.error_measured;
   j["standard_error_computed"] = found.error_computed;
   j["interval_95"] = {found.knob - found.interval, found.knob + found.interval};
-  j["material"] = given.parachute.canopy_material;
+  j["material"] = resolved.parachute().canopy_material;
   j["darcy"] = law.linear;
   j["forchheimer"] = law.quadratic;
   if (knob == PorosityKnob::gamma) {
@@ -185,35 +185,35 @@ void print_result(const std::vector<MeasuredDrag>& measured, const PorosityCalib
 
 int calibrate(PorosityArguments& options) {
   finish(options, "porosity");
-  const Case given = read_case(options.case_file, options.overrides);
+  const Settings resolved = read_settings(options.case_file, options.overrides);
   PorositySweep sweep{knob_of(options), options.gammas, options.thickness, options.shifts};
   if (sweep.knob == PorosityKnob::permeability) sweep.values = options.permeabilities;
   if (sweep.values.empty()) sweep.values = {0.18, 0.20, 0.22, 0.24};
   std::sort(sweep.values.begin(), sweep.values.end());
   require_slope(sweep);
   const PorosityKnob knob = sweep.knob;
-  const std::vector<MeasuredDrag> measured = measured_points(options, given);
-  const std::vector<SweepAxis> axes = porosity_axes(given, sweep, measured);
+  const std::vector<MeasuredDrag> measured = measured_points(options, resolved);
+  const std::vector<SweepAxis> axes = porosity_axes(resolved, sweep, measured);
   const std::vector<SweepPoint> points = sweep_points(options.case_file, options.overrides, axes);
   const fs::path& folder = options.settings.folder;
   fmt::print(stderr, "{}: {} measured points, {} = {}, {} places along the flow: {} runs in {}\n",
-             given.title, measured.size(), knob_name(knob), fmt::join(sweep.values, " "), sweep.shifts,
+             resolved.title(), measured.size(), knob_name(knob), fmt::join(sweep.values, " "), sweep.shifts,
              points.size(), folder.string());
   const std::vector<SweepRow> rows = run_and_tell(axes, points, options.settings);
   write_csv(folder / "sweep.csv", sweep_table(axes, points, rows));
   require_all(points, rows);
 
-  const std::vector<PorosityTrial> trials = porosity_trials(given, sweep, rows);
+  const std::vector<PorosityTrial> trials = porosity_trials(resolved, sweep, rows);
   const double area = rows.front().result.reference_area;
   const PorosityCalibration found = calibrate_porosity(measured, trials, area);
   const PressureDrop law = cloth_of(knob, found.knob, options.thickness);
-  write_plots(folder, given, measured, trials, found, knob, area);
-  write_result(folder, given, measured, found, knob, law, options, area);
+  write_plots(folder, resolved, measured, trials, found, knob, area);
+  write_result(folder, resolved, measured, found, knob, law, options, area);
   seal_sweep(folder);
   if (options.json) {
     fmt::print("{}", read_file(folder / "result.json"));
   } else {
-    print_result(measured, found, knob, law, given.parachute.canopy_material);
+    print_result(measured, found, knob, law, resolved.parachute().canopy_material);
     fmt::print("  {} (porosity.svg, porosity.png, sweep.csv)\n", (folder / "result.json").string());
   }
   if (!found.outside) return 0;

@@ -1,6 +1,6 @@
 // ripstop report: finished runs as one HTML file.
 
-#include "ripstop/run/report.h"
+#include "ripstop/run/report/report.h"
 
 #include <fmt/format.h>
 

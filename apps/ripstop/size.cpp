@@ -1,6 +1,6 @@
 // ripstop size: which parachute lets a payload down at a wanted rate, as a case file.
 
-#include "ripstop/run/size.h"
+#include "ripstop/run/sizing/size.h"
 
 #include <fmt/format.h>
 
@@ -14,8 +14,8 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/flight/atmosphere.h"
-#include "ripstop/run/size_report.h"
-#include "ripstop/run/steady_folder.h"
+#include "ripstop/run/sizing/size_report.h"
+#include "ripstop/run/steady/steady_folder.h"
 #include "steady_terminal.h"
 #include "stopping.h"
 
@@ -32,7 +32,7 @@ struct SizeArguments {
 
 void print_result(const SizeResult& r, const fs::path& file, const fs::path& page) {
   const auto row = [](const char* name, const std::string& text) { fmt::print("  {:<20} {}\n", name, text); };
-  fmt::print("{}\n", r.given.title);
+  fmt::print("{}\n", r.resolved.title());
   row("air", fmt::format("{:.4g} kg/m3", r.density));
   row("drag coefficient",
       fmt::format("{:.3f}, {}{}", r.drag_coefficient, r.drag_source,
@@ -103,10 +103,10 @@ int size(const SizeArguments& options) {
   SizeResult result = run_size(options.request);
   if (options.verify) {
     goes_on_when_repeated();  // its runs do
-    verify_size(options.request, result, [&](const Case& given, int run) {
+    verify_size(options.request, result, [&](const Settings& resolved, int run) {
       const fs::path folder = verify_folder(options, run);
       SteadyTerminal terminal(folder);
-      return run_steady_in({{folder, false}, 0, {}, {}}, given, terminal).result;
+      return run_steady_in({{folder, false}, 0, {}, {}}, resolved, terminal).result;
     });
   }
   if (options.out.has_parent_path()) make_folder(options.out.parent_path());

@@ -17,8 +17,8 @@
 #include "ripstop/case/cost.h"
 #include "ripstop/core/error.h"
 #include "ripstop/run/engine.h"
-#include "ripstop/run/report.h"
-#include "ripstop/run/steady_folder.h"
+#include "ripstop/run/report/report.h"
+#include "ripstop/run/steady/steady_folder.h"
 #include "steady_terminal.h"
 #include "stopping.h"
 #include "warnings.h"
@@ -61,7 +61,7 @@ void print_unsteady(const UnsteadyResult& unsteady) {
                                     : ""));
 }
 
-void print_result(const SteadyResult& r, const Case& given, const fs::path& folder) {
+void print_result(const SteadyResult& r, const Settings& resolved, const fs::path& folder) {
   const auto row = print_row;
   fmt::print("\n{}\n", r.title);
   row("speed, density", fmt::format("{:.4g} m/s, {:.4g} kg/m3", r.speed, r.density));
@@ -106,56 +106,58 @@ void print_result(const SteadyResult& r, const Case& given, const fs::path& fold
   row("coupling", fmt::format("{} iterations, {}, {}", r.iterations,
                               r.converged ? "converged" : "NOT converged", duration_text(r.wall_time)));
   row("files", fmt::format("{} (canopy.png, canopy.pvd, {}, result.json)", folder.string(),
-                           flow_grid(given).uniform() ? "flow.vti" : "flow.vtr"));
+                           flow_grid(resolved.flow()).uniform() ? "flow.vti" : "flow.vtr"));
   if (fs::exists(folder / report_name)) row("report", (folder / report_name).string());
 }
 
-int dry_run(const SteadyFolderSettings& settings, const Case& given) {
+int dry_run(const SteadyFolderSettings& settings, const Settings& resolved) {
   const fs::path& folder = settings.run.folder;
-  check_steady_in(settings, given);
-  const SteadyProblem problem = steady_problem(given);
-  const Cost cost = cost_of(given);
+  check_steady_in(settings, resolved);
+  const SteadyProblem problem = steady_problem(resolved);
+  const Cost cost = cost_of(resolved);
   // Only the built-in engine's is known well enough, and how long one is watched in time only a run knows.
-  const bool known = engine_of(given).word == engines().front().word && !given.flow.unsteady;
+  const bool known = engine_of(resolved).word == engines().front().word && !resolved.flow().unsteady;
   fmt::print("{}: {} nodes, {} x {} x {} cells, {:.4g} m/s, {} ranks, about {:.2g} GB{}; would run in {}\n",
-             given.title, problem.mesh.node_count(), problem.flow.grid.nx, problem.flow.grid.ny,
-             problem.flow.grid.nz, problem.flow.air.speed, given.flow.ranks, 1e-9 * cost.memory,
+             resolved.title(), problem.mesh.node_count(), problem.flow.grid.nx, problem.flow.grid.ny,
+             problem.flow.grid.nz, problem.flow.air.speed(), resolved.flow().ranks, 1e-9 * cost.memory,
              known ? fmt::format(" and {} of one core", rough_duration(cost.time)) : "", folder.string());
   return 0;
 }
 
-int write_scripts(const SteadyArguments& options, const SteadyFolderSettings& settings, const Case& given) {
-  check_steady_in(settings, given);
+int write_scripts(const SteadyArguments& options, const SteadyFolderSettings& settings,
+                  const Settings& resolved) {
+  check_steady_in(settings, resolved);
   const fs::path& folder = settings.run.folder;
-  const BatchJob job = batch_job(options.batch, folder, steady_needs(given, options.batch.cores.value_or(0)));
+  const BatchJob job =
+      batch_job(options.batch, folder, steady_needs(resolved, options.batch.cores.value_or(0)));
   write_and_tell(folder, slurm_files(job), "sbatch", "run.sbatch");
   return 0;
 }
 
 int run(const SteadyArguments& options) {
-  const Case given = read_case(options.case_file, options.overrides);
-  const CouplingSettings coupling = resolve(given).coupling;
+  const Settings resolved = read_settings(options.case_file, options.overrides);
+  const CouplingSettings& coupling = resolved.coupling();
   const fs::path folder = options.out.empty() ? default_run_folder(options.case_file) : options.out;
   const SteadyFolderSettings settings{
       {folder, options.fresh}, 0, options.hostfile, {}, options.batch.wanted()};
-  if (options.batch.wanted()) return write_scripts(options, settings, given);
-  if (options.dry_run) return dry_run(settings, given);
+  if (options.batch.wanted()) return write_scripts(options, settings, resolved);
+  if (options.dry_run) return dry_run(settings, resolved);
   goes_on_when_repeated();
   SteadyTerminal terminal(folder);
-  const SteadyFolderRun done = run_steady_in(settings, given, terminal);
+  const SteadyFolderRun done = run_steady_in(settings, resolved, terminal);
   const SteadyResult& result = done.result;
   if (options.json || done.already_finished)
     fmt::print("{}", to_json(result));
   else
-    print_result(result, given, folder);
+    print_result(result, resolved, folder);
   std::fflush(stdout);
   const int status = result.converged ? 0 : static_cast<int>(ExitCode::not_converged);
   if (done.already_finished) {
     fmt::print(stderr, "{} holds the finished run; --fresh computes it again\n", folder.string());
     return status;
   }
-  print_case_warnings(given);
-  print_material_warnings(given, result.stress.strain);
+  print_case_warnings(resolved);
+  print_material_warnings(resolved, result.stress.strain);
   if (!result.converged)
     fmt::print(
         stderr,

@@ -69,12 +69,12 @@ std::string iteration_text(const SteadyIteration& iteration) {
 }  // namespace
 
 void SteadyTerminal::begin(const SteadyRun& run, SteadyState& state) {
-  settings_ = resolve(run.given).coupling;
+  settings_ = run.resolved.coupling();
   if (!state.iterations.empty()) {
     progress_.line(
         fmt::format("going on after coupling iteration {} of {}", state.iterations.size(), folder_.string()));
   }
-  progress_.line(fmt::format("{}: {}, {} cloth nodes, {}", run.given.title, run.engine,
+  progress_.line(fmt::format("{}: {}, {} cloth nodes, {}", run.resolved.title(), run.engine,
                              run.solver.mesh().node_count(), folder_.string()));
   progress_.line(iteration_header());
   for (const SteadyIteration& i : state.iterations) progress_.line(iteration_text(i));

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "progress.h"
-#include "ripstop/run/steady.h"
+#include "ripstop/run/steady/steady.h"
 
 namespace ripstop {
 

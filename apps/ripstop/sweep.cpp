@@ -12,8 +12,8 @@
 #include "commands.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
-#include "ripstop/run/report.h"
-#include "ripstop/run/sweep_files.h"
+#include "ripstop/run/report/report.h"
+#include "ripstop/run/sweep/sweep_files.h"
 #include "steady_terminal.h"
 #include "stopping.h"
 #include "sweep_progress.h"
@@ -61,7 +61,7 @@ int write_scripts(const SweepArguments& options, const std::vector<SweepPoint>& 
   settings.elsewhere = true;
   BatchNeeds needs;
   for (const SweepPoint& point : points) {  // each job could hold the largest
-    const BatchNeeds one = steady_needs(point.given, options.batch.cores.value_or(0));
+    const BatchNeeds one = steady_needs(point.resolved, options.batch.cores.value_or(0));
     if (one.hours >= needs.hours) needs.hours = one.hours, needs.limited = one.limited;
     needs.ranks = std::max(needs.ranks, one.ranks);
     needs.cores = std::max(needs.cores, one.cores);
@@ -122,7 +122,7 @@ int sweep(SweepArguments& options) {
   }
   const std::vector<SweepRow> rows =
       options.gather ? gather_sweep(points, options.settings) : run_and_tell(axes, points, options.settings);
-  const std::string& title = points.front().given.title;
+  const std::string& title = points.front().resolved.title();
   const std::string json = sweep_json(title, axes, points, rows);
   write_csv(folder / "sweep.csv", sweep_table(axes, points, rows));
   write_file(folder / "result.json", json);

@@ -12,7 +12,7 @@
 #include "progress.h"
 #include "ripstop/core/error.h"
 #include "ripstop/run/run_folder.h"
-#include "ripstop/run/sweep_files.h"
+#include "ripstop/run/sweep/sweep_files.h"
 #include "stopping.h"
 
 namespace ripstop {

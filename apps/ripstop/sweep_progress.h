@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "ripstop/case/case.h"
-#include "ripstop/run/sweep.h"
+#include "ripstop/run/sweep/sweep.h"
 
 namespace CLI {
 class App;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "ripstop/core/visible.h"
-#include "ripstop/run/warnings.h"
+#include "ripstop/run/steady/warnings.h"
 
 namespace ripstop {
 namespace {
@@ -17,16 +17,16 @@ void print_all(const std::vector<std::string>& warnings) {
 
 }  // namespace
 
-void print_mesh_warning(const Case& given) {
-  print_all(mesh_warnings(given));
+void print_mesh_warning(const Settings& resolved) {
+  print_all(mesh_warnings(resolved));
 }
 
-void print_case_warnings(const Case& given) {
-  print_all(case_warnings(given));
+void print_case_warnings(const Settings& resolved) {
+  print_all(case_warnings(resolved));
 }
 
-void print_material_warnings(const Case& given, double largest_cloth_strain) {
-  print_all(strain_warnings(given, largest_cloth_strain));
+void print_material_warnings(const Settings& resolved, double largest_cloth_strain) {
+  print_all(strain_warnings(resolved, largest_cloth_strain));
 }
 
 }  // namespace ripstop

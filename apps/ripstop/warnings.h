@@ -6,13 +6,13 @@
 namespace ripstop {
 
 /// Says on standard error when the mesh is too coarse for the size of the inflated canopy.
-void print_mesh_warning(const Case& given);
+void print_mesh_warning(const Settings& resolved);
 
 /// Says on standard error what is doubtful of a case that is valid: mesh, grid, porosity.
-void print_case_warnings(const Case& given);
+void print_case_warnings(const Settings& resolved);
 
 /// Repeats on standard error what the fits of the case's materials found doubtful, and says when the canopy's
 /// cloth was strained beyond its tests.
-void print_material_warnings(const Case& given, double largest_cloth_strain);
+void print_material_warnings(const Settings& resolved, double largest_cloth_strain);
 
 }  // namespace ripstop

@@ -3,8 +3,8 @@
 
 #include "ripstop/core/error.h"
 #include "ripstop/parachute/flat_circular.h"
-#include "ripstop/run/fabric.h"
-#include "ripstop/run/steady.h"
+#include "ripstop/run/sizing/fabric.h"
+#include "ripstop/run/steady/steady.h"
 
 namespace {
 
@@ -38,7 +38,7 @@ int main() {
   try {
     const ripstop::Case given = ripstop::checked(my_canopy());  // every mistake at once
 
-    const ripstop::FabricResult still = ripstop::run_fabric(given, 240).result;
+    const ripstop::FabricResult still = ripstop::run_fabric(resolve(given), 240).result;
     std::printf("under 240 Pa: %.3f m wide, %.0f N\n", still.size.projected_diameter, still.pressure_load);
 
     Progress progress;

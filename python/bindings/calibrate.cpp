@@ -5,7 +5,7 @@
 #include "members.h"
 #include "module.h"
 #include "opening.h"
-#include "ripstop/run/damping.h"
+#include "ripstop/run/opening/damping.h"
 
 namespace ripstop::python {
 namespace {
@@ -16,11 +16,12 @@ DampingResult calibrate(const PyCase& given, const OptionalSource& steady, std::
   Listener listener(std::move(progress));
   const py::gil_scoped_release release;
   const Opening opening = opening_of(given.given, steady, pressure, threads);
-  damping_target(opening.given);
+  damping_target(opening.resolved);
   const auto alive = [&] { listener.listen(); };
   DampingResult result = run_damping(
-      opening.given, opening.source, opening_problem(opening.given, opening.source, opening.threads, alive),
-      search, [&](const DampingTrial& trial) { listener.tell(trial); }, alive);
+      opening.resolved, opening.source,
+      opening_problem(opening.resolved, opening.source, opening.threads, alive), search,
+      [&](const DampingTrial& trial) { listener.tell(trial); }, alive);
   if (out) write_damping(*out, result);
   return result;
 }

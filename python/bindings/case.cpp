@@ -96,7 +96,7 @@ void set_keys(PyCase& self, const py::dict& keys) {
 }
 
 py::object value_of(const PyCase& self, const std::string& key) {
-  py::object value = plain_of(case_json(self.given));
+  py::object value = plain_of(case_json(self.settings()));
   std::size_t at = 0;
   do {
     const std::size_t end = std::min(key.find('.', at), key.size());
@@ -109,7 +109,7 @@ py::object value_of(const PyCase& self, const std::string& key) {
 }  // namespace
 
 PyCase::PyCase(const Case& made)
-    : given(made), text(case_toml(made)), name(made.file.string()), file(made.file) {}
+    : given(made), text(case_toml(resolve(made))), name(made.file.string()), file(made.file) {}
 
 void add_case(py::module_& module) {
   py::class_<PyCase> type(
@@ -139,10 +139,10 @@ void add_case(py::module_& module) {
   type.def("get", &value_of, py::arg("key"),
            "The value of a key, or of a table of keys, with every default filled in. Raises KeyError.");
   type.def(
-      "to_toml", [](const PyCase& self) { return case_toml(self.given); },
+      "to_toml", [](const PyCase& self) { return case_toml(self.settings()); },
       "The case with every default and material written out: what ripstop check --resolved prints.");
   type.def(
-      "asdict", [](const PyCase& self) -> py::dict { return plain_of(case_json(self.given)); },
+      "asdict", [](const PyCase& self) -> py::dict { return plain_of(case_json(self.settings())); },
       "The same as plain dictionaries.");
   type.def(
       "copy", [](const PyCase& self) { return self; }, "A case that can be changed by itself.");

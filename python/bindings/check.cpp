@@ -1,5 +1,5 @@
 // check(): everything about a case that can be said without a solver.
-#include "ripstop/run/check.h"
+#include "ripstop/run/sizing/check.h"
 
 #include "members.h"
 #include "module.h"
@@ -9,7 +9,7 @@ namespace {
 
 CheckResult check(PyCase given) {
   const py::gil_scoped_release release;
-  return run_check(given.given);
+  return run_check(given.settings());
 }
 
 }  // namespace
@@ -22,7 +22,8 @@ void add_check(py::module_& module) {
   add_json(type, [](const CheckResult& r) -> const CheckResult& { return r; });
   type.def_property_readonly(
       "sources", [](const CheckResult& r) -> py::list { return plain_of(to_json(r))["sources"]; },
-      "Of every key whose value follows from others where it is not given: key, value, given, from.");
+      "Of every key whose value follows from others where it is not given: key, value, unit, given,\n"
+      "from.");
   type.def_property_readonly(
       "warnings", [](const CheckResult& r) { return r.warnings; },
       "What is not wrong with the case but should be known.");

@@ -4,7 +4,7 @@
 #include "members.h"
 #include "module.h"
 #include "ripstop/core/error.h"
-#include "ripstop/run/check.h"
+#include "ripstop/run/sizing/check.h"
 
 namespace ripstop::python {
 namespace {

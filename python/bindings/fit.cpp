@@ -1,5 +1,5 @@
 // fit(): from the records of a tensile bench to a material.
-#include "ripstop/run/fit.h"
+#include "ripstop/run/material/fit.h"
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>

@@ -4,8 +4,8 @@
 
 #include "members.h"
 #include "module.h"
-#include "ripstop/run/descent.h"
-#include "ripstop/run/export.h"
+#include "ripstop/run/descent/descent.h"
+#include "ripstop/run/descent/export.h"
 #include "runs.h"
 
 namespace ripstop::python {

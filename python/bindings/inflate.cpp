@@ -7,11 +7,11 @@
 #include "module.h"
 #include "opening.h"
 #include "ripstop/case/opening.h"
-#include "ripstop/run/inflation.h"
-#include "ripstop/run/inflation_folder.h"
 #include "ripstop/run/json.h"
-#include "ripstop/run/steady_folder.h"
-#include "ripstop/run/warnings.h"
+#include "ripstop/run/opening/inflation.h"
+#include "ripstop/run/opening/inflation_folder.h"
+#include "ripstop/run/steady/steady_folder.h"
+#include "ripstop/run/steady/warnings.h"
 #include "runs.h"
 
 namespace ripstop {
@@ -66,11 +66,11 @@ std::unique_ptr<PyInflation> inflate(const PyCase& given, const OptionalSource& 
   const py::gil_scoped_release release;
   const Opening opening = opening_of(run->made.given, steady, pressure, threads);
   const auto problem = [&] {
-    return opening_problem(opening.given, opening.source, opening.threads, [&] { listener.listen(); });
+    return opening_problem(opening.resolved, opening.source, opening.threads, [&] { listener.listen(); });
   };
   if (!out) {
-    run_inflation(opening.given, opening.source, problem(), observer);
-  } else if (!run_inflation_in({{*out, fresh}, opening.threads}, opening.given, opening.source, problem,
+    run_inflation(opening.resolved, opening.source, problem(), observer);
+  } else if (!run_inflation_in({{*out, fresh}, opening.threads}, opening.resolved, opening.source, problem,
                                observer)) {
     run->result = from_json_text<InflationResult>(*finished_result(*out), "the result of an opening");
   }
@@ -121,17 +121,15 @@ Opening opening_of(const Case& given, const OptionalSource& steady, std::optiona
     changed.inflation.pressure_pa.reset();
     changed.inflation.drag_coefficient.reset();
   }
-  Opening opening;
-  opening.given = opening_case(changed);
-  opening.threads = threads > 0 ? threads : given.coupling.threads;
+  Opening opening{resolve(opening_case(changed)), {}, threads > 0 ? threads : given.coupling.threads};
   if (!steady) {
-    opening.source = load_source(opening.given);
+    opening.source = load_source(opening.resolved);
   } else if (const Path* folder = std::get_if<Path>(&*steady)) {
-    const double drag = drag_for_opening(*folder, opening.given);
+    const double drag = drag_for_opening(*folder, opening.resolved);
     opening.source = {fmt::format("steady run {}: {:.4g} N", folder->string(), drag), drag};
   } else {
     const PySteady& run = std::get<1>(*steady);
-    const double drag = drag_for_opening(run.made.given, run.result, "the steady run", opening.given);
+    const double drag = drag_for_opening(run.made.settings(), run.result, "the steady run", opening.resolved);
     opening.source = {fmt::format("steady run: {:.4g} N", drag), drag};
   }
   return opening;
@@ -153,8 +151,9 @@ void add_inflate(py::module_& module) {
   type.def_property_readonly(
       "warnings",
       [](const PyInflation& run) {
-        std::vector<std::string> all = mesh_warnings(run.made.given);
-        for (const std::string& text : strain_warnings(run.made.given, run.result.stress.strain))
+        const Settings resolved = run.made.settings();
+        std::vector<std::string> all = mesh_warnings(resolved);
+        for (const std::string& text : strain_warnings(resolved, run.result.stress.strain))
           all.push_back(text);
         return all;
       },

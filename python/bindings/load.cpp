@@ -1,5 +1,5 @@
 // load(): opening and snatch loads behind a mass, with the way of the payload as a table.
-#include "ripstop/run/load.h"
+#include "ripstop/run/opening/load.h"
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -24,7 +24,7 @@ LoadResult load(const PyCase& given, LoadRequest request, const std::optional<St
     else if (!request.drag_coefficient)
       request.drag_coefficient = run.result.drag_area / nominal_area(given.given.parachute);
   }
-  LoadResult result = run_load(given.given, request);
+  LoadResult result = run_load(given.settings(), request);
   if (out) write_load(*out, result);
   return result;
 }

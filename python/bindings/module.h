@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "ripstop/case/case.h"
+#include "ripstop/case/settings.h"
 
 namespace ripstop::python {
 
@@ -37,6 +37,8 @@ struct PyCase {
   PyCase() = default;
   /// Of a case that the library made.
   explicit PyCase(const Case& made);
+
+  Settings settings() const { return resolve(given); }
 };
 
 using Path = std::filesystem::path;

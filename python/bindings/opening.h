@@ -11,7 +11,7 @@ namespace ripstop::python {
 using OptionalSource = std::optional<SteadySource>;
 
 struct Opening {
-  Case given;
+  Settings resolved;
   LoadSource source;
   int threads = 0;
 };

@@ -1,5 +1,5 @@
 // pattern(): what to cut, with outlines as arrays.
-#include "ripstop/run/pattern.h"
+#include "ripstop/run/sizing/pattern.h"
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -28,7 +28,7 @@ py::array view_of_outline(const std::vector<Point2>& outline, py::handle owner) 
 PatternResult pattern(const PyCase& given, const Allowances& allowances, double packing_density,
                       const std::optional<Path>& out) {
   const py::gil_scoped_release release;
-  PatternResult result = run_pattern(given.given, allowances, packing_density);
+  PatternResult result = run_pattern(given.settings(), allowances, packing_density);
   if (out) write_pattern(*out, result);
   return result;
 }

@@ -11,9 +11,9 @@
 #include "arrays.h"
 #include "module.h"
 #include "ripstop/cloth/cloth.h"
-#include "ripstop/run/finished_steady.h"
-#include "ripstop/run/inflation.h"
-#include "ripstop/run/steady.h"
+#include "ripstop/run/opening/inflation.h"
+#include "ripstop/run/steady/finished_steady.h"
+#include "ripstop/run/steady/steady.h"
 
 namespace ripstop {
 template <Of<CellStress> T, class Visit>

@@ -1,5 +1,5 @@
 // size(): which parachute lets a payload down at a wanted rate; families and other sizes of a case.
-#include "ripstop/run/size.h"
+#include "ripstop/run/sizing/size.h"
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -7,7 +7,7 @@
 #include "members.h"
 #include "module.h"
 #include "ripstop/core/build_info.h"
-#include "ripstop/run/size_case.h"
+#include "ripstop/run/sizing/size_case.h"
 
 namespace ripstop {
 template <Of<FamilyDrag> T, class Visit>
@@ -44,7 +44,8 @@ SizeResult size(const SizeRequest& request, bool verify, Callback<SteadyIteratio
   SizeResult result = run_size(request);
   if (!verify) return result;
   SizeListener observer(listener);
-  verify_size(request, result, [&](const Case& given, int) { return run_steady(given, observer).result; });
+  verify_size(request, result,
+              [&](const Settings& resolved, int) { return run_steady(resolved, observer).result; });
   return result;
 }
 

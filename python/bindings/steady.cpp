@@ -1,5 +1,5 @@
 // steady(): a run with its state, its air and its stresses as arrays.
-#include "ripstop/run/steady.h"
+#include "ripstop/run/steady/steady.h"
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -7,8 +7,8 @@
 #include "members.h"
 #include "module.h"
 #include "ripstop/case/assemble.h"
-#include "ripstop/run/steady_folder.h"
-#include "ripstop/run/warnings.h"
+#include "ripstop/run/steady/steady_folder.h"
+#include "ripstop/run/steady/warnings.h"
 #include "runs.h"
 
 namespace ripstop::python {
@@ -35,19 +35,19 @@ class SteadyListener : public SteadyObserver {
 };
 
 void compute(PySteady& run, SteadyListener& observer, int threads, bool fresh) {
-  const Case& given = run.made.given;
+  const Settings resolved = run.made.settings();
   if (run.folder.empty()) {
-    SteadySolution solution = run_steady(given, observer, {threads, {}, {}});
+    SteadySolution solution = run_steady(resolved, observer, {threads, {}, {}});
     run.result = std::move(solution.result);
     run.state = std::move(solution.state);
     run.flow = std::move(solution.flow);
   } else {
-    const SteadyFolderRun done = run_steady_in({{run.folder, fresh}, threads, {}, {}}, given, observer);
+    const SteadyFolderRun done = run_steady_in({{run.folder, fresh}, threads, {}, {}}, resolved, observer);
     run.result = done.result;
     if (done.already_finished) run.state = final_state(run.folder);
     run.result.last = run.state.iterations.back();
   }
-  run.cells = cells_of(parachute_mesh(given));
+  run.cells = cells_of(parachute_mesh(resolved));
 }
 
 std::unique_ptr<PySteady> steady(const PyCase& given, Callback<SteadyIteration> progress, int threads,
@@ -132,7 +132,7 @@ void add_arrays(py::class_<PySteady>& type) {
 FinishedSteady finished(const SteadySource& source) {
   if (const Path* folder = std::get_if<Path>(&source)) return finished_steady(*folder);
   const PySteady& run = std::get<1>(source);
-  FinishedSteady done = finished_steady(run.made.given, run.result);
+  FinishedSteady done = finished_steady(run.made.settings(), run.result);
   done.folder = run.folder;
   return done;
 }
@@ -160,7 +160,8 @@ void add_steady(py::module_& module) {
       "engine", [](const PySteady& run) { return run.engine; },
       "The flow engine and its version; empty where the run was finished already.");
   type.def_property_readonly(
-      "warnings", [](const PySteady& run) { return warnings_of(run.made.given, run.result.stress.strain); },
+      "warnings",
+      [](const PySteady& run) { return warnings_of(run.made.settings(), run.result.stress.strain); },
       "What is not wrong but should be known about the result.");
   module.def(
       "steady", &steady, py::arg("case"), py::kw_only(), py::arg("progress") = py::none(),

@@ -10,7 +10,7 @@
 #include "../blown_up.h"
 #include "../parachute/examples.h"
 #include "ripstop/case/assemble.h"
-#include "ripstop/coupling/sheet_transfer.h"
+#include "ripstop/fsi/sheet_transfer.h"
 
 namespace ripstop {
 namespace {
@@ -19,7 +19,7 @@ class SectionBalanceOf : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(All, SectionBalanceOf, testing::ValuesIn(family_examples()), name_of_example);
 
 TEST_P(SectionBalanceOf, TheStressFieldCarriesTheLoadBeyondEverySection) {
-  const Mesh mesh = parachute_mesh(example(GetParam(), 6000));
+  const Mesh mesh = parachute_mesh(resolve(example(GetParam(), 6000)));
   const BlownUp canopy = blown_up(mesh, 240, 1e-3);
   const std::vector<Vec3> load =
       node_forces({canopy.loads.cell_pressure, {}}, cells_of(mesh), canopy.positions());

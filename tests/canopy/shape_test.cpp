@@ -20,7 +20,7 @@ Case stratos(int cloth_nodes) {
 }
 
 TEST(Profile, OfTheStartShapeIsTheFlatDiskOverTheCylindricalBand) {
-  const CanopyMesh mesh = parachute_mesh(stratos(6000));
+  const CanopyMesh mesh = parachute_mesh(resolve(stratos(6000)));
   const auto sizes = image_sizes(mesh, mesh.start);
   for (const char* name : {"D_st", "D_mid", "D_end"}) EXPECT_NEAR(sizes.at(name), 1.0, 5e-3) << name;
   EXPECT_NEAR(sizes.at("L_band"), 0.30, 1e-9);
@@ -31,7 +31,7 @@ TEST(Profile, OfTheStartShapeIsTheFlatDiskOverTheCylindricalBand) {
 }
 
 TEST(Profile, OfABandThatWidensHasItsSizesFromTheSkirtUp) {
-  const CanopyMesh mesh = parachute_mesh(stratos(6000));
+  const CanopyMesh mesh = parachute_mesh(resolve(stratos(6000)));
   std::vector<Vec3> x = mesh.start;
   const Patch& band = mesh.patches[mesh.rigging.band_patches.front()];
   double lowest = 1e9;
@@ -52,7 +52,7 @@ TEST(Profile, OfABandThatWidensHasItsSizesFromTheSkirtUp) {
 
 TEST(Profile, OfACanopyWithoutABandHasTheSizesOfSkirtWidestRowAndLength) {
   const CanopyMesh mesh = parachute_mesh(
-      read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/flat-circular/case.toml", {}));
+      resolve(read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/flat-circular/case.toml", {})));
   std::vector<Vec3> x = mesh.start;
   const std::vector<ProfileRing> flat = canopy_profile(mesh, x);
   double skirt = 0, vent = 1e9;
@@ -79,7 +79,8 @@ TEST(Profile, OfACanopyWithoutABandHasTheSizesOfSkirtWidestRowAndLength) {
 }
 
 TEST(Profile, OfTheOutlineDoesNotDependOnTheNumberOfColumns) {
-  const CanopyMesh coarse = parachute_mesh(stratos(1500)), fine = parachute_mesh(stratos(12000));
+  const CanopyMesh coarse = parachute_mesh(resolve(stratos(1500))),
+                   fine = parachute_mesh(resolve(stratos(12000)));
   const double few = canopy_size(coarse, coarse.start).projected_diameter;
   const double many = canopy_size(fine, fine.start).projected_diameter;
   EXPECT_NEAR(few / many, 1, 5e-3);
@@ -87,7 +88,7 @@ TEST(Profile, OfTheOutlineDoesNotDependOnTheNumberOfColumns) {
 }
 
 TEST(Asymmetry, IsHowFarANodeLiesFromWhereItsLikeIsTurnedTo) {
-  const CanopyMesh mesh = parachute_mesh(stratos(3000));
+  const CanopyMesh mesh = parachute_mesh(resolve(stratos(3000)));
   std::vector<Vec3> x = mesh.start;
   EXPECT_LT(asymmetry(mesh, x, 18), 1e-12);
   x[mesh.rigging.skirt_nodes[5]] += Vec3{0, 0, 1e-3};
@@ -95,7 +96,7 @@ TEST(Asymmetry, IsHowFarANodeLiesFromWhereItsLikeIsTurnedTo) {
 }
 
 TEST(LineTensions, AreThoseOfTheirSpringsAndWhatBendingSpringsCarryBesides) {
-  const CanopyMesh mesh = parachute_mesh(stratos(3000));
+  const CanopyMesh mesh = parachute_mesh(resolve(stratos(3000)));
   std::vector<double> tension(mesh.springs.size(), 0.0);
   const LineRun& line = mesh.rigging.lines[3];
   tension[line.springs[line.free_springs / 2]] = 10;
@@ -109,7 +110,7 @@ TEST(LineTensions, AreThoseOfTheirSpringsAndWhatBendingSpringsCarryBesides) {
 }
 
 TEST(PartStrains, OfAnEvenlyStretchedCanopyAreTheStretch) {
-  const CanopyMesh mesh = parachute_mesh(stratos(3000));
+  const CanopyMesh mesh = parachute_mesh(resolve(stratos(3000)));
   std::vector<Vec3> larger = mesh.start;
   for (Vec3& p : larger) p = 1.02 * p;
   const auto before = part_strains(mesh, mesh.start), after = part_strains(mesh, larger);

@@ -21,7 +21,7 @@ struct Box {
   }
   static Freestream air() {
     Freestream air;
-    air.speed = 20;
+    air.velocity = {0, 0, 20};
     return air;
   }
   void ghosts() {
@@ -39,8 +39,9 @@ struct Box {
 TEST(Boundary, TheStreamOfAJetIsTheAirRoundItsNozzle) {
   const Box box(Sides::entraining, Outlet::still_air);
   const Inlet inlet = make_inlet(box.d, Jet{{NozzleShape::circle, 0.2, 0}, 0.1, 0.01});
-  EXPECT_NEAR(inlet.stream_speed, 0.1 * 20, 1e-12);
-  EXPECT_NEAR(inlet.w[box.d.layout.in_plane(3, 4)], inlet.stream_speed, 1e-9);  // a corner, far from the axis
+  EXPECT_NEAR(inlet.stream.velocity.z, 0.1 * 20, 1e-12);
+  EXPECT_NEAR(inlet.w[box.d.layout.in_plane(3, 4)], inlet.stream.velocity.z,
+              1e-9);  // a corner, far from the axis
 }
 
 TEST(Boundary, TheFaceOfTheInletHasTheStreamsValues) {
@@ -63,7 +64,7 @@ TEST(Boundary, WhatComesBackThroughTheOutletIsTheStreamAtRest) {
   box.ghosts();
   const Inlet& in = box.b.inlet;
   const Fields& f = box.s.f;
-  ASSERT_GT(in.stream_k, 0);
+  ASSERT_GT(in.stream.k, 0);
   for (int j = 0; j < 5; ++j)
     for (int i = 0; i < 4; ++i) {
       const bool leaves = (i + j) % 2 == 0;
@@ -72,7 +73,7 @@ TEST(Boundary, WhatComesBackThroughTheOutletIsTheStreamAtRest) {
         EXPECT_NEAR(face, leaves ? last : back, 1e-12 * std::max(1.0, back)) << i << " " << j;
       };
       expect_in_face(f.u, 0), expect_in_face(f.v, 0), expect_in_face(f.w, 0);
-      expect_in_face(f.k, in.stream_k), expect_in_face(f.omega, in.stream_omega);
+      expect_in_face(f.k, in.stream.k), expect_in_face(f.omega, in.stream.omega);
     }
 }
 
@@ -90,7 +91,7 @@ TEST(Boundary, AJetLeavesTheInletInsideItsNozzleAndNextToStillAirOutsideOfIt) {
   EXPECT_NEAR(in_face(2, 1), 2, 1e-9);
   EXPECT_NEAR(in_face(1, 2), 2, 1e-9);
   EXPECT_NEAR(box.b.inlet.mean_speed, 2 + 0.2 * 18, 1e-9);
-  EXPECT_EQ(box.s.f.w[box.at(-1, 2, 3)], box.b.inlet.stream_speed);
+  EXPECT_EQ(box.s.f.w[box.at(-1, 2, 3)], box.b.inlet.stream.velocity.z);
 }
 
 TEST(Boundary, TheDensityOfEveryOutermostCellIsThatBeyondIt) {
@@ -159,8 +160,8 @@ TEST(Boundary, WhatEachSideDrawsInIsTheStreamAndWhatItLetsOutIsTheAirInside) {
             << inflow << " " << side.ghost;
       };
       expect_beyond(f.u, 0, side.across_x), expect_beyond(f.v, 0, !side.across_x);
-      expect_beyond(f.w, in.stream_speed, false);
-      expect_beyond(f.k, in.stream_k, false), expect_beyond(f.omega, in.stream_omega, false);
+      expect_beyond(f.w, in.stream.velocity.z, false);
+      expect_beyond(f.k, in.stream.k, false), expect_beyond(f.omega, in.stream.omega, false);
     }
   }
 }
@@ -187,11 +188,11 @@ TEST(Boundary, TheLedgerOfAUniformStreamIsZeroAndOfAStepItsPressureAndMomentum) 
   fill(box.s.f.u, 0), fill(box.s.f.v, 0), fill(box.s.f.w, 20), fill(box.s.f.p, 0);
   fill(box.s.f.fx, 0), fill(box.s.f.fy, 0), fill(box.s.f.fz, 24);
   box.ghosts();
-  EXPECT_NEAR(momentum_deficit(box.d, box.b, box.s), 0, 1e-9);
+  EXPECT_NEAR(momentum_deficit(box.d, box.b, box.s).z, 0, 1e-9);
   for (int j = 0; j < 5; ++j)
     for (int i = 0; i < 4; ++i) box.s.f.p[box.at(i, j, 0)] = 7, box.s.f.w[box.at(i, j, 5)] = 15;
-  box.s.f.k = Array<double>(box.d.layout.values(), 1e-12);               // next to no eddy viscosity
-  EXPECT_NEAR(momentum_deficit(box.d, box.b, box.s), 7 + 24 * 5, 0.01);  // on 1 m2
+  box.s.f.k = Array<double>(box.d.layout.values(), 1e-12);                 // next to no eddy viscosity
+  EXPECT_NEAR(momentum_deficit(box.d, box.b, box.s).z, 7 + 24 * 5, 0.01);  // on 1 m2
 }
 
 // A duct that cloth closes and that moves with or against the air: the law holds for the relative velocity.
@@ -199,7 +200,7 @@ TEST(Boundary, ASheetThatMovesHoldsBackOnlyWhatPassesIt) {
   for (const double moving : {-5.0, 0.0, 6.0, 10.0}) {
     FlowProblem problem;
     problem.grid = {{0, 0, 0}, {1, 1, 2}, 4, 4, 16};
-    problem.air.speed = 10;
+    problem.air.velocity = {0, 0, 10};
     problem.sides = Sides::slip;
     problem.outlet = Outlet::still_air;
     const Vec3 p[] = {{-1, -1, 1.01}, {2, -1, 1.01}, {2, 2, 1.01}, {-1, 2, 1.01}};

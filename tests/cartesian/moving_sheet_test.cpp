@@ -30,7 +30,7 @@ std::vector<Triangle> disk_at(double z, double angle = 0) {
 FlowProblem disk_in_air(double speed, double linear, double z, double angle = 0) {
   FlowProblem problem;
   problem.grid = graded({{-3, -3, 0}, {6, 6, 9}, 40, 40, 72}, {-0.75, -0.75, 2.0}, {0.75, 0.75, 5.5}, 1.2);
-  problem.air.speed = speed;
+  problem.air.velocity = {0, 0, speed};
   problem.air.density = air_density;
   problem.sides = Sides::entraining;
   problem.outlet = Outlet::still_air;
@@ -167,7 +167,7 @@ std::vector<Triangle> folded_band() {
 TEST(MovingSheet, AFoldedBandDoesNotLeak) {
   FlowProblem problem;
   problem.grid = {{-0.6, -0.6, 0}, {1.2, 1.2, 2}, 30, 30, 50};
-  problem.air.speed = 10;
+  problem.air.velocity = {0, 0, 10};
   problem.sheets = {{folded_band(), 1e4, 0}};
   const auto engine = engine_on_one_thread();
   const auto flow = engine->start(problem);

@@ -27,7 +27,7 @@ TEST_P(Parity, DragAndFieldsAreThoseOfOpenFoam) {
   if (!openfoam_is_installed()) GTEST_SKIP() << "OpenFOAM is not installed";
   FlowProblem problem;
   problem.grid = {{-1, -1, 0}, {2, 2, 4}, 25, 25, 38};
-  problem.air.speed = GetParam().speed;
+  problem.air.velocity = {0, 0, GetParam().speed};
   problem.porous.push_back(
       {cut_cells(problem.grid, rigid_disk_gap_band({0, 0, 2})), GetParam().darcy, GetParam().forchheimer});
   OpenFoamSettings reference;
@@ -50,7 +50,7 @@ TEST_P(Parity, DragAndFieldsAreThoseOfOpenFoam) {
     velocity += dot(du, du);
     pressure += std::pow(ours.pressure[cell] - theirs.pressure[cell], 2);
   }
-  const double speed = problem.air.speed, dynamic = 0.5 * problem.air.density * speed * speed;
+  const double speed = problem.air.speed(), dynamic = 0.5 * problem.air.density * speed * speed;
   EXPECT_LT(std::sqrt(velocity / problem.grid.cells()) / speed, 0.01);
   EXPECT_LT(std::sqrt(pressure / problem.grid.cells()) / dynamic, 0.01);
 }

@@ -216,7 +216,7 @@ TEST(Chute, RoundPiecesAreCutAsTheGoresOfTheOthersWhicheverComesFirst) {
 TEST(Chute, TheMeshHasTheClothOfThePattern) {
   for (const char* name : {"elliptical", "disk-gap-band", "cross", "sails", "odd"}) {
     Case given = parse_case(imported(name).case_text, "case.toml");
-    const CanopyMesh mesh = parachute_mesh(given);
+    const CanopyMesh mesh = parachute_mesh(resolve(given));
     double area = 0;
     for (const Patch& patch : mesh.patches)
       area = std::accumulate(patch.cell_area.begin(), patch.cell_area.end(), area);

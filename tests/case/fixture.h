@@ -39,12 +39,8 @@ density_kg_m3 = 1.199
 inline const std::filesystem::path examples = std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples";
 
 /// What the value of a key was resolved from.
-inline const std::string& source_of(const Resolved& resolved, const std::string& key) {
-  for (const Source& source : resolved.sources)
-    if (source.key == key) return source.from;
-  ADD_FAILURE() << key << " has no source";
-  static const std::string none;
-  return none;
+inline const std::string& source_of(const Settings& resolved, const std::string& key) {
+  return resolved.source(key).from;
 }
 
 /// No more than a case must say.

@@ -26,15 +26,15 @@ TEST(ReefingKeys, AreReadInOrderAndReadBackAsWritten) {
   EXPECT_EQ(given.inflation.reefing[1].cut_s, 0.5);
   EXPECT_EQ(reefing_line(given, given.inflation.reefing[0]).name, "spectra-line");
   EXPECT_EQ(reefing_line(given, given.inflation.reefing[1]).name, "nylon-line-type-iii");
-  const std::string text = case_toml(given);
-  EXPECT_EQ(case_toml(parse_case(text, "again.toml")), text);
+  const std::string text = case_toml(resolve(given));
+  EXPECT_EQ(case_toml(resolve(parse_case(text, "again.toml"))), text);
 }
 
 TEST(ReefingKeys, TheOpeningTakesLengthCutAndCurveOfEveryStage) {
   Case given = parse_case(with_stages(stage(3, 0.2, "material = \"nylon-line-type-iii\"\n")), "case.toml");
   given.parachute.mesh.cloth_nodes = 800;
   const Case opening = opening_case(given);
-  const InflationProblem problem = opening_problem(opening, load_source(opening), 1);
+  const InflationProblem problem = opening_problem(resolve(opening), load_source(resolve(opening)), 1);
   ASSERT_EQ(problem.reefing.size(), 1u);
   EXPECT_EQ(problem.reefing[0].length, 3);
   EXPECT_EQ(problem.reefing[0].cut, 0.2);

@@ -119,11 +119,12 @@ TEST(ShippedSchema, IsWhatTheProgramPrints) {
 }
 
 TEST_F(Schema, AcceptsEveryExampleAndEveryResolvedCase) {
-  std::vector<fs::path> files{write(valid_case), write(case_toml(parse_case(valid_case, "case.toml")))};
+  std::vector<fs::path> files{write(valid_case),
+                              write(case_toml(resolve(parse_case(valid_case, "case.toml"))))};
   for (const auto& entry : fs::directory_iterator(fs::path(RIPSTOP_SOURCE_DIR) / "examples")) {
     if (!exists(entry.path() / "case.toml")) continue;
     files.push_back(entry.path() / "case.toml");
-    files.push_back(write(case_toml(read_case(files.back()))));
+    files.push_back(write(case_toml(resolve(read_case(files.back())))));
   }
   EXPECT_GE(files.size(), 6u);
   EXPECT_EQ(judge(files), std::vector<std::string>(files.size(), "valid"));

@@ -19,7 +19,7 @@ TEST(Cost, OfTheRunThatWasMeasuredIsItsMemoryAndHalfAsMuchAtMost) {
   printed.grid = {100, 100, 150};
   const Case given =
       read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/stratos-iv/case.toml", printed);
-  const Cost cost = cost_of(given);
+  const Cost cost = cost_of(resolve(given));
   EXPECT_EQ(cost.cells, 1.5e6);
   EXPECT_GT(cost.memory, 0.97e9);
   EXPECT_LT(cost.memory, 1.5 * 0.97e9);
@@ -34,8 +34,9 @@ TEST(Cost, OfAFittedMeshIsThatOfItsCells) {
     fitted.engine = "openfoam";
     fitted.grid = grid;
     fitted.set = {{"flow.mesh", "\"fitted\""}, {"flow.cloth_levels", levels}};
-    return cost_of(read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/flat-circular/case.toml",
-                             fitted))
+    return cost_of(
+               resolve(read_case(
+                   std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/flat-circular/case.toml", fitted)))
         .cells;
   };
   EXPECT_NEAR(cells({40, 40, 50}, "2"), 103562, 0.05 * 103562);
@@ -49,8 +50,9 @@ TEST(Cost, TimeIsAboutThatOfARunThatWasMeasuredAndGrowsWithCellsAndNodes) {
     Overrides overrides;
     overrides.grid = {across, across, 3 * across / 2};
     overrides.set = {{"parachute.mesh.cloth_nodes", nodes, "--set"}};
-    return cost_of(read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/stratos-iv/case.toml",
-                             overrides))
+    return cost_of(
+               resolve(read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/stratos-iv/case.toml",
+                                 overrides)))
         .time;
   };
   const double measured = time(40, "25600");
@@ -60,10 +62,11 @@ TEST(Cost, TimeIsAboutThatOfARunThatWasMeasuredAndGrowsWithCellsAndNodes) {
   EXPECT_NEAR((time(40, "102400") - measured) / (time(40, "51200") - measured), 3, 1e-9);
   Overrides printed;
   printed.grid = {40, 40, 60};
-  EXPECT_EQ(summarize(read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/stratos-iv/case.toml",
-                                printed))
-                .core_time,
-            measured);
+  EXPECT_EQ(
+      summarize(resolve(read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/stratos-iv/case.toml",
+                                  printed)))
+          .core_time,
+      measured);
 }
 
 TEST(Summary, ClothTapeLinesAndRiserAreAllThatHasMass) {
@@ -72,8 +75,8 @@ TEST(Summary, ClothTapeLinesAndRiserAreAllThatHasMass) {
     Overrides coarse;
     coarse.set = {{"parachute.mesh.cloth_nodes", "3000", "--set"},
                   {"parachute.riser.length_m", "0.5", "--set"}};
-    const CaseSummary s = summarize(
-        read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples" / name / "case.toml", coarse));
+    const CaseSummary s = summarize(resolve(
+        read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples" / name / "case.toml", coarse)));
     for (const double part : {s.mass.cloth, s.mass.tape, s.mass.lines, s.mass.riser})
       EXPECT_GT(part, 0) << name;
     EXPECT_NEAR(s.mass.cloth + s.mass.tape + s.mass.lines + s.mass.riser, s.mass.total, 1e-9 * s.mass.total)
@@ -85,7 +88,7 @@ TEST(Summary, TheGapOfADiskGapBandIsOpenAreaAllRoundTheDisk) {
   const Case given = read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/stratos-iv/case.toml");
   const auto* canopy = given.parachute.canopy.as<DiskGapBand>();
   ASSERT_TRUE(canopy);
-  const CaseSummary s = summarize(given);
+  const CaseSummary s = summarize(resolve(given));
   EXPECT_NEAR(s.slot_area, std::numbers::pi * canopy->disk_diameter_m * canopy->gap_height_m, 1e-12);
   const double open = s.vent_area + s.slot_area;
   EXPECT_NEAR(s.geometric_porosity, open / (open + s.nominal_area), 1e-12);
@@ -101,7 +104,7 @@ TEST(Summary, VentLinesAreLinesAndNotTape) {
   without.set = plain.set;
   without.set.push_back({"parachute.vent_lines", "false", "--set"});
   const Case given = read_case(file, plain);
-  const CaseSummary s = summarize(given), open = summarize(read_case(file, without));
+  const CaseSummary s = summarize(resolve(given)), open = summarize(resolve(read_case(file, without)));
   EXPECT_NEAR(s.mass.tape, open.mass.tape, 1e-12);
   const double half = std::numbers::pi / 12;
   const double vent = 0.1 * std::sqrt(half / (std::sin(half) * std::cos(half)));

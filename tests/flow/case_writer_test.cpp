@@ -62,7 +62,8 @@ TEST(SavedFlow, ComesBackWithTheGridAndTheAirThatItWasSavedFor) {
   for (int axis = 0; axis < 3; ++axis)
     basis.grid.grading[axis] = {0.1 + axis,    0.2 + axis,  3 + 10 * axis,
                                 4 + 10 * axis, 1.05 + axis, 1.06 + axis};
-  basis.air.speed = 11, basis.air.density = 0.9, basis.air.viscosity = 2e-5, basis.air.temperature = 250;
+  basis.air.velocity = {0, 0, 11}, basis.air.density = 0.9, basis.air.viscosity = 2e-5,
+  basis.air.temperature = 250;
   basis.air.turbulence_intensity = 0.03, basis.air.viscosity_ratio = 7;
   basis.sides = Sides::slip;
   basis.ranks = 6;

@@ -33,9 +33,9 @@ TEST(Engines, AnUnknownWordIsToldWithThoseThatThereAre) {
 
 TEST(Engines, WhatAnEngineHasNotIsSaidByTheKeysOfACase) {
   EXPECT_TRUE(
-      lacks(engine_of("builtin"), {.sheets = true, .entraining_sides = true, .averages = true}).empty());
+      lacks(engine_of("builtin"), {.sheets = true, .averages = true, .boundaries = {"entraining"}}).empty());
   const auto lack = lacks(engine_of("openfoam"),
-                          {.sheets = true, .entraining_sides = true, .averages = true, .ranks = true});
+                          {.sheets = true, .averages = true, .ranks = true, .boundaries = {"entraining"}});
   std::set<std::string> keys;
   for (const Lack& one : lack) keys.insert(one.key);
   EXPECT_EQ(keys, (std::set<std::string>{"flow.sides", "flow.average_over"}));

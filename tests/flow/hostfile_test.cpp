@@ -88,7 +88,7 @@ TEST(Hostfile, IsOneArgumentOfMpirunWhateverItsName) {
   settings.hostfile = hosts;
   FlowProblem problem;
   problem.grid = {{0, 0, 0}, {1, 1, 1}, 4, 4, 4};
-  problem.air.speed = 10;
+  problem.air.velocity = {0, 0, 10};
   problem.porous = {{{21, 22}, 100, 10}};
   problem.stopping.max_iterations = 3;
   EXPECT_THROW(solve(*make_openfoam(settings), problem), Error);

@@ -26,7 +26,7 @@ class OpenFoamFailure : public testing::Test {
     settings_.program_folder = root_ / "bin";
     settings_.time_limit_s = 60;
     problem_.grid = {{0, 0, 0}, {1, 1, 1}, 4, 4, 4};
-    problem_.air.speed = 10;
+    problem_.air.velocity = {0, 0, 10};
     problem_.porous = {{{21, 22}, 100, 10}};
     problem_.stopping.max_iterations = 3;
   }
@@ -209,11 +209,11 @@ TEST_F(FittedMeshFailure, AMeshThatLeftTheClothOutIsRefused) {
 
 TEST_F(OpenFoamFailure, NumbersOutOfRangeAreNamedAndNothingIsWritten) {
   solver("exit 0");
-  problem_.air.speed = -3;
+  problem_.air.velocity = {0, 0, -3};
   EXPECT_PRED2(says, message(ExitCode::usage), "air speed is -3");
-  problem_.air.speed = NAN;
+  problem_.air.velocity = {0, 0, NAN};
   message(ExitCode::usage);
-  problem_.air.speed = 10;
+  problem_.air.velocity = {0, 0, 10};
   problem_.porous[0].cells = {64};
   EXPECT_PRED2(says, message(ExitCode::usage), "porous cell is 64");
   problem_.porous = {{{3}, 1, 1}, {{3}, 1, 1}};
@@ -223,7 +223,7 @@ TEST_F(OpenFoamFailure, NumbersOutOfRangeAreNamedAndNothingIsWritten) {
 
 TEST_F(OpenFoamFailure, ABlockedDuctThatCannotPassItsFlowDiverges) {
   settings_.program_folder.clear();
-  problem_.air.speed = 150;
+  problem_.air.velocity = {0, 0, 150};
   problem_.porous = {{{}, 0, 1e5}};
   for (int cell = 16; cell < 32; ++cell) problem_.porous[0].cells.push_back(cell);
   problem_.sides = Sides::slip;

@@ -20,7 +20,7 @@ class ForceOverTime final : public Flow {
     for (int n = 0; n < steps; ++n) {
       now_.length = 0.01, now_.time = 0.01 * ++now_.step;
       now_.force = {0.1 * force_(now_.time), 0, force_(now_.time)};
-      now_.momentum_gap = 0.25;
+      now_.momentum_gap = {0, 0, 0.25};
       if (report && !report(now_)) break;
     }
     return now_;
@@ -47,7 +47,7 @@ class ForceOverTime final : public Flow {
 
 FlowProblem stream() {
   FlowProblem problem;
-  problem.air.speed = 2;
+  problem.air.velocity = {0, 0, 2};
   return problem;
 }
 
@@ -66,7 +66,7 @@ TEST(Watch, EndsWhenTheMeanIsKnownAndLeavesTheStartUpOut) {
   EXPECT_NEAR(record.drag.mean, 10, 0.2);
   EXPECT_NEAR(mean.porous_force.z, 10, 0.2);
   EXPECT_NEAR(mean.pressure[1], mean.porous_force.z, 1e-9);
-  EXPECT_NEAR(mean.momentum_deficit, mean.porous_force.z - 0.25, 1e-9);
+  EXPECT_NEAR(mean.momentum_deficit.z, mean.porous_force.z - 0.25, 1e-9);
   EXPECT_NEAR(record.side_x.mean, 0.1 * record.drag.mean, 1e-9);
   EXPECT_NEAR(record.swing.frequency, 5 / (2 * 3.14159265), 0.1);
 }

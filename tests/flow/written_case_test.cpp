@@ -25,7 +25,7 @@ struct WrittenFiles : testing::Test {
 
   WrittenFiles() {
     problem.grid = {{-1, -2, -3}, {2, 4, 8}, 4, 5, 16};
-    problem.air.speed = 12, problem.air.density = 1.1, problem.air.viscosity = 1.7e-5,
+    problem.air.velocity = {0, 0, 12}, problem.air.density = 1.1, problem.air.viscosity = 1.7e-5,
     problem.air.temperature = 280;
     problem.air.turbulence_intensity = 0.02, problem.air.viscosity_ratio = 5;
     problem.porous = {{{3, 7, 11}, 1.5e6, 250}, {{4}, 2e6, 0}};
@@ -296,7 +296,9 @@ TEST_F(WrittenFiles, ANumberOutOfItsRangeIsNamedWithTheRange) {
        "flow: size of the box is 2e+06 m; it must lie in [1e-06, 1e+06]"},
       {[](FlowProblem& p) { p.grid.origin.z = -2e6; },
        "flow: corner of the box is -2e+06 m; it must lie in [-1e+06, 1e+06]"},
-      {[](FlowProblem& p) { p.air.speed = 151; },
+      {[](FlowProblem& p) {
+         p.air.velocity = {0, 0, 151};
+       },
        "flow: air speed is 151 m/s (subsonic: Mach below 0.45); it must lie in [0.001, 150]"},
       {[](FlowProblem& p) { p.air.density = 101; },
        "flow: air density is 101 kg/m3; it must lie in [0.0001, 100]"},

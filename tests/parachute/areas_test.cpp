@@ -159,7 +159,7 @@ TEST_P(FamilyAreas, TheMeshLeavesTheSameAreaOpen) {
   // Round rings of a disk-gap-band are polygons with as many sides as columns, other
   // canopies with their gores.
   const bool round = given.parachute.canopy.as<DiskGapBand>();
-  const CanopyMesh mesh = parachute_mesh(given);
+  const CanopyMesh mesh = parachute_mesh(resolve(given));
   double open = 0;
   for (std::size_t i = 0; i < mesh.patches.size(); ++i) {
     const int patch = static_cast<int>(i), sides = round ? mesh.patches[i].columns : given.parachute.gores;

@@ -50,7 +50,7 @@ TEST_P(CutTest, AllowancesLieOutsideByTheirWidth) {
 
 TEST_P(CutTest, TapesAndLinesAreAsLongAsInTheMesh) {
   const Case given = example(GetParam());
-  const CanopyMesh mesh = parachute_mesh(given);
+  const CanopyMesh mesh = parachute_mesh(resolve(given));
   double tape_mesh = 0, line_mesh = 0;
   for (const int spring : mesh.rigging.tape_springs) tape_mesh += mesh.springs[spring].rest_length;
   for (const LineRun& line : mesh.rigging.lines)
@@ -66,13 +66,14 @@ TEST_P(CutTest, TapesAndLinesAreAsLongAsInTheMesh) {
 
 TEST_P(CutTest, TheBillWithoutAllowancesWeighsWhatTheMeshWeighs) {
   const Case given = example(GetParam());
-  const Bill bill = bill_of(cut_pattern(given.parachute), given.parachute, part_materials(given),
+  const Bill bill = bill_of(cut_pattern(given.parachute), given.parachute, resolve(given).materials(),
                             {.seam = 0, .hem = 0, .line_loop = 0, .tape_overlap = 0}, 400);
-  const CanopyMesh mesh = parachute_mesh(given);
+  const CanopyMesh mesh = parachute_mesh(resolve(given));
   const double mass = std::accumulate(mesh.mass.begin(), mesh.mass.end(), 0.0);
   EXPECT_NEAR(bill.mass / mass, 1, 0.005);
   EXPECT_NEAR(bill.packed_volume * 400, bill.mass, 1e-12);
-  const Bill cut = bill_of(cut_pattern(given.parachute), given.parachute, part_materials(given), {}, 400);
+  const Bill cut =
+      bill_of(cut_pattern(given.parachute), given.parachute, resolve(given).materials(), {}, 400);
   EXPECT_GT(cut.mass, bill.mass);
 }
 

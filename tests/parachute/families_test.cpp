@@ -26,8 +26,8 @@ namespace {
 using std::numbers::pi;
 
 CanopyMesh mesh_of(const Case& given) {
-  CanopyMesh mesh = parachute_mesh(given);
-  for (Vec3& p : mesh.start) p.z -= canopy_position(given);
+  CanopyMesh mesh = parachute_mesh(resolve(given));
+  for (Vec3& p : mesh.start) p.z -= resolve(given).flow().canopy_position_m;
   return mesh;
 }
 
@@ -147,7 +147,7 @@ TEST_P(Family, OnTheBiasTheCellsAreNearlySquareAndTheClothIsTheSame) {
     return Vec3{c * p.x - s * p.y, s * p.x + c * p.y, p.z};
   });
   const ClothPtr cloth = make_cloth(mesh);
-  EXPECT_GE(step_bound(*cloth, start_state(*cloth)).stable_step, 4e-6);
+  EXPECT_GE(stability_limit(*cloth, start_state(*cloth)).stable_step, 4e-6);
 }
 
 // Arms hardly longer than they are wide still bend.
@@ -158,8 +158,8 @@ TEST(Families, AnArmOfACrossHasTwoRowsOfCellsHoweverShort) {
                      {"parachute.arm_width_m", "0.6"},
                      {"parachute.cut", cut},
                      {"parachute.mesh.cloth_nodes", "600"}};
-    const CanopyMesh mesh = parachute_mesh(
-        read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/cross/case.toml", overrides));
+    const CanopyMesh mesh = parachute_mesh(resolve(
+        read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/cross/case.toml", overrides)));
     int least = 1000;
     for (const Patch& patch : mesh.patches) least = std::min(least, patch.rows);
     EXPECT_EQ(least, 3) << cut;
@@ -170,7 +170,7 @@ TEST(Families, AnArmOfACrossHasTwoRowsOfCellsHoweverShort) {
 // diagonals are the yarns.
 TEST_P(Family, TheYarnsLieAsTheClothIsCut) {
   Case given = example(GetParam(), 2500);
-  PartMaterials materials = part_materials(given);
+  PartMaterials materials = resolve(given).materials();
   materials.canopy.weft_coefficients_n_m = {18000, 5000};
   materials.canopy.tested_strain = 0.2;
   const auto laws = [&](FabricCut cut) {
@@ -234,7 +234,7 @@ TEST_P(Family, TheStableStepIsThatOfSpringsNearTheMeanSpacing) {
   // Canopies of about 0.8 m2 on ADEPT's number of nodes; Stratos IV has 1.7 m2 on 25,600.
   const CanopyMesh mesh = mesh_of(example(GetParam(), GetParam() == "stratos-iv" ? 0 : 11200));
   const ClothPtr cloth = make_cloth(mesh);
-  EXPECT_GE(step_bound(*cloth, start_state(*cloth)).stable_step, 4e-6);
+  EXPECT_GE(stability_limit(*cloth, start_state(*cloth)).stable_step, 4e-6);
 }
 
 // S0 = pi/4 D0^2 = cloth + vent + slots, by each type's own definition. The vent has the area of the circle.

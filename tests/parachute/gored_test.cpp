@@ -151,7 +151,8 @@ int held_nodes(const CanopyMesh& mesh) {
 }
 
 TEST(ProfileCanopies, APieceThatIsSewnIsHeldAlongItsWholeEdgeElseAtSeamsAndLines) {
-  const CanopyMesh sewn = parachute_mesh(of_two_pieces(true)), held = parachute_mesh(of_two_pieces(false));
+  const CanopyMesh sewn = parachute_mesh(resolve(of_two_pieces(true))),
+                   held = parachute_mesh(resolve(of_two_pieces(false)));
   const auto columns = [](const CanopyMesh& mesh) {
     int most = 0;
     for (const Patch& patch : mesh.patches)
@@ -205,7 +206,7 @@ TEST(ProfileCanopies, AGoreThatBulgesMoreBelowThanAboveIsAsHighInItsMiddleAsOnTh
   canopy.pieces[1].leading_fullness = 0.1, canopy.pieces[1].trailing_fullness = 0.05;
   canopy.pieces[1].height_m = {0.25, 0.45};
   given.parachute.canopy = canopy;
-  const CanopyMesh mesh = parachute_mesh(given);
+  const CanopyMesh mesh = parachute_mesh(resolve(given));
   const Patch& patch = mesh.patches.back();
   const double gore = 2 * pi / given.parachute.gores;
   const double height = gore_pattern(canopy, given.parachute.gores).strips[1].length();
@@ -222,9 +223,9 @@ TEST(ProfileCanopies, AGoreThatBulgesMoreBelowThanAboveIsAsHighInItsMiddleAsOnTh
 
 TEST(FoldsWithoutStrain, DisksCylindersAndConesDoAndAGoreThatBulgesDoesNot) {
   for (const char* name : {"stratos-iv", "walrus"})
-    EXPECT_TRUE(folds_without_strain(parachute_mesh(example(name, 4000)))) << name;
+    EXPECT_TRUE(folds_without_strain(parachute_mesh(resolve(example(name, 4000))))) << name;
   for (const char* name : {"flat-circular", "adept", "cross", "hemispherical"})
-    EXPECT_FALSE(folds_without_strain(parachute_mesh(example(name, 4000)))) << name;
+    EXPECT_FALSE(folds_without_strain(parachute_mesh(resolve(example(name, 4000))))) << name;
 }
 
 /// The last column of the guide's table of meshes.

@@ -34,7 +34,7 @@ bool falls_into_folds(const std::string& name) {
 
 TEST_P(InflatedShape, HasTheDiameterOfItsTypeAndTheSymmetryOfItsLines) {
   const Case given = example(GetParam(), 3000);
-  const CanopyMesh mesh = parachute_mesh(given);
+  const CanopyMesh mesh = parachute_mesh(resolve(given));
   const BlownUp canopy = blown_up(mesh, 240, 2e-3);
   const std::vector<Vec3> x = canopy.positions();
 
@@ -71,7 +71,7 @@ TEST_P(InflatedShape, HasTheDiameterOfItsTypeAndTheSymmetryOfItsLines) {
 }
 
 double inflated_diameter(const Case& given) {
-  const CanopyMesh mesh = parachute_mesh(given);
+  const CanopyMesh mesh = parachute_mesh(resolve(given));
   return canopy_size(mesh, blown_up(mesh, 240, 1e-3).positions()).projected_diameter;
 }
 

@@ -15,7 +15,7 @@ TEST(SlackCanopy, ACrossUnderTwentyPascalComesToRest) {
   Case given = read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples" / "cross" / "case.toml");
   given.parachute.mesh.cloth_nodes = 3000;
   given.flow.porosity_model = PorosityModel::sheet;
-  const CanopyMesh mesh = parachute_mesh(given);
+  const CanopyMesh mesh = parachute_mesh(resolve(given));
   const ClothPtr cloth = make_cloth(mesh);
   ClothState state = start_state(*cloth);
   const Loads loads{std::vector<double>(mesh.cell_count(), 20.0), {}};

@@ -9,13 +9,13 @@
 #include "../small_case.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/file.h"
-#include "ripstop/inflation/summary.h"
+#include "ripstop/fsi/summary.h"
 #include "ripstop/output/csv.h"
 #include "ripstop/output/vtk.h"
 #include "ripstop/output/vtk_read.h"
-#include "ripstop/run/inflation_folder.h"
-#include "ripstop/run/pattern.h"
-#include "ripstop/run/watch_files.h"
+#include "ripstop/run/opening/inflation_folder.h"
+#include "ripstop/run/sizing/pattern.h"
+#include "ripstop/run/steady/watch_files.h"
 
 namespace ripstop {
 namespace {
@@ -30,7 +30,7 @@ TEST(PatternFiles, AreOneDrawingOfEveryPieceTheBillAndTheResult) {
   const Case given = sewn_case();
   Allowances allowances;
   allowances.seam = 0.01;
-  const PatternResult result = run_pattern(given, allowances, 250);
+  const PatternResult result = run_pattern(resolve(given), allowances, 250);
   EXPECT_EQ(result.title, given.title);
   EXPECT_EQ(result.nominal_area, nominal_area(given.parachute));
   EXPECT_EQ(result.cloth_area, computed_area(given.parachute));
@@ -59,9 +59,9 @@ TEST(PatternFiles, AreOneDrawingOfEveryPieceTheBillAndTheResult) {
 TEST(PatternFiles, WithoutATapeThereIsNoneToCut) {
   Case given = sewn_case();
   given.parachute.tape.material = "nylon-tape";
-  EXPECT_FALSE(run_pattern(checked(given), {}, 400).pattern.tapes.empty());
+  EXPECT_FALSE(run_pattern(resolve(checked(given)), {}, 400).pattern.tapes.empty());
   given.parachute.tape.material = "none";
-  EXPECT_TRUE(run_pattern(checked(given), {}, 400).pattern.tapes.empty());
+  EXPECT_TRUE(run_pattern(resolve(checked(given)), {}, 400).pattern.tapes.empty());
 }
 
 /// `steps` steps of 0.01 s and `slices` planes of 0.1 s, on three by one by four cells.
@@ -70,7 +70,7 @@ FlowRecord watched_record(int steps, int slices) {
   for (int n = 1; n <= steps; ++n) {
     FlowStep step;
     step.step = n, step.time = 1 + 0.01 * n, step.length = 0.01, step.courant = 0.6;
-    step.force = {0.1 * n, 0.2 * n, 100.0 + n}, step.momentum_gap = 0.3;
+    step.force = {0.1 * n, 0.2 * n, 100.0 + n}, step.momentum_gap = {0, 0, 0.3};
     record.steps.push_back(step);
   }
   record.drag.mean = 123.45, record.drag.standard_error = 0.67;
@@ -95,7 +95,7 @@ TEST(WatchFiles, HistoryHasARowAStepAndTheWakeAFileASlice) {
   for (std::size_t n = 0; n < 5; ++n) {
     const FlowStep& s = record.steps[n];
     EXPECT_EQ(history.rows[n], (std::vector<double>{s.time, s.length, s.courant, s.force.x, s.force.y,
-                                                    s.force.z, s.momentum_gap}));
+                                                    s.force.z, s.momentum_gap.z}));
   }
   EXPECT_EQ(history.columns, (std::vector<std::string>{"time_s", "step_s", "courant", "force_x_n",
                                                        "force_y_n", "drag_n", "momentum_gap_n"}));
@@ -167,9 +167,10 @@ class OpeningFiles : public testing::Test {
   InflationResult open(const Case& given, double checkpoint_every_s) {
     seen.folder = folder;
     const auto problem = [&] {
-      return InflationProblem{parachute_mesh(given), given.inflation, 500, false, 1, 6};
+      return InflationProblem{parachute_mesh(resolve(given)), given.inflation, 500, false, 1, 6};
     };
-    return run_inflation_in({{folder}, 1, checkpoint_every_s}, given, {"given", {}}, problem, seen).value();
+    return run_inflation_in({{folder}, 1, checkpoint_every_s}, resolve(given), {"given", {}}, problem, seen)
+        .value();
   }
   std::vector<double> cell_data(const std::string& file, const char* name) const {
     const VtkFile read = read_vtk(folder / file);
@@ -189,7 +190,7 @@ TEST_F(OpeningFiles, HaveTheClothAndTheLinesOfEveryFrameAndTheLinesPeaks) {
   given.inflation.frames = 4;
   given.inflation.low_pass_hz = 1000;
   const InflationResult result = open(given, 0);
-  const CanopyMesh mesh = parachute_mesh(given);
+  const CanopyMesh mesh = parachute_mesh(resolve(given));
   ASSERT_EQ(seen.frames.size(), 4u);
   for (const char* what : {"canopy", "lines"}) {
     const std::string series = read_file(folder / fmt::format("{}.pvd", what));

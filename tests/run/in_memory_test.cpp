@@ -7,11 +7,11 @@
 #include "../small_case.h"
 #include "ripstop/canopy/shape.h"
 #include "ripstop/core/file.h"
-#include "ripstop/run/compare.h"
-#include "ripstop/run/fabric.h"
-#include "ripstop/run/pattern.h"
-#include "ripstop/run/steady_folder.h"
-#include "ripstop/run/sweep.h"
+#include "ripstop/run/sizing/fabric.h"
+#include "ripstop/run/sizing/pattern.h"
+#include "ripstop/run/steady/compare.h"
+#include "ripstop/run/steady/steady_folder.h"
+#include "ripstop/run/sweep/sweep.h"
 
 namespace ripstop {
 namespace {
@@ -80,16 +80,16 @@ TEST_F(InMemory, ACaseMadeInCodeIsSolvedSteadyAndItsObserverSeesEveryIteration) 
   // The same in a folder, to the last digit.
   const TemporaryFolder folder("steady-folder");
   SteadyObserver quiet;
-  const SteadyFolderRun stored = run_steady_in({{folder.path}, 0, {}, {}}, given, quiet);
+  const SteadyFolderRun stored = run_steady_in({{folder.path}, 0, {}, {}}, resolve(given), quiet);
   EXPECT_EQ(stored.result.drag, solution.result.drag);
   EXPECT_EQ(final_state(folder.path).shape, solution.state.shape);
-  const SteadyFolderRun again = run_steady_in({{folder.path}, 0, {}, {}}, given, quiet);
+  const SteadyFolderRun again = run_steady_in({{folder.path}, 0, {}, {}}, resolve(given), quiet);
   EXPECT_TRUE(again.already_finished);
   EXPECT_EQ(to_json(again.result), read_file(folder.path / "result.json"));
 }
 
 TEST_F(InMemory, UnderAPressureTheLinesCarryTheClothsLoad) {
-  const FabricSolution cloth = run_fabric(small_case(), 240);
+  const FabricSolution cloth = run_fabric(resolve(small_case()), 240);
   EXPECT_TRUE(cloth.result.converged);
   EXPECT_EQ(cloth.result.pressure, 240);
   EXPECT_NEAR(cloth.result.line_tension / cloth.result.pressure_load, 1, 1e-3);
@@ -101,11 +101,13 @@ TEST_F(InMemory, UnderAPressureTheLinesCarryTheClothsLoad) {
 
 TEST_F(InMemory, ASweepStartsFromItsNeighboursAndItsModelsAreCompared) {
   const Case given = small_case();
-  const SweepAxis axis = linear_models(given);
+  const SweepAxis axis = linear_models(resolve(given));
   std::vector<SweepPoint> points;
-  for (std::size_t i = 0; i < axis.values.size(); ++i)
-    points.push_back({{axis.values[i]}, given, "", i == 0 ? -1 : 0});
-  for (std::size_t i = 1; i < points.size(); ++i) points[i].given.coupling.linear = true;
+  for (std::size_t i = 0; i < axis.values.size(); ++i) {
+    Case one = given;
+    one.coupling.linear = i > 0;
+    points.push_back({{axis.values[i]}, resolve(one), "", i == 0 ? -1 : 0});
+  }
   const std::vector<SweepRow> rows = run_sweep(points, {});
   for (const SweepRow& row : rows) {
     ASSERT_TRUE(row.done) << row.error;
@@ -122,7 +124,7 @@ TEST_F(InMemory, ASweepStartsFromItsNeighboursAndItsModelsAreCompared) {
 }
 
 TEST_F(InMemory, ThePatternsBillWeighsWhatIsCut) {
-  const PatternResult pattern = run_pattern(small_case(), {}, 400);
+  const PatternResult pattern = run_pattern(resolve(small_case()), {}, 400);
   double mass = 0;
   for (const BillRow& row : pattern.bill.rows) mass += row.mass;
   EXPECT_DOUBLE_EQ(mass, pattern.bill.mass);

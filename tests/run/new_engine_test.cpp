@@ -4,10 +4,10 @@
 
 #include <filesystem>
 
-#include "formula_flow.h"
 #include "ripstop/core/toml/problem.h"
 #include "ripstop/run/engine.h"
-#include "ripstop/run/steady.h"
+#include "ripstop/run/steady/steady.h"
+#include "tests/run/steady/formula_flow.h"
 
 namespace ripstop {
 namespace {
@@ -33,7 +33,7 @@ class NewEngine : public testing::Test {
 
 TEST_F(NewEngine, IsAWordOfTheCaseFileItsSchemaAndItsReference) {
   EXPECT_EQ(engine_of(stratos()).word, "formula");
-  EXPECT_NE(case_toml(stratos()).find("engine = \"formula\""), std::string::npos);
+  EXPECT_NE(case_toml(resolve(stratos())).find("engine = \"formula\""), std::string::npos);
   EXPECT_NE(case_schema().find("\"formula\""), std::string::npos);
   EXPECT_NE(case_reference().find("a formula of the cells"), std::string::npos);
 }

@@ -9,24 +9,24 @@
 
 #include "../refusal.h"
 #include "../small_case.h"
-#include "finished_run.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/case/opening.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/thread_team.h"
 #include "ripstop/flight/descent.h"
-#include "ripstop/inflation/opening_estimate.h"
-#include "ripstop/inflation/summary.h"
+#include "ripstop/fsi/opening_estimate.h"
+#include "ripstop/fsi/summary.h"
 #include "ripstop/material/library.h"
-#include "ripstop/run/damping.h"
-#include "ripstop/run/descent.h"
+#include "ripstop/run/descent/descent.h"
 #include "ripstop/run/engine.h"
-#include "ripstop/run/fabric.h"
-#include "ripstop/run/filling.h"
-#include "ripstop/run/fit.h"
-#include "ripstop/run/inflation_folder.h"
-#include "ripstop/run/load.h"
-#include "ripstop/run/porosity_sweep.h"
+#include "ripstop/run/material/fit.h"
+#include "ripstop/run/opening/damping.h"
+#include "ripstop/run/opening/filling.h"
+#include "ripstop/run/opening/inflation_folder.h"
+#include "ripstop/run/opening/load.h"
+#include "ripstop/run/sizing/fabric.h"
+#include "ripstop/run/sweep/porosity_sweep.h"
+#include "tests/run/steady/finished_run.h"
 
 namespace ripstop {
 namespace {
@@ -37,7 +37,7 @@ TEST(RunNumbers, OfAnEngineAreWhatTheCaseSaysToIt) {
   Case given = square_law_case();
   given.flow.mesh = FlowMesh::grid;
   given.flow.cloth_levels = 0;
-  EngineOptions options = engine_options(given);
+  EngineOptions options = engine_options(resolve(given));
   EXPECT_FALSE(options.fitted_mesh);
   EXPECT_EQ(options.cloth_levels, 0);
   EXPECT_EQ(options.ranks, 1);
@@ -47,7 +47,7 @@ TEST(RunNumbers, OfAnEngineAreWhatTheCaseSaysToIt) {
   given.flow.time_limit_s = 9;
   for (const Convection convection : {Convection::upwind, Convection::second_order}) {
     given.flow.convection = convection;
-    options = engine_options(given);
+    options = engine_options(resolve(given));
     EXPECT_EQ(options.second_order, convection == Convection::second_order);
     EXPECT_TRUE(options.fitted_mesh);
     EXPECT_EQ(options.cloth_levels, 2);
@@ -60,28 +60,28 @@ TEST(RunNumbers, AHostfileNeedsAnEngineOfRanksAndTwoOfThem) {
   const TemporaryFolder root("hosts");
   write_file(root.path / "hosts", "localhost slots=8\n");
   Case given = square_law_case();
-  require_hosts({}, given);
+  require_hosts({}, resolve(given));
   given.flow.ranks = 4;
-  EXPECT_NE(refusal_of([&] { require_hosts(root.path / "hosts", given); }, ExitCode::usage)
+  EXPECT_NE(refusal_of([&] { require_hosts(root.path / "hosts", resolve(given)); }, ExitCode::usage)
                 .find("--hostfile: needs ranks"),
             std::string::npos);
   given.flow.engine = "openfoam";
-  require_hosts(root.path / "hosts", given);
+  require_hosts(root.path / "hosts", resolve(given));
   given.flow.ranks = 2;
-  require_hosts(root.path / "hosts", given);
+  require_hosts(root.path / "hosts", resolve(given));
   given.flow.ranks = 1;
-  EXPECT_EQ(refusal_of([&] { require_hosts(root.path / "hosts", given); }, ExitCode::usage)
+  EXPECT_EQ(refusal_of([&] { require_hosts(root.path / "hosts", resolve(given)); }, ExitCode::usage)
                 .find("--hostfile: needs"),
             0u);
   given.flow.ranks = 9;
-  EXPECT_THROW(require_hosts(root.path / "hosts", given), Error);  // more than slots
+  EXPECT_THROW(require_hosts(root.path / "hosts", resolve(given)), Error);  // more than slots
 }
 
 TEST(RunNumbers, OfClothUnderTheStreamsPressureAreItsRelaxations) {
   Case given = square_law_case();
   given.coupling.cloth_tolerance = 0.02;
   int told = 0;
-  const FabricSolution cloth = run_fabric(given, {}, [&](const RelaxProgress&) { ++told; });
+  const FabricSolution cloth = run_fabric(resolve(given), {}, [&](const RelaxProgress&) { ++told; });
   const FabricResult& r = cloth.result;
   const Air stream = air(given);
   EXPECT_EQ(r.title, given.title);
@@ -110,7 +110,7 @@ TEST(RunNumbers, OfClothUnderTheStreamsPressureAreItsRelaxations) {
 
   // One law more makes other numbers.
   given.coupling.linear = true;
-  EXPECT_NE(run_fabric(given, {}).result.size.projected_diameter, r.size.projected_diameter);
+  EXPECT_NE(run_fabric(resolve(given), {}).result.size.projected_diameter, r.size.projected_diameter);
 }
 
 TEST(RunNumbers, OfAFamilyThatNoTableHasTheFillingIsThatOfSolidCloth) {
@@ -145,21 +145,21 @@ TEST(RunNumbers, OfARunInMemoryAreThoseOfItsResult) {
   SteadyObserver quiet;
   const Case given = square_law_case();
   SteadyResult result = run_steady(given, quiet).result;
-  const FinishedSteady run = finished_steady(given, result);
+  const FinishedSteady run = finished_steady(resolve(given), result);
   EXPECT_TRUE(run.folder.empty());
   EXPECT_EQ(run.result.drag, result.drag);
   EXPECT_EQ(run.drag_uncertainty, drag_uncertainty(result.last));
   EXPECT_GT(run.parachute_mass, 0);
   result.converged = false;
-  EXPECT_EQ(
-      refusal_of([&] { finished_steady(given, result); }, ExitCode::bad_data).find("the steady run has not"),
-      0u);
+  EXPECT_EQ(refusal_of([&] { finished_steady(resolve(given), result); }, ExitCode::bad_data)
+                .find("the steady run has not"),
+            0u);
 }
 
 TEST(RunNumbers, OfADescentAreThoseOfItsRun) {
   SteadyObserver quiet;
   const Case given = square_law_case();
-  FinishedSteady run = finished_steady(given, run_steady(given, quiet).result);
+  FinishedSteady run = finished_steady(resolve(given), run_steady(given, quiet).result);
   run.drag_uncertainty = 0.04;
   const Descent d = run_descent(run, 3, {500, 501, 499}, 500);
   EXPECT_EQ(d.payload_mass, 3);
@@ -190,7 +190,7 @@ TEST(RunNumbers, MeasuredDragIsThatOfTheCasesBasisWhereThereIsOne) {
   given.measured = {
       {10, 10.5, 1.1, 100.0, {}, {}}, {20, 21, 1.2, {}, 400.0, {}}, {30, 31, 1.3, 900.0, {}, {}}};
   given.flow.speed_basis = SpeedBasis::measured;
-  std::vector<MeasuredDrag> points = measured_drag(given);
+  std::vector<MeasuredDrag> points = measured_drag(resolve(given));
   ASSERT_EQ(points.size(), 2u);
   EXPECT_EQ(points[0].nominal_speed, 10);
   EXPECT_EQ(points[0].speed, 10.5);
@@ -199,7 +199,7 @@ TEST(RunNumbers, MeasuredDragIsThatOfTheCasesBasisWhereThereIsOne) {
   EXPECT_EQ(points[1].density, 1.3);
   EXPECT_EQ(points[1].drag, 900);
   given.flow.speed_basis = SpeedBasis::nominal;
-  points = measured_drag(given);
+  points = measured_drag(resolve(given));
   EXPECT_EQ(points[0].speed, 10);
   EXPECT_EQ(points[1].speed, 30);
 }
@@ -207,8 +207,8 @@ TEST(RunNumbers, MeasuredDragIsThatOfTheCasesBasisWhereThereIsOne) {
 TEST(RunNumbers, ACalibrationsConditionsHaveNamesAndItsCoreStaysWhereItIs) {
   const Case given = read_case(fs::path(RIPSTOP_SOURCE_DIR) / "examples/stratos-iv/case.toml");
   const PorositySweep sweep{PorosityKnob::gamma, {0.2, 0.3}, 1.2e-4, 1};
-  const std::vector<SweepAxis> axes =
-      porosity_axes(given, sweep, {{5, 5.5, 1.2, 10}, {5, 5.6, 1.1, 20}, {5, 5.7, 1.1, 20}, {8, 8, 1.1, 20}});
+  const std::vector<SweepAxis> axes = porosity_axes(
+      resolve(given), sweep, {{5, 5.5, 1.2, 10}, {5, 5.6, 1.1, 20}, {5, 5.7, 1.1, 20}, {8, 8, 1.1, 20}});
   ASSERT_EQ(axes.size(), 3u);
   EXPECT_EQ(axes[0].values, (std::vector<std::string>{"5", "5-2", "5-3", "8"}));
   const auto value = [](const std::vector<Setting>& settings, const std::string& key) -> std::string {
@@ -225,11 +225,11 @@ TEST(RunNumbers, ACalibrationsConditionsHaveNamesAndItsCoreStaysWhereItIs) {
   EXPECT_EQ(axes[2].values, std::vector<std::string>{"0"});
   Case graded = read_case(fs::path(RIPSTOP_SOURCE_DIR) / "examples/flat-circular/case.toml");
   graded.flow.core.size_m = Vec3{1, 1, 2};
-  const FlowSettings flow = resolve(graded).flow;
-  EXPECT_EQ(value(porosity_axes(graded, sweep, {})[2].settings[0], "flow.core.start_m"),
+  const FlowSettings flow = resolve(graded).flow();
+  EXPECT_EQ(value(porosity_axes(resolve(graded), sweep, {})[2].settings[0], "flow.core.start_m"),
             fmt::format("{}", flow.core.start_m));
   graded.flow.core.size_m = Vec3{1, 1, 0};
-  EXPECT_EQ(value(porosity_axes(graded, sweep, {})[2].settings[0], "flow.core.start_m"), "none");
+  EXPECT_EQ(value(porosity_axes(resolve(graded), sweep, {})[2].settings[0], "flow.core.start_m"), "none");
   EXPECT_THROW(require_slope({PorosityKnob::gamma, {0.2}, 1.2e-4, 1}), Error);
   require_slope(sweep);
 }
@@ -241,15 +241,16 @@ TEST(RunNumbers, AReefedOpeningIsNoRecordOfADragArea) {
   given.inflation.duration_s = 4e-3;
   given.inflation.frames = 2;
   const Case opening = opening_case(given);
-  const LoadSource source = load_source(opening);
+  const LoadSource source = load_source(resolve(opening));
   InflationObserver quiet;
   run_inflation_in(
-      {{root.path / "run"}, 1, 1e6}, opening, source, [&] { return opening_problem(opening, source, 1); },
-      quiet);
+      {{root.path / "run"}, 1, 1e6}, resolve(opening), source,
+      [&] { return opening_problem(resolve(opening), source, 1); }, quiet);
   LoadRequest asked;
   asked.payload_mass = 2, asked.speed = 30, asked.height = 500, asked.opening = root.path / "run";
-  EXPECT_NE(refusal_of([&] { run_load(opening, asked); }, ExitCode::usage).find("is a reefed opening"),
-            std::string::npos);
+  EXPECT_NE(
+      refusal_of([&] { run_load(resolve(opening), asked); }, ExitCode::usage).find("is a reefed opening"),
+      std::string::npos);
 }
 
 TEST(RunNumbers, OfAnOpeningTheDeepestAndLargestOfItsFramesCount) {
@@ -257,9 +258,9 @@ TEST(RunNumbers, OfAnOpeningTheDeepestAndLargestOfItsFramesCount) {
   given.inflation.cloth_damping_s = 1e-6;
   given.inflation.low_pass_hz = 0;
   InflationObserver quiet;
-  InflationProblem problem{parachute_mesh(given), given.inflation, 500, false, 1, 6};
+  InflationProblem problem{parachute_mesh(resolve(given)), given.inflation, 500, false, 1, 6};
   const Inflation solver(problem);
-  const auto [result, state, history] = run_inflation(given, {"asked for", {}}, problem, quiet);
+  const auto [result, state, history] = run_inflation(resolve(given), {"asked for", {}}, problem, quiet);
   double deepest = 0, pierced = 0;
   for (const InflationFrame& frame : history.frames)
     deepest = std::max(deepest, frame.contact_depth), pierced = std::max(pierced, frame.pierced);
@@ -287,9 +288,10 @@ TEST(RunNumbers, OfAnOpeningInItsOwnAirTheLargestDragAreaAndThePayloadsEndCount)
   given.inflation.duration_s = 2e-3;
   given.inflation.frames = 2;
   const Case opening = opening_case(given);
-  const LoadSource source = load_source(opening);
+  const LoadSource source = load_source(resolve(opening));
   InflationObserver quiet;
-  const auto [r, state, history] = run_inflation(opening, source, opening_problem(opening, source, 1), quiet);
+  const auto [r, state, history] =
+      run_inflation(resolve(opening), source, opening_problem(resolve(opening), source, 1), quiet);
   ASSERT_GT(history.air.size(), 1u);
   double largest = -INFINITY;
   for (const AirRow& row : history.air) largest = std::max(largest, row.drag_area);
@@ -311,7 +313,7 @@ TEST(RunNumbers, ADampingIsSearchedOnTheMeasuredOpeningUnderThePressureOfTheProb
                 [&] {
                   Case none = given;
                   none.inflation.measured_peak_n.reset();
-                  damping_target(none);
+                  damping_target(resolve(none));
                 },
                 ExitCode::usage)
                 .find("measured_peak_n"),
@@ -319,12 +321,12 @@ TEST(RunNumbers, ADampingIsSearchedOnTheMeasuredOpeningUnderThePressureOfTheProb
   given.inflation.measured_peak_n = 700;
   given.inflation.measured_inflation_time_s = 0.05;
   given.inflation.low_pass_hz = 1000;
-  InflationProblem problem{parachute_mesh(given), given.inflation, 321, false, 1, 6};
+  InflationProblem problem{parachute_mesh(resolve(given)), given.inflation, 321, false, 1, 6};
   DampingSearch search;
   search.from = 5, search.to = 9, search.points = 3, search.refinements = 0;
   int told = 0;
   const DampingResult r =
-      run_damping(given, {"a source", {}}, problem, search, [&](const DampingTrial&) { ++told; });
+      run_damping(resolve(given), {"a source", {}}, problem, search, [&](const DampingTrial&) { ++told; });
   EXPECT_EQ(told, 3);
   ASSERT_EQ(r.found.trials.size(), 3u);
   EXPECT_EQ(r.title, given.title);
@@ -336,10 +338,11 @@ TEST(RunNumbers, ADampingIsSearchedOnTheMeasuredOpeningUnderThePressureOfTheProb
   EXPECT_EQ(r.nodes, problem.mesh.node_count());
   ASSERT_TRUE(r.inputs_hash);
   search.to = 10;
-  EXPECT_NE(run_damping(given, {"a source", {}}, problem, search).inputs_hash, r.inputs_hash);
+  EXPECT_NE(run_damping(resolve(given), {"a source", {}}, problem, search).inputs_hash, r.inputs_hash);
   problem.air = AirProblem{};
-  EXPECT_NE(refusal_of([&] { run_damping(given, {}, problem, search); }, ExitCode::usage).find("coupled"),
-            std::string::npos);
+  EXPECT_NE(
+      refusal_of([&] { run_damping(resolve(given), {}, problem, search); }, ExitCode::usage).find("coupled"),
+      std::string::npos);
 }
 
 TEST(RunNumbers, OfAFitWithCouponsStandInItsTextItsJsonAndItsFolder) {

@@ -3,9 +3,9 @@
 
 #include "ripstop/core/thread_team.h"
 #include "ripstop/material/library.h"
-#include "ripstop/run/coupon.h"
-#include "ripstop/run/fabric.h"
-#include "ripstop/run/fit.h"
+#include "ripstop/run/material/coupon.h"
+#include "ripstop/run/material/fit.h"
+#include "ripstop/run/sizing/fabric.h"
 
 namespace ripstop {
 namespace {
@@ -17,7 +17,9 @@ TEST(ResultsNameTheirInputs, OtherInputsHaveAnotherHash) {
   given.parachute.mesh.cloth_nodes = 600;
   given.coupling.cloth_tolerance = 0.1;
   given.coupling.threads = 1;
-  const auto fabric = [&](double pressure) { return run_fabric(given, pressure).result.inputs_hash.value(); };
+  const auto fabric = [&](double pressure) {
+    return run_fabric(resolve(given), pressure).result.inputs_hash.value();
+  };
   EXPECT_EQ(fabric(100), fabric(100));
   EXPECT_NE(fabric(100), fabric(101));
 

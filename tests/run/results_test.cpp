@@ -6,21 +6,21 @@
 
 #include "../output/read_png.h"
 #include "../small_case.h"
-#include "finished_run.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/thread_team.h"
-#include "ripstop/coupling/pressure_profile.h"
-#include "ripstop/inflation/opening_estimate.h"
+#include "ripstop/fsi/opening_estimate.h"
+#include "ripstop/fsi/pressure_profile.h"
 #include "ripstop/material/library.h"
 #include "ripstop/output/csv.h"
 #include "ripstop/output/plot.h"
 #include "ripstop/output/vtk.h"
 #include "ripstop/output/vtk_read.h"
-#include "ripstop/run/coupon.h"
-#include "ripstop/run/fabric.h"
-#include "ripstop/run/fit.h"
-#include "ripstop/run/inflation.h"
-#include "ripstop/run/steady.h"
+#include "ripstop/run/material/coupon.h"
+#include "ripstop/run/material/fit.h"
+#include "ripstop/run/opening/inflation.h"
+#include "ripstop/run/sizing/fabric.h"
+#include "ripstop/run/steady/steady.h"
+#include "tests/run/steady/finished_run.h"
 
 namespace ripstop {
 namespace {
@@ -34,8 +34,8 @@ TEST(Results, OfAnOpeningAreThoseOfItsStateHistoryAndCase) {
   const Case given = small_opening();
   Hasty hasty;
   const LoadSource source{"given", 400};
-  const auto [result, state, history] =
-      run_inflation(given, source, {parachute_mesh(given), given.inflation, 500, false, 1, 6}, hasty);
+  const auto [result, state, history] = run_inflation(
+      resolve(given), source, {parachute_mesh(resolve(given)), given.inflation, 500, false, 1, 6}, hasty);
   EXPECT_EQ(result.title, given.title);
   double peak = 0, impulse = 0;
   for (const HistoryRow& row : history.rows) {
@@ -100,7 +100,7 @@ TEST(Results, OfASteadyRunAreThoseOfItsLastIterationAndState) {
   EXPECT_EQ(result.wall_time, wall);
   EXPECT_GT(wall, 0);
   EXPECT_EQ(result.size.projected_diameter,
-            canopy_size(parachute_mesh(given), state.shape).projected_diameter);
+            canopy_size(parachute_mesh(resolve(given)), state.shape).projected_diameter);
   ASSERT_TRUE(result.margins);
   EXPECT_GT(result.stress.von_mises, 0);
   // What all lines carry is the drag; the most loaded one has no less than the mean.
@@ -108,7 +108,7 @@ TEST(Results, OfASteadyRunAreThoseOfItsLastIterationAndState) {
 }
 
 TEST(Results, OfClothUnderAPressureAreThoseOfItsShapeAndItsFiles) {
-  const FabricSolution cloth = run_fabric(square_law_case(), 240);
+  const FabricSolution cloth = run_fabric(resolve(square_law_case()), 240);
   const auto most =
       std::max_element(cloth.stress.begin(), cloth.stress.end(),
                        [](const CellStress& a, const CellStress& b) { return a.von_mises < b.von_mises; });
@@ -133,7 +133,7 @@ TEST(Results, OfClothUnderAPressureAreThoseOfItsShapeAndItsFiles) {
 }
 
 TEST(Results, ThePressureProfileGoesFromTheVentToTheSkirt) {
-  const FabricSolution cloth = run_fabric(square_law_case(), 240);
+  const FabricSolution cloth = run_fabric(resolve(square_law_case()), 240);
   const std::vector<Cell> cells = cells_of(cloth.mesh);
   const std::vector<double> inside(cells.size(), 30), outside(cells.size(), -70), load(cells.size(), 240);
   const std::vector<PressureRing> rings = pressure_profile(cells, cloth.shape, {inside, outside}, load, 10);

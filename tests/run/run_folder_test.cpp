@@ -12,7 +12,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/core/hash.h"
-#include "ripstop/run/steady_folder.h"
+#include "ripstop/run/steady/steady_folder.h"
 
 namespace ripstop {
 namespace {
@@ -35,37 +35,37 @@ TEST(RunFolder, AStartThatGotNowhereGivesWayToTheCorrectedCase) {
   const TemporaryFolder root("run-folder");
   const fs::path folder = root.path / "run";
   Case given = stratos();
-  open_run_folder({folder}, given, "engine", 1);
+  open_run_folder({folder}, resolve(given), "engine", 1);
   given.flow.speed_m_s = 20;
-  EXPECT_FALSE(holds_run({folder}, given, "engine"));
-  open_run_folder({folder}, given, "engine", 1);
-  EXPECT_TRUE(holds_run({folder}, given, "engine"));
+  EXPECT_FALSE(holds_run({folder}, resolve(given), "engine"));
+  open_run_folder({folder}, resolve(given), "engine", 1);
+  EXPECT_TRUE(holds_run({folder}, resolve(given), "engine"));
   fs::create_directories(folder / "checkpoint");  // now it has
   given.flow.speed_m_s = 30;
-  EXPECT_THROW(holds_run({folder}, given, "engine"), Error);
-  EXPECT_FALSE(holds_run({folder, true}, given, "engine"));
+  EXPECT_THROW(holds_run({folder}, resolve(given), "engine"), Error);
+  EXPECT_FALSE(holds_run({folder, true}, resolve(given), "engine"));
 }
 
 TEST(RunFolder, AnOpeningTakesTheDragOfItsOwnParachuteOnly) {
   const TemporaryFolder root("run-folder");
   Case given = stratos();
   {
-    const auto folder = open_run_folder({root.path / "run"}, given, "engine", 1);
+    const auto folder = open_run_folder({root.path / "run"}, resolve(given), "engine", 1);
     SteadyResult result;
     const Air stream = air(given);
     result.speed = stream.speed, result.density = stream.density;
     result.drag = 396.8, result.converged = true;
     write_file(folder->own("result.json"), to_json(result));
-    EXPECT_THROW(drag_for_opening(root.path / "run", given), Error);  // has not ended
+    EXPECT_THROW(drag_for_opening(root.path / "run", resolve(given)), Error);  // has not ended
     folder->seal();
   }
   const fs::path run = root.path / "run";
-  EXPECT_EQ(drag_for_opening(run, given), 396.8);
+  EXPECT_EQ(drag_for_opening(run, resolve(given)), 396.8);
   given.parachute.mesh.cloth_nodes = 3000;
-  EXPECT_EQ(drag_for_opening(run, given), 396.8);
+  EXPECT_EQ(drag_for_opening(run, resolve(given)), 396.8);
   const auto refusal = [&](const Case& other) -> std::string {
     try {
-      drag_for_opening(run, other);
+      drag_for_opening(run, resolve(other));
     } catch (const Error& error) {
       return error.what();
     }
@@ -87,16 +87,16 @@ TEST(RunFolder, AnOpeningTakesTheDragOfItsOwnParachuteOnly) {
 TEST(RunFolder, ItsInputsAreProgramEngineAndCase) {
   const TemporaryFolder root("run-folder");
   const Case given = stratos();
-  open_run_folder({root.path / "run"}, given, "engine", 1);
+  open_run_folder({root.path / "run"}, resolve(given), "engine", 1);
   EXPECT_EQ(inputs_of_run(root.path / "run"),
-            hash_bytes(version() + std::string("\nengine\n") + case_json(given)));
+            hash_bytes(version() + std::string("\nengine\n") + case_json(resolve(given))));
 }
 
 TEST(RunFolder, ItsDescriptionSaysWhatMadeItAndOfWhat) {
   const TemporaryFolder root("run-folder");
   Case given = stratos();
   given.flow.ranks = 3;
-  open_run_folder({root.path / "run"}, given, "an engine 7", 2);
+  open_run_folder({root.path / "run"}, resolve(given), "an engine 7", 2);
   const auto run = nlohmann::ordered_json::parse(read_file(root.path / "run/run.json"));
   std::vector<std::string> keys;
   for (const auto& [key, value] : run.items()) keys.push_back(key);
@@ -120,21 +120,21 @@ TEST(RunFolder, ItsDescriptionSaysWhatMadeItAndOfWhat) {
   EXPECT_NEAR(std::difftime(timegm(&later), timegm(&begun)), 0, 60);
   EXPECT_EQ(run["case_file"], given.file.string());
   EXPECT_EQ(run["inputs_hash"], inputs_of_run(root.path / "run").value());
-  EXPECT_EQ(run["case"], nlohmann::ordered_json::parse(case_json(given)));
-  const std::vector<Source> sources = resolve(given).sources;
+  EXPECT_EQ(run["case"], nlohmann::ordered_json::parse(case_json(resolve(given))));
+  const std::vector<Source> sources = resolve(given).sources();
   ASSERT_EQ(run["sources"].size(), sources.size());
   for (std::size_t i = 0; i < sources.size(); ++i) {
     EXPECT_EQ(run["sources"][i]["key"], sources[i].key);
     EXPECT_EQ(run["sources"][i]["given"], sources[i].given) << sources[i].key;
     EXPECT_EQ(run["sources"][i]["from"], sources[i].from) << sources[i].key;
   }
-  EXPECT_EQ(read_file(root.path / "run/case.toml"), case_toml(given));
+  EXPECT_EQ(read_file(root.path / "run/case.toml"), case_toml(resolve(given)));
 }
 
 TEST(RunFolder, AResultOfOtherInputsIsNotBelieved) {
   const TemporaryFolder root("run-folder");
   const Case given = stratos();
-  const auto folder = open_run_folder({root.path / "run"}, given, "engine", 1);
+  const auto folder = open_run_folder({root.path / "run"}, resolve(given), "engine", 1);
   const std::string own = inputs_of_run(root.path / "run").value();
   SteadyResult result;
   result.inputs_hash = own;
@@ -151,10 +151,10 @@ TEST(RunFolder, ACheckRefusesWhatTheRunWouldAndTouchesNothing) {
   const TemporaryFolder root("run-folder");
   Case given = stratos();
   const SteadyFolderSettings settings{{root.path / "run"}, 1, {}, {}};
-  check_steady_in(settings, given);
+  check_steady_in(settings, resolve(given));
   EXPECT_FALSE(fs::exists(root.path / "run"));
   const ClaimedFolder held(root.path / "run");
-  EXPECT_THROW(check_steady_in(settings, given), Error);  // somebody works there
+  EXPECT_THROW(check_steady_in(settings, resolve(given)), Error);  // somebody works there
 }
 
 }  // namespace

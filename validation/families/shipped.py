@@ -4,7 +4,7 @@
     /usr/bin/python3 validation/families/shipped.py        (make validate-families runs it last)
 
 It is docs/tables/families.md, the table of that command, beside what the examples' case files say of the runs' conditions:
-table and data cannot differ. tests/run/size_test.cpp compares them.
+table and data cannot differ. tests/run/sizing/size_test.cpp compares them.
 """
 import json
 import pathlib

@@ -320,7 +320,7 @@ def side_by_side(jobs, work, what):
 
 def reach(jobs, key, slowest, which):
     """What every test comes by, by a run of it without a mutant; of those that are named by `which` or known already."""
-    sources = {room: {p.name: p.read_text() for p in sorted((ROOT / "tests" / room).glob("*.[ch]*"))} for room in test_rooms()}
+    sources = {room: {p.name: p.read_text() for p in sorted((ROOT / "tests" / room).rglob("*.[ch]*"))} for room in test_rooms()}
 
     def made_of(room, test):
         """The hash of the mutants and of what the test is made of: its file and the room's headers."""

@@ -6,29 +6,23 @@
 
 namespace ripstop {
 
-PartMaterials part_materials(const Case& given) {
-  PartMaterials materials{canopy_fabric(given), suspension_line(given), riser_line(given), std::nullopt};
-  if (const Tape* tape = reinforcement_tape(given)) materials.tape = *tape;
-  if (resolve(given).flow.porosity_model != PorosityModel::sheet) return materials;
-  if (!materials.canopy.buckling_strain) materials.canopy.buckling_strain = wrinkling_strain;
-  if (materials.tape && !materials.tape->buckling_strain) materials.tape->buckling_strain = wrinkling_strain;
-  return materials;
+CanopyMesh parachute_mesh(const Settings& resolved) {
+  return parachute_mesh(resolved.parachute(), resolved);
 }
 
-CanopyMesh parachute_mesh(const Case& given) {
-  const Cost cost = cost_of(given);
-  require_memory(cost.cloth_memory, fmt::format("a mesh of {:.3g} nodes", cost.nodes));
-  CanopyMesh mesh = build_mesh(given.parachute, part_materials(given));
-  const double z = canopy_position(given);
+CanopyMesh parachute_mesh(const Design& design, const Settings& resolved) {
+  require_cloth_memory(design);
+  CanopyMesh mesh = build_mesh(design, resolved.materials());
+  const double z = resolved.flow().canopy_position_m;
   for (Vec3& p : mesh.start) p.z += z;
   return mesh;
 }
 
-FlowProblem flow_problem(const Case& given) {
-  const FlowSettings flow = resolve(given).flow;
+FlowProblem flow_problem(const Settings& resolved) {
+  const FlowSettings& flow = resolved.flow();
   FlowProblem problem;
   problem.grid = flow_grid(flow);
-  problem.air.speed = air(given).speed;
+  problem.air.velocity = {0, 0, flow.speed_m_s};
   problem.air.density = flow.density_kg_m3;
   problem.air.viscosity = flow.viscosity_pa_s;
   problem.air.temperature = flow.temperature_k;
@@ -40,7 +34,7 @@ FlowProblem flow_problem(const Case& given) {
   problem.stopping.residual = flow.residual;
   problem.stopping.max_iterations = flow.max_iterations;
   problem.stopping.average_over = flow.average_over;
-  const ClothResistance& cloth = canopy_fabric(given).resistance;
+  const ClothResistance& cloth = resolved.materials().canopy.resistance;
   if (flow.porosity_model == PorosityModel::sheet) {
     const PressureDrop drop = as_sheet(cloth);
     problem.sheets = {{{}, drop.linear, drop.quadratic}};
@@ -51,13 +45,13 @@ FlowProblem flow_problem(const Case& given) {
   return problem;
 }
 
-SteadyProblem steady_problem(const Case& given) {
-  SteadyProblem problem{parachute_mesh(given), flow_problem(given), nominal_area(given.parachute),
-                        resolve(given).coupling, std::nullopt};
-  if (given.flow.unsteady) {
-    const WatchKeys& keys = given.flow.watch;
+SteadyProblem steady_problem(const Settings& resolved) {
+  SteadyProblem problem{parachute_mesh(resolved), flow_problem(resolved), nominal_area(resolved.parachute()),
+                        resolved.coupling(), std::nullopt};
+  if (const FlowSettings& flow = resolved.flow(); flow.unsteady) {
+    const WatchKeys& keys = flow.watch;
     problem.watch = {keys.courant, keys.standard_error, keys.shortest, keys.longest,
-                     inflated_diameter(given.parachute)};
+                     inflated_diameter(resolved.parachute())};
   }
   return problem;
 }

@@ -1,18 +1,19 @@
 // From a case to what the solvers take: the mesh in the flow's frame, the flow problem, the coupled problem.
 #pragma once
 
-#include "ripstop/case/resolve.h"
-#include "ripstop/coupling/steady.h"
+#include "ripstop/case/settings.h"
 #include "ripstop/flow/flow.h"
+#include "ripstop/fsi/steady.h"
 #include "ripstop/parachute/build.h"
 
 namespace ripstop {
 
-PartMaterials part_materials(const Case& given);
-/// The canopy's start shape with its skirt at canopy_position(given), axis on x = y = 0, inlet at z = 0.
-CanopyMesh parachute_mesh(const Case& given);
+/// The canopy's start shape with its skirt at flow.canopy_position_m, axis on x = y = 0, inlet at z = 0. With a `design`
+/// in place of the settings' own: of that, of the same materials.
+CanopyMesh parachute_mesh(const Settings& resolved);
+CanopyMesh parachute_mesh(const Design& design, const Settings& resolved);
 /// Box, air and the canopy cloth's resistance; its cut cells are left to the coupling.
-FlowProblem flow_problem(const Case& given);
-SteadyProblem steady_problem(const Case& given);
+FlowProblem flow_problem(const Settings& resolved);
+SteadyProblem steady_problem(const Settings& resolved);
 
 }  // namespace ripstop

@@ -12,11 +12,11 @@
 #include "ripstop/core/toml/problem.h"
 #include "ripstop/core/toml/set.h"
 #include "ripstop/core/vec3.h"
-#include "ripstop/coupling/settings.h"
 #include "ripstop/flow/engines.h"
 #include "ripstop/flow/flow.h"
 #include "ripstop/flow/jet.h"
-#include "ripstop/inflation/settings.h"
+#include "ripstop/fsi/coupling_settings.h"
+#include "ripstop/fsi/inflation_settings.h"
 #include "ripstop/material/library.h"
 #include "ripstop/material/material.h"
 #include "ripstop/parachute/design.h"
@@ -35,6 +35,8 @@ struct WatchKeys {
   double standard_error = 0.01;  // of the mean drag, relative
   double shortest = 25, longest = 300;
   SmallEddies eddies = SmallEddies::des;
+
+  bool operator==(const WatchKeys&) const = default;
 };
 
 /// The keys of [flow] whose defaults follow from nothing.
@@ -49,6 +51,8 @@ struct FlowOptions {
   double time_limit_s = 0;  // of one flow solution; 0: none
   bool unsteady = false;    // watched in time once the steady loop has ended
   WatchKeys watch;
+
+  bool operator==(const FlowOptions&) const = default;
 };
 
 /// [flow.core] as given: the part of the flow's box with uniform cells, outside of which they grow.
@@ -75,7 +79,7 @@ struct TunnelKeys {
   std::optional<double> displacement_thickness_m;  // of each wall's boundary layer
 };
 
-/// [flow] as given. What is absent follows from parachute, cloth and the other keys: resolve.h.
+/// [flow] as given. What is absent follows from parachute, cloth and the other keys: settings.h.
 struct FlowKeys : FlowOptions {
   std::optional<double> speed_m_s;  // absent: [payload] says what it has to hold
   std::optional<double> height_m;   // above sea level, for density, temperature and viscosity
@@ -116,7 +120,7 @@ struct Measured {
   std::optional<double> printed_linear_n;
 };
 
-/// What the user gave: a value that is absent was not given and follows from the others (resolve.h).
+/// What the user gave: a value that is absent was not given and follows from the others (settings.h).
 struct Case {
   std::string title;
   Design parachute;
@@ -173,10 +177,6 @@ Case parse_case(const std::string& text, const std::string& name, const Override
 /// Changes a case under the same rules. Throws InputError(usage) and leaves `given` unchanged.
 void apply(const Overrides& overrides, Case& given);
 
-/// The case with every value written out, materials included, so that it runs without the library. Reading it
-/// gives the same settings.
-std::string case_toml(const Case& given);
-std::string case_json(const Case& given);
 /// JSON Schema (draft 2020-12) of a case file, and the reference of its keys in Markdown.
 std::string case_schema();
 std::string case_reference();

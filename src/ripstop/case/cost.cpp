@@ -7,7 +7,6 @@
 #include <fstream>
 #include <optional>
 
-#include "ripstop/case/resolve.h"
 #include "ripstop/core/error.h"
 #include "ripstop/flow/openfoam/openfoam.h"
 
@@ -42,15 +41,20 @@ std::optional<double> number_of(const char* file) {
   return {};
 }
 
+/// Of cloth, lines and riser.
+double node_estimate(const Design& design) {
+  const double line = design.lines.length_m + nominal_diameter(design);
+  return design.mesh.cloth_nodes +
+         (design.lines.count * line + design.riser.length_m) / design.mesh.line_segment_m;
+}
+
 }  // namespace
 
-Cost cost_of(const Case& given) {
+Cost cost_of(const Settings& resolved) {
   Cost cost;
-  const Design& design = given.parachute;
-  const double line = design.lines.length_m + nominal_diameter(design);
-  cost.nodes = design.mesh.cloth_nodes +
-               (design.lines.count * line + design.riser.length_m) / design.mesh.line_segment_m;
-  const FlowSettings flow = resolve(given).flow;
+  const Design& design = resolved.parachute();
+  const FlowSettings& flow = resolved.flow();
+  cost.nodes = node_estimate(design);
   cost.cells = double(flow.cells[0]) * flow.cells[1] * flow.cells[2];
   if (flow.cloth_levels > 0)
     cost.cells = fitted_cells(flow_grid(flow), nominal_area(design), flow.cloth_levels);
@@ -79,6 +83,11 @@ void require_memory(double bytes, const std::string& what) {
               fmt::format("{} takes about {:.1f} GB of memory, and {:.1f} GB are free: take fewer cells "
                           "(flow.cells) or nodes (parachute.mesh)",
                           what, 1e-9 * bytes, 1e-9 * free));
+}
+
+void require_cloth_memory(const Design& design) {
+  const double nodes = node_estimate(design);
+  require_memory(bytes_a_node * nodes, fmt::format("a mesh of {:.3g} nodes", nodes));
 }
 
 }  // namespace ripstop

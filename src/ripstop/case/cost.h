@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "ripstop/case/case.h"
+#include "ripstop/case/settings.h"
 
 namespace ripstop {
 
@@ -14,12 +14,14 @@ struct Cost {
   double memory = 0;        // of a steady run with the built-in engine [bytes]
   double time = 0;          // of the same to rest on one core [s]; half to twice as much is usual
 };
-Cost cost_of(const Case& given);
+Cost cost_of(const Settings& resolved);
 
 /// What this process may still take: of the machine's free memory, of its control group and of its own limit
 /// (ulimit -v), the least [bytes].
 double free_memory();
 /// Throws Error(resources) when `what` needs more than that: "a steady run on 2e+08 cells".
 void require_memory(double bytes, const std::string& what);
+/// The same for all that computes the canopy of a design alone.
+void require_cloth_memory(const Design& design);
 
 }  // namespace ripstop

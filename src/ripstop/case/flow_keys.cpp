@@ -5,6 +5,7 @@
 #include "ripstop/case/resolve.h"
 #include "ripstop/core/toml/fields.h"
 #include "ripstop/flight/atmosphere.h"
+#include "ripstop/flow/boundaries.h"
 
 namespace ripstop {
 namespace {
@@ -14,11 +15,27 @@ using Words = std::vector<std::pair<std::string, Value>>;
 Words<Convection> convection_words() {
   return {{"upwind", Convection::upwind}, {"second-order", Convection::second_order}};
 }
+/// The kinds of boundary for one part of the box, which `maker` makes.
+template <class Kind, class Maker>
+Words<Kind> boundary_words(Maker BoundaryRecord::*maker) {
+  Words<Kind> words;
+  for (const auto& row : boundaries())
+    if ((*row).*maker) words.emplace_back(row->word, Kind{row->word});
+  return words;
+}
 Words<Sides> sides_words() {
-  return {{"zero-gradient", Sides::zero_gradient}, {"slip", Sides::slip}, {"entraining", Sides::entraining}};
+  return boundary_words<Sides>(&BoundaryRecord::sides);
 }
 Words<Outlet> outlet_words() {
-  return {{"fixed-pressure", Outlet::fixed_pressure}, {"still-air", Outlet::still_air}};
+  return boundary_words<Outlet>(&BoundaryRecord::outlet);
+}
+/// As "slip": walls without friction; ...
+template <class Maker>
+std::string boundary_meanings(Maker BoundaryRecord::*maker) {
+  std::string text;
+  for (const auto& row : boundaries())
+    if ((*row).*maker) text += fmt::format("{}\"{}\": {}", text.empty() ? "" : "; ", row->word, row->meaning);
+  return text + ".";
 }
 Words<CanopyLoad> load_words() {
   return {
@@ -82,17 +99,12 @@ void describe_numerics(Fields& fields, FlowKeys& flow) {
               "Of the velocity. \"upwind\": first order, as [NFM]; \"second-order\": limited linear.")
       .absent(by_model(convection_words(), sheet_defaults.convection, paper_defaults.convection));
   fields
-      .choice(
-          "sides", flow.sides, sides_words(),
-          "The four sides of the box. \"zero-gradient\": open, as [NFM]; \"slip\": walls without friction; "
-          "\"entraining\": air of the stream may come in with its total pressure (built-in engine only).")
+      .choice("sides", flow.sides, sides_words(),
+              "The four sides of the box. " + boundary_meanings(&BoundaryRecord::sides))
       .absent(by_model(sides_words(), sheet_defaults.sides, paper_defaults.sides));
   fields
-      .choice(
-          "outlet", flow.outlet, outlet_words(),
-          "The end of the box. \"fixed-pressure\": it is held, and air that comes back has no momentum, as "
-          "[NFM]; \"still-air\": air that comes back has the total pressure of air at rest (built-in engine "
-          "only).")
+      .choice("outlet", flow.outlet, outlet_words(),
+              "The end of the box. " + boundary_meanings(&BoundaryRecord::outlet))
       .absent(by_model(outlet_words(), sheet_defaults.outlet, paper_defaults.outlet));
   fields
       .number("residual", flow.residual, above(0).up_to(0.1),

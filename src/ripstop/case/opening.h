@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "ripstop/case/case.h"
-#include "ripstop/inflation/inflation.h"
+#include "ripstop/case/settings.h"
+#include "ripstop/fsi/inflation.h"
 
 namespace ripstop {
 
@@ -21,11 +21,11 @@ Case opening_case(const Case& given);
 
 /// What [inflation] asks for. Throws Error(usage) unless that is a pressure or a drag
 /// coefficient, and not both.
-LoadSource load_source(const Case& given);
+LoadSource load_source(const Settings& opening);
 
-/// Of what opening_case() returns; dp from the equilibrium of a coarse mesh when a steady drag is asked for.
+/// Of the settings of what opening_case() returns; dp from the equilibrium of a coarse mesh when a steady drag is asked for.
 /// `alive` is called now and then on the way; what it throws goes on to the caller.
-InflationProblem opening_problem(const Case& opening, const LoadSource& source, int threads,
+InflationProblem opening_problem(const Settings& opening, const LoadSource& source, int threads,
                                  const std::function<void()>& alive = {});
 
 }  // namespace ripstop

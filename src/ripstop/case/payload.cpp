@@ -2,34 +2,33 @@
 
 #include <algorithm>
 
-#include "ripstop/case/assemble.h"
 #include "ripstop/core/error.h"
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/flight/descent.h"
 
 namespace ripstop {
 
-double parachute_mass(const Case& given) {
-  const CanopyMesh mesh = build_mesh(given.parachute, part_materials(given));
+double parachute_mass(const Settings& resolved) {
+  const CanopyMesh mesh = build_mesh(resolved.parachute(), resolved.materials());
   double sum = 0;
   for (const double mass : mesh.mass) sum += mass;
   return sum;
 }
 
-double suspended_weight(const Case& given, double payload) {
-  return (payload + parachute_mass(given)) * standard_gravity;
+double suspended_weight(const Settings& resolved, double payload) {
+  return (payload + parachute_mass(resolved)) * standard_gravity;
 }
 
 double payload_first_speed(const Case& given, double density) {
   if (!given.payload.mass_kg)
     throw Error(ExitCode::usage, "the case has neither flow.speed_m_s nor payload.mass_kg");
-  const double canopy = usual_drag_coefficient(given) * nominal_area(given.parachute);
+  const double canopy = usual_drag_coefficient(given.parachute) * nominal_area(given.parachute);
   return terminal_speed(*given.payload.mass_kg, canopy + given.payload.drag_area_m2, density);
 }
 
-double usual_drag_coefficient(const Case& given) {
+double usual_drag_coefficient(const Design& parachute) {
   constexpr double unknown = 0.75;  // of families that the tables do not have (assumed)
-  const KnownRange known = experience(given.parachute).drag_coefficient;
+  const KnownRange known = experience(parachute).drag_coefficient;
   return known.high > 0 ? 0.5 * (known.low + known.high) : unknown;
 }
 

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "ripstop/case/tape.h"
+#include "ripstop/core/words.h"
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/flow/engines.h"
 
@@ -26,19 +27,19 @@ std::string given_where(const Origins& origins, const std::string& key) {
 /// Takes what is given, else what follows, writes it into the case and notes where it came from.
 class Follow {
  public:
-  explicit Follow(Resolved& resolved) : resolved_(resolved) {}
+  explicit Follow(SettingsValues& values) : values_(values) {}
 
   template <class T>
   T operator()(const std::string& key, std::optional<T>& written, const T& otherwise, std::string from) {
     const bool given = written.has_value();
     if (!given) written = otherwise;
-    resolved_.sources.push_back(
-        {key, given, given ? given_where(resolved_.written.origins, key) : std::move(from)});
+    values_.sources.push_back({key, in_words(key).unit, given,
+                               given ? given_where(values_.written.origins, key) : std::move(from)});
     return *written;
   }
 
  private:
-  Resolved& resolved_;
+  SettingsValues& values_;
 };
 
 // A day in a tunnel: what the air is where neither its own keys nor a height say.
@@ -58,7 +59,9 @@ void resolve_tape(Follow& follow, const Case& given, Case& written) {
 
 void resolve_air(Follow& follow, const Case& given, FlowKeys& keys, FlowSettings& flow) {
   const Air stream = air(given);
-  flow.speed_m_s =
+  flow.speed_m_s = stream.speed;
+  flow.height_m = given.flow.height_m;
+  flow.nominal_speed_m_s =
       follow("flow.speed_m_s", keys.speed_m_s, stream.speed,
              "payload.mass_kg and the family's usual drag: a first guess, the run finds the speed");
   if (!given.flow.height_m) {
@@ -194,19 +197,19 @@ void resolve_box(Follow& follow, const Design& parachute, FlowKeys& keys, FlowSe
 Abilities abilities_of(const std::string& engine) {
   for (const EngineRecord& one : engines())
     if (one.word == engine) return one.can;
-  return {.entraining_sides = true, .still_air_outlet = true, .averages = true};
+  return engines().front().can;
 }
 
-void resolve_numerics(Follow& follow, Case& written, Resolved& resolved) {
-  FlowSettings& flow = resolved.flow;
+void resolve_numerics(Follow& follow, Case& written, SettingsValues& values) {
+  FlowSettings& flow = values.flow;
   FlowKeys& keys = written.flow;
   const bool sheet = flow.porosity_model == PorosityModel::sheet;
   const ModelDefaults& standard = sheet ? sheet_defaults : paper_defaults;
   const std::string model = sheet ? "the sheet's default" : "the paper model's default";
   const Abilities can = abilities_of(flow.engine);
   const std::string lacking = fmt::format("the flow engine \"{}\" has not the sheet's default", flow.engine);
-  const bool sides_lack = standard.sides == Sides::entraining && !can.entraining_sides,
-             outlet_lacks = standard.outlet == Outlet::still_air && !can.still_air_outlet,
+  const bool sides_lack = !can.has_boundary(standard.sides.word),
+             outlet_lacks = !can.has_boundary(standard.outlet.word),
              averages_lack = standard.average_over > 0 && !can.averages;
   flow.convection = follow("flow.convection", keys.convection, standard.convection, model);
   const TunnelKind tunnel = flow.tunnel.kind;
@@ -227,7 +230,7 @@ void resolve_numerics(Follow& follow, Case& written, Resolved& resolved) {
   flow.average_over = follow("flow.average_over", keys.average_over,
                              averages_lack ? 0 : std::min(standard.average_over, flow.max_iterations),
                              averages_lack ? lacking : model);
-  CouplingSettings& coupling = resolved.coupling;
+  CouplingSettings& coupling = values.coupling;
   static_cast<CouplingOptions&>(coupling) = written.coupling;
   coupling.load = follow("coupling.load", written.coupling.load, standard.load, model);
   coupling.drag_tolerance =
@@ -248,13 +251,13 @@ double inflated_diameter(const Design& parachute) {
                   start_diameter(parachute) / sheet_core.x);
 }
 
-Resolved resolve(const Case& given) {
-  Resolved resolved;
-  resolved.written = given;
-  Case& written = resolved.written;
-  FlowSettings& flow = resolved.flow;
+SettingsValues settings_values(const Case& given) {
+  SettingsValues values;
+  values.written = given;
+  Case& written = values.written;
+  FlowSettings& flow = values.flow;
   static_cast<FlowOptions&>(flow) = given.flow;
-  Follow follow(resolved);
+  Follow follow(values);
   const Design& parachute = given.parachute;
   follow("parachute.nominal_area_m2", written.parachute.nominal_area_m2, nominal_area(parachute),
          "the type's own definition");
@@ -267,14 +270,10 @@ Resolved resolve(const Case& given) {
                                fmt::format("what darcy and forchheimer of materials.{} are for", cloth.name));
   resolve_tunnel(follow, written.flow, flow.tunnel);
   resolve_box(follow, parachute, written.flow, flow);
-  resolve_numerics(follow, written, resolved);
+  resolve_numerics(follow, written, values);
   follow("inflation.line_segment_m", written.inflation.line_segment_m, parachute.mesh.line_segment_m,
          "parachute.mesh.line_segment_m");
-  return resolved;
-}
-
-double canopy_position(const Case& given) {
-  return resolve(given).flow.canopy_position_m;
+  return values;
 }
 
 FlowGrid flow_grid(const FlowSettings& flow) {
@@ -295,10 +294,6 @@ FlowGrid flow_grid(const FlowSettings& flow) {
   if (off == 0) return on_axis;
   const Vec3 cell = on_axis.spacing();
   return core_from(off * cell.x, 0.5 * off * cell.y);
-}
-
-FlowGrid flow_grid(const Case& given) {
-  return flow_grid(resolve(given).flow);
 }
 
 }  // namespace ripstop

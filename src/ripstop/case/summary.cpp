@@ -15,15 +15,16 @@ double length_of(const Mesh& mesh, const std::vector<int>& springs) {
   return sum;
 }
 
-void weigh(const Case& given, const CanopyMesh& mesh, CaseSummary& summary) {
+void weigh(const Settings& resolved, const CanopyMesh& mesh, CaseSummary& summary) {
   const Rigging& rigging = mesh.rigging;
   for (double mass : mesh.mass) summary.mass.total += mass;
-  summary.mass.cloth = summary.cloth_area * canopy_fabric(given).areal_density_kg_m2;
+  summary.mass.cloth = summary.cloth_area * resolved.materials().canopy.areal_density_kg_m2;
   double lines = length_of(mesh, rigging.vent_line_springs);
   for (const LineRun& line : rigging.lines) lines += length_of(mesh, line.springs);
-  summary.mass.lines = lines * suspension_line(given).linear_density_kg_m;
-  summary.mass.riser = length_of(mesh, rigging.riser_springs) * riser_line(given).linear_density_kg_m;
-  if (const Tape* tape = reinforcement_tape(given))
+  summary.mass.lines = lines * resolved.materials().line.linear_density_kg_m;
+  summary.mass.riser =
+      length_of(mesh, rigging.riser_springs) * resolved.materials().riser.linear_density_kg_m;
+  if (const std::optional<Tape>& tape = resolved.materials().tape)
     summary.mass.tape = length_of(mesh, rigging.tape_springs) * tape->linear_density_kg_m;
 }
 
@@ -44,41 +45,41 @@ void count_springs(const Mesh& mesh, CaseSummary& summary) {
 
 }  // namespace
 
-CaseSummary summarize(const Case& given) {
+CaseSummary summarize(const Settings& resolved) {
   CaseSummary summary;
-  const Cost cost = cost_of(given);
+  const Cost cost = cost_of(resolved);
   summary.memory = cost.memory, summary.core_time = cost.time;
-  const CanopyMesh mesh = parachute_mesh(given);
+  const CanopyMesh mesh = parachute_mesh(resolved);
   for (const Patch& patch : mesh.patches) {
     summary.cloth_nodes += patch.rows * patch.columns;
     for (double area : patch.cell_area) summary.cloth_area += area;
   }
-  summary.computed_area = computed_area(given.parachute);
-  summary.nominal_area = nominal_area(given.parachute);
-  const CanopyFacts canopy = facts(given.parachute);
+  summary.computed_area = computed_area(resolved.parachute());
+  summary.nominal_area = nominal_area(resolved.parachute());
+  const CanopyFacts canopy = facts(resolved.parachute());
   summary.vent_area = canopy.vent_area;
   summary.slot_area = canopy.slot_area;
   summary.geometric_porosity = canopy.geometric_porosity();
-  weigh(given, mesh, summary);
+  weigh(resolved, mesh, summary);
 
   summary.nodes = mesh.node_count();
-  summary.resolved_cloth_nodes = experience(given.parachute).cloth_nodes;
+  summary.resolved_cloth_nodes = experience(resolved.parachute()).cloth_nodes;
   count_springs(mesh, summary);
   ClothOptions options;
-  options.linear = given.coupling.linear;
+  options.linear = resolved.coupling().linear;
   const ClothPtr cloth = make_cloth(mesh, options);
-  summary.step = step_bound(*cloth, start_state(*cloth));
+  summary.step = stability_limit(*cloth, start_state(*cloth));
 
-  const FlowGrid grid = flow_problem(given).grid;
+  const FlowGrid grid = flow_problem(resolved).grid;
   summary.flow_cells = static_cast<long long>(grid.nx) * grid.ny * grid.nz;
   summary.flow_spacing = grid.spacing();
-  const double diameter = start_diameter(given.parachute);
-  const TunnelSettings tunnel = resolve(given).flow.tunnel;
+  const double diameter = start_diameter(resolved.parachute());
+  const TunnelSettings& tunnel = resolved.flow().tunnel;
   const bool jet = tunnel.kind == TunnelKind::open_jet;
   summary.blockage = std::numbers::pi / 4 * diameter * diameter /
                      (jet ? nozzle_area(tunnel.nozzle) : grid.size.x * grid.size.y);
   summary.of_jet = jet;
-  summary.air = air(given);
+  summary.air = {resolved.flow().speed_m_s, resolved.flow().density_kg_m3};
   return summary;
 }
 

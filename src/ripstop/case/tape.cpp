@@ -74,7 +74,7 @@ TapeMaterial tape_material(const Case& given) {
   const bool sinks = given.payload.mass_kg && given.inflation.mass != InflationSettings::Mass::payload;
   const double speed = sinks ? usual_deployment_speed(stream.speed) : stream.speed;
   const double known = experience(given.parachute).opening_coefficient;
-  const double load = (known > 0 ? known : unknown_opening) * usual_drag_coefficient(given) *
+  const double load = (known > 0 ? known : unknown_opening) * usual_drag_coefficient(given.parachute) *
                       nominal_area(given.parachute) * 0.5 * stream.density * speed * speed;
   TapeMaterial tape = tape_for(given, load / given.parachute.lines.count);
   tape.from += fmt::format(" when it opens at {:.3g} m/s", speed);

@@ -271,8 +271,7 @@ void check_engine(const Case& given, const FlowSettings& flow, Findings& finding
                         "there is no such flow engine");
   Abilities wanted;
   wanted.sheets = flow.porosity_model == PorosityModel::sheet;
-  wanted.entraining_sides = flow.sides == Sides::entraining;
-  wanted.still_air_outlet = flow.outlet == Outlet::still_air;
+  wanted.boundaries = {std::string(flow.sides.word), std::string(flow.outlet.word)};
   wanted.jets = flow.tunnel.kind == TunnelKind::open_jet;
   wanted.averages = flow.average_over > 0;
   wanted.ranks = flow.ranks > 1;
@@ -296,8 +295,8 @@ void check_engine(const Case& given, const FlowSettings& flow, Findings& finding
                  "cells are halved at the cloth in a fitted mesh (flow.mesh)");
 }
 
-void check_load(const Resolved& resolved, Findings& findings) {
-  if (resolved.coupling.load != CanopyLoad::of_flow || resolved.flow.porosity_model == PorosityModel::sheet)
+void check_load(const SettingsValues& values, Findings& findings) {
+  if (values.coupling.load != CanopyLoad::of_flow || values.flow.porosity_model == PorosityModel::sheet)
     return;
   if (findings.sound({"coupling.load", "flow.porosity_model"}))
     findings.add("coupling.load", quoted("of-flow"), quoted("uniform"),
@@ -400,8 +399,8 @@ void check_settings(Case given, Findings& findings) {
   if (!findings.sound({"flow.tunnel"})) return;
   if (!given.flow.speed_m_s) given.flow.speed_m_s = 1;  // told by check_flight()
   if (!findings.sound({"flow.height_m"})) given.flow.height_m.reset();
-  const Resolved resolved = resolve(given);
-  const FlowSettings& flow = resolved.flow;
+  const SettingsValues values = settings_values(given);
+  const FlowSettings& flow = values.flow;
   if (findings.sound({"flow.box_m", "flow.canopy_position_m", "flow.sides"}))
     check_tunnel(given, flow, findings);
   if (findings.sound({"flow.box_m", "flow.canopy_position_m"})) {
@@ -412,7 +411,7 @@ void check_settings(Case given, Findings& findings) {
   check_opening_air(given, flow, findings);
   check_watch(given, flow, findings);
   check_engine(given, flow, findings);
-  check_load(resolved, findings);
+  check_load(values, findings);
 }
 
 /// Adds what is found to `problems`, and to the case what its parachute names of the library's materials.

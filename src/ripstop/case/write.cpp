@@ -1,7 +1,7 @@
 // A case as text: resolved case, schema, reference.
 #include "ripstop/core/toml/write.h"
 
-#include "ripstop/case/resolve.h"
+#include "ripstop/case/settings.h"
 #include "ripstop/core/build_info.h"
 
 namespace ripstop {
@@ -15,14 +15,14 @@ Fields fields_of(Case& bound) {
 
 }  // namespace
 
-std::string case_toml(const Case& given) {
-  Case written = resolve(given).written;
+std::string case_toml(const Settings& resolved) {
+  Case written = resolved.written();
   return "# A case with every default written out, by Ripstop " + version() + ".\n" +
          to_toml(fields_of(written));
 }
 
-std::string case_json(const Case& given) {
-  Case written = resolve(given).written;
+std::string case_json(const Settings& resolved) {
+  Case written = resolved.written();
   return to_json(fields_of(written));
 }
 

@@ -2,13 +2,22 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "ripstop/core/error.h"
+#include "ripstop/flow/boundaries.h"
 #include "ripstop/flow/cartesian/cartesian.h"
 #include "ripstop/flow/openfoam/installation.h"
 #include "ripstop/flow/openfoam/openfoam.h"
 
 namespace ripstop {
 namespace {
+
+std::vector<std::string> words_of(const std::vector<std::unique_ptr<BoundaryRecord>>& rows) {
+  std::vector<std::string> words;
+  for (const auto& row : rows) words.push_back(row->word);
+  return words;
+}
 
 EngineRecord builtin() {
   const auto make = [](const EngineOptions& options) {
@@ -21,14 +30,13 @@ EngineRecord builtin() {
   return {"builtin",
           "the built-in one",
           {.sheets = true,
-           .entraining_sides = true,
-           .still_air_outlet = true,
            .jets = true,
            .averages = true,
            .ranks = false,
            .fitted_meshes = false,
            .other_air = true,
-           .time = true},
+           .time = true,
+           .boundaries = words_of(boundaries())},
           [](const EngineOptions&) { return make_cartesian()->name(); },
           make};
 }
@@ -64,6 +72,10 @@ std::vector<EngineRecord>& table() {
 
 }  // namespace
 
+bool Abilities::has_boundary(std::string_view word) const {
+  return std::find(boundaries.begin(), boundaries.end(), word) != boundaries.end();
+}
+
 const std::vector<EngineRecord>& engines() {
   return table();
 }
@@ -86,8 +98,6 @@ std::vector<Lack> lacks(const EngineRecord& engine, const Abilities& wanted) {
     bool Abilities::*ability;
     Lack lack;
   } all[] = {{&Abilities::sheets, {"flow.porosity_model", "sheet", "paper"}},
-             {&Abilities::entraining_sides, {"flow.sides", "entraining", "zero-gradient or slip"}},
-             {&Abilities::still_air_outlet, {"flow.outlet", "still-air", "fixed-pressure"}},
              {&Abilities::jets, {"flow.tunnel.kind", "open-jet", "free-air or closed"}},
              {&Abilities::averages, {"flow.average_over", "more than 0", "0"}},
              {&Abilities::time, {"flow.unsteady", "true", "false"}},
@@ -96,6 +106,14 @@ std::vector<Lack> lacks(const EngineRecord& engine, const Abilities& wanted) {
   std::vector<Lack> result;
   for (const auto& one : all)
     if (wanted.*one.ability && !(engine.can.*one.ability)) result.push_back(one.lack);
+  for (const auto& row : boundaries()) {
+    if (!wanted.has_boundary(row->word) || engine.can.has_boundary(row->word)) continue;
+    std::string instead;
+    for (const auto& other : boundaries())
+      if (bool(other->sides) == bool(row->sides) && engine.can.has_boundary(other->word))
+        instead += (instead.empty() ? "" : " or ") + other->word;
+    result.push_back({row->sides ? "flow.sides" : "flow.outlet", row->word, instead});
+  }
   return result;
 }
 

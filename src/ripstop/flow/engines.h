@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "ripstop/flow/flow.h"
@@ -27,15 +28,16 @@ struct EngineOptions {
 
 /// What a case may ask of an engine beyond the common ground.
 struct Abilities {
-  bool sheets = false;            // the `sheet` model
-  bool entraining_sides = false;  // Sides::entraining
-  bool still_air_outlet = false;  // Outlet::still_air
-  bool jets = false;              // FlowProblem::jet
-  bool averages = false;          // a field after every iteration, for Stopping::average_over
-  bool ranks = false;             // several processes
-  bool fitted_meshes = false;     // EngineOptions::fitted_mesh
-  bool other_air = false;         // a saved flow may start one of another speed or density
-  bool time = false;              // Flow::march()
+  bool sheets = false;         // the `sheet` model
+  bool jets = false;           // FlowProblem::jet
+  bool averages = false;       // a field after every iteration, for Stopping::average_over
+  bool ranks = false;          // several processes
+  bool fitted_meshes = false;  // EngineOptions::fitted_mesh
+  bool other_air = false;      // a saved flow may start one of another speed or density
+  bool time = false;           // Flow::march()
+  std::vector<std::string> boundaries = {"zero-gradient", "slip", "fixed-pressure"};  // words of boundaries.h
+
+  bool has_boundary(std::string_view word) const;
 };
 
 /// What an engine takes of a machine, measured once: for the estimates of a batch job.

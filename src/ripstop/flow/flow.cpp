@@ -1,5 +1,7 @@
 #include "ripstop/flow/flow.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -64,6 +66,18 @@ Interval touched(double low, double high, const std::vector<double>& edges) {
 
 }  // namespace
 
+void check_stream(const Freestream& air) {
+  constexpr double most_mach = 0.3, ratio_of_heats = 1.4;
+  const double sound = std::sqrt(ratio_of_heats * gas_constant_of_air * air.temperature), speed = air.speed();
+  if (speed > 0 && !(speed > most_mach * sound)) return;
+  throw Error(
+      ExitCode::usage,
+      fmt::format(
+          "free stream: the speed = {:g} m/s must be above 0 and at most {:.4g} m/s, Mach {} at {:g} K; "
+          "give another velocity, or the temperature that belongs to it",
+          speed, most_mach * sound, most_mach, air.temperature));
+}
+
 double largest_residual(const FlowProgress& p) {
   return std::max({p.residual_u, p.residual_p, p.residual_k, p.residual_omega, p.residual_e});
 }
@@ -87,7 +101,7 @@ double Flow::longest_step(double) {
 FlowStep Flow::step(double) {
   throw no_time();
 }
-void Flow::stream(double, double) {
+void Flow::stream(Vec3, Vec3) {
   throw no_time();
 }
 

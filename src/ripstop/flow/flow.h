@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "ripstop/core/vec3.h"
@@ -15,17 +16,23 @@
 
 namespace ripstop {
 
-/// Air that comes in through z = 0 with speed U, [NFM] section 5.
+/// The undisturbed air far from all bodies, [NFM] section 5. A jet, and boundaries other than the far field, need a
+/// velocity along +z.
 struct Freestream {
-  double speed = 0;                     // [m/s]
+  Vec3 velocity;                        // [m/s]
   double density = 1.2;                 // [kg/m3]
   double viscosity = 1.84e-5;           // mu [Pa s]
   double temperature = 293.15;          // [K]; the static pressure follows from the density
   double turbulence_intensity = 0.005;  // [-]
   double viscosity_ratio = 10;          // nu_t / nu at the inlet [-]
 
+  double speed() const { return norm(velocity); }  // U [m/s]
+  bool along_z() const { return velocity.x == 0 && velocity.y == 0 && velocity.z > 0; }
   bool operator==(const Freestream&) const = default;
 };
+
+/// Throws Error(usage) for a speed of zero or above Mach 0.3.
+void check_stream(const Freestream& air);
 
 inline constexpr double gas_constant_of_air = 8314.47 / 28.9647;  // R [J/(kg K)]
 
@@ -78,14 +85,23 @@ struct SheetLoad {
   std::optional<double> inside, outside;
 };
 
-/// The four sides of the box. Slip: walls without friction. Zero gradient: nothing changes across them, air
-/// goes in and out as it does just inside. Entraining: the outlet's pressure where air leaves; where it comes
-/// in, air of the stream at the stream's total pressure.
-enum class Sides { zero_gradient, slip, entraining };
+/// A kind of boundary for the four sides of the box, by its word; boundaries.h lists what each word means. The far
+/// field takes all six faces of the box, in place of inlet and outlet.
+struct Sides {
+  std::string_view word;
+  bool operator==(const Sides&) const = default;
+  static const Sides zero_gradient, slip, entraining, far_field;
+};
+inline constexpr Sides Sides::zero_gradient{"zero-gradient"}, Sides::slip{"slip"},
+    Sides::entraining{"entraining"}, Sides::far_field{"far-field"};
 
-/// The end of the box. Fixed pressure: it is held, and air that comes back has no momentum. Still air: what
-/// comes back has the total pressure of air at rest, so that a wake that sucks cannot draw it in ever faster.
-enum class Outlet { fixed_pressure, still_air };
+/// The same for the end of the box.
+struct Outlet {
+  std::string_view word;
+  bool operator==(const Outlet&) const = default;
+  static const Outlet fixed_pressure, still_air;
+};
+inline constexpr Outlet Outlet::fixed_pressure{"fixed-pressure"}, Outlet::still_air{"still-air"};
 
 /// When a flow counts as solved.
 struct Stopping {
@@ -101,9 +117,9 @@ struct Stopping {
 struct FlowProblem {
   FlowGrid grid;
   Freestream air;
-  Sides sides = Sides::zero_gradient;
+  Sides sides = Sides::zero_gradient;  // the far field wherever the stream is not along +z
   Outlet outlet = Outlet::fixed_pressure;
-  std::optional<Jet> jet;  // through the inlet, air.speed the nozzle's; empty: the stream over all of it
+  std::optional<Jet> jet;  // through the inlet, air.velocity the nozzle's; empty: the stream over all of it
   std::vector<PorousCells> porous;  // one entry a cloth
   std::vector<Sheet> sheets;        // the same for the `sheet` model
   std::vector<Vec3> body_force;     // on the air of each cell [N/m3]; empty: none
@@ -135,7 +151,7 @@ struct FlowField {
   std::vector<Vec3> velocity;          // [m/s]
   Vec3 porous_force;                   // by the fluid on the porous cells and sheets [N]
   std::vector<SheetLoad> sheet_loads;  // their forces add up to the sheets' part of it
-  double momentum_deficit = 0;         // axial force from the fluxes through the faces of the box [N]
+  Vec3 momentum_deficit;               // force from the fluxes through the faces of the box [N]
   FlowProgress last;
   bool converged = false;
   FlowAverage average;  // where it has iterations, the fields and forces above are means over them
@@ -159,8 +175,9 @@ struct FlowStep {
   double length = 0;   // of the step [s]
   double courant = 0;  // largest Courant number of a cell, summed over the axes
   Vec3 force;          // by the fluid on the porous cells and sheets [N]
-  /// Force, change of the box's momentum and what its faces pass, along z, added up; forces on the air left out [N].
-  double momentum_gap = 0;
+  /// Force, change of the box's momentum and what its faces pass, added up; forces on the air left out, and across the
+  /// axis the viscous stress on slip sides [N].
+  Vec3 momentum_gap;
   double mass_defect = 0;  // mass that cells gain or lose, over what the stream brings into the box
 };
 /// Return false to stop.
@@ -187,9 +204,11 @@ class Flow {
   /// shorter: for whoever steps something beside the air. As march() otherwise.
   virtual double longest_step(double courant);
   virtual FlowStep step(double length);
-  /// Before a step in time: the undisturbed stream has this speed at its end, and changes as fast as the box, which
-  /// goes with something in flight, is slowed down [m/s], [m/s2]. Holds from then on. Throws Error(usage) in a jet.
-  virtual void stream(double speed, double acceleration);
+  /// Before a step in time: the undisturbed stream has this velocity at the end of the step [m/s]. `acceleration` is
+  /// what it gains in a frame that is itself accelerated, as one that moves with a body in flight: a force on all of
+  /// the air [m/s2]. Both remain for later steps. Throws Error(usage) for a jet, and where a velocity that is not
+  /// along +z meets boundaries other than the far field.
+  virtual void stream(Vec3 velocity, Vec3 acceleration);
   /// The last iteration's or step's.
   virtual FlowField field() const = 0;
   /// The same, as one more of those that a mean is over.

@@ -105,7 +105,7 @@ FlowField watch(Flow& flow, const FlowProblem& problem, const Watch& how, FlowRe
                 const WatchReport& report) {
   check(how);
   record = {};
-  const double unit = how.length / problem.air.speed;  // [s]
+  const double unit = how.length / problem.air.speed();  // [s]
   MeanInParts mean(how.shortest * unit / 4);
   double next_slice = 0;
   WatchProgress progress;
@@ -113,7 +113,10 @@ FlowField watch(Flow& flow, const FlowProblem& problem, const Watch& how, FlowRe
   const auto look = [&] {
     const Record drag = record_of(record.steps, &Vec3::z);
     // At least until the stream has been through the box.
-    const double through = std::min(problem.grid.size.z / problem.air.speed, 0.5 * record.watched());
+    const Vec3 size = problem.grid.size, stream = problem.air.velocity;
+    const double passage =
+        std::min({size.x / std::abs(stream.x), size.y / std::abs(stream.y), size.z / std::abs(stream.z)});
+    const double through = std::min(passage, 0.5 * record.watched());
     record.start_up = std::max(end_of_start_up(drag) - drag.begin, through);
     record.drag = mean_over_time(drag, drag.begin + record.start_up);
     progress.mean = record.drag.mean, progress.standard_error = record.drag.standard_error;
@@ -150,9 +153,12 @@ FlowField watch(Flow& flow, const FlowProblem& problem, const Watch& how, FlowRe
   record.swing = strongest_frequency({x, y}, from);
   FlowField field = mean.since(record.start_up);
   // What the box's faces pass, less what its own momentum grows by: force and gap of every step.
-  double gap = 0;
-  for (const FlowStep& step : record.steps) gap += step.length * step.momentum_gap / record.watched();
-  field.momentum_deficit = field.porous_force.z - gap;
+  Vec3 gap;
+  for (const FlowStep& step : record.steps) {
+    const auto share = [&](double along) { return step.length * along / record.watched(); };
+    gap += {share(step.momentum_gap.x), share(step.momentum_gap.y), share(step.momentum_gap.z)};
+  }
+  field.momentum_deficit = field.porous_force - gap;
   field.converged = record.enough;
   return field;
 }

@@ -5,9 +5,10 @@
 
 namespace ripstop {
 
-Margins case_margins(const Case& given, const CanopyMesh& mesh, const std::vector<double>& spring_tensions,
-                     const StressPeak& stress, const std::vector<double>& reefing_tensions) {
-  const Line& riser = riser_line(given);
+Margins case_margins(const Settings& resolved, const CanopyMesh& mesh,
+                     const std::vector<double>& spring_tensions, const StressPeak& stress,
+                     const std::vector<double>& reefing_tensions) {
+  const Line& riser = resolved.materials().riser;
   MemberLoads loads;
   loads.cloth = std::max(stress.warp, stress.weft);
   if (!spring_tensions.empty()) {
@@ -21,10 +22,10 @@ Margins case_margins(const Case& given, const CanopyMesh& mesh, const std::vecto
           loads.riser, chain_tension(spring_tensions[chain[i]], riser.bending_fraction, i, chain.size()));
   }
   for (std::size_t i = 0; i < reefing_tensions.size(); ++i)
-    loads.others.push_back({"reefing line " + std::to_string(i + 1), reefing_tensions[i],
-                            reefing_line(given, given.inflation.reefing[i])});
-  return margins_of(loads, given.margins, canopy_fabric(given), reinforcement_tape(given),
-                    suspension_line(given), riser);
+    loads.others.push_back(
+        {"reefing line " + std::to_string(i + 1), reefing_tensions[i], resolved.reefing_lines()[i]});
+  return margins_of(loads, resolved.margins(), resolved.materials().canopy, reinforcement_tape(resolved),
+                    resolved.materials().line, riser);
 }
 
 }  // namespace ripstop

@@ -3,7 +3,7 @@
 
 #include "ripstop/canopy/margins.h"
 #include "ripstop/canopy/stress.h"
-#include "ripstop/case/case.h"
+#include "ripstop/case/settings.h"
 #include "ripstop/core/members.h"
 
 namespace ripstop {
@@ -27,7 +27,8 @@ void each_member(T& m, Visit&& visit) {
 
 /// `spring_tensions` of all springs outside the cloth, of a shape or the highest of an opening [N], and the highest
 /// ones of the reefing lines of so many stages.
-Margins case_margins(const Case& given, const CanopyMesh& mesh, const std::vector<double>& spring_tensions,
-                     const StressPeak& stress, const std::vector<double>& reefing_tensions = {});
+Margins case_margins(const Settings& resolved, const CanopyMesh& mesh,
+                     const std::vector<double>& spring_tensions, const StressPeak& stress,
+                     const std::vector<double>& reefing_tensions = {});
 
 }  // namespace ripstop

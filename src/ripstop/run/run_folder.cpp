@@ -6,7 +6,7 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
-#include "ripstop/case/resolve.h"
+#include "ripstop/case/settings.h"
 #include "ripstop/core/build_info.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
@@ -27,10 +27,11 @@ std::string now_utc() {
 }
 
 /// Where the values come from that the case need not give.
-ordered_json sources_of(const Case& given) {
+ordered_json sources_of(const Settings& resolved) {
   ordered_json list = ordered_json::array();
-  for (const Source& source : resolve(given).sources)
-    list.push_back({{"key", source.key}, {"given", source.given}, {"from", source.from}});
+  for (const Source& source : resolved.sources())
+    list.push_back(
+        {{"key", source.key}, {"unit", source.unit}, {"given", source.given}, {"from", source.from}});
   return list;
 }
 
@@ -50,7 +51,7 @@ fs::path default_run_folder(const fs::path& case_file, const std::string& what) 
   return fs::path("runs") / ((name.empty() ? "case" : name.string()) + (what.empty() ? "" : "-" + what));
 }
 
-bool holds_run(const RunSettings& settings, const Case& given, const std::string& solver) {
+bool holds_run(const RunSettings& settings, const Settings& resolved, const std::string& solver) {
   const fs::path& folder = settings.folder;
   const std::optional<std::string> earlier = noted(folder, inputs);
   if (!earlier) {
@@ -62,7 +63,7 @@ bool holds_run(const RunSettings& settings, const Case& given, const std::string
                     folder.string(), foreign.front()));
   }
   if (settings.fresh) return false;
-  if (*earlier == inputs_hash(given, solver)) return true;
+  if (*earlier == inputs_hash(resolved, solver)) return true;
   if (!has_got_anywhere(folder)) return false;
   throw Error(ExitCode::usage,
               fmt::format("{}: holds a run of other inputs (case, speed, grid, ranks, program or "
@@ -70,11 +71,11 @@ bool holds_run(const RunSettings& settings, const Case& given, const std::string
                           folder.string()));
 }
 
-std::unique_ptr<ClaimedFolder> open_run_folder(const RunSettings& settings, const Case& given,
+std::unique_ptr<ClaimedFolder> open_run_folder(const RunSettings& settings, const Settings& resolved,
                                                const std::string& solver, int threads) {
-  holds_run(settings, given, solver);  // what it refuses is left without a trace
+  holds_run(settings, resolved, solver);  // what it refuses is left without a trace
   auto folder = std::make_unique<ClaimedFolder>(settings.folder);
-  const bool goes_on = holds_run(settings, given, solver);
+  const bool goes_on = holds_run(settings, resolved, solver);
   if (goes_on && is_sealed(settings.folder)) return folder;
   if (!goes_on) folder->clear();
   const std::string begun = noted(settings.folder, started).value_or(now_utc());
@@ -84,22 +85,22 @@ std::unique_ptr<ClaimedFolder> open_run_folder(const RunSettings& settings, cons
   run["compiler"] = compiler();
   run["processor"] = processor();
   run["threads"] = threads;
-  run["ranks"] = given.flow.ranks;
+  run["ranks"] = resolved.flow().ranks;
   run["flow_engine"] = solver;
   run["started"] = begun;
-  run["case_file"] = given.file.string();
-  run["inputs_hash"] = inputs_hash(given, solver);
-  run["case"] = ordered_json::parse(case_json(given));
-  run["sources"] = sources_of(given);
+  run["case_file"] = resolved.file().string();
+  run["inputs_hash"] = inputs_hash(resolved, solver);
+  run["case"] = ordered_json::parse(case_json(resolved));
+  run["sources"] = sources_of(resolved);
   folder->note(started, begun);
-  folder->note(inputs, inputs_hash(given, solver));
+  folder->note(inputs, inputs_hash(resolved, solver));
   write_file(folder->own("run.json"), run.dump(2) + "\n");
-  write_file(folder->own("case.toml"), case_toml(given));
+  write_file(folder->own("case.toml"), case_toml(resolved));
   return folder;
 }
 
-std::string inputs_hash(const Case& given, const std::string& what) {
-  return hash_bytes(fmt::format("{}\n{}\n{}", version(), what, case_json(given)));
+std::string inputs_hash(const Settings& resolved, const std::string& what) {
+  return hash_bytes(fmt::format("{}\n{}\n{}", version(), what, case_json(resolved)));
 }
 
 std::optional<std::string> inputs_of_run(const fs::path& folder) {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "ripstop/case/case.h"
+#include "ripstop/case/settings.h"
 #include "ripstop/core/claimed_folder.h"
 
 namespace ripstop {
@@ -25,16 +25,16 @@ std::filesystem::path default_run_folder(const std::filesystem::path& case_file,
 /// Whether the folder holds a run of these inputs to go on with. `solver` says what computes, and with what
 /// beside the case. Throws Error(usage) for a folder that holds a run of other inputs which has got anywhere,
 /// unless `fresh`, and for one with files that are not Ripstop's and no run.
-bool holds_run(const RunSettings& settings, const Case& given, const std::string& solver);
+bool holds_run(const RunSettings& settings, const Settings& resolved, const std::string& solver);
 
 /// Opens or makes the folder of a run, claims it and writes run.json and case.toml, unless the run has ended. What is
 /// there of another run is removed as far as Ripstop wrote it; what holds_run() refuses is left as it is. Throws as
 /// ClaimedFolder does.
-std::unique_ptr<ClaimedFolder> open_run_folder(const RunSettings& settings, const Case& given,
+std::unique_ptr<ClaimedFolder> open_run_folder(const RunSettings& settings, const Settings& resolved,
                                                const std::string& solver, int threads);
 
 /// Hash of everything that a result is of: this version, the case, and what else was asked for.
-std::string inputs_hash(const Case& given, const std::string& what);
+std::string inputs_hash(const Settings& resolved, const std::string& what);
 
 /// Hash of what the run of this folder is of (`inputs_hash` of run.json and result.json).
 std::optional<std::string> inputs_of_run(const std::filesystem::path& folder);

@@ -3,20 +3,21 @@
 namespace ripstop::cartesian {
 
 Discretisation::Discretisation(const FlowGrid& grid_, const Freestream& air_,
-                               const CartesianSettings& settings_, End side)
+                               const CartesianSettings& settings_, End side, bool open)
     : grid(grid_),
       air(air_),
       settings(settings_),
       x(make_axis(grid.edges(0), End::zero_gradient, End::zero_gradient)),
       y(make_axis(grid.edges(1), End::zero_gradient, End::zero_gradient)),
-      z(make_axis(grid.edges(2), End::fixed_value, End::zero_gradient)),
+      z(make_axis(grid.edges(2), open ? End::zero_gradient : End::fixed_value, End::zero_gradient)),
       xp(make_axis(grid.edges(0), side, side)),
       yp(make_axis(grid.edges(1), side, side)),
-      zp(make_axis(grid.edges(2), End::zero_gradient, End::fixed_value)),
+      zp(make_axis(grid.edges(2), open ? End::fixed_value : End::zero_gradient, End::fixed_value)),
       layout(grid.nx, grid.ny, grid.nz) {
   // Beyond a side that holds the pressure it has a ghost, a whole cell away; the correction, which the
   // multigrid holds at zero in the face, has its own conductances there.
   for (Axis* axis : {&xp, &yp}) axis->inverse_distance.front() *= 0.5, axis->inverse_distance.back() *= 0.5;
+  if (open) zp.inverse_distance.front() *= 0.5;
 }
 
 RowMetrics Discretisation::metrics(int j, int k, const Axis& along_x, const Axis& along_y,

@@ -10,8 +10,9 @@ namespace ripstop::cartesian {
 constexpr double heat_capacity = 1007;  // c_p of air [J/(kg K)]
 
 struct Discretisation {
-  /// `side` is what holds the pressure at the sides.
-  Discretisation(const FlowGrid& grid, const Freestream& air, const CartesianSettings& settings, End side);
+  /// `side` is what holds the pressure at the sides; `open`: at all six faces, and none has given velocities.
+  Discretisation(const FlowGrid& grid, const Freestream& air, const CartesianSettings& settings, End side,
+                 bool open = false);
 
   /// Of row (j, k) for what the air carries, and for the pressure.
   RowMetrics metrics(int j, int k) const { return metrics(j, k, x, y, z); }
@@ -20,7 +21,7 @@ struct Discretisation {
   FlowGrid grid;
   Freestream air;
   CartesianSettings settings;
-  Axis x, y, z;     // for transport: fixed at the inlet
+  Axis x, y, z;     // for transport: fixed at the inlet, if there is one
   Axis xp, yp, zp;  // for the pressure: fixed at the outlet, the sides as told; see the constructor
   Layout layout;
 

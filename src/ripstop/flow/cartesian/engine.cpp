@@ -42,13 +42,21 @@ void check(const FlowProblem& problem) {
     if (!(value > 0) || !std::isfinite(value))
       usage(fmt::format("free stream: {} = {} must be positive", name, value));
   };
-  positive_value("speed", a.speed);
   positive_value("density", a.density);
   positive_value("viscosity", a.viscosity);
   positive_value("temperature", a.temperature);
   positive_value("turbulence intensity", a.turbulence_intensity);
   positive_value("viscosity ratio", a.viscosity_ratio);
-  if (problem.jet) check(*problem.jet, g);
+  check_stream(a);
+  if (problem.jet) {
+    check(*problem.jet, g);
+    if (!a.along_z())
+      usage(fmt::format(
+          "jet: it leaves the nozzle along +z, not with ({:g}, {:g}, {:g}) m/s; turn the bodies instead",
+          a.velocity.x, a.velocity.y, a.velocity.z));
+    if (problem.sides == Sides::far_field)
+      usage("jet: it comes through the inlet, which a far field does not have; choose entraining sides");
+  }
   if (!problem.body_force.empty() &&
       problem.body_force.size() != static_cast<std::size_t>(problem.grid.cells())) {
     usage(fmt::format("flow: {} forces on the air for {} cells", problem.body_force.size(),
@@ -72,12 +80,11 @@ Error divergence(const Solver& solver, const std::string& when, const std::strin
 constexpr const char* state_file = "cartesian.flow";
 
 struct Header {
-  char magic[8] = {'r', 'i', 'p', 'f', 'l', 'o', 'w', '8'};
+  char magic[8] = {'r', 'i', 'p', 'f', 'l', 'o', 'w', '9'};
   FlowGrid grid;
   Freestream air;
-  Sides sides = Sides::zero_gradient;
-  Outlet outlet = Outlet::fixed_pressure;
-  int jets = 0;  // 0 or 1
+  std::string sides, outlet;  // words
+  int jets = 0;               // 0 or 1
   Jet jet = {};
 };
 /// One number after the other: between the members of a struct lie bytes that nobody has set, and the same flow is
@@ -96,7 +103,7 @@ void each_array(AnyMotion& m, Visit&& visit) {
   visit(m.velocity), visit(m.yields), visit(m.pressure);
 }
 static_assert(sizeof(Grading) == 4 * sizeof(double) + 2 * sizeof(int) &&
-              sizeof(Freestream) == 6 * sizeof(double));
+              sizeof(Freestream) == 8 * sizeof(double));
 
 class Writer {
  public:
@@ -165,10 +172,16 @@ class CartesianFlow final : public Flow {
   FlowStep march(int steps, double courant, const StepReport& report) override;
   double longest_step(double courant) override { return solver_.longest_step(in_range(courant)); }
   FlowStep step(double length) override;
-  void stream(double speed, double acceleration) override {
+  void stream(Vec3 velocity, Vec3 acceleration) override {
     if (problem_.jet)
       throw Error(ExitCode::usage, "flow: the speed of a jet does not change: nothing flies in a tunnel");
-    solver_.stream(speed, acceleration);
+    if (!solver_.open() && !(velocity.x == 0 && velocity.y == 0 && velocity.z >= 0))
+      throw Error(
+          ExitCode::usage,
+          fmt::format("flow: a stream of ({:g}, {:g}, {:g}) m/s does not enter through the inlet along +z; "
+                      "choose the sides \"{}\"",
+                      velocity.x, velocity.y, velocity.z, Sides::far_field.word));
+    solver_.stream(velocity, acceleration);
   }
   FlowField field() const override { return solver_.field(); }
   void add_to(FieldMean& mean) const override { solver_.add_to(mean); }
@@ -246,7 +259,7 @@ FlowStep CartesianFlow::march(int steps, double courant, const StepReport& repor
 
 FlowStep CartesianFlow::step(double length) {
   const FlowStep now = solver_.step(length);
-  if (!std::isfinite(now.force.z + now.momentum_gap)) throw diverged_by(now);
+  if (!std::isfinite(now.force.z) || !is_finite(now.momentum_gap)) throw diverged_by(now);
   return now;
 }
 
@@ -274,7 +287,7 @@ void CartesianFlow::save(const std::filesystem::path& folder) const {
   Writer out;
   Header header;
   header.grid = problem_.grid, header.air = problem_.air;
-  header.sides = problem_.sides, header.outlet = problem_.outlet;
+  header.sides = problem_.sides.word, header.outlet = problem_.outlet.word;
   if (problem_.jet) header.jets = 1, header.jet = *problem_.jet;
   each_number(header, out);
   for (const PorousCells& cloth : problem_.porous) out(cloth.cells);
@@ -290,8 +303,9 @@ void CartesianFlow::restore(const std::filesystem::path& folder) {
   const Header expected;
   each_number(header, in);
   if (std::memcmp(header.magic, expected.magic, sizeof header.magic) != 0) in.fail();
-  if (!(header.grid == problem_.grid) || header.sides != problem_.sides || header.outlet != problem_.outlet ||
-      (header.jets == 1) != problem_.jet.has_value() || (problem_.jet && !(header.jet == *problem_.jet)))
+  if (!(header.grid == problem_.grid) || header.sides != problem_.sides.word ||
+      header.outlet != problem_.outlet.word || (header.jets == 1) != problem_.jet.has_value() ||
+      (problem_.jet && !(header.jet == *problem_.jet)))
     throw Error(ExitCode::usage, (folder / state_file).string() + ": was made in another box of air");
   for (PorousCells& cloth : problem_.porous) in(cloth.cells);
   for (Sheet& sheet : problem_.sheets) in(sheet.surface), each_array(sheet.motion, in);
@@ -306,7 +320,7 @@ void CartesianFlow::restore(const std::filesystem::path& folder) {
   if (!fits(state, solver_.state())) in.fail();
   if (!(header.air == problem_.air)) scale(state, header.air, problem_.air);
   solver_.state() = std::move(state);
-  if (solver_.state().clock.stream > 0) solver_.let_stream_in();
+  if (solver_.state().clock.changing) solver_.let_stream_in();
 }
 
 class CartesianEngine final : public FlowEngine {

@@ -8,9 +8,9 @@ namespace ripstop::cartesian {
 
 Inlet jet_inlet(const Discretisation& d, const Jet& jet) {
   Inlet inlet = uniform_inlet(d);
-  const double speed = d.air.speed;
-  inlet.stream_speed = jet.outside * speed;
-  std::fill(inlet.w.begin(), inlet.w.end(), inlet.stream_speed);
+  const double speed = d.air.velocity.z;
+  inlet.stream.velocity = {0, 0, jet.outside * speed};
+  std::fill(inlet.w.begin(), inlet.w.end(), inlet.stream.velocity.z);
   double sum = 0;
   for (int j = 0; j < d.grid.ny; ++j) {
     for (int i = 0; i < d.grid.nx; ++i) {

@@ -15,13 +15,15 @@ Inlet uniform_inlet(const Discretisation& d) {
   Inlet inlet(d.layout);
   const Freestream& air = d.air;
   // k = 3/2 (I U)^2, omega = k / nu_t.
-  const double fluctuation = air.turbulence_intensity * air.speed;
-  inlet.stream_speed = inlet.mean_speed = air.speed;
-  inlet.stream_k = 1.5 * fluctuation * fluctuation;
-  inlet.stream_omega = inlet.stream_k / (air.viscosity_ratio * air.viscosity / air.density);
-  std::fill(inlet.w.begin(), inlet.w.end(), air.speed);
-  std::fill(inlet.k.begin(), inlet.k.end(), inlet.stream_k);
-  std::fill(inlet.omega.begin(), inlet.omega.end(), inlet.stream_omega);
+  const double fluctuation = air.turbulence_intensity * air.speed();
+  inlet.mean_speed = air.velocity.z;
+  Stream& stream = inlet.stream;
+  stream.velocity = air.velocity;
+  stream.k = 1.5 * fluctuation * fluctuation;
+  stream.omega = stream.k / (air.viscosity_ratio * air.viscosity / air.density);
+  std::fill(inlet.w.begin(), inlet.w.end(), air.velocity.z);
+  std::fill(inlet.k.begin(), inlet.k.end(), stream.k);
+  std::fill(inlet.omega.begin(), inlet.omega.end(), stream.omega);
   return inlet;
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "ripstop/flow/average.h"
+#include "ripstop/flow/boundaries.h"
 #include "ripstop/flow/cartesian/solver.h"
 
 namespace ripstop::cartesian {
@@ -15,7 +16,7 @@ namespace {
 constexpr int eased_iterations = 30;
 
 Boundaries boundaries_of(const FlowProblem& problem, const Discretisation& d) {
-  return {make_inlet(d, problem.jet), make_sides(problem.sides), make_outlet(problem.outlet)};
+  return {make_inlet(d, problem.jet), make_sides(sides_of(problem)), make_outlet(problem.outlet)};
 }
 
 void lay_out(const std::vector<Vec3>& force, const Discretisation& d, Obstacles& obstacles) {
@@ -46,7 +47,8 @@ Scratch::Scratch(const Discretisation& d, int threads) : sums(d.grid.ny, d.grid.
 
 Solver::Solver(const FlowProblem& problem, const FlowGrid& grid, PorousRows porous,
                const CartesianSettings& settings, ThreadTeam& team)
-    : d_(grid, problem.air, settings, make_sides(problem.sides)->pressure_end()),
+    : d_(grid, problem.air, settings, make_sides(sides_of(problem))->pressure_end(),
+         make_sides(sides_of(problem))->everywhere()),
       b_(boundaries_of(problem, d_)),
       s_(d_.layout),
       t_(d_, team.size()),
@@ -60,16 +62,17 @@ Solver::Solver(const FlowProblem& problem, const FlowGrid& grid, PorousRows poro
 void Solver::start_uniform() {
   const auto fill = [](auto& values, double value) { std::fill(values.begin(), values.end(), value); };
   Fields& f = s_.f;
-  fill(f.u, 0), fill(f.v, 0), fill(f.p, 0), fill(f.rho, d_.air.density);
-  fill(f.k, b_.inlet.stream_k), fill(f.omega, b_.inlet.stream_omega);
-  fill(f.fx, 0), fill(f.fy, 0);
+  const Stream& stream = b_.inlet.stream;
+  fill(f.u, stream.velocity.x), fill(f.v, stream.velocity.y), fill(f.p, 0), fill(f.rho, d_.air.density);
+  fill(f.k, stream.k), fill(f.omega, stream.omega);
+  fill(f.fx, d_.air.density * stream.velocity.x), fill(f.fy, d_.air.density * stream.velocity.y);
   const std::size_t plane = b_.inlet.w.size();  // what comes in, through the whole box
   for (std::size_t at = 0; at < f.w.size(); ++at) {
     f.w[at] = b_.inlet.w[at % plane];
     f.fz[at] = d_.air.density * f.w[at];
   }
   fill(s_.limit, 1), fill(s_.outlet_p, 0);
-  s_.mean = {0, 0, b_.inlet.mean_speed, 0, b_.inlet.stream_k, b_.inlet.stream_omega};
+  s_.mean = {stream.velocity.x, stream.velocity.y, b_.inlet.mean_speed, 0, stream.k, stream.omega};
   s_.force = {};
   s_.iteration = 0;
   s_.untouched = true;
@@ -111,7 +114,7 @@ FlowProgress Solver::iterate() {
   SheetRows& sheets = in_the_way_.sheets;
   if (!sheets.empty()) {
     if (in_the_way_.wall.empty()) in_the_way_.wall = sheets.distance(d_.x, d_.y, d_.z, d_.layout);
-    sheets.update(s_, d_.layout, d_.air.density * d_.air.speed);
+    sheets.update(s_, d_.layout, d_.air.density * d_.air.speed());
   }
   team_.run([this](int rank) {
     if (d_.settings.second_order)
@@ -160,7 +163,7 @@ FlowProgress Solver::close_iteration() {
 }
 
 std::array<Solver::Bounded, 6> Solver::bounded() const {
-  const double speed = d_.air.speed;
+  const double speed = d_.air.speed();
   return {{{"velocity x", &s_.f.u, 1e3 * speed},
            {"velocity y", &s_.f.v, 1e3 * speed},
            {"velocity z", &s_.f.w, 1e3 * speed},

@@ -51,7 +51,8 @@ struct Scratch {
   std::vector<MarchRings> rings;            // one a thread
   bool in_time = false;                     // a step in time, not an iteration
   double now = 1, before = 0;               // weights of the rates of a step
-  Array<double> pull;           // a row: force on the air of a stream that changes [N/m3]; empty: none
+  Array<double> pull_u, pull_v,
+      pull_w;                   // rows: force on the air of a stream that changes [N/m3]; empty: none
   std::vector<double> mixing;   // of EddyRow::along
   std::vector<double> fastest;  // Courant rate, one a plane [kg/(m3 s)]
   SumTable sums;
@@ -73,7 +74,7 @@ class Solver {
   /// What the first step in time needs: room for the rates, air of one density.
   void begin_time();
   /// The undisturbed stream at the end of the next step, where it changes [m/s], [m/s2].
-  void stream(double speed, double acceleration);
+  void stream(Vec3 velocity, Vec3 acceleration);
   /// The same, into the inlet.
   void let_stream_in();
   /// What a Courant number allows [s].
@@ -96,6 +97,8 @@ class Solver {
   bool shut() const { return in_the_way_.sheets.shut(); }
   const State& state() const { return s_; }
   State& state() { return s_; }
+  /// Whether all six faces are open to a stream of any direction.
+  bool open() const { return b_.open(); }
 
  private:
   // One thread's walk over its planes, its blocks of rows, or its blocks plane by plane; all threads meet after it.
@@ -126,8 +129,7 @@ class Solver {
   void pass_in_plane(MarchRings& rings, int k, IndexRange rows);
   void rate(MarchRings& rings, int j, int k, IndexRange rows);
   void courant(int k);
-  double brought() const;
-  FlowStep close_step(double momentum_before, double held_back);
+  FlowStep close_step(Vec3 velocity_before, Vec3 held_back);
   bool northward() const { return s_.iteration % 2 == 0; }  // the way the rows of a plane are walked
   void turbulence(MarchRings& rings, int k, IndexRange rows);
   TurbulenceRow turbulence_of(MarchRings& rings, int j, int k, IndexRange rows);

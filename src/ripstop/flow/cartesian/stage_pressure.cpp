@@ -11,11 +11,18 @@ void Solver::matrix_ghosts(int k) {
   const double mirror = b_.sides->mirror();
   side_ghosts(d_, t_.hu, k, mirror, 1), side_ghosts(d_, t_.hv, k, 1, mirror);
   if (!uniform()) side_ghosts(d_, t_.ra, k, 1, 1), side_ghosts(d_, t_.rc, k, 1, 1);
+  if (!b_.open() || k > 0) return;
+  for (Array<double>* q : {&t_.hw, &t_.ra, &t_.rc}) {  // of the low end; the high one has rows of its own
+    for (int j = 0; j < d_.grid.ny; ++j) {
+      double* row = &(*q)[d_.layout.at(0, j, 0)];
+      std::copy_n(row, d_.grid.nx, row - d_.layout.stride_z);
+    }
+  }
 }
 
 void Solver::pressure(int k, IndexRange rows) {
   MultigridLevel& top = multigrid_.finest();
-  const bool last = k == d_.grid.nz - 1;
+  const bool last = k == d_.grid.nz - 1, inlet = k == 0 && !b_.open();
   for (int j = rows.begin; j < rows.end; ++j) {
     const std::ptrdiff_t at = d_.layout.at(0, j, k), sz = d_.layout.stride_z;
     PressureRow r;
@@ -27,8 +34,8 @@ void Solver::pressure(int k, IndexRange rows) {
     r.uniform = uniform();
     r.hw_above = r.hw + sz, r.ra_above = r.ra + sz, r.rc_above = r.rc + sz, r.rho_above = r.rho + sz;
     r.p_above = last ? &s_.outlet_p[d_.layout.in_plane(0, j)] : r.p + sz;
-    r.inlet = k == 0;
-    r.inlet_speed = k == 0 ? b_.inlet.speed(j) : &t_.zeros[Layout::lead];
+    r.inlet = inlet;
+    r.inlet_speed = inlet ? b_.inlet.speed(j) : &t_.zeros[Layout::lead];
     r.outlet = last;
     r.mean_p = s_.mean.p;
     r.fx = &s_.f.fx[at], r.fy = &s_.f.fy[at], r.fz = &s_.f.fz[at];
@@ -73,7 +80,7 @@ void Solver::flux(int k, IndexRange rows) {
     r.hu = &t_.hu[at], r.hv = &t_.hv[at], r.hw = &t_.hw[at];
     r.ra = &t_.ra[at], r.rc = &t_.rc[at], r.rho = &s_.f.rho[at], r.p = &s_.f.p[at], r.dp = &top.e[at];
     r.uniform = uniform();
-    r.inlet_speed = k == 0 ? b_.inlet.speed(j) : nullptr;
+    r.inlet_speed = k == 0 && !b_.open() ? b_.inlet.speed(j) : nullptr;
     r.fx = &s_.f.fx[at], r.fy = &s_.f.fy[at], r.fz = &s_.f.fz[at];
     r.held = jumps(j, k, s_.held);
     r.excess = jumps(j, k, in_the_way_.sheets.excess());
@@ -120,7 +127,7 @@ void Solver::velocity(int k, IndexRange rows) {
     r.gas_constant = gas_constant_of_air;
     r.pressure0 = d_.air.density * gas_constant_of_air * d_.air.temperature;
     r.temperature = d_.air.temperature;
-    r.speed2 = d_.air.speed * d_.air.speed;
+    r.speed2 = d_.air.speed() * d_.air.speed();
     r.half_cp = 0.5 / heat_capacity;
     r.ra = &t_.ra[at], r.rc = &t_.rc[at], r.p = &s_.f.p[at], r.dp = &multigrid_.finest().e[at];
     r.held = jumps(j, k, s_.held);

@@ -60,12 +60,13 @@ void Solver::eddy_viscosity(MarchRings& rings, int k, IndexRange rows) const {
 
 // What the kernel is given of row j of plane k.
 TurbulenceRow Solver::turbulence_of(MarchRings& rings, int j, int k, IndexRange rows) {
+  const bool inlet = k == 0 && !b_.open(), outlet = k == d_.grid.nz - 1 && !b_.open();
   const bool first = k == 0, last = k == d_.grid.nz - 1;
   const std::ptrdiff_t at = d_.layout.at(0, j, k), in = rings.at(d_.layout, j, rows.begin);
   const std::ptrdiff_t sy = d_.layout.stride_y, sz = d_.layout.stride_z;
   const std::ptrdiff_t component = static_cast<std::ptrdiff_t>(rings.plane);
   const bool own = j >= rows.begin && j < rows.end;
-  const bool sees_new = own && !t_.in_time;
+  const bool sees_new = own && !t_.in_time, new_below = sees_new && !first;
   TurbulenceRow r;
   r.m = d_.metrics(j, k);
   r.viscosity = d_.air.viscosity;
@@ -77,10 +78,10 @@ TurbulenceRow Solver::turbulence_of(MarchRings& rings, int j, int k, IndexRange 
   r.u = &s_.f.u[at], r.v = &s_.f.v[at], r.w = &s_.f.w[at];
   r.k = &s_.f.k[at], r.omega = &s_.f.omega[at], r.rho = density_of_row(j, k);
   const double *inlet_k = b_.inlet.turbulence(j), *inlet_omega = b_.inlet.frequency(j);
-  r.k_below = first ? inlet_k : sees_new ? &t_.new_k[at - sz] : r.k - sz;
-  r.k_above = last ? inlet_k : r.k + sz;
-  r.omega_below = first ? inlet_omega : sees_new ? &t_.new_omega[at - sz] : r.omega - sz;
-  r.omega_above = last ? inlet_omega : r.omega + sz;
+  r.k_below = inlet ? inlet_k : new_below ? &t_.new_k[at - sz] : r.k - sz;
+  r.k_above = outlet ? inlet_k : r.k + sz;
+  r.omega_below = inlet ? inlet_omega : new_below ? &t_.new_omega[at - sz] : r.omega - sz;
+  r.omega_above = outlet ? inlet_omega : r.omega + sz;
   const bool new_south = sees_new && northward() && j > rows.begin,
              new_north = sees_new && !northward() && j + 1 < rows.end;
   r.k_south = new_south ? &t_.new_k[at - sy] : r.k - sy;
@@ -91,7 +92,8 @@ TurbulenceRow Solver::turbulence_of(MarchRings& rings, int j, int k, IndexRange 
   r.mut = &rings.mut[mod(k, 3)][in];
   r.mut_above = &rings.mut[mod(last ? k : k + 1, 3)][in];
   double* below = &rings.mut[mod(k - 1, 3)][in];
-  if (first) {  // such that the face takes the inlet's value
+  if (first && !inlet) std::copy_n(r.mut, d_.grid.nx, below);
+  if (inlet) {  // such that the face takes the inlet's value
     for (int i = 0; i < d_.grid.nx; ++i) below[i] = 2 * r.rho[i] * inlet_k[i] / inlet_omega[i] - r.mut[i];
   }
   r.mut_below = below;
@@ -144,7 +146,7 @@ void Solver::model_eddies(MarchRings& rings, int k, IndexRange rows) {
 
 // The velocity of row j of plane k and of the rows around it, new where the march has been.
 void Solver::velocities_around(MarchRings& rings, int j, int k, IndexRange rows, MomentumRow& r) const {
-  const bool first = k == 0, last = k == d_.grid.nz - 1;
+  const bool first = k == 0, last = k == d_.grid.nz - 1 && !b_.open();
   const std::ptrdiff_t at = d_.layout.at(0, j, k), in = rings.at(d_.layout, j, rows.begin);
   const std::ptrdiff_t sy = d_.layout.stride_y, sz = d_.layout.stride_z;
   const std::ptrdiff_t component = static_cast<std::ptrdiff_t>(rings.plane);
@@ -154,6 +156,7 @@ void Solver::velocities_around(MarchRings& rings, int j, int k, IndexRange rows,
   r.u_below = first ? zeros : before;
   r.v_below = first ? zeros : before + component;
   r.w_below = first ? b_.inlet.speed(j) : before + 2 * component;
+  if (first && b_.open()) r.u_below = r.u - sz, r.v_below = r.v - sz, r.w_below = r.w - sz;
   r.u_above = last ? zeros : r.u + sz;
   r.v_above = last ? zeros : r.v + sz;
   r.w_above = last ? (b_.outlet->carries_back() ? r.w : zeros) : r.w + sz;
@@ -186,7 +189,8 @@ MomentumRow Solver::momentum_of(MarchRings& rings, int j, int k, IndexRange rows
   r.mu = &rings.mu[mod(k, 3)][in];
   r.mu_above = &rings.mu[mod(last ? k : k + 1, 3)][in];
   double* below = &rings.mu[mod(k - 1, 3)][in];
-  if (first) {
+  if (first && b_.open()) std::copy_n(r.mu, d_.grid.nx, below);
+  if (first && !b_.open()) {
     const double *inlet_k = b_.inlet.turbulence(j), *inlet_omega = b_.inlet.frequency(j);
     for (int i = 0; i < d_.grid.nx; ++i) {
       below[i] = 2 * (d_.air.viscosity + r.rho[i] * inlet_k[i] / inlet_omega[i]) - r.mu[i];
@@ -208,7 +212,7 @@ MomentumRow Solver::momentum_of(MarchRings& rings, int j, int k, IndexRange rows
   r.extra_w = extra(t_.extra_w, in_the_way_.body_w);
   r.sheet = jumps(j, k, s_.held);
   r.stiffness = jumps(j, k, in_the_way_.sheets.stiffness());
-  r.inertia = d_.air.density * d_.air.speed;
+  r.inertia = d_.air.density * d_.air.speed();
   r.hu = &t_.hu[at], r.hv = &t_.hv[at], r.hw = &t_.hw[at], r.ra = &t_.ra[at], r.rc = &t_.rc[at];
   double* next = &rings.predicted[mod(k, 2)][in];
   r.u_new = next, r.v_new = next + component, r.w_new = next + 2 * component;

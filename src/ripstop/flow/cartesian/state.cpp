@@ -111,7 +111,7 @@ void interpolate(const State& from, const Discretisation& of, State& to, const D
 
 // The same flow at another speed and density, but for what Reynolds and Mach number change.
 void scale(State& s, const Freestream& from, const Freestream& to) {
-  const double speed = to.speed / from.speed, density = to.density / from.density;
+  const double speed = to.speed() / from.speed(), density = to.density / from.density;
   const double pressure = density * speed * speed, flux = density * speed;
   const auto by = [](auto& values, double factor) {
     for (double& value : values) value *= factor;

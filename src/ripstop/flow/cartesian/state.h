@@ -32,10 +32,11 @@ struct Clock {
   std::int64_t steps = 0;
   double time = 0, step = 0;  // since the beginning, and the last one [s]
   double courant_rate = 0;    // largest sum over the axes of |u| / width, in the present fields [1/s]
-  double stream = 0;          // speed far away, where it is not the problem's [m/s]; 0: it is
-  double gaining = 0;         // by which it changes [m/s2]
-  double pulled = 0;          // by the rate of the last step [m/s2]
-  double brought = 0;         // momentum along z that the air brought through the box's faces, last rate [N]
+  std::int64_t changing = 0;  // 1: the velocity far away is not the problem's, but this one
+  Vec3 stream;                // [m/s]
+  Vec3 gaining;               // by which it changes [m/s2]
+  Vec3 pulled;                // by the rate of the last step [m/s2]
+  Vec3 brought;               // momentum that the air brought through the box's faces, last rate [N]
 };
 
 struct State {

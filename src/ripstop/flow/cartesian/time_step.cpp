@@ -81,18 +81,19 @@ void Solver::begin_time() {
     }
   }
   const Clock before = std::exchange(s_.clock, {});
-  s_.clock.stream = before.stream, s_.clock.gaining = before.gaining;
+  s_.clock.changing = before.changing, s_.clock.stream = before.stream, s_.clock.gaining = before.gaining;
 }
 
 // The box goes with something that is slowed down: in it all air feels what the stream does.
-void Solver::stream(double speed, double acceleration) {
-  s_.clock.stream = speed, s_.clock.gaining = acceleration;
+void Solver::stream(Vec3 velocity, Vec3 acceleration) {
+  s_.clock.changing = true;
+  s_.clock.stream = velocity, s_.clock.gaining = acceleration;
 }
 
 void Solver::let_stream_in() {
   Inlet& inlet = b_.inlet;
-  std::fill(inlet.w.begin(), inlet.w.end(), s_.clock.stream);
-  inlet.stream_speed = inlet.mean_speed = s_.clock.stream;
+  std::fill(inlet.w.begin(), inlet.w.end(), s_.clock.stream.z);
+  inlet.stream.velocity = s_.clock.stream, inlet.mean_speed = s_.clock.stream.z;
 }
 
 double Solver::longest_step(double courant_number) {
@@ -127,20 +128,24 @@ FlowStep Solver::step(double length) {
   const double ratio = s_.clock.steps > 0 ? length / s_.clock.step : 0;
   s_.clock.step = length;
   t_.now = 1 + 0.5 * ratio, t_.before = 0.5 * ratio;
-  if (s_.clock.stream > 0) {  // such that what is extrapolated is what the stream gains in this step
-    s_.clock.pulled = (s_.clock.gaining + t_.before * s_.clock.pulled) / t_.now;
-    t_.pull.assign(t_.zeros.size(), d_.air.density * s_.clock.pulled);
+  if (s_.clock.changing) {  // such that what is extrapolated is what the stream gains in this step
+    const auto of_now = [&](double gaining, double pulled) {
+      return (gaining + t_.before * pulled) / t_.now;
+    };
+    Vec3& pulled = s_.clock.pulled;
+    const Vec3 gaining = s_.clock.gaining;
+    pulled = {of_now(gaining.x, pulled.x), of_now(gaining.y, pulled.y), of_now(gaining.z, pulled.z)};
+    t_.pull_u.assign(t_.zeros.size(), d_.air.density * pulled.x);
+    t_.pull_v.assign(t_.zeros.size(), d_.air.density * pulled.y);
+    t_.pull_w.assign(t_.zeros.size(), d_.air.density * pulled.z);
   }
   SheetRows& sheets = in_the_way_.sheets;
-  if (!sheets.empty()) sheets.update(s_, d_.layout, d_.air.density * d_.air.speed, length);
+  if (!sheets.empty()) sheets.update(s_, d_.layout, d_.air.density * d_.air.speed(), length);
   if (modelled() && !sheets.empty() && in_the_way_.wall.empty())
     in_the_way_.wall = sheets.distance(d_.x, d_.y, d_.z, d_.layout);
-  const double momentum_before = s_.mean.w, brought_before = std::exchange(s_.clock.brought, brought());
-  double pressed_back = 0;  // the outlet's pressure as the step has it
-  for (int j = 0; j < d_.grid.ny; ++j) {
-    for (int i = 0; i < d_.grid.nx; ++i)
-      pressed_back += d_.x.width[i] * d_.y.width[j] * s_.outlet_p[d_.layout.in_plane(i, j)];
-  }
+  const Vec3 velocity_before{s_.mean.u, s_.mean.v, s_.mean.w};
+  const Vec3 brought_before = std::exchange(s_.clock.brought, momentum_carried_in(d_, b_, s_));
+  const Vec3 held_in = pressed_in(d_, b_, s_, true);  // by pressures as the step has them
   team_.run([this](int rank) {
     each_block(rank, [&](IndexRange rows) { rates(rank, rows); });
     if (modelled()) {
@@ -148,7 +153,7 @@ FlowStep Solver::step(double length) {
       team_.barrier();
       each_plane(rank, [&](int k) { turbulence_ghosts(d_, b_, s_, k); });
     }
-    if (s_.clock.stream > 0) {  // rates are those of the beginning of the step
+    if (s_.clock.changing) {  // rates are those of the beginning of the step
       if (rank == 0) let_stream_in();
       team_.barrier();
     }
@@ -162,8 +167,8 @@ FlowStep Solver::step(double length) {
     each_plane(rank, [&](int k) { relax_pressure(k), velocity_ghosts(d_, b_, s_, k), courant(k); });
     t_.sums.add_up(team_, rank);
   });
-  const double brought_now = t_.now * s_.clock.brought - t_.before * brought_before;
-  return close_step(momentum_before, pressed_back - brought_now);
+  const Vec3 brought_now = t_.now * s_.clock.brought - t_.before * brought_before;
+  return close_step(velocity_before, -held_in - brought_now);
 }
 
 // A block from the inlet to the outlet. Each face along the stream is taken once, a plane ahead of the cells.
@@ -216,7 +221,7 @@ void Solver::pass_along_stream(MarchRings& rings, int k, IndexRange rows) const 
     const std::ptrdiff_t at = d_.layout.at(0, j, k), in = rings.at(d_.layout, j, rows.begin);
     Passing p = along_stream(rings, d_.layout, j, k, rows);
     const double* flux = &s_.f.fz[at];
-    if (k == 0) {
+    if (k == 0 && !b_.open()) {
       std::fill_n(p.u, d_.grid.nx, 0.0), std::fill_n(p.v, d_.grid.nx, 0.0);
       for (int i = 0; i < d_.grid.nx; ++i) p.w[i] = flux[i] * b_.inlet.speed(j)[i];
       continue;
@@ -224,7 +229,7 @@ void Solver::pass_along_stream(MarchRings& rings, int k, IndexRange rows) const 
     PassingRow r = passing_of(rings, j, k, rows);
     r.flux = flux, r.step = sz, r.far_low = -2 * sz, r.far_high = sz;
     r.pu = p.u, r.pv = p.v, r.pw = p.w;
-    if (k == d_.grid.nz) {
+    if (k == 0 || k == d_.grid.nz) {
       boundary_passing_row(r);
       continue;
     }
@@ -282,9 +287,11 @@ void Solver::rate(MarchRings& rings, int j, int k, IndexRange rows) {
   r.xu = x.u, r.xv = x.v, r.xw = x.w;
   r.yu = y.u, r.yv = y.v, r.yw = y.w, r.yu_high = north.u, r.yv_high = north.v, r.yw_high = north.w;
   r.zu = z.u, r.zv = z.v, r.zw = z.w, r.zu_high = above.u, r.zv_high = above.v, r.zw_high = above.w;
-  const auto body = [&](const Array<double>& force) { return force.empty() ? zeros : &force[at]; };
-  r.body_u = body(in_the_way_.body_u), r.body_v = body(in_the_way_.body_v),
-  r.body_w = t_.pull.empty() ? body(in_the_way_.body_w) : &t_.pull[Layout::lead];
+  const auto body = [&](const Array<double>& pull, const Array<double>& force) {
+    return !pull.empty() ? &pull[Layout::lead] : force.empty() ? zeros : &force[at];
+  };
+  r.body_u = body(t_.pull_u, in_the_way_.body_u), r.body_v = body(t_.pull_v, in_the_way_.body_v),
+  r.body_w = body(t_.pull_w, in_the_way_.body_w);
   r.u = &s_.f.u[at], r.v = &s_.f.v[at], r.w = &s_.f.w[at], r.rho = density_of_row(j, k);
   r.linear = in_the_way_.porous.linear(j, k), r.quadratic = in_the_way_.porous.quadratic(j, k);
   r.inverse_step = 1 / s_.clock.step;
@@ -309,22 +316,8 @@ void Solver::courant(int k) {
   }
 }
 
-// Momentum along z that the air brings through the faces of the box [N].
-double Solver::brought() const {
-  const Fields& f = s_.f;
-  double force = 0;
-  for (int j = 0; j < d_.grid.ny; ++j) {
-    for (int i = 0; i < d_.grid.nx; ++i) {
-      const std::ptrdiff_t in = d_.layout.at(i, j, 0), out = d_.layout.at(i, j, d_.grid.nz);
-      const double leaves = f.fz[out] * f.w[f.fz[out] > 0 ? out - d_.layout.stride_z : out];
-      force += d_.x.width[i] * d_.y.width[j] * (f.fz[in] * b_.inlet.speed(j)[i] - leaves);
-    }
-  }
-  return force + momentum_through_sides(d_, s_);
-}
-
-// `held_back`: what outlet and air take from the box's momentum in this step, but for the inlet's pressure.
-FlowStep Solver::close_step(double momentum_before, double held_back) {
+// `held_back`: what the air and the faces where the pressure is held take from the box's momentum in this step.
+FlowStep Solver::close_step(Vec3 velocity_before, Vec3 held_back) {
   const Sums& sum = t_.sums.total();
   const double volume = d_.grid.size.x * d_.grid.size.y * d_.grid.size.z;
   const auto mean = [&](Sums::Name name) { return sum.value[name] / volume; };
@@ -343,16 +336,18 @@ FlowStep Solver::close_step(double momentum_before, double held_back) {
   step.step = static_cast<int>(clock.steps);
   step.time = clock.time, step.length = clock.step;
   step.force = s_.force;
-  step.mass_defect =
-      sum.value[Sums::mass_defect] / (d_.air.density * d_.air.speed * d_.grid.size.x * d_.grid.size.y);
-  double pressed = 0;
-  for (int j = 0; j < d_.grid.ny; ++j) {
-    for (int i = 0; i < d_.grid.nx; ++i)
-      pressed += d_.x.width[i] * d_.y.width[j] * s_.f.p[d_.layout.at(i, j, 0)];
-  }
-  const double gained = d_.air.density * volume * (s_.mean.w - momentum_before) / clock.step;
-  const double pulled = d_.air.density * volume * clock.gaining;
-  step.momentum_gap = s_.force.z + gained + held_back - pressed - pulled;
+  const Vec3 size = d_.grid.size, stream = d_.air.velocity;
+  step.mass_defect = sum.value[Sums::mass_defect] / (d_.air.density * std::abs(stream.z) * size.x * size.y +
+                                                     d_.air.density * std::abs(stream.x) * size.y * size.z +
+                                                     d_.air.density * std::abs(stream.y) * size.x * size.z);
+  const double mass = d_.air.density * volume;
+  const Vec3 velocity{s_.mean.u, s_.mean.v, s_.mean.w}, pressed = pressed_in(d_, b_, s_, false);
+  const auto gap = [&](double Vec3::*a) {
+    const double gained = mass * (velocity.*a - velocity_before.*a) / clock.step,
+                 pulled = mass * clock.gaining.*a;
+    return s_.force.*a + gained + held_back.*a - pressed.*a - pulled;
+  };
+  step.momentum_gap = {gap(&Vec3::x), gap(&Vec3::y), gap(&Vec3::z)};
   return step;
 }
 

@@ -58,7 +58,7 @@ double velocity(double a, double b, double drop) {
 
 /// Of the pressure over what passes at the stream's dynamic pressure [Pa s/m].
 double slope_of(double a, double b, const Freestream& air) {
-  return a + 2 * b * velocity(a, b, 0.5 * air.density * air.speed * air.speed);
+  return a + 2 * b * velocity(a, b, 0.5 * air.density * air.speed() * air.speed());
 }
 
 std::vector<Baffle> all_baffles(const FlowProblem& problem) {
@@ -95,12 +95,12 @@ double passing(const Baffle& baffle, const std::vector<Sheet>& sheets, double dr
 
 double pace(const Baffle& baffle, const FlowProblem& problem) {
   const auto [a, b] = law_of(baffle, problem.sheets);
-  const double slope = slope_of(a, b, problem.air), flow = 2 * problem.air.density * problem.air.speed;
+  const double slope = slope_of(a, b, problem.air), flow = 2 * problem.air.density * problem.air.speed();
   return slope / (slope + flow);
 }
 
 bool is_loose(double linear, double quadratic, const Freestream& air) {
-  return slope_of(linear, quadratic, air) <= tight * air.density * air.speed;
+  return slope_of(linear, quadratic, air) <= tight * air.density * air.speed();
 }
 
 bool shuts(double across, const FlowGrid& grid) {

@@ -48,7 +48,7 @@ double outflow_of_momentum(const MeshPart& part, const FieldData& phi, double de
       const int cell = part.owner[patch.start + face];
       const double out = density * phi.at(flux->second, face);  // [kg/s], positive outward
       const double inside = velocity.at(velocity.inner, cell, 2);
-      const double speed = inlet ? problem.air.speed : outlet && out < 0 ? 0 : inside;
+      const double speed = inlet ? problem.air.velocity.z : outlet && out < 0 ? 0 : inside;
       loss -= out * speed;
       if (!inlet) continue;  // outlet: p is 0; sides: no axial area
       const int of_grid = part.global(cell);
@@ -152,7 +152,7 @@ FlowField read_case(const std::vector<MeshPart>& parts, const std::string& time,
       field.pressure[cell] = gauge(nearest);
       field.velocity[cell] = moves(nearest);
     }
-    field.momentum_deficit += outflow_of_momentum(part, phi, unit, velocity, field.pressure, problem);
+    field.momentum_deficit.z += outflow_of_momentum(part, phi, unit, velocity, field.pressure, problem);
   }
   check_range(field, incompressible ? INFINITY : outlet);
   return field;

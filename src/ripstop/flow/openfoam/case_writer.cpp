@@ -275,7 +275,7 @@ void write_readme(const fs::path& folder, const FlowProblem& problem, const Open
   std::ofstream readme(folder / kReadme);
   const bool sheets = !problem.sheets.empty();
   readme << fmt::format(kReadmeText, sheets ? "sheets" : "porous cells", grid.nx, grid.ny, grid.nz,
-                        problem.air.density, problem.air.speed,
+                        problem.air.density, problem.air.speed(),
                         problem.sides == Sides::slip ? "slip" : "open", kStopFile,
                         sheets ? "" : "    blockMesh\n    cp constant/cellZones constant/polyMesh/\n", run,
                         !sheets                ? kOfPorousCells
@@ -303,12 +303,14 @@ void check_run(int iterations, double residual) {
 }
 
 void check(const FlowProblem& problem) {
-  const auto refuse = [](bool has, const char* what) {
+  const auto refuse = [](bool has, const std::string& what) {
     if (has) throw Error(ExitCode::usage, fmt::format("{} needs flow.engine = \"builtin\"", what));
   };
   refuse(problem.jet.has_value(), "flow.tunnel.kind = \"open-jet\"");
-  refuse(problem.sides == Sides::entraining, "flow.sides = \"entraining\"");
-  refuse(problem.outlet == Outlet::still_air, "flow.outlet = \"still-air\"");
+  refuse(problem.sides != Sides::zero_gradient && problem.sides != Sides::slip,
+         fmt::format("flow.sides = \"{}\"", problem.sides.word));
+  refuse(problem.outlet != Outlet::fixed_pressure, fmt::format("flow.outlet = \"{}\"", problem.outlet.word));
+  refuse(!problem.air.along_z(), "a stream that is not along +z");
   refuse(!problem.body_force.empty(), "a force on the air");
   const FlowGrid& grid = problem.grid;
   for (const int n : {grid.nx, grid.ny, grid.nz}) range("number of cells along an axis", n, 1, 4000, "");
@@ -317,7 +319,7 @@ void check(const FlowProblem& problem) {
   for (const double o : {grid.origin.x, grid.origin.y, grid.origin.z})
     range("corner of the box", o, -1e6, 1e6, "m");
   const Freestream& air = problem.air;
-  range("air speed", air.speed, 1e-3, 150, "m/s (subsonic: Mach below 0.45)");
+  range("air speed", air.speed(), 1e-3, 150, "m/s (subsonic: Mach below 0.45)");
   range("air density", air.density, 1e-4, 100, "kg/m3");
   range("viscosity", air.viscosity, 1e-7, 1, "Pa s");
   range("air temperature", air.temperature, 100, 2000, "K");
@@ -371,8 +373,9 @@ void write_fields(const fs::path& folder, const FlowProblem& problem, bool incom
   const std::string open = problem.sides == Sides::slip ? "type slip;" : "type zeroGradient;";
   const auto number = [](double value) { return fmt::format("{:.17g}", value); };
   const std::string p = number(incompressible ? 0 : outlet_pressure(air));
-  const std::string velocity = fmt::format("(0 0 {:.17g})", air.speed);
-  const double fluctuation = air.turbulence_intensity * air.speed;
+  const std::string velocity =
+      fmt::format("({:.17g} {:.17g} {:.17g})", air.velocity.x, air.velocity.y, air.velocity.z);
+  const double fluctuation = air.turbulence_intensity * air.speed();
   const double k = 1.5 * fluctuation * fluctuation;
   const double omega = k / (kinematic_viscosity(air) * air.viscosity_ratio);
   const std::string calculated = "type calculated; value uniform 0;";

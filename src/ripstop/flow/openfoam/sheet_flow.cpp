@@ -280,7 +280,7 @@ class SheetFlow final : public Flow {
     const std::vector<double> now = through_tight(pressure_);
     double change = 0;
     for (std::size_t n = 0; n < now.size(); ++n) change = std::max(change, std::abs(now[n] - through_[n]));
-    return change > small * problem_.air.speed;
+    return change > small * problem_.air.speed();
   }
 
   /// Leaves only the fields of one time.

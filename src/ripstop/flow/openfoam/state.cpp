@@ -59,7 +59,7 @@ json describe_basis(const Basis& basis) {
         {"grading",
          {to_json(basis.grid.grading[0]), to_json(basis.grid.grading[1]), to_json(basis.grid.grading[2])}}}},
       {"air",
-       {{"speed_m_s", air.speed},
+       {{"velocity_m_s", to_json(air.velocity)},
         {"density_kg_m3", air.density},
         {"viscosity_pa_s", air.viscosity},
         {"temperature_k", air.temperature},
@@ -84,8 +84,8 @@ Basis basis_from(const json& j) {
                 grid.at("cells").at(2),
                 {grading(grid.at("grading").at(0)), grading(grid.at("grading").at(1)),
                  grading(grid.at("grading").at(2))}};
-  basis.air = {air.at("speed_m_s"),     air.at("density_kg_m3"),        air.at("viscosity_pa_s"),
-               air.at("temperature_k"), air.at("turbulence_intensity"), air.at("viscosity_ratio")};
+  basis.air = {vec3(air.at("velocity_m_s")), air.at("density_kg_m3"),        air.at("viscosity_pa_s"),
+               air.at("temperature_k"),      air.at("turbulence_intensity"), air.at("viscosity_ratio")};
   basis.sides = j.at("slip_sides") ? Sides::slip : Sides::zero_gradient;
   basis.ranks = j.at("ranks");
   basis.second_order = j.at("second_order");

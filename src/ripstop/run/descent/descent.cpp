@@ -1,0 +1,63 @@
+#include "ripstop/run/descent/descent.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ripstop/core/error.h"
+#include "ripstop/flight/atmosphere.h"
+#include "ripstop/flight/descent.h"
+#include "ripstop/run/json.h"
+
+namespace ripstop {
+namespace {
+
+// A canopy's shape and the air through its cloth follow the dynamic pressure: beyond this the run is of another flight.
+constexpr double far_off = 0.25;  // of the run's own dynamic pressure
+
+}  // namespace
+
+std::string to_json(const Descent& descent) {
+  return json_text(descent);
+}
+
+Descent run_descent(const FinishedSteady& run, double payload_mass, const std::vector<double>& heights,
+                    double ground) {
+  if (!(payload_mass > 0) || !std::isfinite(payload_mass))
+    throw Error(ExitCode::usage, fmt::format("a payload of {:g} kg: must be above 0", payload_mass));
+  Descent result;
+  result.title = run.result.title;
+  result.run = run.folder.string();
+  result.payload_mass = payload_mass;
+  result.parachute_mass = run.parachute_mass;
+  result.drag_area = run.result.drag_area;
+  result.drag_area_uncertainty = run.drag_uncertainty * result.drag_area;
+  result.run_speed = run.result.speed;
+  result.ground = ground;
+  const double mass = payload_mass + run.parachute_mass;
+  const double of_speed = 0.5 * run.drag_uncertainty;  // v goes with the root of the drag area
+  for (const double height : heights) {
+    DescentRow row;
+    row.height = height;
+    row.density = standard_air(height).density;
+    row.speed = terminal_speed(mass, result.drag_area, row.density);
+    row.speed_uncertainty = of_speed * row.speed;
+    if (height > ground) {
+      row.time = descent_time(mass, result.drag_area, height, ground);
+      row.time_uncertainty = of_speed * *row.time;
+    }
+    result.rows.push_back(row);
+  }
+  // At every height the dynamic pressure is the same: weight over drag area.
+  const double wanted = mass * standard_gravity / result.drag_area;
+  const double had = 0.5 * run.result.density * run.result.speed * run.result.speed;
+  if (std::abs(wanted / had - 1) > far_off)
+    result.warnings.push_back(fmt::format(
+        "the run was at {:.3g} Pa of dynamic pressure and this descent is at {:.3g} Pa: shape and drag "
+        "area may be others there; [payload] mass_kg = {:g} in the case finds the speed itself",
+        had, wanted, payload_mass));
+  return result;
+}
+
+}  // namespace ripstop

@@ -1,0 +1,256 @@
+#include "ripstop/run/opening/load.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "ripstop/case/payload.h"
+#include "ripstop/core/error.h"
+#include "ripstop/core/positive.h"
+#include "ripstop/flight/atmosphere.h"
+#include "ripstop/flight/descent.h"
+#include "ripstop/run/json.h"
+#include "ripstop/run/opening/filling.h"
+#include "ripstop/run/opening/opening_record.h"
+#include "ripstop/run/steady/finished_steady.h"
+
+namespace ripstop {
+namespace {
+
+// How many steps a filling takes on the trajectory, and how long one is flown at most [s].
+constexpr double steps_a_filling = 400, longest_flight = 600;
+// The share of the load at infinite mass from which on that estimate stands for the opening.
+constexpr double hardly_slowed = 0.9;
+// Where gravity adds more to the speed during the filling than this share, formulas without gravity do not hold.
+constexpr double most_gravity = 0.3;
+
+void check_request(const LoadRequest& request) {
+  require_positive("payload mass (kg)", request.payload_mass);
+  require_positive("speed at line stretch (m/s)", request.speed);
+  if (!(request.height > request.ground))
+    throw Error(ExitCode::usage,
+                fmt::format("an opening at {:g} m above sea level: must be above the ground at {:g} m",
+                            request.height, request.ground));
+  if (!(std::abs(request.path_angle) <= 90))
+    throw Error(ExitCode::usage,
+                fmt::format("a way {:g} degrees below the horizon: must be from -90, straight "
+                            "up, to 90, straight down",
+                            request.path_angle));
+  double before = 0;
+  for (const ReefedStage& stage : request.reefing) {
+    if (!(stage.share > before && stage.share < 1))
+      throw Error(
+          ExitCode::usage,
+          fmt::format("a reefed stage at {:g} of the drag area: must be above {:g}, the stage before, and "
+                      "below 1",
+                      stage.share, before));
+    require_positive("duration of a reefed stage (s)", stage.duration);
+    before = stage.share;
+  }
+}
+
+/// Drag, opening and filling coefficients: as asked, else computed, else the handbook's of the family.
+void choose_coefficients(const Settings& resolved, const LoadRequest& request, LoadResult& r) {
+  const Experience known = experience(resolved.parachute());
+  r.reference_area = nominal_area(resolved.parachute());
+  r.nominal_diameter = nominal_diameter(resolved.parachute());
+  if (request.drag_coefficient) {
+    r.drag_coefficient = *request.drag_coefficient, r.drag_source = "given";
+  } else if (!request.steady.empty()) {
+    const FinishedSteady run = finished_steady(request.steady);
+    r.drag_coefficient = run.result.drag_area / r.reference_area;
+    r.drag_source = fmt::format("steady run {}: {:.4g} m2", request.steady.string(), run.result.drag_area);
+  } else if (known.drag_coefficient.high > 0) {
+    r.drag_coefficient = 0.5 * (known.drag_coefficient.low + known.drag_coefficient.high);
+    r.drag_source = fmt::format("middle of {:.2f} to {:.2f} (Knacke)", known.drag_coefficient.low,
+                                known.drag_coefficient.high);
+  } else {
+    throw Error(ExitCode::usage,
+                "no drag coefficient is known of this family: give --drag-coefficient or --steady RUN");
+  }
+  require_positive("drag coefficient", r.drag_coefficient);
+  r.opening_coefficient = request.opening_coefficient.value_or(known.opening_coefficient);
+  r.opening_source = request.opening_coefficient ? "given" : known.opening_source;
+  require_positive("opening coefficient C_x", r.opening_coefficient);
+  const KnownFilling filling = known_filling(resolved.parachute().canopy.family().type);
+  r.filling_constant = request.filling_constant.value_or(filling.constant);
+  r.filling_exponent = request.filling_exponent.value_or(filling.exponent);
+  r.ludtke_exponent = request.filling_exponent.value_or(filling.ludtke_exponent);
+  r.filling_source = request.filling_constant && request.filling_exponent ? "given" : filling.source;
+  require_positive("filling constant n", r.filling_constant);
+  require_positive("exponent of the drag area", r.filling_exponent);
+}
+
+void add_methods(const OpeningConditions& c, double ludtke_exponent, double integral, StageLoads& stage) {
+  const double a = ballistic_parameter(c);
+  const ForceFactor x = force_factor(a, c.exponent);
+  const double gravity =
+      standard_gravity * std::abs(std::sin(c.path_angle * std::numbers::pi / 180)) * c.filling_time / c.speed;
+  const bool from_none = stage.drag_area_before == 0;
+  const bool light = gravity < most_gravity;
+  const std::string held =
+      !from_none ? "fills from nothing, this stage does not"
+      : !light   ? fmt::format("has no gravity, which adds {:.0f} % to the speed here", 100 * gravity)
+                 : "";
+  stage.methods.push_back({"infinite mass", infinite_mass_load(c).load, 0, x.factor > hardly_slowed,
+                           x.factor > hardly_slowed
+                               ? "the speed hardly falls while the canopy fills"
+                               : "an upper bound: the speed falls while the canopy fills"});
+  OpeningConditions by_ludtke = c;
+  by_ludtke.exponent = ludtke_exponent;
+  const OpeningLoad pflanz = pflanz_load(c), ludtke = ludtke_load(by_ludtke);
+  stage.methods.push_back({"Pflanz", pflanz.load, pflanz.time, held.empty(), held});
+  stage.methods.push_back({"Ludtke", ludtke.load, ludtke.time, held.empty(), held});
+  const MomentumImpulse impulse = momentum_impulse_load(c, integral);
+  stage.methods.push_back({"momentum-impulse", impulse.load.load, 0, from_none,
+                           fmt::format("{}leaves {:.0f} % of the speed",
+                                       from_none ? "" : "fills from nothing; ", 100 * impulse.speed_ratio)});
+}
+
+void judge(StageLoads& stage) {
+  double sum = 0;
+  int count = 0;
+  for (const MethodLoad& m : stage.methods) {
+    if (!m.applies) continue;
+    stage.highest = count == 0 ? m.load : std::max(stage.highest, m.load);
+    stage.lowest = count == 0 ? m.load : std::min(stage.lowest, m.load);
+    sum += m.load, ++count;
+  }
+  if (count > 0) stage.spread = (stage.highest - stage.lowest) / (sum / count);
+}
+
+/// Appends the rows of one leg without repeating the first; returns the highest force among them.
+const FlightRow& append(std::vector<FlightRow>& all, std::vector<FlightRow> leg) {
+  const std::size_t begin = all.size();
+  all.insert(all.end(), leg.begin() + (all.empty() ? 0 : 1), leg.end());
+  return *std::max_element(all.begin() + static_cast<std::ptrdiff_t>(begin), all.end(),
+                           [](const FlightRow& a, const FlightRow& b) { return a.force < b.force; });
+}
+
+/// Filling distances of stages, Knacke: t_f1 = n D_0 / v ((C_D S)_1 / (C_D S)_0)^(1/2), and for what is added later
+/// the same with the difference of both areas.
+void fly_stages(const LoadRequest& request, LoadResult& r) {
+  FlightState state{0, 0, 0, request.height, request.speed, request.path_angle};
+  const double open = r.drag_coefficient * r.reference_area, mass = r.payload_mass + r.parachute_mass;
+  std::vector<ReefedStage> stages = request.reefing;
+  stages.push_back({1, longest_flight});
+  double before = 0;
+  for (const ReefedStage& reefed : stages) {
+    StageLoads stage;
+    stage.begin = state.time, stage.speed = state.speed, stage.height = state.height;
+    stage.density = standard_air(state.height).density;
+    stage.drag_area_before = before, stage.drag_area = reefed.share * open;
+    stage.filling_time =
+        r.filling_constant * r.nominal_diameter / state.speed * std::sqrt((stage.drag_area - before) / open);
+    const OpeningConditions c{mass,
+                              state.speed,
+                              stage.density,
+                              stage.drag_area,
+                              stage.filling_time,
+                              r.filling_exponent,
+                              r.opening_coefficient,
+                              std::clamp(state.path_angle, -90.0, 90.0)};
+    stage.ballistic_parameter = ballistic_parameter(c);
+    stage.mass_ratio = mass_ratio(c);
+    add_methods(c, r.ludtke_exponent, request.impulse_integral, stage);
+    Leg leg;
+    leg.drag_area =
+        filling(before, stage.drag_area, stage.filling_time, r.filling_exponent, r.opening_coefficient);
+    // The rest of the flight is slow and long: steps of the filling first, larger ones after it.
+    const double settled = stage.filling_time * (2 + std::pow(r.opening_coefficient, 1 / r.filling_exponent));
+    leg.duration = std::min(reefed.duration, settled);
+    leg.step = stage.filling_time / steps_a_filling;
+    leg.ground = request.ground;
+    const FlightRow peak = append(r.flight, fly(state, mass, leg));
+    stage.methods.push_back({"trajectory", peak.force, peak.state.time - stage.begin, true,
+                             "with gravity and the standard atmosphere"});
+    judge(stage);
+    r.stages.push_back(stage);
+    if (peak.force > r.peak_load) r.peak_load = peak.force, r.peak_time = peak.state.time;
+    if (reefed.duration > settled && state.height > request.ground) {
+      const double area = stage.drag_area;
+      leg.drag_area = [area](double, double) { return area; };
+      leg.duration = reefed.duration - settled;
+      leg.step = std::min(0.02, 10 * leg.step);
+      leg.until_steady = reefed.share == 1;
+      append(r.flight, fly(state, mass, leg));
+    }
+    before = stage.drag_area;
+  }
+  r.steady_time = state.time, r.steady_drop = request.height - state.height, r.steady_speed = state.speed;
+  const double terminal = terminal_speed(mass, open, standard_air(state.height).density);
+  r.steady_reached = std::abs(state.speed / terminal - 1) < 2e-3;
+}
+
+void fly_record(const Settings& resolved, const LoadRequest& request, LoadResult& r) {
+  const OpeningRecord record = opening_record(request.opening, resolved);
+  const double mass = r.payload_mass + r.parachute_mass;
+  FlightState state{0, 0, 0, request.height, request.speed, request.path_angle};
+  Leg leg;
+  leg.drag_area = from_record(record.distance, record.drag_area, record.steady_drag_area);
+  leg.duration = 3 * record.distance.back() / request.speed;
+  leg.step = leg.duration / 6000;
+  leg.ground = request.ground;
+  const FlightRow peak = append(r.record_flight, fly(state, mass, leg));
+  r.record_peak_load = peak.force;
+  if (request.reefing.empty()) {
+    StageLoads& stage = r.stages.front();
+    stage.methods.push_back({"computed opening", peak.force, peak.state.time, true,
+                             "C_D S of " + request.opening.string() + " over the way through the air"});
+    judge(stage);
+  }
+}
+
+SnatchResult snatch_of(const Settings& resolved, const LoadRequest& request, const LoadResult& r) {
+  const Design& design = resolved.parachute();
+  const Line& line = resolved.materials().line;
+  std::vector<SnatchPart> parts = {
+      {"the lines", line.coefficients_n, design.lines.count, design.lines.length_m}};
+  if (design.riser.length_m > 0)
+    parts.push_back({"the riser", resolved.materials().riser.coefficients_n, 1, design.riser.length_m});
+  SnatchResult snatch;
+  snatch.speed_difference =
+      request.snatch_speed
+          ? *request.snatch_speed
+          : speed_difference_at_stretch(
+                {r.payload_mass, request.payload_drag_area.value_or(resolved.payload().drag_area_m2)},
+                {r.parachute_mass, *request.packed_drag_area}, request.speed,
+                standard_air(request.height).density, design.lines.length_m + design.riser.length_m);
+  const SnatchLoad load = snatch_load(r.payload_mass, r.parachute_mass, snatch.speed_difference, parts);
+  snatch.load = load.load, snatch.time = load.time, snatch.stretch = load.stretch;
+  snatch.line_load = load.strand_load.front();
+  if (line.break_load_n > 0) snatch.line_margin = line.break_load_n / snatch.line_load;
+  return snatch;
+}
+
+}  // namespace
+
+std::string to_json(const LoadResult& result) {
+  return json_text(result);
+}
+
+LoadResult run_load(const Settings& resolved, const LoadRequest& request) {
+  check_request(request);
+  LoadResult r;
+  r.title = resolved.title();
+  r.payload_mass = request.payload_mass;
+  r.parachute_mass = parachute_mass(resolved);
+  choose_coefficients(resolved, request, r);
+  const double descent =
+      terminal_speed(r.payload_mass + r.parachute_mass, r.drag_coefficient * r.reference_area,
+                     standard_air(request.height).density);
+  if (descent >= request.speed)
+    throw Error(
+        ExitCode::usage,
+        fmt::format("a descent rate of {:.3g} m/s is above the {:.3g} m/s of the deployment: nothing opens "
+                    "with a load there; take a higher speed, a smaller mass or a larger canopy",
+                    descent, request.speed));
+  fly_stages(request, r);
+  if (!request.opening.empty()) fly_record(resolved, request, r);
+  if (request.snatch_speed || request.packed_drag_area) r.snatch = snatch_of(resolved, request, r);
+  return r;
+}
+
+}  // namespace ripstop

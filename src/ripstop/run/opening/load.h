@@ -1,0 +1,159 @@
+// The load when a parachute opens behind a given mass, by every method side by side: `ripstop load`.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ripstop/case/settings.h"
+#include "ripstop/core/members.h"
+#include "ripstop/flight/opening_load.h"
+#include "ripstop/flight/snatch.h"
+#include "ripstop/flight/trajectory.h"
+
+namespace ripstop {
+
+/// A reefed stage: held at a share of the open drag area until so long after line stretch or the disreef before.
+struct ReefedStage {
+  double share = 0;     // of the open canopy's drag area
+  double duration = 0;  // [s]
+};
+
+/// What is asked for; what is absent follows from the case and from what is known of its family.
+struct LoadRequest {
+  double payload_mass = 0;  // [kg]
+  double speed = 0;         // through the air at line stretch [m/s]
+  double height = 0;        // above sea level there [m]
+  double ground = 0;        // [m]
+  double path_angle = 90;   // of the way there, below the horizon [deg]
+  std::optional<double> drag_coefficient, opening_coefficient, filling_constant, filling_exponent;
+  double impulse_integral = 0.5;  // I_F of momentum_impulse_load()
+  std::vector<ReefedStage> reefing;
+  std::optional<double> snatch_speed;  // difference of the speeds at line stretch [m/s]
+  std::optional<double>
+      packed_drag_area;  // of the packed canopy with its pilot, to find that difference [m2]
+  std::optional<double> payload_drag_area;  // [m2]; absent: the case's
+  std::filesystem::path steady, opening;    // folders of runs to take the drag area from; empty: none
+};
+
+/// A row of trajectory.csv.
+template <Of<FlightRow> T, class Visit>
+void each_member(T& row, Visit&& visit) {
+  visit("time_s", row.state.time);
+  visit("distance_m", row.state.distance);
+  visit("range_m", row.state.range);
+  visit("height_m", row.state.height);
+  visit("speed_m_s", row.state.speed);
+  visit("path_angle_deg", row.state.path_angle);
+  visit("drag_area_m2", row.drag_area);
+  visit("force_n", row.force);
+  visit("density_kg_m3", row.density);
+}
+
+struct MethodLoad {
+  std::string method;
+  double load = 0;  // [N]
+  double time = 0;  // from the stage's begin [s]; 0: the method does not say
+  bool applies = false;
+  std::string note;
+};
+template <Of<MethodLoad> T, class Visit>
+void each_member(T& m, Visit&& visit) {
+  visit("method", m.method);
+  visit("load_n", m.load);
+  visit("time_s", m.time);
+  visit("applies", m.applies);
+  visit("note", m.note);
+}
+
+struct StageLoads {
+  double begin = 0, speed = 0, height = 0, density = 0;          // of the stage [s], [m/s], [m], [kg/m3]
+  double drag_area_before = 0, drag_area = 0, filling_time = 0;  // [m2], [m2], [s]
+  double ballistic_parameter = 0, mass_ratio = 0;
+  std::vector<MethodLoad> methods;
+  double highest = 0, lowest = 0, spread = 0;  // of the methods that apply; (highest - lowest) / mean
+};
+template <Of<StageLoads> T, class Visit>
+void each_member(T& s, Visit&& visit) {
+  visit("begin_s", s.begin);
+  visit("speed_m_s", s.speed);
+  visit("height_m", s.height);
+  visit("density_kg_m3", s.density);
+  visit("drag_area_before_m2", s.drag_area_before);
+  visit("drag_area_m2", s.drag_area);
+  visit("filling_time_s", s.filling_time);
+  visit("ballistic_parameter", s.ballistic_parameter);
+  visit("mass_ratio", s.mass_ratio);
+  visit("methods", s.methods);
+  visit("highest_n", s.highest);
+  visit("lowest_n", s.lowest);
+  visit("spread", s.spread);
+}
+
+struct SnatchResult {
+  double speed_difference = 0, load = 0, time = 0, stretch = 0;  // [m/s], [N], [s], [m]
+  double line_load = 0;                                          // of one line [N]
+  std::optional<double> line_margin;                             // its break load over that
+};
+template <Of<SnatchResult> T, class Visit>
+void each_member(T& s, Visit&& visit) {
+  visit("speed_difference_m_s", s.speed_difference);
+  visit("load_n", s.load);
+  visit("time_s", s.time);
+  visit("stretch_m", s.stretch);
+  visit("line_load_n", s.line_load);
+  visit("line_margin", s.line_margin);
+}
+
+/// result.json of `ripstop load`.
+struct LoadResult {
+  std::string title;
+  double payload_mass = 0, parachute_mass = 0;      // [kg]
+  double nominal_diameter = 0, reference_area = 0;  // [m], [m2]
+  double drag_coefficient = 0, opening_coefficient = 0, filling_constant = 0, filling_exponent = 0;
+  double ludtke_exponent = 0;
+  std::string drag_source, opening_source, filling_source;
+  std::vector<StageLoads> stages;
+  double peak_load = 0, peak_time = 0;     // of the trajectory [N], [s]
+  std::optional<double> record_peak_load;  // of the trajectory with a computed opening's drag area [N]
+  std::optional<SnatchResult> snatch;
+  double steady_speed = 0, steady_time = 0, steady_drop = 0;  // where the descent is steady [m/s], [s], [m]
+  bool steady_reached = false;
+  std::vector<FlightRow> flight, record_flight;  // not in result.json: trajectory.csv
+};
+template <Of<LoadResult> T, class Visit>
+void each_member(T& r, Visit&& visit) {
+  visit("title", r.title);
+  visit("payload_mass_kg", r.payload_mass);
+  visit("parachute_mass_kg", r.parachute_mass);
+  visit("nominal_diameter_m", r.nominal_diameter);
+  visit("reference_area_m2", r.reference_area);
+  visit("drag_coefficient", r.drag_coefficient);
+  visit("drag_coefficient_from", r.drag_source);
+  visit("opening_coefficient", r.opening_coefficient);
+  visit("opening_coefficient_from", r.opening_source);
+  visit("filling_constant", r.filling_constant);
+  visit("filling_exponent", r.filling_exponent);
+  visit("ludtke_exponent", r.ludtke_exponent);
+  visit("filling_from", r.filling_source);
+  visit("stages", r.stages);
+  visit("peak_load_n", r.peak_load);
+  visit("peak_time_s", r.peak_time);
+  visit("record_peak_load_n", r.record_peak_load);
+  visit("snatch", r.snatch);
+  visit("steady_speed_m_s", r.steady_speed);
+  visit("steady_time_s", r.steady_time);
+  visit("steady_drop_m", r.steady_drop);
+  visit("steady_reached", r.steady_reached);
+}
+std::string to_json(const LoadResult& result);
+
+/// Throws Error(usage) for what is not above 0, a descent rate above the speed of deployment, stages that do not
+/// grow, and what finished_steady() and standard_air() refuse.
+LoadResult run_load(const Settings& resolved, const LoadRequest& request);
+
+/// result.json, trajectory.csv, force.png and speed.png.
+void write_load(const std::filesystem::path& folder, const LoadResult& result);
+
+}  // namespace ripstop

@@ -1,0 +1,206 @@
+#include "ripstop/run/report/report.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "ripstop/case/assemble.h"
+#include "ripstop/core/error.h"
+#include "ripstop/core/file.h"
+#include "ripstop/core/words.h"
+#include "ripstop/output/csv.h"
+#include "ripstop/run/report/report_plots.h"
+#include "ripstop/run/report/report_tables.h"
+#include "ripstop/run/run_folder.h"
+#include "ripstop/run/steady/steady_folder.h"
+#include "ripstop/run/steady/warnings.h"
+
+namespace ripstop {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Points of all frames together that a page of `largest_page` holds: 6 bytes a point and frame, measured.
+constexpr std::size_t most_points = 1'200'000;
+
+/// "vtk/canopy_0012.vtp" and its lines, in order.
+std::vector<ShapeFiles> shape_files(const fs::path& folder) {
+  std::vector<ShapeFiles> files;
+  if (!fs::is_directory(folder / "vtk")) return files;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder / "vtk")) {
+    const std::string name = entry.path().filename();
+    if (!name.starts_with("canopy_") || !name.ends_with(".vtp")) continue;
+    const fs::path lines = folder / "vtk" / ("lines" + name.substr(6));
+    if (fs::exists(lines)) files.push_back({0, entry.path(), lines});
+  }
+  std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) { return a.canopy < b.canopy; });
+  return files;
+}
+
+/// Of an opening: so many frames, evenly, as a page holds, with their times.
+std::vector<ShapeFiles> frames_of(const fs::path& folder) {
+  std::vector<ShapeFiles> all = shape_files(folder);
+  if (all.size() < 2) return all;
+  std::vector<double> times = read_csv(folder / "balance.csv").column("time_s");
+  times.insert(times.begin(), 0.0);  // the folded start
+  for (std::size_t i = 0; i < all.size(); ++i) all[i].time = i < times.size() ? times[i] : times.back();
+  const std::size_t points = read_shape({all.front()}).frames.front().points.size() / 3;
+  const std::size_t fit = std::max<std::size_t>(12, most_points / std::max<std::size_t>(points, 1));
+  if (all.size() <= fit) return all;
+  std::vector<ShapeFiles> kept;
+  for (std::size_t i = 0; i < fit; ++i) kept.push_back(all[i * (all.size() - 1) / (fit - 1)]);
+  return kept;
+}
+
+void add_shape(ReportRun& run, const fs::path& folder) {
+  const bool opening = run.kind == "opening";
+  std::vector<ShapeFiles> files = opening ? frames_of(folder) : shape_files(folder);
+  if (files.empty()) return;
+  if (!opening) files = {files.back()};
+  run.shape = read_shape(files);
+}
+
+void add_flow(ReportRun& run, const fs::path& folder) {
+  if (run.shape.frames.empty()) return;
+  constexpr double far = std::numeric_limits<double>::infinity();
+  Vec3 low{far, far, far}, high{-far, -far, -far};
+  const std::vector<double>& points = run.shape.frames.back().points;
+  for (int quad : run.shape.quads) {
+    const Vec3 p{points[3 * quad], points[3 * quad + 1], points[3 * quad + 2]};
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  for (const char* name : {"flow.vti", "flow.vtr"})
+    if (fs::exists(folder / name)) run.flow = read_flow(folder / name, low, high);
+}
+
+std::string name_of(const fs::path& folder) {
+  const fs::path whole = fs::absolute(folder).lexically_normal();
+  return (whole.has_filename() ? whole : whole.parent_path()).filename();
+}
+
+bool is_sweep(const fs::path& folder) {
+  return fs::exists(folder / "sweep.json") && fs::exists(folder / "result.json");
+}
+
+/// Refuses to write over what is no report.
+void check_out(const fs::path& out) {
+  if (fs::exists(out) && !(fs::is_regular_file(out) && is_report(read_file(out))))
+    throw Error(
+        ExitCode::usage,
+        fmt::format("{}: is there already and no report of Ripstop; choose another --out", out.string()));
+}
+
+/// The page into a sealed folder, all of whose other files are as they were when it was sealed.
+fs::path write_into(const fs::path& folder, const std::string& page) {
+  require_whole(folder, report_name);
+  ClaimedFolder claimed(folder);
+  write_file(claimed.own(report_name), page);
+  claimed.seal();
+  return folder / report_name;
+}
+
+}  // namespace
+
+ReportRun report_of(const fs::path& folder) {
+  const fs::path result = folder / "result.json";
+  if (!fs::exists(result) || !fs::exists(folder / "run.json"))
+    throw Error(ExitCode::usage, fmt::format("{}: holds no finished run of ripstop steady, inflate or sweep",
+                                             folder.string()));
+  ReportRun run;
+  run.name = name_of(folder);
+  add_result(run, read_file(result), result);
+  run.kind = number_of(run, "peak_load_n") == number_of(run, "peak_load_n") ? "opening" : "steady";
+  run.headline = run.kind == "opening"
+                     ? std::vector<std::string>{"peak_load_n",    "low_pass_peak_load_n", "steady_load_n",
+                                                "filling_time_s", "max_line_tension_n",   "max_von_mises_n_m"}
+                     : std::vector<std::string>{"drag_n",
+                                                "drag_coefficient",
+                                                "drag_area_m2",
+                                                "projected_diameter_m",
+                                                "max_line_tension_n",
+                                                "max_von_mises_n_m"};
+  const Settings resolved = settings_of_run(folder);
+  run.case_file = read_file(folder / "case.toml");
+  run.tables.push_back(bill_table(resolved));
+  if (const ReportTable sources = sources_table(resolved, folder / "run.json"); !sources.rows.empty())
+    run.tables.push_back(sources);
+  run.warnings = warnings_of(resolved, number_of(run, "max_cloth_strain"));
+  if (!run.converged) run.warnings.insert(run.warnings.begin(), "The coupling did not converge.");
+  add_provenance(run, folder / "run.json");
+  run.plots = plots_of(run, folder);
+  add_shape(run, folder);
+  if (!run.shape.frames.empty()) run.shape.part_names = parachute_mesh(resolved).parts;
+  add_flow(run, folder);
+  return run;
+}
+
+std::vector<ReportRun> reports_of(const fs::path& folder) {
+  if (is_sealed(folder)) require_whole(folder, report_name);
+  std::vector<ReportRun> runs;
+  if (!is_sweep(folder)) runs.push_back(report_of(folder));
+  if (!is_sealed(folder))
+    throw Error(ExitCode::usage,
+                fmt::format("{}: has not ended; wait for it, or repeat its command", folder.string()));
+  if (!is_sweep(folder)) return runs;
+  const auto sweep = nlohmann::ordered_json::parse(read_file(folder / "result.json"), nullptr, false);
+  if (sweep.is_object() && sweep.contains("runs")) {
+    for (const auto& row : sweep["runs"]) {
+      if (!row.contains("result")) continue;
+      runs.push_back(reports_of(folder / row.value("folder", "")).front());
+      std::string name;
+      for (const auto& [key, value] : row["values"].items())
+        name += (name.empty() ? "" : ", ") + in_words(key, value.template get<std::string>());
+      if (!name.empty()) runs.back().name = name;
+    }
+  }
+  if (runs.empty())
+    throw Error(ExitCode::usage, fmt::format("{}: no run of this sweep has a result", folder.string()));
+  return runs;
+}
+
+Report report_on(std::vector<ReportRun> runs, const std::string& title) {
+  Report report;
+  report.title = title;
+  if (runs.size() > 1) {
+    report.comparison = comparison_table(runs);
+    report.plots = comparison_plots(runs, resolve(parse_case(runs.front().case_file, "case.toml")));
+  }
+  report.runs = std::move(runs);
+  return report;
+}
+
+std::string write_run_report(ClaimedFolder& folder) {
+  try {
+    ReportRun run = report_of(folder.path());
+    const std::string title = run.title;
+    write_file(folder.own(report_name), report_page(report_on({std::move(run)}, title)));
+    return {};
+  } catch (const std::exception& error) {
+    const auto* known = dynamic_cast<const Error*>(&error);
+    if (known && known->code() == ExitCode::io) throw;  // the same command will write it once there is room
+    return fmt::format("no report was written: {}", error.what());
+  }
+}
+
+fs::path write_report(const std::vector<fs::path>& folders, const fs::path& out) {
+  if (folders.empty()) throw Error(ExitCode::usage, "no run to report on");
+  const bool own = out.empty() && folders.size() == 1;
+  const fs::path target = own ? folders.front() / report_name : out.empty() ? fs::path(report_name) : out;
+  check_out(target);
+  std::vector<ReportRun> runs;
+  for (const fs::path& folder : folders)
+    for (ReportRun& run : reports_of(folder)) runs.push_back(std::move(run));
+  std::string title = runs.front().title;
+  if (std::any_of(runs.begin(), runs.end(), [&](const ReportRun& run) { return run.title != title; }))
+    title = fmt::format("{} runs", runs.size());
+  const std::string page = report_page(report_on(std::move(runs), title));
+  if (own && is_sealed(folders.front())) return write_into(folders.front(), page);
+  write_file(target, page);
+  return target;
+}
+
+}  // namespace ripstop

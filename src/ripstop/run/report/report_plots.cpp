@@ -1,0 +1,216 @@
+#include "ripstop/run/report/report_plots.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "ripstop/core/words.h"
+#include "ripstop/output/csv.h"
+#include "ripstop/run/report/report_tables.h"
+
+namespace ripstop {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// As a screen shows it: of every stretch its least and its largest value.
+ReportSeries thinned(ReportSeries series) {
+  constexpr std::size_t enough = 3000;
+  const std::size_t count = series.x.size();
+  if (count <= enough) return series;
+  const std::size_t stretch = 2 * count / enough + 1;
+  ReportSeries kept{series.name, {}, {}, series.line, series.dashed};
+  const auto keep = [&](std::size_t i) {
+    kept.x.push_back(series.x[i]);
+    kept.y.push_back(series.y[i]);
+  };
+  for (std::size_t begin = 0; begin < count; begin += stretch) {
+    const auto first = series.y.begin() + static_cast<std::ptrdiff_t>(begin);
+    const auto last = series.y.begin() + static_cast<std::ptrdiff_t>(std::min(begin + stretch, count));
+    const auto [least, most] = std::minmax_element(first, last);
+    const auto a = static_cast<std::size_t>(least - series.y.begin()),
+               b = static_cast<std::size_t>(most - series.y.begin());
+    keep(std::min(a, b));
+    if (a != b) keep(std::max(a, b));
+  }
+  return kept;
+}
+
+/// Columns of a table over another one; nothing where there is no such file.
+void add_plot(std::vector<ReportPlot>& plots, const fs::path& file, const std::string& x, ReportPlot plot,
+              const std::vector<std::pair<std::string, std::string>>& columns) {
+  if (!fs::exists(file)) return;
+  const CsvTable table = read_csv(file);
+  if (table.rows.empty()) return;
+  const std::vector<double> along = table.column(x);
+  for (const auto& [column, name] : columns) {
+    if (std::find(table.columns.begin(), table.columns.end(), column) == table.columns.end()) continue;
+    plot.series.push_back(thinned({name, along, table.column(column), true, false}));
+  }
+  if (!plot.series.empty()) plots.push_back(std::move(plot));
+}
+
+ReportPlot plot(const char* id, const char* title, ReportColumn x, ReportColumn y) {
+  ReportPlot made;
+  made.id = id;
+  made.title = title;
+  made.x = std::move(x);
+  made.y = std::move(y);
+  return made;
+}
+
+const ReportColumn seconds{"time", "s"}, newtons{"axial force", "N"}, iterations{"coupling iteration", ""};
+
+std::vector<ReportPlot> steady_plots(const fs::path& folder) {
+  std::vector<ReportPlot> plots;
+  add_plot(plots, folder / "iterations.csv", "iteration",
+           plot("forces", "Axial forces, which have to agree", iterations, newtons),
+           {{"drag_n", "force of the air"},
+            {"nodal_load_n", "load on the cloth"},
+            {"line_tension_n", "tension of the lines"},
+            {"momentum_deficit_n", "momentum that the air lost"}});
+  ReportPlot changes = plot("changes", "Convergence", iterations, {"relative change or residual", ""});
+  changes.logarithmic = true;
+  add_plot(plots, folder / "iterations.csv", "iteration", changes,
+           {{"drag_change", "change of the drag"},
+            {"omega", "change of the shape"},
+            {"flow_residual", "residual of the flow"}});
+  ReportPlot history = plot("history", "Drag over time", seconds, newtons);
+  add_plot(plots, folder / "history.csv", "time_s", history,
+           {{"drag_n", "drag"}, {"force_x_n", "side force along x"}, {"force_y_n", "side force along y"}});
+  add_plot(plots, folder / "pressure.csv", "arc_m",
+           plot("pressure", "Pressure along a gore", {"along the cloth from the vent", "m"},
+                {"pressure coefficient", ""}),
+           {{"cp_inside", "inside"}, {"cp_outside", "outside"}, {"cp_load", "load on the cloth"}});
+  add_plot(plots, folder / "pressure.csv", "z_m",
+           plot("profile", "Profile", {"along the stream", "m"}, {"radius", "m"}),
+           {{"radius_m", "mean over the gores"}});
+  return plots;
+}
+
+void add_line_plot(std::vector<ReportPlot>& plots, const fs::path& folder) {
+  std::vector<ReportPlot> lines;
+  add_plot(lines, folder / "lines.csv", "line",
+           plot("lines", "Line tensions", {"line", ""}, {"tension", "N"}),
+           {{"free_tension_n", "below the skirt"},
+            {"largest_tension_n", "largest anywhere on the line"},
+            {"peak_tension_n", "highest of the opening"}});
+  for (ReportPlot& found : lines) {
+    for (ReportSeries& series : found.series) series.line = false;
+    plots.push_back(found);
+  }
+}
+
+std::vector<ReportPlot> opening_plots(const ReportRun& run, const fs::path& folder) {
+  std::vector<ReportPlot> plots;
+  ReportPlot load = plot("load", "Load on the riser", {"time from deployment", "s"}, {"axial load", "N"});
+  load.over_time = true;
+  add_plot(plots, folder / "history.csv", "time_s", load,
+           {{"load_largest_n", "largest in the interval"}, {"load_mean_n", "load"}});
+  if (!plots.empty()) {
+    std::vector<ReportPlot> smooth;
+    add_plot(smooth, folder / "history_low_pass.csv", "time_s", load, {{"load_n", "low-passed"}});
+    if (!smooth.empty()) plots[0].series.push_back(smooth[0].series[0]);
+    const double end = plots[0].series[0].x.back();
+    for (const auto& [key, name] : {std::pair{"steady_load_n", "steady"},
+                                    {"knacke_load_n", "Knacke's estimate"},
+                                    {"measured_peak_n", "measured peak"},
+                                    {"printed_peak_n", "peak of the source's model"}}) {
+      const double level = number_of(run, key);
+      if (std::isfinite(level)) plots[0].series.push_back({name, {0, end}, {level, level}, true, true});
+    }
+  }
+  ReportPlot size = plot("size", "Diameters", {"time from deployment", "s"}, {"diameter", "m"});
+  ReportPlot stress =
+      plot("stress", "Highest stress", {"time from deployment", "s"}, {"von Mises stress", "N/m"});
+  ReportPlot energy = plot("energy", "Energy balance", {"time from deployment", "s"}, {"energy", "J"});
+  size.over_time = stress.over_time = energy.over_time = true;
+  const fs::path balance = folder / "balance.csv";
+  add_plot(plots, balance, "time_s", size,
+           {{"projected_diameter_m", "projected"}, {"skirt_diameter_m", "skirt"}});
+  add_plot(plots, balance, "time_s", stress, {{"max_von_mises_n_m", "highest in the cloth"}});
+  add_plot(plots, balance, "time_s", energy,
+           {{"pressure_work_j", "work of the pressure"},
+            {"kinetic_energy_j", "kinetic"},
+            {"elastic_energy_j", "elastic"},
+            {"damped_energy_j", "damped"}});
+  return plots;
+}
+
+/// Drag of the case's measured rows over the speed that its speed_basis takes.
+ReportSeries known_drag(const Settings& resolved, const char* name, std::optional<double> Measured::*drag) {
+  ReportSeries series{name, {}, {}, false, false};
+  for (const Measured& row : resolved.measured()) {
+    if (!(row.*drag)) continue;
+    const bool nominal = resolved.flow().speed_basis == SpeedBasis::nominal;
+    series.x.push_back(nominal ? row.nominal_speed_m_s : row.measured_speed_m_s);
+    series.y.push_back(*(row.*drag));
+  }
+  return series;
+}
+
+void add_drag_over_speed(std::vector<ReportPlot>& plots, const std::vector<ReportRun>& runs,
+                         const Settings& resolved) {
+  std::vector<std::pair<double, double>> points;
+  for (const ReportRun& run : runs)
+    if (run.kind == "steady") points.emplace_back(number_of(run, "speed_m_s"), number_of(run, "drag_n"));
+  std::sort(points.begin(), points.end());
+  std::set<double> speeds;
+  for (const auto& point : points) speeds.insert(point.first);
+  if (speeds.size() < 2) return;
+  ReportPlot made = plot("drag-speed", "Drag over speed", {"speed", "m/s"}, {"drag", "N"});
+  ReportSeries computed{"computed", {}, {}, speeds.size() == runs.size(), false};
+  for (const auto& [speed, drag] : points) {
+    computed.x.push_back(speed);
+    computed.y.push_back(drag);
+  }
+  made.series.push_back(computed);
+  for (ReportSeries& series :
+       std::vector{known_drag(resolved, "measured", &Measured::drag_n),
+                   known_drag(resolved, "source's nonlinear model", &Measured::printed_nonlinear_n)})
+    if (!series.x.empty()) made.series.push_back(series);
+  plots.push_back(made);
+}
+
+}  // namespace
+
+std::vector<ReportPlot> plots_of(const ReportRun& run, const fs::path& folder) {
+  std::vector<ReportPlot> plots = run.kind == "opening" ? opening_plots(run, folder) : steady_plots(folder);
+  add_line_plot(plots, folder);
+  return plots;
+}
+
+std::vector<ReportPlot> comparison_plots(const std::vector<ReportRun>& runs, const Settings& resolved) {
+  std::vector<ReportPlot> plots;
+  add_drag_over_speed(plots, runs, resolved);
+  // Of each plot the series that stands for it.
+  for (const auto& [id, name] : {std::pair{"forces", "force of the air"},
+                                 {"history", "drag"},
+                                 {"profile", "mean over the gores"},
+                                 {"pressure", "load on the cloth"},
+                                 {"lines", "largest anywhere on the line"},
+                                 {"load", "load"},
+                                 {"size", "projected"}}) {
+    ReportPlot all;
+    for (const ReportRun& run : runs)
+      for (const ReportPlot& one : run.plots) {
+        if (one.id != id) continue;
+        for (const ReportSeries& series : one.series) {
+          if (series.name != name) continue;
+          if (all.series.empty()) {
+            all = one;
+            all.series.clear();
+            all.title = one.title + ": " + name;
+            all.over_time = false;
+          }
+          all.series.push_back(series);
+          all.series.back().name = run.name;
+        }
+      }
+    if (all.series.size() > 1) plots.push_back(all);
+  }
+  return plots;
+}
+
+}  // namespace ripstop

@@ -1,0 +1,19 @@
+// Plots of the report, from the tables in a run folder and over several runs.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "ripstop/case/settings.h"
+#include "ripstop/report/report.h"
+
+namespace ripstop {
+
+/// Those whose tables are there. Throws Error(bad_data) for a table without its columns.
+std::vector<ReportPlot> plots_of(const ReportRun& run, const std::filesystem::path& folder);
+
+/// Drag over speed where speeds differ, with what `resolved` has as measured, and the plots that all runs have, laid
+/// over each other.
+std::vector<ReportPlot> comparison_plots(const std::vector<ReportRun>& runs, const Settings& resolved);
+
+}  // namespace ripstop

@@ -1,0 +1,172 @@
+#include "ripstop/run/report/report_tables.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "ripstop/case/settings.h"
+#include "ripstop/core/error.h"
+#include "ripstop/core/file.h"
+#include "ripstop/core/words.h"
+#include "ripstop/output/csv.h"
+#include "ripstop/run/json.h"
+#include "ripstop/run/sizing/pattern.h"
+
+namespace ripstop {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json parsed(const std::filesystem::path& file, const std::string& text) {
+  Json json = Json::parse(text, nullptr, false);
+  if (!json.is_object())
+    throw Error(ExitCode::bad_data, fmt::format("{}: is no result of Ripstop", file.string()));
+  return json;
+}
+
+std::string text_of(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_number_float()) return csv_number(value.get<double>());
+  if (value.is_null()) return "";
+  if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+  return value.dump();
+}
+
+std::string heading(std::string text) {
+  std::replace(text.begin(), text.end(), '_', ' ');
+  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
+}
+
+bool is_group(const Json& value) {
+  return value.is_object() || (value.is_array() && !value.empty() && value.front().is_object());
+}
+
+/// Columns are all keys of all rows; what is a group in a row becomes a table of its own.
+ReportTable table_of_rows(const std::string& id, const Json& rows) {
+  ReportTable table{id, heading(in_words(id).text), "", {}, {}};
+  std::vector<std::string> keys;
+  for (const Json& row : rows)
+    for (const auto& [name, value] : row.items())
+      if (!is_group(value) && std::find(keys.begin(), keys.end(), name) == keys.end()) keys.push_back(name);
+  for (const std::string& key : keys) {
+    const Wording words = in_words(key);
+    table.columns.push_back({words.text, words.unit});
+  }
+  for (const Json& row : rows) {
+    std::vector<std::string> fields;
+    for (const std::string& key : keys) fields.push_back(row.contains(key) ? text_of(row[key]) : "");
+    table.rows.push_back(std::move(fields));
+  }
+  return table;
+}
+
+void add_group(std::vector<ReportTable>& tables, const std::string& key, const Json& group) {
+  std::vector<std::pair<std::string, const Json*>> nested;
+  ReportTable table{key, heading(in_words(key).text), "", {{"", ""}, {"", ""}, {"unit", ""}}, {}};
+  if (group.is_object()) {
+    for (const auto& [name, value] : group.items()) {
+      if (is_group(value)) {
+        nested.emplace_back(name, &value);
+        continue;
+      }
+      const Wording words = in_words(name);
+      table.rows.push_back({words.text, text_of(value), words.unit});
+    }
+  } else {
+    table = table_of_rows(key, group);
+    for (std::size_t i = 0; i < group.size(); ++i)
+      for (const auto& [name, value] : group[i].items())
+        if (is_group(value))
+          nested.emplace_back(group.size() > 1 ? fmt::format("{} {}", i + 1, name) : name, &value);
+  }
+  if (!table.rows.empty()) tables.push_back(table);
+  for (const auto& [name, value] : nested) add_group(tables, key + " " + name, *value);
+}
+
+}  // namespace
+
+void add_result(ReportRun& run, const std::string& text, const std::filesystem::path& file) {
+  const Json json = parsed(file, text);
+  for (const auto& [key, value] : json.items()) {
+    if (is_group(value))
+      add_group(run.tables, key, value);
+    else
+      run.values.push_back({key, value.dump(-1, ' ', false, Json::error_handler_t::replace)});
+  }
+  run.title = json.value("title", "");
+  run.converged = json.value("converged", true);
+}
+
+ReportTable bill_table(const Settings& resolved) {
+  const PatternResult pattern = run_pattern(resolved, {}, packed_by_hand);
+  ReportTable table{"bill",
+                    "Bill of materials",
+                    fmt::format("As cut, with the usual allowances, thread not counted: {:.4g} g, {:.3g} l "
+                                "packed by hand. ripstop pattern writes the pieces to scale.",
+                                1000 * pattern.bill.mass, 1000 * pattern.bill.packed_volume),
+                    {{"part", ""},
+                     {"material", ""},
+                     {"count", ""},
+                     {"finished", ""},
+                     {"cut", ""},
+                     {"unit", ""},
+                     {"mass", "g"}},
+                    {}};
+  for (const BillRow& row : pattern.bill.rows)
+    table.rows.push_back({row.part, row.material, fmt::format("{}", row.count),
+                          fmt::format("{:.3f}", row.finished), fmt::format("{:.3f}", row.cut),
+                          row.is_cloth ? "m²" : "m", fmt::format("{:.1f}", 1000 * row.mass)});
+  return table;
+}
+
+ReportTable sources_table(const Settings& resolved, const std::filesystem::path& run_json) {
+  const Json run = parsed(run_json, read_file(run_json));
+  const Json written = Json::parse(case_json(resolved));
+  ReportTable table{
+      "sources", "Values that a case may leave out", "", {{"key", ""}, {"value", ""}, {"from", ""}}, {}};
+  for (const Json& source : run.value("sources", Json::array())) {
+    const std::string key = source.value("key", "");
+    const auto place = pointer_of(key);
+    table.rows.push_back(
+        {key, written.contains(place) ? text_of(written.at(place)) : "", source.value("from", "")});
+  }
+  return table;
+}
+
+void add_provenance(ReportRun& run, const std::filesystem::path& run_json) {
+  const Json json = parsed(run_json, read_file(run_json));
+  for (const auto& [key, value] : json.items())
+    if (key != "case" && key != "sources") run.provenance.emplace_back(in_words(key).text, text_of(value));
+}
+
+double number_of(const ReportRun& run, const std::string& key) {
+  for (const ReportValue& value : run.values) {
+    if (value.key != key) continue;
+    const Json json = Json::parse(value.json);
+    if (json.is_number()) return json.get<double>();
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+ReportTable comparison_table(const std::vector<ReportRun>& runs) {
+  ReportTable table{
+      "comparison", "Runs side by side", "Differences are from the first run.", {{"", ""}, {"unit", ""}}, {}};
+  for (const ReportRun& run : runs) table.columns.push_back({run.name, ""});
+  for (const ReportValue& value : runs.front().values) {
+    const Wording words = in_words(value.key);
+    std::vector<std::string> row = {words.text, words.unit};
+    bool everywhere = true;
+    for (const ReportRun& run : runs) {
+      const double number = number_of(run, value.key);
+      everywhere = everywhere && number == number;
+      row.push_back(csv_number(number));
+    }
+    if (everywhere) table.rows.push_back(row);
+  }
+  return table;
+}
+
+}  // namespace ripstop

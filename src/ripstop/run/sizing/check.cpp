@@ -1,0 +1,47 @@
+#include "ripstop/run/sizing/check.h"
+
+#include "ripstop/run/json.h"
+#include "ripstop/run/steady/warnings.h"
+
+namespace ripstop {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const std::vector<Source>& sources, const Json& written) {
+  Json list = Json::array();
+  for (const Source& source : sources)
+    list.push_back({{"key", source.key},
+                    {"value", written.at(pointer_of(source.key))},
+                    {"unit", source.unit},
+                    {"given", source.given},
+                    {"from", source.from}});
+  return list;
+}
+
+}  // namespace
+
+CheckResult run_check(const Settings& resolved) {
+  return {summarize(resolved), resolved.sources(), case_warnings(resolved), resolved};
+}
+
+std::string to_json(const CheckResult& result) {
+  const Json written = Json::parse(case_json(result.resolved));
+  Json report = {{"valid", true}, {"problems", Json::array()}};
+  report["warnings"] = result.warnings;
+  report.update(Json(result.summary));
+  report["sources"] = to_json(result.sources, written);
+  report["case"] = written;
+  return report.dump(2) + "\n";
+}
+
+std::string to_json(const std::vector<Problem>& problems) {
+  Json report = {{"valid", false}, {"problems", Json::array()}};
+  for (const Problem& problem : problems) {
+    Json& last = report["problems"].emplace_back(Json(problem));
+    last["text"] = to_text(problem);
+  }
+  return report.dump(2) + "\n";
+}
+
+}  // namespace ripstop

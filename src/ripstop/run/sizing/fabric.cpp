@@ -1,0 +1,84 @@
+#include "ripstop/run/sizing/fabric.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include "ripstop/case/assemble.h"
+#include "ripstop/core/file.h"
+#include "ripstop/output/picture.h"
+#include "ripstop/output/vtk.h"
+#include "ripstop/run/json.h"
+#include "ripstop/run/run_folder.h"
+#include "ripstop/run/stress_arrays.h"
+
+namespace ripstop {
+
+std::string to_json(const FabricResult& result) {
+  return json_text(result);
+}
+
+FabricSolution run_fabric(const Settings& resolved, std::optional<double> pressure,
+                          const std::function<void(const RelaxProgress&)>& report) {
+  FabricSolution solution;
+  auto& [r, mesh, shape, stress, tensions] = solution;
+  const double speed = resolved.flow().speed_m_s;
+  r.title = resolved.title();
+  r.pressure = pressure.value_or(0.5 * resolved.flow().density_kg_m3 * speed * speed);
+  r.inputs_hash = inputs_hash(resolved, fmt::format("fabric under {} Pa", r.pressure));
+  r.tolerance = resolved.coupling().cloth_tolerance;
+  mesh = parachute_mesh(resolved);
+  ClothOptions cloth_options;
+  cloth_options.linear = resolved.coupling().linear;
+  const ClothPtr cloth = make_cloth(mesh, cloth_options);
+  ClothState state = start_state(*cloth);
+  const Loads loads{std::vector<double>(mesh.cell_count(), r.pressure), {}};
+  RelaxOptions relax_options;
+  relax_options.tolerance = r.tolerance;
+  ThreadTeam team(resolved.coupling().threads);
+  const auto begin = std::chrono::steady_clock::now();
+  const RelaxResult relaxed = relax(state, *cloth, loads, relax_options, team, report);
+  r.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  shape = positions(state, *cloth);
+  stress = cell_stress(*cloth, state);
+  tensions = spring_tensions(*cloth, state);
+
+  r.pressure_load = pressure_force(*cloth, state, loads).z;
+  r.line_tension = force_on_fixed(*cloth, state).z;
+  r.size = canopy_size(mesh, shape);
+  r.projected_ratio = r.size.projected_diameter / nominal_diameter(resolved.parachute());
+  const KnownRange known = experience(resolved.parachute()).projected_ratio;
+  if (known.low > 0) r.known_projected_ratio = {known.low, known.high};
+  for (const LineTension& t : line_tensions(mesh, tensions))
+    r.max_line_tension = std::max(r.max_line_tension, t.largest_tension);
+  r.stress = stress_peak(mesh, shape, stress);
+  r.nodes = mesh.node_count();
+  r.steps = relaxed.steps;
+  r.residual = relaxed.residual;
+  r.converged = relaxed.converged;
+  return solution;
+}
+
+void write_fabric(const std::filesystem::path& folder, const FabricSolution& solution) {
+  const auto& [result, mesh, shape, stress, tensions] = solution;
+  make_folder(folder);
+  std::vector<double> mises;
+  for (const CellStress& s : stress) mises.push_back(s.von_mises);
+  VtkSurface canopy = canopy_surface(mesh, shape);
+  for (VtkArray& array : stress_arrays(mesh, stress)) canopy.cell_arrays.push_back(std::move(array));
+  write_vtp(folder / "canopy.vtp", canopy);
+  VtkSurface lines = spring_lines(mesh, shape);
+  lines.cell_arrays.push_back(vtk_array("tension_n", tensions));
+  write_vtp(folder / "lines.vtp", lines);
+  write_canopy_picture(folder / "canopy.png", mesh, shape,
+                       {fmt::format("{} under {:.4g} Pa", result.title, result.pressure),
+                        "von Mises stress [N/m]",
+                        mises,
+                        {}});
+  write_file(folder / "result.json", to_json(result));
+}
+
+}  // namespace ripstop

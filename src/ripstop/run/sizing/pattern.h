@@ -1,0 +1,54 @@
+// What to cut for the parachute of a case, and its files.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "ripstop/case/settings.h"
+#include "ripstop/core/members.h"
+#include "ripstop/parachute/cut.h"
+
+namespace ripstop {
+
+template <Of<BillRow> T, class Visit>
+void each_member(T& row, Visit&& visit) {
+  visit("part", row.part);
+  visit("material", row.material);
+  visit("count", row.count);
+  visit("is_cloth", row.is_cloth);
+  visit("finished", row.finished);
+  visit("cut", row.cut);
+  visit("mass_kg", row.mass);
+}
+
+/// result.json of `ripstop pattern`; finished and cut amounts are [m2] of cloth, else [m].
+struct PatternResult {
+  std::string title;
+  double nominal_area = 0, cloth_area = 0;  // [m2]
+  double packing_density = 0;               // [kg/m3]
+  Allowances allowances;
+  Bill bill;
+  CutPattern pattern;  // not in result.json: it is in the drawings
+};
+template <Of<PatternResult> T, class Visit>
+void each_member(T& r, Visit&& visit) {
+  visit("title", r.title);
+  visit("nominal_area_m2", r.nominal_area);
+  visit("cloth_area_m2", r.cloth_area);
+  visit("mass_kg", r.bill.mass);
+  visit("packing_density_kg_m3", r.packing_density);
+  visit("packed_volume_m3", r.bill.packed_volume);
+  visit("seam_allowance_m", r.allowances.seam);
+  visit("hem_allowance_m", r.allowances.hem);
+  visit("line_loop_m", r.allowances.line_loop);
+  visit("tape_overlap_m", r.allowances.tape_overlap);
+  visit("bill", r.bill.rows);
+}
+std::string to_json(const PatternResult& result);
+
+PatternResult run_pattern(const Settings& resolved, const Allowances& allowances, double packing_density);
+
+/// Every piece as DXF and SVG, bill.csv and result.json.
+void write_pattern(const std::filesystem::path& folder, const PatternResult& result);
+
+}  // namespace ripstop

@@ -1,0 +1,122 @@
+// Which parachute lets a payload down at a wanted rate: `ripstop size`.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ripstop/case/case.h"
+#include "ripstop/core/members.h"
+#include "ripstop/parachute/cut.h"
+#include "ripstop/run/opening/load.h"
+#include "ripstop/run/steady/steady.h"
+
+namespace ripstop {
+
+/// The drag of a family as Ripstop has computed it: a row of examples/families.json.
+struct FamilyDrag {
+  std::string family, type;     // the example's folder, the word in [parachute]
+  double drag_coefficient = 0;  // on S0
+  std::optional<std::array<double, 2>> handbook;
+  double speed = 0, density = 0;  // of that run [m/s], [kg/m3]
+  std::string made;               // by which command, on what
+};
+/// Throws Error(io) when the file is missing, Error(bad_data) when it is broken.
+std::vector<FamilyDrag> family_drags();
+
+struct SizeRequest {
+  double payload_mass = 0;  // [kg]
+  double descent_rate = 0;  // [m/s]
+  std::string family = "flat-circular";
+  double height = 0;              // above sea level, where the rate is wanted [m]
+  std::optional<double> density;  // in place of the height [kg/m3]
+  std::optional<double> drag_coefficient;
+  std::optional<double> deployment_speed;  // for the opening load [m/s]; absent: 20 m/s, or 3 descent rates
+  std::optional<std::string> line_material;
+  double packing_density = packed_by_hand;  // [kg/m3]
+};
+
+/// One run of --verify.
+struct SizeCheck {
+  double nominal_diameter = 0, descent_rate = 0, drag_coefficient = 0;  // [m], [m/s], -
+};
+template <Of<SizeCheck> T, class Visit>
+void each_member(T& c, Visit&& visit) {
+  visit("nominal_diameter_m", c.nominal_diameter);
+  visit("descent_rate_m_s", c.descent_rate);
+  visit("drag_coefficient", c.drag_coefficient);
+}
+
+/// result.json of `ripstop size`, without its case file.
+struct SizeResult {
+  std::string family, type;
+  double payload_mass = 0, descent_rate = 0, height = 0, density = 0;
+  double drag_coefficient = 0;
+  std::string drag_source;
+  std::optional<std::array<double, 2>> handbook_drag_coefficient;
+  std::optional<std::array<double, 2>> handbook_diameter;  // that its range gives, the largest first [m]
+  double nominal_diameter = 0, nominal_area = 0, vent_area = 0;  // [m], [m2]
+  int gores = 0, line_count = 0;
+  double line_length = 0;  // [m]
+  std::string line_material, tape_material, tape_source, canopy_material;
+  double parachute_mass = 0, cloth_mass = 0, tape_mass = 0, line_mass = 0;  // [kg]
+  double packed_volume = 0;                                                 // [m3]
+  double deployment_speed = 0, opening_load = 0, opening_load_low = 0;      // [m/s], [N]
+  double line_used = 0;  // of what is left of a line's strength, by the highest opening load with safety
+  std::vector<SizeCheck> checks;
+  std::vector<StageLoads> opening;  // by every method
+  std::vector<FlightRow> flight;    // of that opening; not in result.json
+  std::vector<std::string> warnings;
+  Case given;             // the parachute
+  std::string case_text;  // as a file, with comments
+};
+template <Of<SizeResult> T, class Visit>
+void each_member(T& r, Visit&& visit) {
+  visit("family", r.family);
+  visit("type", r.type);
+  visit("payload_mass_kg", r.payload_mass);
+  visit("descent_rate_m_s", r.descent_rate);
+  visit("height_m", r.height);
+  visit("density_kg_m3", r.density);
+  visit("drag_coefficient", r.drag_coefficient);
+  visit("drag_coefficient_from", r.drag_source);
+  visit("handbook_drag_coefficient", r.handbook_drag_coefficient);
+  visit("handbook_diameter_m", r.handbook_diameter);
+  visit("nominal_diameter_m", r.nominal_diameter);
+  visit("nominal_area_m2", r.nominal_area);
+  visit("vent_area_m2", r.vent_area);
+  visit("gores", r.gores);
+  visit("line_count", r.line_count);
+  visit("line_length_m", r.line_length);
+  visit("line_material", r.line_material);
+  visit("tape_material", r.tape_material);
+  visit("tape_material_from", r.tape_source);
+  visit("canopy_material", r.canopy_material);
+  visit("parachute_mass_kg", r.parachute_mass);
+  visit("cloth_mass_kg", r.cloth_mass);
+  visit("tape_mass_kg", r.tape_mass);
+  visit("line_mass_kg", r.line_mass);
+  visit("packed_volume_m3", r.packed_volume);
+  visit("deployment_speed_m_s", r.deployment_speed);
+  visit("opening_load_n", r.opening_load);
+  visit("opening_load_low_n", r.opening_load_low);
+  visit("line_used", r.line_used);
+  visit("checks", r.checks);
+  visit("opening", r.opening);
+  visit("warnings", r.warnings);
+}
+std::string to_json(const SizeResult& result);
+
+/// The family's example, every length of it in proportion. Throws Error(usage) for a family that is not there, and
+/// for what is not above 0.
+SizeResult run_size(const SizeRequest& request);
+
+/// Runs the case until its descent rate is the wanted one within `tolerance`, changing the diameter: v goes with
+/// 1 / D_0. Throws Error(not_converged) when a run has not converged or four of them do not get there.
+void verify_size(const SizeRequest& request, SizeResult& result,
+                 const std::function<SteadyResult(const Settings&, int run)>& fly, double tolerance = 0.01);
+
+}  // namespace ripstop

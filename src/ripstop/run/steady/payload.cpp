@@ -1,0 +1,94 @@
+// A steady run of a case with a payload: the speed is changed between the coupling's iterations until the drag of a
+// converged one and the payload's own are the weight.
+#include "ripstop/case/payload.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "ripstop/run/engine.h"
+#include "ripstop/run/steady/steady_parts.h"
+
+namespace ripstop {
+namespace {
+
+/// The pressures go with the dynamic pressure, those that the acceleration remembers too.
+void scale_pressures(SteadyState& state, double ratio) {
+  for (double& dp : state.pressure) dp *= ratio;
+  state.remainder = {ratio * state.remainder.at_centre, ratio * state.remainder.twist};
+  for (auto* history : {&state.accelerator.guesses, &state.accelerator.residuals})
+    for (std::vector<double>& values : *history)
+      for (double& value : values) value *= ratio;
+}
+
+/// The same run at another speed; the flow goes on where the engine can scale it, else it starts afresh.
+SteadyParts parts_at(SteadyParts old, const Settings& now, const SteadySettings& settings) {
+  if (!engine_of(now).can.other_air) {
+    old.solver.reset(), old.engine.reset();
+    return steady_parts(now, settings);
+  }
+  const TemporaryFolder saved("speed");
+  old.solver->flow().save(saved.path);
+  old.solver.reset(), old.engine.reset();
+  SteadyParts parts = steady_parts(now, settings);
+  parts.solver->flow().restore(saved.path);
+  return parts;
+}
+
+/// What the payload itself holds of its weight at the state's speed [N].
+double own_drag(const Settings& resolved, double speed) {
+  return 0.5 * resolved.flow().density_kg_m3 * speed * speed * resolved.payload().drag_area_m2;
+}
+
+}  // namespace
+
+// D goes with v^2 as long as the shape stays: the next speed is v (W / D)^(1/2). The coupling's own iteration on the
+// shape goes on meanwhile, so that the search costs about as many iterations as one run.
+SteadySolution run_with_payload(const Settings& resolved, SteadyObserver& observer,
+                                const SteadySettings& settings) {
+  const double weight = suspended_weight(resolved, *resolved.payload().mass_kg);
+  const int most = resolved.coupling().max_iterations;
+  Settings now = resolved;
+  SteadyParts parts = steady_parts(now, settings);
+  SteadySolution solution;
+  SteadyState& state = solution.state;
+  state = parts.solver->start();
+  observer.begin({now, *parts.solver, parts.engine->name()}, state);
+  if (state.speed == 0) state.speed = now.flow().speed_m_s, state.speeds = 1;
+  const auto drag_over_weight = [&] {
+    return (state.iterations.back().fluid_force + own_drag(resolved, state.speed)) / weight;
+  };
+  const auto take_speed = [&] {
+    now = at_speed(now, state.speed);
+    parts = parts_at(std::move(parts), now, settings);
+  };
+  if (state.speed != now.flow().speed_m_s) take_speed();  // of a run that was killed
+  for (;;) {
+    if (!state.iterations.empty()) {
+      const double share = drag_over_weight();
+      const bool held = std::abs(share - 1) <= payload_tolerance;
+      const bool last = static_cast<int>(state.iterations.size()) >= most;
+      if (last || (state.converged && held)) {
+        state.converged = state.converged && held;
+        break;
+      }
+      if (!held) {
+        state.converged = false;
+        state.speed /= std::sqrt(share), ++state.speeds;
+        scale_pressures(state, 1 / share);
+        take_speed();
+      }
+    }
+    const SteadyRun run{now, *parts.solver, parts.engine->name()};
+    solution.flow = parts.solver->iterate(
+        state, [&](const SteadyProgress& progress) { observer.progress(progress, state); });
+    observer.iterated(run, state, solution.flow);
+  }
+  solution.result = steady_result(*parts.solver, state, now);
+  solution.result.payload = {*resolved.payload().mass_kg,     parachute_mass(resolved), weight,
+                             own_drag(resolved, state.speed), drag_over_weight(),       state.speeds};
+  observer.ended({now, *parts.solver, parts.engine->name()}, state, solution.result);
+  return solution;
+}
+
+}  // namespace ripstop

@@ -1,0 +1,145 @@
+#include "ripstop/run/steady/steady.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "ripstop/case/assemble.h"
+#include "ripstop/case/cost.h"
+#include "ripstop/run/engine.h"
+#include "ripstop/run/json.h"
+#include "ripstop/run/steady/steady_parts.h"
+
+namespace ripstop {
+namespace {
+
+using nlohmann::json;
+
+double dynamic_pressure(const Settings& resolved) {
+  const FlowSettings& flow = resolved.flow();
+  return 0.5 * flow.density_kg_m3 * flow.speed_m_s * flow.speed_m_s;
+}
+
+UnsteadyResult unsteady_result(const Watched& watched, const Settings& resolved) {
+  UnsteadyResult result;
+  result.watched = watched;
+  // Not a number in JSON.
+  if (std::isfinite(watched.error)) result.standard_error = watched.error;
+  for (double* error : {&result.watched.error, &result.watched.side_error.x, &result.watched.side_error.y})
+    if (!std::isfinite(*error)) *error = 0;
+  result.strouhal = watched.swing * inflated_diameter(resolved.parachute()) / resolved.flow().speed_m_s;
+  return result;
+}
+}  // namespace
+
+SteadyResult steady_result(const SteadySolver& solver, const SteadyState& state, const Settings& resolved) {
+  SteadyResult r;
+  r.title = resolved.title();
+  r.last = state.iterations.back();
+  r.speed = resolved.flow().speed_m_s;
+  r.density = resolved.flow().density_kg_m3;
+  r.approach_speed = r.last.approach_speed;
+  r.drag = r.last.fluid_force;
+  r.drag_area = r.drag / dynamic_pressure(resolved);
+  r.reference_area = nominal_area(resolved.parachute());
+  r.drag_coefficient = r.drag_area / r.reference_area;
+  const KnownRange known = experience(resolved.parachute()).drag_coefficient;
+  if (known.high > 0) r.known_drag_coefficient = {known.low, known.high};
+  r.size = canopy_size(solver.mesh(), state.shape);
+  const ClothState cloth = solver.cloth_state(state);
+  const std::vector<double> tensions = spring_tensions(solver.cloth(), cloth);
+  for (const LineTension& t : line_tensions(solver.mesh(), tensions))
+    r.max_line_tension = std::max(r.max_line_tension, t.largest_tension);
+  r.stress = stress_peak(solver.mesh(), state.shape, cell_stress(solver.cloth(), cloth));
+  r.margins = case_margins(resolved, solver.mesh(), tensions, r.stress);
+  r.iterations = r.last.iteration;
+  for (const SteadyIteration& i : state.iterations) r.wall_time += i.wall_time;
+  r.converged = state.converged;
+  r.transfer_factor = r.last.transfer_factor;
+  r.load_remainder = r.last.load_remainder;
+  r.axial_moment = r.last.axial_moment;
+  r.section_gap = r.last.section_gap;
+  r.ledger = {r.last.fluid_force, r.last.nodal_load, r.last.line_tension, r.last.momentum_deficit};
+  if (state.in_time) r.unsteady = unsteady_result(state.watched, resolved);
+  r.measured = resolved.measured_row();
+  return r;
+}
+
+std::string to_json(const SteadyResult& result) {
+  return json_text(result);
+}
+
+SteadyResult steady_result_from_json(const std::string& text) {
+  return from_json_text<SteadyResult>(text, "the result of a steady run");
+}
+
+SteadyParts steady_parts(const Settings& resolved, const SteadySettings& settings) {
+  SteadyParts parts;
+  SteadyProblem problem = steady_problem(resolved);
+  const int threads = settings.threads > 0 ? settings.threads : problem.settings.threads;
+  problem.settings.threads = threads;
+  const EngineRecord& record = engine_of(resolved);
+  EngineOptions options = engine_options(resolved);
+  options.threads = threads;
+  options.small_eddies = resolved.flow().watch.eddies;
+  options.folder = settings.flow_folder;
+  options.hostfile = settings.hostfile;
+  if (record.needs_folder && options.folder.empty()) {
+    parts.temporary = std::make_unique<TemporaryFolder>("flow");
+    options.folder = parts.temporary->path;
+  }
+  parts.engine = record.make(options);
+  parts.solver = std::make_unique<SteadySolver>(std::move(problem), *parts.engine);
+  return parts;
+}
+
+void require_steady_memory(const Settings& resolved) {
+  const Cost cost = cost_of(resolved);
+  require_memory(cost.memory,
+                 fmt::format("a steady run on {:.3g} cells and {:.3g} nodes", cost.cells, cost.nodes));
+}
+
+SteadySolution run_steady(const Settings& resolved, SteadyObserver& observer,
+                          const SteadySettings& settings) {
+  require_steady_memory(resolved);
+  if (resolved.payload().mass_kg) return run_with_payload(resolved, observer, settings);
+  const SteadyParts parts = steady_parts(resolved, settings);
+  SteadySolver& solver = *parts.solver;
+  const SteadyRun run{resolved, solver, parts.engine->name()};
+  SteadySolution solution;
+  SteadyState& state = solution.state;
+  state = solver.start();
+  observer.begin(run, state);
+  while (!solver.finished(state)) {
+    solution.flow =
+        solver.iterate(state, [&](const SteadyProgress& progress) { observer.progress(progress, state); });
+    observer.iterated(run, state, solution.flow);
+  }
+  solution.result = steady_result(solver, state, resolved);
+  observer.ended(run, state, solution.result);
+  return solution;
+}
+
+bool start_from(const Settings& other, const SteadyState& end, const SteadyRun& run, SteadyState& state) {
+  const Settings& resolved = run.resolved;
+  const bool same_mesh =
+      json::parse(case_json(resolved)).at("parachute") == json::parse(case_json(other)).at("parachute") &&
+      end.shape.size() == state.shape.size() && end.pressure.size() == state.pressure.size();
+  if (!same_mesh) return false;
+  state.shape = end.shape;
+  state.pressure = end.pressure;
+  const double shift = resolved.flow().canopy_position_m - other.flow().canopy_position_m;
+  const double there =
+      end.speed > 0 ? 0.5 * other.flow().density_kg_m3 * end.speed * end.speed : dynamic_pressure(other);
+  const double ratio = dynamic_pressure(resolved) / there;
+  for (Vec3& p : state.shape) p.z += shift;
+  for (double& dp : state.pressure) dp *= ratio;
+  state.remainder = {ratio * end.remainder.at_centre, ratio * end.remainder.twist};
+  return same_flow(resolved.flow(), other.flow());
+}
+
+}  // namespace ripstop

@@ -1,0 +1,179 @@
+// One case solved steady, in memory: what `ripstop steady` does beneath its folder and its terminal.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "ripstop/canopy/shape.h"
+#include "ripstop/canopy/stress.h"
+#include "ripstop/case/settings.h"
+#include "ripstop/core/members.h"
+#include "ripstop/flow/flow.h"
+#include "ripstop/fsi/steady.h"
+#include "ripstop/run/margins.h"
+
+namespace ripstop {
+
+/// Axial forces that have to agree [N].
+struct Ledger {
+  double fluid_force = 0, nodal_load = 0, line_tension = 0, momentum_deficit = 0;
+};
+template <Of<Ledger> T, class Visit>
+void each_member(T& ledger, Visit&& visit) {
+  visit("fluid_force_n", ledger.fluid_force);
+  visit("nodal_load_n", ledger.nodal_load);
+  visit("line_tension_n", ledger.line_tension);
+  visit("momentum_deficit_n", ledger.momentum_deficit);
+}
+
+template <Of<Measured> T, class Visit>
+void each_member(T& row, Visit&& visit) {
+  visit("nominal_speed_m_s", row.nominal_speed_m_s);
+  visit("measured_speed_m_s", row.measured_speed_m_s);
+  visit("density_kg_m3", row.density_kg_m3);
+  visit("drag_n", row.drag_n);
+  visit("printed_nonlinear_n", row.printed_nonlinear_n);
+  visit("printed_linear_n", row.printed_linear_n);
+}
+
+/// Of a run that watched its flow in time: what the mean over the wake's swings is worth.
+struct UnsteadyResult {
+  Watched watched;                       // the last watch
+  std::optional<double> standard_error;  // of the mean drag [N]; absent: not known
+  double strouhal = 0;  // of the side force's strongest frequency, with the inflated diameter
+};
+template <Of<UnsteadyResult> T, class Visit>
+void each_member(T& u, Visit&& visit) {
+  visit("drag_standard_error_n", u.standard_error, or_null);
+  visit("strouhal", u.strouhal);
+  visit("watched", u.watched);
+}
+/// What a run holds that sought its speed.
+struct HeldPayload {
+  double mass = 0, parachute_mass = 0;  // [kg]
+  double weight = 0;                    // of both [N]
+  double own_drag = 0;                  // of the payload itself [N]
+  double drag_over_weight = 0;          // of both drags, 1 within payload_tolerance
+  int speeds = 0;                       // that were tried
+};
+template <Of<HeldPayload> T, class Visit>
+void each_member(T& p, Visit&& visit) {
+  visit("mass_kg", p.mass);
+  visit("parachute_mass_kg", p.parachute_mass);
+  visit("weight_n", p.weight);
+  visit("payload_drag_n", p.own_drag);
+  visit("drag_over_weight", p.drag_over_weight);
+  visit("speeds_tried", p.speeds);
+}
+/// Of the drag to the weight, relative.
+inline constexpr double payload_tolerance = 1e-3;
+
+/// The numbers of one run: result.json.
+struct SteadyResult {
+  std::string title;
+  std::optional<std::string> inputs_hash;                // of a run in a folder: that of its run.json
+  double speed = 0, density = 0;                         // [m/s], [kg/m3]
+  double approach_speed = 0;                             // what comes to the canopy, fsi/approach.h [m/s]
+  double drag = 0, drag_area = 0, drag_coefficient = 0;  // [N], [m2], -
+  double reference_area = 0;                             // S0 [m2]
+  std::optional<std::array<double, 2>> known_drag_coefficient;  // Knacke's range of the type
+  CanopySize size;
+  double max_line_tension = 0;  // [N]
+  StressPeak stress;
+  int iterations = 0;
+  double wall_time = 0;  // of all coupling iterations [s]
+  bool converged = false;
+  double transfer_factor = 0, load_remainder = 0, axial_moment = 0, section_gap = 0;
+  Ledger ledger;
+  std::optional<UnsteadyResult> unsteady;
+  std::optional<HeldPayload> payload;  // of a case with one
+  std::optional<Margins> margins;      // absent in results of earlier versions
+  std::optional<Measured> measured;    // the case's row for this speed
+  SteadyIteration last;                // a row of iterations.csv; not in result.json
+};
+template <Of<SteadyResult> T, class Visit>
+void each_member(T& r, Visit&& visit) {
+  visit("title", r.title);
+  visit("inputs_hash", r.inputs_hash);
+  visit("speed_m_s", r.speed, in_table);
+  visit("approach_speed_m_s", r.approach_speed, in_table);
+  visit("density_kg_m3", r.density, in_table);
+  visit("drag_n", r.drag, in_table);
+  visit("drag_area_m2", r.drag_area, in_table);
+  visit("drag_coefficient", r.drag_coefficient, in_table);
+  visit("reference_area_m2", r.reference_area, in_table);
+  visit("known_drag_coefficient", r.known_drag_coefficient);
+  visit("projected_diameter_m", r.size.projected_diameter, in_table);
+  visit("projected_area_m2", r.size.projected_area);
+  visit("skirt_diameter_m", r.size.skirt_diameter, in_table);
+  visit("canopy_length_m", r.size.length, in_table);
+  visit("max_line_tension_n", r.max_line_tension, in_table);
+  visit("max_von_mises_n_m", r.stress.von_mises, in_table);
+  visit("max_von_mises_at_m", r.stress.place);
+  visit("max_von_mises_on", r.stress.patch);
+  visit("max_cloth_strain", r.stress.strain);
+  sewing_members(r.stress, visit);
+  visit("coupling_iterations", r.iterations, in_table);
+  visit("wall_time_s", r.wall_time, in_table);
+  visit("converged", r.converged);
+  visit("transfer_factor", r.transfer_factor);
+  visit("load_remainder", r.load_remainder);
+  visit("axial_moment_n_m", r.axial_moment);
+  visit("section_gap", r.section_gap);
+  visit("ledger", r.ledger);
+  visit("unsteady", r.unsteady);
+  visit("payload", r.payload);
+  visit("margins", r.margins);
+  visit("measured", r.measured);
+}
+std::string to_json(const SteadyResult& result);
+/// Throws Error(resources) when this machine has not the memory for a steady run of the case.
+void require_steady_memory(const Settings& resolved);
+/// Throws Error(bad_data) when `json` is no result of a steady run.
+SteadyResult steady_result_from_json(const std::string& json);
+
+/// A run under way, as its observers see it.
+struct SteadyRun {
+  const Settings& resolved;
+  SteadySolver& solver;
+  std::string engine;  // name and version
+};
+
+/// Told of a run as it goes; what it is not interested in, it leaves out.
+class SteadyObserver {
+ public:
+  virtual ~SteadyObserver() = default;
+  /// Before the first iteration. An observer that knows an earlier state puts it in the place of the cold
+  /// start, and restores the flow that belongs to it.
+  virtual void begin(const SteadyRun&, SteadyState&) {}
+  /// Of what went wrong without stopping the run.
+  virtual void warned(const std::string&) {}
+  virtual void progress(const SteadyProgress&, const SteadyState&) {}
+  virtual void iterated(const SteadyRun&, const SteadyState&, const FlowField&) {}
+  virtual void ended(const SteadyRun&, const SteadyState&, const SteadyResult&) {}
+};
+
+struct SteadySettings {
+  int threads = 0;                    // of this run; 0: coupling.threads
+  std::filesystem::path flow_folder;  // of an engine that writes files; empty: a temporary one
+  std::filesystem::path hostfile;     // for MPI; empty: none
+};
+
+struct SteadySolution {
+  SteadyResult result;
+  SteadyState state;
+  FlowField flow;  // round the final shape; empty when the observer's state was already the last
+};
+
+/// Runs to the end of the coupling; a converged result is not promised. Touches no file, but for an
+/// engine's that needs them. Throws as SteadySolver and the flow engine do.
+SteadySolution run_steady(const Settings& resolved, SteadyObserver& observer,
+                          const SteadySettings& settings = {});
+
+/// For SteadyObserver::begin(): the shape in which a run of `other` ended, moved to this case's place, under
+/// its pressure at this case's q. Another mesh starts cold. Returns whether the flow of that run fits too.
+bool start_from(const Settings& other, const SteadyState& end, const SteadyRun& run, SteadyState& state);
+
+}  // namespace ripstop

@@ -1,0 +1,305 @@
+#include "ripstop/run/steady/steady_folder.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "ripstop/core/error.h"
+#include "ripstop/core/file.h"
+#include "ripstop/core/hash.h"
+#include "ripstop/core/thread_team.h"
+#include "ripstop/flow/stl.h"
+#include "ripstop/fsi/pressure_profile.h"
+#include "ripstop/output/csv.h"
+#include "ripstop/output/picture.h"
+#include "ripstop/output/plot.h"
+#include "ripstop/output/vtk.h"
+#include "ripstop/run/engine.h"
+#include "ripstop/run/report/report.h"
+#include "ripstop/run/steady/checkpoint.h"
+#include "ripstop/run/steady/watch_files.h"
+#include "ripstop/run/stress_arrays.h"
+
+namespace ripstop {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Writes every file of the run before it passes on what it was told.
+class SteadyFolder : public SteadyObserver {
+ public:
+  SteadyFolder(ClaimedFolder& folder, const SteadyFolderSettings& settings, SteadyObserver& next)
+      : folder_(folder),
+        fields_(settings.run.fields),
+        report_(settings.run.report),
+        warm_from_(settings.warm_from),
+        next_(next) {}
+
+  void begin(const SteadyRun& run, SteadyState& state) override;
+  void warned(const std::string& text) override { next_.warned(text); }
+  void progress(const SteadyProgress& progress, const SteadyState& state) override {
+    next_.progress(progress, state);
+  }
+  void iterated(const SteadyRun& run, const SteadyState& state, const FlowField& flow) override;
+  void ended(const SteadyRun& run, const SteadyState& state, const SteadyResult& result) override;
+
+ private:
+  void write_series(std::size_t iterations) const;
+  void write_shape(const SteadyRun& run, const SteadyState& state) const;
+  void write_flow(const FlowField& field) const;
+  void write_state(const SteadyRun& run, const SteadyState& state) const;
+  void write_drag_plot(const SteadyState& state, const std::string& title) const;
+  void write_pressure(const SteadyRun& run, const SteadyState& state, const SteadyResult& result) const;
+  CsvLog iterations(std::size_t kept) const {
+    return {folder_.own("iterations.csv"), columns_of<SteadyIteration>(), kept};
+  }
+
+  ClaimedFolder& folder_;
+  bool fields_, report_;
+  fs::path warm_from_;
+  SteadyObserver& next_;
+};
+
+void SteadyFolder::begin(const SteadyRun& run, SteadyState& state) {
+  if (auto saved = load_checkpoint(folder_.own("checkpoint/"), run.solver.flow())) {
+    state = std::move(saved->state);
+    if (!saved->damage.empty())
+      next_.warned(fmt::format("{}; goes on from the checkpoint before, iteration {}", saved->damage,
+                               state.iterations.size()));
+  } else if (!warm_from_.empty()) {
+    if (start_from(settings_of_run(warm_from_), final_state(warm_from_), run, state)) {
+      const auto neighbour = load_checkpoint(warm_from_ / "checkpoint", run.solver.flow());
+      if (neighbour && !neighbour->damage.empty())  // an older one would make other numbers
+        throw Error(ExitCode::bad_data, neighbour->damage);
+    }
+  }
+  std::vector<std::vector<double>> rows;  // of the checkpoint, whatever became of the table
+  for (const SteadyIteration& i : state.iterations) rows.push_back(row_of(i));
+  iterations(0).add_rows(rows);
+  refuse_lost(folder_);
+  next_.begin(run, state);
+}
+
+void SteadyFolder::iterated(const SteadyRun& run, const SteadyState& state, const FlowField& flow) {
+  if (fields_) {
+    write_shape(run, state);
+    write_flow(flow);
+    write_state(run, state);
+  }
+  if (state.iterations.back().in_time) write_watch(folder_, run.resolved, run.solver.record());
+  iterations(state.iterations.size() - 1).add(row_of(state.iterations.back()));
+  folder_.keep();
+  save_checkpoint(folder_.own("checkpoint/"), state, run.solver.flow());
+  next_.iterated(run, state, flow);
+}
+
+void SteadyFolder::ended(const SteadyRun& run, const SteadyState& state, const SteadyResult& result) {
+  if (!fields_) {
+    write_shape(run, state);
+    write_state(run, state);
+  }
+  write_stl(folder_.own("canopy.stl"), surface_of(run.solver.cells(), state.shape));
+  write_drag_plot(state, result.title);
+  write_pressure(run, state, result);
+  SteadyResult named = result;
+  named.inputs_hash = inputs_of_run(folder_.path());
+  write_file(folder_.own("result.json"), to_json(named));
+  if (report_)
+    if (const std::string failure = write_run_report(folder_); !failure.empty()) next_.warned(failure);
+  folder_.seal();
+  next_.ended(run, state, result);
+}
+
+void SteadyFolder::write_series(std::size_t iterations) const {
+  for (const char* what : {"canopy", "lines"}) {
+    std::vector<VtkSeriesFile> series;
+    for (std::size_t k = 1; k <= iterations; ++k) {
+      series.push_back({double(k), fmt::format("vtk/{}_{:03}.vtp", what, k)});
+    }
+    write_pvd(folder_.own(fmt::format("{}.pvd", what)), series);
+  }
+}
+
+void SteadyFolder::write_shape(const SteadyRun& run, const SteadyState& state) const {
+  const SteadySolver& solver = run.solver;
+  const CanopyMesh& mesh = solver.mesh();
+  const ClothState cloth = solver.cloth_state(state);
+  const std::vector<CellStress> stress = cell_stress(solver.cloth(), cloth);
+  const std::vector<double> tensions = spring_tensions(solver.cloth(), cloth);
+  const std::size_t k = state.iterations.size();
+
+  VtkSurface canopy = canopy_surface(mesh, state.shape);
+  std::vector<Vec3> displacement(state.shape.size());
+  for (std::size_t i = 0; i < displacement.size(); ++i) displacement[i] = state.shape[i] - mesh.start[i];
+  canopy.point_arrays.push_back(vtk_array("displacement_m", displacement));
+  const auto add = [&](const char* name, const std::vector<double>& values) {
+    canopy.cell_arrays.push_back(vtk_array(name, cloth_cells_only(mesh, values)));
+  };
+  add("pressure_inside_pa", state.sides.inside);
+  add("pressure_outside_pa", state.sides.outside);
+  add("pressure_difference_applied_pa", state.applied);
+  for (VtkArray& array : stress_arrays(mesh, stress)) canopy.cell_arrays.push_back(std::move(array));
+  make_folder(folder_.path() / "vtk");
+  write_vtp(folder_.own(fmt::format("vtk/canopy_{:03}.vtp", k)), canopy);
+
+  VtkSurface lines = spring_lines(mesh, state.shape);
+  lines.cell_arrays.push_back(vtk_array("tension_n", tensions));
+  write_vtp(folder_.own(fmt::format("vtk/lines_{:03}.vtp", k)), lines);
+  write_series(k);
+}
+
+void SteadyFolder::write_flow(const FlowField& field) const {
+  folder_.own(field.grid.uniform() ? "flow.vti" : "flow.vtr");
+  write_image(folder_.path() / "flow", flow_image(field));
+}
+
+void SteadyFolder::write_state(const SteadyRun& run, const SteadyState& state) const {
+  const SteadySolver& solver = run.solver;
+  const CanopyMesh& mesh = solver.mesh();
+  const ClothState cloth = solver.cloth_state(state);
+  std::vector<double> mises;
+  for (const CellStress& s : cell_stress(solver.cloth(), cloth)) mises.push_back(s.von_mises);
+  const std::vector<double> tensions = spring_tensions(solver.cloth(), cloth);
+  write_canopy_picture(folder_.own("canopy.png"), mesh, state.shape,
+                       {fmt::format("{}, coupling iteration {}: drag {:.1f} N", run.resolved.title(),
+                                    state.iterations.size(), state.iterations.back().fluid_force),
+                        "von Mises stress [N/m]",
+                        mises,
+                        {}});
+  CsvTable table{{"line", "free_tension_n", "largest_tension_n"}, {}};
+  for (const LineTension& t : line_tensions(mesh, tensions)) {
+    table.rows.push_back({t.radial + 1.0, t.free_tension, t.largest_tension});
+  }
+  write_csv(folder_.own("lines.csv"), table);
+}
+
+// pressure.csv and pressure.png: coefficients along the gores; load.png: the load over the cloth.
+void SteadyFolder::write_pressure(const SteadyRun& run, const SteadyState& state,
+                                  const SteadyResult& result) const {
+  const double dynamic_pressure = 0.5 * result.density * result.speed * result.speed;
+  CsvTable table{{"arc_m", "radius_m", "z_m", "cp_inside", "cp_outside", "cp_load"}, {}};
+  Plot plot;
+  plot.title = result.title;
+  plot.x.label = "along the cloth from the vent [m]";
+  plot.y.label = "pressure coefficient";
+  for (const char* name : {"inside", "outside", "load on the cloth"}) plot.series.emplace_back().name = name;
+  const std::vector<PressureRing> rings =
+      pressure_profile(run.solver.cells(), state.shape, state.sides, state.applied);
+  for (const PressureRing& ring : rings) {
+    const double values[] = {ring.inside / dynamic_pressure, ring.outside / dynamic_pressure,
+                             ring.load / dynamic_pressure};
+    table.rows.push_back({ring.arc, ring.radius, ring.z, values[0], values[1], values[2]});
+    for (std::size_t s = 0; s < plot.series.size(); ++s) {
+      plot.series[s].x.push_back(ring.arc);
+      plot.series[s].y.push_back(values[s]);
+    }
+  }
+  write_csv(folder_.own("pressure.csv"), table);
+  write_plot(folder_.own("pressure.png"), plot);
+  write_canopy_picture(folder_.own("load.png"), run.solver.mesh(), state.shape,
+                       {result.title, "pressure inside over outside [Pa]", state.applied, {}});
+}
+
+void SteadyFolder::write_drag_plot(const SteadyState& state, const std::string& title) const {
+  Plot plot;
+  plot.title = title;
+  plot.x.label = "coupling iteration";
+  plot.y.label = "axial force [N]";
+  for (const char* name : {"fluid force", "nodal load", "line tension"})
+    plot.series.emplace_back().name = name;
+  for (const SteadyIteration& i : state.iterations) {
+    const double forces[] = {i.fluid_force, i.nodal_load, i.line_tension};
+    for (std::size_t s = 0; s < plot.series.size(); ++s) {
+      plot.series[s].x.push_back(i.iteration);
+      plot.series[s].y.push_back(forces[s]);
+    }
+  }
+  write_plot(folder_.own("drag.png"), plot);
+}
+
+}  // namespace
+
+SteadyFolderRun run_steady_in(const SteadyFolderSettings& settings, const Settings& resolved,
+                              SteadyObserver& observer) {
+  const fs::path& folder = settings.run.folder;
+  require_hosts(settings.hostfile, resolved);
+  const int threads = settings.threads > 0 ? settings.threads : resolved.coupling().threads;
+  // By the engine's name, before one is made: making it clears the flow's
+  // folder, which may still be another run's.
+  const auto claimed = open_run_folder(
+      settings.run, resolved, engine_of(resolved).name(engine_options(resolved)), ThreadTeam(threads).size());
+  if (const auto finished = finished_result(folder)) return {true, steady_result_from_json(*finished)};
+  const fs::path flow_folder = engine_of(resolved).needs_folder ? claimed->own("flow/") : fs::path();
+  SteadyFolder files(*claimed, settings, observer);
+  SteadyResult result = run_steady(resolved, files, {threads, flow_folder, settings.hostfile}).result;
+  result.inputs_hash = inputs_of_run(folder);
+  return {false, std::move(result)};
+}
+
+void check_steady_in(const SteadyFolderSettings& settings, const Settings& resolved) {
+  const fs::path& folder = settings.run.folder;
+  require_hosts(settings.hostfile, resolved);
+  require_unclaimed(folder);
+  const bool goes_on = holds_run(settings.run, resolved,
+                                 engine_of(resolved).name(engine_options(resolved)));  // the engine is there
+  if (goes_on && finished_result(folder)) return;
+  if (!settings.elsewhere) require_steady_memory(resolved);
+}
+
+double drag_for_opening(const fs::path& folder, const Settings& opening) {
+  const std::optional<std::string> text = finished_result(folder);
+  if (!text)
+    throw Error(ExitCode::usage, fmt::format("{}: holds no finished run of ripstop steady", folder.string()));
+  return drag_for_opening(settings_of_run(folder), steady_result_from_json(*text), folder.string(), opening);
+}
+
+double drag_for_opening(const Settings& resolved, const SteadyResult& result, const std::string& where,
+                        const Settings& opening) {
+  if (!result.converged)
+    throw Error(ExitCode::bad_data, fmt::format("{}: the steady run has not converged", where));
+  auto asked = nlohmann::json::parse(case_json(opening)).at("parachute");
+  auto had = nlohmann::json::parse(case_json(resolved)).at("parachute");
+  asked.erase("mesh"), had.erase("mesh");
+  for (const auto& [key, value] : asked.items()) {
+    if (had.contains(key) && had.at(key) == value) continue;
+    throw Error(ExitCode::usage,
+                fmt::format("{}: is a run of another parachute: parachute.{} is {} there and {} here", where,
+                            key, had.value(key, nlohmann::json()).dump(), value.dump()));
+  }
+  const auto check = [&](const char* what, double there, double now) {
+    if (std::abs(there - now) <= 1e-6 * now) return;
+    throw Error(ExitCode::usage,
+                fmt::format("{}: is a run at another {}: {:g} there and {:g} here", where, what, there, now));
+  };
+  check("speed (m/s)", result.speed, opening.flow().speed_m_s);
+  check("density (kg/m3)", result.density, opening.flow().density_kg_m3);
+  return result.drag;
+}
+
+SteadyState final_state(const fs::path& folder) {
+  const fs::path checkpoint = folder / "checkpoint";
+  if (!fs::exists(folder / "result.json"))
+    throw Error(ExitCode::usage, fmt::format("{}: holds no finished run of ripstop steady", folder.string()));
+  if (!fs::exists(checkpoint / "current"))
+    throw Error(ExitCode::bad_data, fmt::format("{}: is lost; compute the run again with --fresh",
+                                                (checkpoint / "current").string()));
+  return steady_state_from_bytes(read_sealed(checkpoint / read_sealed(checkpoint / "current") / "state"));
+}
+
+Settings settings_of_run(const fs::path& folder) {
+  if (!fs::exists(folder / "case.toml")) {
+    throw Error(ExitCode::usage,
+                fmt::format("{}: has no case.toml; run ripstop steady again with --fresh", folder.string()));
+  }
+  return resolve(read_case(folder / "case.toml"));
+}
+
+void drop_flow_checkpoint(const fs::path& folder) {
+  if (!fs::exists(folder / "result.json")) return;
+  for (const char* name : {"even", "odd"}) remove_path(folder / "checkpoint" / name / "flow");
+}
+
+}  // namespace ripstop

@@ -1,0 +1,51 @@
+// The folder of one steady run: what it was (run.json), how it went (iterations.csv, canopy.pvd), what came
+// out (result.json), and what it needs to go on after a kill (checkpoint/).
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "ripstop/case/settings.h"
+#include "ripstop/run/run_folder.h"
+#include "ripstop/run/steady/steady.h"
+
+namespace ripstop {
+
+struct SteadyFolderSettings {
+  RunSettings run;
+  int threads = 0;                  // of this run; 0: coupling.threads
+  std::filesystem::path hostfile;   // for MPI; empty: none
+  std::filesystem::path warm_from;  // folder of a finished run to start from; empty: cold
+  bool elsewhere = false;           // another machine runs it: this one's memory does not matter
+};
+
+struct SteadyFolderRun {
+  bool already_finished = false;
+  SteadyResult result;
+};
+
+/// run_steady() in a folder, from the first iteration or from where it was killed. Nothing is
+/// computed, and the observer is told nothing, when the folder holds the finished run. Throws as
+/// holds_run() and run_steady() do.
+SteadyFolderRun run_steady_in(const SteadyFolderSettings& settings, const Settings& resolved,
+                              SteadyObserver& observer);
+
+/// Throws what run_steady_in() would throw before it computes, and touches nothing.
+void check_steady_in(const SteadyFolderSettings& settings, const Settings& resolved);
+
+/// Drag of the converged run in a folder, for an opening of the same parachute, but for its mesh, in the same
+/// air. Throws Error(usage) for another parachute, speed or density, Error(bad_data) for a run that is
+/// damaged or has not converged.
+double drag_for_opening(const std::filesystem::path& folder, const Settings& opening);
+/// The same of a run of `resolved`, which messages call `where`.
+double drag_for_opening(const Settings& resolved, const SteadyResult& result, const std::string& where,
+                        const Settings& opening);
+/// The final state in the folder of a steady run. Throws Error(usage) when there is none.
+SteadyState final_state(const std::filesystem::path& folder);
+/// The settings of the run there. Throws Error(usage) when there is none.
+Settings settings_of_run(const std::filesystem::path& folder);
+/// Gives back the disk space of the flow field in the checkpoint of a finished run; final_state() stays.
+/// Throws Error(io).
+void drop_flow_checkpoint(const std::filesystem::path& folder);
+
+}  // namespace ripstop

@@ -1,0 +1,24 @@
+// What is not wrong with a case but should be known about its results.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "ripstop/case/settings.h"
+
+namespace ripstop {
+
+/// A mesh on which this type's diameter may be more than 1 % off; nothing where it is fine enough.
+std::vector<std::string> mesh_warnings(const Settings& resolved);
+/// Cells of the flow that are too large for the air's own load on the canopy.
+std::vector<std::string> grid_warnings(const Settings& resolved);
+/// Permeability of another model than the one that is used.
+std::vector<std::string> porosity_warnings(const Settings& resolved);
+/// What is doubtful before anything is computed: the three above.
+std::vector<std::string> case_warnings(const Settings& resolved);
+/// Materials stretched beyond their tests, and such.
+std::vector<std::string> strain_warnings(const Settings& resolved, double largest_cloth_strain);
+/// All of them.
+std::vector<std::string> warnings_of(const Settings& resolved, double largest_cloth_strain);
+
+}  // namespace ripstop

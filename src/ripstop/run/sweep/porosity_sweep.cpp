@@ -1,0 +1,84 @@
+#include "ripstop/run/sweep/porosity_sweep.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "ripstop/case/settings.h"
+#include "ripstop/core/error.h"
+
+namespace ripstop {
+
+std::vector<MeasuredDrag> measured_drag(const Settings& resolved) {
+  std::vector<MeasuredDrag> points;
+  for (const Measured& row : resolved.measured()) {
+    if (!row.drag_n) continue;
+    const bool nominal = resolved.flow().speed_basis == SpeedBasis::nominal;
+    points.push_back({row.nominal_speed_m_s, nominal ? row.nominal_speed_m_s : row.measured_speed_m_s,
+                      row.density_kg_m3, *row.drag_n});
+  }
+  return points;
+}
+
+std::string knob_name(PorosityKnob knob) {
+  return knob == PorosityKnob::gamma ? "gamma" : "permeability_cfm";
+}
+
+std::vector<double> cell_shifts(const Settings& resolved, int shifts) {
+  const double cell = flow_grid(resolved.flow()).spacing().z;
+  std::vector<double> all;
+  for (int k = 0; k < shifts; ++k) all.push_back(cell * (k - 0.5 * (shifts - 1)) / shifts);
+  return all;
+}
+
+void require_slope(const PorositySweep& sweep) {
+  if (sweep.values.size() < 2)
+    throw Error(ExitCode::usage,
+                "one value of the porosity shows no slope: give two or more, parted by commas");
+}
+
+std::vector<SweepAxis> porosity_axes(const Settings& resolved, const PorositySweep& sweep,
+                                     const std::vector<MeasuredDrag>& measured) {
+  SweepAxis condition{"condition", {}, {}}, knob{knob_name(sweep.knob), {}, {}}, shift{"shift_m", {}, {}};
+  for (const MeasuredDrag& point : measured) {
+    std::string name = fmt::format("{}", point.nominal_speed);
+    for (int twin = 2;
+         std::find(condition.values.begin(), condition.values.end(), name) != condition.values.end();)
+      name = fmt::format("{}-{}", point.nominal_speed, twin++);
+    condition.values.push_back(name);
+    condition.settings.push_back({{"flow.speed_m_s", fmt::format("{}", point.speed), "--measured"},
+                                  {"flow.speed_basis", "nominal", "--measured"},
+                                  {"flow.density_kg_m3", fmt::format("{}", point.density), "--measured"}});
+  }
+  const std::string cloth = "materials." + resolved.parachute().canopy_material;
+  for (const double value : sweep.values) {
+    const PressureDrop law = cloth_of(sweep.knob, value, sweep.thickness);
+    knob.values.push_back(fmt::format("{}", value));
+    knob.settings.push_back({{cloth + ".darcy", fmt::format("{}", law.linear), "porosity"},
+                             {cloth + ".forchheimer", fmt::format("{}", law.quadratic), "porosity"}});
+  }
+  const FlowSettings flow = resolved.flow();
+  for (const double by : cell_shifts(resolved, sweep.shifts)) {
+    shift.values.push_back(fmt::format("{:.4g}", by));
+    std::vector<Setting> settings = {
+        {"flow.canopy_position_m", fmt::format("{}", flow.canopy_position_m + by), "--shifts"}};
+    if (flow.core.size_m.z > 0)  // it would go along with the canopy
+      settings.push_back({"flow.core.start_m", fmt::format("{}", flow.core.start_m), "--shifts"});
+    shift.settings.push_back(settings);
+  }
+  return {condition, knob, shift};
+}
+
+std::vector<PorosityTrial> porosity_trials(const Settings& resolved, const PorositySweep& sweep,
+                                           const std::vector<SweepRow>& rows) {
+  const std::vector<double> shifts = cell_shifts(resolved, sweep.shifts);
+  std::vector<PorosityTrial> trials;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const std::size_t run = i / shifts.size();
+    trials.push_back({sweep.values[run % sweep.values.size()], shifts[i % shifts.size()],
+                      run / sweep.values.size(), rows[i].result.drag_area});
+  }
+  return trials;
+}
+
+}  // namespace ripstop

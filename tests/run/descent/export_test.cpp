@@ -1,0 +1,137 @@
+// What is exported obeys the rules of the format: Python that compiles and calls
+// with RocketPy's own names, XML with OpenRocket's elements.
+#include "ripstop/run/descent/export.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "ripstop/core/error.h"
+#include "ripstop/core/process.h"
+#include "ripstop/run/opening/filling.h"
+#include "tests/run/steady/finished_run.h"
+
+namespace ripstop {
+namespace {
+
+class Export : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = std::make_unique<TemporaryFolder>("export");
+    fly_square_law(folder_->path / "run", {{"title", "\"Stratos <IV> & \\\"more\\\"\""}});
+  }
+  static void TearDownTestSuite() { folder_.reset(); }
+  static ExportedParachute parachute() { return exported(finished_steady(folder_->path / "run")); }
+
+  /// What Python prints of the script with the file's path as its argument.
+  static std::string python(const std::string& script, const std::string& file) {
+    const auto path = folder_->path / "checked";
+    write_file(path, file);
+    write_file(folder_->path / "check.py", script);
+    ProcessRequest request;
+    request.arguments = {"/usr/bin/python3", (folder_->path / "check.py").string(), path.string()};
+    request.time_limit_s = 60;
+    std::string output;
+    request.on_line = [&](const std::string& line) {
+      output += line + "\n";
+      return true;
+    };
+    EXPECT_EQ(run_process(request).exit_code, 0) << output;
+    return output;
+  }
+  static inline std::unique_ptr<TemporaryFolder> folder_;
+};
+
+TEST_F(Export, RocketPyIsPythonThatCallsAddParachuteByItsNames) {
+  const std::string script = R"(
+import ast, sys
+text = open(sys.argv[1]).read()
+ast.parse(text)
+space = {}
+exec(compile(text, "parachute.py", "exec"), space)
+class Rocket:
+    def add_parachute(self, name, cd_s, trigger, sampling_rate=100, lag=0, noise=(0, 0, 0), radius=None, height=None,
+                      porosity=0.0432, drag_coefficient=1.4):
+        print(repr(name)); print(cd_s); print(trigger); print(radius, height, lag)
+space["add_to"](Rocket())
+)";
+  const ExportedParachute p = parachute();
+  const std::string output = python(script, rocketpy_text(p, "450"));
+  EXPECT_EQ(output.find("'Stratos <IV> & \"more\"'\n"), 0u) << output;
+  EXPECT_NE(output.find("\n450\n"), std::string::npos) << output;
+  EXPECT_NEAR(std::stod(output.substr(output.find('\n') + 1)), SquareLawEngine::area, 0.01);
+  EXPECT_NE(rocketpy_text(p, "apogee").find("trigger=\"apogee\""), std::string::npos);
+  for (const char* wrong : {"apogeo", "-3", "nan", "300m", ""})
+    EXPECT_THROW(rocketpy_text(p, wrong), Error) << wrong;
+}
+
+TEST_F(Export, OpenRocketIsAComponentDatabaseWithItsElementsAndMaterials) {
+  const std::string script = R"(
+import sys, xml.etree.ElementTree as tree
+root = tree.parse(sys.argv[1]).getroot()
+assert root.tag == "OpenRocketComponent" and root.find("Version").text == "0.1"
+materials = {m.find("Name").text: m for m in root.find("Materials")}
+assert all(m.find("Type").text in ("SURFACE", "LINE", "BULK") and float(m.find("Density").text) > 0 for m in materials.values())
+(parachute,) = root.find("Components")
+assert parachute.tag == "Parachute"
+allowed = {"Manufacturer", "PartNumber", "Description", "Material", "Mass", "Diameter", "Sides", "PackedDiameter",
+           "PackedLength", "DragCoefficient", "LineCount", "LineLength", "LineMaterial"}
+assert {e.tag for e in parachute} == allowed, parachute
+for key in ("Material", "LineMaterial"):
+    found = materials[parachute.find(key).text]
+    assert found.find("Type").text == parachute.find(key).get("Type")
+d, cd = (float(parachute.find(k).text) for k in ("Diameter", "DragCoefficient"))
+print(cd * 3.141592653589793 / 4 * d * d)
+int(parachute.find("Sides").text), int(parachute.find("LineCount").text)
+)";
+  const ExportedParachute p = parachute();
+  EXPECT_NEAR(std::stod(python(script, openrocket_text(p))), p.drag_area, 1e-9);
+}
+
+TEST_F(Export, EveryNumberIsThatOfTheRunOrOfItsDesign) {
+  const FinishedSteady run = finished_steady(folder_->path / "run");
+  const ExportedParachute p = exported(run);
+  const Design& design = run.resolved.parachute();
+  EXPECT_EQ(p.title, run.result.title);
+  EXPECT_EQ(p.run, (folder_->path / "run").string());
+  EXPECT_EQ(p.drag_area, run.result.drag_area);
+  EXPECT_DOUBLE_EQ(p.drag_area_uncertainty, run.drag_uncertainty * p.drag_area);
+  EXPECT_EQ(p.drag_coefficient, run.result.drag_coefficient);
+  EXPECT_DOUBLE_EQ(p.nominal_area, nominal_area(design));
+  EXPECT_DOUBLE_EQ(p.nominal_diameter, std::sqrt(4 / std::numbers::pi * p.nominal_area));
+  EXPECT_DOUBLE_EQ(2 * p.radius, run.result.size.projected_diameter);
+  EXPECT_EQ(p.height, run.result.size.length);
+  EXPECT_DOUBLE_EQ(p.porosity, facts(design).geometric_porosity());
+  EXPECT_DOUBLE_EQ(p.lag, 10 * p.nominal_diameter / run.result.speed);  // disk-gap-band: ten diameters
+  EXPECT_DOUBLE_EQ(exported(run, 5).lag, 2 * p.nominal_diameter);
+  EXPECT_EQ(exported(run, 5).lag_from,
+            std::string("filling over 10 D0 at 5 m/s: ") + known_filling("disk-gap-band").source);
+  EXPECT_EQ(p.mass, run.parachute_mass);
+  EXPECT_EQ(p.gores, design.gores);
+  EXPECT_EQ(p.line_count, design.lines.count);
+  EXPECT_EQ(p.line_length, design.lines.length_m);
+  EXPECT_EQ(p.line_material, design.lines.material);
+  EXPECT_EQ(p.cloth_material, design.canopy_material);
+  EXPECT_EQ(p.line_density, run.resolved.materials().line.linear_density_kg_m);
+  EXPECT_EQ(p.cloth_density, run.resolved.materials().canopy.areal_density_kg_m2);
+  // A cylinder twice as long as wide.
+  EXPECT_DOUBLE_EQ(p.packed_length, 2 * p.packed_diameter);
+  EXPECT_NEAR(
+      std::numbers::pi / 4 * p.packed_diameter * p.packed_diameter * p.packed_length / p.packed_volume, 1,
+      1e-12);
+}
+
+TEST_F(Export, JsonHasEveryNumber) {
+  const ExportedParachute p = parachute();
+  const auto json = nlohmann::json::parse(to_json(p));
+  EXPECT_EQ(json.at("drag_area_m2"), p.drag_area);
+  EXPECT_GT(json.at("packed_volume_m3"), 0);
+  const FinishedSteady run = finished_steady(folder_->path / "run");
+  EXPECT_NEAR(json.at("lag_s").get<double>() * run.result.speed, exported(run, 15).lag * 15, 1e-9);
+  EXPECT_THROW(exported(finished_steady(folder_->path / "run"), -1), Error);
+}
+
+}  // namespace
+}  // namespace ripstop

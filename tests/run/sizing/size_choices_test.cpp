@@ -1,0 +1,183 @@
+// What `size` chooses by itself, and what its case file says of it.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "ripstop/case/payload.h"
+#include "ripstop/core/error.h"
+#include "ripstop/flight/atmosphere.h"
+#include "ripstop/material/library.h"
+#include "ripstop/run/sizing/size.h"
+
+namespace ripstop {
+namespace {
+
+SizeRequest wanted(double payload = 2.4, double rate = 5) {
+  SizeRequest r;
+  r.payload_mass = payload, r.descent_rate = rate, r.height = 300;
+  return r;
+}
+
+TEST(SizeChoices, EveryNumberIsThatOfTheParachuteOfItsCase) {
+  const SizeResult r = run_size(wanted());
+  const Design& design = r.given.parachute;
+  EXPECT_EQ(r.family, "flat-circular");
+  EXPECT_EQ(r.type, design.canopy.family().type);
+  EXPECT_EQ(r.payload_mass, 2.4);
+  EXPECT_EQ(r.descent_rate, 5);
+  EXPECT_EQ(r.height, 300);
+  EXPECT_EQ(r.density, standard_air(300).density);
+  EXPECT_EQ(r.nominal_area, nominal_area(design));
+  EXPECT_EQ(r.nominal_diameter, nominal_diameter(design));
+  EXPECT_EQ(r.vent_area, facts(design).vent_area);
+  EXPECT_GT(r.vent_area, 0);
+  EXPECT_EQ(r.gores, design.gores);
+  EXPECT_EQ(r.line_count, design.lines.count);
+  EXPECT_EQ(r.line_length, design.lines.length_m);
+  EXPECT_EQ(r.line_material, design.lines.material);
+  EXPECT_EQ(r.canopy_material, design.canopy_material);
+  EXPECT_EQ(r.deployment_speed, 20);
+  EXPECT_EQ(run_size(wanted(2.4, 8)).deployment_speed, 24);
+  EXPECT_TRUE(r.warnings.empty());
+  EXPECT_TRUE(r.checks.empty());
+  EXPECT_LE(r.opening_load_low, r.opening_load);
+  const FamilyDrag drag = family_drags().front();
+  EXPECT_GT(drag.speed, 0);
+  EXPECT_GT(drag.density, 0);
+  EXPECT_NE(drag.made.find(", "), std::string::npos) << drag.made;
+}
+
+TEST(SizeChoices, TheLineIsTheLightestOfTheLibraryThatHolds) {
+  SizeRequest asked = wanted(150, 6);
+  asked.deployment_speed = 70;
+  const SizeResult light = run_size(wanted()), heavy = run_size(asked);
+  const auto density = [](const std::string& name) {
+    return std::get<Line>(library_material(name)).linear_density_kg_m;
+  };
+  EXPECT_LE(density(light.line_material), density(heavy.line_material));
+  EXPECT_NE(light.line_material, heavy.line_material);
+  const double allowed = heavy.line_used;
+  EXPECT_LE(allowed, 1.1);  // chosen before the last change of size
+  for (const std::string& name : library_names()) {
+    const Material material = library_material(name);
+    const Line* line = std::get_if<Line>(&material);
+    if (!line || line->linear_density_kg_m >= density(heavy.line_material)) continue;
+    asked.line_material = name;
+    const SizeResult with = run_size(asked);
+    EXPECT_EQ(with.line_material, name);
+    EXPECT_TRUE(with.line_used == 0 || with.line_used > 0.97) << name << " holds and is lighter";
+  }
+}
+
+TEST(SizeChoices, WhereNoLineHoldsItSaysSo) {
+  SizeRequest asked = wanted(20000, 20);
+  asked.deployment_speed = 250;
+  const SizeResult r = run_size(asked);
+  ASSERT_EQ(r.warnings.size(), 1u);
+  EXPECT_EQ(r.warnings[0].find("no line of the library holds "), 0u) << r.warnings[0];
+  EXPECT_NE(r.warnings[0].find(fmt::format("on {} lines", r.line_count)), std::string::npos) << r.warnings[0];
+}
+
+// Near the ground the opening is flown from a hundred metres.
+TEST(SizeChoices, AtSeaLevelTheOpeningIsFlownAHundredMetresUp) {
+  SizeRequest asked = wanted();
+  asked.height = 0;
+  const SizeResult r = run_size(asked);
+  EXPECT_EQ(r.opening.front().height, 100);
+  EXPECT_EQ(run_size(wanted()).opening.front().height, 300);
+  EXPECT_EQ(r.opening.front().speed, r.deployment_speed);
+}
+
+TEST(SizeChoices, ADensityStandsInThePlaceOfAHeight) {
+  SizeRequest asked = wanted();
+  asked.density = 0.9;
+  const SizeResult r = run_size(asked);
+  EXPECT_EQ(r.density, 0.9);
+  EXPECT_NE(r.case_text.find("\ndensity_kg_m3 = 0.9\n"), std::string::npos) << r.case_text;
+  EXPECT_EQ(r.case_text.find("height_m"), std::string::npos);
+  const double weight = (2.4 + r.parachute_mass) * standard_gravity;
+  EXPECT_NEAR(0.5 * 0.9 * 25 * r.drag_coefficient * r.nominal_area / weight, 1, 2e-3);
+  EXPECT_NE(run_size(wanted()).case_text.find("\nheight_m = 300  # above sea level"), std::string::npos);
+}
+
+TEST(SizeChoices, ItsCaseFileSaysItsNumbersInComments) {
+  const SizeResult r = run_size(wanted());
+  const std::string& text = r.case_text;
+  const auto has = [&](const std::string& what) {
+    EXPECT_NE(text.find(what), std::string::npos) << what << "\n" << text;
+  };
+  ASSERT_TRUE(r.handbook_diameter && r.handbook_drag_coefficient);
+  has(fmt::format("# A flat-circular parachute for 2.4 kg at 5 m/s in air of {:.4g} kg/m3", r.density));
+  has(fmt::format("# Drag coefficient {:.3f} on S0 = {:.4g} m2: {}.", r.drag_coefficient, r.nominal_area,
+                  r.drag_source));
+  has(fmt::format("# The handbook has {:.2f} to {:.2f} ", r.handbook_drag_coefficient->at(0),
+                  r.handbook_drag_coefficient->at(1)));
+  has(fmt::format("  # {:.2f} to {:.2f} by the handbook's range of C_D", r.handbook_diameter->at(1),
+                  r.handbook_diameter->at(0)));
+  has(fmt::format("  # {:.2f} % of the area", 100 * r.vent_area / r.nominal_area));
+  has(fmt::format("  # {:.0f} % of its strength after losses", 100 * r.line_used));
+  has(fmt::format(
+      "# Parachute {:.3g} kg: cloth {:.3g}, tape {:.3g}, lines {:.3g}; packed {:.3g} litres at {:g} kg/m3",
+      r.parachute_mass, r.cloth_mass, r.tape_mass, r.line_mass, 1000 * r.packed_volume,
+      wanted().packing_density));
+  has(fmt::format("# Opening load {:.0f} to {:.0f} N behind 2.4 kg at 20 m/s", r.opening_load_low,
+                  r.opening_load));
+  has("speed_m_s = 5  # where the search begins");
+}
+
+// Lengths are rounded to a tenth of a millimetre.
+TEST(SizeChoices, EveryLengthOfTheDesignGrowsAndTheMeshesDoNot) {
+  Case given = read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/stratos-iv/case.toml");
+  const SizeResult small = run_size(wanted()), large = run_size(wanted(9.6));
+  const double factor = large.nominal_diameter / small.nominal_diameter;
+  EXPECT_GT(factor, 1.9);
+  EXPECT_NEAR(large.line_length / small.line_length, factor, 1e-3);
+  EXPECT_NEAR(std::sqrt(large.vent_area / small.vent_area), factor, 1e-2);
+  EXPECT_EQ(large.given.parachute.mesh.line_segment_m, small.given.parachute.mesh.line_segment_m);
+  EXPECT_NEAR(std::remainder(large.line_length, 1e-4), 0, 1e-9);
+}
+
+TEST(SizeChoices, VerifyGivesUpAfterFourRunsAndNamesTheLastRate) {
+  const SizeRequest asked = wanted();
+  SizeResult r = run_size(asked);
+  int runs = 0;
+  const auto fly = [&](const Case&, int) {
+    ++runs;
+    SteadyResult flown;
+    flown.converged = true, flown.drag_coefficient = 0.7, flown.speed = 6;
+    return flown;
+  };
+  try {
+    verify_size(asked, r, fly);
+    ADD_FAILURE() << "verified";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::not_converged);
+    EXPECT_STREQ(error.what(), "--verify: after 4 runs the descent rate is 6 m/s instead of 5");
+  }
+  EXPECT_EQ(runs, 4);
+  ASSERT_EQ(r.checks.size(), 4u);
+  EXPECT_EQ(r.checks[0].drag_coefficient, 0.7);
+  EXPECT_EQ(r.drag_coefficient, 0.7);
+  EXPECT_EQ(r.drag_source, "computed by --verify at the descent rate");
+}
+
+TEST(SizeChoices, VerifyIsContentWithinItsTolerance) {
+  const SizeRequest asked = wanted();
+  SizeResult r = run_size(asked);
+  const double diameter = r.nominal_diameter;
+  const auto fly = [&](double rate) {
+    return [=](const Case&, int) {
+      SteadyResult flown;
+      flown.converged = true, flown.drag_coefficient = 0.7, flown.speed = rate;
+      return flown;
+    };
+  };
+  verify_size(asked, r, fly(5.1), 0.021);
+  EXPECT_EQ(r.nominal_diameter, diameter);
+  EXPECT_EQ(r.checks.size(), 1u);
+  EXPECT_THROW(verify_size(asked, r, fly(5.1), 0.019), Error);
+}
+
+}  // namespace
+}  // namespace ripstop

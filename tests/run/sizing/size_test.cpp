@@ -1,0 +1,184 @@
+#include "ripstop/run/sizing/size.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <regex>
+
+#include "ripstop/case/payload.h"
+#include "ripstop/case/resolve.h"
+#include "ripstop/core/error.h"
+#include "ripstop/core/file.h"
+#include "ripstop/flight/atmosphere.h"
+#include "ripstop/run/report/report_tables.h"
+#include "ripstop/run/sizing/size_report.h"
+#include "tests/refusal.h"
+
+namespace ripstop {
+namespace {
+
+SizeRequest sized(const std::string& family = "flat-circular") {
+  SizeRequest r;
+  r.payload_mass = 2.4, r.descent_rate = 5, r.family = family, r.height = 300;
+  return r;
+}
+
+std::string refused(const SizeRequest& asked) {
+  return refusal_of([&] { run_size(asked); }, ExitCode::usage);
+}
+
+// Row by row: no number of the data is anything but the table's.
+TEST(Size, ItsDragIsThatOfTheTableOfFamilies) {
+  std::istringstream table(read_file(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "docs/tables/families.md"));
+  std::map<std::string, double> printed;
+  const std::regex row(R"(\| ([a-z-]+) \| ([0-9.]+) \|.*)");
+  for (std::string line; std::getline(table, line);)
+    if (std::smatch found; std::regex_match(line, found, row)) printed[found[1]] = std::stod(found[2]);
+  const std::vector<FamilyDrag> all = family_drags();
+  EXPECT_EQ(all.size(), printed.size());
+  EXPECT_GE(all.size(), 8u);
+  for (const FamilyDrag& drag : all) EXPECT_EQ(drag.drag_coefficient, printed.at(drag.family)) << drag.family;
+}
+
+TEST(Size, SaysWhereItsDragCoefficientIsFrom) {
+  EXPECT_EQ(run_size(sized()).drag_source.find("computed at "), 0u) << run_size(sized()).drag_source;
+  SizeRequest given = sized();
+  given.drag_coefficient = 0.8;
+  EXPECT_EQ(run_size(given).drag_source, "given");
+}
+
+// C_D D^2 is the same for the same load at the same speed: with more drag the canopy is smaller.
+TEST(Size, TheHandbooksDiametersHaveTheSameDragAreaAsTheOneFound) {
+  const SizeResult r = run_size(sized());
+  ASSERT_TRUE(r.handbook_drag_coefficient && r.handbook_diameter);
+  const double wanted = r.drag_coefficient * r.nominal_diameter * r.nominal_diameter;
+  for (const int end : {0, 1}) {
+    const double diameter = r.handbook_diameter->at(end);
+    EXPECT_NEAR(r.handbook_drag_coefficient->at(end) * diameter * diameter / wanted, 1, 1e-12) << end;
+  }
+  EXPECT_NE(r.handbook_diameter->at(0), r.handbook_diameter->at(1));
+}
+
+TEST(Size, OfEveryFamilyHoldsPayloadAndParachuteAtTheRate) {
+  for (const FamilyDrag& drag : family_drags()) {
+    const SizeResult r = run_size(sized(drag.family));
+    const double weight = (2.4 + r.parachute_mass) * standard_gravity;
+    const double force = 0.5 * standard_air(300).density * 25 * r.drag_coefficient * r.nominal_area;
+    EXPECT_NEAR(force / weight, 1, 2e-3) << drag.family;
+    EXPECT_NEAR(r.cloth_mass + r.tape_mass + r.line_mass, r.parachute_mass, 0.02 * r.parachute_mass)
+        << drag.family;
+    EXPECT_GT(r.packed_volume, 0);
+    EXPECT_GT(r.opening_load, 24) << drag.family;
+    EXPECT_GT(r.line_used, 0);
+    EXPECT_LE(r.line_used, 1);
+  }
+}
+
+TEST(Size, TapeHoldsTheOpeningLoadAndIsNoneWhereAHemDoes) {
+  const SizeResult light = run_size(sized());
+  EXPECT_EQ(light.tape_material, "none");
+  EXPECT_EQ(light.tape_mass, 0);
+  SizeRequest asked = sized();
+  asked.payload_mass = 100, asked.deployment_speed = 30;
+  const SizeResult heavy = run_size(asked);
+  const Case given = parse_case(heavy.case_text, "sized.toml");
+  const Tape* tape = reinforcement_tape(given);
+  ASSERT_TRUE(tape);
+  EXPECT_EQ(tape->name, heavy.tape_material);
+  const double left = tape->break_load_n * 0.8 * 0.95 * 0.95 * 0.95 / 1.5;
+  EXPECT_GE(left, 0.9 * heavy.opening_load / heavy.line_count);  // chosen before the last change of size
+  EXPECT_GT(heavy.tape_mass, 0);
+  EXPECT_NE(
+      heavy.case_text.find("material = \"" + heavy.tape_material + "\"  # the lightest tape that holds"),
+      std::string::npos)
+      << heavy.case_text;
+}
+
+TEST(Size, ItsCaseFileIsACaseOfThatParachute) {
+  for (const FamilyDrag& drag : family_drags()) {
+    const SizeResult r = run_size(sized(drag.family));
+    const Case given = parse_case(r.case_text, "sized.toml");
+    EXPECT_NEAR(nominal_area(given.parachute) / r.nominal_area, 1, 1e-9) << drag.family;
+    EXPECT_EQ(given.title, drag.family + " for 2.4 kg at 5 m/s");
+    EXPECT_EQ(r.given.title, given.title);
+    EXPECT_EQ(given.flow.speed_m_s, 5);
+    EXPECT_EQ(given.payload.mass_kg, 2.4);
+    EXPECT_EQ(given.flow.height_m, 300);
+    EXPECT_NEAR(parachute_mass(resolve(given)), r.parachute_mass, 1e-9) << drag.family;
+    EXPECT_NE(r.case_text.find("# "), std::string::npos);
+  }
+}
+
+// A flow whose drag coefficient is 10 % off the table's: the next diameter makes up for it.
+TEST(Size, VerifyChangesTheDiameterUntilTheRateHolds) {
+  const SizeRequest asked = sized();
+  SizeResult r = run_size(asked);
+  const double before = r.nominal_diameter, coefficient = 0.9 * r.drag_coefficient;
+  int runs = 0;
+  const auto fly = [&](const Case& given, int run) {
+    EXPECT_EQ(run, ++runs);
+    SteadyResult flown;
+    flown.converged = true;
+    flown.drag_coefficient = coefficient;
+    flown.speed = std::sqrt(2 * suspended_weight(resolve(given), *given.payload.mass_kg) /
+                            (air(given).density * coefficient * nominal_area(given.parachute)));
+    return flown;
+  };
+  verify_size(asked, r, fly);
+  EXPECT_EQ(runs, 2);
+  EXPECT_NEAR(r.nominal_diameter / before, std::sqrt(1 / 0.9), 0.01);
+  EXPECT_NEAR(r.checks.back().descent_rate, 5, 0.05);
+  // Opening load and margin are of the size that holds.
+  EXPECT_NEAR(r.opening.front().drag_area, r.drag_coefficient * r.nominal_area, 1e-6);
+  EXPECT_EQ(r.opening.front().highest, r.opening_load);
+  const auto stuck = [&](const Case&, int) { return SteadyResult(); };
+  EXPECT_THROW(verify_size(asked, r, stuck), Error);
+}
+
+TEST(Size, ItsReportHasItsNumbersAndEveryMethodsLoad) {
+  const SizeResult r = run_size(sized());
+  const Report report = size_report(r, {});
+  ASSERT_EQ(report.runs.size(), 1u);
+  const ReportRun& page = report.runs.front();
+  EXPECT_EQ(number_of(page, "nominal_diameter_m"), r.nominal_diameter);
+  for (const std::string& key : page.headline) EXPECT_FALSE(std::isnan(number_of(page, key))) << key;
+  for (const char* key : {"nominal_diameter_m", "parachute_mass_kg", "opening_load_n"})
+    EXPECT_EQ(std::count(page.headline.begin(), page.headline.end(), key), 1) << key;
+  const auto methods = std::find_if(page.tables.begin(), page.tables.end(), [](const ReportTable& table) {
+    return table.id.find("methods") != std::string::npos;
+  });
+  ASSERT_NE(methods, page.tables.end());
+  EXPECT_EQ(methods->rows.size(), r.opening.front().methods.size());
+  const std::vector<double>& force = page.plots.front().series.front().y;
+  EXPECT_GE(*std::max_element(force.begin(), force.end()), r.opening_load_low);
+  const ReportSeries& speed = page.plots.back().series.front();
+  EXPECT_EQ(speed.y.front(), r.deployment_speed);
+  EXPECT_LT(speed.y.back(), 0.5 * r.deployment_speed);
+  EXPECT_NEAR(speed.x.back() / (3 * r.opening.front().filling_time), 1, 0.1);
+  EXPECT_EQ(page.case_file, r.case_text);
+}
+
+TEST(Size, WhatCannotBeIsRefused) {
+  SizeRequest asked = sized("flat-circula");
+  EXPECT_NE(refused(asked).find("did you mean flat-circular?"), std::string::npos);
+  asked = sized();
+  asked.payload_mass = -2.4;
+  EXPECT_NE(refused(asked).find("payload mass (kg) of -2.4"), std::string::npos);
+  asked = sized();
+  asked.descent_rate = 0;
+  EXPECT_NE(refused(asked).find("descent rate"), std::string::npos);
+  asked = sized();
+  asked.deployment_speed = 4;
+  EXPECT_NE(refused(asked).find("not below the deployment speed"), std::string::npos);
+  asked = sized();
+  asked.line_material = "string";
+  EXPECT_NE(refused(asked).find("no such line"), std::string::npos);
+  asked = sized();
+  asked.height = 90000;
+  EXPECT_NE(refused(asked).find("standard atmosphere"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace ripstop

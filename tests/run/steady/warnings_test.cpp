@@ -1,0 +1,81 @@
+#include "ripstop/run/steady/warnings.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "ripstop/case/case.h"
+#include "ripstop/case/resolve.h"
+
+namespace ripstop {
+namespace {
+
+Case warned_case() {
+  return read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/stratos-iv/case.toml");
+}
+
+TEST(Warnings, ClothBeyondItsTestedStrainIsWarnedOfLinesAreNotByTheCloths) {
+  Case given = warned_case();
+  Fabric cloth = canopy_fabric(given);
+  cloth.tested_strain = 0.2;
+  given.materials.insert_or_assign(given.parachute.canopy_material, cloth);
+  const std::size_t before = strain_warnings(resolve(given), 0.19).size();
+  const std::vector<std::string> beyond = strain_warnings(resolve(given), 0.21);
+  ASSERT_EQ(beyond.size(), before + 1);
+  int told = 0;
+  for (const std::string& warning : beyond)
+    told += warning.find(cloth.name + ": strain 0.21") != std::string::npos;
+  EXPECT_EQ(told, 1);
+  EXPECT_EQ(warnings_of(resolve(given), 0.21).size(), case_warnings(resolve(given)).size() + beyond.size());
+}
+
+TEST(Warnings, AMeshIsWarnedOfWithFewerNodesThanItsTypeNeeds) {
+  Case given = warned_case();
+  const int enough = experience(given.parachute).cloth_nodes;
+  given.parachute.mesh.cloth_nodes = enough;
+  EXPECT_TRUE(mesh_warnings(resolve(given)).empty());
+  given.parachute.mesh.cloth_nodes = enough - 1;
+  const std::vector<std::string> told = mesh_warnings(resolve(given));
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].find(fmt::format("parachute.mesh.cloth_nodes = {}: ", enough - 1)), 0u) << told[0];
+  EXPECT_NE(told[0].find(fmt::format("fewer than {} nodes", enough)), std::string::npos) << told[0];
+}
+
+TEST(Warnings, AGridIsWarnedOfWhereTheAirsOwnLoadFindsFewerThanTenCellsAcrossTheCanopy) {
+  Case given = warned_case();
+  given.coupling.load = CanopyLoad::of_flow;
+  given.flow.core.size_m = Vec3{0, 0, 0};
+  const double across = inflated_diameter(given.parachute), box = resolve(given).flow().box_m.x;
+  const auto cells = [&](double wanted) {
+    const int n = static_cast<int>(std::ceil(wanted * box / across));
+    given.flow.cells = std::array{n, n, n};
+    return grid_warnings(resolve(given));
+  };
+  EXPECT_TRUE(cells(10).empty());
+  const std::vector<std::string> told = cells(6);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].find("6 cells of the flow across the inflated canopy: with fewer than 10 "), 0u)
+      << told[0];
+  EXPECT_EQ(case_warnings(resolve(given)).size(),
+            mesh_warnings(resolve(given)).size() + 1 + porosity_warnings(resolve(given)).size());
+  given.coupling.load = CanopyLoad::uniform;
+  EXPECT_TRUE(grid_warnings(resolve(given)).empty());
+}
+
+TEST(Warnings, PermeabilityOfAnotherModelIsWarnedOfWithBothWords) {
+  Case given = warned_case();
+  given.parachute.canopy_material = "f-111";  // for `paper`
+  given = checked(given);
+  given.flow.porosity_model = PorosityModel::paper;
+  EXPECT_TRUE(porosity_warnings(resolve(given)).empty());
+  given.flow.porosity_model = PorosityModel::sheet;
+  const std::vector<std::string> told = porosity_warnings(resolve(given));
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(
+      told[0].find("flow.porosity_model = \"sheet\", but darcy and forchheimer of materials.f-111 are for "
+                   "\"paper\""),
+      0u)
+      << told[0];
+}
+
+}  // namespace
+}  // namespace ripstop
