@@ -94,6 +94,7 @@ bench: check-deps  ## Benchmarks, some four hours; their figures stand in docs/t
 	@build-check/bench/bench_bodies in-time 25 all des | tee docs/tables/bodies-in-time-fine.md
 	@build-check/bench/bench_bodies places 16 | tee docs/tables/bodies-places.md
 	@build-check/bench/bench_bodies openfoam 8 | tee docs/tables/bodies-openfoam.md
+	@build-check/bench/bench_turned 8 16 24 | tee docs/tables/turned.md
 	@build-check/bench/bench_sheet 28 4 | tee docs/tables/sheet-shifts.md
 	@build-check/bench/bench_cloth
 	@build-check/bench/bench_relaxation | tee docs/tables/relaxation.md

@@ -71,7 +71,7 @@ FlowProblem problem_of(const Body& body, const FlowGrid& grid, double turbulence
   problem.stopping.max_iterations = 600;
   problem.stopping.average_over = 100;
   // K = dp / (rho v^2 / 2) at the velocity v through the disk.
-  problem.sheets = {{body.surface, body.loss > 0 ? 0 : 1e6, body.loss * problem.air.density / 2}};
+  problem.bodies = {sheet_body(body.surface, {body.loss > 0 ? 0 : 1e6, body.loss * problem.air.density / 2})};
   problem.outlet = Outlet::still_air;
   return problem;
 }
@@ -268,7 +268,7 @@ void compare_in_time(int argc, char** argv) {
 }
 
 /// Steady drag [N] in air of 20 m/s; the cells' middle lies `off` cells beside the axis along x, half as many along y.
-double drag_at_place(const Sheet& sheet, FlowGrid box, double half, double z, double off) {
+double drag_at_place(const FlowBody& sheet, FlowGrid box, double half, double z, double off) {
   const auto cells = [&](double x, double y) {
     return graded(box, {x - half, y - half, z - 0.5}, {x + half, y + half, z + 1.5}, 1.125);
   };
@@ -277,7 +277,7 @@ double drag_at_place(const Sheet& sheet, FlowGrid box, double half, double z, do
   problem.grid = cells(off * h.x, 0.5 * off * h.y);
   problem.air.velocity = {0, 0, 20};
   problem.sides = Sides::entraining, problem.outlet = Outlet::still_air;
-  problem.sheets = {sheet};
+  problem.bodies = {sheet};
   problem.stopping = {.residual = 1e-5, .max_iterations = 300, .average_over = 100};
   CartesianSettings settings;
   settings.second_order = true;
@@ -289,13 +289,13 @@ void compare_places(int argc, char** argv) {
   const int across = argc > 2 ? std::atoi(argv[2]) : 16;
   constexpr double z = 3, narrowest = 0.65, widest = 0.75;
   constexpr int widths = 8;
-  std::vector<std::pair<std::string, Sheet>> bodies;
+  std::vector<std::pair<std::string, FlowBody>> bodies;
   if (argc > 4) {
-    bodies = {{"canopy", {read_stl(argv[3]), std::atof(argv[4]), 0}}};
+    bodies = {{"canopy", sheet_body(read_stl(argv[3]), {std::atof(argv[4]), 0})}};
   } else {
-    bodies = {{"disk", {disk(1, {0, 0, z}), 1e6, 0}},
-              {"hemispherical cup", {hemispherical_cup(1, {0, 0, z}), 1e6, 0}},
-              {"rigid disk-gap-band of 0.65 m", {rigid_disk_gap_band({0, 0, z}), 1e6, 0}}};
+    bodies = {{"disk", sheet_body(disk(1, {0, 0, z}), {1e6, 0})},
+              {"hemispherical cup", sheet_body(hemispherical_cup(1, {0, 0, z}), {1e6, 0})},
+              {"rigid disk-gap-band of 0.65 m", sheet_body(rigid_disk_gap_band({0, 0, z}), {1e6, 0})}};
   }
   const FlowGrid like = about_body({{-4, -4, 0}, {8, 8, 10}, 0, 0, 0}, 1, across, z);
   const FlowGrid box{like.origin, like.size, like.nx, like.ny, like.nz};

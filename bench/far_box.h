@@ -50,8 +50,8 @@ inline FlowProblem plate_of_faces(double box, int across, double resistance, dou
   const int i = grid.cell_at(0, -0.5), j = grid.cell_at(1, -0.5);
   const double x = grid.edge(0, i), y = grid.edge(1, j), z = grid.edge(2, grid.cell_at(2, at));
   const Vec3 u{grid.edge(0, i + across) - x, 0, 0}, v{0, grid.edge(1, j + across) - y, 0}, corner{x, y, z};
-  problem.sheets = {
-      {{{corner, corner + u, corner + u + v}, {corner, corner + u + v, corner + v}}, resistance, 0}};
+  problem.bodies = {sheet_body({{corner, corner + u, corner + u + v}, {corner, corner + u + v, corner + v}},
+                               {resistance, 0})};
   return problem;
 }
 

@@ -30,7 +30,8 @@ FlowProblem printed_case(double fineness) {
   const auto cells = [&](double n) { return static_cast<int>(std::lround(n * fineness)); };
   problem.grid = {{-1, -1, 0}, {2, 2, 4}, cells(100), cells(100), cells(150)};
   problem.air.velocity = {0, 0, 30};
-  problem.porous.push_back({cut_cells(problem.grid, rigid_disk_gap_band({0, 0, 2})), 65.98, 37.45});
+  problem.bodies.push_back(
+      porous_body({cut_cells(problem.grid, rigid_disk_gap_band({0, 0, 2})), 65.98, 37.45}));
   return problem;
 }
 
@@ -144,7 +145,7 @@ FlowProblem sheet_case(double fineness) {
   problem.air.velocity = {0, 0, 20};
   problem.sides = Sides::entraining;
   problem.outlet = Outlet::still_air;
-  problem.sheets = {{rigid_disk_gap_band({0, 0, 2.8}), 66, 37.45, {}}};
+  problem.bodies = {sheet_body(rigid_disk_gap_band({0, 0, 2.8}), {66, 37.45})};
   return problem;
 }
 

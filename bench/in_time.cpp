@@ -148,7 +148,7 @@ int main(int argc, char** argv) {
   double faces = 0;
   for (const openfoam::BafflePatch& patch : cloth)
     for (const openfoam::Baffle& baffle : patch.baffles) faces += baffle.area.z;
-  const double unit = 0.5 * problem.air.density * speed * speed * surface_area(problem.sheets[0].surface);
+  const double unit = 0.5 * problem.air.density * speed * speed * surface_area(problem.bodies[0].surface);
   // The stream is half as fast again beside the rim: a Courant number of 0.45 there.
   const double length = 0.3 / across / speed;
   const int steps = static_cast<int>(std::lround(time / speed / length));
@@ -166,7 +166,7 @@ int main(int argc, char** argv) {
   print_row({"cells, steps, threads or ranks",
              fmt::format("{}, {}, {}", problem.grid.cells(), steps_of(ours), ranks),
              fmt::format("{}, {}, {}", problem.grid.cells(), steps_of(theirs), ranks), ""});
-  print_row({"area of the faces [m2]", fmt::format("{:.4f}", surface_area(problem.sheets[0].surface)),
+  print_row({"area of the faces [m2]", fmt::format("{:.4f}", surface_area(problem.bodies[0].surface)),
              fmt::format("{:.4f}", faces), ""});
   print_row({"million cell-steps a second", fmt::format("{:.2f}", rate(ours)),
              fmt::format("{:.3f}", rate(theirs)), fmt::format("{:.1f} times", rate(ours) / rate(theirs))});

@@ -39,13 +39,13 @@ constexpr double tight = 1e6, f111 = 8169.3;  // [Pa s/m]
 
 struct Body {
   std::string name;
-  Sheet sheet;
+  FlowBody sheet;
   double width = 0, front = 0;  // of the body across the stream [m], and its area across the stream [m2]
   double rear = 0;              // its highest z [m]
 };
 
 /// Moved such that the axis is x = y = 0 and the foremost point lies where a far box has its body.
-Body measured(std::string name, Sheet sheet, Vec3 axis) {
+Body measured(std::string name, FlowBody sheet, Vec3 axis) {
   double low = INFINITY, high = -INFINITY, radius = 0;
   for (const Triangle& t : sheet.surface) {
     for (const Vec3& p : {t.a, t.b, t.c}) {
@@ -63,19 +63,20 @@ Body measured(std::string name, Sheet sheet, Vec3 axis) {
 
 Body body_of(const std::string& word) {
   constexpr double density = 1.2;
-  if (word == "disk") return measured(word, {disk(1, {}), tight, 0}, {});
-  if (word == "plate") return measured(word, {square_plate(1, {}), tight, 0}, {});
-  if (word == "cup") return measured(word, {hemispherical_cup(1, {}), tight, 0}, {});
-  if (word == "disk-gap-band") return measured(word, {rigid_disk_gap_band({}), f111, 0}, {});
+  if (word == "disk") return measured(word, sheet_body(disk(1, {}), {tight, 0}), {});
+  if (word == "plate") return measured(word, sheet_body(square_plate(1, {}), {tight, 0}), {});
+  if (word == "cup") return measured(word, sheet_body(hemispherical_cup(1, {}), {tight, 0}), {});
+  if (word == "disk-gap-band") return measured(word, sheet_body(rigid_disk_gap_band({}), {f111, 0}), {});
   constexpr std::string_view porous = "porous-disk-";
   if (word.starts_with(porous))
-    return measured(word, {disk(1, {}), 0, std::stod(word.substr(porous.size())) * density / 2}, {});
+    return measured(word, sheet_body(disk(1, {}), {0, std::stod(word.substr(porous.size())) * density / 2}),
+                    {});
   const std::size_t is = word.find('='), b = word.rfind(':'), a = word.rfind(':', b - 1);
   if (is == std::string::npos || b == std::string::npos || a == std::string::npos || a < is)
     throw Error(ExitCode::usage,
                 word + " is no body: disk, plate, cup, porous-disk-K, disk-gap-band or NAME=FILE.stl:A:B");
-  Sheet sheet{read_stl(word.substr(is + 1, a - is - 1)), std::stod(word.substr(a + 1, b - a - 1)),
-              std::stod(word.substr(b + 1))};
+  FlowBody sheet = sheet_body(read_stl(word.substr(is + 1, a - is - 1)),
+                              {std::stod(word.substr(a + 1, b - a - 1)), std::stod(word.substr(b + 1))});
   Vec3 middle;
   double area = 0;
   for (const Triangle& t : sheet.surface) {
@@ -90,7 +91,7 @@ FlowProblem problem_of(const Body& body, int across) {
   problem.grid = far_box(body.width, box, across, 0.45 * 1.5 * box * body.width);
   problem.air.velocity = {0, 0, speed};
   problem.sides = Sides::slip;
-  problem.sheets = {body.sheet};
+  problem.bodies = {body.sheet};
   problem.stopping.max_iterations = 1200;
   return problem;
 }

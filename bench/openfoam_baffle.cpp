@@ -70,7 +70,7 @@ struct Way {
 
 /// All faces as one pair of cyclic patches.
 openfoam::BafflePatch loose(const FlowProblem& problem) {
-  openfoam::BafflePatch patch{"cloth", true, problem.sheets[0].linear, 0, {}};
+  openfoam::BafflePatch patch{"cloth", true, problem.bodies[0].drop().linear, 0, {}};
   for (openfoam::BafflePatch& part : openfoam::baffles_of(problem))
     for (openfoam::Baffle& baffle : part.baffles) patch.baffles.push_back(std::move(baffle));
   return patch;

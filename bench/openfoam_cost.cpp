@@ -69,9 +69,9 @@ int main(int argc, char** argv) {
 
   const std::vector<Triangle> surface = cap();
   Stopwatch watch;
-  problem.porous = {{cut_cells(problem.grid, surface), 65.98, 37.45}};
-  fmt::print("{} triangles cut {} of {} cells: {:.4f} s\n", surface.size(), problem.porous[0].cells.size(),
-             problem.grid.cells(), watch.lap());
+  problem.bodies = {porous_body({cut_cells(problem.grid, surface), 65.98, 37.45})};
+  fmt::print("{} triangles cut {} of {} cells: {:.4f} s\n", surface.size(),
+             problem.bodies[0].porous().cells.size(), problem.grid.cells(), watch.lap());
   const auto engine = make_openfoam(settings);
   const FlowReport report = [&](const FlowProgress& now) {
     fmt::print("iteration {}: {:.2f} s, drag {:.2f} N, residual of p {:.2e}\n", now.iteration, watch.lap(),

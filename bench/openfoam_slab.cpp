@@ -26,7 +26,7 @@ int main() {
       PorousCells slab{{}, 0, 2 * kappa / problem.grid.spacing().z};
       for (int cell = 0; cell < 16 * layers; ++cell)
         slab.cells.push_back(problem.grid.index(0, 0, 20) + cell);
-      problem.porous = {slab};
+      problem.bodies = {porous_body(slab)};
       const FlowField field = solve(*engine, problem);
       const double law = layers * kappa * problem.air.density * 25;
       const double x = (std::sqrt(1 + kappa) - 1) / (kappa / 2);  // root of x = 1 - kappa x^2 / 4

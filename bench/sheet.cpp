@@ -33,7 +33,8 @@ double drag(const FlowGrid& grid, Vec3 shift, double a, double b) {
   problem.stopping.max_iterations = iterations;
   problem.stopping.average_over = averaged;
   const Vec3 h = grid.spacing();
-  problem.sheets = {{rigid_disk_gap_band({shift.x * h.x, shift.y * h.y, skirt + shift.z * h.z}), a, b}};
+  problem.bodies = {
+      sheet_body(rigid_disk_gap_band({shift.x * h.x, shift.y * h.y, skirt + shift.z * h.z}), {a, b})};
   problem.outlet = Outlet::still_air;
   CartesianSettings settings;
   settings.second_order = true;

@@ -150,7 +150,7 @@ Drag drag_of_disk(const FlowGrid& box, double loss, int across, double z, Sides 
   problem.grid = about_body(box, 1, across, z);
   problem.sides = sides;
   problem.jet = jet;
-  problem.sheets = {{disk(1, {0, 0, z}), loss > 0 ? 0 : 1e6, loss * Freestream{}.density / 2}};
+  problem.bodies = {sheet_body(disk(1, {0, 0, z}), {loss > 0 ? 0 : 1e6, loss * Freestream{}.density / 2})};
   const FlowField field = solved(problem);
   Drag result;
   const double force = field.porous_force.z;
@@ -253,8 +253,8 @@ DragInTime drag_in_time(const std::vector<Triangle>& shape, double resistance, c
   problem.grid = graded({{-4, -4, 0}, {8, 8, z + 6}, 60, 60, how.cells_along}, {-half, -half, z - how.ahead},
                         {half, half, z + 1.71}, 1.125);
   if (how.edge > 0) problem.jet = Jet{{NozzleShape::octagon, octagon_width, 0}, 0.02, how.edge};
-  problem.sheets = {{shape, resistance, 0}};
-  for (Triangle& triangle : problem.sheets.front().surface)
+  problem.bodies = {sheet_body(shape, {resistance, 0})};
+  for (Triangle& triangle : problem.bodies.front().surface)
     for (Vec3* corner : {&triangle.a, &triangle.b, &triangle.c}) corner->z += z - 3;
   CartesianSettings settings;
   settings.second_order = true;

@@ -18,7 +18,8 @@ FlowProblem restless_wake() {
   FlowProblem problem;
   problem.grid = {{-1, -1, 0}, {2, 2, 4}, 25, 25, 38};
   problem.air.velocity = {0, 0, 30};
-  problem.porous.push_back({cut_cells(problem.grid, rigid_disk_gap_band({0, 0, 2})), 65.98, 37.45});
+  problem.bodies.push_back(
+      porous_body({cut_cells(problem.grid, rigid_disk_gap_band({0, 0, 2})), 65.98, 37.45}));
   return problem;
 }
 
@@ -70,7 +71,7 @@ TEST(FlowAverage, TheMeanOfALimitCycleIsRepeatableAndConservesMomentum) {
 TEST(FlowAverage, ARunThatSettlesIsNotAveragedAndKeepsItsBits) {
   FlowProblem problem = restless_wake();
   problem.grid.nx = problem.grid.ny = 16, problem.grid.nz = 24;
-  problem.porous = {{cut_cells(problem.grid, rigid_disk_gap_band({0, 0, 2})), 65.98, 37.45}};
+  problem.bodies = {porous_body({cut_cells(problem.grid, rigid_disk_gap_band({0, 0, 2})), 65.98, 37.45})};
   problem.air.velocity = {0, 0, 10};
   const FlowField plain = solve(*make_cartesian(one_thread()), problem);
   problem.stopping.average_over = problem.stopping.max_iterations;
@@ -85,8 +86,8 @@ TEST(FlowAverage, ARunThatSettlesIsNotAveragedAndKeepsItsBits) {
 
 TEST(FlowAverage, LoadsOnASheetStillAddUpToItsForce) {
   FlowProblem problem = restless_wake();
-  problem.porous.clear();
-  problem.sheets = {{disk(0.6, {0, 0, 1.5}), 100, 40}};
+  problem.bodies.clear();
+  problem.bodies = {sheet_body(disk(0.6, {0, 0, 1.5}), {100, 40})};
   problem.outlet = Outlet::still_air;
   problem.stopping.max_iterations = 30;
   problem.stopping.average_over = 20;

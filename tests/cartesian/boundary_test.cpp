@@ -204,8 +204,8 @@ TEST(Boundary, ASheetThatMovesHoldsBackOnlyWhatPassesIt) {
     problem.sides = Sides::slip;
     problem.outlet = Outlet::still_air;
     const Vec3 p[] = {{-1, -1, 1.01}, {2, -1, 1.01}, {2, 2, 1.01}, {-1, 2, 1.01}};
-    problem.sheets = {{{{p[0], p[1], p[2]}, {p[0], p[2], p[3]}}, 40, 2}};
-    problem.sheets[0].motion.velocity.assign(2, {0, 0, moving});
+    problem.bodies = {sheet_body({{p[0], p[1], p[2]}, {p[0], p[2], p[3]}}, {40, 2})};
+    problem.bodies[0].motion.velocity.assign(2, {0, 0, moving});
     problem.stopping.residual = 1e-8;
     CartesianSettings settings;
     settings.threads = 1, settings.compressible = false;

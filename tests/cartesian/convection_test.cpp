@@ -91,7 +91,7 @@ TEST(Convection, TheSecondOrderWakeConservesMomentumAndIsLessDiffuse) {
   problem.air.velocity = {0, 0, 10};
   problem.sides = Sides::slip;
   problem.stopping.max_iterations = 600;
-  problem.sheets = {{disk(0.5, {0, 0, 1.5}), 12, 0}};
+  problem.bodies = {sheet_body(disk(0.5, {0, 0, 1.5}), {12, 0})};
   problem.outlet = Outlet::still_air;
   const auto wake = [&](bool second) {
     CartesianSettings settings;

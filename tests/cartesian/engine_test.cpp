@@ -21,7 +21,8 @@ FlowProblem open_box(int nx, int ny, int nz, double speed) {
   FlowProblem problem;
   problem.grid = {{-1, -1, 0}, {2, 2, 4}, nx, ny, nz};
   problem.air.velocity = {0, 0, speed};
-  problem.porous.push_back({cut_cells(problem.grid, rigid_disk_gap_band({0, 0, 2})), 65.98, 37.45});
+  problem.bodies.push_back(
+      porous_body({cut_cells(problem.grid, rigid_disk_gap_band({0, 0, 2})), 65.98, 37.45}));
   return problem;
 }
 
@@ -41,7 +42,7 @@ bool same_bits(const FlowField& a, const FlowField& b) {
 
 TEST(CartesianEngine, AnEmptyBoxKeepsItsUniformStream) {
   FlowProblem problem = open_box(12, 10, 16, 20);
-  problem.porous.clear();
+  problem.bodies.clear();
   problem.stopping.max_iterations = 30;
   const FlowField field = solve(*make_cartesian(with_threads(1)), problem);
   for (const Vec3& u : field.velocity) EXPECT_NEAR(norm(u - Vec3{0, 0, 20}), 0, 1e-6);
@@ -52,7 +53,7 @@ TEST(CartesianEngine, AnEmptyBoxKeepsItsUniformStream) {
 // OpenFOAM's measure: |b - A x| over |A x - A X| + |b - A X|, with the mean of x as X. Of what is uniform both are alike.
 TEST(CartesianEngine, TheResidualOfUniformTurbulenceIsOne) {
   FlowProblem problem = open_box(8, 8, 12, 10);
-  problem.porous.clear();
+  problem.bodies.clear();
   const auto engine = make_cartesian(with_threads(1));
   const auto flow = engine->start(problem);
   const FlowProgress first = flow->advance(1, 0).last;
@@ -72,7 +73,7 @@ TEST(CartesianEngine, TheResidualOfAUniformStreamThatMeetsAPlugIsOneHoweverWeak)
     plug.darcy = darcy;
     for (int cell = 0; cell < problem.grid.cells(); ++cell)
       if (cell / 16 / 4 == 1) plug.cells.push_back(cell);
-    problem.porous.push_back(plug);
+    problem.bodies.push_back(porous_body(plug));
     CartesianSettings settings = with_threads(1);
     settings.compressible = settings.grid_sequencing = false;
     EXPECT_NEAR(make_cartesian(settings)->start(problem)->advance(1, 0).last.residual_u, 1, 1e-3) << darcy;
@@ -97,8 +98,8 @@ struct Folder {
 FlowProblem either(bool sheet) {
   FlowProblem problem = open_box(16, 16, 24, 10);
   if (!sheet) return problem;
-  problem.porous.clear();
-  problem.sheets = {{rigid_disk_gap_band({0, 0, 2}), 66, 37.45, {}}};
+  problem.bodies.clear();
+  problem.bodies = {sheet_body(rigid_disk_gap_band({0, 0, 2}), {66, 37.45})};
   problem.sides = Sides::entraining;
   problem.outlet = Outlet::still_air;
   return problem;
@@ -118,7 +119,7 @@ TEST(CartesianEngine, AFlowThatWasSavedAtAnyIterationGoesOnBitForBit) {
       unbroken->advance(5, 1e-9), resumed->advance(5, 1e-9);
       EXPECT_TRUE(same_bits(resumed->field(), unbroken->field())) << saved_after;
       for (const auto& flow : {unbroken.get(), resumed.get()}) {  // the cloth moves on
-        flow->place(rigid_disk_gap_band({0, 0, 2.03}));
+        flow->place(0, rigid_disk_gap_band({0, 0, 2.03}));
         flow->advance(5, 1e-9);
       }
       EXPECT_TRUE(same_bits(resumed->field(), unbroken->field())) << saved_after;
@@ -165,9 +166,9 @@ TEST(CartesianEngine, AFlowWhoseClothMovedTendsToTheFlowThatBeganThere) {
     const std::vector<Triangle> surface = rigid_disk_gap_band({0, 0, 2.1});
     const auto engine = make_cartesian(with_threads(1));
     const auto moved = engine->start(problem), began = engine->start(problem);
-    began->place(surface);
+    began->place(0, surface);
     solve_to_rest(*moved, problem.stopping);
-    moved->place(surface);
+    moved->place(0, surface);
     const FlowField a = solve_to_rest(*moved, problem.stopping), b = solve_to_rest(*began, problem.stopping);
     ASSERT_TRUE(a.converged && b.converged);
     EXPECT_NEAR(a.porous_force.z / b.porous_force.z, 1, 2e-4);
@@ -196,7 +197,7 @@ double plug_drop(int cells) {
     const int k = cell / 16;
     if (k >= 3 * cells / 8 && k < 5 * cells / 8) plug.cells.push_back(cell);
   }
-  problem.porous.push_back(plug);
+  problem.bodies.push_back(porous_body(plug));
   CartesianSettings settings = with_threads(1);
   settings.compressible = false;
   const FlowField field = solve(*make_cartesian(settings), problem);
@@ -250,7 +251,7 @@ TEST(CartesianEngine, AFieldIsScaledToOtherAir) {
 
 TEST(CartesianEngine, StartingOnCoarserGridsLeavesNoTraceInAFlowOfConstantDensity) {
   FlowProblem problem = open_box(48, 48, 72, 10);  // two coarser grids
-  problem.porous[0].darcy /= 10, problem.porous[0].forchheimer /= 10;
+  problem.bodies[0].porous().darcy /= 10, problem.bodies[0].porous().forchheimer /= 10;
   CartesianSettings settings;
   settings.threads = 1;
   settings.compressible = false;
@@ -282,7 +283,7 @@ TEST(CartesianEngine, EveryIterationSaysItsNumberAndWhatItLeavesOpen) {
 
 TEST(CartesianEngine, AfterAFreshStartItIsTheFlowThatBegins) {
   FlowProblem problem = open_box(12, 12, 16, 10);
-  problem.porous[0].cells.pop_back();  // on one side only
+  problem.bodies[0].porous().cells.pop_back();  // on one side only
   const auto engine = make_cartesian(with_threads(1));
   const auto first = engine->start(problem), second = engine->start(problem);
   first->advance(7, 0);
@@ -332,7 +333,7 @@ TEST(CartesianEngine, AMirroredFlowIsTheMirrorImage) {
     p.stopping.max_iterations = 2000;
     const auto swap = [&](Vec3 v) { return mirrored ? Vec3{v.y, v.x, v.z} : v; };
     p.grid = {swap({-1, -1.2, 0}), swap({2, 2.4, 3}), mirrored ? 14 : 12, mirrored ? 12 : 14, 18};
-    p.sheets = {{slanted_disk({0.13, -0.6, 1.2}, mirrored), 30, 2}};
+    p.bodies = {sheet_body(slanted_disk({0.13, -0.6, 1.2}, mirrored), {30, 2})};
     return p;
   };
   CartesianSettings settings = with_threads(1);
@@ -353,7 +354,7 @@ TEST(CartesianEngine, AMirroredFlowIsTheMirrorImage) {
       SheetMotion motion;
       motion.velocity.assign(cloth.size(), mirrored ? Vec3{2, 0, 0} : Vec3{0, 2, 0});
       const auto& flow = mirrored ? other : one;
-      flow->place(cloth, motion);
+      flow->place(0, cloth, motion);
       flow->step(5e-3);
     }
   }
@@ -379,8 +380,8 @@ TEST(CartesianEngine, AStartFromCoarserGridsIsEasedBesideASheet) {
   problem.sides = Sides::slip;
   problem.stopping.max_iterations = 12;
   const Vec3 h = problem.grid.spacing();
-  problem.sheets = {
-      {rigid_disk_gap_band({0.25 * h.x, 0.175 * h.y, 0.45 * 1.5 * box + 0.25 * h.z}), 66, 37.45}};
+  problem.bodies = {
+      sheet_body(rigid_disk_gap_band({0.25 * h.x, 0.175 * h.y, 0.45 * 1.5 * box + 0.25 * h.z}), {66, 37.45})};
   CartesianSettings settings;
   settings.second_order = true;
   int starts = 0;
@@ -421,7 +422,7 @@ TEST(CartesianEngine, FieldsBeyondReasonAreDivergedBeforeTheyAreInfinite) {
 
 TEST(CartesianEngine, SaysWhatIsWrongWithTheProblem) {
   FlowProblem problem = open_box(12, 12, 16, 10);
-  problem.porous[0].cells.push_back(problem.grid.cells());
+  problem.bodies[0].porous().cells.push_back(problem.grid.cells());
   EXPECT_THROW(solve(*make_cartesian(), problem), Error);
   problem = open_box(12, 12, 16, 10);
   for (double Freestream::*number :

@@ -21,7 +21,7 @@ FlowField porous_disk(double width, Sides sides, int threads = 1) {
         graded(problem.grid, {-1, -1, 0.45 * 1.5 * width - 1}, {1, 1, 0.45 * 1.5 * width + 2}, 1.2);
   problem.air.velocity = {0, 0, 30};
   problem.sides = sides;
-  problem.sheets = {{disk(1, {0, 0, 0.45 * 1.5 * width}), 0, problem.air.density}};
+  problem.bodies = {sheet_body(disk(1, {0, 0, 0.45 * 1.5 * width}), {0, problem.air.density})};
   problem.outlet = Outlet::still_air;
   CartesianSettings settings;
   settings.second_order = true;

@@ -87,7 +87,7 @@ TEST(FarField, AStreamThatTurnsThroughAWholeCircleStaysUniform) {
 FlowProblem disk_in_the_box(Vec3 velocity) {
   FlowProblem problem = empty_box(velocity);
   problem.grid = graded({{-3, -3, -3}, {6, 6, 6}, 26, 26, 26}, {-0.7, -0.7, -0.7}, {0.7, 0.7, 0.7}, 1.2);
-  problem.sheets = {{disk(1, {0.01, 0.02, 0.03}), 0, 1.2}};
+  problem.bodies = {sheet_body(disk(1, {0.01, 0.02, 0.03}), {0, 1.2})};
   return problem;
 }
 

@@ -27,7 +27,7 @@ FlowField porous_disk(const FlowGrid& grid) {
   problem.grid = grid;
   problem.air.velocity = {0, 0, 10};
   problem.sides = Sides::slip;
-  problem.sheets = {{disk(1, {0, 0, 3}), 0, 0.5 * problem.air.density}};
+  problem.bodies = {sheet_body(disk(1, {0, 0, 3}), {0, 0.5 * problem.air.density})};
   problem.outlet = Outlet::still_air;
   problem.stopping.residual = 1e-4;
   problem.stopping.max_iterations = 250;
@@ -50,7 +50,8 @@ TEST(GradedGrid, TheAnswerIsOpenFoamsOnTheSameCells) {
   FlowProblem problem;
   problem.grid = graded({{-2, -2, 0}, {4, 4, 8}, 22, 22, 34}, {-0.5, -0.5, 1.6}, {0.5, 0.5, 3}, 1.25);
   problem.air.velocity = {0, 0, 10};
-  problem.porous.push_back({cut_cells(problem.grid, rigid_disk_gap_band({0, 0, 2})), 65.98, 37.45});
+  problem.bodies.push_back(
+      porous_body({cut_cells(problem.grid, rigid_disk_gap_band({0, 0, 2})), 65.98, 37.45}));
   OpenFoamSettings reference;
   reference.folder = std::filesystem::path(testing::TempDir()) / "parity_graded";
   std::filesystem::remove_all(reference.folder);

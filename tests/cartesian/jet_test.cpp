@@ -94,7 +94,7 @@ double drag_of_disk(FlowGrid box, Vec3 core_low, Vec3 core_high, double z, Sides
   problem.sides = sides;
   problem.outlet = Outlet::still_air;
   problem.jet = jet;
-  problem.sheets = {{disk(1, {0, 0, z}), 0, problem.air.density}};
+  problem.bodies = {sheet_body(disk(1, {0, 0, z}), {0, problem.air.density})};
   problem.stopping.max_iterations = 400;
   problem.stopping.residual = 3e-5;
   const FlowField field = solved(problem);

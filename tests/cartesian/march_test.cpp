@@ -35,7 +35,7 @@ FlowProblem disk_in_a_box(double linear, Sides sides) {
   problem.air.velocity = {0, 0, 10};
   problem.sides = sides;
   problem.outlet = Outlet::still_air;
-  problem.sheets = {{disk(1, {0.01, 0.02, 2.52}), linear, 0}};
+  problem.bodies = {sheet_body(disk(1, {0.01, 0.02, 2.52}), {linear, 0})};
   return problem;
 }
 
@@ -47,7 +47,7 @@ bool same_bits(const FlowField& a, const FlowField& b) {
 
 TEST(March, AUniformStreamStaysUniform) {
   FlowProblem problem = disk_in_a_box(0, Sides::entraining);
-  problem.sheets.clear();
+  problem.bodies.clear();
   const auto engine = make_cartesian(with_threads(1));
   const auto flow = engine->start(problem);
   flow->march(20, 0.7);
@@ -59,7 +59,7 @@ TEST(March, AUniformStreamStaysUniform) {
 // In a box that goes with something that is slowed down, unevenly.
 TEST(March, AStreamThatIsSlowedDownStaysUniform) {
   FlowProblem problem = disk_in_a_box(0, Sides::entraining);
-  problem.sheets.clear();
+  problem.bodies.clear();
   const auto engine = make_cartesian(with_threads(1));
   const auto flow = engine->start(problem);
   double speed = 10;
@@ -111,7 +111,7 @@ INSTANTIATE_TEST_SUITE_P(Eddies, MarchWith, testing::Values(SmallEddies::wale, S
 TEST_P(MarchWith, PorousCellsWithoutResistanceAreNotThere) {
   const auto marched = [&](bool porous) {
     FlowProblem problem = disk_in_a_box(1e4, Sides::entraining);
-    if (porous) problem.porous = {{{problem.grid.index(3, 4, 5)}, 0, 0}};
+    if (porous) problem.bodies = {porous_body({{problem.grid.index(3, 4, 5)}, 0, 0})};
     const auto engine = make_cartesian(with_threads(1, GetParam()));
     const auto flow = engine->start(problem);
     flow->march(3, 0.7);

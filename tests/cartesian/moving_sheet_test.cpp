@@ -34,7 +34,7 @@ FlowProblem disk_in_air(double speed, double linear, double z, double angle = 0)
   problem.air.density = air_density;
   problem.sides = Sides::entraining;
   problem.outlet = Outlet::still_air;
-  problem.sheets = {{disk_at(z, angle), linear, 0}};
+  problem.bodies = {sheet_body(disk_at(z, angle), {linear, 0})};
   return problem;
 }
 
@@ -60,7 +60,7 @@ TEST(MovingSheet, ADiskThatIsSetInMotionHasItsAddedMass) {
   double force = 0;
   for (int n = 0; n < 3; ++n) {
     const std::vector<Triangle> surface = disk_at(4 + drift * n * step);
-    flow->place(surface, all_with(surface, {0, 0, drift + gains * (n + 1) * step}));
+    flow->place(0, surface, all_with(surface, {0, 0, drift + gains * (n + 1) * step}));
     force = flow->step(step).force.z;
   }
   EXPECT_NEAR(force / exact, 1, 0.1);
@@ -79,7 +79,7 @@ Drift drift_of(double linear, double angle = 0) {
   std::vector<double> drag;
   for (double z = 4.9; z > 2.6;) {
     const std::vector<Triangle> surface = disk_at(z, angle);
-    flow->place(surface, all_with(surface, {0, 0, along}));
+    flow->place(0, surface, all_with(surface, {0, 0, along}));
     const double length = cell / 8 / std::abs(along);  // eight steps a cell
     drag.push_back(flow->step(length).force.z / (0.5 * air_density * 100 * pi / 4));
     z += along * length;
@@ -125,13 +125,13 @@ TEST(MovingSheet, ADiskThatFallsComesToItsTerminalSpeed) {
                terminal = std::sqrt(2 * mass * gravity / (air_density * area * coefficient));
   constexpr double first = 4.5, high = 5.2, step = 4e-3, duration = 2.2;
   FlowProblem problem = disk_in_air(first, 0, high);
-  problem.sheets[0].quadratic = 0.5 * air_density * loss;
+  problem.bodies[0].drop().quadratic = 0.5 * air_density * loss;
   const auto engine = engine_on_one_thread();
   const auto flow = engine->start(problem);
   double z = high, rises = 0, sum = 0, count = 0;  // rises: through the grid [m/s]
   for (double time = 0; time < duration; time += step) {
     const std::vector<Triangle> surface = disk_at(z);
-    flow->place(surface, all_with(surface, {0, 0, rises}));
+    flow->place(0, surface, all_with(surface, {0, 0, rises}));
     rises += step * (flow->step(step).force.z / mass - gravity);
     z += step * rises;
     if (time > 0.75 * duration) sum += first - rises, ++count;
@@ -168,11 +168,11 @@ TEST(MovingSheet, AFoldedBandDoesNotLeak) {
   FlowProblem problem;
   problem.grid = {{-0.6, -0.6, 0}, {1.2, 1.2, 2}, 30, 30, 50};
   problem.air.velocity = {0, 0, 10};
-  problem.sheets = {{folded_band(), 1e4, 0}};
+  problem.bodies = {sheet_body(folded_band(), {1e4, 0})};
   const auto engine = engine_on_one_thread();
   const auto flow = engine->start(problem);
   for (const SheetMotion& motion : {SheetMotion{}, all_with(folded_band(), {})}) {
-    flow->place(folded_band(), motion);
+    flow->place(0, folded_band(), motion);
     int faces = 0;
     for (const SheetLoad& load : flow->sheet_loads()) {
       if (load.point.z < 1.06 || load.point.z > 1.24) continue;  // beside its ends

@@ -28,8 +28,8 @@ TEST_P(Parity, DragAndFieldsAreThoseOfOpenFoam) {
   FlowProblem problem;
   problem.grid = {{-1, -1, 0}, {2, 2, 4}, 25, 25, 38};
   problem.air.velocity = {0, 0, GetParam().speed};
-  problem.porous.push_back(
-      {cut_cells(problem.grid, rigid_disk_gap_band({0, 0, 2})), GetParam().darcy, GetParam().forchheimer});
+  problem.bodies.push_back(porous_body(
+      {cut_cells(problem.grid, rigid_disk_gap_band({0, 0, 2})), GetParam().darcy, GetParam().forchheimer}));
   OpenFoamSettings reference;
   reference.folder = std::filesystem::path(testing::TempDir()) / (std::string("parity_") + GetParam().name);
   std::filesystem::remove_all(reference.folder);

@@ -55,7 +55,7 @@ TEST(Sheet, AtAStepOfTheStaircaseTheCellsNextToThoseBesideItSayWhatRunsAlongIt) 
 std::vector<double> law_in_a_drift(Vec3 drift) {
   const Axis x = even_axis(0, 1, 8), y = even_axis(0, 1, 8), z = even_axis(0, 1.5, 12);
   const Vec3 p[] = {{-1, -1, 0.1}, {2, -1, 1.6}, {2, 2, 1.2}, {-1, 2, -0.3}};
-  Sheet sheet{{{p[0], p[1], p[2]}, {p[0], p[2], p[3]}}, 40, 2};
+  FlowBody sheet = sheet_body({{p[0], p[1], p[2]}, {p[0], p[2], p[3]}}, {40, 2});
   sheet.motion.velocity.assign(2, drift);
   cartesian::SheetRows rows(x, y, z, {sheet});
   const cartesian::Layout layout(8, 8, 12);

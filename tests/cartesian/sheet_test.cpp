@@ -165,7 +165,7 @@ Duct duct(double speed, double a, double b, double degrees, int n, double at = 2
   const double slope = std::tan(degrees * pi / 180);
   const auto corner = [&](double x, double y) { return Vec3{x, y, at + slope * (x - 0.5)}; };
   const Vec3 p[] = {corner(-0.3, -0.3), corner(1.3, -0.3), corner(1.3, 0.8), corner(-0.3, 0.8)};
-  problem.sheets = {{{{p[0], p[1], p[2]}, {p[0], p[2], p[3]}}, a, b}};
+  problem.bodies = {sheet_body({{p[0], p[1], p[2]}, {p[0], p[2], p[3]}}, {a, b})};
   problem.outlet = Outlet::still_air;
   CartesianSettings settings;
   settings.threads = 1;
@@ -245,9 +245,9 @@ TEST(Sheet, StepsOfClothAlongTheStreamDoNotHoldTheAirBack) {
       problem.air.velocity = {0, 0, 10};
       problem.sides = Sides::slip;
       problem.stopping.max_iterations = 300;
-      problem.sheets = {{revolve({{radius - opening / 2, 1.6}, {radius + opening / 2, 1.6 + chord}},
-                                 {0.01, 0.013, 0.017}, 240),
-                         a, 0}};
+      problem.bodies = {sheet_body(revolve({{radius - opening / 2, 1.6}, {radius + opening / 2, 1.6 + chord}},
+                                           {0.01, 0.013, 0.017}, 240),
+                                   {a, 0})};
       problem.outlet = Outlet::still_air;
       CartesianSettings settings;
       settings.threads = 1;
@@ -269,7 +269,7 @@ FlowProblem canopy(int n, double speed, double a, double b, Vec3 centre = {0, 0,
   problem.grid = {{-1, -1, 0}, {2, 2, 4}, n, n, 3 * n / 2};
   problem.air.velocity = {0, 0, speed};
   problem.stopping.max_iterations = 600;
-  problem.sheets = {{rigid_disk_gap_band(centre), a, b}};
+  problem.bodies = {sheet_body(rigid_disk_gap_band(centre), {a, b})};
   problem.outlet = Outlet::still_air;
   return problem;
 }
@@ -321,7 +321,7 @@ TEST(Sheet, LoadsForceOnTheFluidAndMomentumDeficitAreOne) {
   const FlowField field = solve(*make_cartesian(threads(1)), problem);
   ASSERT_FALSE(field.sheet_loads.empty());
   for (const SheetLoad& load : field.sheet_loads) {  // each on its triangle; at hems within a cell beside it
-    const Triangle& t = problem.sheets.at(load.sheet).surface.at(load.triangle);
+    const Triangle& t = problem.bodies.at(load.body).surface.at(load.triangle);
     const double side = std::max({norm(t.b - t.a), norm(t.c - t.b), norm(t.a - t.c)});
     EXPECT_LT(norm((t.a + t.b + t.c) / 3 - load.point), side + norm(problem.grid.spacing())) << load.triangle;
   }
@@ -344,7 +344,7 @@ TEST(Sheet, LayersBetweenTheSameCentresShareTheDrop) {
   problem.outlet = Outlet::still_air;
   problem.air.velocity = {0, 0, speed};
   problem.stopping.max_iterations = 400;
-  std::vector<Triangle>& surface = problem.sheets.emplace_back(Sheet{{}, a, 0}).surface;
+  std::vector<Triangle>& surface = problem.bodies.emplace_back(sheet_body({}, {a, 0})).surface;
   for (const double z : {0.99, 1.0, 1.01}) {
     const Vec3 p[] = {{-0.3, -0.3, z}, {1.3, -0.3, z}, {1.3, 0.8, z}, {-0.3, 0.8, z}};
     const bool turned = z == 1.0;
@@ -370,7 +370,7 @@ TEST(Sheet, FromWideOpenToImpermeableTheForceGrowsAndTheLeakVanishes) {
   double last = 0;
   for (const double a : {0.0, 5.0, 66.0, f111, 1e6}) {
     FlowProblem problem = canopy(26, 10, a, 0);
-    problem.sheets[0].surface = disk(0.65, {0, 0, 2});
+    problem.bodies[0].surface = disk(0.65, {0, 0, 2});
     const FlowField field = solve(*make_cartesian(threads(1)), problem);
     EXPECT_GE(field.porous_force.z, last) << a;
     last = field.porous_force.z;
@@ -390,7 +390,7 @@ TEST(Sheet, APorousDiskOnEightCellsHasTaylorsDrag) {
   problem.air.velocity = {0, 0, 10};
   problem.sides = Sides::slip;
   const double diameter = 0.65, loss = 1, dynamic = 0.5 * problem.air.density * 100;
-  problem.sheets = {{disk(diameter, {0, 0, 2.5}), 0, loss * problem.air.density / 2}};
+  problem.bodies = {sheet_body(disk(diameter, {0, 0, 2.5}), {0, loss * problem.air.density / 2})};
   problem.outlet = Outlet::still_air;
   CartesianSettings settings = threads(1);
   settings.second_order = true;
@@ -416,10 +416,10 @@ TEST(Sheet, TheAnswerIsTheSameBitForBitOnOneTwoAndFourThreads) {
 TEST(Sheet, ACanopyPlacedInUntouchedAirIsMetAsOneThatStoodThere) {
   const FlowProblem problem = canopy(26, 10, f111, 0);
   FlowProblem bare = problem;
-  bare.sheets[0].surface.clear();
+  bare.bodies[0].surface.clear();
   const auto engine = make_cartesian(threads(1));
   const auto stood = engine->start(problem), placed = engine->start(bare);
-  placed->place(problem.sheets[0].surface);
+  placed->place(0, problem.bodies[0].surface);
   stood->advance(5, 0), placed->advance(5, 0);
   EXPECT_EQ(stood->field().porous_force, placed->field().porous_force);
   EXPECT_EQ(stood->field().pressure, placed->field().pressure);

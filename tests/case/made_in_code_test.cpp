@@ -83,7 +83,7 @@ TEST(MadeInCode, AMaterialOfItsOwnComesBeforeTheLibrarys) {
   Fabric cloth = std::get<Fabric>(library_material("f-111-physical"));
   cloth.resistance = {PorosityModel::sheet, 100, 200};
   given.materials["f-111-physical"] = cloth;
-  EXPECT_EQ(flow_problem(resolve(checked(given))).sheets.at(0).quadratic, 200);
+  EXPECT_EQ(flow_problem(resolve(checked(given))).bodies.at(0).drop().quadratic, 200);
 }
 
 TEST(Opening, IsMeshedToFoldWithTheSegmentsAndTheCompressionThatItGives) {

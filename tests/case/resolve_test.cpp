@@ -11,6 +11,7 @@
 
 #include "fixture.h"
 #include "ripstop/case/assemble.h"
+#include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/flow/engines.h"
 #include "ripstop/parachute/flat_circular.h"
@@ -155,9 +156,9 @@ TEST(Resolved, ASheetStandsInABoxThatScalesWithTheCanopy) {
   EXPECT_NEAR(grid.spacing().x / d, 0.04, 0.002);
   EXPECT_NEAR(grid.spacing().z / d, 0.04, 0.002);
   const FlowProblem problem = flow_problem(resolve(given));
-  EXPECT_TRUE(problem.porous.empty());
-  ASSERT_EQ(problem.sheets.size(), 1u);
-  EXPECT_EQ(problem.sheets[0].linear, 8169.3);
+  ASSERT_EQ(problem.bodies.size(), 1u);
+  ASSERT_TRUE(problem.bodies[0].is_sheet());
+  EXPECT_EQ(problem.bodies[0].drop().linear, 8169.3);
 }
 
 TEST(Resolved, TheProblemOfTheFlowHasEveryValueOfTheCase) {
@@ -207,6 +208,23 @@ TEST(Resolved, AnOpenJetStandsInAWideBoxOfStillAirThatBeginsAtTheNozzle) {
   const FlowSettings by_place =
       flow_of(short_case + "canopy_position_m = 5\ntunnel = { kind = \"open-jet\", width_m = 6 }\n");
   EXPECT_EQ(by_place.tunnel.nozzle_distance_m, 5);
+}
+
+TEST(Resolved, AnAngleOfAttackTurnsTheStreamOfTheFlowProblemAndIsRefusedByASteadyRun) {
+  const Settings turned =
+      resolve(parse_case(short_case + "angle_of_attack_deg = 30\nazimuth_deg = 90\n", "case.toml"));
+  const FlowProblem problem = flow_problem(turned);
+  const double speed = turned.flow().speed_m_s;
+  EXPECT_NEAR(problem.air.velocity.x, 0, 1e-12);
+  EXPECT_NEAR(problem.air.velocity.y, 0.5 * speed, 1e-12);
+  EXPECT_NEAR(problem.air.velocity.z, std::sqrt(0.75) * speed, 1e-12);
+  try {
+    steady_problem(turned);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::usage);
+    EXPECT_NE(std::string(error.what()).find("flow.angle_of_attack_deg = 30"), std::string::npos);
+  }
 }
 
 TEST(Resolved, TheWallsOfAClosedTestSectionAreTheSidesOfTheBox) {
@@ -338,7 +356,7 @@ TEST(Resolved, ClothWithCalibratedCoefficientsStandsInThePapersBox) {
   EXPECT_EQ(flow.residual, 1e-5);
   EXPECT_EQ(flow.average_over, 0);
   EXPECT_EQ(resolve(given).coupling().drag_tolerance, 1e-3);
-  EXPECT_EQ(flow_problem(resolve(given)).porous.size(), 1u);
+  EXPECT_FALSE(flow_problem(resolve(given)).bodies.at(0).is_sheet());
 }
 
 TEST(Resolved, WhatIsChangedLaterIsFollowedAgain) {

@@ -89,7 +89,7 @@ TEST(Hostfile, IsOneArgumentOfMpirunWhateverItsName) {
   FlowProblem problem;
   problem.grid = {{0, 0, 0}, {1, 1, 1}, 4, 4, 4};
   problem.air.velocity = {0, 0, 10};
-  problem.porous = {{{21, 22}, 100, 10}};
+  problem.bodies = {porous_body({{21, 22}, 100, 10})};
   problem.stopping.max_iterations = 3;
   EXPECT_THROW(solve(*make_openfoam(settings), problem), Error);
   setenv("PATH", before.c_str(), 1);

@@ -28,7 +28,7 @@ FlowProblem screen_in_duct(double linear, double quadratic) {
   problem.grid = {{0, 0, 0}, {0.4, 0.4, 2.0}, 4, 4, 20};
   problem.air.velocity = {0, 0, 10};
   problem.sides = Sides::slip;
-  problem.sheets = {{rectangle({-1, -1, 1.03}, {3, 0, 0}, {0, 3, 0}), linear, quadratic}};
+  problem.bodies = {sheet_body(rectangle({-1, -1, 1.03}, {3, 0, 0}, {0, 3, 0}), {linear, quadratic})};
   problem.stopping.max_iterations = 300;
   return problem;
 }
@@ -39,7 +39,7 @@ FlowProblem plate_in_box(double linear, double quadratic) {
   problem.grid = {{-2, -2, 0}, {4, 4, 5}, 16, 16, 20};
   problem.air.velocity = {0, 0, 10};
   problem.sides = Sides::slip;
-  problem.sheets = {{square_plate(1, {0, 0, 2.02}), linear, quadratic}};
+  problem.bodies = {sheet_body(square_plate(1, {0, 0, 2.02}), {linear, quadratic})};
   problem.stopping.max_iterations = 300;
   return problem;
 }
@@ -114,7 +114,7 @@ TEST_F(OpenFoamSheet, ARestoredFlowGoesOnByteForByteWhenTheClothIsPlaced) {
   const FlowProblem problem = plate_in_box(30, 0);
   const std::vector<Triangle> moved = square_plate(1, {0, 0, 2.3});
   const auto goes_on = [&](Flow& flow) {
-    flow.place(moved);
+    flow.place(0, moved);
     flow.advance(30, 1e-9);
     return flow.field();
   };
@@ -140,7 +140,7 @@ TEST_F(OpenFoamSheet, ARestoredFlowGoesOnByteForByteWhenTheClothIsPlaced) {
 TEST_F(OpenFoamSheet, AreTheFacesThatASlantedSheetParts) {
   FlowProblem problem = plate_in_box(1e4, 0);
   // At 45 degrees to y and z, from side to side of the box.
-  problem.sheets[0].surface = rectangle({-3, -1.53, 1.02}, {6, 0, 0}, {0, 3, 3});
+  problem.bodies[0].surface = rectangle({-3, -1.53, 1.02}, {6, 0, 0}, {0, 3, 3});
   double passes = 0;
   int slanted = 0;
   for (const openfoam::BafflePatch& patch : openfoam::baffles_of(problem)) {
@@ -151,7 +151,7 @@ TEST_F(OpenFoamSheet, AreTheFacesThatASlantedSheetParts) {
       passes += baffle.layers[0].slant * norm(baffle.area);
       slanted += baffle.area.y > 0;
       // a v of the law, with the face's own velocity v: the sheet's times the slant
-      EXPECT_NEAR(openfoam::passing(baffle, problem.sheets, 50), 50 / 1e4 * baffle.layers[0].slant, 1e-12);
+      EXPECT_NEAR(openfoam::passing(baffle, problem.bodies, 50), 50 / 1e4 * baffle.layers[0].slant, 1e-12);
     }
   }
   EXPECT_GT(slanted, 0);
@@ -161,13 +161,13 @@ TEST_F(OpenFoamSheet, AreTheFacesThatASlantedSheetParts) {
 
 TEST_F(OpenFoamSheet, LayersInOneFaceStandInSeries) {
   FlowProblem problem = plate_in_box(1e3, 0);
-  problem.sheets.push_back({square_plate(1, {0, 0, 2.03}), 0, 200});
+  problem.bodies.push_back(sheet_body(square_plate(1, {0, 0, 2.03}), {0, 200}, "second"));
   const std::vector<openfoam::BafflePatch> patches = openfoam::baffles_of(problem);
   ASSERT_EQ(patches.size(), 1u);
   ASSERT_EQ(patches[0].baffles.size(), 16u);
   const openfoam::Baffle& baffle = patches[0].baffles[5];
   ASSERT_EQ(baffle.layers.size(), 2u);
-  const double v = openfoam::passing(baffle, problem.sheets, -60);
+  const double v = openfoam::passing(baffle, problem.bodies, -60);
   EXPECT_LT(v, 0);
   EXPECT_NEAR(1e3 * v - 200 * v * v, -60, 1e-9);
 }
@@ -176,7 +176,8 @@ TEST_F(OpenFoamSheet, TightClothIsOnePatchAndLooseClothOneForEveryLaw) {
   const auto patches = [](std::vector<double> linear) {
     FlowProblem problem = plate_in_box(linear[0], 0);
     for (std::size_t n = 1; n < linear.size(); ++n)
-      problem.sheets.push_back({square_plate(1, {0, 0, 2.03 + 0.5 * double(n)}), linear[n], 0});
+      problem.bodies.push_back(sheet_body(square_plate(1, {0, 0, 2.03 + 0.5 * double(n)}), {linear[n], 0},
+                                          "more " + std::to_string(n)));
     std::vector<std::string> names;
     for (const openfoam::BafflePatch& patch : openfoam::baffles_of(problem)) {
       EXPECT_EQ(patch.loose, patch.name != "cloth") << patch.name;
@@ -194,7 +195,7 @@ TEST_F(OpenFoamSheet, TightClothIsOnePatchAndLooseClothOneForEveryLaw) {
 
 TEST_F(OpenFoamSheet, TheMeshIsOneThatOpenFoamFindsSound) {
   FlowProblem problem = plate_in_box(30, 0);
-  problem.sheets.push_back({rectangle({-1, -1, 3.1}, {2, 0, 0.4}, {0, 2, 0}), 2, 0});
+  problem.bodies.push_back(sheet_body(rectangle({-1, -1, 3.1}, {2, 0, 0.4}, {0, 2, 0}), {2, 0}, "second"));
   const auto flow = sheets_on_openfoam("case")->start(problem);
   flow->advance(1, 1e-9);
   const openfoam::Installation installation = openfoam::find_installation({}, false);
@@ -216,7 +217,7 @@ TEST_F(OpenFoamSheet, TheMeshIsOneThatOpenFoamFindsSound) {
 
 TEST_F(OpenFoamSheet, AScreenThatCellsAreMovedOntoTakesThePressureOfItsLaw) {
   FlowProblem problem = screen_in_duct(3, 0.5);
-  problem.sheets[0].surface = rectangle({0, 0, 1.03}, {0.4, 0, 0}, {0, 0.4, 0});
+  problem.bodies[0].surface = rectangle({0, 0, 1.03}, {0.4, 0, 0}, {0, 0.4, 0});
   const FlowField field = solved_fitted(problem, 0);
   const double drop = 3 * 10 + 0.5 * 100;
   EXPECT_NEAR(field.pressure[0], drop, 5e-3 * drop);
@@ -226,7 +227,7 @@ TEST_F(OpenFoamSheet, AScreenThatCellsAreMovedOntoTakesThePressureOfItsLaw) {
 
 TEST_F(OpenFoamSheet, WhatMovedCellsPushIsPushedWhereTheirFacesAre) {
   FlowProblem problem = screen_in_duct(3, 0.5);
-  problem.sheets[0].surface = rectangle({0.4, 0.4, 1.03}, {-0.4, 0, 0}, {0, -0.4, 0});
+  problem.bodies[0].surface = rectangle({0.4, 0.4, 1.03}, {-0.4, 0, 0}, {0, -0.4, 0});
   problem.stopping.max_iterations = 1;
   const FlowField field = solved_fitted(problem, 0);
   ASSERT_EQ(field.sheet_loads.size(), 16u);
@@ -244,7 +245,7 @@ TEST_F(OpenFoamSheet, WhatMovedCellsPushIsPushedWhereTheirFacesAre) {
 /// A cup of 1 m, whose mouth faces the stream, in a box of 4 m.
 FlowProblem cup_in_box() {
   FlowProblem problem = plate_in_box(1e6, 0);
-  problem.sheets[0].surface = hemispherical_cup(1, {0.03, -0.02, 2.02});
+  problem.bodies[0].surface = hemispherical_cup(1, {0.03, -0.02, 2.02});
   return problem;
 }
 
@@ -260,7 +261,7 @@ TEST_F(OpenFoamSheet, CellsMovedOntoACupHaveItsFrontAndTakeTheMomentumThatTheBox
   }
   EXPECT_NEAR(front, 0.25 * M_PI, 0.01 * 0.25 * M_PI);
   // The faces are fewer square metres than the cloth they stand for, of which each has its share.
-  const double cloth = surface_area(cup_in_box().sheets[0].surface);
+  const double cloth = surface_area(cup_in_box().bodies[0].surface);
   EXPECT_NEAR(area, cloth, 5e-4 * cloth);  // but for faces that are not plane
   EXPECT_NEAR(cloth, 0.5 * M_PI, 0.01 * 0.5 * M_PI);
   double of_faces = 0, slanted = 0;
@@ -287,7 +288,7 @@ TEST_F(OpenFoamSheet, TwoRanksGiveTheDragOfOneOnCellsMovedOntoAPlate) {
 TEST_F(OpenFoamSheet, ARestoredFlowGoesOnByteForByteWhenCellsAreMovedOntoTheClothAnew) {
   const FlowProblem problem = cup_in_box();
   const auto goes_on = [&](Flow& flow) {
-    flow.place(hemispherical_cup(0.9, {0, 0, 2.1}));
+    flow.place(0, hemispherical_cup(0.9, {0, 0, 2.1}));
     flow.advance(10, 1e-9);
     return flow.field();
   };
@@ -302,7 +303,7 @@ TEST_F(OpenFoamSheet, ARestoredFlowGoesOnByteForByteWhenCellsAreMovedOntoTheClot
   }
   const auto engine = fitted("resumed", 1);
   FlowProblem bare = problem;
-  bare.sheets[0].surface.clear();  // where the cloth lay is in the saved mesh
+  bare.bodies[0].surface.clear();  // where the cloth lay is in the saved mesh
   const auto flow = engine->start(bare);
   flow->restore(folder_.path / "saved");
   EXPECT_EQ(flow->field().pressure, before.pressure);
@@ -315,7 +316,7 @@ TEST_F(OpenFoamSheet, ARestoredFlowGoesOnByteForByteWhenCellsAreMovedOntoTheClot
 // A closed box of little more than a cell, beside a plate: without an opening its cell would have no pressure.
 TEST_F(OpenFoamSheet, ACellThatClothShutsInIsOpened) {
   FlowProblem problem = plate_in_box(1e6, 0);
-  std::vector<Triangle>& cloth = problem.sheets[0].surface;
+  std::vector<Triangle>& cloth = problem.bodies[0].surface;
   cloth = square_plate(1.5, {0, 0, 2.02});
   const Vec3 low{-0.02, -0.02, 3.23}, x{0.29, 0, 0}, y{0, 0.29, 0}, z{0, 0, 0.29};
   for (const auto& [corner, u, v] :
@@ -331,7 +332,7 @@ TEST_F(OpenFoamSheet, ACellThatClothShutsInIsOpened) {
 
 TEST_F(OpenFoamSheet, CellsTooCoarseForTheClothAreRefused) {
   FlowProblem problem = plate_in_box(1e6, 0);
-  problem.sheets[0].surface = hemispherical_cup(0.4, {0.03, -0.02, 2.02});
+  problem.bodies[0].surface = hemispherical_cup(0.4, {0.03, -0.02, 2.02});
   try {
     fitted("case", 0)->start(problem);
     FAIL() << "no Error";

@@ -53,7 +53,7 @@ FlowProblem slab_in_duct(int layers, double darcy, double forchheimer) {
   PorousCells slab{{}, darcy, forchheimer};
   const int first = problem.grid.index(0, 0, 20), layer = problem.grid.nx * problem.grid.ny;
   for (int cell = first; cell < first + layers * layer; ++cell) slab.cells.push_back(cell);
-  problem.porous = {slab};
+  problem.bodies = {porous_body(slab)};
   problem.stopping.max_iterations = 400;
   return problem;
 }
@@ -69,7 +69,7 @@ FlowProblem disc_in_box() {
       if (std::hypot(i - 7.5, j - 7.5) < 4) disc.cells.push_back(problem.grid.index(i, j, 10));
     }
   }
-  problem.porous = {disc};
+  problem.bodies = {porous_body(disc)};
   problem.stopping.max_iterations = 400;
   return problem;
 }
@@ -94,8 +94,8 @@ double exact_drop(const FlowProblem& problem, double length) {
   double p1 = p2;
   for (int i = 0; i < 100; ++i) {
     const double flux = p1 * problem.air.speed() / c;
-    const double drag =
-        problem.air.viscosity * problem.porous[0].darcy + 0.5 * flux * problem.porous[0].forchheimer;
+    const double drag = problem.air.viscosity * problem.bodies[0].porous().darcy +
+                        0.5 * flux * problem.bodies[0].porous().forchheimer;
     p1 = std::sqrt(p2 * p2 + 2 * (drag * flux * c * length + flux * flux * c * std::log(p1 / p2)));
   }
   return p1 - p2;
@@ -151,7 +151,7 @@ TEST_F(OpenFoam, AFlowThatGoesOnNeedsFewIterationsAndForgetsWhereItsClothWas) {
   const FlowField on = solve_to_rest(*flow, problem.stopping);
   EXPECT_LT(on.last.iteration, 0.25 * cold.last.iteration);
   EXPECT_NEAR(on.porous_force.z / cold.porous_force.z, 1, 1e-3);
-  flow->place(disc_at(1.7)), fresh->place(disc_at(1.7));
+  flow->place(0, disc_at(1.7)), fresh->place(0, disc_at(1.7));
   const FlowField moved = solve_to_rest(*flow, problem.stopping),
                   began = solve_to_rest(*fresh, problem.stopping);
   EXPECT_NEAR(moved.porous_force.z / began.porous_force.z, 1, 1e-3);
@@ -179,7 +179,7 @@ TEST_F(OpenFoam, TwoRanksGiveTheAnswerOfOneAlsoFromAWarmStartWithOtherPorousCell
   const auto with_one = engine("one"), with_two = engine("two", 2);
   const auto one = with_one->start(problem), two = with_two->start(problem);
   for (const double z : {1.44, 1.69}) {
-    one->place(disc_at(z)), two->place(disc_at(z));
+    one->place(0, disc_at(z)), two->place(0, disc_at(z));
     const FlowField a = solve_to_rest(*one, problem.stopping), b = solve_to_rest(*two, problem.stopping);
     ASSERT_TRUE(a.converged);
     ASSERT_TRUE(b.converged);
@@ -212,7 +212,7 @@ TEST_F(OpenFoam, ARestoredFlowGoesOnByteForByte) {
     solve_to_rest(*first, problem.stopping);
     first->save(root_ / ("saved" + suffix));
     const auto moved_on = [&](Flow& flow) {
-      flow.place(disc_at(1.57));
+      flow.place(0, disc_at(1.57));
       return solve_to_rest(flow, problem.stopping);
     };
     const FlowField gone_on = moved_on(*first);
@@ -341,7 +341,7 @@ TEST_F(OpenFoam, AFlowOfOtherAirOrAnotherGridIsRefused) {
 
 TEST_F(OpenFoam, WithoutPorousCellsTheAirPassesUndisturbed) {
   FlowProblem problem = disc_in_box();
-  problem.porous.clear();
+  problem.bodies.clear();
   problem.grid = {{-1, -1, 0}, {2, 2, 3}, 6, 6, 9};
   int reports = 0;
   const FlowField field = solve(*engine(), problem, [&](const FlowProgress&) { return ++reports < 3; });

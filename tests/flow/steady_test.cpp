@@ -20,7 +20,7 @@ class Scripted final : public Flow {
   int iteration = 0, starts = 1;
   std::vector<int> calls;  // iterations of every advance()
 
-  void place(const std::vector<Triangle>&, const SheetMotion&) override {}
+  void place(std::size_t, const std::vector<Triangle>&, const SheetMotion&) override {}
   FlowAdvance advance(int iterations, double wanted, const FlowReport& report) override {
     calls.push_back(iterations);
     guessed_ = false;

@@ -33,7 +33,7 @@ class ForceOverTime final : public Flow {
     field.porous_force = now_.force;
     return field;
   }
-  void place(const std::vector<Triangle>&, const SheetMotion&) override {}
+  void place(std::size_t, const std::vector<Triangle>&, const SheetMotion&) override {}
   FlowAdvance advance(int, double, const FlowReport&) override { return {}; }
   bool untouched() const override { return false; }
   void start_afresh() override {}

@@ -28,7 +28,7 @@ struct WrittenFiles : testing::Test {
     problem.air.velocity = {0, 0, 12}, problem.air.density = 1.1, problem.air.viscosity = 1.7e-5,
     problem.air.temperature = 280;
     problem.air.turbulence_intensity = 0.02, problem.air.viscosity_ratio = 5;
-    problem.porous = {{{3, 7, 11}, 1.5e6, 250}, {{4}, 2e6, 0}};
+    problem.bodies = {porous_body({{3, 7, 11}, 1.5e6, 250}, "first"), porous_body({{4}, 2e6, 0}, "second")};
   }
   /// Without its header, which names class and file.
   std::string body(const std::string& file, const std::string& kind = "dictionary") const {
@@ -138,7 +138,7 @@ TEST_F(WrittenFiles, ControlHasItsLastIterationAndTheForcesOfPorousCells) {
   EXPECT_TRUE(has(control, "application porousSimpleFoam;"));
   EXPECT_TRUE(has(control, "rho rhoInf;"));
   EXPECT_EQ(number(control, "rhoInf"), 1.1);
-  problem.porous.clear();
+  problem.bodies.clear();
   write_control(folder.path, problem, true, {0, 1});
   EXPECT_FALSE(has(body("system/controlDict"), "porousForces"));
   write_solution(folder.path, 3e-5);
@@ -149,7 +149,7 @@ TEST_F(WrittenFiles, ControlHasItsLastIterationAndTheForcesOfPorousCells) {
 }
 
 TEST_F(WrittenFiles, EveryZoneHasItsCellsAndItsResistance) {
-  write_resistance(folder.path, problem.porous);
+  write_resistance(folder.path, problem.bodies);
   const std::string resistance = body("constant/porosityProperties");
   std::vector<std::string> zones;
   const std::regex zone(
@@ -160,7 +160,7 @@ TEST_F(WrittenFiles, EveryZoneHasItsCellsAndItsResistance) {
     zones.push_back((*at)[1].str() + "/" + (*at)[2].str() + "/" + (*at)[3].str() + "/" + (*at)[4].str());
   EXPECT_EQ(zones, (std::vector<std::string>{"0/0/1500000 1500000 1500000/250 250 250",
                                              "1/1/2000000 2000000 2000000/0 0 0"}));
-  write_zones(folder.path / "constant", {problem.porous[0].cells, problem.porous[1].cells});
+  write_zones(folder.path / "constant", {problem.bodies[0].porous().cells, problem.bodies[1].porous().cells});
   EXPECT_EQ(body("constant/cellZones", "regIOobject"),
             "2\n(\nporous0\n{\n    type cellZone;\n    cellLabels List<label> 3(3\n7\n11\n);\n}\n"
             "porous1\n{\n    type cellZone;\n    cellLabels List<label> 1(4\n);\n}\n)\n");
@@ -299,7 +299,9 @@ TEST_F(WrittenFiles, ANumberOutOfItsRangeIsNamedWithTheRange) {
       {[](FlowProblem& p) {
          p.air.velocity = {0, 0, 151};
        },
-       "flow: air speed is 151 m/s (subsonic: Mach below 0.45); it must lie in [0.001, 150]"},
+       "free stream: the speed = 151 m/s must be above 0 and at most 100.6 m/s, Mach 0.3 at 280 K; give "
+       "another "
+       "velocity, or the temperature that belongs to it"},
       {[](FlowProblem& p) { p.air.density = 101; },
        "flow: air density is 101 kg/m3; it must lie in [0.0001, 100]"},
       {[](FlowProblem& p) { p.air.viscosity = 2; }, "flow: viscosity is 2 Pa s; it must lie in [1e-07, 1]"},
@@ -309,13 +311,13 @@ TEST_F(WrittenFiles, ANumberOutOfItsRangeIsNamedWithTheRange) {
        "flow: turbulence intensity is 2 ; it must lie in [1e-06, 1]"},
       {[](FlowProblem& p) { p.air.viscosity_ratio = 0; },
        "flow: viscosity ratio is 0 ; it must lie in [1e-06, 1e+06]"},
-      {[](FlowProblem& p) { p.porous[0].darcy = -1; },
+      {[](FlowProblem& p) { p.bodies[0].porous().darcy = -1; },
        "flow: Darcy coefficient is -1 1/m2; it must lie in [0, 1e+15]"},
-      {[](FlowProblem& p) { p.porous[1].forchheimer = 2e12; },
+      {[](FlowProblem& p) { p.bodies[1].porous().forchheimer = 2e12; },
        "flow: Forchheimer coefficient is 2e+12 1/m; it must lie in [0, 1e+12]"},
-      {[](FlowProblem& p) { p.porous[0].cells[1] = 320; },
+      {[](FlowProblem& p) { p.bodies[0].porous().cells[1] = 320; },
        "flow: index of a porous cell is 320 ; it must lie in [0, 319]"},
-      {[](FlowProblem& p) { p.porous[1].cells[0] = 7; },
+      {[](FlowProblem& p) { p.bodies[1].porous().cells[0] = 7; },
        "flow: cell 7 is porous twice; a cell has one resistance"},
       {[](FlowProblem& p) { p.sides = Sides::entraining; },
        "flow.sides = \"entraining\" needs flow.engine = \"builtin\""},

@@ -29,7 +29,7 @@ FlowProblem closed_duct(double speed = duct_speed, double linear = resistance, i
   duct.air.velocity = {0, 0, speed};
   duct.sides = Sides::slip;
   duct.outlet = Outlet::still_air;
-  duct.sheets = {{{}, linear, 0}};
+  duct.bodies = {sheet_body({}, {linear, 0})};
   return duct;
 }
 
@@ -269,7 +269,7 @@ TEST(OpeningAir, IsRefusedWithoutAnEngineOrWithoutASheet) {
   const Mesh mesh = piston(0.04);
   EXPECT_THROW(OpeningAir({closed_duct(), 0.5, nullptr}, mesh), Error);
   FlowProblem bare = closed_duct();
-  bare.sheets.clear();
+  bare.bodies.clear();
   EXPECT_THROW(OpeningAir({bare, 0.5, make_cartesian({})}, mesh), Error);
 }
 

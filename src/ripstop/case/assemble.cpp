@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include "ripstop/case/cost.h"
+#include "ripstop/core/error.h"
+#include "ripstop/flow/projections.h"
 
 namespace ripstop {
 
@@ -22,7 +24,7 @@ FlowProblem flow_problem(const Settings& resolved) {
   const FlowSettings& flow = resolved.flow();
   FlowProblem problem;
   problem.grid = flow_grid(flow);
-  problem.air.velocity = {0, 0, flow.speed_m_s};
+  problem.air.velocity = flow.speed_m_s * wind_direction(flow.angle_of_attack_deg, flow.azimuth_deg);
   problem.air.density = flow.density_kg_m3;
   problem.air.viscosity = flow.viscosity_pa_s;
   problem.air.temperature = flow.temperature_k;
@@ -37,15 +39,26 @@ FlowProblem flow_problem(const Settings& resolved) {
   const ClothResistance& cloth = resolved.materials().canopy.resistance;
   if (flow.porosity_model == PorosityModel::sheet) {
     const PressureDrop drop = as_sheet(cloth);
-    problem.sheets = {{{}, drop.linear, drop.quadratic}};
+    problem.bodies = {sheet_body({}, drop)};
   } else {
     const PorousCellLaw cells = as_cells(cloth);
-    problem.porous = {{{}, cells.darcy, cells.forchheimer}};
+    problem.bodies = {porous_body({{}, cells.darcy, cells.forchheimer})};
   }
   return problem;
 }
 
+void require_axial_stream(const FlowSettings& flow, const char* what) {
+  if (flow.angle_of_attack_deg == 0) return;
+  throw Error(
+      ExitCode::usage,
+      fmt::format(
+          "flow.angle_of_attack_deg = {:g}: {} holds the canopy on the axis of the stream; set it to 0, or "
+          "take flow_problem() of the library for a flow by itself",
+          flow.angle_of_attack_deg, what));
+}
+
 SteadyProblem steady_problem(const Settings& resolved) {
+  require_axial_stream(resolved.flow(), "a steady run");
   SteadyProblem problem{parachute_mesh(resolved), flow_problem(resolved), nominal_area(resolved.parachute()),
                         resolved.coupling(), std::nullopt};
   if (const FlowSettings& flow = resolved.flow(); flow.unsteady) {

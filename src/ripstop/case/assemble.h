@@ -14,6 +14,8 @@ CanopyMesh parachute_mesh(const Settings& resolved);
 CanopyMesh parachute_mesh(const Design& design, const Settings& resolved);
 /// Box, air and the canopy cloth's resistance; its cut cells are left to the coupling.
 FlowProblem flow_problem(const Settings& resolved);
+/// Throws Error(usage) where flow.angle_of_attack_deg is not 0; `what` cannot have one.
+void require_axial_stream(const FlowSettings& flow, const char* what);
 SteadyProblem steady_problem(const Settings& resolved);
 
 }  // namespace ripstop

@@ -242,6 +242,12 @@ void describe(Fields& fields, FlowKeys& flow) {
                 "At the inlet (assumed).");
   fields.number("viscosity_ratio", flow.viscosity_ratio, above(0).up_to(1e5),
                 "Eddy viscosity over viscosity at the inlet (assumed).");
+  fields.number("angle_of_attack_deg", flow.angle_of_attack_deg, from(0).up_to(90),
+                "Angle between the stream and the z axis. Only the flow problem of the library takes one "
+                "above 0; steady "
+                "runs and openings hold the canopy on the axis of the stream.");
+  fields.number("azimuth_deg", flow.azimuth_deg, from(-360).up_to(360),
+                "Of the plane of this angle: from the x axis towards the y axis.");
   describe_space(fields, flow);
   fields.table("tunnel", flow.tunnel, "What the air comes out of; docs/guide/tunnel.md.");
   describe_numerics(fields, flow);

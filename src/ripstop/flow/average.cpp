@@ -20,6 +20,10 @@ void pull(FlowField& mean, const FlowField& field, double share) {
   const auto towards = [share](auto& to, const auto& value) { to += share * (value - to); };
   towards(mean.porous_force, field.porous_force);
   towards(mean.momentum_deficit, field.momentum_deficit);
+  for (std::size_t body = 0; body < field.bodies.size(); ++body) {
+    towards(mean.bodies[body].force, field.bodies[body].force);
+    towards(mean.bodies[body].moment, field.bodies[body].moment);
+  }
   for (std::size_t face = 0; face < field.sheet_loads.size(); ++face) {
     towards(mean.sheet_loads[face].drop, field.sheet_loads[face].drop);
     towards(mean.sheet_loads[face].force, field.sheet_loads[face].force);

@@ -53,6 +53,18 @@ std::vector<Triangle> hemispherical_cup(double diameter, Vec3 centre) {
   return revolve(outline, centre, segments);
 }
 
+// Rodrigues' rotation about z x axis; the other way round where the axis is -z.
+std::vector<Triangle> turned(std::vector<Triangle> surface, Vec3 axis) {
+  const Vec3 to = axis / norm(axis), about{-to.y, to.x, 0};
+  for (Triangle& t : surface) {
+    for (Vec3* p : {&t.a, &t.b, &t.c}) {
+      *p = to.z > -1 ? to.z * *p + cross(about, *p) + dot(about, *p) / (1 + to.z) * about
+                     : Vec3{p->x, -p->y, -p->z};
+    }
+  }
+  return surface;
+}
+
 std::vector<Triangle> rigid_disk_gap_band(Vec3 centre) {
   constexpr double band_radius = 0.32, band_height = 0.28, band_top = 0.09, gap = 0.06;
   constexpr double dome_radius = 0.325, dome_height = 0.18, vent_radius = 0.045;

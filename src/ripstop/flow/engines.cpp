@@ -55,7 +55,10 @@ EngineRecord openfoam_rho_porous() {
   };
   return {"openfoam",
           "OpenFOAM's rhoPorousSimpleFoam with the same equations, its simpleFoam for sheets",
-          {.sheets = true, .ranks = true, .fitted_meshes = true},
+          {.sheets = true,
+           .ranks = true,
+           .fitted_meshes = true,
+           .boundaries = {"zero-gradient", "slip", "far-field", "fixed-pressure"}},
           [](const EngineOptions& options) {
             return "OpenFOAM " + openfoam::find_installation({}, options.ranks > 1).version;
           },

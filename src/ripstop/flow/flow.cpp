@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "ripstop/core/error.h"
 #include "ripstop/flow/average.h"
@@ -76,6 +77,23 @@ void check_stream(const Freestream& air) {
           "free stream: the speed = {:g} m/s must be above 0 and at most {:.4g} m/s, Mach {} at {:g} K; "
           "give another velocity, or the temperature that belongs to it",
           speed, most_mach * sound, most_mach, air.temperature));
+}
+
+FlowBody sheet_body(std::vector<Triangle> surface, PressureDrop law, std::string name) {
+  return {std::move(name), std::move(surface), law};
+}
+
+FlowBody porous_body(PorousCells cells, std::string name) {
+  return {std::move(name), {}, std::move(cells)};
+}
+
+bool FlowProblem::has_sheets() const {
+  return std::any_of(bodies.begin(), bodies.end(), [](const FlowBody& body) { return body.is_sheet(); });
+}
+
+std::vector<SheetLoad> loads_on(std::size_t body, std::vector<SheetLoad> loads) {
+  std::erase_if(loads, [body](const SheetLoad& load) { return static_cast<std::size_t>(load.body) != body; });
+  return loads;
 }
 
 double largest_residual(const FlowProgress& p) {

@@ -1,4 +1,4 @@
-// The air: a box of cells with cloth in it, as a problem, and a flow that goes on from where it is. Cloth is
+// The air: a box of cells with bodies in it, as a problem, and a flow that goes on from where it is. A body is
 // not known here but for its surface and its resistance.
 #pragma once
 
@@ -8,11 +8,13 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "ripstop/core/vec3.h"
 #include "ripstop/flow/flow_grid.h"
 #include "ripstop/flow/jet.h"
+#include "ripstop/material/permeability.h"
 
 namespace ripstop {
 
@@ -62,20 +64,36 @@ struct SheetMotion {
   std::vector<double> pressure;  // inside over outside [Pa]; empty: none
 };
 
-/// Cloth as a surface without thickness, across which the pressure drops by a v + b v |v| with v the air's
-/// velocity along its normal, relative to the cloth ([NFM] Eq. 15; `sheet` model, method section 4).
-struct Sheet {
+/// A body in the flow: a canopy, a screen, a payload. Its cloth resists either as a surface without thickness, across
+/// which the pressure drops by a v + b v |v| with v the air's velocity along its normal, relative to the cloth ([NFM]
+/// Eq. 15; `sheet` model, method section 4), or as porous cells.
+struct FlowBody {
+  std::string name;  // one of its own
   std::vector<Triangle> surface;
-  double linear = 0;     // a [Pa s/m]
-  double quadratic = 0;  // b [Pa s2/m2]
-  SheetMotion motion = {};
+  std::variant<PressureDrop, PorousCells> resistance;
+  SheetMotion motion = {};  // of a sheet
+  Vec3 moment_about = {};   // the point that its moment is about [m]
+
+  bool is_sheet() const { return std::holds_alternative<PressureDrop>(resistance); }
+  const PressureDrop& drop() const { return std::get<PressureDrop>(resistance); }
+  PressureDrop& drop() { return std::get<PressureDrop>(resistance); }
+  const PorousCells& porous() const { return std::get<PorousCells>(resistance); }
+  PorousCells& porous() { return std::get<PorousCells>(resistance); }
+};
+FlowBody sheet_body(std::vector<Triangle> surface, PressureDrop law, std::string name = "canopy");
+FlowBody porous_body(PorousCells cells, std::string name = "canopy");
+
+/// What the air does to a body.
+struct BodyLoad {
+  Vec3 force;   // [N]
+  Vec3 moment;  // about FlowBody::moment_about [N m]
 };
 
 /// What the air does to a sheet at one face of the grid.
 struct SheetLoad {
-  int sheet = 0, triangle = 0;  // of FlowProblem::sheets
-  Vec3 point;                   // on the triangle [m]
-  Vec3 outward;                 // mean normal of the sheet there, unit, as the triangles' corners turn
+  int body = 0, triangle = 0;  // of FlowProblem::bodies
+  Vec3 point;                  // on the triangle [m]
+  Vec3 outward;                // mean normal of the sheet there, unit, as the triangles' corners turn
   double drop = 0;   // of the pressure from the sheet's inner side to its outer one, mean over the face [Pa]
   Vec3 force;        // on the sheet: drop times the face's area, along an axis of the grid [N]
   double cover = 1;  // the part of the face that the sheet covers: drop / cover is what the cloth there sees
@@ -120,11 +138,15 @@ struct FlowProblem {
   Sides sides = Sides::zero_gradient;  // the far field wherever the stream is not along +z
   Outlet outlet = Outlet::fixed_pressure;
   std::optional<Jet> jet;  // through the inlet, air.velocity the nozzle's; empty: the stream over all of it
-  std::vector<PorousCells> porous;  // one entry a cloth
-  std::vector<Sheet> sheets;        // the same for the `sheet` model
-  std::vector<Vec3> body_force;     // on the air of each cell [N/m3]; empty: none
+  std::vector<FlowBody> bodies;
+  std::vector<Vec3> body_force;  // on the air of each cell [N/m3]; empty: none
   Stopping stopping;
+
+  bool has_sheets() const;
 };
+/// Throws Error(usage) for two bodies of one name, for a body that leaves the box other than through walls, and for
+/// sheets that cut each other.
+void check_bodies(const FlowProblem& problem);
 
 /// One iteration as it comes; return false from the callback to stop early (the field counts as unconverged).
 struct FlowProgress {
@@ -149,9 +171,10 @@ struct FlowField {
   FlowGrid grid;
   std::vector<double> pressure;        // over the outlet's [Pa], one a cell
   std::vector<Vec3> velocity;          // [m/s]
-  Vec3 porous_force;                   // by the fluid on the porous cells and sheets [N]
+  Vec3 porous_force;                   // by the fluid on all bodies [N]
+  std::vector<BodyLoad> bodies;        // and on each of FlowProblem::bodies
   std::vector<SheetLoad> sheet_loads;  // their forces add up to the sheets' part of it
-  Vec3 momentum_deficit;               // force from the fluxes through the faces of the box [N]
+  Vec3 momentum_deficit;  // force from the fluxes through the faces of the box [N]; NaN: not known
   FlowProgress last;
   bool converged = false;
   FlowAverage average;  // where it has iterations, the fields and forces above are means over them
@@ -170,11 +193,12 @@ enum class SmallEddies { none, wale, des };
 
 /// One step in time as it comes.
 struct FlowStep {
-  int step = 0;        // from 1, since the march began
-  double time = 0;     // since then, at the end of the step [s]
-  double length = 0;   // of the step [s]
-  double courant = 0;  // largest Courant number of a cell, summed over the axes
-  Vec3 force;          // by the fluid on the porous cells and sheets [N]
+  int step = 0;                  // from 1, since the march began
+  double time = 0;               // since then, at the end of the step [s]
+  double length = 0;             // of the step [s]
+  double courant = 0;            // largest Courant number of a cell, summed over the axes
+  Vec3 force;                    // by the fluid on all bodies [N]
+  std::vector<BodyLoad> bodies;  // and on each of FlowProblem::bodies
   /// Force, change of the box's momentum and what its faces pass, added up; forces on the air left out, and across the
   /// axis the viscous stress on slip sides [N].
   Vec3 momentum_gap;
@@ -190,9 +214,9 @@ class Flow {
  public:
   virtual ~Flow() = default;
 
-  /// The cloth lies here now: every sheet and every porous zone of the problem takes this surface, and sheets
-  /// its motion. The air goes on from where it is.
-  virtual void place(const std::vector<Triangle>& surface, const SheetMotion& motion = {}) = 0;
+  /// One of the problem's bodies lies here now, and moves so if it is a sheet. The air goes on from where it is.
+  virtual void place(std::size_t body, const std::vector<Triangle>& surface,
+                     const SheetMotion& motion = {}) = 0;
   /// At most so many iterations; fewer when every residual falls below `residual` or the report stops it.
   /// Throws Error(diverged) with iteration, field and place, Error(external) where a child program fails.
   virtual FlowAdvance advance(int iterations, double residual, const FlowReport& report = {}) = 0;
@@ -241,6 +265,9 @@ class FlowEngine {
   /// engine must outlive its flows.
   virtual std::unique_ptr<Flow> start(const FlowProblem& problem) = 0;
 };
+
+/// Those of one body.
+std::vector<SheetLoad> loads_on(std::size_t body, std::vector<SheetLoad> loads);
 
 /// Trilinear interpolation between cell centres, constant beyond the outermost ones.
 double sample(const FlowGrid& grid, const std::vector<double>& field, Vec3 point);

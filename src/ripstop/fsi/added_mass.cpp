@@ -32,7 +32,7 @@ FlowProblem still_air_about(const std::vector<Triangle>& surface, double density
   problem.air.density = density;
   problem.sides = Sides::entraining;
   problem.outlet = Outlet::still_air;
-  problem.sheets = {{surface, tight, 0}};
+  problem.bodies = {sheet_body(surface, {tight, 0})};
   return problem;
 }
 
@@ -44,7 +44,7 @@ double added_mass(FlowEngine& engine, const std::vector<Triangle>& surface, doub
   for (int n = 1; n <= steps; ++n) {
     SheetMotion motion;
     motion.velocity.assign(surface.size(), {0, 0, drift + gain * n * step});
-    flow->place(surface, motion);
+    flow->place(0, surface, motion);
     force = flow->step(step).force.z;
   }
   return -force / gain;

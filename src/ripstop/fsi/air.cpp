@@ -22,9 +22,9 @@ double mean_share(int steps) {
 constexpr double degree = std::numbers::pi / 180;
 
 FlowProblem with_surface(FlowProblem problem, std::vector<Triangle> surface) {
-  if (problem.sheets.size() != 1)
+  if (problem.bodies.size() != 1 || !problem.has_sheets())
     throw Error(ExitCode::usage, "an opening in its own air takes the canopy as one sheet");
-  problem.sheets[0].surface = std::move(surface);
+  problem.bodies[0].surface = std::move(surface);
   return problem;
 }
 
@@ -100,7 +100,7 @@ Loads OpeningAir::step(const std::vector<Vec3>& positions, const ClothMotion& cl
     motion.velocity.insert(motion.velocity.end(), 2, mean);
     motion.pressure.insert(motion.pressure.end(), 2, pressure[c] / thicker);
   }
-  flow_->place(surface, motion);
+  flow_->place(0, surface, motion);
   if (memory.steps == 0) {
     memory.speed = speed_;
     if (payload_) {

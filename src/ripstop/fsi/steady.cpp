@@ -138,7 +138,7 @@ FlowField SteadySolver::solve_flow(const std::vector<Triangle>& surface, bool to
                                    const SteadyReport& report) {
   Stopping stopping = problem_.flow.stopping;
   if (!to_the_end) stopping.settled_drag = settled;
-  flow_->place(surface);
+  flow_->place(0, surface);
   return solve_to_rest(*flow_, stopping, [&](const FlowProgress& progress) {
     if (report) report({.stage = SteadyStage::flow, .iteration = iteration, .flow = progress});
     return true;
@@ -149,7 +149,7 @@ FlowField SteadySolver::watch_flow(const std::vector<Triangle>& surface, bool to
                                    SteadyIteration& now, const SteadyReport& report) {
   Watch how = *problem_.watch;
   if (!to_the_end) how.standard_error /= short_watch, how.shortest *= short_watch, how.longest *= short_watch;
-  flow_->place(surface);
+  flow_->place(0, surface);
   FlowField field = watch(*flow_, problem_.flow, how, record_, [&](const WatchProgress& progress) {
     if (report) report({.stage = SteadyStage::time, .iteration = now.iteration, .time = progress});
     return true;
@@ -179,7 +179,7 @@ FlowField SteadySolver::watch_flow(const std::vector<Triangle>& surface, bool to
 ClothLoad SteadySolver::answer_of(const FlowField& field, const std::vector<Triangle>& surface,
                                   const std::vector<int>& cut, const std::vector<Vec3>& shape,
                                   SteadyState& state, SteadyIteration& now) const {
-  const bool sheet = !problem_.flow.sheets.empty();
+  const bool sheet = problem_.flow.has_sheets();
   state.sides = sample_sides(field, sheet ? std::vector<int>{} : cut, cells_, shape);
   ClothLoad answer{state.sides.difference(), {}};
   if (problem_.settings.load == CanopyLoad::of_flow)

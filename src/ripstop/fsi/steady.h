@@ -88,8 +88,8 @@ void each_member(T& s, Visit&& visit) {
 }
 
 struct SteadyProblem {
-  CanopyMesh mesh;   // start shape in the flow's frame
-  FlowProblem flow;  // one PorousCells or one Sheet that has the resistance; where it is, is found here
+  CanopyMesh mesh;            // start shape in the flow's frame
+  FlowProblem flow;           // one body that has the resistance; where it is, is found here
   double reference_area = 0;  // S0 [m2]
   CouplingSettings settings;
   std::optional<Watch> watch;  // once shape and drag stand still, the flow is watched in time

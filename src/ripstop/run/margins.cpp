@@ -24,7 +24,8 @@ Margins case_margins(const Settings& resolved, const CanopyMesh& mesh,
   for (std::size_t i = 0; i < reefing_tensions.size(); ++i)
     loads.others.push_back(
         {"reefing line " + std::to_string(i + 1), reefing_tensions[i], resolved.reefing_lines()[i]});
-  return margins_of(loads, resolved.margins(), resolved.materials().canopy, reinforcement_tape(resolved),
+  const std::optional<Tape>& tape = resolved.materials().tape;
+  return margins_of(loads, resolved.margins(), resolved.materials().canopy, tape ? &*tape : nullptr,
                     resolved.materials().line, riser);
 }
 

@@ -20,7 +20,7 @@ class SquareLawFlow : public FormulaFlow {
   SquareLawFlow(const FlowProblem& problem, double area)
       : FormulaFlow(problem),
         force_(0.5 * problem.air.density * problem.air.speed() * problem.air.speed() * area) {}
-  void place(const std::vector<Triangle>&, const SheetMotion&) override { aim_at(force_); }
+  void place(std::size_t, const std::vector<Triangle>&, const SheetMotion&) override { aim_at(force_); }
 
  private:
   double force_;

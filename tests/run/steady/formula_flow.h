@@ -17,7 +17,7 @@ class FormulaFlow : public Flow {
  public:
   explicit FormulaFlow(const FlowProblem& problem) : problem_(problem) {}
 
-  void place(const std::vector<Triangle>& surface, const SheetMotion&) override {
+  void place(std::size_t, const std::vector<Triangle>& surface, const SheetMotion&) override {
     target_ = 0.05 * double(cut_cells(problem_.grid, surface).size()) * problem_.air.speed();
   }
   FlowAdvance advance(int iterations, double residual, const FlowReport& report) override {

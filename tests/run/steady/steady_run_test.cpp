@@ -84,7 +84,7 @@ TEST(SteadyRun, AnIterationTellsHowFarTheClothMovedAndInHowManySteps) {
 class CreepingFlow final : public FormulaFlow {
  public:
   using FormulaFlow::FormulaFlow;
-  void place(const std::vector<Triangle>&, const SheetMotion&) override {
+  void place(std::size_t, const std::vector<Triangle>&, const SheetMotion&) override {
     aim_at(300 * std::pow(1.005, ++placed_));
   }
 
@@ -302,7 +302,7 @@ TEST(SteadyRun, ClothThatNoHoldBringsToRestIsGivenUpAfterTheStrongest) {
 struct JitteringEngine : FormulaEngine {
   struct Jittering : FormulaFlow {
     using FormulaFlow::FormulaFlow;
-    void place(const std::vector<Triangle>&, const SheetMotion&) override {
+    void place(std::size_t, const std::vector<Triangle>&, const SheetMotion&) override {
       ++placed;
       aim_at(240 + 12 * (placed * placed * placed * 7 % 11));
     }

@@ -27,8 +27,8 @@ class SwingingFlow final : public FormulaFlow {
   SwingingFlow(const FlowProblem& problem, double side, double mode)
       : FormulaFlow(problem), side_(side), mode_(mode) {}
 
-  void place(const std::vector<Triangle>& surface, const SheetMotion& motion) override {
-    FormulaFlow::place(surface, motion);
+  void place(std::size_t body, const std::vector<Triangle>& surface, const SheetMotion& motion) override {
+    FormulaFlow::place(body, surface, motion);
     mode_ = -mode_;
   }
   FlowStep march(int steps, double, const StepReport& report) override {

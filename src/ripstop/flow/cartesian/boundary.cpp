@@ -235,7 +235,7 @@ void turbulence_ghosts(const Discretisation& d, const Boundaries& b, State& s, i
   const auto ghosts = [&](const Array<double>& inlet, double stream, Array<double>& q) {
     side_ghosts(d, q, k, 1, 1);
     b.open() ? copy_into_ends(d, k, q) : end_ghosts(d, b, f, k, inlet.data(), stream, q);
-    b.sides->transported(d, f, k, none, stream, q);
+    b.sides->transported(d, f, k, no_axis, stream, q);
   };
   ghosts(b.inlet.k, b.inlet.stream.k, f.k), ghosts(b.inlet.omega, b.inlet.stream.omega, f.omega);
 }

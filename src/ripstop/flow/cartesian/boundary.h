@@ -57,7 +57,7 @@ class SideBoundary {
   virtual double mirror() const { return 1; }
   virtual float correction_mirror() const { return 1; }
   /// Ghosts where they are not those of mirror(): of a quantity that the stream has with the value `stream`. `normal`
-  /// is the axis of a velocity's component, or `none`.
+  /// is the axis of a velocity's component, or `no_axis`.
   virtual void transported(const Discretisation&, const Fields&, int /*k*/, int /*normal*/, double /*stream*/,
                            Array<double>& /*q*/) const {}
   /// Of the pressure, and State::outlet_p where it is everywhere.
@@ -66,7 +66,7 @@ class SideBoundary {
   virtual void conductances(const Discretisation&, const Fields&, const Array<double>& /*rc*/, int /*j*/,
                             int /*k*/, MultigridLevel&) const {}
 };
-constexpr int none = -1;  // no axis
+constexpr int no_axis = -1;
 std::unique_ptr<SideBoundary> open_sides();
 std::unique_ptr<SideBoundary> slip_sides();
 std::unique_ptr<SideBoundary> entraining_sides();

@@ -48,6 +48,7 @@ void check(const FlowProblem& problem) {
   positive_value("turbulence intensity", a.turbulence_intensity);
   positive_value("viscosity ratio", a.viscosity_ratio);
   check_stream(a);
+  check_bodies(problem);
   if (problem.jet) {
     check(*problem.jet, g);
     if (!a.along_z())
@@ -159,13 +160,11 @@ class CartesianFlow final : public Flow {
         team_(team),
         solver_(problem, problem.grid, porous(), settings, team) {}
 
-  void place(const std::vector<Triangle>& surface, const SheetMotion& motion) override {
-    for (Sheet& sheet : problem_.sheets) sheet.surface = surface, sheet.motion = motion;
-    if (!problem_.porous.empty()) {
-      const std::vector<int> cells = cut_cells(problem_.grid, surface);
-      for (PorousCells& cloth : problem_.porous) cloth.cells = cells;
-    }
-    solver_.place(porous(), problem_.sheets);
+  void place(std::size_t which, const std::vector<Triangle>& surface, const SheetMotion& motion) override {
+    FlowBody& body = problem_.bodies.at(which);
+    body.surface = surface, body.motion = motion;
+    if (!body.is_sheet()) body.porous().cells = cut_cells(problem_.grid, surface);
+    solver_.place(porous(), problem_.bodies);
   }
 
   FlowAdvance advance(int iterations, double residual, const FlowReport& report) override;
@@ -183,8 +182,12 @@ class CartesianFlow final : public Flow {
                       velocity.x, velocity.y, velocity.z, Sides::far_field.word));
     solver_.stream(velocity, acceleration);
   }
-  FlowField field() const override { return solver_.field(); }
-  void add_to(FieldMean& mean) const override { solver_.add_to(mean); }
+  FlowField field() const override {
+    FlowField field = solver_.field();
+    field.bodies = body_loads(field.sheet_loads);
+    return field;
+  }
+  void add_to(FieldMean& mean) const override { solver_.add_to(mean, body_loads(solver_.sheet_loads())); }
   std::vector<SheetLoad> sheet_loads() const override { return solver_.sheet_loads(); }
   bool untouched() const override { return solver_.state().untouched; }
 
@@ -210,7 +213,8 @@ class CartesianFlow final : public Flow {
                 fmt::format("flow: a Courant number of {}; a number in (0, 1] is wanted", courant));
   }
   Error diverged_by(const FlowStep& now) const;
-  PorousRows porous() const { return {problem_.grid, problem_.porous, problem_.air.viscosity}; }
+  PorousRows porous() const { return {problem_.grid, problem_.bodies, problem_.air.viscosity}; }
+  std::vector<BodyLoad> body_loads(const std::vector<SheetLoad>& sheet_loads) const;
   FlowAdvance run(Solver& solver, int iterations, double residual, const FlowReport& report) const;
   void guess_from_coarser(const FlowGrid& grid, const PorousRows& porous, Solver& fine) const;
 
@@ -257,8 +261,22 @@ FlowStep CartesianFlow::march(int steps, double courant, const StepReport& repor
   return now;
 }
 
+std::vector<BodyLoad> CartesianFlow::body_loads(const std::vector<SheetLoad>& sheet_loads) const {
+  std::vector<BodyLoad> loads;
+  for (const FlowBody& body : problem_.bodies)
+    loads.push_back(body.is_sheet() ? BodyLoad{} : solver_.load_on(body.porous(), body.moment_about));
+  for (const SheetLoad& load : sheet_loads) {
+    BodyLoad& body = loads[static_cast<std::size_t>(load.body)];
+    body.force += load.force;
+    body.moment +=
+        cross(load.point - problem_.bodies[static_cast<std::size_t>(load.body)].moment_about, load.force);
+  }
+  return loads;
+}
+
 FlowStep CartesianFlow::step(double length) {
-  const FlowStep now = solver_.step(length);
+  FlowStep now = solver_.step(length);
+  now.bodies = body_loads(solver_.sheet_loads());
   if (!std::isfinite(now.force.z) || !is_finite(now.momentum_gap)) throw diverged_by(now);
   return now;
 }
@@ -290,8 +308,10 @@ void CartesianFlow::save(const std::filesystem::path& folder) const {
   header.sides = problem_.sides.word, header.outlet = problem_.outlet.word;
   if (problem_.jet) header.jets = 1, header.jet = *problem_.jet;
   each_number(header, out);
-  for (const PorousCells& cloth : problem_.porous) out(cloth.cells);
-  for (const Sheet& sheet : problem_.sheets) out(sheet.surface), each_array(sheet.motion, out);
+  for (const FlowBody& body : problem_.bodies) {
+    out(body.surface), each_array(body.motion, out);
+    if (!body.is_sheet()) out(body.porous().cells);
+  }
   each_carried(solver_.state(), out);
   make_folder(folder);
   write_sealed(folder / state_file, out.bytes);
@@ -307,9 +327,11 @@ void CartesianFlow::restore(const std::filesystem::path& folder) {
       header.outlet != problem_.outlet.word || (header.jets == 1) != problem_.jet.has_value() ||
       (problem_.jet && !(header.jet == *problem_.jet)))
     throw Error(ExitCode::usage, (folder / state_file).string() + ": was made in another box of air");
-  for (PorousCells& cloth : problem_.porous) in(cloth.cells);
-  for (Sheet& sheet : problem_.sheets) in(sheet.surface), each_array(sheet.motion, in);
-  solver_.place(porous(), problem_.sheets);
+  for (FlowBody& body : problem_.bodies) {
+    in(body.surface), each_array(body.motion, in);
+    if (!body.is_sheet()) in(body.porous().cells);
+  }
+  solver_.place(porous(), problem_.bodies);
   State state = solver_.state();
   each_carried(state, in);
   if (!in.at_end()) in.fail();

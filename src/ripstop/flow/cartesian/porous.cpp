@@ -17,14 +17,16 @@ void PorousRows::add_row(int j, int k) {
   quadratic_.resize(offset + nx_, 0.0);
 }
 
-PorousRows::PorousRows(const FlowGrid& grid, const std::vector<PorousCells>& cloths, double viscosity)
+PorousRows::PorousRows(const FlowGrid& grid, const std::vector<FlowBody>& bodies, double viscosity)
     : nx_(grid.nx),
       ny_(grid.ny),
       nz_(grid.nz),
       offset_(static_cast<std::size_t>(grid.ny) * grid.nz, 0),
       linear_(grid.nx, 0.0),
       quadratic_(grid.nx, 0.0) {
-  for (const PorousCells& cloth : cloths) {
+  for (const FlowBody& body : bodies) {
+    if (body.is_sheet()) continue;
+    const PorousCells& cloth = body.porous();
     if (!(std::isfinite(cloth.darcy) && cloth.darcy >= 0 && std::isfinite(cloth.forchheimer) &&
           cloth.forchheimer >= 0)) {
       throw Error(

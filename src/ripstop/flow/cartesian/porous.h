@@ -12,9 +12,9 @@ namespace ripstop::cartesian {
 class PorousRows {
  public:
   PorousRows() = default;
-  /// Cells named by several cloths add up. Throws Error(bad_data) for cells outside the grid or coefficients
+  /// Of the bodies that are porous cells; cells named by several of them add up. Throws Error(bad_data) for cells outside the grid or coefficients
   /// that are negative or not finite.
-  PorousRows(const FlowGrid& grid, const std::vector<PorousCells>& cloths, double viscosity);
+  PorousRows(const FlowGrid& grid, const std::vector<FlowBody>& bodies, double viscosity);
   /// The same resistance seen by a grid of half as many cells an axis: volume means.
   PorousRows(const PorousRows& fine, const FlowGrid& fine_grid, const FlowGrid& coarse);
 

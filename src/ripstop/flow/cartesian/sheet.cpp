@@ -79,9 +79,9 @@ double passing(double asked, double yields, double a, double b) {
 
 }  // namespace
 
-SheetRows::SheetRows(const Axis& x, const Axis& y, const Axis& z, const std::vector<Sheet>& sheets)
+SheetRows::SheetRows(const Axis& x, const Axis& y, const Axis& z, const std::vector<FlowBody>& bodies)
     : nx_(x.n), ny_(y.n), nz_(z.n) {
-  add_faces(x, y, z, sheets);
+  add_faces(x, y, z, bodies);
   if (faces_.empty()) return;
   double across = 0;
   for (const Face& face : faces_) across += face.geometry.axis == 2 ? face.area : 0;
@@ -89,14 +89,16 @@ SheetRows::SheetRows(const Axis& x, const Axis& y, const Axis& z, const std::vec
   lay_out();
 }
 
-void SheetRows::add_faces(const Axis& x, const Axis& y, const Axis& z, const std::vector<Sheet>& sheets) {
-  for (int s = 0; s < static_cast<int>(sheets.size()); ++s) {
-    const Sheet& sheet = sheets[s];
+void SheetRows::add_faces(const Axis& x, const Axis& y, const Axis& z, const std::vector<FlowBody>& bodies) {
+  for (int s = 0; s < static_cast<int>(bodies.size()); ++s) {
+    const FlowBody& sheet = bodies[s];
+    if (!sheet.is_sheet()) continue;
+    const PressureDrop& law = sheet.drop();
     const auto fits = [](double value) { return std::isfinite(value) && value >= 0; };
-    if (!fits(sheet.linear) || !fits(sheet.quadratic)) {
+    if (!fits(law.linear) || !fits(law.quadratic)) {
       throw Error(ExitCode::bad_data,
                   fmt::format("sheet: a = {} Pa s/m and b = {} Pa s2/m2 must be finite and not negative",
-                              sheet.linear, sheet.quadratic));
+                              law.linear, law.quadratic));
     }
     const SheetMotion& motion = sheet.motion;
     for (const std::size_t count : {motion.velocity.size(), motion.yields.size(), motion.pressure.size()}) {
@@ -107,8 +109,8 @@ void SheetRows::add_faces(const Axis& x, const Axis& y, const Axis& z, const std
     for (const SheetFace& geometry : sheet_faces(x, y, z, sheet.surface)) {
       Face face;
       face.geometry = geometry;
-      face.sheet = s;
-      face.a = sheet.linear, face.b = sheet.quadratic;
+      face.body = s;
+      face.a = law.linear, face.b = law.quadratic;
       const SheetFace& g = face.geometry;
       if (!motion.velocity.empty()) {
         face.geometry.normal = geometry.across;
@@ -347,7 +349,7 @@ std::vector<SheetLoad> SheetRows::loads(const State& state, const Layout& layout
     const Face& face = faces_[n];
     const SheetFace& g = face.geometry;
     SheetLoad load;
-    load.sheet = face.sheet;
+    load.body = face.body;
     load.triangle = g.triangle;
     load.point = g.point;
     load.outward = g.outward;

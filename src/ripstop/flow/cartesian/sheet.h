@@ -22,7 +22,7 @@ class SheetRows {
   SheetRows() = default;
   /// Throws Error(bad_data) for coefficients that are negative or not finite, or a number of velocities that
   /// is not that of the triangles.
-  SheetRows(const Axis& x, const Axis& y, const Axis& z, const std::vector<Sheet>& sheets);
+  SheetRows(const Axis& x, const Axis& y, const Axis& z, const std::vector<FlowBody>& bodies);
 
   bool empty() const { return faces_.empty(); }
   /// Whether the sheets leave next to nothing of the box's cross-section open.
@@ -58,7 +58,7 @@ class SheetRows {
 
   struct Face {
     SheetFace geometry;
-    int sheet = 0;
+    int body = 0;
     double a = 0, b = 0;  // of the law
     Vec3 velocity;        // of the sheet [m/s]
     bool moves = false;
@@ -75,7 +75,7 @@ class SheetRows {
     std::size_t at = 0;                    // in the dense rows
   };
   void hold_in_the_middle(const State& state, const Layout& layout, double step);
-  void add_faces(const Axis& x, const Axis& y, const Axis& z, const std::vector<Sheet>& sheets);
+  void add_faces(const Axis& x, const Axis& y, const Axis& z, const std::vector<FlowBody>& bodies);
   void lay_out();
 
   int nx_ = 0, ny_ = 0, nz_ = 0;

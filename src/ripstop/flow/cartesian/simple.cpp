@@ -56,7 +56,7 @@ Solver::Solver(const FlowProblem& problem, const FlowGrid& grid, PorousRows poro
       team_(team) {
   lay_out(problem.body_force, d_, in_the_way_);
   start_uniform();
-  place(std::move(porous), problem.sheets);
+  place(std::move(porous), problem.bodies);
 }
 
 void Solver::start_uniform() {
@@ -91,9 +91,9 @@ void Solver::start_from(const Solver& coarse) {
     velocity_ghosts(d_, b_, s_, k), pressure_ghosts(d_, b_, s_, k), turbulence_ghosts(d_, b_, s_, k);
 }
 
-void Solver::place(PorousRows porous, const std::vector<Sheet>& sheets) {
+void Solver::place(PorousRows porous, const std::vector<FlowBody>& bodies) {
   in_the_way_.porous = std::move(porous);
-  const SheetRows before = std::exchange(in_the_way_.sheets, SheetRows(d_.x, d_.y, d_.z, sheets));
+  const SheetRows before = std::exchange(in_the_way_.sheets, SheetRows(d_.x, d_.y, d_.z, bodies));
   in_the_way_.sheets.begin(s_, d_.layout, before);
   if (s_.untouched) s_.eased = in_the_way_.sheets.empty() ? 0 : eased_iterations;
   in_the_way_.wall = {};
@@ -215,8 +215,24 @@ FlowField Solver::field() const {
   return field;
 }
 
-void Solver::add_to(FieldMean& mean) const {
-  mean.add(field_without_cells(), [this](FlowField& field, double share) { draw_cells(field, share); });
+BodyLoad Solver::load_on(const PorousCells& porous, Vec3 about) const {
+  BodyLoad load;
+  for (const int cell : porous.cells) {
+    const int i = cell % d_.grid.nx, j = cell / d_.grid.nx % d_.grid.ny, k = cell / d_.grid.nx / d_.grid.ny;
+    const std::ptrdiff_t at = d_.layout.at(i, j, k);
+    const Vec3 velocity{s_.f.u[at], s_.f.v[at], s_.f.w[at]};
+    const double resistance =
+        d_.air.viscosity * porous.darcy + s_.f.rho[at] * norm(velocity) * porous.forchheimer / 2;
+    const Vec3 force = (d_.grid.cell_volume(cell) * resistance) * velocity;
+    load.force += force, load.moment += cross(d_.grid.centre(i, j, k) - about, force);
+  }
+  return load;
+}
+
+void Solver::add_to(FieldMean& mean, std::vector<BodyLoad> loads) const {
+  FlowField last = field_without_cells();
+  last.bodies = std::move(loads);
+  mean.add(last, [this](FlowField& field, double share) { draw_cells(field, share); });
 }
 
 FlowField Solver::field_without_cells() const {

@@ -68,7 +68,7 @@ class Solver {
   /// Fields interpolated from a coarser grid of the same box, with the same air.
   void start_from(const Solver& coarse);
   /// The cloth has moved; the air goes on.
-  void place(PorousRows porous, const std::vector<Sheet>& sheets);
+  void place(PorousRows porous, const std::vector<FlowBody>& bodies);
   /// One SIMPLE iteration; the residuals are those of the fields it started from.
   FlowProgress iterate();
   /// What the first step in time needs: room for the rates, air of one density.
@@ -88,7 +88,10 @@ class Solver {
   /// The first cell that is not finite or beyond those bounds, as "field u at (x, y, z)"; empty if none.
   std::string first_bad_value() const;
   FlowField field() const;
-  void add_to(FieldMean& mean) const;
+  /// `loads`: FlowField::bodies.
+  void add_to(FieldMean& mean, std::vector<BodyLoad> loads) const;
+  /// What the air does to these cells; the moment is about a point.
+  BodyLoad load_on(const PorousCells& porous, Vec3 about) const;
   std::vector<SheetLoad> sheet_loads() const { return in_the_way_.sheets.loads(s_, d_.layout); }
 
   const Discretisation& discretisation() const { return d_; }

@@ -41,11 +41,11 @@ int axis_of(const Baffle& baffle) {
 }
 
 /// Sums of a / slant and b / slant^2: the law of all layers for what passes through the face.
-std::array<double, 2> law_of(const Baffle& baffle, const std::vector<Sheet>& sheets) {
+std::array<double, 2> law_of(const Baffle& baffle, const std::vector<FlowBody>& bodies) {
   std::array<double, 2> law{};
   for (const Layer& layer : baffle.layers) {
-    law[0] += sheets[layer.sheet].linear / layer.slant;
-    law[1] += sheets[layer.sheet].quadratic / (layer.slant * layer.slant);
+    law[0] += bodies[layer.body].drop().linear / layer.slant;
+    law[1] += bodies[layer.body].drop().quadratic / (layer.slant * layer.slant);
   }
   return law;
 }
@@ -66,8 +66,8 @@ std::vector<Baffle> all_baffles(const FlowProblem& problem) {
   const cartesian::Axis x = axis_of(grid, 0), y = axis_of(grid, 1), z = axis_of(grid, 2);
   const int steps[] = {1, grid.nx, grid.nx * grid.ny};
   std::map<std::pair<int, int>, Baffle> found;
-  for (int s = 0; s < static_cast<int>(problem.sheets.size()); ++s) {
-    for (const cartesian::SheetFace& face : cartesian::sheet_faces(x, y, z, problem.sheets[s].surface)) {
+  for (int s = 0; s < static_cast<int>(problem.bodies.size()); ++s) {
+    for (const cartesian::SheetFace& face : cartesian::sheet_faces(x, y, z, problem.bodies[s].surface)) {
       const int at[] = {face.i, face.j, face.k};
       double area = 1;
       for (int other = 0; other < 3; ++other)
@@ -88,13 +88,13 @@ std::vector<Baffle> all_baffles(const FlowProblem& problem) {
 
 }  // namespace
 
-double passing(const Baffle& baffle, const std::vector<Sheet>& sheets, double drop) {
-  const auto [a, b] = law_of(baffle, sheets);
+double passing(const Baffle& baffle, const std::vector<FlowBody>& bodies, double drop) {
+  const auto [a, b] = law_of(baffle, bodies);
   return velocity(a, b, drop);
 }
 
 double pace(const Baffle& baffle, const FlowProblem& problem) {
-  const auto [a, b] = law_of(baffle, problem.sheets);
+  const auto [a, b] = law_of(baffle, problem.bodies);
   const double slope = slope_of(a, b, problem.air), flow = 2 * problem.air.density * problem.air.speed();
   return slope / (slope + flow);
 }
@@ -118,7 +118,7 @@ std::vector<BafflePatch> baffles_of(const FlowProblem& problem) {
   for (const Baffle& baffle : baffles) across += baffle.area.z;
   const bool shut = shuts(across, problem.grid);
   for (Baffle& baffle : baffles) {
-    const auto [a, b] = law_of(baffle, problem.sheets);
+    const auto [a, b] = law_of(baffle, problem.bodies);
     if (!shut && !is_loose(a, b, problem.air)) {
       walls.baffles.push_back(std::move(baffle));
       continue;

@@ -11,12 +11,12 @@ namespace ripstop::openfoam {
 
 /// Of a sheet, what stands for it in one face of the mesh.
 struct Layer {
-  int sheet = 0, triangle = 0;  // of FlowProblem::sheets
-  Vec3 point;                   // on the triangle [m]
-  Vec3 outward;                 // normal of the sheet there, unit
-  bool against = false;         // the sheet's outer side is the low one
-  double area = 0;              // of the sheet that the face stands for, as a load has it [m2]
-  double slant = 1;             // what passes through the face is the sheet's own velocity times this
+  int body = 0, triangle = 0;  // of FlowProblem::bodies
+  Vec3 point;                  // on the triangle [m]
+  Vec3 outward;                // normal of the sheet there, unit
+  bool against = false;        // the sheet's outer side is the low one
+  double area = 0;             // of the sheet that the face stands for, as a load has it [m2]
+  double slant = 1;            // what passes through the face is the sheet's own velocity times this
 };
 
 /// A face of the mesh that cloth parts: its low side is a face of cell `low`, its high side one of cell `high`.
@@ -52,7 +52,7 @@ bool shuts(double across, const FlowGrid& grid);
 double pace(const Baffle& baffle, const FlowProblem& problem);
 
 /// Velocity from low to high at which the pressure drops by `drop` that way [Pa], [m/s].
-double passing(const Baffle& baffle, const std::vector<Sheet>& sheets, double drop);
+double passing(const Baffle& baffle, const std::vector<FlowBody>& bodies, double drop);
 
 /// constant/polyMesh of the grid, with the patches inlet, outlet, sides and those of the baffles. Throws Error(io).
 void write_mesh(const std::filesystem::path& folder, const FlowGrid& grid,

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
 
 #include "ripstop/core/error.h"
+#include "ripstop/flow/boundaries.h"
 #include "ripstop/flow/openfoam/case_writer.h"
 
 namespace ripstop::openfoam {
@@ -12,16 +14,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Resistance of every cell, d and f of method section 4.
+/// Resistance of every cell, d and f of method section 4, and the body that it belongs to; -1: none.
 struct Resistance {
   std::vector<double> darcy, forchheimer;
+  std::vector<int> body_of;
 
   explicit Resistance(const FlowProblem& problem)
-      : darcy(static_cast<std::size_t>(problem.grid.cells())), forchheimer(darcy.size()) {
-    for (const PorousCells& porous : problem.porous) {
+      : darcy(static_cast<std::size_t>(problem.grid.cells())),
+        forchheimer(darcy.size()),
+        body_of(darcy.size(), -1) {
+    for (std::size_t n = 0; n < problem.bodies.size(); ++n) {
+      const FlowBody& body = problem.bodies[n];
+      if (body.is_sheet()) continue;
+      const PorousCells& porous = body.porous();
       for (const int cell : porous.cells) {
         darcy[cell] = porous.darcy;
         forchheimer[cell] = porous.forchheimer;
+        body_of[cell] = static_cast<int>(n);
       }
     }
   }
@@ -122,8 +131,11 @@ FlowField read_case(const std::vector<MeshPart>& parts, const std::string& time,
   // Incompressible: p [m2/s2] is 0 at the outlet, phi is in m3/s, and there is no field of the density.
   const double unit = incompressible ? problem.air.density : 1;
   const double outlet = incompressible ? 0 : outlet_pressure(problem.air);
+  const bool far = sides_of(problem) == Sides::far_field;
   FlowField field;
   field.grid = grid;
+  if (far) field.momentum_deficit = {NAN, NAN, NAN};  // not summed over faces of all directions
+  field.bodies.resize(problem.bodies.size());
   field.pressure.resize(static_cast<std::size_t>(grid.cells()));
   field.velocity.resize(field.pressure.size());
   for (const MeshPart& part : parts) {
@@ -146,13 +158,22 @@ FlowField read_case(const std::vector<MeshPart>& parts, const std::string& time,
       // Force of the air on the porous cells: (mu d + rho |u| f / 2) u V.
       const double drag = mu * resistance.darcy[cell] +
                           0.5 * rho.at(rho.inner, local) * norm(u) * resistance.forchheimer[cell];
-      field.porous_force += drag * grid.cell_volume(cell) * u;
+      const Vec3 force = drag * grid.cell_volume(cell) * u;
+      field.porous_force += force;
+      if (resistance.body_of[cell] < 0) continue;
+      const auto body = static_cast<std::size_t>(resistance.body_of[cell]);
+      field.bodies[body].force += force;
+      field.bodies[body].moment +=
+          cross(grid.centre(cell % grid.nx, cell / grid.nx % grid.ny, cell / grid.nx / grid.ny) -
+                    problem.bodies[body].moment_about,
+                force);
     }
     for (const auto& [cell, nearest] : part.stand_ins) {
       field.pressure[cell] = gauge(nearest);
       field.velocity[cell] = moves(nearest);
     }
-    field.momentum_deficit.z += outflow_of_momentum(part, phi, unit, velocity, field.pressure, problem);
+    if (!far)
+      field.momentum_deficit.z += outflow_of_momentum(part, phi, unit, velocity, field.pressure, problem);
   }
   check_range(field, incompressible ? INFINITY : outlet);
   return field;

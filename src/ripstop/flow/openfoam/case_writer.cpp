@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "ripstop/core/error.h"
+#include "ripstop/flow/boundaries.h"
 #include "ripstop/flow/openfoam/foam_file.h"
 #include "ripstop/flow/openfoam/installation.h"
 #include "ripstop/flow/openfoam/openfoam.h"
@@ -49,6 +50,11 @@ std::string carried(const std::string& value, const std::string& back_flow, cons
   return boundary(fmt::format("type fixedValue; value uniform {};", value),
                   fmt::format("type inletOutlet; inletValue uniform {}; value uniform {};", back_flow, value),
                   sides);
+}
+
+/// A far field on all six faces.
+std::string everywhere(const std::string& condition) {
+  return boundary(condition, condition, condition);
 }
 
 /// blockMesh's grading of one axis: parts of the length, of the cells, and last over first width.
@@ -266,21 +272,21 @@ pressure changes. To make the mesh anew (Ripstop also opens cells that cloth shu
 
 void write_readme(const fs::path& folder, const FlowProblem& problem, const OpenFoamSettings& settings) {
   const FlowGrid& grid = problem.grid;
-  const char* solver = solver_name(settings.incompressible, !problem.sheets.empty());
+  const char* solver = solver_name(settings.incompressible, problem.has_sheets());
   const std::string run = settings.ranks > 1 ? fmt::format(
                                                    "    decomposePar\n    mpirun -np {} {} -parallel\n"
                                                    "    reconstructPar -latestTime\n",
                                                    settings.ranks, solver)
                                              : fmt::format("    {}\n", solver);
   std::ofstream readme(folder / kReadme);
-  const bool sheets = !problem.sheets.empty();
-  readme << fmt::format(kReadmeText, sheets ? "sheets" : "porous cells", grid.nx, grid.ny, grid.nz,
-                        problem.air.density, problem.air.speed(),
-                        problem.sides == Sides::slip ? "slip" : "open", kStopFile,
-                        sheets ? "" : "    blockMesh\n    cp constant/cellZones constant/polyMesh/\n", run,
-                        !sheets                ? kOfPorousCells
-                        : settings.fitted_mesh ? kOfFittedMesh
-                                               : kOfSheets);
+  const bool sheets = problem.has_sheets();
+  readme << fmt::format(
+      kReadmeText, sheets ? "sheets" : "porous cells", grid.nx, grid.ny, grid.nz, problem.air.density,
+      problem.air.speed(), sides_of(problem) == Sides::zero_gradient ? "open" : sides_of(problem).word,
+      kStopFile, sheets ? "" : "    blockMesh\n    cp constant/cellZones constant/polyMesh/\n", run,
+      !sheets                ? kOfPorousCells
+      : settings.fitted_mesh ? kOfFittedMesh
+                             : kOfSheets);
   close_written(readme, folder / kReadme);
 }
 
@@ -307,10 +313,11 @@ void check(const FlowProblem& problem) {
     if (has) throw Error(ExitCode::usage, fmt::format("{} needs flow.engine = \"builtin\"", what));
   };
   refuse(problem.jet.has_value(), "flow.tunnel.kind = \"open-jet\"");
-  refuse(problem.sides != Sides::zero_gradient && problem.sides != Sides::slip,
-         fmt::format("flow.sides = \"{}\"", problem.sides.word));
-  refuse(problem.outlet != Outlet::fixed_pressure, fmt::format("flow.outlet = \"{}\"", problem.outlet.word));
-  refuse(!problem.air.along_z(), "a stream that is not along +z");
+  const Sides sides = sides_of(problem);
+  refuse(sides != Sides::zero_gradient && sides != Sides::slip && sides != Sides::far_field,
+         fmt::format("flow.sides = \"{}\"", sides.word));
+  refuse(sides != Sides::far_field && problem.outlet != Outlet::fixed_pressure,
+         fmt::format("flow.outlet = \"{}\"", problem.outlet.word));
   refuse(!problem.body_force.empty(), "a force on the air");
   const FlowGrid& grid = problem.grid;
   for (const int n : {grid.nx, grid.ny, grid.nz}) range("number of cells along an axis", n, 1, 4000, "");
@@ -319,14 +326,18 @@ void check(const FlowProblem& problem) {
   for (const double o : {grid.origin.x, grid.origin.y, grid.origin.z})
     range("corner of the box", o, -1e6, 1e6, "m");
   const Freestream& air = problem.air;
-  range("air speed", air.speed(), 1e-3, 150, "m/s (subsonic: Mach below 0.45)");
   range("air density", air.density, 1e-4, 100, "kg/m3");
   range("viscosity", air.viscosity, 1e-7, 1, "Pa s");
   range("air temperature", air.temperature, 100, 2000, "K");
+  check_stream(air);
   range("turbulence intensity", air.turbulence_intensity, 1e-6, 1, "");
   range("viscosity ratio", air.viscosity_ratio, 1e-6, 1e6, "");
+  check_bodies(problem);
   std::vector<char> taken(static_cast<std::size_t>(grid.cells()), 0);
-  for (const PorousCells& porous : problem.porous) {
+  for (const FlowBody& body : problem.bodies) {
+    if (body.is_sheet()) continue;
+    refuse(problem.has_sheets(), "a porous body beside a sheet");
+    const PorousCells& porous = body.porous();
     range("Darcy coefficient", porous.darcy, 0, 1e15, "1/m2");
     range("Forchheimer coefficient", porous.forchheimer, 0, 1e12, "1/m");
     for (const int cell : porous.cells) {
@@ -343,10 +354,10 @@ void check(const FlowProblem& problem) {
 void write_case(const fs::path& folder, const FlowProblem& problem, const OpenFoamSettings& settings) {
   write_readme(folder, problem, settings);  // first: where the rest fails the folder is known as ours
   const FlowGrid& grid = problem.grid;
-  if (problem.sheets.empty() || settings.fitted_mesh)
+  if (!problem.has_sheets() || settings.fitted_mesh)
     write_dictionary(folder / "system/blockMeshDict", "dictionary", mesh_dictionary(grid));
   // At the edge of a sheet without thickness an unlimited gradient throws the flow off.
-  const char* second_order = problem.sheets.empty() ? "linearUpwind grad(U)" : "linearUpwind limited";
+  const char* second_order = !problem.has_sheets() ? "linearUpwind grad(U)" : "linearUpwind limited";
   write_dictionary(folder / "system/fvSchemes", "dictionary",
                    fmt::format(kSchemes, settings.second_order ? second_order : "upwind"));
   const std::array<int, 3> parts = split(grid, settings.ranks);
@@ -387,11 +398,18 @@ void write_fields(const fs::path& folder, const FlowProblem& problem, bool incom
                     inner.empty() ? "uniform " + uniform : inner, faces, cloth ? cloth(name) : "");
     write_dictionary(folder / name, kind, body, cells ? "binary" : "ascii");
   };
+  // OpenFOAM's far field: between given velocity and given pressure by the cosine of velocity and face.
+  const bool far = sides_of(problem) == Sides::far_field;
   write("p", "volScalarField", incompressible ? "0 2 -2 0" : "1 -1 -2 0", p,
-        boundary("type zeroGradient;", fmt::format("type fixedValue; value uniform {};", p), open));
-  write("U", "volVectorField", "0 1 -1 0", velocity, carried(velocity, "(0 0 0)", open));
+        far ? everywhere(fmt::format("type freestreamPressure; freestreamValue uniform {};", p))
+            : boundary("type zeroGradient;", fmt::format("type fixedValue; value uniform {};", p), open));
+  write("U", "volVectorField", "0 1 -1 0", velocity,
+        far ? everywhere(fmt::format("type freestreamVelocity; freestreamValue uniform {};", velocity))
+            : carried(velocity, "(0 0 0)", open));
   const auto write_carried = [&](const char* name, const char* dimensions, const std::string& value) {
-    write(name, "volScalarField", dimensions, value, carried(value, value, open));
+    write(name, "volScalarField", dimensions, value,
+          far ? everywhere(fmt::format("type inletOutlet; inletValue uniform {0}; value uniform {0};", value))
+              : carried(value, value, open));
   };
   write_carried("k", "0 2 -2 0", number(k));
   write_carried("omega", "0 0 -1 0", number(omega));
@@ -403,12 +421,11 @@ void write_fields(const fs::path& folder, const FlowProblem& problem, bool incom
 
 void write_control(const fs::path& folder, const FlowProblem& problem, bool incompressible,
                    const RunControl& control) {
-  const bool sheets = !problem.sheets.empty();
+  const bool sheets = problem.has_sheets();
   const std::string forces =
-      !sheets && problem.porous.empty()
-          ? ""
-          : fmt::format(kForces, sheets ? "\"cloth.*\"" : "", sheets ? "false" : "true",
-                        incompressible ? "rhoInf" : "rho", problem.air.density);
+      problem.bodies.empty() ? ""
+                             : fmt::format(kForces, sheets ? "\"cloth.*\"" : "", sheets ? "false" : "true",
+                                           incompressible ? "rhoInf" : "rho", problem.air.density);
   write_dictionary(folder / "system/controlDict", "dictionary",
                    fmt::format(kControl, control.start + control.iterations, control.iterations, kStopFile,
                                forces, solver_name(incompressible, sheets)));
@@ -419,10 +436,11 @@ void write_solution(const fs::path& folder, double residual, int corrections) {
                    fmt::format(kSolution, residual, kLowestPressure, kHighestPressure, corrections));
 }
 
-void write_resistance(const fs::path& folder, const std::vector<PorousCells>& porous) {
+void write_resistance(const fs::path& folder, const std::vector<FlowBody>& bodies) {
   std::string body;
-  for (std::size_t zone = 0; zone < porous.size(); ++zone) {
-    body += fmt::format(kResistance, zone, porous[zone].darcy, porous[zone].forchheimer);
+  for (std::size_t zone = 0; zone < bodies.size(); ++zone) {
+    const PorousCells& porous = bodies[zone].porous();
+    body += fmt::format(kResistance, zone, porous.darcy, porous.forchheimer);
   }
   write_dictionary(folder / "constant/porosityProperties", "dictionary", body);
 }

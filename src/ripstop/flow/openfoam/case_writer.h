@@ -47,7 +47,7 @@ void write_control(const std::filesystem::path& folder, const FlowProblem& probl
 /// system/fvSolution holds the residual to be reached, constant/porosityProperties the resistances. `corrections`: of the
 /// pressure an iteration, for cells that are not at right angles.
 void write_solution(const std::filesystem::path& folder, double residual, int corrections = 0);
-void write_resistance(const std::filesystem::path& folder, const std::vector<PorousCells>& porous);
+void write_resistance(const std::filesystem::path& folder, const std::vector<FlowBody>& bodies);
 /// cellZones with one zone a list.
 void write_zones(const std::filesystem::path& folder, const std::vector<std::vector<int>>& zones);
 

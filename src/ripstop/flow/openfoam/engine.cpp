@@ -50,9 +50,8 @@ class OpenFoamFlow final : public Flow {
     prepare();
   }
 
-  void place(const std::vector<Triangle>& surface, const SheetMotion&) override {
-    const std::vector<int> cells = cut_cells(problem_.grid, surface);
-    for (PorousCells& cloth : problem_.porous) cloth.cells = cells;
+  void place(std::size_t body, const std::vector<Triangle>& surface, const SheetMotion&) override {
+    problem_.bodies.at(body).porous().cells = cut_cells(problem_.grid, surface);
     check(problem_);
   }
 
@@ -61,7 +60,7 @@ class OpenFoamFlow final : public Flow {
     write_problem(iterations, residual);
     const std::string start = latest_time(part_folder(0));
     fs::remove(folder_ / kStopFile);
-    SolverLog log(problem_.porous.empty() ? SolverLog::Forces::none : SolverLog::Forces::porous);
+    SolverLog log(problem_.bodies.empty() ? SolverLog::Forces::none : SolverLog::Forces::porous);
     FlowAdvance now;
     const ProcessResult result = programs_.run_solver(report, log, now.stopped);
     const std::string time = latest_time(part_folder(0));
@@ -139,20 +138,20 @@ class OpenFoamFlow final : public Flow {
   /// What may change from call to call: porous cells, residual, number of iterations.
   void write_problem(int iterations, double residual) {
     write_solution(folder_, residual);
-    write_resistance(folder_, problem_.porous);
+    write_resistance(folder_, problem_.bodies);
     write_control(folder_, problem_, settings_.incompressible,
                   {std::stod(latest_time(part_folder(0))), iterations});
     std::vector<int> zone_of(static_cast<std::size_t>(problem_.grid.cells()), -1);
-    for (std::size_t zone = 0; zone < problem_.porous.size(); ++zone) {
-      for (const int cell : problem_.porous[zone].cells) zone_of[cell] = static_cast<int>(zone);
+    for (std::size_t zone = 0; zone < problem_.bodies.size(); ++zone) {
+      for (const int cell : problem_.bodies[zone].porous().cells) zone_of[cell] = static_cast<int>(zone);
     }
     std::vector<std::vector<int>> whole;
-    for (const PorousCells& porous : problem_.porous) whole.push_back(porous.cells);
+    for (const FlowBody& body : problem_.bodies) whole.push_back(body.porous().cells);
     write_zones(folder_ / "constant", whole);  // for a run by hand: blockMesh removes those of the mesh
     write_zones(folder_ / "constant/polyMesh", whole);
     if (settings_.ranks == 1) return;
     for (const MeshPart& part : mesh_) {
-      std::vector<std::vector<int>> zones(problem_.porous.size());
+      std::vector<std::vector<int>> zones(problem_.bodies.size());
       for (std::size_t cell = 0; cell < part.count(problem_.grid); ++cell) {
         const int zone = zone_of[part.global(cell)];
         if (zone >= 0) zones[zone].push_back(static_cast<int>(cell));
@@ -195,7 +194,7 @@ class OpenFoam final : public FlowEngine {
 
   std::string name() const override { return "OpenFOAM " + installation_.version; }
   std::unique_ptr<Flow> start(const FlowProblem& problem) override {
-    if (!problem.sheets.empty()) return start_sheet_flow(problem, settings_, folder_, installation_);
+    if (problem.has_sheets()) return start_sheet_flow(problem, settings_, folder_, installation_);
     return std::make_unique<OpenFoamFlow>(problem, settings_, folder_, installation_);
   }
 

@@ -29,11 +29,11 @@ std::string name_of(std::size_t sheet) {
   return fmt::format("cloth{}", sheet);
 }
 
-bool is_loose_in(const FlowProblem& problem, const Sheet& sheet) {
+bool is_loose_in(const FlowProblem& problem, const FlowBody& sheet) {
   double across = 0;
-  for (const Sheet& one : problem.sheets)
+  for (const FlowBody& one : problem.bodies)
     for (const Triangle& t : one.surface) across += 0.5 * std::abs(cross(t.b - t.a, t.c - t.a).z);
-  return shuts(across, problem.grid) || is_loose(sheet.linear, sheet.quadratic, problem.air);
+  return shuts(across, problem.grid) || is_loose(sheet.drop().linear, sheet.drop().quadratic, problem.air);
 }
 
 constexpr char kSnappy[] = R"foam(castellatedMesh true;
@@ -132,16 +132,16 @@ void write_hems(const fs::path& path, const std::vector<Triangle>& surface) {
 
 void write_snappy(const fs::path& folder, const FlowProblem& problem, int levels) {
   std::string geometry, features, surfaces, baffles;
-  for (std::size_t s = 0; s < problem.sheets.size(); ++s) {
-    if (problem.sheets[s].surface.empty()) continue;
+  for (std::size_t s = 0; s < problem.bodies.size(); ++s) {
+    if (problem.bodies[s].surface.empty()) continue;
     const std::string name = name_of(s);
-    write_stl(folder / "constant/triSurface" / (name + ".stl"), problem.sheets[s].surface);
+    write_stl(folder / "constant/triSurface" / (name + ".stl"), problem.bodies[s].surface);
     geometry += fmt::format("    {0}.stl {{ type triSurfaceMesh; name {0}; }}\n", name);
     features += fmt::format("        {{ file \"{}.eMesh\"; level {}; }}\n", name, levels);
     surfaces +=
         fmt::format("        {0} {{ level ({1} {1}); faceZone {0}; faceType internal; }}\n", name, levels);
-    write_hems(folder / "constant/triSurface" / (name + ".eMesh"), problem.sheets[s].surface);
-    const Sheet& sheet = problem.sheets[s];
+    write_hems(folder / "constant/triSurface" / (name + ".eMesh"), problem.bodies[s].surface);
+    const FlowBody& sheet = problem.bodies[s];
     const bool loose = is_loose_in(problem, sheet);
     const auto patch = [&](const char* side, const char* other) {
       return fmt::format(
@@ -330,7 +330,7 @@ const Patch& patch_of(const MeshPart& part, const std::string& name) {
               fmt::format("OpenFOAM's mesh in {} has no patch {}", part.folder.string(), name));
 }
 
-std::vector<Baffle> baffles_on(int number, const Sheet& sheet, const MeshPart& part,
+std::vector<Baffle> baffles_on(int number, const FlowBody& sheet, const MeshPart& part,
                                const Geometry& geometry) {
   const std::string name = name_of(static_cast<std::size_t>(number));
   const Patch &low = patch_of(part, name + "_low"), &high = patch_of(part, name + "_high");
@@ -350,7 +350,7 @@ std::vector<Baffle> baffles_on(int number, const Sheet& sheet, const MeshPart& p
     const auto [triangle, point] = nearest.to(geometry.centre(face));
     const Triangle& t = sheet.surface[triangle];
     Layer layer;
-    layer.sheet = number, layer.triangle = triangle, layer.point = point;
+    layer.body = number, layer.triangle = triangle, layer.point = point;
     layer.against = dot(cross(t.b - t.a, t.c - t.a), baffle.area) < 0;
     layer.area = norm(baffle.area);
     layer.outward = (layer.against ? -1 : 1) / layer.area * baffle.area;
@@ -435,8 +435,8 @@ void make_fitted_mesh(const fs::path& folder, const FlowProblem& problem, int le
   make_folder(folder / "constant/triSurface");
   write_snappy(folder, problem, levels);
   programs.run_tool("blockMesh");
-  if (std::all_of(problem.sheets.begin(), problem.sheets.end(),
-                  [](const Sheet& s) { return s.surface.empty(); }))
+  if (std::all_of(problem.bodies.begin(), problem.bodies.end(),
+                  [](const FlowBody& s) { return s.surface.empty(); }))
     return;
   programs.run_tool("snappyHexMesh", {"-overwrite"}, finer);
   open_pockets(folder / "constant/polyMesh");
@@ -460,15 +460,15 @@ FittedMesh read_fitted_mesh(const fs::path& folder, const FlowProblem& problem) 
     throw Error(ExitCode::io, fmt::format("OpenFOAM's mesh in {} has {} faces and {} owners", folder.string(),
                                           geometry.faces(), mesh.part.owner.size()));
   find_cells(geometry, read_labels(folder / "constant/polyMesh/neighbour"), problem.grid, mesh.part);
-  for (std::size_t s = 0; s < problem.sheets.size(); ++s) {
-    const Sheet& sheet = problem.sheets[s];
+  for (std::size_t s = 0; s < problem.bodies.size(); ++s) {
+    const FlowBody& sheet = problem.bodies[s];
     if (sheet.surface.empty()) continue;
     BafflePatch patch;
     patch.name = name_of(s);
     patch.baffles = baffles_on(static_cast<int>(s), sheet, mesh.part, geometry);
     patch.loose = is_loose_in(problem, sheet);
     const double slant = patch.baffles.front().layers.front().slant;
-    patch.linear = sheet.linear / slant, patch.quadratic = sheet.quadratic / (slant * slant);
+    patch.linear = sheet.drop().linear / slant, patch.quadratic = sheet.drop().quadratic / (slant * slant);
     mesh.patches.push_back(std::move(patch));
   }
   return mesh;

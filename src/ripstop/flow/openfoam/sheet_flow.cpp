@@ -51,8 +51,8 @@ class SheetFlow final : public Flow {
     start_afresh();
   }
 
-  void place(const std::vector<Triangle>& surface, const SheetMotion&) override {
-    for (Sheet& sheet : problem_.sheets) sheet.surface = surface;
+  void place(std::size_t body, const std::vector<Triangle>& surface, const SheetMotion&) override {
+    problem_.bodies.at(body).surface = surface;
     if (!settings_.fitted_mesh) return lay_cloth();
     const Cells before = cells_on_grid();
     lay_cloth();
@@ -81,7 +81,13 @@ class SheetFlow final : public Flow {
   FlowField field() const override {
     FlowField field = read_case(mesh_, time_, problem_, true);
     field.sheet_loads = loads_;
-    for (const SheetLoad& load : loads_) field.porous_force += load.force;
+    field.bodies.resize(problem_.bodies.size());
+    for (const SheetLoad& load : loads_) {
+      const auto which = static_cast<std::size_t>(load.body);
+      field.porous_force += load.force;
+      field.bodies[which].force += load.force;
+      field.bodies[which].moment += cross(load.point - problem_.bodies[which].moment_about, load.force);
+    }
     return field;
   }
   std::vector<SheetLoad> sheet_loads() const override { return loads_; }
@@ -90,7 +96,7 @@ class SheetFlow final : public Flow {
   void start_afresh() override {
     clear_case(folder_);
     double area = 0;
-    for (const Sheet& sheet : problem_.sheets) area += surface_area(sheet.surface);
+    for (const FlowBody& body : problem_.bodies) area += surface_area(body.surface);
     programs_.need_space(fitted_cells(problem_.grid, area, settings_.cloth_levels));
     write_case(folder_, problem_, settings_);
     write_solution(folder_, problem_.stopping.residual, corrections());
@@ -210,7 +216,7 @@ class SheetFlow final : public Flow {
     for (const BafflePatch& patch : patches_) {
       if (patch.loose) continue;
       for (const Baffle& baffle : patch.baffles) {
-        const double asked = passing(baffle, problem_.sheets, drop(baffle, p));
+        const double asked = passing(baffle, problem_.bodies, drop(baffle, p));
         const double before = through_.empty() ? 0 : through_[through.size()];
         through.push_back(before + pace(baffle, problem_) * (asked - before));
       }
@@ -350,19 +356,19 @@ class SheetFlow final : public Flow {
 
   /// The drop acts on the whole face; layers share it as they resist.
   void add_loads(const Baffle& baffle, double drop) {
-    const double v = std::abs(passing(baffle, problem_.sheets, drop));
+    const double v = std::abs(passing(baffle, problem_.bodies, drop));
     std::vector<double> part;
     double sum = 0;
     for (const Layer& layer : baffle.layers) {
-      const Sheet& sheet = problem_.sheets[layer.sheet];
-      part.push_back(sheet.linear / layer.slant + sheet.quadratic * v / (layer.slant * layer.slant));
+      const PressureDrop& law = problem_.bodies[layer.body].drop();
+      part.push_back(law.linear / layer.slant + law.quadratic * v / (layer.slant * layer.slant));
       sum += part.back();
     }
     for (std::size_t n = 0; n < part.size(); ++n) {
       const Layer& layer = baffle.layers[n];
       const double own = sum > 0 ? drop * part[n] / sum : drop / static_cast<double>(part.size());
       SheetLoad load;
-      load.sheet = layer.sheet;
+      load.body = layer.body;
       load.triangle = layer.triangle;
       load.point = layer.point;
       load.outward = layer.outward;

@@ -11,6 +11,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/core/hash.h"
+#include "ripstop/flow/boundaries.h"
 
 namespace ripstop::openfoam {
 namespace {
@@ -65,7 +66,7 @@ json describe_basis(const Basis& basis) {
         {"temperature_k", air.temperature},
         {"turbulence_intensity", air.turbulence_intensity},
         {"viscosity_ratio", air.viscosity_ratio}}},
-      {"slip_sides", basis.sides == Sides::slip},
+      {"sides", std::string(basis.sides.word)},
       {"ranks", basis.ranks},
       {"second_order", basis.second_order},
       {"incompressible", basis.incompressible},
@@ -86,7 +87,9 @@ Basis basis_from(const json& j) {
                  grading(grid.at("grading").at(2))}};
   basis.air = {vec3(air.at("velocity_m_s")), air.at("density_kg_m3"),        air.at("viscosity_pa_s"),
                air.at("temperature_k"),      air.at("turbulence_intensity"), air.at("viscosity_ratio")};
-  basis.sides = j.at("slip_sides") ? Sides::slip : Sides::zero_gradient;
+  const std::string sides = j.at("sides");
+  for (const auto& row : boundaries())
+    if (row->word == sides) basis.sides = {row->word};
   basis.ranks = j.at("ranks");
   basis.second_order = j.at("second_order");
   basis.incompressible = j.value("incompressible", false);  // before there was a choice it was not said

@@ -65,7 +65,7 @@ ComputedCanopy computed_canopy(const Settings& resolved, const std::vector<Vec3>
 
 ComputedCanopy computed_canopy(const std::filesystem::path& run) {
   finished_result(run);  // throws where anything of it was lost or changed
-  ComputedCanopy canopy = computed_canopy(case_of_run(run), final_state(run).shape);
+  ComputedCanopy canopy = computed_canopy(settings_of_run(run), final_state(run).shape);
   canopy.run = run.string();
   return canopy;
 }

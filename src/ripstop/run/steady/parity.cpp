@@ -132,7 +132,7 @@ ParityResult flow_parity(const ParitySettings& settings, const ParityEvents& eve
   for (const ParityCanopy& canopy : parity_canopies) {
     const std::vector<std::string>& asked = settings.canopies;
     if (!asked.empty() && std::find(asked.begin(), asked.end(), canopy.name) == asked.end()) continue;
-    problem.porous = {{cut, canopy.darcy, canopy.forchheimer}};
+    problem.bodies = {porous_body({cut, canopy.darcy, canopy.forchheimer})};
     result.rows.push_back(compare_engines(settings, folder, problem, canopy.name, events));
     if (events.row) events.row(result);
   }
