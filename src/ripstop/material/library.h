@@ -26,6 +26,9 @@ void describe(Fields& fields, Material& material);
 /// `key` is the table's full name, empty for a file of its own.
 void check_material(const Material& material, const std::string& key, Findings& findings);
 
+/// Characters of a material's `warning`.
+inline constexpr std::size_t most_warning_text = 2000;
+
 std::string kind_of(const Material& material);  // "fabric", "line", "tape"
 std::string name_of(const Material& material);
 void set_name(Material& material, const std::string& name);
