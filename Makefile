@@ -18,7 +18,7 @@ CHECK_PACKAGES := libgtest-dev libbenchmark-dev python3 python3-jsonschema pytho
 
 export PATH := /usr/bin:$(PATH)
 
-.PHONY: help deps check-deps build demo check room sanitize sanitize-thread fuzz mutants coverage tidy bench validate validate-ojf validate-families validate-families-in-time validate-openings judge torture test-slurm test-hosts scaling report-libraries format format-check install-build install wheel package clean
+.PHONY: help deps check-deps build demo check room sanitize sanitize-thread fuzz mutants coverage tidy bench validate validate-ojf validate-families validate-families-in-time validate-openings judge torture test-slurm test-hosts scaling reference report-libraries format format-check install-build install wheel package clean
 
 help:  ## This list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -146,6 +146,11 @@ test-hosts: build  ## OpenFOAM's ranks on two hosts, network namespaces of this 
 
 scaling: build  ## OpenFOAM's time an iteration on 1, 2, 4 ... ranks up to the cores, into docs/tables; on an idle machine
 	@/usr/bin/python3 validation/cluster/ranks.py --ripstop build/bin/ripstop
+
+reference: check-deps  ## Write the generated pages of docs/reference: keys, commands, Python package
+	@cmake --preset release > build-check.configure.log || { cat build-check.configure.log; exit 1; }
+	@cmake --build --preset release -j $(JOBS) --target ripstop_program ripstop_python
+	@/usr/bin/python3 docs/site/reference.py --program build-check/bin/ripstop --stub build-check/python/ripstop/_ripstop.pyi
 
 report-libraries:  ## Make the report's three.js and uPlot again from npm, as package-lock.json pins them (needs node)
 	@cd src/ripstop/report/vendor && npm ci --silent && npm run --silent build && rm -rf node_modules

@@ -7,11 +7,14 @@
 #include <vector>
 
 #include "number_option.h"
+#include "warnings.h"
 
 namespace ripstop {
 
 Case read_given(const std::filesystem::path& file, const Overrides& overrides) {
-  return read_case(file, overrides);
+  Case given = read_case(file, overrides);
+  print_deprecations(given.deprecations);
+  return given;
 }
 
 Settings read_settings(const std::filesystem::path& file, const Overrides& overrides) {

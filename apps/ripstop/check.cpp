@@ -87,7 +87,7 @@ void print(const Settings& resolved, const CaseSummary& s, std::size_t warnings)
 
 int run(const CheckArguments& options) {
   try {
-    const Settings resolved = read_settings(options.case_file, options.overrides);
+    const Settings resolved = resolve(read_case(options.case_file, options.overrides));
     if (options.resolved) {
       fmt::print("{}", case_toml(resolved));
       return 0;

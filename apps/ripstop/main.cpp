@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "commands.h"
+#include "ripstop/case/quantity_keys.h"
 #include "ripstop/core/build_info.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/toml/problem.h"
@@ -83,7 +84,7 @@ int parse(CLI::App& app, int argc, char** argv, const int& status) {
   } catch (const CLI::ParseError& error) {
     return failed(ExitCode::usage, usage_message(app, error, argc, argv));
   } catch (const Error& error) {
-    return failed(error.code(), error.what());
+    return failed(error.code(), message_of(error));
   } catch (const std::bad_alloc&) {
     return failed(ExitCode::resources, "not enough memory: take fewer nodes, cells or runs side by side");
   } catch (const std::system_error& error) {  // of output or of a folder

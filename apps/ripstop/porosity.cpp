@@ -130,8 +130,9 @@ void write_result(const fs::path& folder, const Settings& resolved, const std::v
   j["standard_error_computed"] = found.error_computed;
   j["interval_95"] = {found.knob - found.interval, found.knob + found.interval};
   j["material"] = resolved.parachute().canopy_material;
-  j["darcy"] = law.linear;
-  j["forchheimer"] = law.quadratic;
+  const auto [linear, quadratic] = resistance_keys(resolved.flow().porosity_model);
+  j[linear] = law.linear;
+  j[quadratic] = law.quadratic;
   if (knob == PorosityKnob::gamma) {
     j["thickness_m"] = options.thickness;
     j["printed_fit"] = {{"slope", printed_slope}, {"intercept", printed_intercept}, {"r2", 0.989}};
@@ -156,7 +157,7 @@ void write_result(const fs::path& folder, const Settings& resolved, const std::v
 }
 
 void print_result(const std::vector<MeasuredDrag>& measured, const PorosityCalibration& found,
-                  PorosityKnob knob, const PressureDrop& law, const std::string& material) {
+                  PorosityKnob knob, const PressureDrop& law, const Settings& resolved) {
   const LineFit& c = found.coefficient;
   fmt::print("\nC_D = {:.4f} {:+.4f} x with x = {}, R2 = {:.4f}, {} trials ", c.intercept, c.slope,
              knob_name(knob), c.r2, c.points);
@@ -170,10 +171,11 @@ void print_result(const std::vector<MeasuredDrag>& measured, const PorosityCalib
   fmt::print(
       "\n{} = {:.5g} +- {:.2g} (standard error: {:.2g} from the measured points, {:.2g} from the trials)\n",
       knob_name(knob), found.knob, found.error(), found.error_measured, found.error_computed);
+  const auto [linear, quadratic] = resistance_keys(resolved.flow().porosity_model);
   fmt::print(
-      "  for other parachutes of this cloth: --set materials.{}.darcy={:.10g} --set "
-      "materials.{}.forchheimer={:.10g}\n",
-      material, law.linear, material, law.quadratic);
+      "  for other parachutes of this cloth: --set materials.{0}.{1}={2:.10g} --set "
+      "materials.{0}.{3}={4:.10g}\n",
+      resolved.parachute().canopy_material, linear, law.linear, quadratic, law.quadratic);
 }
 
 int calibrate(PorosityArguments& options) {
@@ -206,7 +208,7 @@ int calibrate(PorosityArguments& options) {
   if (options.json) {
     fmt::print("{}", read_file(folder / "result.json"));
   } else {
-    print_result(measured, found, knob, law, resolved.parachute().canopy_material);
+    print_result(measured, found, knob, law, resolved);
     fmt::print("  {} (porosity.svg, porosity.png, sweep.csv)\n", (folder / "result.json").string());
   }
   if (!found.outside) return 0;

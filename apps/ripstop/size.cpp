@@ -32,7 +32,7 @@ struct SizeArguments {
 
 void print_result(const SizeResult& r, const fs::path& file, const fs::path& page) {
   const auto row = [](const char* name, const std::string& text) { fmt::print("  {:<20} {}\n", name, text); };
-  fmt::print("{}\n", r.resolved.title());
+  fmt::print("{}\n", r.given.title);
   row("air", fmt::format("{:.4g} kg/m3", r.density));
   row("drag coefficient",
       fmt::format("{:.3f}, {}{}", r.drag_coefficient, r.drag_source,

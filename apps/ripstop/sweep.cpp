@@ -17,6 +17,7 @@
 #include "steady_terminal.h"
 #include "stopping.h"
 #include "sweep_progress.h"
+#include "warnings.h"
 
 namespace ripstop {
 namespace {
@@ -108,6 +109,7 @@ int sweep(SweepArguments& options) {
   finish(options, "sweep");
   const std::vector<SweepAxis> axes = axes_of(options);
   const std::vector<SweepPoint> points = sweep_points(options.case_file, options.overrides, axes);
+  print_deprecations(points.front().resolved.deprecations());
   const std::filesystem::path& folder = options.settings.folder;
   if (options.batch.wanted()) return write_scripts(options, points);
   if (!options.only.empty()) return run_only(options, points);

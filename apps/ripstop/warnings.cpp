@@ -17,6 +17,10 @@ void print_all(const std::vector<std::string>& warnings) {
 
 }  // namespace
 
+void print_deprecations(const std::vector<std::string>& deprecations) {
+  print_all(deprecations);
+}
+
 void print_mesh_warning(const Settings& resolved) {
   print_all(mesh_warnings(resolved));
 }

@@ -1,9 +1,15 @@
 // What the materials of a case have to say about a run.
 #pragma once
 
-#include "ripstop/case/case.h"
+#include <string>
+#include <vector>
+
+#include "ripstop/case/settings.h"
 
 namespace ripstop {
+
+/// Says on standard error which keys of a case have a new name.
+void print_deprecations(const std::vector<std::string>& deprecations);
 
 /// Says on standard error when the mesh is too coarse for the size of the inflated canopy.
 void print_mesh_warning(const Settings& resolved);

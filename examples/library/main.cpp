@@ -36,13 +36,14 @@ struct Progress : ripstop::SteadyObserver {
 
 int main() {
   try {
-    const ripstop::Case given = ripstop::checked(my_canopy());  // every mistake at once
+    // Checked first: every mistake at once.
+    const ripstop::Settings resolved = ripstop::resolve(ripstop::checked(my_canopy()));
 
-    const ripstop::FabricResult still = ripstop::run_fabric(resolve(given), 240).result;
+    const ripstop::FabricResult still = ripstop::run_fabric(resolved, 240).result;
     std::printf("under 240 Pa: %.3f m wide, %.0f N\n", still.size.projected_diameter, still.pressure_load);
 
     Progress progress;
-    const ripstop::SteadySolution flight = ripstop::run_steady(given, progress);
+    const ripstop::SteadySolution flight = ripstop::run_steady(resolved, progress);
     std::printf("drag %.2f N, C_D %.3f, %s\n", flight.result.drag, flight.result.drag_coefficient,
                 flight.result.converged ? "converged" : "not converged");
     return flight.result.converged ? 0 : 1;

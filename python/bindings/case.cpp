@@ -59,6 +59,8 @@ void parse(PyCase& made) {
   overrides.set = made.set;
   made.given = parse_case(made.text, made.name, overrides);
   made.given.file = made.file;
+  for (const std::string& text : made.given.deprecations)
+    if (PyErr_WarnEx(PyExc_DeprecationWarning, text.c_str(), 1) != 0) throw py::error_already_set();
 }
 
 PyCase from_toml(const std::string& text, const std::string& name, const py::dict& set) {

@@ -3,6 +3,7 @@
 
 #include "members.h"
 #include "module.h"
+#include "ripstop/case/quantity_keys.h"
 #include "ripstop/core/error.h"
 #include "ripstop/run/sizing/check.h"
 
@@ -18,7 +19,7 @@ py::handle make_exception(py::module_& module, const char* name, py::handle base
 }
 
 void raise(py::handle type, const Error& error, const py::list& problems) {
-  py::object exception = type(error.what());
+  py::object exception = type(message_of(error));
   exception.attr("exit_code") = static_cast<int>(error.code());
   if (!problems.empty()) exception.attr("problems") = problems;
   PyErr_SetObject(type.ptr(), exception.ptr());

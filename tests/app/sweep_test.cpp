@@ -54,7 +54,7 @@ class Sweep : public testing::Test {
 };
 
 TEST_F(Sweep, ThatIsKilledAndStartedAgainGivesTheSameTable) {
-  const std::string vary = "materials.f-111.forchheimer=30,45";
+  const std::string vary = "materials.f-111.forchheimer_1_m=30,45";
   ASSERT_EQ(wait_for(start(command("whole", vary))), 0);
   const std::string whole = table("whole");
   EXPECT_NE(whole.find("converged"), std::string::npos);

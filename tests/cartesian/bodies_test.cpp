@@ -12,7 +12,7 @@
 #include "ripstop/flow/cartesian/cartesian.h"
 #include "ripstop/flow/steady.h"
 
-namespace ripstop {
+namespace ripstop::several_bodies {
 namespace {
 
 constexpr double density = 1.2, speed = 20;
@@ -136,4 +136,4 @@ TEST(Bodies, ThatLeaveTheBoxAreRefused) {
 }
 
 }  // namespace
-}  // namespace ripstop
+}  // namespace ripstop::several_bodies

@@ -425,14 +425,18 @@ TEST(CartesianEngine, SaysWhatIsWrongWithTheProblem) {
   problem.bodies[0].porous().cells.push_back(problem.grid.cells());
   EXPECT_THROW(solve(*make_cartesian(), problem), Error);
   problem = open_box(12, 12, 16, 10);
-  for (double Freestream::*number :
-       {&Freestream::speed, &Freestream::density, &Freestream::viscosity, &Freestream::temperature,
-        &Freestream::turbulence_intensity, &Freestream::viscosity_ratio}) {
+  for (double Freestream::*number : {&Freestream::density, &Freestream::viscosity, &Freestream::temperature,
+                                     &Freestream::turbulence_intensity, &Freestream::viscosity_ratio}) {
     for (const double wrong : {-1.0, 0.0, std::nan("")}) {
       problem = open_box(12, 12, 16, 10);
       problem.air.*number = wrong;
       EXPECT_THROW(make_cartesian()->start(problem), Error) << wrong;
     }
+  }
+  for (const double wrong : {0.0, std::nan("")}) {
+    problem = open_box(12, 12, 16, 10);
+    problem.air.velocity = {0, 0, wrong};
+    EXPECT_THROW(make_cartesian()->start(problem), Error) << wrong;
   }
   CartesianSettings settings;
   settings.relax_pressure = 0;

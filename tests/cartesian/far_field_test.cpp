@@ -12,7 +12,7 @@
 #include "ripstop/flow/cartesian/cartesian.h"
 #include "ripstop/flow/steady.h"
 
-namespace ripstop {
+namespace ripstop::far_fields {
 namespace {
 
 CartesianSettings one_thread() {
@@ -188,4 +188,4 @@ TEST(Boundaries, AnUnknownWordIsRefusedWithThoseThatThereAre) {
 }
 
 }  // namespace
-}  // namespace ripstop
+}  // namespace ripstop::far_fields

@@ -12,7 +12,7 @@
 #include "ripstop/flow/cartesian/cartesian.h"
 #include "ripstop/flow/steady.h"
 
-namespace ripstop {
+namespace ripstop::jets {
 namespace {
 
 constexpr double speed = 20;  // [m/s]
@@ -122,4 +122,4 @@ TEST(OpenJet, GivesWayToADiskThatWallsHoldTheAirAgainst) {
 }
 
 }  // namespace
-}  // namespace ripstop
+}  // namespace ripstop::jets

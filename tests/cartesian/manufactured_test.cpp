@@ -7,7 +7,7 @@
 #include "ripstop/flow/cartesian/cartesian.h"
 #include "ripstop/flow/steady.h"
 
-namespace ripstop {
+namespace ripstop::manufactured {
 namespace {
 
 constexpr double stream = 10, eddy = 0.2, density = 1.2, viscosity = 0.24, swing = 20;
@@ -54,7 +54,7 @@ double error(int n, bool second_order) {
   FlowProblem problem;
   problem.grid = {{-1, -1, 0}, {2, 2, 3}, 2 * n, 2 * n, 3 * n};
   // Next to no turbulence: its eddy viscosity is a millionth of the air's.
-  problem.air = {.speed = stream,
+  problem.air = {.velocity = {0, 0, stream},
                  .density = density,
                  .viscosity = viscosity,
                  .turbulence_intensity = 1e-4,
@@ -103,4 +103,4 @@ TEST(MadeUpFlow, TheLimitedSolutionIsOfSecondOrder) {
 }
 
 }  // namespace
-}  // namespace ripstop
+}  // namespace ripstop::manufactured

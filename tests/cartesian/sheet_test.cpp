@@ -8,6 +8,7 @@
 #include <numbers>
 #include <tuple>
 
+#include "../diverges.h"
 #include "even_axis.h"
 #include "ripstop/core/error.h"
 #include "ripstop/flow/bodies.h"
@@ -41,6 +42,16 @@ std::vector<Triangle> octahedron(Vec3 c, double radius) {
     faces.push_back({c + Vec3{x, 0, 0}, c + Vec3{0, y, 0}, c + Vec3{0, 0, z}});
   }
   return faces;
+}
+
+TEST(SheetFaces, AFreeEdgeLongerThanAnySheetIsAnError) {
+  const Axis x = even_axis(-1, 2, 8);
+  for (const double far : {1e12, 1e308}) {
+    const std::string message = testing::divergence([&] {
+      sheet_faces(x, x, x, {{{0, 0, 0}, {far, 0, 0.1}, {0, 0.5, 0}}});
+    });
+    EXPECT_TRUE(testing::says(message, "free edge")) << message;
+  }
 }
 
 TEST(SheetFaces, AClosedSurfacePartsItsInsideFromItsOutsideWithoutAHole) {

@@ -81,7 +81,7 @@ TEST(MadeInCode, AnEngineThatThereIsNotIsOneMistake) {
 TEST(MadeInCode, AMaterialOfItsOwnComesBeforeTheLibrarys) {
   Case given = made();
   Fabric cloth = std::get<Fabric>(library_material("f-111-physical"));
-  cloth.resistance = {PorosityModel::sheet, 100, 200};
+  cloth.resistance = {100, 200, {}, {}, {}};
   given.materials["f-111-physical"] = cloth;
   EXPECT_EQ(flow_problem(resolve(checked(given))).bodies.at(0).drop().quadratic, 200);
 }

@@ -33,17 +33,17 @@ TEST(Set, ReplacesAnyKindOfKey) {
 
 TEST(Set, OfAMaterialOfTheLibraryLeavesItsOtherValues) {
   const Fabric plain = canopy_fabric(parse_case(valid_case, "small.toml"));
-  const Case changed = with("materials." + plain.name + ".darcy=12.5");
-  EXPECT_DOUBLE_EQ(canopy_fabric(changed).resistance.linear, 12.5);
+  const Case changed = with("materials." + plain.name + ".pressure_drop_linear_pa_s_m=12.5");
+  EXPECT_DOUBLE_EQ(as_sheet(canopy_fabric(changed).resistance).linear, 12.5);
   EXPECT_EQ(canopy_fabric(changed).coefficients_n_m, plain.coefficients_n_m);
-  EXPECT_DOUBLE_EQ(canopy_fabric(changed).resistance.quadratic, plain.resistance.quadratic);
+  EXPECT_EQ(as_sheet(canopy_fabric(changed).resistance).quadratic, as_sheet(plain.resistance).quadratic);
 }
 
 TEST(Set, OfAKeyThatDoesNotExistNamesTheNearestAndTheOption) {
   const std::string text = refusal("flow.cels=[1,2,3]");
   EXPECT_NE(text.find("--set"), std::string::npos) << text;
   EXPECT_NE(text.find("\"cells\""), std::string::npos) << text;
-  EXPECT_NE(refusal("materials.f-11.darcy=1").find("f-111"), std::string::npos);
+  EXPECT_NE(refusal("materials.f-11.darcy_1_m2=1").find("f-111"), std::string::npos);
   EXPECT_NE(refusal("flow.engine=opnfoam").find("\"openfoam\""), std::string::npos);
   for (const char* wrong :
        {"flow", "flow.cells=", "flow..x=1", "flow.cells[9]=1", "flow.cells[a]=1", "flow.cells[0)=20", "=3",

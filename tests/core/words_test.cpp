@@ -12,6 +12,10 @@ TEST(Words, AKeyBecomesWordsAndAUnit) {
   EXPECT_EQ(in_words("density_kg_m3").with_unit(), "density [kg/m³]");
   EXPECT_EQ(in_words("max_line_tension_n").with_unit(), "highest line tension [N]");
   EXPECT_EQ(in_words("damping_n_s_m3").with_unit(), "damping [N s/m³]");
+  EXPECT_EQ(in_words("pressure_drop_linear_pa_s_m").with_unit(), "pressure drop linear [Pa s/m]");
+  EXPECT_EQ(in_words("pressure_drop_quadratic_pa_s2_m2").unit, "Pa s²/m²");
+  EXPECT_EQ(in_words("materials.f-111.darcy_1_m2").with_unit(), "darcy [1/m²]");
+  EXPECT_EQ(in_words("forchheimer_1_m").unit, "1/m");
   EXPECT_EQ(in_words("coupling_iterations").with_unit(), "coupling iterations");
 }
 

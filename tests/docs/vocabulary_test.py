@@ -15,7 +15,7 @@ LONGEST_HEADING = 9    # words
 REWRITTEN = [
     "CONTRIBUTING.md", "src/README.md", "materials/README.md", "validation/nylon-ribbons/README.md",
     "validation/ojf/README.md", "validation/stratos-iv/README.md", GLOSSARY,
-    *sorted(str(page.relative_to(ROOT)) for page in ROOT.glob("examples/*/README.md")),
+    *sorted(str(page.relative_to(ROOT)) for page in ROOT.glob("examples/**/README.md")),
     *(f"docs/{page}.md" for page in ("README", "conventions", "performance", "reliability")),
     *(f"docs/guide/{page}.md" for page in (
         "canopies", "case-file", "cluster", "compare", "editor", "flight", "import", "inflate", "openfoam", "output-files", "porosity", "python",
@@ -26,9 +26,10 @@ REWRITTEN = [
         "tunnel"))]
 
 TABLES = "docs/tables/"  # made by commands
+GENERATED = [f"docs/reference/{page}.md" for page in ("case-keys", "commands", "python")]  # by make reference
 ALL = sorted(str(page.relative_to(ROOT)) for page in
              [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "src/README.md", ROOT / "materials/README.md", *ROOT.glob("docs/**/*.md"),
-              *ROOT.glob("examples/*/README.md"), *ROOT.glob("validation/*/README.md")])
+              *ROOT.glob("examples/**/README.md"), *ROOT.glob("validation/*/README.md")])
 
 # Words that are used in a figurative sense, with the standard term or the reason.
 FIGURATIVE = {
@@ -67,11 +68,9 @@ COMMAND = re.compile(r"^\s+(?:make|ripstop|build\S*/|python3?|cmake|ctest|sbatch
 
 
 def page_lines(text):
-    """Lines outside fences and of the part that people write; a generated reference ends the page."""
+    """Lines outside fences."""
     in_code = False
     for line in text.splitlines():
-        if line == "## All keys":
-            return
         fence = line.lstrip().startswith("```")
         in_code ^= fence
         yield "" if fence or in_code else line
@@ -162,7 +161,7 @@ class Vocabulary(unittest.TestCase):
 
     def test_open_pages_are_listed(self):
         self.assertEqual([page for page in REWRITTEN if page not in ALL], [])
-        pages = [page for page in ALL if page not in REWRITTEN and not page.startswith(TABLES)]
+        pages = [page for page in ALL if page not in REWRITTEN + GENERATED and not page.startswith(TABLES)]
         print(f"{len(REWRITTEN)} pages follow the rules; {len(pages)} are open:", *pages, sep="\n  ")
 
     def test_figurative_sentences_are_refused(self):

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "../diverges.h"
 #include "../printed_materials.h"
 #include "ripstop/core/error.h"
 #include "ripstop/fsi/pressure.h"
@@ -55,6 +56,38 @@ TEST(Inflation, TheFoldedStateAtRestStaysAtRest) {
   for (std::size_t i = 0; i < x.size(); ++i)
     farthest = std::max(farthest, norm(x[i] - solver.folded().positions[i]));
   EXPECT_LT(farthest, 1e-9);
+}
+
+TEST(Inflation, ALossOfStabilityIsAnErrorThatNamesTimeAndNode) {
+  using testing::divergence, testing::says;
+  Inflation solver(small_problem(500, 5e-3));
+  InflationState begun = solver.start();
+  solver.advance(begun);
+  for (const double bad : {double(NAN), double(INFINITY)}) {
+    InflationState state = begun;
+    state.cloth.x[state.cloth.x.size() / 2] = bad;
+    EXPECT_TRUE(says(divergence([&] { solver.advance(state); }), "has no finite position")) << bad;
+    state = begun;
+    state.cloth.v[state.cloth.v.size() / 2] = bad;
+    EXPECT_TRUE(says(divergence([&] { solver.advance(state); }), "t = ")) << bad;
+  }
+  for (const double step : {0.0, -1e-6, 1e-300, double(NAN)}) {
+    InflationState state = begun;
+    state.step = step;
+    const std::string message = divergence([&] { solver.advance(state); });
+    EXPECT_TRUE(says(message, "t = 0.00") && says(message, "steps of")) << step << ": " << message;
+  }
+}
+
+TEST(Inflation, AStableStepBelowThatOfAnyWholeClothIsAnErrorThatNamesTheNode) {
+  InflationProblem problem = small_problem(500, 5e-3);
+  for (SpringLaw& law : problem.mesh.laws)
+    for (double& coefficient : law.coefficients) coefficient *= 1e14;
+  const Inflation solver(problem);
+  const std::string message = testing::divergence([&] { solver.start(); });
+  EXPECT_TRUE(testing::says(message, "t = 0 s") && testing::says(message, "at node ") &&
+              testing::says(message, "may help"))
+      << message;
 }
 
 // A block may end by rounding before the instant that it stands for.

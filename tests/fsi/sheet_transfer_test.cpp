@@ -9,6 +9,7 @@
 #include <numbers>
 #include <random>
 
+#include "../diverges.h"
 #include "loads_on_faces.h"
 
 namespace ripstop {
@@ -320,6 +321,20 @@ TEST(SheetTransfer, ForceOnClothInFoldsStaysThere) {
   };
   EXPECT_NEAR(on_fold(Folds::filled), f.extra, 0.15 * f.extra);
   EXPECT_LT(on_fold(Folds::few), 0.8 * f.extra);
+}
+
+// What a motion of the cloth that has diverged hands over.
+TEST(SheetTransfer, ClothThatIsNowhereOrFartherThanAnyCanopyIsAnError) {
+  const FlowGrid grid = box(16);
+  Surface s = cap(8, 32);
+  const std::vector<Triangle> surface = s.triangles();
+  const std::vector<SheetLoad> loads = loads_of(surface, grid, [](Vec3) { return 100.0; });
+  for (const double far : {1e9, 1e300, double(INFINITY), double(NAN)}) {
+    s.x[40].x = far;
+    const std::string message =
+        testing::divergence([&] { load_of_flow(loads, grid, surface, s.cells, s.x, Folds::filled); });
+    EXPECT_TRUE(testing::says(message, "diverged")) << message;
+  }
 }
 
 }  // namespace

@@ -76,11 +76,11 @@ TEST(Library, ClothsLetThroughTheAirOfTheirSpecification) {
     const double flow = cfm(as_sheet(cloth.resistance));
     EXPECT_GE(flow, r.low) << r.name;
     EXPECT_LE(flow, r.high) << r.name;
-    EXPECT_EQ(cloth.resistance.model, PorosityModel::sheet) << r.name;
+    EXPECT_EQ(model_of(cloth.resistance), PorosityModel::sheet) << r.name;
   }
   const Fabric printed = std::get<Fabric>(library_material("f-111"));
   EXPECT_EQ(as_cells(printed.resistance).darcy, 65.98);
-  EXPECT_EQ(printed.resistance.model, PorosityModel::paper);
+  EXPECT_EQ(model_of(printed.resistance), PorosityModel::paper);
   EXPECT_TRUE(material_warnings(printed, 0.1).empty());
 }
 

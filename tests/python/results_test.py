@@ -82,11 +82,17 @@ class Errors(unittest.TestCase):
         self.assertEqual("\n".join(map(str, error.problems)), "\n".join(line.strip() for line in str(error).splitlines() if "case.toml:" in line))
 
     def test_settings_are_refused_as_those_of_the_command_line(self):
-        for key, value, text in [("flow.speed_m_s", -3, "-3"), ("flow.spede", 3, "3"), ("materials.f-1111.darcy", 1, "1"),
+        for key, value, text in [("flow.speed_m_s", -3, "-3"), ("flow.spede", 3, "3"), ("materials.f-1111.darcy_1_m2", 1, "1"),
                                  ("flow.cells", [1, 2], "[1, 2]"), ("flow.engine", "openfaom", "openfaom")]:
             with self.subTest(key):
                 self.both(ripstop.InputError, lambda: ripstop.read_case(small.STRATOS, set={key: value}),
                           "check", small.STRATOS, "--set", f"{key}={text}")
+
+    def test_an_old_key_is_read_with_a_warning_that_names_the_new_one(self):
+        with self.assertWarnsRegex(DeprecationWarning, "write materials.f-111.darcy_1_m2"):
+            case = ripstop.read_case(small.STRATOS, set={"materials.f-111.darcy": 60})
+        self.assertEqual(case["materials.f-111.darcy_1_m2"], 60)
+        self.assertIn("materials.f-111.darcy is an old key", ripstop.check(case).warnings[0])
 
     def test_a_missing_file_and_a_folder_without_a_run(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -119,7 +125,7 @@ class Results(unittest.TestCase):
         check = ripstop.check(case)
         self.same_as_program(check, "check", small.STRATOS)
         self.assertEqual(check.mass_kg.total, check.asdict()["mass_kg"]["total"])
-        self.assertEqual({"key", "value", "given", "from"}, set(check.sources[0]))
+        self.assertEqual({"key", "value", "unit", "given", "from"}, set(check.sources[0]))
 
     def test_pattern(self):
         with tempfile.TemporaryDirectory() as folder:

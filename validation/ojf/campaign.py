@@ -124,8 +124,11 @@ class Campaign:
         return json.loads(file.read_text()) if file.exists() else None
 
 
+LAW_KEYS = ("darcy_1_m2", "forchheimer_1_m", "pressure_drop_linear_pa_s_m", "pressure_drop_quadratic_pa_s2_m2")
+
+
 def law(result, factor=1):
-    return [f"materials.{result['material']}.{key}={factor * result[key]!r}" for key in ("darcy", "forchheimer")]
+    return [f"materials.{result['material']}.{key}={factor * result[key]!r}" for key in LAW_KEYS if key in result]
 
 
 def calibrated(campaign):
@@ -185,7 +188,7 @@ def provenance(campaign, model, calibration=None):
              "flow_engine": run["flow_engine"], "cells": run["case"]["flow"]["cells"], "box_m": run["case"]["flow"]["box_m"]}
     if calibration:
         entry["calibration"] = {key: calibration[key] for key in
-                                ("knob", "value", "standard_error", "darcy", "forchheimer", "root_mean_square_misfit")}
+                                ("knob", "value", "standard_error", *LAW_KEYS, "root_mean_square_misfit") if key in calibration}
     known[model] = entry
     path.write_text(json.dumps(known, indent=2) + "\n")
 
@@ -325,7 +328,7 @@ def porosity_rows(result, factor):
     for sign, name in ((-1, "- 1 s"), (1, "+ 1 s")):
         knob = result["value"] + sign * result["standard_error"]
         if result["knob"] == "gamma":
-            settings = ergun(knob, result["thickness_m"], result["material"], factor)
+            settings = ergun(knob, result, factor)
         else:
             settings = law(result, factor * result["value"] / knob)
         rows.append(("porosity", f"{result['knob']} {name}", settings))
@@ -351,10 +354,10 @@ def printed_drag(campaign, parachute):
     return json.loads((folder / "result.json").read_text())["drag_n"]
 
 
-def ergun(gamma, thickness, cloth, factor):
+def ergun(gamma, result, factor):
     """[NFM] Eq. 16 with V/S = t, at the air of its table, times a factor."""
-    a, b = 150 * 1.81e-5 / (36 * thickness * gamma**3), 1.75 * 1.225 / (6 * gamma**3)
-    return [f"materials.{cloth}.darcy={factor * a!r}", f"materials.{cloth}.forchheimer={factor * b!r}"]
+    a, b = 150 * 1.81e-5 / (36 * result["thickness_m"] * gamma**3), 1.75 * 1.225 / (6 * gamma**3)
+    return law({"material": result["material"], **dict(zip([key for key in LAW_KEYS if key in result], (a, b)))}, factor)
 
 
 def write_uncertainty(model, drags):

@@ -29,6 +29,13 @@ def rows(path):
         return list(csv.DictReader(file))
 
 
+def permeability(result):
+    if "darcy_1_m2" in result:
+        return f"Darcy {result['darcy_1_m2']:.2f}, Forchheimer {result['forchheimer_1_m']:.3f}"
+    return (f"a = {result['pressure_drop_linear_pa_s_m']:.2f} Pa s/m, "
+            f"b = {result['pressure_drop_quadratic_pa_s2_m2']:.3f} Pa s2/m2")
+
+
 def calibration(runs, folder="paper/calibration"):
     result = load(runs / folder / "result.json")
     if not result:
@@ -38,7 +45,7 @@ def calibration(runs, folder="paper/calibration"):
     text = [f"{knob} = {result['value']:.{digits}f} +- {result['standard_error']:.{digits}f} (standard error; "
             f"{result['standard_error_measured']:.{digits}f} from the measured points, "
             f"{result['standard_error_computed']:.{digits}f} from the trials), 95 % interval {low:.{digits}f} to {high:.{digits}f}; "
-            f"Darcy {result['darcy']:.2f}, Forchheimer {result['forchheimer']:.3f}. C_D = {fit['intercept']:.4f} {fit['slope']:+.4g} "
+            f"{permeability(result)}. C_D = {fit['intercept']:.4f} {fit['slope']:+.4g} "
             f"{knob} over {fit['points']} trials, R2 = {fit['r2']:.4f}. Scatter over the shifts "
             f"{100 * result['shift_scatter']:.2f} % rms; misfit of the measured points {100 * result['root_mean_square_misfit']:.1f} % rms.", ""]
     return text + table(["nominal m/s", "measured N", "measured m2", "computed m2", "error %"],

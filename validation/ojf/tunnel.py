@@ -21,5 +21,5 @@ JET_VARIATIONS = {
     "grid": [("a fifth coarser", ["flow.cells=[70,70,78]"]), ("on the axis", ["flow.core.off_axis=0"]),
              ("0.4 of a cell beside it", ["flow.core.off_axis=0.4"])],
     "turbulence": [("intensity 5 %", ["flow.turbulence_intensity=0.05"])],
-    "permeability": [(f"{cfm} CFM/ft2, of 3", [f"materials.f-111-physical.darcy={3 / cfm * 8169.3:.1f}"]) for cfm in (0.5, 5)],
+    "permeability": [(f"{cfm} CFM/ft2, of 3", [f"materials.f-111-physical.pressure_drop_linear_pa_s_m={3 / cfm * 8169.3:.1f}"]) for cfm in (0.5, 5)],
 }

@@ -38,7 +38,8 @@ def shape(options, name):
     subprocess.run(command, cwd=ROOT, check=True)
     cloth = json.loads((ROOT / folder / "run.json").read_text())["case"]["parachute"]["canopy_material"]
     material = tomllib.loads((ROOT / "materials" / f"{cloth}.toml").read_text())
-    return f"{name}={folder}/canopy.stl:{material['darcy']:g}:{material['forchheimer']:g}"
+    a, b = material["pressure_drop_linear_pa_s_m"], material["pressure_drop_quadratic_pa_s2_m2"]
+    return f"{name}={folder}/canopy.stl:{a:g}:{b:g}"
 
 
 def main():

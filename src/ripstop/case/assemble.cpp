@@ -38,8 +38,7 @@ FlowProblem flow_problem(const Settings& resolved) {
   problem.stopping.average_over = flow.average_over;
   const ClothResistance& cloth = resolved.materials().canopy.resistance;
   if (flow.porosity_model == PorosityModel::sheet) {
-    const PressureDrop drop = as_sheet(cloth);
-    problem.bodies = {sheet_body({}, drop)};
+    problem.bodies = {sheet_body({}, as_sheet(cloth))};
   } else {
     const PorousCellLaw cells = as_cells(cloth);
     problem.bodies = {porous_body({{}, cells.darcy, cells.forchheimer})};

@@ -133,8 +133,9 @@ struct Case {
   MarginFactors margins;
   std::vector<Measured> measured;
 
-  std::filesystem::path file;  // where it was read from; empty: not from a file
-  Origins origins;             // of every key that was given, for messages
+  std::filesystem::path file;             // where it was read from; empty: not from a file
+  Origins origins;                        // of every key that was given, for messages
+  std::vector<std::string> deprecations;  // one for each key that was given by an old name, for people
 };
 
 void describe(Fields& fields, CoreKeys& core);

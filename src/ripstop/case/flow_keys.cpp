@@ -84,11 +84,11 @@ void describe_space(Fields& fields, FlowKeys& flow) {
       .absent(by_model(fmt::format("half the length of the box, at most {:g} d", sheet_skirt),
                        "half the length of the box"));
   fields
-      .choice(
-          "porosity_model", flow.porosity_model,
-          {{"paper", PorosityModel::paper}, {"sheet", PorosityModel::sheet}},
-          "\"paper\": the cloth's darcy and forchheimer as resistance of every cell that the canopy cuts; "
-          "\"sheet\": as the pressure drop a v + b v|v| across the cloth, whatever the cells.")
+      .choice("porosity_model", flow.porosity_model,
+              {{"paper", PorosityModel::paper}, {"sheet", PorosityModel::sheet}},
+              "\"paper\": the cloth's darcy_1_m2 and forchheimer_1_m as resistance of every cell that the "
+              "canopy cuts; "
+              "\"sheet\": as the pressure drop a v + b v|v| across the cloth, whatever the cells.")
       .absent("what the canopy cloth's coefficients are for");
 }
 

@@ -88,20 +88,42 @@ void mark_origin(const Setting& setting, Origins& origins, std::vector<Problem>&
   }
 }
 
+/// Gives old keys their names of today, in the settings too.
+void rename_old_keys(Document& document, std::vector<Setting>& settings, Case& given) {
+  const auto materials = std::find_if(document.root.items.begin(), document.root.items.end(),
+                                      [](const Node& table) { return table.key == "materials"; });
+  if (materials == document.root.items.end()) return;
+  for (Node& material : materials->items) {
+    const std::string table = "materials." + material.key + ".";
+    for (const auto& [old, now] : ripstop::rename_old_keys(material)) {
+      given.deprecations.push_back(
+          now.empty()
+              ? fmt::format("{}{} is an old key that is no longer needed: which porosity model a cloth's "
+                            "permeability is for follows from its keys; leave it out",
+                            table, old)
+              : fmt::format("{}{} is an old key: write {}{}", table, old, table, now));
+      for (Setting& setting : settings)
+        if (setting.key == table + old && !now.empty()) setting.key = table + now;
+    }
+  }
+}
+
 }  // namespace
 
 Case parse_case(const std::string& text, const std::string& name, const Overrides& overrides) {
   Case given;
   std::vector<Problem> problems;
   Document document = parse_toml(text, name);
-  for (const Setting& setting : overrides.set) {
+  std::vector<Setting> settings = overrides.set;
+  for (const Setting& setting : settings) {
     import_material(document, setting);
     set_value(document, setting);
   }
+  rename_old_keys(document, settings, given);
   Fields fields;
   describe(fields, given);
   read_table(fields, document, given.origins, problems);
-  for (const Setting& setting : overrides.set) mark_origin(setting, given.origins, problems);
+  for (const Setting& setting : settings) mark_origin(setting, given.origins, problems);
   const std::vector<std::string> replaced = set_values(overrides, given);
   std::erase_if(problems, [&](const Problem& problem) {
     return std::find(replaced.begin(), replaced.end(), problem.key) != replaced.end();

@@ -266,8 +266,8 @@ SettingsValues settings_values(const Case& given) {
   resolve_tape(follow, given, written);
   resolve_air(follow, given, written.flow, flow);
   const Fabric& cloth = canopy_fabric(given);
-  flow.porosity_model = follow("flow.porosity_model", written.flow.porosity_model, cloth.resistance.model,
-                               fmt::format("what darcy and forchheimer of materials.{} are for", cloth.name));
+  flow.porosity_model = follow("flow.porosity_model", written.flow.porosity_model, model_of(cloth.resistance),
+                               fmt::format("what the permeability of materials.{} is for", cloth.name));
   resolve_tunnel(follow, written.flow, flow.tunnel);
   resolve_box(follow, parachute, written.flow, flow);
   resolve_numerics(follow, written, values);

@@ -95,6 +95,8 @@ class Settings {
 
   /// The case with every value written out: it runs without the library, and has the same settings.
   const Case& written() const { return values_.written; }
+  /// One for each key that was given by an old name.
+  const std::vector<std::string>& deprecations() const { return values_.written.deprecations; }
   /// Of every value that follows from others where it is not given.
   const std::vector<Source>& sources() const { return values_.sources; }
   /// Of one of these keys; throws std::out_of_range for another.

@@ -50,7 +50,15 @@ void add_library_tapes(Case& given) {
 void check_materials(Case& given, Findings& findings) {
   for (auto& [name, material] : given.materials) {
     set_name(material, name);
-    if (findings.sound({"materials." + name})) check_material(material, "materials." + name, findings);
+    const std::string table = "materials." + name;
+    if (findings.sound({table})) check_material(material, table, findings);
+    if (auto* fabric = std::get_if<Fabric>(&material); fabric && findings.sound({table}))
+      settle_resistance(
+          fabric->resistance,
+          [&](const std::string& key) { return given.origins.contains(table + "." + key); },
+          [&](const std::string& key, const std::string& message) {
+            findings.add(table + "." + key, "", "", message);
+          });
   }
   const Design& parachute = given.parachute;
   find_material<Fabric>(given, "parachute.canopy_material", parachute.canopy_material, findings);

@@ -1,4 +1,4 @@
-// A case as text: resolved case, schema, reference.
+// A case as text: resolved case, schema, reference page.
 #include "ripstop/core/toml/write.h"
 
 #include "ripstop/case/settings.h"
@@ -33,7 +33,11 @@ std::string case_schema() {
 
 std::string case_reference() {
   Case scratch;
-  return reference_tables(fields_of(scratch));
+  return "# All keys of a case file\n\n"
+         "`ripstop schema --reference` prints this page. [The case file](../guide/case-file.md) explains how "
+         "to use\n"
+         "the keys and where the default values come from. All values are in SI units.\n\n" +
+         reference_tables(fields_of(scratch));
 }
 
 }  // namespace ripstop

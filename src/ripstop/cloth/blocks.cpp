@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <set>
 #include <utility>
@@ -32,11 +33,13 @@ double block_size(const Mesh& mesh) {
   double area = 0;
   for (const Patch& patch : mesh.patches)
     area += std::accumulate(patch.cell_area.begin(), patch.cell_area.end(), 0.0);
+  if (!(area > 0)) return std::numeric_limits<double>::infinity();
   return std::sqrt(area / std::min(most_blocks, mesh.node_count() / nodes_a_block));
 }
 
-int blocks_along(double length, double size) {
-  return std::max(1, static_cast<int>(std::lround(length / size)));
+/// Rounded, from 1 to `most`.
+int whole_blocks(double count, int most) {
+  return count > 1 ? static_cast<int>(std::round(std::min(count, double(most)))) : 1;
 }
 
 /// Columns after which the springs outside the lattice repeat: those of a gore. All columns where they do not.
@@ -58,7 +61,7 @@ int period(const Patch& patch, const std::vector<char>& joined) {
 /// middle: what is symmetric stays so.
 std::vector<int> blocks_of_columns(const Patch& patch, const std::vector<char>& joined, double wanted) {
   const int gore = period(patch, joined), gores = patch.columns / gore;
-  const int half = std::clamp(static_cast<int>(std::lround(0.5 * wanted / gores)), 1, std::max(1, gore / 4));
+  const int half = whole_blocks(0.5 * wanted / gores, std::max(1, gore / 4));
   std::vector<int> block;
   for (int column = 0; column < patch.columns; ++column) {
     if (!patch.periodic) {
@@ -88,7 +91,7 @@ Blocks::Blocks(const Cloth& cloth, const std::vector<char>& restricted)
     const Patch& patch = mesh.patches[p];
     add_patch(patch, cloth.patches[p],
               blocks_of_columns(patch, joined, patch.columns * mean_length(patch, along_row) / size),
-              std::min(patch.rows, blocks_along(patch.rows * mean_length(patch, along_column), size)));
+              whole_blocks(patch.rows * mean_length(patch, along_column) / size, patch.rows));
   }
   for (int row = 0; row < cloth.row_count; ++row)
     for (int k = cloth.irregular_of_row[row]; k < cloth.irregular_of_row[row + 1]; ++k) {

@@ -124,7 +124,9 @@ void Contact::sort_into_cells() {
   const double moved = *std::max_element(moved_.begin(), moved_.end());
   anew_ = !listed_ || !(moved < 0.25 * skin_ * skin_);
   if (!anew_ || x_.empty()) return;
-  listed_ = true;
+  finite_ = std::all_of(x_.begin(), x_.end(), is_finite);
+  listed_ = finite_;
+  if (!finite_) return;
   listed_at_ = x_;
   Vec3 low = x_[0], high = x_[0];
   for (const Vec3 a : x_) {
@@ -155,9 +157,10 @@ void Contact::list_pairs(int rank) {
   std::vector<Pair>& pairs = workers_[rank].pairs;
   std::vector<int>& first = workers_[rank].first;
   pairs.clear();
-  first.assign(1, 0);
-  const auto [nx, ny, nz] = cells_.size;
   const IndexRange mine = range_of(rank);
+  first.assign(finite_ ? 1 : mine.end - mine.begin + 1, 0);
+  if (!finite_) return;
+  const auto [nx, ny, nz] = cells_.size;
   for (int i = mine.begin; i < mine.end; ++i) {
     const int cx = cells_.of[i] % nx, cy = cells_.of[i] / nx % ny, cz = cells_.of[i] / nx / ny;
     const std::size_t before = pairs.size();

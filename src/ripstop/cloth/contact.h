@@ -47,7 +47,8 @@ class Contact {
 
   /// How many steps of `dt` a kick may stand for.
   int steps_a_kick(double dt) const;
-  /// Called by every rank: changes the velocities by what the contacts do in `interval` [s]. Ends with a barrier.
+  /// Called by every rank: changes the velocities by what the contacts do in `interval` [s]. Ends with a barrier. Where
+  /// a position is not finite nothing is in contact: the step finds it and throws (check_health).
   void kick(int rank, ThreadTeam& team, ClothState& state, double interval);
   /// By friction and the dampers of all kicks [J].
   double damped() const;
@@ -75,7 +76,7 @@ class Contact {
   const ContactLayout& layout_;
   int threads_;
   double skin_;  // pairs are listed that much beyond where they touch [m]
-  bool listed_ = false, anew_ = true;
+  bool listed_ = false, anew_ = true, finite_ = true;
   std::vector<Vec3> x_, v_, listed_at_, force_, lossy_;
   std::vector<double> moved_;  // since the pairs were listed, by rank, squared
   Cells cells_;

@@ -1,4 +1,6 @@
 // Whether cloth has passed through cloth, asked of its surface and not of the contact's nodes.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -6,12 +8,15 @@
 #include <utility>
 #include <vector>
 
-#include "ripstop/cloth/cloth.h"
+#include "ripstop/cloth/layout.h"
+#include "ripstop/core/error.h"
 
 namespace ripstop {
 namespace {
 
 constexpr double neighbourhood = 3;  // edges: what lies nearer on the cloth may touch
+constexpr double farthest =
+    1e15;  // from the origin, in widths: whole numbers of a double are exact up to here
 
 /// Of the segment p-q and the triangle a, b, c (Moeller and Trumbore 1997).
 bool pierces(Vec3 p, Vec3 q, Vec3 a, Vec3 b, Vec3 c) {
@@ -42,8 +47,9 @@ std::vector<Edge> edges_of(const std::vector<Cell>& cells) {
 
 using Place = std::array<long long, 3>;
 
-Place place_of(Vec3 x, double width) {
-  return {std::llround(x.x / width), std::llround(x.y / width), std::llround(x.z / width)};
+Place square_of(Vec3 x, double width) {
+  const auto along = [&](double a) { return std::llround(std::clamp(a / width, -farthest, farthest)); };
+  return {along(x.x), along(x.y), along(x.z)};
 }
 
 }  // namespace
@@ -52,6 +58,11 @@ double pierced_share(const Mesh& mesh, const std::vector<Vec3>& x) {
   const std::vector<Cell> cells = cells_of(mesh);
   const std::vector<Edge> edges = edges_of(cells);
   if (edges.empty()) return 0;
+  for (const Edge& edge : edges)
+    for (const int node : {edge.a, edge.b})
+      if (!is_finite(x[node]))
+        throw Error(ExitCode::diverged, fmt::format("pierced cloth: node {} ({}) has no finite position",
+                                                    node, place_of(mesh, node)));
   // Middles of an edge and a cell that meet are nearer than half the longest edge and half the longest diagonal.
   double width = 0;
   std::vector<std::pair<Place, int>> placed;
@@ -63,9 +74,10 @@ double pierced_share(const Mesh& mesh, const std::vector<Vec3>& x) {
       width = std::max(width, norm(x[cell.corner[k]] - middle(cell)));
       width = std::max(width, norm(x[cell.corner[(k + 1) % 4]] - x[cell.corner[k]]));
     }
+  if (!(width > 0)) return 0;
   width *= 1.5;
   for (std::size_t i = 0; i < cells.size(); ++i)
-    if (cells[i].corner[0] >= 0) placed.push_back({place_of(middle(cells[i]), width), static_cast<int>(i)});
+    if (cells[i].corner[0] >= 0) placed.push_back({square_of(middle(cells[i]), width), static_cast<int>(i)});
   std::sort(placed.begin(), placed.end());
 
   const auto neighbours = [&](const Edge& edge, const Cell& cell) {
@@ -83,7 +95,7 @@ double pierced_share(const Mesh& mesh, const std::vector<Vec3>& x) {
            !neighbours(edge, cell);
   };
   const auto pierces_any = [&](const Edge& edge) {
-    const Place centre = place_of(0.5 * (x[edge.a] + x[edge.b]), width);
+    const Place centre = square_of(0.5 * (x[edge.a] + x[edge.b]), width);
     for (long long dx = -1; dx <= 1; ++dx)
       for (long long dy = -1; dy <= 1; ++dy) {
         const Place from{centre[0] + dx, centre[1] + dy, centre[2] - 1};

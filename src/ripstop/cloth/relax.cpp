@@ -109,7 +109,7 @@ bool wrinkles(const Mesh& mesh) {
   });
 }
 
-// Stiffness alike along all directions, of the regularisation and the drawstring, by node [N/m]: x^T K x <= sum k |x_i|^2.
+// Isotropic stiffness of the regularisation and the drawstring, by node [N/m]: x^T K x <= sum k |x_i|^2.
 std::vector<double> round_stiffness(const Cloth& cloth, const ClothState& state, double regularisation) {
   std::vector<double> stiffness(cloth.mesh.node_count(), 0.0);
   if (regularisation > 0) {

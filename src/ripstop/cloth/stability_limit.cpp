@@ -207,8 +207,9 @@ StabilityLimit stability_limit(const Cloth& cloth, const ClothState& state, cons
   limit.stable_step = limit.printed_step = std::numeric_limits<double>::infinity();
   // The positive root of omega^2 dt^2 + 2 c dt - 4, in the form that does not cancel; whether it is the least yet.
   const auto allow = [&](double omega2, double c) {
-    if (!(omega2 > 0 || c > 0)) return false;
-    const double step = 4 / (c + std::sqrt(c * c + 4 * omega2));
+    if (omega2 <= 0 && c <= 0) return false;
+    double step = 4 / (c + std::sqrt(c * c + 4 * omega2));
+    if (!(step > 0)) step = 0;  // a stiffness that is not finite
     if (step >= limit.stable_step) return false;
     limit.stable_step = step;
     return true;
@@ -248,8 +249,8 @@ void check_health(const Cloth& cloth, const ClothState& state) {
     if (!is_finite(get(state.x.data(), cloth.slot[node])))
       throw Error(
           ExitCode::diverged,
-          fmt::format("step {} (t = {:.6g} s): node {} ({}) has no finite position; the time step is too "
-                      "large or the loads are not finite",
+          fmt::format("step {} (t = {:.6g} s): node {} ({}) has no finite position: the motion has diverged. "
+                      "A smaller time step, more damping or lower loads may help",
                       state.steps, state.time, node, place_of(cloth.mesh, node)));
 }
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "ripstop/cloth/contact.h"
@@ -175,7 +176,10 @@ void ExplicitStep::integrate_irregular(int begin, int end) {
 
 void step(ClothState& state, const Cloth& cloth, const Loads& loads, double dt, int count, ThreadTeam& team,
           StepRecord* record) {
-  if (!(dt > 0)) throw Error(ExitCode::usage, fmt::format("the time step {} s must be positive", dt));
+  if (!(dt > 0) || !std::isfinite(dt))
+    throw Error(ExitCode::usage, fmt::format("the time step {} s must be positive and finite", dt));
+  if (count < 0)
+    throw Error(ExitCode::usage, fmt::format("{} steps of the cloth: at least 0 are wanted", count));
   ExplicitStep steps(state, cloth, loads, dt, count, team, record);
   for (int done = 0; done < count;) {
     const long long since = state.steps % steps_between_checks;

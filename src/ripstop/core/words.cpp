@@ -12,14 +12,18 @@ struct Ending {
 };
 // The longer ones first: the first that fits is taken.
 constexpr Ending endings[] = {
+    {"_pa_s2_m2", "Pa s²/m²"},
     {"_n_s2_m4", "N s²/m⁴"},
+    {"_pa_s_m", "Pa s/m"},
     {"_n_per_m", "N/m"},
     {"_m_per_s", "m/s"},
     {"_per_m2", "1/m²"},
+    {"_1_m2", "1/m²"},
     {"_n_s_m3", "N s/m³"},
     {"_kg_m3", "kg/m³"},
     {"_kg_m2", "kg/m²"},
     {"_per_m", "1/m"},
+    {"_1_m", "1/m"},
     {"_kg_m", "kg/m"},
     {"_n_m2", "N/m²"},
     {"_m_s2", "m/s²"},

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "ripstop/flow/projections.h"
+
 namespace ripstop {
 namespace {
 
@@ -53,15 +55,9 @@ std::vector<Triangle> hemispherical_cup(double diameter, Vec3 centre) {
   return revolve(outline, centre, segments);
 }
 
-// Rodrigues' rotation about z x axis; the other way round where the axis is -z.
 std::vector<Triangle> turned(std::vector<Triangle> surface, Vec3 axis) {
-  const Vec3 to = axis / norm(axis), about{-to.y, to.x, 0};
-  for (Triangle& t : surface) {
-    for (Vec3* p : {&t.a, &t.b, &t.c}) {
-      *p = to.z > -1 ? to.z * *p + cross(about, *p) + dot(about, *p) / (1 + to.z) * about
-                     : Vec3{p->x, -p->y, -p->z};
-    }
-  }
+  for (Triangle& t : surface)
+    for (Vec3* p : {&t.a, &t.b, &t.c}) *p = turned(*p, axis);
   return surface;
 }
 

@@ -11,10 +11,10 @@
 #include <variant>
 #include <vector>
 
+#include "ripstop/core/pressure_drop.h"
 #include "ripstop/core/vec3.h"
 #include "ripstop/flow/flow_grid.h"
 #include "ripstop/flow/jet.h"
-#include "ripstop/material/permeability.h"
 
 namespace ripstop {
 
@@ -29,6 +29,7 @@ struct Freestream {
   double viscosity_ratio = 10;          // nu_t / nu at the inlet [-]
 
   double speed() const { return norm(velocity); }  // U [m/s]
+  Vec3 direction() const { return {velocity.x / speed(), velocity.y / speed(), velocity.z / speed()}; }
   bool along_z() const { return velocity.x == 0 && velocity.y == 0 && velocity.z > 0; }
   bool operator==(const Freestream&) const = default;
 };
@@ -153,7 +154,7 @@ struct FlowProgress {
   int iteration = 0;
   double residual_u = 0, residual_p = 0, residual_k = 0, residual_omega = 0,
          residual_e = 0;  // u: largest of three
-  double drag = 0;        // axial force on the porous cells and sheets so far [N]
+  double drag = 0;        // force along the stream on all bodies so far [N]
 };
 using FlowReport = std::function<bool(const FlowProgress&)>;
 double largest_residual(const FlowProgress& progress);

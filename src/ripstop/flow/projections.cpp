@@ -26,6 +26,13 @@ Vec3 wind_direction(double angle_deg, double azimuth_deg) {
   return {std::sin(a) * std::cos(b), std::sin(a) * std::sin(b), std::cos(a)};
 }
 
+// Rodrigues' rotation about z x axis; about x where the axis is -z.
+Vec3 turned(Vec3 v, Vec3 axis) {
+  if (!(axis.z > -1)) return {v.x, -v.y, -v.z};
+  const Vec3 about{-axis.y, axis.x, 0};
+  return axis.z * v + cross(about, v) + dot(about, v) / (1 + axis.z) * about;
+}
+
 double angle_of_attack(const Attitude& attitude) {
   const Vec3 axis = unit(attitude.axis), wind = unit(attitude.wind);
   return std::atan2(norm(cross(axis, wind)), dot(axis, wind)) / degree;

@@ -11,6 +11,9 @@ namespace ripstop {
 /// [degrees]: (sin a cos b, sin a sin b, cos a).
 Vec3 wind_direction(double angle_deg, double azimuth_deg = 0);
 
+/// A vector turned by the shortest way from the z axis to the unit vector `axis`.
+Vec3 turned(Vec3 v, Vec3 axis);
+
 /// How a body lies in the wind.
 struct Attitude {
   Vec3 axis;  // of a canopy: unit vector from the confluence towards the centroid of the vent

@@ -8,6 +8,7 @@
 
 #include "ripstop/core/error.h"
 #include "ripstop/flow/average.h"
+#include "ripstop/flow/projections.h"
 
 namespace ripstop {
 namespace {
@@ -60,13 +61,13 @@ class MeanInParts {
   std::vector<Part> parts_;
 };
 
-/// One axis of the force.
-Record record_of(const std::vector<FlowStep>& steps, double Vec3::*axis) {
+/// The force along one axis.
+Record record_of(const std::vector<FlowStep>& steps, Vec3 axis) {
   Record record;
   record.begin = steps.front().time - steps.front().length;
   for (const FlowStep& step : steps) {
     record.until.push_back(step.time);
-    record.values.push_back(step.force.*axis);
+    record.values.push_back(dot(step.force, axis));
   }
   return record;
 }
@@ -111,7 +112,7 @@ FlowField watch(Flow& flow, const FlowProblem& problem, const Watch& how, FlowRe
   WatchProgress progress;
   bool stopped = false;
   const auto look = [&] {
-    const Record drag = record_of(record.steps, &Vec3::z);
+    const Record drag = record_of(record.steps, problem.air.direction());
     // At least until the stream has been through the box.
     const Vec3 size = problem.grid.size, stream = problem.air.velocity;
     const double passage =
@@ -147,7 +148,9 @@ FlowField watch(Flow& flow, const FlowProblem& problem, const Watch& how, FlowRe
     });
   } while (!stopped && !look());
   if (record.steps.size() < steps_a_field) return flow.field();
-  const Record x = record_of(record.steps, &Vec3::x), y = record_of(record.steps, &Vec3::y);
+  const Vec3 stream = problem.air.direction();
+  const Record x = record_of(record.steps, turned(Vec3{1, 0, 0}, stream)),
+               y = record_of(record.steps, turned(Vec3{0, 1, 0}, stream));
   const double from = x.begin + record.start_up;
   record.side_x = mean_over_time(x, from), record.side_y = mean_over_time(y, from);
   record.swing = strongest_frequency({x, y}, from);

@@ -32,7 +32,7 @@ struct FlowRecord {
   std::vector<FlowStep> steps;
   double start_up = 0;  // discarded, from the beginning of the watch: until the record has settled, and
                         // at least until the stream has been through the box [s]
-  MeanOverTime drag, side_x, side_y;  // of the rest [N]
+  MeanOverTime drag, side_x, side_y;  // of the rest, along the stream and along x and y turned with it [N]
   Peak swing;                         // of the side force
   bool enough = false;                // the standard error came down to what was asked for
   std::vector<FlowSlice> slices;      // the last ones, evenly in time

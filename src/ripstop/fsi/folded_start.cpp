@@ -10,6 +10,7 @@
 
 #include "ripstop/cloth/cloth.h"
 #include "ripstop/core/error.h"
+#include "ripstop/core/quantity_error.h"
 #include "ripstop/parachute/fold_gores.h"
 #include "ripstop/parachute/fold_sheet.h"
 #include "ripstop/parachute/hang.h"
@@ -141,11 +142,13 @@ double GoreFolder::share_for(double radius) {
   double low = least_share, high = 1;
   const double least = mean(low);
   if (!(radius > least)) {
-    throw Error(
+    throw QuantityError(
         ExitCode::usage,
-        fmt::format("inflation.initial_radius_m = {}: with {} folds the skirt folds to no less than {:.4g} "
-                    "m; more folds allow smaller radii",
-                    folding_.initial_radius, folds_, least));
+        fmt::format(
+            "radius of the folded skirt = {}: with {} folds the skirt folds to no less than {:.4g} m; "
+            "more folds allow smaller radii",
+            folding_.initial_radius, folds_, least),
+        {"radius of the folded skirt"});
   }
   for (int i = 0; i < 40; ++i) {
     const double middle = 0.5 * (low + high);
@@ -153,11 +156,13 @@ double GoreFolder::share_for(double radius) {
   }
   const double reached = mean(low);
   if (std::abs(reached / radius - 1) > radius_tolerance) {
-    throw Error(
+    throw QuantityError(
         ExitCode::usage,
-        fmt::format("inflation.initial_radius_m = {}: with {} folds the skirt folds to no more than {:.4g} "
-                    "m, else its strips are too short",
-                    folding_.initial_radius, folds_, reached));
+        fmt::format(
+            "radius of the folded skirt = {}: with {} folds the skirt folds to no more than {:.4g} m, "
+            "else its strips are too short",
+            folding_.initial_radius, folds_, reached),
+        {"radius of the folded skirt"});
   }
   return low;
 }

@@ -7,7 +7,9 @@
 #include <numbers>
 #include <numeric>
 
+#include "ripstop/core/checked_int.h"
 #include "ripstop/core/error.h"
+#include "ripstop/core/quantity_error.h"
 #include "ripstop/fsi/folded_start.h"
 #include "ripstop/fsi/summary.h"
 
@@ -28,6 +30,40 @@ constexpr double longest_row_in_air = 0.03;
 // Of a row: no flow of the stream's air asks for so little.
 constexpr double shortest_step_in_air = 0.05;
 constexpr int looks_at_added_mass = 25;  // in an opening
+// No cloth that is whole asks for so little: the finest meshes have some 1e-7 s.
+constexpr double shortest_stable_step = 1e-9;  // [s]
+constexpr double most_steps = 1e7;             // in one call: what is recorded of each has room in memory
+
+/// Steps of at most `step` [s] in each of so many rows of `duration` [s], the first of which begins at `time` [s].
+int steps_in(double duration, double step, double time, int rows = 1) {
+  return checked_int(std::max(std::ceil(duration / step), 1.0), 1, most_steps / rows, [&] {
+    return fmt::format(
+        "t = {:.6g} s: {:.3g} s would take {:.3g} steps of {:.3g} s: the motion of the cloth has diverged, "
+        "or "
+        "the time step is a very small share of the stable one",
+        time, duration * rows, rows * duration / step, step);
+  });
+}
+
+/// work(), whose loss of stability is told with the time at which it happened [s].
+template <class Work>
+auto with_time(double time, const Work& work) {
+  try {
+    return work();
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::diverged) throw;
+    throw Error(ExitCode::diverged, fmt::format("t = {:.6g} s: {}", time, error.what()));
+  }
+}
+
+/// As many blocks or rows as `count` rounded up, but for rounding.
+int parts_of(double count, const char* what) {
+  return checked_int(std::max(std::ceil(count - 1e-9), 1.0), 1, most_steps, [&] {
+    return fmt::format(
+        "inflation: {:.3g} {}: a shorter duration, more frames or a lower rate of the history is needed",
+        count, what);
+  });
+}
 
 double least_rows_in(const FlowProblem& flow) {
   double least = 1e300;
@@ -61,8 +97,8 @@ void damp_springs(Mesh& mesh, double line_time, double cloth_time) {
 Inflation::Inflation(InflationProblem problem) : problem_(std::move(problem)), team_(problem_.threads) {
   const InflationSettings& s = problem_.settings;
   if (!s.initial_radius_m) {
-    throw Error(ExitCode::usage,
-                "inflation.initial_radius_m is not given: the radius of the folded skirt, for example 0.1");
+    throw QuantityError(ExitCode::usage, "radius of the folded skirt is not given: for example 0.1 m",
+                        {"radius of the folded skirt"});
   }
   if (std::vector<double>& shown = problem_.settings.sheet_s; shown.empty()) {
     shown = {0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 1};
@@ -79,10 +115,10 @@ Inflation::Inflation(InflationProblem problem) : problem_(std::move(problem)), t
   cloths_.push_back(make_cloth(mesh_, options));
 
   const double frame = s.duration_s / s.frames;
-  blocks_per_frame_ = std::max(1, static_cast<int>(std::ceil(frame / longest_block - 1e-9)));
+  blocks_per_frame_ = parts_of(frame / longest_block, "blocks for each frame");
   const double block = frame / blocks_per_frame_;
   const double rows = std::max(s.history_hz, problem_.air ? least_rows_in(problem_.air->flow) : 0.0);
-  rows_per_block_ = std::max(1, static_cast<int>(std::ceil(block * rows - 1e-9)));
+  rows_per_block_ = parts_of(block * rows, "rows of the history for each block");
   row_ = block / rows_per_block_;
   if (s.low_pass_hz > 0)
     low_pass({}, row_, s.low_pass_hz);  // refuses at the beginning what it would at the end
@@ -96,10 +132,21 @@ InflationState Inflation::start() const {
   InflationState state;
   state.cloth = start_state(cloth());
   set_positions(state.cloth, cloth(), with_imperfection());
-  state.step = problem_.settings.step_fraction * stability_limit(cloth_of(state), state.cloth).stable_step;
+  state.step = problem_.settings.step_fraction * stable_step(state);
   take_shots(state);
   if (air_) air_->weigh_air(positions(state.cloth, cloth()), state.air);
   return state;
+}
+
+double Inflation::stable_step(const InflationState& state) const {
+  const StabilityLimit limit = stability_limit(cloth_of(state), state.cloth);
+  if (limit.stable_step > shortest_stable_step) return limit.stable_step;
+  throw Error(
+      ExitCode::diverged,
+      fmt::format(
+          "t = {:.6g} s: the largest stable time step has fallen to {:.3g} s at node {} ({}): the "
+          "motion of the cloth has diverged. A smaller time step, more damping or lower loads may help",
+          state.cloth.time, limit.stable_step, limit.node, limit.part));
 }
 
 void Inflation::add_reefing_lines(const ClothOptions& options) {
@@ -115,11 +162,13 @@ void Inflation::add_reefing_lines(const ClothOptions& options) {
   set_positions(folded, *cloths_.front(), folded_.positions);
   const double needed = drawn_length(*cloths_.front(), folded), length = problem_.reefing.front().length;
   if (needed > length)
-    throw Error(
+    throw QuantityError(
         ExitCode::usage,
-        fmt::format("inflation.reefing[0].line_m = {:g}: the folded skirt is {:.4g} m round, more than its "
-                    "reefing line; a smaller inflation.initial_radius_m fits into it",
-                    length, needed));
+        fmt::format(
+            "length of the first reefing line = {:g}: the folded skirt is {:.4g} m round, more than its "
+            "reefing line; a smaller radius of the folded skirt fits into it",
+            length, needed),
+        {"length of the first reefing line", "radius of the folded skirt"});
 }
 
 // The energy of the line goes with it.
@@ -156,10 +205,10 @@ std::vector<HistoryRow> Inflation::advance(InflationState& state, std::vector<Ai
     double stable = 0;
     try {
       std::vector<HistoryRow> rows = compute_block(next);
-      stable = stability_limit(cloth_of(next), next.cloth).stable_step;
+      stable = stable_step(next);
       if (next.step <= stable) {
-        if (cut_what_is_due(next)) stable = stability_limit(cloth_of(next), next.cloth).stable_step;
-        // Down with the bound at once, up only when it has risen clearly.
+        if (cut_what_is_due(next)) stable = stable_step(next);
+        // Down with the limit at once, up only when it has risen clearly.
         if (fraction * stable < next.step || fraction * stable > 1.1 * next.step)
           next.step = fraction * stable;
         take_shots(next);
@@ -200,12 +249,12 @@ HistoryRow Inflation::row_of_history(InflationState& state, long long index, int
 
 std::vector<HistoryRow> Inflation::compute_block(InflationState& state) {
   const InflationSettings& s = problem_.settings;
-  const int steps = static_cast<int>(std::ceil(row_ / state.step));
-  const double dt = row_ / steps;
   // Under a constant pressure all rows are stepped at once, while it rises one by one.
   const double block_end = static_cast<double>(state.blocks + 1) * rows_per_block_ * row_;
   const bool rising = s.ramp_s > block_end - rows_per_block_ * row_;
   const int together = rising ? 1 : rows_per_block_;
+  const int steps = steps_in(row_, state.step, state.cloth.time, together);
+  const double dt = row_ / steps;
   Loads loads;
   std::vector<HistoryRow> rows;
   for (int first = 0; first < rows_per_block_; first += together) {
@@ -230,14 +279,18 @@ std::vector<HistoryRow> Inflation::compute_block_in_air(InflationState& state,
     const int left = rows_per_block_ - static_cast<int>(history.size());
     const double longest = air_->longest_step();
     if (!(longest > shortest_step_in_air * row_))
-      throw Error(ExitCode::diverged,
-                  fmt::format("at {:.6g} s the air would need steps of {:.3g} s: it has diverged; a smaller "
-                              "inflation.courant or a finer grid (flow.cells) may help",
-                              state.cloth.time, longest));
-    const int steps = static_cast<int>(std::ceil(left * row_ / longest));
+      throw QuantityError(
+          ExitCode::diverged,
+          fmt::format("at {:.6g} s the air would need steps of {:.3g} s: it has diverged; a smaller Courant "
+                      "number of the flow or a finer flow grid may help",
+                      state.cloth.time, longest),
+          {"Courant number of the flow", "flow grid"});
+    const int steps = steps_in(left * row_, longest, state.cloth.time);
     const int rows = std::max(1, left / steps);
     AirRow row;
-    const Loads loads = air_->step(x, tentative_motion(state, rows * row_), rows * row_, state.air, row);
+    const ClothMotion motion = tentative_motion(state, rows * row_);
+    const Loads loads =
+        with_time(state.cloth.time, [&] { return air_->step(x, motion, rows * row_, state.air, row); });
     step_in_air(state, loads, rows, history);
     row.time = state.cloth.time;
     double pull = 0;
@@ -256,12 +309,11 @@ std::vector<HistoryRow> Inflation::compute_block_in_air(InflationState& state,
   return history;
 }
 
-// Of a step of the air, were the last load to go on.
+// Predictor: motion of the cloth over one step of the air under the load of the step before.
 ClothMotion Inflation::tentative_motion(const InflationState& state, double length) {
   const Cloth& with_line = cloth_of(state);
-  const double stable = problem_.settings.step_fraction * stability_limit(with_line, state.cloth).stable_step;
   ClothMotion motion;
-  motion.steps = static_cast<int>(std::ceil(length / stable));
+  motion.steps = steps_in(length, problem_.settings.step_fraction * stable_step(state), state.cloth.time);
   ClothState cloth = state.cloth;
   ripstop::step(cloth, with_line, air_->last_load(state.air), length / motion.steps, motion.steps, team_);
   const std::vector<Vec3> before = positions(state.cloth, with_line);
@@ -276,15 +328,15 @@ void Inflation::step_in_air(InflationState& state, const Loads& loads, int rows,
                             std::vector<HistoryRow>& history) {
   const double fraction = problem_.settings.step_fraction;
   const long long first = state.blocks * rows_per_block_ + static_cast<long long>(history.size());
-  state.step = fraction * stability_limit(cloth_of(state), state.cloth).stable_step;
+  state.step = fraction * stable_step(state);
   for (int tries = 1;; ++tries) {
     InflationState next = state;
-    const int steps = static_cast<int>(std::ceil(row_ / next.step));
+    const int steps = steps_in(row_, next.step, next.cloth.time, rows);
     const double dt = row_ / steps;
     double stable = 0;
     try {
       ripstop::step(next.cloth, cloth_of(next), loads, dt, steps * rows, team_, &next.record);
-      stable = stability_limit(cloth_of(state), next.cloth).stable_step;
+      stable = stable_step(next);
     } catch (const Error& error) {
       if (error.code() != ExitCode::diverged || tries == most_tries) throw;
       stable = 0.5 * dt;

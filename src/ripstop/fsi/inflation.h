@@ -179,6 +179,8 @@ class Inflation {
   std::vector<double> peak_tension_of_lines(const InflationState& state) const;  // [N]
 
  private:
+  /// The largest at a state [s]. Throws Error(diverged) for one that is too small for cloth that is whole.
+  double stable_step(const InflationState& state) const;
   std::vector<HistoryRow> compute_block(InflationState& state);
   std::vector<HistoryRow> compute_block_in_air(InflationState& state, std::vector<AirRow>* air_rows);
   ClothMotion tentative_motion(const InflationState& state, double length);

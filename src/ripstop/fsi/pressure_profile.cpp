@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ripstop/core/checked_int.h"
+
 namespace ripstop {
 
 std::vector<PressureRing> pressure_profile(const std::vector<Cell>& cells, const std::vector<Vec3>& x,
@@ -28,7 +30,9 @@ std::vector<PressureRing> pressure_profile(const std::vector<Cell>& cells, const
   std::vector<double> area(rings, 0.0);
   for (const Piece& piece : pieces) {
     const double share = last > first ? (piece.along - first) / (last - first) : 0;
-    const int ring = std::min(rings - 1, static_cast<int>(share * rings));
+    const int ring = std::min(rings - 1, checked_int(share * rings, 0, rings, [] {
+                                return "pressures along the gores: a position of the cloth is not finite";
+                              }));
     area[ring] += piece.area;
     for (double PressureRing::*value : {&PressureRing::radius, &PressureRing::z, &PressureRing::inside,
                                         &PressureRing::outside, &PressureRing::load})

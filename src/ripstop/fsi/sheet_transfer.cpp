@@ -7,7 +7,10 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <string>
 #include <utility>
+
+#include "ripstop/core/checked_int.h"
 
 namespace ripstop {
 namespace {
@@ -61,6 +64,17 @@ Wrench acting_at(Vec3 point, Vec3 force) {
   return {force, cross(point, force)};
 }
 
+constexpr double farthest = 1e6;   // from each other, in boxes or points of a lattice along an axis
+constexpr double most_room = 1e8;  // boxes or points
+
+std::string too_far() {
+  return "the cloth reaches farther than any canopy: its motion has diverged; a smaller time step may help";
+}
+
+std::size_t room_of(const std::array<int, 3>& count) {
+  return checked_int(double(count[0]) * count[1] * count[2], 0, most_room, too_far);
+}
+
 /// Pressure of the cloth that one face stands for.
 struct Sample {
   Vec3 point, outward;
@@ -97,7 +111,7 @@ class Boxes {
       high = {std::max(high.x, s.point.x), std::max(high.y, s.point.y), std::max(high.z, s.point.z)};
     }
     count_ = {box(high.x, low_.x) + 1, box(high.y, low_.y) + 1, box(high.z, low_.z) + 1};
-    begin_.assign(std::size_t(count_[0]) * count_[1] * count_[2] + 1, 0);
+    begin_.assign(room_of(count_) + 1, 0);
     for (const Sample& s : samples) ++begin_[of(s) + 1];
     std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
     sorted_.resize(samples.size());
@@ -124,7 +138,8 @@ class Boxes {
 
  private:
   int box(double at, double low) const {
-    return static_cast<int>(std::clamp(std::floor((at - low) / width_), -1e6, 1e6));
+    return checked_int(std::clamp(std::floor((at - low) / width_), -farthest, farthest), -farthest, farthest,
+                       too_far);
   }
   std::size_t index(int x, int y, int z) const {
     return x + static_cast<std::size_t>(count_[0]) * (y + static_cast<std::size_t>(count_[1]) * z);
@@ -266,13 +281,13 @@ class Lattice {
     for (const Vec3& x : places) {
       const std::array<double, 3> at = scaled(x);
       for (int a = 0; a < 3; ++a) {
-        const int lower = static_cast<int>(std::floor(at[a]));
+        const int lower = checked_int(std::floor(at[a]), -farthest, farthest, too_far);
         first_[a] = std::min(first_[a], lower), high[a] = std::max(high[a], lower);
       }
     }
-    std::size_t size = places.empty() ? 0 : 1;
-    for (int a = 0; a < 3 && size > 0; ++a) size *= count_[a] = high[a] - first_[a] + 2;
-    points_.resize(size);
+    if (places.empty()) return;
+    for (int a = 0; a < 3; ++a) count_[a] = high[a] - first_[a] + 2;
+    points_.resize(room_of(count_));
   }
 
   /// visit(value on a point, share) for the eight points.
@@ -282,7 +297,7 @@ class Lattice {
     std::array<int, 3> lower;
     std::array<double, 3> part;
     for (int a = 0; a < 3; ++a) {
-      lower[a] = static_cast<int>(std::floor(at[a])) - first_[a];
+      lower[a] = checked_int(std::floor(at[a]), -farthest, farthest, too_far) - first_[a];
       part[a] = at[a] - std::floor(at[a]);
     }
     for (int n = 0; n < 8; ++n) {

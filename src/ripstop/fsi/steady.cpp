@@ -9,6 +9,7 @@
 
 #include "ripstop/canopy/section_balance.h"
 #include "ripstop/core/error.h"
+#include "ripstop/core/quantity_error.h"
 #include "ripstop/flow/steady.h"
 #include "ripstop/fsi/approach.h"
 
@@ -22,7 +23,8 @@ constexpr double settled = 5e-4;
 // is a mean over iterations that did not converge, to the momentum that the box loses: a wake that still
 // grows keeps some of it.
 constexpr double ledger_tolerance = 0.01;
-// Largest RelaxResult::regularisation_share at convergence: half of what the staircase of the flow's cells leaves over in the load.
+// Largest RelaxResult::regularisation_share at convergence: half of what the staircase of the flow's cells leaves over
+// in the load.
 constexpr double held_tolerance = 0.02;
 
 // A flow that does not come to rest, jets through slots, answers the same shape now so, now so. When after so many
@@ -246,11 +248,12 @@ std::vector<Vec3> SteadySolver::next_shape(const SteadyState& state, SteadyItera
       cloth = reached;
   }
   if (!relaxed.converged) {
-    throw Error(
+    throw QuantityError(
         ExitCode::not_converged,
         fmt::format("coupling iteration {}: the cloth found no equilibrium, residual {:.2e} after {} steps "
-                    "(wanted {:.1e}); a looser coupling.cloth_tolerance or a finer parachute.mesh may help",
-                    now.iteration, relaxed.residual, now.cloth_steps, options.tolerance));
+                    "(wanted {:.1e}); a looser cloth tolerance or a finer cloth mesh may help",
+                    now.iteration, relaxed.residual, now.cloth_steps, options.tolerance),
+        {"cloth tolerance", "cloth mesh"});
   }
   now.cloth_hold = options.regularisation;
   now.cloth_held = relaxed.regularisation_share;

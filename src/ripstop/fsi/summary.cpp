@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "ripstop/core/error.h"
+#include "ripstop/core/quantity_error.h"
 
 namespace ripstop {
 namespace {
@@ -31,8 +32,9 @@ std::vector<double> butterworth(const std::vector<double>& x, double k) {
 // The beginning of the first window after which no window's root mean square deviation leaves the band.
 std::optional<double> settling_time(const std::vector<double>& load, double steady, double interval,
                                     double window_time) {
-  const auto window = static_cast<std::size_t>(std::lround(window_time / interval));
-  if (window == 0 || window > load.size()) return {};
+  const double rows = std::round(window_time / interval);
+  if (!(rows >= 1 && rows <= static_cast<double>(load.size()))) return {};
+  const auto window = static_cast<std::size_t>(rows);
   std::vector<double> before(load.size() + 1, 0.0);
   for (std::size_t i = 0; i < load.size(); ++i) before[i + 1] = before[i] + std::pow(load[i] / steady - 1, 2);
   std::size_t begin = load.size() - window + 1;
@@ -70,10 +72,13 @@ double mean_between(const std::vector<Row>& rows, double from, double to, double
 
 std::vector<double> low_pass(const std::vector<double>& values, double interval, double cutoff_hz) {
   if (!(cutoff_hz > 0 && cutoff_hz * interval < 0.5)) {
-    throw Error(ExitCode::usage,
-                fmt::format("inflation.low_pass_hz = {}: must be above 0 and below half the rate of the "
-                            "history, {:.6g} Hz; raise inflation.history_hz",
-                            cutoff_hz, 0.5 / interval));
+    throw QuantityError(
+        ExitCode::usage,
+        fmt::format(
+            "low-pass cutoff = {}: must be above 0 and below half the rate of the history, {:.6g} Hz; "
+            "raise the history rate",
+            cutoff_hz, 0.5 / interval),
+        {"low-pass cutoff", "the history rate"});
   }
   if (values.empty()) return {};
   const double k = std::tan(std::numbers::pi * cutoff_hz * interval);

@@ -315,7 +315,7 @@ Material make_material(const Bench& bench, const MaterialFit& fit) {
   fabric.shear_fraction = bench.shear_fraction.value_or(fabric.shear_fraction);
   fabric.bending_fraction = bench.bending_fraction.value_or(fabric.bending_fraction);
   if (fit.has_permeability)
-    fabric.resistance = {PorosityModel::sheet, fit.permeability.law.linear, fit.permeability.law.quadratic};
+    fabric.resistance = {fit.permeability.law.linear, fit.permeability.law.quadratic, {}, {}, {}};
   return fabric;
 }
 
@@ -341,8 +341,8 @@ MaterialFit fit_material(const Bench& bench) {
     fit.permeability = fit_permeability(points);
     fit.has_permeability = true;
     fit.notes.push_back(
-        "darcy and forchheimer are a and b of the pressure drop; porosity_model = \"paper\" takes calibrated "
-        "coefficients there instead");
+        "the pressure drop is the cloth's own; flow.porosity_model = \"paper\" takes calibrated coefficients "
+        "(darcy_1_m2, forchheimer_1_m) instead");
     if (fit.permeability.one_point)
       fit.notes.push_back("air permeability from one pressure: b = 0 is a choice (creeping flow)");
     if (fit.permeability.on_bound)

@@ -100,6 +100,33 @@ void describe_damping(Fields& fields, double& damping) {
   fields.number("damping_n_s_m", damping, from(0).up_to(1000), "Relative damping C of one spring.");
 }
 
+void describe_resistance(Fields& fields, ClothResistance& cloth) {
+  const std::string none = "0; see Air through the cloth";
+  fields
+      .number("pressure_drop_linear_pa_s_m", cloth.pressure_drop_linear_pa_s_m, from(0).up_to(1e12),
+              "a of the cloth's pressure drop a v + b v|v| in Pa, v in m/s ([NFM] Eq. 15).")
+      .absent(none);
+  fields
+      .number("pressure_drop_quadratic_pa_s2_m2", cloth.pressure_drop_quadratic_pa_s2_m2, from(0).up_to(1e9),
+              "b of the same.")
+      .absent(none);
+  fields
+      .number("permeability_cfm", cloth.permeability_cfm, above(0).below(1e4),
+              "Air permeability in CFM/ft2 at 124.5 Pa (ASTM D737), in place of a and b: a = 124.5 Pa over "
+              "that velocity, b = 0.")
+      .absent("a and b hold");
+  fields
+      .number(
+          "darcy_1_m2", cloth.darcy_1_m2, from(0).up_to(1e12),
+          "d of porous cells, calibrated on cells of one size, for porosity_model = \"paper\"; in place of "
+          "a and b.")
+      .absent(none);
+  fields
+      .number("forchheimer_1_m", cloth.forchheimer_1_m, from(0).up_to(1e9),
+              "f of porous cells, for porosity_model = \"paper\".")
+      .absent(none);
+}
+
 void describe_tested_strain(Fields& fields, double& strain) {
   fields.number("tested_strain", strain, from(0).up_to(5),
                 "Largest strain of the tests behind the fit; 0: unknown.");
@@ -132,18 +159,7 @@ void describe(Fields& fields, Fabric& fabric) {
   describe_tested_strain(fields, fabric.tested_strain);
   fields.number("break_load_n_m", fabric.break_load_n_m, from(0).up_to(1e7),
                 "Load per width at failure; 0: unknown.");
-  fields.number("darcy", fabric.resistance.linear, from(0).up_to(1e12),
-                "a of the pressure drop a v + b v|v| ([NFM] Eq. 15): typed as Darcy d, 1/m2, by "
-                "porosity_model = \"paper\", taken as a, Pa s/m, by \"sheet\".");
-  fields.number(
-      "forchheimer", fabric.resistance.quadratic, from(0).up_to(1e9),
-      "b of the pressure drop: typed as Forchheimer f, 1/m, by porosity_model = \"paper\", taken as b, "
-      "Pa s2/m2, by \"sheet\".");
-  fields.choice(
-      "porosity_model", fabric.resistance.model,
-      {{"sheet", PorosityModel::sheet}, {"paper", PorosityModel::paper}},
-      "What darcy and forchheimer are: the cloth's own pressure drop (\"sheet\"), or coefficients of "
-      "porous cells, calibrated on cells of one size (\"paper\").");
+  describe_resistance(fields, fabric.resistance);
 }
 
 void describe(Fields& fields, Line& line) {
@@ -241,7 +257,8 @@ Material read_material(const std::filesystem::path& file) {
   std::vector<Problem> problems;
   Material material;
   try {
-    const Document document = parse_toml(read_text_file(file), file.string());
+    Document document = parse_toml(read_text_file(file), file.string());
+    rename_old_keys(document.root);
     Origins origins;
     Fields fields;
     describe_kind(fields, material);  // a library file stands alone: no `base`
@@ -251,6 +268,10 @@ Material read_material(const std::filesystem::path& file) {
     check_values(chosen, origins, problems);
     Findings findings(origins, problems);
     check_material(material, "", findings);
+    if (auto* fabric = std::get_if<Fabric>(&material))
+      settle_resistance(
+          fabric->resistance, [](const std::string&) { return true; },
+          [&](const std::string& key, const std::string& message) { findings.add(key, "", "", message); });
   } catch (const InputError& error) {
     problems = error.problems();
   }

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
+#include "ripstop/core/toml/document.h"
 #include "ripstop/material/material.h"
 
 namespace ripstop {
@@ -28,6 +31,20 @@ void check_material(const Material& material, const std::string& key, Findings& 
 
 /// Characters of a material's `warning`.
 inline constexpr std::size_t most_warning_text = 2000;
+
+/// The two keys of a cloth's permeability for a porosity model: of its linear and of its quadratic part.
+std::pair<std::string, std::string> resistance_keys(PorosityModel model);
+/// Leaves one form of the permeability, with both its numbers: where some of its keys are `given`, they replace a base's
+/// in another form. Two forms are told to `refuse`, by the key of one of them.
+void settle_resistance(ClothResistance& cloth, const std::function<bool(const std::string& key)>& given,
+                       const std::function<void(const std::string& key, const std::string& message)>& refuse);
+
+/// A key that had another name in earlier versions; `now` is empty where it has become unnecessary.
+struct RenamedKey {
+  std::string old, now;
+};
+/// Gives the old keys `darcy`, `forchheimer` and `porosity_model` of a material's table their names of today.
+std::vector<RenamedKey> rename_old_keys(Node& material);
 
 std::string kind_of(const Material& material);  // "fabric", "line", "tape"
 std::string name_of(const Material& material);

@@ -18,19 +18,18 @@ struct PorousCellLaw {
   double forchheimer = 0;  // f [1/m]
 };
 
-/// The keys `darcy` and `forchheimer` of a cloth, whose meaning the model decides: taken as a [Pa s/m] and
-/// b [Pa s2/m2] of the cloth's own pressure drop by `sheet`, as d [1/m2] and f [1/m] by `paper`.
+/// The permeability of a cloth as its keys give it, in one of three forms.
 struct ClothResistance {
-  PorosityModel model = PorosityModel::sheet;  // that they are for; a case may use them with the other
-  double linear = 0, quadratic = 0;            // in the velocity
+  std::optional<double> pressure_drop_linear_pa_s_m, pressure_drop_quadratic_pa_s2_m2;
+  std::optional<double> permeability_cfm;             // see law_of_cfm()
+  std::optional<double> darcy_1_m2, forchheimer_1_m;  // of porous cells
 };
-/// [NFM] types a and b of a pressure drop as d and f of cells, as they are.
-inline PressureDrop as_sheet(const ClothResistance& cloth) {
-  return {cloth.linear, cloth.quadratic};
-}
-inline PorousCellLaw as_cells(const ClothResistance& cloth) {
-  return {cloth.linear, cloth.quadratic};
-}
+/// That the keys are for; a case may use them with the other.
+PorosityModel model_of(const ClothResistance& cloth);
+/// The cloth's own pressure drop, and the resistance of the cells that it cuts. [NFM] types a and b of a pressure drop
+/// as d and f of cells, as they are; keys of the other model are taken so too.
+PressureDrop as_sheet(const ClothResistance& cloth);
+PorousCellLaw as_cells(const ClothResistance& cloth);
 
 /// Of cloth and tape in steady runs with the `sheet` model and in openings. Assumed: 0.03 N/m for F-111, Euler's load
 /// pi^2 B / w^2 of a strip w = 36 mm wide with B = 4e-6 N m; any value well below the strains of use gives the same shape.

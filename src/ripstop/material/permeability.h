@@ -3,12 +3,9 @@
 
 #include <vector>
 
-namespace ripstop {
+#include "ripstop/core/pressure_drop.h"
 
-struct PressureDrop {
-  double linear = 0;     // a [Pa s/m]
-  double quadratic = 0;  // b [Pa s2/m2]
-};
+namespace ripstop {
 
 /// One reading of a permeability tester.
 struct FlowPoint {

@@ -70,10 +70,9 @@ TEST(Warnings, PermeabilityOfAnotherModelIsWarnedOfWithBothWords) {
   given.flow.porosity_model = PorosityModel::sheet;
   const std::vector<std::string> told = porosity_warnings(resolve(given));
   ASSERT_EQ(told.size(), 1u);
-  EXPECT_EQ(
-      told[0].find("flow.porosity_model = \"sheet\", but darcy and forchheimer of materials.f-111 are for "
-                   "\"paper\""),
-      0u)
+  EXPECT_EQ(told[0].find("flow.porosity_model = \"sheet\", but the permeability of materials.f-111 is for "
+                         "\"paper\""),
+            0u)
       << told[0];
 }
 

@@ -59,7 +59,7 @@ TEST(PorositySweep, GivesItsResultsBackAsTrialsOfTheirPoint) {
     EXPECT_EQ(trials[i].drag_area, double(i));
     EXPECT_EQ(trials[i].condition, i / 6);
     const PressureDrop law = cloth_of(PorosityKnob::gamma, trials[i].knob, 1.2e-4);
-    EXPECT_EQ(points[i].resolved.materials().canopy.resistance.linear, law.linear);
+    EXPECT_EQ(as_sheet(points[i].resolved.materials().canopy.resistance).linear, law.linear);
     EXPECT_NEAR(points[i].resolved.flow().canopy_position_m,
                 resolve(given).flow().canopy_position_m + trials[i].shift, 1e-9);
   }

@@ -46,13 +46,13 @@ struct SweepFiles : testing::Test {
 const SweepAxis speeds = sweep_axis("flow.speed_m_s", {"10", "20", "30"}, "--speeds");
 
 TEST_F(SweepFiles, ItsTableAndItsJsonHaveARowForEveryRun) {
-  sweep({speeds, sweep_axis("materials.f-111.darcy", {"50", "60"}, "--vary")});
+  sweep({speeds, sweep_axis("materials.f-111.darcy_1_m2", {"50", "60"}, "--vary")});
   rows[5] = {};
   rows[5].error = "the flow diverged";
   const TextTable table = sweep_table(axes, points, rows);
   ASSERT_EQ(table.rows.size(), 6u);
   EXPECT_EQ(table.columns[0], "flow.speed_m_s");
-  EXPECT_EQ(table.columns[1], "materials.f-111.darcy");
+  EXPECT_EQ(table.columns[1], "materials.f-111.darcy_1_m2");
   const auto drag = std::find(table.columns.begin(), table.columns.end(), "drag_n") - table.columns.begin();
   const std::size_t status = table.columns.size() - 2;
   for (std::size_t i = 0; i < 6; ++i) {
@@ -77,7 +77,7 @@ TEST_F(SweepFiles, APlotHasALineForEveryValueOfTheOtherAxis) {
   sweep({speeds});
   write_sweep_plots(folder.path, "one", axes, points, rows);
   const std::size_t one = colours();
-  sweep({speeds, sweep_axis("materials.f-111.darcy", {"50", "60"}, "--vary")});
+  sweep({speeds, sweep_axis("materials.f-111.darcy_1_m2", {"50", "60"}, "--vary")});
   write_sweep_plots(folder.path, "two", axes, points, rows);
   EXPECT_EQ(colours(), one + 1);
   // The second of two that may lie on one another is dashed.
@@ -111,7 +111,7 @@ TEST_F(SweepFiles, WhatWasMeasuredStandsBesideTheDragAndNotBesideTheTime) {
     write_sweep_plots(folder.path, "t", axes, points, rows);
     return colours_of("drag.svg") - colours_of("wall_time.svg");
   };
-  sweep({sweep_axis("materials.f-111.darcy", {"50", "60"}, "--vary")});
+  sweep({sweep_axis("materials.f-111.darcy_1_m2", {"50", "60"}, "--vary")});
   EXPECT_EQ(more_than_time(), 1u);
   sweep({sweep_axis("parachute.lines.length_m", {"1.5", "1.6"}, "--vary")});
   EXPECT_EQ(more_than_time(), 1u);
@@ -124,7 +124,7 @@ TEST_F(SweepFiles, WhatWasMeasuredStandsBesideTheDragAndNotBesideTheTime) {
 
 TEST_F(SweepFiles, AxesWithoutASecondValueOrWithWordsAreNotDrawnOver) {
   sweep({sweep_axis("flow.viscosity_ratio", {"10"}, "--vary"),
-         sweep_axis("materials.f-111.darcy", {"50", "60"}, "--vary")});
+         sweep_axis("materials.f-111.darcy_1_m2", {"50", "60"}, "--vary")});
   write_sweep_plots(folder.path, "second", axes, points, rows);
   EXPECT_TRUE(std::filesystem::exists(folder.path / "drag.svg"));
   std::filesystem::remove_all(folder.path);

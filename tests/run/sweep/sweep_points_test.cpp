@@ -15,7 +15,7 @@ const std::filesystem::path stratos_case =
 TEST(SweepPoints, AreEveryCombinationEachOneStepFromItsNeighbour) {
   const std::vector<SweepAxis> axes = {
       sweep_axis("flow.speed_m_s", {"10", "15", "20", "25", "30"}, "--speeds"),
-      sweep_axis("materials.f-111.darcy", {"50", "60"}, "--vary")};
+      sweep_axis("materials.f-111.darcy_1_m2", {"50", "60"}, "--vary")};
   const std::vector<SweepPoint> points = sweep_points(stratos_case, {}, axes);
   ASSERT_EQ(points.size(), 10u);
   std::set<std::string> folders;
@@ -30,8 +30,8 @@ TEST(SweepPoints, AreEveryCombinationEachOneStepFromItsNeighbour) {
     const SweepPoint& neighbour = points[point.start];
     const double step =
         std::abs(point.resolved.flow().nominal_speed_m_s - neighbour.resolved.flow().nominal_speed_m_s) / 5 +
-        std::abs(point.resolved.materials().canopy.resistance.linear -
-                 neighbour.resolved.materials().canopy.resistance.linear) /
+        std::abs(as_cells(point.resolved.materials().canopy.resistance).darcy -
+                 as_cells(neighbour.resolved.materials().canopy.resistance).darcy) /
             10;
     EXPECT_DOUBLE_EQ(step, 1) << point.folder;
     EXPECT_LE(std::abs(neighbour.resolved.flow().nominal_speed_m_s - 20),
@@ -77,8 +77,8 @@ TEST(SweepPoints, OfOneFolderNameAreNumbered) {
   EXPECT_EQ(sweep_points(stratos_case, {}, {}).at(0).folder, "run");
   const auto two = sweep_points(
       stratos_case, {},
-      {sweep_axis("flow.speed_m_s", {"10"}, ""), sweep_axis("materials.f-111.darcy", {"50"}, "")});
-  EXPECT_EQ(two.at(0).folder, "speed_m_s=10_darcy=50");
+      {sweep_axis("flow.speed_m_s", {"10"}, ""), sweep_axis("materials.f-111.darcy_1_m2", {"50"}, "")});
+  EXPECT_EQ(two.at(0).folder, "speed_m_s=10_darcy_1_m2=50");
 }
 
 TEST(SweepPoints, AsManyRunSideBySideAsCoresMemoryAndPointsAllow) {

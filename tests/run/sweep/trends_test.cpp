@@ -40,8 +40,8 @@ double drag_area(const std::string& example, const std::vector<Setting>& setting
 TEST(Trends, DragFallsWithVentAndPermeabilityAndRisesWithTheLines) {
   const double as_it_is = drag_area("flat-circular", {{"parachute.vent_diameter_m", "0.1"}});
   const double wide_vent = drag_area("flat-circular", {{"parachute.vent_diameter_m", "0.35"}});
-  const double loose_cloth =
-      drag_area("flat-circular", {{"materials.f-111-physical.darcy", "82"}});  // 300 CFM
+  const double loose_cloth = drag_area(
+      "flat-circular", {{"materials.f-111-physical.pressure_drop_linear_pa_s_m", "82"}});  // 300 CFM
   const double short_lines = drag_area("flat-circular", {{"parachute.lines.length_m", "0.6"}});
   const double long_lines = drag_area("flat-circular", {{"parachute.lines.length_m", "1.5"}});
   EXPECT_LT(wide_vent, 0.98 * as_it_is);

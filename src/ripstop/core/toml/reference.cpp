@@ -107,7 +107,7 @@ void add_inner_tables(const Field& field, const std::string& name, const std::st
 void add_table(const Fields& fields, const std::string& name, const std::string& heading,
                const std::string& doc, std::string& out) {
   const std::string head = "| key | type | default | range | meaning |\n| --- | --- | --- | --- | --- |\n";
-  out += fmt::format("### {}\n\n{}{}", heading, doc, doc.empty() ? "" : "\n\n");
+  out += fmt::format("## {}\n\n{}{}", heading, doc, doc.empty() ? "" : "\n\n");
   if (const std::string rows = rows_of(fields); !rows.empty()) out += head + rows + "\n";
   const auto each_word = [&](const auto& visit) {
     for (const Field& field : fields.list()) {

@@ -72,9 +72,9 @@ double giving_way(double resistance, double yields) {
 }
 
 /// v of v + yields (a + b |v|) v = asked.
-double passing(double asked, double yields, double a, double b) {
-  const double linear = 1 + yields * a;
-  return 2 * asked / (linear + std::sqrt(linear * linear + 4 * yields * b * std::abs(asked)));
+double passing(double asked, double yields, const PressureDrop& law) {
+  const double linear = 1 + yields * law.linear;
+  return 2 * asked / (linear + std::sqrt(linear * linear + 4 * yields * law.quadratic * std::abs(asked)));
 }
 
 }  // namespace
@@ -110,7 +110,7 @@ void SheetRows::add_faces(const Axis& x, const Axis& y, const Axis& z, const std
       Face face;
       face.geometry = geometry;
       face.body = s;
-      face.a = law.linear, face.b = law.quadratic;
+      face.law = law;
       const SheetFace& g = face.geometry;
       if (!motion.velocity.empty()) {
         face.geometry.normal = geometry.across;
@@ -240,9 +240,9 @@ void SheetRows::update(State& state, const Layout& layout, double momentum, doub
       through += share * (next - through) - kinked * share * (1 - share) * kink;
     }
     const double yields = face.yields, asked = through + yields * face.known;
-    const double speed = std::abs(yields > 0 ? passing(asked, yields, face.a, face.b) : through);
-    const double resistance = giving_way(face.a + face.b * speed, yields),
-                 steepness = giving_way(face.a + 2 * face.b * speed, yields);
+    const double speed = std::abs(yields > 0 ? passing(asked, yields, face.law) : through);
+    const double resistance = giving_way(face.law.linear + face.law.quadratic * speed, yields),
+                 steepness = giving_way(face.law.linear + 2 * face.law.quadratic * speed, yields);
     const Cover beside = cover_of(face.cover, resistance, density, std::abs(through));
     // A jet that has yet to start, or that turns back, would offer no slope at all.
     const Cover brisk = cover_of(face.cover, resistance, density,

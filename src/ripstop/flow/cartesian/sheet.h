@@ -59,8 +59,8 @@ class SheetRows {
   struct Face {
     SheetFace geometry;
     int body = 0;
-    double a = 0, b = 0;  // of the law
-    Vec3 velocity;        // of the sheet [m/s]
+    PressureDrop law;
+    Vec3 velocity;  // of the sheet [m/s]
     bool moves = false;
     double yields = 0;  // by which it is faster along its normal for every pascal beyond ... [m/(s Pa)]
     double known = 0;   // ... this drop along the normal [Pa]

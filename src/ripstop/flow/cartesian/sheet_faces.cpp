@@ -1,5 +1,7 @@
 #include "ripstop/flow/cartesian/sheet_faces.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <bitset>
@@ -8,6 +10,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "ripstop/core/checked_int.h"
 #include "ripstop/flow/hems.h"
 
 namespace ripstop::cartesian {
@@ -18,6 +21,8 @@ constexpr int centre_line = lines / 2;
 constexpr int finer = 3;         // points beside a hem for each line and direction
 constexpr double reach = 1.5;    // cells: hits of neighbouring lines that belong to one crossing ...
 constexpr double longest = 6.0;  // ... and what is added at most where the sheet is slanted
+
+constexpr double longest_hem = 1e6;  // one edge of a triangle, in cells
 
 using Point = std::array<double, 3>;
 
@@ -103,7 +108,12 @@ class NearHem {
 
   void mark(std::size_t hem) {
     const Vec3 p = hems_[hem].from, q = hems_[hem].to;
-    const int steps = 1 + static_cast<int>(norm(q - p) / least_width_);
+    const int steps = 1 + checked_int(norm(q - p) / least_width_, 0, longest_hem, [&] {
+                        return fmt::format(
+                            "a free edge of the sheet is {:.3g} m long: its motion has diverged; "
+                            "a smaller time step may help",
+                            norm(q - p));
+                      });
     for (int s = 0; s <= steps; ++s) {
       const Point at = point_of(p + (static_cast<double>(s) / steps) * (q - p));
       std::array<int, 3> cell;

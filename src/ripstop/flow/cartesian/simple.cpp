@@ -158,7 +158,7 @@ FlowProgress Solver::close_iteration() {
   progress.residual_p = sum.ratio(Sums::p_residual);
   progress.residual_k = sum.ratio(Sums::k_residual);
   progress.residual_omega = sum.ratio(Sums::omega_residual);
-  progress.drag = s_.force.z;
+  progress.drag = dot(s_.force, d_.air.direction());
   return progress;
 }
 

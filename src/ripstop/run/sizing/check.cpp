@@ -22,7 +22,9 @@ Json to_json(const std::vector<Source>& sources, const Json& written) {
 }  // namespace
 
 CheckResult run_check(const Settings& resolved) {
-  return {summarize(resolved), resolved.sources(), case_warnings(resolved), resolved};
+  std::vector<std::string> warnings = resolved.deprecations();
+  for (const std::string& text : case_warnings(resolved)) warnings.push_back(text);
+  return {summarize(resolved), resolved.sources(), std::move(warnings), resolved};
 }
 
 std::string to_json(const CheckResult& result) {

@@ -172,6 +172,12 @@ struct SteadySolution {
 SteadySolution run_steady(const Settings& resolved, SteadyObserver& observer,
                           const SteadySettings& settings = {});
 
+/// The same of a case.
+inline SteadySolution run_steady(const Case& given, SteadyObserver& observer,
+                                 const SteadySettings& settings = {}) {
+  return run_steady(resolve(given), observer, settings);
+}
+
 /// For SteadyObserver::begin(): the shape in which a run of `other` ended, moved to this case's place, under
 /// its pressure at this case's q. Another mesh starts cold. Returns whether the flow of that run fits too.
 bool start_from(const Settings& other, const SteadyState& end, const SteadyRun& run, SteadyState& state);

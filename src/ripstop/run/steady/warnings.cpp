@@ -35,12 +35,12 @@ std::vector<std::string> grid_warnings(const Settings& resolved) {
 std::vector<std::string> porosity_warnings(const Settings& resolved) {
   const Fabric& cloth = resolved.materials().canopy;
   const PorosityModel used = resolved.flow().porosity_model;
-  if (used == cloth.resistance.model) return {};
+  if (used == model_of(cloth.resistance)) return {};
   const auto word = [](PorosityModel model) { return model == PorosityModel::paper ? "paper" : "sheet"; };
   return {
-      fmt::format("flow.porosity_model = \"{}\", but darcy and forchheimer of materials.{} are for \"{}\" "
+      fmt::format("flow.porosity_model = \"{}\", but the permeability of materials.{} is for \"{}\" "
                   "(materials/README.md)",
-                  word(used), cloth.name, word(cloth.resistance.model))};
+                  word(used), cloth.name, word(model_of(cloth.resistance)))};
 }
 
 std::vector<std::string> strain_warnings(const Settings& resolved, double largest_cloth_strain) {

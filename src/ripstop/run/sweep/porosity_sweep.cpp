@@ -77,14 +77,15 @@ std::vector<SweepAxis> porosity_axes(const Settings& resolved, const PorositySwe
                                   {"flow.speed_basis", "nominal", "--measured"},
                                   {"flow.density_kg_m3", fmt::format("{}", point.density), "--measured"}});
   }
-  const std::string cloth = "materials." + resolved.parachute().canopy_material;
+  const std::string cloth = "materials." + resolved.parachute().canopy_material + ".";
+  const auto keys = resistance_keys(resolved.flow().porosity_model);
   for (const double value : sweep.values) {
     const PressureDrop law = cloth_of(sweep.knob, value, sweep.thickness);
     knob.values.push_back(fmt::format("{}", value));
-    knob.settings.push_back({{cloth + ".darcy", fmt::format("{}", law.linear), "porosity"},
-                             {cloth + ".forchheimer", fmt::format("{}", law.quadratic), "porosity"}});
+    knob.settings.push_back({{cloth + keys.first, fmt::format("{}", law.linear), "porosity"},
+                             {cloth + keys.second, fmt::format("{}", law.quadratic), "porosity"}});
   }
-  const FlowSettings flow = resolved.flow();
+  const FlowSettings& flow = resolved.flow();
   for (const double by : cell_shifts(resolved, sweep.shifts)) {
     shift.values.push_back(fmt::format("{:.4g}", by));
     std::vector<Setting> settings = {

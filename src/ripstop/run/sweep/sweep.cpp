@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "ripstop/case/cost.h"
+#include "ripstop/case/quantity_keys.h"
 #include "ripstop/case/settings.h"
 #include "ripstop/core/build_info.h"
 #include "ripstop/core/file.h"
@@ -116,7 +117,7 @@ class Board {
       try {
         drop_what_nobody_needs();
       } catch (const Error& error) {  // the run itself is whole: the same command tries only this again
-        rows_[next] = failed(error.what(), error.code());
+        rows_[next] = failed(message_of(error), error.code());
       }
       if (events_.ended) events_.ended(static_cast<std::size_t>(next), rows_);
       changed_.notify_all();
@@ -152,14 +153,14 @@ class Board {
     try {
       if (!settings_.folder.empty()) require_unclaimed(settings_.folder / points_[i].folder);
     } catch (const Error& error) {
-      SweepRow row = failed(error.what(), error.code());
+      SweepRow row = failed(message_of(error), error.code());
       row.waits = true;
       return row;
     }
     try {
       return settings_.folder.empty() ? run_in_memory(i, threads) : run_in_folder(i, threads);
     } catch (const Error& error) {
-      return failed(error.what(), error.code());
+      return failed(message_of(error), error.code());
     } catch (const std::system_error& error) {
       return failed(error.what(), ExitCode::io);
     } catch (const std::exception& error) {
@@ -387,7 +388,7 @@ std::vector<SweepRow> gather_sweep(const std::vector<SweepPoint>& points, const 
         row = {true, "", ExitCode::done, false, steady_result_from_json(*text), {}};
     } catch (const Error& error) {
       row.code = error.code();
-      row.error = error.what();
+      row.error = message_of(error);
     }
   }
   const bool all = std::all_of(rows.begin(), rows.end(), [](const SweepRow& row) { return row.done; });

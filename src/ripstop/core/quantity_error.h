@@ -1,0 +1,23 @@
+// An error about quantities that somebody set: a solver names the quantity, and knows no file or key that it is set by.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ripstop/core/error.h"
+
+namespace ripstop {
+
+class QuantityError : public Error {
+ public:
+  /// `message` contains the name of each of the quantities, as "low-pass cutoff".
+  QuantityError(ExitCode code, const std::string& message, std::vector<std::string> quantities)
+      : Error(code, message), quantities_(std::move(quantities)) {}
+  const std::vector<std::string>& quantities() const { return quantities_; }
+
+ private:
+  std::vector<std::string> quantities_;
+};
+
+}  // namespace ripstop
