@@ -12,6 +12,7 @@
 #include "ripstop/core/table/layout.h"
 #include "ripstop/core/table/text.h"
 #include "ripstop/core/table/values.h"
+#include "ripstop/core/visible.h"
 
 namespace ripstop::table {
 namespace {
@@ -260,6 +261,7 @@ std::vector<std::string> explanation(const Table& table) {
                                   column.unit.empty() ? "no known unit" : column.unit,
                                   column.problem.empty() ? range_of(column) : "not used"));
   for (const std::string& note : table.notes) lines.push_back(table.file.filename().string() + ": " + note);
+  for (std::string& line : lines) line = visible_line(line);
   return lines;
 }
 
