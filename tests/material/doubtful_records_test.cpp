@@ -211,8 +211,8 @@ TEST(Copies, OfCoarselyRoundedRecordsAreKnown) {
       pounds.force[i] = std::round(whole.force[i] / 4.448 * 100) / 100 * 4.448;
     }
     const TensileRecord half = thinned(whole, [](std::size_t i) { return i % 2 == 1; });
-    for (const TensileRecord* copy : {&scaled, &stretched, &shifted, &pounds, &half})
-      EXPECT_LT(own_noise(cleaned(whole), cleaned(*copy)), surely_copied) << law.name;
+    for (const TensileRecord& copy : {scaled, stretched, shifted, pounds, half})
+      EXPECT_LT(own_noise(cleaned(whole), cleaned(copy)), surely_copied) << law.name;
   }
 }
 

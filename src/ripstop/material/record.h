@@ -20,7 +20,7 @@ struct Coupon {
 struct RecordFormat {
   std::string force_column, displacement_column;
   std::string force_unit, displacement_unit;
-  std::vector<table::ColumnChoice> columns;  // of --columns; the four above come before them
+  std::vector<table::ColumnChoice> columns{};  // of --columns; the four above come before them
   table::Decimal decimal = table::Decimal::automatic;
 };
 
