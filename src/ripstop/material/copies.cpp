@@ -12,7 +12,7 @@ constexpr std::size_t fewest = 48;  // points in common
 constexpr std::size_t most = 240;
 constexpr double likely_copied = 0.3;
 constexpr double least_noise = 1e-9;  // of the highest load: rounding
-constexpr double same_steps = 0.02;   // of two records whose loads are rounded coarsely
+constexpr double same_steps = 0.1;    // of coarsely rounded records; pulls without any noise have 0.2
 
 /// A record along the way of its clamp from its first row on [m].
 struct Trace {

@@ -28,8 +28,7 @@ constexpr std::array<QuantityName, 11> quantities{{{Q::force, "force", Dimension
                                                    {Q::drag, "drag", Dimension::force},
                                                    {Q::density, "density", Dimension::density}}};
 
-/// Folded words of headings. A word of four letters or more, and "weg", also counts as the end of a compound. `weak` words
-/// have other meanings in one of the languages: "last" is a load in German.
+/// Folded words of headings. `weak` words have other meanings in one of the languages: "last" is a load in German.
 struct Word {
   const char* text;
   Quantity quantity;
@@ -208,12 +207,48 @@ std::vector<std::string> tokens_of(const std::string& text) {
   return tokens;
 }
 
+/// German and Dutch words that end compounds: "Standardkraft". Not words of other languages: an extension is no tension.
+constexpr std::string_view last_parts[]{"widerstand",
+                                        "weerstand",
+                                        "spannung",
+                                        "spanning",
+                                        "dehnung",
+                                        "vervorming",
+                                        "beschleunigung",
+                                        "versnelling",
+                                        "snelheid",
+                                        "hohe",
+                                        "hoehe",
+                                        "geschwindigkeit",
+                                        "hoogte",
+                                        "dichte",
+                                        "dichtheid",
+                                        "druck",
+                                        "druk",
+                                        "kraft",
+                                        "last",
+                                        "kracht",
+                                        "belasting",
+                                        "verlangerung",
+                                        "verlaengerung",
+                                        "langenanderung",
+                                        "laengenaenderung",
+                                        "verschiebung",
+                                        "verplaatsing",
+                                        "verlenging",
+                                        "zeit",
+                                        "tijd",
+                                        "weg",
+                                        "probe",
+                                        "prufling",
+                                        "pruefling",
+                                        "proefstuk"};
+
 bool matches(const std::string& token, const Word& word) {
   const std::string_view text = word.text;
-  if (token == text) return true;
-  const bool ends_compounds = (text.size() > 3 && (!word.weak || text.size() > 7)) || text == "weg";
-  if (ends_compounds && token.size() > text.size() + 1 && token.ends_with(text)) return true;
-  return token == std::string(text) + "s";  // "loads"
+  if (token == text || token == std::string(text) + "s") return true;  // "loads"
+  if (token.size() < text.size() + 2 || !token.ends_with(text)) return false;
+  return std::find(std::begin(last_parts), std::end(last_parts), text) != std::end(last_parts);
 }
 
 /// Meanings of a name's words, in the order of the list above, which is that of precedence: drag force is a drag.

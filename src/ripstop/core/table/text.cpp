@@ -98,7 +98,7 @@ bool is_blank(std::uint32_t code) {
 
 Text decode(const std::string& bytes, const std::filesystem::path& file) {
   if (bytes.starts_with("PK\x03\x04") || bytes.starts_with("\xd0\xcf\x11\xe0"))
-    refuse(file, "this is a workbook of a spreadsheet program: save its sheet as CSV");
+    refuse(file, "this is an Excel workbook: save its sheet as CSV");
   std::string_view rest = bytes;
   Text text;
   if (rest.starts_with("\xff\xfe") || rest.starts_with("\xfe\xff")) {
