@@ -68,7 +68,8 @@ constexpr double most_along = 1e6;  // from each other, in boxes or points of a 
 constexpr double most_room = 1e8;   // boxes or points
 
 std::string too_far() {
-  return "the cloth reaches farther than any canopy: its motion has diverged; a smaller time step may help";
+  return "the cloth has no finite position, or is larger than any canopy: its motion has diverged. A smaller "
+         "time step or more damping may help";
 }
 
 std::size_t room_of(const std::array<int, 3>& count) {
@@ -404,6 +405,7 @@ Wrench wrench_of(const ClothLoad& load, const std::vector<Cell>& cells, const st
 ClothLoad load_of_flow(const std::vector<SheetLoad>& loads, const FlowGrid& grid,
                        const std::vector<Triangle>& surface, const std::vector<Cell>& cells,
                        const std::vector<Vec3>& x, Folds folds) {
+  if (!std::all_of(x.begin(), x.end(), is_finite)) throw Error(ExitCode::diverged, too_far());
   const Patchwork cloth(cells, x);
   std::vector<Sample> samples = samples_of(loads, surface);
   const double box = samples.empty() ? 1 : 0.5 * reach * width_at(samples.front().point, grid);
