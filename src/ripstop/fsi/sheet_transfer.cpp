@@ -46,7 +46,7 @@ struct Patchwork {
   }
   /// All that is not pressure.
   Vec3 traction(const ClothLoad& load, std::size_t cell) const {
-    const Vec3 rigid = traction(load.remainder, cell);
+    const Vec3 rigid = traction(load.residual_traction, cell);
     return load.of_folds.empty() ? rigid : rigid + load.of_folds[cell];
   }
   Vec3 force(const ClothLoad& load, std::size_t cell) const {
@@ -417,7 +417,8 @@ ClothLoad load_of_flow(const std::vector<SheetLoad>& loads, const FlowGrid& grid
   }
   const Wrench air = wrench_of(loads), plain = wrench_of(load, cells, x);
   const Vec3 force = air.force - plain.force;
-  load.remainder = smallest_traction(cloth, force, air.moment - plain.moment - cross(cloth.middle, force));
+  load.residual_traction =
+      smallest_traction(cloth, force, air.moment - plain.moment - cross(cloth.middle, force));
   return load;
 }
 
@@ -433,7 +434,8 @@ std::vector<Vec3> node_forces(const ClothLoad& load, const std::vector<Cell>& ce
   return force;
 }
 
-double remainder_share(const ClothLoad& load, const std::vector<Cell>& cells, const std::vector<Vec3>& x) {
+double residual_traction_share(const ClothLoad& load, const std::vector<Cell>& cells,
+                               const std::vector<Vec3>& x) {
   const Patchwork cloth(cells, x);
   double traction = 0, pressure = 0;
   for (std::size_t c = 0; c < cells.size(); ++c) {
