@@ -23,4 +23,7 @@ double geopotential_height(double height);
 /// Error(usage) outside [lowest_height, highest_height].
 StandardAir standard_air(double height);
 
+/// Density `fallen` metres below `height` over that at `height` [m]; below lowest_height that of lowest_height.
+double density_ratio(double height, double fallen);
+
 }  // namespace ripstop
