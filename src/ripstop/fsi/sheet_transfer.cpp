@@ -46,7 +46,7 @@ struct Patchwork {
   }
   /// All that is not pressure.
   Vec3 traction(const ClothLoad& load, std::size_t cell) const {
-    const Vec3 rigid = traction(load.remainder, cell);
+    const Vec3 rigid = traction(load.residual_traction, cell);
     return load.of_folds.empty() ? rigid : rigid + load.of_folds[cell];
   }
   Vec3 force(const ClothLoad& load, std::size_t cell) const {
@@ -68,7 +68,8 @@ constexpr double most_along = 1e6;  // from each other, in boxes or points of a 
 constexpr double most_room = 1e8;   // boxes or points
 
 std::string too_far() {
-  return "the cloth reaches farther than any canopy: its motion has diverged; a smaller time step may help";
+  return "the cloth has no finite position, or is larger than any canopy: its motion has diverged. A smaller "
+         "time step or more damping may help";
 }
 
 std::size_t room_of(const std::array<int, 3>& count) {
@@ -404,6 +405,7 @@ Wrench wrench_of(const ClothLoad& load, const std::vector<Cell>& cells, const st
 ClothLoad load_of_flow(const std::vector<SheetLoad>& loads, const FlowGrid& grid,
                        const std::vector<Triangle>& surface, const std::vector<Cell>& cells,
                        const std::vector<Vec3>& x, Folds folds) {
+  if (!std::all_of(x.begin(), x.end(), is_finite)) throw Error(ExitCode::diverged, too_far());
   const Patchwork cloth(cells, x);
   std::vector<Sample> samples = samples_of(loads, surface);
   const double box = samples.empty() ? 1 : 0.5 * reach * width_at(samples.front().point, grid);
@@ -415,7 +417,8 @@ ClothLoad load_of_flow(const std::vector<SheetLoad>& loads, const FlowGrid& grid
   }
   const Wrench air = wrench_of(loads), plain = wrench_of(load, cells, x);
   const Vec3 force = air.force - plain.force;
-  load.remainder = smallest_traction(cloth, force, air.moment - plain.moment - cross(cloth.middle, force));
+  load.residual_traction =
+      smallest_traction(cloth, force, air.moment - plain.moment - cross(cloth.middle, force));
   return load;
 }
 
@@ -431,7 +434,8 @@ std::vector<Vec3> node_forces(const ClothLoad& load, const std::vector<Cell>& ce
   return force;
 }
 
-double remainder_share(const ClothLoad& load, const std::vector<Cell>& cells, const std::vector<Vec3>& x) {
+double residual_traction_share(const ClothLoad& load, const std::vector<Cell>& cells,
+                               const std::vector<Vec3>& x) {
   const Patchwork cloth(cells, x);
   double traction = 0, pressure = 0;
   for (std::size_t c = 0; c < cells.size(); ++c) {
