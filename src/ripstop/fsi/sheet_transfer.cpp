@@ -281,7 +281,7 @@ class Lattice {
     for (const Vec3& x : places) {
       const std::array<double, 3> at = scaled(x);
       for (int a = 0; a < 3; ++a) {
-        const int lower = checked_int(std::floor(at[a]), -most_apart, farthest, too_far);
+        const int lower = checked_int(std::floor(at[a]), -most_apart, most_apart, too_far);
         first_[a] = std::min(first_[a], lower), high[a] = std::max(high[a], lower);
       }
     }
@@ -297,7 +297,7 @@ class Lattice {
     std::array<int, 3> lower;
     std::array<double, 3> part;
     for (int a = 0; a < 3; ++a) {
-      lower[a] = checked_int(std::floor(at[a]), -most_apart, farthest, too_far) - first_[a];
+      lower[a] = checked_int(std::floor(at[a]), -most_apart, most_apart, too_far) - first_[a];
       part[a] = at[a] - std::floor(at[a]);
     }
     for (int n = 0; n < 8; ++n) {
