@@ -36,15 +36,15 @@ namespace {
 class OpeningListener : public InflationObserver {
  public:
   OpeningListener(Listener& listener, PyInflation& run) : listener_(listener), run_(run) {}
-  void begin(const Opening& solver, InflationState&, InflationHistory&) override {
+  void begin(const ripstop::Opening& solver, InflationState&, InflationHistory&) override {
     run_.cells = cells_of(solver.mesh());
   }
-  void advanced(const Opening& solver, const InflationState& state, const InflationHistory& history,
+  void advanced(const ripstop::Opening& solver, const InflationState& state, const InflationHistory& history,
                 const InflationFrame*) override {
     listener_.tell(OpeningProgress{state.cloth.time, solver.problem().settings.duration_s,
                                    history.rows.back().mean, state.step});
   }
-  void ended(const Opening& solver, const InflationState& state, const InflationHistory& history,
+  void ended(const ripstop::Opening& solver, const InflationState& state, const InflationHistory& history,
              const InflationResult& result) override {
     run_.history = history, run_.result = result, run_.shots = state.snapshots;
     run_.shape = positions(state.cloth, solver.cloth());

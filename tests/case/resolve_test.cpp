@@ -169,7 +169,7 @@ TEST(Resolved, TheProblemOfTheFlowHasEveryValueOfTheCase) {
           "watch = { courant = 0.6, standard_error = 0.03, shortest = 40, longest = 90 }\n",
       "case.toml");
   const SteadyProblem problem = steady_problem(resolve(given));
-  EXPECT_EQ(problem.flow.air, (Freestream{8, 1.1, 1.7e-5, 280, 0.02, 5}));
+  EXPECT_EQ(problem.flow.air, (Freestream{{0, 0, 8}, 1.1, 1.7e-5, 280, 0.02, 5}));
   EXPECT_EQ(problem.flow.stopping.residual, 2e-4);
   EXPECT_EQ(problem.flow.stopping.max_iterations, 70);
   EXPECT_EQ(problem.flow.stopping.average_over, 20);

@@ -46,6 +46,15 @@ class Checks(unittest.TestCase):
         self.assertEqual(self.faults(page), [])
 
 
+class Navigation(unittest.TestCase):
+    def test_every_page_is_in_the_navigation(self):
+        listed = (ROOT / "docs/site/mkdocs.yml").read_text()
+        pages = [str(page.relative_to(ROOT)) for page in ROOT.glob("docs/**/*.md")]
+        pages = [page for page in pages if not page.startswith(("docs/tables/", "docs/tutorials/"))]  # lists of build.py
+        self.assertGreater(len(pages), 40)
+        self.assertEqual([page for page in pages if page not in listed], [])
+
+
 @unittest.skipUnless(HAS_PACKAGES, "the packages of make docs are not installed")
 class Site(unittest.TestCase):
     @classmethod

@@ -13,10 +13,10 @@ MEAN_SENTENCE = 18     # words, of a page
 LONGEST_HEADING = 9    # words
 
 REWRITTEN = [
-    "CONTRIBUTING.md", "SECURITY.md", "CODE_OF_CONDUCT.md", "src/README.md", "materials/README.md", "validation/nylon-ribbons/README.md",
+    "README.md", "CONTRIBUTING.md", "SECURITY.md", "CODE_OF_CONDUCT.md", "src/README.md", "materials/README.md", "validation/nylon-ribbons/README.md",
     "validation/ojf/README.md", "validation/stratos-iv/README.md", GLOSSARY,
     *sorted(str(page.relative_to(ROOT)) for page in ROOT.glob("examples/**/README.md")),
-    *(f"docs/{page}.md" for page in ("README", "conventions", "performance", "reliability")),
+    *(f"docs/{page}.md" for page in ("README", "conventions", "performance", "reliability", "validation")),
     *(f"docs/guide/{page}.md" for page in (
         "canopies", "case-file", "cluster", "compare", "editor", "flight", "import", "inflate", "openfoam", "output-files", "porosity", "python",
         "report", "sweep", "tunnel", "unsteady")),

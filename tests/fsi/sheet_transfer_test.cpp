@@ -334,8 +334,8 @@ TEST(SheetTransfer, ClothThatIsNowhereOrFartherThanAnyCanopyIsAnError) {
   for (const double far : {1e9, 1e300, double(INFINITY), double(NAN)}) {
     s.x[40].x = far;
     const std::string message =
-        testing::divergence([&] { load_of_flow(loads, grid, surface, s.cells, s.x, Folds::filled); });
-    EXPECT_TRUE(testing::says(message, "diverged")) << message;
+        divergence([&] { load_of_flow(loads, grid, surface, s.cells, s.x, Folds::filled); });
+    EXPECT_TRUE(says(message, "diverged")) << message;
   }
 }
 

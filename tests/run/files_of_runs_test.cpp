@@ -89,7 +89,7 @@ TEST(WatchFiles, HistoryHasARowAStepAndTheWakeAFileASlice) {
   const TemporaryFolder root("watch-files");
   ClaimedFolder claimed(root.path / "run");
   const FlowRecord record = watched_record(5, 3);
-  write_watch(claimed, flat_circular_case(1, 600, 20), record);
+  write_watch(claimed, resolve(checked(flat_circular_case(1, 600, 20))), record);
   const CsvTable history = read_csv(root.path / "run/history.csv");
   ASSERT_EQ(history.rows.size(), 5u);
   for (std::size_t n = 0; n < 5; ++n) {

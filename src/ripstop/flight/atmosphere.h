@@ -1,10 +1,10 @@
 // The U.S. Standard Atmosphere, 1976, up to 80 km.
 #pragma once
 
+#include "ripstop/core/units.h"
+
 namespace ripstop {
 
-/// Standard acceleration of gravity, of weights and of the standard atmosphere [m/s2].
-inline constexpr double standard_gravity = 9.80665;
 /// Heights that standard_air() takes [m].
 inline constexpr double lowest_height = -2000, highest_height = 80000;
 

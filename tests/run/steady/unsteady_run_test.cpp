@@ -208,7 +208,7 @@ TEST(UnsteadyRun, TheMeanInItsPlotEndsAtThatOfItsRecord) {
 TEST(UnsteadyRun, WithoutAStepItLeavesNoHistory) {
   const TemporaryFolder folder("unwatched");
   ClaimedFolder claimed(folder.path / "run");
-  write_watch(claimed, flat_circular_case(1, 600, 20), FlowRecord{});
+  write_watch(claimed, resolve(checked(flat_circular_case(1, 600, 20))), FlowRecord{});
   EXPECT_TRUE(claimed.names().empty());
   EXPECT_FALSE(fs::exists(folder.path / "run/history.csv"));
 }
