@@ -271,8 +271,10 @@ TEST(RunNumbers, OfAnOpeningTheDeepestAndLargestOfItsFramesCount) {
   EXPECT_EQ(result.start_strain, start_strain(solver.mesh(), solver.folded().positions).largest);
   EXPECT_EQ(result.source.text, "asked for");
   EXPECT_FALSE(result.steady_drag_returned || result.drag_area || result.end_speed || result.stages);
-  EXPECT_EQ(result.settled, settled(result.summary, given.inflation.duration_s));
-  EXPECT_EQ(result.estimate.load, opening_estimate(given.parachute, result.summary.steady_load).load);
+  EXPECT_FALSE(result.settled);  // so short: nothing that rests on a steady load is there
+  EXPECT_FALSE(result.steady_load || result.overshoot || result.summary.inflation_time ||
+               result.estimate.load);
+  EXPECT_FALSE(result.start_up_time);
   EXPECT_EQ(result.peak_time, state.peak_time);
   EXPECT_EQ(result.settings.damping_n_s_m3, given.inflation.damping_n_s_m3);
   EXPECT_FALSE(result.low_pass || result.smooth_peak);
