@@ -16,9 +16,11 @@ WHEEL_PACKAGES := python3-pip python3-setuptools python3-wheel
 CHECK_PACKAGES := libgtest-dev libbenchmark-dev python3 python3-jsonschema python3-vtk9 python3-venv clang-format chromium \
   $(PYTHON_PACKAGES) $(WHEEL_PACKAGES)
 
+DOCS_PACKAGES := mkdocs-material libjs-katex fonts-katex doxygen
+
 export PATH := /usr/bin:$(PATH)
 
-.PHONY: help deps check-deps build demo check room sanitize sanitize-thread fuzz mutants coverage tidy bench validate validate-ojf validate-families validate-families-in-time validate-openings judge torture test-slurm test-hosts scaling reference report-libraries format format-check install-build install wheel package clean
+.PHONY: help deps check-deps build demo check room sanitize sanitize-thread fuzz mutants coverage tidy bench validate validate-ojf validate-families validate-families-in-time validate-openings judge torture test-slurm test-hosts scaling docs reference report-libraries format format-check install-build install wheel package clean
 
 help:  ## This list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -146,6 +148,10 @@ test-hosts: build  ## OpenFOAM's ranks on two hosts, network namespaces of this 
 
 scaling: build  ## OpenFOAM's time an iteration on 1, 2, 4 ... ranks up to the cores, into docs/tables; on an idle machine
 	@/usr/bin/python3 validation/cluster/ranks.py --ripstop build/bin/ripstop
+
+docs:  ## The documentation as one site for a browser, in build-docs/site: pages, search, C++ interface; its links are checked
+	$(call install_missing,$(DOCS_PACKAGES))
+	@/usr/bin/python3 -B docs/site/build.py
 
 reference: check-deps  ## Write the generated pages of docs/reference: keys, commands, Python package
 	@cmake --preset release > build-check.configure.log || { cat build-check.configure.log; exit 1; }

@@ -3,3 +3,4 @@ document.querySelectorAll(".arithmatex").forEach(element => renderMathInElement(
   delimiters: [{ left: "\\[", right: "\\]", display: true }, { left: "\\(", right: "\\)", display: false }],
   throwOnError: false
 }))
+document.body.dataset.equations = "typeset"

@@ -55,7 +55,7 @@ def sections(text):
 
 def cell(text):
     """Text of a table's cell, in which Markdown has no meaning."""
-    return re.sub(r"([|<>*_\[\]])", r"\\\1", text)
+    return re.sub(r"([|*_\[\]])", r"\\\1", text.replace("<", "&lt;").replace(">", "&gt;"))
 
 
 def options_table(rows):

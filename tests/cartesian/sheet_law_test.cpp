@@ -23,7 +23,7 @@ double asked_of_a_face(int axis, int off) {
   const Axis x = even_axis(0, 1, 8), z = even_axis(0, 1.5, 12);
   const Vec3 p[] = {{0.271, -1, 0}, {0.271, 2, 0}, {0.721, 2, 1.5}, {0.721, -1, 1.5}};
   const std::vector<Triangle> leaning = {{p[0], p[1], p[2]}, {p[0], p[2], p[3]}};
-  cartesian::SheetRows rows(x, x, z, {{leaning, 1000, 0}});
+  cartesian::SheetRows rows(x, x, z, {sheet_body(leaning, {1000, 0})});
   const cartesian::Layout layout(8, 8, 12);
   cartesian::State state(layout);
   std::fill(state.f.rho.begin(), state.f.rho.end(), 1.2);

@@ -47,10 +47,10 @@ std::vector<Triangle> octahedron(Vec3 c, double radius) {
 TEST(SheetFaces, AFreeEdgeLongerThanAnySheetIsAnError) {
   const Axis x = even_axis(-1, 2, 8);
   for (const double far : {1e12, 1e308}) {
-    const std::string message = testing::divergence([&] {
+    const std::string message = divergence([&] {
       sheet_faces(x, x, x, {{{0, 0, 0}, {far, 0, 0.1}, {0, 0.5, 0}}});
     });
-    EXPECT_TRUE(testing::says(message, "free edge")) << message;
+    EXPECT_TRUE(says(message, "free edge")) << message;
   }
 }
 
@@ -302,7 +302,7 @@ TEST(Sheet, TouchesTheRowsOfCellsOnBothItsSidesAndNoOthers) {
     (across == 2 ? v.y : v.z) = 0.28;
     const std::vector<Triangle> plate = {{corner, corner + u, corner + u + v},
                                          {corner, corner + u + v, corner + v}};
-    const cartesian::SheetRows rows(axis, axis, axis, {{plate, f111, 0}});
+    const cartesian::SheetRows rows(axis, axis, axis, {sheet_body(plate, {f111, 0})});
     for (int k = 0; k < n; ++k)
       for (int j = 0; j < n; ++j) {
         const bool in_j = across == 1 ? j == 4 || j == 5 : j >= 3 && j < 6;
@@ -316,7 +316,7 @@ TEST(Sheet, TouchesTheRowsOfCellsOnBothItsSidesAndNoOthers) {
 TEST(Sheet, TheDistanceToAPlaneIsThatStraightToIt) {
   const Axis x = even_axis(0, 1, 4), y = even_axis(0, 1, 5), z = even_axis(0, 3, 12);
   const Vec3 p[] = {{-1, -1, 1.53}, {2, -1, 1.53}, {2, 2, 1.53}, {-1, 2, 1.53}};
-  const cartesian::SheetRows rows(x, y, z, {{{{p[0], p[1], p[2]}, {p[0], p[2], p[3]}}, 40, 2}});
+  const cartesian::SheetRows rows(x, y, z, {sheet_body({{p[0], p[1], p[2]}, {p[0], p[2], p[3]}}, {40, 2})});
   const cartesian::Layout layout(4, 5, 12);
   const cartesian::Array<double> distance = rows.distance(x, y, z, layout);
   for (int k = 0; k < 12; ++k)

@@ -11,7 +11,8 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 LONGEST = 500
 WIDEST = 120
 
-PAGES = sorted([ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md", ROOT / "src/README.md", ROOT / "materials/README.md",
+PAGES = sorted([ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "SECURITY.md", ROOT / "CODE_OF_CONDUCT.md",
+                ROOT / "CHANGELOG.md", ROOT / "src/README.md", ROOT / "materials/README.md",
                 *ROOT.glob("docs/**/*.md"), *ROOT.glob("examples/**/README.md"), *ROOT.glob("validation/*/README.md")])
 TABLES = ROOT / "docs/tables"  # made by commands; each says when
 GENERATED = [ROOT / f"docs/reference/{page}.md" for page in ("case-keys", "commands", "python")]  # by make reference
@@ -127,6 +128,18 @@ class Docs(unittest.TestCase):
                  if file.suffix in (".h", ".cpp")
                  for other in re.findall(r'#include "ripstop/(\w+)/', file.read_text()) if other not in seen_from(room)]
         self.assertEqual(wrong, [])
+
+    def test_the_citation_has_the_version_and_the_licence(self):
+        citation = (ROOT / "CITATION.cff").read_text()
+        version = re.search(r"^project\(ripstop VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text(), re.MULTILINE)[1]
+        self.assertIn(f"\nversion: {version}\n", citation)
+        self.assertIn("Apache License", (ROOT / "LICENSE").read_text()[:200])
+        self.assertIn("\nlicense: Apache-2.0\n", citation)
+        for line in citation.splitlines():  # a subset of YAML: keys with a value in quotes, a word, or a list below
+            self.assertRegex(line, r'^ *(?:- )?(?:[a-z-]+: (?:"[^"]*"|[\w.-]+)|[a-z-]+:|[\w -]+)$')
+
+    def test_the_hosted_workflow_runs_the_script_of_every_ci(self):
+        self.assertIn("bash .ci/run", (ROOT / ".github/workflows/ci.yml").read_text())
 
     def test_no_file_is_longer_than_one_reads(self):
         files = [*(page for page in PAGES if page not in GENERATED), *(file for folder in ("src", "apps", "python", "tests", "bench", "examples", "validation") for ending in ("h", "cpp", "py")

@@ -13,14 +13,14 @@ MEAN_SENTENCE = 18     # words, of a page
 LONGEST_HEADING = 9    # words
 
 REWRITTEN = [
-    "CONTRIBUTING.md", "src/README.md", "materials/README.md", "validation/nylon-ribbons/README.md",
+    "README.md", "CONTRIBUTING.md", "SECURITY.md", "CODE_OF_CONDUCT.md", "src/README.md", "materials/README.md", "validation/nylon-ribbons/README.md",
     "validation/ojf/README.md", "validation/stratos-iv/README.md", GLOSSARY,
     *sorted(str(page.relative_to(ROOT)) for page in ROOT.glob("examples/**/README.md")),
-    *(f"docs/{page}.md" for page in ("README", "conventions", "performance", "reliability")),
+    *(f"docs/{page}.md" for page in ("README", "conventions", "performance", "reliability", "validation")),
     *(f"docs/guide/{page}.md" for page in (
         "canopies", "case-file", "cluster", "compare", "editor", "flight", "import", "inflate", "openfoam", "output-files", "porosity", "python",
         "report", "sweep", "tunnel", "unsteady")),
-    *sorted(str(page.relative_to(ROOT)) for page in ROOT.glob("docs/theory/*.md")),
+    *sorted(str(page.relative_to(ROOT)) for folder in ("theory", "tutorials") for page in ROOT.glob(f"docs/{folder}/*.md")),
     *(f"docs/validation/{page}.md" for page in (
         "canopies", "cloth", "coupling", "fit", "flow", "flow-in-time", "flow-openfoam", "inflation", "ojf", "opening-load",
         "tunnel"))]
@@ -28,7 +28,8 @@ REWRITTEN = [
 TABLES = "docs/tables/"  # made by commands
 GENERATED = [f"docs/reference/{page}.md" for page in ("case-keys", "commands", "python")]  # by make reference
 ALL = sorted(str(page.relative_to(ROOT)) for page in
-             [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "src/README.md", ROOT / "materials/README.md", *ROOT.glob("docs/**/*.md"),
+             [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "SECURITY.md", ROOT / "CODE_OF_CONDUCT.md",
+                ROOT / "src/README.md", ROOT / "materials/README.md", *ROOT.glob("docs/**/*.md"),
               *ROOT.glob("examples/**/README.md"), *ROOT.glob("validation/*/README.md")])
 
 # Words that are used in a figurative sense, with the standard term or the reason.

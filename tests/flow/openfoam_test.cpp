@@ -353,6 +353,40 @@ TEST_F(OpenFoam, WithoutPorousCellsTheAirPassesUndisturbed) {
   EXPECT_EQ(field.porous_force, Vec3{});
 }
 
+TEST_F(OpenFoam, AStreamOfAnyDirectionPassesTheFarFieldUndisturbed) {
+  FlowProblem problem = disc_in_box();
+  problem.bodies.clear();
+  problem.grid = {{-1, -1, 0}, {2, 2, 3}, 6, 6, 9};
+  problem.air.velocity = {8, -12, 11};
+  int reports = 0;
+  const FlowField field = solve(*engine(), problem, [&](const FlowProgress&) { return ++reports < 3; });
+  for (int cell = 0; cell < problem.grid.cells(); ++cell) {
+    ASSERT_NEAR(field.pressure[cell], 0, 1e-3);
+    ASSERT_NEAR(norm(field.velocity[cell] - problem.air.velocity), 0, 1e-4);
+  }
+}
+
+// The disc is turned by 90 degrees with the stream: along x it lies on cells of the same size.
+TEST_F(OpenFoam, ADiscAcrossAStreamAlongXHasTheForceOfOneAcrossAStreamAlongZ) {
+  FlowProblem along_z = disc_in_box();
+  along_z.grid = {{-1, -1, -1}, {2, 2, 2}, 16, 16, 16};
+  along_z.sides = Sides::far_field;
+  FlowProblem along_x = along_z;
+  along_x.air.velocity = {20, 0, 0};
+  PorousCells z{{}, 600, 30}, x = z;
+  for (int j = 0; j < 16; ++j) {
+    for (int i = 0; i < 16; ++i) {
+      if (std::hypot(i - 7.5, j - 7.5) >= 4) continue;
+      z.cells.push_back(along_z.grid.index(i, j, 7)), x.cells.push_back(along_z.grid.index(7, i, j));
+    }
+  }
+  along_z.bodies = {porous_body(z)}, along_x.bodies = {porous_body(x)};
+  const FlowField a = solve(*engine(), along_z), b = solve(*engine(), along_x);
+  ASSERT_TRUE(a.converged && b.converged);
+  EXPECT_NEAR(b.porous_force.x / a.porous_force.z, 1, 1e-3);
+  EXPECT_NEAR(norm(b.bodies.at(0).force - b.porous_force), 0, 1e-9 * b.porous_force.x);
+}
+
 TEST_F(OpenFoam, SecondOrderConvectionGivesAnotherFieldWithTheSameBalance) {
   OpenFoamSettings settings;
   settings.folder = root_ / "second";

@@ -51,7 +51,8 @@ TEST(Projections, ANormalForceReducesTheAngleOfAttackAndAPositiveMomentIncreases
 }
 
 TEST(Projections, ATurnTakesZToTheAxisAndKeepsLengthsAndHandedness) {
-  for (const Vec3 axis : {wind_direction(0), wind_direction(33, 70), wind_direction(90, 45), Vec3{0, 0, -1}}) {
+  for (const Vec3 axis :
+       {wind_direction(0), wind_direction(33, 70), wind_direction(90, 45), Vec3{0, 0, -1}}) {
     const Vec3 x = turned({1, 0, 0}, axis), y = turned({0, 1, 0}, axis), z = turned({0, 0, 1}, axis);
     EXPECT_NEAR(norm(z - axis), 0, 1e-15);
     EXPECT_NEAR(norm(cross(x, y) - z), 0, 1e-15);

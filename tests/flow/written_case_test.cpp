@@ -123,6 +123,20 @@ TEST_F(WrittenFiles, UniformFieldsAreThoseOfTheStreamOnAllFaces) {
   }
 }
 
+TEST_F(WrittenFiles, AFarFieldIsOpenFoamsFreestreamOnAllSixFaces) {
+  problem.air.velocity = {3, 0, 4};
+  write_fields(folder.path / "0", problem, true);
+  const std::string velocity = read_file(folder.path / "0/U"), pressure = read_file(folder.path / "0/p"),
+                    k = read_file(folder.path / "0/k");
+  for (const char* face : {"inlet", "outlet", "sides"}) {
+    const std::string at = face;
+    EXPECT_TRUE(
+        has(velocity, (at + " { type freestreamVelocity; freestreamValue uniform (3 0 4); }").c_str()));
+    EXPECT_TRUE(has(pressure, (at + " { type freestreamPressure; freestreamValue uniform 0; }").c_str()));
+    EXPECT_TRUE(has(k, (at + " { type inletOutlet; inletValue uniform").c_str()));
+  }
+}
+
 TEST_F(WrittenFiles, ControlHasItsLastIterationAndTheForcesOfPorousCells) {
   write_control(folder.path, problem, false, {120, 30});
   std::string control = body("system/controlDict");

@@ -13,9 +13,11 @@
 #include "ripstop/case/opening.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/thread_team.h"
+#include "ripstop/flight/atmosphere.h"
 #include "ripstop/flight/descent.h"
 #include "ripstop/fsi/opening_estimate.h"
 #include "ripstop/fsi/summary.h"
+#include "ripstop/fsi/uniform_pressure_opening.h"
 #include "ripstop/material/library.h"
 #include "ripstop/run/descent/descent.h"
 #include "ripstop/run/engine.h"
@@ -259,7 +261,7 @@ TEST(RunNumbers, OfAnOpeningTheDeepestAndLargestOfItsFramesCount) {
   given.inflation.low_pass_hz = 0;
   InflationObserver quiet;
   InflationProblem problem{parachute_mesh(resolve(given)), given.inflation, 500, false, 1, 6};
-  const Inflation solver(problem);
+  const UniformPressureOpening solver(problem);
   const auto [result, state, history] = run_inflation(resolve(given), {"asked for", {}}, problem, quiet);
   double deepest = 0, pierced = 0;
   for (const InflationFrame& frame : history.frames)
@@ -300,10 +302,10 @@ TEST(RunNumbers, OfAnOpeningInItsOwnAirTheLargestDragAreaAndThePayloadsEndCount)
   EXPECT_EQ(r.drag_area, largest);
   EXPECT_FALSE(r.pressure);
   ASSERT_TRUE(r.end_speed && r.end_angle && r.height_lost);
-  EXPECT_EQ(*r.end_speed, state.air.speed);
+  EXPECT_EQ(*r.end_speed, state.air.flight.speed);
   EXPECT_NEAR(*r.end_angle, 30, 1);
-  EXPECT_DOUBLE_EQ(*r.end_angle, state.air.angle * 180 / std::numbers::pi);
-  EXPECT_EQ(*r.height_lost, state.air.fallen);
+  EXPECT_DOUBLE_EQ(*r.end_angle, state.air.flight.angle * 180 / std::numbers::pi);
+  EXPECT_EQ(*r.height_lost, state.air.flight.fallen);
   EXPECT_GT(*r.height_lost, 0);
 }
 

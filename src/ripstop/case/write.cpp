@@ -34,9 +34,8 @@ std::string case_schema() {
 std::string case_reference() {
   Case scratch;
   return "# All keys of a case file\n\n"
-         "`ripstop schema --reference` prints this page. [The case file](../guide/case-file.md) explains how "
-         "to use\n"
-         "the keys and where the default values come from. All values are in SI units.\n\n" +
+         "`ripstop schema --reference` prints this page. [The case file](../guide/case-file.md) explains\n"
+         "the use of the keys and the source of the default values. All values are in SI units.\n\n" +
          reference_tables(fields_of(scratch));
 }
 

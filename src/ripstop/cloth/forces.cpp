@@ -150,14 +150,6 @@ void Forces::complete_row(int row, const ClothState& state, double* f) {
     set_of_fabric(k, get(f, cloth_.irregular[k].slot - first));
 }
 
-Vec3 Forces::on_irregular(int k) const {
-  const Cloth::IrregularNode& node = cloth_.irregular[k];
-  Vec3 force = of_fabric(k);
-  for (int i = node.first_share; i < node.end_share; ++i)
-    force += cloth_.shares[i].weight * get(irregular_.data(), cloth_.shares[i].source);
-  return force;
-}
-
 void Forces::follow_masters(int rank, ClothState& state) const {
   const auto [begin, end] = rows(rank);
   for (double* vectors : {state.x.data(), state.v.data()})

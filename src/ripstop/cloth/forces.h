@@ -38,7 +38,13 @@ class Forces {
   Vec3 of_fabric(int k) const { return get(irregular_.data(), k); }
   void set_of_fabric(int k, Vec3 force) { put(irregular_.data(), k, force); }
   /// Sum of all forces on irregular node k.
-  Vec3 on_irregular(int k) const;
+  Vec3 on_irregular(int k) const {
+    const Cloth::IrregularNode& node = cloth_.irregular[k];
+    Vec3 force = of_fabric(k);
+    for (int i = node.first_share; i < node.end_share; ++i)
+      force += cloth_.shares[i].weight * get(irregular_.data(), cloth_.shares[i].source);
+    return force;
+  }
 
   /// The work of a rank: its rows; visit(begin, end, n) for its irregular nodes, in ranges that are numbered by the
   /// rows they lie in, then by blocks of nodes outside patches.

@@ -9,12 +9,12 @@
 
 namespace ripstop {
 
-/// `value` towards zero. Throws Error(diverged) with the text of message() unless least <= value <= most.
+/// `value`, rounded towards zero. Throws Error(code) with the text of message() unless least <= value <= most.
 template <class Message>
-int checked_int(double value, double least, double most, const Message& message) {
+int checked_int(double value, double least, double most, const Message& message,
+                ExitCode code = ExitCode::diverged) {
   constexpr double smallest = std::numeric_limits<int>::min(), largest = std::numeric_limits<int>::max();
-  if (!(value >= std::max(least, smallest) && value <= std::min(most, largest)))
-    throw Error(ExitCode::diverged, message());
+  if (!(value >= std::max(least, smallest) && value <= std::min(most, largest))) throw Error(code, message());
   return static_cast<int>(value);
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 
@@ -74,6 +75,10 @@ double standard_height(double density) {
     (standard_air(middle).density > density ? low : high) = middle;
   }
   return 0.5 * (low + high);
+}
+
+double density_ratio(double height, double fallen) {
+  return standard_air(std::max(height - fallen, lowest_height)).density / standard_air(height).density;
 }
 
 }  // namespace ripstop

@@ -27,4 +27,7 @@ StandardAir standard_air(double height);
 /// has nowhere between lowest_height and highest_height.
 double standard_height(double density);
 
+/// Density `fallen` metres below `height` over that at `height` [m]; below lowest_height that of lowest_height.
+double density_ratio(double height, double fallen);
+
 }  // namespace ripstop

@@ -82,30 +82,30 @@ void describe_damping(Fields& fields, double& damping) {
 }
 
 void describe_resistance(Fields& fields, ClothResistance& cloth) {
-  const std::string none = "0; see Air through the cloth";
   fields
       .number("pressure_drop_linear_pa_s_m", cloth.pressure_drop_linear_pa_s_m, from(0).up_to(1e12),
-              "a of the cloth's pressure drop a v + b v|v| in Pa, v in m/s ([NFM] Eq. 15).")
-      .absent(none);
+              "Linear coefficient a of the cloth's pressure drop a v + b v|v| ([NFM] Eq. 15).")
+      .absent("`0`");
   fields
       .number("pressure_drop_quadratic_pa_s2_m2", cloth.pressure_drop_quadratic_pa_s2_m2, from(0).up_to(1e9),
-              "b of the same.")
-      .absent(none);
+              "Quadratic coefficient b of the same.")
+      .absent("`0`");
   fields
-      .number("permeability_cfm", cloth.permeability_cfm, above(0).below(1e4),
-              "Air permeability in CFM/ft2 at 124.5 Pa (ASTM D737), in place of a and b: a = 124.5 Pa over "
-              "that velocity, b = 0.")
-      .absent("a and b hold");
+      .number(
+          "permeability_cfm", cloth.permeability_cfm, above(0).below(1e4),
+          "Air permeability in CFM/ft2 at 124.5 Pa (ASTM D737), instead of a and b: a is 124.5 Pa over that "
+          "velocity, b is 0.")
+      .absent("a and b are used");
   fields
       .number(
           "darcy_1_m2", cloth.darcy_1_m2, from(0).up_to(1e12),
-          "d of porous cells, calibrated on cells of one size, for porosity_model = \"paper\"; in place of "
-          "a and b.")
-      .absent(none);
+          "Darcy coefficient d of porous cells (`paper` model), calibrated for one cell size; instead of a "
+          "and b.")
+      .absent("`0`");
   fields
       .number("forchheimer_1_m", cloth.forchheimer_1_m, from(0).up_to(1e9),
-              "f of porous cells, for porosity_model = \"paper\".")
-      .absent(none);
+              "Forchheimer coefficient f of porous cells (`paper` model).")
+      .absent("`0`");
 }
 
 void describe_tested_strain(Fields& fields, double& strain) {

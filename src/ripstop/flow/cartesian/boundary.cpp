@@ -290,19 +290,24 @@ Vec3 momentum_carried_in(const Discretisation& d, const Boundaries& b, const Sta
 }
 
 Vec3 pressed_in(const Discretisation& d, const Boundaries& b, const State& s, bool where_held) {
-  const bool sides_hold = b.sides->pressure_end() == End::fixed_value;
   std::array<double, 3> force = {0, 0, 0};
-  each_face(d, s.f, [&](const BoxFace& face, int k) {
-    const bool outlet = face.axis == 2 && !face.low,
-               holds = outlet || (face.axis == 2 ? b.open() : sides_hold);
-    if (holds != where_held) return;
-    const double inside = s.f.p[face.cell],
-                 p = !holds   ? inside
-                     : outlet ? s.outlet_p[face.cell - d.layout.at(0, 0, k) + d.layout.in_plane(0, 0)]
-                              : 0.5 * (s.f.p[face.ghost] + inside),
-                 pushes = area_of(d, face, k) * p;
-    force[face.axis] += face.low ? pushes : -pushes;
-  });
+  for (int k = 0; k < d.layout.nz; ++k) {
+    const auto press = [&](const BoxFace& face, double p) {
+      const double pushes = area_of(d, face, k) * p;
+      force[face.axis] += face.low ? pushes : -pushes;
+    };
+    const auto between = [&](const BoxFace& face) { return 0.5 * (s.f.p[face.ghost] + s.f.p[face.cell]); };
+    if ((b.sides->pressure_end() == End::fixed_value) == where_held)
+      each_side_face(d, s.f, k, [&](const BoxFace& face) {
+        press(face, where_held ? between(face) : s.f.p[face.cell]);
+      });
+    each_end_face(d, s.f, k, [&](const BoxFace& face) {
+      if ((!face.low || b.open()) != where_held) return;
+      press(face, !where_held ? s.f.p[face.cell]
+                  : face.low  ? between(face)
+                              : s.outlet_p[face.cell - d.layout.at(0, 0, k) + d.layout.in_plane(0, 0)]);
+    });
+  }
   return {force[0], force[1], force[2]};
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <utility>
 
@@ -29,7 +30,7 @@ double energy_residual(const std::vector<InflationFrame>& frames) {
 }
 
 /// Nothing of an opening that is not reefed.
-std::optional<std::vector<StageSummary>> stages_of(const Inflation& solver, const InflationState& state,
+std::optional<std::vector<StageSummary>> stages_of(const Opening& solver, const InflationState& state,
                                                    const InflationHistory& history, double start_up) {
   if (solver.problem().reefing.empty()) return {};
   std::vector<double> lines;
@@ -50,13 +51,13 @@ std::vector<double> line_peaks(const std::optional<std::vector<StageSummary>>& s
 // earliest peak of an opening came after 1.2 (docs/theory/inflation.md).
 constexpr double start_up_diameters = 0.1;
 
-double start_up_of(const Settings& resolved, const Inflation& solver) {
+double start_up_of(const Settings& resolved, const Opening& solver) {
   return solver.air()
              ? start_up_diameters * nominal_diameter(resolved.parachute()) / resolved.flow().speed_m_s
              : 0;
 }
 
-bool flies(const Inflation& solver) {
+bool flies(const Opening& solver) {
   return solver.air() && solver.problem().air->payload;
 }
 
@@ -73,7 +74,7 @@ void take_peaks(InflationResult& r, const InflationState& state, const Inflation
 }
 
 /// What rests on a steady load is absent where there is none.
-void take_steady_load(InflationResult& r, const LoadSource& source, const Inflation& solver,
+void take_steady_load(InflationResult& r, const LoadSource& source, const Opening& solver,
                       const InflationHistory& history, double start_up) {
   const InflationSettings& settings = solver.problem().settings;
   r.summary = summarise(history.rows, settings.low_pass_hz, start_up);
@@ -95,7 +96,7 @@ void take_steady_load(InflationResult& r, const LoadSource& source, const Inflat
 
 /// C_x times the drag of the open canopy at the speed of deployment, and the handbook's methods for a payload.
 void compare_with_handbook(InflationResult& r, const Settings& resolved, const LoadSource& source,
-                           const Inflation& solver) {
+                           const Opening& solver) {
   std::optional<double> drag = source.steady_drag;
   std::string from = drag ? "the steady drag asked for" : "";
   if (!drag && r.steady_load) {
@@ -116,7 +117,7 @@ void compare_with_handbook(InflationResult& r, const Settings& resolved, const L
   r.handbook = handbook_methods(resolved);
 }
 
-void take_quality(InflationResult& r, const Settings& resolved, const Inflation& solver,
+void take_quality(InflationResult& r, const Settings& resolved, const Opening& solver,
                   const InflationHistory& history) {
   r.energy_residual = energy_residual(history.frames);
   for (const InflationFrame& frame : history.frames) {
@@ -149,7 +150,7 @@ void take_quality(InflationResult& r, const Settings& resolved, const Inflation&
   r.warnings = std::move(judgement.warnings);
 }
 
-InflationResult result_of(const Settings& resolved, const LoadSource& source, const Inflation& solver,
+InflationResult result_of(const Settings& resolved, const LoadSource& source, const Opening& solver,
                           const InflationState& state, const InflationHistory& history) {
   const double start_up = start_up_of(resolved, solver);
   InflationResult r;
@@ -164,9 +165,9 @@ InflationResult result_of(const Settings& resolved, const LoadSource& source, co
     r.drag_area = std::max(r.drag_area.value_or(row.drag_area), row.drag_area);
   if (solver.air()) r.added_mass = state.air.added_mass;
   if (flies(solver)) {
-    r.end_speed = state.air.speed;
-    r.end_angle = state.air.angle * 180 / std::numbers::pi;
-    r.height_lost = state.air.fallen;
+    r.end_speed = state.air.flight.speed;
+    r.end_angle = state.air.flight.angle * 180 / std::numbers::pi;
+    r.height_lost = state.air.flight.fallen;
   }
   r.viscosity_limit = solver.viscosity_limit();
   r.folds = solver.folded().folds;
@@ -193,7 +194,7 @@ std::string to_json(const InflationResult& result) {
   return json_text(result);
 }
 
-double opening_seconds(const Inflation& solver, const InflationState& start) {
+double opening_seconds(const Opening& solver, const InflationState& start) {
   constexpr double nodes_a_second = 1.25e8;  // docs/tables/performance.md
   return solver.problem().settings.duration_s / start.step * solver.mesh().node_count() / nodes_a_second;
 }
@@ -208,7 +209,8 @@ InflationProblem with_engine(const Settings& resolved, InflationProblem problem)
 
 InflationSolution run_inflation(const Settings& resolved, const LoadSource& source, InflationProblem problem,
                                 InflationObserver& observer) {
-  Inflation solver(with_engine(resolved, std::move(problem)));
+  const std::unique_ptr<Opening> opening = make_opening(with_engine(resolved, std::move(problem)));
+  Opening& solver = *opening;
   InflationSolution solution;
   auto& [result, state, history] = solution;
   state = solver.start();

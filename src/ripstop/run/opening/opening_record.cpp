@@ -39,10 +39,7 @@ struct Stream {
       return low + share * (of[i] - low);
     };
     const double v = between(speed, deployment_speed);
-    double here = density;
-    if (height)
-      here *= standard_air(std::max(*height - between(fallen, 0), lowest_height)).density /
-              standard_air(*height).density;
+    const double here = density * (height ? density_ratio(*height, between(fallen, 0)) : 1);
     return {between(path, 0), 0.5 * here * v * v};
   }
 };
