@@ -33,7 +33,7 @@ struct InflateArguments {
   bool fresh = false, check = false, json = false;
 };
 
-void print_start(const Inflation& solver, const InflationState& state, const LoadSource& source) {
+void print_start(const Opening& solver, const InflationState& state, const LoadSource& source) {
   const FoldedStart& folded = solver.folded();
   const StartStrain strain = start_strain(solver.mesh(), folded.positions);
   fmt::print("folded start: {} folds, skirt folds at {:.4f} m and {:.4f} m from the axis\n", folded.folds,
@@ -141,7 +141,7 @@ class Terminal : public InflationObserver {
       : source_(source), folder_(folder), quiet_(quiet), progress_(progress) {}
 
   void warned(const std::string& text) override { progress_.line("ripstop: " + text); }
-  void begin(const Inflation& solver, InflationState& state, InflationHistory&) override {
+  void begin(const Opening& solver, InflationState& state, InflationHistory&) override {
     if (state.blocks > 0)
       progress_.line(fmt::format("going on at {:.2f} ms of {}", 1000 * state.cloth.time, folder_.string()));
     else if (!quiet_)
@@ -149,7 +149,7 @@ class Terminal : public InflationObserver {
     begin_ = Clock::now();
     first_ = state.blocks;
   }
-  void advanced(const Inflation& solver, const InflationState& state, const InflationHistory& history,
+  void advanced(const Opening& solver, const InflationState& state, const InflationHistory& history,
                 const InflationFrame*) override {
     const double gone = std::chrono::duration<double>(Clock::now() - begin_).count();
     const double left = gone * double(solver.blocks() - state.blocks) / double(state.blocks - first_);
@@ -197,8 +197,9 @@ int run(const InflateArguments& options) {
   }
   if (options.check) {
     check_inflation_in(settings, resolved, source);
-    const Inflation solver(with_engine(resolved, opening_problem(resolved, source, threads)));
-    print_start(solver, solver.start(), source);
+    const std::unique_ptr<Opening> solver =
+        make_opening(with_engine(resolved, opening_problem(resolved, source, threads)));
+    print_start(*solver, solver->start(), source);
     return 0;
   }
   goes_on_when_repeated();

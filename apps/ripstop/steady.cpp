@@ -44,7 +44,7 @@ void print_row(const char* name, const std::string& text) {
 }
 
 void print_unsteady(const UnsteadyResult& unsteady) {
-  const Watched& w = unsteady.watched;
+  const WindowAverage& w = unsteady.watched;
   print_row("drag in time",
             fmt::format("mean of {:.3f} s after {:.3f} s of start-up, {} steps; standard error {}, "
                         "swings by {:.2g} N",
@@ -165,7 +165,7 @@ int run(const SteadyArguments& options) {
         "shape by {:.2g} m (wanted {:.2g}), the ledger is not closed within 1 %, or slack cloth is held to "
         "the last shape by {:.2g} of the load (2 % at most)\n",
         result.iterations, result.last.drag_change, coupling.drag_tolerance, result.last.shape_change,
-        coupling.shape_tolerance_m, result.last.cloth_held);
+        coupling.shape_tolerance_m, result.last.regularisation_share);
   return status;
 }
 

@@ -36,17 +36,17 @@ namespace {
 class OpeningListener : public InflationObserver {
  public:
   OpeningListener(Listener& listener, PyInflation& run) : listener_(listener), run_(run) {}
-  void begin(const Inflation& solver, InflationState&, InflationHistory&) override {
+  void begin(const ripstop::Opening& solver, InflationState&, InflationHistory&) override {
     run_.cells = cells_of(solver.mesh());
   }
-  void advanced(const Inflation& solver, const InflationState& state, const InflationHistory& history,
+  void advanced(const ripstop::Opening& solver, const InflationState& state, const InflationHistory& history,
                 const InflationFrame*) override {
     listener_.tell(OpeningProgress{state.cloth.time, solver.problem().settings.duration_s,
                                    history.rows.back().mean, state.step});
   }
-  void ended(const Inflation& solver, const InflationState& state, const InflationHistory& history,
+  void ended(const ripstop::Opening& solver, const InflationState& state, const InflationHistory& history,
              const InflationResult& result) override {
-    run_.history = history, run_.result = result, run_.shots = state.shots;
+    run_.history = history, run_.result = result, run_.shots = state.snapshots;
     run_.shape = positions(state.cloth, solver.cloth());
     run_.velocity = velocities(state.cloth, solver.cloth());
   }
@@ -92,7 +92,7 @@ void add_arrays(py::class_<PyInflation>& type) {
       "Energies, sizes and stress now and then, with the columns of balance.csv.");
   type.def_property_readonly(
       "shots", [](const py::object& self) -> py::list { return to_python(run_of(self).shots, self); },
-      "Shapes along the way, each an InflationShot.");
+      "Shapes along the way, each an Snapshot.");
   type.def_property_readonly(
       "shape", [](const py::object& self) { return view_of(run_of(self).shape, self); },
       "Every node of the parachute at the end, x, y, z; z is downstream [m]");
@@ -136,8 +136,8 @@ Opening opening_of(const Case& given, const OptionalSource& steady, std::optiona
 }
 
 void add_inflate(py::module_& module) {
-  add_class<InflationShot>(module, "InflationShot",
-                           "A shape on the way: time [s], positions [m], von_mises [N/m].");
+  add_class<Snapshot>(module, "InflationShot",
+                      "A shape on the way: time [s], positions [m], von_mises [N/m].");
   add_class<StageSummary>(module, "StageSummary", "What a stage of a reefed opening does, from cut to cut.");
   add_class<OpeningProgress>(module, "OpeningProgress", "How far an opening is.");
   py::class_<PyInflation> type(module, "Inflation",

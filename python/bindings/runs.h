@@ -46,7 +46,7 @@ struct PyInflation {
   PyCase made;
   InflationResult result;
   std::vector<Vec3> shape, velocity;  // at the end, as the mesh numbers its nodes
-  std::vector<InflationShot> shots;
+  std::vector<Snapshot> shots;
   InflationHistory history;
   std::vector<Cell> cells;
 };

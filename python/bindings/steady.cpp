@@ -140,7 +140,7 @@ FinishedSteady finished(const SteadySource& source) {
 void add_steady(py::module_& module) {
   add_class<Ledger>(module, "Ledger", "Axial forces that have to agree [N].");
   add_class<Measured>(module, "Measured", "A wind-tunnel condition of the case.");
-  add_class<Watched>(module, "Watched", "What a watch of the flow in time came to.");
+  add_class<WindowAverage>(module, "Watched", "What a watch of the flow in time came to.");
   add_class<UnsteadyResult>(module, "UnsteadyResult", "What the mean over a wake that sheds is worth.");
   add_class<HeldPayload>(module, "HeldPayload", "What a run holds that sought its speed.");
   add_class<Margin>(module, "Margin",

@@ -11,7 +11,7 @@ namespace {
 /// The short case with a cloth of its own that starts from one of the library.
 std::string with_cloth(const std::string& base, const std::string& keys) {
   return replaced(short_case, "gores = 12", "gores = 12\ncanopy_material = \"own\"") +
-         "[materials.own]\nbase = \"" + base + "\"\n" + keys;
+         "box_m = [8, 8, 12]\n[materials.own]\nbase = \"" + base + "\"\n" + keys;
 }
 
 Settings settings_of(const std::string& text) {

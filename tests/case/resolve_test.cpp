@@ -169,7 +169,7 @@ TEST(Resolved, TheProblemOfTheFlowHasEveryValueOfTheCase) {
           "watch = { courant = 0.6, standard_error = 0.03, shortest = 40, longest = 90 }\n",
       "case.toml");
   const SteadyProblem problem = steady_problem(resolve(given));
-  EXPECT_EQ(problem.flow.air, (Freestream{8, 1.1, 1.7e-5, 280, 0.02, 5}));
+  EXPECT_EQ(problem.flow.air, (Freestream{{0, 0, 8}, 1.1, 1.7e-5, 280, 0.02, 5}));
   EXPECT_EQ(problem.flow.stopping.residual, 2e-4);
   EXPECT_EQ(problem.flow.stopping.max_iterations, 70);
   EXPECT_EQ(problem.flow.stopping.average_over, 20);
@@ -178,13 +178,13 @@ TEST(Resolved, TheProblemOfTheFlowHasEveryValueOfTheCase) {
   EXPECT_EQ(problem.flow.outlet, Outlet::still_air);
   EXPECT_EQ(problem.reference_area, nominal_area(given.parachute));
   EXPECT_EQ(problem.settings.drag_tolerance, resolve(given).coupling().drag_tolerance);
-  ASSERT_TRUE(problem.watch.has_value());
-  EXPECT_EQ(problem.watch->courant, 0.6);
-  EXPECT_EQ(problem.watch->standard_error, 0.03);
-  EXPECT_EQ(problem.watch->shortest, 40);
-  EXPECT_EQ(problem.watch->longest, 90);
-  EXPECT_EQ(problem.watch->length, inflated_diameter(given.parachute));
-  EXPECT_FALSE(steady_problem(resolve(parse_case(short_case, "short"))).watch.has_value());
+  ASSERT_TRUE(problem.averaging_window.has_value());
+  EXPECT_EQ(problem.averaging_window->courant, 0.6);
+  EXPECT_EQ(problem.averaging_window->standard_error, 0.03);
+  EXPECT_EQ(problem.averaging_window->shortest, 40);
+  EXPECT_EQ(problem.averaging_window->longest, 90);
+  EXPECT_EQ(problem.averaging_window->length, inflated_diameter(given.parachute));
+  EXPECT_FALSE(steady_problem(resolve(parse_case(short_case, "short"))).averaging_window.has_value());
 }
 
 TEST(Resolved, AnOpenJetStandsInAWideBoxOfStillAirThatBeginsAtTheNozzle) {

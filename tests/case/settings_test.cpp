@@ -127,6 +127,8 @@ using Edit = void (*)(FlowSettings&);
 TEST(SameFlow, NoticesEveryValueThatTheFieldDependsOn) {
   const FlowSettings flow = resolve(parse_case(short_case, "a.toml")).flow();
   const Edit edits[] = {[](FlowSettings& f) { f.engine = "openfoam"; },
+                        [](FlowSettings& f) { f.angle_of_attack_deg = 5; },
+                        [](FlowSettings& f) { f.azimuth_deg = 5; },
                         [](FlowSettings& f) { f.mesh = FlowMesh::fitted; },
                         [](FlowSettings& f) { f.cloth_levels = 1; },
                         [](FlowSettings& f) { f.ranks = 2; },

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "builders.h"
-#include "ripstop/fsi/inflation.h"
+#include "ripstop/fsi/opening.h"
 
 namespace ripstop {
 namespace {

@@ -23,9 +23,9 @@ TEST(CheckedInt, CutsOffWhatLiesInItsRange) {
 
 TEST(CheckedInt, RefusesWhatNoIntCanBe) {
   for (const double value : {-1.0, 10.5, double(NAN), double(INFINITY), -double(INFINITY), 1e300})
-    EXPECT_EQ(testing::divergence([&] { checked_int(value, 0, 10, too_many); }), "too many") << value;
+    EXPECT_EQ(divergence([&] { checked_int(value, 0, 10, too_many); }), "too many") << value;
   for (const double value : {2147483648.0, -2147483649.0, 1e300, double(NAN)})
-    EXPECT_EQ(testing::divergence([&] { checked_int(value, -1e300, 1e300, too_many); }), "too many") << value;
+    EXPECT_EQ(divergence([&] { checked_int(value, -1e300, 1e300, too_many); }), "too many") << value;
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include "ripstop/case/case.h"
 #include "ripstop/flow/cartesian/cartesian.h"
 #include "ripstop/fsi/pressure_profile.h"
-#include "ripstop/fsi/steady.h"
+#include "ripstop/fsi/steady_loop.h"
 
 namespace ripstop {
 namespace {

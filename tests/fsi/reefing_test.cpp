@@ -6,8 +6,8 @@
 
 #include "../printed_materials.h"
 #include "ripstop/core/error.h"
-#include "ripstop/fsi/inflation.h"
 #include "ripstop/fsi/summary.h"
+#include "ripstop/fsi/uniform_pressure_opening.h"
 #include "ripstop/parachute/build.h"
 #include "ripstop/parachute/disk_gap_band.h"
 #include "ripstop/run/opening/inflation_folder.h"
@@ -48,7 +48,7 @@ double way_round(const CanopyMesh& mesh, const std::vector<Vec3>& x) {
 }
 
 Opened open(InflationProblem problem) {
-  Inflation solver(std::move(problem));
+  UniformPressureOpening solver(std::move(problem));
   Opened opened;
   opened.state = solver.start();
   while (opened.state.blocks < solver.blocks()) {
@@ -69,7 +69,7 @@ TEST(Reefing, TheLineHoldsTheSkirtAtItsLength) {
     problem.settings.sheet_s = {0.01, 0.015, 0.02, 0.025, 0.029};
     const Opened reefed = open(problem);
     double way = 0;
-    for (const InflationShot& shot : reefed.state.shots)
+    for (const Snapshot& shot : reefed.state.snapshots)
       way = std::max(way, way_round(problem.mesh, shot.positions));
     EXPECT_GT(way, length);
     EXPECT_LT(way, 1.05 * length);
@@ -140,7 +140,7 @@ TEST(Reefing, AfterTheCutTheCanopyStandsAsOneThatWasNeverReefed) {
 
 TEST(Reefing, AStoppedRunGoesOnToTheLastBitAcrossACut) {
   const InflationProblem problem = opening_with({{1.0, 6e-3, nylon_cord}, {1.8, 9e-3, nylon_cord}}, 0.012);
-  Inflation whole(problem), first(problem), second(problem);
+  UniformPressureOpening whole(problem), first(problem), second(problem);
   InflationState undisturbed = whole.start(), stopped = first.start();
   while (undisturbed.blocks < whole.blocks()) whole.advance(undisturbed);
   while (stopped.blocks < first.blocks() * 2 / 3) first.advance(stopped);
@@ -161,7 +161,7 @@ TEST(Reefing, ALineShorterThanTheFoldedSkirtIsRefused) {
   InflationProblem problem = opening_with({{0.5, 0.01, nylon_cord}});
   problem.settings.initial_radius_m = 0.3;
   try {
-    Inflation{problem};
+    UniformPressureOpening{problem};
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::usage);

@@ -214,14 +214,16 @@ TEST(SheetTransfer, AWavyCanopyUnderAUniformDropHasNoSideForce) {
       EXPECT_LT(std::hypot(air.force.x, air.force.y), 0.001 * air.force.z) << n << " " << ripple;
       // The hem lies along the stream: of the area across it the faces have as much as a staircase has.
       const ClothLoad load = load_of_flow(loads, box(n), s.triangles(), s.cells, s.x);
-      EXPECT_LT(remainder_share(load, s.cells, s.x), 0.02) << n << " " << ripple;
+      EXPECT_LT(residual_traction_share(load, s.cells, s.x), 0.02) << n << " " << ripple;
     }
   }
 }
 
 TEST(SheetTransfer, TheRemainderIsSmallAndShrinksWithTheFlowsGrid) {
   const Surface s = cap(60, 128, 6, 85, 0.05);
-  const auto share = [&](int n) { return remainder_share(transfer(s, box(n), dented), s.cells, s.x); };
+  const auto share = [&](int n) {
+    return residual_traction_share(transfer(s, box(n), dented), s.cells, s.x);
+  };
   EXPECT_LT(share(32), 0.01);
   EXPECT_LT(share(128), 0.003);
 }
@@ -332,8 +334,8 @@ TEST(SheetTransfer, ClothThatIsNowhereOrFartherThanAnyCanopyIsAnError) {
   for (const double far : {1e9, 1e300, double(INFINITY), double(NAN)}) {
     s.x[40].x = far;
     const std::string message =
-        testing::divergence([&] { load_of_flow(loads, grid, surface, s.cells, s.x, Folds::filled); });
-    EXPECT_TRUE(testing::says(message, "diverged")) << message;
+        divergence([&] { load_of_flow(loads, grid, surface, s.cells, s.x, Folds::filled); });
+    EXPECT_TRUE(says(message, "diverged")) << message;
   }
 }
 

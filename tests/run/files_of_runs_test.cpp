@@ -89,7 +89,7 @@ TEST(WatchFiles, HistoryHasARowAStepAndTheWakeAFileASlice) {
   const TemporaryFolder root("watch-files");
   ClaimedFolder claimed(root.path / "run");
   const FlowRecord record = watched_record(5, 3);
-  write_watch(claimed, flat_circular_case(1, 600, 20), record);
+  write_watch(claimed, resolve(checked(flat_circular_case(1, 600, 20))), record);
   const CsvTable history = read_csv(root.path / "run/history.csv");
   ASSERT_EQ(history.rows.size(), 5u);
   for (std::size_t n = 0; n < 5; ++n) {
@@ -145,7 +145,7 @@ struct SeenFrames : InflationObserver {
   std::vector<Seen> frames;
   fs::path folder;
   int checkpoints = 0;
-  void advanced(const Inflation& solver, const InflationState& state, const InflationHistory&,
+  void advanced(const Opening& solver, const InflationState& state, const InflationHistory&,
                 const InflationFrame* frame) override {
     checkpoints += fs::exists(folder / "checkpoint");
     if (!frame) return;

@@ -16,6 +16,7 @@
 #include "ripstop/flight/descent.h"
 #include "ripstop/fsi/opening_estimate.h"
 #include "ripstop/fsi/summary.h"
+#include "ripstop/fsi/uniform_pressure_opening.h"
 #include "ripstop/material/library.h"
 #include "ripstop/run/descent/descent.h"
 #include "ripstop/run/engine.h"
@@ -259,7 +260,7 @@ TEST(RunNumbers, OfAnOpeningTheDeepestAndLargestOfItsFramesCount) {
   given.inflation.low_pass_hz = 0;
   InflationObserver quiet;
   InflationProblem problem{parachute_mesh(resolve(given)), given.inflation, 500, false, 1, 6};
-  const Inflation solver(problem);
+  const UniformPressureOpening solver(problem);
   const auto [result, state, history] = run_inflation(resolve(given), {"asked for", {}}, problem, quiet);
   double deepest = 0, pierced = 0;
   for (const InflationFrame& frame : history.frames)

@@ -27,7 +27,7 @@ namespace {
 
 /// Begins with twice the step: it has to be lowered.
 struct Hasty : InflationObserver {
-  void begin(const Inflation&, InflationState& state, InflationHistory&) override { state.step *= 2; }
+  void begin(const Opening&, InflationState& state, InflationHistory&) override { state.step *= 2; }
 };
 
 TEST(Results, OfAnOpeningAreThoseOfItsStateHistoryAndCase) {
@@ -91,7 +91,7 @@ TEST(Results, OfASteadyRunAreThoseOfItsLastIterationAndState) {
   EXPECT_EQ(result.section_gap, last.section_gap);
   EXPECT_EQ(result.axial_moment, last.axial_moment);
   EXPECT_EQ(result.transfer_factor, last.transfer_factor);
-  EXPECT_EQ(result.load_remainder, last.load_remainder);
+  EXPECT_EQ(result.load_remainder, last.residual_traction);
   EXPECT_EQ(result.approach_speed, last.approach_speed);
   EXPECT_EQ(result.speed, air(given).speed);
   EXPECT_EQ(result.density, air(given).density);

@@ -135,10 +135,16 @@ class DetailsOfAdept(unittest.TestCase):
         self.assertAlmostEqual(allowed["root"][1], 5**0.5)
         self.assertEqual(allowed["sum"], (-7, 3))
 
+    def test_take_the_smallest_change_over_the_kinds_of_runs(self):
+        def row(change, variation="wide"):
+            return {"detail": "slots", "variation": variation, "change_percent": change}
+        rows = adept.smallest([[row("-15.2"), row("3.0", "none")], [row("-8.1")], [row("-16.0")]])
+        self.assertEqual([one["change_percent"] for one in rows], ["-8.1", "3.0"])
+
     def test_shift_the_frozen_errors_by_their_range(self):
         found = [{"detail": "slots", "change_percent": "-10"}]
-        root, _ = adept.interval_lines(found)
-        self.assertEqual(root[1:], ["-10.0 to +0.0", "+21.6", "+9.4 to +21.6", "+6.9", "-3.8 to +6.9"])
+        root, _ = adept.interval_lines(found, "all")
+        self.assertEqual(root[2:], ["-10.0 to +0.0", "+21.6", "+9.4 to +21.6", "+6.9", "-3.8 to +6.9"])
 
 
 if __name__ == "__main__":

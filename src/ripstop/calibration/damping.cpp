@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "ripstop/core/error.h"
+#include "ripstop/fsi/uniform_pressure_opening.h"
 
 namespace ripstop {
 
@@ -20,7 +21,7 @@ double misfit_of(const DampingTrial& trial, const DampingTarget& target) {
 DampingTrial open_with(double damping, const InflationProblem& problem, const std::function<void()>& alive) {
   InflationProblem own = problem;
   own.settings.damping_n_s_m3 = damping;
-  Inflation solver(std::move(own));
+  UniformPressureOpening solver(std::move(own));
   InflationState state = solver.start();
   std::vector<HistoryRow> rows;
   while (state.blocks < solver.blocks()) {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "ripstop/fsi/inflation.h"
+#include "ripstop/fsi/opening.h"
 #include "ripstop/fsi/summary.h"
 
 namespace ripstop {
@@ -42,7 +42,7 @@ struct DampingCalibration {
 /// inflation time; a trial that did not settle where a time was measured counts as 100 % wrong in it.
 double misfit_of(const DampingTrial& trial, const DampingTarget& target);
 
-/// The whole opening. Deterministic. Throws as Inflation, and what `alive` throws, which is called now and then.
+/// The whole opening. Deterministic. Throws as Opening, and what `alive` throws, which is called now and then.
 DampingTrial open_with(double damping, const InflationProblem& problem,
                        const std::function<void()>& alive = {});
 

@@ -62,8 +62,8 @@ SteadyProblem steady_problem(const Settings& resolved) {
                         resolved.coupling(), std::nullopt};
   if (const FlowSettings& flow = resolved.flow(); flow.unsteady) {
     const WatchKeys& keys = flow.watch;
-    problem.watch = {keys.courant, keys.standard_error, keys.shortest, keys.longest,
-                     inflated_diameter(resolved.parachute())};
+    problem.averaging_window = {keys.courant, keys.standard_error, keys.shortest, keys.longest,
+                                inflated_diameter(resolved.parachute())};
   }
   return problem;
 }

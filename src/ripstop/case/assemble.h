@@ -3,7 +3,7 @@
 
 #include "ripstop/case/settings.h"
 #include "ripstop/flow/flow.h"
-#include "ripstop/fsi/steady.h"
+#include "ripstop/fsi/steady_loop.h"
 #include "ripstop/parachute/build.h"
 
 namespace ripstop {

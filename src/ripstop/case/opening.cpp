@@ -31,12 +31,10 @@ double pressure_of(const Settings& opening, const LoadSource& source, int thread
       .pressure;
 }
 
-/// Payload::density in the standard atmosphere, where the case says how high it begins.
+/// Payload::density_ratio in the standard atmosphere, where the case says how high it begins.
 std::function<double(double)> density_below(const std::optional<double>& height) {
   if (!height) return {};
-  return [from = *height](double fallen) {
-    return standard_air(std::max(from - fallen, lowest_height)).density / standard_air(from).density;
-  };
+  return [from = *height](double fallen) { return density_ratio(from, fallen); };
 }
 
 }  // namespace

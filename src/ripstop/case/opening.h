@@ -6,7 +6,7 @@
 #include <string>
 
 #include "ripstop/case/settings.h"
-#include "ripstop/fsi/inflation.h"
+#include "ripstop/fsi/opening.h"
 
 namespace ripstop {
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 
@@ -59,6 +60,10 @@ StandardAir standard_air(double height) {
   air.sound_speed = std::sqrt(heat_ratio * gas_constant * air.temperature);
   air.viscosity = sutherland_beta * std::pow(air.temperature, 1.5) / (air.temperature + sutherland_s);
   return air;
+}
+
+double density_ratio(double height, double fallen) {
+  return standard_air(std::max(height - fallen, lowest_height)).density / standard_air(height).density;
 }
 
 }  // namespace ripstop

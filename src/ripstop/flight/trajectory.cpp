@@ -9,6 +9,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/positive.h"
 #include "ripstop/flight/atmosphere.h"
+#include "ripstop/flight/point_mass.h"
 
 namespace ripstop {
 namespace {
@@ -42,8 +43,8 @@ class Flight {
   Motion rate(const Motion& m, double time) const {
     const double speed = std::hypot(m.u, m.w);
     const double area = leg_.drag_area(time, m.s - before_);
-    const double drag = 0.5 * standard_air(m.h).density * speed * area / mass_;  // over the speed [1/s]
-    return {m.u, -m.w, speed, -drag * m.u, standard_gravity - drag * m.w};
+    const InPlane a = acceleration({mass_, standard_gravity}, {m.u, m.w}, standard_air(m.h).density, area);
+    return {m.u, -m.w, speed, a.level, a.down};
   }
 
   Motion stepped(const Motion& m, double time, double dt) const {

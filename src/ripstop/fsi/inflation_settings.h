@@ -57,7 +57,7 @@ struct InflationSettings {
   double history_hz = 5000;  // rows of the history a second, at least
   double low_pass_hz = 0;    // of the written history only; 0: none
   int frames = 200;
-  std::vector<double> sheet_s = {};  // shapes on the contact sheet; none: eight, as Inflation chooses
+  std::vector<double> sheet_s = {};  // shapes on the contact sheet; none: eight, as Opening chooses
   double step_fraction = 0.9;        // of the largest stable step
 
   std::optional<double> measured_peak_n;

@@ -46,7 +46,7 @@ struct Patchwork {
   }
   /// All that is not pressure.
   Vec3 traction(const ClothLoad& load, std::size_t cell) const {
-    const Vec3 rigid = traction(load.remainder, cell);
+    const Vec3 rigid = traction(load.residual_traction, cell);
     return load.of_folds.empty() ? rigid : rigid + load.of_folds[cell];
   }
   Vec3 force(const ClothLoad& load, std::size_t cell) const {
@@ -64,11 +64,12 @@ Wrench acting_at(Vec3 point, Vec3 force) {
   return {force, cross(point, force)};
 }
 
-constexpr double farthest = 1e6;   // from each other, in boxes or points of a lattice along an axis
-constexpr double most_room = 1e8;  // boxes or points
+constexpr double most_along = 1e6;  // from each other, in boxes or points of a lattice along an axis
+constexpr double most_room = 1e8;   // boxes or points
 
 std::string too_far() {
-  return "the cloth reaches farther than any canopy: its motion has diverged; a smaller time step may help";
+  return "the cloth has no finite position, or is larger than any canopy: its motion has diverged. A smaller "
+         "time step or more damping may help";
 }
 
 std::size_t room_of(const std::array<int, 3>& count) {
@@ -138,8 +139,8 @@ class Boxes {
 
  private:
   int box(double at, double low) const {
-    return checked_int(std::clamp(std::floor((at - low) / width_), -farthest, farthest), -farthest, farthest,
-                       too_far);
+    return checked_int(std::clamp(std::floor((at - low) / width_), -most_along, most_along), -most_along,
+                       most_along, too_far);
   }
   std::size_t index(int x, int y, int z) const {
     return x + static_cast<std::size_t>(count_[0]) * (y + static_cast<std::size_t>(count_[1]) * z);
@@ -281,7 +282,7 @@ class Lattice {
     for (const Vec3& x : places) {
       const std::array<double, 3> at = scaled(x);
       for (int a = 0; a < 3; ++a) {
-        const int lower = checked_int(std::floor(at[a]), -farthest, farthest, too_far);
+        const int lower = checked_int(std::floor(at[a]), -most_along, most_along, too_far);
         first_[a] = std::min(first_[a], lower), high[a] = std::max(high[a], lower);
       }
     }
@@ -297,7 +298,7 @@ class Lattice {
     std::array<int, 3> lower;
     std::array<double, 3> part;
     for (int a = 0; a < 3; ++a) {
-      lower[a] = checked_int(std::floor(at[a]), -farthest, farthest, too_far) - first_[a];
+      lower[a] = checked_int(std::floor(at[a]), -most_along, most_along, too_far) - first_[a];
       part[a] = at[a] - std::floor(at[a]);
     }
     for (int n = 0; n < 8; ++n) {
@@ -404,6 +405,7 @@ Wrench wrench_of(const ClothLoad& load, const std::vector<Cell>& cells, const st
 ClothLoad load_of_flow(const std::vector<SheetLoad>& loads, const FlowGrid& grid,
                        const std::vector<Triangle>& surface, const std::vector<Cell>& cells,
                        const std::vector<Vec3>& x, Folds folds) {
+  if (!std::all_of(x.begin(), x.end(), is_finite)) throw Error(ExitCode::diverged, too_far());
   const Patchwork cloth(cells, x);
   std::vector<Sample> samples = samples_of(loads, surface);
   const double box = samples.empty() ? 1 : 0.5 * reach * width_at(samples.front().point, grid);
@@ -415,7 +417,8 @@ ClothLoad load_of_flow(const std::vector<SheetLoad>& loads, const FlowGrid& grid
   }
   const Wrench air = wrench_of(loads), plain = wrench_of(load, cells, x);
   const Vec3 force = air.force - plain.force;
-  load.remainder = smallest_traction(cloth, force, air.moment - plain.moment - cross(cloth.middle, force));
+  load.residual_traction =
+      smallest_traction(cloth, force, air.moment - plain.moment - cross(cloth.middle, force));
   return load;
 }
 
@@ -431,7 +434,8 @@ std::vector<Vec3> node_forces(const ClothLoad& load, const std::vector<Cell>& ce
   return force;
 }
 
-double remainder_share(const ClothLoad& load, const std::vector<Cell>& cells, const std::vector<Vec3>& x) {
+double residual_traction_share(const ClothLoad& load, const std::vector<Cell>& cells,
+                               const std::vector<Vec3>& x) {
   const Patchwork cloth(cells, x);
   double traction = 0, pressure = 0;
   for (std::size_t c = 0; c < cells.size(); ++c) {

@@ -16,10 +16,10 @@ struct RigidTraction {
   Vec3 twist;      // [Pa/m]
 };
 
-/// What the air does to the cloth: a pressure difference, and a small remainder that closes the sums.
+/// What the air does to the cloth: a pressure difference, and a small residual traction that closes the sums.
 struct ClothLoad {
   std::vector<double> pressure;  // inside over outside, one a cell, 0 where there is no cloth [Pa]
-  RigidTraction remainder;
+  RigidTraction residual_traction;
   std::vector<Vec3> of_folds =
       {};  // a force a unit area of each cell beside both, with Folds::filled; else none [Pa]
 };
@@ -35,7 +35,7 @@ struct Wrench {
 Wrench wrench_of(const std::vector<SheetLoad>& loads);
 Wrench wrench_of(const ClothLoad& load, const std::vector<Cell>& cells, const std::vector<Vec3>& positions);
 
-/// The pressure of every cell is the weighted plane through the pressures of the faces near it; the remainder
+/// The pressure of every cell is the weighted plane through the pressures of the faces near it; the residual traction
 /// is the smallest traction (in the mean square over the cloth) that makes force and moment those of `loads`. Cloth in
 /// folds narrower than the flow's cells takes the pressure of open cloth nearby that looks the same way; with
 /// Folds::filled the difference of the pressures on its two sides nearby, as a pleat is open to the air at its mouth,
@@ -50,7 +50,7 @@ std::vector<Vec3> node_forces(const ClothLoad& load, const std::vector<Cell>& ce
                               const std::vector<Vec3>& positions);
 
 /// Root mean square of the traction over that of the pressure, over the cloth.
-double remainder_share(const ClothLoad& load, const std::vector<Cell>& cells,
-                       const std::vector<Vec3>& positions);
+double residual_traction_share(const ClothLoad& load, const std::vector<Cell>& cells,
+                               const std::vector<Vec3>& positions);
 
 }  // namespace ripstop

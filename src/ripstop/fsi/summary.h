@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "ripstop/fsi/inflation.h"
+#include "ripstop/fsi/opening_record.h"
 
 namespace ripstop {
 

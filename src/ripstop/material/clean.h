@@ -23,6 +23,7 @@ struct CleanRecord {
   double noise = 0;                  // standard deviation of the load about its neighbours, as `load`
   bool breaks = true;                // the force falls after its highest value
   std::string slip;                  // where a grip seems to have slipped; empty: nowhere
+  std::string late;                  // that much of the record follows its highest force; empty: it does not
   std::vector<std::string> trimmed;  // what was left out or moved, one sentence each
 };
 

@@ -16,7 +16,9 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/flow/cartesian/cartesian.h"
+#include "ripstop/fsi/coupled_opening.h"
 #include "ripstop/fsi/summary.h"
+#include "ripstop/fsi/uniform_pressure_opening.h"
 #include "ripstop/output/csv.h"
 #include "ripstop/output/vtk.h"
 #include "ripstop/output/vtk_read.h"
@@ -51,7 +53,7 @@ class InflationFolderTest : public ::testing::Test {
 struct Killed : InflationObserver {
   fs::path folder;
   std::string checkpoint;
-  void advanced(const Inflation& solver, const InflationState& state, const InflationHistory&,
+  void advanced(const Opening& solver, const InflationState& state, const InflationHistory&,
                 const InflationFrame*) override {
     if (state.blocks == solver.blocks() / 2) checkpoint = read_file(folder / "checkpoint");
     if (state.blocks == solver.blocks() / 2 + 2) throw std::runtime_error("killed");
@@ -61,11 +63,11 @@ struct Killed : InflationObserver {
 struct Resumed : InflationObserver {
   long long first_block = -1;
   std::size_t rows = 0, frames = 0;
-  void begin(const Inflation& solver, InflationState& state, InflationHistory& history) override {
+  void begin(const Opening& solver, InflationState& state, InflationHistory& history) override {
     first_block = state.blocks;
     EXPECT_EQ(history.rows.size(), static_cast<std::size_t>(state.blocks * solver.rows_per_block()));
   }
-  void ended(const Inflation&, const InflationState&, const InflationHistory& history,
+  void ended(const Opening&, const InflationState&, const InflationHistory& history,
              const InflationResult&) override {
     rows = history.rows.size();
     frames = history.frames.size();
@@ -85,7 +87,7 @@ TEST_F(InflationFolderTest, AKilledRunGoesOnAndItsHistoryIsByteIdentical) {
 
   Resumed resumed;
   ASSERT_TRUE(open("killed", resumed));
-  EXPECT_EQ(resumed.first_block, Inflation(problem()).blocks() / 2);
+  EXPECT_EQ(resumed.first_block, UniformPressureOpening(problem()).blocks() / 2);
   EXPECT_EQ(resumed.rows, undisturbed.rows);
   EXPECT_EQ(resumed.frames, undisturbed.frames);
   for (const char* picture : {"folded.png", "vtk/canopy_0000.vtp", "vtk/lines_0000.vtp"})
@@ -135,7 +137,7 @@ TEST_F(InflationFolderTest, InItsOwnAirTheStreamPassesNoMoreThanAPartOfACellInAR
   double least = 1e9;
   for (int axis = 0; axis < 3; ++axis)
     for (int c = 0; c < grid.count(axis); ++c) least = std::min(least, grid.width(axis, c));
-  const double passed = problem.air->flow.air.speed() * Inflation(problem).row_duration() / least;
+  const double passed = problem.air->flow.air.speed() * CoupledOpening(problem).row_duration() / least;
   EXPECT_LE(passed, 0.03 * (1 + 1e-9));
   EXPECT_GT(passed, 0.015);
 }
@@ -151,7 +153,7 @@ TEST_F(InflationFolderTest, InItsOwnAirAKilledRunGoesOnByteIdentical) {
   };
   struct KilledAfter : InflationObserver {
     long long blocks = 0;
-    void advanced(const Inflation&, const InflationState& state, const InflationHistory&,
+    void advanced(const Opening&, const InflationState& state, const InflationHistory&,
                   const InflationFrame*) override {
       if (state.blocks == blocks) throw std::runtime_error("killed");
     }
@@ -179,7 +181,7 @@ TEST_F(InflationFolderTest, InItsOwnAirAKilledRunGoesOnByteIdentical) {
     EXPECT_TRUE(fs::exists(root / name / "air"));
     struct ResumedInAir : Resumed {
       fs::path air;
-      void advanced(const Inflation&, const InflationState&, const InflationHistory&,
+      void advanced(const Opening&, const InflationState&, const InflationHistory&,
                     const InflationFrame*) override {
         for (const auto& entry : fs::directory_iterator(air))
           EXPECT_TRUE(entry.path().filename() == "even" || entry.path().filename() == "odd") << entry.path();
@@ -208,7 +210,7 @@ TEST_F(InflationFolderTest, TheAirOfACheckpointStaysUntilTheNextOneIsWhole) {
   struct KilledBetween : InflationObserver {
     fs::path folder;
     std::string checkpoint;
-    void advanced(const Inflation&, const InflationState& state, const InflationHistory&,
+    void advanced(const Opening&, const InflationState& state, const InflationHistory&,
                   const InflationFrame*) override {
       if (state.blocks == 2) checkpoint = read_file(folder / "checkpoint");
       if (state.blocks == 3) throw std::runtime_error("killed");
@@ -232,7 +234,7 @@ TEST_F(InflationFolderTest, AFramesShapeIsThatOfItsTime) {
     std::vector<std::vector<Vec3>> shapes;
     std::vector<double> times = {0};
     long long blocks = 0;
-    void advanced(const Inflation& solver, const InflationState& state, const InflationHistory&,
+    void advanced(const Opening& solver, const InflationState& state, const InflationHistory&,
                   const InflationFrame* frame) override {
       blocks = solver.blocks();
       if (!frame) return;

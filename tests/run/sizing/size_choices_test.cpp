@@ -142,7 +142,7 @@ TEST(SizeChoices, VerifyGivesUpAfterFourRunsAndNamesTheLastRate) {
   const SizeRequest asked = wanted();
   SizeResult r = run_size(asked);
   int runs = 0;
-  const auto fly = [&](const Case&, int) {
+  const auto fly = [&](const Settings&, int) {
     ++runs;
     SteadyResult flown;
     flown.converged = true, flown.drag_coefficient = 0.7, flown.speed = 6;
@@ -167,7 +167,7 @@ TEST(SizeChoices, VerifyIsContentWithinItsTolerance) {
   SizeResult r = run_size(asked);
   const double diameter = r.nominal_diameter;
   const auto fly = [&](double rate) {
-    return [=](const Case&, int) {
+    return [=](const Settings&, int) {
       SteadyResult flown;
       flown.converged = true, flown.drag_coefficient = 0.7, flown.speed = rate;
       return flown;

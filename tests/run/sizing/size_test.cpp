@@ -117,13 +117,14 @@ TEST(Size, VerifyChangesTheDiameterUntilTheRateHolds) {
   SizeResult r = run_size(asked);
   const double before = r.nominal_diameter, coefficient = 0.9 * r.drag_coefficient;
   int runs = 0;
-  const auto fly = [&](const Case& given, int run) {
+  const auto fly = [&](const Settings& resolved, int run) {
     EXPECT_EQ(run, ++runs);
     SteadyResult flown;
     flown.converged = true;
     flown.drag_coefficient = coefficient;
-    flown.speed = std::sqrt(2 * suspended_weight(resolve(given), *given.payload.mass_kg) /
-                            (air(given).density * coefficient * nominal_area(given.parachute)));
+    flown.speed =
+        std::sqrt(2 * suspended_weight(resolved, *resolved.payload().mass_kg) /
+                  (resolved.flow().density_kg_m3 * coefficient * nominal_area(resolved.parachute())));
     return flown;
   };
   verify_size(asked, r, fly);
@@ -133,7 +134,7 @@ TEST(Size, VerifyChangesTheDiameterUntilTheRateHolds) {
   // Opening load and margin are of the size that holds.
   EXPECT_NEAR(r.opening.front().drag_area, r.drag_coefficient * r.nominal_area, 1e-6);
   EXPECT_EQ(r.opening.front().highest, r.opening_load);
-  const auto stuck = [&](const Case&, int) { return SteadyResult(); };
+  const auto stuck = [&](const Settings&, int) { return SteadyResult(); };
   EXPECT_THROW(verify_size(asked, r, stuck), Error);
 }
 

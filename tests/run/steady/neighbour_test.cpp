@@ -14,7 +14,7 @@ class Neighbour : public testing::Test {
   void SetUp() override {
     SteadyObserver quiet;
     end_ = run_steady(other_, quiet).state;
-    end_.remainder = {{1, 2, 3}, {4, 5, 6}};
+    end_.residual_traction = {{1, 2, 3}, {4, 5, 6}};
   }
   /// What start_from() says, and the state that it makes of the cold start of `given`.
   bool starts(const Case& given) {
@@ -39,8 +39,8 @@ TEST_F(Neighbour, GivesShapePressureAndRemainderInTheDynamicPressureOfTheRun) {
     largest = std::max(largest, std::abs(state_.pressure[i]));
   }
   EXPECT_GT(largest, 0);
-  EXPECT_NEAR(state_.remainder.at_centre.z, 3 * ratio, 1e-9);
-  EXPECT_NEAR(state_.remainder.twist.y, 5 * ratio, 1e-9);
+  EXPECT_NEAR(state_.residual_traction.at_centre.z, 3 * ratio, 1e-9);
+  EXPECT_NEAR(state_.residual_traction.twist.y, 5 * ratio, 1e-9);
   EXPECT_TRUE(state_.iterations.empty());
 }
 

@@ -93,7 +93,7 @@ TEST(UnsteadyRun, EndsAtRestFirstAndThenWithTheMeanOverTime) {
   }
   ASSERT_GT(means, 0) << "one mean says nothing of the shape under its load";
   EXPECT_NEAR(last.fluid_force / at_rest, 0.9, 0.03);
-  EXPECT_TRUE(state.watched.enough);
+  EXPECT_TRUE(state.window.enough);
   EXPECT_LE(last.drag_error, 0.01 * last.fluid_force);
   EXPECT_GT(last.drag_error, 0);
   EXPECT_EQ(last.flow_iterations, static_cast<int>(solver.record().steps.size()));
@@ -136,8 +136,8 @@ TEST(UnsteadyRun, WatchesThatDifferAmongThemselvesAreAsSureAsThat) {
   EXPECT_TRUE(state.converged) << "it need not wait for two that agree";
   const double drag = state.iterations.back().fluid_force;
   EXPECT_LT(solver.record().drag.standard_error, 0.02 * drag);
-  EXPECT_NEAR(state.watched.error / drag, 0.065, 0.01) << "three or four at 0.85 and 0.95 in turn";
-  EXPECT_FALSE(state.watched.enough) << "one hundredth was asked for";
+  EXPECT_NEAR(state.window.error / drag, 0.065, 0.01) << "three or four at 0.85 and 0.95 in turn";
+  EXPECT_FALSE(state.window.enough) << "one hundredth was asked for";
 }
 
 // Under a load that is another than that of its shape. At rest it takes one step toward it for each flow.
@@ -147,14 +147,14 @@ TEST(UnsteadyRun, HeldClothStepsOnBeforeTheNextWatch) {
   SteadyState state = solver.start();
   while (state.iterations.empty() || !state.iterations.back().in_time) solver.iterate(state);
   for (std::size_t c = 0; c < state.pressure.size() / 2; ++c) state.pressure[c] *= 1.5;
-  state.iterations.back().cloth_hold = 2e4;
+  state.iterations.back().regularisation = 2e4;
   SteadyState at_rest = state;
   at_rest.in_time = false;
   solver.iterate(at_rest);
   solver.iterate(state);
   const SteadyIteration &one = at_rest.iterations.back(), &several = state.iterations.back();
-  EXPECT_GT(one.cloth_held, 0.01);
-  EXPECT_LT(several.cloth_held, 0.5 * one.cloth_held);
+  EXPECT_GT(one.regularisation_share, 0.01);
+  EXPECT_LT(several.regularisation_share, 0.5 * one.regularisation_share);
   EXPECT_GT(several.shape_change, one.shape_change);
 }
 
@@ -179,8 +179,8 @@ TEST(UnsteadyRun, KilledBetweenIterationsItGoesOnBitForBit) {
   to_the_end(solver, loaded->state);
   EXPECT_EQ(to_bytes(loaded->state).size(), to_bytes(undisturbed).size());
   EXPECT_EQ(loaded->state.shape, undisturbed.shape);
-  EXPECT_EQ(loaded->state.watched.drag, undisturbed.watched.drag);
-  EXPECT_EQ(loaded->state.watched.time, undisturbed.watched.time);
+  EXPECT_EQ(loaded->state.window.drag, undisturbed.window.drag);
+  EXPECT_EQ(loaded->state.window.time, undisturbed.window.time);
 }
 
 // Uneven steps, the first two of them the start-up.
@@ -208,7 +208,7 @@ TEST(UnsteadyRun, TheMeanInItsPlotEndsAtThatOfItsRecord) {
 TEST(UnsteadyRun, WithoutAStepItLeavesNoHistory) {
   const TemporaryFolder folder("unwatched");
   ClaimedFolder claimed(folder.path / "run");
-  write_watch(claimed, flat_circular_case(1, 600, 20), FlowRecord{});
+  write_watch(claimed, resolve(checked(flat_circular_case(1, 600, 20))), FlowRecord{});
   EXPECT_TRUE(claimed.names().empty());
   EXPECT_FALSE(fs::exists(folder.path / "run/history.csv"));
 }
@@ -232,7 +232,7 @@ TEST(UnsteadyRun, LeavesItsHistoryAndItsWakeInTheFolder) {
   const SteadyResult result = run_steady_in(settings, resolve(given), nobody).result;
   ASSERT_TRUE(result.unsteady);
   EXPECT_TRUE(result.converged);
-  const Watched& watched = result.unsteady->watched;
+  const WindowAverage& watched = result.unsteady->watched;
   const CsvTable history = read_csv(folder.path / "history.csv");
   EXPECT_EQ(history.rows.size(), static_cast<std::size_t>(watched.steps));
   EXPECT_NEAR(

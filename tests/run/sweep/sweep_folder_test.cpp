@@ -10,6 +10,7 @@
 #include "ripstop/run/sweep/sweep.h"
 #include "ripstop/run/sweep/sweep_files.h"
 #include "tests/run/steady/finished_run.h"
+#include "tests/small_case.h"
 
 namespace ripstop {
 namespace {

@@ -5,6 +5,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/run/steady/compare.h"
 #include "ripstop/run/sweep/sweep.h"
+#include "tests/small_case.h"
 
 namespace ripstop {
 namespace {

@@ -72,6 +72,7 @@ void Solver::start_uniform() {
     f.fz[at] = d_.air.density * f.w[at];
   }
   fill(s_.limit, 1), fill(s_.outlet_p, 0);
+  s_.face_p.assign(b_.open() ? d_.layout.values() : 0, 0.0);
   s_.mean = {stream.velocity.x, stream.velocity.y, b_.inlet.mean_speed, 0, stream.k, stream.omega};
   s_.force = {};
   s_.iteration = 0;

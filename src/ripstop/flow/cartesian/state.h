@@ -45,6 +45,7 @@ struct State {
   Fields f;
   Array<double> limit;       // factor of the eddy viscosity beside sheets, else 1
   Array<double> outlet_p;    // pressure in the outlet's faces, one plane [Pa]
+  Array<double> face_p;      // of a far field on all six faces, at the ghosts [Pa]; else empty
   std::vector<double> held;  // jump on a face of a sheet that the pressure stands against [Pa], see SheetRows
   std::vector<double> change;  // and by how much it differs after the last iteration [Pa]
   std::vector<double> drop;    // of the pressure across the cloth on each such face [Pa]
@@ -65,7 +66,7 @@ void each_carried(AnyState& s, Visit&& visit) {
   for (auto* field :
        {&f.u, &f.v, &f.w, &f.p, &f.rho, &f.k, &f.omega, &f.fx, &f.fy, &f.fz, &s.limit, &s.outlet_p})
     visit(*field);
-  visit(s.held), visit(s.change), visit(s.drop), visit(s.force);
+  visit(s.face_p), visit(s.held), visit(s.change), visit(s.drop), visit(s.force);
   visit(s.mean), visit(s.iteration), visit(s.eased), visit(s.untouched);
   visit(s.rate_u), visit(s.rate_v), visit(s.rate_w), visit(s.correction), visit(s.clock);
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <utility>
 
@@ -23,7 +24,7 @@ double energy_residual(const std::vector<InflationFrame>& frames) {
 }
 
 /// Nothing of an opening that is not reefed.
-std::optional<std::vector<StageSummary>> stages_of(const Inflation& solver, const InflationState& state,
+std::optional<std::vector<StageSummary>> stages_of(const Opening& solver, const InflationState& state,
                                                    const InflationHistory& history) {
   if (solver.problem().reefing.empty()) return {};
   std::vector<double> lines;
@@ -39,7 +40,7 @@ std::vector<double> line_peaks(const std::optional<std::vector<StageSummary>>& s
   return peaks;
 }
 
-InflationResult result_of(const Settings& resolved, const LoadSource& source, const Inflation& solver,
+InflationResult result_of(const Settings& resolved, const LoadSource& source, const Opening& solver,
                           const InflationState& state, const InflationHistory& history) {
   const InflationSettings& settings = solver.problem().settings;
   InflationResult r;
@@ -61,9 +62,9 @@ InflationResult result_of(const Settings& resolved, const LoadSource& source, co
     r.drag_area = std::max(r.drag_area.value_or(row.drag_area), row.drag_area);
   if (solver.air()) r.added_mass = state.air.added_mass;
   if (solver.air() && solver.problem().air->payload) {
-    r.end_speed = state.air.speed;
-    r.end_angle = state.air.angle * 180 / std::numbers::pi;
-    r.height_lost = state.air.fallen;
+    r.end_speed = state.air.flight.speed;
+    r.end_angle = state.air.flight.angle * 180 / std::numbers::pi;
+    r.height_lost = state.air.flight.fallen;
   }
   r.source = source;
   if (source.steady_drag) r.steady_drag_returned = steady / *source.steady_drag;
@@ -100,7 +101,7 @@ std::string to_json(const InflationResult& result) {
   return json_text(result);
 }
 
-double opening_seconds(const Inflation& solver, const InflationState& start) {
+double opening_seconds(const Opening& solver, const InflationState& start) {
   constexpr double nodes_a_second = 1.25e8;  // docs/tables/performance.md
   return solver.problem().settings.duration_s / start.step * solver.mesh().node_count() / nodes_a_second;
 }
@@ -115,7 +116,8 @@ InflationProblem with_engine(const Settings& resolved, InflationProblem problem)
 
 InflationSolution run_inflation(const Settings& resolved, const LoadSource& source, InflationProblem problem,
                                 InflationObserver& observer) {
-  Inflation solver(with_engine(resolved, std::move(problem)));
+  const std::unique_ptr<Opening> opening = make_opening(with_engine(resolved, std::move(problem)));
+  Opening& solver = *opening;
   InflationSolution solution;
   auto& [result, state, history] = solution;
   state = solver.start();

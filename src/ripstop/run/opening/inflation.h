@@ -7,6 +7,7 @@
 
 #include "ripstop/case/opening.h"
 #include "ripstop/core/members.h"
+#include "ripstop/fsi/opening.h"
 #include "ripstop/fsi/opening_estimate.h"
 #include "ripstop/fsi/summary.h"
 #include "ripstop/run/margins.h"
@@ -127,12 +128,12 @@ class InflationObserver {
   virtual void warned(const std::string&) {}
   /// Before the first block. An observer that knows an earlier state puts it, and its history, in the place
   /// of the folded start.
-  virtual void begin(const Inflation&, InflationState&, InflationHistory&) {}
+  virtual void begin(const Opening&, InflationState&, InflationHistory&) {}
   /// After every block, with its rows the last of the history; with `frame` where one ends.
-  virtual void advanced(const Inflation&, const InflationState&, const InflationHistory&,
+  virtual void advanced(const Opening&, const InflationState&, const InflationHistory&,
                         const InflationFrame* /*frame*/) {}
-  virtual void ended(const Inflation&, const InflationState&, const InflationHistory&,
-                     const InflationResult&) {}
+  virtual void ended(const Opening&, const InflationState&, const InflationHistory&, const InflationResult&) {
+  }
 };
 
 struct InflationSolution {
@@ -142,12 +143,12 @@ struct InflationSolution {
 };
 
 /// How long an opening will take on one thread, about, at the step that it begins with [s].
-double opening_seconds(const Inflation& solver, const InflationState& start);
+double opening_seconds(const Opening& solver, const InflationState& start);
 
 /// An opening in its own air has the case's flow engine; others are left as they are.
 InflationProblem with_engine(const Settings& resolved, InflationProblem problem);
 
-/// The whole opening of the case under the pressure, or in the air, of `problem`. Throws as Inflation.
+/// The whole opening of the case under the pressure, or in the air, of `problem`. Throws as Opening.
 InflationSolution run_inflation(const Settings& resolved, const LoadSource& source, InflationProblem problem,
                                 InflationObserver& observer);
 

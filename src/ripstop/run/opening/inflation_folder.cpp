@@ -44,7 +44,7 @@ void drop_air_checkpoint(const fs::path& folder) {
   remove_path(folder / "air");
 }
 
-std::string air_file(const Inflation& solver, long long frame) {
+std::string air_file(const Opening& solver, long long frame) {
   return fmt::format("vtk/air_{:04}.{}", frame, solver.problem().air->flow.grid.uniform() ? "vti" : "vtr");
 }
 
@@ -57,23 +57,23 @@ class InflationFolder : public InflationObserver {
         checkpoint_every_(settings.checkpoint_every_s),
         next_(next) {}
 
-  void begin(const Inflation& solver, InflationState& state, InflationHistory& history) override;
-  void advanced(const Inflation& solver, const InflationState& state, const InflationHistory& history,
+  void begin(const Opening& solver, InflationState& state, InflationHistory& history) override;
+  void advanced(const Opening& solver, const InflationState& state, const InflationHistory& history,
                 const InflationFrame* frame) override;
-  void ended(const Inflation& solver, const InflationState& state, const InflationHistory& history,
+  void ended(const Opening& solver, const InflationState& state, const InflationHistory& history,
              const InflationResult& result) override;
 
  private:
-  void write_start(const Inflation& solver, const InflationState& state) const;
-  void write_shape(const Inflation& solver, const InflationState& state) const;
+  void write_start(const Opening& solver, const InflationState& state) const;
+  void write_shape(const Opening& solver, const InflationState& state) const;
   std::string tables_hash() const;
   /// Everything so far is on the disk when this returns.
-  void save(const Inflation& solver, const InflationState& state, const InflationHistory& history);
-  void write_air(const Inflation& solver, long long frame) const;
+  void save(const Opening& solver, const InflationState& state, const InflationHistory& history);
+  void write_air(const Opening& solver, long long frame) const;
   void write_air_plot(const InflationHistory& history, const InflationResult& result) const;
-  void write_load(const Inflation& solver, const std::vector<HistoryRow>& rows,
+  void write_load(const Opening& solver, const std::vector<HistoryRow>& rows,
                   const InflationResult& result) const;
-  void write_shapes(const Inflation& solver, const InflationState& state, const std::string& title) const;
+  void write_shapes(const Opening& solver, const InflationState& state, const std::string& title) const;
 
   /// What is only of a reefed opening stands at the end of a row.
   template <class Row>
@@ -119,7 +119,7 @@ std::string InflationFolder::tables_hash() const {
   return hash_bytes(hashes);
 }
 
-void InflationFolder::begin(const Inflation& solver, InflationState& state, InflationHistory& history) {
+void InflationFolder::begin(const Opening& solver, InflationState& state, InflationHistory& history) {
   const fs::path saved = folder_.own("checkpoint");
   const bool goes_on = fs::exists(saved);
   with_air_ = solver.air() != nullptr;
@@ -162,7 +162,7 @@ void InflationFolder::begin(const Inflation& solver, InflationState& state, Infl
   next_.begin(solver, state, history);
 }
 
-void InflationFolder::advanced(const Inflation& solver, const InflationState& state,
+void InflationFolder::advanced(const Opening& solver, const InflationState& state,
                                const InflationHistory& history, const InflationFrame* frame) {
   if (frame) {
     write_shape(solver, state);
@@ -171,7 +171,7 @@ void InflationFolder::advanced(const Inflation& solver, const InflationState& st
   next_.advanced(solver, state, history, frame);
 }
 
-void InflationFolder::save(const Inflation& solver, const InflationState& state,
+void InflationFolder::save(const Opening& solver, const InflationState& state,
                            const InflationHistory& history) {
   const auto add = [&](CsvLog log, const auto& all, std::size_t& done) {
     std::vector<std::vector<double>> rows;
@@ -192,7 +192,7 @@ void InflationFolder::save(const Inflation& solver, const InflationState& state,
   saved_ = clock_now();
 }
 
-void InflationFolder::ended(const Inflation& solver, const InflationState& state,
+void InflationFolder::ended(const Opening& solver, const InflationState& state,
                             const InflationHistory& history, const InflationResult& result) {
   save(solver, state, history);
   write_load(solver, history.rows, result);
@@ -226,7 +226,7 @@ void InflationFolder::ended(const Inflation& solver, const InflationState& state
   next_.ended(solver, state, history, result);
 }
 
-void InflationFolder::write_start(const Inflation& solver, const InflationState& state) const {
+void InflationFolder::write_start(const Opening& solver, const InflationState& state) const {
   make_folder(folder_.path() / "vtk");
   const FoldedStart& folded = solver.folded();
   std::vector<double> flat(solver.mesh().cell_count(), 0.0);
@@ -253,7 +253,7 @@ void InflationFolder::write_start(const Inflation& solver, const InflationState&
   write_vtp(folder_.own(shape_file("lines", 0)), spring_lines(solver.mesh(), x));
 }
 
-void InflationFolder::write_shape(const Inflation& solver, const InflationState& state) const {
+void InflationFolder::write_shape(const Opening& solver, const InflationState& state) const {
   const long long index = state.blocks * solver.problem().settings.frames / solver.blocks();
   const std::vector<Vec3> x = positions(state.cloth, solver.cloth());
   std::vector<double> mises, strain;
@@ -276,7 +276,7 @@ void InflationFolder::write_shape(const Inflation& solver, const InflationState&
   if (with_air_) write_air(solver, index);
 }
 
-void InflationFolder::write_air(const Inflation& solver, long long frame) const {
+void InflationFolder::write_air(const Opening& solver, long long frame) const {
   const fs::path file = folder_.own(air_file(solver, frame));
   write_image(fs::path(file).replace_extension(), flow_image(middle_plane(solver.air()->flow().field())));
 }
@@ -295,7 +295,7 @@ void InflationFolder::write_air_plot(const InflationHistory& history, const Infl
              {r.title, {"time from deployment [s]"}, {"added mass [kg]"}, {added}});
 }
 
-void InflationFolder::write_load(const Inflation& solver, const std::vector<HistoryRow>& rows,
+void InflationFolder::write_load(const Opening& solver, const std::vector<HistoryRow>& rows,
                                  const InflationResult& r) const {
   std::vector<double> smooth;
   if (r.settings.low_pass_hz > 0) {
@@ -309,10 +309,10 @@ void InflationFolder::write_load(const Inflation& solver, const std::vector<Hist
   write_csv(folder_.own("history_low_pass.csv"), table);
 }
 
-void InflationFolder::write_shapes(const Inflation& solver, const InflationState& state,
+void InflationFolder::write_shapes(const Opening& solver, const InflationState& state,
                                    const std::string& title) const {
   std::vector<CanopyShot> shots;
-  for (const InflationShot& shot : state.shots) {
+  for (const Snapshot& shot : state.snapshots) {
     shots.push_back({fmt::format("t = {:.1f} ms", 1000 * shot.time), shot.positions, shot.von_mises});
   }
   write_contact_sheet(folder_.own("shapes.png"), solver.mesh(), title, "von Mises stress [N/m]", shots);

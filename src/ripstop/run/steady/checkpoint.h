@@ -6,7 +6,7 @@
 #include <string>
 
 #include "ripstop/flow/flow.h"
-#include "ripstop/fsi/steady.h"
+#include "ripstop/fsi/steady_loop.h"
 
 namespace ripstop {
 

@@ -15,7 +15,8 @@ namespace {
 /// The pressures go with the dynamic pressure, those that the acceleration remembers too.
 void scale_pressures(SteadyState& state, double ratio) {
   for (double& dp : state.pressure) dp *= ratio;
-  state.remainder = {ratio * state.remainder.at_centre, ratio * state.remainder.twist};
+  state.residual_traction = {ratio * state.residual_traction.at_centre,
+                             ratio * state.residual_traction.twist};
   for (auto* history : {&state.accelerator.guesses, &state.accelerator.residuals})
     for (std::vector<double>& values : *history)
       for (double& value : values) value *= ratio;

@@ -24,7 +24,7 @@ double dynamic_pressure(const Settings& resolved) {
   return 0.5 * flow.density_kg_m3 * flow.speed_m_s * flow.speed_m_s;
 }
 
-UnsteadyResult unsteady_result(const Watched& watched, const Settings& resolved) {
+UnsteadyResult unsteady_result(const WindowAverage& watched, const Settings& resolved) {
   UnsteadyResult result;
   result.watched = watched;
   // Not a number in JSON.
@@ -60,11 +60,11 @@ SteadyResult steady_result(const SteadySolver& solver, const SteadyState& state,
   for (const SteadyIteration& i : state.iterations) r.wall_time += i.wall_time;
   r.converged = state.converged;
   r.transfer_factor = r.last.transfer_factor;
-  r.load_remainder = r.last.load_remainder;
+  r.load_remainder = r.last.residual_traction;
   r.axial_moment = r.last.axial_moment;
   r.section_gap = r.last.section_gap;
   r.ledger = {r.last.fluid_force, r.last.nodal_load, r.last.line_tension, r.last.momentum_deficit};
-  if (state.in_time) r.unsteady = unsteady_result(state.watched, resolved);
+  if (state.in_time) r.unsteady = unsteady_result(state.window, resolved);
   r.measured = resolved.measured_row();
   return r;
 }
@@ -138,7 +138,7 @@ bool start_from(const Settings& other, const SteadyState& end, const SteadyRun& 
   const double ratio = dynamic_pressure(resolved) / there;
   for (Vec3& p : state.shape) p.z += shift;
   for (double& dp : state.pressure) dp *= ratio;
-  state.remainder = {ratio * end.remainder.at_centre, ratio * end.remainder.twist};
+  state.residual_traction = {ratio * end.residual_traction.at_centre, ratio * end.residual_traction.twist};
   return same_flow(resolved.flow(), other.flow());
 }
 

@@ -11,7 +11,7 @@
 #include "ripstop/case/settings.h"
 #include "ripstop/core/members.h"
 #include "ripstop/flow/flow.h"
-#include "ripstop/fsi/steady.h"
+#include "ripstop/fsi/steady_loop.h"
 #include "ripstop/run/margins.h"
 
 namespace ripstop {
@@ -40,7 +40,7 @@ void each_member(T& row, Visit&& visit) {
 
 /// Of a run that watched its flow in time: what the mean over the wake's swings is worth.
 struct UnsteadyResult {
-  Watched watched;                       // the last watch
+  WindowAverage watched;                 // the last watch
   std::optional<double> standard_error;  // of the mean drag [N]; absent: not known
   double strouhal = 0;  // of the side force's strongest frequency, with the inflated diameter
 };

@@ -1,4 +1,4 @@
-// What one coupling iteration says of itself.
+// The numbers of one coupling iteration: a row of iterations.csv.
 #pragma once
 
 #include "ripstop/core/members.h"
@@ -7,14 +7,14 @@ namespace ripstop {
 
 /// Forces are axial, along +z [N].
 struct SteadyIteration {
-  int iteration = 0;            // from 1
-  double fluid_force = 0;       // of the fluid on the porous cells: the drag
-  double nodal_load = 0;        // sum of the pressure loads on the cloth's nodes
-  double line_tension = 0;      // of the cloth on its fixed end
-  double momentum_deficit = 0;  // through the faces of the flow's box
-  double transfer_factor = 0;   // fluid force over that of the pressures alone, as they came to the cloth
-  double load_remainder = 0;    // remainder_share() of the load; 0 but for CanopyLoad::of_flow
-  double axial_moment = 0;      // of the air's load about the canopy's axis [N m]
+  int iteration = 0;             // from 1
+  double fluid_force = 0;        // of the fluid on the porous cells: the drag
+  double nodal_load = 0;         // sum of the pressure loads on the cloth's nodes
+  double line_tension = 0;       // of the cloth on its fixed end
+  double momentum_deficit = 0;   // through the faces of the flow's box
+  double transfer_factor = 0;    // fluid force over that of the pressures alone, as they came to the cloth
+  double residual_traction = 0;  // residual_traction_share() of the load; 0 except for CanopyLoad::of_flow
+  double axial_moment = 0;       // of the air's load about the canopy's axis [N m]
   double section_gap = 0;     // largest_section_gap() of the cloth's stress and the load that made the shape
   double approach_speed = 0;  // approach_speed() [m/s]
   double drag_change = 0;     // relative to the iteration before; infinite at the first
@@ -23,8 +23,9 @@ struct SteadyIteration {
   double printed_tolerance = 0;  // R dx^2 / (S0 K_max), what Eq. 19 asks of omega
   int cloth_steps = 0;
   double cloth_residual = 0;
-  double cloth_hold = 0;  // RelaxOptions::regularisation [Pa/m]; 0: the cloth found its equilibrium by itself
-  double cloth_held = 0;  // RelaxResult::regularisation_share
+  double regularisation =
+      0;  // RelaxOptions::regularisation [Pa/m]; 0: the cloth found its equilibrium by itself
+  double regularisation_share = 0;  // RelaxResult::regularisation_share
   int flow_iterations = 0;
   double flow_residual = 0;     // largest of all equations
   bool flow_converged = false;  // to Stopping::residual
@@ -44,7 +45,7 @@ void each_member(T& i, Visit&& visit) {
   visit("line_tension_n", i.line_tension, Shown{"lines N", 9, "{:.2f}"});
   visit("momentum_deficit_n", i.momentum_deficit, Shown{"deficit N", 9, "{:.2f}"});
   visit("transfer_factor", i.transfer_factor, Shown{"transfer", 8, "{:.3f}"});
-  visit("load_remainder", i.load_remainder);
+  visit("load_remainder", i.residual_traction);
   visit("axial_moment_n_m", i.axial_moment);
   visit("section_gap", i.section_gap);
   visit("approach_speed_m_s", i.approach_speed);
@@ -54,8 +55,8 @@ void each_member(T& i, Visit&& visit) {
   visit("printed_tolerance", i.printed_tolerance, Shown{"Eq. 19", 9, "{:.1e}"});
   visit("cloth_steps", i.cloth_steps, Shown{"cloth", 7, "{:.0f}"});
   visit("cloth_residual", i.cloth_residual);
-  visit("cloth_hold_pa_m", i.cloth_hold);
-  visit("cloth_held", i.cloth_held);
+  visit("cloth_hold_pa_m", i.regularisation);
+  visit("cloth_held", i.regularisation_share);
   visit("flow_iterations", i.flow_iterations, Shown{"flow", 6, "{:.0f}"});
   visit("flow_residual", i.flow_residual);
   visit("flow_converged", i.flow_converged);

@@ -1,5 +1,5 @@
 // Cloth and air stepped together, against the equations of a piston and of a bag.
-#include "ripstop/fsi/air.h"
+#include "ripstop/fsi/coupled_flow.h"
 
 #include <gtest/gtest.h>
 
@@ -33,11 +33,9 @@ FlowProblem closed_duct(double speed = duct_speed, double linear = resistance, i
   return duct;
 }
 
-/// Payload::density from a height of deployment on [m].
-std::function<double(double)> thickening_below(double height) {
-  return [height](double fallen) {
-    return standard_air(height - fallen).density / standard_air(height).density;
-  };
+/// Payload::density_ratio from a height of deployment on [m].
+std::function<double(double)> density_ratio_below(double height) {
+  return [height](double fallen) { return density_ratio(height, fallen); };
 }
 
 constexpr double sheet_at = 1.01;  // along the duct [m]
@@ -104,15 +102,11 @@ class Together {
   /// The cloth takes `least` steps or more, `share` of its stable one at most.
   void step(double length, int least, double share) {
     const double stable = share * stability_limit(*cloth_, state_).stable_step;
-    ClothMotion motion;
-    motion.steps = std::max(least, static_cast<int>(std::ceil(length / stable)));
-    ClothState tried = state_;
-    ripstop::step(tried, *cloth_, air_.last_load(memory_), length / motion.steps, motion.steps, team_);
-    motion.velocity = positions(tried, *cloth_);
-    for (std::size_t i = 0; i < x.size(); ++i) motion.velocity[i] = (motion.velocity[i] - x[i]) / length;
-    AirRow row;
-    loads = air_.step(x, motion, length, memory_, row);
-    ripstop::step(state_, *cloth_, loads, length / motion.steps, motion.steps, team_);
+    const int steps = std::max(least, static_cast<int>(std::ceil(length / stable)));
+    const ClothMotion motion = predict_motion(state_, *cloth_, air_.last_load(memory_), length, steps, team_);
+    AirRow row = air_.step(x, motion, length, memory_);
+    loads = air_.transfer(x, memory_, row);
+    ripstop::step(state_, *cloth_, loads, length / steps, steps, team_);
     x = positions(state_, *cloth_);
   }
 
@@ -120,7 +114,7 @@ class Together {
   Loads loads;
 
  private:
-  OpeningAir air_;
+  CoupledFlow air_;
   ClothPtr cloth_;
   ThreadTeam team_{1};
   ClothState state_ = start_state(*cloth_);
@@ -155,7 +149,7 @@ constexpr double piston_duration = 0.02;
 // From cloth a hundred times lighter than nylon to cloth a hundred times heavier, with one step: a load that is handed
 // over after the step would throw the lightest a hundred times too far. Where the cloth takes but one step of its own in
 // each of the air's, its own error, of first order, is the larger.
-TEST(OpeningAir, APistonOfAnyMassMovesAsItsEquationSays) {
+TEST(CoupledFlow, APistonOfAnyMassMovesAsItsEquationSays) {
   constexpr double step = 2.5e-4;
   for (const double mass : {4e-4, 4e-3, 0.04, 0.4, 4.0}) {
     const double right = exactly_moved(mass, piston_duration);
@@ -165,7 +159,7 @@ TEST(OpeningAir, APistonOfAnyMassMovesAsItsEquationSays) {
 }
 
 // Where the step resolves what the cloth would do by itself, half of it leaves a quarter of the error.
-TEST(OpeningAir, StepsOfAirAndClothTogetherAreOfSecondOrder) {
+TEST(CoupledFlow, StepsOfAirAndClothTogetherAreOfSecondOrder) {
   constexpr double step = 1e-3;
   constexpr int fine = 1500;  // the cloth's own steps are of first order
   for (const double mass : {4e-3, 0.4}) {
@@ -226,7 +220,7 @@ Bulge bag_of(double volume, const std::vector<Bulge>& bags) {
 
 // A bag of cloth that is filled at a constant flow Q and leaks: dV/dt = Q - p A / a, with p and A those of the same cloth
 // blown up to V.
-TEST(OpeningAir, ABagThatIsFilledHoldsWhatDoesNotLeak) {
+TEST(CoupledFlow, ABagThatIsFilledHoldsWhatDoesNotLeak) {
   constexpr double flow = 1, leaks = 1000, step = 2.5e-4;
   const std::vector<Bulge> bags = blown_up_bags();
   const Mesh mesh = end_of_a_bag();
@@ -247,7 +241,7 @@ TEST(OpeningAir, ABagThatIsFilledHoldsWhatDoesNotLeak) {
 }
 
 // Where nothing leaks it holds what has flown in, and the pressure does not swing from step to step.
-TEST(OpeningAir, ATightBagHoldsWhatHasFlownIn) {
+TEST(CoupledFlow, ATightBagHoldsWhatHasFlownIn) {
   constexpr double flow = 1, step = 2.5e-4;
   const Mesh mesh = end_of_a_bag();
   Together duct(closed_duct(flow, 1e7, bag_cells), mesh);
@@ -265,81 +259,83 @@ TEST(OpeningAir, ATightBagHoldsWhatHasFlownIn) {
   }
 }
 
-TEST(OpeningAir, IsRefusedWithoutAnEngineOrWithoutASheet) {
+TEST(CoupledFlow, IsRefusedWithoutAnEngineOrWithoutASheet) {
   const Mesh mesh = piston(0.04);
-  EXPECT_THROW(OpeningAir({closed_duct(), 0.5, nullptr}, mesh), Error);
+  EXPECT_THROW(CoupledFlow({closed_duct(), 0.5, nullptr}, mesh), Error);
   FlowProblem bare = closed_duct();
   bare.bodies.clear();
-  EXPECT_THROW(OpeningAir({bare, 0.5, make_cartesian({})}, mesh), Error);
+  EXPECT_THROW(CoupledFlow({bare, 0.5, make_cartesian({})}, mesh), Error);
 }
 
 // Under a pull that stays the same a payload falls as anything does.
-TEST(OpeningAir, APayloadIsSlowedDownByWhatTheRiserPulls) {
+TEST(CoupledFlow, APayloadIsSlowedDownByWhatTheRiserPulls) {
   constexpr double mass = 2, gravity = 9, pull = 30, step = 1e-3;
   const Mesh mesh = piston(0.04);
-  OpeningAir air({closed_duct(), 0.5, make_cartesian(one_thread()), Payload{mass, gravity}}, mesh);
+  CoupledFlow air({closed_duct(), 0.5, make_cartesian(one_thread()), Payload{mass, gravity}}, mesh);
   AirMemory memory;
+  const PayloadMotion& flight = memory.flight;
   AirRow row;
   const std::vector<Vec3> still(mesh.start.size());
   for (int n = 0; n < 10; ++n) {
-    const Loads loads = air.step(mesh.start, {still}, step, memory, row);
-    air.fly(pull, step, memory);
+    row = air.step(mesh.start, {still}, step, memory);
+    const Loads loads = air.transfer(mesh.start, memory, row);
+    air.move_payload(pull, memory, row);
     EXPECT_NEAR(row.momentum_gap, 0, 1e-6) << n;
     // On a kilogram that the air does not touch: the frame slows down as the payload does, and both fall.
     EXPECT_NEAR(loads.node_force.back().z, n == 0 ? 0 : -pull / mass, 1e-9) << n;
   }
   // The pull of a step slows the next one down.
-  EXPECT_NEAR(memory.speed, duct_speed + 10 * step * gravity - 9 * step * pull / mass, 1e-9);
-  EXPECT_EQ(row.speed, memory.speed);
-  EXPECT_NEAR(memory.path, 10 * step * duct_speed, 1e-3);
+  EXPECT_NEAR(flight.speed, duct_speed + 10 * step * gravity - 9 * step * pull / mass, 1e-9);
+  EXPECT_EQ(row.speed, flight.speed);
+  EXPECT_NEAR(flight.path, 10 * step * duct_speed, 1e-3);
 }
 
 // A constant drag area, of which a part is its own, has it fly as a mass point flies, which has another method: in speed,
 // in height, and as far as weight turns its path, through air that gets denser.
-TEST(OpeningAir, APayloadsPathTurnsAsThatOfAMassPoint) {
+TEST(CoupledFlow, APayloadsPathTurnsAsThatOfAMassPoint) {
   constexpr double mass = 2, area = 0.05, own_area = 0.02, step = 2e-3, height = 5000;
   constexpr int steps = 20'000;
   const Mesh mesh = piston(0.04);
   for (const double angle : {90.0, 30.0, 0.0, -60.0}) {
     FlowProblem duct = closed_duct();
     duct.air.density = standard_air(height).density;
-    OpeningAir air({duct, 0.5, make_cartesian(one_thread()),
-                    Payload{mass, standard_gravity, angle, own_area, thickening_below(height)}},
-                   mesh);
+    CoupledFlow air({duct, 0.5, make_cartesian(one_thread()),
+                     Payload{mass, standard_gravity, angle, own_area, density_ratio_below(height)}},
+                    mesh);
     AirMemory memory;
-    AirRow row;
-    air.step(mesh.start, {std::vector<Vec3>(mesh.start.size())}, step, memory, row);
+    const PayloadMotion& flight = memory.flight;
+    AirRow row = air.step(mesh.start, {std::vector<Vec3>(mesh.start.size())}, step, memory);
     for (int n = 0; n < steps; ++n) {
-      const double density = standard_air(height - memory.fallen).density;
-      air.fly(0.5 * density * memory.speed * memory.speed * area, step, memory);
+      const double density = standard_air(height - flight.fallen).density;
+      air.move_payload(0.5 * density * flight.speed * flight.speed * area, memory, row);
     }
     FlightState flown{0, 0, 0, height, duct_speed, angle};
     fly(flown, mass, {[](double, double) { return area + own_area; }, steps * step, step, 0});
-    EXPECT_NEAR(memory.speed / flown.speed, 1, 2e-3) << angle;
-    EXPECT_NEAR(memory.angle * 180 / std::numbers::pi, flown.path_angle, 0.1) << angle;
-    EXPECT_NEAR(memory.path / flown.distance, 1, 2e-3) << angle;
+    EXPECT_NEAR(flight.speed / flown.speed, 1, 2e-3) << angle;
+    EXPECT_NEAR(flight.angle * 180 / std::numbers::pi, flown.path_angle, 0.1) << angle;
+    EXPECT_NEAR(flight.path / flown.distance, 1, 2e-3) << angle;
     const double fallen = height - flown.height;
     EXPECT_GT(fallen, 500) << "enough for a denser air to be felt";
-    EXPECT_NEAR(memory.fallen / fallen, 1, 2e-3) << angle;
+    EXPECT_NEAR(flight.fallen / fallen, 1, 2e-3) << angle;
     if (angle == 90) {
-      EXPECT_NEAR(memory.fallen, memory.path, 1e-9 * fallen);
+      EXPECT_NEAR(flight.fallen, flight.path, 1e-9 * fallen);
     }
   }
 }
 
 // Cloth that hardly gives way: what presses on it goes with the density where it is.
-TEST(OpeningAir, TheLoadGoesWithTheDensityOfTheHeight) {
+TEST(CoupledFlow, TheLoadGoesWithTheDensityOfTheHeight) {
   constexpr double height = 5000, down = 3000;
   const Mesh mesh = piston(1e6);
   const auto first_step = [&](double fallen, double& brake) {
-    OpeningAir air(
-        {closed_duct(), 0.5, make_cartesian(one_thread()), Payload{2, 0, 90, 0.1, thickening_below(height)}},
-        mesh);
+    CoupledFlow air({closed_duct(), 0.5, make_cartesian(one_thread()),
+                     Payload{2, 0, 90, 0.1, density_ratio_below(height)}},
+                    mesh);
     AirMemory memory;
-    memory.fallen = fallen;
-    AirRow row;
-    air.step(mesh.start, {std::vector<Vec3>(mesh.start.size())}, 1e-3, memory, row);
-    brake = memory.acceleration;
+    memory.flight.fallen = fallen;
+    AirRow row = air.step(mesh.start, {std::vector<Vec3>(mesh.start.size())}, 1e-3, memory);
+    air.transfer(mesh.start, memory, row);
+    brake = memory.flight.acceleration;
     return std::array{row.drag, row.drag_area, memory.pressure.front()};
   };
   double slow = 0, slower = 0;

@@ -1,0 +1,14 @@
+#include "ripstop/flight/point_mass.h"
+
+#include <cmath>
+
+namespace ripstop {
+
+InPlane acceleration(const PointMass& body, InPlane velocity, double density, double drag_area, double pull) {
+  const double speed = std::hypot(velocity.level, velocity.down);
+  const double pull_over_speed = pull == 0 ? 0 : pull / speed;
+  const double retardation = (0.5 * density * speed * drag_area + pull_over_speed) / body.mass;  // [1/s]
+  return {-retardation * velocity.level, body.gravity - retardation * velocity.down};
+}
+
+}  // namespace ripstop

@@ -1,0 +1,61 @@
+#include "ripstop/fsi/convergence.h"
+
+#include <cmath>
+
+#include "ripstop/fsi/ledger.h"
+
+namespace ripstop {
+
+void enter_shape_change(SteadyIteration& now, const std::vector<Vec3>& before,
+                        const std::vector<Vec3>& after) {
+  double moved = 0, size = 0;
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    now.shape_change += norm(after[i] - before[i]) / double(after.size());
+    moved += dot(after[i] - before[i], after[i] - before[i]);
+    size += dot(before[i], before[i]);
+  }
+  now.omega = std::sqrt(moved / size);
+}
+
+// Displacement of the canopy that chance may cause between two means in time with the standard error of the last one:
+// twice the standard error of the direction of the load, times the mean distance from the fixed end [m].
+double SteadyConvergence::lean_by_chance(const SteadyState& state) const {
+  if (state.iterations.empty() || !state.iterations.back().in_time) return 0;
+  const Vec3& fixed = state.shape[fixed_.front()];
+  double distance = 0;
+  for (const Vec3& x : state.shape) distance += norm(x - fixed) / double(state.shape.size());
+  const Vec3& error = state.window.side_error;
+  const double lean =
+      2 * std::sqrt(2.) * std::hypot(error.x, error.y) / std::abs(state.window.drag) * distance;
+  return std::isfinite(lean) ? lean : 0;
+}
+
+bool SteadyConvergence::shape_settled(const SteadyState& state, const SteadyIteration& now) const {
+  return now.shape_change < settings_.shape_tolerance_m + lean_by_chance(state);
+}
+
+bool SteadyConvergence::asks_for_full_flow(const SteadyState& state, const SteadyIteration& now) const {
+  if (state.iterations.empty() || !shape_settled(state, now)) return false;
+  const SteadyIteration& last = state.iterations.back();
+  // Cloth that is still regularised is not worth a whole window.
+  if (state.in_time) return now.regularisation_share < regularisation_tolerance && last.in_time;
+  // With CanopyLoad::of_flow, the drag of a flow that was left early does not show whether it settles.
+  return settings_.load == CanopyLoad::of_flow || last.drag_change < settings_.drag_tolerance;
+}
+
+// Before a window, drag and ledger need not be known better than the mean in time will be. In time the ledger decides
+// alone: the nodal load is the mean of the windows before, from which chance makes this one differ by twice the standard
+// error of the difference.
+bool SteadyConvergence::reached(const SteadyState& state, const SteadyIteration& now, bool in_full) const {
+  if (!shape_settled(state, now) || (state.in_time && !in_full)) return false;
+  double chance = window_ ? window_->standard_error : 0;
+  if (state.in_time)
+    chance = 2 * std::hypot(now.drag_error, state.iterations.back().drag_error) / std::abs(now.fluid_force);
+  const double tolerance = ledger_tolerance + chance;
+  const bool drag_settled = state.in_time || now.drag_change < settings_.drag_tolerance + chance;
+  const bool flow_known = now.flow_converged || (now.flow_averaged > 0 && momentum_closes(now, tolerance));
+  return drag_settled && now.regularisation_share < regularisation_tolerance && flow_known &&
+         ledger_closes(now, tolerance);
+}
+
+}  // namespace ripstop

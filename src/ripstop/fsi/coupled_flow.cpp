@@ -1,0 +1,149 @@
+#include "ripstop/fsi/coupled_flow.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "ripstop/core/error.h"
+#include "ripstop/fsi/added_mass.h"
+#include "ripstop/fsi/sheet_transfer.h"
+#include "ripstop/fsi/transfer.h"
+
+namespace ripstop {
+namespace {
+
+/// Of the velocity that a constant load gives at the end of so many steps, v' = v + dt f/m and x' = x + dt v', the mean
+/// over all of them: the whole for one step, half for many.
+double mean_share(int steps) {
+  return 0.5 * (1 + 1.0 / steps);
+}
+
+std::unique_ptr<Flow> start_flow(const AirProblem& problem, std::vector<Triangle> surface) {
+  if (!problem.engine) throw Error(ExitCode::usage, "an opening in its own air needs a flow engine");
+  FlowProblem flow = problem.flow;
+  if (flow.bodies.size() != 1 || !flow.has_sheets())
+    throw Error(ExitCode::usage, "an opening in its own air takes the canopy as one sheet");
+  flow.bodies[0].surface = std::move(surface);
+  return problem.engine->start(flow);
+}
+
+/// The least of a cell's corners: tape and lines make some of them heavier, and a compliance that is a little too large
+/// is stable.
+std::vector<double> least_mass(const Mesh& mesh, const std::vector<Cell>& cells) {
+  std::vector<double> area(mesh.mass.size(), 0.0), cut;
+  for (const Patch& patch : mesh.patches)
+    cut.insert(cut.end(), patch.cell_area.begin(),
+               patch.cell_area.begin() + std::ptrdiff_t{patch.rows - 1} * patch.columns);
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    if (cells[c].corner[0] < 0) continue;
+    for (const int node : cells[c].corner) area[node] += 0.25 * cut[c];
+  }
+  std::vector<double> result;
+  for (const Cell& cell : cells) {
+    if (cell.corner[0] < 0) continue;
+    double least = 1e300;
+    for (const int node : cell.corner) least = std::min(least, mesh.mass[node] / area[node]);
+    result.insert(result.end(), 2, least);
+  }
+  return result;
+}
+
+}  // namespace
+
+ClothMotion predict_motion(const ClothState& state, const Cloth& cloth, const Loads& last_load, double length,
+                           int steps, ThreadTeam& team) {
+  ClothState moved = state;
+  ripstop::step(moved, cloth, last_load, length / steps, steps, team);
+  const std::vector<Vec3> before = positions(state, cloth);
+  ClothMotion motion{positions(moved, cloth), steps};
+  for (std::size_t n = 0; n < before.size(); ++n)
+    motion.velocity[n] = (motion.velocity[n] - before[n]) / length;
+  return motion;
+}
+
+CoupledFlow::CoupledFlow(const AirProblem& problem, const Mesh& mesh)
+    : engine_(problem.engine),
+      grid_(problem.flow.grid),
+      courant_(problem.courant),
+      speed_(problem.flow.air.speed()),
+      density_(problem.flow.air.density),
+      payload_(problem.payload),
+      node_mass_(mesh.mass),
+      cells_(cells_of(mesh)),
+      mass_(least_mass(mesh, cells_)),
+      flow_(start_flow(problem, surface_of(cells_, mesh.start)), density_) {}
+
+double CoupledFlow::density_ratio_of(const AirMemory& memory) const {
+  return payload_ ? density_ratio(*payload_, memory.flight.fallen) : 1;
+}
+
+Loads CoupledFlow::last_load(const AirMemory& memory) const {
+  if (memory.pressure.empty())
+    return {std::vector<double>(cells_.size(), 0.0), std::vector<Vec3>(node_mass_.size())};
+  return {memory.pressure, memory.force};
+}
+
+// The Robin condition: v_n = v_n,predicted + compliance (p - p_last), compliance = mean_share dt / (mass an area).
+SheetMotion CoupledFlow::sheet_motion(const ClothMotion& predicted, double length,
+                                      const AirMemory& memory) const {
+  const std::vector<double> pressure = last_load(memory).cell_pressure;
+  SheetMotion motion;
+  for (const double mass : mass_) motion.yields.push_back(mean_share(predicted.steps) * length / mass);
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    if (cells_[c].corner[0] < 0) continue;
+    Vec3 mean;
+    for (const int node : cells_[c].corner) mean += 0.25 * predicted.velocity[node];
+    motion.velocity.insert(motion.velocity.end(), 2, mean);
+    motion.pressure.insert(motion.pressure.end(), 2, pressure[c]);
+  }
+  return motion;
+}
+
+AirRow CoupledFlow::step(const std::vector<Vec3>& positions, const ClothMotion& predicted, double length,
+                         AirMemory& memory) {
+  flow_.set_density_ratio(density_ratio_of(memory));
+  surface_ = surface_of(cells_, positions);
+  flow_.place(surface_, sheet_motion(predicted, length, memory));
+  PayloadMotion& flight = memory.flight;
+  if (memory.steps == 0) {
+    flight.speed = speed_;
+    if (payload_) deploy(flight, *payload_, speed_, flow_.density());
+  }
+  const double speed = flight.speed + length * flight.acceleration;
+  if (payload_) flow_.stream({0, 0, speed}, {0, 0, flight.acceleration});
+  const FlowStep step = flow_.step(length);
+  ++memory.steps;
+  AirRow row;
+  row.length = length, row.courant = step.courant, row.speed = speed;
+  row.drag = step.force.z, row.side_x = step.force.x, row.side_y = step.force.y;
+  row.drag_area = row.drag / (0.5 * flow_.density() * speed * speed);
+  row.momentum_gap = step.momentum_gap.z, row.mass_defect = step.mass_defect;
+  row.added_mass = memory.added_mass;
+  return row;
+}
+
+Loads CoupledFlow::transfer(const std::vector<Vec3>& positions, AirMemory& memory, AirRow& row) const {
+  ClothLoad load = load_of_flow(flow_.sheet_loads(), grid_, surface_, cells_, positions, Folds::filled);
+  row.residual_traction = residual_traction_share(load, cells_, positions);
+  memory.pressure = std::exchange(load.pressure, std::vector<double>(cells_.size(), 0.0));
+  memory.force = node_forces(load, cells_, positions);
+  if (payload_) {  // weight, and the inertial force in the frame of the payload
+    const double along = memory.flight.acceleration - gravity_along_path(*payload_, memory.flight);
+    for (std::size_t n = 0; n < node_mass_.size(); ++n) memory.force[n].z += node_mass_[n] * along;
+  }
+  return last_load(memory);
+}
+
+void CoupledFlow::move_payload(double pull, AirMemory& memory, AirRow& row) const {
+  if (payload_) ripstop::move_payload(memory.flight, *payload_, pull, row.length, density_);
+  row.path = memory.flight.path, row.fallen = memory.flight.fallen;
+  row.angle = memory.flight.angle * 180 / std::numbers::pi;
+}
+
+void CoupledFlow::compute_added_mass(const std::vector<Vec3>& positions, AirMemory& memory) const {
+  memory.added_mass =
+      added_mass(*engine_, surface_of(cells_, positions), density_ * density_ratio_of(memory));
+}
+
+}  // namespace ripstop

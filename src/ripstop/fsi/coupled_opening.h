@@ -1,0 +1,29 @@
+// The opening of a canopy whose cloth and flow are stepped together in time.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "ripstop/fsi/coupled_flow.h"
+#include "ripstop/fsi/opening.h"
+
+namespace ripstop {
+
+class CoupledOpening : public Opening {
+ public:
+  /// `problem` has `air`.
+  explicit CoupledOpening(InflationProblem problem);
+
+  InflationState start() const override;
+  std::vector<HistoryRow> advance(InflationState& state, std::vector<AirRow>* air_rows = nullptr) override;
+  InflationFrame frame(InflationState& state) const override;
+  CoupledFlow* air() const override { return air_.get(); }
+
+ private:
+  AirRow step(InflationState& state, int rows, std::vector<HistoryRow>& history);
+  int rows_of_next_step(const InflationState& state, int left);
+
+  std::unique_ptr<CoupledFlow> air_;
+};
+
+}  // namespace ripstop

@@ -1,0 +1,51 @@
+#include "ripstop/fsi/load_model.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "ripstop/core/error.h"
+
+namespace ripstop {
+namespace {
+
+double axial_force(const CanopySurface& canopy, const std::vector<double>& pressure) {
+  return pressure_force(canopy.cells, canopy.shape, pressure).z;
+}
+
+}  // namespace
+
+CanopySurface::CanopySurface(const std::vector<Cell>& all, const std::vector<Vec3>& x, const FlowGrid& grid)
+    : cells(all), shape(x), triangles(surface_of(all, x)), cut_cells(ripstop::cut_cells(grid, triangles)) {}
+
+SidePressures sides_of_cloth(const FlowField& field, const CanopySurface& canopy, bool sheet) {
+  return sample_sides(field, sheet ? std::vector<int>{} : canopy.cut_cells, canopy.cells, canopy.shape);
+}
+
+ClothLoad load_on_cloth(CanopyLoad model, const FlowField& field, const CanopySurface& canopy,
+                        const SidePressures& sides, SteadyIteration& now) {
+  ClothLoad load{sides.difference(), {}};
+  if (model == CanopyLoad::of_flow)
+    load = load_of_flow(field.sheet_loads, field.grid, canopy.triangles, canopy.cells, canopy.shape);
+  now.transfer_factor = now.fluid_force / axial_force(canopy, load.pressure);
+  now.residual_traction = residual_traction_share(load, canopy.cells, canopy.shape);
+  if (model == CanopyLoad::uniform) {
+    const std::vector<double> one(canopy.cells.size(), 1.0);
+    load.pressure.assign(canopy.cells.size(), now.fluid_force / axial_force(canopy, one));
+  }
+  if (model != CanopyLoad::sampled) return load;
+  // The flow's force on the cut cells also contains what the resistance takes along the cloth, and the staircase of cut
+  // cells is not the cloth: sampled differences do not add up to it. They are scaled by one factor, which is reported.
+  if (!(now.transfer_factor > 0) || !std::isfinite(now.transfer_factor)) {
+    throw Error(
+        ExitCode::diverged,
+        fmt::format("coupling iteration {}: the pressures beside the cloth add up to {:.3g} N against the "
+                    "flow, whose force is {:.3g} N; the grid is too coarse for this canopy or the flow is "
+                    "wrong",
+                    now.iteration, now.fluid_force / now.transfer_factor, now.fluid_force));
+  }
+  for (double& dp : load.pressure) dp *= now.transfer_factor;
+  return load;
+}
+
+}  // namespace ripstop

@@ -1,0 +1,113 @@
+#include "ripstop/fsi/opening_cloth.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "ripstop/core/quantity_error.h"
+#include "ripstop/fsi/folded_start.h"
+
+namespace ripstop {
+namespace {
+
+// Of the cloth's viscosity, that acts along yarns between nodes two cells apart. There it takes a quarter of
+// what the same loss in a wave that the mesh resolves takes of the stable step between neighbours, and it
+// resists being folded at the scale of the grid. A wave of two cells only feels the rest.
+constexpr double share_over_two_cells = 2.0 / 3;
+
+double required_radius(const InflationSettings& settings) {
+  if (!settings.initial_radius_m) {
+    throw QuantityError(ExitCode::usage, "radius of the folded skirt is not given: for example 0.1 m",
+                        {"radius of the folded skirt"});
+  }
+  return *settings.initial_radius_m;
+}
+
+}  // namespace
+
+void damp_springs(Mesh& mesh, double line_time, double cloth_time) {
+  for (Spring& spring : mesh.springs) {
+    const SpringLaw& law = mesh.laws[spring.law];
+    spring.damping += line_time * law.tangent(0) * spring.scale / spring.rest_length;
+  }
+  if (cloth_time == 0) return;
+  for (Patch& patch : mesh.patches) {
+    for (const Direction d : {along_row, along_column})
+      patch.viscosity[d] += (1 - share_over_two_cells) * cloth_time * patch.law[d].tangent(0);
+    for (const Direction d : {shear_up, shear_down, bend_row, bend_column})
+      patch.viscosity[d] += cloth_time * patch.law[d].tangent(0);
+    // Two such springs cross every section, each with half the w / L0.
+    patch.viscosity[bend_row] += 0.5 * share_over_two_cells * cloth_time * patch.law[along_row].tangent(0);
+    patch.viscosity[bend_column] +=
+        0.5 * share_over_two_cells * cloth_time * patch.law[along_column].tangent(0);
+  }
+}
+
+OpeningCloth::OpeningCloth(const CanopyMesh& as_cut, const InflationSettings& s,
+                           std::vector<ReefingLine> reefing, int symmetry, bool linear, ThreadTeam& team)
+    : folded_(folded_start(as_cut, {required_radius(s), s.folds, s.slack_m}, symmetry, team)),
+      reefing_(std::move(reefing)) {
+  mesh_ = with_creases(as_cut, folded_);
+  damp_springs(mesh_, s.line_damping_s, s.cloth_damping_s);
+  ClothOptions options{linear, s.damping_n_s_m3, s.quadratic_damping_n_s2_m4};
+  if (s.contact_pa > 0) options.contact = ContactOptions{s.contact_pa, s.contact_friction, folded_.positions};
+  if (s.cloth_damping_s > 0)
+    viscosity_limit_ = limit_viscosity(mesh_, options, folded_.positions, s.cloth_damping_step_share);
+  add_reefed_stages(s, options);
+  stages_.push_back(make_cloth(mesh_, options));
+  start_ = with_imperfection(s);
+  elastic_at_start_ = elastic_energy(open(), start());
+}
+
+void OpeningCloth::add_reefed_stages(const InflationSettings& settings, const ClothOptions& options) {
+  Mesh reefed = mesh_;
+  for (const ReefingLine& line : reefing_) {
+    const double damping = settings.line_damping_s * line.law.tangent(0) / line.length;
+    reefed.drawstring = Drawstring{line_joints(mesh_), line.length, line.law, damping};
+    stages_.push_back(make_cloth(reefed, options));
+  }
+  if (reefing_.empty()) return;
+  ClothState folded = start_state(*stages_.front());
+  set_positions(folded, *stages_.front(), folded_.positions);
+  const double needed = drawn_length(*stages_.front(), folded), length = reefing_.front().length;
+  if (needed > length)
+    throw QuantityError(
+        ExitCode::usage,
+        fmt::format(
+            "length of the first reefing line = {:g}: the folded skirt is {:.4g} m round, more than its "
+            "reefing line; a smaller radius of the folded skirt fits into it",
+            length, needed),
+        {"length of the first reefing line", "radius of the folded skirt"});
+}
+
+std::vector<Vec3> OpeningCloth::with_imperfection(const InflationSettings& s) const {
+  std::vector<Vec3> x = folded_.positions;
+  if (s.imperfection_m == 0) return x;
+  for (const Patch& patch : mesh_.patches) {
+    for (int i = patch.first_node; i < patch.first_node + patch.rows * patch.columns; ++i) {
+      const double wave = std::cos(s.imperfection_harmonic * std::atan2(x[i].y, x[i].x));
+      x[i] += (s.imperfection_m * wave / folded_.outer_radius) * Vec3{x[i].x, x[i].y, 0};
+    }
+  }
+  return x;
+}
+
+ClothState OpeningCloth::start() const {
+  ClothState state = start_state(open());
+  set_positions(state, open(), start_);
+  return state;
+}
+
+bool OpeningCloth::cut_due(InflationState& state) const {
+  const double now = state.cloth.time;
+  const std::size_t before = state.cuts.size();
+  while (state.cuts.size() < reefing_.size() && reefing_[state.cuts.size()].cut <= now * (1 + 1e-12)) {
+    state.cut_energy += elastic_energy(of_stage(state), state.cloth);
+    state.cuts.push_back(now);
+    state.cut_energy -= elastic_energy(of_stage(state), state.cloth);
+  }
+  return state.cuts.size() > before;
+}
+
+}  // namespace ripstop

@@ -1,0 +1,60 @@
+// The cloth of an opening: folded, damped, with the reefing line of every stage.
+#pragma once
+
+#include <vector>
+
+#include "ripstop/cloth/cloth.h"
+#include "ripstop/fsi/inflation_settings.h"
+#include "ripstop/fsi/opening_record.h"
+#include "ripstop/parachute/fold.h"
+
+namespace ripstop {
+
+/// A line through rings at the joints of skirt and lines, until it is cut.
+struct ReefingLine {
+  double length = 0;  // [m]
+  double cut = 0;     // [s]
+  SpringLaw law;      // [N]
+};
+
+/// Lines, riser and tape get dampers C = `line_time` K_1 w / L0, the cloth's springs likewise with
+/// `cloth_time`: Kelvin-Voigt solids whose loss does not depend on the mesh. Of the cloth's, half acts along
+/// yarns between nodes two cells apart. Times in [s].
+void damp_springs(Mesh& mesh, double line_time, double cloth_time);
+
+class OpeningCloth {
+ public:
+  /// Throws Error(usage) for a folding or a reefing line that does not fit.
+  OpeningCloth(const CanopyMesh& as_cut, const InflationSettings& settings, std::vector<ReefingLine> reefing,
+               int symmetry, bool linear, ThreadTeam& team);
+
+  const CanopyMesh& mesh() const { return mesh_; }
+  const FoldedStart& folded() const { return folded_; }
+  /// How much weaker the cloth's dampers are than `cloth_damping_s` says, so that they do not set the step.
+  const ViscosityLimit& viscosity_limit() const { return viscosity_limit_; }
+  /// Without reefing line.
+  const Cloth& open() const { return *stages_.back(); }
+  /// With the reefing line of the present stage.
+  const Cloth& of_stage(const InflationState& state) const { return *stages_[state.cuts.size()]; }
+
+  /// The folded start with its imperfection, at rest.
+  ClothState start() const;
+  /// Of an imperfection, or of a start that folds with some strain [J].
+  double elastic_energy_at_start() const { return elastic_at_start_; }
+  /// Cuts the reefing lines that are due; the energy of a line goes with it. Returns whether one was cut.
+  bool cut_due(InflationState& state) const;
+
+ private:
+  std::vector<Vec3> with_imperfection(const InflationSettings& settings) const;
+  void add_reefed_stages(const InflationSettings& settings, const ClothOptions& options);
+
+  CanopyMesh mesh_;
+  FoldedStart folded_;
+  ViscosityLimit viscosity_limit_;
+  std::vector<ReefingLine> reefing_;  // in the order of their cuts
+  std::vector<ClothPtr> stages_;      // the last without reefing line
+  std::vector<Vec3> start_;
+  double elastic_at_start_ = 0;
+};
+
+}  // namespace ripstop

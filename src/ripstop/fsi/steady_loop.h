@@ -1,0 +1,81 @@
+// The steady loop of [NFM] section 6: equilibrium of the cloth under the present load -> its surface in the flow ->
+// flow -> load on the cloth -> next.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "ripstop/cloth/cloth.h"
+#include "ripstop/flow/flow.h"
+#include "ripstop/flow/unsteady.h"
+#include "ripstop/fsi/convergence.h"
+#include "ripstop/fsi/coupling_settings.h"
+#include "ripstop/fsi/equilibrium.h"
+#include "ripstop/fsi/load_model.h"
+#include "ripstop/fsi/steady_state.h"
+#include "ripstop/parachute/canopy_mesh.h"
+
+namespace ripstop {
+
+struct SteadyProblem {
+  CanopyMesh mesh;            // start shape in the frame of the flow
+  FlowProblem flow;           // one body that has the resistance; the loop finds its surface
+  double reference_area = 0;  // S0 [m2]
+  CouplingSettings settings;
+  std::optional<Watch> averaging_window;  // once shape and drag have settled, the flow is averaged in time
+};
+
+enum class SteadyStage { cloth, flow, time };
+/// Live progress within an iteration; flow values are those of the last SIMPLE iteration.
+struct SteadyProgress {
+  SteadyStage stage = SteadyStage::cloth;
+  int iteration = 0;
+  RelaxProgress cloth = {};
+  FlowProgress flow = {};
+  WatchProgress time = {};
+};
+using SteadyReport = std::function<void(const SteadyProgress&)>;
+
+class SteadySolver {
+ public:
+  /// Starts the flow; the engine must outlive the solver. Throws Error(usage) when the start shape does not fit
+  /// into the box, and what FlowEngine::start() throws.
+  SteadySolver(SteadyProblem problem, FlowEngine& engine);
+
+  /// Uniform pressure of 1 q on the start shape.
+  SteadyState start() const;
+  /// One iteration. Returns the flow about the new shape, which continues in the next one. Throws Error(not_converged)
+  /// when the cloth finds no equilibrium, Error(external) or Error(diverged) from the flow.
+  FlowField iterate(SteadyState& state, const SteadyReport& report = {});
+  bool finished(const SteadyState& state) const;
+
+  /// What a checkpoint saves and restores in addition to the state.
+  Flow& flow() { return *flow_; }
+  const Flow& flow() const { return *flow_; }
+  const Cloth& cloth() const { return *cloth_; }
+  const CanopyMesh& mesh() const { return problem_.mesh; }
+  const std::vector<Cell>& cells() const { return cells_; }
+  /// Of the last iteration, if its flow was averaged in time.
+  const FlowRecord& record() const { return record_; }
+  /// The cloth's state at `state.shape`, at rest.
+  ClothState cloth_state(const SteadyState& state) const { return cloth_at(*cloth_, state.shape); }
+
+ private:
+  Equilibrium solve_cloth(const SteadyState& state, const Loads& loads, SteadyIteration& now,
+                          const SteadyReport& report);
+  FlowField advance_flow(SteadyState& state, bool in_full, int iteration, const SteadyReport& report);
+  double printed_tolerance(double flow_residual) const;
+
+  SteadyProblem problem_;
+  std::unique_ptr<Flow> flow_;
+  ClothPtr cloth_;
+  std::vector<Cell> cells_;
+  std::vector<double> area_;  // of the cells as cut [m2]
+  SteadyConvergence convergence_;
+  ThreadTeam team_;
+  FlowRecord record_;
+};
+
+}  // namespace ripstop

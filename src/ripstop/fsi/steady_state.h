@@ -1,0 +1,80 @@
+// What the steady loop carries from one iteration to the next.
+#pragma once
+
+#include <vector>
+
+#include "ripstop/core/members.h"
+#include "ripstop/core/vec3.h"
+#include "ripstop/fsi/acceleration.h"
+#include "ripstop/fsi/sheet_transfer.h"
+#include "ripstop/fsi/steady_iteration.h"
+#include "ripstop/fsi/transfer.h"
+
+namespace ripstop {
+
+/// Statistics of an unsteady flow over one averaging window.
+struct WindowAverage {
+  int steps = 0;
+  double time = 0, start_up = 0;              // whole window, and the part of it that was discarded [s]
+  double drag = 0, error = 0, deviation = 0;  // mean, its standard error, standard deviation [N]
+  Vec3 side_force, side_error;                // means across the stream and their standard errors [N]
+  double side_deviation = 0;                  // root mean square of the side force about its mean [N]
+  double swing = 0, swing_share = 0;  // strongest frequency of the side force [1/s], its part of the power
+  bool enough = false;                // the standard error meets the tolerance
+};
+template <Of<WindowAverage> T, class Visit>
+void each_member(T& w, Visit&& visit) {
+  visit("steps", w.steps);
+  visit("time_s", w.time);
+  visit("start_up_s", w.start_up);
+  visit("drag_n", w.drag);
+  visit("standard_error_n", w.error);
+  visit("deviation_n", w.deviation);
+  visit("side_force_n", w.side_force);
+  visit("side_force_error_n", w.side_error);
+  visit("side_force_deviation_n", w.side_deviation);
+  visit("swing_hz", w.swing);
+  visit("swing_share", w.swing_share);
+  visit("enough", w.enough);
+}
+
+/// Everything that the next iteration depends on, except for the memory of the flow engine. A checkpoint holds it.
+struct SteadyState {
+  std::vector<SteadyIteration> iterations;
+  std::vector<Vec3> shape;          // X_k
+  std::vector<double> pressure;     // difference applied in the next iteration, on every cell of cloth [Pa]
+  RigidTraction residual_traction;  // applied in addition
+  SidePressures sides;              // of the last flow [Pa]
+  std::vector<double> applied;      // difference that produced `shape` [Pa]
+  Accelerator accelerator;
+  bool in_time = false;  // from the next iteration on, the flow is averaged in time
+  WindowAverage window;  // the last one
+  bool converged = false;
+  double speed = 0;  // stream speed of this state, where a run searches for it; 0: that of the case [m/s]
+  int speeds = 0;    // tried so far
+};
+
+template <Of<SteadyState> T, class Visit>
+void each_member(T& s, Visit&& visit) {
+  visit("iterations", s.iterations);
+  visit("shape", s.shape);
+  visit("pressure", s.pressure);
+  visit("remainder", s.residual_traction.at_centre);
+  visit("remainder_twist", s.residual_traction.twist);
+  visit("inside", s.sides.inside);
+  visit("outside", s.sides.outside);
+  visit("applied", s.applied);
+  visit("update", s.accelerator.update);
+  visit("relaxation", s.accelerator.relaxation);
+  visit("memory", s.accelerator.memory);
+  visit("guesses", s.accelerator.guesses);
+  visit("residuals", s.accelerator.residuals);
+  visit("aitken_factor", s.accelerator.aitken_factor);
+  visit("in_time", s.in_time);
+  visit("watched", s.window);
+  visit("converged", s.converged);
+  visit("speed", s.speed);
+  visit("speeds", s.speeds);
+}
+
+}  // namespace ripstop
