@@ -10,6 +10,7 @@
 #include "ripstop/run/opening/handbook.h"
 #include "ripstop/run/opening/load.h"
 #include "tests/refusal.h"
+#include "tests/run/opening/method_of.h"
 #include "tests/small_case.h"
 
 namespace ripstop {
@@ -24,12 +25,6 @@ LoadRequest drop(double mass = 2.4, double speed = 20) {
   LoadRequest r;
   r.payload_mass = mass, r.speed = speed, r.height = 300;
   return r;
-}
-
-const MethodLoad& method(const StageLoads& stage, const std::string& name) {
-  for (const MethodLoad& m : stage.methods)
-    if (m.method == name) return m;
-  throw std::runtime_error("no method " + name);
 }
 
 bool mentions(const std::vector<std::string>& all, const std::string& text) {

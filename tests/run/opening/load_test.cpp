@@ -14,6 +14,7 @@
 #include "ripstop/run/opening/filling.h"
 #include "ripstop/run/opening/inflation_folder.h"
 #include "tests/refusal.h"
+#include "tests/run/opening/method_of.h"
 #include "tests/run/steady/finished_run.h"
 #include "tests/small_case.h"
 
@@ -32,12 +33,6 @@ LoadRequest request(double mass = 2.4, double speed = 30) {
   r.payload_mass = mass, r.speed = speed, r.height = 500;
   r.filling_constant = 8;
   return r;
-}
-
-const MethodLoad& method(const StageLoads& stage, const std::string& name) {
-  for (const MethodLoad& m : stage.methods)
-    if (m.method == name) return m;
-  throw std::runtime_error("no method " + name);
 }
 
 std::string refused(const LoadRequest& asked) {
