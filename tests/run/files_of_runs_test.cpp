@@ -116,7 +116,7 @@ TEST(WatchFiles, HistoryHasARowAStepAndTheWakeAFileASlice) {
 TEST(WatchFiles, WithoutASliceThereIsNoWake) {
   const TemporaryFolder root("watch-files");
   ClaimedFolder claimed(root.path / "run");
-  write_watch(claimed, flat_circular_case(1, 600, 20), watched_record(2, 0));
+  write_watch(claimed, resolve(checked(flat_circular_case(1, 600, 20))), watched_record(2, 0));
   EXPECT_TRUE(fs::exists(root.path / "run/history.csv"));
   EXPECT_FALSE(fs::exists(root.path / "run/wake") || fs::exists(root.path / "run/wake.pvd"));
 }
