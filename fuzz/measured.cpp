@@ -1,4 +1,4 @@
-// A table of measured points.
+// A table that the program has written itself.
 #include "reader.h"
 #include "ripstop/output/csv.h"
 

@@ -15,6 +15,7 @@
 #include "json_option.h"
 #include "number_option.h"
 #include "progress.h"
+#include "table_options.h"
 
 namespace ripstop {
 namespace {
@@ -25,6 +26,7 @@ struct FitArguments {
   fs::path bench;
   fs::path out;
   int degree = 0;
+  std::string columns, decimal;
   bool zero_offset = false;
   bool no_coupons = false;
   bool json = false;
@@ -65,6 +67,7 @@ void print_permeability(const MaterialFit& fit) {
 
 void print_fit(const FitResult& result) {
   const auto& [bench, fit, coupons] = result;
+  for (const std::string& line : fit.understood) fmt::print("{}\n", line);
   print_directions(fit);
   print_permeability(fit);
   if (coupons) {
@@ -84,6 +87,9 @@ int run(const FitArguments& options) {
   Bench bench = read_bench(options.bench);
   if (options.degree > 0) bench.degree = options.degree;
   if (options.zero_offset) bench.zero_offset = true;
+  if (!options.columns.empty()) bench.columns = options.columns;
+  if (!options.decimal.empty()) bench.decimal = table::parse_decimal(options.decimal);
+  table::parse_columns(bench.columns);  // a wrong one ends here, before any record is read
   ThreadTeam team(options.threads);
   Progress progress;
   const FitResult result =
@@ -118,6 +124,7 @@ void add_fit(CLI::App& app, int& status) {
   command->add_option("--out", options->out, "Folder for the material and its plots; default: runs/<name>");
   add_number(*command, "--degree", options->degree, from(1).up_to(8),
              "Degree of the curves (default: degree_rule of the campaign)");
+  add_table_options(*command, options->columns, options->decimal, "force=Kraft [kN],extension=Weg [mm]");
   command->add_flag(
       "--zero-offset", options->zero_offset,
       "Fit through zero load at zero strain (K_0 = 0), the default, whatever the campaign says");

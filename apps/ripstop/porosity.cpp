@@ -18,6 +18,7 @@
 #include "ripstop/run/sweep/porosity_sweep.h"
 #include "ripstop/run/sweep/sweep_files.h"
 #include "sweep_progress.h"
+#include "table_options.h"
 
 namespace ripstop {
 namespace {
@@ -30,6 +31,7 @@ constexpr double printed_slope = -1.7794, printed_intercept = 0.9195;
 
 struct PorosityArguments : SweepOptions {
   fs::path measured;
+  std::string columns, decimal;
   std::vector<double> gammas, permeabilities;
   double thickness = 1.2e-4;
   int shifts = 3;
@@ -50,19 +52,10 @@ std::vector<MeasuredDrag> measured_points(const PorosityArguments& options, cons
           "drag_n in rows of [[measured]]");
     return points;
   }
-  std::vector<MeasuredDrag> points;
-  const CsvTable table = read_csv(options.measured);
-  const auto speed = table.column("speed_m_s"), density = table.column("density_kg_m3"),
-             drag = table.column("drag_n");
-  for (std::size_t i = 0; i < speed.size(); ++i) {
-    if (!(speed[i] > 0) || !(density[i] > 0) || !(drag[i] > 0))
-      throw Error(ExitCode::bad_data,
-                  fmt::format("{}: row {} of the data: speed, density and drag must be above 0",
-                              options.measured.string(), i + 1));
-    points.push_back({speed[i], speed[i], density[i], drag[i]});
-  }
-  if (points.empty()) throw Error(ExitCode::bad_data, options.measured.string() + ": no measured point");
-  return points;
+  const MeasuredFile measured = read_measured_drag(options.measured, table::parse_columns(options.columns),
+                                                   table::parse_decimal(options.decimal));
+  for (const std::string& line : measured.understood) fmt::print(stderr, "{}\n", line);
+  return measured.points;
 }
 
 void write_plots(const fs::path& folder, const Settings& resolved, const std::vector<MeasuredDrag>& measured,
@@ -232,8 +225,9 @@ void add_calibrate_porosity(CLI::App& parent, int& status) {
   command->footer(
       "Example: ripstop calibrate porosity examples/stratos-iv/case.toml --gammas 0.18,0.20,0.22,0.24 "
       "--shifts 3\n"
-      "The file of --measured is a table with the columns speed_m_s, density_kg_m3 and drag_n; one row is "
-      "enough.\n"
+      "The file of --measured is a table with speed, density and drag, as in speed_m_s, density_kg_m3, "
+      "drag_n;\n"
+      "one row is enough.\n"
       "Goes on where it was killed. For other parachutes of the same cloth use the two --set that it "
       "prints.");
   add_sweep_options(*command, *options);
@@ -242,6 +236,7 @@ void add_calibrate_porosity(CLI::App& parent, int& status) {
           "--measured", options->measured,
           "Measured points (CSV); default: the rows of [[measured]] with a drag, on the case's basis")
       ->check(CLI::ExistingFile);
+  add_table_options(*command, options->columns, options->decimal, "speed=v [m/s],drag=Widerstand [N]");
   CLI::Option* gammas = add_numbers(*command, "--gammas", options->gammas, from(0.01).up_to(0.99),
                                     "Values of Ergun's porosity (default: 0.18,0.20,0.22,0.24)");
   add_numbers(*command, "--permeabilities", options->permeabilities, from(1e-3).up_to(9999),

@@ -58,7 +58,7 @@ TEST(Inflation, TheFoldedStateAtRestStaysAtRest) {
 }
 
 TEST(Inflation, ALossOfStabilityIsAnErrorThatNamesTimeAndNode) {
-  Inflation solver(small_problem(500, 5e-3));
+  UniformPressureOpening solver(small_problem(500, 5e-3));
   InflationState begun = solver.start();
   solver.advance(begun);
   for (const double bad : {double(NAN), double(INFINITY)}) {
@@ -81,7 +81,7 @@ TEST(Inflation, AStableStepBelowThatOfAnyWholeClothIsAnErrorThatNamesTheNode) {
   InflationProblem problem = small_problem(500, 5e-3);
   for (SpringLaw& law : problem.mesh.laws)
     for (double& coefficient : law.coefficients) coefficient *= 1e14;
-  const Inflation solver(problem);
+  const UniformPressureOpening solver(problem);
   const std::string message = divergence([&] { solver.start(); });
   EXPECT_TRUE(says(message, "t = 0 s") && says(message, "at node ") && says(message, "may help")) << message;
 }

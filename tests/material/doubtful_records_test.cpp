@@ -180,5 +180,41 @@ TEST(Copies, IndependentSamplesAreNotTakenForCopies) {
     }
 }
 
+TensileRecord rounded(TensileRecord record, double step) {
+  for (double& force : record.force) force = std::round(force / step) * step;
+  return record;
+}
+
+// Loads rounded to 5 N, of which there are 80 to 800 up to the break: 24 campaigns of five pulls each.
+TEST(Copies, PullsWhoseLoadsAreRoundedCoarselyAreNoCopies) {
+  std::mt19937 random(59);
+  const std::vector<PulledLaw> laws = pulled_laws();
+  for (int campaign = 0; campaign < 24; ++campaign) {
+    const PulledLaw& law = laws[static_cast<std::size_t>(campaign) % laws.size()];
+    const int points = campaign % 3 == 0 ? 150 : campaign % 3 == 1 ? 400 : 1000;
+    const double noise = campaign % 2 == 0 ? 1e-3 : 3e-3;
+    std::vector<CleanRecord> records;
+    for (int i = 0; i < 5; ++i) records.push_back(cleaned(rounded(pulled(law, random, points, noise), 5)));
+    EXPECT_TRUE(find_copies(records).empty()) << law.name << ", campaign " << campaign;
+  }
+}
+
+TEST(Copies, OfCoarselyRoundedRecordsAreKnown) {
+  std::mt19937 random(61);
+  for (const PulledLaw& law : pulled_laws()) {
+    const TensileRecord whole = rounded(pulled(law, random), 5);
+    TensileRecord scaled = whole, stretched = whole, shifted = whole, pounds = whole;
+    for (std::size_t i = 0; i < whole.force.size(); ++i) {
+      scaled.force[i] *= 1.07;
+      stretched.displacement[i] *= 1.05;
+      shifted.displacement[i] += 1.3e-3;
+      pounds.force[i] = std::round(whole.force[i] / 4.448 * 100) / 100 * 4.448;
+    }
+    const TensileRecord half = thinned(whole, [](std::size_t i) { return i % 2 == 1; });
+    for (const TensileRecord& copy : {scaled, stretched, shifted, pounds, half})
+      EXPECT_LT(own_noise(cleaned(whole), cleaned(copy)), surely_copied) << law.name;
+  }
+}
+
 }  // namespace
 }  // namespace ripstop

@@ -39,6 +39,74 @@ struct BenchFile : ::testing::Test {
   }
 };
 
+// Aramid breaks at 2.5 %: with degree 6 K_6 is some 1e10 times K_1. A material that fit writes is read again.
+TEST_F(BenchFile, AStiffMaterialIsReadAsItIsWritten) {
+  SyntheticRecord aramid;
+  aramid.width = 0;
+  aramid.length = 0.5;
+  aramid.load = [](double e) { return 9e5 * e + 6e6 * e * e; };
+  aramid.failure_strain = 0.025;
+  aramid.slack = 2e-4;
+  const std::string head =
+      "kind = \"line\"\nname = \"cord\"\nsource = \"synthetic\"\nlinear_density_kg_m = 0.015\n";
+  const std::string records = coupons("a", 4, aramid);
+  for (const int degree : {2, 4, 6, 8}) {
+    const Material made = fit_material(bench(head + fmt::format("degree = {}\n", degree) + records)).material;
+    const std::vector<double>& k = std::get<Line>(made).coefficients_n;
+    EXPECT_EQ(*std::max_element(k.begin(), k.end()) > 1e9, degree > 2);
+    write_file(folder.path / "cord.toml", material_to_toml(made));
+    EXPECT_EQ(std::get<Line>(read_material(folder.path / "cord.toml")).coefficients_n, k) << degree;
+  }
+}
+
+TEST_F(BenchFile, ManyWarningsFitIntoTheMaterial) {
+  const std::vector<std::string> warnings(
+      40, "a warning of some eighty characters, as they are in a fit of many records of cloth");
+  const std::string joined = joined_warnings(warnings);
+  EXPECT_LE(joined.size(), most_warning_text);
+  EXPECT_TRUE(joined.ends_with("more warnings of the fit")) << joined;
+  EXPECT_EQ(joined_warnings({"a", "b"}), "a; b");
+}
+
+TEST_F(BenchFile, ATapeHasTheWidthOfTheCampaign) {
+  SyntheticRecord tape;
+  tape.width = 0;  // the records do not say it
+  tape.load = [](double e) { return 20e3 * e; };
+  tape.failure_strain = 0.1;
+  const std::string head =
+      "kind = \"tape\"\nname = \"t\"\nsource = \"synthetic\"\nlinear_density_kg_m = 0.01\nthickness_m = "
+      "1e-3\n"
+      "width_m = 0.025\n";
+  const Tape made =
+      std::get<Tape>(fit_material(bench(head + "degree = 1\n" + coupons("t", 3, tape))).material);
+  EXPECT_NEAR(made.coefficients_n_m.at(0), 20e3 / 0.025, 0.1 * 20e3 / 0.025);
+  EXPECT_NEAR(made.break_load_n, 2000, 400);
+}
+
+TEST_F(BenchFile, SpecimensOfOneFileAreSamples) {
+  SyntheticRecord line;
+  line.width = 0;
+  line.load = [](double e) { return 20e3 * e; };
+  line.failure_strain = 0.1;
+  const std::string head =
+      "kind = \"line\"\nname = \"cord\"\nsource = \"synthetic\"\nlinear_density_kg_m = 2e-3\n";
+  std::string all;
+  for (int i = 0; i < 3; ++i) all += fmt::format("Specimen {}\n", i + 1) + synthetic_csv(line, random);
+  write_file(folder.path / "all.csv", all);
+  const MaterialFit whole = fit_material(bench(head + "[[coupon]]\nfile = \"all.csv\"\n"));
+  ASSERT_EQ(whole.directions.at(0).samples.size(), 3u);
+  EXPECT_EQ(whole.directions[0].samples[1].name, "all.csv (Specimen 2)");
+  EXPECT_EQ(whole.inputs.size(), 1u);
+  EXPECT_EQ(whole.understood.size(), 6u);
+  const std::string one = "[[coupon]]\nfile = \"all.csv\"\nspecimen = \"{}\"\n";
+  const auto with = [&](const char* a, const char* b) {
+    return fit_material(bench(head + fmt::format(fmt::runtime(one), a) + fmt::format(fmt::runtime(one), b)));
+  };
+  EXPECT_EQ(with("1", "Specimen 3").directions[0].samples.size(), 2u);
+  EXPECT_THROW(with("1", "1"), Error);
+  EXPECT_THROW(with("1", "4"), Error);
+}
+
 TEST_F(BenchFile, OneRecordCountsOnce) {
   SyntheticRecord line;
   line.width = 0;

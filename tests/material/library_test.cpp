@@ -4,10 +4,10 @@
 
 #include "ripstop/core/file.h"
 #include "ripstop/core/toml/problem.h"
+#include "ripstop/core/units.h"
 #include "ripstop/material/fit_material.h"
 #include "ripstop/material/permeability.h"
 #include "ripstop/material/spring_law.h"
-#include "ripstop/material/units.h"
 
 namespace ripstop {
 namespace {

@@ -73,6 +73,50 @@ TEST_F(Bench, UnitsMayStandInALineOfTheirOwnOrInTheFileBeside) {
   EXPECT_NEAR(a.displacement[0], b.displacement[0], 1e-15);
 }
 
+TEST_F(Bench, AHeadingIsFoundWithoutItsUnit) {
+  const std::string text = "Load (N),Preload (N),Travel (mm),Way (mm)\n10,1,2,3\n";
+  const TensileRecord named = read(text, coupon, {"Load", "Way", "", ""});
+  EXPECT_EQ(named.force, (std::vector<double>{10}));
+  EXPECT_NEAR(named.displacement[0], 3e-3, 1e-15);
+  RecordFormat format;
+  format.columns = table::parse_columns("force=Preload,extension=Way");
+  EXPECT_EQ(read(text, coupon, format).force, (std::vector<double>{1}));
+  format.force_column = "Load";  // of the record itself
+  EXPECT_EQ(read(text, coupon, format).force, (std::vector<double>{10}));
+  refused([&] { read(text, coupon, {"Kraft", "", "", ""}); }, ":1:", "no column \"Kraft\"");
+}
+
+TEST_F(Bench, AFileMayHoldSeveralSpecimens) {
+  const std::string text =
+      "# length: 200 mm\nForce (N);Stroke (mm);Force (N);Stroke (mm)\n1,5;2;3,5;4\n5;6\n";
+  const std::vector<TensileRecord> records = read_records(file(text));
+  ASSERT_EQ(records.size(), 2u);
+  EXPECT_EQ(records[0].force, (std::vector<double>{1.5, 5}));
+  EXPECT_EQ(records[1].force, (std::vector<double>{3.5}));
+  EXPECT_EQ(records[1].name(), "r.csv (2)");
+  ASSERT_EQ(records[0].understood.size(), 2u);
+  EXPECT_NE(records[0].understood[1].find("\"Force (N)\" is force in N"), std::string::npos)
+      << records[0].understood[1];
+  refused([&] { read(text); }, ":3:", "2 specimens in one file");
+}
+
+TEST_F(Bench, AStrainIsOfTheCouponsLength) {
+  EXPECT_NEAR(read("Load [N];Dehnung [%]\n1,5;2,5\n", coupon).displacement[0], 5e-3, 1e-15);
+  // A strain without a unit is not needed where there is an extension.
+  EXPECT_NEAR(read("Load [N];Tensile strain;Extension [mm]\n1,5;x;3\n", coupon).displacement[0], 3e-3, 1e-15);
+}
+
+TEST_F(Bench, ManyPointsAfterTheHighestForceAreDoubted) {
+  for (const int after : {10, 40}) {
+    std::string text = "# length: 1 m\nextension [mm],force [N]\n";
+    for (int i = 0; i < 60; ++i) text += fmt::format("{},{}\n", i, 100.5 * i);
+    for (int i = 0; i < after; ++i) text += fmt::format("{},{}\n", 60 + i, 300.5 - i);
+    const CleanRecord record = clean_record(read(text), LoadKind::whole);
+    EXPECT_EQ(record.late.empty(), after == 10) << record.late;
+    EXPECT_EQ(record.late.find(" % of the points follow the highest force") == 2, after == 40);
+  }
+}
+
 TEST_F(Bench, TheRecordsOwnCommentsDescribeTheCoupon) {
   const TensileRecord r =
       read("# length: 20 cm\n# width = 2 in\n# orientation: 45 deg\nforce_n,extension_mm\n1,1\n");

@@ -26,7 +26,7 @@ import tables  # pylint: disable=wrong-import-position
 
 BUILD = ROOT / "build-fuzz"
 PROGRAMS = BUILD / "fuzz"
-READERS = ["case", "setting", "material", "bench", "record", "chute", "measured", "image", "stl", "vtk", "checkpoint", "openfoam", "hosts"]
+READERS = ["case", "setting", "material", "bench", "record", "table", "chute", "measured", "image", "stl", "vtk", "checkpoint", "openfoam", "hosts"]
 SLOWEST_S, MEMORY_MB, LONGEST = 10, 1024, 65536
 LIMITS = [f"-timeout={SLOWEST_S}", f"-rss_limit_mb={MEMORY_MB}"]
 ENVIRONMENT = {**os.environ, "RIPSTOP_DATA": str(ROOT)}

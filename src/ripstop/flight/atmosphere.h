@@ -1,10 +1,10 @@
 // The U.S. Standard Atmosphere, 1976, up to 80 km.
 #pragma once
 
+#include "ripstop/core/units.h"
+
 namespace ripstop {
 
-/// Standard acceleration of gravity, of weights and of the standard atmosphere [m/s2].
-inline constexpr double standard_gravity = 9.80665;
 /// Heights that standard_air() takes [m].
 inline constexpr double lowest_height = -2000, highest_height = 80000;
 
@@ -22,6 +22,10 @@ double geopotential_height(double height);
 /// Of the day that the standard describes; `height` is geometric, above mean sea level [m]. Throws
 /// Error(usage) outside [lowest_height, highest_height].
 StandardAir standard_air(double height);
+
+/// The height at which the standard atmosphere has `density` [kg/m3] -> [m]. Throws Error(usage) for a density that it
+/// has nowhere between lowest_height and highest_height.
+double standard_height(double density);
 
 /// Density `fallen` metres below `height` over that at `height` [m]; below lowest_height that of lowest_height.
 double density_ratio(double height, double fallen);

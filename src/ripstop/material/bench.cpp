@@ -8,7 +8,9 @@
 namespace ripstop {
 
 void describe(Fields& fields, BenchCoupon& coupon) {
-  fields.text("file", coupon.file, 400, "CSV record, relative to this file.").required();
+  fields.text("file", coupon.file, 400, "Record (CSV), relative to this file.").required();
+  fields.text("specimen", coupon.specimen, 100,
+              "Name or number of the specimen in a file with several; all of them when it is left out.");
   fields
       .number("orientation_deg", coupon.orientation_deg, from(0).up_to(90),
               "Angle between pull and warp: 0, 45 or 90.")
@@ -16,10 +18,10 @@ void describe(Fields& fields, BenchCoupon& coupon) {
   fields.number("length_m", coupon.length_m, above(0).up_to(100), "Length between the clamps.")
       .absent("what the record says");
   fields.number("width_m", coupon.width_m, above(0).up_to(10), "Width of the coupon; none for a line.")
-      .absent("what the record says");
-  fields.text("force_column", coupon.force_column, 200, "Heading of the force, when it cannot be guessed.");
+      .absent("what the record says; of a tape width_m of the campaign");
+  fields.text("force_column", coupon.force_column, 200, "Heading of the force, with or without its unit.");
   fields.text("displacement_column", coupon.displacement_column, 200,
-              "Heading of the displacement, when it cannot be guessed.");
+              "Heading of the displacement, with or without its unit.");
   fields.text("force_unit", coupon.force_unit, 20, "Unit of the force, when the header has none.");
   fields.text("displacement_unit", coupon.displacement_unit, 20,
               "Unit of the displacement, when the header has none.");
@@ -75,6 +77,13 @@ void describe(Fields& fields, Bench& bench) {
                 "xi; absent: found with 45 deg coupons, or 0.2 without.");
   fields.number("bending_fraction", bench.bending_fraction, from(0).below(1),
                 "eps; absent: found with coupons where they show it, or 0.01.");
+  fields.text("columns", bench.columns, 500,
+              "Columns of all records, as in \"force=Kraft [kN],extension=Weg [mm]\".");
+  fields.choice("decimal", bench.decimal,
+                {{"auto", table::Decimal::automatic},
+                 {"point", table::Decimal::point},
+                 {"comma", table::Decimal::comma}},
+                "Decimal mark of the records, where their numbers can be read in two ways.");
   fields.rows("coupon", bench.coupons, "One record.");
   fields.rows("flow", bench.flows, "One reading of an air permeability tester.");
 }
@@ -108,6 +117,11 @@ Bench read_bench(const std::filesystem::path& file) {
       if (angle && *angle != 0 && *angle != 45 && *angle != 90)
         findings.add(fmt::format("coupon[{}].orientation_deg", i), *angle, "0, 45 or 90",
                      "cloth is pulled along the warp (0), the weft (90) or half-way (45)");
+    }
+    try {
+      table::parse_columns(bench.columns);
+    } catch (const Error& error) {
+      findings.add("columns", fmt::format("\"{}\"", bench.columns), "", error.what());
     }
     for (std::size_t i = 0; i < bench.flows.size(); ++i)
       if (bench.flows[i].cfm.has_value() == bench.flows[i].velocity_m_s.has_value())

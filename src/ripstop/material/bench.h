@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "ripstop/core/table/table.h"
 #include "ripstop/material/curve_fit.h"
 
 namespace ripstop {
@@ -17,7 +18,8 @@ enum class WeftChoice { automatic, same, separate };
 
 /// [[coupon]]: one record, and whatever its own header does not say.
 struct BenchCoupon {
-  std::string file;  // relative to the campaign's file
+  std::string file;      // relative to the campaign's file
+  std::string specimen;  // its name or number in a file with several; empty: all of them
   std::optional<double> orientation_deg, length_m, width_m;
   std::string force_column, displacement_column, force_unit, displacement_unit;
 };
@@ -43,6 +45,8 @@ struct Bench {
   WeftChoice weft = WeftChoice::automatic;
   double compression = 1;
   std::optional<double> shear_fraction, bending_fraction;
+  std::string columns;  // as --columns of the command line, for all records
+  table::Decimal decimal = table::Decimal::automatic;
   std::vector<BenchCoupon> coupons;
   std::vector<BenchFlow> flows;
 };

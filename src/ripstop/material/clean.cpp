@@ -175,7 +175,8 @@ std::vector<Fall> falls_of(const std::vector<double>& smooth, double clear) {
   return falls;
 }
 
-/// Where the force stands still between two stretches, each as long, over which it rises clearly. Index of the middle of
+/// Where the force stands still between two stretches, each as long, over which it rises clearly. Index of the
+/// middle of
 /// the flattest such stretch.
 std::optional<std::size_t> plateau_of(const Pull& pull, std::size_t peak, double clear) {
   constexpr double still = 0.15;  // of the smaller of both rises; the knee of a nylon has a third
@@ -244,6 +245,14 @@ double cut_failure(Pull& pull) {
   if (peak + 1 < count)
     pull.say(fmt::format("{} points after the peak of {:.4g} N left out (from line {})", count - peak - 1,
                          *top, pull.line[peak + 1]));
+  constexpr double many = 1.0 / 3;  // of the points; a machine that goes on after the break writes fewer
+  const double after = static_cast<double>(count - peak - 1) / static_cast<double>(count);
+  if (after > many)
+    pull.clean.late = fmt::format(
+        "{:.0f} % of the points follow the highest force ({:.4g} N, line {}): is the record more than one "
+        "pull to "
+        "failure, or is a thousand read as a decimal number?",
+        100 * after, *top, pull.line[peak]);
   pull.keep(0, peak + 1);
   return *top;
 }
@@ -331,7 +340,7 @@ double find_start(Pull& pull, double peak) {
 CleanRecord clean_record(const TensileRecord& record, LoadKind kind) {
   Pull pull{record};
   CleanRecord& clean = pull.clean;
-  clean.name = record.file.filename().string();
+  clean.name = record.name();
   clean.orientation = record.coupon.orientation;
   clean.length = record.coupon.length;
   clean.width = record.coupon.width;

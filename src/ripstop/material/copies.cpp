@@ -12,16 +12,16 @@ constexpr std::size_t fewest = 48;  // points in common
 constexpr std::size_t most = 240;
 constexpr double likely_copied = 0.3;
 constexpr double least_noise = 1e-9;  // of the highest load: rounding
+constexpr double same_steps = 0.1;    // of coarsely rounded records; pulls without any noise have 0.2
 
 /// A record along the way of its clamp from its first row on [m].
 struct Trace {
   std::vector<double> x;
   std::span<const double> f;
-  double start = 0;  // of the pull
+  double start = 0;     // of the pull
+  bool coarse = false;  // its loads are rounded to steps that hide the noise
 
-  explicit Trace(const CleanRecord& record) : f(record.load), start(record.slack) {
-    for (double strain : record.strain) x.push_back(record.slack + strain * record.length);
-  }
+  explicit Trace(const CleanRecord& record);
   double spacing() const { return (x.back() - x.front()) / static_cast<double>(x.size() - 1); }
 };
 
@@ -36,7 +36,42 @@ double roughness(std::span<const double> f) {
   return *middle;
 }
 
-/// Roughness of b minus its best multiple of a, which is read where b has points: at x of a = scale x of b + shift. Beside
+/// The step to which loads are rounded; 0: none is seen. Nine tenths of the differences between neighbouring levels
+/// must
+/// be whole multiples of it.
+double resolution(std::span<const double> f) {
+  std::vector<double> levels(f.begin(), f.end()), gaps;
+  std::sort(levels.begin(), levels.end());
+  for (std::size_t i = 1; i < levels.size(); ++i)
+    if (const double gap = levels[i] - levels[i - 1]; gap > 1e-7 * std::abs(levels.back()))
+      gaps.push_back(gap);
+  if (gaps.empty()) return 0;
+  const auto low = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 20);
+  std::nth_element(gaps.begin(), low, gaps.end());
+  const double step = *low;
+  const auto whole = std::count_if(gaps.begin(), gaps.end(), [&](double gap) {
+    return std::abs(gap / step - std::round(gap / step)) < 0.02;
+  });
+  return 10 * whole >= 9 * static_cast<std::ptrdiff_t>(gaps.size()) ? step : 0;
+}
+
+/// Mean size of the fourth differences, which rounding to coarse steps does not make 0 by chance as it does the median.
+double mean_roughness(std::span<const double> f) {
+  double sum = 0;
+  for (std::size_t i = 2; i + 2 < f.size(); ++i)
+    sum += std::abs(f[i - 2] - 4 * f[i - 1] + 6 * f[i] - 4 * f[i + 1] + f[i + 2]);
+  return f.size() > 4 ? sum / static_cast<double>(f.size() - 4) : 0.0;
+}
+
+Trace::Trace(const CleanRecord& record) : f(record.load), start(record.slack) {
+  for (double strain : record.strain) x.push_back(record.slack + strain * record.length);
+  // Fourth differences of white noise s have the standard deviation sqrt(70) s, and half of them are within 0.6745
+  // of it.
+  coarse = roughness(f) / (0.6745 * std::sqrt(70.0)) < resolution(f);
+}
+
+/// Roughness of b minus its best multiple of a, which is read where b has points: at x of a = scale x of b + shift.
+/// Beside
 /// the roughness of b there, or that of a as large, whichever is less.
 double ratio(const Trace& a, const Trace& b, double scale, double shift) {
   const std::size_t skip = b.x.size() > most ? (b.x.size() - most) / 2 : 0;
@@ -56,9 +91,10 @@ double ratio(const Trace& a, const Trace& b, double scale, double shift) {
   const double factor = aa > 0 ? ab / aa : 0;
   std::vector<double> left = of_b;
   for (std::size_t i = 0; i < left.size(); ++i) left[i] -= factor * of_a[i];
-  const double noise = roughness(of_b);
+  const auto rough = a.coarse || b.coarse ? mean_roughness : roughness;
+  const double noise = rough(of_b);
   if (!(noise > least_noise * b.f.back())) return 1;
-  return roughness(left) / noise;
+  return rough(left) / noise;
 }
 
 /// Least ratio over shifts about `shift` by a few points either way.
@@ -88,6 +124,8 @@ double own_noise(const CleanRecord& a, const CleanRecord& b) {
     least = std::min({least, best_ratio(*from, *to, 1, 0), best_ratio(*from, *to, 1, from->start - to->start),
                       best_ratio(*from, *to, stretch, from->start - stretch * to->start)});
   }
+  // The steps of rounding are alike in all pulls of a cloth: only records that are the same step by step are copies.
+  if (one.coarse || other.coarse) return least < same_steps ? least : 1.0;
   return least;
 }
 

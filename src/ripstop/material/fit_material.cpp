@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 
 #include "ripstop/core/error.h"
 #include "ripstop/core/hash.h"
 #include "ripstop/core/least_squares.h"
+#include "ripstop/core/units.h"
 #include "ripstop/material/copies.h"
-#include "ripstop/material/units.h"
 
 namespace ripstop {
 namespace {
@@ -24,44 +26,74 @@ LoadKind load_kind(BenchKind kind) {
   return kind == BenchKind::line ? LoadKind::whole : LoadKind::per_width;
 }
 
+RecordFormat format_of(const Bench& bench, const BenchCoupon& coupon) {
+  return {coupon.force_column,      coupon.displacement_column,          coupon.force_unit,
+          coupon.displacement_unit, table::parse_columns(bench.columns), bench.decimal};
+}
+
+/// The records of a coupon's file: all specimens in it, or the one that is named.
+std::vector<TensileRecord> records_of(const Bench& bench, const BenchCoupon& coupon,
+                                      const std::filesystem::path& file) {
+  Coupon given;
+  given.length = coupon.length_m.value_or(0);
+  given.width = coupon.width_m.value_or(bench.kind == BenchKind::tape ? *bench.width_m : 0);
+  given.orientation = coupon.orientation_deg.value_or(-1);
+  std::vector<TensileRecord> records = read_records(file, given, format_of(bench, coupon));
+  if (coupon.specimen.empty()) return records;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    if (coupon.specimen == records[i].specimen || coupon.specimen == std::to_string(i + 1))
+      return {records[i]};
+    names.push_back(fmt::format("{} ({})", i + 1, records[i].specimen));
+  }
+  throw Error(ExitCode::bad_data, fmt::format("{}: no specimen \"{}\"; the file has {}", file.string(),
+                                              coupon.specimen, fmt::join(names, ", ")));
+}
+
+void check_angle(TensileRecord& record, const Bench& bench) {
+  double& angle = record.coupon.orientation;
+  if (bench.kind != BenchKind::fabric) angle = 0;
+  if (angle == 0 || angle == 45 || angle == 90) return;
+  const std::string file = record.file.string();
+  throw Error(ExitCode::bad_data,
+              angle < 0 ? fmt::format("{}: no orientation: write \"# orientation: 45 deg\" in it or "
+                                      "orientation_deg in {}",
+                                      file, bench.file.string())
+                        : fmt::format("{}: orientation {} deg; cloth is pulled at 0, 45 or 90", file, angle));
+}
+
+void warn_of_record(const CleanRecord& record, MaterialFit& fit) {
+  if (!record.breaks)
+    fit.warnings.push_back(fmt::format(
+        "{} ends at its highest force: no break is seen, so that the strength is this or more (is the "
+        "record whole?)",
+        record.name));
+  for (const std::string& text : {record.slip, record.late})
+    if (!text.empty()) fit.warnings.push_back(fmt::format("{}: {}", record.name, text));
+}
+
 std::vector<CleanRecord> clean_all(const Bench& bench, MaterialFit& fit) {
   std::vector<CleanRecord> records;
+  std::set<std::pair<std::string, std::string>> taken;  // hash of the file and specimen
+  std::map<std::string, std::string> names;             // of the files, by hash
   for (const BenchCoupon& coupon : bench.coupons) {
     const std::filesystem::path file = bench.file.parent_path() / coupon.file;
-    Coupon given;
-    given.length = coupon.length_m.value_or(0);
-    given.width = coupon.width_m.value_or(0);
-    given.orientation = coupon.orientation_deg.value_or(-1);
-    TensileRecord record = read_record(
-        file, given,
-        {coupon.force_column, coupon.displacement_column, coupon.force_unit, coupon.displacement_unit});
-    double& angle = record.coupon.orientation;
-    if (bench.kind != BenchKind::fabric) angle = 0;
-    if (angle != 0 && angle != 45 && angle != 90)
-      throw Error(ExitCode::bad_data,
-                  angle < 0 ? fmt::format("{}: no orientation: write \"# orientation: 45 deg\" in it or "
-                                          "orientation_deg in {}",
-                                          file.string(), bench.file.string())
-                            : fmt::format("{}: orientation {} deg; cloth is pulled at 0, 45 or 90",
-                                          file.string(), angle));
     const std::string hash = hash_file(file);
-    for (const auto& [name, known] : fit.inputs)
-      if (known == hash)
+    for (TensileRecord& record : records_of(bench, coupon, file)) {
+      check_angle(record, bench);
+      if (!taken.insert({hash, record.specimen}).second)
         throw Error(
             ExitCode::bad_data,
             fmt::format("{}: {} and {} are the same record; one pull counts once, else it narrows the "
                         "scatter that it does not know",
-                        bench.file.string(), name, coupon.file));
-    fit.inputs.push_back({coupon.file, hash});
-    records.push_back(clean_record(record, load_kind(bench.kind)));
-    records.back().name = coupon.file;
-    if (!records.back().breaks)
-      fit.warnings.push_back(fmt::format(
-          "{} ends at its highest force: no break is seen, so that the strength is this or more (is the "
-          "record whole?)",
-          coupon.file));
-    if (!records.back().slip.empty())
-      fit.warnings.push_back(fmt::format("{}: {}", coupon.file, records.back().slip));
+                        bench.file.string(), names[hash], coupon.file));
+      fit.understood.insert(fit.understood.end(), record.understood.begin(), record.understood.end());
+      records.push_back(clean_record(record, load_kind(bench.kind)));
+      records.back().name =
+          record.specimen.empty() ? coupon.file : fmt::format("{} ({})", coupon.file, record.specimen);
+      warn_of_record(records.back(), fit);
+    }
+    if (names.emplace(hash, coupon.file).second) fit.inputs.push_back({coupon.file, hash});
   }
   return records;
 }
@@ -238,7 +270,7 @@ void fill_common(Kind& material, const Bench& bench, const MaterialFit& fit) {
   for (const DirectionFit& direction : fit.directions)
     if (direction.name != "bias")
       material.tested_strain = std::min(material.tested_strain, direction.fit.rising_until);
-  material.warning = fmt::format("{}", fmt::join(fit.warnings, "; "));
+  material.warning = joined_warnings(fit.warnings);
 }
 
 double weakest(const MaterialFit& fit) {
@@ -319,6 +351,21 @@ MaterialFit fit_material(const Bench& bench) {
   }
   fit.material = make_material(bench, fit);
   return fit;
+}
+
+std::string joined_warnings(const std::vector<std::string>& warnings) {
+  std::string text;
+  for (std::size_t i = 0; i < warnings.size(); ++i) {
+    const std::string more = fmt::format("; and {} more warnings of the fit", warnings.size() - i);
+    if (text.size() + 2 + warnings[i].size() + more.size() > most_warning_text) {
+      std::size_t cut = text.empty() ? most_warning_text / 2 : 0;
+      while (cut > 0 && (static_cast<unsigned char>(warnings[i][cut]) & 0xc0) == 0x80)
+        --cut;  // whole characters
+      return text + warnings[i].substr(0, cut) + more;
+    }
+    text += (text.empty() ? "" : "; ") + warnings[i];
+  }
+  return text;
 }
 
 std::vector<std::string> material_warnings(const Material& material, double largest_strain) {

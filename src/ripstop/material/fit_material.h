@@ -34,6 +34,7 @@ struct MaterialFit {
   std::vector<std::string> notes;     // what was decided and why
   std::vector<std::string> warnings;  // also kept in the material, for the solver to repeat
   std::vector<RecordOrigin> inputs;
+  std::vector<std::string> understood;  // how each column of the records was read
 
   const DirectionFit* direction(const std::string& name) const;  // null: none
 };
@@ -43,6 +44,9 @@ struct MaterialFit {
 /// see read_record(), clean_record(), mean_curve(); for one sample only; for a record that is a copy of another; for a strength per mass that no
 /// fibre has or a density no cloth has, which is how units wrong by 1000 show.
 MaterialFit fit_material(const Bench& bench);
+
+/// As a material keeps them: no longer than its file takes.
+std::string joined_warnings(const std::vector<std::string>& warnings);
 
 /// What a run that reaches `largest_strain` in this material must say: the fit's own warnings, and a strain
 /// beyond the tests.

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "ripstop/core/build_info.h"
 #include "ripstop/core/toml/fields.h"
@@ -14,7 +15,12 @@
 namespace ripstop {
 namespace {
 
-constexpr double coefficient_limit = 1e9;  // [N] or [N/m]; steel cable of 100 mm has less
+constexpr double stiffness_limit = 1e9;  // of K_1 [N] or [N/m]; steel cable of 100 mm has less
+// Of K_k relative to K_1 / strain^(k - 1), with the tested strain or, where that is unknown, the least at which a pull is
+// taken for one to failure. Fits of degree 8 have some 1e4: the terms of a Chebyshev polynomial.
+constexpr double coefficient_ratio_limit = 1e6;
+constexpr double least_tested_strain = 0.0025;
+constexpr double coefficient_limit = 1e40;  // of any: above all that these allow
 
 std::vector<double>& coefficients(Fabric& material) {
   return material.coefficients_n_m;
@@ -49,23 +55,36 @@ void check_law(const std::vector<double>& k, double tested_strain, const std::st
                  "must be above 0: cloth and line pull back when they are pulled");
     return;
   }
+  if (k[0] > stiffness_limit)
+    findings.add(key + "[0]", k[0], fmt::format("at most {:g}", stiffness_limit),
+                 "is more than a steel cable has");
+  const double strain = tested_strain > 0 ? tested_strain : least_tested_strain;
+  double limit = coefficient_ratio_limit * k[0];
+  for (std::size_t i = 1; i < k.size(); ++i) {
+    limit /= strain;
+    if (std::abs(k[i]) > limit)
+      findings.add(fmt::format("{}[{}]", key, i), k[i], fmt::format("between {:g} and {:g}", -limit, limit),
+                   fmt::format("is more than {:g} K_1 / {:g}^{}, which no curve up to this strain has",
+                               coefficient_ratio_limit, strain, i));
+  }
   const SpringLaw law{k, 1};
   constexpr int samples = 1000;
   for (int i = 1; i <= samples; ++i) {
-    const double strain = tested_strain * i / samples;
-    if (law.tangent(strain) > 0) continue;
+    const double at = tested_strain * i / samples;
+    if (law.tangent(at) > 0) continue;
     findings.add(
         key, fmt::format("[{}]", fmt::join(k, ", ")), "",
         fmt::format("the load falls with growing strain beyond {:.3g}, within tested_strain = {}; a fit "
                     "must rise up to there",
-                    strain, tested_strain));
+                    at, tested_strain));
     return;
   }
 }
 
 void describe_source(Fields& fields, std::string& source, std::string& warning) {
   fields.text("source", source, 500, "Where the numbers come from.");
-  fields.text("warning", warning, 2000, "What the fit of its tests found doubtful; every run repeats it.");
+  fields.text("warning", warning, most_warning_text,
+              "What the fit of its tests found doubtful; every run repeats it.");
 }
 
 void describe_compression(Fields& fields, double& compression, std::optional<double>& buckling_strain) {

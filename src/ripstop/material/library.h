@@ -29,6 +29,9 @@ void describe(Fields& fields, Material& material);
 /// `key` is the table's full name, empty for a file of its own.
 void check_material(const Material& material, const std::string& key, Findings& findings);
 
+/// Characters of a material's `warning`.
+inline constexpr std::size_t most_warning_text = 2000;
+
 /// The two keys of a cloth's permeability for a porosity model: of its linear and of its quadratic part.
 std::pair<std::string, std::string> resistance_keys(PorosityModel model);
 /// Leaves one form of the permeability, with both its numbers: where some of its keys are `given`, they replace a base's

@@ -6,7 +6,7 @@
 
 #include "ripstop/core/error.h"
 #include "ripstop/core/least_squares.h"
-#include "ripstop/material/units.h"
+#include "ripstop/core/units.h"
 
 namespace ripstop {
 namespace {

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "ripstop/core/table/table.h"
+
 namespace ripstop {
 
 /// What the record says about its coupon, and what a file beside it may add. 0 or negative: not said.
@@ -18,26 +20,35 @@ struct Coupon {
 struct RecordFormat {
   std::string force_column, displacement_column;
   std::string force_unit, displacement_unit;
+  std::vector<table::ColumnChoice> columns{};  // of --columns; the four above come before them
+  table::Decimal decimal = table::Decimal::automatic;
 };
 
 struct TensileRecord {
   std::filesystem::path file;
+  std::string specimen;  // its name where the file has several; else empty
   Coupon coupon;
-  std::vector<double> displacement;  // [m], in the order of the file
-  std::vector<double> force;         // [N]
-  std::vector<double> time;          // [s]; empty: the file has none
-  std::vector<int> line;             // of the file, for messages
+  std::vector<double> displacement;     // [m], in the order of the file
+  std::vector<double> force;            // [N]
+  std::vector<double> time;             // [s]; empty: the file has none
+  std::vector<int> line;                // of the file, for messages
+  std::vector<std::string> understood;  // one sentence for each column that is used
+
+  std::string name() const;  // of the file, with the specimen
 };
 
-/// Reads a CSV record. Columns may be in any order, separated by comma, semicolon (then with decimal commas
-/// too) or tab; the header names quantity and unit as in "force [N]", "Load (lbf)", "extension_mm", or the
-/// line after it has the units. Comment lines such as "# length: 200 mm", "# width: 50 mm", "# orientation:
-/// 45 deg" describe the coupon; what `given` says must agree with them. Throws Error(bad_data) with file,
-/// line and reason, Error(io).
+/// Reads the records of a table, one for each specimen in it: docs/guide/tables.md says in which forms. Comment lines such
+/// as "# length: 200 mm", "# width: 50 mm", "# orientation: 45 deg" describe the coupon; what `given` says must agree
+/// with them. Throws Error(bad_data) with file, line and reason, Error(io).
+std::vector<TensileRecord> read_records(const std::filesystem::path& file, const Coupon& given = {},
+                                        const RecordFormat& format = {});
+/// The same for a record's text; `file` is its name in messages.
+std::vector<TensileRecord> parse_records(const std::string& text, const std::filesystem::path& file,
+                                         const Coupon& given = {}, const RecordFormat& format = {});
+
+/// The same for files with one specimen; others are refused.
 TensileRecord read_record(const std::filesystem::path& file, const Coupon& given = {},
                           const RecordFormat& format = {});
-
-/// The same for a record's text; `file` is its name in messages.
 TensileRecord parse_record(const std::string& text, const std::filesystem::path& file,
                            const Coupon& given = {}, const RecordFormat& format = {});
 

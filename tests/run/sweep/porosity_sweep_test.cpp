@@ -5,7 +5,9 @@
 
 #include <filesystem>
 
+#include "../../refusal.h"
 #include "ripstop/case/resolve.h"
+#include "ripstop/core/file.h"
 
 namespace ripstop {
 namespace {
@@ -26,6 +28,45 @@ TEST(PorositySweep, LeavesTheBoxAndTheCellsOfTheCaseAsTheyAre) {
         points_of(example, {PorosityKnob::permeability, {1, 5}, 1.2e-4, 3});
     ASSERT_EQ(points.size(), 12u);
     for (const SweepPoint& point : points) EXPECT_EQ(flow_grid(point.resolved.flow()), own) << example;
+  }
+}
+
+TEST(MeasuredDragFile, IsReadHoweverItIsWritten) {
+  const TemporaryFolder folder("measured");
+  const fs::path file = folder.path / "drag.csv";
+  for (const char* text :
+       {"speed_m_s,density_kg_m3,drag_n\n10,1.2,43.5\n20,1.199,152.3\n",
+        "\xef\xbb\xbf"
+        "Tunnel B\nGeschwindigkeit (km/h);Luftdichte (kg/m³);Widerstand (N)\n36;1,2;43,5\n72;1,199;152,3\n",
+        "Velocity\tDensity\tForce\nm/s\tkg/m3\tkN\n10\t1.2\t0.0435\n20\t1.199\t0.1523\n"}) {
+    write_file(file, text);
+    const MeasuredFile measured = read_measured_drag(file);
+    ASSERT_EQ(measured.points.size(), 2u) << text;
+    EXPECT_NEAR(measured.points[1].speed, 20, 1e-12) << text;
+    EXPECT_EQ(measured.points[1].nominal_speed, measured.points[1].speed);
+    EXPECT_NEAR(measured.points[1].density, 1.199, 1e-12) << text;
+    EXPECT_NEAR(measured.points[1].drag, 152.3, 1e-10) << text;
+    EXPECT_EQ(measured.understood.size(), 3u);
+  }
+  write_file(file, "v;rho;D\n10;1,2;43,5\n");
+  EXPECT_EQ(read_measured_drag(file, table::parse_columns("speed=v [m/s],density=rho [kg/m3],drag=D [N]"))
+                .points.at(0)
+                .drag,
+            43.5);
+}
+
+TEST(MeasuredDragFile, IsRefusedWithItsLine) {
+  const TemporaryFolder folder("measured-bad");
+  const fs::path file = folder.path / "drag.csv";
+  for (const auto& [text, place] : std::vector<std::pair<const char*, const char*>>{
+           {"speed_m_s,density_kg_m3,drag_n\n10,1.2,43.5\n20,1.2,-3\n", "drag.csv:3:"},
+           {"speed_m_s,density_kg_m3,drag_n\n10,1.2,43.5\n20,,3\n", "drag.csv:3:"},
+           {"speed_m_s,density_kg_m3\n10,1.2\n", "no column for the drag"},
+           {"speed_m_s,drag_n,speed_m_s,density_kg_m3\n1,2,3,4\n", "two columns look like speed"},
+           {"speed_m_s,density_kg_m3,drag_n\n10,1.2,43.5\n20,1.2,15", "cut in mid-number"}}) {
+    write_file(file, text);
+    const std::string message = refusal_of([&] { read_measured_drag(file); }, ExitCode::bad_data);
+    EXPECT_NE(message.find(place), std::string::npos) << message;
   }
 }
 

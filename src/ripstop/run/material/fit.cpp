@@ -46,6 +46,7 @@ std::string inputs_of(const Bench& bench, const MaterialFit& fit, const std::str
   std::string text = fmt::format("{}\n{}\n{}\n{}\n{}\n", version(), asked, hash_file(bench.file),
                                  bench.degree, bench.zero_offset);
   for (const RecordOrigin& input : fit.inputs) text += input.hash + "\n";
+  text += fmt::format("{}\n{}\n", bench.columns, static_cast<int>(bench.decimal));
   return hash_bytes(text);
 }
 
@@ -87,7 +88,7 @@ FitResult run_fit(const Bench& bench, bool with_coupons, ThreadTeam& team,
   const CouponFit& coupons = result.coupons.emplace(fit_coupons(fit, bench, search, team, report));
   fit.warnings.insert(fit.warnings.end(), coupons.warnings.begin(), coupons.warnings.end());
   Fabric fabric = coupons.fabric;
-  fabric.warning = fmt::format("{}", fmt::join(fit.warnings, "; "));
+  fabric.warning = joined_warnings(fit.warnings);
   fit.material = fabric;
   return result;
 }
@@ -229,6 +230,7 @@ std::string to_json(const FitResult& result) {
                             {"cfm", cfm(fit.permeability.law)}};
   root["notes"] = fit.notes;
   root["warnings"] = fit.warnings;
+  root["understood"] = fit.understood;
   return root.dump(2) + "\n";
 }
 

@@ -20,6 +20,33 @@ std::vector<MeasuredDrag> measured_drag(const Settings& resolved) {
   return points;
 }
 
+MeasuredFile read_measured_drag(const std::filesystem::path& file,
+                                const std::vector<table::ColumnChoice>& columns, table::Decimal decimal) {
+  using table::Quantity;
+  const table::Table all = table::read_table(
+      file, {{Quantity::speed, Quantity::density, Quantity::drag, Quantity::force}, columns, decimal});
+  if (all.specimens.size() > 1)
+    throw Error(
+        ExitCode::bad_data,
+        fmt::format("{}:{}: another table begins here; the measured drag is one table of speed, density and "
+                    "drag",
+                    file.string(), all.specimens[1].header_line));
+  const table::Specimen& rows = all.specimens.front();
+  const std::vector<double>& speed = need_only(all, rows, Quantity::speed).values;
+  const std::vector<double>& density = need_only(all, rows, Quantity::density).values;
+  const bool named = !rows.all(Quantity::drag).empty() || rows.all(Quantity::force).empty();
+  const std::vector<double>& drag = need_only(all, rows, named ? Quantity::drag : Quantity::force).values;
+  MeasuredFile measured{{}, explanation(all)};
+  for (std::size_t i = 0; i < speed.size(); ++i) {
+    if (!(speed[i] > 0) || !(density[i] > 0) || !(drag[i] > 0))
+      throw Error(ExitCode::bad_data,
+                  fmt::format("{}:{}: speed {:g} m/s, density {:g} kg/m3, drag {:g} N: each must be above 0",
+                              file.string(), rows.lines[i], speed[i], density[i], drag[i]));
+    measured.points.push_back({speed[i], speed[i], density[i], drag[i]});
+  }
+  return measured;
+}
+
 std::string knob_name(PorosityKnob knob) {
   return knob == PorosityKnob::gamma ? "gamma" : "permeability_cfm";
 }

@@ -1,16 +1,29 @@
 // The runs of a porosity calibration as a sweep: what is turned, and what its results are as trials.
 #pragma once
 
+#include <filesystem>
+#include <string>
 #include <vector>
 
 #include "ripstop/calibration/porosity.h"
 #include "ripstop/case/settings.h"
+#include "ripstop/core/table/table.h"
 #include "ripstop/run/sweep/sweep.h"
 
 namespace ripstop {
 
 /// The rows of [[measured]] that have a drag, on the case's basis; may be none.
 std::vector<MeasuredDrag> measured_drag(const Settings& resolved);
+
+struct MeasuredFile {
+  std::vector<MeasuredDrag> points;
+  std::vector<std::string> understood;  // how each column was read
+};
+
+/// Speed, density and drag of a table: docs/guide/tables.md. Throws Error(bad_data) with file and line, Error(io).
+MeasuredFile read_measured_drag(const std::filesystem::path& file,
+                                const std::vector<table::ColumnChoice>& columns = {},
+                                table::Decimal decimal = table::Decimal::automatic);
 
 struct PorositySweep {
   PorosityKnob knob = PorosityKnob::gamma;

@@ -1,0 +1,16 @@
+#include "table_options.h"
+
+#include <CLI/CLI.hpp>
+
+namespace ripstop {
+
+void add_table_options(CLI::App& command, std::string& columns, std::string& decimal,
+                       const std::string& example) {
+  command.add_option("--columns", columns,
+                     "Columns of the table that are not found by their headings, as in \"" + example + "\"");
+  command.add_option("--decimal", decimal, "Decimal mark, where numbers can be read in two ways")
+      ->check(CLI::IsMember({"auto", "point", "comma"}))
+      ->option_text("auto|point|comma");
+}
+
+}  // namespace ripstop

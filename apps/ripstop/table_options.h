@@ -1,0 +1,15 @@
+// --columns and --decimal of the commands that read tables.
+#pragma once
+
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace ripstop {
+
+void add_table_options(CLI::App& command, std::string& columns, std::string& decimal,
+                       const std::string& example);
+
+}  // namespace ripstop

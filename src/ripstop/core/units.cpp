@@ -1,0 +1,137 @@
+#include "ripstop/core/units.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+
+namespace ripstop {
+namespace {
+
+struct KnownUnit {
+  double factor;
+  std::vector<const char*> names;  // the first is the one that is printed
+};
+using Units = std::vector<KnownUnit>;
+
+const Units& units_of(Dimension dimension) {
+  static const std::array<Units, 9> table{
+      Units{{1, {"N", "newton", "newtons"}},
+            {1e3, {"kN"}},
+            {1e-3, {"mN"}},
+            {1e-2, {"cN"}},
+            {10, {"daN"}},
+            {1e6, {"MN"}},
+            {pound_force, {"lbf", "lb", "lbs"}},
+            {standard_gravity, {"kgf", "kp"}},
+            {1e-3 * standard_gravity, {"gf"}}},
+      Units{{1, {"m", "metre", "metres", "meter", "meters"}},
+            {1e-3, {"mm", "millimetre", "millimetres", "millimeter", "millimeters"}},
+            {1e-2, {"cm"}},
+            {1e-6, {"um"}},
+            {1e3, {"km"}},
+            {inch, {"in", "inch", "inches"}},
+            {foot, {"ft", "feet"}}},
+      Units{{1, {"s", "sec", "secs", "second", "seconds", "Sekunden"}},
+            {1e-3, {"ms"}},
+            {60, {"min", "mins", "minutes"}},
+            {3600, {"h", "hr", "hours"}}},
+      Units{{1, {"deg", "degrees", "°"}}, {57.29577951308232, {"rad"}}},
+      Units{{0.01, {"%", "percent"}}, {1, {"-", "1"}}, {1, {"mm/mm", "m/m", "in/in"}}},
+      Units{{1, {"m/s", "m s-1", "m.s-1", "mps"}},
+            {1e-3, {"mm/s"}},
+            {1e-3 / 60, {"mm/min"}},
+            {foot, {"ft/s", "fps"}},
+            {1 / 3.6, {"km/h", "kph", "kmh"}},
+            {0.44704, {"mph"}},
+            {1852.0 / 3600, {"kn", "kt", "kts", "knots"}}},
+      Units{{1, {"m/s2", "m/s/s", "m s-2", "m.s-2"}}, {standard_gravity, {"g"}}, {foot, {"ft/s2"}}},
+      Units{{1, {"Pa"}},
+            {100, {"hPa"}},
+            {1e3, {"kPa"}},
+            {100, {"mbar"}},
+            {1e5, {"bar"}},
+            {1e6, {"MPa", "N/mm2"}},
+            {1e9, {"GPa"}},
+            {pound_force / (inch * inch), {"psi"}}},
+      Units{{1, {"kg/m3", "kg m-3", "kg.m-3"}}, {1e3, {"g/cm3"}}}};
+  return table[static_cast<std::size_t>(dimension)];
+}
+
+std::string lower(std::string text) {
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return text;
+}
+
+/// "m / s²", "m_per_s^2" -> "m/s2", as the table spells it.
+std::string plain(std::string text) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 15> spellings{{{"²", "2"},
+                                                                                     {"³", "3"},
+                                                                                     {"¹", "1"},
+                                                                                     {"⁻", "-"},
+                                                                                     {"−", "-"},
+                                                                                     {"µ", "u"},
+                                                                                     {"μ", "u"},
+                                                                                     {"·", " "},
+                                                                                     {"⋅", " "},
+                                                                                     {"^", ""},
+                                                                                     {"_per_", "/"},
+                                                                                     {" per ", "/"},
+                                                                                     {" /", "/"},
+                                                                                     {"/ ", "/"},
+                                                                                     {"**", ""}}};
+  for (const auto& [from, to] : spellings)
+    for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+      text.replace(at, from.size(), to);
+  const std::size_t begin = text.find_first_not_of(" \t");
+  if (begin == std::string::npos) return "";
+  return text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
+}
+
+}  // namespace
+
+std::optional<Unit> find_unit(Dimension dimension, const std::string& text) {
+  const std::string wanted = plain(text), shouted = lower(wanted);
+  const KnownUnit* found = nullptr;
+  bool several = false;
+  for (const KnownUnit& known : units_of(dimension))
+    for (const char* name : known.names) {
+      if (wanted == name) return Unit{known.names.front(), known.factor};
+      // "MM", "n", "LBF": machines shout. Where this leaves a choice (MN, mN) only the exact spelling is known.
+      if (shouted != lower(name)) continue;
+      several = several || (found && found != &known);
+      found = &known;
+    }
+  if (!found || several) return {};
+  return Unit{found->names.front(), found->factor};
+}
+
+std::optional<double> unit_factor(Dimension dimension, const std::string& text) {
+  const std::optional<Unit> unit = find_unit(dimension, text);
+  if (!unit) return {};
+  return unit->factor;
+}
+
+bool is_foreign_unit(const std::string& text) {
+  if (find_unit(Dimension::angle, text)) return true;
+  constexpr std::array names{"V", "mV", "kV", "A",    "mA",    "Ohm", "Ω",
+                             "Ω", "°C", "°F", "degC", "deg C", "degF"};
+  return std::find(names.begin(), names.end(), plain(text)) != names.end();
+}
+
+bool is_unit(const std::string& text) {
+  if (is_foreign_unit(text)) return true;
+  for (int i = 0; i <= static_cast<int>(Dimension::density); ++i)
+    if (find_unit(static_cast<Dimension>(i), text)) return true;
+  return false;
+}
+
+std::string known_units(Dimension dimension) {
+  std::string list;
+  for (const KnownUnit& unit : units_of(dimension))
+    list += (list.empty() ? "" : ", ") + std::string(unit.names.front());
+  return list;
+}
+
+}  // namespace ripstop
