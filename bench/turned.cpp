@@ -71,7 +71,7 @@ Result force_on(const Body& body, Direction direction, int across) {
 // Of |C_D - that of the stream along z| from the coarsest to the finest grid, by their cells.
 std::string order_of(const std::vector<double>& off, const std::vector<int>& across) {
   const double first = std::abs(off.front()), last = std::abs(off.back());
-  if (first == 0 || last == 0) return "-";
+  if (off.size() < 2 || first == 0 || last == 0) return "-";
   return fmt::format("{:.1f}", std::log(first / last) / std::log(double(across.back()) / across.front()));
 }
 
