@@ -32,7 +32,6 @@ LoadResult load(const PyCase& given, LoadRequest request, const std::optional<St
 }  // namespace
 
 void add_load(py::module_& module) {
-  add_class<MethodLoad>(module, "MethodLoad", "The opening load by one method.");
   add_class<StageLoads>(module, "StageLoads", "The opening of one stage, by every method.");
   add_class<SnatchResult>(module, "Snatch", "The snatch load when the lines come taut.");
   py::class_<LoadResult> type =
