@@ -1,8 +1,9 @@
 // A table from a machine, read as a command reads it and with all that it has.
+#include "ripstop/core/table/table.h"
+
 #include <cmath>
 
 #include "reader.h"
-#include "ripstop/core/table/table.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace ripstop;

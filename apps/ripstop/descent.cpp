@@ -62,7 +62,8 @@ void add_descent(CLI::App& app, int& status) {
   auto options = std::make_shared<DescentArguments>();
   CLI::App* command = app.add_subcommand("descent", "Terminal speed and descent time from a steady run");
   command->footer(
-      "+- is what the run itself leaves open (last change of the drag, averaging, ledger), not the model's "
+      "+- is the numerical uncertainty of the run (last change of the drag, averaging, ledger), not that of "
+      "the model "
       "error.\n"
       "Example: ripstop descent runs/stratos --mass 4 --height 300,1000");
   command->add_option("run", options->run, "Folder of a finished run of ripstop steady")->required();

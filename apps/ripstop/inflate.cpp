@@ -13,6 +13,7 @@
 #include "case_options.h"
 #include "commands.h"
 #include "json_option.h"
+#include "margins.h"
 #include "opening.h"
 #include "progress.h"
 #include "ripstop/core/error.h"
@@ -80,11 +81,18 @@ void print_stages(const InflationResult& r) {
                  m.load, *m.strength, m.strength_from);
 }
 
-void print_result(const InflationResult& r, const fs::path& folder, double wall_time) {
-  const auto row = [](const char* name, const std::string& text) { fmt::print("  {:<26} {}\n", name, text); };
+void result_row(const char* name, const std::string& text) {
+  fmt::print("  {:<26} {}\n", name, text);
+}
+
+void print_peaks(const InflationResult& r) {
+  const auto row = result_row;
   const InflationSettings& s = r.settings;
-  fmt::print("\n{}\n", r.title);
-  row("peak load", fmt::format("{:.1f} N at {:.2f} ms, over every step", r.peak_load, 1000 * r.peak_time));
+  row("peak load",
+      fmt::format("{:.1f} N at {:.2f} ms, over every step{}", r.peak_load, 1000 * r.peak_time,
+                  r.start_up_time ? fmt::format(" after the start-up of {:.2f} ms (its own peak: {:.1f} N)",
+                                                1000 * *r.start_up_time, *r.start_up_peak)
+                                  : ""));
   if (r.low_pass) {
     row("peak, low-passed", fmt::format("{:.1f} N at {:.2f} ms ({:g} Hz)", *r.smooth_peak,
                                         1000 * *r.smooth_peak_time, s.low_pass_hz));
@@ -95,37 +103,57 @@ void print_result(const InflationResult& r, const fs::path& folder, double wall_
                                      100 * (own / *s.measured_peak_n - 1), r.low_pass ? ", low-passed" : ""));
   }
   if (s.printed_peak_n) row("peak of the source's model", fmt::format("{:.1f} N", *s.printed_peak_n));
-  row("Knacke's estimate",
-      fmt::format("{:.1f} N, C_x = {:g} (infinite mass)", r.estimate.load, r.estimate.coefficient));
-  row(r.settled ? "steady load" : "last load, NOT steady",
-      fmt::format("{:.1f} N +- {:.1f} % over the last fifth", r.summary.steady_load,
-                  100 * r.summary.unsteadiness));
+  row("infinite-mass load",
+      r.estimate.load ? fmt::format("{:.1f} N = C_x {:g} times {:.1f} N ({})", *r.estimate.load,
+                                    r.estimate.coefficient, *r.estimate.drag, r.estimate.drag_from)
+                      : std::string("not known: the opening has no steady load and no drag was given"));
+  if (r.finite_mass_factor)
+    row("finite-mass factor", fmt::format("{:.3f}: peak over the infinite-mass load", *r.finite_mass_factor));
+  for (const MethodLoad& m : r.handbook)
+    row(("  handbook: " + m.method).c_str(),
+        fmt::format("{:.1f} N{}{}", m.load, m.applies ? "" : ", does not apply",
+                    m.note.empty() ? "" : ": " + m.note));
+}
+
+void print_steady_load(const InflationResult& r) {
+  const auto row = result_row;
+  const double low_pass_hz = r.settings.low_pass_hz;
+  row(r.steady_load ? "steady load" : "load at the end",
+      fmt::format("{:.1f} N +- {:.1f} % over the last fifth{}", r.summary.last_load,
+                  100 * r.summary.unsteadiness,
+                  r.steady_load ? "" : "; not a steady load at the speed of deployment"));
   if (r.steady_drag_returned) {
     row("steady drag returned",
         fmt::format("{:+.2f} % of {:.1f} N", 100 * (*r.steady_drag_returned - 1), *r.source.steady_drag));
   }
-  row("inflation time",
-      r.summary.inflation_time
-          ? fmt::format("{:.1f} ms until within 10 % of steady for good", 1000 * *r.summary.inflation_time)
-          : "still outside 10 % of steady at the end; a longer inflation.duration_s may settle it");
+  if (!r.steady_load) return;
+  if (r.summary.inflation_time)
+    row("inflation time",
+        fmt::format("{:.1f} ms, after which the load remains within 10 % of the steady load",
+                    1000 * *r.summary.inflation_time));
   if (r.summary.filling_time && r.summary.settling_time)
     row("filled, settled",
         fmt::format("{:.1f} ms, {:.1f} ms ({:g} Hz, mean square over two periods)",
-                    1000 * *r.summary.filling_time, 1000 * *r.summary.settling_time, s.low_pass_hz));
-  row("overshoot", s.low_pass_hz > 0
-                       ? fmt::format("{:.3f}, low-passed {:.3f}", r.overshoot, *r.smooth_overshoot)
-                       : fmt::format("{:.3f}", r.overshoot));
+                    1000 * *r.summary.filling_time, 1000 * *r.summary.settling_time, low_pass_hz));
+  row("overshoot", low_pass_hz > 0
+                       ? fmt::format("{:.3f}, low-passed {:.3f}", *r.overshoot, *r.smooth_overshoot)
+                       : fmt::format("{:.3f}", *r.overshoot));
+}
+
+void print_result(const InflationResult& r, const fs::path& folder, double wall_time) {
+  const auto row = result_row;
+  fmt::print("\n{}\n", r.title);
+  print_margins(r.margins);
+  print_peaks(r);
+  print_steady_load(r);
   row("impulse", fmt::format("{:.3f} N s", r.impulse));
   print_stages(r);
   row("highest line tension", fmt::format("{:.1f} N", r.max_line_tension));
-  row("highest stress", fmt::format("{:.0f} N/m von Mises on the {} at {:.1f} ms{}", r.stress.von_mises,
-                                    r.stress.patch, 1000 * r.stress_time,
-                                    r.cloth_margin ? fmt::format(", margin {:.1f} to its {:.0f} N/m",
-                                                                 *r.cloth_margin, r.break_load)
-                                                   : ""));
+  row("maximum von Mises stress",
+      fmt::format("{:.0f} N/m ({}) at {:.1f} ms", r.stress.von_mises, r.stress.patch, 1000 * r.stress_time));
   row("energy balance", fmt::format("work in = kinetic + elastic + damped{} within {:.3f} %",
                                     r.stages ? " + cut" : "", 100 * r.energy_residual));
-  if (s.contact_pa > 0)
+  if (r.settings.contact_pa > 0)
     row("contact of cloth",
         fmt::format("pressed together by {:.0f} % at most; {:.2f} % of the edges pierced cloth",
                     100 * r.contact_depth, 100 * r.pierced));
@@ -169,9 +197,10 @@ class Terminal : public InflationObserver {
   long long first_ = 0;
 };
 
-/// What never settled has no steady load, and what is taken as a share of it says nothing.
+/// Of an opening whose end is held: without a steady load, what is a share of it is not known. A payload slows down and
+/// has none.
 int status_of(bool settled, const Settings& resolved) {
-  if (settled) return 0;
+  if (settled || resolved.inflation().mass == InflationSettings::Mass::payload) return 0;
   std::fflush(stdout);
   fmt::print(
       stderr,
@@ -214,16 +243,18 @@ int run(const InflateArguments& options) {
     const std::string finished = *finished_result(folder);
     fmt::print("{}", finished);
     fmt::print(stderr, "{} holds the finished run; --fresh computes it again\n", folder.string());
-    return status_of(nlohmann::json::parse(finished).value("settled", true), resolved);
+    const auto json = nlohmann::json::parse(finished);
+    const int quality =
+        print_result_warnings(json.value("warnings", std::vector<std::string>{}), json.value("usable", true));
+    return std::max(quality, status_of(json.value("settled", true), resolved));
   }
   const double wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (options.json)
     fmt::print("{}", to_json(*result));
   else
     print_result(*result, folder, wall_time);
-  print_mesh_warning(resolved);
-  print_material_warnings(resolved, result->stress.strain);
-  return status_of(result->settled, resolved);
+  const int quality = print_result_warnings(result->warnings, result->usable);
+  return std::max(quality, status_of(result->settled, resolved));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <sstream>
@@ -12,9 +13,11 @@
 #include "case_options.h"
 #include "commands.h"
 #include "json_option.h"
+#include "margins.h"
 #include "number_option.h"
 #include "ripstop/core/error.h"
 #include "ripstop/flight/atmosphere.h"
+#include "warnings.h"
 
 namespace ripstop {
 namespace {
@@ -53,8 +56,11 @@ void print_stage(const StageLoads& s) {
   for (const MethodLoad& m : s.methods)
     fmt::print("  {:<18} {:>10.1f} {:>8} {:>8}  {}\n", m.method, m.load,
                m.time > 0 ? fmt::format("{:.3f}", m.time) : "-", m.applies ? "yes" : "no", m.note);
-  fmt::print("  those that apply: {:.1f} to {:.1f} N, spread {:.0f} %\n", s.lowest, s.highest,
-             100 * s.spread);
+  if (std::any_of(s.methods.begin(), s.methods.end(), [](const MethodLoad& m) { return m.applies; }))
+    fmt::print("  methods that apply: {:.1f} to {:.1f} N, spread {:.0f} %\n", s.lowest, s.highest,
+               100 * s.spread);
+  else
+    fmt::print("  no method applies; the infinite-mass load is an upper bound\n");
 }
 
 void print_result(const LoadResult& r, const fs::path& folder) {
@@ -64,8 +70,11 @@ void print_result(const LoadResult& r, const fs::path& folder) {
       "  C_D {:.3f}: {}\n  C_x {:.2f}: {}\n  filling over {:.3g} D0, (t/t_f)^{:g}, Ludtke's ^{:g}: {}\n",
       r.drag_coefficient, r.drag_source, r.opening_coefficient, r.opening_source, r.filling_constant,
       r.filling_exponent, r.ludtke_exponent, r.filling_source);
+  fmt::print("  DESIGN LOAD {:.1f} N: {}; a line carries at most {:.2f} times an equal share\n",
+             r.design_load, r.design_load_from, r.line_load_factor);
+  print_margins(r.margins);
   for (const StageLoads& stage : r.stages) print_stage(stage);
-  fmt::print("\nhighest load on the way {:.1f} N after {:.3f} s\n", r.peak_load, r.peak_time);
+  fmt::print("\nhighest load of the trajectory {:.1f} N after {:.3f} s\n", r.peak_load, r.peak_time);
   if (r.snatch)
     fmt::print(
         "snatch {:.1f} N ({:.3g} m/s apart), {:.1f} N a line{}\n", r.snatch->load, r.snatch->speed_difference,
@@ -86,7 +95,7 @@ int load(LoadArguments& options) {
   if (!options.mass && !resolved.payload().mass_kg)
     throw Error(ExitCode::usage, "give the payload's mass: --mass KG, or [payload] mass_kg in the case");
   request.payload_mass = options.mass ? *options.mass : *resolved.payload().mass_kg;
-  request.height = options.height ? *options.height : resolved.flow().height_m.value_or(request.height);
+  request.height = options.height;
   for (const std::string& text : options.reefing) request.reefing.push_back(parse_stage(text));
   const LoadResult result = run_load(resolved, request);
   write_load(options.out, result);
@@ -94,6 +103,7 @@ int load(LoadArguments& options) {
     fmt::print("{}", to_json(result));
   else
     print_result(result, options.out);
+  print_warnings(result.warnings);
   return 0;
 }
 
@@ -112,6 +122,8 @@ void add_coefficients(CLI::App& command, LoadRequest& r) {
       ->check(CLI::ExistingDirectory);
   command.add_option("--opening", r.opening, "Run of ripstop inflate that gives the drag area over the way")
       ->check(CLI::ExistingDirectory);
+  add_number(command, "--measured-load", r.measured_load, above(0).up_to(1e8),
+             "Opening load that you have measured at this speed and mass; becomes the design load [N]");
   add_number(command, "--snatch-speed", r.snatch_speed, above(0).up_to(1000),
              "Speed difference when the lines come taut [m/s]");
   add_number(command, "--packed-area", r.packed_drag_area, above(0).up_to(1e4),
@@ -124,7 +136,6 @@ void add_coefficients(CLI::App& command, LoadRequest& r) {
 
 void add_load(CLI::App& app, int& status) {
   auto options = std::make_shared<LoadArguments>();
-  options->request.height = 1000;
   CLI::App* command =
       app.add_subcommand("load", "Opening and snatch loads behind a given mass, method by method");
   command->footer(
@@ -137,8 +148,9 @@ void add_load(CLI::App& app, int& status) {
              "Through the air when the lines come taut [m/s]")
       ->required();
   const Range height = from(lowest_height).up_to(highest_height);
-  add_number(*command, "--height", options->height, height,
-             "Above sea level [m] (default: flow.height_m, else 1000)");
+  add_number(
+      *command, "--height", options->height, height,
+      "Above sea level [m] (default: flow.height_m where that is above the ground, else 1000 m above it)");
   add_number(*command, "--ground", options->request.ground, height, "Height of the ground [m] (default: 0)");
   add_number(*command, "--angle", options->request.path_angle, from(-90).up_to(90),
              "Of the way below the horizon [deg] (default: 90)");

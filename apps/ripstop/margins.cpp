@@ -12,20 +12,6 @@ void row(const char* name, const std::string& text) {
   fmt::print("  {:<26} {}\n", name, text);
 }
 
-/// The weakest of the lines stands for all.
-std::vector<Margin> shown(const Margins& margins) {
-  std::vector<Margin> rows;
-  for (const Margin& m : margins.members) {
-    const bool line = m.member.starts_with("line ");
-    if (line && !rows.empty() && rows.back().member.starts_with("line ")) {
-      if (m.used.value_or(0) > rows.back().used.value_or(0)) rows.back() = m;
-      continue;
-    }
-    rows.push_back(m);
-  }
-  return rows;
-}
-
 }  // namespace
 
 void print_payload(const SteadyResult& r) {
@@ -38,17 +24,24 @@ void print_payload(const SteadyResult& r) {
 void print_margins(const std::optional<Margins>& margins) {
   if (!margins) return;
   std::string text;
-  for (const Margin& m : shown(*margins))
+  for (const Margin& m : weakest_of_kinds(*margins))
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", m.member,
                         m.used ? fmt::format("{:.1f} %", 100 * *m.used) : "strength not known");
-  row("strength used", text);
+  row("load / allowable", text);
   if (!margins->weakest.empty()) {
     const Margin& m = *weakest(*margins);
-    row("weakest",
-        fmt::format("{}: {:.4g} {} of {:.4g}, of which {:.0f} % are left; margin of safety {:+.2f}{}",
+    row("weakest member",
+        fmt::format("{}: {:.4g} {} of {:.4g}, of which {:.0f} % are allowable; margin of safety {:+.2f}{}",
                     m.member, m.load, m.unit, *m.strength, 100 * m.knock_down, *m.margin,
                     *m.margin < 0 ? ": DOES NOT HOLD" : ""));
   }
+}
+
+std::string weakest_text(const std::optional<Margins>& margins) {
+  const Margin* m = margins ? weakest(*margins) : nullptr;
+  if (!m) return "";
+  return fmt::format(", {}: margin of safety {:+.2f}{}", m->member, *m->margin,
+                     *m->margin < 0 ? ", DOES NOT HOLD" : "");
 }
 
 }  // namespace ripstop

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "ripstop/run/steady/steady.h"
 
@@ -9,5 +10,7 @@ namespace ripstop {
 
 void print_payload(const SteadyResult& result);
 void print_margins(const std::optional<Margins>& margins);
+/// ", riser: margin of safety -0.85, DOES NOT HOLD"; empty where no strength is known.
+std::string weakest_text(const std::optional<Margins>& margins);
 
 }  // namespace ripstop

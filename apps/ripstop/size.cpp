@@ -10,6 +10,7 @@
 
 #include "commands.h"
 #include "json_option.h"
+#include "margins.h"
 #include "number_option.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
@@ -18,6 +19,7 @@
 #include "ripstop/run/steady/steady_folder.h"
 #include "steady_terminal.h"
 #include "stopping.h"
+#include "warnings.h"
 
 namespace ripstop {
 namespace {
@@ -53,10 +55,14 @@ void print_result(const SizeResult& r, const fs::path& file, const fs::path& pag
   row("mass", fmt::format("{:.3g} kg: cloth {:.3g}, tape {:.3g}, lines {:.3g}", r.parachute_mass,
                           r.cloth_mass, r.tape_mass, r.line_mass));
   row("packed volume", fmt::format("{:.3g} litres", 1000 * r.packed_volume));
-  row("opening load",
-      fmt::format("{:.0f} to {:.0f} N at {:.3g} m/s; a line then uses {:.0f} % of what is left of its "
-                  "strength",
-                  r.opening_load_low, r.opening_load, r.deployment_speed, 100 * r.line_used));
+  row("DESIGN LOAD",
+      fmt::format(
+          "{:.0f} N at {:.3g} m/s: {}; a line carries at most {:.2f} times an equal share, {:.0f} % of its "
+          "allowable load",
+          r.design_load, r.deployment_speed, r.design_load_from, r.line_load_factor, 100 * r.line_used));
+  row("opening load by methods that apply",
+      fmt::format("{:.0f} to {:.0f} N (ripstop load)", r.opening_load_low, r.opening_load));
+  print_margins(r.margins);
   for (const SizeCheck& c : r.checks)
     row("run", fmt::format("{:.3f} m comes down at {:.3f} m/s, C_D {:.3f}", c.nominal_diameter,
                            c.descent_rate, c.drag_coefficient));
@@ -86,6 +92,8 @@ fs::path write_page(const SizeArguments& options, const SizeResult& result) {
     write_file(page, report_page(size_report(result, runs)));
     return page;
   } catch (const std::exception& error) {
+    const auto* known = dynamic_cast<const Error*>(&error);
+    if (known && known->code() == ExitCode::io) throw;
     fmt::print(stderr, "ripstop: no report was written: {}\n", error.what());
     return {};
   }
@@ -116,7 +124,7 @@ int size(const SizeArguments& options) {
     fmt::print("{}", to_json(result));
   else
     print_result(result, options.out, page);
-  for (const std::string& warning : result.warnings) fmt::print(stderr, "ripstop: {}\n", warning);
+  print_warnings(result.warnings);
   return 0;
 }
 

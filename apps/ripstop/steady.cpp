@@ -151,13 +151,12 @@ int run(const SteadyArguments& options) {
   else
     print_result(result, resolved, folder);
   std::fflush(stdout);
-  const int status = result.converged ? 0 : static_cast<int>(ExitCode::not_converged);
+  const int quality = print_result_warnings(result.warnings, result.usable);
+  const int status = result.converged ? quality : static_cast<int>(ExitCode::not_converged);
   if (done.already_finished) {
     fmt::print(stderr, "{} holds the finished run; --fresh computes it again\n", folder.string());
     return status;
   }
-  print_case_warnings(resolved);
-  print_material_warnings(resolved, result.stress.strain);
   if (!result.converged)
     fmt::print(
         stderr,

@@ -10,6 +10,7 @@
 
 #include "batch_option.h"
 #include "commands.h"
+#include "margins.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/run/report/report.h"
@@ -100,8 +101,9 @@ int run_only(const SweepArguments& options, const std::vector<SweepPoint>& point
   if (options.json)
     fmt::print("{}", to_json(result));
   else
-    fmt::print("{}: {:.2f} N, {:.4f} m2, {} iterations{}\n", point->folder, result.drag, result.drag_area,
-               result.iterations, result.converged ? "" : ", NOT converged");
+    fmt::print("{}: {:.4g} m/s, {:.2f} N, {:.4f} m2{}, {} iterations{}\n", point->folder, result.speed,
+               result.drag, result.drag_area, weakest_text(result.margins), result.iterations,
+               result.converged ? "" : ", NOT converged");
   return result.converged ? 0 : static_cast<int>(ExitCode::not_converged);
 }
 

@@ -8,6 +8,7 @@
 
 #include "case_options.h"
 #include "json_option.h"
+#include "margins.h"
 #include "number_option.h"
 #include "progress.h"
 #include "ripstop/core/error.h"
@@ -85,8 +86,9 @@ std::vector<SweepRow> run_and_tell(const std::vector<SweepAxis>& axes, const std
     ++ended;
     const SweepRow& row = rows[i];
     progress.line(row.done
-                      ? fmt::format("{:>3}/{} {}: {:.2f} N, {:.4f} m2, {} iterations, {}{}", ended,
-                                    points.size(), name(i), row.result.drag, row.result.drag_area,
+                      ? fmt::format("{:>3}/{} {}: {:.4g} m/s, {:.2f} N, {:.4f} m2{}, {} iterations, {}{}",
+                                    ended, points.size(), name(i), row.result.speed, row.result.drag,
+                                    row.result.drag_area, weakest_text(row.result.margins),
                                     row.result.iterations, duration_text(row.result.wall_time),
                                     row.result.converged ? "" : ", NOT converged")
                       : fmt::format("{:>3}/{} {}: FAILED: {}", ended, points.size(), name(i), row.error));

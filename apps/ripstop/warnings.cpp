@@ -1,36 +1,44 @@
 #include "warnings.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <cstdio>
 #include <string>
 #include <vector>
 
+#include "ripstop/core/error.h"
 #include "ripstop/core/visible.h"
 #include "ripstop/run/steady/warnings.h"
 
 namespace ripstop {
-namespace {
 
-void print_all(const std::vector<std::string>& warnings) {
-  for (const std::string& text : warnings) fmt::print(stderr, "warning: {}\n", visible(text));
+void print_warnings(const std::vector<std::string>& warnings) {
+  std::fflush(stdout);
+  const char* word = isatty(STDERR_FILENO) ? "\x1b[31mwarning\x1b[0m" : "warning";
+  for (const std::string& text : warnings) fmt::print(stderr, "{}: {}\n", word, visible(text));
 }
 
-}  // namespace
+int print_result_warnings(const std::optional<std::vector<std::string>>& warnings,
+                          const std::optional<bool>& usable) {
+  print_warnings(warnings.value_or(std::vector<std::string>{}));
+  return usable.value_or(true) ? 0 : static_cast<int>(ExitCode::not_converged);
+}
 
 void print_deprecations(const std::vector<std::string>& deprecations) {
-  print_all(deprecations);
+  print_warnings(deprecations);
 }
 
 void print_mesh_warning(const Settings& resolved) {
-  print_all(mesh_warnings(resolved));
+  print_warnings(mesh_warnings(resolved));
 }
 
 void print_case_warnings(const Settings& resolved) {
-  print_all(case_warnings(resolved));
+  print_warnings(case_warnings(resolved));
 }
 
 void print_material_warnings(const Settings& resolved, double largest_cloth_strain) {
-  print_all(strain_warnings(resolved, largest_cloth_strain));
+  print_warnings(strain_warnings(resolved, largest_cloth_strain));
 }
 
 }  // namespace ripstop

@@ -1,12 +1,20 @@
 // What the materials of a case have to say about a run.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "ripstop/case/settings.h"
 
 namespace ripstop {
+
+/// A line each on standard error; on a terminal the word "warning" is red.
+void print_warnings(const std::vector<std::string>& warnings);
+
+/// The warnings of a result. Returns the exit status: ExitCode::not_converged where it is not usable.
+int print_result_warnings(const std::optional<std::vector<std::string>>& warnings,
+                          const std::optional<bool>& usable);
 
 /// Says on standard error which keys of a case have a new name.
 void print_deprecations(const std::vector<std::string>& deprecations);

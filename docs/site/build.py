@@ -94,7 +94,7 @@ def run_mkdocs():
     listed = ", ".join(str(page.relative_to(ROOT)) for page in tutorials)
     (OUT / "mkdocs.yml").write_text(settings.replace("TUTORIALS", f"[{listed}]"))
     environment = {**os.environ, "PYTHONPATH": str(HERE), "PYTHONDONTWRITEBYTECODE": "1"}
-    subprocess.run([sys.executable, "-m", "mkdocs", "build", "--quiet", "--config-file", OUT / "mkdocs.yml"], check=True, env=environment)
+    subprocess.run(["mkdocs", "build", "--quiet", "--config-file", OUT / "mkdocs.yml"], check=True, env=environment)
     index = json.loads((OUT / "site/search/search_index.json").read_text())
     script = f"var __search = {{index: Promise.resolve({json.dumps(index)})}}\n"
     (OUT / "site/site/search_index.js").write_text(script)

@@ -36,7 +36,8 @@ def main():
     opening = ripstop.inflate(case, pressure_pa=options.pressure, threads=options.threads, progress=show)
     load = opening.history["load_mean_n"]
     work = opening.frames["pressure_work_j"]
-    print(f"peak {opening.peak_load_n:.1f} N at {1000 * opening.peak_time_s:.2f} ms, {opening.overshoot:.2f} times the steady load")
+    steady = f", {opening.overshoot:.2f} times the steady load" if opening.overshoot else ", no steady load yet"
+    print(f"peak {opening.peak_load_n:.1f} N at {1000 * opening.peak_time_s:.2f} ms{steady}")
     print(f"half of the rows are above {numpy.median(load):.1f} N; the air did {work[-1]:.2f} J of work")
     print("lines:", " ".join(f"{peak:.1f}" for peak in opening.line_peaks), "N")
     for warning in opening.warnings:

@@ -11,7 +11,6 @@
 #include "ripstop/run/opening/inflation.h"
 #include "ripstop/run/opening/inflation_folder.h"
 #include "ripstop/run/steady/steady_folder.h"
-#include "ripstop/run/steady/warnings.h"
 #include "runs.h"
 
 namespace ripstop {
@@ -139,6 +138,7 @@ void add_inflate(py::module_& module) {
   add_class<Snapshot>(module, "InflationShot",
                       "A shape on the way: time [s], positions [m], von_mises [N/m].");
   add_class<StageSummary>(module, "StageSummary", "What a stage of a reefed opening does, from cut to cut.");
+  add_class<MethodLoad>(module, "MethodLoad", "The opening load by one method.");
   add_class<OpeningProgress>(module, "OpeningProgress", "How far an opening is.");
   py::class_<PyInflation> type(module, "Inflation",
                                "An opening: the numbers of its result.json, and its arrays.");
@@ -150,14 +150,8 @@ void add_inflate(py::module_& module) {
       "case", [](const PyInflation& run) { return run.made; }, "The Case that was opened.");
   type.def_property_readonly(
       "warnings",
-      [](const PyInflation& run) {
-        const Settings resolved = run.made.settings();
-        std::vector<std::string> all = mesh_warnings(resolved);
-        for (const std::string& text : strain_warnings(resolved, run.result.stress.strain))
-          all.push_back(text);
-        return all;
-      },
-      "What is not wrong but should be known about the result.");
+      [](const PyInflation& run) { return run.result.warnings.value_or(std::vector<std::string>{}); },
+      "Limits that the result does not keep, margins below 0, and other doubts.");
   module.def(
       "inflate", &inflate, py::arg("case"), py::kw_only(), py::arg("steady") = py::none(),
       py::arg("pressure_pa") = py::none(), py::arg("progress") = py::none(), py::arg("threads") = 0,

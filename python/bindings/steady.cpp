@@ -8,7 +8,6 @@
 #include "module.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/run/steady/steady_folder.h"
-#include "ripstop/run/steady/warnings.h"
 #include "runs.h"
 
 namespace ripstop::python {
@@ -161,8 +160,8 @@ void add_steady(py::module_& module) {
       "The flow engine and its version; empty where the run was finished already.");
   type.def_property_readonly(
       "warnings",
-      [](const PySteady& run) { return warnings_of(run.made.settings(), run.result.stress.strain); },
-      "What is not wrong but should be known about the result.");
+      [](const PySteady& run) { return run.result.warnings.value_or(std::vector<std::string>{}); },
+      "Limits that the result does not keep, margins below 0, and other doubts.");
   module.def(
       "steady", &steady, py::arg("case"), py::kw_only(), py::arg("progress") = py::none(),
       py::arg("threads") = 0, py::arg("out") = py::none(), py::arg("fresh") = false,

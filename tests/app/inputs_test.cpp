@@ -81,6 +81,24 @@ TEST_F(Inputs, AnOpeningInItsOwnAirIsCheckedAndRefusedWhereItsClothIsNoSheet) {
   refused({"inflate", stratos, "--air", "coupled"}, 2, "flow.porosity_model");
 }
 
+TEST_F(Inputs, AnOldKeyIsWarnedOfOnceByEveryCommand) {
+  const std::string warning =
+      "warning: materials.f-111.darcy is an old key: write materials.f-111.darcy_1_m2\n";
+  const std::vector<std::vector<std::string>> commands = {
+      {"check", stratos},
+      {"steady", stratos, "--dry-run", "--out", in("steady")},
+      {"sweep", stratos, "--speeds", "10,20", "--dry-run", "--out", in("sweep")},
+      {"inflate", stratos, "--pressure", "500", "--check"}};
+  for (std::vector<std::string> command : commands) {
+    command.insert(command.end(), {"--set", "materials.f-111.darcy=60"});
+    const Finished run = ripstop_with(command);
+    EXPECT_EQ(run.code, 0) << run.output;
+    const std::size_t first = run.output.find(warning);
+    ASSERT_NE(first, std::string::npos) << run.output;
+    EXPECT_EQ(run.output.find("is an old key", first + warning.size()), std::string::npos) << run.output;
+  }
+}
+
 TEST_F(Inputs, ADryRunRefusesWhatTheRunRefuses) {
   fs::create_directories(in("mine"));
   write_file(in("mine/notes.txt"), "mine");

@@ -111,6 +111,7 @@ class Site(unittest.TestCase):
     def test_dark_colours_follow_the_system(self):
         for theme, scheme in (("dark", "slate"), ("light", "default")):
             self.browser.theme(theme)
+            self.open("docs/theory/flow-cartesian.html")
             self.browser.evaluate("localStorage.clear()")  # a page remembers the colours that it has shown
             self.open("docs/theory/flow-cartesian.html")
             self.picture(f"{theme}-flow-cartesian")

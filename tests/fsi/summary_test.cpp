@@ -28,7 +28,7 @@ std::vector<HistoryRow> decaying(double steady, double decay, double omega, doub
 TEST(Summary, TheInflationTimeIsWhenADecayingLoadStaysWithinATenthOfSteady) {
   const double decay = 0.05, omega = 300, interval = 1e-4;
   const InflationSummary s = summarise(decaying(400, decay, omega, interval, 10000), 0);
-  EXPECT_NEAR(s.steady_load, 400, 1e-3);
+  EXPECT_NEAR(s.last_load, 400, 1e-3);
   ASSERT_TRUE(s.inflation_time.has_value());
   // The envelope falls to a tenth at T ln 10; the last excursion lies within half a period before.
   EXPECT_LE(*s.inflation_time, decay * std::log(10.0) + interval);
@@ -84,7 +84,7 @@ TEST(Summary, TheUnsteadinessIsTheDeviationOfTheLastFifthOverItsMean) {
   std::vector<HistoryRow> rows;
   for (int i = 1; i <= 1000; ++i) rows.push_back({i * 1e-3, i <= 800 ? 9000.0 : i % 2 ? 440.0 : 360.0, 0, 0});
   const InflationSummary s = summarise(rows, 0);
-  EXPECT_NEAR(s.steady_load, 400, 1e-9);
+  EXPECT_NEAR(s.last_load, 400, 1e-9);
   EXPECT_NEAR(s.unsteadiness, 0.1, 1e-12);
 }
 
@@ -111,8 +111,29 @@ TEST(LowPass, ItKeepsSlowTonesHalvesTheCutoffAndDropsFastOnesWithoutDelay) {
   EXPECT_THROW(low_pass({1, 2, 3}, interval, 5000), Error);
 }
 
-TEST(OpeningEstimate, IsTheTypesCoefficientTimesTheSteadyDrag) {
-  EXPECT_NEAR(opening_estimate(printed_stratos(25600), 400).load, 520, 1e-9);
+TEST(Summary, NoPeakCountsDuringTheStartUp) {
+  std::vector<HistoryRow> rows;
+  for (int i = 1; i <= 100; ++i) {
+    const double load = i <= 2 ? 977 : i == 60 ? 300 : 100;
+    rows.push_back({i * 1e-3, load, load, load});
+  }
+  EXPECT_EQ(highest_load(rows, 0).load, 977);
+  EXPECT_EQ(highest_load(rows, 2.5e-3).load, 300);
+  EXPECT_EQ(highest_load(rows, 2.5e-3).time, 60e-3);
+  EXPECT_EQ(highest_load(rows, 1).load, 977);  // nothing comes after it
+  EXPECT_GT(summarise(rows, 100, 0).smooth_peak, 500);
+  const InflationSummary after = summarise(rows, 400, 6e-3);
+  EXPECT_LT(after.smooth_peak, 300);
+  EXPECT_NEAR(after.smooth_peak_time, 60e-3, 1e-9);
+  const auto stages = summarise_stages(rows, {}, {1.0}, {0.05}, 0, 2.5e-3);
+  ASSERT_EQ(stages.size(), 2u);
+  EXPECT_EQ(stages[0].peak_load, 100);
+  EXPECT_EQ(stages[1].peak_load, 300);
+}
+
+TEST(OpeningEstimate, IsTheTypesCoefficientTimesTheDragAndUnknownWithoutIt) {
+  EXPECT_NEAR(opening_estimate(printed_stratos(25600), 400).load.value(), 520, 1e-9);
+  EXPECT_FALSE(opening_estimate(printed_stratos(25600), {}).load);
 }
 
 }  // namespace

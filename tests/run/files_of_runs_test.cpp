@@ -116,7 +116,7 @@ TEST(WatchFiles, HistoryHasARowAStepAndTheWakeAFileASlice) {
 TEST(WatchFiles, WithoutASliceThereIsNoWake) {
   const TemporaryFolder root("watch-files");
   ClaimedFolder claimed(root.path / "run");
-  write_watch(claimed, flat_circular_case(1, 600, 20), watched_record(2, 0));
+  write_watch(claimed, resolve(checked(flat_circular_case(1, 600, 20))), watched_record(2, 0));
   EXPECT_TRUE(fs::exists(root.path / "run/history.csv"));
   EXPECT_FALSE(fs::exists(root.path / "run/wake") || fs::exists(root.path / "run/wake.pvd"));
 }
@@ -241,7 +241,7 @@ TEST(LoadPlot, OfAReefedOpeningHasTheLineItsCutsAndEveryLevel) {
   result.settings.low_pass_hz = 100;
   result.settings.measured_peak_n = 240;
   result.settings.printed_peak_n = 250;
-  result.summary.steady_load = 130;
+  result.steady_load = 130;
   result.estimate.load = 260;
   const auto names = [](const Plot& plot) {
     std::vector<std::string> list;
@@ -249,8 +249,8 @@ TEST(LoadPlot, OfAReefedOpeningHasTheLineItsCutsAndEveryLevel) {
     return list;
   };
   std::vector<std::string> expected{
-      "largest in the interval",   "load", "low-passed at 100 Hz", "steady", "Knacke", "measured peak",
-      "peak of the source's model"};
+      "largest in the interval",     "load",          "low-passed at 100 Hz",      "steady",
+      "infinite mass, C_x C_D S0 q", "measured peak", "peak of the source's model"};
   const std::vector<double> smooth(rows.size(), 120);
   EXPECT_EQ(names(load_plot(rows, smooth, result)), expected);
   result.stages = std::vector<StageSummary>(2);

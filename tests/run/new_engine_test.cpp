@@ -32,7 +32,7 @@ class NewEngine : public testing::Test {
 };
 
 TEST_F(NewEngine, IsAWordOfTheCaseFileItsSchemaAndItsReference) {
-  EXPECT_EQ(engine_of(stratos()).word, "formula");
+  EXPECT_EQ(engine_of(resolve(stratos())).word, "formula");
   EXPECT_NE(case_toml(resolve(stratos())).find("engine = \"formula\""), std::string::npos);
   EXPECT_NE(case_schema().find("\"formula\""), std::string::npos);
   EXPECT_NE(case_reference().find("a formula of the cells"), std::string::npos);

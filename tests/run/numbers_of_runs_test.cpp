@@ -13,6 +13,7 @@
 #include "ripstop/case/opening.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/thread_team.h"
+#include "ripstop/flight/atmosphere.h"
 #include "ripstop/flight/descent.h"
 #include "ripstop/fsi/opening_estimate.h"
 #include "ripstop/fsi/summary.h"
@@ -272,8 +273,10 @@ TEST(RunNumbers, OfAnOpeningTheDeepestAndLargestOfItsFramesCount) {
   EXPECT_EQ(result.start_strain, start_strain(solver.mesh(), solver.folded().positions).largest);
   EXPECT_EQ(result.source.text, "asked for");
   EXPECT_FALSE(result.steady_drag_returned || result.drag_area || result.end_speed || result.stages);
-  EXPECT_EQ(result.settled, settled(result.summary, given.inflation.duration_s));
-  EXPECT_EQ(result.estimate.load, opening_estimate(given.parachute, result.summary.steady_load).load);
+  EXPECT_FALSE(result.settled);  // so short: nothing that rests on a steady load is there
+  EXPECT_FALSE(result.steady_load || result.overshoot || result.summary.inflation_time ||
+               result.estimate.load);
+  EXPECT_FALSE(result.start_up_time);
   EXPECT_EQ(result.peak_time, state.peak_time);
   EXPECT_EQ(result.settings.damping_n_s_m3, given.inflation.damping_n_s_m3);
   EXPECT_FALSE(result.low_pass || result.smooth_peak);
@@ -299,10 +302,10 @@ TEST(RunNumbers, OfAnOpeningInItsOwnAirTheLargestDragAreaAndThePayloadsEndCount)
   EXPECT_EQ(r.drag_area, largest);
   EXPECT_FALSE(r.pressure);
   ASSERT_TRUE(r.end_speed && r.end_angle && r.height_lost);
-  EXPECT_EQ(*r.end_speed, state.air.speed);
+  EXPECT_EQ(*r.end_speed, state.air.flight.speed);
   EXPECT_NEAR(*r.end_angle, 30, 1);
-  EXPECT_DOUBLE_EQ(*r.end_angle, state.air.angle * 180 / std::numbers::pi);
-  EXPECT_EQ(*r.height_lost, state.air.fallen);
+  EXPECT_DOUBLE_EQ(*r.end_angle, state.air.flight.angle * 180 / std::numbers::pi);
+  EXPECT_EQ(*r.height_lost, state.air.flight.fallen);
   EXPECT_GT(*r.height_lost, 0);
 }
 

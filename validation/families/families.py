@@ -177,7 +177,7 @@ def openings(options):
         pull, aside = pull_of_last_fifth(folder_of(options, name, "opening"))
         label = ", ".join([name, *(f"`{setting}`" for setting in OPENING_OF.get(name, []))])
         rows.append([label, f"{r['low_pass_peak_load_n']:.0f}", f"{1000 * r['low_pass_peak_time_s']:.0f}",
-                     f"{r['steady_load_n']:.0f} +- {100 * r['steady_load_deviation']:.0f} %{settled}",
+                     f"{r['last_load_n']:.0f} +- {100 * r['last_load_deviation']:.0f} %{settled}",
                      f"{pull:.0f}, {aside:.0f} deg", f"{r['low_pass_peak_load_n'] / pull:.2f}",
                      f"{r['knacke_coefficient']:g}", *over_whole_area(r, known, handbook["nominal_diameter_m"]), f"{way:.1f}",
                      f"{handbook['filling_constant']:g}", f"{100 * r['pierced_edges']:.1f}"])

@@ -409,7 +409,7 @@ def opening(campaign, parachute, name, air, command):
     return {"parachute": parachute, "air": air, "speed_m_s": speed, "density_kg_m3": density, "initial_radius_m": radius,
             "peak_100hz_n": f"{result['low_pass_peak_load_n']:.1f}", "peak_n": f"{result['peak_load_n']:.1f}",
             "peak_time_s": f"{result['low_pass_peak_time_s']:.4f}", "filling_time_s": f"{result['filling_time_s']:.4f}",
-            "steady_n": f"{result['steady_load_n']:.1f}", "wall_time_s": wall.read_text()}
+            "steady_n": f"{result['last_load_n']:.1f}", "wall_time_s": wall.read_text()}
 
 
 def open_in_air(campaign, parachute, name, settings):

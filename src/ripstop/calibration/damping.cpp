@@ -36,7 +36,7 @@ DampingTrial open_with(double damping, const InflationProblem& problem, const st
   trial.every_step_peak = state.peak_load;
   trial.peak = low_pass_hz > 0 ? summary.smooth_peak : state.peak_load;
   trial.peak_time = low_pass_hz > 0 ? summary.smooth_peak_time : state.peak_time;
-  trial.steady_load = summary.steady_load;
+  trial.steady_load = summary.last_load;
   trial.inflation_time = summary.inflation_time;
   return trial;
 }

@@ -8,11 +8,35 @@
 
 namespace ripstop {
 
+CutPattern cut_pattern(const Settings& resolved) {
+  CutPattern pattern = cut_pattern(resolved.parachute());
+  if (!resolved.materials().tape) pattern.tapes.clear();
+  return pattern;
+}
+
+Bill parachute_bill(const Settings& resolved, const Allowances& allowances, double packing_density) {
+  return bill_of(cut_pattern(resolved), resolved.parachute(), resolved.materials(), allowances,
+                 packing_density);
+}
+
+double parachute_mass(const Design& design, const PartMaterials& materials) {
+  return bill_of(cut_pattern(design), design, materials, {}, packed_by_hand).mass;
+}
+
+PartMasses parachute_masses(const Settings& resolved) {
+  PartMasses masses;
+  for (const BillRow& row : parachute_bill(resolved).rows) {
+    double& part = row.kind == BillPart::cloth  ? masses.cloth
+                   : row.kind == BillPart::tape ? masses.tape
+                   : row.kind == BillPart::line ? masses.lines
+                                                : masses.riser;
+    part += row.mass, masses.total += row.mass;
+  }
+  return masses;
+}
+
 double parachute_mass(const Settings& resolved) {
-  const CanopyMesh mesh = build_mesh(resolved.parachute(), resolved.materials());
-  double sum = 0;
-  for (const double mass : mesh.mass) sum += mass;
-  return sum;
+  return parachute_masses(resolved).total;
 }
 
 double suspended_weight(const Settings& resolved, double payload) {

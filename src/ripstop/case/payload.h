@@ -2,10 +2,25 @@
 #pragma once
 
 #include "ripstop/case/settings.h"
+#include "ripstop/parachute/cut.h"
 
 namespace ripstop {
 
-/// Of cloth, tape, lines and riser as meshed [kg].
+/// Masses of a parachute's parts [kg].
+struct PartMasses {
+  double cloth = 0, tape = 0, lines = 0, riser = 0, total = 0;  // vent lines are lines too
+};
+
+/// Pieces, tapes and lines of the parachute.
+CutPattern cut_pattern(const Settings& resolved);
+/// What is cut, and what it weighs: the one mass of a parachute. Hems, seam allowances, overlaps and line loops are sewn
+/// in and fly along.
+Bill parachute_bill(const Settings& resolved, const Allowances& allowances = {},
+                    double packing_density = packed_by_hand);
+PartMasses parachute_masses(const Settings& resolved);
+/// The total of parachute_masses() of a design of these materials [kg].
+double parachute_mass(const Design& design, const PartMaterials& materials);
+/// The total of parachute_masses() [kg].
 double parachute_mass(const Settings& resolved);
 /// Speed at which the usual drag of the canopy's family holds payload.mass_kg; where
 /// a search for the speed begins [m/s].

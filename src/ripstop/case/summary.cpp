@@ -9,25 +9,6 @@
 namespace ripstop {
 namespace {
 
-double length_of(const Mesh& mesh, const std::vector<int>& springs) {
-  double sum = 0;
-  for (int spring : springs) sum += mesh.springs[spring].rest_length;
-  return sum;
-}
-
-void weigh(const Settings& resolved, const CanopyMesh& mesh, CaseSummary& summary) {
-  const Rigging& rigging = mesh.rigging;
-  for (double mass : mesh.mass) summary.mass.total += mass;
-  summary.mass.cloth = summary.cloth_area * resolved.materials().canopy.areal_density_kg_m2;
-  double lines = length_of(mesh, rigging.vent_line_springs);
-  for (const LineRun& line : rigging.lines) lines += length_of(mesh, line.springs);
-  summary.mass.lines = lines * resolved.materials().line.linear_density_kg_m;
-  summary.mass.riser =
-      length_of(mesh, rigging.riser_springs) * resolved.materials().riser.linear_density_kg_m;
-  if (const std::optional<Tape>& tape = resolved.materials().tape)
-    summary.mass.tape = length_of(mesh, rigging.tape_springs) * tape->linear_density_kg_m;
-}
-
 void count_springs(const Mesh& mesh, CaseSummary& summary) {
   summary.smallest_spring = std::numeric_limits<double>::infinity();
   const auto count = [&](double rest_length, const std::string& part) {
@@ -60,7 +41,7 @@ CaseSummary summarize(const Settings& resolved) {
   summary.vent_area = canopy.vent_area;
   summary.slot_area = canopy.slot_area;
   summary.geometric_porosity = canopy.geometric_porosity();
-  weigh(resolved, mesh, summary);
+  summary.mass = parachute_masses(resolved);
 
   summary.nodes = mesh.node_count();
   summary.resolved_cloth_nodes = experience(resolved.parachute()).cloth_nodes;

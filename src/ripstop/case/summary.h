@@ -3,15 +3,11 @@
 
 #include <string>
 
-#include "ripstop/case/settings.h"
+#include "ripstop/case/case.h"
+#include "ripstop/case/payload.h"
 #include "ripstop/cloth/cloth.h"
 
 namespace ripstop {
-
-/// Masses of a parachute's parts [kg].
-struct PartMasses {
-  double cloth = 0, tape = 0, lines = 0, riser = 0, total = 0;  // vent lines are lines too
-};
 
 struct CaseSummary {
   double cloth_area = 0;                // as meshed, a polygon inside the cut cloth [m2]
@@ -19,7 +15,7 @@ struct CaseSummary {
   double nominal_area = 0;              // S0 that coefficients refer to [m2]
   double vent_area = 0, slot_area = 0;  // open, as constructed [m2]
   double geometric_porosity = 0;        // their share of the whole surface without fullness
-  PartMasses mass;
+  PartMasses mass;                      // as cut, see parachute_masses()
   int nodes = 0, cloth_nodes = 0;
   int resolved_cloth_nodes = 0;  // see Experience::cloth_nodes
   int springs = 0;               // of the lattice and outside it

@@ -62,6 +62,21 @@ StandardAir standard_air(double height) {
   return air;
 }
 
+double standard_height(double density) {
+  double low = lowest_height, high = highest_height;  // the density falls with the height
+  if (!(density <= standard_air(low).density && density >= standard_air(high).density))
+    throw Error(
+        ExitCode::usage,
+        fmt::format("a density of {:g} kg/m3: the standard atmosphere has {:.3g} to {:.3g} kg/m3 between "
+                    "{:g} and {:g} m",
+                    density, standard_air(high).density, standard_air(low).density, low, high));
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (standard_air(middle).density > density ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
 double density_ratio(double height, double fallen) {
   return standard_air(std::max(height - fallen, lowest_height)).density / standard_air(height).density;
 }

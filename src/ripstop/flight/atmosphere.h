@@ -23,6 +23,10 @@ double geopotential_height(double height);
 /// Error(usage) outside [lowest_height, highest_height].
 StandardAir standard_air(double height);
 
+/// The height at which the standard atmosphere has `density` [kg/m3] -> [m]. Throws Error(usage) for a density that it
+/// has nowhere between lowest_height and highest_height.
+double standard_height(double density);
+
 /// Density `fallen` metres below `height` over that at `height` [m]; below lowest_height that of lowest_height.
 double density_ratio(double height, double fallen);
 

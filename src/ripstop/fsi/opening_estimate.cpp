@@ -1,10 +1,14 @@
 #include "ripstop/fsi/opening_estimate.h"
 
+#include <utility>
+
 namespace ripstop {
 
-OpeningEstimate opening_estimate(const Design& design, double steady_drag) {
+OpeningEstimate opening_estimate(const Design& design, std::optional<double> drag, std::string drag_from) {
   const Experience known = experience(design);
-  return {known.opening_coefficient, known.opening_coefficient * steady_drag, known.opening_source};
+  OpeningEstimate estimate{known.opening_coefficient, drag, std::move(drag_from), {}, known.opening_source};
+  if (drag && known.opening_coefficient > 0) estimate.load = known.opening_coefficient * *drag;
+  return estimate;
 }
 
 }  // namespace ripstop

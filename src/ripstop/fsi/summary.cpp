@@ -59,6 +59,12 @@ std::ptrdiff_t rows_until(const std::vector<Row>& rows, double time) {
          rows.begin();
 }
 
+/// The first row whose interval begins at `start_up` or later; the first of all for 0.
+std::vector<HistoryRow>::const_iterator first_after(const std::vector<HistoryRow>& rows, double start_up) {
+  if (start_up <= 0) return rows.begin();
+  return rows.begin() + std::min<std::ptrdiff_t>(rows_until(rows, start_up) + 1, std::ssize(rows));
+}
+
 /// Over the rows that end in (from, to], the last of them at least.
 template <class Row>
 double mean_between(const std::vector<Row>& rows, double from, double to, double Row::*member) {
@@ -95,7 +101,8 @@ bool settled(const InflationSummary& summary, double duration) {
 
 std::vector<StageSummary> summarise_stages(const std::vector<HistoryRow>& rows,
                                            const std::vector<AirRow>& air, const std::vector<double>& lines,
-                                           const std::vector<double>& cuts, double low_pass_hz) {
+                                           const std::vector<double>& cuts, double low_pass_hz,
+                                           double start_up) {
   std::vector<StageSummary> stages;
   if (rows.empty()) return stages;
   std::vector<double> smooth;
@@ -105,9 +112,10 @@ std::vector<StageSummary> summarise_stages(const std::vector<HistoryRow>& rows,
     stage.begin = i == 0 ? 0 : cuts[i - 1];
     stage.end = i < cuts.size() ? cuts[i] : rows.back().time;
     if (i < lines.size()) stage.line = lines[i];
-    const auto first = rows.begin() + rows_until(rows, stage.begin);
     const auto last = rows.begin() + rows_until(rows, stage.end);
+    auto first = rows.begin() + rows_until(rows, stage.begin);
     if (first == last) continue;
+    if (const auto after = first_after(rows, start_up); after > first && after < last) first = after;
     const auto peak = std::max_element(first, last, [](auto& a, auto& b) { return a.largest < b.largest; });
     stage.peak_load = peak->largest, stage.peak_time = peak->time;
     if (!smooth.empty())
@@ -126,30 +134,40 @@ std::vector<StageSummary> summarise_stages(const std::vector<HistoryRow>& rows,
   return stages;
 }
 
-InflationSummary summarise(const std::vector<HistoryRow>& rows, double low_pass_hz) {
+HighestLoad highest_load(const std::vector<HistoryRow>& rows, double start_up) {
+  if (rows.empty()) return {};
+  auto first = first_after(rows, start_up);
+  if (first == rows.end()) first = rows.begin();
+  const auto peak =
+      std::max_element(first, rows.end(), [](auto& a, auto& b) { return a.largest < b.largest; });
+  return {peak->largest, peak->time};
+}
+
+InflationSummary summarise(const std::vector<HistoryRow>& rows, double low_pass_hz, double start_up) {
   InflationSummary summary;
   if (rows.empty()) return summary;
   std::vector<double> load = means_of(rows);
   const std::size_t last = rows.size() - std::max<std::size_t>(1, rows.size() / 5);
   const double count = static_cast<double>(rows.size() - last);
-  for (std::size_t i = last; i < rows.size(); ++i) summary.steady_load += load[i] / count;
+  for (std::size_t i = last; i < rows.size(); ++i) summary.last_load += load[i] / count;
   double variance = 0;
   for (std::size_t i = last; i < rows.size(); ++i)
-    variance += std::pow(load[i] - summary.steady_load, 2) / count;
-  summary.unsteadiness = std::sqrt(variance) / summary.steady_load;
+    variance += std::pow(load[i] - summary.last_load, 2) / count;
+  summary.unsteadiness = std::sqrt(variance) / summary.last_load;
 
   if (low_pass_hz > 0) {
     load = low_pass(load, rows.front().time, low_pass_hz);
-    const auto highest = std::max_element(load.begin(), load.end());
+    auto begin = load.begin() + (first_after(rows, start_up) - rows.begin());
+    if (begin == load.end()) begin = load.begin();
+    const auto highest = std::max_element(begin, load.end());
     summary.smooth_peak = *highest;
     summary.smooth_peak_time = rows[highest - load.begin()].time;
-    const auto full =
-        std::find_if(load.begin(), load.end(), [&](double f) { return f >= summary.steady_load; });
+    const auto full = std::find_if(begin, load.end(), [&](double f) { return f >= summary.last_load; });
     if (full != load.end()) summary.filling_time = rows[full - load.begin()].time;
-    summary.settling_time = settling_time(load, summary.steady_load, rows.front().time, 2 / low_pass_hz);
+    summary.settling_time = settling_time(load, summary.last_load, rows.front().time, 2 / low_pass_hz);
   }
   std::size_t settled = rows.size();
-  while (settled > 0 && std::abs(load[settled - 1] / summary.steady_load - 1) <= steady_band) --settled;
+  while (settled > 0 && std::abs(load[settled - 1] / summary.last_load - 1) <= steady_band) --settled;
   if (settled < rows.size()) summary.inflation_time = settled == 0 ? 0 : rows[settled - 1].time;
   return summary;
 }

@@ -9,20 +9,26 @@
 namespace ripstop {
 
 struct InflationSummary {
-  double steady_load = 0;                // mean over the last fifth of the run [N]
-  double unsteadiness = 0;               // standard deviation of the rows there, over steady_load
+  double last_load = 0;     // mean over the last fifth of the run; a steady load only where settled() [N]
+  double unsteadiness = 0;  // standard deviation of the rows there, over last_load
   std::optional<double> inflation_time;  // absent: still outside the band at the end [s]
   /// Of the low-passed load, absent without one; they hardly depend on single swings, as inflation_time does.
-  std::optional<double> filling_time;  // first at the steady load [s]
+  std::optional<double> filling_time;  // first at last_load [s]
   std::optional<double>
       settling_time;            // from then on within 10 % in the mean square over two cutoff periods [s]
   double smooth_peak = 0;       // of the low-passed history; 0: none asked for [N]
   double smooth_peak_time = 0;  // [s]
 };
 
-/// Until the row's mean stays within 10 % of the steady load: [NFM]. With a low-pass, of
-/// the low-passed history.
-InflationSummary summarise(const std::vector<HistoryRow>& rows, double low_pass_hz);
+/// Until the row's mean stays within 10 % of the last load: [NFM]. With a low-pass, of
+/// the low-passed history. Peaks and filling are sought after `start_up` [s].
+InflationSummary summarise(const std::vector<HistoryRow>& rows, double low_pass_hz, double start_up = 0);
+
+/// The largest load over every step of the rows that begin after `start_up` [s], of all rows where none does.
+struct HighestLoad {
+  double load = 0, time = 0;  // [N], [s]
+};
+HighestLoad highest_load(const std::vector<HistoryRow>& rows, double start_up);
 
 /// One stage of a reefed opening, from cut to cut; what comes after the last is one too. Times within a row.
 struct StageSummary {
@@ -51,12 +57,14 @@ void each_member(T& s, Visit&& visit) {
   visit("line_peak_time_s", s.line_peak_time);
 }
 
-/// Of an opening whose `lines` [m] were cut at `cuts` [s], as far as it has come. `air` may be empty.
+/// Of an opening whose `lines` [m] were cut at `cuts` [s], as far as it has come. `air` may be empty. Peaks are
+/// sought after `start_up` [s].
 std::vector<StageSummary> summarise_stages(const std::vector<HistoryRow>& rows,
                                            const std::vector<AirRow>& air, const std::vector<double>& lines,
-                                           const std::vector<double>& cuts, double low_pass_hz);
+                                           const std::vector<double>& cuts, double low_pass_hz,
+                                           double start_up = 0);
 
-/// Whether the steady load may be called one: the load has stayed within 10 % of it for the last tenth of the
+/// Whether the last load may be called a steady one: the load has stayed within 10 % of it for the last tenth of the
 /// opening's `duration` [s] at least, half of what it is the mean of.
 bool settled(const InflationSummary& summary, double duration);
 

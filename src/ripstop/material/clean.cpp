@@ -175,7 +175,8 @@ std::vector<Fall> falls_of(const std::vector<double>& smooth, double clear) {
   return falls;
 }
 
-/// Where the force stands still between two stretches, each as long, over which it rises clearly. Index of the middle of
+/// Where the force stands still between two stretches, each as long, over which it rises clearly. Index of the
+/// middle of
 /// the flattest such stretch.
 std::optional<std::size_t> plateau_of(const Pull& pull, std::size_t peak, double clear) {
   constexpr double still = 0.15;  // of the smaller of both rises; the knee of a nylon has a third

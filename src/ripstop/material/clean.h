@@ -30,7 +30,8 @@ struct CleanRecord {
 /// Sorts a few points out of order, takes off the load cell's offset and the slack, and leaves out what follows the
 /// highest force. The pull starts where nothing, followed by a quartic through zero, fits the points up to
 /// 30 % of the peak best: the toe compensation of ASTM D638 annex A1 with a curve in place of its straight
-/// line, and the slack as evidence too. Strain is on the stated length. A slip is a fall of the force, clear of noise and
+/// line, and the slack as evidence too. Strain is on the stated length. A slip is a fall of the force, clear of
+/// noise and
 /// above 2 % of the peak, that is taken back by half at least, or a stretch without rise between two that
 /// rise. Throws Error(bad_data) with file,
 /// line and reason for a record that cannot be one pull: too few points, more than 5 % of them going back,

@@ -36,7 +36,8 @@ double roughness(std::span<const double> f) {
   return *middle;
 }
 
-/// The step to which loads are rounded; 0: none is seen. Nine tenths of the differences between neighbouring levels must
+/// The step to which loads are rounded; 0: none is seen. Nine tenths of the differences between neighbouring levels
+/// must
 /// be whole multiples of it.
 double resolution(std::span<const double> f) {
   std::vector<double> levels(f.begin(), f.end()), gaps;
@@ -64,11 +65,13 @@ double mean_roughness(std::span<const double> f) {
 
 Trace::Trace(const CleanRecord& record) : f(record.load), start(record.slack) {
   for (double strain : record.strain) x.push_back(record.slack + strain * record.length);
-  // Fourth differences of white noise s have the standard deviation sqrt(70) s, and half of them are within 0.6745 of it.
+  // Fourth differences of white noise s have the standard deviation sqrt(70) s, and half of them are within 0.6745
+  // of it.
   coarse = roughness(f) / (0.6745 * std::sqrt(70.0)) < resolution(f);
 }
 
-/// Roughness of b minus its best multiple of a, which is read where b has points: at x of a = scale x of b + shift. Beside
+/// Roughness of b minus its best multiple of a, which is read where b has points: at x of a = scale x of b + shift.
+/// Beside
 /// the roughness of b there, or that of a as large, whichever is less.
 double ratio(const Trace& a, const Trace& b, double scale, double shift) {
   const std::size_t skip = b.x.size() > most ? (b.x.size() - most) / 2 : 0;

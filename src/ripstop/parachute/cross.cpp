@@ -202,6 +202,7 @@ Experience experience(const Cross&) {
           .drag_coefficient = {0.60, 0.85},
           .opening_coefficient = 1.15,  // 1.1 to 1.2
           .opening_source = knacke_transcribed,
+          .line_load_factor = 1.43,  // at the corners of the arms
           .cloth_nodes = 1500};
 }
 

@@ -126,25 +126,27 @@ Bill bill_of(const CutPattern& pattern, const Design& design, const PartMaterial
     const double finished = piece.count * polygon_area(piece.outline);
     const double cut = piece.count * polygon_area(with_allowance(piece, allowances));
     bill.rows.push_back({piece.name, materials.canopy.name, piece.count, finished, cut, true,
-                         cut * materials.canopy.areal_density_kg_m2});
+                         cut * materials.canopy.areal_density_kg_m2, BillPart::cloth});
   }
   const auto add_length = [&](const CutLength& part, const std::string& material, double extra,
-                              double density) {
+                              double density, BillPart kind) {
     const double cut = part.count * (part.length + extra);
     bill.rows.push_back(
-        {part.name, material, part.count, part.count * part.length, cut, false, cut * density});
+        {part.name, material, part.count, part.count * part.length, cut, false, cut * density, kind});
   };
   if (materials.tape)
     for (const CutLength& tape : pattern.tapes)
-      add_length(tape, materials.tape->name, allowances.tape_overlap, materials.tape->linear_density_kg_m);
+      add_length(tape, materials.tape->name, allowances.tape_overlap, materials.tape->linear_density_kg_m,
+                 BillPart::tape);
   std::vector<CutLength> lines = pattern.lines;
   lines.insert(lines.begin(),
                {"suspension line", design.lines.count, design.lines.length_m + pattern.line_on_canopy});
   for (const CutLength& line : lines)
-    add_length(line, materials.line.name, 2 * allowances.line_loop, materials.line.linear_density_kg_m);
+    add_length(line, materials.line.name, 2 * allowances.line_loop, materials.line.linear_density_kg_m,
+               BillPart::line);
   if (design.riser.length_m > 0)
     add_length({"riser", 1, design.riser.length_m}, materials.riser.name, 2 * allowances.line_loop,
-               materials.riser.linear_density_kg_m);
+               materials.riser.linear_density_kg_m, BillPart::riser);
   for (const BillRow& row : bill.rows) bill.mass += row.mass;
   bill.packed_volume = bill.mass / packing_density;
   return bill;

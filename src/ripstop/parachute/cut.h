@@ -58,12 +58,14 @@ CutPattern cut_pattern(const GorePattern& pattern, const Design& design);
 /// Of any family.
 CutPattern cut_pattern(const Design& design);
 
+enum class BillPart { cloth, tape, line, riser };
 struct BillRow {
   std::string part, material;
   int count = 0;
   double finished = 0, cut = 0;  // of all: [m2] of cloth, [m] of tape and line
   bool is_cloth = false;
   double mass = 0;  // as cut [kg]
+  BillPart kind = BillPart::cloth;
 };
 struct Bill {
   std::vector<BillRow> rows;

@@ -14,6 +14,9 @@ struct Experience {
   KnownRange drag_coefficient;     // on the nominal area, in descent: what swings and glides is in it
   double opening_coefficient = 0;  // C_x: peak over steady drag at infinite mass
   const char* opening_source = "";
+  /// Largest tension of a suspension line over the mean of all lines in steady flow; 1: not computed. Of the example
+  /// of the family: `ripstop steady examples/<family>/case.toml`, lines.csv.
+  double line_load_factor = 1;
   /// Cloth nodes from which on the projected diameter under uniform pressure changes by less than 1 % when
   /// the mesh is made finer. Measured on the examples, whose cloth wrinkles or stands taut, from 1,500 to 25,000
   /// nodes (docs/guide/canopies.md, How fine a mesh). What counts is the spacing over the canopy's size, so the

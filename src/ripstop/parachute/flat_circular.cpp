@@ -31,6 +31,7 @@ Experience experience(const FlatCircular&) {
           .drag_coefficient = {0.75, 0.80},
           .opening_coefficient = 1.7,
           .opening_source = knacke_transcribed,
+          .line_load_factor = 1.02,
           .cloth_nodes = 1500};
 }
 

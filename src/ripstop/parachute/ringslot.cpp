@@ -78,6 +78,7 @@ Experience experience(const Ringslot&) {
           .drag_coefficient = {0.56, 0.65},
           .opening_coefficient = 1.05,
           .opening_source = knacke_transcribed,
+          .line_load_factor = 1.03,
           .cloth_nodes = 6000};
 }
 

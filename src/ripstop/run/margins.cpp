@@ -1,5 +1,7 @@
 #include "ripstop/run/margins.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
 
@@ -27,6 +29,52 @@ Margins case_margins(const Settings& resolved, const CanopyMesh& mesh,
   const std::optional<Tape>& tape = resolved.materials().tape;
   return margins_of(loads, resolved.margins(), resolved.materials().canopy, tape ? &*tape : nullptr,
                     resolved.materials().line, riser);
+}
+
+Margins load_margins(const Settings& resolved, double load) {
+  const PartMaterials& materials = resolved.materials();
+  return load_margins(resolved.parachute(), resolved.margins(), materials.canopy, load, materials.line,
+                      materials.riser);
+}
+
+Margins load_margins(const Design& design, const MarginFactors& factors, const Fabric& cloth, double load,
+                     const Line& line, const Line& riser) {
+  MemberLoads loads;
+  loads.lines = {experience(design).line_load_factor * load / design.lines.count};
+  if (design.riser.length_m > 0) loads.riser = load;
+  Margins margins = margins_of(loads, factors, cloth, nullptr, line, riser);
+  std::erase_if(margins.members,
+                [](const Margin& m) { return m.member == "cloth"; });  // its load is not known
+  for (Margin& m : margins.members)
+    if (m.member == "line 1") m.member = "line";
+  const Margin* least = weakest(margins);
+  margins.weakest = least ? least->member : "";
+  return margins;
+}
+
+std::vector<Margin> weakest_of_kinds(const Margins& margins) {
+  std::vector<Margin> rows;
+  for (const Margin& m : margins.members) {
+    const bool line = m.member.starts_with("line ");
+    if (line && !rows.empty() && rows.back().member.starts_with("line ")) {
+      if (m.used.value_or(0) > rows.back().used.value_or(0)) rows.back() = m;
+      continue;
+    }
+    rows.push_back(m);
+  }
+  return rows;
+}
+
+std::vector<std::string> margin_warnings(const std::optional<Margins>& margins) {
+  std::vector<std::string> all;
+  if (!margins) return all;
+  for (const Margin& m : weakest_of_kinds(*margins))
+    if (m.margin && *m.margin < 0)
+      all.push_back(fmt::format(
+          "the {} does not hold: its load of {:.4g} {} with the safety factor is {:.3g} times the "
+          "allowable {:.4g} {} (margin of safety {:+.2f}); take a stronger material",
+          m.member, m.load, m.unit, *m.used, *m.strength * m.knock_down, m.unit, *m.margin));
+  return all;
 }
 
 }  // namespace ripstop

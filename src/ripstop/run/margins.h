@@ -1,6 +1,10 @@
 // The margins of a result, and the list of their members.
 #pragma once
 
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "ripstop/canopy/margins.h"
 #include "ripstop/canopy/stress.h"
 #include "ripstop/case/settings.h"
@@ -30,5 +34,16 @@ void each_member(T& m, Visit&& visit) {
 Margins case_margins(const Settings& resolved, const CanopyMesh& mesh,
                      const std::vector<double>& spring_tensions, const StressPeak& stress,
                      const std::vector<double>& reefing_tensions = {});
+
+/// Of lines and riser under an opening load [N]: a line carries an equal share of it times the family's line_load_factor.
+Margins load_margins(const Design& design, const MarginFactors& factors, const Fabric& cloth, double load,
+                     const Line& line, const Line& riser);
+Margins load_margins(const Settings& resolved, double load);
+
+/// One row a kind of member: of the lines the weakest.
+std::vector<Margin> weakest_of_kinds(const Margins& margins);
+
+/// In words, every kind of member whose margin of safety is below 0.
+std::vector<std::string> margin_warnings(const std::optional<Margins>& margins);
 
 }  // namespace ripstop

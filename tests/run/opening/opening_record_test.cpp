@@ -18,12 +18,13 @@ struct OpeningRecords : testing::Test {
   Case given = checked(flat_circular_case(2, 600, 10));  // q = 60 Pa
   std::filesystem::path folder = root.path / "opened";
 
-  void write(const CsvTable& history, double steady, const CsvTable* smooth = nullptr) {
+  void write(const CsvTable& history, const CsvTable* smooth = nullptr, const CsvTable* air = nullptr) {
     std::filesystem::remove_all(folder);
     const auto claimed = open_run_folder({folder}, resolve(given), "inflation", 1);
     write_csv(claimed->own("history.csv"), history);
     if (smooth) write_csv(claimed->own("history_low_pass.csv"), *smooth);
-    write_file(claimed->own("result.json"), "{\"steady_load_n\": " + csv_number(steady) + "}");
+    if (air) write_csv(claimed->own("air.csv"), *air);
+    write_file(claimed->own("result.json"), "{\"peak_load_n\": 500}");
     claimed->seal();
   }
   std::string refusal(ExitCode code, const Case& asked) const {
@@ -35,7 +36,7 @@ const CsvTable opening_history{{"time_s", "load_mean_n", "load_largest_n"},
                                {{0.1, -6, 1}, {0.2, 30, 99}, {0.2, 500, 500}, {0.3, 120, 130}}};
 
 TEST_F(OpeningRecords, IsLoadOverDynamicPressureOverTheWayAndGoesOnWithoutARepeatedTime) {
-  write(opening_history, 90);
+  write(opening_history);
   const OpeningRecord record = opening_record(folder, resolve(given));
   ASSERT_EQ(record.distance.size(), 3u);
   const double way[] = {1, 2, 3}, area[] = {0, 0.5, 2};
@@ -43,26 +44,46 @@ TEST_F(OpeningRecords, IsLoadOverDynamicPressureOverTheWayAndGoesOnWithoutARepea
     EXPECT_DOUBLE_EQ(record.distance[i], way[i]);
     EXPECT_DOUBLE_EQ(record.drag_area[i], area[i]);
   }
-  EXPECT_DOUBLE_EQ(record.steady_drag_area, 1.5);
+  EXPECT_DOUBLE_EQ(record.steady_drag_area, 2);  // the mean of the last fifth
 }
 
 TEST_F(OpeningRecords, TakesTheLowPassedLoadWhereThereIsOne) {
   const CsvTable smooth{{"time_s", "load_n"}, {{0.5, 60}}};
-  write(opening_history, 90, &smooth);
+  write(opening_history, &smooth);
   const OpeningRecord record = opening_record(folder, resolve(given));
   EXPECT_EQ(record.distance, std::vector<double>{5});
   EXPECT_EQ(record.drag_area, std::vector<double>{1});
 }
 
+// The speed halves and the path is no longer speed times time: both are those of air.csv, in between in proportion.
+TEST_F(OpeningRecords, OfAPayloadHasTheSpeedAndThePathOfItsFlight) {
+  given.payload.mass_kg = 2;
+  given.inflation.mass = InflationSettings::Mass::payload;
+  given.inflation.air = AirModel::coupled;
+  const CsvTable air{{"time_s", "speed_m_s", "path_m", "height_lost_m"},
+                     {{0.1, 8, 0.9, 0.9}, {0.2, 5, 1.6, 1.6}, {0.4, 4, 2.4, 2.4}}};
+  const CsvTable history{{"time_s", "load_mean_n", "load_largest_n"},
+                         {{0.1, 76.8, 80}, {0.2, 30, 31}, {0.3, 12.15, 13}}};
+  write(history, nullptr, &air);
+  const OpeningRecord record = opening_record(folder, resolve(given));
+  const double way[] = {0.9, 1.6, 2}, area[] = {2, 2, 1};  // q = 38.4, 15 and 12.15 Pa
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_NEAR(record.distance[i], way[i], 1e-12) << i;
+    EXPECT_NEAR(record.drag_area[i], area[i], 1e-12) << i;
+  }
+  write(history);
+  EXPECT_NE(refusal(ExitCode::bad_data, given).find("needs air.csv"), std::string::npos);
+}
+
 TEST_F(OpeningRecords, OfAnotherParachuteOrWithoutALoadIsRefused) {
-  write(opening_history, 90);
+  write(opening_history);
   const Case larger = checked(flat_circular_case(2.1, 600, 10));
   EXPECT_EQ(
       refusal(ExitCode::usage, larger),
       folder.string() + ": is an opening of another parachute: S0 is 3.14159 m2 there and 3.46361 m2 here");
-  write(opening_history, 0);
+  write({opening_history.columns, {{0.1, 0, 0}}});
   EXPECT_EQ(refusal(ExitCode::bad_data, given), folder.string() + ": its history has no load");
-  write({opening_history.columns, {}}, 90);
+  write({opening_history.columns, {}});
   EXPECT_EQ(refusal(ExitCode::bad_data, given), folder.string() + ": its history has no load");
   folder = root.path / "nowhere";
   EXPECT_EQ(refusal(ExitCode::usage, given), folder.string() + ": holds no finished run of ripstop inflate");

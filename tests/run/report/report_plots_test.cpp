@@ -102,7 +102,7 @@ TEST_F(ReportPlots, OfAnOpeningHaveItsLevelsAndRunOverTheTimeOfItsFrames) {
   const ReportPlot& load = plots[0];
   EXPECT_EQ(names_of(load),
             (std::vector<std::string>{"largest in the interval", "load", "low-passed", "steady",
-                                      "Knacke's estimate", "peak of the source's model"}));
+                                      "infinite mass, C_x C_D S0 q", "peak of the source's model"}));
   EXPECT_EQ(load.series[0].y, (Numbers{21, 22}));
   EXPECT_EQ(load.series[1].y, (Numbers{11, 12}));
   EXPECT_EQ(load.series[2].y, (Numbers{11, 12}));

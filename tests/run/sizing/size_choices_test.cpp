@@ -58,7 +58,7 @@ TEST(SizeChoices, TheLineIsTheLightestOfTheLibraryThatHolds) {
   EXPECT_LE(density(light.line_material), density(heavy.line_material));
   EXPECT_NE(light.line_material, heavy.line_material);
   const double allowed = heavy.line_used;
-  EXPECT_LE(allowed, 1.1);  // chosen before the last change of size
+  EXPECT_LE(allowed, 1);
   for (const std::string& name : library_names()) {
     const Material material = library_material(name);
     const Line* line = std::get_if<Line>(&material);
@@ -66,17 +66,17 @@ TEST(SizeChoices, TheLineIsTheLightestOfTheLibraryThatHolds) {
     asked.line_material = name;
     const SizeResult with = run_size(asked);
     EXPECT_EQ(with.line_material, name);
-    EXPECT_TRUE(with.line_used == 0 || with.line_used > 0.97) << name << " holds and is lighter";
+    EXPECT_TRUE(with.line_used == 0 || with.line_used > 1) << name << " holds and is lighter";
   }
 }
 
-TEST(SizeChoices, WhereNoLineHoldsItSaysSo) {
+TEST(SizeChoices, WhereNoLineHoldsTheStrongestIsTakenAndItSaysSo) {
   SizeRequest asked = wanted(20000, 20);
   asked.deployment_speed = 250;
   const SizeResult r = run_size(asked);
-  ASSERT_EQ(r.warnings.size(), 1u);
-  EXPECT_EQ(r.warnings[0].find("no line of the library holds "), 0u) << r.warnings[0];
-  EXPECT_NE(r.warnings[0].find(fmt::format("on {} lines", r.line_count)), std::string::npos) << r.warnings[0];
+  EXPECT_GT(r.line_used, 1);
+  ASSERT_FALSE(r.warnings.empty());
+  EXPECT_EQ(r.warnings[0].find("the line does not hold"), 0u) << r.warnings[0];
 }
 
 // Near the ground the opening is flown from a hundred metres.
@@ -116,13 +116,13 @@ TEST(SizeChoices, ItsCaseFileSaysItsNumbersInComments) {
   has(fmt::format("  # {:.2f} to {:.2f} by the handbook's range of C_D", r.handbook_diameter->at(1),
                   r.handbook_diameter->at(0)));
   has(fmt::format("  # {:.2f} % of the area", 100 * r.vent_area / r.nominal_area));
-  has(fmt::format("  # {:.0f} % of its strength after losses", 100 * r.line_used));
+  has(fmt::format("  # {:.0f} % of its allowable load", 100 * r.line_used));
   has(fmt::format(
       "# Parachute {:.3g} kg: cloth {:.3g}, tape {:.3g}, lines {:.3g}; packed {:.3g} litres at {:g} kg/m3",
       r.parachute_mass, r.cloth_mass, r.tape_mass, r.line_mass, 1000 * r.packed_volume,
       wanted().packing_density));
-  has(fmt::format("# Opening load {:.0f} to {:.0f} N behind 2.4 kg at 20 m/s", r.opening_load_low,
-                  r.opening_load));
+  has(fmt::format("# Design load {:.0f} N behind 2.4 kg at 20 m/s: infinite mass", r.design_load));
+  has(fmt::format("[inflation]\ndrag_coefficient = {}", r.drag_coefficient));
   has("speed_m_s = 5  # where the search begins");
 }
 

@@ -13,6 +13,7 @@
 #include "ripstop/core/file.h"
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/run/report/report_tables.h"
+#include "ripstop/run/sizing/pattern.h"
 #include "ripstop/run/sizing/size_report.h"
 #include "tests/refusal.h"
 
@@ -67,8 +68,7 @@ TEST(Size, OfEveryFamilyHoldsPayloadAndParachuteAtTheRate) {
     const double weight = (2.4 + r.parachute_mass) * standard_gravity;
     const double force = 0.5 * standard_air(300).density * 25 * r.drag_coefficient * r.nominal_area;
     EXPECT_NEAR(force / weight, 1, 2e-3) << drag.family;
-    EXPECT_NEAR(r.cloth_mass + r.tape_mass + r.line_mass, r.parachute_mass, 0.02 * r.parachute_mass)
-        << drag.family;
+    EXPECT_NEAR(r.cloth_mass + r.tape_mass + r.line_mass, r.parachute_mass, 1e-12) << drag.family;
     EXPECT_GT(r.packed_volume, 0);
     EXPECT_GT(r.opening_load, 24) << drag.family;
     EXPECT_GT(r.line_used, 0);
@@ -78,8 +78,7 @@ TEST(Size, OfEveryFamilyHoldsPayloadAndParachuteAtTheRate) {
 
 TEST(Size, TapeHoldsTheOpeningLoadAndIsNoneWhereAHemDoes) {
   const SizeResult light = run_size(sized());
-  EXPECT_EQ(light.tape_material, "none");
-  EXPECT_EQ(light.tape_mass, 0);
+  EXPECT_EQ(light.tape_material == "none", light.tape_mass == 0);
   SizeRequest asked = sized();
   asked.payload_mass = 100, asked.deployment_speed = 30;
   const SizeResult heavy = run_size(asked);
@@ -88,7 +87,7 @@ TEST(Size, TapeHoldsTheOpeningLoadAndIsNoneWhereAHemDoes) {
   ASSERT_TRUE(tape);
   EXPECT_EQ(tape->name, heavy.tape_material);
   const double left = tape->break_load_n * 0.8 * 0.95 * 0.95 * 0.95 / 1.5;
-  EXPECT_GE(left, 0.9 * heavy.opening_load / heavy.line_count);  // chosen before the last change of size
+  EXPECT_GE(left, heavy.line_load_factor * heavy.design_load / heavy.line_count);
   EXPECT_GT(heavy.tape_mass, 0);
   EXPECT_NE(
       heavy.case_text.find("material = \"" + heavy.tape_material + "\"  # the lightest tape that holds"),
@@ -144,8 +143,12 @@ TEST(Size, ItsReportHasItsNumbersAndEveryMethodsLoad) {
   ASSERT_EQ(report.runs.size(), 1u);
   const ReportRun& page = report.runs.front();
   EXPECT_EQ(number_of(page, "nominal_diameter_m"), r.nominal_diameter);
-  for (const std::string& key : page.headline) EXPECT_FALSE(std::isnan(number_of(page, key))) << key;
-  for (const char* key : {"nominal_diameter_m", "parachute_mass_kg", "opening_load_n"})
+  for (const std::string& key : page.headline) {
+    if (key != "weakest_member") {
+      EXPECT_FALSE(std::isnan(number_of(page, key))) << key;
+    }
+  }
+  for (const char* key : {"nominal_diameter_m", "parachute_mass_kg", "design_load_n"})
     EXPECT_EQ(std::count(page.headline.begin(), page.headline.end(), key), 1) << key;
   const auto methods = std::find_if(page.tables.begin(), page.tables.end(), [](const ReportTable& table) {
     return table.id.find("methods") != std::string::npos;
@@ -159,6 +162,81 @@ TEST(Size, ItsReportHasItsNumbersAndEveryMethodsLoad) {
   EXPECT_LT(speed.y.back(), 0.5 * r.deployment_speed);
   EXPECT_NEAR(speed.x.back() / (3 * r.opening.front().filling_time), 1, 0.1);
   EXPECT_EQ(page.case_file, r.case_text);
+}
+
+SizeRequest wish(double mass, double rate, double height, const std::string& family = "flat-circular") {
+  SizeRequest r;
+  r.payload_mass = mass, r.descent_rate = rate, r.height = height, r.family = family;
+  return r;
+}
+
+/// What holds over what pulls, from the parachute that was found and what is cut for it.
+double drag_over_weight(const SizeRequest& asked, const SizeResult& r) {
+  const double q = 0.5 * standard_air(asked.height).density * asked.descent_rate * asked.descent_rate;
+  const double mass = asked.payload_mass + run_pattern(resolve(r.given), {}, 400).bill.mass;
+  return q * r.drag_coefficient * nominal_area(r.given.parachute) / (mass * standard_gravity);
+}
+
+// Inputs whose iteration had not converged or had no solution: 94 and 82 % of the weight held, a diameter of 2388 m,
+// 13 GB, a run without end, an opening at -4111 m.
+TEST(Size, IsFoundOrRefusedWithTheReason) {
+  const auto why = [](const SizeRequest& asked) {
+    return refusal_of([&] { run_size(asked); }, ExitCode::usage);
+  };
+  for (const double rate : {1.0, 0.9}) {
+    const SizeRequest asked = wish(0.5, rate, 0);
+    try {
+      EXPECT_NEAR(drag_over_weight(asked, run_size(asked)), 1, 2e-3) << rate;
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find("m/s without a payload"), std::string::npos) << error.what();
+    }
+  }
+  SizeRequest thin = wish(2.4, 5, 0);
+  thin.density = 0.02;
+  EXPECT_NE(why(thin).find("this cloth (f-111-physical, with lines and seams) descends at "),
+            std::string::npos)
+      << why(thin);
+  EXPECT_NE(why(wish(2.4, 5, 79000)).find("m/s without a payload"), std::string::npos);
+  EXPECT_NE(why(wish(1e6, 0.1, 0)).find("m/s without a payload"), std::string::npos);
+  EXPECT_NE(why(wish(1e5, 5, 0)).find("is at most 100 m"), std::string::npos) << why(wish(1e5, 5, 0));
+  EXPECT_NE(why(wish(1e-6, 50, 0)).find("is at least"), std::string::npos) << why(wish(1e-6, 50, 0));
+  EXPECT_NE(why(wish(5, 2, 20000)).find("m/s without a payload"), std::string::npos)
+      << why(wish(5, 2, 20000));
+}
+
+// One cloth, one seam allowance: the rate of the cloth alone is the limit of sizes without a payload.
+TEST(Size, TheRateOfTheClothAloneIsTheSlowestThatIsFound) {
+  const std::string told = refusal_of([] { run_size(wish(0.5, 0.1, 0)); }, ExitCode::usage);
+  const double alone = std::stod(told.substr(told.find("descends at ") + 12));
+  EXPECT_GT(alone, 0.3);
+  EXPECT_LT(alone, 2);
+  const SizeRequest above = wish(1e-2, 1.2 * alone, 0);
+  EXPECT_NEAR(drag_over_weight(above, run_size(above)), 1, 2e-3);
+  EXPECT_NE(
+      refusal_of([&] { run_size(wish(1e-2, 0.95 * alone, 0)); }, ExitCode::usage).find("without a payload"),
+      std::string::npos);
+}
+
+// A sample of the grid of validation/reliability/size_grid.py.
+TEST(Size, OverMassRateHeightAndFamilyIsBalancedOrRefused) {
+  int found = 0, refused = 0;
+  for (const double mass : {0.001, 0.1, 10.0, 1e5})
+    for (const double rate : {0.1, 2.0, 8.0, 100.0})
+      for (const double height : {0.0, 12000.0, 80000.0})
+        for (const char* family : {"flat-circular", "cross"}) {
+          const SizeRequest asked = wish(mass, rate, height, family);
+          try {
+            const SizeResult r = run_size(asked);
+            EXPECT_NEAR(drag_over_weight(asked, r), 1, 2e-3) << mass << " " << rate << " " << height;
+            checked(r.given);  // within the ranges of the case file
+            ++found;
+          } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ExitCode::usage) << error.what();
+            ++refused;
+          }
+        }
+  EXPECT_GT(found, 20);
+  EXPECT_GT(refused, 20);
 }
 
 TEST(Size, WhatCannotBeIsRefused) {

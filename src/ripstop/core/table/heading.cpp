@@ -207,7 +207,8 @@ std::vector<std::string> tokens_of(const std::string& text) {
   return tokens;
 }
 
-/// German and Dutch words that end compounds: "Standardkraft". Not words of other languages: an extension is no tension.
+/// German and Dutch words that end compounds: "Standardkraft". Not words of other languages: an extension is no
+/// tension.
 constexpr std::string_view last_parts[]{"widerstand",
                                         "weerstand",
                                         "spannung",

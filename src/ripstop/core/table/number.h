@@ -22,7 +22,8 @@ enum class NumberForm {
 /// `text` has no blanks at its ends.
 NumberForm form_of(std::string_view text);
 
-/// The value with this decimal mark ('.' or ','); the other mark, blanks and apostrophes group digits. Empty: not a finite
+/// The value with this decimal mark ('.' or ','); the other mark, blanks and apostrophes group digits. Empty: not a
+/// finite
 /// number, or digits are not grouped in threes.
 std::optional<double> number_of(std::string_view text, char decimal);
 

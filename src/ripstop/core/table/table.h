@@ -56,7 +56,8 @@ struct Table {
   std::vector<std::string> notes;   // lines that were left out, and why
 };
 
-/// A column that cannot be read (no unit, no number, two ways to read it) is refused here, but where `format.wanted` is not
+/// A column that cannot be read (no unit, no number, two ways to read it) is refused here, but where
+/// `format.wanted` is not
 /// empty only when it is asked for: a record with an extension may have a strain without a unit. Throws
 /// Error(bad_data) with file, line, column, value and remedy, Error(io).
 Table read_table(const std::filesystem::path& file, const Format& format = {});

@@ -12,7 +12,8 @@ struct Text {
   std::string encoding;  // "UTF-8", "UTF-16", "Windows-1252"
 };
 
-/// UTF-8 or UTF-16 by their mark; without one UTF-16 where every other byte is mostly 0, UTF-8 where the bytes are valid,
+/// UTF-8 or UTF-16 by their mark; without one UTF-16 where every other byte is mostly 0, UTF-8 where the bytes are
+/// valid,
 /// else Windows-1252, which includes Latin-1. Throws Error(bad_data) for workbooks and other binary files.
 Text decode(const std::string& bytes, const std::filesystem::path& file);
 

@@ -120,7 +120,8 @@ void scale(State& s, const Freestream& from, const Freestream& to) {
   by(f.u, speed), by(f.v, speed), by(f.w, speed), by(f.p, pressure), by(f.rho, density);
   by(f.k, speed * speed), by(f.omega, speed), by(f.fx, flux), by(f.fy, flux), by(f.fz, flux);
   stop_the_clock(s);
-  by(s.outlet_p, pressure), by(s.face_p, pressure), by(s.held, pressure), by(s.change, pressure), by(s.drop, pressure);
+  by(s.outlet_p, pressure), by(s.face_p, pressure), by(s.held, pressure), by(s.change, pressure),
+      by(s.drop, pressure);
   s.force = pressure * s.force;
   Means& m = s.mean;
   m.u *= speed, m.v *= speed, m.w *= speed, m.p *= pressure, m.k *= speed * speed, m.omega *= speed;

@@ -19,7 +19,7 @@ const Page = (() => {
   function warnings(run) {
     if (!run.warnings.length) return null;
     return element("div", { class: "callout", role: "note", "data-part": "warnings" }, element("strong", {}, "To know about these numbers"),
-      element("ul", {}, run.warnings.map((text) => element("li", {}, text))));
+      element("ul", {}, run.warnings.map((text) => element("li", { class: /does not hold|must not be used/.test(text) ? "bad" : "" }, text))));
   }
 
   function plotGrid(plots, clock) {

@@ -8,6 +8,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/flight/descent.h"
+#include "ripstop/flight/validity.h"
 #include "ripstop/run/json.h"
 
 namespace ripstop {
@@ -36,6 +37,7 @@ Descent run_descent(const FinishedSteady& run, double payload_mass, const std::v
   result.run_speed = run.result.speed;
   result.ground = ground;
   const double mass = payload_mass + run.parachute_mass;
+  const double reference_length = nominal_diameter(run.resolved.parachute());
   const double of_speed = 0.5 * run.drag_uncertainty;  // v goes with the root of the drag area
   for (const double height : heights) {
     DescentRow row;
@@ -43,6 +45,12 @@ Descent run_descent(const FinishedSteady& run, double payload_mass, const std::v
     row.density = standard_air(height).density;
     row.speed = terminal_speed(mass, result.drag_area, row.density);
     row.speed_uncertainty = of_speed * row.speed;
+    const StandardAir air = standard_air(height);
+    const double reynolds = row.density * row.speed * reference_length / air.viscosity;
+    for (const std::string& text :
+         outside_range(scaled_drag_model,
+                       {{"Mach number", row.speed / air.sound_speed}, {"Reynolds number", reynolds}}))
+      result.warnings.push_back(fmt::format("at a height of {:g} m: {}", height, text));
     if (height > ground) {
       row.time = descent_time(mass, result.drag_area, height, ground);
       row.time_uncertainty = of_speed * *row.time;

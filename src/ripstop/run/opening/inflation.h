@@ -11,6 +11,7 @@
 #include "ripstop/fsi/opening_estimate.h"
 #include "ripstop/fsi/summary.h"
 #include "ripstop/run/margins.h"
+#include "ripstop/run/opening/method_load.h"
 
 namespace ripstop {
 
@@ -18,15 +19,18 @@ namespace ripstop {
 struct InflationResult {
   std::string title;
   std::optional<std::string> inputs_hash;  // of a run in a folder: that of its run.json
-  double peak_load = 0, peak_time = 0;     // over every step [N], [s]
-  std::optional<double> low_pass;          // cutoff [Hz]; absent, as what follows from it: none asked for
-  std::optional<double> smooth_peak;       // low-passed [N]
+  double peak_load = 0, peak_time = 0;     // over every step after the start-up [N], [s]
+  std::optional<double> start_up_time;  // of the air, which begins impulsively: until then no peak counts [s]
+  std::optional<double> start_up_peak;  // over every step until then [N]
+  std::optional<double> low_pass;       // cutoff [Hz]; absent, as what follows from it: none asked for
+  std::optional<double> smooth_peak;    // low-passed [N]
   std::optional<double> smooth_peak_time;  // [s]
   std::optional<double> smooth_overshoot;  // over the steady load
-  InflationSummary summary;
+  InflationSummary summary;                // without the times that rest on a steady load where there is none
+  std::optional<double> steady_load;       // absent: not settled, or of a payload, whose speed falls [N]
   std::optional<std::vector<StageSummary>> stages;  // of a reefed opening
-  bool settled = false;                             // the steady load is one: settled() of the summary
-  double overshoot = 0;                             // peak over steady load
+  bool settled = false;                             // settled() of the summary
+  std::optional<double> overshoot;                  // peak over steady load
   double impulse = 0;                               // [N s]
   std::optional<double> pressure;                   // uniform [Pa]
   std::optional<double> drag_area;                  // C_D S in the air, the largest of a step [m2]
@@ -44,12 +48,17 @@ struct InflationResult {
   double max_line_tension = 0;     // [N]
   StressPeak stress;
   double stress_time = 0;  // [s]
-  double break_load = 0;   // of the cloth [N/m]; 0: unknown; not in result.json
   std::optional<Margins> margins;
-  std::optional<double> cloth_margin;  // break load over the higher of both yarns' forces
-  double energy_residual = 0;          // largest |residual| of all frames after the first tenth of the work
-  double contact_depth = 0, pierced = 0;  // largest of all frames, see InflationFrame
+  double energy_residual = 0;  // largest |residual| of all frames after the first tenth of the work
+  std::optional<double> momentum_residual;  // of the air: largest momentum gap of a step over the peak load
+  double contact_depth = 0, pierced = 0;    // largest of all frames, see InflationFrame
+  std::optional<double> cells_across;       // of the air, across the inflated canopy
   OpeningEstimate estimate;
+  std::optional<double> opening_force_coefficient;   // C_x of this opening: peak over C_D S q, infinite mass
+  std::optional<double> finite_mass_factor;          // X_1 of this opening: peak over C_x C_D S q
+  std::vector<MethodLoad> handbook;                  // of a payload: the same drop by the handbook methods
+  std::optional<std::vector<std::string>> warnings;  // absent in results of earlier versions, as is `usable`
+  std::optional<bool> usable;                        // false: a quality limit that must hold does not
   long long steps = 0;
   int step_changes = 0;
 };
@@ -59,6 +68,8 @@ void each_member(T& r, Visit&& visit) {
   visit("inputs_hash", r.inputs_hash);
   visit("peak_load_n", r.peak_load);
   visit("peak_time_s", r.peak_time);
+  visit("start_up_time_s", r.start_up_time);
+  visit("start_up_peak_load_n", r.start_up_peak);
   visit("low_pass_hz", r.low_pass);
   visit("low_pass_peak_load_n", r.smooth_peak);
   visit("low_pass_peak_time_s", r.smooth_peak_time);
@@ -66,11 +77,12 @@ void each_member(T& r, Visit&& visit) {
   visit("inflation_time_s", r.summary.inflation_time, or_null);
   visit("filling_time_s", r.summary.filling_time);
   visit("settling_time_s", r.summary.settling_time);
-  visit("steady_load_n", r.summary.steady_load);
-  visit("steady_load_deviation", r.summary.unsteadiness);
+  visit("steady_load_n", r.steady_load, or_null);
+  visit("last_load_n", r.summary.last_load);
+  visit("last_load_deviation", r.summary.unsteadiness);
   visit("stages", r.stages);
   visit("settled", r.settled);
-  visit("overshoot", r.overshoot);
+  visit("overshoot", r.overshoot, or_null);
   visit("impulse_n_s", r.impulse);
   visit("pressure_pa", r.pressure);
   visit("drag_area_peak_m2", r.drag_area);
@@ -98,19 +110,27 @@ void each_member(T& r, Visit&& visit) {
   visit("max_von_mises_time_s", r.stress_time);
   sewing_members(r.stress, visit);
   visit("max_cloth_strain", r.stress.strain);
-  visit("cloth_margin", r.cloth_margin);
   visit("margins", r.margins);
   visit("energy_residual", r.energy_residual);
+  visit("momentum_residual", r.momentum_residual);
   visit("contact_depth", r.contact_depth);
   visit("pierced_edges", r.pierced);
-  visit("knacke_load_n", r.estimate.load);
+  visit("cells_across", r.cells_across);
+  visit("knacke_load_n", r.estimate.load, or_null);
   visit("knacke_coefficient", r.estimate.coefficient);
+  visit("knacke_drag_n", r.estimate.drag, or_null);
+  visit("knacke_drag_from", r.estimate.drag_from);
   visit("knacke_source", r.estimate.source);
+  visit("opening_force_coefficient", r.opening_force_coefficient);
+  visit("finite_mass_factor", r.finite_mass_factor);
+  visit("handbook", r.handbook);
   visit("steps", r.steps);
   visit("step_changes", r.step_changes);
   visit("measured_peak_n", r.settings.measured_peak_n);
   visit("measured_inflation_time_s", r.settings.measured_inflation_time_s);
   visit("printed_peak_n", r.settings.printed_peak_n);
+  visit("warnings", r.warnings);
+  visit("usable", r.usable);
 }
 std::string to_json(const InflationResult& result);
 

@@ -351,8 +351,8 @@ Plot load_plot(const std::vector<HistoryRow>& rows, const std::vector<double>& s
     if (value_n)
       plot.series.push_back({name, {0, settings.duration_s}, {*value_n, *value_n}, true, false, true});
   };
-  level("steady", r.summary.steady_load);
-  level("Knacke", r.estimate.load);
+  level("steady", r.steady_load);
+  level("infinite mass, C_x C_D S0 q", r.estimate.load);
   level("measured peak", settings.measured_peak_n);
   level("peak of the source's model", settings.printed_peak_n);
   return plot;

@@ -1,6 +1,7 @@
 #include "ripstop/run/opening/load.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +12,10 @@
 #include "ripstop/core/positive.h"
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/flight/descent.h"
+#include "ripstop/flight/validity.h"
 #include "ripstop/run/json.h"
 #include "ripstop/run/opening/filling.h"
+#include "ripstop/run/opening/handbook.h"
 #include "ripstop/run/opening/opening_record.h"
 #include "ripstop/run/steady/finished_steady.h"
 
@@ -29,10 +32,11 @@ constexpr double most_gravity = 0.3;
 void check_request(const LoadRequest& request) {
   require_positive("payload mass (kg)", request.payload_mass);
   require_positive("speed at line stretch (m/s)", request.speed);
-  if (!(request.height > request.ground))
+  if (request.measured_load) require_positive("measured opening load (N)", *request.measured_load);
+  if (request.height && !(*request.height > request.ground))
     throw Error(ExitCode::usage,
                 fmt::format("an opening at {:g} m above sea level: must be above the ground at {:g} m",
-                            request.height, request.ground));
+                            *request.height, request.ground));
   if (!(std::abs(request.path_angle) <= 90))
     throw Error(ExitCode::usage,
                 fmt::format("a way {:g} degrees below the horizon: must be from -90, straight "
@@ -51,26 +55,19 @@ void check_request(const LoadRequest& request) {
   }
 }
 
-/// Drag, opening and filling coefficients: as asked, else computed, else the handbook's of the family.
+double deployment_height(const Settings& resolved, const LoadRequest& request) {
+  if (request.height) return *request.height;
+  const double known = resolved.flow().height_m.value_or(request.ground);
+  return known > request.ground ? known : request.ground + usual_deployment_height;
+}
+
+/// Opening and filling coefficients: as asked, else the handbook's of the family.
 void choose_coefficients(const Settings& resolved, const LoadRequest& request, LoadResult& r) {
   const Experience known = experience(resolved.parachute());
   r.reference_area = nominal_area(resolved.parachute());
   r.nominal_diameter = nominal_diameter(resolved.parachute());
-  if (request.drag_coefficient) {
-    r.drag_coefficient = *request.drag_coefficient, r.drag_source = "given";
-  } else if (!request.steady.empty()) {
-    const FinishedSteady run = finished_steady(request.steady);
-    r.drag_coefficient = run.result.drag_area / r.reference_area;
-    r.drag_source = fmt::format("steady run {}: {:.4g} m2", request.steady.string(), run.result.drag_area);
-  } else if (known.drag_coefficient.high > 0) {
-    r.drag_coefficient = 0.5 * (known.drag_coefficient.low + known.drag_coefficient.high);
-    r.drag_source = fmt::format("middle of {:.2f} to {:.2f} (Knacke)", known.drag_coefficient.low,
-                                known.drag_coefficient.high);
-  } else {
-    throw Error(ExitCode::usage,
-                "no drag coefficient is known of this family: give --drag-coefficient or --steady RUN");
-  }
-  require_positive("drag coefficient", r.drag_coefficient);
+  DragCoefficient drag = opening_drag_coefficient(resolved, request);
+  r.drag_coefficient = drag.value, r.drag_source = std::move(drag.from);
   r.opening_coefficient = request.opening_coefficient.value_or(known.opening_coefficient);
   r.opening_source = request.opening_coefficient ? "given" : known.opening_source;
   require_positive("opening coefficient C_x", r.opening_coefficient);
@@ -83,6 +80,20 @@ void choose_coefficients(const Settings& resolved, const LoadRequest& request, L
   require_positive("exponent of the drag area", r.filling_exponent);
 }
 
+std::string joined(const std::vector<std::string>& texts) {
+  return fmt::format("{}", fmt::join(texts, "; "));
+}
+
+/// Why the finite-mass methods do not apply in these conditions; empty: they do. A filling constant that the user gives
+/// replaces the handbook's, with its range of sizes and speeds.
+std::string outside_of_methods(const OpeningConditions& c, const LoadRequest& request,
+                               double nominal_diameter, double mach) {
+  std::vector<ModelValue> values = {{"Mach number", mach}, {"ballistic parameter A", ballistic_parameter(c)}};
+  if (!request.filling_constant)
+    values.insert(values.end(), {{"speed at line stretch", c.speed}, {"nominal diameter", nominal_diameter}});
+  return joined(outside_range(finite_mass_model, values));
+}
+
 void add_methods(const OpeningConditions& c, double ludtke_exponent, double integral, StageLoads& stage) {
   const double a = ballistic_parameter(c);
   const ForceFactor x = force_factor(a, c.exponent);
@@ -93,8 +104,8 @@ void add_methods(const OpeningConditions& c, double ludtke_exponent, double inte
   const std::string held =
       !from_none ? "fills from nothing, this stage does not"
       : !light   ? fmt::format("has no gravity, which adds {:.0f} % to the speed here", 100 * gravity)
-                 : "";
-  stage.methods.push_back({"infinite mass", infinite_mass_load(c).load, 0, x.factor > hardly_slowed,
+                 : stage.outside;
+  stage.methods.push_back({infinite_mass_method, infinite_mass_load(c).load, 0, x.factor > hardly_slowed,
                            x.factor > hardly_slowed
                                ? "the speed hardly falls while the canopy fills"
                                : "an upper bound: the speed falls while the canopy fills"});
@@ -104,12 +115,15 @@ void add_methods(const OpeningConditions& c, double ludtke_exponent, double inte
   stage.methods.push_back({"Pflanz", pflanz.load, pflanz.time, held.empty(), held});
   stage.methods.push_back({"Ludtke", ludtke.load, ludtke.time, held.empty(), held});
   const MomentumImpulse impulse = momentum_impulse_load(c, integral);
-  stage.methods.push_back({"momentum-impulse", impulse.load.load, 0, from_none,
-                           fmt::format("{}leaves {:.0f} % of the speed",
-                                       from_none ? "" : "fills from nothing; ", 100 * impulse.speed_ratio)});
+  const std::string left = fmt::format("leaves {:.0f} % of the speed", 100 * impulse.speed_ratio);
+  stage.methods.push_back({"momentum-impulse", impulse.load.load, 0, from_none && stage.outside.empty(),
+                           !from_none               ? "fills from nothing; " + left
+                           : !stage.outside.empty() ? stage.outside
+                                                    : left});
 }
 
-void judge(StageLoads& stage) {
+/// Range and spread of the methods that apply.
+void compare_methods(StageLoads& stage) {
   double sum = 0;
   int count = 0;
   for (const MethodLoad& m : stage.methods) {
@@ -118,7 +132,10 @@ void judge(StageLoads& stage) {
     stage.lowest = count == 0 ? m.load : std::min(stage.lowest, m.load);
     sum += m.load, ++count;
   }
-  if (count > 0) stage.spread = (stage.highest - stage.lowest) / (sum / count);
+  if (count > 0)
+    stage.spread = (stage.highest - stage.lowest) / (sum / count);
+  else
+    stage.highest = stage.lowest = stage.methods.front().load, stage.spread = 0;
 }
 
 /// Appends the rows of one leg without repeating the first; returns the highest force among them.
@@ -129,32 +146,44 @@ const FlightRow& append(std::vector<FlightRow>& all, std::vector<FlightRow> leg)
                            [](const FlightRow& a, const FlightRow& b) { return a.force < b.force; });
 }
 
+/// One stage, from the drag area that the canopy has at its begin.
+StageLoads begin_stage(const LoadRequest& request, const LoadResult& r, const FlightState& state,
+                       double drag_area, double before, double before_held) {
+  const double open = r.drag_coefficient * r.reference_area;
+  StageLoads stage;
+  stage.begin = state.time, stage.speed = state.speed, stage.height = state.height;
+  const StandardAir air = standard_air(state.height);
+  stage.density = air.density;
+  stage.drag_area_before = before, stage.drag_area = drag_area;
+  // A stage that was cut while it overshot has no less to fill than the drag area that it would have held.
+  const double added = drag_area - std::min(before, before_held);
+  stage.filling_time = r.filling_constant * r.nominal_diameter / state.speed * std::sqrt(added / open);
+  const OpeningConditions c{r.payload_mass + r.parachute_mass,
+                            state.speed,
+                            stage.density,
+                            stage.drag_area,
+                            stage.filling_time,
+                            r.filling_exponent,
+                            r.opening_coefficient,
+                            std::clamp(state.path_angle, -90.0, 90.0)};
+  stage.ballistic_parameter = ballistic_parameter(c);
+  stage.mass_ratio = mass_ratio(c);
+  stage.outside = outside_of_methods(c, request, r.nominal_diameter, state.speed / air.sound_speed);
+  add_methods(c, r.ludtke_exponent, request.impulse_integral, stage);
+  return stage;
+}
+
 /// Filling distances of stages, Knacke: t_f1 = n D_0 / v ((C_D S)_1 / (C_D S)_0)^(1/2), and for what is added later
-/// the same with the difference of both areas.
+/// the same with the difference of both areas. A stage that is cut before it has filled begins the next one with the
+/// drag area that it has reached.
 void fly_stages(const LoadRequest& request, LoadResult& r) {
-  FlightState state{0, 0, 0, request.height, request.speed, request.path_angle};
+  FlightState state{0, 0, 0, r.height, request.speed, request.path_angle};
   const double open = r.drag_coefficient * r.reference_area, mass = r.payload_mass + r.parachute_mass;
   std::vector<ReefedStage> stages = request.reefing;
   stages.push_back({1, longest_flight});
-  double before = 0;
+  double before = 0, before_held = 0;
   for (const ReefedStage& reefed : stages) {
-    StageLoads stage;
-    stage.begin = state.time, stage.speed = state.speed, stage.height = state.height;
-    stage.density = standard_air(state.height).density;
-    stage.drag_area_before = before, stage.drag_area = reefed.share * open;
-    stage.filling_time =
-        r.filling_constant * r.nominal_diameter / state.speed * std::sqrt((stage.drag_area - before) / open);
-    const OpeningConditions c{mass,
-                              state.speed,
-                              stage.density,
-                              stage.drag_area,
-                              stage.filling_time,
-                              r.filling_exponent,
-                              r.opening_coefficient,
-                              std::clamp(state.path_angle, -90.0, 90.0)};
-    stage.ballistic_parameter = ballistic_parameter(c);
-    stage.mass_ratio = mass_ratio(c);
-    add_methods(c, r.ludtke_exponent, request.impulse_integral, stage);
+    StageLoads stage = begin_stage(request, r, state, reefed.share * open, before, before_held);
     Leg leg;
     leg.drag_area =
         filling(before, stage.drag_area, stage.filling_time, r.filling_exponent, r.opening_coefficient);
@@ -164,22 +193,24 @@ void fly_stages(const LoadRequest& request, LoadResult& r) {
     leg.step = stage.filling_time / steps_a_filling;
     leg.ground = request.ground;
     const FlightRow peak = append(r.flight, fly(state, mass, leg));
-    stage.methods.push_back({"trajectory", peak.force, peak.state.time - stage.begin, true,
-                             "with gravity and the standard atmosphere"});
-    judge(stage);
+    stage.methods.push_back(
+        {"trajectory", peak.force, peak.state.time - stage.begin, stage.outside.empty(),
+         stage.outside.empty() ? "with gravity and the standard atmosphere" : stage.outside});
+    compare_methods(stage);
     r.stages.push_back(stage);
     if (peak.force > r.peak_load) r.peak_load = peak.force, r.peak_time = peak.state.time;
+    before = r.flight.back().drag_area;
     if (reefed.duration > settled && state.height > request.ground) {
-      const double area = stage.drag_area;
+      const double area = before = stage.drag_area;
       leg.drag_area = [area](double, double) { return area; };
       leg.duration = reefed.duration - settled;
       leg.step = std::min(0.02, 10 * leg.step);
       leg.until_steady = reefed.share == 1;
       append(r.flight, fly(state, mass, leg));
     }
-    before = stage.drag_area;
+    before_held = stage.drag_area;
   }
-  r.steady_time = state.time, r.steady_drop = request.height - state.height, r.steady_speed = state.speed;
+  r.steady_time = state.time, r.steady_drop = r.height - state.height, r.steady_speed = state.speed;
   const double terminal = terminal_speed(mass, open, standard_air(state.height).density);
   r.steady_reached = std::abs(state.speed / terminal - 1) < 2e-3;
 }
@@ -187,7 +218,7 @@ void fly_stages(const LoadRequest& request, LoadResult& r) {
 void fly_record(const Settings& resolved, const LoadRequest& request, LoadResult& r) {
   const OpeningRecord record = opening_record(request.opening, resolved);
   const double mass = r.payload_mass + r.parachute_mass;
-  FlightState state{0, 0, 0, request.height, request.speed, request.path_angle};
+  FlightState state{0, 0, 0, r.height, request.speed, request.path_angle};
   Leg leg;
   leg.drag_area = from_record(record.distance, record.drag_area, record.steady_drag_area);
   leg.duration = 3 * record.distance.back() / request.speed;
@@ -195,12 +226,32 @@ void fly_record(const Settings& resolved, const LoadRequest& request, LoadResult
   leg.ground = request.ground;
   const FlightRow peak = append(r.record_flight, fly(state, mass, leg));
   r.record_peak_load = peak.force;
-  if (request.reefing.empty()) {
-    StageLoads& stage = r.stages.front();
-    stage.methods.push_back({"computed opening", peak.force, peak.state.time, true,
-                             "C_D S of " + request.opening.string() + " over the way through the air"});
-    judge(stage);
+  if (!request.reefing.empty()) return;
+  StageLoads& stage = r.stages.front();
+  if (const auto text =
+          handbook_disagreement(peak.force, peak.state.distance / r.nominal_diameter, stage.methods))
+    r.warnings.push_back(*text);
+  stage.methods.push_back({computed_method, peak.force, peak.state.time, true,
+                           "C_D S of " + request.opening.string() + " over the way through the air"});
+  compare_methods(stage);
+}
+
+/// The infinite-mass load of the stage with the highest, unless a measurement or a computed opening replaces it.
+void choose_design_load(const Settings& resolved, const LoadRequest& request, LoadResult& r) {
+  for (const StageLoads& stage : r.stages)
+    r.design_load = std::max(r.design_load, stage.methods.front().load);
+  r.design_load_from = "infinite mass, C_x C_D S0 q";
+  if (request.measured_load) {
+    r.design_load = *request.measured_load, r.design_load_from = "measured, as given";
+  } else if (r.record_peak_load && request.reefing.empty()) {
+    r.design_load = *r.record_peak_load, r.design_load_from = "computed opening " + request.opening.string();
   }
+  r.line_load_factor = experience(resolved.parachute()).line_load_factor;
+  r.margins = load_margins(resolved, r.design_load);
+  for (const std::string& text : margin_warnings(r.margins)) r.warnings.push_back(text);
+  const double mach = request.speed / standard_air(r.height).sound_speed;
+  for (const std::string& text : outside_range(infinite_mass_model, {{"Mach number", mach}}))
+    r.warnings.push_back(text);
 }
 
 SnatchResult snatch_of(const Settings& resolved, const LoadRequest& request, const LoadResult& r) {
@@ -216,8 +267,8 @@ SnatchResult snatch_of(const Settings& resolved, const LoadRequest& request, con
           ? *request.snatch_speed
           : speed_difference_at_stretch(
                 {r.payload_mass, request.payload_drag_area.value_or(resolved.payload().drag_area_m2)},
-                {r.parachute_mass, *request.packed_drag_area}, request.speed,
-                standard_air(request.height).density, design.lines.length_m + design.riser.length_m);
+                {r.parachute_mass, *request.packed_drag_area}, request.speed, standard_air(r.height).density,
+                design.lines.length_m + design.riser.length_m);
   const SnatchLoad load = snatch_load(r.payload_mass, r.parachute_mass, snatch.speed_difference, parts);
   snatch.load = load.load, snatch.time = load.time, snatch.stretch = load.stretch;
   snatch.line_load = load.strand_load.front();
@@ -231,16 +282,38 @@ std::string to_json(const LoadResult& result) {
   return json_text(result);
 }
 
+DragCoefficient opening_drag_coefficient(const Settings& resolved, const LoadRequest& request) {
+  if (request.drag_coefficient) {
+    require_positive("drag coefficient", *request.drag_coefficient);
+    return {*request.drag_coefficient, "given"};
+  }
+  if (!request.steady.empty()) {
+    const FinishedSteady run = finished_steady(request.steady);
+    return {run.result.drag_area / nominal_area(resolved.parachute()),
+            fmt::format("steady run {}: {:.4g} m2", request.steady.string(), run.result.drag_area)};
+  }
+  if (resolved.inflation().drag_coefficient)
+    return {*resolved.inflation().drag_coefficient, "inflation.drag_coefficient of the case"};
+  const KnownRange known = experience(resolved.parachute()).drag_coefficient;
+  if (known.high > 0)
+    return {0.5 * (known.low + known.high),
+            fmt::format("middle of {:.2f} to {:.2f} (Knacke)", known.low, known.high)};
+  throw Error(ExitCode::usage,
+              "no drag coefficient is known of this family: give --drag-coefficient, --steady RUN or "
+              "inflation.drag_coefficient in the case");
+}
+
 LoadResult run_load(const Settings& resolved, const LoadRequest& request) {
   check_request(request);
   LoadResult r;
   r.title = resolved.title();
   r.payload_mass = request.payload_mass;
   r.parachute_mass = parachute_mass(resolved);
+  r.height = deployment_height(resolved, request);
   choose_coefficients(resolved, request, r);
   const double descent =
       terminal_speed(r.payload_mass + r.parachute_mass, r.drag_coefficient * r.reference_area,
-                     standard_air(request.height).density);
+                     standard_air(r.height).density);
   if (descent >= request.speed)
     throw Error(
         ExitCode::usage,
@@ -249,6 +322,7 @@ LoadResult run_load(const Settings& resolved, const LoadRequest& request) {
                     descent, request.speed));
   fly_stages(request, r);
   if (!request.opening.empty()) fly_record(resolved, request, r);
+  choose_design_load(resolved, request, r);
   if (request.snatch_speed || request.packed_drag_area) r.snatch = snatch_of(resolved, request, r);
   return r;
 }

@@ -11,6 +11,8 @@
 #include "ripstop/flight/opening_load.h"
 #include "ripstop/flight/snatch.h"
 #include "ripstop/flight/trajectory.h"
+#include "ripstop/run/margins.h"
+#include "ripstop/run/opening/method_load.h"
 
 namespace ripstop {
 
@@ -21,12 +23,14 @@ struct ReefedStage {
 };
 
 /// What is asked for; what is absent follows from the case and from what is known of its family.
+inline constexpr double usual_deployment_height = 1000;  // above the ground [m] (assumed)
 struct LoadRequest {
   double payload_mass = 0;  // [kg]
   double speed = 0;         // through the air at line stretch [m/s]
-  double height = 0;        // above sea level there [m]
-  double ground = 0;        // [m]
-  double path_angle = 90;   // of the way there, below the horizon [deg]
+  /// Above sea level there; absent: flow.height_m of the case where that is above the ground, else so far above it [m].
+  std::optional<double> height;
+  double ground = 0;       // [m]
+  double path_angle = 90;  // of the way there, below the horizon [deg]
   std::optional<double> drag_coefficient, opening_coefficient, filling_constant, filling_exponent;
   double impulse_integral = 0.5;  // I_F of momentum_impulse_load()
   std::vector<ReefedStage> reefing;
@@ -35,6 +39,7 @@ struct LoadRequest {
       packed_drag_area;  // of the packed canopy with its pilot, to find that difference [m2]
   std::optional<double> payload_drag_area;  // [m2]; absent: the case's
   std::filesystem::path steady, opening;    // folders of runs to take the drag area from; empty: none
+  std::optional<double> measured_load;      // of an opening of this parachute at this speed and mass [N]
 };
 
 /// A row of trajectory.csv.
@@ -51,28 +56,14 @@ void each_member(T& row, Visit&& visit) {
   visit("density_kg_m3", row.density);
 }
 
-struct MethodLoad {
-  std::string method;
-  double load = 0;  // [N]
-  double time = 0;  // from the stage's begin [s]; 0: the method does not say
-  bool applies = false;
-  std::string note;
-};
-template <Of<MethodLoad> T, class Visit>
-void each_member(T& m, Visit&& visit) {
-  visit("method", m.method);
-  visit("load_n", m.load);
-  visit("time_s", m.time);
-  visit("applies", m.applies);
-  visit("note", m.note);
-}
-
 struct StageLoads {
   double begin = 0, speed = 0, height = 0, density = 0;          // of the stage [s], [m/s], [m], [kg/m3]
   double drag_area_before = 0, drag_area = 0, filling_time = 0;  // [m2], [m2], [s]
   double ballistic_parameter = 0, mass_ratio = 0;
+  std::string outside;  // why the handbook's filling does not apply; empty: it does; not in result.json
   std::vector<MethodLoad> methods;
-  double highest = 0, lowest = 0, spread = 0;  // of the methods that apply; (highest - lowest) / mean
+  /// Of the methods that apply, the infinite-mass load where none does; (highest - lowest) / mean.
+  double highest = 0, lowest = 0, spread = 0;
 };
 template <Of<StageLoads> T, class Visit>
 void each_member(T& s, Visit&& visit) {
@@ -110,16 +101,22 @@ void each_member(T& s, Visit&& visit) {
 struct LoadResult {
   std::string title;
   double payload_mass = 0, parachute_mass = 0;      // [kg]
+  double height = 0;                                // of the deployment, above sea level [m]
   double nominal_diameter = 0, reference_area = 0;  // [m], [m2]
   double drag_coefficient = 0, opening_coefficient = 0, filling_constant = 0, filling_exponent = 0;
   double ludtke_exponent = 0;
   std::string drag_source, opening_source, filling_source;
   std::vector<StageLoads> stages;
+  double design_load = 0;                  // what lines and riser are to be designed for [N]
+  std::string design_load_from;            // measured, computed or infinite mass
+  double line_load_factor = 1;             // largest line load over an equal share, of the family
+  std::optional<Margins> margins;          // of lines and riser under the design load
   double peak_load = 0, peak_time = 0;     // of the trajectory [N], [s]
   std::optional<double> record_peak_load;  // of the trajectory with a computed opening's drag area [N]
   std::optional<SnatchResult> snatch;
   double steady_speed = 0, steady_time = 0, steady_drop = 0;  // where the descent is steady [m/s], [s], [m]
   bool steady_reached = false;
+  std::vector<std::string> warnings;
   std::vector<FlightRow> flight, record_flight;  // not in result.json: trajectory.csv
 };
 template <Of<LoadResult> T, class Visit>
@@ -127,6 +124,7 @@ void each_member(T& r, Visit&& visit) {
   visit("title", r.title);
   visit("payload_mass_kg", r.payload_mass);
   visit("parachute_mass_kg", r.parachute_mass);
+  visit("height_m", r.height);
   visit("nominal_diameter_m", r.nominal_diameter);
   visit("reference_area_m2", r.reference_area);
   visit("drag_coefficient", r.drag_coefficient);
@@ -138,6 +136,10 @@ void each_member(T& r, Visit&& visit) {
   visit("ludtke_exponent", r.ludtke_exponent);
   visit("filling_from", r.filling_source);
   visit("stages", r.stages);
+  visit("design_load_n", r.design_load);
+  visit("design_load_from", r.design_load_from);
+  visit("line_load_factor", r.line_load_factor);
+  visit("margins", r.margins);
   visit("peak_load_n", r.peak_load);
   visit("peak_time_s", r.peak_time);
   visit("record_peak_load_n", r.record_peak_load);
@@ -146,8 +148,17 @@ void each_member(T& r, Visit&& visit) {
   visit("steady_time_s", r.steady_time);
   visit("steady_drop_m", r.steady_drop);
   visit("steady_reached", r.steady_reached);
+  visit("warnings", r.warnings);
 }
 std::string to_json(const LoadResult& result);
+
+/// C_D on the nominal area: that of a `request`, of its steady run, of the case (inflation.drag_coefficient), the middle
+/// of the handbook's range, or what Ripstop has computed for the family. Throws Error(usage) where none is known.
+struct DragCoefficient {
+  double value = 0;
+  std::string from;
+};
+DragCoefficient opening_drag_coefficient(const Settings& resolved, const LoadRequest& request);
 
 /// Throws Error(usage) for what is not above 0, a descent rate above the speed of deployment, stages that do not
 /// grow, and what finished_steady() and standard_air() refuse.

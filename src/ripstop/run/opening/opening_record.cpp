@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
 
 #include "ripstop/core/error.h"
+#include "ripstop/flight/atmosphere.h"
 #include "ripstop/output/csv.h"
 #include "ripstop/run/run_folder.h"
 #include "ripstop/run/steady/steady_folder.h"
@@ -14,10 +17,52 @@ namespace ripstop {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// What the canopy of an opening flies through: a stream of one speed, or that of a payload which slows down.
+struct Stream {
+  struct State {
+    double distance = 0, dynamic_pressure = 0;  // [m], [Pa]
+  };
+  double deployment_speed = 0, density = 0;       // [m/s], [kg/m3]
+  std::optional<double> height;                   // of the deployment [m]
+  std::vector<double> time, speed, path, fallen;  // rows of air.csv of a payload; empty: the stream is steady
+
+  State at(double t) const {
+    if (time.empty()) return {deployment_speed * t, 0.5 * density * deployment_speed * deployment_speed};
+    const auto above = std::lower_bound(time.begin(), time.end(), t);
+    const auto i = static_cast<std::size_t>(std::min(above, time.end() - 1) - time.begin());
+    const double begin = i == 0 ? 0 : time[i - 1];
+    const double share = std::clamp((t - begin) / (time[i] - begin), 0.0, 1.0);
+    const auto between = [&](const std::vector<double>& of, double first) {
+      const double low = i == 0 ? first : of[i - 1];
+      return low + share * (of[i] - low);
+    };
+    const double v = between(speed, deployment_speed);
+    const double here = density * (height ? density_ratio(*height, between(fallen, 0)) : 1);
+    return {between(path, 0), 0.5 * here * v * v};
+  }
+};
+
+Stream stream_of(const Settings& run, const fs::path& folder) {
+  Stream stream{run.flow().speed_m_s, run.flow().density_kg_m3, run.flow().height_m, {}, {}, {}, {}};
+  if (run.inflation().mass != InflationSettings::Mass::payload) return stream;
+  if (!fs::exists(folder / "air.csv"))
+    throw Error(ExitCode::bad_data,
+                fmt::format("{}: an opening with a payload needs air.csv, which has its speed and its path",
+                            folder.string()));
+  const CsvTable table = read_csv(folder / "air.csv");
+  stream.time = table.column("time_s"), stream.speed = table.column("speed_m_s");
+  stream.path = table.column("path_m"), stream.fallen = table.column("height_lost_m");
+  return stream;
+}
+
+}  // namespace
+
 OpeningRecord opening_record(const fs::path& folder, const Settings& resolved) {
   const std::optional<std::string> text = finished_result(folder);
   const auto result = text ? nlohmann::json::parse(*text, nullptr, false) : nlohmann::json();
-  if (!result.is_object() || !result.contains("steady_load_n"))
+  if (!result.is_object() || !result.contains("peak_load_n"))
     throw Error(ExitCode::usage,
                 fmt::format("{}: holds no finished run of ripstop inflate", folder.string()));
   const Settings run = settings_of_run(folder);
@@ -33,20 +78,22 @@ OpeningRecord opening_record(const fs::path& folder, const Settings& resolved) {
         fmt::format("{}: is a reefed opening, whose lines were cut at times: its drag area is none over the "
                     "way through the air",
                     folder.string()));
-  const double speed = run.flow().speed_m_s;
-  const double q = 0.5 * run.flow().density_kg_m3 * speed * speed;
+  OpeningRecord record;
   const fs::path smooth = folder / "history_low_pass.csv";
   const CsvTable table = read_csv(fs::exists(smooth) ? smooth : folder / "history.csv");
   const std::vector<double> time = table.column("time_s");
   const std::vector<double> load = table.column(fs::exists(smooth) ? "load_n" : "load_mean_n");
-  OpeningRecord record;
+  const Stream stream = stream_of(run, folder);
   for (std::size_t i = 0; i < time.size(); ++i) {
-    const double distance = speed * time[i];
-    if (!record.distance.empty() && distance <= record.distance.back()) continue;
-    record.distance.push_back(distance);
-    record.drag_area.push_back(std::max(0.0, load[i] / q));
+    const Stream::State now = stream.at(time[i]);
+    if (!record.distance.empty() && now.distance <= record.distance.back()) continue;
+    record.distance.push_back(now.distance);
+    record.drag_area.push_back(std::max(0.0, load[i] / now.dynamic_pressure));
   }
-  record.steady_drag_area = result.at("steady_load_n").get<double>() / q;
+  const std::size_t last = std::max<std::size_t>(1, record.drag_area.size() / 5);
+  for (std::size_t i = record.drag_area.size() - std::min(last, record.drag_area.size());
+       i < record.drag_area.size(); ++i)
+    record.steady_drag_area += record.drag_area[i] / double(last);
   if (record.distance.empty() || !(record.steady_drag_area > 0))
     throw Error(ExitCode::bad_data, fmt::format("{}: its history has no load", folder.string()));
   return record;

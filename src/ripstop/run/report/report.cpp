@@ -114,21 +114,25 @@ ReportRun report_of(const fs::path& folder) {
   run.name = name_of(folder);
   add_result(run, read_file(result), result);
   run.kind = number_of(run, "peak_load_n") == number_of(run, "peak_load_n") ? "opening" : "steady";
-  run.headline = run.kind == "opening"
-                     ? std::vector<std::string>{"peak_load_n",    "low_pass_peak_load_n", "steady_load_n",
-                                                "filling_time_s", "max_line_tension_n",   "max_von_mises_n_m"}
-                     : std::vector<std::string>{"drag_n",
-                                                "drag_coefficient",
-                                                "drag_area_m2",
-                                                "projected_diameter_m",
-                                                "max_line_tension_n",
-                                                "max_von_mises_n_m"};
+  run.headline =
+      run.kind == "opening"
+          ? std::vector<std::string>{"peak_load_n",    "low_pass_peak_load_n", "knacke_load_n",
+                                     "weakest_member", "margin_of_safety",     "steady_load_n",
+                                     "filling_time_s", "speed_at_end_m_s",     "max_line_tension_n"}
+          : std::vector<std::string>{"speed_m_s",
+                                     "drag_n",
+                                     "drag_coefficient",
+                                     "drag_area_m2",
+                                     "projected_diameter_m",
+                                     "max_line_tension_n",
+                                     "weakest_member",
+                                     "margin_of_safety"};
   const Settings resolved = settings_of_run(folder);
   run.case_file = read_file(folder / "case.toml");
   run.tables.push_back(bill_table(resolved));
   if (const ReportTable sources = sources_table(resolved, folder / "run.json"); !sources.rows.empty())
     run.tables.push_back(sources);
-  run.warnings = warnings_of(resolved, number_of(run, "max_cloth_strain"));
+  if (run.warnings.empty()) run.warnings = warnings_of(resolved, number_of(run, "max_cloth_strain"));
   if (!run.converged) run.warnings.insert(run.warnings.begin(), "The coupling did not converge.");
   add_provenance(run, folder / "run.json");
   run.plots = plots_of(run, folder);

@@ -114,7 +114,7 @@ std::vector<ReportPlot> opening_plots(const ReportRun& run, const fs::path& fold
     if (!smooth.empty()) plots[0].series.push_back(smooth[0].series[0]);
     const double end = plots[0].series[0].x.back();
     for (const auto& [key, name] : {std::pair{"steady_load_n", "steady"},
-                                    {"knacke_load_n", "Knacke's estimate"},
+                                    {"knacke_load_n", "infinite mass, C_x C_D S0 q"},
                                     {"measured_peak_n", "measured peak"},
                                     {"printed_peak_n", "peak of the source's model"}}) {
       const double level = number_of(run, key);

@@ -86,16 +86,31 @@ void add_group(std::vector<ReportTable>& tables, const std::string& key, const J
   for (const auto& [name, value] : nested) add_group(tables, key + " " + name, *value);
 }
 
+/// The weakest member and its margin of safety as values of the run, for its head.
+void add_weakest(ReportRun& run, const Json& json) {
+  if (!json.contains("margins") || !json["margins"].is_object()) return;
+  const Json& margins = json["margins"];
+  const std::string weakest = margins.value("weakest_member", "");
+  for (const Json& member : margins.value("members", Json::array()))
+    if (!weakest.empty() && member.value("member", "") == weakest && member.contains("margin_of_safety")) {
+      run.values.push_back({"weakest_member", Json(weakest).dump()});
+      run.values.push_back({"margin_of_safety", member["margin_of_safety"].dump()});
+    }
+}
+
 }  // namespace
 
 void add_result(ReportRun& run, const std::string& text, const std::filesystem::path& file) {
   const Json json = parsed(file, text);
   for (const auto& [key, value] : json.items()) {
-    if (is_group(value))
+    if (key == "warnings" && value.is_array())
+      run.warnings = value.get<std::vector<std::string>>();
+    else if (is_group(value))
       add_group(run.tables, key, value);
     else
       run.values.push_back({key, value.dump(-1, ' ', false, Json::error_handler_t::replace)});
   }
+  add_weakest(run, json);
   run.title = json.value("title", "");
   run.converged = json.value("converged", true);
 }

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "ripstop/case/assemble.h"
+#include "ripstop/case/payload.h"
 #include "ripstop/core/file.h"
 #include "ripstop/output/pattern_files.h"
 #include "ripstop/run/json.h"
@@ -20,10 +20,8 @@ PatternResult run_pattern(const Settings& resolved, const Allowances& allowances
   result.cloth_area = computed_area(resolved.parachute());
   result.packing_density = packing_density;
   result.allowances = allowances;
-  result.pattern = cut_pattern(resolved.parachute());
-  if (!resolved.materials().tape) result.pattern.tapes.clear();
-  result.bill =
-      bill_of(result.pattern, resolved.parachute(), resolved.materials(), allowances, packing_density);
+  result.pattern = cut_pattern(resolved);
+  result.bill = parachute_bill(resolved, allowances, packing_density);
   return result;
 }
 

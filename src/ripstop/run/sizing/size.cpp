@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include "ripstop/case/payload.h"
-#include "ripstop/case/summary.h"
 #include "ripstop/case/tape.h"
 #include "ripstop/core/build_info.h"
 #include "ripstop/core/error.h"
@@ -16,13 +15,15 @@
 #include "ripstop/core/positive.h"
 #include "ripstop/core/toml/fields.h"
 #include "ripstop/flight/atmosphere.h"
-#include "ripstop/flight/descent.h"
+#include "ripstop/flight/validity.h"
 #include "ripstop/run/json.h"
-#include "ripstop/run/sizing/pattern.h"
 #include "ripstop/run/sizing/size_case.h"
 
 namespace ripstop {
 namespace {
+
+// Of the drag to the weight, relative: what rounding the lengths of the case file leaves.
+constexpr double size_tolerance = 2e-3;
 
 FamilyDrag drag_of(const std::string& family) {
   const std::vector<FamilyDrag> all = family_drags();
@@ -37,83 +38,187 @@ FamilyDrag drag_of(const std::string& family) {
                           near.empty() ? "" : "did you mean " + near + "? ", fmt::join(names, ", ")));
 }
 
-/// The design scaled so that payload and parachute come down at the wanted rate; the parachute's mass follows its size.
-void find_size(const SizeRequest& request, SizeResult& r) {
-  Case& given = r.given;
-  const double first = nominal_diameter(given.parachute);
-  const Design example = given.parachute;
-  double mass = request.payload_mass, factor = 1;
-  for (int i = 0; i < 12; ++i) {
-    const double area = drag_area_for(mass, request.descent_rate, r.density) / r.drag_coefficient;
-    const double next = std::sqrt(4 / std::numbers::pi * area) / first;
-    const bool done = std::abs(next / factor - 1) < 1e-5;
-    factor = next;
-    given.parachute = example;
-    scale_lengths(given.parachute, factor);
-    mass = request.payload_mass + parachute_mass(resolve(given));
-    if (done) return;
+/// What holds and what pulls at `factor` times the size of the example.
+struct Balance {
+  double drag = 0, weight = 0;  // [N]
+  double parachute_mass = 0;    // [kg]
+};
+Balance balance_of(const SizeRequest& request, const SizeResult& r, const Case& sized,
+                   const PartMaterials& materials) {
+  const double q = 0.5 * r.density * request.descent_rate * request.descent_rate;
+  Balance b;
+  b.parachute_mass = parachute_mass(sized.parachute, materials);
+  b.drag = q * r.drag_coefficient * nominal_area(sized.parachute);
+  b.weight = (request.payload_mass + b.parachute_mass) * standard_gravity;
+  return b;
+}
+
+/// Why the largest size that a case file takes still descends faster than wanted.
+[[noreturn]] void refuse_size(const SizeRequest& request, const SizeResult& r, const Balance& largest,
+                              const ScaleLimits& limits) {
+  const double alone =
+      request.descent_rate * std::sqrt(largest.parachute_mass * standard_gravity / largest.drag);
+  if (alone >= request.descent_rate)
+    throw Error(
+        ExitCode::usage,
+        fmt::format("this cloth ({}, with lines and seams) descends at {:.3g} m/s without a payload in air "
+                    "of {:.3g} kg/m3: no size descends at {:g} m/s; take a higher descent rate or a "
+                    "lighter cloth",
+                    r.given.parachute.canopy_material, alone, r.density, request.descent_rate));
+  throw Error(
+      ExitCode::usage,
+      fmt::format("{:g} kg at {:g} m/s in air of {:.3g} kg/m3 needs a larger parachute than a case file "
+                  "describes: parachute.{} is at most {:g} m; take a smaller mass or a higher descent rate",
+                  request.payload_mass, request.descent_rate, r.density, limits.high_key, limits.high_value));
+}
+
+/// The example scaled so that payload and parachute descend at the wanted rate. The mass of the parachute is at most of
+/// second order in its size, as the drag is, and there is mass without size: drag over weight rises from 0 towards the
+/// limit of the cloth alone, and is 1 at one size at most, which is found by bisection.
+void find_size(const SizeRequest& request, const Design& example, SizeResult& r) {
+  const ScaleLimits limits = scale_limits(example);
+  Case sized = r.given;
+  const PartMaterials materials = resolve(sized).materials();  // the example's, whatever its size
+  const auto excess = [&](double factor) {                     // of drag over weight [N]
+    sized.parachute = example;
+    scale_lengths(sized.parachute, factor, Rounded::no);
+    const Balance b = balance_of(request, r, sized, materials);
+    return b.drag - b.weight;
+  };
+  double low = std::log(limits.low), high = std::log(limits.high);
+  if (!(excess(limits.high) > 0)) refuse_size(request, r, balance_of(request, r, sized, materials), limits);
+  if (excess(limits.low) > 0)
+    throw Error(
+        ExitCode::usage,
+        fmt::format("{:g} kg at {:g} m/s in air of {:.3g} kg/m3 needs a smaller parachute than a case file "
+                    "describes: parachute.{} is at least {:g} m; take a larger mass or a lower descent rate",
+                    request.payload_mass, request.descent_rate, r.density, limits.low_key, limits.low_value));
+  while (high - low > 1e-7) {
+    const double middle = 0.5 * (low + high);
+    (excess(std::exp(middle)) > 0 ? high : low) = middle;
   }
+  r.given.parachute = example;
+  scale_lengths(r.given.parachute, std::exp(0.5 * (low + high)));
+  const Balance found = balance_of(request, r, r.given, materials);
+  if (!(std::abs(found.drag / found.weight - 1) <= size_tolerance))
+    throw Error(
+        ExitCode::not_converged,
+        fmt::format("no size was found: at a nominal diameter of {:.4g} m the drag is {:.2f} % of the "
+                    "weight",
+                    nominal_diameter(r.given.parachute), 100 * found.drag / found.weight));
 }
 
 void find_opening(const SizeRequest& request, SizeResult& r) {
   LoadRequest asked;
   asked.payload_mass = request.payload_mass;
   asked.speed = r.deployment_speed;
-  asked.height = std::max(r.height, 100.0);
+  asked.height = request.density ? standard_height(r.density) : std::max(r.height, 100.0);
+  asked.ground = std::min(0.0, std::max(lowest_height, *asked.height - usual_deployment_height));
   asked.drag_coefficient = r.drag_coefficient;
   LoadResult load = run_load(resolve(r.given), asked);
   r.opening_load_low = load.stages.front().lowest, r.opening_load = load.stages.front().highest;
+  r.design_load = load.design_load, r.design_load_from = std::move(load.design_load_from);
+  r.line_load_factor = load.line_load_factor;
+  r.margins = std::move(load.margins);
+  r.load_warnings = std::move(load.warnings);
   r.opening = std::move(load.stages), r.flight = std::move(load.flight);
 }
 
-/// Safety factor times the load of one line over what is left of its strength.
-double used_of(const Case& given, const Line& line, double load) {
-  MemberLoads loads;
-  loads.lines = {load / given.parachute.lines.count};
-  const Margins margins = margins_of(loads, given.margins, canopy_fabric(given), nullptr, line, line);
-  const Margin* of_line = nullptr;
-  for (const Margin& m : margins.members)
-    if (m.member == "line 1") of_line = &m;
-  return of_line && of_line->used ? *of_line->used : 0;
+/// Load over allowable of `member`, "line" or "riser", made of `line`; 0: its strength is not known.
+double used_of(const SizeResult& r, const Line& line, const char* member) {
+  for (const Margin& m :
+       load_margins(r.given.parachute, r.given.margins, canopy_fabric(r.given), r.design_load, line, line)
+           .members)
+    if (m.member == member) return m.used.value_or(0);
+  return 0;
 }
 
-/// The lightest line of the library that holds the opening load.
-void choose_line(const SizeRequest& request, SizeResult& r) {
-  std::optional<Line> best;
+std::vector<Line> library_lines(const SizeRequest& request) {
+  std::vector<Line> lines;
   for (const std::string& name : library_names()) {
+    if (request.line_material && name != *request.line_material) continue;
     const Material material = library_material(name);
-    const Line* line = std::get_if<Line>(&material);
-    if (!line || (request.line_material && name != *request.line_material)) continue;
-    const double used = used_of(r.given, *line, r.opening_load);
-    const bool known = used > 0;
-    if (!request.line_material && (!known || used > 1)) continue;
-    if (!best || line->linear_density_kg_m < best->linear_density_kg_m) best = *line;
+    if (const Line* line = std::get_if<Line>(&material)) lines.push_back(*line);
   }
-  if (request.line_material && !best)
+  if (request.line_material && lines.empty())
     throw Error(ExitCode::usage,
                 fmt::format("--line-material {}: the library has no such line", *request.line_material));
-  if (!best) {
-    r.warnings.push_back(
-        fmt::format("no line of the library holds {:.0f} N on {} lines with the default margins: take "
-                    "more lines, reefing or another line",
-                    r.opening_load, r.given.parachute.lines.count));
-    return;
-  }
-  Design& design = r.given.parachute;
-  design.lines.material = best->name;
-  if (design.riser.length_m == 0) design.riser.material = best->name;
-  r.given.materials.insert_or_assign(best->name, *best);
+  return lines;
 }
 
-void choose_tape(SizeResult& r) {
-  TapeMaterial tape = tape_for(r.given, r.opening_load / r.given.parachute.lines.count);
-  r.given.parachute.tape.material = tape.name;
+/// The lightest of `lines` that holds the design load as `member`, no lighter than `least`; the strongest where none
+/// does. A line that is asked for is the only one.
+const Line& line_for(const SizeResult& r, const std::vector<Line>& lines, const char* member, double least) {
+  const Line *best = nullptr, *strongest = nullptr;
+  double least_used = 0;
+  for (const Line& line : lines) {
+    const double used = used_of(r, line, member);
+    if (lines.size() > 1 && used == 0) continue;
+    if (!strongest || used < least_used) strongest = &line, least_used = used;
+    if (used > 1 || line.linear_density_kg_m < least) continue;
+    if (!best || line.linear_density_kg_m < best->linear_density_kg_m) best = &line;
+  }
+  if (!best && !strongest) throw Error(ExitCode::bad_data, "the library has no line of known strength");
+  return best ? *best : *strongest;
+}
+
+/// Lines and tape for the design load of the present size. They never become lighter from one call to the next, so that
+/// the choice ends. Returns whether something changed.
+bool choose_materials(const std::vector<Line>& lines, SizeResult& r, double& least_line,
+                      double& least_riser) {
+  Design& design = r.given.parachute;
+  const Design before = design;
+  const Line& line = line_for(r, lines, "line", least_line);
+  least_line = line.linear_density_kg_m;
+  design.lines.material = design.riser.material = line.name;
+  r.given.materials.insert_or_assign(line.name, line);
+  if (design.riser.length_m > 0) {
+    const Line& riser = line_for(r, lines, "riser", least_riser);
+    least_riser = riser.linear_density_kg_m;
+    design.riser.material = riser.name;
+    r.given.materials.insert_or_assign(riser.name, riser);
+  }
+  TapeMaterial tape = tape_for(r.given, r.line_load_factor * r.design_load / design.lines.count);
+  design.tape.material = tape.name;
   r.tape_material = std::move(tape.name), r.tape_source = std::move(tape.from);
+  return before.lines.material != design.lines.material || before.riser.material != design.riser.material ||
+         before.tape.material != design.tape.material;
+}
+
+/// Size, opening load, lines and tape follow from each other: repeated until lines and tape stay.
+void find_parachute(const SizeRequest& request, SizeResult& r) {
+  constexpr int most = 12;
+  const std::vector<Line> lines = library_lines(request);
+  const Design example = r.given.parachute;
+  double least_line = 0, least_riser = 0;
+  for (int i = 0; i < most; ++i) {
+    Design scaled = example;
+    if (i > 0) {
+      scaled.lines.material = r.given.parachute.lines.material;
+      scaled.riser.material = r.given.parachute.riser.material;
+      scaled.tape.material = r.given.parachute.tape.material;
+    }
+    find_size(request, scaled, r);
+    find_opening(request, r);
+    if (!choose_materials(lines, r, least_line, least_riser) && i > 0) return;
+  }
+  throw Error(ExitCode::not_converged,
+              fmt::format("lines and tape still change after {} sizes: name a line (--line-material)", most));
+}
+
+void warn(const SizeRequest& request, SizeResult& r) {
+  r.warnings = r.load_warnings;
+  const StandardAir air = standard_air(request.density ? standard_height(r.density) : r.height);
+  const double reynolds = r.density * request.descent_rate * r.nominal_diameter / air.viscosity;
+  for (const std::string& text : outside_range(
+           flow_model,
+           {{"Mach number", request.descent_rate / air.sound_speed}, {"Reynolds number", reynolds}}))
+    r.warnings.push_back("drag coefficient: " + text);
 }
 
 void describe_parachute(const SizeRequest& request, SizeResult& r) {
   find_opening(request, r);
-  r.line_used = used_of(r.given, suspension_line(r.given), r.opening_load);
+  r.line_used = used_of(r, suspension_line(r.given), "line");
   const Design& design = r.given.parachute;
   r.nominal_area = nominal_area(design);
   r.nominal_diameter = nominal_diameter(design);
@@ -121,17 +226,16 @@ void describe_parachute(const SizeRequest& request, SizeResult& r) {
   r.gores = design.gores, r.line_count = design.lines.count, r.line_length = design.lines.length_m;
   r.line_material = design.lines.material, r.canopy_material = design.canopy_material;
   const Settings resolved = resolve(r.given);
-  const PatternResult pattern = run_pattern(resolved, {}, request.packing_density);
-  r.packed_volume = pattern.bill.packed_volume;
-  const CaseSummary summary = summarize(resolved);
-  r.cloth_mass = summary.mass.cloth, r.tape_mass = summary.mass.tape;
-  r.line_mass = summary.mass.lines + summary.mass.riser;
-  r.parachute_mass = parachute_mass(resolved);
+  r.packed_volume = parachute_bill(resolved, {}, request.packing_density).packed_volume;
+  const PartMasses masses = parachute_masses(resolved);
+  r.cloth_mass = masses.cloth, r.tape_mass = masses.tape, r.line_mass = masses.lines + masses.riser;
+  r.parachute_mass = masses.total;
   if (r.handbook_drag_coefficient) {
     const double scale = r.nominal_diameter * std::sqrt(r.drag_coefficient);
     r.handbook_diameter = {scale / std::sqrt(r.handbook_drag_coefficient->at(0)),
                            scale / std::sqrt(r.handbook_drag_coefficient->at(1))};
   }
+  warn(request, r);
   r.case_text = size_case_text(request, r);
 }
 
@@ -210,11 +314,7 @@ SizeResult run_size(const SizeRequest& request) {
                 fmt::format("a descent rate of {:g} m/s is not below the deployment speed of {:g} m/s",
                             request.descent_rate, r.deployment_speed));
   r.given = example_case(request, r);
-  find_size(request, r);
-  find_opening(request, r);
-  choose_line(request, r);
-  choose_tape(r);
-  find_size(request, r);
+  find_parachute(request, r);
   describe_parachute(request, r);
   return r;
 }

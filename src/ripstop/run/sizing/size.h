@@ -64,14 +64,19 @@ struct SizeResult {
   std::string line_material, tape_material, tape_source, canopy_material;
   double parachute_mass = 0, cloth_mass = 0, tape_mass = 0, line_mass = 0;  // [kg]
   double packed_volume = 0;                                                 // [m3]
-  double deployment_speed = 0, opening_load = 0, opening_load_low = 0;      // [m/s], [N]
-  double line_used = 0;  // of what is left of a line's strength, by the highest opening load with safety
+  double deployment_speed = 0;                                              // [m/s]
+  double opening_load = 0, opening_load_low = 0;  // range of the methods that apply [N]
+  double design_load = 0;                         // what lines, riser and tape are chosen for [N]
+  std::string design_load_from;
+  double line_load_factor = 1;     // largest line load over an equal share
+  std::optional<Margins> margins;  // of lines and riser under the design load
+  double line_used = 0;            // load / allowable of the line with the highest load
   std::vector<SizeCheck> checks;
-  std::vector<StageLoads> opening;  // by every method
-  std::vector<FlightRow> flight;    // of that opening; not in result.json
-  std::vector<std::string> warnings;
-  Case given;             // the parachute
-  std::string case_text;  // as a file, with comments
+  std::vector<StageLoads> opening;                   // by every method
+  std::vector<FlightRow> flight;                     // of that opening; not in result.json
+  std::vector<std::string> warnings, load_warnings;  // all; those of the opening alone, not in result.json
+  Case given;                                        // the parachute
+  std::string case_text;                             // as a file, with comments
 };
 template <Of<SizeResult> T, class Visit>
 void each_member(T& r, Visit&& visit) {
@@ -103,6 +108,10 @@ void each_member(T& r, Visit&& visit) {
   visit("deployment_speed_m_s", r.deployment_speed);
   visit("opening_load_n", r.opening_load);
   visit("opening_load_low_n", r.opening_load_low);
+  visit("design_load_n", r.design_load);
+  visit("design_load_from", r.design_load_from);
+  visit("line_load_factor", r.line_load_factor);
+  visit("margins", r.margins);
   visit("line_used", r.line_used);
   visit("checks", r.checks);
   visit("opening", r.opening);
@@ -110,8 +119,8 @@ void each_member(T& r, Visit&& visit) {
 }
 std::string to_json(const SizeResult& result);
 
-/// The family's example, every length of it in proportion. Throws Error(usage) for a family that is not there, and
-/// for what is not above 0.
+/// The family's example, every length of it in proportion. Throws Error(usage) for a family that is not there, for
+/// what is not above 0, and where no size that a case file can describe descends at the rate.
 SizeResult run_size(const SizeRequest& request);
 
 /// Runs the case until its descent rate is the wanted one within `tolerance`, changing the diameter: v goes with

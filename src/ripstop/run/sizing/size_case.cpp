@@ -12,23 +12,29 @@
 namespace ripstop {
 namespace {
 
-double scaled(double length, double factor) {
-  return std::round(length * factor * 1e4) / 1e4;
+/// To a tenth of a millimetre; small lengths to five digits, so that a small parachute keeps its proportions.
+double rounded(double length) {
+  const double step = length < 0.1 ? 1e-6 : length < 1 ? 1e-5 : 1e-4;
+  return std::round(length / step) * step;
 }
 
-void scale_fields(const Fields& fields, double factor) {
+/// Calls `each` with every length of the design, its key and its range.
+template <class Each>
+void visit_lengths(const Fields& fields, const std::string& table, const Each& each) {
   for (const Field& field : fields.list()) {
-    if (const auto* kind = std::get_if<Kind>(&field.value)) scale_fields(kind->select(kind->get()), factor);
+    const std::string key = table + field.key;
+    if (const auto* kind = std::get_if<Kind>(&field.value))
+      visit_lengths(kind->select(kind->get()), table, each);
     if (const auto* sub = std::get_if<Subtable>(&field.value); sub && field.key != "mesh")
-      scale_fields(sub->fields(), factor);
+      visit_lengths(sub->fields(), key + ".", each);
     if (const auto* rows = std::get_if<Rows>(&field.value))
-      for (std::size_t i = 0; i < rows->count(); ++i) scale_fields(rows->row(i), factor);
+      for (std::size_t i = 0; i < rows->count(); ++i) visit_lengths(rows->row(i), key + ".", each);
     if (!field.key.ends_with("_m")) continue;
-    if (const auto* value = std::get_if<double*>(&field.value)) **value = scaled(**value, factor);
+    if (const auto* value = std::get_if<double*>(&field.value)) each(**value, key, field.range, true);
     if (const auto* value = std::get_if<std::optional<double>*>(&field.value); value && **value)
-      **value = scaled(***value, factor);
+      each(***value, key, field.range, true);
     if (const auto* list = std::get_if<NumberList>(&field.value))
-      for (double& value : *list->value) value *= factor;
+      for (double& value : *list->value) each(value, key, field.range, false);
   }
 }
 
@@ -41,7 +47,7 @@ std::string comment_on(const std::string& key, const SizeResult& r) {
   if (key == "vent_diameter_m")
     return fmt::format("{:.2f} % of the area", 100 * r.vent_area / r.nominal_area);
   if (key == "lines.material")
-    return fmt::format("{:.0f} % of its strength after losses and safety at the opening", 100 * r.line_used);
+    return fmt::format("{:.0f} % of its allowable load at the opening", 100 * r.line_used);
   if (key == "tape.material") return r.tape_source;
   return "";
 }
@@ -76,10 +82,27 @@ std::string parachute_text(const SizeResult& r) {
 
 }  // namespace
 
-void scale_lengths(Design& design, double factor) {
+void scale_lengths(Design& design, double factor, Rounded round) {
   Fields fields;
   describe(fields, design);
-  scale_fields(fields, factor);
+  visit_lengths(fields, "", [&](double& value, const std::string&, const Range&, bool single) {
+    value *= factor;
+    if (single && round == Rounded::yes) value = rounded(value);
+  });
+}
+
+ScaleLimits scale_limits(Design design) {
+  ScaleLimits limits;
+  Fields fields;
+  describe(fields, design);
+  visit_lengths(fields, "", [&](double value, const std::string& key, const Range& range, bool) {
+    if (!(value > 0)) return;
+    if (range.high / value < limits.high)
+      limits.high = range.high / value, limits.high_key = key, limits.high_value = range.high;
+    if (range.low / value > limits.low)
+      limits.low = range.low / value, limits.low_key = key, limits.low_value = range.low;
+  });
+  return limits;
 }
 
 std::string size_case_text(const SizeRequest& request, const SizeResult& r) {
@@ -93,11 +116,10 @@ std::string size_case_text(const SizeRequest& request, const SizeResult& r) {
                         r.handbook_drag_coefficient->at(0), r.handbook_drag_coefficient->at(1));
   text += fmt::format(
       "# Parachute {:.3g} kg: cloth {:.3g}, tape {:.3g}, lines {:.3g}; packed {:.3g} litres at {:g} kg/m3.\n"
-      "# Opening load {:.0f} to {:.0f} N behind {:g} kg at {:g} m/s, by the methods that apply (ripstop "
-      "load).\n"
+      "# Design load {:.0f} N behind {:g} kg at {:g} m/s: {} (ripstop load).\n"
       "title = \"{}\"\n\n",
       r.parachute_mass, r.cloth_mass, r.tape_mass, r.line_mass, 1000 * r.packed_volume,
-      request.packing_density, r.opening_load_low, r.opening_load, r.payload_mass, r.deployment_speed,
+      request.packing_density, r.design_load, r.payload_mass, r.deployment_speed, r.design_load_from,
       r.given.title);
   text += parachute_text(r);
   text += fmt::format(
@@ -107,6 +129,8 @@ std::string size_case_text(const SizeRequest& request, const SizeResult& r) {
   text += request.density ? fmt::format("density_kg_m3 = {}\n", r.density)
                           : fmt::format("height_m = {}  # above sea level, standard atmosphere\n", r.height);
   text += fmt::format("speed_m_s = {}  # where the search begins\n", r.descent_rate);
+  text +=
+      fmt::format("\n[inflation]\ndrag_coefficient = {}  # on S0, for ripstop load\n", r.drag_coefficient);
   return text;
 }
 

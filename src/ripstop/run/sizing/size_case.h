@@ -7,8 +7,17 @@
 
 namespace ripstop {
 
-/// Every length of the parachute times `factor`, to a tenth of a millimetre; the mesh's own lengths stay.
-void scale_lengths(Design& design, double factor);
+enum class Rounded { no, yes };
+/// Every length of the parachute times `factor`, rounded to what is measured; the mesh's own lengths stay.
+void scale_lengths(Design& design, double factor, Rounded round = Rounded::yes);
+
+/// The factors between which every length stays within the range of its key, and the keys and values that bound them.
+struct ScaleLimits {
+  double low = 1e-6, high = 1e6;
+  std::string low_key, high_key;
+  double low_value = 0, high_value = 0;  // [m]
+};
+ScaleLimits scale_limits(Design design);
 
 /// A case file with comments that reads back to `result.given`.
 std::string size_case_text(const SizeRequest& request, const SizeResult& result);

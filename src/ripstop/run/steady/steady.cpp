@@ -10,9 +10,12 @@
 
 #include "ripstop/case/assemble.h"
 #include "ripstop/case/cost.h"
+#include "ripstop/case/resolve.h"
 #include "ripstop/run/engine.h"
 #include "ripstop/run/json.h"
+#include "ripstop/run/quality.h"
 #include "ripstop/run/steady/steady_parts.h"
+#include "ripstop/run/steady/warnings.h"
 
 namespace ripstop {
 namespace {
@@ -22,6 +25,17 @@ using nlohmann::json;
 double dynamic_pressure(const Settings& resolved) {
   const FlowSettings& flow = resolved.flow();
   return 0.5 * flow.density_kg_m3 * flow.speed_m_s * flow.speed_m_s;
+}
+
+void take_quality(SteadyResult& r, const Settings& resolved) {
+  const auto gap = [&](double force) { return std::abs(force / r.ledger.fluid_force - 1); };
+  Judgement judgement = judge({{"ledger_gap", std::max(gap(r.ledger.nodal_load), gap(r.ledger.line_tension))},
+                               {"momentum_deficit_gap", gap(r.ledger.momentum_deficit)}});
+  judgement.add(margin_warnings(r.margins));
+  judgement.add(warnings_of(resolved, r.stress.strain));
+  const bool needs_cells = resolved.coupling().load == CanopyLoad::of_flow;
+  r.usable = judgement.usable && (!needs_cells || judge({{"cells_across", cells_across(resolved)}}).usable);
+  r.warnings = std::move(judgement.warnings);
 }
 
 UnsteadyResult unsteady_result(const WindowAverage& watched, const Settings& resolved) {
@@ -66,6 +80,7 @@ SteadyResult steady_result(const SteadySolver& solver, const SteadyState& state,
   r.ledger = {r.last.fluid_force, r.last.nodal_load, r.last.line_tension, r.last.momentum_deficit};
   if (state.in_time) r.unsteady = unsteady_result(state.window, resolved);
   r.measured = resolved.measured_row();
+  take_quality(r, resolved);
   return r;
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "ripstop/canopy/shape.h"
 #include "ripstop/canopy/stress.h"
@@ -88,10 +89,12 @@ struct SteadyResult {
   double transfer_factor = 0, load_remainder = 0, axial_moment = 0, section_gap = 0;
   Ledger ledger;
   std::optional<UnsteadyResult> unsteady;
-  std::optional<HeldPayload> payload;  // of a case with one
-  std::optional<Margins> margins;      // absent in results of earlier versions
-  std::optional<Measured> measured;    // the case's row for this speed
-  SteadyIteration last;                // a row of iterations.csv; not in result.json
+  std::optional<HeldPayload> payload;                // of a case with one
+  std::optional<Margins> margins;                    // absent in results of earlier versions
+  std::optional<Measured> measured;                  // the case's row for this speed
+  std::optional<std::vector<std::string>> warnings;  // absent likewise, as is `usable`
+  std::optional<bool> usable;                        // false: a quality limit that must hold does not
+  SteadyIteration last;                              // a row of iterations.csv; not in result.json
 };
 template <Of<SteadyResult> T, class Visit>
 void each_member(T& r, Visit&& visit) {
@@ -127,6 +130,8 @@ void each_member(T& r, Visit&& visit) {
   visit("payload", r.payload);
   visit("margins", r.margins);
   visit("measured", r.measured);
+  visit("warnings", r.warnings);
+  visit("usable", r.usable);
 }
 std::string to_json(const SteadyResult& result);
 /// Throws Error(resources) when this machine has not the memory for a steady run of the case.

@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "ripstop/case/settings.h"
+#include "ripstop/flight/validity.h"
 #include "ripstop/material/fit_material.h"
+#include "ripstop/run/quality.h"
 
 namespace ripstop {
 
@@ -18,11 +22,9 @@ std::vector<std::string> mesh_warnings(const Settings& resolved) {
 }
 
 std::vector<std::string> grid_warnings(const Settings& resolved) {
-  constexpr double enough = 10;  // on five, of-flow jumps between shapes; docs/theory/coupling.md
+  const double enough = quality_limit("cells_across").warn;
   if (resolved.coupling().load != CanopyLoad::of_flow) return {};
-  const FlowGrid grid = flow_grid(resolved.flow());
-  const double across =
-      inflated_diameter(resolved.parachute()) / grid.spacing({0, 0, resolved.flow().canopy_position_m}).x;
+  const double across = cells_across(resolved);
   if (across >= enough) return {};
   return {
       fmt::format("{:.0f} cells of the flow across the inflated canopy: with fewer than {:.0f} the air's "
@@ -43,6 +45,16 @@ std::vector<std::string> porosity_warnings(const Settings& resolved) {
                   word(used), cloth.name, word(model_of(cloth.resistance)))};
 }
 
+std::vector<std::string> range_warnings(const Settings& resolved) {
+  constexpr double heat_ratio = 1.4, gas_constant = 287.05;  // of air, [J/(kg K)]
+  const FlowSettings flow = resolved.flow();
+  const double speed = flow.speed_m_s;
+  const double sound = std::sqrt(heat_ratio * gas_constant * flow.temperature_k);
+  const double reynolds =
+      flow.density_kg_m3 * speed * nominal_diameter(resolved.parachute()) / flow.viscosity_pa_s;
+  return outside_range(flow_model, {{"Mach number", speed / sound}, {"Reynolds number", reynolds}});
+}
+
 std::vector<std::string> strain_warnings(const Settings& resolved, double largest_cloth_strain) {
   std::vector<std::string> all;
   for (const auto& [name, material] : resolved.written().materials) {
@@ -54,7 +66,8 @@ std::vector<std::string> strain_warnings(const Settings& resolved, double larges
 
 std::vector<std::string> case_warnings(const Settings& resolved) {
   std::vector<std::string> all = mesh_warnings(resolved);
-  for (const std::vector<std::string>& more : {grid_warnings(resolved), porosity_warnings(resolved)})
+  for (const std::vector<std::string>& more :
+       {grid_warnings(resolved), porosity_warnings(resolved), range_warnings(resolved)})
     all.insert(all.end(), more.begin(), more.end());
   return all;
 }

@@ -14,7 +14,9 @@ std::vector<std::string> mesh_warnings(const Settings& resolved);
 std::vector<std::string> grid_warnings(const Settings& resolved);
 /// Permeability of another model than the one that is used.
 std::vector<std::string> porosity_warnings(const Settings& resolved);
-/// What is doubtful before anything is computed: the three above.
+/// Mach and Reynolds number outside the range of the flow model.
+std::vector<std::string> range_warnings(const Settings& resolved);
+/// What is doubtful before anything is computed: the four above.
 std::vector<std::string> case_warnings(const Settings& resolved);
 /// Materials stretched beyond their tests, and such.
 std::vector<std::string> strain_warnings(const Settings& resolved, double largest_cloth_strain);

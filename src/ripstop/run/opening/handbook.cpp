@@ -1,0 +1,54 @@
+#include "ripstop/run/opening/handbook.h"
+
+#include <fmt/format.h>
+
+#include "ripstop/case/assemble.h"
+#include "ripstop/core/error.h"
+#include "ripstop/flight/atmosphere.h"
+#include "ripstop/run/opening/load.h"
+
+namespace ripstop {
+
+std::vector<MethodLoad> handbook_methods(const Settings& resolved) {
+  if (!resolved.payload().mass_kg) return {};
+  const FlowSettings& stream = resolved.flow();
+  LoadRequest request;
+  request.payload_mass = *resolved.payload().mass_kg;
+  request.speed = stream.speed_m_s;
+  request.path_angle = resolved.inflation().flight_angle_deg;
+  request.ground = lowest_height;
+  try {
+    request.height =
+        resolved.flow().height_m ? *resolved.flow().height_m : standard_height(stream.density_kg_m3);
+    return run_load(resolved, request).stages.front().methods;
+  } catch (const Error&) {  // a drop for which no method has an answer: nothing to compare with
+    return {};
+  }
+}
+
+std::optional<std::string> handbook_disagreement(double computed, std::optional<double> distance,
+                                                 const std::vector<MethodLoad>& methods) {
+  const MethodLoad *lowest = nullptr, *highest = nullptr;
+  for (const MethodLoad& m : methods) {
+    if (m.method == infinite_mass_method || m.method == computed_method) continue;
+    if (!lowest || m.load < lowest->load) lowest = &m;
+    if (!highest || m.load > highest->load) highest = &m;
+  }
+  if (!lowest) return {};
+  const bool above = computed > (1 + opening_scatter) * highest->load;
+  const bool below = computed < (1 - opening_scatter) * lowest->load;
+  if (!above && !below) return {};
+  const MethodLoad& nearest = above ? *highest : *lowest;
+  return fmt::format(
+      "the computed opening load of {:.4g} N is {:.2g} times the {} finite-mass handbook load ({}: {:.4g} "
+      "N). The "
+      "handbook methods assume a filling distance that was measured on larger and faster canopies{}. The "
+      "deployment "
+      "decides how fast a canopy fills; design for the highest of these loads unless you have measured yours",
+      computed, computed / nearest.load, above ? "highest" : "lowest", nearest.method, nearest.load,
+      distance
+          ? fmt::format("; the computed opening reaches its peak after {:.2g} nominal diameters", *distance)
+          : "");
+}
+
+}  // namespace ripstop

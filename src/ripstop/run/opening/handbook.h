@@ -1,0 +1,26 @@
+// The handbook's opening loads for the deployment that a case describes, to compare a computed opening with.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ripstop/case/settings.h"
+#include "ripstop/run/opening/method_load.h"
+
+namespace ripstop {
+
+/// Three standard deviations of the peaks of openings that differ only in mesh or folds: 5 % each for a disk-gap-band
+/// (docs/theory/inflation.md, Step and cells), 2 to 6 % for solid canopies.
+inline constexpr double opening_scatter = 0.15;
+
+/// All methods of run_load() for the payload, speed and density of the case. Empty where they cannot be computed (no
+/// payload, or a descent rate above the speed).
+std::vector<MethodLoad> handbook_methods(const Settings& resolved);
+
+/// What to say where `computed` [N] lies outside the range of the finite-mass methods of `methods` by more than
+/// opening_scatter; nothing where it does not. `distance` is the computed path to the peak over D0, where it is known.
+std::optional<std::string> handbook_disagreement(double computed, std::optional<double> distance,
+                                                 const std::vector<MethodLoad>& methods);
+
+}  // namespace ripstop

@@ -1,0 +1,73 @@
+#include "ripstop/run/quality.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "ripstop/case/settings.h"
+
+namespace ripstop {
+namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+// Values of runs that agree with measurements, and why the limits are where they are: docs/theory/quality.md.
+const std::vector<QualityLimit>& quality_limits() {
+  static const std::vector<QualityLimit> limits = {
+      {"energy_residual", "residual of the energy balance", 0.05, 0.2, false, 100, " % of the work",
+       "take a smaller step (inflation.step_fraction, inflation.courant) or finer cells (flow.cells)"},
+      {"momentum_residual", "residual of the momentum balance of the air", 0.01, 0.05, false, 100,
+       " % of the peak load", "take a smaller step of the air (inflation.courant)"},
+      {"start_strain", "strain of the folded start", 1e-3, 0.02, false, 100, " %",
+       "change inflation.initial_radius_m or inflation.folds"},
+      {"pierced_edges", "share of cloth edges that pierce cloth", 0.02, never, false, 100, " %",
+       "raise inflation.contact_pa or parachute.mesh.cloth_nodes"},
+      {"contact_depth", "depth to which layers of cloth are pressed into each other", 0.6, never, false, 100,
+       " % of their distance", "raise inflation.contact_pa"},
+      {"ledger_gap", "difference of the force of the air, the nodal load and the line tension", 0.02, 0.1,
+       false, 100, " %", "let the coupling converge (coupling.max_iterations)"},
+      {"momentum_deficit_gap", "difference of the momentum deficit of the flow and its force", 0.05, 0.2,
+       false, 100, " %", "lower flow.residual or raise flow.max_iterations"},
+      {"cells_across", "number of flow cells across the inflated canopy", 10, 4, true, 1, "",
+       "take more cells (flow.cells) or a smaller box (flow.box_m)"},
+  };
+  return limits;
+}
+
+const QualityLimit& quality_limit(const std::string& key) {
+  const auto& all = quality_limits();
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const auto& limit) { return limit.key == key; });
+  if (found == all.end()) throw std::logic_error("no quality limit for " + key);
+  return *found;
+}
+
+Judgement judge(const std::vector<QualityValue>& values) {
+  Judgement judgement;
+  for (const QualityValue& v : values) {
+    const QualityLimit& limit = quality_limit(v.key);
+    const auto beyond = [&](double bound) {
+      return !std::isfinite(v.value) || (limit.at_least ? v.value < bound : v.value > bound);
+    };
+    if (!beyond(limit.warn)) continue;
+    const bool refused = beyond(limit.refuse);
+    judgement.usable = judgement.usable && !refused;
+    judgement.warnings.push_back(
+        fmt::format("{}: {:.3g}{}, {} {:.3g}{} is acceptable; {}{}", limit.name, limit.shown_as * v.value,
+                    limit.unit, limit.at_least ? "at least" : "up to", limit.shown_as * limit.warn,
+                    limit.unit, refused ? "the result must not be used; " : "", limit.remedy));
+  }
+  return judgement;
+}
+
+double cells_across(const Settings& resolved) {
+  const double place = resolved.flow().canopy_position_m;
+  return inflated_diameter(resolved.parachute()) / flow_grid(resolved.flow()).spacing({0, 0, place}).x;
+}
+
+}  // namespace ripstop

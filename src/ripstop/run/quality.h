@@ -1,0 +1,49 @@
+// Limits of the measures that say how far a result can be trusted.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "ripstop/case/settings.h"
+
+namespace ripstop {
+
+/// One measure. Above `warn` (below it where `at_least`) the result has a warning; beyond `refuse` it must not be used,
+/// and the command ends with ExitCode::not_converged.
+struct QualityLimit {
+  const char* key;  // the member of result.json, or the name of a value that is computed for the check
+  const char* name;
+  double warn = 0, refuse = 0;
+  bool at_least = false;
+  double shown_as = 1;  // factor of the number in a message
+  const char* unit = "";
+  const char* remedy = "";
+};
+
+/// All of them.
+const std::vector<QualityLimit>& quality_limits();
+
+/// Throws std::logic_error for a key that the list does not have.
+const QualityLimit& quality_limit(const std::string& key);
+
+struct QualityValue {
+  const char* key;
+  double value = 0;
+};
+
+struct Judgement {
+  std::vector<std::string> warnings;
+  bool usable = true;
+
+  void add(const std::vector<std::string>& more) {
+    warnings.insert(warnings.end(), more.begin(), more.end());
+  }
+};
+
+/// Compares `values` with their limits. A value that is not finite is not usable. Throws as quality_limit().
+Judgement judge(const std::vector<QualityValue>& values);
+
+/// Cells of the flow's grid across the inflated canopy.
+double cells_across(const Settings& resolved);
+
+}  // namespace ripstop

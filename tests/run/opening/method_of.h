@@ -1,0 +1,17 @@
+// A method of run_load() by its name.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+#include "ripstop/run/opening/load.h"
+
+namespace ripstop {
+
+inline const MethodLoad& method(const StageLoads& stage, const std::string& name) {
+  for (const MethodLoad& m : stage.methods)
+    if (m.method == name) return m;
+  throw std::runtime_error("no method " + name);
+}
+
+}  // namespace ripstop

@@ -1,0 +1,68 @@
+// Limits of the measures of quality: what is above them has a warning, and is not usable beyond the second one.
+#include "ripstop/run/quality.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "ripstop/run/margins.h"
+
+namespace ripstop {
+namespace {
+
+TEST(Quality, WithinItsLimitsSaysNothing) {
+  for (const QualityLimit& limit : quality_limits()) {
+    const Judgement judgement = judge({{limit.key, limit.warn}});
+    EXPECT_TRUE(judgement.usable && judgement.warnings.empty()) << limit.key;
+  }
+}
+
+TEST(Quality, EveryMeasureWarnsBeyondItsFirstLimitAndIsRefusedBeyondItsSecond) {
+  for (const QualityLimit& limit : quality_limits()) {
+    const double past = limit.at_least ? 0.99 : 1.01;
+    const Judgement warned = judge({{limit.key, past * limit.warn}});
+    EXPECT_TRUE(warned.usable) << limit.key;
+    ASSERT_EQ(warned.warnings.size(), 1u) << limit.key;
+    EXPECT_EQ(warned.warnings[0].find(limit.name), 0u) << warned.warnings[0];
+    EXPECT_NE(warned.warnings[0].find(limit.remedy), std::string::npos) << warned.warnings[0];
+    EXPECT_FALSE(judge({{limit.key, std::nan("")}}).usable) << limit.key;
+    if (!std::isfinite(limit.refuse)) continue;
+    const Judgement refused = judge({{limit.key, past * limit.refuse}});
+    EXPECT_FALSE(refused.usable) << limit.key;
+    EXPECT_NE(refused.warnings[0].find("must not be used"), std::string::npos) << refused.warnings[0];
+  }
+}
+
+// Balances that two users met: 46.6 and 32.7 % had no consequence; 2.7 % is what openings on default cells have.
+TEST(Quality, AnOpenEnergyBalanceIsNotUsable) {
+  EXPECT_FALSE(judge({{"energy_residual", 0.46633}}).usable);
+  EXPECT_FALSE(judge({{"energy_residual", 0.327}}).usable);
+  EXPECT_TRUE(judge({{"energy_residual", 0.027}}).warnings.empty());
+}
+
+TEST(Quality, AMeasureThatIsNotInTheListIsAnError) {
+  EXPECT_THROW(judge({{"no_such_measure", 1}}), std::logic_error);
+}
+
+TEST(MarginWarnings, NameEveryKindOfMemberBelowZeroOnce) {
+  const auto member = [](const char* name, double used) {
+    Margin m;
+    m.member = name, m.load = 100 * used, m.unit = "N", m.strength = 100, m.used = used,
+    m.margin = 1 / used - 1;
+    return m;
+  };
+  Margins margins;
+  margins.members = {member("cloth", 0.5), member("line 1", 1.16), member("line 2", 1.1),
+                     member("riser", 6.5)};
+  const std::vector<std::string> told = margin_warnings(margins);
+  ASSERT_EQ(told.size(), 2u);
+  EXPECT_EQ(told[0].find("the line 1 does not hold"), 0u) << told[0];
+  EXPECT_EQ(told[1].find("the riser does not hold"), 0u) << told[1];
+  EXPECT_NE(told[1].find("6.5 times the allowable 100 N (margin of safety -0.85)"), std::string::npos)
+      << told[1];
+  EXPECT_TRUE(margin_warnings(std::nullopt).empty());
+}
+
+}  // namespace
+}  // namespace ripstop
