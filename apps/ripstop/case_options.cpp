@@ -31,6 +31,15 @@ void add_set_option(CLI::App& command, Overrides& overrides) {
           "Any key of the case, as in --set flow.box_m=[3,3,5]; repeatable")
       ->expected(1)
       ->take_all();
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--unset",
+          [&overrides](const std::vector<std::string>& keys) {
+            for (const std::string& key : keys) overrides.set.push_back({key, "", "--unset", true});
+          },
+          "Key or table that is left out of the case, as in --unset payload; repeatable")
+      ->expected(1)
+      ->take_all();
 }
 
 void add_key_option(CLI::App& command, const std::string& option, const std::string& key,

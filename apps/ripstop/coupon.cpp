@@ -14,6 +14,7 @@
 #include "fit_report.h"
 #include "json_option.h"
 #include "number_option.h"
+#include "ripstop/core/claimed_folder.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/run/material/fit.h"
@@ -58,7 +59,6 @@ int compare(const CouponArguments& options, const Fabric& fabric, ThreadTeam& te
   const std::string json = coupons_json(
       fabric, bench, fit, fmt::format("{} cells, {} points\n", options.shape.cells, options.points), coupons);
   if (!options.out.empty()) {
-    make_folder(options.out);
     for (const CouponComparison& c : coupons) write_coupon(options.out, c.name, c.coupon, c.pull);
     write_curves(options.out, fit, bench, coupons);
     write_file(options.out / "result.json", json);
@@ -97,6 +97,7 @@ int pull(const CouponArguments& options, const Fabric& fabric, ThreadTeam& team)
 
 int run(const CouponArguments& options) {
   const Fabric fabric = fabric_of(options.material);
+  if (!options.out.empty()) make_results_folder(options.out);
   ThreadTeam team(options.threads);
   return options.bench.empty() ? pull(options, fabric, team) : compare(options, fabric, team);
 }

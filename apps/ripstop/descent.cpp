@@ -11,6 +11,7 @@
 #include "commands.h"
 #include "json_option.h"
 #include "number_option.h"
+#include "ripstop/core/claimed_folder.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/flight/atmosphere.h"
@@ -42,12 +43,10 @@ void print_result(const Descent& d) {
 }
 
 int descent(const DescentArguments& options) {
+  if (!options.out.empty()) make_results_folder(options.out);
   const Descent result =
       run_descent(finished_steady(options.run), options.mass, options.heights, options.ground);
-  if (!options.out.empty()) {
-    make_folder(options.out);
-    write_file(options.out / "result.json", to_json(result));
-  }
+  if (!options.out.empty()) write_file(options.out / "result.json", to_json(result));
   if (options.json)
     fmt::print("{}", to_json(result));
   else

@@ -14,6 +14,7 @@
 #include "json_option.h"
 #include "number_option.h"
 #include "progress.h"
+#include "ripstop/core/claimed_folder.h"
 #include "ripstop/core/error.h"
 #include "warnings.h"
 
@@ -53,6 +54,7 @@ void print_result(const FabricResult& r, const fs::path& folder) {
 
 int run(const FabricArguments& options) {
   const Settings resolved = read_settings(options.case_file, options.overrides);
+  if (!options.out.empty()) make_results_folder(options.out);
   Progress progress;
   const FabricSolution solution = run_fabric(resolved, options.pressure, [&](const RelaxProgress& p) {
     progress.show(fmt::format("cloth: step {}, residual {:.1e} (wanted {:.0e})", p.steps, p.residual,

@@ -22,6 +22,7 @@ struct PatternArguments {
   fs::path out = "pattern";
   Allowances allowances;
   double packing_density = packed_by_hand;
+  std::string units = "mm";
   bool json = false;
 };
 
@@ -37,9 +38,10 @@ void print_bill(const Bill& bill) {
 }
 
 int run(const PatternArguments& options) {
+  const DxfUnit unit = options.units == "in" ? DxfUnit::inches : DxfUnit::millimetres;
   const PatternResult result =
       run_pattern(read_settings(options.case_file), options.allowances, options.packing_density);
-  write_pattern(options.out, result);
+  write_pattern(options.out, result, unit);
   if (options.json) {
     fmt::print("{}", to_json(result));
     return 0;
@@ -47,8 +49,9 @@ int run(const PatternArguments& options) {
   print_bill(result.bill);
   fmt::print("packed at {:.0f} kg/m3: {:.3f} l\n", result.packing_density, 1000 * result.bill.packed_volume);
   fmt::print("S0 {:.4f} m2, cloth {:.4f} m2 finished\n", result.nominal_area, result.cloth_area);
-  fmt::print("{} pieces as DXF and SVG (1 unit = 1 mm), bill.csv and result.json in {}\n",
-             result.pattern.pieces.size(), options.out.string());
+  fmt::print("{} pieces as DXF (in {}) and SVG, bill.csv and result.json in {}\n",
+             result.pattern.pieces.size(), unit == DxfUnit::inches ? "inches" : "millimetres",
+             options.out.string());
   return 0;
 }
 
@@ -63,15 +66,18 @@ void add_pattern(CLI::App& app, int& status) {
   command->add_option("case", options->case_file, "Case file (TOML)")->required();
   command->add_option("--out", options->out, "Folder for the files")->capture_default_str();
   const auto length = [&](const char* name, double& value, const char* text) {
-    add_number(*command, name, value, from(0).up_to(1), fmt::format("{} (default: {:g})", text, value));
+    add_number(*command, name, value, allowance_range, fmt::format("{} (default: {:g})", text, value));
   };
   length("--seam-allowance", options->allowances.seam, "Cloth beyond a seam [m]");
   length("--hem-allowance", options->allowances.hem, "Cloth beyond a free edge [m]");
   length("--line-loop", options->allowances.line_loop, "Line beyond either end, for its loop [m]");
   length("--tape-overlap", options->allowances.tape_overlap, "Tape beyond its finished length [m]");
-  add_number(*command, "--packing-density", options->packing_density, from(50).up_to(1500),
+  add_number(*command, "--packing-density", options->packing_density, packing_density_range,
              fmt::format("About 400 packed by hand, 600 under a press [kg/m3] (default: {:g})",
                          options->packing_density));
+  command->add_option("--units", options->units, "Of the DXF files: mm or in")
+      ->check(CLI::IsMember({"mm", "in"}))
+      ->capture_default_str();
   add_json_option(*command, options->json);
   command->callback([options, &status] { status = run(*options); });
 }

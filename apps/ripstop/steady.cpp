@@ -1,6 +1,7 @@
 // ripstop steady: the coupled steady case, from a case file to a run folder.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -16,6 +17,7 @@
 #include "ripstop/case/assemble.h"
 #include "ripstop/case/cost.h"
 #include "ripstop/core/error.h"
+#include "ripstop/fsi/convergence.h"
 #include "ripstop/run/engine.h"
 #include "ripstop/run/report/report.h"
 #include "ripstop/run/steady/steady_folder.h"
@@ -136,7 +138,6 @@ int write_scripts(const SteadyArguments& options, const SteadyFolderSettings& se
 
 int run(const SteadyArguments& options) {
   const Settings resolved = read_settings(options.case_file, options.overrides);
-  const CouplingSettings& coupling = resolved.coupling();
   const fs::path folder = options.out.empty() ? default_run_folder(options.case_file) : options.out;
   const SteadyFolderSettings settings{
       {folder, options.fresh}, 0, options.hostfile, {}, options.batch.wanted()};
@@ -145,8 +146,9 @@ int run(const SteadyArguments& options) {
   goes_on_when_repeated();
   SteadyTerminal terminal(folder);
   const SteadyFolderRun done = run_steady_in(settings, resolved, terminal);
-  const SteadyResult& result = done.result;
-  if (options.json || done.already_finished)
+  SteadyResult result = done.result;
+  if (done.already_finished) result.last = final_state(folder).iterations.back();  // not in result.json
+  if (options.json)
     fmt::print("{}", to_json(result));
   else
     print_result(result, resolved, folder);
@@ -158,13 +160,8 @@ int run(const SteadyArguments& options) {
     return status;
   }
   if (!result.converged)
-    fmt::print(
-        stderr,
-        "not converged within {} coupling iterations: drag still changed by {:.2g} (wanted {:.2g}), "
-        "shape by {:.2g} m (wanted {:.2g}), the ledger is not closed within 1 %, or slack cloth is held to "
-        "the last shape by {:.2g} of the load (2 % at most)\n",
-        result.iterations, result.last.drag_change, coupling.drag_tolerance, result.last.shape_change,
-        coupling.shape_tolerance_m, result.last.regularisation_share);
+    fmt::print(stderr, "not converged within {} coupling iterations: {}\n", result.iterations,
+               fmt::join(unmet_criteria(result.last, resolved.coupling()), "; "));
   return status;
 }
 

@@ -9,7 +9,16 @@
 namespace ripstop::python {
 namespace {
 
-std::string toml_of(py::handle value);
+/// Of tables and lists in each other; a dictionary that contains itself has no end.
+constexpr int deepest = 32;
+
+void require_depth(int depth) {
+  if (depth > deepest)
+    throw py::value_error("a case has tables and lists within each other " + std::to_string(deepest) +
+                          " deep at most; does a dictionary or list contain itself?");
+}
+
+std::string toml_of(py::handle value, int depth);
 
 std::string toml_text(const std::string& text) {
   return py::module_::import("json")
@@ -17,40 +26,44 @@ std::string toml_text(const std::string& text) {
       .cast<std::string>();  // TOML's basic strings are JSON's
 }
 
-std::string toml_list(py::handle items) {
+std::string toml_list(py::handle items, int depth) {
   std::string text = "[";
-  for (const py::handle item : items) text += (text.size() > 1 ? ", " : "") + toml_of(item);
+  for (const py::handle item : items) text += (text.size() > 1 ? ", " : "") + toml_of(item, depth);
   return text + "]";
 }
 
-std::string toml_table(const py::dict& table) {
+std::string toml_table(const py::dict& table, int depth) {
   std::string text = "{";
   for (const auto& [key, value] : table)
-    text += (text.size() > 1 ? ", " : "") + toml_text(py::str(key)) + " = " + toml_of(value);
+    text += (text.size() > 1 ? ", " : "") + toml_text(py::str(key)) + " = " + toml_of(value, depth);
   return text + "}";
 }
 
 /// A value as a case file has it; numbers of NumPy are numbers, its arrays lists.
-std::string toml_of(py::handle value) {
-  if (py::hasattr(value, "tolist")) return toml_of(value.attr("tolist")());
+std::string toml_of(py::handle value, int depth) {
+  require_depth(depth);
+  if (py::hasattr(value, "tolist")) return toml_of(value.attr("tolist")(), depth + 1);
   if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "true" : "false";
   if (py::isinstance<py::int_>(value) || py::isinstance<py::float_>(value)) return py::str(value);
   if (py::isinstance<py::str>(value)) return toml_text(value.cast<std::string>());
-  if (py::isinstance<py::dict>(value)) return toml_table(py::reinterpret_borrow<py::dict>(value));
-  if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)) return toml_list(value);
+  if (py::isinstance<py::dict>(value)) return toml_table(py::reinterpret_borrow<py::dict>(value), depth + 1);
+  if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)) return toml_list(value, depth + 1);
   throw py::type_error("a value of a case is a number, a text, True or False, or a list of such, not " +
                        py::repr(value).cast<std::string>());
 }
 
-/// Dots within part the names of tables, as in flow.speed_m_s.
+/// Dots within part the names of tables, as in flow.speed_m_s. None removes a key or a table.
 void add_settings(const py::dict& keys, const std::string& above, std::vector<Setting>& all,
-                  const char* option = "--set") {
+                  const char* option = "set", int depth = 0) {
+  require_depth(depth);
   for (const auto& [key, value] : keys) {
     const std::string name = above + py::str(key).cast<std::string>();
     if (py::isinstance<py::dict>(value))
-      add_settings(py::reinterpret_borrow<py::dict>(value), name + ".", all, option);
+      add_settings(py::reinterpret_borrow<py::dict>(value), name + ".", all, option, depth + 1);
+    else if (value.is_none())
+      all.push_back({name, "", option, true});
     else
-      all.push_back({name, toml_of(value), option});
+      all.push_back({name, toml_of(value, depth), option});
   }
 }
 
@@ -119,10 +132,10 @@ void add_case(py::module_& module) {
       "What a case file says: a parachute, its materials, the air and how to compute.\n\n"
       "Keys are those of the case file (docs/guide/case-file.md); units are in their names.\n"
       "A case is whole at any time: what is wrong with it raises InputError.");
-  type.def_static(
-      "read", &read, py::arg("file"), py::kw_only(), py::arg("set") = py::dict(),
-      "Reads a case file (TOML). set: keys to put in place of the file's, as --set does:\n"
-      "{\"flow.speed_m_s\": 20}. Raises InputError with every mistake, Error where it cannot be read.");
+  type.def_static("read", &read, py::arg("file"), py::kw_only(), py::arg("set") = py::dict(),
+                  "Reads a case file (TOML). set: keys to put in place of the file's, as --set does:\n"
+                  "{\"flow.speed_m_s\": 20}; None removes a key or a table. Raises InputError with every "
+                  "mistake, Error where it cannot be read.");
   type.def_static("from_toml", &from_toml, py::arg("text"), py::arg("name") = "case", py::kw_only(),
                   py::arg("set") = py::dict(), "The same from text; name stands for the file in messages.");
   type.def_static(
@@ -172,7 +185,8 @@ void add_case(py::module_& module) {
         made.file = state[2].cast<std::string>();
         for (const py::handle item : state[3].cast<py::list>()) {
           const auto part = item.cast<std::tuple<std::string, std::string, std::string>>();
-          made.set.push_back({std::get<0>(part), std::get<1>(part), std::get<2>(part)});
+          made.set.push_back(
+              {std::get<0>(part), std::get<1>(part), std::get<2>(part), std::get<1>(part).empty()});
         }
         parse(made);
         return made;

@@ -148,7 +148,19 @@ TEST_F(Steady, AFolderOfAnotherRunIsRefusedAndAFinishedOneIsOnlyShown) {
   EXPECT_EQ(wait_for(start(command("run", "builtin"))), 2);  // the first works there
   ASSERT_EQ(wait_for(first), 0);
   const auto written = fs::last_write_time(run / "result.json");
-  EXPECT_EQ(wait_for(start(command("run", "builtin"))), 0);
+  const Finished again = ripstop_with(command("run", "builtin"));
+  EXPECT_EQ(again.code, 0);
+  EXPECT_NE(again.output.find("  drag computed  "), std::string::npos) << again.output;
+  EXPECT_EQ(again.output.find("{\""), std::string::npos) << again.output;
+  std::vector<std::string> as_json = command("run", "builtin");
+  as_json.push_back("--json");
+  EXPECT_EQ(wait_for(start(as_json, folder_ / "again.json")), 0);
+  EXPECT_EQ(json::parse(read_file(folder_ / "again.json")), result("run"));
+  EXPECT_EQ(fs::last_write_time(run / "result.json"), written);
+  // Other commands leave it alone.
+  const std::string look = (folder_ / "case.toml").string();
+  EXPECT_EQ(wait_for(start({"fabric", look, "--out", run.string()})), 2);
+  EXPECT_EQ(wait_for(start({"pattern", look, "--out", run.string()})), 2);
   EXPECT_EQ(fs::last_write_time(run / "result.json"), written);
   std::vector<std::string> other = command("run", "builtin");
   other[5] = "12";

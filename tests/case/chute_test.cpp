@@ -350,6 +350,44 @@ TEST(Chute, ASectionOfNoGoresIsASlotAndNoCloth) {
   EXPECT_TRUE(says(open.not_mapped, "of 0 gores"));
 }
 
+TEST(Chute, ALongFormulaIsCutInTheMessage) {
+  std::string text = chute_text("elliptical");
+  const std::string formula = "diameter/2";
+  const std::size_t place = text.find(formula);
+  ASSERT_NE(place, std::string::npos);
+  text.replace(place, formula.size(), "unknown+" + std::string(200'000, '1'));
+  const std::string refusal = refusal_of([&] { read_chute(text, "long.chute"); }, ExitCode::bad_data);
+  EXPECT_NE(refusal.find("parameter_values["), std::string::npos);
+  EXPECT_LT(refusal.size(), 400u);
+}
+
+// A disk and a band that touch: the type "disk-gap-band" has a gap above 0.
+TEST(Chute, ADiskAndABandWithoutAGapBecomeAProfile) {
+  ChuteFile file = read_chute(chute_text("disk-gap-band"), "x");
+  ASSERT_EQ(file.sections.size(), 2u);
+  ChuteSection& a = file.sections[0];
+  ChuteSection& b = file.sections[1];
+  const bool a_is_disk = std::abs(a.points.front().y - a.points.back().y) < 1e-9;
+  ChuteSection& band = a_is_disk ? b : a;
+  const ChuteSection& disk = a_is_disk ? a : b;
+  const double up = disk.points.front().y - std::max(band.points.front().y, band.points.back().y);
+  ASSERT_GT(up, 0);
+  for (MeridianPoint& p : band.points) p.y += up;
+  const ChuteImport result = import_chute(file, {}, "touching.chute");
+  EXPECT_EQ(result.type, "profile");
+  EXPECT_TRUE(says(result.changed, "\"disk-gap-band\" cannot have this shape"));
+  const Case given = parse_case(result.case_text, "case.toml");
+  EXPECT_TRUE(given.parachute.canopy.as<ProfileCanopy>()->pieces[1].sewn);
+}
+
+TEST(Chute, AShapeThatNoTypeHasIsRefusedWithItsSections) {
+  ChuteFile file = read_chute(chute_text("elliptical"), "x");
+  for (MeridianPoint& p : file.sections[0].points) p.r = 0.5 + 0.1 * std::cos(40 * p.y);  // waists
+  const std::string refusal = refusal_of([&] { import_chute(file, {}, "waist.chute"); }, ExitCode::bad_data);
+  EXPECT_EQ(refusal.find("waist.chute: " + file.sections[0].place + ": "), 0u) << refusal;
+  EXPECT_NE(refusal.find("no canopy type"), std::string::npos) << refusal;
+}
+
 TEST(Chute, AKeyThatIsThereTwiceIsRefused) {
   const std::string text = chute_text("sails");
   std::string twice = text;

@@ -31,6 +31,19 @@ TEST(Set, ReplacesAnyKindOfKey) {
   EXPECT_DOUBLE_EQ(with("measured[0].density_kg_m3=1.3").measured[0].density_kg_m3, 1.3);
 }
 
+TEST(Set, RemovesAKeyOrATable) {
+  Overrides overrides;
+  overrides.set = {parse_setting("payload.mass_kg=3", "--set"), {"payload", "", "--unset", true}};
+  EXPECT_FALSE(parse_case(valid_case, "small.toml", overrides).payload.mass_kg);
+  overrides.set = {{"title", "", "--unset", true}};
+  EXPECT_NE(parse_case(valid_case, "small.toml").title, "");
+  EXPECT_EQ(parse_case(valid_case, "small.toml", overrides).title, Case().title);
+  for (const char* key : {"payload", "flow.nothing", "flow.box_m[0]", "title.x"}) {
+    overrides.set = {{key, "", "--unset", true}};
+    EXPECT_THROW(parse_case(valid_case, "small.toml", overrides), InputError) << key;
+  }
+}
+
 TEST(Set, OfAMaterialOfTheLibraryLeavesItsOtherValues) {
   const Fabric plain = canopy_fabric(parse_case(valid_case, "small.toml"));
   const Case changed = with("materials." + plain.name + ".pressure_drop_linear_pa_s_m=12.5");

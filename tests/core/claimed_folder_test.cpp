@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -44,6 +45,44 @@ TEST_F(ClaimedFolderTest, ClearRemovesWhatIsOnTheListAndNothingElse) {
   EXPECT_EQ(read_file(folder / "thesis.txt"), "mine");
   EXPECT_EQ(read_file(folder / "vtk/mine.vtp"), "mine");
   EXPECT_TRUE(again.names().empty());
+}
+
+/// flock() of a file system that answers with `reason`.
+template <int reason>
+int refusing_lock(int, int) {
+  errno = reason;
+  return -1;
+}
+
+TEST_F(ClaimedFolderTest, WarnsAndWorksOnAFileSystemWithoutLocks) {
+  for (const ClaimedFolder::LockCall lock :
+       {&refusing_lock<ENOLCK>, &refusing_lock<ENOSYS>, &refusing_lock<EOPNOTSUPP>}) {
+    ClaimedFolder claimed(folder, lock);
+    EXPECT_NE(claimed.warning().find("no other run uses this folder"), std::string::npos);
+    write_file(claimed.own("run.json"), "{}");
+    EXPECT_EQ(claimed.names(), std::vector<std::string>{"run.json"});
+  }
+  EXPECT_EQ(ClaimedFolder(folder).warning(), "");
+}
+
+TEST_F(ClaimedFolderTest, RefusesAnyOtherFailureOfTheLock) {
+  EXPECT_THROW(ClaimedFolder(folder, &refusing_lock<EIO>), Error);
+  EXPECT_THROW(ClaimedFolder(folder, &refusing_lock<EWOULDBLOCK>), Error);
+}
+
+TEST_F(ClaimedFolderTest, ResultsOfOtherCommandsDoNotReplaceThoseOfARun) {
+  {
+    ClaimedFolder claimed(folder);
+    write_file(claimed.own("result.json"), "{}");
+    claimed.seal();
+  }
+  EXPECT_THROW(make_results_folder(folder), Error);
+  EXPECT_EQ(read_file(folder / "result.json"), "{}");
+  make_results_folder(root.path / "new/results");
+  make_results_folder(root.path / "new/results");
+  EXPECT_TRUE(fs::is_empty(root.path / "new/results"));
+  write_file(root.path / "file", "");
+  EXPECT_THROW(make_results_folder(root.path / "file"), Error);
 }
 
 TEST_F(ClaimedFolderTest, WhoLooksWhetherItIsClaimedDoesNotClaimIt) {

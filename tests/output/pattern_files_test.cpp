@@ -42,6 +42,42 @@ TEST(PatternFiles, TheDxfHoldsTheFinishedAndTheCutOutlineInMillimetres) {
   EXPECT_NEAR(outlines.at("CUT")[0].y, -20, 1e-3);
 }
 
+/// Values of the header's variables by name.
+std::map<std::string, std::string> dxf_header(const std::string& text) {
+  std::map<std::string, std::string> values;
+  std::istringstream stream(text);
+  std::string code, value, name;
+  while (std::getline(stream, code) && std::getline(stream, value) && value != "ENDSEC") {
+    if (code == "9") name = value;
+    if (code == "70") values[name] = value;
+  }
+  return values;
+}
+
+TEST(PatternFiles, DxfStatesItsUnitAndItsCoordinatesHaveIt) {
+  const TemporaryFolder folder("pattern");
+  struct Expected {
+    DxfUnit unit;
+    const char *measurement, *units;
+    double metre;
+  };
+  for (const auto& [unit, measurement, units, metre] :
+       {Expected{DxfUnit::millimetres, "1", "4", 1000}, Expected{DxfUnit::inches, "0", "1", 1 / 0.0254}}) {
+    write_pattern_dxf(folder.path / "gore.dxf", triangle, {.seam = 0, .hem = 0}, unit);
+    const std::string text = read_file(folder.path / "gore.dxf");
+    auto header = dxf_header(text);
+    EXPECT_EQ(header["$MEASUREMENT"], measurement);
+    EXPECT_EQ(header["$INSUNITS"], units);
+    const auto outlines = dxf_outlines(text);
+    for (std::size_t i = 0; i < triangle.outline.size(); ++i) {
+      EXPECT_NEAR(outlines.at("SEAM")[i].x, triangle.outline[i].x * metre, 1e-4);
+      EXPECT_NEAR(outlines.at("SEAM")[i].y, triangle.outline[i].y * metre, 1e-4);
+    }
+    const Point2 tail = outlines.at("GRAIN")[0], tip = outlines.at("GRAIN")[1];
+    EXPECT_NEAR(std::hypot(tip.x - tail.x, tip.y - tail.y), 0.4 * metre, 0.1 * metre);
+  }
+}
+
 TEST(PatternFiles, TheGrainArrowPointsAlongTheWarpAndStaysOnThePiecesBox) {
   const TemporaryFolder folder("pattern");
   for (const double degrees : {0.0, 45.0, 90.0}) {

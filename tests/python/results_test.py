@@ -41,6 +41,41 @@ class Cases(unittest.TestCase):
         with self.assertRaises(TypeError):
             case.set("flow.speed_m_s", object())
 
+    def test_a_dictionary_that_is_deep_or_contains_itself_is_refused(self):
+        loop = {"flow": {}}
+        loop["flow"]["flow"] = loop
+        deep = {}
+        for _ in range(100000):
+            deep = {"a": deep}
+        chain = []
+        chain.append(chain)
+        for tables in (loop, deep, {"measured": chain}, {"measured": [loop]}):
+            with self.assertRaisesRegex(ValueError, "32 deep"):
+                ripstop.Case.from_dict(tables)
+
+    def test_none_removes_a_key_or_a_table(self):
+        case = small.case(payload__mass_kg=2)
+        case.set("payload", None)
+        self.assertIsNone(case.asdict().get("payload", {}).get("mass_kg"))
+        self.assertEqual(pickle.loads(pickle.dumps(case)).to_toml(), case.to_toml())
+        with self.assertRaises(ripstop.InputError):
+            case.set("payload", None)
+
+    def test_ranges_are_those_of_the_command_line(self):
+        case = small.case()
+        for wrong in ({"seam_allowance_m": -1}, {"hem_allowance_m": float("nan")}, {"packing_density_kg_m3": 1}):
+            with self.assertRaises(ripstop.Error):
+                ripstop.pattern(case, **wrong)
+        for wrong in ({"speed_m_s": float("nan")}, {"payload_mass_kg": float("inf")}, {"height_m": float("nan")}):
+            with self.assertRaises(ripstop.Error):
+                ripstop.load(case, **({"payload_mass_kg": 2, "speed_m_s": 20} | wrong))
+
+    def test_a_load_begins_at_the_height_of_the_case(self):
+        case = ripstop.Case.from_dict(small.TABLES | {"flow": {"speed_m_s": 20, "height_m": 2500}})
+        self.assertEqual(ripstop.load(case, 2, 20).flight["height_m"][0], 2500)
+        self.assertEqual(ripstop.load(case, 2, 20, height_m=500).flight["height_m"][0], 500)
+        self.assertEqual(ripstop.load(small.case(), 2, 20).flight["height_m"][0], 1000)
+
     def test_a_wrong_setting_leaves_the_case_as_it_was(self):
         case = small.case()
         before = case.to_toml()

@@ -97,6 +97,14 @@ class Report(unittest.TestCase):
         self.assertEqual([round(number(text), 3) for text in ledger], [round(float(f"{value:.5g}"), 3) for value in result["ledger"].values()])
         self.assertIn("cloth_nodes", self.js("document.querySelector('[data-part=case]').textContent"))
 
+    def test_numbers_have_no_exponent_where_digits_fit_and_no_digits_of_rounding(self):
+        self.open(self.steady / "report.html")
+        self.assertEqual(self.js("Numbers.shown(26390.4, 4)"), "26390")
+        self.assertEqual(self.js("Numbers.shown(9999.7, 4)"), "10000")
+        self.assertEqual(self.js("Numbers.shown(263.904, 4)"), "263.9")
+        self.assertEqual(self.js("Numbers.rounded('[2.8000000000000003, 4], 1e-3')"), "[2.8, 4], 1e-3")
+        self.assertEqual(self.js("Tables.comparison({columns: [], rows: [['moment', 'N m', '-0.001', '0.0048']]}).innerText.includes('%')"), False)
+
     def test_names_of_a_case_stay_text(self):
         self.open(self.steady / "report.html")
         title = self.js("document.getElementById('title').textContent")

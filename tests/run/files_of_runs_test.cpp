@@ -56,6 +56,35 @@ TEST(PatternFiles, AreOneDrawingOfEveryPieceTheBillAndTheResult) {
   EXPECT_NE(read_file(folder / "bill.csv").find(result.bill.rows.front().part), std::string::npos);
 }
 
+TEST(PatternFiles, ReplaceThoseOfAnEarlierPatternAndNothingElse) {
+  const Settings resolved = resolve(sewn_case());
+  const TemporaryFolder root("pattern-again");
+  PatternResult earlier = run_pattern(resolved, {}, 400);
+  earlier.pattern.pieces[0].name = "old gore";
+  earlier.drawings = {"old-gore.dxf", "old-gore.svg", "../outside.dxf", "notes.txt"};
+  make_folder(root.path / "pattern");
+  for (const char* mine : {"outside.dxf", "pattern/notes.txt", "pattern/mine.dxf"})
+    write_file(root.path / mine, "mine");
+  write_pattern(root.path / "pattern", earlier);
+  ASSERT_TRUE(fs::exists(root.path / "pattern/old-gore.dxf"));
+  const PatternResult result = run_pattern(resolved, {}, 400);
+  write_pattern(root.path / "pattern", result);
+  for (const char* old : {"pattern/old-gore.dxf", "pattern/old-gore.svg"})
+    EXPECT_FALSE(fs::exists(root.path / old)) << old;
+  for (const char* mine : {"outside.dxf", "pattern/notes.txt", "pattern/mine.dxf"})
+    EXPECT_EQ(read_file(root.path / mine), "mine");
+  for (const std::string& name : result.drawings)
+    EXPECT_TRUE(fs::exists(root.path / "pattern" / name)) << name;
+}
+
+TEST(PatternFiles, RejectAllowancesAndDensitiesOutsideTheirRange) {
+  const Settings resolved = resolve(sewn_case());
+  EXPECT_THROW(run_pattern(resolved, {.seam = -1}, 400), Error);
+  EXPECT_THROW(run_pattern(resolved, {.hem = NAN}, 400), Error);
+  EXPECT_THROW(run_pattern(resolved, {.tape_overlap = 1.01}, 400), Error);
+  EXPECT_THROW(run_pattern(resolved, {}, 0), Error);
+}
+
 TEST(PatternFiles, WithoutATapeThereIsNoneToCut) {
   Case given = sewn_case();
   given.parachute.tape.material = "nylon-tape";

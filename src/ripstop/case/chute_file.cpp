@@ -12,6 +12,7 @@
 
 #include "ripstop/core/error.h"
 #include "ripstop/core/expression.h"
+#include "ripstop/core/toml/read.h"
 
 namespace ripstop {
 namespace {
@@ -103,10 +104,10 @@ class Reader {
     try {
       const Evaluation result = evaluate(text, names_);
       for (const std::string& note : result.notes)
-        file_.remarks.push_back(fmt::format("{} = \"{}\": {}", node.place, text, note));
+        file_.remarks.push_back(fmt::format("{} = {}: {}", node.place, quoted(text), note));
       return result.value;
     } catch (const Error& error) {
-      node.fail(fmt::format("\"{}\", {}", text, error.what()));
+      node.fail(fmt::format("{}, {}", quoted(text), error.what()));
     }
   }
 
@@ -125,9 +126,9 @@ class Reader {
                       std::all_of(id.begin(), id.end(), [](char c) {
                         return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
                       });
-    if (!good) node.fail(fmt::format("\"{}\" is no name: letters, digits and _, a letter first", id));
+    if (!good) node.fail(fmt::format("{} is no name: letters, digits and _, a letter first", quoted(id)));
     if (!names_.emplace(id, value).second)
-      node.fail(fmt::format("the name \"{}\" is used twice (units and pi, e are names too)", id));
+      node.fail(fmt::format("the name {} is used twice (units and pi, e are names too)", quoted(id)));
   }
 
   void read_names() {
@@ -161,7 +162,7 @@ class Reader {
         uses.push_back(names_in(parameter.at("expression").text()));
       } catch (const Error& error) {
         const Node expression = parameter.at("expression");
-        expression.fail(fmt::format("\"{}\", {}", expression.text(), error.what()));
+        expression.fail(fmt::format("{}, {}", quoted(expression.text()), error.what()));
       }
     }
     std::vector<std::string> path;
@@ -317,7 +318,7 @@ class Reader {
         points.push_back({scale_x * evaluate(row.substr(0, comma), {}).value + dx,
                           scale_y * evaluate(row.substr(comma + 1), {}).value + dy});
       } catch (const Error&) {
-        node.at("point_list").fail(fmt::format("line {}: \"{}\" is not a point x,y", line, row));
+        node.at("point_list").fail(fmt::format("line {}: {} is not a point x,y", line, quoted(row)));
       }
     }
     return points;
@@ -381,8 +382,8 @@ Json parsed(std::string_view text, const std::string& file) {
     if (event == Json::parse_event_t::object_start) keys.emplace_back();
     if (event == Json::parse_event_t::object_end) keys.pop_back();
     if (event == Json::parse_event_t::key && !keys.back().insert(value.get<std::string>()).second)
-      throw Error(ExitCode::bad_data, fmt::format("{}: the key \"{}\" is there twice in one object", file,
-                                                  value.get<std::string>()));
+      throw Error(ExitCode::bad_data, fmt::format("{}: the key {} is there twice in one object", file,
+                                                  quoted(value.get<std::string>())));
     return true;
   };
   return Json::parse(text, look);

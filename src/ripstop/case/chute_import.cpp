@@ -7,7 +7,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "ripstop/case/case.h"
 #include "ripstop/core/error.h"
+#include "ripstop/core/toml/problem.h"
 #include "ripstop/core/visible.h"
 #include "ripstop/parachute/conical.h"
 #include "ripstop/parachute/cross.h"
@@ -24,7 +26,7 @@ using std::numbers::pi;
 constexpr double same = 1e-6;  // [m]
 
 /// Quoted as TOML has it, without control characters.
-std::string quoted(const std::string& text, std::size_t longest) {
+std::string toml_quoted(const std::string& text, std::size_t longest) {
   std::string whole = visible_line(text);
   if (whole.size() > longest) {
     whole.resize(longest);
@@ -69,14 +71,16 @@ class Importer {
   Importer(const ChuteFile& file, const ChuteImportOptions& options, const std::string& source)
       : file_(file), options_(options), source_(source) {}
 
-  ChuteImport run() {
+  ChuteImport run(bool as_profile = false) {
     const std::vector<ChuteSection>& s = file_.sections;
     const bool circular =
         std::all_of(s.begin(), s.end(), [](const ChuteSection& section) { return section.circular; });
     gores_ = s.front().gores;
     const bool disk_and_band =
-        circular && s.size() == 2 && (disk_gap_band(s[0], s[1]) || disk_gap_band(s[1], s[0]));
-    if (circular && s.size() == 1 && is_vertical(s[0]) && gores_ == 2) {
+        !as_profile && circular && s.size() == 2 && (disk_gap_band(s[0], s[1]) || disk_gap_band(s[1], s[0]));
+    if (as_profile) {
+      profile();
+    } else if (circular && s.size() == 1 && is_vertical(s[0]) && gores_ == 2) {
       cross(s[0]);
     } else if (circular && s.size() == 1 && !is_vertical(s[0])) {
       one_disk(s[0]);
@@ -145,7 +149,7 @@ class Importer {
       return false;
     gores_ = disk.gores;
     result_.type = "disk-gap-band";
-    const DiskGapBand canopy{2 * outer(disk), vent(2 * inner(disk), 2 * outer(disk)), std::max(0.0, gap),
+    const DiskGapBand canopy{2 * outer(disk), vent(2 * inner(disk), 2 * outer(disk)), gap > same ? gap : 0.0,
                              top(band) - bottom(band)};
     mapped("{}: disk of {:.6g} m, {}: band {:.6g} m high below a gap of {:.6g} m", disk.place,
            canopy.disk_diameter_m, band.place, canopy.band_height_m, canopy.gap_height_m);
@@ -363,12 +367,13 @@ class Importer {
   }
 
   std::string header() const {
-    std::string text = fmt::format("# From {} by `ripstop import`.\n", quoted(std::string(source_), 500));
+    std::string text =
+        fmt::format("# From {} by `ripstop import`.\n", toml_quoted(std::string(source_), 500));
     for (const std::string& step : file_.instructions) text += "# Instruction: " + visible_line(step) + "\n";
     text += fmt::format(
         "title = {}\n\n[parachute]\ntype = \"{}\"\ngores = {}\ncanopy_material = "
         "\"imported-cloth\"\n",
-        quoted(file_.name.empty() ? "imported" : file_.name, 100), result_.type, gores_);
+        toml_quoted(file_.name.empty() ? "imported" : file_.name, 100), result_.type, gores_);
     return text;
   }
 
@@ -396,7 +401,8 @@ class Importer {
                "\n[materials.imported-cloth]\nbase = \"f-111-physical\" # assumed: the file has name and "
                "mass only\n"
                "source = {}\nareal_density_kg_m2 = {:.9g}\n",
-               quoted("mass of \"" + first.fabric + "\" in the .chute file; all else assumed as F-111", 400),
+               toml_quoted("mass of \"" + first.fabric + "\" in the .chute file; all else assumed as F-111",
+                           400),
                first.areal_density) +
            "\n[flow] # assumed\nspeed_m_s = 10\ndensity_kg_m3 = 1.2\n";
   }
@@ -412,11 +418,38 @@ class Importer {
   std::string pieces_;  // tables of the type
 };
 
+/// The first thing that is wrong with the imported case, by its key; empty: nothing.
+std::string first_problem(const ChuteImport& made) {
+  try {
+    parse_case(made.case_text, "");
+    return "";
+  } catch (const InputError& error) {
+    const Problem& problem = error.problems().front();
+    return fmt::format("{}{}{}: {}", problem.key, problem.value.empty() ? "" : " = ", problem.value,
+                       problem.message);
+  }
+}
+
 }  // namespace
 
 ChuteImport import_chute(const ChuteFile& file, const ChuteImportOptions& options,
                          const std::string& source) {
-  return Importer(file, options, source).run();
+  ChuteImport direct = Importer(file, options, source).run();
+  const std::string problem = first_problem(direct);
+  if (problem.empty()) return direct;
+  if (direct.type != "profile") {
+    ChuteImport general = Importer(file, options, source).run(true);
+    if (first_problem(general).empty()) {
+      general.changed.push_back(fmt::format(
+          "type = \"{}\" cannot have this shape ({}): written as pieces of a profile", direct.type, problem));
+      return general;
+    }
+  }
+  std::vector<std::string> places;
+  for (const ChuteSection& section : file.sections) places.push_back(section.place);
+  throw Error(ExitCode::bad_data,
+              fmt::format("{}: {}: no canopy type of Ripstop has this shape. As \"{}\": {}", source,
+                          fmt::join(places, ", "), direct.type, problem));
 }
 
 }  // namespace ripstop

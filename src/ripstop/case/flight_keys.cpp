@@ -14,7 +14,9 @@ void describe(Fields& fields, PayloadKeys& payload) {
   fields.number(
       "drag_area_m2", payload.drag_area_m2, from(0).up_to(1e4),
       "C_D S of the payload itself, in the undisturbed stream: it holds a part of the weight in `ripstop "
-      "steady` and slows a payload that flies in an opening. Its wake on the canopy is not in it.");
+      "steady` and slows a payload that flies in an opening. Its wake on the canopy is not in it. Take a "
+      "measured value for a smooth body: its separation is not "
+      "computed.");
 }
 
 // Knacke, NWC TP 6575, 6.2, has safety factors of 1.5 (unmanned) to 2 and the losses below; the values were written

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "ripstop/case/case.h"
+#include "ripstop/case/material_files.h"
 
 namespace ripstop {
 namespace {
@@ -52,6 +53,7 @@ std::vector<std::string> set_values(const Overrides& overrides, Case& given) {
 /// materials.<name>.<key> of a material that only the library has starts from the library's.
 void import_material(Document& document, const Setting& setting) {
   const std::string prefix = "materials.";
+  if (setting.remove) return;
   if (!setting.key.starts_with(prefix)) return;
   const std::string name =
       setting.key.substr(prefix.size(), setting.key.find('.', prefix.size()) - prefix.size());
@@ -120,9 +122,11 @@ Case parse_case(const std::string& text, const std::string& name, const Override
     set_value(document, setting);
   }
   rename_old_keys(document, settings, given);
+  std::map<std::string, Material> from_files = take_material_files(document, settings);
   Fields fields;
   describe(fields, given);
   read_table(fields, document, given.origins, problems);
+  given.materials.merge(from_files);
   for (const Setting& setting : settings) mark_origin(setting, given.origins, problems);
   const std::vector<std::string> replaced = set_values(overrides, given);
   std::erase_if(problems, [&](const Problem& problem) {

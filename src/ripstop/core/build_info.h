@@ -9,8 +9,17 @@ namespace ripstop {
 std::string version();
 std::string compiler();   // name, version and build type
 std::string processor();  // model name as the kernel reports it
-/// Folder that holds `materials/` and `examples/`: $RIPSTOP_DATA, else the source tree, else the installed
-/// one. Throws Error(io) when none exists.
+/// Folder that holds `materials/` and `examples/`: $RIPSTOP_DATA, else what find_data() gives for this program.
+/// Throws Error(io) when none exists.
 std::filesystem::path data_directory();
+
+struct DataFolders {
+  std::filesystem::path build;      // with the programs that are not installed
+  std::filesystem::path source;     // their data
+  std::filesystem::path installed;  // data of installed programs
+};
+/// Data of the program, or Python module, in this file: the source tree's for one in the build tree. Else
+/// `share/ripstop` in a folder above the file, else the configured installed data, else the source tree. Empty: none.
+std::filesystem::path find_data(const std::filesystem::path& program, const DataFolders& folders);
 
 }  // namespace ripstop

@@ -136,6 +136,11 @@ bool is_leftover(const std::vector<std::string>& names, const std::string& file)
   return !target.empty() && covers(names, (path.parent_path() / target).generic_string());
 }
 
+/// Lustre without its flock option, NFS without a lock service, some FUSE file systems.
+bool has_no_locks(int reason) {
+  return reason == ENOLCK || reason == ENOSYS || reason == EOPNOTSUPP;
+}
+
 [[noreturn]] void refuse_claimed(const fs::path& folder) {
   std::string holder = read_file(lock_of(folder));
   if (!holder.empty() && holder.back() == '\n') holder.pop_back();
@@ -146,15 +151,21 @@ bool is_leftover(const std::vector<std::string>& names, const std::string& file)
 
 }  // namespace
 
-ClaimedFolder::ClaimedFolder(fs::path folder) : folder_(std::move(folder)) {
+ClaimedFolder::ClaimedFolder(fs::path folder) : ClaimedFolder(std::move(folder), ::flock) {}
+
+ClaimedFolder::ClaimedFolder(fs::path folder, LockCall lock) : folder_(std::move(folder)) {
   make_folder(folder_ / records);
   lock_ = ::open(lock_of(folder_).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (lock_ < 0) {
     throw Error(ExitCode::io, fmt::format("cannot write {}: {}", lock_of(folder_).string(),
                                           std::generic_category().message(errno)));
   }
-  if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) {
-    const int reason = errno;
+  if (const int reason = lock(lock_, LOCK_EX | LOCK_NB) == 0 ? 0 : errno; has_no_locks(reason)) {
+    warning_ = fmt::format(
+        "{}: cannot be locked, because its file system has no locks ({}); make sure that no other run uses "
+        "this folder",
+        folder_.string(), std::generic_category().message(reason));
+  } else if (reason != 0) {
     ::close(lock_);
     if (reason != EWOULDBLOCK) {
       throw Error(ExitCode::io, fmt::format("cannot lock {}: {}", lock_of(folder_).string(),
@@ -181,6 +192,19 @@ ClaimedFolder::ClaimedFolder(fs::path folder) : folder_(std::move(folder)) {
     std::erase_if(kept_, [](const auto& entry) { return entry.second == released; });
   }
   drop_leftovers();
+}
+
+void make_results_folder(const fs::path& folder) {
+  const std::vector<std::string> files = listed(folder);
+  if (!files.empty())
+    throw Error(ExitCode::usage,
+                fmt::format("{}: holds a run with {} files, which must stay as they are; choose "
+                            "another --out",
+                            folder.string(), files.size()));
+  make_folder(folder);
+  const fs::path probe = folder / ".ripstop-probe";
+  write_file(probe, "");
+  remove_path(probe);
 }
 
 void require_unclaimed(const fs::path& folder) {

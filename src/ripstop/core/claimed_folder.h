@@ -13,15 +13,22 @@ namespace ripstop {
 /// name with the line's own hash), notes and `kept`, the hashes of files while it runs, or of a finished run `seal`.
 class ClaimedFolder {
  public:
+  using LockCall = int (*)(int descriptor, int operation);  // flock()
+
   /// Makes the folder if need be and locks it for as long as this object, or its process, lives. Removes what
   /// a kill left of files being written; what was lost of the list comes back from the seal or what keep() wrote.
-  /// Throws Error(usage) saying who holds it, Error(io).
+  /// Throws Error(usage) saying who holds it, Error(io). On a file system without locks the folder is used unlocked,
+  /// and warning() states this.
   explicit ClaimedFolder(std::filesystem::path folder);
+  /// With another call in place of flock().
+  ClaimedFolder(std::filesystem::path folder, LockCall lock);
   ~ClaimedFolder();
   ClaimedFolder(const ClaimedFolder&) = delete;
   ClaimedFolder& operator=(const ClaimedFolder&) = delete;
 
   const std::filesystem::path& path() const { return folder_; }
+  /// Empty where the folder is locked.
+  const std::string& warning() const { return warning_; }
 
   /// Where Ripstop writes `name`, which is on the list when this returns. A name that ends in '/' is a folder all
   /// of whose files are Ripstop's; one that was there already is not taken. Throws Error(usage) for such a one and
@@ -54,10 +61,14 @@ class ClaimedFolder {
 
   std::filesystem::path folder_;
   int lock_ = -1;
+  std::string warning_;
   std::vector<std::string> names_;
   std::map<std::string, std::string> kept_;  // name -> hash of what is in it
 };
 
+/// Makes a folder for the results of a command that is no run, and checks that files can be written there. Throws
+/// Error(usage) where a run has written, whose files would be replaced, Error(io).
+void make_results_folder(const std::filesystem::path& folder);
 /// Throws what ClaimedFolder would throw where another process works in the folder; makes nothing.
 void require_unclaimed(const std::filesystem::path& folder);
 /// What note() left. Throws Error(bad_data) when it is damaged.

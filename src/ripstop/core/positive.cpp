@@ -15,4 +15,11 @@ void require_positive(const std::string& what, double value) {
               fmt::format("{} {} of {:g}: must be above 0", vowel ? "an" : "a", what, value));
 }
 
+void require_within(const std::string& what, double value, double low, double high) {
+  if (value >= low && value <= high) return;
+  const bool vowel = std::string("aeio").find(what.front()) != std::string::npos;
+  throw Error(ExitCode::usage, fmt::format("{} {} of {:g}: must be at least {:g} and at most {:g}",
+                                           vowel ? "an" : "a", what, value, low, high));
+}
+
 }  // namespace ripstop

@@ -1,4 +1,4 @@
-// What has to be above 0 where no case file says so.
+// Ranges of numbers where no case file says them.
 #pragma once
 
 #include <string>
@@ -8,5 +8,7 @@ namespace ripstop {
 /// Throws Error(usage), "a `what` of ...: must be above 0", for a value that is not above 0 or not finite. `what`
 /// has the unit where there is one: "payload mass (kg)".
 void require_positive(const std::string& what, double value);
+/// The same for a value outside [low, high], or not finite.
+void require_within(const std::string& what, double value, double low, double high);
 
 }  // namespace ripstop

@@ -1,5 +1,7 @@
 #include "ripstop/fsi/convergence.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "ripstop/fsi/ledger.h"
@@ -15,6 +17,28 @@ void enter_shape_change(SteadyIteration& now, const std::vector<Vec3>& before,
     size += dot(before[i], before[i]);
   }
   now.omega = std::sqrt(moved / size);
+}
+
+std::vector<std::string> unmet_criteria(const SteadyIteration& last, const CouplingSettings& settings) {
+  std::vector<std::string> unmet;
+  if (!(last.shape_change < settings.shape_tolerance_m))
+    unmet.push_back(fmt::format("the shape changes by {:.2g} m (limit {:.2g} m)", last.shape_change,
+                                settings.shape_tolerance_m));
+  if (!last.in_time && !(last.drag_change < settings.drag_tolerance))
+    unmet.push_back(fmt::format("the drag changes by {:.2g} % (limit {:.2g} %)", 100 * last.drag_change,
+                                100 * settings.drag_tolerance));
+  if (!(last.regularisation_share < regularisation_tolerance))
+    unmet.push_back(
+        fmt::format("slack cloth is restrained to the previous shape by {:.2g} % of the load (limit "
+                    "{:.2g} %)",
+                    100 * last.regularisation_share, 100 * regularisation_tolerance));
+  if (!ledger_closes(last, ledger_tolerance))
+    unmet.push_back(
+        fmt::format("the forces on air, nodes and lines differ by more than {:g} %", 100 * ledger_tolerance));
+  if (!last.flow_converged && !(last.flow_averaged > 0 && momentum_closes(last, ledger_tolerance)))
+    unmet.emplace_back("the flow has not settled");
+  if (unmet.empty()) unmet.emplace_back("the last flow was not solved in full");
+  return unmet;
 }
 
 // Displacement of the canopy that chance may cause between two means in time with the standard error of the last one:

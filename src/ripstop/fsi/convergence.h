@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -18,6 +19,10 @@ inline constexpr double regularisation_tolerance = 0.02;
 /// e_k and omega of [NFM] Eq. 18 and 19: how far the shape moved.
 void enter_shape_change(SteadyIteration& now, const std::vector<Vec3>& before,
                         const std::vector<Vec3>& after);
+
+/// The criteria that the last iteration of a run without convergence fails, in words with numbers. In time the limits
+/// for shape and ledger are wider by the scatter of the means, which is not known here.
+std::vector<std::string> unmet_criteria(const SteadyIteration& last, const CouplingSettings& settings);
 
 class SteadyConvergence {
  public:

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "ripstop/core/file.h"
+#include "ripstop/core/units.h"
 
 namespace ripstop {
 namespace {
@@ -28,11 +29,14 @@ Box box_of(const std::vector<Point2>& outline) {
 }
 
 // DXF: lines of a group code and its value. Codes 10, 20, 30: a point; 8: the layer; 70: flags, 1 is closed.
-std::string dxf_polyline(const std::vector<Point2>& outline, const std::string& layer, bool closed) {
+/// `scale`: units per metre.
+std::string dxf_polyline(const std::vector<Point2>& outline, const std::string& layer, bool closed,
+                         double scale) {
   std::string text =
       fmt::format("0\nPOLYLINE\n8\n{}\n66\n1\n70\n{}\n10\n0.0\n20\n0.0\n30\n0.0\n", layer, closed ? 1 : 0);
   for (const Point2& p : outline)
-    text += fmt::format("0\nVERTEX\n8\n{}\n10\n{:.4f}\n20\n{:.4f}\n30\n0.0\n", layer, p.x * mm, p.y * mm);
+    text +=
+        fmt::format("0\nVERTEX\n8\n{}\n10\n{:.4f}\n20\n{:.4f}\n30\n0.0\n", layer, p.x * scale, p.y * scale);
   return text + fmt::format("0\nSEQEND\n8\n{}\n", layer);
 }
 
@@ -62,22 +66,28 @@ std::array<Point2, 4> grain(const Piece& piece, const Box& box) {
 
 }  // namespace
 
-void write_pattern_dxf(const std::filesystem::path& path, const Piece& piece, const Allowances& allowances) {
+void write_pattern_dxf(const std::filesystem::path& path, const Piece& piece, const Allowances& allowances,
+                       DxfUnit unit) {
+  const bool metric = unit == DxfUnit::millimetres;
+  const double scale = metric ? mm : 1 / inch, text_height = 0.010 * scale, text_gap = 0.005 * scale;
   const std::vector<Point2> cut = with_allowance(piece, allowances);
   const Box box = box_of(cut);
   const auto [tail, tip, left, right] = grain(piece, box);
   std::string text = "0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1009\n";
+  // $MEASUREMENT: 0 inches, 1 millimetres; $INSUNITS: 1 inches, 4 millimetres. Readers without them guess the unit.
+  text += fmt::format("9\n$MEASUREMENT\n70\n{}\n9\n$INSUNITS\n70\n{}\n", metric ? 1 : 0, metric ? 4 : 1);
   text += fmt::format("9\n$EXTMIN\n10\n{:.4f}\n20\n{:.4f}\n9\n$EXTMAX\n10\n{:.4f}\n20\n{:.4f}\n0\nENDSEC\n",
-                      box.left * mm, box.bottom * mm, box.right * mm, box.top * mm);
+                      box.left * scale, box.bottom * scale, box.right * scale, box.top * scale);
   text += "0\nSECTION\n2\nTABLES\n0\nTABLE\n2\nLAYER\n70\n4\n";
   int colour = 1;
   for (const char* layer : {"CUT", "SEAM", "GRAIN", "TEXT"})
     text += fmt::format("0\nLAYER\n2\n{}\n70\n0\n62\n{}\n6\nCONTINUOUS\n", layer, colour++);
   text += "0\nENDTAB\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n";
-  text += dxf_polyline(cut, "CUT", true) + dxf_polyline(piece.outline, "SEAM", true) +
-          dxf_polyline({tail, tip}, "GRAIN", false) + dxf_polyline({left, tip, right}, "GRAIN", false);
-  text += fmt::format("0\nTEXT\n8\nTEXT\n10\n{:.4f}\n20\n{:.4f}\n30\n0.0\n40\n10.0\n1\n{}\n", tail.x * mm + 5,
-                      tail.y * mm, label(piece));
+  text += dxf_polyline(cut, "CUT", true, scale) + dxf_polyline(piece.outline, "SEAM", true, scale) +
+          dxf_polyline({tail, tip}, "GRAIN", false, scale) +
+          dxf_polyline({left, tip, right}, "GRAIN", false, scale);
+  text += fmt::format("0\nTEXT\n8\nTEXT\n10\n{:.4f}\n20\n{:.4f}\n30\n0.0\n40\n{:.4f}\n1\n{}\n",
+                      tail.x * scale + text_gap, tail.y * scale, text_height, label(piece));
   write_file(path, text + "0\nENDSEC\n0\nEOF\n");
 }
 

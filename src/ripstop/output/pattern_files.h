@@ -8,9 +8,13 @@
 
 namespace ripstop {
 
-/// AutoCAD R12 (AC1009) text, unit 1 mm: the outline to cut on layer CUT, the finished edge on layer SEAM,
-/// an arrow along the warp on layer GRAIN, name and count on layer TEXT. Throws Error(io).
-void write_pattern_dxf(const std::filesystem::path& path, const Piece& piece, const Allowances& allowances);
+/// Unit of the coordinates of a DXF file, which its header states ($MEASUREMENT and $INSUNITS).
+enum class DxfUnit { millimetres, inches };
+
+/// AutoCAD R12 (AC1009) text: the outline to cut on layer CUT, the finished edge on layer SEAM, an arrow along the
+/// warp on layer GRAIN, name and count on layer TEXT. Throws Error(io).
+void write_pattern_dxf(const std::filesystem::path& path, const Piece& piece, const Allowances& allowances,
+                       DxfUnit unit = DxfUnit::millimetres);
 
 /// The same as an SVG that prints at true size, with a 100 mm bar to check the scale. Throws Error(io).
 void write_pattern_svg(const std::filesystem::path& path, const Piece& piece, const Allowances& allowances);

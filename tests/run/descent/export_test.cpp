@@ -2,6 +2,7 @@
 // with RocketPy's own names, XML with OpenRocket's elements.
 #include "ripstop/run/descent/export.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -55,11 +56,14 @@ class Rocket:
     def add_parachute(self, name, cd_s, trigger, sampling_rate=100, lag=0, noise=(0, 0, 0), radius=None, height=None,
                       porosity=0.0432, drag_coefficient=1.4):
         print(repr(name)); print(cd_s); print(trigger); print(radius, height, lag)
+        print(drag_coefficient * 3.141592653589793 * radius**2)
 space["add_to"](Rocket())
 )";
   const ExportedParachute p = parachute();
   const std::string output = python(script, rocketpy_text(p, "450"));
   EXPECT_EQ(output.find("'Stratos <IV> & \"more\"'\n"), 0u) << output;
+  const std::size_t last = output.rfind('\n', output.size() - 2) + 1;
+  EXPECT_NEAR(std::stod(output.substr(last)), p.drag_area, 1e-9);  // C_D on pi radius^2, as RocketPy has it
   EXPECT_NE(output.find("\n450\n"), std::string::npos) << output;
   EXPECT_NEAR(std::stod(output.substr(output.find('\n') + 1)), SquareLawEngine::area, 0.01);
   EXPECT_NE(rocketpy_text(p, "apogee").find("trigger=\"apogee\""), std::string::npos);
@@ -88,6 +92,7 @@ int(parachute.find("Sides").text), int(parachute.find("LineCount").text)
 )";
   const ExportedParachute p = parachute();
   EXPECT_NEAR(std::stod(python(script, openrocket_text(p))), p.drag_area, 1e-9);
+  EXPECT_NE(openrocket_text(p).find(fmt::format("C_D on S0 = {:.4f} m2", p.nominal_area)), std::string::npos);
 }
 
 TEST_F(Export, EveryNumberIsThatOfTheRunOrOfItsDesign) {
@@ -127,6 +132,8 @@ TEST_F(Export, JsonHasEveryNumber) {
   const ExportedParachute p = parachute();
   const auto json = nlohmann::json::parse(to_json(p));
   EXPECT_EQ(json.at("drag_area_m2"), p.drag_area);
+  const double reference = json.at(json.at("drag_coefficient_on").get<std::string>());
+  EXPECT_NEAR(json.at("drag_coefficient").get<double>() * reference, p.drag_area, 1e-9);
   EXPECT_GT(json.at("packed_volume_m3"), 0);
   const FinishedSteady run = finished_steady(folder_->path / "run");
   EXPECT_NEAR(json.at("lag_s").get<double>() * run.result.speed, exported(run, 15).lag * 15, 1e-9);

@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "ripstop/case/case.h"
 #include "ripstop/case/resolve.h"
+#include "ripstop/parachute/profile.h"
 
 namespace ripstop {
 namespace {
@@ -74,6 +77,21 @@ TEST(Warnings, PermeabilityOfAnotherModelIsWarnedOfWithBothWords) {
                          "\"paper\""),
             0u)
       << told[0];
+}
+
+TEST(Warnings, AnApexThatIsPulledDownIsWarnedOf) {
+  Case given = read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/elliptical/case.toml");
+  EXPECT_TRUE(shape_warnings(resolve(given)).empty());
+  ProfileCanopy canopy = *given.parachute.canopy.as<ProfileCanopy>();
+  std::vector<double>& heights = canopy.pieces.back().height_m;
+  const double highest = heights.back();
+  heights.back() = highest - 0.05;
+  given.parachute.canopy = canopy;
+  const std::vector<std::string> warnings = shape_warnings(resolve(checked(given)));
+  ASSERT_EQ(warnings.size(), 1u);
+  const double below = *std::max_element(heights.begin(), heights.end()) - heights.back();
+  EXPECT_NE(warnings[0].find(fmt::format("the vent is {:.3g} m below", below)), std::string::npos)
+      << warnings[0];
 }
 
 }  // namespace

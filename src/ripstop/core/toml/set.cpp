@@ -109,8 +109,31 @@ std::vector<std::string> split_values(const std::string& text) {
   return values;
 }
 
+namespace {
+
+void remove_value(Document& document, const Setting& setting, const std::vector<Step>& steps) {
+  Node* node = &document.root;
+  for (const Step& step : steps) {
+    const auto found = std::find_if(node->items.begin(), node->items.end(),
+                                    [&](const Node& item) { return item.key == step.name; });
+    if (node->type != Node::Type::table || found == node->items.end())
+      refuse(setting,
+             "is not in the case, so that it cannot be removed; only keys and tables that the file "
+             "gives can be");
+    if (!step.places.empty())
+      refuse(setting, "a place in a list cannot be removed; set the whole list instead");
+    if (&step == &steps.back())
+      node->items.erase(found);
+    else
+      node = &*found;
+  }
+}
+
+}  // namespace
+
 void set_value(Document& document, const Setting& setting) {
   const std::vector<Step> steps = steps_of(setting);
+  if (setting.remove) return remove_value(document, setting, steps);
   Node* node = &document.root;
   for (const Step& step : steps) {
     if (node->type != Node::Type::table) refuse(setting, "does not exist: a key before it is no table");

@@ -13,6 +13,7 @@ namespace ripstop {
 struct Setting {
   std::string key, value;
   std::string option = "--set";  // that gave it, for messages
+  bool remove = false;           // the key, or the table, in place of a value
 };
 
 /// "KEY=VALUE" as typed. Throws Error(usage) when there is no '=' or nothing on one side of it.
@@ -22,8 +23,9 @@ Setting parse_setting(const std::string& text, const std::string& option);
 /// Error(usage) for an empty one.
 std::vector<std::string> split_values(const std::string& text);
 
-/// Puts the value into the tree; tables on the way are made. Throws InputError(usage) for a name that cannot
-/// be one, a value that cannot be read, or a place in a list that the file does not give.
+/// Puts the value into the tree; tables on the way are made. Removes the key of a setting with `remove`. Throws
+/// InputError(usage) for a name that cannot be one, a value that cannot be read, a place in a list that the file does
+/// not give, or a key to remove that is not there.
 void set_value(Document& document, const Setting& setting);
 
 }  // namespace ripstop

@@ -27,7 +27,8 @@ const Numbers = (() => {
       const [mantissa, exponent] = value.toExponential(digits - 1).split("e");
       return minus(`${trimmed(mantissa)}e${Number(exponent)}`);
     }
-    return minus(trimmed(value.toPrecision(digits)));
+    // toPrecision() has an exponent where there are more digits before the point than asked for.
+    return minus(size >= 10 ** digits - 0.5 ? value.toFixed(0) : trimmed(value.toPrecision(digits)));
   }
   const trimmed = (text) => (text.includes(".") ? text.replace(/\.?0+$/, "") : String(Number(text)));
   const minus = (text) => text.replace("-", "−");
@@ -39,6 +40,9 @@ const Numbers = (() => {
     if (Array.isArray(value)) return value.map(any).join(", ");
     return value === null ? "–" : String(value);
   }
+
+  /** A text with its long fractions rounded, as "[2.8000000000000003, 4]". */
+  const rounded = (text) => text.replace(/(?<![\w.])-?\d+\.\d{7,}(e[-+]?\d+)?(?![\w.])/gi, (long) => shown(Number(long)));
 
   const pattern = /^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i;
   const isNumber = (text) => pattern.test(text);
@@ -54,7 +58,7 @@ const Numbers = (() => {
     return all;
   }
 
-  return { shown, any, isNumber, ticks };
+  return { shown, any, rounded, isNumber, ticks };
 })();
 
 /** "drag [N]" */

@@ -3,7 +3,7 @@
 
 const Tables = (() => {
   function cell(text, right) {
-    if (!Numbers.isNumber(text)) return element("td", {}, text);
+    if (!Numbers.isNumber(text)) return element("td", { title: Numbers.rounded(text) === text ? undefined : text }, Numbers.rounded(text));
     return element("td", { class: right ? "number" : undefined, title: text }, Numbers.shown(Number(text)));
   }
 
@@ -46,7 +46,8 @@ const Tables = (() => {
       const first = Number(row[2]);
       return element("tr", {}, element("td", {}, row[0]), element("td", { class: "unit" }, row[1]), row.slice(2).map((text, i) => {
         const value = Number(text);
-        const change = i > 0 && first !== 0 && value !== first ? ` ${value > first ? "+" : "−"}${Math.abs(100 * (value / first - 1)).toFixed(1)} %` : "";
+        // A share of a value about zero, as of a moment that changes its sign, means nothing.
+        const change = i > 0 && first * value > 0 && value !== first ? ` ${value > first ? "+" : "−"}${Math.abs(100 * (value / first - 1)).toFixed(1)} %` : "";
         return element("td", { class: "number", title: text }, Numbers.shown(value), change ? element("small", {}, change) : null);
       }));
     });

@@ -49,7 +49,7 @@ ExportedParachute exported(const FinishedSteady& run, std::optional<double> depl
   p.drag_area = run.result.drag_area, p.drag_area_uncertainty = run.drag_uncertainty * p.drag_area;
   p.nominal_area = run.result.reference_area;
   p.nominal_diameter = nominal_diameter(design);
-  p.drag_coefficient = run.result.drag_coefficient;
+  p.drag_coefficient = run.result.drag_coefficient, p.drag_coefficient_on = "nominal_area_m2";
   p.radius = run.result.size.projected_diameter / 2, p.height = run.result.size.length;
   p.porosity = facts(design).geometric_porosity();
   const KnownFilling filling = known_filling(design.canopy.family().type);
@@ -66,10 +66,15 @@ ExportedParachute exported(const FinishedSteady& run, std::optional<double> depl
   return p;
 }
 
+// RocketPy takes a missing radius from cd_s = drag_coefficient pi radius^2, so all three must agree.
 std::string rocketpy_text(const ExportedParachute& p, const std::string& trigger) {
+  const double mouth = std::numbers::pi * p.radius * p.radius;  // [m2]
   return fmt::format(
       "# {}: a parachute for RocketPy 1.12, by Ripstop {}.\n"
       "# Drag area {:.4f} +- {:.4f} m2 (what the run itself leaves open). Lag: {}.\n"
+      "# Reference area of drag_coefficient: pi radius^2 = {:.4f} m2, as RocketPy defines it. On the nominal "
+      "area\n"
+      "# S0 = {:.4f} m2 the same drag area is C_D = {:.4f}.\n"
       "# RocketPy's added mass follows from radius, height and porosity: those of the computed canopy.\n"
       "parachute = dict(\n"
       "    name={},\n    cd_s={},\n    trigger={},\n    sampling_rate=100,\n    lag={},\n    noise=(0, 0, "
@@ -77,8 +82,9 @@ std::string rocketpy_text(const ExportedParachute& p, const std::string& trigger
       "    radius={},\n    height={},\n    porosity={},\n    drag_coefficient={},\n)\n\n\n"
       "def add_to(rocket):\n    \"\"\"Adds the parachute to a rocketpy.Rocket.\"\"\"\n"
       "    return rocket.add_parachute(**parachute)\n",
-      literal(p.title), version(), p.drag_area, p.drag_area_uncertainty, p.lag_from, literal(p.title),
-      p.drag_area, trigger_literal(trigger), p.lag, p.radius, p.height, p.porosity, p.drag_coefficient);
+      literal(p.title), version(), p.drag_area, p.drag_area_uncertainty, p.lag_from, mouth, p.nominal_area,
+      p.drag_coefficient, literal(p.title), p.drag_area, trigger_literal(trigger), p.lag, p.radius, p.height,
+      p.porosity, p.drag_area / mouth);
 }
 
 // The elements and their order are those of OpenRocket's own component databases.
@@ -104,7 +110,8 @@ std::string openrocket_text(const ExportedParachute& p) {
       "</OpenRocketComponent>\n",
       material(p.cloth_material, p.cloth_density, "kg/m2", "SURFACE"),
       material(p.line_material, p.line_density, "kg/m", "LINE"), escaped_markup(p.title),
-      escaped_markup(fmt::format("{}: C_D S {:.4f} m2, by Ripstop {}", p.title, p.drag_area, version())),
+      escaped_markup(fmt::format("{}: C_D S {:.4f} m2, C_D on S0 = {:.4f} m2, by Ripstop {}", p.title,
+                                 p.drag_area, p.nominal_area, version())),
       escaped_markup(p.cloth_material), p.mass, p.nominal_diameter, p.gores, p.packed_diameter,
       p.packed_length, p.drag_coefficient, p.line_count, p.line_length, escaped_markup(p.line_material));
 }

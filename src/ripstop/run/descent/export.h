@@ -14,9 +14,10 @@ struct ExportedParachute {
   std::string title, run;
   double drag_area = 0, drag_area_uncertainty = 0;  // [m2]
   double nominal_diameter = 0, nominal_area = 0, drag_coefficient = 0;
-  double radius = 0, height = 0;  // of the open canopy, half the projected diameter and skirt to crown [m]
-  double porosity = 0;            // open share of the surface as constructed
-  double lag = 0;                 // from the trigger to the full drag area [s]
+  std::string drag_coefficient_on;  // the member that is its reference area
+  double radius = 0, height = 0;    // of the open canopy, half the projected diameter and skirt to crown [m]
+  double porosity = 0;              // open share of the surface as constructed
+  double lag = 0;                   // from the trigger to the full drag area [s]
   std::string lag_from;
   double mass = 0;  // [kg]
   int gores = 0, line_count = 0;
@@ -34,6 +35,7 @@ void each_member(T& p, Visit&& visit) {
   visit("nominal_diameter_m", p.nominal_diameter);
   visit("nominal_area_m2", p.nominal_area);
   visit("drag_coefficient", p.drag_coefficient);
+  visit("drag_coefficient_on", p.drag_coefficient_on);
   visit("radius_m", p.radius);
   visit("height_m", p.height);
   visit("porosity", p.porosity);

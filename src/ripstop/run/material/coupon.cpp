@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "ripstop/core/build_info.h"
+#include "ripstop/core/claimed_folder.h"
 #include "ripstop/core/file.h"
 #include "ripstop/core/hash.h"
 #include "ripstop/material/library.h"
@@ -31,7 +32,7 @@ CouponResult run_coupon(const Fabric& fabric, const CouponShape& shape, double s
 }
 
 void write_coupon_result(const std::filesystem::path& folder, const CouponResult& result) {
-  make_folder(folder);
+  make_results_folder(folder);
   CsvTable table{columns_of<CouponPoint>(), {}};
   for (const CouponPoint& point : result.pull.points) table.rows.push_back(row_of(point));
   write_csv(folder / "coupon.csv", table);

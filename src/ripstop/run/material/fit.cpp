@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "ripstop/core/build_info.h"
+#include "ripstop/core/claimed_folder.h"
 #include "ripstop/core/file.h"
 #include "ripstop/core/hash.h"
 #include "ripstop/material/library.h"
@@ -94,7 +95,7 @@ FitResult run_fit(const Bench& bench, bool with_coupons, ThreadTeam& team,
 }
 
 std::filesystem::path write_fit(const std::filesystem::path& folder, const FitResult& result) {
-  make_folder(folder);
+  make_results_folder(folder);
   const std::filesystem::path file = folder / (result.bench.name + ".toml");
   write_file(file, material_toml(result));
   for (const char* name : {"result.json", "fit.json"}) write_file(folder / name, to_json(result));

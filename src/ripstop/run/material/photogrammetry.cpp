@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "ripstop/case/assemble.h"
+#include "ripstop/core/claimed_folder.h"
 #include "ripstop/core/file.h"
 #include "ripstop/output/plot.h"
 #include "ripstop/run/json.h"
@@ -96,7 +97,7 @@ Photogrammetry run_photogrammetry(const std::optional<Image>& image,
 }
 
 void write_photogrammetry(const std::filesystem::path& folder, const Photogrammetry& result) {
-  make_folder(folder);
+  make_results_folder(folder);
   Plot plot{result.title, {"distance from the skirt [m]"}, {"radius [m]", false, 0.0}, {}};
   if (result.profile) plot.series = computed_series(*result.profile);
   if (result.diameters) {

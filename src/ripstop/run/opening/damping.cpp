@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "ripstop/core/claimed_folder.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/output/csv.h"
@@ -41,7 +42,7 @@ DampingResult run_damping(const Settings& resolved, const LoadSource& source, co
 }
 
 void write_damping(const std::filesystem::path& folder, const DampingResult& result) {
-  make_folder(folder);
+  make_results_folder(folder);
   CsvTable table{columns_of<DampingTrial>(), {}};
   PlotSeries misfit{"misfit", {}, {}}, peak{"error of the peak", {}, {}};
   for (const DampingTrial& t : result.found.trials) {

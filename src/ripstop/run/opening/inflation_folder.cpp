@@ -385,6 +385,7 @@ std::optional<InflationResult> run_inflation_in(const InflationFolderSettings& s
                                                 const std::function<InflationProblem()>& problem,
                                                 InflationObserver& observer) {
   const auto claimed = open_run_folder(settings.run, resolved, solver_of(source), settings.threads);
+  if (!claimed->warning().empty()) observer.warned(claimed->warning());
   if (finished_result(settings.run.folder)) {
     drop_air_checkpoint(settings.run.folder);
     return std::nullopt;

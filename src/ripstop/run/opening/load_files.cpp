@@ -1,6 +1,7 @@
 // The files of `ripstop load`.
 #include <algorithm>
 
+#include "ripstop/core/claimed_folder.h"
 #include "ripstop/core/file.h"
 #include "ripstop/output/csv.h"
 #include "ripstop/output/plot.h"
@@ -39,7 +40,7 @@ double end_of_plot(const LoadResult& r) {
 }  // namespace
 
 void write_load(const std::filesystem::path& folder, const LoadResult& r) {
-  make_folder(folder);
+  make_results_folder(folder);
   write_csv(folder / "trajectory.csv", table_of(r.flight));
   if (!r.record_flight.empty()) write_csv(folder / "trajectory_computed.csv", table_of(r.record_flight));
   const double end = end_of_plot(r);

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "ripstop/case/assemble.h"
+#include "ripstop/core/claimed_folder.h"
 #include "ripstop/core/file.h"
 #include "ripstop/output/picture.h"
 #include "ripstop/output/vtk.h"
@@ -64,7 +65,7 @@ FabricSolution run_fabric(const Settings& resolved, std::optional<double> pressu
 
 void write_fabric(const std::filesystem::path& folder, const FabricSolution& solution) {
   const auto& [result, mesh, shape, stress, tensions] = solution;
-  make_folder(folder);
+  make_results_folder(folder);
   std::vector<double> mises;
   for (const CellStress& s : stress) mises.push_back(s.von_mises);
   VtkSurface canopy = canopy_surface(mesh, shape);

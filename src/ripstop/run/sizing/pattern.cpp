@@ -1,19 +1,55 @@
 #include "ripstop/run/sizing/pattern.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
+#include <utility>
 
 #include "ripstop/case/payload.h"
+#include "ripstop/core/claimed_folder.h"
 #include "ripstop/core/file.h"
+#include "ripstop/core/positive.h"
 #include "ripstop/output/pattern_files.h"
 #include "ripstop/run/json.h"
 
 namespace ripstop {
+namespace {
+
+std::string drawing_name(const Piece& piece, const char* ending) {
+  std::string name = piece.name;
+  std::replace(name.begin(), name.end(), ' ', '-');
+  return name + ending;
+}
+
+/// What an earlier pattern drew here would be cut with what is drawn now.
+void remove_earlier_drawings(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / "result.json";
+  if (!std::filesystem::exists(file)) return;
+  const auto earlier = nlohmann::json::parse(read_file(file), nullptr, false);
+  if (!earlier.is_object() || !earlier.contains("bill") || !earlier.contains("drawings")) return;
+  const auto& names = earlier["drawings"];
+  for (const auto& entry : names) {
+    if (!entry.is_string()) continue;
+    const std::filesystem::path name = entry.get<std::string>();
+    const bool drawing = name.extension() == ".dxf" || name.extension() == ".svg";
+    if (drawing && !name.has_parent_path()) remove_path(folder / name);
+  }
+}
+
+}  // namespace
 
 std::string to_json(const PatternResult& result) {
   return json_text(result);
 }
 
 PatternResult run_pattern(const Settings& resolved, const Allowances& allowances, double packing_density) {
+  const std::pair<const char*, double> lengths[] = {{"seam allowance (m)", allowances.seam},
+                                                    {"hem allowance (m)", allowances.hem},
+                                                    {"line loop (m)", allowances.line_loop},
+                                                    {"tape overlap (m)", allowances.tape_overlap}};
+  for (const auto& [name, length] : lengths)
+    require_within(name, length, allowance_range.low, allowance_range.high);
+  require_within("packing density (kg/m3)", packing_density, packing_density_range.low,
+                 packing_density_range.high);
   PatternResult result;
   result.title = resolved.title();
   result.nominal_area = nominal_area(resolved.parachute());
@@ -22,16 +58,17 @@ PatternResult run_pattern(const Settings& resolved, const Allowances& allowances
   result.allowances = allowances;
   result.pattern = cut_pattern(resolved);
   result.bill = parachute_bill(resolved, allowances, packing_density);
+  for (const Piece& piece : result.pattern.pieces)
+    for (const char* ending : {".dxf", ".svg"}) result.drawings.push_back(drawing_name(piece, ending));
   return result;
 }
 
-void write_pattern(const std::filesystem::path& folder, const PatternResult& result) {
-  make_folder(folder);
+void write_pattern(const std::filesystem::path& folder, const PatternResult& result, DxfUnit unit) {
+  make_results_folder(folder);
+  remove_earlier_drawings(folder);
   for (const Piece& piece : result.pattern.pieces) {
-    std::string name = piece.name;
-    std::replace(name.begin(), name.end(), ' ', '-');
-    write_pattern_dxf(folder / (name + ".dxf"), piece, result.allowances);
-    write_pattern_svg(folder / (name + ".svg"), piece, result.allowances);
+    write_pattern_dxf(folder / drawing_name(piece, ".dxf"), piece, result.allowances, unit);
+    write_pattern_svg(folder / drawing_name(piece, ".svg"), piece, result.allowances);
   }
   write_bill_csv(folder / "bill.csv", result.bill);
   write_file(folder / "result.json", to_json(result));

@@ -3,9 +3,12 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "ripstop/case/settings.h"
 #include "ripstop/core/members.h"
+#include "ripstop/core/toml/fields.h"
+#include "ripstop/output/pattern_files.h"
 #include "ripstop/parachute/cut.h"
 
 namespace ripstop {
@@ -28,7 +31,8 @@ struct PatternResult {
   double packing_density = 0;               // [kg/m3]
   Allowances allowances;
   Bill bill;
-  CutPattern pattern;  // not in result.json: it is in the drawings
+  std::vector<std::string> drawings;  // names of the files of the pieces
+  CutPattern pattern;                 // not in result.json: it is in the drawings
 };
 template <Of<PatternResult> T, class Visit>
 void each_member(T& r, Visit&& visit) {
@@ -43,12 +47,19 @@ void each_member(T& r, Visit&& visit) {
   visit("line_loop_m", r.allowances.line_loop);
   visit("tape_overlap_m", r.allowances.tape_overlap);
   visit("bill", r.bill.rows);
+  visit("drawings", r.drawings);
 }
 std::string to_json(const PatternResult& result);
 
+/// Throws Error(usage) for an allowance or a density outside its range.
 PatternResult run_pattern(const Settings& resolved, const Allowances& allowances, double packing_density);
 
-/// Every piece as DXF and SVG, bill.csv and result.json.
-void write_pattern(const std::filesystem::path& folder, const PatternResult& result);
+/// Every piece as DXF and SVG, bill.csv and result.json. Drawings that the result.json of an earlier pattern in this
+/// folder lists are removed first. Throws Error(usage) for the folder of a run, Error(io).
+void write_pattern(const std::filesystem::path& folder, const PatternResult& result,
+                   DxfUnit unit = DxfUnit::millimetres);
+
+inline const Range allowance_range = from(0).up_to(1);            // [m]
+inline const Range packing_density_range = from(50).up_to(1500);  // [kg/m3]
 
 }  // namespace ripstop

@@ -231,6 +231,7 @@ SteadyFolderRun run_steady_in(const SteadyFolderSettings& settings, const Settin
   // folder, which may still be another run's.
   const auto claimed = open_run_folder(
       settings.run, resolved, engine_of(resolved).name(engine_options(resolved)), ThreadTeam(threads).size());
+  if (!claimed->warning().empty()) observer.warned(claimed->warning());
   if (const auto finished = finished_result(folder)) return {true, steady_result_from_json(*finished)};
   const fs::path flow_folder = engine_of(resolved).needs_folder ? claimed->own("flow/") : fs::path();
   SteadyFolder files(*claimed, settings, observer);

@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "ripstop/case/settings.h"
 #include "ripstop/flight/validity.h"
 #include "ripstop/material/fit_material.h"
+#include "ripstop/parachute/profile.h"
 #include "ripstop/run/quality.h"
 
 namespace ripstop {
@@ -55,6 +58,21 @@ std::vector<std::string> range_warnings(const Settings& resolved) {
   return outside_range(flow_model, {{"Mach number", speed / sound}, {"Reynolds number", reynolds}});
 }
 
+std::vector<std::string> shape_warnings(const Settings& resolved) {
+  const auto* profile = resolved.parachute().canopy.as<ProfileCanopy>();
+  if (!profile) return {};
+  double highest = -std::numeric_limits<double>::infinity();
+  for (const ProfilePiece& piece : profile->pieces)
+    for (const double height : piece.height_m) highest = std::max(highest, height);
+  const double below = highest - profile->pieces.back().height_m.back();
+  if (below <= 1e-6 * nominal_diameter(resolved.parachute())) return {};
+  return {fmt::format(
+      "parachute.pieces: the vent is {:.3g} m below the highest point of the meridian; only centre lines "
+      "hold an "
+      "apex down, and Ripstop has none: the cloth is cut to this shape, but the apex rises in the flow",
+      below)};
+}
+
 std::vector<std::string> strain_warnings(const Settings& resolved, double largest_cloth_strain) {
   std::vector<std::string> all;
   for (const auto& [name, material] : resolved.written().materials) {
@@ -66,8 +84,8 @@ std::vector<std::string> strain_warnings(const Settings& resolved, double larges
 
 std::vector<std::string> case_warnings(const Settings& resolved) {
   std::vector<std::string> all = mesh_warnings(resolved);
-  for (const std::vector<std::string>& more :
-       {grid_warnings(resolved), porosity_warnings(resolved), range_warnings(resolved)})
+  for (const std::vector<std::string>& more : {grid_warnings(resolved), porosity_warnings(resolved),
+                                               range_warnings(resolved), shape_warnings(resolved)})
     all.insert(all.end(), more.begin(), more.end());
   return all;
 }

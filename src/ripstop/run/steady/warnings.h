@@ -16,7 +16,9 @@ std::vector<std::string> grid_warnings(const Settings& resolved);
 std::vector<std::string> porosity_warnings(const Settings& resolved);
 /// Mach and Reynolds number outside the range of the flow model.
 std::vector<std::string> range_warnings(const Settings& resolved);
-/// What is doubtful before anything is computed: the four above.
+/// Of a profile whose apex is pulled down.
+std::vector<std::string> shape_warnings(const Settings& resolved);
+/// What is doubtful before anything is computed: the five above.
 std::vector<std::string> case_warnings(const Settings& resolved);
 /// Materials stretched beyond their tests, and such.
 std::vector<std::string> strain_warnings(const Settings& resolved, double largest_cloth_strain);

@@ -1,0 +1,41 @@
+// What a run without convergence lacks.
+#include "ripstop/fsi/convergence.h"
+
+#include <gtest/gtest.h>
+
+namespace ripstop {
+namespace {
+
+/// An iteration that meets every criterion.
+SteadyIteration converged() {
+  SteadyIteration now;
+  now.shape_change = 1e-4, now.drag_change = 1e-5;
+  now.fluid_force = now.nodal_load = now.line_tension = now.momentum_deficit = 100;
+  now.flow_converged = true;
+  return now;
+}
+
+TEST(UnmetCriteria, ListsOnlyWhatIsNotMet) {
+  CouplingSettings settings;
+  settings.drag_tolerance = 1e-3;
+  const auto only = [&](const SteadyIteration& now, const std::string& words) {
+    const std::vector<std::string> unmet = unmet_criteria(now, settings);
+    ASSERT_EQ(unmet.size(), 1u) << words;
+    EXPECT_NE(unmet[0].find(words), std::string::npos) << unmet[0];
+  };
+  SteadyIteration now = converged();
+  only(now, "not solved in full");
+  now.shape_change = 2e-3;
+  only(now, "the shape changes by 0.002 m (limit 0.001 m)");
+  now = converged(), now.drag_change = 0.0067;
+  only(now, "the drag changes by 0.67 % (limit 0.1 %)");
+  now = converged(), now.regularisation_share = 0.05;
+  only(now, "by 5 % of the load (limit 2 %)");
+  now = converged(), now.nodal_load = 90;
+  only(now, "differ by more than 1 %");
+  now = converged(), now.flow_converged = false;
+  only(now, "the flow has not settled");
+}
+
+}  // namespace
+}  // namespace ripstop
