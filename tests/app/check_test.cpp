@@ -36,12 +36,16 @@ TEST_F(Check, MassesAndAreasAreThoseOfThePattern) {
   EXPECT_TRUE(report["valid"]);
   EXPECT_NEAR(report["nominal_area_m2"].get<double>(), 1.7215, 1e-4);
   EXPECT_NEAR(report["meshed_area_m2"].get<double>(), 1.7215, 1e-3);  // a polygon of 2.6 degrees a side
-  EXPECT_NEAR(report["mass_kg"]["cloth"].get<double>(), 1.7215 * 0.0407, 1e-4);
-  // Four hems, and seams along band and disk on six gores, of 6 g/m.
-  const double hems = 3.14159265 * (3 * 1.0 + 0.09), seams = 6 * (0.3 + 0.455);
-  EXPECT_NEAR(report["mass_kg"]["tape"].get<double>(), 6e-3 * (hems + seams), 1e-4);
-  // Free line, band, gap and disk, 2 g/m.
-  EXPECT_NEAR(report["mass_kg"]["lines"].get<double>(), 2e-3 * 18 * (1.5 + 0.3 + 0.07 + 0.455), 1e-6);
+  // As cut: six band panels with seams of 15 mm at both sides and hems of 20 mm above and below.
+  const double width = 3.14159265 / 6, bands = 6 * (width + 2 * 0.015) * (0.3 + 2 * 0.02);
+  // Six gores of the disk from r = 0.045 to 0.5 m, seams at both sides and hems at both arcs.
+  const double disk = 3.14159265 * (0.52 * 0.52 - 0.025 * 0.025) + 6 * 2 * 0.015 * (0.455 + 2 * 0.02);
+  EXPECT_NEAR(report["mass_kg"]["cloth"].get<double>(), (bands + disk) * 0.0407, 2e-4);
+  // Four hems, and seams along band and disk on six gores, of 6 g/m; each piece overlaps by 50 mm.
+  const double hems = 3.14159265 * (3 * 1.0 + 0.09), seams = 6 * (0.3 + 0.455), overlaps = (4 + 2 * 6) * 0.05;
+  EXPECT_NEAR(report["mass_kg"]["tape"].get<double>(), 6e-3 * (hems + seams + overlaps), 1e-4);
+  // Free line, band, gap, disk and loops at both ends, 2 g/m.
+  EXPECT_NEAR(report["mass_kg"]["lines"].get<double>(), 2e-3 * 18 * (1.5 + 0.3 + 0.07 + 0.455 + 2 * 0.1), 1e-6);
   EXPECT_NEAR(report["cloth_nodes"].get<double>(), 25600, 256);
   EXPECT_GT(report["stable_step_s"].get<double>(), 4e-7);  // what the paper's polar grid allowed
   EXPECT_EQ(report["flow_cells"], 1500000);

@@ -394,7 +394,8 @@ TEST(CartesianEngine, AStartFromCoarserGridsIsEasedBesideASheet) {
 }
 
 TEST(CartesianEngine, DivergenceIsSaidWithIterationFieldAndPlace) {
-  const FlowProblem problem = open_box(12, 12, 16, 1e160);  // its square is beyond double precision
+  FlowProblem problem = open_box(12, 12, 16, 10);
+  problem.body_force.assign(problem.grid.cells(), {1e200, 0, 0});  // squares of velocities beyond double precision
   try {
     solve(*make_cartesian(with_threads(1)), problem);
     FAIL() << "no error";

@@ -111,7 +111,7 @@ INSTANTIATE_TEST_SUITE_P(Eddies, MarchWith, testing::Values(SmallEddies::wale, S
 TEST_P(MarchWith, PorousCellsWithoutResistanceAreNotThere) {
   const auto marched = [&](bool porous) {
     FlowProblem problem = disk_in_a_box(1e4, Sides::entraining);
-    if (porous) problem.bodies = {porous_body({{problem.grid.index(3, 4, 5)}, 0, 0})};
+    if (porous) problem.bodies.push_back(porous_body({{problem.grid.index(3, 4, 5)}, 0, 0}, "porous cell"));
     const auto engine = make_cartesian(with_threads(1, GetParam()));
     const auto flow = engine->start(problem);
     flow->march(3, 0.7);
