@@ -72,7 +72,8 @@ class MaterialFiles {
     const Origin origin = typed ? Origin{"", 0, 0, setting->option}
                                 : Origin{document_.name, value.place.line, value.place.column, ""};
     const auto refuse = [&](const std::string& message) {
-      throw InputError(ExitCode::usage, {{origin, key, quoted(value.text), "", message}});
+      throw InputError(ExitCode::usage,
+                       std::vector<Problem>{Problem{origin, key, ripstop::quoted(value.text), "", message}});
     };
     fs::path file = folder_ / value.text;
     if (typed && !fs::exists(file)) file = value.text;

@@ -117,11 +117,11 @@ void write_pattern_svg(const std::filesystem::path& path, const Piece& piece, co
   text += fmt::format(
       "<polyline points=\"{0} {1} {2} {1} {3}\" fill=\"none\" stroke=\"#7f8c8d\" stroke-width=\"0.3\"/>\n",
       at(tail), at(tip), at(left), at(right));
-  const double foot = height - margin;
+  const double lower_edge = height - margin;
   text += fmt::format(
       "<path d=\"M {0} {1} h {2}\" stroke=\"#000\" stroke-width=\"0.5\"/>\n"
       "<text x=\"{0}\" y=\"{3}\" font-family=\"sans-serif\" font-size=\"5\">100 mm | {4}</text>\n</svg>\n",
-      margin, foot, bar, foot - 3, label(piece));
+      margin, lower_edge, bar, lower_edge - 3, label(piece));
   write_file(path, text);
 }
 
