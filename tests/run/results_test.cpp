@@ -45,7 +45,9 @@ TEST(Results, OfAnOpeningAreThoseOfItsStateHistoryAndCase) {
   EXPECT_EQ(result.peak_load, peak);
   EXPECT_NEAR(result.impulse, impulse, 1e-9 * impulse);
   EXPECT_EQ(result.pressure, 500);
-  EXPECT_FALSE(result.steady_drag_returned);  // not settled in 8 ms
+  ASSERT_TRUE(result.steady_load);
+  EXPECT_EQ(result.steady_load, result.summary.last_load);
+  EXPECT_EQ(result.steady_drag_returned, *result.steady_load / 400);
   EXPECT_EQ(result.estimate.load, opening_estimate(given.parachute, 400).load);
   EXPECT_EQ(result.estimate.drag_from, "the steady drag asked for");
   EXPECT_EQ(result.steps, state.cloth.steps);

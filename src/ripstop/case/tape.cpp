@@ -76,7 +76,8 @@ TapeMaterial tape_material(const Case& given) {
   const double known = experience(given.parachute).opening_coefficient;
   const double load = (known > 0 ? known : unknown_opening) * usual_drag_coefficient(given.parachute) *
                       nominal_area(given.parachute) * 0.5 * stream.density * speed * speed;
-  TapeMaterial tape = tape_for(given, load / given.parachute.lines.count);
+  TapeMaterial tape =
+      tape_for(given, experience(given.parachute).line_load_factor * load / given.parachute.lines.count);
   tape.from += fmt::format(" when it opens at {:.3g} m/s", speed);
   return tape;
 }

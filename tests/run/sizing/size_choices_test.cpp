@@ -49,8 +49,8 @@ TEST(SizeChoices, EveryNumberIsThatOfTheParachuteOfItsCase) {
 }
 
 TEST(SizeChoices, TheLineIsTheLightestOfTheLibraryThatHolds) {
-  SizeRequest asked = wanted(150, 6);
-  asked.deployment_speed = 70;
+  SizeRequest asked = wanted(20, 6);
+  asked.deployment_speed = 30;
   const SizeResult light = run_size(wanted()), heavy = run_size(asked);
   const auto density = [](const std::string& name) {
     return std::get<Line>(library_material(name)).linear_density_kg_m;

@@ -14,8 +14,8 @@ namespace {
 
 /// To a tenth of a millimetre; small lengths to five digits, so that a small parachute keeps its proportions.
 double rounded(double length) {
-  const double step = length < 0.1 ? 1e-6 : length < 1 ? 1e-5 : 1e-4;
-  return std::round(length / step) * step;
+  const double parts = length < 0.1 ? 1e6 : length < 1 ? 1e5 : 1e4;  // of a metre
+  return std::round(length * parts) / parts;
 }
 
 /// Calls `each` with every length of the design, its key and its range.
