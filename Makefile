@@ -115,7 +115,7 @@ validate: build  ## Stratos IV at five speeds on the printed grid with both engi
 	  $(VALIDATE) --speed $$v --flow openfoam --ranks $(JOBS) --out runs/validate/openfoam-$$v || exit; done
 	@/usr/bin/python3 validation/stratos-iv/table.py runs/validate
 
-validate-ojf: build  ## Calibrate on Stratos IV, predict WALRUS and ADEPT blind, into docs/tables: hours; resumable
+validate-ojf: build  ## Calibrate on Stratos IV, predict WALRUS and ADEPT, score the blind predictions, into docs/tables: hours; resumable
 	@/usr/bin/python3 validation/ojf/campaign.py --ripstop build/bin/ripstop $(STAGES)
 
 validate-families: build  ## Drag of every family's example beside Knacke's values, into docs/tables: ten minutes; resumable

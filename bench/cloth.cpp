@@ -96,7 +96,7 @@ int main() {
     const ClothPtr cloth = make_cloth(mesh);
     const Loads loads{std::vector<double>(mesh.cell_count(), 500.0), {}};
     ClothState one = start_state(*cloth), two = one;
-    const double dt = 0.5 * step_bound(*cloth, one).stable_step;
+    const double dt = 0.5 * stability_limit(*cloth, one).stable_step;
     ThreadTeam alone(1), pair(2);
     const int steps = static_cast<int>(1.5e6 / mesh.node_count());
     std::vector<double> rate1, rate2;

@@ -1,6 +1,6 @@
 // The opening of Stratos IV at 25,600 nodes: wall time of blocks of 2 ms as a run takes them, after 10 ms.
 // The counter `wall_s_per_s` is the wall time of one simulated second; the goal is 60 s on two cores.
-#include "ripstop/inflation/inflation.h"
+#include "ripstop/fsi/inflation.h"
 
 #include <benchmark/benchmark.h>
 

@@ -98,7 +98,7 @@ TEST_F(Coupon, AnySpacingGivesTheSameCurveWithinAPercent) {
 }
 
 // Cells that are not square: within 1 % up to 10 % strain for sides of 1 : 2 either way, and up to 30 % for
-// 1 : 1.4. Beyond, the slanted diagonals show (docs/theory/fit.md has the numbers).
+// 1 : 1.4. Beyond, the slanted diagonals show (docs/validation/fit.md has the numbers).
 TEST_F(Coupon, OblongCellsGiveTheSameCurveWithinAPercentAsFarAsStated) {
   struct Cell {
     double aspect, strain;

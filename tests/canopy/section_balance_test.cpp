@@ -10,7 +10,7 @@
 #include "../blown_up.h"
 #include "../parachute/examples.h"
 #include "ripstop/case/assemble.h"
-#include "ripstop/coupling/sheet_transfer.h"
+#include "ripstop/fsi/sheet_transfer.h"
 
 namespace ripstop {
 namespace {

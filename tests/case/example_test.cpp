@@ -21,11 +21,13 @@ TEST(Example, StratosIvHasThePrintedAreaAndItsDefaultsAreThePapers) {
   EXPECT_EQ(canopy_position(given), 2);
 }
 
-TEST(Example, WalrusReportsThePrintedAreaBesideItsOwnAndHasNoMeasuredDrag) {
+TEST(Example, WalrusHasThePrintedNominalAreaAndTheMeasuredDrags) {
   const Case given = read_case(examples / "walrus" / "case.toml");
   EXPECT_NEAR(computed_area(given.parachute), 2.938, 1e-3);
   EXPECT_EQ(nominal_area(given.parachute), 3.37);
-  for (const Measured& row : given.measured) EXPECT_FALSE(row.drag_n.has_value());
+  ASSERT_EQ(given.measured.size(), 5u);
+  EXPECT_EQ(given.measured.front().drag_n, 73.5);
+  EXPECT_EQ(given.measured.back().drag_n, 621);
 }
 
 TEST(Example, TheClothReachesItsSpecifiedBreakingLoadAndTheLineAForceOfARealCord) {

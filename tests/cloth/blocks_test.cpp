@@ -36,10 +36,10 @@ TEST(Blocks, EveryFreeNodeMovesWithOneAndWhatIsHeldWithNone) {
     if (block >= 0) met.insert(block);
   }
   EXPECT_EQ(static_cast<int>(met.size()), blocks.count());
-  for (std::size_t k = 0; k < cloth->kept.size(); ++k) {
-    const int block = blocks.block_of(cloth->kept[k].node);
+  for (std::size_t k = 0; k < cloth->irregular.size(); ++k) {
+    const int block = blocks.block_of(cloth->irregular[k].node);
     if (block < 0) continue;
-    EXPECT_EQ(blocks.block_of_sum(blocks.sum_of_kept(static_cast<int>(k))), block) << k;
+    EXPECT_EQ(blocks.block_of_sum(blocks.sum_of_irregular(static_cast<int>(k))), block) << k;
   }
 }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "builders.h"
-#include "ripstop/cloth/bound.h"
+#include "ripstop/cloth/stability_limit.h"
 
 namespace ripstop {
 namespace {
@@ -126,7 +126,7 @@ void expect_kept_over_a_million_steps(double buckling_strain) {
   const ClothPtr cloth = make_cloth(mesh);
   ClothState state = start_state(*cloth);
   set_velocities(state, *cloth, shaken(std::vector<Vec3>(mesh.node_count(), {1, 0.5, -0.3}), 0.8, 6));
-  const double dt = 0.2 * step_bound(*cloth, state).stable_step;
+  const double dt = 0.2 * stability_limit(*cloth, state).stable_step;
   const Vec3 start = momentum(*cloth, state);
   const std::vector<double> mass = reference_masses(mesh);
   double scale = 0;

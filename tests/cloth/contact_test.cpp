@@ -113,7 +113,7 @@ Collision thrown(bool contact, double speed, double across, double friction = 0.
   Collision result{0, 0, 0, kinetic_energy(*cloth, state), 0, 0};
   ThreadTeam team(2);
   StepRecord record;
-  const double dt = 0.3 * step_bound(*cloth, state).stable_step;
+  const double dt = 0.3 * stability_limit(*cloth, state).stable_step;
   const int blocks = 40, steps = static_cast<int>(8 * spacing / speed / dt / blocks);
   for (int block = 0; block < blocks; ++block) {
     step(state, *cloth, {}, dt, steps, team, &record);
@@ -168,7 +168,7 @@ TEST(Contact, WhatDampersTakeIsCountedUpToEveryKick) {
   set_positions(state, *cloth, near);
   ThreadTeam team(2);
   StepRecord record;
-  const double dt = 0.3 * step_bound(*cloth, state).stable_step;
+  const double dt = 0.3 * stability_limit(*cloth, state).stable_step;
   step(state, *cloth, loads, dt, static_cast<int>(1.5e-3 / dt), team, &record);
   EXPECT_GT(contact_report(*cloth, state).deepest, 0.05);
   EXPECT_GT(record.damped, 0.5 * record.pressure_work);
@@ -189,7 +189,7 @@ TEST(Contact, AnyNumberOfThreadsGivesTheSameBits) {
     set_positions(state, *cloth, folded_over(mesh, 0.3 * spacing));
     EXPECT_GT(contact_report(*cloth, state).pairs, 5);
     StepRecord record;
-    step(state, *cloth, {}, 0.2 * step_bound(*cloth, state).stable_step, 100, team, &record);
+    step(state, *cloth, {}, 0.2 * stability_limit(*cloth, state).stable_step, 100, team, &record);
     states.push_back(state);
     damped.push_back(record.damped);
   }
@@ -209,10 +209,11 @@ TEST(Contact, AStepIsNoLongerThanItAllows) {
   const ClothPtr soft = make_cloth(mesh, options);
   options.contact->pressure = 1e9;
   const ClothPtr hard = make_cloth(mesh, options);
-  const StepBound free = step_bound(*soft, start_state(*soft)), bound = step_bound(*hard, start_state(*hard));
-  EXPECT_EQ(free.stable_step, step_bound(*make_cloth(mesh), start_state(*soft)).stable_step);
-  EXPECT_LT(bound.stable_step, 0.5 * free.stable_step);
-  EXPECT_EQ(bound.part, "contact of cloth");
+  const StabilityLimit free = stability_limit(*soft, start_state(*soft)),
+                       limit = stability_limit(*hard, start_state(*hard));
+  EXPECT_EQ(free.stable_step, stability_limit(*make_cloth(mesh), start_state(*soft)).stable_step);
+  EXPECT_LT(limit.stable_step, 0.5 * free.stable_step);
+  EXPECT_EQ(limit.part, "contact of cloth");
 }
 
 TEST(Pierced, CountsTheEdgesThatGoThroughClothElsewhere) {

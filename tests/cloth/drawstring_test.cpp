@@ -132,7 +132,7 @@ TEST(Drawstring, ARingPulledOutwardStandsWhereItsTensionHoldsIt) {
     ClothState state = start_state(*cloth);
     ThreadTeam team(1);
     StepRecord record;
-    const double dt = 0.2 * step_bound(*cloth, state).stable_step;
+    const double dt = 0.2 * stability_limit(*cloth, state).stable_step;
     step(state, *cloth, {{}, outward(mesh, load)}, dt, static_cast<int>(200 / breathing / dt), team, &record);
     for (const Vec3 p : positions(state, *cloth)) EXPECT_NEAR(norm(p), radius, 1e-9 * radius) << count;
     EXPECT_NEAR(record.drawstring.back(), tension, 1e-6 * tension) << count;
@@ -146,7 +146,7 @@ TEST(Drawstring, TheStableStepIsThatOfARingThatBreathes) {
   const Mesh mesh = hoop(count, radius, length, mass);
   const ClothPtr cloth = make_cloth(mesh);
   const double breathing = 2 * sine * std::sqrt(count * stiffness / length / mass);
-  EXPECT_NEAR(step_bound(*cloth, start_state(*cloth)).stable_step, 2 / breathing, 1e-9 / breathing);
+  EXPECT_NEAR(stability_limit(*cloth, start_state(*cloth)).stable_step, 2 / breathing, 1e-9 / breathing);
 }
 
 // By power iteration on M^-1 K, K from the forces.
@@ -178,7 +178,7 @@ TEST(Drawstring, TheStableStepHoldsForRingsInDisorderAndIsNotMuchTooSmall) {
       for (Vec3& part : mode) part = part / squared;
     }
     set_positions(state, *cloth, mesh.start);
-    const double allowed = step_bound(*cloth, state).stable_step, largest = 2 / std::sqrt(squared);
+    const double allowed = stability_limit(*cloth, state).stable_step, largest = 2 / std::sqrt(squared);
     EXPECT_LT(allowed, 1.0001 * largest) << seed;
     EXPECT_GT(allowed, 0.6 * largest) << seed;
   }
@@ -191,9 +191,9 @@ TEST(Drawstring, FarFromTautItTakesNothingOfTheStep) {
   const ClothPtr taut = make_cloth(mesh);
   mesh.drawstring.reset();
   const ClothPtr without = make_cloth(mesh);
-  const double step = step_bound(*without, start_state(*without)).stable_step;
-  EXPECT_EQ(step_bound(*drawn, start_state(*drawn)).stable_step, step);
-  EXPECT_LT(step_bound(*taut, start_state(*taut)).stable_step, 0.9 * step);
+  const double step = stability_limit(*without, start_state(*without)).stable_step;
+  EXPECT_EQ(stability_limit(*drawn, start_state(*drawn)).stable_step, step);
+  EXPECT_LT(stability_limit(*taut, start_state(*taut)).stable_step, 0.9 * step);
 }
 
 TEST(Drawstring, ItsDamperTakesWhatTheRingLoses) {
@@ -221,7 +221,7 @@ TEST(Drawstring, AnyNumberOfThreadsStepsItAlike) {
   const auto stepped = [&](int threads, StepRecord& record) {
     ClothState state = start_state(*cloth);
     ThreadTeam team(threads);
-    step(state, *cloth, {}, 0.5 * step_bound(*cloth, state).stable_step, 400, team, &record);
+    step(state, *cloth, {}, 0.5 * stability_limit(*cloth, state).stable_step, 400, team, &record);
     return state;
   };
   StepRecord one, three;

@@ -320,7 +320,7 @@ TEST(ClothEquilibrium, RelaxationEndsWhereDampedTimeStepsEnd) {
   ThreadTeam team(1);
   ClothState relaxed = start_state(*cloth), stepped = start_state(*damped);
   ASSERT_TRUE(relax(relaxed, *cloth, loads, {1e-9, 200000}, team).converged);
-  step(stepped, *damped, loads, 0.7 * step_bound(*damped, stepped).stable_step, 60000, team);
+  step(stepped, *damped, loads, 0.7 * stability_limit(*damped, stepped).stable_step, 60000, team);
   EXPECT_LT(kinetic_energy(*damped, stepped), 1e-16);
   const std::vector<Vec3> a = positions(relaxed, *cloth), b = positions(stepped, *damped);
   double rise = 0, apart = 0;
@@ -407,13 +407,13 @@ TEST(ClothEquilibrium, HeldClothGoesAsFarAsItsHoldLets) {
     ThreadTeam team(1);
     RelaxOptions options;
     options.tolerance = 1e-8;
-    options.hold = 1000;
+    options.regularisation = 1000;
     const RelaxResult result = relax(state, *cloth, loads, options, team);
     EXPECT_TRUE(result.converged) << result.residual;
-    EXPECT_NEAR(result.held, 1, 1e-6);
+    EXPECT_NEAR(result.regularisation_share, 1, 1e-6);
     const std::vector<Vec3> x = positions(state, *cloth);
     for (std::size_t node = 0; node < x.size(); ++node)
-      EXPECT_LT(norm(x[node] - mesh.start[node] - by_area / options.hold), 1e-8) << node;
+      EXPECT_LT(norm(x[node] - mesh.start[node] - by_area / options.regularisation), 1e-8) << node;
   }
 }
 

@@ -128,7 +128,7 @@ TEST(ClothKernel, TenThousandStepsAreTheSameToTheLastBitOnAnyNumberOfThreads) {
     ClothState state = start_state(*cloth);
     set_positions(state, *cloth, d.mesh.start);
     set_velocities(state, *cloth, d.v);
-    const double dt = 0.5 * step_bound(*cloth, state).stable_step;
+    const double dt = 0.5 * stability_limit(*cloth, state).stable_step;
     step(state, *cloth, d.loads, dt, threads <= 4 ? 10000 : 500, team);
     if (threads == 1) {
       first = state;

@@ -25,7 +25,7 @@ Balance balance(const Mesh& mesh, const ClothOptions& options, double share_of_s
   const ClothPtr cloth = make_cloth(mesh, options);
   ClothState state = start_state(*cloth);
   const double before = elastic_energy(*cloth, state);
-  const int count = static_cast<int>(until / (share_of_stable * step_bound(*cloth, state).stable_step));
+  const int count = static_cast<int>(until / (share_of_stable * stability_limit(*cloth, state).stable_step));
   ThreadTeam team(2);
   StepRecord record;
   step(state, *cloth, pressed(mesh), until / count, count, team, &record);

@@ -50,7 +50,7 @@ TEST(TimeStep, ThePrintedOneIsTheRootOfTheLeastMassOverStiffness) {
   Mesh mesh = chain(2, {0, 0, 0}, {0, 0, 2}, 1, {{50}, 1}, 0);
   mesh.mass = {0.5, 0.5, 0.2};
   const ClothPtr cloth = make_cloth(mesh);
-  EXPECT_NEAR(step_bound(*cloth, start_state(*cloth)).printed_step, std::sqrt(0.2 / 50), 1e-12);
+  EXPECT_NEAR(stability_limit(*cloth, start_state(*cloth)).printed_step, std::sqrt(0.2 / 50), 1e-12);
 }
 
 TEST(TimeStep, AnElasticPendulumConvergesInFirstOrder) {
@@ -117,7 +117,7 @@ double growth(const Probe& probe, double step_over_bound, int count) {
   for (Vec3& p : x) p = {p.x * probe.stretch, p.y, p.z * probe.stretch};
   ClothState state = start_state(*cloth);
   set_positions(state, *cloth, x);
-  const double dt = step_over_bound * step_bound(*cloth, state).stable_step;
+  const double dt = step_over_bound * stability_limit(*cloth, state).stable_step;
   // Hold the stretched shape: its internal force, reversed, is the load.
   Loads loads;
   loads.node_force = reference_forces(probe.mesh, {}, {}, x, std::vector<Vec3>(x.size()));
@@ -149,7 +149,7 @@ TEST(TimeStep, TheBoundOfAnAlignedLatticeIsTheSumOfItsFamilies) {
   const Mesh mesh = rectangle(20, 20, h);
   const ClothPtr cloth = make_cloth(mesh);
   // The middle of the cloth; its edges have half the mass and about half the stiffness.
-  EXPECT_NEAR(step_bound(*cloth, start_state(*cloth)).stable_step / (2 / std::sqrt(omega2)), 1, 0.06);
+  EXPECT_NEAR(stability_limit(*cloth, start_state(*cloth)).stable_step / (2 / std::sqrt(omega2)), 1, 0.06);
 }
 
 TEST(TimeStep, ANodeThatIsTiedToOneOtherMovesAsThatOneDoes) {
@@ -164,7 +164,8 @@ TEST(TimeStep, ANodeThatIsTiedToOneOtherMovesAsThatOneDoes) {
     Spring& last = tied.springs[1];
     (last.a == 1 ? last.a : last.b) = 3;
     const ClothPtr one = make_cloth(sewn), two = make_cloth(tied);
-    const StepBound a = step_bound(*one, start_state(*one)), b = step_bound(*two, start_state(*two));
+    const StabilityLimit a = stability_limit(*one, start_state(*one)),
+                         b = stability_limit(*two, start_state(*two));
     EXPECT_DOUBLE_EQ(a.stable_step, b.stable_step) << stiff;
     EXPECT_DOUBLE_EQ(a.printed_step, b.printed_step) << stiff;
   }
@@ -175,13 +176,13 @@ TEST(TimeStep, AStepAboveTheBoundIsRefusedWithItsPlace) {
   const ClothPtr cloth = make_cloth(mesh);
   ClothState state = start_state(*cloth);
   ThreadTeam team(1);
-  const StepBound bound = step_bound(*cloth, state);
+  const StabilityLimit limit = stability_limit(*cloth, state);
   try {
-    step(state, *cloth, {}, 1.5 * bound.stable_step, 10, team);
+    step(state, *cloth, {}, 1.5 * limit.stable_step, 10, team);
     FAIL() << "accepted";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::diverged);
-    EXPECT_NE(std::string(error.what()).find(bound.part), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find(limit.part), std::string::npos) << error.what();
     EXPECT_NE(std::string(error.what()).find("step 0"), std::string::npos) << error.what();
   }
 }

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "builders.h"
-#include "ripstop/inflation/inflation.h"
+#include "ripstop/fsi/inflation.h"
 
 namespace ripstop {
 namespace {
@@ -61,7 +61,7 @@ Mesh with_small_cells(double viscosity_time) {
 
 double stable_step_of(const Mesh& mesh) {
   const ClothPtr cloth = make_cloth(mesh);
-  return step_bound(*cloth, start_state(*cloth)).stable_step;
+  return stability_limit(*cloth, start_state(*cloth)).stable_step;
 }
 
 TEST(Viscosity, ALimitedOneLeavesTheStepItsShare) {

@@ -2,6 +2,7 @@
 """What holds of every page and source file: links lead somewhere, pages say what is and not what was, prose is wrapped alike, files
 stay short."""
 import collections
+import fnmatch
 import pathlib
 import re
 import unittest
@@ -87,6 +88,26 @@ class Docs(unittest.TestCase):
             if not re.search(rf"TEST(_[FP])?\({suite},\s*{name}\)", text):
                 missing.append(f"{room}.{suite}.{name}")
         self.assertEqual(missing, [])
+
+    def test_every_file_and_test_that_a_page_names_exists(self):
+        tests = collections.defaultdict(list)
+        for file in (ROOT / "tests").glob("*/**/*.cpp"):
+            for suite, name in re.findall(r"\bTEST(?:_[FP])?\((\w+),\s*(\w+)\)", file.read_text()):
+                tests[file.relative_to(ROOT / "tests").parts[0]] += [f"{suite}.{name}", f"All/{suite}.{name}/0"]
+        wrong = []
+        for page in PAGES:
+            if page.name == "CHANGELOG.md" or TABLES in page.parents:
+                continue
+            text = page.read_text()
+            named = [*re.findall(r"`((?:[\w.-]+/)+[\w-]+\.(?:h|cpp|py))`", text), *re.findall(r"`((?:src|tests)/[\w./-]+)/?`", text)]
+            wrong += [f"{at(page, 0)} {name}" for name in named
+                      if not any((folder / name).exists() for folder in (ROOT, ROOT / "src/ripstop", ROOT / "tests", page.parent))]
+            wrong += [f"{at(page, 0)} bench_{name}" for name in re.findall(r"\bbench_(\w+)", text)
+                      if not (ROOT / f"bench/{name}.cpp").exists()]
+            for room, patterns in re.findall(r"\btest_(\w+)\s+--gtest_filter='([^']*)'", text):
+                wrong += [f"{at(page, 0)} test_{room} {pattern}" for pattern in patterns.split(":")
+                          if not any(fnmatch.fnmatchcase(name, pattern) for name in tests[room])]
+        self.assertEqual(wrong, [])
 
     def test_rooms_look_to_their_left_only(self):
         left = collections.defaultdict(set)

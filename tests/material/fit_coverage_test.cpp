@@ -1,5 +1,5 @@
 // Bands over many synthetic campaigns whose law is no polynomial: they hold the law as often as they claim, and are no
-// wider than they must be. Prints the table of docs/theory/fit.md.
+// wider than they must be. Prints the table of docs/validation/fit.md.
 #include <gtest/gtest.h>
 
 #include <array>

@@ -111,7 +111,7 @@ TEST(DiskGapBand, TheSpringsStayNearTheMeanSpacingAlsoRoundTheVent) {
 TEST(DiskGapBand, TheStepIsAtLeastFourMicrosecondsOnStratosAndWalrus) {
   for (const Design& design : {stratos(), walrus()}) {
     const ClothPtr cloth = make_cloth(build_mesh(design, printed_materials()));
-    const StepBound bound = step_bound(*cloth, start_state(*cloth));
+    const StabilityLimit bound = stability_limit(*cloth, start_state(*cloth));
     EXPECT_GE(bound.stable_step, 4e-6) << bound.part << " node " << bound.node;
   }
 }

@@ -14,7 +14,7 @@
 #include "ripstop/core/file.h"
 #include "ripstop/core/toml/read.h"
 #include "ripstop/core/toml/write.h"
-#include "ripstop/inflation/opening_estimate.h"
+#include "ripstop/fsi/opening_estimate.h"
 #include "ripstop/output/pattern_files.h"
 #include "ripstop/parachute/flat_circular.h"
 #include "ripstop/parachute/gored.h"

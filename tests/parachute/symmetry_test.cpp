@@ -166,21 +166,21 @@ TEST_P(SymmetricShape, IsAnEquilibriumToWhichAShakenCanopyReturns) {
 }
 
 // Half a gore goes most of the way for all of a canopy. One that is shaken has none, and goes it as a whole.
-TEST_P(SymmetricShape, ItsWedgeRestsWhereTheWholeDoes) {
-  Canopy by_wedge(GetParam()), whole(GetParam());
+TEST_P(SymmetricShape, ItsSectorRestsWhereTheWholeDoes) {
+  Canopy by_sector(GetParam()), whole(GetParam());
   set_positions(whole.state, *whole.cloth, shaken(whole.mesh.start, 1e-6));
-  const RelaxResult last = by_wedge.relax_to(5e-4), all = whole.relax_to(5e-4);
+  const RelaxResult last = by_sector.relax_to(5e-4), all = whole.relax_to(5e-4);
   ASSERT_TRUE(last.converged && all.converged);
   EXPECT_LT(last.steps, 0.3 * all.steps);
   const auto diameter = [](const Canopy& canopy) {
     return canopy_size(canopy.mesh, canopy.shape()).projected_diameter;
   };
-  EXPECT_NEAR(diameter(by_wedge) / diameter(whole), 1, 5e-4);
+  EXPECT_NEAR(diameter(by_sector) / diameter(whole), 1, 5e-4);
   const auto tension = [](const Canopy& canopy) {
     return spring_tensions(*canopy.cloth, canopy.state)[canopy.mesh.rigging.lines.front().springs[2]];
   };
-  EXPECT_NEAR(tension(by_wedge) / tension(whole), 1, 2e-3);
-  EXPECT_LT(asymmetry(by_wedge.symmetry, by_wedge.shape()), 1e-9);
+  EXPECT_NEAR(tension(by_sector) / tension(whole), 1, 2e-3);
+  EXPECT_LT(asymmetry(by_sector.symmetry, by_sector.shape()), 1e-9);
 }
 
 // The flat disk, drawn together by its lines, has more cloth than its smaller circle needs. Cloth that pushes,
@@ -188,7 +188,7 @@ TEST_P(SymmetricShape, ItsWedgeRestsWhereTheWholeDoes) {
 // that wrinkles forgets it.
 TEST(Symmetry, ImperfectionsGrowWhereClothPushesAndNotWhereItWrinkles) {
   Canopy wrinkling("flat-circular");
-  set_positions(wrinkling.state, *wrinkling.cloth, shaken(wrinkling.mesh.start, 1e-6));  // more: no wedge
+  set_positions(wrinkling.state, *wrinkling.cloth, shaken(wrinkling.mesh.start, 1e-6));  // more: no sector
   ASSERT_TRUE(wrinkling.relax_to(2e-3).converged);
   EXPECT_LT(asymmetry(wrinkling.symmetry, wrinkling.shape()), 1e-5);
 

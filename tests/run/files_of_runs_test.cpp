@@ -9,7 +9,7 @@
 #include "../small_case.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/file.h"
-#include "ripstop/inflation/summary.h"
+#include "ripstop/fsi/summary.h"
 #include "ripstop/output/csv.h"
 #include "ripstop/output/vtk.h"
 #include "ripstop/output/vtk_read.h"

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Calibrates on Stratos IV, freezes, predicts WALRUS and ADEPT blind, and asks how sure the predictions are.
+"""Calibrates on Stratos IV, predicts WALRUS and ADEPT, varies what the predictions depend on, and scores the frozen ones.
 
     make validate-ojf            (or: campaign.py --ripstop build/bin/ripstop --runs runs/ojf STAGE ...)
 
@@ -20,8 +20,11 @@ Stages, each from what the ones before it left; without a name all of them run:
     compare    nonlinear beside linear on Stratos IV at 30 m/s
     openfoam   Stratos IV at 30 m/s with OpenFOAM
     report     tables in docs/tables, plots
-Every stage is made of `ripstop` commands that go on where they were killed; finished ones cost nothing. Nothing in here
-knows a measured drag of WALRUS or ADEPT.
+    adept      drag of ADEPT against details of its sewing that are not published        -> adept-details.csv
+    score      frozen predictions of WALRUS and ADEPT against their measurements         -> docs/tables/ojf-score.md
+Every stage is made of `ripstop` commands that go on where they were killed; finished ones cost nothing. No stage but
+`score` reads a measurement of WALRUS or ADEPT. The predictions that were made before these were known are in frozen/ and no stage
+writes there (score.py).
 """
 import argparse
 import csv
@@ -33,6 +36,9 @@ import subprocess
 import sys
 import time
 
+import adept
+import score
+from openings import DAMPED, OPENING, OPENING_OF, OPENING_VARIATIONS, OPENINGS
 from tunnel import FREE_FLOW, JET_BASE, JET_DISTANCE, JET_SPECIFIED, JET_VARIATIONS, SPECIFIED
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -74,25 +80,8 @@ SHEET_VARIATIONS = {
     "sides": [("slip", ["flow.sides=slip"])],
     "turbulence": [("intensity 5 %", ["flow.turbulence_intensity=0.05"])],
 }
-# The openings: speed [m/s], density [kg/m3], radius of the folded skirt [m]; the cloth's damping as in the examples.
-OPENINGS = {"stratos-iv": (27.1, 1.2, 0.1), "walrus": (27.43, 1.204, 0.2), "adept": (27, 1.205, 0.1)}
-OPENING = ["inflation.duration_s=0.45", "inflation.frames=90", "inflation.line_segment_m=0.06",
-           "inflation.cloth_damping_s=1e-5", "inflation.low_pass_hz=100", "parachute.mesh.cloth_nodes=12800",
-           "flow.tunnel.shear_layer_m=0.1", "flow.cells=[110,110,122]"]
-OPENING_OF = {"stratos-iv": [], "walrus": [], "adept": ["inflation.cloth_compression=0.1"]}  # sails that wrinkle stay shut
-# What a peak depends on, past it where it comes soon; what is varied on Stratos IV alone is taken for the other two.
-FINER, TO_THE_PEAK = "flow.cells=[138,138,152]", ["inflation.duration_s=0.2", "inflation.frames=40"]
-OPENING_VARIATIONS = [("stratos-iv", "air 1.25 times as fine", [FINER, *TO_THE_PEAK]), ("stratos-iv", "half the folds", ["inflation.folds=9"]),
-                      ("stratos-iv", "half the step", ["inflation.courant=0.25", *TO_THE_PEAK]),
-                      *[("stratos-iv", f"{label} the nodes", [f"parachute.mesh.cloth_nodes={nodes}", *TO_THE_PEAK])
-                        for label, nodes in (("0.7 times", 9000), ("1.4 times", 18000), ("twice", 25600))],
-                      ("walrus", "air 1.25 times as fine", [FINER, "inflation.duration_s=0.3", "inflation.frames=60"]), ("adept", "air 1.25 times as fine", [FINER])]
 OPENING_COLUMNS = ["parachute", "air", "speed_m_s", "density_kg_m3", "initial_radius_m", "peak_100hz_n", "peak_n",
                    "peak_time_s", "filling_time_s", "steady_n", "wall_time_s", "peak_100hz_pm_n"]
-# Under the uniform pressure of their steady load (docs/validation.md) and the damping that Stratos IV was fitted with.
-# C_a is that which is calibrated on Stratos IV, for ADEPT with cloth that pushes, as its example's does.
-DAMPED = {"stratos-iv": ["--damping", "10.39"], "walrus": ["--damping", "10.39", "--pressure", "534.5"],
-          "adept": ["--damping", "10.51", "--pressure", "593"]}
 # Cells, and the size of the printed ones over theirs. The `paper` model resists for the length of a cell: its
 # coefficients are multiplied by this ratio, which keeps the resistance of the cloth's area.
 GRIDS = [("40,40,60", 0.4), ("50,50,75", 0.5), ("64,64,96", 0.64)]
@@ -470,7 +459,8 @@ STAGES = {"calibrate": stage_calibrate, "predict": stage_predict, "reproduce": s
           "sheet": stage_sheet, "sheet-calibrated": stage_sheet_calibrated, "uncertain-jet": stage_uncertain_jet, "jet": stage_jet,
           "unsteady-jet": lambda campaign: predict_in_jet(campaign, "specified-unsteady-jet", ["flow.unsteady=true"]),
           "uncertain": stage_uncertain, "uncertain-sheet": stage_uncertain_sheet, "openings": stage_openings,
-          "compare": stage_compare, "openfoam": stage_openfoam, "report": stage_report}
+          "compare": stage_compare, "openfoam": stage_openfoam, "report": stage_report,
+          "adept": adept.stage, "score": lambda campaign: score.report()}
 
 
 def main():

@@ -134,6 +134,19 @@ def predictions(runs):
                   "drag area m2", "iterations", "wall s"], lines) if lines else []
 
 
+def largest_of_each_source(done):
+    """(porosity model, parachute) -> source -> largest change of drag [%] among its variations in rows of uncertainty.csv.
+
+    The change is that of the ratio to Stratos IV where the cloth is calibrated on it. The error of the calibration itself is
+    a property of the cloth, so it does not cancel in that ratio; where nothing is calibrated, nothing cancels."""
+    largest = {}
+    for r in done:
+        own = r["source"] == "porosity" or r["porosity_model"] == "specified-jet"
+        of = largest.setdefault((r["porosity_model"], r["parachute"]), {})
+        of[r["source"]] = max(of.get(r["source"], 0), abs(float(r["frozen_percent" if own else "ratio_percent"])))
+    return largest
+
+
 def uncertainty(runs):
     done = rows(HERE / "uncertainty.csv")
     if not done:
@@ -143,18 +156,9 @@ def uncertainty(runs):
     text += ["Largest of each source (porosity, and all of specified-jet: frozen; all others: ratio), and their root of sum of squares, %:", ""]
     sources = list(dict.fromkeys(r["source"] for r in done))
     lines = []
-    for model, parachute in dict.fromkeys((r["porosity_model"], r["parachute"]) for r in done):
-        largest = {}
-        for r in done:
-            if (r["porosity_model"], r["parachute"]) == (model, parachute):
-                # The calibration's error is of the cloth itself: Stratos IV cannot take it away. Where nothing is calibrated
-                # it takes nothing away.
-                own = r["source"] == "porosity" or model == "specified-jet"
-                value = abs(float(r["frozen_percent" if own else "ratio_percent"]))
-                largest[r["source"]] = max(largest.get(r["source"], 0), value)
-        total = math.sqrt(sum(v * v for v in largest.values()))
-        lines.append([model, parachute, *(f"{largest[s]:.1f}" if s in largest else "" for s in sources), f"{total:.1f}",
-                      max(largest, key=largest.get)])
+    for (model, parachute), largest in largest_of_each_source(done).items():
+        lines.append([model, parachute, *(f"{largest[s]:.1f}" if s in largest else "" for s in sources),
+                      f"{math.hypot(*largest.values()):.1f}", max(largest, key=largest.get)])
     return text + table(["porosity", "parachute", *sources, "together", "dominates"], lines)
 
 

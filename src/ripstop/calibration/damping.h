@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "ripstop/inflation/inflation.h"
-#include "ripstop/inflation/summary.h"
+#include "ripstop/fsi/inflation.h"
+#include "ripstop/fsi/summary.h"
 
 namespace ripstop {
 

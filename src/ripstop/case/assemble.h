@@ -2,8 +2,8 @@
 #pragma once
 
 #include "ripstop/case/resolve.h"
-#include "ripstop/coupling/steady.h"
 #include "ripstop/flow/flow.h"
+#include "ripstop/fsi/steady.h"
 #include "ripstop/parachute/build.h"
 
 namespace ripstop {

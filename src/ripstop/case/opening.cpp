@@ -11,7 +11,7 @@
 #include "ripstop/case/cost.h"
 #include "ripstop/core/error.h"
 #include "ripstop/flight/atmosphere.h"
-#include "ripstop/inflation/pressure.h"
+#include "ripstop/fsi/pressure.h"
 
 namespace ripstop {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "ripstop/case/case.h"
-#include "ripstop/inflation/inflation.h"
+#include "ripstop/fsi/inflation.h"
 
 namespace ripstop {
 

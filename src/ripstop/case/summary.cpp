@@ -67,7 +67,7 @@ CaseSummary summarize(const Case& given) {
   ClothOptions options;
   options.linear = given.coupling.linear;
   const ClothPtr cloth = make_cloth(mesh, options);
-  summary.step = step_bound(*cloth, start_state(*cloth));
+  summary.step = stability_limit(*cloth, start_state(*cloth));
 
   const FlowGrid grid = flow_problem(given).grid;
   summary.flow_cells = static_cast<long long>(grid.nx) * grid.ny * grid.nz;

@@ -25,7 +25,7 @@ struct CaseSummary {
   int springs = 0;               // of the lattice and outside it
   double smallest_spring = 0;    // rest length [m]
   std::string smallest_part;     // where it is
-  StepBound step;                // of the start shape
+  StabilityLimit step;           // of the start shape
   long long flow_cells = 0;
   Vec3 flow_spacing;     // [m]
   double memory = 0;     // of a steady run, about [bytes]

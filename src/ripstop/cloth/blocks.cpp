@@ -78,7 +78,7 @@ std::vector<int> blocks_of_columns(const Patch& patch, const std::vector<char>& 
 
 Blocks::Blocks(const Cloth& cloth, const std::vector<char>& restricted)
     : row_patch_(cloth.row_patch),
-      sum_of_kept_(cloth.kept.size()),
+      sum_of_irregular_(cloth.irregular.size()),
       block_of_node_(cloth.mesh.node_count(), -1) {
   const Mesh& mesh = cloth.mesh;
   const double size = block_size(mesh);
@@ -91,12 +91,12 @@ Blocks::Blocks(const Cloth& cloth, const std::vector<char>& restricted)
               std::min(patch.rows, blocks_along(patch.rows * mean_length(patch, along_column), size)));
   }
   for (int row = 0; row < cloth.row_count; ++row)
-    for (int k = cloth.kept_of_row[row]; k < cloth.kept_of_row[row + 1]; ++k) {
-      const int in_row = cloth.kept[k].slot - cloth.row_slot(row), vector = in_row / lanes;
+    for (int k = cloth.irregular_of_row[row]; k < cloth.irregular_of_row[row + 1]; ++k) {
+      const int in_row = cloth.irregular[k].slot - cloth.row_slot(row), vector = in_row / lanes;
       const std::vector<int>& edge = edges(row);
       const int chunk =
           static_cast<int>(std::upper_bound(edge.begin(), edge.end(), vector) - edge.begin()) - 1;
-      sum_of_kept_[k] = 3 * lanes * (first_chunk(row) + chunk) + in_row % lanes;
+      sum_of_irregular_[k] = 3 * lanes * (first_chunk(row) + chunk) + in_row % lanes;
     }
   add_loose(cloth);
   padded_ = (count_ + 2 * lanes - 1) / (2 * lanes) * (2 * lanes);
@@ -113,8 +113,8 @@ Blocks::Blocks(const Cloth& cloth, const std::vector<char>& restricted)
                 block_of_[lanes * motion_of_[first_chunk_[row] + c] + lane];
         }
   }
-  for (int k = cloth.kept_of_row.back(); k < static_cast<int>(cloth.kept.size()); ++k)
-    block_of_node_[cloth.kept[k].node] = block_of_sum(sum_of_kept_[k]);
+  for (int k = cloth.irregular_of_row.back(); k < static_cast<int>(cloth.irregular.size()); ++k)
+    block_of_node_[cloth.irregular[k].node] = block_of_sum(sum_of_irregular_[k]);
   for (int node = 0; node < mesh.node_count(); ++node)
     if (cloth.is_fixed[node] || cloth.is_tied[node] || (!restricted.empty() && restricted[node]))
       block_of_node_[node] = -1;
@@ -158,15 +158,15 @@ void Blocks::add_patch(const Patch& patch, const PatchLayout& layout, const std:
 void Blocks::add_loose(const Cloth& cloth) {
   std::set<std::pair<int, int>> joined;
   for (const Spring& spring : cloth.mesh.springs) joined.insert(std::minmax(spring.a, spring.b));
-  const int first_loose = cloth.kept_of_row.back(), first = chunk_count();
+  const int first_loose = cloth.irregular_of_row.back(), first = chunk_count();
   std::vector<std::pair<int, int>> by_node;
-  for (int k = first_loose; k < static_cast<int>(cloth.kept.size()); ++k) {
+  for (int k = first_loose; k < static_cast<int>(cloth.irregular.size()); ++k) {
     if ((k - first_loose) % lanes == 0) {
       motion_of_.push_back(motion_count());
       block_of_.insert(block_of_.end(), lanes, -1);
     }
-    sum_of_kept_[k] = 3 * lanes * (first + (k - first_loose) / lanes) + (k - first_loose) % lanes;
-    by_node.emplace_back(cloth.kept[k].node, k);
+    sum_of_irregular_[k] = 3 * lanes * (first + (k - first_loose) / lanes) + (k - first_loose) % lanes;
+    by_node.emplace_back(cloth.irregular[k].node, k);
   }
   std::sort(by_node.begin(), by_node.end());
   int last = -1, in_block = 0;
@@ -174,7 +174,7 @@ void Blocks::add_loose(const Cloth& cloth) {
   for (const auto& [node, k] : by_node) {
     if (cloth.is_fixed[node] || cloth.is_tied[node]) continue;
     if (last < 0 || in_block == loose_nodes || !joined.count({last, node})) ++count_, in_block = 0;
-    const int sum = sum_of_kept_[k];
+    const int sum = sum_of_irregular_[k];
     block_of_[lanes * motion_of_[sum / (3 * lanes)] + sum % (3 * lanes)] = count_ - 1;
     last = node, ++in_block;
   }

@@ -37,8 +37,8 @@ class Blocks {
   /// First chunk of a row, and the edges of its chunks among its vectors.
   int first_chunk(int row) const { return first_chunk_[row]; }
   const std::vector<int>& edges(int row) const { return edges_[row_patch_[row]]; }
-  /// Where a kept node's force is added among the sums: 24 chunk + lane.
-  int sum_of_kept(int k) const { return sum_of_kept_[k]; }
+  /// Where a irregular node's force is added among the sums: 24 chunk + lane.
+  int sum_of_irregular(int k) const { return sum_of_irregular_[k]; }
   /// Block of that place; -1: none.
   int block_of_sum(int sum) const {
     return block_of_[lanes * motion_of_[sum / (3 * lanes)] + sum % (3 * lanes)];
@@ -80,7 +80,7 @@ class Blocks {
   std::vector<int> first_chunk_;         // by row
   std::vector<int> motion_of_;           // by chunk
   std::vector<int> block_of_;            // by lane of a motion
-  std::vector<int> sum_of_kept_;
+  std::vector<int> sum_of_irregular_;
   std::vector<int> block_of_node_;  // see block_of()
 };
 

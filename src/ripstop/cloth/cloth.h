@@ -60,14 +60,14 @@ void set_velocities(ClothState& state, const Cloth& cloth, const std::vector<Vec
 std::vector<Vec3> positions(const ClothState& state, const Cloth& cloth);  // logical numbering
 std::vector<Vec3> velocities(const ClothState& state, const Cloth& cloth);
 
-struct StepBound {
+struct StabilityLimit {
   double stable_step = 0;   // [s] semi-implicit Euler is stable below it: block Gershgorin, with damping
   double printed_step = 0;  // [s] the paper's Eq. 8/9, printed beside it
   int node = -1;            // the node that sets it
   std::string part;         // "disk", "line 3", ...
 };
 /// With the tangent stiffness at the present strain.
-StepBound step_bound(const Cloth& cloth, const ClothState& state);
+StabilityLimit stability_limit(const Cloth& cloth, const ClothState& state);
 
 /// Lowers Patch::viscosity_share, cell by cell, where the viscosity would make the stable step at `positions`
 /// less than `step_share` < 1 of what it is without.
@@ -96,7 +96,7 @@ struct RelaxOptions {
   double tolerance = 1e-4;  // on |residual force| / |applied force|, both root sums of squares over the nodes
   int max_steps = 200000;
   double least_load = 0;  // [N] stands for the applied load where that is smaller: held ends pull, not loads
-  double hold = 0;        // pulls every node back to where it started, by area of cloth [Pa/m]
+  double regularisation = 0;  // pulls every node towards its place at the start, by area of cloth [Pa/m]
 };
 struct RelaxProgress {
   int steps = 0;
@@ -110,7 +110,8 @@ struct RelaxResult {
   /// Of the loads about the only held point [N m]: nothing but other loads can balance it, so it is left out
   /// of the residual. 0 for a cloth held at several points.
   double unbalanced_moment = 0;
-  double held = 0;               // of RelaxOptions::hold at the end, norm over that of the applied force
+  double regularisation_share =
+      0;  // force of the regularisation at the end, norm over that of the applied force
   double mean_displacement = 0;  // e_k, [NFM] Eq. 18, over the whole relaxation [m]
 };
 /// Equilibrium under `loads` by dynamic relaxation with kinetic damping on fictitious masses (Barnes).

@@ -232,7 +232,7 @@ double row_forces_of_degree(const RowForces& row) {
 // As pull(), with ends anywhere and the scale in the law's coefficients.
 template <bool damped, bool recorded>
 void pull_blocks(const SpringForces& job, int begin_block, int end_block) {
-  const KeptSprings& springs = *job.springs;
+  const IrregularSprings& springs = *job.springs;
   const hn::RebindToSigned<Tag> index_tag;
   for (int block = begin_block; block < end_block; ++block) {
     for (int lane = 0; lane < lanes; lane += static_cast<int>(hn::Lanes(tag))) {
@@ -265,11 +265,11 @@ void pull_blocks(const SpringForces& job, int begin_block, int end_block) {
         tension = hn::MulAdd(damping, rate, tension);
         if constexpr (recorded) {
           const Three force = add_scaled(zero(), hn::Mul(hn::Mul(damping, rate), length.inverse), d);
-          hn::Store(hn::MulAdd(hn::Set(tag, 0.5), dot(load(job.damper + f) + force, dv),
-                               hn::Load(tag, job.taken + s)),
-                    tag, job.taken + s);
-          store(force, job.damper + f);
-          hn::Store(hn::Max(hn::Load(tag, job.peak + s), tension), tag, job.peak + s);
+          hn::Store(hn::MulAdd(hn::Set(tag, 0.5), dot(load(job.record.damper + f) + force, dv),
+                               hn::Load(tag, job.record.taken + s)),
+                    tag, job.record.taken + s);
+          store(force, job.record.damper + f);
+          hn::Store(hn::Max(hn::Load(tag, job.record.peak + s), tension), tag, job.record.peak + s);
         }
       }
       store(add_scaled(zero(), hn::Mul(tension, length.inverse), d), job.f + f);
@@ -359,7 +359,7 @@ double AddRowForces(const RowForces& row) {
 }
 void PullSprings(const SpringForces& job, int begin_block, int end_block) {
   if (!job.v) return pull_blocks<false, false>(job, begin_block, end_block);
-  if (!job.peak) return pull_blocks<true, false>(job, begin_block, end_block);
+  if (!job.record.peak) return pull_blocks<true, false>(job, begin_block, end_block);
   pull_blocks<true, true>(job, begin_block, end_block);
 }
 void AddRow(int count, const double* a, double* f) {

@@ -56,14 +56,17 @@ struct RowSums {
 };
 RowSums relax_row(const RowRelaxation& row);
 
+/// What is recorded of every spring outside the lattice; null: nothing. The last damper's force in vector layout, the
+/// energy over dt that dampers have taken [W] (see EnergyRecord), the highest tension [N].
+struct SpringRecord {
+  double *damper = nullptr, *taken = nullptr, *peak = nullptr;
+};
 /// Forces of the springs outside the lattice, in blocks of eight.
 struct SpringForces {
-  const KeptSprings* springs;
+  const IrregularSprings* springs;
   const double *x, *v;  // of all nodes; v null: no damping
   double* f;            // of every spring on its end a, in vector layout
-  /// With a record; null: none. The last damper's force in vector layout, the energy over dt that dampers
-  /// have taken [W], see Stepper::Damper, the highest tension [N].
-  double *damper, *taken, *peak;
+  SpringRecord record;
 };
 void pull_springs(const SpringForces& job, int begin_block, int end_block);
 

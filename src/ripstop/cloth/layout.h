@@ -80,9 +80,9 @@ struct PatchLayout {
   static constexpr int springs_per_vector = 2 * direction_count * lanes;
 };
 
-/// Springs outside the lattice, between two kept nodes, in the mesh's order and in blocks of eight. The last
+/// Springs outside the lattice, between two irregular nodes, in the mesh's order and in blocks of eight. The last
 /// block is filled up with springs without force.
-struct KeptSprings {
+struct IrregularSprings {
   int blocks = 0;
   int degree = 1;                  // the highest of their laws
   std::vector<std::int64_t> a, b;  // at(slot) of the ends
@@ -110,21 +110,20 @@ struct Cloth {
   std::vector<char> is_tied, is_fixed;
 
   /// Fixed nodes, nodes with irregular springs, ties or masters of ties, and nodes outside patches, in
-  /// the order of their slots. The pass over the rows leaves them where they are and keeps the
-  /// lattice's force on them.
-  struct Kept {
+  /// the order of their slots. The pass over the rows does not move them and stores the lattice's force on them.
+  struct IrregularNode {
     int slot, node;
     int first_share, end_share;  // forces that are added to the lattice's, into `shares`
   };
-  std::vector<Kept> kept;
-  std::vector<int> kept_of_row;  // row_count + 1 edges into `kept`; nodes outside patches follow
+  std::vector<IrregularNode> irregular;
+  std::vector<int> irregular_of_row;  // row_count + 1 edges into `irregular`; nodes outside patches follow
   struct Share {
-    int source;  // kept node or, from first_spring_force on, kept spring, then parts of the drawstring
+    int source;  // irregular node or, from first_spring_force on, irregular spring, then parts of the drawstring
     double weight;
   };
   std::vector<Share> shares;
-  KeptSprings springs;
-  int first_spring_force = 0;  // the number of kept nodes, rounded up to a whole vector
+  IrregularSprings springs;
+  int first_spring_force = 0;  // the number of irregular nodes, rounded up to a whole vector
   std::vector<int> rings;      // slots of the drawstring's rings, its first again at the end; empty: none
   int first_string_force = 0;  // behind the springs' forces, those of the drawstring's parts
 

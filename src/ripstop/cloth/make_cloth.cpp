@@ -199,12 +199,12 @@ void fill_lattice(Cloth& cloth) {
         for (int column = 0; column < patch.columns; ++column) {
           const int i = index_of(patch, row, column);
           if (patch.width[d][i] == 0) continue;
-          int kept_at = column;
-          if (d == shear_down) kept_at = column > 0 ? column - 1 : patch.columns - 1;
+          int stored_at = column;
+          if (d == shear_down) stored_at = column > 0 ? column - 1 : patch.columns - 1;
           double* springs = cloth.lattice.data() + layout.first_spring +
-                            (static_cast<std::size_t>(row) * layout.vectors + kept_at % layout.vectors) *
+                            (static_cast<std::size_t>(row) * layout.vectors + stored_at % layout.vectors) *
                                 PatchLayout::springs_per_vector +
-                            2 * d * lanes + kept_at / layout.vectors;
+                            2 * d * lanes + stored_at / layout.vectors;
           springs[0] = 1 / patch.rest_length[d][i];
           springs[lanes] = patch.width[d][i];
         }
@@ -253,7 +253,7 @@ void share_mass_and_area(Cloth& cloth) {
 
 void lay_out_springs(Cloth& cloth) {
   const Mesh& mesh = cloth.mesh;
-  KeptSprings& springs = cloth.springs;
+  IrregularSprings& springs = cloth.springs;
   for (const Spring& spring : mesh.springs)
     springs.degree = std::max(springs.degree, degree_of(mesh.laws[spring.law]));
   springs.blocks = (static_cast<int>(mesh.springs.size()) + lanes - 1) / lanes;
@@ -293,52 +293,53 @@ std::vector<int> keep_nodes(Cloth& cloth) {
     for (const auto& master : tie.masters) special[master.node] = 1;
   }
   for (int node = 0; node < mesh.node_count(); ++node)
-    if (special[node]) cloth.kept.push_back({cloth.slot[node], node, 0, 0});
-  std::sort(cloth.kept.begin(), cloth.kept.end(), [](auto& a, auto& b) { return a.slot < b.slot; });
-  std::vector<int> kept_index(mesh.node_count(), -1);
-  for (std::size_t k = 0; k < cloth.kept.size(); ++k) kept_index[cloth.kept[k].node] = static_cast<int>(k);
-  return kept_index;
+    if (special[node]) cloth.irregular.push_back({cloth.slot[node], node, 0, 0});
+  std::sort(cloth.irregular.begin(), cloth.irregular.end(), [](auto& a, auto& b) { return a.slot < b.slot; });
+  std::vector<int> irregular_index(mesh.node_count(), -1);
+  for (std::size_t k = 0; k < cloth.irregular.size(); ++k)
+    irregular_index[cloth.irregular[k].node] = static_cast<int>(k);
+  return irregular_index;
 }
 
-// What is added to the lattice's force on every kept node: its springs, in the mesh's order, its parts of the
+// What is added to the lattice's force on every irregular node: its springs, in the mesh's order, its parts of the
 // drawstring, then its tied nodes with theirs.
-void share_spring_forces(Cloth& cloth, const std::vector<int>& kept_index) {
+void share_spring_forces(Cloth& cloth, const std::vector<int>& irregular_index) {
   const Mesh& mesh = cloth.mesh;
-  const int kept_count = static_cast<int>(cloth.kept.size());
-  cloth.first_spring_force = (kept_count + lanes - 1) / lanes * lanes;
-  std::vector<std::vector<Cloth::Share>> own(kept_count);
+  const int irregular_count = static_cast<int>(cloth.irregular.size());
+  cloth.first_spring_force = (irregular_count + lanes - 1) / lanes * lanes;
+  std::vector<std::vector<Cloth::Share>> own(irregular_count);
   for (std::size_t s = 0; s < mesh.springs.size(); ++s) {
     const Spring& spring = mesh.springs[s];
     const int source = cloth.first_spring_force + static_cast<int>(s);
-    own[kept_index[spring.a]].push_back({source, 1});
-    own[kept_index[spring.b]].push_back({source, -1});
+    own[irregular_index[spring.a]].push_back({source, 1});
+    own[irregular_index[spring.b]].push_back({source, -1});
   }
   cloth.first_string_force = cloth.first_spring_force + cloth.springs.blocks * lanes;
   if (mesh.drawstring) {
     const std::vector<int>& rings = mesh.drawstring->rings;
     for (std::size_t i = 0; i < rings.size(); ++i) {
       const int source = cloth.first_string_force + static_cast<int>(i);
-      own[kept_index[rings[i]]].push_back({source, 1});
-      own[kept_index[rings[(i + 1) % rings.size()]]].push_back({source, -1});
+      own[irregular_index[rings[i]]].push_back({source, 1});
+      own[irregular_index[rings[(i + 1) % rings.size()]]].push_back({source, -1});
       cloth.rings.push_back(cloth.slot[rings[i]]);
     }
     cloth.rings.push_back(cloth.rings.front());
   }
   std::vector<std::vector<Cloth::Share>> all = own;
   for (const Tie& tie : mesh.ties) {
-    const int tied = kept_index[tie.node];
+    const int tied = irregular_index[tie.node];
     for (const auto& master : tie.masters) {
-      auto& shares = all[kept_index[master.node]];
+      auto& shares = all[irregular_index[master.node]];
       shares.push_back({tied, master.weight});
       for (const Cloth::Share& share : own[tied])
         shares.push_back({share.source, share.weight * master.weight});
     }
   }
-  for (int k = 0; k < kept_count; ++k) {
-    cloth.kept[k].first_share = static_cast<int>(cloth.shares.size());
-    if (!cloth.is_tied[cloth.kept[k].node])
+  for (int k = 0; k < irregular_count; ++k) {
+    cloth.irregular[k].first_share = static_cast<int>(cloth.shares.size());
+    if (!cloth.is_tied[cloth.irregular[k].node])
       cloth.shares.insert(cloth.shares.end(), all[k].begin(), all[k].end());
-    cloth.kept[k].end_share = static_cast<int>(cloth.shares.size());
+    cloth.irregular[k].end_share = static_cast<int>(cloth.shares.size());
   }
 }
 
@@ -393,7 +394,7 @@ ClothPtr make_cloth(const Mesh& mesh, const ClothOptions& options) {
   lay_out_springs(*cloth);
   share_spring_forces(*cloth, keep_nodes(*cloth));
   follow_masters(*cloth);
-  cloth->kept_of_row = edges_of_rows(*cloth, cloth->kept);
+  cloth->irregular_of_row = edges_of_rows(*cloth, cloth->irregular);
   cloth->followers_of_row = edges_of_rows(*cloth, cloth->followers);
   if (options.contact) cloth->contact = std::make_shared<ContactLayout>(contact_layout(mesh, *cloth));
   return cloth;

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ripstop/cloth/bound.h"
 #include "ripstop/cloth/layout.h"
+#include "ripstop/cloth/stability_limit.h"
 #include "ripstop/core/error.h"
 #include "ripstop/mesh/each_spring.h"
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "ripstop/cloth/bound.h"
+#include "ripstop/cloth/stability_limit.h"
 
 namespace ripstop {
 

@@ -16,7 +16,7 @@
 // nodes' masses M and the blocks' bound C, x^T K x <= 2 sum x_i^T K_ii x_i and <= y^T C y, a step of 1 is stable for
 //   v' = keep v + kick (share W f + (1 - share) I C'^-1 I^T f),    C' = C / 4 with the same margin.
 //
-// From afar half a gore goes ahead (wedge.h): nodes in its planes have masses and residuals along what they may move.
+// From afar half a gore goes ahead (sector.h): nodes in its planes have masses and residuals along what they may move.
 //
 // A parachute hangs on one point and may turn about it. Under a follower pressure that is neutral: a small
 // moment of a wrinkled shape would turn it for ever. So the moment of the loads about that point is cancelled
@@ -29,26 +29,27 @@
 #include <limits>
 #include <numeric>
 
-#include "ripstop/cloth/bound.h"
+#include "ripstop/cloth/forces.h"
 #include "ripstop/cloth/pivot.h"
-#include "ripstop/cloth/stepper.h"
-#include "ripstop/cloth/wedge.h"
+#include "ripstop/cloth/relaxation_step.h"
+#include "ripstop/cloth/sector.h"
+#include "ripstop/cloth/stability_limit.h"
 #include "ripstop/core/error.h"
 #include "ripstop/mesh/each_spring.h"
 
 namespace ripstop {
 namespace {
 
-constexpr double margin = 1.2;       // on the masses, for stiffening between two refreshes
-constexpr double nodes_share = 0.8;  // of the motion, the rest is the blocks'
-constexpr int least_nodes = 500;     // of cloth that has blocks: small ones have no long waves
-constexpr int steps_a_look = 50;     // between looks at the applied load and the report
+constexpr double margin = 1.2;            // on the masses, for stiffening between two refreshes
+constexpr double nodes_share = 0.8;       // of the motion, the rest is the blocks'
+constexpr int least_nodes = 500;          // of cloth that has blocks: small ones have no long waves
+constexpr int steps_between_checks = 50;  // between checks of the applied load and the report
 // Steps between two refreshes of the masses: they follow closely while the cloth is far from equilibrium.
 // Tape stiffens tenfold at strains that a wild start (sails with fullness, gathered cloth) or the jerk of
 // lines that come taut makes within a few steps. Steps that run away are taken back where cloth wrinkles.
 int steps_a_refresh(const RelaxResult& result, bool wrinkles) {
   if (result.steps < 500) return wrinkles ? 25 : 5;
-  return result.residual > 1 ? steps_a_look : 400;
+  return result.residual > 1 ? steps_between_checks : 400;
 }
 
 /// The floor of node_blocks(): how much lighter a node is across its springs than along them. A node that moves far
@@ -71,7 +72,7 @@ constexpr double runaway_speed = 0.2;  // of the shortest spring, a step
 
 struct Masses {
   std::vector<Symmetric> mass;  // by node; 0: does not move
-  Stepper::Fictitious inverse;
+  FictitiousMasses fictitious;
 };
 
 Symmetric inverse_of(const Symmetric& a) {
@@ -108,14 +109,15 @@ bool wrinkles(const Mesh& mesh) {
   });
 }
 
-// Stiffness alike along all directions, of the hold and the drawstring, by node [N/m]: x^T K x <= sum k |x_i|^2.
-std::vector<double> round_stiffness(const Cloth& cloth, const ClothState& state, double hold) {
+// Stiffness alike along all directions, of the regularisation and the drawstring, by node [N/m]: x^T K x <= sum k |x_i|^2.
+std::vector<double> round_stiffness(const Cloth& cloth, const ClothState& state, double regularisation) {
   std::vector<double> stiffness(cloth.mesh.node_count(), 0.0);
-  if (hold > 0) {
-    for (int node = 0; node < cloth.mesh.node_count(); ++node) stiffness[node] = 2 * hold * cloth.area[node];
+  if (regularisation > 0) {
+    for (int node = 0; node < cloth.mesh.node_count(); ++node)
+      stiffness[node] = 2 * regularisation * cloth.area[node];
     for (const Tie& tie : cloth.mesh.ties)
       for (const auto& master : tie.masters)
-        stiffness[master.node] += 2 * master.weight * hold * cloth.area[tie.node];
+        stiffness[master.node] += 2 * master.weight * regularisation * cloth.area[tie.node];
   }
   if (const StringShares string = string_shares(cloth, state); !string.stiffness.empty())
     for (int node = 0; node < cloth.mesh.node_count(); ++node) stiffness[node] += string.stiffness[node];
@@ -125,7 +127,7 @@ std::vector<double> round_stiffness(const Cloth& cloth, const ClothState& state,
 /// `share` of the motion is that of the nodes by themselves.
 void set_fictitious_masses(Masses& masses, const Cloth& cloth, const ClothState& state, double floor,
                            const std::vector<double>& round, double share, ThreadTeam& team) {
-  const std::vector<Symmetric>& freedom = masses.inverse.freedom;
+  const std::vector<Symmetric>& freedom = masses.fictitious.freedom;
   if (wrinkles(cloth.mesh)) {
     node_blocks(cloth, state, floor, team, masses.mass);
   } else {
@@ -134,7 +136,7 @@ void set_fictitious_masses(Masses& masses, const Cloth& cloth, const ClothState&
   }
   for (int node : cloth.mesh.fixed) masses.mass[node] = {};
   for (const Tie& tie : cloth.mesh.ties) masses.mass[tie.node] = {};
-  masses.inverse.inverse_mass.resize(masses.mass.size());
+  masses.fictitious.inverse.resize(masses.mass.size());
   team.run([&](int rank) {
     const IndexRange nodes = part_of(cloth.mesh.node_count(), rank, team.size());
     for (int node = nodes.begin; node < nodes.end; ++node) {
@@ -142,7 +144,7 @@ void set_fictitious_masses(Masses& masses, const Cloth& cloth, const ClothState&
       if (!cloth.is_fixed[node] && !cloth.is_tied[node])
         for (int i = 0; i < 3; ++i) mass[i] += 0.5 * round[node];
       for (double& component : mass) component *= 0.5 * margin / share;
-      Symmetric& inverse = masses.inverse.inverse_mass[node];
+      Symmetric& inverse = masses.fictitious.inverse[node];
       if (freedom.empty())
         inverse = inverse_of(mass);
       else
@@ -181,7 +183,7 @@ double mean_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
 /// Dynamic relaxation of one cloth, its steps and looks.
 class Relaxation {
  public:
-  /// Held, if so, toward `start`; of a wedge with its `freedom`.
+  /// Held, if so, toward `start`; of a sector with its `freedom`.
   Relaxation(ClothState& state, const Cloth& cloth, const Loads& loads, const RelaxOptions& options,
              ThreadTeam& team, const ClothState& start, const std::vector<Symmetric>& freedom = {})
       : state_(state),
@@ -194,19 +196,20 @@ class Relaxation {
         blocks_(has_blocks() ? std::optional<Blocks>(std::in_place, cloth, restricted()) : std::nullopt),
         lightness_(wrinkles_, blocks_.has_value()),
         masses_(first_masses()),
-        stepper_(cloth, loads, state, masses_.inverse, team.size()),
+        forces_(cloth, loads, false, team.size()),
+        step_(cloth, forces_, state, masses_.fictitious),
         pivot_(freedom.empty() ? pivot_of(cloth, state) : std::nullopt),
         runaway_(runaway_speed * shortest_spring(cloth.mesh)),
         good_(state) {
-    if (options.hold > 0) stepper_.hold(options.hold, start.x);
-    if (blocks_) stepper_.set_blocks(&*blocks_);
+    if (options.regularisation > 0) forces_.regularise(options.regularisation, start.x);
+    if (blocks_) step_.set_blocks(&*blocks_);
     stop();
   }
 
   RelaxResult run(const std::function<void(const RelaxProgress&)>& report) {
     while (!result_.converged && result_.steps < options_.max_steps) {
       const int refresh_after = steps_a_refresh(result_, wrinkles_);
-      const int count = std::min({steps_a_look, refresh_after, options_.max_steps - result_.steps});
+      const int count = std::min({steps_between_checks, refresh_after, options_.max_steps - result_.steps});
       since_refresh_ += take_steps(count, applied());
       if (runs_away()) {
         if (lightness_.shy()) {
@@ -236,7 +239,7 @@ class Relaxation {
     if (pivot_) {
       std::vector<Vec3> force = loads_.node_force;
       cancel_moment(cloth_, state_, load.moment, *pivot_, force);
-      stepper_.set_node_force(force);
+      forces_.set_node_force(force);
       result_.unbalanced_moment = norm(load.moment);
     }
     return std::max(load.norm, options_.least_load);
@@ -246,26 +249,26 @@ class Relaxation {
     int done = 0;
     team_.run([&](int rank) {
       for (int i = 0; i < count; ++i) {
-        stepper_.add_forces(rank);
+        step_.move_rows(rank);
         team_.barrier();
-        stepper_.move_kept(rank);
+        step_.move_irregular_nodes(rank);
         team_.barrier();
-        RowSums sums = stepper_.sums();
+        RowSums sums = step_.sums();
         const double residual = std::sqrt(sums.force_squared) / scale;
         const bool ends = residual <= options_.tolerance;
         if (blocks_ && !ends) {
-          stepper_.gather_blocks(rank);
+          step_.gather_blocks(rank);
           team_.barrier();
-          stepper_.solve_blocks(rank);
+          step_.solve_blocks(rank);
           team_.barrier();
-          sums.power += stepper_.move_blocks(rank);
+          sums.power += step_.move_blocks(rank);
           team_.barrier();  // tied nodes follow other ranks' rows
         }
         if (sums.power < 0 && !ends) {
-          stepper_.stop(rank);
+          step_.stop(rank);
           team_.barrier();  // tied nodes take the velocities of other ranks' rows
         }
-        stepper_.follow_masters(rank);
+        forces_.follow_masters(rank, state_);
         if (rank == 0) {
           ++done;
           result_.residual = residual;
@@ -281,7 +284,7 @@ class Relaxation {
 
   void stop() {
     std::fill(state_.v.begin(), state_.v.end(), 0.0);
-    for (int rank = 0; rank < team_.size(); ++rank) stepper_.stop(rank);
+    for (int rank = 0; rank < team_.size(); ++rank) step_.stop(rank);
   }
   /// A look at the residual needs none.
   bool has_blocks() const {
@@ -294,20 +297,20 @@ class Relaxation {
     return result;
   }
   void set_masses(Masses& masses) {
-    const std::vector<double> round = round_stiffness(cloth_, state_, options_.hold);
+    const std::vector<double> round = round_stiffness(cloth_, state_, options_.regularisation);
     if (blocks_) blocks_->set_stiffness(cloth_, state_, round, (1 - nodes_share) / (0.25 * margin), team_);
     set_fictitious_masses(masses, cloth_, state_, lightness_.floor, round, blocks_ ? nodes_share : 1, team_);
   }
   Masses first_masses() {
     Masses masses;
-    masses.inverse.freedom = freedom_;
+    masses.fictitious.freedom = freedom_;
     set_masses(masses);
     return masses;
   }
   void refresh() {
     since_refresh_ = 0;
     set_masses(masses_);
-    stepper_.set_masses(masses_.inverse);
+    step_.set_masses(masses_.fictitious);
   }
   bool runs_away() {
     std::atomic<bool> runs = false;
@@ -343,7 +346,8 @@ class Relaxation {
   std::optional<Blocks> blocks_;
   Lightness lightness_;
   Masses masses_;
-  Stepper stepper_;
+  Forces forces_;
+  RelaxationStep step_;
   std::optional<Vec3> pivot_;
   double runaway_;
   ClothState good_;  // positions and velocities as they were after the last steps that did not run away
@@ -388,7 +392,7 @@ std::optional<Mesh> softened(const Mesh& mesh, double load, double strain, int i
 /// The way from a start to rest, from afar by soft cloth.
 class Way {
  public:
-  /// Of a canopy, or of its wedge with `images` of it and its `freedom`.
+  /// Of a canopy, or of its sector with `images` of it and its `freedom`.
   Way(const Cloth& cloth, const Loads& loads, const RelaxOptions& options, ThreadTeam& team,
       const std::function<void(const RelaxProgress&)>& report, int images = 1,
       std::vector<Symmetric> freedom = {})
@@ -402,7 +406,7 @@ class Way {
 
   bool is_far(const ClothState& start) const {
     if (!wrinkles(cloth_.mesh)) return false;
-    const RelaxOptions look{options_.tolerance, 1, options_.least_load, options_.hold};
+    const RelaxOptions look{options_.tolerance, 1, options_.least_load, options_.regularisation};
     ClothState state = start;
     return Relaxation(state, cloth_, loads_, look, team_, start, freedom_).run({}).residual > far_residual;
   }
@@ -427,7 +431,7 @@ class Way {
       if (!mesh) break;
       const ClothPtr soft = make_cloth(*mesh, cloth_.options);
       const int most = std::min(soft_steps, options_.max_steps - steps);
-      const RelaxOptions roughly{soft_tolerance, most, options_.least_load, options_.hold};
+      const RelaxOptions roughly{soft_tolerance, most, options_.least_load, options_.regularisation};
       steps += Relaxation(state, *soft, loads_, roughly, team_, start, freedom_).run(report_).steps;
     }
     return steps;
@@ -442,26 +446,26 @@ class Way {
   std::vector<Symmetric> freedom_;
 };
 
-/// A canopy that is far from equilibrium goes most of the way as a wedge of it, under what its load has in common in
+/// A canopy that is far from equilibrium goes most of the way as a sector of it, under what its load has in common in
 /// all gores. Whether it came to rest so; if not, it is left as it was.
-bool go_as_wedge(ClothState& state, const Cloth& cloth, const Loads& loads, const RelaxOptions& options,
-                 const std::function<void(const RelaxProgress&)>& report) {
-  const std::optional<Wedge> wedge = wedge_of(cloth.mesh, positions(state, cloth), loads);
-  if (!wedge) return false;
-  ClothOptions of_wedge = cloth.options;
-  of_wedge.contact.reset();
-  const ClothPtr part = make_cloth(wedge->mesh, of_wedge);
+bool predict_by_sector(ClothState& state, const Cloth& cloth, const Loads& loads, const RelaxOptions& options,
+                       const std::function<void(const RelaxProgress&)>& report) {
+  const std::optional<Sector> sector = sector_of(cloth.mesh, positions(state, cloth), loads);
+  if (!sector) return false;
+  ClothOptions of_sector = cloth.options;
+  of_sector.contact.reset();
+  const ClothPtr part = make_cloth(sector->mesh, of_sector);
   const ClothState start = start_state(*part);
   ClothState rests = start;
   ThreadTeam alone(1);  // some hundred nodes
-  const Way way(*part, wedge->loads, options, alone, report, wedge->images, wedge->freedom);
+  const Way way(*part, sector->loads, options, alone, report, sector->images, sector->freedom);
   try {
     if (!way.go(rests, start, true).converged) return false;
   } catch (const Error& error) {
     if (error.code() != ExitCode::diverged) throw;
     return false;
   }
-  set_positions(state, cloth, wedge->whole(positions(rests, *part)));
+  set_positions(state, cloth, sector->whole(positions(rests, *part)));
   return true;
 }
 
@@ -472,17 +476,18 @@ RelaxResult relax(ClothState& state, const Cloth& cloth, const Loads& loads, con
   const ClothState start = state;
   const Way way(cloth, loads, options, team, report);
   bool far = way.is_far(state);
-  if (far && options.hold == 0) far = !go_as_wedge(state, cloth, loads, options, report);
+  if (far && options.regularisation == 0) far = !predict_by_sector(state, cloth, loads, options, report);
   RelaxResult result = way.go(state, start, far);
   const std::vector<Vec3> before = positions(start, cloth), now = positions(state, cloth);
   result.mean_displacement = mean_distance(now, before);
-  if (options.hold > 0) {
+  if (options.regularisation > 0) {
     double squared = 0;
     for (std::size_t node = 0; node < now.size(); ++node) {
-      const Vec3 force = options.hold * cloth.area[node] * (now[node] - before[node]);
+      const Vec3 force = options.regularisation * cloth.area[node] * (now[node] - before[node]);
       squared += dot(force, force);
     }
-    result.held = std::sqrt(squared) / std::max(applied_load(cloth, state, loads).norm, options.least_load);
+    result.regularisation_share =
+        std::sqrt(squared) / std::max(applied_load(cloth, state, loads).norm, options.least_load);
   }
   return result;
 }

@@ -3,19 +3,17 @@
 #include <algorithm>
 #include <optional>
 
-#include "ripstop/cloth/bound.h"
 #include "ripstop/cloth/contact.h"
-#include "ripstop/cloth/stepper.h"
+#include "ripstop/cloth/energy_record.h"
+#include "ripstop/cloth/forces.h"
+#include "ripstop/cloth/stability_limit.h"
 #include "ripstop/core/error.h"
 
 namespace ripstop {
 namespace {
 
-constexpr long long steps_between_checks = 2048;  // of the bound, which costs about as much as 40 steps
-// For the work of the pressure: the cloth moves a fraction of a cell meanwhile.
-constexpr int steps_between_looks = 16;
-constexpr int steps_between_dampers = 64;  // a look costs as much as three steps
-constexpr double runaway_strain = 10;      // no fabric comes near: the cloth flies apart
+constexpr long long steps_between_checks = 2048;  // of the stability limit, which costs as much as 40 steps
+constexpr double runaway_strain = 10;             // no fabric comes near: the cloth flies apart
 
 void check_step(const Cloth& cloth, const ClothState& state, double dt) {
   check_health(cloth, state);
@@ -27,13 +25,150 @@ void check_step(const Cloth& cloth, const ClothState& state, double dt) {
                     "length; the loads are too high for this cloth or the step {:.3g} s is too large",
                     state.steps, state.time, stiffness.stretched_node,
                     place_of(cloth.mesh, stiffness.stretched_node), stiffness.largest_strain, dt));
-  const StepBound bound = step_bound(cloth, state, stiffness);
-  if (dt > bound.stable_step)
+  const StabilityLimit limit = stability_limit(cloth, state, stiffness);
+  if (dt > limit.stable_step)
     throw Error(
         ExitCode::diverged,
         fmt::format("step {} (t = {:.6g} s): the time step {:.4g} s is above the stable {:.4g} s that node "
                     "{} ({}) allows at its present strain; lower the time step",
-                    state.steps, state.time, dt, bound.stable_step, bound.node, bound.part));
+                    state.steps, state.time, dt, limit.stable_step, limit.node, limit.part));
+}
+
+/// Steps [0, count) of one call, of which every thread takes its part.
+class ExplicitStep {
+ public:
+  ExplicitStep(ClothState& state, const Cloth& cloth, const Loads& loads, double dt, int count,
+               ThreadTeam& team, StepRecord* record);
+
+  /// Step n. Semi-implicit Euler, [NFM] Eq. 6, with damping by area, Eq. 20, and contact in kicks of several steps:
+  ///   f = f_springs(x, v) + f_fabric(x, v) + f_pressure(x) + f_point - area (C_a + C_q |v|) v
+  ///   v' = v + dt f / m,    x' = x + dt v'
+  void take(int rank, int n) {
+    if (contact_ && n % steps_per_kick_ == 0) kick(rank, n);
+    if (record_) record_->before_forces(rank, n);
+
+    const auto integrate = [&](int row, const double* f) { integrate_row(row, f); };
+    add_irregular_springs(rank);
+    forces_.add_fabric(rank, state_, integrate);  // with pressure and point loads
+    if (damped_) damp_irregular_nodes(rank);
+    team_.barrier();
+
+    if (record_) record_->add_fixed_force(rank);
+    forces_.finish_fabric(rank, integrate);
+    forces_.for_irregular_nodes(rank, [&](int begin, int end, int) { integrate_irregular(begin, end); });
+    team_.barrier();
+
+    forces_.follow_masters(rank, state_);
+    team_.barrier();
+    if (record_) record_->after_step(rank, n);
+  }
+  void finish(StepRecord* record);
+
+ private:
+  void kick(int rank, int n);
+  void add_irregular_springs(int rank);
+  void damp_irregular_nodes(int rank);
+  void integrate_row(int row, const double* f);
+  void integrate_irregular(int begin, int end);
+
+  ClothState& state_;
+  const Cloth& cloth_;
+  double dt_;
+  int count_;
+  ThreadTeam& team_;
+  Forces forces_;
+  bool damped_;                                 // by area
+  AlignedDoubles inverse_mass_, area_;          // by slot; 0 for irregular nodes; no areas: no damping
+  std::vector<double> irregular_inverse_mass_;  // 0: does not move
+  std::optional<Contact> contact_;
+  int steps_per_kick_ = 0;
+  std::optional<EnergyRecord> record_;
+};
+
+ExplicitStep::ExplicitStep(ClothState& state, const Cloth& cloth, const Loads& loads, double dt, int count,
+                           ThreadTeam& team, StepRecord* record)
+    : state_(state),
+      cloth_(cloth),
+      dt_(dt),
+      count_(count),
+      team_(team),
+      forces_(cloth, loads, true, team.size()),
+      damped_(cloth.options.absolute_damping > 0 || cloth.options.quadratic_damping > 0),
+      inverse_mass_(cloth.slots, 0.0) {
+  const auto inverse = [&](int node) {
+    return cloth.is_fixed[node] || !(cloth.total_mass[node] > 0) ? 0.0 : 1 / cloth.total_mass[node];
+  };
+  for (int node = 0; node < cloth.mesh.node_count(); ++node) inverse_mass_[cloth.slot[node]] = inverse(node);
+  for (const Cloth::IrregularNode& irregular : cloth.irregular) {
+    irregular_inverse_mass_.push_back(inverse(irregular.node));
+    inverse_mass_[irregular.slot] = 0;
+  }
+  if (damped_) {
+    area_.assign(cloth.slots, 0.0);
+    for (int node = 0; node < cloth.mesh.node_count(); ++node)
+      if (const int slot = cloth.slot[node]; inverse_mass_[slot] > 0) area_[slot] = cloth.area[node];
+  }
+  if (cloth.contact)
+    contact_.emplace(*cloth.contact, team.size()), steps_per_kick_ = contact_->steps_a_kick(dt);
+  if (record) record_.emplace(*record, cloth, forces_, state, dt, count, team);
+}
+
+void ExplicitStep::finish(StepRecord* record) {
+  if (!record_) return;
+  record_->finish();
+  if (contact_) record->damped += contact_->damped();
+}
+
+void ExplicitStep::kick(int rank, int n) {
+  if (record_) record_->before_kick(rank);
+  contact_->kick(rank, team_, state_, std::min(steps_per_kick_, count_ - n) * dt_);
+  forces_.follow_masters(rank, state_);
+  team_.barrier();
+}
+
+void ExplicitStep::add_irregular_springs(int rank) {
+  forces_.add_irregular_springs(rank, state_, record_ ? record_->springs() : SpringRecord{});
+  if (record_) record_->add_drawstring(rank);
+}
+
+void ExplicitStep::damp_irregular_nodes(int rank) {
+  const IndexRange rows = forces_.rows(rank);
+  const int end = cloth_.irregular_of_row[rows.end];
+  for (int k = cloth_.irregular_of_row[rows.begin]; k < end; ++k) {
+    const Cloth::IrregularNode& irregular = cloth_.irregular[k];
+    const Vec3 v = get(state_.v.data(), irregular.slot);
+    double per_area = cloth_.options.absolute_damping;
+    if (cloth_.options.quadratic_damping > 0) per_area += cloth_.options.quadratic_damping * norm(v);
+    const Vec3 drag = (cloth_.area[irregular.node] * per_area) * v;
+    if (record_) record_->add_damping(k, drag, v);
+    forces_.set_of_fabric(k, forces_.of_fabric(k) - drag);
+  }
+}
+
+/// Damping, v' and x' of the other nodes.
+void ExplicitStep::integrate_row(int row, const double* f) {
+  const int first = cloth_.row_slot(row);
+  const RowMotion motion{cloth_.patches[cloth_.row_patch[row]].vectors,
+                         dt_,
+                         inverse_mass_.data() + first,
+                         damped_ ? area_.data() + first : nullptr,
+                         cloth_.options.absolute_damping,
+                         cloth_.options.quadratic_damping,
+                         f,
+                         state_.x.data() + at(first),
+                         state_.v.data() + at(first)};
+  const double damping = move_row(motion);
+  if (record_) record_->add_row(row, damping);
+}
+
+void ExplicitStep::integrate_irregular(int begin, int end) {
+  for (int k = begin; k < end; ++k) {
+    if (irregular_inverse_mass_[k] == 0) continue;
+    const int slot = cloth_.irregular[k].slot;
+    const Vec3 v = get(state_.v.data(), slot) + (dt_ * irregular_inverse_mass_[k]) * forces_.on_irregular(k);
+    put(state_.v.data(), slot, v);
+    put(state_.x.data(), slot, get(state_.x.data(), slot) + dt_ * v);
+  }
 }
 
 }  // namespace
@@ -41,66 +176,20 @@ void check_step(const Cloth& cloth, const ClothState& state, double dt) {
 void step(ClothState& state, const Cloth& cloth, const Loads& loads, double dt, int count, ThreadTeam& team,
           StepRecord* record) {
   if (!(dt > 0)) throw Error(ExitCode::usage, fmt::format("the time step {} s must be positive", dt));
-  Stepper stepper(cloth, loads, state, dt, team.size());
-  if (record) {
-    record->fixed_force.clear();
-    record->fixed_force.reserve(count);
-    record->drawstring.clear();
-    if (cloth.mesh.drawstring) record->drawstring.reserve(count);
-    record->peak_tension.resize(cloth.mesh.springs.size(), 0.0);
-    stepper.start_record(*record);
-  }
-  std::optional<Contact> contact;
-  if (cloth.contact) contact.emplace(*cloth.contact, team.size());
-  const int a_kick = contact ? contact->steps_a_kick(dt) : 0;
-  const int all = count;
-  int done = 0;
-  while (count > 0) {
+  ExplicitStep steps(state, cloth, loads, dt, count, team, record);
+  for (int done = 0; done < count;) {
     const long long since = state.steps % steps_between_checks;
     if (since == 0) check_step(cloth, state, dt);
-    const int now = static_cast<int>(std::min<long long>(count, steps_between_checks - since));
+    const int now = static_cast<int>(std::min<long long>(count - done, steps_between_checks - since));
     team.run([&](int rank) {
-      for (int i = 0; i < now; ++i) {
-        if (contact && (done + i) % a_kick == 0) {
-          if (record) {
-            stepper.close_dampers(rank);
-            team.barrier();
-          }
-          contact->kick(rank, team, state, std::min(a_kick, all - done - i) * dt);
-          stepper.follow_masters(rank);
-          team.barrier();
-        }
-        const bool looked = stepper.looks_at_dampers() && (state.steps + i) % steps_between_dampers == 0;
-        if (looked) {
-          stepper.remember_step(rank);
-          team.barrier();
-        }
-        stepper.add_forces(rank);
-        team.barrier();
-        stepper.move_kept(rank);
-        team.barrier();
-        stepper.follow_masters(rank);
-        team.barrier();
-        if (looked) {
-          stepper.change_of_step(rank);
-          team.barrier();
-          stepper.look_at_dampers(rank, steps_between_dampers);
-          team.barrier();
-        }
-        if (!record || ((done + i + 1) % steps_between_looks != 0 && done + i + 1 != all)) continue;
-        stepper.add_pressure_work(rank);
-        team.barrier();
-        stepper.remember_positions(rank);
-      }
+      for (int n = done; n < done + now; ++n) steps.take(rank, n);
     });
     done += now;
     state.steps += now;
     state.time += now * dt;
-    count -= now;
     check_health(cloth, state);
   }
-  if (record) stepper.finish_record();
-  if (record && contact) record->damped += contact->damped();
+  steps.finish(record);
 }
 
 }  // namespace ripstop

@@ -1,7 +1,7 @@
 // How strong the cloth's dampers may be without costing the step.
 #include <algorithm>
 
-#include "ripstop/cloth/bound.h"
+#include "ripstop/cloth/stability_limit.h"
 
 namespace ripstop {
 namespace {
@@ -17,7 +17,7 @@ std::vector<double> over_mass(const Cloth& cloth, const std::vector<double>& blo
 }  // namespace
 
 // A step dt is stable where rho_i dt^2 + 2 c_i dt <= 2 holds at every node: both ends of a spring then add up
-// to the 4 of step_bound(). What springs and other dampers leave of the 2 is the viscosity's. (The absolute
+// to the 4 of stability_limit(). What springs and other dampers leave of the 2 is the viscosity's. (The absolute
 // damping is a thousandth of that.)
 ViscosityLimit limit_viscosity(Mesh& mesh, const ClothOptions& options, const std::vector<Vec3>& positions,
                                double step_share) {
@@ -33,7 +33,7 @@ ViscosityLimit limit_viscosity(Mesh& mesh, const ClothOptions& options, const st
   ClothState state = start_state(*cloth);
   set_positions(state, *cloth, positions);
   const NodeStiffness others = node_stiffness(*cloth, state);
-  const double step = step_share * step_bound(*cloth, state, others).stable_step;
+  const double step = step_share * stability_limit(*cloth, state, others).stable_step;
   const std::vector<double> rho = over_mass(*cloth, others.stiffness),
                             rate = over_mass(*cloth, others.damping);
   ClothState same = start_state(*viscous);

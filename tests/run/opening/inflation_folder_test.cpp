@@ -16,7 +16,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/flow/cartesian/cartesian.h"
-#include "ripstop/inflation/summary.h"
+#include "ripstop/fsi/summary.h"
 #include "ripstop/output/csv.h"
 #include "ripstop/output/vtk.h"
 #include "ripstop/output/vtk_read.h"

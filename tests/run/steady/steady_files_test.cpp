@@ -7,7 +7,7 @@
 #include <set>
 
 #include "ripstop/case/assemble.h"
-#include "ripstop/coupling/pressure_profile.h"
+#include "ripstop/fsi/pressure_profile.h"
 #include "ripstop/output/csv.h"
 #include "ripstop/output/plot.h"
 #include "ripstop/output/vtk_read.h"

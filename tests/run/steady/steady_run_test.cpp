@@ -9,7 +9,7 @@
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
-#include "ripstop/coupling/steady.h"
+#include "ripstop/fsi/steady.h"
 #include "ripstop/run/steady/checkpoint.h"
 #include "tests/refusal.h"
 #include "tests/run/steady/formula_flow.h"

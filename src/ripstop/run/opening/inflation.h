@@ -7,8 +7,8 @@
 
 #include "ripstop/case/opening.h"
 #include "ripstop/core/members.h"
-#include "ripstop/inflation/opening_estimate.h"
-#include "ripstop/inflation/summary.h"
+#include "ripstop/fsi/opening_estimate.h"
+#include "ripstop/fsi/summary.h"
 #include "ripstop/run/margins.h"
 
 namespace ripstop {

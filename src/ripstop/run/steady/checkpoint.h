@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "ripstop/coupling/steady.h"
 #include "ripstop/flow/flow.h"
+#include "ripstop/fsi/steady.h"
 
 namespace ripstop {
 

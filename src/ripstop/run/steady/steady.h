@@ -10,8 +10,8 @@
 #include "ripstop/canopy/stress.h"
 #include "ripstop/case/case.h"
 #include "ripstop/core/members.h"
-#include "ripstop/coupling/steady.h"
 #include "ripstop/flow/flow.h"
+#include "ripstop/fsi/steady.h"
 #include "ripstop/run/margins.h"
 
 namespace ripstop {
@@ -73,11 +73,11 @@ inline constexpr double payload_tolerance = 1e-3;
 /// The numbers of one run: result.json.
 struct SteadyResult {
   std::string title;
-  std::optional<std::string> inputs_hash;  // of a run in a folder: that of its run.json
-  double speed = 0, density = 0;           // [m/s], [kg/m3]
-  double approach_speed = 0;               // what comes to the canopy, coupling/approach.h [m/s]
-  double drag = 0, drag_area = 0, drag_coefficient = 0;         // [N], [m2], -
-  double reference_area = 0;                                    // S0 [m2]
+  std::optional<std::string> inputs_hash;                // of a run in a folder: that of its run.json
+  double speed = 0, density = 0;                         // [m/s], [kg/m3]
+  double approach_speed = 0;                             // what comes to the canopy, fsi/approach.h [m/s]
+  double drag = 0, drag_area = 0, drag_coefficient = 0;  // [N], [m2], -
+  double reference_area = 0;                             // S0 [m2]
   std::optional<std::array<double, 2>> known_drag_coefficient;  // Knacke's range of the type
   CanopySize size;
   double max_line_tension = 0;  // [N]

@@ -1,0 +1,218 @@
+#include "ripstop/fsi/folded_start.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+#include "ripstop/cloth/cloth.h"
+#include "ripstop/core/error.h"
+#include "ripstop/parachute/fold_gores.h"
+#include "ripstop/parachute/fold_sheet.h"
+#include "ripstop/parachute/hang.h"
+
+namespace ripstop {
+namespace {
+
+constexpr double bending_weight = 1e-3;
+constexpr double strain_sought = 1e-4;
+constexpr int steps_a_round = 2500, most_rounds = 24;
+// Every so many rounds the largest strain must have fallen to this share of what it was.
+constexpr int rounds_between_looks = 4;
+constexpr double gain_wanted = 0.9;
+constexpr double radius_tolerance = 0.01;
+constexpr int most_corrections = 1;
+constexpr double least_share = 0.02;  // of the seams' radius that inner folds keep
+
+std::vector<int> pieces_of_cloth(const Mesh& mesh) {
+  std::vector<int> piece(mesh.node_count(), -1);
+  for (const Patch& patch : mesh.patches)
+    std::fill_n(piece.begin() + patch.first_node, patch.rows * patch.columns, 0);
+  return piece;
+}
+
+// The canopy without what holds it: free lines and riser.
+// All its springs are equally stiff, so that none is spared at the cost of another.
+Mesh canopy_of(const CanopyMesh& mesh, const FoldedStart& folded) {
+  Mesh canopy = with_creases(mesh, folded);
+  const std::vector<int> piece = pieces_of_cloth(mesh);
+  std::erase_if(canopy.springs, [&](const Spring& s) { return piece[s.a] < 0 || piece[s.b] < 0; });
+  for (Patch& patch : canopy.patches) {
+    for (int d = 0; d < direction_count; ++d) {
+      const bool bends = d == bend_row || d == bend_column;
+      patch.law[d] = {{bends ? bending_weight : 1.0}, 1.0};
+      for (std::size_t i = 0; i < patch.width[d].size(); ++i)
+        if (patch.width[d][i] > 0) patch.width[d][i] = patch.rest_length[d][i];
+    }
+  }
+  for (SpringLaw& law : canopy.laws) law = {{1.0}, law.compression};
+  for (Spring& spring : canopy.springs) spring.scale = spring.rest_length;
+  return canopy;
+}
+
+// Every node becomes the mean of what turns and mirror images of its likes say.
+void make_symmetric(const Mesh& mesh, int symmetry, std::vector<Vec3>& x) {
+  const std::vector<Vec3> old = x;
+  for (const Patch& patch : mesh.patches) {
+    const int sector = patch.columns / symmetry;
+    for (int row = 0; row < patch.rows; ++row) {
+      for (int column = 0; column <= sector / 2; ++column) {
+        Vec3 sum{};
+        for (int k = 0; k < symmetry; ++k) {
+          const double turn = -2 * std::numbers::pi * k / symmetry, c = std::cos(turn), s = std::sin(turn);
+          const auto back = [&](Vec3 p) { return Vec3{c * p.x - s * p.y, s * p.x + c * p.y, p.z}; };
+          const Vec3 p = back(old[patch.node(row, (column + k * sector) % patch.columns)]);
+          const Vec3 q = back(old[patch.node(row, (patch.columns - column + k * sector) % patch.columns)]);
+          sum += p + Vec3{q.x, -q.y, q.z};
+        }
+        const Vec3 mean = (0.5 / symmetry) * sum;
+        for (int k = 0; k < symmetry; ++k) {
+          const double turn = 2 * std::numbers::pi * k / symmetry, c = std::cos(turn), s = std::sin(turn);
+          const auto forth = [&](Vec3 p) { return Vec3{c * p.x - s * p.y, s * p.x + c * p.y, p.z}; };
+          x[patch.node(row, (column + k * sector) % patch.columns)] = forth(mean);
+          x[patch.node(row, (patch.columns - column + k * sector) % patch.columns)] =
+              forth({mean.x, -mean.y, mean.z});
+        }
+      }
+    }
+  }
+}
+
+// The zigzag of gores without strain but for what its fold lines cannot keep.
+class GoreFolder {
+ public:
+  GoreFolder(const CanopyMesh& mesh, const Folding& folding, int symmetry, ThreadTeam& team)
+      : mesh_(mesh),
+        folding_(folding),
+        folds_(folding.folds > 0 ? folding.folds : static_cast<int>(mesh.rigging.lines.size())),
+        symmetry_(std::gcd(symmetry, folds_)),
+        piece_(pieces_of_cloth(mesh)),
+        team_(team) {}
+
+  FoldedStart run() {
+    if (mesh_.rigging.lines.empty())
+      throw Error(ExitCode::bad_data, "a canopy without lines cannot be folded");
+    check_folds(mesh_, folds_);
+    double share = share_for(folding_.initial_radius);
+    FoldedStart start = relaxed(share);
+    // The relaxation moves the outer folds a little.
+    for (int i = 0; i < most_corrections && off(start) > radius_tolerance; ++i) {
+      const double mean = 0.5 * (start.inner_radius + start.outer_radius);
+      wanted_ += folding_.initial_radius - mean;
+      share = share_for(wanted_);
+      start = relaxed(share);
+    }
+    hang_up(start);
+    return start;
+  }
+
+ private:
+  double off(const FoldedStart& start) const {
+    return std::abs(0.5 * (start.inner_radius + start.outer_radius) / folding_.initial_radius - 1);
+  }
+  double share_for(double radius);
+  FoldedStart relaxed(double share) const;
+  void hang_up(FoldedStart& start) const;
+  void measure(FoldedStart& start) const;
+
+  const CanopyMesh& mesh_;
+  Folding folding_;
+  int folds_, symmetry_;
+  std::vector<int> piece_;
+  ThreadTeam& team_;
+  double wanted_ =
+      folding_.initial_radius;  // of the zigzag, so that the relaxed one has the asked radius [m]
+};
+
+// The share of the seams' radius that the inner folds keep, for a zigzag whose folds at the skirt have the
+// mean radius `radius`.
+double GoreFolder::share_for(double radius) {
+  const auto mean = [&](double share) {
+    try {
+      const FoldedStart start = zigzag_of_gores(mesh_, folds_, share);
+      return 0.5 * (start.inner_radius + start.outer_radius);
+    } catch (const Error&) {
+      return std::numeric_limits<double>::infinity();  // the strips do not reach that far
+    }
+  };
+  double low = least_share, high = 1;
+  const double least = mean(low);
+  if (!(radius > least)) {
+    throw Error(
+        ExitCode::usage,
+        fmt::format("inflation.initial_radius_m = {}: with {} folds the skirt folds to no less than {:.4g} "
+                    "m; more folds allow smaller radii",
+                    folding_.initial_radius, folds_, least));
+  }
+  for (int i = 0; i < 40; ++i) {
+    const double middle = 0.5 * (low + high);
+    (mean(middle) < radius ? low : high) = middle;
+  }
+  const double reached = mean(low);
+  if (std::abs(reached / radius - 1) > radius_tolerance) {
+    throw Error(
+        ExitCode::usage,
+        fmt::format("inflation.initial_radius_m = {}: with {} folds the skirt folds to no more than {:.4g} "
+                    "m, else its strips are too short",
+                    folding_.initial_radius, folds_, reached));
+  }
+  return low;
+}
+
+void GoreFolder::measure(FoldedStart& start) const {
+  const Patch& patch = mesh_.patches.front();
+  const int strip = patch.columns / (2 * folds_);
+  start.inner_radius = start.outer_radius = 0;
+  for (int k = 0; k < 2 * folds_; ++k) {
+    const Vec3 p = start.positions[patch.node(0, k * strip)];
+    (k % 2 == 0 ? start.inner_radius : start.outer_radius) += std::hypot(p.x, p.y) / folds_;
+  }
+}
+
+FoldedStart GoreFolder::relaxed(double share) const {
+  FoldedStart start = zigzag_of_gores(mesh_, folds_, share);
+  Mesh canopy = canopy_of(mesh_, start);
+  // Inner folds of the skirt stay where they are: the radius is given. All that are images of the first.
+  const Patch& skirt = mesh_.patches.front();
+  canopy.fixed.clear();
+  for (int k = 0; k < symmetry_; ++k) canopy.fixed.push_back(skirt.node(0, k * (skirt.columns / symmetry_)));
+  const ClothPtr cloth = make_cloth(canopy);
+  ClothState state = start_state(*cloth);
+  double before = std::numeric_limits<double>::infinity();
+  for (int round = 0; round < most_rounds; ++round) {
+    set_positions(state, *cloth, start.positions);
+    relax(state, *cloth, {}, {1e-12, steps_a_round, 1.0}, team_);
+    start.positions = positions(state, *cloth);
+    make_symmetric(canopy, symmetry_, start.positions);
+    const double strain = start_strain(canopy, start.positions).largest;
+    if (strain < strain_sought) break;
+    if (round % rounds_between_looks != 0) continue;
+    if (strain > gain_wanted * before) break;
+    before = strain;
+  }
+  measure(start);
+  return start;
+}
+
+void GoreFolder::hang_up(FoldedStart& start) const {
+  double by = std::numeric_limits<double>::infinity();
+  const std::vector<LineLink> links = line_links(mesh_, piece_);
+  for (const LineLink& link : links)
+    by = std::min(by, free_way(link, mesh_, start.positions, folding_.slack));
+  for (int node = 0; node < mesh_.node_count(); ++node)
+    if (piece_[node] >= 0) start.positions[node].z += by;
+  for (const LineLink& link : links) hang(link, start.positions);
+}
+
+}  // namespace
+
+FoldedStart folded_start(const CanopyMesh& mesh, const Folding& folding, int symmetry, ThreadTeam& team) {
+  if (is_flat_sheet(mesh)) return fold_sheet(mesh, folding);
+  if (folds_without_strain(mesh)) return fold(mesh, folding);
+  return GoreFolder(mesh, folding, symmetry, team).run();
+}
+
+}  // namespace ripstop

@@ -1,0 +1,430 @@
+#include "ripstop/fsi/sheet_transfer.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+namespace ripstop {
+namespace {
+
+constexpr double reach = 2.0;  // of the weights, in flow cells
+// Directions in which the faces near a cell spread less than this, in reaches squared, cannot tell a slope:
+// across the cloth, and along a strip narrower than the flow's cells. A round piece of cloth has 0.1.
+constexpr double least_spread = 0.01;
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+/// Area vector and centre of every cell of cloth; no area elsewhere.
+struct Patchwork {
+  std::vector<Vec3> area, centre;
+  Vec3 middle;  // centre of area
+
+  Patchwork(const std::vector<Cell>& cells, const std::vector<Vec3>& x)
+      : area(cells.size()), centre(cells.size()) {
+    double whole = 0;
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+      const auto& n = cells[c].corner;
+      if (n[0] < 0) continue;
+      area[c] = area_vector(x[n[0]], x[n[1]], x[n[2]], x[n[3]]);
+      centre[c] = 0.25 * (x[n[0]] + x[n[1]] + x[n[2]] + x[n[3]]);
+      middle += norm(area[c]) * centre[c];
+      whole += norm(area[c]);
+    }
+    if (whole > 0) middle = middle / whole;
+  }
+  Vec3 traction(const RigidTraction& t, std::size_t cell) const {
+    return t.at_centre + cross(t.twist, centre[cell] - middle);
+  }
+  /// All that is not pressure.
+  Vec3 traction(const ClothLoad& load, std::size_t cell) const {
+    const Vec3 rigid = traction(load.remainder, cell);
+    return load.of_folds.empty() ? rigid : rigid + load.of_folds[cell];
+  }
+  Vec3 force(const ClothLoad& load, std::size_t cell) const {
+    return load.pressure[cell] * area[cell] + norm(area[cell]) * traction(load, cell);
+  }
+};
+
+Wrench& operator+=(Wrench& sum, const Wrench& other) {
+  sum.force += other.force;
+  sum.moment += other.moment;
+  return sum;
+}
+
+Wrench acting_at(Vec3 point, Vec3 force) {
+  return {force, cross(point, force)};
+}
+
+/// Pressure of the cloth that one face stands for.
+struct Sample {
+  Vec3 point, outward;
+  double pressure = 0;                    // inside over outside [Pa]
+  double area = 0;                        // [m2]
+  std::optional<double> inside, outside;  // of the pressure itself [Pa]
+  bool folded = false;                    // another layer lies nearer than a cell, and looks the other way
+};
+
+// Beside a hem all that a face loses acts on the part of it that the cloth covers. Points of such faces lie
+// beside the cloth and are brought on to its plane.
+std::vector<Sample> samples_of(const std::vector<SheetLoad>& loads, const std::vector<Triangle>& surface) {
+  std::vector<Sample> samples;
+  samples.reserve(loads.size());
+  for (const SheetLoad& load : loads) {
+    if (!(load.area > 0)) continue;
+    const Triangle& t = surface[load.triangle];
+    const Vec3 normal = cross(t.b - t.a, t.c - t.a);
+    const Vec3 off = dot(load.point - t.a, normal) / dot(normal, normal) * normal;
+    samples.push_back(
+        {load.point - off, load.outward, load.drop / load.cover, load.area, load.inside, load.outside});
+  }
+  return samples;
+}
+
+/// Samples by where they lie, in boxes of `width` about the sheet.
+class Boxes {
+ public:
+  Boxes(std::vector<Sample> samples, double width) : width_(width) {
+    Vec3 high{-1e300, -1e300, -1e300};
+    low_ = {1e300, 1e300, 1e300};
+    for (const Sample& s : samples) {
+      low_ = {std::min(low_.x, s.point.x), std::min(low_.y, s.point.y), std::min(low_.z, s.point.z)};
+      high = {std::max(high.x, s.point.x), std::max(high.y, s.point.y), std::max(high.z, s.point.z)};
+    }
+    count_ = {box(high.x, low_.x) + 1, box(high.y, low_.y) + 1, box(high.z, low_.z) + 1};
+    begin_.assign(std::size_t(count_[0]) * count_[1] * count_[2] + 1, 0);
+    for (const Sample& s : samples) ++begin_[of(s) + 1];
+    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+    sorted_.resize(samples.size());
+    std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
+    for (const Sample& s : samples) sorted_[next[of(s)]++] = s;
+  }
+
+  /// All within `radius` of `centre`, and some that are not.
+  template <class Visit>
+  void near(Vec3 centre, double radius, const Visit& visit) const {
+    const auto range = [&](double at, double low, int count) {
+      return std::pair(std::clamp(box(at - radius, low), 0, count - 1),
+                       std::clamp(box(at + radius, low), 0, count - 1));
+    };
+    const auto [x0, x1] = range(centre.x, low_.x, count_[0]);
+    const auto [y0, y1] = range(centre.y, low_.y, count_[1]);
+    const auto [z0, z1] = range(centre.z, low_.z, count_[2]);
+    for (int z = z0; z <= z1; ++z) {
+      for (int y = y0; y <= y1; ++y) {
+        for (std::size_t n = begin_[index(x0, y, z)]; n < begin_[index(x1, y, z) + 1]; ++n) visit(sorted_[n]);
+      }
+    }
+  }
+
+ private:
+  int box(double at, double low) const {
+    return static_cast<int>(std::clamp(std::floor((at - low) / width_), -1e6, 1e6));
+  }
+  std::size_t index(int x, int y, int z) const {
+    return x + static_cast<std::size_t>(count_[0]) * (y + static_cast<std::size_t>(count_[1]) * z);
+  }
+  std::size_t of(const Sample& s) const {
+    return index(box(s.point.x, low_.x), box(s.point.y, low_.y), box(s.point.z, low_.z));
+  }
+
+  double width_;
+  Vec3 low_;
+  std::array<int, 3> count_{};
+  std::vector<std::size_t> begin_;
+  std::vector<Sample> sorted_;
+};
+
+double width_at(Vec3 point, const FlowGrid& grid) {
+  const Vec3 h = grid.spacing(point);
+  return std::max({h.x, h.y, h.z});
+}
+
+// Between layers that lie closer than a cell's width the grid has no air of its own: what such a face drops is that of
+// a closed pocket, or of all layers together, and the pressure on the side of that pocket is nobody's.
+void find_folds(std::vector<Sample>& samples, const FlowGrid& grid, double box) {
+  const Boxes all(samples, box);
+  for (Sample& sample : samples) {
+    const double width = width_at(sample.point, grid);
+    all.near(sample.point, width, [&](const Sample& s) {
+      const Vec3 d = s.point - sample.point;
+      if (!(dot(s.outward, sample.outward) < 0) || !(dot(d, d) < width * width)) return;
+      sample.folded = true;
+      (dot(d, sample.outward) > 0 ? sample.outside : sample.inside).reset();
+    });
+  }
+}
+
+enum class Side { same, either };
+
+// The plane through the samples within `radius` that look the same way, by weighted least squares: pressures
+// that are linear in space come out as they are. Nothing where there is no such sample.
+bool plane_through(const Boxes& samples, Vec3 centre, Vec3 normal, double radius, Side side,
+                   double& pressure) {
+  double weights = 0, mean = 0;
+  Eigen::Vector3d at = Eigen::Vector3d::Zero(), slope = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  samples.near(centre, radius, [&](const Sample& s) {
+    const Vec3 d = (s.point - centre) / radius;
+    const double inside = 1 - dot(d, d), facing = side == Side::either ? 1 : dot(s.outward, normal);
+    if (inside <= 0 || facing <= 0) return;
+    const double w = s.area * facing * inside * inside;
+    const Eigen::Vector3d e(d.x, d.y, d.z);
+    weights += w;
+    mean += w * s.pressure;
+    at += w * e;
+    slope += w * s.pressure * e;
+    spread += w * e * e.transpose();
+  });
+  if (!(weights > 0)) return false;
+  mean /= weights;
+  at /= weights;
+  slope = slope / weights - mean * at;
+  spread = spread / weights - at * at.transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
+  const Eigen::Vector3d along =
+      (axes.eigenvectors().transpose() * slope).cwiseQuotient(axes.eigenvalues().cwiseMax(least_spread));
+  pressure = mean - (axes.eigenvectors() * along).dot(at);
+  return true;
+}
+
+std::vector<double> pressures(const std::vector<Sample>& samples, const FlowGrid& grid,
+                              const Patchwork& cloth, double box) {
+  std::vector<double> result(cloth.area.size(), 0.0);
+  if (samples.empty()) return result;
+  std::vector<Sample> believed;
+  for (const Sample& s : samples)
+    if (!s.folded) believed.push_back(s);
+  const Boxes boxes(believed.empty() ? samples : std::move(believed), box);
+  for (std::size_t c = 0; c < result.size(); ++c) {
+    const double area = norm(cloth.area[c]);
+    if (!(area > 0)) continue;
+    // Cloth that no face stands for, at a seam or in a fold smaller than the cells, takes what is nearest.
+    double radius = reach * width_at(cloth.centre[c], grid);
+    const double farthest = norm(grid.size);
+    Side side = Side::same;
+    while (!plane_through(boxes, cloth.centre[c], cloth.area[c] / area, radius, side, result[c]) &&
+           radius < farthest) {
+      radius *= 1.5;
+      side = Side::either;
+    }
+  }
+  return result;
+}
+
+// Mean of the pressure on one side of the cloth about a point, from as near as the grid knows it.
+double side_at(const Boxes& samples, Vec3 centre, double radius, double farthest,
+               std::optional<double> Sample::*side) {
+  double weights = 0, sum = 0;
+  for (; !(weights > 0) && radius < farthest; radius *= 1.5) {
+    samples.near(centre, radius, [&](const Sample& s) {
+      const Vec3 d = (s.point - centre) / radius;
+      const double inside = 1 - dot(d, d);
+      if (inside <= 0 || !(s.*side)) return;
+      const double w = s.area * inside * inside;
+      weights += w, sum += w * *(s.*side);
+    });
+  }
+  return weights > 0 ? sum / weights : 0;
+}
+
+// The air in a pleat stands in touch with that at its mouth, however narrow it is: cloth among folds takes the
+// difference of the pressures that the grid has on its two sides nearby. Elsewhere `pressure` stays.
+void press_into_folds(const Boxes& samples, const FlowGrid& grid, const Patchwork& cloth,
+                      std::vector<double>& pressure) {
+  const double farthest = norm(grid.size);
+  for (std::size_t c = 0; c < pressure.size(); ++c) {
+    const double radius = reach * width_at(cloth.centre[c], grid);
+    double all = 0, folded = 0;
+    if (norm(cloth.area[c]) > 0)
+      samples.near(cloth.centre[c], radius, [&](const Sample& s) {
+        const Vec3 d = (s.point - cloth.centre[c]) / radius;
+        const double w = s.area * std::pow(std::max(1 - dot(d, d), 0.0), 2);
+        all += w, folded += s.folded ? w : 0;
+      });
+    if (!(folded > 0)) continue;
+    const double difference = side_at(samples, cloth.centre[c], radius, farthest, &Sample::inside) -
+                              side_at(samples, cloth.centre[c], radius, farthest, &Sample::outside);
+    pressure[c] += folded / all * (difference - pressure[c]);
+  }
+}
+
+/// Sums on the points of a lattice about some places, each value shared among the eight points about it and read off in
+/// the same shares.
+template <class Value>
+class Lattice {
+ public:
+  /// Values are at these places and no others.
+  Lattice(const std::vector<Vec3>& places, double spacing) : spacing_(spacing) {
+    std::array<int, 3> high;
+    first_.fill(std::numeric_limits<int>::max()), high.fill(std::numeric_limits<int>::min());
+    for (const Vec3& x : places) {
+      const std::array<double, 3> at = scaled(x);
+      for (int a = 0; a < 3; ++a) {
+        const int lower = static_cast<int>(std::floor(at[a]));
+        first_[a] = std::min(first_[a], lower), high[a] = std::max(high[a], lower);
+      }
+    }
+    std::size_t size = places.empty() ? 0 : 1;
+    for (int a = 0; a < 3 && size > 0; ++a) size *= count_[a] = high[a] - first_[a] + 2;
+    points_.resize(size);
+  }
+
+  /// visit(value on a point, share) for the eight points.
+  template <class Visit>
+  void about(Vec3 x, const Visit& visit) {
+    const std::array<double, 3> at = scaled(x);
+    std::array<int, 3> lower;
+    std::array<double, 3> part;
+    for (int a = 0; a < 3; ++a) {
+      lower[a] = static_cast<int>(std::floor(at[a])) - first_[a];
+      part[a] = at[a] - std::floor(at[a]);
+    }
+    for (int n = 0; n < 8; ++n) {
+      double share = 1;
+      std::size_t point = 0;
+      for (int a = 2; a >= 0; --a) point = point * count_[a] + lower[a] + (n >> a & 1);
+      for (int a = 0; a < 3; ++a) share *= n >> a & 1 ? part[a] : 1 - part[a];
+      visit(points_[point], share);
+    }
+  }
+
+ private:
+  std::array<double, 3> scaled(Vec3 x) const {
+    const Vec3 at = x / spacing_;
+    return {at.x, at.y, at.z};
+  }
+
+  double spacing_;
+  std::array<int, 3> first_, count_{};
+  std::vector<Value> points_;
+};
+
+// What the air's force is beyond that of the pressures, where there are folds: a traction of the cloth nearby, so that
+// force that the air exerts on a part of the canopy stays there.
+std::vector<Vec3> fold_tractions(const std::vector<SheetLoad>& loads, const std::vector<Sample>& samples,
+                                 const FlowGrid& grid, const Patchwork& cloth,
+                                 const std::vector<double>& pressure) {
+  struct Sum {
+    Vec3 force;                            // that is left [N]
+    double area = 0, all = 0, folded = 0;  // of cloth, samples and samples in folds [m2]
+  };
+  std::vector<Vec3> result(cloth.area.size());
+  std::vector<Vec3> places;
+  for (const SheetLoad& load : loads) places.push_back(load.point);
+  for (const Sample& s : samples) places.push_back(s.point);
+  for (std::size_t c = 0; c < result.size(); ++c)
+    if (norm(cloth.area[c]) > 0) places.push_back(cloth.centre[c]);
+  Lattice<Sum> lattice(places, reach * width_at(cloth.middle, grid));
+  for (const SheetLoad& load : loads)
+    lattice.about(load.point, [&](Sum& sum, double share) { sum.force += share * load.force; });
+  for (const Sample& s : samples)
+    lattice.about(s.point, [&](Sum& sum, double share) {
+      sum.all += share * s.area, sum.folded += s.folded ? share * s.area : 0;
+    });
+  for (std::size_t c = 0; c < result.size(); ++c) {
+    if (!(norm(cloth.area[c]) > 0)) continue;
+    lattice.about(cloth.centre[c], [&](Sum& sum, double share) {
+      sum.force += -share * pressure[c] * cloth.area[c];
+      sum.area += share * norm(cloth.area[c]);
+    });
+  }
+  for (std::size_t c = 0; c < result.size(); ++c) {
+    if (!(norm(cloth.area[c]) > 0)) continue;
+    lattice.about(cloth.centre[c], [&](const Sum& sum, double share) {
+      if (sum.all > 0)
+        result[c] += share * sum.folded / sum.all / std::max(sum.area, 0.2 * sum.all) * sum.force;
+    });
+  }
+  return result;
+}
+
+// t = a + b x (x - c) of which force and moment about c are given: the smallest integral of t^2 over the
+// cloth that has them (Lagrange multipliers a and b).
+RigidTraction smallest_traction(const Patchwork& cloth, Vec3 force, Vec3 moment) {
+  Matrix6 matrix = Matrix6::Zero();
+  double size = 0, whole = 0;
+  for (std::size_t c = 0; c < cloth.area.size(); ++c) {
+    const Vec3 r = cloth.centre[c] - cloth.middle;
+    whole += norm(cloth.area[c]), size += norm(cloth.area[c]) * dot(r, r);
+  }
+  if (!(size > 0)) return {};
+  size = std::sqrt(size / whole);  // makes the unknowns alike: a and b size
+  for (std::size_t c = 0; c < cloth.area.size(); ++c) {
+    const Vec3 r = (cloth.centre[c] - cloth.middle) / size;
+    Eigen::Matrix3d turn;  // turn * v = v x r
+    turn << 0, r.z, -r.y, -r.z, 0, r.x, r.y, -r.x, 0;
+    Eigen::Matrix<double, 3, 6> traction;
+    traction << Eigen::Matrix3d::Identity(), turn;
+    matrix += norm(cloth.area[c]) * traction.transpose() * traction;
+  }
+  Vector6 right;
+  right << force.x, force.y, force.z, moment.x / size, moment.y / size, moment.z / size;
+  const Vector6 t = matrix.ldlt().solve(right);
+  return {{t(0), t(1), t(2)}, Vec3{t(3), t(4), t(5)} / size};
+}
+
+}  // namespace
+
+Wrench wrench_of(const std::vector<SheetLoad>& loads) {
+  Wrench sum;
+  for (const SheetLoad& load : loads) sum += acting_at(load.point, load.force);
+  return sum;
+}
+
+Wrench wrench_of(const ClothLoad& load, const std::vector<Cell>& cells, const std::vector<Vec3>& x) {
+  const Patchwork cloth(cells, x);
+  Wrench sum;
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    sum += acting_at(cloth.centre[c], cloth.force(load, c));
+  }
+  return sum;
+}
+
+ClothLoad load_of_flow(const std::vector<SheetLoad>& loads, const FlowGrid& grid,
+                       const std::vector<Triangle>& surface, const std::vector<Cell>& cells,
+                       const std::vector<Vec3>& x, Folds folds) {
+  const Patchwork cloth(cells, x);
+  std::vector<Sample> samples = samples_of(loads, surface);
+  const double box = samples.empty() ? 1 : 0.5 * reach * width_at(samples.front().point, grid);
+  find_folds(samples, grid, box);
+  ClothLoad load{pressures(samples, grid, cloth, box), {}, {}};
+  if (folds == Folds::filled && !samples.empty()) {
+    press_into_folds(Boxes(samples, box), grid, cloth, load.pressure);
+    load.of_folds = fold_tractions(loads, samples, grid, cloth, load.pressure);
+  }
+  const Wrench air = wrench_of(loads), plain = wrench_of(load, cells, x);
+  const Vec3 force = air.force - plain.force;
+  load.remainder = smallest_traction(cloth, force, air.moment - plain.moment - cross(cloth.middle, force));
+  return load;
+}
+
+std::vector<Vec3> node_forces(const ClothLoad& load, const std::vector<Cell>& cells,
+                              const std::vector<Vec3>& x) {
+  const Patchwork cloth(cells, x);
+  std::vector<Vec3> force(x.size());
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    if (cells[c].corner[0] < 0) continue;
+    const Vec3 each = 0.25 * cloth.force(load, c);
+    for (const int node : cells[c].corner) force[node] += each;
+  }
+  return force;
+}
+
+double remainder_share(const ClothLoad& load, const std::vector<Cell>& cells, const std::vector<Vec3>& x) {
+  const Patchwork cloth(cells, x);
+  double traction = 0, pressure = 0;
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    const Vec3 t = cloth.traction(load, c);
+    traction += norm(cloth.area[c]) * dot(t, t);
+    pressure += norm(cloth.area[c]) * load.pressure[c] * load.pressure[c];
+  }
+  return pressure > 0 ? std::sqrt(traction / pressure) : 0;
+}
+
+}  // namespace ripstop

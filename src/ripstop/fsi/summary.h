@@ -1,0 +1,68 @@
+// What is read off a load history.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "ripstop/fsi/inflation.h"
+
+namespace ripstop {
+
+struct InflationSummary {
+  double steady_load = 0;                // mean over the last fifth of the run [N]
+  double unsteadiness = 0;               // standard deviation of the rows there, over steady_load
+  std::optional<double> inflation_time;  // absent: still outside the band at the end [s]
+  /// Of the low-passed load, absent without one; they hardly depend on single swings, as inflation_time does.
+  std::optional<double> filling_time;  // first at the steady load [s]
+  std::optional<double>
+      settling_time;            // from then on within 10 % in the mean square over two cutoff periods [s]
+  double smooth_peak = 0;       // of the low-passed history; 0: none asked for [N]
+  double smooth_peak_time = 0;  // [s]
+};
+
+/// Until the row's mean stays within 10 % of the steady load: [NFM]. With a low-pass, of
+/// the low-passed history.
+InflationSummary summarise(const std::vector<HistoryRow>& rows, double low_pass_hz);
+
+/// One stage of a reefed opening, from cut to cut; what comes after the last is one too. Times within a row.
+struct StageSummary {
+  std::optional<double> line;            // length of its reefing line [m]; absent: the open canopy
+  double begin = 0, end = 0;             // [s]
+  double peak_load = 0;                  // over every step [N]
+  double peak_time = 0;                  // [s]
+  std::optional<double> smooth_peak;     // of the low-passed history [N]
+  double last_load = 0;                  // mean over the last fifth of the stage [N]
+  std::optional<double> drag_area;       // likewise C_D S in its own air [m2]
+  std::optional<double> line_peak;       // tension of the reefing line over every step [N]
+  std::optional<double> line_peak_time;  // [s]
+};
+
+template <Of<StageSummary> T, class Visit>
+void each_member(T& s, Visit&& visit) {
+  visit("line_m", s.line);
+  visit("begin_s", s.begin);
+  visit("end_s", s.end);
+  visit("peak_load_n", s.peak_load);
+  visit("peak_time_s", s.peak_time);
+  visit("low_pass_peak_load_n", s.smooth_peak);
+  visit("load_at_end_n", s.last_load);
+  visit("drag_area_at_end_m2", s.drag_area);
+  visit("line_peak_n", s.line_peak);
+  visit("line_peak_time_s", s.line_peak_time);
+}
+
+/// Of an opening whose `lines` [m] were cut at `cuts` [s], as far as it has come. `air` may be empty.
+std::vector<StageSummary> summarise_stages(const std::vector<HistoryRow>& rows,
+                                           const std::vector<AirRow>& air, const std::vector<double>& lines,
+                                           const std::vector<double>& cuts, double low_pass_hz);
+
+/// Whether the steady load may be called one: the load has stayed within 10 % of it for the last tenth of the
+/// opening's `duration` [s] at least, half of what it is the mean of.
+bool settled(const InflationSummary& summary, double duration);
+
+/// Two passes, forth and back, of a second-order Butterworth filter: no delay, half the power twice
+/// (-6 dB) at `cutoff_hz`. `interval` [s] between equally spaced values. Throws Error(usage) at or
+/// above half their rate.
+std::vector<double> low_pass(const std::vector<double>& values, double interval, double cutoff_hz);
+
+}  // namespace ripstop

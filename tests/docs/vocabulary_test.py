@@ -1,0 +1,202 @@
+#!/usr/bin/env python3
+"""Language of the documentation: standard terms, sentence length, headings and typeset equations of every rewritten page, and the
+code names of the glossary. Pages that are not yet rewritten are printed as open."""
+import pathlib
+import re
+import statistics
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+GLOSSARY = "docs/reference/glossary.md"
+LONGEST_SENTENCE = 30  # words
+MEAN_SENTENCE = 18     # words, of a page
+LONGEST_HEADING = 9    # words
+
+REWRITTEN = [
+    "CONTRIBUTING.md", "src/README.md", GLOSSARY,
+    *(f"docs/{page}.md" for page in ("README", "conventions", "performance", "reliability")),
+    *(f"docs/guide/{page}.md" for page in (
+        "canopies", "case-file", "cluster", "compare", "editor", "flight", "import", "inflate", "openfoam", "output-files", "porosity", "python",
+        "report", "sweep", "tunnel", "unsteady")),
+    *sorted(str(page.relative_to(ROOT)) for page in ROOT.glob("docs/theory/*.md")),
+    *(f"docs/validation/{page}.md" for page in (
+        "canopies", "cloth", "coupling", "fit", "flow", "flow-in-time", "flow-openfoam", "inflation", "ojf", "opening-load",
+        "tunnel"))]
+
+TABLES = "docs/tables/"  # made by commands
+ALL = sorted(str(page.relative_to(ROOT)) for page in
+             [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "src/README.md", ROOT / "materials/README.md", *ROOT.glob("docs/**/*.md"),
+              *ROOT.glob("examples/*/README.md"), *ROOT.glob("validation/*/README.md")])
+
+# Words that are used in a figurative sense, with the standard term or the reason.
+FIGURATIVE = {
+    r"stands?|stood|standing": "is; represents; remains",
+    r"(?:go|goes|went|going) on": "continues",
+    r"holds": "is valid; contains; carries",
+    r"tells?|told|says?|said": "states; reports",
+    r"worth": "contributes; name the metric",
+    r"besides?": "compared with; in addition to; next to",
+    r"gone": "elapsed",
+    r"what(?!ever)": "name the quantity",
+    r"of which": "two sentences",
+    r"for good": "until the end of the run",
+    r"by turns|now so|once more": "alternately; again",
+    r"in (?:its|their) own air": "coupled inflation",
+    r"gives? way|yields?|yielding": "compliance",
+    r"hangs? on": "depends on",
+    r"judges?|judgement": "cross-validation; criterion",
+    r"eased": "start-up under-relaxation",
+    r"thickening": "density ratio",
+    r"small eddies": "subgrid-scale model",
+    r"play(?:s|ed)? together": "feedback",
+    r"forgets?|forgotten|knows?|asks?|wants?": "programs and canopies do not think",
+    r"by chance|chance": "scatter",
+    r"a day|the way": "state the quantity",
+    r"come(?:s)? of it|comes? out": "result; is",
+    r"as it were|so much as|what is left": "state the quantity",
+}
+WORDS = [(re.compile(rf"\b(?:{pattern})\b", re.IGNORECASE), term) for pattern, term in FIGURATIVE.items()]
+
+# Parts of an equation that is drawn in ASCII; code spans and typeset equations are taken out first.
+ASCII_EQUATION = re.compile(r"[A-Za-z)\]]\s?\^\s?[-{(\w]|\bsqrt\s?\(|\b(?:sum|div|grad|sqrt)\s?\(|[<>]=|\b[A-Za-z]_[A-Za-z0-9]{1,3}\b|"
+                            r"\bd[a-zA-Z]/d[a-z]\b|\b(?:rho|omega|kappa|gamma|epsilon|xi|mu)\b(?=\s?[=*/^])")
+COMMAND = re.compile(r"^\s+(?:make|ripstop|build\S*/|python3?|cmake|ctest|sbatch|pip|apt|sudo|mpirun|cd|export|git|curl|--|OMP_|\.|/|[$#>])|"
+                     r"^\s+.*(?:<-|\\$|#|//|\[.*\]$)")
+
+
+def page_lines(text):
+    """Lines outside fences and of the part that people write; a generated reference ends the page."""
+    in_code = False
+    for line in text.splitlines():
+        if line == "## All keys":
+            return
+        fence = line.lstrip().startswith("```")
+        in_code ^= fence
+        yield "" if fence or in_code else line
+
+
+def plain(text):
+    """Text without code spans, link targets and equations: each code span and each equation counts as one word."""
+    text = re.sub(r"\$\$.*?\$\$", " ", text, flags=re.DOTALL)
+    text = re.sub(r"\$[^$\n]+\$", "FORMULA", text)
+    text = re.sub(r"``[^`]+``|`[^`]+`", "CODE", text)
+    text = re.sub(r"!?\[([^\]]*)\]\([^)]*\)", r"\1", text)
+    text = re.sub(r"<[^>]+>", " ", text)
+    return re.sub(r"\*|(?<!\w)_|_(?!\w)", "", text)
+
+
+def blocks(text):
+    """Paragraphs, list items and table rows of a page."""
+    block = []
+    display = False
+    for line in [*page_lines(text), ""]:
+        code = re.match(r" {4,}\S", line) and not block and not display
+        display ^= line.count("$$") % 2 == 1
+        new = re.match(r"\s*(?:[-*]|\d+\.)\s", line) or line.startswith(("|", "#")) or not line.strip() or code
+        if new and not display and block:
+            yield " ".join(block)
+            block = []
+        if line.strip() and not line.startswith("#") and not code:
+            block.append(line.strip() if not new else re.sub(r"^\s*(?:[-*]|\d+\.)\s+", "", line))
+    if block:
+        yield " ".join(block)
+
+
+def sentences(text):
+    text = re.sub(r"\b(Eq|Eqs|Fig|Figs|Sec|No|e\.g|i\.e|vs|cf|et al)\.", r"\1", text)
+    for block in blocks(text):
+        for cell in (block.strip("|").split("|") if block.startswith("|") else [block]):
+            for sentence in re.split(r"(?<=[.!?])[)\"]?\s+(?=[A-Z\d`\"(\[*$])", plain(cell).strip()):
+                words = [word for word in sentence.split() if re.search(r"\w", word)]
+                if words:
+                    yield sentence, len(words)
+
+
+def headings(text):
+    found = [re.match(r"(#+) (.*)", line) for line in page_lines(text)]
+    return [(len(match[1]), match[2]) for match in found if match]
+
+
+def faults(text):
+    """Everything in a page that the rules of the language do not allow."""
+    found = []
+    shown = plain("\n".join([*blocks(text), *(title for _, title in headings(text))]))
+    for pattern, term in WORDS:
+        found += [f"'{match.group()}' ({term}): ...{shown[max(0, match.start() - 40):match.end() + 30]!r}" for match in pattern.finditer(shown)]
+    found += [f"ASCII equation: ...{shown[max(0, match.start() - 30):match.end() + 30]!r}" for match in ASCII_EQUATION.finditer(shown)]
+    found += [f"equation in a code block: {line.strip()}" for line in page_lines(text)
+              if re.match(r" {4,}\S", line) and not COMMAND.match(line) and re.search(r"\S \^|\w\^|\bsum\b|\s[<>]=?\s|\w / \w|d\w+/dt", line)
+              and " = " in line]
+    found += [f"GitHub drops the backslash of '{match[1]}' in an equation: {math}" for math in
+              re.findall(r"\$\$.*?\$\$|\$[^$\n]+\$", re.sub(r"`[^`]*`", "", "\n".join(page_lines(text))), re.DOTALL)
+              if (match := re.search(r"(\\[,;:!{}|])", math))]
+    found += [f"line of an equation that Markdown reads as a list: {line}" for math in re.findall(r"\$\$.*?\$\$", text, re.DOTALL)
+              for line in math.splitlines() if re.match(r"\s*[-+*] ", line)]
+    lengths = list(sentences(text))
+    found += [f"{length} words: {sentence}" for sentence, length in lengths if length > LONGEST_SENTENCE]
+    if lengths and (mean := statistics.mean(length for _, length in lengths if length > 3 or len(lengths) < 3)) > MEAN_SENTENCE:
+        found.append(f"mean sentence of {mean:.1f} words")
+    titles = headings(text)
+    if titles:
+        if [level for level, _ in titles].count(1) != 1 or titles[0][0] != 1:
+            found.append("a page has one title, at its top")
+        if len({title.lower() for _, title in titles}) < len(titles):
+            found.append("two headings of one name")
+        for (before, _), (level, title) in zip([(0, ""), *titles], titles):
+            if level > before + 1:
+                found.append(f"level skipped: {title}")
+            if not re.match(r"[A-Z`\d]", title) or title.endswith((".", ":", "?")) or len(plain(title).split()) > LONGEST_HEADING:
+                found.append(f"heading: {title}")
+    return found
+
+
+class Vocabulary(unittest.TestCase):
+    maxDiff = None
+
+    def test_rewritten_pages_follow_the_rules(self):
+        for page in REWRITTEN:
+            with self.subTest(page=page):
+                self.assertEqual(faults((ROOT / page).read_text()), [])
+
+    def test_open_pages_are_listed(self):
+        self.assertEqual([page for page in REWRITTEN if page not in ALL], [])
+        pages = [page for page in ALL if page not in REWRITTEN and not page.startswith(TABLES)]
+        print(f"{len(REWRITTEN)} pages follow the rules; {len(pages)} are open:", *pages, sep="\n  ")
+
+    def test_figurative_sentences_are_refused(self):
+        for sentence in ["An unsteady flow answers the same shape now so, now so.", "The load goes on as it was.",
+                         "What presses is the air as it flows.", "Stratos IV opens in its own air.", "The grid is worth 14 %.",
+                         "The drag beside it is 3 N.", "How far the two differ stands in every row.", "Time gone: 10 s.",
+                         "The cloth gives way to the air.", "A run that fails is told in its row.", "The boundary holds the pressure.",
+                         "The drag is C_D S q.", "The stress is limited by k^2.", "A force of sqrt(2) N acts.",
+                         "Here " + "one word " * 17 + "ends."]:
+            with self.subTest(sentence=sentence):
+                self.assertNotEqual(faults(sentence), [])
+
+    def test_plain_sentences_are_accepted(self):
+        for sentence in ["The load remains within 10 % of the steady load.", "The mean absolute error is 3.0 %.",
+                         "The drag area is $C_D S = F / q$.", "The key `flow.watch.eddies` selects the model."]:
+            with self.subTest(sentence=sentence):
+                self.assertEqual(faults(sentence), [])
+
+    def test_code_blocks_show_commands_and_no_equations(self):
+        self.assertEqual(faults("Text.\n\n    ripstop steady case.toml --speed 20\n"), [])
+        self.assertNotEqual(faults("Text.\n\n    T(e) = w sum_k K_k e^k\n"), [])
+
+    def test_every_code_name_of_the_glossary_exists(self):
+        source = "".join(file.read_text() for file in (ROOT / "src/ripstop").rglob("*") if file.suffix in (".h", ".cpp"))
+        words = set(re.findall(r"\w+", source))
+        rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in (ROOT / GLOSSARY).read_text().splitlines()
+                if line.startswith("| ") and not line.startswith("| term")]
+        names = [name for row in rows for name in re.findall(r"`([^`]+)`", row[3])]
+        self.assertGreater(len(names), 80)
+        self.assertEqual([name for name in names if name not in words], [])
+
+    def test_terms_of_the_glossary_are_defined_once(self):
+        terms = [line.split("|")[1].strip() for line in (ROOT / GLOSSARY).read_text().splitlines() if line.startswith("| ")]
+        terms = [term for term in terms if term != "term"]
+        self.assertEqual(sorted(term for term in set(terms) if terms.count(term) > 1), [])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,356 @@
+// Cloth and air stepped together, against the equations of a piston and of a bag.
+#include "ripstop/fsi/air.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <vector>
+
+#include "../blown_up.h"
+#include "ripstop/core/error.h"
+#include "ripstop/flight/atmosphere.h"
+#include "ripstop/flight/trajectory.h"
+#include "ripstop/flow/cartesian/cartesian.h"
+#include "ripstop/fsi/transfer.h"
+
+namespace ripstop {
+namespace {
+
+constexpr double duct_speed = 10, resistance = 40, springs = 2000;  // [m/s], [Pa s/m], [Pa/m]
+
+/// 1 m2, as high and wide as `cells` of them.
+FlowProblem closed_duct(double speed = duct_speed, double linear = resistance, int cells = 4) {
+  FlowProblem duct;
+  duct.grid = {{0, 0, 0}, {1, 1, 2}, cells, cells, 4 * cells};
+  duct.air.speed = speed;
+  duct.sides = Sides::slip;
+  duct.outlet = Outlet::still_air;
+  duct.sheets = {{{}, linear, 0}};
+  return duct;
+}
+
+/// Payload::density from a height of deployment on [m].
+std::function<double(double)> thickening_below(double height) {
+  return [height](double fallen) {
+    return standard_air(height - fallen).density / standard_air(height).density;
+  };
+}
+
+constexpr double sheet_at = 1.01;  // along the duct [m]
+
+/// A square of cloth of n x n nodes across the duct: yarns of `stiffness` [N/m] each way and no shear; without any it has
+/// no springs in its plane.
+Mesh across_the_duct(int n, double mass, double stiffness) {
+  const double spacing = 1.0 / (n - 1);
+  Mesh mesh;
+  Patch patch;
+  patch.rows = patch.columns = n;
+  patch.cell_area.assign(n * n, 0.0);
+  for (int d = 0; d < direction_count; ++d) {
+    patch.law[d].coefficients = {stiffness > 0 ? stiffness : 1};
+    patch.rest_length[d].assign(n * n, spacing), patch.width[d].assign(n * n, 0.0);
+  }
+  for (int r = 0; r < n; ++r) {
+    for (int c = 0; c < n; ++c) {
+      const double share = (r % (n - 1) ? 1 : 0.5) * (c % (n - 1) ? 1 : 0.5) * spacing * spacing;
+      mesh.start.push_back({c * spacing, r * spacing, sheet_at});
+      mesh.mass.push_back(mass * share);
+      if (r < n - 1 && c < n - 1) patch.cell_area[r * n + c] = spacing * spacing;
+      if (stiffness > 0) {
+        patch.width[along_row][r * n + c] = c < n - 1 ? spacing : 0;
+        patch.width[along_column][r * n + c] = r < n - 1 ? spacing : 0;
+      }
+    }
+  }
+  mesh.patches.push_back(patch);
+  return mesh;
+}
+
+/// Every node on a spring along the duct: under one pressure the cloth moves as a piston does.
+Mesh piston(double mass) {
+  constexpr int n = 5;
+  constexpr double length = 4;  // of the springs, to be linear
+  Mesh mesh = across_the_duct(n, mass, 0);
+  mesh.laws.emplace_back().coefficients = {springs * length};
+  mesh.parts = {"spring"};
+  for (int i = 0; i < n * n; ++i) {
+    const Vec3 at = mesh.start[i];
+    mesh.start.push_back(at - Vec3{0, 0, length}), mesh.mass.push_back(1);
+    mesh.fixed.push_back(n * n + i);
+    Spring spring;
+    spring.a = n * n + i, spring.b = i, spring.rest_length = length;
+    spring.scale = mesh.mass[i] / mass;
+    mesh.springs.push_back(spring);
+  }
+  return mesh;
+}
+
+CartesianSettings one_thread() {
+  CartesianSettings settings;
+  settings.threads = 1, settings.compressible = false;
+  return settings;
+}
+
+/// Cloth and air in turn, as an opening steps them.
+class Together {
+ public:
+  Together(const FlowProblem& flow, const Mesh& mesh)
+      : x(mesh.start), air_({flow, 0.5, make_cartesian(one_thread())}, mesh), cloth_(make_cloth(mesh)) {}
+
+  /// The cloth takes `least` steps or more, `share` of its stable one at most.
+  void step(double length, int least, double share) {
+    const double stable = share * stability_limit(*cloth_, state_).stable_step;
+    ClothMotion motion;
+    motion.steps = std::max(least, static_cast<int>(std::ceil(length / stable)));
+    ClothState tried = state_;
+    ripstop::step(tried, *cloth_, air_.last_load(memory_), length / motion.steps, motion.steps, team_);
+    motion.velocity = positions(tried, *cloth_);
+    for (std::size_t i = 0; i < x.size(); ++i) motion.velocity[i] = (motion.velocity[i] - x[i]) / length;
+    AirRow row;
+    loads = air_.step(x, motion, length, memory_, row);
+    ripstop::step(state_, *cloth_, loads, length / motion.steps, motion.steps, team_);
+    x = positions(state_, *cloth_);
+  }
+
+  std::vector<Vec3> x;
+  Loads loads;
+
+ private:
+  OpeningAir air_;
+  ClothPtr cloth_;
+  ThreadTeam team_{1};
+  ClothState state_ = start_state(*cloth_);
+  AirMemory memory_;
+};
+
+/// How far the piston has come after `duration`, in steps of the air of `step`; the cloth takes `least` steps or more
+/// in each.
+double piston_moved(double mass, double step, double duration, int least) {
+  Together duct(closed_duct(), piston(mass));
+  for (int n = 0; n < std::lround(duration / step); ++n) duct.step(step, least, 0.2);
+  return duct.x[12].z - sheet_at;
+}
+
+/// m x'' = a (U - x') - k x from rest.
+double exactly_moved(double mass, double duration) {
+  constexpr int steps = 400000;
+  const double dt = duration / steps;
+  double x = 0, v = 0;
+  for (int n = 0; n < steps; ++n) {  // the midpoint rule, implicit in v
+    const double next = (v * (1 - 0.5 * dt * resistance / mass) +
+                         dt / mass * (resistance * duct_speed - springs * (x + 0.25 * dt * v))) /
+                        (1 + 0.5 * dt * resistance / mass + 0.25 * dt * dt * springs / mass);
+    x += 0.5 * dt * (v + next);
+    v = next;
+  }
+  return x;
+}
+
+constexpr double piston_duration = 0.02;
+
+// From cloth a hundred times lighter than nylon to cloth a hundred times heavier, with one step: a load that is handed
+// over after the step would throw the lightest a hundred times too far. Where the cloth takes but one step of its own in
+// each of the air's, its own error, of first order, is the larger.
+TEST(OpeningAir, APistonOfAnyMassMovesAsItsEquationSays) {
+  constexpr double step = 2.5e-4;
+  for (const double mass : {4e-4, 4e-3, 0.04, 0.4, 4.0}) {
+    const double right = exactly_moved(mass, piston_duration);
+    EXPECT_NEAR(piston_moved(mass, step, piston_duration, 40) / right, 1, 0.003) << mass;
+    EXPECT_NEAR(piston_moved(mass, step, piston_duration, 1) / right, 1, 0.012) << mass;
+  }
+}
+
+// Where the step resolves what the cloth would do by itself, half of it leaves a quarter of the error.
+TEST(OpeningAir, StepsOfAirAndClothTogetherAreOfSecondOrder) {
+  constexpr double step = 1e-3;
+  constexpr int fine = 1500;  // the cloth's own steps are of first order
+  for (const double mass : {4e-3, 0.4}) {
+    const double right = exactly_moved(mass, piston_duration);
+    const double long_steps = piston_moved(mass, step, piston_duration, fine) - right,
+                 short_steps = piston_moved(mass, 0.5 * step, piston_duration, fine / 2) - right;
+    EXPECT_GT(std::abs(long_steps), 3.5 * std::abs(short_steps)) << mass;
+    EXPECT_LT(std::abs(long_steps), 0.01 * right) << mass;
+  }
+}
+
+constexpr int bag_cells = 16;  // across, of cloth and of air
+
+/// Cloth that is clamped round the duct and bulges like the end of a bag.
+Mesh end_of_a_bag() {
+  constexpr int n = bag_cells + 1;
+  Mesh mesh = across_the_duct(n, 0.04, 6e4);
+  std::fill(std::begin(mesh.patches[0].damping), std::end(mesh.patches[0].damping), 0.6);  // 1e-5 s
+  for (int i = 0; i < n * n; ++i)
+    if (i < n || i >= n * (n - 1) || i % n == 0 || i % n == n - 1) mesh.fixed.push_back(i);
+  return mesh;
+}
+
+struct Bulge {
+  double volume = 0, area = 0, pressure = 0;  // [m3], [m2]; in the mean over the cells [Pa]
+};
+Bulge bulge_of(const Mesh& mesh, const std::vector<Vec3>& x, const Loads& loads) {
+  Bulge bulge;
+  const std::vector<Triangle> surface = surface_of(cells_of(mesh), x);
+  bulge.area = surface_area(surface);
+  for (const Triangle& t : surface)
+    bulge.volume += 0.5 * std::abs(cross(t.b - t.a, t.c - t.a).z) * ((t.a.z + t.b.z + t.c.z) / 3 - sheet_at);
+  for (const double p : loads.cell_pressure) bulge.pressure += p / (bag_cells * bag_cells);
+  return bulge;
+}
+
+/// What the bag holds under one pressure after another, by its cloth alone.
+std::vector<Bulge> blown_up_bags() {
+  const Mesh mesh = end_of_a_bag();
+  std::vector<Bulge> bags{bulge_of(mesh, mesh.start, {})};
+  for (double pressure = 1; pressure < 2000; pressure *= 1.5) {
+    const BlownUp bag = blown_up(mesh, pressure, 1e-4);
+    bags.push_back(bulge_of(mesh, bag.positions(), bag.loads));
+    bags.back().pressure = pressure;
+  }
+  return bags;
+}
+
+/// The bag of that volume: its area and its pressure's cube root go about straight in between.
+Bulge bag_of(double volume, const std::vector<Bulge>& bags) {
+  std::size_t n = 1;
+  while (n + 1 < bags.size() && bags[n].volume < volume) ++n;
+  const Bulge &a = bags[n - 1], &b = bags[n];
+  const double share = (volume - a.volume) / (b.volume - a.volume);
+  const double root = std::cbrt(a.pressure) + share * (std::cbrt(b.pressure) - std::cbrt(a.pressure));
+  return {volume, a.area + share * (b.area - a.area), root * root * root};
+}
+
+// A bag of cloth that is filled at a constant flow Q and leaks: dV/dt = Q - p A / a, with p and A those of the same cloth
+// blown up to V.
+TEST(OpeningAir, ABagThatIsFilledHoldsWhatDoesNotLeak) {
+  constexpr double flow = 1, leaks = 1000, step = 2.5e-4;
+  const std::vector<Bulge> bags = blown_up_bags();
+  const Mesh mesh = end_of_a_bag();
+  Together duct(closed_duct(flow, leaks, bag_cells), mesh);
+  double volume = 0;
+  const auto fills = [&](double v) {
+    const Bulge bag = bag_of(v, bags);
+    return flow - bag.pressure * bag.area / leaks;
+  };
+  for (int n = 1; n <= 640; ++n) {
+    duct.step(step, 1, 0.9);
+    volume += step * fills(volume + 0.5 * step * fills(volume));
+    if (n % 64 != 0) continue;
+    const Bulge bag = bulge_of(mesh, duct.x, duct.loads), right = bag_of(volume, bags);
+    EXPECT_NEAR(bag.volume / volume, 1, 0.02) << n;
+    EXPECT_NEAR(bag.pressure, right.pressure, 20) << n;
+  }
+}
+
+// Where nothing leaks it holds what has flown in, and the pressure does not swing from step to step.
+TEST(OpeningAir, ATightBagHoldsWhatHasFlownIn) {
+  constexpr double flow = 1, step = 2.5e-4;
+  const Mesh mesh = end_of_a_bag();
+  Together duct(closed_duct(flow, 1e7, bag_cells), mesh);
+  double last = 0;
+  for (int n = 1; n <= 320; ++n) {
+    duct.step(step, 1, 0.9);
+    const Bulge bag = bulge_of(mesh, duct.x, duct.loads);
+    if (n >= 64) {
+      EXPECT_NEAR(bag.volume / (n * step * flow), 1, 0.012) << n;
+    }
+    if (n >= 200) {
+      EXPECT_NEAR(bag.pressure / last, 1, 0.03) << n;
+    }
+    last = bag.pressure;
+  }
+}
+
+TEST(OpeningAir, IsRefusedWithoutAnEngineOrWithoutASheet) {
+  const Mesh mesh = piston(0.04);
+  EXPECT_THROW(OpeningAir({closed_duct(), 0.5, nullptr}, mesh), Error);
+  FlowProblem bare = closed_duct();
+  bare.sheets.clear();
+  EXPECT_THROW(OpeningAir({bare, 0.5, make_cartesian({})}, mesh), Error);
+}
+
+// Under a pull that stays the same a payload falls as anything does.
+TEST(OpeningAir, APayloadIsSlowedDownByWhatTheRiserPulls) {
+  constexpr double mass = 2, gravity = 9, pull = 30, step = 1e-3;
+  const Mesh mesh = piston(0.04);
+  OpeningAir air({closed_duct(), 0.5, make_cartesian(one_thread()), Payload{mass, gravity}}, mesh);
+  AirMemory memory;
+  AirRow row;
+  const std::vector<Vec3> still(mesh.start.size());
+  for (int n = 0; n < 10; ++n) {
+    const Loads loads = air.step(mesh.start, {still}, step, memory, row);
+    air.fly(pull, step, memory);
+    EXPECT_NEAR(row.momentum_gap, 0, 1e-6) << n;
+    // On a kilogram that the air does not touch: the frame slows down as the payload does, and both fall.
+    EXPECT_NEAR(loads.node_force.back().z, n == 0 ? 0 : -pull / mass, 1e-9) << n;
+  }
+  // The pull of a step slows the next one down.
+  EXPECT_NEAR(memory.speed, duct_speed + 10 * step * gravity - 9 * step * pull / mass, 1e-9);
+  EXPECT_EQ(row.speed, memory.speed);
+  EXPECT_NEAR(memory.path, 10 * step * duct_speed, 1e-3);
+}
+
+// A constant drag area, of which a part is its own, has it fly as a mass point flies, which has another method: in speed,
+// in height, and as far as weight turns its path, through air that gets denser.
+TEST(OpeningAir, APayloadsPathTurnsAsThatOfAMassPoint) {
+  constexpr double mass = 2, area = 0.05, own_area = 0.02, step = 2e-3, height = 5000;
+  constexpr int steps = 20'000;
+  const Mesh mesh = piston(0.04);
+  for (const double angle : {90.0, 30.0, 0.0, -60.0}) {
+    FlowProblem duct = closed_duct();
+    duct.air.density = standard_air(height).density;
+    OpeningAir air({duct, 0.5, make_cartesian(one_thread()),
+                    Payload{mass, standard_gravity, angle, own_area, thickening_below(height)}},
+                   mesh);
+    AirMemory memory;
+    AirRow row;
+    air.step(mesh.start, {std::vector<Vec3>(mesh.start.size())}, step, memory, row);
+    for (int n = 0; n < steps; ++n) {
+      const double density = standard_air(height - memory.fallen).density;
+      air.fly(0.5 * density * memory.speed * memory.speed * area, step, memory);
+    }
+    FlightState flown{0, 0, 0, height, duct_speed, angle};
+    fly(flown, mass, {[](double, double) { return area + own_area; }, steps * step, step, 0});
+    EXPECT_NEAR(memory.speed / flown.speed, 1, 2e-3) << angle;
+    EXPECT_NEAR(memory.angle * 180 / std::numbers::pi, flown.path_angle, 0.1) << angle;
+    EXPECT_NEAR(memory.path / flown.distance, 1, 2e-3) << angle;
+    const double fallen = height - flown.height;
+    EXPECT_GT(fallen, 500) << "enough for a denser air to be felt";
+    EXPECT_NEAR(memory.fallen / fallen, 1, 2e-3) << angle;
+    if (angle == 90) {
+      EXPECT_NEAR(memory.fallen, memory.path, 1e-9 * fallen);
+    }
+  }
+}
+
+// Cloth that hardly gives way: what presses on it goes with the density where it is.
+TEST(OpeningAir, TheLoadGoesWithTheDensityOfTheHeight) {
+  constexpr double height = 5000, down = 3000;
+  const Mesh mesh = piston(1e6);
+  const auto first_step = [&](double fallen, double& brake) {
+    OpeningAir air(
+        {closed_duct(), 0.5, make_cartesian(one_thread()), Payload{2, 0, 90, 0.1, thickening_below(height)}},
+        mesh);
+    AirMemory memory;
+    memory.fallen = fallen;
+    AirRow row;
+    air.step(mesh.start, {std::vector<Vec3>(mesh.start.size())}, 1e-3, memory, row);
+    brake = memory.acceleration;
+    return std::array{row.drag, row.drag_area, memory.pressure.front()};
+  };
+  double slow = 0, slower = 0;
+  const auto high = first_step(0, slow), low = first_step(down, slower);
+  const double thicker = standard_air(height - down).density / standard_air(height).density;
+  EXPECT_GT(thicker, 1.3);
+  EXPECT_NEAR(low[0] / high[0], thicker, 1e-3 * thicker);
+  EXPECT_NEAR(low[1] / high[1], 1, 1e-3);
+  EXPECT_NEAR(low[2] / high[2], thicker, 1e-3 * thicker);
+  EXPECT_NEAR(slower / slow, thicker, 1e-9);
+}
+
+}  // namespace
+}  // namespace ripstop
