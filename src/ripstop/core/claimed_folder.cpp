@@ -306,7 +306,8 @@ std::vector<std::string> damaged_files(const fs::path& folder) {
   std::vector<std::string> names;
   for (const auto& [name, hash] : contents.items()) {
     if (hash.is_null()) continue;
-    if (!fs::exists(folder / name) || hash_file(folder / name) != hash) names.push_back(name);
+    if (!fs::exists(folder / name) || hash != nlohmann::ordered_json(hash_file(folder / name)))
+      names.push_back(name);
   }
   return names;
 }

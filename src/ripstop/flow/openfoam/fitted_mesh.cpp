@@ -333,7 +333,8 @@ const Patch& patch_of(const MeshPart& part, const std::string& name) {
 std::vector<Baffle> baffles_on(int number, const FlowBody& sheet, const MeshPart& part,
                                const Geometry& geometry) {
   const std::string name = name_of(static_cast<std::size_t>(number));
-  const Patch &low = patch_of(part, name + "_low"), &high = patch_of(part, name + "_high");
+  const std::string low_name = name + "_low", high_name = name + "_high";
+  const Patch &low = patch_of(part, low_name), &high = patch_of(part, high_name);
   const Nearest nearest(sheet.surface);
   std::vector<Baffle> baffles;
   std::vector<Triangle> faces;
