@@ -47,8 +47,8 @@ Vec3 normal_direction(const Attitude& attitude) {
 
 ForceComponents components(Vec3 force, const Attitude& attitude) {
   const Vec3 axis = unit(attitude.axis), wind = unit(attitude.wind), normal = normal_direction(attitude);
-  // The axis leans away from the wind towards -normal: lift is on that side.
-  const Vec3 lift = unit(across(-normal, wind));
+  // wind = cos(a) axis + sin(a) normal, so that this unit vector is normal to the wind, on the axis' side of it.
+  const Vec3 lift = dot(wind, normal) * axis - dot(wind, axis) * normal;
   return {dot(force, wind), dot(force, lift), dot(force, cross(wind, lift)), dot(force, axis),
           dot(force, normal)};
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "ripstop/core/error.h"
@@ -115,8 +116,11 @@ FlowField watch(Flow& flow, const FlowProblem& problem, const Watch& how, FlowRe
     const Record drag = record_of(record.steps, problem.air.direction());
     // At least until the stream has been through the box.
     const Vec3 size = problem.grid.size, stream = problem.air.velocity;
+    const auto along = [](double length, double speed) {
+      return speed == 0 ? std::numeric_limits<double>::infinity() : length / std::abs(speed);
+    };
     const double passage =
-        std::min({size.x / std::abs(stream.x), size.y / std::abs(stream.y), size.z / std::abs(stream.z)});
+        std::min({along(size.x, stream.x), along(size.y, stream.y), along(size.z, stream.z)});
     const double through = std::min(passage, 0.5 * record.watched());
     record.start_up = std::max(end_of_start_up(drag) - drag.begin, through);
     record.drag = mean_over_time(drag, drag.begin + record.start_up);
