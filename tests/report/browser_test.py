@@ -80,6 +80,9 @@ class Report(unittest.TestCase):
         shown = self.js("Object.fromEntries([...Page.shown().node.querySelectorAll('tr[data-key]')].map((r) => [r.dataset.key, r.cells[1].innerText]))")
         plain = {key: value for key, value in result.items() if not isinstance(value, dict) and key != "title" and value is not None}
         self.assertGreater(len(plain), 20)
+        note = self.js("[...Page.shown().node.querySelectorAll('[data-part=warnings] li')].map((one) => one.innerText)")
+        for warning in plain.pop("warnings"):
+            self.assertIn(warning, note)
         for key, value in plain.items():
             texts = shown[key].split(", ") if isinstance(value, list) else [shown[key]]
             for text, one in zip(texts, value if isinstance(value, list) else [value]):

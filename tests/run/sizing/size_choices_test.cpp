@@ -49,7 +49,7 @@ TEST(SizeChoices, EveryNumberIsThatOfTheParachuteOfItsCase) {
 }
 
 TEST(SizeChoices, TheLineIsTheLightestOfTheLibraryThatHolds) {
-  SizeRequest asked = wanted(20, 6);
+  SizeRequest asked = wanted(60, 6);
   asked.deployment_speed = 30;
   const SizeResult light = run_size(wanted()), heavy = run_size(asked);
   const auto density = [](const std::string& name) {

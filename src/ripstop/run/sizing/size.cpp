@@ -217,6 +217,7 @@ void warn(const SizeRequest& request, SizeResult& r) {
 }
 
 void describe_parachute(const SizeRequest& request, SizeResult& r) {
+  r.given.inflation.drag_coefficient = r.drag_coefficient;
   find_opening(request, r);
   r.line_used = used_of(r, suspension_line(r.given), "line");
   const Design& design = r.given.parachute;
