@@ -45,7 +45,8 @@ TEST_F(Check, MassesAndAreasAreThoseOfThePattern) {
   const double hems = 3.14159265 * (3 * 1.0 + 0.09), seams = 6 * (0.3 + 0.455), overlaps = (4 + 2 * 6) * 0.05;
   EXPECT_NEAR(report["mass_kg"]["tape"].get<double>(), 6e-3 * (hems + seams + overlaps), 1e-4);
   // Free line, band, gap, disk and loops at both ends, 2 g/m.
-  EXPECT_NEAR(report["mass_kg"]["lines"].get<double>(), 2e-3 * 18 * (1.5 + 0.3 + 0.07 + 0.455 + 2 * 0.1), 1e-6);
+  EXPECT_NEAR(report["mass_kg"]["lines"].get<double>(), 2e-3 * 18 * (1.5 + 0.3 + 0.07 + 0.455 + 2 * 0.1),
+              1e-6);
   EXPECT_NEAR(report["cloth_nodes"].get<double>(), 25600, 256);
   EXPECT_GT(report["stable_step_s"].get<double>(), 4e-7);  // what the paper's polar grid allowed
   EXPECT_EQ(report["flow_cells"], 1500000);

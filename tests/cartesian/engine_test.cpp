@@ -395,7 +395,8 @@ TEST(CartesianEngine, AStartFromCoarserGridsIsEasedBesideASheet) {
 
 TEST(CartesianEngine, DivergenceIsSaidWithIterationFieldAndPlace) {
   FlowProblem problem = open_box(12, 12, 16, 10);
-  problem.body_force.assign(problem.grid.cells(), {1e200, 0, 0});  // squares of velocities beyond double precision
+  problem.body_force.assign(problem.grid.cells(),
+                            {1e200, 0, 0});  // squares of velocities beyond double precision
   try {
     solve(*make_cartesian(with_threads(1)), problem);
     FAIL() << "no error";
