@@ -60,7 +60,7 @@ void print_result(const SizeResult& r, const fs::path& file, const fs::path& pag
           "{:.0f} N at {:.3g} m/s: {}; a line carries at most {:.2f} times an equal share, {:.0f} % of its "
           "allowable load",
           r.design_load, r.deployment_speed, r.design_load_from, r.line_load_factor, 100 * r.line_used));
-  row("opening load by methods that apply",
+  row("applicable methods",
       fmt::format("{:.0f} to {:.0f} N (ripstop load)", r.opening_load_low, r.opening_load));
   print_margins(r.margins);
   for (const SizeCheck& c : r.checks)

@@ -214,6 +214,11 @@ void warn(const SizeRequest& request, SizeResult& r) {
            flow_model,
            {{"Mach number", request.descent_rate / air.sound_speed}, {"Reynolds number", reynolds}}))
     r.warnings.push_back("drag coefficient: " + text);
+  if (r.parachute_mass > request.payload_mass)
+    r.warnings.push_back(
+        fmt::format("the parachute of {:.3g} kg is heavier than its payload of {:g} kg: the rate is "
+                    "close to that of the cloth alone",
+                    r.parachute_mass, request.payload_mass));
 }
 
 void describe_parachute(const SizeRequest& request, SizeResult& r) {
