@@ -133,7 +133,7 @@ TEST(Chute, NothingOfTheFileIsSilentlyLeftOut) {
     EXPECT_TRUE(says(result.not_mapped, words)) << words;
   for (const char* words : {"1 / 3 of integers is 0", "0.135 m below the highest place", "end in a point"})
     EXPECT_TRUE(says(result.changed, words)) << words;
-  for (const char* words : {"9 lines", "--line-length", "those of F-111", "sewn to it", "flow:"})
+  for (const char* words : {"9 lines", "--line-length", "values of F-111", "sewn to it", "flow:"})
     EXPECT_TRUE(says(result.assumed, words)) << words;
   const Case given = parse_case(result.case_text, "case.toml");
   EXPECT_EQ(given.title, "Odd \"one\"\\x07");
@@ -167,7 +167,7 @@ TEST(Chute, AKeyThatNobodyKnowsIsSaidWhereverItStands) {
       nlohmann::json file = sound;
       file[nlohmann::json::json_pointer(place + "/surplus")] = 1;
       const ChuteFile read = read_chute(file.dump(), "x");
-      EXPECT_TRUE(says(read.not_mapped, "surplus: a key that Ripstop does not know")) << name << place;
+      EXPECT_TRUE(says(read.not_mapped, "surplus: unknown key, ignored")) << name << place;
       const std::string kind = place.substr(place.rfind('/') + 1);
       kinds.insert(std::isdigit(static_cast<unsigned char>(kind[0])) ? "" : kind);
     }
@@ -254,7 +254,7 @@ const BadChute bad_chutes[] = {
     {"NoValue", "elliptical", "math::asin(vent_share)", "math::asin(vent_share*10)", "has no finite value"},
     {"NameTwice", "elliptical", "\"id\": \"height\"", "\"id\": \"radius\"", "is used twice"},
     {"NameOfAUnit", "elliptical", "\"id\": \"diameter\"", "\"id\": \"mm\"", "is used twice"},
-    {"NoName", "elliptical", "\"id\": \"diameter\"", "\"id\": \"2d\"", "is no name"},
+    {"NoName", "elliptical", "\"id\": \"diameter\"", "\"id\": \"2d\"", "is not a valid name"},
     {"MissingKey", "elliptical", "\"radius_x\": \"radius\"", "\"radius_z\": \"radius\"",
      "EllipseArc: the key \"radius_x\" is missing"},
     {"NoNumber", "elliptical", "\"value\": 0.9", "\"value\": \"0.9\"",
@@ -264,12 +264,13 @@ const BadChute bad_chutes[] = {
     {"UnknownShape", "elliptical", "\"EllipseArc\"", "\"Spline\"",
      "objects[0]: must be \"Line\", \"EllipseArc\" or \"PointList\""},
     {"TwoGores", "elliptical", "\"gores\": 10", "\"gores\": 2", "Ripstop needs at least 3"},
-    {"OnlySlots", "elliptical", "\"gores\": 10", "\"gores\": 0", "no section with gores, so nothing to cut"},
+    {"OnlySlots", "elliptical", "\"gores\": 10", "\"gores\": 0",
+     "no section with gores; the design needs at least one"},
     {"HalfAGore", "elliptical", "\"gores\": 10", "\"gores\": 9.5", "whole number"},
     {"AcrossTheAxis", "elliptical", "\"0.5*pi-vent_angle\"", "\"0.7*pi\"", "the meridian crosses the axis"},
     {"NoLength", "elliptical", "\"0.5*pi-vent_angle\"", "\"0\"", "the arc has no length"},
     {"GoresThatDiffer", "sails", "\"gores\": 12", "\"gores\": 11", "the seams of all pieces"},
-    {"FullnessUnderZero", "sails", "0.08", "-0.08", "must not be under 0"},
+    {"FullnessUnderZero", "sails", "0.08", "-0.08", "must be at least 0"},
     {"NotJson", "sails", "{", "[", "not JSON"},
     {"WideCross", "cross", "\"value\": 3.0", "\"value\": 0.5", "wider than long"},
 };
@@ -347,7 +348,7 @@ TEST(Chute, ASectionOfNoGoresIsASlotAndNoCloth) {
   slot.replace(gores, slot.find(',', gores) - gores, "0");
   const ChuteFile open = read_chute(slot, "x");
   EXPECT_EQ(open.sections.size(), file.sections.size() - 1);
-  EXPECT_TRUE(says(open.not_mapped, "of 0 gores"));
+  EXPECT_TRUE(says(open.not_mapped, ": 0 gores"));
 }
 
 TEST(Chute, ALongFormulaIsCutInTheMessage) {

@@ -277,7 +277,7 @@ void Reader::unknown(const Node& node, const std::string& prefix, const std::vec
   shown = shown.substr(1, shown.size() - 2);
   problems_.push_back({origin(node.key_place), joined(prefix, shown), "",
                        fmt::format("{}", fmt::join(known, ", ")),
-                       near.empty() ? fmt::format("unknown {}; known here: {}", what, fmt::join(known, ", "))
+                       near.empty() ? fmt::format("unknown {}; valid here: {}", what, fmt::join(known, ", "))
                                     : fmt::format("unknown {}; did you mean {}?", what, quoted(near))});
 }
 
