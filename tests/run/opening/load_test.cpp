@@ -287,7 +287,7 @@ TEST(Load, WhatFillsSlowlyUnderGravityIsNotForMethodsWithoutIt) {
   EXPECT_FALSE(method(stage, "Pflanz").applies || method(stage, "Ludtke").applies);
   const std::string note = method(stage, "Pflanz").note;
   EXPECT_EQ(note.find("neglects gravity, which adds "), 0u) << note;
-  EXPECT_NEAR(std::stod(note.substr(27)), 100 * share, 0.51) << note;
+  EXPECT_NEAR(std::stod(note.substr(29)), 100 * share, 0.51) << note;
   LoadRequest level = request(8, 15);
   level.path_angle = 0;  // none along the way
   EXPECT_TRUE(method(run_load(resolve(flat_circular()), level).stages[0], "Pflanz").applies);

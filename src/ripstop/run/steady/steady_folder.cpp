@@ -208,7 +208,7 @@ void SteadyFolder::write_drag_plot(const SteadyState& state, const std::string& 
   plot.title = title;
   plot.x.label = "coupling iteration";
   plot.y.label = "axial force [N]";
-  for (const char* name : {"air load", "cloth load", "line tension"}) plot.series.emplace_back().name = name;
+  for (const char* name : {"air load", "cloth load", "line load"}) plot.series.emplace_back().name = name;
   for (const SteadyIteration& i : state.iterations) {
     const double forces[] = {i.fluid_force, i.nodal_load, i.line_tension};
     for (std::size_t s = 0; s < plot.series.size(); ++s) {
