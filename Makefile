@@ -10,9 +10,11 @@ PACKAGES := build-essential cmake ninja-build pkg-config libtomlplusplus-dev lib
   openfoam openmpi-bin
 SLURM_PACKAGES := slurmctld slurmd slurm-client munge
 FUZZ_PACKAGES := clang libclang-rt-dev
+# What puts libraries beside a program that leaves this machine.
+PORTABLE_PACKAGES := patchelf
 # What the Python package needs, and what a wheel of it needs beyond that.
 PYTHON_PACKAGES := python3-dev pybind11-dev python3-numpy
-WHEEL_PACKAGES := python3-pip python3-setuptools python3-wheel
+WHEEL_PACKAGES := python3-pip python3-setuptools python3-wheel $(PORTABLE_PACKAGES)
 CHECK_PACKAGES := libgtest-dev libbenchmark-dev python3 python3-jsonschema python3-vtk9 python3-venv clang-format chromium \
   $(PYTHON_PACKAGES) $(WHEEL_PACKAGES)
 
@@ -27,7 +29,7 @@ ARCH_CHECK := gtest benchmark python pybind11 python-numpy python-jsonschema
 
 export PATH := /usr/bin:$(PATH)
 
-.PHONY: help deps check-deps build demo check room sanitize sanitize-thread fuzz mutants coverage tidy bench validate validate-ojf validate-families validate-families-in-time validate-openings judge torture test-slurm test-hosts test-debian12 test-debian13 scaling docs reference report-libraries format format-check install-build install wheel package clean
+.PHONY: help deps check-deps build demo check room sanitize sanitize-thread fuzz mutants coverage tidy bench validate validate-ojf validate-families validate-families-in-time validate-openings judge torture test-slurm test-hosts test-debian12 test-debian13 scaling docs reference report-libraries format format-check install-build install wheel tarball package clean
 
 help:  ## This list
 	@grep -hE '^[a-z0-9-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -215,6 +217,10 @@ wheel: install-build  ## The Python package as a wheel in build/wheel/
 	$(call install_missing,$(WHEEL_PACKAGES))
 	@cmake --build --preset program -j $(JOBS) --target wheel
 	@ls build/wheel/*.whl
+
+tarball: install-build docs  ## A portable archive in build/portable/: program, its libraries, materials, examples, documentation
+	$(call install_missing,$(PORTABLE_PACKAGES))
+	@/usr/bin/python3 -B packaging/tarball.py --build build --site build-docs/site --out build/portable
 
 package: install-build  ## Debian packages in build/
 	@cd build && cpack -G DEB

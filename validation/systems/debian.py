@@ -35,7 +35,7 @@ def make_root(root, release, mirror):
     part = root.with_name(root.name + ".part")
     shutil.rmtree(part, ignore_errors=True)
     part.parent.mkdir(parents=True, exist_ok=True)
-    subprocess.run(["debootstrap", "--variant=minbase", release, str(part), mirror], check=True)
+    subprocess.run(["debootstrap", "--variant=minbase", release, str(part), mirror], check=True, stdout=subprocess.DEVNULL)
     part.rename(root)
 
 
