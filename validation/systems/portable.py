@@ -32,7 +32,7 @@ def result_of(folder):
     result = json.loads((folder / "result.json").read_text())
     if not result["converged"]:
         raise SystemExit(f"{folder} has not converged")
-    return {"drag": f"{result['drag_n']:.4f}", "iterations": result["iterations"],
+    return {"drag": f"{result['drag_n']:.4f}", "iterations": result["coupling_iterations"],
             "pictures": {path.name: path.read_bytes() for path in sorted(folder.rglob("*.png"))}}
 
 
@@ -65,7 +65,7 @@ def trial(options, release, file):
     else:
         debian.run_in(root, f"tar -xf {file.name} && ln -s ripstop-*/bin/ripstop ripstop")
         program = "./ripstop"
-    debian.run_in(root, f"{program} steady my-canopy.toml --threads 1 --out run")
+    debian.run_in(root, f"{program} steady my-canopy.toml --set coupling.threads=1 --out run")
     return result_of(work / "run")
 
 
@@ -77,10 +77,9 @@ def main():
     parser.add_argument("--mirror", default="http://deb.debian.org/debian")
     options = parser.parse_args()
     here = options.roots / "here"
-    shutil.rmtree(here, ignore_errors=True)
-    here.mkdir(parents=True)
+    here.mkdir(parents=True, exist_ok=True)
     (here / "my-canopy.toml").write_text(case())
-    subprocess.run([str(options.ripstop.resolve()), "steady", "my-canopy.toml", "--threads", "1", "--out", "run"], cwd=here, check=True)
+    subprocess.run([str(options.ripstop.resolve()), "steady", "my-canopy.toml", "--set", "coupling.threads=1", "--out", "run"], cwd=here, check=True)
     expected = result_of(here / "run")
     rows = []
     for file in options.files:
