@@ -16,7 +16,7 @@ PORTABLE_PACKAGES := patchelf
 PYTHON_PACKAGES := python3-dev pybind11-dev python3-numpy
 WHEEL_PACKAGES := python3-pip python3-setuptools python3-wheel $(PORTABLE_PACKAGES)
 CHECK_PACKAGES := libgtest-dev libbenchmark-dev python3 python3-jsonschema python3-vtk9 python3-venv clang-format chromium \
-  $(PYTHON_PACKAGES) $(WHEEL_PACKAGES)
+  zsh fish   $(PYTHON_PACKAGES) $(WHEEL_PACKAGES)
 
 DOCS_PACKAGES := mkdocs-material libjs-katex fonts-katex doxygen
 
