@@ -28,7 +28,8 @@ std::optional<int> cgroup_processors(const fs::path& root) {
   for (std::string line; std::getline(groups, line);) {  // "0::/path", or "3:cpu,cpuacct:/path" of version 1
     const std::size_t first = line.find(':'), second = line.find(':', first + 1);
     if (second == std::string::npos) continue;
-    const std::string controllers = "," + line.substr(first + 1, second - first - 1) + ",";
+    std::string controllers(1, ',');
+    controllers.append(line, first + 1, second - first - 1).append(1, ',');
     const bool version_2 = controllers == ",,";
     if (!version_2 && controllers.find(",cpu,") == std::string::npos) continue;
     const fs::path mount = root / (version_2 ? "sys/fs/cgroup" : "sys/fs/cgroup/cpu");
