@@ -1,4 +1,4 @@
-# Ripstop's commands. On a fresh Debian 12, as root or with sudo: `make demo` and `make check` do everything.
+# Ripstop's commands. On a fresh Debian 12 or 13, as root or with sudo: `make demo` and `make check` do everything.
 
 JOBS := $(shell nproc)
 SUDO := $(shell [ $$(id -u) = 0 ] || echo sudo)
@@ -9,30 +9,50 @@ PACKAGES := build-essential cmake ninja-build pkg-config libtomlplusplus-dev lib
   libeigen3-dev nlohmann-json3-dev libnlopt-dev libhwy-dev libpng-dev libcairo2-dev fonts-dejavu-core libxxhash-dev zlib1g-dev \
   openfoam openmpi-bin
 SLURM_PACKAGES := slurmctld slurmd slurm-client munge
-FUZZ_PACKAGES := clang libclang-rt-14-dev
+FUZZ_PACKAGES := clang libclang-rt-dev
+# What puts libraries beside a program that leaves this machine.
+PORTABLE_PACKAGES := patchelf
 # What the Python package needs, and what a wheel of it needs beyond that.
 PYTHON_PACKAGES := python3-dev pybind11-dev python3-numpy
-WHEEL_PACKAGES := python3-pip python3-setuptools python3-wheel
+WHEEL_PACKAGES := python3-pip python3-setuptools python3-wheel $(PORTABLE_PACKAGES)
 CHECK_PACKAGES := libgtest-dev libbenchmark-dev python3 python3-jsonschema python3-vtk9 python3-venv clang-format chromium \
-  $(PYTHON_PACKAGES) $(WHEEL_PACKAGES)
+  zsh fish   $(PYTHON_PACKAGES) $(WHEEL_PACKAGES)
 
 DOCS_PACKAGES := mkdocs-material libjs-katex fonts-katex doxygen
 
+# The same where there is no apt, from packages.fedoraproject.org and archlinux.org/packages; not tested. Neither has OpenFOAM.
+FEDORA := gcc-c++ make cmake ninja-build pkgconf-pkg-config tomlplusplus-devel cli11-devel fmt-devel eigen3-devel json-devel \
+  NLopt-devel highway-devel libpng-devel cairo-devel dejavu-sans-fonts xxhash-devel zlib-devel
+FEDORA_CHECK := gtest-devel google-benchmark-devel python3-devel pybind11-devel python3-numpy python3-jsonschema
+ARCH := base-devel cmake ninja tomlplusplus cli11 fmt eigen nlohmann-json nlopt highway libpng cairo ttf-dejavu xxhash zlib
+ARCH_CHECK := gtest benchmark python pybind11 python-numpy python-jsonschema
+
 export PATH := /usr/bin:$(PATH)
 
-.PHONY: help deps check-deps build demo check room sanitize sanitize-thread fuzz mutants coverage tidy bench validate validate-ojf validate-families validate-families-in-time validate-openings judge torture test-slurm test-hosts scaling docs reference report-libraries format format-check install-build install wheel package clean
+.PHONY: help deps check-deps build demo check room sanitize sanitize-thread fuzz mutants coverage tidy bench validate validate-ojf validate-families validate-families-in-time validate-openings judge torture test-slurm test-hosts test-debian12 test-debian13 scaling docs reference report-libraries format format-check install-build install wheel tarball test-portable package clean
 
 help:  ## This list
-	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
+	@grep -hE '^[a-z0-9-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
+
+define other_systems
+echo "Packages are installed automatically with apt only (Debian 12 and 13). Elsewhere install them first; CMake names what is missing."; \
+  echo "  Fedora:     sudo dnf install $(FEDORA)"; \
+  echo "  Arch Linux: sudo pacman -S --needed $(ARCH)"; \
+  echo "For the tests also:"; \
+  echo "  Fedora:     sudo dnf install $(FEDORA_CHECK)"; \
+  echo "  Arch Linux: sudo pacman -S --needed $(ARCH_CHECK)"; \
+  echo "OpenFOAM is optional, for --flow openfoam: https://www.openfoam.com/download"
+endef
 
 define install_missing
-	@missing=""; for p in $(1); do \
+	@if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then $(other_systems); exit 0; fi; \
+	missing=""; for p in $(1); do \
 	  dpkg-query -W -f='$${Status}' $$p 2>/dev/null | grep -q 'install ok installed' || missing="$$missing $$p"; done; \
 	if [ -n "$$missing" ]; then echo "Installing:$$missing"; $(SUDO) apt-get -o DPkg::Lock::Timeout=600 update -q && \
 	  DEBIAN_FRONTEND=noninteractive $(SUDO) apt-get -o DPkg::Lock::Timeout=600 install -y -q --no-install-recommends $$missing; fi
 endef
 
-deps:  ## Install what building and running need (apt)
+deps:  ## Install what building and running need (apt), or list the packages of Fedora and Arch Linux
 	$(call install_missing,$(PACKAGES))
 
 check-deps: deps
@@ -146,6 +166,17 @@ test-hosts: build  ## OpenFOAM's ranks on two hosts, network namespaces of this 
 	$(call install_missing,iproute2)
 	@/usr/bin/python3 validation/cluster/hosts.py --ripstop build/bin/ripstop
 
+define test_debian
+	$(call install_missing,debootstrap iproute2 git)
+	@/usr/bin/python3 validation/systems/debian.py $(1) --jobs $(JOBS) $(SYSTEMS)
+endef
+
+test-debian13:  ## Build, tests and demo in an empty root of Debian 13, made by debootstrap (as root), into docs/tables: an hour
+	$(call test_debian,13)
+
+test-debian12:  ## The same in an empty root of Debian 12
+	$(call test_debian,12)
+
 scaling: build  ## OpenFOAM's time an iteration on 1, 2, 4 ... ranks up to the cores, into docs/tables; on an idle machine
 	@/usr/bin/python3 validation/cluster/ranks.py --ripstop build/bin/ripstop
 
@@ -169,8 +200,10 @@ tidy: check-deps  ## clang-tidy over src and apps, on all cores (no part of chec
 	@cmake --preset debug > /dev/null
 	@run-clang-tidy -quiet -p build-debug -j $(JOBS) '^$(CURDIR)/(src|apps)/'
 
+# Other versions of clang-format break some lines differently; the format is that of Debian 12's.
 format-check:
-	@git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run -Werror
+	@case "$$(clang-format --version)" in *"version 14."*) git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run -Werror;; \
+	  *) echo "The format of the sources is not checked: it is that of clang-format 14 (Debian 12).";; esac
 
 install-build: deps
 	$(call install_missing,$(PYTHON_PACKAGES))
@@ -184,6 +217,14 @@ wheel: install-build  ## The Python package as a wheel in build/wheel/
 	$(call install_missing,$(WHEEL_PACKAGES))
 	@cmake --build --preset program -j $(JOBS) --target wheel
 	@ls build/wheel/*.whl
+
+tarball: install-build docs  ## A portable archive in build/portable/: program, its libraries, materials, examples, documentation
+	$(call install_missing,$(PORTABLE_PACKAGES))
+	@/usr/bin/python3 -B packaging/tarball.py --build build --site build-docs/site --out build/portable
+
+test-portable: tarball wheel  ## Archive and wheel in empty roots of Debian 12 and 13 (as root, by debootstrap), into docs/tables; PORTABLE=--coarse
+	$(call install_missing,debootstrap iproute2)
+	@/usr/bin/python3 validation/systems/portable.py --ripstop build/bin/ripstop $(PORTABLE) build/portable/*.tar.gz build/wheel/*.whl
 
 package: install-build  ## Debian packages in build/
 	@cd build && cpack -G DEB

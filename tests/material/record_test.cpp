@@ -170,6 +170,26 @@ TEST_F(Bench, RecordsThatAreNotOnePullAreRefusedWithLineAndReason) {
       ":44:", "factor of 1000");
 }
 
+TEST_F(Bench, ReadsASyntheticRecordAsItIsMadeWithoutText) {
+  SyntheticRecord wanted;
+  wanted.load = [](double e) { return 30006 * e - 18936 * e * e; };
+  for (const double width : {0.05, 0.0}) {
+    wanted.width = width;
+    std::mt19937 random(3), same(3);
+    const TensileRecord made = synthetic_record(wanted, random);
+    const TensileRecord read = parse_record(synthetic_csv(wanted, same), "s.csv");
+    EXPECT_EQ(random, same);
+    EXPECT_NEAR(read.coupon.length, made.coupon.length, 1e-15);
+    EXPECT_NEAR(read.coupon.width, made.coupon.width, 1e-15);
+    EXPECT_EQ(read.coupon.orientation, made.coupon.orientation);
+    EXPECT_EQ(read.line, made.line);
+    EXPECT_EQ(read.force, made.force);
+    ASSERT_EQ(read.displacement.size(), made.displacement.size());
+    for (std::size_t i = 0; i < read.displacement.size(); ++i)
+      EXPECT_NEAR(read.displacement[i], made.displacement[i], 1e-15);
+  }
+}
+
 TEST_F(Bench, SlackOffsetAndFailureAreCutAndSaid) {
   std::mt19937 random(3);
   SyntheticRecord wanted;

@@ -39,11 +39,11 @@ const std::vector<QualityLimit>& quality_limits() {
   return limits;
 }
 
-const QualityLimit& quality_limit(const std::string& key) {
+const QualityLimit& quality_limit(std::string_view key) {
   const auto& all = quality_limits();
   const auto found =
       std::find_if(all.begin(), all.end(), [&](const auto& limit) { return limit.key == key; });
-  if (found == all.end()) throw std::logic_error("no quality limit for " + key);
+  if (found == all.end()) throw std::logic_error("no quality limit for " + std::string(key));
   return *found;
 }
 
