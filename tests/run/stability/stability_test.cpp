@@ -121,8 +121,8 @@ StabilityRow in_time(const FlowProblem& problem, double angle) {
   const auto engine = make_cartesian(settings);
   const auto flow = engine->start(problem);
   FlowRecord record;
-  return watch_angle(*flow, problem, angle, {.standard_error = 0.1, .shortest = 4, .longest = 8, .length = 1},
-                     {1.2, pi / 4, 1}, record);
+  watch(*flow, problem, {.standard_error = 0.1, .shortest = 4, .longest = 8, .length = 1}, record);
+  return row_of_record(record, problem.air, angle, {1.2, pi / 4, 1});
 }
 
 TEST(StabilityRow, OfAFlatDiskHasAForceAlongTheAxisAndNoMomentAboutAPointOnIt) {

@@ -5,14 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "ripstop/canopy/shape.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/case/resolve.h"
 #include "ripstop/core/error.h"
-#include "ripstop/core/hash.h"
 #include "ripstop/flow/statistics.h"
-#include "ripstop/flow/steady.h"
 #include "ripstop/fsi/transfer.h"
 #include "ripstop/run/engine.h"
 #include "ripstop/run/json.h"
@@ -167,9 +166,27 @@ RigidCanopy rigid_canopy(const Settings& resolved, const std::vector<Vec3>& shap
   canopy.surface = surface_of(cells_of(mesh), shape);
   canopy.confluence = shape.at(static_cast<std::size_t>(mesh.rigging.confluence));
   canopy.width = canopy_size(mesh, shape).projected_diameter;
-  const auto* bytes = reinterpret_cast<const char*>(canopy.surface.data());
-  canopy.shape = hash_bytes(std::string(bytes, canopy.surface.size() * sizeof(Triangle)));
   return canopy;
+}
+
+// The vent is the ring of cloth that is nearest to the axis. Its nodes lie on a polygon.
+CanopyMesh restrained_mesh(const Settings& resolved, const SteadyState& state) {
+  constexpr double polygon = 1.1;  // largest to smallest radius of a ring, with a margin
+  CanopyMesh mesh = parachute_mesh(resolved);
+  std::set<int> cloth;
+  for (const Cell& cell : cells_of(mesh))
+    if (cell.corner[0] >= 0) cloth.insert(std::begin(cell.corner), std::end(cell.corner));
+  for (const Tie& tie : mesh.ties) cloth.erase(tie.node);  // follows other nodes
+  const auto radius = [&](int node) { return std::hypot(mesh.start[node].x, mesh.start[node].y); };
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const int node : cloth) nearest = std::min(nearest, radius(node));
+  std::set<int> fixed(mesh.fixed.begin(), mesh.fixed.end());
+  fixed.insert(mesh.rigging.confluence);
+  for (const int node : cloth)
+    if (radius(node) <= polygon * nearest + 1e-9) fixed.insert(node);
+  mesh.fixed.assign(fixed.begin(), fixed.end());
+  for (const int node : mesh.fixed) mesh.start[node] = state.shape[node];
+  return mesh;
 }
 
 FlowProblem stability_flow(const Settings& at_angle, const RigidCanopy& canopy, int across, double widest) {
@@ -278,10 +295,9 @@ void turn_stream(Flow& flow, Vec3 from, Vec3 to, double length, double courant) 
   flow.stream(to, {});
 }
 
-StabilityRow watch_angle(Flow& flow, const FlowProblem& problem, double angle, const Watch& window,
-                         const Reference& reference, FlowRecord& record, const WatchReport& report) {
-  watch(flow, problem, window, record, report);
-  const Attitude attitude = attitude_in(problem.air.velocity);
+StabilityRow row_of_record(const FlowRecord& record, const Freestream& air, double angle,
+                           const Reference& reference) {
+  const Attitude attitude = attitude_in(air.velocity);
   std::vector<Coefficients> steps;
   for (const FlowStep& step : record.steps)
     steps.push_back(coefficients(step.bodies.at(0), attitude, reference));
@@ -303,11 +319,9 @@ StabilityRow watch_angle(Flow& flow, const FlowProblem& problem, double angle, c
   return row;
 }
 
-StabilityRow settle_angle(Flow& flow, const FlowProblem& problem, double angle, const Reference& reference,
-                          const FlowReport& report) {
-  const FlowField field = solve_to_rest(flow, problem.stopping, report);
-  const Attitude attitude = attitude_in(problem.air.velocity);
-  const Coefficients c = coefficients(field.bodies.at(0), attitude, reference);
+StabilityRow row_of_field(const FlowField& field, const Freestream& air, double angle,
+                          const Reference& reference) {
+  const Coefficients c = coefficients(field.bodies.at(0), attitude_in(air.velocity), reference);
   StabilityRow row;
   row.angle = angle;
   row.c_t = c.tangential, row.c_n = c.normal, row.c_m = c.moment;

@@ -14,6 +14,8 @@
 #include "ripstop/flow/flow.h"
 #include "ripstop/flow/projections.h"
 #include "ripstop/flow/unsteady.h"
+#include "ripstop/fsi/steady_state.h"
+#include "ripstop/parachute/canopy_mesh.h"
 
 namespace ripstop {
 
@@ -34,12 +36,14 @@ std::vector<Settings> stability_cases(const Case& given, const std::vector<doubl
 /// The canopy as the flow sees it.
 struct RigidCanopy {
   std::vector<Triangle> surface;
-  Vec3 confluence;    // [m]
-  double width = 0;   // projected diameter [m]
-  std::string shape;  // hash of the surface
+  Vec3 confluence;   // [m]
+  double width = 0;  // projected diameter [m]
 };
 /// Nodes of a steady run of `resolved`.
 RigidCanopy rigid_canopy(const Settings& resolved, const std::vector<Vec3>& shape);
+
+/// The mesh of that run with the vent and the confluence fixed where they are in `state`: the axis keeps its direction.
+CanopyMesh restrained_mesh(const Settings& resolved, const SteadyState& state);
 
 /// Cells for all angles up to the widest one: `across` of them over the projected diameter, in a core that contains the
 /// canopy and one diameter of its wake at any of the angles. Far field on all six faces, four and a half widths away.
@@ -137,11 +141,12 @@ std::string to_json(const StabilityResult& result);
 /// velocity changes in the far field and, as in a frame that accelerates, in all of the air.
 void turn_stream(Flow& flow, Vec3 from, Vec3 to, double length, double courant);
 
-/// One angle [degrees], in time, from where the flow is. `record` receives its steps.
-StabilityRow watch_angle(Flow& flow, const FlowProblem& problem, double angle, const Watch& window,
-                         const Reference& reference, FlowRecord& record, const WatchReport& report = {});
-/// The same for a flow without time: to rest.
-StabilityRow settle_angle(Flow& flow, const FlowProblem& problem, double angle, const Reference& reference,
-                          const FlowReport& report = {});
+/// One angle [degrees] from an averaging window: means of the coefficients of the canopy, which is the first body, without
+/// the start-up.
+StabilityRow row_of_record(const FlowRecord& record, const Freestream& air, double angle,
+                           const Reference& reference);
+/// The same from a steady flow.
+StabilityRow row_of_field(const FlowField& field, const Freestream& air, double angle,
+                          const Reference& reference);
 
 }  // namespace ripstop

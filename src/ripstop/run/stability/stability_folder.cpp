@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
 #include "ripstop/case/assemble.h"
@@ -13,10 +14,14 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/core/thread_team.h"
+#include "ripstop/flow/steady.h"
+#include "ripstop/flow/stl.h"
+#include "ripstop/fsi/next_load.h"
 #include "ripstop/output/csv.h"
 #include "ripstop/run/engine.h"
 #include "ripstop/run/json.h"
 #include "ripstop/run/stability/stability_files.h"
+#include "ripstop/run/steady/checkpoint.h"
 #include "ripstop/run/steady/steady_folder.h"
 
 namespace ripstop {
@@ -29,6 +34,14 @@ constexpr const char* axis_name = "axis";
 
 /// The stream turns from one angle to the next while it passes one inflated diameter.
 constexpr double turning_diameters = 1;
+
+constexpr double usual_windows = 4;  // of an angle in equilibrium, for the remaining time
+
+std::string watch_text(const WatchProgress& p, const Freestream& air) {
+  const double drag = dot(p.step.force, air.direction());
+  return p.mean != 0 ? fmt::format("drag {:.2f} N, mean {:.2f} +- {:.2g} N", drag, p.mean, p.standard_error)
+                     : fmt::format("drag {:.2f} N, start-up", drag);
+}
 
 void check_folder(const fs::path& folder) {
   if (!fs::exists(folder / description) && !foreign_files(folder).empty())
@@ -43,25 +56,29 @@ void check_folder(const fs::path& folder) {
 class Curve {
  public:
   Curve(const Case& given, const std::vector<double>& angles, const StabilitySettings& settings)
-      : settings_(settings), angles_(angles), cases_(stability_cases(given, angles)) {
-    Case on_axis = given;
-    on_axis.flow.angle_of_attack_deg = 0;
-    axis_.push_back(resolve(on_axis));
+      : settings_(settings),
+        angles_(angles),
+        cases_(stability_cases(given, angles)),
+        axis_(resolve(given)),
+        shape_of_(axis_) {
+    if (settings.equilibrium && !in_time())
+      throw Error(ExitCode::usage,
+                  fmt::format("--equilibrium: the engine \"{}\" has no flow in time; leave the option out",
+                              axis_.flow().engine));
   }
 
   void check() const {
     check_folder(settings_.run.folder);
     if (settings_.steady.empty())
-      check_steady_in(axis_settings(), axis());
+      check_steady_in(axis_settings(), axis_);
     else
-      drag_for_opening(settings_.steady, axis());
+      drag_for_opening(settings_.steady, axis_);
     for (std::size_t i = 0; i < cases_.size(); ++i) holds_run(run_settings(i), cases_[i], inputs(i));
   }
 
   StabilityResult run(StabilityObserver& observer);
 
  private:
-  const Settings& axis() const { return axis_.front(); }
   fs::path axis_folder() const {
     return settings_.steady.empty() ? settings_.run.folder / axis_name : settings_.steady;
   }
@@ -75,13 +92,13 @@ class Curve {
             {},
             settings_.elsewhere};
   }
-  std::string engine_name() const { return engine_of(axis()).name(engine_options(axis())); }
-  bool in_time() const { return engine_of(axis()).can.time; }
+  std::string engine_name() const { return engine_of(axis_).name(engine_options(axis_)); }
+  bool in_time() const { return engine_of(axis_).can.time; }
   bool starts_from_neighbour(std::size_t i) const { return settings_.warm && in_time() && i > 0; }
 
   /// What a row depends on beside its case: the shape, the cells, and the angles that its flow has been at.
   std::string inputs(std::size_t i) const {
-    const std::string shape = settings_.steady.empty() ? inputs_hash(axis(), engine_name())
+    const std::string shape = settings_.steady.empty() ? inputs_hash(axis_, engine_name())
                                                        : inputs_of_run(settings_.steady).value_or("");
     std::string text = fmt::format("{}\nstability\nshape {}\n{} cells across\nwidest {}\n", engine_name(),
                                    shape, settings_.across, csv_number(angles_.back()));
@@ -90,18 +107,30 @@ class Curve {
     return text;
   }
 
-  Freestream air_at(std::size_t i) const { return flow_problem(cases_[i]).air; }
+  int threads(std::size_t i) const {
+    return settings_.threads > 0 ? settings_.threads : cases_[i].coupling().threads;
+  }
+  FlowProblem flow_at(std::size_t i) const {
+    return stability_flow(cases_[i], canopy_, settings_.across, angles_.back());
+  }
+  Watch window(std::size_t i) const;
 
   std::unique_ptr<ClaimedFolder> open() const;
   void take_shape(StabilityObserver& observer);
   StabilityRow run_angle(std::size_t i, StabilityObserver& observer);
-  StabilityRow compute_in_time(std::size_t i, ClaimedFolder& folder, FlowEngine& engine,
-                               StabilityObserver& observer);
+  std::optional<SteadyState> start_from_neighbour(std::size_t i, Flow& flow) const;
+  StabilityRow rigid_in_time(std::size_t i, ClaimedFolder& folder, FlowEngine& engine,
+                             StabilityObserver& observer);
+  StabilityRow equilibrium_in_time(std::size_t i, ClaimedFolder& folder, FlowEngine& engine,
+                                   StabilityObserver& observer);
+  StabilityRow at_rest(std::size_t i, FlowEngine& engine, StabilityObserver& observer);
   void write(ClaimedFolder& folder) const { write_stability_files(folder, result_); }
 
   const StabilitySettings& settings_;
   std::vector<double> angles_;
-  std::vector<Settings> cases_, axis_;
+  std::vector<Settings> cases_;
+  Settings axis_, shape_of_;  // of the steady run on the axis, and of the run with the shape
+  SteadyState shape_;
   RigidCanopy canopy_;
   StabilityResult result_;
 };
@@ -127,9 +156,8 @@ std::unique_ptr<ClaimedFolder> Curve::open() const {
 
 void Curve::take_shape(StabilityObserver& observer) {
   SteadyResult steady;
-  Settings of_shape = axis();
   if (settings_.steady.empty()) {
-    steady = run_steady_in(axis_settings(), axis(), observer.axis()).result;
+    steady = run_steady_in(axis_settings(), axis_, observer.axis()).result;
     if (!steady.converged)
       throw Error(
           ExitCode::not_converged,
@@ -138,59 +166,105 @@ void Curve::take_shape(StabilityObserver& observer) {
                       axis_folder().string()));
     drop_flow_checkpoint(axis_folder());
   } else {
-    drag_for_opening(settings_.steady, axis());
-    of_shape = settings_of_run(settings_.steady);
+    drag_for_opening(settings_.steady, axis_);
+    shape_of_ = settings_of_run(settings_.steady);
     steady = steady_result_from_json(finished_result(settings_.steady).value());
   }
-  canopy_ = rigid_canopy(of_shape, final_state(axis_folder()).shape);
+  shape_ = final_state(axis_folder());
+  canopy_ = rigid_canopy(shape_of_, shape_.shape);
   // A case with a payload has the speed that the steady run found.
   for (Settings& one : cases_)
     if (one.payload().mass_kg) one = at_speed(one, steady.speed);
   const Reference reference = stability_reference(cases_.front());
-  result_.title = axis().title();
+  result_.title = axis_.title();
   result_.speed = steady.speed, result_.density = reference.density;
   result_.reference_area = reference.area, result_.reference_length = reference.diameter;
   result_.projected_diameter = canopy_.width;
   result_.cells_across = settings_.across;
-  result_.cells = stability_flow(cases_.front(), canopy_, settings_.across, angles_.back()).grid.cells();
+  result_.cells = flow_at(0).grid.cells();
 }
 
-StabilityRow Curve::compute_in_time(std::size_t i, ClaimedFolder& folder, FlowEngine& engine,
-                                    StabilityObserver& observer) {
-  const FlowProblem problem = stability_flow(cases_[i], canopy_, settings_.across, angles_.back());
+Watch Curve::window(std::size_t i) const {
   const WatchKeys& keys = cases_[i].flow().watch;
-  const double length = inflated_diameter(cases_[i].parachute());
-  FlowProblem start = problem;
-  if (starts_from_neighbour(i)) start.air = air_at(0);
-  const auto flow = engine.start(start);
-  if (starts_from_neighbour(i)) {
-    flow->restore(run_settings(i - 1).folder / "checkpoint");
-    turn_stream(*flow, air_at(i - 1).velocity, problem.air.velocity, turning_diameters * length,
-                keys.courant);
-  }
+  return {keys.courant, keys.standard_error, keys.shortest, keys.longest,
+          inflated_diameter(cases_[i].parachute())};
+}
+
+/// The flow as the angle before left it, turned to this angle.
+std::optional<SteadyState> Curve::start_from_neighbour(std::size_t i, Flow& flow) const {
+  if (!starts_from_neighbour(i)) return std::nullopt;
+  const fs::path neighbour = run_settings(i - 1).folder / "checkpoint";
+  auto loaded = load_checkpoint(neighbour, flow);
+  if (!loaded || !loaded->damage.empty())
+    throw Error(ExitCode::bad_data, fmt::format("{}: {}; this angle starts from it: compute that one again",
+                                                neighbour.string(), loaded ? loaded->damage : "is lost"));
+  const auto stream = [&](std::size_t k) { return flow_problem(cases_[k]).air.velocity; };
+  turn_stream(flow, stream(i - 1), stream(i), turning_diameters * window(i).length, window(i).courant);
+  return std::move(loaded->state);
+}
+
+StabilityRow Curve::rigid_in_time(std::size_t i, ClaimedFolder& folder, FlowEngine& engine,
+                                  StabilityObserver& observer) {
+  const FlowProblem problem = flow_at(i);
+  const auto flow = engine.start(problem);
+  start_from_neighbour(i, *flow);
   FlowRecord record;
-  const StabilityRow row = watch_angle(
-      *flow, problem, angles_[i], {keys.courant, keys.standard_error, keys.shortest, keys.longest, length},
-      stability_reference(cases_[i]), record, [&](const WatchProgress& p) {
-        const double drag = dot(p.step.force, problem.air.direction());
-        observer.progress(i,
-                          p.mean != 0 ? fmt::format("drag {:.2f} N, mean {:.2f} +- {:.2g} N", drag, p.mean,
-                                                    p.standard_error)
-                                      : fmt::format("drag {:.2f} N, start-up", drag),
-                          p.share);
-        return true;
-      });
+  watch(*flow, problem, window(i), record, [&](const WatchProgress& p) {
+    observer.progress(i, watch_text(p, problem.air), p.share);
+    return true;
+  });
   write_angle_history(folder, record);
-  make_folder(folder.own("checkpoint/"));
-  flow->save(folder.path() / "checkpoint");
+  save_checkpoint(folder.own("checkpoint/"), {}, *flow);
+  return row_of_record(record, problem.air, angles_[i], stability_reference(cases_[i]));
+}
+
+StabilityRow Curve::equilibrium_in_time(std::size_t i, ClaimedFolder& folder, FlowEngine& engine,
+                                        StabilityObserver& observer) {
+  const Settings& resolved = cases_[i];
+  SteadyProblem problem{restrained_mesh(shape_of_, shape_), flow_at(i), nominal_area(resolved.parachute()),
+                        resolved.coupling(), window(i)};
+  problem.settings.threads = threads(i);
+  const Freestream air = problem.flow.air;
+  SteadySolver solver(std::move(problem), engine);
+  SteadyState state = solver.start();
+  state.shape = shape_.shape, state.pressure = shape_.pressure;
+  if (const auto neighbour = start_from_neighbour(i, solver.flow()))
+    state.shape = neighbour->shape, state.pressure = neighbour->pressure,
+    state.residual_traction = neighbour->residual_traction;
+  begin_windows(state, resolved.coupling());
+  while (!solver.finished(state)) {
+    solver.iterate(state, [&](const SteadyProgress& p) {
+      observer.progress(i,
+                        p.stage == SteadyStage::time
+                            ? fmt::format("[{}] {}", p.iteration, watch_text(p.time, air))
+                            : fmt::format("[{}] cloth {:.1e}", p.iteration, p.cloth.residual),
+                        (p.iteration - 1 + p.time.share) / usual_windows);
+    });
+  }
+  write_angle_history(folder, solver.record());
+  write_stl(folder.own("canopy.stl"), surface_of(solver.cells(), state.shape));
+  save_checkpoint(folder.own("checkpoint/"), state, solver.flow());
+  StabilityRow row = row_of_record(solver.record(), air, angles_[i], stability_reference(resolved));
+  row.enough = row.enough && state.converged;
   return row;
+}
+
+StabilityRow Curve::at_rest(std::size_t i, FlowEngine& engine, StabilityObserver& observer) {
+  const FlowProblem problem = flow_at(i);
+  const FlowField field = solve(engine, problem, [&](const FlowProgress& p) {
+    observer.progress(
+        i,
+        fmt::format("iteration {}, residual {:.1e}, drag {:.2f} N", p.iteration, largest_residual(p), p.drag),
+        double(p.iteration) / problem.stopping.max_iterations);
+    return true;
+  });
+  return row_of_field(field, problem.air, angles_[i], stability_reference(cases_[i]));
 }
 
 StabilityRow Curve::run_angle(std::size_t i, StabilityObserver& observer) {
   const RunSettings run = run_settings(i);
   const Settings& resolved = cases_[i];
-  const int threads = settings_.threads > 0 ? settings_.threads : resolved.coupling().threads;
-  const auto claimed = open_run_folder(run, resolved, inputs(i), ThreadTeam(threads).size());
+  const auto claimed = open_run_folder(run, resolved, inputs(i), ThreadTeam(threads(i)).size());
   if (!claimed->warning().empty()) observer.warned(claimed->warning());
   if (const auto finished = finished_result(run.folder)) {
     const auto row = from_json_text<StabilityRow>(*finished, "the result of an angle of attack");
@@ -199,24 +273,13 @@ StabilityRow Curve::run_angle(std::size_t i, StabilityObserver& observer) {
   }
   const EngineRecord& record = engine_of(resolved);
   EngineOptions options = engine_options(resolved);
-  options.threads = threads;
+  options.threads = threads(i);
   options.small_eddies = resolved.flow().watch.eddies;
   if (record.needs_folder) options.folder = claimed->own("flow/");
   const auto engine = record.make(options);
-  StabilityRow row;
-  if (in_time()) {
-    row = compute_in_time(i, *claimed, *engine, observer);
-  } else {
-    const FlowProblem problem = stability_flow(resolved, canopy_, settings_.across, angles_.back());
-    const auto flow = engine->start(problem);
-    row = settle_angle(*flow, problem, angles_[i], stability_reference(resolved), [&](const FlowProgress& p) {
-      observer.progress(i,
-                        fmt::format("iteration {}, residual {:.1e}, drag {:.2f} N", p.iteration,
-                                    largest_residual(p), p.drag),
-                        double(p.iteration) / problem.stopping.max_iterations);
-      return true;
-    });
-  }
+  const StabilityRow row = !in_time()              ? at_rest(i, *engine, observer)
+                           : settings_.equilibrium ? equilibrium_in_time(i, *claimed, *engine, observer)
+                                                   : rigid_in_time(i, *claimed, *engine, observer);
   write_file(claimed->own("result.json"), json_text(row));
   claimed->seal();
   observer.ended(i, row, false);

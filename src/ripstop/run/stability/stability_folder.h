@@ -16,6 +16,7 @@ struct StabilitySettings {
   RunSettings run;
   int threads = 0;               // 0: coupling.threads
   int across = 16;               // cells over the projected diameter
+  bool equilibrium = false;      // the canopy deforms under the mean load, restrained at vent and confluence
   bool warm = true;              // each angle starts from the flow of the one before
   std::filesystem::path steady;  // folder of a finished steady run with the shape; empty: computed in axis/
   bool elsewhere = false;        // another machine runs it: this one's memory does not matter
