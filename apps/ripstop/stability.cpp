@@ -10,11 +10,13 @@
 #include <cstdio>
 #include <memory>
 
+#include "batch_option.h"
 #include "case_options.h"
 #include "commands.h"
 #include "json_option.h"
 #include "number_option.h"
 #include "progress.h"
+#include "ripstop/core/error.h"
 #include "ripstop/run/stability/stability_folder.h"
 #include "steady_terminal.h"
 #include "stopping.h"
@@ -30,7 +32,9 @@ struct StabilityArguments {
   Overrides overrides;
   std::string angles = "0:40:5";
   StabilitySettings settings;
-  bool cold = false, dry_run = false, json = false;
+  BatchOptions batch;
+  std::string only;  // one part, by its folder
+  bool cold = false, gather = false, dry_run = false, json = false;
 };
 
 std::string with_error(double value, const std::optional<double>& error) {
@@ -100,27 +104,64 @@ void print_result(const StabilityResult& r, const fs::path& folder) {
   fmt::print("  files: {} (stability.csv, stability.svg, result.json)\n", folder.string());
 }
 
+int write_scripts(const StabilityArguments& options, const Case& given, const std::vector<double>& angles) {
+  StabilitySettings settings = options.settings;
+  settings.elsewhere = true;
+  BatchNeeds needs = steady_needs(resolve(given), options.batch.cores.value_or(0));
+  const BatchSweep parts{batch_job(options.batch, settings.run.folder, needs),
+                         stability_waves(given, angles, settings), 0};
+  const std::vector<BatchFile> files = slurm_files(parts);
+  prepare_stability(given, angles, settings);
+  write_and_tell(settings.run.folder, files, "bash", "submit");
+  fmt::print(
+      "{} jobs, one after another where each starts from its neighbour; --cold runs all angles at once\n",
+      parts.waves.size());
+  return 0;
+}
+
+/// Prints a result; an angle that is missing is an error.
+int finish(const StabilityArguments& options, const StabilityResult& result,
+           const std::vector<std::string>& missing) {
+  if (options.json)
+    fmt::print("{}", to_json(result));
+  else
+    print_result(result, options.settings.run.folder);
+  std::fflush(stdout);
+  for (const std::string& warning : result.warnings) fmt::print(stderr, "ripstop: {}\n", warning);
+  if (!missing.empty())
+    throw Error(ExitCode::io,
+                fmt::format("{}: not there yet; submit again, or repeat ripstop stability without "
+                            "--gather",
+                            fmt::join(missing, ", ")));
+  return 0;
+}
+
 int stability(StabilityArguments& options) {
   const std::vector<double> angles = angles_of_text(options.angles);
   StabilitySettings& settings = options.settings;
   settings.warm = !options.cold;
-  if (settings.run.folder.empty()) settings.run.folder = default_run_folder(options.case_file, "stability");
+  const fs::path& folder = settings.run.folder;
+  if (folder.empty()) settings.run.folder = default_run_folder(options.case_file, "stability");
   const Case given = read_given(options.case_file, options.overrides);
+  if (options.batch.wanted()) return write_scripts(options, given, angles);
   if (options.dry_run) {
     check_stability(given, angles, settings);
-    for (const double angle : angles) fmt::print("{}\n", (settings.run.folder / angle_name(angle)).string());
+    for (const auto& wave : stability_waves(given, angles, settings))
+      for (const std::string& name : wave) fmt::print("{}\n", (folder / name).string());
     return 0;
   }
+  if (options.gather) {
+    std::vector<std::string> missing;
+    const StabilityResult result = gather_stability(given, angles, settings, missing);
+    return finish(options, result, missing);
+  }
   goes_on_when_repeated();
-  StabilityTerminal terminal(settings.run.folder, angles.size());
-  const StabilityResult result = run_stability(given, angles, settings, terminal);
-  if (options.json)
-    fmt::print("{}", to_json(result));
-  else
-    print_result(result, settings.run.folder);
-  std::fflush(stdout);
-  for (const std::string& warning : result.warnings) fmt::print(stderr, "ripstop: {}\n", warning);
-  return 0;
+  StabilityTerminal terminal(folder, options.only.empty() ? angles.size() : 1);
+  if (!options.only.empty()) {
+    run_stability_part(given, angles, settings, options.only, terminal);
+    return 0;
+  }
+  return finish(options, run_stability(given, angles, settings, terminal), {});
 }
 
 }  // namespace
@@ -139,7 +180,8 @@ void add_stability(CLI::App& app, int& status) {
       "where\n"
       "C_m falls with the angle. A run that was killed goes on when the same command is given again.\n"
       "Example: ripstop stability examples/flat-circular/case.toml --angles 0:40:5 --out runs/curve\n"
-      "         ripstop stability examples/cross/case.toml --angles 0:30:10 --steady runs/cross");
+      "         ripstop stability examples/cross/case.toml --angles 0:30:10 --steady runs/cross\n"
+      "         ripstop stability examples/cross/case.toml --flow openfoam --ranks 16 --batch slurm");
   command->add_option("case", options->case_file, "Case file (TOML)")->required();
   command->add_option("--angles", options->angles,
                       "Angles of attack FROM:TO:STEP, or one angle [deg] (default: 0:40:5)");
@@ -159,8 +201,21 @@ void add_stability(CLI::App& app, int& status) {
                       "Folder (default: runs/<name of the case>-stability)");
   command->add_flag("--fresh", options->settings.run.fresh,
                     "Replace finished angles; default: go on with them");
-  command->add_flag("--dry-run", options->dry_run, "Say what would be run, and stop");
+  CLI::Option* dry_run =
+      command->add_flag("--dry-run", options->dry_run, "List the folders of all parts, and stop");
   add_json_option(*command, options->json);
+  CLI::Option* only = command
+                          ->add_option("--only", options->only,
+                                       "One part of the curve, by its folder's name, as in a job of --batch")
+                          ->excludes(dry_run);
+  CLI::Option* gather = command
+                            ->add_flag("--gather", options->gather,
+                                       "Tables and plots of the angles that have ended; computes nothing")
+                            ->excludes(dry_run)
+                            ->excludes(only);
+  for (CLI::Option* one : {only, gather}) one->excludes(command->get_option("--fresh"));
+  add_batch_options(*command, options->batch);
+  command->get_option("--batch")->excludes(only)->excludes(gather);
   command->callback([options, &status] { status = stability(*options); });
 }
 

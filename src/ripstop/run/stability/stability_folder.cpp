@@ -30,7 +30,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* description = "stability.json";
-constexpr const char* axis_name = "axis";
+constexpr const char* row_text = "the result of an angle of attack";
 
 /// The stream turns from one angle to the next while it passes one inflated diameter.
 constexpr double turning_diameters = 1;
@@ -56,15 +56,12 @@ void check_folder(const fs::path& folder) {
 class Curve {
  public:
   Curve(const Case& given, const std::vector<double>& angles, const StabilitySettings& settings)
-      : settings_(settings),
-        angles_(angles),
-        cases_(stability_cases(given, angles)),
-        axis_(resolve(given)),
-        shape_of_(axis_) {
+      : settings_(settings), angles_(angles), cases_(stability_cases(given, angles)), axis_(resolve(given)) {
     if (settings.equilibrium && !in_time())
       throw Error(ExitCode::usage,
                   fmt::format("--equilibrium: the engine \"{}\" has no flow in time; leave the option out",
                               axis_.flow().engine));
+    take_speed();
   }
 
   void check() const {
@@ -72,11 +69,18 @@ class Curve {
     if (settings_.steady.empty())
       check_steady_in(axis_settings(), axis_);
     else
-      drag_for_opening(settings_.steady, axis_);
+      drag_for_opening(settings_.steady, cases_.front());
     for (std::size_t i = 0; i < cases_.size(); ++i) holds_run(run_settings(i), cases_[i], inputs(i));
   }
 
   StabilityResult run(StabilityObserver& observer);
+  std::vector<std::vector<std::string>> waves() const;
+  void prepare() const {
+    check();
+    open();
+  }
+  void run_part(const std::string& name, StabilityObserver& observer);
+  StabilityResult gather(std::vector<std::string>& missing);
 
  private:
   fs::path axis_folder() const {
@@ -116,7 +120,9 @@ class Curve {
   Watch window(std::size_t i) const;
 
   std::unique_ptr<ClaimedFolder> open() const;
-  void take_shape(StabilityObserver& observer);
+  void run_axis(SteadyObserver& observer) const;
+  void take_speed();
+  void take_shape();
   StabilityRow run_angle(std::size_t i, StabilityObserver& observer);
   std::optional<SteadyState> start_from_neighbour(std::size_t i, Flow& flow) const;
   StabilityRow rigid_in_time(std::size_t i, ClaimedFolder& folder, FlowEngine& engine,
@@ -124,13 +130,16 @@ class Curve {
   StabilityRow equilibrium_in_time(std::size_t i, ClaimedFolder& folder, FlowEngine& engine,
                                    StabilityObserver& observer);
   StabilityRow at_rest(std::size_t i, FlowEngine& engine, StabilityObserver& observer);
+  void drop_flow(std::size_t i) const {
+    if (!settings_.run.fields) remove_path(run_settings(i).folder / "checkpoint");
+  }
   void write(ClaimedFolder& folder) const { write_stability_files(folder, result_); }
 
   const StabilitySettings& settings_;
   std::vector<double> angles_;
   std::vector<Settings> cases_;
-  Settings axis_, shape_of_;  // of the steady run on the axis, and of the run with the shape
-  SteadyState shape_;
+  Settings axis_;      // of the steady run
+  SteadyState shape_;  // its end
   RigidCanopy canopy_;
   StabilityResult result_;
 };
@@ -154,27 +163,35 @@ std::unique_ptr<ClaimedFolder> Curve::open() const {
   return claimed;
 }
 
-void Curve::take_shape(StabilityObserver& observer) {
-  SteadyResult steady;
-  if (settings_.steady.empty()) {
-    steady = run_steady_in(axis_settings(), axis_, observer.axis()).result;
-    if (!steady.converged)
-      throw Error(
-          ExitCode::not_converged,
-          fmt::format("{}: the steady run on the axis has not converged; raise coupling.max_iterations or "
-                      "loosen its tolerances",
-                      axis_folder().string()));
-    drop_flow_checkpoint(axis_folder());
-  } else {
-    drag_for_opening(settings_.steady, axis_);
-    shape_of_ = settings_of_run(settings_.steady);
-    steady = steady_result_from_json(finished_result(settings_.steady).value());
-  }
+void Curve::run_axis(SteadyObserver& observer) const {
+  if (!settings_.steady.empty()) return;
+  if (!run_steady_in(axis_settings(), axis_, observer).result.converged)
+    throw Error(
+        ExitCode::not_converged,
+        fmt::format("{}: the steady run on the axis has not converged; raise coupling.max_iterations or "
+                    "loosen its tolerances",
+                    axis_folder().string()));
+  drop_flow_checkpoint(axis_folder());
+}
+
+/// A case with a payload has the speed that the steady run found.
+void Curve::take_speed() {
+  if (!axis_.payload().mass_kg || !is_sealed(axis_folder())) return;
+  const double speed = steady_result_from_json(finished_result(axis_folder()).value()).speed;
+  for (Settings& one : cases_) one = at_speed(one, speed);
+}
+
+void Curve::take_shape() {
+  if (!is_sealed(axis_folder()))
+    throw Error(ExitCode::io,
+                fmt::format("{}: has not ended; every angle needs its shape: submit again, or repeat "
+                            "ripstop stability without --only",
+                            axis_folder().string()));
+  take_speed();
+  const SteadyResult steady = steady_result_from_json(finished_result(axis_folder()).value());
+  const Settings shape_of = settings_of_run(axis_folder());
   shape_ = final_state(axis_folder());
-  canopy_ = rigid_canopy(shape_of_, shape_.shape);
-  // A case with a payload has the speed that the steady run found.
-  for (Settings& one : cases_)
-    if (one.payload().mass_kg) one = at_speed(one, steady.speed);
+  canopy_ = rigid_canopy(shape_of, shape_.shape);
   const Reference reference = stability_reference(cases_.front());
   result_.title = axis_.title();
   result_.speed = steady.speed, result_.density = reference.density;
@@ -221,8 +238,8 @@ StabilityRow Curve::rigid_in_time(std::size_t i, ClaimedFolder& folder, FlowEngi
 StabilityRow Curve::equilibrium_in_time(std::size_t i, ClaimedFolder& folder, FlowEngine& engine,
                                         StabilityObserver& observer) {
   const Settings& resolved = cases_[i];
-  SteadyProblem problem{restrained_mesh(shape_of_, shape_), flow_at(i), nominal_area(resolved.parachute()),
-                        resolved.coupling(), window(i)};
+  SteadyProblem problem{restrained_mesh(settings_of_run(axis_folder()), shape_), flow_at(i),
+                        nominal_area(resolved.parachute()), resolved.coupling(), window(i)};
   problem.settings.threads = threads(i);
   const Freestream air = problem.flow.air;
   SteadySolver solver(std::move(problem), engine);
@@ -267,7 +284,7 @@ StabilityRow Curve::run_angle(std::size_t i, StabilityObserver& observer) {
   const auto claimed = open_run_folder(run, resolved, inputs(i), ThreadTeam(threads(i)).size());
   if (!claimed->warning().empty()) observer.warned(claimed->warning());
   if (const auto finished = finished_result(run.folder)) {
-    const auto row = from_json_text<StabilityRow>(*finished, "the result of an angle of attack");
+    const auto row = from_json_text<StabilityRow>(*finished, row_text);
     observer.ended(i, row, true);
     return row;
   }
@@ -277,9 +294,15 @@ StabilityRow Curve::run_angle(std::size_t i, StabilityObserver& observer) {
   options.small_eddies = resolved.flow().watch.eddies;
   if (record.needs_folder) options.folder = claimed->own("flow/");
   const auto engine = record.make(options);
-  const StabilityRow row = !in_time()              ? at_rest(i, *engine, observer)
-                           : settings_.equilibrium ? equilibrium_in_time(i, *claimed, *engine, observer)
-                                                   : rigid_in_time(i, *claimed, *engine, observer);
+  StabilityRow row;
+  try {
+    row = !in_time()              ? at_rest(i, *engine, observer)
+          : settings_.equilibrium ? equilibrium_in_time(i, *claimed, *engine, observer)
+                                  : rigid_in_time(i, *claimed, *engine, observer);
+  } catch (const Error& error) {
+    throw Error(error.code(),
+                fmt::format("at an angle of attack of {:g} degrees: {}", angles_[i], message_of(error)));
+  }
   write_file(claimed->own("result.json"), json_text(row));
   claimed->seal();
   observer.ended(i, row, false);
@@ -290,21 +313,68 @@ StabilityResult Curve::run(StabilityObserver& observer) {
   check();
   const auto folder = open();
   if (!folder->warning().empty()) observer.warned(folder->warning());
-  take_shape(observer);
+  run_axis(observer.axis());
+  take_shape();
   observer.begin(result_, engine_name());
   for (std::size_t i = 0; i < cases_.size(); ++i) {
-    try {
-      result_.rows.push_back(run_angle(i, observer));
-    } catch (const Error& error) {
-      throw Error(error.code(),
-                  fmt::format("at an angle of attack of {:g} degrees: {}", angles_[i], message_of(error)));
-    }
+    result_.rows.push_back(run_angle(i, observer));
     take_trims(result_);
     write(*folder);
-    // The next angle may start from the last flow only.
-    if (i > 0 && !settings_.run.fields) remove_path(run_settings(i - 1).folder / "checkpoint");
+    if (i > 0) drop_flow(i - 1);  // no other angle starts from it
   }
   folder->seal();
+  return result_;
+}
+
+std::vector<std::vector<std::string>> Curve::waves() const {
+  std::vector<std::vector<std::string>> waves;
+  if (settings_.steady.empty()) waves.push_back({axis_name});
+  for (std::size_t i = 0; i < angles_.size(); ++i) {
+    if (i == 0 || starts_from_neighbour(i)) waves.emplace_back();
+    waves.back().push_back(angle_name(angles_[i]));
+  }
+  return waves;
+}
+
+void Curve::run_part(const std::string& name, StabilityObserver& observer) {
+  if (!fs::exists(settings_.run.folder / description))
+    throw Error(ExitCode::usage, fmt::format("{}: holds no curve yet: write it there with --batch first",
+                                             settings_.run.folder.string()));
+  if (name == axis_name && settings_.steady.empty()) return run_axis(observer.axis());
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < angles_.size(); ++i) {
+    names.push_back(angle_name(angles_[i]));
+    if (names.back() != name) continue;
+    take_shape();
+    if (starts_from_neighbour(i) && !is_sealed(run_settings(i - 1).folder))
+      throw Error(ExitCode::io,
+                  fmt::format("{}: was not begun: {}, which it starts from, has not ended; submit "
+                              "again, or repeat ripstop stability without --only",
+                              name, names[i - 1]));
+    observer.begin(result_, engine_name());
+    run_angle(i, observer);
+    return;
+  }
+  throw Error(ExitCode::usage, fmt::format("--only {}: is no part of this curve; give {} or {}", name,
+                                           axis_name, fmt::join(names, ", ")));
+}
+
+StabilityResult Curve::gather(std::vector<std::string>& missing) {
+  check();
+  const auto folder = open();
+  take_shape();
+  for (std::size_t i = 0; i < cases_.size(); ++i) {
+    const RunSettings run = run_settings(i);
+    const auto text = holds_run(run, cases_[i], inputs(i)) ? finished_result(run.folder) : std::nullopt;
+    if (text)
+      result_.rows.push_back(from_json_text<StabilityRow>(*text, row_text));
+    else
+      missing.push_back(angle_name(angles_[i]));
+  }
+  take_trims(result_);
+  write(*folder);
+  for (std::size_t i = 0; missing.empty() && i + 1 < cases_.size(); ++i) drop_flow(i);
+  if (missing.empty()) folder->seal();
   return result_;
 }
 
@@ -322,6 +392,27 @@ void check_stability(const Case& given, const std::vector<double>& angles,
 StabilityResult run_stability(const Case& given, const std::vector<double>& angles,
                               const StabilitySettings& settings, StabilityObserver& observer) {
   return Curve(given, angles, settings).run(observer);
+}
+
+std::vector<std::vector<std::string>> stability_waves(const Case& given, const std::vector<double>& angles,
+                                                      const StabilitySettings& settings) {
+  return Curve(given, angles, settings).waves();
+}
+
+void prepare_stability(const Case& given, const std::vector<double>& angles,
+                       const StabilitySettings& settings) {
+  Curve(given, angles, settings).prepare();
+}
+
+void run_stability_part(const Case& given, const std::vector<double>& angles,
+                        const StabilitySettings& settings, const std::string& name,
+                        StabilityObserver& observer) {
+  Curve(given, angles, settings).run_part(name, observer);
+}
+
+StabilityResult gather_stability(const Case& given, const std::vector<double>& angles,
+                                 const StabilitySettings& settings, std::vector<std::string>& missing) {
+  return Curve(given, angles, settings).gather(missing);
 }
 
 }  // namespace ripstop

@@ -48,5 +48,22 @@ void check_stability(const Case& given, const std::vector<double>& angles, const
 
 /// Name of an angle's folder: "angle=10".
 std::string angle_name(double angle);
+/// And of the folder of the steady run.
+inline constexpr const char* axis_name = "axis";
+
+/// The parts of a curve by their folders, in waves: each part needs those of earlier waves only.
+std::vector<std::vector<std::string>> stability_waves(const Case& given, const std::vector<double>& angles,
+                                                      const StabilitySettings& settings);
+/// Makes the folder of a curve whose parts are computed one by one elsewhere. Throws as check_stability().
+void prepare_stability(const Case& given, const std::vector<double>& angles,
+                       const StabilitySettings& settings);
+/// One part in that folder, which is not claimed, so that other processes may compute other parts. Throws Error(usage)
+/// for another name, Error(io) where a part that it needs has not ended.
+void run_stability_part(const Case& given, const std::vector<double>& angles,
+                        const StabilitySettings& settings, const std::string& name,
+                        StabilityObserver& observer);
+/// Tables and plots of the angles that have ended; computes nothing. `missing`: folders of the others.
+StabilityResult gather_stability(const Case& given, const std::vector<double>& angles,
+                                 const StabilitySettings& settings, std::vector<std::string>& missing);
 
 }  // namespace ripstop
