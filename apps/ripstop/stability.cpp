@@ -101,7 +101,8 @@ void print_result(const StabilityResult& r, const fs::path& folder) {
     fmt::print("  trim at {:.1f}{} deg: {}{}\n", trim.angle,
                trim.standard_error ? fmt::format(" +- {:.1f}", *trim.standard_error) : "",
                trim.stable ? "stable" : "unstable", trim.certain ? "" : " (not certain)");
-  fmt::print("  files: {} (stability.csv, stability.svg, result.json)\n", folder.string());
+  fmt::print("  files: {} (stability.csv, six_dof.csv, stability.svg, report.html, result.json)\n",
+             folder.string());
 }
 
 int write_scripts(const StabilityArguments& options, const Case& given, const std::vector<double>& angles) {
@@ -150,13 +151,13 @@ int stability(StabilityArguments& options) {
       for (const std::string& name : wave) fmt::print("{}\n", (folder / name).string());
     return 0;
   }
+  StabilityTerminal terminal(folder, options.only.empty() ? angles.size() : 1);
   if (options.gather) {
     std::vector<std::string> missing;
-    const StabilityResult result = gather_stability(given, angles, settings, missing);
+    const StabilityResult result = gather_stability(given, angles, settings, missing, terminal);
     return finish(options, result, missing);
   }
   goes_on_when_repeated();
-  StabilityTerminal terminal(folder, options.only.empty() ? angles.size() : 1);
   if (!options.only.empty()) {
     run_stability_part(given, angles, settings, options.only, terminal);
     return 0;

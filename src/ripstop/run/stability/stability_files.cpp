@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <numbers>
+
 #include "ripstop/core/file.h"
 #include "ripstop/output/csv.h"
 
@@ -25,10 +27,29 @@ Plot stability_plot(const StabilityResult& result) {
   return plot;
 }
 
+namespace {
+
+/// Coefficients over alpha in aircraft axes, mirrored to negative angles: the nose points from the canopy to the
+/// confluence, and alpha, normal force, lift and pitching moment are positive nose up.
+CsvTable six_dof_table(const std::vector<StabilityRow>& rows) {
+  CsvTable table{{"alpha_rad", "c_a", "c_n", "c_d", "c_l", "c_m"}, {}};
+  const auto add = [&](const StabilityRow& row, double sign) {
+    table.rows.push_back({sign * row.angle * std::numbers::pi / 180, row.c_t, sign * row.c_n, row.c_d,
+                          -sign * row.c_l, sign * row.c_m});
+  };
+  for (std::size_t i = rows.size(); i-- > 0;)
+    if (rows[i].angle > 0) add(rows[i], -1);
+  for (const StabilityRow& row : rows) add(row, 1);
+  return table;
+}
+
+}  // namespace
+
 void write_stability_files(ClaimedFolder& folder, const StabilityResult& result) {
   CsvTable table{columns_of<StabilityRow>(), {}};
   for (const StabilityRow& row : result.rows) table.rows.push_back(row_of(row));
   write_csv(folder.own("stability.csv"), table);
+  write_csv(folder.own("six_dof.csv"), six_dof_table(result.rows));
   if (!result.rows.empty())
     for (const char* name : {"stability.svg", "stability.png"})
       write_plot(folder.own(name), stability_plot(result));

@@ -13,7 +13,7 @@ namespace ripstop {
 /// Coefficients with bars of one standard error over the angle of attack.
 Plot stability_plot(const StabilityResult& result);
 
-/// stability.csv, result.json, and stability.svg and .png once there is a row. Throws Error(io).
+/// stability.csv, six_dof.csv (docs/guide/stability.md), result.json, and stability.svg and .png once there is a row. Throws Error(io).
 void write_stability_files(ClaimedFolder& folder, const StabilityResult& result);
 
 /// history.csv: force and moment about the confluence, step by step. Throws Error(io).

@@ -21,6 +21,7 @@
 #include "ripstop/run/engine.h"
 #include "ripstop/run/json.h"
 #include "ripstop/run/stability/stability_files.h"
+#include "ripstop/run/stability/stability_report.h"
 #include "ripstop/run/steady/checkpoint.h"
 #include "ripstop/run/steady/steady_folder.h"
 
@@ -80,7 +81,7 @@ class Curve {
     open();
   }
   void run_part(const std::string& name, StabilityObserver& observer);
-  StabilityResult gather(std::vector<std::string>& missing);
+  StabilityResult gather(std::vector<std::string>& missing, StabilityObserver& observer);
 
  private:
   fs::path axis_folder() const {
@@ -132,6 +133,13 @@ class Curve {
   StabilityRow at_rest(std::size_t i, FlowEngine& engine, StabilityObserver& observer);
   void drop_flow(std::size_t i) const {
     if (!settings_.run.fields) remove_path(run_settings(i).folder / "checkpoint");
+  }
+  void end(ClaimedFolder& folder, StabilityObserver& observer) const {
+    if (settings_.run.report)
+      if (const std::string failure = write_stability_report(folder, result_, axis_folder());
+          !failure.empty())
+        observer.warned(failure);
+    folder.seal();
   }
   void write(ClaimedFolder& folder) const { write_stability_files(folder, result_); }
 
@@ -322,7 +330,7 @@ StabilityResult Curve::run(StabilityObserver& observer) {
     write(*folder);
     if (i > 0) drop_flow(i - 1);  // no other angle starts from it
   }
-  folder->seal();
+  end(*folder, observer);
   return result_;
 }
 
@@ -359,7 +367,7 @@ void Curve::run_part(const std::string& name, StabilityObserver& observer) {
                                            axis_name, fmt::join(names, ", ")));
 }
 
-StabilityResult Curve::gather(std::vector<std::string>& missing) {
+StabilityResult Curve::gather(std::vector<std::string>& missing, StabilityObserver& observer) {
   check();
   const auto folder = open();
   take_shape();
@@ -374,7 +382,7 @@ StabilityResult Curve::gather(std::vector<std::string>& missing) {
   take_trims(result_);
   write(*folder);
   for (std::size_t i = 0; missing.empty() && i + 1 < cases_.size(); ++i) drop_flow(i);
-  if (missing.empty()) folder->seal();
+  if (missing.empty()) end(*folder, observer);
   return result_;
 }
 
@@ -411,8 +419,9 @@ void run_stability_part(const Case& given, const std::vector<double>& angles,
 }
 
 StabilityResult gather_stability(const Case& given, const std::vector<double>& angles,
-                                 const StabilitySettings& settings, std::vector<std::string>& missing) {
-  return Curve(given, angles, settings).gather(missing);
+                                 const StabilitySettings& settings, std::vector<std::string>& missing,
+                                 StabilityObserver& observer) {
+  return Curve(given, angles, settings).gather(missing, observer);
 }
 
 }  // namespace ripstop

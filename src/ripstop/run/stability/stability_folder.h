@@ -64,6 +64,7 @@ void run_stability_part(const Case& given, const std::vector<double>& angles,
                         StabilityObserver& observer);
 /// Tables and plots of the angles that have ended; computes nothing. `missing`: folders of the others.
 StabilityResult gather_stability(const Case& given, const std::vector<double>& angles,
-                                 const StabilitySettings& settings, std::vector<std::string>& missing);
+                                 const StabilitySettings& settings, std::vector<std::string>& missing,
+                                 StabilityObserver& observer);
 
 }  // namespace ripstop
