@@ -7,8 +7,9 @@
     print(run.drag_n, run.shape)
 
 What the program computes, its functions compute here: check, steady, stability, inflate, fit, pattern, size, load,
-descent, calibrate_damping, export. Results have the members of result.json as attributes, whose names end with the unit, and
-arrays that are views of the library's own memory. Whatever goes wrong raises Error with the text of the program.
+descent, calibrate_damping, export. Results have the members of result.json as attributes, whose names end with the
+unit, and arrays that are views of the library's own memory. Whatever goes wrong raises Error with the text of the
+program.
 """
 
 import os

@@ -19,7 +19,7 @@ REWRITTEN = [
     *(f"docs/{page}.md" for page in ("README", "conventions", "performance", "reliability", "validation")),
     *(f"docs/guide/{page}.md" for page in (
         "canopies", "case-file", "cluster", "compare", "editor", "fit", "flight", "import", "inflate", "openfoam", "output-files", "porosity", "python",
-        "report", "sweep", "tables", "tunnel", "unsteady")),
+        "report", "stability", "sweep", "tables", "tunnel", "unsteady")),
     *sorted(str(page.relative_to(ROOT)) for folder in ("theory", "tutorials") for page in ROOT.glob(f"docs/{folder}/*.md")),
     *(f"docs/validation/{page}.md" for page in (
         "canopies", "cloth", "coupling", "fit", "flow", "flow-in-time", "flow-openfoam", "inflation", "ojf", "opening-load",
