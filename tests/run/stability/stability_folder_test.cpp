@@ -57,7 +57,7 @@ class StabilityFolder : public testing::Test {
     made.flow.engine = "leaning";
     made.flow.cells = {20, 20, 30};
     made.flow.watch.shortest = 10, made.flow.watch.longest = 20;
-    return made;
+    return checked(made);
   }
   StabilitySettings in(const std::string& name) const {
     StabilitySettings settings;
@@ -94,6 +94,11 @@ TEST_F(StabilityFolder, HasTheTableTheResultAndTheStableTrimAngle) {
   for (const char* file : {"stability.svg", "stability.png", "angle=15/history.csv", "axis/result.json"})
     EXPECT_TRUE(fs::exists(folder_ / "curve" / file)) << file;
   EXPECT_FALSE(fs::exists(folder_ / "curve/angle=15/checkpoint"));
+  const CsvTable flight = read_csv(folder_ / "curve/six_dof.csv");
+  ASSERT_EQ(flight.rows.size(), 9u);  // 0 once, the others on both sides
+  EXPECT_EQ(flight.column("c_m")[3], -flight.column("c_m")[5]);
+  EXPECT_EQ(flight.column("c_d")[3], flight.column("c_d")[5]);
+  EXPECT_NEAR(flight.column("alpha_rad")[5], 10 * 3.14159265358979 / 180, 1e-12);
 }
 
 TEST_F(StabilityFolder, ThatWasStoppedGoesOnToTheSameTable) {
@@ -123,6 +128,29 @@ TEST_F(StabilityFolder, TakesTheShapeOfASteadyRun) {
   settings.run.folder = folder_ / "other";
   EXPECT_THROW(run_stability(other, {0, 10}, settings, second), Error);
   EXPECT_FALSE(fs::exists(folder_ / "other"));
+}
+
+TEST_F(StabilityFolder, IsComputedPartByPartWithTheSameNumbers) {
+  Counter observer;
+  run_stability(given(), angles_, in("whole"), observer);
+  const StabilitySettings parts = in("parts");
+  const auto waves = stability_waves(given(), angles_, parts);
+  ASSERT_EQ(waves.size(), 6u);  // the axis, and each angle after the one before
+  EXPECT_THROW(run_stability_part(given(), angles_, parts, axis_name, observer), Error);  // not prepared
+  prepare_stability(given(), angles_, parts);
+  EXPECT_THROW(run_stability_part(given(), angles_, parts, "angle=0", observer), Error);  // no shape yet
+  std::vector<std::string> missing;
+  for (const auto& wave : waves) {
+    for (const std::string& name : wave) run_stability_part(given(), angles_, parts, name, observer);
+    missing.clear();
+    gather_stability(given(), angles_, parts, missing, observer);
+  }
+  EXPECT_TRUE(missing.empty());
+  EXPECT_EQ(read_file(folder_ / "parts/stability.csv"), read_file(folder_ / "whole/stability.csv"));
+  EXPECT_THROW(run_stability_part(given(), angles_, parts, "angle=11", observer), Error);
+  StabilitySettings cold = parts;
+  cold.warm = false;
+  EXPECT_EQ(stability_waves(given(), angles_, cold).size(), 2u);
 }
 
 TEST_F(StabilityFolder, RefusesOtherInputsAndForeignFiles) {

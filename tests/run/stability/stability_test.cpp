@@ -48,7 +48,7 @@ TEST(StabilityAngles, RejectsWhatIsNoRisingRangeWithTheValueThatIsWrong) {
 }
 
 TEST(StabilityCases, RejectsFlowsThatAStreamAtAnAngleCannotHave) {
-  const Case good = flat_circular_case(1, 800, 20);
+  const Case good = checked(flat_circular_case(1, 800, 20));
   EXPECT_EQ(stability_cases(good, {0, 10}).at(1).flow().angle_of_attack_deg, 10);
   const auto why = [&](auto edit) {
     Case bad = good;
@@ -159,7 +159,7 @@ TEST(TurnStream, KeepsAUniformStreamUniform) {
 }
 
 TEST(StabilityFlow, ContainsTheCanopyInCellsOfTheAskedWidthAndItsWakeAtTheWidestAngle) {
-  const Settings resolved = resolve(flat_circular_case(1, 800, 20));
+  const Settings resolved = resolve(checked(flat_circular_case(1, 800, 20)));
   RigidCanopy canopy;
   canopy.surface = hemispherical_cup(0.7, {0, 0, 3});
   canopy.width = 0.7, canopy.confluence = {0, 0, 2};

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "ripstop/case/assemble.h"
+#include "ripstop/case/cost.h"
 #include "ripstop/case/quantity_keys.h"
 #include "ripstop/core/build_info.h"
 #include "ripstop/core/error.h"
@@ -207,6 +208,9 @@ void Curve::take_shape() {
   result_.projected_diameter = canopy_.width;
   result_.cells_across = settings_.across;
   result_.cells = flow_at(0).grid.cells();
+  if (!settings_.elsewhere)
+    require_memory(flow_memory(result_.cells), fmt::format("an angle of attack on {:.3g} cells (--cells {})",
+                                                           double(result_.cells), settings_.across));
 }
 
 Watch Curve::window(std::size_t i) const {
