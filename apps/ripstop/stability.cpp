@@ -186,7 +186,7 @@ void add_stability(CLI::App& app, int& status) {
   command->add_option("case", options->case_file, "Case file (TOML)")->required();
   command->add_option("--angles", options->angles,
                       "Angles of attack FROM:TO:STEP, or one angle [deg] (default: 0:40:5)");
-  add_number(*command, "--cells", options->settings.across, from(8).up_to(100),
+  add_number(*command, "--cells-across", options->settings.across, from(8).up_to(100),
              "Cells of the flow over the projected diameter (default: 16)");
   command->add_option(
       "--steady", options->settings.steady,

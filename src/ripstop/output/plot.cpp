@@ -165,9 +165,9 @@ void draw_series(cairo_t* page, const PlotSeries& series, std::size_t index, con
     cairo_set_dash(page, nullptr, 0, 0);
   }
   for (std::size_t i = 0; i < series.bars.size(); ++i) {
-    if (drawn(i) && series.bars[i] > 0)
-      draw_bar(page, x(series.x[i]), y(series.y[i] - series.bars[i]), y(series.y[i] + series.bars[i]),
-               series_colour(index));
+    const double low = series.y[i] - series.bars[i], high = series.y[i] + series.bars[i];
+    if (drawn(i) && low < high && y.shows(low) && y.shows(high))
+      draw_bar(page, x(series.x[i]), y(low), y(high), series_colour(index));
   }
   for (std::size_t i = 0; series.markers && i < series.x.size(); ++i) {
     if (drawn(i)) draw_marker(page, x(series.x[i]), y(series.y[i]), index, series_colour(index));

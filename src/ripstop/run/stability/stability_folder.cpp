@@ -209,7 +209,7 @@ void Curve::take_shape() {
   result_.cells_across = settings_.across;
   result_.cells = flow_at(0).grid.cells();
   if (!settings_.elsewhere)
-    require_memory(flow_memory(result_.cells), fmt::format("an angle of attack on {:.3g} cells (--cells {})",
+    require_memory(flow_memory(result_.cells), fmt::format("an angle of attack on {:.3g} cells (--cells-across {})",
                                                            double(result_.cells), settings_.across));
 }
 
