@@ -125,6 +125,7 @@ int run(int argc, char** argv) {
   add_flow_parity(app, status);
   add_calibrate(app, status);
   add_sweep(app, status);
+  add_stability(app, status);
   add_compare(app, status);
   add_photogrammetry(app, status);
   add_descent(app, status);

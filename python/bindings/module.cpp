@@ -51,6 +51,7 @@ PYBIND11_MODULE(_ripstop, module) {
   add_case(module);
   add_check(module);
   add_steady(module);
+  add_stability(module);
   add_inflate(module);
   add_calibrate(module);
   add_fit(module);

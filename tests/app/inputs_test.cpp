@@ -80,6 +80,28 @@ TEST_F(Inputs, AnOpeningInItsOwnAirIsCheckedAndRefusedWhereItsClothIsNoSheet) {
   refused({"inflate", stratos, "--air", "coupled"}, 2, "flow.porosity_model");
 }
 
+TEST_F(Inputs, ACurveOverTheAngleOfAttackIsRefusedWithTheValueThatIsWrong) {
+  const std::string flat = examples + "flat-circular/case.toml";
+  const std::vector<std::string> command = {"stability", flat, "--dry-run", "--out", in("curve")};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), command.begin(), command.end());
+    return more;
+  };
+  refused(with({"--angles", "40:0:5"}), 2, "--angles 40:0:5: from 40 down to 0");
+  refused(with({"--angles", "0:40:0"}), 2, "a step of 0");
+  refused(with({"--angles", "0:100:10"}), 2, "100 degrees; an angle of attack is from 0 to 90");
+  refused(with({"--set", "flow.angle_of_attack_deg=5"}), 2, "this command sets the angle");
+  refused(with({"--set", "flow.sides=\"slip\""}), 2, "flow.sides = \"slip\", given by --set");
+  refused(with({"--set", "flow.tunnel.kind=\"open-jet\"", "--set", "flow.tunnel.width_m=2"}), 2,
+          "not a wind tunnel");
+  refused(with({"--steady", in("none")}), 2, "holds no finished run");
+  refused({"stability", stratos, "--dry-run"}, 2, "flow.porosity_model");
+  const Finished listed = ripstop_with(with({"--angles", "0:20:10"}));
+  EXPECT_EQ(listed.code, 0) << listed.output;
+  EXPECT_NE(listed.output.find("curve/angle=20\n"), std::string::npos) << listed.output;
+  EXPECT_FALSE(fs::exists(in("curve")));
+}
+
 TEST_F(Inputs, AnOldKeyIsWarnedOfOnceByEveryCommand) {
   const std::string warning =
       "warning: materials.f-111.darcy is a deprecated key: write materials.f-111.darcy_1_m2\n";

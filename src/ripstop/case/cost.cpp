@@ -50,6 +50,10 @@ double node_estimate(const Design& design) {
 
 }  // namespace
 
+double flow_memory(double cells) {
+  return bytes_a_run + bytes_a_cell * cells;
+}
+
 Cost cost_of(const Settings& resolved) {
   Cost cost;
   const Design& design = resolved.parachute();
@@ -59,7 +63,7 @@ Cost cost_of(const Settings& resolved) {
   if (flow.cloth_levels > 0)
     cost.cells = fitted_cells(flow_grid(flow), nominal_area(design), flow.cloth_levels);
   cost.cloth_memory = bytes_a_node * cost.nodes;
-  cost.memory = bytes_a_run + cost.cloth_memory + bytes_a_cell * cost.cells;
+  cost.memory = flow_memory(cost.cells) + cost.cloth_memory;
   cost.time = flow_iterations * cell_time * cost.cells + cloth_steps * node_time * cost.nodes;
   return cost;
 }

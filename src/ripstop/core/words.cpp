@@ -49,6 +49,21 @@ constexpr Ending endings[] = {
 // Where the key's own words do not do.
 const std::map<std::string_view, Wording>& known() {  // NOLINT(readability-function-size): a list
   static const std::map<std::string_view, Wording> words = {
+      {"c_t", {"C_T", ""}},
+      {"c_n", {"C_N", ""}},
+      {"c_m", {"C_m", ""}},
+      {"c_d", {"C_D", ""}},
+      {"c_l", {"C_L", ""}},
+      {"c_y", {"C_Y", ""}},
+      {"c_t_standard_error", {"standard error of C_T", ""}},
+      {"c_n_standard_error", {"standard error of C_N", ""}},
+      {"c_m_standard_error", {"standard error of C_m", ""}},
+      {"c_d_standard_error", {"standard error of C_D", ""}},
+      {"c_l_standard_error", {"standard error of C_L", ""}},
+      {"c_y_standard_error", {"standard error of C_Y", ""}},
+      {"angles", {"coefficients over the angle of attack", ""}},
+      {"trims", {"trim angles", ""}},
+      {"reference_length_m", {"reference length D₀", "m"}},
       {"drag_coefficient", {"drag coefficient", ""}},
       {"drag_area_m2", {"drag area", "m²"}},
       {"reference_area_m2", {"reference area S₀", "m²"}},
