@@ -27,14 +27,14 @@ struct PatternArguments {
 };
 
 void print_bill(const Bill& bill) {
-  fmt::print("{:<24} {:<16} {:>5} {:>14} {:>14} {:>10}\n", "part", "material", "count", "finished", "cut",
+  fmt::print("{:<24} {:<22} {:>5} {:>14} {:>14} {:>10}\n", "part", "material", "count", "finished", "cut",
              "mass");
   for (const BillRow& row : bill.rows) {
     const char* unit = row.is_cloth ? "m2" : "m ";
-    fmt::print("{:<24} {:<16} {:>5} {:>11.3f} {} {:>11.3f} {} {:>8.1f} g\n", row.part, row.material,
+    fmt::print("{:<24} {:<22} {:>5} {:>11.3f} {} {:>11.3f} {} {:>8.1f} g\n", row.part, row.material,
                row.count, row.finished, unit, row.cut, unit, 1000 * row.mass);
   }
-  fmt::print("{:<24} {:>73.1f} g\n", "total, without thread", 1000 * bill.mass);
+  fmt::print("{:<24} {:>67.1f} g\n", "total, without thread", 1000 * bill.mass);
 }
 
 int run(const PatternArguments& options) {
@@ -47,9 +47,10 @@ int run(const PatternArguments& options) {
     return 0;
   }
   print_bill(result.bill);
-  fmt::print("packed at {:.0f} kg/m3: {:.3f} l\n", result.packing_density, 1000 * result.bill.packed_volume);
+  fmt::print("packed volume at {:.0f} kg/m3: {:.3f} l\n", result.packing_density,
+             1000 * result.bill.packed_volume);
   fmt::print("S0 {:.4f} m2, cloth {:.4f} m2 finished\n", result.nominal_area, result.cloth_area);
-  fmt::print("{} pieces as DXF (in {}) and SVG, bill.csv and result.json in {}\n",
+  fmt::print("outlines: {} as DXF (in {}) and SVG; bill.csv and result.json in {}\n",
              result.pattern.pieces.size(), unit == DxfUnit::inches ? "inches" : "millimetres",
              options.out.string());
   return 0;

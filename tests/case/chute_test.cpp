@@ -102,7 +102,7 @@ TEST(Chute, OneConeBecomesAConicalCanopyOfTheSameArea) {
   const Case cone = parse_case(result.case_text, "case.toml");
   ASSERT_TRUE(cone.parachute.canopy.as<Conical>());
   EXPECT_NEAR(computed_area(cone.parachute), pi * 0.654 * std::hypot(0.3, 0.546), 1e-8);
-  EXPECT_TRUE(says(result.changed, "the file holds 0, its formula gives 0.3"));
+  EXPECT_TRUE(says(result.changed, "the file contains 0, its formula gives 0.3"));
   // A metre higher it is the same cone.
   text.replace(inner, 5, "\"1.3\"");
   text.replace(text.find("\"0\"", inner), 3, "\"1\"");
@@ -129,9 +129,10 @@ TEST(Chute, SailsKeepTheirFullnessAndSlots) {
 TEST(Chute, NothingOfTheFileIsSilentlyLeftOut) {
   const ChuteImport result = imported("odd");
   for (const char* words : {"ripples", "SlantAngle", "cuts: 1", "\"Heavy nylon\", 67", "seam-allowance 0.01",
-                            "diameter: of the whole file", "global_seam_allowance", "colours"})
+                            "diameter: ignored, because openchute and Ripstop use the values of each section",
+                            "global_seam_allowance", "colours"})
     EXPECT_TRUE(says(result.not_mapped, words)) << words;
-  for (const char* words : {"1 / 3 of integers is 0", "0.135 m below the highest place", "end in a point"})
+  for (const char* words : {"1 / 3 of integers is 0", "0.135 m below the highest point", "end in a point"})
     EXPECT_TRUE(says(result.changed, words)) << words;
   for (const char* words : {"9 lines", "--line-length", "values of F-111", "sewn to it", "flow:"})
     EXPECT_TRUE(says(result.assumed, words)) << words;
@@ -327,7 +328,8 @@ TEST(Chute, ANumberThatIsNotItsFormulasIsSaidWhereverItStands) {
     ASSERT_NE(at, std::string::npos) << number;
     const std::size_t digits = number.find("0.") + at;
     other.replace(digits, 3, "0.7");
-    EXPECT_TRUE(says(import_chute(read_chute(other, "x"), {}, "x").changed, "the file holds 0.7")) << number;
+    EXPECT_TRUE(says(import_chute(read_chute(other, "x"), {}, "x").changed, "the file contains 0.7"))
+        << number;
   }
 }
 
@@ -376,7 +378,7 @@ TEST(Chute, ADiskAndABandWithoutAGapBecomeAProfile) {
   for (MeridianPoint& p : band.points) p.y += up;
   const ChuteImport result = import_chute(file, {}, "touching.chute");
   EXPECT_EQ(result.type, "profile");
-  EXPECT_TRUE(says(result.changed, "\"disk-gap-band\" cannot have this shape"));
+  EXPECT_TRUE(says(result.changed, "\"disk-gap-band\" cannot represent this shape"));
   const Case given = parse_case(result.case_text, "case.toml");
   EXPECT_TRUE(given.parachute.canopy.as<ProfileCanopy>()->pieces[1].sewn);
 }

@@ -20,7 +20,7 @@ TEST(QuantityKeys, ASolversErrorIsToldWithTheKeysOfTheCase) {
               "increase the history rate");
     EXPECT_EQ(message_of(error),
               "inflation.low_pass_hz = 900: must be above 0 and below half the rate of the history, 500 Hz; "
-              "raise inflation.history_hz");
+              "increase inflation.history_hz");
   }
 }
 

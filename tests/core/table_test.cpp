@@ -69,9 +69,9 @@ TEST(TableText, FilesThatAreNoTextAreRefused) {
                       "a"),
               "incomplete character");
   EXPECT_SAYS(refused(""), "empty");
-  EXPECT_SAYS(refused("Force (N),Time (s)\n1,2\n3,4"), "t.csv:3: the last line has no end");
+  EXPECT_SAYS(refused("Force (N),Time (s)\n1,2\n3,4"), "t.csv:3: the last line has no line end");
   EXPECT_SAYS(refused("Force (N),Time (s)\n"), "t.csv:1: a header, but no measurements");
-  EXPECT_SAYS(refused("Force (N),\"Time (s)\n1,2\n"), "t.csv:1: a quote opens here");
+  EXPECT_SAYS(refused("Force (N),\"Time (s)\n1,2\n"), "t.csv:1: this quotation mark is not closed");
 }
 
 TEST(TableText, SeparatorsAreFoundByTheRowsTheyGive) {
@@ -109,7 +109,7 @@ TEST(TableHeader, EmptyAndSurplusColumnsAndTrailingSeparatorsAreLeftOut) {
 }
 
 TEST(TableHeader, NumbersWithoutAHeaderAreRefused) {
-  EXPECT_SAYS(refused("1,2\n3,4\n"), "t.csv:1: numbers, but no heading");
+  EXPECT_SAYS(refused("1,2\n3,4\n"), "t.csv:1: numbers without a heading");
   EXPECT_SAYS(refused("A,B\n1,2\n3,4\n"),
               "t.csv:2: numbers without a heading of a known quantity above them (the line above");
 }
@@ -275,10 +275,10 @@ TEST(TableNumbers, BrokenOnesAreRefusedWithTheirPlace) {
     EXPECT_SAYS(message, fmt::format("t.csv:3: \"{}\" in the column \"Force (N)\" (number 1)", cell));
   }
   EXPECT_SAYS(refused("Force (N);Time (s)\n0.5;1\n1;0,5\n"),
-              "t.csv:3: \"0,5\" in the column \"Time (s)\" (number 2) has another decimal mark");
+              "t.csv:3: \"0,5\" in the column \"Time (s)\" (number 2) has a different decimal mark");
   EXPECT_SAYS(refused("Force (N),Time (s)\n1,2\n3\n"), "t.csv:3: 1 values for 2 columns");
   EXPECT_SAYS(refused("Force (N),Time (s)\n1,5,2\n"), "decimal commas need quotes");
-  EXPECT_SAYS(refused("Force (N),Time (s)\n1,2\na,b\n3,4\n"), "t.csv:3: text among the numbers");
+  EXPECT_SAYS(refused("Force (N),Time (s)\n1,2\na,b\n3,4\n"), "t.csv:3: text between the numbers");
   EXPECT_EQ(values("Force (N),Time (s)\n1,2\nEnd of test\n"), (Values{1}));
 }
 

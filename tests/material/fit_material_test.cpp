@@ -145,7 +145,7 @@ TEST_F(BenchFile, ACopyIsRefusedHoweverItIsWritten) {
     ADD_FAILURE() << "a copy was taken";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::bad_data);
-    EXPECT_NE(std::string(error.what()).find("a-1.csv and new.csv share their noise"), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("a-1.csv and new.csv have the same noise"), std::string::npos)
         << error.what();
   }
 }
@@ -164,7 +164,7 @@ TEST_F(BenchFile, NoiseSharedInPartIsDoubtedAndKept) {
   write_file(folder.path / "new.csv", copy);
   const MaterialFit fit = fit_material(bench(head + "[[coupon]]\nfile = \"new.csv\"\n"));
   ASSERT_EQ(fit.warnings.size(), 1u);
-  EXPECT_NE(fit.warnings[0].find("a-0.csv and new.csv share their noise"), std::string::npos)
+  EXPECT_NE(fit.warnings[0].find("a-0.csv and new.csv have the same noise"), std::string::npos)
       << fit.warnings[0];
   EXPECT_NE(material_warnings(fit.material, 0).at(0).find("if one is a copy"), std::string::npos);
 }

@@ -168,8 +168,9 @@ void resolve_core(Follow& follow, double d, FlowKeys& keys, FlowSettings& flow) 
   flow.core.growth =
       follow("flow.core.growth", keys.core.growth, (sheet ? sheet_defaults : paper_defaults).growth, model);
   const bool moves = sheet && keys.unsteady && size.x > 0 && size.y > 0;
-  flow.core.off_axis = follow("flow.core.off_axis", keys.core.off_axis, moves ? in_time_off_axis : 0.0,
-                              moves ? "of an unsteady flow" : "of a steady flow, and of uniform cells");
+  flow.core.off_axis =
+      follow("flow.core.off_axis", keys.core.off_axis, moves ? in_time_off_axis : 0.0,
+             moves ? "default of unsteady flow" : "default of steady flow and of uniform cells");
 }
 
 void resolve_box(Follow& follow, const Design& parachute, FlowKeys& keys, FlowSettings& flow) {

@@ -360,7 +360,7 @@ TEST(Load, TheSnatchOfAPackedCanopyFollowsFromHowItIsSlowed) {
 TEST(Load, WhatCannotBeIsRefused) {
   EXPECT_NE(refused(request(-2)).find("payload mass (kg) of -2"), std::string::npos);
   EXPECT_NE(refused(request(2, 0)).find("speed at line stretch (m/s) of 0"), std::string::npos);
-  EXPECT_NE(refused(request(50, 10)).find("above the 10 m/s of the deployment"), std::string::npos);
+  EXPECT_NE(refused(request(50, 10)).find("exceeds the deployment speed of 10 m/s"), std::string::npos);
   LoadRequest asked = request();
   asked.reefing = {{0.4, 2}, {0.1, 2}};
   EXPECT_NE(refused(asked).find("reefed stage"), std::string::npos);

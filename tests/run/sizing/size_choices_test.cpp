@@ -121,7 +121,7 @@ TEST(SizeChoices, ItsCaseFileSaysItsNumbersInComments) {
       "# Parachute {:.3g} kg: cloth {:.3g}, tape {:.3g}, lines {:.3g}; packed {:.3g} litres at {:g} kg/m3",
       r.parachute_mass, r.cloth_mass, r.tape_mass, r.line_mass, 1000 * r.packed_volume,
       wanted().packing_density));
-  has(fmt::format("# Design load {:.0f} N behind 2.4 kg at 20 m/s: infinite mass", r.design_load));
+  has(fmt::format("# Design load {:.0f} N for a payload of 2.4 kg at 20 m/s: infinite mass", r.design_load));
   has(fmt::format("[inflation]\ndrag_coefficient = {}", r.drag_coefficient));
   has("speed_m_s = 5  # start value of the iteration");
 }

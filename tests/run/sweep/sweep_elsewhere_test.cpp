@@ -106,7 +106,7 @@ TEST_F(SweepElsewhere, ARunWhoseNeighbourHasNotComeBackIsNotBegun) {
     ADD_FAILURE() << "begun";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::io);
-    EXPECT_NE(std::string(error.what()).find("speed_m_s=15, which it starts from, has not ended"),
+    EXPECT_NE(std::string(error.what()).find("speed_m_s=15, from which it starts, is not finished"),
               std::string::npos)
         << error.what();
   }

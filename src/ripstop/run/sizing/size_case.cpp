@@ -116,7 +116,7 @@ std::string size_case_text(const SizeRequest& request, const SizeResult& r) {
                         r.handbook_drag_coefficient->at(0), r.handbook_drag_coefficient->at(1));
   text += fmt::format(
       "# Parachute {:.3g} kg: cloth {:.3g}, tape {:.3g}, lines {:.3g}; packed {:.3g} litres at {:g} kg/m3.\n"
-      "# Design load {:.0f} N behind {:g} kg at {:g} m/s: {} (ripstop load).\n"
+      "# Design load {:.0f} N for a payload of {:g} kg at {:g} m/s: {} (ripstop load).\n"
       "title = \"{}\"\n\n",
       r.parachute_mass, r.cloth_mass, r.tape_mass, r.line_mass, 1000 * r.packed_volume,
       request.packing_density, r.design_load, r.payload_mass, r.deployment_speed, r.design_load_from,
