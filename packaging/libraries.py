@@ -30,6 +30,14 @@ def needed_by(file):
     return {name: pathlib.Path(path).resolve() for name, path in found.items() if not GLIBC.match(name)}
 
 
+def patch(file, names, run_path):
+    """New names of the needed libraries, and the run path. Several changes in one call of patchelf 0.14 damage the file."""
+    for needed in run("patchelf", "--print-needed", file).split():
+        if names.get(needed, needed) != needed:
+            run("patchelf", "--replace-needed", needed, names[needed], file)
+    run("patchelf", "--set-rpath", run_path, file)
+
+
 def bundle(files, folder, keep_out=None, rename=False):
     """Copies the libraries that `files` need into `folder`; all find each other from where they are. With `rename`, a library of the same
     name that the process has loaded before does not replace them. Returns their original paths."""
@@ -41,15 +49,16 @@ def bundle(files, folder, keep_out=None, rename=False):
     if rename:
         digest = {name: hashlib.sha256(path.read_bytes()).hexdigest()[:8] for name, path in libraries.items()}
         names = {name: name.replace(".so", f"-{digest[name]}.so", 1) for name in libraries}
-    renamed = [word for old, new in names.items() if old != new for word in ("--replace-needed", old, new)]
     for name, path in libraries.items():
         copy = folder / names[name]
         shutil.copy(path, copy)
         copy.chmod(0o755)
-        run("patchelf", "--set-rpath", "$ORIGIN", "--set-soname", names[name], *renamed, copy)
+        patch(copy, names, "$ORIGIN")
+        if names[name] != name:
+            run("patchelf", "--set-soname", names[name], copy)
     for file in files:
         up = pathlib.Path(*[".."] * (len(file.relative_to(folder.parent).parts) - 1))
-        run("patchelf", "--set-rpath", f"$ORIGIN/{up / folder.name}", *renamed, file)
+        patch(file, names, f"$ORIGIN/{up / folder.name}")
     return libraries
 
 

@@ -78,8 +78,10 @@ def main():
     parser.add_argument("--mirror", default="http://deb.debian.org/debian")
     parser.add_argument("--coarse", action="store_true", help="coarse cells and cloth, for a run of seconds")
     options = parser.parse_args()
-    options.arguments = "steady my-canopy.toml --out run " + ("--set flow.cells=[20,20,30] --set parachute.mesh.cloth_nodes=800 "
-                                                              "--set flow.residual=1e-3 --set coupling.threads=1" if options.coarse else "")
+    options.arguments = "steady my-canopy.toml --out run"
+    if options.coarse:
+        options.arguments += (" --set flow.cells=[30,30,40] --set parachute.mesh.cloth_nodes=800 --set flow.residual=1e-2"
+                              " --set coupling.drag_tolerance=0.03 --set coupling.threads=1")
     here = options.roots / "here"
     here.mkdir(parents=True, exist_ok=True)
     (here / "my-canopy.toml").write_text(case())
