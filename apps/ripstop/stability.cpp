@@ -179,7 +179,7 @@ void add_stability(CLI::App& app, int& status) {
       "confluence\n"
       "(positive: increases the angle); +- is one standard error. A trim angle has C_m = 0, and is stable "
       "where\n"
-      "C_m falls with the angle. A run that was killed goes on when the same command is given again.\n"
+      "C_m falls with the angle. A run that was killed resumes when the same command is given again.\n"
       "Example: ripstop stability examples/flat-circular/case.toml --angles 0:40:5 --out runs/curve\n"
       "         ripstop stability examples/cross/case.toml --angles 0:30:10 --steady runs/cross\n"
       "         ripstop stability examples/cross/case.toml --flow openfoam --ranks 16 --batch slurm");
@@ -201,7 +201,7 @@ void add_stability(CLI::App& app, int& status) {
   command->add_option("--out", options->settings.run.folder,
                       "Folder (default: runs/<name of the case>-stability)");
   command->add_flag("--fresh", options->settings.run.fresh,
-                    "Replace finished angles; default: go on with them");
+                    "Replace finished angles; default: keep them and resume");
   CLI::Option* dry_run =
       command->add_flag("--dry-run", options->dry_run, "List the folders of all parts, and stop");
   add_json_option(*command, options->json);
