@@ -49,8 +49,9 @@ void check_folder(const fs::path& folder) {
   if (!fs::exists(folder / description) && !foreign_files(folder).empty())
     throw Error(
         ExitCode::usage,
-        fmt::format("{}: is not empty and contains no curve of ripstop stability (no {}); choose another --out",
-                    folder.string(), description));
+        fmt::format(
+            "{}: is not empty and contains no curve of ripstop stability (no {}); choose another --out",
+            folder.string(), description));
   require_unclaimed(folder);
 }
 
@@ -209,8 +210,9 @@ void Curve::take_shape() {
   result_.cells_across = settings_.across;
   result_.cells = flow_at(0).grid.cells();
   if (!settings_.elsewhere)
-    require_memory(flow_memory(result_.cells), fmt::format("an angle of attack on {:.3g} cells (--cells-across {})",
-                                                           double(result_.cells), settings_.across));
+    require_memory(flow_memory(result_.cells),
+                   fmt::format("an angle of attack on {:.3g} cells (--cells-across {})",
+                               double(result_.cells), settings_.across));
 }
 
 Watch Curve::window(std::size_t i) const {
