@@ -146,9 +146,9 @@ TEST(TomlRead, ANumberMayHaveAUnitThatItsKeyCanTake) {
   const std::vector<Problem> problems =
       read_line(line, "mass_kg = \"5 ft\"\nshare = \"5\"\nlengths_m = [\"2 s\"]\n");
   ASSERT_EQ(problems.size(), 3u);
-  EXPECT_EQ(problems[0].message, "must be a number, or one with a unit that can be converted to kg");
-  EXPECT_EQ(problems[1].message, "must be a number, not text");
-  EXPECT_EQ(problems[2].message, "must be a number, or one with a unit that can be converted to m");
+  EXPECT_EQ(problems[0].message, "must be a number, or one with a unit that can be converted to m");
+  EXPECT_EQ(problems[1].message, "must be a number, or one with a unit that can be converted to kg");
+  EXPECT_EQ(problems[2].message, "must be a number, not text");
 }
 
 }  // namespace
