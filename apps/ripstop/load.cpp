@@ -9,6 +9,8 @@
 #include <filesystem>
 #include <memory>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "case_options.h"
 #include "commands.h"
@@ -50,10 +52,16 @@ void print_stage(const StageLoads& s) {
       "R_m = {:.3g}\n",
       s.begin, s.speed, s.height, s.drag_area_before, s.drag_area, s.filling_time, s.ballistic_parameter,
       s.mass_ratio);
-  fmt::print("  {:<18} {:>10} {:>8}  {:<8}\n", "method", "load N", "at s", "applies");
-  for (const MethodLoad& m : s.methods)
-    fmt::print("  {:<18} {:>10.1f} {:>8} {:>8}  {}\n", m.method, m.load,
-               m.time > 0 ? fmt::format("{:.3f}", m.time) : "-", m.applies ? "yes" : "no", m.note);
+  fmt::print("  {:<18} {:>10} {:>8}  {:<8} {}\n", "method", "load N", "at s", "applies", "reason");
+  std::vector<std::string> notes;  // each is printed once, below the table
+  for (const MethodLoad& m : s.methods) {
+    const auto known = std::find(notes.begin(), notes.end(), m.note);
+    const std::string reason = m.note.empty() ? "" : fmt::format("({})", known - notes.begin() + 1);
+    if (!m.note.empty() && known == notes.end()) notes.push_back(m.note);
+    fmt::print("  {:<18} {:>10.1f} {:>8}  {:<8} {}\n", m.method, m.load,
+               m.time > 0 ? fmt::format("{:.3f}", m.time) : "-", m.applies ? "yes" : "no", reason);
+  }
+  for (std::size_t i = 0; i < notes.size(); ++i) fmt::print("  ({}) {}\n", i + 1, notes[i]);
   if (std::any_of(s.methods.begin(), s.methods.end(), [](const MethodLoad& m) { return m.applies; }))
     fmt::print("  applicable methods: {:.1f} to {:.1f} N, spread {:.0f} %\n", s.lowest, s.highest,
                100 * s.spread);

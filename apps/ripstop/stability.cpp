@@ -173,13 +173,14 @@ void add_stability(CLI::App& app, int& status) {
   CLI::App* command = app.add_subcommand(
       "stability", "Force and moment coefficients over the angle of attack, and trim angles");
   command->footer(
-      "The canopy keeps the shape of a steady run on the axis; the stream comes at the angle and is averaged "
-      "in time.\n"
+      "The canopy keeps the shape of a steady run on the axis; the stream arrives at the angle, and its "
+      "force is "
+      "averaged in time.\n"
       "C_T is along the canopy's axis, C_N normal to it (positive: reduces the angle), C_m about the "
       "confluence\n"
       "(positive: increases the angle); +- is one standard error. A trim angle has C_m = 0, and is stable "
       "where\n"
-      "C_m falls with the angle. A run that was killed resumes when the same command is given again.\n"
+      "C_m falls with the angle. A killed run continues when the same command is given again.\n"
       "Example: ripstop stability examples/flat-circular/case.toml --angles 0:40:5 --out runs/curve\n"
       "         ripstop stability examples/cross/case.toml --angles 0:30:10 --steady runs/cross\n"
       "         ripstop stability examples/cross/case.toml --flow openfoam --ranks 16 --batch slurm");
@@ -201,7 +202,7 @@ void add_stability(CLI::App& app, int& status) {
   command->add_option("--out", options->settings.run.folder,
                       "Folder (default: runs/<name of the case>-stability)");
   command->add_flag("--fresh", options->settings.run.fresh,
-                    "Replace finished angles; default: keep them and resume");
+                    "Replace finished angles; default: go on with them");
   CLI::Option* dry_run =
       command->add_flag("--dry-run", options->dry_run, "List the folders of all parts, and stop");
   add_json_option(*command, options->json);

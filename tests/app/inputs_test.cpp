@@ -94,7 +94,7 @@ TEST_F(Inputs, ACurveOverTheAngleOfAttackIsRefusedWithTheValueThatIsWrong) {
   refused(with({"--set", "flow.sides=\"slip\""}), 2, "flow.sides = \"slip\", given by --set");
   refused(with({"--set", "flow.tunnel.kind=\"open-jet\"", "--set", "flow.tunnel.width_m=2"}), 2,
           "not a wind tunnel");
-  refused(with({"--steady", in("none")}), 2, "holds no finished run");
+  refused(with({"--steady", in("none")}), 2, "contains no finished run");
   refused({"stability", stratos, "--dry-run"}, 2, "flow.porosity_model");
   const Finished listed = ripstop_with(with({"--angles", "0:20:10"}));
   EXPECT_EQ(listed.code, 0) << listed.output;

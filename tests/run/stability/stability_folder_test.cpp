@@ -55,6 +55,7 @@ class StabilityFolder : public testing::Test {
   static Case given() {
     Case made = flat_circular_case(1, 800, 20);
     made.flow.engine = "leaning";
+    made.coupling.load = CanopyLoad::uniform;  // the formula has no load for each face
     made.flow.cells = {20, 20, 30};
     made.flow.watch.shortest = 10, made.flow.watch.longest = 20;
     return checked(made);
