@@ -80,8 +80,9 @@ def main():
     options = parser.parse_args()
     options.arguments = "steady my-canopy.toml --out run"
     if options.coarse:
-        options.arguments += (" --set flow.cells=[30,30,40] --set parachute.mesh.cloth_nodes=800 --set flow.residual=1e-2"
-                              " --set coupling.drag_tolerance=0.03 --set coupling.threads=1")
+        options.arguments += (" --set flow.box_m=[2.6,2.6,4] --set flow.cells=[20,20,30] --set flow.residual=1e-2"
+                              " --set coupling.drag_tolerance=0.1 --set coupling.shape_tolerance_m=0.05"
+                              " --set parachute.mesh.cloth_nodes=500 --set coupling.threads=1")
     here = options.roots / "here"
     here.mkdir(parents=True, exist_ok=True)
     (here / "my-canopy.toml").write_text(case())
