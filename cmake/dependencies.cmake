@@ -18,7 +18,7 @@ endif()
 
 find_package(Threads REQUIRED)
 find_package(Eigen3 QUIET NO_MODULE)
-ripstop_check_version(Eigen "${Eigen3_FOUND}" "${Eigen3_VERSION}" 3.4 "${tested}")
+ripstop_check_version(Eigen "${Eigen3_FOUND}" "${Eigen3_VERSION}" 3.4 "the type Eigen::Vector is new in it")
 find_package(fmt QUIET)
 ripstop_check_version(fmt "${fmt_FOUND}" "${fmt_VERSION}" 8 "fmt::format_string and fmt::runtime are new in it")
 find_package(nlohmann_json QUIET)

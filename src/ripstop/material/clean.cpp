@@ -260,17 +260,22 @@ double cut_failure(Pull& pull) {
 /// Squared misfit of a pull that begins at `zero`: nothing before it, sum_k c_k u^k with k = 1 .. terms and c_1 >= 0
 /// after it.
 double toe_misfit(std::span<const double> x, std::span<const double> f, double zero, int terms) {
-  Eigen::MatrixXd products = Eigen::MatrixXd::Zero(terms, terms);
-  Eigen::VectorXd right = Eigen::VectorXd::Zero(terms), powers(terms);
+  // Plain loops over the lower triangle: this is most of the time of reading a record.
+  Eigen::Matrix<double, most_toe_terms, most_toe_terms> sums = decltype(sums)::Zero();
+  Eigen::Vector<double, most_toe_terms> of_forces = decltype(of_forces)::Zero(), powers;
   double sum = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
     sum += f[i] * f[i];
     if (x[i] <= zero) continue;
     powers[0] = (x[i] - zero) / (x.back() - zero);
     for (int k = 1; k < terms; ++k) powers[k] = powers[k - 1] * powers[0];
-    products.selfadjointView<Eigen::Lower>().rankUpdate(powers);
-    right += f[i] * powers;
+    for (int l = 0; l < terms; ++l) {
+      for (int k = l; k < terms; ++k) sums(k, l) += powers[k] * powers[l];
+      of_forces[l] += f[i] * powers[l];
+    }
   }
+  const auto products = sums.topLeftCorner(terms, terms);
+  const auto right = of_forces.head(terms);
   const auto solved = [&](int from) {  // c_k from this k on, and what they leave
     const int n = terms - from;
     const Eigen::MatrixXd left = products.bottomRightCorner(n, n);
