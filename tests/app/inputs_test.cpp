@@ -66,7 +66,7 @@ TEST_F(Inputs, WhatCannotWorkIsRefusedBeforeItCostsAnything) {
   write_file(in("drag.csv"), "speed_m_s,density_kg_m3,drag_n\n20,1.2,150\n");
   refused(
       {"calibrate", "porosity", stratos, "--gammas", "0.2", "--measured", in("drag.csv"), "--out", in("p")},
-      2, "at least two");
+      2, "two or more");
   EXPECT_FALSE(fs::exists(in("p")));
 }
 
