@@ -70,6 +70,8 @@ CoupledFlow::CoupledFlow(const AirProblem& problem, const Mesh& mesh)
       density_(problem.flow.air.density),
       payload_(problem.payload),
       node_mass_(mesh.mass),
+      fixed_(mesh.fixed),
+      ties_(mesh.ties),
       cells_(cells_of(mesh)),
       mass_(least_mass(mesh, cells_)),
       flow_(start_flow(problem, surface_of(cells_, mesh.start)), density_) {}
@@ -79,23 +81,54 @@ double CoupledFlow::density_ratio_of(const AirMemory& memory) const {
 }
 
 Loads CoupledFlow::last_load(const AirMemory& memory) const {
-  if (memory.pressure.empty())
-    return {std::vector<double>(cells_.size(), 0.0), std::vector<Vec3>(node_mass_.size())};
-  return {memory.pressure, memory.force};
+  Loads load{memory.pressure, memory.force};
+  if (memory.pressure.empty()) load.cell_pressure.assign(cells_.size(), 0.0);
+  load.node_force.resize(node_mass_.size());
+  for (std::size_t n = 0; n < node_mass_.size(); ++n) load.node_force[n].z += node_mass_[n] * memory.inertia;
+  return load;
 }
 
-// The Robin condition: v_n = v_n,predicted + compliance (p - p_last), compliance = mean_share dt / (mass an area).
-SheetMotion CoupledFlow::sheet_motion(const ClothMotion& predicted, double length,
-                                      const AirMemory& memory) const {
-  const std::vector<double> pressure = last_load(memory).cell_pressure;
+// Of every node under the last load of the air alone, without springs [m/s2].
+std::vector<Vec3> CoupledFlow::acceleration(const std::vector<Vec3>& positions,
+                                            const AirMemory& memory) const {
+  std::vector<Vec3> force = memory.force;
+  force.resize(node_mass_.size());
+  for (std::size_t c = 0; c < memory.pressure.size(); ++c) {
+    const auto& corner = cells_[c].corner;
+    if (corner[0] < 0) continue;
+    const Vec3 area = area_vector(positions[corner[0]], positions[corner[1]], positions[corner[2]],
+                                  positions[corner[3]]);
+    for (const int node : corner) force[node] += 0.25 * memory.pressure[c] * area;
+  }
+  std::vector<double> mass = node_mass_;
+  for (const Tie& tie : ties_)
+    for (const Tie::Master& master : tie.masters) {
+      force[master.node] += master.weight * force[tie.node];
+      mass[master.node] += master.weight * mass[tie.node];
+    }
+  for (std::size_t n = 0; n < force.size(); ++n) force[n] = force[n] / mass[n];
+  for (const int node : fixed_) force[node] = {};
+  for (const Tie& tie : ties_) {
+    force[tie.node] = {};
+    for (const Tie::Master& master : tie.masters) force[tie.node] += master.weight * force[master.node];
+  }
+  return force;
+}
+
+// The Robin condition: v_n = v_n,predicted + compliance (p - p_last), compliance = mean_share dt / (mass an area). What
+// p_last did to the cloth is taken from the nodes: of the air's last force on them no part may be left out, as the air
+// would answer it twice.
+SheetMotion CoupledFlow::sheet_motion(const std::vector<Vec3>& positions, const ClothMotion& predicted,
+                                      double length, const AirMemory& memory) const {
+  const double response = mean_share(predicted.steps) * length;
+  const std::vector<Vec3> by_air = acceleration(positions, memory);
   SheetMotion motion;
-  for (const double mass : mass_) motion.yields.push_back(mean_share(predicted.steps) * length / mass);
-  for (std::size_t c = 0; c < cells_.size(); ++c) {
-    if (cells_[c].corner[0] < 0) continue;
+  for (const double mass : mass_) motion.yields.push_back(response / mass);
+  for (const Cell& cell : cells_) {
+    if (cell.corner[0] < 0) continue;
     Vec3 mean;
-    for (const int node : cells_[c].corner) mean += 0.25 * predicted.velocity[node];
+    for (const int node : cell.corner) mean += 0.25 * (predicted.velocity[node] - response * by_air[node]);
     motion.velocity.insert(motion.velocity.end(), 2, mean);
-    motion.pressure.insert(motion.pressure.end(), 2, pressure[c]);
   }
   return motion;
 }
@@ -104,7 +137,7 @@ AirRow CoupledFlow::step(const std::vector<Vec3>& positions, const ClothMotion& 
                          AirMemory& memory) {
   flow_.set_density_ratio(density_ratio_of(memory));
   surface_ = surface_of(cells_, positions);
-  flow_.place(surface_, sheet_motion(predicted, length, memory));
+  flow_.place(surface_, sheet_motion(positions, predicted, length, memory));
   PayloadMotion& flight = memory.flight;
   if (memory.steps == 0) {
     flight.speed = speed_;
@@ -128,10 +161,8 @@ Loads CoupledFlow::transfer(const std::vector<Vec3>& positions, AirMemory& memor
   row.residual_traction = residual_traction_share(load, cells_, positions);
   memory.pressure = std::exchange(load.pressure, std::vector<double>(cells_.size(), 0.0));
   memory.force = node_forces(load, cells_, positions);
-  if (payload_) {  // weight, and the inertial force in the frame of the payload
-    const double along = memory.flight.acceleration - gravity_along_path(*payload_, memory.flight);
-    for (std::size_t n = 0; n < node_mass_.size(); ++n) memory.force[n].z += node_mass_[n] * along;
-  }
+  // Weight, and the inertial force in the frame of the payload.
+  if (payload_) memory.inertia = memory.flight.acceleration - gravity_along_path(*payload_, memory.flight);
   return last_load(memory);
 }
 
