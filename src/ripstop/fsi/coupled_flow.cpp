@@ -1,12 +1,14 @@
 #include "ripstop/fsi/coupled_flow.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
 #include "ripstop/core/error.h"
 #include "ripstop/fsi/added_mass.h"
+#include "ripstop/fsi/lattice.h"
 #include "ripstop/fsi/sheet_transfer.h"
 #include "ripstop/fsi/transfer.h"
 
@@ -49,6 +51,54 @@ std::vector<double> least_mass(const Mesh& mesh, const std::vector<Cell>& cells)
   return result;
 }
 
+// Widths of the flow's cells over which the air sees the velocity of the cloth smoothed.
+constexpr double smoothed_over = 1;
+
+/// Cells of cloth: centre, area vector and velocity.
+struct MovingCells {
+  std::vector<Vec3> centre, area, velocity;
+};
+
+/// Visits the shares, together 1, of a unit vector in the six directions of the axes.
+template <class Visit>
+void shares_of_directions(Vec3 normal, const Visit& visit) {
+  const double n[] = {normal.x, normal.y, normal.z};
+  for (int axis = 0; axis < 3; ++axis)
+    if (n[axis] != 0) visit(2 * axis + (n[axis] < 0), n[axis] * n[axis]);
+}
+
+// Mean by area over the cloth within `width` that looks the same way. A face of the flow stands for many cells of cloth,
+// whose own motion it must not take for that of all of them: the load, which is smooth on that scale, cannot stop it. As
+// a matrix it is symmetric with respect to the areas, and no motion of the cloth grows by it.
+std::vector<Vec3> smoothed_velocity(const MovingCells& cells, double width) {
+  struct Sum {
+    double area = 0;  // [m2]
+    Vec3 swept;       // [m3/s]
+  };
+  Lattice<std::array<Sum, 6>> lattice(cells.centre, width);
+  const auto each = [&](std::size_t c, const auto& visit) {
+    const double area = norm(cells.area[c]);
+    if (!(area > 0)) return;
+    shares_of_directions(cells.area[c] / area, [&](int direction, double of_direction) {
+      lattice.about(cells.centre[c], [&](std::array<Sum, 6>& sums, double share) {
+        visit(sums[direction], share * of_direction, area);
+      });
+    });
+  };
+  for (std::size_t c = 0; c < cells.centre.size(); ++c)
+    each(c, [&](Sum& sum, double share, double area) {
+      sum.area += share * area, sum.swept += share * area * cells.velocity[c];
+    });
+  std::vector<Vec3> result = cells.velocity;
+  for (std::size_t c = 0; c < cells.centre.size(); ++c) {
+    if (norm(cells.area[c]) > 0) result[c] = {};
+    each(c, [&](const Sum& sum, double share, double) {
+      if (share > 0) result[c] += share / sum.area * sum.swept;
+    });
+  }
+  return result;
+}
+
 }  // namespace
 
 ClothMotion predict_motion(const ClothState& state, const Cloth& cloth, const Loads& last_load, double length,
@@ -76,6 +126,16 @@ CoupledFlow::CoupledFlow(const AirProblem& problem, const Mesh& mesh)
       mass_(least_mass(mesh, cells_)),
       flow_(start_flow(problem, surface_of(cells_, mesh.start)), density_) {}
 
+// On the axis, where the canopy is.
+double CoupledFlow::cell_width() const {
+  const Vec3 cell = grid_.spacing({0, 0, grid_.origin.z + 0.5 * grid_.size.z});
+  return std::max({cell.x, cell.y, cell.z});
+}
+
+double CoupledFlow::heaviness() const {
+  return density_ * cell_width() / *std::min_element(mass_.begin(), mass_.end());
+}
+
 double CoupledFlow::density_ratio_of(const AirMemory& memory) const {
   return payload_ ? density_ratio(*payload_, memory.flight.fallen) : 1;
 }
@@ -96,8 +156,8 @@ std::vector<Vec3> CoupledFlow::acceleration(const std::vector<Vec3>& positions,
   for (std::size_t c = 0; c < memory.pressure.size(); ++c) {
     const auto& corner = cells_[c].corner;
     if (corner[0] < 0) continue;
-    const Vec3 area = area_vector(positions[corner[0]], positions[corner[1]], positions[corner[2]],
-                                  positions[corner[3]]);
+    const Vec3 area =
+        area_vector(positions[corner[0]], positions[corner[1]], positions[corner[2]], positions[corner[3]]);
     for (const int node : corner) force[node] += 0.25 * memory.pressure[c] * area;
   }
   std::vector<double> mass = node_mass_;
@@ -122,14 +182,22 @@ SheetMotion CoupledFlow::sheet_motion(const std::vector<Vec3>& positions, const 
                                       double length, const AirMemory& memory) const {
   const double response = mean_share(predicted.steps) * length;
   const std::vector<Vec3> by_air = acceleration(positions, memory);
-  SheetMotion motion;
-  for (const double mass : mass_) motion.yields.push_back(response / mass);
+  MovingCells cells;
   for (const Cell& cell : cells_) {
     if (cell.corner[0] < 0) continue;
-    Vec3 mean;
-    for (const int node : cell.corner) mean += 0.25 * (predicted.velocity[node] - response * by_air[node]);
-    motion.velocity.insert(motion.velocity.end(), 2, mean);
+    Vec3 centre, velocity;
+    for (const int node : cell.corner) {
+      centre += 0.25 * positions[node];
+      velocity += 0.25 * (predicted.velocity[node] - response * by_air[node]);
+    }
+    const auto& [a, b, c, d] = cell.corner;
+    cells.centre.push_back(centre), cells.velocity.push_back(velocity);
+    cells.area.push_back(area_vector(positions[a], positions[b], positions[c], positions[d]));
   }
+  SheetMotion motion;
+  for (const double mass : mass_) motion.yields.push_back(response / mass);
+  const std::vector<Vec3> smoothed = smoothed_velocity(cells, smoothed_over * cell_width());
+  for (const Vec3 velocity : smoothed) motion.velocity.insert(motion.velocity.end(), 2, velocity);
   return motion;
 }
 

@@ -119,12 +119,16 @@ class CoupledFlow {
   /// Computes the canopy's added mass as it lies at `positions`; takes about as long as a step.
   void compute_added_mass(const std::vector<Vec3>& positions, AirMemory& memory) const;
 
+  /// Mass of the air of a cell on the axis over that of the lightest cloth beside it, rho h / m.
+  double heaviness() const;
+
   const Flow& flow() const { return flow_.at_deployment(); }
   void save(const std::filesystem::path& folder) const { flow_.at_deployment().save(folder); }
   void restore(const std::filesystem::path& folder) { flow_.at_deployment().restore(folder); }
 
  private:
   double density_ratio_of(const AirMemory& memory) const;
+  double cell_width() const;  // [m]
   std::vector<Vec3> acceleration(const std::vector<Vec3>& positions, const AirMemory& memory) const;
   SheetMotion sheet_motion(const std::vector<Vec3>& positions, const ClothMotion& predicted, double length,
                            const AirMemory& memory) const;
