@@ -75,13 +75,15 @@ std::vector<Vec3> smoothed_velocity(const MovingCells& cells, double width) {
     double area = 0;  // [m2]
     Vec3 swept;       // [m3/s]
   };
-  Lattice<std::array<Sum, 6>> lattice(cells.centre, width);
+  std::vector<std::array<Sum, 6>> sums(1);    // of points with cloth about them
+  Lattice<int> lattice(cells.centre, width);  // which of the sums; 0: none yet
   const auto each = [&](std::size_t c, const auto& visit) {
     const double area = norm(cells.area[c]);
     if (!(area > 0)) return;
     shares_of_directions(cells.area[c] / area, [&](int direction, double of_direction) {
-      lattice.about(cells.centre[c], [&](std::array<Sum, 6>& sums, double share) {
-        visit(sums[direction], share * of_direction, area);
+      lattice.about(cells.centre[c], [&](int& point, double share) {
+        if (point == 0) point = static_cast<int>(sums.size()), sums.emplace_back();
+        visit(sums[point][direction], share * of_direction, area);
       });
     });
   };
