@@ -202,7 +202,7 @@ void add_stability(CLI::App& app, int& status) {
   command->add_option("--out", options->settings.run.folder,
                       "Folder (default: runs/<name of the case>-stability)");
   command->add_flag("--fresh", options->settings.run.fresh,
-                    "Replace finished angles; default: go on with them");
+                    "Replace finished angles; default: keep them and continue");
   CLI::Option* dry_run =
       command->add_flag("--dry-run", options->dry_run, "List the folders of all parts, and stop");
   add_json_option(*command, options->json);

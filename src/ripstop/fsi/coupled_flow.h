@@ -30,7 +30,8 @@ struct AirProblem {
 /// What the next step needs of the last one.
 struct AirMemory {
   std::vector<double> pressure;  // Loads::cell_pressure of the last step [Pa]
-  std::vector<Vec3> force;       // Loads::node_force of the last step [N]
+  std::vector<Vec3> force;       // Loads::node_force of the last step, of the air [N]
+  double inertia = 0;            // beside it, on every kilogram of the cloth along the stream [m/s2]
   double work = 0;               // done by the part of the flow's load that is not pressure, so far [J]
   long long steps = 0;           // of the flow
   PayloadMotion flight;
@@ -41,6 +42,7 @@ template <Of<AirMemory> T, class Visit>
 void each_member(T& m, Visit&& visit) {
   visit("pressure", m.pressure);
   visit("force", m.force);
+  visit("inertia", m.inertia);
   visit("work", m.work);
   visit("steps", m.steps);
   visit("speed", m.flight.speed);
@@ -117,19 +119,27 @@ class CoupledFlow {
   /// Computes the canopy's added mass as it lies at `positions`; takes about as long as a step.
   void compute_added_mass(const std::vector<Vec3>& positions, AirMemory& memory) const;
 
+  /// Mass of the air of a cell on the axis over that of the lightest cloth beside it, rho h / m.
+  double heaviness() const;
+
   const Flow& flow() const { return flow_.at_deployment(); }
   void save(const std::filesystem::path& folder) const { flow_.at_deployment().save(folder); }
   void restore(const std::filesystem::path& folder) { flow_.at_deployment().restore(folder); }
 
  private:
   double density_ratio_of(const AirMemory& memory) const;
-  SheetMotion sheet_motion(const ClothMotion& predicted, double length, const AirMemory& memory) const;
+  double cell_width() const;  // [m]
+  std::vector<Vec3> acceleration(const std::vector<Vec3>& positions, const AirMemory& memory) const;
+  SheetMotion sheet_motion(const std::vector<Vec3>& positions, const ClothMotion& predicted, double length,
+                           const AirMemory& memory) const;
 
   std::shared_ptr<FlowEngine> engine_;
   FlowGrid grid_;
   double courant_, speed_, density_;  // of the stream at deployment [m/s], [kg/m3]
   std::optional<Payload> payload_;
   std::vector<double> node_mass_;  // [kg]
+  std::vector<int> fixed_;         // Mesh::fixed
+  std::vector<Tie> ties_;
   std::vector<Cell> cells_;
   std::vector<double> mass_;       // of every triangle of the surface, a unit area [kg/m2]
   std::vector<Triangle> surface_;  // of the last step

@@ -27,15 +27,40 @@ double least_rows_in(const FlowProblem& flow) {
   return flow.air.speed() / (longest_row * least);  // [1/s]
 }
 
-/// work(), whose divergence is reported with the time at which it happened [s].
+/// work(), whose divergence is reported with the time at which its step began [s] and with how much heavier than the
+/// cloth the air of a cell is, which decides whether the two can be stepped together.
 template <class Work>
-auto with_time(double time, const Work& work) {
+auto or_diverged(double time, double heaviness, const Work& work) {
   try {
     return work();
   } catch (const Error& error) {
     if (error.code() != ExitCode::diverged) throw;
-    throw Error(ExitCode::diverged, fmt::format("t = {:.6g} s: {}", time, error.what()));
+    throw QuantityError(
+        ExitCode::diverged,
+        fmt::format("coupled opening, flow step from t = {:.6g} s: {}. The air of a cell has {:.3g} "
+                    "times the mass of the cloth beside it; a finer flow grid reduces this ratio",
+                    time, error.what(), heaviness),
+        {"flow grid"});
   }
+}
+
+/// A canopy narrower than so many cells would not part the air of any two.
+constexpr double least_cells_across = 2;
+
+void check_width(const FoldedStart& folded, const FlowGrid& grid) {
+  const double width = folded.inner_radius + folded.outer_radius;
+  const Vec3 cell = grid.spacing({0, 0, 0.5 * grid.size.z + grid.origin.z});
+  const double across = std::max(cell.x, cell.y);
+  if (width >= least_cells_across * across) return;
+  throw QuantityError(ExitCode::usage,
+                      fmt::format("the skirt of the folded canopy is {:.3g} m wide, {:.2g} cells of the flow "
+                                  "grid ({:.3g} m): the air "
+                                  "does not see a canopy of less than {:g} cells. Cells of at most {:.3g} m "
+                                  "are needed, or a radius of "
+                                  "the folded skirt of at least {:.3g} m",
+                                  width, width / across, across, least_cells_across,
+                                  width / least_cells_across, 0.5 * least_cells_across * across),
+                      {"flow grid", "radius of the folded skirt"});
 }
 
 double mean_load(const std::vector<HistoryRow>& history, int rows) {
@@ -49,7 +74,9 @@ double mean_load(const std::vector<HistoryRow>& history, int rows) {
 CoupledOpening::CoupledOpening(InflationProblem problem)
     : Opening(problem, problem.settings.duration_s, least_rows_in(problem.air->flow),
               AdaptiveStepper::Step::renewed),
-      air_(std::make_unique<CoupledFlow>(*problem.air, mesh())) {}
+      air_(std::make_unique<CoupledFlow>(*problem.air, mesh())) {
+  check_width(folded(), problem.air->flow.grid);
+}
 
 InflationState CoupledOpening::start() const {
   InflationState state = Opening::start();
@@ -61,7 +88,8 @@ std::vector<HistoryRow> CoupledOpening::advance(InflationState& state, std::vect
   std::vector<HistoryRow> history;
   while (static_cast<int>(history.size()) < rows_per_block()) {
     const int rows = rows_of_next_step(state, rows_per_block() - static_cast<int>(history.size()));
-    const AirRow row = step(state, rows, history);
+    const AirRow row =
+        or_diverged(state.cloth.time, air_->heaviness(), [&] { return step(state, rows, history); });
     if (air_rows) air_rows->push_back(row);
   }
   end_block(state);
@@ -92,11 +120,8 @@ AirRow CoupledOpening::step(InflationState& state, int rows, std::vector<History
       predict_motion(state.cloth, cloth_of(state), air_->last_load(state.air), length, steps, team());
 
   // Step the flow about it, transfer its load.
-  AirRow row;
-  const Loads loads = with_time(state.cloth.time, [&] {
-    row = air_->step(before, predicted, length, state.air);
-    return air_->transfer(before, state.air, row);
-  });
+  AirRow row = air_->step(before, predicted, length, state.air);
+  const Loads loads = air_->transfer(before, state.air, row);
 
   // Correct: step the cloth under that load.
   const auto load_of = [&](long long) -> const Loads& { return loads; };
