@@ -52,11 +52,10 @@ void print_start(const Opening& solver, const InflationState& state, const LoadS
         "cloth_damping_s is weakened in {:.1f} % of the cells, to {:.2f} of itself at least, for the step's "
         "sake\n",
         100 * limit.reduced_cells, limit.least_share);
-  fmt::print(
-      "nodes {}, step {:.3e} s (largest stable {:.3e} s), {} threads; the cloth alone takes about {} on one "
-      "thread\n",
-      solver.mesh().node_count(), state.step, state.step / solver.problem().settings.step_fraction,
-      solver.threads(), duration_text(opening_seconds(solver, state)));
+  fmt::print("nodes {}, step {:.3e} s (largest stable {:.3e} s), {} threads; {} about {} on one thread\n",
+             solver.mesh().node_count(), state.step, state.step / solver.problem().settings.step_fraction,
+             solver.threads(), solver.air() ? "cloth and air take" : "the cloth takes",
+             duration_text(opening_seconds(solver, state)));
 }
 
 /// Of a reefed opening, a line a stage.
@@ -229,6 +228,7 @@ int run(const InflateArguments& options) {
     const std::unique_ptr<Opening> solver =
         make_opening(with_engine(resolved, opening_problem(resolved, source, threads)));
     print_start(*solver, solver->start(), source);
+    print_warnings(opening_warnings(resolved, *solver));
     return 0;
   }
   goes_on_when_repeated();

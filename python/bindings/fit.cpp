@@ -6,6 +6,7 @@
 
 #include "members.h"
 #include "module.h"
+#include "ripstop/core/table/table.h"
 
 namespace ripstop {
 
@@ -59,13 +60,17 @@ void each_member(T& c, Visit&& visit) {
 namespace ripstop::python {
 namespace {
 
-FitResult fit(const Path& file, bool coupons, int degree, bool zero_offset, Callback<FitProgress> progress,
-              int threads, const std::optional<Path>& out) {
+FitResult fit(const Path& file, bool coupons, int degree, bool zero_offset, const std::string& columns,
+              const std::string& decimal, Callback<FitProgress> progress, int threads,
+              const std::optional<Path>& out) {
   Listener listener(std::move(progress));
   const py::gil_scoped_release release;
   Bench bench = read_bench(file);
   if (degree > 0) bench.degree = degree;
   if (zero_offset) bench.zero_offset = true;
+  if (!columns.empty()) bench.columns = columns;
+  if (!decimal.empty()) bench.decimal = table::parse_decimal(decimal);
+  table::parse_columns(bench.columns);  // a wrong one ends here, before any record is read
   ThreadTeam team(threads);
   FitResult result = run_fit(bench, coupons, team, [&](int pulls, double xi, double eps, double misfit) {
     listener.tell(FitProgress{pulls, xi, eps, misfit});
@@ -123,13 +128,15 @@ void add_fit(py::module_& module) {
       "warnings", [](const FitResult& r) { return r.fit.warnings; }, "What is doubtful about the material.");
   type.def("__repr__", [](const FitResult& r) { return "<ripstop.Fit '" + r.bench.name + "'>"; });
   module.def("fit", &fit, py::arg("bench"), py::kw_only(), py::arg("coupons") = true, py::arg("degree") = 0,
-             py::arg("zero_offset") = false, py::arg("progress") = py::none(), py::arg("threads") = 0,
-             py::arg("out") = py::none(),
+             py::arg("zero_offset") = false, py::arg("columns") = "", py::arg("decimal") = "",
+             py::arg("progress") = py::none(), py::arg("threads") = 0, py::arg("out") = py::none(),
              "From tensile test records to a material: ripstop fit.\n\n"
              "bench: the campaign's file (TOML).\n"
              "coupons: find xi and eps by virtual coupons.\n"
              "degree: of the curves; 0: as the campaign says. zero_offset: no load without strain, whatever "
              "it says.\n"
+             "columns: columns of the records that are not found by their headings, as in\n"
+             "  \"force=Kraft [kN],extension=Weg [mm]\". decimal: auto, point or comma.\n"
              "progress: called with a FitProgress after every coupon; what it raises ends the search.\n"
              "threads: 0: all. out: a folder for the material and its plots. None: nothing is written.\n\n"
              "Loads in [N/m] of cloth and tape, in [N] of a line.");

@@ -82,8 +82,7 @@ TEST(Library, ClothsLetThroughTheAirOfTheirSpecification) {
     EXPECT_LE(flow, r.high) << r.name;
     EXPECT_EQ(model_of(cloth.resistance), PorosityModel::sheet) << r.name;
   }
-  const PressureDrop lot =
-      as_sheet(std::get<Fabric>(library_material("pia-c-44378-type-iv-lot")).resistance);
+  const PressureDrop lot = as_sheet(std::get<Fabric>(library_material("pia-c-44378-type-iv-lot")).resistance);
   EXPECT_NEAR(cfm(lot), 0.89, 1e-3);
   const Fabric printed = std::get<Fabric>(library_material("f-111"));
   EXPECT_EQ(as_cells(printed.resistance).darcy, 65.98);

@@ -279,8 +279,10 @@ void describe(Fields& fields, CouplingKeys& coupling) {
       .number("drag_tolerance", coupling.drag_tolerance, above(0).up_to(1),
               "Relative change of drag between two iterations at which the coupling may end.")
       .absent(by_model(sheet_defaults.drag_tolerance, paper_defaults.drag_tolerance));
-  fields.number("shape_tolerance_m", coupling.shape_tolerance_m, above(0).up_to(10),
-                "Mean displacement of the nodes between two iterations at which it may end.");
+  fields
+      .number("shape_tolerance_m", coupling.shape_tolerance_m, above(0).up_to(10),
+              "Mean displacement of the nodes between two iterations at which it may end.")
+      .absent("0.1 % of the nominal diameter");
   fields.integer("max_iterations", coupling.max_iterations, from(1).up_to(10000),
                  "Most iterations of the coupling.");
   fields.number("relaxation", coupling.relaxation, above(0).up_to(1),

@@ -46,8 +46,9 @@ TapeMaterial tape_for(const Case& given, double line_load) {
   line_load = std::max(1e-9, line_load);  // what is wrong with air and area is told elsewhere
   const std::optional<double> hem = used_of_hem(given, line_load);
   if (hem && *hem <= 1 && !slots_need_tape(given.parachute))
-    return {no_tape, fmt::format("a hem of {:g} mm of the cloth holds a line's {:.3g} N ({:.0f} % used)",
-                                 1000 * hem_width, line_load, 100 * *hem),
+    return {no_tape,
+            fmt::format("a hem of {:g} mm of the cloth holds a line's {:.3g} N ({:.0f} % used)",
+                        1000 * hem_width, line_load, 100 * *hem),
             *hem};
   const Tape *lightest = nullptr, *strongest = nullptr;
   double least_used = 0;

@@ -100,8 +100,9 @@ std::string caution_on_filling(const LoadRequest& request, double nominal_diamet
   if (request.filling_constant) return "";
   const std::string text = joined(outside_range(filling_model, {{"nominal diameter", nominal_diameter}}));
   return text.empty() ? ""
-                      : text + "; the deployment decides over 1 to 20 D0 (--filling-constant), and a canopy "
-                               "that is thrown open approaches the infinite-mass load";
+                      : text +
+                            "; the deployment decides over 1 to 20 D0 (--filling-constant), and a canopy "
+                            "that is thrown open approaches the infinite-mass load";
 }
 
 void add_methods(const OpeningConditions& c, double ludtke_exponent, double integral, StageLoads& stage) {
@@ -167,9 +168,8 @@ StageLoads begin_stage(const LoadRequest& request, const LoadResult& r, const Fl
   stage.drag_area_before = before, stage.drag_area = drag_area;
   // A stage that was cut while it overshot has no less to fill than the drag area that it would have held.
   const double added = drag_area - std::min(before, before_held);
-  stage.filling_constant = request.filling_constant
-                               ? *request.filling_constant
-                               : filling_constant_at(r.filling_constant, state.speed);
+  stage.filling_constant = request.filling_constant ? *request.filling_constant
+                                                    : filling_constant_at(r.filling_constant, state.speed);
   stage.filling_time = stage.filling_constant * r.nominal_diameter / state.speed * std::sqrt(added / open);
   const OpeningConditions c{r.payload_mass + r.parachute_mass,
                             state.speed,
@@ -335,9 +335,10 @@ LoadResult run_load(const Settings& resolved, const LoadRequest& request) {
   if (along > 0 && request.speed * request.speed <= along * descent * descent)
     throw Error(
         ExitCode::usage,
-        fmt::format("a descent rate of {:.3g} m/s is above the {:.3g} m/s of the deployment: the payload still "
-                    "accelerates under the open canopy; take a higher speed, a smaller mass or a larger canopy",
-                    descent, request.speed));
+        fmt::format(
+            "a descent rate of {:.3g} m/s is above the {:.3g} m/s of the deployment: the payload still "
+            "accelerates under the open canopy; take a higher speed, a smaller mass or a larger canopy",
+            descent, request.speed));
   fly_stages(request, r);
   if (!request.opening.empty()) fly_record(resolved, request, r);
   choose_design_load(resolved, request, r);

@@ -10,6 +10,7 @@
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/claimed_folder.h"
 #include "ripstop/core/file.h"
+#include "ripstop/core/positive.h"
 #include "ripstop/output/picture.h"
 #include "ripstop/output/vtk.h"
 #include "ripstop/run/json.h"
@@ -17,6 +18,11 @@
 #include "ripstop/run/stress_arrays.h"
 
 namespace ripstop {
+namespace {
+
+constexpr double highest_pressure = 1e6;  // as of inflation.pressure_pa [Pa]
+
+}  // namespace
 
 std::string to_json(const FabricResult& result) {
   return json_text(result);
@@ -24,6 +30,7 @@ std::string to_json(const FabricResult& result) {
 
 FabricSolution run_fabric(const Settings& resolved, std::optional<double> pressure,
                           const std::function<void(const RelaxProgress&)>& report) {
+  if (pressure) require_within("pressure (Pa)", *pressure, 1e-9, highest_pressure);
   FabricSolution solution;
   auto& [r, mesh, shape, stress, tensions] = solution;
   const double speed = resolved.flow().speed_m_s;

@@ -240,8 +240,8 @@ void find_parachute(const SizeRequest& request, SizeResult& r) {
   const auto used = [&r] { return std::max(used_of(r, suspension_line(r.given), "line"), r.tape_used); };
   while (!request.line_material && used() > 1 && add_lines(example, used())) {
     find_materials(request, lines, example, r);
-    r.gores_source =
-        fmt::format("{} lines of the example are too few for the strongest line and tape of the library", count);
+    r.gores_source = fmt::format(
+        "{} lines of the example are too few for the strongest line and tape of the library", count);
   }
 }
 

@@ -60,7 +60,7 @@ struct SizeResult {
   std::optional<std::array<double, 2>> handbook_diameter;  // that its range gives, the largest first [m]
   double nominal_diameter = 0, nominal_area = 0, vent_area = 0;  // [m], [m2]
   int gores = 0, line_count = 0;
-  double line_length = 0;  // [m]
+  double line_length = 0;    // [m]
   std::string gores_source;  // why there are more gores than in the example; empty: there are as many
   std::string line_material, tape_material, tape_source, canopy_material;
   double parachute_mass = 0, cloth_mass = 0, tape_mass = 0, line_mass = 0;  // [kg]
