@@ -32,7 +32,7 @@ Json compared_result(const std::filesystem::path& folder) {
   return result;
 }
 
-ComparedNumber number_of(const std::string& key, const std::vector<Json>& results) {
+ComparedNumber compared_number(const std::string& key, const std::vector<Json>& results) {
   ComparedNumber number{key, {}, {}};
   for (const Json& result : results) {
     const auto found = result.find(key);
@@ -65,7 +65,7 @@ RunComparison compare_runs(const std::vector<std::filesystem::path>& folders) {
   for (const std::string& key : keys) {
     if (std::find(of_the_computation.begin(), of_the_computation.end(), key) != of_the_computation.end())
       continue;
-    ComparedNumber number = number_of(key, results);
+    ComparedNumber number = compared_number(key, results);
     const auto known = std::count_if(number.values.begin(), number.values.end(),
                                      [](const auto& v) { return v.has_value(); });
     if (known > 1) comparison.numbers.push_back(std::move(number));

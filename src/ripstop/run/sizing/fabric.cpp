@@ -76,7 +76,7 @@ void write_fabric(const std::filesystem::path& folder, const FabricSolution& sol
   std::vector<double> mises;
   for (const CellStress& s : stress) mises.push_back(s.von_mises);
   VtkSurface canopy = canopy_surface(mesh, shape);
-  for (VtkArray& array : stress_arrays(mesh, stress)) canopy.cell_arrays.push_back(std::move(array));
+  for (VtkArray& array : stress_arrays(mesh, shape, stress)) canopy.cell_arrays.push_back(std::move(array));
   write_vtp(folder / "canopy.vtp", canopy);
   VtkSurface lines = spring_lines(mesh, shape);
   lines.cell_arrays.push_back(vtk_array("tension_n", tensions));
