@@ -309,6 +309,26 @@ TEST(RunNumbers, OfAnOpeningInItsOwnAirTheLargestDragAreaAndThePayloadsEndCount)
   EXPECT_GT(*r.height_lost, 0);
 }
 
+// The estimate of --check: cloth predicted and corrected, and steps of the air in all its cells.
+TEST(RunNumbers, TheTimeOfAnOpeningInItsOwnAirCountsTheFlowAndItsCellsAreCheckedFirst) {
+  Case given = small_opening_in_air();
+  const Case opening = opening_case(given);
+  const Settings resolved = resolve(opening);
+  const LoadSource source = load_source(resolved);
+  const auto solver = make_opening(with_engine(resolved, opening_problem(resolved, source, 1)));
+  const InflationState start = solver->start();
+  const double cloth =
+      solver->problem().settings.duration_s / start.step * solver->mesh().node_count() / 1.25e8;
+  EXPECT_GT(opening_seconds(*solver, start), 2 * cloth);
+  given.flow.cells = {{24, 24, 30}};
+  const Settings coarse = resolve(opening_case(given));
+  const auto in_coarse = make_opening(with_engine(coarse, opening_problem(coarse, load_source(coarse), 1)));
+  const std::vector<std::string> warnings = opening_warnings(coarse, *in_coarse);
+  ASSERT_EQ(warnings.size(), cells_across(coarse) < 10 ? 1u : 0u);
+  EXPECT_LT(cells_across(coarse), 10);
+  EXPECT_NE(warnings.front().find("number of flow cells across the inflated canopy"), std::string::npos);
+}
+
 TEST(RunNumbers, ADampingIsSearchedOnTheMeasuredOpeningUnderThePressureOfTheProblem) {
   Case given = small_opening();
   given.inflation.duration_s = 2e-3;
