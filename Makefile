@@ -16,11 +16,13 @@ WHEEL_PACKAGES := python3-pip python3-setuptools python3-wheel
 CHECK_PACKAGES := libgtest-dev libbenchmark-dev python3 python3-jsonschema python3-vtk9 python3-venv clang-format chromium \
   $(PYTHON_PACKAGES) $(WHEEL_PACKAGES)
 
+# Programs of other people that open the cutting patterns.
+DRAWING_PACKAGES := librecad inkscape python3-lxml python3-cssselect python3-numpy
 DOCS_PACKAGES := mkdocs-material libjs-katex fonts-katex doxygen
 
 export PATH := /usr/bin:$(PATH)
 
-.PHONY: help deps check-deps build demo check room sanitize sanitize-thread fuzz mutants coverage tidy bench validate validate-ojf validate-families validate-families-in-time validate-openings judge torture test-slurm test-hosts scaling docs reference report-libraries format format-check install-build install wheel package clean
+.PHONY: help deps check-deps build demo check room sanitize sanitize-thread fuzz mutants coverage tidy bench validate validate-ojf validate-families validate-families-in-time validate-openings judge torture test-drawings test-slurm test-hosts scaling docs reference report-libraries format format-check install-build install wheel package clean
 
 help:  ## This list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -137,6 +139,10 @@ judge: check-deps build  ## The built-in engine beside OpenFOAM on meshes that f
 
 torture: build  ## Kills, failing writes, damaged files, lying programs over tiny runs, into docs/tables: hours; resumable
 	@/usr/bin/python3 validation/reliability/torture.py --ripstop build/bin/ripstop $(TORTURE)
+
+test-drawings: build  ## Cutting patterns opened by LibreCAD and Inkscape, and measured there
+	$(call install_missing,$(DRAWING_PACKAGES))
+	@/usr/bin/python3 validation/drawings/measure.py --ripstop build/bin/ripstop
 
 test-slurm: build  ## Batch scripts through a real Slurm of two nodes on this machine (as root), into docs/tables: some minutes
 	$(call install_missing,$(SLURM_PACKAGES))

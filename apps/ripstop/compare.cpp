@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <memory>
 
 #include "commands.h"
@@ -41,8 +42,8 @@ void print(const RunComparison& c) {
   fmt::print(" {:>10}\n", "change");
   for (const ComparedNumber& n : c.numbers) {
     fmt::print("{:<44}", in_words(n.key).with_unit());
-    for (const std::optional<double>& value : n.values)
-      fmt::print(" {:>14}", value ? fmt::format("{:.5g}", *value) : "-");
+    for (const double value : n.values)
+      fmt::print(" {:>14}", std::isnan(value) ? "-" : fmt::format("{:.5g}", value));
     fmt::print(" {:>10}\n", n.difference ? fmt::format("{:+.2f} %", 100 * *n.difference) : "-");
   }
   for (std::size_t i = 0; i < c.runs.size(); ++i)

@@ -23,7 +23,7 @@ TEST(CompareRuns, ShowsEveryNumberOfBothAndTheDifferenceOfTheLastToTheFirst) {
     return nullptr;
   };
   ASSERT_TRUE(number("drag_n"));
-  EXPECT_EQ(number("drag_n")->values, (std::vector<std::optional<double>>{slow.drag, fast.drag}));
+  EXPECT_EQ(number("drag_n")->values, (std::vector<double>{slow.drag, fast.drag}));
   EXPECT_DOUBLE_EQ(*number("drag_n")->difference, fast.drag / slow.drag - 1);
   EXPECT_NEAR(*number("drag_n")->difference, 3, 0.05);  // with the square of the speed
   EXPECT_TRUE(number("projected_diameter_m"));

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 
 #include "ripstop/core/error.h"
 #include "ripstop/run/json.h"
@@ -37,10 +39,10 @@ ComparedNumber compared_number(const std::string& key, const std::vector<Json>& 
   for (const Json& result : results) {
     const auto found = result.find(key);
     const bool known = found != result.end() && found->is_number();
-    number.values.push_back(known ? std::optional<double>(found->get<double>()) : std::nullopt);
+    number.values.push_back(known ? found->get<double>() : std::numeric_limits<double>::quiet_NaN());
   }
-  const std::optional<double>&first = number.values.front(), &last = number.values.back();
-  if (first && last && *first != 0) number.difference = *last / *first - 1;
+  const double first = number.values.front(), last = number.values.back();
+  if (std::isfinite(first) && std::isfinite(last) && first != 0) number.difference = last / first - 1;
   return number;
 }
 
@@ -66,8 +68,8 @@ RunComparison compare_runs(const std::vector<std::filesystem::path>& folders) {
     if (std::find(of_the_computation.begin(), of_the_computation.end(), key) != of_the_computation.end())
       continue;
     ComparedNumber number = compared_number(key, results);
-    const auto known = std::count_if(number.values.begin(), number.values.end(),
-                                     [](const auto& v) { return v.has_value(); });
+    const auto known =
+        std::count_if(number.values.begin(), number.values.end(), [](double v) { return !std::isnan(v); });
     if (known > 1) comparison.numbers.push_back(std::move(number));
   }
   return comparison;

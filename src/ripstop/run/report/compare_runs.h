@@ -11,8 +11,8 @@
 namespace ripstop {
 
 struct ComparedNumber {
-  std::string key;                            // of result.json
-  std::vector<std::optional<double>> values;  // one a run; absent: the run has no such number
+  std::string key;                   // of result.json
+  std::vector<double> values;        // one a run; NaN, in JSON null: the run has no such number
   std::optional<double> difference;  // of the last run's to the first one's, relative; absent: not known
 };
 template <Of<ComparedNumber> T, class Visit>

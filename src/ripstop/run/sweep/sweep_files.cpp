@@ -7,9 +7,11 @@
 #include <map>
 #include <optional>
 
+#include "ripstop/core/file.h"
 #include "ripstop/core/words.h"
 #include "ripstop/output/plot.h"
 #include "ripstop/run/json.h"
+#include "ripstop/run/report/report.h"
 
 namespace ripstop {
 namespace {
