@@ -29,7 +29,7 @@ std::unique_ptr<PyFabric> fabric(const PyCase& given, std::optional<double> pres
   return made;
 }
 
-const PyFabric& run_of(const py::object& self) {
+const PyFabric& fabric_of(const py::object& self) {
   return self.cast<const PyFabric&>();
 }
 
@@ -41,13 +41,13 @@ void add_fabric(py::module_& module) {
   add_members(type, result);
   add_json(type, result);
   type.def_property_readonly(
-      "shape", [](const py::object& self) { return view_of(run_of(self).solution.shape, self); },
+      "shape", [](const py::object& self) { return view_of(fabric_of(self).solution.shape, self); },
       "Every node of the parachute, x, y, z; z is downstream [m]");
   type.def_property_readonly(
-      "cells", [](const py::object& self) { return view_of_cells(run_of(self).cells, self); },
+      "cells", [](const py::object& self) { return view_of_cells(fabric_of(self).cells, self); },
       "Nodes at the four corners of every cell of cloth; the first is -1 where there is none.");
   type.def_property_readonly(
-      "stress", [](const py::object& self) { return table_of(run_of(self).solution.stress, self); },
+      "stress", [](const py::object& self) { return table_of(fabric_of(self).solution.stress, self); },
       "Of every cell of cloth: columns in [N/m], max_strain without unit.");
   module.def("fabric", &fabric, py::arg("case"), py::kw_only(), py::arg("pressure_pa") = py::none(),
              py::arg("out") = py::none(),
