@@ -25,7 +25,7 @@ namespace {
 // How many steps a filling takes on the trajectory, and how long one is flown at most [s].
 constexpr double steps_a_filling = 400, longest_flight = 600;
 // Steps of the slow rest of a flight while the speed falls by half, where these are longer than ten of the filling's.
-constexpr double steps_a_slowing = 50;
+constexpr double steps_a_slowing = 1000;
 // The share of the load at infinite mass from which on that estimate stands for the opening.
 constexpr double hardly_slowed = 0.9;
 // Where gravity adds more to the speed during the filling than this share, formulas without gravity do not hold.
