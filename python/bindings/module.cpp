@@ -59,5 +59,8 @@ PYBIND11_MODULE(_ripstop, module) {
   add_load(module);
   add_size(module);  // has the load's stages
   add_flight(module);
+  add_fabric(module);
+  add_sweep(module);
+  add_report(module);
   module.attr("__name__") = own_name;
 }

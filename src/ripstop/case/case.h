@@ -102,7 +102,7 @@ struct FlowKeys : FlowOptions {
 /// [coupling] as given.
 struct CouplingKeys : CouplingOptions {
   std::optional<CanopyLoad> load;
-  std::optional<double> drag_tolerance;
+  std::optional<double> drag_tolerance, shape_tolerance_m;
 };
 
 /// [payload] as given.

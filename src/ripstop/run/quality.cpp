@@ -52,7 +52,8 @@ Judgement judge(const std::vector<QualityValue>& values) {
   for (const QualityValue& v : values) {
     const QualityLimit& limit = quality_limit(v.key);
     const auto beyond = [&](double bound) {
-      return !std::isfinite(v.value) || (limit.at_least ? v.value < bound : v.value > bound);
+      constexpr double rounding = 1 - 1e-9;  // ten cells across that are 9.999...
+      return !std::isfinite(v.value) || (limit.at_least ? v.value < rounding * bound : v.value > bound);
     };
     if (!beyond(limit.warn)) continue;
     const bool refused = beyond(limit.refuse);
