@@ -58,6 +58,7 @@ void describe(Fields& fields, Case& given) {
   fields.table("coupling", given.coupling, "The steady loop between cloth and flow.");
   fields.table("inflation", given.inflation, "The opening of the folded canopy.");
   fields.table("payload", given.payload, "What hangs below, in place of the flow's speed.");
+  fields.table("flight", given.flight, "The free flight of parachute and payload.");
   fields.table("margins", given.margins,
                "Safety and knock-down factors of the margins of cloth, tape, lines and riser.");
   fields.rows("measured", given.measured, "Wind-tunnel conditions to take air from and to compare with.");

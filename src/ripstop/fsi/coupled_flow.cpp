@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "ripstop/core/error.h"
@@ -66,17 +65,11 @@ CoupledFlow::CoupledFlow(const AirProblem& problem, const Mesh& mesh)
     : engine_(problem.engine),
       grid_(problem.flow.grid),
       courant_(problem.courant),
-      speed_(problem.flow.air.speed()),
       density_(problem.flow.air.density),
-      payload_(problem.payload),
       node_mass_(mesh.mass),
       cells_(cells_of(mesh)),
       mass_(least_mass(mesh, cells_)),
       flow_(start_flow(problem, surface_of(cells_, mesh.start)), density_) {}
-
-double CoupledFlow::density_ratio_of(const AirMemory& memory) const {
-  return payload_ ? density_ratio(*payload_, memory.flight.fallen) : 1;
-}
 
 Loads CoupledFlow::last_load(const AirMemory& memory) const {
   if (memory.pressure.empty())
@@ -100,50 +93,32 @@ SheetMotion CoupledFlow::sheet_motion(const ClothMotion& predicted, double lengt
   return motion;
 }
 
-AirRow CoupledFlow::step(const std::vector<Vec3>& positions, const ClothMotion& predicted, double length,
-                         AirMemory& memory) {
-  flow_.set_density_ratio(density_ratio_of(memory));
+FlowStep CoupledFlow::step(const std::vector<Vec3>& positions, const ClothMotion& predicted, double length,
+                           const Surroundings& surroundings, AirMemory& memory) {
+  flow_.set_density_ratio(surroundings.density_ratio);
   surface_ = surface_of(cells_, positions);
   flow_.place(surface_, sheet_motion(predicted, length, memory));
-  PayloadMotion& flight = memory.flight;
-  if (memory.steps == 0) {
-    flight.speed = speed_;
-    if (payload_) deploy(flight, *payload_, speed_, flow_.density());
-  }
-  const double speed = flight.speed + length * flight.acceleration;
-  if (payload_) flow_.stream({0, 0, speed}, {0, 0, flight.acceleration});
-  const FlowStep step = flow_.step(length);
+  if (surroundings.moves) flow_.stream(surroundings.stream, surroundings.gained);
   ++memory.steps;
-  AirRow row;
-  row.length = length, row.courant = step.courant, row.speed = speed;
-  row.drag = step.force.z, row.side_x = step.force.x, row.side_y = step.force.y;
-  row.drag_area = row.drag / (0.5 * flow_.density() * speed * speed);
-  row.momentum_gap = step.momentum_gap.z, row.mass_defect = step.mass_defect;
-  row.added_mass = memory.added_mass;
-  return row;
+  return flow_.step(length);
 }
 
-Loads CoupledFlow::transfer(const std::vector<Vec3>& positions, AirMemory& memory, AirRow& row) const {
+Loads CoupledFlow::transfer(const std::vector<Vec3>& positions, const Surroundings& surroundings,
+                            AirMemory& memory, double& residual_traction) const {
   ClothLoad load = load_of_flow(flow_.sheet_loads(), grid_, surface_, cells_, positions, Folds::filled);
-  row.residual_traction = residual_traction_share(load, cells_, positions);
+  residual_traction = residual_traction_share(load, cells_, positions);
   memory.pressure = std::exchange(load.pressure, std::vector<double>(cells_.size(), 0.0));
   memory.force = node_forces(load, cells_, positions);
-  if (payload_) {  // weight, and the inertial force in the frame of the payload
-    const double along = memory.flight.acceleration - gravity_along_path(*payload_, memory.flight);
-    for (std::size_t n = 0; n < node_mass_.size(); ++n) memory.force[n].z += node_mass_[n] * along;
-  }
+  if (surroundings.moves)
+    for (std::size_t n = 0; n < node_mass_.size(); ++n)
+      memory.force[n] += node_mass_[n] * surroundings.on_mass;
+  if (surroundings.node >= 0) memory.force[surroundings.node] += surroundings.force;
   return last_load(memory);
 }
 
-void CoupledFlow::move_payload(double pull, AirMemory& memory, AirRow& row) const {
-  if (payload_) ripstop::move_payload(memory.flight, *payload_, pull, row.length, density_);
-  row.path = memory.flight.path, row.fallen = memory.flight.fallen;
-  row.angle = memory.flight.angle * 180 / std::numbers::pi;
-}
-
-void CoupledFlow::compute_added_mass(const std::vector<Vec3>& positions, AirMemory& memory) const {
-  memory.added_mass =
-      added_mass(*engine_, surface_of(cells_, positions), density_ * density_ratio_of(memory));
+void CoupledFlow::compute_added_mass(const std::vector<Vec3>& positions, double density_ratio,
+                                     AirMemory& memory) const {
+  memory.added_mass = added_mass(*engine_, surface_of(cells_, positions), density_ * density_ratio);
 }
 
 }  // namespace ripstop
