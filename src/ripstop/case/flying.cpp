@@ -16,7 +16,9 @@
 namespace ripstop {
 namespace {
 
-constexpr double growth = 1.2;        // of the cells outside of the core: a coarse grid in a wide box
+constexpr double growth = 1.2;  // of the cells outside of the core: a coarse grid in a wide box
+// The flight begins with the equilibrium on the axis and does not depend on its last percent.
+constexpr int start_flow_iterations = 100, start_average = 30, start_iterations = 12;
 constexpr int multiple = 4;           // of cells along an axis, for the multigrid
 constexpr double fastest = 100;       // of wind and gust together, below Mach 0.3 [m/s]
 constexpr double least_pressure = 2;  // dynamic pressure over the weight of the cloth an area
@@ -72,6 +74,11 @@ Case flight_case(const Case& given) {
   Case flight = opening_case(given);
   flight.flow.speed_m_s.reset();  // that at which drag is weight
   flight.flow.unsteady = false;
+  if (!flight.flow.max_iterations) flight.flow.max_iterations = start_flow_iterations;
+  if (!flight.flow.average_over)
+    flight.flow.average_over = std::min(start_average, *flight.flow.max_iterations);
+  if (!given.origins.contains("coupling.max_iterations"))
+    flight.coupling.max_iterations = std::min(start_iterations, given.coupling.max_iterations);
   if (!flight.flow.sides) flight.flow.sides = Sides::far_field;
   FlowKeys& flow = flight.flow;
   if (!flow.cells && !flow.box_m && !flow.core.size_m) {
