@@ -24,6 +24,7 @@ namespace fs = std::filesystem;
 // How often the standard error is looked at, and so many half-swings it needs at least: ten periods.
 constexpr double look_every = 1;  // [s]
 constexpr int least_half_swings = 20;
+constexpr int shots_on_sheet = 8;
 
 /// The equilibrium on the axis; saves its flow.
 class AxialRun : public SteadyObserver {
@@ -145,14 +146,19 @@ FlightResult result_of(const Settings& resolved, const FreeFlight& flight, const
   return r;
 }
 
-/// Keeps the highest stress of all shapes.
-void look_at_stress(const FreeFlight& flight, FreeFlightState& state) {
+/// Keeps the highest stress of all shapes, and some shapes for the contact sheet.
+void look_at_shape(const FreeFlight& flight, FreeFlightState& state) {
   const ClothState& cloth = state.coupled.cloth;
-  const StressPeak now =
-      stress_peak(flight.mesh(), positions(cloth, flight.cloth()), cell_stress(flight.cloth(), cloth));
+  const std::vector<Vec3> x = positions(cloth, flight.cloth());
+  const std::vector<CellStress> stress = cell_stress(flight.cloth(), cloth);
+  const StressPeak now = stress_peak(flight.mesh(), x, stress);
   StressPeak& highest = state.coupled.highest_stress;
-  if (now.von_mises <= highest.von_mises) return;
-  highest = now, state.coupled.highest_stress_time = cloth.time;
+  if (now.von_mises > highest.von_mises) highest = now, state.coupled.highest_stress_time = cloth.time;
+  std::vector<Snapshot>& shots = state.coupled.snapshots;
+  const double share = cloth.time / flight.problem().settings.duration_s;
+  if (double(shots.size()) >= std::min(shots_on_sheet * share + 1, double(shots_on_sheet))) return;
+  shots.push_back({cloth.time, x, {}});
+  for (const CellStress& cell : stress) shots.back().von_mises.push_back(cell.von_mises);
 }
 
 }  // namespace
@@ -184,7 +190,7 @@ FlightSolution run_flight(const Settings& resolved, int threads, FlightObserver&
     ended_by = end_of(flight, state, history);
     const FreeFlightRow& row = history.rows.back();
     const bool shape = shapes_until(row.time, now.flight()) > shapes_until(row.time - row.step, now.flight());
-    if (shape) look_at_stress(flight, state);
+    if (shape) look_at_shape(flight, state);
     observer.advanced(flight, state, history, shape);
   }
   result = result_of(now, flight, start, state, history, ended_by);

@@ -10,6 +10,7 @@
 #include "ripstop/core/hash.h"
 #include "ripstop/flow/unsteady.h"
 #include "ripstop/output/csv.h"
+#include "ripstop/output/picture.h"
 #include "ripstop/output/plot.h"
 #include "ripstop/output/vtk.h"
 #include "ripstop/run/json.h"
@@ -177,6 +178,12 @@ void FlightFolder::ended(FreeFlight& flight, const FreeFlightState& state, const
   save(flight, state, history);
   write_series(flight, history.rows.back().time);
   write_plots(history, result);
+  std::vector<CanopyShot> shots;
+  for (const Snapshot& shot : state.coupled.snapshots)
+    shots.push_back({fmt::format("t = {:.2f} s", shot.time), shot.positions, shot.von_mises});
+  if (!shots.empty())
+    write_contact_sheet(folder_.own("shapes.png"), flight.mesh(), result.title, "von Mises stress [N/m]",
+                        shots);
   FlightResult named = result;
   named.inputs_hash = inputs_of_run(folder_.path());
   write_file(folder_.own("result.json"), to_json(named));
