@@ -88,7 +88,8 @@ Case flight_case(const Case& given) {
   return flight;
 }
 
-FlightProblem flight_problem(const Settings& flight, std::vector<Vec3> shape, int threads) {
+FlightProblem flight_problem(const Settings& flight, std::vector<Vec3> shape, std::vector<double> pressure,
+                             int threads) {
   const FlowSettings& stream = flight.flow();
   if (stream.porosity_model != PorosityModel::sheet)
     refuse("flow.porosity_model: only cloth that is a sheet flies; give the cloth an air permeability");
@@ -96,17 +97,17 @@ FlightProblem flight_problem(const Settings& flight, std::vector<Vec3> shape, in
     refuse("flow.sides: in flight the air comes from any direction; leave it out or set it to \"far-field\"");
   const Cost cost = cost_of(flight);
   require_memory(cost.memory, fmt::format("a flight in {:.3g} cells of air", cost.cells));
-  const double pressure = 0.5 * stream.density_kg_m3 * stream.speed_m_s * stream.speed_m_s,
+  const double dynamic = 0.5 * stream.density_kg_m3 * stream.speed_m_s * stream.speed_m_s,
                weight = flight.materials().canopy.areal_density_kg_m2 * standard_gravity;
-  if (pressure < least_pressure * weight)
+  if (dynamic < least_pressure * weight)
     refuse(fmt::format(
         "payload.mass_kg = {:g}: at its rate of descent of {:.3g} m/s the dynamic pressure of "
         "{:.3g} Pa does not hold up the canopy's cloth ({:.3g} Pa); a heavier payload or a smaller "
         "canopy is needed",
-        *flight.payload().mass_kg, stream.speed_m_s, pressure, weight));
+        *flight.payload().mass_kg, stream.speed_m_s, dynamic, weight));
   FlightProblem problem;
   problem.mesh = parachute_mesh(flight);
-  problem.shape = std::move(shape);
+  problem.shape = std::move(shape), problem.pressure = std::move(pressure);
   problem.air = {flow_problem(flight), flight.flight().courant};
   problem.settings = flight.flight();
   problem.cloth = flight.inflation();

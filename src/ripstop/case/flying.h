@@ -12,7 +12,8 @@ namespace ripstop {
 /// where the case gives none. Throws Error(usage) without payload.mass_kg and for what does not fly.
 Case flight_case(const Case& given);
 
-/// Of the settings of what flight_case() returns, at the rate of descent of `shape`, with flow.speed_m_s at that rate.
-FlightProblem flight_problem(const Settings& flight, std::vector<Vec3> shape, int threads);
+/// Of the settings of what flight_case() returns, at the rate of descent of `shape` under `pressure` [Pa], with flow.speed_m_s at that rate.
+FlightProblem flight_problem(const Settings& flight, std::vector<Vec3> shape, std::vector<double> pressure,
+                             int threads);
 
 }  // namespace ripstop

@@ -89,7 +89,7 @@ ClothPtr flying_cloth(CanopyMesh& mesh, const FlightProblem& problem) {
   ClothOptions options{problem.linear, 0, 0};
   const InflationSettings& s = problem.cloth;
   if (s.contact_pa > 0) options.contact = ContactOptions{s.contact_pa, s.contact_friction, problem.shape};
-  if (s.cloth_damping_s > 0) limit_viscosity(mesh, options, problem.shape, s.cloth_damping_step_share);
+  limit_viscosity(mesh, options, problem.shape, s.cloth_damping_step_share);
   return make_cloth(mesh, options);
 }
 
@@ -141,6 +141,10 @@ FreeFlightState FreeFlight::start() {
   state.elastic_at_start = elastic_energy(*cloth_, cloth);
   state.momentum_at_start = momentum(*cloth_, cloth) + mass_ * state.box_velocity;
   state.mouth_at_start = mouth_area(mesh_, x);
+  if (!problem_.pressure.empty()) {
+    state.coupled.air.pressure = problem_.pressure;
+    state.coupled.air.force.assign(x.size(), {});
+  }
   return state;
 }
 

@@ -20,9 +20,10 @@
 namespace ripstop {
 
 struct FlightProblem {
-  CanopyMesh mesh;          // as cut; its fixed node becomes the payload
-  std::vector<Vec3> shape;  // at the start, its axis along z in the box [m]
-  AirProblem air;           // air.flow.air.velocity: along z, the rate of descent at the start
+  CanopyMesh mesh;                    // as cut; its fixed node becomes the payload
+  std::vector<Vec3> shape;            // at the start, its axis along z in the box [m]
+  std::vector<double> pressure = {};  // on its cells [Pa]; empty: none
+  AirProblem air;                     // air.flow.air.velocity: along z, the rate of descent at the start
   FlightSettings settings;
   InflationSettings cloth;       // damping, contact and step of the cloth
   double payload_mass = 0;       // [kg]

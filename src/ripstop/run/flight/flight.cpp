@@ -54,7 +54,8 @@ FlightStart equilibrium_on_axis(const Settings& resolved, int threads, const fs:
         fmt::format("the canopy on the axis did not come to equilibrium within {} iterations; the "
                     "flight begins with its last shape",
                     solution.result.iterations));
-  return {solution.result.speed, solution.result.drag_coefficient, solution.state.shape};
+  return {solution.result.speed, solution.result.drag_coefficient, solution.state.shape,
+          solution.state.pressure};
 }
 
 std::optional<double> relative_error(const FlightHistory& history) {
@@ -173,7 +174,7 @@ FlightSolution run_flight(const Settings& resolved, int threads, FlightObserver&
   const FlightStart start = earlier ? *earlier : equilibrium_on_axis(resolved, threads, axial.path, observer);
   observer.started(start);
   const Settings now = at_speed(resolved, start.speed);
-  FlightProblem problem = flight_problem(now, start.shape, threads);
+  FlightProblem problem = flight_problem(now, start.shape, start.pressure, threads);
   EngineOptions options = engine_options(now);
   options.threads = threads;
   options.small_eddies = now.flow().watch.eddies;

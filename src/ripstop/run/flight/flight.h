@@ -100,15 +100,17 @@ std::string to_json(const FlightResult& result);
 
 /// Where a flight begins: the canopy in equilibrium on the axis, at the speed at which its drag is the weight.
 struct FlightStart {
-  double speed = 0;         // [m/s]
-  double coefficient = 0;   // C_D0 on the axis
-  std::vector<Vec3> shape;  // [m]
+  double speed = 0;              // [m/s]
+  double coefficient = 0;        // C_D0 on the axis
+  std::vector<Vec3> shape;       // [m]
+  std::vector<double> pressure;  // on its cells [Pa]
 };
 template <Of<FlightStart> T, class Visit>
 void each_member(T& start, Visit&& visit) {
   visit("speed", start.speed);
   visit("coefficient", start.coefficient);
   visit("shape", start.shape);
+  visit("pressure", start.pressure);
 }
 
 /// Shapes that are due until a time, without that of the start.
