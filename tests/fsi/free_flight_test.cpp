@@ -18,8 +18,8 @@ constexpr double side = 0.5, below = 0.6,
 constexpr double areal_mass = 0.2, payload = 0.5, gravity = 9.81;
 constexpr double linear = 40;  // pressure drop [Pa s/m]
 
-/// A square of n x n nodes across z; each is tied to the payload by a spring that carries compression too, so that the whole
-/// moves as one rigid body.
+/// A square of n x n nodes across z; each is tied to the payload by a spring that carries compression too, so that
+/// the whole moves as one rigid body.
 CanopyMesh plate() {
   constexpr int n = 7;
   constexpr double spacing = side / (n - 1), stiffness = 2e4;

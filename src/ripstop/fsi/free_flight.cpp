@@ -16,8 +16,8 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-// The box follows the canopy as a critically damped spring would, at this rate times speed over size of the canopy. A swing
-// takes some ten of these times, and the canopy stays within a tenth of its displacement.
+// The box follows the canopy as a critically damped spring would, at this rate times speed over size of the canopy. A
+// swing takes some ten of these times, and the canopy stays within a tenth of its displacement.
 constexpr double follow_rate = 3;
 // Longest step of the flow: of the time in which the stream passes a canopy's diameter.
 constexpr double longest_share = 0.02;
@@ -55,8 +55,8 @@ Vec3 turned(Vec3 v, Vec3 axis, double angle) {
 }
 
 // Dampers of a Kelvin-Voigt solid take this share of critical from a vibration at the highest frequency of the mesh,
-// 2 / (stable step). Without it symplectic Euler feeds energy into springs that alternate between slack and taut. A swing
-// or a breathing canopy, a thousand times slower, loses nothing.
+// 2 / (stable step). Without it symplectic Euler feeds energy into springs that alternate between slack and taut. A
+// swing or a breathing canopy, a thousand times slower, loses nothing.
 constexpr double grid_damping = 0.25;
 
 /// Damping time of springs at the start shape [s].

@@ -1,8 +1,8 @@
 // A parachute with its payload in free flight, stepped in time together with the air.
 //
-// The box of the flow translates with the canopy, V_b(t), and does not rotate. In it the undisturbed air has the velocity
-// W - V_b, all air the body force of its acceleration, cloth, lines and payload the force m (g - dV_b/dt). The payload is a
-// point mass at the end of the riser, or at the confluence: a node of the cloth.
+// The box of the flow translates with the canopy, V_b(t), and does not rotate. In it the undisturbed air has the
+// velocity W - V_b, all air the body force of its acceleration, cloth, lines and payload the force m (g - dV_b/dt).
+// The payload is a point mass at the end of the riser, or at the confluence: a node of the cloth.
 #pragma once
 
 #include <functional>

@@ -14,8 +14,8 @@ struct FlightFolderSettings {
   double checkpoint_every_s = 30;  // of wall time
 };
 
-/// run_flight() in a folder, from the start or from where it was killed. Nothing when the folder has the finished flight,
-/// whose result.json is finished_result(folder). Throws as holds_run() and run_flight() do.
+/// run_flight() in a folder, from the start or from where it was killed. Nothing when the folder has the finished
+/// flight, whose result.json is finished_result(folder). Throws as holds_run() and run_flight() do.
 std::optional<FlightResult> run_flight_in(const FlightFolderSettings& settings, const Settings& resolved,
                                           FlightObserver& observer);
 
