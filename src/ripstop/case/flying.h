@@ -8,11 +8,11 @@
 
 namespace ripstop {
 
-/// The case on the mesh of an opening, without a given speed, in a far field and on cells as coarse as [flight] asks for
-/// where the case gives none. Throws Error(usage) without payload.mass_kg and for what does not fly.
+/// The case on the mesh of an opening, without a given speed, in a far field and on cells as coarse as [flight] has
+/// them where the case gives none. Throws Error(usage) without payload.mass_kg and for what does not fly.
 Case flight_case(const Case& given);
 
-/// Of the settings of what flight_case() returns, at the rate of descent of `shape` under `pressure` [Pa], with flow.speed_m_s at that rate.
+/// Of the settings of flight_case(), at the rate of descent of `shape` under `pressure` [Pa], which is flow.speed_m_s.
 FlightProblem flight_problem(const Settings& flight, std::vector<Vec3> shape, std::vector<double> pressure,
                              int threads);
 
