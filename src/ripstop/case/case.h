@@ -16,6 +16,7 @@
 #include "ripstop/flow/flow.h"
 #include "ripstop/flow/jet.h"
 #include "ripstop/fsi/coupling_settings.h"
+#include "ripstop/fsi/flight_settings.h"
 #include "ripstop/fsi/inflation_settings.h"
 #include "ripstop/material/library.h"
 #include "ripstop/material/material.h"
@@ -130,6 +131,7 @@ struct Case {
   CouplingKeys coupling;
   InflationSettings inflation;
   PayloadKeys payload;
+  FlightSettings flight;
   MarginFactors margins;
   std::vector<Measured> measured;
 
@@ -146,6 +148,8 @@ void describe(Fields& fields, CouplingKeys& coupling);
 void describe(Fields& fields, ReefingStage& stage);
 void describe(Fields& fields, InflationSettings& inflation);
 void describe(Fields& fields, PayloadKeys& payload);
+void describe(Fields& fields, Wind& wind);
+void describe(Fields& fields, FlightSettings& flight);
 void describe(Fields& fields, MarginFactors& margins);
 void describe(Fields& fields, Measured& measured);
 void describe(Fields& fields, Case& given);

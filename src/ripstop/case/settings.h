@@ -88,6 +88,7 @@ class Settings {
   const CouplingSettings& coupling() const { return values_.coupling; }
   const InflationSettings& inflation() const { return values_.written.inflation; }
   const PayloadKeys& payload() const { return values_.written.payload; }
+  const FlightSettings& flight() const { return values_.written.flight; }
   const MarginFactors& margins() const { return values_.written.margins; }
   const std::vector<Measured>& measured() const { return values_.written.measured; }
   /// The row of [[measured]] for the nominal speed.

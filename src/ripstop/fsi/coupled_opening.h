@@ -21,6 +21,7 @@ class CoupledOpening : public Opening {
 
  private:
   AirRow step(InflationState& state, int rows, std::vector<HistoryRow>& history);
+  void compute_added_mass(InflationState& state) const;
   int rows_of_next_step(const InflationState& state, int left);
 
   std::unique_ptr<CoupledFlow> air_;

@@ -250,10 +250,11 @@ void find_parachute(const SizeRequest& request, SizeResult& r) {
 void warn(const SizeRequest& request, SizeResult& r) {
   r.warnings = r.load_warnings;
   if (r.tape_used > 1)
-    r.warnings.push_back(fmt::format(
-        "the tape exceeds its allowable load: the load of a line is {:.3g} times the allowable one of {}, the strongest in the "
-        "library; take a stronger tape (parachute.tape.material) or more lines",
-        r.tape_used, r.tape_material));
+    r.warnings.push_back(
+        fmt::format("the tape exceeds its allowable load: the load of a line is {:.3g} times the allowable "
+                    "one of {}, the strongest in the "
+                    "library; take a stronger tape (parachute.tape.material) or more lines",
+                    r.tape_used, r.tape_material));
   const StandardAir air = standard_air(request.density ? standard_height(r.density) : r.height);
   const double reynolds = r.density * request.descent_rate * r.nominal_diameter / air.viscosity;
   for (const std::string& text : outside_range(
