@@ -16,6 +16,7 @@
 #include "margins.h"
 #include "opening.h"
 #include "progress.h"
+#include "ripstop/case/deployment.h"
 #include "ripstop/core/error.h"
 #include "ripstop/run/opening/inflation_folder.h"
 #include "ripstop/run/report/report.h"
@@ -33,6 +34,26 @@ struct InflateArguments {
   fs::path out;
   bool fresh = false, check = false, json = false;
 };
+
+/// The deployment in one dimension, a line a phase.
+void print_deployment(const Settings& resolved) {
+  const auto deployment = deployment_of(resolved);
+  if (!deployment) return;
+  const PackedParachute packed = packed_parachute(resolved);
+  fmt::print(
+      "deployment: container {:.3g} kg with {:.3g} m2, canopy {:.3g} kg, lines {:.3g} kg; strip force {:.3g} "
+      "N, line "
+      "force {:.3g} N\n",
+      packed.bag_mass, packed.bag_drag_area, packed.canopy_mass, packed.lines_mass, packed.strip_force,
+      packed.line_force);
+  for (const DeploymentPhase& phase : deployment->phases)
+    fmt::print("  {:<24} {:8.4f} s {:8.2f} m, payload at {:6.2f} m/s, container at {:6.2f} m/s\n", phase.name,
+               phase.time, phase.path, phase.payload_speed, phase.bag_speed);
+  if (deployment->phase(lines_stretch))
+    fmt::print("  snatch load {:.1f} N at {:.4f} s, {:.2f} m/s apart\n", deployment->snatch_load,
+               deployment->snatch_time, deployment->relative_speed);
+  if (deployment->stopped) fmt::print("  did not open: {}\n", *deployment->stopped);
+}
 
 void print_start(const Opening& solver, const InflationState& state, const LoadSource& source) {
   const FoldedStart& folded = solver.folded();
@@ -107,6 +128,11 @@ void print_peaks(const InflationResult& r) {
       r.estimate.load ? fmt::format("{:.1f} N = C_x {:g} times {:.1f} N ({})", *r.estimate.load,
                                     r.estimate.coefficient, *r.estimate.drag, r.estimate.drag_from)
                       : std::string("not known: the opening has no steady load and no drag was given"));
+  if (r.filling_distance)
+    row("filled",
+        fmt::format("{:.1f} ms after the start, {:.2f} nominal diameters; area grows as (t/t_f)^{:.2f}",
+                    1000 * *r.filling_time, *r.filling_distance, *r.growth_exponent));
+  if (r.bag_left_time) row("canopy out of its bag", fmt::format("{:.1f} ms", 1000 * *r.bag_left_time));
   if (r.finite_mass_factor)
     row("finite-mass factor", fmt::format("{:.3f}: peak over the infinite-mass load", *r.finite_mass_factor));
   for (const MethodLoad& m : r.handbook)
@@ -131,10 +157,9 @@ void print_steady_load(const InflationResult& r) {
     row("inflation time",
         fmt::format("{:.1f} ms, after which the load remains within 10 % of the steady load",
                     1000 * *r.summary.inflation_time));
-  if (r.summary.filling_time && r.summary.settling_time)
-    row("filled, settled",
-        fmt::format("{:.1f} ms, {:.1f} ms ({:g} Hz, mean square over two periods)",
-                    1000 * *r.summary.filling_time, 1000 * *r.summary.settling_time, low_pass_hz));
+  if (r.filling_time && r.summary.settling_time && !r.filling_distance)
+    row("filled, settled", fmt::format("{:.1f} ms, {:.1f} ms ({:g} Hz, mean square over two periods)",
+                                       1000 * *r.filling_time, 1000 * *r.summary.settling_time, low_pass_hz));
   row("overshoot", low_pass_hz > 0
                        ? fmt::format("{:.3f}, low-passed {:.3f}", *r.overshoot, *r.smooth_overshoot)
                        : fmt::format("{:.3f}", *r.overshoot));
@@ -226,11 +251,13 @@ int run(const InflateArguments& options) {
   }
   if (options.check) {
     check_inflation_in(settings, resolved, source);
+    print_deployment(resolved);
     const std::unique_ptr<Opening> solver =
         make_opening(with_engine(resolved, opening_problem(resolved, source, threads)));
     print_start(*solver, solver->start(), source);
     return 0;
   }
+  if (!options.json) print_deployment(resolved);
   goes_on_when_repeated();
   Progress progress;
   Terminal terminal(source, folder, options.json, progress);

@@ -139,6 +139,8 @@ void add_inflate(py::module_& module) {
                       "A shape on the way: time [s], positions [m], von_mises [N/m].");
   add_class<StageSummary>(module, "StageSummary", "What a stage of a reefed opening does, from cut to cut.");
   add_class<MethodLoad>(module, "MethodLoad", "The opening load by one method.");
+  add_class<DeploymentPhase>(module, "DeploymentPhase", "The beginning of a phase of a deployment.");
+  add_class<Deployment>(module, "Deployment", "The deployment before an opening, in one dimension.");
   add_class<OpeningProgress>(module, "OpeningProgress", "How far an opening is.");
   py::class_<PyInflation> type(module, "Inflation",
                                "An opening: the numbers of its result.json, and its arrays.");

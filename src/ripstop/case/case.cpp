@@ -57,6 +57,11 @@ void describe(Fields& fields, Case& given) {
       .required();
   fields.table("coupling", given.coupling, "The steady loop between cloth and flow.");
   fields.table("inflation", given.inflation, "The opening of the folded canopy.");
+  fields.table(
+      "deployment", given.deployment,
+      "The deployment before the opening of `ripstop inflate --air coupled`: from the extraction of the bag "
+      "until the canopy has left it. An empty table has usual values; without the table a coupled opening "
+      "starts from the folded canopy, stretched out.");
   fields.table("payload", given.payload, "What hangs below, in place of the flow's speed.");
   fields.table("margins", given.margins,
                "Safety and knock-down factors of the margins of cloth, tape, lines and riser.");

@@ -49,10 +49,16 @@ double mean_load(const std::vector<HistoryRow>& history, int rows) {
 CoupledOpening::CoupledOpening(InflationProblem problem)
     : Opening(problem, problem.settings.duration_s, least_rows_in(problem.air->flow),
               AdaptiveStepper::Step::renewed),
-      air_(std::make_unique<CoupledFlow>(*problem.air, mesh())) {}
+      air_(std::make_unique<CoupledFlow>(*problem.air, mesh())),
+      cells_(cells_of(mesh())) {}
 
 InflationState CoupledOpening::start() const {
   InflationState state = Opening::start();
+  if (packed()) {
+    state.air.flight.speed = problem().air->flow.air.speed();
+    state.air.bag = packed()->start(state.air.flight.speed);
+    move_bag(0, state);
+  }
   air_->compute_added_mass(positions(state.cloth, cloth()), state.air);
   return state;
 }
@@ -70,7 +76,7 @@ std::vector<HistoryRow> CoupledOpening::advance(InflationState& state, std::vect
 
 // A step of the flow is a whole number of rows, as many as it allows, all steps of a block alike as far as possible.
 int CoupledOpening::rows_of_next_step(const InflationState& state, int left) {
-  const double longest = air_->longest_step();
+  double longest = air_->longest_step();
   if (!(longest > shortest_step * row_duration()))
     throw QuantityError(
         ExitCode::diverged,
@@ -78,6 +84,9 @@ int CoupledOpening::rows_of_next_step(const InflationState& state, int left) {
                     "number of the flow or a finer flow grid may help",
                     state.cloth.time, longest),
         {"Courant number of the flow", "flow grid"});
+  if (packed() && !packed()->empty(state.air.bag))
+    longest = std::min(
+        longest, std::max(packed()->longest_step(state.air.flight.speed, state.air.bag), row_duration()));
   return std::max(1, left / steps_in(left * row_duration(), longest, state.cloth.time));
 }
 
@@ -89,15 +98,20 @@ AirRow CoupledOpening::step(InflationState& state, int rows, std::vector<History
   // Predict the motion of the cloth under the last load.
   const double step = stepper().allowed_step(state, cloth_of(state));
   const int steps = steps_in(length, step, state.cloth.time);
-  const ClothMotion predicted =
+  const bool packing = packed() && !packed()->empty(state.air.bag);
+  ClothMotion predicted =
       predict_motion(state.cloth, cloth_of(state), air_->last_load(state.air), length, steps, team());
+
+  if (packing) packed()->hold(state.air.flight.speed, state.air.bag, predicted);
 
   // Step the flow about it, transfer its load.
   AirRow row;
-  const Loads loads = with_time(state.cloth.time, [&] {
+  Loads loads = with_time(state.cloth.time, [&] {
     row = air_->step(before, predicted, length, state.air);
     return air_->transfer(before, state.air, row);
   });
+
+  if (packing) packed()->shield(state.air.bag, cells_, loads);
 
   // Correct: step the cloth under that load.
   const auto load_of = [&](long long) -> const Loads& { return loads; };
@@ -112,7 +126,18 @@ AirRow CoupledOpening::step(InflationState& state, int rows, std::vector<History
   const std::vector<Vec3> after = positions(state.cloth, cloth());
   for (std::size_t n = 0; n < before.size(); ++n)
     state.air.work += dot(loads.node_force[n], after[n] - before[n]);
+  if (packing) move_bag(length, state);
   return row;
+}
+
+// The work of the bag on the cloth in it counts as that of a load.
+void CoupledOpening::move_bag(double length, InflationState& state) const {
+  const AirProblem& air = *problem().air;
+  const PayloadMotion& flight = state.air.flight;
+  const double gravity = air.payload ? gravity_along_path(*air.payload, flight) : 0;
+  state.air.work += packed()->carry({flight.speed, air.flow.air.density, gravity}, length, cloth(),
+                                    state.cloth, state.air.bag);
+  if (packed()->empty(state.air.bag)) state.air.bag.left = state.cloth.time;
 }
 
 InflationFrame CoupledOpening::frame(InflationState& state) const {

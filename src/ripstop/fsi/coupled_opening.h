@@ -22,8 +22,10 @@ class CoupledOpening : public Opening {
  private:
   AirRow step(InflationState& state, int rows, std::vector<HistoryRow>& history);
   int rows_of_next_step(const InflationState& state, int left);
+  void move_bag(double length, InflationState& state) const;
 
   std::unique_ptr<CoupledFlow> air_;
+  std::vector<Cell> cells_;
 };
 
 }  // namespace ripstop
