@@ -20,7 +20,7 @@ constexpr double pilot_area = 0.015;                                      // of 
 constexpr double usual_packed_share = 0.1;                                // of the canopy's length
 constexpr double longest_packed_share = 0.9;                              // likewise
 constexpr double closed_mouth = 0.04;                                     // radius over D0
-constexpr double above_smallest_radius = 1.05;  // of the folds, whose inner edges would meet on the axis
+constexpr double above_smallest_radius = 1.12;  // of the folds, whose inner edges would meet on the axis
 
 double canopy_length(const Design& design) {
   return 0.5 * nominal_diameter(design);

@@ -18,6 +18,7 @@ namespace {
 constexpr double longest_step = 1e-4;     // [s]
 constexpr double steps_a_radian = 50;     // of the fastest oscillation of the lines
 constexpr double same_place = 1e-12;      // [m]
+constexpr double edge_out = 1e-5;         // of the canopy, that is out when its lines come taut
 constexpr double between_rows = 2e-4;     // [s]
 constexpr double longest_unreeling = 60;  // [s]
 constexpr double longest_stretch = 3;     // [s]
@@ -71,10 +72,11 @@ class Deployer {
   TensionCurve curve_;
   Stored lines_, canopy_;
   double time_ = 0, recorded_ = -1;
-  double apart_ = 0;    // of payload and bag where the container was empty [m]
-  double out_ = 0;      // canopy outside of the bag [m]
-  double tension_ = 0;  // of the lines [N]
-  bool stuck_ = true;   // skirt and bag move as one
+  double apart_ = 0;                     // of payload and bag where the container was empty [m]
+  double out_ = 0;                       // canopy outside of the bag [m]
+  double tension_ = 0;                   // of the lines [N]
+  double stiffest_ = curve_.steepest();  // [N/m]
+  bool stuck_ = true;                    // skirt and bag move as one
   Motion now_;
   Deployment result_;
 };
@@ -176,9 +178,9 @@ bool Deployer::unreel(const Stored& stored, double resistance, bool from_bag, do
 
 /// Skirt and canopy outside of the bag, bag and canopy in it [kg].
 std::pair<double, double> Deployer::skirt_and_bag(double out) const {
-  const double half = 0.5 * packed_.lines_mass,
-               emerged = packed_.lines_first ? canopy_.mass(out) : packed_.canopy_mass;
-  return {half + emerged, packed_.bag_mass + packed_.canopy_mass - emerged};
+  const double emerged =
+      packed_.lines_first ? canopy_.mass(std::max(out, edge_out * canopy_.length)) : packed_.canopy_mass;
+  return {emerged, packed_.bag_mass + packed_.canopy_mass - emerged};
 }
 
 double Deployer::emerged(const Motion& m) const {
@@ -192,7 +194,7 @@ double Deployer::emerged(const Motion& m) const {
 // chute stays on the vent.
 Motion Deployer::stretch_rate(const Motion& m) {
   const auto [me, mb] = skirt_and_bag(emerged(m));
-  const double mp = packed_.payload_mass + 0.5 * packed_.lines_mass, u = m.v[skirt] - m.v[bag];
+  const double mp = packed_.payload_mass + packed_.lines_mass, u = m.v[skirt] - m.v[bag];
   const double db =
       drag(packed_.bag_drag_area + (packed_.lines_first ? 0 : packed_.canopy_drag_area), m.v[bag]);
   tension_ = curve_.at(m.x[payload] - m.x[skirt] - apart_);
@@ -216,19 +218,22 @@ Motion Deployer::stretch_rate(const Motion& m) {
 }
 
 double Deployer::stretch_step() const {
-  const double lightest = skirt_and_bag(0).first + (packed_.lines_first ? 0 : packed_.bag_mass);
-  const double inverse = 1 / lightest + 1 / (packed_.payload_mass + 0.5 * packed_.lines_mass);
-  return std::min(longest_step, 1 / (steps_a_radian * std::sqrt(curve_.steepest() * inverse)));
+  const auto [skirt_mass, bag_mass] = skirt_and_bag(out_);
+  const double lightest = stuck_ ? skirt_mass + bag_mass : skirt_mass;
+  const double inverse = 1 / lightest + 1 / (packed_.payload_mass + packed_.lines_mass);
+  const double away = std::abs(now_.v[skirt] - now_.v[bag]);
+  const double emerging = std::max(out_, edge_out * canopy_.length) / (steps_a_radian * std::max(away, 1e-9));
+  return std::min({longest_step, emerging, 1 / (steps_a_radian * std::sqrt(stiffest_ * inverse))});
 }
 
 void Deployer::stretch() {
-  const double h = stretch_step(), end = time_ + longest_stretch;
+  const double end = time_ + longest_stretch;
   const bool strips = packed_.lines_first;
   const auto rate = [&](const Motion& m) { return stretch_rate(m); };
   double highest = 0;
   if (!strips) out_ = canopy_.length;
   for (bool stripping = false; time_ < end;) {
-    const double before = out_;
+    const double before = out_, h = stretch_step();
     now_ = step(now_, h, rate), time_ += h;
     if (strips && now_.v[skirt] < now_.v[bag] &&
         before < canopy_.length) {  // no cloth goes back into the bag
@@ -275,14 +280,6 @@ Deployment Deployer::run() {
   }
   if (!goes_on) return result_;
   result_.relative_speed = now_.v[payload] - now_.v[bag];
-  // Half of the lines moves with the skirt from now on, half with the payload: a plastic impact.
-  const double half = 0.5 * p.lines_mass;
-  if (p.lines_first) {
-    const double packed = p.bag_mass + p.canopy_mass;
-    now_.v[bag] = (packed * now_.v[bag] + half * now_.v[payload]) / (packed + half);
-  } else if (!std::isinf(p.payload_mass)) {
-    now_.v[payload] = (p.payload_mass * now_.v[payload] + half * now_.v[bag]) / (p.payload_mass + half);
-  }
   now_.v[skirt] = now_.v[bag];
   now_.x[skirt] = now_.x[bag];
   apart_ = now_.x[payload] - now_.x[bag];

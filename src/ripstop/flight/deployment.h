@@ -83,8 +83,8 @@ void each_member(T& d, Visit&& visit) {
 double emerged_mass(double mass, double whole, double length, bool skirt_first);
 
 /// Lines that leave the bag, and a canopy that does, join their new body in a plastic impact: mass per length times the
-/// square of the relative speed is added to the force. Taut lines are a massless nonlinear spring between the payload and
-/// the skirt, each with half of their mass. docs/theory/deployment.md has the equations. Throws Error(usage) for masses
+/// square of the relative speed is added to the force. Taut lines are a massless nonlinear spring between the skirt and
+/// the payload, which carries their mass. docs/theory/deployment.md has the equations. Throws Error(usage) for masses
 /// and lengths that are not above 0, and where a line breaks.
 Deployment deploy_parachute(const PackedParachute& packed);
 
