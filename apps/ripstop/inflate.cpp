@@ -19,6 +19,7 @@
 #include "ripstop/case/deployment.h"
 #include "ripstop/core/error.h"
 #include "ripstop/run/opening/inflation_folder.h"
+#include "ripstop/run/opening/samples.h"
 #include "ripstop/run/report/report.h"
 #include "stopping.h"
 #include "warnings.h"
@@ -33,6 +34,7 @@ struct InflateArguments {
   BatchOptions batch;
   fs::path out;
   bool fresh = false, check = false, json = false;
+  int samples = 0;  // 0: one opening as the case has it
 };
 
 /// The deployment in one dimension, a line a phase.
@@ -235,6 +237,41 @@ int status_of(bool settled, const Settings& resolved) {
   return static_cast<int>(ExitCode::not_converged);
 }
 
+void print_samples(const SampleSummary& summary, const fs::path& folder) {
+  fmt::print("{}: {} openings with perturbed folds\n  {:<30} {:>10} {:>10} {:>10} {:>10}\n", summary.title,
+             summary.samples, "", "mean", "std. dev.", "lowest", "highest");
+  const auto row = [](const char* name, const std::optional<Statistic>& s) {
+    if (s)
+      fmt::print("  {:<30} {:>10.4g} {:>10.3g} {:>10.4g} {:>10.4g}\n", name, s->mean, s->standard_deviation,
+                 s->lowest, s->highest);
+  };
+  row("peak load, N", summary.peak_load);
+  row("peak, low-passed, N", summary.smooth_peak);
+  row("filling time, s", summary.filling_time);
+  row("filling distance / D0", summary.filling_distance);
+  row("opening force coefficient C_x", summary.opening_force_coefficient);
+  row("finite-mass factor X_1", summary.finite_mass_factor);
+  fmt::print("  files                          {} (result.json, sample-001 and following)\n",
+             folder.string());
+}
+
+int sample(const InflateArguments& options, const InflationFolderSettings& settings, const Settings& resolved,
+           const LoadSource& source) {
+  goes_on_when_repeated();
+  const SampleSummary summary = run_samples(
+      settings, resolved, options.samples, [&](const InflationFolderSettings& one, const Settings& seeded) {
+        Progress progress;
+        Terminal terminal(source, one.run.folder, true, progress);
+        run_inflation_in(
+            one, seeded, source, [&] { return opening_problem(seeded, source, settings.threads); }, terminal);
+      });
+  if (options.json)
+    fmt::print("{}", to_json(summary));
+  else
+    print_samples(summary, settings.run.folder);
+  return 0;
+}
+
 int run(const InflateArguments& options) {
   const auto begin = std::chrono::steady_clock::now();
   const Settings resolved = opening_settings(options.opening);
@@ -258,6 +295,7 @@ int run(const InflateArguments& options) {
     return 0;
   }
   if (!options.json) print_deployment(resolved);
+  if (options.samples > 0) return sample(options, settings, resolved, source);
   goes_on_when_repeated();
   Progress progress;
   Terminal terminal(source, folder, options.json, progress);
@@ -306,6 +344,8 @@ void add_inflate(CLI::App& app, int& status) {
   command->add_option("--out", options->out, "Run folder (default: runs/<name of the case>-inflation)");
   command->add_flag("--fresh", options->fresh,
                     "Replace what Ripstop wrote into the run folder; default: go on with it");
+  add_number(*command, "--samples", options->samples, from(2).up_to(1000),
+             "Openings that differ in a seeded perturbation of the folds, for mean and scatter");
   command->add_flag("--check", options->check, "Fold, say strain, pressure and step, and stop");
   add_json_option(*command, options->json);
   add_batch_options(*command, options->batch);

@@ -122,6 +122,10 @@ void add_coefficients(CLI::App& command, LoadRequest& r) {
       ->check(CLI::ExistingDirectory);
   command.add_option("--opening", r.opening, "Run of ripstop inflate that gives the drag area over the way")
       ->check(CLI::ExistingDirectory);
+  command
+      .add_option("--from", r.filling_from,
+                  "Run of ripstop inflate whose filling constant n and exponent of the drag area are fitted")
+      ->check(CLI::ExistingDirectory);
   add_number(command, "--measured-load", r.measured_load, above(0).up_to(1e8),
              "Opening load that you have measured at this speed and mass; becomes the design load [N]");
   add_number(command, "--snatch-speed", r.snatch_speed, above(0).up_to(1000),

@@ -83,6 +83,10 @@ void describe_mesh(Fields& fields, InflationSettings& inflation) {
                 "outer folds of the skirt, in proportion to the radius elsewhere; 0: symmetric.");
   fields.integer("imperfection_harmonic", inflation.imperfection_harmonic, from(1).up_to(1000),
                  "Waves round the axis of that imperfection.");
+  fields.integer(
+      "imperfection_seed", inflation.imperfection_seed, from(0).up_to(1e9),
+      "Above 0: in place of that harmonic, waves of all harmonics from 1 to 8 at random azimuths, which "
+      "follow from this number. `ripstop inflate --samples` counts it up.");
 }
 
 /// How long, how finely and what is written.
