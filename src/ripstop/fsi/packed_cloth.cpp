@@ -39,7 +39,9 @@ void PackedCloth::hold(double payload_speed, const BagMotion& motion, ClothMotio
 
 std::vector<int> PackedCloth::just_released(const BagMotion& motion) const {
   std::vector<int> nodes;
-  const double edge = released(motion);
+  double edge = -1;  // of the cloth that is out
+  for (const double distance : distance_)
+    if (distance <= released(motion)) edge = std::max(edge, distance);
   for (std::size_t n = 0; n < distance_.size(); ++n)
     if (distance_[n] >= 0 && distance_[n] <= edge && distance_[n] > edge - stripped_edge * length_)
       nodes.push_back(static_cast<int>(n));
