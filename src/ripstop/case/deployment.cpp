@@ -6,8 +6,10 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string_view>
 
 #include "ripstop/case/payload.h"
+#include "ripstop/core/checked_int.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/units.h"
 
@@ -79,10 +81,18 @@ double packed_share(const Settings& resolved) {
   return resolved.deployment()->length_m.value_or(usual_packed_share * length) / length;
 }
 
-double closed_mouth_radius(const Design& design, int folds) {
-  // Folds of one strip each reach from the axis to the strip's width; their mean radius is half of it.
-  const double smallest = skirt_circumference(design) / (4.0 * folds);
-  return std::max(closed_mouth * nominal_diameter(design), above_smallest_radius * smallest);
+// Folds of one strip each reach from the axis to the strip's width; their mean radius is half of it.
+void close_mouth(const Design& design, InflationSettings& inflation) {
+  const double wanted = closed_mouth * nominal_diameter(design), round = skirt_circumference(design);
+  const bool sheet = design.canopy.family().type == std::string_view("cross");  // has four folds
+  const int lines = design.lines.count;
+  if (inflation.folds == 0 && !inflation.initial_radius_m && !sheet)
+    inflation.folds =
+        lines * std::max(1, checked_int(std::ceil(above_smallest_radius * round / (4 * wanted * lines)), 1,
+                                        1000, [] { return std::string("folds of a closed mouth"); }));
+  const double smallest = round / (4.0 * (inflation.folds > 0 ? inflation.folds : lines));
+  if (!inflation.initial_radius_m)
+    inflation.initial_radius_m = std::max(wanted, above_smallest_radius * smallest);
 }
 
 PackedParachute packed_parachute(const Settings& resolved) {

@@ -17,7 +17,8 @@ std::optional<Deployment> deployment_of(const Settings& resolved);
 /// Length of the packed canopy along the path over its length from skirt to vent.
 double packed_share(const Settings& resolved);
 
-/// Radius of the folded skirt of a deployment where the case gives none: the mouth is closed [m].
-double closed_mouth_radius(const Design& design, int folds);
+/// Folds and radius of the folded skirt of a deployment where the case gives none: the mouth is closed. A radius of 4 % of
+/// the nominal diameter, and the least multiple of the lines that folds to it.
+void close_mouth(const Design& design, InflationSettings& inflation);
 
 }  // namespace ripstop

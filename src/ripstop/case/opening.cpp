@@ -75,9 +75,9 @@ Case opening_case(const Case& given) {
   MeshSettings& mesh = opening.parachute.mesh;
   mesh.sewn_straight = false;  // chords of curved seams would strain the folded start
   mesh.line_segment_m = inflation.line_segment_m.value_or(mesh.line_segment_m);
+  if (opening.deployment && inflation.air == AirModel::coupled)
+    close_mouth(opening.parachute, opening.inflation);
   mesh.folds = inflation.folds > 0 ? inflation.folds : opening.parachute.lines.count;
-  if (opening.deployment && inflation.air == AirModel::coupled && !inflation.initial_radius_m)
-    opening.inflation.initial_radius_m = closed_mouth_radius(opening.parachute, mesh.folds);
   return opening;
 }
 
