@@ -136,6 +136,10 @@ void add_coefficients(CLI::App& command, LoadRequest& r) {
       .add_option("--opening", r.opening,
                   "Run folder of ripstop inflate that provides the drag area over distance")
       ->check(CLI::ExistingDirectory);
+  command
+      .add_option("--from", r.filling_from,
+                  "Run of ripstop inflate whose filling constant n and exponent of the drag area are fitted")
+      ->check(CLI::ExistingDirectory);
   add_number(command, "--measured-load", r.measured_load, above(0).up_to(1e8),
              "Opening load measured at this speed and mass, which becomes the design load [N]");
   add_number(command, "--snatch-speed", r.snatch_speed, above(0).up_to(1000),

@@ -137,6 +137,8 @@ void add_inflate(py::module_& module) {
                       "Shape during the opening: time [s], positions [m], von_mises [N/m].");
   add_class<StageSummary>(module, "StageSummary", "Results of one stage of a reefed opening.");
   add_class<MethodLoad>(module, "MethodLoad", "Opening load by one method.");
+  add_class<DeploymentPhase>(module, "DeploymentPhase", "Start of a phase of a deployment.");
+  add_class<Deployment>(module, "Deployment", "Deployment before an opening, in one dimension.");
   add_class<OpeningProgress>(module, "OpeningProgress", "Progress of an opening.");
   py::class_<PyInflation> type(module, "Inflation",
                                "Result of an opening: the values of result.json, and arrays.");

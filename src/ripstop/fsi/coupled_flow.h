@@ -27,6 +27,13 @@ struct AirProblem {
   std::optional<Payload> payload = {};  // absent: the riser's end is held
 };
 
+/// Of the bag that the canopy leaves, relative to the payload.
+struct BagMotion {
+  double travel = 0;  // downstream since the lines came taut [m]
+  double speed = 0;   // through the air [m/s]
+  double left = 0;    // when the canopy had left it; 0: not yet, or no bag [s]
+};
+
 /// What the next step needs of the last one.
 struct AirMemory {
   std::vector<double> pressure;  // Loads::cell_pressure of the last step [Pa]
@@ -37,6 +44,7 @@ struct AirMemory {
   long long steps = 0;  // of the flow
   PayloadMotion flight;
   double added_mass = 0;  // of the canopy when it was last computed [kg]
+  BagMotion bag;
 };
 
 template <Of<AirMemory> T, class Visit>
@@ -52,6 +60,9 @@ void each_member(T& m, Visit&& visit) {
   visit("angle", m.flight.angle);
   visit("fallen", m.flight.fallen);
   visit("added_mass", m.added_mass);
+  visit("bag_travel", m.bag.travel);
+  visit("bag_speed", m.bag.speed);
+  visit("bag_left", m.bag.left);
 }
 
 /// One step of the flow.
@@ -133,6 +144,7 @@ class CoupledFlow {
 
   double density() const { return flow_.density(); }  // in the last step [kg/m3]
   const FlowGrid& grid() const { return grid_; }
+  const std::vector<Cell>& cells() const { return cells_; }
 
   /// Mass of the air of a cell on the axis over that of the lightest cloth beside it, rho h / m.
   double heaviness() const;

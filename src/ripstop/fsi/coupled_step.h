@@ -5,6 +5,7 @@
 
 #include "ripstop/fsi/adaptive_stepper.h"
 #include "ripstop/fsi/coupled_flow.h"
+#include "ripstop/fsi/packed_cloth.h"
 
 namespace ripstop {
 
@@ -19,9 +20,10 @@ Surroundings in_flight(const PayloadMotion& flight, const Payload& payload, doub
 
 /// Predicts the motion of the cloth under the last load, steps the flow, transfers its load, and corrects the motion.
 /// `span` has its rows under one load. The cloth has its steps from the stepper. Divergence is reported with the time.
+/// `packed` cloth moves with its bag, and has no load.
 CoupledStep take_coupled_step(CoupledFlow& air, const AdaptiveStepper& stepper, const Cloth& cloth,
                               const RowSpan& span, const Surroundings& surroundings, ThreadTeam& team,
-                              InflationState& state);
+                              InflationState& state, const PackedCloth* packed = nullptr);
 
 /// Duration of a row of the history that no flow of this problem wants shorter, inverse [1/s].
 double least_rows_in(const FlowProblem& flow);
