@@ -104,7 +104,7 @@ TEST(Options, AKeyIsShownAsItWasGiven) {
 TEST(Options, AMistypedCommandOrOptionIsNamedWithWhatWasMeant) {
   const Finished command = ripstop_with({"chekc", stratos});
   EXPECT_EQ(command.code, 2);
-  EXPECT_NE(command.output.find("\"chekc\" is no command; did you mean check?"), std::string::npos)
+  EXPECT_NE(command.output.find("\"chekc\" is not a command; did you mean check?"), std::string::npos)
       << command.output;
   const Finished nested = ripstop_with({"calibrate", "dampign", stratos});
   EXPECT_EQ(nested.code, 2);

@@ -83,10 +83,9 @@ double free_memory() {
 void require_memory(double bytes, const std::string& what) {
   const double free = free_memory();
   if (bytes <= free) return;
-  throw Error(ExitCode::resources,
-              fmt::format("{} takes about {:.1f} GB of memory, and {:.1f} GB are free: take fewer cells "
-                          "(flow.cells) or nodes (parachute.mesh)",
-                          what, 1e-9 * bytes, 1e-9 * free));
+  throw Error(ExitCode::resources, fmt::format("{} needs about {:.1f} GB of memory, but {:.1f} GB are free: "
+                                               "use fewer cells (flow.cells) or nodes (parachute.mesh)",
+                                               what, 1e-9 * bytes, 1e-9 * free));
 }
 
 void require_cloth_memory(const Design& design) {

@@ -44,7 +44,7 @@ Scale make_scale(const std::filesystem::path& path, const PlotAxis& axis, const 
   low = axis.from.value_or(low);
   high = axis.to.value_or(high);
   if (!scale.shows(low) || !scale.shows(high) || low > high) {
-    throw Error(ExitCode::bad_data, fmt::format("{} could not be drawn: the axis \"{}\" has nothing to show",
+    throw Error(ExitCode::bad_data, fmt::format("{} could not be drawn: the axis \"{}\" has no values",
                                                 path.string(), axis.label));
   }
   if (axis.logarithmic) {

@@ -257,7 +257,7 @@ void take_trims(StabilityResult& result) {
     if (trim.stable) result.stable_trim_angles.push_back(trim.angle);
     if (!trim.certain)
       result.warnings.push_back(
-          fmt::format("trim at {:.1f} degrees: C_m beside it differs from 0 by less than {:g} "
+          fmt::format("trim at {:.1f} degrees: C_m next to it differs from 0 by less than {:g} "
                       "standard errors; a longer averaging window (flow.watch) decides",
                       trim.angle, significant));
   }

@@ -49,8 +49,9 @@ void check_folder(const fs::path& folder) {
   if (!fs::exists(folder / description) && !foreign_files(folder).empty())
     throw Error(
         ExitCode::usage,
-        fmt::format("{}: is not empty and holds no curve of ripstop stability (no {}); choose another --out",
-                    folder.string(), description));
+        fmt::format(
+            "{}: is not empty and contains no curve of ripstop stability (no {}); choose another --out",
+            folder.string(), description));
   require_unclaimed(folder);
 }
 
@@ -209,8 +210,9 @@ void Curve::take_shape() {
   result_.cells_across = settings_.across;
   result_.cells = flow_at(0).grid.cells();
   if (!settings_.elsewhere)
-    require_memory(flow_memory(result_.cells), fmt::format("an angle of attack on {:.3g} cells (--cells-across {})",
-                                                           double(result_.cells), settings_.across));
+    require_memory(flow_memory(result_.cells),
+                   fmt::format("an angle of attack on {:.3g} cells (--cells-across {})",
+                               double(result_.cells), settings_.across));
 }
 
 Watch Curve::window(std::size_t i) const {
@@ -350,7 +352,7 @@ std::vector<std::vector<std::string>> Curve::waves() const {
 
 void Curve::run_part(const std::string& name, StabilityObserver& observer) {
   if (!fs::exists(settings_.run.folder / description))
-    throw Error(ExitCode::usage, fmt::format("{}: holds no curve yet: write it there with --batch first",
+    throw Error(ExitCode::usage, fmt::format("{}: contains no curve yet: write it there with --batch first",
                                              settings_.run.folder.string()));
   if (name == axis_name && settings_.steady.empty()) return run_axis(observer.axis());
   std::vector<std::string> names;
