@@ -117,11 +117,11 @@ void print(const Comparison& comparison) {
                          models[i].drag - a.drag);
   }
   fmt::print("\nlinear - nonlinear: {:+.3f} N ({:+.3f} %)\n", b.drag - a.drag, 100 * b.drag_difference);
-  fmt::print("  each material alone: {} N; together beyond their sum {:+.3f} N\n", alone,
+  fmt::print("  contribution of each material alone: {} N; interaction {:+.3f} N\n", alone,
              comparison.beyond_sum);
-  fmt::print("  by projected area {:+.3f} %, by drag per projected area {:+.3f} %\n",
+  fmt::print("  change of projected area {:+.3f} %, of drag per projected area {:+.3f} %\n",
              100 * comparison.by_projected_area, 100 * comparison.by_drag_per_area);
-  fmt::print("  strains are means over the springs of each part\n");
+  fmt::print("  strain: mean over the springs of each part\n");
 }
 
 int compare(CompareArguments& options) {
@@ -153,17 +153,13 @@ int compare(CompareArguments& options) {
 void add_compare(CLI::App& app, int& status) {
   auto options = std::make_shared<CompareArguments>();
   CLI::App* command = app.add_subcommand(
-      "compare", "Finished runs, a measured load, or the linear model of a case side by side");
+      "compare", "Compare finished runs, a measured with a computed load, or the linear model of a case");
   command->footer(
-      "Of run folders it prints the numbers of their results; with --out also a report with their shapes and "
-      "plots.\n"
-      "With --measured it compares the load over time of an opening with a record, as docs/guide/tables.md "
-      "reads "
-      "it.\n"
-      "With --linear it runs the case as it is, with K_1 alone for every material, and with K_1 alone for "
-      "the "
-      "cloth,\n"
-      "the lines and the tape in turn.\n"
+      "Run folders: prints the numbers of their results; --out also writes a report with shapes and plots.\n"
+      "--measured: compares the load over time of an opening with a record (docs/guide/tables.md).\n"
+      "--linear: runs the case with the complete material laws, with only K_1 of every material, and with "
+      "only "
+      "K_1 of\nthe cloth, the lines and the tape separately.\n"
       "Example: ripstop compare runs/first runs/second --out both\n"
       "         ripstop compare runs/opening --measured load-cell.csv\n"
       "         ripstop compare examples/stratos-iv/case.toml --linear --speed 30");
@@ -172,14 +168,14 @@ void add_compare(CLI::App& app, int& status) {
       ->check(CLI::ExistingDirectory);
   add_key_number(*command, "--speed", "flow.speed_m_s", options->overrides.speed, "Nominal speed [m/s]");
   CLI::Option* linear =
-      command->add_flag("--linear", options->linear, "Against the linear model, which keeps only K_1");
+      command->add_flag("--linear", options->linear, "Compare with the linear model, which uses only K_1");
   command
       ->add_option("--measured", options->measured,
-                   "Table of a measured load over time, beside that of the opening")
+                   "Table of a measured load over time, compared with the opening")
       ->check(CLI::ExistingFile)
       ->excludes(linear);
   add_number(*command, "--time-shift", options->shift, from(-1e6).up_to(1e6),
-             "Added to the measured time [s] (default: where both loads agree best)");
+             "Shift added to the measured time [s] (default: least mean square difference of the loads)");
   add_table_options(*command, options->columns, options->decimal, "force=Kraft [kN],time=Zeit [ms]");
   command->add_option("--out", options->settings.folder,
                       "Folder (default: with --linear runs/<name of the case>-compare, else none)");

@@ -114,7 +114,7 @@ TEST_F(Export, EveryNumberIsThatOfTheRunOrOfItsDesign) {
   const double slow = 10.0 / 8 * 4 * std::pow(5 / 0.3048, 0.15);
   EXPECT_DOUBLE_EQ(exported(run, 5).lag, slow * p.nominal_diameter / 5);
   EXPECT_EQ(exported(run, 5).lag_from,
-            std::string("filling over 7.61 D0 at 5 m/s: ") + known_filling("disk-gap-band").source);
+            std::string("filling distance 7.61 D0 at 5 m/s: ") + known_filling("disk-gap-band").source);
   EXPECT_EQ(p.mass, run.parachute_mass);
   EXPECT_EQ(p.gores, design.gores);
   EXPECT_EQ(p.line_count, design.lines.count);
