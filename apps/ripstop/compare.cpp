@@ -175,7 +175,7 @@ void add_compare(CLI::App& app, int& status) {
       ->check(CLI::ExistingFile)
       ->excludes(linear);
   add_number(*command, "--time-shift", options->shift, from(-1e6).up_to(1e6),
-             "Added to the measured time [s] (default: where both loads agree best)");
+             "Shift added to the measured time [s] (default: least mean square difference of the loads)");
   add_table_options(*command, options->columns, options->decimal, "force=Kraft [kN],time=Zeit [ms]");
   command->add_option("--out", options->settings.folder,
                       "Folder (default: with --linear runs/<name of the case>-compare, else none)");

@@ -82,15 +82,15 @@ void add_sweep(py::module_& module) {
       "done", [](const PySweepRun& run) { return run.row.done; }, "Whether there is a result.");
   type.def_property_readonly(
       "error", [](const PySweepRun& run) { return run.row.error; }, "Why there is none.");
-  module.def(
-      "sweep", &sweep, py::arg("case"), py::arg("keys"), py::kw_only(), py::arg("out") = py::none(),
-      py::arg("jobs") = 0, py::arg("warm") = true, py::arg("fresh") = false,
-      "Steady runs of a case over every combination of values: ripstop sweep.\n\n"
-      "keys: lists of values by key, as {\"flow.speed_m_s\": [10, 20]}.\n"
-      "out: a folder with a run folder each; what is finished there is read. None: in memory.\n"
-      "jobs: runs side by side; 0: as many as cores and free memory allow. warm: a run starts from its\n"
-      "  neighbour. fresh: compute again what the folder holds.\n\n"
-      "A failed run has `done` False and an `error`, and does not stop the others.");
+  module.def("sweep", &sweep, py::arg("case"), py::arg("keys"), py::kw_only(), py::arg("out") = py::none(),
+             py::arg("jobs") = 0, py::arg("warm") = true, py::arg("fresh") = false,
+             "Computes steady runs of a case for every combination of values: ripstop sweep.\n\n"
+             "keys: lists of values by key, as {\"flow.speed_m_s\": [10, 20]}.\n"
+             "out: folder with one run folder for each combination; finished runs are read from it. None: no "
+             "files.\n"
+             "jobs: number of simultaneous runs; 0: as many as cores and free memory allow.\n"
+             "warm: True: a run starts from its neighbour.\nfresh: replace the runs in the folder.\n\n"
+             "A failed run has `done` False and an `error`; the others continue.");
 }
 
 }  // namespace ripstop::python

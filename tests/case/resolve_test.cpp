@@ -317,16 +317,6 @@ TEST(Resolved, ABoxThatACoreWouldHalfFillHasUniformCells) {
   EXPECT_EQ(flow_of(short_case + "box_m = [8, 7.6, 10]\n").core.size_m, d * (Vec3{1.8, 1.8, 2.2}));
 }
 
-TEST(Resolved, TheShapeToleranceIsAThousandthOfTheNominalDiameter) {
-  for (const double diameter : {0.05, 1.0, 12.0}) {
-    Case given = parse_case(short_case, "case.toml");
-    given.parachute.nominal_area_m2 = std::numbers::pi / 4 * diameter * diameter;
-    EXPECT_NEAR(resolve(given).coupling().shape_tolerance_m, 1e-3 * diameter, 1e-12) << diameter;
-  }
-  EXPECT_EQ(resolve(parse_case(short_case, "case.toml")).source("coupling.shape_tolerance_m").from,
-            "0.1 % of the nominal diameter");
-}
-
 TEST(Resolved, WhatTheCaseSaysOfTheCouplingStays) {
   Case given = parse_case(short_case, "case.toml");
   given.coupling.max_iterations = 7, given.coupling.shape_tolerance_m = 3e-3,

@@ -15,7 +15,7 @@ const std::vector<ValidRange>& valid_ranges() {
       {infinite_mass_model, "Mach number", "", 0, 0.8, any, "subsonic coefficients (assumed)"},
       {finite_mass_model, "Mach number", "", 0, 0.8, any, "subsonic coefficients (assumed)"},
       {finite_mass_model, "speed at line stretch", " m/s", 0, 152, any,
-       "t_f = n D0 / v up to 500 ft/s, below 150 ft/s t_f = 4.0 D0 / v^0.85, Knacke"},
+       "t_f = n D0 / v is valid up to 500 ft/s, below 150 ft/s t_f = 4.0 D0 / v^0.85, Knacke"},
       {filling_model, "nominal diameter", " m", 3, 40, any,
        "range of the canopies in Knacke's tables, 10 to 130 ft (assumed)"},
       {finite_mass_model, "ballistic parameter A", "", 0.01, any, any, "Knacke Fig. 5-51"},

@@ -37,7 +37,7 @@ TEST(CompareRuns, RefusesOneRunAndFoldersWithoutOne) {
     return refusal_of([&] { compare_runs(folders); }, ExitCode::usage);
   };
   EXPECT_NE(refused({root.path}).find("two folders"), std::string::npos);
-  EXPECT_NE(refused({root.path, root.path}).find("holds no finished run"), std::string::npos);
+  EXPECT_NE(refused({root.path, root.path}).find("contains no finished run"), std::string::npos);
 }
 
 }  // namespace

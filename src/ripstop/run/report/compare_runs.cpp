@@ -25,9 +25,10 @@ Json compared_result(const std::filesystem::path& folder) {
   if (!text)
     throw Error(
         ExitCode::usage,
-        fmt::format("{} holds no finished run of steady or inflate; name folders of finished runs, or give "
-                    "--linear to compare the models of a case",
-                    folder.string()));
+        fmt::format(
+            "{} contains no finished run of steady or inflate; name folders of finished runs, or give "
+            "--linear to compare the models of a case",
+            folder.string()));
   Json result = Json::parse(*text, nullptr, false);
   if (!result.is_object())
     throw Error(ExitCode::bad_data, fmt::format("{}: result.json is not a result", folder.string()));
