@@ -40,12 +40,11 @@ double least_rows_in(const FlowProblem& flow) {
 double sound_step(CoupledFlow& air, double row, double time) {
   const double longest = air.longest_step();
   if (longest > shortest_step * row) return longest;
-  throw QuantityError(
-      ExitCode::diverged,
-      fmt::format("at {:.6g} s the air would need steps of {:.3g} s: it has diverged; a smaller Courant "
-                  "number of the flow or a finer flow grid may help",
-                  time, longest),
-      {"Courant number of the flow", "flow grid"});
+  throw QuantityError(ExitCode::diverged,
+                      fmt::format("at {:.6g} s the flow would need time steps of {:.3g} s: it has "
+                                  "diverged; try a smaller Courant number of the flow or a finer flow grid",
+                                  time, longest),
+                      {"Courant number of the flow", "flow grid"});
 }
 
 Surroundings in_flight(const PayloadMotion& flight, const Payload& payload, double length) {
