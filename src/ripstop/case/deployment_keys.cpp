@@ -8,7 +8,7 @@ namespace {
 void describe_container(Fields& fields, DeploymentKeys& keys) {
   using Container = DeploymentKeys::Container;
   fields.choice("container", keys.container, {{"bag", Container::bag}, {"wrap", Container::wrap}},
-                "What the canopy is packed in. A wrap has other usual values of mass and strip force.");
+                "Container of the packed canopy. A wrap has other default values of mass and strip force.");
   fields.number("mass_kg", keys.mass_kg, from(0).up_to(1000), "Mass of the empty container.")
       .absent("a bag 10 %, a wrap 3 % of the parachute's mass");
   fields

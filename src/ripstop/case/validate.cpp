@@ -398,7 +398,7 @@ void check_deployment(const Case& given, Findings& findings) {
   if (given.deployment->relative_speed_m_s && given.deployment->ejection_impulse_n_s &&
       findings.sound({"deployment.relative_speed_m_s", "deployment.ejection_impulse_n_s"}))
     findings.add("deployment.ejection_impulse_n_s", *given.deployment->ejection_impulse_n_s, "",
-                 "deployment.relative_speed_m_s says the same: give one of them");
+                 "deployment.relative_speed_m_s determines the same speed; remove one of the two keys");
 }
 
 /// What asks for values that follow from parachute and cloth.

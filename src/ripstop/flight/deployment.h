@@ -10,8 +10,8 @@
 
 namespace ripstop {
 
-/// Payload and packed parachute on one straight path. The bag is the container of the canopy, or its wrap, with the pilot
-/// chute that stays on it.
+/// Payload and packed parachute on one straight path. The bag is the container or the wrap of the canopy, with the pilot
+/// chute.
 struct PackedParachute {
   double speed = 0;           // of the payload through the air at the start [m/s]
   double relative_speed = 0;  // at which the bag leaves it then [m/s]

@@ -1,8 +1,8 @@
 // Cloth that is still in its bag when a coupled opening starts: it moves with the bag and leaves it from skirt to vent.
 //
 // The packed canopy is the folded one, pressed together along the axis to a share c of its length. A bag that has moved
-// downstream by b since the lines came taut has released the cloth up to the folded distance b / (1 - c) from the skirt:
-// there the canopy, stretched out from the skirt, reaches the mouth of the bag.
+// downstream by b since line stretch has released the cloth up to the folded distance b / (1 - c) from the skirt: there
+// the canopy, stretched out from the skirt, reaches the mouth of the bag.
 #pragma once
 
 #include <vector>
