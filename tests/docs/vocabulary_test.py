@@ -18,7 +18,7 @@ REWRITTEN = [
     *sorted(str(page.relative_to(ROOT)) for page in ROOT.glob("examples/**/README.md")),
     *(f"docs/{page}.md" for page in ("README", "conventions", "performance", "reliability", "validation")),
     *(f"docs/guide/{page}.md" for page in (
-        "canopies", "case-file", "cluster", "compare", "editor", "fit", "flight", "import", "inflate", "install", "openfoam", "output-files", "porosity", "python",
+        "canopies", "case-file", "cluster", "compare", "containers", "editor", "fit", "flight", "import", "inflate", "install", "openfoam", "output-files", "porosity", "python",
         "report", "sweep", "tables", "tunnel", "unsteady")),
     *sorted(str(page.relative_to(ROOT)) for folder in ("theory", "tutorials") for page in ROOT.glob(f"docs/{folder}/*.md")),
     *(f"docs/validation/{page}.md" for page in (
