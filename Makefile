@@ -4,7 +4,7 @@ JOBS := $(shell nproc)
 SUDO := $(shell [ $$(id -u) = 0 ] || echo sudo)
 PREFIX ?= /usr/local
 
-# What building and running need, and what only the tests and benchmarks need beyond that.
+# Packages for building and running, and those only for the tests and benchmarks.
 PACKAGES := build-essential cmake ninja-build pkg-config libtomlplusplus-dev libcli11-dev libfmt-dev \
   libeigen3-dev nlohmann-json3-dev libnlopt-dev libhwy-dev libpng-dev libcairo2-dev fonts-dejavu-core libxxhash-dev zlib1g-dev \
   openfoam openmpi-bin
@@ -62,18 +62,18 @@ build: deps  ## Release build; the program is build/bin/ripstop
 	@cmake --preset program -DCMAKE_INSTALL_PREFIX=$(PREFIX) > build.configure.log || { cat build.configure.log; exit 1; }
 	@cmake --build --preset program -j $(JOBS)
 
-demo: build  ## Stratos IV at 30 m/s on the printed grid with the built-in flow engine: under a minute or two
+demo: build  ## Stratos IV at 30 m/s on the printed grid with the built-in flow engine: one or two minutes
 	build/bin/ripstop steady examples/stratos-iv/case.toml --speed 30 --out runs/demo
 	@echo "The same with OpenFOAM (about eleven minutes on two cores):"
 	@echo "  build/bin/ripstop steady examples/stratos-iv/case.toml --speed 30 --flow openfoam --ranks 2 --out runs/demo-openfoam"
 
-check: check-deps format-check  ## Build and pass the tests
+check: check-deps format-check  ## Check the format, build everything and run the tests
 	@cmake --preset release > build-check.configure.log || { cat build-check.configure.log; exit 1; }
 	@cmake --build --preset release -j $(JOBS)
 	@ctest --preset release -j $(JOBS)
 
 ROOMS := $(notdir $(patsubst %/,%,$(dir $(wildcard tests/*/*_test.cpp))))
-room: check-deps  ## Build and pass the tests of one room, or some of them: make room ROOM=cloth [TESTS='ClothLaws|ClothKernel']
+room: check-deps  ## Build and run the tests of one room, or some of them: make room ROOM=cloth [TESTS='ClothLaws|ClothKernel']
 	@test -n "$(filter $(ROOM),$(ROOMS))" || { echo "make room ROOM=... is one of: $(sort $(ROOMS))"; exit 2; }
 	@cmake --preset release > build-check.configure.log || { cat build-check.configure.log; exit 1; }
 	@cmake --build --preset release -j $(JOBS) --target test_$(ROOM)
@@ -91,23 +91,23 @@ sanitize-thread: check-deps  ## All tests under the thread sanitizer
 
 READERS ?=
 SECONDS ?= 60
-fuzz: check-deps  ## Fuzz every reader with coverage, into docs/tables: make fuzz [SECONDS=60] [READERS='case chute']; goes on with its corpus
+fuzz: check-deps  ## Fuzz every reader with coverage, into docs/tables: make fuzz [SECONDS=60] [READERS='case chute']; continues with its corpus
 	$(call install_missing,$(FUZZ_PACKAGES))
 	@cmake --preset fuzz > /dev/null
 	@cmake --build --preset fuzz -j $(JOBS)
 	@/usr/bin/python3 validation/reliability/fuzz.py --seconds $(SECONDS) --jobs $(JOBS) $(READERS)
 
-mutants: check-deps  ## Changes the sources in some 460 places and looks which the tests notice, into docs/tables: hours; resumable
+mutants: check-deps  ## Change the sources in some 460 places and count the changes that tests detect, into docs/tables: hours; resumable
 	@/usr/bin/python3 validation/reliability/mutants.py --jobs $(JOBS) $(MUTANTS)
 
-coverage: check-deps  ## Lines of src/ that the tests run, without OpenFOAM's, into docs/tables
+coverage: check-deps  ## Lines of src/ that the tests run, without those for OpenFOAM, into docs/tables
 	@cmake --preset coverage > /dev/null
 	@cmake --build --preset coverage -j $(JOBS)
 	@find build-coverage -name '*.gcda' -delete
 	@ctest --preset coverage -j $(JOBS)
 	@/usr/bin/python3 validation/reliability/coverage.py
 
-bench: check-deps  ## Benchmarks, some four hours; their figures stand in docs/tables
+bench: check-deps  ## Run the benchmarks, some four hours; their figures are in docs/tables
 	@cmake --preset release > /dev/null
 	@cmake --build --preset release -j $(JOBS)
 	@build-check/bench/bench_bodies sides | tee docs/tables/sides.md
@@ -141,21 +141,21 @@ validate: build  ## Stratos IV at five speeds on the printed grid with both engi
 validate-ojf: build  ## Calibrate on Stratos IV, predict WALRUS and ADEPT, score the blind predictions, into docs/tables: hours; resumable
 	@/usr/bin/python3 validation/ojf/campaign.py --ripstop build/bin/ripstop $(STAGES)
 
-validate-families: build  ## Drag of every family's example beside Knacke's values, into docs/tables: ten minutes; resumable
+validate-families: build  ## Drag of every family's example compared with Knacke's values, into docs/tables: ten minutes; resumable
 	@/usr/bin/python3 validation/families/families.py --ripstop build/bin/ripstop
 
-validate-families-in-time: build  ## The same with wakes that shed, means over time, of the types in Knacke's manual: half an hour; resumable
+validate-families-in-time: build  ## The same with unsteady wakes, averaged in time, for the types in Knacke's manual: half an hour; resumable
 	@/usr/bin/python3 validation/families/families.py --ripstop build/bin/ripstop --in-time
 
-validate-openings: build  ## The same types opened in their own air, infinite mass, into docs/tables: half an hour; resumable
+validate-openings: build  ## Coupled inflation of the same types, infinite mass, into docs/tables: half an hour; resumable
 	@/usr/bin/python3 validation/families/families.py --ripstop build/bin/ripstop --openings
 
-judge: check-deps build  ## The built-in engine beside OpenFOAM on meshes that follow the cloth, into docs/tables: an hour and more
+judge: check-deps build  ## Cross-validation of the built-in engine with OpenFOAM on fitted meshes, into docs/tables: an hour and more
 	@cmake --preset release > /dev/null
 	@cmake --build --preset release -j $(JOBS) --target bench_judge
 	@/usr/bin/python3 validation/openfoam/judge.py --ripstop build/bin/ripstop
 
-torture: build  ## Kills, failing writes, damaged files, lying programs over tiny runs, into docs/tables: hours; resumable
+torture: build  ## Tiny runs with kills, failing writes, damaged files and wrong programs, into docs/tables: hours; resumable
 	@/usr/bin/python3 validation/reliability/torture.py --ripstop build/bin/ripstop $(TORTURE)
 
 test-slurm: build  ## Batch scripts through a real Slurm of two nodes on this machine (as root), into docs/tables: some minutes
@@ -180,7 +180,7 @@ test-debian12:  ## The same in an empty root of Debian 12
 scaling: build  ## OpenFOAM's time an iteration on 1, 2, 4 ... ranks up to the cores, into docs/tables; on an idle machine
 	@/usr/bin/python3 validation/cluster/ranks.py --ripstop build/bin/ripstop
 
-docs:  ## The documentation as one site for a browser, in build-docs/site: pages, search, C++ interface; its links are checked
+docs:  ## Build the documentation as a site for the browser, in build-docs/site, and check its links
 	$(call install_missing,$(DOCS_PACKAGES))
 	@/usr/bin/python3 -B docs/site/build.py
 
@@ -189,7 +189,7 @@ reference: check-deps  ## Write the generated pages of docs/reference: keys, com
 	@cmake --build --preset release -j $(JOBS) --target ripstop_program ripstop_python
 	@/usr/bin/python3 docs/site/reference.py --program build-check/bin/ripstop --stub build-check/python/ripstop/_ripstop.pyi
 
-report-libraries:  ## Make the report's three.js and uPlot again from npm, as package-lock.json pins them (needs node)
+report-libraries:  ## Rebuild three.js and uPlot of the report from npm, as package-lock.json pins them (needs node)
 	@cd src/ripstop/report/vendor && npm ci --silent && npm run --silent build && rm -rf node_modules
 
 format:  ## Format the sources

@@ -3,6 +3,7 @@
 stay short."""
 import collections
 import fnmatch
+import importlib.util
 import pathlib
 import re
 import unittest
@@ -79,6 +80,12 @@ class Docs(unittest.TestCase):
     def test_every_table_of_a_command_is_linked(self):
         text = "".join(page.read_text() for page in PAGES)
         self.assertEqual([page.name for page in TABLES.glob("*.md") if f"tables/{page.name}" not in text], [])
+
+    def test_the_scoreboard_shows_the_present_tables(self):
+        spec = importlib.util.spec_from_file_location("scoreboard", ROOT / "validation/scoreboard.py")
+        board = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(board)
+        self.assertEqual(board.PAGE.read_text(), board.scoreboard(), "run python3 validation/scoreboard.py")
 
     def test_every_test_that_holds_a_promise_exists(self):
         missing = []

@@ -48,10 +48,11 @@ ThreadTeam::ThreadTeam(int threads)
   } catch (const std::system_error& error) {
     const std::size_t started = threads_.size() + 1;
     stop();
-    throw Error(ExitCode::resources,
-                fmt::format("only {} of {} threads could be started ({}): ask for fewer (--threads, "
-                            "coupling.threads, --jobs)",
-                            started, size_, error.code().message()));
+    throw Error(
+        ExitCode::resources,
+        fmt::format(
+            "only {} of {} threads could be started ({}): use fewer (--threads, coupling.threads, --jobs)",
+            started, size_, error.code().message()));
   }
 }
 

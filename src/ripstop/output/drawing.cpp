@@ -72,7 +72,8 @@ void write_drawing(const std::filesystem::path& path, int width, int height,
                    const std::function<void(cairo_t*)>& draw) {
   const std::string ending = path.extension().string();
   if (ending != ".png" && ending != ".svg") {
-    throw Error(ExitCode::usage, fmt::format("{}: pictures are written as .png or .svg", path.string()));
+    throw Error(ExitCode::usage,
+                fmt::format("{}: the name of a picture must end in .png or .svg", path.string()));
   }
   const bool svg = ending == ".svg";
   std::string bytes;
