@@ -59,22 +59,22 @@ CanopyMesh plate() {
   return mesh;
 }
 
-FlowProblem air(double speed, double resistance) {
+FlowProblem air(double speed, double linear_drop) {
   FlowProblem flow;
   flow.grid = graded({{-1.5, -1.5, 0}, {3, 3, 3.2}, 24, 24, 28}, {-0.4, -0.4, 0.9}, {0.4, 0.4, 1.6}, 1.3);
   flow.air.velocity = {0, 0, speed};
   flow.sides = Sides::far_field;
-  flow.bodies = {sheet_body({}, {resistance, 0})};
+  flow.bodies = {sheet_body({}, {linear_drop, 0})};
   return flow;
 }
 
-FlightProblem problem(double speed, double resistance) {
+FlightProblem problem(double speed, double linear_drop) {
   FlightProblem flight;
   flight.mesh = plate();
   flight.shape = flight.mesh.start;
   CartesianSettings settings;
   settings.threads = 1, settings.compressible = false;
-  flight.air = {air(speed, resistance), 0.5, make_cartesian(settings)};
+  flight.air = {air(speed, linear_drop), 0.5, make_cartesian(settings)};
   flight.settings.angle_deg = 0;
   flight.cloth.contact_pa = 0;
   flight.payload_mass = payload;
@@ -95,9 +95,9 @@ double drag_when_held(double speed, double duration) {
   double time = 0, sum = 0, weight = 0;
   while (time < duration) {
     const double length = held->longest_step(0.5);
-    const FlowStep step = held->step(length);
+    const FlowStep taken = held->step(length);
     time += length;
-    if (time > 0.5 * duration) sum += length * step.force.z, weight += length;
+    if (time > 0.5 * duration) sum += length * taken.force.z, weight += length;
   }
   return sum / weight;
 }
