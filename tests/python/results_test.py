@@ -50,7 +50,7 @@ class Cases(unittest.TestCase):
         chain = []
         chain.append(chain)
         for tables in (loop, deep, {"measured": chain}, {"measured": [loop]}):
-            with self.assertRaisesRegex(ValueError, "32 deep"):
+            with self.assertRaisesRegex(ValueError, "32 levels deep"):
                 ripstop.Case.from_dict(tables)
 
     def test_none_removes_a_key_or_a_table(self):
@@ -127,7 +127,7 @@ class Errors(unittest.TestCase):
         with self.assertWarnsRegex(DeprecationWarning, "write materials.f-111.darcy_1_m2"):
             case = ripstop.read_case(small.STRATOS, set={"materials.f-111.darcy": 60})
         self.assertEqual(case.get("materials.f-111.darcy_1_m2"), 60)
-        self.assertIn("materials.f-111.darcy is an old key", ripstop.check(case).warnings[0])
+        self.assertIn("materials.f-111.darcy is a deprecated key", ripstop.check(case).warnings[0])
 
     def test_a_missing_file_and_a_folder_without_a_run(self):
         with tempfile.TemporaryDirectory() as folder:

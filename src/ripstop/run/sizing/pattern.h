@@ -62,6 +62,9 @@ struct PatternFiles {
   std::string case_file, date;  // for the title block; empty: left out
 };
 
+/// Local date for a title block: "2030-01-31".
+std::string today();
+
 /// Every piece as DXF and SVG, bill.csv and result.json. Drawings that the result.json of an earlier pattern in this
 /// folder lists are removed first. Throws Error(usage) for the folder of a run and as write_pattern_pdf(), Error(io).
 void write_pattern(const std::filesystem::path& folder, const PatternResult& result,
