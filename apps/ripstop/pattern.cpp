@@ -2,11 +2,9 @@
 
 #include "ripstop/run/sizing/pattern.h"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <ctime>
 #include <filesystem>
 #include <memory>
 
@@ -45,7 +43,7 @@ int run(const PatternArguments& options) {
   files.unit = options.units == "in" ? DxfUnit::inches : DxfUnit::millimetres;
   if (!options.paper.empty()) files.paper = options.paper == "letter" ? Paper::letter : Paper::a4;
   files.case_file = options.case_file.string();
-  files.date = fmt::format("{:%Y-%m-%d}", fmt::localtime(std::time(nullptr)));
+  files.date = today();
   const PatternResult result =
       run_pattern(read_settings(options.case_file), options.allowances, options.packing_density);
   write_pattern(options.out, result, files);

@@ -93,6 +93,7 @@ void add_pattern(py::module_& module) {
         files.unit = units == "in" ? DxfUnit::inches : DxfUnit::millimetres;
         if (!paper.empty()) files.paper = paper == "letter" ? Paper::letter : Paper::a4;
         files.case_file = given.file.string();
+        files.date = today();
         return pattern(given, {seam, hem, line_loop, tape_overlap}, packing_density, out, files);
       },
       py::arg("case"), py::kw_only(), py::arg("seam_allowance_m") = Allowances{}.seam,

@@ -1,6 +1,9 @@
 #include "ripstop/run/sizing/pattern.h"
 
+#include <fmt/chrono.h>
+
 #include <algorithm>
+#include <ctime>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -37,6 +40,10 @@ void remove_earlier_drawings(const std::filesystem::path& folder) {
 }
 
 }  // namespace
+
+std::string today() {
+  return fmt::format("{:%Y-%m-%d}", fmt::localtime(std::time(nullptr)));
+}
 
 std::string to_json(const PatternResult& result) {
   return json_text(result);
