@@ -23,7 +23,7 @@ constexpr double reach = 1.5;    // cells: hits of neighbouring lines that belon
 constexpr double longest = 6.0;  // ... and what is added at most where the sheet is slanted
 
 /// In cells. On which side of the sheet a cell's centre lies is decided with the sheet moved by this much. Where the
-/// centre is on the sheet to rounding, the lines along x, y and z through it would otherwise disagree, and the air would
+/// centre is on the sheet to rounding, the lines along x, y and z through it would otherwise disagree, and air would
 /// pass from one side to the other through the cell. The direction is not normal to any simple plane of the grid.
 constexpr Vec3 nudge{1e-9, 0.71e-9, 0.43e-9};
 
@@ -43,6 +43,13 @@ int cell_at(const Axis& axis, double x) {
 
 double centre(const Axis& axis, int c) {
   return 0.5 * (axis.edge[c] + axis.edge[c + 1]);
+}
+
+double least_width(const std::array<const Axis*, 3>& axes) {
+  double least = 1e300;
+  for (const Axis* axis : axes)
+    least = std::min(least, *std::min_element(axis->width.begin(), axis->width.end()));
+  return least;
 }
 
 /// Whether the sheet ends before it gets to where a point is, by the hem that is nearest to it.
@@ -176,13 +183,6 @@ bool left_of(double au, double av, double bu, double bv, double u, double v) {
   if (!forward) std::swap(au, bu), std::swap(av, bv);
   const double side = (bu - au) * (v - av) - (bv - av) * (u - au);
   return forward ? side >= 0 : side < 0;
-}
-
-double least_width(const std::array<const Axis*, 3>& axes) {
-  double least = 1e300;
-  for (const Axis* axis : axes)
-    least = std::min(least, *std::min_element(axis->width.begin(), axis->width.end()));
-  return least;
 }
 
 Vec3 unit_normal(const Triangle& t) {
