@@ -1,8 +1,10 @@
 // Bodies turned together with the stream, in a box that stays: how much of the force depends on how they lie on the cells.
 //
-// bench_turned [cells across the body, coarse to fine]
+// bench_turned [CELLS...]              a porous disk and a cup; cells across the body, coarse to fine
+// bench_turned FILE.stl A B [CELLS...]  a surface with the pressure drop A v + B v |v|, enlarged to 1 m across x
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <string>
@@ -13,6 +15,7 @@
 #include "ripstop/flow/cartesian/cartesian.h"
 #include "ripstop/flow/projections.h"
 #include "ripstop/flow/steady.h"
+#include "ripstop/flow/stl.h"
 #include "table.h"
 
 namespace ripstop {
@@ -26,9 +29,25 @@ struct Body {
   double linear, loss;  // of its cloth: [Pa s/m], and the drop over the dynamic pressure of what passes it
 };
 
-std::vector<Body> bodies() {
+std::vector<Body> bodies_of_known_shape() {
   return {{"porous disk, loss coefficient 2", disk(1, {}), 0, 2},
           {"hemispherical cup of F-111 cloth", hemispherical_cup(1, {0, 0, -0.25}), 8169.3, 0}};
+}
+
+Body body_from(const std::string& file, double a, double b) {
+  std::vector<Triangle> surface = read_stl(file);
+  Vec3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
+  for (const Triangle& t : surface) {
+    for (const Vec3& p : {t.a, t.b, t.c}) {
+      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+  }
+  const Vec3 middle = 0.5 * (low + high);
+  const double scale = 1 / (high.x - low.x);
+  for (Triangle& t : surface)
+    for (Vec3* p : {&t.a, &t.b, &t.c}) *p = scale * (*p - middle);
+  return {file, surface, a, b / (0.5 * Freestream{}.density)};
 }
 
 struct Direction {
@@ -75,7 +94,7 @@ std::string order_of(const std::vector<double>& off, const std::vector<int>& acr
   return fmt::format("{:.1f}", std::log(first / last) / std::log(double(across.back()) / across.front()));
 }
 
-void turn(const std::vector<int>& across, int argc, char** argv) {
+void turn(const std::vector<Body>& bodies, const std::vector<int>& across, int argc, char** argv) {
   std::vector<std::string> columns = {"body", "angle, deg", "azimuth, deg"};
   for (const int n : across) {
     columns.push_back(fmt::format("C_D, {} cells", n));
@@ -85,7 +104,7 @@ void turn(const std::vector<int>& across, int argc, char** argv) {
                  {"order of the difference", "force across the stream, % of C_D", "momentum balance, %"});
   print_table_head("Bodies turned with the stream: far field on all six faces, steady, 20 m/s", argc, argv,
                    columns);
-  for (const Body& body : bodies()) {
+  for (const Body& body : bodies) {
     std::vector<double> along_z;
     for (const Direction direction : directions) {
       std::vector<std::string> row = {body.name, fmt::format("{:.1f}", direction.angle),
@@ -111,7 +130,11 @@ void turn(const std::vector<int>& across, int argc, char** argv) {
 }  // namespace ripstop
 
 int main(int argc, char** argv) {
+  using namespace ripstop;
+  const bool from_file = argc > 3 && std::string(argv[1]).ends_with(".stl");
   std::vector<int> across;
-  for (int n = 1; n < argc; ++n) across.push_back(std::atoi(argv[n]));
-  ripstop::turn(across.empty() ? std::vector<int>{8, 16, 24} : across, argc, argv);
+  for (int n = from_file ? 4 : 1; n < argc; ++n) across.push_back(std::atoi(argv[n]));
+  turn(from_file ? std::vector<Body>{body_from(argv[1], std::atof(argv[2]), std::atof(argv[3]))}
+                 : bodies_of_known_shape(),
+       across.empty() ? std::vector<int>{8, 16, 24} : across, argc, argv);
 }

@@ -22,6 +22,11 @@ constexpr int finer = 3;         // points beside a hem for each line and direct
 constexpr double reach = 1.5;    // cells: hits of neighbouring lines that belong to one crossing ...
 constexpr double longest = 6.0;  // ... and what is added at most where the sheet is slanted
 
+/// In cells. On which side of the sheet a cell's centre lies is decided with the sheet moved by this much. Where the
+/// centre is on the sheet to rounding, the lines along x, y and z through it would otherwise disagree, and air would
+/// pass from one side to the other through the cell. The direction is not normal to any simple plane of the grid.
+constexpr Vec3 nudge{1e-9, 0.71e-9, 0.43e-9};
+
 constexpr double longest_hem = 1e6;  // one edge of a triangle, in cells
 
 using Point = std::array<double, 3>;
@@ -38,6 +43,13 @@ int cell_at(const Axis& axis, double x) {
 
 double centre(const Axis& axis, int c) {
   return 0.5 * (axis.edge[c] + axis.edge[c + 1]);
+}
+
+double least_width(const std::array<const Axis*, 3>& axes) {
+  double least = 1e300;
+  for (const Axis* axis : axes)
+    least = std::min(least, *std::min_element(axis->width.begin(), axis->width.end()));
+  return least;
 }
 
 /// Whether the sheet ends before it gets to where a point is, by the hem that is nearest to it.
@@ -61,10 +73,8 @@ bool ended(Vec3 point, const std::vector<Hem>& hems) {
 class NearHem {
  public:
   NearHem(const std::array<const Axis*, 3>& axes, const std::vector<Triangle>& surface)
-      : axes_(axes), hems_(hems(surface)) {
+      : axes_(axes), hems_(hems(surface)), least_width_(least_width(axes)) {
     near_.assign(static_cast<std::size_t>(axes[0]->n) * axes[1]->n * axes[2]->n, 0);
-    for (const Axis* axis : axes)
-      least_width_ = std::min(least_width_, *std::min_element(axis->width.begin(), axis->width.end()));
     for (std::size_t hem = 0; hem < hems_.size(); ++hem) mark(hem);
   }
 
@@ -133,7 +143,7 @@ class NearHem {
 
   std::array<const Axis*, 3> axes_;
   std::vector<Hem> hems_;
-  double least_width_ = 1e300;
+  double least_width_;
   std::vector<char> near_;
   std::unordered_map<std::size_t, std::vector<std::size_t>> in_cell_;  // hems that pass through it
 };
@@ -145,7 +155,8 @@ struct Share {
 };
 
 struct Hit {
-  double at = 0;  // along the axis [m]
+  double at = 0;      // along the axis [m]
+  double nudged = 0;  // the same of the sheet moved by `nudge` [m]
   int triangle = 0;
   int line = 0;  // 0 .. lines^2 - 1
   bool hem = false;
@@ -184,7 +195,13 @@ class Columns {
  public:
   Columns(int axis, const std::array<const Axis*, 3>& axes, const std::vector<Triangle>& surface,
           const NearHem& hem)
-      : axis_(axis), u_((axis + 1) % 3), v_((axis + 2) % 3), axes_(axes), surface_(surface), hem_(hem) {
+      : axis_(axis),
+        u_((axis + 1) % 3),
+        v_((axis + 2) % 3),
+        axes_(axes),
+        surface_(surface),
+        hem_(hem),
+        nudge_(least_width(axes) * nudge) {
     const std::vector<double> us = line_positions(*axes[u_]), vs = line_positions(*axes[v_]);
     hits_.resize(static_cast<std::size_t>(axes[u_]->n) * axes[v_]->n);
     for (int t = 0; t < static_cast<int>(surface.size()); ++t) project(t, us, vs);
@@ -200,11 +217,26 @@ class Columns {
   }
 
  private:
+  using Corners = std::array<Point, 3>;
+
+  double projected_area(const Corners& p) const {  // twice, signed
+    return (p[1][u_] - p[0][u_]) * (p[2][v_] - p[0][v_]) - (p[1][v_] - p[0][v_]) * (p[2][u_] - p[0][u_]);
+  }
+  /// Where the line (u, v) meets the triangle, along the axis.
+  double met_at(const Corners& p, double area, double u, double v) const {
+    const double b = ((u - p[0][u_]) * (p[2][v_] - p[0][v_]) - (v - p[0][v_]) * (p[2][u_] - p[0][u_])) / area;
+    const double c = ((p[1][u_] - p[0][u_]) * (v - p[0][v_]) - (p[1][v_] - p[0][v_]) * (u - p[0][u_])) / area;
+    const auto [low, high] = std::minmax({p[0][axis_], p[1][axis_], p[2][axis_]});
+    return std::clamp(p[0][axis_] + b * (p[1][axis_] - p[0][axis_]) + c * (p[2][axis_] - p[0][axis_]), low,
+                      high);
+  }
+
   void project(int t, const std::vector<double>& us, const std::vector<double>& vs) {
-    const Point p[] = {point_of(surface_[t].a), point_of(surface_[t].b), point_of(surface_[t].c)};
-    const double area =
-        (p[1][u_] - p[0][u_]) * (p[2][v_] - p[0][v_]) - (p[1][v_] - p[0][v_]) * (p[2][u_] - p[0][u_]);
-    if (area == 0) return;
+    const Triangle& s = surface_[t];
+    const Corners still = {point_of(s.a), point_of(s.b), point_of(s.c)},
+                  p = {point_of(s.a + nudge_), point_of(s.b + nudge_), point_of(s.c + nudge_)};
+    const double area = projected_area(still), nudged_area = projected_area(p);
+    if (area == 0 || nudged_area == 0) return;
     const auto range = [&](const std::vector<double>& all, int a) {
       const double low = std::min({p[0][a], p[1][a], p[2][a]}), high = std::max({p[0][a], p[1][a], p[2][a]});
       return std::pair(std::lower_bound(all.begin(), all.end(), low) - all.begin(),
@@ -220,12 +252,9 @@ class Columns {
             left_of(p[2][u_], p[2][v_], p[0][u_], p[0][v_], u, v) != first) {
           continue;
         }
-        const double b =
-            ((u - p[0][u_]) * (p[2][v_] - p[0][v_]) - (v - p[0][v_]) * (p[2][u_] - p[0][u_])) / area;
-        const double c =
-            ((p[1][u_] - p[0][u_]) * (v - p[0][v_]) - (p[1][v_] - p[0][v_]) * (u - p[0][u_])) / area;
         Hit hit;
-        hit.at = p[0][axis_] + b * (p[1][axis_] - p[0][axis_]) + c * (p[2][axis_] - p[0][axis_]);
+        hit.at = met_at(still, area, u, v);
+        hit.nudged = met_at(p, nudged_area, u, v);
         hit.triangle = t;
         hit.line = static_cast<int>(iu % lines + lines * (iv % lines));
         Point point;
@@ -250,22 +279,22 @@ class Columns {
   }
 
   /// The new face, or null where no two centres lie on either side.
-  SheetFace* add(double at, int triangle, int cu, int cv, std::vector<SheetFace>& result) const {
+  SheetFace* add(const Hit& hit, int cu, int cv, std::vector<SheetFace>& result) const {
     const Axis& axis = *axes_[axis_];
-    int cell = cell_at(axis, at);
+    int cell = cell_at(axis, hit.nudged);
     if (cell < 0 || cell >= axis.n) return nullptr;
-    if (at >= centre(axis, cell)) ++cell;  // between the centres of cell - 1 and cell
+    if (hit.nudged >= centre(axis, cell)) ++cell;  // between the centres of cell - 1 and cell
     if (cell < 1 || cell >= axis.n) return nullptr;
     SheetFace face;
     face.axis = axis_;
     int c[3];
     c[axis_] = cell, c[u_] = cu, c[v_] = cv;
     face.i = c[0], face.j = c[1], face.k = c[2];
-    face.triangle = triangle;
+    face.triangle = hit.triangle;
     Point point;
-    point[axis_] = at, point[u_] = centre(*axes_[u_], cu), point[v_] = centre(*axes_[v_], cv);
+    point[axis_] = hit.at, point[u_] = centre(*axes_[u_], cu), point[v_] = centre(*axes_[v_], cv);
     face.point = {point[0], point[1], point[2]};
-    face.outward = unit_normal(surface_[triangle]);
+    face.outward = unit_normal(surface_[hit.triangle]);
     face.against = point_of(face.outward)[axis_] < 0;
     face.normal = face.across = normal_of(face.outward);
     result.push_back(face);
@@ -280,7 +309,7 @@ class Columns {
     const auto central = [](const Hit& h) { return h.line == centre_line * (lines + 1); };
     const std::size_t first = result.size();
     for (const Hit& h : hits) {
-      SheetFace* face = central(h) ? add(h.at, h.triangle, cu, cv, result) : nullptr;
+      SheetFace* face = central(h) ? add(h, cu, cv, result) : nullptr;
       if (face) face->hem = h.hem;
     }
     const std::size_t last = result.size();
@@ -340,7 +369,7 @@ class Columns {
         if (crossings[beside[n]->line] % 2 == 1) across.push_back(beside[n]);
       }
       const Hit* middle = across.empty() ? nullptr : across[across.size() / 2];
-      SheetFace* face = middle ? add(middle->at, middle->triangle, cu, cv, result) : nullptr;
+      SheetFace* face = middle ? add(*middle, cu, cv, result) : nullptr;
       if (face) {
         std::bitset<lines * lines> met;
         for (const Hit* h : across) met.set(h->line);
@@ -429,6 +458,7 @@ class Columns {
   std::array<const Axis*, 3> axes_;
   const std::vector<Triangle>& surface_;
   const NearHem& hem_;
+  Vec3 nudge_;  // [m]
   std::vector<std::vector<Hit>> hits_;
 };
 
