@@ -188,8 +188,8 @@ TEST_F(BenchFile, AGripThatSlipsWarnsForEver) {
   EXPECT_NE(material_warnings(fit.material, 0).at(0).find("check for slip of a grip"), std::string::npos);
 }
 
-// A cubic law with K_1 = 52,000 N/m, with slack of 30 % of the pull in every sample, and in every third. The rule of [NFM]
-// takes a straight line, which loses a third of K_1 with R2 above 0.95: its interval says so.
+// A cubic law with K_1 = 52,000 N/m, with slack of 30 % of the pull in every sample, and in every third. The rule of
+// [NFM] takes a straight line, which loses a third of K_1 with R2 above 0.95: its interval says so.
 TEST_F(BenchFile, ACubicLawWithSlackKeepsItsStiffness) {
   SyntheticRecord cloth;
   cloth.load = [](double e) { return 52e3 * e - 150e3 * e * e + 275e3 * e * e * e; };

@@ -68,8 +68,8 @@ bool SteadyConvergence::asks_for_full_flow(const SteadyState& state, const Stead
 }
 
 // Before a window, drag and ledger need not be known better than the mean in time will be. In time the ledger decides
-// alone: the nodal load is the mean of the windows before, from which chance makes this one differ by twice the standard
-// error of the difference.
+// alone: the nodal load is the mean of the windows before, from which chance makes this one differ by twice the
+// standard error of the difference.
 bool SteadyConvergence::reached(const SteadyState& state, const SteadyIteration& now, bool in_full) const {
   if (!shape_settled(state, now) || (state.in_time && !in_full)) return false;
   double chance = window_ ? window_->standard_error : 0;

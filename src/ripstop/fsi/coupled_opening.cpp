@@ -11,8 +11,8 @@
 namespace ripstop {
 namespace {
 
-// Of the time in which the stream passes a cell: no row is longer, as steps of the flow are whole numbers of rows and as
-// long as its fastest cell allows.
+// Of the time in which the stream passes a cell: no row is longer, as steps of the flow are whole numbers of rows and
+// as long as its fastest cell allows.
 constexpr double longest_row = 0.03;
 // Of a row: no flow of the stream's air needs a shorter step.
 constexpr double shortest_step = 0.05;

@@ -107,7 +107,8 @@ TEST(Load, EndsInTheSteadyDescentOfItsMass) {
               1, 2e-3);
 }
 
-/// What the way through `rows` leaves open by the trapezoidal rule: of momentum over the first, of energy over the first.
+/// What the way through `rows` leaves open by the trapezoidal rule: of momentum over the first, of energy over the
+/// first.
 struct Balance {
   double level = 0, down = 0, energy = 0;
 };

@@ -1,5 +1,5 @@
-// JSON Schema of described tables. It says what read_table() and check_values() say, except for what JSON has
-// no words for (NaN) and for the keys beside `base`, which it takes from every kind.
+// JSON Schema of described tables. It contains the checks of read_table() and check_values(), except those
+// that JSON cannot express (NaN, and keys next to `base`, which it accepts of every kind).
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string_view>

@@ -1,4 +1,4 @@
-// One value of a parsed file replaced by its full name: what --set and --vary do.
+// Replacement of one value of a parsed file by its full name, for --set and --vary.
 #pragma once
 
 #include <string>

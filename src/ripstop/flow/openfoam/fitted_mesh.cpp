@@ -230,8 +230,8 @@ int cells_of(const std::vector<int>& owner, const std::vector<int>& neighbour) {
   return last + 1;
 }
 
-/// The grid's cell that each cell of the mesh lies in by the middle of its faces' middles, its part of the volume of all
-/// that lie there, and who stands in where none does.
+/// The grid's cell that each cell of the mesh lies in by the middle of its faces' middles, its part of the volume of
+/// all that lie there, and who stands in where none does.
 void find_cells(const Geometry& geometry, const std::vector<int>& neighbour, const FlowGrid& grid,
                 MeshPart& part) {
   const std::size_t count = static_cast<std::size_t>(cells_of(part.owner, neighbour));

@@ -38,8 +38,8 @@ Installation with_simple_foam(Installation installation, const OpenFoamSettings&
   return installation;
 }
 
-/// Where the cloth lies elsewhere, or what passes tight cloth has changed, the run begins anew with the cells' values of
-/// the last one, in the folder of time 0; else it goes on.
+/// Where the cloth lies elsewhere, or what passes tight cloth has changed, the run begins anew with the cells' values
+/// of the last one, in the folder of time 0; else it goes on.
 class SheetFlow final : public Flow {
  public:
   SheetFlow(const FlowProblem& problem, const OpenFoamSettings& settings, const fs::path& folder,
