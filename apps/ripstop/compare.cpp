@@ -1,4 +1,4 @@
-// ripstop compare: the nonlinear model beside the linear one, and where their difference comes from.
+// ripstop compare: the nonlinear model compared with the linear one, and the causes of their difference.
 
 #include "ripstop/run/steady/compare.h"
 

@@ -13,7 +13,7 @@
 namespace ripstop::python {
 namespace {
 
-/// Tells Python of every iteration, and keeps what a folder's run does not return.
+/// Calls Python after every iteration, and keeps data that a run in a folder does not return.
 class SteadyListener : public SteadyObserver {
  public:
   SteadyListener(Listener& listener, PySteady& run) : listener_(listener), run_(run) {}

@@ -31,7 +31,7 @@ double pressure_of(const Settings& opening, const LoadSource& source, int thread
       .pressure;
 }
 
-/// Payload::density_ratio in the standard atmosphere, where the case says how high it begins.
+/// Payload::density_ratio in the standard atmosphere, if the case gives the height of deployment.
 std::function<double(double)> density_below(const std::optional<double>& height) {
   if (!height) return {};
   return [from = *height](double fallen) { return density_ratio(from, fallen); };

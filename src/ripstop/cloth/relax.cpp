@@ -18,7 +18,7 @@
 //   v' = keep v + kick (share W f + (1 - share) I C'^-1 I^T f),    C' = C / 4 with the same margin.
 //
 // Far from equilibrium the sector predictor solves half a gore first (sector.h): nodes in its planes have masses and
-// residuals along what they may move.
+// residuals along their free directions.
 //
 // A parachute is attached at one point and can rotate about it. Under a follower pressure this rotation is neutrally
 // stable: a small moment of a wrinkled shape would rotate it without end. The moment of the loads about that point is

@@ -1,4 +1,4 @@
-// What handbooks say of how a family fills.
+// Handbook data of the filling of a family.
 #pragma once
 
 #include <string>
@@ -12,8 +12,8 @@ struct KnownFilling {
   const char* source = "";
 };
 
-/// By the family's word in [parachute] type; a word that is not in the tables
-/// gets a solid canopy's values and says so.
+/// By the word of the family in [parachute] type; a family without data gets the values of a solid canopy,
+/// and its source states this.
 KnownFilling known_filling(const std::string& type);
 
 }  // namespace ripstop
