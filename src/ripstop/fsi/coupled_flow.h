@@ -1,9 +1,9 @@
 // The flow about a canopy that opens, stepped in time together with its cloth.
 //
-// Light cloth in heavy air: a load that is handed over after each step would throw the cloth farther than the air lets it
-// go. So a predictor moves the cloth under its last load; the flow takes that motion and the compliance of the cloth to
-// more load, and finds the drop across the cloth with both (a Robin condition; Banks, Henshaw and Schwendeman 2014,
-// Fernandez, Mullaert and Vidrascu 2015); then the cloth is stepped under that drop.
+// Light cloth in heavy air: a load that is handed over after each step would throw the cloth farther than the air
+// lets it go. So a predictor moves the cloth under its last load; the flow takes that motion and the compliance of
+// the cloth to more load, and finds the drop across the cloth with both (a Robin condition; Banks, Henshaw and
+// Schwendeman 2014, Fernandez, Mullaert and Vidrascu 2015); then the cloth is stepped under that drop.
 #pragma once
 
 #include <filesystem>
@@ -27,7 +27,7 @@ struct AirProblem {
   std::optional<Payload> payload = {};  // absent: the riser's end is held
 };
 
-/// What the next step needs of the last one.
+/// Data of the last step that the next one needs.
 struct AirMemory {
   std::vector<double> pressure;  // Loads::cell_pressure of the last step [Pa]
   std::vector<Vec3> force;       // Loads::node_force of the last step [N]
@@ -108,8 +108,8 @@ class CoupledFlow {
   /// One step about cloth that lies at `positions` at its beginning and moves as predicted.
   AirRow step(const std::vector<Vec3>& positions, const ClothMotion& predicted, double length,
               AirMemory& memory);
-  /// The load of that step on the cloth at the same `positions`, which is the last load from now on. Enters its residual
-  /// traction into `row`.
+  /// The load of that step on the cloth at the same `positions`, which is the last load from now on. Enters its
+  /// residual traction into `row`.
   Loads transfer(const std::vector<Vec3>& positions, AirMemory& memory, AirRow& row) const;
   /// The payload flies on under the riser's mean `pull` [N] in that step. Enters its path into `row`.
   void move_payload(double pull, AirMemory& memory, AirRow& row) const;

@@ -30,7 +30,7 @@ class OpeningCloth {
 
   const CanopyMesh& mesh() const { return mesh_; }
   const FoldedStart& folded() const { return folded_; }
-  /// How much weaker the cloth's dampers are than `cloth_damping_s` says, so that they do not set the step.
+  /// Reduction of the cloth's dampers below `cloth_damping_s`, so that they do not limit the step.
   const ViscosityLimit& viscosity_limit() const { return viscosity_limit_; }
   /// Without reefing line.
   const Cloth& open() const { return *stages_.back(); }
