@@ -46,7 +46,7 @@ class Batch : public testing::Test {
   TemporaryFolder root_{"batch"};
 };
 
-TEST_F(Batch, AScriptIsWrittenInPlaceOfTheRunAndDoesWhatTheCommandDoes) {
+TEST_F(Batch, AScriptReplacesTheRunAndHasTheSameResult) {
   const Finished written =
       ripstop_with(command("steady", "a $(touch harm) b", {"--speed=10", "--batch", "slurm", "--hours=3"}));
   ASSERT_EQ(written.code, 0) << written.output;
@@ -66,7 +66,7 @@ TEST_F(Batch, AScriptIsWrittenInPlaceOfTheRunAndDoesWhatTheCommandDoes) {
   EXPECT_EQ(bash({script.string()}).code, 0);  // again: it holds the finished run
 }
 
-TEST_F(Batch, ASweepsElementsLeaveWhatTheSweepGoesOnFrom) {
+TEST_F(Batch, ASweepResumesFromTheRunsOfItsJobs) {
   const std::vector<std::string> sweep = command("sweep", "sweep", {"--speeds", "10,15,20"});
   std::vector<std::string> batch = sweep;
   batch.insert(batch.end(), {"--batch=slurm", "--jobs", "2"});
@@ -91,7 +91,7 @@ TEST_F(Batch, ASweepsElementsLeaveWhatTheSweepGoesOnFrom) {
   EXPECT_EQ(bash({(scripts / "gather.sbatch").string()}).code, 0);
 }
 
-TEST_F(Batch, WhatAScriptCannotDoIsRefused) {
+TEST_F(Batch, OptionsThatAScriptCannotUseAreRefused) {
   const auto refused = [&](const std::vector<std::string>& more, const std::string& words) {
     const Finished run = ripstop_with(command("steady", "none", more));
     EXPECT_EQ(run.code, 2) << run.output;

@@ -53,7 +53,7 @@ TEST_F(Check, MassesAndAreasAreThoseOfThePattern) {
   EXPECT_EQ(report["case"]["flow"]["density_kg_m3"], 1.2);
 }
 
-TEST_F(Check, SaysWhichTapeTheLoadAsksForAndItsShareOfTheMass) {
+TEST_F(Check, ReportsTheTapeForTheLoadAndItsShareOfTheMass) {
   const auto checked_at = [&](const char* speed) {
     return ripstop_with(
         {"check", write("small.toml",
@@ -76,7 +76,7 @@ TEST_F(Check, SaysWhichTapeTheLoadAsksForAndItsShareOfTheMass) {
   EXPECT_NE(fast.output.find("when it opens at 100 m/s"), std::string::npos) << fast.output;
 }
 
-TEST_F(Check, AndADryRunSayAboutHowLongARunTakes) {
+TEST_F(Check, AndADryRunEstimateTheTimeOfARun) {
   const Finished table = ripstop_with({"check", stratos}), json = ripstop_with({"check", stratos, "--json"});
   EXPECT_NE(table.output.find("  time               about 3.1 min on one core"), std::string::npos)
       << table.output;
@@ -92,7 +92,7 @@ TEST_F(Check, AndADryRunSayAboutHowLongARunTakes) {
 }
 
 // The list is the one that docs/guide/case-file.md shows.
-TEST_F(Check, SaysOfEveryValueThatMayBeLeftOutWhatItFollowedFrom) {
+TEST_F(Check, ListsTheOriginOfEveryDefaultValue) {
   const std::string flat = RIPSTOP_SOURCE_DIR "/examples/flat-circular/case.toml";
   const Finished table = ripstop_with({"check", flat, "--set", "flow.canopy_position_m=2.8"});
   ASSERT_EQ(table.code, 0) << table.output;
@@ -140,7 +140,7 @@ TEST_F(Check, OptionsChangeTheCaseAndAreNamedWhenTheyAreWrong) {
       << wrong.output;
 }
 
-TEST_F(Check, AMeshTooCoarseForTheCanopysSizeIsSaid) {
+TEST_F(Check, AMeshTooCoarseForTheCanopysSizeIsReported) {
   std::ifstream stream(RIPSTOP_SOURCE_DIR "/examples/flat-circular/case.toml");
   std::string text((std::istreambuf_iterator<char>(stream)), {});
   const auto at = text.find("cloth_nodes = 12000");
@@ -205,7 +205,7 @@ TEST_F(Check, TheResolvedCaseNeedsNoLibraryAndIsTheSameCase) {
   EXPECT_EQ(again.output, resolved.output);
 }
 
-TEST(Schema, IsJsonAndKnowsTheTables) {
+TEST(Schema, IsJsonWithAllTables) {
   const Finished run = ripstop_with({"schema"});
   ASSERT_EQ(run.code, 0);
   const auto schema = nlohmann::json::parse(run.output);

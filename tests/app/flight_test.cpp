@@ -54,7 +54,7 @@ struct Mistake {
   std::string named;
 };
 
-TEST_F(FlightCommands, BadInputIsRefusedByWhatIsWrongAndLeavesNothingBehind) {
+TEST_F(FlightCommands, BadInputIsRefusedWithItsReasonAndLeavesNoFile) {
   fs::create_directories(in("empty"));
   const auto load = [&](std::vector<std::string> more) {
     std::vector<std::string> all = {"load", flat_, "--out", in("load")};

@@ -24,7 +24,7 @@ class JsonOption : public testing::Test {
   TemporaryFolder folder_{"json-option"};
 };
 
-TEST_F(JsonOption, OfFabricSaysWhatTheClothCarries) {
+TEST_F(JsonOption, OfFabricHasTheLoadsOfTheCloth) {
   const json r = result_of({"fabric", stratos, "--pressure", "240", "--set",
                             "parachute.mesh.cloth_nodes=1500", "--set", "coupling.threads=1"});
   EXPECT_TRUE(r.at("converged"));

@@ -101,7 +101,7 @@ TEST(Options, AKeyIsShownAsItWasGiven) {
       << run.output;
 }
 
-TEST(Options, AMistypedCommandOrOptionIsNamedWithWhatWasMeant) {
+TEST(Options, AMistypedCommandOrOptionIsReportedWithTheNearestOne) {
   const Finished command = ripstop_with({"chekc", stratos});
   EXPECT_EQ(command.code, 2);
   EXPECT_NE(command.output.find("\"chekc\" is not a command; did you mean check?"), std::string::npos)

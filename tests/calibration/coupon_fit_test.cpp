@@ -122,7 +122,7 @@ TEST_F(CouponFitting, XisIntervalIsAsWideForSamplesOfTheYarnsThatScatterAsForTho
   EXPECT_NEAR(width[1] / width[0], 1, 0.1);
 }
 
-TEST_F(CouponFitting, WithoutA45DegPullNothingIsSearchedAndThatIsSaid) {
+TEST_F(CouponFitting, WithoutA45DegTestNothingIsFittedWhichIsReported) {
   Campaign campaign(1, *bias, 2);
   campaign.bench.coupons.resize(2);
   CouponFitOptions quick;
@@ -189,7 +189,7 @@ TEST_F(CouponFitting, TheOptimumDoesNotDependOnTheStart) {
   }
 }
 
-TEST_F(CouponFitting, PullsInThePlaneDoNotDetermineEpsAndThatIsSaid) {
+TEST_F(CouponFitting, TestsInThePlaneDoNotDetermineEpsWhichIsReported) {
   const Campaign campaign(31, *bias);
   CouponFitOptions quick;
   quick.final_cells = 6;

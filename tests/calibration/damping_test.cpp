@@ -76,7 +76,7 @@ TEST(DampingCalibration, PeakAndTimeThatContradictEachOtherShareTheError) {
   for (const DampingTrial& trial : found.trials) EXPECT_GE(trial.misfit, found.best.misfit);
 }
 
-TEST(DampingCalibration, ABestValueAtTheEdgeOfTheRangeIsSaidToBeNone) {
+TEST(DampingCalibration, ABestValueAtTheLimitOfTheRangeIsReported) {
   EXPECT_TRUE(calibrate_damping({oscillator(40).peak, {}}, {4, 16, 5, 4}, oscillator).at_edge);
   EXPECT_THROW(calibrate_damping({600, {}}, {16, 4, 5, 4}, oscillator), Error);
 }

@@ -68,7 +68,7 @@ TEST(Photogrammetry, IsTheTangentConeOfASphereExactly) {
   EXPECT_NEAR(corrected_diameter(0.967, 3.79), 3.79 * std::tan(angle), 1e-12);
 }
 
-TEST(Photogrammetry, RefusesWhatNoCameraSees) {
+TEST(Photogrammetry, RefusesImpossibleSizesAndDistances) {
   EXPECT_THROW(corrected_diameter(2, 1.5), Error);
   EXPECT_THROW(camera_distance(1.0, 0.9), Error);
   EXPECT_THROW(corrected_length(0.5, 1, 3), Error);

@@ -36,7 +36,7 @@ TEST(Porosity, OfDragsOnAKnownLineIsTheLine) {
   EXPECT_FALSE(found.outside);
 }
 
-TEST(Porosity, IsAveragedOverTheShiftsWhoseScatterIsTold) {
+TEST(Porosity, IsAveragedOverGridAlignmentsWithTheirScatter) {
   const auto found = calibrate_porosity({at(30, area * (0.9195 - 1.7794 * 0.21))},
                                         trials_on_the_printed_line(1, 0.03), area);
   EXPECT_NEAR(found.knob, 0.21, 1e-12);
@@ -64,7 +64,7 @@ TEST(Porosity, OnACurveIsWhereTheCurveMeetsTheMeasurementAndNotWhereALineWould) 
   EXPECT_NEAR(found.knob, 0.20, 1e-12);
 }
 
-TEST(Porosity, BeyondTheTrialsIsSaidToBeOutside) {
+TEST(Porosity, OutsideTheComputedRangeIsReported) {
   const auto found =
       calibrate_porosity({at(30, area * (0.9195 - 1.7794 * 0.3))}, trials_on_the_printed_line(1, 0), area);
   EXPECT_TRUE(found.outside);

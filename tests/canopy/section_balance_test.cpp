@@ -32,7 +32,7 @@ TEST_P(SectionBalanceOf, TheStressFieldCarriesTheLoadBeyondEverySection) {
 }
 
 // A cord that hangs with a load at its end: every section carries it.
-TEST(SectionBalance, ACordCarriesWhatHangsOnIt) {
+TEST(SectionBalance, ACordCarriesTheWeightBelowIt) {
   Mesh mesh;
   mesh.start = {{0, 0, 0}, {0.1, 0, 1}};
   mesh.mass = {1, 1};

@@ -95,7 +95,7 @@ TEST(Asymmetry, IsHowFarANodeLiesFromWhereItsLikeIsTurnedTo) {
   EXPECT_NEAR(asymmetry(mesh, x, 18), 1e-3, 1e-12);
 }
 
-TEST(LineTensions, AreThoseOfTheirSpringsAndWhatBendingSpringsCarryBesides) {
+TEST(LineTensions, AreTheSumOfAxialAndBendingSprings) {
   const CanopyMesh mesh = parachute_mesh(resolve(stratos(3000)));
   std::vector<double> tension(mesh.springs.size(), 0.0);
   const LineRun& line = mesh.rigging.lines[3];

@@ -57,7 +57,7 @@ TEST(Boundary, TheFaceOfTheInletHasTheStreamsValues) {
 }
 
 // In the outlet's face what leaves has the last cell's values, what comes back has no velocity and the stream's turbulence.
-TEST(Boundary, WhatComesBackThroughTheOutletIsTheStreamAtRest) {
+TEST(Boundary, AirThatFlowsBackThroughTheOutletIsAtRest) {
   Box box(Sides::zero_gradient, Outlet::fixed_pressure);
   for (int j = 0; j < 5; ++j)
     for (int i = 0; i < 4; ++i) box.s.f.fz[box.at(i, j, 6)] = (i + j) % 2 == 0 ? 3 : -3;
@@ -139,7 +139,7 @@ TEST(Boundary, AirThatIsEntrainedHasTheStreamsSpeedAndTotalPressure) {
 }
 
 // Of what a side draws in only the velocity across the side is that of the air just inside.
-TEST(Boundary, WhatEachSideDrawsInIsTheStreamAndWhatItLetsOutIsTheAirInside) {
+TEST(Boundary, EachSideAdmitsTheStreamAndReleasesTheAirInside) {
   for (const double inflow : {3.0, -3.0}) {
     Box box(Sides::entraining, Outlet::still_air);
     Fields& f = box.s.f;
@@ -196,7 +196,7 @@ TEST(Boundary, TheLedgerOfAUniformStreamIsZeroAndOfAStepItsPressureAndMomentum) 
 }
 
 // A duct that cloth closes and that moves with or against the air: the law holds for the relative velocity.
-TEST(Boundary, ASheetThatMovesHoldsBackOnlyWhatPassesIt) {
+TEST(Boundary, AMovingSheetResistsOnlyTheRelativeVelocity) {
   for (const double moving : {-5.0, 0.0, 6.0, 10.0}) {
     FlowProblem problem;
     problem.grid = {{0, 0, 0}, {1, 1, 2}, 4, 4, 16};

@@ -105,7 +105,7 @@ FlowProblem either(bool sheet) {
   return problem;
 }
 
-TEST(CartesianEngine, AFlowThatWasSavedAtAnyIterationGoesOnBitForBit) {
+TEST(CartesianEngine, AFlowSavedAtAnyIterationContinuesBitForBit) {
   const Folder folder;
   for (const bool sheet : {false, true}) {
     for (const int saved_after : {1, 2, 7, 31}) {
@@ -265,7 +265,7 @@ TEST(CartesianEngine, StartingOnCoarserGridsLeavesNoTraceInAFlowOfConstantDensit
   EXPECT_NEAR(norm(by_stages.velocity[corner] - at_once.velocity[corner]), 0, 1e-3 * problem.air.speed());
 }
 
-TEST(CartesianEngine, EveryIterationSaysItsNumberAndWhatItLeavesOpen) {
+TEST(CartesianEngine, EveryIterationReportsItsNumberAndResiduals) {
   int before = 0;
   const auto engine = make_cartesian(with_threads(1));
   const auto flow = engine->start(open_box(12, 12, 16, 10));
@@ -370,7 +370,7 @@ TEST(CartesianEngine, TheReportCanStopTheRunAndTheFieldIsThenUnconverged) {
 
 // What coarser grids leave does not stand against the faces that the cloth parts here: taken at full step, it
 // grows without bound in the fifth iteration.
-TEST(CartesianEngine, AStartFromCoarserGridsIsEasedBesideASheet) {
+TEST(CartesianEngine, AStartFromCoarserGridsIsUnderRelaxedAtASheet) {
   FlowProblem problem;
   const double d = 0.65, box = 12 * d;
   problem.grid = graded({{-box / 2, -box / 2, 0}, {box, box, 1.5 * box}, 90, 90, 108},
@@ -393,7 +393,7 @@ TEST(CartesianEngine, AStartFromCoarserGridsIsEasedBesideASheet) {
   EXPECT_GT(field.porous_force.z, 0);
 }
 
-TEST(CartesianEngine, DivergenceIsSaidWithIterationFieldAndPlace) {
+TEST(CartesianEngine, DivergenceIsReportedWithIterationFieldAndPlace) {
   FlowProblem problem = open_box(12, 12, 16, 10);
   problem.body_force.assign(problem.grid.cells(),
                             {1e200, 0, 0});  // squares of velocities beyond double precision
@@ -422,7 +422,7 @@ TEST(CartesianEngine, FieldsBeyondReasonAreDivergedBeforeTheyAreInfinite) {
   }
 }
 
-TEST(CartesianEngine, SaysWhatIsWrongWithTheProblem) {
+TEST(CartesianEngine, ReportsMistakesOfTheProblem) {
   FlowProblem problem = open_box(12, 12, 16, 10);
   problem.bodies[0].porous().cells.push_back(problem.grid.cells());
   EXPECT_THROW(solve(*make_cartesian(), problem), Error);

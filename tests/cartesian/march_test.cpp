@@ -142,7 +142,7 @@ TEST_P(MarchWith, ThreadsDoNotMatterToTheLastBit) {
   EXPECT_TRUE(same_bits(one, marched(4)));
 }
 
-TEST_P(MarchWith, WhatWasSavedGoesOnToTheLastBit) {
+TEST_P(MarchWith, ASavedFlowContinuesToTheLastBit) {
   const FlowProblem problem = disk_in_a_box(10, Sides::entraining);
   const TemporaryFolder folder("march state");
   const auto engine = make_cartesian(with_threads(1, GetParam()));
@@ -414,7 +414,7 @@ TEST(March, BeginsWithoutTheEddiesThatItsCellsResolve) {
 }
 
 // As fast as cells resolve them where they are larger than those, else by themselves.
-TEST(March, ModelledEddiesDecayAsTheModelsEquationsSay) {
+TEST(March, ModelledEddiesDecayByTheEquationsOfTheModel) {
   const double time = 2;
   for (const double start_k : {0.05, 5e-4}) {
     const auto [k, omega] = DecayingTurbulence::exact(start_k, time);
@@ -430,7 +430,7 @@ TEST(March, ModelledEddiesDecayAsTheModelsEquationsSay) {
   }
 }
 
-TEST(PassingRow, ThroughTheBoundaryTheAirBringsWhatItHadWhereItComesFrom) {
+TEST(PassingRow, ThroughTheBoundaryTheAirCarriesItsUpstreamValue) {
   const double u[] = {1, 2, 3}, v[] = {4, 5, 6}, w[] = {7, 8, 9}, flux[] = {10, -10};
   double pu[2], pv[2], pw[2];
   cartesian::PassingRow r;

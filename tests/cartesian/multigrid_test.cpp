@@ -54,7 +54,7 @@ TEST(Multigrid, EveryCycleTakesAwayMostOfTheResidualOnOddGridsToo) {
 }
 
 // A wall with a hole, whose right side changes by a twentieth from one solution to the next.
-TEST(Multigrid, TheSolutionOfALikeProblemIsHalfTheWay) {
+TEST(Multigrid, TheSolutionOfASimilarProblemSavesHalfTheCycles) {
   const Axis x = uniform(25, 2, End::zero_gradient, End::zero_gradient);
   const Axis z = uniform(40, 4, End::zero_gradient, End::fixed_value);
   Multigrid multigrid(x, x, z);

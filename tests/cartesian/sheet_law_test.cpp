@@ -44,7 +44,7 @@ double asked_of_a_face(int axis, int off) {
 }
 
 // Else what passes the step would ask for itself in the cells that it feeds.
-TEST(Sheet, AtAStepOfTheStaircaseTheCellsNextToThoseBesideItSayWhatRunsAlongIt) {
+TEST(Sheet, AtAStepOfTheStaircaseTheTangentialVelocityIsThatOfTheNextCells) {
   EXPECT_LT(std::abs(asked_of_a_face(2, 1)), 0.02);
   EXPECT_GT(asked_of_a_face(2, 0), 0.5);
   EXPECT_LT(std::abs(asked_of_a_face(0, 0)), 0.02);

@@ -128,7 +128,7 @@ TEST(SheetFaces, OfASheetInAGridAsManyTimesAsLargeAreTheSame) {
 
 // A tube along z: beside its hems lines that do not meet it have mostly passed it by, and only the row in which it ends
 // is open in part.
-TEST(SheetFaces, BesideAHemAFaceIsOpenWhereTheSheetHasEndedAndNotWhereItHasBentAway) {
+TEST(SheetFaces, AtAFreeEdgeAFaceIsOpenWhereTheSheetEndsAndNotWhereItBends) {
   const double h = 0.05, radius = 0.4137, low = 0.67, high = 1.39;  // 2/5 and 4/5 into their cells
   const Axis x = even_axis(-1, 2, 40), z = even_axis(0, 2, 40);
   const auto surface = revolve({{radius, low}, {radius, high}}, {0.013, -0.007, 0}, 360);
@@ -199,7 +199,7 @@ Duct duct(double speed, double a, double b, double degrees, int n, double at = 2
   return result;
 }
 
-TEST(Sheet, ASheetAcrossADuctHasTheDropOfItsLawWhereverItStandsInItsCells) {
+TEST(Sheet, ASheetAcrossADuctHasTheDropOfItsLawAtAnyPositionInItsCells) {
   for (const int n : {8, 12, 16}) {
     for (const double at : {2.0, 2.013, 2.04}) {
       for (const double a : {1.0, 66.0, f111}) {
@@ -424,7 +424,7 @@ TEST(Sheet, TheAnswerIsTheSameBitForBitOnOneTwoAndFourThreads) {
 }
 
 // As a coupled run has it: the canopy is placed once the air is there.
-TEST(Sheet, ACanopyPlacedInUntouchedAirIsMetAsOneThatStoodThere) {
+TEST(Sheet, ACanopyPlacedInUniformFlowHasTheSameFlowAsOnePresentBefore) {
   const FlowProblem problem = canopy(26, 10, f111, 0);
   FlowProblem bare = problem;
   bare.bodies[0].surface.clear();
@@ -436,7 +436,7 @@ TEST(Sheet, ACanopyPlacedInUntouchedAirIsMetAsOneThatStoodThere) {
   EXPECT_EQ(stood->field().pressure, placed->field().pressure);
 }
 
-TEST(Sheet, SaysWhichCoefficientsItCannotTake) {
+TEST(Sheet, RefusesInvalidCoefficients) {
   EXPECT_THROW(solve(*make_cartesian(threads(1)), canopy(12, 10, -1, 0)), Error);
   EXPECT_THROW(solve(*make_cartesian(threads(1)), canopy(12, 10, 1, std::nan(""))), Error);
 }

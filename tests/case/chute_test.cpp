@@ -59,7 +59,7 @@ TEST(Chute, AGoreHasTheOutlineThatOpenchuteCuts) {
 }
 
 // But for the tape that the example names.
-TEST(Chute, TheShippedCaseIsWhatTheImportWrites) {
+TEST(Chute, TheShippedCaseIsTheResultOfTheImport) {
   std::string shipped = read_file(source / "examples/elliptical/case.toml");
   const std::size_t named = shipped.find("# What the tables"), mesh = shipped.find("[parachute.mesh]");
   ASSERT_LT(named, mesh);
@@ -158,7 +158,7 @@ void places_of(const nlohmann::json& node, const std::string& at, std::vector<st
   }
 }
 
-TEST(Chute, AKeyThatNobodyKnowsIsSaidWhereverItStands) {
+TEST(Chute, AnUnknownKeyIsReportedAtAnyPlace) {
   std::set<std::string> kinds;
   for (const char* name : {"elliptical", "odd", "cross", "sails"}) {
     const nlohmann::json sound = nlohmann::json::parse(chute_text(name));
@@ -225,7 +225,7 @@ TEST(Chute, TheMeshHasTheClothOfThePattern) {
   }
 }
 
-TEST(Chute, WhatIsAskedForReplacesWhatIsAssumed) {
+TEST(Chute, GivenValuesReplaceAssumedOnes) {
   const ChuteImport result = imported("odd", {.line_count = 18, .line_length = 2.5, .vent_diameter = 0.1});
   const Case given = parse_case(result.case_text, "case.toml");
   EXPECT_EQ(given.parachute.lines.count, 18);
@@ -280,7 +280,7 @@ class ChuteMistake : public testing::TestWithParam<BadChute> {};
 INSTANTIATE_TEST_SUITE_P(Every, ChuteMistake, testing::ValuesIn(bad_chutes),
                          [](const auto& mistake) { return mistake.param.name; });
 
-TEST_P(ChuteMistake, IsToldWithFileAndPlace) {
+TEST_P(ChuteMistake, IsReportedWithFileAndPlace) {
   const BadChute& mistake = GetParam();
   std::string text = chute_text(mistake.file);
   const bool last = std::string(mistake.name) == "GoresThatDiffer";  // the first is that of the whole file
@@ -318,7 +318,7 @@ TEST(Chute, APointListIsReadLineByLine) {
 }
 
 // openchute's own ringsail draws its slots as sections of 0 gores.
-TEST(Chute, ANumberThatIsNotItsFormulasIsSaidWhereverItStands) {
+TEST(Chute, ANumberThatDiffersFromItsFormulaIsReportedAtAnyPlace) {
   const std::string text = chute_text("odd");
   const std::string stored[] = {"\"start_angle\": 0.0", "\"radius_x\": 0.3", "\"radius_y\": 0.35",
                                 "\"center\": [\n          0.2", ",\n          0.0\n         ]"};

@@ -435,7 +435,7 @@ const std::vector<Mistake> all_mistakes = {
 
 class EveryMistake : public testing::TestWithParam<Mistake> {};
 
-TEST_P(EveryMistake, IsToldWithPlaceKeyValueAndWhatIsAllowed) {
+TEST_P(EveryMistake, IsReportedWithPlaceKeyValueAndAllowedValues) {
   const Mistake& mistake = GetParam();
   const Outcome outcome = outcome_of(replaced(valid_case, mistake.from, mistake.to));
   ASSERT_FALSE(outcome.valid);
@@ -467,7 +467,7 @@ TEST(Mistakes, OneMistakeIsOneProblem) {
   }
 }
 
-TEST(Mistakes, ALineThatIsTooLongIsToldWithItsNumber) {
+TEST(Mistakes, ALineThatIsTooLongIsReportedWithItsNumber) {
   try {
     parse_case("title = \"a\"\n\n# " + std::string(5000, 'x') + "\n", "case.toml");
     ADD_FAILURE() << "accepted";

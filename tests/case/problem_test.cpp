@@ -8,7 +8,7 @@
 namespace ripstop {
 namespace {
 
-TEST(Mistakes, AllOfThemAreToldAtOnceInTheOrderOfTheFile) {
+TEST(Mistakes, AllOfThemAreReportedTogetherInTheOrderOfTheFile) {
   std::string text = replaced(valid_case, "= 2000", "= 3");
   text = replaced(text, "\"small\"", "7");
   text = replaced(text, "cells =", "cels =");

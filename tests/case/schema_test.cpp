@@ -113,7 +113,7 @@ class Schema : public testing::Test {
   int files_ = 0;
 };
 
-TEST(ShippedSchema, IsWhatTheProgramPrints) {
+TEST(ShippedSchema, IsTheOutputOfTheProgram) {
   EXPECT_EQ(read_file(fs::path(RIPSTOP_SOURCE_DIR) / "examples/case.schema.json"), case_schema())
       << "ripstop schema > examples/case.schema.json";
 }

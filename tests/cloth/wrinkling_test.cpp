@@ -257,7 +257,7 @@ TEST(Wrinkling, ARelaxationIsTheSameToTheLastBitOnAnyNumberOfThreads) {
 }
 
 // Rows of yarns alone: pulled along x, pushed together along y, untouched elsewhere.
-TEST(Wrinkling, StressSaysWhatIsTautWrinkledAndSlack) {
+TEST(Wrinkling, StressDistinguishesTautWrinkledAndSlackCloth) {
   FabricSpec fabric;
   fabric.xi = 0, fabric.eps = 0;
   fabric.buckling_strain = buckling;

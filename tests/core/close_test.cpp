@@ -38,7 +38,7 @@ std::string refused(Action action) {
   return why;
 }
 
-TEST(Files, WhatCannotBeClosedWasNotWritten) {
+TEST(Files, AFailedCloseIsAFailedWrite) {
   const TemporaryFolder folder("close");
   const std::filesystem::path file = folder.path / "a";
   write_file(file, "old");

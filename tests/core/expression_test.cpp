@@ -66,7 +66,7 @@ void expect_refused(const std::string& formula, const std::string& message) {
   }
 }
 
-TEST(Expression, MistakesAreToldWithTheirPlace) {
+TEST(Expression, MistakesAreReportedWithTheirPlace) {
   expect_refused("1 + foo", "character 5: unknown name \"foo\"");
   expect_refused("2*radus", "character 3: unknown name \"radus\"; did you mean \"radius\"?");
   expect_refused("a / (b - 4)", "character 3: division by zero");

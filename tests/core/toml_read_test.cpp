@@ -104,7 +104,7 @@ TEST(TomlRead, EveryKindOfValueIsTakenAndHasItsPlace) {
     EXPECT_TRUE(origins.contains(key)) << key;
 }
 
-TEST(TomlRead, AValueOfAnotherTypeIsToldAtItsPlaceAndLeavesWhatWasThere) {
+TEST(TomlRead, AValueOfAnotherTypeIsReportedAtItsPlaceAndChangesNothing) {
   for (std::size_t n = 0; n < every_line.size(); ++n) {
     const std::string key = every_line[n].substr(0, every_line[n].find(' '));
     std::string text;

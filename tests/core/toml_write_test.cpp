@@ -29,7 +29,7 @@ TEST(TomlWrite, EveryKindOfValueHasItsOwnLineAndAnAbsentOneHasNone) {
             "cells = [4, 5, 6]\nlist = [1, 0.25]\n");
 }
 
-TEST(TomlWrite, OnlyWhatCannotStandInATextIsEscaped) {
+TEST(TomlWrite, OnlyCharactersInvalidInATextAreEscaped) {
   PlainKeys keys;
   const auto line = [&](const std::string& text) {
     keys.text = text;

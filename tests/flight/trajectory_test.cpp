@@ -136,7 +136,7 @@ TEST(Trajectory, AFillingGrowsToItsPeakAndComesBack) {
   for (const double t : {0.0, 0.3, 1.0, 2.0}) EXPECT_DOUBLE_EQ(level(t, 0), 3);
 }
 
-TEST(Trajectory, ARecordIsReadOverTheWayAndGoesOnWithTheSteadyArea) {
+TEST(Trajectory, ARecordIsReadOverDistanceAndContinuesWithTheSteadyArea) {
   const DragArea area = from_record({1, 2, 4}, {2, 6, 4}, 5);
   EXPECT_DOUBLE_EQ(area(0, 0.5), 1);
   EXPECT_DOUBLE_EQ(area(0, 1.5), 4);
@@ -145,7 +145,7 @@ TEST(Trajectory, ARecordIsReadOverTheWayAndGoesOnWithTheSteadyArea) {
   EXPECT_THROW(from_record({1, 2}, {1}, 1), Error);
 }
 
-TEST(Trajectory, WhatIsNotAboveZeroIsRefused) {
+TEST(Trajectory, QuantitiesThatAreNotAboveZeroAreRefused) {
   const DragArea one = [](double, double) { return 1.0; };
   FlightState state{0, 0, 0, 100, 10, 90};
   EXPECT_THROW(fly(state, -1, leg(one, 1, 0.1)), Error);

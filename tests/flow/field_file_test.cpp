@@ -120,7 +120,7 @@ TEST_F(FieldFile, ADictionaryWithinAPatchIsNotThePatchsOwn) {
   EXPECT_EQ(patches[1].faces, 3);
 }
 
-TEST_F(FieldFile, AMistakeIsToldWithFileAndPlace) {
+TEST_F(FieldFile, AMistakeIsReportedWithFileAndPlace) {
   const auto refusal = [&](const std::string& text) -> std::string {
     write(text);
     try {
@@ -174,7 +174,7 @@ TEST_F(FieldFile, LabelsAreWholeNumbersOf32Bits) {
   EXPECT_TRUE(read_labels(path_).empty());
 }
 
-TEST_F(FieldFile, FacesHaveTheCornersThatTheirListSays) {
+TEST_F(FieldFile, FacesHaveTheCornersOfTheirList) {
   const auto faces = [&](const std::string& begins, const std::string& corners) {
     write(header("ascii") + begins + "\n" + corners + "\n");
     return read_faces(path_);
@@ -235,7 +235,7 @@ TEST(SolverLog, AnIterationEndsWithItsForces) {
   EXPECT_FALSE(log.floating_point_trap());
 }
 
-TEST(SolverLog, KnowsWhatEndedTheSolverByItsOwnWords) {
+TEST(SolverLog, FindsTheCauseOfAFailureInTheOutput) {
   struct Words {
     const char* line;
     bool converged, not_a_number, trap, memory, fatal;

@@ -176,7 +176,7 @@ TEST_F(FittedMeshFailure, AMissingToolIsNamedWithThePackage) {
   EXPECT_PRED2(says, text, "apt install openfoam");
 }
 
-TEST_F(FittedMeshFailure, EachToolThatFailsIsNamedWithWhatItSaidAndWhatMayHelp) {
+TEST_F(FittedMeshFailure, EachFailedToolIsNamedWithItsMessageAndARemedy) {
   const std::string fails =
       "echo '--> FOAM FATAL ERROR: '\necho 'No faces found'\necho 'FOAM exiting'\nexit 1";
   for (const std::string tool : {"snappyHexMesh", "createBaffles", "decomposePar", "reconstructPar"}) {
@@ -192,7 +192,7 @@ TEST_F(FittedMeshFailure, EachToolThatFailsIsNamedWithWhatItSaidAndWhatMayHelp) 
   }
 }
 
-TEST_F(FittedMeshFailure, WhatCheckMeshFindsFaultWithIsNotSolvedOn) {
+TEST_F(FittedMeshFailure, AMeshRejectedByCheckMeshIsNotUsed) {
   all_but("checkMesh",
           "echo ' ***Max skewness = 7, 3 highly skew faces detected'\necho 'Failed 1 mesh checks.'");
   const std::string text = message(ExitCode::external);

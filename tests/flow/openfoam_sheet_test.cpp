@@ -91,7 +91,7 @@ TEST_F(OpenFoamSheet, TheBoxLosesTheMomentumThatThePlateTakes) {
   EXPECT_LT(tight.porous_force.z, shut.porous_force.z);
 }
 
-TEST_F(OpenFoamSheet, AirComesOutOfThePlateAsItsPressureAsksForAndElseComesBack) {
+TEST_F(OpenFoamSheet, AirLeavesThePlateByItsPressureAndElseReturns) {
   const auto behind = [](const FlowField& field) { return field.velocity[field.grid.index(8, 8, 8)].z; };
   const FlowField field = solved(plate_in_box(30, 0));
   ASSERT_EQ(field.sheet_loads.size(), 16u);
@@ -110,7 +110,7 @@ TEST_F(OpenFoamSheet, TwoRanksGiveTheDragOfOne) {
   EXPECT_NEAR(solved(plate_in_box(30, 0), 2).porous_force.z, one, 2e-3 * one);
 }
 
-TEST_F(OpenFoamSheet, ARestoredFlowGoesOnByteForByteWhenTheClothIsPlaced) {
+TEST_F(OpenFoamSheet, ARestoredFlowContinuesByteForByteWhenTheClothIsPlaced) {
   const FlowProblem problem = plate_in_box(30, 0);
   const std::vector<Triangle> moved = square_plate(1, {0, 0, 2.3});
   const auto goes_on = [&](Flow& flow) {
@@ -159,7 +159,7 @@ TEST_F(OpenFoamSheet, AreTheFacesThatASlantedSheetParts) {
               0.05 * 4 * 3 * std::sqrt(2.0));  // of its edge half a cell is left out
 }
 
-TEST_F(OpenFoamSheet, LayersInOneFaceStandInSeries) {
+TEST_F(OpenFoamSheet, LayersInOneFaceAreInSeries) {
   FlowProblem problem = plate_in_box(1e3, 0);
   problem.bodies.push_back(sheet_body(square_plate(1, {0, 0, 2.03}), {0, 200}, "second"));
   const std::vector<openfoam::BafflePatch> patches = openfoam::baffles_of(problem);
@@ -225,7 +225,7 @@ TEST_F(OpenFoamSheet, AScreenThatCellsAreMovedOntoTakesThePressureOfItsLaw) {
   for (const SheetLoad& load : field.sheet_loads) EXPECT_NEAR(load.point.z, 1.03, 1e-12);
 }
 
-TEST_F(OpenFoamSheet, WhatMovedCellsPushIsPushedWhereTheirFacesAre) {
+TEST_F(OpenFoamSheet, ForcesOfMovedCellsActAtTheirFaces) {
   FlowProblem problem = screen_in_duct(3, 0.5);
   problem.bodies[0].surface = rectangle({0.4, 0.4, 1.03}, {-0.4, 0, 0}, {0, -0.4, 0});
   problem.stopping.max_iterations = 1;
@@ -285,7 +285,7 @@ TEST_F(OpenFoamSheet, TwoRanksGiveTheDragOfOneOnCellsMovedOntoAPlate) {
   EXPECT_NEAR(solved_fitted(problem, 0, 2).porous_force.z, one, 2e-3 * one);
 }
 
-TEST_F(OpenFoamSheet, ARestoredFlowGoesOnByteForByteWhenCellsAreMovedOntoTheClothAnew) {
+TEST_F(OpenFoamSheet, ARestoredFlowContinuesByteForByteWhenCellsAreFittedToTheClothAgain) {
   const FlowProblem problem = cup_in_box();
   const auto goes_on = [&](Flow& flow) {
     flow.place(0, hemispherical_cup(0.9, {0, 0, 2.1}));
@@ -343,7 +343,7 @@ TEST_F(OpenFoamSheet, CellsTooCoarseForTheClothAreRefused) {
   }
 }
 
-TEST_F(OpenFoamSheet, WhatOnlyTheBuiltInEngineHasIsRefused) {
+TEST_F(OpenFoamSheet, FeaturesOfTheBuiltInEngineAreRefused) {
   FlowProblem problem = plate_in_box(30, 0);
   problem.sides = Sides::entraining;
   try {

@@ -116,7 +116,7 @@ TEST_F(OpenFoam, ASlabAcrossADuctDropsThePressureByDarcyAndForchheimer) {
   }
 }
 
-TEST_F(OpenFoam, AirOfConstantDensityLosesExactlyWhatDarcyAndForchheimerSay) {
+TEST_F(OpenFoam, AirOfConstantDensityHasExactlyTheDarcyForchheimerLoss) {
   FlowProblem problem = slab_in_duct(10, 4e5, 0.6);
   problem.air.density = 0.9;
   const FlowField field = solve(*engine("case", 1, true), problem);
@@ -143,7 +143,7 @@ TEST_F(OpenFoam, TheBoxLosesTheMomentumThatThePorousCellsTake) {
   }
 }
 
-TEST_F(OpenFoam, AFlowThatGoesOnNeedsFewIterationsAndForgetsWhereItsClothWas) {
+TEST_F(OpenFoam, AContinuedFlowNeedsFewIterationsAndIsIndependentOfTheFormerCloth) {
   FlowProblem problem = disc_in_box();
   const auto own = engine(), others = engine("other");
   const auto flow = own->start(problem), fresh = others->start(problem);
@@ -157,7 +157,7 @@ TEST_F(OpenFoam, AFlowThatGoesOnNeedsFewIterationsAndForgetsWhereItsClothWas) {
   EXPECT_NEAR(moved.porous_force.z / began.porous_force.z, 1, 1e-3);
 }
 
-TEST_F(OpenFoam, AStopRequestEndsEarlyWithFieldsThatTheNextSolveGoesOnFrom) {
+TEST_F(OpenFoam, AStopRequestEndsEarlyWithFieldsForTheNextSolution) {
   FlowProblem problem = disc_in_box();
   problem.stopping.residual = 1e-12;
   const auto own = engine();
@@ -202,7 +202,7 @@ void expect_identical(const FlowField& a, const FlowField& b) {
   EXPECT_EQ(a.last.drag, b.last.drag);
 }
 
-TEST_F(OpenFoam, ARestoredFlowGoesOnByteForByte) {
+TEST_F(OpenFoam, ARestoredFlowContinuesByteForByte) {
   for (const int ranks : {1, 2}) {
     FlowProblem problem = disc_in_box();
     problem.stopping.max_iterations = 8;
@@ -398,7 +398,7 @@ TEST_F(OpenFoam, SecondOrderConvectionGivesAnotherFieldWithTheSameBalance) {
   EXPECT_GT(std::abs(sharp.porous_force.z / upwind.porous_force.z - 1), 1e-3);
 }
 
-TEST_F(OpenFoam, TheCaseRunsByHandAsItsReadmeSays) {
+TEST_F(OpenFoam, TheCaseRunsByHandAsItsReadmeDescribes) {
   FlowProblem problem = disc_in_box();
   problem.stopping.max_iterations = 3;
   solve(*engine(), problem);

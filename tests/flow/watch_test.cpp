@@ -141,7 +141,7 @@ TEST(FieldMean, OfTwoMeansIsThatOfAllTheirFields) {
   }
 }
 
-TEST(Watch, SaysSoWhenTheLongestWatchIsNotEnough) {
+TEST(Watch, ReportsWhenTheLongestWindowIsNotEnough) {
   ForceOverTime flow([](double t) { return 10 + 5 * std::sin(0.4 * t); });
   FlowRecord record;
   const FlowField mean = watch(flow, stream(), half_a_second_a_length, record);

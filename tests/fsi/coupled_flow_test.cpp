@@ -149,7 +149,7 @@ constexpr double piston_duration = 0.02;
 // From cloth a hundred times lighter than nylon to cloth a hundred times heavier, with one step: a load that is handed
 // over after the step would throw the lightest a hundred times too far. Where the cloth takes but one step of its own in
 // each of the air's, its own error, of first order, is the larger.
-TEST(CoupledFlow, APistonOfAnyMassMovesAsItsEquationSays) {
+TEST(CoupledFlow, APistonOfAnyMassFollowsItsEquation) {
   constexpr double step = 2.5e-4;
   for (const double mass : {4e-4, 4e-3, 0.04, 0.4, 4.0}) {
     const double right = exactly_moved(mass, piston_duration);
@@ -220,7 +220,7 @@ Bulge bag_of(double volume, const std::vector<Bulge>& bags) {
 
 // A bag of cloth that is filled at a constant flow Q and leaks: dV/dt = Q - p A / a, with p and A those of the same cloth
 // blown up to V.
-TEST(CoupledFlow, ABagThatIsFilledHoldsWhatDoesNotLeak) {
+TEST(CoupledFlow, ABagBeingFilledContainsInflowMinusLeakage) {
   constexpr double flow = 1, leaks = 1000, step = 2.5e-4;
   const std::vector<Bulge> bags = blown_up_bags();
   const Mesh mesh = end_of_a_bag();
@@ -241,7 +241,7 @@ TEST(CoupledFlow, ABagThatIsFilledHoldsWhatDoesNotLeak) {
 }
 
 // Where nothing leaks it holds what has flown in, and the pressure does not swing from step to step.
-TEST(CoupledFlow, ATightBagHoldsWhatHasFlownIn) {
+TEST(CoupledFlow, ATightBagContainsTheInflow) {
   constexpr double flow = 1, step = 2.5e-4;
   const Mesh mesh = end_of_a_bag();
   Together duct(closed_duct(flow, 1e7, bag_cells), mesh);
@@ -268,7 +268,7 @@ TEST(CoupledFlow, IsRefusedWithoutAnEngineOrWithoutASheet) {
 }
 
 // Under a pull that stays the same a payload falls as anything does.
-TEST(CoupledFlow, APayloadIsSlowedDownByWhatTheRiserPulls) {
+TEST(CoupledFlow, APayloadIsDeceleratedByTheRiserForce) {
   constexpr double mass = 2, gravity = 9, pull = 30, step = 1e-3;
   const Mesh mesh = piston(0.04);
   CoupledFlow air({closed_duct(), 0.5, make_cartesian(one_thread()), Payload{mass, gravity}}, mesh);

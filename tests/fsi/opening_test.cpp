@@ -198,7 +198,7 @@ TEST(Inflation, TheStrainOfAnImperfectionIsInTheBalance) {
   EXPECT_LT(std::abs(solver.frame(state).residual), 0.01);
 }
 
-TEST(Inflation, AStatedImperfectionOfOneWaveIsWhatTheAsymmetrySays) {
+TEST(Inflation, AnImperfectionOfOneWaveEqualsTheMeasuredAsymmetry) {
   InflationProblem problem = small_problem(500, 5e-3);
   problem.settings.imperfection_m = 1e-5;
   UniformPressureOpening solver(problem);
@@ -233,7 +233,7 @@ TEST(Inflation, AnAsymmetryGrowsInProportionToTheImperfectionItCameFrom) {
   EXPECT_LT(asymmetry_after(0), 0.01 * small);  // rounding starts near 1e-16 m
 }
 
-TEST(Inflation, AStoppedRunGoesOnToTheLastBit) {
+TEST(Inflation, AStoppedRunResumesToTheLastBit) {
   const InflationProblem problem = small_problem(500, 6e-3);
   UniformPressureOpening whole(problem), first(problem), second(problem);
   InflationState undisturbed = whole.start();

@@ -63,7 +63,7 @@ Opened open(InflationProblem problem) {
   return opened;
 }
 
-TEST(Reefing, TheLineHoldsTheSkirtAtItsLength) {
+TEST(Reefing, TheLineConstrainsTheSkirtToItsLength) {
   for (const double length : {1.0, 1.5, 2.0}) {
     InflationProblem problem = opening_with({{length, 1, nylon_cord}});
     problem.settings.sheet_s = {0.01, 0.015, 0.02, 0.025, 0.029};
@@ -114,7 +114,7 @@ TEST(Reefing, TheEnergyOfACutLineIsInTheBalance) {
 }
 
 // Loads at rest: the first pull of the lines is as high reefed as not, under a pressure that knows of no mouth.
-TEST(Reefing, EachStageHoldsItsLoad) {
+TEST(Reefing, EachStageCarriesItsLoad) {
   InflationProblem problem = opening_with({{1.0, 0.15, nylon_cord}, {1.8, 0.3, nylon_cord}}, 0.45);
   problem.settings.damping_n_s_m3 = 30;  // to rest soon
   problem.settings.cloth_damping_s = 1e-5;
@@ -126,7 +126,7 @@ TEST(Reefing, EachStageHoldsItsLoad) {
   EXPECT_LT(stages[1].last_load, 0.9 * stages[2].last_load);
 }
 
-TEST(Reefing, AfterTheCutTheCanopyStandsAsOneThatWasNeverReefed) {
+TEST(Reefing, AfterTheCutTheCanopyHasTheShapeOfAnUnreefedOne) {
   InflationProblem reefed = opening_with({{1.0, 0.02, nylon_cord}}, 0.4), plain = opening_with({}, 0.4);
   for (InflationProblem* problem : {&reefed, &plain}) {
     problem->settings.damping_n_s_m3 = 30;  // to rest soon
@@ -138,7 +138,7 @@ TEST(Reefing, AfterTheCutTheCanopyStandsAsOneThatWasNeverReefed) {
   EXPECT_NEAR(a.rows.back().mean, b.rows.back().mean, 0.01 * b.rows.back().mean);
 }
 
-TEST(Reefing, AStoppedRunGoesOnToTheLastBitAcrossACut) {
+TEST(Reefing, AStoppedRunResumesToTheLastBitAcrossACut) {
   const InflationProblem problem = opening_with({{1.0, 6e-3, nylon_cord}, {1.8, 9e-3, nylon_cord}}, 0.012);
   UniformPressureOpening whole(problem), first(problem), second(problem);
   InflationState undisturbed = whole.start(), stopped = first.start();

@@ -237,7 +237,7 @@ TEST(SheetTransfer, ClothThatTheFlowsGridMissesTakesThePressureOfItsNeighbours) 
 }
 
 // A pleat of 80 mm, folded over to an S, under cells of 50 mm: the air between its layers is nobody's.
-TEST(SheetTransfer, WhatAFaceLosesInAFoldThinnerThanACellIsNotBelieved) {
+TEST(SheetTransfer, TheDropOfAFaceInAFoldThinnerThanACellIsIgnored) {
   Surface s = plate(100, 0);
   constexpr double half = 0.04;
   for (Vec3& p : s.x) {

@@ -96,7 +96,7 @@ TEST(CurveFit, TwoSamplesHaveAnErrorAndAWideInterval) {
 }
 
 // K_1 and the band are those of a fit two degrees higher, where that lies about the fit.
-TEST(CurveFit, TheBandOfADegreeTooLowHoldsTheFitAndTheLaw) {
+TEST(CurveFit, TheBandOfADegreeTooLowContainsTheFitAndTheLaw) {
   std::mt19937 random(6);
   SyntheticRecord bent = f111_record();
   bent.load = [](double e) { return 52e3 * e - 220e3 * e * e + 450e3 * e * e * e; };

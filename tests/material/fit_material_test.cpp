@@ -393,7 +393,7 @@ TEST_F(BenchFile, OneThatIsNoTomlIsRefusedWithItsLine) {
   }
 }
 
-TEST_F(BenchFile, EveryMistakeInACampaignIsToldAtOnce) {
+TEST_F(BenchFile, EveryMistakeInACampaignIsReportedTogether) {
   try {
     bench(
         "kind = \"fabric\"\nname = \"c\"\nthicknes_m = 1e-4\n[[coupon]]\nfile = \"a.csv\"\norientation_deg = "

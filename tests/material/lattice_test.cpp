@@ -182,7 +182,7 @@ Membrane leaning_membrane(const WovenLaws& laws, bool bias, double lean) {
 }
 
 // What is neglected in a gore: against the cloth whose yarns keep the direction of the rows.
-TEST(Lattice, WhereColumnsLeanTheModulusIsOffByAsMuchAsTheGuideSays) {
+TEST(Lattice, WhereColumnsAreInclinedTheModulusHasTheErrorOfTheGuide) {
   const WovenLaws laws = woven_laws(woven(true));
   struct Stated {
     bool bias;

@@ -187,7 +187,7 @@ TEST(Pvd, ListsTheFilesThatExistWithTheirIterationAsTime) {
             json::parse(R"([{"time": 1.0, "class": "vtkPolyData"}, {"time": 2.5, "class": "vtkPolyData"}])"));
 }
 
-TEST(Vtk, WhatDoesNotFitIsAnErrorAndNoFile) {
+TEST(Vtk, InconsistentSizesAreAnErrorAndNoFile) {
   const TemporaryFolder folder("reject");
   VtkSurface short_array, wild_point;
   short_array.points.resize(3);

@@ -64,7 +64,7 @@ TEST_P(CutTest, TapesAndLinesAreAsLongAsInTheMesh) {
   EXPECT_NEAR(line_mesh / (lines.count * (lines.length_m + pattern.line_on_canopy)), 1, 1e-3);
 }
 
-TEST_P(CutTest, TheBillWithoutAllowancesWeighsWhatTheMeshWeighs) {
+TEST_P(CutTest, TheBillWithoutAllowancesHasTheMassOfTheMesh) {
   const Case given = example(GetParam());
   const Bill bill = bill_of(cut_pattern(given.parachute), given.parachute, resolve(given).materials(),
                             {.seam = 0, .hem = 0, .line_loop = 0, .tape_overlap = 0}, 400);

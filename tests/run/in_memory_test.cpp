@@ -123,7 +123,7 @@ TEST_F(InMemory, ASweepStartsFromItsNeighboursAndItsModelsAreCompared) {
   EXPECT_EQ(both.models[2].drag, both.models[1].drag);  // the same case from the same start
 }
 
-TEST_F(InMemory, ThePatternsBillWeighsWhatIsCut) {
+TEST_F(InMemory, ThePatternsBillHasTheMassOfTheCutPieces) {
   const PatternResult pattern = run_pattern(resolve(small_case()), {}, 400);
   double mass = 0;
   for (const BillRow& row : pattern.bill.rows) mass += row.mass;

@@ -46,7 +46,7 @@ TEST_F(NewEngine, FliesACase) {
               1e-3 * solution.result.drag);
 }
 
-TEST_F(NewEngine, IsRefusedWhatItCannotDoBeforeAnythingIsComputed) {
+TEST_F(NewEngine, RefusesUnsupportedFeaturesBeforeAnyComputation) {
   for (const auto& [key, value] :
        {std::pair{"flow.sides", "entraining"}, std::pair{"flow.average_over", "20"},
         std::pair{"flow.ranks", "2"}, std::pair{"flow.outlet", "still-air"}}) {

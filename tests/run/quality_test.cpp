@@ -11,7 +11,7 @@
 namespace ripstop {
 namespace {
 
-TEST(Quality, WithinItsLimitsSaysNothing) {
+TEST(Quality, WithinItsLimitsHasNoWarning) {
   for (const QualityLimit& limit : quality_limits()) {
     const Judgement judgement = judge({{limit.key, limit.warn}});
     EXPECT_TRUE(judgement.usable && judgement.warnings.empty()) << limit.key;

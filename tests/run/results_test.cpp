@@ -191,7 +191,7 @@ TEST(Results, OfACouponAreInTheFilesOfANewFolder) {
   EXPECT_GT(read_png(folder / "coupon-90.png").width, 0);
 }
 
-TEST(Results, OfAFitAreWhatItsCouponsFoundAndItsPlotsHaveTheMeasuredPoints) {
+TEST(Results, OfAFitHaveItsCouponsAndThePlotsTheMeasuredPoints) {
   Bench bench = read_bench(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/fit-ripstop/bench.toml");
   bench.shear_fraction = 0.2, bench.bending_fraction = 0.01;  // only the clamps are to be taken back
   ThreadTeam team(1);

@@ -66,7 +66,7 @@ TEST(PhotogrammetryRun, ACanopyAloneHasItsSizesAndNoCamera) {
   EXPECT_FALSE(json.contains("diameters"));
 }
 
-TEST(PhotogrammetryRun, OfBothTheComputedSizeStandsBesideTheSeenOneOfItsName) {
+TEST(PhotogrammetryRun, OfBothTheComputedSizeIsNextToTheMeasuredOneOfItsName) {
   ComputedCanopy canopy = two_patches();
   canopy.run = "runs/hemi";
   const Photogrammetry r = run_photogrammetry(seen_from_four_metres(), canopy);

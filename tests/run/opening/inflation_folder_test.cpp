@@ -74,7 +74,7 @@ struct Resumed : InflationObserver {
   }
 };
 
-TEST_F(InflationFolderTest, AKilledRunGoesOnAndItsHistoryIsByteIdentical) {
+TEST_F(InflationFolderTest, AKilledRunResumesAndItsHistoryIsByteIdentical) {
   Resumed undisturbed;
   ASSERT_TRUE(open("whole", undisturbed));
   EXPECT_EQ(undisturbed.first_block, 0);
@@ -97,7 +97,7 @@ TEST_F(InflationFolderTest, AKilledRunGoesOnAndItsHistoryIsByteIdentical) {
   }
 }
 
-TEST_F(InflationFolderTest, AReefedRunThatIsKilledBeforeOrAfterTheCutGoesOnByteIdentical) {
+TEST_F(InflationFolderTest, AReefedRunKilledBeforeOrAfterTheCutResumesByteIdentical) {
   const auto open_reefed = [&](const std::string& name, InflationObserver& observer) {
     const Case opening = opening_case(given);
     const LoadSource source = load_source(resolve(opening));
@@ -126,7 +126,7 @@ TEST_F(InflationFolderTest, AReefedRunThatIsKilledBeforeOrAfterTheCutGoesOnByteI
 }
 
 // However few are asked for: the air steps with the rows.
-TEST_F(InflationFolderTest, InItsOwnAirTheStreamPassesNoMoreThanAPartOfACellInARow) {
+TEST_F(InflationFolderTest, CoupledRowsAreShorterThanThePassageOfACell) {
   given = small_opening_in_air();
   given.inflation.history_hz = 10;
   given.inflation.low_pass_hz = 0;
@@ -142,7 +142,7 @@ TEST_F(InflationFolderTest, InItsOwnAirTheStreamPassesNoMoreThanAPartOfACellInAR
   EXPECT_GT(passed, 0.015);
 }
 
-TEST_F(InflationFolderTest, InItsOwnAirAKilledRunGoesOnByteIdentical) {
+TEST_F(InflationFolderTest, AKilledCoupledRunResumesByteIdentical) {
   given = small_opening_in_air();
   const auto open_in_air = [&](const char* name, InflationObserver& observer) {
     const Case opening = opening_case(given);
@@ -277,7 +277,7 @@ TEST_F(InflationFolderTest, InMemoryTheOpeningIsThatOfTheFolder) {
   EXPECT_EQ(read_file(root / "run" / "result.json"), to_json(*in_folder));
 }
 
-TEST_F(InflationFolderTest, ItsResultIsWhatItsHistoryAndFramesSay) {
+TEST_F(InflationFolderTest, ItsResultFollowsFromItsHistoryAndFrames) {
   given.inflation.low_pass_hz = 1000;
   InflationObserver quiet;
   const auto [result, state, history] = run_inflation(resolve(given), {"given", {}}, problem(), quiet);
@@ -347,7 +347,7 @@ TEST_F(InflationFolderTest, TablesThatDoNotBelongToTheCheckpointAreRefused) {
   }
 }
 
-TEST_F(InflationFolderTest, NoticesWhatWasChangedOfEarlierFrames) {
+TEST_F(InflationFolderTest, DetectsChangesOfEarlierFrames) {
   Killed killed;
   killed.folder = root / "run";
   EXPECT_THROW(open("run", killed), std::runtime_error);

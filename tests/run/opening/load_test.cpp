@@ -78,7 +78,7 @@ void expect_judged(const StageLoads& stage) {
   EXPECT_NEAR(stage.spread, (highest - lowest) / (sum / count), 1e-12);
 }
 
-TEST(Load, PutsTheMethodsSideBySideAndSaysWhichApply) {
+TEST(Load, ListsTheMethodsAndWhichApply) {
   const LoadResult r = run_load(resolve(flat_circular()), request());
   ASSERT_EQ(r.stages.size(), 1u);
   const StageLoads& stage = r.stages[0];
@@ -281,7 +281,7 @@ TEST(Load, EveryMethodIsAskedInTheConditionsOfItsStage) {
   EXPECT_EQ(r.steady_drop, 2000 - r.flight.back().state.height);
 }
 
-TEST(Load, WhatFillsSlowlyUnderGravityIsNotForMethodsWithoutIt) {
+TEST(Load, SlowFillingUnderGravityExcludesMethodsWithoutIt) {
   const StageLoads stage = run_load(resolve(flat_circular()), request(8, 15)).stages[0];
   const double share = standard_gravity * stage.filling_time / 15;
   ASSERT_GT(share, 0.3);
@@ -307,7 +307,7 @@ TEST(Load, TheRowsOfItsLegsFollowEachOtherWithoutAGap) {
   }
 }
 
-TEST(Load, WhatIsGivenTakesTheHandbooksPlace) {
+TEST(Load, GivenValuesReplaceThoseOfTheHandbook) {
   LoadRequest asked = request();
   asked.filling_constant.reset();
   const LoadResult own = run_load(resolve(flat_circular()), asked);
@@ -358,7 +358,7 @@ TEST(Load, TheSnatchOfAPackedCanopyFollowsFromHowItIsSlowed) {
   EXPECT_DOUBLE_EQ(r.snatch->line_margin.value(), 400 / r.snatch->line_load);
 }
 
-TEST(Load, WhatCannotBeIsRefused) {
+TEST(Load, ImpossibleInputIsRefused) {
   EXPECT_NE(refused(request(-2)).find("payload mass (kg) of -2"), std::string::npos);
   EXPECT_NE(refused(request(2, 0)).find("speed at line stretch (m/s) of 0"), std::string::npos);
   EXPECT_NE(refused(request(50, 10)).find("exceeds the deployment speed of 10 m/s"), std::string::npos);

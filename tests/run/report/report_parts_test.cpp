@@ -38,7 +38,7 @@ class ReportParts : public testing::Test {
   static inline std::unique_ptr<TemporaryFolder> folder_;
 };
 
-TEST_F(ReportParts, OfASteadyRunBeginWithItsDragAndEndWithWhatMadeIt) {
+TEST_F(ReportParts, OfASteadyRunBeginWithItsDragAndEndWithItsProvenance) {
   const ReportRun run = report_of(steady() / "");
   EXPECT_EQ(run.name, "steady");
   EXPECT_EQ(run.headline,
@@ -81,7 +81,7 @@ TEST_F(ReportParts, TheBillHasARowForEveryRowOfTheBill) {
   EXPECT_TRUE(cloth && other);
 }
 
-TEST_F(ReportParts, TheSourcesSayKeyValueAndWhereItIsFrom) {
+TEST_F(ReportParts, TheSourcesHaveKeyValueAndOrigin) {
   const Settings resolved = settings_of_run(steady());
   const ReportTable table = sources_table(resolved, steady() / "run.json");
   const auto sources = nlohmann::json::parse(read_file(steady() / "run.json")).at("sources");
@@ -125,7 +125,7 @@ TEST_F(ReportParts, TheFlowIsThatAboutTheCanopyAndNotAboutItsLines) {
   EXPECT_EQ(run.flow.speed, same.speed);
 }
 
-TEST(ReportComparison, HasWhatIsANumberInEveryRunAndNothingElse) {
+TEST(ReportComparison, HasOnlyNumbersOfEveryRun) {
   ReportRun a, b;
   a.name = "first", b.name = "second";
   add_result(a, R"({"title": "t", "drag_n": 5, "only_here_n": 1, "settled": true})", "result.json");

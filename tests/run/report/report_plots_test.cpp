@@ -167,7 +167,7 @@ ReportRun steady_run(const char* name, const char* speed, const char* drag) {
   return run;
 }
 
-TEST_F(ReportPlots, OverSeveralRunsDragStandsOverSpeedBesideWhatWasMeasured) {
+TEST_F(ReportPlots, OverSeveralRunsDragIsPlottedOverSpeedWithMeasurements) {
   Case given = checked(flat_circular_case(1, 1500, 10));
   given.measured.resize(2);
   given.measured[0].nominal_speed_m_s = 10, given.measured[0].measured_speed_m_s = 11;
@@ -197,7 +197,7 @@ TEST_F(ReportPlots, OverSeveralRunsDragStandsOverSpeedBesideWhatWasMeasured) {
   EXPECT_TRUE(comparison_plots({runs[0], runs[2]}, resolve(given)).empty());  // one speed
 }
 
-TEST_F(ReportPlots, WhatTwoRunsHaveIsLaidOverEachOtherByTheRunsNames) {
+TEST_F(ReportPlots, CommonPlotsOfTwoRunsAreOverlaidWithTheirNames) {
   table("history.csv", {"time_s", "load_mean_n", "load_largest_n"});
   table("balance.csv", {"time_s", "projected_diameter_m", "skirt_diameter_m"});
   std::vector<ReportRun> runs(3);

@@ -136,7 +136,7 @@ TEST_F(RunReport, HasEveryNumberOfItsResult) {
   EXPECT_NEAR(highest / result.at("max_line_tension_n").get<double>(), 1, 0.02);
 }
 
-TEST_F(RunReport, ComparesRunsAndRefusesWhatIsNoRunOrNoReport) {
+TEST_F(RunReport, ComparesRunsAndRefusesOtherFoldersAndFiles) {
   const fs::path a = run("a"), b = run("b"), out = root.path / "both.html";
   EXPECT_EQ(write_report({a}, out), out);
   EXPECT_NE(read_file(out).find("<title>a</title>"), std::string::npos);

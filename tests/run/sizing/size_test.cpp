@@ -43,7 +43,7 @@ TEST(Size, ItsDragIsThatOfTheTableOfFamilies) {
   for (const FamilyDrag& drag : all) EXPECT_EQ(drag.drag_coefficient, printed.at(drag.family)) << drag.family;
 }
 
-TEST(Size, SaysWhereItsDragCoefficientIsFrom) {
+TEST(Size, HasTheSourceOfItsDragCoefficient) {
   EXPECT_EQ(run_size(sized()).drag_source.find("computed at "), 0u) << run_size(sized()).drag_source;
   SizeRequest given = sized();
   given.drag_coefficient = 0.8;
@@ -62,7 +62,7 @@ TEST(Size, TheHandbooksDiametersHaveTheSameDragAreaAsTheOneFound) {
   EXPECT_NE(r.handbook_diameter->at(0), r.handbook_diameter->at(1));
 }
 
-TEST(Size, OfEveryFamilyHoldsPayloadAndParachuteAtTheRate) {
+TEST(Size, OfEveryFamilyCarriesPayloadAndParachuteAtTheRate) {
   for (const FamilyDrag& drag : family_drags()) {
     const SizeResult r = run_size(sized(drag.family));
     const double weight = (2.4 + r.parachute_mass) * standard_gravity;
@@ -76,7 +76,7 @@ TEST(Size, OfEveryFamilyHoldsPayloadAndParachuteAtTheRate) {
   }
 }
 
-TEST(Size, TapeHoldsTheOpeningLoadAndIsNoneWhereAHemDoes) {
+TEST(Size, TapeCarriesTheOpeningLoadAndIsNoneWhereAHemDoes) {
   const SizeResult light = run_size(sized());
   EXPECT_EQ(light.tape_material == "none", light.tape_mass == 0);
   SizeRequest asked = sized();
@@ -111,7 +111,7 @@ TEST(Size, ItsCaseFileIsACaseOfThatParachute) {
 }
 
 // A flow whose drag coefficient is 10 % off the table's: the next diameter makes up for it.
-TEST(Size, VerifyChangesTheDiameterUntilTheRateHolds) {
+TEST(Size, VerifyAdjustsTheDiameterUntilTheRateIsMet) {
   const SizeRequest asked = sized();
   SizeResult r = run_size(asked);
   const double before = r.nominal_diameter, coefficient = 0.9 * r.drag_coefficient;
@@ -240,7 +240,7 @@ TEST(Size, OverMassRateHeightAndFamilyIsBalancedOrRefused) {
   EXPECT_GT(refused, 20);
 }
 
-TEST(Size, WhatCannotBeIsRefused) {
+TEST(Size, ImpossibleInputIsRefused) {
   SizeRequest asked = sized("flat-circula");
   EXPECT_NE(refused(asked).find("did you mean flat-circular?"), std::string::npos);
   asked = sized();

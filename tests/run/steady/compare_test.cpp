@@ -84,7 +84,7 @@ class ComparedModels : public testing::Test {
   std::vector<SweepRow> rows_;
 };
 
-TEST_F(ComparedModels, HaveTheNumbersOfTheirRunsAndOfWhatWasMeasured) {
+TEST_F(ComparedModels, HaveTheNumbersOfTheirRunsAndOfTheMeasurements) {
   const double speed = points_[0].resolved.flow().speed_m_s;
   points_[0].resolved = edited(points_[0].resolved, [&](Case& given) {
     given.measured = {{speed, 21, 1.2, 400.0, 390.0, 380.0}};

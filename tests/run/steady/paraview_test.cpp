@@ -60,7 +60,7 @@ def __getattr__(name):
     EXPECT_NE(shown.output.find(call), std::string::npos) << call << "\n" << shown.output;
 }
 
-TEST(ParaView, AFolderWithoutARunIsTold) {
+TEST(ParaView, AFolderWithoutARunIsReported) {
   const TemporaryFolder folder("paraview-empty");
   const Outcome outcome = python({script, "--check", folder.path.string()});
   EXPECT_NE(outcome.code, 0);

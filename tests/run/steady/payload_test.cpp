@@ -39,7 +39,7 @@ TEST(Payload, TheRunFindsTheSpeedAtWhichDragIsWeight) {
 }
 
 // A body that is wide for its weight falls slower, and the canopy carries the less.
-TEST(Payload, ItsOwnDragHoldsItsPartOfTheWeight) {
+TEST(Payload, ItsOwnDragCarriesItsPartOfTheWeight) {
   const Case given =
       square_law_case(falling("3", {{"payload.drag_area_m2", std::to_string(SquareLawEngine::area / 2)}}));
   SteadyObserver nobody;
@@ -83,7 +83,7 @@ TEST(Payload, AFlowThatCannotBeScaledStartsAfreshAtEverySpeed) {
 // against bending over it, two have one each, more of them two but at the ends: with a tenth of the law in them, the
 // axial spring over 1 - 0.1 would be 5 to 11 % too much. That the end is stretched a little more than its neighbour
 // leaves eps^2 / 8 (to second order, of a straight curve; 0.00135 in full).
-TEST(RunMargins, TheRisersLoadIsWhatHangsOnItHoweverManyPiecesItHas) {
+TEST(RunMargins, TheRisersLoadIsIndependentOfItsNumberOfPieces) {
   SteadyObserver nobody;
   for (const char* length : {"0.06", "0.12", "0.5"}) {
     Case given = square_law_case({{"parachute.riser.length_m", length}});
@@ -106,7 +106,7 @@ TEST(RunMargins, TheRisersLoadIsWhatHangsOnItHoweverManyPiecesItHas) {
   }
 }
 
-TEST(Payload, WithoutASpeedTheSearchBeginsWhereTheFamilysUsualDragHoldsIt) {
+TEST(Payload, WithoutASpeedTheIterationBeginsAtTheFamilysUsualDrag) {
   Case given = square_law_case(falling("3"));
   given.flow.speed_m_s.reset();
   struct First : SteadyObserver {
@@ -146,7 +146,7 @@ struct KilledInTime : SteadyObserver {
   }
 };
 
-TEST(Payload, ARunThatWasKilledGoesOnAtTheSpeedThatItHadFound) {
+TEST(Payload, AKilledRunResumesAtItsSpeed) {
   const TemporaryFolder folder("payload-killed");
   const Case given = square_law_case(falling("5"));
   const auto settings = [&](const char* name) {

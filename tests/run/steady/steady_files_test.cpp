@@ -184,7 +184,7 @@ std::vector<EngineOptions>& told() {
   return all;
 }
 
-TEST(SteadyParts, TellTheEngineThreadsFolderAndHostsOfTheRunAndRanksAndLimitOfTheCase) {
+TEST(SteadyParts, GiveTheEngineThreadsFolderAndHostsOfTheRunAndRanksAndLimitOfTheCase) {
   static const bool added = [] {
     add_engine({"listening",
                 "notes what it is told",

@@ -100,7 +100,7 @@ TEST(UnsteadyRun, EndsAtRestFirstAndThenWithTheMeanOverTime) {
 }
 
 // A mean whose direction chance turns has the cloth lean, from mean to mean. That is no motion to wait for the end of.
-TEST(UnsteadyRun, ClothThatLeansByChanceStands) {
+TEST(UnsteadyRun, ARandomInclinationOfTheClothIsAccepted) {
   const auto means = [](double side) {
     SwingingEngine engine;
     engine.side = side;
@@ -158,7 +158,7 @@ TEST(UnsteadyRun, HeldClothStepsOnBeforeTheNextWatch) {
   EXPECT_GT(several.shape_change, one.shape_change);
 }
 
-TEST(UnsteadyRun, KilledBetweenIterationsItGoesOnBitForBit) {
+TEST(UnsteadyRun, KilledBetweenIterationsItResumesBitForBit) {
   const auto to_the_end = [](SteadySolver& solver, SteadyState& state) {
     while (!solver.finished(state)) solver.iterate(state);
   };

@@ -104,7 +104,7 @@ TEST_F(Batch, AFolderThatNoDirectiveCanHoldIsRefused) {
   EXPECT_EQ(batch_folder("/runs/x/"), "/runs/x.slurm");
 }
 
-TEST_F(Batch, WhatIsNotRipstopsIsNotOverwritten) {
+TEST_F(Batch, OtherFilesAreNotOverwritten) {
   const BatchJob one = job({"program"});
   fs::create_directories(batch_folder(one.folder));
   write_file(batch_folder(one.folder) / "run.sbatch", "mine");

@@ -98,7 +98,7 @@ TEST_F(SweepFiles, NothingIsDrawnWithoutNumbersOrWithoutAResult) {
 }
 
 // At one speed what was measured there is a level; over speeds it is points; over two designs it is nothing.
-TEST_F(SweepFiles, WhatWasMeasuredStandsBesideTheDragAndNotBesideTheTime) {
+TEST_F(SweepFiles, MeasurementsAreInThePlotOfDragAndNotOfTime) {
   const auto colours_of = [&](const char* file) {
     const std::string svg = read_file(folder.path / file);
     const std::regex colour(R"((stroke|fill)(=\"|:|: )rgb\([^)]*\))");

@@ -83,7 +83,7 @@ struct NoWind : FlowEngine {
   }
 };
 
-TEST(SweepFolder, ARunThatFailsIsToldInItsRowAndTheOthersGoOn) {
+TEST(SweepFolder, AFailedRunIsRecordedInItsRowAndTheOthersContinue) {
   static const bool added = [] {
     add_engine({"no-wind",
                 "fails",
