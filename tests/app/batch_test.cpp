@@ -63,7 +63,7 @@ TEST_F(Batch, AScriptReplacesTheRunAndHasTheSameResult) {
   const Finished here = ripstop_with(command("steady", "here", {"--speed=10"}));
   ASSERT_EQ(here.code, 0) << here.output;
   EXPECT_EQ(drag("a $(touch harm) b"), drag("here"));
-  EXPECT_EQ(bash({script.string()}).code, 0);  // again: it holds the finished run
+  EXPECT_EQ(bash({script.string()}).code, 0);  // again: it contains the finished run
 }
 
 TEST_F(Batch, ASweepResumesFromTheRunsOfItsJobs) {
@@ -99,7 +99,7 @@ TEST_F(Batch, OptionsThatAScriptCannotUseAreRefused) {
     EXPECT_FALSE(fs::exists(root_.path / "none.slurm"));
   };
   refused({"--batch", "pbs"}, "slurm");
-  refused({"--batch", "slurm", "--fresh"}, "--fresh");  // would begin anew whenever its job goes on
+  refused({"--batch", "slurm", "--fresh"}, "--fresh");  // would begin anew whenever its job resumes
   refused({"--batch", "slurm", "--dry-run"}, "--dry-run");
   refused({"--hours", "2"}, "--batch");
   refused({"--batch", "slurm", "--speed", "-1"}, "--speed");

@@ -48,7 +48,7 @@ TEST_F(Check, MassesAndAreasAreThoseOfThePattern) {
   EXPECT_NEAR(report["mass_kg"]["lines"].get<double>(), 2e-3 * 18 * (1.5 + 0.3 + 0.07 + 0.455 + 2 * 0.1),
               1e-6);
   EXPECT_NEAR(report["cloth_nodes"].get<double>(), 25600, 256);
-  EXPECT_GT(report["stable_step_s"].get<double>(), 4e-7);  // what the paper's polar grid allowed
+  EXPECT_GT(report["stable_step_s"].get<double>(), 4e-7);  // reduction allowed by the polar grid of [NFM]
   EXPECT_EQ(report["flow_cells"], 1500000);
   EXPECT_EQ(report["case"]["flow"]["density_kg_m3"], 1.2);
 }
@@ -153,7 +153,7 @@ TEST_F(Check, AMeshTooCoarseForTheCanopysSizeIsReported) {
   EXPECT_EQ(coarse.code, 0);
   EXPECT_NE(coarse.output.find("warning: parachute.mesh.cloth_nodes = 1000"), std::string::npos)
       << coarse.output;
-  // It does not say "none" beside a warning.
+  // It does not print "none" together with a warning.
   EXPECT_NE(fine.output.find("problems           none\n"), std::string::npos) << fine.output;
   EXPECT_NE(coarse.output.find("problems           no error, 1 warning below\n"), std::string::npos)
       << coarse.output;

@@ -48,7 +48,7 @@ TEST_F(FlightCommands, AFileThatIsThereStaysUnlessForced) {
   EXPECT_EQ(run(size), 2) << "my.html is there";
 }
 
-/// What a user types and what the message must name.
+/// A user's input and the required content of the message.
 struct Mistake {
   std::vector<std::string> arguments;
   std::string named;

@@ -1,4 +1,5 @@
-// What cannot work is refused before it costs anything, what was not written is no success, and every end has its code.
+// Impossible input is refused before any computation, an incomplete write is no success, and every failure
+// has its exit code.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/resource.h>

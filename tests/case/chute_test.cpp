@@ -1,4 +1,4 @@
-// Designs of openchute: what maps is cut as openchute cuts it, and nothing of the file is silently left out.
+// Designs of openchute: converted parts are cut as in openchute, and no part of the file is ignored silently.
 #include <gtest/gtest.h>
 
 #include <cctype>

@@ -1,4 +1,4 @@
-// A case that is made in code, without any file, is checked, resolved and told of like one that was read.
+// A case made in code, without any file, is checked, resolved and reported like one that was read.
 #include <gtest/gtest.h>
 
 #include <algorithm>

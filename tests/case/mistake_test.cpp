@@ -1,4 +1,4 @@
-// Every kind of mistake is told with its file, line, column, key, value and what is allowed.
+// Every kind of mistake is reported with its file, line, column, key, value and allowed values.
 #include <gtest/gtest.h>
 
 #include "fixture.h"
@@ -8,7 +8,7 @@ namespace {
 
 struct Mistake {
   std::string name;
-  std::string from, to;                // what is spoilt in valid_case
+  std::string from, to;                // change of valid_case
   std::string place;                   // "case.toml:5:19"
   std::string key;                     // full name
   std::string value;                   // as shown; empty: there is none

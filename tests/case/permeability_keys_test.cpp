@@ -76,7 +76,7 @@ TEST(PermeabilityKeys, OfACaseMadeInCodeTwoWaysAreRefusedToo) {
   EXPECT_EQ(validate(given).at(0).key, "materials.f-111-physical.permeability_cfm");
 }
 
-/// Everything that is said of old keys, a line each.
+/// All warnings of deprecated keys, one per line.
 std::string told(const Settings& resolved) {
   std::string text;
   for (const std::string& line : resolved.deprecations()) text += line + "\n";

@@ -1,5 +1,4 @@
-// What follows where a case says nothing: from parachute, cloth and other values, never from
-// which keys were typed.
+// Derived values of a case: from parachute, cloth and other values, never from which keys were typed.
 #include "ripstop/case/resolve.h"
 
 #include <gtest/gtest.h>
@@ -36,7 +35,7 @@ FlowSettings flow_of(const std::string& text) {
   return resolve(parse_case(text, "case.toml")).flow();
 }
 
-/// Every key that stands in a table, with its value as TOML.
+/// Every key of a table, with its value as TOML.
 void collect(const Json& node, const std::string& name, std::vector<Setting>& leaves) {
   if (node.is_object()) {
     for (const auto& [key, child] : node.items())
@@ -63,7 +62,7 @@ std::string readme_case() {
   return readme.substr(begin, readme.find(fence, begin) - begin);
 }
 
-// A case of each porosity model, cases that give a part of what belongs together, and what people start from.
+// A case of each porosity model, cases with a part of related keys, and typical starting points.
 const std::vector<std::pair<std::string, std::string>> cases = {
     {"sheet", short_case},
     {"sheet in a narrow box", valid_case},
@@ -275,7 +274,7 @@ TEST(Resolved, EachPartOfTheBoxFollowsByItself) {
   EXPECT_EQ(placed.cells, whole.cells);
   EXPECT_EQ(placed.core.size_m, whole.core.size_m);
   EXPECT_NEAR(placed.core.start_m, whole.core.start_m + 7.5 - 4 * d, 1e-12);
-  // The box alone: the core stays as wide as the canopy asks for.
+  // The domain alone: the core remains as wide as the canopy requires.
   const FlowSettings boxed = flow_of(short_case + "box_m = [8, 8, 12]\n");
   EXPECT_EQ(boxed.core.size_m, whole.core.size_m);
   EXPECT_EQ(boxed.cells, whole.cells);

@@ -1,4 +1,4 @@
-// Whatever bytes a case file has, it is a valid case or a told mistake.
+// Any bytes of a case file are a valid case or a reported mistake.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -25,8 +25,8 @@ std::vector<std::string> all_example_texts() {
   return texts;
 }
 
-/// True when the text is a valid case. A mistake has to come as an InputError that says something; a valid
-/// case has to survive being written and read again.
+/// True when the text is a valid case. A mistake must be an InputError with a message; a valid case must remain equal
+/// when it is written and read again.
 bool is_valid_or_told(const std::string& text) {
   try {
     const Case given = parse_case(text, "case.toml");

@@ -1,4 +1,4 @@
-// A mesh that no cloth can be made of is refused with what is wrong with it.
+// An invalid mesh is refused with its reason.
 #include <gtest/gtest.h>
 
 #include <functional>

@@ -1,4 +1,4 @@
-// What the forces conserve, and what they derive from.
+// Conserved quantities of the forces, and their potential.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -38,8 +38,8 @@ std::vector<Vec3> outward(const Mesh& mesh, double size) {
   return result;
 }
 
-/// Through tied nodes, masters, inner nodes and ends of springs, not in any order along the cloth; `slack` times as long
-/// as its way.
+/// Through tied nodes, masters, inner nodes and ends of springs, not in any order along the cloth; `slack` times as
+/// long as its way.
 Mesh drawn_medley(double slack, double damping) {
   Mesh mesh = medley(0, false);
   std::vector<int> rings{mesh.ties.front().node, mesh.ties.front().masters.front().node};

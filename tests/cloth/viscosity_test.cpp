@@ -1,4 +1,4 @@
-// The viscosity of the cloth: what it takes from a motion, and what it may take from the step.
+// The viscosity of the cloth: its energy loss, and its effect on the stable step.
 #include <gtest/gtest.h>
 
 #include <algorithm>

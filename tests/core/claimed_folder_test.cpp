@@ -172,7 +172,7 @@ TEST_F(ClaimedFolderTest, TheListOfAnInterruptedFolderIsRestoredFromTheKeptHashe
   EXPECT_EQ(ClaimedFolder(folder).names(), names) << "as written";
 }
 
-// Between the seal and the removal of what it takes the place of, the process may be killed.
+// The process may be killed between the seal and the removal of the files that it replaces.
 TEST_F(ClaimedFolderTest, ASealReplacesTheKeptHashes) {
   std::string kept;
   {
@@ -273,7 +273,7 @@ TEST_F(ClaimedFolderTest, TheListOfASealedFolderIsRestoredFromItsSeal) {
   ClaimedFolder(folder).clear();
   EXPECT_FALSE(fs::exists(folder / "a") || fs::exists(folder / "b"));
 
-  write_file(seal, "not a seal");  // which is told by who looks what is damaged
+  write_file(seal, "not a seal");  // which is reported by the function that checks for damage
   write_file(list, whole.substr(0, whole.find('\n') + 1));
   EXPECT_EQ(ClaimedFolder(folder).names(), std::vector<std::string>{"a"});
 }

@@ -1,4 +1,4 @@
-// Formulas mean what the language they come from says, and mistakes are told with their place.
+// Formulas have the meaning of their original language, and mistakes are reported with their place.
 #include "ripstop/core/expression.h"
 
 #include <gtest/gtest.h>

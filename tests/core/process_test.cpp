@@ -79,7 +79,7 @@ TEST(Process, FolderAndEnvironmentAreTheChildsOwn) {
     return true;
   };
   run_process(request);
-  EXPECT_EQ(seen, std::string("/usr yes ") + std::getenv("PATH"));  // what was not said is inherited
+  EXPECT_EQ(seen, std::string("/usr yes ") + std::getenv("PATH"));  // unset variables are inherited
   EXPECT_EQ(std::getenv("RIPSTOP_WORD"), nullptr);
 }
 

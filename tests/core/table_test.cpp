@@ -1,4 +1,4 @@
-// Tables in the forms that machines give them: what is read, and what can be read in two ways and is refused.
+// Tables in the forms of machines: accepted forms, and ambiguous forms that are refused.
 #include "ripstop/core/table/table.h"
 
 #include <fmt/format.h>

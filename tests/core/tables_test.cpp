@@ -1,4 +1,5 @@
-// Files as machines write them, each with its expectation beside it: tests/<room>/tables/README.md says in which form.
+// Files as machines write them, each with its expectation next to it: tests/<room>/tables/README.md describes
+// the form.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -85,7 +86,7 @@ TEST(TableFiles, GoodOnesAreReadAsTheyAre) {
   }
 }
 
-/// What a command does that needs these quantities; how it is refused.
+/// A command that needs these quantities, and its error.
 std::string refusal(const fs::path& file) {
   try {
     const Format format = case_of(file).format;

@@ -1,4 +1,4 @@
-// What is read of a table is where the file has it: every key that is given has its place.
+// Values that are read from a table are those of the file: every given key has its place.
 #include <gtest/gtest.h>
 
 #include <map>

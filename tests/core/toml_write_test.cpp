@@ -1,4 +1,4 @@
-// What is written of a table reads back, and a reader of the file sees plain text.
+// A written table reads back, and is plain text for a reader.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>

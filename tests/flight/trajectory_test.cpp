@@ -114,7 +114,7 @@ TEST(Trajectory, EndsOnTheGround) {
   EXPECT_GT(rows.size(), 100u);
 }
 
-// From 20 m/s down, h = 20 t + g t^2 / 2, in steps of which the ground cuts one in the middle.
+// From 20 m/s down, h = 20 t + g t^2 / 2, where the ground ends a step in its middle.
 TEST(Trajectory, LandsWhenItReachesTheGround) {
   FlightState state{0, 0, 0, 50, 20, 90};
   fly(state, 1, leg([](double, double) { return 0.0; }, 10, 0.3));
@@ -132,7 +132,7 @@ TEST(Trajectory, AFillingGrowsToItsPeakAndComesBack) {
   EXPECT_NEAR(area(top + 1, 0), 6.5, 1e-12);
   EXPECT_NEAR(area(top + 2, 0), 5, 1e-12);
   EXPECT_NEAR(area(100, 0), 5, 1e-12);
-  const DragArea level = filling(3, 3, 1, 2, 1);  // a reefed canopy that stays what it is
+  const DragArea level = filling(3, 3, 1, 2, 1);  // a reefed canopy with a constant drag area
   for (const double t : {0.0, 0.3, 1.0, 2.0}) EXPECT_DOUBLE_EQ(level(t, 0), 3);
 }
 

@@ -182,7 +182,7 @@ TEST_F(FieldFile, FacesHaveTheCornersOfTheirList) {
   const FaceList two = faces("3(0 3 7)", "7(0 1 2 0 2 3 4)");
   EXPECT_EQ(two.begins, (std::vector<int>{0, 3, 7}));
   EXPECT_EQ(two.corners, (std::vector<int>{0, 1, 2, 0, 2, 3, 4}));
-  EXPECT_THROW(faces("3(0 3 6)", "7(0 1 2 0 2 3 4)"), Error);  // other corners than it says
+  EXPECT_THROW(faces("3(0 3 6)", "7(0 1 2 0 2 3 4)"), Error);  // other corners than stated
   EXPECT_THROW(faces("3(0 2 7)", "7(0 1 2 0 2 3 4)"), Error);  // a face of two corners
   EXPECT_THROW(faces("3(1 4 7)", "7(0 1 2 0 2 3 4)"), Error);
   EXPECT_THROW(faces("3(0 2147483647 7)", "7(0 1 2 0 2 3 4)"), Error);

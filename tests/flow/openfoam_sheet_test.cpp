@@ -1,4 +1,4 @@
-// Sheets on OpenFOAM beside what is known.
+// Sheets on OpenFOAM compared with known results.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -79,7 +79,8 @@ TEST_F(OpenFoamSheet, AScreenAcrossADuctTakesThePressureOfItsLaw) {
   EXPECT_NEAR(field.momentum_deficit.z, drop * 0.16, 5e-3 * drop * 0.16);
 }
 
-// The momentum that the box loses is the force on the sheet, whether the pressure jumps across it or what passes is given.
+// The momentum deficit is the force on the sheet, whether the pressure jumps across it or the velocity
+// through it is given.
 TEST_F(OpenFoamSheet, TheBoxLosesTheMomentumThatThePlateTakes) {
   const FlowField loose = solved(plate_in_box(2, 0.1));
   EXPECT_NEAR(loose.momentum_deficit.z, loose.porous_force.z, 0.02 * loose.porous_force.z);
@@ -260,7 +261,7 @@ TEST_F(OpenFoamSheet, CellsMovedOntoACupHaveItsFrontAndTakeTheMomentumThatTheBox
     EXPECT_GT(dot(load.outward, out) / norm(out), 0.8);  // faces at the rim lean
   }
   EXPECT_NEAR(front, 0.25 * M_PI, 0.01 * 0.25 * M_PI);
-  // The faces are fewer square metres than the cloth they stand for, of which each has its share.
+  // The faces have a smaller area than the cloth they represent; each has its share of it.
   const double cloth = surface_area(cup_in_box().bodies[0].surface);
   EXPECT_NEAR(area, cloth, 5e-4 * cloth);  // but for faces that are not plane
   EXPECT_NEAR(cloth, 0.5 * M_PI, 0.01 * 0.5 * M_PI);
@@ -313,7 +314,8 @@ TEST_F(OpenFoamSheet, ARestoredFlowContinuesByteForByteWhenCellsAreFittedToTheCl
   EXPECT_GT(whole.porous_force.z, 0.5 * before.porous_force.z);
 }
 
-// A closed box of little more than a cell, beside a plate: without an opening its cell would have no pressure.
+// A closed box of little more than a cell, next to a plate: without an opening its cell would have no
+// pressure.
 TEST_F(OpenFoamSheet, ACellThatClothShutsInIsOpened) {
   FlowProblem problem = plate_in_box(1e6, 0);
   std::vector<Triangle>& cloth = problem.bodies[0].surface;

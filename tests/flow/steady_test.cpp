@@ -10,7 +10,7 @@
 namespace ripstop {
 namespace {
 
-/// Iteration n since the start has drag(n) and residual(n). Counts what is asked of it.
+/// Iteration n since the start has drag(n) and residual(n). Counts its calls.
 class Scripted final : public Flow {
  public:
   std::function<double(int)> drag = [](int) { return 100.0; };

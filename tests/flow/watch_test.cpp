@@ -1,4 +1,4 @@
-// How long a flow is watched and what its mean is made of, on a flow whose force is given.
+// Length of an averaging window and its mean, for a flow with a given force.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Every file of a case for OpenFOAM has the numbers of its problem, in the words that its solvers know.
+// Every file of a case for OpenFOAM has the numbers of its problem, in the keywords of its solvers.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// What a run without convergence lacks.
+// Criteria that a run without convergence does not meet.
 #include "ripstop/fsi/convergence.h"
 
 #include <gtest/gtest.h>

@@ -88,7 +88,7 @@ TEST(Inflation, AStableStepBelowThatOfAnyWholeClothIsAnErrorThatNamesTheNode) {
       << message;
 }
 
-// A block may end by rounding before the instant that it stands for.
+// A block can end, by rounding, before the time that it represents.
 TEST(Inflation, EveryInstantIsShownOnceAndWithoutAnyEightAreChosen) {
   InflationProblem problem = small_problem(0, 6e-3);
   UniformPressureOpening measured(problem);
@@ -215,7 +215,7 @@ TEST(Inflation, AnImperfectionOfOneWaveEqualsTheMeasuredAsymmetry) {
   EXPECT_LT(even.frame(kept).asymmetry, 1e-14);
 }
 
-// What is left of symmetry is rounding that grows as any other disturbance does: a hundred times the
+// The asymmetry is rounding error that grows like any other disturbance: a hundred times the
 // imperfection is a hundred times the asymmetry for as long as it is small.
 TEST(Inflation, AnAsymmetryGrowsInProportionToTheImperfectionItCameFrom) {
   const auto asymmetry_after = [](double imperfection) {
@@ -271,7 +271,7 @@ TEST(Inflation, ThePeakIsThatOfEveryStepHoweverFewRowsAreWritten) {
   double highest = 0;
   for (const HistoryRow& row : few) highest = std::max(highest, row.largest);
   EXPECT_EQ(highest, t.peak_load);
-  EXPECT_NEAR(t.peak_load / s.peak_load, 1, 0.01);  // the step differs a little so that rows come out whole
+  EXPECT_NEAR(t.peak_load / s.peak_load, 1, 0.01);  // the step differs a little so that rows are complete
 }
 
 TEST(Inflation, TheStepNeverExceedsTheStableOne) {

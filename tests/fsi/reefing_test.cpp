@@ -1,4 +1,4 @@
-// Reefing lines in an opening: what they hold, when they go, and what is left the same.
+// Reefing lines in an opening: their load, their cut, and unchanged quantities.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -113,7 +113,8 @@ TEST(Reefing, TheEnergyOfACutLineIsInTheBalance) {
     EXPECT_TRUE(row.time <= reefed.state.cuts[1] * (1 + 1e-9) || row.reefing_largest == 0) << row.time;
 }
 
-// Loads at rest: the first pull of the lines is as high reefed as not, under a pressure that knows of no mouth.
+// Loads at rest: the first pull of the lines is equal with and without reefing, under a pressure that is
+// independent of the mouth.
 TEST(Reefing, EachStageCarriesItsLoad) {
   InflationProblem problem = opening_with({{1.0, 0.15, nylon_cord}, {1.8, 0.3, nylon_cord}}, 0.45);
   problem.settings.damping_n_s_m3 = 30;  // to rest soon

@@ -210,7 +210,7 @@ TEST_F(Bench, SlackOffsetAndFailureAreCutAndSaid) {
   EXPECT_NE(record.trimmed[0].find("after the peak"), std::string::npos);
   EXPECT_NE(record.trimmed[1].find("offset"), std::string::npos);
   EXPECT_NE(record.trimmed[2].find("slack"), std::string::npos);
-  // What is left is the curve from its true zero on.
+  // The rest is the curve from its true zero on.
   for (std::size_t i = 0; i < record.strain.size(); i += 50)
     EXPECT_NEAR(record.load[i], wanted.load(record.strain[i]), 0.02 * wanted.load(0.33));
 }

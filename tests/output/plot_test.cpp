@@ -115,7 +115,7 @@ TEST(Plot, ItsLegendShowsEverySeriesThatHasAName) {
   plot.series[0].name = "one", plot.series[1].name = "two";
   write_plot(folder.path / "named.png", plot);
   const Png none = read_png(folder.path / "none.png"), named = read_png(folder.path / "named.png");
-  for (const std::size_t i : {0, 1})  // its marker once more
+  for (const std::size_t i : {0, 1})  // its marker again
     EXPECT_NEAR(spot_of(named, series_colour(i)).count / (2.0 * spot_of(none, series_colour(i)).count), 1,
                 0.1);
 }

@@ -1,4 +1,4 @@
-// What vtk.h wrote comes back; what is damaged is refused.
+// Files of vtk.h read back; damaged ones are refused.
 #include "ripstop/output/vtk_read.h"
 
 #include <gtest/gtest.h>

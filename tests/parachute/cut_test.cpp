@@ -1,4 +1,4 @@
-// What is cut is what is meshed: pieces and lengths of the pattern against the mesh and each other.
+// The cut pieces are those of the mesh: pieces and lengths of the pattern against the mesh and each other.
 #include "ripstop/parachute/cut.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What holds for every canopy family: the cloth is that of the pattern, and the mesh has its symmetry.
+// Properties of every canopy family: the cloth is that of the pattern, and the mesh has its symmetry.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// The page as text: what is packed comes back, no text of a case becomes part of the page, and it stays small.
+// The page as text: packed data read back, no text of a case becomes part of the page, and it remains small.
 #include "ripstop/report/report.h"
 
 #include <gtest/gtest.h>
@@ -262,7 +262,7 @@ TEST(ReportPage, HasEveryFrameOfASmallOpeningInItsOrder) {
   EXPECT_EQ(times, (std::vector<double>{0, 0.01, 0.02, 0.03, 0.04}));
 }
 
-// Also what the browser's test measures the speed with: RIPSTOP_DOME names the file to leave.
+// Also used for the time measurement of the browser test: RIPSTOP_DOME is the name of the file.
 TEST(ReportPage, WithFiftyThousandMovingNodesIsAtMostTenMegabytes) {
   Report report;
   report.title = "dome";

@@ -1,4 +1,4 @@
-// What a command does, called without a folder and without a terminal.
+// The computation of a command, called without a folder and without a terminal.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -23,12 +23,12 @@ Case small_case() {
   given.title = "A canopy made in code";
   given.parachute.canopy_material = "f-111";
   given.flow.cells = {20, 20, 30};
-  given.coupling.threads = 1;  // beside other tests, threads wait for each other
+  given.coupling.threads = 1;  // together with other tests, threads wait for each other
   apply({}, given);
   return given;
 }
 
-/// An empty folder that is the working folder meanwhile: what a test writes, it would write there.
+/// An empty folder that is temporarily the working folder: it would contain any file that a test writes.
 class InMemory : public testing::Test {
  protected:
   void SetUp() override {

@@ -139,7 +139,7 @@ TEST(RunNumbers, HowWellADragIsKnownIsTheLargestOfItsShares) {
   EXPECT_NEAR(drag_uncertainty(last), 0.005, 1e-12);
   last.momentum_deficit = 198;
   EXPECT_NEAR(drag_uncertainty(last), 0.01, 1e-12);
-  last.drag_change = INFINITY;  // the first iteration knows no change
+  last.drag_change = INFINITY;  // the first iteration has no change
   EXPECT_NEAR(drag_uncertainty(last), 0.01, 1e-12);
 }
 

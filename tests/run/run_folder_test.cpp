@@ -1,4 +1,4 @@
-// Which folder a run takes, and what it refuses.
+// The folder of a run, and refused folders.
 #include "ripstop/run/run_folder.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What is made of a finished steady run for a flight: descent.
+// Use of a finished steady run for flight: descent.
 #include "ripstop/run/descent/descent.h"
 
 #include <gtest/gtest.h>

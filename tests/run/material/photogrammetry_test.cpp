@@ -1,4 +1,4 @@
-// Sizes off an image beside a computed canopy's: which numbers stand where, in memory and in the files.
+// Sizes from an image compared with those of a computed canopy: the numbers in memory and in the files.
 #include "ripstop/run/material/photogrammetry.h"
 
 #include <gtest/gtest.h>

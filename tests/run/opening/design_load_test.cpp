@@ -105,7 +105,8 @@ TEST(DesignLoad, OfACrossTheMostLoadedLineCarriesMoreThanAnEqualShare) {
   EXPECT_NEAR(r.margins->members.front().load, 1.43 * r.design_load / cross.parachute.lines.count, 1e-9);
 }
 
-// The stage is cut when it has filled to half: the drag area goes on from there. Beside it, small steps in time.
+// The stage is cut when it has filled to half: the drag area continues from there. Compared with small steps
+// in time.
 TEST(DesignLoad, AStageCutBeforeItHasFilledContinuesFromItsDragArea) {
   LoadRequest asked = drop(50, 60);
   asked.height = 2000, asked.path_angle = 0, asked.filling_constant = 8;

@@ -1,4 +1,4 @@
-// The run folder of an opening: a killed run goes on, and its tables are the undisturbed run's byte for byte.
+// The run folder of an opening: a killed run resumes, and its tables are the undisturbed run's byte for byte.
 #include "ripstop/run/opening/inflation_folder.h"
 
 #include <fmt/format.h>
@@ -161,7 +161,7 @@ TEST_F(InflationFolderTest, AKilledCoupledRunResumesByteIdentical) {
   Resumed undisturbed;
   const auto whole = open_in_air("whole", undisturbed);
   ASSERT_TRUE(whole && whole->added_mass);
-  // Of the folded start in the first row, of the canopy as it stands at the end in the result.
+  // Of the folded start in the first row, of the canopy at the end in the result.
   const double at_start = read_csv(root / "whole/air.csv").column("added_mass_kg").front();
   EXPECT_GT(at_start, 0);
   EXPECT_GT(*whole->added_mass, at_start);
@@ -190,7 +190,7 @@ TEST_F(InflationFolderTest, AKilledCoupledRunResumesByteIdentical) {
     resumed.air = root / name / "air";
     ASSERT_TRUE(open_in_air(name.c_str(), resumed));
     EXPECT_EQ(resumed.first_block, blocks);
-    EXPECT_FALSE(fs::exists(root / name / "air"));  // nothing goes on from it
+    EXPECT_FALSE(fs::exists(root / name / "air"));  // no run resumes from it
     for (const char* table :
          {"history.csv", "balance.csv", "air.csv", "lines.csv", "result.json", "vtk/air_0004.vti"})
       EXPECT_EQ(read_file(root / name / table), read_file(root / "whole" / table)) << name << ' ' << table;
@@ -227,7 +227,8 @@ TEST_F(InflationFolderTest, TheAirOfACheckpointStaysUntilTheNextOneIsWhole) {
     EXPECT_EQ(read_file(root / "killed" / table), read_file(root / "whole" / table)) << table;
 }
 
-// Frames of several blocks: what is drawn is the cloth at the frame's time, in its file and in the report.
+// Frames of several blocks: the drawing shows the cloth at the time of the frame, in its file and in the
+// report.
 TEST_F(InflationFolderTest, AFramesShapeIsThatOfItsTime) {
   given.inflation.frames = 2;
   struct Seen : InflationObserver {

@@ -53,7 +53,7 @@ TEST(Load, AStageFillsAsItsOwnShareOfTheAreaDoes) {
 }
 
 // Knacke, NWC TP 6575, Table 5-6 (page 5-44), unreefed, and Fig. 5-51 (page 5-59): read in github.com/nrdptel/hpr-sim,
-// crates/hpr-sim/src/recovery.rs, which was written beside the print.
+// crates/hpr-sim/src/recovery.rs, a transcription of the print.
 TEST(Load, FillingConstantsAreTheHandbooks) {
   EXPECT_EQ(known_filling("flat-circular").constant, 8);
   EXPECT_EQ(known_filling("extended-skirt").constant, 10);
@@ -65,7 +65,7 @@ TEST(Load, FillingConstantsAreTheHandbooks) {
   EXPECT_EQ(known_filling("ringslot").exponent, 1);
 }
 
-/// Of the applicable methods: what a stage says about all of them.
+/// Of the applicable methods: the summary of a stage.
 void expect_judged(const StageLoads& stage) {
   double highest = 0, lowest = 1e300, sum = 0;
   int count = 0;
@@ -107,8 +107,8 @@ TEST(Load, EndsInTheSteadyDescentOfItsMass) {
               1, 2e-3);
 }
 
-/// What the way through `rows` leaves open by the trapezoidal rule: of momentum over the first, of energy over the
-/// first.
+/// Residual of the trajectory in `rows` by the trapezoidal rule: of momentum over the first, of energy over
+/// the first.
 struct Balance {
   double level = 0, down = 0, energy = 0;
 };
@@ -290,7 +290,7 @@ TEST(Load, SlowFillingUnderGravityExcludesMethodsWithoutIt) {
   EXPECT_EQ(note.find("neglects gravity, which adds "), 0u) << note;
   EXPECT_NEAR(std::stod(note.substr(29)), 100 * share, 0.51) << note;
   LoadRequest level = request(8, 15);
-  level.path_angle = 0;  // none along the way
+  level.path_angle = 0;  // none along the path
   EXPECT_TRUE(method(run_load(resolve(flat_circular()), level).stages[0], "Pflanz").applies);
 }
 

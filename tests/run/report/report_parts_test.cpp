@@ -1,4 +1,4 @@
-// What stands where on a report: headline, warnings, bill, sources, provenance, comparison, frames.
+// Layout of a report: headline, warnings, bill, sources, provenance, comparison, frames.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -196,7 +196,7 @@ TEST_F(ReportOfAnOpening, BeginsWithItsLoadsAndHasEveryFrame) {
   EXPECT_TRUE(run.flow.pressure.empty());
 }
 
-// 24 frames of 110,000 points: a page holds twelve of them.
+// 24 frames of 110,000 points: a page contains twelve of them.
 TEST_F(ReportOfAnOpening, TooLargeForAPageKeepsItsFirstAndItsLastFrameAndTheOthersEvenly) {
   VtkSurface many;
   many.points.assign(110'000, Vec3{});
@@ -232,7 +232,7 @@ TEST(ReportOfASweep, HasItsRunsByTheirValuesAndNoneOfThoseWithoutAResult) {
   settings.folder = root.path / "sweep";
   settings.jobs = 1;
   prepare_sweep(points, settings);
-  SteadyObserver nobody;  // one thread each: a team beside other tests waits for itself
+  SteadyObserver nobody;  // one thread each: a team next to other tests waits for itself
   for (const SweepPoint& point : points)
     run_steady_in({{settings.folder / point.folder, false, false, false}, 1, {}, {}}, point.resolved, nobody);
   std::vector<SweepRow> rows = gather_sweep(points, settings);

@@ -126,10 +126,11 @@ TEST_F(ReportPlots, WithoutATableOrWithoutRowsThereIsNone) {
   write_csv(folder.path / "history.csv", CsvTable{{"time_s", "something_else"}, {{1, 2}}});
   EXPECT_TRUE(plots_of(run, folder.path).empty());
   write_csv(folder.path / "lines.csv", CsvTable{{"free_tension_n"}, {{1}}});
-  EXPECT_THROW(plots_of(run, folder.path), Error);  // nothing to stand over
+  EXPECT_THROW(plots_of(run, folder.path), Error);  // no common axis
 }
 
-// A screen has some 2000 columns: what happens within one of them is its least and its largest value.
+// A screen has some 2000 columns: the data within one of them are represented by their smallest and largest
+// value.
 TEST_F(ReportPlots, OfManyRowsKeepEveryPeak) {
   const auto series_of = [&](int count) {
     CsvTable history{{"time_s", "load_mean_n", "load_largest_n"}, {}};

@@ -1,4 +1,4 @@
-// What `size` chooses by itself, and what its case file says of it.
+// Choices of `size`, and the text of its case file.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

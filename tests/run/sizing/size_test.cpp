@@ -130,7 +130,7 @@ TEST(Size, VerifyAdjustsTheDiameterUntilTheRateIsMet) {
   EXPECT_EQ(runs, 2);
   EXPECT_NEAR(r.nominal_diameter / before, std::sqrt(1 / 0.9), 0.01);
   EXPECT_NEAR(r.checks.back().descent_rate, 5, 0.05);
-  // Opening load and margin are of the size that holds.
+  // Opening load and margin are those of the final size.
   EXPECT_NEAR(r.opening.front().drag_area, r.drag_coefficient * r.nominal_area, 1e-6);
   EXPECT_EQ(r.opening.front().highest, r.opening_load);
   const auto stuck = [&](const Settings&, int) { return SteadyResult(); };
@@ -171,7 +171,7 @@ SizeRequest wish(double mass, double rate, double height, const std::string& fam
   return r;
 }
 
-/// What holds over what pulls, from the parachute that was found and what is cut for it.
+/// Drag over weight, of the parachute found and of its pattern.
 double drag_over_weight(const SizeRequest& asked, const SizeResult& r) {
   const double q = 0.5 * standard_air(asked.height).density * asked.descent_rate * asked.descent_rate;
   const double mass = asked.payload_mass + run_pattern(resolve(r.given), {}, 400).bill.mass;

@@ -1,4 +1,4 @@
-// Models beside each other: what each keeps of its laws, what is told of them, and the files.
+// Comparison of models: their laws, their report, and the files.
 #include "ripstop/run/steady/compare.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// A run that was stopped, whose files were damaged before it goes on.
+// A stopped run, whose files were damaged before it resumes.
 #include <gtest/gtest.h>
 
 #include <filesystem>

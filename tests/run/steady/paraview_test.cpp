@@ -1,5 +1,5 @@
-// examples/paraview/show_run.py without ParaView: VTK finds all that it would show, and its calls go through on a
-// stand-in for paraview.simple that takes anything.
+// examples/paraview/show_run.py without ParaView: VTK finds everything that it would show, and its calls succeed with
+// a substitute for paraview.simple that accepts anything.
 #include <gtest/gtest.h>
 
 #include "ripstop/core/process.h"

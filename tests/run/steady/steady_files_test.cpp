@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a run ended with, taken before its solver is gone.
+/// State at the end of a run, saved before its solver is destroyed.
 struct Ending : SteadyObserver {
   SteadyState state;
   std::vector<double> tensions;
@@ -178,7 +178,7 @@ TEST(StressArrays, HaveOneValueOfEveryClothCell) {
   EXPECT_EQ(arrays[7].components, 3);
 }
 
-/// What an engine was told when it was made.
+/// Settings of an engine at its construction.
 std::vector<EngineOptions>& told() {
   static std::vector<EngineOptions> all;
   return all;

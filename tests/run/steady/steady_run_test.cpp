@@ -157,7 +157,7 @@ TEST(SteadyRun, ARunKilledBetweenIterationsResumesBitForBit) {
   EXPECT_EQ(state.iterations.back().fluid_force, undisturbed.iterations.back().fluid_force);
 }
 
-/// Whose flow cannot be saved once it is told so.
+/// Whose flow cannot be saved when requested.
 struct FullDisk : FormulaEngine {
   struct OnFullDisk : FormulaFlow {
     OnFullDisk(const FlowProblem& problem, const bool& is_full) : FormulaFlow(problem), full(is_full) {}

@@ -119,7 +119,7 @@ TEST_F(SweepElsewhere, ARunThatAnotherProcessIsAtIsLeftToIt) {
   const ClaimedFolder busy(settings_.folder / points_[2].folder);
   EXPECT_THROW(run(2), Error);
   EXPECT_THROW(run_sweep(points_, settings_), Error);     // before anything is computed
-  EXPECT_TRUE(gather_sweep(points_, settings_)[1].done);  // what is there can be looked at
+  EXPECT_TRUE(gather_sweep(points_, settings_)[1].done);  // existing files can be inspected
 }
 
 // Between the look at all folders and the run's own turn, as only a job elsewhere can come.
