@@ -2,11 +2,12 @@
 //   bench_bodies [cells across the body on the finest of three grids [body [width of the box in diameters
 //                [turbulence intensity [sides: slip, entraining or zero-gradient]]]]]
 //   bench_bodies sides      effect of near sides on disks
-//   bench_bodies in-time [cells across the body [body, or all [eddies: wale or des]]]   steady flows and means over time
-//                                              together, cells offset by a quarter of one from the axis
+//   bench_bodies in-time [cells across the body [body, or all [eddies: wale or des]]]
+//                           steady flows and means over time, cells offset by a quarter of one from the axis
 //   bench_bodies openfoam [cells across the body [body]]   built-in engine and OpenFOAM on the same cells
-//   bench_bodies places [cells across the body [canopy.stl RESISTANCE]]   effect of the grid alignment on bodies, or on a
-//                                              canopy's shape of 1 m with its skirt at z = 3 m and cloth of so many Pa s/m
+//   bench_bodies places [cells across the body [canopy.stl RESISTANCE]]
+//                           effect of the grid alignment on bodies, or on a canopy's shape of 1 m with its skirt at
+//                           z = 3 m and cloth of so many Pa s/m
 #include "ripstop/flow/bodies.h"
 
 #include <fmt/format.h>

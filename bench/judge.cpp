@@ -2,8 +2,8 @@
 // from the STL of a run.
 //   bench_judge FOLDER ACROSS [--alone] [BODY ...]
 //     FOLDER  of OpenFOAM's case and the plots
-//     ACROSS  cells across the body, the built-in engine's, even; those of OpenFOAM's mesh are half as wide at the cloth and
-//             twice as wide elsewhere
+//     ACROSS  cells across the body, the built-in engine's, even; those of OpenFOAM's mesh are half as wide at the
+//             cloth and twice as wide elsewhere
 //     --alone without OpenFOAM
 //     BODY    disk, plate, cup, porous-disk-K (K v |v| rho / 2), disk-gap-band (rigid_disk_gap_band()), or
 //             NAME=FILE.stl:A:B, cloth with the law A v + B v |v| [Pa]; without one all but the last, K = 0.5, 1, 2

@@ -99,7 +99,7 @@ double drag_of_disk(FlowGrid box, Vec3 core_low, Vec3 core_high, double z, Sides
   problem.stopping.residual = 3e-5;
   const FlowField field = solved(problem);
   EXPECT_TRUE(field.converged);
-  // The inflow is the momentum of the jet, or of the stream of which the disk blocks a fifth.
+  // The inflow is the momentum of the jet, or of the stream, a fifth of it blocked by the disk.
   const double flows_in =
       problem.air.density * speed * speed * nozzle_area({NozzleShape::circle, 1, 0}) / 0.2;
   EXPECT_NEAR(field.momentum_deficit.z, field.porous_force.z, (jet ? 1e-3 : 1e-4) * flows_in);

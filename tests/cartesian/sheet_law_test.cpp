@@ -18,7 +18,7 @@ using cartesian::SheetFace;
 using testing::even_axis;
 
 /// Difference of the law from the jump on one face of a sheet inclined by 17 degrees from the z axis, in air at rest
-/// except in the cells that are `off` cells along x from the two beside the face: there it flows along the sheet, as
+/// except in the cells that are `off` cells along x from the two next to the face: there it flows along the sheet, as
 /// through the face.
 double asked_of_a_face(int axis, int off) {
   const Axis x = even_axis(0, 1, 8), z = even_axis(0, 1.5, 12);

@@ -290,7 +290,7 @@ TEST(CoupledFlow, APayloadIsDeceleratedByTheRiserForce) {
   EXPECT_NEAR(flight.path, 10 * step * duct_speed, 1e-3);
 }
 
-// A constant drag area, of which a part is its own, has it fly as a mass point flies, which has another method: in
+// A constant drag area, partly that of the payload, moves like a mass point, which has another method: in
 // speed, in height, and as far as weight turns its path, through air that gets denser.
 TEST(CoupledFlow, APayloadsPathTurnsAsThatOfAMassPoint) {
   constexpr double mass = 2, area = 0.05, own_area = 0.02, step = 2e-3, height = 5000;

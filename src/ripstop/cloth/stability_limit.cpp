@@ -168,7 +168,7 @@ NodeStiffness node_stiffness(const Cloth& cloth, const ClothState& state) {
 // dt. A tied end has (n . x)^2 <= sum w (n . x_master)^2 (Jensen), so its block goes to its masters and its s
 // is the largest of theirs; a fixed end has none. With the absolute damping c_a,
 //   (rho_i + rho_j) dt^2 + 2 (c_i + c_j + c_a) dt < 4
-// for every spring (and what a drawstring adds at either end, of which it is a sum over nodes already) keeps both
+// for every spring (plus the part of a drawstring at either end, already a sum over its nodes) keeps both
 // roots of every mode of semi-implicit Euler inside the unit circle. The stiffness of the pressure is neglected: a few
 // hundred pascal against 1e4 N/m over a cell of millimetres. Contacts act in kicks of their own length, which is a step
 // at least.

@@ -71,7 +71,7 @@ double giving_way(double resistance, double yields) {
   return resistance / (1 + yields * resistance);
 }
 
-/// v of v + yields (a + b |v|) v = given velocity.
+/// v of v + `yields` (a + b |v|) v = given velocity.
 double passing(double asked, double yields, const PressureDrop& law) {
   const double linear = 1 + yields * law.linear;
   return 2 * asked / (linear + std::sqrt(linear * linear + 4 * yields * law.quadratic * std::abs(asked)));

@@ -1,7 +1,7 @@
 // Porous cloth as a sheet without thickness: the pressure that drops across it, on the faces that it parts.
 //
-// A face's jump stands wherever the two cells' pressure difference does, in the momentum of the cells, in the flux
-// through the face and in the pressure correction, so that a jump balanced by the pressure has no effect on the
+// The jump of a face occurs together with the pressure difference of its cells, in the momentum of the cells, in the
+// flux through the face and in the pressure correction, so that a jump balanced by the pressure has no effect on the
 // velocity on either side ("balanced force", Francois et al. 2006).
 #pragma once
 

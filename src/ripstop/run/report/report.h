@@ -30,7 +30,7 @@ Report report_on(std::vector<ReportRun> runs, const std::string& title);
 /// must not fail for its report. Throws Error(io) only.
 std::string write_run_report(ClaimedFolder& folder);
 
-/// report.html of a finished run or sweep in its own folder, of which everything else is checked first and sealed
+/// report.html of a finished run or sweep in its own folder, whose other files are checked first and sealed
 /// again; of several, or if `out` is given, at `out`. Returns the path. Throws Error(usage) if `out` is not a report,
 /// or a folder contains no finished run, Error(bad_data) for damaged ones, Error(io).
 std::filesystem::path write_report(const std::vector<std::filesystem::path>& folders,
