@@ -190,7 +190,7 @@ TEST_F(Bench, ReadsASyntheticRecordAsItIsMadeWithoutText) {
   }
 }
 
-TEST_F(Bench, SlackOffsetAndFailureAreCutAndSaid) {
+TEST_F(Bench, SlackOffsetAndFailureAreRemovedAndReported) {
   std::mt19937 random(3);
   SyntheticRecord wanted;
   wanted.load = [](double e) { return 30006 * e - 18936 * e * e; };

@@ -275,7 +275,7 @@ double toe_misfit(std::span<const double> x, std::span<const double> f, double z
   }
   const auto products = sums.topLeftCorner(terms, terms);
   const auto right = of_forces.head(terms);
-  const auto solved = [&](int from) {  // c_k from this k on, and what they leave
+  const auto solved = [&](int from) {  // c_k from this k on, and their residual
     const int n = terms - from;
     const Eigen::MatrixXd left = products.bottomRightCorner(n, n);
     const Eigen::VectorXd of_right = right.tail(n),

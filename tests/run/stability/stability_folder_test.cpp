@@ -102,7 +102,7 @@ TEST_F(StabilityFolder, HasTheTableTheResultAndTheStableTrimAngle) {
   EXPECT_NEAR(flight.column("alpha_rad")[5], 10 * 3.14159265358979 / 180, 1e-12);
 }
 
-TEST_F(StabilityFolder, ThatWasStoppedGoesOnToTheSameTable) {
+TEST_F(StabilityFolder, ThatWasStoppedResumesToTheSameTable) {
   Counter whole, stopped(2), again;
   run_stability(given(), angles_, in("whole"), whole);
   EXPECT_THROW(run_stability(given(), angles_, in("stopped"), stopped), Stop);
@@ -112,7 +112,7 @@ TEST_F(StabilityFolder, ThatWasStoppedGoesOnToTheSameTable) {
   EXPECT_EQ(again.computed, 3);
   for (const char* file : {"stability.csv", "result.json", "angle=25/history.csv"})
     EXPECT_EQ(read_file(folder_ / "stopped" / file), read_file(folder_ / "whole" / file)) << file;
-  // Each angle starts from the flow of the one before: its time goes on.
+  // Each angle starts from the flow of the previous one: its time continues.
   EXPECT_GT(read_csv(folder_ / "whole/angle=10/history.csv").column("time_s")[0], 0.3);
 }
 
