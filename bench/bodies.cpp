@@ -1,12 +1,13 @@
 // Bodies of known drag as sheets, on finer and finer grids, second-order convection.
 //   bench_bodies [cells across the body on the finest of three grids [body [width of the box in diameters
 //                [turbulence intensity [sides: slip, entraining or zero-gradient]]]]]
-//   bench_bodies sides      what a near side does to disks
-//   bench_bodies in-time [cells across the body [body, or all [eddies: wale or des]]]   steady flows and means over time
-//                                              side by side, cells a quarter of one beside the axis
+//   bench_bodies sides      effect of near sides on disks
+//   bench_bodies in-time [cells across the body [body, or all [eddies: wale or des]]]
+//                           steady flows and means over time, cells offset by a quarter of one from the axis
 //   bench_bodies openfoam [cells across the body [body]]   built-in engine and OpenFOAM on the same cells
-//   bench_bodies places [cells across the body [canopy.stl RESISTANCE]]   what the cells' place does to bodies, or to a
-//                                              canopy's shape of 1 m with its skirt at z = 3 m and cloth of so many Pa s/m
+//   bench_bodies places [cells across the body [canopy.stl RESISTANCE]]
+//                           effect of the grid alignment on bodies, or on a canopy's shape of 1 m with its skirt at
+//                           z = 3 m and cloth of so many Pa s/m
 #include "ripstop/flow/bodies.h"
 
 #include <fmt/format.h>
@@ -139,7 +140,7 @@ void refine(const Body& body, int finest, double box, double turbulence, Sides s
   print_row(row);
 }
 
-/// What a near side does to an open and to an impermeable disk.
+/// Effect of a near side on an open and on an impermeable disk.
 void compare_sides(int argc, char** argv) {
   constexpr std::pair<Sides, const char*> kinds[] = {
       {Sides::zero_gradient, "zero gradient"}, {Sides::slip, "slip"}, {Sides::entraining, "entraining"}};
@@ -216,8 +217,8 @@ void compare_engines(int argc, char** argv) {
   }
 }
 
-/// A steady flow, then 60 times that the stream takes for the body's width, and more until the error is 1 %. The body
-/// stands on the cells as a canopy in time does.
+/// A steady flow, then 60 times that the stream takes for the body's width, and more until the error is 1 %. The grid
+/// alignment of the body is that of a canopy in unsteady flow.
 void compare_in_time(int argc, char** argv) {
   const int across = argc > 2 ? std::atoi(argv[2]) : 16;
   const std::string only = argc > 3 ? argv[3] : "all", only_eddies = argc > 4 ? argv[4] : "";
@@ -267,7 +268,8 @@ void compare_in_time(int argc, char** argv) {
   }
 }
 
-/// Steady drag [N] in air of 20 m/s; the cells' middle lies `off` cells beside the axis along x, half as many along y.
+/// Steady drag [N] in air of 20 m/s; the middle of the cells is offset by `off` cells from the axis along x, by half
+/// as many along y.
 double drag_at_place(const FlowBody& sheet, FlowGrid box, double half, double z, double off) {
   const auto cells = [&](double x, double y) {
     return graded(box, {x - half, y - half, z - 0.5}, {x + half, y + half, z + 1.5}, 1.125);

@@ -1,5 +1,5 @@
-// How fast the cloth steps and relaxes: `bench_cloth` prints a table. Many short runs; the median says what
-// the machine gave, the best what it can do (other work on it takes the cores away now and then).
+// How fast the cloth steps and relaxes: `bench_cloth` prints a table. Many short runs; the median includes other work
+// on the machine, the best is its own speed.
 #include "ripstop/cloth/cloth.h"
 
 #include <fmt/format.h>

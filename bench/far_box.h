@@ -59,8 +59,8 @@ struct Order {
   double order = 0, limit = 0;
 };
 
-/// Order of the last three of values on grids that are finer by `ratio` each, and what they tend to, where
-/// they fall off.
+/// Order of the last three of values on grids that are finer by `ratio` each, and their limit, if they
+/// converge.
 inline std::optional<Order> observed_order(const std::vector<double>& values, double ratio) {
   if (values.size() < 3) return {};
   const double* last = values.data() + values.size() - 3;

@@ -1,9 +1,9 @@
 // Speed of the built-in flow engine: bench_flow [--openfoam] [--large], or bench_flow --in-time
 //
-// --openfoam also times rhoPorousSimpleFoam and porousSimpleFoam with two ranks on the printed grid (some
-// twenty minutes on two free cores), each against the built-in engine with the same density, in the same run;
-// --large adds the grid of 12 million cells; --in-time counts steps in time instead, beside a sheet on graded
-// cells. Figures of one run may be compared with each other.
+// --openfoam also times rhoPorousSimpleFoam and porousSimpleFoam with two ranks on the printed grid (some twenty
+// minutes on two free cores), each against the built-in engine with the same density, in the same run; --large adds
+// the grid of 12 million cells; --in-time counts steps in time instead, with a sheet on graded cells. Figures of one
+// run may be compared with each other.
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -136,7 +136,7 @@ void against_openfoam(double ours, bool incompressible) {
   std::fflush(stdout);
 }
 
-// A rigid disk-gap-band as a sheet, in the default box of such a canopy: what a coupled run has.
+// A rigid disk-gap-band as a sheet, in the default domain of such a canopy, as in a coupled run.
 FlowProblem sheet_case(double fineness) {
   FlowProblem problem;
   const auto cells = [&](double n) { return static_cast<int>(std::lround(n * fineness)); };

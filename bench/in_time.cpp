@@ -1,5 +1,5 @@
-// The built-in engine in time beside OpenFOAM's pimpleFoam: an impermeable square plate, set into the stream at once, on the same
-// cells, steps, convection (LUST) and closure (WALE).
+// The built-in engine in time compared with OpenFOAM's pimpleFoam: an impermeable square plate, set into the stream
+// at once, on the same cells, steps, convection (LUST) and closure (WALE).
 //   bench_in_time FOLDER [ACROSS [TIME [RANKS]]]
 //     FOLDER  of OpenFOAM's case and drag.svg
 //     ACROSS  cells across the plate (16)
@@ -149,7 +149,7 @@ int main(int argc, char** argv) {
   for (const openfoam::BafflePatch& patch : cloth)
     for (const openfoam::Baffle& baffle : patch.baffles) faces += baffle.area.z;
   const double unit = 0.5 * problem.air.density * speed * speed * surface_area(problem.bodies[0].surface);
-  // The stream is half as fast again beside the rim: a Courant number of 0.45 there.
+  // The stream is half as fast again near the rim: a Courant number of 0.45 there.
   const double length = 0.3 / across / speed;
   const int steps = static_cast<int>(std::lround(time / speed / length));
   const March ours = builtin(problem, length, steps, ranks),

@@ -1,9 +1,9 @@
-// The built-in engine beside OpenFOAM on a mesh that follows the cloth: rigid bodies, and inflated canopies from the STL
-// of a run.
+// The built-in engine compared with OpenFOAM on a mesh that follows the cloth: rigid bodies, and inflated canopies
+// from the STL of a run.
 //   bench_judge FOLDER ACROSS [--alone] [BODY ...]
 //     FOLDER  of OpenFOAM's case and the plots
-//     ACROSS  cells across the body, the built-in engine's, even; those of OpenFOAM's mesh are half as wide at the cloth and
-//             twice as wide elsewhere
+//     ACROSS  cells across the body, the built-in engine's, even; those of OpenFOAM's mesh are half as wide at the
+//             cloth and twice as wide elsewhere
 //     --alone without OpenFOAM
 //     BODY    disk, plate, cup, porous-disk-K (K v |v| rho / 2), disk-gap-band (rigid_disk_gap_band()), or
 //             NAME=FILE.stl:A:B, cloth with the law A v + B v |v| [Pa]; without one all but the last, K = 0.5, 1, 2
@@ -105,8 +105,8 @@ struct Result {
 constexpr int bins = 18, radii = 25;
 constexpr double widest = 1.25;  // of the profiles, in widths
 
-/// The place on a canopy from the axis, 0, to the rim, 1: by radius for what is flat, else by the angle about the
-/// middle of the mouth.
+/// The position on a canopy from the axis, 0, to the rim, 1: by radius for a flat one, else by the angle
+/// about the middle of the mouth.
 double place(const Body& body, Vec3 p) {
   const double mouth = 0.45 * 1.5 * box * body.width, r = std::hypot(p.x, p.y);
   if (body.rear - mouth < 0.05 * body.width) return 2 * r / body.width;

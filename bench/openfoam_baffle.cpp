@@ -1,8 +1,9 @@
 // Which of OpenFOAM's solvers take a sheet as porousBafflePressure, and how dense it may be:
 //   bench_openfoam_baffle FOLDER
-// a porous plate in a stream, steady (simpleFoam, rhoSimpleFoam: the force on the cloth and the momentum that the box loses) and
-// in time, set into the stream at once (pimpleFoam at a Courant number of 0.5 beside the rim, and at a sixteenth of that; the
-// force after a width's way). What swings from one iteration or step to the next has no answer.
+// a porous plate in a stream, steady (simpleFoam, rhoSimpleFoam: the force on the cloth and the momentum that the box
+// loses) and in time, suddenly exposed to the stream (pimpleFoam at a Courant number of 0.5 near the rim, and at a
+// sixteenth of that; the force after a distance of one width). A result that oscillates from one iteration or step to
+// the next is not valid.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -56,7 +57,7 @@ PIMPLE { nOuterCorrectors 1; nCorrectors 2; nNonOrthogonalCorrectors 0; }
 )foam";
 
 double step_of(double courant) {
-  return courant / 1.5 / across / speed;  // the stream is half as fast again beside the rim
+  return courant / 1.5 / across / speed;  // the stream is half as fast again near the rim
 }
 
 int steps_of(double courant) {  // a width's way
@@ -99,7 +100,7 @@ double built_in(const FlowProblem& problem, double courant) {
   return force;
 }
 
-/// Force on the cloth at the end [N] and, of what is steady, the momentum that the box loses.
+/// Force on the cloth at the end [N] and, for steady flow, the momentum deficit.
 std::string with_baffle(const FlowProblem& problem, const Way& way, const std::filesystem::path& folder) {
   using namespace openfoam;
   Installation installation = find_installation({}, false, true);

@@ -1,4 +1,4 @@
-// What a solve on the printed grid costs: bench_openfoam_cost [cells across] [ranks] [iterations].
+// Cost of a flow solution on the printed grid: bench_openfoam_cost [cells across] [ranks] [iterations].
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -80,7 +80,8 @@ int main(int argc, char** argv) {
   };
   const auto flow = engine->start(problem);
   for (const char* start : {"cold", "warm"}) {
-    solve_to_rest(*flow, problem.stopping, report);  // the first iteration's time holds mesh and start
+    solve_to_rest(*flow, problem.stopping,
+                  report);  // the time of the first iteration contains mesh and start
     fmt::print("{} start done; fields written and read: {:.2f} s\n", start, watch.lap());
   }
   flow->save(folder / "saved");

@@ -1,9 +1,9 @@
 // How the cloth of every example finds its equilibrium under an even pressure:
 //   bench_relaxation [--nodes N] [--threads N] [--tolerance T] [--pressures 5,20,...] [EXAMPLE ...]
-// prints a table of steps (of the whole cloth: half a gore goes most of the way), seconds, residual and projected
+// prints a table of steps (of the whole cloth, after the sector predictor), seconds, residual and projected
 // diameter;
 //   bench_relaxation --ratio [EXAMPLE ...]
-// the time of the whole cloth alone on one thread and on two, the best of five by turns.
+// the time of the whole cloth alone on one thread and on two, the best of five, alternately.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -106,8 +106,8 @@ void print_table(const Arguments& given, int argc, char** argv) {
   }
 }
 
-// The whole way from flat by the whole cloth, which is the same to the last bit on any number of threads, by turns on
-// one and on two.
+// The whole relaxation from flat by the whole cloth, equal to the last bit on any number of threads,
+// alternately on one and on two.
 void print_ratio(const Arguments& given, int argc, char** argv) {
   constexpr int turns = 5;
   print_table_head(fmt::format("Equilibrium from flat, {} nodes, one thread and two", given.nodes), argc,

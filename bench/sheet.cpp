@@ -1,5 +1,5 @@
 // Drag of a rigid disk-gap-band as a sheet, shifted by parts of a cell, on finer and finer grids: slip sides,
-// second-order convection. What the shift does, and the order at which the mean over the shifts converges.
+// second-order convection. Effect of the shift, and order of convergence of the mean over the shifts.
 //   bench_sheet [cells across the canopy on the finest grid [grids]]
 #include <fmt/core.h>
 

@@ -1,4 +1,4 @@
-// Tables of docs/tables, as Markdown on standard output: what it is, the command, on what machine and when.
+// Tables of docs/tables, as Markdown on standard output: title, command, machine and day.
 #pragma once
 
 #include <fmt/chrono.h>

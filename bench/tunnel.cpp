@@ -1,4 +1,4 @@
-// What a tunnel does to the air, and to the drag of a disk in it.
+// Effect of a tunnel on the air, and on the drag of a disk in it.
 //   bench_tunnel empty [cells across the nozzle]       an open jet without a body
 //   bench_tunnel disks [cells across the disk [plot]]  disks in an open jet and between walls against free air
 //   bench_tunnel edges canopy.stl RESISTANCE           a canopy's shape, held, in open jets in time; skirt at z = 3 m,
@@ -52,7 +52,7 @@ double axial(const FlowField& field, double x, double y, double z) {
   return sample(field.grid, field.velocity, {x, y, z}).z;
 }
 
-/// Radius at which the speed along +x falls through a share of the way from outside to the axis.
+/// Radius at which the speed along +x falls through a share of the difference from outside to the axis.
 double radius_at(const FlowField& field, double z, double outside, double share) {
   const double wanted = outside + share * (axial(field, 0, 0, z) - outside), step = 1e-3;
   double r = 0;
@@ -230,7 +230,7 @@ void disks(int across, const std::string& file, int argc, char** argv) {
                       series});
 }
 
-/// One jet that a held shape stands in, watched in time.
+/// One jet around a rigid shape, in unsteady flow.
 struct JetInTime {
   double distance = 3;   // from the nozzle to the skirt [m]
   double edge = 0;       // its thickness [m]; 0: free air

@@ -1,4 +1,5 @@
-// Bodies turned together with the stream, in a box that stays: how much of the force depends on how they lie on the cells.
+// Bodies turned together with the stream, in a box that stays: how much of the force depends on how they lie on the
+// cells.
 //
 // bench_turned [CELLS...]              a porous disk and a cup; cells across the body, coarse to fine
 // bench_turned FILE.stl A B [CELLS...]  a surface with the pressure drop A v + B v |v|, enlarged to 1 m across x
@@ -26,7 +27,8 @@ constexpr double speed = 20, half_box = 5, half_core = 0.8;  // [m/s], [m]; the 
 struct Body {
   std::string name;
   std::vector<Triangle> surface;  // its axis along z, its middle in the origin
-  double linear, loss;  // of its cloth: [Pa s/m], and the drop over the dynamic pressure of what passes it
+  double linear,
+      loss;  // of its cloth: [Pa s/m], and the drop over the dynamic pressure of the flow through it
 };
 
 std::vector<Body> bodies_of_known_shape() {
@@ -71,8 +73,8 @@ FlowProblem problem_of(const Body& body, Direction direction, int across) {
 }
 
 struct Result {
-  double along = 0, across = 0;  // C_D and what is left of the force, over the frontal area
-  double ledger = 0;             // what the box's faces pass over the force, less 1
+  double along = 0, across = 0;  // C_D and the remaining force, over the frontal area
+  double ledger = 0;             // momentum through the faces of the box over the force, minus 1
 };
 
 Result force_on(const Body& body, Direction direction, int across) {

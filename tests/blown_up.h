@@ -13,7 +13,7 @@ struct BlownUp {
   Loads loads;
 
   std::vector<Vec3> positions() const { return ripstop::positions(state, *cloth); }
-  /// What the fixed nodes hold over what the pressure pushes, along the axis.
+  /// Reaction of the fixed nodes over the force of the pressure, along the axis.
   double held_share() const {
     return force_on_fixed(*cloth, state).z / pressure_force(*cloth, state, loads).z;
   }

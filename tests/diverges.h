@@ -1,4 +1,4 @@
-// What a computation says that has lost its stability.
+// Messages of a computation that has become unstable.
 #pragma once
 
 #include <functional>

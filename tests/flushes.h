@@ -1,5 +1,5 @@
-// What a test program flushes to the disk, in its order: the library's calls of fsync and fdatasync come here first. For
-// one source of a test program.
+// Flushes of a test program to the disk, in order: the library's calls of fsync and fdatasync come here
+// first. For one source of a test program.
 #pragma once
 
 #include <sys/syscall.h>
@@ -13,7 +13,7 @@
 
 namespace ripstop {
 
-/// While it lives it knows what was flushed, and fails what it is told to.
+/// Records flushes during its life, and fails for given names.
 class Flushes {
  public:
   Flushes() { living() = this; }

@@ -1,4 +1,4 @@
-// What is refused, and how.
+// Refusals and their messages.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 
 namespace ripstop {
 
-/// The message of the Error that `what` ends with, whose code is looked at.
+/// The message of the Error thrown by `what`, with the expected exit code.
 inline std::string refusal_of(const std::function<void()>& what, ExitCode code) {
   try {
     what();

@@ -20,13 +20,13 @@ struct BatchOptions {
 
   bool wanted() const { return !system.empty(); }
 };
-/// --batch, --hours, --cores. A script has none of these, and neither --fresh, which would begin anew whenever its job
-/// goes on, nor what else the command only looks at.
+/// --batch, --hours, --cores. A script has none of these, nor --fresh, which would begin anew whenever its job
+/// resumes, nor options that compute nothing.
 void add_batch_options(CLI::App& command, BatchOptions& options);
 
 /// The job of the command that this program was started with, less the options of --batch.
 BatchJob batch_job(const BatchOptions& options, const std::filesystem::path& folder, BatchNeeds needs);
-/// Writes the files and says where they are and how they are submitted: `command` and the name of one of them.
+/// Writes the files and prints their place and how they are submitted: `command` and the name of one of them.
 void write_and_tell(const std::filesystem::path& folder, const std::vector<BatchFile>& files,
                     const std::string& command, const std::string& name);
 

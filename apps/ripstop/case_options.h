@@ -9,7 +9,7 @@ class App;
 
 namespace ripstop {
 
-/// A case file with what the command line changes. Says on standard error which of its keys have a new name.
+/// A case file with the changes of the command line. Reports its deprecated keys on standard error.
 Case read_given(const std::filesystem::path& file, const Overrides& overrides = {});
 /// The settings of that case.
 Settings read_settings(const std::filesystem::path& file, const Overrides& overrides = {});

@@ -1,4 +1,4 @@
-// ripstop check: everything about a case that can be said without a solver.
+// ripstop check: properties of a case that need no solver.
 
 #include "ripstop/run/sizing/check.h"
 
@@ -38,7 +38,7 @@ std::string text_of(const Json& value) {
   return fmt::format("{}", fmt::join(parts, " x "));
 }
 
-/// Every key that follows from others where it is not given: what stands, and why.
+/// Every key with a derived default: its value and origin.
 void print_sources(const CheckResult& result) {
   const Json written = Json::parse(case_json(result.resolved));
   fmt::print("\n");

@@ -1,4 +1,4 @@
-// ripstop export: a steady run as what flight simulators read.
+// ripstop export: a steady run in the formats of flight simulators.
 
 #include "ripstop/run/descent/export.h"
 

@@ -1,4 +1,4 @@
-// What fit and coupon print alike.
+// Output that fit and coupon have in common.
 #pragma once
 
 #include <vector>

@@ -190,7 +190,7 @@ void print_result(const InflationResult& r, const fs::path& folder, double wall_
   if (fs::exists(folder / report_name)) row("report", (folder / report_name).string());
 }
 
-/// Where the opening starts, or goes on, and how far it is.
+/// State at which the opening starts or resumes, and its progress.
 class Terminal : public InflationObserver {
  public:
   Terminal(const LoadSource& source, const fs::path& folder, bool quiet, Progress& progress)
@@ -225,8 +225,8 @@ class Terminal : public InflationObserver {
   long long first_ = 0;
 };
 
-/// Of an opening whose end is held: without a steady load, what is a share of it is not known. A payload slows down and
-/// has none.
+/// Of an opening with a fixed end: values relative to a steady load are unknown without one. A payload
+/// decelerates and has none.
 int status_of(bool settled, const Settings& resolved) {
   if (settled || resolved.inflation().mass == InflationSettings::Mass::payload) return 0;
   std::fflush(stdout);

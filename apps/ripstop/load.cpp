@@ -1,4 +1,4 @@
-// ripstop load: what a parachute sees when it opens behind a given mass, by every method side by side.
+// ripstop load: opening loads of a parachute for a payload mass, by several methods.
 
 #include "ripstop/run/opening/load.h"
 

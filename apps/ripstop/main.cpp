@@ -25,7 +25,7 @@ int failed(ExitCode code, const std::string& message) {
   return static_cast<int>(code);
 }
 
-/// What the words before the first option name: the command, and the word that is none of its commands.
+/// Meaning of the words before the first option: the command, and a word that is none of its commands.
 struct Called {
   const CLI::App* command = nullptr;
   std::string words = "ripstop", unknown = {};

@@ -1,4 +1,4 @@
-// What a result says of its payload and its margins, as lines of its summary.
+// Payload and margins of a result, as lines of its summary.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
-// Options that take numbers. Each has a range, as a key of a case has: not-a-number, infinity and what lies
-// outside are refused before the command begins, and the help shows the range.
+// Options that take numbers. Each has a range, as a key of a case: not-a-number, infinity and values outside are
+// refused before the command begins, and the help shows the range.
 #pragma once
 
 #include <array>
@@ -33,7 +33,7 @@ CLI::Option* add_three(CLI::App& command, const std::string& option, std::array<
 CLI::Option* add_three(CLI::App& command, const std::string& option,
                        std::optional<std::array<int, 3>>& values, Range range, const std::string& help);
 
-/// A key of the case: the help has its range, and the case that is read then judges the value.
+/// A key of the case: the help shows its range, and reading the case checks the value.
 CLI::Option* add_key_number(CLI::App& command, const std::string& option, const std::string& key,
                             std::optional<double>& value, const std::string& help);
 CLI::Option* add_key_number(CLI::App& command, const std::string& option, const std::string& key,
@@ -41,7 +41,7 @@ CLI::Option* add_key_number(CLI::App& command, const std::string& option, const 
 
 /// Range of a number of the case by its full name, "flow.speed_m_s".
 Range key_range(const std::string& key);
-/// What the help calls a number of that key.
+/// Name of the type of that key in the help.
 std::string key_type(const std::string& key);
 /// "Nominal speed [m/s]; above 0 and at most 100".
 std::string with_range(const std::string& help, Range range);

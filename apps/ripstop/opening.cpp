@@ -30,7 +30,7 @@ void add_opening_options(CLI::App& command, OpeningOptions& options) {
 
 Settings opening_settings(const OpeningOptions& options) {
   Case given = read_given(options.case_file, options.overrides);
-  if (!options.steady_run.empty()) {  // takes the place of what the case gives
+  if (!options.steady_run.empty()) {  // replaces the value of the case
     given.inflation.pressure_pa.reset();
     given.inflation.drag_coefficient.reset();
   }

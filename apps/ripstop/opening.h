@@ -18,7 +18,7 @@ struct OpeningOptions {
 };
 void add_opening_options(CLI::App& command, OpeningOptions& options);
 
-/// The opening of the case with what the command line changes.
+/// The opening of the case with the changes of the command line.
 Settings opening_settings(const OpeningOptions& options);
 int threads_of(const OpeningOptions& options, const Settings& opening);
 

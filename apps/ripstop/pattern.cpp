@@ -1,4 +1,4 @@
-// ripstop pattern: what to cut for the parachute of a case.
+// ripstop pattern: the cutting pattern of the parachute of a case.
 
 #include "ripstop/run/sizing/pattern.h"
 

@@ -1,5 +1,5 @@
-// ripstop photogrammetry: sizes read off camera images, corrected for perspective, beside
-// the computed canopy's.
+// ripstop photogrammetry: sizes measured on camera images, corrected for perspective, compared with the
+// computed canopy.
 
 #include "ripstop/run/material/photogrammetry.h"
 

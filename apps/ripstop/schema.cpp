@@ -1,4 +1,4 @@
-// ripstop schema: what a case file may say, for editors and for people.
+// ripstop schema: the keys of a case file, for editors and for people.
 
 #include <fmt/format.h>
 

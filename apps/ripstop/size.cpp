@@ -71,7 +71,7 @@ void print_result(const SizeResult& r, const fs::path& file, const fs::path& pag
   if (!page.empty()) row("report", page.string());
 }
 
-/// Every run of --verify has its folder beside the case file.
+/// Every run of --verify has its folder next to the case file.
 fs::path verify_folder(const SizeArguments& options, int run) {
   fs::path folder = options.out;
   folder.replace_extension();
@@ -84,7 +84,8 @@ fs::path page_of(const SizeArguments& options) {
   return page.replace_extension(".html");
 }
 
-/// The page stands beside the case file. Returns its path, or an empty one where it could not be made: that is said.
+/// The page is next to the case file. Returns its path, or an empty one if it could not be made, which is
+/// reported.
 fs::path write_page(const SizeArguments& options, const SizeResult& result) {
   const fs::path page = page_of(options);
   try {

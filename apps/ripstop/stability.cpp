@@ -65,7 +65,7 @@ class StabilityTerminal : public StabilityObserver {
   }
   void warned(const std::string& text) override { progress_.line("ripstop: " + text); }
   void progress(std::size_t angle, const std::string& text, double share) override {
-    // Angles that an earlier call computed say nothing about the remaining time.
+    // Angles that an earlier call computed give no estimate of the remaining time.
     const double behind = double(computed_) + std::min(0.99, share), gone = elapsed();
     const double left = behind > 0 ? gone / behind * (double(angles_ - ended_) - std::min(0.99, share)) : 0;
     progress_.show(fmt::format("{}/{} | {} | {:.0f} % | elapsed {}{}", angle + 1, angles_, text,

@@ -116,7 +116,8 @@ int dry_run(const SteadyFolderSettings& settings, const Settings& resolved) {
   check_steady_in(settings, resolved);
   const SteadyProblem problem = steady_problem(resolved);
   const Cost cost = cost_of(resolved);
-  // Only the built-in engine's is known well enough, and how long one is watched in time only a run knows.
+  // Only the estimate of the built-in engine is reliable, and the length of an unsteady run is not known in
+  // advance.
   const bool known = engine_of(resolved).word == engines().front().word && !resolved.flow().unsteady;
   fmt::print("{}: {} nodes, {} x {} x {} cells, {:.4g} m/s, {} ranks, about {:.2g} GB{}; would run in {}\n",
              resolved.title(), problem.mesh.node_count(), problem.flow.grid.nx, problem.flow.grid.ny,

@@ -82,7 +82,7 @@ std::vector<SweepRow> run_and_tell(const std::vector<SweepAxis>& axes, const std
     progress.show(text);
   };
   events.ended = [&](std::size_t i, const std::vector<SweepRow>& rows) {
-    // A run that an earlier process finished says nothing of the time that is left.
+    // A run that an earlier process finished gives no estimate of the remaining time.
     if (!running.erase(i)) ++ended_before;
     ++ended;
     const SweepRow& row = rows[i];

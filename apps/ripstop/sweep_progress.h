@@ -1,4 +1,4 @@
-// What sweep, compare and calibrate porosity share: the options of many runs and how they are told.
+// Common parts of sweep, compare and calibrate porosity: the options of many runs and their progress.
 #pragma once
 
 #include <filesystem>
@@ -22,7 +22,7 @@ struct SweepOptions {
 };
 /// Case, --flow, --ranks, --grid, --set, --jobs, --cold, --fields, --json, --out, --fresh.
 void add_sweep_options(CLI::App& command, SweepOptions& options);
-/// After parsing: the default folder runs/<name of the case>-<what>.
+/// After parsing: the default folder runs/<name of the case>-<suffix>.
 void finish(SweepOptions& options, const std::string& what);
 
 /// Runs the points with one line of progress, a line for every end, and sweep.csv after each of them.

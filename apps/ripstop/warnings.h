@@ -1,4 +1,4 @@
-// What the materials of a case have to say about a run.
+// Warnings of the materials of a case about a run.
 #pragma once
 
 #include <optional>
@@ -16,17 +16,17 @@ void print_warnings(const std::vector<std::string>& warnings);
 int print_result_warnings(const std::optional<std::vector<std::string>>& warnings,
                           const std::optional<bool>& usable);
 
-/// Says on standard error which keys of a case have a new name.
+/// Reports deprecated keys of a case on standard error.
 void print_deprecations(const std::vector<std::string>& deprecations);
 
-/// Says on standard error when the mesh is too coarse for the size of the inflated canopy.
+/// Warns on standard error when the mesh is too coarse for the size of the inflated canopy.
 void print_mesh_warning(const Settings& resolved);
 
-/// Says on standard error what is doubtful of a case that is valid: mesh, grid, porosity.
+/// Warns on standard error of doubts about a valid case: mesh, grid, porosity.
 void print_case_warnings(const Settings& resolved);
 
-/// Repeats on standard error what the fits of the case's materials found doubtful, and says when the canopy's
-/// cloth was strained beyond its tests.
+/// Repeats on standard error the doubts of the fits of the case's materials, and warns when the cloth of the
+/// canopy was strained beyond its tests.
 void print_material_warnings(const Settings& resolved, double largest_cloth_strain);
 
 }  // namespace ripstop

@@ -1,4 +1,4 @@
-// check(): everything about a case that can be said without a solver.
+// check(): properties of a case that need no solver.
 #include "ripstop/run/sizing/check.h"
 
 #include "members.h"

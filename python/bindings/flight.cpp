@@ -1,4 +1,4 @@
-// descent() and export(): what is made of a steady run's drag.
+// descent() and export(): uses of the drag of a steady run.
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 

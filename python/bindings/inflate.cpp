@@ -14,7 +14,7 @@
 #include "runs.h"
 
 namespace ripstop {
-/// Told after every block of an opening.
+/// Called after every block of an opening.
 struct OpeningProgress {
   double time = 0, duration = 0;  // [s]
   double load = 0;                // mean over the last interval [N]
@@ -116,7 +116,7 @@ Opening opening_of(const Case& given, const OptionalSource& steady, std::optiona
   Overrides overrides;
   overrides.pressure = pressure;
   apply(overrides, changed);
-  if (steady) {  // takes the place of what the case gives
+  if (steady) {  // replaces the value of the case
     changed.inflation.pressure_pa.reset();
     changed.inflation.drag_coefficient.reset();
   }

@@ -1,4 +1,4 @@
-// load(): opening and snatch loads behind a mass, with the way of the payload as a table.
+// load(): opening and snatch loads for a payload mass, with the trajectory as a table.
 #include "ripstop/run/opening/load.h"
 
 #include <pybind11/stl.h>

@@ -28,7 +28,7 @@ inline constexpr bool is_array = false;
 template <class T, std::size_t n>
 inline constexpr bool is_array<std::array<T, n>> = true;
 
-/// A member as Python sees it. What is larger than a number refers to the member's own memory, which `owner` keeps.
+/// A member in Python. Members larger than a number refer to their memory in `owner`.
 template <class T>
 py::object to_python(const T& value, py::handle owner) {
   if constexpr (is_optional<T>) {
@@ -93,10 +93,10 @@ py::object member_at(const T& value, int index, py::handle owner) {
 
 /// Name(first=..., second=...); arrays by their shape.
 py::str text_of(py::handle object);
-/// As plain dictionaries, lists and numbers: what result.json has.
+/// As plain dictionaries, lists and numbers: the content of result.json.
 py::object plain_of(const std::string& json);
 
-/// The members of get(holder) as attributes of `Class`, a dataclass in all but name: what it has is in
+/// The members of get(holder) as attributes of `Class`, similar to a dataclass: their types are in
 /// __annotations__ and __match_args__. More attributes may follow; repr shows those of the list.
 template <class Holder, class Get>
 void add_members(py::class_<Holder>& type, Get get) {
@@ -131,7 +131,7 @@ py::class_<T> add_class(py::module_& module, const char* name, const char* doc) 
   return type;
 }
 
-/// to_json() and asdict() of what has a result.json.
+/// to_json() and asdict() of classes with a result.json.
 template <class Holder, class Get>
 void add_json(py::class_<Holder>& type, Get get) {
   type.def(

@@ -1,4 +1,4 @@
-// Python's module `_ripstop`: the functions of run/ and their results. The package `ripstop` has what users import.
+// Python module `_ripstop`: the functions of run/ and their results. Users import the package `ripstop`.
 #include "module.h"
 
 #include "members.h"
@@ -27,7 +27,7 @@ py::object plain_of(const std::string& json) {
 }
 
 void Listener::listen() {
-  constexpr std::chrono::milliseconds often{50};  // what a person calls at once
+  constexpr std::chrono::milliseconds often{50};  // functions that a user calls directly
   const Clock::time_point now = Clock::now();
   if (now - last_ < often) return;
   last_ = now;

@@ -1,4 +1,4 @@
-// The parts of the module `_ripstop`, each in a file of its own, and what they share.
+// The parts of the module `_ripstop`, each in its own file, and their common functions.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -35,7 +35,7 @@ void add_report(py::module_& module);
 /// A case with the text that it was read from, so that any key can be set anew as --set does.
 struct PyCase {
   Case given;
-  std::string text, name;      // TOML, and what stands for its file in messages
+  std::string text, name;      // TOML, and the name of the file in messages
   std::filesystem::path file;  // empty: not from a file
   std::vector<Setting> set;
 
@@ -54,7 +54,7 @@ using Path = std::filesystem::path;
 inline bool is_callback(PyObject* object) {
   return object == Py_None || PyCallable_Check(object) != 0;
 }
-/// None, or what is called with a copy of every `Progress`.
+/// None, or a function that is called with a copy of every `Progress`.
 template <class Progress>
 class Callback : public py::object {
  public:
@@ -66,9 +66,9 @@ class Listener {
  public:
   /// `callback`: a Callback. Made and destroyed under the lock.
   explicit Listener(py::object callback) : callback_(std::move(callback)) {}
-  /// Looks for signals now and then; throws what their handlers raise, as KeyboardInterrupt.
+  /// Checks for signals at intervals; throws the exceptions of their handlers, such as KeyboardInterrupt.
   void listen();
-  /// Calls back with a copy of `progress`; throws what the callback raises.
+  /// Calls back with a copy of `progress`; throws the exceptions of the callback.
   template <class Progress>
   void tell(const Progress& progress) {
     const py::gil_scoped_acquire lock;

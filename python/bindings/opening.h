@@ -1,4 +1,4 @@
-// What inflate() and calibrate_damping() open.
+// Openings of inflate() and calibrate_damping().
 #pragma once
 
 #include <optional>
@@ -15,8 +15,8 @@ struct Opening {
   LoadSource source;
   int threads = 0;
 };
-/// The opening of a case under the drag of a steady run, or a pressure [Pa], or what the case gives. Throws as
-/// load_source() and drag_for_opening().
+/// The opening of a case under the drag of a steady run, or a pressure [Pa], or the values of the case.
+/// Throws as load_source() and drag_for_opening().
 Opening opening_of(const Case& given, const OptionalSource& steady, std::optional<double> pressure,
                    int threads);
 

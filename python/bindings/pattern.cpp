@@ -1,4 +1,4 @@
-// pattern(): what to cut, with outlines as arrays.
+// pattern(): cutting pattern, with outlines as arrays.
 #include "ripstop/run/sizing/pattern.h"
 
 #include <pybind11/stl.h>

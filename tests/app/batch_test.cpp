@@ -46,7 +46,7 @@ class Batch : public testing::Test {
   TemporaryFolder root_{"batch"};
 };
 
-TEST_F(Batch, AScriptIsWrittenInPlaceOfTheRunAndDoesWhatTheCommandDoes) {
+TEST_F(Batch, AScriptReplacesTheRunAndHasTheSameResult) {
   const Finished written =
       ripstop_with(command("steady", "a $(touch harm) b", {"--speed=10", "--batch", "slurm", "--hours=3"}));
   ASSERT_EQ(written.code, 0) << written.output;
@@ -63,10 +63,10 @@ TEST_F(Batch, AScriptIsWrittenInPlaceOfTheRunAndDoesWhatTheCommandDoes) {
   const Finished here = ripstop_with(command("steady", "here", {"--speed=10"}));
   ASSERT_EQ(here.code, 0) << here.output;
   EXPECT_EQ(drag("a $(touch harm) b"), drag("here"));
-  EXPECT_EQ(bash({script.string()}).code, 0);  // again: it holds the finished run
+  EXPECT_EQ(bash({script.string()}).code, 0);  // again: it contains the finished run
 }
 
-TEST_F(Batch, ASweepsElementsLeaveWhatTheSweepGoesOnFrom) {
+TEST_F(Batch, ASweepResumesFromTheRunsOfItsJobs) {
   const std::vector<std::string> sweep = command("sweep", "sweep", {"--speeds", "10,15,20"});
   std::vector<std::string> batch = sweep;
   batch.insert(batch.end(), {"--batch=slurm", "--jobs", "2"});
@@ -91,7 +91,7 @@ TEST_F(Batch, ASweepsElementsLeaveWhatTheSweepGoesOnFrom) {
   EXPECT_EQ(bash({(scripts / "gather.sbatch").string()}).code, 0);
 }
 
-TEST_F(Batch, WhatAScriptCannotDoIsRefused) {
+TEST_F(Batch, OptionsThatAScriptCannotUseAreRefused) {
   const auto refused = [&](const std::vector<std::string>& more, const std::string& words) {
     const Finished run = ripstop_with(command("steady", "none", more));
     EXPECT_EQ(run.code, 2) << run.output;
@@ -99,7 +99,7 @@ TEST_F(Batch, WhatAScriptCannotDoIsRefused) {
     EXPECT_FALSE(fs::exists(root_.path / "none.slurm"));
   };
   refused({"--batch", "pbs"}, "slurm");
-  refused({"--batch", "slurm", "--fresh"}, "--fresh");  // would begin anew whenever its job goes on
+  refused({"--batch", "slurm", "--fresh"}, "--fresh");  // would begin anew whenever its job resumes
   refused({"--batch", "slurm", "--dry-run"}, "--dry-run");
   refused({"--hours", "2"}, "--batch");
   refused({"--batch", "slurm", "--speed", "-1"}, "--speed");

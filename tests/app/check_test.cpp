@@ -48,12 +48,12 @@ TEST_F(Check, MassesAndAreasAreThoseOfThePattern) {
   EXPECT_NEAR(report["mass_kg"]["lines"].get<double>(), 2e-3 * 18 * (1.5 + 0.3 + 0.07 + 0.455 + 2 * 0.1),
               1e-6);
   EXPECT_NEAR(report["cloth_nodes"].get<double>(), 25600, 256);
-  EXPECT_GT(report["stable_step_s"].get<double>(), 4e-7);  // what the paper's polar grid allowed
+  EXPECT_GT(report["stable_step_s"].get<double>(), 4e-7);  // reduction allowed by the polar grid of [NFM]
   EXPECT_EQ(report["flow_cells"], 1500000);
   EXPECT_EQ(report["case"]["flow"]["density_kg_m3"], 1.2);
 }
 
-TEST_F(Check, SaysWhichTapeTheLoadAsksForAndItsShareOfTheMass) {
+TEST_F(Check, ReportsTheTapeForTheLoadAndItsShareOfTheMass) {
   const auto checked_at = [&](const char* speed) {
     return ripstop_with(
         {"check", write("small.toml",
@@ -76,7 +76,7 @@ TEST_F(Check, SaysWhichTapeTheLoadAsksForAndItsShareOfTheMass) {
   EXPECT_NE(fast.output.find("when it opens at 100 m/s"), std::string::npos) << fast.output;
 }
 
-TEST_F(Check, AndADryRunSayAboutHowLongARunTakes) {
+TEST_F(Check, AndADryRunEstimateTheTimeOfARun) {
   const Finished table = ripstop_with({"check", stratos}), json = ripstop_with({"check", stratos, "--json"});
   EXPECT_NE(table.output.find("  time               about 3.1 min on one core"), std::string::npos)
       << table.output;
@@ -92,7 +92,7 @@ TEST_F(Check, AndADryRunSayAboutHowLongARunTakes) {
 }
 
 // The list is the one that docs/guide/case-file.md shows.
-TEST_F(Check, SaysOfEveryValueThatMayBeLeftOutWhatItFollowedFrom) {
+TEST_F(Check, ListsTheOriginOfEveryDefaultValue) {
   const std::string flat = RIPSTOP_SOURCE_DIR "/examples/flat-circular/case.toml";
   const Finished table = ripstop_with({"check", flat, "--set", "flow.canopy_position_m=2.8"});
   ASSERT_EQ(table.code, 0) << table.output;
@@ -140,7 +140,7 @@ TEST_F(Check, OptionsChangeTheCaseAndAreNamedWhenTheyAreWrong) {
       << wrong.output;
 }
 
-TEST_F(Check, AMeshTooCoarseForTheCanopysSizeIsSaid) {
+TEST_F(Check, AMeshTooCoarseForTheCanopysSizeIsReported) {
   std::ifstream stream(RIPSTOP_SOURCE_DIR "/examples/flat-circular/case.toml");
   std::string text((std::istreambuf_iterator<char>(stream)), {});
   const auto at = text.find("cloth_nodes = 12000");
@@ -153,7 +153,7 @@ TEST_F(Check, AMeshTooCoarseForTheCanopysSizeIsSaid) {
   EXPECT_EQ(coarse.code, 0);
   EXPECT_NE(coarse.output.find("warning: parachute.mesh.cloth_nodes = 1000"), std::string::npos)
       << coarse.output;
-  // It does not say "none" beside a warning.
+  // It does not print "none" together with a warning.
   EXPECT_NE(fine.output.find("problems           none\n"), std::string::npos) << fine.output;
   EXPECT_NE(coarse.output.find("problems           no error, 1 warning below\n"), std::string::npos)
       << coarse.output;
@@ -205,7 +205,7 @@ TEST_F(Check, TheResolvedCaseNeedsNoLibraryAndIsTheSameCase) {
   EXPECT_EQ(again.output, resolved.output);
 }
 
-TEST(Schema, IsJsonAndKnowsTheTables) {
+TEST(Schema, IsJsonWithAllTables) {
   const Finished run = ripstop_with({"schema"});
   ASSERT_EQ(run.code, 0);
   const auto schema = nlohmann::json::parse(run.output);

@@ -24,7 +24,7 @@ TEST(Compare, SplitsTheDifferenceOfTheLinearModelAndItsRunsServePhotogrammetry) 
   const json result = json::parse(read_file(folder / "compare/result.json"));
   ASSERT_EQ(result.at("models").size(), 5u);
   EXPECT_EQ(result.at("models")[0].at("drag_difference"), 0);
-  double together = 0;  // of all materials, less what each does alone
+  double together = 0;  // of all materials, minus the sum of each alone
   for (std::size_t i = 1; i < 5; ++i)
     together += (i == 1 ? 1 : -1) * (result.at("models")[i].at("drag_n").get<double>() -
                                      result.at("models")[0].at("drag_n").get<double>());

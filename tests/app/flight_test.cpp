@@ -48,13 +48,13 @@ TEST_F(FlightCommands, AFileThatIsThereStaysUnlessForced) {
   EXPECT_EQ(run(size), 2) << "my.html is there";
 }
 
-/// What a user types and what the message must name.
+/// A user's input and the required content of the message.
 struct Mistake {
   std::vector<std::string> arguments;
   std::string named;
 };
 
-TEST_F(FlightCommands, BadInputIsRefusedByWhatIsWrongAndLeavesNothingBehind) {
+TEST_F(FlightCommands, BadInputIsRefusedWithItsReasonAndLeavesNoFile) {
   fs::create_directories(in("empty"));
   const auto load = [&](std::vector<std::string> more) {
     std::vector<std::string> all = {"load", flat_, "--out", in("load")};

@@ -1,4 +1,5 @@
-// What cannot work is refused before it costs anything, what was not written is no success, and every end has its code.
+// Impossible input is refused before any computation, an incomplete write is no success, and every failure
+// has its exit code.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/resource.h>
@@ -40,7 +41,7 @@ class Inputs : public testing::Test {
   TemporaryFolder folder_{"inputs"};
 };
 
-TEST_F(Inputs, WhatCannotWorkIsRefusedBeforeItCostsAnything) {
+TEST_F(Inputs, ImpossibleInputIsRefusedBeforeAnyComputation) {
   refused({"check", stratos, "--set", "parachute.mesh.line_segment_m=0.001", "--set",
            "parachute.lines.length_m=1000"},
           2, "of lines and riser would have 1.8e+07 nodes");
@@ -70,7 +71,7 @@ TEST_F(Inputs, WhatCannotWorkIsRefusedBeforeItCostsAnything) {
   EXPECT_FALSE(fs::exists(in("p")));
 }
 
-TEST_F(Inputs, AnOpeningInItsOwnAirIsCheckedAndRefusedWhereItsClothIsNoSheet) {
+TEST_F(Inputs, ACoupledInflationIsCheckedAndRefusedForClothThatIsNoSheet) {
   const std::string flat = (fs::path(RIPSTOP_SOURCE_DIR) / "examples/flat-circular/case.toml").string();
   const Finished check = ripstop_with({"inflate", flat, "--air", "coupled", "--cloth-nodes", "1500",
                                        "--check", "--set", "inflation.initial_radius_m=0.15"});
@@ -121,7 +122,7 @@ TEST_F(Inputs, AnOldKeyIsWarnedOfOnceByEveryCommand) {
   }
 }
 
-TEST_F(Inputs, ADryRunRefusesWhatTheRunRefuses) {
+TEST_F(Inputs, ADryRunRefusesTheSameInputAsTheRun) {
   fs::create_directories(in("mine"));
   write_file(in("mine/notes.txt"), "mine");
   const std::vector<std::string> steady = {"steady", stratos, "--out", in("mine")},
@@ -135,7 +136,7 @@ TEST_F(Inputs, ADryRunRefusesWhatTheRunRefuses) {
   EXPECT_EQ(read_file(in("mine/notes.txt")), "mine");
 }
 
-TEST_F(Inputs, WhatTheMachineHasNotIsSaidBeforeItIsTaken) {
+TEST_F(Inputs, MissingMemoryIsReportedBeforeItIsAllocated) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "a sanitizer takes more address space than any limit leaves";
 #endif
@@ -189,7 +190,7 @@ TEST_F(Inputs, APipeInPlaceOfAFileDoesNotBlock) {
     refused(command, 7, "a pipe or a device");
 }
 
-TEST_F(Inputs, AFolderInPlaceOfAFileIsToldAsOne) {
+TEST_F(Inputs, AFolderInPlaceOfAFileIsReported) {
   for (const std::vector<std::string>& command :
        std::vector<std::vector<std::string>>{{"check", examples}, {"fit", examples}})
     refused(command, 7, "is a folder");
@@ -216,7 +217,7 @@ TEST_F(Inputs, NoEscapeOfAFileReachesTheTerminal) {
   }
 }
 
-TEST_F(Inputs, AStoppedRunSaysThatTheCommandMayBeRepeated) {
+TEST_F(Inputs, AStoppedRunReportsHowToResume) {
   for (const int signal_number : {SIGINT, SIGTERM}) {
     fs::remove_all(in("run"));
     const std::vector<std::string> command = {"steady",  stratos,

@@ -24,7 +24,7 @@ class JsonOption : public testing::Test {
   TemporaryFolder folder_{"json-option"};
 };
 
-TEST_F(JsonOption, OfFabricSaysWhatTheClothCarries) {
+TEST_F(JsonOption, OfFabricHasTheLoadsOfTheCloth) {
   const json r = result_of({"fabric", stratos, "--pressure", "240", "--set",
                             "parachute.mesh.cloth_nodes=1500", "--set", "coupling.threads=1"});
   EXPECT_TRUE(r.at("converged"));
@@ -48,7 +48,7 @@ TEST_F(JsonOption, OfARunThatIsFinishedIsStillItsResult) {
   const std::vector<std::string> command = {"inflate",    stratos, "--pressure",    "500",
                                             "--duration", "0.002", "--cloth-nodes", "1000",
                                             "--threads",  "1"};
-  // So short an opening has not settled, and says so both times.
+  // Such a short opening does not settle, and reports this both times.
   const json first = result_of(command, 4);
   EXPECT_GT(first.at("peak_load_n"), 0);
   EXPECT_FALSE(first.at("settled"));

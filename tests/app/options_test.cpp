@@ -1,4 +1,4 @@
-// Every option is a key with its range, in every command, and what is typed wrong is said in one sentence.
+// Every option is a key with its range, in every command, and a mistake is reported in one sentence.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -11,7 +11,7 @@
 namespace ripstop {
 namespace {
 
-/// Commands as typed, with what they need beside the option that is tried.
+/// Commands as typed, with the arguments they need in addition to the tested option.
 const std::map<std::string, std::vector<std::string>> commands = {
     {"check", {stratos}},
     {"schema", {}},
@@ -101,7 +101,7 @@ TEST(Options, AKeyIsShownAsItWasGiven) {
       << run.output;
 }
 
-TEST(Options, AMistypedCommandOrOptionIsNamedWithWhatWasMeant) {
+TEST(Options, AMistypedCommandOrOptionIsReportedWithTheNearestOne) {
   const Finished command = ripstop_with({"chekc", stratos});
   EXPECT_EQ(command.code, 2);
   EXPECT_NE(command.output.find("\"chekc\" is not a command; did you mean check?"), std::string::npos)

@@ -16,7 +16,7 @@ namespace ripstop {
 inline const std::string examples = RIPSTOP_SOURCE_DIR "/examples/";
 inline const std::string stratos = examples + "stratos-iv/case.toml";
 
-/// Its standard output goes into the file `output`, what it says on standard error into `error`, where one is given.
+/// Standard output goes into the file `output`, standard error into `error`, if one is given.
 inline pid_t start(const std::vector<std::string>& arguments, const std::string& output = "",
                    const std::string& error = "") {
   const pid_t child = fork();

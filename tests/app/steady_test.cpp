@@ -130,7 +130,7 @@ TEST_P(SteadyWithSheetsOnOpenFoam, AKilledRunEndsWithTheSameNumbers) {
 
 // The drag alone has settled after three coupling iterations, with the wake still growing: the box then loses
 // 7 % less momentum than the canopy takes.
-TEST_F(Steady, WhereTheFlowDoesNotSettleItsMeanStandsOnceTheLedgerCloses) {
+TEST_F(Steady, AFlowThatDoesNotConvergeIsAveragedUntilForcesBalance) {
   const std::string example = std::string(RIPSTOP_SOURCE_DIR) + "/examples/flat-circular/case.toml";
   ASSERT_EQ(wait_for(start({"steady", example, "--grid", "40,40,49", "--set",
                             "parachute.mesh.cloth_nodes=1500", "--set", "flow.max_iterations=60", "--set",
@@ -180,7 +180,7 @@ TEST_F(Steady, AFolderOfAnotherRunIsRefusedAndAFinishedOneIsOnlyShown) {
   EXPECT_EQ(wait_for(start(command("run", "builtin"))), 0);
 }
 
-TEST_F(Steady, OnlyWhatRipstopWroteIsEverRemoved) {
+TEST_F(Steady, OnlyFilesOfRipstopAreRemoved) {
   // A start with a wrong key, killed before anything was computed, is in nobody's way.
   std::vector<std::string> wrong = command("run", "builtin");
   wrong.insert(wrong.end(), {"--set", "parachute.mesh.cloth_nodes=20000"});

@@ -122,7 +122,7 @@ TEST_F(CouponFitting, XisIntervalIsAsWideForSamplesOfTheYarnsThatScatterAsForTho
   EXPECT_NEAR(width[1] / width[0], 1, 0.1);
 }
 
-TEST_F(CouponFitting, WithoutA45DegPullNothingIsSearchedAndThatIsSaid) {
+TEST_F(CouponFitting, WithoutA45DegTestNothingIsFittedWhichIsReported) {
   Campaign campaign(1, *bias, 2);
   campaign.bench.coupons.resize(2);
   CouponFitOptions quick;
@@ -189,7 +189,7 @@ TEST_F(CouponFitting, TheOptimumDoesNotDependOnTheStart) {
   }
 }
 
-TEST_F(CouponFitting, PullsInThePlaneDoNotDetermineEpsAndThatIsSaid) {
+TEST_F(CouponFitting, TestsInThePlaneDoNotDetermineEpsWhichIsReported) {
   const Campaign campaign(31, *bias);
   CouponFitOptions quick;
   quick.final_cells = 6;
@@ -220,7 +220,7 @@ TEST_F(CouponFitting, TheMaterialFileReadsBackToTheSameMaterial) {
   EXPECT_EQ(after.tested_strain, before.tested_strain);
   EXPECT_EQ(after.break_load_n_m, before.break_load_n_m);
   EXPECT_EQ(after.name, "cloth");
-  // Beyond the tests the solver has something to say, inside it has not.
+  // Beyond the tests the material has a warning, within them it has none.
   EXPECT_TRUE(material_warnings(after, 0.9 * after.tested_strain).empty());
   ASSERT_EQ(material_warnings(after, 1.1 * after.tested_strain).size(), 1u);
   EXPECT_NE(material_warnings(after, 1.1 * after.tested_strain)[0].find("exceeds the tested"),

@@ -50,7 +50,7 @@ TEST(DampingCalibration, ItsTrialsAreAGridInLogarithmsAndAGoldenSectionAboutItsB
   const double a = high - golden * (high - low), b = low + golden * (high - low);
   EXPECT_NEAR(std::log(told[5]), a, 1e-9);
   EXPECT_NEAR(std::log(told[6]), b, 1e-9);
-  // 8.7 is nearer to b: it goes on above a, then about that.
+  // 8.7 is nearer to b: the search continues above a, then around that.
   EXPECT_NEAR(std::log(told[7]), a + golden * (high - a), 1e-9);
 }
 
@@ -76,7 +76,7 @@ TEST(DampingCalibration, PeakAndTimeThatContradictEachOtherShareTheError) {
   for (const DampingTrial& trial : found.trials) EXPECT_GE(trial.misfit, found.best.misfit);
 }
 
-TEST(DampingCalibration, ABestValueAtTheEdgeOfTheRangeIsSaidToBeNone) {
+TEST(DampingCalibration, ABestValueAtTheLimitOfTheRangeIsReported) {
   EXPECT_TRUE(calibrate_damping({oscillator(40).peak, {}}, {4, 16, 5, 4}, oscillator).at_edge);
   EXPECT_THROW(calibrate_damping({600, {}}, {16, 4, 5, 4}, oscillator), Error);
 }
@@ -97,7 +97,7 @@ InflationProblem short_opening(double low_pass_hz) {
   return problem;
 }
 
-// What is measured is filtered; what happens is not.
+// Only the measured load is filtered; the computation is not.
 TEST(DampingCalibration, AFilterOfTheLoadChangesThePeakThatIsComparedAndNotTheOpening) {
   const DampingTrial plain = open_with(8, short_opening(0)), filtered = open_with(8, short_opening(100));
   EXPECT_GT(plain.every_step_peak, 0);

@@ -27,7 +27,7 @@ Image printed() {
 TEST(Photogrammetry, AtThePrintedDistanceGivesThePrintedDiametersButTheThird) {
   EXPECT_NEAR(corrected_diameter(0.967, 3.79), 1.0, 5e-4);
   EXPECT_NEAR(corrected_diameter(0.9962, 3.79), 1.0327, 5e-4);
-  // The third printed one is 0.4 % smaller than its own equation gives: it asks for a camera at 4.05 m.
+  // The third printed one is 0.4 % smaller than its own equation gives: it corresponds to a camera at 4.05 m.
   EXPECT_NEAR(corrected_diameter(0.9304, 3.79), 0.9598, 1e-4);
   EXPECT_NEAR(camera_distance(0.9304, 0.956), 4.05, 0.01);
 }
@@ -68,7 +68,7 @@ TEST(Photogrammetry, IsTheTangentConeOfASphereExactly) {
   EXPECT_NEAR(corrected_diameter(0.967, 3.79), 3.79 * std::tan(angle), 1e-12);
 }
 
-TEST(Photogrammetry, RefusesWhatNoCameraSees) {
+TEST(Photogrammetry, RefusesImpossibleSizesAndDistances) {
   EXPECT_THROW(corrected_diameter(2, 1.5), Error);
   EXPECT_THROW(camera_distance(1.0, 0.9), Error);
   EXPECT_THROW(corrected_length(0.5, 1, 3), Error);

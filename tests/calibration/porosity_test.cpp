@@ -36,7 +36,7 @@ TEST(Porosity, OfDragsOnAKnownLineIsTheLine) {
   EXPECT_FALSE(found.outside);
 }
 
-TEST(Porosity, IsAveragedOverTheShiftsWhoseScatterIsTold) {
+TEST(Porosity, IsAveragedOverGridAlignmentsWithTheirScatter) {
   const auto found = calibrate_porosity({at(30, area * (0.9195 - 1.7794 * 0.21))},
                                         trials_on_the_printed_line(1, 0.03), area);
   EXPECT_NEAR(found.knob, 0.21, 1e-12);
@@ -64,7 +64,7 @@ TEST(Porosity, OnACurveIsWhereTheCurveMeetsTheMeasurementAndNotWhereALineWould) 
   EXPECT_NEAR(found.knob, 0.20, 1e-12);
 }
 
-TEST(Porosity, BeyondTheTrialsIsSaidToBeOutside) {
+TEST(Porosity, OutsideTheComputedRangeIsReported) {
   const auto found =
       calibrate_porosity({at(30, area * (0.9195 - 1.7794 * 0.3))}, trials_on_the_printed_line(1, 0), area);
   EXPECT_TRUE(found.outside);
@@ -77,7 +77,7 @@ TEST(Porosity, NeedsPointsAndTrials) {
 }
 
 TEST(Porosity, OfThePrintedTableNeedsTheGammaThatItsCoefficientsFollowFrom) {
-  // [NFM] Table 3 prints gamma = 0.22 beside a = 65.98 and b = 37.45; they follow from 0.2121 and 0.12 mm.
+  // [NFM] Table 3 prints gamma = 0.22 with a = 65.98 and b = 37.45; they correspond to 0.2121 and 0.12 mm.
   const PressureDrop law = cloth_of(PorosityKnob::gamma, 0.2121, 1.2e-4);
   EXPECT_NEAR(law.linear, 65.98, 0.002 * 65.98);  // t has two digits
   EXPECT_NEAR(law.quadratic, 37.45, 0.05);

@@ -44,7 +44,7 @@ TEST(Margins, EveryFactorWeakensItsOwnMembers) {
   EXPECT_DOUBLE_EQ(margins.members[2].knock_down, 0.8 * 0.9 * 0.95);
 }
 
-TEST(Margins, OfUnknownStrengthAreToldAndNeverTheWeakest) {
+TEST(Margins, OfUnknownStrengthAreReportedAndNeverTheWeakest) {
   Materials m;
   m.line.break_load_n = 0;
   const Margins margins = margins_of({1, 0, {5000}, 0}, none, m.cloth, &m.tape, m.line, m.riser);
@@ -66,7 +66,7 @@ TEST(Margins, OfATapeAreOnItsBreakLoadWhereItHasOne) {
 }
 
 // A chain of one strain: 0.9 of the law in the axial spring, 0.05 in each of two springs over two.
-TEST(Margins, AChainCarriesWhatItsAxialAndItsBendingSpringsDo) {
+TEST(Margins, AChainCarriesTheSumOfItsAxialAndBendingSprings) {
   const double axial = 90;
   EXPECT_NEAR(chain_tension(axial, 0.1, 0, 1), 90, 1e-12);  // nothing reaches over a single one
   EXPECT_NEAR(chain_tension(axial, 0.1, 0, 2), 95, 1e-12);

@@ -1,5 +1,5 @@
-// The stress field against the load, family by family: what a section across the axis carries is what the air
-// does beyond it.
+// The stress field against the load, family by family: the force through a section across the axis equals the
+// air load beyond it.
 #include "ripstop/canopy/section_balance.h"
 
 #include <gtest/gtest.h>
@@ -25,14 +25,14 @@ TEST_P(SectionBalanceOf, TheStressFieldCarriesTheLoadBeyondEverySection) {
       node_forces({canopy.loads.cell_pressure, {}}, cells_of(mesh), canopy.positions());
   EXPECT_LT(largest_section_gap(mesh, *canopy.cloth, canopy.state, load), 0.02);
 
-  // A tenth of the load that the stress knows nothing of is seen.
+  // A tenth of the load that is missing in the stress is detected.
   std::vector<Vec3> more = load;
   for (Vec3& force : more) force = 1.1 * force;
   EXPECT_GT(largest_section_gap(mesh, *canopy.cloth, canopy.state, more), 0.05);
 }
 
 // A cord that hangs with a load at its end: every section carries it.
-TEST(SectionBalance, ACordCarriesWhatHangsOnIt) {
+TEST(SectionBalance, ACordCarriesTheWeightBelowIt) {
   Mesh mesh;
   mesh.start = {{0, 0, 0}, {0.1, 0, 1}};
   mesh.mass = {1, 1};

@@ -60,7 +60,7 @@ TEST(Profile, OfACanopyWithoutABandHasTheSizesOfSkirtWidestRowAndLength) {
   double skirt = 0, vent = 1e9;
   for (const ProfileRing& ring : flat)
     skirt = std::max(skirt, ring.diameter), vent = std::min(vent, ring.diameter);
-  // A cup whose widest row lies a quarter of the way up, and whose skirt is drawn in.
+  // A cup with its widest row at a quarter of its height, and a narrower skirt.
   for (Vec3& p : x) {
     const double share = 2 * std::hypot(p.x, p.y) / skirt, in = share > 0.75 ? 1 - 1.5 * (share - 0.75) : 1;
     p = {in * p.x, in * p.y, 2 - share};
@@ -97,7 +97,7 @@ TEST(Asymmetry, IsHowFarANodeLiesFromWhereItsLikeIsTurnedTo) {
   EXPECT_NEAR(asymmetry(mesh, x, 18), 1e-3, 1e-12);
 }
 
-TEST(LineTensions, AreThoseOfTheirSpringsAndWhatBendingSpringsCarryBesides) {
+TEST(LineTensions, AreTheSumOfAxialAndBendingSprings) {
   const CanopyMesh mesh = parachute_mesh(resolve(stratos(3000)));
   std::vector<double> tension(mesh.springs.size(), 0.0);
   const LineRun& line = mesh.rigging.lines[3];

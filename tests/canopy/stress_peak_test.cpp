@@ -5,7 +5,7 @@
 namespace ripstop {
 namespace {
 
-// Cells of 1, 2 and 5 m2 and a hole beside them.
+// Cells of 1, 2 and 5 m2 and a hole next to them.
 TEST(StressPeak, SharesAreOfTheClothsAreaAndPeaksOfItsCells) {
   Mesh mesh;
   Patch patch;

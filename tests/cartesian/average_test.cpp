@@ -60,7 +60,7 @@ TEST(FlowAverage, TheMeanOfALimitCycleIsRepeatableAndConservesMomentum) {
   const auto flow = engine->start(problem);
   const FlowField first = solve_to_rest(*flow, problem.stopping);
   problem.stopping.max_iterations = 300;
-  const FlowField second = solve_to_rest(*flow, problem.stopping);  // goes on from the last iteration
+  const FlowField second = solve_to_rest(*flow, problem.stopping);  // continues from the last iteration
   ASSERT_FALSE(first.converged);
   ASSERT_FALSE(second.converged);
   EXPECT_LT(std::abs(second.average.drag - first.average.drag), first.average.drag_deviation);

@@ -27,7 +27,7 @@ FlowBody porous_disk(std::string name, Vec3 centre) {
   return sheet_body(disk(1, centre), {0, density}, std::move(name));
 }
 
-// Room for two disks that stand ten diameters apart, across the stream. The cells about each are alike.
+// Room for two disks ten diameters apart, across the stream. The cells around both are equal.
 FlowProblem wide_box() {
   FlowProblem problem;
   problem.grid = {{-15, -5, -5}, {30, 10, 15}, 120, 36, 44};

@@ -35,7 +35,7 @@ struct Box {
   State s;
 };
 
-// What the sides draw in is the air round the nozzle.
+// The sides admit the air around the nozzle.
 TEST(Boundary, TheStreamOfAJetIsTheAirRoundItsNozzle) {
   const Box box(Sides::entraining, Outlet::still_air);
   const Inlet inlet = make_inlet(box.d, Jet{{NozzleShape::circle, 0.2, 0}, 0.1, 0.01});
@@ -56,8 +56,9 @@ TEST(Boundary, TheFaceOfTheInletHasTheStreamsValues) {
   EXPECT_EQ(box.s.f.p[box.at(1, 2, -1)], box.s.f.p[box.at(1, 2, 0)]);
 }
 
-// In the outlet's face what leaves has the last cell's values, what comes back has no velocity and the stream's turbulence.
-TEST(Boundary, WhatComesBackThroughTheOutletIsTheStreamAtRest) {
+// In the face of the outlet, outflow has the values of the last cell; inflow has no velocity and the
+// turbulence of the stream.
+TEST(Boundary, AirThatFlowsBackThroughTheOutletIsAtRest) {
   Box box(Sides::zero_gradient, Outlet::fixed_pressure);
   for (int j = 0; j < 5; ++j)
     for (int i = 0; i < 4; ++i) box.s.f.fz[box.at(i, j, 6)] = (i + j) % 2 == 0 ? 3 : -3;
@@ -138,8 +139,8 @@ TEST(Boundary, AirThatIsEntrainedHasTheStreamsSpeedAndTotalPressure) {
   EXPECT_NEAR(in_face(4, 3), 0, 1e-12);
 }
 
-// Of what a side draws in only the velocity across the side is that of the air just inside.
-TEST(Boundary, WhatEachSideDrawsInIsTheStreamAndWhatItLetsOutIsTheAirInside) {
+// For inflow through a side, only the velocity normal to the side is that of the air just inside.
+TEST(Boundary, EachSideAdmitsTheStreamAndReleasesTheAirInside) {
   for (const double inflow : {3.0, -3.0}) {
     Box box(Sides::entraining, Outlet::still_air);
     Fields& f = box.s.f;
@@ -195,8 +196,8 @@ TEST(Boundary, TheLedgerOfAUniformStreamIsZeroAndOfAStepItsPressureAndMomentum) 
   EXPECT_NEAR(momentum_deficit(box.d, box.b, box.s).z, 7 + 24 * 5, 0.01);  // on 1 m2
 }
 
-// A duct that cloth closes and that moves with or against the air: the law holds for the relative velocity.
-TEST(Boundary, ASheetThatMovesHoldsBackOnlyWhatPassesIt) {
+// A duct closed by cloth that moves with or against the air: the law applies to the relative velocity.
+TEST(Boundary, AMovingSheetResistsOnlyTheRelativeVelocity) {
   for (const double moving : {-5.0, 0.0, 6.0, 10.0}) {
     FlowProblem problem;
     problem.grid = {{0, 0, 0}, {1, 1, 2}, 4, 4, 16};

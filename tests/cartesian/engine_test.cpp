@@ -50,7 +50,8 @@ TEST(CartesianEngine, AnEmptyBoxKeepsItsUniformStream) {
   EXPECT_EQ(field.porous_force, Vec3{});
 }
 
-// OpenFOAM's measure: |b - A x| over |A x - A X| + |b - A X|, with the mean of x as X. Of what is uniform both are alike.
+// OpenFOAM's measure: |b - A x| over |A x - A X| + |b - A X|, with the mean of x as X. For uniform fields both are
+// equal.
 TEST(CartesianEngine, TheResidualOfUniformTurbulenceIsOne) {
   FlowProblem problem = open_box(8, 8, 12, 10);
   problem.bodies.clear();
@@ -59,7 +60,7 @@ TEST(CartesianEngine, TheResidualOfUniformTurbulenceIsOne) {
   const FlowProgress first = flow->advance(1, 0).last;
   EXPECT_NEAR(first.residual_k, 1, 1e-9);
   EXPECT_NEAR(first.residual_omega, 1, 1e-9);
-  // It decays everywhere alike, but beside the inlet.
+  // It decays equally everywhere, except near the inlet.
   EXPECT_GT(flow->advance(1, 0).last.residual_k, 0.5);
 }
 
@@ -105,7 +106,7 @@ FlowProblem either(bool sheet) {
   return problem;
 }
 
-TEST(CartesianEngine, AFlowThatWasSavedAtAnyIterationGoesOnBitForBit) {
+TEST(CartesianEngine, AFlowSavedAtAnyIterationContinuesBitForBit) {
   const Folder folder;
   for (const bool sheet : {false, true}) {
     for (const int saved_after : {1, 2, 7, 31}) {
@@ -159,7 +160,7 @@ TEST(CartesianEngine, AFlowInAnotherBoxOrADamagedFileIsRefused) {
   EXPECT_THROW(engine->start(either(true))->restore(folder.path), Error);
 }
 
-// The answer belongs to the place of the cloth, not to the way there.
+// The solution depends on the position of the cloth, not on its path.
 TEST(CartesianEngine, AFlowWhoseClothMovedTendsToTheFlowThatBeganThere) {
   for (const bool sheet : {false, true}) {
     FlowProblem problem = either(sheet);
@@ -265,7 +266,7 @@ TEST(CartesianEngine, StartingOnCoarserGridsLeavesNoTraceInAFlowOfConstantDensit
   EXPECT_NEAR(norm(by_stages.velocity[corner] - at_once.velocity[corner]), 0, 1e-3 * problem.air.speed());
 }
 
-TEST(CartesianEngine, EveryIterationSaysItsNumberAndWhatItLeavesOpen) {
+TEST(CartesianEngine, EveryIterationReportsItsNumberAndResiduals) {
   int before = 0;
   const auto engine = make_cartesian(with_threads(1));
   const auto flow = engine->start(open_box(12, 12, 16, 10));
@@ -320,8 +321,8 @@ std::vector<Triangle> slanted_disk(Vec3 centre, bool mirrored) {
   return cloth;
 }
 
-// Neither axis across the stream is the first one, at rest or in time: what one has in its rows the other has in
-// its planes.
+// Neither axis across the stream is preferred, in steady and unsteady flow: the rows of one are the planes of
+// the other.
 TEST(CartesianEngine, AMirroredFlowIsTheMirrorImage) {
   const auto problem = [](bool mirrored) {
     FlowProblem p;
@@ -368,9 +369,9 @@ TEST(CartesianEngine, TheReportCanStopTheRunAndTheFieldIsThenUnconverged) {
   EXPECT_FALSE(field.converged);
 }
 
-// What coarser grids leave does not stand against the faces that the cloth parts here: taken at full step, it
-// grows without bound in the fifth iteration.
-TEST(CartesianEngine, AStartFromCoarserGridsIsEasedBesideASheet) {
+// The pressure from coarser grids does not balance the drop of the cloth on these faces: with a full step it grows
+// without bound in the fifth iteration.
+TEST(CartesianEngine, AStartFromCoarserGridsIsUnderRelaxedAtASheet) {
   FlowProblem problem;
   const double d = 0.65, box = 12 * d;
   problem.grid = graded({{-box / 2, -box / 2, 0}, {box, box, 1.5 * box}, 90, 90, 108},
@@ -393,7 +394,7 @@ TEST(CartesianEngine, AStartFromCoarserGridsIsEasedBesideASheet) {
   EXPECT_GT(field.porous_force.z, 0);
 }
 
-TEST(CartesianEngine, DivergenceIsSaidWithIterationFieldAndPlace) {
+TEST(CartesianEngine, DivergenceIsReportedWithIterationFieldAndPlace) {
   FlowProblem problem = open_box(12, 12, 16, 10);
   problem.body_force.assign(problem.grid.cells(),
                             {1e200, 0, 0});  // squares of velocities beyond double precision
@@ -422,7 +423,7 @@ TEST(CartesianEngine, FieldsBeyondReasonAreDivergedBeforeTheyAreInfinite) {
   }
 }
 
-TEST(CartesianEngine, SaysWhatIsWrongWithTheProblem) {
+TEST(CartesianEngine, ReportsMistakesOfTheProblem) {
   FlowProblem problem = open_box(12, 12, 16, 10);
   problem.bodies[0].porous().cells.push_back(problem.grid.cells());
   EXPECT_THROW(solve(*make_cartesian(), problem), Error);
@@ -446,7 +447,7 @@ TEST(CartesianEngine, SaysWhatIsWrongWithTheProblem) {
   EXPECT_THROW(make_cartesian()->start(open_box(12, 12, 16, 10))->save("/proc/nowhere"), Error);
 }
 
-// Sealed, so that its seal says nothing: as a version whose flows have fewer numbers would have written it.
+// Sealed, so the seal is valid: as written by a version whose flows have fewer numbers.
 TEST(CartesianEngine, AFlowWithFewerNumbersThanItsGridIsNoneOfThisVersion) {
   const TemporaryFolder folder("cut-flow");
   const auto engine = make_cartesian();

@@ -99,14 +99,14 @@ double drag_of_disk(FlowGrid box, Vec3 core_low, Vec3 core_high, double z, Sides
   problem.stopping.residual = 3e-5;
   const FlowField field = solved(problem);
   EXPECT_TRUE(field.converged);
-  // What flows in is the momentum of the jet or of the stream that the disk blocks a fifth of.
+  // The inflow is the momentum of the jet, or of the stream, a fifth of it blocked by the disk.
   const double flows_in =
       problem.air.density * speed * speed * nozzle_area({NozzleShape::circle, 1, 0}) / 0.2;
   EXPECT_NEAR(field.momentum_deficit.z, field.porous_force.z, (jet ? 1e-3 : 1e-4) * flows_in);
   return field.porous_force.z;
 }
 
-TEST(OpenJet, GivesWayToADiskThatWallsHoldTheAirAgainst) {
+TEST(OpenJet, HasLessDragOfADiskThanAClosedTunnel) {
   const Vec3 low{-0.7, -0.7, 2.6}, high{0.7, 0.7, 4.4};
   const double side = std::sqrt(nozzle_area({NozzleShape::circle, 1, 0}) / 0.2), width = std::sqrt(1 / 0.2);
   const double free =

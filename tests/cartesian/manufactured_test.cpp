@@ -1,5 +1,5 @@
-// Order of the whole solution, by a flow that was made up: a uniform stream and a smooth eddy in it, kept
-// going by the force on the air that Navier and Stokes ask for it.
+// Order of the whole solution, by a manufactured flow: a uniform stream and a smooth eddy in it, maintained by the
+// force on the air that the Navier-Stokes equations require.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Steps in time: conservation, order, and that nothing but the flow itself decides what comes next.
+// Steps in time: conservation, order, and independence of everything but the present flow.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -76,7 +76,7 @@ TEST(March, AStreamThatIsSlowedDownStaysUniform) {
 
 class Ledger : public testing::TestWithParam<std::tuple<double, Sides, SmallEddies>> {};
 
-// In the first steps the pressure has to find its way about a body that stands in the stream at once.
+// In the first steps the pressure has to adjust to a body that is suddenly in the stream.
 TEST_P(Ledger, ClosesInEveryStep) {
   const auto [linear, sides, eddies] = GetParam();
   const FlowProblem problem = disk_in_a_box(linear, sides);
@@ -142,7 +142,7 @@ TEST_P(MarchWith, ThreadsDoNotMatterToTheLastBit) {
   EXPECT_TRUE(same_bits(one, marched(4)));
 }
 
-TEST_P(MarchWith, WhatWasSavedGoesOnToTheLastBit) {
+TEST_P(MarchWith, ASavedFlowContinuesToTheLastBit) {
   const FlowProblem problem = disk_in_a_box(10, Sides::entraining);
   const TemporaryFolder folder("march state");
   const auto engine = make_cartesian(with_threads(1, GetParam()));
@@ -151,7 +151,7 @@ TEST_P(MarchWith, WhatWasSavedGoesOnToTheLastBit) {
     unbroken->advance(3, 1e-9);
     unbroken->march(saved_after, 0.7);
     unbroken->save(folder.path);
-    resumed->march(2, 0.5);  // what it did before does not matter
+    resumed->march(2, 0.5);  // independent of its history
     resumed->restore(folder.path);
     const FlowStep a = unbroken->march(5, 0.7), b = resumed->march(5, 0.7);
     EXPECT_EQ(a.step, saved_after + 5);
@@ -178,9 +178,9 @@ TEST(March, RefusesAStepThatCannotBe) {
   EXPECT_THROW(flow->march(1, 1.5), Error);
 }
 
-/// Taylor's vortices between slip walls, u = sin kx cos ky, v = -cos kx sin ky with k = pi/m, which decay with
-/// exp(-2 nu k^2 t) and are carried along by a slow stream. What inlet and outlet make of them dies out within
-/// a width of the box.
+/// Taylor's vortices between slip walls, u = sin kx cos ky, v = -cos kx sin ky with k = pi/m, which decay with exp(-2
+/// nu k^2 t) and are carried along by a slow stream. Disturbances of inlet and outlet decay within one width of the
+/// box.
 class Vortices {
  public:
   explicit Vortices(int across) : problem_(of(across)) {
@@ -414,7 +414,7 @@ TEST(March, BeginsWithoutTheEddiesThatItsCellsResolve) {
 }
 
 // As fast as cells resolve them where they are larger than those, else by themselves.
-TEST(March, ModelledEddiesDecayAsTheModelsEquationsSay) {
+TEST(March, ModelledEddiesDecayByTheEquationsOfTheModel) {
   const double time = 2;
   for (const double start_k : {0.05, 5e-4}) {
     const auto [k, omega] = DecayingTurbulence::exact(start_k, time);
@@ -430,7 +430,7 @@ TEST(March, ModelledEddiesDecayAsTheModelsEquationsSay) {
   }
 }
 
-TEST(PassingRow, ThroughTheBoundaryTheAirBringsWhatItHadWhereItComesFrom) {
+TEST(PassingRow, ThroughTheBoundaryTheAirCarriesItsUpstreamValue) {
   const double u[] = {1, 2, 3}, v[] = {4, 5, 6}, w[] = {7, 8, 9}, flux[] = {10, -10};
   double pu[2], pv[2], pw[2];
   cartesian::PassingRow r;

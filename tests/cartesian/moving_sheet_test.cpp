@@ -1,4 +1,4 @@
-// Sheets that move through the grid, in time: added mass, drift, and cloth that gives way.
+// Sheets that move through the grid, in unsteady flow: added mass, drift, and compliant cloth.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -50,8 +50,8 @@ SheetMotion all_with(const std::vector<Triangle>& surface, Vec3 velocity) {
   return motion;
 }
 
-// A tight disk that sets out with the air it floats in feels 8/3 rho a^3 of air (Lamb, Hydrodynamics, 108). It has
-// moved by a ten-thousandth of its diameter at the end: what its edge sheds comes later.
+// An impermeable disk that starts in still air has an added mass of 8/3 rho a^3 (Lamb, Hydrodynamics, 108). It has
+// moved by a ten-thousandth of its diameter at the end, before vortices are shed at its edge.
 TEST(MovingSheet, ADiskThatIsSetInMotionHasItsAddedMass) {
   constexpr double drift = 0.05, gains = 50, step = 2e-4;
   const double exact = -8.0 / 3 * air_density * std::pow(across_disk / 2, 3) * gains;
@@ -68,7 +68,7 @@ TEST(MovingSheet, ADiskThatIsSetInMotionHasItsAddedMass) {
 
 struct Drift {
   double mean = 0,
-         swing = 0;  // drag over q S, and the root mean square of what comes and goes with the cells
+         swing = 0;  // drag over q S, and the root mean square of the part that varies with the cells
 };
 
 /// Of a disk that drifts upstream at 9 of the 10 m/s between it and the air.
@@ -117,8 +117,8 @@ TEST_P(PorousDisk, DriftsThroughTheGridWithoutASwingAndHasTheDragOfOneAtRest) {
   EXPECT_NEAR(drift.mean / (sum / weight / (0.5 * air_density * 100 * pi / 4)), 1, 0.02);
 }
 
-// A porous disk that is let go falls faster until the air carries it: its drag is then K / (1 + K / 4)^2 of q S (Taylor,
-// R&M 2236, 1944). The grid falls along at the speed that it has at first.
+// A porous disk that is let go falls faster until the air carries it: its drag is then K / (1 + K / 4)^2 of q S
+// (Taylor, R&M 2236, 1944). The grid falls along at the speed that it has at first.
 TEST(MovingSheet, ADiskThatFallsComesToItsTerminalSpeed) {
   constexpr double loss = 1, mass = 1, gravity = 9.81, area = pi / 4 * across_disk * across_disk;
   const double coefficient = loss / std::pow(1 + loss / 4, 2),
@@ -175,7 +175,7 @@ TEST(MovingSheet, AFoldedBandDoesNotLeak) {
     flow->place(0, folded_band(), motion);
     int faces = 0;
     for (const SheetLoad& load : flow->sheet_loads()) {
-      if (load.point.z < 1.06 || load.point.z > 1.24) continue;  // beside its ends
+      if (load.point.z < 1.06 || load.point.z > 1.24) continue;  // next to its ends
       EXPECT_EQ(load.cover, 1) << load.point.x << " " << load.point.y << " " << load.point.z;
       ++faces;
     }

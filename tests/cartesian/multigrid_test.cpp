@@ -38,7 +38,7 @@ TEST(Multigrid, EveryCycleTakesAwayMostOfTheResidualOnOddGridsToo) {
     const Axis x = uniform(n, 2, End::zero_gradient, End::zero_gradient);
     const Axis y = uniform(n - 3, 2, End::zero_gradient, End::zero_gradient);
     const Axis z = uniform(2 * n - 1, 4, End::zero_gradient, End::fixed_value);
-    // Interpolation does not know the wall, so a wall ten times tighter than the air costs cycles.
+    // Interpolation ignores the wall, so a wall ten times tighter than the air costs cycles.
     const std::pair<float, double> cases[] = {{1.0f, 0.35}, {0.1f, 0.6}};
     for (const auto& [weak, slowest] : cases) {
       Multigrid multigrid(x, y, z);
@@ -54,7 +54,7 @@ TEST(Multigrid, EveryCycleTakesAwayMostOfTheResidualOnOddGridsToo) {
 }
 
 // A wall with a hole, whose right side changes by a twentieth from one solution to the next.
-TEST(Multigrid, TheSolutionOfALikeProblemIsHalfTheWay) {
+TEST(Multigrid, TheSolutionOfASimilarProblemSavesHalfTheCycles) {
   const Axis x = uniform(25, 2, End::zero_gradient, End::zero_gradient);
   const Axis z = uniform(40, 4, End::zero_gradient, End::fixed_value);
   Multigrid multigrid(x, x, z);
@@ -87,7 +87,7 @@ TEST(Multigrid, TheSolutionOfALikeProblemIsHalfTheWay) {
   EXPECT_LT(std::sqrt(apart / size), 2 * reduction);
 }
 
-// Of a solution of zero it is what stands on the right, over all cells.
+// For a zero solution it is the right-hand side, over all cells.
 TEST(Multigrid, TheResidualIsTheSumOverAllCellsWithoutTheirSigns) {
   const Axis x = uniform(9, 2, End::zero_gradient, End::zero_gradient);
   const Axis z = uniform(12, 4, End::zero_gradient, End::fixed_value);

@@ -17,8 +17,9 @@ using cartesian::sheet_faces;
 using cartesian::SheetFace;
 using testing::even_axis;
 
-/// What the law asks of one face of a sheet that leans by 17 degrees from the z axis, where the air stands but in the cells
-/// that are `off` cells along x from the two beside the face: there it runs along the sheet, as through the face.
+/// Difference of the law from the jump on one face of a sheet inclined by 17 degrees from the z axis, in air at rest
+/// except in the cells that are `off` cells along x from the two next to the face: there it flows along the sheet, as
+/// through the face.
 double asked_of_a_face(int axis, int off) {
   const Axis x = even_axis(0, 1, 8), z = even_axis(0, 1.5, 12);
   const Vec3 p[] = {{0.271, -1, 0}, {0.271, 2, 0}, {0.721, 2, 1.5}, {0.721, -1, 1.5}};
@@ -43,8 +44,8 @@ double asked_of_a_face(int axis, int off) {
   return 0;
 }
 
-// Else what passes the step would ask for itself in the cells that it feeds.
-TEST(Sheet, AtAStepOfTheStaircaseTheCellsNextToThoseBesideItSayWhatRunsAlongIt) {
+// Otherwise the flux through the step would feed back into its own velocity estimate in the adjacent cells.
+TEST(Sheet, AtAStepOfTheStaircaseTheTangentialVelocityIsThatOfTheNextCells) {
   EXPECT_LT(std::abs(asked_of_a_face(2, 1)), 0.02);
   EXPECT_GT(asked_of_a_face(2, 0), 0.5);
   EXPECT_LT(std::abs(asked_of_a_face(0, 0)), 0.02);

@@ -62,7 +62,7 @@ Duct duct(double speed, double a, double b, double degrees, int n, double at = 2
   return result;
 }
 
-TEST(Sheet, ASheetAcrossADuctHasTheDropOfItsLawWhereverItStandsInItsCells) {
+TEST(Sheet, ASheetAcrossADuctHasTheDropOfItsLawAtAnyPositionInItsCells) {
   for (const int n : {8, 12, 16}) {
     for (const double at : {2.0, 2.013, 2.04}) {
       for (const double a : {1.0, 66.0, f111}) {
@@ -104,11 +104,11 @@ TEST(Sheet, ClothOfAnyTightnessAtAnAngleHasTheDropOfItsLaw) {
   }
 }
 
-// A ring that opens or narrows by a fifteenth of its length: its faces are a staircase, but the air runs
-// along the cloth. Thin airfoil theory allows 2 pi sin^2 of its area times the dynamic pressure, all suction
-// at the leading edge lost, 0.042 m2, and OpenFOAM on cells that lie on the ring has 0.054; a staircase that the air has
-// to climb has six times the theory's. Cloth that lets air through has 2 / pi arccot(2 rho U / a) of that: the vortex
-// sheet's equation keeps constant coefficients.
+// A ring that opens or narrows by a fifteenth of its length: its faces are a staircase, but the air runs along the
+// cloth. Thin airfoil theory allows 2 pi sin^2 of its area times the dynamic pressure, all suction at the leading
+// edge lost, 0.042 m2, and OpenFOAM on cells that lie on the ring has 0.054; a staircase that the air has to climb
+// has six times the theory's. Cloth that lets air through has 2 / pi arccot(2 rho U / a) of that: the vortex sheet's
+// equation keeps constant coefficients.
 TEST(Sheet, StepsOfClothAlongTheStreamDoNotHoldTheAirBack) {
   const double chord = 0.6, radius = 0.4;
   const int n = 24;
@@ -194,7 +194,8 @@ TEST(Sheet, LoadsForceOnTheFluidAndMomentumDeficitAreOne) {
   problem.stopping.residual = 3e-5;  // so placed it keeps a swing of 1e-7 of its drag
   const FlowField field = solve(*make_cartesian(threads(1)), problem);
   ASSERT_FALSE(field.sheet_loads.empty());
-  for (const SheetLoad& load : field.sheet_loads) {  // each on its triangle; at hems within a cell beside it
+  for (const SheetLoad& load :
+       field.sheet_loads) {  // each on its triangle; at free edges within a cell of it
     const Triangle& t = problem.bodies.at(load.body).surface.at(load.triangle);
     const double side = std::max({norm(t.b - t.a), norm(t.c - t.b), norm(t.a - t.c)});
     EXPECT_LT(norm((t.a + t.b + t.c) / 3 - load.point), side + norm(problem.grid.spacing())) << load.triangle;
@@ -203,7 +204,7 @@ TEST(Sheet, LoadsForceOnTheFluidAndMomentumDeficitAreOne) {
   Vec3 sum{};
   for (const SheetLoad& load : field.sheet_loads) sum += load.force;
   EXPECT_GT(field.porous_force.z, 10);
-  // The canopy stands in the middle of a grid that is alike on both sides.
+  // The canopy is in the middle of a grid that is equal on both sides.
   EXPECT_NEAR(std::hypot(field.porous_force.x, field.porous_force.y) / field.porous_force.z, 0, 1e-4);
   EXPECT_NEAR(norm(sum - field.porous_force), 0, 1e-9 * field.porous_force.z);
   EXPECT_NEAR(field.momentum_deficit.z / field.porous_force.z, 1, 0.005);
@@ -287,7 +288,7 @@ TEST(Sheet, TheAnswerIsTheSameBitForBitOnOneTwoAndFourThreads) {
 }
 
 // As a coupled run has it: the canopy is placed once the air is there.
-TEST(Sheet, ACanopyPlacedInUntouchedAirIsMetAsOneThatStoodThere) {
+TEST(Sheet, ACanopyPlacedInUniformFlowHasTheSameFlowAsOnePresentBefore) {
   const FlowProblem problem = canopy(26, 10, f111, 0);
   FlowProblem bare = problem;
   bare.bodies[0].surface.clear();
@@ -299,7 +300,7 @@ TEST(Sheet, ACanopyPlacedInUntouchedAirIsMetAsOneThatStoodThere) {
   EXPECT_EQ(stood->field().pressure, placed->field().pressure);
 }
 
-TEST(Sheet, SaysWhichCoefficientsItCannotTake) {
+TEST(Sheet, RefusesInvalidCoefficients) {
   EXPECT_THROW(solve(*make_cartesian(threads(1)), canopy(12, 10, -1, 0)), Error);
   EXPECT_THROW(solve(*make_cartesian(threads(1)), canopy(12, 10, 1, std::nan(""))), Error);
 }

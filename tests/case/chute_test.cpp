@@ -1,4 +1,4 @@
-// Designs of openchute: what maps is cut as openchute cuts it, and nothing of the file is silently left out.
+// Designs of openchute: converted parts are cut as in openchute, and no part of the file is ignored silently.
 #include <gtest/gtest.h>
 
 #include <cctype>
@@ -161,7 +161,7 @@ void places_of(const nlohmann::json& node, const std::string& at, std::vector<st
   }
 }
 
-TEST(Chute, AKeyThatNobodyKnowsIsSaidWhereverItStands) {
+TEST(Chute, AnUnknownKeyIsReportedAtAnyPlace) {
   std::set<std::string> kinds;
   for (const char* name : {"elliptical", "odd", "cross", "sails"}) {
     const nlohmann::json sound = nlohmann::json::parse(chute_text(name));
@@ -228,7 +228,7 @@ TEST(Chute, TheMeshHasTheClothOfThePattern) {
   }
 }
 
-TEST(Chute, WhatIsAskedForReplacesWhatIsAssumed) {
+TEST(Chute, GivenValuesReplaceAssumedOnes) {
   const ChuteImport result = imported("odd", {.line_count = 18, .line_length = 2.5, .vent_diameter = 0.1});
   const Case given = parse_case(result.case_text, "case.toml");
   EXPECT_EQ(given.parachute.lines.count, 18);
@@ -283,7 +283,7 @@ class ChuteMistake : public testing::TestWithParam<BadChute> {};
 INSTANTIATE_TEST_SUITE_P(Every, ChuteMistake, testing::ValuesIn(bad_chutes),
                          [](const auto& mistake) { return mistake.param.name; });
 
-TEST_P(ChuteMistake, IsToldWithFileAndPlace) {
+TEST_P(ChuteMistake, IsReportedWithFileAndPlace) {
   const BadChute& mistake = GetParam();
   std::string text = chute_text(mistake.file);
   const bool last = std::string(mistake.name) == "GoresThatDiffer";  // the first is that of the whole file
@@ -321,7 +321,7 @@ TEST(Chute, APointListIsReadLineByLine) {
 }
 
 // openchute's own ringsail draws its slots as sections of 0 gores.
-TEST(Chute, ANumberThatIsNotItsFormulasIsSaidWhereverItStands) {
+TEST(Chute, ANumberThatDiffersFromItsFormulaIsReportedAtAnyPlace) {
   const std::string text = chute_text("odd");
   const std::string stored[] = {"\"start_angle\": 0.0", "\"radius_x\": 0.3", "\"radius_y\": 0.35",
                                 "\"center\": [\n          0.2", ",\n          0.0\n         ]"};

@@ -1,4 +1,4 @@
-// The shipped examples say what the paper says.
+// The shipped examples agree with the paper.
 #include <gtest/gtest.h>
 
 #include <cmath>

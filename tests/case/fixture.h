@@ -11,7 +11,7 @@
 
 namespace ripstop {
 
-// Line numbers of the keys stand beside them, because tests name them.
+// Line numbers of the keys are given next to them, because tests use them.
 inline const std::string valid_case =
     R"(title = "small"
 [parachute]
@@ -38,12 +38,12 @@ density_kg_m3 = 1.199
 
 inline const std::filesystem::path examples = std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples";
 
-/// What the value of a key was resolved from.
+/// Origin of the value of a key.
 inline const std::string& source_of(const Settings& resolved, const std::string& key) {
   return resolved.source(key).from;
 }
 
-/// No more than a case must say.
+/// Only the required keys.
 inline const std::string short_case = R"(
 [parachute]
 type = "flat-circular"
@@ -56,7 +56,7 @@ speed_m_s = 8
 density_kg_m3 = 1.2
 )";
 
-/// `text` with the one place where `from` stands replaced.
+/// `text` with its only occurrence of `from` replaced.
 inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from << " is not in the text";

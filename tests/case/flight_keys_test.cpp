@@ -28,7 +28,7 @@ TEST(FlightKeys, TheResolvedCaseReadsBackWithItsHeight) {
   EXPECT_EQ(case_toml(resolve(parse_case(text, "again.toml"))), text);
 }
 
-TEST(FlightKeys, WithoutAHeightTheAirIsWhatItWas) {
+TEST(FlightKeys, WithoutAHeightTheAirIsTheDefault) {
   const Settings resolved = resolve(parse_case(valid_case, "case.toml"));
   EXPECT_EQ(resolved.flow().density_kg_m3, 1.199);
   EXPECT_EQ(resolved.flow().temperature_k, 293.15);
@@ -47,14 +47,14 @@ TEST(FlightKeys, AHeightAndAnotherDensityOrTemperatureExcludeEachOther) {
   EXPECT_TRUE(outcome_of(with_flow("speed_m_s = 12\nheight_m = 3000\nviscosity_pa_s = 1.7e-5")).valid);
 }
 
-TEST(FlightKeys, AHeightThatTheAtmosphereHasNotIsTold) {
+TEST(FlightKeys, AHeightOutsideTheAtmosphereIsReported) {
   const Outcome outcome = outcome_of(with_flow("speed_m_s = 12\nheight_m = 90000"));
   ASSERT_FALSE(outcome.valid);
   ASSERT_EQ(outcome.problems.size(), 1u) << outcome.message;
   EXPECT_EQ(outcome.problems[0].key, "flow.height_m");
 }
 
-TEST(FlightKeys, APayloadStandsInPlaceOfTheSpeed) {
+TEST(FlightKeys, APayloadReplacesTheSpeed) {
   const Case given = parse_case(with_flow("height_m = 0") + "[payload]\nmass_kg = 4\n", "case.toml");
   const Settings resolved = resolve(given);
   const double drag = 0.5 * 1.225 * resolved.flow().speed_m_s * resolved.flow().speed_m_s * 0.55 *
@@ -64,7 +64,7 @@ TEST(FlightKeys, APayloadStandsInPlaceOfTheSpeed) {
   EXPECT_TRUE(outcome_of(case_toml(resolve(given))).valid);
 }
 
-TEST(FlightKeys, NeitherSpeedNorPayloadIsToldWithBothWaysOut) {
+TEST(FlightKeys, AMissingSpeedIsReportedWithBothRemedies) {
   const Outcome outcome = outcome_of(with_flow("height_m = 0"));
   ASSERT_EQ(outcome.problems.size(), 1u) << outcome.message;
   EXPECT_EQ(outcome.problems[0].key, "flow.speed_m_s");

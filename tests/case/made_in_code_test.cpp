@@ -1,4 +1,4 @@
-// A case that is made in code, without any file, is checked, resolved and told of like one that was read.
+// A case made in code, without any file, is checked, resolved and reported like one that was read.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -37,7 +37,7 @@ TEST(MadeInCode, IsTheCaseThatAFileWithTheSameValuesIs) {
             steady_problem(resolve(parse_case(written_case, "case.toml"))).mesh.node_count());
 }
 
-TEST(MadeInCode, IsToldTheSameMistakesWithoutFileAndLine) {
+TEST(MadeInCode, HasTheSameMistakesWithoutFileAndLine) {
   Case given = made();
   given.flow.speed_m_s = 200;
   given.flow.cells = {20, 20, 1};
@@ -61,7 +61,7 @@ TEST(MadeInCode, IsToldTheSameMistakesWithoutFileAndLine) {
   EXPECT_THROW(checked(given), InputError);
 }
 
-TEST(MadeInCode, EmptyMissesWhatEveryCaseNeeds) {
+TEST(MadeInCode, EmptyLacksTheRequiredKeysOfEveryCase) {
   std::vector<std::string> keys;
   for (const Problem& problem : validate(Case{})) keys.push_back(problem.key);
   for (const char* key :
@@ -103,7 +103,7 @@ TEST(Opening, IsMeshedToFoldWithTheSegmentsAndTheCompressionThatItGives) {
   EXPECT_EQ(case_json(resolve(opening_case(opening))), case_json(resolve(opening)));
 }
 
-TEST(Opening, WrinklesUnlessAMaterialOrTheOpeningSaysOtherwise) {
+TEST(Opening, WrinklesUnlessAMaterialOrTheOpeningPreventsIt) {
   Case given = checked(made());
   std::get<Tape>(given.materials.at(*given.parachute.tape.material)).buckling_strain = 0.01;
   const Case opening = opening_case(given);

@@ -1,4 +1,4 @@
-// Every kind of mistake is told with its file, line, column, key, value and what is allowed.
+// Every kind of mistake is reported with its file, line, column, key, value and allowed values.
 #include <gtest/gtest.h>
 
 #include "fixture.h"
@@ -8,7 +8,7 @@ namespace {
 
 struct Mistake {
   std::string name;
-  std::string from, to;                // what is spoilt in valid_case
+  std::string from, to;                // change of valid_case
   std::string place;                   // "case.toml:5:19"
   std::string key;                     // full name
   std::string value;                   // as shown; empty: there is none
@@ -435,7 +435,7 @@ const std::vector<Mistake> all_mistakes = {
 
 class EveryMistake : public testing::TestWithParam<Mistake> {};
 
-TEST_P(EveryMistake, IsToldWithPlaceKeyValueAndWhatIsAllowed) {
+TEST_P(EveryMistake, IsReportedWithPlaceKeyValueAndAllowedValues) {
   const Mistake& mistake = GetParam();
   const Outcome outcome = outcome_of(replaced(valid_case, mistake.from, mistake.to));
   ASSERT_FALSE(outcome.valid);
@@ -467,7 +467,7 @@ TEST(Mistakes, OneMistakeIsOneProblem) {
   }
 }
 
-TEST(Mistakes, ALineThatIsTooLongIsToldWithItsNumber) {
+TEST(Mistakes, ALineThatIsTooLongIsReportedWithItsNumber) {
   try {
     parse_case("title = \"a\"\n\n# " + std::string(5000, 'x') + "\n", "case.toml");
     ADD_FAILURE() << "accepted";

@@ -76,7 +76,7 @@ TEST(PermeabilityKeys, OfACaseMadeInCodeTwoWaysAreRefusedToo) {
   EXPECT_EQ(validate(given).at(0).key, "materials.f-111-physical.permeability_cfm");
 }
 
-/// Everything that is said of old keys, a line each.
+/// All warnings of deprecated keys, one per line.
 std::string told(const Settings& resolved) {
   std::string text;
   for (const std::string& line : resolved.deprecations()) text += line + "\n";
@@ -124,7 +124,7 @@ TEST(OldPermeabilityKeys, OfTheCommandLineAreTakenAndTheirSourceStaysTheOption) 
   EXPECT_EQ(given.origins.at("materials.f-111-physical.pressure_drop_linear_pa_s_m").option, "--set");
 }
 
-TEST(OldPermeabilityKeys, BesideTheirNewNameAreUnknown) {
+TEST(OldPermeabilityKeys, TogetherWithTheirNewNameAreUnknown) {
   const Outcome outcome = outcome_of(with_cloth("f-111", "darcy = 70\ndarcy_1_m2 = 60\n"));
   ASSERT_EQ(outcome.problems.size(), 1u) << outcome.message;
   EXPECT_EQ(outcome.problems[0].key, "materials.own.darcy");

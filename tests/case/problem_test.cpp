@@ -1,4 +1,4 @@
-// What becomes of several mistakes, of options, and of files that cannot be read.
+// Reports of several mistakes, of options, and of files that cannot be read.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -8,7 +8,7 @@
 namespace ripstop {
 namespace {
 
-TEST(Mistakes, AllOfThemAreToldAtOnceInTheOrderOfTheFile) {
+TEST(Mistakes, AllOfThemAreReportedTogetherInTheOrderOfTheFile) {
   std::string text = replaced(valid_case, "= 2000", "= 3");
   text = replaced(text, "\"small\"", "7");
   text = replaced(text, "cells =", "cels =");
@@ -35,7 +35,7 @@ TEST(Mistakes, TheFlowsOwnLoadIsOfASheetOnly) {
   const Outcome misspelt = with("papr");
   ASSERT_EQ(misspelt.problems.size(), 1u) << misspelt.message;
   EXPECT_EQ(misspelt.problems[0].key, "flow.porosity_model");
-  // What follows from the misspelt word is no mistake of its own.
+  // Consequences of the misspelt word are no separate mistakes.
   const Outcome calibrated = outcome_of(
       replaced(replaced(valid_case, "gores = 6", "gores = 6\ncanopy_material = \"f-111\""), "[[measured]]",
                "porosity_model = \"papr\"\n[coupling]\nload = \"of-flow\"\n[[measured]]"));

@@ -10,7 +10,7 @@
 namespace ripstop {
 namespace {
 
-TEST(QuantityKeys, ASolversErrorIsToldWithTheKeysOfTheCase) {
+TEST(QuantityKeys, ASolversErrorIsReportedWithTheKeysOfTheCase) {
   try {
     low_pass({1, 2, 3}, 1e-3, 900);
     FAIL() << "accepted";

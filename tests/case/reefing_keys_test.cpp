@@ -42,7 +42,7 @@ TEST(ReefingKeys, TheOpeningTakesLengthCutAndCurveOfEveryStage) {
   EXPECT_EQ(problem.reefing[0].law.tension(-0.1), 0);
 }
 
-TEST(ReefingKeys, WhatDoesNotFitIsToldWithItsKey) {
+TEST(ReefingKeys, AnImpossibleStageIsReportedWithItsKey) {
   const auto key_of = [](const std::string& stages) {
     const Outcome outcome = outcome_of(with_stages(stages));
     EXPECT_EQ(outcome.problems.size(), 1u) << outcome.message;

@@ -1,5 +1,4 @@
-// What follows where a case says nothing: from parachute, cloth and other values, never from
-// which keys were typed.
+// Derived values of a case: from parachute, cloth and other values, never from which keys were typed.
 #include "ripstop/case/resolve.h"
 
 #include <gtest/gtest.h>
@@ -36,7 +35,7 @@ FlowSettings flow_of(const std::string& text) {
   return resolve(parse_case(text, "case.toml")).flow();
 }
 
-/// Every key that stands in a table, with its value as TOML.
+/// Every key of a table, with its value as TOML.
 void collect(const Json& node, const std::string& name, std::vector<Setting>& leaves) {
   if (node.is_object()) {
     for (const auto& [key, child] : node.items())
@@ -63,7 +62,7 @@ std::string readme_case() {
   return readme.substr(begin, readme.find(fence, begin) - begin);
 }
 
-// A case of each porosity model, cases that give a part of what belongs together, and what people start from.
+// A case of each porosity model, cases with a part of related keys, and typical starting points.
 const std::vector<std::pair<std::string, std::string>> cases = {
     {"sheet", short_case},
     {"sheet in a narrow box", valid_case},
@@ -133,7 +132,7 @@ TEST(Resolved, AWrittenCaseReadsAgainAsTheSameCase) {
   }
 }
 
-TEST(Resolved, DoesNotHangOnWhereValuesCameFrom) {
+TEST(Resolved, IsIndependentOfTheOriginOfValues) {
   for (const auto& [name, text] : cases) {
     const Case given = parse_case(text, "case.toml");
     Case made = given;
@@ -142,7 +141,7 @@ TEST(Resolved, DoesNotHangOnWhereValuesCameFrom) {
   }
 }
 
-TEST(Resolved, ASheetStandsInABoxThatScalesWithTheCanopy) {
+TEST(Resolved, TheDomainOfASheetScalesWithTheCanopy) {
   const Case given = parse_case(short_case, "short");
   const FlowSettings flow = resolve(given).flow();
   EXPECT_EQ(flow.porosity_model, PorosityModel::sheet);
@@ -187,7 +186,7 @@ TEST(Resolved, TheProblemOfTheFlowHasEveryValueOfTheCase) {
   EXPECT_FALSE(steady_problem(resolve(parse_case(short_case, "short"))).averaging_window.has_value());
 }
 
-TEST(Resolved, AnOpenJetStandsInAWideBoxOfStillAirThatBeginsAtTheNozzle) {
+TEST(Resolved, TheDomainOfAnOpenJetIsWideAndBeginsAtTheNozzle) {
   const Case given = parse_case(
       short_case + "tunnel = { kind = \"open-jet\", shape = \"octagon\", width_m = 6 }\n", "case.toml");
   const FlowSettings flow = resolve(given).flow();
@@ -240,7 +239,7 @@ TEST(Resolved, TheWallsOfAClosedTestSectionAreTheSidesOfTheBox) {
   EXPECT_FALSE(jet_of(flow.tunnel).has_value());
 }
 
-TEST(Resolved, WhatATunnelCannotBeIsSaidWithItsKey) {
+TEST(Resolved, AnImpossibleTunnelIsReportedWithItsKey) {
   const auto tunnel = [](const std::string& keys) { return short_case + "tunnel = { " + keys + " }\n"; };
   const std::string jet = "kind = \"open-jet\", width_m = 6";
   const std::pair<std::string, std::string> mistakes[] = {
@@ -275,7 +274,7 @@ TEST(Resolved, EachPartOfTheBoxFollowsByItself) {
   EXPECT_EQ(placed.cells, whole.cells);
   EXPECT_EQ(placed.core.size_m, whole.core.size_m);
   EXPECT_NEAR(placed.core.start_m, whole.core.start_m + 7.5 - 4 * d, 1e-12);
-  // The box alone: the core stays as wide as the canopy asks for.
+  // The domain alone: the core remains as wide as the canopy requires.
   const FlowSettings boxed = flow_of(short_case + "box_m = [8, 8, 12]\n");
   EXPECT_EQ(boxed.core.size_m, whole.core.size_m);
   EXPECT_EQ(boxed.cells, whole.cells);
@@ -290,7 +289,7 @@ TEST(Resolved, EachPartOfTheBoxFollowsByItself) {
   EXPECT_EQ(coarse.core.size_m, whole.core.size_m);
 }
 
-TEST(Resolved, InTimeTheCellsLieBesideTheCanopysAxis) {
+TEST(Resolved, InUnsteadyFlowTheCellsAreOffsetFromTheCanopysAxis) {
   EXPECT_EQ(flow_of(short_case).core.off_axis, 0);
   EXPECT_EQ(flow_of(short_case + "unsteady = true\nbox_m = [8, 7.5, 10]\n").core.off_axis, 0)
       << "uniform cells";
@@ -317,7 +316,7 @@ TEST(Resolved, ABoxThatACoreWouldHalfFillHasUniformCells) {
   EXPECT_EQ(flow_of(short_case + "box_m = [8, 7.6, 10]\n").core.size_m, d * (Vec3{1.8, 1.8, 2.2}));
 }
 
-TEST(Resolved, WhatTheCaseSaysOfTheCouplingStays) {
+TEST(Resolved, GivenKeysOfTheCouplingRemain) {
   Case given = parse_case(short_case, "case.toml");
   given.coupling.max_iterations = 7, given.coupling.shape_tolerance_m = 3e-3,
   given.coupling.cloth_tolerance = 7e-4;
@@ -327,7 +326,7 @@ TEST(Resolved, WhatTheCaseSaysOfTheCouplingStays) {
   EXPECT_EQ(coupling.cloth_tolerance, 7e-4);
 }
 
-TEST(Resolved, ACoreThatHasNoRoomSaysWhy) {
+TEST(Resolved, ACoreWithoutRoomStatesTheReason) {
   const auto from = [](const std::string& text) -> std::string {
     return resolve(parse_case(text, "case.toml")).source("flow.core.size_m").from;
   };
@@ -343,7 +342,7 @@ TEST(Resolved, TheMeanOfIterationsIsOfNoMoreThanThereAre) {
   EXPECT_EQ(flow_of(short_case + "max_iterations = 40\n").average_over, 40);
 }
 
-TEST(Resolved, ClothWithCalibratedCoefficientsStandsInThePapersBox) {
+TEST(Resolved, ClothWithCalibratedCoefficientsHasTheDomainOfThePaper) {
   const Case given =
       parse_case(of_calibrated_cloth(replaced(short_case, "= 3.0\nvent", "= 1.0\nvent")), "paper");
   const FlowSettings flow = resolve(given).flow();
@@ -359,7 +358,7 @@ TEST(Resolved, ClothWithCalibratedCoefficientsStandsInThePapersBox) {
   EXPECT_FALSE(flow_problem(resolve(given)).bodies.at(0).is_sheet());
 }
 
-TEST(Resolved, WhatIsChangedLaterIsFollowedAgain) {
+TEST(Resolved, LaterChangesAreResolvedAgain) {
   Case given = parse_case(short_case, "short");
   given.parachute.canopy = FlatCircular{1.5, 0.15};
   EXPECT_NEAR(resolve(given).flow().box_m.x, 3 * d, 1e-9);
@@ -368,7 +367,7 @@ TEST(Resolved, WhatIsChangedLaterIsFollowedAgain) {
   EXPECT_EQ(resolve(given).flow().cells, (std::array{60, 60, 70}));
 }
 
-TEST(Resolved, EveryValueSaysWhatItFollowedFrom) {
+TEST(Resolved, EveryValueHasItsOrigin) {
   Overrides overrides;
   overrides.grid = std::array{60, 60, 70};
   overrides.set = {parse_setting("flow.residual=1e-4", "--set")};
@@ -381,7 +380,7 @@ TEST(Resolved, EveryValueSaysWhatItFollowedFrom) {
   EXPECT_EQ(source_of(resolved, "coupling.drag_tolerance"), "default of the sheet model");
 }
 
-TEST(Resolved, TheReadmesBoxStaysWithTheCanopyWhereItStandsAlready) {
+TEST(Resolved, TheGivenDomainKeepsThePositionOfTheCanopy) {
   const FlowSettings plain = flow_of(readme_case());
   EXPECT_EQ(plain.box_m, (Vec3{6, 6, 9}) * 0.7);
   EXPECT_NEAR(plain.canopy_position_m, 2.8, 1e-12);
@@ -414,7 +413,7 @@ TEST(Resolved, ASheetIsRefusedForAnEngineWithoutSheetsBeforeAnythingIsComputed) 
   EXPECT_NE(outcome.problems[0].message.find("f-111-physical"), std::string::npos);
 }
 
-TEST(Resolved, WhatOpenFoamHasNotIsRefusedWhenTheCaseIsRead) {
+TEST(Resolved, FeaturesWithoutOpenFoamAreRefusedWhenTheCaseIsRead) {
   const std::string paper = of_calibrated_cloth(short_case) + "box_m = [8, 8, 10]\nengine = \"openfoam\"\n";
   EXPECT_TRUE(outcome_of(paper).valid);
   const Outcome jet = outcome_of(paper + "tunnel = { kind = \"open-jet\", width_m = 5 }\nsides = \"slip\"\n" +
@@ -441,7 +440,7 @@ TEST(Resolved, AFittedMeshIsOpenFoamsAndOfASheet) {
   EXPECT_EQ(key_of(short_case + openfoam + "cloth_levels = 2\n"), "flow.cloth_levels");
 }
 
-TEST(Resolved, AnOpeningInItsOwnAirWantsASheetAndAPayloadThatFliesAMass) {
+TEST(Resolved, ACoupledInflationNeedsASheetAndAFreePayloadAMass) {
   const auto key_of = [](const std::string& more, const std::string& start = short_case) {
     const Outcome outcome = outcome_of(start + more);
     return outcome.problems.empty() ? "none" : outcome.problems[0].key + ": " + outcome.problems[0].value;
@@ -458,7 +457,7 @@ TEST(Resolved, AnOpeningInItsOwnAirWantsASheetAndAPayloadThatFliesAMass) {
       "inflation.mass: \"payload\"");
 }
 
-TEST(Resolved, AnUnsteadyFlowWantsAnEngineThatHasTimeAndAWatchThatCanBe) {
+TEST(Resolved, AnUnsteadyFlowNeedsACapableEngineAndAPossibleWindow) {
   EXPECT_TRUE(outcome_of(short_case + "unsteady = true\n").valid);
   const Outcome engine = outcome_of(of_calibrated_cloth(short_case) +
                                     "box_m = [8, 8, 10]\nengine = \"openfoam\"\nunsteady = true\n");
@@ -474,7 +473,7 @@ TEST(Resolved, AnUnsteadyFlowWantsAnEngineThatHasTimeAndAWatchThatCanBe) {
             "flow.watch.courant");
 }
 
-TEST(Resolved, TheBoxHoldsEveryFamilyOfTheExamples) {
+TEST(Resolved, TheDomainContainsEveryFamilyOfTheExamples) {
   for (const char* name : {"flat-circular", "conical", "hemispherical", "quarter-spherical", "extended-skirt",
                            "ringslot", "cross", "elliptical"}) {
     const Case given =

@@ -1,4 +1,4 @@
-// Whatever bytes a case file has, it is a valid case or a told mistake.
+// Any bytes of a case file are a valid case or a reported mistake.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -25,8 +25,8 @@ std::vector<std::string> all_example_texts() {
   return texts;
 }
 
-/// True when the text is a valid case. A mistake has to come as an InputError that says something; a valid
-/// case has to survive being written and read again.
+/// True when the text is a valid case. A mistake must be an InputError with a message; a valid case must remain equal
+/// when it is written and read again.
 bool is_valid_or_told(const std::string& text) {
   try {
     const Case given = parse_case(text, "case.toml");
@@ -48,7 +48,7 @@ TEST(AnyBytes, EveryExampleIsValidAndSurvivesBeingWrittenAndRead) {
   for (const std::string& text : texts) EXPECT_TRUE(is_valid_or_told(text)) << text;
 }
 
-TEST(AnyBytes, ATruncatedFileIsToldOrValid) {
+TEST(AnyBytes, ATruncatedFileIsRefusedOrValid) {
   const std::string text = example_text();
   ASSERT_TRUE(is_valid_or_told(text));
   int valid = 0;
@@ -59,7 +59,7 @@ TEST(AnyBytes, ATruncatedFileIsToldOrValid) {
   EXPECT_LT(valid, static_cast<int>(text.size() - text.rfind("[[measured]]")));
 }
 
-TEST(AnyBytes, AFlippedByteIsToldOrValid) {
+TEST(AnyBytes, AFlippedByteIsRefusedOrValid) {
   const std::vector<std::string> texts = all_example_texts();
   std::mt19937 random(20240607);
   int valid = 0, told = 0;
@@ -75,7 +75,7 @@ TEST(AnyBytes, AFlippedByteIsToldOrValid) {
   EXPECT_GT(told, 400);
 }
 
-TEST(AnyBytes, ReplacedDigitsAreToldOrValid) {
+TEST(AnyBytes, ReplacedDigitsAreRefusedOrValid) {
   const std::vector<std::string> texts = all_example_texts();
   const std::string pieces[] = {
       "-",    "0",  "9", "e", ".", "\"", "[", "]", "nan", "inf", "1e308", "-1e-308", "99999999999999999999",

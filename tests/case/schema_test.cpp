@@ -1,5 +1,5 @@
-// The JSON Schema says what the reader says, judged by an independent validator, and the reference page is
-// the one that the tables give.
+// The JSON Schema agrees with the reader, tested with an independent validator, and the reference page agrees
+// with the tables.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -15,10 +15,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What is spoilt in valid_case, or changed without harm.
+// Changes of valid_case, harmful or harmless.
 const std::vector<std::pair<std::string, std::string>> changes = {
     {"gores = 6", "gores = 6.5"},
-    {"gores = 6", "gores = 6.0"},  // valid: JSON does not tell 6.0 from 6
+    {"gores = 6", "gores = 6.0"},  // valid: JSON does not distinguish 6.0 and 6
     {"gores = 6", "gores = 2"},
     {"gores = 6", "gores = 501"},
     {"gores = 6", "gores = 500"},  // the schema has no words for columns: see below
@@ -92,7 +92,7 @@ class Schema : public testing::Test {
     return file;
   }
 
-  /// What python3-jsonschema says about each file.
+  /// Results of python3-jsonschema for each file.
   std::vector<std::string> judge(const std::vector<fs::path>& files) const {
     ProcessRequest request;
     request.arguments = {"/usr/bin/python3", RIPSTOP_SOURCE_DIR "/tests/case/validate_cases.py",
@@ -113,7 +113,7 @@ class Schema : public testing::Test {
   int files_ = 0;
 };
 
-TEST(ShippedSchema, IsWhatTheProgramPrints) {
+TEST(ShippedSchema, IsTheOutputOfTheProgram) {
   EXPECT_EQ(read_file(fs::path(RIPSTOP_SOURCE_DIR) / "examples/case.schema.json"), case_schema())
       << "ripstop schema > examples/case.schema.json";
 }

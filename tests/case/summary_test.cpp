@@ -1,4 +1,4 @@
-// What a case amounts to.
+// The summary of a case.
 #include "ripstop/case/summary.h"
 
 #include <gtest/gtest.h>
@@ -94,8 +94,8 @@ TEST(Summary, TheGapOfADiskGapBandIsOpenAreaAllRoundTheDisk) {
   EXPECT_NEAR(s.geometric_porosity, open / (open + s.nominal_area), 1e-12);
 }
 
-// A line goes on across the vent to the opposite one. The gores of 2 pi / 12 are cut flat, with the area of their
-// sector: the corners of the vent lie farther out than its radius.
+// A line continues across the vent to the opposite one. The gores of 2 pi / 12 are cut flat, with the area of their
+// sector: the corners of the vent are farther out than its radius.
 TEST(Summary, VentLinesAreLinesAndNotTape) {
   const std::filesystem::path file =
       std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples" / "flat-circular" / "case.toml";

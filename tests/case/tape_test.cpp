@@ -60,7 +60,7 @@ TEST(Tape, GrowsWithSpeedAndWithSize) {
 }
 
 // C_x 1.7 times the middle of 0.75 to 0.80 times S0 q, over 12 lines; the factors of [margins] as everywhere.
-TEST(Tape, IsTheLightestThatHoldsALinesLoadAtTheOpening) {
+TEST(Tape, IsTheLightestThatCarriesALinesLoadAtTheOpening) {
   const Case given = without_a_name(2, 50);
   const double load = 1.7 * 0.775 * nominal_area(given.parachute) * 0.5 * 1.2 * 50 * 50 / 12;
   const double left = 0.8 * 0.95 * 0.95 * 0.95 / 1.5;
@@ -81,7 +81,7 @@ TEST(Tape, IsTheLightestThatHoldsALinesLoadAtTheOpening) {
   EXPECT_GT(reinforcement_tape(checked(safe))->break_load_n, chosen->break_load_n);
 }
 
-TEST(Tape, IsNoneUpToTheLoadThatAHemOfTheClothHolds) {
+TEST(Tape, IsNoneUpToTheLoadThatAHemOfTheClothCarries) {
   const Case given = without_a_name(1, 10);
   const double strength = 0.02 * canopy_fabric(given).break_load_n_m * 0.8 * 0.95 * 0.95 * 0.95 / 1.5;
   EXPECT_EQ(tape_for(given, 0.99 * strength).name, no_tape);
@@ -100,7 +100,7 @@ TEST(Tape, OfAPayloadIsForTheSpeedAtWhichItOpens) {
   EXPECT_NE(tape_material(checked(given)).from.find("20 m/s"), std::string::npos);
 }
 
-TEST(Tape, SaysWhatItFollowedFromAndIsWrittenOut) {
+TEST(Tape, HasItsOriginAndIsWrittenOut) {
   const Case given = without_a_name(1, 50);
   const Settings resolved = resolve(given);
   const Source& source = resolved.source("parachute.tape.material");

@@ -1,4 +1,4 @@
-// A mesh that no cloth can be made of is refused with what is wrong with it.
+// An invalid mesh is refused with its reason.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -22,7 +22,7 @@ const SpringLaw& long_law() {
   return law;
 }
 
-TEST(BadMesh, IsRefusedWithWhatIsWrong) {
+TEST(BadMesh, IsRefusedWithItsReason) {
   const Mesh sound = testing::medley(0.01, true);
   ASSERT_GE(sound.patches.size(), 2u);
   ASSERT_GE(sound.ties.size(), 2u);

@@ -24,7 +24,7 @@ AlignedDoubles random_numbers(std::size_t count, unsigned seed) {
   return result;
 }
 
-TEST(Blocks, EveryFreeNodeMovesWithOneAndWhatIsHeldWithNone) {
+TEST(Blocks, EveryFreeNodeBelongsToOneAndFixedNodesToNone) {
   const Mesh mesh = medley(0, true);
   const ClothPtr cloth = make_cloth(mesh);
   const Blocks blocks(*cloth);

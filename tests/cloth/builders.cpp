@@ -7,7 +7,7 @@ namespace ripstop::testing {
 
 namespace {
 
-/// The node that a column past the seam of a periodic patch stands for.
+/// The node that a column beyond the seam of a periodic patch represents.
 int wrapped(const PatchSpec& spec, int column) {
   return (column + spec.columns) % spec.columns;
 }
@@ -205,7 +205,7 @@ std::vector<Vec3> reference_forces(const Mesh& mesh, const ClothOptions& options
     const double length = norm(d);
     const Vec3 n = d / length;
     const double strain = length / rest - 1;
-    const double taken = strain > -law.buckling_strain ? damping : 0;  // what has wrinkled loses nothing
+    const double taken = strain > -law.buckling_strain ? damping : 0;  // wrinkled springs dissipate no energy
     const Vec3 force = (scale * law.tension(strain) + taken * dot(v[q] - v[p], n)) * n;
     f[p] += force;
     f[q] -= force;

@@ -1,4 +1,4 @@
-// What the forces conserve, and what they derive from.
+// Conserved quantities of the forces, and their potential.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -26,7 +26,7 @@ std::vector<Vec3> forces(const Mesh& mesh, const Cloth& cloth, const std::vector
   return f;
 }
 
-TEST(ClothLaws, ATiedNodeHandsOnWhatTheSpringsOnBothItsSidesPull) {
+TEST(ClothLaws, ATiedNodeTransfersTheForcesOfTheSpringsOnBothSides) {
   const Mesh mesh = medley(0, true);
   const ClothPtr cloth = make_cloth(mesh);
   ClothState state = start_state(*cloth);
@@ -193,7 +193,7 @@ TEST(ClothLaws, AClosedSurfaceFeelsNoNetPressure) {
   EXPECT_LT(norm(pressure_force(*cloth, state, loads)), 1e-13 * 1000);
 }
 
-TEST(ClothLaws, OnAFlatClothThePressureIsTheSumOfWhatItsNodesCarry) {
+TEST(ClothLaws, OnAFlatClothThePressureIsTheSumOfTheNodalLoads) {
   const Mesh mesh = rectangle(6, 9, 0.02);
   const ClothPtr cloth = make_cloth(mesh);
   const Loads loads{std::vector<double>(mesh.cell_count(), 300.0), {}};

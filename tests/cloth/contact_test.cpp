@@ -1,4 +1,4 @@
-// Cloth that meets cloth: a potential, momentum and energy, no way through; and the judge of that.
+// Cloth in contact: potential, momentum and energy, no penetration; and its measure.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -146,9 +146,9 @@ TEST(Contact, FrictionTakesFromTheSlipAndTheBalanceCountsIt) {
   EXPECT_LT(rough.momentum_error, 1e-12);
 }
 
-// Dashpots that take what the pressure does while layers are pressed into each other: a kick of contact changes their
-// velocities, and what they take in the step before it has those of before (0.4 % off if not, 0.1 if so).
-TEST(Contact, WhatDampersTakeIsCountedUpToEveryKick) {
+// Dashpots that absorb the work of the pressure while layers are compressed: a kick of contact changes their
+// velocities, and their energy in the previous step uses the velocities before it (error 0.4 % otherwise, 0.1 % so).
+TEST(Contact, DamperEnergyIsCountedUpToEveryKick) {
   Mesh mesh = two_sheets(4 * spacing);
   const std::vector<Vec3> near = lowered(mesh, 3.4 * spacing);
   const int lower = mesh.patches[1].first_node, columns = mesh.patches[1].columns;
@@ -228,7 +228,7 @@ TEST(Pierced, CountsTheEdgesThatGoThroughClothElsewhere) {
   EXPECT_NEAR(pierced_share(mesh, x), (13 + 12) / edges, 1e-12);
 }
 
-TEST(Pierced, LeavesOutWhatLiesWithinThreeEdges) {
+TEST(Pierced, IgnoresCellsWithinThreeEdges) {
   const Mesh mesh = rectangle(5, 30, spacing);
   std::vector<Vec3> near = mesh.start, far = mesh.start;
   const auto bend = [&](std::vector<Vec3>& x, int from) {

@@ -38,8 +38,8 @@ std::vector<Vec3> outward(const Mesh& mesh, double size) {
   return result;
 }
 
-/// Through tied nodes, masters, inner nodes and ends of springs, not in any order along the cloth; `slack` times as long
-/// as its way.
+/// Through tied nodes, masters, inner nodes and ends of springs, not in any order along the cloth; `slack` times as
+/// long as its way.
 Mesh drawn_medley(double slack, double damping) {
   Mesh mesh = medley(0, false);
   std::vector<int> rings{mesh.ties.front().node, mesh.ties.front().masters.front().node};
@@ -120,7 +120,7 @@ TEST(Drawstring, OneThatIsLongerThanItsWayPullsNothing) {
 }
 
 // F outward on each of N rings: 2 T sin(pi / N) = F, 2 N R sin(pi / N) = L0 (1 + T / EA).
-TEST(Drawstring, ARingPulledOutwardStandsWhereItsTensionHoldsIt) {
+TEST(Drawstring, ARingPulledOutwardIsInEquilibriumWithItsTension) {
   for (const int count : {3, 8, 18}) {
     constexpr double load = 30, length = 2, mass = 0.01;
     const double sine = std::sin(std::numbers::pi / count), tension = load / (2 * sine);
@@ -150,7 +150,7 @@ TEST(Drawstring, TheStableStepIsThatOfARingThatBreathes) {
 }
 
 // By power iteration on M^-1 K, K from the forces.
-TEST(Drawstring, TheStableStepHoldsForRingsInDisorderAndIsNotMuchTooSmall) {
+TEST(Drawstring, TheStableStepIsValidForRingsInDisorderAndNotMuchTooSmall) {
   for (const unsigned seed : {1, 2, 3, 4}) {
     Mesh mesh = hoop(11, 0.4, 1, 0.01);
     mesh.start = shaken(mesh.start, 0.3, seed);
@@ -196,7 +196,7 @@ TEST(Drawstring, FarFromTautItTakesNothingOfTheStep) {
   EXPECT_LT(stability_limit(*taut, start_state(*taut)).stable_step, 0.9 * step);
 }
 
-TEST(Drawstring, ItsDamperTakesWhatTheRingLoses) {
+TEST(Drawstring, ItsDamperAbsorbsTheEnergyOfTheRing) {
   const Mesh mesh = hoop(9, 0.5, 3.0, 0.01, 0.3);
   const ClothPtr cloth = make_cloth(mesh);
   const auto lost = [&](int steps) {

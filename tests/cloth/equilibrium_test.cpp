@@ -382,7 +382,7 @@ TEST(ClothEquilibrium, RelaxationEndsOnTheResidualItReportsAndIsTheSameOnAnyNumb
     const double internal = rss(reference_forces(mesh, {}, {}, x, none));  // equals the applied load
     EXPECT_NEAR(residual / internal, result.residual, 1e-6);
     EXPECT_LE(result.residual, 1e-4);
-    // What holds the rim carries the load on all other nodes.
+    // The supports of the rim carry the load on all other nodes.
     const std::vector<Vec3> all = reference_forces(mesh, {}, loads, x, none);
     const std::vector<Vec3> springs = reference_forces(mesh, {}, {}, x, none);
     Vec3 pushed;
@@ -393,7 +393,8 @@ TEST(ClothEquilibrium, RelaxationEndsOnTheResidualItReportsAndIsTheSameOnAnyNumb
   }
 }
 
-// Nothing else holds it: under a force on every node by its area the cloth goes as far as f / hold, wrinkled or not.
+// Without other supports: under a force on every node by its area the cloth moves by f / hold, wrinkled or
+// not.
 TEST(ClothEquilibrium, HeldClothGoesAsFarAsItsHoldLets) {
   for (const double buckling : {1e-6, std::numeric_limits<double>::infinity()}) {
     FabricSpec fabric;

@@ -1,4 +1,4 @@
-// What step() records while it runs.
+// Records of step().
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -130,7 +130,7 @@ double growth(const Probe& probe, double step_over_bound, int count) {
   return std::sqrt(kinetic_energy(*cloth, state) / before);
 }
 
-TEST(TimeStep, TheBoundHoldsAndAQuarterMoreDiverges) {
+TEST(TimeStep, TheStabilityLimitIsStableAndAQuarterMoreDiverges) {
   for (double damping : {0.0, 0.002})
     for (const Probe& probe : probes(damping)) {
       EXPECT_LT(growth(probe, 0.999, 2000), 30) << probe.name << ", damping " << damping;

@@ -1,4 +1,4 @@
-// The viscosity of the cloth: what it takes from a motion, and what it may take from the step.
+// The viscosity of the cloth: its energy loss, and its effect on the stable step.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -104,7 +104,7 @@ TEST(Viscosity, ClothWithoutDampersIsNotAmongTheCellsThatAreReduced) {
   EXPECT_TRUE(mesh.patches[1].viscosity_share.empty());
 }
 
-TEST(Viscosity, ALimitOfWhatIsLimitedChangesNothing) {
+TEST(Viscosity, ARepeatedLimitChangesNothing) {
   Mesh once = with_small_cells(1e-5);
   limit_viscosity(once, {}, once.start, 0.97);
   Mesh twice = once;
@@ -114,7 +114,7 @@ TEST(Viscosity, ALimitOfWhatIsLimitedChangesNothing) {
   for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], 1e-12) << i;
 }
 
-TEST(Viscosity, WhatIsLeftOfACellsShareIsLoweredFurther) {
+TEST(Viscosity, TheRemainingShareOfACellIsReducedFurther) {
   Mesh half = with_small_cells(50 * tau);
   half.patches[0].viscosity_share.assign(std::size_t(half.patches[0].rows * half.patches[0].columns), 0.5);
   const ClothOptions options;

@@ -81,7 +81,7 @@ TEST(Wrinkling, ASquareAirbagRisesAsInTheLiteratureOnCoarseAndFineCells) {
     EXPECT_LT(rise, 0.220);
   }
   EXPECT_NEAR(coarse / fine, 1, 0.005);
-  // Cloth that pushes holds it flat, the more the coarser.
+  // Cloth that carries compression remains flat, the more so the coarser the mesh.
   EXPECT_LT(rise_of_an_airbag(16, std::numeric_limits<double>::infinity()), 0.2);
 }
 
@@ -257,7 +257,7 @@ TEST(Wrinkling, ARelaxationIsTheSameToTheLastBitOnAnyNumberOfThreads) {
 }
 
 // Rows of yarns alone: pulled along x, pushed together along y, untouched elsewhere.
-TEST(Wrinkling, StressSaysWhatIsTautWrinkledAndSlack) {
+TEST(Wrinkling, StressDistinguishesTautWrinkledAndSlackCloth) {
   FabricSpec fabric;
   fabric.xi = 0, fabric.eps = 0;
   fabric.buckling_strain = buckling;

@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using Files = std::vector<std::pair<std::string, std::string>>;
 
-/// What a system with these files gives.
+/// Quota of a system with these files.
 std::optional<int> processors_with(const Files& files) {
   const fs::path root = fs::path(testing::TempDir()) / "cgroup_test";
   fs::remove_all(root);

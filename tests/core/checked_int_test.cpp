@@ -12,7 +12,7 @@ namespace {
 
 const auto too_many = [] { return std::string("too many"); };
 
-TEST(CheckedInt, CutsOffWhatLiesInItsRange) {
+TEST(CheckedInt, TruncatesNumbersInItsRange) {
   EXPECT_EQ(checked_int(0.0, 0, 10, too_many), 0);
   EXPECT_EQ(checked_int(9.9, 0, 10, too_many), 9);
   EXPECT_EQ(checked_int(10.0, 0, 10, too_many), 10);
@@ -21,7 +21,7 @@ TEST(CheckedInt, CutsOffWhatLiesInItsRange) {
   EXPECT_EQ(checked_int(-2147483648.0, -1e300, 0, too_many), std::numeric_limits<int>::min());
 }
 
-TEST(CheckedInt, RefusesWhatNoIntCanBe) {
+TEST(CheckedInt, RefusesNumbersOutsideInt) {
   for (const double value : {-1.0, 10.5, double(NAN), double(INFINITY), -double(INFINITY), 1e300})
     EXPECT_EQ(divergence([&] { checked_int(value, 0, 10, too_many); }), "too many") << value;
   for (const double value : {2147483648.0, -2147483649.0, 1e300, double(NAN)})

@@ -24,7 +24,7 @@ class ClaimedFolderTest : public testing::Test {
   fs::path folder = root.path / "run";
 };
 
-TEST_F(ClaimedFolderTest, ClearRemovesWhatIsOnTheListAndNothingElse) {
+TEST_F(ClaimedFolderTest, ClearRemovesOnlyFilesOnTheList) {
   {
     ClaimedFolder claimed(folder);
     write_file(claimed.own("run.json"), "{}");
@@ -120,7 +120,7 @@ TEST_F(ClaimedFolderTest, ALineOfTheListThatWasDamagedProvesNothing) {
   EXPECT_TRUE(fs::exists(folder / "a.csv") && fs::exists(folder / "b.csv") && fs::exists(folder / "x.csv"));
 }
 
-TEST_F(ClaimedFolderTest, WhatIsListedAfterHalfALineIsNotLostWithIt) {
+TEST_F(ClaimedFolderTest, NamesAfterAnIncompleteLineAreNotLost) {
   {
     ClaimedFolder claimed(folder);
     write_file(claimed.own("a.csv"), "a");
@@ -135,7 +135,7 @@ TEST_F(ClaimedFolderTest, WhatIsListedAfterHalfALineIsNotLostWithIt) {
   EXPECT_EQ(ClaimedFolder(folder).names(), (std::vector<std::string>{"a.csv", "b.csv"}));
 }
 
-TEST_F(ClaimedFolderTest, WhatWasKeptIsKnownToBeLostOrChangedUntilItIsWrittenAgain) {
+TEST_F(ClaimedFolderTest, LossOrChangeOfKeptFilesIsDetectedUntilTheyAreWrittenAgain) {
   {
     ClaimedFolder claimed(folder);
     for (const char* name : {"a", "b", "c"}) write_file(claimed.own(name), name);
@@ -158,7 +158,7 @@ TEST_F(ClaimedFolderTest, WhatWasKeptIsKnownToBeLostOrChangedUntilItIsWrittenAga
   EXPECT_FALSE(is_sealed(folder));
 }
 
-TEST_F(ClaimedFolderTest, WhatWasLostOfAnInterruptedFoldersListComesBackFromWhatWasKept) {
+TEST_F(ClaimedFolderTest, TheListOfAnInterruptedFolderIsRestoredFromTheKeptHashes) {
   {
     ClaimedFolder claimed(folder);
     for (const char* name : {"a", "b", "c"}) write_file(claimed.own(name), name);
@@ -172,8 +172,8 @@ TEST_F(ClaimedFolderTest, WhatWasLostOfAnInterruptedFoldersListComesBackFromWhat
   EXPECT_EQ(ClaimedFolder(folder).names(), names) << "as written";
 }
 
-// Between the seal and the removal of what it takes the place of, the process may be killed.
-TEST_F(ClaimedFolderTest, ASealTakesThePlaceOfWhatWasKeptBefore) {
+// The process may be killed between the seal and the removal of the files that it replaces.
+TEST_F(ClaimedFolderTest, ASealReplacesTheKeptHashes) {
   std::string kept;
   {
     ClaimedFolder claimed(folder);
@@ -189,7 +189,7 @@ TEST_F(ClaimedFolderTest, ASealTakesThePlaceOfWhatWasKeptBefore) {
   EXPECT_FALSE(fs::exists(folder / ".ripstop/kept"));
 }
 
-TEST_F(ClaimedFolderTest, TwoCannotHoldAFolderAndTheSecondSaysWhoDoes) {
+TEST_F(ClaimedFolderTest, TwoProcessesCannotClaimAFolderAndTheSecondNamesTheFirst) {
   ClaimedFolder claimed(folder);
   try {
     ClaimedFolder second(folder);
@@ -220,7 +220,7 @@ TEST_F(ClaimedFolderTest, TheClaimEndsWithItsProcessHoweverThatEnds) {
   close(ready[0]), close(ready[1]);
 }
 
-TEST_F(ClaimedFolderTest, WhatAKillLeftOfAFileGoesAndALookAlikeStays) {
+TEST_F(ClaimedFolderTest, TemporaryFilesOfAKillAreRemovedAndSimilarNamesRemain) {
   {
     ClaimedFolder claimed(folder);
     write_file(claimed.own("a.csv"), "a");
@@ -248,7 +248,7 @@ TEST_F(ClaimedFolderTest, ASealNoticesEveryFileThatIsLostOrChanged) {
   EXPECT_THROW(damaged_files(folder), Error);
 }
 
-TEST_F(ClaimedFolderTest, WhatWasLostOfASealedFoldersListComesBackFromItsSeal) {
+TEST_F(ClaimedFolderTest, TheListOfASealedFolderIsRestoredFromItsSeal) {
   const std::vector<std::string> names = {"a", "checkpoint/", "b", "never written"};
   {
     ClaimedFolder claimed(folder);
@@ -273,7 +273,7 @@ TEST_F(ClaimedFolderTest, WhatWasLostOfASealedFoldersListComesBackFromItsSeal) {
   ClaimedFolder(folder).clear();
   EXPECT_FALSE(fs::exists(folder / "a") || fs::exists(folder / "b"));
 
-  write_file(seal, "not a seal");  // which is told by who looks what is damaged
+  write_file(seal, "not a seal");  // which is reported by the function that checks for damage
   write_file(list, whole.substr(0, whole.find('\n') + 1));
   EXPECT_EQ(ClaimedFolder(folder).names(), std::vector<std::string>{"a"});
 }

@@ -1,4 +1,4 @@
-// A file system may say only as a file is closed that it could not keep it (NFS, quotas).
+// A file system can report a failed write as late as at the close of the file (NFS, quotas).
 #include <gtest/gtest.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -38,7 +38,7 @@ std::string refused(Action action) {
   return why;
 }
 
-TEST(Files, WhatCannotBeClosedWasNotWritten) {
+TEST(Files, AFailedCloseIsAFailedWrite) {
   const TemporaryFolder folder("close");
   const std::filesystem::path file = folder.path / "a";
   write_file(file, "old");

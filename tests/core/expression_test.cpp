@@ -1,4 +1,4 @@
-// Formulas mean what the language they come from says, and mistakes are told with their place.
+// Formulas have the meaning of their original language, and mistakes are reported with their place.
 #include "ripstop/core/expression.h"
 
 #include <gtest/gtest.h>
@@ -66,7 +66,7 @@ void expect_refused(const std::string& formula, const std::string& message) {
   }
 }
 
-TEST(Expression, MistakesAreToldWithTheirPlace) {
+TEST(Expression, MistakesAreReportedWithTheirPlace) {
   expect_refused("1 + foo", "character 5: unknown name \"foo\"");
   expect_refused("2*radus", "character 3: unknown name \"radus\"; did you mean \"radius\"?");
   expect_refused("a / (b - 4)", "character 3: division by zero");

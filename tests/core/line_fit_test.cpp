@@ -35,7 +35,7 @@ TEST(LineFit, HasTheErrorsOfTheTextbook) {
   EXPECT_GT(line.band(14), line.band(9));
 }
 
-TEST(LineFit, TwoPointsLieOnItAndSayNothingOfTheirError) {
+TEST(LineFit, TwoPointsAreExactAndDetermineNoError) {
   const LineFit line = fit_line(std::vector<double>{1, 3}, std::vector<double>{2, -2});
   EXPECT_NEAR(line.slope, -2, 1e-14);
   EXPECT_EQ(line.scatter, 0);

@@ -61,7 +61,7 @@ TEST(Process, ArgumentsPassUnchanged) {
   EXPECT_EQ(seen, "a b; $(echo no) '\"");
 }
 
-TEST(Process, ExitCodeAndSignalAreTold) {
+TEST(Process, ExitCodeAndSignalAreReported) {
   EXPECT_EQ(run_process(shell("exit 3")).exit_code, 3);
   const ProcessResult killed = run_process(shell("kill -9 $$"));
   EXPECT_EQ(killed.signal, SIGKILL);
@@ -79,7 +79,7 @@ TEST(Process, FolderAndEnvironmentAreTheChildsOwn) {
     return true;
   };
   run_process(request);
-  EXPECT_EQ(seen, std::string("/usr yes ") + std::getenv("PATH"));  // what was not said is inherited
+  EXPECT_EQ(seen, std::string("/usr yes ") + std::getenv("PATH"));  // unset variables are inherited
   EXPECT_EQ(std::getenv("RIPSTOP_WORD"), nullptr);
 }
 
@@ -100,7 +100,7 @@ TEST(Process, AMissingProgramOrFolderIsAnError) {
   EXPECT_THROW(run_process(request), Error);
 }
 
-TEST(Process, TheTimeLimitEndsTheProgramAndWhatItStarted) {
+TEST(Process, TheTimeLimitEndsTheProgramAndItsChildren) {
   pid_t grandchild = 0;
   ProcessRequest request = shell("sleep 60 & echo $!; wait");
   request.time_limit_s = 0.3;
@@ -123,7 +123,7 @@ TEST(Process, AProgramThatIgnoresTheRequestToEndIsKilled) {
   EXPECT_EQ(result.signal, SIGKILL);
 }
 
-TEST(Process, WhatAProgramLeavesBehindEndsWithIt) {
+TEST(Process, ChildrenOfAProgramEndWithIt) {
   pid_t left = 0;
   ProcessRequest request = shell("sleep 60 & echo $!");  // sleep keeps the output open
   request.on_line = [&](const std::string& line) {

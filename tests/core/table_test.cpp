@@ -1,4 +1,4 @@
-// Tables in the forms that machines give them: what is read, and what can be read in two ways and is refused.
+// Tables in the forms of machines: accepted forms, and ambiguous forms that are refused.
 #include "ripstop/core/table/table.h"
 
 #include <fmt/format.h>
@@ -87,7 +87,7 @@ TEST(TableText, SeparatorsAreFoundByTheRowsTheyGive) {
   EXPECT_EQ(values("Crosshead position [mm]\tLoad [N]\n0.5\t1\n"), (Values{1}));
 }
 
-TEST(TableHeader, WhatComesBeforeItIsLeftOut) {
+TEST(TableHeader, TextBeforeItIsIgnored) {
   const std::string text =
       "Test report;17;2\nSpeed;50;mm/min;Load cell;500;N\nOperator;Smith\n\nForce (N);Stroke (mm)\n1,5;2\n";
   EXPECT_EQ(values(text), (Values{1.5}));
@@ -114,7 +114,7 @@ TEST(TableHeader, NumbersWithoutAHeaderAreRefused) {
               "t.csv:2: numbers without a heading of a known quantity above them (the line above");
 }
 
-TEST(TableUnits, MayStandInManyPlaces) {
+TEST(TableUnits, CanBeInManyPlaces) {
   for (const char* heading :
        {"Force (kN)", "Force [kN]", "Force{kN}", "\"Force, kN\"", "Force / kN", "Force/kN", "force_kN",
         "Force kN", "Kraft in kN", "Load (Channel 1) [kN]", "F [kN]", "Standardkraft [kN]", "Charge (kN)",
@@ -307,7 +307,7 @@ TEST(TableTime, ClockTimesAreSecondsAfterTheFirst) {
               "t.csv:3: \"7\" in the column \"Time\" (number 2) is not a clock time");
 }
 
-TEST(TableSpecimens, MayStandBelowOneAnother) {
+TEST(TableSpecimens, CanBeBelowEachOther) {
   const Table own = read(
       "Specimen 1\nForce (N);Stroke (mm)\n1,5;2\n2;3\n\nSpecimen 2\nWidth;25\nForce (kN);Stroke (mm)\n4;5\n");
   ASSERT_EQ(own.specimens.size(), 2u);
@@ -320,7 +320,7 @@ TEST(TableSpecimens, MayStandBelowOneAnother) {
   EXPECT_EQ(column(one, Q::force, 1).values, (Values{5}));
 }
 
-TEST(TableSpecimens, MayStandSideBySide) {
+TEST(TableSpecimens, CanBeNextToEachOther) {
   const Table table = read("A;;B\nForce (N);Stroke (mm);Force (N);Stroke (mm)\n1;2;3;4\n5;6;7;8\n9;10\n");
   ASSERT_EQ(table.specimens.size(), 2u);
   EXPECT_EQ(table.specimens[1].name, "B");

@@ -87,7 +87,7 @@ TEST(TableFiles, GoodOnesAreReadAsTheyAre) {
   }
 }
 
-/// What a command does that needs these quantities; how it is refused.
+/// A command that needs these quantities, and its error.
 std::string refusal(const fs::path& file) {
   try {
     const Format format = case_of(file).format;

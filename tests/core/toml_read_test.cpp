@@ -1,4 +1,4 @@
-// What is read of a table is where the file has it: every key that is given has its place.
+// Values that are read from a table are those of the file: every given key has its place.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -104,7 +104,7 @@ TEST(TomlRead, EveryKindOfValueIsTakenAndHasItsPlace) {
     EXPECT_TRUE(origins.contains(key)) << key;
 }
 
-TEST(TomlRead, AValueOfAnotherTypeIsToldAtItsPlaceAndLeavesWhatWasThere) {
+TEST(TomlRead, AValueOfAnotherTypeIsReportedAtItsPlaceAndChangesNothing) {
   for (std::size_t n = 0; n < every_line.size(); ++n) {
     const std::string key = every_line[n].substr(0, every_line[n].find(' '));
     std::string text;

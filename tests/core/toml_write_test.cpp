@@ -1,4 +1,4 @@
-// What is written of a table reads back, and a reader of the file sees plain text.
+// A written table reads back, and is plain text for a reader.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -29,7 +29,7 @@ TEST(TomlWrite, EveryKindOfValueHasItsOwnLineAndAnAbsentOneHasNone) {
             "cells = [4, 5, 6]\nlist = [1, 0.25]\n");
 }
 
-TEST(TomlWrite, OnlyWhatCannotStandInATextIsEscaped) {
+TEST(TomlWrite, OnlyCharactersInvalidInATextAreEscaped) {
   PlainKeys keys;
   const auto line = [&](const std::string& text) {
     keys.text = text;

@@ -126,6 +126,23 @@ def literals(source):
         yield source.count("\n", 0, match.start()) + 1, re.sub(r'"\s*\n\s*"', "", match.group())[1:-1]
 
 
+def comments(source):
+    """The comments of a C++ source with their line numbers, one line each."""
+    for number, line in enumerate(source.splitlines(), 1):
+        if match := re.match(r'(?:[^"/]|"(?:[^"\\]|\\.)*"|/(?!/))*//[/!<]*\s?(.*)', line):
+            yield number, match[1]
+
+
+def test_names(source):
+    """The names of the tests of a C++ source as sentences."""
+    for suite, name in re.findall(r"^\s*TEST(?:_[FP])?\(\s*(\w+),\s*(\w+)\)", source, re.MULTILINE):
+        yield f"{suite}.{name}", re.sub(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", " ", name)
+
+
+def figurative(text):
+    return [f"'{match.group()}' ({term}): {text}" for pattern, term in WORDS for match in pattern.finditer(plain(text))]
+
+
 def faults_of_text(text):
     """Words in a figurative sense and long sentences of a text that is no page: a message, a help text, a table cell."""
     found = [f"'{match.group()}' ({term}): {text}" for pattern, term in WORDS for match in pattern.finditer(text)]
@@ -189,11 +206,21 @@ class Vocabulary(unittest.TestCase):
         self.assertGreater(len(texts), 1000)
         self.assertEqual([f"{place}: {fault}" for place, text in texts for fault in faults_of_text(text)], [])
 
+    def test_comments_and_test_names_have_standard_terms(self):
+        sources = [file for folder in (*SOURCES, "tests", "bench") for file in sorted((ROOT / folder).rglob("*")) if file.suffix in (".h", ".cpp")]
+        lines = [(f"{file.relative_to(ROOT)}:{line}", text) for file in sources for line, text in comments(file.read_text())]
+        names = [name for file in sources for name in test_names(file.read_text())]
+        self.assertGreater(len(lines), 5000)
+        self.assertGreater(len(names), 1000)
+        self.assertEqual([f"{place}: {fault}" for place, text in lines + names for fault in figurative(text)], [])
+
     def test_texts_in_the_old_language_are_refused(self):
         old = ('row("no {} that holds",\n    "the load goes on "\n    "as it was");  // says nothing', 'throw Error("what presses is the air");')
         for source in old:
             with self.subTest(source=source):
                 self.assertNotEqual([fault for _, text in literals(source) for fault in faults_of_text(text)], [])
+        self.assertEqual(list(comments('f("// none");  // what it tells\n/// Area [m2].')), [(1, "what it tells"), (2, "Area [m2].")])
+        self.assertNotEqual([fault for _, text in test_names("TEST(Load, WhatCannotBeIsRefused)") for fault in figurative(text)], [])
         self.assertEqual(list(literals('f("one "\n  "text", "two");  // "none"')), [(1, "one text"), (2, "two")])
 
     def test_open_pages_are_listed(self):

@@ -15,10 +15,11 @@ double half_of_the_fifth_digit(double value) {
   return 0.5 * std::pow(10, std::floor(std::log10(value)) - 4);
 }
 
-// U.S. Standard Atmosphere, 1976, at geometric heights: temperature, pressure and density of www.pdas.com/bigtables.html,
-// rounded to five digits there (read as the row of it that another program carries; the sea level's 101,325 Pa is between
-// two of its numbers). The government's print has the pressure of 10, 15 and 60 km one lower in the fifth digit, 2.6499e4,
-// 1.2111e4 and 2.1958e1: its equations give 26,499.90, 12,111.83 and 21.95867.
+// U.S. Standard Atmosphere, 1976, at geometric heights: temperature, pressure and density of
+// www.pdas.com/bigtables.html, rounded to five digits there (read as the row of it that another program carries; the
+// sea level's 101,325 Pa is between two of its numbers). The government's print has the pressure of 10, 15 and 60 km
+// one lower in the fifth digit, 2.6499e4, 1.2111e4 and 2.1958e1: its equations give 26,499.90, 12,111.83 and
+// 21.95867.
 TEST(Atmosphere, HasTheValuesOfTheStandardsTables) {
   struct Row {
     double height, temperature, pressure, density;
@@ -42,8 +43,7 @@ TEST(Atmosphere, HasTheValuesOfTheStandardsTables) {
   EXPECT_NEAR(standard_air(0).density, 1.2250, 0.5e-4);
 }
 
-// The standard's equations once more for one height, by hand: 15 km are r z / (r + z) = 14,964.688 m of the isothermal
-// layer from 11 km, where p = 22,632.06 Pa at 216.65 K; R = 8314.32 / 28.9644 J/(kg K).
+// The equations of the standard for one height, by hand:
 TEST(Atmosphere, AtFifteenKilometresIsTheEquationsOwnValue) {
   const double r = 6356766, rise = r * 15000 / (r + 15000) - 11000;
   EXPECT_NEAR(rise, 3964.688, 0.5e-3);

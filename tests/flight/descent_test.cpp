@@ -37,7 +37,7 @@ TEST(Descent, APersonnelParachuteFallsAsItIsKnownTo) {
 
 // The maker's calculator has 13.70 ft/s for 8.57 kg under the IFC-084-S, 84 inches and C_D = 2.2 on the open canopy's
 // circle (Fruity Chutes, as the users of another program report it): half of the last digits of mass and speed.
-TEST(Descent, AModelRocketsParachuteFallsAsItsMakersCalculatorSays) {
+TEST(Descent, AModelRocketsParachuteAgreesWithItsMakersCalculator) {
   const double area = std::numbers::pi / 4 * std::pow(84 * foot / 12, 2);
   const double speed = terminal_speed(8.57, 2.2 * area, 1.225) / foot;
   EXPECT_NEAR(speed, 13.70, 0.005 + 0.5 * 13.70 * 0.005 / 8.57);

@@ -103,7 +103,7 @@ TEST(OpeningLoad, MomentumImpulseKeepsMomentum) {
     }
 }
 
-TEST(OpeningLoad, WhatIsNotAboveZeroIsRefusedByItsName) {
+TEST(OpeningLoad, QuantitiesThatAreNotAboveZeroAreRefusedByName) {
   OpeningConditions c = conditions(-2);
   try {
     pflanz_load(c);

@@ -31,7 +31,7 @@ TEST(Snatch, PartsInARowAreSofterThanEitherAndShareTheLoad) {
 }
 
 // The same by small steps in time of the two masses with the nonlinear parts between them.
-TEST(Snatch, OfANonlinearRiserIsWhatSmallStepsInTimeGive) {
+TEST(Snatch, OfANonlinearRiserAgreesWithSmallTimeSteps) {
   const double mp = 30, mc = 1.5, dv = 15, k1 = 40000, k2 = 3e6, length = 3;
   const SnatchLoad load = snatch_load(mp, mc, dv, {{"riser", {k1, k2}, 1, length}});
   double x = 0, v = dv, t = 0, most = 0, at = 0;

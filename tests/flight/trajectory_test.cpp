@@ -114,7 +114,7 @@ TEST(Trajectory, EndsOnTheGround) {
   EXPECT_GT(rows.size(), 100u);
 }
 
-// From 20 m/s down, h = 20 t + g t^2 / 2, in steps of which the ground cuts one in the middle.
+// From 20 m/s down, h = 20 t + g t^2 / 2, where the ground ends a step in its middle.
 TEST(Trajectory, LandsWhenItReachesTheGround) {
   FlightState state{0, 0, 0, 50, 20, 90};
   fly(state, 1, leg([](double, double) { return 0.0; }, 10, 0.3));
@@ -132,11 +132,11 @@ TEST(Trajectory, AFillingGrowsToItsPeakAndComesBack) {
   EXPECT_NEAR(area(top + 1, 0), 6.5, 1e-12);
   EXPECT_NEAR(area(top + 2, 0), 5, 1e-12);
   EXPECT_NEAR(area(100, 0), 5, 1e-12);
-  const DragArea level = filling(3, 3, 1, 2, 1);  // a reefed canopy that stays what it is
+  const DragArea level = filling(3, 3, 1, 2, 1);  // a reefed canopy with a constant drag area
   for (const double t : {0.0, 0.3, 1.0, 2.0}) EXPECT_DOUBLE_EQ(level(t, 0), 3);
 }
 
-TEST(Trajectory, ARecordIsReadOverTheWayAndGoesOnWithTheSteadyArea) {
+TEST(Trajectory, ARecordIsReadOverDistanceAndContinuesWithTheSteadyArea) {
   const DragArea area = from_record({1, 2, 4}, {2, 6, 4}, 5);
   EXPECT_DOUBLE_EQ(area(0, 0.5), 1);
   EXPECT_DOUBLE_EQ(area(0, 1.5), 4);
@@ -145,7 +145,7 @@ TEST(Trajectory, ARecordIsReadOverTheWayAndGoesOnWithTheSteadyArea) {
   EXPECT_THROW(from_record({1, 2}, {1}, 1), Error);
 }
 
-TEST(Trajectory, WhatIsNotAboveZeroIsRefused) {
+TEST(Trajectory, QuantitiesThatAreNotAboveZeroAreRefused) {
   const DragArea one = [](double, double) { return 1.0; };
   FlightState state{0, 0, 0, 100, 10, 90};
   EXPECT_THROW(fly(state, -1, leg(one, 1, 0.1)), Error);

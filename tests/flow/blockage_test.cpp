@@ -23,7 +23,7 @@ TEST(Blockage, ADiskThatFillsTheTestSectionHasItsLoss) {
   for (const double loss : {0.5, 2.0}) EXPECT_NEAR(porous_disk_drag(loss, 1 - 1e-6), loss, 1e-4 * loss);
 }
 
-TEST(Blockage, WhatHasNoSteadyWakeIsRefused) {
+TEST(Blockage, DisksWithoutASteadyWakeAreRefused) {
   EXPECT_THROW(porous_disk_drag(50, 0.01), Error);
 }
 

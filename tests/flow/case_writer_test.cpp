@@ -1,4 +1,4 @@
-// What is written for OpenFOAM and read back, without it.
+// Files written for OpenFOAM and read back, without it.
 #include "ripstop/flow/openfoam/case_writer.h"
 
 #include <gtest/gtest.h>

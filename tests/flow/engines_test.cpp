@@ -21,7 +21,7 @@ TEST(Engines, EachHasAWordOfItsOwnAndTheFirstIsBuiltIn) {
   EXPECT_TRUE(words.count("openfoam"));
 }
 
-TEST(Engines, AnUnknownWordIsToldWithThoseThatThereAre) {
+TEST(Engines, AnUnknownWordIsReportedWithTheValidOnes) {
   try {
     engine_of("opnfoam");
     FAIL();
@@ -31,7 +31,7 @@ TEST(Engines, AnUnknownWordIsToldWithThoseThatThereAre) {
   }
 }
 
-TEST(Engines, WhatAnEngineHasNotIsSaidByTheKeysOfACase) {
+TEST(Engines, UnsupportedFeaturesAreReportedByTheKeysOfACase) {
   EXPECT_TRUE(
       lacks(engine_of("builtin"), {.sheets = true, .averages = true, .boundaries = {"entraining"}}).empty());
   const auto lack = lacks(engine_of("openfoam"),

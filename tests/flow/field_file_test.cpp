@@ -120,7 +120,7 @@ TEST_F(FieldFile, ADictionaryWithinAPatchIsNotThePatchsOwn) {
   EXPECT_EQ(patches[1].faces, 3);
 }
 
-TEST_F(FieldFile, AMistakeIsToldWithFileAndPlace) {
+TEST_F(FieldFile, AMistakeIsReportedWithFileAndPlace) {
   const auto refusal = [&](const std::string& text) -> std::string {
     write(text);
     try {
@@ -174,7 +174,7 @@ TEST_F(FieldFile, LabelsAreWholeNumbersOf32Bits) {
   EXPECT_TRUE(read_labels(path_).empty());
 }
 
-TEST_F(FieldFile, FacesHaveTheCornersThatTheirListSays) {
+TEST_F(FieldFile, FacesHaveTheCornersOfTheirList) {
   const auto faces = [&](const std::string& begins, const std::string& corners) {
     write(header("ascii") + begins + "\n" + corners + "\n");
     return read_faces(path_);
@@ -182,7 +182,7 @@ TEST_F(FieldFile, FacesHaveTheCornersThatTheirListSays) {
   const FaceList two = faces("3(0 3 7)", "7(0 1 2 0 2 3 4)");
   EXPECT_EQ(two.begins, (std::vector<int>{0, 3, 7}));
   EXPECT_EQ(two.corners, (std::vector<int>{0, 1, 2, 0, 2, 3, 4}));
-  EXPECT_THROW(faces("3(0 3 6)", "7(0 1 2 0 2 3 4)"), Error);  // other corners than it says
+  EXPECT_THROW(faces("3(0 3 6)", "7(0 1 2 0 2 3 4)"), Error);  // other corners than stated
   EXPECT_THROW(faces("3(0 2 7)", "7(0 1 2 0 2 3 4)"), Error);  // a face of two corners
   EXPECT_THROW(faces("3(1 4 7)", "7(0 1 2 0 2 3 4)"), Error);
   EXPECT_THROW(faces("3(0 2147483647 7)", "7(0 1 2 0 2 3 4)"), Error);
@@ -235,7 +235,7 @@ TEST(SolverLog, AnIterationEndsWithItsForces) {
   EXPECT_FALSE(log.floating_point_trap());
 }
 
-TEST(SolverLog, KnowsWhatEndedTheSolverByItsOwnWords) {
+TEST(SolverLog, FindsTheCauseOfAFailureInTheOutput) {
   struct Words {
     const char* line;
     bool converged, not_a_number, trap, memory, fatal;

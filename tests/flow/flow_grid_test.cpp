@@ -105,7 +105,7 @@ TEST(GradedGrid, CoarserKeepsBoxAndCoreWithHalfTheCells) {
   }
 }
 
-TEST(GradedGrid, SaysWhatDoesNotFit) {
+TEST(GradedGrid, ReportsAnImpossibleGrid) {
   const FlowGrid box{{-3, -2, 0}, {6, 4, 10}, 50, 40, 70};
   const auto message = [&](Vec3 low, Vec3 high, double growth) -> std::string {
     try {

@@ -58,7 +58,7 @@ Polygon clip(const Polygon& polygon, double Vec3::*axis, double bound, double si
   return kept;
 }
 
-/// Whether a box, made larger by `margin` on all sides, holds a part of the triangle.
+/// Whether a box, enlarged by `margin` on all sides, contains a part of the triangle.
 bool brute_force(const Triangle& t, Vec3 low, Vec3 high, double margin) {
   Polygon polygon = {t.a, t.b, t.c};
   for (double Vec3::*axis : {&Vec3::x, &Vec3::y, &Vec3::z}) {

@@ -47,7 +47,7 @@ TEST(Jet, TheShearLayerIsAsThickAsTheDifferenceOverTheSlope) {
   EXPECT_NEAR(speed_share(jet, 3, 0), 0.1, 1e-9);
 }
 
-TEST(Jet, ACellTakesInWhatPassesIt) {
+TEST(Jet, ACellAdmitsTheMeanOverItsFace) {
   const Jet jet{nozzles[1], 0.02, 1e-6};
   const int n = 11;  // cells across a little more than the nozzle
   const double h = 4.0 / n;

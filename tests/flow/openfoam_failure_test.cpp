@@ -1,4 +1,4 @@
-// What happens when OpenFOAM is missing, is another one, or fails. A shell script stands in for its programs.
+// Failures of OpenFOAM: missing, another version, or failing. A shell script replaces its programs.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -37,7 +37,7 @@ class OpenFoamFailure : public testing::Test {
     std::ofstream(path) << "#!/bin/sh\n" << body << "\n";
     fs::permissions(path, fs::perms::owner_all);
   }
-  /// The real mesher, and a solver that knows its version and then does `body`.
+  /// The real mesher, and a solver that reports its version and then executes `body`.
   void solver(const std::string& body) {
     fs::create_symlink(find_program("blockMesh"), root_ / "bin/blockMesh");
     script(
@@ -176,7 +176,7 @@ TEST_F(FittedMeshFailure, AMissingToolIsNamedWithThePackage) {
   EXPECT_PRED2(says, text, "apt install openfoam");
 }
 
-TEST_F(FittedMeshFailure, EachToolThatFailsIsNamedWithWhatItSaidAndWhatMayHelp) {
+TEST_F(FittedMeshFailure, EachFailedToolIsNamedWithItsMessageAndARemedy) {
   const std::string fails =
       "echo '--> FOAM FATAL ERROR: '\necho 'No faces found'\necho 'FOAM exiting'\nexit 1";
   for (const std::string tool : {"snappyHexMesh", "createBaffles", "decomposePar", "reconstructPar"}) {
@@ -192,7 +192,7 @@ TEST_F(FittedMeshFailure, EachToolThatFailsIsNamedWithWhatItSaidAndWhatMayHelp) 
   }
 }
 
-TEST_F(FittedMeshFailure, WhatCheckMeshFindsFaultWithIsNotSolvedOn) {
+TEST_F(FittedMeshFailure, AMeshRejectedByCheckMeshIsNotUsed) {
   all_but("checkMesh",
           "echo ' ***Max skewness = 7, 3 highly skew faces detected'\necho 'Failed 1 mesh checks.'");
   const std::string text = message(ExitCode::external);

@@ -1,4 +1,4 @@
-// Sheets on OpenFOAM beside what is known.
+// Sheets on OpenFOAM compared with known results.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -79,7 +79,8 @@ TEST_F(OpenFoamSheet, AScreenAcrossADuctTakesThePressureOfItsLaw) {
   EXPECT_NEAR(field.momentum_deficit.z, drop * 0.16, 5e-3 * drop * 0.16);
 }
 
-// The momentum that the box loses is the force on the sheet, whether the pressure jumps across it or what passes is given.
+// The momentum deficit is the force on the sheet, whether the pressure jumps across it or the velocity
+// through it is given.
 TEST_F(OpenFoamSheet, TheBoxLosesTheMomentumThatThePlateTakes) {
   const FlowField loose = solved(plate_in_box(2, 0.1));
   EXPECT_NEAR(loose.momentum_deficit.z, loose.porous_force.z, 0.02 * loose.porous_force.z);
@@ -91,7 +92,7 @@ TEST_F(OpenFoamSheet, TheBoxLosesTheMomentumThatThePlateTakes) {
   EXPECT_LT(tight.porous_force.z, shut.porous_force.z);
 }
 
-TEST_F(OpenFoamSheet, AirComesOutOfThePlateAsItsPressureAsksForAndElseComesBack) {
+TEST_F(OpenFoamSheet, AirLeavesThePlateByItsPressureAndElseReturns) {
   const auto behind = [](const FlowField& field) { return field.velocity[field.grid.index(8, 8, 8)].z; };
   const FlowField field = solved(plate_in_box(30, 0));
   ASSERT_EQ(field.sheet_loads.size(), 16u);
@@ -110,7 +111,7 @@ TEST_F(OpenFoamSheet, TwoRanksGiveTheDragOfOne) {
   EXPECT_NEAR(solved(plate_in_box(30, 0), 2).porous_force.z, one, 2e-3 * one);
 }
 
-TEST_F(OpenFoamSheet, ARestoredFlowGoesOnByteForByteWhenTheClothIsPlaced) {
+TEST_F(OpenFoamSheet, ARestoredFlowContinuesByteForByteWhenTheClothIsPlaced) {
   const FlowProblem problem = plate_in_box(30, 0);
   const std::vector<Triangle> moved = square_plate(1, {0, 0, 2.3});
   const auto goes_on = [&](Flow& flow) {
@@ -159,7 +160,7 @@ TEST_F(OpenFoamSheet, AreTheFacesThatASlantedSheetParts) {
               0.05 * 4 * 3 * std::sqrt(2.0));  // of its edge half a cell is left out
 }
 
-TEST_F(OpenFoamSheet, LayersInOneFaceStandInSeries) {
+TEST_F(OpenFoamSheet, LayersInOneFaceAreInSeries) {
   FlowProblem problem = plate_in_box(1e3, 0);
   problem.bodies.push_back(sheet_body(square_plate(1, {0, 0, 2.03}), {0, 200}, "second"));
   const std::vector<openfoam::BafflePatch> patches = openfoam::baffles_of(problem);
@@ -225,7 +226,7 @@ TEST_F(OpenFoamSheet, AScreenThatCellsAreMovedOntoTakesThePressureOfItsLaw) {
   for (const SheetLoad& load : field.sheet_loads) EXPECT_NEAR(load.point.z, 1.03, 1e-12);
 }
 
-TEST_F(OpenFoamSheet, WhatMovedCellsPushIsPushedWhereTheirFacesAre) {
+TEST_F(OpenFoamSheet, ForcesOfMovedCellsActAtTheirFaces) {
   FlowProblem problem = screen_in_duct(3, 0.5);
   problem.bodies[0].surface = rectangle({0.4, 0.4, 1.03}, {-0.4, 0, 0}, {0, -0.4, 0});
   problem.stopping.max_iterations = 1;
@@ -260,7 +261,7 @@ TEST_F(OpenFoamSheet, CellsMovedOntoACupHaveItsFrontAndTakeTheMomentumThatTheBox
     EXPECT_GT(dot(load.outward, out) / norm(out), 0.8);  // faces at the rim lean
   }
   EXPECT_NEAR(front, 0.25 * M_PI, 0.01 * 0.25 * M_PI);
-  // The faces are fewer square metres than the cloth they stand for, of which each has its share.
+  // The faces have a smaller area than the cloth they represent; each has its share of it.
   const double cloth = surface_area(cup_in_box().bodies[0].surface);
   EXPECT_NEAR(area, cloth, 5e-4 * cloth);  // but for faces that are not plane
   EXPECT_NEAR(cloth, 0.5 * M_PI, 0.01 * 0.5 * M_PI);
@@ -285,7 +286,7 @@ TEST_F(OpenFoamSheet, TwoRanksGiveTheDragOfOneOnCellsMovedOntoAPlate) {
   EXPECT_NEAR(solved_fitted(problem, 0, 2).porous_force.z, one, 2e-3 * one);
 }
 
-TEST_F(OpenFoamSheet, ARestoredFlowGoesOnByteForByteWhenCellsAreMovedOntoTheClothAnew) {
+TEST_F(OpenFoamSheet, ARestoredFlowContinuesByteForByteWhenCellsAreFittedToTheClothAgain) {
   const FlowProblem problem = cup_in_box();
   const auto goes_on = [&](Flow& flow) {
     flow.place(0, hemispherical_cup(0.9, {0, 0, 2.1}));
@@ -313,7 +314,8 @@ TEST_F(OpenFoamSheet, ARestoredFlowGoesOnByteForByteWhenCellsAreMovedOntoTheClot
   EXPECT_GT(whole.porous_force.z, 0.5 * before.porous_force.z);
 }
 
-// A closed box of little more than a cell, beside a plate: without an opening its cell would have no pressure.
+// A closed box of little more than a cell, next to a plate: without an opening its cell would have no
+// pressure.
 TEST_F(OpenFoamSheet, ACellThatClothShutsInIsOpened) {
   FlowProblem problem = plate_in_box(1e6, 0);
   std::vector<Triangle>& cloth = problem.bodies[0].surface;
@@ -343,7 +345,7 @@ TEST_F(OpenFoamSheet, CellsTooCoarseForTheClothAreRefused) {
   }
 }
 
-TEST_F(OpenFoamSheet, WhatOnlyTheBuiltInEngineHasIsRefused) {
+TEST_F(OpenFoamSheet, FeaturesOfTheBuiltInEngineAreRefused) {
   FlowProblem problem = plate_in_box(30, 0);
   problem.sides = Sides::entraining;
   try {

@@ -1,4 +1,4 @@
-// What is saved of a flow in OpenFOAM's case is on the disk before its seal says so.
+// The saved data of a flow in OpenFOAM's case are on the disk before their seal.
 #include <gtest/gtest.h>
 
 #include "../flushes.h"

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder of its own for each test, gone afterwards.
+/// A separate folder for each test, removed afterwards.
 class OpenFoam : public testing::Test {
  protected:
   void SetUp() override {
@@ -108,7 +108,7 @@ TEST_F(OpenFoam, ASlabAcrossADuctDropsThePressureByDarcyAndForchheimer) {
     ASSERT_TRUE(field.converged);
     const double drop = layer_pressure(field, 0) - layer_pressure(field, 39);
     EXPECT_NEAR(drop / exact_drop(problem, 0.5), 1, 0.005) << "d " << darcy << " f " << forchheimer;
-    // Momentum of the duct: the force on the slab is the drop less what the expanding gas gains.
+    // Momentum of the duct: the force on the slab is the drop minus the gain of the expanding gas.
     const double density = problem.air.density + layer_pressure(field, 0) / (gas_constant_of_air * 293.15);
     const double gain = density * 20 * (field.velocity.back().z - 20);
     EXPECT_NEAR(field.porous_force.z / ((drop - gain) * 0.04), 1, 1e-3);
@@ -116,15 +116,15 @@ TEST_F(OpenFoam, ASlabAcrossADuctDropsThePressureByDarcyAndForchheimer) {
   }
 }
 
-TEST_F(OpenFoam, AirOfConstantDensityLosesExactlyWhatDarcyAndForchheimerSay) {
+TEST_F(OpenFoam, AirOfConstantDensityHasExactlyTheDarcyForchheimerLoss) {
   FlowProblem problem = slab_in_duct(10, 4e5, 0.6);
   problem.air.density = 0.9;
   const FlowField field = solve(*engine("case", 1, true), problem);
   ASSERT_TRUE(field.converged);
   const double drop = layer_pressure(field, 0) - layer_pressure(field, 39), u = problem.air.speed();
   EXPECT_NEAR(drop / ((problem.air.viscosity * 4e5 + 0.5 * 0.9 * u * 0.6) * u * 0.5), 1, 0.005);
-  EXPECT_NEAR(field.porous_force.z / (drop * 0.04), 1, 1e-4);  // what goes out is as fast as what comes in
-  // What both programs said is kept.
+  EXPECT_NEAR(field.porous_force.z / (drop * 0.04), 1, 1e-4);  // outflow is as fast as inflow
+  // The output of both programs is kept.
   EXPECT_NE(read_file(root_ / "case/log.blockMesh").find("nCells: 640"), std::string::npos);
   EXPECT_NE(read_file(root_ / "case/log.porousSimpleFoam").find("Time = 2"), std::string::npos);
 }
@@ -137,13 +137,13 @@ TEST_F(OpenFoam, TheBoxLosesTheMomentumThatThePorousCellsTake) {
     ASSERT_TRUE(field.converged);
     EXPECT_GT(field.porous_force.z, 50);
     EXPECT_NEAR(field.momentum_deficit.z / field.porous_force.z, 1, 5e-4);
-    // What OpenFOAM's `forces` sums and our own sum over the fields that we read back.
+    // The sums of OpenFOAM's `forces` and our own sums over the fields that we read back.
     EXPECT_NEAR(field.last.drag / field.porous_force.z, 1, 1e-4);
     EXPECT_LT(std::hypot(field.porous_force.x, field.porous_force.y), 1e-4 * field.porous_force.z);
   }
 }
 
-TEST_F(OpenFoam, AFlowThatGoesOnNeedsFewIterationsAndForgetsWhereItsClothWas) {
+TEST_F(OpenFoam, AContinuedFlowNeedsFewIterationsAndIsIndependentOfTheFormerCloth) {
   FlowProblem problem = disc_in_box();
   const auto own = engine(), others = engine("other");
   const auto flow = own->start(problem), fresh = others->start(problem);
@@ -157,7 +157,7 @@ TEST_F(OpenFoam, AFlowThatGoesOnNeedsFewIterationsAndForgetsWhereItsClothWas) {
   EXPECT_NEAR(moved.porous_force.z / began.porous_force.z, 1, 1e-3);
 }
 
-TEST_F(OpenFoam, AStopRequestEndsEarlyWithFieldsThatTheNextSolveGoesOnFrom) {
+TEST_F(OpenFoam, AStopRequestEndsEarlyWithFieldsForTheNextSolution) {
   FlowProblem problem = disc_in_box();
   problem.stopping.residual = 1e-12;
   const auto own = engine();
@@ -202,7 +202,7 @@ void expect_identical(const FlowField& a, const FlowField& b) {
   EXPECT_EQ(a.last.drag, b.last.drag);
 }
 
-TEST_F(OpenFoam, ARestoredFlowGoesOnByteForByte) {
+TEST_F(OpenFoam, ARestoredFlowContinuesByteForByte) {
   for (const int ranks : {1, 2}) {
     FlowProblem problem = disc_in_box();
     problem.stopping.max_iterations = 8;
@@ -218,7 +218,7 @@ TEST_F(OpenFoam, ARestoredFlowGoesOnByteForByte) {
     const FlowField gone_on = moved_on(*first);
     second->restore(root_ / ("saved" + suffix));
     expect_identical(moved_on(*second), gone_on);
-    second->restore(root_ / ("saved" + suffix));  // and again, into a flow that has gone on
+    second->restore(root_ / ("saved" + suffix));  // and again, into a flow that has continued
     expect_identical(moved_on(*second), gone_on);
   }
 }
@@ -398,7 +398,7 @@ TEST_F(OpenFoam, SecondOrderConvectionGivesAnotherFieldWithTheSameBalance) {
   EXPECT_GT(std::abs(sharp.porous_force.z / upwind.porous_force.z - 1), 1e-3);
 }
 
-TEST_F(OpenFoam, TheCaseRunsByHandAsItsReadmeSays) {
+TEST_F(OpenFoam, TheCaseRunsByHandAsItsReadmeDescribes) {
   FlowProblem problem = disc_in_box();
   problem.stopping.max_iterations = 3;
   solve(*engine(), problem);

@@ -68,7 +68,7 @@ Record remembering(double memory, double length, int steps, unsigned seed) {
 }
 
 // Independent samples would have an error of 1 / sqrt(steps), four to twenty-two times less.
-TEST(Statistics, TheStandardErrorAllowsForWhatTheFlowRemembers) {
+TEST(Statistics, TheStandardErrorAccountsForCorrelation) {
   for (const double memory : {0.1, 1.0, 3.0}) {
     double squares = 0, estimates = 0;
     int covered = 0;
@@ -88,7 +88,7 @@ TEST(Statistics, TheStandardErrorAllowsForWhatTheFlowRemembers) {
   }
 }
 
-TEST(Statistics, ARecordThatSaysNothingHasNoFiniteError) {
+TEST(Statistics, ARecordWithoutVariationHasNoFiniteError) {
   EXPECT_EQ(mean_over_time(record_of(100, 5000, [](double) { return 0.0; }), 0).standard_error,
             std::numeric_limits<double>::infinity());
 }

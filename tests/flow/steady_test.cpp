@@ -10,7 +10,7 @@
 namespace ripstop {
 namespace {
 
-/// Iteration n since the start has drag(n) and residual(n). Counts what is asked of it.
+/// Iteration n since the start has drag(n) and residual(n). Counts its calls.
 class Scripted final : public Flow {
  public:
   std::function<double(int)> drag = [](int) { return 100.0; };
@@ -95,14 +95,14 @@ TEST(SolveToRest, AFlowThatSettlesInsideTheWindowHasItsLastField) {
   EXPECT_EQ(field.porous_force.z, 80);
 }
 
-TEST(SolveToRest, AReportThatWantsNoMoreEndsTheRun) {
+TEST(SolveToRest, AReportThatReturnsFalseEndsTheRun) {
   Scripted flow;
   const FlowField field = solve_to_rest(flow, {}, [](const FlowProgress& p) { return p.iteration < 3; });
   EXPECT_EQ(field.last.iteration, 3);
   EXPECT_FALSE(field.converged);
 }
 
-TEST(SolveToRest, WhatDivergesFromAGuessOrAnEarlierFieldStartsOnceFromTheStream) {
+TEST(SolveToRest, ADivergedStartFromAGuessOrAnEarlierFieldIsRepeatedFromTheStream) {
   for (const bool guess : {false, true}) {
     Scripted flow;
     flow.has_guess = guess;
@@ -114,7 +114,7 @@ TEST(SolveToRest, WhatDivergesFromAGuessOrAnEarlierFieldStartsOnceFromTheStream)
   }
 }
 
-TEST(SolveToRest, WhatDivergesFromTheStreamIsAnError) {
+TEST(SolveToRest, DivergenceFromTheStreamIsAnError) {
   Scripted flow;
   flow.diverges_at = 3;
   EXPECT_THROW(solve_to_rest(flow, {}), Error);

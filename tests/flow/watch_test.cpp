@@ -1,4 +1,4 @@
-// How long a flow is watched and what its mean is made of, on a flow whose force is given.
+// Length of an averaging window and its mean, for a flow with a given force.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -141,7 +141,7 @@ TEST(FieldMean, OfTwoMeansIsThatOfAllTheirFields) {
   }
 }
 
-TEST(Watch, SaysSoWhenTheLongestWatchIsNotEnough) {
+TEST(Watch, ReportsWhenTheLongestWindowIsNotEnough) {
   ForceOverTime flow([](double t) { return 10 + 5 * std::sin(0.4 * t); });
   FlowRecord record;
   const FlowField mean = watch(flow, stream(), half_a_second_a_length, record);

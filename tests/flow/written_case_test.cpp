@@ -1,4 +1,4 @@
-// Every file of a case for OpenFOAM has the numbers of its problem, in the words that its solvers know.
+// Every file of a case for OpenFOAM has the numbers of its problem, in the keywords of its solvers.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -226,7 +226,7 @@ TEST_F(WrittenFiles, TheMeshHasTheCornersTheCellsAndTheWidthsOfTheGrid) {
   EXPECT_EQ(grid.edge(2, 16), 5);
 }
 
-TEST_F(WrittenFiles, TheReadmeSaysWhatTheCaseIsAndHowToRunIt) {
+TEST_F(WrittenFiles, TheReadmeDescribesTheCaseAndHowToRunIt) {
   problem.sides = Sides::slip;
   write_case(folder.path, problem, settings);
   std::string readme = read_file(folder.path / "README.txt");
@@ -255,7 +255,7 @@ TEST_F(WrittenFiles, OfACaseThatFailedHalfWayTheFolderIsKnownAsOurs) {
   }
 }
 
-TEST(ClearCase, RemovesWhatOpenFoamWorksWithAndNothingElse) {
+TEST(ClearCase, RemovesOnlyFilesOfOpenFoam) {
   const TemporaryFolder folder("clear-case");
   const auto content = [&] {
     std::set<std::string> names;
@@ -272,7 +272,7 @@ TEST(ClearCase, RemovesWhatOpenFoamWorksWithAndNothingElse) {
   EXPECT_TRUE(fs::exists(folder.path / "notes/mine"));
 }
 
-TEST_F(WrittenFiles, WhatDoesNotFitOnTheDiskIsNoticedWhenItIsClosed) {
+TEST_F(WrittenFiles, AFullDiskIsDetectedWhenAFileIsClosed) {
   const fs::path full = "/dev/full";
   if (!fs::exists(full)) GTEST_SKIP() << "no device that is always full";
   std::ofstream out(full);

@@ -96,7 +96,7 @@ TEST(Accelerator, AnswersThatSettleMayWeighTheMoreTheLaterTheyAre) {
   }
 }
 
-TEST(Accelerator, ACopyGoesOnAsTheOriginalDoes) {
+TEST(Accelerator, ACopyContinuesLikeTheOriginal) {
   Accelerator original;
   std::vector<double> x(8, 0.0);
   const std::vector<double> weight(8, 1.0);

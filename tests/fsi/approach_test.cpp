@@ -28,7 +28,7 @@ TEST(Approach, IsTheMeanOverTheAreaOfADisk) {
   EXPECT_NEAR(mean_speed_over_disk(field, {0, 0, 0.5}, 1.2), 20 - 8 * 0.36 / 2, 8 * 0.025 * 0.025);
 }
 
-// In air whose speed rises with z the mean says where it was taken.
+// In air whose speed rises with z the mean shows the position of the measurement.
 TEST(Approach, IsOneProjectedDiameterBeforeTheCloth) {
   const Case given = checked(flat_circular_case(1, 800, 20));
   CanopyMesh mesh = parachute_mesh(resolve(given));

@@ -1,4 +1,4 @@
-// What a run without convergence lacks.
+// Criteria that a run without convergence does not meet.
 #include "ripstop/fsi/convergence.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ SteadyIteration converged() {
   return now;
 }
 
-TEST(UnmetCriteria, ListsOnlyWhatIsNotMet) {
+TEST(UnmetCriteria, ListsOnlyUnmetCriteria) {
   CouplingSettings settings;
   settings.drag_tolerance = 1e-3;
   const auto only = [&](const SteadyIteration& now, const std::string& words) {

@@ -41,8 +41,8 @@ std::function<double(double)> density_ratio_below(double height) {
 
 constexpr double sheet_at = 1.01;  // along the duct [m]
 
-/// A square of cloth of n x n nodes across the duct: yarns of `stiffness` [N/m] each way and no shear; without any it has
-/// no springs in its plane.
+/// A square of cloth of n x n nodes across the duct: yarns of `stiffness` [N/m] each way and no shear; without any it
+/// has no springs in its plane.
 Mesh across_the_duct(int n, double mass, double stiffness) {
   const double spacing = 1.0 / (n - 1);
   Mesh mesh;
@@ -148,10 +148,10 @@ double exactly_moved(double mass, double duration) {
 
 constexpr double piston_duration = 0.02;
 
-// From cloth a hundred times lighter than nylon to cloth a hundred times heavier, with one step: a load that is handed
-// over after the step would throw the lightest a hundred times too far. Where the cloth takes but one step of its own in
-// each of the air's, its own error, of first order, is the larger.
-TEST(CoupledFlow, APistonOfAnyMassMovesAsItsEquationSays) {
+// From cloth a hundred times lighter than nylon to cloth a hundred times heavier, with one step: a load that is
+// handed over after the step would throw the lightest a hundred times too far. Where the cloth takes but one step of
+// its own in each of the air's, its own error, of first order, is the larger.
+TEST(CoupledFlow, APistonOfAnyMassFollowsItsEquation) {
   constexpr double step = 2.5e-4;
   for (const double mass : {4e-4, 4e-3, 0.04, 0.4, 4.0}) {
     const double right = exactly_moved(mass, piston_duration);
@@ -160,7 +160,7 @@ TEST(CoupledFlow, APistonOfAnyMassMovesAsItsEquationSays) {
   }
 }
 
-// Where the step resolves what the cloth would do by itself, half of it leaves a quarter of the error.
+// Where the step resolves the free motion of the cloth, half the step has a quarter of the error.
 TEST(CoupledFlow, StepsOfAirAndClothTogetherAreOfSecondOrder) {
   constexpr double step = 1e-3;
   constexpr int fine = 1500;  // the cloth's own steps are of first order
@@ -238,7 +238,7 @@ Bulge bulge_of(const Mesh& mesh, const std::vector<Vec3>& x, const Loads& loads)
   return bulge;
 }
 
-/// What the bag holds under one pressure after another, by its cloth alone.
+/// Volume of the bag under a sequence of pressures, by its cloth alone.
 std::vector<Bulge> blown_up_bags() {
   const Mesh mesh = end_of_a_bag();
   std::vector<Bulge> bags{bulge_of(mesh, mesh.start, {})};
@@ -260,9 +260,9 @@ Bulge bag_of(double volume, const std::vector<Bulge>& bags) {
   return {volume, a.area + share * (b.area - a.area), root * root * root};
 }
 
-// A bag of cloth that is filled at a constant flow Q and leaks: dV/dt = Q - p A / a, with p and A those of the same cloth
-// blown up to V.
-TEST(CoupledFlow, ABagThatIsFilledHoldsWhatDoesNotLeak) {
+// A bag of cloth that is filled at a constant flow Q and leaks: dV/dt = Q - p A / a, with p and A those of the same
+// cloth blown up to V.
+TEST(CoupledFlow, ABagBeingFilledContainsInflowMinusLeakage) {
   constexpr double flow = 1, leaks = 1000, step = 2.5e-4;
   const std::vector<Bulge> bags = blown_up_bags();
   const Mesh mesh = end_of_a_bag();
@@ -282,8 +282,8 @@ TEST(CoupledFlow, ABagThatIsFilledHoldsWhatDoesNotLeak) {
   }
 }
 
-// Where nothing leaks it holds what has flown in, and the pressure does not swing from step to step.
-TEST(CoupledFlow, ATightBagHoldsWhatHasFlownIn) {
+// Without leakage it contains the inflow, and the pressure does not oscillate from step to step.
+TEST(CoupledFlow, ATightBagContainsTheInflow) {
   constexpr double flow = 1, step = 2.5e-4;
   const Mesh mesh = end_of_a_bag();
   Together duct(closed_duct(flow, 1e7, bag_cells), mesh);
@@ -310,7 +310,7 @@ TEST(CoupledFlow, IsRefusedWithoutAnEngineOrWithoutASheet) {
 }
 
 // Under a pull that stays the same a payload falls as anything does.
-TEST(CoupledFlow, APayloadIsSlowedDownByWhatTheRiserPulls) {
+TEST(CoupledFlow, APayloadIsDeceleratedByTheRiserForce) {
   constexpr double mass = 2, gravity = 9, pull = 30, step = 1e-3;
   const Mesh mesh = piston(0.04);
   const Payload payload{mass, gravity};
@@ -336,8 +336,8 @@ TEST(CoupledFlow, APayloadIsSlowedDownByWhatTheRiserPulls) {
   EXPECT_NEAR(flight.path, 10 * step * duct_speed, 1e-3);
 }
 
-// A constant drag area, of which a part is its own, has it fly as a mass point flies, which has another method: in speed,
-// in height, and as far as weight turns its path, through air that gets denser.
+// A constant drag area, partly that of the payload, moves like a mass point, which has another method: in
+// speed, in height, and as far as weight turns its path, through air that gets denser.
 TEST(CoupledFlow, APayloadsPathTurnsAsThatOfAMassPoint) {
   constexpr double mass = 2, area = 0.05, own_area = 0.02, step = 2e-3, height = 5000;
   constexpr int steps = 20'000;
@@ -365,7 +365,7 @@ TEST(CoupledFlow, APayloadsPathTurnsAsThatOfAMassPoint) {
   }
 }
 
-// Cloth that hardly gives way: what presses on it goes with the density where it is.
+// Nearly rigid cloth: its load is proportional to the local density.
 TEST(CoupledFlow, TheLoadGoesWithTheDensityOfTheHeight) {
   constexpr double height = 5000, down = 3000;
   const Mesh mesh = piston(1e6);

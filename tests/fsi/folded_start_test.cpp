@@ -142,7 +142,7 @@ TEST(FoldedStart, MoreFoldsAllowASmallerRadiusAndImpossibleOnesAreRefused) {
   flat.design.mesh.folds = 24;
   const CanopyMesh many = build_mesh(flat.design, printed_materials());
   const FoldedStart start = folded_start(many, {0.06, 24, 0}, 12, team);
-  EXPECT_LT(start_strain(with_creases(many, start), start.positions).largest, 1e-4);  // what it seeks
+  EXPECT_LT(start_strain(with_creases(many, start), start.positions).largest, 1e-4);  // target
   const Family cross = families()[7];
   const CanopyMesh sheet = build_mesh(cross.design, printed_materials());
   EXPECT_THROW(folded_start(sheet, {0.15, 6, 0}, 4, team), Error);

@@ -1,4 +1,4 @@
-// What a flow with a given drop of pressure over the cloth would load its faces with, without the flow.
+// Loads of the faces for a given drop of pressure over the cloth, without the flow.
 #pragma once
 
 #include <functional>
@@ -16,7 +16,7 @@ inline FlowGrid box(int n) {
 
 using Field = std::function<double(Vec3)>;
 
-/// What a flow whose pressure drops by `drop` wherever the cloth stands would give on its faces.
+/// Face loads of a flow whose pressure drops by `drop` at the cloth.
 inline std::vector<SheetLoad> loads_of(const std::vector<Triangle>& triangles, const FlowGrid& grid,
                                        const Field& drop) {
   using cartesian::End;

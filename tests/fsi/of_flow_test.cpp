@@ -12,7 +12,7 @@
 namespace ripstop {
 namespace {
 
-TEST(OfFlow, ACanopyInFlightCarriesWhatTheAirLosesOnIt) {
+TEST(OfFlow, ACanopyInFlightCarriesTheMomentumLossOfTheAir) {
   Overrides coarse;
   // Ten cells across: with fewer the load may jump as cloth passes from cell to cell.
   coarse.grid = {40, 40, 50};

@@ -215,7 +215,7 @@ TEST(Inflation, TheStrainOfAnImperfectionIsInTheBalance) {
   EXPECT_LT(std::abs(solver.frame(state).residual), 0.01);
 }
 
-TEST(Inflation, AStatedImperfectionOfOneWaveIsWhatTheAsymmetrySays) {
+TEST(Inflation, AnImperfectionOfOneWaveEqualsTheMeasuredAsymmetry) {
   InflationProblem problem = small_problem(500, 5e-3);
   problem.settings.imperfection_m = 1e-5;
   UniformPressureOpening solver(problem);
@@ -232,7 +232,7 @@ TEST(Inflation, AStatedImperfectionOfOneWaveIsWhatTheAsymmetrySays) {
   EXPECT_LT(even.frame(kept).asymmetry, 1e-14);
 }
 
-// What is left of symmetry is rounding that grows as any other disturbance does: a hundred times the
+// The asymmetry is rounding error that grows like any other disturbance: a hundred times the
 // imperfection is a hundred times the asymmetry for as long as it is small.
 TEST(Inflation, AnAsymmetryGrowsInProportionToTheImperfectionItCameFrom) {
   const auto asymmetry_after = [](double imperfection) {
@@ -250,7 +250,7 @@ TEST(Inflation, AnAsymmetryGrowsInProportionToTheImperfectionItCameFrom) {
   EXPECT_LT(asymmetry_after(0), 0.01 * small);  // rounding starts near 1e-16 m
 }
 
-TEST(Inflation, AStoppedRunGoesOnToTheLastBit) {
+TEST(Inflation, AStoppedRunResumesToTheLastBit) {
   const InflationProblem problem = small_problem(500, 6e-3);
   UniformPressureOpening whole(problem), first(problem), second(problem);
   InflationState undisturbed = whole.start();
@@ -288,7 +288,7 @@ TEST(Inflation, ThePeakIsThatOfEveryStepHoweverFewRowsAreWritten) {
   double highest = 0;
   for (const HistoryRow& row : few) highest = std::max(highest, row.largest);
   EXPECT_EQ(highest, t.peak_load);
-  EXPECT_NEAR(t.peak_load / s.peak_load, 1, 0.01);  // the step differs a little so that rows come out whole
+  EXPECT_NEAR(t.peak_load / s.peak_load, 1, 0.01);  // the step differs a little so that rows are complete
 }
 
 TEST(Inflation, TheStepNeverExceedsTheStableOne) {

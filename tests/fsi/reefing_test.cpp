@@ -1,4 +1,4 @@
-// Reefing lines in an opening: what they hold, when they go, and what is left the same.
+// Reefing lines in an opening: their load, their cut, and unchanged quantities.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -63,7 +63,7 @@ Opened open(InflationProblem problem) {
   return opened;
 }
 
-TEST(Reefing, TheLineHoldsTheSkirtAtItsLength) {
+TEST(Reefing, TheLineConstrainsTheSkirtToItsLength) {
   for (const double length : {1.0, 1.5, 2.0}) {
     InflationProblem problem = opening_with({{length, 1, nylon_cord}});
     problem.settings.sheet_s = {0.01, 0.015, 0.02, 0.025, 0.029};
@@ -113,8 +113,9 @@ TEST(Reefing, TheEnergyOfACutLineIsInTheBalance) {
     EXPECT_TRUE(row.time <= reefed.state.cuts[1] * (1 + 1e-9) || row.reefing_largest == 0) << row.time;
 }
 
-// Loads at rest: the first pull of the lines is as high reefed as not, under a pressure that knows of no mouth.
-TEST(Reefing, EachStageHoldsItsLoad) {
+// Loads at rest: the first pull of the lines is equal with and without reefing, under a pressure that is
+// independent of the mouth.
+TEST(Reefing, EachStageCarriesItsLoad) {
   InflationProblem problem = opening_with({{1.0, 0.15, nylon_cord}, {1.8, 0.3, nylon_cord}}, 0.45);
   problem.settings.damping_n_s_m3 = 30;  // to rest soon
   problem.settings.cloth_damping_s = 1e-5;
@@ -126,7 +127,7 @@ TEST(Reefing, EachStageHoldsItsLoad) {
   EXPECT_LT(stages[1].last_load, 0.9 * stages[2].last_load);
 }
 
-TEST(Reefing, AfterTheCutTheCanopyStandsAsOneThatWasNeverReefed) {
+TEST(Reefing, AfterTheCutTheCanopyHasTheShapeOfAnUnreefedOne) {
   InflationProblem reefed = opening_with({{1.0, 0.02, nylon_cord}}, 0.4), plain = opening_with({}, 0.4);
   for (InflationProblem* problem : {&reefed, &plain}) {
     problem->settings.damping_n_s_m3 = 30;  // to rest soon
@@ -138,7 +139,7 @@ TEST(Reefing, AfterTheCutTheCanopyStandsAsOneThatWasNeverReefed) {
   EXPECT_NEAR(a.rows.back().mean, b.rows.back().mean, 0.01 * b.rows.back().mean);
 }
 
-TEST(Reefing, AStoppedRunGoesOnToTheLastBitAcrossACut) {
+TEST(Reefing, AStoppedRunResumesToTheLastBitAcrossACut) {
   const InflationProblem problem = opening_with({{1.0, 6e-3, nylon_cord}, {1.8, 9e-3, nylon_cord}}, 0.012);
   UniformPressureOpening whole(problem), first(problem), second(problem);
   InflationState undisturbed = whole.start(), stopped = first.start();

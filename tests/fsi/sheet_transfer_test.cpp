@@ -73,7 +73,7 @@ Vec3 centre_of(const Surface& s, std::size_t cell) {
   return centre;
 }
 
-/// Largest and root mean square of what the cells' pressures miss.
+/// Largest and root-mean-square error of the cell pressures.
 struct Misfit {
   double largest = 0, rms = 0;
 };
@@ -203,8 +203,8 @@ TEST(SheetTransfer, AFieldAboutTheAxisGivesNoSideForceAndNoMoment) {
   EXPECT_LT(norm(sum.moment), 1e-9 * sum.force.z);
 }
 
-// Faces along which the sheet runs stand for cloth that turns to either side of them: their mean normal says
-// nothing about the side on which the air presses. Wrong there, and a closed ring of cloth has a side force.
+// Faces parallel to the sheet represent cloth on both sides of them: their mean normal does not determine the side of
+// the pressure. With an error there a closed ring of cloth has a side force.
 TEST(SheetTransfer, AWavyCanopyUnderAUniformDropHasNoSideForce) {
   for (const int n : {36, 40, 44, 48}) {
     for (const double ripple : {0.08, 0.15}) {
@@ -237,7 +237,7 @@ TEST(SheetTransfer, ClothThatTheFlowsGridMissesTakesThePressureOfItsNeighbours) 
 }
 
 // A pleat of 80 mm, folded over to an S, under cells of 50 mm: the air between its layers is nobody's.
-TEST(SheetTransfer, WhatAFaceLosesInAFoldThinnerThanACellIsNotBelieved) {
+TEST(SheetTransfer, TheDropOfAFaceInAFoldThinnerThanACellIsIgnored) {
   Surface s = plate(100, 0);
   constexpr double half = 0.04;
   for (Vec3& p : s.x) {
@@ -263,8 +263,8 @@ TEST(SheetTransfer, WhatAFaceLosesInAFoldThinnerThanACellIsNotBelieved) {
 }
 
 // A sheet with a second one over its middle, 10 mm apart under cells of 50 mm: a pocket open to the air above on both
-// sides, whose pressure is 0 there and 80 Pa below and over the second sheet. What the air loses on the fold besides,
-// 300 Pa upward on each of its columns, no pressure of that pocket could tell.
+// sides, whose pressure is 0 there and 80 Pa below and over the second sheet. The additional momentum loss at the
+// fold, 300 Pa upward on each of its columns, cannot be found from the pressure of that pocket.
 struct Pocket {
   Surface s = plate(40, 0);
   FlowGrid grid = box(32);
@@ -299,7 +299,7 @@ struct Pocket {
   }
 };
 
-// Open cloth has what its faces drop, here less than its sides' pressures say.
+// Open cloth has the drop of its faces, here less than the pressures of its sides.
 TEST(SheetTransfer, ClothInFoldsTakesThePressuresOnItsTwoSidesNearby) {
   Pocket f;
   for (SheetLoad& load : f.loads)
@@ -325,7 +325,7 @@ TEST(SheetTransfer, ForceOnClothInFoldsStaysThere) {
   EXPECT_LT(on_fold(Folds::few), 0.8 * f.extra);
 }
 
-// What a motion of the cloth that has diverged hands over.
+// Input from a motion of the cloth that has diverged.
 TEST(SheetTransfer, ClothThatIsNowhereOrFartherThanAnyCanopyIsAnError) {
   const FlowGrid grid = box(16);
   Surface s = cap(8, 32);

@@ -71,7 +71,7 @@ double root_mean_square(const std::vector<double>& values) {
 
 enum class Handing { load_of_flow, left_where_it_is };
 
-/// By how much neighbouring cells' stresses differ beyond what they do under the smooth pressure, over the stress.
+/// Relative difference of the stresses of neighbouring cells, beyond that under the smooth pressure.
 double staircase(PorosityModel model, Handing handing) {
   const Canopy canopy(model);
   const double skirt = canopy.skirt();
@@ -106,8 +106,8 @@ double staircase(PorosityModel model, Handing handing) {
   return root_mean_square(jumps) / root_mean_square(exact);
 }
 
-// 6.7 cm of air to 1.7 cm of cloth. Each face's force left on the cell that its point is in shows that a staircase would
-// be seen, in cloth that pushes: slack cloth finds no equilibrium under it.
+// 6.7 cm of air to 1.7 cm of cloth. Each face's force left on the cell that its point is in shows that a staircase
+// would be seen, in cloth that pushes: slack cloth finds no equilibrium under it.
 TEST(StressStaircase, StressUnderAirOfCoarseCellsIsThatUnderTheSmoothPressure) {
   const double of_flow = staircase(PorosityModel::sheet, Handing::load_of_flow);
   const double pushing = staircase(PorosityModel::paper, Handing::load_of_flow);

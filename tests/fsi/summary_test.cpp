@@ -1,4 +1,4 @@
-// What is read off a load history.
+// Values read from a load history.
 #include "ripstop/fsi/summary.h"
 
 #include <gtest/gtest.h>

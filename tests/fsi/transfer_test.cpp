@@ -45,8 +45,8 @@ TEST(Transfer, TheSurfaceHasTheAreaOfItsCells) {
   EXPECT_NEAR(area, 1.0, 1e-12);
 }
 
-// Linear pressure on either side with a jump across the sheet: both sides are read from clean cells only, and
-// what is read is the pressure where it is read, up to a cell or two away.
+// Linear pressure on either side with a jump across the sheet: both sides are read from clean cells only, at a point
+// up to two cells away.
 TEST(Transfer, AJumpOfPressureIsReadOnBothSidesAtAnyAngleToTheGrid) {
   constexpr double jump = 400, slope = 30;  // [Pa], [Pa/m]
   for (const double angle : {0.0, 0.3, std::numbers::pi / 4}) {

@@ -96,7 +96,7 @@ TEST(CurveFit, TwoSamplesHaveAnErrorAndAWideInterval) {
 }
 
 // K_1 and the band are those of a fit two degrees higher, where that lies about the fit.
-TEST(CurveFit, TheBandOfADegreeTooLowHoldsTheFitAndTheLaw) {
+TEST(CurveFit, TheBandOfADegreeTooLowContainsTheFitAndTheLaw) {
   std::mt19937 random(6);
   SyntheticRecord bent = f111_record();
   bent.load = [](double e) { return 52e3 * e - 220e3 * e * e + 450e3 * e * e * e; };
@@ -158,7 +158,7 @@ TEST(CurveFit, ThePredictionErrorIsThatOfTheSampleLeftOut) {
   EXPECT_EQ(choose_degree({mean_curve({a})}, {}), 1);  // by R2
 }
 
-// The claim of a 95 % interval is that it holds in 95 of 100 campaigns. 400 campaigns of five samples: the
+// A 95 % interval must contain the true value in 95 of 100 campaigns. 400 campaigns of five samples: the
 // count is binomial with a standard deviation of 1.1 %, so 95 +- 3.3 % is three of them.
 TEST(CurveFit, IntervalsAndBandsHoldAsOftenAsTheyClaim) {
   constexpr int campaigns = 400;

@@ -100,7 +100,7 @@ TEST(Slip, WholeRecordsAreNotDoubted) {
       }
 }
 
-/// Every row of which `stays` is true.
+/// All rows for which `stays` is true.
 TensileRecord thinned(const TensileRecord& whole, const std::function<bool(std::size_t)>& stays) {
   TensileRecord thin = whole;
   thin.displacement.clear(), thin.force.clear(), thin.line.clear();
@@ -185,7 +185,7 @@ TensileRecord rounded(TensileRecord record, double step) {
   return record;
 }
 
-// Loads rounded to 5 N, of which there are 80 to 800 up to the break: 24 campaigns of five pulls each.
+// Loads rounded to 5 N, 80 to 800 steps up to the break: 24 campaigns of five tests each.
 TEST(Copies, PullsWhoseLoadsAreRoundedCoarselyAreNoCopies) {
   std::mt19937 random(59);
   const std::vector<PulledLaw> laws = pulled_laws();

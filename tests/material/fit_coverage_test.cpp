@@ -35,7 +35,7 @@ const std::function<double(double)> cubic = [](double e) {
   return 52e3 * e - 220e3 * e * e + 450e3 * e * e * e;
 };
 
-/// What holds, with laws far from any polynomial of degree 2: toes, knees, both.
+/// Valid cases, with laws far from any polynomial of degree 2: toes, knees, both.
 std::vector<CoverageLaw> laws_that_hold() {
   using std::exp;
   return {
@@ -62,8 +62,8 @@ std::vector<CoverageLaw> laws_that_hold() {
   };
 }
 
-/// What does not: a knee or toe much finer than the tested strain, and a law without stiffness at its start, whose toe cannot be
-/// told from slack.
+/// Invalid cases: a knee or toe much finer than the tested strain, and a law without stiffness at its start,
+/// whose toe cannot be distinguished from slack.
 std::vector<CoverageLaw> laws_that_do_not_hold() {
   using std::exp;
   return {
@@ -127,8 +127,9 @@ Found run_campaigns(const CoverageLaw& law) {
   return found;
 }
 
-// Of 300 campaigns the share inside has a standard deviation of 1.26 %; three of them below 95 % is 91.2 %. The yardstick
-// of the width is the interval from the samples' readings at that strain alone, start known: stiffness and noise.
+// Of 300 campaigns the share inside has a standard deviation of 1.26 %; three of them below 95 % is 91.2 %. The
+// yardstick of the width is the interval from the samples' readings at that strain alone, start known: stiffness and
+// noise.
 TEST(Coverage, BandsHoldTheLawAsOftenAsTheyClaimAndAreNoWiderThanTheReadings) {
   const SyntheticRecord usual;
   for (const CoverageLaw& law : laws_that_hold()) {
@@ -145,8 +146,8 @@ TEST(Coverage, BandsHoldTheLawAsOftenAsTheyClaimAndAreNoWiderThanTheReadings) {
   }
 }
 
-// A toe or knee finer than the polynomial, or no stiffness at the start, is not held: nobody who reads the table takes it for
-// more than it is.
+// A toe or knee finer than the polynomial, or no stiffness at the start, is not held: nobody who reads the table
+// takes it for more than it is.
 TEST(Coverage, FeaturesMuchFinerThanTheTestAreNotHeld) {
   for (const CoverageLaw& law : laws_that_do_not_hold()) {
     const Found found = run_campaigns(law);

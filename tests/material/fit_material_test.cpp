@@ -72,7 +72,7 @@ TEST_F(BenchFile, ManyWarningsFitIntoTheMaterial) {
 
 TEST_F(BenchFile, ATapeHasTheWidthOfTheCampaign) {
   SyntheticRecord tape;
-  tape.width = 0;  // the records do not say it
+  tape.width = 0;  // the records do not contain it
   tape.load = [](double e) { return 20e3 * e; };
   tape.failure_strain = 0.1;
   const std::string head =
@@ -188,8 +188,8 @@ TEST_F(BenchFile, AGripThatSlipsWarnsForEver) {
   EXPECT_NE(material_warnings(fit.material, 0).at(0).find("check for slip of a grip"), std::string::npos);
 }
 
-// A cubic law with K_1 = 52,000 N/m, with slack of 30 % of the pull in every sample, and in every third. The rule of [NFM]
-// takes a straight line, which loses a third of K_1 with R2 above 0.95: its interval says so.
+// A cubic law with K_1 = 52,000 N/m, with slack of 30 % of the pull in every sample, and in every third. The rule of
+// [NFM] takes a straight line, which loses a third of K_1 with R2 above 0.95: its interval shows this.
 TEST_F(BenchFile, ACubicLawWithSlackKeepsItsStiffness) {
   SyntheticRecord cloth;
   cloth.load = [](double e) { return 52e3 * e - 150e3 * e * e + 275e3 * e * e * e; };
@@ -393,7 +393,7 @@ TEST_F(BenchFile, OneThatIsNoTomlIsRefusedWithItsLine) {
   }
 }
 
-TEST_F(BenchFile, EveryMistakeInACampaignIsToldAtOnce) {
+TEST_F(BenchFile, EveryMistakeInACampaignIsReportedTogether) {
   try {
     bench(
         "kind = \"fabric\"\nname = \"c\"\nthicknes_m = 1e-4\n[[coupon]]\nfile = \"a.csv\"\norientation_deg = "

@@ -161,7 +161,8 @@ TEST(Lattice, OnTheBiasTheModulusOffTheYarnsIsTheOrthotropicSheets) {
   }
 }
 
-/// A square cell whose columns lean, as beside a gore's seam: widths are those of its sides' lengths.
+/// A square cell with inclined columns, as next to the seam of a gore: widths are those of the lengths of its
+/// sides.
 Membrane leaning_membrane(const WovenLaws& laws, bool bias, double lean) {
   const double tilt = std::tan(lean), column = std::hypot(1, tilt);
   const CellWidths w = bias ? bias_widths(1, column, laws) : cell_widths(1, column, laws);
@@ -181,8 +182,8 @@ Membrane leaning_membrane(const WovenLaws& laws, bool bias, double lean) {
   return m;
 }
 
-// What is neglected in a gore: against the cloth whose yarns keep the direction of the rows.
-TEST(Lattice, WhereColumnsLeanTheModulusIsOffByAsMuchAsTheGuideSays) {
+// The error of a gore: compared with cloth whose yarns keep the direction of the rows.
+TEST(Lattice, WhereColumnsAreInclinedTheModulusHasTheErrorOfTheGuide) {
   const WovenLaws laws = woven_laws(woven(true));
   struct Stated {
     bool bias;

@@ -20,7 +20,7 @@ std::vector<Material> everything() {
   return list;
 }
 
-TEST(Library, EveryMaterialSaysWhereItsNumbersComeFrom) {
+TEST(Library, EveryMaterialHasASource) {
   EXPECT_GE(everything().size(), 20u);
   for (const Material& material : everything())
     std::visit([](const auto& m) { EXPECT_GT(m.source.size(), 20u) << m.name; }, material);

@@ -18,7 +18,7 @@ TEST(Permeability, ThePrintedCanopyColumnIsGamma0p2121AndATenthOfAMillimetre) {
   EXPECT_NEAR(canopy.porosity, 0.2121, 5e-5);
   EXPECT_NEAR(canopy.thickness, 0.12e-3, 0.002e-3);
   const PressureDrop printed_gamma = ergun({0.22, 0.12e-3});
-  EXPECT_GT(37.45 / printed_gamma.quadratic, 1.1);  // the printed 0.22 is not what the printed b says
+  EXPECT_GT(37.45 / printed_gamma.quadratic, 1.1);  // the printed 0.22 disagrees with the printed b
 }
 
 TEST(Permeability, ErgunAndItsInverseUndoEachOther) {

@@ -52,7 +52,7 @@ std::string line(const std::string& head, double factor = 100, int rows = 40) {
   return with_rows(head, rows, [&](int i) { return fmt::format("{},{}", i, factor * i); });
 }
 
-TEST_F(Bench, ColumnsMayStandInAnyOrderAndUnit) {
+TEST_F(Bench, ColumnsCanHaveAnyOrderAndUnit) {
   const TensileRecord a = read("extension [mm],force [N]\n1,10\n2,20\n", coupon);
   const TensileRecord b =
       read("Load (lbf);Time [s];Crosshead position (in)\n2,24809;0,1;0,0393701\n", coupon);
@@ -66,7 +66,7 @@ TEST_F(Bench, ColumnsMayStandInAnyOrderAndUnit) {
   EXPECT_NEAR(c.force[0], 10, 1e-12);
 }
 
-TEST_F(Bench, UnitsMayStandInALineOfTheirOwnOrInTheFileBeside) {
+TEST_F(Bench, UnitsCanBeInASeparateLineOrInTheCampaignFile) {
   const TensileRecord a = read("Extension,Load\n(mm),(kN)\n1,0.01\n", coupon);
   const TensileRecord b = read("x1,x2\n10,1\n", coupon, {"x1", "x2", "N", "mm"});
   EXPECT_NEAR(a.force[0], b.force[0], 1e-12);
@@ -190,7 +190,7 @@ TEST_F(Bench, ReadsASyntheticRecordAsItIsMadeWithoutText) {
   }
 }
 
-TEST_F(Bench, SlackOffsetAndFailureAreCutAndSaid) {
+TEST_F(Bench, SlackOffsetAndFailureAreRemovedAndReported) {
   std::mt19937 random(3);
   SyntheticRecord wanted;
   wanted.load = [](double e) { return 30006 * e - 18936 * e * e; };
@@ -210,7 +210,7 @@ TEST_F(Bench, SlackOffsetAndFailureAreCutAndSaid) {
   EXPECT_NE(record.trimmed[0].find("after the peak"), std::string::npos);
   EXPECT_NE(record.trimmed[1].find("offset"), std::string::npos);
   EXPECT_NE(record.trimmed[2].find("slack"), std::string::npos);
-  // What is left is the curve from its true zero on.
+  // The rest is the curve from its true zero on.
   for (std::size_t i = 0; i < record.strain.size(); i += 50)
     EXPECT_NEAR(record.load[i], wanted.load(record.strain[i]), 0.02 * wanted.load(0.33));
 }
@@ -255,7 +255,7 @@ TEST_F(Bench, ARecordThatWasCutOrHasSurplusValuesIsRefused) {
   EXPECT_EQ(read("extension [mm],force [N]\n1,2,\n", coupon).force.size(), 1u);  // an empty one is none
 }
 
-TEST_F(Bench, ARecordThatEndsBeforeTheBreakIsTold) {
+TEST_F(Bench, ARecordThatEndsBeforeTheBreakIsReported) {
   const std::string rising = line("# length: 1 m\nextension [mm],force [N]", 100);
   EXPECT_FALSE(clean_record(read(rising), LoadKind::whole).breaks);
   EXPECT_TRUE(clean_record(read(rising + "40,500\n41,100\n42,90\n"), LoadKind::whole).breaks);

@@ -51,7 +51,7 @@ TEST(MeshBuilder, ASheetWeighsItsAreaAndItsCornersAQuarterOfACell) {
   EXPECT_EQ(std::count_if(cells.begin(), cells.end(), [](const Cell& c) { return c.corner[0] >= 0; }), 12);
 }
 
-// On square cells, whose diagonals carry along the sides what they should.
+// On square cells, whose diagonals carry the correct load along the sides.
 TEST(MeshBuilder, SpringsAcrossASectionOfASheetAreTogetherAsWideAsTheSheet) {
   MeshBuilder builder;
   builder.add_patch("sheet", sheet(6, 4, 0.1), cloth());

@@ -69,7 +69,7 @@ TEST_F(Drawing, LinesAndBoxesCoverTheirPixels) {
   EXPECT_TRUE(png.shows(85, 25, {1, 0.5, 0.5}));
 }
 
-TEST_F(Drawing, ARasterStandsPixelByPixelWithItsCornerWhereItIsPut) {
+TEST_F(Drawing, ARasterIsDrawnPixelByPixelFromItsCorner) {
   Raster raster;
   raster.width = 2, raster.height = 3;
   raster.argb = {0xffff0000, 0xff00ff00, 0xff0000ff, 0xff000000, 0xffffff00, 0x00000000};
@@ -79,7 +79,7 @@ TEST_F(Drawing, ARasterStandsPixelByPixelWithItsCornerWhereItIsPut) {
   EXPECT_TRUE(png.shows(29, 40, paper) && png.shows(32, 40, paper) && png.shows(30, 43, paper));
 }
 
-TEST_F(Drawing, TextStandsOnItsLineByItsLeftEndItsMiddleOrItsRightEnd) {
+TEST_F(Drawing, TextIsAlignedByItsLeftEndItsMiddleOrItsRightEnd) {
   const auto columns = [&](Align align) {
     TextStyle style;
     style.align = align, style.colour = stroke;

@@ -39,7 +39,7 @@ TEST(WriteFile, BytesComeBackAndNothingElseIsLeft) {
   EXPECT_EQ(files_in(folder.path), 1u);
 }
 
-TEST(WriteFile, WhatAKilledWriterLeftGoesAndWhatALivingOneWritesStays) {
+TEST(WriteFile, FilesOfAKilledWriterAreRemovedAndThoseOfALivingOneRemain) {
   const TemporaryFolder folder("file-left");
   overwrite(folder.path / ".a.4711-3.tmp", "half");
   overwrite(folder.path / ".b.4711-3.tmp", "of another file");
@@ -98,7 +98,7 @@ TEST(WriteFile, TheBytesAreOnTheDiskBeforeTheNameAndThatIsBeforeItReturns) {
   EXPECT_EQ(read_file(folder.path / "a"), "newer");
 }
 
-TEST(WriteFile, WhatDoesNotReachTheDiskIsNoSuccess) {
+TEST(WriteFile, AFailedFlushIsNoSuccess) {
   const TemporaryFolder folder("file-unflushed");
   write_file(folder.path / "a", "old");
   Flushes flushes;

@@ -32,7 +32,7 @@ std::map<std::string, std::vector<Point2>> dxf_outlines(const std::string& text)
   return outlines;
 }
 
-TEST(PatternFiles, TheDxfHoldsTheFinishedAndTheCutOutlineInMillimetres) {
+TEST(PatternFiles, TheDxfContainsTheFinishedAndTheCutOutlineInMillimetres) {
   const TemporaryFolder folder("pattern");
   const Allowances allowances{.seam = 0.01, .hem = 0.02};
   write_pattern_dxf(folder.path / "gore.dxf", triangle, allowances);

@@ -155,7 +155,7 @@ TEST(CanopyPicture, WithoutARangeTheFiniteValuesAreShownAndOthersAreGrey) {
   EXPECT_NE(svg.find("</svg>"), std::string::npos);
 }
 
-TEST(CanopyPicture, WhatCannotBeDrawnIsAnErrorAndNoFile) {
+TEST(CanopyPicture, AnImpossiblePictureIsAnErrorAndNoFile) {
   const TemporaryFolder folder("picture-errors");
   const CanopyMesh mesh = two_cells();
   const auto expect_error = [&](ExitCode code, const char* name, const CanopyMesh& m,

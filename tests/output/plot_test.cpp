@@ -22,7 +22,7 @@ TEST(Ticks, AreRoundAndLieWithinTheAxis) {
   EXPECT_LE(logarithmic_ticks(1e-30, 1e30, 8).size(), 8u);
 }
 
-TEST(Ticks, LabelsHaveTheDigitsThatTellThemApart) {
+TEST(Ticks, LabelsHaveTheDigitsThatDistinguishThem) {
   EXPECT_EQ(tick_label(2, 2), "2");
   EXPECT_EQ(tick_label(0.5, 0.5), "0.5");
   EXPECT_EQ(tick_label(1, 0.05), "1.00");
@@ -115,7 +115,7 @@ TEST(Plot, ItsLegendShowsEverySeriesThatHasAName) {
   plot.series[0].name = "one", plot.series[1].name = "two";
   write_plot(folder.path / "named.png", plot);
   const Png none = read_png(folder.path / "none.png"), named = read_png(folder.path / "named.png");
-  for (const std::size_t i : {0, 1})  // its marker once more
+  for (const std::size_t i : {0, 1})  // its marker again
     EXPECT_NEAR(spot_of(named, series_colour(i)).count / (2.0 * spot_of(none, series_colour(i)).count), 1,
                 0.1);
 }
@@ -175,7 +175,7 @@ TEST(Plot, ConstantAndSingleValuesAndEveryOptionCanBeDrawn) {
   EXPECT_NO_THROW(write_plot(folder.path / "p.png", plot));
 }
 
-TEST(Plot, WhatCannotBeDrawnIsAnErrorAndNoFile) {
+TEST(Plot, AnImpossiblePictureIsAnErrorAndNoFile) {
   const TemporaryFolder folder("plot-errors");
   EXPECT_THROW(write_plot(folder.path / "p.png", Plot{}), Error);
   EXPECT_THROW(write_plot(folder.path / "p.png", Plot{"", {}, {}, {{"", {1, 2}, {1}, true, true, false}}}),

@@ -80,7 +80,7 @@ TEST(Render, ALineIsSeenBeforeTheClothAndHiddenBehindIt) {
     scene.lines = {{4, 5, 3, blue}};
     const Raster raster = render(scene, two_metres_high(), 64, 64, 1);
     EXPECT_EQ(part(raster.argb[32 * 64 + 32], 'b'), z > 0 ? 255u : 0u);
-    EXPECT_EQ(part(raster.argb[32 * 64 + 8], 'b'), 255u);  // beside the cloth
+    EXPECT_EQ(part(raster.argb[32 * 64 + 8], 'b'), 255u);  // outside the cloth
     EXPECT_EQ(part(raster.argb[32 * 64], 'a'), 0u);        // beyond its end
   }
 }

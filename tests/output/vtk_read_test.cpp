@@ -1,4 +1,4 @@
-// What vtk.h wrote comes back; what is damaged is refused.
+// Files of vtk.h read back; damaged ones are refused.
 #include "ripstop/output/vtk_read.h"
 
 #include <gtest/gtest.h>
@@ -86,7 +86,7 @@ TEST_F(VtkRead, AFieldAndItsGridComeBack) {
   for (int axis = 0; axis < 3; ++axis) EXPECT_EQ(uneven.edges[axis], core.edges(axis));
 }
 
-TEST_F(VtkRead, WhatIsCutShortChangedOrForeignIsRefused) {
+TEST_F(VtkRead, IncompleteChangedOrForeignFilesAreRefused) {
   VtkSurface surface;
   surface.points.assign(500, {0.1, 0.2, 0.3});
   for (int i = 0; i < 500; ++i) surface.points[i].x = 1.0 / (i + 1);

@@ -18,7 +18,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Whether VTK reads the file; `text` is what vtk_dump.py says.
+/// Whether VTK reads the file; `text` is the output of vtk_dump.py.
 bool vtk_reads(const std::filesystem::path& path, std::string& text) {
   ProcessRequest request;
   request.arguments = {"/usr/bin/python3", RIPSTOP_SOURCE_DIR "/tests/output/vtk_dump.py", path.string()};
@@ -29,7 +29,7 @@ bool vtk_reads(const std::filesystem::path& path, std::string& text) {
   return run_process(request).succeeded();
 }
 
-/// What VTK sees in a file. The test fails, and is not skipped, when python3-vtk9 is missing.
+/// Content of a file as read by VTK. The test fails, and is not skipped, when python3-vtk9 is missing.
 json seen_by_vtk(const std::filesystem::path& path) {
   std::string text;
   if (vtk_reads(path, text)) return json::parse(text);
@@ -187,7 +187,7 @@ TEST(Pvd, ListsTheFilesThatExistWithTheirIterationAsTime) {
             json::parse(R"([{"time": 1.0, "class": "vtkPolyData"}, {"time": 2.5, "class": "vtkPolyData"}])"));
 }
 
-TEST(Vtk, WhatDoesNotFitIsAnErrorAndNoFile) {
+TEST(Vtk, InconsistentSizesAreAnErrorAndNoFile) {
   const TemporaryFolder folder("reject");
   VtkSurface short_array, wild_point;
   short_array.points.resize(3);

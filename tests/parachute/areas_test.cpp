@@ -150,8 +150,8 @@ std::vector<Vec3> seam_nodes(const Mesh& mesh, int patch, int row, int gores) {
   return nodes;
 }
 
-// The mesh leaves open what the design says: between the seams of neighbouring edges that no cloth joins, and
-// inside the uppermost edge. Patches follow one another from the skirt to the vent.
+// The open area of the mesh is that of the design: between the seams of neighbouring edges without cloth, and inside
+// the uppermost edge. Patches follow one another from the skirt to the vent.
 TEST_P(FamilyAreas, TheMeshLeavesTheSameAreaOpen) {
   Case given = example(GetParam());
   given.parachute.mesh.sewn_straight = false;  // else seams cut their corners between two nodes of a line

@@ -106,8 +106,8 @@ TEST_P(BadDesignTest, IsRefusedWithKeyAndReason) {
   }
 }
 
-// What stands under a key is what the key holds: half the diameter, and half a cell as the least.
-TEST(BadDesign, AVentOfAProfileIsToldAsTheRadiusThatItIs) {
+// The value reported for a key is that of the key: half the diameter, and half a cell as the least.
+TEST(BadDesign, AVentOfAProfileIsReportedAsARadius) {
   std::string text = read_file(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/elliptical/case.toml");
   text.replace(text.find("0.054]"), 6, "0.002]");
   std::string value, allowed;

@@ -1,4 +1,4 @@
-// What is cut is what is meshed: pieces and lengths of the pattern against the mesh and each other.
+// The cut pieces are those of the mesh: pieces and lengths of the pattern against the mesh and each other.
 #include "ripstop/parachute/cut.h"
 
 #include <gtest/gtest.h>
@@ -65,7 +65,7 @@ TEST_P(CutTest, TapesAndLinesAreAsLongAsInTheMesh) {
   EXPECT_NEAR(line_mesh / (lines.count * (lines.length_m + pattern.line_on_canopy)), 1, 1e-3);
 }
 
-TEST_P(CutTest, TheBillWithoutAllowancesWeighsWhatTheMeshWeighs) {
+TEST_P(CutTest, TheBillWithoutAllowancesHasTheMassOfTheMesh) {
   const Case given = example(GetParam());
   const Bill bill = bill_of(cut_pattern(given.parachute), given.parachute, resolve(given).materials(),
                             {.seam = 0, .hem = 0, .line_loop = 0, .tape_overlap = 0}, 400);

@@ -160,7 +160,7 @@ TEST(DiskGapBand, EveryLineRunsFromTheConfluenceOverTheBandAndTheGapToTheVent) {
   EXPECT_EQ(mesh.fixed, std::vector<int>{mesh.rigging.confluence});
 }
 
-TEST(DiskGapBand, ARiserHoldsTheConfluence) {
+TEST(DiskGapBand, ARiserSupportsTheConfluence) {
   Design design = stratos(3000);
   design.riser.length_m = 0.4;
   const CanopyMesh mesh = build_mesh(design, printed_materials());

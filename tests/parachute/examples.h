@@ -1,4 +1,4 @@
-// The examples that stand for the canopy families: one of every family in the program's list.
+// The examples of the canopy families: one of every family in the program's list.
 #pragma once
 
 #include <gtest/gtest.h>

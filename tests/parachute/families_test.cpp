@@ -1,4 +1,4 @@
-// What holds for every canopy family: the cloth is that of the pattern, and the mesh has its symmetry.
+// Properties of every canopy family: the cloth is that of the pattern, and the mesh has its symmetry.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -256,7 +256,7 @@ TEST(Spherical, AHemisphereHasTwiceTheAreaOfItsMouthAndAQuarterSphereHalfOfThat)
   EXPECT_NEAR(computed_area(example("hemispherical").parachute) + vent_cap, pi / 4, 1e-4);
 }
 
-TEST(Ringslot, SlotsAndVentAreWhatTheClothLeavesOfTheNominalArea) {
+TEST(Ringslot, SlotsAndVentAreTheNominalAreaWithoutCloth) {
   const Case given = example("ringslot");
   // Slots of 13 mm between six rings, on the round canopy: annuli.
   double open = pi / 4 * 0.1 * 0.1;

@@ -104,7 +104,7 @@ TEST(Fold, LinesThatEndOnInnerAndOuterFoldsAreSlackWhereTheirWayIsShorter) {
   EXPECT_LT(start_strain(mesh, start.positions).largest, 1e-9);
 }
 
-TEST(Fold, ARadiusOrNumberOfFoldsThatDoesNotFitIsRefusedWithWhatWould) {
+TEST(Fold, AnImpossibleRadiusOrNumberOfFoldsIsRefusedWithPossibleOnes) {
   const CanopyMesh mesh = stratos_mesh();
   const auto message = [&](const Folding& folding) -> std::string {
     try {

@@ -1,4 +1,4 @@
-// Canopies of gores: how columns are halved, what holds strips together, which design is refused and why.
+// Canopies of gores: halving of columns, connection of strips, refused designs and their reasons.
 #include "ripstop/parachute/gored.h"
 
 #include <gtest/gtest.h>
@@ -126,7 +126,7 @@ TEST(ProfileCanopies, EdgesOfUnequalFullnessAreNotSewnTogether) {
       << problems(0.1, 0.2);
 }
 
-/// Of the nodes round one edge, those that a tie or one and the same node holds on the other piece.
+/// Nodes around one edge that are tied to, or shared with, the other piece.
 int held_nodes(const CanopyMesh& mesh) {
   const auto piece = [&](const char* name, bool last) {
     const Patch* found = nullptr;

@@ -1,5 +1,5 @@
-// Every family under uniform pressure: it stands open at about the diameter that is known of its type, and as
-// symmetric as it is cut.
+// Every family under uniform pressure: its diameter is about the known one of its type, and it is as
+// symmetric as its pattern.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,8 +18,8 @@ namespace {
 class InflatedShape : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(All, InflatedShape, testing::ValuesIn(family_examples()), name_of_example);
 
-/// Of the projected over the nominal diameter. Uniform pressure opens a canopy farther than the flow does,
-/// whose pressure falls toward the skirt; so it reaches from what Knacke gives for flight to a tenth above.
+/// Of the projected over the nominal diameter. Uniform pressure opens a canopy farther than the flow, whose pressure
+/// decreases towards the skirt; the range is therefore from Knacke's value for flight to a tenth above.
 KnownRange band_of(const Design& design) {
   // Where he has none: from a hemisphere to a tenth above a flat canopy, which opens farthest.
   constexpr KnownRange any{0.66, 0.77};
@@ -45,11 +45,11 @@ TEST_P(InflatedShape, HasTheDiameterOfItsTypeAndTheSymmetryOfItsLines) {
   EXPECT_LE(ratio, band.high);
   RecordProperty("projected_over_nominal_diameter", std::to_string(ratio));
 
-  // What the lines carry is what the pressure pushes.
+  // The lines carry the force of the pressure.
   EXPECT_NEAR(canopy.held_share(), 1, 0.01);
 
-  // The ends of lines that are cut alike stand at equal radii and carry equal loads. Where surplus cloth
-  // falls into folds, which way each goes is undecided: folds differ, pull sideways and shift the loads.
+  // The ends of equal lines are at equal radii and carry equal loads. Where surplus cloth forms folds, their
+  // direction is undetermined: folds differ, pull sideways and shift the loads.
   const int alike = given.parachute.gores;
   const bool folds = falls_into_folds(GetParam());
   const int apart = given.parachute.lines.count / alike;
@@ -89,8 +89,8 @@ TEST(Resolution, FourTimesTheNodesThatResolveACanopyMoveItsDiameterByLessThanAPe
   }
 }
 
-// Seams, tape and lines hold gores whichever way they are cut. The arms of a cross are held by their cloth alone;
-// what it pushes back across them is the same for either cut, nothing.
+// Seams, tape and lines support gores with any cut. The arms of a cross are supported by their cloth alone; the
+// compression across them is the same for either cut, zero.
 TEST(Cut, OnTheBiasAConeAndACrossKeepTheirDiameter) {
   const auto bias_over_block = [](const char* name) {
     Case given = example(name, 6000);

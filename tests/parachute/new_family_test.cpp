@@ -151,7 +151,7 @@ TEST(NewFamily, IsReadCheckedAndWrittenAsTheOthersAre) {
   EXPECT_NE(reference_tables(fields_of(scratch)).find("With `type = \"biconical\"`"), std::string::npos);
 }
 
-TEST(NewFamily, MistakesInItsKeysAreToldWithTheirPlace) {
+TEST(NewFamily, MistakesInItsKeysAreReportedWithTheirPlace) {
   const auto mistake = [](const std::string& toml) {
     CaseFile file;
     const std::vector<Problem> problems = read(toml, file);
@@ -194,7 +194,7 @@ TEST(NewFamily, HasTheClothOfItsConesInPatternMeshAndDrawing) {
   EXPECT_NE(read_text_file(folder.path / "lower.svg").find("lower cone"), std::string::npos);
 }
 
-TEST(NewFamily, StandsOpenUnderPressure) {
+TEST(NewFamily, IsOpenUnderPressure) {
   const Design design = biconical();
   const CanopyMesh mesh = build_mesh(design, printed_materials());
   const BlownUp canopy = blown_up(mesh, 240, 2e-3);

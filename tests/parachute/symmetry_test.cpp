@@ -156,7 +156,7 @@ TEST_P(SymmetricShape, IsAnEquilibriumToWhichAShakenCanopyReturns) {
     EXPECT_NEAR(tension[line.springs[2]] / tension[first.springs[2]], 1, 1e-7);
   }
 
-  // What is left of the shake is a turn about the confluence, which nothing resists.
+  // The remaining disturbance is a rotation about the confluence, which nothing resists.
   const std::vector<Vec3> pushed = shaken(x, 1e-4);
   set_positions(canopy.state, *canopy.cloth, pushed);
   const double before = asymmetry(canopy.symmetry, canopy.shape());
@@ -165,7 +165,8 @@ TEST_P(SymmetricShape, IsAnEquilibriumToWhichAShakenCanopyReturns) {
   EXPECT_NEAR(canopy_size(canopy.mesh, canopy.shape()).projected_diameter / diameter, 1, 1e-3);
 }
 
-// Half a gore goes most of the way for all of a canopy. One that is shaken has none, and goes it as a whole.
+// The sector predictor does most of the work for a whole canopy. A disturbed canopy has none and is solved as
+// a whole.
 TEST_P(SymmetricShape, ItsSectorRestsWhereTheWholeDoes) {
   Canopy by_sector(GetParam()), whole(GetParam());
   set_positions(whole.state, *whole.cloth, shaken(whole.mesh.start, 1e-6));
@@ -183,9 +184,9 @@ TEST_P(SymmetricShape, ItsSectorRestsWhereTheWholeDoes) {
   EXPECT_LT(asymmetry(by_sector.symmetry, by_sector.shape()), 1e-9);
 }
 
-// The flat disk, drawn together by its lines, has more cloth than its smaller circle needs. Cloth that pushes,
-// as the `paper` model's does, buckles, and a nanometre, or rounding, decides which way every fold goes; cloth
-// that wrinkles forgets it.
+// The flat disk, drawn together by its lines, has more cloth than its smaller circle needs. Cloth that carries
+// compression, as in the `paper` model, buckles, and a disturbance of a nanometre, or rounding, determines the
+// direction of every fold; the result of wrinkled cloth is independent of it.
 TEST(Symmetry, ImperfectionsGrowWhereClothPushesAndNotWhereItWrinkles) {
   Canopy wrinkling("flat-circular");
   set_positions(wrinkling.state, *wrinkling.cloth, shaken(wrinkling.mesh.start, 1e-6));  // more: no sector

@@ -75,7 +75,7 @@ TEST(FlowView, EveryPointOfAStreamlineHasTheSpeedOfTheAirThere) {
 }
 
 // Beyond the outermost centres the field is that of the outermost cells, which are wide where the grid is graded.
-TEST(FlowView, AtTheEdgeOfTheBoxStandsTheOutermostCell) {
+TEST(FlowView, AtTheEdgeOfTheBoxIsTheOutermostCell) {
   const TemporaryFolder folder("flow-view");
   FlowField field;
   field.grid = graded({{-2, -2, 0}, {4, 4, 6}, 20, 20, 26}, {-0.7, -0.7, 2}, {0.7, 0.7, 3.5}, 1.2);

@@ -1,4 +1,4 @@
-// The page as text: what is packed comes back, no text of a case becomes part of the page, and it stays small.
+// The page as text: packed data read back, no text of a case becomes part of the page, and it remains small.
 #include "ripstop/report/report.h"
 
 #include <gtest/gtest.h>
@@ -68,7 +68,7 @@ TEST(Encode, WholeNumbersComeBack) {
   EXPECT_EQ(unpacked(pack_integers(large, 1, 4), 3, 1, 4), large);
 }
 
-TEST(Encode, ValuesComeBackWithinHalfAStepAndWhatIsNoNumberStaysNone) {
+TEST(Encode, ValuesReturnWithinHalfAStepAndMissingOnesRemainMissing) {
   const double none = std::numeric_limits<double>::quiet_NaN();
   const std::vector<double> values = {1.5, -20, none, 300, 2.25, 7, 2.25, none};
   const Quantised q = quantise(values, 2, 1000);
@@ -117,7 +117,7 @@ TEST(ReportPage, NoTextOfACaseBecomesAScriptOrEndsOne) {
   EXPECT_EQ(count(page, "<title>&lt;/script&gt;"), 1u);
 }
 
-TEST(ReportPage, AsksForNothingFromANetwork) {
+TEST(ReportPage, MakesNoRequestToANetwork) {
   const std::string page =
       report_page({.title = "t", .runs = {hostile_run()}, .comparison = {}, .plots = {}});
   EXPECT_NE(page.find("default-src 'none'"), std::string::npos);
@@ -173,7 +173,7 @@ json data_of(const Report& report) {
   return json::parse(page.substr(at, page.find("</script>", at) - at));
 }
 
-TEST(ReportPage, SaysOfEveryRunWhatMadeIt) {
+TEST(ReportPage, HasTheProvenanceOfEveryRun) {
   Report report;
   report.runs.resize(2);
   report.runs[0].provenance = {{"version", "1.2"}, {"threads", "3"}};
@@ -262,7 +262,7 @@ TEST(ReportPage, HasEveryFrameOfASmallOpeningInItsOrder) {
   EXPECT_EQ(times, (std::vector<double>{0, 0.01, 0.02, 0.03, 0.04}));
 }
 
-// Also what the browser's test measures the speed with: RIPSTOP_DOME names the file to leave.
+// Also used for the time measurement of the browser test: RIPSTOP_DOME is the name of the file.
 TEST(ReportPage, WithFiftyThousandMovingNodesIsAtMostTenMegabytes) {
   Report report;
   report.title = "dome";

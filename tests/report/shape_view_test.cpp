@@ -30,7 +30,7 @@ struct ShapeOfFiles : testing::Test {
   }
 };
 
-TEST_F(ShapeOfFiles, WhatBendsALineIsNoLineAndItsTensionIsTheLines) {
+TEST_F(ShapeOfFiles, BendingSpringsAreNoLinesAndTheirTensionIsThatOfTheLine) {
   const ShapeView view = read_shape({write(0, {0, 1, 2, 3}), write(0.1, {0, 1, 2, 3})});
   EXPECT_EQ(view.quads, (std::vector<int>{0, 1, 2, 3}));
   EXPECT_EQ(view.segments, (std::vector<int>{0, 1, 1, 2}));

@@ -1,4 +1,4 @@
-// Files that stand beside a result: patterns, a watched flow, an opening's series and lines.
+// Files in addition to a result: patterns, an unsteady flow, series and lines of an opening.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -165,7 +165,7 @@ TEST(WatchFiles, APlotOfManyStepsHasSomeTwoThousandPointsALine) {
   EXPECT_EQ(history_plot("", watched_record(3999, 0)).series[0].x.size(), 3999u);
 }
 
-/// What an opening was in at each of its frames.
+/// State of an opening at each of its frames.
 struct SeenFrames : InflationObserver {
   struct Seen {
     double time;

@@ -1,4 +1,4 @@
-// What a command does, called without a folder and without a terminal.
+// The computation of a command, called without a folder and without a terminal.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -25,12 +25,12 @@ Case small_case() {
   given.title = "A canopy made in code";
   given.parachute.canopy_material = "f-111";
   given.flow.cells = {20, 20, 30};
-  given.coupling.threads = 1;  // beside other tests, threads wait for each other
+  given.coupling.threads = 1;  // together with other tests, threads wait for each other
   apply({}, given);
   return given;
 }
 
-/// An empty folder that is the working folder meanwhile: what a test writes, it would write there.
+/// An empty folder that is temporarily the working folder: it would contain any file that a test writes.
 class InMemory : public testing::Test {
  protected:
   void SetUp() override {
@@ -125,7 +125,7 @@ TEST_F(InMemory, ASweepStartsFromItsNeighboursAndItsModelsAreCompared) {
   EXPECT_EQ(both.models[2].drag, both.models[1].drag);  // the same case from the same start
 }
 
-TEST_F(InMemory, ThePatternsBillWeighsWhatIsCut) {
+TEST_F(InMemory, ThePatternsBillHasTheMassOfTheCutPieces) {
   const PatternResult pattern = run_pattern(resolve(small_case()), {}, 400);
   double mass = 0;
   for (const BillRow& row : pattern.bill.rows) mass += row.mass;

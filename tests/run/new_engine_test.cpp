@@ -1,5 +1,5 @@
-// A flow engine is added by CONTRIBUTING's list: what implements Flow, and one row of the table. From there it
-// is a word of the case file, refused where it cannot do what the case asks, and flown.
+// A flow engine is added by the list of CONTRIBUTING: an implementation of Flow, and one row of the table. It
+// is then a word of the case file, refused where it does not support the case, and used.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -46,7 +46,7 @@ TEST_F(NewEngine, FliesACase) {
               1e-3 * solution.result.drag);
 }
 
-TEST_F(NewEngine, IsRefusedWhatItCannotDoBeforeAnythingIsComputed) {
+TEST_F(NewEngine, RefusesUnsupportedFeaturesBeforeAnyComputation) {
   for (const auto& [key, value] :
        {std::pair{"flow.sides", "entraining"}, std::pair{"flow.average_over", "20"},
         std::pair{"flow.ranks", "2"}, std::pair{"flow.outlet", "still-air"}}) {

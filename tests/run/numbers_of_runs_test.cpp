@@ -36,7 +36,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST(RunNumbers, OfAnEngineAreWhatTheCaseSaysToIt) {
+TEST(RunNumbers, OfAnEngineAreThoseOfTheCase) {
   Case given = square_law_case();
   given.flow.mesh = FlowMesh::grid;
   given.flow.cloth_levels = 0;
@@ -140,7 +140,7 @@ TEST(RunNumbers, HowWellADragIsKnownIsTheLargestOfItsShares) {
   EXPECT_NEAR(drag_uncertainty(last), 0.005, 1e-12);
   last.momentum_deficit = 198;
   EXPECT_NEAR(drag_uncertainty(last), 0.01, 1e-12);
-  last.drag_change = INFINITY;  // the first iteration knows no change
+  last.drag_change = INFINITY;  // the first iteration has no change
   EXPECT_NEAR(drag_uncertainty(last), 0.01, 1e-12);
 }
 
@@ -285,7 +285,7 @@ TEST(RunNumbers, OfAnOpeningTheDeepestAndLargestOfItsFramesCount) {
                    8e-3 / solver.start().step * solver.mesh().node_count() / 1.25e8);
 }
 
-TEST(RunNumbers, OfAnOpeningInItsOwnAirTheLargestDragAreaAndThePayloadsEndCount) {
+TEST(RunNumbers, OfACoupledInflationAreItsLargestDragAreaAndThePayloadsEnd) {
   Case given = small_opening_in_air();
   given.inflation.mass = InflationSettings::Mass::payload;
   given.payload.mass_kg = 3;
@@ -365,7 +365,7 @@ TEST(RunNumbers, ADampingIsSearchedOnTheMeasuredOpeningUnderThePressureOfTheProb
       std::string::npos);
 }
 
-TEST(RunNumbers, OfAFitWithCouponsStandInItsTextItsJsonAndItsFolder) {
+TEST(RunNumbers, OfAFitWithCouponsAreInItsTextItsJsonAndItsFolder) {
   Bench bench = read_bench(fs::path(RIPSTOP_SOURCE_DIR) / "examples/fit-ripstop/bench.toml");
   bench.shear_fraction = 0.2, bench.bending_fraction = 0.01;
   ThreadTeam team(1);

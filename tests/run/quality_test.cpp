@@ -1,4 +1,5 @@
-// Limits of the measures of quality: what is above them has a warning, and is not usable beyond the second one.
+// Limits of the measures of quality: values above them have a warning, and the result is not usable beyond
+// the second one.
 #include "ripstop/run/quality.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +12,7 @@
 namespace ripstop {
 namespace {
 
-TEST(Quality, WithinItsLimitsSaysNothing) {
+TEST(Quality, WithinItsLimitsHasNoWarning) {
   for (const QualityLimit& limit : quality_limits()) {
     const Judgement judgement = judge({{limit.key, limit.warn}});
     EXPECT_TRUE(judgement.usable && judgement.warnings.empty()) << limit.key;
@@ -34,7 +35,7 @@ TEST(Quality, EveryMeasureWarnsBeyondItsFirstLimitAndIsRefusedBeyondItsSecond) {
   }
 }
 
-// Balances that two users met: 46.6 and 32.7 % had no consequence; 2.7 % is what openings on default cells have.
+// Balances reported by two users: 46.6 and 32.7 % had no consequence; openings on default cells have 2.7 %.
 TEST(Quality, AnOpenEnergyBalanceIsNotUsable) {
   EXPECT_FALSE(judge({{"energy_residual", 0.46633}}).usable);
   EXPECT_FALSE(judge({{"energy_residual", 0.327}}).usable);

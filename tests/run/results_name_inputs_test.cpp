@@ -1,4 +1,4 @@
-// Results without a run folder say what they are of.
+// Results without a run folder contain their inputs.
 #include <gtest/gtest.h>
 
 #include "ripstop/core/thread_team.h"

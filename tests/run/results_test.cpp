@@ -108,7 +108,7 @@ TEST(Results, OfASteadyRunAreThoseOfItsLastIterationAndState) {
             canopy_size(parachute_mesh(resolve(given)), state.shape).projected_diameter);
   ASSERT_TRUE(result.margins);
   EXPECT_GT(result.stress.von_mises, 0);
-  // What all lines carry is the drag; the most loaded one has no less than the mean.
+  // The sum of all lines is the drag; the most loaded one has no less than the mean.
   EXPECT_GE(result.max_line_tension, last.line_tension / given.parachute.lines.count);
 }
 
@@ -191,7 +191,7 @@ TEST(Results, OfACouponAreInTheFilesOfANewFolder) {
   EXPECT_GT(read_png(folder / "coupon-90.png").width, 0);
 }
 
-TEST(Results, OfAFitAreWhatItsCouponsFoundAndItsPlotsHaveTheMeasuredPoints) {
+TEST(Results, OfAFitHaveItsCouponsAndThePlotsTheMeasuredPoints) {
   Bench bench = read_bench(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/fit-ripstop/bench.toml");
   bench.shear_fraction = 0.2, bench.bending_fraction = 0.01;  // only the clamps are to be taken back
   ThreadTeam team(1);
@@ -205,7 +205,7 @@ TEST(Results, OfAFitAreWhatItsCouponsFoundAndItsPlotsHaveTheMeasuredPoints) {
   const Png plot = read_png(folder.path / "curve-warp.png");
   const std::size_t samples = result.fit.direction("warp")->samples.size();
   for (std::size_t i = 0; i < samples; ++i) {
-    int pixels = 0;  // of some 40 markers, less what others hide; a legend has one
+    int pixels = 0;  // of some 40 markers, minus hidden ones; a legend has one
     for (int y = 0; y < plot.height; ++y)
       for (int x = 0; x < plot.width; ++x) pixels += plot.shows(x, y, series_colour(i));
     EXPECT_GT(pixels, 250) << i;

@@ -1,4 +1,4 @@
-// Which folder a run takes, and what it refuses.
+// The folder of a run, and refused folders.
 #include "ripstop/run/run_folder.h"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ Case stratos() {
   return read_case(fs::path(RIPSTOP_SOURCE_DIR) / "examples/stratos-iv/case.toml");
 }
 
-TEST(RunFolder, AStartThatGotNowhereGivesWayToTheCorrectedCase) {
+TEST(RunFolder, AStartWithoutResultsIsReplacedByTheCorrectedCase) {
   const TemporaryFolder root("run-folder");
   const fs::path folder = root.path / "run";
   Case given = stratos();
@@ -92,7 +92,7 @@ TEST(RunFolder, ItsInputsAreProgramEngineAndCase) {
             hash_bytes(version() + std::string("\nengine\n") + case_json(resolve(given))));
 }
 
-TEST(RunFolder, ItsDescriptionSaysWhatMadeItAndOfWhat) {
+TEST(RunFolder, ItsDescriptionHasProgramAndInputs) {
   const TemporaryFolder root("run-folder");
   Case given = stratos();
   given.flow.ranks = 3;
@@ -147,7 +147,7 @@ TEST(RunFolder, AResultOfOtherInputsIsNotBelieved) {
   EXPECT_THROW(finished_result(root.path / "run"), Error);
 }
 
-TEST(RunFolder, ACheckRefusesWhatTheRunWouldAndTouchesNothing) {
+TEST(RunFolder, ACheckRefusesTheSameAsTheRunAndChangesNothing) {
   const TemporaryFolder root("run-folder");
   Case given = stratos();
   const SteadyFolderSettings settings{{root.path / "run"}, 1, {}, {}};

@@ -49,7 +49,9 @@ CouponMesh straight_coupon(const Fabric& fabric, const CouponShape& shape) {
 struct Diagonal {
   int m = 0, n = 0;
 
-  int side() const { return m + n / 2 + 1; }  // nodes along either yarn of the square that holds it
+  int side() const {
+    return m + n / 2 + 1;
+  }  // nodes along either yarn of the square that contains the coupon
   bool has(int row, int column) const {
     const int u = column + row, v = column - row;
     return u >= m && u <= m + n && std::abs(v) <= m;
@@ -278,7 +280,7 @@ CouponPull pull_coupon(const CouponMesh& coupon, const std::vector<double>& stra
     std::vector<Vec3> x = now;
     if (known) {
       x = (*guess)[k];
-    } else if (strain_now > strain_before) {  // go on as in the last step
+    } else if (strain_now > strain_before) {  // continue as in the last step
       const double part = (strain - strain_now) / (strain_now - strain_before);
       for (std::size_t i = 0; i < x.size(); ++i) x[i] += part * (now[i] - before[i]);
     } else {

@@ -44,7 +44,7 @@ std::vector<Target> targets_of(const MaterialFit& fit, double usable_strain, int
     target.shape.width = d.samples.front().width;
     target.shape.orientation = static_cast<int>(d.orientation);
     target.shape.cells = cells;
-    // Along the yarns no farther than the law holds; on the bias the yarns stretch less than the coupon.
+    // Along the yarns not beyond the range of the law; on the bias the yarns stretch less than the coupon.
     const double end =
         d.name == "bias" ? d.curve.tested_strain : std::min(usable_strain, d.curve.tested_strain);
     for (int i = 1; i <= points; ++i) {

@@ -22,7 +22,7 @@ struct CouponFitOptions {
   double start_shear = 0.2, start_bending = 0.01;
 };
 
-/// A measured curve beside the coupon pulled in the computer.
+/// A measured curve and that of the virtual coupon.
 struct CouponComparison {
   std::string name;  // of the direction
   CouponShape shape;

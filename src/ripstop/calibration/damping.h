@@ -18,7 +18,7 @@ struct DampingTarget {
 /// One opening with one C_a.
 struct DampingTrial {
   double damping = 0;          // C_a [N s/m3]
-  double peak = 0;             // low-passed where the case asks for it, else over every step [N]
+  double peak = 0;             // low-passed if the case requests it, else over every step [N]
   double peak_time = 0;        // of the same [s]
   double every_step_peak = 0;  // [N]
   double steady_load = 0;      // [N]
@@ -42,7 +42,8 @@ struct DampingCalibration {
 /// inflation time; a trial that did not settle where a time was measured counts as 100 % wrong in it.
 double misfit_of(const DampingTrial& trial, const DampingTarget& target);
 
-/// The whole opening. Deterministic. Throws as Opening, and what `alive` throws, which is called now and then.
+/// The whole opening. Deterministic. Throws the exceptions of Opening, and those of `alive`, which is called
+/// at intervals.
 DampingTrial open_with(double damping, const InflationProblem& problem,
                        const std::function<void()>& alive = {});
 

@@ -10,7 +10,7 @@
 
 namespace ripstop {
 
-/// What is turned until the drag is right.
+/// The calibrated quantity.
 enum class PorosityKnob {
   gamma,        // Ergun's porosity, [NFM] Eq. 16
   permeability  // CFM/ft2 at half an inch of water, with b = 0: creeping flow
@@ -51,11 +51,10 @@ struct PorosityCalibration {
   bool outside = false;          // `knob` lies outside the trials
 };
 
-/// Least squares on the drag areas. For every condition the mean drag area over the shifts is
-/// joined by straight pieces between the knob's values, so that no law is forced on it; the lines
-/// serve the errors and the comparison with the published fit. Outside the trials their nearest
-/// piece goes on. Throws Error(bad_data) with fewer than two values of the knob for a condition, or
-/// when drag does not depend on it.
+/// Least squares on the drag areas. For every condition the mean drag area over the shifts is joined by straight
+/// pieces between the knob's values, so that no law is assumed; the lines provide the errors and the comparison with
+/// the published fit. Outside the computed values the nearest piece is extrapolated. Throws Error(bad_data) with
+/// fewer than two values of the knob for a condition, or when drag does not depend on it.
 PorosityCalibration calibrate_porosity(const std::vector<MeasuredDrag>& measured,
                                        const std::vector<PorosityTrial>& trials, double reference_area);
 

@@ -1,4 +1,4 @@
-// How far every part is from breaking: its highest load over what is left of its strength.
+// Margin of safety of every part: its maximum load and its allowable load.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace ripstop {
 
-/// [margins] of a case file; sources beside the keys (case/flight_keys.cpp).
+/// [margins] of a case file; sources are given with the keys (case/flight_keys.cpp).
 struct MarginFactors {
   double safety_factor = 1.5;          // on the load
   double seam_efficiency = 0.8;        // of cloth and tape, shares of the strength from here on
@@ -38,8 +38,9 @@ struct Margin {
   std::string unit;
   std::optional<double> strength;  // of the material as it is sold; absent: not known
   std::string strength_from;
-  double knock_down = 1;         // share of it that is left
-  std::optional<double> used;    // safety factor times load over what is left; above 1 it does not hold
+  double knock_down = 1;  // share of it that is left
+  std::optional<double>
+      used;  // utilisation: safety factor times load over the allowable load; above 1 it is exceeded
   std::optional<double> margin;  // of safety: 1 / used - 1
 };
 

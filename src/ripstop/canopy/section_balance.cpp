@@ -33,7 +33,7 @@ Vec3 axial_traction(const CellStress& stress, Vec3 normal) {
   return stress.principal_max * first.z * first + stress.principal_min * second.z * second;
 }
 
-/// What a state carries, the same for every section.
+/// Data of a state, the same for every section.
 struct Carried {
   std::vector<Cell> cells;
   std::vector<Vec3> x, on_ties;

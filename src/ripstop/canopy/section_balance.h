@@ -1,5 +1,5 @@
-// Sections across the canopy's axis: what cloth and lines carry through one must be what the air does to the
-// part beyond it. Stress and load are computed apart, so that this checks the one by the other.
+// Sections across the canopy axis: the force of cloth and lines through a section must equal the air load on the part
+// beyond it. Stress and load are computed independently, so this is a check of both.
 #pragma once
 
 #include <vector>
@@ -13,7 +13,7 @@ namespace ripstop {
 /// raised cosine): one section falls between the rows of one cell and on the nodes of the next.
 struct SectionBalance {
   double cloth_force = 0;  // of the stress field [N]
-  double cord_force = 0;   // of lines, tapes and other springs beside the lattices [N]
+  double cord_force = 0;   // of lines, tapes and other springs outside the lattices [N]
   double seam_force = 0;   // of cloth on the cords that it is tied to, handed on within a cord's segment [N]
   double air_force = 0;    // of the load on the nodes above [N]
   double moment = 0;       // of cloth, cords and seams [N m]

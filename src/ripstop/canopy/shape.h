@@ -1,4 +1,4 @@
-// Sizes of a canopy's shape: as a user asks for them, and as a camera sees them from the side.
+// Sizes of a canopy shape: as a user requests them, and as a camera sees them from the side.
 #pragma once
 
 #include <map>

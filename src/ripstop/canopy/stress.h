@@ -1,4 +1,4 @@
-// What the parts of a canopy carry, and how far they are stretched.
+// Loads and strains of the parts of a canopy.
 #pragma once
 
 #include <map>
@@ -17,7 +17,7 @@ struct LineTension {
 };
 std::vector<LineTension> line_tensions(const CanopyMesh& mesh, const std::vector<double>& spring_tensions);
 
-/// What a chain carries at its axial spring `at` of `count`, whose tension is `axial` [N]. `bending_fraction` of the
+/// Load of a chain at its axial spring `at` of `count`, whose tension is `axial` [N]. `bending_fraction` of the
 /// line's law is in two bending springs that lie over every axial one, but for one over the first and over the last,
 /// and none over a single one; where the strain hardly changes along the chain all of them are under the same strain.
 double chain_tension(double axial, double bending_fraction, std::size_t at, std::size_t count);
@@ -25,9 +25,9 @@ double chain_tension(double axial, double bending_fraction, std::size_t at, std:
 /// Strength is that of a strip so wide (ISO 13934-1) [m].
 inline constexpr double strip_width = 0.05;
 
-/// Where the cloth carries most, and how much of it carries. Stresses are means over a square of cloth as wide as such a
-/// strip, or as much of it as there is: where a line pulls on a corner, those of cells grow without end as cells shrink.
-/// Cloth that is gathered counts with its width as cut.
+/// Where the cloth carries most, and how much of it carries. Stresses are means over a square of cloth as wide as
+/// such a strip, or as much of it as there is: where a line pulls on a corner, those of cells grow without end as
+/// cells shrink. Cloth that is gathered counts with its width as cut.
 struct StressPeak {
   double von_mises = 0;  // [N/m]
   double strain = 0;     // largest spring strain of the cloth
@@ -38,7 +38,7 @@ struct StressPeak {
   double warp = 0, weft = 0;       // highest along either yarn [N/m]
   double wrinkled = 0, slack = 0;  // shares of the cloth's area as cut, see Tautness
 };
-/// What a sewer reads, for a result's list of members.
+/// Yarn forces and states for the list of members of a result.
 template <class Peak, class Visit>
 void sewing_members(Peak& peak, Visit&& visit) {
   visit("max_principal_n_m", peak.principal);
@@ -58,8 +58,8 @@ StressPeak stress_peak(const Mesh& mesh, const std::vector<Vec3>& positions,
 struct Strains {
   double mean = 0, largest = 0;
 };
-/// By part: "lines" (between confluence and skirt), "tape", "cloth" (springs along the yarns, weighted by the
-/// area that each stands for). A part that the mesh has not is left out.
+/// By part: "lines" (between confluence and skirt), "tape", "cloth" (springs along the yarns, weighted by the area
+/// that each represents). Parts that the mesh does not have are omitted.
 std::map<std::string, Strains> part_strains(const CanopyMesh& mesh, const std::vector<Vec3>& positions);
 
 }  // namespace ripstop

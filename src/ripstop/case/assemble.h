@@ -1,4 +1,5 @@
-// From a case to what the solvers take: the mesh in the flow's frame, the flow problem, the coupled problem.
+// From a case to the input of the solvers: the mesh in the frame of the flow, the flow problem, the coupled
+// problem.
 #pragma once
 
 #include "ripstop/case/settings.h"
@@ -8,13 +9,13 @@
 
 namespace ripstop {
 
-/// The canopy's start shape with its skirt at flow.canopy_position_m, axis on x = y = 0, inlet at z = 0. With a `design`
-/// in place of the settings' own: of that, of the same materials.
+/// The canopy's start shape with its skirt at flow.canopy_position_m, axis on x = y = 0, inlet at z = 0. With a
+/// `design` in place of the settings' own: of that, of the same materials.
 CanopyMesh parachute_mesh(const Settings& resolved);
 CanopyMesh parachute_mesh(const Design& design, const Settings& resolved);
 /// Box, air and the canopy cloth's resistance; its cut cells are left to the coupling.
 FlowProblem flow_problem(const Settings& resolved);
-/// Throws Error(usage) where flow.angle_of_attack_deg is not 0; `what` cannot have one.
+/// Throws Error(usage) if flow.angle_of_attack_deg is not 0; `what` does not support one.
 void require_axial_stream(const FlowSettings& flow, const char* what);
 SteadyProblem steady_problem(const Settings& resolved);
 

@@ -1,4 +1,4 @@
-// A case: what the user gave for one run, in a case file or in code. One struct for each TOML table.
+// A case: the user's input for one run, in a case file or in code. One struct for each TOML table.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ namespace ripstop {
 
 enum class SpeedBasis { nominal, measured };
 enum class Convection { upwind, second_order };
-/// Cells that the cloth parts where it stands between their centres, or that are moved onto it.
+/// Cells whose faces represent the cloth, or that are fitted to it.
 enum class FlowMesh { grid, fitted };
 
 /// [flow.watch]: how long an unsteady flow is watched. Lengths are in times
@@ -57,7 +57,7 @@ struct FlowOptions {
   bool operator==(const FlowOptions&) const = default;
 };
 
-/// [flow.core] as given: the part of the flow's box with uniform cells, outside of which they grow.
+/// [flow.core] as given: the part of the flow domain with uniform cells; outside of it the cells grow.
 struct CoreKeys {
   std::optional<Vec3> size_m;     // 0: the cells are uniform along that axis
   std::optional<double> start_m;  // from the inlet
@@ -66,7 +66,7 @@ struct CoreKeys {
       off_axis;  // of its middle from the canopy's axis along x, half as much along y, in cells
 };
 
-/// What the air comes out of: the endless stream, a nozzle into still air, or a closed test section.
+/// Source of the air: the free stream, a nozzle into still air, or a closed test section.
 enum class TunnelKind { free_air, open_jet, closed };
 
 /// [flow.tunnel] as given.
@@ -81,9 +81,9 @@ struct TunnelKeys {
   std::optional<double> displacement_thickness_m;  // of each wall's boundary layer
 };
 
-/// [flow] as given. What is absent follows from parachute, cloth and the other keys: settings.h.
+/// [flow] as given. Absent values follow from parachute, cloth and the other keys: settings.h.
 struct FlowKeys : FlowOptions {
-  std::optional<double> speed_m_s;  // absent: [payload] says what it has to hold
+  std::optional<double> speed_m_s;  // absent: [payload] gives the mass to be carried
   std::optional<double> height_m;   // above sea level, for density, temperature and viscosity
   std::optional<double> density_kg_m3, temperature_k, viscosity_pa_s;
   std::optional<PorosityModel> porosity_model;
@@ -109,7 +109,7 @@ struct CouplingKeys : CouplingOptions {
 /// [payload] as given.
 struct PayloadKeys {
   std::optional<double> mass_kg;  // below the parachute; a steady run finds the speed at which drag is weight
-  double drag_area_m2 = 0;        // C_D S of what hangs below, in the undisturbed stream
+  double drag_area_m2 = 0;        // C_D S of the payload in the undisturbed stream
 };
 
 /// [deployment] as given.
@@ -132,11 +132,12 @@ struct Measured {
   std::optional<double> printed_linear_n;
 };
 
-/// What the user gave: a value that is absent was not given and follows from the others (settings.h).
+/// The user's input: an absent value was not given and follows from the others (settings.h).
 struct Case {
   std::string title;
   Design parachute;
-  std::map<std::string, Material> materials;  // by name; what the parachute names besides is the library's
+  std::map<std::string, Material>
+      materials;  // by name; other materials that the parachute names are those of the library
   FlowKeys flow;
   CouplingKeys coupling;
   InflationSettings inflation;
@@ -166,7 +167,7 @@ void describe(Fields& fields, MarginFactors& margins);
 void describe(Fields& fields, Measured& measured);
 void describe(Fields& fields, Case& given);
 
-/// What the command line may change about a case.
+/// Changes of a case by the command line.
 struct Overrides {
   std::optional<double> speed = {};             // --speed [m/s]
   std::optional<std::array<int, 3>> grid = {};  // --grid nx ny nz
@@ -175,8 +176,8 @@ struct Overrides {
   bool linear = false;                          // --linear
   /// --pressure of an opening [Pa], in place of the pressure or the drag coefficient that the case gives
   std::optional<double> pressure = {};
-  /// --set: any key, over what the file says; a material of the library is copied into the case first. Only
-  /// for read_case() and parse_case().
+  /// --set: any key, in place of the value of the file; a material of the library is copied into the case
+  /// first. Only for read_case() and parse_case().
   std::vector<Setting> set = {};
 };
 
@@ -184,13 +185,13 @@ struct Overrides {
 /// broken library material.
 std::vector<Problem> validate(const Case& given);
 /// The case with every material that its parachute names, from the library where the case has it not, and the
-/// library's tapes where it names none. Throws InputError(usage) with everything that validate() finds besides the
-/// problems that are `known` already.
+/// library's tapes where it names none. Throws InputError(usage) with all problems of validate() in addition to those
+/// that are `known` already.
 Case checked(Case given, std::vector<Problem> known = {});
 
 /// Reads and checks. Throws as checked(), and Error(io) when the file cannot be read.
 Case read_case(const std::filesystem::path& file, const Overrides& overrides = {});
-/// The same from text; `name` stands for the file in messages.
+/// Reads a case from text; `name` is the name of the file in messages.
 Case parse_case(const std::string& text, const std::string& name, const Overrides& overrides = {});
 /// Changes a case under the same rules. Throws InputError(usage) and leaves `given` unchanged.
 void apply(const Overrides& overrides, Case& given);

@@ -111,7 +111,7 @@ class Reader {
     }
   }
 
-  /// The number that openchute wrote beside a formula when it last drew the section.
+  /// The number that openchute wrote next to a formula when it last drew the section.
   void compare(const Node& stored, double value) {
     if (!stored.json->is_number()) stored.fail("must be a number");
     const double before = stored.json->get<double>();
@@ -154,7 +154,7 @@ class Reader {
     }
   }
 
-  /// Formulas may refer to what stands above them only.
+  /// Formulas may refer only to parameters above them.
   void check_order(const std::vector<Node>& parameters) {
     std::map<std::string, std::size_t> index;
     std::vector<std::vector<std::string>> uses;

@@ -31,15 +31,16 @@ struct ChuteFile {
   std::string name;
   std::vector<std::pair<std::string, double>> inputs, parameters;
   std::vector<ChuteSection> sections;
-  std::vector<std::string> not_mapped;  // what the file says and Ripstop has no place for, one sentence each
-  std::vector<std::string> remarks;     // what its writer may not have meant
+  std::vector<std::string>
+      not_mapped;                    // content of the file that Ripstop does not support, one sentence each
+  std::vector<std::string> remarks;  // results that the author may not have intended
   std::vector<std::string> instructions;
 };
 
-/// Formulas are evaluated anew, in the file's order, as openchute does; where the result differs from the
-/// number that the file holds beside the formula, a remark says so. Throws Error(bad_data) with file, place
-/// and character for JSON that cannot be read, missing or wrong values, unknown names, formulas that refer to
-/// each other or to a later one, and formulas without a value.
+/// Formulas are evaluated anew, in the file's order, as openchute does; a remark reports a result that differs from
+/// the number in the file. Throws Error(bad_data) with file, place and character for JSON that cannot be read,
+/// missing or wrong values, unknown names, formulas that refer to each other or to a later one, and formulas without
+/// a value.
 ChuteFile read_chute(std::string_view text, const std::string& file);
 
 }  // namespace ripstop

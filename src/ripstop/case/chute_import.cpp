@@ -247,7 +247,7 @@ class Importer {
     canopy_ = canopy;
   }
 
-  /// From the skirt to the vent: the lowest end first, then what begins nearest to the end so far.
+  /// From the skirt to the vent: the lowest end first, then the piece that begins nearest to the end so far.
   std::vector<ChuteSection> in_order() const {
     std::vector<ChuteSection> left = file_.sections, ordered;
     const auto turned = [](ChuteSection s) {
@@ -276,7 +276,7 @@ class Importer {
   }
 
   /// A ring sector of slant L and arcs 2 pi r / N has the area of a trapezoid as high as L: the meridian gets
-  /// so much steeper that the strip of flat gores is L long; what lies above is lifted by the difference.
+  /// so much steeper that the strip of flat gores is L long; the parts above are lifted by the difference.
   void straighten(ChuteSection& s, double& lift) {
     const double share = pi / gores_ / std::tan(pi / gores_);
     const MeridianPoint a = s.points.front(), b = s.points.back();

@@ -9,7 +9,7 @@
 
 namespace ripstop {
 
-/// What the file does not say.
+/// Data that the file does not contain.
 struct ChuteImportOptions {
   std::optional<int> line_count;        // absent: one a gore; 16 on a cross (assumed)
   std::optional<double> line_length;    // [m]; absent: the nominal diameter (assumed)
@@ -17,7 +17,7 @@ struct ChuteImportOptions {
                                         // ends in a point (assumed)
 };
 
-/// Every sentence of the report belongs to one list; what the file says is in the first three.
+/// Every sentence of the report belongs to one list; the content of the file is in the first three.
 struct ChuteImport {
   std::string case_text;
   std::string type;                     // of [parachute]
@@ -27,11 +27,11 @@ struct ChuteImport {
   std::vector<std::string> assumed;     // in the case, but not in the file
 };
 
-/// A flat disk with or without a cylindrical band below, or a cone, of circular sections becomes
-/// `disk-gap-band`, `flat-circular`, `conical`; a single cylinder of 2 gores, openchute's stand-in for a
-/// cross, becomes `cross`. Everything else becomes a `profile` that is cut as openchute cuts it: gores 2 pi
-/// r / N wide. `source` names the file in the case. Throws Error(bad_data) with the place for what cannot be
-/// mapped: polygonal sections of different numbers of gores, two gores, no room for a vent.
+/// A flat disk with or without a cylindrical band below, or a cone, of circular sections becomes `disk-gap-band`,
+/// `flat-circular`, `conical`; a single cylinder of 2 gores, which represents a cross in openchute, becomes `cross`.
+/// Everything else becomes a `profile` that is cut as openchute cuts it: gores 2 pi r / N wide. `source` names the
+/// file in the case. Throws Error(bad_data) with the place for shapes that cannot be converted: polygonal sections of
+/// different numbers of gores, two gores, no room for a vent.
 ChuteImport import_chute(const ChuteFile& file, const ChuteImportOptions& options, const std::string& source);
 
 }  // namespace ripstop

@@ -18,8 +18,8 @@ constexpr double bytes_a_cell = 700, bytes_a_run = 2e8;
 // Measured (time -f %M): 360 MB for 400,000 nodes of cloth (fabric), 716 MB for 900,000 of lines (check).
 constexpr double bytes_a_node = 1000;
 // About the means of the 22 runs of make validate-families on 627,200 cells with 8,000 to 50,300 nodes, from the flat
-// canopy (iterations.csv), one core each beside other work: 21 of them took half to twice what this says, a ringsail that
-// needed 16 coupling iterations five times.
+// canopy (iterations.csv), one core each next to other work: 21 of them took 0.5 to 2 times this estimate, a ringsail
+// with 16 coupling iterations 5 times.
 constexpr double flow_iterations = 1000, cell_time = 1.2e-7;  // of a cell and iteration [core s]
 constexpr double cloth_steps = 15000, node_time = 1.5e-8;     // of a node and step [core s]
 

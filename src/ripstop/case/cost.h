@@ -1,4 +1,4 @@
-// What a case takes of the machine, estimated before anything of it is allocated.
+// Memory and time of a case, estimated before any of it is allocated.
 #pragma once
 
 #include <string>
@@ -18,10 +18,10 @@ Cost cost_of(const Settings& resolved);
 /// Memory of a flow of the built-in engine by itself [bytes].
 double flow_memory(double cells);
 
-/// What this process may still take: of the machine's free memory, of its control group and of its own limit
-/// (ulimit -v), the least [bytes].
+/// Memory available to this process: the least of the free memory of the machine, of its control group and of
+/// its own limit (ulimit -v) [bytes].
 double free_memory();
-/// Throws Error(resources) when `what` needs more than that: "a steady run on 2e+08 cells".
+/// Throws Error(resources) when the named object needs more than that: "a steady run on 2e+08 cells".
 void require_memory(double bytes, const std::string& what);
 /// The same for all that computes the canopy of a design alone.
 void require_cloth_memory(const Design& design);

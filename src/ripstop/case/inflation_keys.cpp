@@ -18,7 +18,7 @@ void describe_start(Fields& fields, InflationSettings& inflation) {
                 "Slack: length of the lines beyond the distance from the confluence to the skirt.");
 }
 
-/// What presses.
+/// Load model.
 void describe_air(Fields& fields, InflationSettings& inflation) {
   fields.choice("air", inflation.air, {{"uniform", AirModel::uniform}, {"coupled", AirModel::coupled}},
                 "Load model. \"uniform\": one pressure difference with absolute damping; \"coupled\": flow "
@@ -65,7 +65,7 @@ void describe_damping(Fields& fields, InflationSettings& inflation) {
                 "a cell is reduced below it");
 }
 
-/// What the opening has unlike the steady canopy.
+/// Differences of the opening from the steady canopy.
 void describe_mesh(Fields& fields, InflationSettings& inflation) {
   fields
       .number("line_segment_m", inflation.line_segment_m, from(0.001).up_to(10),
@@ -91,7 +91,7 @@ void describe_mesh(Fields& fields, InflationSettings& inflation) {
       "harmonic; 0: none. `ripstop inflate --samples` uses the seeds from 1.");
 }
 
-/// How long, how finely and what is written.
+/// Duration, resolution and output.
 void describe_run(Fields& fields, InflationSettings& inflation) {
   fields.number("duration_s", inflation.duration_s, above(0).up_to(1000), "Time from deployment to the end.");
   fields.number("history_hz", inflation.history_hz, from(10).up_to(1e6),
@@ -108,7 +108,7 @@ void describe_run(Fields& fields, InflationSettings& inflation) {
                 "Time step over the stability limit.");
 }
 
-/// What is known of the load.
+/// Known loads.
 void describe_known(Fields& fields, InflationSettings& inflation) {
   fields.number("measured_peak_n", inflation.measured_peak_n, above(0).up_to(1e7), "Measured peak load.")
       .absent("withheld or not measured");

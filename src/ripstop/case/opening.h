@@ -19,12 +19,11 @@ struct LoadSource {
 /// The case on a mesh that can be folded, with the line segments and the compression that [inflation] gives.
 Case opening_case(const Case& given);
 
-/// What [inflation] asks for. Throws Error(usage) unless that is a pressure or a drag
-/// coefficient, and not both.
+/// Load model of [inflation]. Throws Error(usage) unless it gives either a pressure or a drag coefficient.
 LoadSource load_source(const Settings& opening);
 
-/// Of the settings of what opening_case() returns; dp from the equilibrium of a coarse mesh when a steady drag is asked for.
-/// `alive` is called now and then on the way; what it throws goes on to the caller.
+/// For settings returned by opening_case(); dp follows from the equilibrium of a coarse mesh when a steady drag is
+/// given. `alive` is called at intervals; its exceptions are passed to the caller.
 InflationProblem opening_problem(const Settings& opening, const LoadSource& source, int threads,
                                  const std::function<void()>& alive = {});
 

@@ -1,4 +1,4 @@
-// What hangs below a parachute, and what it weighs.
+// Payload of a parachute, and the mass of the parachute.
 #pragma once
 
 #include "ripstop/case/settings.h"
@@ -13,8 +13,8 @@ struct PartMasses {
 
 /// Pieces, tapes and lines of the parachute.
 CutPattern cut_pattern(const Settings& resolved);
-/// What is cut, and what it weighs: the one mass of a parachute. Hems, seam allowances, overlaps and line loops are sewn
-/// in and fly along.
+/// Masses as cut: the one mass of a parachute. Hems, seam allowances, overlaps and line loops are part of the
+/// flying mass.
 Bill parachute_bill(const Settings& resolved, const Allowances& allowances = {},
                     double packing_density = packed_by_hand);
 PartMasses parachute_masses(const Settings& resolved);
@@ -22,14 +22,14 @@ PartMasses parachute_masses(const Settings& resolved);
 double parachute_mass(const Design& design, const PartMaterials& materials);
 /// The total of parachute_masses() [kg].
 double parachute_mass(const Settings& resolved);
-/// Speed at which the usual drag of the canopy's family holds payload.mass_kg; where
-/// a search for the speed begins [m/s].
+/// Speed at which the usual drag of the canopy family carries payload.mass_kg: start value of the iteration
+/// for the speed [m/s].
 double payload_first_speed(const Case& given, double density);
 /// The middle of the family's range on the nominal area.
 double usual_drag_coefficient(const Design& parachute);
 /// Three times the descent rate, at least 20 m/s (assumed).
 double usual_deployment_speed(double descent_rate);
-/// Of `payload` [kg] and the parachute that carries it; the canopy's drag holds both [N].
+/// Of `payload` [kg] and its parachute; the drag of the canopy carries both [N].
 double suspended_weight(const Settings& resolved, double payload);
 
 }  // namespace ripstop

@@ -1,4 +1,4 @@
-// Reading a case file, and what a command line changes about it.
+// Reads a case file and applies the changes of a command line.
 
 #include "ripstop/core/toml/read.h"
 
@@ -76,7 +76,7 @@ void import_material(Document& document, const Setting& setting) {
   set_value(document, {prefix + name + ".base", quoted(name), setting.option});
 }
 
-/// What a setting gave is told by its option, not by a place in the file.
+/// The origin of a value from a setting is its option, not a place in the file.
 void mark_origin(const Setting& setting, Origins& origins, std::vector<Problem>& problems) {
   const Origin given{"", 0, 0, setting.option};
   const auto below = [&](const std::string& key) {

@@ -24,7 +24,7 @@ std::string given_where(const Origins& origins, const std::string& key) {
                                            : "by " + origin.option);
 }
 
-/// Takes what is given, else what follows, writes it into the case and notes where it came from.
+/// Takes the given value, else the derived one, writes it into the case and records its origin.
 class Follow {
  public:
   explicit Follow(SettingsValues& values) : values_(values) {}
@@ -42,7 +42,7 @@ class Follow {
   SettingsValues& values_;
 };
 
-// A day in a tunnel: what the air is where neither its own keys nor a height say.
+// Default laboratory air, without keys of the air or a height.
 constexpr double usual_viscosity = 1.84e-5;   // [Pa s]
 constexpr double usual_temperature = 293.15;  // [K]
 
@@ -92,7 +92,7 @@ void resolve_tunnel(Follow& follow, FlowKeys& keys, TunnelSettings& tunnel) {
   Nozzle& nozzle = tunnel.nozzle;
   nozzle.shape = take("shape", given.shape, jet ? NozzleShape::circle : NozzleShape::rectangle,
                       jet ? "default of the open jet" : "the only shape of a closed test section");
-  nozzle.width = given.width_m.value_or(0);  // its absence is told by validate()
+  nozzle.width = given.width_m.value_or(0);  // validate() reports its absence
   if (nozzle.shape == NozzleShape::rectangle)
     nozzle.height = take("height_m", given.height_m, nozzle.width, "equal to the width");
   if (jet) {
@@ -194,7 +194,7 @@ void resolve_box(Follow& follow, const Design& parachute, FlowKeys& keys, FlowSe
   resolve_core(follow, d, keys, flow);
 }
 
-/// What the engine has; of one that there is not, which check_engine() tells, everything.
+/// Abilities of the engine; an unknown engine, which check_engine() reports, has all of them.
 Abilities abilities_of(const std::string& engine) {
   for (const EngineRecord& one : engines())
     if (one.word == engine) return one.can;

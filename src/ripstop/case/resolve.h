@@ -1,12 +1,12 @@
-// How the keys that a case leaves out follow from the others: from the parachute, its cloth and the values of other keys,
-// never from which keys were given, so that to write a value that follows changes nothing.
+// How the keys that a case leaves out follow from the others: from the parachute, its cloth and the values of other
+// keys, never from which keys were given, so that to write a value that follows changes nothing.
 #pragma once
 
 #include "ripstop/case/settings.h"
 
 namespace ripstop {
 
-/// What follows from the porosity model alone; docs/guide/case-file.md, Air through the cloth.
+/// Defaults that follow from the porosity model alone; docs/guide/case-file.md, Air through the cloth.
 struct ModelDefaults {
   std::array<int, 3> cells;
   double growth;
@@ -44,14 +44,14 @@ inline constexpr ModelDefaults sheet_defaults{.cells = {80, 80, 98},
 /// The paper model's box [m], [NFM] section 5.
 inline constexpr Vec3 paper_box{2, 2, 4};
 /// The sheet's box and core and the skirt's distance from the inlet, in inflated diameters;
-/// docs/theory/flow-cartesian.md, Sides of the box, and docs/validation.md say what they are worth.
+/// docs/theory/flow-cartesian.md, Sides of the box, and docs/validation.md give their errors.
 inline constexpr Vec3 sheet_box{6, 6, 9}, sheet_core{1.8, 1.8, 2.2};
 inline constexpr double sheet_skirt = 4;
 /// CoreSettings::off_axis in time: no two of a canopy's four sides then lie alike on the cells.
 inline constexpr double in_time_off_axis = 0.25;
 
-/// A jet's box in nozzle widths: across the flow, and at least so long behind the skirt; what the sheet's cells
-/// become in so wide a box. docs/guide/tunnel.md says what they are worth.
+/// Domain of a jet in nozzle widths: width, and smallest length downstream of the skirt; cells of the sheet model in
+/// so wide a domain. docs/guide/tunnel.md gives their errors.
 inline constexpr double jet_box_across = 2.8, jet_box_behind = 2, narrowest_jet_box = 1.5;
 inline constexpr std::array<int, 3> jet_cells{88, 88, 98};
 inline constexpr double jet_outside_speed = 0.02, jet_shear_layer = 0.1;  // the latter in nozzle widths

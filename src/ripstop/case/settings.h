@@ -1,5 +1,5 @@
-// The settings of a case: all that a run takes from it, computed once by resolve() where the case comes in. Solvers, run
-// folders and reports take Settings; only what reads, makes or changes a case sees the Case itself.
+// The settings of a case: the complete input of a run, computed once by resolve() when the case is read. Solvers, run
+// folders and reports take Settings; only code that reads, makes or changes a case uses the Case itself.
 #pragma once
 
 #include <optional>
@@ -65,7 +65,7 @@ struct Source {
   std::string from;  // "the sheet's default", "given in case.toml, line 12"
 };
 
-/// What follows from the keys of a case alone, without its materials being there.
+/// Settings that follow from the keys of a case alone, without its materials.
 struct SettingsValues {
   FlowSettings flow;
   CouplingSettings coupling;
@@ -120,12 +120,12 @@ Settings resolve(const Case& given);
 /// The same settings at another speed, which is the nominal one too [m/s].
 Settings at_speed(const Settings& resolved, double speed_m_s);
 
-/// What the sheet's box is measured in [m].
+/// Length unit of the domain of the sheet model [m].
 double inflated_diameter(const Design& parachute);
 /// Cells of the flow. Throws Error(usage) for a core that does not fit, or that the cells do not suffice for.
 FlowGrid flow_grid(const FlowSettings& flow);
-/// Whether the field of one flow can start the other: both are solved alike on the same cells. The canopy's place and
-/// the watch may differ, and the air too where the engine scales what it has.
+/// Whether the field of one flow can start the other: both are solved alike on the same cells. The position of the
+/// canopy and the averaging window may differ, and the air too if the engine can scale its field.
 bool same_flow(const FlowSettings& a, const FlowSettings& b);
 
 /// The settings as text that reads back to the same settings.

@@ -1,4 +1,4 @@
-// What a case amounts to, without a solver: masses, springs, time step.
+// Properties of a case that need no solver: masses, springs, time step.
 #pragma once
 
 #include <string>
@@ -31,7 +31,7 @@ struct CaseSummary {
   Air air;
 };
 
-/// Builds the mesh and the cloth. Throws what they throw.
+/// Builds the mesh and the cloth, and throws their exceptions.
 CaseSummary summarize(const Settings& resolved);
 
 }  // namespace ripstop

@@ -16,7 +16,7 @@ namespace {
 constexpr double hem_width = Allowances{}.hem;  // of cloth turned over along an edge [m]
 constexpr double unknown_opening = 1.8;         // C_x, the highest of the families' (assumed)
 
-/// Safety factor times the load over what is left of the strength; nothing where that is not known.
+/// Safety factor times load over the allowable load; nothing if the strength is not known.
 std::optional<double> used(const Case& given, const MemberLoads& loads, const Tape* tape) {
   return margins_of(loads, given.margins, canopy_fabric(given), tape, {}, {}).members.back().used;
 }
@@ -43,7 +43,7 @@ bool slots_need_tape(const Design& design) {
 }  // namespace
 
 TapeMaterial tape_for(const Case& given, double line_load) {
-  line_load = std::max(1e-9, line_load);  // what is wrong with air and area is told elsewhere
+  line_load = std::max(1e-9, line_load);  // mistakes of air and area are reported elsewhere
   const std::optional<double> hem = used_of_hem(given, line_load);
   if (hem && *hem <= 1 && !slots_need_tape(given.parachute))
     return {

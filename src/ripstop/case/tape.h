@@ -1,4 +1,5 @@
-// The tape of a parachute that names none: the lightest reinforcement that holds the load of one line at the opening.
+// The tape of a parachute without a given one: the lightest reinforcement that carries the load of one line
+// at the opening.
 #pragma once
 
 #include <string>
@@ -13,13 +14,13 @@ struct TapeMaterial {
   double used = 0;   // of the strength of tape or hem by a line's load; 0: given, not computed
 };
 
-/// As the case gives it, else as tape_for() has it at the load of the opening: C_x C_D S0 q over the number of lines, C_x
-/// and C_D usual for the family, at the case's speed. A payload that the case sinks with opens its parachute at
+/// As the case gives it, else as tape_for() has it at the load of the opening: C_x C_D S0 q over the number of lines,
+/// C_x and C_D usual for the family, at the case's speed. A payload that the case sinks with opens its parachute at
 /// usual_deployment_speed(). Throws Error(usage) for a case without air or without its materials.
 TapeMaterial tape_material(const Case& given);
 
-/// Skirt, vent and seams are made as strong as a line is loaded, with the case's [margins]: none where a hem of the
-/// cloth holds `line_load` [N] (and no slot needs tape across it), else the lightest tape of given.materials that
+/// Skirt, vent and seams are reinforced for the load of one line, with the [margins] of the case: none if a hem of the
+/// cloth carries `line_load` [N] (and no slot needs tape across it), else the lightest tape of given.materials that
 /// does, else the strongest.
 TapeMaterial tape_for(const Case& given, double line_load);
 

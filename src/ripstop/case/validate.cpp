@@ -38,7 +38,7 @@ void find_material(Case& given, const std::string& key, const std::string& name,
                  fmt::format("is a {}; a {} is needed here", kind_of(found->second), needed));
 }
 
-/// What a parachute that names no tape may take.
+/// Tapes that a parachute without a given tape may use.
 void add_library_tapes(Case& given) {
   for (const std::string& name : library_names()) {
     if (given.materials.contains(name)) continue;
@@ -264,7 +264,7 @@ void check_cells(const Case& given, const FlowSettings& flow, Findings& findings
   }
 }
 
-/// What the engine has not is refused here, before the cloth has been relaxed for it.
+/// Features that the engine does not support are refused here, before the cloth is relaxed.
 void check_engine(const Case& given, const FlowSettings& flow, Findings& findings) {
   if (!findings.sound({"flow"})) return;
   std::vector<std::string> words;
@@ -321,7 +321,7 @@ void check_watch(const Case& given, const FlowSettings& flow, Findings& findings
         "the longest watch must be at least twice as long as the shortest mean (flow.watch.shortest)");
 }
 
-/// An opening in its own air steps a sheet and the built-in engine together.
+/// Coupled inflation steps a sheet and the built-in engine together.
 void check_opening_air(const Case& given, const FlowSettings& flow, Findings& findings) {
   const bool flies = given.inflation.mass == InflationSettings::Mass::payload;
   const auto refuse = [&](const char* why) {
@@ -407,13 +407,13 @@ void check_settings(Case given, Findings& findings) {
   if (!findings.sound(shape_keys(given.parachute)) ||
       !findings.sound({"parachute.canopy_material", "materials." + cloth}))
     return;
-  if (!measured_row(given)) {  // told by check_measured(); the box does not ask for the air
+  if (!measured_row(given)) {  // reported by check_measured(); the domain does not depend on the air
     given.flow.speed_basis = SpeedBasis::nominal;
     if (!given.flow.density_kg_m3) given.flow.density_kg_m3 = 1;
   }
   check_tunnel_keys(given.flow.tunnel, findings);
   if (!findings.sound({"flow.tunnel"})) return;
-  if (!given.flow.speed_m_s) given.flow.speed_m_s = 1;  // told by check_flight()
+  if (!given.flow.speed_m_s) given.flow.speed_m_s = 1;  // reported by check_flight()
   if (!findings.sound({"flow.height_m"})) given.flow.height_m.reset();
   const SettingsValues values = settings_values(given);
   const FlowSettings& flow = values.flow;
@@ -430,7 +430,7 @@ void check_settings(Case given, Findings& findings) {
   check_load(values, findings);
 }
 
-/// Adds what is found to `problems`, and to the case what its parachute names of the library's materials.
+/// Adds its findings to `problems`, and the library materials of the parachute to the case.
 void check(Case& given, std::vector<Problem>& problems) {
   Fields fields;
   describe(fields, given);

@@ -18,7 +18,7 @@ namespace {
 constexpr double most_blocks = 300, nodes_a_block = 40;
 constexpr int loose_nodes = 3;       // of a line, that move together
 constexpr double growth = 1.15;      // of C's diagonal, before it is inverted anew
-constexpr double ridge = 1e-6;       // holds what hangs on nothing, of C's diagonal
+constexpr double ridge = 1e-6;       // part of C's diagonal that fixes blocks without any connection
 constexpr int columns_at_once = 32;  // of the inverse
 
 double mean_length(const Patch& patch, Direction direction) {
@@ -58,7 +58,7 @@ int period(const Patch& patch, const std::vector<char>& joined) {
 }
 
 /// Block of every column, some `wanted` in all. Blocks are alike in every gore and mirrored about its edge and its
-/// middle: what is symmetric stays so.
+/// middle, which preserves symmetry.
 std::vector<int> blocks_of_columns(const Patch& patch, const std::vector<char>& joined, double wanted) {
   const int gore = period(patch, joined), gores = patch.columns / gore;
   const int half = whole_blocks(0.5 * wanted / gores, std::max(1, gore / 4));
@@ -68,7 +68,8 @@ std::vector<int> blocks_of_columns(const Patch& patch, const std::vector<char>& 
       block.push_back((2 * column + 1) * half / patch.columns);
       continue;
     }
-    // The nearest multiple of gore / (2 half); what lies between two of them goes to the one nearer to the gore's edge.
+    // The nearest multiple of gore / (2 half); a value between two of them is assigned to the one nearer to
+    // the edge of the gore.
     const int in_gore = column % gore, mirrored = std::min(in_gore, gore - in_gore);
     const int nearest = (4 * mirrored * half + gore - 1) / (2 * gore);
     const int own = 2 * in_gore <= gore ? nearest : 2 * half - nearest;

@@ -44,7 +44,7 @@ class Blocks {
     return block_of_[lanes * motion_of_[sum / (3 * lanes)] + sum % (3 * lanes)];
   }
   /// r [3 x padded] = the sums of every block, by way of those of chunks that move alike (`of_motions`, 24 doubles
-  /// each). What one of `parts` does for all: the blocks of about as many chunks.
+  /// each). One of `parts` computes the blocks of about as many chunks as the others.
   void gather(const AlignedDoubles& sums, AlignedDoubles& of_motions, AlignedDoubles& r, int part,
               int parts) const;
   int motion_count() const { return static_cast<int>(block_of_.size()) / lanes; }
@@ -54,7 +54,8 @@ class Blocks {
   int motion_of(int chunk) const { return motion_of_[chunk]; }
 
  private:
-  /// A spring between two blocks, or a block and what is held (-1), with the weights of the masters of tied ends.
+  /// A spring between two blocks, or a block and a fixed node (-1), with the weights of the masters of tied
+  /// ends.
   struct Crossing {
     int a, b;            // blocks
     int node_a, node_b;  // its ends

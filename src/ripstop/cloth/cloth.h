@@ -62,15 +62,15 @@ std::vector<Vec3> velocities(const ClothState& state, const Cloth& cloth);
 
 struct StabilityLimit {
   double stable_step = 0;   // [s] semi-implicit Euler is stable below it: block Gershgorin, with damping
-  double printed_step = 0;  // [s] the paper's Eq. 8/9, printed beside it
+  double printed_step = 0;  // [s] Eq. 8/9 of [NFM], printed for comparison
   int node = -1;            // the node that sets it
   std::string part;         // "disk", "line 3", ...
 };
 /// With the tangent stiffness at the present strain.
 StabilityLimit stability_limit(const Cloth& cloth, const ClothState& state);
 
-/// Lowers Patch::viscosity_share, cell by cell, where the viscosity would make the stable step at `positions`
-/// less than `step_share` < 1 of what it is without.
+/// Lowers Patch::viscosity_share, cell by cell, where the viscosity would reduce the stable step at `positions` below
+/// `step_share` < 1 of its value without viscosity.
 struct ViscosityLimit {
   double least_share = 1;    // of the viscosity, over all cells
   double reduced_cells = 0;  // their share of all
@@ -78,7 +78,7 @@ struct ViscosityLimit {
 ViscosityLimit limit_viscosity(Mesh& mesh, const ClothOptions& options, const std::vector<Vec3>& positions,
                                double step_share);
 
-/// What happens in every step, without leaving the kernels; goes on from call to call.
+/// Records of every step, made within the kernels; accumulated from call to call.
 struct StepRecord {
   std::vector<Vec3> fixed_force;     // on the fixed nodes at the start of every step of the last call [N]
   std::vector<double> peak_tension;  // of every irregular spring over all steps, its damper included [N]
@@ -95,7 +95,7 @@ void step(ClothState& state, const Cloth& cloth, const Loads& loads, double dt, 
 struct RelaxOptions {
   double tolerance = 1e-4;  // on |residual force| / |applied force|, both root sums of squares over the nodes
   int max_steps = 200000;
-  double least_load = 0;  // [N] stands for the applied load where that is smaller: held ends pull, not loads
+  double least_load = 0;      // [N] replaces the applied load if that is smaller: fixed ends pull, not loads
   double regularisation = 0;  // pulls every node towards its place at the start, by area of cloth [Pa/m]
 };
 struct RelaxProgress {
@@ -145,8 +145,8 @@ struct ContactReport {
 };
 ContactReport contact_report(const Cloth& cloth, const ClothState& state);
 
-/// Share of the edges of cells that pierce a cell elsewhere on the cloth, by the positions `x` alone. What lies within
-/// three edges of each other at Mesh::start is not asked.
+/// Share of the edges of cells that pierce a cell elsewhere on the cloth, by the positions `x` alone. Cells within
+/// three edges of each other at Mesh::start are not tested.
 double pierced_share(const Mesh& mesh, const std::vector<Vec3>& x);
 
 /// Length of the drawstring once round its rings [m]. The cloth has one.

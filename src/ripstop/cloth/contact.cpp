@@ -119,7 +119,7 @@ void Contact::gather(int rank, const ClothState& state) {
   }
 }
 
-// Where two nodes have come nearer by the skin at most, the list stands.
+// The list remains valid while two nodes have approached each other by the skin at most.
 void Contact::sort_into_cells() {
   const double moved = *std::max_element(moved_.begin(), moved_.end());
   anew_ = !listed_ || !(moved < 0.25 * skin_ * skin_);

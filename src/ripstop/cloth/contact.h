@@ -17,7 +17,8 @@
 
 namespace ripstop {
 
-/// What does not change: compiled once with the cloth. Arrays by node of the cells unless said otherwise.
+/// Data that do not change: compiled once with the cloth. Arrays by node of the cells unless stated
+/// otherwise.
 struct ContactLayout {
   std::vector<int> slot;
   std::vector<double> spacing;        // of the lattice there [m]
@@ -45,10 +46,10 @@ class Contact {
  public:
   Contact(const ContactLayout& layout, int threads);
 
-  /// How many steps of `dt` a kick may stand for.
+  /// Largest number of steps of `dt` that one kick can represent.
   int steps_a_kick(double dt) const;
-  /// Called by every rank: changes the velocities by what the contacts do in `interval` [s]. Ends with a barrier. Where
-  /// a position is not finite nothing is in contact: the step finds it and throws (check_health).
+  /// Called by every rank: changes the velocities by the impulse of the contacts in `interval` [s]. Ends with a
+  /// barrier. Where a position is not finite nothing is in contact: the step finds it and throws (check_health).
   void kick(int rank, ThreadTeam& team, ClothState& state, double interval);
   /// By friction and the dampers of all kicks [J].
   double damped() const;

@@ -125,8 +125,8 @@ void EnergyRecord::add_pressure_work(int rank) {
   }
 }
 
-// The dampers of the lattice are read at the velocities before a step, and take F . (v + v') / 2 in it. What that makes
-// in addition to F . v is C n.v n.(v' - v) / 2 a spring, and with Q(u) the sum of C (n.u)^2
+// The dampers of the lattice are read at the velocities before a step, and take F . (v + v') / 2 in it. The
+// difference to F . v is C n.v n.(v' - v) / 2 for each spring, and with Q(u) the sum of C (n.u)^2
 //   (Q(v') - Q(v) - Q(v' - v)) / 4.
 // One step in `steps_between_corrections` is evaluated and counts for all of them.
 void EnergyRecord::correct_dampers(int rank) {

@@ -1,4 +1,4 @@
-// What explicit steps record: forces on fixed nodes, peak tensions, and the energy that pressure and dampers exchange
+// Records of explicit steps: forces on fixed nodes, peak tensions, and the energy that pressure and dampers exchange
 // with the cloth. Internal to cloth/.
 #pragma once
 

@@ -134,7 +134,7 @@ double Forces::add_row_springs(Worker& worker, const Piece& piece, int row, cons
        force_row(worker, piece, row + 1), force_row(worker, piece, row + 2)});
 }
 
-/// Ghosts hand on their force; then what acts on the nodes one by one.
+/// Ghosts return their force; then the forces on single nodes follow.
 void Forces::complete_row(int row, const ClothState& state, double* f) {
   const PatchLayout& patch = cloth_.patches[cloth_.row_patch[row]];
   const int first = cloth_.row_slot(row);

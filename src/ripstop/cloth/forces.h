@@ -2,7 +2,7 @@
 // explicit time step (step.cpp) and the relaxation (relaxation_step.h). Internal to cloth/.
 //
 // The rows of the patches are divided among the threads. A row is integrated as soon as its force is complete, while it
-// is in the cache. A thread computes the springs of the two rows before its own once more, for the force that they
+// is in the cache. A thread also computes the springs of the two rows before its own, for the force that they
 // exert on its rows. Rows that another thread still reads (two on either side of a border) wait until every thread is
 // done. The order of every sum is fixed, so that the result is the same to the last bit for any number of threads.
 #pragma once
@@ -56,7 +56,7 @@ class Forces {
   /// Positions and velocities of tied nodes and ghosts. A barrier before it.
   void follow_masters(int rank, ClothState& state) const;
 
-  /// What a record of the step needs.
+  /// Input of a record of the step.
   int threads() const { return static_cast<int>(workers_.size()); }
   bool damps_fabric() const { return damps_fabric_; }
   double damper_power(int row) const { return damper_power_[row]; }  // of a row's dampers, last step [W]

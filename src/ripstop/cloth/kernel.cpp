@@ -82,9 +82,8 @@ HWY_INLINE Root root(V q) {
 
 // The force over the length of a spring from p toward q is g (q - p) with
 //   e = |q - p| / L0 - 1,   T = w (both max(e, e_b) + sum c_k max(e, 0)^k),   g = (T + C (dv . d) / |d|) / |d|
-// [NFM] Eq. 2, 3, with C = damping + share viscosity w / L0, and 0 where e <= e_b: what has wrinkled carries no loss.
-// No spring (w = 0) has no damping either.
-// `taken` gains the damper's power.
+// [NFM] Eq. 2, 3, with C = damping + share viscosity w / L0, and 0 where e <= e_b: wrinkled springs dissipate no
+// energy. Springs with w = 0 have no damping either. `taken` gains the damper's power.
 template <int degree, bool damped>
 HWY_INLINE V pull(const PatchLayout& patch, int direction, const double* springs, V share, Three d, Three dv,
                   V& taken) {
@@ -371,7 +370,7 @@ double MoveRow(const RowMotion& row) {
   if (row.quadratic == 0) return motion<Damping::linear>(row);
   return motion<Damping::quadratic>(row);
 }
-// q holds p / 8: q times the cross product of a cell's diagonals is a quarter of its load.
+// q contains p / 8: q times the cross product of the diagonals of a cell is a quarter of its load.
 double PressureWork(const RowWork& row) {
   alignas(64) double sum[lanes] = {};
   for (int lane = 0; lane < lanes; lane += static_cast<int>(hn::Lanes(tag))) {

@@ -48,16 +48,16 @@ struct RowRelaxation {
   const double* f;
   double *x, *v;
 };
-/// Moves, and sums over the nodes that move: |f|^2 before the move, and f . (v + v'), which is twice
-/// what the kinetic energy has gained. (f . v alone is biased: negative on average for every fast mode.)
+/// Moves, and sums over the nodes that move: |f|^2 before the move, and f . (v + v'), which is twice the increase of
+/// the kinetic energy. (f . v alone is biased: negative on average for every fast mode.)
 struct RowSums {
   double force_squared = 0;
   double power = 0;
 };
 RowSums relax_row(const RowRelaxation& row);
 
-/// What is recorded of every spring outside the lattice; null: nothing. The last damper's force in vector layout, the
-/// energy over dt that dampers have taken [W] (see EnergyRecord), the highest tension [N].
+/// Records of every spring outside the lattice; null: none. The last damper's force in vector layout, the
+/// energy over dt that dampers have taken [W] (see EnergyRecord), the maximum tension [N].
 struct SpringRecord {
   double *damper = nullptr, *taken = nullptr, *peak = nullptr;
 };
@@ -107,7 +107,7 @@ struct BlockProduct {
 };
 void multiply_blocks(const BlockProduct& job, int begin, int end);
 
-/// "AVX-512", "AVX2", "SSE4", "scalar": what the kernels run on here.
+/// "AVX-512", "AVX2", "SSE4", "scalar": instruction set of the kernels on this processor.
 const char* kernel_target();
 
 }  // namespace ripstop

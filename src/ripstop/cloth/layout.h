@@ -1,11 +1,10 @@
 // The compiled cloth: how nodes, springs and ties lie in memory for the kernels. Internal to cloth/.
 //
-// A row of C columns is divided into 8 strips of M = ceil(C / 8) columns, and the strips are laid side by
-// side: vector m of the row holds columns m, M + m, 2M + m, ... So the neighbour at column + 1 is the
-// next vector in every lane: each load and store is aligned and no lanes are shuffled. Two ghost vectors
-// at the end of the row hold copies of the strips' (and, when periodic, the row's) first two columns;
-// springs that reach into them add their force there, and the row's end folds it back. Two rows of
-// padding follow each patch.
+// A row of C columns is divided into 8 strips of M = ceil(C / 8) columns, and the strips are laid side by side:
+// vector m of the row contains columns m, M + m, 2M + m, ... The neighbour at column + 1 is therefore the next vector
+// in every lane: each load and store is aligned and no lanes are shuffled. Two ghost vectors at the end of the row
+// hold copies of the strips' (and, when periodic, the row's) first two columns; springs that reach into them add
+// their force there, and the row's end folds it back. Two rows of padding follow each patch.
 //
 //   slot of a node   patch.first + 8 * ((M + 2) * row + column % M) + column / M
 //   vector arrays    24 doubles a vector: 8 x, 8 y, 8 z;

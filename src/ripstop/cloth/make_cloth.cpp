@@ -278,7 +278,7 @@ void lay_out_springs(Cloth& cloth) {
   }
 }
 
-/// Nodes that something besides the lattice acts on; the index of each in the list, -1 for all others.
+/// Nodes with forces from outside the lattice; the index of each in the list, -1 for all others.
 std::vector<int> keep_nodes(Cloth& cloth) {
   const Mesh& mesh = cloth.mesh;
   std::vector<char> special(mesh.node_count(), 1);
@@ -301,7 +301,7 @@ std::vector<int> keep_nodes(Cloth& cloth) {
   return irregular_index;
 }
 
-// What is added to the lattice's force on every irregular node: its springs, in the mesh's order, its parts of the
+// Forces added to those of the lattice on every irregular node: its springs, in the mesh's order, its parts of the
 // drawstring, then its tied nodes with theirs.
 void share_spring_forces(Cloth& cloth, const std::vector<int>& irregular_index) {
   const Mesh& mesh = cloth.mesh;

@@ -1,4 +1,4 @@
-// What is read off a state now and then, in plain scalar code.
+// Measures that are taken from a state at intervals, in plain scalar code.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -14,7 +14,7 @@
 namespace ripstop {
 namespace {
 
-constexpr double neighbourhood = 3;  // edges: what lies nearer on the cloth may touch
+constexpr double neighbourhood = 3;  // edges: cells that are closer on the cloth may touch
 constexpr double farthest =
     1e15;  // from the origin, in widths: whole numbers of a double are exact up to here
 

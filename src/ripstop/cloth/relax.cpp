@@ -2,25 +2,27 @@
 //
 // A node's fictitious mass is a tensor, half its block of the stiffness (node_blocks) with a margin: a step of 1 is
 // then stable everywhere, since x^T K x <= 2 sum x_i^T K_ii x_i. Cloth and lines are stretched by parts of a thousand,
-// so across a thread a node is a thousand times easier to move than along it, and moves as fast as it can in both.
+// so across a thread a node is a thousand times easier to move than along it, and moves as fast as possible in both.
 // Whenever the kinetic energy passes a peak, that is when sum f . (v + v') turns negative, all velocities are set to 0.
 //
-// Stops alone kill the slowest mode and may leave its overtones alone for ever (a bar pulled at its ends has
-// cos(n pi / 2) of them left after each). So between stops the motion is also damped at the rate 3 / t of
-// Nesterov's accelerated descent, t steps since the stop, which wears off before it slows the slow modes:
+// Stops alone remove the slowest mode and may leave its overtones unchanged (in a bar pulled at its ends, a fraction
+// cos(n pi / 2) of them remains after each stop). Between stops the motion is therefore also damped at the rate 3 / t
+// of Nesterov's accelerated descent, t steps since the stop, which decays before it slows the slow modes:
 //   v' = t / (t + 3) v + (t + 3/2) / (t + 3) f / m
 // is leapfrog with implicit damping, stable for the same masses, and starts from rest with half a kick.
 //
-// A wave as long as the canopy hardly stretches a spring, and yet every node in it is as heavy as its springs are stiff.
-// So cloth that wrinkles moves in blocks besides (blocks.h), which are as heavy as the springs that leave them: with the
-// nodes' masses M and the blocks' bound C, x^T K x <= 2 sum x_i^T K_ii x_i and <= y^T C y, a step of 1 is stable for
+// A wave as long as the canopy hardly stretches a spring, and yet every node in it is as heavy as its springs are
+// stiff. Cloth that wrinkles therefore moves also in blocks (blocks.h), which are as heavy as the springs that leave
+// them: with the nodes' masses M and the blocks' bound C, x^T K x <= 2 sum x_i^T K_ii x_i and <= y^T C y, a step of 1
+// is stable for
 //   v' = keep v + kick (share W f + (1 - share) I C'^-1 I^T f),    C' = C / 4 with the same margin.
 //
-// From afar half a gore goes ahead (sector.h): nodes in its planes have masses and residuals along what they may move.
+// Far from equilibrium the sector predictor solves half a gore first (sector.h): nodes in its planes have masses and
+// residuals along their free directions.
 //
-// A parachute hangs on one point and may turn about it. Under a follower pressure that is neutral: a small
-// moment of a wrinkled shape would turn it for ever. So the moment of the loads about that point is cancelled
-// by the smallest node forces that do, and the turning taken out of the velocities.
+// A parachute is attached at one point and can rotate about it. Under a follower pressure this rotation is neutrally
+// stable: a small moment of a wrinkled shape would rotate it without end. The moment of the loads about that point is
+// therefore cancelled by the smallest node forces, and the rotation is removed from the velocities.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -87,7 +89,8 @@ Symmetric inverse_of(const Symmetric& a) {
   return inverse;
 }
 
-// With P the projection on what a node may move along: P a P, and that with something of a's size on the rest.
+// With P the projection on the free directions of a node: P a P, plus a term of the size of a in the fixed
+// directions.
 Symmetric within(const Symmetric& p, const Symmetric& a) {
   const Vec3 x = p * (a * (p * Vec3{1, 0, 0})), y = p * (a * (p * Vec3{0, 1, 0})),
              z = p * (a * (p * Vec3{0, 0, 1}));
@@ -100,8 +103,8 @@ Symmetric held_beside(const Symmetric& p, const Symmetric& a) {
   return sum;
 }
 
-// Cloth that pushes has many equilibria close together, and the way decides: it is the printed lattice's, with masses
-// alike along all directions and no soft start.
+// Cloth that carries compression has many equilibria close together, and the path decides between them. The
+// path is that of the printed lattice, with equal masses along all directions and no soft start.
 bool wrinkles(const Mesh& mesh) {
   return std::any_of(mesh.patches.begin(), mesh.patches.end(), [](const Patch& patch) {
     return std::any_of(std::begin(patch.law), std::end(patch.law),
@@ -355,9 +358,9 @@ class Relaxation {
   int since_refresh_ = 0;
 };
 
-// A flat canopy far from its inflated shape gets there over cloth and lines so soft that they are stretched by about
-// `strain`, however small the load: the steps that a shape takes go with the square root of stiffness over tension.
-// Lines and tape, in newtons, share the load; the numbers only choose the way.
+// A flat canopy far from its inflated shape approaches it with cloth and lines so soft that they are
+// stretched by about `strain` under any load: the number of steps grows with the square root of stiffness
+// over tension. Lines and tape, in newtons, share the load; the numbers affect only the path.
 constexpr double soft_strains[] = {0.1, 0.02, 0.004};
 constexpr double soft_tolerance = 3e-3;
 constexpr int soft_steps = 3000;
@@ -389,7 +392,7 @@ std::optional<Mesh> softened(const Mesh& mesh, double load, double strain, int i
   return soft;
 }
 
-/// The way from a start to rest, from afar by soft cloth.
+/// The path from a start to equilibrium, with soft cloth if the start is far from it.
 class Way {
  public:
   /// Of a canopy, or of its sector with `images` of it and its `freedom`.
@@ -446,8 +449,8 @@ class Way {
   std::vector<Symmetric> freedom_;
 };
 
-/// A canopy that is far from equilibrium goes most of the way as a sector of it, under what its load has in common in
-/// all gores. Whether it came to rest so; if not, it is left as it was.
+/// A canopy that is far from equilibrium is first solved as a sector, under the part of its load that is
+/// common to all gores. Returns whether the sector reached equilibrium; if not, the canopy is unchanged.
 bool predict_by_sector(ClothState& state, const Cloth& cloth, const Loads& loads, const RelaxOptions& options,
                        const std::function<void(const RelaxProgress&)>& report) {
   const std::optional<Sector> sector = sector_of(cloth.mesh, positions(state, cloth), loads);

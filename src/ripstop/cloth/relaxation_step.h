@@ -13,8 +13,8 @@ namespace ripstop {
 
 struct FictitiousMasses {
   std::vector<Symmetric> inverse;  // by node; 0: does not move
-  /// Projection on what a node may move along, by node; only of nodes that springs outside the lattice touch is it
-  /// other than 1. Empty: all are free.
+  /// Projection on the free directions of a node; only nodes of springs outside the lattice have other values
+  /// than 1. Empty: all are free.
   std::vector<Symmetric> freedom;
 };
 
@@ -29,8 +29,8 @@ class RelaxationStep {
   /// thread's;
   void move_rows(int rank);
   void move_irregular_nodes(int rank);
-  /// with blocks, the forces on them; what every block moves by; and the rank's nodes with their blocks. That returns
-  /// what it adds to RowSums::power, the same on every rank;
+  /// with blocks: the forces on them, the motion of every block, and the nodes of the rank with their blocks.
+  /// Returns the contribution to RowSums::power, the same on every rank;
   void gather_blocks(int rank);
   void solve_blocks(int rank);
   double move_blocks(int rank);
@@ -64,7 +64,7 @@ class RelaxationStep {
   std::vector<Symmetric> irregular_freedom_;  // see FictitiousMasses
   std::vector<char> moves_alone_;             // whether an irregular node moves with no block
   const Blocks* blocks_ = nullptr;
-  // See Blocks: forces by chunk and by what moves alike [N]; of blocks, [3 x padded].
+  // See Blocks: forces by chunk and by group of equal motion [N]; of blocks, [3 x padded].
   AlignedDoubles block_sums_, motion_force_, block_force_, block_move_;
   std::vector<RowSums> row_sums_, irregular_sums_;
   std::vector<Worker> workers_;

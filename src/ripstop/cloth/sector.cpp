@@ -113,7 +113,7 @@ class Search {
 
   bool on_axis(Vec3 x) const { return std::hypot(x.x, x.y) < same_place * size_; }
 
-  /// By turns in one mirror and the other.
+  /// Alternately in one mirror and the other.
   bool find_images(Sector& sector) {
     sector.image.assign(x_.size(), {});
     images_.assign(x_.size(), {});
@@ -135,7 +135,7 @@ class Search {
                        [](const Sector::Image& i) { return i.node >= 0; });
   }
 
-  /// What lies in a plane belongs to both of its sides.
+  /// Springs in a plane belong to both of its sides.
   Patch half_of(const Patch& patch) {
     Patch half = patch;
     half.periodic = false;

@@ -69,7 +69,7 @@ void node_blocks(const Cloth& cloth, const ClothState& state, double floor, Thre
     for (const int end : {s.a, s.b})
       if (among(end)) add(blocks[end], along, across, n);
   };
-  // A thread looks at the springs of the rows before its own once more: every node has its sum in one order.
+  // A thread also computes the springs of the rows before its own: every node has its sum in one order.
   team.run([&](int rank) {
     const IndexRange nodes = part_of(mesh.node_count(), rank, team.size());
     std::fill(blocks.begin() + nodes.begin, blocks.begin() + nodes.end, Symmetric{});
@@ -168,8 +168,8 @@ NodeStiffness node_stiffness(const Cloth& cloth, const ClothState& state) {
 // dt. A tied end has (n . x)^2 <= sum w (n . x_master)^2 (Jensen), so its block goes to its masters and its s
 // is the largest of theirs; a fixed end has none. With the absolute damping c_a,
 //   (rho_i + rho_j) dt^2 + 2 (c_i + c_j + c_a) dt < 4
-// for every spring (and what a drawstring adds at either end, of which it is a sum over nodes already) keeps both
-// roots of every mode of semi-implicit Euler inside the unit circle. The pressure's own stiffness is left out: a few
+// for every spring (plus the part of a drawstring at either end, already a sum over its nodes) keeps both
+// roots of every mode of semi-implicit Euler inside the unit circle. The stiffness of the pressure is neglected: a few
 // hundred pascal against 1e4 N/m over a cell of millimetres. Contacts act in kicks of their own length, which is a step
 // at least.
 StabilityLimit stability_limit(const Cloth& cloth, const ClothState& state) {
@@ -234,7 +234,7 @@ StabilityLimit stability_limit(const Cloth& cloth, const ClothState& state, cons
     if (stiffness > 0 && mass > 0)
       limit.printed_step = std::min(limit.printed_step, std::sqrt(mass / stiffness));
   });
-  for (int i = 0; i < count; ++i)  // rings that nothing else holds
+  for (int i = 0; i < count; ++i)  // rings without any other connection
     if (string_rho[i] > 0 && allow(string_rho[i], string_rate[i] + absolute)) limit.node = i;
   if (limit.node >= 0) limit.part = place_of(mesh, limit.node);
   if (cloth.contact && allow(std::pow(2 * cloth.contact->fastest, 2), 0)) limit.part = "contact of cloth";

@@ -34,7 +34,7 @@ void check_step(const Cloth& cloth, const ClothState& state, double dt) {
                             state.steps, state.time, dt, limit.stable_step, limit.node, limit.part));
 }
 
-/// Steps [0, count) of one call, of which every thread takes its part.
+/// Steps [0, count) of one call, shared by all threads.
 class ExplicitStep {
  public:
   ExplicitStep(ClothState& state, const Cloth& cloth, const Loads& loads, double dt, int count,

@@ -8,7 +8,7 @@
 namespace ripstop {
 namespace {
 
-// Cells of one patch with cloth, and what touches them.
+// Cells of one patch with cloth, and the springs that touch them.
 struct CellMap {
   const Patch& patch;
 

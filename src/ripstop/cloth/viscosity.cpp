@@ -16,9 +16,9 @@ std::vector<double> over_mass(const Cloth& cloth, const std::vector<double>& blo
 
 }  // namespace
 
-// A step dt is stable where rho_i dt^2 + 2 c_i dt <= 2 holds at every node: both ends of a spring then add up
-// to the 4 of stability_limit(). What springs and other dampers leave of the 2 is the viscosity's. (The absolute
-// damping is a thousandth of that.)
+// A step dt is stable where rho_i dt^2 + 2 c_i dt <= 2 at every node: both ends of a spring then add up to the
+// 4 of stability_limit(). The part of the 2 that springs and other dampers do not use is available for the viscosity.
+// (The absolute damping is a thousandth of that.)
 ViscosityLimit limit_viscosity(Mesh& mesh, const ClothOptions& options, const std::vector<Vec3>& positions,
                                double step_share) {
   Mesh without = mesh, alone = mesh;

@@ -1,4 +1,4 @@
-// What this program is: version, compiler, and where its shipped data lie.
+// Version and compiler of this program, and the location of its shipped data.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +9,8 @@ namespace ripstop {
 std::string version();
 std::string compiler();   // name, version and build type
 std::string processor();  // model name as the kernel reports it
-/// Folder that holds `materials/` and `examples/`: $RIPSTOP_DATA, else what find_data() gives for this program.
-/// Throws Error(io) when none exists.
+/// Folder that contains `materials/` and `examples/`: $RIPSTOP_DATA, else the result of find_data() for this
+/// program. Throws Error(io) when none exists.
 std::filesystem::path data_directory();
 
 struct DataFolders {

@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* records = ".ripstop";
-constexpr const char* released = "released";  // in place of the hash of what is to be written again
+constexpr const char* released = "released";  // instead of the hash of a file that will be written again
 
 fs::path lock_of(const fs::path& folder) {
   return folder / records / "lock";
@@ -58,7 +58,7 @@ std::vector<std::string> lines_of(const fs::path& file) {
   return texts;
 }
 
-// What is added after half a line would be lost with it.
+// A line appended after an incomplete line would be lost with it.
 void drop_broken_lines(const fs::path& file) {
   if (!fs::exists(file)) return;
   std::string whole;
@@ -81,7 +81,8 @@ bool covers(const std::vector<std::string>& names, const std::string& name) {
   });
 }
 
-/// What the seal says of all names on the list, in its order: the hash, nothing of folders and of what was not written.
+/// Hashes by the seal of all names on the list, in its order; empty for folders and for files that were not
+/// written.
 nlohmann::ordered_json sealed_contents(const fs::path& folder) {
   auto contents = nlohmann::ordered_json::parse(read_sealed(seal_of(folder)), nullptr, false);
   if (!contents.is_object())
@@ -89,7 +90,7 @@ nlohmann::ordered_json sealed_contents(const fs::path& folder) {
   return contents;
 }
 
-/// Of a finished folder the seal knows the list too: what was lost of it comes back.
+/// The seal of a finished folder also contains the list: lost lines are restored from it.
 std::vector<std::string> listed_or_sealed(const fs::path& folder) {
   const std::vector<std::string> names = listed(folder);
   if (!is_sealed(folder)) return names;
@@ -97,7 +98,7 @@ std::vector<std::string> listed_or_sealed(const fs::path& folder) {
   try {
     const auto contents = sealed_contents(folder);
     for (const auto& [name, hash] : contents.items()) whole.push_back(name);
-  } catch (const Error&) {  // told by who asks what is damaged
+  } catch (const Error&) {  // reported by the function that checks for damage
     return names;
   }
   if (std::all_of(whole.begin(), whole.end(), [&](const auto& name) { return covers(names, name); }))
@@ -129,7 +130,7 @@ std::vector<std::string> files_below(const fs::path& folder) {
   return files;
 }
 
-/// What write_file() had not yet renamed.
+/// Temporary files that write_file() had not yet renamed.
 bool is_leftover(const std::vector<std::string>& names, const std::string& file) {
   const fs::path path = file;
   const std::string target = written_as(path.filename());
@@ -209,7 +210,7 @@ void make_results_folder(const fs::path& folder) {
 
 void require_unclaimed(const fs::path& folder) {
   const int lock = ::open(lock_of(folder).c_str(), O_RDWR | O_CLOEXEC);
-  if (lock < 0) return;  // nobody has worked here, or the claim will say why it cannot be read
+  if (lock < 0) return;  // the folder was not used before, or the claim below reports why it cannot be read
   const bool held = ::flock(lock, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
   ::close(lock);
   if (held) refuse_claimed(folder);
@@ -238,7 +239,8 @@ void ClaimedFolder::add(const std::string& name) {
 }
 
 void ClaimedFolder::clear() {
-  remove_path(seal_of(folder_));  // first: what is half removed is not finished
+  remove_path(
+      seal_of(folder_));  // first, so that a folder which is only partly removed does not count as finished
   for (const std::string& name : names_) {
     remove_path(folder_ / name);
     std::error_code full;  // a folder with anything else in it stays

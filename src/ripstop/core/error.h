@@ -9,7 +9,7 @@ namespace ripstop {
 enum class ExitCode {
   done = 0,
   usage = 2,          // command line or case file
-  bad_data = 3,       // input data that cannot be what they claim
+  bad_data = 3,       // input data that are inconsistent
   not_converged = 4,  // a result exists, but not to the stated tolerance
   diverged = 5,       // NaN, runaway stretch, unstable step
   external = 6,       // OpenFOAM or another child program

@@ -67,13 +67,13 @@ void sync_folder(const std::filesystem::path& folder) {
   if (::fsync(fd.get()) != 0 && errno != EINVAL) fail("save folder", folder, errno);
 }
 
-/// A name beside `path` that no other process or thread uses.
+/// A name in the folder of `path` that no other process or thread uses.
 std::filesystem::path temporary_name(const std::filesystem::path& path) {
   static std::atomic<unsigned> counter{0};
   return folder_of(path) / fmt::format(".{}.{}-{}.tmp", path.filename().string(), ::getpid(), counter++);
 }
 
-/// A temporary file that nobody else has: its lock says that its writer lives, wherever that runs.
+/// A temporary file of this process alone: its lock shows that its writer is alive, on any machine.
 int open_temporary(const std::filesystem::path& path, std::filesystem::path& temporary) {
   for (;;) {
     temporary = temporary_name(path);
@@ -140,7 +140,7 @@ std::string read_file(const std::filesystem::path& path) {
                     path.string()));
   std::string bytes(static_cast<size_t>(status.st_size), '\0');
   size_t done = 0;
-  for (;;) {  // the size is a hint only: a file may grow, and /proc says 0
+  for (;;) {  // the size is a hint only: a file can grow, and /proc gives 0
     if (done == bytes.size()) bytes.resize(bytes.size() + 4096);
     const ssize_t count = ::read(fd.get(), bytes.data() + done, bytes.size() - done);
     if (count < 0 && errno == EINTR) continue;

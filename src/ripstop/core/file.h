@@ -7,13 +7,13 @@
 
 namespace ripstop {
 
-/// Replaces `path` by `bytes` in one step: a temporary file in the same folder, fsync, rename, fsync of the
-/// folder. Whoever opens `path` meanwhile, or after a kill or a power cut, finds the old content or the new. What
-/// a killed process left of its own temporary file for `path` goes.
-/// Throws Error(io) with the path and the system's reason; the old file is then untouched.
+/// Replaces `path` by `bytes` in one step: a temporary file in the same folder, fsync, rename, fsync of the folder. A
+/// reader of `path` finds the old or the new content, also after a kill or a power failure. Temporary files for
+/// `path` of killed processes are removed. Throws Error(io) with the path and the system's reason; the old file is
+/// then untouched.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
-/// ".NAME.PID-N.tmp", as write_file() names what it has not yet renamed: NAME; else nothing.
+/// NAME for ".NAME.PID-N.tmp", the form of the temporary files of write_file(); else nothing.
 std::string written_as(const std::string& file);
 
 /// The whole file. Throws Error(io).
@@ -22,7 +22,7 @@ std::string read_file(const std::filesystem::path& path);
 /// Creates the folder and those above it; it may exist. Throws Error(io).
 void make_folder(const std::filesystem::path& folder);
 
-/// Removes a file, or a folder with all that is in it; it may be gone already. Throws Error(io).
+/// Removes a file, or a folder with its content; it need not exist. Throws Error(io).
 void remove_path(const std::filesystem::path& path);
 
 /// Adds `bytes` at the end of a file, which is created if need be, and waits until they are on the disk. A

@@ -1,4 +1,4 @@
-// Polynomials through measured points, and what chance allows them to be.
+// Polynomials through measured points, and their statistical uncertainty.
 #pragma once
 
 #include <span>

@@ -5,8 +5,8 @@
 
 namespace ripstop {
 
-/// As text or inside a quoted attribute: nothing in it is taken for an element, and what neither format may hold
-/// (control characters) is left out.
+/// For text or a quoted attribute: no part of the result is read as an element, and characters that neither
+/// format allows (control characters) are removed.
 std::string escaped_markup(const std::string& text);
 
 }  // namespace ripstop

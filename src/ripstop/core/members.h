@@ -1,4 +1,4 @@
-// One list of a struct's members beside the struct, walked by everything that shows, writes or reads them:
+// One list of the members of a struct, used by all code that shows, writes or reads them:
 // tables, result.json, checkpoints, the line on a terminal.
 //
 //     template <Of<HistoryRow> T, class Visit>
@@ -6,8 +6,8 @@
 //       visit("time_s", row.time);
 //     }
 //
-// The name ends with the unit and stays what it is: files are read by it. What follows a member says who else
-// shows it, or how.
+// The name ends with the unit and must not change, because files are read by it. Further arguments of a member state
+// where else it is shown, or how.
 #pragma once
 
 #include <concepts>
@@ -23,7 +23,7 @@ namespace ripstop {
 template <class T, class Struct>
 concept Of = std::same_as<std::remove_const_t<T>, Struct>;
 
-/// Takes any member: asks whether there is a list. A lambda in a concept is more than clang 14 understands.
+/// Accepts any member: tests whether there is a list. A lambda in a concept is not supported by clang 14.
 struct AnyMember {
   template <class... Any>
   void operator()(const char*, Any&&...) const {}

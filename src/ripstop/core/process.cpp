@@ -176,7 +176,7 @@ pid_t start(const ProcessRequest& request, const std::filesystem::path& program,
   return child;
 }
 
-/// Cuts what comes through the pipe into lines.
+/// Splits the output of the pipe into lines.
 class LineReader {
  public:
   /// False when the pipe has ended.

@@ -52,7 +52,7 @@ Powers powers_of(Dimension dimension) {
   return {};
 }
 
-/// What a unit may mean: "lb" is a mass or a force, "g" a mass or an acceleration.
+/// Meanings of a unit: "lb" is a mass or a force, "g" a mass or an acceleration.
 std::vector<Factor> meanings(const std::string& unit) {
   std::vector<Factor> found;
   if (unit == "cfm" || unit == "CFM") found.push_back({cfm_per_square_foot, powers_of(Dimension::speed)});
@@ -75,8 +75,8 @@ std::vector<Factor> product(const std::vector<Factor>& left, const std::vector<F
   return all;
 }
 
-/// "oz/yd2", "N s/m", "1/m": names with powers, parted by blanks and slashes. What comes after a slash and a blank is
-/// above or below the line as the reader likes, so that it is none.
+/// "oz/yd2", "N s/m", "1/m": names with powers, parted by blanks and slashes. A unit after a slash and a blank could
+/// be in the numerator or the denominator, so it is refused.
 std::vector<Factor> parsed_unit(const std::string& text) {
   if (std::vector<Factor> whole = meanings(text); !whole.empty()) return whole;
   std::vector<Factor> all{Factor{}};

@@ -1,4 +1,5 @@
-// An error about quantities that somebody set: a solver names the quantity, and knows no file or key that it is set by.
+// An error about given quantities: a solver names the quantity and is independent of files and keys that set
+// it.
 #pragma once
 
 #include <string>

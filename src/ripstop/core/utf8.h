@@ -17,7 +17,7 @@ struct Character {
 /// The first character of a text that is not empty.
 Character first_character(std::string_view text);
 bool is_utf8(std::string_view text);
-/// Adds a character; what is no character becomes U+FFFD.
+/// Adds a character; an invalid character becomes U+FFFD.
 void append_utf8(std::string& text, std::uint32_t code);
 
 }  // namespace ripstop

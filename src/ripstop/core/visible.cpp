@@ -7,7 +7,8 @@
 namespace ripstop {
 namespace {
 
-/// Also what turns the direction of writing: what is read is then not what stands there.
+/// Also characters that change the direction of writing, so that the displayed text differs from the text in
+/// memory.
 bool is_control(const Character& c) {
   return !c.whole || c.code < 0x20 || (c.code >= 0x7f && c.code <= 0x9f) ||
          (c.code >= 0x202a && c.code <= 0x202e) || (c.code >= 0x2066 && c.code <= 0x2069);

@@ -8,8 +8,8 @@ double terminal_speed(double mass, double drag_area, double density);
 /// The drag area that `mass` needs for a descent at `speed` [m2].
 double drag_area_for(double mass, double speed, double density);
 
-/// Time from one height down to another in the standard atmosphere [s], at the terminal speed of every height
-/// on the way: the integral of dh / v(h). Throws Error(usage) unless from > to and standard_air() takes both.
+/// Time from one height down to another in the standard atmosphere [s], at the terminal speed of every height: the
+/// integral of dh / v(h). Throws Error(usage) unless from > to and standard_air() takes both.
 double descent_time(double mass, double drag_area, double from, double to);
 
 }  // namespace ripstop

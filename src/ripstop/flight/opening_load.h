@@ -1,10 +1,10 @@
-// The handbook's estimates of the load when a parachute opens, from a few coefficients. Sources, equations and
-// where each holds: docs/theory/opening-load.md.
+// Estimates of the opening load by handbook methods, from a few coefficients. Sources, equations and ranges
+// of validity: docs/theory/opening-load.md.
 #pragma once
 
 namespace ripstop {
 
-/// What all methods start from.
+/// Input of all methods.
 struct OpeningConditions {
   double mass = 0;                 // of all that is decelerated [kg]
   double speed = 0;                // through the air when the lines are stretched [m/s]
@@ -13,7 +13,7 @@ struct OpeningConditions {
   double filling_time = 0;         // t_f, from line stretch to the first full drag area [s]
   double exponent = 2;             // j of the growth (t / t_f)^j of the drag area
   double opening_coefficient = 1;  // C_x: peak over steady drag at infinite mass
-  double path_angle = 90;          // of the way, below the horizon [deg]
+  double path_angle = 90;          // of the flight path, below the horizon [deg]
 };
 
 double steady_force(const OpeningConditions& c);  // (C_D S)_0 q at line stretch [N]
@@ -35,14 +35,14 @@ ForceFactor force_factor(double ballistic_parameter, double exponent, double lar
 
 struct OpeningLoad {
   double load = 0;  // [N]
-  double time = 0;  // of it after line stretch [s]; 0: the method does not say
+  double time = 0;  // of the peak after line stretch [s]; 0: not given by the method
 };
 
 /// F = (C_D S) q C_x: the speed does not fall while the canopy opens.
 OpeningLoad infinite_mass_load(const OpeningConditions& c);
 /// F = (C_D S) q C_x X_1(A, j), X_1 the factor of a drag area that ends with the open one.
 OpeningLoad pflanz_load(const OpeningConditions& c);
-/// F = (C_D S) q x, the drag area going on beyond the open one until it is C_x times that.
+/// F = (C_D S) q x, where the drag area continues to grow beyond the open one until it is C_x times that.
 OpeningLoad ludtke_load(const OpeningConditions& c);
 
 struct MomentumImpulse {
@@ -53,7 +53,7 @@ struct MomentumImpulse {
 /// the mean over the peak of the force. Gamma closes it: at t_f the drag of the open canopy is 1 / C_x of the peak.
 MomentumImpulse momentum_impulse_load(const OpeningConditions& c, double integral = 0.5);
 
-/// Throws Error(usage) that names what is not above 0.
+/// Throws Error(usage) that names the quantity that is not above 0.
 void check_conditions(const OpeningConditions& c);
 
 }  // namespace ripstop

@@ -1,4 +1,4 @@
-// The way of a payload under a drag area that changes, with gravity, in the standard atmosphere.
+// Trajectory of a payload under a variable drag area, with gravity, in the standard atmosphere.
 #pragma once
 
 #include <functional>
@@ -25,7 +25,7 @@ struct FlightRow {
 /// (C_D S) as a function of time [s] and way through the air [m], both since the leg began [m2].
 using DragArea = std::function<double(double time, double distance)>;
 
-/// A stretch of the way under one law of the drag area.
+/// A part of the trajectory under one law of the drag area.
 struct Leg {
   DragArea drag_area;
   double duration = 0;  // [s]
@@ -40,11 +40,11 @@ struct Leg {
 /// a mass, speed or step that is not above 0, or a height that standard_air() has not.
 std::vector<FlightRow> fly(FlightState& state, double mass, const Leg& leg);
 
-/// A drag area that grows from `from` to `to` as (t / t_f)^j, goes on to `over` times `to`, and is back at `to`
-/// one t_f later; it stays there.
+/// A drag area that grows from `from` to `to` as (t / t_f)^j, then to `over` times `to`, returns to `to` one
+/// t_f later, and remains there.
 DragArea filling(double from, double to, double filling_time, double exponent, double over);
-/// A drag area from a record of it over the way through the air: between the rows in proportion, after the last
-/// `to`. `distance` rises.
+/// A drag area from a record over the distance through the air: linear between the rows, constant after the
+/// last one. `distance` increases.
 DragArea from_record(std::vector<double> distance, std::vector<double> drag_area, double to);
 
 }  // namespace ripstop

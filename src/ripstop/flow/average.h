@@ -16,7 +16,7 @@ class FieldMean {
   void add(const FlowField& field);
   /// A field without its cells, which `cells` has: no copy of them is made.
   void add(const FlowField& field, const Cells& cells);
-  /// All that another mean holds, of fields on the same grid round the same cloth.
+  /// All other data of a mean, of fields on the same grid around the same cloth.
   void add(const FieldMean& other);
   int count() const { return mean_.average.iterations; }
   /// The mean so far, FlowField::average set; `last` and `converged` are those of the newest field.

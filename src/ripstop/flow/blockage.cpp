@@ -8,9 +8,9 @@
 
 namespace ripstop {
 
-// With U = 1, u through the disk, x in the wake, y beside it, b the blockage:
+// With U = 1, u the speed through the disk, x in the wake, y around it, b the blockage:
 //   K u^2 = y^2 - x^2                            (Bernoulli on either side, one pressure behind)
-//   y (1 - b u / x) = 1 - b u                    (mass beside the disk)
+//   y (1 - b u / x) = 1 - b u                    (mass around the disk)
 //   b K u^2 = y^2 + 1 - 2 b u x - 2 y (1 - b u)  (momentum of the section)
 // Newton from free air; the derivatives are differences.
 double porous_disk_drag(double loss, double blockage) {

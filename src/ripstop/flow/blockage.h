@@ -1,12 +1,11 @@
-// What classic theory says that a tunnel does to the drag of a body. docs/theory/tunnel.md.
+// Effect of a tunnel on the drag of a body by classic theory. docs/theory/tunnel.md.
 #pragma once
 
 namespace ripstop {
 
-/// A porous disk of loss coefficient K = dp / (rho u^2 / 2) that fills the share `blockage` of a closed test
-/// section; momentum theory with the wake and the air beside it at one pressure behind. 0: Taylor's
-/// K / (1 + K / 4)^2. On the speed before the disk. Throws Error(not_converged) for K above about 4, where the
-/// wake would stop.
+/// A porous disk of loss coefficient K = dp / (rho u^2 / 2) that fills the share `blockage` of a closed test section;
+/// momentum theory with one pressure downstream for the wake and the air around it. 0: Taylor's K / (1 + K / 4)^2.
+/// Based on the speed upstream. Throws Error(not_converged) for K above about 4, where the wake would stop.
 double porous_disk_drag(double loss, double blockage);
 
 /// Maskell (ARC R&M 3400) for a bluff body between walls: measured over free-air drag, 1 / (1 + C_D b /

@@ -23,9 +23,9 @@ std::vector<Triangle> square_plate(double side, Vec3 centre);
 std::vector<Triangle> hemispherical_cup(double diameter, Vec3 centre);
 /// The surface turned about the origin such that its z axis lies along the unit vector `axis`, by the shortest way.
 std::vector<Triangle> turned(std::vector<Triangle> surface, Vec3 axis);
-/// A rigid disk-gap-band about as large as Stratos IV when inflated (band 0.65 m in diameter and 0.28 m
-/// high, gap 0.06 m, dome 0.18 m high, vent 0.09 m); its band's upper edge lies at centre.z + 0.09 m. Not a
-/// result of the cloth solver: a stand-in of the right size for studies of the flow alone.
+/// A rigid disk-gap-band about as large as Stratos IV when inflated (band 0.65 m in diameter and 0.28 m high, gap
+/// 0.06 m, dome 0.18 m high, vent 0.09 m); its band's upper edge lies at centre.z + 0.09 m. Not a result of the cloth
+/// solver: a body of similar size for studies of the flow alone.
 std::vector<Triangle> rigid_disk_gap_band(Vec3 centre);
 
 }  // namespace ripstop

@@ -1,5 +1,5 @@
-// The kinds of boundary that a box of air can have: one row each. A new kind is a file in cartesian/, beside
-// far_field.cpp or outlet_still_air.cpp, and its row in cartesian/boundary.cpp.
+// The kinds of boundary of a flow domain: one row each. A new kind is a file in cartesian/, like far_field.cpp or
+// outlet_still_air.cpp, and its row in cartesian/boundary.cpp.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// What bodies a flow cannot have.
+// Bodies that a flow cannot have.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -52,7 +52,7 @@ bool cut(const Triangle& a, const Triangle& b) {
          pierces(b.b, b.c, a) || pierces(b.c, b.a, a);
 }
 
-/// The triangles of a body that may touch what lies in `where`, with their extents.
+/// The triangles of a body that may touch the region `where`, with their extents.
 std::vector<std::pair<Triangle, Extent>> near(const FlowBody& body, const Extent& where) {
   std::vector<std::pair<Triangle, Extent>> result;
   for (const Triangle& t : body.surface)

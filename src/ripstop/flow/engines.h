@@ -1,5 +1,5 @@
-// The flow engines: one row says an engine's word, what it can do and how it is made. A new engine is a folder
-// of its own and its row in engines.cpp.
+// The flow engines: one row contains the word of an engine, its abilities and its factory. A new engine is a
+// separate folder and its row in engines.cpp.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@
 
 namespace ripstop {
 
-/// What a run says to whichever engine it has; what an engine has no use for it leaves alone.
+/// Settings of a run for any engine; an engine ignores those that it does not use.
 struct EngineOptions {
   bool second_order = false;                     // convection of the velocity; false: upwind
   SmallEddies small_eddies = SmallEddies::wale;  // in time
@@ -26,7 +26,7 @@ struct EngineOptions {
   double time_limit_s = 0;                       // of one child process; 0: none
 };
 
-/// What a case may ask of an engine beyond the common ground.
+/// Features of an engine that a case may request in addition to the common ones.
 struct Abilities {
   bool sheets = false;         // the `sheet` model
   bool jets = false;           // FlowProblem::jet
@@ -40,7 +40,7 @@ struct Abilities {
   bool has_boundary(std::string_view word) const;
 };
 
-/// What an engine takes of a machine, measured once: for the estimates of a batch job.
+/// Memory and time of an engine, measured once: for the estimates of a batch job.
 struct EngineCost {
   double cell_time = 1e-7;  // of a cell and iteration [core s]
   double cell_memory = 0;   // beyond Cost::memory [bytes]

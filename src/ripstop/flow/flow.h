@@ -1,5 +1,5 @@
-// The air: a box of cells with bodies in it, as a problem, and a flow that goes on from where it is. A body is
-// not known here but for its surface and its resistance.
+// The air: a box of cells with bodies in it, as a problem, and a flow that continues from its present state. Only
+// surface and resistance of a body are used here.
 #pragma once
 
 #include <filesystem>
@@ -57,11 +57,11 @@ struct PorousCells {
   double forchheimer = 0;  // f [1/m]
 };
 
-/// How a sheet moves, triangle by triangle, while the air takes a step: with `velocity` where `pressure` is the
-/// drop across it, and by `yields` faster along its normal for every pascal more.
+/// Motion of a sheet, triangle by triangle, during a time step of the flow: with `velocity` where `pressure`
+/// is the drop across it, plus `yields` (compliance) along its normal for every additional pascal.
 struct SheetMotion {
   std::vector<Vec3> velocity;    // [m/s]; empty: at rest
-  std::vector<double> yields;    // [m/(s Pa)]; empty: it moves as said, whatever the air does
+  std::vector<double> yields;    // [m/(s Pa)]; empty: it moves as given, independent of the flow
   std::vector<double> pressure;  // inside over outside [Pa]; empty: none
 };
 
@@ -84,28 +84,29 @@ struct FlowBody {
 FlowBody sheet_body(std::vector<Triangle> surface, PressureDrop law, std::string name = "canopy");
 FlowBody porous_body(PorousCells cells, std::string name = "canopy");
 
-/// What the air does to a body.
+/// Loads of the air on a body.
 struct BodyLoad {
   Vec3 force;   // [N]
   Vec3 moment;  // about FlowBody::moment_about [N m]
 };
 
-/// What the air does to a sheet at one face of the grid.
+/// Loads of the air on a sheet at one face of the grid.
 struct SheetLoad {
   int body = 0, triangle = 0;  // of FlowProblem::bodies
   Vec3 point;                  // on the triangle [m]
   Vec3 outward;                // mean normal of the sheet there, unit, as the triangles' corners turn
-  double drop = 0;   // of the pressure from the sheet's inner side to its outer one, mean over the face [Pa]
-  Vec3 force;        // on the sheet: drop times the face's area, along an axis of the grid [N]
-  double cover = 1;  // the part of the face that the sheet covers: drop / cover is what the cloth there sees
-  double area = 0;  // of the sheet that the face stands for, as far as it covers the face: a share n_a^2 [m2]
+  double drop = 0;  // of the pressure from the sheet's inner side to its outer one, mean over the face [Pa]
+  Vec3 force;       // on the sheet: drop times the face's area, along an axis of the grid [N]
+  double cover =
+      1;  // the part of the face that the sheet covers: drop / cover is the pressure drop of the cloth there
+  double area = 0;  // of the sheet that the face represents, as far as it covers the face: a share n_a^2 [m2]
   /// Pressure on the sheet's own two sides, as far as the grid has air there: nothing on a side where another layer
   /// lies before the next centre [Pa].
   std::optional<double> inside, outside;
 };
 
-/// A kind of boundary for the four sides of the box, by its word; boundaries.h lists what each word means. The far
-/// field takes all six faces of the box, in place of inlet and outlet.
+/// A kind of boundary for the four sides of the box, by its word; boundaries.h explains each word. The far field
+/// applies to all six faces of the box, instead of inlet and outlet.
 struct Sides {
   std::string_view word;
   bool operator==(const Sides&) const = default;
@@ -126,7 +127,8 @@ inline constexpr Outlet Outlet::fixed_pressure{"fixed-pressure"}, Outlet::still_
 struct Stopping {
   double residual = 1e-5;  // on every equation
   int max_iterations = 1000;
-  /// Unconverged after max_iterations, the mean over the last so many of them stands; 0: the last iteration.
+  /// Without convergence after max_iterations, the result is the mean over the last so many of them; 0: the
+  /// last iteration.
   int average_over = 0;
   /// Enough, too, once the drag moved by less than this share of itself within `piece` iterations; 0: never.
   double settled_drag = 0;
@@ -159,8 +161,8 @@ struct FlowProgress {
 using FlowReport = std::function<bool(const FlowProgress&)>;
 double largest_residual(const FlowProgress& progress);
 
-/// Over the last iterations of a run that does not settle. Iterations are not time: the mean is that of the
-/// iteration's limit cycle, and the deviation says how large the cycle is.
+/// Over the last iterations of a run that does not converge. Iterations are not time: the mean is that of the
+/// limit cycle of the iteration, and the deviation is the size of the cycle.
 struct FlowAverage {
   int iterations = 0;                  // in the window; 0: nothing was averaged
   double drag = 0;                     // mean of porous_force.z [N]
@@ -200,22 +202,22 @@ struct FlowStep {
   double courant = 0;            // largest Courant number of a cell, summed over the axes
   Vec3 force;                    // by the fluid on all bodies [N]
   std::vector<BodyLoad> bodies;  // and on each of FlowProblem::bodies
-  /// Force, change of the box's momentum and what its faces pass, added up; forces on the air left out, and across the
-  /// axis the viscous stress on slip sides [N].
+  /// Sum of force, change of the momentum of the box and fluxes through its faces; forces on the air are omitted, and
+  /// across the axis the viscous stress on slip sides [N].
   Vec3 momentum_gap;
-  double mass_defect = 0;  // mass that cells gain or lose, over what the stream brings into the box
+  double mass_defect = 0;  // mass that cells gain or lose, over the mass that the stream brings into the box
 };
 /// Return false to stop.
 using StepReport = std::function<bool(const FlowStep&)>;
 
 class FieldMean;
 
-/// A flow under way. It goes on from where it is, whatever was asked of it before.
+/// A flow in progress. It continues from its present state, independent of earlier calls.
 class Flow {
  public:
   virtual ~Flow() = default;
 
-  /// One of the problem's bodies lies here now, and moves so if it is a sheet. The air goes on from where it is.
+  /// New position of one of the bodies, with its motion if it is a sheet. The flow continues from its present state.
   virtual void place(std::size_t body, const std::vector<Triangle>& surface,
                      const SheetMotion& motion = {}) = 0;
   /// At most so many iterations; fewer when every residual falls below `residual` or the report stops it.
@@ -225,36 +227,35 @@ class Flow {
   /// fewer when the report stops it. Only where the engine's Abilities have time. Throws Error(diverged) as
   /// advance() does. Returns the last step.
   virtual FlowStep march(int steps, double courant, const StepReport& report = {});
-  /// How long the next step in time may be for a Courant number of `courant` [s], and one that is so long, or
-  /// shorter: for whoever steps something beside the air. As march() otherwise.
+  /// Largest length of the next time step for a Courant number of `courant` [s], and a step of this length or
+  /// shorter, for callers that step a structure with the flow. Otherwise as march().
   virtual double longest_step(double courant);
   virtual FlowStep step(double length);
   /// Before a step in time: the undisturbed stream has this velocity at the end of the step [m/s]. `acceleration` is
-  /// what it gains in a frame that is itself accelerated, as one that moves with a body in flight: a force on all of
-  /// the air [m/s2]. Both remain for later steps. Throws Error(usage) for a jet, and where a velocity that is not
-  /// along +z meets boundaries other than the far field.
+  /// that of the stream in an accelerated frame, such as one that moves with a body in flight: a force on all of the
+  /// air [m/s2]. Both remain for later steps. Throws Error(usage) for a jet, and where a velocity that is not along
+  /// +z meets boundaries other than the far field.
   virtual void stream(Vec3 velocity, Vec3 acceleration);
   /// The last iteration's or step's.
   virtual FlowField field() const = 0;
   /// The same, as one more of those that a mean is over.
   virtual void add_to(FieldMean& mean) const;
-  /// What it does to the sheets: FlowField::sheet_loads.
+  /// Loads on the sheets: FlowField::sheet_loads.
   virtual std::vector<SheetLoad> sheet_loads() const { return field().sheet_loads; }
 
   /// Whether nothing has happened yet: the uniform stream as the problem has it.
   virtual bool untouched() const = 0;
-  /// A first field that is cheaper than iterations from the stream, where the engine knows one. Only for a
-  /// flow that is untouched.
+  /// A first field that is cheaper than iterations from the stream, if the engine provides one. Only for a
+  /// flow before its first iteration.
   virtual void guess() {}
   /// Back to the uniform stream, the cloth where it is.
   virtual void start_afresh() = 0;
 
-  /// All that the next iteration depends on: a flow that is restored goes on as if it had never stopped, to
+  /// Everything on which the next iteration depends: a restored flow continues as if it had never stopped, to
   /// the last bit. Throws Error(io).
   virtual void save(const std::filesystem::path& folder) const = 0;
-  /// Of a problem with the same box, sides and outlet. Where the saved flow is of other air and the engine
-  /// can, it is scaled to this problem's; else Error(usage). Error(bad_data) or
-  /// Error(io) for what save() did not write.
+  /// Of a problem with the same box, sides and outlet. A saved flow of different air is scaled to that of this
+  /// problem if the engine can; else Error(usage). Error(bad_data) or Error(io) for data that save() did not write.
   virtual void restore(const std::filesystem::path& folder) = 0;
 };
 

@@ -42,7 +42,7 @@ Grading with_cells(double low, double high, double core_low, double core_high, i
   return g;
 }
 
-/// Least number of cells that fill `length` beside cells of width `first` without growing faster.
+/// Least number of cells that fill `length` next to cells of width `first` without growing faster.
 int cells_outside(double first, double length, double growth) {
   int n = 0;
   while (first * progression(growth, n) < length * (1 - 1e-9)) ++n;

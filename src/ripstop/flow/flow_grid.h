@@ -57,7 +57,7 @@ Bracket bracket(const FlowGrid& grid, int axis, double x);
 
 /// `box` with as many cells, uniform from core_low to core_high and there as fine as cells that grow outward
 /// by no more than `growth` (> 1) a cell allow; uniform along an axis where the core has no extent. Throws
-/// Error(usage) for a core that is not inside the box and for too few cells, and says how many it takes.
+/// Error(usage) for a core that is not inside the box and for too few cells, and states the required number.
 FlowGrid graded(const FlowGrid& box, Vec3 core_low, Vec3 core_high, double growth);
 
 /// The same box and core with half as many cells along each axis.

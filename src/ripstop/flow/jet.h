@@ -33,7 +33,7 @@ struct Jet {
 
 /// Speed over the nozzle's at (x, y) of the inlet: s + (1 - s) (1 + tanh(2 depth / thickness)) / 2.
 double speed_share(const Jet& jet, double x, double y);
-/// Its mean over a rectangle, so that a coarse cell takes in what passes it.
+/// Its mean over a rectangle, which represents the flux into a coarse cell.
 double mean_speed_share(const Jet& jet, double low_x, double high_x, double low_y, double high_y);
 
 }  // namespace ripstop

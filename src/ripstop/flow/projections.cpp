@@ -13,7 +13,7 @@ Vec3 unit(Vec3 v) {
   return v / norm(v);
 }
 
-/// What v has normal to a unit vector.
+/// Part of v normal to a unit vector.
 Vec3 across(Vec3 v, Vec3 axis) {
   return v - dot(v, axis) * axis;
 }

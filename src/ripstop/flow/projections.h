@@ -1,5 +1,6 @@
 // Projections of a body's force and moment: along and across the wind, and along and across the body's own axis. The
-// one place where they are made; definitions as in T. W. Knacke, Parachute Recovery Systems Design Manual (NWC TP 6575).
+// one place where they are made; definitions as in T. W. Knacke, Parachute Recovery Systems Design Manual (NWC TP
+// 6575).
 #pragma once
 
 #include "ripstop/core/vec3.h"
@@ -7,8 +8,8 @@
 
 namespace ripstop {
 
-/// Unit vector of a wind that makes `angle` with the z axis, in the plane through z that makes `azimuth` with the x axis
-/// [degrees]: (sin a cos b, sin a sin b, cos a).
+/// Unit vector of a wind that makes `angle` with the z axis, in the plane through z that makes `azimuth` with the x
+/// axis [degrees]: (sin a cos b, sin a sin b, cos a).
 Vec3 wind_direction(double angle_deg, double azimuth_deg = 0);
 
 /// A vector turned by the shortest way from the z axis to the unit vector `axis`.
@@ -23,8 +24,9 @@ struct Attitude {
 /// Angle of attack: between the axis and the wind [degrees].
 double angle_of_attack(const Attitude& attitude);
 
-/// Normal to the axis in the plane of axis and wind, towards the wind: a force along it on the canopy turns the axis into
-/// the wind. With the wind along the axis: in the plane of the axis and x (of the axis and y, where the axis is along x).
+/// Normal to the axis in the plane of axis and wind, towards the wind: a force along it on the canopy turns the axis
+/// into the wind. With the wind along the axis: in the plane of the axis and x (of the axis and y, where the axis is
+/// along x).
 Vec3 normal_direction(const Attitude& attitude);
 
 /// Of a force on a body [N].
@@ -36,7 +38,7 @@ struct ForceComponents {
 };
 ForceComponents components(Vec3 force, const Attitude& attitude);
 
-/// What a body's coefficients refer to.
+/// Reference quantities of the coefficients of a body.
 struct Reference {
   double density = 0;   // [kg/m3]
   double area = 0;      // S0 [m2]

@@ -35,7 +35,7 @@ std::vector<double> means_over_parts(const Record& record, double from, int part
   std::vector<double> means(static_cast<std::size_t>(parts), 0.0);
   const double width = (record.end() - from) / parts;
   double begin = record.begin, whole = 0, last = 0;
-  int part = -1;  // the end of which comes next; -1: the beginning of the first
+  int part = -1;  // the end of the next one; -1: the beginning of the first
   for (std::size_t n = 0; n < record.values.size(); ++n) {
     const double end = record.until[n];
     for (; part < parts && from + (part + 1) * width <= end; ++part) {

@@ -1,12 +1,12 @@
-// What a record of something that goes up and down says of its mean: where the start-up ends, the mean, and how
-// far off it may be although neighbours in time are alike.
+// Statistics of the mean of a fluctuating record: end of the start-up, mean, and uncertainty for values that
+// are correlated in time.
 #pragma once
 
 #include <vector>
 
 namespace ripstop {
 
-/// A quantity that holds from one time to the next; times increase.
+/// A quantity that is constant from one time to the next; times increase.
 struct Record {
   std::vector<double> until;   // end of each interval [s]; the first one begins at `begin`
   std::vector<double> values;  // the mean over it
@@ -25,16 +25,16 @@ double end_of_start_up(const Record& record);
 
 struct MeanOverTime {
   double mean = 0;
-  double standard_error = 0;  // infinite for a record without variation in time to judge by
+  double standard_error = 0;  // infinite for a record without variation in time
   double deviation = 0;       // standard deviation of the record itself
 };
 /// Of the record from `from` on. The standard error is that of the means over equal parts of it, the largest
-/// for six and more parts: parts that are shorter than what the flow remembers look more certain than they are
+/// for six and more parts: parts shorter than the correlation time of the flow underestimate the error
 /// (blocking; Flyvbjerg and Petersen 1989).
 MeanOverTime mean_over_time(const Record& record, double from);
 
-/// The frequency [1/s] with the most power, of a few records of the same times together, and what share of the
-/// power lies within one step of frequency of it; 0 where the record is shorter than four periods of it.
+/// The frequency [1/s] with the most power, of a few records of the same times together, and the share of the power
+/// within one step of frequency of it; 0 where the record is shorter than four periods of it.
 struct Peak {
   double frequency = 0, share = 0;
 };

@@ -12,7 +12,7 @@ namespace ripstop {
 /// Error(bad_data) for a corner that is not finite or beyond single precision, Error(io).
 void write_stl(const std::filesystem::path& path, const std::vector<Triangle>& surface);
 
-/// The triangles of a binary STL; its normals are not read, since the corners say them. Throws
+/// The triangles of a binary STL; its normals are not read, since the corners determine them. Throws
 /// Error(bad_data) for a text STL or a length that does not match the count, Error(io).
 std::vector<Triangle> read_stl(const std::filesystem::path& path);
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int steps_a_field = 8;       // between fields that the mean is made of
 constexpr int steps_a_look = 200;      // between looks at whether it is enough
-constexpr std::size_t most_parts = 8;  // of the mean: what is discarded is whole ones
+constexpr std::size_t most_parts = 8;  // of the mean: the discarded part consists of whole ones
 constexpr std::size_t most_slices = 24;
 constexpr double slice_every = 0.5;  // times that the stream takes for the length
 
@@ -161,7 +161,7 @@ FlowField watch(Flow& flow, const FlowProblem& problem, const Watch& how, FlowRe
   record.side_x = mean_over_time(x, from), record.side_y = mean_over_time(y, from);
   record.swing = strongest_frequency({x, y}, from);
   FlowField field = mean.since(record.start_up);
-  // What the box's faces pass, less what its own momentum grows by: force and gap of every step.
+  // Fluxes through the faces of the box minus the growth of its momentum: force and gap of every step.
   Vec3 gap;
   for (const FlowStep& step : record.steps) {
     const auto share = [&](double along) { return step.length * along / record.watched(); };

@@ -27,14 +27,14 @@ struct FlowSlice {
   FlowField field;
 };
 
-/// What was seen.
+/// Record of the averaging window.
 struct FlowRecord {
   std::vector<FlowStep> steps;
   double start_up = 0;  // discarded, from the beginning of the watch: until the record has settled, and
                         // at least until the stream has been through the box [s]
   MeanOverTime drag, side_x, side_y;  // of the rest, along the stream and along x and y turned with it [N]
   Peak swing;                         // of the side force
-  bool enough = false;                // the standard error came down to what was asked for
+  bool enough = false;                // the standard error reached the required value
   std::vector<FlowSlice> slices;      // the last ones, evenly in time
 
   double watched() const;  // [s]
@@ -43,13 +43,13 @@ struct FlowRecord {
 struct WatchProgress {
   FlowStep step;
   double mean = 0, standard_error = 0;  // of the drag so far [N]; 0: not yet known
-  double share = 0;                     // of the watch that lies behind, as far as can be told
+  double share = 0;                     // of the averaging window, as far as can be estimated
 };
 using WatchReport = std::function<bool(const WatchProgress&)>;
 
-/// Marches on from where the flow is. Returns the mean over what is left without the start-up, with the mean
-/// loads, and in `record` how it went. FlowField::average says how many fields it is made of. Throws what
-/// Flow::march() throws, Error(usage) for a watch that cannot be.
+/// Marches on from the present state of the flow. Returns the mean over the record without the start-up, with the
+/// mean loads, and in `record` the history. FlowField::average contains the number of averaged fields. Throws the
+/// exceptions of Flow::march(), Error(usage) for an impossible averaging window.
 FlowField watch(Flow& flow, const FlowProblem& problem, const Watch& how, FlowRecord& record,
                 const WatchReport& report = {});
 

@@ -9,7 +9,7 @@
 
 namespace ripstop {
 
-/// Number of steps of at most `step` [s] in each of `rows` rows of `duration` [s], the first of which begins at `time` [s].
+/// Number of steps of at most `step` [s] in each of `rows` rows of `duration` [s], starting at `time` [s].
 /// Throws Error(diverged) for more than can be recorded.
 int steps_in(double duration, double step, double time, int rows = 1);
 
@@ -22,8 +22,9 @@ struct RowSpan {
 
 class AdaptiveStepper {
  public:
-  /// When the stability limit, which costs about as much as 40 steps, is evaluated. kept: after a span of many steps; its
-  /// step goes on and must be stable. renewed: before a span of few steps, too; only the step taken must be stable.
+  /// When the stability limit, which costs about as much as 40 steps, is evaluated. kept: after a span of many steps;
+  /// its step continues and must be stable. renewed: before a span of few steps, too; only the step taken must be
+  /// stable.
   enum class Step { kept, renewed };
 
   /// Steps are `step_fraction` of the stability limit; a row lasts `row` [s].
@@ -40,8 +41,9 @@ class AdaptiveStepper {
     std::vector<HistoryRow> rows;
     double stable_step = 0;  // at the end [s]
   };
-  /// `load_of(row)` is the load from that row on. Where strain has reduced the stable step below the one used, or the cloth
-  /// has diverged, the span is computed again with a smaller step. Throws Error(diverged) after the fourth divergence.
+  /// `load_of(row)` is the load from that row on. Where strain has reduced the stable step below the one used, or the
+  /// cloth has diverged, the span is computed again with a smaller step. Throws Error(diverged) after the fourth
+  /// divergence.
   Span advance(InflationState& state, const Cloth& cloth, const RowSpan& span,
                const std::function<const Loads&(long long)>& load_of) const;
 

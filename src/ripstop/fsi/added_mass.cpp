@@ -11,7 +11,7 @@ constexpr double box = 3;                 // from the middle to its sides, in th
 constexpr double margin = 0.2;            // of the fine cells about the surface
 constexpr double growth = 1.25;           // of cells outside of it
 constexpr double tight = 1e6;             // [Pa s/m]
-constexpr double drift = 0.05;            // [m/s] of surface and air together, since a flow wants a stream
+constexpr double drift = 0.05;            // [m/s] of surface and air together, because a flow needs a stream
 constexpr double gain = 50, step = 2e-4;  // [m/s2], [s]: it moves by no part of a cell that matters
 constexpr int steps = 3;                  // after which the pressure has come to rest
 

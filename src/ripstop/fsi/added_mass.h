@@ -8,8 +8,9 @@
 
 namespace ripstop {
 
-/// Of a surface as it stands, taken for tight and rigid, along z [kg]: what it feels over its acceleration when it sets
-/// out in still air. A flow of its own, on cells fitted to the surface. Throws Error(usage) where the engine has no time.
+/// Added mass along z of an impermeable rigid surface [kg]: force over acceleration at the start of its motion in
+/// still air. A separate flow, on cells fitted to the surface. Throws Error(usage) if the engine does not support
+/// unsteady flow.
 double added_mass(FlowEngine& engine, const std::vector<Triangle>& surface, double density);
 
 }  // namespace ripstop

@@ -1,4 +1,4 @@
-// The air that comes to a canopy: what a tunnel's probe before it would read.
+// The air upstream of a canopy: the reading of a tunnel probe in front of it.
 #pragma once
 
 #include <vector>

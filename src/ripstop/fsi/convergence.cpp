@@ -41,8 +41,8 @@ std::vector<std::string> unmet_criteria(const SteadyIteration& last, const Coupl
   return unmet;
 }
 
-// Displacement of the canopy that chance may cause between two means in time with the standard error of the last one:
-// twice the standard error of the direction of the load, times the mean distance from the fixed end [m].
+// Random displacement of the canopy between two means in time with the standard error of the last one: twice
+// the standard error of the direction of the load, times the mean distance from the fixed end [m].
 double SteadyConvergence::lean_by_chance(const SteadyState& state) const {
   if (state.iterations.empty() || !state.iterations.back().in_time) return 0;
   const Vec3& fixed = state.shape[fixed_.front()];
@@ -61,15 +61,15 @@ bool SteadyConvergence::shape_settled(const SteadyState& state, const SteadyIter
 bool SteadyConvergence::asks_for_full_flow(const SteadyState& state, const SteadyIteration& now) const {
   if (state.iterations.empty() || !shape_settled(state, now)) return false;
   const SteadyIteration& last = state.iterations.back();
-  // Cloth that is still regularised is not worth a whole window.
+  // Cloth with regularisation does not justify a whole window.
   if (state.in_time) return now.regularisation_share < regularisation_tolerance && last.in_time;
   // With CanopyLoad::of_flow, the drag of a flow that was left early does not show whether it settles.
   return settings_.load == CanopyLoad::of_flow || last.drag_change < settings_.drag_tolerance;
 }
 
-// Before a window, drag and ledger need not be known better than the mean in time will be. In time the ledger decides
-// alone: the nodal load is the mean of the windows before, from which chance makes this one differ by twice the standard
-// error of the difference.
+// Before a window, drag and force balance need not be more accurate than the mean in time will be. In time only the
+// force balance is tested: the nodal load is the mean of the previous windows, from which this one may differ by
+// twice the standard error of the difference.
 bool SteadyConvergence::reached(const SteadyState& state, const SteadyIteration& now, bool in_full) const {
   if (!shape_settled(state, now) || (state.in_time && !in_full)) return false;
   double chance = window_ ? window_->standard_error : 0;

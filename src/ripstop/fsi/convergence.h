@@ -12,8 +12,8 @@
 
 namespace ripstop {
 
-/// Largest share of the load that regularisation may carry at convergence: half of what the staircase of the flow's cells
-/// leaves as an error of the load.
+/// Largest share of the load that regularisation may carry at convergence: half of the load error caused by
+/// the stepped cells of the flow.
 inline constexpr double regularisation_tolerance = 0.02;
 
 /// e_k and omega of [NFM] Eq. 18 and 19: how far the shape moved.

@@ -1,9 +1,9 @@
 // The flow about a canopy that opens, stepped in time together with its cloth.
 //
-// Light cloth in heavy air: a load that is handed over after each step would throw the cloth farther than the air lets it
-// go. So a predictor moves the cloth under its last load; the flow takes that motion and the compliance of the cloth to
-// more load, and finds the drop across the cloth with both (a Robin condition; Banks, Henshaw and Schwendeman 2014,
-// Fernandez, Mullaert and Vidrascu 2015); then the cloth is stepped under that drop.
+// Light cloth in heavy air: a load that is handed over after each step would throw the cloth farther than the air
+// lets it go. So a predictor moves the cloth under its last load; the flow takes that motion and the compliance of
+// the cloth to more load, and finds the drop across the cloth with both (a Robin condition; Banks, Henshaw and
+// Schwendeman 2014, Fernandez, Mullaert and Vidrascu 2015); then the cloth is stepped under that drop.
 #pragma once
 
 #include <filesystem>

@@ -5,9 +5,9 @@ namespace ripstop {
 
 enum class Acceleration { none, aitken, anderson };
 
-/// What the flow's answer becomes on the cloth; always the axial sum is the flow's force on the canopy.
+/// Transfer of the flow's load to the cloth; the axial sum always equals the flow's force on the canopy.
 enum class CanopyLoad {
-  of_flow,  // what the air loses on every face of the sheet, force and moment kept
+  of_flow,  // momentum loss of the air on every face of the sheet, with force and moment preserved
   uniform,  // one pressure difference everywhere: force over the canopy's axial area
   sampled   // the pressures read on both sides of the cloth, scaled by one factor
 };

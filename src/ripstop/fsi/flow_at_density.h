@@ -1,8 +1,8 @@
 // A flow that is computed at the density of deployment, as it is at the density of the present height.
 //
-// At a given speed the motion of the air does not depend on its density, and all pressures and forces are proportional
-// to it. So what goes into the flow is scaled to the density of deployment, what comes out of it to the present one, here
-// and nowhere else.
+// At a given speed the motion of the air does not depend on its density, and all pressures and forces are
+// proportional to it. The input of the flow is therefore scaled to the density of deployment, and its output to the
+// present one, only here.
 #pragma once
 
 #include <filesystem>

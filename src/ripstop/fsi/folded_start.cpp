@@ -21,7 +21,7 @@ namespace {
 constexpr double bending_weight = 1e-3;
 constexpr double strain_sought = 1e-4;
 constexpr int steps_a_round = 2500, most_rounds = 24;
-// Every so many rounds the largest strain must have fallen to this share of what it was.
+// After so many rounds the largest strain must have fallen to this share of its value.
 constexpr int rounds_between_looks = 4;
 constexpr double gain_wanted = 0.9;
 constexpr double radius_tolerance = 0.01;
@@ -35,8 +35,8 @@ std::vector<int> pieces_of_cloth(const Mesh& mesh) {
   return piece;
 }
 
-// The canopy without what holds it: free lines and riser.
-// All its springs are equally stiff, so that none is spared at the cost of another.
+// The canopy without its supports: free lines and riser. All its springs are equally stiff, so that no part
+// is favoured.
 Mesh canopy_of(const CanopyMesh& mesh, const FoldedStart& folded) {
   Mesh canopy = with_creases(mesh, folded);
   const std::vector<int> piece = pieces_of_cloth(mesh);
@@ -54,7 +54,7 @@ Mesh canopy_of(const CanopyMesh& mesh, const FoldedStart& folded) {
   return canopy;
 }
 
-// Every node becomes the mean of what turns and mirror images of its likes say.
+// Every node becomes the mean of the rotated and mirrored positions of its equivalent nodes.
 void make_symmetric(const Mesh& mesh, int symmetry, std::vector<Vec3>& x) {
   const std::vector<Vec3> old = x;
   for (const Patch& patch : mesh.patches) {
@@ -82,7 +82,7 @@ void make_symmetric(const Mesh& mesh, int symmetry, std::vector<Vec3>& x) {
   }
 }
 
-// The zigzag of gores without strain but for what its fold lines cannot keep.
+// The zigzag of gores without strain, except where fold lines prevent it.
 class GoreFolder {
  public:
   GoreFolder(const CanopyMesh& mesh, const Folding& folding, int symmetry, ThreadTeam& team)

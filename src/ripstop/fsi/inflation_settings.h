@@ -7,10 +7,10 @@
 
 namespace ripstop {
 
-/// What presses on the cloth: one pressure for all of it and a damping, or the air as it flows.
+/// Load model: uniform pressure with damping, or coupled flow.
 enum class AirModel { uniform, coupled };
 
-/// [[inflation.reefing]]: one stage, whose line holds the skirt together until it is cut.
+/// [[inflation.reefing]]: one stage, whose line constrains the skirt until it is cut.
 struct ReefingStage {
   double line_m = 0;                    // once round through the rings, unloaded
   double cut_s = 0;                     // from deployment

@@ -13,13 +13,13 @@ namespace ripstop {
 /// The load of `state` as the cloth takes it.
 Loads loads_of(const SteadyState& state, const std::vector<Cell>& cells);
 
-/// What the cloth in equilibrium under `loads` at `shape` carries: sum of the nodal loads, moment about the axis, tension
-/// at the fixed end, balance of the sections.
+/// Loads of the cloth in equilibrium under `loads` at `shape`: sum of the nodal loads, moment about the axis,
+/// tension at the fixed end, balance of the sections.
 void enter_cloth(SteadyIteration& now, const SteadyState& state, const ClothState& equilibrium, Loads loads,
                  const std::vector<Vec3>& shape, const CanopyMesh& mesh, const Cloth& cloth,
                  const std::vector<Cell>& cells);
 
-/// What the flow about the new shape gives: force on the canopy, momentum deficit of the box, how well it is solved.
+/// Loads of the flow around the new shape: force on the canopy, momentum deficit of the box, convergence.
 void enter_flow(SteadyIteration& now, const SteadyState& state, const FlowField& field,
                 const CanopyMesh& mesh, const std::vector<Vec3>& shape);
 

@@ -34,8 +34,8 @@ ClothLoad load_on_cloth(CanopyLoad model, const FlowField& field, const CanopySu
     load.pressure.assign(canopy.cells.size(), now.fluid_force / axial_force(canopy, one));
   }
   if (model != CanopyLoad::sampled) return load;
-  // The flow's force on the cut cells also contains what the resistance takes along the cloth, and the staircase of cut
-  // cells is not the cloth: sampled differences do not add up to it. They are scaled by one factor, which is reported.
+  // The flow's force on the cut cells also contains the resistance along the cloth, and the stepped cells differ from
+  // the cloth: the sum of sampled differences is not equal to it. They are scaled by one factor, which is reported.
   if (!(now.transfer_factor > 0) || !std::isfinite(now.transfer_factor)) {
     throw Error(
         ExitCode::diverged,

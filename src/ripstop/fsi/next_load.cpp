@@ -4,8 +4,8 @@ namespace ripstop {
 namespace {
 
 // A flow that does not come to rest, for example with jets through slots, returns different loads for the same shape.
-// If after so many iterations the drag still changes by more than the time before, answers are no longer extrapolated but
-// averaged.
+// If after so many iterations the drag still changes by more than the time before, answers are no longer extrapolated
+// but averaged.
 constexpr int most_accelerated = 5;
 
 std::vector<double> joined(const std::vector<double>& pressure, const RigidTraction& traction) {
@@ -25,8 +25,8 @@ void update_load(SteadyState& state, const ClothLoad& answer, double drag_change
                          drag_change > state.iterations.back().drag_change;
     if (jitters || accelerator.update == Acceleration::none) accelerator.average(settings.relaxation);
   }
-  // Means in time have the load in common and differ by chance. The first windows are those of a wake that was still
-  // developing: the very first one is replaced by the second, and from then on each weighs as its number.
+  // Means in time have the same expected load and differ by scatter. The first windows are those of a developing
+  // wake: the first one is replaced by the second, and from then on the weight of each is its number.
   if (const auto& all = state.iterations; state.in_time && all.back().in_time && all[all.size() - 2].in_time)
     accelerator.average(2 * settings.relaxation);
   std::vector<double> weight = area;

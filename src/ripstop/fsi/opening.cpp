@@ -53,7 +53,8 @@ Opening::Opening(InflationProblem problem, double snapshot_span, double least_ro
       row_(problem_.settings.duration_s / problem_.settings.frames / blocks_per_frame_ / rows_per_block_),
       stepper_(step, problem_.settings.step_fraction, row_, team_) {
   if (problem_.settings.low_pass_hz > 0)
-    low_pass({}, row_, problem_.settings.low_pass_hz);  // rejects at the beginning what it would at the end
+    low_pass({}, row_,
+             problem_.settings.low_pass_hz);  // refuses at the beginning the same input as at the end
 }
 
 InflationState Opening::start() const {

@@ -1,4 +1,4 @@
-// The opening of a folded canopy: what a uniform pressure and a coupled flow have in common.
+// The opening of a folded canopy: common part of uniform-pressure and coupled inflation.
 #pragma once
 
 #include <memory>
@@ -56,8 +56,8 @@ class Opening {
   std::vector<double> peak_tension_of_lines(const InflationState& state) const;  // [N]
 
  protected:
-  /// Snapshots that the settings do not name are spread over `snapshot_span` [s]; the history has `least_rows` a second or
-  /// more. Throws Error(usage) for a folding or a number that does not fit.
+  /// Snapshots that the settings do not name are spread over `snapshot_span` [s]; the history has `least_rows` a
+  /// second or more. Throws Error(usage) for a folding or a number that does not fit.
   Opening(InflationProblem problem, double snapshot_span, double least_rows, AdaptiveStepper::Step step);
 
   /// Counts the block, cuts reefing lines that are due and takes a snapshot. Returns whether a line was cut.

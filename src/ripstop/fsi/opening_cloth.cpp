@@ -13,9 +13,9 @@
 namespace ripstop {
 namespace {
 
-// Of the cloth's viscosity, that acts along yarns between nodes two cells apart. There it takes a quarter of
-// what the same loss in a wave that the mesh resolves takes of the stable step between neighbours, and it
-// resists being folded at the scale of the grid. A wave of two cells only feels the rest.
+// Share of the cloth's viscosity that acts along yarns between nodes two cells apart. For the same loss in a resolved
+// wave it reduces the stable step by a quarter of the reduction between neighbours, and it resists folding at the
+// scale of the grid. A wave of two cells is damped by the rest only.
 constexpr double share_over_two_cells = 2.0 / 3;
 
 /// The imperfection over the azimuth: one harmonic, or those from 1 to 8 at random azimuths with the same root mean

@@ -1,4 +1,4 @@
-// What an opening records: rows of its load, frames, snapshots, and the state that a checkpoint holds.
+// Records of an opening: rows of its load, frames, snapshots, and the state of a checkpoint.
 #pragma once
 
 #include <string>

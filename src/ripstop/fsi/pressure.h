@@ -1,4 +1,4 @@
-// The uniform pressure difference that stands for the air.
+// The uniform pressure difference that represents the air.
 #pragma once
 
 #include <functional>
@@ -18,9 +18,9 @@ struct UniformPressure {
 /// Equilibrium of the mesh under a uniform `pressure` [Pa]. Throws Error(not_converged).
 UniformPressure load_under(double pressure, const Mesh& mesh, bool linear, ThreadTeam& team);
 
-/// The dp with which the equilibrium carries `load` [N] within 0.1 %: dp = load / A(dp), [NFM] as mended. The
-/// shape hardly depends on dp, so two or three equilibria do. Throws Error(not_converged).
-/// `alive` is called now and then on the way; what it throws ends the search.
+/// The dp with which the equilibrium carries `load` [N] within 0.1 %: dp = load / A(dp), [NFM] as corrected. The
+/// shape hardly depends on dp, so two or three equilibria suffice. Throws Error(not_converged). `alive` is called at
+/// intervals; its exceptions end the search.
 UniformPressure pressure_for(double load, const CanopyMesh& mesh, bool linear, ThreadTeam& team,
                              const std::function<void()>& alive = {});
 

@@ -17,7 +17,7 @@ namespace ripstop {
 namespace {
 
 constexpr double reach = 2.0;  // of the weights, in flow cells
-// Directions in which the faces near a cell spread less than this, in reaches squared, cannot tell a slope:
+// Directions in which the faces near a cell spread less than this, in reaches squared, determine no slope:
 // across the cloth, and along a strip narrower than the flow's cells. A round piece of cloth has 0.1.
 constexpr double least_spread = 0.01;
 
@@ -74,8 +74,8 @@ struct Sample {
   bool folded = false;                    // another layer lies nearer than a cell, and looks the other way
 };
 
-// Beside a hem all that a face loses acts on the part of it that the cloth covers. Points of such faces lie
-// beside the cloth and are brought on to its plane.
+// At a free edge the whole momentum loss of a face acts on the part of it that the cloth covers. Points of such faces
+// are outside the cloth and are projected on its plane.
 std::vector<Sample> samples_of(const std::vector<SheetLoad>& loads, const std::vector<Triangle>& surface) {
   std::vector<Sample> samples;
   samples.reserve(loads.size());
@@ -150,8 +150,8 @@ double width_at(Vec3 point, const FlowGrid& grid) {
   return std::max({h.x, h.y, h.z});
 }
 
-// Between layers that lie closer than a cell's width the grid has no air of its own: what such a face drops is that of
-// a closed pocket, or of all layers together, and the pressure on the side of that pocket is nobody's.
+// Between layers closer than the width of a cell the grid has no separate air: the drop of such a face is that of a
+// closed pocket, or of all layers together, and the pressure on the side of that pocket is meaningless.
 void find_folds(std::vector<Sample>& samples, const FlowGrid& grid, double box) {
   const Boxes all(samples, box);
   for (Sample& sample : samples) {
@@ -167,8 +167,8 @@ void find_folds(std::vector<Sample>& samples, const FlowGrid& grid, double box) 
 
 enum class Side { same, either };
 
-// The plane through the samples within `radius` that look the same way, by weighted least squares: pressures
-// that are linear in space come out as they are. Nothing where there is no such sample.
+// The plane through the samples within `radius` of the same orientation, by weighted least squares: exact for
+// pressures that are linear in space. Nothing if there is no such sample.
 bool plane_through(const Boxes& samples, Vec3 centre, Vec3 normal, double radius, Side side,
                    double& pressure) {
   double weights = 0, mean = 0;
@@ -209,7 +209,7 @@ std::vector<double> pressures(const std::vector<Sample>& samples, const FlowGrid
   for (std::size_t c = 0; c < result.size(); ++c) {
     const double area = norm(cloth.area[c]);
     if (!(area > 0)) continue;
-    // Cloth that no face stands for, at a seam or in a fold smaller than the cells, takes what is nearest.
+    // Cloth that no face represents, at a seam or in a fold smaller than the cells, takes the nearest value.
     double radius = reach * width_at(cloth.centre[c], grid);
     const double farthest = norm(grid.size);
     Side side = Side::same;
@@ -222,7 +222,7 @@ std::vector<double> pressures(const std::vector<Sample>& samples, const FlowGrid
   return result;
 }
 
-// Mean of the pressure on one side of the cloth about a point, from as near as the grid knows it.
+// Mean of the pressure on one side of the cloth about a point, from the nearest values of the grid.
 double side_at(const Boxes& samples, Vec3 centre, double radius, double farthest,
                std::optional<double> Sample::*side) {
   double weights = 0, sum = 0;
@@ -238,8 +238,8 @@ double side_at(const Boxes& samples, Vec3 centre, double radius, double farthest
   return weights > 0 ? sum / weights : 0;
 }
 
-// The air in a pleat stands in touch with that at its mouth, however narrow it is: cloth among folds takes the
-// difference of the pressures that the grid has on its two sides nearby. Elsewhere `pressure` stays.
+// The air in a pleat is connected to that at its mouth, however narrow it is: cloth among folds takes the difference
+// of the pressures of the grid on its two sides nearby. Elsewhere `pressure` is unchanged.
 void press_into_folds(const Boxes& samples, const FlowGrid& grid, const Patchwork& cloth,
                       std::vector<double>& pressure) {
   const double farthest = norm(grid.size);
@@ -298,8 +298,8 @@ std::vector<Vec3> fold_tractions(const std::vector<SheetLoad>& loads, const std:
   return result;
 }
 
-// t = a + b x (x - c) of which force and moment about c are given: the smallest integral of t^2 over the
-// cloth that has them (Lagrange multipliers a and b).
+// t = a + b x (x - c) with given force and moment about c: the smallest integral of t^2 over the cloth with these
+// sums (Lagrange multipliers a and b).
 RigidTraction smallest_traction(const Patchwork& cloth, Vec3 force, Vec3 moment) {
   Matrix6 matrix = Matrix6::Zero();
   double size = 0, whole = 0;

@@ -16,12 +16,12 @@ struct RigidTraction {
   Vec3 twist;      // [Pa/m]
 };
 
-/// What the air does to the cloth: a pressure difference, and a small residual traction that closes the sums.
+/// Loads of the air on the cloth: a pressure difference, and a small residual traction that closes the sums.
 struct ClothLoad {
   std::vector<double> pressure;  // inside over outside, one a cell, 0 where there is no cloth [Pa]
   RigidTraction residual_traction;
   std::vector<Vec3> of_folds =
-      {};  // a force a unit area of each cell beside both, with Folds::filled; else none [Pa]
+      {};  // a force per unit area of each cell in addition to both, with Folds::filled; else none [Pa]
 };
 
 /// Few: an inflated canopy. Filled: one that opens, most of whose cloth lies in folds.
@@ -36,11 +36,11 @@ Wrench wrench_of(const std::vector<SheetLoad>& loads);
 Wrench wrench_of(const ClothLoad& load, const std::vector<Cell>& cells, const std::vector<Vec3>& positions);
 
 /// The pressure of every cell is the weighted plane through the pressures of the faces near it; the residual traction
-/// is the smallest traction (in the mean square over the cloth) that makes force and moment those of `loads`. Cloth in
-/// folds narrower than the flow's cells takes the pressure of open cloth nearby that looks the same way; with
+/// is the smallest traction (in the mean square over the cloth) that makes force and moment those of `loads`. Cloth
+/// in folds narrower than the flow's cells takes the pressure of open cloth nearby with the same orientation; with
 /// Folds::filled the difference of the pressures on its two sides nearby, as a pleat is open to the air at its mouth,
-/// and what the air's force on it is beyond that stays in its neighbourhood.
-/// `surface` is surface_of(cells, positions), the sheet that the loads stand on.
+/// and the remaining force of the air on it is applied in its neighbourhood. `surface` is surface_of(cells,
+/// positions), the sheet of the loads.
 ClothLoad load_of_flow(const std::vector<SheetLoad>& loads, const FlowGrid& grid,
                        const std::vector<Triangle>& surface, const std::vector<Cell>& cells,
                        const std::vector<Vec3>& positions, Folds folds = Folds::few);

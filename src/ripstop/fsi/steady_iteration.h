@@ -20,7 +20,7 @@ struct SteadyIteration {
   double drag_change = 0;     // relative to the iteration before; infinite at the first
   double shape_change = 0;    // e_k = mean |x^{k+1} - x^k| [m], [NFM] Eq. 18
   double omega = 0;           // |X_{k+1} - X_k| / |X_k|, [NFM] Eq. 19
-  double printed_tolerance = 0;  // R dx^2 / (S0 K_max), what Eq. 19 asks of omega
+  double printed_tolerance = 0;  // R dx^2 / (S0 K_max), the tolerance of omega in Eq. 19
   int cloth_steps = 0;
   double cloth_residual = 0;
   double regularisation =
@@ -29,7 +29,7 @@ struct SteadyIteration {
   int flow_iterations = 0;
   double flow_residual = 0;     // largest of all equations
   bool flow_converged = false;  // to Stopping::residual
-  int flow_averaged = 0;        // iterations of a flow that did not settle, whose mean stands; 0: none
+  int flow_averaged = 0;        // iterations over which a flow that did not converge is averaged; 0: none
   double drag_deviation = 0;    // standard deviation of the drag over them, or over the watch [N]
   bool in_time = false;         // the flow was watched in time; flow_iterations are its steps
   double drag_error = 0;        // standard error of the mean drag of such a flow [N]

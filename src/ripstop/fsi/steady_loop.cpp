@@ -157,7 +157,7 @@ FlowField SteadySolver::advance_flow(SteadyState& state, bool in_full, int itera
   });
 }
 
-// R dx^2 / (S0 K_max): what [NFM] Eq. 19 asks of omega.
+// R dx^2 / (S0 K_max): the tolerance of omega in [NFM] Eq. 19.
 double SteadySolver::printed_tolerance(double flow_residual) const {
   const Vec3 h = problem_.flow.grid.spacing();
   const double dx = std::cbrt(h.x * h.y * h.z);

@@ -41,7 +41,7 @@ using SteadyReport = std::function<void(const SteadyProgress&)>;
 class SteadySolver {
  public:
   /// Starts the flow; the engine must outlive the solver. Throws Error(usage) when the start shape does not fit
-  /// into the box, and what FlowEngine::start() throws.
+  /// into the box, and the exceptions of FlowEngine::start().
   SteadySolver(SteadyProblem problem, FlowEngine& engine);
 
   /// Uniform pressure of 1 q on the start shape.
@@ -51,7 +51,7 @@ class SteadySolver {
   FlowField iterate(SteadyState& state, const SteadyReport& report = {});
   bool finished(const SteadyState& state) const;
 
-  /// What a checkpoint saves and restores in addition to the state.
+  /// Data of a checkpoint in addition to the state.
   Flow& flow() { return *flow_; }
   const Flow& flow() const { return *flow_; }
   const Cloth& cloth() const { return *cloth_; }

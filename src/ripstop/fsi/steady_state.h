@@ -1,4 +1,4 @@
-// What the steady loop carries from one iteration to the next.
+// State of the steady loop between iterations.
 #pragma once
 
 #include <vector>
@@ -38,7 +38,8 @@ void each_member(T& w, Visit&& visit) {
   visit("enough", w.enough);
 }
 
-/// Everything that the next iteration depends on, except for the memory of the flow engine. A checkpoint holds it.
+/// Everything on which the next iteration depends, except the memory of the flow engine. Part of a
+/// checkpoint.
 struct SteadyState {
   std::vector<SteadyIteration> iterations;
   std::vector<Vec3> shape;          // X_k

@@ -1,4 +1,4 @@
-// What is read off a load history.
+// Values read from a load history.
 #pragma once
 
 #include <optional>
@@ -38,7 +38,7 @@ struct HighestLoad {
 };
 HighestLoad highest_load(const std::vector<HistoryRow>& rows, double start_up);
 
-/// One stage of a reefed opening, from cut to cut; what comes after the last is one too. Times within a row.
+/// One stage of a reefed opening, from cut to cut, or after the last cut. Times within a row.
 struct StageSummary {
   std::optional<double> line;            // length of its reefing line [m]; absent: the open canopy
   double begin = 0, end = 0;             // [s]
@@ -46,7 +46,7 @@ struct StageSummary {
   double peak_time = 0;                  // [s]
   std::optional<double> smooth_peak;     // of the low-passed history [N]
   double last_load = 0;                  // mean over the last fifth of the stage [N]
-  std::optional<double> drag_area;       // likewise C_D S in its own air [m2]
+  std::optional<double> drag_area;       // likewise C_D S in coupled inflation [m2]
   std::optional<double> line_peak;       // tension of the reefing line over every step [N]
   std::optional<double> line_peak_time;  // [s]
 };
@@ -72,8 +72,8 @@ std::vector<StageSummary> summarise_stages(const std::vector<HistoryRow>& rows,
                                            const std::vector<double>& cuts, double low_pass_hz,
                                            double start_up = 0);
 
-/// Whether the last load may be called a steady one: the load has stayed within 10 % of it for the last tenth of the
-/// opening's `duration` [s] at least, half of what it is the mean of.
+/// Whether the last load is a steady one: the load remained within 10 % of it for at least the last tenth of the
+/// `duration` [s] of the opening, half of its averaging interval.
 bool settled(const InflationSummary& summary, double duration);
 
 /// Two passes, forth and back, of a second-order Butterworth filter: no delay, half the power twice

@@ -1,4 +1,4 @@
-// A test campaign: which records belong together, what was pulled, and what else is known of the material.
+// A test campaign: its records, the tested material, and its other known properties.
 #pragma once
 
 #include <filesystem>
@@ -16,7 +16,7 @@ class Fields;
 enum class BenchKind { fabric, line, tape };
 enum class WeftChoice { automatic, same, separate };
 
-/// [[coupon]]: one record, and whatever its own header does not say.
+/// [[coupon]]: one record, and the data that its header does not contain.
 struct BenchCoupon {
   std::string file;      // relative to the campaign's file
   std::string specimen;  // its name or number in a file with several; empty: all of them

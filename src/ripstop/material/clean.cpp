@@ -26,7 +26,7 @@ constexpr int most_toe_terms = 4;  // of the curve that finds the start
 constexpr int points_per_toe_term = 4;
 constexpr double clear_of_noise = 8;     // standard deviations; the range of a thousand points is 7
 constexpr double least_slip = 0.02;      // of the peak force
-constexpr double least_strain = 0.0025;  // at failure; stiff aramid yields 2 %
+constexpr double least_strain = 0.0025;  // at failure; stiff aramid fails at 2 %
 constexpr double most_strain = 3.5;      // at failure; a bias pull of loose cloth reaches 1
 
 struct Pull {
@@ -126,7 +126,7 @@ void sort_by_order(Pull& pull) {
     pull.say(fmt::format("{} points sorted (first in line {})", moved.size(), r.line[moved.front()]));
 }
 
-/// A steady rise that goes on a hundred times higher from one point to the next is no cloth.
+/// A steady increase that continues a hundred times higher from one point to the next is not physical.
 void check_jumps(const Pull& pull, double peak) {
   constexpr std::size_t before = 5;
   for (std::size_t i = before; i + 2 < pull.f.size(); ++i) {
@@ -158,8 +158,8 @@ double wide_noise_of(const std::vector<double>& f) {
   return median(second) / (0.6745 * std::sqrt(6.0));
 }
 
-/// Falls that are clear of noise, each followed by a rise of at least half of it: yarns that break do not carry again
-/// what they carried, a grip that holds again does.
+/// Drops of the force that exceed the noise, each followed by a recovery of at least half of it: broken yarns
+/// do not carry their load again, a slipped grip does.
 std::vector<Fall> falls_of(const std::vector<double>& smooth, double clear) {
   std::vector<Fall> falls;
   double top = smooth.front();
@@ -174,9 +174,8 @@ std::vector<Fall> falls_of(const std::vector<double>& smooth, double clear) {
   return falls;
 }
 
-/// Where the force stands still between two stretches, each as long, over which it rises clearly. Index of the
-/// middle of
-/// the flattest such stretch.
+/// Plateau of the force between two intervals of the same length in which it clearly rises. Index of the
+/// middle of the flattest such interval.
 std::optional<std::size_t> plateau_of(const Pull& pull, std::size_t peak, double clear) {
   constexpr double still = 0.15;  // of the smaller of both rises; the knee of a nylon has a third
   std::optional<std::size_t> found;
@@ -195,7 +194,7 @@ std::optional<std::size_t> plateau_of(const Pull& pull, std::size_t peak, double
   return found;
 }
 
-/// What a grip that slips leaves in the force, in words; empty: nothing. `strain_of` an index.
+/// Description of the traces of grip slip in the force; empty: none. `strain_of` an index.
 std::string slip_of(const Pull& pull, const std::function<double(std::size_t)>& strain_of) {
   const std::vector<double> smooth = smoothed(pull.f);
   const auto peak = static_cast<std::size_t>(std::max_element(smooth.begin(), smooth.end()) - smooth.begin());
@@ -219,7 +218,7 @@ std::string slip_of(const Pull& pull, const std::function<double(std::size_t)>& 
   return "";
 }
 
-/// Leaves out what follows the highest force.
+/// Removes the points after the maximum force.
 double cut_failure(Pull& pull) {
   const std::vector<double> smooth = smoothed(pull.f);
   const auto top = std::max_element(smooth.begin(), smooth.end());
@@ -246,7 +245,7 @@ double cut_failure(Pull& pull) {
   if (peak + 1 < count)
     pull.say(fmt::format("{} points after the peak of {:.4g} N ignored (from line {})", count - peak - 1,
                          *top, pull.line[peak + 1]));
-  constexpr double many = 1.0 / 3;  // of the points; a machine that goes on after the break writes fewer
+  constexpr double many = 1.0 / 3;  // of the points; a machine that continues after the break writes fewer
   const double after = static_cast<double>(count - peak - 1) / static_cast<double>(count);
   if (after > many)
     pull.clean.late = fmt::format(
@@ -276,7 +275,7 @@ double toe_misfit(std::span<const double> x, std::span<const double> f, double z
   }
   const auto products = sums.topLeftCorner(terms, terms);
   const auto right = of_forces.head(terms);
-  const auto solved = [&](int from) {  // c_k from this k on, and what they leave
+  const auto solved = [&](int from) {  // c_k from this k on, and their residual
     const int n = terms - from;
     const Eigen::MatrixXd left = products.bottomRightCorner(n, n);
     const Eigen::VectorXd of_right = right.tail(n),
@@ -321,8 +320,8 @@ double find_start(Pull& pull, double peak) {
     ++end;
   if (end < start + 3) return pull.x[start];
   const std::span<const double> x(pull.x.data(), end), f(pull.f.data(), end);
-  // Slack ends before the first loaded point; a record that starts under load is continued to zero, but no
-  // farther than twice the way of its first slope.
+  // Slack ends before the first loaded point; a record that starts under load is extrapolated to zero, but no
+  // farther than twice the displacement of its initial slope.
   const double slope = (f[end - 1] - f[start]) / (x[end - 1] - x[start]);
   const double reach = slope > 0 ? 2 * std::max(0.0, f[0]) / slope : 0.0;
   const int terms = std::clamp(static_cast<int>(end - start) / points_per_toe_term, 2, most_toe_terms);

@@ -1,4 +1,5 @@
-// A bench's record made fit for fitting: in order, without slack, up to failure. Whatever is left out is said.
+// Preparation of a record of a testing machine for the fit: sorted, without slack, up to failure. All removed
+// points are reported.
 #pragma once
 
 #include <string>
@@ -24,19 +25,17 @@ struct CleanRecord {
   bool breaks = true;                // the force falls after its highest value
   std::string slip;                  // where a grip seems to have slipped; empty: nowhere
   std::string late;                  // that much of the record follows its highest force; empty: it does not
-  std::vector<std::string> trimmed;  // what was left out or moved, one sentence each
+  std::vector<std::string> trimmed;  // removed or moved points, one sentence each
 };
 
-/// Sorts a few points out of order, takes off the load cell's offset and the slack, and leaves out what follows the
-/// highest force. The pull starts where nothing, followed by a quartic through zero, fits the points up to
-/// 30 % of the peak best: the toe compensation of ASTM D638 annex A1 with a curve in place of its straight
-/// line, and the slack as evidence too. Strain is on the stated length. A slip is a fall of the force, clear of
-/// noise and
-/// above 2 % of the peak, that is taken back by half at least, or a stretch without rise between two that
-/// rise. Throws Error(bad_data) with file,
-/// line and reason for a record that cannot be one pull: too few points, more than 5 % of them going back,
-/// forces that are negative or only fall, a jump by a factor that looks like a change of units, a strain at
-/// failure outside 0.25 % to 350 %.
+/// Sorts a few points out of order, subtracts the offset of the load cell and the slack, and removes the points after
+/// the maximum force. The test starts where zero force, followed by a quartic through zero, fits the points up to 30
+/// % of the peak best: the toe compensation of ASTM D638 annex A1 with a curve instead of its straight line, which
+/// also uses the points in the slack. Strain is on the stated length. A slip is a drop of the force above the noise
+/// and above 2 % of the peak that recovers by half at least, or a plateau between two rises. Throws Error(bad_data)
+/// with file, line and reason for a record that is not a single test: too few points, more than 5 % of them
+/// decreasing, forces that are negative or only decrease, a jump by a factor that looks like a change of units, a
+/// strain at failure outside 0.25 % to 350 %.
 CleanRecord clean_record(const TensileRecord& record, LoadKind kind);
 
 }  // namespace ripstop

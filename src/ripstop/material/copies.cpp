@@ -14,7 +14,7 @@ constexpr double likely_copied = 0.3;
 constexpr double least_noise = 1e-9;  // of the highest load: rounding
 constexpr double same_steps = 0.1;    // of coarsely rounded records; pulls without any noise have 0.2
 
-/// A record along the way of its clamp from its first row on [m].
+/// A record over the displacement of its clamp from its first row [m].
 struct Trace {
   std::vector<double> x;
   std::span<const double> f;
@@ -55,7 +55,8 @@ double resolution(std::span<const double> f) {
   return 10 * whole >= 9 * static_cast<std::ptrdiff_t>(gaps.size()) ? step : 0;
 }
 
-/// Mean size of the fourth differences, which rounding to coarse steps does not make 0 by chance as it does the median.
+/// Mean size of the fourth differences. Unlike the median, it is not 0 for values that are rounded to coarse
+/// steps.
 double mean_roughness(std::span<const double> f) {
   double sum = 0;
   for (std::size_t i = 2; i + 2 < f.size(); ++i)
@@ -71,8 +72,7 @@ Trace::Trace(const CleanRecord& record) : f(record.load), start(record.slack) {
 }
 
 /// Roughness of b minus its best multiple of a, which is read where b has points: at x of a = scale x of b + shift.
-/// Beside
-/// the roughness of b there, or that of a as large, whichever is less.
+/// The result is relative to the roughness of b there, or to that of a scaled to the same size, whichever is less.
 double ratio(const Trace& a, const Trace& b, double scale, double shift) {
   const std::size_t skip = b.x.size() > most ? (b.x.size() - most) / 2 : 0;
   std::vector<double> of_a, of_b;

@@ -8,14 +8,13 @@
 
 namespace ripstop {
 
-/// How much of the noise of one record is not that of another: their difference, after the best shift and scale, beside
-/// the noise of each. 0: the same noise, hence the same pull, however scaled, shifted, thinned out or rounded; near 1
-/// or above: two pulls. Noise is what is left of neighbouring points after a cubic (fourth differences), in at most
-/// 240 points. Where loads are rounded to steps above the noise (5 N on a load cell of 5 kN), pulls of one cloth
-/// share the
-/// steps, and only records that are the same step by step have a value below 1: a copy that was resampled or rounded
-/// to other coarse steps is then not known. 1 where the records have too few points in common, or no noise to know
-/// them by.
+/// Share of the noise of one record that differs from another: their difference, after the best shift and scale,
+/// relative to the noise of each. 0: the same noise, hence the same test, however scaled, shifted, thinned out or
+/// rounded; near 1 or above: two tests. Noise is the residual of neighbouring points from a cubic (fourth
+/// differences), in at most 240 points. Where loads are rounded to steps above the noise (5 N on a load cell of 5
+/// kN), tests of one cloth share the steps, and only records that are the same step by step have a value below 1: a
+/// copy that was resampled or rounded to other coarse steps is then not detected. 1 if the records have too few
+/// points in common, or no noise.
 double own_noise(const CleanRecord& a, const CleanRecord& b);
 
 struct Copy {

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int grid_points = 200;
 constexpr double most_ratio = 10;   // between two samples of the same cloth
-constexpr int degrees_of_bias = 2;  // above the fit, to see what it misses
+constexpr int degrees_of_bias = 2;  // above the fit, to show its error
 constexpr double as_good = 1.01;    // times the least prediction error
 
 /// Averages of the points within half a step of each grid strain, interpolated where there are none.

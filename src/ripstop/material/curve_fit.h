@@ -1,4 +1,4 @@
-// From several cleaned records of one direction to a curve: mean, spread, polynomial, what chance allows.
+// Fit of a curve to several cleaned records of one direction: mean, spread, polynomial, confidence interval.
 #pragma once
 
 #include <optional>
@@ -21,12 +21,14 @@ struct FitOptions {
   double confidence = 0.95;      // of intervals and bands
 };
 
-/// A number with what chance allows it to be.
+/// A number with its confidence interval.
 struct Estimate {
   double value = 0;
   double standard_error = 0;  // of the mean over the samples
-  double low = 0,
-         high = 0;  // confidence interval; that of K_1 knows of a degree that is too low, and may be lopsided
+  double
+      low = 0,
+      high =
+          0;  // confidence interval; that of K_1 includes the error of a degree that is too low, and may be asymmetric
 };
 
 /// Load over strain at `strain.size()` equally spaced strains up to where the first sample failed.
@@ -59,27 +61,28 @@ struct CurveFit {
 /// a load ten times another's at the same strain.
 MeanCurve mean_curve(const std::vector<CleanRecord>& samples);
 
-/// What a squared misfit counts at a strain: 1 up to `working_strain`, (working_strain / strain)^2 beyond it, about the
+/// Weight of a squared residual at a strain: 1 up to `working_strain`, (working_strain / strain)^2 beyond it, about the
 /// inverse variance of samples that differ in stiffness. 1 everywhere by the rule of [NFM].
 double strain_weight(double strain, const FitOptions& options);
 
-/// Least squares of [NFM] Eq. 10 for the mean curve, weighted by strain_weight(). Points along one record err together, so
-/// the samples are the independent unit: the fit is linear, the coefficients of the mean curve are the mean of
-/// the samples' own coefficients, and their scatter gives standard errors and Student t intervals with n - 1
-/// degrees of freedom. A polynomial is not the law: the band, and the interval of K_1, the stiffness at no strain, are
-/// those of a fit two degrees higher, which has next to no bias left (S. Calonico, M. Cattaneo, R. Titiunik,
-/// Econometrica 82, 2014), widened to hold the fit itself. The intervals of K_0 and of K_2 and on are of the polynomial
-/// of this degree nearest the law. With one sample there is no interval (NaN).
+/// Least squares of [NFM] Eq. 10 for the mean curve, weighted by strain_weight(). Points along one record err
+/// together, so the samples are the independent unit: the fit is linear, the coefficients of the mean curve are the
+/// mean of the samples' own coefficients, and their scatter gives standard errors and Student t intervals with n - 1
+/// degrees of freedom. A polynomial is not the law: the band, and the interval of K_1, the stiffness at no strain,
+/// are those of a fit two degrees higher, which has next to no bias left (S. Calonico, M. Cattaneo, R. Titiunik,
+/// Econometrica 82, 2014), widened to hold the fit itself. The intervals of K_0 and of K_2 and on are of the
+/// polynomial of this degree nearest the law. With one sample there is no interval (NaN).
 CurveFit fit_curve(const MeanCurve& curve, int degree, const FitOptions& options);
 
-/// Mean over the curves of the weighted squared error with which the other samples' fit predicts each sample, relative to
-/// the weighted squared load. Curves of one sample are left out; NaN when all are.
+/// Mean over the curves of the weighted squared error with which the other samples' fit predicts each sample,
+/// relative to the weighted squared load. Curves of one sample are left out; NaN when all are.
 double prediction_error(const std::vector<MeanCurve>& curves, int degree, const FitOptions& options);
 
-/// The degree of `options`, or the lowest one for all curves that its rule allows. By cross-validation: the prediction
-/// error is within 1 % of the least, so that what a higher degree would gain is less than a tenth of the samples'
-/// scatter; degrees with K_1 <= 0 only where all have it. By the rule of [NFM], and with one sample a curve: every
-/// curve's R2 exceeds `wanted_r2`; throws Error(bad_data) that names the worst curve when even the highest does not.
+/// The degree of `options`, or the lowest one for all curves that its rule allows. By cross-validation: the
+/// prediction error is within 1 % of the least, so that a higher degree would gain less than a tenth of the scatter
+/// of the samples; degrees with K_1 <= 0 only where all have it. By the rule of [NFM], and with one sample a curve:
+/// every curve's R2 exceeds `wanted_r2`; throws Error(bad_data) that names the worst curve when even the highest does
+/// not.
 int choose_degree(const std::vector<MeanCurve>& curves, const FitOptions& options);
 
 }  // namespace ripstop

@@ -31,7 +31,7 @@ struct MaterialFit {
   bool weft_differs = false;
   PermeabilityFit permeability;  // when the campaign has readings
   bool has_permeability = false;
-  std::vector<std::string> notes;     // what was decided and why
+  std::vector<std::string> notes;     // decisions and their reasons
   std::vector<std::string> warnings;  // also kept in the material, for the solver to repeat
   std::vector<RecordOrigin> inputs;
   std::vector<std::string> understood;  // how each column of the records was read
@@ -40,16 +40,16 @@ struct MaterialFit {
 };
 
 /// Reads, cleans and fits every record of the campaign. xi and eps are those of the campaign or the defaults;
-/// calibration/coupon_fit.h finds them. Throws Error(bad_data) for records that cannot be what they claim:
-/// see read_record(), clean_record(), mean_curve(); for one sample only; for a record that is a copy of another; for a strength per mass that no
-/// fibre has or a density no cloth has, which is how units wrong by 1000 show.
+/// calibration/coupon_fit.h finds them. Throws Error(bad_data) for inconsistent records: see read_record(),
+/// clean_record(), mean_curve(); for one sample only; for a record that is a copy of another; for a strength per mass
+/// that no fibre has or a density that no cloth has, which indicates units wrong by a factor of 1000.
 MaterialFit fit_material(const Bench& bench);
 
 /// As a material keeps them: no longer than its file takes.
 std::string joined_warnings(const std::vector<std::string>& warnings);
 
-/// What a run that reaches `largest_strain` in this material must say: the fit's own warnings, and a strain
-/// beyond the tests.
+/// Warnings of a run that reaches `largest_strain` in this material: those of the fit, and a strain beyond
+/// the tests.
 std::vector<std::string> material_warnings(const Material& material, double largest_strain);
 
 }  // namespace ripstop

@@ -13,7 +13,7 @@ namespace ripstop {
 namespace {
 
 constexpr double tolerance = 1e-3;      // of the returned curve, relative
-constexpr double unknown_strain = 0.1;  // range of the fit when the material does not say
+constexpr double unknown_strain = 0.1;  // range of the fit if the material does not give it
 constexpr int samples = 80;
 constexpr int added_degrees = 2;
 
@@ -175,8 +175,8 @@ WovenLaws laws_of_yarns(const std::vector<double> (&k)[2], const Fabric& fabric)
           weft.scaled(eps / 2)};
 }
 
-/// K' of a yarn: what the diagonals carry at the present laws is taken off the measured curve, and the yarn's
-/// law is fitted to the rest, (1 - xi) K'.
+/// K' of a yarn: the load of the diagonals under the present laws is subtracted from the measured curve, and
+/// the law of the yarn is fitted to the rest, (1 - xi) K'.
 std::vector<double> refitted_yarn(const std::vector<double>& k, const std::vector<double>& curve,
                                   const WovenLaws& laws, bool along_weft, const std::vector<double>& strains,
                                   const Fabric& fabric) {
@@ -192,8 +192,8 @@ std::vector<double> refitted_yarn(const std::vector<double>& k, const std::vecto
   return relative_fit(strains, wanted, scale, static_cast<int>(k.size()));
 }
 
-// Alternating between the yarns' laws and what the diagonals take from them: they carry a
-// tenth, so few rounds do.
+// Alternates between the laws of the yarns and the load of the diagonals. The diagonals carry a tenth, so a
+// few iterations suffice.
 WovenLaws taut_laws(const Fabric& fabric) {
   const double xi = fabric.shear_fraction, eps = fabric.bending_fraction;
   if (fabric.weft_coefficients_n_m.empty()) {
@@ -308,7 +308,7 @@ CellWidths bias_widths(double h_row, double h_column, const WovenLaws& laws) {
   return widths;
 }
 
-// xi/2 over sqrt2 (1 - xi - eps) is what the coupling of the laws comes to for any K.
+// xi/2 over sqrt2 (1 - xi - eps) is the result of the coupling of the laws for any K.
 CellWidths cell_widths(double h_row, double h_column, double xi, double eps) {
   const SpringLaw axial{{1 - xi - eps}, 1}, shear{{xi / 2}, 1};
   return cell_widths(h_row, h_column, WovenLaws{axial, axial, shear, {}, {}});

@@ -45,17 +45,17 @@ double woven_uniaxial_load(const WovenLaws& laws, double strain, bool along_weft
 ///   along_row     each of the cell's two edges along the row     (an inner edge touches 2 cells)
 ///   along_column  each of its two edges along the column         (2 cells)
 ///   shear         each of its two diagonals                      (1 cell)
-///   bend_row      each spring over two edges in a row, one of which is this cell's     (4 cells)
+///   bend_row      each spring over two edges in a row, one of them of this cell     (4 cells)
 ///   bend_column   likewise along the column                      (4 cells)
 struct CellWidths {
   double along_row = 0, along_column = 0, shear = 0, bend_row = 0, bend_column = 0;
 };
 
-/// Cell of spacing h_row along the row and h_column across it [m]. The shear width gives the square lattice's
-/// shear modulus and Poisson coupling, L^3 / (2 sqrt2 h_row h_column) with L the diagonal; the axial widths
-/// take back what the slanted diagonals then carry too much or too little along either side, so that the
-/// small strain stiffness is that of the square lattice. In a sliver (sides beyond about 1 : 3.4 for xi =
-/// 0.2) the shear width is reduced so that the axial springs keep a tenth of their width.
+/// Cell of spacing h_row along the row and h_column across it [m]. The shear width gives the square lattice's shear
+/// modulus and Poisson coupling, L^3 / (2 sqrt2 h_row h_column) with L the diagonal; the axial widths compensate the
+/// excess or deficit of the slanted diagonals along either side, so that the small-strain stiffness is that of the
+/// square lattice. In a sliver (sides beyond about 1 : 3.4 for xi = 0.2) the shear width is reduced so that the axial
+/// springs keep a tenth of their width.
 CellWidths cell_widths(double h_row, double h_column, double xi, double eps);
 
 /// The same where warp (along the column) and weft (along the row) differ.
@@ -68,7 +68,7 @@ enum class FabricCut { block, across, bias };
 /// Warp and weft exchanged: the laws of a lattice whose rows are the warp.
 WovenLaws exchanged(const WovenLaws& laws);
 
-/// One law for what an axial and two bending springs carry through any section.
+/// One law for the load of an axial and two bending springs through any section.
 SpringLaw whole_yarn(const SpringLaw& axial, const SpringLaw& bending);
 
 /// Widths of a cell cut on the bias: its diagonals are the yarns (whole_yarn, warp up), rows and columns the

@@ -16,8 +16,8 @@ namespace ripstop {
 namespace {
 
 constexpr double stiffness_limit = 1e9;  // of K_1 [N] or [N/m]; steel cable of 100 mm has less
-// Of K_k relative to K_1 / strain^(k - 1), with the tested strain or, where that is unknown, the least at which a pull is
-// taken for one to failure. Fits of degree 8 have some 1e4: the terms of a Chebyshev polynomial.
+// Of K_k relative to K_1 / strain^(k - 1), with the tested strain or, where that is unknown, the least at which a
+// pull is taken for one to failure. Fits of degree 8 have some 1e4: the terms of a Chebyshev polynomial.
 constexpr double coefficient_ratio_limit = 1e6;
 constexpr double least_tested_strain = 0.0025;
 constexpr double coefficient_limit = 1e40;  // of any: above all that these allow
@@ -257,7 +257,7 @@ Material read_material(const std::filesystem::path& file) {
     rename_old_keys(document.root);
     Origins origins;
     Fields fields;
-    describe_kind(fields, material);  // a library file stands alone: no `base`
+    describe_kind(fields, material);  // a library file is complete: no `base`
     read_table(fields, document, origins, problems);
     Fields chosen;
     describe_kind(chosen, material);

@@ -25,8 +25,8 @@ void describe(Fields& fields, Tape& tape);
 /// `kind` and the keys of that kind.
 void describe(Fields& fields, Material& material);
 
-/// Reports what single ranges do not show: a law that does not rise, springs without an axial share.
-/// `key` is the table's full name, empty for a file of its own.
+/// Reports mistakes that single ranges do not show: a law that does not rise, springs without an axial share.
+/// `key` is the full name of the table, empty for a separate file.
 void check_material(const Material& material, const std::string& key, Findings& findings);
 
 /// Characters of a material's `warning`.
@@ -34,8 +34,8 @@ inline constexpr std::size_t most_warning_text = 2000;
 
 /// The two keys of a cloth's permeability for a porosity model: of its linear and of its quadratic part.
 std::pair<std::string, std::string> resistance_keys(PorosityModel model);
-/// Leaves one form of the permeability, with both its numbers: where some of its keys are `given`, they replace a base's
-/// in another form. Two forms are told to `refuse`, by the key of one of them.
+/// Leaves one form of the permeability, with both its numbers: where some of its keys are `given`, they replace a
+/// base's in another form. Two forms are reported to `refuse`, with the key of one of them.
 void settle_resistance(ClothResistance& cloth, const std::function<bool(const std::string& key)>& given,
                        const std::function<void(const std::string& key, const std::string& message)>& refuse);
 

@@ -32,7 +32,8 @@ PressureDrop as_sheet(const ClothResistance& cloth);
 PorousCellLaw as_cells(const ClothResistance& cloth);
 
 /// Of cloth and tape in steady runs with the `sheet` model and in openings. Assumed: 0.03 N/m for F-111, Euler's load
-/// pi^2 B / w^2 of a strip w = 36 mm wide with B = 4e-6 N m; any value well below the strains of use gives the same shape.
+/// pi^2 B / w^2 of a strip w = 36 mm wide with B = 4e-6 N m; any value well below the strains of use gives the same
+/// shape.
 inline constexpr double wrinkling_strain = 1e-6;
 
 /// Canopy cloth. The coefficients are those of the cloth's own curve (load per width against strain,
@@ -41,7 +42,7 @@ inline constexpr double wrinkling_strain = 1e-6;
 struct Fabric {
   std::string name;
   std::string source;
-  std::string warning;                        // what its fit found doubtful; every run repeats it
+  std::string warning;                        // doubts about its fit; every run repeats them
   std::vector<double> coefficients_n_m;       // K_1..K_n along the warp [N/m]
   std::vector<double> weft_coefficients_n_m;  // the same along the weft; empty: as the warp
   double shear_fraction = 0.2;                // xi
@@ -51,7 +52,7 @@ struct Fabric {
   double damping_n_s_m = 0;                   // C of the relative damping of one spring [N s/m]
   double areal_density_kg_m2 = 0;
   double thickness_m = 0;
-  double tested_strain = 0;   // the fit holds up to here; 0: unknown
+  double tested_strain = 0;   // the fit is valid up to here; 0: unknown
   double break_load_n_m = 0;  // 0: unknown
   ClothResistance resistance;
 };

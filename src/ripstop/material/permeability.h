@@ -1,4 +1,4 @@
-// Air through cloth: the pressure-drop law dp = a v + b v |v| ([NFM] Eq. 15) and what it is measured by.
+// Air through cloth: the pressure-drop law dp = a v + b v |v| ([NFM] Eq. 15) and its measurement.
 #pragma once
 
 #include <vector>
@@ -39,7 +39,7 @@ struct ErgunAir {
   double viscosity = 1.81e-5;  // [Pa s]
 };
 
-/// Porosity and thickness that stand for a law in Ergun's equation, [NFM] Eq. 16 with V/S = t.
+/// Porosity and thickness that represent a law in Ergun's equation, [NFM] Eq. 16 with V/S = t.
 struct ErgunCloth {
   double porosity = 0;   // gamma, 0 < gamma < 1
   double thickness = 0;  // [m]

@@ -102,7 +102,7 @@ TensileRecord record_of(const table::Table& table, const table::Specimen& specim
   const table::Column* time = find_only(table, specimen, Quantity::time);
   const double factor = way->quantity == Quantity::strain ? coupon.length : 1.0;
   for (std::size_t i = 0; i < specimen.lines.size(); ++i) {
-    if (std::isnan(force->values[i]) && std::isnan(way->values[i])) continue;  // only the time goes on
+    if (std::isnan(force->values[i]) && std::isnan(way->values[i])) continue;  // only the time increases
     for (const table::Column* column : {force, way, time})
       if (column && std::isnan(column->values[i])) need_values(table, specimen, *column);
     record.force.push_back(force->values[i]);

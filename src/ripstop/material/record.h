@@ -9,7 +9,7 @@
 
 namespace ripstop {
 
-/// What the record says about its coupon, and what a file beside it may add. 0 or negative: not said.
+/// Coupon data that a record contains or the campaign file adds. 0 or negative: not given.
 struct Coupon {
   double length = 0;        // [m] between the clamps
   double width = 0;         // [m]; a line has none
@@ -37,9 +37,9 @@ struct TensileRecord {
   std::string name() const;  // of the file, with the specimen
 };
 
-/// Reads the records of a table, one for each specimen in it: docs/guide/tables.md says in which forms. Comment lines such
-/// as "# length: 200 mm", "# width: 50 mm", "# orientation: 45 deg" describe the coupon; what `given` says must agree
-/// with them. Throws Error(bad_data) with file, line and reason, Error(io).
+/// Reads the records of a table, one for each specimen in it: docs/guide/tables.md describes the forms. Comment lines
+/// such as "# length: 200 mm", "# width: 50 mm", "# orientation: 45 deg" describe the coupon; the values in `given`
+/// must agree with them. Throws Error(bad_data) with file, line and reason, Error(io).
 std::vector<TensileRecord> read_records(const std::filesystem::path& file, const Coupon& given = {},
                                         const RecordFormat& format = {});
 /// The same for a record's text; `file` is its name in messages.

@@ -1,4 +1,4 @@
-// The keys of a cloth's permeability: what they come to, and their old names.
+// The keys of a cloth's permeability: their meaning, and their deprecated names.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -82,7 +82,7 @@ void settle_resistance(
     return std::any_of(form.keys.begin(), form.keys.end(),
                        [&](const auto& key) { return key.second->has_value() && given(key.first); });
   };
-  if (std::any_of(forms.begin(), forms.end(), is_given))  // what is given replaces what the base has
+  if (std::any_of(forms.begin(), forms.end(), is_given))  // given keys replace those of the base
     for (const PermeabilityForm& form : forms)
       if (!is_given(form))
         for (const auto& [key, value] : form.keys) value->reset();
@@ -104,7 +104,7 @@ std::vector<RenamedKey> rename_old_keys(Node& material) {
   std::vector<RenamedKey> renamed;
   Node *a = member_of(material, "darcy"), *b = member_of(material, "forchheimer"),
        *word = member_of(material, "porosity_model");
-  if (word && word->text != "sheet" && word->text != "paper") word = nullptr;  // told as an unknown key
+  if (word && word->text != "sheet" && word->text != "paper") word = nullptr;  // reported as an unknown key
   if (!a && !b && !word) return renamed;
   const ClothResistance base = base_of(material);
   const PorosityModel own = model_of(base);

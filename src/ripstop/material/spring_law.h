@@ -7,11 +7,11 @@
 
 namespace ripstop {
 
-/// T(e) = sum_k K_k e^k for e >= 0 and T(e) = compression * K_1 max(e, -buckling_strain) for e < 0, with k =
-/// 1..n. The printed polynomial is fitted to pulls only; its higher terms say nothing about e < 0 and are left
-/// out there. Cloth pushed beyond its buckling strain wrinkles and carries no more: what is left of the load
-/// is taken along the wrinkles, a tension field (docs/theory/cloth.md). Units are those of the coefficients: N/m
-/// for cloth and tape (times a width gives N), N for lines.
+/// T(e) = sum_k K_k e^k for e >= 0 and T(e) = compression * K_1 max(e, -buckling_strain) for e < 0, with k = 1..n.
+/// The printed polynomial is fitted to tensile tests only; its higher terms are not known for e < 0 and are omitted
+/// there. Cloth compressed beyond its buckling strain wrinkles and carries no more load in that direction; the load
+/// acts along the wrinkles, a tension field (docs/theory/cloth.md). Units are those of the coefficients: N/m for
+/// cloth and tape (times a width gives N), N for lines.
 struct SpringLaw {
   std::vector<double> coefficients;  // K_1 .. K_n
   double compression = 1;            // 0: tension only, 1: as stiff as the first pull

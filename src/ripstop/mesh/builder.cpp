@@ -15,7 +15,7 @@ int index_of(const std::string& name, std::vector<std::string>& names) {
   return static_cast<int>(names.size()) - 1;
 }
 
-// Adds what one cell gives to the springs that border, cross or span it.
+// Adds the contribution of one cell to the springs that border, cross or span it.
 void add_cell_widths(Patch& patch, int row, int column, const CellWidths& w) {
   const auto wrap = [&](int c) { return (c % patch.columns + patch.columns) % patch.columns; };
   const auto add = [&](Direction d, int r, int c, double width) {

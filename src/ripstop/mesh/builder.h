@@ -39,7 +39,7 @@ struct PatchShape {
   FabricCut grain = FabricCut::block;  // how the yarns lie on the lattice
 };
 
-/// What lies along a path in parallel to the cloth.
+/// Springs along a path in parallel to the cloth.
 struct Strand {
   int law = 0;                // index into Mesh::laws
   int part = 0;               // index into Mesh::parts

@@ -1,8 +1,7 @@
-// What a solver of cloth steps: structured patches of lumped masses, and the short irregular rest.
+// The mesh of a cloth solver: structured patches of lumped masses, and a few irregular springs.
 //
 // Node numbering is logical (no padding): node = patch.first_node + row * patch.columns + column,
-// then the nodes that lie on no patch. A solver is free to lay them out otherwise; whatever it
-// returns is in this numbering.
+// then the nodes that lie on no patch. A solver may use another layout; its results are in this numbering.
 #pragma once
 
 #include <optional>
@@ -30,7 +29,7 @@ struct Patch {
   int first_node = 0;
   SpringLaw law[direction_count];        // per width, [N/m]
   double damping[direction_count] = {};  // C [N s/m] of every spring of the family
-  /// A Kelvin-Voigt solid besides: C gains viscosity share w / L0 of the spring. [N s/m]
+  /// In addition a Kelvin-Voigt solid: C gains viscosity share w / L0 of the spring. [N s/m]
   double viscosity[direction_count] = {};
   std::vector<double> viscosity_share;  // [row * columns + column], see share_index(); empty: 1
   /// [direction][row * columns + column]; width 0: no spring. rest_length [m] > 0 wherever width > 0.

@@ -34,8 +34,8 @@ std::array<double, 3> linear_light(double lightness, double chroma, double hue) 
           -0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s};
 }
 
-/// L rises from 0.33 to 0.93 while the hue turns from violet to yellow. The chroma dips at blue-green, where
-/// screens show the least of it, and yields where even that is too much.
+/// L rises from 0.33 to 0.93 while the hue turns from violet to yellow. The chroma is reduced at blue-green, where
+/// screens show the least of it, and further where even that is too much.
 Colour exact_scale_colour(double fraction) {
   const double hue = (318 - 210 * fraction) * std::numbers::pi / 180;
   const double level = 0.33 + 0.60 * fraction;

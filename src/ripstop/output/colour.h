@@ -24,7 +24,7 @@ Colour scale_colour(double fraction);
 /// Oklab's lightness, 0 (black) .. 1 (white).
 double lightness(Colour colour);
 
-/// Colours of series that the colour-blind can tell apart (M. Okabe and K. Ito, 2008), in turn.
+/// Colours of series for colour-blind readers (M. Okabe and K. Ito, 2008), in order.
 Colour series_colour(std::size_t index);
 
 /// The range that a scale shows [unit of the values].

@@ -37,7 +37,7 @@ std::string csv_number(double value);
 /// A table that grows by rows during a run and survives its end at any moment.
 class CsvLog {
  public:
-  /// Starts the file, or goes on with one that has the same columns: a last line that a kill left unfinished is
+  /// Starts the file, or continues one that has the same columns: a last line that a kill left unfinished is
   /// dropped, and so are complete rows after the first `keep_rows` (those that a restart will compute again).
   /// Throws Error(bad_data) for other columns or a broken row, Error(io).
   CsvLog(std::filesystem::path path, std::vector<std::string> columns,

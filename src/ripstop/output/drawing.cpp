@@ -36,7 +36,7 @@ void check(cairo_status_t status, const std::filesystem::path& path) {
               fmt::format("{} could not be drawn: {}", path.string(), cairo_status_to_string(status)));
 }
 
-/// Said outright: else a font keeps what the first picture of the process, .png or .svg, made of it.
+/// Set explicitly: otherwise a font keeps the setting of the first picture of the process, .png or .svg.
 void set_font_options(cairo_t* page) {
   const std::unique_ptr<cairo_font_options_t, decltype(&cairo_font_options_destroy)> options(
       cairo_font_options_create(), cairo_font_options_destroy);

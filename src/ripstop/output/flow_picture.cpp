@@ -14,7 +14,7 @@ namespace {
 constexpr int shot_width = 420, margin = 24, head = 60, caption = 34, foot = 74;  // [pixel]
 constexpr int most_in_a_row = 3;
 
-/// What is shown of a plane: all but the outer cells that grow to more than three times the finest.
+/// Displayed part of a plane: all but the outer cells that grow to more than three times the finest.
 struct Window {
   double x_low, x_high, z_low, z_high;
 };

@@ -9,7 +9,7 @@
 
 namespace ripstop {
 
-/// A field with ny = 1, and what stands below it.
+/// A field with ny = 1, and the text below it.
 struct FlowShot {
   std::string caption;  // "t = 1.24 s"
   const FlowField* field = nullptr;

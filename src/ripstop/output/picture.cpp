@@ -121,7 +121,7 @@ void draw_flow_arrow(cairo_t* page, const Box& box) {
   draw_text(page, x + 120, y + 6, "flow", {17, Align::left, false, ink});
 }
 
-/// Horizontal colour bar with its ends labelled, round values between, and what lies outside.
+/// Horizontal colour bar with labelled ends, round values between, and the colours of values outside.
 void draw_colour_bar(cairo_t* page, const CanopyPicture& picture, ColourRange range, ColourRange extremes) {
   const double left = bar_box.x + 34, width = bar_box.width - 68, top = bar_box.y + 120, height = 30;
   fill_box(page, bar_box.x, bar_box.y, bar_box.width, bar_box.height, panel);

@@ -22,7 +22,7 @@ double square_of(double a) {
 
 enum class Hit : char { nothing, surface, line, line_rim };
 
-/// The nearest hit so far of every ray of some rows of the picture: as many as a cache holds.
+/// The nearest hit so far of every ray of some rows of the picture: as many rows as fit into a cache.
 struct Buffer {
   int width, top = 0, bottom = 0;  // rows top .. bottom - 1
   std::vector<double> depth;

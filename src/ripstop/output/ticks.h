@@ -10,7 +10,7 @@ namespace ripstop {
 std::vector<double> ticks(double low, double high, int count);
 /// Powers of ten within [low, high], 0 < low; thinned to about `count`.
 std::vector<double> logarithmic_ticks(double low, double high, int count);
-/// The label of a tick among others `step` apart: no more digits than tell them apart.
+/// The label of a tick among others at distance `step`: no more digits than needed to distinguish them.
 std::string tick_label(double value, double step);
 
 }  // namespace ripstop

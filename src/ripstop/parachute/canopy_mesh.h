@@ -1,4 +1,4 @@
-// What a canopy family makes of a design: masses and springs, and what they are on a parachute.
+// The result of a canopy family for a design: masses and springs, and their parts of a parachute.
 #pragma once
 
 #include <vector>
@@ -24,7 +24,7 @@ struct Rigging {
   std::vector<int> tape_springs;
   std::vector<int> skirt_nodes;  // round the canopy's mouth, in order
   int confluence = -1;           // node
-  /// Of a disk-gap-band, whose sizes are told apart; empty otherwise.
+  /// Of a disk-gap-band, with separate sizes; empty otherwise.
   std::vector<int> disk_patches, band_patches;
 };
 

@@ -21,7 +21,7 @@ CanopyFacts facts(const Cross& canopy, int gores);
 /// One whole strip and two arms.
 CutPattern cut_pattern(const Cross& canopy, const Design& design);
 
-/// Start shape: flat in the plane z = 0, arms along x and y. Every arm's end holds a quarter of the lines,
+/// Start shape: flat in the plane z = 0, arms along x and y. Every end of an arm has a quarter of the lines,
 /// from corner to corner at equal distances; those at the corners are taut at the start. Square lattice of
 /// five patches (four arms, each from its end inward, and the middle), sharing nodes where they meet. Tape
 /// lies round the outline (hems) and round the middle square (seams). Throws Error(usage) for too few nodes.

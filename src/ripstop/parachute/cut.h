@@ -1,4 +1,4 @@
-// What is cut for a parachute: outlines of the cloth, lengths of tape and line, masses and packed volume.
+// Pieces of a parachute to be cut: outlines of the cloth, lengths of tape and line, masses and packed volume.
 #pragma once
 
 #include <string>
@@ -42,7 +42,7 @@ struct CutLength {
   double length = 0;  // finished, each [m]
 };
 
-/// Of a canopy; what hangs on it (lines, riser) is added by bill_of().
+/// Of a canopy; bill_of() adds lines and riser.
 struct CutPattern {
   std::vector<Piece> pieces;
   std::vector<CutLength> tapes;

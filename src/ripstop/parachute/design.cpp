@@ -219,14 +219,14 @@ void check_line_nodes(const Design& design, const std::string& key, double line_
 }
 
 void check_design(const Design& design, Findings& findings) {
-  if (!findings.sound({"parachute.type"})) return;  // nobody knows what the other keys mean
+  if (!findings.sound({"parachute.type"})) return;  // the other keys depend on the type
   design.canopy.family().check_shape(design.canopy, design, findings);
   check_lines(design, findings);
   check_columns(design, findings);
 }
 
 CanopyFacts facts(const Design& design) {
-  // A design with fewer gores is refused, but its other mistakes are told as well.
+  // A design with fewer gores is refused, but its other mistakes are reported as well.
   const int gores = std::max(3, design.gores);
   return design.canopy.family().facts(design.canopy, gores);
 }

@@ -61,25 +61,27 @@ void describe(Fields& fields, LineSet& lines);
 void describe(Fields& fields, TapeLayout& tape);
 void describe(Fields& fields, Riser& riser);
 void describe(Fields& fields, MeshSettings& mesh);
-/// `type`, the keys of that type, and what all families share.
+/// `type`, the keys of that type, and the keys of all families.
 void describe(Fields& fields, Design& design, const Families& types = families());
 
 /// Keys that most families share.
 void describe_nominal_diameter(Fields& fields, double& diameter);
 void describe_vent(Fields& fields, double& diameter, bool& lines);
-/// A vent smaller than the canopy of `diameter` [m], and lines in pairs where they go on across it.
+/// A vent smaller than the canopy of `diameter` [m], and an even number of lines if they continue across it.
 void check_vent(double vent, double diameter, bool lines, const Design& design, Findings& findings);
 /// A vent at least as wide as a cell of the mesh: a finer rim than that would set the time step. Call when
-/// the shape is otherwise sound. The key holds `of_diameter` times the diameter `vent`: 0.5 where it is a radius.
+/// the shape is otherwise sound. The key contains `of_diameter` times the diameter `vent`: 0.5 where it is a radius.
 void check_vent_cells(double vent, const std::string& key, const Design& design, Findings& findings,
                       double of_diameter = 1);
 void check_vent_lines(bool lines, const Design& design, Findings& findings);
 /// For families whose tape is all there or not at all: no edge between skirt and vent without it.
 void check_inner_hems(const Design& design, Findings& findings);
 
-/// Reports what single ranges do not show: a vent wider than the disk, lines that cannot meet on the axis.
+/// Reports mistakes that single ranges do not show: a vent wider than the disk, lines that cannot meet on the
+/// axis.
 void check_design(const Design& design, Findings& findings);
-/// Refuses springs of lines and riser so short that they make more nodes than a mesh may have; `key` says whose.
+/// Refuses springs of lines and riser so short that they make more nodes than a mesh may have; `key` is their
+/// key.
 void check_line_nodes(const Design& design, const std::string& key, double line_segment, Findings& findings);
 
 /// Sizes of the canopy, by its family's own definitions.

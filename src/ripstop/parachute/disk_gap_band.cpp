@@ -17,7 +17,7 @@ namespace {
 
 using std::numbers::pi;
 
-// What lies along one radial: nodes from the skirt up the band, and from the disk's edge to the vent.
+// Nodes along one radial: from the skirt up the band, and from the edge of the disk to the vent.
 struct Radial {
   Path band, disk;
 };

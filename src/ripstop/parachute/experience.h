@@ -1,4 +1,4 @@
-// What is known of a canopy's type before anything is computed, to hold computed values against.
+// Known data of a canopy type, for comparison with computed values.
 #pragma once
 
 namespace ripstop {
@@ -10,17 +10,18 @@ struct KnownRange {
 /// Ranges and C_x from T. W. Knacke, Parachute Recovery Systems Design Manual, NWC TP 6575 (1991), Tables 5-1
 /// (solid textile) and 5-2 (slotted canopies); the projected ratios are not checked against the print.
 struct Experience {
-  KnownRange projected_ratio;      // projected over nominal diameter in steady flight
-  KnownRange drag_coefficient;     // on the nominal area, in descent: what swings and glides is in it
+  KnownRange projected_ratio;  // projected over nominal diameter in steady flight
+  KnownRange
+      drag_coefficient;  // on the nominal area, in descent: includes the motion of canopies that oscillate and glide
   double opening_coefficient = 0;  // C_x: peak over steady drag at infinite mass
   const char* opening_source = "";
   /// Largest tension of a suspension line over the mean of all lines in steady flow; 1: not computed. Of the example
   /// of the family: `ripstop steady examples/<family>/case.toml`, lines.csv.
   double line_load_factor = 1;
-  /// Cloth nodes from which on the projected diameter under uniform pressure changes by less than 1 % when
-  /// the mesh is made finer. Measured on the examples, whose cloth wrinkles or stands taut, from 1,500 to 25,000
-  /// nodes (docs/guide/canopies.md, How fine a mesh). What counts is the spacing over the canopy's size, so the
-  /// number holds for other sizes.
+  /// Cloth nodes from which on the projected diameter under uniform pressure changes by less than 1 % when the mesh
+  /// is made finer. Measured on the examples, with wrinkled and taut cloth, from 1,500 to 25,000 nodes
+  /// (docs/guide/canopies.md, How fine a mesh). The error depends on the spacing over the size of the canopy, so the
+  /// number is valid for other sizes.
   int cloth_nodes = 0;
 };
 

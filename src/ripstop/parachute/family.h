@@ -1,5 +1,5 @@
-// A canopy family is one record: its word in the case file and all that the program asks of such a canopy.
-// How one is added: CONTRIBUTING.md.
+// A canopy family is one record: its word in the case file and all functions that the program needs. How to
+// add one: CONTRIBUTING.md.
 #pragma once
 
 #include <any>
@@ -32,7 +32,7 @@ struct CanopyFamily {
   CanopyMesh (*build)(const Canopy& canopy, const Design& design, const PartMaterials& materials);
 };
 
-/// The struct of a family's own keys, which says whose it is: `static const CanopyFamily family;`.
+/// The struct of the keys of a family names its family: `static const CanopyFamily family;`.
 template <class T>
 concept CanopyKeys = std::same_as<decltype((T::family)), const CanopyFamily&>;
 

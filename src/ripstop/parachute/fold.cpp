@@ -254,7 +254,7 @@ void Folder::shift(Piece& piece, double by) {
   }
 }
 
-// Each piece goes where its shortest link to what is already placed allows.
+// Each piece is placed as its shortest link to the placed pieces allows.
 void Folder::hang_pieces() {
   const std::vector<LineLink> all = line_links(mesh_, piece_of_node_);
   for (std::size_t round = 0; round < pieces_.size(); ++round) {

@@ -21,13 +21,12 @@ struct FoldedStart {
   double inner_radius = 0, outer_radius = 0;  // of the skirt's folds [m]
 };
 
-/// Every patch of `mesh` must be a flat disk, a cylinder or a frustum about the axis x = y = 0 with whole
-/// columns round it. Between two neighbouring fold lines, which follow columns, the cloth stays plane, so
-/// that every spring keeps its length but those that resist bending over a fold. The fold line of column 0,
-/// where the first line runs, is an inner one. Fixed nodes and the riser stay where they are; the pieces hang
-/// on the lines one behind the other, each as far downstream as its lines allow without being stretched.
-/// Throws Error(usage) when the number of folds does not divide every ring's columns or the radius does not
-/// fit, Error(bad_data) for a mesh of another kind.
+/// Every patch of `mesh` must be a flat disk, a cylinder or a frustum about the axis x = y = 0 with whole columns
+/// round it. Between two neighbouring fold lines, which follow columns, the cloth stays plane, so every spring keeps
+/// its length except those that resist bending over a fold. The fold line of column 0, where the first line runs, is
+/// an inner one. Fixed nodes and the riser stay where they are; the pieces follow each other along the lines, each as
+/// far downstream as its lines allow without being stretched. Throws Error(usage) when the number of folds does not
+/// divide every ring's columns or the radius does not fit, Error(bad_data) for a mesh of another kind.
 FoldedStart fold(const CanopyMesh& mesh, const Folding& folding);
 
 /// Throws Error(usage) when fold lines would not follow columns of every ring.
@@ -41,7 +40,7 @@ bool folds_without_strain(const Mesh& mesh);
 /// diagonals of cells, the other diagonals of these cells. Throws Error(usage) as fold().
 CanopyMesh with_creases(const CanopyMesh& mesh, const FoldedStart& folded);
 
-/// What the springs feel at given positions.
+/// Strains of the springs at given positions.
 struct StartStrain {
   /// Largest |strain| of all springs along and across the cloth, of tape and lines; a spring that does
   /// not resist being pushed further counts only when stretched.

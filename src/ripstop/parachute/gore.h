@@ -1,4 +1,4 @@
-// The flat pattern of a canopy made of equal gores: what is cut, and how the pieces hang together.
+// The flat pattern of a canopy made of equal gores: its pieces, and how they are connected.
 #pragma once
 
 #include <functional>
@@ -35,7 +35,7 @@ struct GorePattern {
   int gores = 0;
   double nominal_area = 0;        // S0 by the definition of the type [m2]
   std::vector<GoreStrip> strips;  // of one gore, from the skirt toward the vent
-  bool vent_lines = false;        // the lines go on across the vent
+  bool vent_lines = false;        // the lines continue across the vent
   int vertical_tapes = 0;         // in every gore, between its seams, over all strips and slots
 };
 

@@ -141,7 +141,7 @@ void Builder::add_strip(int index, const std::vector<Ring>& rings) {
   }
 }
 
-// Holds strip `index` on the one before, along the whole edge or at the radials.
+// Attaches strip `index` to the previous one, along the whole edge or at the radials.
 void Builder::attach(int index) {
   const GoreStrip& strip = pattern_.strips[index];
   const int lower = patches_[index - 1].back(), upper = patches_[index].front();
@@ -182,8 +182,8 @@ bool Builder::has_corner_below(int index) const {
   return std::abs(turn) > sharp_corner;
 }
 
-// What lies along one radial from the skirt to the vent, cut into smooth runs; each begins with the node that
-// ends the one before.
+// Nodes along one radial from the skirt to the vent, divided into smooth runs; each begins with the last node
+// of the previous one.
 std::vector<Path> Builder::runs_along(int part, int parts) const {
   std::vector<Path> runs{builder_.radial(patches_.front(), part, parts)};
   for (std::size_t i = 1; i < patches_.size(); ++i) {

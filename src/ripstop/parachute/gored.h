@@ -11,15 +11,16 @@ namespace ripstop {
 
 /// Start shape as start_profile() has it: skirt seams in the plane z = 0, mouth toward -z, seams at the
 /// angles 2 pi k / N. Cloth with fullness bulges outward between the radials, tilted about the strip's upper
-/// edge so that its columns keep their length; what the bulge does not take up is compressed at the start.
+/// edge so that its columns keep their length; the rest of the fullness is compressed at the start.
 ///
-/// Every strip is a ring lattice over all gores, columns halved toward the vent as in ring_layout.h. Seams
-/// and lines lie on columns. A strip that is not `joined` is held at the radials only: by shared nodes where
-/// there is no slot, else by what runs along the radials. Throws Error(usage) when nothing spans a slot, or
-/// when the numbers of gores and lines allow no lattice.
+/// Every strip is a ring lattice over all gores, columns halved toward the vent as in ring_layout.h. Seams and lines
+/// lie on columns. A strip that is not `joined` is attached at the radials only: by shared nodes without a slot, else
+/// by lines and tape along the radials. Throws Error(usage) when nothing spans a slot, or when the numbers of gores
+/// and lines allow no lattice.
 CanopyMesh build_gored(const GorePattern& pattern, const Design& design, const PartMaterials& materials);
 
-/// A family of equal gores: its flat pattern says all the rest, where the family has no function of its own.
+/// A family of equal gores: the flat pattern determines everything for which the family has no function of
+/// its own.
 template <class T>
 concept Gored = requires(const T& canopy, int gores) {
   { gore_pattern(canopy, gores) } -> std::same_as<GorePattern>;

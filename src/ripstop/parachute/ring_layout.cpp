@@ -139,15 +139,15 @@ RingLayout lay_out_rings(const std::vector<Strip>& strips, double cloth_area, co
             nodes, design.gores, design.lines.count, multiple));
   }
   if (square) return lay_out_squarely(strips, best, spacing, multiple);
-  // The row spacing is what is left to meet the node count.
+  // The row spacing remains free to meet the node count.
   double low = 0.2 * spacing, high = 5 * spacing;
   for (int i = 0; i < 60; ++i) {
     const double middle = std::sqrt(low * high);
     (lay_out(strips, best, spacing, middle, multiple).nodes() > nodes ? low : high) = middle;
   }
   RingLayout layout = lay_out(strips, best, spacing, high, multiple);
-  // Equally high strips get their rows at the same spacing, all at once: what is missing goes row by row to
-  // the rings with the largest spacing.
+  // Equally high strips get rows of the same spacing, all at once: missing rows are added one by one to the rings
+  // with the largest spacing.
   while (Ring* ring = coarsest_that_fits(layout, nodes - layout.nodes())) ++ring->cells;
   return layout;
 }

@@ -31,12 +31,11 @@ struct RingLayout {
   int nodes() const;
 };
 
-/// The layout whose node count is nearest to `design.mesh.cloth_nodes`, among those whose columns meet every
-/// gore seam and every line. Columns are halved toward the vent wherever they come too close; of two
-/// neighbouring rings one has as many columns as the other, or half. Throws Error(usage) when there are too
-/// few nodes for the numbers of gores and lines. For cloth cut on the bias the rows are spaced like the
-/// columns beside them, since its cells have to be nearly square; the node count is then met as far as the
-/// numbers of columns allow.
+/// The layout whose node count is nearest to `design.mesh.cloth_nodes`, among those whose columns meet every gore
+/// seam and every line. Columns are halved toward the vent wherever they come too close; of two neighbouring rings
+/// one has as many columns as the other, or half. Throws Error(usage) when there are too few nodes for the numbers of
+/// gores and lines. For cloth cut on the bias the rows are spaced like the columns, since its cells have to be nearly
+/// square; the node count is then met as far as the numbers of columns allow.
 RingLayout lay_out_rings(const std::vector<Strip>& strips, double cloth_area, const Design& design);
 
 }  // namespace ripstop

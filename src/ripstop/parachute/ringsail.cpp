@@ -23,7 +23,7 @@ double arc_of_gore(const Ringsail& canopy) {
   return half_angle - std::asin(canopy.vent_diameter_m / 2 / radius);
 }
 
-/// Arc of a row of height 1: what the slots leave, over the sum of the heights.
+/// Arc of a row of height 1: the arc without the slots, over the sum of the heights.
 double arc_of_row(const Ringsail& canopy, const std::vector<SailRow>& rows) {
   double arc = arc_of_gore(canopy), heights = 0;
   for (const SailRow& row : rows) arc -= row.slot_deg * degree, heights += row.height;

@@ -8,7 +8,7 @@ namespace ripstop {
 
 /// [[parachute.rows]]: one row of sails, from the skirt up.
 struct SailRow {
-  double height = 1;             // share of what slots and vent leave of the gore
+  double height = 1;             // share of the gore without slots and vent
   double slot_deg = 0;           // open arc above the row
   double leading_fullness = 0;   // of the lower edge
   double trailing_fullness = 0;  // of the upper edge

@@ -1,5 +1,5 @@
-// What is sewn onto the cloth and hung on it: tape, suspension lines, vent lines, riser; the
-// same for every family.
+// Parts sewn onto the cloth and attached to it: tape, suspension lines, vent lines, riser; the same for every
+// family.
 #pragma once
 
 #include <vector>
@@ -17,19 +17,19 @@ class CanopyBuilder : public MeshBuilder {
   /// The lower edge of a patch that goes round is the canopy's mouth.
   void set_skirt(int patch);
 
-  /// The nodes along radial `part` of `parts`, which lies on a column of every patch, from the first patch's
-  /// lower edge to the last one's upper edge. The patches follow one another edge to edge, each tied to the
-  /// next, which holds the shared node.
+  /// The nodes along radial `part` of `parts`, which lies on a column of every patch, from the first patch's lower
+  /// edge to the last one's upper edge. The patches follow one another edge to edge, each tied to the next, which
+  /// contains the shared node.
   Path radial(const std::vector<int>& patches, int part, int parts) const;
 
   /// Index of the tape's law, for add_tape().
   int add_tape_law(const Tape& tape);
   void add_tape(const Path& path, const Tape& tape, int law, int part);
 
-  /// Chooses the nodes of `path` (a smooth run of cloth nodes) that become nodes of a line, at least
-  /// `segment` [m] apart: a short segment of so stiff a line would set the time step. The nodes between are
-  /// tied to the straight segment, or left free beside it when not `straight`.
-  /// Goes no farther than `length` [m] along the path. The chosen nodes, with the lengths between.
+  /// Chooses the nodes of `path` (a smooth run of cloth nodes) that become nodes of a line, at least `segment` [m]
+  /// apart: a short segment of so stiff a line would set the time step. The nodes between are tied to the straight
+  /// segment, or remain free when not `straight`. Ends at `length` [m] along the path. The chosen nodes, with the
+  /// lengths between.
   Path sew(const Path& path, double length, double segment, bool straight);
 
   /// Straight lines from the confluence on the axis to the first node of every path, which they follow from
@@ -37,7 +37,7 @@ class CanopyBuilder : public MeshBuilder {
   /// is taut. Call once.
   void add_lines(const Design& design, const PartMaterials& materials, const std::vector<Path>& sewn);
 
-  /// Every line goes on across the vent to the end of the opposite one: an even number of paths. A vent line
+  /// Every line continues across the vent to the end of the opposite one: an even number of paths. A vent line
   /// is as long as the distance that it spans in the start shape.
   void add_vent_lines(const PartMaterials& materials, const std::vector<Path>& sewn);
 

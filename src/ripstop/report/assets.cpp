@@ -1,7 +1,7 @@
 #include "ripstop/report/assets.h"
 
 // The files become data of this object as they are; RIPSTOP_REPORT_DIR is set where this file is compiled.
-// NOLINTBEGIN(bugprone-macro-parentheses): it names what is declared
+// NOLINTBEGIN(bugprone-macro-parentheses): the macro contains a declared name
 #define RIPSTOP_ASSET(symbol, file)                                                                     \
   __asm__(".section .rodata\n.global " #symbol "\n" #symbol ":\n.incbin \"" RIPSTOP_REPORT_DIR "/" file \
           "\"\n.global " #symbol "_end\n" #symbol "_end:\n.byte 0\n.previous\n");                       \

@@ -24,7 +24,7 @@ constexpr const char* beginning = "<!doctype html>\n<!-- Ripstop report -->\n";
 constexpr int point_levels = 65534, cell_levels = 4095;
 constexpr int moving_point_levels = 16383, moving_cell_levels = 1023;
 
-/// What of a page is left out to keep it small.
+/// Data that are removed from a page to reduce its size.
 struct Thinning {
   std::size_t without_flow = 0, without_shape = 0;  // of the last so many runs
   std::size_t every = 1;                            // of an opening's frames

@@ -1,5 +1,5 @@
-// One HTML file that shows one or several runs, without a request to any network: what it holds, as plain data,
-// and how it becomes a page. It knows no solver; run/report.h takes the data from run folders.
+// One HTML file that shows one or several runs, without a request to any network: its content as plain data, and the
+// page made of it. It is independent of solvers; run/report.h takes the data from run folders.
 #pragma once
 
 #include <string>
@@ -49,7 +49,7 @@ struct ReportRun {
   std::vector<ReportPlot> plots;
   std::vector<std::string> warnings;
   std::string case_file;                                        // case.toml
-  std::vector<std::pair<std::string, std::string>> provenance;  // what, and its value
+  std::vector<std::pair<std::string, std::string>> provenance;  // name and value
   ShapeView shape;                                              // empty: not kept
   FlowView flow;                                                // empty: not kept
 };

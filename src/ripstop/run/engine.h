@@ -9,10 +9,10 @@
 namespace ripstop {
 
 const EngineRecord& engine_of(const Settings& resolved);
-/// What the case says to its engine; threads and folders are the run's.
+/// Engine settings of the case; threads and folders are those of the run.
 EngineOptions engine_options(const Settings& resolved);
-/// Throws what the run would throw about its hostfile, and Error(usage) where there is nothing to put on hosts: an
-/// empty path is none. Where ranks run changes no number, so that it is no key of the case.
+/// Throws the error of the run about its hostfile, and Error(usage) if there are no ranks for hosts; an empty
+/// path is no hostfile. The hosts of the ranks change no result, so they are not a key of the case.
 void require_hosts(const std::filesystem::path& hostfile, const Settings& resolved);
 
 }  // namespace ripstop

@@ -1,5 +1,5 @@
 // Every listed struct as JSON and back, for the files of run/: results as text, checkpoints as CBOR. Only for
-// sources; the headers that users see know no JSON library.
+// sources; public headers contain no JSON library.
 #pragma once
 
 #include <fmt/format.h>
@@ -76,7 +76,7 @@ template <Listed T>
 std::string json_text(const T& result) {
   return nlohmann::ordered_json(result).dump(2) + "\n";
 }
-/// Throws Error(bad_data) for a text that lacks a member; `what` names what it should have been.
+/// Throws Error(bad_data) for a text that lacks a member; `what` is the name of the expected object.
 template <Listed T>
 T from_json_text(const std::string& text, const char* what) {
   try {

@@ -1,4 +1,4 @@
-// Limits of the measures that say how far a result can be trusted.
+// Limits of the measures of quality of a result.
 #pragma once
 
 #include <string>

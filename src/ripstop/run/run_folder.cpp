@@ -35,7 +35,7 @@ ordered_json sources_of(const Settings& resolved) {
   return list;
 }
 
-constexpr const char* inputs = "inputs";    // the note of what the run is of
+constexpr const char* inputs = "inputs";    // the note with the inputs of the run
 constexpr const char* started = "started";  // and of when it was begun
 
 /// A start that was refused, failed or was killed before anything was computed is in nobody's way.
@@ -74,7 +74,7 @@ bool holds_run(const RunSettings& settings, const Settings& resolved, const std:
 
 std::unique_ptr<ClaimedFolder> open_run_folder(const RunSettings& settings, const Settings& resolved,
                                                const std::string& solver, int threads) {
-  holds_run(settings, resolved, solver);  // what it refuses is left without a trace
+  holds_run(settings, resolved, solver);  // a refused run leaves no trace
   auto folder = std::make_unique<ClaimedFolder>(settings.folder);
   const bool goes_on = holds_run(settings, resolved, solver);
   if (goes_on && is_sealed(settings.folder)) return folder;

@@ -13,7 +13,7 @@ namespace ripstop {
 
 struct RunSettings {
   std::filesystem::path folder;
-  bool fresh = false;  // throw away what Ripstop wrote there in an earlier run
+  bool fresh = false;  // remove the files that Ripstop wrote there in an earlier run
   bool fields = true;  // write flow and shapes for ParaView after every iteration; else the last shape only
   bool report = true;  // write report.html at the end
 };
@@ -22,27 +22,27 @@ struct RunSettings {
 std::filesystem::path default_run_folder(const std::filesystem::path& case_file,
                                          const std::string& what = "");
 
-/// Whether the folder holds a run of these inputs to go on with. `solver` says what computes, and with what
-/// beside the case. Throws Error(usage) for a folder that holds a run of other inputs which has got anywhere,
-/// unless `fresh`, and for one with files that are not Ripstop's and no run.
+/// Whether the folder contains a run of these inputs that can resume. `solver` describes the solver and its inputs
+/// other than the case. Throws Error(usage) for a folder with a run of other inputs that has results, unless `fresh`,
+/// and for one with other files and without a run.
 bool holds_run(const RunSettings& settings, const Settings& resolved, const std::string& solver);
 
-/// Opens or makes the folder of a run, claims it and writes run.json and case.toml, unless the run has ended. What is
-/// there of another run is removed as far as Ripstop wrote it; what holds_run() refuses is left as it is. Throws as
+/// Opens or makes the folder of a run, claims it and writes run.json and case.toml, unless the run has ended. Files
+/// that Ripstop wrote for another run are removed; a folder that holds_run() refuses is left unchanged. Throws as
 /// ClaimedFolder does.
 std::unique_ptr<ClaimedFolder> open_run_folder(const RunSettings& settings, const Settings& resolved,
                                                const std::string& solver, int threads);
 
-/// Hash of everything that a result is of: this version, the case, and what else was asked for.
+/// Hash of all inputs of a result: this version, the case, and the options.
 std::string inputs_hash(const Settings& resolved, const std::string& what);
 
-/// Hash of what the run of this folder is of (`inputs_hash` of run.json and result.json).
+/// Hash of the inputs of the run in this folder (`inputs_hash` of run.json and result.json).
 std::optional<std::string> inputs_of_run(const std::filesystem::path& folder);
 
-/// Throws Error(bad_data) naming what was lost or changed of a sealed folder, but for `except`.
+/// Throws Error(bad_data) that names missing or changed files of a sealed folder, except `except`.
 void require_whole(const std::filesystem::path& folder, const std::string& except = "");
 
-/// Throws Error(bad_data) naming what was lost or changed since the checkpoint that a run goes on from.
+/// Throws Error(bad_data) that names files missing or changed after the checkpoint from which a run resumes.
 void refuse_lost(const ClaimedFolder& folder);
 
 /// result.json of a run that had ended. Throws Error(bad_data) when it or any other file of the run was

@@ -1,4 +1,4 @@
-// What is made of a finished steady run for a flight: descent.
+// Use of a finished steady run for flight: descent.
 #include "ripstop/run/descent/descent.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ class DescentOfARun : public testing::Test {
   static inline std::unique_ptr<TemporaryFolder> folder_;
 };
 
-TEST_F(DescentOfARun, ItsSpeedHoldsPayloadAndParachute) {
+TEST_F(DescentOfARun, ItsSpeedCarriesPayloadAndParachute) {
   const FinishedSteady finished = finished_steady(run());
   EXPECT_NEAR(finished.result.drag_area, SquareLawEngine::area, 2e-3 * SquareLawEngine::area);
   const Descent d = run_descent(finished, 4, {0, 2000});
@@ -66,7 +66,7 @@ TEST_F(DescentOfARun, AFlightFarFromTheRunsIsWarnedOf) {
   EXPECT_EQ(run_descent(finished, 0.5 * same, {0}).warnings.size(), 1u);
 }
 
-TEST_F(DescentOfARun, WhatCannotFlyIsRefused) {
+TEST_F(DescentOfARun, ImpossibleDescentsAreRefused) {
   const FinishedSteady finished = finished_steady(run());
   EXPECT_NE(refusal_of([&] { run_descent(finished, -4, {0}); }, ExitCode::usage).find("-4 kg"),
             std::string::npos);

@@ -1,5 +1,5 @@
-// What is exported obeys the rules of the format: Python that compiles and calls
-// with RocketPy's own names, XML with OpenRocket's elements.
+// Exports obey the rules of the format: Python that compiles and calls with RocketPy's own names, XML with
+// OpenRocket's elements.
 #include "ripstop/run/descent/export.h"
 
 #include <fmt/format.h>
@@ -26,7 +26,7 @@ class Export : public testing::Test {
   static void TearDownTestSuite() { folder_.reset(); }
   static ExportedParachute parachute() { return exported(finished_steady(folder_->path / "run")); }
 
-  /// What Python prints of the script with the file's path as its argument.
+  /// Output of Python for the script with the path of the file as its argument.
   static std::string python(const std::string& script, const std::string& file) {
     const auto path = folder_->path / "checked";
     write_file(path, file);

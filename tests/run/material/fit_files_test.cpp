@@ -23,7 +23,7 @@ struct FitFiles : testing::Test {
   FitResult result = run_fit(read_bench(campaign), false, team);
 };
 
-TEST_F(FitFiles, TheMaterialSaysWhereItComesFromAndReadsBack) {
+TEST_F(FitFiles, TheMaterialHasItsProvenanceAndReadsBack) {
   const std::filesystem::path folder = root.path / "a/new/folder";
   const std::filesystem::path file = write_fit(folder, result);
   EXPECT_EQ(file, folder / "synthetic-ripstop.toml");
@@ -110,7 +110,7 @@ TEST_F(FitFiles, ResultJsonHasTheCampaignItsDirectionsAndTheAir) {
   EXPECT_EQ(json.at("warnings"), result.fit.warnings);
 }
 
-TEST(FitText, AnIntervalIsToldWhereThereIsOne) {
+TEST(FitText, AnIntervalIsPrintedWhereThereIsOne) {
   EXPECT_EQ(interval_text({1234.5678, 12.34, 1200, 1269.1356}),
             "1234.57 +- 12 (standard error), 1200 .. 1269.14");
   const double none = std::nan("");

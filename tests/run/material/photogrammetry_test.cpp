@@ -1,4 +1,4 @@
-// Sizes off an image beside a computed canopy's: which numbers stand where, in memory and in the files.
+// Sizes from an image compared with those of a computed canopy: the numbers in memory and in the files.
 #include "ripstop/run/material/photogrammetry.h"
 
 #include <gtest/gtest.h>
@@ -66,7 +66,7 @@ TEST(PhotogrammetryRun, ACanopyAloneHasItsSizesAndNoCamera) {
   EXPECT_FALSE(json.contains("diameters"));
 }
 
-TEST(PhotogrammetryRun, OfBothTheComputedSizeStandsBesideTheSeenOneOfItsName) {
+TEST(PhotogrammetryRun, OfBothTheComputedSizeIsNextToTheMeasuredOneOfItsName) {
   ComputedCanopy canopy = two_patches();
   canopy.run = "runs/hemi";
   const Photogrammetry r = run_photogrammetry(seen_from_four_metres(), canopy);

@@ -1,4 +1,4 @@
-// What the search for the damping leaves: a row and two points a trial.
+// Files of the calibration of the damping: a row and two points for each trial.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>

@@ -105,8 +105,9 @@ TEST(DesignLoad, OfACrossTheMostLoadedLineCarriesMoreThanAnEqualShare) {
   EXPECT_NEAR(r.margins->members.front().load, 1.43 * r.design_load / cross.parachute.lines.count, 1e-9);
 }
 
-// The stage is cut when it has filled to half: the drag area goes on from there. Beside it, small steps in time.
-TEST(DesignLoad, AStageCutBeforeItHasFilledGoesOnFromTheDragAreaThatItHas) {
+// The stage is cut when it has filled to half: the drag area continues from there. Compared with small steps
+// in time.
+TEST(DesignLoad, AStageCutBeforeItHasFilledContinuesFromItsDragArea) {
   LoadRequest asked = drop(50, 60);
   asked.height = 2000, asked.path_angle = 0, asked.filling_constant = 8;
   const Case given = sized_canopy(4);
@@ -134,7 +135,7 @@ TEST(DesignLoad, AStageCutBeforeItHasFilledGoesOnFromTheDragAreaThatItHas) {
   EXPECT_NEAR(r.peak_load / peak, 1, 2e-3);
 }
 
-TEST(DesignLoad, AComputedPeakOutsideTheHandbooksRangeIsToldWithTheReason) {
+TEST(DesignLoad, AComputedPeakOutsideTheHandbooksRangeIsReportedWithTheReason) {
   const std::vector<MethodLoad> methods = {{infinite_mass_method, 900, 0, false, ""},
                                            {"Pflanz", 107, 0, false, ""},
                                            {"trajectory", 134, 0, false, ""}};

@@ -1,4 +1,4 @@
-// The run folder of an opening: a killed run goes on, and its tables are the undisturbed run's byte for byte.
+// The run folder of an opening: a killed run resumes, and its tables are the undisturbed run's byte for byte.
 #include "ripstop/run/opening/inflation_folder.h"
 
 #include <fmt/format.h>
@@ -74,7 +74,7 @@ struct Resumed : InflationObserver {
   }
 };
 
-TEST_F(InflationFolderTest, AKilledRunGoesOnAndItsHistoryIsByteIdentical) {
+TEST_F(InflationFolderTest, AKilledRunResumesAndItsHistoryIsByteIdentical) {
   Resumed undisturbed;
   ASSERT_TRUE(open("whole", undisturbed));
   EXPECT_EQ(undisturbed.first_block, 0);
@@ -97,7 +97,7 @@ TEST_F(InflationFolderTest, AKilledRunGoesOnAndItsHistoryIsByteIdentical) {
   }
 }
 
-TEST_F(InflationFolderTest, AReefedRunThatIsKilledBeforeOrAfterTheCutGoesOnByteIdentical) {
+TEST_F(InflationFolderTest, AReefedRunKilledBeforeOrAfterTheCutResumesByteIdentical) {
   const auto open_reefed = [&](const std::string& name, InflationObserver& observer) {
     const Case opening = opening_case(given);
     const LoadSource source = load_source(resolve(opening));
@@ -126,7 +126,7 @@ TEST_F(InflationFolderTest, AReefedRunThatIsKilledBeforeOrAfterTheCutGoesOnByteI
 }
 
 // However few are asked for: the air steps with the rows.
-TEST_F(InflationFolderTest, InItsOwnAirTheStreamPassesNoMoreThanAPartOfACellInARow) {
+TEST_F(InflationFolderTest, CoupledRowsAreShorterThanThePassageOfACell) {
   given = small_opening_in_air();
   given.inflation.history_hz = 10;
   given.inflation.low_pass_hz = 0;
@@ -142,7 +142,7 @@ TEST_F(InflationFolderTest, InItsOwnAirTheStreamPassesNoMoreThanAPartOfACellInAR
   EXPECT_GT(passed, 0.015);
 }
 
-TEST_F(InflationFolderTest, InItsOwnAirAKilledRunGoesOnByteIdentical) {
+TEST_F(InflationFolderTest, AKilledCoupledRunResumesByteIdentical) {
   given = small_opening_in_air();
   const auto open_in_air = [&](const char* name, InflationObserver& observer) {
     const Case opening = opening_case(given);
@@ -161,7 +161,7 @@ TEST_F(InflationFolderTest, InItsOwnAirAKilledRunGoesOnByteIdentical) {
   Resumed undisturbed;
   const auto whole = open_in_air("whole", undisturbed);
   ASSERT_TRUE(whole && whole->added_mass);
-  // Of the folded start in the first row, of the canopy as it stands at the end in the result.
+  // Of the folded start in the first row, of the canopy at the end in the result.
   const double at_start = read_csv(root / "whole/air.csv").column("added_mass_kg").front();
   EXPECT_GT(at_start, 0);
   EXPECT_GT(*whole->added_mass, at_start);
@@ -190,7 +190,7 @@ TEST_F(InflationFolderTest, InItsOwnAirAKilledRunGoesOnByteIdentical) {
     resumed.air = root / name / "air";
     ASSERT_TRUE(open_in_air(name.c_str(), resumed));
     EXPECT_EQ(resumed.first_block, blocks);
-    EXPECT_FALSE(fs::exists(root / name / "air"));  // nothing goes on from it
+    EXPECT_FALSE(fs::exists(root / name / "air"));  // no run resumes from it
     for (const char* table :
          {"history.csv", "balance.csv", "air.csv", "lines.csv", "result.json", "vtk/air_0004.vti"})
       EXPECT_EQ(read_file(root / name / table), read_file(root / "whole" / table)) << name << ' ' << table;
@@ -227,7 +227,8 @@ TEST_F(InflationFolderTest, TheAirOfACheckpointStaysUntilTheNextOneIsWhole) {
     EXPECT_EQ(read_file(root / "killed" / table), read_file(root / "whole" / table)) << table;
 }
 
-// Frames of several blocks: what is drawn is the cloth at the frame's time, in its file and in the report.
+// Frames of several blocks: the drawing shows the cloth at the time of the frame, in its file and in the
+// report.
 TEST_F(InflationFolderTest, AFramesShapeIsThatOfItsTime) {
   given.inflation.frames = 2;
   struct Seen : InflationObserver {
@@ -277,7 +278,7 @@ TEST_F(InflationFolderTest, InMemoryTheOpeningIsThatOfTheFolder) {
   EXPECT_EQ(read_file(root / "run" / "result.json"), to_json(*in_folder));
 }
 
-TEST_F(InflationFolderTest, ItsResultIsWhatItsHistoryAndFramesSay) {
+TEST_F(InflationFolderTest, ItsResultFollowsFromItsHistoryAndFrames) {
   given.inflation.low_pass_hz = 1000;
   InflationObserver quiet;
   const auto [result, state, history] = run_inflation(resolve(given), {"given", {}}, problem(), quiet);
@@ -347,7 +348,7 @@ TEST_F(InflationFolderTest, TablesThatDoNotBelongToTheCheckpointAreRefused) {
   }
 }
 
-TEST_F(InflationFolderTest, NoticesWhatWasChangedOfEarlierFrames) {
+TEST_F(InflationFolderTest, DetectsChangesOfEarlierFrames) {
   Killed killed;
   killed.folder = root / "run";
   EXPECT_THROW(open("run", killed), std::runtime_error);

@@ -54,7 +54,7 @@ TEST(Load, AStageFillsAsItsOwnShareOfTheAreaDoes) {
 }
 
 // Knacke, NWC TP 6575, Table 5-6 (page 5-44), unreefed, and Fig. 5-51 (page 5-59): read in github.com/nrdptel/hpr-sim,
-// crates/hpr-sim/src/recovery.rs, which was written beside the print.
+// crates/hpr-sim/src/recovery.rs, a transcription of the print.
 TEST(Load, FillingConstantsAreTheHandbooks) {
   EXPECT_EQ(known_filling("flat-circular").constant, 8);
   EXPECT_EQ(known_filling("extended-skirt").constant, 10);
@@ -116,7 +116,7 @@ void expect_judged(const StageLoads& stage) {
   EXPECT_NEAR(stage.spread, (highest - lowest) / (sum / count), 1e-12);
 }
 
-TEST(Load, PutsTheMethodsSideBySideAndSaysWhichApply) {
+TEST(Load, ListsTheMethodsAndWhichApply) {
   const LoadResult r = run_load(resolve(flat_circular()), request());
   ASSERT_EQ(r.stages.size(), 1u);
   const StageLoads& stage = r.stages[0];
@@ -145,7 +145,8 @@ TEST(Load, EndsInTheSteadyDescentOfItsMass) {
               1, 2e-3);
 }
 
-/// What the way through `rows` leaves open by the trapezoidal rule: of momentum over the first, of energy over the first.
+/// Residual of the trajectory in `rows` by the trapezoidal rule: of momentum over the first, of energy over
+/// the first.
 struct Balance {
   double level = 0, down = 0, energy = 0;
 };
@@ -318,7 +319,7 @@ TEST(Load, EveryMethodIsAskedInTheConditionsOfItsStage) {
   EXPECT_EQ(r.steady_drop, 2000 - r.flight.back().state.height);
 }
 
-TEST(Load, WhatFillsSlowlyUnderGravityIsNotForMethodsWithoutIt) {
+TEST(Load, SlowFillingUnderGravityExcludesMethodsWithoutIt) {
   const StageLoads stage = run_load(resolve(flat_circular()), request(8, 15)).stages[0];
   const double share = standard_gravity * stage.filling_time / 15;
   ASSERT_GT(share, 0.3);
@@ -327,7 +328,7 @@ TEST(Load, WhatFillsSlowlyUnderGravityIsNotForMethodsWithoutIt) {
   EXPECT_EQ(note.find("neglects gravity, which adds "), 0u) << note;
   EXPECT_NEAR(std::stod(note.substr(29)), 100 * share, 0.51) << note;
   LoadRequest level = request(8, 15);
-  level.path_angle = 0;  // none along the way
+  level.path_angle = 0;  // none along the path
   EXPECT_TRUE(method(run_load(resolve(flat_circular()), level).stages[0], "Pflanz").applies);
 }
 
@@ -344,7 +345,7 @@ TEST(Load, TheRowsOfItsLegsFollowEachOtherWithoutAGap) {
   }
 }
 
-TEST(Load, WhatIsGivenTakesTheHandbooksPlace) {
+TEST(Load, GivenValuesReplaceThoseOfTheHandbook) {
   LoadRequest asked = request();
   asked.filling_constant.reset();
   const LoadResult own = run_load(resolve(flat_circular()), asked);
@@ -395,7 +396,7 @@ TEST(Load, TheSnatchOfAPackedCanopyFollowsFromHowItIsSlowed) {
   EXPECT_DOUBLE_EQ(r.snatch->line_margin.value(), 400 / r.snatch->line_load);
 }
 
-TEST(Load, WhatCannotBeIsRefused) {
+TEST(Load, ImpossibleInputIsRefused) {
   EXPECT_NE(refused(request(-2)).find("payload mass (kg) of -2"), std::string::npos);
   EXPECT_NE(refused(request(2, 0)).find("speed at line stretch (m/s) of 0"), std::string::npos);
   EXPECT_NE(refused(request(50, 10)).find("exceeds the deployment speed of 10 m/s"), std::string::npos);

@@ -37,7 +37,7 @@ struct OpeningRecords : testing::Test {
 const CsvTable opening_history{{"time_s", "load_mean_n", "load_largest_n"},
                                {{0.1, -6, 1}, {0.2, 30, 99}, {0.2, 500, 500}, {0.3, 120, 130}}};
 
-TEST_F(OpeningRecords, IsLoadOverDynamicPressureOverTheWayAndGoesOnWithoutARepeatedTime) {
+TEST_F(OpeningRecords, IsLoadOverDynamicPressureOverDistanceWithoutRepeatedTimes) {
   write(opening_history);
   const OpeningRecord record = opening_record(folder, resolve(given));
   ASSERT_EQ(record.distance.size(), 3u);

@@ -1,4 +1,4 @@
-// What stands where on a report: headline, warnings, bill, sources, provenance, comparison, frames.
+// Layout of a report: headline, warnings, bill, sources, provenance, comparison, frames.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ class ReportParts : public testing::Test {
   static inline std::unique_ptr<TemporaryFolder> folder_;
 };
 
-TEST_F(ReportParts, OfASteadyRunBeginWithItsDragAndEndWithWhatMadeIt) {
+TEST_F(ReportParts, OfASteadyRunBeginWithItsDragAndEndWithItsProvenance) {
   const ReportRun run = report_of(steady() / "");
   EXPECT_EQ(run.name, "steady");
   EXPECT_EQ(run.headline,
@@ -81,7 +81,7 @@ TEST_F(ReportParts, TheBillHasARowForEveryRowOfTheBill) {
   EXPECT_TRUE(cloth && other);
 }
 
-TEST_F(ReportParts, TheSourcesSayKeyValueAndWhereItIsFrom) {
+TEST_F(ReportParts, TheSourcesHaveKeyValueAndOrigin) {
   const Settings resolved = settings_of_run(steady());
   const ReportTable table = sources_table(resolved, steady() / "run.json");
   const auto sources = nlohmann::json::parse(read_file(steady() / "run.json")).at("sources");
@@ -125,7 +125,7 @@ TEST_F(ReportParts, TheFlowIsThatAboutTheCanopyAndNotAboutItsLines) {
   EXPECT_EQ(run.flow.speed, same.speed);
 }
 
-TEST(ReportComparison, HasWhatIsANumberInEveryRunAndNothingElse) {
+TEST(ReportComparison, HasOnlyNumbersOfEveryRun) {
   ReportRun a, b;
   a.name = "first", b.name = "second";
   add_result(a, R"({"title": "t", "drag_n": 5, "only_here_n": 1, "settled": true})", "result.json");
@@ -196,7 +196,7 @@ TEST_F(ReportOfAnOpening, BeginsWithItsLoadsAndHasEveryFrame) {
   EXPECT_TRUE(run.flow.pressure.empty());
 }
 
-// 24 frames of 110,000 points: a page holds twelve of them.
+// 24 frames of 110,000 points: a page contains twelve of them.
 TEST_F(ReportOfAnOpening, TooLargeForAPageKeepsItsFirstAndItsLastFrameAndTheOthersEvenly) {
   VtkSurface many;
   many.points.assign(110'000, Vec3{});
@@ -232,7 +232,7 @@ TEST(ReportOfASweep, HasItsRunsByTheirValuesAndNoneOfThoseWithoutAResult) {
   settings.folder = root.path / "sweep";
   settings.jobs = 1;
   prepare_sweep(points, settings);
-  SteadyObserver nobody;  // one thread each: a team beside other tests waits for itself
+  SteadyObserver nobody;  // one thread each: a team next to other tests waits for itself
   for (const SweepPoint& point : points)
     run_steady_in({{settings.folder / point.folder, false, false, false}, 1, {}, {}}, point.resolved, nobody);
   std::vector<SweepRow> rows = gather_sweep(points, settings);

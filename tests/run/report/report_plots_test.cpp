@@ -126,10 +126,11 @@ TEST_F(ReportPlots, WithoutATableOrWithoutRowsThereIsNone) {
   write_csv(folder.path / "history.csv", CsvTable{{"time_s", "something_else"}, {{1, 2}}});
   EXPECT_TRUE(plots_of(run, folder.path).empty());
   write_csv(folder.path / "lines.csv", CsvTable{{"free_tension_n"}, {{1}}});
-  EXPECT_THROW(plots_of(run, folder.path), Error);  // nothing to stand over
+  EXPECT_THROW(plots_of(run, folder.path), Error);  // no common axis
 }
 
-// A screen has some 2000 columns: what happens within one of them is its least and its largest value.
+// A screen has some 2000 columns: the data within one of them are represented by their smallest and largest
+// value.
 TEST_F(ReportPlots, OfManyRowsKeepEveryPeak) {
   const auto series_of = [&](int count) {
     CsvTable history{{"time_s", "load_mean_n", "load_largest_n"}, {}};
@@ -167,7 +168,7 @@ ReportRun steady_run(const char* name, const char* speed, const char* drag) {
   return run;
 }
 
-TEST_F(ReportPlots, OverSeveralRunsDragStandsOverSpeedBesideWhatWasMeasured) {
+TEST_F(ReportPlots, OverSeveralRunsDragIsPlottedOverSpeedWithMeasurements) {
   Case given = checked(flat_circular_case(1, 1500, 10));
   given.measured.resize(2);
   given.measured[0].nominal_speed_m_s = 10, given.measured[0].measured_speed_m_s = 11;
@@ -197,7 +198,7 @@ TEST_F(ReportPlots, OverSeveralRunsDragStandsOverSpeedBesideWhatWasMeasured) {
   EXPECT_TRUE(comparison_plots({runs[0], runs[2]}, resolve(given)).empty());  // one speed
 }
 
-TEST_F(ReportPlots, WhatTwoRunsHaveIsLaidOverEachOtherByTheRunsNames) {
+TEST_F(ReportPlots, CommonPlotsOfTwoRunsAreOverlaidWithTheirNames) {
   table("history.csv", {"time_s", "load_mean_n", "load_largest_n"});
   table("balance.csv", {"time_s", "projected_diameter_m", "skirt_diameter_m"});
   std::vector<ReportRun> runs(3);

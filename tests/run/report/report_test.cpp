@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 class RunReport : public testing::Test {
  protected:
   TemporaryFolder root{"ripstop-run-report"};
-  // Of all tests here: two runs, each of which a test copies.
+  // Of all tests here: two runs, which each test copies.
   static inline std::unique_ptr<TemporaryFolder> runs;
 
   static void SetUpTestSuite() {
@@ -128,7 +128,7 @@ TEST_F(RunReport, HasEveryNumberOfItsResult) {
   EXPECT_FALSE(made.shape.frames.empty());
   EXPECT_FALSE(made.flow.pressure.empty());
   EXPECT_EQ(made.shape.frames[0].line_values.size(), made.shape.parts.size());
-  // A line's axial spring with the bending springs beside it carries what the result calls the line's tension.
+  // A line's axial spring with its bending springs carries the tension of the line in the result.
   double highest = 0;
   for (std::size_t s = 0; s < made.shape.parts.size(); ++s)
     if (made.shape.part_names.at(made.shape.parts[s]).find("line") != std::string::npos)
@@ -136,7 +136,7 @@ TEST_F(RunReport, HasEveryNumberOfItsResult) {
   EXPECT_NEAR(highest / result.at("max_line_tension_n").get<double>(), 1, 0.02);
 }
 
-TEST_F(RunReport, ComparesRunsAndRefusesWhatIsNoRunOrNoReport) {
+TEST_F(RunReport, ComparesRunsAndRefusesOtherFoldersAndFiles) {
   const fs::path a = run("a"), b = run("b"), out = root.path / "both.html";
   EXPECT_EQ(write_report({a}, out), out);
   EXPECT_NE(read_file(out).find("<title>a</title>"), std::string::npos);
@@ -165,7 +165,7 @@ TEST(ReportTables, ARunThatDidNotConvergeIsOneThatDidNot) {
     add_result(run, converged ? R"({"converged": true})" : R"({"converged": false})", "result.json");
     EXPECT_EQ(run.converged, converged);
   }
-  ReportRun run;  // what has nothing to converge
+  ReportRun run;  // a computation without convergence
   add_result(run, "{}", "result.json");
   EXPECT_TRUE(run.converged);
 }

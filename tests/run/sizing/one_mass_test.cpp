@@ -1,4 +1,4 @@
-// One parachute has one mass: what is cut is what is flown, summarised, loaded and exported.
+// One parachute has one mass: in pattern, flight, summary, loads and export.
 #include <gtest/gtest.h>
 
 #include "ripstop/case/payload.h"

@@ -1,4 +1,4 @@
-// What `size` chooses by itself, and what its case file says of it.
+// Choices of `size`, and the text of its case file.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -49,7 +49,7 @@ TEST(SizeChoices, EveryNumberIsThatOfTheParachuteOfItsCase) {
   EXPECT_NE(drag.made.find(", "), std::string::npos) << drag.made;
 }
 
-TEST(SizeChoices, TheLineIsTheLightestOfTheLibraryThatHolds) {
+TEST(SizeChoices, TheLineIsTheLightestOfSufficientStrength) {
   SizeRequest asked = wanted(60, 6);
   asked.deployment_speed = 30;
   const SizeResult light = run_size(wanted()), heavy = run_size(asked);
@@ -71,7 +71,7 @@ TEST(SizeChoices, TheLineIsTheLightestOfTheLibraryThatHolds) {
   }
 }
 
-TEST(SizeChoices, WhereNoLineHoldsTheStrongestIsTakenAndItSaysSo) {
+TEST(SizeChoices, WithoutASufficientLineTheStrongestIsUsedWithAWarning) {
   SizeRequest asked = wanted(20000, 20);
   asked.deployment_speed = 250;
   const SizeResult r = run_size(asked);
@@ -115,7 +115,7 @@ TEST(SizeChoices, AtSeaLevelTheOpeningIsFlownAHundredMetresUp) {
   EXPECT_EQ(r.opening.front().speed, r.deployment_speed);
 }
 
-TEST(SizeChoices, ADensityStandsInThePlaceOfAHeight) {
+TEST(SizeChoices, ADensityReplacesAHeight) {
   SizeRequest asked = wanted();
   asked.density = 0.9;
   const SizeResult r = run_size(asked);
@@ -127,7 +127,7 @@ TEST(SizeChoices, ADensityStandsInThePlaceOfAHeight) {
   EXPECT_NE(run_size(wanted()).case_text.find("\nheight_m = 300  # above sea level"), std::string::npos);
 }
 
-TEST(SizeChoices, ItsCaseFileSaysItsNumbersInComments) {
+TEST(SizeChoices, ItsCaseFileHasItsNumbersInComments) {
   const SizeResult r = run_size(wanted());
   const std::string& text = r.case_text;
   const auto has = [&](const std::string& what) {

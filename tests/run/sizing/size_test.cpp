@@ -43,7 +43,7 @@ TEST(Size, ItsDragIsThatOfTheTableOfFamilies) {
   for (const FamilyDrag& drag : all) EXPECT_EQ(drag.drag_coefficient, printed.at(drag.family)) << drag.family;
 }
 
-TEST(Size, SaysWhereItsDragCoefficientIsFrom) {
+TEST(Size, HasTheSourceOfItsDragCoefficient) {
   EXPECT_EQ(run_size(sized()).drag_source.find("computed at "), 0u) << run_size(sized()).drag_source;
   SizeRequest given = sized();
   given.drag_coefficient = 0.8;
@@ -62,7 +62,7 @@ TEST(Size, TheHandbooksDiametersHaveTheSameDragAreaAsTheOneFound) {
   EXPECT_NE(r.handbook_diameter->at(0), r.handbook_diameter->at(1));
 }
 
-TEST(Size, OfEveryFamilyHoldsPayloadAndParachuteAtTheRate) {
+TEST(Size, OfEveryFamilyCarriesPayloadAndParachuteAtTheRate) {
   for (const FamilyDrag& drag : family_drags()) {
     const SizeResult r = run_size(sized(drag.family));
     const double weight = (2.4 + r.parachute_mass) * standard_gravity;
@@ -76,7 +76,7 @@ TEST(Size, OfEveryFamilyHoldsPayloadAndParachuteAtTheRate) {
   }
 }
 
-TEST(Size, TapeHoldsTheOpeningLoadAndIsNoneWhereAHemDoes) {
+TEST(Size, TapeCarriesTheOpeningLoadAndIsNoneWhereAHemDoes) {
   const SizeResult light = run_size(sized());
   EXPECT_EQ(light.tape_material == "none", light.tape_mass == 0);
   SizeRequest asked = sized();
@@ -111,7 +111,7 @@ TEST(Size, ItsCaseFileIsACaseOfThatParachute) {
 }
 
 // A flow whose drag coefficient is 10 % off the table's: the next diameter makes up for it.
-TEST(Size, VerifyChangesTheDiameterUntilTheRateHolds) {
+TEST(Size, VerifyAdjustsTheDiameterUntilTheRateIsMet) {
   const SizeRequest asked = sized();
   SizeResult r = run_size(asked);
   const double before = r.nominal_diameter, coefficient = 0.9 * r.drag_coefficient;
@@ -130,7 +130,7 @@ TEST(Size, VerifyChangesTheDiameterUntilTheRateHolds) {
   EXPECT_EQ(runs, 2);
   EXPECT_NEAR(r.nominal_diameter / before, std::sqrt(1 / 0.9), 0.01);
   EXPECT_NEAR(r.checks.back().descent_rate, 5, 0.05);
-  // Opening load and margin are of the size that holds.
+  // Opening load and margin are those of the final size.
   EXPECT_NEAR(r.opening.front().drag_area, r.drag_coefficient * r.nominal_area, 1e-6);
   EXPECT_EQ(r.opening.front().highest, r.opening_load);
   const auto stuck = [&](const Settings&, int) { return SteadyResult(); };
@@ -171,7 +171,7 @@ SizeRequest wish(double mass, double rate, double height, const std::string& fam
   return r;
 }
 
-/// What holds over what pulls, from the parachute that was found and what is cut for it.
+/// Drag over weight, of the parachute found and of its pattern.
 double drag_over_weight(const SizeRequest& asked, const SizeResult& r) {
   const double q = 0.5 * standard_air(asked.height).density * asked.descent_rate * asked.descent_rate;
   const double mass = asked.payload_mass + run_pattern(resolve(r.given), {}, 400).bill.mass;
@@ -240,7 +240,7 @@ TEST(Size, OverMassRateHeightAndFamilyIsBalancedOrRefused) {
   EXPECT_GT(refused, 20);
 }
 
-TEST(Size, WhatCannotBeIsRefused) {
+TEST(Size, ImpossibleInputIsRefused) {
   SizeRequest asked = sized("flat-circula");
   EXPECT_NE(refused(asked).find("did you mean flat-circular?"), std::string::npos);
   asked = sized();

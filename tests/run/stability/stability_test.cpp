@@ -33,7 +33,7 @@ TEST(StabilityAngles, AreARangeWithItsEndOrOneAngle) {
   EXPECT_EQ(angles_of_text("0:0.3:0.1").size(), 4u);
 }
 
-TEST(StabilityAngles, RejectsWhatIsNoRisingRangeWithTheValueThatIsWrong) {
+TEST(StabilityAngles, RejectsARangeThatDoesNotRiseWithItsValue) {
   const std::pair<const char*, const char*> refused[] = {
       {"", "not a number"},       {"a:b:c", "\"a\""},        {"0:40", "2 numbers"},
       {"0:40:5:1", "4 numbers"},  {"0:40:0", "a step of 0"}, {"0:40:-5", "step of -5"},
@@ -136,8 +136,8 @@ TEST(StabilityRow, OfAFlatDiskHasAForceAlongTheAxisAndNoMomentAboutAPointOnIt) {
   EXPECT_NEAR(row.c_l, row.c_t * std::sin(pi / 6), 1e-9);
 }
 
-// Half the disk, on the side of positive x: its force along the axis acts at about 0.2 m from it, and lifts this side. The
-// stream comes towards positive x, so that the axis turns away from it: the angle increases.
+// Half the disk, on the side of positive x: its force along the axis acts at about 0.2 m from it, and lifts this
+// side. The stream comes towards positive x, so that the axis turns away from it: the angle increases.
 TEST(StabilityRow, OfHalfADiskOnTheLeeSideHasAMomentThatIncreasesTheAngle) {
   const StabilityRow row = in_time(part_of_disk(20, 0), 20);
   EXPECT_NEAR(row.c_m, 0.2 * row.c_t, 0.1 * row.c_t);

@@ -1,4 +1,4 @@
-// Models beside each other: what each keeps of its laws, what is told of them, and the files.
+// Comparison of models: their laws, their report, and the files.
 #include "ripstop/run/steady/compare.h"
 
 #include <gtest/gtest.h>
@@ -85,7 +85,7 @@ class ComparedModels : public testing::Test {
   std::vector<SweepRow> rows_;
 };
 
-TEST_F(ComparedModels, HaveTheNumbersOfTheirRunsAndOfWhatWasMeasured) {
+TEST_F(ComparedModels, HaveTheNumbersOfTheirRunsAndOfTheMeasurements) {
   const double speed = points_[0].resolved.flow().speed_m_s;
   points_[0].resolved = edited(points_[0].resolved, [&](Case& given) {
     given.measured = {{speed, 21, 1.2, 400.0, 390.0, 380.0}};

@@ -1,4 +1,4 @@
-// Finished runs of a steady case on the formula flow, for what is made of their numbers.
+// Finished runs of a steady case on the formula flow, for the use of their numbers.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// A run that was stopped, whose files were damaged before it goes on.
+// A stopped run, whose files were damaged before it resumes.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -58,7 +58,7 @@ TEST_F(InterruptedRun, MakesTheTableOfItsIterationsAnewFromTheCheckpoint) {
   for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(table.rows[i], row_of(all[i])) << i;
 }
 
-TEST_F(InterruptedRun, NoticesWhatWasChangedOfEarlierIterations) {
+TEST_F(InterruptedRun, DetectsChangesOfEarlierIterations) {
   const fs::path shape = folder / "vtk/canopy_001.vtp";
   const std::string whole = read_file(shape);
   std::string changed = whole;

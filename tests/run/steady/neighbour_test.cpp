@@ -1,4 +1,4 @@
-// A run that starts from its neighbour: what it takes of it, and what of a neighbour it cannot take.
+// A run that starts from its neighbour: used data, and neighbours that cannot be used.
 #include <gtest/gtest.h>
 
 #include "ripstop/case/assemble.h"
@@ -16,7 +16,7 @@ class Neighbour : public testing::Test {
     end_ = run_steady(other_, quiet).state;
     end_.residual_traction = {{1, 2, 3}, {4, 5, 6}};
   }
-  /// What start_from() says, and the state that it makes of the cold start of `given`.
+  /// Message of start_from(), and the state that it makes of the cold start of `given`.
   bool starts(const Case& given) {
     const Settings resolved = resolve(given);
     const SteadyParts parts = steady_parts(resolved, {});
@@ -77,7 +77,7 @@ TEST_F(Neighbour, OfAnotherParachuteGivesNothing) {
   EXPECT_EQ(state_.pressure, cold_.pressure);
 }
 
-// Of an engine that cannot scale what it has, the flow of another speed is not taken.
+// For an engine that cannot scale its field, the flow of another speed is not used.
 TEST_F(Neighbour, AnEngineOfOneSpeedTakesTheFlowOfThatSpeedOnly) {
   static const bool added = [] {
     add_engine({"square-law-of-one-speed",

@@ -1,5 +1,5 @@
-// examples/paraview/show_run.py without ParaView: VTK finds all that it would show, and its calls go through on a
-// stand-in for paraview.simple that takes anything.
+// examples/paraview/show_run.py without ParaView: VTK finds everything that it would show, and its calls succeed with
+// a substitute for paraview.simple that accepts anything.
 #include <gtest/gtest.h>
 
 #include "ripstop/core/process.h"
@@ -60,7 +60,7 @@ def __getattr__(name):
     EXPECT_NE(shown.output.find(call), std::string::npos) << call << "\n" << shown.output;
 }
 
-TEST(ParaView, AFolderWithoutARunIsTold) {
+TEST(ParaView, AFolderWithoutARunIsReported) {
   const TemporaryFolder folder("paraview-empty");
   const Outcome outcome = python({script, "--check", folder.path.string()});
   EXPECT_NE(outcome.code, 0);

@@ -39,7 +39,7 @@ TEST(Payload, TheRunFindsTheSpeedAtWhichDragIsWeight) {
 }
 
 // A body that is wide for its weight falls slower, and the canopy carries the less.
-TEST(Payload, ItsOwnDragHoldsItsPartOfTheWeight) {
+TEST(Payload, ItsOwnDragCarriesItsPartOfTheWeight) {
   const Case given =
       square_law_case(falling("3", {{"payload.drag_area_m2", std::to_string(SquareLawEngine::area / 2)}}));
   SteadyObserver nobody;
@@ -51,7 +51,7 @@ TEST(Payload, ItsOwnDragHoldsItsPartOfTheWeight) {
   EXPECT_NEAR(r.payload->own_drag / r.payload->weight, 1.0 / 3, payload_tolerance);
 }
 
-// An engine that cannot go on from its flow at another speed begins again at each.
+// An engine that cannot continue from its flow at another speed begins anew at each.
 TEST(Payload, AFlowThatCannotBeScaledStartsAfreshAtEverySpeed) {
   static int started = 0;
   static const bool added = [] {
@@ -79,11 +79,11 @@ TEST(Payload, AFlowThatCannotBeScaledStartsAfreshAtEverySpeed) {
   EXPECT_EQ(started, r.payload->speeds);
 }
 
-// All that hangs on the riser goes through its fixed end, whose force the ledger has. One piece of it has no spring
+// The whole load of the riser acts on its fixed end, whose force is in the force balance. One piece of it has no spring
 // against bending over it, two have one each, more of them two but at the ends: with a tenth of the law in them, the
 // axial spring over 1 - 0.1 would be 5 to 11 % too much. That the end is stretched a little more than its neighbour
 // leaves eps^2 / 8 (to second order, of a straight curve; 0.00135 in full).
-TEST(RunMargins, TheRisersLoadIsWhatHangsOnItHoweverManyPiecesItHas) {
+TEST(RunMargins, TheRisersLoadIsIndependentOfItsNumberOfPieces) {
   SteadyObserver nobody;
   for (const char* length : {"0.06", "0.12", "0.5"}) {
     Case given = square_law_case({{"parachute.riser.length_m", length}});
@@ -106,7 +106,7 @@ TEST(RunMargins, TheRisersLoadIsWhatHangsOnItHoweverManyPiecesItHas) {
   }
 }
 
-TEST(Payload, WithoutASpeedTheSearchBeginsWhereTheFamilysUsualDragHoldsIt) {
+TEST(Payload, WithoutASpeedTheIterationBeginsAtTheFamilysUsualDrag) {
   Case given = square_law_case(falling("3"));
   given.flow.speed_m_s.reset();
   struct First : SteadyObserver {
@@ -146,7 +146,7 @@ struct KilledInTime : SteadyObserver {
   }
 };
 
-TEST(Payload, ARunThatWasKilledGoesOnAtTheSpeedThatItHadFound) {
+TEST(Payload, AKilledRunResumesAtItsSpeed) {
   const TemporaryFolder folder("payload-killed");
   const Case given = square_law_case(falling("5"));
   const auto settings = [&](const char* name) {

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a run ended with, taken before its solver is gone.
+/// State at the end of a run, saved before its solver is destroyed.
 struct Ending : SteadyObserver {
   SteadyState state;
   std::vector<double> tensions;
@@ -191,13 +191,13 @@ TEST(StressArrays, HaveOneValueOfEveryClothCell) {
   EXPECT_EQ(highest(means), stress_peak(mesh, mesh.start, stress).von_mises);
 }
 
-/// What an engine was told when it was made.
+/// Settings of an engine at its construction.
 std::vector<EngineOptions>& told() {
   static std::vector<EngineOptions> all;
   return all;
 }
 
-TEST(SteadyParts, TellTheEngineThreadsFolderAndHostsOfTheRunAndRanksAndLimitOfTheCase) {
+TEST(SteadyParts, GiveTheEngineThreadsFolderAndHostsOfTheRunAndRanksAndLimitOfTheCase) {
   static const bool added = [] {
     add_engine({"listening",
                 "notes what it is told",

@@ -54,7 +54,7 @@ TEST(SteadyRun, BeginsWithTheRelaxationAndTheUpdateOfItsSettings) {
   EXPECT_EQ(state.accelerator.update, Acceleration::aitken);
 }
 
-TEST(SteadyRun, AnIterationTellsHowFarTheClothMovedAndInHowManySteps) {
+TEST(SteadyRun, AnIterationReportsMotionAndStepsOfTheCloth) {
   FormulaEngine engine;
   SteadySolver solver(small_problem(), engine);
   SteadyState state = solver.start();
@@ -128,7 +128,7 @@ TEST(SteadyRun, ACheckpointGivesBackEveryBit) {
   EXPECT_THROW(steady_state_from_bytes(bytes.substr(0, bytes.size() / 2)), Error);
 }
 
-TEST(SteadyRun, ARunThatWasKilledBetweenIterationsGoesOnBitForBit) {
+TEST(SteadyRun, ARunKilledBetweenIterationsResumesBitForBit) {
   FormulaEngine whole_engine;
   SteadySolver whole(small_problem(), whole_engine);
   SteadyState undisturbed = whole.start();
@@ -157,7 +157,7 @@ TEST(SteadyRun, ARunThatWasKilledBetweenIterationsGoesOnBitForBit) {
   EXPECT_EQ(state.iterations.back().fluid_force, undisturbed.iterations.back().fluid_force);
 }
 
-/// Whose flow cannot be saved once it is told so.
+/// Whose flow cannot be saved when requested.
 struct FullDisk : FormulaEngine {
   struct OnFullDisk : FormulaFlow {
     OnFullDisk(const FlowProblem& problem, const bool& is_full) : FormulaFlow(problem), full(is_full) {}
@@ -174,7 +174,7 @@ struct FullDisk : FormulaEngine {
 };
 
 // The third checkpoint takes the place of the first, whose flow is not its own.
-TEST(SteadyRun, ACheckpointOfWhichOnlyAPartWasWrittenIsNotRead) {
+TEST(SteadyRun, AnIncompleteCheckpointIsNotRead) {
   TemporaryFolder folder("steady_half");
   FullDisk engine;
   SteadySolver solver(small_problem(), engine);
@@ -213,7 +213,7 @@ void flip_middle_byte(const fs::path& file) {
   write_file(file, bytes);
 }
 
-TEST(SteadyRun, TheOlderCheckpointStandsInForADamagedOne) {
+TEST(SteadyRun, TheOlderCheckpointReplacesADamagedOne) {
   for (const char* damaged : {"even/state", "even/flow/state", "current", "current, gone", "even, gone"}) {
     FormulaEngine engine;
     SteadySolver solver(small_problem(), engine);
@@ -243,7 +243,7 @@ TEST(SteadyRun, TheOlderCheckpointStandsInForADamagedOne) {
   }
 }
 
-TEST(SteadyRun, CheckpointsThatAreAllGoneAreNoFreshStart) {
+TEST(SteadyRun, MissingCheckpointsAreNoFreshStart) {
   FormulaEngine engine;
   SteadySolver solver(small_problem(), engine);
   SteadyState state = solver.start();
@@ -256,7 +256,7 @@ TEST(SteadyRun, CheckpointsThatAreAllGoneAreNoFreshStart) {
 }
 
 // Rings of cloth that are pushed outward and inward in turn.
-TEST(SteadyRun, ClothThatFindsNoRestIsHeldToItsLastShapeAndSaysSo) {
+TEST(SteadyRun, ClothWithoutEquilibriumIsRegularisedWhichIsReported) {
   FormulaEngine engine;
   SteadySolver solver(small_problem(CanopyLoad::sampled, PorosityModel::sheet), engine);
   SteadyState state = solver.start();

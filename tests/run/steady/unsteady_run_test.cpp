@@ -1,4 +1,4 @@
-// A run that goes on in time: on a flow that is a formula, and in a folder with the built-in engine.
+// A run that continues in time: on a flow that is a formula, and in a folder with the built-in engine.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -20,8 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// In time its force swings about nine tenths of what it is at rest, and to the side by `side` of it; from watch to watch
-/// it is now higher and now lower by `mode`.
+/// In time its force oscillates about nine tenths of its steady value, and to the side by `side` of it; from window
+/// to window it is alternately higher and lower by `mode`.
 class SwingingFlow final : public FormulaFlow {
  public:
   SwingingFlow(const FlowProblem& problem, double side, double mode)
@@ -99,13 +99,14 @@ TEST(UnsteadyRun, EndsAtRestFirstAndThenWithTheMeanOverTime) {
   EXPECT_EQ(last.flow_iterations, static_cast<int>(solver.record().steps.size()));
 }
 
-// A mean whose direction chance turns has the cloth lean, from mean to mean. That is no motion to wait for the end of.
-TEST(UnsteadyRun, ClothThatLeansByChanceStands) {
+// A mean with a random direction inclines the cloth, from mean to mean. The coupling must not wait for the
+// end of this motion.
+TEST(UnsteadyRun, ARandomInclinationOfTheClothIsAccepted) {
   const auto means = [](double side) {
     SwingingEngine engine;
     engine.side = side;
     SteadyProblem problem = swinging_problem();
-    problem.settings.shape_tolerance_m = 1e-5;  // the drag's chance moves it by more
+    problem.settings.shape_tolerance_m = 1e-5;  // the scatter of the drag moves it by more
     problem.settings.max_iterations = 25;
     SteadySolver solver(problem, engine);
     SteadyState state = solver.start();
@@ -158,7 +159,7 @@ TEST(UnsteadyRun, HeldClothStepsOnBeforeTheNextWatch) {
   EXPECT_GT(several.shape_change, one.shape_change);
 }
 
-TEST(UnsteadyRun, KilledBetweenIterationsItGoesOnBitForBit) {
+TEST(UnsteadyRun, KilledBetweenIterationsItResumesBitForBit) {
   const auto to_the_end = [](SteadySolver& solver, SteadyState& state) {
     while (!solver.finished(state)) solver.iterate(state);
   };
@@ -239,8 +240,8 @@ TEST(UnsteadyRun, LeavesItsHistoryAndItsWakeInTheFolder) {
       history.column("time_s").back() - history.column("time_s").front() + history.column("step_s")[0],
       watched.time, 1e-9);
   EXPECT_GT(watched.start_up, 0);
-  // Of all steps without the start-up, and of every eighth field in whole parts: the same but for what so short a watch
-  // leaves open.
+  // Of all steps without the start-up, and of every eighth field in whole parts: equal except for the error
+  // of so short a window.
   EXPECT_GT(watched.error, 0);
   EXPECT_NEAR(watched.drag, result.drag, watched.error);
   for (const char* name : {"history.png", "wake.png", "wake.pvd", "wake/plane_000.vti"})

@@ -104,7 +104,7 @@ TEST_F(Batch, AFolderThatNoDirectiveCanHoldIsRefused) {
   EXPECT_EQ(batch_folder("/runs/x/"), "/runs/x.slurm");
 }
 
-TEST_F(Batch, WhatIsNotRipstopsIsNotOverwritten) {
+TEST_F(Batch, OtherFilesAreNotOverwritten) {
   const BatchJob one = job({"program"});
   fs::create_directories(batch_folder(one.folder));
   write_file(batch_folder(one.folder) / "run.sbatch", "mine");
@@ -114,7 +114,7 @@ TEST_F(Batch, WhatIsNotRipstopsIsNotOverwritten) {
 
 class NearTheLimit : public Batch {
  protected:
-  /// Exit code of a job that is told of its time limit once its command, `work`, has begun.
+  /// Exit code of a job that receives its time limit once its command, `work`, has begun.
   int told(const std::string& work) {
     program("scontrol", "echo \"$@\" >> \"" + (root_.path / "called").string() + "\"");
     const fs::path begun = root_.path / "begun", ended = root_.path / "ended";
@@ -158,7 +158,7 @@ TEST_F(NearTheLimit, ARunWithoutOneEndsForItWouldBeginAgainForEver) {
 
 class BatchOfASweep : public Batch {
  protected:
-  /// sbatch that notes what it was called with and answers 101, 102, ... of a federation.
+  /// An sbatch that records its arguments and prints 101, 102, ... of a federation.
   void submit(const BatchSweep& sweep, const std::vector<std::string>& options) {
     program("sbatch", "log=\"" + (root_.path / "submitted").string() +
                           "\"; touch \"$log\"; printf '%s|' \"$@\" >> \"$log\"; echo >> \"$log\"; "

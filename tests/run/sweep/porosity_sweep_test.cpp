@@ -1,4 +1,4 @@
-// The runs of a porosity calibration stand in the box and on the cells of the case that is calibrated.
+// The runs of a porosity calibration have the domain and the cells of the calibrated case.
 #include "ripstop/run/sweep/porosity_sweep.h"
 
 #include <gtest/gtest.h>

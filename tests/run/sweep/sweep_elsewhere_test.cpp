@@ -54,7 +54,7 @@ TEST_F(SweepElsewhere, EveryRunStartsFromOneOfAnEarlierWave) {
   EXPECT_EQ(sweep_waves(points_, false), (Waves{{0, 1, 2, 3}}));
 }
 
-TEST_F(SweepElsewhere, LeavesTheNumbersOfASweepHereWhichGoesOnWithWhatHasNotComeBack) {
+TEST_F(SweepElsewhere, HasTheResultsOfALocalSweepWhichComputesTheMissingRuns) {
   SweepSettings here = settings_;
   here.folder = root_.path / "here";
   const std::vector<SweepRow> wanted = run_sweep(points_, here);
@@ -75,7 +75,7 @@ TEST_F(SweepElsewhere, LeavesTheNumbersOfASweepHereWhichGoesOnWithWhatHasNotCome
     EXPECT_EQ(iterations(settings_.folder, i), iterations(here.folder, i)) << i;
 }
 
-TEST_F(SweepElsewhere, ARunThatCameBackDamagedIsTold) {
+TEST_F(SweepElsewhere, ADamagedReturnedRunIsReported) {
   prepare_sweep(points_, settings_);
   run(1);
   const fs::path damaged = settings_.folder / points_[1].folder / "lines.csv";
@@ -86,7 +86,7 @@ TEST_F(SweepElsewhere, ARunThatCameBackDamagedIsTold) {
   EXPECT_NE(row.error.find("lines.csv"), std::string::npos) << row.error;
 }
 
-TEST_F(SweepElsewhere, AllOfWhichCameBackNeedsNoFlowFieldAnyMore) {
+TEST_F(SweepElsewhere, CompleteNeedsNoFlowField) {
   prepare_sweep(points_, settings_);
   for (const auto& wave : sweep_waves(points_, true))
     for (const std::size_t i : wave) run(i);
@@ -119,11 +119,11 @@ TEST_F(SweepElsewhere, ARunThatAnotherProcessIsAtIsLeftToIt) {
   const ClaimedFolder busy(settings_.folder / points_[2].folder);
   EXPECT_THROW(run(2), Error);
   EXPECT_THROW(run_sweep(points_, settings_), Error);     // before anything is computed
-  EXPECT_TRUE(gather_sweep(points_, settings_)[1].done);  // what is there can be looked at
+  EXPECT_TRUE(gather_sweep(points_, settings_)[1].done);  // existing files can be inspected
 }
 
 // Between the look at all folders and the run's own turn, as only a job elsewhere can come.
-TEST_F(SweepElsewhere, ARunThatIsTakenWhileASweepGoesOnIsNotStartedFromNothing) {
+TEST_F(SweepElsewhere, ARunInAnotherProcessIsNotStartedCold) {
   vary({"10", "15", "20", "25"});
   std::unique_ptr<ClaimedFolder> busy;
   SweepEvents events;

@@ -1,4 +1,4 @@
-// What a sweep leaves beside its runs.
+// Files of a sweep in addition to its runs.
 #include "ripstop/run/sweep/sweep_files.h"
 
 #include <gtest/gtest.h>
@@ -97,8 +97,8 @@ TEST_F(SweepFiles, NothingIsDrawnWithoutNumbersOrWithoutAResult) {
   EXPECT_TRUE(std::filesystem::is_empty(folder.path));
 }
 
-// At one speed what was measured there is a level; over speeds it is points; over two designs it is nothing.
-TEST_F(SweepFiles, WhatWasMeasuredStandsBesideTheDragAndNotBesideTheTime) {
+// At one speed the measurement is a level; over speeds it is points; over two designs it is not shown.
+TEST_F(SweepFiles, MeasurementsAreInThePlotOfDragAndNotOfTime) {
   const auto colours_of = [&](const char* file) {
     const std::string svg = read_file(folder.path / file);
     const std::regex colour(R"((stroke|fill)(=\"|:|: )rgb\([^)]*\))");

@@ -1,4 +1,4 @@
-// Many runs in one folder: what each leaves, and what one that fails does to the others.
+// Many runs in one folder: the files of each, and the effect of a failed one on the others.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -63,7 +63,7 @@ TEST(SweepFolder, AFlowFieldStaysUntilNobodyStartsFromIt) {
     EXPECT_EQ(described["runs"][i]["starts_from"], i == 0 ? nlohmann::json() : nlohmann::json("v20"));
   }
 
-  // What is not on the list stays for ever, also when the sweep is made anew.
+  // Files not on the list remain, also when the sweep is made anew.
   write_sweep_plots(settings.folder, "", {sweep_axis("flow.speed_m_s", {"20", "15", "25"}, "--speeds")},
                     points, rows);
   EXPECT_TRUE(fs::exists(settings.folder / "drag.svg") && fs::exists(settings.folder / "wall_time.png"));
@@ -83,7 +83,7 @@ struct NoWind : FlowEngine {
   }
 };
 
-TEST(SweepFolder, ARunThatFailsIsToldInItsRowAndTheOthersGoOn) {
+TEST(SweepFolder, AFailedRunIsRecordedInItsRowAndTheOthersContinue) {
   static const bool added = [] {
     add_engine({"no-wind",
                 "fails",

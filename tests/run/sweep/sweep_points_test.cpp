@@ -103,7 +103,7 @@ TEST(SteadyResult, OfATextThatIsNoResultIsRefused) {
   EXPECT_THROW(steady_result_from_json("nonsense"), Error);
 }
 
-TEST(SteadyResult, ComesBackFromItsJsonAndOnlyWhatIsAbsentIsLeftOut) {
+TEST(SteadyResult, ReturnsFromItsJsonWithoutAbsentValues) {
   SteadyResult result;
   result.title = "a \"quoted\" title";
   result.drag = 1.0 / 3;

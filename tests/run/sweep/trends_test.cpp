@@ -1,4 +1,4 @@
-// What every textbook says of a canopy's drag, on coarse cells: twelve across, first order, walls that slip.
+// Textbook trends of the drag of a canopy, on coarse cells: twelve across, first order, walls with slip.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -15,8 +15,8 @@ namespace {
 using Q = Quantity;
 constexpr std::size_t most_rows_to_numbers = 8;  // below a header
 
-/// How closely a heading is the one that the user named: 3 as written, 2 without its unit, 1 without what is in
-/// parentheses, 0 not at all.
+/// Agreement of a heading with the one that the user gave: 3 as written, 2 without its unit, 1 without the
+/// text in parentheses, 0 none.
 int closeness(const Heading& heading, const std::string& named) {
   const std::string wanted = words_of(named);
   if (wanted.empty()) return trimmed(named) == heading.text && !heading.text.empty() ? 3 : 0;
@@ -73,7 +73,7 @@ std::map<std::size_t, const ColumnChoice*> named_columns(const std::vector<Headi
   return named;
 }
 
-/// What the user's choice of a quantity also means: an extension in % is a strain.
+/// Consequence of a user's choice of a quantity: an extension in % is a strain.
 std::vector<Quantity> meanings_of(Quantity quantity) {
   if (quantity == Q::extension) return {Q::extension, Q::strain};
   return {quantity};
@@ -116,7 +116,7 @@ struct Resolver {
     return fa == fb;
   }
 
-  /// A column; `other` where its heading says nothing that is wanted.
+  /// A column; `other` if its heading names no wanted quantity.
   Column resolve(std::size_t index, Heading heading, const std::string& unit_below) const {
     Column column;
     column.heading = heading.text;

@@ -1,4 +1,4 @@
-// What the heading of a column says: quantity and unit, in six languages.
+// The meaning of a column heading: quantity and unit, in six languages.
 #pragma once
 
 #include <optional>
@@ -36,7 +36,7 @@ Dimension dimension_of(Quantity quantity);
 enum class ClockForm { none, hours_minutes_seconds, hours_minutes, minutes_seconds };
 
 struct Heading {
-  std::string text;                // as it stands in the file
+  std::string text;                // as in the file
   std::string name;                // without its unit
   std::string unit;                // empty: none that is known
   std::string odd;                 // in parentheses or brackets, and not a known unit

@@ -13,7 +13,7 @@ namespace ripstop::table {
 /// A header and the rows below it.
 struct Block {
   int header_line = 0;
-  std::string name;                     // of the specimen, where a line above says it
+  std::string name;                     // of the specimen, if a line above gives it
   std::vector<Column> columns;          // with a quantity; without values
   std::size_t width = 0;                // columns of the header
   std::vector<int> specimen_of;         // for each of `columns`, side by side: from 0; -1: of all of them

@@ -50,7 +50,7 @@ std::optional<Written> written(std::string_view text) {
   return whole ? std::optional(number) : std::nullopt;
 }
 
-/// "1.234.567" with '.': one to three digits, then groups of three, the first of which is not 0.
+/// "1.234.567" with '.': one to three digits, the first not 0, then groups of three.
 bool grouped(std::string_view digits, char mark) {
   if (digits.empty() || digits.front() == '0') return false;
   std::size_t run = 0;

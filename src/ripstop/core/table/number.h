@@ -7,7 +7,7 @@
 
 namespace ripstop::table {
 
-/// What one cell shows about the marks in it.
+/// The marks in one cell.
 enum class NumberForm {
   not_a_number,
   wrong_groups,    // digits and marks, but not in groups of three: "12,34,567.8"
@@ -34,7 +34,7 @@ struct ClockTime {
   bool has_fraction = false;  // of the last part
   bool has_day = false;       // a date whose day is known
   int day = 0;                // days since 1 January 1970
-  std::string other_date;     // of which day and month cannot be told apart
+  std::string other_date;     // with ambiguous order of day and month
 };
 std::optional<ClockTime> clock_of(std::string_view text);
 

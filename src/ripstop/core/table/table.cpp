@@ -46,7 +46,7 @@ std::tuple<bool, std::size_t, std::size_t> fit_of(const std::vector<Row>& rows, 
     const auto whole = std::count_if(rows.begin() + static_cast<long>(header.data), rows.end(), is_whole);
     return {header.consistent, header.headings, static_cast<std::size_t>(whole)};
   }
-  // Without a header that is known: what makes most numbers.
+  // Without a known header: the separator that gives most numbers.
   std::size_t numbers = 0;
   for (const Row& row : rows) {
     const auto values = static_cast<std::size_t>(std::count_if(row.cells.begin(), row.cells.end(), is_value));

@@ -1,4 +1,5 @@
-// Tables from machines: testing machines, load cells, tunnels, loggers. docs/guide/tables.md says what is accepted.
+// Tables from machines: testing machines, load cells, tunnels, loggers. docs/guide/tables.md describes the
+// accepted forms.
 #pragma once
 
 #include <filesystem>
@@ -11,11 +12,11 @@ namespace ripstop::table {
 
 enum class Decimal { automatic, point, comma };
 
-/// What the user says of a column: --columns "force=Kraft [kN]".
+/// The user's choice of a column: --columns "force=Kraft [kN]".
 struct ColumnChoice {
   Quantity quantity = Quantity::other;
   std::string heading;  // with or without its unit; empty: only the unit is given
-  std::string unit;     // empty: what the file says
+  std::string unit;     // empty: as in the file
 };
 
 struct Format {
@@ -26,7 +27,7 @@ struct Format {
 
 struct Column {
   Quantity quantity = Quantity::other;
-  std::string heading;         // as it stands in the file
+  std::string heading;         // as in the file
   std::string unit;            // of the file: "kN"; "clock" for clock times
   int place = 0;               // counted from 1
   std::vector<double> values;  // in SI, a strain as a fraction; NaN: the cell is empty

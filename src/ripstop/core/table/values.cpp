@@ -34,7 +34,7 @@ struct Seen {
   const Column* column = nullptr;
 };
 
-/// What the cells of one column show about their marks.
+/// The marks in the cells of one column.
 struct Marks {
   const Row* decimal[2] = {};    // surely, by '.' or ','
   const Row* ambiguous[2] = {};  // the first cell such as "1.016"
@@ -74,7 +74,8 @@ Marks marks_of(const Block& block, const Column& column) {
   return marks;
 }
 
-/// Why a mark of this column cannot be told from a decimal mark; empty: it can, and `decimal` is it.
+/// Reason why a mark of this column can be a decimal or a thousands mark; empty: it is unambiguous, and
+/// `decimal` is the mark.
 std::string ambiguity(const Block& block, const Column& column, char& decimal,
                       const std::filesystem::path& file) {
   const Marks marks = marks_of(block, column);
@@ -134,7 +135,7 @@ std::vector<double> seconds_of(const Times& times, ClockForm form) {
   for (const auto& [row, time] : times) {
     double now = time.seconds * (time.parts == 2 && form == ClockForm::hours_minutes ? 60 : 1);
     if (time.has_day) now += day * time.day;
-    // A step back by more than half a day is midnight; a smaller one is a row out of order.
+    // A decrease of more than half of 24 h is midnight; a smaller one is a row out of order.
     if (!seconds.empty() && !time.has_day && last - now > 0.5 * day) midnights += day;
     last = now;
     seconds.push_back(now + midnights);
@@ -144,7 +145,7 @@ std::vector<double> seconds_of(const Times& times, ClockForm form) {
   return seconds;
 }
 
-/// True where the column has clock times: its values are then read, or its problem is said.
+/// True if the column has clock times: its values are then read, or its problem is recorded.
 bool read_clock(const Block& block, Column& column, const std::filesystem::path& file) {
   if (column.quantity != Quantity::time) return false;
   Times times;

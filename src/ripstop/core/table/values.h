@@ -16,7 +16,8 @@ char decimal_mark(const std::vector<Block>& blocks, const Format& format, const 
 /// A row has a cell for each known column, and none beyond the header. Throws Error(bad_data).
 void check_rows(const Block& block, const std::filesystem::path& file);
 
-/// Fills `column.values`, one for each row, or says in `column.problem` why that cannot be done. `decimal` as above.
+/// Fills `column.values`, one for each row, or states in `column.problem` why this is impossible. `decimal`
+/// as above.
 void read_values(const Block& block, Column& column, char decimal, Decimal stated,
                  const std::filesystem::path& file);
 

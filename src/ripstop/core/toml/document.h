@@ -1,4 +1,4 @@
-// A TOML file as a tree of values that know their places. The parser is toml++, seen by document.cpp alone.
+// A TOML file as a tree of values with their places. Only document.cpp uses the parser, toml++.
 #pragma once
 
 #include <filesystem>

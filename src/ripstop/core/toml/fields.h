@@ -97,8 +97,8 @@ struct Kind {
   std::function<Fields(std::size_t)> select;  // switches when needed and returns the further keys
 };
 
-/// A key that names something to start from; load() fills the struct, or says why not. It comes before the
-/// Kind of its table, and makes every other key optional.
+/// A key with the name of a base; load() fills the struct, or returns the reason for a failure. It precedes
+/// the Kind of its table, and makes every other key optional.
 struct Base {
   std::function<std::string(const std::string&)> load;
 };
@@ -113,7 +113,7 @@ struct Field {
   Value value;
   Range range;
   bool is_required = false;
-  std::string if_absent;  // what is taken when an optional value is not given
+  std::string if_absent;  // value that is used when an optional value is not given
 
   Field& required() { return is_required = true, *this; }
   Field& absent(std::string text) { return if_absent = std::move(text), *this; }

@@ -1,4 +1,4 @@
-// What is wrong with an input file, one entry a mistake, so that all of them are told at once.
+// Mistakes in an input file, one entry each, so that all of them are reported together.
 #pragma once
 
 #include <map>
@@ -24,7 +24,7 @@ struct Problem {
   std::string key;      // full name; empty for a mistake in the file's syntax
   std::string value;    // as understood; empty when there is none
   std::string allowed;  // "above 0 and at most 200"; empty when that is not a range or a list
-  std::string message;  // what is wrong and what to do
+  std::string message;  // the mistake and its remedy
 };
 
 /// "case.toml:12:9: flow.speed_m_s = -3: must be above 0 and at most 200".
@@ -34,8 +34,8 @@ std::string to_text(const Problem& problem);
 class Findings {
  public:
   Findings(const Origins& origins, std::vector<Problem>& problems) : origins_(origins), problems_(problems) {}
-  /// No problem is known yet of any of these keys, their tables, or anything below them. "table.*" stands for
-  /// all keys of a table without those of tables in it.
+  /// Whether no problem is recorded for these keys, their tables, or anything below them. "table.*" means all
+  /// keys of a table without those of its tables.
   bool sound(const std::vector<std::string>& keys) const;
   /// At the place of `key`, or of its table when it was not given.
   void add(const std::string& key, std::string value, std::string allowed, std::string message);
@@ -46,7 +46,7 @@ class Findings {
   std::vector<Problem>& problems_;
 };
 
-/// All problems of one input, sorted by place. what() lists them, one a line.
+/// All problems of one input, sorted by place. The message lists them, one per line.
 class InputError : public Error {
  public:
   InputError(ExitCode code, std::vector<Problem> problems);

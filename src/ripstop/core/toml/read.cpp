@@ -30,7 +30,7 @@ bool is_number(const Node& node) {
   return node.type == Node::Type::number || node.type == Node::Type::integer;
 }
 
-/// TOML tells 3.0 from 3, JSON does not; both are taken as the integer.
+/// TOML distinguishes 3.0 and 3, JSON does not; both are accepted as the integer.
 bool is_integral(const Node& node) {
   return is_number(node) && std::isfinite(node.number) && node.number == std::floor(node.number);
 }
@@ -83,7 +83,7 @@ std::string value_text(const Node& node) {
   return "";
 }
 
-/// One key while it is read: where it stands and where its origin and problems go.
+/// One key while it is read: its place, and where its origin and problems are recorded.
 class Reader {
  public:
   Reader(const Document& document, Origins& origins, std::vector<Problem>& problems)
@@ -198,7 +198,7 @@ void Reader::set(int& target, const Node& node, const std::string& name) {
   if (!is_integral(node))
     return report(node, name, "an integer",
                   is_number(node) ? "must be a whole number" : "must be an integer, not " + type_name(node));
-  // Beyond int is beyond every range: told here, as the number that was given.
+  // A number beyond int is beyond every range: reported here, as the number that was given.
   constexpr double limit = std::numeric_limits<int>::max();
   if (std::abs(node.number) > limit) {
     const std::string allowed = range_.text().empty() ? fmt::format("at most {}", limit) : range_.text();
@@ -300,7 +300,7 @@ void Reader::value(const Field& field, const Node& node, const std::string& name
 
 void Reader::table(const Fields& fields, const Node& node, const std::string& prefix) {
   origins_[prefix] = origin(node.place);
-  bool has_base = false, names_base = false;  // the one that is meant may have what is missing
+  bool has_base = false, names_base = false;  // the key that was meant may be the missing one
   bool kind_is_open = false;
   std::vector<Field> all = fields.list();
   for (const Field& field : fields.list()) {
@@ -321,7 +321,7 @@ void Reader::table(const Fields& fields, const Node& node, const std::string& pr
                  "differs from the kind of `base`, " + quoted(kind->words[kind->get()]));
         accept(*given, name);
       }
-      // Without the word nobody can say which further keys belong here.
+      // Without the word of the kind the further valid keys are unknown.
       kind_is_open = !has_base && kind->words.size() > 1 && !origins_.contains(name);
       if (!kind_is_open) {
         const Fields further = kind->select(chosen);
@@ -352,7 +352,7 @@ void Reader::table(const Fields& fields, const Node& node, const std::string& pr
   }
 }
 
-/// What a text must be and is not, as Problem::allowed and Problem::message; both empty when it is.
+/// Requirement and fault of a text, as Problem::allowed and Problem::message; both empty for a valid text.
 std::pair<std::string, std::string> refusal(const Text& target) {
   const std::string& text = *target.value;
   const auto starts_character = [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; };
@@ -373,7 +373,7 @@ class Checker {
   Checker(const Origins& origins, std::vector<Problem>& problems) : findings_(origins, problems) {}
 
   void table(const Fields& fields, const std::string& prefix) {
-    // What started from nothing has no values of its own.
+    // A table without a base has no inherited values.
     for (const Field& field : fields.list())
       if (std::holds_alternative<Base>(field.value) && !findings_.sound({joined(prefix, field.key)})) return;
     for (const Field& field : fields.list()) {

@@ -10,9 +10,9 @@
 
 namespace ripstop {
 
-/// Fills the structs behind `fields` and notes the origin of every key that could be read. Reports unknown
-/// keys, wrong types, NaN and infinity, words that are not in a list, and missing keys; what a value of the
-/// right type must be besides is left to check_values().
+/// Fills the structs behind `fields` and notes the origin of every key that could be read. Reports unknown keys,
+/// wrong types, NaN and infinity, words that are not in a list, and missing keys. check_values() checks further
+/// requirements of values of the right type.
 void read_table(const Fields& fields, const Document& document, Origins& origins,
                 std::vector<Problem>& problems);
 

@@ -89,8 +89,8 @@ std::string rows_of(const Fields& fields) {
 void add_table(const Fields& fields, const std::string& name, const std::string& heading,
                const std::string& doc, std::string& out);
 
-/// The field's tables, if it has any, as sections of their own; `when` says which word
-/// of a Kind they go with.
+/// The tables of the field, if it has any, as separate sections; `when` gives the word of the Kind to which
+/// they belong.
 void add_inner_tables(const Field& field, const std::string& name, const std::string& when,
                       std::string& out) {
   const std::string inner = name.empty() ? field.key : name + "." + field.key;

@@ -1,5 +1,5 @@
-// JSON Schema of described tables. It says what read_table() and check_values() say, except for what JSON has
-// no words for (NaN) and for the keys beside `base`, which it takes from every kind.
+// JSON Schema of described tables. It contains the checks of read_table() and check_values(), except those
+// that JSON cannot express (NaN, and keys next to `base`, which it accepts of every kind).
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string_view>
@@ -20,7 +20,7 @@ Json number_schema(const Field& field, std::string_view type) {
   const Range& range = field.range;
   Json schema = {{"type", type}};
   if (type == number_type) {
-    // "5 lb" is read too; what the number is, read_typed() says.
+    // "5 lb" is read too; read_typed() checks the number.
     schema["type"] = {type, "string"};
     schema["pattern"] = "^[ \\t]*[+-]?[0-9.]+([eE][+-]?[0-9]+)?[ \\t]*[^0-9.,+ \\t-]";
     if (const std::string unit = unit_of_key(field.key); !unit.empty()) schema["unit"] = unit;

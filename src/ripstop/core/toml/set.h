@@ -1,4 +1,4 @@
-// One value of a parsed file replaced by its full name: what --set and --vary do.
+// Replacement of one value of a parsed file by its full name, for --set and --vary.
 #pragma once
 
 #include <string>
@@ -23,7 +23,7 @@ Setting parse_setting(const std::string& text, const std::string& option);
 /// Error(usage) for an empty one.
 std::vector<std::string> split_values(const std::string& text);
 
-/// Puts the value into the tree; tables on the way are made. Removes the key of a setting with `remove`. Throws
+/// Sets the value; missing tables are made. Removes the key of a setting with `remove`. Throws
 /// InputError(usage) for a name that cannot be one, a value that cannot be read, a place in a list that the file does
 /// not give, or a key to remove that is not there.
 void set_value(Document& document, const Setting& setting);

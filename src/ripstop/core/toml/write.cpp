@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Shortest text that reads back as the same number; TOML wants digits around the point, JSON too.
+/// Shortest text that reads back as the same number; TOML and JSON require digits around the point.
 std::string number_text(double value) {
   return fmt::format("{}", value + 0.0);  // a file has no -0: it reads as an integer
 }

@@ -1,4 +1,4 @@
-// What follows from a table's description besides reading: values as TOML or JSON, JSON Schema, reference.
+// Uses of the description of a table other than reading: values as TOML or JSON, JSON Schema, reference.
 #pragma once
 
 #include <string>

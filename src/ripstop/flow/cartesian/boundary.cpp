@@ -79,7 +79,7 @@ void end_ghosts(const Discretisation& d, const Boundaries& b, const Fields& f, i
   }
 }
 
-/// What lies beyond a box that is open everywhere, but for what comes in: the outermost cells' values.
+/// Ghosts outside a box with open boundaries, except at the inlet: the values of the outermost cells.
 void copy_into_ends(const Discretisation& d, int k, Array<double>& q) {
   const Layout& layout = d.layout;
   const std::ptrdiff_t sz = layout.stride_z;
@@ -112,7 +112,7 @@ void each_face(const Discretisation& d, const Fields& f, const Visit& visit) {
 Vec3 momentum_through_sides(const Discretisation& d, const State& s) {
   const Fields& f = s.f;
   Vec3 force;
-  for (int k = 0; k < d.layout.nz; ++k) {  // ghosts hold what air brings in
+  for (int k = 0; k < d.layout.nz; ++k) {  // ghosts contain the values of air that enters
     each_side_face(d, f, k, [&](const BoxFace& face) {
       force += (area_of(d, face, k) * face.inflow) * velocity_at(f, face.inflow > 0 ? face.ghost : face.cell);
     });

@@ -1,5 +1,5 @@
-// The boundaries of the box, each one value that says what it is: ghosts, fluxes, conductances and its part
-// of the momentum ledger. A new kind is one file beside inlet_jet.cpp, sides_slip.cpp, far_field.cpp or
+// The boundaries of the box, each a value of its kind: ghosts, fluxes, conductances and its part of the
+// momentum balance. A new kind is one file like inlet_jet.cpp, sides_slip.cpp, far_field.cpp or
 // outlet_still_air.cpp, and its row in boundary.cpp.
 #pragma once
 
@@ -135,12 +135,14 @@ void turbulence_ghosts(const Discretisation& d, const Boundaries& b, State& s, i
 void pressure_ghosts(const Discretisation& d, const Boundaries& b, State& s, int k);
 /// Of the momentum equation's H/A and of a coefficient, at the sides only.
 void side_ghosts(const Discretisation& d, Array<double>& q, int k, double across_x, double across_y);
-/// The correction has the pressure's ghosts while velocities are corrected; the solver wants zeros there.
+/// The correction uses the ghosts of the pressure while velocities are corrected; the solver needs zeros
+/// there.
 void correction_ghosts(const Discretisation& d, const Boundaries& b, Array<float>& e, int k);
 
 /// Momentum that the air carries into the box through its faces in a step in time [N].
 Vec3 momentum_carried_in(const Discretisation& d, const Boundaries& b, const State& s);
-/// What the pressure in the faces adds to the box's momentum [N]: in those where it is held, or in the others.
+/// Momentum that the pressure in the faces adds to the box [N]: in faces with fixed pressure, or in the
+/// others.
 Vec3 pressed_in(const Discretisation& d, const Boundaries& b, const State& s, bool where_held);
 /// Momentum that the air brings through the faces of the box, pressure and diffusion included: the force on whatever
 /// is inside [N].

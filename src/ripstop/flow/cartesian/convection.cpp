@@ -1,13 +1,12 @@
-// Second-order convection as a correction of the upwind one: what a limited linear profile adds to the value
-// on each face,
+// Second-order convection as a correction of the upwind one: the addition of a limited linear profile to the value on
+// each face,
 //
 //   q_f = q_U + w 2 a b / (a + b) where a b > 0, else q_U;   a = q_U - q_UU (scaled to the distance of b), b
 //   = q_D - q_U,
 //
-// with U, UU the first and second cell upstream of the face, D the one downstream and w the share of
-// the distance from U to D that lies before the face: the limiter of van Leer (1974). Taken from the
-// fields an iteration starts from, so that the matrix stays the upwind one. Faces at the ends of the
-// box keep the upwind value.
+// with U, UU the first and second cell upstream of the face, D the one downstream and w the share of the distance
+// from U to D upstream of the face: the limiter of van Leer (1974). Computed from the fields at the start of an
+// iteration, so that the matrix remains the upwind one. Faces at the ends of the box keep the upwind value.
 #include "ripstop/flow/cartesian/rows.h"
 #include "ripstop/flow/cartesian/simd.h"
 #include "ripstop/flow/cartesian/solver.h"
@@ -15,8 +14,7 @@
 namespace ripstop::cartesian {
 namespace {
 
-// What the face's value has beyond the upwind one, times the flux. `ratio` is 0 where
-// there is no second cell.
+// Difference of the face value from the upwind one, times the flux. `ratio` is 0 without a second cell.
 [[gnu::always_inline]] inline double beyond(double flux, double far_low, double low, double high,
                                             double far_high, double weight_low, double ratio_low,
                                             double ratio_high) {

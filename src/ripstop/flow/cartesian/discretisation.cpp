@@ -14,8 +14,8 @@ Discretisation::Discretisation(const FlowGrid& grid_, const Freestream& air_,
       yp(make_axis(grid.edges(1), side, side)),
       zp(make_axis(grid.edges(2), open ? End::fixed_value : End::zero_gradient, End::fixed_value)),
       layout(grid.nx, grid.ny, grid.nz) {
-  // Beyond a side that holds the pressure it has a ghost, a whole cell away; the correction, which the
-  // multigrid holds at zero in the face, has its own conductances there.
+  // Beyond a side with fixed pressure the pressure has a ghost, a whole cell away; the correction, which is zero in
+  // the face in the multigrid, has its own conductances there.
   for (Axis* axis : {&xp, &yp}) axis->inverse_distance.front() *= 0.5, axis->inverse_distance.back() *= 0.5;
   if (open) zp.inverse_distance.front() *= 0.5;
 }

@@ -10,11 +10,12 @@ namespace ripstop::cartesian {
 constexpr double heat_capacity = 1007;  // c_p of air [J/(kg K)]
 
 struct Discretisation {
-  /// `side` is what holds the pressure at the sides; `open`: at all six faces, and none has given velocities.
+  /// `side` is the condition of the pressure at the sides; `open`: at all six faces, and none has given
+  /// velocities.
   Discretisation(const FlowGrid& grid, const Freestream& air, const CartesianSettings& settings, End side,
                  bool open = false);
 
-  /// Of row (j, k) for what the air carries, and for the pressure.
+  /// Of row (j, k) for convected quantities, and for the pressure.
   RowMetrics metrics(int j, int k) const { return metrics(j, k, x, y, z); }
   RowMetrics pressure_metrics(int j, int k) const { return metrics(j, k, xp, yp, zp); }
 
@@ -22,7 +23,7 @@ struct Discretisation {
   Freestream air;
   CartesianSettings settings;
   Axis x, y, z;     // for transport: fixed at the inlet, if there is one
-  Axis xp, yp, zp;  // for the pressure: fixed at the outlet, the sides as told; see the constructor
+  Axis xp, yp, zp;  // for the pressure: fixed at the outlet, the sides as given; see the constructor
   Layout layout;
 
  private:

@@ -35,7 +35,7 @@ constexpr double least = 1e-30;  // [1/s5], keeps 0/0 out of air at rest
 }  // namespace
 
 RIPSTOP_ROW_KERNEL void eddy_row(EddyRow& results) {
-  const EddyRow row = results;  // a copy: what the loop writes cannot be thought to change it
+  const EddyRow row = results;  // a copy, so that the compiler sees that the loop does not change it
   const RowMetrics& m = row.m;
   const std::ptrdiff_t second = row.component, third = 2 * row.component;
 #pragma omp simd

@@ -79,7 +79,7 @@ Error divergence(const Solver& solver, const std::string& when, const std::strin
                                           grid.nx, grid.ny, grid.nz, where, remedy)};
 }
 
-// A saved flow is one sealed file: what it was made for, the cloth, then everything that a State carries.
+// A saved flow is one sealed file: its basis, the cloth, then all data of a State.
 constexpr const char* state_file = "cartesian.flow";
 
 struct Header {
@@ -193,9 +193,9 @@ class CartesianFlow final : public Flow {
   bool untouched() const override { return solver_.state().untouched; }
 
   void guess() override {
-    // A sheet across the whole box holds back pressures far beyond rho U^2, which would not survive being
-    // interpolated. On a coarse grid omega can grow without bound where a jet's room meets the outlet, and
-    // the finer grid does not lose it again; from the nozzle's profile a jet is there in as many iterations.
+    // A sheet across the whole box has pressures far beyond rho U^2, which interpolation would destroy. On a coarse
+    // grid omega can grow without bound where the still air around a jet meets the outlet, and it remains on the
+    // finer grid; a start from the nozzle's profile needs as many iterations.
     if (settings_.grid_sequencing && !problem_.jet && problem_.grid.cells() > fewest_cells &&
         !solver_.shut() && problem_.body_force.empty())
       guess_from_coarser(problem_.grid, porous(), solver_);
@@ -206,7 +206,7 @@ class CartesianFlow final : public Flow {
   void restore(const std::filesystem::path& folder) override;
 
  private:
-  static constexpr int fewest_cells = 20000;  // that a coarser grid is worth
+  static constexpr int fewest_cells = 20000;  // that justify a coarser grid
 
   static double in_range(double courant) {
     if (courant > 0 && courant <= 1) return courant;
@@ -243,7 +243,7 @@ FlowAdvance CartesianFlow::run(Solver& solver, int iterations, double residual,
     now.stopped = report && !report(now.last);
   }
   if (now.stopped) return now.converged = false, now;
-  // Residuals are relative to the fields, and say nothing of those that grow slowly and for ever.
+  // Residuals are relative to the fields, and do not show fields that grow slowly without end.
   if (!solver.shut() && !solver.within_reason()) throw diverged("by", solver.first_bad_value());
   return now;
 }

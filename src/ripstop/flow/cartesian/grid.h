@@ -8,7 +8,7 @@
 
 namespace ripstop::cartesian {
 
-/// What holds a variable at one end of an axis.
+/// Condition of a variable at one end of an axis.
 enum class End { zero_gradient, fixed_value };
 
 /// One axis of n cells. Face f is the low side of cell f; face n is the high end.
@@ -21,8 +21,9 @@ struct Axis {
   std::vector<double> inverse_distance;  // n + 1: 1 / distance of the two values that a face parts [1/m]
   std::vector<double> slope_low;         // n: dq/dx at cell c = slope_low (q[c] - q[c-1])
   std::vector<double> slope_high;        // n:                 + slope_high (q[c+1] - q[c]), Gauss linear
-  std::vector<double> ratio_low;         // n + 1: distance of the centres beside face f over that at f - 1
-  std::vector<double> ratio_high;        // n + 1: ... over that at f + 1
+  std::vector<double>
+      ratio_low;  // n + 1: distance of the centres on either side of face f over that at f - 1
+  std::vector<double> ratio_high;  // n + 1: ... over that at f + 1
 };
 
 /// Axis from its n + 1 edges, increasing. At an end with a fixed value the distance is the half cell, at one

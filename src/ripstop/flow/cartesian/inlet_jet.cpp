@@ -1,5 +1,5 @@
-// A nozzle's jet through the inlet, and about it air that next to stands still. All of it has the stream's k
-// and omega: the shear layer makes its own within a nozzle's width.
+// Jet of a nozzle through the inlet, surrounded by air that is nearly at rest. All of it has the k and omega of the
+// stream: the shear layer develops its own within one nozzle width.
 #include <algorithm>
 
 #include "ripstop/flow/cartesian/boundary.h"

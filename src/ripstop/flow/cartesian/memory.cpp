@@ -17,7 +17,7 @@ constexpr std::size_t colour_step = 21 * line;  // odd number of lines: the star
 }  // namespace
 
 void* allocate_field(std::size_t bytes) {
-  // One line in front of what the caller gets holds the address to free.
+  // One line before the returned memory contains the address to free.
   const bool large = bytes >= large_page / 2;
   const std::size_t align = large ? large_page : line;
   const std::size_t whole = (bytes + line + (large ? colours * colour_step : 0) + align - 1) / align * align;

@@ -6,9 +6,8 @@
 // The equation is under-relaxed first and the resistance is added after that, so that R enters the diagonal
 // and the face flux (through 1/A) unrelaxed.
 //
-// A cell that tight cloth shuts in has hardly any flux, so that A all but vanishes and any error
-// of the pressure would send its air off at once. Beside a sheet A is therefore no less than
-// rho U / h of the free stream.
+// A cell enclosed by tight cloth has hardly any flux, so that A nearly vanishes and any error of the pressure would
+// cause large velocities. Next to a sheet A is therefore no less than rho U / h of the free stream.
 #include <cmath>
 
 #include "ripstop/flow/cartesian/row_parts.h"
@@ -30,7 +29,7 @@ namespace {
           (in.a + mu.a * m.z.distance_high) * m.z.inverse_width};
 }
 
-// What A is no less than: rho U / h in a cell beside a sheet, else 0.
+// Lower limit of A: rho U / h in a cell next to a sheet, else 0.
 [[gnu::always_inline]] inline double least_diagonal(const MomentumRow& row, std::ptrdiff_t i) {
   const SheetJumps& s = row.stiffness;
   const double faces = s.x[i] + s.x[i + 1] + s.y[i] + s.y_high[i] + s.z[i] + s.z_high[i];
@@ -39,7 +38,7 @@ namespace {
   return faces > 0 ? row.inertia * least_width : 0;
 }
 
-// What the explicit stress of component `c` pushes cell i [N/m3].
+// Force of the explicit stress of component `c` on cell i [N/m3].
 [[gnu::always_inline]] inline double stress_divergence(const MomentumRow& row, std::ptrdiff_t c,
                                                        std::ptrdiff_t i) {
   const RowMetrics& m = row.m;
@@ -49,8 +48,7 @@ namespace {
          m.z.slope_high * (row.tz_above[i + c] - tz[0]) + m.z.slope_low * (tz[0] - row.tz_below[i + c]);
 }
 
-// Of the matrix as it is relaxed for the face flux: diagonal `a`, of which `off` are the neighbours' and
-// `whole` is what it has unrelaxed.
+// Relaxed matrix for the face flux: diagonal `a`, its part `off` of the neighbours, and its unrelaxed value `whole`.
 [[gnu::always_inline]] inline ResidualSum residual(double a, double off, double whole, double neighbours,
                                                    double b, double old, double mean_of_box) {
   const double mean = a - off, back = a - whole;
@@ -60,7 +58,7 @@ namespace {
 
 template <bool with_sheet>
 [[gnu::always_inline]] inline void momentum(MomentumRow& results) {
-  const MomentumRow row = results;  // a copy: what the loop writes cannot be thought to change it
+  const MomentumRow row = results;  // a copy, so that the compiler sees that the loop does not change it
   const RowMetrics& m = row.m;
   const double inverse_alpha = 1 / row.relaxation, inverse_march = 1 / row.march_relaxation;
   double res_u = 0, res_v = 0, res_w = 0, scale_u = 0, scale_v = 0, scale_w = 0;

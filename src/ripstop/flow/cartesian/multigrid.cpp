@@ -12,7 +12,7 @@ constexpr int coarsest_cells = 32;   // below that, smoothing alone
 constexpr int coarsest_sweeps = 12;  // red-black sweeps there
 constexpr int serial_cells = 6000;   // a level this small is cheaper on one thread than its barriers
 
-// Joins cells in pairs and says how to interpolate back.
+// Joins cells in pairs and determines the interpolation back.
 Axis join(const Axis& fine, MultigridLevel::Joint& joint) {
   const bool halve = fine.n > 3;
   std::vector<double> edges;
@@ -112,9 +112,9 @@ void prolong_planes(MultigridLevel& fine, MultigridLevel& coarse, IndexRange pla
   }
 }
 
-// Conductance of a coarse face. Along each fine line through it the path from centre to centre crosses the
-// face itself and half of what lies inside either coarse cell, in series; the lines are in parallel. A thin
-// wall is so kept wherever it lies between the coarse faces.
+// Conductance of a coarse face. Along each fine line through it the path from centre to centre crosses the face
+// itself and half of the faces inside either coarse cell, in series; the lines are in parallel. A thin wall is thus
+// preserved at any position between the coarse faces.
 void coarsen_planes(const MultigridLevel& fine, MultigridLevel& coarse, IndexRange planes) {
   const Layout &lay = coarse.layout, &from = fine.layout;
   const MultigridLevel::Joint &y = coarse.y, &z = coarse.z;

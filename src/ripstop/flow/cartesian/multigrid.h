@@ -52,11 +52,10 @@ class Multigrid {
 
  private:
   void coarsen(ThreadTeam& team, int rank);
-  /// `from_zero`: the level's e counts as zero, whatever it holds.
+  /// `from_zero`: the level's e is taken as zero, independent of its content.
   void cycle(std::size_t level, bool from_zero, ThreadTeam* team, int rank);
-  /// Parts of solve_conjugate(), on the finest level; every rank calls them.
-  /// Sums of what of_row(j, k, index of cell 0 of the row) returns, plane by plane in the order of the planes; every rank
-  /// gets them.
+  /// Parts of solve_conjugate(), on the finest level; every rank calls them. Sums of the results of of_row(j, k,
+  /// index of cell 0 of the row), plane by plane in the order of the planes; every rank gets them.
   using Sums = std::array<double, 3>;
   template <class Row>
   Sums sum_of_rows(ThreadTeam& team, int rank, const Row& of_row);

@@ -18,7 +18,7 @@ void first_smooth_row(const MultigridRow& row, int parity);
 /// sum[i] += rhs - A e
 void residual_row(const MultigridRow& row, float* sum);
 /// Of the conjugate gradients: image = A e with the row's e, and the sums e image, e rhs and rhs rhs; sum a b;
-/// a = b + factor a; a step along a direction, and what is left of rhs rhs.
+/// a = b + factor a; a step along a direction, and the remaining rhs rhs.
 struct ImageSums {
   double curvature, descent, square;
 };

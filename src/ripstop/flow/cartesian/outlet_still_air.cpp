@@ -9,7 +9,7 @@ class StillAir final : public OutletBoundary {
  public:
   bool carries_back() const override { return true; }
 
-  // Half of the way to what the present flux asks for.
+  // Half of the distance to the value required by the present flux.
   void pressure(int n, const double* flux, const double* rho, double* p) const override {
     for (int i = 0; i < n; ++i) {
       const double total = flux[i] < 0 ? -0.5 * flux[i] * flux[i] / rho[i] : 0;

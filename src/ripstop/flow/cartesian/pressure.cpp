@@ -2,14 +2,14 @@
 //
 //   F = (rho H/A)_f - (rho/A)_f dp/dn - (rho C)_f d(dp)/dn,
 //
-// with linear interpolation to the faces, must add up to zero in each cell. The first two terms are those of
-// SIMPLE as OpenFOAM has it, A including the resistance R and relaxed with 0.7; the correction dp acts
-// through C = 1 / (A - sum a_nb) instead, which takes the neighbours' corrections as equal (SIMPLEC, Van
-// Doormaal and Raithby 1984) and needs no relaxation. Where dp = 0, the answer, C has no part in it.
+// with linear interpolation to the faces, must add up to zero in each cell. The first two terms are those of SIMPLE
+// in OpenFOAM, A including the resistance R and relaxed with 0.7; the correction dp acts through C = 1 / (A - sum
+// a_nb) instead, which takes the neighbours' corrections as equal (SIMPLEC, Van Doormaal and Raithby 1984) and needs
+// no relaxation. At the solution dp = 0, so C has no influence on it.
 //
-// A face that a sheet parts has a jump J beside the pressure difference: the one that the pressure already
-// stands against, and a correction J' = (J0 - J) + S (F - F0) / rho_f to the law, linear about the last
-// iteration, that goes with dp. Solved for F, all terms are divided by 1 + C S / rho_f.
+// A face covered by a sheet has a jump J in addition to the pressure difference: the one that balances the present
+// pressure, and a correction J' = (J0 - J) + S (F - F0) / rho_f to the law, linear about the last iteration, that
+// belongs to dp. Solved for F, all terms are divided by 1 + C S / rho_f.
 #include <cmath>
 
 #include "ripstop/flow/cartesian/row_parts.h"
@@ -65,7 +65,7 @@ template <bool uniform>
   return {p[0] - p[-1], p[1] - p[0], p[0] - p[-sy], p[sy] - p[0], p[0] - p[-sz], row.p_above[i] - p[0]};
 }
 
-// What a sheet on one face leaves of its flux, and its share of the conductances, see the header.
+// Factor of the flux of one face with a sheet, and its share of the conductances, see the header.
 struct Held {
   double flux, share;
 };
@@ -75,7 +75,7 @@ struct Held {
   return {share * (flux - conductance * excess + t * old), share};
 }
 
-// The fluxes f of the faces and their conductances g and c beside a sheet.
+// The fluxes f of the faces and their conductances g and c next to a sheet.
 template <bool uniform>
 [[gnu::always_inline]] inline void hold_faces(const PressureRow& row, std::ptrdiff_t i, Faces& f, Faces& g,
                                               Faces& c) {
@@ -111,7 +111,7 @@ template <bool uniform>
 
 template <bool with_sheet, bool uniform>
 [[gnu::always_inline]] inline void pressure(PressureRow& results) {
-  PressureRow row = results;  // a copy: what the loop writes cannot be thought to change it
+  PressureRow row = results;  // a copy, so that the compiler sees that the loop does not change it
   RowMetrics& m = row.m;
   if (row.outlet) m.z.weight_high = 1;  // its faces take the cell's values
   const double area_x = row.y_width * row.z_width, held_at = row.outlet ? row.mean_p : 0;
@@ -150,7 +150,7 @@ template <bool with_sheet, bool uniform>
   results.sum = {res, scale};
 }
 
-// F from its two parts without a sheet, and what it becomes with one.
+// F from its two parts without a sheet, and its value with one.
 [[gnu::always_inline]] inline double held_flux(double free, double conductance, double stiffness,
                                                double excess, double density, double old) {
   const double t = conductance * stiffness / density;
@@ -227,7 +227,7 @@ template <bool with_sheet, bool uniform>
 
 template <bool with_sheet>
 [[gnu::always_inline]] inline void velocity(VelocityRow& results) {
-  const VelocityRow row = results;  // a copy: what the loop writes cannot be thought to change it
+  const VelocityRow row = results;  // a copy, so that the compiler sees that the loop does not change it
   const RowMetrics& m = row.m;
   double total_u = 0, total_v = 0, total_w = 0, total_p = 0;
 #pragma omp simd reduction(+ : total_u, total_v, total_w, total_p)

@@ -1,9 +1,9 @@
-// What a cell's momentum changes by: what passes its faces by convection and stress. Each face is taken once
-// and for both of its cells, so that momentum is kept to rounding.
+// Rate of change of the momentum of a cell: fluxes through its faces by convection and stress. Each face is computed
+// once for both of its cells, so that momentum is conserved to rounding.
 //
-// The value that a face carries is three quarters the linear one and one quarter that of a line through the
-// two cells upstream ("LUST", Weller 2012): second order, with as much dissipation as keeps the shortest waves
-// from ringing. Beside the ends of the box the upstream quarter is the upstream cell's value.
+// The value that a face carries is three quarters the linear one and one quarter that of a line through the two cells
+// upstream ("LUST", Weller 2012): second order, with enough dissipation to suppress oscillations of the shortest
+// waves. Next to the ends of the box the upstream quarter is the value of the upstream cell.
 #include <cmath>
 
 #include "ripstop/flow/cartesian/row_parts.h"
@@ -28,7 +28,7 @@ constexpr double from_upstream = 0.25, linear = 1 - from_upstream;
 // `of(i)` gives the weights of face i.
 template <class Weights>
 [[gnu::always_inline]] inline void passing(const PassingRow& results, const Weights& of) {
-  const PassingRow row = results;  // a copy: what the loop writes cannot be thought to change it
+  const PassingRow row = results;  // a copy, so that the compiler sees that the loop does not change it
   const std::ptrdiff_t step = row.step, low2 = row.far_low, high2 = row.far_high;
   const std::ptrdiff_t second = row.component, third = 2 * row.component;
 #pragma omp simd
@@ -105,7 +105,7 @@ namespace {
 
 template <bool uniform>
 [[gnu::always_inline]] inline void rates(RateRow& results) {
-  const RateRow row = results;  // a copy: what the loop writes cannot be thought to change it
+  const RateRow row = results;  // a copy, so that the compiler sees that the loop does not change it
   const RowMetrics& m = row.m;
   const double y = m.y.inverse_width, z = m.z.inverse_width, now = row.now, before = row.before;
 #pragma omp simd

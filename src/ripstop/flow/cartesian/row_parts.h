@@ -1,8 +1,8 @@
-// What the row kernels are made of: gradients in a cell, and values on its six faces.
+// Parts of the row kernels: gradients in a cell, and values on its six faces.
 //
-// Always inlined, so that they are compiled for the level of the kernel that calls them, see simd.h. What they
-// return is kept in variables that are neither const nor copied: of others g++ 12 makes memory, and of the
-// loop no vectors.
+// Always inlined, so that they are compiled for the level of the kernel that calls them, see simd.h. Their results
+// are kept in variables that are neither const nor copied: others are stored in memory by g++ 12, which prevents
+// vectorisation of the loop.
 #pragma once
 
 #include "ripstop/flow/cartesian/rows.h"
@@ -33,7 +33,7 @@ template <class Number>
           m.z.slope_high * (at(m.sz) - here) + m.z.slope_low * (here - at(-m.sz))};
 }
 
-/// To the gradient of a quantity what its jumps at the faces of cell i add.
+/// Adds the contribution of the jumps at the faces of cell i to the gradient of a quantity.
 [[gnu::always_inline]] inline void add_jumps(const RowMetrics& m, const SheetJumps& jump, std::ptrdiff_t i,
                                              Gradient& g) {
   g.x += m.x_slope_high[i] * jump.x[i + 1] + m.x_slope_low[i] * jump.x[i];

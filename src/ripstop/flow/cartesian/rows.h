@@ -21,7 +21,7 @@ struct CrossMetrics {
 };
 CrossMetrics cross_metrics(const Axis& axis, int c);
 
-/// What every kernel needs of the grid.
+/// Grid data of every kernel.
 struct RowMetrics {
   int n = 0;
   std::ptrdiff_t sy = 0, sz = 0;
@@ -44,7 +44,7 @@ struct TurbulenceRow {
   double mean_k = 0, mean_omega = 0;
   const double *u = nullptr, *v = nullptr, *w = nullptr;
   const double *k = nullptr, *omega = nullptr, *rho = nullptr;
-  const double *k_below = nullptr, *k_above = nullptr;          // what convection and diffusion see
+  const double *k_below = nullptr, *k_above = nullptr;          // for convection and diffusion
   const double *omega_below = nullptr, *omega_above = nullptr;  // across the z faces
   const double *k_south = nullptr, *k_north = nullptr, *omega_south = nullptr,
                *omega_north = nullptr;  // and y
@@ -90,7 +90,7 @@ struct ConvectionRow {
   std::ptrdiff_t south2 = 0, north2 = 0, below2 = 0, above2 = 0;  // to the second neighbours, 0 where none is
   const double *fx = nullptr, *fy = nullptr, *fz = nullptr;
   const double* q = nullptr;
-  double* source = nullptr;  // what the second order adds to the right-hand side
+  double* source = nullptr;  // second-order part of the right-hand side
 };
 void convection_row(const ConvectionRow& row);
 
@@ -112,7 +112,7 @@ struct MomentumRow {
   const double* quadratic = nullptr;                                        // f / 2 [1/m]
   const double *extra_u = nullptr, *extra_v = nullptr, *extra_w = nullptr;  // of ConvectionRow
   SheetJumps sheet, stiffness;
-  double inertia = 0;  // rho U; over the least width, least A beside a sheet [kg/(m2 s)]
+  double inertia = 0;  // rho U; over the least width, least A next to a sheet [kg/(m2 s)]
   // Results: H/A, 1/A and the predicted velocity.
   double *hu = nullptr, *hv = nullptr, *hw = nullptr, *ra = nullptr, *rc = nullptr;
   double *u_new = nullptr, *v_new = nullptr, *w_new = nullptr;
@@ -130,7 +130,7 @@ struct PressureRow {
                *p_above = nullptr;
   bool inlet = false;                   // the low z face brings inlet_speed * rho
   const double* inlet_speed = nullptr;  // [m/s]; elsewhere zeros
-  bool outlet = false;                  // the high z face holds the outlet's pressure
+  bool outlet = false;                  // the high z face has the pressure of the outlet
   double mean_p = 0;
   const double *fx = nullptr, *fy = nullptr, *fz = nullptr;  // of the last iteration; with sheets only
   SheetJumps held, excess, stiffness;

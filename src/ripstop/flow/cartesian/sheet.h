@@ -1,8 +1,8 @@
 // Porous cloth as a sheet without thickness: the pressure that drops across it, on the faces that it parts.
 //
-// A face's jump stands wherever the two cells' pressure difference does, in the momentum of the cells, in the
-// flux through the face and in the pressure correction, so that a jump that the pressure takes up leaves no
-// trace in the velocity on either side ("balanced force", Francois et al. 2006).
+// The jump of a face occurs together with the pressure difference of its cells, in the momentum of the cells, in the
+// flux through the face and in the pressure correction, so that a jump balanced by the pressure has no effect on the
+// velocity on either side ("balanced force", Francois et al. 2006).
 #pragma once
 
 #include <vector>
@@ -15,8 +15,8 @@ namespace ripstop::cartesian {
 
 struct State;
 
-/// Dense rows for kernels: what lies on the low faces of a row's cells, zeros where no sheet passes. What the
-/// flow carries of the jumps, `held` and `change`, is in its State, in rows of the same layout.
+/// Dense rows for kernels: data of the low faces of the cells of a row, zeros without a sheet. The jumps in the flow,
+/// `held` and `change`, are in its State, in rows of the same layout.
 class SheetRows {
  public:
   SheetRows() = default;
@@ -32,8 +32,7 @@ class SheetRows {
   /// Where row (j, k) of the faces across `axis` begins, n + 1 values; it has the low faces of its cells. 0:
   /// the row of zeros, not to be written.
   std::size_t offset(int axis, int j, int k) const { return offset_.empty() ? 0 : offset_[axis][row(j, k)]; }
-  /// What the law asks for beyond the jump that is held [Pa], and its slope over the face's
-  /// own velocity [Pa s/m].
+  /// Difference of the law from the present jump [Pa], and its slope over the velocity of the face [Pa s/m].
   const std::vector<double>& excess() const { return excess_; }
   const std::vector<double>& stiffness() const { return stiffness_; }
 
@@ -50,7 +49,7 @@ class SheetRows {
   /// Distance of each cell's centre to the nearest face that a sheet parts [m], no less
   /// than half the least cell.
   Array<double> distance(const Axis& x, const Axis& y, const Axis& z, const Layout& layout) const;
-  /// What the air does to the sheets, face by face.
+  /// Loads of the air on the sheets, face by face.
   std::vector<SheetLoad> loads(const State& state, const Layout& layout) const;
 
  private:
@@ -68,7 +67,7 @@ class SheetRows {
     double apart = 0;   // the centres on its two sides [m]
     double drop = 0, slope = 0;            // by the law at the last update [Pa], [Pa s/m]
     double area = 0;                       // of the face [m2]
-    double spread = 1;                     // its area over that of the sheet it stands for
+    double spread = 1;                     // its area over that of the sheet that it represents
     double cover = 1;                      // the part of it that the sheet covers
     double layer = 1;                      // its part of the face's drop
     bool lowest = false, highest = false;  // of the layers that part the same two centres

@@ -18,9 +18,9 @@ namespace {
 
 constexpr int lines = 5;  // a cell and direction; odd, so that one goes through the centre
 constexpr int centre_line = lines / 2;
-constexpr int finer = 3;         // points beside a hem for each line and direction
+constexpr int finer = 3;         // points at a free edge for each line and direction
 constexpr double reach = 1.5;    // cells: hits of neighbouring lines that belong to one crossing ...
-constexpr double longest = 6.0;  // ... and what is added at most where the sheet is slanted
+constexpr double longest = 6.0;  // ... and the largest addition where the sheet is slanted
 
 /// In cells. On which side of the sheet a cell's centre lies is decided with the sheet moved by this much. Where the
 /// centre is on the sheet to rounding, the lines along x, y and z through it would otherwise disagree, and air would
@@ -35,7 +35,7 @@ Point point_of(Vec3 v) {
   return {v.x, v.y, v.z};
 }
 
-/// Cell of an axis that holds x; -1 or n outside.
+/// Cell of an axis that contains x; -1 or n outside.
 int cell_at(const Axis& axis, double x) {
   if (x < axis.edge.front()) return -1;
   return static_cast<int>(std::upper_bound(axis.edge.begin(), axis.edge.end(), x) - axis.edge.begin()) - 1;
@@ -69,7 +69,7 @@ bool ended(Vec3 point, const std::vector<Hem>& hems) {
   return ended;
 }
 
-/// The hems, and what lies within two cells of them.
+/// The free edges, and the cells within two cells of them.
 class NearHem {
  public:
   NearHem(const std::array<const Axis*, 3>& axes, const std::vector<Triangle>& surface)
@@ -272,7 +272,7 @@ class Columns {
     return axes_[axis_]->width[std::clamp(cell_at(*axes_[axis_], at), 0, axes_[axis_]->n - 1)];
   }
 
-  /// Of the sheet that one line stands for, what goes to faces of this axis [m2].
+  /// Area of the sheet of one line that belongs to faces of this axis [m2].
   double share(const Hit& h, int cu, int cv) const {
     return std::abs(point_of(unit_normal(surface_[h.triangle]))[axis_]) * axes_[u_]->width[cu] *
            axes_[v_]->width[cv] / (lines * lines);
@@ -313,7 +313,8 @@ class Columns {
       if (face) face->hem = h.hem;
     }
     const std::size_t last = result.size();
-    std::vector<Vec3> normals(last - first), turned(last - first);  // of all that a face stands for, by area
+    std::vector<Vec3> normals(last - first),
+        turned(last - first);        // of everything that a face represents, by area
     std::vector<const Hit*> beside;  // near a hem, lines that meet the sheet where the central one does not
     std::vector<std::bitset<lines * lines>> met(last - first);
     for (const Hit& h : hits) {
@@ -352,7 +353,7 @@ class Columns {
     hem_faces(beside, cu, cv, result, left_over);
   }
 
-  /// Faces that the sheet covers in part, from lines that stand in the order of where they meet it.
+  /// Faces that the sheet covers in part, from lines in the order of their intersections.
   void hem_faces(const std::vector<const Hit*>& beside, int cu, int cv, std::vector<SheetFace>& result,
                  std::vector<Share>& left_over) const {
     for (std::size_t begin = 0; begin < beside.size();) {
@@ -406,8 +407,8 @@ class Columns {
     double share = 0;
     bool at_centre = false;  // on the central line the sheet has ended, and not bent out of the column
   };
-  /// What the sheet leaves open of a face. Where a line does not meet it and it has not ended, it has bent out of the
-  /// column: there it goes on beside the face, and nothing is open. `at`: a point of the sheet in the column.
+  /// Open part of a face. Where a line does not intersect the sheet and the sheet has not ended, it has bent out of
+  /// the column and continues next to the face, and nothing is open. `at`: a point of the sheet in the column.
   Opening opening(const SheetFace& face, const Point& at, const std::bitset<lines * lines>& met, int cu,
                   int cv) const {
     Opening open;
@@ -432,7 +433,7 @@ class Columns {
     const std::bitset<lines* lines> missed = past & ~met;
     open.at_centre = missed[centre_line * (lines + 1)];
     if (missed.none()) return open;
-    // A hem along the grid would pass the lines row by row: about it what is open is looked for more finely.
+    // A free edge along the grid would cross the lines row by row: the open part next to it is sampled more finely.
     int points = 0;
     for (int line = 0; line < lines * lines; ++line) {
       if (met[line] && past[line]) continue;
@@ -472,8 +473,8 @@ std::vector<SheetFace> sheet_faces(const Axis& x, const Axis& y, const Axis& z,
   std::vector<Share> left_over;
   for (int axis = 0; axis < 3; ++axis) Columns(axis, axes, surface, hem).faces(result, left_over);
 
-  // What is left, where the sheet runs nearly along an axis, goes to the squarest face
-  // of the cell it lies in.
+  // The rest, where the sheet is nearly parallel to an axis, is assigned to the face of its cell that is most
+  // nearly normal to it.
   std::map<std::array<int, 3>, std::vector<std::size_t>> of_cell;
   for (std::size_t n = 0; n < result.size(); ++n) {
     const SheetFace& f = result[n];

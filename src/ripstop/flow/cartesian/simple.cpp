@@ -11,8 +11,8 @@
 namespace ripstop::cartesian {
 namespace {
 
-/// Half steps after a start beside a sheet: a pressure from elsewhere does not yet stand against the cloth,
-/// and would throw the air about.
+/// Half steps after a start with a sheet: the initial pressure does not yet balance the drop of the cloth,
+/// and full steps would disturb the flow.
 constexpr int eased_iterations = 30;
 
 Boundaries boundaries_of(const FlowProblem& problem, const Discretisation& d) {
@@ -66,7 +66,7 @@ void Solver::start_uniform() {
   fill(f.u, stream.velocity.x), fill(f.v, stream.velocity.y), fill(f.p, 0), fill(f.rho, d_.air.density);
   fill(f.k, stream.k), fill(f.omega, stream.omega);
   fill(f.fx, d_.air.density * stream.velocity.x), fill(f.fy, d_.air.density * stream.velocity.y);
-  const std::size_t plane = b_.inlet.w.size();  // what comes in, through the whole box
+  const std::size_t plane = b_.inlet.w.size();  // inflow through the whole box
   for (std::size_t at = 0; at < f.w.size(); ++at) {
     f.w[at] = b_.inlet.w[at % plane];
     f.fz[at] = d_.air.density * f.w[at];
@@ -139,7 +139,7 @@ void Solver::take_new_turbulence() {
   std::swap(s_.f.k, t_.new_k), std::swap(s_.f.omega, t_.new_omega), std::swap(s_.limit, t_.new_limit);
 }
 
-// What the sums say, and what the next iteration needs of them.
+// Evaluates the sums, and prepares the next iteration.
 FlowProgress Solver::close_iteration() {
   const Sums& sum = t_.sums.total();
   const double per_volume = 1 / (d_.grid.size.x * d_.grid.size.y * d_.grid.size.z);

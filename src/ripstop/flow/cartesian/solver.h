@@ -18,7 +18,7 @@
 
 namespace ripstop::cartesian {
 
-/// What stands in the air's way, or drives it.
+/// Bodies and forces in the flow.
 struct Obstacles {
   PorousRows porous;
   SheetRows sheets;
@@ -26,8 +26,8 @@ struct Obstacles {
   Array<double> body_u, body_v, body_w;  // force on the air [N/m3]; empty: none
 };
 
-/// What the march passes from plane to plane of a block: rings of planes that hold the block's rows and two
-/// more on each side.
+/// Data that the march passes from plane to plane of a block: rings of planes with the rows of the block and
+/// two more on each side.
 struct MarchRings {
   explicit MarchRings(std::size_t plane);
   std::ptrdiff_t at(const Layout& layout, int j, int first_row) const {
@@ -39,13 +39,13 @@ struct MarchRings {
   Array<double> scratch;
 };
 
-/// What an iteration makes and the next one does not see.
+/// Data of one iteration that the next one does not use.
 struct Scratch {
   Scratch(const Discretisation& d, int threads);
 
   Array<double> zeros, density;      // rows; the latter in time, where there is one density
   Array<double> hu, hv, hw, ra, rc;  // H / (A + R) [m/s], 1 / (A + R) [m3 s/kg]
-  double all_inverse = 0;            // what all of ra and rc are; 0: each has its own
+  double all_inverse = 0;            // common value of all ra and rc; 0: each has its own
   Array<double> new_k, new_omega, new_limit;
   Array<double> extra_u, extra_v, extra_w;  // force on the air and second-order convection; empty: upwind
   std::vector<MarchRings> rings;            // one a thread
@@ -67,19 +67,19 @@ class Solver {
   void start_uniform();
   /// Fields interpolated from a coarser grid of the same box, with the same air.
   void start_from(const Solver& coarse);
-  /// The cloth has moved; the air goes on.
+  /// The cloth has moved; the flow continues.
   void place(PorousRows porous, const std::vector<FlowBody>& bodies);
   /// One SIMPLE iteration; the residuals are those of the fields it started from.
   FlowProgress iterate();
-  /// What the first step in time needs: room for the rates, air of one density.
+  /// Preparation of the first step in time: memory for the rates, air of one density.
   void begin_time();
   /// The undisturbed stream at the end of the next step, where it changes [m/s], [m/s2].
   void stream(Vec3 velocity, Vec3 acceleration);
   /// The same, into the inlet.
   void let_stream_in();
-  /// What a Courant number allows [s].
+  /// Step for a Courant number [s].
   double longest_step(double courant_number);
-  /// Of that, what keeps steps alike [s].
+  /// The same, chosen such that steps remain equal [s].
   double next_step(double courant_number);
   /// One step in time [s].
   FlowStep step(double length);
@@ -90,7 +90,7 @@ class Solver {
   FlowField field() const;
   /// `loads`: FlowField::bodies.
   void add_to(FieldMean& mean, std::vector<BodyLoad> loads) const;
-  /// What the air does to these cells; the moment is about a point.
+  /// Loads of the air on these cells; the moment is about a point.
   BodyLoad load_on(const PorousCells& porous, Vec3 about) const;
   std::vector<SheetLoad> sheet_loads() const { return in_the_way_.sheets.loads(s_, d_.layout); }
 
@@ -133,7 +133,9 @@ class Solver {
   void rate(MarchRings& rings, int j, int k, IndexRange rows);
   void courant(int k);
   FlowStep close_step(Vec3 velocity_before, Vec3 held_back);
-  bool northward() const { return s_.iteration % 2 == 0; }  // the way the rows of a plane are walked
+  bool northward() const {
+    return s_.iteration % 2 == 0;
+  }  // direction in which the rows of a plane are visited
   void turbulence(MarchRings& rings, int k, IndexRange rows);
   TurbulenceRow turbulence_of(MarchRings& rings, int j, int k, IndexRange rows);
   void momentum(MarchRings& rings, int k, IndexRange rows);

@@ -1,5 +1,5 @@
-// Second half of an iteration: the pressure equation and what follows from it. The planes are shared among
-// the threads; between the stages all of them meet.
+// Second half of an iteration: the pressure equation and the corrections that follow. The planes are shared
+// among the threads; between the stages all threads synchronise.
 #include <algorithm>
 #include <cmath>
 
@@ -53,8 +53,8 @@ void Solver::pressure(int k, IndexRange rows) {
 
 // Fills the multigrid's correction.
 void Solver::correct(int rank) {
-  // Nothing passes round the sheet, so that coarse levels are halved; or a stream that has only just met a sheet, whose
-  // pressure is not there yet: what a rough answer leaves of it throws the air about.
+  // No flow around the sheet, so that coarse levels are halved; or a stream that has just met a sheet, before its
+  // pressure has developed: the residual of a rough solution would disturb the flow.
   if (in_the_way_.sheets.shut() || s_.eased > 0) {
     multigrid_.solve_conjugate(team_, rank, 0.05, 20);
   } else if (!d_.grid.uniform()) {  // long thin cells, which a cycle alone does not smooth

@@ -1,12 +1,12 @@
 // First half of an iteration: turbulence and momentum.
 //
-// The box is divided along y into blocks of fixed size, and each block is marched plane by plane from the inlet
-// to the outlet: a plane sees the new values of the plane before it, so a change travels with the stream
-// through the whole box in one iteration. In a plane the rows are walked up in one iteration and down in the
-// next, each seeing the new values of the row before it. All other neighbours are old values, read from
-// arrays that nobody writes, so neither the order of the blocks nor the number of threads matters. Momentum
-// runs one plane behind the turbulence; what passes between them stays in a ring of a few planes, in cache.
-// The rows on either side of a block are computed twice, for the stress that its own rows see.
+// The box is divided along y into blocks of fixed size, and each block is marched plane by plane from the inlet to
+// the outlet: a plane sees the new values of the plane before it, so a change travels with the stream through the
+// whole box in one iteration. In a plane the rows are walked up in one iteration and down in the next, each seeing
+// the new values of the row before it. All other neighbours are old values, read from arrays that are not written, so
+// neither the order of the blocks nor the number of threads matters. Momentum runs one plane behind the turbulence;
+// their common data are in a ring of a few planes, in cache. The rows on either side of a block are computed twice,
+// for the stress in its own rows.
 #include <algorithm>
 
 #include "ripstop/flow/cartesian/solver.h"
@@ -58,7 +58,7 @@ void Solver::eddy_viscosity(MarchRings& rings, int k, IndexRange rows) const {
   }
 }
 
-// What the kernel is given of row j of plane k.
+// Input of the kernel for row j of plane k.
 TurbulenceRow Solver::turbulence_of(MarchRings& rings, int j, int k, IndexRange rows) {
   const bool inlet = k == 0 && !b_.open(), outlet = k == d_.grid.nz - 1 && !b_.open();
   const bool first = k == 0, last = k == d_.grid.nz - 1;
@@ -170,7 +170,7 @@ void Solver::velocities_around(MarchRings& rings, int j, int k, IndexRange rows,
   r.w_north = new_north ? north + 2 * component : r.w + sy;
 }
 
-// What the kernel is given of row j of plane k.
+// Input of the kernel for row j of plane k.
 MomentumRow Solver::momentum_of(MarchRings& rings, int j, int k, IndexRange rows) {
   const bool first = k == 0, last = k == d_.grid.nz - 1;
   const std::ptrdiff_t at = d_.layout.at(0, j, k), in = rings.at(d_.layout, j, rows.begin);

@@ -100,7 +100,7 @@ void interpolate(const State& from, const Discretisation& of, State& to, const D
     interpolate_field(q, of.layout, result, on.layout, x, y, planes, cz);
   };
   centres(a.u, b.u), centres(a.v, b.v), centres(a.w, b.w), centres(a.p, b.p);
-  // Density that is constant stays so: no iteration would mend what the interpolation gets wrong where two
+  // A constant density remains constant: no iteration would correct the error of the interpolation where two
   // sides of the box meet.
   if (on.settings.compressible) centres(a.rho, b.rho);
   centres(a.k, b.k), centres(a.omega, b.omega);
@@ -109,7 +109,7 @@ void interpolate(const State& from, const Discretisation& of, State& to, const D
   interpolate_field(a.fz, of.layout, b.fz, on.layout, x, y, faces, ez);
 }
 
-// The same flow at another speed and density, but for what Reynolds and Mach number change.
+// The same flow at another speed and density, except for effects of Reynolds and Mach number.
 void scale(State& s, const Freestream& from, const Freestream& to) {
   const double speed = to.speed() / from.speed(), density = to.density / from.density;
   const double pressure = density * speed * speed, flux = density * speed;

@@ -1,5 +1,4 @@
-// What a flow carries from one iteration to the next, all of it: each_carried()
-// is the one list, which saving walks.
+// Data of a flow between iterations, complete: each_carried() is the one list, used for saving.
 #pragma once
 
 #include <array>
@@ -43,10 +42,10 @@ struct State {
   explicit State(const Layout& layout);
 
   Fields f;
-  Array<double> limit;       // factor of the eddy viscosity beside sheets, else 1
-  Array<double> outlet_p;    // pressure in the outlet's faces, one plane [Pa]
-  Array<double> face_p;      // of a far field on all six faces, at the ghosts [Pa]; else empty
-  std::vector<double> held;  // jump on a face of a sheet that the pressure stands against [Pa], see SheetRows
+  Array<double> limit;         // factor of the eddy viscosity next to sheets, else 1
+  Array<double> outlet_p;      // pressure in the outlet's faces, one plane [Pa]
+  Array<double> face_p;        // of a far field on all six faces, at the ghosts [Pa]; else empty
+  std::vector<double> held;    // jump on a face of a sheet that balances the pressure [Pa], see SheetRows
   std::vector<double> change;  // and by how much it differs after the last iteration [Pa]
   std::vector<double> drop;    // of the pressure across the cloth on each such face [Pa]
   Vec3 force;                  // on porous cells and sheets [N]
@@ -82,7 +81,7 @@ bool fits(const State& a, const State& b);
 void interpolate(const State& from, const Discretisation& of, State& to, const Discretisation& on, int rank,
                  int ranks);
 
-/// The same grid, other air: everything times what it scales with.
+/// The same grid, other air: everything is multiplied by its scale.
 void scale(State& state, const Freestream& from, const Freestream& to);
 
 }  // namespace ripstop::cartesian

@@ -7,8 +7,8 @@
 
 namespace ripstop::cartesian {
 
-/// Viscosity of what the cells do not resolve, by the velocity's gradient, and the part of the stress whose
-/// normal derivative is not that of the component itself.
+/// Viscosity of unresolved eddies from the velocity gradient, and the part of the stress whose normal
+/// derivative is not that of the component itself.
 struct EddyRow {
   RowMetrics m;
   double viscosity = 0;           // mu of the air [Pa s]
@@ -45,7 +45,7 @@ struct PassingRow {
   double *pu = nullptr, *pv = nullptr, *pw = nullptr;  // results
 };
 void passing_row(PassingRow& row);
-/// Through faces in the boundary: what the air brings from whichever side it comes.
+/// Through faces in the boundary: the flux of the air from its upstream side.
 void boundary_passing_row(const PassingRow& row);
 /// And the stress along the normal in a side, 2 mu du_n/dn by the ghosts: `velocity` and `passing` are those of
 /// the axis across it, `mu` of the cells inside.

@@ -1,13 +1,13 @@
-// A step in time. What passes the faces of the cells by convection and stress is extrapolated from this step
-// and the last one (Adams and Bashforth, second order, for steps of unequal length); the pressure and the drop
-// across sheets hold at the end of it:
+// A step in time. The flux through the faces of the cells by convection and stress is extrapolated from this step and
+// the last one (Adams and Bashforth, second order, for steps of unequal length); the pressure and the drop across
+// sheets are those at its end:
 //
 //   rho (u* - u) / dt = (1 + r/2) R(u) - r/2 R(u before) - grad p,     r = dt / dt before,
-//   u = u* - dt/rho grad dp,   p += dp,   such that the fluxes through the faces add up to nothing
+//   u = u* - dt/rho grad dp,   p += dp,   such that the fluxes through the faces add up to zero
 //
 // (van Kan 1986), with the stages of an iteration's pressure (stage_pressure.cpp), whose matrix is rho / dt
 // here. A sheet's law is linear about the drop and flux at the beginning of the step. The density is constant:
-// a canopy flies below Mach 0.3, where an isenthalpic one moves the drag by parts of a thousand.
+// below Mach 0.3 an isenthalpic one changes the drag by parts of a thousand.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -18,12 +18,12 @@ namespace ripstop::cartesian {
 namespace {
 
 constexpr double mixing_constant = 0.325;  // C_w, WALE with the linear schemes of a finite-volume code
-/// The pressure correction of a step is solved to this share of its start. What is left is mass that the next
-/// step finds and takes away.
+/// The pressure correction of a step is solved to this share of its start. The rest is a mass imbalance that
+/// the next step removes.
 constexpr double reduction = 0.05;
 constexpr int most_cycles = 12;
-/// A step is kept while the Courant number is within this share of what was asked for, so that nearly all of
-/// them are alike; a new one lies between.
+/// A step is kept while the Courant number is within this share of the given one, so that nearly all steps
+/// are equal; a new one lies between.
 constexpr double least_share = 0.75, new_share = 0.9;
 constexpr double most_growth = 1.2;  // of a step over the last one
 
@@ -84,7 +84,7 @@ void Solver::begin_time() {
   s_.clock.changing = before.changing, s_.clock.stream = before.stream, s_.clock.gaining = before.gaining;
 }
 
-// The box goes with something that is slowed down: in it all air feels what the stream does.
+// The box moves with a decelerating body: the acceleration of the stream acts on all air in it.
 void Solver::stream(Vec3 velocity, Vec3 acceleration) {
   s_.clock.changing = true;
   s_.clock.stream = velocity, s_.clock.gaining = acceleration;
@@ -128,7 +128,7 @@ FlowStep Solver::step(double length) {
   const double ratio = s_.clock.steps > 0 ? length / s_.clock.step : 0;
   s_.clock.step = length;
   t_.now = 1 + 0.5 * ratio, t_.before = 0.5 * ratio;
-  if (s_.clock.changing) {  // such that what is extrapolated is what the stream gains in this step
+  if (s_.clock.changing) {  // such that the extrapolated rate is the acceleration of the stream in this step
     const auto of_now = [&](double gaining, double pulled) {
       return (gaining + t_.before * pulled) / t_.now;
     };
@@ -203,7 +203,7 @@ void Solver::eddies(MarchRings& rings, int k, IndexRange rows) {
   }
 }
 
-/// What faces of all axes need of row j.
+/// Data of row j for faces of all axes.
 PassingRow Solver::passing_of(MarchRings& rings, int j, int k, IndexRange rows) const {
   const std::ptrdiff_t at = d_.layout.at(0, j, k);
   PassingRow r;
@@ -240,7 +240,7 @@ void Solver::pass_along_stream(MarchRings& rings, int k, IndexRange rows) const 
   }
 }
 
-// Through the faces along x and y of plane k, and what all of them leave in its cells.
+// Fluxes through the faces along x and y of plane k, and the sum in its cells.
 void Solver::pass_in_plane(MarchRings& rings, int k, IndexRange rows) {
   const std::ptrdiff_t sy = d_.layout.stride_y;
   const auto across = [&](int j) {  // the low faces of row j
@@ -316,7 +316,7 @@ void Solver::courant(int k) {
   }
 }
 
-// `held_back`: what the air and the faces where the pressure is held take from the box's momentum in this step.
+// `held_back`: momentum that the air and the faces with fixed pressure take from the box in this step.
 FlowStep Solver::close_step(Vec3 velocity_before, Vec3 held_back) {
   const Sums& sum = t_.sums.total();
   const double volume = d_.grid.size.x * d_.grid.size.y * d_.grid.size.z;

@@ -1,22 +1,22 @@
 // k-omega SST (Menter, Kuntz, Langtry 2003; [NFM] Table 6) far from any wall.
 //
 // The box has no walls, so the wall distance is unbounded and both blending functions vanish: F1 = F2 = 0.
-// What is left is the outer set of constants with the cross-diffusion term, and nu_t = k / omega:
+// The remaining terms are the outer set of constants with the cross-diffusion term, and nu_t = k / omega:
 //
 //   div(F k)     = div((mu + s_k mu_t) grad k)     + rho min(nu_t S, c1 b* k omega)    - rho b* omega k
 //   div(F omega) = div((mu + s_w mu_t) grad omega) + rho g min(S, c1 b* omega^2)       - rho b omega^2
 //                                                  + 2 rho s_w grad k . grad omega / omega
 //   S = grad U : (grad U + grad U^T) - 2/3 (div U)^2
 //
-// Cloth taken as a sheet counts as a wall for the limiter of the shear stress, nu_t = k / max(omega,
+// A porous sheet is treated as a wall for the limiter of the shear stress, nu_t = k / max(omega,
 // S F2 / a1), with F2 from the distance to the cloth; F1 stays 0. Without it the wake is too short
 // and its pressure too low.
 //
 // Convection is first-order upwind in the bounded form sum F (q_nb - q_P); the sinks are implicit.
 //
-// In time a step is Euler's, with what the faces bring at its beginning; and the sink of k is that of detached-eddy
-// simulation (Strelets 2001), rho b* omega k max(1, L / (C D)) with L = sqrt(k) / (b* omega) and D a cell's largest width.
-// A march begins without the eddies that the cells resolve: k is what L = C D leaves of it.
+// A step in time is Euler's, with the fluxes at its beginning; the sink of k is that of detached-eddy simulation
+// (Strelets 2001), rho b* omega k max(1, L / (C D)) with L = sqrt(k) / (b* omega) and D a cell's largest width. A
+// march begins without the resolved eddies: k is limited by L = C D.
 #include <cmath>
 
 #include "ripstop/flow/cartesian/row_parts.h"
@@ -70,7 +70,7 @@ namespace {
          (v.z + w.y) * (v.z + w.y) - (2.0 / 3) * divergence * divergence;
 }
 
-// What one of the two equations sees of the faces of a cell: inflow and diffusion per viscosity [1/m2], both
+// Face data of one of the two equations for a cell: inflow and diffusion per viscosity [1/m2], both
 // over the cell's width, and the eddy viscosity.
 [[gnu::always_inline]] inline Faces convection(const TurbulenceRow& row, std::ptrdiff_t i) {
   const RowMetrics& m = row.m;
@@ -169,7 +169,7 @@ template <bool in_time>
 
 template <bool with_wall, bool in_time>
 [[gnu::always_inline]] inline void turbulence(TurbulenceRow& results) {
-  const TurbulenceRow row = results;  // a copy: what the loop writes cannot be thought to change it
+  const TurbulenceRow row = results;  // a copy, so that the compiler sees that the loop does not change it
   const RowMetrics& m = row.m;
   const double inverse_alpha = 1 / row.relaxation;
   double res_k = 0, scale_k = 0, res_om = 0, scale_om = 0, total_k = 0, total_om = 0;

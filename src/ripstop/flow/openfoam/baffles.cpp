@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double covered = 0.5;  // of a face, from where on it is closed
-/// Pressure's slope over what passes, over rho U, from where on cloth is tight.
+/// Slope of the pressure over the velocity, relative to rho U, above which cloth is tight.
 constexpr double tight = 0.5;
 /// Laws of loose cloth that differ by less share a patch.
 constexpr double alike = 0.05;
@@ -41,7 +41,7 @@ int axis_of(const Baffle& baffle) {
   return baffle.area.x > 0 ? 0 : baffle.area.y > 0 ? 1 : 2;
 }
 
-/// Sums of a / slant and b / slant^2: the law of all layers for what passes through the face.
+/// Sums of a / slant and b / slant^2: the law of all layers for the velocity through the face.
 std::array<double, 2> law_of(const Baffle& baffle, const std::vector<FlowBody>& bodies) {
   std::array<double, 2> law{};
   for (const Layer& layer : baffle.layers) {
@@ -57,7 +57,7 @@ double velocity(double a, double b, double drop) {
   return 2 * drop / (a + std::sqrt(a * a + 4 * b * std::abs(drop)));
 }
 
-/// Of the pressure over what passes at the stream's dynamic pressure [Pa s/m].
+/// Slope of the pressure over the velocity at the dynamic pressure of the stream [Pa s/m].
 double slope_of(double a, double b, const Freestream& air) {
   return a + 2 * b * velocity(a, b, 0.5 * air.density * air.speed() * air.speed());
 }
@@ -186,7 +186,7 @@ struct Faces {
   }
 };
 
-/// Inner faces in the order of their cells, as OpenFOAM wants them.
+/// Inner faces in the order of their cells, as OpenFOAM requires.
 void add_inner(const FlowGrid& grid, const std::vector<BafflePatch>& patches, Faces& faces) {
   std::unordered_set<long long> parted;
   for (const BafflePatch& patch : patches)

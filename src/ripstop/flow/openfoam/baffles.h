@@ -9,14 +9,14 @@
 
 namespace ripstop::openfoam {
 
-/// Of a sheet, what stands for it in one face of the mesh.
+/// Representation of a sheet in one face of the mesh.
 struct Layer {
   int body = 0, triangle = 0;  // of FlowProblem::bodies
   Vec3 point;                  // on the triangle [m]
   Vec3 outward;                // normal of the sheet there, unit
   bool against = false;        // the sheet's outer side is the low one
-  double area = 0;             // of the sheet that the face stands for, as a load has it [m2]
-  double slant = 1;            // what passes through the face is the sheet's own velocity times this
+  double area = 0;             // of the sheet that the face represents, for its load [m2]
+  double slant = 1;            // the flux through the face is the velocity of the sheet times this
 };
 
 /// A face of the mesh that cloth parts: its low side is a face of cell `low`, its high side one of cell `high`.
@@ -30,16 +30,16 @@ struct Baffle {
 struct BafflePatch {
   std::string name;
   /// Loose cloth: the two patches are one another's other side, and the pressure jumps by linear v + quadratic v |v|
-  /// with v through the face. Tight cloth: walls, with what passes through given on both.
+  /// with v through the face. Tight cloth: walls, with a given velocity through them on both.
   bool loose = false;
   double linear = 0, quadratic = 0;  // [Pa s/m], [Pa s2/m2]; of loose cloth
   std::vector<Baffle> baffles;       // in the order of the patches' faces
 };
 
-/// The faces of the grid whose larger part a sheet covers. Cloth is loose where the slope of the pressure over what
-/// passes is less than half of rho U: OpenFOAM's jump follows the flow of the iteration before, and across denser cloth it does not come
-/// to rest. There what passes follows the pressure. Across a sheet that shuts the whole box the flow is given, and all of
-/// it is loose.
+/// The faces of the grid whose larger part a sheet covers. Cloth is loose where the slope of the pressure over the
+/// velocity is less than half of rho U: OpenFOAM's jump follows the flow of the previous iteration and does not
+/// converge across denser cloth. There the velocity follows the pressure. Across a sheet that closes the whole box
+/// the flow is given, and all of it is loose.
 std::vector<BafflePatch> baffles_of(const FlowProblem& problem);
 
 /// Whether a law is that of loose cloth, in a box that the cloth does not shut.
@@ -47,8 +47,8 @@ bool is_loose(double linear, double quadratic, const Freestream& air);
 /// `across`: the cloth's area across the stream [m2].
 bool shuts(double across, const FlowGrid& grid);
 
-/// The part of the way that what passes a face may go at once towards what the pressure asks for: the pressure before
-/// cloth falls by some 2 rho U for every m/s that passes.
+/// Under-relaxation of the velocity through a face towards the value required by the pressure: the pressure
+/// upstream of cloth decreases by some 2 rho U for every m/s through it.
 double pace(const Baffle& baffle, const FlowProblem& problem);
 
 /// Velocity from low to high at which the pressure drops by `drop` that way [Pa], [m/s].

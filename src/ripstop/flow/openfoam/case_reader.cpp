@@ -38,10 +38,9 @@ struct Resistance {
 
 /// Axial momentum that the air loses between the faces of the box,
 ///   F = -sum_faces (phi U_z + p A_z) + viscous,
-/// with the values that the solver's own scheme has on the faces, so that it equals the porous force
-/// when every cell's momentum balances. The viscous and turbulent normal stress at the inlet is left
-/// out: with mu_t = 10 mu it is some 1e-6 of the dynamic pressure for cells of centimetres.
-/// `density`: of what phi counts.
+/// with the values that the solver's own scheme has on the faces, so that it equals the porous force when every
+/// cell's momentum balances. The viscous and turbulent normal stress at the inlet is neglected: with mu_t = 10 mu it
+/// is some 1e-6 of the dynamic pressure for cells of centimetres. `density`: that of phi.
 double outflow_of_momentum(const MeshPart& part, const FieldData& phi, double density,
                            const FieldData& velocity, const std::vector<double>& gauge,
                            const FlowProblem& problem) {

@@ -13,7 +13,7 @@ namespace ripstop::openfoam {
 
 /// One part of the mesh: the whole of it, or that of one rank.
 struct MeshPart {
-  std::filesystem::path folder;  // holds constant/ and the time folders
+  std::filesystem::path folder;  // contains constant/ and the time folders
   std::vector<int> cells;        // index in the grid of every cell; empty: the same
   std::vector<double> share;     // of the volume of all that lie in that cell of the grid; empty: 1
   std::vector<std::pair<int, int>> stand_ins;  // cells of the grid that none lies in, and the nearest one

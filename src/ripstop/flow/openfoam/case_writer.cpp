@@ -40,7 +40,7 @@ void write_dictionary(const fs::path& path, const std::string& kind, const std::
 
 namespace {
 
-/// The six faces of the box and what a field has on them.
+/// The six faces of the box and the values of a field on them.
 std::string boundary(const std::string& inlet, const std::string& outlet, const std::string& sides) {
   return fmt::format("    inlet {{ {} }}\n    outlet {{ {} }}\n    sides {{ {} }}\n", inlet, outlet, sides);
 }
@@ -131,8 +131,8 @@ mixture
 }}
 )foam";
 
-// Terms of one solver only are listed too (e, rho, limits of p, the two names of the stress): the other never
-// asks for them.
+// Terms of one solver only are listed too (e, rho, limits of p, the two names of the stress): the other
+// ignores them.
 constexpr char kSchemes[] = R"foam(ddtSchemes {{ default steadyState; }}
 gradSchemes {{ default Gauss linear; limited cellLimited Gauss linear 1; }}
 divSchemes

@@ -20,32 +20,32 @@ struct RunControl {
   int iterations = 0;  // at most
 };
 
-/// Throws Error(usage) naming the number that is out of its range, or what only the built-in engine has.
+/// Throws Error(usage) that names the number outside its range, or the feature of the built-in engine.
 void check(const FlowProblem& problem);
 void check_run(int iterations, double residual);
 
 /// Throws Error(io) when not all that was written is in the file.
 void close_written(std::ofstream& out, const std::filesystem::path& path);
 
-/// One of OpenFOAM's files, with its header. Note for writers: a keyword directly before "(" reads as one word, so there
-/// is always a space. Throws Error(io).
+/// One of OpenFOAM's files, with its header. Note for writers: a keyword directly before "(" reads as one word, so
+/// there is always a space. Throws Error(io).
 void write_dictionary(const std::filesystem::path& path, const std::string& kind, const std::string& body,
                       const std::string& format = "ascii");
 
-/// system/ (without controlDict), constant/, and a README that says what the case is and how to run it.
+/// system/ (without controlDict), constant/, and a README that describes the case and how to run it.
 void write_case(const std::filesystem::path& folder, const FlowProblem& problem,
                 const OpenFoamSettings& settings);
-/// Of a field by its name: what the cells have, "nonuniform List<scalar> ...", or what stands on the patches of cloth,
-/// "cloth_low { ... }"; nothing where it has none.
+/// Text of a field by its name: cell values, "nonuniform List<scalar> ...", or values on the patches of
+/// cloth, "cloth_low { ... }"; nothing if there are none.
 using FieldText = std::function<std::string(const std::string& field)>;
-/// The fields in `folder`, a time's: the uniform stream where `cells` says nothing.
+/// The fields in `folder` of a time: the uniform stream where `cells` returns nothing.
 void write_fields(const std::filesystem::path& folder, const FlowProblem& problem, bool incompressible,
                   const FieldText& cells = {}, const FieldText& cloth = {});
 /// system/controlDict. A file named kStopFile in the case folder makes the solver write and end.
 void write_control(const std::filesystem::path& folder, const FlowProblem& problem, bool incompressible,
                    const RunControl& control);
-/// system/fvSolution holds the residual to be reached, constant/porosityProperties the resistances. `corrections`: of the
-/// pressure an iteration, for cells that are not at right angles.
+/// system/fvSolution contains the required residual, constant/porosityProperties the resistances. `corrections`:
+/// non-orthogonal corrections of the pressure per iteration.
 void write_solution(const std::filesystem::path& folder, double residual, int corrections = 0);
 void write_resistance(const std::filesystem::path& folder, const std::vector<FlowBody>& bodies);
 /// cellZones with one zone a list.

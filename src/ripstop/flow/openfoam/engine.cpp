@@ -120,21 +120,21 @@ class OpenFoamFlow final : public Flow {
     return folders;
   }
 
-  /// Mesh and uniform fields, in place of what was there.
+  /// Mesh and uniform fields, replacing earlier ones.
   void prepare() {
     fs::create_directories(folder_);
     clear_case(folder_);
     programs_.need_space(problem_.grid.cells());
     write_case(folder_, problem_, settings_);
     write_fields(folder_ / "0", problem_, settings_.incompressible);
-    write_control(folder_, problem_, settings_.incompressible, {0, 1});  // OpenFOAM's tools ask for one
+    write_control(folder_, problem_, settings_.incompressible, {0, 1});  // required by the tools of OpenFOAM
     write_solution(folder_, problem_.stopping.residual);
     programs_.run_tool("blockMesh");
     if (settings_.ranks > 1) programs_.run_tool("decomposePar");
     mesh_ = read_mesh(folder_, settings_.ranks);
   }
 
-  /// What may change from call to call: porous cells, residual, number of iterations.
+  /// Data that may change from call to call: porous cells, residual, number of iterations.
   void write_problem(int iterations, double residual) {
     write_solution(folder_, residual);
     write_resistance(folder_, problem_.bodies);

@@ -1,4 +1,4 @@
-// Reads back what OpenFOAM wrote: fields and label lists, binary or ASCII.
+// Reads files of OpenFOAM: fields and label lists, binary or ASCII.
 #pragma once
 
 #include <filesystem>
@@ -24,7 +24,7 @@ struct FieldData {
   }
 };
 
-/// Throws Error(io) naming the file when it is missing, cut short, or not what its header says.
+/// Throws Error(io) that names the file when it is missing, incomplete, or inconsistent with its header.
 /// `count`: the number of inner values that must be there (or one uniform value).
 FieldData read_field(const std::filesystem::path& path, int components, std::size_t count);
 /// A polyMesh/owner or cellProcAddressing file.

@@ -230,8 +230,8 @@ int cells_of(const std::vector<int>& owner, const std::vector<int>& neighbour) {
   return last + 1;
 }
 
-/// The grid's cell that each cell of the mesh lies in by the middle of its faces' middles, its part of the volume of all
-/// that lie there, and who stands in where none does.
+/// The grid's cell that each cell of the mesh lies in by the middle of its faces' middles, its part of the volume of
+/// all cells there, and a substitute for grid cells without any.
 void find_cells(const Geometry& geometry, const std::vector<int>& neighbour, const FlowGrid& grid,
                 MeshPart& part) {
   const std::size_t count = static_cast<std::size_t>(cells_of(part.owner, neighbour));
@@ -376,11 +376,11 @@ std::vector<Baffle> baffles_on(int number, const FlowBody& sheet, const MeshPart
   return baffles;
 }
 
-/// Cells that cloth shuts in on all sides, in the creases of folds, have no pressure. Each such pocket gets one of its
-/// faces back, and is part of what lies there.
+/// Cells that cloth encloses on all sides, in the creases of folds, have no pressure. One face of each such pocket is
+/// opened, so that it is part of the flow on that side.
 void open_pockets(const fs::path& mesh) {
   constexpr double large = 0.01;                // of all cells: a closed body is no crease
-  if (!fs::exists(mesh / "faceZones")) return;  // no face on the cloth: told where the faces are counted
+  if (!fs::exists(mesh / "faceZones")) return;  // no face on the cloth: reported where the faces are counted
   std::vector<FaceZone> zones = read_face_zones(mesh / "faceZones");
   const std::vector<int> owner = read_labels(mesh / "owner"), neighbour = read_labels(mesh / "neighbour");
   std::vector<char> cloth(neighbour.size());

@@ -12,9 +12,10 @@
 
 namespace ripstop::openfoam {
 
-/// Makes constant/polyMesh of the case in `folder`, which holds system/blockMeshDict of the grid, with the patches
-/// inlet, outlet, sides and of every sheet clothN_low and clothN_high. `levels`: times that the cells at the cloth are
-/// halved. Without any cloth yet it is the grid. Throws Error(external) that names the tool, and Error(external) where checkMesh finds fault with the mesh.
+/// Makes constant/polyMesh of the case in `folder`, which contains system/blockMeshDict of the grid, with the patches
+/// inlet, outlet, sides and of every sheet clothN_low and clothN_high. `levels`: times that the cells at the cloth
+/// are halved. Without any cloth yet it is the grid. Throws Error(external) that names the tool, and Error(external)
+/// if checkMesh rejects the mesh.
 void make_fitted_mesh(const std::filesystem::path& folder, const FlowProblem& problem, int levels,
                       const Programs& programs);
 
@@ -22,8 +23,9 @@ struct FittedMesh {
   MeshPart part;
   std::vector<BafflePatch> patches;  // one a sheet
 };
-/// What make_fitted_mesh() made. Faces leave out what is finer than they are: each stands for more of the sheet than its
-/// own area, all for all of it. Throws Error(external) where that is much: cells too coarse for the cloth.
+/// The result of make_fitted_mesh(). Faces do not represent details finer than they are: each represents more of the
+/// sheet than its own area, and together all of it. Throws Error(external) if this difference is large: cells too
+/// coarse for the cloth.
 FittedMesh read_fitted_mesh(const std::filesystem::path& folder, const FlowProblem& problem);
 
 }  // namespace ripstop::openfoam

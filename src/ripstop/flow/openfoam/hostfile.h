@@ -10,10 +10,10 @@ namespace ripstop::openfoam {
 
 struct Host {
   std::string name;
-  std::optional<long long> slots;  // ranks that fit; absent: one a core, which only the host knows
+  std::optional<long long> slots;  // ranks that fit; absent: one per core, a number that only the host has
 };
 
-/// Lines "name slots=4 max_slots=8", with comments from a '#' on; `file` stands for it in messages. Throws
+/// Lines "name slots=4 max_slots=8", with comments from a '#' on; `file` is its name in messages. Throws
 /// InputError(usage) naming line, word and range.
 std::vector<Host> parse_hosts(const std::string& text, const std::string& file);
 

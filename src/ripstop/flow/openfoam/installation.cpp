@@ -77,7 +77,7 @@ fs::path program(const Installation& installation, const std::string& name) {
 std::vector<std::pair<std::string, std::string>> environment(const Installation& installation) {
   std::vector<std::pair<std::string, std::string>> added = {
       {"WM_PROJECT_DIR", installation.project.string()}};
-  if (geteuid() == 0) {  // mpirun refuses to run as root, as in containers, unless told twice
+  if (geteuid() == 0) {  // mpirun refuses to run as root, as in containers, without both variables
     added.emplace_back("OMPI_ALLOW_RUN_AS_ROOT", "1");
     added.emplace_back("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1");
   }

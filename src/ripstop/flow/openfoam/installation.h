@@ -26,7 +26,7 @@ Installation find_installation(const std::filesystem::path& program_folder, bool
 /// Path of one of its programs; throws Error(external) with the package's name when it is missing.
 std::filesystem::path program(const Installation& installation, const std::string& name);
 
-/// What its programs need in their environment.
+/// Environment of its programs.
 std::vector<std::pair<std::string, std::string>> environment(const Installation& installation);
 
 }  // namespace ripstop::openfoam

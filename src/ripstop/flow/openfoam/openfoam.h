@@ -21,17 +21,17 @@ struct OpenFoamSettings {
   bool incompressible = false;  // porousSimpleFoam: constant density, no energy; temperature plays no part
 };
 
-/// Throws Error(external) when a program is missing or of another kind than the openfoam.com line, and
-/// Error(usage) when the folder's path is one that OpenFOAM cannot take, or holds files that are not ours.
+/// Throws Error(external) when a program is missing or of another kind than the openfoam.com line, and Error(usage)
+/// when OpenFOAM does not support the path of the folder, or the folder contains other files.
 ///
 /// One flow at a time: they share the folder. Flow::advance() throws Error(diverged) naming the iteration and
 /// the field, and Error(external) when the solver was killed, was late, or ended without its fields.
 ///
-/// When the report returns false the solver is asked to write its fields and end; it may do one or a few
-/// iterations more before it sees the wish. For runs that must repeat exactly, limit the iterations instead.
+/// When the report returns false the solver is asked to write its fields and end; it may do one or a few more
+/// iterations before it sees the request. For runs that must repeat exactly, limit the iterations instead.
 std::unique_ptr<FlowEngine> make_openfoam(const OpenFoamSettings& settings);
 
-/// About how many cells a fitted mesh has on a grid, of which `levels` times those at `cloth_area` [m2] are halved.
+/// Approximate number of cells of a fitted mesh on a grid, with the cells at `cloth_area` [m2] halved `levels` times.
 double fitted_cells(const FlowGrid& grid, double cloth_area, int levels);
 
 }  // namespace ripstop

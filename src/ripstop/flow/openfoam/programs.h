@@ -13,7 +13,7 @@
 
 namespace ripstop::openfoam {
 
-/// Removes what OpenFOAM and we have written; only for a folder that is ours.
+/// Removes the files of OpenFOAM and of Ripstop; only for a folder of Ripstop.
 void clear_case(const std::filesystem::path& folder);
 
 class Programs {
@@ -28,8 +28,8 @@ class Programs {
   /// Throws Error(io).
   void need_space(double cells) const;
   using Lines = std::function<void(const std::string& line)>;
-  /// One of OpenFOAM's tools, with its arguments; `lines` sees what it prints. Throws Error(external) where it fails,
-  /// with what may help.
+  /// One of OpenFOAM's tools, with its arguments; `lines` receives its output. Throws Error(external) if it
+  /// fails, with a possible remedy.
   void run_tool(const std::string& tool, const std::vector<std::string>& arguments = {},
                 const std::string& help = {}, const Lines& lines = {}) const;
   /// `stopped`: the report wanted no more. Throws Error(diverged) and Error(external) as Flow::advance() does.

@@ -22,7 +22,8 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::string kBegin = "0";  // the folder of the time that a run begins with
-constexpr double small = 1e-3;   // of the stream's speed: a change of what passes that waits
+constexpr double small =
+    1e-3;  // of the stream's speed: a change of the velocity through cloth below which no new run begins
 constexpr const char* cell_fields[] = {"p", "U", "k", "omega"};
 
 int components_of(const std::string& field) {
@@ -38,8 +39,8 @@ Installation with_simple_foam(Installation installation, const OpenFoamSettings&
   return installation;
 }
 
-/// Where the cloth lies elsewhere, or what passes tight cloth has changed, the run begins anew with the cells' values of
-/// the last one, in the folder of time 0; else it goes on.
+/// If the cloth has moved, or the velocity through tight cloth has changed, the run begins anew with the cell values
+/// of the last one, in the folder of time 0; else it continues.
 class SheetFlow final : public Flow {
  public:
   SheetFlow(const FlowProblem& problem, const OpenFoamSettings& settings, const fs::path& folder,
@@ -72,7 +73,8 @@ class SheetFlow final : public Flow {
       });
       now.last = log.progress();
       now.last.iteration += done;
-      now.converged = log.converged() && !has_to_begin_anew();  // what passes has come to rest as well
+      now.converged =
+          log.converged() && !has_to_begin_anew();  // the velocity through cloth has converged as well
       done = now.last.iteration;
     }
     return now;
@@ -100,7 +102,7 @@ class SheetFlow final : public Flow {
     programs_.need_space(fitted_cells(problem_.grid, area, settings_.cloth_levels));
     write_case(folder_, problem_, settings_);
     write_solution(folder_, problem_.stopping.residual, corrections());
-    write_control(folder_, problem_, true, {0, 1});  // OpenFOAM's tools ask for one
+    write_control(folder_, problem_, true, {0, 1});  // required by the tools of OpenFOAM
     untouched_ = true;
     loads_.clear();
     lay_cloth();
@@ -209,7 +211,8 @@ class SheetFlow final : public Flow {
   double drop(const Baffle& baffle, const std::vector<double>& p) const {
     return problem_.air.density * (p[baffle.low] - p[baffle.high]);
   }
-  /// What passes the faces of tight cloth [m/s], all of them, a step closer to what the pressure asks for.
+  /// Velocity through the faces of tight cloth [m/s], all of them, one step closer to the value required by
+  /// the pressure.
   std::vector<double> through_tight(const std::vector<double>& p) const {
     std::vector<double> through;
     for (const BafflePatch& patch : patches_) {
@@ -223,7 +226,7 @@ class SheetFlow final : public Flow {
     return through;
   }
 
-  /// What stands on the patches of the cloth in a field.
+  /// Values of a field on the patches of the cloth.
   std::string on_cloth(const std::string& field) const {
     std::string text;
     for (const BafflePatch& patch : patches_) {
@@ -257,7 +260,7 @@ class SheetFlow final : public Flow {
                        binary_list(through, 3));
   }
 
-  /// The cells' values as time 0, with what passes tight cloth now.
+  /// Cell values as time 0, with the present velocity through tight cloth.
   void begin_anew() {
     const Cells cells = all_values();
     through_ = through_tight(cells.at("p"));
@@ -326,8 +329,8 @@ class SheetFlow final : public Flow {
     find_loads();
   }
 
-  /// Drop on every face of a patch, from low to high [Pa]: the pressure's across tight cloth, the law's for what passes
-  /// loose cloth.
+  /// Drop on every face of a patch, from low to high [Pa]: of the pressure across tight cloth, of the law for
+  /// the velocity through loose cloth.
   std::vector<double> drops(const BafflePatch& patch, const std::vector<double>& p,
                             const FieldData& flux) const {
     std::vector<double> drops;
@@ -388,7 +391,7 @@ class SheetFlow final : public Flow {
   bool untouched_ = true;
   bool goes_on_ = false;          // the fields of time_ are of the mesh as it is
   std::vector<double> through_;   // tight cloth, as OpenFOAM has it [m/s]
-  std::vector<double> pressure_;  // of time_, over the density, where the run goes on [m2/s2]
+  std::vector<double> pressure_;  // of time_, over the density, where the run continues [m2/s2]
   std::vector<SheetLoad> loads_;
 };
 

@@ -10,7 +10,8 @@
 
 namespace ripstop::openfoam {
 
-/// A flow of constant density. It owns `folder`, OpenFOAM's case. Throws Error(usage) for what OpenFOAM has not.
+/// A flow of constant density. It owns `folder`, the case of OpenFOAM. Throws Error(usage) for unsupported
+/// features.
 std::unique_ptr<Flow> start_sheet_flow(const FlowProblem& problem, const OpenFoamSettings& settings,
                                        const std::filesystem::path& folder, const Installation& installation);
 

@@ -1,4 +1,4 @@
-// Follows what the solver prints, a line at a time.
+// Follows the output of the solver, line by line.
 #pragma once
 
 #include <string>

@@ -92,7 +92,7 @@ Basis basis_from(const json& j) {
     if (row->word == sides) basis.sides = {row->word};
   basis.ranks = j.at("ranks");
   basis.second_order = j.at("second_order");
-  basis.incompressible = j.value("incompressible", false);  // before there was a choice it was not said
+  basis.incompressible = j.value("incompressible", false);  // old records without the choice
   basis.fitted_mesh = j.value("fitted_mesh", false);
   basis.cloth_levels = j.value("cloth_levels", 0);
   return basis;
@@ -102,7 +102,8 @@ fs::path part_name(std::size_t part) {
   return fmt::format("part{}", part);
 }
 
-/// What a call writes of its problem (engine.cpp, write_problem), where it lies and where it is saved.
+/// Files of the problem written by a call (engine.cpp, write_problem): their place, and their place in a
+/// saved state.
 std::vector<std::pair<fs::path, fs::path>> problem_files(const CaseFolders& folders, const fs::path& saved) {
   const fs::path zones = "constant/polyMesh/cellZones";
   std::vector<std::pair<fs::path, fs::path>> files;

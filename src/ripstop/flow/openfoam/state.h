@@ -1,4 +1,4 @@
-// The saved state of a flow: its newest fields and what they are of, in a sealed folder.
+// The saved state of a flow: its newest fields and their basis, in a sealed folder.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace ripstop::openfoam {
 
-/// What fields were made for; another basis starts from uniform flow.
+/// Basis of the fields; another basis starts from uniform flow.
 struct Basis {
   FlowGrid grid;
   Freestream air;
@@ -34,7 +34,7 @@ struct CaseFolders {
   bool with_mesh = false;  // one that nothing but the same tools on the same cloth make again
 };
 
-/// Copies folder `time` of every part and what the last call wrote of the problem (cells, resistances, control),
+/// Copies folder `time` of every part and the files of the problem of the last call (cells, resistances, control),
 /// so that a restored case runs by hand as well; flushes it all to the disk and seals the folder. The mesh is not
 /// copied: blockMesh and decomposePar make the same one again.
 void save_state(const std::filesystem::path& folder, const Basis& basis, const CaseFolders& from,

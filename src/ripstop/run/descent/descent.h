@@ -50,8 +50,8 @@ void each_member(T& d, Visit&& visit) {
 }
 std::string to_json(const Descent& descent);
 
-/// With the drag area of the run at every height, in the standard atmosphere; the drag holds payload and parachute.
-/// Throws Error(usage) for a mass that is not above 0 and for heights that the atmosphere has not.
+/// Uses the drag area of the run at every height, in the standard atmosphere; the drag carries payload and
+/// parachute. Throws Error(usage) for a mass that is not above 0 and for heights outside the atmosphere.
 Descent run_descent(const FinishedSteady& run, double payload_mass, const std::vector<double>& heights,
                     double ground = 0);
 

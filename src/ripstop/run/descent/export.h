@@ -1,4 +1,4 @@
-// A steady run as what flight simulators read: `ripstop export`.
+// A steady run in the formats of flight simulators: `ripstop export`.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace ripstop {
 
-/// The parachute of a run in numbers that other programs ask for.
+/// The parachute of a run in the quantities of other programs.
 struct ExportedParachute {
   std::string title, run;
   double drag_area = 0, drag_area_uncertainty = 0;  // [m2]

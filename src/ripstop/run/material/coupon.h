@@ -23,7 +23,7 @@ void each_member(T& point, Visit&& visit) {
 /// result.json of `ripstop coupon`.
 struct CouponResult {
   std::string material;
-  std::optional<std::string> inputs_hash;  // of version, material and what was asked for
+  std::optional<std::string> inputs_hash;  // of version, material and options
   int orientation = 0;                     // [deg]
   CouponMesh coupon;
   CouponPull pull;

@@ -42,7 +42,7 @@ Json to_json(const Estimate& e) {
           {"high", number(e.high)}};
 }
 
-/// Hash of version, campaign with its records, and what else was asked for.
+/// Hash of version, campaign with its records, and the options.
 std::string inputs_of(const Bench& bench, const MaterialFit& fit, const std::string& asked) {
   std::string text = fmt::format("{}\n{}\n{}\n{}\n{}\n", version(), asked, hash_file(bench.file),
                                  bench.degree, bench.zero_offset);

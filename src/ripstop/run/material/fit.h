@@ -14,7 +14,7 @@ namespace ripstop {
 
 struct FitResult {
   Bench bench;
-  MaterialFit fit;                   // with what the coupons changed of the material
+  MaterialFit fit;                   // with the changes of the material by the coupons
   std::optional<CouponFit> coupons;  // of a fabric, where asked for
 };
 
@@ -34,8 +34,8 @@ void write_curves(const std::filesystem::path& folder, const MaterialFit& fit, c
 std::string material_toml(const FitResult& result);
 /// Everything of the fit: result.json.
 std::string to_json(const FitResult& result);
-/// Coupons of `material` beside the records of a bench: result.json of `ripstop coupon --bench`. `asked` is what
-/// was asked for beside both.
+/// Coupons of `material` compared with the records of a campaign: result.json of `ripstop coupon --bench`.
+/// `asked` contains the options.
 std::string coupons_json(const Fabric& material, const Bench& bench, const MaterialFit& fit,
                          const std::string& asked, const std::vector<CouponComparison>& coupons);
 

@@ -44,7 +44,7 @@ std::vector<PlotSeries> computed_series(const std::vector<ProfileRing>& profile)
   return {mean, range};
 }
 
-/// Where a name says where it lies: the band's edges and middle.
+/// For names with a known position: the edges and the middle of the band.
 PlotSeries seen_series(const Photogrammetry& result) {
   std::map<std::string, double> size;
   for (const SeenSize& s : *result.diameters) size[s.name] = s.corrected;

@@ -1,4 +1,4 @@
-// Sizes from camera images beside the computed canopy's, from both to their files.
+// Sizes from camera images compared with the computed canopy, with the files of both.
 #pragma once
 
 #include <filesystem>
@@ -47,7 +47,7 @@ void each_member(T& size, Visit&& visit) {
   visit("computed_m", size.computed);
 }
 
-/// result.json of `ripstop photogrammetry`; what was not given is absent.
+/// result.json of `ripstop photogrammetry`; values that were not given are absent.
 struct Photogrammetry {
   std::string title;
   std::optional<double> camera_distance;   // [m]

@@ -54,7 +54,7 @@ void each_member(T& r, Visit&& visit) {
 }
 std::string to_json(const DampingResult& result);
 
-/// What the case says was measured. Throws Error(usage) when it says nothing.
+/// Measurements of the case. Throws Error(usage) without any.
 DampingTarget damping_target(const Settings& resolved);
 
 /// calibrate_damping() on the case's measured opening, under the pressure of `problem`; `alive` as of open_with().

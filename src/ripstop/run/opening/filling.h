@@ -1,4 +1,4 @@
-// What handbooks say of how a family fills.
+// Handbook data of the filling of a family.
 #pragma once
 
 #include <string>

@@ -18,8 +18,8 @@ inline constexpr double opening_scatter = 0.15;
 /// payload, or a descent rate above the speed).
 std::vector<MethodLoad> handbook_methods(const Settings& resolved);
 
-/// What to say where `computed` [N] lies outside the range of the finite-mass methods of `methods` by more than
-/// opening_scatter; nothing where it does not. `distance` is the computed path to the peak over D0, where it is known.
+/// Warning if `computed` [N] is outside the range of the finite-mass methods of `methods` by more than
+/// opening_scatter; else nothing. `distance` is the computed path to the peak over D0, where it is known.
 std::optional<std::string> handbook_disagreement(double computed, std::optional<double> distance,
                                                  const std::vector<MethodLoad>& methods);
 

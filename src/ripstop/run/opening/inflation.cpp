@@ -21,7 +21,7 @@
 namespace ripstop {
 namespace {
 
-// The first work is so small that its residual says nothing.
+// The first work is so small that its residual is meaningless.
 constexpr double share_of_work_judged = 0.1;
 
 double energy_residual(const std::vector<InflationFrame>& frames) {
@@ -76,7 +76,7 @@ void take_peaks(InflationResult& r, const InflationState& state, const Inflation
   r.peak_load = after.load, r.peak_time = after.time;
 }
 
-/// What rests on a steady load is absent where there is none.
+/// Values that depend on a steady load are absent without one.
 void take_steady_load(InflationResult& r, const LoadSource& source, const Opening& solver,
                       const InflationHistory& history, double start_up) {
   const InflationSettings& settings = solver.problem().settings;

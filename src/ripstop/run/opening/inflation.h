@@ -1,4 +1,4 @@
-// One opening in memory: what `ripstop inflate` does beneath its folder and its terminal.
+// One opening in memory: the computation of `ripstop inflate` without folder and terminal.
 #pragma once
 
 #include <optional>
@@ -23,7 +23,7 @@ struct InflationResult {
   double peak_load = 0, peak_time = 0;     // over every step after the start-up [N], [s]
   std::optional<double> start_up_time;  // of the air, which begins impulsively: until then no peak counts [s]
   std::optional<double> start_up_peak;  // over every step until then [N]
-  std::optional<double> low_pass;       // cutoff [Hz]; absent, as what follows from it: none asked for
+  std::optional<double> low_pass;       // cutoff [Hz]; absent, with its results: none given
   std::optional<double> smooth_peak;    // low-passed [N]
   std::optional<double> smooth_peak_time;  // [s]
   std::optional<double> smooth_overshoot;  // over the steady load
@@ -153,13 +153,13 @@ struct InflationHistory {
   std::vector<AirRow> air;  // a step of the air each; none under a uniform pressure
 };
 
-/// Told of an opening as it goes; what it is not interested in, it leaves out.
+/// Observer of an opening; functions that are not overridden do nothing.
 class InflationObserver {
  public:
   virtual ~InflationObserver() = default;
   virtual void warned(const std::string&) {}
-  /// Before the first block. An observer that knows an earlier state puts it, and its history, in the place
-  /// of the folded start.
+  /// Before the first block. An observer with an earlier state puts it, and its history, in place of the
+  /// folded start.
   virtual void begin(const Opening&, InflationState&, InflationHistory&) {}
   /// After every block, with its rows the last of the history; with `frame` where one ends.
   virtual void advanced(const Opening&, const InflationState&, const InflationHistory&,
@@ -180,7 +180,7 @@ std::vector<std::string> opening_warnings(const Settings& resolved, const Openin
 /// How long cloth and air of an opening will take on one thread, about, at the step that it begins with [s].
 double opening_seconds(const Opening& solver, const InflationState& start);
 
-/// An opening in its own air has the case's flow engine; others are left as they are.
+/// A coupled inflation has the flow engine of the case; others are left unchanged.
 InflationProblem with_engine(const Settings& resolved, InflationProblem problem);
 
 /// The whole opening of the case under the pressure, or in the air, of `problem`. Throws as Opening.

@@ -39,7 +39,7 @@ std::string shape_file(const char* what, long long frame) {
 /// Of the air's state, in turn.
 constexpr const char* air_names[] = {"even", "odd"};
 
-// Nothing goes on from it when the opening is sealed.
+// The run does not resume from it when the opening is sealed.
 void drop_air_checkpoint(const fs::path& folder) {
   remove_path(folder / "air");
 }
@@ -48,7 +48,7 @@ std::string air_file(const Opening& solver, long long frame) {
   return fmt::format("vtk/air_{:04}.{}", frame, solver.problem().air->flow.grid.uniform() ? "vti" : "vtr");
 }
 
-/// Writes every file of the opening before it passes on what it was told.
+/// Writes every file of the opening before it calls the next observer.
 class InflationFolder : public InflationObserver {
  public:
   InflationFolder(ClaimedFolder& folder, const InflationFolderSettings& settings, InflationObserver& next)
@@ -75,7 +75,7 @@ class InflationFolder : public InflationObserver {
                   const InflationResult& result) const;
   void write_shapes(const Opening& solver, const InflationState& state, const std::string& title) const;
 
-  /// What is only of a reefed opening stands at the end of a row.
+  /// Columns of reefed openings are at the end of a row.
   template <class Row>
   std::vector<double> written(const Row& row) const {
     std::vector<double> values = row_of(row);

@@ -20,19 +20,20 @@ struct InflationFolderSettings {
   double checkpoint_every_s = 10;  // of wall time, at the next frame
 };
 
-/// run_inflation() in a folder, from the folded start or from where it was killed. Nothing when the folder
-/// holds the finished run, whose result.json is finished_result(folder). The problem is only asked for when
+/// run_inflation() in a folder, from the folded start or from the state of a killed run. Returns nothing when the
+/// folder contains the finished run, whose result.json is finished_result(folder). The problem is made only when
 /// there is something to compute. Throws as holds_run() and run_inflation() do.
 std::optional<InflationResult> run_inflation_in(const InflationFolderSettings& settings,
                                                 const Settings& resolved, const LoadSource& source,
                                                 const std::function<InflationProblem()>& problem,
                                                 InflationObserver& observer);
 
-/// Throws what run_inflation_in() would throw before it asks for the problem, and touches nothing.
+/// Throws the exceptions of run_inflation_in() before the problem is made, and changes nothing.
 void check_inflation_in(const InflationFolderSettings& settings, const Settings& resolved,
                         const LoadSource& source);
 
-/// load.png: the load over time, and what it is to be looked at beside. `smooth`: low-passed, by row [N]; empty: not.
+/// load.png: the load over time, with the loads for comparison. `smooth`: low-passed, by row [N]; empty:
+/// none.
 Plot load_plot(const std::vector<HistoryRow>& rows, const std::vector<double>& smooth,
                const InflationResult& result);
 

@@ -194,9 +194,9 @@ StageLoads begin_stage(const LoadRequest& request, const LoadResult& r, const Fl
   return stage;
 }
 
-/// Filling distances of stages, Knacke: t_f1 = n D_0 / v ((C_D S)_1 / (C_D S)_0)^(1/2), and for what is added later
-/// the same with the difference of both areas. A stage that is cut before it has filled begins the next one with the
-/// drag area that it has reached.
+/// Filling distances of stages, Knacke: t_f1 = n D_0 / v ((C_D S)_1 / (C_D S)_0)^(1/2), and for the area added later
+/// the same with the difference of both areas. A stage that is cut before it has filled leaves its drag area to the
+/// next one.
 void fly_stages(const LoadRequest& request, LoadResult& r) {
   FlightState state{0, 0, 0, r.height, request.speed, request.path_angle};
   const double open = r.drag_coefficient * r.reference_area, mass = r.payload_mass + r.parachute_mass;

@@ -22,7 +22,7 @@ struct ReefedStage {
   double duration = 0;  // [s]
 };
 
-/// What is asked for; what is absent follows from the case and from what is known of its family.
+/// The request; absent values follow from the case and from data of the family.
 inline constexpr double usual_deployment_height = 1000;  // above the ground [m] (assumed)
 struct LoadRequest {
   double payload_mass = 0;  // [kg]
@@ -30,7 +30,7 @@ struct LoadRequest {
   /// Above sea level there; absent: flow.height_m of the case where that is above the ground, else so far above it [m].
   std::optional<double> height;
   double ground = 0;       // [m]
-  double path_angle = 90;  // of the way there, below the horizon [deg]
+  double path_angle = 90;  // of the flight path at line stretch, below the horizon [deg]
   std::optional<double> drag_coefficient, opening_coefficient, filling_constant, filling_exponent;
   double impulse_integral = 0.5;  // I_F of momentum_impulse_load()
   std::vector<ReefedStage> reefing;
@@ -112,7 +112,7 @@ struct LoadResult {
   double ludtke_exponent = 0;
   std::string drag_source, opening_source, filling_source;
   std::vector<StageLoads> stages;
-  double design_load = 0;                  // what lines and riser are to be designed for [N]
+  double design_load = 0;                  // load for which lines and riser are to be designed [N]
   std::string design_load_from;            // measured, computed or infinite mass
   double line_load_factor = 1;             // largest line load over an equal share, of the family
   std::optional<Margins> margins;          // of lines and riser under the design load
@@ -157,16 +157,17 @@ void each_member(T& r, Visit&& visit) {
 }
 std::string to_json(const LoadResult& result);
 
-/// C_D on the nominal area: that of a `request`, of its steady run, of the case (inflation.drag_coefficient), the middle
-/// of the handbook's range, or what Ripstop has computed for the family. Throws Error(usage) where none is known.
+/// C_D on the nominal area: that of a `request`, of its steady run, of the case (inflation.drag_coefficient), the
+/// middle of the handbook's range, or the value computed by Ripstop for the family. Throws Error(usage) if none is
+/// known.
 struct DragCoefficient {
   double value = 0;
   std::string from;
 };
 DragCoefficient opening_drag_coefficient(const Settings& resolved, const LoadRequest& request);
 
-/// Throws Error(usage) for what is not above 0, a descent rate above the speed of deployment, stages that do not
-/// grow, and what finished_steady() and standard_air() refuse.
+/// Throws Error(usage) for quantities that are not above 0, a descent rate above the deployment speed, stages
+/// that do not grow, and inputs that finished_steady() and standard_air() refuse.
 LoadResult run_load(const Settings& resolved, const LoadRequest& request);
 
 /// result.json, trajectory.csv, force.png and speed.png.

@@ -13,9 +13,9 @@ inline constexpr const char *infinite_mass_method = "infinite mass", *computed_m
 struct MethodLoad {
   std::string method;
   double load = 0;  // [N]
-  double time = 0;  // from the stage's begin [s]; 0: the method does not say
+  double time = 0;  // from the start of the stage [s]; 0: not given by the method
   bool applies = false;
-  std::string note;  // why it does not apply, or what it rests on
+  std::string note;  // why it does not apply, or its assumptions
 };
 template <Of<MethodLoad> T, class Visit>
 void each_member(T& m, Visit&& visit) {

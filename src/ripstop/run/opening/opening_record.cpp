@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What the canopy of an opening flies through: a stream of one speed, or that of a payload which slows down.
+/// Stream of an opening: of constant speed, or that of a payload which decelerates.
 struct Stream {
   struct State {
     double distance = 0, dynamic_pressure = 0;  // [m], [Pa]

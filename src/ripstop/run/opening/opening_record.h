@@ -1,4 +1,4 @@
-// The drag area of a computed opening over the way through the air, for openings behind another mass.
+// The drag area of a computed opening over the distance through the air, for openings with another mass.
 #pragma once
 
 #include <filesystem>
@@ -8,8 +8,8 @@
 
 namespace ripstop {
 
-/// A canopy fills over about the same way through the air whatever the speed: what an opening at one speed says, is
-/// carried over by the way and not by the time.
+/// A canopy fills over about the same distance through the air at any speed. An opening at one speed is
+/// therefore transferred by distance and not by time.
 struct OpeningRecord {
   std::vector<double> distance, drag_area;  // rising [m], [m2]
   double steady_drag_area = 0;              // of its end [m2]

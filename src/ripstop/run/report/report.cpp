@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Points of all frames together that a page of `largest_page` holds: 6 bytes a point and frame, measured.
+// Points of all frames together in a page of `largest_page`: 6 bytes for each point and frame, measured.
 constexpr std::size_t most_points = 1'200'000;
 
 /// "vtk/canopy_0012.vtp" and its lines, in order.
@@ -40,7 +40,7 @@ std::vector<ShapeFiles> shape_files(const fs::path& folder) {
   return files;
 }
 
-/// Of an opening: so many frames, evenly, as a page holds, with their times.
+/// Frames of an opening with their times: evenly spaced, as many as fit into a page.
 std::vector<ShapeFiles> frames_of(const fs::path& folder) {
   std::vector<ShapeFiles> all = shape_files(folder);
   if (all.size() < 2) return all;
@@ -86,7 +86,7 @@ bool is_sweep(const fs::path& folder) {
   return fs::exists(folder / "sweep.json") && fs::exists(folder / "result.json");
 }
 
-/// Refuses to write over what is no report.
+/// Refuses to replace a file that is not a report.
 void check_out(const fs::path& out) {
   if (fs::exists(out) && !(fs::is_regular_file(out) && is_report(read_file(out))))
     throw Error(ExitCode::usage,

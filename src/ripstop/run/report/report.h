@@ -1,5 +1,5 @@
-// From run folders to the report: reads what `steady`, `inflate` and `sweep` left there, computes nothing anew but
-// the bill of materials.
+// From run folders to the report: reads the files of `steady`, `inflate` and `sweep`, and computes only the
+// bill of materials.
 #pragma once
 
 #include <filesystem>
@@ -22,17 +22,17 @@ ReportRun report_of(const std::filesystem::path& folder);
 /// and whole, else Error(usage) or Error(bad_data).
 std::vector<ReportRun> reports_of(const std::filesystem::path& folder);
 
-/// One page of all these runs, compared where there are several. `resolved`:
-/// the case whose measured values stand beside them.
+/// One page of all these runs, compared if there are several. `resolved`: the case whose measured values are
+/// shown with them.
 Report report_on(std::vector<ReportRun> runs, const std::string& title);
 
-/// report.html of a run under way, before its folder is sealed. What went wrong is returned as text: a finished
-/// computation is worth more than its picture. Throws Error(io) only.
+/// report.html of a run, before its folder is sealed. An error is returned as text, because a finished computation
+/// must not fail for its report. Throws Error(io) only.
 std::string write_run_report(ClaimedFolder& folder);
 
-/// report.html of a finished run or sweep in its own folder, of which everything else is checked first and sealed
-/// again; of several, or where `out` is given, at `out`. Returns the path. Throws Error(usage) where `out` is
-/// something else than a report, or a folder holds no finished run, Error(bad_data) for damaged ones, Error(io).
+/// report.html of a finished run or sweep in its own folder, whose other files are checked first and sealed
+/// again; of several, or if `out` is given, at `out`. Returns the path. Throws Error(usage) if `out` is not a report,
+/// or a folder contains no finished run, Error(bad_data) for damaged ones, Error(io).
 std::filesystem::path write_report(const std::vector<std::filesystem::path>& folders,
                                    const std::filesystem::path& out = {});
 

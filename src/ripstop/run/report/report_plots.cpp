@@ -183,7 +183,7 @@ std::vector<ReportPlot> plots_of(const ReportRun& run, const fs::path& folder) {
 std::vector<ReportPlot> comparison_plots(const std::vector<ReportRun>& runs, const Settings& resolved) {
   std::vector<ReportPlot> plots;
   add_drag_over_speed(plots, runs, resolved);
-  // Of each plot the series that stands for it.
+  // The representative series of each plot.
   for (const auto& [id, name] : {std::pair{"forces", "air load"},
                                  {"history", "drag"},
                                  {"profile", "mean over the gores"},

@@ -12,8 +12,8 @@ namespace ripstop {
 /// Those whose tables are there. Throws Error(bad_data) for a table without its columns.
 std::vector<ReportPlot> plots_of(const ReportRun& run, const std::filesystem::path& folder);
 
-/// Drag over speed where speeds differ, with what `resolved` has as measured, and the plots that all runs have, laid
-/// over each other.
+/// Drag over speed if speeds differ, with the measured values of `resolved`, and the plots that all runs
+/// have, in common axes.
 std::vector<ReportPlot> comparison_plots(const std::vector<ReportRun>& runs, const Settings& resolved);
 
 }  // namespace ripstop

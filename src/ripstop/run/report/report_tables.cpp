@@ -44,7 +44,7 @@ bool is_group(const Json& value) {
   return value.is_object() || (value.is_array() && !value.empty() && value.front().is_object());
 }
 
-/// Columns are all keys of all rows; what is a group in a row becomes a table of its own.
+/// Columns are all keys of all rows; a group in a row becomes a separate table.
 ReportTable table_of_rows(const std::string& id, const Json& rows) {
   ReportTable table{id, heading(in_words(id).text), "", {}, {}};
   std::vector<std::string> keys;

@@ -1,4 +1,4 @@
-// What result.json, the case and run.json say, as values and tables of the report.
+// The content of result.json, case.toml and run.json, as values and tables of the report.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Everything about a case that can be said without a solver: `ripstop check`.
+// Properties of a case that need no solver: `ripstop check`.
 #pragma once
 
 #include <string>
@@ -61,7 +61,7 @@ void each_member(T& s, Visit&& visit) {
 struct CheckResult {
   CaseSummary summary;
   std::vector<Source> sources;        // of every key whose value follows from others
-  std::vector<std::string> warnings;  // what is known before a run
+  std::vector<std::string> warnings;  // known before a run
   Settings resolved;
 };
 

@@ -23,7 +23,7 @@ std::string drawing_name(const Piece& piece, const char* ending) {
   return name + ending;
 }
 
-/// What an earlier pattern drew here would be cut with what is drawn now.
+/// Files of an earlier pattern would be cut together with the new ones.
 void remove_earlier_drawings(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "result.json";
   if (!std::filesystem::exists(file)) return;

@@ -1,4 +1,4 @@
-// What to cut for the parachute of a case, and its files.
+// The cutting pattern of the parachute of a case, and its files.
 #pragma once
 
 #include <filesystem>

@@ -23,7 +23,7 @@
 namespace ripstop {
 namespace {
 
-// Of the drag to the weight, relative: what rounding the lengths of the case file leaves.
+// Relative difference of drag and weight that remains from rounding the lengths of the case file.
 constexpr double size_tolerance = 2e-3;
 
 FamilyDrag drag_of(const std::string& family) {
@@ -39,7 +39,7 @@ FamilyDrag drag_of(const std::string& family) {
                           near.empty() ? "" : "did you mean " + near + "? ", fmt::join(names, ", ")));
 }
 
-/// What holds and what pulls at `factor` times the size of the example.
+/// Drag and weight at `factor` times the size of the example.
 struct Balance {
   double drag = 0, weight = 0;  // [N]
   double parachute_mass = 0;    // [kg]
@@ -147,8 +147,8 @@ std::vector<Line> library_lines(const SizeRequest& request) {
   return lines;
 }
 
-/// The lightest of `lines` that holds the design load as `member`, no lighter than `least`; the strongest where none
-/// does. A line that is asked for is the only one.
+/// The lightest of `lines` that carries the design load as `member`, no lighter than `least`; the strongest if none
+/// does. A given line is the only choice.
 const Line& line_for(const SizeResult& r, const std::vector<Line>& lines, const char* member, double least) {
   const Line *best = nullptr, *strongest = nullptr;
   double least_used = 0;

@@ -22,7 +22,7 @@ struct FamilyDrag {
   double drag_coefficient = 0;  // on S0
   std::optional<std::array<double, 2>> handbook;
   double speed = 0, density = 0;  // of that run [m/s], [kg/m3]
-  std::string made;               // by which command, on what
+  std::string made;               // command and machine
 };
 /// Throws Error(io) when the file is missing, Error(bad_data) when it is broken.
 std::vector<FamilyDrag> family_drags();
@@ -67,7 +67,7 @@ struct SizeResult {
   double packed_volume = 0;                                                 // [m3]
   double deployment_speed = 0;                                              // [m/s]
   double opening_load = 0, opening_load_low = 0;  // range of the methods that apply [N]
-  double design_load = 0;                         // what lines, riser and tape are chosen for [N]
+  double design_load = 0;                         // load for the choice of lines, riser and tape [N]
   std::string design_load_from;
   double line_load_factor = 1;     // largest line load over an equal share
   std::optional<Margins> margins;  // of lines and riser under the design load
@@ -123,8 +123,8 @@ void each_member(T& r, Visit&& visit) {
 }
 std::string to_json(const SizeResult& result);
 
-/// The family's example, every length of it in proportion. Throws Error(usage) for a family that is not there, for
-/// what is not above 0, and where no size that a case file can describe descends at the rate.
+/// The example of the family with all lengths in proportion. Throws Error(usage) for an unknown family, for
+/// quantities that are not above 0, and if no size that a case file can describe has the descent rate.
 SizeResult run_size(const SizeRequest& request);
 
 /// Runs the case until its descent rate is the wanted one within `tolerance`, changing the diameter: v goes with

@@ -38,7 +38,7 @@ void visit_lengths(const Fields& fields, const std::string& table, const Each& e
   }
 }
 
-/// What a reader of the file may want to know of a key.
+/// Comments of the file on a key.
 std::string comment_on(const std::string& key, const SizeResult& r) {
   if (key == "nominal_diameter_m")
     return r.handbook_diameter ? fmt::format("{:.2f} to {:.2f} for the handbook range of C_D",

@@ -8,7 +8,8 @@
 namespace ripstop {
 
 enum class Rounded { no, yes };
-/// Every length of the parachute times `factor`, rounded to what is measured; the mesh's own lengths stay.
+/// Every length of the parachute times `factor`, rounded to measurable lengths; lengths of the mesh do not
+/// change.
 void scale_lengths(Design& design, double factor, Rounded round = Rounded::yes);
 
 /// The factors between which every length stays within the range of its key, and the keys and values that bound them.

@@ -29,8 +29,9 @@ std::vector<double> angles_of_text(const std::string& text);
 /// The same rules for a list. Throws Error(usage).
 void check_angles(const std::vector<double>& angles);
 
-/// The case with each angle as flow.angle_of_attack_deg. Throws Error(usage) for a case with an angle of its own, a wind
-/// tunnel, boundaries that a stream at an angle cannot have, cloth as porous cells, or an engine without far field.
+/// The case with each angle as flow.angle_of_attack_deg. Throws Error(usage) for a case with an angle of its own, a
+/// wind tunnel, boundaries that a stream at an angle cannot have, cloth as porous cells, or an engine without far
+/// field.
 std::vector<Settings> stability_cases(const Case& given, const std::vector<double>& angles);
 
 /// The canopy as the flow sees it.
@@ -49,7 +50,7 @@ CanopyMesh restrained_mesh(const Settings& resolved, const SteadyState& state);
 /// canopy and one diameter of its wake at any of the angles. Far field on all six faces, four and a half widths away.
 FlowProblem stability_flow(const Settings& at_angle, const RigidCanopy& canopy, int across, double widest);
 
-/// What coefficients refer to: density, S0 and D0.
+/// Reference quantities of coefficients: density, S0 and D0.
 Reference stability_reference(const Settings& resolved);
 
 /// The numbers of one angle. Coefficients refer to S0 and D0, the moment is about the confluence. A standard error is
@@ -100,8 +101,8 @@ void each_member(T& t, Visit&& visit) {
   visit("certain", t.certain);
 }
 
-/// Trim angles of rows with rising angles: between two rows by linear interpolation of C_m. A row at 0 degrees is a trim
-/// by the symmetry of the canopy, and the next row decides whether it is stable.
+/// Trim angles of rows with rising angles: between two rows by linear interpolation of C_m. A row at 0 degrees is a
+/// trim by the symmetry of the canopy, and the next row decides whether it is stable.
 std::vector<Trim> trims_of(const std::vector<StabilityRow>& rows);
 
 /// result.json of `ripstop stability`.
@@ -141,8 +142,8 @@ std::string to_json(const StabilityResult& result);
 /// velocity changes in the far field and, as in a frame that accelerates, in all of the air.
 void turn_stream(Flow& flow, Vec3 from, Vec3 to, double length, double courant);
 
-/// One angle [degrees] from an averaging window: means of the coefficients of the canopy, which is the first body, without
-/// the start-up.
+/// One angle [degrees] from an averaging window: means of the coefficients of the canopy, which is the first body,
+/// without the start-up.
 StabilityRow row_of_record(const FlowRecord& record, const Freestream& air, double angle,
                            const Reference& reference);
 /// The same from a steady flow.

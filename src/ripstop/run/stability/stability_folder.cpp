@@ -103,7 +103,7 @@ class Curve {
   bool in_time() const { return engine_of(axis_).can.time; }
   bool starts_from_neighbour(std::size_t i) const { return settings_.warm && in_time() && i > 0; }
 
-  /// What a row depends on beside its case: the shape, the cells, and the angles that its flow has been at.
+  /// Inputs of a row in addition to its case: the shape, the cells, and the previous angles of its flow.
   std::string inputs(std::size_t i) const {
     const std::string shape = settings_.steady.empty() ? inputs_hash(axis_, engine_name())
                                                        : inputs_of_run(settings_.steady).value_or("");

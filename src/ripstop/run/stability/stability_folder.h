@@ -37,13 +37,13 @@ class StabilityObserver {
   virtual void ended(std::size_t /*angle*/, const StabilityRow&, bool /*earlier*/) {}
 };
 
-/// Computes what the folder does not hold yet. stability.csv has a row as soon as its angle has ended. Throws
-/// Error(usage) for inputs that no curve can have and for a folder with something else, and what the steady run and the
-/// flow throw; angles that have ended are kept.
+/// Computes the missing rows of the folder. stability.csv has a row as soon as its angle has ended. Throws
+/// Error(usage) for inputs that no curve can have and for a folder with other files, and the exceptions of the steady
+/// run and the flow; finished angles are kept.
 StabilityResult run_stability(const Case& given, const std::vector<double>& angles,
                               const StabilitySettings& settings, StabilityObserver& observer);
 
-/// Throws what run_stability() would throw before it computes, and touches nothing.
+/// Throws the exceptions of run_stability() before it computes, and changes nothing.
 void check_stability(const Case& given, const std::vector<double>& angles, const StabilitySettings& settings);
 
 /// Name of an angle's folder: "angle=10".

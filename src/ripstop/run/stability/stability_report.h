@@ -8,8 +8,8 @@
 
 namespace ripstop {
 
-/// report.html: the coefficients, the trim angles, and the shape of the steady run in the folder `axis`. A failure
-/// is returned as text: a finished computation is worth more than its picture. Throws Error(io) only.
+/// report.html: the coefficients, the trim angles, and the shape of the steady run in the folder `axis`. A failure is
+/// returned as text, because a finished computation must not fail for its report. Throws Error(io) only.
 std::string write_stability_report(ClaimedFolder& folder, const StabilityResult& result,
                                    const std::filesystem::path& axis);
 

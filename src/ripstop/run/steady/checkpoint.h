@@ -1,4 +1,5 @@
-// What a killed run needs to go on: the coupling's state and the flow engine's own, noticed when damaged.
+// State from which a killed run resumes: that of the coupling and that of the flow engine; damage is
+// detected.
 #pragma once
 
 #include <filesystem>
@@ -20,8 +21,7 @@ SteadyState steady_state_from_bytes(const std::string& bytes);
 void save_checkpoint(const std::filesystem::path& folder, const SteadyState& state, const Flow& flow);
 struct LoadedCheckpoint {
   SteadyState state;
-  std::string
-      damage;  // of the newer checkpoint, in whose place this older one stands; empty: this is the newest
+  std::string damage;  // of the newer checkpoint that this older one replaces; empty: this is the newest
 };
 /// The last whole checkpoint, or nothing when there is none. Throws Error(bad_data) when all
 /// there are are damaged.

@@ -1,5 +1,5 @@
-// The nonlinear model beside the linear one, which keeps K_1 alone of every law, and where their
-// difference comes from.
+// The nonlinear model compared with the linear one, which uses only K_1 of every law, and the causes of their
+// difference.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// A steady run that has ended and converged, read back from its folder for what is made of its numbers.
+// A steady run that has ended and converged, read from its folder for further use of its results.
 #pragma once
 
 #include <filesystem>
@@ -8,9 +8,8 @@
 
 namespace ripstop {
 
-/// How well a run knows its own drag, relative: the largest of its last change, the deviation of a flow that was
-/// averaged or the standard error of one that was watched in time, and what the ledger does not close. What the
-/// model does not have is not in it.
+/// Numerical uncertainty of the drag of a run, relative: the largest of its last change, the deviation of an averaged
+/// flow or the standard error of an unsteady one, and the force imbalance. The error of the model is not included.
 double drag_uncertainty(const SteadyIteration& last);
 
 struct FinishedSteady {

@@ -43,7 +43,7 @@ struct ParityRun {
   int iterations = 0;
   double wall_time = 0;  // [s]
   bool converged = false;
-  std::string diverged;  // what the engine said; empty: it did not
+  std::string diverged;  // message of the engine; empty: it did not diverge
 };
 template <Of<ParityRun> T, class Visit>
 void each_member(T& run, Visit&& visit) {
@@ -79,7 +79,7 @@ void each_member(T& row, Visit&& visit) {
   visit("within", row.within);
 }
 
-/// What two fields on one grid differ by: fills the row's differences of velocity and pressure.
+/// Differences of two fields on one grid: fills the differences of velocity and pressure of the row.
 void compare_fields(const FlowField& a, const FlowField& b, const Freestream& air, ParityRow& row);
 
 struct ParityResult {
@@ -104,7 +104,7 @@ struct ParityEvents {
   std::function<void(const ParityResult& so_far)> row;  // first without one, then after each
 };
 
-/// An engine that diverges is told in its row. Throws Error(external) where OpenFOAM is missing.
+/// The divergence of an engine is recorded in its row. Throws Error(external) if OpenFOAM is missing.
 ParityResult flow_parity(const ParitySettings& settings, const ParityEvents& events = {});
 
 }  // namespace ripstop

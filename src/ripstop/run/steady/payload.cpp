@@ -22,7 +22,7 @@ void scale_pressures(SteadyState& state, double ratio) {
       for (double& value : values) value *= ratio;
 }
 
-/// The same run at another speed; the flow goes on where the engine can scale it, else it starts afresh.
+/// The same run at another speed; the flow continues if the engine can scale it, else it starts anew.
 SteadyParts parts_at(SteadyParts old, const Settings& now, const SteadySettings& settings) {
   if (!engine_of(now).can.other_air) {
     old.solver.reset(), old.engine.reset();
@@ -36,15 +36,15 @@ SteadyParts parts_at(SteadyParts old, const Settings& now, const SteadySettings&
   return parts;
 }
 
-/// What the payload itself holds of its weight at the state's speed [N].
+/// Part of the weight carried by the drag of the payload itself at the speed of the state [N].
 double own_drag(const Settings& resolved, double speed) {
   return 0.5 * resolved.flow().density_kg_m3 * speed * speed * resolved.payload().drag_area_m2;
 }
 
 }  // namespace
 
-// D goes with v^2 as long as the shape stays: the next speed is v (W / D)^(1/2). The coupling's own iteration on the
-// shape goes on meanwhile, so that the search costs about as many iterations as one run.
+// D goes with v^2 as long as the shape stays: the next speed is v (W / D)^(1/2). The coupling iterates the shape at
+// the same time, so the search costs about as many iterations as one run.
 SteadySolution run_with_payload(const Settings& resolved, SteadyObserver& observer,
                                 const SteadySettings& settings) {
   const double weight = suspended_weight(resolved, *resolved.payload().mass_kg);

@@ -1,4 +1,4 @@
-// One case solved steady, in memory: what `ripstop steady` does beneath its folder and its terminal.
+// One case solved steady, in memory: the computation of `ripstop steady` without folder and terminal.
 #pragma once
 
 #include <array>
@@ -39,7 +39,7 @@ void each_member(T& row, Visit&& visit) {
   visit("printed_linear_n", row.printed_linear_n);
 }
 
-/// Of a run that watched its flow in time: what the mean over the wake's swings is worth.
+/// Averages of an unsteady run and their uncertainty.
 struct UnsteadyResult {
   WindowAverage watched;                 // the last watch
   std::optional<double> standard_error;  // of the mean drag [N]; absent: not known
@@ -51,7 +51,7 @@ void each_member(T& u, Visit&& visit) {
   visit("strouhal", u.strouhal);
   visit("watched", u.watched);
 }
-/// What a run holds that sought its speed.
+/// Equilibrium of drag and weight of a run with a payload.
 struct HeldPayload {
   double mass = 0, parachute_mass = 0;  // [kg]
   double weight = 0;                    // of both [N]
@@ -74,11 +74,11 @@ inline constexpr double payload_tolerance = 1e-3;
 /// The numbers of one run: result.json.
 struct SteadyResult {
   std::string title;
-  std::optional<std::string> inputs_hash;                // of a run in a folder: that of its run.json
-  double speed = 0, density = 0;                         // [m/s], [kg/m3]
-  double approach_speed = 0;                             // what comes to the canopy, fsi/approach.h [m/s]
-  double drag = 0, drag_area = 0, drag_coefficient = 0;  // [N], [m2], -
-  double reference_area = 0;                             // S0 [m2]
+  std::optional<std::string> inputs_hash;                       // of a run in a folder: that of its run.json
+  double speed = 0, density = 0;                                // [m/s], [kg/m3]
+  double approach_speed = 0;                                    // approach speed, fsi/approach.h [m/s]
+  double drag = 0, drag_area = 0, drag_coefficient = 0;         // [N], [m2], -
+  double reference_area = 0;                                    // S0 [m2]
   std::optional<std::array<double, 2>> known_drag_coefficient;  // Knacke's range of the type
   CanopySize size;
   double max_line_tension = 0;  // [N]
@@ -146,14 +146,14 @@ struct SteadyRun {
   std::string engine;  // name and version
 };
 
-/// Told of a run as it goes; what it is not interested in, it leaves out.
+/// Observer of a run; functions that are not overridden do nothing.
 class SteadyObserver {
  public:
   virtual ~SteadyObserver() = default;
-  /// Before the first iteration. An observer that knows an earlier state puts it in the place of the cold
-  /// start, and restores the flow that belongs to it.
+  /// Before the first iteration. An observer with an earlier state puts it in place of the cold start, and
+  /// restores the flow that belongs to it.
   virtual void begin(const SteadyRun&, SteadyState&) {}
-  /// Of what went wrong without stopping the run.
+  /// Failures that did not stop the run.
   virtual void warned(const std::string&) {}
   virtual void progress(const SteadyProgress&, const SteadyState&) {}
   virtual void iterated(const SteadyRun&, const SteadyState&, const FlowField&) {}

@@ -28,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Writes every file of the run before it passes on what it was told.
+/// Writes every file of the run before it calls the next observer.
 class SteadyFolder : public SteadyObserver {
  public:
   SteadyFolder(ClaimedFolder& folder, const SteadyFolderSettings& settings, SteadyObserver& next)

@@ -1,5 +1,5 @@
-// The folder of one steady run: what it was (run.json), how it went (iterations.csv, canopy.pvd), what came
-// out (result.json), and what it needs to go on after a kill (checkpoint/).
+// The folder of one steady run: inputs (run.json), history (iterations.csv, canopy.pvd), result
+// (result.json), and the state from which a killed run resumes (checkpoint/).
 #pragma once
 
 #include <filesystem>
@@ -24,13 +24,12 @@ struct SteadyFolderRun {
   SteadyResult result;
 };
 
-/// run_steady() in a folder, from the first iteration or from where it was killed. Nothing is
-/// computed, and the observer is told nothing, when the folder holds the finished run. Throws as
-/// holds_run() and run_steady() do.
+/// run_steady() in a folder, from the first iteration or from the state of a killed run. Nothing is computed, and the
+/// observer is not called, when the folder contains the finished run. Throws as holds_run() and run_steady() do.
 SteadyFolderRun run_steady_in(const SteadyFolderSettings& settings, const Settings& resolved,
                               SteadyObserver& observer);
 
-/// Throws what run_steady_in() would throw before it computes, and touches nothing.
+/// Throws the exceptions of run_steady_in() before it computes, and changes nothing.
 void check_steady_in(const SteadyFolderSettings& settings, const Settings& resolved);
 
 /// Drag of the converged run in a folder, for an opening of the same parachute, but for its mesh, in the same

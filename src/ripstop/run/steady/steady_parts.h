@@ -1,4 +1,4 @@
-// What a steady run is made of, for its two ways: at a given speed, and at the one where drag is weight.
+// Parts of a steady run for its two forms: at a given speed, and at the speed at which drag equals weight.
 #pragma once
 
 #include <memory>

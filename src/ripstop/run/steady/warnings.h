@@ -1,4 +1,4 @@
-// What is not wrong with a case but should be known about its results.
+// Warnings about the results of a valid case.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ std::vector<std::string> porosity_warnings(const Settings& resolved);
 std::vector<std::string> range_warnings(const Settings& resolved);
 /// Of a profile whose apex is pulled down.
 std::vector<std::string> shape_warnings(const Settings& resolved);
-/// What is doubtful before anything is computed: the five above.
+/// Warnings before the computation: the five above.
 std::vector<std::string> case_warnings(const Settings& resolved);
 /// Materials stretched beyond their tests, and such.
 std::vector<std::string> strain_warnings(const Settings& resolved, double largest_cloth_strain);

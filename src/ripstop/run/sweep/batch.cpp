@@ -23,14 +23,15 @@ namespace fs = std::filesystem;
 
 // Assumed: one machine of a cluster has at least so many cores to share.
 constexpr int usual_cores = 4;
-// Assumed of a flow that settles; one that does not goes on to its most iterations.
+// Assumed for a flow that converges; another one continues to its largest number of iterations.
 constexpr double usual_iterations = 300, usual_couplings = 10;
 constexpr double shortest_limit = 1, longest_limit = 168;  // [h]
 constexpr double unknown_limit = 24;                       // [h]
 constexpr int notice = 120;                                // before the time limit [s]
 constexpr std::size_t most_elements = 1000;                // of an array, Slurm's MaxArraySize but one
 
-/// In a directive, which is no shell's: within quotes Slurm knows the backslash, and in a log's name the percent.
+/// In a directive, which no shell reads: within quotes Slurm interprets the backslash, and in the name of a
+/// log the percent sign.
 std::string in_directive(const fs::path& path) {
   std::string text;
   for (const char c : path.string()) {

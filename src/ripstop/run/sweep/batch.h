@@ -9,11 +9,11 @@
 
 namespace ripstop {
 
-/// What a job asks for. Time and memory are estimates.
+/// Requirements of a job. Time and memory are estimates.
 struct BatchNeeds {
   int ranks = 1;        // processes of the flow solver
   int cores = 1;        // of each of them
-  double memory = 0;    // of a node that holds all ranks [bytes]
+  double memory = 0;    // of a node for all ranks [bytes]
   double hours = 0;     // time limit
   std::string limited;  // where the time limit comes from, for a comment
 };
@@ -39,20 +39,19 @@ struct BatchFile {
   std::string name, text;
 };
 
-/// Folder of the scripts and logs: beside the run's, which holds nothing but the run. Throws Error(usage) for a
-/// path that Slurm's directives cannot hold: control characters and backslashes.
+/// Folder of the scripts and logs: next to the run folder, which contains only the run. Throws Error(usage)
+/// for a path that Slurm's directives cannot contain: control characters and backslashes.
 std::filesystem::path batch_folder(const std::filesystem::path& folder);
 
-/// run.sbatch. A job that nears its time limit stops its run and is put into the queue again, where it goes on from
-/// its checkpoint, as long as there was one more since the job began. No text of the user's stands in it outside of
-/// quotes.
+/// run.sbatch. A job that nears its time limit stops its run and is queued again to resume from its checkpoint, if
+/// there was a new one since the job began. Text of the user occurs only within quotes.
 std::vector<BatchFile> slurm_files(const BatchJob& job);
 /// run.sbatch, an array's element; gather.sbatch, which makes tables and plots; submit, which submits both, wave
 /// after wave.
 std::vector<BatchFile> slurm_files(const BatchSweep& sweep);
 
-/// Writes the files into batch_folder(folder); what lies there and is not Ripstop's stays. Throws as ClaimedFolder
-/// does. Returns the folder.
+/// Writes the files into batch_folder(folder); files there that are not Ripstop's remain. Throws as
+/// ClaimedFolder does. Returns the folder.
 std::filesystem::path write_batch(const std::filesystem::path& folder, const std::vector<BatchFile>& files);
 
 }  // namespace ripstop

@@ -1,4 +1,4 @@
-// The runs of a porosity calibration as a sweep: what is turned, and what its results are as trials.
+// The runs of a porosity calibration as a sweep: the varied quantity, and the results as calibration points.
 #pragma once
 
 #include <filesystem>
@@ -36,7 +36,7 @@ std::string knob_name(PorosityKnob knob);  // "gamma"
 /// How far the canopy is shifted along the flow: evenly over one of the cells that it lies in [m].
 std::vector<double> cell_shifts(const Settings& resolved, int shifts);
 
-/// Throws Error(usage) for fewer than two values of the knob, of which no calibration can be made.
+/// Throws Error(usage) for fewer than two values of the knob, which are too few for a calibration.
 void require_slope(const PorositySweep& sweep);
 
 /// Measured point, value of the knob and shift, the last the fastest. The cells stay where they are when the

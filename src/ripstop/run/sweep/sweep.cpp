@@ -42,7 +42,7 @@ RunSettings run_settings(const SweepPoint& point, const SweepSettings& settings)
   return {settings.folder / point.folder, settings.fresh, settings.fields, false};
 }
 
-/// What is made anew from the runs whenever a sweep is met again.
+/// Files that are made anew from the runs whenever a sweep is continued.
 std::vector<std::string> sweep_files() {
   std::vector<std::string> names = {"sweep.json", "sweep.csv", "result.json", "profile.csv"};
   for (const char* plot : {"drag", "drag_area", "drag_coefficient", "diameters", "iterations", "wall_time",
@@ -84,7 +84,7 @@ std::unique_ptr<ClaimedFolder> open_sweep_folder(const std::vector<SweepPoint>& 
   return claimed;
 }
 
-/// The work of a sweep and who does what.
+/// The work of a sweep and its distribution.
 class Board {
  public:
   Board(const std::vector<SweepPoint>& points, const SweepSettings& settings, const SweepEvents& events,
@@ -140,9 +140,9 @@ class Board {
     return answer;
   }
 
-  // A run that starts from nothing where it is to start from its neighbour has other last digits for good. A
-  // neighbour that failed by the disk, that was damaged, or that another process works on, will not fail when that is
-  // mended and the command repeated, so that this run waits for that; one that diverged always does.
+  // A run that starts cold instead of from its neighbour has different last digits. A neighbour that failed for the
+  // disk, for damage, or for another process in its folder can succeed when the command is repeated, so this run
+  // waits for that; one that diverged always fails.
   SweepRow run(std::size_t i, int threads) {
     const int start = start_of(i);
     if (start >= 0 && rows_[start].waits) {
@@ -185,7 +185,7 @@ class Board {
     return {true, "", ExitCode::done, false, std::move(solution.result), std::move(solution.state)};
   }
 
-  /// Tells the sweep's listener of one run; starts it from its neighbour in memory.
+  /// Reports one run to the listener of the sweep; starts it from its neighbour in memory.
   class Follower : public SteadyObserver {
    public:
     Follower(Board& board, std::size_t point) : board_(board), point_(point) {}
@@ -215,8 +215,8 @@ class Board {
     return row;
   }
 
-  // A flow field of a printed grid is 130 MB: it goes as soon as no other run is to start from it. One that failed goes
-  // on from its own, also where nothing but the seal is missing.
+  // A flow field of a printed grid has 130 MB: it is removed as soon as no other run starts from it. A failed run
+  // resumes from its own field, also if only the seal is missing.
   void drop_what_nobody_needs() const {
     if (settings_.folder.empty()) return;
     for (std::size_t i = 0; i < points_.size(); ++i) {

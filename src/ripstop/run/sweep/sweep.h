@@ -14,7 +14,7 @@
 
 namespace ripstop {
 
-/// What is varied: one value is one or more settings, shown under one name.
+/// Varied values: one value is one or more settings, shown under one name.
 struct SweepAxis {
   std::string name;                            // "flow.speed_m_s", "gamma"
   std::vector<std::string> values;             // as shown, "20"
@@ -33,7 +33,7 @@ struct SweepPoint {
 
 /// Every combination of the axes' values (a table's rows are one axis). The middle of all axes starts cold,
 /// every other point from its neighbour one step nearer to the middle, so that the order of work does not
-/// change results. Throws what read_case() throws, Error(usage) for a value twice on one axis and for more than
+/// change results. Throws the exceptions of read_case(), Error(usage) for a value twice on one axis and for more than
 /// 10,000 combinations, before any case is read.
 std::vector<SweepPoint> sweep_points(const std::filesystem::path& case_file, const Overrides& overrides,
                                      const std::vector<SweepAxis>& axes);
@@ -67,7 +67,7 @@ struct SweepEvents {
   std::function<void(std::size_t point, const std::vector<SweepRow>&)> ended;  // with a result or an error
 };
 
-/// Throws what run_sweep() in this folder would throw before its first run, and touches nothing.
+/// Throws the exceptions of run_sweep() in this folder before its first run, and changes nothing.
 void check_sweep(const std::vector<SweepPoint>& points, const SweepSettings& settings);
 
 /// All tables and plots of the sweep are written: whoever reads its folder notices when one was lost or changed.
@@ -76,21 +76,21 @@ void seal_sweep(const std::filesystem::path& folder);
 /// How many of these runs fit side by side into this machine's cores and free memory.
 int fitting_jobs(const std::vector<SweepPoint>& points);
 
-/// Runs what has no result yet; a failed run is told in its row and does not stop the others. In memory a
+/// Computes runs without a result; a failed run is recorded in its row and does not stop the others. In memory a
 /// neighbour gives its shape and pressure, in folders its flow too. Throws Error(usage) for a folder that
-/// holds something else.
+/// contains something else.
 std::vector<SweepRow> run_sweep(const std::vector<SweepPoint>& points, const SweepSettings& settings,
                                 const SweepEvents& events = {});
 
-/// The runs in waves: each starts from one of an earlier wave, or cold. What run_sweep() does side by side, other
-/// machines may do wave by wave, with the same numbers.
+/// The runs in waves: each starts from one of an earlier wave, or cold. Runs that run_sweep() computes at the same
+/// time can be computed wave by wave on other machines, with the same results.
 std::vector<std::vector<std::size_t>> sweep_waves(const std::vector<SweepPoint>& points, bool warm);
 
 /// Makes the folder of a sweep whose runs are done one by one elsewhere. Throws as check_sweep() does.
 void prepare_sweep(const std::vector<SweepPoint>& points, const SweepSettings& settings);
 
-/// One run in a folder that prepare_sweep() made. It claims its own folder only, so that others may run beside it.
-/// Throws Error(io) where the run that it starts from has not ended, and as run_steady_in() does.
+/// One run in a folder that prepare_sweep() made. It claims only its own folder, so other runs may be computed at the
+/// same time. Throws Error(io) if the run from which it starts is not finished, and as run_steady_in() does.
 SteadyResult run_sweep_point(const std::vector<SweepPoint>& points, const SweepSettings& settings,
                              std::size_t point, SteadyObserver& observer);
 

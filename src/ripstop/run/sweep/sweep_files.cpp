@@ -53,7 +53,7 @@ constexpr Quantity quantities[] = {
     {"wall_time", "wall time [s]", &SteadyResult::wall_time, nullptr},
 };
 
-/// What the case's rows of [[measured]] say, over the nominal speed.
+/// Measured values of the case's rows of [[measured]] over the nominal speed.
 std::vector<PlotSeries> known_drag(const Settings& resolved, const Quantity& quantity) {
   std::vector<PlotSeries> all;
   const auto add = [&](const char* name, std::optional<double> Measured::*drag) {

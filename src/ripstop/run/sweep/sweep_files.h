@@ -1,5 +1,5 @@
-// What a sweep leaves beside its runs: one table, the same as result.json, and plots over the
-// first axis with numbers.
+// Files of a sweep in addition to its runs: one table, the same as result.json, and plots over the first axis
+// with numbers.
 #pragma once
 
 #include <filesystem>
