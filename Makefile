@@ -31,7 +31,7 @@ ARCH_CHECK := gtest benchmark python pybind11 python-numpy python-jsonschema
 
 export PATH := /usr/bin:$(PATH)
 
-.PHONY: help deps check-deps build demo check room sanitize sanitize-thread fuzz mutants coverage tidy bench validate validate-ojf validate-families validate-families-in-time validate-openings judge torture test-drawings test-slurm test-hosts test-debian12 test-debian13 scaling docs reference report-libraries format format-check install-build install wheel tarball test-portable package clean
+.PHONY: help deps check-deps build demo check room sanitize sanitize-thread fuzz mutants coverage tidy bench validate validate-ojf validate-families validate-families-in-time validate-openings judge torture test-drawings test-slurm test-hosts test-debian12 test-debian13 scaling docs reference report-libraries format format-check install-build install wheel tarball test-portable container package clean
 
 help:  ## This list
 	@grep -hE '^[a-z0-9-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -231,6 +231,12 @@ tarball: install-build docs  ## A portable archive in build/portable/: program, 
 test-portable: tarball wheel  ## Archive and wheel in empty roots of Debian 12 and 13 (as root, by debootstrap), into docs/tables; PORTABLE=--coarse
 	$(call install_missing,debootstrap iproute2)
 	@/usr/bin/python3 validation/systems/portable.py --ripstop build/bin/ripstop $(PORTABLE) build/portable/*.tar.gz build/wheel/*.whl
+
+IMAGE ?=
+container: tarball  ## The image localhost/ripstop of the archive (buildah); IMAGE=FILE writes it; CONTAINER='--build-arg BASE=...'
+	$(call install_missing,buildah)
+	@buildah build $(CONTAINER) -f packaging/Containerfile -t localhost/ripstop build/portable
+	@test -z "$(IMAGE)" || buildah push localhost/ripstop oci-archive:$(IMAGE)
 
 package: install-build  ## Debian packages in build/
 	@cd build && cpack -G DEB

@@ -153,13 +153,13 @@ int compare(CompareArguments& options) {
 void add_compare(CLI::App& app, int& status) {
   auto options = std::make_shared<CompareArguments>();
   CLI::App* command = app.add_subcommand(
-      "compare", "Compare finished runs, a measured with a computed load, or the linear model of a case");
+      "compare", "Compare finished runs, a measured load, or the linear material model of a case");
   command->footer(
-      "Run folders: prints the numbers of their results; --out also writes a report with shapes and plots.\n"
-      "--measured: compares the load over time of an opening with a record (docs/guide/tables.md).\n"
-      "--linear: runs the case with the complete material laws, with only K_1 of every material, and with "
-      "only "
-      "K_1 of\nthe cloth, the lines and the tape separately.\n"
+      "With run folders it prints the numbers of their results; --out adds a report with their shapes and "
+      "plots.\n"
+      "With --measured it compares the load of an opening over time with a record (docs/guide/tables.md).\n"
+      "With --linear it runs the case with the complete material laws, with only K_1 of every material, and "
+      "with\nonly K_1 of the cloth, the lines and the tape separately.\n"
       "Example: ripstop compare runs/first runs/second --out both\n"
       "         ripstop compare runs/opening --measured load-cell.csv\n"
       "         ripstop compare examples/stratos-iv/case.toml --linear --speed 30");
@@ -171,7 +171,7 @@ void add_compare(CLI::App& app, int& status) {
       command->add_flag("--linear", options->linear, "Compare with the linear model, which uses only K_1");
   command
       ->add_option("--measured", options->measured,
-                   "Table of a measured load over time, compared with the opening")
+                   "Table of a measured load over time, compared with that of the opening")
       ->check(CLI::ExistingFile)
       ->excludes(linear);
   add_number(*command, "--time-shift", options->shift, from(-1e6).up_to(1e6),

@@ -124,7 +124,8 @@ void add_coefficients(CLI::App& command, LoadRequest& r) {
              "Opening force coefficient C_x (default: of the canopy family)");
   add_number(
       command, "--filling-constant", r.filling_constant, above(0).up_to(1000),
-      "Filling distance n in t_f = n D0 / v (default: of the canopy family, at low speed Knacke's form)");
+      "Filling distance n in t_f = n D0 / v (default: of the canopy family; below 46 m/s n is multiplied "
+      "by 4.0 v^0.15 / 8, v in ft/s)");
   add_number(command, "--filling-exponent", r.filling_exponent, above(0).up_to(20),
              "Exponent of the drag area over time (default: of the canopy family)");
   add_number(command, "--impulse-integral", r.impulse_integral, above(0).up_to(1),
@@ -134,6 +135,10 @@ void add_coefficients(CLI::App& command, LoadRequest& r) {
   command
       .add_option("--opening", r.opening,
                   "Run folder of ripstop inflate that provides the drag area over distance")
+      ->check(CLI::ExistingDirectory);
+  command
+      .add_option("--from", r.filling_from,
+                  "Run of ripstop inflate whose filling constant n and exponent of the drag area are fitted")
       ->check(CLI::ExistingDirectory);
   add_number(command, "--measured-load", r.measured_load, above(0).up_to(1e8),
              "Opening load measured at this speed and mass, which becomes the design load [N]");

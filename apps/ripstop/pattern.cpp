@@ -57,9 +57,9 @@ int run(const PatternArguments& options) {
   fmt::print("packed volume at {:.0f} kg/m3: {:.3f} l\n", result.packing_density,
              1000 * result.bill.packed_volume);
   fmt::print("S0 {:.4f} m2, cloth {:.4f} m2 finished\n", result.nominal_area, result.cloth_area);
-  fmt::print("outlines: {} as DXF (in {}), SVG{}; bill.csv and result.json in {}\n",
+  fmt::print("outlines: {} as DXF (in {}), SVG{}, bill.csv and result.json in {}\n",
              result.pattern.pieces.size(), files.unit == DxfUnit::inches ? "inches" : "millimetres",
-             files.paper ? " and PDF on sheets of paper" : "", options.out.string());
+             files.paper ? ", PDF on sheets of paper" : "", options.out.string());
   return 0;
 }
 

@@ -53,6 +53,7 @@ PYBIND11_MODULE(_ripstop, module) {
   add_steady(module);
   add_stability(module);
   add_inflate(module);
+  add_fly(module);
   add_calibrate(module);
   add_fit(module);
   add_pattern(module);

@@ -101,9 +101,9 @@ void add_pattern(py::module_& module) {
       py::arg("packing_density_kg_m3") = packed_by_hand, py::arg("out") = py::none(), py::arg("units") = "mm",
       py::arg("paper") = "",
       "Makes the cutting pattern and the bill of materials: ripstop pattern. Lengths are in [m], areas in "
-      "[m2],\nmasses in [kg].\n\nout: folder for the drawings and the bill. None: no files.\nunits: unit of "
-      "the "
-      "DXF files, \"mm\" or \"in\".\npaper: also as PDF on sheets of paper, \"a4\" or \"letter\".");
+      "[m2],\nmasses in [kg].\n\nout: folder for the drawings and the bill. None: no files.\nunits: of the "
+      "DXF "
+      "files, \"mm\" or \"in\".\npaper: also as PDF on sheets, \"a4\" or \"letter\".");
 }
 
 }  // namespace ripstop::python

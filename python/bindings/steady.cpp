@@ -87,7 +87,7 @@ std::unique_ptr<PySteady> steady(const PyCase& given, Callback<SteadyIteration> 
   return run;
 }
 
-const PySteady& run_of(const py::object& self) {
+const PySteady& run_of_steady(const py::object& self) {
   return self.cast<const PySteady&>();
 }
 
@@ -131,20 +131,22 @@ void add_flow(py::module_& module) {
 
 void add_arrays(py::class_<PySteady>& type) {
   type.def_property_readonly(
-      "shape", [](const py::object& self) { return view_of(run_of(self).state.shape, self); },
+      "shape", [](const py::object& self) { return view_of(run_of_steady(self).state.shape, self); },
       "Position of every node of the parachute at the end: x, y, z; z is downstream [m]");
   type.def_property_readonly(
-      "cells", [](const py::object& self) { return view_of_cells(run_of(self).cells, self); },
+      "cells", [](const py::object& self) { return view_of_cells(run_of_steady(self).cells, self); },
       "Nodes at the four corners of every cloth cell; the first is -1 for a missing cell.");
   type.def_property_readonly(
-      "pressure_difference", [](const py::object& self) { return view_of(run_of(self).state.applied, self); },
+      "pressure_difference",
+      [](const py::object& self) { return view_of(run_of_steady(self).state.applied, self); },
       "Pressure difference over every cloth cell that caused the shape [Pa]");
   type.def_property_readonly(
-      "stress", [](const py::object& self) { return table_of(run_of(self).stress, self); },
+      "stress", [](const py::object& self) { return table_of(run_of_steady(self).stress, self); },
       "Stress of every cloth cell: columns in [N/m], max_strain without unit; empty if the run was "
       "already\nfinished.");
   type.def_property_readonly(
-      "iterations", [](const py::object& self) { return table_of(run_of(self).state.iterations, self); },
+      "iterations",
+      [](const py::object& self) { return table_of(run_of_steady(self).state.iterations, self); },
       "One row for each coupling iteration, with the columns of iterations.csv.");
   type.def_property_readonly(
       "flow", [](const PySteady& run) { return run.flow.velocity.empty() ? nullptr : &run.flow; },
@@ -188,18 +190,18 @@ void add_steady(py::module_& module) {
       "warnings",
       [](const PySteady& run) { return run.result.warnings.value_or(std::vector<std::string>{}); },
       "Exceeded quality limits, negative margins and other warnings.");
-  module.def(
-      "steady", &steady, py::arg("case"), py::kw_only(), py::arg("progress") = py::none(),
-      py::arg("threads") = 0, py::arg("out") = py::none(), py::arg("fresh") = false,
-      py::arg("start") = py::none(),
-      "Computes inflated shape, drag and loads in a steady flow: ripstop steady.\n\nprogress: called "
-      "with a SteadyIteration after every coupling iteration; an exception in it stops the\n  "
-      "run.\nthreads: number of threads; 0: coupling.threads of the case.\nout: run folder. A "
-      "finished run of this case is read from it, an interrupted run resumes. None: no\n  "
-      "files.\nfresh: replace the run in the folder.\nstart: finished run or its folder, whose shape and "
-      "pressure are the initial state; with another mesh the run\n  starts from the flat canopy. None: the "
-      "same.\n\nA result that is not converged is also "
-      "returned: check `converged`. Forces are in [N], lengths in [m],\nspeeds in [m/s].");
+  module.def("steady", &steady, py::arg("case"), py::kw_only(), py::arg("progress") = py::none(),
+             py::arg("threads") = 0, py::arg("out") = py::none(), py::arg("fresh") = false,
+             py::arg("start") = py::none(),
+             "Computes inflated shape, drag and loads in a steady flow: ripstop steady.\n\nprogress: called "
+             "with a SteadyIteration after every coupling iteration; an exception in it stops the\n  "
+             "run.\nthreads: number of threads; 0: coupling.threads of the case.\nout: run folder. A "
+             "finished run of this case is read from it, an interrupted run resumes. None: no\n  "
+             "files.\nfresh: replace the run in the folder.\nstart: finished run or its folder whose shape "
+             "and pressure are the "
+             "initial state; ignored for\n  another mesh. None: undeformed canopy.\n\nA result that is not "
+             "converged is also "
+             "returned: check `converged`. Forces are in [N], lengths in [m],\nspeeds in [m/s].");
 }
 
 }  // namespace ripstop::python

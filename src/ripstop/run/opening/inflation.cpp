@@ -9,6 +9,7 @@
 #include <numbers>
 #include <utility>
 
+#include "ripstop/case/deployment.h"
 #include "ripstop/case/payload.h"
 #include "ripstop/core/error.h"
 #include "ripstop/run/engine.h"
@@ -119,6 +120,24 @@ void compare_with_handbook(InflationResult& r, const Settings& resolved, const L
   r.handbook = handbook_methods(resolved);
 }
 
+/// The deployment before the opening, and how the canopy has filled.
+void take_filling(InflationResult& r, const Settings& resolved, const Opening& solver,
+                  const InflationState& state, const InflationHistory& history) {
+  r.filling_time = r.summary.filling_time;
+  if (!solver.air()) return;
+  r.deployment = deployment_of(resolved);
+  if (solver.problem().bag && state.air.bag.left > 0) r.bag_left_time = state.air.bag.left;
+  const auto filling = filling_of(history.frames);
+  r.filling_time = filling ? std::optional(filling->time) : std::nullopt;
+  if (!filling) return;
+  r.growth_exponent = filling->exponent;
+  double path = filling->time * solver.problem().air->flow.air.speed();
+  if (flies(solver))
+    for (const AirRow& row : history.air)
+      if (row.time <= filling->time) path = row.path;
+  r.filling_distance = path / nominal_diameter(resolved.parachute());
+}
+
 void take_quality(InflationResult& r, const Settings& resolved, const Opening& solver,
                   const InflationHistory& history) {
   r.energy_residual = energy_residual(history.frames);
@@ -161,6 +180,7 @@ InflationResult result_of(const Settings& resolved, const LoadSource& source, co
   r.settings = solver.problem().settings;
   take_peaks(r, state, history, start_up);
   take_steady_load(r, source, solver, history, start_up);
+  take_filling(r, resolved, solver, state, history);
   r.impulse = state.impulse;
   if (!solver.air()) r.pressure = solver.problem().pressure;
   for (const AirRow& row : history.air)

@@ -77,6 +77,13 @@ void choose_coefficients(const Settings& resolved, const LoadRequest& request, L
   r.filling_exponent = request.filling_exponent.value_or(filling.exponent);
   r.ludtke_exponent = request.filling_exponent.value_or(filling.ludtke_exponent);
   r.filling_source = request.filling_constant && request.filling_exponent ? "given" : filling.source;
+  if (!request.filling_from.empty()) {
+    const FittedFilling fitted =
+        fit_filling(opening_record(request.filling_from, resolved), r.nominal_diameter);
+    if (!request.filling_constant) r.filling_constant = fitted.constant;
+    if (!request.filling_exponent) r.filling_exponent = r.ludtke_exponent = fitted.exponent;
+    r.filling_source = "fitted to the computed opening " + request.filling_from.string();
+  }
   require_positive("filling constant n", r.filling_constant);
   require_positive("exponent of the drag area", r.filling_exponent);
 }
@@ -85,11 +92,12 @@ std::string joined(const std::vector<std::string>& texts) {
   return fmt::format("{}", fmt::join(texts, "; "));
 }
 
-/// Why the finite-mass methods do not apply in these conditions; empty: they do. A filling constant that the user gives
-/// replaces the handbook's, with its range of sizes and speeds.
+/// Why the finite-mass methods do not apply in these conditions; empty: they do. A filling constant that the user gives,
+/// or that is fitted to a computed opening, replaces the handbook's, with its range of sizes and speeds.
 std::string outside_of_methods(const OpeningConditions& c, const LoadRequest& request, double mach) {
   std::vector<ModelValue> values = {{"Mach number", mach}, {"ballistic parameter A", ballistic_parameter(c)}};
-  if (!request.filling_constant) values.push_back({"speed at line stretch", c.speed});
+  if (!request.filling_constant && request.filling_from.empty())
+    values.push_back({"speed at line stretch", c.speed});
   return joined(outside_range(finite_mass_model, values));
 }
 
@@ -334,10 +342,10 @@ LoadResult run_load(const Settings& resolved, const LoadRequest& request) {
   if (along > 0 && request.speed * request.speed <= along * descent * descent)
     throw Error(
         ExitCode::usage,
-        fmt::format("the descent rate of {:.3g} m/s exceeds the deployment speed of {:.3g} m/s: the "
-                    "payload still accelerates under the open canopy; use a higher speed, a smaller mass "
-                    "or a larger canopy",
-                    descent, request.speed));
+        fmt::format(
+            "a descent rate of {:.3g} m/s is above the {:.3g} m/s of the deployment: the payload still "
+            "accelerates under the open canopy; take a higher speed, a smaller mass or a larger canopy",
+            descent, request.speed));
   fly_stages(request, r);
   if (!request.opening.empty()) fly_record(resolved, request, r);
   choose_design_load(resolved, request, r);

@@ -39,7 +39,8 @@ struct LoadRequest {
       packed_drag_area;  // of the packed canopy with its pilot, to find that difference [m2]
   std::optional<double> payload_drag_area;  // [m2]; absent: the case's
   std::filesystem::path steady, opening;    // folders of runs to take the drag area from; empty: none
-  std::optional<double> measured_load;      // of an opening of this parachute at this speed and mass [N]
+  std::filesystem::path filling_from;   // of a computed opening whose n and exponent are taken; empty: none
+  std::optional<double> measured_load;  // of an opening of this parachute at this speed and mass [N]
 };
 
 /// A row of trajectory.csv.

@@ -251,7 +251,7 @@ void warn(const SizeRequest& request, SizeResult& r) {
   r.warnings = r.load_warnings;
   if (r.tape_used > 1)
     r.warnings.push_back(
-        fmt::format("the tape exceeds its allowable load: the load of one line is {:.3g} times the allowable "
+        fmt::format("the tape exceeds its allowable load: the load of a line is {:.3g} times the allowable "
                     "one of {}, the strongest in the "
                     "library; take a stronger tape (parachute.tape.material) or more lines",
                     r.tape_used, r.tape_material));
