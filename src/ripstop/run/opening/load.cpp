@@ -221,7 +221,7 @@ void fly_stages(const LoadRequest& request, LoadResult& r) {
     r.stages.push_back(stage);
     if (peak.force > r.peak_load) r.peak_load = peak.force, r.peak_time = peak.state.time;
     before = r.flight.back().drag_area;
-    if (reefed.duration > settled && state.height > request.ground) {
+    if (reefed.duration > settled && state.height > request.ground && (request.descent || reefed.share < 1)) {
       const double area = before = stage.drag_area;
       leg.drag_area = [area](double, double) { return area; };
       leg.duration = reefed.duration - settled;

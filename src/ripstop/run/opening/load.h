@@ -40,6 +40,7 @@ struct LoadRequest {
   std::optional<double> payload_drag_area;  // [m2]; absent: the case's
   std::filesystem::path steady, opening;    // folders of runs to take the drag area from; empty: none
   std::filesystem::path filling_from;   // of a computed opening whose n and exponent are taken; empty: none
+  bool descent = true;                  // the trajectory continues to the steady descent or the ground
   std::optional<double> measured_load;  // of an opening of this parachute at this speed and mass [N]
 };
 

@@ -116,6 +116,7 @@ void find_opening(const SizeRequest& request, SizeResult& r) {
   asked.height = request.density ? standard_height(r.density) : std::max(r.height, 100.0);
   asked.ground = std::min(0.0, std::max(lowest_height, *asked.height - usual_deployment_height));
   asked.drag_coefficient = r.drag_coefficient;
+  asked.descent = false;  // only the opening is used
   LoadResult load = run_load(resolve(r.given), asked);
   r.opening_load_low = load.stages.front().lowest, r.opening_load = load.stages.front().highest;
   r.design_load = load.design_load, r.design_load_from = std::move(load.design_load_from);
