@@ -1,5 +1,5 @@
-// ripstop compare: finished runs side by side, a measured load beside a computed one, or the linear model beside the
-// nonlinear one.
+// ripstop compare: comparison of finished runs, of a measured with a computed load, or of the linear with the
+// nonlinear model.
 
 #include "ripstop/run/steady/compare.h"
 

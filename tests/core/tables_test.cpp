@@ -1,4 +1,5 @@
-// Files as machines write them, each with its expectation beside it: tests/<room>/tables/README.md says in which form.
+// Files as machines write them, each with its expectation next to it: tests/<room>/tables/README.md describes
+// the form.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -49,7 +49,7 @@ void start_from(const Deployment& deployment, const Settings& opening, Inflation
                       start.payload_speed - start.bag_speed, packed_share(opening)};
 }
 
-/// Payload::density_ratio in the standard atmosphere, where the case says how high it begins.
+/// Payload::density_ratio in the standard atmosphere, if the case gives the height of deployment.
 std::function<double(double)> density_below(const std::optional<double>& height) {
   if (!height) return {};
   return [from = *height](double fallen) { return density_ratio(from, fallen); };

@@ -34,7 +34,7 @@ class OpeningCloth {
   const FoldedStart& folded() const { return folded_; }
   /// Null for a canopy that starts stretched out.
   const PackedCloth* packed() const { return packed_ ? &*packed_ : nullptr; }
-  /// How much weaker the cloth's dampers are than `cloth_damping_s` says, so that they do not set the step.
+  /// Reduction of the cloth's dampers below `cloth_damping_s`, so that they do not limit the step.
   const ViscosityLimit& viscosity_limit() const { return viscosity_limit_; }
   /// Without reefing line.
   const Cloth& open() const { return *stages_.back(); }

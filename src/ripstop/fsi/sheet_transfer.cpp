@@ -65,7 +65,7 @@ Wrench acting_at(Vec3 point, Vec3 force) {
   return {force, cross(point, force)};
 }
 
-/// Pressure of the cloth that one face stands for.
+/// Pressure of the cloth that one face represents.
 struct Sample {
   Vec3 point, outward;
   double pressure = 0;                    // inside over outside [Pa]
@@ -259,8 +259,8 @@ void press_into_folds(const Boxes& samples, const FlowGrid& grid, const Patchwor
   }
 }
 
-// What the air's force is beyond that of the pressures, where there are folds: a traction of the cloth nearby, so that
-// force that the air exerts on a part of the canopy stays there.
+// The difference between the air's force and that of the pressures among folds: a traction of the cloth
+// nearby, so that the force of the air on a part of the canopy remains there.
 std::vector<Vec3> fold_tractions(const std::vector<SheetLoad>& loads, const std::vector<Sample>& samples,
                                  const FlowGrid& grid, const Patchwork& cloth,
                                  const std::vector<double>& pressure) {

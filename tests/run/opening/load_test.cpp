@@ -103,7 +103,7 @@ TEST(Load, TheFlightOfATinyCanopyHasNoMoreRowsThanOthers) {
   EXPECT_LT(r.flight.size(), 200000u);
 }
 
-/// Of the applicable methods: what a stage says about all of them.
+/// Of the applicable methods: the summary of a stage.
 void expect_judged(const StageLoads& stage) {
   double highest = 0, lowest = 1e300, sum = 0;
   int count = 0;

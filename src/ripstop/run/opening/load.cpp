@@ -26,7 +26,7 @@ namespace {
 constexpr double steps_a_filling = 400, longest_flight = 600;
 // Steps of the slow rest of a flight while the speed falls by half, where these are longer than ten of the filling's.
 constexpr double steps_a_slowing = 1000;
-// The share of the load at infinite mass from which on that estimate stands for the opening.
+// Share of the infinite-mass load above which that estimate represents the opening.
 constexpr double hardly_slowed = 0.9;
 // Where gravity adds more to the speed during the filling than this share, formulas without gravity do not hold.
 constexpr double most_gravity = 0.3;
@@ -92,8 +92,8 @@ std::string joined(const std::vector<std::string>& texts) {
   return fmt::format("{}", fmt::join(texts, "; "));
 }
 
-/// Why the finite-mass methods do not apply in these conditions; empty: they do. A filling constant that the user gives,
-/// or that is fitted to a computed opening, replaces the handbook's, with its range of sizes and speeds.
+/// Why the finite-mass methods do not apply in these conditions; empty: they do. A filling constant that the user
+/// gives, or that is fitted to a computed opening, replaces the handbook's, with its range of sizes and speeds.
 std::string outside_of_methods(const OpeningConditions& c, const LoadRequest& request, double mach) {
   std::vector<ModelValue> values = {{"Mach number", mach}, {"ballistic parameter A", ballistic_parameter(c)}};
   if (!request.filling_constant && request.filling_from.empty())
