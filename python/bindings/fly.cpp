@@ -10,7 +10,7 @@
 #include "runs.h"
 
 namespace ripstop {
-/// Told after every step of the flow.
+/// Called after every step of the flow.
 struct FlightProgress {
   double time = 0, duration = 0;  // [s]
   double descent = 0;             // [m/s]

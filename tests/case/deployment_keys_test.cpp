@@ -1,4 +1,4 @@
-// [deployment]: what an empty table means, and what is refused.
+// [deployment]: meaning of an empty table, and refused values.
 #include "fixture.h"
 #include "ripstop/case/deployment.h"
 #include "ripstop/case/opening.h"

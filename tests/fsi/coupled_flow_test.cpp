@@ -173,8 +173,8 @@ TEST(CoupledFlow, StepsOfAirAndClothTogetherAreOfSecondOrder) {
   }
 }
 
-/// The piston as two layers of that mass and resistance each, which look opposite ways as the walls of a pleat do, 2 cm
-/// from each other. Every node of one hangs on a spring of twice the stiffness, and holds that of the other.
+/// The piston as two layers of that mass and resistance each, with opposite orientation, like the walls of a pleat, 2
+/// cm from each other. Every node of one is attached to a spring of twice the stiffness, and to that of the other.
 Mesh piston_of_two_layers(double mass) {
   constexpr int n = 5, layer = n * n;
   constexpr double apart = 0.02, holds = 1e5;  // [m], [Pa/m]

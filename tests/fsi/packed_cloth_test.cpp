@@ -50,7 +50,7 @@ TEST(PackedCloth, LiesInATenthOfItsLengthAndKeepsTheSkirtInPlace) {
   EXPECT_NEAR(high - low, 0.1 * (folded_high - folded_low), 1e-12);
 }
 
-// A heavy bag moves off at 10 m/s from lines that are held: what the riser takes is the momentum of the cloth.
+// A heavy bag moves off at 10 m/s from fixed lines: the impulse of the riser is the momentum of the cloth.
 TEST(PackedCloth, StrippedAtConstantSpeedConservesMomentum) {
   ThreadTeam team(1);
   const Packed p = packed_canopy(team);

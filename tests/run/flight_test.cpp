@@ -56,8 +56,8 @@ TEST(Flight, UniformWindChangesNothingButThePath) {
   EXPECT_NEAR(norm(a.payload + a.time * wind - b.payload), 0, 1e-8);
 }
 
-// The parachute turns towards the vertical about a payload that hardly moves in so short a time, and what acts on all
-// of it changes its momentum.
+// The parachute turns towards the vertical about a payload that hardly moves in so short a time, and the external
+// forces change its momentum.
 TEST(Flight, ReleasedAtAnAngleConservesMomentumAndEnergy) {
   const FlightSolution flight = flown([](Case& given) { given.flight.angle_deg = 20; });
   const FlightResult& r = flight.result;
@@ -77,7 +77,7 @@ TEST(Flight, EndsAtTheGround) {
   EXPECT_LE(flight.history.rows.back().payload.z, 0);
 }
 
-TEST(Flight, RefusesWhatDoesNotFly) {
+TEST(Flight, RefusesImpossibleFlights) {
   const auto refused = [](const std::function<void(Case&)>& edit, const char* names) {
     try {
       flown(edit);

@@ -311,7 +311,7 @@ TEST(RunNumbers, OfACoupledInflationAreItsLargestDragAreaAndThePayloadsEnd) {
 }
 
 // The estimate of --check: cloth predicted and corrected, and steps of the air in all its cells.
-TEST(RunNumbers, TheTimeOfAnOpeningInItsOwnAirCountsTheFlowAndItsCellsAreCheckedFirst) {
+TEST(RunNumbers, TheTimeOfACoupledInflationCountsTheFlowAndItsCellsAreCheckedFirst) {
   const Settings resolved = resolve(opening_case(small_opening_in_air()));
   const LoadSource source = load_source(resolved);
   const auto solver = make_opening(with_engine(resolved, opening_problem(resolved, source, 1)));

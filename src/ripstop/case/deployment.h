@@ -1,4 +1,4 @@
-// The deployment of a case: what flight/ and the coupled opening take from [deployment].
+// The deployment of a case: the input of flight/ and of the coupled opening from [deployment].
 #pragma once
 
 #include "ripstop/case/settings.h"

@@ -9,7 +9,7 @@
 namespace ripstop {
 
 /// The case on the mesh of an opening, without a given speed, in a far field and on cells as coarse as [flight] has
-/// them where the case gives none. Throws Error(usage) without payload.mass_kg and for what does not fly.
+/// them where the case gives none. Throws Error(usage) without payload.mass_kg and for cases that cannot fly.
 Case flight_case(const Case& given);
 
 /// Of the settings of flight_case(), at the rate of descent of `shape` under `pressure` [Pa], which is flow.speed_m_s.

@@ -23,7 +23,7 @@ constexpr double between_rows = 2e-4;     // [s]
 constexpr double longest_unreeling = 60;  // [s]
 constexpr double longest_stretch = 3;     // [s]
 
-/// The payload, the skirt or what has left the bag, and the bag.
+/// The payload, the skirt or the cloth that has left the bag, and the bag.
 enum Body { payload, skirt, bag, bodies };
 
 struct Motion {
@@ -111,7 +111,7 @@ Motion Deployer::step(const Motion& from, double h, const std::function<Motion(c
 }
 
 // Two bodies, the payload and the bag, each with drag D; u is the speed at which they come apart, mu the mass per
-// length of what leaves its container, F its resistance.
+// length of the part that leaves its container, F its resistance.
 //   stored in the bag:        m_p v_p' = -D_p - F - mu u^2,   m_b v_b' = -D_b + F
 //   stored with the payload:  m_p v_p' = -D_p - F,            m_b v_b' = -D_b + F + mu u^2
 bool Deployer::unreel(const Stored& stored, double resistance, bool from_bag, double leading, double trailing,

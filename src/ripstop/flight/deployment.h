@@ -10,8 +10,8 @@
 
 namespace ripstop {
 
-/// Payload and packed parachute on one straight path. The bag is the container or the wrap of the canopy, with the pilot
-/// chute.
+/// Payload and packed parachute on one straight path. The bag is the container or the wrap of the canopy, with the
+/// pilot chute.
 struct PackedParachute {
   double speed = 0;           // of the payload through the air at the start [m/s]
   double relative_speed = 0;  // at which the bag leaves it then [m/s]
@@ -64,7 +64,7 @@ struct Deployment {
   std::vector<DeploymentRow> rows;
   double snatch_load = 0, snatch_time = 0;  // largest tension at the payload [N], [s]
   double relative_speed = 0;                // of payload and bag when the lines come taut [m/s]
-  std::optional<std::string> stopped;       // why the canopy never comes out
+  std::optional<std::string> stopped;       // reason why the canopy does not leave the bag
 
   /// Null where the deployment does not come so far.
   const DeploymentPhase* phase(const std::string& name) const;

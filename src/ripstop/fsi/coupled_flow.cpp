@@ -66,9 +66,9 @@ void shares_of_directions(Vec3 normal, const Visit& visit) {
     if (n[axis] != 0) visit(2 * axis + (n[axis] < 0), n[axis] * n[axis]);
 }
 
-// Mean by area over the cloth within `width` that looks the same way. A face of the flow stands for many cells of cloth,
-// whose own motion it must not take for that of all of them: the load, which is smooth on that scale, cannot stop it. As
-// a matrix it is symmetric with respect to the areas, and no motion of the cloth grows by it.
+// Mean by area over the cloth within `width` of the same orientation. A face of the flow represents many cells of
+// cloth, whose own motion it must not take for that of all of them: the load, which is smooth on that scale, cannot
+// stop it. As a matrix it is symmetric with respect to the areas, and no motion of the cloth grows by it.
 std::vector<Vec3> smoothed_velocity(const MovingCells& cells, double width) {
   struct Sum {
     double area = 0;  // [m2]
@@ -170,9 +170,9 @@ std::vector<Vec3> CoupledFlow::acceleration(const std::vector<Vec3>& positions,
   return force;
 }
 
-// The Robin condition: v_n = v_n,predicted + compliance (p - p_last), compliance = mean_share dt / (mass an area). What
-// p_last did to the cloth is taken from the nodes: of the air's last force on them no part may be left out, as the air
-// would answer it twice.
+// The Robin condition: v_n = v_n,predicted + compliance (p - p_last), compliance = mean_share dt / (mass an area).
+// The effect of p_last on the cloth is computed from the nodes: of the air's last force on them no part may be left
+// out, as the air would answer it twice.
 SheetMotion CoupledFlow::sheet_motion(const std::vector<Vec3>& positions, const ClothMotion& predicted,
                                       double length, const AirMemory& memory) const {
   const double response = mean_share(predicted.steps) * length;

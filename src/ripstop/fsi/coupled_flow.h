@@ -39,8 +39,8 @@ struct AirMemory {
   std::vector<double> pressure;  // Loads::cell_pressure of the last step [Pa]
   std::vector<Vec3> force;       // Loads::node_force of the last step, of the air [N]
   std::vector<Vec3>
-      other;  // on the nodes beside it: weight, inertia in a frame that accelerates, drag of a payload [N]
-  double work = 0;      // done by the part of the flow's load that is not pressure, so far [J]
+      other;        // on the adjacent nodes: weight, inertia in an accelerating frame, drag of a payload [N]
+  double work = 0;  // done by the part of the flow's load that is not pressure, so far [J]
   long long steps = 0;  // of the flow
   PayloadMotion flight;
   double added_mass = 0;  // of the canopy when it was last computed [kg]
@@ -99,8 +99,8 @@ void each_member(T& row, Visit&& visit) {
   visit("added_mass_kg", row.added_mass);
 }
 
-/// What acts in one step of the flow on air and masses in the box, apart from each other. A box that moves with
-/// V_b(t) sees the stream W - V_b, and masses in it feel g - dV_b/dt.
+/// External actions on air and masses in the box in one step of the flow, except those on each other. A box that
+/// moves with V_b(t) sees the stream W - V_b, and masses in it feel g - dV_b/dt.
 struct Surroundings {
   bool moves = false;        // false: the stream is that of the problem, and masses feel nothing
   Vec3 stream;               // at the end of the step [m/s]
@@ -146,7 +146,7 @@ class CoupledFlow {
   const FlowGrid& grid() const { return grid_; }
   const std::vector<Cell>& cells() const { return cells_; }
 
-  /// Mass of the air of a cell on the axis over that of the lightest cloth beside it, rho h / m.
+  /// Mass of the air of a cell on the axis over that of the lightest adjacent cloth, rho h / m.
   double heaviness() const;
 
   const Flow& flow() const { return flow_.at_deployment(); }

@@ -25,11 +25,11 @@ CoupledStep take_coupled_step(CoupledFlow& air, const AdaptiveStepper& stepper, 
                               const RowSpan& span, const Surroundings& surroundings, ThreadTeam& team,
                               InflationState& state, const PackedCloth* packed = nullptr);
 
-/// Duration of a row of the history that no flow of this problem wants shorter, inverse [1/s].
+/// Smallest required duration of a row of the history for any flow of this problem, inverse [1/s].
 double least_rows_in(const FlowProblem& flow);
 
-/// Longest step of the flow [s]. Throws Error(diverged) where it is a small share of `row` [s], which only a flow that
-/// has diverged wants.
+/// Longest step of the flow [s]. Throws Error(diverged) where it is a small share of `row` [s], which only a diverged
+/// flow requires.
 double sound_step(CoupledFlow& air, double row, double time);
 
 }  // namespace ripstop

@@ -1,4 +1,4 @@
-// What a free flight records: a row for each step of the flow, and the state that a checkpoint holds.
+// Records of a free flight: a row for each step of the flow, and the state of a checkpoint.
 #pragma once
 
 #include "ripstop/fsi/opening_record.h"

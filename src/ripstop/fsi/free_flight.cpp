@@ -241,7 +241,7 @@ FreeFlightRow FreeFlight::advance(FreeFlightState& state) {
   FreeFlightRow row = row_of(state, x, v);
   row.air_force = taken.flow.force;
   row.payload_drag = norm(around.force);
-  // What lines and riser pull is what else changed the payload's momentum, in the mean over the step.
+  // The force of lines and riser is the remaining change of the payload's momentum, averaged over the step.
   const double m = mesh_.mass[payload_];
   row.line_force = (m / length) * (v[payload_] - v_before[payload_]) - m * around.on_mass - around.force;
   row.step = length, row.courant = taken.flow.courant;

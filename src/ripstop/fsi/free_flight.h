@@ -44,7 +44,7 @@ class FreeFlight {
   /// One step of the flow. Throws Error(diverged), and Error(not_converged) for a canopy that leaves its fine cells.
   FreeFlightRow advance(FreeFlightState& state);
 
-  /// Energies in the box, of which the residual is a share of the potential energy that was lost so far.
+  /// Energies in the box; the residual is relative to the potential energy lost so far.
   struct Balance {
     double energy_residual = 0, momentum_residual = 0;
   };

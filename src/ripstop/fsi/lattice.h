@@ -1,4 +1,4 @@
-// A lattice of points about the cloth that collects sums of what lies near each point and gives their shares back.
+// A lattice of points about the cloth that collects sums of the values near each point and returns their shares.
 #pragma once
 
 #include <algorithm>

@@ -14,7 +14,7 @@
 namespace ripstop {
 
 struct Bag {
-  double mass = 0, drag_area = 0;  // empty, with what pulls it [kg], [m2]
+  double mass = 0, drag_area = 0;  // empty, with the mass and drag area that pull it [kg], [m2]
   double strip_force = 0;          // that pulls cloth out of it [N]
   double relative_speed = 0;       // downstream of the payload when the canopy begins to leave it [m/s]
   double packed_share = 0.1;       // c

@@ -26,7 +26,7 @@ std::string dxf_polyline(const PieceStroke& stroke, double scale) {
   return text + fmt::format("0\nSEQEND\n8\n{}\n", layer);
 }
 
-/// A value on one line of characters that AC1009 knows.
+/// A value on one line of characters that AC1009 supports.
 std::string dxf_text(std::string text) {
   for (char& c : text)
     if (c < ' ' || c > '~') c = '?';

@@ -1,4 +1,4 @@
-// What is drawn of a piece of cloth, whatever the format of the file. Internal to output/.
+// Drawn parts of a piece of cloth, for every file format. Internal to output/.
 #pragma once
 
 #include <string>

@@ -32,8 +32,8 @@ bool mentions(const std::vector<std::string>& all, const std::string& text) {
                      [&](const std::string& one) { return one.find(text) != one.npos; });
 }
 
-// Handbook methods of finite mass give some 100 to 140 N for this drop, a computed opening 718 N. 1.76 m is smaller than
-// the canopies on which filling distances were measured; the design load is C_x C_D S0 q.
+// Handbook methods of finite mass give some 100 to 140 N for this drop, a computed opening 718 N. 1.76 m is smaller
+// than the canopies on which filling distances were measured; the design load is C_x C_D S0 q.
 TEST(DesignLoad, OfASmallSlowCanopyIsThatOfInfiniteMass) {
   const LoadResult r = run_load(resolve(sized_canopy(1.76)), drop());
   const double q = 0.5 * standard_air(300).density * 400, expected = 1.7 * 0.775 * r.reference_area * q;

@@ -1,4 +1,4 @@
-// A measured load over time beside that of an opening, from a folder that a test wrote.
+// A measured load over time compared with that of an opening, from a folder that a test wrote.
 #include "ripstop/run/opening/measured_load.h"
 
 #include <fmt/format.h>

@@ -85,7 +85,7 @@ TEST(SizeChoices, WithoutASufficientLineTheStrongestIsUsedWithAWarning) {
 }
 
 // 120 kg at 30 m/s: the strongest line and tape of the library do not hold a twelfth of 52 kN.
-TEST(SizeChoices, WhereNoLineOrTapeHoldsMoreLinesShareTheLoad) {
+TEST(SizeChoices, WithoutASufficientLineOrTapeMoreLinesShareTheLoad) {
   for (const char* family : {"flat-circular", "cross", "ringslot"}) {
     SizeRequest asked = wanted(120, 6);
     asked.family = family, asked.deployment_speed = 30;

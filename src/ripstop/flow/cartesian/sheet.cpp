@@ -48,8 +48,8 @@ constexpr double step_normal = 0.5;
 /// 0.5 give larger oscillations as the disk moves from face to face.
 constexpr double kinked = 0.25;
 
-/// By how much of its compliance a sheet is thought to give way further, to what its drop changes by in a step: the
-/// velocity of cloth lighter than the air beside it would else change its sign each step (docs/theory/inflation.md).
+/// Share of its compliance by which a sheet also follows the change of its drop in a step: the velocity of cloth
+/// lighter than the surrounding air would otherwise change its sign each step (docs/theory/inflation.md).
 constexpr double to_a_change = 0.5;
 
 constexpr double least_jet = 0.25;  // of U, in the slope only: the answer does not depend on it

@@ -64,7 +64,7 @@ std::optional<double> relative_error(const FlightHistory& history) {
   return *s.descent.standard_error / s.descent.mean;
 }
 
-/// Why the flight has ended; empty: it goes on.
+/// Reason why the flight has ended; empty: it continues.
 std::string end_of(const FreeFlight& flight, const FreeFlightState& state, const FlightHistory& history) {
   const FlightSettings& s = flight.problem().settings;
   const FreeFlightRow& row = history.rows.back();

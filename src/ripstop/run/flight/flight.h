@@ -1,4 +1,4 @@
-// One free flight in memory: what `ripstop fly` does apart from its folder and its terminal.
+// One free flight in memory: the computation of `ripstop fly` without folder and terminal.
 #pragma once
 
 #include <filesystem>
@@ -123,7 +123,7 @@ struct FlightHistory {
   std::vector<FreeFlightRow> rows;
 };
 
-/// Told of a flight as it proceeds; what it is not interested in, it leaves out.
+/// Observer of a flight; functions that are not overridden do nothing.
 class FlightObserver {
  public:
   virtual ~FlightObserver() = default;
@@ -133,7 +133,7 @@ class FlightObserver {
   /// An earlier start, in place of the equilibrium that would be computed.
   virtual std::optional<FlightStart> earlier_start() { return {}; }
   virtual void started(const FlightStart&) {}
-  /// Before the first step. An observer that knows an earlier state replaces state and history.
+  /// Before the first step. An observer with an earlier state replaces state and history.
   virtual void begin(FreeFlight&, FreeFlightState&, FlightHistory&) {}
   /// After every step; `shape`: one is due.
   virtual void advanced(FreeFlight&, const FreeFlightState&, const FlightHistory&, bool /*shape*/) {}

@@ -30,7 +30,7 @@ double wall_clock() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// Writes every file of the flight before it passes on what it was told.
+/// Writes every file of the flight before it calls the next observer.
 class FlightFolder : public FlightObserver {
  public:
   FlightFolder(ClaimedFolder& folder, const FlightFolderSettings& settings, FlightObserver& next)

@@ -211,8 +211,8 @@ InflationResult result_of(const Settings& resolved, const LoadSource& source, co
 }
 
 /// How long the air of an opening will take on one thread, about [s]. Its steps follow from the Courant number of the
-/// smallest cells in air at twice the speed of the stream (assumed: about the edges of an open canopy). A step sweeps the
-/// cells and finds the faces of the cells that every part of the cloth cuts, which takes most of the time.
+/// smallest cells in air at twice the speed of the stream (assumed: about the edges of an open canopy). A step sweeps
+/// the cells and finds the faces of the cells that every part of the cloth cuts, which takes most of the time.
 double flow_seconds(const AirProblem& air, double duration, int nodes) {
   constexpr double cells_a_second = 7.5e6;  // docs/tables/pimplefoam.md, of one of two cores
   constexpr double seconds_a_node =

@@ -38,7 +38,7 @@ struct InflationResult {
   std::optional<double> added_mass;                 // of the canopy at the end [kg]
   std::optional<Deployment> deployment;  // of a case with [deployment]: until the canopy leaves its bag
   std::optional<double> bag_left_time;   // when the canopy had left its bag in the coupled opening [s]
-  /// Of an opening in its own air by its projected area, see filling_of(); under a uniform pressure the time at which the
+  /// Of a coupled inflation by its projected area, see filling_of(); under a uniform pressure the time at which the
   /// load first reaches the steady one.
   std::optional<double> filling_time;          // [s]
   std::optional<double> filling_distance;      // over the nominal diameter
@@ -174,7 +174,7 @@ struct InflationSolution {
   InflationHistory history;
 };
 
-/// What is doubtful about an opening before anything is computed: cells of the air that are too coarse for the canopy.
+/// Warnings of an opening before the computation: cells of the flow that are too coarse for the canopy.
 std::vector<std::string> opening_warnings(const Settings& resolved, const Opening& solver);
 
 /// How long cloth and air of an opening will take on one thread, about, at the step that it begins with [s].

@@ -92,8 +92,8 @@ std::string joined(const std::vector<std::string>& texts) {
   return fmt::format("{}", fmt::join(texts, "; "));
 }
 
-/// Why the finite-mass methods do not apply in these conditions; empty: they do. A filling constant that the user gives,
-/// or that is fitted to a computed opening, replaces the handbook's, with its range of sizes and speeds.
+/// Why the finite-mass methods do not apply in these conditions; empty: they do. A filling constant that the user
+/// gives, or that is fitted to a computed opening, replaces the handbook's, with its range of sizes and speeds.
 std::string outside_of_methods(const OpeningConditions& c, const LoadRequest& request, double mach) {
   std::vector<ModelValue> values = {{"Mach number", mach}, {"ballistic parameter A", ballistic_parameter(c)}};
   if (!request.filling_constant && request.filling_from.empty())

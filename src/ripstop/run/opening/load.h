@@ -64,7 +64,7 @@ struct StageLoads {
   double filling_constant = 0;                                   // n at this speed
   double ballistic_parameter = 0, mass_ratio = 0;
   std::string outside;  // why the handbook's filling does not apply; empty: it does; not in result.json
-  std::string caution;  // what limits the filling distance of methods that apply; empty: nothing
+  std::string caution;  // limit of the filling distance of applicable methods; empty: none
   std::vector<MethodLoad> methods;
   /// Of the methods that apply, the infinite-mass load where none does; (highest - lowest) / mean.
   double highest = 0, lowest = 0, spread = 0;

@@ -37,7 +37,7 @@ struct LoadRecord {
   }
 };
 
-/// What a shift of the measured time comes to.
+/// Effect of a shift of the measured time.
 struct Overlap {
   double begin = 0, end = 0;  // [s]
   double mean_square = std::numeric_limits<double>::infinity(), computed_impulse = 0, measured_impulse = 0;
@@ -60,8 +60,8 @@ Overlap overlap_of(const LoadRecord& computed, const LoadRecord& measured, doubl
   return o;
 }
 
-/// The shift of least mean square difference among those for which at least half of the shorter record overlaps: by a scan,
-/// and by a finer one about the best.
+/// The shift of least mean square difference among those for which at least half of the shorter record overlaps: by a
+/// scan, and by a finer one about the best.
 double best_shift(const LoadRecord& computed, const LoadRecord& measured) {
   constexpr int tries = 400;
   const double length = computed.time.back() - computed.time.front(),

@@ -1,4 +1,4 @@
-// A measured load over time beside that of a computed opening: `ripstop compare RUN --measured FILE`.
+// A measured load over time compared with that of a computed opening: `ripstop compare RUN --measured FILE`.
 #pragma once
 
 #include <filesystem>
@@ -50,8 +50,8 @@ void each_member(T& m, Visit&& visit) {
 }
 std::string to_json(const MeasuredLoad& comparison);
 
-/// Throws Error(usage) for a folder without a finished opening and where both have no time in common, Error(bad_data) for a
-/// table that cannot be read.
+/// Throws Error(usage) for a folder without a finished opening and where both have no time in common, Error(bad_data)
+/// for a table that cannot be read.
 MeasuredLoad compare_load(const MeasuredLoadRequest& request);
 
 /// load.svg, load.png and result.json.

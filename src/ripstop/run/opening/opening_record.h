@@ -19,7 +19,8 @@ struct OpeningRecord {
 /// Error(usage) for a folder without one or one of another parachute, Error(bad_data) for a damaged one.
 OpeningRecord opening_record(const std::filesystem::path& folder, const Settings& resolved);
 
-/// How such an opening fills: n and j of C_D S = (s / (n D0))^j times the drag area of its end, s the way through the air.
+/// How such an opening fills: n and j of C_D S = (s / (n D0))^j times the drag area of its end, s the distance
+/// through the air.
 struct FittedFilling {
   double constant = 0, exponent = 0;
 };

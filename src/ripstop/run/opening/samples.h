@@ -49,8 +49,8 @@ std::string to_json(const SampleSummary& summary);
 /// imperfection.
 Settings with_seed(const Settings& resolved, int seed);
 
-/// Seeds 1 to `samples`, each opening in its own folder below `settings.run.folder`: one that is finished is read, one that
-/// was interrupted goes on. Writes result.json of the summary there. `open` runs one opening in a folder.
+/// Seeds 1 to `samples`, each opening in its own folder below `settings.run.folder`: a finished one is read, an
+/// interrupted one resumes. Writes result.json of the summary there. `open` runs one opening in a folder.
 SampleSummary run_samples(const InflationFolderSettings& settings, const Settings& resolved, int samples,
                           const std::function<void(const InflationFolderSettings&, const Settings&)>& open);
 

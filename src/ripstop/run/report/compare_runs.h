@@ -34,7 +34,7 @@ void each_member(T& c, Visit&& visit) {
 }
 std::string to_json(const RunComparison& comparison);
 
-/// All numbers of their result.json that two runs at least have, without those that say how they were computed. Throws
+/// All numbers of their result.json that two runs at least have, without those that describe the computation. Throws
 /// Error(usage) for fewer than two folders or one without a finished run, Error(bad_data) for a damaged one.
 RunComparison compare_runs(const std::vector<std::filesystem::path>& folders);
 

@@ -23,8 +23,8 @@ namespace {
 
 constexpr double highest_pressure = 1e6;  // as of inflation.pressure_pa [Pa]
 
-/// What `relaxation` returns. Where it diverges, the stress p R / 2 of a sphere of the nominal radius is compared with the
-/// strength of the cloth.
+/// The result of `relaxation`. If it diverges, the stress p R / 2 of a sphere of the nominal radius is
+/// compared with the strength of the cloth.
 template <class Relaxation>
 RelaxResult relaxed_under(const Settings& resolved, double pressure, const Relaxation& relaxation) {
   try {
