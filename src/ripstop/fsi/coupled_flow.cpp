@@ -30,9 +30,8 @@ std::unique_ptr<Flow> start_flow(const AirProblem& problem, std::vector<Triangle
   return problem.engine->start(flow);
 }
 
-/// The least of a cell's corners: tape and lines make some of them heavier, and a compliance that is a little too large
-/// is stable.
-std::vector<double> least_mass(const Mesh& mesh, const std::vector<Cell>& cells) {
+/// Of the cloth about every node, as cut [m2].
+std::vector<double> area_of_nodes(const Mesh& mesh, const std::vector<Cell>& cells) {
   std::vector<double> area(mesh.mass.size(), 0.0), cut;
   for (const Patch& patch : mesh.patches)
     cut.insert(cut.end(), patch.cell_area.begin(),
@@ -41,6 +40,13 @@ std::vector<double> least_mass(const Mesh& mesh, const std::vector<Cell>& cells)
     if (cells[c].corner[0] < 0) continue;
     for (const int node : cells[c].corner) area[node] += 0.25 * cut[c];
   }
+  return area;
+}
+
+/// The least of a cell's corners: tape and lines make some of them heavier, and a compliance that is a little too large
+/// is stable.
+std::vector<double> least_mass(const Mesh& mesh, const std::vector<Cell>& cells,
+                               const std::vector<double>& area) {
   std::vector<double> result;
   for (const Cell& cell : cells) {
     if (cell.corner[0] < 0) continue;
@@ -67,9 +73,9 @@ void shares_of_directions(Vec3 normal, const Visit& visit) {
     if (n[axis] != 0) visit(2 * axis + (n[axis] < 0), n[axis] * n[axis]);
 }
 
-// Mean by area over the cloth within `width` that looks the same way. A face of the flow stands for many cells of cloth,
-// whose own motion it must not take for that of all of them: the load, which is smooth on that scale, cannot stop it. As
-// a matrix it is symmetric with respect to the areas, and no motion of the cloth grows by it.
+// Mean by area over the cloth within `width` that has the same orientation. A face of the flow represents many cells of
+// cloth and must not take the velocity of one for that of all: the load, smooth on that scale, cannot stop it. The
+// operation is symmetric with respect to the areas, so it increases no velocity.
 std::vector<Vec3> smoothed_velocity(const MovingCells& cells, double width) {
   struct Sum {
     double area = 0;  // [m2]
@@ -122,10 +128,9 @@ CoupledFlow::CoupledFlow(const AirProblem& problem, const Mesh& mesh)
       density_(problem.flow.air.density),
       payload_(problem.payload),
       node_mass_(mesh.mass),
-      fixed_(mesh.fixed),
-      ties_(mesh.ties),
       cells_(cells_of(mesh)),
-      mass_(least_mass(mesh, cells_)),
+      node_area_(area_of_nodes(mesh, cells_)),
+      mass_(least_mass(mesh, cells_, node_area_)),
       flow_(start_flow(problem, surface_of(cells_, mesh.start)), density_) {}
 
 // On the axis, where the canopy is.
@@ -150,47 +155,37 @@ Loads CoupledFlow::last_load(const AirMemory& memory) const {
   return load;
 }
 
-// Of every node under the last load of the air alone, without springs [m/s2].
-std::vector<Vec3> CoupledFlow::acceleration(const std::vector<Vec3>& positions,
-                                            const AirMemory& memory) const {
+// The last load of the air on every node over the cloth's area about it [Pa].
+std::vector<Vec3> CoupledFlow::last_traction(const std::vector<Vec3>& positions,
+                                             const AirMemory& memory) const {
   std::vector<Vec3> force = memory.force;
-  force.resize(node_mass_.size());
+  force.resize(node_area_.size());
   for (std::size_t c = 0; c < memory.pressure.size(); ++c) {
-    const auto& corner = cells_[c].corner;
-    if (corner[0] < 0) continue;
-    const Vec3 area =
-        area_vector(positions[corner[0]], positions[corner[1]], positions[corner[2]], positions[corner[3]]);
-    for (const int node : corner) force[node] += 0.25 * memory.pressure[c] * area;
+    if (cells_[c].corner[0] < 0) continue;
+    const auto& [i, j, k, l] = cells_[c].corner;
+    const Vec3 area = area_vector(positions[i], positions[j], positions[k], positions[l]);
+    for (const int node : cells_[c].corner) force[node] += 0.25 * memory.pressure[c] * area;
   }
-  std::vector<double> mass = node_mass_;
-  for (const Tie& tie : ties_)
-    for (const Tie::Master& master : tie.masters) {
-      force[master.node] += master.weight * force[tie.node];
-      mass[master.node] += master.weight * mass[tie.node];
-    }
-  for (std::size_t n = 0; n < force.size(); ++n) force[n] = force[n] / mass[n];
-  for (const int node : fixed_) force[node] = {};
-  for (const Tie& tie : ties_) {
-    force[tie.node] = {};
-    for (const Tie::Master& master : tie.masters) force[tie.node] += master.weight * force[master.node];
-  }
+  for (std::size_t n = 0; n < force.size(); ++n)
+    if (node_area_[n] > 0) force[n] = force[n] / node_area_[n];
   return force;
 }
 
-// The Robin condition: v_n = v_n,predicted + compliance (p - p_last), compliance = mean_share dt / (mass an area). What
-// p_last did to the cloth is taken from the nodes: of the air's last force on them no part may be left out, as the air
-// would answer it twice.
+// The Robin condition: v = v_predicted + compliance (t - t_last), compliance = mean_share dt / (mass an area), with the
+// whole load t of the air on the cloth, not its pressure alone: what is left out of t_last the air would answer twice.
+// The motion of the sheet is that without the air.
 SheetMotion CoupledFlow::sheet_motion(const std::vector<Vec3>& positions, const ClothMotion& predicted,
                                       double length, const AirMemory& memory) const {
   const double response = mean_share(predicted.steps) * length;
-  const std::vector<Vec3> by_air = acceleration(positions, memory);
+  const std::vector<Vec3> last = last_traction(positions, memory);
   MovingCells cells;
   for (const Cell& cell : cells_) {
     if (cell.corner[0] < 0) continue;
+    const double compliance = response / mass_[2 * cells.centre.size()];  // two triangles a cell
     Vec3 centre, velocity;
     for (const int node : cell.corner) {
       centre += 0.25 * positions[node];
-      velocity += 0.25 * (predicted.velocity[node] - response * by_air[node]);
+      velocity += 0.25 * (predicted.velocity[node] - compliance * last[node]);
     }
     const auto& [a, b, c, d] = cell.corner;
     cells.centre.push_back(centre), cells.velocity.push_back(velocity);
