@@ -18,6 +18,7 @@ void add_pattern(CLI::App& app, int& status);
 void add_flow_parity(CLI::App& app, int& status);
 void add_calibrate(CLI::App& app, int& status);
 void add_calibrate_porosity(CLI::App& parent, int& status);
+void add_stability(CLI::App& app, int& status);
 void add_sweep(CLI::App& app, int& status);
 void add_compare(CLI::App& app, int& status);
 void add_photogrammetry(CLI::App& app, int& status);

@@ -44,11 +44,11 @@ void print(const Comparison& comparison) {
                          models[i].drag - a.drag);
   }
   fmt::print("\nlinear - nonlinear: {:+.3f} N ({:+.3f} %)\n", b.drag - a.drag, 100 * b.drag_difference);
-  fmt::print("  each material alone: {} N; together beyond their sum {:+.3f} N\n", alone,
+  fmt::print("  contribution of each material alone: {} N; interaction {:+.3f} N\n", alone,
              comparison.beyond_sum);
-  fmt::print("  by projected area {:+.3f} %, by drag per projected area {:+.3f} %\n",
+  fmt::print("  change of projected area {:+.3f} %, of drag per projected area {:+.3f} %\n",
              100 * comparison.by_projected_area, 100 * comparison.by_drag_per_area);
-  fmt::print("  strains are means over the springs of each part\n");
+  fmt::print("  strain: mean over the springs of each part\n");
 }
 
 int compare(CompareArguments& options) {
@@ -77,15 +77,15 @@ int compare(CompareArguments& options) {
 
 void add_compare(CLI::App& app, int& status) {
   auto options = std::make_shared<CompareArguments>();
-  CLI::App* command = app.add_subcommand("compare", "Two models of one case side by side");
+  CLI::App* command =
+      app.add_subcommand("compare", "Compare the nonlinear with the linear material model for one case");
   command->footer(
-      "Runs the case as it is, with K_1 alone for every material, and with K_1 alone for the cloth, the "
-      "lines and\n"
-      "the tape in turn.\n"
+      "Runs the case with the complete material laws, with only K_1 of every material, and with only K_1 of "
+      "the\ncloth, the lines and the tape separately.\n"
       "Example: ripstop compare examples/stratos-iv/case.toml --linear --speed 30");
   add_sweep_options(*command, *options);
   add_key_number(*command, "--speed", "flow.speed_m_s", options->overrides.speed, "Nominal speed [m/s]");
-  command->add_flag("--linear", options->linear, "Against the linear model, which keeps only K_1")
+  command->add_flag("--linear", options->linear, "Compare with the linear model, which uses only K_1")
       ->required();
   command->add_option("--out", options->settings.folder, "Folder (default: runs/<name of the case>-compare)");
   command->callback([options, &status] { status = compare(*options); });

@@ -40,7 +40,7 @@ void print_start(const Opening& solver, const InflationState& state, const LoadS
   fmt::print("folded start: {} folds, skirt folds at {:.4f} m and {:.4f} m from the axis\n", folded.folds,
              folded.inner_radius, folded.outer_radius);
   fmt::print("  largest strain {:.2e}{}\n", strain.largest,
-             strain.part.empty() ? "" : " (" + strain.part + "); wanted below 1e-3");
+             strain.part.empty() ? "" : " (" + strain.part + "); should be below 1e-3");
   if (const auto& air = solver.problem().air)
     fmt::print("{}: {} x {} x {} cells\n", source.text, air->flow.grid.nx, air->flow.grid.ny,
                air->flow.grid.nz);
@@ -49,12 +49,12 @@ void print_start(const Opening& solver, const InflationState& state, const LoadS
   const ViscosityLimit& limit = solver.viscosity_limit();
   if (limit.least_share < 1)
     fmt::print(
-        "cloth_damping_s is weakened in {:.1f} % of the cells, to {:.2f} of itself at least, for the step's "
-        "sake\n",
+        "damping of the cloth: reduced in {:.1f} % of the cells, to no less than {:.2f} of cloth_damping_s, "
+        "to keep the time step\n",
         100 * limit.reduced_cells, limit.least_share);
   fmt::print(
-      "nodes {}, step {:.3e} s (largest stable {:.3e} s), {} threads; the cloth alone takes about {} on one "
-      "thread\n",
+      "nodes {}, time step {:.3e} s (stability limit {:.3e} s), {} threads; the cloth alone takes about {} "
+      "on one thread\n",
       solver.mesh().node_count(), state.step, state.step / solver.problem().settings.step_fraction,
       solver.threads(), duration_text(opening_seconds(solver, state)));
 }
@@ -66,7 +66,7 @@ void print_stages(const InflationResult& r) {
     const StageSummary& stage = (*r.stages)[i];
     std::string text = fmt::format("peak {:.1f} N at {:.1f} ms", stage.peak_load, 1000 * stage.peak_time);
     if (stage.smooth_peak) text += fmt::format(", low-passed {:.1f} N", *stage.smooth_peak);
-    text += fmt::format("; {:.1f} N at its end, {:.1f} ms", stage.last_load, 1000 * stage.end);
+    text += fmt::format("; {:.1f} N at the end of the stage, {:.1f} ms", stage.last_load, 1000 * stage.end);
     if (stage.drag_area) text += fmt::format(", C_D S {:.4g} m2", *stage.drag_area);
     if (stage.line_peak)
       text += fmt::format("; line {:.1f} N at {:.1f} ms", *stage.line_peak, 1000 * *stage.line_peak_time);
@@ -89,8 +89,8 @@ void print_peaks(const InflationResult& r) {
   const auto row = result_row;
   const InflationSettings& s = r.settings;
   row("peak load",
-      fmt::format("{:.1f} N at {:.2f} ms, over every step{}", r.peak_load, 1000 * r.peak_time,
-                  r.start_up_time ? fmt::format(" after the start-up of {:.2f} ms (its own peak: {:.1f} N)",
+      fmt::format("{:.1f} N at {:.2f} ms, unfiltered{}", r.peak_load, 1000 * r.peak_time,
+                  r.start_up_time ? fmt::format(", after the start-up of {:.2f} ms (start-up peak {:.1f} N)",
                                                 1000 * *r.start_up_time, *r.start_up_peak)
                                   : ""));
   if (r.low_pass) {
@@ -102,7 +102,7 @@ void print_peaks(const InflationResult& r) {
     row("peak measured", fmt::format("{:.1f} N ({:+.1f} %{})", *s.measured_peak_n,
                                      100 * (own / *s.measured_peak_n - 1), r.low_pass ? ", low-passed" : ""));
   }
-  if (s.printed_peak_n) row("peak of the source's model", fmt::format("{:.1f} N", *s.printed_peak_n));
+  if (s.printed_peak_n) row("peak, model of the source", fmt::format("{:.1f} N", *s.printed_peak_n));
   row("infinite-mass load",
       r.estimate.load ? fmt::format("{:.1f} N = C_x {:g} times {:.1f} N ({})", *r.estimate.load,
                                     r.estimate.coefficient, *r.estimate.drag, r.estimate.drag_from)
@@ -119,11 +119,11 @@ void print_steady_load(const InflationResult& r) {
   const auto row = result_row;
   const double low_pass_hz = r.settings.low_pass_hz;
   row(r.steady_load ? "steady load" : "load at the end",
-      fmt::format("{:.1f} N +- {:.1f} % over the last fifth{}", r.summary.last_load,
+      fmt::format("{:.1f} N +- {:.1f} %, mean over the last fifth{}", r.summary.last_load,
                   100 * r.summary.unsteadiness,
                   r.steady_load ? "" : "; not a steady load at the speed of deployment"));
   if (r.steady_drag_returned) {
-    row("steady drag returned",
+    row("deviation from steady run",
         fmt::format("{:+.2f} % of {:.1f} N", 100 * (*r.steady_drag_returned - 1), *r.source.steady_drag));
   }
   if (!r.steady_load) return;
@@ -132,7 +132,7 @@ void print_steady_load(const InflationResult& r) {
         fmt::format("{:.1f} ms, after which the load remains within 10 % of the steady load",
                     1000 * *r.summary.inflation_time));
   if (r.summary.filling_time && r.summary.settling_time)
-    row("filled, settled",
+    row("filling, settling time",
         fmt::format("{:.1f} ms, {:.1f} ms ({:g} Hz, mean square over two periods)",
                     1000 * *r.summary.filling_time, 1000 * *r.summary.settling_time, low_pass_hz));
   row("overshoot", low_pass_hz > 0
@@ -148,14 +148,14 @@ void print_result(const InflationResult& r, const fs::path& folder, double wall_
   print_steady_load(r);
   row("impulse", fmt::format("{:.3f} N s", r.impulse));
   print_stages(r);
-  row("highest line tension", fmt::format("{:.1f} N", r.max_line_tension));
+  row("maximum line tension", fmt::format("{:.1f} N", r.max_line_tension));
   row("maximum von Mises stress",
       fmt::format("{:.0f} N/m ({}) at {:.1f} ms", r.stress.von_mises, r.stress.patch, 1000 * r.stress_time));
   row("energy balance", fmt::format("work in = kinetic + elastic + damped{} within {:.3f} %",
                                     r.stages ? " + cut" : "", 100 * r.energy_residual));
   if (r.settings.contact_pa > 0)
     row("contact of cloth",
-        fmt::format("pressed together by {:.0f} % at most; {:.2f} % of the edges pierced cloth",
+        fmt::format("compressed by {:.0f} % at most; {:.2f} % of the edges pierced the cloth",
                     100 * r.contact_depth, 100 * r.pierced));
   row("files", fmt::format("{} (load.png, shapes.png, history.csv, canopy.pvd, result.json); {}",
                            folder.string(), duration_text(wall_time)));
@@ -171,7 +171,7 @@ class Terminal : public InflationObserver {
   void warned(const std::string& text) override { progress_.line("ripstop: " + text); }
   void begin(const Opening& solver, InflationState& state, InflationHistory&) override {
     if (state.blocks > 0)
-      progress_.line(fmt::format("going on at {:.2f} ms of {}", 1000 * state.cloth.time, folder_.string()));
+      progress_.line(fmt::format("resuming at {:.2f} ms in {}", 1000 * state.cloth.time, folder_.string()));
     else if (!quiet_)
       print_start(solver, state, source_);
     begin_ = Clock::now();
@@ -181,10 +181,10 @@ class Terminal : public InflationObserver {
                 const InflationFrame*) override {
     const double gone = std::chrono::duration<double>(Clock::now() - begin_).count();
     const double left = gone * double(solver.blocks() - state.blocks) / double(state.blocks - first_);
-    progress_.show(fmt::format("{:.2f} of {:.0f} ms, load {:.1f} N, step {:.2e} s | {} gone, about {} left",
-                               1000 * state.cloth.time, 1000 * solver.problem().settings.duration_s,
-                               history.rows.back().mean, state.step, duration_text(gone),
-                               duration_text(left)));
+    progress_.show(
+        fmt::format("{:.2f} of {:.0f} ms, load {:.1f} N, step {:.2e} s | elapsed {}, remaining about {}",
+                    1000 * state.cloth.time, 1000 * solver.problem().settings.duration_s,
+                    history.rows.back().mean, state.step, duration_text(gone), duration_text(left)));
   }
 
  private:
@@ -202,11 +202,10 @@ class Terminal : public InflationObserver {
 int status_of(bool settled, const Settings& resolved) {
   if (settled || resolved.inflation().mass == InflationSettings::Mass::payload) return 0;
   std::fflush(stdout);
-  fmt::print(
-      stderr,
-      "not settled within inflation.duration_s = {:g} s: the load has not stayed within 10 % of its mean "
-      "for the last tenth of that time; take a longer one (--duration)\n",
-      resolved.inflation().duration_s);
+  fmt::print(stderr,
+             "not settled within inflation.duration_s = {:g} s: the load did not remain within 10 % of its "
+             "mean over the last tenth of that time; increase --duration\n",
+             resolved.inflation().duration_s);
   return static_cast<int>(ExitCode::not_converged);
 }
 
@@ -235,14 +234,14 @@ int run(const InflateArguments& options) {
   Progress progress;
   Terminal terminal(source, folder, options.json, progress);
   const auto problem = [&] {
-    progress.show("equilibrium under the steady load");
+    progress.show("computing the equilibrium under the steady load");
     return opening_problem(resolved, source, threads);
   };
   const auto result = run_inflation_in(settings, resolved, source, problem, terminal);
   if (!result) {
     const std::string finished = *finished_result(folder);
     fmt::print("{}", finished);
-    fmt::print(stderr, "{} holds the finished run; --fresh computes it again\n", folder.string());
+    fmt::print(stderr, "{} contains the finished run; use --fresh to compute it again\n", folder.string());
     const auto json = nlohmann::json::parse(finished);
     const int quality =
         print_result_warnings(json.value("warnings", std::vector<std::string>{}), json.value("usable", true));
@@ -262,24 +261,25 @@ int run(const InflateArguments& options) {
 void add_inflate(CLI::App& app, int& status) {
   auto options = std::make_shared<InflateArguments>();
   CLI::App* command =
-      app.add_subcommand("inflate", "How a folded canopy opens, and the load it puts on the riser");
+      app.add_subcommand("inflate", "Compute the opening of the folded canopy and its load on the riser");
   command->footer("Example: ripstop inflate examples/stratos-iv/case.toml --steady runs/stratos-iv");
   add_opening_options(*command, options->opening);
-  add_key_option(*command, "--damping", "inflation.damping_n_s_m3", "C_a a unit area [N s/m3]",
-                 options->opening.overrides);
+  add_key_option(*command, "--damping", "inflation.damping_n_s_m3",
+                 "Damping C_a per unit area of cloth [N s/m3]", options->opening.overrides);
   command
       ->add_option_function<std::string>(
           "--air",
           [options](const std::string& air) {
             options->opening.overrides.set.push_back({"inflation.air", air, "--air"});
           },
-          "What presses: one pressure for all of the cloth, or the air as it flows, in time with the cloth")
+          "Load model: uniform pressure, or flow that is computed in time together with the cloth")
       ->check(CLI::IsMember({"uniform", "coupled"}))
       ->option_text("uniform|coupled");
   command->add_option("--out", options->out, "Run folder (default: runs/<name of the case>-inflation)");
   command->add_flag("--fresh", options->fresh,
-                    "Replace what Ripstop wrote into the run folder; default: go on with it");
-  command->add_flag("--check", options->check, "Fold, say strain, pressure and step, and stop");
+                    "Replace the files of Ripstop in the run folder; default: resume the run");
+  command->add_flag("--check", options->check,
+                    "Fold the canopy, print strain, pressure and time step, and stop");
   add_json_option(*command, options->json);
   add_batch_options(*command, options->batch);
   command->callback([options, &status] { status = run(*options); });

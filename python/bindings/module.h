@@ -19,6 +19,7 @@ void add_errors(py::module_& module);
 void add_case(py::module_& module);
 void add_check(py::module_& module);
 void add_steady(py::module_& module);
+void add_stability(py::module_& module);
 void add_inflate(py::module_& module);
 void add_calibrate(py::module_& module);
 void add_fit(py::module_& module);

@@ -187,7 +187,7 @@ class Report(unittest.TestCase):
         self.assertEqual(self.js("document.querySelectorAll('#tabs button').length"), 2)
         rows = self.js("[...document.querySelectorAll('[data-table=comparison] tbody tr')].map((row) => [...row.cells].map((c) => c.title || c.innerText))")
         results = [json.loads((folder / "result.json").read_text()) for folder in (self.steady, self.opening)]
-        row = next(row for row in rows if row[0] == "highest line tension")
+        row = next(row for row in rows if row[0] == "maximum line tension")
         self.assertEqual([float(text) for text in row[2:]], [result["max_line_tension_n"] for result in results])
         self.js("document.querySelectorAll('#tabs button')[1].click()")
         self.check_values(self.opening)

@@ -65,7 +65,7 @@ TEST(RunNumbers, AHostfileNeedsAnEngineOfRanksAndTwoOfThem) {
   require_hosts({}, resolve(given));
   given.flow.ranks = 4;
   EXPECT_NE(refusal_of([&] { require_hosts(root.path / "hosts", resolve(given)); }, ExitCode::usage)
-                .find("--hostfile: needs ranks"),
+                .find("--hostfile: requires"),
             std::string::npos);
   given.flow.engine = "openfoam";
   require_hosts(root.path / "hosts", resolve(given));
@@ -73,7 +73,7 @@ TEST(RunNumbers, AHostfileNeedsAnEngineOfRanksAndTwoOfThem) {
   require_hosts(root.path / "hosts", resolve(given));
   given.flow.ranks = 1;
   EXPECT_EQ(refusal_of([&] { require_hosts(root.path / "hosts", resolve(given)); }, ExitCode::usage)
-                .find("--hostfile: needs"),
+                .find("--hostfile: requires"),
             0u);
   given.flow.ranks = 9;
   EXPECT_THROW(require_hosts(root.path / "hosts", resolve(given)), Error);  // more than slots

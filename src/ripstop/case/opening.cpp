@@ -64,11 +64,11 @@ Case opening_case(const Case& given) {
 LoadSource load_source(const Settings& opening) {
   const InflationSettings& inflation = opening.inflation();
   if (inflation.air == AirModel::coupled)
-    return {fmt::format("the air at {:g} m/s, stepped with the cloth", opening.flow().speed_m_s), {}};
+    return {fmt::format("coupled flow at {:g} m/s", opening.flow().speed_m_s), {}};
   if (inflation.pressure_pa.has_value() == inflation.drag_coefficient.has_value()) {
     throw Error(ExitCode::usage,
-                "give the pressure once: inflation.pressure_pa, inflation.drag_coefficient, --pressure "
-                "or --steady RUN");
+                "the pressure must be given exactly once: inflation.pressure_pa, inflation.drag_coefficient, "
+                "--pressure or --steady RUN");
   }
   if (inflation.pressure_pa) return {fmt::format("given: {:g} Pa", *inflation.pressure_pa), {}};
   const double speed = opening.flow().speed_m_s;
@@ -85,7 +85,7 @@ InflationProblem opening_problem(const Settings& opening, const LoadSource& sour
   problem.settings = opening.inflation();
   if (opening.inflation().air == AirModel::coupled) {
     const Cost cost = cost_of(opening);
-    require_memory(cost.memory, fmt::format("an opening in {:.3g} cells of air", cost.cells));
+    require_memory(cost.memory, fmt::format("a coupled inflation with {:.3g} cells", cost.cells));
     problem.air = AirProblem{flow_problem(opening), opening.inflation().courant};
     if (opening.inflation().mass == InflationSettings::Mass::payload)
       problem.air->payload =

@@ -109,7 +109,7 @@ DragArea filling(double from, double to, double filling_time, double exponent, d
 
 DragArea from_record(std::vector<double> distance, std::vector<double> drag_area, double to) {
   if (distance.size() != drag_area.size() || distance.empty())
-    throw Error(ExitCode::usage, "a record of the drag area needs as many ways as areas");
+    throw Error(ExitCode::usage, "a record of the drag area needs as many distances as areas");
   return [distance = std::move(distance), drag_area = std::move(drag_area), to](double, double s) {
     const auto above = std::lower_bound(distance.begin(), distance.end(), s);
     if (above == distance.end()) return to;

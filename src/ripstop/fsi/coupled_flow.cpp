@@ -22,10 +22,10 @@ double mean_share(int steps) {
 }
 
 std::unique_ptr<Flow> start_flow(const AirProblem& problem, std::vector<Triangle> surface) {
-  if (!problem.engine) throw Error(ExitCode::usage, "an opening in its own air needs a flow engine");
+  if (!problem.engine) throw Error(ExitCode::usage, "coupled inflation needs a flow engine");
   FlowProblem flow = problem.flow;
   if (flow.bodies.size() != 1 || !flow.has_sheets())
-    throw Error(ExitCode::usage, "an opening in its own air takes the canopy as one sheet");
+    throw Error(ExitCode::usage, "coupled inflation supports one sheet only");
   flow.bodies[0].surface = std::move(surface);
   return problem.engine->start(flow);
 }

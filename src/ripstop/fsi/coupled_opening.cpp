@@ -100,12 +100,11 @@ std::vector<HistoryRow> CoupledOpening::advance(InflationState& state, std::vect
 int CoupledOpening::rows_of_next_step(const InflationState& state, int left) {
   const double longest = air_->longest_step();
   if (!(longest > shortest_step * row_duration()))
-    throw QuantityError(
-        ExitCode::diverged,
-        fmt::format("at {:.6g} s the air would need steps of {:.3g} s: it has diverged; a smaller Courant "
-                    "number of the flow or a finer flow grid may help",
-                    state.cloth.time, longest),
-        {"Courant number of the flow", "flow grid"});
+    throw QuantityError(ExitCode::diverged,
+                        fmt::format("at {:.6g} s the flow would need time steps of {:.3g} s: it has "
+                                    "diverged; try a smaller Courant number of the flow or a finer flow grid",
+                                    state.cloth.time, longest),
+                        {"Courant number of the flow", "flow grid"});
   return std::max(1, left / steps_in(left * row_duration(), longest, state.cloth.time));
 }
 

@@ -18,8 +18,8 @@ inline constexpr double most_along = 1e6;  // from each other, in boxes or point
 inline constexpr double most_room = 1e8;   // boxes or points
 
 inline std::string cloth_too_far() {
-  return "the cloth has no finite position, or is larger than any canopy: its motion has diverged. A smaller "
-         "time step or more damping may help";
+  return "the cloth has no finite position, or is larger than any canopy: its motion has diverged; try a "
+         "smaller time step or more damping";
 }
 
 inline std::size_t room_of(const std::array<int, 3>& count) {

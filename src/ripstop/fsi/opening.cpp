@@ -23,8 +23,8 @@ constexpr double most_parts = 1e7;
 int parts_of(double count, const char* what) {
   const auto message = [&] {
     return fmt::format(
-        "inflation: {:.3g} {}: a shorter duration, more frames or a lower rate of the history is needed",
-        count, what);
+        "inflation: {:.3g} {}: use a shorter duration, more frames or a lower rate of the history", count,
+        what);
   };
   return checked_int(std::max(std::ceil(count - 1e-9), 1.0), 1, most_parts, message, ExitCode::usage);
 }

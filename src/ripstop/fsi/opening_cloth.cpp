@@ -74,10 +74,9 @@ void OpeningCloth::add_reefed_stages(const InflationSettings& settings, const Cl
   if (needed > length)
     throw QuantityError(
         ExitCode::usage,
-        fmt::format(
-            "length of the first reefing line = {:g}: the folded skirt is {:.4g} m round, more than its "
-            "reefing line; a smaller radius of the folded skirt fits into it",
-            length, needed),
+        fmt::format("length of the first reefing line = {:g}: the circumference of the folded skirt, {:.4g} "
+                    "m, exceeds the reefing line; use a smaller radius of the folded skirt",
+                    length, needed),
         {"length of the first reefing line", "radius of the folded skirt"});
 }
 

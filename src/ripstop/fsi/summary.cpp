@@ -78,13 +78,11 @@ double mean_between(const std::vector<Row>& rows, double from, double to, double
 
 std::vector<double> low_pass(const std::vector<double>& values, double interval, double cutoff_hz) {
   if (!(cutoff_hz > 0 && cutoff_hz * interval < 0.5)) {
-    throw QuantityError(
-        ExitCode::usage,
-        fmt::format(
-            "low-pass cutoff = {}: must be above 0 and below half the rate of the history, {:.6g} Hz; "
-            "raise the history rate",
-            cutoff_hz, 0.5 / interval),
-        {"low-pass cutoff", "the history rate"});
+    throw QuantityError(ExitCode::usage,
+                        fmt::format("low-pass cutoff = {}: must be above 0 and below half the rate of the "
+                                    "history, {:.6g} Hz; increase the history rate",
+                                    cutoff_hz, 0.5 / interval),
+                        {"low-pass cutoff", "the history rate"});
   }
   if (values.empty()) return {};
   const double k = std::tan(std::numbers::pi * cutoff_hz * interval);

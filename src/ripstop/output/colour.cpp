@@ -83,7 +83,7 @@ ColourRange colour_range(const std::vector<double>& values, double clipped) {
   std::copy_if(values.begin(), values.end(), std::back_inserter(sorted),
                [](double value) { return std::isfinite(value); });
   if (sorted.empty())
-    throw Error(ExitCode::bad_data, "a picture needs at least one finite value to colour by");
+    throw Error(ExitCode::bad_data, "a picture needs at least one finite value for its colours");
   std::sort(sorted.begin(), sorted.end());
   const auto skipped = static_cast<std::size_t>(clipped * static_cast<double>(sorted.size() - 1));
   ColourRange range{sorted[skipped], sorted[sorted.size() - 1 - skipped]};

@@ -133,11 +133,11 @@ void Builder::add_sewn_lines() {
 void describe(Fields& fields, DiskGapBand& canopy) {
   fields
       .number("disk_diameter_m", canopy.disk_diameter_m, from(0.01).up_to(100),
-              "Diameter of the flat disk, which is the band's too.")
+              "Diameter of the flat disk and of the band.")
       .required();
   fields
       .number("vent_diameter_m", canopy.vent_diameter_m, from(0.001).up_to(100),
-              "Diameter of the hole in the middle of the disk.")
+              "Diameter of the vent in the centre of the disk.")
       .required();
   fields
       .number("gap_height_m", canopy.gap_height_m, from(0.001).up_to(100),

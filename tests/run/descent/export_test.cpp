@@ -112,7 +112,7 @@ TEST_F(Export, EveryNumberIsThatOfTheRunOrOfItsDesign) {
   EXPECT_DOUBLE_EQ(p.lag, 10 * p.nominal_diameter / run.result.speed);  // disk-gap-band: ten diameters
   EXPECT_DOUBLE_EQ(exported(run, 5).lag, 2 * p.nominal_diameter);
   EXPECT_EQ(exported(run, 5).lag_from,
-            std::string("filling over 10 D0 at 5 m/s: ") + known_filling("disk-gap-band").source);
+            std::string("filling distance 10 D0 at 5 m/s: ") + known_filling("disk-gap-band").source);
   EXPECT_EQ(p.mass, run.parachute_mass);
   EXPECT_EQ(p.gores, design.gores);
   EXPECT_EQ(p.line_count, design.lines.count);

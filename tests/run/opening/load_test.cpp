@@ -65,7 +65,7 @@ TEST(Load, FillingConstantsAreTheHandbooks) {
   EXPECT_EQ(known_filling("ringslot").exponent, 1);
 }
 
-/// Of the methods that apply: what a stage says about all of them.
+/// Of the applicable methods: what a stage says about all of them.
 void expect_judged(const StageLoads& stage) {
   double highest = 0, lowest = 1e300, sum = 0;
   int count = 0;
@@ -253,13 +253,14 @@ TEST(Load, EveryMethodIsAskedInTheConditionsOfItsStage) {
     EXPECT_DOUBLE_EQ(method(stage, "Ludtke").time, ludtke_load(c).time);
     for (const char* fills : {"Pflanz", "Ludtke"}) {
       EXPECT_EQ(method(stage, fills).applies, !last);
-      EXPECT_EQ(method(stage, fills).note, last ? "fills from nothing, this stage does not" : "");
+      EXPECT_EQ(method(stage, fills).note,
+                last ? "assumes filling from zero drag area, unlike this stage" : "");
     }
     EXPECT_EQ(method(stage, "infinite mass").applies, !slowed);
-    EXPECT_EQ(method(stage, "infinite mass").note,
-              slowed ? "an upper bound: the speed falls while the canopy fills"
-                     : "the speed hardly falls while the canopy fills");
-    EXPECT_EQ(method(stage, "momentum-impulse").note.find("fills from nothing; leaves ") == 0, last);
+    EXPECT_EQ(method(stage, "infinite mass").note, slowed
+                                                       ? "an upper bound: the speed decreases during filling"
+                                                       : "the speed decreases little during filling");
+    EXPECT_EQ(method(stage, "momentum-impulse").note.find("filling from zero drag area; leaves ") == 0, last);
   }
   // The highest force of the whole flight, and of each stage its own.
   const auto highest =
@@ -285,8 +286,8 @@ TEST(Load, WhatFillsSlowlyUnderGravityIsNotForMethodsWithoutIt) {
   ASSERT_GT(share, 0.3);
   EXPECT_FALSE(method(stage, "Pflanz").applies || method(stage, "Ludtke").applies);
   const std::string note = method(stage, "Pflanz").note;
-  EXPECT_EQ(note.find("has no gravity, which adds "), 0u) << note;
-  EXPECT_NEAR(std::stod(note.substr(27)), 100 * share, 0.51) << note;
+  EXPECT_EQ(note.find("neglects gravity, which adds "), 0u) << note;
+  EXPECT_NEAR(std::stod(note.substr(29)), 100 * share, 0.51) << note;
   LoadRequest level = request(8, 15);
   level.path_angle = 0;  // none along the way
   EXPECT_TRUE(method(run_load(resolve(flat_circular()), level).stages[0], "Pflanz").applies);
@@ -359,7 +360,7 @@ TEST(Load, TheSnatchOfAPackedCanopyFollowsFromHowItIsSlowed) {
 TEST(Load, WhatCannotBeIsRefused) {
   EXPECT_NE(refused(request(-2)).find("payload mass (kg) of -2"), std::string::npos);
   EXPECT_NE(refused(request(2, 0)).find("speed at line stretch (m/s) of 0"), std::string::npos);
-  EXPECT_NE(refused(request(50, 10)).find("above the 10 m/s of the deployment"), std::string::npos);
+  EXPECT_NE(refused(request(50, 10)).find("exceeds the deployment speed of 10 m/s"), std::string::npos);
   LoadRequest asked = request();
   asked.reefing = {{0.4, 2}, {0.1, 2}};
   EXPECT_NE(refused(asked).find("reefed stage"), std::string::npos);

@@ -72,21 +72,22 @@ TEST_F(OpeningRecords, OfAPayloadHasTheSpeedAndThePathOfItsFlight) {
     EXPECT_NEAR(record.drag_area[i], area[i], 1e-12) << i;
   }
   write(history);
-  EXPECT_NE(refusal(ExitCode::bad_data, given).find("needs air.csv"), std::string::npos);
+  EXPECT_NE(refusal(ExitCode::bad_data, given).find("requires air.csv"), std::string::npos);
 }
 
 TEST_F(OpeningRecords, OfAnotherParachuteOrWithoutALoadIsRefused) {
   write(opening_history);
   const Case larger = checked(flat_circular_case(2.1, 600, 10));
-  EXPECT_EQ(
-      refusal(ExitCode::usage, larger),
-      folder.string() + ": is an opening of another parachute: S0 is 3.14159 m2 there and 3.46361 m2 here");
+  EXPECT_EQ(refusal(ExitCode::usage, larger), folder.string() +
+                                                  ": is an opening of a different parachute: S0 is 3.14159 "
+                                                  "m2 in that run and 3.46361 m2 in this case");
   write({opening_history.columns, {{0.1, 0, 0}}});
-  EXPECT_EQ(refusal(ExitCode::bad_data, given), folder.string() + ": its history has no load");
+  EXPECT_EQ(refusal(ExitCode::bad_data, given), folder.string() + ": the load history is zero");
   write({opening_history.columns, {}});
-  EXPECT_EQ(refusal(ExitCode::bad_data, given), folder.string() + ": its history has no load");
+  EXPECT_EQ(refusal(ExitCode::bad_data, given), folder.string() + ": the load history is zero");
   folder = root.path / "nowhere";
-  EXPECT_EQ(refusal(ExitCode::usage, given), folder.string() + ": holds no finished run of ripstop inflate");
+  EXPECT_EQ(refusal(ExitCode::usage, given),
+            folder.string() + ": contains no finished run of ripstop inflate");
 }
 
 }  // namespace

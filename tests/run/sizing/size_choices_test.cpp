@@ -76,7 +76,7 @@ TEST(SizeChoices, WhereNoLineHoldsTheStrongestIsTakenAndItSaysSo) {
   const SizeResult r = run_size(asked);
   EXPECT_GT(r.line_used, 1);
   ASSERT_FALSE(r.warnings.empty());
-  EXPECT_EQ(r.warnings[0].find("the line does not hold"), 0u) << r.warnings[0];
+  EXPECT_EQ(r.warnings[0].find("the line exceeds its allowable load"), 0u) << r.warnings[0];
 }
 
 // Near the ground the opening is flown from a hundred metres.
@@ -113,7 +113,7 @@ TEST(SizeChoices, ItsCaseFileSaysItsNumbersInComments) {
                   r.drag_source));
   has(fmt::format("# The handbook has {:.2f} to {:.2f} ", r.handbook_drag_coefficient->at(0),
                   r.handbook_drag_coefficient->at(1)));
-  has(fmt::format("  # {:.2f} to {:.2f} by the handbook's range of C_D", r.handbook_diameter->at(1),
+  has(fmt::format("  # {:.2f} to {:.2f} for the handbook range of C_D", r.handbook_diameter->at(1),
                   r.handbook_diameter->at(0)));
   has(fmt::format("  # {:.2f} % of the area", 100 * r.vent_area / r.nominal_area));
   has(fmt::format("  # {:.0f} % of its allowable load", 100 * r.line_used));
@@ -121,9 +121,9 @@ TEST(SizeChoices, ItsCaseFileSaysItsNumbersInComments) {
       "# Parachute {:.3g} kg: cloth {:.3g}, tape {:.3g}, lines {:.3g}; packed {:.3g} litres at {:g} kg/m3",
       r.parachute_mass, r.cloth_mass, r.tape_mass, r.line_mass, 1000 * r.packed_volume,
       wanted().packing_density));
-  has(fmt::format("# Design load {:.0f} N behind 2.4 kg at 20 m/s: infinite mass", r.design_load));
+  has(fmt::format("# Design load {:.0f} N for a payload of 2.4 kg at 20 m/s: infinite mass", r.design_load));
   has(fmt::format("[inflation]\ndrag_coefficient = {}", r.drag_coefficient));
-  has("speed_m_s = 5  # where the search begins");
+  has("speed_m_s = 5  # start value of the iteration");
 }
 
 // Lengths are rounded to a tenth of a millimetre.

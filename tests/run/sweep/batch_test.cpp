@@ -248,7 +248,7 @@ TEST(BatchNeeds, AreTheCostOfTheCaseAndOfItsEngine) {
   EXPECT_EQ(opening.ranks, 1);
   EXPECT_EQ(opening.cores, 2);
   EXPECT_EQ(opening.hours, 24);
-  EXPECT_EQ(opening.limited, "nobody has measured what this one takes");
+  EXPECT_EQ(opening.limited, "no estimate is available for this run");
   EXPECT_EQ(opening_needs(resolve(given), 2, 5).cores, 5);
 
   Case small = square_law_case();

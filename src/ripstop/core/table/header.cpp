@@ -52,12 +52,12 @@ std::map<std::size_t, const ColumnChoice*> named_columns(const std::vector<Headi
     }
     if (texts.empty())
       refuse(file, line,
-             fmt::format("no column \"{}\", which is named for the {}; the headings are {}", choice.heading,
+             fmt::format("no column \"{}\", which is given for the {}; the headings are {}", choice.heading,
                          name_of(choice.quantity), fmt::join(all, ", ")));
     if (texts.size() > 1)
       refuse(file, line,
              fmt::format(
-                 "several columns are \"{}\", which is named for the {}: \"{}\"; write one of them in full",
+                 "several columns match \"{}\", which is given for the {}: \"{}\"; write one of them in full",
                  choice.heading, name_of(choice.quantity), fmt::join(texts, "\", \"")));
     for (std::size_t i = 0; i < headings.size(); ++i)
       if (headings[i].text == *texts.begin()) named[i] = &choice;
@@ -163,11 +163,11 @@ struct Resolver {
     if (!column.problem.empty()) return;
     const std::string known = known_units(dimension_of(first));
     if (column.unit.empty())
-      column.problem = message(
-          line,
-          fmt::format("no unit for the column \"{}\" ({}): write it in the heading as in \"{} [{}]\", or "
-                      "give it with the column's name (known: {})",
-                      heading.text, name_of(first), name_of(first), known.substr(0, known.find(',')), known));
+      column.problem =
+          message(line, fmt::format("no unit for the column \"{}\" ({}): write it in the heading, for "
+                                    "example \"{} [{}]\", or give it with the name of the column (known: {})",
+                                    heading.text, name_of(first), name_of(first),
+                                    known.substr(0, known.find(',')), known));
     else
       column.problem =
           message(line, fmt::format("\"{}\" in the heading \"{}\" is not a unit for {}; known: {}",
@@ -289,7 +289,7 @@ Block make_block(const std::vector<Row>& rows, const Header& header, const Forma
     if (!units && is_unit_row(rows[r], headings))
       units = &rows[r];
     else if (!is_marker(rows[r]))
-      notes.push_back(fmt::format("line {} between the header and the numbers is left out", rows[r].line));
+      notes.push_back(fmt::format("line {} between the header and the numbers is ignored", rows[r].line));
   }
   Block block;
   block.header_line = row.line;

@@ -11,9 +11,9 @@ constexpr const char* handbook = "Knacke Table 5-6 and Fig. 5-51, Ludtke's progr
 constexpr const char* without_n = "Knacke Fig. 5-51; n not in his table: as flat circular (assumed)";
 constexpr const char* without_exponents = "Knacke Table 5-6; exponents as solid cloth (assumed)";
 constexpr const char* slotted =
-    "Knacke Table 5-6 and Fig. 5-51, read in a transcription; Ludtke's exponent unchecked";
+    "Knacke Table 5-6 and Fig. 5-51, read in a transcription; Ludtke's exponent not verified";
 constexpr const char* slotted_without_exponents =
-    "Knacke Table 5-6, read in a transcription; exponents as solid cloth, Ludtke's unchecked (assumed)";
+    "Knacke Table 5-6, read in a transcription; exponents as solid cloth, Ludtke's not verified (assumed)";
 constexpr const char* as_solid = "not in the tables: as solid flat circular (assumed)";
 constexpr const char* as_slotted = "not in the tables: between ringslot and ringsail (assumed)";
 

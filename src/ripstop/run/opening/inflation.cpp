@@ -98,7 +98,7 @@ void take_steady_load(InflationResult& r, const LoadSource& source, const Openin
 void compare_with_handbook(InflationResult& r, const Settings& resolved, const LoadSource& source,
                            const Opening& solver) {
   std::optional<double> drag = source.steady_drag;
-  std::string from = drag ? "the steady drag asked for" : "";
+  std::string from = drag ? "the given steady drag" : "";
   if (!drag && r.steady_load) {
     drag = r.steady_load, from = "the steady load of this opening";
   } else if (!drag && solver.air()) {

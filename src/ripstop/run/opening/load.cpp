@@ -38,10 +38,9 @@ void check_request(const LoadRequest& request) {
                 fmt::format("an opening at {:g} m above sea level: must be above the ground at {:g} m",
                             *request.height, request.ground));
   if (!(std::abs(request.path_angle) <= 90))
-    throw Error(ExitCode::usage,
-                fmt::format("a way {:g} degrees below the horizon: must be from -90, straight "
-                            "up, to 90, straight down",
-                            request.path_angle));
+    throw Error(ExitCode::usage, fmt::format("a flight path {:g} degrees below the horizon: must be from -90 "
+                                             "(vertically up) to 90 (vertically down)",
+                                             request.path_angle));
   double before = 0;
   for (const ReefedStage& stage : request.reefing) {
     if (!(stage.share > before && stage.share < 1))
@@ -102,22 +101,22 @@ void add_methods(const OpeningConditions& c, double ludtke_exponent, double inte
   const bool from_none = stage.drag_area_before == 0;
   const bool light = gravity < most_gravity;
   const std::string held =
-      !from_none ? "fills from nothing, this stage does not"
-      : !light   ? fmt::format("has no gravity, which adds {:.0f} % to the speed here", 100 * gravity)
+      !from_none ? "assumes filling from zero drag area, unlike this stage"
+      : !light   ? fmt::format("neglects gravity, which adds {:.0f} % to the speed", 100 * gravity)
                  : stage.outside;
   stage.methods.push_back({infinite_mass_method, infinite_mass_load(c).load, 0, x.factor > hardly_slowed,
-                           x.factor > hardly_slowed
-                               ? "the speed hardly falls while the canopy fills"
-                               : "an upper bound: the speed falls while the canopy fills"});
+                           x.factor > hardly_slowed ? "the speed decreases little during filling"
+                                                    : "an upper bound: the speed decreases during filling"});
   OpeningConditions by_ludtke = c;
   by_ludtke.exponent = ludtke_exponent;
   const OpeningLoad pflanz = pflanz_load(c), ludtke = ludtke_load(by_ludtke);
   stage.methods.push_back({"Pflanz", pflanz.load, pflanz.time, held.empty(), held});
   stage.methods.push_back({"Ludtke", ludtke.load, ludtke.time, held.empty(), held});
   const MomentumImpulse impulse = momentum_impulse_load(c, integral);
-  const std::string left = fmt::format("leaves {:.0f} % of the speed", 100 * impulse.speed_ratio);
+  const std::string left =
+      fmt::format("speed after filling {:.0f} % of the initial speed", 100 * impulse.speed_ratio);
   stage.methods.push_back({"momentum-impulse", impulse.load.load, 0, from_none && stage.outside.empty(),
-                           !from_none               ? "fills from nothing; " + left
+                           !from_none               ? "filling from zero drag area; " + left
                            : !stage.outside.empty() ? stage.outside
                                                     : left});
 }
@@ -232,7 +231,7 @@ void fly_record(const Settings& resolved, const LoadRequest& request, LoadResult
           handbook_disagreement(peak.force, peak.state.distance / r.nominal_diameter, stage.methods))
     r.warnings.push_back(*text);
   stage.methods.push_back({computed_method, peak.force, peak.state.time, true,
-                           "C_D S of " + request.opening.string() + " over the way through the air"});
+                           "C_D S of " + request.opening.string() + " over the distance through the air"});
   compare_methods(stage);
 }
 
@@ -299,7 +298,7 @@ DragCoefficient opening_drag_coefficient(const Settings& resolved, const LoadReq
     return {0.5 * (known.low + known.high),
             fmt::format("middle of {:.2f} to {:.2f} (Knacke)", known.low, known.high)};
   throw Error(ExitCode::usage,
-              "no drag coefficient is known of this family: give --drag-coefficient, --steady RUN or "
+              "no drag coefficient of this family is known: give --drag-coefficient, --steady RUN or "
               "inflation.drag_coefficient in the case");
 }
 
@@ -315,11 +314,10 @@ LoadResult run_load(const Settings& resolved, const LoadRequest& request) {
       terminal_speed(r.payload_mass + r.parachute_mass, r.drag_coefficient * r.reference_area,
                      standard_air(r.height).density);
   if (descent >= request.speed)
-    throw Error(
-        ExitCode::usage,
-        fmt::format("a descent rate of {:.3g} m/s is above the {:.3g} m/s of the deployment: nothing opens "
-                    "with a load there; take a higher speed, a smaller mass or a larger canopy",
-                    descent, request.speed));
+    throw Error(ExitCode::usage,
+                fmt::format("the descent rate of {:.3g} m/s exceeds the deployment speed of {:.3g} m/s: the "
+                            "opening causes no load; use a higher speed, a smaller mass or a larger canopy",
+                            descent, request.speed));
   fly_stages(request, r);
   if (!request.opening.empty()) fly_record(resolved, request, r);
   choose_design_load(resolved, request, r);

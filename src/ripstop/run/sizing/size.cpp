@@ -34,7 +34,7 @@ FamilyDrag drag_of(const std::string& family) {
   }
   const std::string near = nearest(family, names);
   throw Error(ExitCode::usage,
-              fmt::format("--family {}: no such family in examples/families.json; {}there are {}", family,
+              fmt::format("--family {}: no such family in examples/families.json; {}available: {}", family,
                           near.empty() ? "" : "did you mean " + near + "? ", fmt::join(names, ", ")));
 }
 
@@ -62,13 +62,12 @@ Balance balance_of(const SizeRequest& request, const SizeResult& r, const Case& 
     throw Error(
         ExitCode::usage,
         fmt::format("this cloth ({}, with lines and seams) descends at {:.3g} m/s without a payload in air "
-                    "of {:.3g} kg/m3: no size descends at {:g} m/s; take a higher descent rate or a "
-                    "lighter cloth",
+                    "of {:.3g} kg/m3: no size reaches {:g} m/s; use a higher descent rate or a lighter cloth",
                     r.given.parachute.canopy_material, alone, r.density, request.descent_rate));
   throw Error(
       ExitCode::usage,
-      fmt::format("{:g} kg at {:g} m/s in air of {:.3g} kg/m3 needs a larger parachute than a case file "
-                  "describes: parachute.{} is at most {:g} m; take a smaller mass or a higher descent rate",
+      fmt::format("{:g} kg at {:g} m/s in air of {:.3g} kg/m3 requires a larger parachute than a case file "
+                  "can describe: parachute.{} is at most {:g} m; use a smaller mass or a higher descent rate",
                   request.payload_mass, request.descent_rate, r.density, limits.high_key, limits.high_value));
 }
 
@@ -90,9 +89,10 @@ void find_size(const SizeRequest& request, const Design& example, SizeResult& r)
   if (excess(limits.low) > 0)
     throw Error(
         ExitCode::usage,
-        fmt::format("{:g} kg at {:g} m/s in air of {:.3g} kg/m3 needs a smaller parachute than a case file "
-                    "describes: parachute.{} is at least {:g} m; take a larger mass or a lower descent rate",
-                    request.payload_mass, request.descent_rate, r.density, limits.low_key, limits.low_value));
+        fmt::format(
+            "{:g} kg at {:g} m/s in air of {:.3g} kg/m3 requires a smaller parachute than a case file can "
+            "describe: parachute.{} is at least {:g} m; use a larger mass or a lower descent rate",
+            request.payload_mass, request.descent_rate, r.density, limits.low_key, limits.low_value));
   while (high - low > 1e-7) {
     const double middle = 0.5 * (low + high);
     (excess(std::exp(middle)) > 0 ? high : low) = middle;
@@ -202,8 +202,10 @@ void find_parachute(const SizeRequest& request, SizeResult& r) {
     find_opening(request, r);
     if (!choose_materials(lines, r, least_line, least_riser) && i > 0) return;
   }
-  throw Error(ExitCode::not_converged,
-              fmt::format("lines and tape still change after {} sizes: name a line (--line-material)", most));
+  throw Error(
+      ExitCode::not_converged,
+      fmt::format("the choice of lines and tape does not converge within {} iterations: give --line-material",
+                  most));
 }
 
 void warn(const SizeRequest& request, SizeResult& r) {
@@ -216,8 +218,8 @@ void warn(const SizeRequest& request, SizeResult& r) {
     r.warnings.push_back("drag coefficient: " + text);
   if (r.parachute_mass > request.payload_mass)
     r.warnings.push_back(
-        fmt::format("the parachute of {:.3g} kg is heavier than its payload of {:g} kg: the rate is "
-                    "close to that of the cloth alone",
+        fmt::format("the parachute of {:.3g} kg is heavier than its payload of {:g} kg: the descent rate is "
+                    "close to that of the canopy alone",
                     r.parachute_mass, request.payload_mass));
 }
 
@@ -332,9 +334,7 @@ void verify_size(const SizeRequest& request, SizeResult& r,
     const SteadyResult flown = fly(resolve(parse_case(r.case_text, "the sized case")), run);
     if (!flown.converged)
       throw Error(ExitCode::not_converged,
-                  fmt::format("--verify: run {} has not converged, so that its descent rate "
-                              "says nothing",
-                              run));
+                  fmt::format("--verify: run {} has not converged; its descent rate cannot be used", run));
     r.checks.push_back({r.nominal_diameter, flown.speed, flown.drag_coefficient});
     if (std::abs(flown.speed / request.descent_rate - 1) <= tolerance) return;
     scale_lengths(r.given.parachute, flown.speed / request.descent_rate);

@@ -18,10 +18,10 @@ std::vector<std::string> mesh_warnings(const Settings& resolved) {
   const int asked = resolved.parachute().mesh.cloth_nodes;
   const int enough = experience(resolved.parachute()).cloth_nodes;
   if (asked >= enough) return {};
-  return {fmt::format(
-      "parachute.mesh.cloth_nodes = {}: the projected diameter of this type may come out more than "
-      "1 % too large with fewer than {} nodes (docs/guide/canopies.md, How fine a mesh)",
-      asked, enough)};
+  return {
+      fmt::format("parachute.mesh.cloth_nodes = {}: the projected diameter of this type can be more than 1 % "
+                  "too large with fewer than {} nodes (docs/guide/canopies.md)",
+                  asked, enough)};
 }
 
 std::vector<std::string> grid_warnings(const Settings& resolved) {
@@ -30,10 +30,9 @@ std::vector<std::string> grid_warnings(const Settings& resolved) {
   const double across = cells_across(resolved);
   if (across >= enough) return {};
   return {
-      fmt::format("{:.0f} cells of the flow across the inflated canopy: with fewer than {:.0f} the air's "
-                  "own load jumps as cloth passes from cell to cell, and the coupling may not converge; more "
-                  "flow.cells, or "
-                  "coupling.load = \"uniform\"",
+      fmt::format("{:.0f} flow cells across the inflated canopy: with fewer than {:.0f} the local load "
+                  "becomes discontinuous as cloth crosses grid cells, and the coupling may not converge; "
+                  "increase flow.cells, or set coupling.load = \"uniform\"",
                   across, enough)};
 }
 
@@ -66,11 +65,11 @@ std::vector<std::string> shape_warnings(const Settings& resolved) {
     for (const double height : piece.height_m) highest = std::max(highest, height);
   const double below = highest - profile->pieces.back().height_m.back();
   if (below <= 1e-6 * nominal_diameter(resolved.parachute())) return {};
-  return {fmt::format(
-      "parachute.pieces: the vent is {:.3g} m below the highest point of the meridian; only centre lines "
-      "hold an "
-      "apex down, and Ripstop has none: the cloth is cut to this shape, but the apex rises in the flow",
-      below)};
+  return {
+      fmt::format("parachute.pieces: the vent is {:.3g} m below the highest point of the meridian; such an "
+                  "apex requires centre lines, which Ripstop does not support: the cloth is cut to this "
+                  "shape, but the apex rises in the flow",
+                  below)};
 }
 
 std::vector<std::string> strain_warnings(const Settings& resolved, double largest_cloth_strain) {
