@@ -30,8 +30,9 @@ std::unique_ptr<Flow> start_flow(const AirProblem& problem, std::vector<Triangle
   return problem.engine->start(flow);
 }
 
-/// Of the cloth about every node, as cut [m2].
-std::vector<double> area_of_nodes(const Mesh& mesh, const std::vector<Cell>& cells) {
+/// The least of a cell's corners: tape and lines make some of them heavier, and a compliance that is a little too large
+/// is stable.
+std::vector<double> least_mass(const Mesh& mesh, const std::vector<Cell>& cells) {
   std::vector<double> area(mesh.mass.size(), 0.0), cut;
   for (const Patch& patch : mesh.patches)
     cut.insert(cut.end(), patch.cell_area.begin(),
@@ -40,13 +41,6 @@ std::vector<double> area_of_nodes(const Mesh& mesh, const std::vector<Cell>& cel
     if (cells[c].corner[0] < 0) continue;
     for (const int node : cells[c].corner) area[node] += 0.25 * cut[c];
   }
-  return area;
-}
-
-/// The least of a cell's corners: tape and lines make some of them heavier, and a compliance that is a little too large
-/// is stable.
-std::vector<double> least_mass(const Mesh& mesh, const std::vector<Cell>& cells,
-                               const std::vector<double>& area) {
   std::vector<double> result;
   for (const Cell& cell : cells) {
     if (cell.corner[0] < 0) continue;
@@ -129,8 +123,7 @@ CoupledFlow::CoupledFlow(const AirProblem& problem, const Mesh& mesh)
       payload_(problem.payload),
       node_mass_(mesh.mass),
       cells_(cells_of(mesh)),
-      node_area_(area_of_nodes(mesh, cells_)),
-      mass_(least_mass(mesh, cells_, node_area_)),
+      mass_(least_mass(mesh, cells_)),
       flow_(start_flow(problem, surface_of(cells_, mesh.start)), density_) {}
 
 // On the axis, where the canopy is.
@@ -155,44 +148,36 @@ Loads CoupledFlow::last_load(const AirMemory& memory) const {
   return load;
 }
 
-// The last load of the air on every node over the cloth's area about it [Pa].
-std::vector<Vec3> CoupledFlow::last_traction(const std::vector<Vec3>& positions,
-                                             const AirMemory& memory) const {
-  std::vector<Vec3> force = memory.force;
-  force.resize(node_area_.size());
-  for (std::size_t c = 0; c < memory.pressure.size(); ++c) {
-    if (cells_[c].corner[0] < 0) continue;
-    const auto& [i, j, k, l] = cells_[c].corner;
-    const Vec3 area = area_vector(positions[i], positions[j], positions[k], positions[l]);
-    for (const int node : cells_[c].corner) force[node] += 0.25 * memory.pressure[c] * area;
-  }
-  for (std::size_t n = 0; n < force.size(); ++n)
-    if (node_area_[n] > 0) force[n] = force[n] / node_area_[n];
-  return force;
-}
-
 // The Robin condition: v = v_predicted + compliance (t - t_last), compliance = mean_share dt / (mass an area), with the
 // whole load t of the air on the cloth, not its pressure alone: what is left out of t_last the air would answer twice.
 // The motion of the sheet is that without the air.
 SheetMotion CoupledFlow::sheet_motion(const std::vector<Vec3>& positions, const ClothMotion& predicted,
                                       double length, const AirMemory& memory) const {
-  const double response = mean_share(predicted.steps) * length;
-  const std::vector<Vec3> last = last_traction(positions, memory);
+  AirMemory of_air = memory;
+  of_air.inertia = 0;
+  const Loads last = last_load(of_air);
   MovingCells cells;
+  std::vector<double> area_about(node_mass_.size(), 0.0);  // every node [m2]
   for (const Cell& cell : cells_) {
     if (cell.corner[0] < 0) continue;
-    const double compliance = response / mass_[2 * cells.centre.size()];  // two triangles a cell
-    Vec3 centre, velocity;
-    for (const int node : cell.corner) {
-      centre += 0.25 * positions[node];
-      velocity += 0.25 * (predicted.velocity[node] - compliance * last[node]);
-    }
     const auto& [a, b, c, d] = cell.corner;
-    cells.centre.push_back(centre), cells.velocity.push_back(velocity);
     cells.area.push_back(area_vector(positions[a], positions[b], positions[c], positions[d]));
+    for (const int node : cell.corner) area_about[node] += 0.25 * norm(cells.area.back());
   }
+  const double response = mean_share(predicted.steps) * length;
   SheetMotion motion;
   for (const double mass : mass_) motion.yields.push_back(response / mass);
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    if (cells_[c].corner[0] < 0) continue;
+    const std::size_t n = cells.centre.size();  // of cells with cloth; each is two triangles
+    const double area = norm(cells.area[n]);
+    Vec3 centre, velocity, load = area > 0 ? last.cell_pressure[c] / area * cells.area[n] : Vec3{};
+    for (const int node : cells_[c].corner) {
+      centre += 0.25 * positions[node], velocity += 0.25 * predicted.velocity[node];
+      if (area_about[node] > 0) load += 0.25 / area_about[node] * last.node_force[node];
+    }
+    cells.centre.push_back(centre), cells.velocity.push_back(velocity - motion.yields[2 * n] * load);
+  }
   const std::vector<Vec3> smoothed = smoothed_velocity(cells, smoothed_over * cell_width());
   for (const Vec3 velocity : smoothed) motion.velocity.insert(motion.velocity.end(), 2, velocity);
   return motion;

@@ -129,7 +129,6 @@ class CoupledFlow {
  private:
   double density_ratio_of(const AirMemory& memory) const;
   double cell_width() const;  // [m]
-  std::vector<Vec3> last_traction(const std::vector<Vec3>& positions, const AirMemory& memory) const;
   SheetMotion sheet_motion(const std::vector<Vec3>& positions, const ClothMotion& predicted, double length,
                            const AirMemory& memory) const;
 
@@ -139,7 +138,6 @@ class CoupledFlow {
   std::optional<Payload> payload_;
   std::vector<double> node_mass_;  // [kg]
   std::vector<Cell> cells_;
-  std::vector<double> node_area_;  // of the cloth about it, as cut [m2]
   std::vector<double> mass_;       // of every triangle of the surface, a unit area [kg/m2]
   std::vector<Triangle> surface_;  // of the last step
   FlowAtDensity flow_;
