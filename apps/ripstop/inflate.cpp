@@ -16,8 +16,10 @@
 #include "margins.h"
 #include "opening.h"
 #include "progress.h"
+#include "ripstop/case/deployment.h"
 #include "ripstop/core/error.h"
 #include "ripstop/run/opening/inflation_folder.h"
+#include "ripstop/run/opening/samples.h"
 #include "ripstop/run/report/report.h"
 #include "stopping.h"
 #include "warnings.h"
@@ -32,7 +34,28 @@ struct InflateArguments {
   BatchOptions batch;
   fs::path out;
   bool fresh = false, check = false, json = false;
+  int samples = 0;  // 0: one opening as the case has it
 };
+
+/// The deployment in one dimension, a line a phase.
+void print_deployment(const Settings& resolved) {
+  const auto deployment = deployment_of(resolved);
+  if (!deployment) return;
+  const PackedParachute packed = packed_parachute(resolved);
+  fmt::print(
+      "deployment: container {:.3g} kg with {:.3g} m2, canopy {:.3g} kg, lines {:.3g} kg; strip force {:.3g} "
+      "N, line "
+      "force {:.3g} N\n",
+      packed.bag_mass, packed.bag_drag_area, packed.canopy_mass, packed.lines_mass, packed.strip_force,
+      packed.line_force);
+  for (const DeploymentPhase& phase : deployment->phases)
+    fmt::print("  {:<24} {:8.4f} s {:8.2f} m, payload at {:6.2f} m/s, container at {:6.2f} m/s\n", phase.name,
+               phase.time, phase.path, phase.payload_speed, phase.bag_speed);
+  if (deployment->phase(lines_stretch))
+    fmt::print("  snatch load {:.1f} N at {:.4f} s, {:.2f} m/s apart\n", deployment->snatch_load,
+               deployment->snatch_time, deployment->relative_speed);
+  if (deployment->stopped) fmt::print("  did not open: {}\n", *deployment->stopped);
+}
 
 void print_start(const Opening& solver, const InflationState& state, const LoadSource& source) {
   const FoldedStart& folded = solver.folded();
@@ -53,10 +76,10 @@ void print_start(const Opening& solver, const InflationState& state, const LoadS
         "to keep the time step\n",
         100 * limit.reduced_cells, limit.least_share);
   fmt::print(
-      "nodes {}, time step {:.3e} s (stability limit {:.3e} s), {} threads; the cloth alone takes about {} "
-      "on one thread\n",
+      "nodes {}, time step {:.3e} s (stability limit {:.3e} s), {} threads; {} about {} on one thread\n",
       solver.mesh().node_count(), state.step, state.step / solver.problem().settings.step_fraction,
-      solver.threads(), duration_text(opening_seconds(solver, state)));
+      solver.threads(), solver.air() ? "cloth and air take" : "the cloth alone takes",
+      duration_text(opening_seconds(solver, state)));
 }
 
 /// Of a reefed opening, a line a stage.
@@ -107,6 +130,11 @@ void print_peaks(const InflationResult& r) {
       r.estimate.load ? fmt::format("{:.1f} N = C_x {:g} times {:.1f} N ({})", *r.estimate.load,
                                     r.estimate.coefficient, *r.estimate.drag, r.estimate.drag_from)
                       : std::string("not known: the opening has no steady load and no drag was given"));
+  if (r.filling_distance)
+    row("filled",
+        fmt::format("{:.1f} ms after the start, {:.2f} nominal diameters; area grows as (t/t_f)^{:.2f}",
+                    1000 * *r.filling_time, *r.filling_distance, *r.growth_exponent));
+  if (r.bag_left_time) row("canopy out of its bag", fmt::format("{:.1f} ms", 1000 * *r.bag_left_time));
   if (r.finite_mass_factor)
     row("finite-mass factor", fmt::format("{:.3f}: peak over the infinite-mass load", *r.finite_mass_factor));
   for (const MethodLoad& m : r.handbook)
@@ -131,10 +159,10 @@ void print_steady_load(const InflationResult& r) {
     row("inflation time",
         fmt::format("{:.1f} ms, after which the load remains within 10 % of the steady load",
                     1000 * *r.summary.inflation_time));
-  if (r.summary.filling_time && r.summary.settling_time)
+  if (r.filling_time && r.summary.settling_time && !r.filling_distance)
     row("filling, settling time",
-        fmt::format("{:.1f} ms, {:.1f} ms ({:g} Hz, mean square over two periods)",
-                    1000 * *r.summary.filling_time, 1000 * *r.summary.settling_time, low_pass_hz));
+        fmt::format("{:.1f} ms, {:.1f} ms ({:g} Hz, mean square over two periods)", 1000 * *r.filling_time,
+                    1000 * *r.summary.settling_time, low_pass_hz));
   row("overshoot", low_pass_hz > 0
                        ? fmt::format("{:.3f}, low-passed {:.3f}", *r.overshoot, *r.smooth_overshoot)
                        : fmt::format("{:.3f}", *r.overshoot));
@@ -209,6 +237,41 @@ int status_of(bool settled, const Settings& resolved) {
   return static_cast<int>(ExitCode::not_converged);
 }
 
+void print_samples(const SampleSummary& summary, const fs::path& folder) {
+  fmt::print("{}: {} openings with perturbed folds\n  {:<30} {:>10} {:>10} {:>10} {:>10}\n", summary.title,
+             summary.samples, "", "mean", "std. dev.", "lowest", "highest");
+  const auto row = [](const char* name, const std::optional<Statistic>& s) {
+    if (s)
+      fmt::print("  {:<30} {:>10.4g} {:>10.3g} {:>10.4g} {:>10.4g}\n", name, s->mean, s->standard_deviation,
+                 s->lowest, s->highest);
+  };
+  row("peak load, N", summary.peak_load);
+  row("peak, low-passed, N", summary.smooth_peak);
+  row("filling time, s", summary.filling_time);
+  row("filling distance / D0", summary.filling_distance);
+  row("opening force coefficient C_x", summary.opening_force_coefficient);
+  row("finite-mass factor X_1", summary.finite_mass_factor);
+  fmt::print("  files                          {} (result.json, sample-001 and following)\n",
+             folder.string());
+}
+
+int sample(const InflateArguments& options, const InflationFolderSettings& settings, const Settings& resolved,
+           const LoadSource& source) {
+  goes_on_when_repeated();
+  const SampleSummary summary = run_samples(
+      settings, resolved, options.samples, [&](const InflationFolderSettings& one, const Settings& seeded) {
+        Progress progress;
+        Terminal terminal(source, one.run.folder, true, progress);
+        run_inflation_in(
+            one, seeded, source, [&] { return opening_problem(seeded, source, settings.threads); }, terminal);
+      });
+  if (options.json)
+    fmt::print("{}", to_json(summary));
+  else
+    print_samples(summary, settings.run.folder);
+  return 0;
+}
+
 int run(const InflateArguments& options) {
   const auto begin = std::chrono::steady_clock::now();
   const Settings resolved = opening_settings(options.opening);
@@ -225,11 +288,15 @@ int run(const InflateArguments& options) {
   }
   if (options.check) {
     check_inflation_in(settings, resolved, source);
+    print_deployment(resolved);
     const std::unique_ptr<Opening> solver =
         make_opening(with_engine(resolved, opening_problem(resolved, source, threads)));
     print_start(*solver, solver->start(), source);
+    print_warnings(opening_warnings(resolved, *solver));
     return 0;
   }
+  if (!options.json) print_deployment(resolved);
+  if (options.samples > 0) return sample(options, settings, resolved, source);
   goes_on_when_repeated();
   Progress progress;
   Terminal terminal(source, folder, options.json, progress);
@@ -278,6 +345,8 @@ void add_inflate(CLI::App& app, int& status) {
   command->add_option("--out", options->out, "Run folder (default: runs/<name of the case>-inflation)");
   command->add_flag("--fresh", options->fresh,
                     "Replace the files of Ripstop in the run folder; default: resume the run");
+  add_number(*command, "--samples", options->samples, from(2).up_to(1000),
+             "Number of openings with different random perturbations of the folds, for mean and scatter");
   command->add_flag("--check", options->check,
                     "Fold the canopy, print strain, pressure and time step, and stop");
   add_json_option(*command, options->json);

@@ -85,6 +85,10 @@ void describe_mesh(Fields& fields, InflationSettings& inflation) {
                 "times cos(harmonic x azimuth), proportional to the radius elsewhere; 0: symmetric.");
   fields.integer("imperfection_harmonic", inflation.imperfection_harmonic, from(1).up_to(1000),
                  "Number of waves of the imperfection around the axis.");
+  fields.integer(
+      "imperfection_seed", inflation.imperfection_seed, from(0).up_to(1e9),
+      "Seed of a random imperfection: waves of all harmonics from 1 to 8 at random azimuths, instead of one "
+      "harmonic; 0: none. `ripstop inflate --samples` uses the seeds from 1.");
 }
 
 /// How long, how finely and what is written.

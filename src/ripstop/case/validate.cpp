@@ -393,6 +393,14 @@ void check_inflation(const Case& given, Findings& findings) {
     check_line_nodes(given.parachute, "inflation.line_segment_m", *inflation.line_segment_m, findings);
 }
 
+void check_deployment(const Case& given, Findings& findings) {
+  if (!given.deployment) return;
+  if (given.deployment->relative_speed_m_s && given.deployment->ejection_impulse_n_s &&
+      findings.sound({"deployment.relative_speed_m_s", "deployment.ejection_impulse_n_s"}))
+    findings.add("deployment.ejection_impulse_n_s", *given.deployment->ejection_impulse_n_s, "",
+                 "deployment.relative_speed_m_s determines the same speed; remove one of the two keys");
+}
+
 /// What asks for values that follow from parachute and cloth.
 void check_settings(Case given, Findings& findings) {
   const std::string& cloth = given.parachute.canopy_material;
@@ -434,6 +442,7 @@ void check(Case& given, std::vector<Problem>& problems) {
   check_flight(given, findings);
   check_inflation(given, findings);
   check_reefing(given, findings);
+  check_deployment(given, findings);
   check_settings(given, findings);
 }
 

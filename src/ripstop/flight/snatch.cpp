@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -128,6 +129,41 @@ SnatchLoad snatch_load(double payload_mass, double canopy_mass, double speed_dif
     result.time += result.stretch * std::cos(theta) * d / (speed_difference * std::sqrt(left));
   }
   return result;
+}
+
+double TensionCurve::at(double stretch_m) const {
+  if (!(stretch_m > 0)) return 0;
+  if (stretch_m > stretch.back())
+    throw Error(
+        ExitCode::usage,
+        fmt::format(
+            "lines and riser break in the snatch: they are stretched by {:.3g} m and bear {:.3g} N at "
+            "{:.3g} m; a lower relative speed, a lighter canopy or stronger lines are needed",
+            stretch_m, tension.back(), stretch.back()));
+  const auto next = std::upper_bound(stretch.begin(), stretch.end() - 1, stretch_m) - stretch.begin();
+  const auto i = static_cast<std::size_t>(next);
+  const double share = (stretch_m - stretch[i - 1]) / (stretch[i] - stretch[i - 1]);
+  return tension[i - 1] + share * (tension[i] - tension[i - 1]);
+}
+
+double TensionCurve::steepest() const {
+  double most = 0;
+  for (std::size_t i = 1; i < stretch.size(); ++i)
+    most = std::max(most, (tension[i] - tension[i - 1]) / (stretch[i] - stretch[i - 1]));
+  return most;
+}
+
+TensionCurve tension_curve(const std::vector<SnatchPart>& parts) {
+  if (parts.empty()) throw Error(ExitCode::usage, "a snatch needs lines or a riser between the masses");
+  for (const SnatchPart& part : parts) check(part.length, "length (m) of " + part.name);
+  constexpr int rows = 2000;
+  const Row row(parts);
+  TensionCurve curve;
+  for (int i = 0; i <= rows; ++i) {
+    curve.tension.push_back(row.limit() * std::pow(double(i) / rows, 3));  // dense where snatch loads are
+    curve.stretch.push_back(i == 0 ? 0 : row.stretch(curve.tension.back()));
+  }
+  return curve;
 }
 
 // v(t) = v / (1 + b v t) and s(t) = ln(1 + b v t) / b with b = rho C_D A / (2 m).

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "ripstop/core/error.h"
@@ -118,9 +117,7 @@ CoupledFlow::CoupledFlow(const AirProblem& problem, const Mesh& mesh)
     : engine_(problem.engine),
       grid_(problem.flow.grid),
       courant_(problem.courant),
-      speed_(problem.flow.air.speed()),
       density_(problem.flow.air.density),
-      payload_(problem.payload),
       node_mass_(mesh.mass),
       cells_(cells_of(mesh)),
       mass_(least_mass(mesh, cells_)),
@@ -136,15 +133,11 @@ double CoupledFlow::heaviness() const {
   return density_ * cell_width() / *std::min_element(mass_.begin(), mass_.end());
 }
 
-double CoupledFlow::density_ratio_of(const AirMemory& memory) const {
-  return payload_ ? density_ratio(*payload_, memory.flight.fallen) : 1;
-}
-
 Loads CoupledFlow::last_load(const AirMemory& memory) const {
   Loads load{memory.pressure, memory.force};
   if (memory.pressure.empty()) load.cell_pressure.assign(cells_.size(), 0.0);
   load.node_force.resize(node_mass_.size());
-  for (std::size_t n = 0; n < node_mass_.size(); ++n) load.node_force[n].z += node_mass_[n] * memory.inertia;
+  for (std::size_t n = 0; n < memory.other.size(); ++n) load.node_force[n] += memory.other[n];
   return load;
 }
 
@@ -183,48 +176,33 @@ SheetMotion CoupledFlow::sheet_motion(const std::vector<Vec3>& positions, const 
   return motion;
 }
 
-AirRow CoupledFlow::step(const std::vector<Vec3>& positions, const ClothMotion& predicted, double length,
-                         AirMemory& memory) {
-  flow_.set_density_ratio(density_ratio_of(memory));
+FlowStep CoupledFlow::step(const std::vector<Vec3>& positions, const ClothMotion& predicted, double length,
+                           const Surroundings& surroundings, AirMemory& memory) {
+  flow_.set_density_ratio(surroundings.density_ratio);
   surface_ = surface_of(cells_, positions);
   flow_.place(surface_, sheet_motion(positions, predicted, length, memory));
-  PayloadMotion& flight = memory.flight;
-  if (memory.steps == 0) {
-    flight.speed = speed_;
-    if (payload_) deploy(flight, *payload_, speed_, flow_.density());
-  }
-  const double speed = flight.speed + length * flight.acceleration;
-  if (payload_) flow_.stream({0, 0, speed}, {0, 0, flight.acceleration});
-  const FlowStep step = flow_.step(length);
+  if (surroundings.moves) flow_.stream(surroundings.stream, surroundings.gained);
   ++memory.steps;
-  AirRow row;
-  row.length = length, row.courant = step.courant, row.speed = speed;
-  row.drag = step.force.z, row.side_x = step.force.x, row.side_y = step.force.y;
-  row.drag_area = row.drag / (0.5 * flow_.density() * speed * speed);
-  row.momentum_gap = step.momentum_gap.z, row.mass_defect = step.mass_defect;
-  row.added_mass = memory.added_mass;
-  return row;
+  return flow_.step(length);
 }
 
-Loads CoupledFlow::transfer(const std::vector<Vec3>& positions, AirMemory& memory, AirRow& row) const {
+Loads CoupledFlow::transfer(const std::vector<Vec3>& positions, const Surroundings& surroundings,
+                            AirMemory& memory, double& residual_traction) const {
   ClothLoad load = load_of_flow(flow_.sheet_loads(), grid_, surface_, cells_, positions, Folds::filled);
-  row.residual_traction = residual_traction_share(load, cells_, positions);
+  residual_traction = residual_traction_share(load, cells_, positions);
   memory.pressure = std::exchange(load.pressure, std::vector<double>(cells_.size(), 0.0));
   memory.force = node_forces(load, cells_, positions);
-  // Weight, and the inertial force in the frame of the payload.
-  if (payload_) memory.inertia = memory.flight.acceleration - gravity_along_path(*payload_, memory.flight);
+  memory.other.assign(node_mass_.size(), {});
+  if (surroundings.moves)
+    for (std::size_t n = 0; n < node_mass_.size(); ++n)
+      memory.other[n] = node_mass_[n] * surroundings.on_mass;
+  if (surroundings.node >= 0) memory.other[surroundings.node] += surroundings.force;
   return last_load(memory);
 }
 
-void CoupledFlow::move_payload(double pull, AirMemory& memory, AirRow& row) const {
-  if (payload_) ripstop::move_payload(memory.flight, *payload_, pull, row.length, density_);
-  row.path = memory.flight.path, row.fallen = memory.flight.fallen;
-  row.angle = memory.flight.angle * 180 / std::numbers::pi;
-}
-
-void CoupledFlow::compute_added_mass(const std::vector<Vec3>& positions, AirMemory& memory) const {
-  memory.added_mass =
-      added_mass(*engine_, surface_of(cells_, positions), density_ * density_ratio_of(memory));
+void CoupledFlow::compute_added_mass(const std::vector<Vec3>& positions, double density_ratio,
+                                     AirMemory& memory) const {
+  memory.added_mass = added_mass(*engine_, surface_of(cells_, positions), density_ * density_ratio);
 }
 
 }  // namespace ripstop

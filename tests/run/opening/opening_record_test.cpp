@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/output/csv.h"
@@ -73,6 +75,21 @@ TEST_F(OpeningRecords, OfAPayloadHasTheSpeedAndThePathOfItsFlight) {
   }
   write(history);
   EXPECT_NE(refusal(ExitCode::bad_data, given).find("requires air.csv"), std::string::npos);
+}
+
+TEST(FittedFilling, ReturnsConstantAndExponentOfAPowerLaw) {
+  OpeningRecord record;
+  for (int i = 1; i <= 60; ++i) {
+    const double s = 0.5 * i;
+    record.distance.push_back(s);
+    record.drag_area.push_back(s < 12 ? 3 * std::pow(s / 12, 2.5) : 3);
+  }
+  record.steady_drag_area = 3;
+  const FittedFilling fitted = fit_filling(record, 2);
+  EXPECT_NEAR(fitted.constant, 6, 1e-12);
+  EXPECT_NEAR(fitted.exponent, 2.5, 1e-12);
+  record.drag_area.front() = 3;
+  EXPECT_THROW(fit_filling(record, 2), Error);
 }
 
 TEST_F(OpeningRecords, OfAnotherParachuteOrWithoutALoadIsRefused) {

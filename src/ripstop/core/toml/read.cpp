@@ -416,7 +416,7 @@ class Checker {
     for (std::size_t i = 0; i < list.value->size(); ++i) number(field, (*list.value)[i], element(name, i));
   }
   void check(const Field&, const Subtable& sub, const std::string& name, const std::string&) {
-    table(sub.fields(), name);
+    if (sub.is_there()) table(sub.fields(), name);
   }
   void check(const Field&, const Rows& rows, const std::string& name, const std::string&) {
     for (std::size_t i = 0; i < rows.count(); ++i) table(rows.row(i), element(name, i));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <vector>
@@ -97,6 +98,22 @@ OpeningRecord opening_record(const fs::path& folder, const Settings& resolved) {
   if (record.distance.empty() || !(record.steady_drag_area > 0))
     throw Error(ExitCode::bad_data, fmt::format("{}: the load history is zero", folder.string()));
   return record;
+}
+
+FittedFilling fit_filling(const OpeningRecord& record, double nominal_diameter) {
+  const auto full = std::find_if(record.drag_area.begin(), record.drag_area.end(),
+                                 [&](double area) { return area >= record.steady_drag_area; }) -
+                    record.drag_area.begin();
+  double products = 0, squares = 0;
+  for (std::ptrdiff_t i = 0; i < full; ++i) {
+    if (!(record.drag_area[i] > 0)) continue;
+    const double s = std::log(record.distance[i] / record.distance[full]);
+    products += s * std::log(record.drag_area[i] / record.steady_drag_area), squares += s * s;
+  }
+  if (!(squares > 0))
+    throw Error(ExitCode::usage,
+                "the opening has the drag area of its end from its first row on: there is no filling to fit");
+  return {record.distance[full] / nominal_diameter, products / squares};
 }
 
 }  // namespace ripstop
