@@ -147,7 +147,7 @@ Loads CoupledFlow::last_load(const AirMemory& memory) const {
 SheetMotion CoupledFlow::sheet_motion(const std::vector<Vec3>& positions, const ClothMotion& predicted,
                                       double length, const AirMemory& memory) const {
   AirMemory of_air = memory;
-  of_air.inertia = 0;
+  of_air.other.clear();
   const Loads last = last_load(of_air);
   MovingCells cells;
   std::vector<double> area_about(node_mass_.size(), 0.0);  // every node [m2]
