@@ -66,9 +66,9 @@ void shares_of_directions(Vec3 normal, const Visit& visit) {
     if (n[axis] != 0) visit(2 * axis + (n[axis] < 0), n[axis] * n[axis]);
 }
 
-// Mean by area over the cloth within `width` of the same orientation. A face of the flow represents many cells of
-// cloth, whose own motion it must not take for that of all of them: the load, which is smooth on that scale, cannot
-// stop it. As a matrix it is symmetric with respect to the areas, and no motion of the cloth grows by it.
+// Mean by area over the cloth within `width` that has the same orientation. A face of the flow represents many cells of
+// cloth and must not take the velocity of one for that of all: the load, smooth on that scale, cannot stop it. The
+// operation is symmetric with respect to the areas, so it increases no velocity.
 std::vector<Vec3> smoothed_velocity(const MovingCells& cells, double width) {
   struct Sum {
     double area = 0;  // [m2]
@@ -119,8 +119,6 @@ CoupledFlow::CoupledFlow(const AirProblem& problem, const Mesh& mesh)
       courant_(problem.courant),
       density_(problem.flow.air.density),
       node_mass_(mesh.mass),
-      fixed_(mesh.fixed),
-      ties_(mesh.ties),
       cells_(cells_of(mesh)),
       mass_(least_mass(mesh, cells_)),
       flow_(start_flow(problem, surface_of(cells_, mesh.start)), density_) {}
@@ -143,54 +141,36 @@ Loads CoupledFlow::last_load(const AirMemory& memory) const {
   return load;
 }
 
-// Of every node under the last load of the air alone, without springs [m/s2].
-std::vector<Vec3> CoupledFlow::acceleration(const std::vector<Vec3>& positions,
-                                            const AirMemory& memory) const {
-  std::vector<Vec3> force = memory.force;
-  force.resize(node_mass_.size());
-  for (std::size_t c = 0; c < memory.pressure.size(); ++c) {
-    const auto& corner = cells_[c].corner;
-    if (corner[0] < 0) continue;
-    const Vec3 area =
-        area_vector(positions[corner[0]], positions[corner[1]], positions[corner[2]], positions[corner[3]]);
-    for (const int node : corner) force[node] += 0.25 * memory.pressure[c] * area;
-  }
-  std::vector<double> mass = node_mass_;
-  for (const Tie& tie : ties_)
-    for (const Tie::Master& master : tie.masters) {
-      force[master.node] += master.weight * force[tie.node];
-      mass[master.node] += master.weight * mass[tie.node];
-    }
-  for (std::size_t n = 0; n < force.size(); ++n) force[n] = force[n] / mass[n];
-  for (const int node : fixed_) force[node] = {};
-  for (const Tie& tie : ties_) {
-    force[tie.node] = {};
-    for (const Tie::Master& master : tie.masters) force[tie.node] += master.weight * force[master.node];
-  }
-  return force;
-}
-
-// The Robin condition: v_n = v_n,predicted + compliance (p - p_last), compliance = mean_share dt / (mass an area).
-// The effect of p_last on the cloth is computed from the nodes: of the air's last force on them no part may be left
-// out, as the air would answer it twice.
+// The Robin condition: v = v_predicted + compliance (t - t_last), compliance = mean_share dt / (mass an area), with the
+// whole load t of the air on the cloth, not its pressure alone: what is left out of t_last the air would answer twice.
+// The motion of the sheet is that without the air.
 SheetMotion CoupledFlow::sheet_motion(const std::vector<Vec3>& positions, const ClothMotion& predicted,
                                       double length, const AirMemory& memory) const {
-  const double response = mean_share(predicted.steps) * length;
-  const std::vector<Vec3> by_air = acceleration(positions, memory);
+  AirMemory of_air = memory;
+  of_air.other.clear();
+  const Loads last = last_load(of_air);
   MovingCells cells;
+  std::vector<double> area_about(node_mass_.size(), 0.0);  // every node [m2]
   for (const Cell& cell : cells_) {
     if (cell.corner[0] < 0) continue;
-    Vec3 centre, velocity;
-    for (const int node : cell.corner) {
-      centre += 0.25 * positions[node];
-      velocity += 0.25 * (predicted.velocity[node] - response * by_air[node]);
-    }
     const auto& [a, b, c, d] = cell.corner;
-    cells.centre.push_back(centre), cells.velocity.push_back(velocity);
     cells.area.push_back(area_vector(positions[a], positions[b], positions[c], positions[d]));
+    for (const int node : cell.corner) area_about[node] += 0.25 * norm(cells.area.back());
   }
+  const double response = mean_share(predicted.steps) * length;
   SheetMotion motion;
   for (const double mass : mass_) motion.yields.push_back(response / mass);
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    if (cells_[c].corner[0] < 0) continue;
+    const std::size_t n = cells.centre.size();  // of cells with cloth; each is two triangles
+    const double area = norm(cells.area[n]);
+    Vec3 centre, velocity, load = area > 0 ? last.cell_pressure[c] / area * cells.area[n] : Vec3{};
+    for (const int node : cells_[c].corner) {
+      centre += 0.25 * positions[node], velocity += 0.25 * predicted.velocity[node];
+      if (area_about[node] > 0) load += 0.25 / area_about[node] * last.node_force[node];
+    }
+    cells.centre.push_back(centre), cells.velocity.push_back(velocity - motion.yields[2 * n] * load);
+  }
   const std::vector<Vec3> smoothed = smoothed_velocity(cells, smoothed_over * cell_width());
   for (const Vec3 velocity : smoothed) motion.velocity.insert(motion.velocity.end(), 2, velocity);
   return motion;

@@ -155,7 +155,6 @@ class CoupledFlow {
 
  private:
   double cell_width() const;  // [m]
-  std::vector<Vec3> acceleration(const std::vector<Vec3>& positions, const AirMemory& memory) const;
   SheetMotion sheet_motion(const std::vector<Vec3>& positions, const ClothMotion& predicted, double length,
                            const AirMemory& memory) const;
 
@@ -163,8 +162,6 @@ class CoupledFlow {
   FlowGrid grid_;
   double courant_, density_;       // the latter at deployment [kg/m3]
   std::vector<double> node_mass_;  // [kg]
-  std::vector<int> fixed_;         // Mesh::fixed
-  std::vector<Tie> ties_;
   std::vector<Cell> cells_;
   std::vector<double> mass_;       // of every triangle of the surface, a unit area [kg/m2]
   std::vector<Triangle> surface_;  // of the last step

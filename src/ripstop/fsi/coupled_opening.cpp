@@ -22,15 +22,16 @@ void check_width(const FoldedStart& folded, const FlowGrid& grid) {
   const Vec3 cell = grid.spacing({0, 0, 0.5 * grid.size.z + grid.origin.z});
   const double across = std::max(cell.x, cell.y);
   if (width >= least_cells_across * across) return;
-  throw QuantityError(ExitCode::usage,
-                      fmt::format("the skirt of the folded canopy is {:.3g} m wide, {:.2g} cells of the flow "
-                                  "grid ({:.3g} m): the air "
-                                  "does not see a canopy of less than {:g} cells. Cells of at most {:.3g} m "
-                                  "are needed, or a radius of "
-                                  "the folded skirt of at least {:.3g} m",
-                                  width, width / across, across, least_cells_across,
-                                  width / least_cells_across, 0.5 * least_cells_across * across),
-                      {"flow grid", "radius of the folded skirt"});
+  throw QuantityError(
+      ExitCode::usage,
+      fmt::format(
+          "the skirt of the folded canopy is {:.3g} m wide, {:.2g} cells of the flow grid ({:.3g} m); the "
+          "air needs at least {:g}: use cells of at most {:.3g} m or a radius of the folded skirt of at "
+          "least "
+          "{:.3g} m",
+          width, width / across, across, least_cells_across, width / least_cells_across,
+          0.5 * least_cells_across * across),
+      {"flow grid", "radius of the folded skirt"});
 }
 
 double mean_load(const std::vector<HistoryRow>& history, int rows) {
