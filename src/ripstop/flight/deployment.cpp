@@ -233,8 +233,13 @@ void Deployer::stretch() {
   double highest = 0;
   if (!strips) out_ = canopy_.length;
   for (bool stripping = false; time_ < end;) {
-    const double before = out_, h = stretch_step();
-    now_ = step(now_, h, rate), time_ += h;
+    const double before = out_;
+    const bool was_stuck = stuck_;
+    double h = stretch_step();
+    Motion next = step(now_, h, rate);
+    if (was_stuck && !stuck_)
+      h = stretch_step(), next = step(now_, h, rate);  // the light skirt needs a short step
+    now_ = next, time_ += h;
     if (strips && now_.v[skirt] < now_.v[bag] &&
         before < canopy_.length) {  // no cloth goes back into the bag
       const auto [me, mb] = skirt_and_bag(emerged(now_));
