@@ -18,6 +18,8 @@ WHEEL_PACKAGES := python3-pip python3-setuptools python3-wheel $(PORTABLE_PACKAG
 CHECK_PACKAGES := libgtest-dev libbenchmark-dev python3 python3-jsonschema python3-vtk9 python3-venv clang-format chromium \
   zsh fish   $(PYTHON_PACKAGES) $(WHEEL_PACKAGES)
 
+# Programs of other people that open the cutting patterns.
+DRAWING_PACKAGES := librecad inkscape python3-lxml python3-cssselect python3-numpy
 DOCS_PACKAGES := mkdocs-material libjs-katex fonts-katex doxygen
 
 # The same where there is no apt, from packages.fedoraproject.org and archlinux.org/packages; not tested. Neither has OpenFOAM.
@@ -29,7 +31,7 @@ ARCH_CHECK := gtest benchmark python pybind11 python-numpy python-jsonschema
 
 export PATH := /usr/bin:$(PATH)
 
-.PHONY: help deps check-deps build demo check room sanitize sanitize-thread fuzz mutants coverage tidy bench validate validate-ojf validate-families validate-families-in-time validate-openings judge torture test-slurm test-hosts test-debian12 test-debian13 scaling docs reference report-libraries format format-check install-build install wheel tarball test-portable package clean
+.PHONY: help deps check-deps build demo check room sanitize sanitize-thread fuzz mutants coverage tidy bench validate validate-ojf validate-families validate-families-in-time validate-openings judge torture test-drawings test-slurm test-hosts test-debian12 test-debian13 scaling docs reference report-libraries format format-check install-build install wheel tarball test-portable container package clean
 
 help:  ## This list
 	@grep -hE '^[a-z0-9-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -158,6 +160,10 @@ judge: check-deps build  ## Cross-validation of the built-in engine with OpenFOA
 torture: build  ## Tiny runs with kills, failing writes, damaged files and wrong programs, into docs/tables: hours; resumable
 	@/usr/bin/python3 validation/reliability/torture.py --ripstop build/bin/ripstop $(TORTURE)
 
+test-drawings: build  ## Cutting patterns opened by LibreCAD and Inkscape, and measured there
+	$(call install_missing,$(DRAWING_PACKAGES))
+	@/usr/bin/python3 validation/drawings/measure.py --ripstop build/bin/ripstop
+
 test-slurm: build  ## Batch scripts through a real Slurm of two nodes on this machine (as root), into docs/tables: some minutes
 	$(call install_missing,$(SLURM_PACKAGES))
 	@/usr/bin/python3 validation/cluster/slurm.py --ripstop build/bin/ripstop $(SLURM)
@@ -225,6 +231,12 @@ tarball: install-build docs  ## A portable archive in build/portable/: program, 
 test-portable: tarball wheel  ## Archive and wheel in empty roots of Debian 12 and 13 (as root, by debootstrap), into docs/tables; PORTABLE=--coarse
 	$(call install_missing,debootstrap iproute2)
 	@/usr/bin/python3 validation/systems/portable.py --ripstop build/bin/ripstop $(PORTABLE) build/portable/*.tar.gz build/wheel/*.whl
+
+IMAGE ?=
+container: tarball  ## The image localhost/ripstop of the archive (buildah); IMAGE=FILE writes it; CONTAINER='--build-arg BASE=...'
+	$(call install_missing,buildah)
+	@buildah build $(CONTAINER) -f packaging/Containerfile -t localhost/ripstop build/portable
+	@test -z "$(IMAGE)" || buildah push localhost/ripstop oci-archive:$(IMAGE)
 
 package: install-build  ## Debian packages in build/
 	@cd build && cpack -G DEB

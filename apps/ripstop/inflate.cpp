@@ -76,10 +76,10 @@ void print_start(const Opening& solver, const InflationState& state, const LoadS
         "to keep the time step\n",
         100 * limit.reduced_cells, limit.least_share);
   fmt::print(
-      "nodes {}, time step {:.3e} s (stability limit {:.3e} s), {} threads; the cloth alone takes about {} "
-      "on one thread\n",
+      "nodes {}, time step {:.3e} s (stability limit {:.3e} s), {} threads; {} about {} on one thread\n",
       solver.mesh().node_count(), state.step, state.step / solver.problem().settings.step_fraction,
-      solver.threads(), duration_text(opening_seconds(solver, state)));
+      solver.threads(), solver.air() ? "cloth and air take" : "the cloth alone takes",
+      duration_text(opening_seconds(solver, state)));
 }
 
 /// Of a reefed opening, a line a stage.
@@ -292,6 +292,7 @@ int run(const InflateArguments& options) {
     const std::unique_ptr<Opening> solver =
         make_opening(with_engine(resolved, opening_problem(resolved, source, threads)));
     print_start(*solver, solver->start(), source);
+    print_warnings(opening_warnings(resolved, *solver));
     return 0;
   }
   if (!options.json) print_deployment(resolved);

@@ -48,10 +48,10 @@ ReefedStage parse_stage(const std::string& text) {
 
 void print_stage(const StageLoads& s) {
   fmt::print(
-      "\nat {:.2f} s: {:.3g} m/s, {:.4g} m, drag area {:.3g} to {:.3g} m2, filling {:.3g} s, A = {:.3g}, "
-      "R_m = {:.3g}\n",
-      s.begin, s.speed, s.height, s.drag_area_before, s.drag_area, s.filling_time, s.ballistic_parameter,
-      s.mass_ratio);
+      "\nat {:.2f} s: {:.3g} m/s, {:.4g} m, drag area {:.3g} to {:.3g} m2, filling {:.3g} s (n = {:.3g}), "
+      "A = {:.3g}, R_m = {:.3g}\n",
+      s.begin, s.speed, s.height, s.drag_area_before, s.drag_area, s.filling_time, s.filling_constant,
+      s.ballistic_parameter, s.mass_ratio);
   fmt::print("  {:<18} {:>10} {:>8}  {:<8} {}\n", "method", "load N", "at s", "applies", "reason");
   std::vector<std::string> notes;  // each is printed once, below the table
   for (const MethodLoad& m : s.methods) {
@@ -62,6 +62,7 @@ void print_stage(const StageLoads& s) {
                m.time > 0 ? fmt::format("{:.3f}", m.time) : "-", m.applies ? "yes" : "no", reason);
   }
   for (std::size_t i = 0; i < notes.size(); ++i) fmt::print("  ({}) {}\n", i + 1, notes[i]);
+  if (!s.caution.empty()) fmt::print("  filling: {}\n", s.caution);
   if (std::any_of(s.methods.begin(), s.methods.end(), [](const MethodLoad& m) { return m.applies; }))
     fmt::print("  applicable methods: {:.1f} to {:.1f} N, spread {:.0f} %\n", s.lowest, s.highest,
                100 * s.spread);
@@ -121,8 +122,10 @@ void add_coefficients(CLI::App& command, LoadRequest& r) {
              "Drag coefficient on S0 (default: of the --steady run, else Knacke's)");
   add_number(command, "--opening-coefficient", r.opening_coefficient, above(0).up_to(10),
              "Opening force coefficient C_x (default: of the canopy family)");
-  add_number(command, "--filling-constant", r.filling_constant, above(0).up_to(1000),
-             "Filling distance n in t_f = n D0 / v (default: of the canopy family)");
+  add_number(
+      command, "--filling-constant", r.filling_constant, above(0).up_to(1000),
+      "Filling distance n in t_f = n D0 / v (default: of the canopy family; below 46 m/s n is multiplied "
+      "by 4.0 v^0.15 / 8, v in ft/s)");
   add_number(command, "--filling-exponent", r.filling_exponent, above(0).up_to(20),
              "Exponent of the drag area over time (default: of the canopy family)");
   add_number(command, "--impulse-integral", r.impulse_integral, above(0).up_to(1),

@@ -130,6 +130,7 @@ int run(int argc, char** argv) {
   add_photogrammetry(app, status);
   add_descent(app, status);
   add_report(app, status);
+  add_fly(app, status);
   add_load(app, status);
   add_size(app, status);
   add_export(app, status);

@@ -2,12 +2,15 @@
 
 #include "ripstop/run/sizing/pattern.h"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <ctime>
 #include <filesystem>
 #include <memory>
 
+#include "case_options.h"
 #include "commands.h"
 #include "json_option.h"
 #include "number_option.h"
@@ -22,7 +25,7 @@ struct PatternArguments {
   fs::path out = "pattern";
   Allowances allowances;
   double packing_density = packed_by_hand;
-  std::string units = "mm";
+  std::string units = "mm", paper;
   bool json = false;
 };
 
@@ -38,10 +41,14 @@ void print_bill(const Bill& bill) {
 }
 
 int run(const PatternArguments& options) {
-  const DxfUnit unit = options.units == "in" ? DxfUnit::inches : DxfUnit::millimetres;
+  PatternFiles files;
+  files.unit = options.units == "in" ? DxfUnit::inches : DxfUnit::millimetres;
+  if (!options.paper.empty()) files.paper = options.paper == "letter" ? Paper::letter : Paper::a4;
+  files.case_file = options.case_file.string();
+  files.date = fmt::format("{:%Y-%m-%d}", fmt::localtime(std::time(nullptr)));
   const PatternResult result =
       run_pattern(read_settings(options.case_file), options.allowances, options.packing_density);
-  write_pattern(options.out, result, unit);
+  write_pattern(options.out, result, files);
   if (options.json) {
     fmt::print("{}", to_json(result));
     return 0;
@@ -50,9 +57,9 @@ int run(const PatternArguments& options) {
   fmt::print("packed volume at {:.0f} kg/m3: {:.3f} l\n", result.packing_density,
              1000 * result.bill.packed_volume);
   fmt::print("S0 {:.4f} m2, cloth {:.4f} m2 finished\n", result.nominal_area, result.cloth_area);
-  fmt::print("outlines: {} as DXF (in {}) and SVG; bill.csv and result.json in {}\n",
-             result.pattern.pieces.size(), unit == DxfUnit::inches ? "inches" : "millimetres",
-             options.out.string());
+  fmt::print("outlines: {} as DXF (in {}), SVG{}, bill.csv and result.json in {}\n",
+             result.pattern.pieces.size(), files.unit == DxfUnit::inches ? "inches" : "millimetres",
+             files.paper ? ", PDF on sheets of paper" : "", options.out.string());
   return 0;
 }
 
@@ -81,6 +88,10 @@ void add_pattern(CLI::App& app, int& status) {
   command->add_option("--units", options->units, "Unit of the DXF files: mm or in")
       ->check(CLI::IsMember({"mm", "in"}))
       ->capture_default_str();
+  command
+      ->add_option("--paper", options->paper,
+                   "Also as PDF at true size on sheets of this paper, with registration marks: a4 or letter")
+      ->check(CLI::IsMember({"a4", "letter"}));
   add_json_option(*command, options->json);
   command->callback([options, &status] { status = run(*options); });
 }

@@ -49,8 +49,9 @@ void print_result(const SizeResult& r, const fs::path& file, const fs::path& pag
                                       : "",
                   r.nominal_area));
   row("vent", fmt::format("{:.4f} m2, {:.2f} %", r.vent_area, 100 * r.vent_area / r.nominal_area));
-  row("gores, lines", fmt::format("{} gores, {} lines of {:.3f} m, {}", r.gores, r.line_count, r.line_length,
-                                  r.line_material));
+  row("gores, lines",
+      fmt::format("{} gores, {} lines of {:.3f} m, {}{}", r.gores, r.line_count, r.line_length,
+                  r.line_material, r.gores_source.empty() ? "" : "; " + r.gores_source));
   row("tape", fmt::format("{}: {}", r.tape_material, r.tape_source));
   row("mass", fmt::format("{:.3g} kg: cloth {:.3g}, tape {:.3g}, lines {:.3g}", r.parachute_mass,
                           r.cloth_mass, r.tape_mass, r.line_mass));
@@ -61,6 +62,7 @@ void print_result(const SizeResult& r, const fs::path& file, const fs::path& pag
                                  100 * r.line_used));
   row("applicable methods",
       fmt::format("{:.0f} to {:.0f} N (ripstop load)", r.opening_load_low, r.opening_load));
+  if (!r.opening.front().caution.empty()) row("", r.opening.front().caution);
   print_margins(r.margins);
   for (const SizeCheck& c : r.checks)
     row("run", fmt::format("diameter {:.3f} m, descent rate {:.3f} m/s, C_D {:.3f}", c.nominal_diameter,

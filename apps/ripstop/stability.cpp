@@ -115,7 +115,8 @@ int write_scripts(const StabilityArguments& options, const Case& given, const st
   prepare_stability(given, angles, settings);
   write_and_tell(settings.run.folder, files, "bash", "submit");
   fmt::print(
-      "{} jobs, one after another where each starts from its neighbour; --cold runs all angles at once\n",
+      "{} jobs, one after another if each starts from its neighbour; --cold runs all angles at the same "
+      "time\n",
       parts.waves.size());
   return 0;
 }
@@ -171,7 +172,7 @@ void add_stability(CLI::App& app, int& status) {
   auto options = std::make_shared<StabilityArguments>();
   options->settings.run.fields = false;
   CLI::App* command = app.add_subcommand(
-      "stability", "Force and moment coefficients over the angle of attack, and trim angles");
+      "stability", "Compute force and moment coefficients over the angle of attack, and trim angles");
   command->footer(
       "The canopy keeps the shape of a steady run on the axis; the stream arrives at the angle, and its "
       "force is "
@@ -180,7 +181,7 @@ void add_stability(CLI::App& app, int& status) {
       "confluence\n"
       "(positive: increases the angle); +- is one standard error. A trim angle has C_m = 0, and is stable "
       "where\n"
-      "C_m falls with the angle. A killed run continues when the same command is given again.\n"
+      "C_m falls with the angle. An interrupted run resumes when the command is repeated.\n"
       "Example: ripstop stability examples/flat-circular/case.toml --angles 0:40:5 --out runs/curve\n"
       "         ripstop stability examples/cross/case.toml --angles 0:30:10 --steady runs/cross\n"
       "         ripstop stability examples/cross/case.toml --flow openfoam --ranks 16 --batch slurm");
@@ -201,18 +202,19 @@ void add_stability(CLI::App& app, int& status) {
   command->add_flag("--cold", options->cold, "Start the flow of every angle from the uniform stream");
   command->add_option("--out", options->settings.run.folder,
                       "Folder (default: runs/<name of the case>-stability)");
-  command->add_flag("--fresh", options->settings.run.fresh,
-                    "Replace finished angles; default: go on with them");
+  command->add_flag("--fresh", options->settings.run.fresh, "Replace finished angles; default: keep them");
   CLI::Option* dry_run =
-      command->add_flag("--dry-run", options->dry_run, "List the folders of all parts, and stop");
+      command->add_flag("--dry-run", options->dry_run, "Print the folders of all parts, and stop");
   add_json_option(*command, options->json);
-  CLI::Option* only = command
-                          ->add_option("--only", options->only,
-                                       "One part of the curve, by its folder's name, as in a job of --batch")
-                          ->excludes(dry_run);
+  CLI::Option* only =
+      command
+          ->add_option(
+              "--only", options->only,
+              "Compute one part of the curve, given by the name of its folder, as a job of --batch does")
+          ->excludes(dry_run);
   CLI::Option* gather = command
                             ->add_flag("--gather", options->gather,
-                                       "Tables and plots of the angles that have ended; computes nothing")
+                                       "Write tables and plots of the finished angles and compute nothing")
                             ->excludes(dry_run)
                             ->excludes(only);
   for (CLI::Option* one : {only, gather}) one->excludes(command->get_option("--fresh"));

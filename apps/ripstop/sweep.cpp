@@ -127,14 +127,7 @@ int sweep(SweepArguments& options) {
   }
   const std::vector<SweepRow> rows =
       options.gather ? gather_sweep(points, options.settings) : run_and_tell(axes, points, options.settings);
-  const std::string& title = points.front().resolved.title();
-  const std::string json = sweep_json(title, axes, points, rows);
-  write_csv(folder / "sweep.csv", sweep_table(axes, points, rows));
-  write_file(folder / "result.json", json);
-  write_sweep_plots(folder, title, axes, points, rows);
-  seal_sweep(folder);
-  const bool any = std::any_of(rows.begin(), rows.end(), [](const SweepRow& row) { return row.done; });
-  const std::string report = any ? write_report({folder}).string() : "";
+  const std::string json = finish_sweep(folder, axes, points, rows);
   if (options.json) {
     fmt::print("{}", json);
   } else {
@@ -142,7 +135,7 @@ int sweep(SweepArguments& options) {
         "{} (and result.json, drag, drag_area, drag_coefficient, diameters, iterations, wall_time as .svg "
         "and .png)\n",
         (folder / "sweep.csv").string());
-    if (any) fmt::print("{}\n", report);
+    if (std::filesystem::exists(folder / report_name)) fmt::print("{}\n", (folder / report_name).string());
   }
   std::fflush(stdout);
   require_all(points, rows);

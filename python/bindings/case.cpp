@@ -123,6 +123,10 @@ py::object value_of(const PyCase& self, const std::string& key) {
 
 }  // namespace
 
+Setting setting_of(const std::string& key, py::handle value) {
+  return {key, toml_of(value, 0), key};
+}
+
 PyCase::PyCase(const Case& made)
     : given(made), text(case_toml(resolve(made))), name(made.file.string()), file(made.file) {}
 

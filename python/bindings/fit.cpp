@@ -6,6 +6,7 @@
 
 #include "members.h"
 #include "module.h"
+#include "ripstop/core/table/table.h"
 
 namespace ripstop {
 
@@ -59,13 +60,17 @@ void each_member(T& c, Visit&& visit) {
 namespace ripstop::python {
 namespace {
 
-FitResult fit(const Path& file, bool coupons, int degree, bool zero_offset, Callback<FitProgress> progress,
-              int threads, const std::optional<Path>& out) {
+FitResult fit(const Path& file, bool coupons, int degree, bool zero_offset, const std::string& columns,
+              const std::string& decimal, Callback<FitProgress> progress, int threads,
+              const std::optional<Path>& out) {
   Listener listener(std::move(progress));
   const py::gil_scoped_release release;
   Bench bench = read_bench(file);
   if (degree > 0) bench.degree = degree;
   if (zero_offset) bench.zero_offset = true;
+  if (!columns.empty()) bench.columns = columns;
+  if (!decimal.empty()) bench.decimal = table::parse_decimal(decimal);
+  table::parse_columns(bench.columns);  // a wrong one ends here, before any record is read
   ThreadTeam team(threads);
   FitResult result = run_fit(bench, coupons, team, [&](int pulls, double xi, double eps, double misfit) {
     listener.tell(FitProgress{pulls, xi, eps, misfit});
@@ -123,15 +128,18 @@ void add_fit(py::module_& module) {
   type.def_property_readonly(
       "warnings", [](const FitResult& r) { return r.fit.warnings; }, "Doubts about the material.");
   type.def("__repr__", [](const FitResult& r) { return "<ripstop.Fit '" + r.bench.name + "'>"; });
-  module.def("fit", &fit, py::arg("bench"), py::kw_only(), py::arg("coupons") = true, py::arg("degree") = 0,
-             py::arg("zero_offset") = false, py::arg("progress") = py::none(), py::arg("threads") = 0,
-             py::arg("out") = py::none(),
-             "Fits a material to tensile test records: ripstop fit.\n\nbench: file of the test campaign "
-             "(TOML).\ncoupons: whether xi and eps are fitted with virtual coupons.\ndegree: degree of the "
-             "curves; 0: as in the campaign.\nzero_offset: True: zero load at zero strain, regardless of the "
-             "campaign.\nprogress: called with a FitProgress after every coupon; an exception in it stops "
-             "the fit.\nthreads: number of threads; 0: all cores.\nout: folder for the material and its "
-             "plots. None: no files.\n\nLoads are in [N/m] for cloth and tape, in [N] for a line.");
+  module.def(
+      "fit", &fit, py::arg("bench"), py::kw_only(), py::arg("coupons") = true, py::arg("degree") = 0,
+      py::arg("zero_offset") = false, py::arg("columns") = "", py::arg("decimal") = "",
+      py::arg("progress") = py::none(), py::arg("threads") = 0, py::arg("out") = py::none(),
+      "Fits a material to tensile test records: ripstop fit.\n\nbench: file of the test campaign "
+      "(TOML).\ncoupons: whether xi and eps are fitted with virtual coupons.\ndegree: degree of the "
+      "curves; 0: as in the campaign.\nzero_offset: True: zero load at zero strain, regardless of the "
+      "campaign.\ncolumns: columns of the records that are not found by their headings, for example\n  "
+      "\"force=Kraft [kN],extension=Weg [mm]\".\ndecimal: auto, point or comma.\nprogress: called with a "
+      "FitProgress after every coupon; an exception in it stops "
+      "the fit.\nthreads: number of threads; 0: all cores.\nout: folder for the material and its "
+      "plots. None: no files.\n\nLoads are in [N/m] for cloth and tape, in [N] for a line.");
 }
 
 }  // namespace ripstop::python

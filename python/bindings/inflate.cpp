@@ -76,32 +76,34 @@ std::unique_ptr<PyInflation> inflate(const PyCase& given, const OptionalSource& 
   return run;
 }
 
-const PyInflation& run_of(const py::object& self) {
+const PyInflation& run_of_inflation(const py::object& self) {
   return self.cast<const PyInflation&>();
 }
 
 void add_arrays(py::class_<PyInflation>& type) {
   type.def_property_readonly(
-      "history", [](const py::object& self) { return table_of(run_of(self).history.rows, self); },
+      "history", [](const py::object& self) { return table_of(run_of_inflation(self).history.rows, self); },
       "Load on the riser over time, one row per interval: time_s, load_mean_n, load_least_n, load_largest_n, "
       "and the tension of the reefing line, reefing_line_mean_n and reefing_line_largest_n (0 without one).");
   type.def_property_readonly(
-      "frames", [](const py::object& self) { return table_of(run_of(self).history.frames, self); },
+      "frames", [](const py::object& self) { return table_of(run_of_inflation(self).history.frames, self); },
       "Energies, sizes and stress over time, with the columns of balance.csv.");
   type.def_property_readonly(
-      "shots", [](const py::object& self) -> py::list { return to_python(run_of(self).shots, self); },
+      "shots",
+      [](const py::object& self) -> py::list { return to_python(run_of_inflation(self).shots, self); },
       "Shapes during the opening, each a Snapshot.");
   type.def_property_readonly(
-      "shape", [](const py::object& self) { return view_of(run_of(self).shape, self); },
+      "shape", [](const py::object& self) { return view_of(run_of_inflation(self).shape, self); },
       "Position of every node of the parachute at the end: x, y, z; z is downstream [m]");
   type.def_property_readonly(
-      "velocity", [](const py::object& self) { return view_of(run_of(self).velocity, self); },
+      "velocity", [](const py::object& self) { return view_of(run_of_inflation(self).velocity, self); },
       "Velocity of every node at the end [m/s]");
   type.def_property_readonly(
-      "cells", [](const py::object& self) { return view_of_cells(run_of(self).cells, self); },
+      "cells", [](const py::object& self) { return view_of_cells(run_of_inflation(self).cells, self); },
       "Nodes at the four corners of every cloth cell; the first is -1 for a missing cell.");
   type.def_property_readonly(
-      "line_peaks", [](const py::object& self) { return view_of(run_of(self).result.line_peaks, self); },
+      "line_peaks",
+      [](const py::object& self) { return view_of(run_of_inflation(self).result.line_peaks, self); },
       "Maximum tension of each line over all time steps [N]");
 }
 

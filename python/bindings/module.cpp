@@ -53,11 +53,15 @@ PYBIND11_MODULE(_ripstop, module) {
   add_steady(module);
   add_stability(module);
   add_inflate(module);
+  add_fly(module);
   add_calibrate(module);
   add_fit(module);
   add_pattern(module);
   add_load(module);
   add_size(module);  // has the load's stages
   add_flight(module);
+  add_fabric(module);
+  add_sweep(module);
+  add_report(module);
   module.attr("__name__") = own_name;
 }

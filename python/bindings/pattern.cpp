@@ -26,10 +26,10 @@ py::array view_of_outline(const std::vector<Point2>& outline, py::handle owner) 
 }
 
 PatternResult pattern(const PyCase& given, const Allowances& allowances, double packing_density,
-                      const std::optional<Path>& out) {
+                      const std::optional<Path>& out, const PatternFiles& files) {
   const py::gil_scoped_release release;
   PatternResult result = run_pattern(given.settings(), allowances, packing_density);
-  if (out) write_pattern(*out, result);
+  if (out) write_pattern(*out, result, files);
   return result;
 }
 
@@ -85,15 +85,25 @@ void add_pattern(py::module_& module) {
   module.def(
       "pattern",
       [](PyCase given, double seam, double hem, double line_loop, double tape_overlap, double packing_density,
-         const std::optional<Path>& out) {
-        return pattern(given, {seam, hem, line_loop, tape_overlap}, packing_density, out);
+         const std::optional<Path>& out, const std::string& units, const std::string& paper) {
+        if (units != "mm" && units != "in") throw py::value_error("units is \"mm\" or \"in\"");
+        if (!paper.empty() && paper != "a4" && paper != "letter")
+          throw py::value_error("paper is \"a4\", \"letter\" or \"\", for no PDF");
+        PatternFiles files;
+        files.unit = units == "in" ? DxfUnit::inches : DxfUnit::millimetres;
+        if (!paper.empty()) files.paper = paper == "letter" ? Paper::letter : Paper::a4;
+        files.case_file = given.file.string();
+        return pattern(given, {seam, hem, line_loop, tape_overlap}, packing_density, out, files);
       },
       py::arg("case"), py::kw_only(), py::arg("seam_allowance_m") = Allowances{}.seam,
       py::arg("hem_allowance_m") = Allowances{}.hem, py::arg("line_loop_m") = Allowances{}.line_loop,
       py::arg("tape_overlap_m") = Allowances{}.tape_overlap,
-      py::arg("packing_density_kg_m3") = packed_by_hand, py::arg("out") = py::none(),
+      py::arg("packing_density_kg_m3") = packed_by_hand, py::arg("out") = py::none(), py::arg("units") = "mm",
+      py::arg("paper") = "",
       "Makes the cutting pattern and the bill of materials: ripstop pattern. Lengths are in [m], areas in "
-      "[m2],\nmasses in [kg].\n\nout: folder for the drawings and the bill. None: no files.");
+      "[m2],\nmasses in [kg].\n\nout: folder for the drawings and the bill. None: no files.\nunits: of the "
+      "DXF "
+      "files, \"mm\" or \"in\".\npaper: also as PDF on sheets, \"a4\" or \"letter\".");
 }
 
 }  // namespace ripstop::python

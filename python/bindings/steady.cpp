@@ -13,11 +13,21 @@
 namespace ripstop::python {
 namespace {
 
+/// The end of another run, to start from.
+struct WarmStart {
+  Settings settings;
+  SteadyState end;
+};
+
 /// Tells Python of every iteration, and keeps what a folder's run does not return.
 class SteadyListener : public SteadyObserver {
  public:
-  SteadyListener(Listener& listener, PySteady& run) : listener_(listener), run_(run) {}
-  void begin(const SteadyRun& run, SteadyState&) override { run_.engine = run.engine; }
+  SteadyListener(Listener& listener, PySteady& run, const std::optional<WarmStart>& start)
+      : listener_(listener), run_(run), start_(start) {}
+  void begin(const SteadyRun& run, SteadyState& state) override {
+    run_.engine = run.engine;
+    if (start_) start_from(start_->settings, start_->end, run, state);
+  }
   void progress(const SteadyProgress&, const SteadyState&) override { listener_.listen(); }
   void iterated(const SteadyRun&, const SteadyState& state, const FlowField& flow) override {
     if (!run_.folder.empty()) run_.flow = flow;
@@ -31,9 +41,10 @@ class SteadyListener : public SteadyObserver {
  private:
   Listener& listener_;
   PySteady& run_;
+  const std::optional<WarmStart>& start_;
 };
 
-void compute(PySteady& run, SteadyListener& observer, int threads, bool fresh) {
+void compute(PySteady& run, SteadyListener& observer, int threads, bool fresh, const Path& warm_from) {
   const Settings resolved = run.made.settings();
   if (run.folder.empty()) {
     SteadySolution solution = run_steady(resolved, observer, {threads, {}, {}});
@@ -41,7 +52,8 @@ void compute(PySteady& run, SteadyListener& observer, int threads, bool fresh) {
     run.state = std::move(solution.state);
     run.flow = std::move(solution.flow);
   } else {
-    const SteadyFolderRun done = run_steady_in({{run.folder, fresh}, threads, {}, {}}, resolved, observer);
+    const SteadyFolderRun done =
+        run_steady_in({{run.folder, fresh}, threads, {}, warm_from}, resolved, observer);
     run.result = done.result;
     if (done.already_finished) run.state = final_state(run.folder);
     run.result.last = run.state.iterations.back();
@@ -50,18 +62,32 @@ void compute(PySteady& run, SteadyListener& observer, int threads, bool fresh) {
 }
 
 std::unique_ptr<PySteady> steady(const PyCase& given, Callback<SteadyIteration> progress, int threads,
-                                 const std::optional<Path>& out, bool fresh) {
+                                 const std::optional<Path>& out, bool fresh,
+                                 const std::optional<SteadySource>& start) {
   auto run = std::make_unique<PySteady>();
   run->made = given;
   if (out) run->folder = *out;
+  Path warm_from;
+  std::optional<WarmStart> warm;
+  if (start) {
+    const Path* folder = std::get_if<Path>(&*start);
+    const PySteady* other = folder ? nullptr : &std::get<1>(*start).get();
+    warm_from = folder ? *folder : other->folder;
+    if (out && warm_from.empty())
+      throw py::value_error("a run in a folder starts from a run in a folder: give that one an `out` too");
+    if (!out && other)
+      warm = WarmStart{other->made.settings(), other->state};
+    else if (!out)
+      warm = WarmStart{finished_steady(*folder).resolved, final_state(*folder)};
+  }
   Listener listener(std::move(progress));
-  SteadyListener observer(listener, *run);
+  SteadyListener observer(listener, *run, warm);
   const py::gil_scoped_release release;
-  compute(*run, observer, threads, fresh);
+  compute(*run, observer, threads, fresh, out ? warm_from : Path());
   return run;
 }
 
-const PySteady& run_of(const py::object& self) {
+const PySteady& run_of_steady(const py::object& self) {
   return self.cast<const PySteady&>();
 }
 
@@ -105,20 +131,22 @@ void add_flow(py::module_& module) {
 
 void add_arrays(py::class_<PySteady>& type) {
   type.def_property_readonly(
-      "shape", [](const py::object& self) { return view_of(run_of(self).state.shape, self); },
+      "shape", [](const py::object& self) { return view_of(run_of_steady(self).state.shape, self); },
       "Position of every node of the parachute at the end: x, y, z; z is downstream [m]");
   type.def_property_readonly(
-      "cells", [](const py::object& self) { return view_of_cells(run_of(self).cells, self); },
+      "cells", [](const py::object& self) { return view_of_cells(run_of_steady(self).cells, self); },
       "Nodes at the four corners of every cloth cell; the first is -1 for a missing cell.");
   type.def_property_readonly(
-      "pressure_difference", [](const py::object& self) { return view_of(run_of(self).state.applied, self); },
+      "pressure_difference",
+      [](const py::object& self) { return view_of(run_of_steady(self).state.applied, self); },
       "Pressure difference over every cloth cell that caused the shape [Pa]");
   type.def_property_readonly(
-      "stress", [](const py::object& self) { return table_of(run_of(self).stress, self); },
+      "stress", [](const py::object& self) { return table_of(run_of_steady(self).stress, self); },
       "Stress of every cloth cell: columns in [N/m], max_strain without unit; empty if the run was "
       "already\nfinished.");
   type.def_property_readonly(
-      "iterations", [](const py::object& self) { return table_of(run_of(self).state.iterations, self); },
+      "iterations",
+      [](const py::object& self) { return table_of(run_of_steady(self).state.iterations, self); },
       "One row for each coupling iteration, with the columns of iterations.csv.");
   type.def_property_readonly(
       "flow", [](const PySteady& run) { return run.flow.velocity.empty() ? nullptr : &run.flow; },
@@ -164,11 +192,15 @@ void add_steady(py::module_& module) {
       "Exceeded quality limits, negative margins and other warnings.");
   module.def("steady", &steady, py::arg("case"), py::kw_only(), py::arg("progress") = py::none(),
              py::arg("threads") = 0, py::arg("out") = py::none(), py::arg("fresh") = false,
+             py::arg("start") = py::none(),
              "Computes inflated shape, drag and loads in a steady flow: ripstop steady.\n\nprogress: called "
              "with a SteadyIteration after every coupling iteration; an exception in it stops the\n  "
              "run.\nthreads: number of threads; 0: coupling.threads of the case.\nout: run folder. A "
              "finished run of this case is read from it, an interrupted run resumes. None: no\n  "
-             "files.\nfresh: replace the run in the folder.\n\nA result that is not converged is also "
+             "files.\nfresh: replace the run in the folder.\nstart: finished run or its folder whose shape "
+             "and pressure are the "
+             "initial state; ignored for\n  another mesh. None: undeformed canopy.\n\nA result that is not "
+             "converged is also "
              "returned: check `converged`. Forces are in [N], lengths in [m],\nspeeds in [m/s].");
 }
 

@@ -6,9 +6,10 @@
     run = ripstop.steady(case, progress=lambda i: print(i.iteration, i.drag_n))
     print(run.drag_n, run.shape)
 
-The functions correspond to commands of the program: check, steady, stability, inflate, fit, pattern, size, load,
-descent, calibrate_damping, export. Results have the members of result.json as attributes, whose names end with the unit, and
-arrays that are views of memory of the library. Every failure raises Error with the message of the program.
+The functions correspond to commands of the program: check, steady, stability, inflate, fly, fabric, sweep, fit,
+pattern, size, load, descent, calibrate_damping, export, report. Results have the members of result.json as attributes,
+whose names end with the unit, and arrays that are views of memory of the library. Every failure raises Error with the
+message of the program.
 """
 
 import os

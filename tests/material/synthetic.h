@@ -52,7 +52,7 @@ inline TensileRecord synthetic_record(const SyntheticRecord& wanted, std::mt1993
     error = memory * error + std::sqrt(1 - memory * memory) * normal(random);
     record.displacement.push_back(1e-3 * six_decimals(x));
     record.force.push_back(six_decimals(force + wanted.offset + wanted.noise * peak * error));
-    record.line.push_back(i + (wanted.width > 0 ? 5 : 4));  // below the heading of synthetic_csv()
+    record.line.push_back(i + (wanted.width > 0 ? 6 : 5));  // below the heading of synthetic_csv()
   }
   return record;
 }

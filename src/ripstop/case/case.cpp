@@ -62,6 +62,7 @@ void describe(Fields& fields, Case& given) {
                "starts from the "
                "folded canopy, stretched out.");
   fields.table("payload", given.payload, "Payload below the parachute, instead of a given flow speed.");
+  fields.table("flight", given.flight, "Free flight of parachute and payload.");
   fields.table("margins", given.margins,
                "Safety and strength reduction factors for the margins of cloth, tape, lines and riser.");
   fields.rows("measured", given.measured,

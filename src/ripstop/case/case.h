@@ -16,6 +16,7 @@
 #include "ripstop/flow/flow.h"
 #include "ripstop/flow/jet.h"
 #include "ripstop/fsi/coupling_settings.h"
+#include "ripstop/fsi/flight_settings.h"
 #include "ripstop/fsi/inflation_settings.h"
 #include "ripstop/material/library.h"
 #include "ripstop/material/material.h"
@@ -102,7 +103,7 @@ struct FlowKeys : FlowOptions {
 /// [coupling] as given.
 struct CouplingKeys : CouplingOptions {
   std::optional<CanopyLoad> load;
-  std::optional<double> drag_tolerance;
+  std::optional<double> drag_tolerance, shape_tolerance_m;
 };
 
 /// [payload] as given.
@@ -141,6 +142,7 @@ struct Case {
   InflationSettings inflation;
   std::optional<DeploymentKeys> deployment;
   PayloadKeys payload;
+  FlightSettings flight;
   MarginFactors margins;
   std::vector<Measured> measured;
 
@@ -158,6 +160,8 @@ void describe(Fields& fields, ReefingStage& stage);
 void describe(Fields& fields, InflationSettings& inflation);
 void describe(Fields& fields, DeploymentKeys& deployment);
 void describe(Fields& fields, PayloadKeys& payload);
+void describe(Fields& fields, Wind& wind);
+void describe(Fields& fields, FlightSettings& flight);
 void describe(Fields& fields, MarginFactors& margins);
 void describe(Fields& fields, Measured& measured);
 void describe(Fields& fields, Case& given);

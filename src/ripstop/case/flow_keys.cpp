@@ -276,9 +276,10 @@ void describe(Fields& fields, CouplingKeys& coupling) {
           "drag_tolerance", coupling.drag_tolerance, above(0).up_to(1),
           "Relative change of drag between two coupling iterations below which the coupling can converge.")
       .absent(by_model(sheet_defaults.drag_tolerance, paper_defaults.drag_tolerance));
-  fields.number(
-      "shape_tolerance_m", coupling.shape_tolerance_m, above(0).up_to(10),
-      "Mean displacement of the nodes between two coupling iterations below which it can converge.");
+  fields
+      .number("shape_tolerance_m", coupling.shape_tolerance_m, above(0).up_to(10),
+              "Mean displacement of the nodes between two coupling iterations below which it can converge.")
+      .absent("0.1 % of the nominal diameter");
   fields.integer("max_iterations", coupling.max_iterations, from(1).up_to(10000),
                  "Largest number of coupling iterations.");
   fields.number("relaxation", coupling.relaxation, above(0).up_to(1),

@@ -237,6 +237,10 @@ void resolve_numerics(Follow& follow, Case& written, SettingsValues& values) {
   coupling.load = follow("coupling.load", written.coupling.load, standard.load, model);
   coupling.drag_tolerance =
       follow("coupling.drag_tolerance", written.coupling.drag_tolerance, standard.drag_tolerance, model);
+  // Of 1 mm at a nominal diameter of 1 m; to a micrometre, so that areas that are 1 m but for rounding have it.
+  const double shape = std::max(1e-9, 1e-6 * std::round(1e3 * nominal_diameter(written.parachute)));
+  coupling.shape_tolerance_m = follow("coupling.shape_tolerance_m", written.coupling.shape_tolerance_m, shape,
+                                      "0.1 % of the nominal diameter");
 }
 
 }  // namespace

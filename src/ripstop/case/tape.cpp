@@ -49,7 +49,8 @@ TapeMaterial tape_for(const Case& given, double line_load) {
     return {
         no_tape,
         fmt::format("a hem of {:g} mm of the cloth carries the {:.3g} N of one line (utilisation {:.0f} %)",
-                    1000 * hem_width, line_load, 100 * *hem)};
+                    1000 * hem_width, line_load, 100 * *hem),
+        *hem};
   const Tape *lightest = nullptr, *strongest = nullptr;
   double least_used = 0;
   for (const auto& [name, material] : given.materials) {
@@ -63,14 +64,16 @@ TapeMaterial tape_for(const Case& given, double line_load) {
   if (!strongest)
     throw Error(ExitCode::usage, "the case has no tape of known strength: give parachute.tape.material");
   const Tape& chosen = lightest ? *lightest : *strongest;
+  const double used = *used_of_tape(given, line_load, chosen);
   return {chosen.name,
           fmt::format("{} a line's {:.3g} N ({:.0f} % used)",
                       lightest ? "the lightest tape that carries" : "the strongest tape, too weak for",
-                      line_load, 100 * *used_of_tape(given, line_load, chosen))};
+                      line_load, 100 * used),
+          used};
 }
 
 TapeMaterial tape_material(const Case& given) {
-  if (given.parachute.tape.material) return {*given.parachute.tape.material, "given"};
+  if (given.parachute.tape.material) return {*given.parachute.tape.material, "given", 0};
   const Air stream = air(given);
   const bool sinks = given.payload.mass_kg && given.inflation.mass != InflationSettings::Mass::payload;
   const double speed = sinks ? usual_deployment_speed(stream.speed) : stream.speed;

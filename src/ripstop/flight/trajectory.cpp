@@ -1,5 +1,7 @@
 #include "ripstop/flight/trajectory.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -76,6 +78,11 @@ std::vector<FlightRow> fly(FlightState& state, double mass, const Leg& leg) {
   const double begin = state.time, angle = state.path_angle * degree;
   Motion m{state.range, state.height, state.distance, state.speed * std::cos(angle),
            state.speed * std::sin(angle)};
+  constexpr double most_steps = 1e12;
+  if (!(leg.duration / leg.step < most_steps))
+    throw Error(ExitCode::usage, fmt::format("a flight of {:g} s in steps of {:g} s has too many steps; the "
+                                             "canopy fills too fast for its speed and size",
+                                             leg.duration, leg.step));
   const long long steps = static_cast<long long>(std::ceil(leg.duration / leg.step * (1 - 1e-12)));
   const double dt = leg.duration / double(steps);
   std::vector<FlightRow> rows = {flight.row(m, begin, begin)};

@@ -14,9 +14,9 @@ const std::vector<ValidRange>& valid_ranges() {
       // C_x and C_D are subsonic values; the drag coefficient of textile canopies changes near the speed of sound.
       {infinite_mass_model, "Mach number", "", 0, 0.8, any, "subsonic coefficients (assumed)"},
       {finite_mass_model, "Mach number", "", 0, 0.8, any, "subsonic coefficients (assumed)"},
-      {finite_mass_model, "speed at line stretch", " m/s", 46, 152, any,
-       "t_f = n D0 / v is valid from 150 to 500 ft/s, Knacke"},
-      {finite_mass_model, "nominal diameter", " m", 3, 40, any,
+      {finite_mass_model, "speed at line stretch", " m/s", 0, 152, any,
+       "t_f = n D0 / v is valid up to 500 ft/s, below 150 ft/s t_f = 4.0 D0 / v^0.85, Knacke"},
+      {filling_model, "nominal diameter", " m", 3, 40, any,
        "range of the canopies in Knacke's tables, 10 to 130 ft (assumed)"},
       {finite_mass_model, "ballistic parameter A", "", 0.01, any, any, "Knacke Fig. 5-51"},
       {flow_model, "Mach number", "", 0, 0.3, any, "the density changes by less than 5 % in the flow"},

@@ -57,7 +57,8 @@ Colour scale_colour(double fraction) {
     for (int i = 0; i < steps; ++i) colours.push_back(exact_scale_colour(i / (steps - 1.0)));
     return colours;
   }();
-  return table[static_cast<std::size_t>(std::lround(std::clamp(fraction, 0.0, 1.0) * (steps - 1)))];
+  const double within = fraction > 0 ? std::min(fraction, 1.0) : 0;  // also what is not a number
+  return table[static_cast<std::size_t>(std::lround(within * (steps - 1)))];
 }
 
 double lightness(Colour colour) {

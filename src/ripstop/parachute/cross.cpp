@@ -183,11 +183,19 @@ CutPattern cut_pattern(const Cross& canopy, const Design& design) {
     return Piece{name,
                  count,
                  {{-width / 2, 0}, {width / 2, 0}, {width / 2, height}, {-width / 2, height}},
-                 {Edge::hem, Edge::hem, Edge::hem, Edge::hem}};
+                 {Edge::hem, Edge::hem, Edge::hem, Edge::hem},
+                 0,
+                 {"arm end", "arm side", "arm end", "arm side"}};
   };
   CutPattern cut;
   cut.pieces = {rectangle("whole strip", 1, length), rectangle("arm", 2, arm)};
-  cut.pieces[1].edges[2] = Edge::seam;
+  cut.pieces[1].edges[2] = Edge::seam, cut.pieces[1].edge_names[2] = "middle square";
+  const int spaces = design.lines.count / arms - 1;  // between the lines at the end of an arm
+  for (int k = 0; k <= spaces; ++k) {
+    const double x = width * (double(k) / spaces - 0.5);
+    cut.pieces[0].marks.insert(cut.pieces[0].marks.end(), {{{x, 0}, "line"}, {{x, length}, "line"}});
+    cut.pieces[1].marks.push_back({{x, 0}, "line"});
+  }
   if (design.tape.hems) cut.tapes = {{"arm end", arms, width}, {"arm side", 2 * arms, arm}};
   if (design.tape.seams) cut.tapes.push_back({"middle square", arms, width});
   return cut;

@@ -8,6 +8,7 @@
 #include "ripstop/core/toml/fields.h"
 #include "ripstop/core/toml/problem.h"
 #include "ripstop/parachute/cut.h"
+#include "ripstop/parachute/piece_edges.h"
 #include "ripstop/parachute/ring_layout.h"
 #include "ripstop/parachute/sewing.h"
 
@@ -190,11 +191,17 @@ CutPattern cut_pattern(const DiskGapBand& canopy, const Design& design) {
   };
   add_arc(outer, -half_angle, half_angle);
   add_arc(inner, half_angle, -half_angle);
+  sector.edge_names.assign(sector.edges.size(), "disk seam");
+  for (int i = 0; i < arc_pieces; ++i)
+    sector.edge_names[i] = "disk edge", sector.edge_names[arc_pieces + 1 + i] = "vent";
+  sector.marks = line_marks(sector, design.lines.count, design.gores);
   const double width = 2 * outer * half_angle, height = canopy.band_height_m;
-  const Piece panel{"band panel",
-                    design.gores,
-                    {{-width / 2, 0}, {width / 2, 0}, {width / 2, height}, {-width / 2, height}},
-                    {Edge::hem, Edge::seam, Edge::hem, Edge::seam}};
+  Piece panel{"band panel",
+              design.gores,
+              {{-width / 2, 0}, {width / 2, 0}, {width / 2, height}, {-width / 2, height}},
+              {Edge::hem, Edge::seam, Edge::hem, Edge::seam}};
+  panel.edge_names = {"skirt", "band seam", "band, upper edge", "band seam"};
+  panel.marks = line_marks(panel, design.lines.count, design.gores);
   CutPattern cut;
   cut.pieces = {sector, panel};
   if (design.tape.hems) {

@@ -23,6 +23,10 @@ const std::vector<QualityLimit>& quality_limits() {
        "reduce the time step (inflation.step_fraction, inflation.courant) or use finer cells (flow.cells)"},
       {"momentum_residual", "residual of the momentum balance of the air", 0.01, 0.05, false, 100,
        " % of the peak load", "reduce the time step of the flow (inflation.courant)"},
+      {"flight_energy_residual", "residual of the energy balance of the flight", 0.01, 0.05, false, 100,
+       " % of the potential energy lost", "reduce the time step (inflation.step_fraction, flight.courant)"},
+      {"flight_momentum_residual", "residual of the momentum balance of the flight", 0.01, 0.05, false, 100,
+       " % of the weight", "use finer cells (flight.cells_across)"},
       {"start_strain", "strain of the folded start", 1e-3, 0.02, false, 100, " %",
        "change inflation.initial_radius_m or inflation.folds"},
       {"pierced_edges", "share of cloth edges that pierce cloth", 0.02, never, false, 100, " %",
@@ -52,7 +56,8 @@ Judgement judge(const std::vector<QualityValue>& values) {
   for (const QualityValue& v : values) {
     const QualityLimit& limit = quality_limit(v.key);
     const auto beyond = [&](double bound) {
-      return !std::isfinite(v.value) || (limit.at_least ? v.value < bound : v.value > bound);
+      constexpr double rounding = 1 - 1e-9;  // ten cells across that are 9.999...
+      return !std::isfinite(v.value) || (limit.at_least ? v.value < rounding * bound : v.value > bound);
     };
     if (!beyond(limit.warn)) continue;
     const bool refused = beyond(limit.refuse);

@@ -13,6 +13,7 @@
 #include "ripstop/output/csv.h"
 #include "ripstop/run/opening/filling.h"
 #include "ripstop/run/opening/inflation_folder.h"
+#include "ripstop/run/sizing/size.h"
 #include "tests/refusal.h"
 #include "tests/run/opening/method_of.h"
 #include "tests/run/steady/finished_run.h"
@@ -63,6 +64,43 @@ TEST(Load, FillingConstantsAreTheHandbooks) {
   for (const char* solid : {"flat-circular", "conical", "extended-skirt"})
     EXPECT_EQ(known_filling(solid).exponent, 2) << solid;
   EXPECT_EQ(known_filling("ringslot").exponent, 1);
+}
+
+// Knacke: t_f = 4.0 D_0 / v^0.85 in feet and seconds below 150 ft/s for solid flat circular canopies, n D_0 / v above.
+TEST(Load, BelowFortySixMetresASecondTheFillingTimeIsKnackesForLowSpeeds) {
+  LoadRequest asked = request(2.4, 20);
+  asked.filling_constant.reset();
+  const LoadResult slow = run_load(resolve(flat_circular()), asked);
+  const double feet = slow.nominal_diameter / 0.3048, speed = 20 / 0.3048;
+  EXPECT_NEAR(slow.stages[0].filling_time, 4.0 * feet / std::pow(speed, 0.85), 1e-12);
+  asked.speed = 60;
+  const LoadResult fast = run_load(resolve(flat_circular()), asked);
+  EXPECT_NEAR(fast.stages[0].filling_time, 8 * fast.nominal_diameter / 60, 1e-12);
+  for (const LoadResult* r : {&slow, &fast}) {
+    EXPECT_TRUE(method(r->stages[0], "Pflanz").applies) << method(r->stages[0], "Pflanz").note;
+    EXPECT_NE(r->stages[0].caution.find("nominal diameter of 1 m is outside"), std::string::npos)
+        << r->stages[0].caution;
+  }
+  asked.speed = 160, asked.height = 3000;
+  EXPECT_FALSE(method(run_load(resolve(flat_circular()), asked).stages[0], "Ludtke").applies);
+}
+
+TEST(Load, AHeavyPayloadOpensOnALevelPathAndIsRefusedOnlyWhereItAccelerates) {
+  LoadRequest asked = request(1e6, 30);
+  asked.path_angle = 0;
+  const LoadResult r = run_load(resolve(flat_circular()), asked);
+  EXPECT_NEAR(method(r.stages[0], "Pflanz").load / method(r.stages[0], "infinite mass").load, 1, 1e-3);
+  asked.path_angle = 90;
+  EXPECT_NE(refused(asked).find("still accelerates under the open canopy"), std::string::npos);
+}
+
+// A canopy of a centimetre fills in microseconds and decelerates for seconds.
+TEST(Load, TheFlightOfATinyCanopyHasNoMoreRowsThanOthers) {
+  SizeRequest tiny;
+  tiny.payload_mass = 0.001, tiny.descent_rate = 100, tiny.height = 30000;
+  const SizeResult r = run_size(tiny);
+  EXPECT_LT(r.opening.front().filling_time, 1e-2);
+  EXPECT_LT(r.flight.size(), 200000u);
 }
 
 /// Of the applicable methods: what a stage says about all of them.

@@ -132,12 +132,12 @@ class NearTheLimit : public Batch {
     return code;
   }
   /// The process that runs a script.
-  static pid_t shell_of(const std::string& script) {
+  static pid_t shell_of(const std::string& path) {
     for (const auto& entry : fs::directory_iterator("/proc")) {
       std::ifstream file(entry.path() / "cmdline", std::ios::binary);
       std::string program, argument;
       if (std::getline(file, program, '\0') && std::getline(file, argument, '\0') && program == "/bin/bash" &&
-          argument == script)
+          argument == path)
         return std::stoi(entry.path().filename());
     }
     return 0;

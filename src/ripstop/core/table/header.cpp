@@ -25,7 +25,15 @@ int closeness(const Heading& heading, const std::string& named) {
   return wanted == words_of(heading.name.substr(0, heading.name.find_first_of("([{"))) ? 1 : 0;
 }
 
+/// Of a line of numbers that a wrong separator leaves whole, read thousands of times.
+bool has_letters(const std::string& cell) {
+  return std::any_of(cell.begin(), cell.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || static_cast<unsigned char>(c) >= 0x80;
+  });
+}
+
 bool known_or_named(const std::string& cell, const Format& format) {
+  if (format.columns.empty() && !has_letters(cell)) return false;
   const Heading heading = read_heading(cell);
   for (const Quantity meaning : heading.meanings)
     if (meaning != Q::specimen) return true;

@@ -53,9 +53,9 @@ ExportedParachute exported(const FinishedSteady& run, std::optional<double> depl
   p.radius = run.result.size.projected_diameter / 2, p.height = run.result.size.length;
   p.porosity = facts(design).geometric_porosity();
   const KnownFilling filling = known_filling(design.canopy.family().type);
-  p.lag = filling.constant * p.nominal_diameter / speed;
-  p.lag_from =
-      fmt::format("filling distance {:g} D0 at {:.3g} m/s: {}", filling.constant, speed, filling.source);
+  const double constant = filling_constant_at(filling.constant, speed);
+  p.lag = constant * p.nominal_diameter / speed;
+  p.lag_from = fmt::format("filling distance {:.3g} D0 at {:.3g} m/s: {}", constant, speed, filling.source);
   p.mass = run.parachute_mass;
   p.gores = design.gores, p.line_count = design.lines.count, p.line_length = design.lines.length_m;
   p.line_material = design.lines.material, p.line_density = run.resolved.materials().line.linear_density_kg_m;

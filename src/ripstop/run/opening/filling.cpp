@@ -1,5 +1,9 @@
 #include "ripstop/run/opening/filling.h"
 
+#include <cmath>
+
+#include "ripstop/core/units.h"
+
 namespace ripstop {
 namespace {
 
@@ -29,6 +33,12 @@ constexpr Row table_rows[] = {
 };
 
 }  // namespace
+
+double filling_constant_at(double constant, double speed) {
+  constexpr double lowest = 150, flat_circular = 8;  // [ft/s], -
+  const double feet = speed / foot;                  // [ft/s]
+  return feet < lowest ? constant / flat_circular * 4.0 * std::pow(feet, 0.15) : constant;
+}
 
 KnownFilling known_filling(const std::string& type) {
   for (const Row& row : table_rows)

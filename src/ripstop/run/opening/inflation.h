@@ -174,7 +174,10 @@ struct InflationSolution {
   InflationHistory history;
 };
 
-/// How long an opening will take on one thread, about, at the step that it begins with [s].
+/// What is doubtful about an opening before anything is computed: cells of the air that are too coarse for the canopy.
+std::vector<std::string> opening_warnings(const Settings& resolved, const Opening& solver);
+
+/// How long cloth and air of an opening will take on one thread, about, at the step that it begins with [s].
 double opening_seconds(const Opening& solver, const InflationState& start);
 
 /// An opening in its own air has the case's flow engine; others are left as they are.

@@ -24,6 +24,8 @@ namespace {
 
 // How many steps a filling takes on the trajectory, and how long one is flown at most [s].
 constexpr double steps_a_filling = 400, longest_flight = 600;
+// Steps of the slow rest of a flight while the speed falls by half, where these are longer than ten of the filling's.
+constexpr double steps_a_slowing = 1000;
 // The share of the load at infinite mass from which on that estimate stands for the opening.
 constexpr double hardly_slowed = 0.9;
 // Where gravity adds more to the speed during the filling than this share, formulas without gravity do not hold.
@@ -92,12 +94,22 @@ std::string joined(const std::vector<std::string>& texts) {
 
 /// Why the finite-mass methods do not apply in these conditions; empty: they do. A filling constant that the user gives,
 /// or that is fitted to a computed opening, replaces the handbook's, with its range of sizes and speeds.
-std::string outside_of_methods(const OpeningConditions& c, const LoadRequest& request,
-                               double nominal_diameter, double mach) {
+std::string outside_of_methods(const OpeningConditions& c, const LoadRequest& request, double mach) {
   std::vector<ModelValue> values = {{"Mach number", mach}, {"ballistic parameter A", ballistic_parameter(c)}};
   if (!request.filling_constant && request.filling_from.empty())
-    values.insert(values.end(), {{"speed at line stretch", c.speed}, {"nominal diameter", nominal_diameter}});
+    values.push_back({"speed at line stretch", c.speed});
   return joined(outside_range(finite_mass_model, values));
+}
+
+/// The handbook's filling distances were measured on large canopies. The methods apply to a smaller one, whose
+/// deployment decides over the distance.
+std::string caution_on_filling(const LoadRequest& request, double nominal_diameter) {
+  if (request.filling_constant) return "";
+  const std::string text = joined(outside_range(filling_model, {{"nominal diameter", nominal_diameter}}));
+  return text.empty() ? ""
+                      : text +
+                            "; the deployment decides over 1 to 20 D0 (--filling-constant), and a canopy "
+                            "that is thrown open approaches the infinite-mass load";
 }
 
 void add_methods(const OpeningConditions& c, double ludtke_exponent, double integral, StageLoads& stage) {
@@ -163,7 +175,9 @@ StageLoads begin_stage(const LoadRequest& request, const LoadResult& r, const Fl
   stage.drag_area_before = before, stage.drag_area = drag_area;
   // A stage that was cut while it overshot has no less to fill than the drag area that it would have held.
   const double added = drag_area - std::min(before, before_held);
-  stage.filling_time = r.filling_constant * r.nominal_diameter / state.speed * std::sqrt(added / open);
+  stage.filling_constant = request.filling_constant ? *request.filling_constant
+                                                    : filling_constant_at(r.filling_constant, state.speed);
+  stage.filling_time = stage.filling_constant * r.nominal_diameter / state.speed * std::sqrt(added / open);
   const OpeningConditions c{r.payload_mass + r.parachute_mass,
                             state.speed,
                             stage.density,
@@ -174,7 +188,8 @@ StageLoads begin_stage(const LoadRequest& request, const LoadResult& r, const Fl
                             std::clamp(state.path_angle, -90.0, 90.0)};
   stage.ballistic_parameter = ballistic_parameter(c);
   stage.mass_ratio = mass_ratio(c);
-  stage.outside = outside_of_methods(c, request, r.nominal_diameter, state.speed / air.sound_speed);
+  stage.outside = outside_of_methods(c, request, state.speed / air.sound_speed);
+  stage.caution = caution_on_filling(request, r.nominal_diameter);
   add_methods(c, r.ludtke_exponent, request.impulse_integral, stage);
   return stage;
 }
@@ -210,7 +225,9 @@ void fly_stages(const LoadRequest& request, LoadResult& r) {
       const double area = before = stage.drag_area;
       leg.drag_area = [area](double, double) { return area; };
       leg.duration = reefed.duration - settled;
-      leg.step = std::min(0.02, 10 * leg.step);
+      // A tiny canopy fills much faster than it decelerates, in 2 m / (rho C_D S v).
+      const double slowing = 2 * mass / (stage.density * area * state.speed);
+      leg.step = std::min(0.02, std::max(10 * leg.step, slowing / steps_a_slowing));
       leg.until_steady = reefed.share == 1;
       append(r.flight, fly(state, mass, leg));
     }
@@ -320,11 +337,15 @@ LoadResult run_load(const Settings& resolved, const LoadRequest& request) {
   const double descent =
       terminal_speed(r.payload_mass + r.parachute_mass, r.drag_coefficient * r.reference_area,
                      standard_air(r.height).density);
-  if (descent >= request.speed)
-    throw Error(ExitCode::usage,
-                fmt::format("the descent rate of {:.3g} m/s exceeds the deployment speed of {:.3g} m/s: the "
-                            "opening causes no load; use a higher speed, a smaller mass or a larger canopy",
-                            descent, request.speed));
+  // On a path downwards weight exceeds the drag of the open canopy, whose load then grows until it is the weight.
+  const double along = std::sin(request.path_angle * std::numbers::pi / 180);
+  if (along > 0 && request.speed * request.speed <= along * descent * descent)
+    throw Error(
+        ExitCode::usage,
+        fmt::format(
+            "a descent rate of {:.3g} m/s is above the {:.3g} m/s of the deployment: the payload still "
+            "accelerates under the open canopy; take a higher speed, a smaller mass or a larger canopy",
+            descent, request.speed));
   fly_stages(request, r);
   if (!request.opening.empty()) fly_record(resolved, request, r);
   choose_design_load(resolved, request, r);

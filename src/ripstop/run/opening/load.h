@@ -60,8 +60,10 @@ void each_member(T& row, Visit&& visit) {
 struct StageLoads {
   double begin = 0, speed = 0, height = 0, density = 0;          // of the stage [s], [m/s], [m], [kg/m3]
   double drag_area_before = 0, drag_area = 0, filling_time = 0;  // [m2], [m2], [s]
+  double filling_constant = 0;                                   // n at this speed
   double ballistic_parameter = 0, mass_ratio = 0;
   std::string outside;  // why the handbook's filling does not apply; empty: it does; not in result.json
+  std::string caution;  // what limits the filling distance of methods that apply; empty: nothing
   std::vector<MethodLoad> methods;
   /// Of the methods that apply, the infinite-mass load where none does; (highest - lowest) / mean.
   double highest = 0, lowest = 0, spread = 0;
@@ -75,6 +77,8 @@ void each_member(T& s, Visit&& visit) {
   visit("drag_area_before_m2", s.drag_area_before);
   visit("drag_area_m2", s.drag_area);
   visit("filling_time_s", s.filling_time);
+  visit("filling_constant", s.filling_constant);
+  visit("filling_caution", s.caution);
   visit("ballistic_parameter", s.ballistic_parameter);
   visit("mass_ratio", s.mass_ratio);
   visit("methods", s.methods);

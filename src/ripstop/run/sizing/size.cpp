@@ -14,6 +14,7 @@
 #include "ripstop/core/file.h"
 #include "ripstop/core/positive.h"
 #include "ripstop/core/toml/fields.h"
+#include "ripstop/core/toml/problem.h"
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/flight/validity.h"
 #include "ripstop/run/json.h"
@@ -180,16 +181,15 @@ bool choose_materials(const std::vector<Line>& lines, SizeResult& r, double& lea
   }
   TapeMaterial tape = tape_for(r.given, r.line_load_factor * r.design_load / design.lines.count);
   design.tape.material = tape.name;
-  r.tape_material = std::move(tape.name), r.tape_source = std::move(tape.from);
+  r.tape_material = std::move(tape.name), r.tape_source = std::move(tape.from), r.tape_used = tape.used;
   return before.lines.material != design.lines.material || before.riser.material != design.riser.material ||
          before.tape.material != design.tape.material;
 }
 
 /// Size, opening load, lines and tape follow from each other: repeated until lines and tape stay.
-void find_parachute(const SizeRequest& request, SizeResult& r) {
+void find_materials(const SizeRequest& request, const std::vector<Line>& lines, const Design& example,
+                    SizeResult& r) {
   constexpr int most = 12;
-  const std::vector<Line> lines = library_lines(request);
-  const Design example = r.given.parachute;
   double least_line = 0, least_riser = 0;
   for (int i = 0; i < most; ++i) {
     Design scaled = example;
@@ -208,8 +208,53 @@ void find_parachute(const SizeRequest& request, SizeResult& r) {
                   most));
 }
 
+bool is_sound(const Design& design) {
+  std::vector<Problem> problems;
+  Findings findings({}, problems);
+  check_design(design, findings);
+  return problems.empty();
+}
+
+/// Gives `example` at least `times` as many lines, and gores in proportion where the family allows that (a cross keeps
+/// its arms). False: there are no more than most_lines.
+bool add_lines(Design& example, double times) {
+  constexpr int most_lines = 120;  // as many as the largest cargo parachutes have
+  const int gores = example.gores, count = example.lines.count;
+  const int wanted = static_cast<int>(std::min<double>(most_lines, std::ceil(count * times)));
+  for (const bool in_proportion : {true, false})
+    for (int more = std::max(count + 1, wanted); more <= most_lines; ++more) {
+      if (in_proportion && gores * more % count != 0) continue;
+      Design trial = example;
+      trial.lines.count = more, trial.gores = in_proportion ? gores * more / count : gores;
+      if (!is_sound(trial)) continue;
+      example = trial;
+      return true;
+    }
+  return false;
+}
+
+/// Lines and tape of the library that hold; where none does, more gores and lines share the load.
+void find_parachute(const SizeRequest& request, SizeResult& r) {
+  const std::vector<Line> lines = library_lines(request);
+  Design example = r.given.parachute;
+  find_materials(request, lines, example, r);
+  const int count = example.lines.count;
+  const auto used = [&r] { return std::max(used_of(r, suspension_line(r.given), "line"), r.tape_used); };
+  while (!request.line_material && used() > 1 && add_lines(example, used())) {
+    find_materials(request, lines, example, r);
+    r.gores_source = fmt::format(
+        "{} lines of the example are too few for the strongest line and tape of the library", count);
+  }
+}
+
 void warn(const SizeRequest& request, SizeResult& r) {
   r.warnings = r.load_warnings;
+  if (r.tape_used > 1)
+    r.warnings.push_back(
+        fmt::format("the tape exceeds its allowable load: the load of a line is {:.3g} times the allowable "
+                    "one of {}, the strongest in the "
+                    "library; take a stronger tape (parachute.tape.material) or more lines",
+                    r.tape_used, r.tape_material));
   const StandardAir air = standard_air(request.density ? standard_height(r.density) : r.height);
   const double reynolds = r.density * request.descent_rate * r.nominal_diameter / air.viscosity;
   for (const std::string& text : outside_range(

@@ -141,7 +141,8 @@ void SteadyFolder::write_shape(const SteadyRun& run, const SteadyState& state) c
   add("pressure_inside_pa", state.sides.inside);
   add("pressure_outside_pa", state.sides.outside);
   add("pressure_difference_applied_pa", state.applied);
-  for (VtkArray& array : stress_arrays(mesh, stress)) canopy.cell_arrays.push_back(std::move(array));
+  for (VtkArray& array : stress_arrays(mesh, state.shape, stress))
+    canopy.cell_arrays.push_back(std::move(array));
   make_folder(folder_.path() / "vtk");
   write_vtp(folder_.own(fmt::format("vtk/canopy_{:03}.vtp", k)), canopy);
 

@@ -9,6 +9,7 @@
 #include "ripstop/case/settings.h"
 #include "ripstop/flight/validity.h"
 #include "ripstop/material/fit_material.h"
+#include "ripstop/material/permeability.h"
 #include "ripstop/parachute/profile.h"
 #include "ripstop/run/quality.h"
 
@@ -36,10 +37,30 @@ std::vector<std::string> grid_warnings(const Settings& resolved) {
                   across, enough)};
 }
 
+namespace {
+
+/// Open cloth with a linear law: one reading of a permeability tester does not determine the flow at other pressures.
+std::vector<std::string> linear_law_warnings(const Fabric& cloth) {
+  constexpr double open =
+      10;  // CFM/ft2; tighter cloth changes by less than 40 % from 124.5 to 1000 Pa (assumed b / a)
+  if (model_of(cloth.resistance) != PorosityModel::sheet) return {};
+  const PressureDrop law = as_sheet(cloth.resistance);
+  if (!(law.linear > 0) || law.quadratic > 0 || cfm(law) < open) return {};
+  return {
+      fmt::format("materials.{}: {:.3g} CFM/ft2 with a linear law (pressure_drop_quadratic_pa_s2_m2 = 0): "
+                  "open cloth lets "
+                  "through up to 2.6 times less at 1000 Pa; give both coefficients of a measured curve "
+                  "(materials/README.md)",
+                  cloth.name, cfm(law))};
+}
+
+}  // namespace
+
 std::vector<std::string> porosity_warnings(const Settings& resolved) {
   const Fabric& cloth = resolved.materials().canopy;
   const PorosityModel used = resolved.flow().porosity_model;
-  if (used == model_of(cloth.resistance)) return {};
+  if (used == model_of(cloth.resistance))
+    return used == PorosityModel::sheet ? linear_law_warnings(cloth) : std::vector<std::string>();
   const auto word = [](PorosityModel model) { return model == PorosityModel::paper ? "paper" : "sheet"; };
   return {
       fmt::format("flow.porosity_model = \"{}\", but the permeability of materials.{} is for \"{}\" "

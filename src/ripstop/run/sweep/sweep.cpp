@@ -248,6 +248,11 @@ SweepAxis sweep_axis(const std::string& key, const std::vector<std::string>& val
 
 std::vector<SweepPoint> sweep_points(const fs::path& case_file, const Overrides& overrides,
                                      const std::vector<SweepAxis>& axes) {
+  return sweep_points([&](const Overrides& all) { return read_case(case_file, all); }, overrides, axes);
+}
+
+std::vector<SweepPoint> sweep_points(const CaseReader& read, const Overrides& overrides,
+                                     const std::vector<SweepAxis>& axes) {
   for (const SweepAxis& axis : axes) {
     for (std::size_t i = 0; i < axis.values.size(); ++i) {
       if (std::find(axis.values.begin(), axis.values.begin() + i, axis.values[i]) != axis.values.begin() + i)
@@ -272,7 +277,7 @@ std::vector<SweepPoint> sweep_points(const fs::path& case_file, const Overrides&
       const std::vector<Setting>& settings = axes[d].settings[at[d]];
       all.set.insert(all.set.end(), settings.begin(), settings.end());
     }
-    SweepPoint point{std::move(values), resolve(read_case(case_file, all)), folder_name(axes, at)};
+    SweepPoint point{std::move(values), resolve(read(all)), folder_name(axes, at)};
     if (const int twins = names[point.folder]++) point.folder += fmt::format("_{}", twins + 1);
     index[at] = static_cast<int>(points.size());
     points.push_back(std::move(point));
