@@ -101,7 +101,7 @@ TEST(PackedCloth, IsShieldedFromTheAir) {
   const PackedCloth packed({0.2, 0.05, 3, 10, 0.1}, p.mesh, p.folded.positions);
   const std::vector<Cell> cells = cells_of(p.mesh);
   BagMotion motion = packed.start(20);
-  motion.travel = 0.2;
+  motion.front = 0.2;
   Loads loads{std::vector<double>(cells.size(), 7.0), std::vector<Vec3>(p.mesh.node_count(), Vec3{1, 0, 0})};
   packed.shield(motion, cells, loads);
   int kept = 0, taken = 0;

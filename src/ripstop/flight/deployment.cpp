@@ -66,6 +66,7 @@ class Deployer {
   double emerged(const Motion& m) const;
   Motion stretch_rate(const Motion& m);
   double stretch_step() const;
+  bool may_slip(double h) const;
   void stretch();
 
   PackedParachute packed_;
@@ -226,6 +227,13 @@ double Deployer::stretch_step() const {
   return std::min({longest_step, emerging, 1 / (steps_a_radian * std::sqrt(stiffest_ * inverse))});
 }
 
+/// Whether the lines may pull with half of the strip force after a step of `h` [s].
+bool Deployer::may_slip(double h) const {
+  const double ahead =
+      now_.x[payload] - now_.x[skirt] - apart_ + h * std::max(now_.v[payload] - now_.v[skirt], 0.0);
+  return ahead > 0 && 2 * curve_.at(std::min(ahead, curve_.stretch.back())) >= packed_.strip_force;
+}
+
 void Deployer::stretch() {
   const double end = time_ + longest_stretch;
   const bool strips = packed_.lines_first;
@@ -233,7 +241,10 @@ void Deployer::stretch() {
   double highest = 0;
   if (!strips) out_ = canopy_.length;
   for (bool stripping = false; time_ < end;) {
-    const double before = out_, h = stretch_step();
+    const double before = out_;
+    double h = stretch_step();
+    if (strips && stuck_ && may_slip(h))
+      stuck_ = false, h = stretch_step();  // the light skirt needs a short step
     now_ = step(now_, h, rate), time_ += h;
     if (strips && now_.v[skirt] < now_.v[bag] &&
         before < canopy_.length) {  // no cloth goes back into the bag

@@ -29,7 +29,8 @@ struct AirProblem {
 
 /// Of the bag that the canopy leaves, relative to the payload.
 struct BagMotion {
-  double travel = 0;  // downstream since the lines came taut [m]
+  double travel = 0;  // downstream since line stretch [m]
+  double front = 0;   // of the cloth that has left it, folded distance from the skirt [m]
   double speed = 0;   // through the air [m/s]
   double left = 0;    // when the canopy had left it; 0: not yet, or no bag [s]
 };
@@ -61,6 +62,7 @@ void each_member(T& m, Visit&& visit) {
   visit("fallen", m.flight.fallen);
   visit("added_mass", m.added_mass);
   visit("bag_travel", m.bag.travel);
+  visit("bag_front", m.bag.front);
   visit("bag_speed", m.bag.speed);
   visit("bag_left", m.bag.left);
 }

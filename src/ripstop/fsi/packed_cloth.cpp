@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace ripstop {
 namespace {
 
 constexpr double released_a_step = 1.0 / 60;  // of the canopy's length, at most
+constexpr double taut = 1e-3;                 // strain
 constexpr double stripped_edge = 1.0 / 20;    // of the canopy's length, that the strip force acts on
 
 }  // namespace
@@ -24,6 +26,15 @@ PackedCloth::PackedCloth(const Bag& bag, const CanopyMesh& mesh, const std::vect
     length_ = std::max(length_, distance_[node]);
     packed_[node].z = skirt + bag.packed_share * distance_[node];
   });
+  for (const Cell& cell : cells_of(mesh)) {
+    if (cell.corner[0] < 0) continue;
+    for (int i = 0; i < 4; ++i) {
+      Edge edge{cell.corner[i], cell.corner[(i + 1) % 4], 0};
+      if (distance_[edge.a] > distance_[edge.b]) std::swap(edge.a, edge.b);
+      edge.length = norm(folded[edge.b] - folded[edge.a]);
+      edges_.push_back(edge);
+    }
+  }
 }
 
 double PackedCloth::longest_step(double payload_speed, const BagMotion& motion) const {
@@ -41,7 +52,7 @@ std::vector<int> PackedCloth::just_released(const BagMotion& motion) const {
   std::vector<int> nodes;
   double edge = -1;  // of the cloth that is out
   for (const double distance : distance_)
-    if (distance <= released(motion)) edge = std::max(edge, distance);
+    if (distance <= motion.front) edge = std::max(edge, distance);
   for (std::size_t n = 0; n < distance_.size(); ++n)
     if (distance_[n] >= 0 && distance_[n] <= edge && distance_[n] > edge - stripped_edge * length_)
       nodes.push_back(static_cast<int>(n));
@@ -60,6 +71,16 @@ void PackedCloth::shield(const BagMotion& motion, const std::vector<Cell>& cells
   const std::vector<int> edge = just_released(motion);
   for (const int node : edge) mass += mass_[node];
   for (const int node : edge) loads.node_force[node].z += bag_.strip_force * mass_[node] / mass;
+}
+
+/// Where the stretched canopy reaches the mouth of the bag, or a taut edge pulls its packed end out.
+double PackedCloth::front_of(const BagMotion& motion, const std::vector<Vec3>& x) const {
+  double front = std::max(motion.front, motion.travel / (1 - bag_.packed_share));
+  for (const Edge& edge : edges_)
+    if (!holds(edge.a, motion) && holds(edge.b, motion) &&
+        norm(x[edge.b] - x[edge.a]) > (1 + taut) * edge.length)
+      front = std::max(front, distance_[edge.b]);
+  return front;
 }
 
 double PackedCloth::carry(const Stream& stream, double length, const Cloth& cloth, ClothState& state,
@@ -82,6 +103,7 @@ double PackedCloth::carry(const Stream& stream, double length, const Cloth& clot
     x[n] = packed_[n] + Vec3{0, 0, motion.travel};
     v[n] = velocity;
   }
+  motion.front = front_of(motion, x);
   set_positions(state, cloth, x);
   set_velocities(state, cloth, v);
   return work;

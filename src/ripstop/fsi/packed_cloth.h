@@ -2,7 +2,7 @@
 //
 // The packed canopy is the folded one, pressed together along the axis to a share c of its length. A bag that has moved
 // downstream by b since line stretch has released the cloth up to the folded distance b / (1 - c) from the skirt: there
-// the canopy, stretched out from the skirt, reaches the mouth of the bag.
+// the canopy, stretched out from the skirt, reaches the mouth of the bag. Cloth that is pulled taut leaves it earlier.
 #pragma once
 
 #include <vector>
@@ -26,9 +26,9 @@ class PackedCloth {
 
   /// The start: all cloth but the skirt's edge in the bag.
   const std::vector<Vec3>& positions() const { return packed_; }
-  BagMotion start(double payload_speed) const { return {0, payload_speed - bag_.relative_speed, 0}; }
-  bool holds(int node, const BagMotion& motion) const { return distance_[node] > released(motion); }
-  bool empty(const BagMotion& motion) const { return released(motion) >= length_; }
+  BagMotion start(double payload_speed) const { return {0, 0, payload_speed - bag_.relative_speed, 0}; }
+  bool holds(int node, const BagMotion& motion) const { return distance_[node] > motion.front; }
+  bool empty(const BagMotion& motion) const { return motion.front >= length_; }
 
   /// Steps in which the bag releases no more than a small part of the canopy [s].
   double longest_step(double payload_speed, const BagMotion& motion) const;
@@ -47,7 +47,11 @@ class PackedCloth {
                BagMotion& motion) const;
 
  private:
-  double released(const BagMotion& motion) const { return motion.travel / (1 - bag_.packed_share); }
+  struct Edge {
+    int a, b;
+    double length;  // folded [m]
+  };
+  double front_of(const BagMotion& motion, const std::vector<Vec3>& x) const;
   std::vector<int> just_released(const BagMotion& motion) const;
 
   Bag bag_;
@@ -55,6 +59,7 @@ class PackedCloth {
   std::vector<double> distance_;  // from the skirt's edge along the axis, folded; negative: not cloth [m]
   double length_ = 0;             // the largest [m]
   std::vector<Vec3> packed_;
+  std::vector<Edge> edges_;  // of the cells, b farther from the skirt
 };
 
 }  // namespace ripstop
