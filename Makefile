@@ -1,38 +1,60 @@
-# Ripstop's commands. On a fresh Debian 12, as root or with sudo: `make demo` and `make check` do everything.
+# Ripstop's commands. On a fresh Debian 12 or 13, as root or with sudo: `make demo` and `make check` do everything.
 
 JOBS := $(shell nproc)
 SUDO := $(shell [ $$(id -u) = 0 ] || echo sudo)
 PREFIX ?= /usr/local
 
-# What building and running need, and what only the tests and benchmarks need beyond that.
+# Packages for building and running, and those only for the tests and benchmarks.
 PACKAGES := build-essential cmake ninja-build pkg-config libtomlplusplus-dev libcli11-dev libfmt-dev \
   libeigen3-dev nlohmann-json3-dev libnlopt-dev libhwy-dev libpng-dev libcairo2-dev fonts-dejavu-core libxxhash-dev zlib1g-dev \
   openfoam openmpi-bin
 SLURM_PACKAGES := slurmctld slurmd slurm-client munge
-FUZZ_PACKAGES := clang libclang-rt-14-dev
+FUZZ_PACKAGES := clang libclang-rt-dev
+# What puts libraries beside a program that leaves this machine.
+PORTABLE_PACKAGES := patchelf
 # What the Python package needs, and what a wheel of it needs beyond that.
 PYTHON_PACKAGES := python3-dev pybind11-dev python3-numpy
-WHEEL_PACKAGES := python3-pip python3-setuptools python3-wheel
+WHEEL_PACKAGES := python3-pip python3-setuptools python3-wheel $(PORTABLE_PACKAGES)
 CHECK_PACKAGES := libgtest-dev libbenchmark-dev python3 python3-jsonschema python3-vtk9 python3-venv clang-format chromium \
-  $(PYTHON_PACKAGES) $(WHEEL_PACKAGES)
+  zsh fish   $(PYTHON_PACKAGES) $(WHEEL_PACKAGES)
 
+# Programs of other people that open the cutting patterns.
+DRAWING_PACKAGES := librecad inkscape python3-lxml python3-cssselect python3-numpy
 DOCS_PACKAGES := mkdocs-material libjs-katex fonts-katex doxygen
+
+# The same where there is no apt, from packages.fedoraproject.org and archlinux.org/packages; not tested. Neither has OpenFOAM.
+FEDORA := gcc-c++ make cmake ninja-build pkgconf-pkg-config tomlplusplus-devel cli11-devel fmt-devel eigen3-devel json-devel \
+  NLopt-devel highway-devel libpng-devel cairo-devel dejavu-sans-fonts xxhash-devel zlib-devel
+FEDORA_CHECK := gtest-devel google-benchmark-devel python3-devel pybind11-devel python3-numpy python3-jsonschema
+ARCH := base-devel cmake ninja tomlplusplus cli11 fmt eigen nlohmann-json nlopt highway libpng cairo ttf-dejavu xxhash zlib
+ARCH_CHECK := gtest benchmark python pybind11 python-numpy python-jsonschema
 
 export PATH := /usr/bin:$(PATH)
 
-.PHONY: help deps check-deps build demo check room sanitize sanitize-thread fuzz mutants coverage tidy bench validate validate-ojf validate-families validate-families-in-time validate-openings judge torture test-slurm test-hosts scaling docs reference report-libraries format format-check install-build install wheel package clean
+.PHONY: help deps check-deps build demo check room sanitize sanitize-thread fuzz mutants coverage tidy bench validate validate-ojf validate-families validate-families-in-time validate-openings judge torture test-drawings test-slurm test-hosts test-debian12 test-debian13 scaling docs reference report-libraries format format-check install-build install wheel tarball test-portable container package clean
 
 help:  ## This list
-	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
+	@grep -hE '^[a-z0-9-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
+
+define other_systems
+echo "Packages are installed automatically with apt only (Debian 12 and 13). Elsewhere install them first; CMake names what is missing."; \
+  echo "  Fedora:     sudo dnf install $(FEDORA)"; \
+  echo "  Arch Linux: sudo pacman -S --needed $(ARCH)"; \
+  echo "For the tests also:"; \
+  echo "  Fedora:     sudo dnf install $(FEDORA_CHECK)"; \
+  echo "  Arch Linux: sudo pacman -S --needed $(ARCH_CHECK)"; \
+  echo "OpenFOAM is optional, for --flow openfoam: https://www.openfoam.com/download"
+endef
 
 define install_missing
-	@missing=""; for p in $(1); do \
+	@if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then $(other_systems); exit 0; fi; \
+	missing=""; for p in $(1); do \
 	  dpkg-query -W -f='$${Status}' $$p 2>/dev/null | grep -q 'install ok installed' || missing="$$missing $$p"; done; \
 	if [ -n "$$missing" ]; then echo "Installing:$$missing"; $(SUDO) apt-get -o DPkg::Lock::Timeout=600 update -q && \
 	  DEBIAN_FRONTEND=noninteractive $(SUDO) apt-get -o DPkg::Lock::Timeout=600 install -y -q --no-install-recommends $$missing; fi
 endef
 
-deps:  ## Install what building and running need (apt)
+deps:  ## Install what building and running need (apt), or list the packages of Fedora and Arch Linux
 	$(call install_missing,$(PACKAGES))
 
 check-deps: deps
@@ -42,18 +64,18 @@ build: deps  ## Release build; the program is build/bin/ripstop
 	@cmake --preset program -DCMAKE_INSTALL_PREFIX=$(PREFIX) > build.configure.log || { cat build.configure.log; exit 1; }
 	@cmake --build --preset program -j $(JOBS)
 
-demo: build  ## Stratos IV at 30 m/s on the printed grid with the built-in flow engine: under a minute or two
+demo: build  ## Stratos IV at 30 m/s on the printed grid with the built-in flow engine: one or two minutes
 	build/bin/ripstop steady examples/stratos-iv/case.toml --speed 30 --out runs/demo
 	@echo "The same with OpenFOAM (about eleven minutes on two cores):"
 	@echo "  build/bin/ripstop steady examples/stratos-iv/case.toml --speed 30 --flow openfoam --ranks 2 --out runs/demo-openfoam"
 
-check: check-deps format-check  ## Build and pass the tests
+check: check-deps format-check  ## Check the format, build everything and run the tests
 	@cmake --preset release > build-check.configure.log || { cat build-check.configure.log; exit 1; }
 	@cmake --build --preset release -j $(JOBS)
 	@ctest --preset release -j $(JOBS)
 
 ROOMS := $(notdir $(patsubst %/,%,$(dir $(wildcard tests/*/*_test.cpp))))
-room: check-deps  ## Build and pass the tests of one room, or some of them: make room ROOM=cloth [TESTS='ClothLaws|ClothKernel']
+room: check-deps  ## Build and run the tests of one room, or some of them: make room ROOM=cloth [TESTS='ClothLaws|ClothKernel']
 	@test -n "$(filter $(ROOM),$(ROOMS))" || { echo "make room ROOM=... is one of: $(sort $(ROOMS))"; exit 2; }
 	@cmake --preset release > build-check.configure.log || { cat build-check.configure.log; exit 1; }
 	@cmake --build --preset release -j $(JOBS) --target test_$(ROOM)
@@ -71,23 +93,23 @@ sanitize-thread: check-deps  ## All tests under the thread sanitizer
 
 READERS ?=
 SECONDS ?= 60
-fuzz: check-deps  ## Fuzz every reader with coverage, into docs/tables: make fuzz [SECONDS=60] [READERS='case chute']; goes on with its corpus
+fuzz: check-deps  ## Fuzz every reader with coverage, into docs/tables: make fuzz [SECONDS=60] [READERS='case chute']; continues with its corpus
 	$(call install_missing,$(FUZZ_PACKAGES))
 	@cmake --preset fuzz > /dev/null
 	@cmake --build --preset fuzz -j $(JOBS)
 	@/usr/bin/python3 validation/reliability/fuzz.py --seconds $(SECONDS) --jobs $(JOBS) $(READERS)
 
-mutants: check-deps  ## Changes the sources in some 460 places and looks which the tests notice, into docs/tables: hours; resumable
+mutants: check-deps  ## Change the sources in some 460 places and count the changes that tests detect, into docs/tables: hours; resumable
 	@/usr/bin/python3 validation/reliability/mutants.py --jobs $(JOBS) $(MUTANTS)
 
-coverage: check-deps  ## Lines of src/ that the tests run, without OpenFOAM's, into docs/tables
+coverage: check-deps  ## Lines of src/ that the tests run, without those for OpenFOAM, into docs/tables
 	@cmake --preset coverage > /dev/null
 	@cmake --build --preset coverage -j $(JOBS)
 	@find build-coverage -name '*.gcda' -delete
 	@ctest --preset coverage -j $(JOBS)
 	@/usr/bin/python3 validation/reliability/coverage.py
 
-bench: check-deps  ## Benchmarks, some four hours; their figures stand in docs/tables
+bench: check-deps  ## Run the benchmarks, some four hours; their figures are in docs/tables
 	@cmake --preset release > /dev/null
 	@cmake --build --preset release -j $(JOBS)
 	@build-check/bench/bench_bodies sides | tee docs/tables/sides.md
@@ -121,22 +143,26 @@ validate: build  ## Stratos IV at five speeds on the printed grid with both engi
 validate-ojf: build  ## Calibrate on Stratos IV, predict WALRUS and ADEPT, score the blind predictions, into docs/tables: hours; resumable
 	@/usr/bin/python3 validation/ojf/campaign.py --ripstop build/bin/ripstop $(STAGES)
 
-validate-families: build  ## Drag of every family's example beside Knacke's values, into docs/tables: ten minutes; resumable
+validate-families: build  ## Drag of every family's example compared with Knacke's values, into docs/tables: ten minutes; resumable
 	@/usr/bin/python3 validation/families/families.py --ripstop build/bin/ripstop
 
-validate-families-in-time: build  ## The same with wakes that shed, means over time, of the types in Knacke's manual: half an hour; resumable
+validate-families-in-time: build  ## The same with unsteady wakes, averaged in time, for the types in Knacke's manual: half an hour; resumable
 	@/usr/bin/python3 validation/families/families.py --ripstop build/bin/ripstop --in-time
 
-validate-openings: build  ## The same types opened in their own air, infinite mass, into docs/tables: half an hour; resumable
+validate-openings: build  ## Coupled inflation of the same types, infinite mass, into docs/tables: half an hour; resumable
 	@/usr/bin/python3 validation/families/families.py --ripstop build/bin/ripstop --openings
 
-judge: check-deps build  ## The built-in engine beside OpenFOAM on meshes that follow the cloth, into docs/tables: an hour and more
+judge: check-deps build  ## Cross-validation of the built-in engine with OpenFOAM on fitted meshes, into docs/tables: an hour and more
 	@cmake --preset release > /dev/null
 	@cmake --build --preset release -j $(JOBS) --target bench_judge
 	@/usr/bin/python3 validation/openfoam/judge.py --ripstop build/bin/ripstop
 
-torture: build  ## Kills, failing writes, damaged files, lying programs over tiny runs, into docs/tables: hours; resumable
+torture: build  ## Tiny runs with kills, failing writes, damaged files and wrong programs, into docs/tables: hours; resumable
 	@/usr/bin/python3 validation/reliability/torture.py --ripstop build/bin/ripstop $(TORTURE)
+
+test-drawings: build  ## Cutting patterns opened by LibreCAD and Inkscape, and measured there
+	$(call install_missing,$(DRAWING_PACKAGES))
+	@/usr/bin/python3 validation/drawings/measure.py --ripstop build/bin/ripstop
 
 test-slurm: build  ## Batch scripts through a real Slurm of two nodes on this machine (as root), into docs/tables: some minutes
 	$(call install_missing,$(SLURM_PACKAGES))
@@ -146,10 +172,21 @@ test-hosts: build  ## OpenFOAM's ranks on two hosts, network namespaces of this 
 	$(call install_missing,iproute2)
 	@/usr/bin/python3 validation/cluster/hosts.py --ripstop build/bin/ripstop
 
+define test_debian
+	$(call install_missing,debootstrap iproute2 git)
+	@/usr/bin/python3 validation/systems/debian.py $(1) --jobs $(JOBS) $(SYSTEMS)
+endef
+
+test-debian13:  ## Build, tests and demo in an empty root of Debian 13, made by debootstrap (as root), into docs/tables: an hour
+	$(call test_debian,13)
+
+test-debian12:  ## The same in an empty root of Debian 12
+	$(call test_debian,12)
+
 scaling: build  ## OpenFOAM's time an iteration on 1, 2, 4 ... ranks up to the cores, into docs/tables; on an idle machine
 	@/usr/bin/python3 validation/cluster/ranks.py --ripstop build/bin/ripstop
 
-docs:  ## The documentation as one site for a browser, in build-docs/site: pages, search, C++ interface; its links are checked
+docs:  ## Build the documentation as a site for the browser, in build-docs/site, and check its links
 	$(call install_missing,$(DOCS_PACKAGES))
 	@/usr/bin/python3 -B docs/site/build.py
 
@@ -158,7 +195,7 @@ reference: check-deps  ## Write the generated pages of docs/reference: keys, com
 	@cmake --build --preset release -j $(JOBS) --target ripstop_program ripstop_python
 	@/usr/bin/python3 docs/site/reference.py --program build-check/bin/ripstop --stub build-check/python/ripstop/_ripstop.pyi
 
-report-libraries:  ## Make the report's three.js and uPlot again from npm, as package-lock.json pins them (needs node)
+report-libraries:  ## Rebuild three.js and uPlot of the report from npm, as package-lock.json pins them (needs node)
 	@cd src/ripstop/report/vendor && npm ci --silent && npm run --silent build && rm -rf node_modules
 
 format:  ## Format the sources
@@ -169,8 +206,10 @@ tidy: check-deps  ## clang-tidy over src and apps, on all cores (no part of chec
 	@cmake --preset debug > /dev/null
 	@run-clang-tidy -quiet -p build-debug -j $(JOBS) '^$(CURDIR)/(src|apps)/'
 
+# Other versions of clang-format break some lines differently; the format is that of Debian 12's.
 format-check:
-	@git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run -Werror
+	@case "$$(clang-format --version)" in *"version 14."*) git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run -Werror;; \
+	  *) echo "The format of the sources is not checked: it is that of clang-format 14 (Debian 12).";; esac
 
 install-build: deps
 	$(call install_missing,$(PYTHON_PACKAGES))
@@ -184,6 +223,20 @@ wheel: install-build  ## The Python package as a wheel in build/wheel/
 	$(call install_missing,$(WHEEL_PACKAGES))
 	@cmake --build --preset program -j $(JOBS) --target wheel
 	@ls build/wheel/*.whl
+
+tarball: install-build docs  ## A portable archive in build/portable/: program, its libraries, materials, examples, documentation
+	$(call install_missing,$(PORTABLE_PACKAGES))
+	@/usr/bin/python3 -B packaging/tarball.py --build build --site build-docs/site --out build/portable
+
+test-portable: tarball wheel  ## Archive and wheel in empty roots of Debian 12 and 13 (as root, by debootstrap), into docs/tables; PORTABLE=--coarse
+	$(call install_missing,debootstrap iproute2)
+	@/usr/bin/python3 validation/systems/portable.py --ripstop build/bin/ripstop $(PORTABLE) build/portable/*.tar.gz build/wheel/*.whl
+
+IMAGE ?=
+container: tarball  ## The image localhost/ripstop of the archive (buildah); IMAGE=FILE writes it; CONTAINER='--build-arg BASE=...'
+	$(call install_missing,buildah)
+	@buildah build $(CONTAINER) -f packaging/Containerfile -t localhost/ripstop build/portable
+	@test -z "$(IMAGE)" || buildah push localhost/ripstop oci-archive:$(IMAGE)
 
 package: install-build  ## Debian packages in build/
 	@cd build && cpack -G DEB

@@ -183,8 +183,8 @@ void compare_engines(int argc, char** argv) {
           "12 x 18 m, slip sides",
           across),
       argc, argv,
-      {"body", "reference", "built-in", "OpenFOAM", "beside the built-in", "area of OpenFOAM's faces",
-       "for its area", "OpenFOAM's ledger", "Cp front, back, built-in", "Cp front, back, OpenFOAM",
+      {"body", "reference", "built-in", "OpenFOAM", "compared with the built-in", "area of OpenFOAM's faces",
+       "for its area", "force imbalance of OpenFOAM", "Cp front, back, built-in", "Cp front, back, OpenFOAM",
        "minutes"});
   for (const Body& body : all_bodies(place_in(box))) {
     if (!only.empty() && body.name != only) continue;

@@ -158,7 +158,7 @@ int main(int argc, char** argv) {
       fmt::format(
           "A square plate set into a stream at once, d/{}: the built-in engine in time and pimpleFoam",
           across),
-      argc, argv, {"", "built-in", "pimpleFoam", "built-in beside pimpleFoam"});
+      argc, argv, {"", "built-in", "pimpleFoam", "built-in compared with pimpleFoam"});
   const auto steps_of = [](const March& march) { return march.drag.values.size(); };
   const auto rate = [&](const March& march) {
     return 1e-6 * (static_cast<double>(steps_of(march)) - 1) * problem.grid.cells() / march.seconds;

@@ -6,6 +6,21 @@ install(TARGETS ripstop_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMP
 install(DIRECTORY materials examples DESTINATION ${CMAKE_INSTALL_DATADIR}/ripstop COMPONENT program)
 install(FILES README.md CHANGELOG.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 
+# Manual pages and shell completion, which the program's own --help gives.
+if(RIPSTOP_PYTHON)
+  set(RIPSTOP_TERMINAL ${CMAKE_BINARY_DIR}/terminal)
+  add_custom_command(OUTPUT ${RIPSTOP_TERMINAL}/bash/ripstop VERBATIM
+    DEPENDS ripstop_program ${CMAKE_SOURCE_DIR}/packaging/terminal.py ${CMAKE_SOURCE_DIR}/docs/site/reference.py
+    COMMAND ${CMAKE_COMMAND} -E rm -rf ${RIPSTOP_TERMINAL}
+    COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/packaging/terminal.py --program $<TARGET_FILE:ripstop_program>
+      --version ${PROJECT_VERSION} --out ${RIPSTOP_TERMINAL})
+  add_custom_target(terminal ALL DEPENDS ${RIPSTOP_TERMINAL}/bash/ripstop)
+  install(DIRECTORY ${RIPSTOP_TERMINAL}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT program)
+  install(FILES ${RIPSTOP_TERMINAL}/bash/ripstop DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT program)
+  install(FILES ${RIPSTOP_TERMINAL}/zsh/_ripstop DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT program)
+  install(FILES ${RIPSTOP_TERMINAL}/fish/ripstop.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT program)
+endif()
+
 install(TARGETS ripstop EXPORT ripstop-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
 # Without the two headers that need a library of their own; only sources include them.
 install(DIRECTORY src/ripstop DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development FILES_MATCHING

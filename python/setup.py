@@ -1,4 +1,6 @@
-"""The wheel holds a module that CMake has built (the target `wheel`): only its name has to say for which machine."""
+"""The wheel holds a module that CMake has built (the target `wheel`); packaging/wheel.py computes the tag of its platform."""
+import os
+
 from setuptools import Distribution, setup
 
 
@@ -7,4 +9,4 @@ class Built(Distribution):
         return True
 
 
-setup(distclass=Built)
+setup(distclass=Built, options={"bdist_wheel": {"plat_name": os.environ["RIPSTOP_PLATFORM"]}})

@@ -35,17 +35,17 @@ void add_batch_options(CLI::App& command, BatchOptions& options) {
       command
           .add_option(
               "--batch", options.system,
-              "Write scripts for this batch system, and say how to submit them, in place of computing")
+              "Write job scripts for this batch system and print how to submit them; nothing is computed")
           ->check(CLI::IsMember({"slurm"}))
           ->option_text("slurm");
   for (const char* other : {"--fresh", "--dry-run", "--check", "--hostfile", "--json"})
     if (CLI::Option* option = command.get_option_no_throw(other)) batch->excludes(option);
-  add_number(command, "--hours", options.hours, from(0.1).up_to(8760),
-             "Time limit of a job of --batch [h] (default: an estimate; it goes on in the next job)")
-      ->needs(batch);
   add_number(
-      command, "--cores", options.cores, from(1).up_to(1024),
-      "Cores of a job of --batch, with ranks of each rank (default: coupling.threads, else 4; 1 a rank)")
+      command, "--hours", options.hours, from(0.1).up_to(8760),
+      "Time limit of a job of --batch [h] (default: an estimate; longer runs continue in the next job)")
+      ->needs(batch);
+  add_number(command, "--cores", options.cores, from(1).up_to(1024),
+             "Cores of a job of --batch, or of each MPI rank (default: coupling.threads, else 4; 1 per rank)")
       ->needs(batch);
 }
 

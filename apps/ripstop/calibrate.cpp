@@ -29,9 +29,10 @@ struct CalibrateArguments {
 
 std::string trial_text(const DampingTrial& t) {
   return fmt::format(
-      "C_a {:8.4f}   peak {:8.2f} N at {:6.2f} ms   every step {:8.1f} N   settled {}   misfit {:.4f}",
+      "C_a {:8.4f} N s/m3, peak {:8.2f} N at {:6.2f} ms, unfiltered {:8.1f} N, inflation time {}, misfit "
+      "{:.4f}",
       t.damping, t.peak, 1000 * t.peak_time, t.every_step_peak,
-      t.inflation_time ? fmt::format("{:6.1f} ms", 1000 * *t.inflation_time) : "not yet", t.misfit);
+      t.inflation_time ? fmt::format("{:6.1f} ms", 1000 * *t.inflation_time) : "not reached", t.misfit);
 }
 
 int calibrate(const CalibrateArguments& options) {
@@ -59,24 +60,25 @@ int calibrate(const CalibrateArguments& options) {
     fmt::print("C_a = {:.4f} N s/m3, misfit {:.2f} %; {}\n", found.best.damping, 100 * found.best.misfit,
                (folder / "misfit.png").string());
   if (!found.at_edge) return 0;
-  fmt::print(stderr, "the best C_a lies at the edge of {:g} .. {:g}: widen the range with --from and --to\n",
+  fmt::print(stderr,
+             "the best C_a is a limit of the searched range {:g} to {:g}: widen it with --from and --to\n",
              options.search.from, options.search.to);
   return static_cast<int>(ExitCode::not_converged);
 }
 
 void add_damping(CLI::App& parent, int& status) {
   auto options = std::make_shared<CalibrateArguments>();
-  CLI::App* command =
-      parent.add_subcommand("damping", "C_a from the measured opening load of a reference parachute");
+  CLI::App* command = parent.add_subcommand(
+      "damping", "Determine the damping C_a from the measured opening load of a reference parachute");
   command->footer("Example: ripstop calibrate damping examples/stratos-iv/case.toml --cloth-nodes 3000");
   add_opening_options(*command, options->opening);
   const Range damping = above(0).up_to(key_range("inflation.damping_n_s_m3").high);
   add_number(*command, "--from", options->search.from, damping, "Smallest C_a [N s/m3]");
   add_number(*command, "--to", options->search.to, damping, "Largest C_a [N s/m3]");
   add_number(*command, "--points", options->search.points, from(3).up_to(1000),
-             "Openings at equal ratios of C_a");
+             "Number of openings at logarithmically spaced C_a");
   add_number(*command, "--refinements", options->search.refinements, from(0).up_to(1000),
-             "Openings about the best of them");
+             "Number of further openings around the best C_a");
   command->add_option("--out", options->out,
                       "Folder of the result (default: runs/<name of the case>-damping)");
   add_json_option(*command, options->json);
@@ -86,7 +88,7 @@ void add_damping(CLI::App& parent, int& status) {
 }  // namespace
 
 void add_calibrate(CLI::App& app, int& status) {
-  CLI::App* command = app.add_subcommand("calibrate", "Constants of the model from a reference parachute");
+  CLI::App* command = app.add_subcommand("calibrate", "Calibrate model constants with a reference parachute");
   command->require_subcommand(1);
   add_damping(*command, status);
   add_calibrate_porosity(*command, status);

@@ -28,7 +28,7 @@ void add_set_option(CLI::App& command, Overrides& overrides) {
           [&overrides](const std::vector<std::string>& settings) {
             for (const std::string& text : settings) overrides.set.push_back(parse_setting(text, "--set"));
           },
-          "Any key of the case, as in --set flow.box_m=[3,3,5]; repeatable")
+          "Set any key of the case, for example --set flow.box_m=[3,3,5]; repeatable")
       ->expected(1)
       ->take_all();
   command
@@ -37,7 +37,7 @@ void add_set_option(CLI::App& command, Overrides& overrides) {
           [&overrides](const std::vector<std::string>& keys) {
             for (const std::string& key : keys) overrides.set.push_back({key, "", "--unset", true});
           },
-          "Key or table that is left out of the case, as in --unset payload; repeatable")
+          "Remove a key or table from the case, for example --unset payload; repeatable")
       ->expected(1)
       ->take_all();
 }
@@ -57,18 +57,18 @@ void add_key_option(CLI::App& command, const std::string& option, const std::str
 void add_flow_options(CLI::App& command, Overrides& overrides) {
   std::vector<std::string> words;
   for (const EngineRecord& engine : engines()) words.push_back(engine.word);
-  add_three(command, "--grid", overrides.grid, key_range("flow.cells"), "Cells NX,NY,NZ of the flow's box");
+  add_three(command, "--grid", overrides.grid, key_range("flow.cells"), "Cells NX,NY,NZ of the flow domain");
   command
       .add_option_function<std::string>(
           "--flow", [&overrides](const std::string& engine) { overrides.engine = engine; }, "Flow engine")
       ->check(CLI::IsMember(words))
       ->option_text(fmt::format("{}", fmt::join(words, "|")));
-  add_key_number(command, "--ranks", "flow.ranks", overrides.ranks, "MPI processes of one flow");
+  add_key_number(command, "--ranks", "flow.ranks", overrides.ranks, "MPI processes of one flow solution");
 }
 
 void add_case_options(CLI::App& command, Overrides& overrides) {
   add_key_number(command, "--speed", "flow.speed_m_s", overrides.speed, "Nominal speed [m/s]");
-  command.add_flag("--linear", overrides.linear, "Keep only K_1 of every material: the paper's linear model");
+  command.add_flag("--linear", overrides.linear, "Use only K_1 of every material (linear model of [NFM])");
   add_set_option(command, overrides);
 }
 

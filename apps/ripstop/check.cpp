@@ -51,38 +51,40 @@ void print(const Settings& resolved, const CaseSummary& s, std::size_t warnings)
   const bool given = resolved.source("parachute.nominal_area_m2").given;
   fmt::print("{}\n", resolved.title().empty() ? resolved.file().string() : resolved.title());
   row("nominal area",
-      fmt::format("{:.4f} m2{}", s.nominal_area, given ? " (given)" : " (by the type's definition)"));
+      fmt::format("{:.4f} m2{}", s.nominal_area, given ? " (given)" : " (definition of the canopy type)"));
   row("cloth", fmt::format("{:.4f} m2 as cut, {:.4f} m2 as meshed", s.computed_area, s.cloth_area));
-  row("open", fmt::format("{:.2f} % geometric porosity: vent {:.4f} m2, slots and gaps {:.4f} m2",
-                          100 * s.geometric_porosity, s.vent_area, s.slot_area));
+  row("open area", fmt::format("{:.2f} % geometric porosity: vent {:.4f} m2, slots and gaps {:.4f} m2",
+                               100 * s.geometric_porosity, s.vent_area, s.slot_area));
   row("mass",
       fmt::format("{:.4f} kg: cloth {:.4f}, tape {:.4f} ({:.0f} %), lines {:.4f}, riser {:.4f}", s.mass.total,
                   s.mass.cloth, s.mass.tape, 100 * s.mass.tape / s.mass.total, s.mass.lines, s.mass.riser));
-  row("nodes", fmt::format("{}, of these {} of cloth ({} asked for, {} resolve its size)", s.nodes,
-                           s.cloth_nodes, resolved.parachute().mesh.cloth_nodes, s.resolved_cloth_nodes));
+  row("nodes",
+      fmt::format("{}, of these {} of cloth ({} requested, {} required to resolve its size)", s.nodes,
+                  s.cloth_nodes, resolved.parachute().mesh.cloth_nodes, s.resolved_cloth_nodes));
   row("springs",
-      fmt::format("{}, the smallest {:.3g} mm ({})", s.springs, 1000 * s.smallest_spring, s.smallest_part));
-  row("stable step", fmt::format("{:.3g} s, set by {}; the paper's bound gives {:.3g} s", s.step.stable_step,
-                                 s.step.part, s.step.printed_step));
-  row("flow box", fmt::format("{} cells of {:.3g} x {:.3g} x {:.3g} mm, canopy blocks {:.1f} %{}",
-                              s.flow_cells, 1000 * s.flow_spacing.x, 1000 * s.flow_spacing.y,
-                              1000 * s.flow_spacing.z, 100 * s.blockage, s.of_jet ? " of the nozzle" : ""));
+      fmt::format("{}, the shortest {:.3g} mm ({})", s.springs, 1000 * s.smallest_spring, s.smallest_part));
+  row("stable step", fmt::format("{:.3g} s, limited by {}; the estimate of [NFM] is {:.3g} s",
+                                 s.step.stable_step, s.step.part, s.step.printed_step));
+  row("flow domain", fmt::format("{} cells of {:.3g} x {:.3g} x {:.3g} mm, blockage {:.1f} %{}", s.flow_cells,
+                                 1000 * s.flow_spacing.x, 1000 * s.flow_spacing.y, 1000 * s.flow_spacing.z,
+                                 100 * s.blockage, s.of_jet ? " of the nozzle" : ""));
   row("memory", fmt::format("about {:.2g} GB for a steady run", 1e-9 * s.memory));
-  row("time",
-      fmt::format("about {} of one core for a steady run with the built-in engine, half to twice as usual",
-                  rough_duration(s.core_time)));
+  row("time", fmt::format("about {} on one core for a steady run with the built-in engine; typically 0.5 to "
+                          "2 times this estimate",
+                          rough_duration(s.core_time)));
   for (std::size_t i = 0; i < resolved.inflation().reefing.size(); ++i) {
     const ReefingStage& stage = resolved.inflation().reefing[i];
     row(i == 0 ? "reefing" : "",
-        fmt::format("line of {:g} m, {:.1f} % of the skirt's {:.4g} m, reefing ratio {:.3f}, cut at {:g} s",
+        fmt::format("line of {:g} m, {:.1f} % of the skirt circumference {:.4g} m, reefing ratio {:.3f}, cut "
+                    "at {:g} s",
                     stage.line_m, 100 * stage.line_m / skirt_circumference(resolved.parachute()),
                     skirt_circumference(resolved.parachute()),
                     stage.line_m / std::numbers::pi / nominal_diameter(resolved.parachute()), stage.cut_s));
   }
   row("air", fmt::format("{:.4g} m/s, {:.4g} kg/m3", s.air.speed, s.air.density));
-  row("problems", warnings == 0 ? "none"
-                                : fmt::format("none that stops a run, {} warning{} below", warnings,
-                                              warnings == 1 ? "" : "s"));
+  row("problems", warnings == 0
+                      ? "none"
+                      : fmt::format("no error, {} warning{} below", warnings, warnings == 1 ? "" : "s"));
 }
 
 int run(const CheckArguments& options) {
@@ -114,13 +116,14 @@ int run(const CheckArguments& options) {
 void add_check(CLI::App& app, int& status) {
   auto options = std::make_shared<CheckArguments>();
   CLI::App* command = app.add_subcommand(
-      "check", "Everything about a case without a solver: problems, areas, masses, time step");
+      "check", "Check a case without running a solver: problems, areas, masses, time step");
   command->footer("Example: ripstop check examples/stratos-iv/case.toml --speed 25 --json");
   command->add_option("case", options->case_file, "Case file (TOML)")->required();
   add_case_options(*command, options->overrides);
   add_flow_options(*command, options->overrides);
-  CLI::Option* json = command->add_flag("--json", options->json, "The report, or the problems, as JSON");
-  command->add_flag("--resolved", options->resolved, "Print the case with every default written out (TOML)")
+  CLI::Option* json =
+      command->add_flag("--json", options->json, "Print the report, or the problems found, as JSON");
+  command->add_flag("--resolved", options->resolved, "Print the case with all defaults filled in (TOML)")
       ->excludes(json);
   command->callback([options, &status] { status = run(*options); });
 }

@@ -1,18 +1,27 @@
-// ripstop compare: the nonlinear model beside the linear one, and where their difference comes from.
+// ripstop compare: finished runs side by side, a measured load beside a computed one, or the linear model beside the
+// nonlinear one.
 
 #include "ripstop/run/steady/compare.h"
 
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <memory>
 
 #include "commands.h"
 #include "json_option.h"
 #include "number_option.h"
+#include "ripstop/core/claimed_folder.h"
+#include "ripstop/core/file.h"
+#include "ripstop/core/words.h"
+#include "ripstop/run/opening/measured_load.h"
+#include "ripstop/run/report/compare_runs.h"
+#include "ripstop/run/report/report.h"
 #include "ripstop/run/steady/steady_folder.h"
 #include "ripstop/run/sweep/sweep_files.h"
 #include "sweep_progress.h"
+#include "table_options.h"
 
 namespace ripstop {
 namespace {
@@ -21,7 +30,71 @@ namespace fs = std::filesystem;
 
 struct CompareArguments : SweepOptions {
   bool linear = false;
+  std::vector<fs::path> others;  // runs after the first, which is in case_file
+  fs::path measured;
+  std::optional<double> shift;
+  std::string columns, decimal;
 };
+
+void print(const RunComparison& c) {
+  fmt::print("{:<44}", "");
+  for (std::size_t i = 0; i < c.runs.size(); ++i) fmt::print(" {:>14}", fmt::format("run {}", i + 1));
+  fmt::print(" {:>10}\n", "change");
+  for (const ComparedNumber& n : c.numbers) {
+    fmt::print("{:<44}", in_words(n.key).with_unit());
+    for (const double value : n.values)
+      fmt::print(" {:>14}", std::isnan(value) ? "-" : fmt::format("{:.5g}", value));
+    fmt::print(" {:>10}\n", n.difference ? fmt::format("{:+.2f} %", 100 * *n.difference) : "-");
+  }
+  for (std::size_t i = 0; i < c.runs.size(); ++i)
+    fmt::print("run {}: {} ({})\n", i + 1, c.runs[i], c.titles[i]);
+}
+
+void print(const MeasuredLoad& m) {
+  const auto row = [](const char* name, const std::string& text) { fmt::print("  {:<26} {}\n", name, text); };
+  fmt::print("{}: {} and {}\n", m.title, m.run, m.file);
+  row("time shift", fmt::format("{:+.4g} s added to the measured time: {}", m.shift, m.shift_from));
+  row("peak",
+      fmt::format("computed {:.1f} N at {:.4g} s, measured {:.1f} N at {:.4g} s ({:+.1f} %)", m.computed_peak,
+                  m.computed_peak_time, m.measured_peak, m.measured_peak_time, 100 * m.peak_difference));
+  row("root mean square difference",
+      fmt::format("{:.1f} N over {:.4g} s, {:.1f} % of the measured peak", m.rms_difference, m.overlap,
+                  100 * m.rms_difference / m.measured_peak));
+  row("impulse",
+      fmt::format("computed {:.4g} N s, measured {:.4g} N s", m.computed_impulse, m.measured_impulse));
+}
+
+int compare_measured(const CompareArguments& options) {
+  const MeasuredLoad result =
+      compare_load({options.case_file, options.measured, table::parse_columns(options.columns),
+                    table::parse_decimal(options.decimal), options.shift});
+  const fs::path& folder = options.settings.folder;
+  if (!folder.empty()) write_measured_load(folder, result);
+  if (options.json) {
+    fmt::print("{}", to_json(result));
+    return 0;
+  }
+  print(result);
+  if (!folder.empty()) fmt::print("{} (load.svg, load.png, result.json)\n", folder.string());
+  return 0;
+}
+
+int compare_finished(const CompareArguments& options) {
+  std::vector<fs::path> runs{options.case_file};
+  runs.insert(runs.end(), options.others.begin(), options.others.end());
+  const RunComparison result = compare_runs(runs);
+  const fs::path& folder = options.settings.folder;
+  if (!folder.empty()) {
+    make_results_folder(folder);
+    write_file(folder / "result.json", to_json(result));
+    write_report(runs, folder / report_name);
+  }
+  if (options.json)
+    fmt::print("{}", to_json(result));
+  else
+    print(result);
+  return 0;
+}
 
 void print(const Comparison& comparison) {
   const std::vector<ComparedModel>& models = comparison.models;
@@ -44,14 +117,16 @@ void print(const Comparison& comparison) {
                          models[i].drag - a.drag);
   }
   fmt::print("\nlinear - nonlinear: {:+.3f} N ({:+.3f} %)\n", b.drag - a.drag, 100 * b.drag_difference);
-  fmt::print("  each material alone: {} N; together beyond their sum {:+.3f} N\n", alone,
+  fmt::print("  contribution of each material alone: {} N; interaction {:+.3f} N\n", alone,
              comparison.beyond_sum);
-  fmt::print("  by projected area {:+.3f} %, by drag per projected area {:+.3f} %\n",
+  fmt::print("  change of projected area {:+.3f} %, of drag per projected area {:+.3f} %\n",
              100 * comparison.by_projected_area, 100 * comparison.by_drag_per_area);
-  fmt::print("  strains are means over the springs of each part\n");
+  fmt::print("  strain: mean over the springs of each part\n");
 }
 
 int compare(CompareArguments& options) {
+  if (!options.measured.empty()) return compare_measured(options);
+  if (!options.linear) return compare_finished(options);
   finish(options, "compare");
   // The neighbour's flow field would hide a difference smaller than the residual: every run starts cold.
   options.settings.warm = false;
@@ -77,17 +152,33 @@ int compare(CompareArguments& options) {
 
 void add_compare(CLI::App& app, int& status) {
   auto options = std::make_shared<CompareArguments>();
-  CLI::App* command = app.add_subcommand("compare", "Two models of one case side by side");
+  CLI::App* command = app.add_subcommand(
+      "compare", "Compare finished runs, a measured load, or the linear material model of a case");
   command->footer(
-      "Runs the case as it is, with K_1 alone for every material, and with K_1 alone for the cloth, the "
-      "lines and\n"
-      "the tape in turn.\n"
-      "Example: ripstop compare examples/stratos-iv/case.toml --linear --speed 30");
+      "With run folders it prints the numbers of their results; --out adds a report with their shapes and "
+      "plots.\n"
+      "With --measured it compares the load of an opening over time with a record (docs/guide/tables.md).\n"
+      "With --linear it runs the case with the complete material laws, with only K_1 of every material, and "
+      "with\nonly K_1 of the cloth, the lines and the tape separately.\n"
+      "Example: ripstop compare runs/first runs/second --out both\n"
+      "         ripstop compare runs/opening --measured load-cell.csv\n"
+      "         ripstop compare examples/stratos-iv/case.toml --linear --speed 30");
   add_sweep_options(*command, *options);
+  command->add_option("others", options->others, "More folders of finished runs, where the first is one")
+      ->check(CLI::ExistingDirectory);
   add_key_number(*command, "--speed", "flow.speed_m_s", options->overrides.speed, "Nominal speed [m/s]");
-  command->add_flag("--linear", options->linear, "Against the linear model, which keeps only K_1")
-      ->required();
-  command->add_option("--out", options->settings.folder, "Folder (default: runs/<name of the case>-compare)");
+  CLI::Option* linear =
+      command->add_flag("--linear", options->linear, "Compare with the linear model, which uses only K_1");
+  command
+      ->add_option("--measured", options->measured,
+                   "Table of a measured load over time, compared with that of the opening")
+      ->check(CLI::ExistingFile)
+      ->excludes(linear);
+  add_number(*command, "--time-shift", options->shift, from(-1e6).up_to(1e6),
+             "Shift added to the measured time [s] (default: least mean square difference of the loads)");
+  add_table_options(*command, options->columns, options->decimal, "force=Kraft [kN],time=Zeit [ms]");
+  command->add_option("--out", options->settings.folder,
+                      "Folder (default: with --linear runs/<name of the case>-compare, else none)");
   command->callback([options, &status] { status = compare(*options); });
 }
 

@@ -39,7 +39,7 @@ Fabric fabric_of(const std::string& name) {
   const Material material = fs::path(name).has_extension() ? read_material(name) : library_material(name);
   if (const auto* fabric = std::get_if<Fabric>(&material)) return *fabric;
   throw Error(ExitCode::usage,
-              fmt::format("{} is a {}; coupons are cut from a fabric", name, kind_of(material)));
+              fmt::format("{} is a {}; give a material of kind \"fabric\"", name, kind_of(material)));
 }
 
 int finish(const Fabric& fabric, double largest_strain, bool converged) {
@@ -47,7 +47,8 @@ int finish(const Fabric& fabric, double largest_strain, bool converged) {
   for (const std::string& text : material_warnings(fabric, largest_strain))
     fmt::print(stderr, "warning: {}\n", text);
   if (!converged)
-    throw Error(ExitCode::not_converged, "a coupon did not come to rest; its last digits are not sure");
+    throw Error(ExitCode::not_converged,
+                "a coupon did not reach equilibrium; the last digits of its loads are uncertain");
   return 0;
 }
 
@@ -106,27 +107,31 @@ int run(const CouponArguments& options) {
 
 void add_coupon(CLI::App& app, int& status) {
   auto options = std::make_shared<CouponArguments>();
-  CLI::App* command =
-      app.add_subcommand("coupon", "Pulls a virtual coupon of a fabric with the cloth solver");
+  CLI::App* command = app.add_subcommand("coupon", "Compute a virtual tensile test of a fabric coupon");
   command->footer("Example: ripstop coupon f-111 --orientation 45 --strain 0.2 --out coupon-45");
-  command->add_option("material", options->material, "Name in the library, or a material file (.toml)")
+  command
+      ->add_option("material", options->material,
+                   "Name of a material of the library, or a material file (.toml)")
       ->required();
   command->add_option("--bench", options->bench,
-                      "Test campaign (TOML) to compare with; its coupons are pulled");
-  command->add_option("--orientation", options->shape.orientation, "Pull at 0, 45 or 90 deg to the warp")
+                      "Test campaign (TOML) to compare with; its coupons are computed");
+  command
+      ->add_option("--orientation", options->shape.orientation,
+                   "Angle between load and warp: 0, 45 or 90 deg")
       ->check(CLI::IsMember({0, 45, 90}))
       ->option_text("0|45|90");
   command->add_flag(
       "--bias-lattice", options->shape.bias_lattice,
-      "At 45 deg: the lattice along the pull and the yarns on its diagonals, as in a canopy cut "
-      "on the bias");
-  add_number(*command, "--length", options->shape.length, above(0).up_to(100), "Between the clamps [m]");
-  add_number(*command, "--width", options->shape.width, above(0).up_to(10), "Of the coupon [m]");
+      "At 45 deg: lattice along the load and yarns along its diagonals, as in a canopy cut on the bias");
+  add_number(*command, "--length", options->shape.length, above(0).up_to(100),
+             "Length between the clamps [m]");
+  add_number(*command, "--width", options->shape.width, above(0).up_to(10), "Width of the coupon [m]");
   add_number(*command, "--cells", options->shape.cells, from(2).up_to(200), "Lattice cells across the width");
   add_number(*command, "--strain", options->strain, above(0).up_to(2),
-             "Of the last point (default: the tested strain)");
-  add_number(*command, "--points", options->points, from(1).up_to(1000), "Points of the curve");
-  add_number(*command, "--threads", options->threads, key_range("coupling.threads"), "Threads; 0: all");
+             "Strain of the last point (default: the tested strain)");
+  add_number(*command, "--points", options->points, from(1).up_to(1000), "Number of points of the curve");
+  add_number(*command, "--threads", options->threads, key_range("coupling.threads"),
+             "Number of threads; 0: all cores");
   command->add_option("--out", options->out,
                       "Folder for result.json, the curve, a picture and a file for ParaView");
   add_json_option(*command, options->json);

@@ -59,11 +59,11 @@ int descent(const DescentArguments& options) {
 
 void add_descent(CLI::App& app, int& status) {
   auto options = std::make_shared<DescentArguments>();
-  CLI::App* command = app.add_subcommand("descent", "Terminal speed and descent time from a steady run");
+  CLI::App* command =
+      app.add_subcommand("descent", "Compute terminal speed and descent time from a steady run");
   command->footer(
-      "+- is the numerical uncertainty of the run (last change of the drag, averaging, ledger), not that of "
-      "the model "
-      "error.\n"
+      "+- is the numerical uncertainty of the run (last change of the drag, averaging, force balance).\nIt "
+      "does not include the error of the model.\n"
       "Example: ripstop descent runs/stratos --mass 4 --height 300,1000");
   command->add_option("run", options->run, "Folder of a finished run of ripstop steady")->required();
   add_number(*command, "--mass", options->mass, key_range("payload.mass_kg"),
@@ -72,7 +72,8 @@ void add_descent(CLI::App& app, int& status) {
   const Range height = from(lowest_height).up_to(highest_height);
   add_numbers(*command, "--height", options->heights, height,
               "Heights above sea level [m] (default: 0,300,1000,3000)");
-  add_number(*command, "--ground", options->ground, height, "Height where the descent ends [m] (default: 0)");
+  add_number(*command, "--ground", options->ground, height,
+             "Height of the ground above sea level [m] (default: 0)");
   command->add_option("--out", options->out, "Folder for result.json (default: none)");
   add_json_option(*command, options->json);
   command->callback([options, &status] { status = descent(*options); });

@@ -27,8 +27,8 @@ struct ExportArguments {
 
 int export_run(const ExportArguments& options) {
   if (!options.out.empty() && fs::exists(options.out) && !options.force)
-    throw Error(ExitCode::usage,
-                fmt::format("{} exists; choose another --out, or --force", options.out.string()));
+    throw Error(ExitCode::usage, fmt::format("{} exists; choose another --out, or replace it with --force",
+                                             options.out.string()));
   const ExportedParachute p = exported(finished_steady(options.run), options.deployment_speed);
   const std::string text = options.format == "rocketpy"     ? rocketpy_text(p, options.trigger)
                            : options.format == "openrocket" ? openrocket_text(p)
@@ -47,16 +47,17 @@ int export_run(const ExportArguments& options) {
 
 void add_export(CLI::App& app, int& status) {
   auto options = std::make_shared<ExportArguments>();
-  CLI::App* command =
-      app.add_subcommand("export", "A steady run's parachute for RocketPy, OpenRocket or as JSON");
+  CLI::App* command = app.add_subcommand(
+      "export", "Export the parachute of a steady run for RocketPy, OpenRocket or as JSON");
   command->footer("Example: ripstop export rocketpy runs/my-canopy --trigger 300 --out parachute.py");
-  command->add_option("format", options->format, "rocketpy, openrocket or json")
+  command->add_option("format", options->format, "Format: rocketpy, openrocket or json")
       ->required()
       ->check(CLI::IsMember({"rocketpy", "openrocket", "json"}));
   command->add_option("run", options->run, "Folder of a finished run of ripstop steady")->required();
-  command->add_option("--trigger", options->trigger, "Of RocketPy: apogee, or a height above the ground [m]");
+  command->add_option("--trigger", options->trigger,
+                      "Deployment trigger of RocketPy: apogee, or a height above ground [m]");
   add_number(*command, "--deployment-speed", options->deployment_speed, above(0).up_to(1000),
-             "For the filling time, the lag [m/s] (default: the run's)");
+             "Speed at deployment, which sets the filling time (lag) [m/s] (default: speed of the run)");
   command->add_option("--out", options->out, "File (default: standard output)");
   command->add_flag("--force", options->force, "Replace an existing file");
   command->callback([options, &status] { status = export_run(*options); });

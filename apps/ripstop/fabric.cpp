@@ -44,9 +44,9 @@ void print_result(const FabricResult& r, const fs::path& folder) {
   }
   row("projected / nominal", ratio);
   row("skirt diameter", fmt::format("{:.3f} m", r.size.skirt_diameter));
-  row("highest line tension", fmt::format("{:.1f} N", r.max_line_tension));
-  row("highest stress", fmt::format("{:.0f} N/m von Mises, on the {}", r.stress.von_mises, r.stress.patch));
-  row("highest yarn force",
+  row("maximum line tension", fmt::format("{:.1f} N", r.max_line_tension));
+  row("maximum von Mises stress", fmt::format("{:.0f} N/m ({})", r.stress.von_mises, r.stress.patch));
+  row("maximum yarn force",
       fmt::format("{:.0f} N/m warp, {:.0f} N/m weft; {:.0f} % of the cloth wrinkled, {:.0f} % slack",
                   r.stress.warp, r.stress.weft, 100 * r.stress.wrinkled, 100 * r.stress.slack));
   if (!folder.empty()) row("files", folder.string() + " (canopy.png, canopy.vtp, lines.vtp, result.json)");
@@ -57,7 +57,7 @@ int run(const FabricArguments& options) {
   if (!options.out.empty()) make_results_folder(options.out);
   Progress progress;
   const FabricSolution solution = run_fabric(resolved, options.pressure, [&](const RelaxProgress& p) {
-    progress.show(fmt::format("cloth: step {}, residual {:.1e} (wanted {:.0e})", p.steps, p.residual,
+    progress.show(fmt::format("cloth: step {}, residual {:.1e} (tolerance {:.0e})", p.steps, p.residual,
                               resolved.coupling().cloth_tolerance));
   });
   const FabricResult& r = solution.result;
@@ -72,7 +72,7 @@ int run(const FabricArguments& options) {
   print_material_warnings(resolved, r.stress.strain);
   if (!r.converged) {
     throw Error(ExitCode::not_converged,
-                fmt::format("no equilibrium within {} steps: residual {:.1e}, wanted {:.0e}", r.steps,
+                fmt::format("no equilibrium within {} steps: residual {:.1e}, tolerance {:.0e}", r.steps,
                             r.residual, r.tolerance));
   }
   return 0;
@@ -82,12 +82,12 @@ int run(const FabricArguments& options) {
 
 void add_fabric(CLI::App& app, int& status) {
   auto options = std::make_shared<FabricArguments>();
-  CLI::App* command =
-      app.add_subcommand("fabric", "The cloth under a given pressure, without a flow: a quick look");
+  CLI::App* command = app.add_subcommand(
+      "fabric", "Compute the shape under a uniform pressure, without a flow, as a quick check");
   command->footer("Example: ripstop fabric examples/stratos-iv/case.toml --pressure 500 --out look");
   command->add_option("case", options->case_file, "Case file (TOML)")->required();
   add_number(*command, "--pressure", options->pressure, key_range("inflation.pressure_pa"),
-             "Pressure over the whole canopy [Pa] (default: the dynamic pressure)");
+             "Uniform pressure difference over the canopy [Pa] (default: the dynamic pressure)");
   add_case_options(*command, options->overrides);
   command->add_option("--out", options->out, "Folder for result.json, a picture and files for ParaView");
   add_json_option(*command, options->json);

@@ -94,11 +94,11 @@ int run(const FitArguments& options) {
   Progress progress;
   const FitResult result =
       run_fit(bench, !options.no_coupons, team, [&](int count, double xi, double eps, double misfit) {
-        progress.show(
-            fmt::format("coupons: {} pulled, xi {:.4f}, eps {:.4f}, misfit {:.3e}", count, xi, eps, misfit));
+        progress.show(fmt::format("coupons: {} computed, xi {:.4f}, eps {:.4f}, misfit {:.3e}", count, xi,
+                                  eps, misfit));
       });
   if (result.coupons)
-    progress.line(fmt::format("virtual coupons: {} tries in {}", result.coupons->evaluations,
+    progress.line(fmt::format("virtual coupons: {} evaluations in {}", result.coupons->evaluations,
                               duration_text(result.coupons->seconds)));
   const fs::path folder = options.out.empty() ? fs::path("runs") / bench.name : options.out;
   const fs::path file = write_fit(folder, result);
@@ -106,8 +106,8 @@ int run(const FitArguments& options) {
     fmt::print("{}", to_json(result));
   } else {
     print_fit(result);
-    fmt::print("\n{}: the material; beside it result.json, curve-*.png, curve-*.csv{}\n", file.string(),
-               result.coupons ? ", coupon-*.png, coupon-*.vtp" : "");
+    fmt::print("\n{}: the material; the same folder contains result.json, curve-*.png, curve-*.csv{}\n",
+               file.string(), result.coupons ? ", coupon-*.png, coupon-*.vtp" : "");
   }
   std::fflush(stdout);
   for (const std::string& warning : result.fit.warnings) fmt::print(stderr, "warning: {}\n", warning);
@@ -118,19 +118,19 @@ int run(const FitArguments& options) {
 
 void add_fit(CLI::App& app, int& status) {
   auto options = std::make_shared<FitArguments>();
-  CLI::App* command = app.add_subcommand("fit", "From tensile test records to a material file");
+  CLI::App* command = app.add_subcommand("fit", "Fit a material file to tensile test records");
   command->footer("Example: ripstop fit examples/fit-ripstop/bench.toml --out my-cloth");
   command->add_option("bench", options->bench, "Test campaign (TOML): records, mass, thickness")->required();
   command->add_option("--out", options->out, "Folder for the material and its plots; default: runs/<name>");
   add_number(*command, "--degree", options->degree, from(1).up_to(8),
              "Degree of the curves (default: degree_rule of the campaign)");
   add_table_options(*command, options->columns, options->decimal, "force=Kraft [kN],extension=Weg [mm]");
-  command->add_flag(
-      "--zero-offset", options->zero_offset,
-      "Fit through zero load at zero strain (K_0 = 0), the default, whatever the campaign says");
-  command->add_flag("--no-coupons", options->no_coupons, "Leave out xi, eps and the virtual coupons");
+  command->add_flag("--zero-offset", options->zero_offset,
+                    "Fit with zero load at zero strain (K_0 = 0), the default, regardless of the campaign");
+  command->add_flag("--no-coupons", options->no_coupons, "Do not fit xi and eps with virtual coupons");
   add_json_option(*command, options->json);
-  add_number(*command, "--threads", options->threads, key_range("coupling.threads"), "Threads; 0: all");
+  add_number(*command, "--threads", options->threads, key_range("coupling.threads"),
+             "Number of threads; 0: all cores");
   command->callback([options, &status] { status = run(*options); });
 }
 

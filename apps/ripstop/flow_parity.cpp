@@ -40,7 +40,7 @@ void print_row(const ParityRow& row) {
   if (row.diverged()) {
     for (const auto& [engine, run] : {std::pair{"OpenFOAM", &theirs}, std::pair{"built-in", &ours}})
       fmt::print("{:13}{}: {}\n", row.canopy, engine,
-                 run->diverged.empty() ? fmt::format("drag {:.4f} N, while the box loses {:.4f} N", run->drag,
+                 run->diverged.empty() ? fmt::format("drag {:.4f} N, momentum deficit {:.4f} N", run->drag,
                                                      run->momentum_deficit)
                                        : run->diverged);
     return;
@@ -87,31 +87,32 @@ void add_flow_parity(CLI::App& app, int& status) {
   CLI::App* command = app.add_subcommand(
       "flow-parity", "Run the built-in flow engine and OpenFOAM on the same cells and compare them");
   add_three(*command, "--cells", options->settings.cells, key_range("flow.cells"),
-            "Cells along x, y and z of the 2 x 2 x 4 m box");
-  add_number(*command, "--speed", options->settings.speed, from(0.1).up_to(100), "Free stream [m/s]");
-  add_number(*command, "--density", options->settings.density, from(0.1).up_to(10), "Air [kg/m3]");
+            "Cells along x, y and z of the flow domain of 2 x 2 x 4 m");
+  add_number(*command, "--speed", options->settings.speed, from(0.1).up_to(100),
+             "Speed of the free stream [m/s]");
+  add_number(*command, "--density", options->settings.density, from(0.1).up_to(10),
+             "Density of the air [kg/m3]");
   command
-      ->add_option(
-          "--surface", options->surface,
-          "Canopy as a binary STL in the box's axes (z from 0 to 4 m); default: a rigid disk-gap-band")
+      ->add_option("--surface", options->surface,
+                   "Canopy as a binary STL in the axes of the domain (z from 0 to 4 m); default: a rigid "
+                   "disk-gap-band")
       ->check(CLI::ExistingFile);
   command->add_option("--folder", options->settings.folder,
-                      "Where OpenFOAM's case goes and stays; default: a temporary folder");
+                      "Folder that keeps the case of OpenFOAM; default: a temporary folder");
   add_number(*command, "--ranks", options->settings.ranks, key_range("flow.ranks"),
-             "OpenFOAM's MPI processes");
+             "MPI processes of OpenFOAM");
   add_number(*command, "--threads", options->settings.threads, key_range("coupling.threads"),
-             "Threads of the built-in engine; 0: all");
+             "Threads of the built-in engine; 0: all cores");
   command->add_flag("--incompressible", options->settings.incompressible,
-                    "Constant density in both engines: porousSimpleFoam in place of rhoPorousSimpleFoam");
+                    "Constant density in both engines: porousSimpleFoam instead of rhoPorousSimpleFoam");
   command->add_flag("--slip", options->settings.slip,
-                    "Sides of the box are walls without friction, not open");
-  command->add_flag(
-      "--coarse-start", options->settings.coarse_start,
-      "The built-in engine starts from coarser grids, as it does elsewhere; by default both start "
-      "from the uniform stream");
+                    "Frictionless walls instead of open boundaries at the sides of the domain");
+  command->add_flag("--coarse-start", options->settings.coarse_start,
+                    "Start the built-in engine from coarser grids, as in other commands; by default both "
+                    "engines start from the uniform stream");
   std::vector<std::string> names;
   for (const ParityCanopy& canopy : parity_canopies) names.emplace_back(canopy.name);
-  command->add_option("--canopy", options->settings.canopies, "Only this canopy; may be given more than once")
+  command->add_option("--canopy", options->settings.canopies, "Compute only this canopy; repeatable")
       ->check(CLI::IsMember(names));
   command->footer(
       "Fails when drag differs by more than 0.5 % (1 % above 20 m/s with compressible air), or velocity or\n"

@@ -16,8 +16,10 @@
 #include "margins.h"
 #include "opening.h"
 #include "progress.h"
+#include "ripstop/case/deployment.h"
 #include "ripstop/core/error.h"
 #include "ripstop/run/opening/inflation_folder.h"
+#include "ripstop/run/opening/samples.h"
 #include "ripstop/run/report/report.h"
 #include "stopping.h"
 #include "warnings.h"
@@ -32,7 +34,28 @@ struct InflateArguments {
   BatchOptions batch;
   fs::path out;
   bool fresh = false, check = false, json = false;
+  int samples = 0;  // 0: one opening as the case has it
 };
+
+/// The deployment in one dimension, a line a phase.
+void print_deployment(const Settings& resolved) {
+  const auto deployment = deployment_of(resolved);
+  if (!deployment) return;
+  const PackedParachute packed = packed_parachute(resolved);
+  fmt::print(
+      "deployment: container {:.3g} kg with {:.3g} m2, canopy {:.3g} kg, lines {:.3g} kg; strip force {:.3g} "
+      "N, line "
+      "force {:.3g} N\n",
+      packed.bag_mass, packed.bag_drag_area, packed.canopy_mass, packed.lines_mass, packed.strip_force,
+      packed.line_force);
+  for (const DeploymentPhase& phase : deployment->phases)
+    fmt::print("  {:<24} {:8.4f} s {:8.2f} m, payload at {:6.2f} m/s, container at {:6.2f} m/s\n", phase.name,
+               phase.time, phase.path, phase.payload_speed, phase.bag_speed);
+  if (deployment->phase(lines_stretch))
+    fmt::print("  snatch load {:.1f} N at {:.4f} s, {:.2f} m/s apart\n", deployment->snatch_load,
+               deployment->snatch_time, deployment->relative_speed);
+  if (deployment->stopped) fmt::print("  did not open: {}\n", *deployment->stopped);
+}
 
 void print_start(const Opening& solver, const InflationState& state, const LoadSource& source) {
   const FoldedStart& folded = solver.folded();
@@ -40,7 +63,7 @@ void print_start(const Opening& solver, const InflationState& state, const LoadS
   fmt::print("folded start: {} folds, skirt folds at {:.4f} m and {:.4f} m from the axis\n", folded.folds,
              folded.inner_radius, folded.outer_radius);
   fmt::print("  largest strain {:.2e}{}\n", strain.largest,
-             strain.part.empty() ? "" : " (" + strain.part + "); wanted below 1e-3");
+             strain.part.empty() ? "" : " (" + strain.part + "); should be below 1e-3");
   if (const auto& air = solver.problem().air)
     fmt::print("{}: {} x {} x {} cells\n", source.text, air->flow.grid.nx, air->flow.grid.ny,
                air->flow.grid.nz);
@@ -49,14 +72,14 @@ void print_start(const Opening& solver, const InflationState& state, const LoadS
   const ViscosityLimit& limit = solver.viscosity_limit();
   if (limit.least_share < 1)
     fmt::print(
-        "cloth_damping_s is weakened in {:.1f} % of the cells, to {:.2f} of itself at least, for the step's "
-        "sake\n",
+        "damping of the cloth: reduced in {:.1f} % of the cells, to no less than {:.2f} of cloth_damping_s, "
+        "to keep the time step\n",
         100 * limit.reduced_cells, limit.least_share);
   fmt::print(
-      "nodes {}, step {:.3e} s (largest stable {:.3e} s), {} threads; the cloth alone takes about {} on one "
-      "thread\n",
+      "nodes {}, time step {:.3e} s (stability limit {:.3e} s), {} threads; {} about {} on one thread\n",
       solver.mesh().node_count(), state.step, state.step / solver.problem().settings.step_fraction,
-      solver.threads(), duration_text(opening_seconds(solver, state)));
+      solver.threads(), solver.air() ? "cloth and air take" : "the cloth alone takes",
+      duration_text(opening_seconds(solver, state)));
 }
 
 /// Of a reefed opening, a line a stage.
@@ -66,7 +89,7 @@ void print_stages(const InflationResult& r) {
     const StageSummary& stage = (*r.stages)[i];
     std::string text = fmt::format("peak {:.1f} N at {:.1f} ms", stage.peak_load, 1000 * stage.peak_time);
     if (stage.smooth_peak) text += fmt::format(", low-passed {:.1f} N", *stage.smooth_peak);
-    text += fmt::format("; {:.1f} N at its end, {:.1f} ms", stage.last_load, 1000 * stage.end);
+    text += fmt::format("; {:.1f} N at the end of the stage, {:.1f} ms", stage.last_load, 1000 * stage.end);
     if (stage.drag_area) text += fmt::format(", C_D S {:.4g} m2", *stage.drag_area);
     if (stage.line_peak)
       text += fmt::format("; line {:.1f} N at {:.1f} ms", *stage.line_peak, 1000 * *stage.line_peak_time);
@@ -89,8 +112,8 @@ void print_peaks(const InflationResult& r) {
   const auto row = result_row;
   const InflationSettings& s = r.settings;
   row("peak load",
-      fmt::format("{:.1f} N at {:.2f} ms, over every step{}", r.peak_load, 1000 * r.peak_time,
-                  r.start_up_time ? fmt::format(" after the start-up of {:.2f} ms (its own peak: {:.1f} N)",
+      fmt::format("{:.1f} N at {:.2f} ms, unfiltered{}", r.peak_load, 1000 * r.peak_time,
+                  r.start_up_time ? fmt::format(", after the start-up of {:.2f} ms (start-up peak {:.1f} N)",
                                                 1000 * *r.start_up_time, *r.start_up_peak)
                                   : ""));
   if (r.low_pass) {
@@ -102,11 +125,16 @@ void print_peaks(const InflationResult& r) {
     row("peak measured", fmt::format("{:.1f} N ({:+.1f} %{})", *s.measured_peak_n,
                                      100 * (own / *s.measured_peak_n - 1), r.low_pass ? ", low-passed" : ""));
   }
-  if (s.printed_peak_n) row("peak of the source's model", fmt::format("{:.1f} N", *s.printed_peak_n));
+  if (s.printed_peak_n) row("peak, model of the source", fmt::format("{:.1f} N", *s.printed_peak_n));
   row("infinite-mass load",
       r.estimate.load ? fmt::format("{:.1f} N = C_x {:g} times {:.1f} N ({})", *r.estimate.load,
                                     r.estimate.coefficient, *r.estimate.drag, r.estimate.drag_from)
                       : std::string("not known: the opening has no steady load and no drag was given"));
+  if (r.filling_distance)
+    row("filled",
+        fmt::format("{:.1f} ms after the start, {:.2f} nominal diameters; area grows as (t/t_f)^{:.2f}",
+                    1000 * *r.filling_time, *r.filling_distance, *r.growth_exponent));
+  if (r.bag_left_time) row("canopy out of its bag", fmt::format("{:.1f} ms", 1000 * *r.bag_left_time));
   if (r.finite_mass_factor)
     row("finite-mass factor", fmt::format("{:.3f}: peak over the infinite-mass load", *r.finite_mass_factor));
   for (const MethodLoad& m : r.handbook)
@@ -119,11 +147,11 @@ void print_steady_load(const InflationResult& r) {
   const auto row = result_row;
   const double low_pass_hz = r.settings.low_pass_hz;
   row(r.steady_load ? "steady load" : "load at the end",
-      fmt::format("{:.1f} N +- {:.1f} % over the last fifth{}", r.summary.last_load,
+      fmt::format("{:.1f} N +- {:.1f} %, mean over the last fifth{}", r.summary.last_load,
                   100 * r.summary.unsteadiness,
                   r.steady_load ? "" : "; not a steady load at the speed of deployment"));
   if (r.steady_drag_returned) {
-    row("steady drag returned",
+    row("deviation from steady run",
         fmt::format("{:+.2f} % of {:.1f} N", 100 * (*r.steady_drag_returned - 1), *r.source.steady_drag));
   }
   if (!r.steady_load) return;
@@ -131,10 +159,10 @@ void print_steady_load(const InflationResult& r) {
     row("inflation time",
         fmt::format("{:.1f} ms, after which the load remains within 10 % of the steady load",
                     1000 * *r.summary.inflation_time));
-  if (r.summary.filling_time && r.summary.settling_time)
-    row("filled, settled",
-        fmt::format("{:.1f} ms, {:.1f} ms ({:g} Hz, mean square over two periods)",
-                    1000 * *r.summary.filling_time, 1000 * *r.summary.settling_time, low_pass_hz));
+  if (r.filling_time && r.summary.settling_time && !r.filling_distance)
+    row("filling, settling time",
+        fmt::format("{:.1f} ms, {:.1f} ms ({:g} Hz, mean square over two periods)", 1000 * *r.filling_time,
+                    1000 * *r.summary.settling_time, low_pass_hz));
   row("overshoot", low_pass_hz > 0
                        ? fmt::format("{:.3f}, low-passed {:.3f}", *r.overshoot, *r.smooth_overshoot)
                        : fmt::format("{:.3f}", *r.overshoot));
@@ -148,14 +176,14 @@ void print_result(const InflationResult& r, const fs::path& folder, double wall_
   print_steady_load(r);
   row("impulse", fmt::format("{:.3f} N s", r.impulse));
   print_stages(r);
-  row("highest line tension", fmt::format("{:.1f} N", r.max_line_tension));
+  row("maximum line tension", fmt::format("{:.1f} N", r.max_line_tension));
   row("maximum von Mises stress",
       fmt::format("{:.0f} N/m ({}) at {:.1f} ms", r.stress.von_mises, r.stress.patch, 1000 * r.stress_time));
   row("energy balance", fmt::format("work in = kinetic + elastic + damped{} within {:.3f} %",
                                     r.stages ? " + cut" : "", 100 * r.energy_residual));
   if (r.settings.contact_pa > 0)
     row("contact of cloth",
-        fmt::format("pressed together by {:.0f} % at most; {:.2f} % of the edges pierced cloth",
+        fmt::format("compressed by {:.0f} % at most; {:.2f} % of the edges pierced the cloth",
                     100 * r.contact_depth, 100 * r.pierced));
   row("files", fmt::format("{} (load.png, shapes.png, history.csv, canopy.pvd, result.json); {}",
                            folder.string(), duration_text(wall_time)));
@@ -171,7 +199,7 @@ class Terminal : public InflationObserver {
   void warned(const std::string& text) override { progress_.line("ripstop: " + text); }
   void begin(const Opening& solver, InflationState& state, InflationHistory&) override {
     if (state.blocks > 0)
-      progress_.line(fmt::format("going on at {:.2f} ms of {}", 1000 * state.cloth.time, folder_.string()));
+      progress_.line(fmt::format("resuming at {:.2f} ms in {}", 1000 * state.cloth.time, folder_.string()));
     else if (!quiet_)
       print_start(solver, state, source_);
     begin_ = Clock::now();
@@ -181,10 +209,10 @@ class Terminal : public InflationObserver {
                 const InflationFrame*) override {
     const double gone = std::chrono::duration<double>(Clock::now() - begin_).count();
     const double left = gone * double(solver.blocks() - state.blocks) / double(state.blocks - first_);
-    progress_.show(fmt::format("{:.2f} of {:.0f} ms, load {:.1f} N, step {:.2e} s | {} gone, about {} left",
-                               1000 * state.cloth.time, 1000 * solver.problem().settings.duration_s,
-                               history.rows.back().mean, state.step, duration_text(gone),
-                               duration_text(left)));
+    progress_.show(
+        fmt::format("{:.2f} of {:.0f} ms, load {:.1f} N, step {:.2e} s | elapsed {}, remaining about {}",
+                    1000 * state.cloth.time, 1000 * solver.problem().settings.duration_s,
+                    history.rows.back().mean, state.step, duration_text(gone), duration_text(left)));
   }
 
  private:
@@ -202,12 +230,46 @@ class Terminal : public InflationObserver {
 int status_of(bool settled, const Settings& resolved) {
   if (settled || resolved.inflation().mass == InflationSettings::Mass::payload) return 0;
   std::fflush(stdout);
-  fmt::print(
-      stderr,
-      "not settled within inflation.duration_s = {:g} s: the load has not stayed within 10 % of its mean "
-      "for the last tenth of that time; take a longer one (--duration)\n",
-      resolved.inflation().duration_s);
+  fmt::print(stderr,
+             "not settled within inflation.duration_s = {:g} s: the load did not remain within 10 % of its "
+             "mean over the last tenth of that time; increase --duration\n",
+             resolved.inflation().duration_s);
   return static_cast<int>(ExitCode::not_converged);
+}
+
+void print_samples(const SampleSummary& summary, const fs::path& folder) {
+  fmt::print("{}: {} openings with perturbed folds\n  {:<30} {:>10} {:>10} {:>10} {:>10}\n", summary.title,
+             summary.samples, "", "mean", "std. dev.", "lowest", "highest");
+  const auto row = [](const char* name, const std::optional<Statistic>& s) {
+    if (s)
+      fmt::print("  {:<30} {:>10.4g} {:>10.3g} {:>10.4g} {:>10.4g}\n", name, s->mean, s->standard_deviation,
+                 s->lowest, s->highest);
+  };
+  row("peak load, N", summary.peak_load);
+  row("peak, low-passed, N", summary.smooth_peak);
+  row("filling time, s", summary.filling_time);
+  row("filling distance / D0", summary.filling_distance);
+  row("opening force coefficient C_x", summary.opening_force_coefficient);
+  row("finite-mass factor X_1", summary.finite_mass_factor);
+  fmt::print("  files                          {} (result.json, sample-001 and following)\n",
+             folder.string());
+}
+
+int sample(const InflateArguments& options, const InflationFolderSettings& settings, const Settings& resolved,
+           const LoadSource& source) {
+  goes_on_when_repeated();
+  const SampleSummary summary = run_samples(
+      settings, resolved, options.samples, [&](const InflationFolderSettings& one, const Settings& seeded) {
+        Progress progress;
+        Terminal terminal(source, one.run.folder, true, progress);
+        run_inflation_in(
+            one, seeded, source, [&] { return opening_problem(seeded, source, settings.threads); }, terminal);
+      });
+  if (options.json)
+    fmt::print("{}", to_json(summary));
+  else
+    print_samples(summary, settings.run.folder);
+  return 0;
 }
 
 int run(const InflateArguments& options) {
@@ -226,23 +288,27 @@ int run(const InflateArguments& options) {
   }
   if (options.check) {
     check_inflation_in(settings, resolved, source);
+    print_deployment(resolved);
     const std::unique_ptr<Opening> solver =
         make_opening(with_engine(resolved, opening_problem(resolved, source, threads)));
     print_start(*solver, solver->start(), source);
+    print_warnings(opening_warnings(resolved, *solver));
     return 0;
   }
+  if (!options.json) print_deployment(resolved);
+  if (options.samples > 0) return sample(options, settings, resolved, source);
   goes_on_when_repeated();
   Progress progress;
   Terminal terminal(source, folder, options.json, progress);
   const auto problem = [&] {
-    progress.show("equilibrium under the steady load");
+    progress.show("computing the equilibrium under the steady load");
     return opening_problem(resolved, source, threads);
   };
   const auto result = run_inflation_in(settings, resolved, source, problem, terminal);
   if (!result) {
     const std::string finished = *finished_result(folder);
     fmt::print("{}", finished);
-    fmt::print(stderr, "{} holds the finished run; --fresh computes it again\n", folder.string());
+    fmt::print(stderr, "{} contains the finished run; use --fresh to compute it again\n", folder.string());
     const auto json = nlohmann::json::parse(finished);
     const int quality =
         print_result_warnings(json.value("warnings", std::vector<std::string>{}), json.value("usable", true));
@@ -262,24 +328,27 @@ int run(const InflateArguments& options) {
 void add_inflate(CLI::App& app, int& status) {
   auto options = std::make_shared<InflateArguments>();
   CLI::App* command =
-      app.add_subcommand("inflate", "How a folded canopy opens, and the load it puts on the riser");
+      app.add_subcommand("inflate", "Compute the opening of the folded canopy and its load on the riser");
   command->footer("Example: ripstop inflate examples/stratos-iv/case.toml --steady runs/stratos-iv");
   add_opening_options(*command, options->opening);
-  add_key_option(*command, "--damping", "inflation.damping_n_s_m3", "C_a a unit area [N s/m3]",
-                 options->opening.overrides);
+  add_key_option(*command, "--damping", "inflation.damping_n_s_m3",
+                 "Damping C_a per unit area of cloth [N s/m3]", options->opening.overrides);
   command
       ->add_option_function<std::string>(
           "--air",
           [options](const std::string& air) {
             options->opening.overrides.set.push_back({"inflation.air", air, "--air"});
           },
-          "What presses: one pressure for all of the cloth, or the air as it flows, in time with the cloth")
+          "Load model: uniform pressure, or flow that is computed in time together with the cloth")
       ->check(CLI::IsMember({"uniform", "coupled"}))
       ->option_text("uniform|coupled");
   command->add_option("--out", options->out, "Run folder (default: runs/<name of the case>-inflation)");
   command->add_flag("--fresh", options->fresh,
-                    "Replace what Ripstop wrote into the run folder; default: go on with it");
-  command->add_flag("--check", options->check, "Fold, say strain, pressure and step, and stop");
+                    "Replace the files of Ripstop in the run folder; default: resume the run");
+  add_number(*command, "--samples", options->samples, from(2).up_to(1000),
+             "Number of openings with different random perturbations of the folds, for mean and scatter");
+  command->add_flag("--check", options->check,
+                    "Fold the canopy, print strain, pressure and time step, and stop");
   add_json_option(*command, options->json);
   add_batch_options(*command, options->batch);
   command->callback([options, &status] { status = run(*options); });

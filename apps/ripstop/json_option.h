@@ -6,7 +6,7 @@
 namespace ripstop {
 
 inline void add_json_option(CLI::App& command, bool& json) {
-  command.add_flag("--json", json, "Print the result as JSON, as result.json has it, and nothing else");
+  command.add_flag("--json", json, "Print only the result, as JSON with the content of result.json");
 }
 
 }  // namespace ripstop

@@ -9,6 +9,8 @@
 #include <filesystem>
 #include <memory>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "case_options.h"
 #include "commands.h"
@@ -38,54 +40,61 @@ ReefedStage parse_stage(const std::string& text) {
   ReefedStage stage;
   char colon = 0, rest = 0;
   if (!(in >> stage.share >> colon >> stage.duration) || colon != ':' || in >> rest)
-    throw Error(
-        ExitCode::usage,
-        fmt::format("--reef {}: write SHARE:SECONDS, as in --reef 0.1:3 for a tenth of the drag area, three "
-                    "seconds long",
-                    text));
+    throw Error(ExitCode::usage, fmt::format("--reef {}: must be SHARE:SECONDS, for example --reef 0.1:3 for "
+                                             "a tenth of the drag area during 3 s",
+                                             text));
   return stage;
 }
 
 void print_stage(const StageLoads& s) {
   fmt::print(
-      "\nat {:.2f} s: {:.3g} m/s, {:.4g} m, drag area {:.3g} to {:.3g} m2, filling {:.3g} s, A = {:.3g}, "
-      "R_m = {:.3g}\n",
-      s.begin, s.speed, s.height, s.drag_area_before, s.drag_area, s.filling_time, s.ballistic_parameter,
-      s.mass_ratio);
-  fmt::print("  {:<18} {:>10} {:>8}  {:<8}\n", "method", "load N", "at s", "applies");
-  for (const MethodLoad& m : s.methods)
-    fmt::print("  {:<18} {:>10.1f} {:>8} {:>8}  {}\n", m.method, m.load,
-               m.time > 0 ? fmt::format("{:.3f}", m.time) : "-", m.applies ? "yes" : "no", m.note);
+      "\nat {:.2f} s: {:.3g} m/s, {:.4g} m, drag area {:.3g} to {:.3g} m2, filling {:.3g} s (n = {:.3g}), "
+      "A = {:.3g}, R_m = {:.3g}\n",
+      s.begin, s.speed, s.height, s.drag_area_before, s.drag_area, s.filling_time, s.filling_constant,
+      s.ballistic_parameter, s.mass_ratio);
+  fmt::print("  {:<18} {:>10} {:>8}  {:<8} {}\n", "method", "load N", "at s", "applies", "reason");
+  std::vector<std::string> notes;  // each is printed once, below the table
+  for (const MethodLoad& m : s.methods) {
+    const auto known = std::find(notes.begin(), notes.end(), m.note);
+    const std::string reason = m.note.empty() ? "" : fmt::format("({})", known - notes.begin() + 1);
+    if (!m.note.empty() && known == notes.end()) notes.push_back(m.note);
+    fmt::print("  {:<18} {:>10.1f} {:>8}  {:<8} {}\n", m.method, m.load,
+               m.time > 0 ? fmt::format("{:.3f}", m.time) : "-", m.applies ? "yes" : "no", reason);
+  }
+  for (std::size_t i = 0; i < notes.size(); ++i) fmt::print("  ({}) {}\n", i + 1, notes[i]);
+  if (!s.caution.empty()) fmt::print("  filling: {}\n", s.caution);
   if (std::any_of(s.methods.begin(), s.methods.end(), [](const MethodLoad& m) { return m.applies; }))
-    fmt::print("  methods that apply: {:.1f} to {:.1f} N, spread {:.0f} %\n", s.lowest, s.highest,
+    fmt::print("  applicable methods: {:.1f} to {:.1f} N, spread {:.0f} %\n", s.lowest, s.highest,
                100 * s.spread);
   else
-    fmt::print("  no method applies; the infinite-mass load is an upper bound\n");
+    fmt::print("  no method is applicable; the infinite-mass load is an upper bound\n");
 }
 
 void print_result(const LoadResult& r, const fs::path& folder) {
   fmt::print("{}\n  payload {:.4g} kg, parachute {:.3g} kg, S0 {:.4g} m2\n", r.title, r.payload_mass,
              r.parachute_mass, r.reference_area);
   fmt::print(
-      "  C_D {:.3f}: {}\n  C_x {:.2f}: {}\n  filling over {:.3g} D0, (t/t_f)^{:g}, Ludtke's ^{:g}: {}\n",
+      "  C_D {:.3f}: {}\n  C_x {:.2f}: {}\n  filling distance {:.3g} D0, exponent of the drag area {:g}, "
+      "Ludtke's {:g}: {}\n",
       r.drag_coefficient, r.drag_source, r.opening_coefficient, r.opening_source, r.filling_constant,
       r.filling_exponent, r.ludtke_exponent, r.filling_source);
-  fmt::print("  DESIGN LOAD {:.1f} N: {}; a line carries at most {:.2f} times an equal share\n",
-             r.design_load, r.design_load_from, r.line_load_factor);
+  fmt::print("  DESIGN LOAD {:.1f} N: {}; largest line load {:.2f} times the mean\n", r.design_load,
+             r.design_load_from, r.line_load_factor);
   print_margins(r.margins);
   for (const StageLoads& stage : r.stages) print_stage(stage);
-  fmt::print("\nhighest load of the trajectory {:.1f} N after {:.3f} s\n", r.peak_load, r.peak_time);
+  fmt::print("\npeak load of the trajectory {:.1f} N after {:.3f} s\n", r.peak_load, r.peak_time);
   if (r.snatch)
-    fmt::print(
-        "snatch {:.1f} N ({:.3g} m/s apart), {:.1f} N a line{}\n", r.snatch->load, r.snatch->speed_difference,
-        r.snatch->line_load,
-        r.snatch->line_margin ? fmt::format(", break load over that {:.2f}", *r.snatch->line_margin) : "");
+    fmt::print("snatch load {:.1f} N (speed difference {:.3g} m/s), {:.1f} N per line{}\n", r.snatch->load,
+               r.snatch->speed_difference, r.snatch->line_load,
+               r.snatch->line_margin
+                   ? fmt::format(", breaking load / snatch load {:.2f}", *r.snatch->line_margin)
+                   : "");
   if (r.steady_reached)
     fmt::print("steady descent at {:.3g} m/s after {:.2f} s and {:.3g} m\n", r.steady_speed, r.steady_time,
                r.steady_drop);
   else
-    fmt::print("NOT in steady descent on the ground: {:.3g} m/s after {:.2f} s\n", r.steady_speed,
-               r.steady_time);
+    fmt::print("steady descent is NOT reached above the ground: {:.3g} m/s at impact after {:.2f} s\n",
+               r.steady_speed, r.steady_time);
   fmt::print("{} (force.png, speed.png, trajectory.csv, result.json)\n", folder.string());
 }
 
@@ -93,7 +102,8 @@ int load(LoadArguments& options) {
   const Settings resolved = read_settings(options.case_file, options.overrides);
   LoadRequest& request = options.request;
   if (!options.mass && !resolved.payload().mass_kg)
-    throw Error(ExitCode::usage, "give the payload's mass: --mass KG, or [payload] mass_kg in the case");
+    throw Error(ExitCode::usage,
+                "the mass of the payload is missing: give --mass KG, or [payload] mass_kg in the case");
   request.payload_mass = options.mass ? *options.mass : *resolved.payload().mass_kg;
   request.height = options.height;
   for (const std::string& text : options.reefing) request.reefing.push_back(parse_stage(text));
@@ -109,27 +119,35 @@ int load(LoadArguments& options) {
 
 void add_coefficients(CLI::App& command, LoadRequest& r) {
   add_number(command, "--drag-coefficient", r.drag_coefficient, key_range("inflation.drag_coefficient"),
-             "C_D on S0 (default: of --steady, else Knacke's)");
+             "Drag coefficient on S0 (default: of the --steady run, else Knacke's)");
   add_number(command, "--opening-coefficient", r.opening_coefficient, above(0).up_to(10),
-             "C_x (default: the family's)");
-  add_number(command, "--filling-constant", r.filling_constant, above(0).up_to(1000),
-             "n of t_f = n D0 / v (default: the family's)");
+             "Opening force coefficient C_x (default: of the canopy family)");
+  add_number(
+      command, "--filling-constant", r.filling_constant, above(0).up_to(1000),
+      "Filling distance n in t_f = n D0 / v (default: of the canopy family; below 46 m/s n is multiplied "
+      "by 4.0 v^0.15 / 8, v in ft/s)");
   add_number(command, "--filling-exponent", r.filling_exponent, above(0).up_to(20),
-             "Of the drag area over time (default: the family's)");
+             "Exponent of the drag area over time (default: of the canopy family)");
   add_number(command, "--impulse-integral", r.impulse_integral, above(0).up_to(1),
-             "Mean over peak of the force while it fills, for momentum-impulse (default: 0.5)");
-  command.add_option("--steady", r.steady, "Run of ripstop steady that gives the drag area")
+             "Mean over peak force during filling, for the momentum-impulse method (default: 0.5)");
+  command.add_option("--steady", r.steady, "Run folder of ripstop steady that provides the drag area")
       ->check(CLI::ExistingDirectory);
-  command.add_option("--opening", r.opening, "Run of ripstop inflate that gives the drag area over the way")
+  command
+      .add_option("--opening", r.opening,
+                  "Run folder of ripstop inflate that provides the drag area over distance")
+      ->check(CLI::ExistingDirectory);
+  command
+      .add_option("--from", r.filling_from,
+                  "Run of ripstop inflate whose filling constant n and exponent of the drag area are fitted")
       ->check(CLI::ExistingDirectory);
   add_number(command, "--measured-load", r.measured_load, above(0).up_to(1e8),
-             "Opening load that you have measured at this speed and mass; becomes the design load [N]");
+             "Opening load measured at this speed and mass, which becomes the design load [N]");
   add_number(command, "--snatch-speed", r.snatch_speed, above(0).up_to(1000),
-             "Speed difference when the lines come taut [m/s]");
+             "Speed difference of payload and canopy at line stretch [m/s]");
   add_number(command, "--packed-area", r.packed_drag_area, above(0).up_to(1e4),
-             "Or the drag area of the packed canopy with its pilot, to find it [m2]");
+             "Drag area of the packed canopy with its pilot chute, to compute that speed difference [m2]");
   add_number(command, "--payload-area", r.payload_drag_area, from(0).up_to(1e4),
-             "And that of the payload [m2] (default: payload.drag_area_m2 of the case)");
+             "Drag area of the payload [m2] (default: payload.drag_area_m2 of the case)");
 }
 
 }  // namespace
@@ -137,24 +155,28 @@ void add_coefficients(CLI::App& command, LoadRequest& r) {
 void add_load(CLI::App& app, int& status) {
   auto options = std::make_shared<LoadArguments>();
   CLI::App* command =
-      app.add_subcommand("load", "Opening and snatch loads behind a given mass, method by method");
+      app.add_subcommand("load", "Estimate opening and snatch loads for a payload mass by several methods");
   command->footer(
       "Example: ripstop load examples/flat-circular/case.toml --mass 2.4 --speed 25 --height 300 --reef "
       "0.1:2");
   command->add_option("case", options->case_file, "Case file (TOML)")->required();
   add_number(*command, "--mass", options->mass, key_range("payload.mass_kg"),
-             "Of the payload [kg] (default: payload.mass_kg of the case)");
+             "Mass of the payload [kg] (default: payload.mass_kg of the case)");
   add_number(*command, "--speed", options->request.speed, above(0).up_to(1000),
-             "Through the air when the lines come taut [m/s]")
+             "Airspeed at line stretch [m/s]")
       ->required();
   const Range height = from(lowest_height).up_to(highest_height);
-  add_number(
-      *command, "--height", options->height, height,
-      "Above sea level [m] (default: flow.height_m where that is above the ground, else 1000 m above it)");
-  add_number(*command, "--ground", options->request.ground, height, "Height of the ground [m] (default: 0)");
+  add_number(*command, "--height", options->height, height,
+             "Height above sea level at line stretch [m] (default: flow.height_m if above the ground, else "
+             "1000 m above it)");
+  add_number(*command, "--ground", options->request.ground, height,
+             "Height of the ground above sea level [m] (default: 0)");
   add_number(*command, "--angle", options->request.path_angle, from(-90).up_to(90),
-             "Of the way below the horizon [deg] (default: 90)");
-  command->add_option("--reef", options->reefing, "A reefed stage SHARE:SECONDS; repeatable, in order")
+             "Angle of the flight path below the horizon [deg] (default: 90)");
+  command
+      ->add_option(
+          "--reef", options->reefing,
+          "Reefed stage SHARE:SECONDS: share of the full drag area and duration; repeatable, in order")
       ->expected(1)
       ->take_all();
   add_coefficients(*command, options->request);

@@ -60,7 +60,7 @@ std::string usage_message(const CLI::App& app, const CLI::ParseError& error, int
   if (!at.unknown.empty()) {
     std::vector<std::string> commands;
     for (const CLI::App* one : at.command->get_subcommands({})) commands.push_back(one->get_name());
-    text = fmt::format("\"{}\" is no command{}", at.unknown, suggestion(at.unknown, commands));
+    text = fmt::format("\"{}\" is not a command{}", at.unknown, suggestion(at.unknown, commands));
   } else if (dynamic_cast<const CLI::ExtrasError*>(&error)) {
     std::vector<std::string> options;
     for (const CLI::Option* one : at.command->get_options())
@@ -70,10 +70,10 @@ std::string usage_message(const CLI::App& app, const CLI::ParseError& error, int
         std::find_if(rest.begin(), rest.end(), [](const auto& w) { return w.starts_with("-"); });
     const std::string option = word == rest.end() ? "" : word->substr(0, word->find('='));
     text = option.empty()
-               ? fmt::format("\"{}\" is more than {} takes", rest.empty() ? "" : rest.front(), at.words)
-               : fmt::format("{} is no option of {}{}", option, at.words, suggestion(option, options));
+               ? fmt::format("unexpected argument \"{}\" of {}", rest.empty() ? "" : rest.front(), at.words)
+               : fmt::format("{} is not an option of {}{}", option, at.words, suggestion(option, options));
   }
-  return fmt::format("{} ({} --help lists what there is)", text, at.words);
+  return fmt::format("{} (see {} --help)", text, at.words);
 }
 
 int parse(CLI::App& app, int argc, char** argv, const int& status) {
@@ -86,7 +86,7 @@ int parse(CLI::App& app, int argc, char** argv, const int& status) {
   } catch (const Error& error) {
     return failed(error.code(), message_of(error));
   } catch (const std::bad_alloc&) {
-    return failed(ExitCode::resources, "not enough memory: take fewer nodes, cells or runs side by side");
+    return failed(ExitCode::resources, "not enough memory: use fewer nodes, cells or simultaneous runs");
   } catch (const std::system_error& error) {  // of output or of a folder
     return failed(ExitCode::io, error.what());
   }
@@ -98,14 +98,14 @@ int written(int status) {
   errno = 0;
   const bool fine = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
   if (fine || status != 0) return status;
-  return failed(ExitCode::io, fmt::format("standard output could not be written{}{}", errno ? ": " : "",
+  return failed(ExitCode::io, fmt::format("cannot write to standard output{}{}", errno ? ": " : "",
                                           errno ? std::strerror(errno) : ""));
 }
 
 int run(int argc, char** argv) {
   say_when_stopped();
   CLI::App app{
-      "Ripstop predicts how a subsonic parachute flies: its inflated shape, drag, stresses and loads."};
+      "Ripstop predicts the inflated shape, drag, stresses and opening loads of subsonic parachutes."};
   app.set_version_flag("--version", version());
   app.require_subcommand(1);
   app.footer(
@@ -125,10 +125,12 @@ int run(int argc, char** argv) {
   add_flow_parity(app, status);
   add_calibrate(app, status);
   add_sweep(app, status);
+  add_stability(app, status);
   add_compare(app, status);
   add_photogrammetry(app, status);
   add_descent(app, status);
   add_report(app, status);
+  add_fly(app, status);
   add_load(app, status);
   add_size(app, status);
   add_export(app, status);

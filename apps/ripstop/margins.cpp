@@ -16,7 +16,7 @@ void row(const char* name, const std::string& text) {
 
 void print_payload(const SteadyResult& r) {
   if (!r.payload) return;
-  row("payload", fmt::format("{:.4g} kg and parachute {:.3g} kg: drag over weight {:.4f}, {} speeds tried",
+  row("payload", fmt::format("{:.4g} kg and parachute {:.3g} kg: drag / weight {:.4f}, {} speeds computed",
                              r.payload->mass, r.payload->parachute_mass, r.payload->drag_over_weight,
                              r.payload->speeds));
 }
@@ -31,9 +31,10 @@ void print_margins(const std::optional<Margins>& margins) {
   if (!margins->weakest.empty()) {
     const Margin& m = *weakest(*margins);
     row("weakest member",
-        fmt::format("{}: {:.4g} {} of {:.4g}, of which {:.0f} % are allowable; margin of safety {:+.2f}{}",
-                    m.member, m.load, m.unit, *m.strength, 100 * m.knock_down, *m.margin,
-                    *m.margin < 0 ? ": DOES NOT HOLD" : ""));
+        fmt::format(
+            "{}: load {:.4g} {}, strength {:.4g}, {:.0f} % of it allowable; margin of safety {:+.2f}{}",
+            m.member, m.load, m.unit, *m.strength, 100 * m.knock_down, *m.margin,
+            *m.margin < 0 ? ": ALLOWABLE LOAD EXCEEDED" : ""));
   }
 }
 
@@ -41,7 +42,7 @@ std::string weakest_text(const std::optional<Margins>& margins) {
   const Margin* m = margins ? weakest(*margins) : nullptr;
   if (!m) return "";
   return fmt::format(", {}: margin of safety {:+.2f}{}", m->member, *m->margin,
-                     *m->margin < 0 ? ", DOES NOT HOLD" : "");
+                     *m->margin < 0 ? ", ALLOWABLE LOAD EXCEEDED" : "");
 }
 
 }  // namespace ripstop

@@ -10,7 +10,7 @@ namespace ripstop {
 
 void print_payload(const SteadyResult& result);
 void print_margins(const std::optional<Margins>& margins);
-/// ", riser: margin of safety -0.85, DOES NOT HOLD"; empty where no strength is known.
+/// ", riser: margin of safety -0.85, ALLOWABLE LOAD EXCEEDED"; empty where no strength is known.
 std::string weakest_text(const std::optional<Margins>& margins);
 
 }  // namespace ripstop

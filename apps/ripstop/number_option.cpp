@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
 #include "ripstop/case/case.h"
 #include "ripstop/core/error.h"
+#include "ripstop/core/quantity.h"
 #include "ripstop/core/visible.h"
 
 namespace ripstop {
@@ -20,24 +20,26 @@ constexpr const char *number_type = "NUMBER", *integer_type = "INTEGER";
   throw Error(ExitCode::usage, fmt::format("{} = {}: {}", option, visible(text), why));
 }
 
-double parsed(const std::string& option, const std::string& text) {
-  double value = 0;
-  const char* last = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data() + (text.starts_with('+') ? 1 : 0), last, value);
-  if (error == std::errc::result_out_of_range) refuse(option, text, "must be a finite number");
-  if (error != std::errc() || stop != last) refuse(option, text, "must be a number");
-  return value;
+/// The unit of a number is in brackets in its help: "Height [m]". Empty when it has none.
+std::string unit_in(const std::string& help) {
+  const std::size_t open = help.rfind('['), close = help.rfind(']');
+  return open == std::string::npos || close < open ? "" : help.substr(open + 1, close - open - 1);
 }
 
-double in_range(const std::string& option, const std::string& text, Range range) {
-  const double value = parsed(option, text);
-  if (!std::isfinite(value)) refuse(option, text, "must be a finite number");
+double parsed(const std::string& option, const std::string& text, const std::string& unit) {
+  const TypedNumber read = read_typed(text, unit);
+  if (!read.refusal.empty()) refuse(option, text, "must be " + read.refusal);
+  return read.value;
+}
+
+double in_range(const std::string& option, const std::string& text, Range range, const std::string& unit) {
+  const double value = parsed(option, text, unit);
   if (!range.contains(value)) refuse(option, text, "must be " + range.text());
   return value;
 }
 
 int whole(const std::string& option, const std::string& text, Range range) {
-  const double value = in_range(option, text, range);
+  const double value = in_range(option, text, range, "");
   if (value != std::floor(value) || std::abs(value) > std::numeric_limits<int>::max())
     refuse(option, text, "must be a whole number");
   return static_cast<int>(value);
@@ -108,13 +110,17 @@ std::string with_range(const std::string& help, Range range) {
 CLI::Option* add_number(CLI::App& command, const std::string& option, double& value, Range range,
                         const std::string& help) {
   return add(command, option, with_range(help, range), number_type,
-             [&value, option, range](const std::string& text) { value = in_range(option, text, range); });
+             [&value, option, range, unit = unit_in(help)](const std::string& text) {
+               value = in_range(option, text, range, unit);
+             });
 }
 
 CLI::Option* add_number(CLI::App& command, const std::string& option, std::optional<double>& value,
                         Range range, const std::string& help) {
   return add(command, option, with_range(help, range), number_type,
-             [&value, option, range](const std::string& text) { value = in_range(option, text, range); });
+             [&value, option, range, unit = unit_in(help)](const std::string& text) {
+               value = in_range(option, text, range, unit);
+             });
 }
 
 CLI::Option* add_number(CLI::App& command, const std::string& option, int& value, Range range,
@@ -134,9 +140,9 @@ CLI::Option* add_numbers(CLI::App& command, const std::string& option, std::vect
   return command
       .add_option_function<std::vector<std::string>>(
           option,
-          [&values, option, range](const std::vector<std::string>& texts) {
+          [&values, option, range, unit = unit_in(help)](const std::vector<std::string>& texts) {
             values.clear();
-            for (const std::string& text : texts) values.push_back(in_range(option, text, range));
+            for (const std::string& text : texts) values.push_back(in_range(option, text, range, unit));
           },
           with_range(help, range))
       ->delimiter(',')
@@ -156,14 +162,16 @@ CLI::Option* add_three(CLI::App& command, const std::string& option,
 CLI::Option* add_key_number(CLI::App& command, const std::string& option, const std::string& key,
                             std::optional<double>& value, const std::string& help) {
   return add(command, option, with_range(help, key_range(key)), number_type,
-             [&value, option](const std::string& text) { value = parsed(option, text); });
+             [&value, option, unit = unit_of_key(key)](const std::string& text) {
+               value = parsed(option, text, unit);
+             });
 }
 
 CLI::Option* add_key_number(CLI::App& command, const std::string& option, const std::string& key,
                             std::optional<int>& value, const std::string& help) {
   return add(command, option, with_range(help, key_range(key)), integer_type,
              [&value, option, range = key_range(key)](const std::string& text) {
-               const double number = parsed(option, text);
+               const double number = parsed(option, text, "");
                const bool fits = std::abs(number) <= std::numeric_limits<int>::max();
                value = whole(option, text, fits ? Range{} : range);
              });

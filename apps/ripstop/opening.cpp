@@ -13,19 +13,19 @@ void add_opening_options(CLI::App& command, OpeningOptions& options) {
   command.add_option("case", options.case_file, "Case file (TOML) with an [inflation] table")->required();
   CLI::Option* steady = command
                             .add_option("--steady", options.steady_run,
-                                        "Run folder of ripstop steady: its drag sets the pressure")
+                                        "Run folder of ripstop steady; its drag determines the pressure")
                             ->check(CLI::ExistingDirectory);
   add_key_number(command, "--pressure", "inflation.pressure_pa", options.overrides.pressure,
                  "Pressure difference over the canopy [Pa]")
       ->excludes(steady);
   add_key_option(command, "--duration", "inflation.duration_s", "Time from deployment to the end [s]",
                  options.overrides);
-  add_key_option(command, "--cloth-nodes", "parachute.mesh.cloth_nodes", "Nodes of the cloth aimed at",
+  add_key_option(command, "--cloth-nodes", "parachute.mesh.cloth_nodes", "Target number of cloth nodes",
                  options.overrides);
   add_key_number(command, "--speed", "flow.speed_m_s", options.overrides.speed, "Nominal speed [m/s]");
   add_set_option(command, options.overrides);
   add_number(command, "--threads", options.threads, from(1).up_to(key_range("coupling.threads").high),
-             "Threads (default: as in [coupling])");
+             "Number of threads (default: coupling.threads)");
 }
 
 Settings opening_settings(const OpeningOptions& options) {

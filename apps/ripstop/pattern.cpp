@@ -2,12 +2,15 @@
 
 #include "ripstop/run/sizing/pattern.h"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <ctime>
 #include <filesystem>
 #include <memory>
 
+#include "case_options.h"
 #include "commands.h"
 #include "json_option.h"
 #include "number_option.h"
@@ -22,36 +25,41 @@ struct PatternArguments {
   fs::path out = "pattern";
   Allowances allowances;
   double packing_density = packed_by_hand;
-  std::string units = "mm";
+  std::string units = "mm", paper;
   bool json = false;
 };
 
 void print_bill(const Bill& bill) {
-  fmt::print("{:<24} {:<16} {:>5} {:>14} {:>14} {:>10}\n", "part", "material", "count", "finished", "cut",
+  fmt::print("{:<24} {:<22} {:>5} {:>14} {:>14} {:>10}\n", "part", "material", "count", "finished", "cut",
              "mass");
   for (const BillRow& row : bill.rows) {
     const char* unit = row.is_cloth ? "m2" : "m ";
-    fmt::print("{:<24} {:<16} {:>5} {:>11.3f} {} {:>11.3f} {} {:>8.1f} g\n", row.part, row.material,
+    fmt::print("{:<24} {:<22} {:>5} {:>11.3f} {} {:>11.3f} {} {:>8.1f} g\n", row.part, row.material,
                row.count, row.finished, unit, row.cut, unit, 1000 * row.mass);
   }
-  fmt::print("{:<24} {:>73.1f} g\n", "all, without thread", 1000 * bill.mass);
+  fmt::print("{:<24} {:>67.1f} g\n", "total, without thread", 1000 * bill.mass);
 }
 
 int run(const PatternArguments& options) {
-  const DxfUnit unit = options.units == "in" ? DxfUnit::inches : DxfUnit::millimetres;
+  PatternFiles files;
+  files.unit = options.units == "in" ? DxfUnit::inches : DxfUnit::millimetres;
+  if (!options.paper.empty()) files.paper = options.paper == "letter" ? Paper::letter : Paper::a4;
+  files.case_file = options.case_file.string();
+  files.date = fmt::format("{:%Y-%m-%d}", fmt::localtime(std::time(nullptr)));
   const PatternResult result =
       run_pattern(read_settings(options.case_file), options.allowances, options.packing_density);
-  write_pattern(options.out, result, unit);
+  write_pattern(options.out, result, files);
   if (options.json) {
     fmt::print("{}", to_json(result));
     return 0;
   }
   print_bill(result.bill);
-  fmt::print("packed at {:.0f} kg/m3: {:.3f} l\n", result.packing_density, 1000 * result.bill.packed_volume);
+  fmt::print("packed volume at {:.0f} kg/m3: {:.3f} l\n", result.packing_density,
+             1000 * result.bill.packed_volume);
   fmt::print("S0 {:.4f} m2, cloth {:.4f} m2 finished\n", result.nominal_area, result.cloth_area);
-  fmt::print("{} pieces as DXF (in {}) and SVG, bill.csv and result.json in {}\n",
-             result.pattern.pieces.size(), unit == DxfUnit::inches ? "inches" : "millimetres",
-             options.out.string());
+  fmt::print("outlines: {} as DXF (in {}), SVG{}, bill.csv and result.json in {}\n",
+             result.pattern.pieces.size(), files.unit == DxfUnit::inches ? "inches" : "millimetres",
+             files.paper ? ", PDF on sheets of paper" : "", options.out.string());
   return 0;
 }
 
@@ -59,25 +67,31 @@ int run(const PatternArguments& options) {
 
 void add_pattern(CLI::App& app, int& status) {
   auto options = std::make_shared<PatternArguments>();
-  CLI::App* command = app.add_subcommand(
-      "pattern",
-      "What to cut: outlines to scale, lengths of tape and line, bill of materials, packed volume");
+  CLI::App* command = app.add_subcommand("pattern",
+                                         "Write the cutting pattern: outlines to scale, lengths of tape and "
+                                         "line, bill of materials, packed volume");
   command->footer("Example: ripstop pattern examples/adept/case.toml --out adept-pattern");
   command->add_option("case", options->case_file, "Case file (TOML)")->required();
   command->add_option("--out", options->out, "Folder for the files")->capture_default_str();
   const auto length = [&](const char* name, double& value, const char* text) {
     add_number(*command, name, value, allowance_range, fmt::format("{} (default: {:g})", text, value));
   };
-  length("--seam-allowance", options->allowances.seam, "Cloth beyond a seam [m]");
-  length("--hem-allowance", options->allowances.hem, "Cloth beyond a free edge [m]");
-  length("--line-loop", options->allowances.line_loop, "Line beyond either end, for its loop [m]");
-  length("--tape-overlap", options->allowances.tape_overlap, "Tape beyond its finished length [m]");
-  add_number(*command, "--packing-density", options->packing_density, packing_density_range,
-             fmt::format("About 400 packed by hand, 600 under a press [kg/m3] (default: {:g})",
-                         options->packing_density));
-  command->add_option("--units", options->units, "Of the DXF files: mm or in")
+  length("--seam-allowance", options->allowances.seam, "Seam allowance of the cloth [m]");
+  length("--hem-allowance", options->allowances.hem, "Hem allowance of the cloth [m]");
+  length("--line-loop", options->allowances.line_loop, "Extra length of line at each end for its loop [m]");
+  length("--tape-overlap", options->allowances.tape_overlap, "Extra length of each tape [m]");
+  add_number(
+      *command, "--packing-density", options->packing_density, packing_density_range,
+      fmt::format(
+          "Density of the packed parachute, about 400 by hand, 600 with a press [kg/m3] (default: {:g})",
+          options->packing_density));
+  command->add_option("--units", options->units, "Unit of the DXF files: mm or in")
       ->check(CLI::IsMember({"mm", "in"}))
       ->capture_default_str();
+  command
+      ->add_option("--paper", options->paper,
+                   "Also as PDF at true size on sheets of this paper, with registration marks: a4 or letter")
+      ->check(CLI::IsMember({"a4", "letter"}));
   add_json_option(*command, options->json);
   command->callback([options, &status] { status = run(*options); });
 }

@@ -39,8 +39,7 @@ void print_result(const Photogrammetry& result) {
   }
   fmt::print("camera at {:.4f} m ({}", *result.camera_distance,
              *result.distance_given ? "given" : "from the known diameters");
-  if (*result.root_mean_square > 0)
-    fmt::print(", which it meets within {:.1f} mm rms", 1000 * *result.root_mean_square);
+  if (*result.root_mean_square > 0) fmt::print(", residual {:.1f} mm rms", 1000 * *result.root_mean_square);
   fmt::print(")\n{:>8} {:>10} {:>10} {:>10} {:>10}\n", "m", "apparent", "corrected", "known", "computed");
   for (const auto* sizes : {&*result.diameters, &*result.lengths})
     for (const SeenSize& size : *sizes) print_size(size);
@@ -71,14 +70,15 @@ int photogrammetry(const PhotogrammetryArguments& options) {
 
 void add_photogrammetry(CLI::App& app, int& status) {
   auto options = std::make_shared<PhotogrammetryArguments>();
-  CLI::App* command = app.add_subcommand("photogrammetry",
-                                         "Sizes from camera images, corrected, beside the computed canopy's");
+  CLI::App* command = app.add_subcommand(
+      "photogrammetry",
+      "Correct sizes from camera images for perspective and compare them with the computed canopy");
   command->footer(
       "The image file (TOML) has [[diameter]] and [[length]] tables with name, apparent_m and, where it is "
       "known,\n"
-      "known_m; the camera's distance is distance_m, or follows from the known diameters.\n"
+      "known_m. The distance of the camera is distance_m, or is computed from the known diameters.\n"
       "Example: ripstop photogrammetry validation/ojf/stratos-iv-images.toml --run runs/stratos-iv");
-  command->add_option("image", options->image, "Sizes read off an image (TOML)")->check(CLI::ExistingFile);
+  command->add_option("image", options->image, "Sizes measured on an image (TOML)")->check(CLI::ExistingFile);
   command->add_option("--run", options->run, "Run folder of ripstop steady to compare with")
       ->check(CLI::ExistingDirectory);
   add_number(*command, "--distance", options->distance, above(0).up_to(1e4),

@@ -61,7 +61,7 @@ std::vector<MeasuredDrag> measured_points(const PorosityArguments& options, cons
 void write_plots(const fs::path& folder, const Settings& resolved, const std::vector<MeasuredDrag>& measured,
                  const std::vector<PorosityTrial>& trials, const PorosityCalibration& found,
                  PorosityKnob knob, double area) {
-  PlotSeries computed{"computed, every speed and shift", {}, {}, false, true, false};
+  PlotSeries computed{"computed, every speed and grid alignment", {}, {}, false, true, false};
   double low = found.knob, high = found.knob;
   for (const PorosityTrial& t : trials) {
     computed.x.push_back(t.knob);
@@ -76,7 +76,7 @@ void write_plots(const fs::path& folder, const Settings& resolved, const std::ve
                   true,
                   false,
                   false};
-  PlotSeries band{"95 % band of the line", {}, {}, true, false, true};  // both edges, a gap between them
+  PlotSeries band{"95 % confidence band", {}, {}, true, false, true};  // both edges, a gap between them
   PlotSeries printed{"[NFM], Stratos IV: 0.9195 - 1.7794 \u03b3", {}, {}, true, false, true};
   constexpr int steps = 40;
   const auto x_of = [&](int i) { return low + (high - low) * i / steps; };
@@ -94,7 +94,7 @@ void write_plots(const fs::path& folder, const Settings& resolved, const std::ve
     band.x.push_back(NAN);
     band.y.push_back(NAN);
   }
-  PlotSeries reference{"measured, at the found value", {}, {}, false, true, false};
+  PlotSeries reference{"measured, at the fitted value", {}, {}, false, true, false};
   for (const MeasuredDrag& point : measured) {
     reference.x.push_back(found.knob);
     reference.y.push_back(point.drag_area() / area);
@@ -159,17 +159,18 @@ void write_result(const fs::path& folder, const Settings& resolved, const std::v
 void print_result(const std::vector<MeasuredDrag>& measured, const PorosityCalibration& found,
                   PorosityKnob knob, const PressureDrop& law, const Settings& resolved) {
   const LineFit& c = found.coefficient;
-  fmt::print("\nC_D = {:.4f} {:+.4f} x with x = {}, R2 = {:.4f}, {} trials ", c.intercept, c.slope,
+  fmt::print("\nC_D = {:.4f} {:+.4f} x with x = {}, R2 = {:.4f}, {} computed points ", c.intercept, c.slope,
              knob_name(knob), c.r2, c.points);
   if (knob == PorosityKnob::gamma) fmt::print("([NFM], Stratos IV: 0.9195 -1.7794 x, R2 = 0.989)");
-  fmt::print("\nscatter over the shifts: {:.2f} % (rms)\n\n", 100 * found.shift_scatter);
+  fmt::print("\nscatter over the grid alignments: {:.2f} % (rms)\n\n", 100 * found.shift_scatter);
   fmt::print("{:>12} {:>14} {:>14} {:>8}\n", "nominal m/s", "measured m2", "computed m2", "error");
   for (std::size_t i = 0; i < measured.size(); ++i)
     fmt::print("{:>12g} {:>14.4f} {:>14.4f} {:>+7.2f} %\n", measured[i].nominal_speed,
                measured[i].drag_area(), found.computed[i],
                100 * (found.computed[i] / measured[i].drag_area() - 1));
   fmt::print(
-      "\n{} = {:.5g} +- {:.2g} (standard error: {:.2g} from the measured points, {:.2g} from the trials)\n",
+      "\n{} = {:.5g} +- {:.2g} (standard error: {:.2g} from the measured points, {:.2g} from the computed "
+      "points)\n",
       knob_name(knob), found.knob, found.error(), found.error_measured, found.error_computed);
   const auto [linear, quadratic] = resistance_keys(resolved.flow().porosity_model);
   fmt::print(
@@ -191,9 +192,9 @@ int calibrate(PorosityArguments& options) {
   const std::vector<SweepAxis> axes = porosity_axes(resolved, sweep, measured);
   const std::vector<SweepPoint> points = sweep_points(options.case_file, options.overrides, axes);
   const fs::path& folder = options.settings.folder;
-  fmt::print(stderr, "{}: {} measured points, {} = {}, {} places along the flow: {} runs in {}\n",
-             resolved.title(), measured.size(), knob_name(knob), fmt::join(sweep.values, " "), sweep.shifts,
-             points.size(), folder.string());
+  fmt::print(stderr, "{}: {} measured points, {} = {}, {} grid alignments: {} runs in {}\n", resolved.title(),
+             measured.size(), knob_name(knob), fmt::join(sweep.values, " "), sweep.shifts, points.size(),
+             folder.string());
   const std::vector<SweepRow> rows = run_and_tell(axes, points, options.settings);
   write_csv(folder / "sweep.csv", sweep_table(axes, points, rows));
   require_all(points, rows);
@@ -212,7 +213,8 @@ int calibrate(PorosityArguments& options) {
     fmt::print("  {} (porosity.svg, porosity.png, sweep.csv)\n", (folder / "result.json").string());
   }
   if (!found.outside) return 0;
-  fmt::print(stderr, "the found {} lies outside the trials: widen them\n", knob_name(knob));
+  fmt::print(stderr, "the fitted {} is outside the computed range: extend --gammas or --permeabilities\n",
+             knob_name(knob));
   return static_cast<int>(ExitCode::not_converged);
 }
 
@@ -221,31 +223,31 @@ int calibrate(PorosityArguments& options) {
 void add_calibrate_porosity(CLI::App& parent, int& status) {
   auto options = std::make_shared<PorosityArguments>();
   CLI::App* command = parent.add_subcommand(
-      "porosity", "Porosity of the cloth from the measured drag of a reference parachute");
+      "porosity", "Determine the porosity of the cloth from the measured drag of a reference parachute");
   command->footer(
       "Example: ripstop calibrate porosity examples/stratos-iv/case.toml --gammas 0.18,0.20,0.22,0.24 "
       "--shifts 3\n"
       "The file of --measured is a table with speed, density and drag, as in speed_m_s, density_kg_m3, "
       "drag_n;\n"
       "one row is enough.\n"
-      "Goes on where it was killed. For other parachutes of the same cloth use the two --set that it "
-      "prints.");
+      "An interrupted calibration resumes when the command is repeated. For other parachutes of the same "
+      "cloth use\nthe two --set options that it prints.");
   add_sweep_options(*command, *options);
   command
-      ->add_option(
-          "--measured", options->measured,
-          "Measured points (CSV); default: the rows of [[measured]] with a drag, on the case's basis")
+      ->add_option("--measured", options->measured,
+                   "Measured points (CSV); default: the rows of [[measured]] with a drag, at the speed_basis "
+                   "of the case")
       ->check(CLI::ExistingFile);
   add_table_options(*command, options->columns, options->decimal, "speed=v [m/s],drag=Widerstand [N]");
   CLI::Option* gammas = add_numbers(*command, "--gammas", options->gammas, from(0.01).up_to(0.99),
                                     "Values of Ergun's porosity (default: 0.18,0.20,0.22,0.24)");
   add_numbers(*command, "--permeabilities", options->permeabilities, from(1e-3).up_to(9999),
-              "In its place: values of the permeability [CFM/ft2 at half an inch of water], b = 0")
+              "Instead: values of the permeability [CFM/ft2 at half an inch of water], with b = 0")
       ->excludes(gammas);
   add_number(*command, "--thickness", options->thickness, above(0).up_to(0.1),
-             "t of Ergun's law [m]; [NFM]'s a and b ask for 1.2e-4");
+             "Thickness of the cloth in Ergun's law [m]; a and b of [NFM] correspond to 1.2e-4");
   add_number(*command, "--shifts", options->shifts, from(1).up_to(100),
-             "Places of the canopy within one cell along the flow, averaged");
+             "Number of grid alignments along the flow that are averaged");
   command->add_option("--out", options->settings.folder,
                       "Folder (default: runs/<name of the case>-porosity)");
   command->callback([options, &status] { status = calibrate(*options); });

@@ -24,14 +24,15 @@ struct ReportArguments {
 void add_report(CLI::App& app, int& status) {
   auto options = std::make_shared<ReportArguments>();
   CLI::App* command = app.add_subcommand(
-      "report", "Finished runs as one HTML file: shape in 3D, flow, plots, tables, several runs compared");
+      "report", "Write finished runs as one HTML file: 3D shape, flow, plots, tables, comparison of runs");
   command->footer(
-      "steady, inflate and sweep write it into their folder themselves.\n"
+      "The commands steady, inflate and sweep write this file into their run folders.\n"
       "Example: ripstop report runs/stratos-iv runs/walrus --out both.html");
   command->add_option("runs", options->runs, "Folders of finished runs of steady, inflate or sweep")
       ->required();
-  command->add_option("--out", options->out,
-                      "File (default: report.html in the run's folder; of several runs, here)");
+  command->add_option(
+      "--out", options->out,
+      "File (default: report.html in the run folder; for several runs, in the current folder)");
   command->callback([options, &status] {
     fmt::print("{}\n", write_report(options->runs, options->out).string());
     status = 0;

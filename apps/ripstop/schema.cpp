@@ -12,9 +12,10 @@ namespace ripstop {
 
 void add_schema(CLI::App& app, int& status) {
   auto reference = std::make_shared<bool>(false);
-  CLI::App* command = app.add_subcommand("schema", "JSON Schema of a case file, for editors and checks");
+  CLI::App* command =
+      app.add_subcommand("schema", "Print the JSON Schema of a case file, for editors and checks");
   command->footer("Example: ripstop schema > ripstop-case.schema.json");
-  command->add_flag("--reference", *reference, "The keys as tables in Markdown instead");
+  command->add_flag("--reference", *reference, "Print all keys as tables in Markdown instead");
   command->callback([reference, &status] {
     fmt::print("{}", *reference ? case_reference() : case_schema());
     status = 0;

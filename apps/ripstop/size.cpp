@@ -49,22 +49,23 @@ void print_result(const SizeResult& r, const fs::path& file, const fs::path& pag
                                       : "",
                   r.nominal_area));
   row("vent", fmt::format("{:.4f} m2, {:.2f} %", r.vent_area, 100 * r.vent_area / r.nominal_area));
-  row("gores, lines", fmt::format("{} gores, {} lines of {:.3f} m, {}", r.gores, r.line_count, r.line_length,
-                                  r.line_material));
+  row("gores, lines",
+      fmt::format("{} gores, {} lines of {:.3f} m, {}{}", r.gores, r.line_count, r.line_length,
+                  r.line_material, r.gores_source.empty() ? "" : "; " + r.gores_source));
   row("tape", fmt::format("{}: {}", r.tape_material, r.tape_source));
   row("mass", fmt::format("{:.3g} kg: cloth {:.3g}, tape {:.3g}, lines {:.3g}", r.parachute_mass,
                           r.cloth_mass, r.tape_mass, r.line_mass));
   row("packed volume", fmt::format("{:.3g} litres", 1000 * r.packed_volume));
-  row("DESIGN LOAD",
-      fmt::format(
-          "{:.0f} N at {:.3g} m/s: {}; a line carries at most {:.2f} times an equal share, {:.0f} % of its "
-          "allowable load",
-          r.design_load, r.deployment_speed, r.design_load_from, r.line_load_factor, 100 * r.line_used));
+  row("DESIGN LOAD", fmt::format("{:.0f} N at {:.3g} m/s: {}; largest line load {:.2f} times the mean, "
+                                 "{:.0f} % of the allowable load",
+                                 r.design_load, r.deployment_speed, r.design_load_from, r.line_load_factor,
+                                 100 * r.line_used));
   row("applicable methods",
       fmt::format("{:.0f} to {:.0f} N (ripstop load)", r.opening_load_low, r.opening_load));
+  if (!r.opening.front().caution.empty()) row("", r.opening.front().caution);
   print_margins(r.margins);
   for (const SizeCheck& c : r.checks)
-    row("run", fmt::format("{:.3f} m comes down at {:.3f} m/s, C_D {:.3f}", c.nominal_diameter,
+    row("run", fmt::format("diameter {:.3f} m, descent rate {:.3f} m/s, C_D {:.3f}", c.nominal_diameter,
                            c.descent_rate, c.drag_coefficient));
   row("case", file.string());
   if (!page.empty()) row("report", page.string());
@@ -103,7 +104,8 @@ void refuse_existing(const SizeArguments& options) {
   if (options.force) return;
   for (const fs::path& file : {options.out, page_of(options)})
     if (fs::exists(file))
-      throw Error(ExitCode::usage, fmt::format("{} exists; choose another --out, or --force", file.string()));
+      throw Error(ExitCode::usage,
+                  fmt::format("{} exists; choose another --out, or replace it with --force", file.string()));
 }
 
 int size(const SizeArguments& options) {
@@ -133,32 +135,34 @@ int size(const SizeArguments& options) {
 void add_size(CLI::App& app, int& status) {
   auto options = std::make_shared<SizeArguments>();
   SizeRequest& r = options->request;
-  CLI::App* command =
-      app.add_subcommand("size", "The parachute for a payload and a descent rate, as a case file");
+  CLI::App* command = app.add_subcommand(
+      "size", "Design a parachute for a payload and a descent rate and write its case file");
   command->footer(
-      "The drag coefficient is the one that Ripstop has computed for the family (examples/families.json).\n"
+      "The default drag coefficient is a result of Ripstop for the family (examples/families.json).\n"
       "Example: ripstop size --mass 2.4 --descent-rate 5 --family flat-circular --height 300 --out my.toml");
   add_number(*command, "--mass", r.payload_mass, key_range("payload.mass_kg"),
-             "Of the payload, without the parachute [kg]")
+             "Mass of the payload, without the parachute [kg]")
       ->required();
-  add_number(*command, "--descent-rate", r.descent_rate, key_range("flow.speed_m_s"), "Wanted [m/s]")
+  add_number(*command, "--descent-rate", r.descent_rate, key_range("flow.speed_m_s"),
+             "Required descent rate [m/s]")
       ->required();
-  command->add_option("--family", r.family, "A folder of examples/ (default: flat-circular)");
+  command->add_option("--family", r.family, "Canopy family, a folder of examples/ (default: flat-circular)");
   auto* height = add_number(*command, "--height", r.height, from(lowest_height).up_to(highest_height),
-                            "Above sea level, where the rate is wanted [m] (default: 0)");
+                            "Height above sea level at which this rate is required [m] (default: 0)");
   add_number(*command, "--density", r.density, key_range("flow.density_kg_m3"),
-             "Of the air, in place of the height [kg/m3]")
+             "Density of the air, instead of the height [kg/m3]")
       ->excludes(height);
   add_number(*command, "--drag-coefficient", r.drag_coefficient, key_range("inflation.drag_coefficient"),
-             "On S0 (default: computed for the family)");
-  add_number(*command, "--deployment-speed", r.deployment_speed, above(0).up_to(1000),
-             "For the opening load [m/s] (default: 20, at least 3 descent rates)");
+             "Drag coefficient on S0 (default: value computed for the family)");
+  add_number(
+      *command, "--deployment-speed", r.deployment_speed, above(0).up_to(1000),
+      "Speed at deployment, for the opening load [m/s] (default: 20, at least 3 times the descent rate)");
   command->add_option("--line-material", r.line_material,
-                      "Of the library (default: the lightest that holds)");
+                      "Line material of the library (default: the lightest with sufficient strength)");
   add_number(*command, "--packing-density", r.packing_density, from(50).up_to(1500),
-             "Of the packed parachute [kg/m3] (default: 400, by hand)");
+             "Density of the packed parachute [kg/m3] (default: 400, packed by hand)");
   command->add_flag("--verify", options->verify,
-                    "Run the case and change the diameter until the rate holds within 1 %");
+                    "Run the case and adjust the diameter until the descent rate is met within 1 %");
   command->add_option("--out", options->out, "Case file (default: my-canopy.toml)");
   command->add_flag("--force", options->force, "Replace an existing case file");
   add_json_option(*command, options->json);

@@ -48,18 +48,18 @@ void print_row(const char* name, const std::string& text) {
 void print_unsteady(const UnsteadyResult& unsteady) {
   const WindowAverage& w = unsteady.watched;
   print_row("drag in time",
-            fmt::format("mean of {:.3f} s after {:.3f} s of start-up, {} steps; standard error {}, "
-                        "swings by {:.2g} N",
+            fmt::format("mean over {:.3f} s after a start-up of {:.3f} s, {} steps; standard error {}, "
+                        "standard deviation {:.2g} N",
                         w.time - w.start_up, w.start_up, w.steps,
                         unsteady.standard_error ? fmt::format("{:.2g} N{}", *unsteady.standard_error,
-                                                              w.enough ? "" : ", MORE than was asked for")
+                                                              w.enough ? "" : ", ABOVE the required value")
                                                 : std::string("not known"),
                         w.deviation));
   print_row("side force",
-            fmt::format("{:.2g} +- {:.2g}, {:.2g} +- {:.2g} N; swings by {:.2g} N{}", w.side_force.x,
+            fmt::format("{:.2g} +- {:.2g}, {:.2g} +- {:.2g} N; standard deviation {:.2g} N{}", w.side_force.x,
                         w.side_error.x, w.side_force.y, w.side_error.y, w.side_deviation,
-                        w.swing > 0 ? fmt::format(", most at {:.3g} Hz (Strouhal number {:.2f})", w.swing,
-                                                  unsteady.strouhal)
+                        w.swing > 0 ? fmt::format(", strongest frequency {:.3g} Hz (Strouhal number {:.2f})",
+                                                  w.swing, unsteady.strouhal)
                                     : ""));
 }
 
@@ -67,13 +67,12 @@ void print_result(const SteadyResult& r, const Settings& resolved, const fs::pat
   const auto row = print_row;
   fmt::print("\n{}\n", r.title);
   row("speed, density", fmt::format("{:.4g} m/s, {:.4g} kg/m3", r.speed, r.density));
-  row("speed before the canopy",
-      fmt::format("{:.4g} m/s, mean over its disk, one diameter before it", r.approach_speed));
+  row("approach speed",
+      fmt::format("{:.4g} m/s, mean over the disk of the canopy, one diameter upstream", r.approach_speed));
   const std::optional<Measured>& measured = r.measured;
   if (measured && measured->drag_n) {
-    row("drag measured",
-        fmt::format("{:.1f} N (tunnel set to {:.4g} m/s, read {:.4g} m/s)", *measured->drag_n,
-                    measured->nominal_speed_m_s, measured->measured_speed_m_s));
+    row("drag measured", fmt::format("{:.1f} N (nominal {:.4g} m/s, measured {:.4g} m/s)", *measured->drag_n,
+                                     measured->nominal_speed_m_s, measured->measured_speed_m_s));
     row("drag computed", fmt::format("{:.1f} N ({:+.1f} %)", r.drag, 100 * (r.drag / *measured->drag_n - 1)));
   } else {
     row("drag computed", fmt::format("{:.1f} N", r.drag));
@@ -90,20 +89,20 @@ void print_result(const SteadyResult& r, const Settings& resolved, const fs::pat
                       : ""));
   row("projected diameter", fmt::format("{:.3f} m", r.size.projected_diameter));
   row("skirt diameter", fmt::format("{:.3f} m", r.size.skirt_diameter));
-  row("highest line tension", fmt::format("{:.1f} N", r.max_line_tension));
-  row("highest stress", fmt::format("{:.0f} N/m von Mises, on the {}", r.stress.von_mises, r.stress.patch));
-  row("highest yarn force",
+  row("maximum line tension", fmt::format("{:.1f} N", r.max_line_tension));
+  row("maximum von Mises stress", fmt::format("{:.0f} N/m ({})", r.stress.von_mises, r.stress.patch));
+  row("maximum yarn force",
       fmt::format("{:.0f} N/m warp, {:.0f} N/m weft; {:.0f} % of the cloth wrinkled, {:.0f} % slack",
                   r.stress.warp, r.stress.weft, 100 * r.stress.wrinkled, 100 * r.stress.slack));
   print_payload(r);
   print_margins(r.margins);
-  row("ledger",
-      fmt::format("fluid {:.2f}, nodes {:.2f}, lines {:.2f}, momentum deficit {:.2f} N", r.last.fluid_force,
-                  r.last.nodal_load, r.last.line_tension, r.last.momentum_deficit));
+  row("force balance",
+      fmt::format("air load {:.2f}, cloth load {:.2f}, line load {:.2f}, momentum deficit {:.2f} N",
+                  r.last.fluid_force, r.last.nodal_load, r.last.line_tension, r.last.momentum_deficit));
   if (r.unsteady) {
     print_unsteady(*r.unsteady);
   } else if (r.last.flow_averaged > 0)
-    row("flow", fmt::format("did not settle: mean of its last {} iterations, drag {:.2f} +- {:.2f} N",
+    row("flow", fmt::format("did not converge: mean of the last {} iterations, drag {:.2f} +- {:.2f} N",
                             r.last.flow_averaged, r.last.fluid_force, r.last.drag_deviation));
   row("coupling", fmt::format("{} iterations, {}, {}", r.iterations,
                               r.converged ? "converged" : "NOT converged", duration_text(r.wall_time)));
@@ -122,7 +121,7 @@ int dry_run(const SteadyFolderSettings& settings, const Settings& resolved) {
   fmt::print("{}: {} nodes, {} x {} x {} cells, {:.4g} m/s, {} ranks, about {:.2g} GB{}; would run in {}\n",
              resolved.title(), problem.mesh.node_count(), problem.flow.grid.nx, problem.flow.grid.ny,
              problem.flow.grid.nz, problem.flow.air.speed(), resolved.flow().ranks, 1e-9 * cost.memory,
-             known ? fmt::format(" and {} of one core", rough_duration(cost.time)) : "", folder.string());
+             known ? fmt::format(" and {} on one core", rough_duration(cost.time)) : "", folder.string());
   return 0;
 }
 
@@ -156,7 +155,7 @@ int run(const SteadyArguments& options) {
   const int quality = print_result_warnings(result.warnings, result.usable);
   const int status = result.converged ? quality : static_cast<int>(ExitCode::not_converged);
   if (done.already_finished) {
-    fmt::print(stderr, "{} holds the finished run; --fresh computes it again\n", folder.string());
+    fmt::print(stderr, "{} contains the finished run; use --fresh to compute it again\n", folder.string());
     return status;
   }
   if (!result.converged)
@@ -169,7 +168,7 @@ int run(const SteadyArguments& options) {
 
 void add_steady(CLI::App& app, int& status) {
   auto options = std::make_shared<SteadyArguments>();
-  CLI::App* command = app.add_subcommand("steady", "Inflated shape, drag and loads in a steady flow");
+  CLI::App* command = app.add_subcommand("steady", "Compute inflated shape, drag and loads in a steady flow");
   command->footer(
       "Example: ripstop steady examples/stratos-iv/case.toml --speed 30 --grid 50,50,75\n"
       "         ripstop steady examples/stratos-iv/case.toml --flow openfoam --ranks 16 --batch slurm");
@@ -181,15 +180,13 @@ void add_steady(CLI::App& app, int& status) {
       [options] {
         options->overrides.set.push_back({"flow.unsteady", "true", "--unsteady"});
       },
-      "Go on in time: the mean over a wake that sheds, with its standard error");
-  command
-      ->add_option("--hostfile", options->hostfile,
-                   "Hosts that MPI may put the ranks on, a line each: name slots=4")
+      "Continue in time and average an unsteady wake, with the standard error of the mean");
+  command->add_option("--hostfile", options->hostfile, "Hosts for the MPI ranks, one per line: name slots=4")
       ->check(CLI::ExistingFile);
   command->add_option("--out", options->out, "Run folder (default: runs/<name of the case>)");
   command->add_flag("--fresh", options->fresh,
-                    "Replace what Ripstop wrote into the run folder; default: go on with it");
-  command->add_flag("--dry-run", options->dry_run, "Say what would be done, and stop");
+                    "Replace the files of Ripstop in the run folder; default: resume the run");
+  command->add_flag("--dry-run", options->dry_run, "Print run folder, size and estimated time, and stop");
   add_json_option(*command, options->json);
   add_batch_options(*command, options->batch);
   command->callback([options, &status] { status = run(*options); });

@@ -22,15 +22,15 @@ double iterations_left(const SteadyState& state, const CouplingSettings& setting
 
 std::string progress_text(const SteadyProgress& p, double elapsed, double left) {
   const std::string time =
-      left > 0 ? fmt::format("{} gone, about {} left{}", duration_text(elapsed), duration_text(left),
-                             p.stage == SteadyStage::time ? " of this watch" : "")
-               : fmt::format("{} gone", duration_text(elapsed));
+      left > 0 ? fmt::format("elapsed {}, remaining about {}{}", duration_text(elapsed), duration_text(left),
+                             p.stage == SteadyStage::time ? " of this averaging window" : "")
+               : fmt::format("elapsed {}", duration_text(elapsed));
   if (p.stage == SteadyStage::time) {
     const FlowStep& step = p.time.step;
-    const std::string mean = p.time.mean != 0
-                                 ? fmt::format("mean {:.1f} +- {:.2g} N, {:.0f} % of the watch", p.time.mean,
-                                               p.time.standard_error, std::min(99.0, 100 * p.time.share))
-                                 : std::string("start-up");
+    const std::string mean =
+        p.time.mean != 0 ? fmt::format("mean {:.1f} +- {:.2g} N, {:.0f} % of the averaging window",
+                                       p.time.mean, p.time.standard_error, std::min(99.0, 100 * p.time.share))
+                         : std::string("start-up");
     return fmt::format("[{}] time: {:.3f} s, step {} of {:.2g} s, drag {:.1f} N, {} | {}", p.iteration,
                        step.time, step.step, step.length, step.force.z, mean, time);
   }
@@ -72,7 +72,7 @@ void SteadyTerminal::begin(const SteadyRun& run, SteadyState& state) {
   settings_ = run.resolved.coupling();
   if (!state.iterations.empty()) {
     progress_.line(
-        fmt::format("going on after coupling iteration {} of {}", state.iterations.size(), folder_.string()));
+        fmt::format("resuming after coupling iteration {} in {}", state.iterations.size(), folder_.string()));
   }
   progress_.line(fmt::format("{}: {}, {} cloth nodes, {}", run.resolved.title(), run.engine,
                              run.solver.mesh().node_count(), folder_.string()));

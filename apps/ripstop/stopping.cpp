@@ -18,8 +18,8 @@ void stopped(int signal_number) {
   };
   say("\nripstop: stopped by ");
   say(signal_number == SIGINT ? "Ctrl-C (SIGINT)" : signal_number == SIGTERM ? "SIGTERM" : "SIGHUP");
-  say(goes_on.load() ? "; repeat the same command, and it goes on from what is on the disk\n"
-                     : "; nothing half-written is left: repeat the same command\n");
+  say(goes_on.load() ? "; repeat the same command to resume from the files on disk\n"
+                     : "; no incomplete file remains: repeat the same command\n");
   signal(signal_number, SIG_DFL);
   raise(signal_number);
 }

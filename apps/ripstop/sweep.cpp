@@ -54,7 +54,7 @@ std::vector<SweepAxis> axes_of(const SweepArguments& options) {
   for (std::size_t i = 0; i < axes.size(); ++i)
     for (std::size_t k = 0; k < i; ++k)
       if (axes[i].name == axes[k].name)
-        throw Error(ExitCode::usage, fmt::format("{} is varied twice", axes[i].name));
+        throw Error(ExitCode::usage, fmt::format("{} is varied twice; give each key once", axes[i].name));
   return axes;
 }
 
@@ -78,9 +78,10 @@ int write_scripts(const SweepArguments& options, const std::vector<SweepPoint>& 
   const std::vector<BatchFile> files = slurm_files(sweep);
   prepare_sweep(points, settings);
   write_and_tell(settings.folder, files, "bash", "submit");
-  fmt::print("{} runs in {} after another{}\n", points.size(),
-             waves.size() == 1 ? "one array, not one" : fmt::format("{} arrays, one", waves.size()),
-             waves.size() == 1 ? "" : ", as each starts from its neighbour; --cold needs one array only");
+  fmt::print(
+      "{} runs in {} after another{}\n", points.size(),
+      waves.size() == 1 ? "one array, not one" : fmt::format("{} arrays, one", waves.size()),
+      waves.size() == 1 ? "" : ", as each starts from a neighbouring run; --cold needs one array only");
   return 0;
 }
 
@@ -91,7 +92,7 @@ int run_only(const SweepArguments& options, const std::vector<SweepPoint>& point
     std::vector<std::string> names;
     for (const SweepPoint& one : points) names.push_back(one.folder);
     const std::string near = nearest(options.only, names);
-    throw Error(ExitCode::usage, fmt::format("--only {}: is no run of this sweep{}", options.only,
+    throw Error(ExitCode::usage, fmt::format("--only {}: is not a run of this sweep{}", options.only,
                                              near.empty() ? "" : "; did you mean " + near + "?"));
   }
   goes_on_when_repeated();
@@ -120,20 +121,13 @@ int sweep(SweepArguments& options) {
     for (const SweepPoint& point : points)
       fmt::print("{}{}\n", (folder / point.folder).string(),
                  options.cold || point.start < 0 ? "" : ", from " + points[point.start].folder);
-    fmt::print("{} runs, {} side by side\n", points.size(),
+    fmt::print("{} runs, {} at the same time\n", points.size(),
                options.settings.jobs ? options.settings.jobs : fitting_jobs(points));
     return 0;
   }
   const std::vector<SweepRow> rows =
       options.gather ? gather_sweep(points, options.settings) : run_and_tell(axes, points, options.settings);
-  const std::string& title = points.front().resolved.title();
-  const std::string json = sweep_json(title, axes, points, rows);
-  write_csv(folder / "sweep.csv", sweep_table(axes, points, rows));
-  write_file(folder / "result.json", json);
-  write_sweep_plots(folder, title, axes, points, rows);
-  seal_sweep(folder);
-  const bool any = std::any_of(rows.begin(), rows.end(), [](const SweepRow& row) { return row.done; });
-  const std::string report = any ? write_report({folder}).string() : "";
+  const std::string json = finish_sweep(folder, axes, points, rows);
   if (options.json) {
     fmt::print("{}", json);
   } else {
@@ -141,7 +135,7 @@ int sweep(SweepArguments& options) {
         "{} (and result.json, drag, drag_area, drag_coefficient, diameters, iterations, wall_time as .svg "
         "and .png)\n",
         (folder / "sweep.csv").string());
-    if (any) fmt::print("{}\n", report);
+    if (std::filesystem::exists(folder / report_name)) fmt::print("{}\n", (folder / report_name).string());
   }
   std::fflush(stdout);
   require_all(points, rows);
@@ -152,35 +146,42 @@ int sweep(SweepArguments& options) {
 
 void add_sweep(CLI::App& app, int& status) {
   auto options = std::make_shared<SweepArguments>();
-  CLI::App* command = app.add_subcommand("sweep", "One case over several speeds, or over any of its keys");
+  CLI::App* command =
+      app.add_subcommand("sweep", "Run one case over several speeds, or over any of its keys");
   command->footer(
-      "Several --vary make every combination; --row gives single rows, each a list of settings.\n"
-      "A sweep that was killed goes on when the same command is given again.\n"
+      "Several --vary options run every combination of their values. Each --row is one run with its "
+      "settings.\n"
+      "An interrupted sweep resumes when the same command is repeated.\n"
       "Example: ripstop sweep examples/stratos-iv/case.toml --speeds 10,15,20,25,30\n"
       "         ripstop sweep examples/stratos-iv/case.toml --vary parachute.vent_diameter_m=0.07,0.09,0.11 "
       "\\\n"
       "           --vary flow.cells=[50,50,75],[80,80,120]\n"
       "         ripstop sweep examples/stratos-iv/case.toml --speeds 10,15,20,25,30 --batch slurm");
   add_sweep_options(*command, *options);
-  command->add_option("--speeds", options->speeds, "Nominal speeds [m/s], as in 10,15,20")->delimiter(',');
+  command->add_option("--speeds", options->speeds, "Nominal speeds [m/s], for example 10,15,20")
+      ->delimiter(',');
   command->add_option("--vary", options->vary, "KEY=V1,V2,...: values of any key of the case; repeatable")
       ->expected(1)
       ->take_all();
   command->add_option("--row", options->rows, "KEY=V,KEY=V: settings of one run of a table; repeatable")
       ->expected(1)
       ->take_all();
-  command->add_flag("--linear", options->overrides.linear, "Keep only K_1 of every material");
+  command->add_flag("--linear", options->overrides.linear,
+                    "Use only K_1 of every material (linear model of [NFM])");
   command->add_option("--out", options->settings.folder, "Folder (default: runs/<name of the case>-sweep)");
-  CLI::Option* dry_run = command->add_flag("--dry-run", options->dry_run, "Say what would be run, and stop");
-  CLI::Option* only = command
-                          ->add_option("--only", options->only,
-                                       "One run of the sweep, by its folder's name, as in a job of --batch")
-                          ->excludes(dry_run);
-  CLI::Option* gather =
+  CLI::Option* dry_run =
+      command->add_flag("--dry-run", options->dry_run, "Print the runs that would be computed, and stop");
+  CLI::Option* only =
       command
-          ->add_flag("--gather", options->gather, "Table and plots of what has come back; computes nothing")
-          ->excludes(dry_run)
-          ->excludes(only);
+          ->add_option(
+              "--only", options->only,
+              "Compute one run of the sweep, given by the name of its folder, as a job of --batch does")
+          ->excludes(dry_run);
+  CLI::Option* gather = command
+                            ->add_flag("--gather", options->gather,
+                                       "Write table and plots of the finished runs and compute nothing")
+                            ->excludes(dry_run)
+                            ->excludes(only);
   for (CLI::Option* one : {only, gather}) one->excludes(command->get_option("--fresh"));
   add_batch_options(*command, options->batch);
   command->get_option("--batch")->excludes(only)->excludes(gather);

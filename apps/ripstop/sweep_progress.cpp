@@ -41,12 +41,13 @@ void add_sweep_options(CLI::App& command, SweepOptions& options) {
   add_flow_options(command, options.overrides);
   add_set_option(command, options.overrides);
   add_number(command, "--jobs", options.settings.jobs, from(1).up_to(1024),
-             "Runs side by side (default: as many as cores and free memory allow)");
-  command.add_flag("--cold", options.cold, "Start every run from the flat canopy, not from its neighbour");
+             "Number of simultaneous runs (default: as many as cores and free memory allow)");
+  command.add_flag("--cold", options.cold,
+                   "Start every run from the undeformed canopy, not from a neighbouring run");
   command.add_flag("--fields", options.settings.fields,
                    "Keep shapes and flow of every iteration for ParaView");
   add_json_option(command, options.json);
-  command.add_flag("--fresh", options.settings.fresh, "Replace finished runs; default: go on with them");
+  command.add_flag("--fresh", options.settings.fresh, "Replace finished runs; default: keep them");
 }
 
 void finish(SweepOptions& options, const std::string& what) {
@@ -76,7 +77,7 @@ std::vector<SweepRow> run_and_tell(const std::vector<SweepAxis>& axes, const std
     for (const auto& [k, what] : running) text += " | " + what;
     if (ended > ended_before) {
       const double left = gone / double(ended - ended_before) * double(points.size() - ended);
-      text += fmt::format(" | about {} left", duration_text(left));
+      text += fmt::format(" | remaining about {}", duration_text(left));
     }
     progress.show(text);
   };

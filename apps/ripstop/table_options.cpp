@@ -6,9 +6,10 @@ namespace ripstop {
 
 void add_table_options(CLI::App& command, std::string& columns, std::string& decimal,
                        const std::string& example) {
-  command.add_option("--columns", columns,
-                     "Columns of the table that are not found by their headings, as in \"" + example + "\"");
-  command.add_option("--decimal", decimal, "Decimal mark, where numbers can be read in two ways")
+  command.add_option(
+      "--columns", columns,
+      "Columns of the table that are not recognised by their headings, for example \"" + example + "\"");
+  command.add_option("--decimal", decimal, "Decimal mark, where numbers are ambiguous")
       ->check(CLI::IsMember({"auto", "point", "comma"}))
       ->option_text("auto|point|comma");
 }

@@ -29,9 +29,9 @@ DampingResult calibrate(const PyCase& given, const OptionalSource& steady, std::
 }  // namespace
 
 void add_calibrate(py::module_& module) {
-  add_class<DampingTrial>(module, "DampingTrial", "One opening with one C_a.");
+  add_class<DampingTrial>(module, "DampingTrial", "One opening of the calibration with one C_a.");
   add_result<DampingResult>(module, "Damping",
-                            "C_a from a measured opening: the numbers of its result.json.");
+                            "Damping C_a calibrated with a measured opening: the values of result.json.");
   module.def(
       "calibrate_damping",
       [](PyCase given, const OptionalSource& steady, std::optional<double> pressure, double from, double to,
@@ -43,11 +43,11 @@ void add_calibrate(py::module_& module) {
       py::arg("case"), py::kw_only(), py::arg("steady") = py::none(), py::arg("pressure_pa") = py::none(),
       py::arg("smallest") = 4.0, py::arg("largest") = 16.0, py::arg("points") = 7, py::arg("refinements") = 4,
       py::arg("progress") = py::none(), py::arg("threads") = 0, py::arg("out") = py::none(),
-      "C_a [N s/m3] from the measured opening load of a reference parachute: ripstop calibrate damping.\n\n"
-      "steady, pressure_pa, threads: as of inflate().\n"
-      "smallest, largest: of C_a [N s/m3]; points: openings at equal ratios; refinements: about the best.\n"
-      "progress: called with a DampingTrial after every opening; what it raises ends the search.\n"
-      "out: a folder for the result's files. None: nothing is written.");
+      "Determines the damping C_a [N s/m3] from the measured opening load of a reference parachute:\nripstop "
+      "calibrate damping.\n\nsteady, pressure_pa, threads: as in inflate().\nsmallest, largest: range of C_a "
+      "[N s/m3].\npoints: number of logarithmically spaced C_a.\nrefinements: number of further openings "
+      "around the best C_a.\nprogress: called with a DampingTrial after every opening; an exception in it "
+      "stops the search.\nout: folder for the files of the result. None: no files.");
 }
 
 }  // namespace ripstop::python

@@ -14,8 +14,8 @@ constexpr int deepest = 32;
 
 void require_depth(int depth) {
   if (depth > deepest)
-    throw py::value_error("a case has tables and lists within each other " + std::to_string(deepest) +
-                          " deep at most; does a dictionary or list contain itself?");
+    throw py::value_error("tables and lists of a case can be nested " + std::to_string(deepest) +
+                          " levels deep at most; check that no dictionary or list contains itself");
 }
 
 std::string toml_of(py::handle value, int depth);
@@ -123,24 +123,29 @@ py::object value_of(const PyCase& self, const std::string& key) {
 
 }  // namespace
 
+Setting setting_of(const std::string& key, py::handle value) {
+  return {key, toml_of(value, 0), key};
+}
+
 PyCase::PyCase(const Case& made)
     : given(made), text(case_toml(resolve(made))), name(made.file.string()), file(made.file) {}
 
 void add_case(py::module_& module) {
   py::class_<PyCase> type(
       module, "Case",
-      "What a case file says: a parachute, its materials, the air and how to compute.\n\n"
-      "Keys are those of the case file (docs/guide/case-file.md); units are in their names.\n"
-      "A case is whole at any time: what is wrong with it raises InputError.");
+      "Content of a case file: parachute, materials, air and settings of the computation.\n\nKeys are those "
+      "of the case file (docs/guide/case-file.md); their names contain units.\nA case is valid at any time: "
+      "an invalid change raises InputError.");
   type.def_static("read", &read, py::arg("file"), py::kw_only(), py::arg("set") = py::dict(),
-                  "Reads a case file (TOML). set: keys to put in place of the file's, as --set does:\n"
-                  "{\"flow.speed_m_s\": 20}; None removes a key or a table. Raises InputError with every "
-                  "mistake, Error where it cannot be read.");
+                  "Reads a case file (TOML). set: keys that replace those of the file, as --set "
+                  "does:\n{\"flow.speed_m_s\": 20}; None removes a key or a table. Raises InputError with "
+                  "all mistakes, or Error if the file cannot be read.");
   type.def_static("from_toml", &from_toml, py::arg("text"), py::arg("name") = "case", py::kw_only(),
-                  py::arg("set") = py::dict(), "The same from text; name stands for the file in messages.");
-  type.def_static(
-      "from_dict", &from_dict, py::arg("tables"),
-      "A case made in code: {\"flow\": {\"speed_m_s\": 20}, ...}; keys may be full names with dots.");
+                  py::arg("set") = py::dict(),
+                  "Reads a case from text. Messages use `name` as the file name.");
+  type.def_static("from_dict", &from_dict, py::arg("tables"),
+                  "Makes a case from dictionaries: {\"flow\": {\"speed_m_s\": 20}, ...}. Keys can be full "
+                  "names with dots.");
   type.def(
       "set",
       [](PyCase& self, const std::string& key, const py::object& value) {
@@ -149,26 +154,26 @@ void add_case(py::module_& module) {
         set_keys(self, one);
       },
       py::arg("key"), py::arg("value"),
-      "Sets one key, as --set does. Raises InputError, and leaves the case as it was, for what is wrong.");
+      "Sets one key, as --set does. An invalid value raises InputError and does not change the case.");
   type.def("update", &set_keys, py::arg("keys"), "Sets several keys at once: {\"flow.speed_m_s\": 20, ...}.");
   type.def("get", &value_of, py::arg("key"),
-           "The value of a key, or of a table of keys, with every default filled in. Raises KeyError.");
+           "Returns the value of a key or a table, with all defaults filled in. Raises KeyError.");
   type.def(
       "to_toml", [](const PyCase& self) { return case_toml(self.settings()); },
-      "The case with every default and material written out: what ripstop check --resolved prints.");
+      "Returns the case with all defaults and materials filled in, as printed by ripstop check --resolved.");
   type.def(
       "asdict", [](const PyCase& self) -> py::dict { return plain_of(case_json(self.settings())); },
-      "The same as plain dictionaries.");
+      "Returns the content as plain dictionaries.");
   type.def(
-      "copy", [](const PyCase& self) { return self; }, "A case that can be changed by itself.");
+      "copy", [](const PyCase& self) { return self; }, "Returns an independent copy.");
   type.def("__copy__", [](const PyCase& self) { return self; });
   type.def(
       "__deepcopy__", [](const PyCase& self, const py::object&) { return self; }, py::arg("memo"));
   type.def_property_readonly(
-      "title", [](const PyCase& self) { return self.given.title; }, "The case's title.");
+      "title", [](const PyCase& self) { return self.given.title; }, "Title of the case.");
   type.def_property_readonly(
       "file", [](const PyCase& self) { return self.file.string(); },
-      "The file that it was read from; empty: none.");
+      "File from which the case was read; empty: none.");
   type.def("__repr__", [](const PyCase& self) {
     return "<ripstop.Case " + py::repr(py::str(self.given.title)).cast<std::string>() + ">";
   });
@@ -192,7 +197,7 @@ void add_case(py::module_& module) {
         return made;
       }));
   module.def("read_case", &read, py::arg("file"), py::kw_only(), py::arg("set") = py::dict(),
-             "Case.read(): reads a case file (TOML), with keys set in place of the file's.");
+             "Reads a case file (TOML), as Case.read() does. Keys in `set` replace those of the file.");
 }
 
 }  // namespace ripstop::python

@@ -29,19 +29,18 @@ void raise(py::handle type, const Error& error, const py::list& problems) {
 
 void add_errors(py::module_& module) {
   add_class<Problem>(module, "Problem",
-                     "One mistake in an input: where it stands, its key, its value and what is allowed.")
+                     "One mistake in an input: its place, key, value and the allowed values.")
       .def("__str__", [](const Problem& problem) { return to_text(problem); });
   // The module is never unloaded, nor are its types.
   static const py::handle plain =
       make_exception(module, "Error", PyExc_Exception,
-                     "What went wrong, with the text that the program prints.\n\n"
-                     "exit_code: the program's exit status: 2 usage or case file, 3 bad input data,\n"
+                     "Error of Ripstop, with the message that the program prints.\n\nexit_code: exit status "
+                     "of the program: 2 usage or case file, 3 bad input data,\n"
                      "4 not converged, 5 diverged, 6 external solver, 7 input/output,\n"
                      "8 not enough memory or threads.");
-  static const py::handle input =
-      make_exception(module, "InputError", plain,
-                     "Everything that is wrong with an input file or a setting, a line each.\n\n"
-                     "problems: a list of Problem.");
+  static const py::handle input = make_exception(
+      module, "InputError", plain,
+      "All mistakes in an input file or a setting, one per line.\n\nproblems: list of Problem.");
   py::register_exception_translator([](std::exception_ptr pointer) {
     try {
       if (pointer) std::rethrow_exception(pointer);

@@ -6,6 +6,7 @@
 
 #include "members.h"
 #include "module.h"
+#include "ripstop/core/table/table.h"
 
 namespace ripstop {
 
@@ -59,13 +60,17 @@ void each_member(T& c, Visit&& visit) {
 namespace ripstop::python {
 namespace {
 
-FitResult fit(const Path& file, bool coupons, int degree, bool zero_offset, Callback<FitProgress> progress,
-              int threads, const std::optional<Path>& out) {
+FitResult fit(const Path& file, bool coupons, int degree, bool zero_offset, const std::string& columns,
+              const std::string& decimal, Callback<FitProgress> progress, int threads,
+              const std::optional<Path>& out) {
   Listener listener(std::move(progress));
   const py::gil_scoped_release release;
   Bench bench = read_bench(file);
   if (degree > 0) bench.degree = degree;
   if (zero_offset) bench.zero_offset = true;
+  if (!columns.empty()) bench.columns = columns;
+  if (!decimal.empty()) bench.decimal = table::parse_decimal(decimal);
+  table::parse_columns(bench.columns);  // a wrong one ends here, before any record is read
   ThreadTeam team(threads);
   FitResult result = run_fit(bench, coupons, team, [&](int pulls, double xi, double eps, double misfit) {
     listener.tell(FitProgress{pulls, xi, eps, misfit});
@@ -82,27 +87,28 @@ std::optional<double> of_coupons(const FitResult& r, double Fabric::*member) {
 }  // namespace
 
 void add_fit(py::module_& module) {
-  add_class<FitProgress>(module, "FitProgress", "A step of the search by virtual coupons.");
-  add_class<Estimate>(module, "Estimate",
-                      "A number with its standard error and confidence interval; NaN: one sample has none.");
-  add_class<DirectionFit>(
-      module, "FittedDirection",
-      "The records of one direction: mean curve and fit over the strain; loads in [N/m], of a line in [N].");
+  add_class<FitProgress>(module, "FitProgress", "One step of the fit with virtual coupons.");
+  add_class<Estimate>(
+      module, "Estimate",
+      "A value with its standard error and confidence interval; NaN: one sample determines none.");
+  add_class<DirectionFit>(module, "FittedDirection",
+                          "Mean curve and fit of the records of one direction over the strain. Loads are in "
+                          "[N/m], for a line in [N].");
   add_class<CouponComparison>(module, "CouponComparison",
-                              "A measured curve beside the coupon pulled in the computer [N/m].");
-  py::class_<FitResult> type(module, "Fit", "A material from the records of a tensile bench.");
+                              "A measured curve and that of the virtual coupon [N/m].");
+  py::class_<FitResult> type(module, "Fit", "A material fitted to tensile test records.");
   add_json(type, [](const FitResult& r) -> const FitResult& { return r; });
-  type.def("to_toml", &material_toml, "The material's file, with its provenance in comments.");
+  type.def("to_toml", &material_toml, "Returns the material file, with its provenance in comments.");
   type.def_property_readonly(
-      "name", [](const FitResult& r) { return r.bench.name; }, "The material's name.");
+      "name", [](const FitResult& r) { return r.bench.name; }, "Name of the material.");
   type.def_property_readonly(
-      "kind", [](const FitResult& r) { return kind_of(r.fit.material); }, "fabric, line or tape.");
+      "kind", [](const FitResult& r) { return kind_of(r.fit.material); }, "Kind: fabric, line or tape.");
   type.def_property_readonly(
       "directions",
       [](const py::object& self) -> py::list {
         return to_python(self.cast<const FitResult&>().fit.directions, self);
       },
-      "A FittedDirection for each direction of pull.");
+      "One FittedDirection for each direction of load.");
   type.def_property_readonly(
       "coupons",
       [](const py::object& self) -> py::list {
@@ -110,29 +116,30 @@ void add_fit(py::module_& module) {
         if (!r.coupons) return py::list();
         return to_python(r.coupons->coupons, self);
       },
-      "A CouponComparison for each measured direction; empty without coupons.");
+      "One CouponComparison for each measured direction; empty without coupons.");
   type.def_property_readonly(
       "shear_fraction", [](const FitResult& r) { return of_coupons(r, &Fabric::shear_fraction); },
-      "xi; None without coupons.");
+      "Shear fraction xi; None without coupons.");
   type.def_property_readonly(
       "bending_fraction", [](const FitResult& r) { return of_coupons(r, &Fabric::bending_fraction); },
-      "eps; None without coupons.");
+      "Bending fraction eps; None without coupons.");
   type.def_property_readonly(
-      "notes", [](const FitResult& r) { return r.fit.notes; }, "What was decided and why.");
+      "notes", [](const FitResult& r) { return r.fit.notes; }, "Decisions of the fit and their reasons.");
   type.def_property_readonly(
-      "warnings", [](const FitResult& r) { return r.fit.warnings; }, "What is doubtful about the material.");
+      "warnings", [](const FitResult& r) { return r.fit.warnings; }, "Doubts about the material.");
   type.def("__repr__", [](const FitResult& r) { return "<ripstop.Fit '" + r.bench.name + "'>"; });
-  module.def("fit", &fit, py::arg("bench"), py::kw_only(), py::arg("coupons") = true, py::arg("degree") = 0,
-             py::arg("zero_offset") = false, py::arg("progress") = py::none(), py::arg("threads") = 0,
-             py::arg("out") = py::none(),
-             "From tensile test records to a material: ripstop fit.\n\n"
-             "bench: the campaign's file (TOML).\n"
-             "coupons: find xi and eps by virtual coupons.\n"
-             "degree: of the curves; 0: as the campaign says. zero_offset: no load without strain, whatever "
-             "it says.\n"
-             "progress: called with a FitProgress after every coupon; what it raises ends the search.\n"
-             "threads: 0: all. out: a folder for the material and its plots. None: nothing is written.\n\n"
-             "Loads in [N/m] of cloth and tape, in [N] of a line.");
+  module.def(
+      "fit", &fit, py::arg("bench"), py::kw_only(), py::arg("coupons") = true, py::arg("degree") = 0,
+      py::arg("zero_offset") = false, py::arg("columns") = "", py::arg("decimal") = "",
+      py::arg("progress") = py::none(), py::arg("threads") = 0, py::arg("out") = py::none(),
+      "Fits a material to tensile test records: ripstop fit.\n\nbench: file of the test campaign "
+      "(TOML).\ncoupons: whether xi and eps are fitted with virtual coupons.\ndegree: degree of the "
+      "curves; 0: as in the campaign.\nzero_offset: True: zero load at zero strain, regardless of the "
+      "campaign.\ncolumns: columns of the records that are not found by their headings, for example\n  "
+      "\"force=Kraft [kN],extension=Weg [mm]\".\ndecimal: auto, point or comma.\nprogress: called with a "
+      "FitProgress after every coupon; an exception in it stops "
+      "the fit.\nthreads: number of threads; 0: all cores.\nout: folder for the material and its "
+      "plots. None: no files.\n\nLoads are in [N/m] for cloth and tape, in [N] for a line.");
 }
 
 }  // namespace ripstop::python

@@ -12,7 +12,7 @@ namespace ripstop::python {
 
 void add_flight(py::module_& module) {
   add_class<DescentRow>(module, "DescentRow", "The descent at one height.");
-  add_result<Descent>(module, "Descent", "How a payload comes down under the parachute of a steady run.");
+  add_result<Descent>(module, "Descent", "Descent of a payload under the parachute of a steady run.");
   module.def(
       "descent",
       [](const SteadySource& run, double mass, const std::vector<double>& heights, double ground) {
@@ -21,15 +21,14 @@ void add_flight(py::module_& module) {
       },
       py::arg("run"), py::arg("payload_mass_kg"), py::kw_only(),
       py::arg("heights_m") = std::vector<double>{0, 300, 1000, 3000}, py::arg("ground_m") = 0.0,
-      "Speed [m/s] and time to the ground [s] of a payload [kg] at heights above sea level [m]: ripstop\n"
-      "descent. run: a Steady or the folder of one.");
+      "Computes speed [m/s] and time to the ground [s] of a payload [kg] at heights above sea level "
+      "[m]:\nripstop descent. run: a Steady or its run folder.");
   add_result<ExportedParachute>(module, "ExportedParachute",
-                                "A steady run's parachute in numbers of flight simulators.")
-      .def(
-          "rocketpy", &rocketpy_text, py::arg("trigger") = "apogee",
-          "Python: the arguments of RocketPy's Rocket.add_parachute. trigger: \"apogee\", or a height above\n"
-          "the ground [m].")
-      .def("openrocket", &openrocket_text, "A component database of OpenRocket with the parachute.");
+                                "Parachute of a steady run in the terms of flight simulators.")
+      .def("rocketpy", &rocketpy_text, py::arg("trigger") = "apogee",
+           "Returns Python code with the arguments of Rocket.add_parachute of RocketPy. trigger: \"apogee\", "
+           "or a height above\nground [m].")
+      .def("openrocket", &openrocket_text, "Returns a component database of OpenRocket with the parachute.");
   module.def(
       "export",
       [](const SteadySource& run, std::optional<double> deployment_speed) {
@@ -37,8 +36,8 @@ void add_flight(py::module_& module) {
         return exported(finished(run), deployment_speed);
       },
       py::arg("run"), py::kw_only(), py::arg("deployment_speed_m_s") = py::none(),
-      "The parachute of a steady run for flight simulators: ripstop export. run: a Steady or the folder of\n"
-      "one. deployment_speed_m_s: for the filling time [m/s]; None: the run's own.");
+      "Exports the parachute of a steady run to flight simulators: ripstop export. run: a Steady or its "
+      "run\nfolder. deployment_speed_m_s: speed for the filling time [m/s]; None: speed of the run.");
 }
 
 }  // namespace ripstop::python

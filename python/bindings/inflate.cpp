@@ -76,42 +76,42 @@ std::unique_ptr<PyInflation> inflate(const PyCase& given, const OptionalSource& 
   return run;
 }
 
-const PyInflation& run_of(const py::object& self) {
+const PyInflation& run_of_inflation(const py::object& self) {
   return self.cast<const PyInflation&>();
 }
 
 void add_arrays(py::class_<PyInflation>& type) {
   type.def_property_readonly(
-      "history", [](const py::object& self) { return table_of(run_of(self).history.rows, self); },
-      "Load on the riser over time, a row an interval: time_s, load_mean_n, load_least_n, load_largest_n, "
-      "and the "
-      "tension of the reefing line, reefing_line_mean_n and reefing_line_largest_n (0 where there is none).");
+      "history", [](const py::object& self) { return table_of(run_of_inflation(self).history.rows, self); },
+      "Load on the riser over time, one row per interval: time_s, load_mean_n, load_least_n, load_largest_n, "
+      "and the tension of the reefing line, reefing_line_mean_n and reefing_line_largest_n (0 without one).");
   type.def_property_readonly(
-      "frames", [](const py::object& self) { return table_of(run_of(self).history.frames, self); },
-      "Energies, sizes and stress now and then, with the columns of balance.csv.");
+      "frames", [](const py::object& self) { return table_of(run_of_inflation(self).history.frames, self); },
+      "Energies, sizes and stress over time, with the columns of balance.csv.");
   type.def_property_readonly(
-      "shots", [](const py::object& self) -> py::list { return to_python(run_of(self).shots, self); },
-      "Shapes along the way, each an Snapshot.");
+      "shots",
+      [](const py::object& self) -> py::list { return to_python(run_of_inflation(self).shots, self); },
+      "Shapes during the opening, each a Snapshot.");
   type.def_property_readonly(
-      "shape", [](const py::object& self) { return view_of(run_of(self).shape, self); },
-      "Every node of the parachute at the end, x, y, z; z is downstream [m]");
+      "shape", [](const py::object& self) { return view_of(run_of_inflation(self).shape, self); },
+      "Position of every node of the parachute at the end: x, y, z; z is downstream [m]");
   type.def_property_readonly(
-      "velocity", [](const py::object& self) { return view_of(run_of(self).velocity, self); },
-      "Of every node at the end [m/s]");
+      "velocity", [](const py::object& self) { return view_of(run_of_inflation(self).velocity, self); },
+      "Velocity of every node at the end [m/s]");
   type.def_property_readonly(
-      "cells", [](const py::object& self) { return view_of_cells(run_of(self).cells, self); },
-      "Nodes at the four corners of every cell of cloth; the first is -1 where there is none.");
+      "cells", [](const py::object& self) { return view_of_cells(run_of_inflation(self).cells, self); },
+      "Nodes at the four corners of every cloth cell; the first is -1 for a missing cell.");
   type.def_property_readonly(
-      "line_peaks", [](const py::object& self) { return view_of(run_of(self).result.line_peaks, self); },
-      "Highest tension of each line over every step [N]");
+      "line_peaks",
+      [](const py::object& self) { return view_of(run_of_inflation(self).result.line_peaks, self); },
+      "Maximum tension of each line over all time steps [N]");
 }
 
 }  // namespace
 
 Opening opening_of(const Case& given, const OptionalSource& steady, std::optional<double> pressure,
                    int threads) {
-  if (steady && pressure)
-    throw Error(ExitCode::usage, "give the pressure once: pressure_pa or steady, not both");
+  if (steady && pressure) throw Error(ExitCode::usage, "give either pressure_pa or steady, not both");
   Case changed = given;
   Overrides overrides;
   overrides.pressure = pressure;
@@ -136,34 +136,34 @@ Opening opening_of(const Case& given, const OptionalSource& steady, std::optiona
 
 void add_inflate(py::module_& module) {
   add_class<Snapshot>(module, "InflationShot",
-                      "A shape on the way: time [s], positions [m], von_mises [N/m].");
-  add_class<StageSummary>(module, "StageSummary", "What a stage of a reefed opening does, from cut to cut.");
-  add_class<MethodLoad>(module, "MethodLoad", "The opening load by one method.");
-  add_class<OpeningProgress>(module, "OpeningProgress", "How far an opening is.");
+                      "Shape during the opening: time [s], positions [m], von_mises [N/m].");
+  add_class<StageSummary>(module, "StageSummary", "Results of one stage of a reefed opening.");
+  add_class<MethodLoad>(module, "MethodLoad", "Opening load by one method.");
+  add_class<DeploymentPhase>(module, "DeploymentPhase", "Start of a phase of a deployment.");
+  add_class<Deployment>(module, "Deployment", "Deployment before an opening, in one dimension.");
+  add_class<OpeningProgress>(module, "OpeningProgress", "Progress of an opening.");
   py::class_<PyInflation> type(module, "Inflation",
-                               "An opening: the numbers of its result.json, and its arrays.");
+                               "Result of an opening: the values of result.json, and arrays.");
   const auto result = [](const PyInflation& run) -> const InflationResult& { return run.result; };
   add_members(type, result);
   add_json(type, result);
   add_arrays(type);
   type.def_property_readonly(
-      "case", [](const PyInflation& run) { return run.made; }, "The Case that was opened.");
+      "case", [](const PyInflation& run) { return run.made; }, "Case of the opening.");
   type.def_property_readonly(
       "warnings",
       [](const PyInflation& run) { return run.result.warnings.value_or(std::vector<std::string>{}); },
-      "Limits that the result does not keep, margins below 0, and other doubts.");
+      "Exceeded quality limits, negative margins and other warnings.");
   module.def(
       "inflate", &inflate, py::arg("case"), py::kw_only(), py::arg("steady") = py::none(),
       py::arg("pressure_pa") = py::none(), py::arg("progress") = py::none(), py::arg("threads") = 0,
       py::arg("out") = py::none(), py::arg("fresh") = false,
-      "How a folded canopy opens, and the load on the riser: ripstop inflate.\n\n"
-      "steady: a Steady or the folder of one: its drag sets the pressure.\n"
-      "pressure_pa: difference over the canopy [Pa]. None of both: what the case gives.\n"
-      "progress: called with an OpeningProgress after every step of the history's block; what it raises\n"
-      "  ends the run.\n"
-      "threads: 0: coupling.threads of the case.\n"
-      "out: a run folder, as of steady(); of a run that it holds finished, the numbers are read and the\n"
-      "  arrays are empty. None: nothing is written.\n\n"
+      "Computes the opening of the folded canopy and its load on the riser: ripstop inflate.\n\nsteady: a "
+      "Steady or its run folder, whose drag determines the pressure.\npressure_pa: pressure difference over "
+      "the canopy [Pa]. Without both: as given by the case.\nprogress: called with an OpeningProgress after "
+      "every block of the history; an exception in it stops\n  the run.\nthreads: number of threads; 0: "
+      "coupling.threads of the case.\nout: run folder, as in steady(). The values of a finished run are read "
+      "from it, and the arrays are\n  empty. None: no files.\n\n"
       "Loads in [N], times in [s].");
 }
 

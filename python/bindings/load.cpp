@@ -32,17 +32,17 @@ LoadResult load(const PyCase& given, LoadRequest request, const std::optional<St
 }  // namespace
 
 void add_load(py::module_& module) {
-  add_class<StageLoads>(module, "StageLoads", "The opening of one stage, by every method.");
-  add_class<SnatchResult>(module, "Snatch", "The snatch load when the lines come taut.");
+  add_class<StageLoads>(module, "StageLoads", "Opening loads of one stage by all methods.");
+  add_class<SnatchResult>(module, "Snatch", "Snatch load at line stretch.");
   py::class_<LoadResult> type =
-      add_result<LoadResult>(module, "Load", "Opening loads behind a mass, method by method.");
+      add_result<LoadResult>(module, "Load", "Opening loads for a payload mass by several methods.");
   type.def_property_readonly(
       "flight", [](const py::object& self) { return table_of(self.cast<const LoadResult&>().flight, self); },
-      "The payload's way from line stretch on, with the columns of trajectory.csv.");
+      "Trajectory of the payload after line stretch, with the columns of trajectory.csv.");
   type.def_property_readonly(
       "record_flight",
       [](const py::object& self) { return table_of(self.cast<const LoadResult&>().record_flight, self); },
-      "The same under the drag area of a computed opening; empty without one.");
+      "Trajectory with the drag area of a computed opening; empty without one.");
   module.def(
       "load",
       [](PyCase given, double mass, double speed, std::optional<double> height, double ground, double angle,
@@ -69,14 +69,14 @@ void add_load(py::module_& module) {
       py::arg("snatch_speed_m_s") = py::none(), py::arg("packed_drag_area_m2") = py::none(),
       py::arg("payload_drag_area_m2") = py::none(), py::arg("measured_load_n") = py::none(),
       py::arg("out") = py::none(),
-      "Opening and snatch loads behind a payload [kg], method by method: ripstop load.\n\n"
-      "speed_m_s: through the air at line stretch; height_m: above sea level there (None: that of the case\n"
-      "  where it is above the ground, else 1000 m above it); path_angle_deg: below the horizon.\n"
-      "measured_load_n: an opening load that you have measured there; it becomes the design load.\n"
-      "reefing: stages (share of the drag area, seconds), in order.\n"
-      "steady: a Steady or the folder of one, for the drag coefficient; opening: the folder of an opening.\n"
-      "What is None follows from the case and from what is known of its family. Loads in [N].\n"
-      "out: a folder for the result's files. None: nothing is written.");
+      "Estimates opening and snatch loads for a payload [kg] by several methods: ripstop load.\n\nspeed_m_s: "
+      "airspeed at line stretch.\nheight_m: height above sea level at line stretch (None: height of the case "
+      "if above the ground, else\n  1000 m above it).\npath_angle_deg: angle of the flight path below the "
+      "horizon.\nmeasured_load_n: measured opening load at this state, which becomes the design "
+      "load.\nreefing: stages (share of the drag area, seconds), in order.\nsteady: a Steady or its run "
+      "folder, for the drag coefficient.\nopening: run folder of an opening.\nout: folder for the files of "
+      "the result. None: no files.\n\nValues that are None are taken from the case or from data of the "
+      "canopy family. Loads are in [N].");
 }
 
 }  // namespace ripstop::python

@@ -136,10 +136,10 @@ template <class Holder, class Get>
 void add_json(py::class_<Holder>& type, Get get) {
   type.def(
       "to_json", [get](const Holder& self) { return to_json(get(self)); },
-      "The text that the program writes as result.json.");
+      "Returns the text of result.json.");
   type.def(
       "asdict", [get](const Holder& self) -> py::dict { return plain_of(to_json(get(self))); },
-      "The same as plain dictionaries, lists, numbers and texts.");
+      "Returns the content as plain dictionaries, lists, numbers and texts.");
 }
 template <Listed T>
 py::class_<T> add_result(py::module_& module, const char* name, const char* doc) {

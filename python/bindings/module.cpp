@@ -43,7 +43,7 @@ void Listener::check_signals() {
 
 PYBIND11_MODULE(_ripstop, module) {
   using namespace ripstop::python;  // NOLINT: the macro makes a function of its own
-  module.doc() = "The library of Ripstop as Python sees it. Import `ripstop`, not this.";
+  module.doc() = "Python bindings of the library. Import the package `ripstop` instead.";
   module.attr("__version__") = ripstop::version();
   const py::object own_name = module.attr("__name__");
   module.attr("__name__") = "ripstop";  // where users find the classes
@@ -51,12 +51,17 @@ PYBIND11_MODULE(_ripstop, module) {
   add_case(module);
   add_check(module);
   add_steady(module);
+  add_stability(module);
   add_inflate(module);
+  add_fly(module);
   add_calibrate(module);
   add_fit(module);
   add_pattern(module);
   add_load(module);
   add_size(module);  // has the load's stages
   add_flight(module);
+  add_fabric(module);
+  add_sweep(module);
+  add_report(module);
   module.attr("__name__") = own_name;
 }

@@ -19,13 +19,18 @@ void add_errors(py::module_& module);
 void add_case(py::module_& module);
 void add_check(py::module_& module);
 void add_steady(py::module_& module);
+void add_stability(py::module_& module);
 void add_inflate(py::module_& module);
+void add_fly(py::module_& module);
 void add_calibrate(py::module_& module);
 void add_fit(py::module_& module);
 void add_pattern(py::module_& module);
 void add_size(py::module_& module);
 void add_load(py::module_& module);
 void add_flight(py::module_& module);
+void add_fabric(py::module_& module);
+void add_sweep(py::module_& module);
+void add_report(py::module_& module);
 
 /// A case with the text that it was read from, so that any key can be set anew as --set does.
 struct PyCase {
@@ -40,6 +45,9 @@ struct PyCase {
 
   Settings settings() const { return resolve(given); }
 };
+
+/// A value of Python as a setting of a key. Throws TypeError.
+Setting setting_of(const std::string& key, pybind11::handle value);
 
 using Path = std::filesystem::path;
 

@@ -26,25 +26,25 @@ py::array view_of_outline(const std::vector<Point2>& outline, py::handle owner) 
 }
 
 PatternResult pattern(const PyCase& given, const Allowances& allowances, double packing_density,
-                      const std::optional<Path>& out) {
+                      const std::optional<Path>& out, const PatternFiles& files) {
   const py::gil_scoped_release release;
   PatternResult result = run_pattern(given.settings(), allowances, packing_density);
-  if (out) write_pattern(*out, result);
+  if (out) write_pattern(*out, result, files);
   return result;
 }
 
 void add_piece(py::module_& module) {
   py::class_<Piece> type(module, "Piece", "A flat piece of cloth, finished size.");
   type.def_property_readonly(
-      "name", [](const Piece& p) { return p.name; }, "Of the piece.");
+      "name", [](const Piece& p) { return p.name; }, "Name of the piece.");
   type.def_property_readonly(
-      "count", [](const Piece& p) { return p.count; }, "How many there are.");
+      "count", [](const Piece& p) { return p.count; }, "Number of equal pieces.");
   type.def_property_readonly(
-      "grain_deg", [](const Piece& p) { return p.grain; }, "Of the warp, from y toward x [deg]");
+      "grain_deg", [](const Piece& p) { return p.grain; }, "Angle of the warp, from y towards x [deg]");
   type.def_property_readonly(
       "outline",
       [](const py::object& self) { return view_of_outline(self.cast<const Piece&>().outline, self); },
-      "Corners x, y, counterclockwise, y toward the vent [m]");
+      "Corners x, y, counterclockwise; y points towards the vent [m]");
   type.def_property_readonly(
       "hems",
       [](const Piece& p) {
@@ -52,7 +52,7 @@ void add_piece(py::module_& module) {
         for (const Edge edge : p.edges) hems.append(edge == Edge::hem);
         return hems;
       },
-      "Whether the edge from each corner to the next is a free one; else it is a seam.");
+      "Whether the edge from each corner to the next is a free edge; otherwise it is a seam.");
   type.def("__repr__", [](const Piece& p) {
     return "<ripstop.Piece '" + p.name + "', " + std::to_string(p.count) + " of them>";
   });
@@ -66,7 +66,7 @@ void add_pattern(py::module_& module) {
   add_class<CutLength>(module, "CutLength", "Pieces of tape or line, finished.");
   add_piece(module);
   py::class_<PatternResult> type =
-      add_result<PatternResult>(module, "Pattern", "What to cut for a parachute.");
+      add_result<PatternResult>(module, "Pattern", "Cutting pattern of a parachute.");
   type.def_property_readonly(
       "pieces",
       [](const py::object& self) {
@@ -75,25 +75,35 @@ void add_pattern(py::module_& module) {
           pieces.append(py::cast(&piece, py::return_value_policy::reference_internal, self));
         return pieces;
       },
-      "A Piece for each outline.");
+      "One Piece for each outline.");
   type.def_property_readonly(
       "tapes",
       [](const py::object& self) -> py::list {
         return to_python(self.cast<const PatternResult&>().pattern.tapes, self);
       },
-      "A CutLength for each tape.");
+      "One CutLength for each tape.");
   module.def(
       "pattern",
       [](PyCase given, double seam, double hem, double line_loop, double tape_overlap, double packing_density,
-         const std::optional<Path>& out) {
-        return pattern(given, {seam, hem, line_loop, tape_overlap}, packing_density, out);
+         const std::optional<Path>& out, const std::string& units, const std::string& paper) {
+        if (units != "mm" && units != "in") throw py::value_error("units is \"mm\" or \"in\"");
+        if (!paper.empty() && paper != "a4" && paper != "letter")
+          throw py::value_error("paper is \"a4\", \"letter\" or \"\", for no PDF");
+        PatternFiles files;
+        files.unit = units == "in" ? DxfUnit::inches : DxfUnit::millimetres;
+        if (!paper.empty()) files.paper = paper == "letter" ? Paper::letter : Paper::a4;
+        files.case_file = given.file.string();
+        return pattern(given, {seam, hem, line_loop, tape_overlap}, packing_density, out, files);
       },
       py::arg("case"), py::kw_only(), py::arg("seam_allowance_m") = Allowances{}.seam,
       py::arg("hem_allowance_m") = Allowances{}.hem, py::arg("line_loop_m") = Allowances{}.line_loop,
       py::arg("tape_overlap_m") = Allowances{}.tape_overlap,
-      py::arg("packing_density_kg_m3") = packed_by_hand, py::arg("out") = py::none(),
-      "What to cut, and what it weighs: ripstop pattern. Lengths in [m], areas in [m2], masses in [kg].\n\n"
-      "out: a folder for the drawings and the bill. None: nothing is written.");
+      py::arg("packing_density_kg_m3") = packed_by_hand, py::arg("out") = py::none(), py::arg("units") = "mm",
+      py::arg("paper") = "",
+      "Makes the cutting pattern and the bill of materials: ripstop pattern. Lengths are in [m], areas in "
+      "[m2],\nmasses in [kg].\n\nout: folder for the drawings and the bill. None: no files.\nunits: of the "
+      "DXF "
+      "files, \"mm\" or \"in\".\npaper: also as PDF on sheets, \"a4\" or \"letter\".");
 }
 
 }  // namespace ripstop::python

@@ -57,7 +57,7 @@ PyCase case_of(const SizeResult& result) {
 }
 
 PyCase scaled(const PyCase& self, double factor) {
-  if (!(factor > 0)) throw py::value_error("a parachute is scaled by a factor above 0");
+  if (!(factor > 0)) throw py::value_error("the scale factor must be above 0");
   Case given = self.given;
   scale_lengths(given.parachute, factor);
   return PyCase(checked(std::move(given)));
@@ -66,14 +66,13 @@ PyCase scaled(const PyCase& self, double factor) {
 }  // namespace
 
 void add_size(py::module_& module) {
-  add_class<SizeCheck>(module, "SizeCheck", "One run that verified a size.");
-  add_class<FamilyDrag>(module, "Family",
-                        "A canopy family and the drag that Ripstop has computed of its example.");
+  add_class<SizeCheck>(module, "SizeCheck", "One run of the verification of a size.");
+  add_class<FamilyDrag>(module, "Family", "A canopy family with the computed drag of its example.");
   py::class_<SizeResult> type =
-      add_result<SizeResult>(module, "Size", "The parachute for a payload and a rate.");
-  type.def_property_readonly("case", &case_of, "The parachute as a Case.");
+      add_result<SizeResult>(module, "Size", "Parachute for a payload and a descent rate.");
+  type.def_property_readonly("case", &case_of, "Case of the parachute.");
   type.def_property_readonly(
-      "case_text", [](const SizeResult& r) { return r.case_text; }, "Its case file (TOML), with comments.");
+      "case_text", [](const SizeResult& r) { return r.case_text; }, "Case file (TOML), with comments.");
   module.def(
       "size",
       [](double payload, double rate, const std::string& family, double height, std::optional<double> density,
@@ -89,21 +88,20 @@ void add_size(py::module_& module) {
       py::arg("drag_coefficient") = py::none(), py::arg("deployment_speed_m_s") = py::none(),
       py::arg("line_material") = py::none(), py::arg("packing_density_kg_m3") = packed_by_hand,
       py::arg("verify") = false, py::arg("progress") = py::none(),
-      "The parachute that lets a payload [kg] down at a rate [m/s]: ripstop size.\n\n"
-      "family: one of families(). height_m: above sea level, where the rate is wanted; density_kg_m3 in its\n"
-      "  place.\n"
-      "verify: fly it by steady runs until the rate is met; progress as of steady().");
+      "Designs a parachute for a payload [kg] and a descent rate [m/s]: ripstop size.\n\nfamily: one of "
+      "families().\nheight_m: height above sea level at which the rate is required, or density_kg_m3 "
+      "instead.\nverify: adjust the diameter with steady runs until the rate is met.\nprogress: as in "
+      "steady().");
   module.def("families", &family_drags,
-             "Every canopy family with the drag coefficient computed of its example.");
+             "Returns all canopy families with the computed drag coefficients of their examples.");
   module.def(
       "data_directory", [] { return data_directory().string(); },
-      "The folder with the shipped materials/ and examples/.");
+      "Returns the folder with the installed materials/ and examples/.");
   const auto type_of_case = py::type::of<PyCase>();
-  py::setattr(
-      type_of_case, "scaled",
-      py::cpp_function(&scaled, py::name("scaled"), py::is_method(type_of_case), py::arg("factor"),
-                       "Another case with every length of the parachute times `factor`, to a tenth of a\n"
-                       "millimetre; the mesh's own lengths stay."));
+  py::setattr(type_of_case, "scaled",
+              py::cpp_function(&scaled, py::name("scaled"), py::is_method(type_of_case), py::arg("factor"),
+                               "Returns a case with every length of the parachute multiplied by `factor`, "
+                               "rounded to 0.1 mm. Lengths of\nthe mesh do not change."));
 }
 
 }  // namespace ripstop::python

@@ -13,11 +13,21 @@
 namespace ripstop::python {
 namespace {
 
+/// The end of another run, to start from.
+struct WarmStart {
+  Settings settings;
+  SteadyState end;
+};
+
 /// Tells Python of every iteration, and keeps what a folder's run does not return.
 class SteadyListener : public SteadyObserver {
  public:
-  SteadyListener(Listener& listener, PySteady& run) : listener_(listener), run_(run) {}
-  void begin(const SteadyRun& run, SteadyState&) override { run_.engine = run.engine; }
+  SteadyListener(Listener& listener, PySteady& run, const std::optional<WarmStart>& start)
+      : listener_(listener), run_(run), start_(start) {}
+  void begin(const SteadyRun& run, SteadyState& state) override {
+    run_.engine = run.engine;
+    if (start_) start_from(start_->settings, start_->end, run, state);
+  }
   void progress(const SteadyProgress&, const SteadyState&) override { listener_.listen(); }
   void iterated(const SteadyRun&, const SteadyState& state, const FlowField& flow) override {
     if (!run_.folder.empty()) run_.flow = flow;
@@ -31,9 +41,10 @@ class SteadyListener : public SteadyObserver {
  private:
   Listener& listener_;
   PySteady& run_;
+  const std::optional<WarmStart>& start_;
 };
 
-void compute(PySteady& run, SteadyListener& observer, int threads, bool fresh) {
+void compute(PySteady& run, SteadyListener& observer, int threads, bool fresh, const Path& warm_from) {
   const Settings resolved = run.made.settings();
   if (run.folder.empty()) {
     SteadySolution solution = run_steady(resolved, observer, {threads, {}, {}});
@@ -41,7 +52,8 @@ void compute(PySteady& run, SteadyListener& observer, int threads, bool fresh) {
     run.state = std::move(solution.state);
     run.flow = std::move(solution.flow);
   } else {
-    const SteadyFolderRun done = run_steady_in({{run.folder, fresh}, threads, {}, {}}, resolved, observer);
+    const SteadyFolderRun done =
+        run_steady_in({{run.folder, fresh}, threads, {}, warm_from}, resolved, observer);
     run.result = done.result;
     if (done.already_finished) run.state = final_state(run.folder);
     run.result.last = run.state.iterations.back();
@@ -50,18 +62,32 @@ void compute(PySteady& run, SteadyListener& observer, int threads, bool fresh) {
 }
 
 std::unique_ptr<PySteady> steady(const PyCase& given, Callback<SteadyIteration> progress, int threads,
-                                 const std::optional<Path>& out, bool fresh) {
+                                 const std::optional<Path>& out, bool fresh,
+                                 const std::optional<SteadySource>& start) {
   auto run = std::make_unique<PySteady>();
   run->made = given;
   if (out) run->folder = *out;
+  Path warm_from;
+  std::optional<WarmStart> warm;
+  if (start) {
+    const Path* folder = std::get_if<Path>(&*start);
+    const PySteady* other = folder ? nullptr : &std::get<1>(*start).get();
+    warm_from = folder ? *folder : other->folder;
+    if (out && warm_from.empty())
+      throw py::value_error("a run in a folder starts from a run in a folder: give that one an `out` too");
+    if (!out && other)
+      warm = WarmStart{other->made.settings(), other->state};
+    else if (!out)
+      warm = WarmStart{finished_steady(*folder).resolved, final_state(*folder)};
+  }
   Listener listener(std::move(progress));
-  SteadyListener observer(listener, *run);
+  SteadyListener observer(listener, *run, warm);
   const py::gil_scoped_release release;
-  compute(*run, observer, threads, fresh);
+  compute(*run, observer, threads, fresh, out ? warm_from : Path());
   return run;
 }
 
-const PySteady& run_of(const py::object& self) {
+const PySteady& run_of_steady(const py::object& self) {
   return self.cast<const PySteady&>();
 }
 
@@ -73,7 +99,7 @@ py::array of_flow(const double* data, const FlowGrid& grid, bool vectors, py::ha
 }
 
 void add_flow(py::module_& module) {
-  py::class_<FlowField> type(module, "Flow", "The air in the flow's box; arrays of cells are [z, y, x].");
+  py::class_<FlowField> type(module, "Flow", "Flow in the domain; arrays of cells are [z, y, x].");
   const auto self_of = [](const py::object& self) -> const FlowField& {
     return self.cast<const FlowField&>();
   };
@@ -83,14 +109,14 @@ void add_flow(py::module_& module) {
         const FlowField& f = self_of(self);
         return of_flow(f.pressure.data(), f.grid, false, self);
       },
-      "Over the outlet's, of every cell [Pa]");
+      "Pressure of every cell relative to the outlet [Pa]");
   type.def_property_readonly(
       "velocity",
       [self_of](const py::object& self) {
         const FlowField& f = self_of(self);
         return of_flow(&f.velocity.front().x, f.grid, true, self);
       },
-      "x, y and z of every cell; z is downstream [m/s]");
+      "Velocity of every cell: x, y and z; z is downstream [m/s]");
   type.def_property_readonly(
       "edges",
       [](const FlowField& f) {
@@ -98,32 +124,34 @@ void add_flow(py::module_& module) {
         for (int axis = 0; axis < 3; ++axis) axes.append(py::array(py::cast(f.grid.edges(axis))));
         return axes;
       },
-      "Sides of the cells along x, y and z, one more than cells [m]");
+      "Edges of the cells along x, y and z, one more than cells [m]");
   type.def_property_readonly(
-      "converged", [](const FlowField& f) { return f.converged; }, "Whether the flow met its residual.");
+      "converged", [](const FlowField& f) { return f.converged; }, "Whether the flow converged.");
 }
 
 void add_arrays(py::class_<PySteady>& type) {
   type.def_property_readonly(
-      "shape", [](const py::object& self) { return view_of(run_of(self).state.shape, self); },
-      "Every node of the parachute at the end, x, y, z; z is downstream [m]");
+      "shape", [](const py::object& self) { return view_of(run_of_steady(self).state.shape, self); },
+      "Position of every node of the parachute at the end: x, y, z; z is downstream [m]");
   type.def_property_readonly(
-      "cells", [](const py::object& self) { return view_of_cells(run_of(self).cells, self); },
-      "Nodes at the four corners of every cell of cloth; the first is -1 where there is none.");
+      "cells", [](const py::object& self) { return view_of_cells(run_of_steady(self).cells, self); },
+      "Nodes at the four corners of every cloth cell; the first is -1 for a missing cell.");
   type.def_property_readonly(
-      "pressure_difference", [](const py::object& self) { return view_of(run_of(self).state.applied, self); },
-      "Over every cell of cloth, that made the shape [Pa]");
+      "pressure_difference",
+      [](const py::object& self) { return view_of(run_of_steady(self).state.applied, self); },
+      "Pressure difference over every cloth cell that caused the shape [Pa]");
   type.def_property_readonly(
-      "stress", [](const py::object& self) { return table_of(run_of(self).stress, self); },
-      "Of every cell of cloth: columns in [N/m], max_strain without unit; empty where the run was\n"
-      "finished already.");
+      "stress", [](const py::object& self) { return table_of(run_of_steady(self).stress, self); },
+      "Stress of every cloth cell: columns in [N/m], max_strain without unit; empty if the run was "
+      "already\nfinished.");
   type.def_property_readonly(
-      "iterations", [](const py::object& self) { return table_of(run_of(self).state.iterations, self); },
-      "A row for each coupling iteration, with the columns of iterations.csv.");
+      "iterations",
+      [](const py::object& self) { return table_of(run_of_steady(self).state.iterations, self); },
+      "One row for each coupling iteration, with the columns of iterations.csv.");
   type.def_property_readonly(
       "flow", [](const PySteady& run) { return run.flow.velocity.empty() ? nullptr : &run.flow; },
       py::return_value_policy::reference_internal,
-      "The air round the final shape, a Flow; None where the run was finished already.");
+      "Flow around the final shape; None if the run was already finished.");
 }
 
 }  // namespace
@@ -137,43 +165,43 @@ FinishedSteady finished(const SteadySource& source) {
 }
 
 void add_steady(py::module_& module) {
-  add_class<Ledger>(module, "Ledger", "Axial forces that have to agree [N].");
-  add_class<Measured>(module, "Measured", "A wind-tunnel condition of the case.");
-  add_class<WindowAverage>(module, "Watched", "What a watch of the flow in time came to.");
-  add_class<UnsteadyResult>(module, "UnsteadyResult", "What the mean over a wake that sheds is worth.");
-  add_class<HeldPayload>(module, "HeldPayload", "What a run holds that sought its speed.");
+  add_class<Ledger>(module, "Ledger", "Axial forces, equal in equilibrium [N].");
+  add_class<Measured>(module, "Measured", "Wind-tunnel condition of the case.");
+  add_class<WindowAverage>(module, "Watched", "State of the averaging window of an unsteady run.");
+  add_class<UnsteadyResult>(module, "UnsteadyResult", "Averages of an unsteady wake and their uncertainty.");
+  add_class<HeldPayload>(module, "HeldPayload", "Equilibrium of drag and weight in a run with a payload.");
   add_class<Margin>(module, "Margin",
-                    "How far one part is from breaking; `unit` is that of load and strength.");
-  add_class<Margins>(module, "Margins", "How far every part is from breaking.");
-  add_class<SteadyIteration>(module, "SteadyIteration", "What one coupling iteration says of itself.");
+                    "Margin of safety of one part; `unit` is the unit of load and strength.");
+  add_class<Margins>(module, "Margins", "Margins of safety of all parts.");
+  add_class<SteadyIteration>(module, "SteadyIteration", "Values of one coupling iteration.");
   add_flow(module);
   py::class_<PySteady> type(module, "Steady",
-                            "A steady run: the numbers of its result.json, and its arrays.");
+                            "Result of a steady run: the values of result.json, and arrays.");
   const auto result = [](const PySteady& run) -> const SteadyResult& { return run.result; };
   add_members(type, result);
   add_json(type, result);
   add_arrays(type);
   type.def_property_readonly(
-      "case", [](const PySteady& run) { return run.made; }, "The Case that was run.");
+      "case", [](const PySteady& run) { return run.made; }, "Case of the run.");
   type.def_property_readonly(
       "engine", [](const PySteady& run) { return run.engine; },
-      "The flow engine and its version; empty where the run was finished already.");
+      "Flow engine and version; empty if the run was already finished.");
   type.def_property_readonly(
       "warnings",
       [](const PySteady& run) { return run.result.warnings.value_or(std::vector<std::string>{}); },
-      "Limits that the result does not keep, margins below 0, and other doubts.");
-  module.def(
-      "steady", &steady, py::arg("case"), py::kw_only(), py::arg("progress") = py::none(),
-      py::arg("threads") = 0, py::arg("out") = py::none(), py::arg("fresh") = false,
-      "Inflated shape, drag and loads in a steady flow: ripstop steady.\n\n"
-      "progress: called with a SteadyIteration after every coupling iteration; what it raises ends the\n"
-      "  run.\n"
-      "threads: 0: coupling.threads of the case.\n"
-      "out: a run folder; a finished run of this case is read from it, one that was stopped goes on.\n"
-      "  None: nothing is written.\n"
-      "fresh: compute again what the folder holds.\n\n"
-      "A result that has not converged is returned: look at `converged`. Forces in [N], lengths in [m],\n"
-      "speeds in [m/s].");
+      "Exceeded quality limits, negative margins and other warnings.");
+  module.def("steady", &steady, py::arg("case"), py::kw_only(), py::arg("progress") = py::none(),
+             py::arg("threads") = 0, py::arg("out") = py::none(), py::arg("fresh") = false,
+             py::arg("start") = py::none(),
+             "Computes inflated shape, drag and loads in a steady flow: ripstop steady.\n\nprogress: called "
+             "with a SteadyIteration after every coupling iteration; an exception in it stops the\n  "
+             "run.\nthreads: number of threads; 0: coupling.threads of the case.\nout: run folder. A "
+             "finished run of this case is read from it, an interrupted run resumes. None: no\n  "
+             "files.\nfresh: replace the run in the folder.\nstart: finished run or its folder whose shape "
+             "and pressure are the "
+             "initial state; ignored for\n  another mesh. None: undeformed canopy.\n\nA result that is not "
+             "converged is also "
+             "returned: check `converged`. Forces are in [N], lengths in [m],\nspeeds in [m/s].");
 }
 
 }  // namespace ripstop::python

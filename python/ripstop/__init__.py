@@ -1,4 +1,4 @@
-"""How parachutes fly: shape, drag, stresses and loads, predicted.
+"""Prediction of the inflated shape, drag, stresses and opening loads of parachutes.
 
     import ripstop
 
@@ -6,9 +6,10 @@
     run = ripstop.steady(case, progress=lambda i: print(i.iteration, i.drag_n))
     print(run.drag_n, run.shape)
 
-What the program computes, its functions compute here: check, steady, inflate, fit, pattern, size, load, descent,
-calibrate_damping, export. Results have the members of result.json as attributes, whose names end with the unit, and
-arrays that are views of the library's own memory. Whatever goes wrong raises Error with the text of the program.
+The functions correspond to commands of the program: check, steady, stability, inflate, fly, fabric, sweep, fit,
+pattern, size, load, descent, calibrate_damping, export, report. Results have the members of result.json as attributes,
+whose names end with the unit, and arrays that are views of memory of the library. Every failure raises Error with the
+message of the program.
 """
 
 import os

@@ -83,9 +83,9 @@ TEST_F(Batch, ASweepsElementsLeaveWhatTheSweepGoesOnFrom) {
   EXPECT_EQ(bash({(scripts / "run.sbatch").string(), "1"}, "1").code, 0);
   const Finished gathered = bash({(scripts / "gather.sbatch").string()});
   EXPECT_EQ(gathered.code, 7) << gathered.output;
-  EXPECT_NE(gathered.output.find("speed_m_s=10: has not come back"), std::string::npos) << gathered.output;
+  EXPECT_NE(gathered.output.find("speed_m_s=10: is not finished"), std::string::npos) << gathered.output;
   const std::string table = read_file(root_.path / "sweep/sweep.csv");
-  EXPECT_NE(table.find("has not come back"), std::string::npos) << table;
+  EXPECT_NE(table.find("is not finished"), std::string::npos) << table;
   const Finished rest = ripstop_with(sweep);
   EXPECT_EQ(rest.code, 0) << rest.output;
   EXPECT_EQ(bash({(scripts / "gather.sbatch").string()}).code, 0);
@@ -128,8 +128,8 @@ TEST_F(Batch, AHostfileIsLookedAtBeforeAnythingIsComputed) {
   refused({"--flow", "openfoam", "--ranks", "2"}, "hosts:2:7: slots = x: must be a whole number");
   write_file(hosts, "here slots=1\nthere slots=1\n");
   refused({"--flow", "openfoam", "--ranks", "3"}, "2 slots for 3 ranks");
-  refused({}, "needs ranks to put on hosts");
-  refused({"--flow", "openfoam"}, "needs ranks to put on hosts");
+  refused({}, "requires --flow openfoam and --ranks");
+  refused({"--flow", "openfoam"}, "requires --flow openfoam and --ranks");
 }
 
 }  // namespace

@@ -75,15 +75,36 @@ TEST_F(Inputs, AnOpeningInItsOwnAirIsCheckedAndRefusedWhereItsClothIsNoSheet) {
   const Finished check = ripstop_with({"inflate", flat, "--air", "coupled", "--cloth-nodes", "1500",
                                        "--check", "--set", "inflation.initial_radius_m=0.15"});
   EXPECT_EQ(check.code, 0) << check.output;
-  EXPECT_NE(check.output.find("the air at 20 m/s, stepped with the cloth: 80 x 80 x 98 cells"),
-            std::string::npos)
+  EXPECT_NE(check.output.find("coupled flow at 20 m/s: 80 x 80 x 98 cells"), std::string::npos)
       << check.output;
   refused({"inflate", stratos, "--air", "coupled"}, 2, "flow.porosity_model");
 }
 
+TEST_F(Inputs, ACurveOverTheAngleOfAttackIsRefusedWithTheValueThatIsWrong) {
+  const std::string flat = examples + "flat-circular/case.toml";
+  const std::vector<std::string> command = {"stability", flat, "--dry-run", "--out", in("curve")};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), command.begin(), command.end());
+    return more;
+  };
+  refused(with({"--angles", "40:0:5"}), 2, "--angles 40:0:5: from 40 down to 0");
+  refused(with({"--angles", "0:40:0"}), 2, "a step of 0");
+  refused(with({"--angles", "0:100:10"}), 2, "100 degrees; an angle of attack is from 0 to 90");
+  refused(with({"--set", "flow.angle_of_attack_deg=5"}), 2, "this command sets the angle");
+  refused(with({"--set", "flow.sides=\"slip\""}), 2, "flow.sides = \"slip\", given by --set");
+  refused(with({"--set", "flow.tunnel.kind=\"open-jet\"", "--set", "flow.tunnel.width_m=2"}), 2,
+          "not a wind tunnel");
+  refused(with({"--steady", in("none")}), 2, "contains no finished run");
+  refused({"stability", stratos, "--dry-run"}, 2, "flow.porosity_model");
+  const Finished listed = ripstop_with(with({"--angles", "0:20:10"}));
+  EXPECT_EQ(listed.code, 0) << listed.output;
+  EXPECT_NE(listed.output.find("curve/angle=20\n"), std::string::npos) << listed.output;
+  EXPECT_FALSE(fs::exists(in("curve")));
+}
+
 TEST_F(Inputs, AnOldKeyIsWarnedOfOnceByEveryCommand) {
   const std::string warning =
-      "warning: materials.f-111.darcy is an old key: write materials.f-111.darcy_1_m2\n";
+      "warning: materials.f-111.darcy is a deprecated key: write materials.f-111.darcy_1_m2\n";
   const std::vector<std::vector<std::string>> commands = {
       {"check", stratos},
       {"steady", stratos, "--dry-run", "--out", in("steady")},
@@ -95,7 +116,8 @@ TEST_F(Inputs, AnOldKeyIsWarnedOfOnceByEveryCommand) {
     EXPECT_EQ(run.code, 0) << run.output;
     const std::size_t first = run.output.find(warning);
     ASSERT_NE(first, std::string::npos) << run.output;
-    EXPECT_EQ(run.output.find("is an old key", first + warning.size()), std::string::npos) << run.output;
+    EXPECT_EQ(run.output.find("is a deprecated key", first + warning.size()), std::string::npos)
+        << run.output;
   }
 }
 
@@ -119,7 +141,7 @@ TEST_F(Inputs, WhatTheMachineHasNotIsSaidBeforeItIsTaken) {
 #endif
   constexpr rlim_t gigabyte = 1 << 30;
   EXPECT_EQ(limited({"steady", stratos, "--dry-run", "--grid", "500,500,600"}, 4 * gigabyte), 8);
-  EXPECT_NE(read_file(in("errors")).find("takes about 105.2 GB of memory"), std::string::npos)
+  EXPECT_NE(read_file(in("errors")).find("needs about 105.2 GB of memory"), std::string::npos)
       << read_file(in("errors"));
   EXPECT_EQ(limited({"coupon", "f-111", "--threads", "1024"}, gigabyte), 8);
   EXPECT_NE(read_file(in("errors")).find("of 1024 threads could be started"), std::string::npos)
@@ -131,9 +153,9 @@ TEST_F(Inputs, ASurfaceOutsideTheBoxHasNoDragToCompare) {
   Triangle far = flat;
   far.c.z = 1e6;
   write_stl(in("far.stl"), {flat, far});
-  refused({"flow-parity", "--surface", in("far.stl")}, 3, "must lie inside the box");
+  refused({"flow-parity", "--surface", in("far.stl")}, 3, "must be inside the domain");
   write_stl(in("none.stl"), {});
-  refused({"flow-parity", "--surface", in("none.stl")}, 3, "holds no triangle");
+  refused({"flow-parity", "--surface", in("none.stl")}, 3, "contains no triangle");
 }
 
 TEST_F(Inputs, OutputThatCouldNotBeWrittenIsNoSuccess) {
@@ -211,7 +233,7 @@ TEST_F(Inputs, AStoppedRunSaysThatTheCommandMayBeRepeated) {
     kill(child, signal_number);
     EXPECT_EQ(wait_for(child), 128 + signal_number);
     const std::string said = read_file(in("errors"));
-    EXPECT_NE(said.find("repeat the same command, and it goes on"), std::string::npos) << said;
+    EXPECT_NE(said.find("repeat the same command to resume"), std::string::npos) << said;
     EXPECT_NE(said.find(signal_number == SIGINT ? "Ctrl-C" : "SIGTERM"), std::string::npos) << said;
   }
 }

@@ -26,6 +26,7 @@ const std::map<std::string, std::vector<std::string>> commands = {
     {"calibrate damping", {stratos}},
     {"calibrate porosity", {stratos}},
     {"sweep", {stratos, "--speeds", "10", "--dry-run"}},
+    {"stability", {examples + "flat-circular/case.toml", "--dry-run"}},
     {"compare", {stratos, "--linear"}},
     {"photogrammetry", {RIPSTOP_SOURCE_DIR "/validation/ojf/stratos-iv-images.toml"}},
     {"descent", {"none"}},
@@ -103,7 +104,7 @@ TEST(Options, AKeyIsShownAsItWasGiven) {
 TEST(Options, AMistypedCommandOrOptionIsNamedWithWhatWasMeant) {
   const Finished command = ripstop_with({"chekc", stratos});
   EXPECT_EQ(command.code, 2);
-  EXPECT_NE(command.output.find("\"chekc\" is no command; did you mean check?"), std::string::npos)
+  EXPECT_NE(command.output.find("\"chekc\" is not a command; did you mean check?"), std::string::npos)
       << command.output;
   const Finished nested = ripstop_with({"calibrate", "dampign", stratos});
   EXPECT_EQ(nested.code, 2);

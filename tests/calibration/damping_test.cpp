@@ -61,7 +61,7 @@ TEST(DampingCalibration, ASearchThatIsNoneIsRefused) {
       ADD_FAILURE() << search.from << " " << search.to << " " << search.points;
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ExitCode::usage);
-      EXPECT_NE(std::string(error.what()).find("needs 0 < from < to and at least 3 points"),
+      EXPECT_NE(std::string(error.what()).find("requires 0 < from < to and at least 3 points"),
                 std::string::npos);
     }
   }

@@ -61,7 +61,7 @@ TEST(Margins, OfATapeAreOnItsBreakLoadWhereItHasOne) {
   m.tape.break_load_n = 200;
   const Margins margins = margins_of({1, 20, {}, 0}, none, m.cloth, &m.tape, m.line, m.riser);
   EXPECT_DOUBLE_EQ(*margins.members.at(1).used, 0.1);
-  EXPECT_EQ(margins.members[1].strength_from, "break load");
+  EXPECT_EQ(margins.members[1].strength_from, "breaking load");
   EXPECT_EQ(margins_of({1, 20, {}, 0}, none, m.cloth, nullptr, m.line, m.riser).members.size(), 1u);
 }
 

@@ -3,12 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <string>
 
 #include "ripstop/canopy/stress.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/case/case.h"
+#include "ripstop/core/error.h"
 
 namespace ripstop {
 namespace {
@@ -121,6 +123,14 @@ TEST(PartStrains, OfAnEvenlyStretchedCanopyAreTheStretch) {
   }
   EXPECT_NEAR(before.at("cloth").mean, 0, 1e-3);
   EXPECT_NEAR(before.at("lines").mean, 0, 1e-6);
+}
+
+TEST(CanopySize, OfAPositionThatIsNotFiniteIsRefused) {
+  const CanopyMesh mesh = parachute_mesh(resolve(stratos(3000)));
+  std::vector<Vec3> x = mesh.start;
+  EXPECT_GT(canopy_size(mesh, x).projected_area, 0);
+  x[10].x = NAN;
+  EXPECT_THROW(canopy_size(mesh, x), Error);
 }
 
 }  // namespace

@@ -120,7 +120,7 @@ TEST(Bodies, ThatCutEachOtherAreRefused) {
   FlowProblem problem = narrow_box();
   problem.bodies = {porous_disk("main", {0, 0, 0}),
                     sheet_body(hemispherical_cup(0.8, {0.3, 0, -0.2}), {1e4, 0}, "drogue")};
-  EXPECT_NE(refusal(problem).find("\"main\" and \"drogue\" cut each other"), std::string::npos);
+  EXPECT_NE(refusal(problem).find("\"main\" and \"drogue\" intersect"), std::string::npos);
   problem.bodies[1].surface = hemispherical_cup(0.8, {0.3, 0, 0.1});
   EXPECT_EQ(refusal(problem), "");
 }
@@ -129,7 +129,7 @@ TEST(Bodies, ThatLeaveTheBoxAreRefused) {
   FlowProblem problem = narrow_box();
   problem.bodies = {porous_disk("main", {2.6, 0, 0})};
   const std::string said = refusal(problem);
-  EXPECT_NE(said.find("\"main\" reaches from x = 2.1 to 3.1 m"), std::string::npos) << said;
+  EXPECT_NE(said.find("\"main\" extends from x = 2.1 to 3.1 m"), std::string::npos) << said;
   EXPECT_NE(said.find("-3 to 3 m"), std::string::npos) << said;
   problem.bodies = {porous_disk("main", {2.4, 0, 0})};
   EXPECT_EQ(refusal(problem), "");

@@ -49,7 +49,7 @@ TEST_F(MaterialFilesTest, AMaterialInTheFolderNextToTheCaseHasPriorityOverTheLib
 }
 
 TEST_F(MaterialFilesTest, RejectAPathWithoutAFileAndANameThatIsTaken) {
-  EXPECT_NE(refusal_of([&] { read("nothing.toml"); }, ExitCode::usage).find("there is no file"),
+  EXPECT_NE(refusal_of([&] { read("nothing.toml"); }, ExitCode::usage).find("not found; give the path"),
             std::string::npos);
   write_file(root.path / "cases/cloth.toml", "kind = \"fabric\"\n");
   EXPECT_NE(refusal_of([&] { read("cloth.toml"); }, ExitCode::bad_data).find("cloth.toml"),

@@ -89,10 +89,10 @@ TEST(OldPermeabilityKeys, TakeTheirMeaningFromTheModelKeyAndAreWarnedOf) {
   EXPECT_EQ(flow_problem(sheet).bodies.at(0).drop(), (PressureDrop{400, 50}));
   EXPECT_EQ(
       told(sheet),
-      "materials.own.darcy is an old key: write materials.own.pressure_drop_linear_pa_s_m\n"
-      "materials.own.forchheimer is an old key: write materials.own.pressure_drop_quadratic_pa_s2_m2\n"
-      "materials.own.porosity_model is an old key that is no longer needed: which porosity model a cloth's "
-      "permeability is for follows from its keys; leave it out\n");
+      "materials.own.darcy is a deprecated key: write materials.own.pressure_drop_linear_pa_s_m\n"
+      "materials.own.forchheimer is a deprecated key: write materials.own.pressure_drop_quadratic_pa_s2_m2\n"
+      "materials.own.porosity_model is an old key and no longer needed, because the keys of the permeability "
+      "determine the porosity model; remove it\n");
   const Settings paper =
       settings_of(with_cloth("f-111-physical", "darcy = 70\nforchheimer = 30\nporosity_model = \"paper\"\n"));
   EXPECT_EQ(paper.flow().porosity_model, PorosityModel::paper);

@@ -31,7 +31,7 @@ TEST(Mistakes, TheFlowsOwnLoadIsOfASheetOnly) {
   const Outcome paper = with("paper");
   ASSERT_EQ(paper.problems.size(), 1u) << paper.message;
   EXPECT_EQ(paper.problems[0].key, "coupling.load");
-  EXPECT_NE(paper.message.find("known of a sheet only"), std::string::npos);
+  EXPECT_NE(paper.message.find("only in the sheet model"), std::string::npos);
   const Outcome misspelt = with("papr");
   ASSERT_EQ(misspelt.problems.size(), 1u) << misspelt.message;
   EXPECT_EQ(misspelt.problems[0].key, "flow.porosity_model");

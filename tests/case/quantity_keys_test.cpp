@@ -16,11 +16,11 @@ TEST(QuantityKeys, ASolversErrorIsToldWithTheKeysOfTheCase) {
     FAIL() << "accepted";
   } catch (const Error& error) {
     EXPECT_EQ(std::string(error.what()),
-              "low-pass cutoff = 900: must be above 0 and below half the rate of the history, 500 Hz; raise "
-              "the history rate");
+              "low-pass cutoff = 900: must be above 0 and below half the rate of the history, 500 Hz; "
+              "increase the history rate");
     EXPECT_EQ(message_of(error),
               "inflation.low_pass_hz = 900: must be above 0 and below half the rate of the history, 500 Hz; "
-              "raise inflation.history_hz");
+              "increase inflation.history_hz");
   }
 }
 

@@ -333,9 +333,9 @@ TEST(Resolved, ACoreThatHasNoRoomSaysWhy) {
   };
   EXPECT_EQ(from(short_case), "1.8 x 1.8 x 2.2 inflated diameters of 2.1 m");
   EXPECT_EQ(from(short_case + "box_m = [8, 7.5, 10]\n"),
-            "a side of the box is less than twice as long as a core for this canopy");
+            "a side of the domain is less than twice as long as the core of this canopy");
   EXPECT_EQ(from(of_calibrated_cloth(replaced(short_case, "= 3.0\nvent", "= 1.0\nvent"))),
-            "the paper model's default");
+            "default of the paper model");
 }
 
 TEST(Resolved, TheMeanOfIterationsIsOfNoMoreThanThereAre) {
@@ -377,8 +377,8 @@ TEST(Resolved, EveryValueSaysWhatItFollowedFrom) {
   EXPECT_EQ(source_of(resolved, "flow.cells"), "given by --grid");
   EXPECT_EQ(source_of(resolved, "flow.residual"), "given by --set");
   EXPECT_EQ(source_of(resolved, "flow.box_m"), "6 x 6 x 9 inflated diameters of 2.1 m");
-  EXPECT_EQ(source_of(resolved, "flow.convection"), "the sheet's default");
-  EXPECT_EQ(source_of(resolved, "coupling.drag_tolerance"), "the sheet's default");
+  EXPECT_EQ(source_of(resolved, "flow.convection"), "default of the sheet model");
+  EXPECT_EQ(source_of(resolved, "coupling.drag_tolerance"), "default of the sheet model");
 }
 
 TEST(Resolved, TheReadmesBoxStaysWithTheCanopyWhereItStandsAlready) {

@@ -105,7 +105,7 @@ TEST(Tape, SaysWhatItFollowedFromAndIsWrittenOut) {
   const Settings resolved = resolve(given);
   const Source& source = resolved.source("parachute.tape.material");
   EXPECT_FALSE(source.given);
-  EXPECT_NE(source.from.find("the lightest tape that holds"), std::string::npos) << source.from;
+  EXPECT_NE(source.from.find("the lightest tape that carries"), std::string::npos) << source.from;
   EXPECT_EQ(resolved.written().parachute.tape.material, "nylon-tape-200-lbf");
   const Case again = parse_case(case_toml(resolve(given)), "written.toml");
   EXPECT_EQ(case_toml(resolve(again)), case_toml(resolve(given)));

@@ -273,7 +273,7 @@ TEST_F(ClaimedFolderTest, WhatWasLostOfASealedFoldersListComesBackFromItsSeal) {
   ClaimedFolder(folder).clear();
   EXPECT_FALSE(fs::exists(folder / "a") || fs::exists(folder / "b"));
 
-  write_file(seal, "no seal");  // which is told by who looks what is damaged
+  write_file(seal, "not a seal");  // which is told by who looks what is damaged
   write_file(list, whole.substr(0, whole.find('\n') + 1));
   EXPECT_EQ(ClaimedFolder(folder).names(), std::vector<std::string>{"a"});
 }

@@ -83,18 +83,18 @@ TEST(Expression, MistakesAreToldWithTheirPlace) {
   expect_refused("min()", "takes at least one number, not 0");
   expect_refused("math::sin 1", "is a function");
   expect_refused("(1+2", "this bracket is not closed");
-  expect_refused("1+2)", "character 4: ')' does not belong here");
-  expect_refused("2 3", "character 3: '3' does not belong here");
+  expect_refused("1+2)", "character 4: unexpected ')'");
+  expect_refused("2 3", "character 3: unexpected '3'");
   expect_refused("2radius", "character 2: an operator is missing");
   expect_refused("1 +", "character 4: a number, a name or a bracket is missing");
   expect_refused("", "the formula is empty");
-  expect_refused("a < b", "'<' does not belong here");
-  expect_refused("\"a\"", "is not understood");
-  expect_refused("1..2", "does not belong here");
-  expect_refused(std::string(1000, '('), "inside each other");
+  expect_refused("a < b", "unexpected '<'");
+  expect_refused("\"a\"", "formulas consist of");
+  expect_refused("1..2", "unexpected");
+  expect_refused(std::string(1000, '('), "too many nested brackets");
   std::string deep(1000, '-');
   deep += '1';
-  expect_refused(deep, "inside each other");
+  expect_refused(deep, "too many nested brackets");
 }
 
 TEST(Expression, NamesAreFoundWithoutTheirValues) {

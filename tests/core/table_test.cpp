@@ -67,11 +67,11 @@ TEST(TableText, FilesThatAreNoTextAreRefused) {
               "line 2 has a character with the code 0");
   EXPECT_SAYS(refused("\xff\xfe"
                       "a"),
-              "half a character");
+              "incomplete character");
   EXPECT_SAYS(refused(""), "empty");
-  EXPECT_SAYS(refused("Force (N),Time (s)\n1,2\n3,4"), "t.csv:3: the last line has no end");
+  EXPECT_SAYS(refused("Force (N),Time (s)\n1,2\n3,4"), "t.csv:3: the last line has no line end");
   EXPECT_SAYS(refused("Force (N),Time (s)\n"), "t.csv:1: a header, but no measurements");
-  EXPECT_SAYS(refused("Force (N),\"Time (s)\n1,2\n"), "t.csv:1: a quote opens here");
+  EXPECT_SAYS(refused("Force (N),\"Time (s)\n1,2\n"), "t.csv:1: this quotation mark is not closed");
 }
 
 TEST(TableText, SeparatorsAreFoundByTheRowsTheyGive) {
@@ -109,9 +109,9 @@ TEST(TableHeader, EmptyAndSurplusColumnsAndTrailingSeparatorsAreLeftOut) {
 }
 
 TEST(TableHeader, NumbersWithoutAHeaderAreRefused) {
-  EXPECT_SAYS(refused("1,2\n3,4\n"), "t.csv:1: numbers, but no heading");
+  EXPECT_SAYS(refused("1,2\n3,4\n"), "t.csv:1: numbers without a heading");
   EXPECT_SAYS(refused("A,B\n1,2\n3,4\n"),
-              "t.csv:2: numbers, but no heading of a known quantity above them (the line above");
+              "t.csv:2: numbers without a heading of a known quantity above them (the line above");
 }
 
 TEST(TableUnits, MayStandInManyPlaces) {
@@ -275,10 +275,10 @@ TEST(TableNumbers, BrokenOnesAreRefusedWithTheirPlace) {
     EXPECT_SAYS(message, fmt::format("t.csv:3: \"{}\" in the column \"Force (N)\" (number 1)", cell));
   }
   EXPECT_SAYS(refused("Force (N);Time (s)\n0.5;1\n1;0,5\n"),
-              "t.csv:3: \"0,5\" in the column \"Time (s)\" (number 2) has another decimal mark");
+              "t.csv:3: \"0,5\" in the column \"Time (s)\" (number 2) has a different decimal mark");
   EXPECT_SAYS(refused("Force (N),Time (s)\n1,2\n3\n"), "t.csv:3: 1 values for 2 columns");
   EXPECT_SAYS(refused("Force (N),Time (s)\n1,5,2\n"), "decimal commas need quotes");
-  EXPECT_SAYS(refused("Force (N),Time (s)\n1,2\na,b\n3,4\n"), "t.csv:3: text among the numbers");
+  EXPECT_SAYS(refused("Force (N),Time (s)\n1,2\na,b\n3,4\n"), "t.csv:3: text between the numbers");
   EXPECT_EQ(values("Force (N),Time (s)\n1,2\nEnd of test\n"), (Values{1}));
 }
 
@@ -302,7 +302,7 @@ TEST(TableTime, ClockTimesAreSecondsAfterTheFirst) {
     return refused(fmt::format("Altitude (m);Time\n1;{}\n2;{}\n", a, b));
   };
   EXPECT_SAYS(refusal("10:15", "10:16"), "t.csv:2: \"10:15\" in the column \"Time\" (number 2) may be hours");
-  EXPECT_SAYS(refusal("05/03/2026 10:15:00", "05/04/2026 10:15:00"), "day and month cannot be told apart");
+  EXPECT_SAYS(refusal("05/03/2026 10:15:00", "05/04/2026 10:15:00"), "order of day and month is ambiguous");
   EXPECT_SAYS(refusal("10:15:01", "7"),
               "t.csv:3: \"7\" in the column \"Time\" (number 2) is not a clock time");
 }
@@ -364,7 +364,7 @@ TEST(TableColumns, AreThoseThatTheUserNames) {
     return refused(text, {{}, parse_columns(columns), Decimal::automatic});
   };
   EXPECT_SAYS(refusal("force=Kraft [N]"),
-              "t.csv:1: no column \"Kraft\", which is named for the force; the headings are");
+              "t.csv:1: no column \"Kraft\", which is given for the force; the headings are");
   EXPECT_SAYS(refusal("force=Load [kN]"), "t.csv:1: mixed units");
   EXPECT_SAYS(refusal("force=Kanal 1"), "t.csv:1: no unit for the column \"Kanal 1\"");
   const std::vector<ColumnChoice> comma = parse_columns("force=Load, N,extension=Weg, gesamt [mm]");

@@ -1,6 +1,8 @@
 // Files as machines write them, each with its expectation beside it: tests/<room>/tables/README.md says in which form.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <ctime>
 #include <nlohmann/json.hpp>
 
 #include "ripstop/core/error.h"
@@ -110,6 +112,19 @@ TEST(TableFiles, BadOnesAreRefusedWithPlaceAndRemedy) {
     for (const std::string text : expected.at("error_contains"))
       EXPECT_NE(message.find(text), std::string::npos) << message << "\nhas not: " << text;
   }
+}
+
+// Every line of a wrong separator is a heading that may have a unit at each of its blanks and commas.
+TEST(Tables, AnHourOfALoadCellIsReadWithinSeconds) {
+  std::string text = "Time (s),Load (N),Temperature (C),Event\n";
+  for (int i = 0; i < 36000; ++i)
+    text += fmt::format("{:.1f},{:.3f},21.{},\n", 0.1 * i, 100 + 0.01 * (i % 977), i % 10);
+  const std::clock_t begin = std::clock();
+  const table::Table read =
+      table::parse_table(text, "hour.csv", {{table::Quantity::time, table::Quantity::force}, {}, {}});
+  EXPECT_LT(double(std::clock() - begin) / CLOCKS_PER_SEC, 4);
+  ASSERT_EQ(read.specimens.size(), 1u);
+  EXPECT_EQ(read.specimens[0].lines.size(), 36000u);
 }
 
 }  // namespace

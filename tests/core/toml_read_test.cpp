@@ -121,5 +121,35 @@ TEST(TomlRead, AValueOfAnotherTypeIsToldAtItsPlaceAndLeavesWhatWasThere) {
   }
 }
 
+struct Line {
+  double mass_kg = 0, share = 0;
+  std::vector<double> lengths_m;
+};
+
+std::vector<Problem> read_line(Line& line, const std::string& text) {
+  Fields fields;
+  fields.number("mass_kg", line.mass_kg, Range{}, "");
+  fields.number("share", line.share, Range{}, "");
+  fields.numbers("lengths_m", line.lengths_m, 0, 9, Range{}, "");
+  Origins origins;
+  std::vector<Problem> problems;
+  read_table(fields, parse_toml(text, "keys.toml"), origins, problems);
+  return problems;
+}
+
+TEST(TomlRead, ANumberMayHaveAUnitThatItsKeyCanTake) {
+  Line line;
+  EXPECT_TRUE(read_line(line, "mass_kg = \"5 lb\"\nshare = \"5 %\"\nlengths_m = [2, \"72 in\"]\n").empty());
+  EXPECT_DOUBLE_EQ(line.mass_kg, 2.26796185);
+  EXPECT_DOUBLE_EQ(line.share, 0.05);
+  EXPECT_EQ(line.lengths_m, (std::vector<double>{2, 1.8288}));
+  const std::vector<Problem> problems =
+      read_line(line, "mass_kg = \"5 ft\"\nshare = \"5\"\nlengths_m = [\"2 s\"]\n");
+  ASSERT_EQ(problems.size(), 3u);
+  EXPECT_EQ(problems[0].message, "must be a number, or one with a unit that can be converted to m");
+  EXPECT_EQ(problems[1].message, "must be a number, or one with a unit that can be converted to kg");
+  EXPECT_EQ(problems[2].message, "must be a number, not text");
+}
+
 }  // namespace
 }  // namespace ripstop

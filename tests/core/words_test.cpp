@@ -10,7 +10,7 @@ TEST(Words, AKeyBecomesWordsAndAUnit) {
   EXPECT_EQ(in_words("flow.speed_m_s").with_unit(), "speed [m/s]");
   EXPECT_EQ(in_words("parachute.vent_diameter_m").with_unit(), "vent diameter [m]");
   EXPECT_EQ(in_words("density_kg_m3").with_unit(), "density [kg/m³]");
-  EXPECT_EQ(in_words("max_line_tension_n").with_unit(), "highest line tension [N]");
+  EXPECT_EQ(in_words("max_line_tension_n").with_unit(), "maximum line tension [N]");
   EXPECT_EQ(in_words("damping_n_s_m3").with_unit(), "damping [N s/m³]");
   EXPECT_EQ(in_words("pressure_drop_linear_pa_s_m").with_unit(), "pressure drop linear [Pa s/m]");
   EXPECT_EQ(in_words("pressure_drop_quadratic_pa_s2_m2").unit, "Pa s²/m²");

@@ -3,6 +3,7 @@
 stay short."""
 import collections
 import fnmatch
+import importlib.util
 import pathlib
 import re
 import unittest
@@ -80,6 +81,12 @@ class Docs(unittest.TestCase):
         text = "".join(page.read_text() for page in PAGES)
         self.assertEqual([page.name for page in TABLES.glob("*.md") if f"tables/{page.name}" not in text], [])
 
+    def test_the_scoreboard_shows_the_present_tables(self):
+        spec = importlib.util.spec_from_file_location("scoreboard", ROOT / "validation/scoreboard.py")
+        board = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(board)
+        self.assertEqual(board.PAGE.read_text(), board.scoreboard(), "run python3 validation/scoreboard.py")
+
     def test_every_test_that_holds_a_promise_exists(self):
         missing = []
         for room, suite, name in re.findall(r"`(\w+)\.(\w+)\.(\w+)`", (ROOT / "docs/reliability.md").read_text()):
@@ -110,6 +117,10 @@ class Docs(unittest.TestCase):
                 wrong += [f"{at(page, 0)} test_{room} {pattern}" for pattern in patterns.split(":")
                           if not any(fnmatch.fnmatchcase(name, pattern) for name in tests[room])]
         self.assertEqual(wrong, [])
+
+    def test_the_citation_has_the_version_of_the_project(self):
+        version = re.search(r"project\(ripstop VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text())[1]
+        self.assertRegex((ROOT / "CITATION.cff").read_text(), rf"(?m)^version: {re.escape(version)}$")
 
     def test_rooms_look_to_their_left_only(self):
         left = collections.defaultdict(set)

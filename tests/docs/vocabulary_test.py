@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""Language of the documentation: standard terms, sentence length, headings and typeset equations of every rewritten page, and the
-code names of the glossary. Pages that are not yet rewritten are printed as open."""
+"""Language of the documentation and of the program: standard terms, sentence length, headings and typeset equations of every
+rewritten page; terms and sentence length of the generated reference (--help, keys, docstrings) and of all text in the sources; the code
+names of the glossary. Pages that are not yet rewritten are printed as open."""
 import pathlib
 import re
 import statistics
@@ -17,13 +18,10 @@ REWRITTEN = [
     "validation/ojf/README.md", "validation/stratos-iv/README.md", GLOSSARY,
     *sorted(str(page.relative_to(ROOT)) for page in ROOT.glob("examples/**/README.md")),
     *(f"docs/{page}.md" for page in ("README", "conventions", "performance", "reliability", "validation")),
-    *(f"docs/guide/{page}.md" for page in (
-        "canopies", "case-file", "cluster", "compare", "editor", "fit", "flight", "import", "inflate", "openfoam", "output-files", "porosity", "python",
-        "report", "sweep", "tables", "tunnel", "unsteady")),
-    *sorted(str(page.relative_to(ROOT)) for folder in ("theory", "tutorials") for page in ROOT.glob(f"docs/{folder}/*.md")),
+    *sorted(str(page.relative_to(ROOT)) for folder in ("guide", "theory", "tutorials") for page in ROOT.glob(f"docs/{folder}/*.md")),
     *(f"docs/validation/{page}.md" for page in (
         "canopies", "cloth", "coupling", "fit", "flow", "flow-in-time", "flow-openfoam", "inflation", "ojf", "opening-load",
-        "tunnel"))]
+        "scoreboard", "tunnel"))]
 
 TABLES = "docs/tables/"  # made by commands
 GENERATED = [f"docs/reference/{page}.md" for page in ("case-keys", "commands", "python")]  # by make reference
@@ -31,6 +29,8 @@ ALL = sorted(str(page.relative_to(ROOT)) for page in
              [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "SECURITY.md", ROOT / "CODE_OF_CONDUCT.md",
                 ROOT / "src/README.md", ROOT / "materials/README.md", *ROOT.glob("docs/**/*.md"),
               *ROOT.glob("examples/**/README.md"), *ROOT.glob("validation/*/README.md")])
+
+SOURCES = ("apps", "src/ripstop", "python/bindings")  # their string literals: help, keys, output, messages, docstrings
 
 # Words that are used in a figurative sense, with the standard term or the reason.
 FIGURATIVE = {
@@ -119,6 +119,20 @@ def headings(text):
     return [(len(match[1]), match[2]) for match in found if match]
 
 
+def literals(source):
+    """The string literals of a C++ source, adjacent ones joined, with their line numbers."""
+    source = re.sub(r"^#include.*$|//.*$", "", source, flags=re.MULTILINE)
+    for match in re.finditer(r'"(?:[^"\\\n]|\\.)*"(?:\s*\n\s*"(?:[^"\\\n]|\\.)*")*', source):
+        yield source.count("\n", 0, match.start()) + 1, re.sub(r'"\s*\n\s*"', "", match.group())[1:-1]
+
+
+def faults_of_text(text):
+    """Words in a figurative sense and long sentences of a text that is no page: a message, a help text, a table cell."""
+    found = [f"'{match.group()}' ({term}): {text}" for pattern, term in WORDS for match in pattern.finditer(text)]
+    parts = re.split(r"\n|\\n|(?<=[.!?:;])\s", text)
+    return found + [f"{len(part.split())} words: {part}" for part in parts if len(part.split()) > LONGEST_SENTENCE]
+
+
 def faults(text):
     """Everything in a page that the rules of the language do not allow."""
     found = []
@@ -159,6 +173,28 @@ class Vocabulary(unittest.TestCase):
         for page in REWRITTEN:
             with self.subTest(page=page):
                 self.assertEqual(faults((ROOT / page).read_text()), [])
+
+    def test_generated_reference_follows_the_rules(self):
+        for page in GENERATED:
+            with self.subTest(page=page):
+                cells = [plain(cell).strip() for block in blocks((ROOT / page).read_text())
+                         for cell in (block.strip("|").split("|") if block.startswith("|") else [block])]
+                self.assertGreater(len(cells), 100)
+                self.assertEqual([fault for cell in cells for fault in faults_of_text(cell)], [])
+
+    def test_texts_of_the_program_follow_the_rules(self):
+        sources = [file for folder in SOURCES for file in sorted((ROOT / folder).rglob("*")) if file.suffix in (".h", ".cpp")]
+        texts = [(f"{file.relative_to(ROOT)}:{line}", text) for file in sources for line, text in literals(file.read_text())
+                 if re.search(r"[a-z]{2,} [a-z]", text)]
+        self.assertGreater(len(texts), 1000)
+        self.assertEqual([f"{place}: {fault}" for place, text in texts for fault in faults_of_text(text)], [])
+
+    def test_texts_in_the_old_language_are_refused(self):
+        old = ('row("no {} that holds",\n    "the load goes on "\n    "as it was");  // says nothing', 'throw Error("what presses is the air");')
+        for source in old:
+            with self.subTest(source=source):
+                self.assertNotEqual([fault for _, text in literals(source) for fault in faults_of_text(text)], [])
+        self.assertEqual(list(literals('f("one "\n  "text", "two");  // "none"')), [(1, "one text"), (2, "two")])
 
     def test_open_pages_are_listed(self):
         self.assertEqual([page for page in REWRITTEN if page not in ALL], [])

@@ -146,7 +146,7 @@ TEST_F(FieldFile, AMistakeIsToldWithFileAndPlace) {
   text = header("ascii") + "internalField nonuniform List<scalar> -1();";
   EXPECT_EQ(refusal(text), told(text, "a list has no valid length", text.size() - 3));
   text = header("ascii") + "internalField nonuniform List<scalar> 3(1 2 3);boundaryField { }";
-  EXPECT_EQ(refusal(text), told(text, "holds 3 values where the mesh has 2", text.size()));
+  EXPECT_EQ(refusal(text), told(text, "contains 3 values, but the mesh has 2", text.size()));
   text = header("ascii") + "internalField uniform 3;";
   EXPECT_EQ(refusal(text), told(text, "has no internalField or no boundaryField", text.size()));
   text = "internalField uniform 3;";

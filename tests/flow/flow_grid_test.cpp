@@ -116,7 +116,7 @@ TEST(GradedGrid, SaysWhatDoesNotFit) {
     }
     return "";
   };
-  EXPECT_NE(message({-4, -0.4, 2.5}, {0.5, 0.4, 4.5}, 1.1).find("the box from -3 m to 3 m"),
+  EXPECT_NE(message({-4, -0.4, 2.5}, {0.5, 0.4, 4.5}, 1.1).find("the domain from -3 m to 3 m"),
             std::string::npos);
   EXPECT_NE(message({-0.5, -0.4, 2.5}, {0.5, 0.4, 4.5}, 1).find("growth = 1"), std::string::npos);
   const std::string few = message({-0.01, -0.4, 2.5}, {0.01, 0.4, 4.5}, 1.02);

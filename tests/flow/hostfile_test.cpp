@@ -43,12 +43,12 @@ TEST(Hostfile, AMistakeIsNamedWithLineWordAndRange) {
             "hosts:2:3: slots = 0: must be a whole number, at least 1 and at most 4096");
   EXPECT_NE(refusal("a slots=two\n").find("hosts:1:3: slots = two: must be"), std::string::npos);
   EXPECT_NE(refusal("a slots\n").find("slots = nothing"), std::string::npos);
-  EXPECT_NE(refusal("a slot=2\n").find("slot: is no word of a hostfile; did you mean slots?"),
+  EXPECT_NE(refusal("a slot=2\n").find("slot: is not a word of a hostfile; did you mean slots?"),
             std::string::npos);
-  EXPECT_NE(refusal("-oProxyCommand=harm\n").find("is no name of a host"), std::string::npos);
-  EXPECT_NE(refusal("a;harm\n").find("is no name of a host"), std::string::npos);
-  EXPECT_NE(refusal("").find("hosts: names no host"), std::string::npos);
-  EXPECT_NE(refusal("# none\n\n").find("names no host"), std::string::npos);
+  EXPECT_NE(refusal("-oProxyCommand=harm\n").find("is not a name of a host"), std::string::npos);
+  EXPECT_NE(refusal("a;harm\n").find("is not a name of a host"), std::string::npos);
+  EXPECT_NE(refusal("").find("hosts: contains no host"), std::string::npos);
+  EXPECT_NE(refusal("# none\n\n").find("contains no host"), std::string::npos);
   EXPECT_NE(refusal("a slots=0\nb slots=0\n").find("2 problems"), std::string::npos);
 }
 

@@ -24,7 +24,7 @@ TEST(UnmetCriteria, ListsOnlyWhatIsNotMet) {
     EXPECT_NE(unmet[0].find(words), std::string::npos) << unmet[0];
   };
   SteadyIteration now = converged();
-  only(now, "not solved in full");
+  only(now, "not solved to the full tolerance");
   now.shape_change = 2e-3;
   only(now, "the shape changes by 0.002 m (limit 0.001 m)");
   now = converged(), now.drag_change = 0.0067;
@@ -34,7 +34,7 @@ TEST(UnmetCriteria, ListsOnlyWhatIsNotMet) {
   now = converged(), now.nodal_load = 90;
   only(now, "differ by more than 1 %");
   now = converged(), now.flow_converged = false;
-  only(now, "the flow has not settled");
+  only(now, "the flow has not converged");
 }
 
 }  // namespace

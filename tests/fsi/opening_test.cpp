@@ -8,6 +8,8 @@
 #include "../diverges.h"
 #include "../printed_materials.h"
 #include "ripstop/core/error.h"
+#include "ripstop/flow/cartesian/cartesian.h"
+#include "ripstop/fsi/coupled_opening.h"
 #include "ripstop/fsi/pressure.h"
 #include "ripstop/fsi/uniform_pressure_opening.h"
 #include "ripstop/parachute/build.h"
@@ -83,7 +85,24 @@ TEST(Inflation, AStableStepBelowThatOfAnyWholeClothIsAnErrorThatNamesTheNode) {
     for (double& coefficient : law.coefficients) coefficient *= 1e14;
   const UniformPressureOpening solver(problem);
   const std::string message = divergence([&] { solver.start(); });
-  EXPECT_TRUE(says(message, "t = 0 s") && says(message, "at node ") && says(message, "may help")) << message;
+  EXPECT_TRUE(says(message, "t = 0 s") && says(message, "at node ") &&
+              says(message, "try a smaller time step"))
+      << message;
+}
+
+// The air would flow by as if there were no canopy.
+TEST(Inflation, AFoldedCanopyNarrowerThanTwoCellsOfTheAirIsRefused) {
+  InflationProblem problem = small_problem(0, 5e-3);  // 0.4 m wide
+  problem.air.emplace();
+  problem.air->engine = make_cartesian({});
+  problem.air->flow.air.velocity = {0, 0, 20};
+  problem.air->flow.bodies = {sheet_body({}, {1000, 0})};
+  problem.air->flow.grid = {{-2, -2, -2}, {4, 4, 8}, 16, 16, 32};
+  const std::string message = refusal_of([&] { CoupledOpening{problem}; }, ExitCode::usage);
+  EXPECT_TRUE(says(message, "0.4 m wide, 1.6 cells of the flow grid")) << message;
+  EXPECT_TRUE(says(message, "radius of the folded skirt of at least 0.25 m")) << message;
+  problem.air->flow.grid = {{-2, -2, -2}, {4, 4, 8}, 24, 24, 48};
+  EXPECT_NO_THROW(CoupledOpening{problem});
 }
 
 // A block may end by rounding before the instant that it stands for.

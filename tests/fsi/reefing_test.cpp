@@ -165,7 +165,7 @@ TEST(Reefing, ALineShorterThanTheFoldedSkirtIsRefused) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::usage);
-    EXPECT_NE(std::string(error.what()).find("more than its reefing line"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("exceeds the reefing line"), std::string::npos);
   }
 }
 

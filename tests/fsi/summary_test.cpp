@@ -136,5 +136,31 @@ TEST(OpeningEstimate, IsTheTypesCoefficientTimesTheDragAndUnknownWithoutIt) {
   EXPECT_FALSE(opening_estimate(printed_stratos(25600), {}).load);
 }
 
+// Area = 2 (t / 0.2)^3 until 0.2 s, then constant.
+TEST(Filling, IsWhereTheAreaFirstReachesThatOfTheEnd) {
+  std::vector<InflationFrame> frames;
+  for (int i = 1; i <= 100; ++i) {
+    InflationFrame frame;
+    frame.time = 0.005 * i;
+    frame.size.projected_area = 2 * std::pow(std::min(1.0, frame.time / 0.2), 3);
+    frames.push_back(frame);
+  }
+  const auto filling = filling_of(frames);
+  ASSERT_TRUE(filling);
+  EXPECT_NEAR(filling->time, 0.2, 1e-9);
+  EXPECT_NEAR(filling->exponent, 3, 1e-9);
+}
+
+TEST(Filling, CanopyThatStillGrowsAtTheEndHasNotFilled) {
+  std::vector<InflationFrame> frames;
+  for (int i = 1; i <= 100; ++i) {
+    InflationFrame frame;
+    frame.time = 0.005 * i, frame.size.projected_area = frame.time;
+    frames.push_back(frame);
+  }
+  EXPECT_FALSE(filling_of(frames));
+  EXPECT_FALSE(filling_of({}));
+}
+
 }  // namespace
 }  // namespace ripstop

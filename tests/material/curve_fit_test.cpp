@@ -21,8 +21,7 @@ SyntheticRecord f111_record() {
 std::vector<CleanRecord> bench_of(const SyntheticRecord& wanted, int samples, std::mt19937& random) {
   std::vector<CleanRecord> records;
   for (int i = 0; i < samples; ++i) {
-    records.push_back(
-        clean_record(parse_record(synthetic_csv(wanted, random), "s.csv"), LoadKind::per_width));
+    records.push_back(clean_record(synthetic_record(wanted, random), LoadKind::per_width));
   }
   return records;
 }

@@ -32,7 +32,7 @@ TensileRecord pulled(const PulledLaw& law, std::mt19937& random, int points = 40
   wanted.failure_strain = 0.3;
   wanted.points = points;
   wanted.noise = noise;
-  return parse_record(synthetic_csv(wanted, random), "s.csv");
+  return synthetic_record(wanted, random);
 }
 
 CleanRecord cleaned(const TensileRecord& record) {

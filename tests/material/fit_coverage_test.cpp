@@ -96,7 +96,7 @@ Found run_campaigns(const CoverageLaw& law) {
     std::vector<CleanRecord> samples;
     for (int k = 0; k < law.samples; ++k) {
       wanted.slack = k % 3 == 0 ? law.odd_slack : law.slack;
-      samples.push_back(clean_record(parse_record(synthetic_csv(wanted, random), "s.csv"),
+      samples.push_back(clean_record(synthetic_record(wanted, random),
                                      law.width > 0 ? LoadKind::per_width : LoadKind::whole));
     }
     const MeanCurve curve = mean_curve(samples);

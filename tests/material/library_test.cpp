@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "ripstop/core/file.h"
 #include "ripstop/core/toml/problem.h"
 #include "ripstop/core/units.h"
@@ -46,7 +48,9 @@ TEST(Library, EveryClothBreaksWhereItsCurveReachesItsBreakingLoad) {
   for (const Material& material : everything()) {
     const auto* cloth = std::get_if<Fabric>(&material);
     if (!cloth) continue;
-    EXPECT_NEAR(SpringLaw({cloth->coefficients_n_m, 1}).tension(cloth->tested_strain) / cloth->break_load_n_m,
+    const std::vector<double>& weft = cloth->weft_coefficients_n_m;  // the weaker one where it is given
+    EXPECT_NEAR(SpringLaw({weft.empty() ? cloth->coefficients_n_m : weft, 1}).tension(cloth->tested_strain) /
+                    cloth->break_load_n_m,
                 1, 0.02)
         << cloth->name;
   }
@@ -78,10 +82,35 @@ TEST(Library, ClothsLetThroughTheAirOfTheirSpecification) {
     EXPECT_LE(flow, r.high) << r.name;
     EXPECT_EQ(model_of(cloth.resistance), PorosityModel::sheet) << r.name;
   }
+  const PressureDrop lot = as_sheet(std::get<Fabric>(library_material("pia-c-44378-type-iv-lot")).resistance);
+  EXPECT_NEAR(cfm(lot), 0.89, 1e-3);
   const Fabric printed = std::get<Fabric>(library_material("f-111"));
   EXPECT_EQ(as_cells(printed.resistance).darcy, 65.98);
   EXPECT_EQ(model_of(printed.resistance), PorosityModel::paper);
   EXPECT_TRUE(material_warnings(printed, 0.1).empty());
+}
+
+// v = 2.06 m/s (dp / 1000 Pa)^0.61, measured on MIL-C-7020 type III.
+TEST(Library, OpenClothFollowsTheMeasuredCurveFrom100To1000Pa) {
+  const auto law = [](const char* name) {
+    return as_sheet(std::get<Fabric>(library_material(name)).resistance);
+  };
+  const PressureDrop type_iii = law("mil-c-7020-type-iii");
+  for (const double pressure : {100.0, 124.5, 200.0, 500.0, 1000.0})
+    EXPECT_NEAR(velocity_at(type_iii, pressure) / (2.06 * std::pow(pressure / 1000, 0.61)), 1, 0.024)
+        << pressure;
+  for (const char* open :
+       {"mil-c-7020-type-i", "mil-c-7020-type-ii", "pia-c-44378-type-ii", "pia-c-44378-type-iii"}) {
+    EXPECT_NEAR(law(open).quadratic / law(open).linear, type_iii.quadratic / type_iii.linear, 2e-4) << open;
+    EXPECT_LT(velocity_at(law(open), 1000) / velocity_at(law(open), 124.5), 5.1) << open;
+  }
+}
+
+TEST(Library, TheWeftOfTheMeasuredLotBreaksAtItsOwnStrain) {
+  const Fabric lot = std::get<Fabric>(library_material("pia-c-44378-type-iv-lot"));
+  constexpr double pound_per_inch = pound_force / inch;
+  EXPECT_NEAR(SpringLaw({lot.weft_coefficients_n_m, 1}).tension(0.221), 47.0 * pound_per_inch, 1);
+  EXPECT_NEAR(SpringLaw({lot.coefficients_n_m, 1}).tension(0.241), 48.5 * pound_per_inch, 1);
 }
 
 }  // namespace

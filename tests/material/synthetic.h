@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "ripstop/material/record.h"
+
 namespace ripstop {
 
 struct SyntheticRecord {
@@ -24,8 +26,9 @@ struct SyntheticRecord {
   int points = 400;
 };
 
-/// CSV text of one sample. The noise is an AR(1) process: neighbours err together, as on a bench.
-inline std::string synthetic_csv(const SyntheticRecord& wanted, std::mt19937& random) {
+/// One sample as a reader gives it. The noise is an AR(1) process: neighbours err together, as on a bench. Values have the
+/// six decimals of synthetic_csv().
+inline TensileRecord synthetic_record(const SyntheticRecord& wanted, std::mt19937& random) {
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> uniform(0.5, 1.5);
   const double factor = 1 + wanted.scatter * normal(random);
@@ -35,11 +38,10 @@ inline std::string synthetic_csv(const SyntheticRecord& wanted, std::mt19937& ra
   const double peak = factor * wanted.load(failure) * per;
   const int points = static_cast<int>(wanted.points * uniform(random));
   const double travel = (slack + 1.05 * failure * wanted.length) * 1e3;  // [mm]
-  std::string text = fmt::format(
-      "# synthetic record: not a measurement\n# length: {} mm\n{}# orientation: {} deg\n"
-      "extension [mm],force [N]\n",
-      1e3 * wanted.length, wanted.width > 0 ? fmt::format("# width: {} mm\n", 1e3 * wanted.width) : "",
-      wanted.orientation);
+  const auto six_decimals = [](double value) { return std::round(1e6 * value) / 1e6; };
+  TensileRecord record;
+  record.file = "s.csv";
+  record.coupon = {wanted.length, wanted.width, static_cast<double>(wanted.orientation)};
   constexpr double memory = 0.8;
   double error = normal(random);
   for (int i = 0; i <= points; ++i) {
@@ -48,8 +50,23 @@ inline std::string synthetic_csv(const SyntheticRecord& wanted, std::mt19937& ra
     double force = strain <= 0 ? 0 : factor * wanted.load(strain) * per;
     if (strain > failure) force = 0.2 * peak;
     error = memory * error + std::sqrt(1 - memory * memory) * normal(random);
-    text += fmt::format("{:.6f},{:.6f}\n", x, force + wanted.offset + wanted.noise * peak * error);
+    record.displacement.push_back(1e-3 * six_decimals(x));
+    record.force.push_back(six_decimals(force + wanted.offset + wanted.noise * peak * error));
+    record.line.push_back(i + (wanted.width > 0 ? 6 : 5));  // below the heading of synthetic_csv()
   }
+  return record;
+}
+
+/// The same sample as CSV text.
+inline std::string synthetic_csv(const SyntheticRecord& wanted, std::mt19937& random) {
+  const TensileRecord record = synthetic_record(wanted, random);
+  std::string text = fmt::format(
+      "# synthetic record: not a measurement\n# length: {} mm\n{}# orientation: {} deg\n"
+      "extension [mm],force [N]\n",
+      1e3 * wanted.length, wanted.width > 0 ? fmt::format("# width: {} mm\n", 1e3 * wanted.width) : "",
+      wanted.orientation);
+  for (std::size_t i = 0; i < record.force.size(); ++i)
+    text += fmt::format("{:.6f},{:.6f}\n", 1e3 * record.displacement[i], record.force[i]);
   return text;
 }
 

@@ -107,7 +107,7 @@ TEST_F(Drawing, AnEndingThatIsNoPicturesIsRefused) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::usage);
-    EXPECT_STREQ(error.what(), "picture.jpg: pictures are written as .png or .svg");
+    EXPECT_STREQ(error.what(), "picture.jpg: the name of a picture must end in .png or .svg");
   }
   EXPECT_THROW(drawn([](cairo_t* page) { draw_text(page, 5, 5, "\xff\xfe"); }), Error);
 }

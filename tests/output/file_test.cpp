@@ -80,7 +80,7 @@ TEST(WriteFile, AFailedWriteLeavesTheOldFileAndNoRubbish) {
 TEST(WriteFile, AFullDiskIsNamedAsTheReason) {
   const std::string message = refusal_of([] { append_to_file("/dev/full", "x"); }, ExitCode::io);
   EXPECT_EQ(message,
-            "cannot append to /dev/full: No space left on device; free some space, or write elsewhere");
+            "cannot append to /dev/full: No space left on device; free some space, or use another folder");
 }
 
 // A name that is on the disk before its bytes would be an empty file after a power cut.

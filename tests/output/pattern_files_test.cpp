@@ -9,6 +9,7 @@
 #include <regex>
 #include <sstream>
 
+#include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 
 namespace ripstop {
@@ -152,6 +153,69 @@ TEST(PatternFiles, TheSvgHasTheCutAndTheFinishedOutlineWithPaperAllRound) {
   EXPECT_GT(areas[0], 1.05 * areas[1]);
   for (const double edge : {left, width - right, top}) EXPECT_NEAR(edge, 10, 1e-3);
   EXPECT_GE(height - bottom, 10);  // the bar and the name are there
+}
+
+TEST(PatternFiles, DxfHasFoldsNotchesLinesAndATitleBlockOnLayersOfTheirOwn) {
+  const TemporaryFolder folder("pattern");
+  Piece piece = triangle;
+  piece.edge_names = {"skirt", "", ""};
+  piece.marks = {{{-0.2, 0}, "line"}, {{0.2, 0}, "line"}};
+  const PatternHead head{"Canop\xc3\xa9", "case.toml", "2026-01-31"};
+  write_pattern_dxf(folder.path / "gore.dxf", piece, {.seam = 0.01, .hem = 0.02}, DxfUnit::millimetres, head);
+  const std::string text = read_file(folder.path / "gore.dxf");
+  const auto outlines = dxf_outlines(text);
+  ASSERT_EQ(outlines.at("FOLD").size(), 2u);  // the hem
+  EXPECT_NEAR(outlines.at("FOLD")[1].x - outlines.at("FOLD")[0].x, 400, 1e-3);
+  EXPECT_NEAR(outlines.at("FOLD")[0].y, 0, 1e-6);
+  // Sides of 0.539 m are cut into two parts by a notch each: from 10 mm outside the seam, 5 mm deep.
+  const std::vector<Point2>& notch = outlines.at("NOTCH");
+  ASSERT_EQ(notch.size(), 4u);
+  for (int side : {0, 1}) {
+    const Point2 from = notch[2 * side], to = notch[2 * side + 1];
+    EXPECT_NEAR(std::hypot(to.x - from.x, to.y - from.y), 5, 1e-3);
+    EXPECT_NEAR(from.y - 10 * 0.2 / std::hypot(0.2, 0.5), 250, 1e-3);
+  }
+  EXPECT_NEAR(notch[0].x, -notch[2].x, 1e-3) << "notches of both sides meet";
+  ASSERT_EQ(outlines.at("LINES").size(), 8u);  // two crosses
+  EXPECT_NEAR(0.5 * (outlines.at("LINES")[0].x + outlines.at("LINES")[1].x), -200, 1e-3);
+  for (const char* wanted : {"gore, cut 8, warp along arrow", "Canop??", "case.toml, 2026-01-31, Ripstop",
+                             "seam 10 mm, hem 20 mm", "skirt, fold", "\nseam\n"})
+    EXPECT_NE(text.find(wanted), std::string::npos) << wanted;
+  for (const char c : text) EXPECT_TRUE(c == '\n' || (c >= ' ' && c <= '~')) << int(c);
+}
+
+TEST(PatternFiles, SvgTextIsEscaped) {
+  const TemporaryFolder folder("pattern");
+  write_pattern_svg(folder.path / "gore.svg", triangle, {}, {"<b> & co", "", ""});
+  EXPECT_NE(read_file(folder.path / "gore.svg").find("&lt;b&gt; &amp; co"), std::string::npos);
+}
+
+/// Sizes of the pages of a PDF [pt].
+std::vector<std::pair<double, double>> pdf_pages(const std::string& text) {
+  std::vector<std::pair<double, double>> pages;
+  const std::regex box(R"x(/MediaBox \[ 0 0 ([0-9.]+) ([0-9.]+) \])x");
+  for (std::sregex_iterator found(text.begin(), text.end(), box), end; found != end; ++found)
+    pages.emplace_back(std::stod((*found)[1]), std::stod((*found)[2]));
+  return pages;
+}
+
+TEST(PatternFiles, PdfHasAnOverviewAndTheSheetsThatALineCrosses) {
+  const TemporaryFolder folder("pattern");
+  const Piece square{
+      "square", 1, {{0, 0}, {0.9, 0}, {0.9, 0.9}, {0, 0.9}}, {Edge::hem, Edge::hem, Edge::hem, Edge::hem}};
+  // 0.94 m on windows of 190 x 277 mm: 5 columns, 4 rows; the middle ones hold the arrow in the third column only.
+  write_pattern_pdf(folder.path / "square.pdf", square, {.seam = 0, .hem = 0.02}, Paper::a4);
+  const auto pages = pdf_pages(read_file(folder.path / "square.pdf"));
+  EXPECT_EQ(pages.size(), 1u + 14u + 2u);
+  for (const auto& [width, height] : pages) {
+    EXPECT_NEAR(width, 210 / 25.4 * 72, 0.01);
+    EXPECT_NEAR(height, 297 / 25.4 * 72, 0.01);
+  }
+  write_pattern_pdf(folder.path / "letter.pdf", triangle, {}, Paper::letter);
+  EXPECT_NEAR(pdf_pages(read_file(folder.path / "letter.pdf")).at(0).first, 612, 0.01);
+  Piece huge = square;
+  for (Point2& p : huge.outline) p.x *= 30, p.y *= 30;
+  EXPECT_THROW(write_pattern_pdf(folder.path / "huge.pdf", huge, {}, Paper::a4), Error);
 }
 
 }  // namespace

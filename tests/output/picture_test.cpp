@@ -9,6 +9,7 @@
 #include "read_png.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
+#include "ripstop/output/colour.h"
 #include "ripstop/output/flow_picture.h"
 
 namespace ripstop {
@@ -212,6 +213,12 @@ TEST(CanopyPicture, ACanopyCollapsedToAPointIsStillAPicture) {
   const CanopyMesh mesh = two_cells();
   EXPECT_NO_THROW(
       write_canopy_picture(folder.path / "c.png", mesh, std::vector<Vec3>(mesh.start.size()), pressures()));
+}
+
+TEST(Colours, OfAFieldWithoutARangeAreThoseOfItsLowestValue) {
+  const Colour lowest = scale_colour(0), none = scale_colour(std::nan(""));
+  EXPECT_EQ(none.red, lowest.red);
+  EXPECT_EQ(none.blue, lowest.blue);
 }
 
 }  // namespace

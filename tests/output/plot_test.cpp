@@ -147,6 +147,25 @@ TEST(Plot, ALineHasAGapWhereAValueIsMissing) {
   EXPECT_NEAR(gap.count, 0.5 * whole.count, 0.01 * whole.count);
 }
 
+TEST(Plot, AnErrorBarReachesFromItsLowToItsHighEnd) {
+  const TemporaryFolder folder("plot-bars");
+  Plot plot{"", {"x", false, 0, 4}, {"y", false, 0, 1}, {{"", {2}, {.5}, false, true, false}}};
+  write_plot(folder.path / "point.png", plot);
+  plot.series[0].bars = {.25};
+  write_plot(folder.path / "bar.png", plot);
+  plot.series[0].bars = {.125};
+  write_plot(folder.path / "half.png", plot);
+  const auto count = [&](const char* name) {
+    return spot_of(read_png(folder.path / name), series_colour(0)).count;
+  };
+  const double point = count("point.png"), bar = count("bar.png") - point, half = count("half.png") - point;
+  EXPECT_GT(half, 0.1 * point);
+  // The caps are the same, and the rest is twice as long: half of the plot's height of 620 is 2 pixels wide.
+  EXPECT_NEAR(bar - half, 2 * 0.25 * 620, 20);
+  plot.series[0].bars = {.1, .1};
+  EXPECT_THROW(write_plot(folder.path / "two.png", plot), Error);
+}
+
 TEST(Plot, ConstantAndSingleValuesAndEveryOptionCanBeDrawn) {
   const TemporaryFolder folder("plot-all");
   Plot plot{"Drag", {"speed [m/s]"}, {"drag [N]"}, {{"one", {10}, {43.1}, true, true, true}}};

@@ -11,6 +11,7 @@
 #include "examples.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/case/case.h"
+#include "ripstop/parachute/piece_edges.h"
 
 namespace ripstop {
 namespace {
@@ -93,6 +94,35 @@ TEST(CutPattern, AFlatCircularGoreIsATrapezoidWithTheAngleOfItsGore) {
   ASSERT_EQ(pattern.pieces[0].outline.size(), 4u);
   const Point2 lower = pattern.pieces[0].outline[1], upper = pattern.pieces[0].outline[2];
   EXPECT_NEAR((lower.x - upper.x) / (upper.y - lower.y), std::tan(std::numbers::pi / 12), 1e-12);
+}
+
+// A line at every seam, or more of them equally spaced along the lowest edge.
+TEST(CutPattern, MarksTheLinesAndNamesTheEdgesOfEveryFamily) {
+  for (const CanopyFamily* family : families()) {
+    const Case given =
+        read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples" / family->example / "case.toml");
+    const CutPattern cut = cut_pattern(given.parachute);
+    int marks = 0;
+    for (const Piece& piece : cut.pieces) {
+      EXPECT_EQ(piece.edge_names.size(), piece.edges.size()) << family->example << " " << piece.name;
+      marks += static_cast<int>(piece.marks.size());
+      for (const EdgeRun& run : edge_runs(piece)) EXPECT_NE(run.name, "") << family->example;
+    }
+    EXPECT_GT(marks, 1) << family->example;
+  }
+}
+
+TEST(CutPattern, NotchesOfASeamLieAlikeOnBothSidesOfAGore) {
+  const Case given = read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/conical/case.toml");
+  const Piece gore = cut_pattern(given.parachute).pieces.front();
+  const auto all = notches(gore, {});
+  ASSERT_GE(all.size(), 2u);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto& [from, to] = all[i];
+    const auto& [other_from, other_to] = all[all.size() - 1 - i];
+    EXPECT_NEAR(from.x, -other_from.x, 1e-9);
+    EXPECT_NEAR(to.y, other_to.y, 1e-9);
+  }
 }
 
 }  // namespace

@@ -91,7 +91,7 @@ TEST(RingLayout, TooFewNodesForTheSeamsAndLinesAreRefused) {
     EXPECT_STREQ(
         error.what(),
         "parachute.mesh.cloth_nodes = 50: too few for 12 gores and 7 lines, whose seams and radials need "
-        "columns in multiples of 84; ask for more nodes");
+        "columns in multiples of 84; use more nodes");
   }
 }
 

@@ -1,6 +1,7 @@
 """The wheel installs into a fresh environment without a network, and what CMake installs is found where Debian's Python looks."""
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -22,7 +23,7 @@ class Installation(unittest.TestCase):
         run("cmake", "--build", small.BUILD, "--target", "wheel")
         wheels = list((small.BUILD / "wheel").glob("*.whl"))
         self.assertEqual(len(wheels), 1)
-        self.assertRegex(wheels[0].name, r"^ripstop-[\d.]+-cp3\d+-cp3\d+-linux_\w+\.whl$")
+        self.assertRegex(wheels[0].name, r"^ripstop-[\d.]+-cp3\d+-cp3\d+-manylinux_2_\d+_\w+\.whl$")
         with tempfile.TemporaryDirectory() as folder:
             run(sys.executable, "-m", "venv", "--system-site-packages", "--without-pip", folder)
             python = pathlib.Path(folder, "bin/python")
@@ -32,6 +33,11 @@ class Installation(unittest.TestCase):
             self.assertTrue(data.startswith(folder), data)
             for name in ("_ripstop.pyi", "py.typed", "data/materials/f-111.toml", "data/examples/families.json"):
                 self.assertTrue((pathlib.Path(found).parent / name).exists(), name)
+            program = pathlib.Path(folder, "bin/ripstop")
+            self.assertEqual(run(program, "--version"), run(small.PROGRAM, "--version"))
+            self.assertEqual(run(program, "check", small.STRATOS), run(small.PROGRAM, "check", small.STRATOS))
+            loaded = run("ldd", pathlib.Path(found).parent / "bin/ripstop")
+            self.assertRegex(loaded, rf"libcairo-[0-9a-f]{{8}}\.so\.2 => {re.escape(folder)}")
 
     def test_where_cmake_installs(self):
         version = f"python{sys.version_info.major}.{sys.version_info.minor}"

@@ -141,6 +141,12 @@ class Errors(unittest.TestCase):
             file.write_text(small.case().to_toml())
             self.both(ripstop.Error, lambda: ripstop.inflate(small.case()), "inflate", file, "--out", pathlib.Path(folder, "run"))
 
+    def test_angles_of_attack_that_do_not_rise(self):
+        case = ripstop.Case.read(small.STRATOS)
+        for angles, words in [([10, 5], "5 after 10 degrees"), ([], "no angle"), ([0, 91], "91 degrees")]:
+            with self.subTest(angles), self.assertRaisesRegex(ripstop.Error, words):
+                ripstop.stability(case, angles)
+
     def test_an_error_of_the_input_is_an_error(self):
         self.assertTrue(issubclass(ripstop.InputError, ripstop.Error))
         self.assertFalse(issubclass(ripstop.Error, RuntimeError))

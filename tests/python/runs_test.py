@@ -73,6 +73,36 @@ class SteadyRuns(unittest.TestCase):
             status, text, _ = small.program("descent", folder, "--mass", 2, "--json")
             self.assertEqual((status, text), (0, ripstop.descent(folder, 2).to_json()))
 
+    def test_a_run_starts_from_a_finished_one(self):
+        warm = ripstop.steady(small.case(), start=self.run_)
+        self.assertLess(warm.coupling_iterations, self.run_.coupling_iterations)
+        with tempfile.TemporaryDirectory() as folder:
+            with self.assertRaisesRegex(ValueError, "starts from a run in a folder"):
+                ripstop.steady(small.case(), out=folder, start=self.run_)
+
+    def test_a_sweep_has_a_run_for_each_value(self):
+        runs = ripstop.sweep(small.case(coupling__max_iterations=2), {"flow.speed_m_s": [15, 20]}, jobs=1)
+        self.assertEqual([run.values for run in runs], [{"flow.speed_m_s": "15"}, {"flow.speed_m_s": "20"}])
+        self.assertEqual([run.speed_m_s for run in runs], [15, 20])
+        self.assertGreater(runs[1].drag_n, runs[0].drag_n)
+        with self.assertRaises(ValueError):
+            ripstop.sweep(small.case(), {"flow.speed_m_s": []})
+
+    def test_cloth_under_a_pressure(self):
+        cloth = ripstop.fabric(small.case(), pressure_pa=300)
+        self.assertEqual(cloth.pressure_pa, 300)
+        self.assertAlmostEqual(cloth.line_tension_n / cloth.pressure_load_n, 1, delta=0.01)
+        self.assertEqual(cloth.shape.shape[1], 3)
+        for pressure in (-1, float("nan"), 2e6):
+            with self.assertRaises(ripstop.Error):
+                ripstop.fabric(small.case(), pressure_pa=pressure)
+
+    def test_a_report_of_a_folder(self):
+        with tempfile.TemporaryDirectory() as folder:
+            ripstop.steady(small.case(coupling__max_iterations=1), out=pathlib.Path(folder, "run"))
+            page = ripstop.report([pathlib.Path(folder, "run")], out=pathlib.Path(folder, "page.html"))
+            self.assertIn("<html", pathlib.Path(page).read_text()[:400])
+
     def test_progress_comes_with_every_iteration(self):
         self.assertEqual([i.iteration for i in self.seen], list(range(1, self.run_.coupling_iterations + 1)))
         numpy.testing.assert_array_equal([i.drag_n for i in self.seen], self.run_.iterations["drag_n"])

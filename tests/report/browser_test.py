@@ -187,7 +187,7 @@ class Report(unittest.TestCase):
         self.assertEqual(self.js("document.querySelectorAll('#tabs button').length"), 2)
         rows = self.js("[...document.querySelectorAll('[data-table=comparison] tbody tr')].map((row) => [...row.cells].map((c) => c.title || c.innerText))")
         results = [json.loads((folder / "result.json").read_text()) for folder in (self.steady, self.opening)]
-        row = next(row for row in rows if row[0] == "highest line tension")
+        row = next(row for row in rows if row[0] == "maximum line tension")
         self.assertEqual([float(text) for text in row[2:]], [result["max_line_tension_n"] for result in results])
         self.js("document.querySelectorAll('#tabs button')[1].click()")
         self.check_values(self.opening)
@@ -205,6 +205,35 @@ class Report(unittest.TestCase):
             self.browser.pdf(PICTURES / "both.pdf")
         self.js("window.dispatchEvent(new Event('afterprint'))")
         self.assertEqual(self.js("document.querySelectorAll('.paper img').length"), 0)
+
+    def test_on_a_phone_nothing_is_wider_than_the_page_and_no_word_is_broken(self):
+        self.open(self.steady / "report.html")
+        self.browser.width(390)
+        self.assertLessEqual(self.js("document.documentElement.scrollWidth"), 390)
+        # A word is broken where a range over it has more than one line.
+        broken = """[...document.querySelectorAll('.card dt, .table td:first-child')].flatMap((cell) => {
+          const text = cell.firstChild;
+          if (!text || text.nodeType !== Node.TEXT_NODE || !cell.offsetParent) return [];
+          return [...text.data.matchAll(/[A-Za-z]+/g)].filter((word) => {
+            const range = document.createRange();
+            range.setStart(text, word.index);
+            range.setEnd(text, word.index + word[0].length);
+            return range.getClientRects().length > 1;
+          }).map((word) => word[0]);
+        })"""
+        self.assertEqual(self.js(broken), [])
+        self.browser.width(1280)
+
+    def test_the_first_printed_page_has_more_than_the_title(self):
+        self.open(self.steady / "report.html")
+        self.browser.media("print")
+        self.assertEqual(self.js("getComputedStyle(document.querySelector('section.run')).breakBefore"), "auto")
+        self.browser.media("")
+        self.open(self.both)
+        self.browser.media("print")
+        self.assertEqual(self.js("[...document.querySelectorAll('section.run')].map((one) => getComputedStyle(one).breakBefore)"),
+                         ["auto", "page", "page"])
+        self.browser.media("")
 
     def test_fifty_thousand_moving_nodes_are_smooth(self):
         self.assertLessEqual(self.dome.stat().st_size, 10_000_000)

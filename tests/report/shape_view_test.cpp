@@ -60,7 +60,7 @@ TEST_F(ShapeOfFiles, FramesOfTwoMeshesAreRefused) {
   EXPECT_NO_THROW(read_shape({larger}));
   const std::string message = refusal_of([&] { read_shape({files, larger}); }, ExitCode::bad_data);
   EXPECT_NE(message.find("larger.vtp"), std::string::npos) << message;
-  EXPECT_NE(message.find("is of another mesh"), std::string::npos) << message;
+  EXPECT_NE(message.find("has a different mesh"), std::string::npos) << message;
 }
 
 TEST_F(ShapeOfFiles, ValuesThatAreNotOneACellAreRefused) {

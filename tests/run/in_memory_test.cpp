@@ -4,8 +4,10 @@
 #include <filesystem>
 #include <numbers>
 
+#include "../refusal.h"
 #include "../small_case.h"
 #include "ripstop/canopy/shape.h"
+#include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/run/sizing/fabric.h"
 #include "ripstop/run/sizing/pattern.h"
@@ -129,6 +131,15 @@ TEST_F(InMemory, ThePatternsBillWeighsWhatIsCut) {
   for (const BillRow& row : pattern.bill.rows) mass += row.mass;
   EXPECT_DOUBLE_EQ(mass, pattern.bill.mass);
   EXPECT_DOUBLE_EQ(pattern.bill.packed_volume, mass / 400);
+}
+
+TEST(InMemory, AClothUnderAPressureThatBurstsItIsComparedWithItsStrength) {
+  const Settings resolved = resolve(small_case());
+  const std::string message = refusal_of([&] { run_fabric(resolved, 1e6); }, ExitCode::diverged);
+  EXPECT_NE(message.find("no equilibrium under 1e+06 Pa"), std::string::npos) << message;
+  EXPECT_NE(message.find("the cloth breaks at"), std::string::npos) << message;
+  EXPECT_NE(refusal_of([&] { run_fabric(resolved, 2e6); }, ExitCode::usage).find("pressure (Pa)"),
+            std::string::npos);
 }
 
 }  // namespace

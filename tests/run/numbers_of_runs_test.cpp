@@ -26,6 +26,7 @@
 #include "ripstop/run/opening/filling.h"
 #include "ripstop/run/opening/inflation_folder.h"
 #include "ripstop/run/opening/load.h"
+#include "ripstop/run/quality.h"
 #include "ripstop/run/sizing/fabric.h"
 #include "ripstop/run/sweep/porosity_sweep.h"
 #include "tests/run/steady/finished_run.h"
@@ -65,7 +66,7 @@ TEST(RunNumbers, AHostfileNeedsAnEngineOfRanksAndTwoOfThem) {
   require_hosts({}, resolve(given));
   given.flow.ranks = 4;
   EXPECT_NE(refusal_of([&] { require_hosts(root.path / "hosts", resolve(given)); }, ExitCode::usage)
-                .find("--hostfile: needs ranks"),
+                .find("--hostfile: requires"),
             std::string::npos);
   given.flow.engine = "openfoam";
   require_hosts(root.path / "hosts", resolve(given));
@@ -73,7 +74,7 @@ TEST(RunNumbers, AHostfileNeedsAnEngineOfRanksAndTwoOfThem) {
   require_hosts(root.path / "hosts", resolve(given));
   given.flow.ranks = 1;
   EXPECT_EQ(refusal_of([&] { require_hosts(root.path / "hosts", resolve(given)); }, ExitCode::usage)
-                .find("--hostfile: needs"),
+                .find("--hostfile: requires"),
             0u);
   given.flow.ranks = 9;
   EXPECT_THROW(require_hosts(root.path / "hosts", resolve(given)), Error);  // more than slots
@@ -307,6 +308,21 @@ TEST(RunNumbers, OfAnOpeningInItsOwnAirTheLargestDragAreaAndThePayloadsEndCount)
   EXPECT_DOUBLE_EQ(*r.end_angle, state.air.flight.angle * 180 / std::numbers::pi);
   EXPECT_EQ(*r.height_lost, state.air.flight.fallen);
   EXPECT_GT(*r.height_lost, 0);
+}
+
+// The estimate of --check: cloth predicted and corrected, and steps of the air in all its cells.
+TEST(RunNumbers, TheTimeOfAnOpeningInItsOwnAirCountsTheFlowAndItsCellsAreCheckedFirst) {
+  const Settings resolved = resolve(opening_case(small_opening_in_air()));
+  const LoadSource source = load_source(resolved);
+  const auto solver = make_opening(with_engine(resolved, opening_problem(resolved, source, 1)));
+  const InflationState start = solver->start();
+  const double cloth =
+      solver->problem().settings.duration_s / start.step * solver->mesh().node_count() / 1.25e8;
+  EXPECT_GT(opening_seconds(*solver, start), 2 * cloth);
+  EXPECT_LT(cells_across(resolved), 10);
+  const std::vector<std::string> warnings = opening_warnings(resolved, *solver);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("number of flow cells across the inflated canopy"), std::string::npos);
 }
 
 TEST(RunNumbers, ADampingIsSearchedOnTheMeasuredOpeningUnderThePressureOfTheProblem) {

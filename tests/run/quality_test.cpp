@@ -57,8 +57,8 @@ TEST(MarginWarnings, NameEveryKindOfMemberBelowZeroOnce) {
                      member("riser", 6.5)};
   const std::vector<std::string> told = margin_warnings(margins);
   ASSERT_EQ(told.size(), 2u);
-  EXPECT_EQ(told[0].find("the line 1 does not hold"), 0u) << told[0];
-  EXPECT_EQ(told[1].find("the riser does not hold"), 0u) << told[1];
+  EXPECT_EQ(told[0].find("the line 1 exceeds its allowable load"), 0u) << told[0];
+  EXPECT_EQ(told[1].find("the riser exceeds its allowable load"), 0u) << told[1];
   EXPECT_NE(told[1].find("6.5 times the allowable 100 N (margin of safety -0.85)"), std::string::npos)
       << told[1];
   EXPECT_TRUE(margin_warnings(std::nullopt).empty());

@@ -49,7 +49,7 @@ TEST(Results, OfAnOpeningAreThoseOfItsStateHistoryAndCase) {
   EXPECT_EQ(result.steady_load, result.summary.last_load);
   EXPECT_EQ(result.steady_drag_returned, *result.steady_load / 400);
   EXPECT_EQ(result.estimate.load, opening_estimate(given.parachute, 400).load);
-  EXPECT_EQ(result.estimate.drag_from, "the steady drag asked for");
+  EXPECT_EQ(result.estimate.drag_from, "the given steady drag");
   EXPECT_EQ(result.steps, state.cloth.steps);
   EXPECT_EQ(result.step_changes, state.step_changes);
   EXPECT_GT(result.step_changes, 0);

@@ -76,7 +76,7 @@ TEST(RunFolder, AnOpeningTakesTheDragOfItsOwnParachuteOnly) {
   EXPECT_NE(refusal(other).find("another speed"), std::string::npos) << refusal(other);
   other = given;
   other.parachute.gores = 8;
-  EXPECT_NE(refusal(other).find("parachute.gores is 6 there and 8 here"), std::string::npos)
+  EXPECT_NE(refusal(other).find("parachute.gores is 6 in that run and 8 in this case"), std::string::npos)
       << refusal(other);
   std::string text = read_file(run / "result.json");
   text.replace(text.find("396.8"), 5, "496.8");

@@ -110,7 +110,7 @@ def near_the_limit(t):
     log = (out.parent / "steady.slurm" / f"{job}.log").read_text()
     restarts = re.search(r"Restarts=(\d+)", t.slurm.call("scontrol", "show", "job", str(job))).group(1)
     unlike = differences(out, whole)
-    if "back into the queue" not in log or restarts != "1":
+    if "the job is queued again" not in log or restarts != "1":
         unlike.append(f"not requeued: {restarts} restarts")
     t.tell("`steady` that meets its time limit after a checkpoint: requeued, goes on", f"{t.states(job)}, {restarts} restart", unlike)
 
@@ -156,7 +156,7 @@ def cancelled(t):
     t.ended()
     states = t.states(wave - 1)
     table = (out / "sweep.csv").read_text()
-    unlike = [] if table.count("has not come back") == 1 and table.count("converged") == 2 else [f"the table: {table}"]
+    unlike = [] if table.count("is not finished") == 1 and table.count("converged") == 2 else [f"the table: {table}"]
     done = t.ripstop(SWEEP, out)
     assert done.returncode == 0, done.stderr
     t.tell("`sweep` with one element cancelled, then `ripstop sweep` here", states, unlike + differences(out, whole))

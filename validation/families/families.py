@@ -181,13 +181,13 @@ def openings(options):
                      f"{pull:.0f}, {aside:.0f} deg", f"{r['low_pass_peak_load_n'] / pull:.2f}",
                      f"{r['knacke_coefficient']:g}", *over_whole_area(r, known, handbook["nominal_diameter_m"]), f"{way:.1f}",
                      f"{handbook['filling_constant']:g}", f"{100 * r['pierced_edges']:.1f}"])
-    table = tables.table(["example", "peak at 100 Hz N", "at ms", "last fifth, along the stream N", "its pull N, aside",
-                          "peak over the pull", "Knacke C_x", "peak over q S0", "Knacke C_x C_D", "way to the peak in diameters",
+    table = tables.table(["example", "peak at 100 Hz N", "at ms", "last fifth, axial N", "resultant N, inclination",
+                          "peak over the resultant", "Knacke C_x", "peak over q S0", "Knacke C_x C_D", "distance to the peak in diameters",
                           "handbook's filling distance, flying", "edges that pierce cloth %"], rows)
     print("\n".join(table))
     foot = ["The handbook's filling distance is that of a payload that flies, in nominal diameters, as `ripstop load` takes it."]
     if len(rows) == len(in_handbook()) and not options.set:
-        tables.write("families-openings", "Families opened in their own air", "make validate-openings", made, table + foot)
+        tables.write("families-openings", "Coupled inflation of the families", "make validate-openings", made, table + foot)
 
 
 def in_time(options):
@@ -199,7 +199,7 @@ def in_time(options):
     print("\n".join(table))
     if set(known) == set(results) and not options.grid and not options.set:
         made = [run for name in results for run in tables.runs_below(folder_of(options, name, IN_TIME))]
-        tables.write("families-in-time", "Families with a wake that sheds", "make validate-families-in-time", made, table)
+        tables.write("families-in-time", "Families with an unsteady wake", "make validate-families-in-time", made, table)
 
 
 def main():
@@ -227,7 +227,7 @@ def main():
     tables.write("families", "Steady drag of every family's example", "make validate-families", made, families_table(results))
     shipped.write()
     foot = ["Cp: medians along the gore (`pressure.csv`). Axial moment: over drag times half the projected diameter."]
-    tables.write("loads", "The air's own load beside a uniform one", "make validate-families", made, loads + foot)
+    tables.write("loads", "Load of the flow compared with a uniform load", "make validate-families", made, loads + foot)
 
 
 if __name__ == "__main__":

@@ -203,7 +203,7 @@ SECTIONS = [
      [f"{model}/{parachute}-{basis}"
       for model in ("paper", "sheet-calibrated", "sheet-specified", "specified-jet", "specified-unsteady-jet")
       for parachute in ("walrus", "adept") for basis in ("nominal", "measured")]),
-    (uncertainty, "uncertainty", "What the predictions depend on", "uncertain uncertain-sheet uncertain-jet",
+    (uncertainty, "uncertainty", "Sensitivity of the predictions", "uncertain uncertain-sheet uncertain-jet",
      [f"{model}/uncertain-{parachute}" for model in ("paper", "sheet-calibrated", "specified-jet") for parachute in ("stratos-iv", "walrus", "adept")]),
     (sheet, "sheet", "Stratos IV with the specified permeability", "sheet", ["sheet-specified/stratos-iv-nominal"]),
     (jet, "jet", "Stratos IV with the specified permeability in the open jet", "jet unsteady-jet",
@@ -211,8 +211,8 @@ SECTIONS = [
       for basis in ("nominal", "measured")]),
     (sheet_calibration, "sheet-calibration", "The sheet's law calibrated on Stratos IV", "sheet-calibrated",
      ["sheet-calibrated/permeabilities", "sheet-calibrated/gammas"]),
-    (comparison, "comparison", "Nonlinear beside linear at 30 m/s", "compare", ["compare"]),
-    (images, "images", "Shape of Stratos IV beside photogrammetry", "reproduce", ["paper/stratos-iv-nominal"]),
+    (comparison, "comparison", "Nonlinear and linear model at 30 m/s", "compare", ["compare"]),
+    (images, "images", "Shape of Stratos IV compared with photogrammetry", "reproduce", ["paper/stratos-iv-nominal"]),
 ]
 
 

@@ -22,7 +22,7 @@ STAND_INS = {
     "says that an allocation failed": "echo 'terminate called after throwing an instance of '; echo std::bad_alloc; exit 134",
     "with cut fields": '"{real}" "$@"; code=$?; for f in [1-9]*/U; do head -c 300 "$f" > "$f.cut"; mv "$f.cut" "$f"; done; exit $code',
     "with a field that is not a number": '"{real}" "$@"; code=$?; for f in [1-9]*/p; do sed -i "30s/.*/nan/" "$f"; done; exit $code',
-    "of another version": "",
+    "of a different version": "",
 }
 
 
@@ -31,7 +31,7 @@ def stand_in(folder, kind, first):
     folder.mkdir()
     script = folder / SOLVER
     counter = folder / "runs"
-    if kind == "of another version":
+    if kind == "of a different version":
         script.write_text("#!/bin/sh\necho 'Using: OpenFOAM-10 (see https://openfoam.org)'\n")
     else:
         body = STAND_INS[kind].format(real=REAL, n="$n")

@@ -56,7 +56,7 @@ def resumed(bench, name, folder, killed):
         return {"ok": False, "kills": killed, "said": "differ: " + ", ".join(unlike[:8])}
     if name in ("steady", "inflate", "openfoam"):  # the seal fits, and the finished run is only shown
         code, _, err = bench.run(bench.command(name, folder / "out"))
-        if code != wanted or "holds the finished run" not in err:
+        if code != wanted or "contains the finished run" not in err:
             return {"ok": False, "kills": killed, "said": f"shown again: exit code {code}: {trial.last_line(err)}"}
     return {"ok": True, "kills": killed}
 

@@ -12,8 +12,8 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
 import tables  # pylint: disable=wrong-import-position
 
 HEAD = ["engine", "nominal m/s", "computed N", "measured N", "error %", "printed N", "drag area m2", "iterations", "converged",
-        "ledger gap %", "wall s"]
-FOOT = "Ledger gap: the load on the nodes or the pull of the lines beside the air's force, whichever is farther off."
+        "force imbalance %", "wall s"]
+FOOT = "Force imbalance: the larger deviation of cloth load and line load from the air load."
 
 
 def row(folder):

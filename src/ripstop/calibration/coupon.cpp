@@ -240,7 +240,7 @@ void check_size(const CouponShape& shape) {
   throw Error(
       ExitCode::usage,
       fmt::format("a coupon of {:g} m x {:g} m with {} cells across has about {:.3g} nodes, more than "
-                  "{:.0e}: make it shorter or wider, or take fewer cells",
+                  "{:.0e}: make it shorter or wider, or use fewer cells",
                   shape.length, shape.width, shape.cells, std::max(nodes, square),
                   square > most_of_square ? most_of_square : most_nodes));
 }

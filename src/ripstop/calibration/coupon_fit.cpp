@@ -131,11 +131,12 @@ void minimise(Search& search, double shear_step) {
   const nlopt_result result = nlopt_optimize(optimiser.get(), x.data(), &best);
   if (best >= cannot)
     throw Error(ExitCode::not_converged,
-                "no lattice could be pulled for any shear fraction that was tried: " + search.failure);
+                "the virtual coupons failed for every shear fraction: " + search.failure);
   // Round-off near the optimum is as good as an end.
   if (result < 0 && result != NLOPT_ROUNDOFF_LIMITED)
-    throw Error(ExitCode::not_converged, fmt::format("the search for xi and eps ended with NLopt's code {}",
-                                                     static_cast<int>(result)));
+    throw Error(
+        ExitCode::not_converged,
+        fmt::format("the optimisation of xi and eps failed with code {} of NLopt", static_cast<int>(result)));
   if (search.options->find_shear) search.fabric.shear_fraction = x[0];
   if (search.find_bending) search.fabric.bending_fraction = x[count - 1];
 }
@@ -212,14 +213,13 @@ void find_fractions(Search& search, const MaterialFit& fit, const Bench& bench, 
     result.notes.push_back(fmt::format(
         "eps from 0 to 0.1 changes a coupon's load by {:.2g} % at most{}", 100 * result.bending_effect,
         search.find_bending ? ""
-                            : fmt::format(": these pulls do not determine it, and it is left at {:.3g}",
+                            : fmt::format(": these tests do not determine eps, which remains {:.3g}",
                                           search.fabric.bending_fraction)));
   if (search.fabric.shear_fraction > highest_shear - 1e-3 ||
       search.fabric.shear_fraction < lowest_shear + 1e-3)
-    result.warnings.push_back(
-        fmt::format("xi = {:.3g} lies on the edge of its range: the 45 deg pull is not "
-                    "that of a lattice of springs",
-                    search.fabric.shear_fraction));
+    result.warnings.push_back(fmt::format(
+        "xi = {:.3g} is at the limit of its range: a lattice of springs does not represent the 45 deg test",
+        search.fabric.shear_fraction));
 }
 
 /// The clamps hold the width and so stiffen the coupon a little: the factor takes that back, warp and weft alike.
@@ -237,12 +237,12 @@ double factor_of_clamps(Search& search) {
 void warn_of(const CouponComparison& c, CouponFit& result) {
   if (!c.pull.converged)
     result.warnings.push_back(
-        fmt::format("the {} coupon did not come to rest to {}; its last digits are not sure", c.name,
-                    PullOptions{}.tolerance));
+        fmt::format("the {} coupon did not reach a residual of {}; the last digits of its load are uncertain",
+                    c.name, PullOptions{}.tolerance));
   if (c.r2 < 0.95)
     result.warnings.push_back(
-        fmt::format("the simulated {} coupon follows its record with R2 = {:.3f} only: the "
-                    "lattice is not this cloth in that direction",
+        fmt::format("the simulated {} coupon follows its record with R2 = {:.3f} only: the lattice does not "
+                    "represent this cloth in that direction",
                     c.name, c.r2));
 }
 
@@ -280,7 +280,7 @@ CouponFit fit_coupons(const MaterialFit& fit, const Bench& bench, const CouponFi
   if (result.searched) {
     find_fractions(search, fit, bench, result);
   } else if (!fit.direction("bias")) {
-    result.notes.push_back(fmt::format("no 45 deg pull: xi = {:.3g} and eps = {:.3g} are not measured",
+    result.notes.push_back(fmt::format("no 45 deg test: xi = {:.3g} and eps = {:.3g} are not measured",
                                        search.fabric.shear_fraction, search.fabric.bending_fraction));
   }
 

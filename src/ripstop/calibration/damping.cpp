@@ -43,10 +43,10 @@ DampingTrial open_with(double damping, const InflationProblem& problem, const st
 
 void check_search(const DampingSearch& search) {
   if (!(search.from > 0 && search.to > search.from && search.points >= 3)) {
-    throw Error(ExitCode::usage,
-                fmt::format("a search for C_a needs 0 < from < to and at least 3 points, not {} to {} "
-                            "with {}",
-                            search.from, search.to, search.points));
+    throw Error(
+        ExitCode::usage,
+        fmt::format("the search for C_a requires 0 < from < to and at least 3 points, not {} to {} with {}",
+                    search.from, search.to, search.points));
   }
 }
 

@@ -41,11 +41,10 @@ double corrected_length(double apparent, double distance, double diameter) {
 
 double camera_distance(double apparent, double known) {
   if (!(apparent > 0) || !(apparent < known))
-    throw Error(
-        ExitCode::bad_data,
-        fmt::format("an apparent diameter of {} m gives no camera distance with a true one of {} m: the "
-                    "apparent one is the smaller at any distance",
-                    apparent, known));
+    throw Error(ExitCode::bad_data,
+                fmt::format("an apparent diameter of {} m and a true one of {} m determine no camera "
+                            "distance: the apparent diameter must be smaller",
+                            apparent, known));
   const double ratio = apparent / known;
   return apparent / std::sqrt(1 - ratio * ratio);
 }
@@ -53,7 +52,7 @@ double camera_distance(double apparent, double known) {
 double camera_distance(const std::vector<KnownDiameter>& diameters) {
   if (diameters.empty())
     throw Error(ExitCode::usage,
-                "the camera's distance is not given and no diameter has known_m to find it from");
+                "the distance of the camera is missing: give distance_m, or known_m of a diameter");
   double low = INFINITY, high = 0;
   for (const KnownDiameter& d : diameters) {
     const double distance = camera_distance(d.apparent, d.known);
@@ -75,19 +74,22 @@ double camera_distance(const std::vector<KnownDiameter>& diameters) {
 void describe(Fields& fields, ImageSize& size) {
   fields.name("name", size.name, "Name: D_st, D_mid, D_end, L_tot, L_disk, L_band are also computed.")
       .required();
-  fields.number("apparent_m", size.apparent_m, above(0).up_to(1000), "Read off the image at its scale.")
+  fields
+      .number("apparent_m", size.apparent_m, above(0).up_to(1000),
+              "Size measured on the image with its scale.")
       .required();
-  fields.number("known_m", size.known_m, above(0).up_to(1000), "True size, or the one a source gives for it.")
+  fields.number("known_m", size.known_m, above(0).up_to(1000), "True size, or size given by a source.")
       .absent("unknown");
 }
 
 void describe(Fields& fields, Image& image) {
-  fields.text("title", image.title, 200, "A line for reports.");
+  fields.text("title", image.title, 200, "Title for reports.");
   fields
-      .number("distance_m", image.distance_m, above(0).up_to(10000), "From the camera to the canopy's axis.")
+      .number("distance_m", image.distance_m, above(0).up_to(10000),
+              "Distance from the camera to the axis of the canopy.")
       .absent("from the diameters with known_m");
-  fields.rows("diameter", image.diameters, "A diameter across the view.");
-  fields.rows("length", image.lengths, "A length along the canopy's axis.");
+  fields.rows("diameter", image.diameters, "Diameter perpendicular to the line of sight.");
+  fields.rows("length", image.lengths, "Length along the axis of the canopy.");
 }
 
 Image read_image(const std::filesystem::path& file) {

@@ -84,7 +84,7 @@ double PorosityCalibration::error() const {
 
 PorosityCalibration calibrate_porosity(const std::vector<MeasuredDrag>& measured,
                                        const std::vector<PorosityTrial>& trials, double reference_area) {
-  if (measured.empty()) throw Error(ExitCode::bad_data, "no measured drag to calibrate on");
+  if (measured.empty()) throw Error(ExitCode::bad_data, "no measured drag for the calibration");
   std::vector<Curve> curves(measured.size());
   std::vector<std::vector<double>> knobs(measured.size()), areas(measured.size());
   std::vector<double> all_knobs, coefficients, values;

@@ -14,7 +14,7 @@ struct Strength {
 
 Strength strength_of(double break_load, const std::vector<double>& coefficients, double width,
                      double tested_strain) {
-  if (break_load > 0) return {break_load, "break load"};
+  if (break_load > 0) return {break_load, "breaking load"};
   if (tested_strain > 0)
     return {width * SpringLaw{coefficients}.tension(tested_strain), "load at the tested strain"};
   return {std::nullopt, "not known: the material has neither break load nor tested strain"};

@@ -5,6 +5,8 @@
 #include <iterator>
 #include <numbers>
 
+#include "ripstop/core/checked_int.h"
+
 namespace ripstop {
 namespace {
 
@@ -28,7 +30,9 @@ double outline_area(const Mesh& mesh, const std::vector<Vec3>& x) {
         for (int k = 0; k < steps; ++k) {
           const Vec3 p = a + (double(k) / steps) * (b - a);
           const double angle = std::atan2(p.y, p.x) + pi;
-          const int sector = std::min(sectors - 1, static_cast<int>(angle / (2 * pi) * sectors));
+          const int sector = std::min(sectors - 1, checked_int(angle / (2 * pi) * sectors, 0, sectors, [] {
+                                        return "the outline of a canopy has a position that is not finite";
+                                      }));
           radius[sector] = std::max(radius[sector], std::hypot(p.x, p.y));
         }
       }

@@ -115,20 +115,33 @@ double chain_tension(double axial, double bending_fraction, std::size_t at, std:
   return axial * (share + 0.5 * bending_fraction * over) / share;
 }
 
+std::vector<CellStress> strip_stress(const Mesh& mesh, const std::vector<Vec3>& x,
+                                     const std::vector<CellStress>& of_cells) {
+  const std::vector<Cell> cells = cells_of(mesh);
+  const std::vector<CellStress> stress = per_cut_width(mesh, cells, x, of_cells);
+  std::vector<CellStress> means = stress;
+  std::size_t cell = 0;
+  for (const Patch& patch : mesh.patches)
+    for (int i = 0; i < (patch.rows - 1) * patch.columns; ++i, ++cell)
+      if (cells[cell].corner[0] >= 0)
+        means[cell] = over_strip(patch, &stress[cell - i], i / patch.columns, i % patch.columns);
+  return means;
+}
+
 StressPeak stress_peak(const Mesh& mesh, const std::vector<Vec3>& x,
                        const std::vector<CellStress>& of_cells) {
   StressPeak peak;
   const std::vector<Cell> cells = cells_of(mesh);
-  const std::vector<CellStress> stress = per_cut_width(mesh, cells, x, of_cells);
+  const std::vector<CellStress> means = strip_stress(mesh, x, of_cells);
   std::size_t cell = 0;
   double area = 0;
   for (const Patch& patch : mesh.patches) {
     for (int i = 0; i < (patch.rows - 1) * patch.columns; ++i, ++cell) {
       if (cells[cell].corner[0] < 0) continue;
       area += patch.cell_area[i];
-      if (stress[cell].tautness == Tautness::wrinkled) peak.wrinkled += patch.cell_area[i];
-      if (stress[cell].tautness == Tautness::slack) peak.slack += patch.cell_area[i];
-      const CellStress mean = over_strip(patch, &stress[cell - i], i / patch.columns, i % patch.columns);
+      if (of_cells[cell].tautness == Tautness::wrinkled) peak.wrinkled += patch.cell_area[i];
+      if (of_cells[cell].tautness == Tautness::slack) peak.slack += patch.cell_area[i];
+      const CellStress& mean = means[cell];
       peak.warp = std::max(peak.warp, mean.warp);
       peak.weft = std::max(peak.weft, mean.weft);
       if (mean.principal_max > peak.principal) {

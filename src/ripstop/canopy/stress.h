@@ -48,6 +48,10 @@ void sewing_members(Peak& peak, Visit&& visit) {
   visit("wrinkled_share", peak.wrinkled);
   visit("slack_share", peak.slack);
 }
+/// Of every cell, the mean over a square of cloth as wide as the strip about it, per width as cut: without the spikes of
+/// single cells in crumpled seams. Order and empty cells of `of_cells`.
+std::vector<CellStress> strip_stress(const Mesh& mesh, const std::vector<Vec3>& positions,
+                                     const std::vector<CellStress>& of_cells);
 StressPeak stress_peak(const Mesh& mesh, const std::vector<Vec3>& positions,
                        const std::vector<CellStress>& of_cells);
 

@@ -48,12 +48,10 @@ FlowProblem flow_problem(const Settings& resolved) {
 
 void require_axial_stream(const FlowSettings& flow, const char* what) {
   if (flow.angle_of_attack_deg == 0) return;
-  throw Error(
-      ExitCode::usage,
-      fmt::format(
-          "flow.angle_of_attack_deg = {:g}: {} holds the canopy on the axis of the stream; set it to 0, or "
-          "take flow_problem() of the library for a flow by itself",
-          flow.angle_of_attack_deg, what));
+  throw Error(ExitCode::usage,
+              fmt::format("flow.angle_of_attack_deg = {:g}: {} keeps the canopy on the axis of the stream; "
+                          "set it to 0, or use flow_problem() of the library for a flow without cloth",
+                          flow.angle_of_attack_deg, what));
 }
 
 SteadyProblem steady_problem(const Settings& resolved) {

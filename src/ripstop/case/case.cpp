@@ -14,8 +14,7 @@ template <class Kind>
 const Kind& material(const Case& given, const std::string& name) {
   const auto found = given.materials.find(name);
   const Kind* chosen = found == given.materials.end() ? nullptr : std::get_if<Kind>(&found->second);
-  if (!chosen)
-    throw Error(ExitCode::usage, "the case has no material \"" + name + "\" of the kind that is needed");
+  if (!chosen) throw Error(ExitCode::usage, "no material \"" + name + "\" of the required kind");
   return *chosen;
 }
 
@@ -24,11 +23,9 @@ const Kind& material(const Case& given, const std::string& name) {
 void describe(Fields& fields, Measured& measured) {
   fields
       .number("nominal_speed_m_s", measured.nominal_speed_m_s, above(0).up_to(100),
-              "Speed that names the condition.")
+              "Nominal speed of the condition.")
       .required();
-  fields
-      .number("measured_speed_m_s", measured.measured_speed_m_s, above(0).up_to(100),
-              "Speed that was measured.")
+  fields.number("measured_speed_m_s", measured.measured_speed_m_s, above(0).up_to(100), "Measured speed.")
       .required();
   fields.number("density_kg_m3", measured.density_kg_m3, above(0).up_to(20), "Density of the air.")
       .required();
@@ -36,31 +33,40 @@ void describe(Fields& fields, Measured& measured) {
       .absent("withheld or not measured");
   fields
       .number("printed_nonlinear_n", measured.printed_nonlinear_n, above(0).up_to(1e7),
-              "Drag that the source's nonlinear model gives.")
+              "Drag of the nonlinear model of the source.")
       .absent("not printed");
   fields
       .number("printed_linear_n", measured.printed_linear_n, above(0).up_to(1e7),
-              "Drag that the source's linear model gives.")
+              "Drag of the linear model of the source.")
       .absent("not printed");
 }
 
 void describe(Fields& fields, Case& given) {
-  fields.text("title", given.title, 200, "A line for reports.");
+  fields.text("title", given.title, 200, "Title for reports.");
   fields.table("parachute", given.parachute, "The parachute.").required();
-  fields.named_tables("materials", given.materials,
-                      "Materials of this case; they come before those of the library with the same name.");
+  fields.named_tables(
+      "materials", given.materials,
+      "Materials of this case. They take precedence over those of the library with the same name.");
   fields
       .table("flow", given.flow,
-             "The air, its box and its solver. Where a default names `paper`, it stands with that porosity "
-             "model, and the other with `sheet`; d is 0.7 nominal diameters, or as much as the flat start "
-             "shape needs.")
+             "The air, the flow domain and the flow solver. A default marked `paper` is that of the porosity "
+             "model `paper`; the other is that of `sheet`. The inflated diameter d is 0.7 nominal diameters, "
+             "or more if the undeformed start shape needs more.")
       .required();
-  fields.table("coupling", given.coupling, "The steady loop between cloth and flow.");
+  fields.table("coupling", given.coupling, "Steady coupling of cloth and flow.");
   fields.table("inflation", given.inflation, "The opening of the folded canopy.");
-  fields.table("payload", given.payload, "What hangs below, in place of the flow's speed.");
+  fields.table("deployment", given.deployment,
+               "Deployment before the opening of `ripstop inflate --air coupled`: from the extraction of the "
+               "bag until the "
+               "canopy has left it. An empty table has default values. Without the table a coupled opening "
+               "starts from the "
+               "folded canopy, stretched out.");
+  fields.table("payload", given.payload, "Payload below the parachute, instead of a given flow speed.");
+  fields.table("flight", given.flight, "Free flight of parachute and payload.");
   fields.table("margins", given.margins,
-               "Safety and knock-down factors of the margins of cloth, tape, lines and riser.");
-  fields.rows("measured", given.measured, "Wind-tunnel conditions to take air from and to compare with.");
+               "Safety and strength reduction factors for the margins of cloth, tape, lines and riser.");
+  fields.rows("measured", given.measured,
+              "Wind-tunnel conditions: state of the air, and measurements for comparison.");
 }
 
 const Measured* measured_row(const Case& given) {

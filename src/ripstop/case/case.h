@@ -16,6 +16,7 @@
 #include "ripstop/flow/flow.h"
 #include "ripstop/flow/jet.h"
 #include "ripstop/fsi/coupling_settings.h"
+#include "ripstop/fsi/flight_settings.h"
 #include "ripstop/fsi/inflation_settings.h"
 #include "ripstop/material/library.h"
 #include "ripstop/material/material.h"
@@ -102,13 +103,23 @@ struct FlowKeys : FlowOptions {
 /// [coupling] as given.
 struct CouplingKeys : CouplingOptions {
   std::optional<CanopyLoad> load;
-  std::optional<double> drag_tolerance;
+  std::optional<double> drag_tolerance, shape_tolerance_m;
 };
 
 /// [payload] as given.
 struct PayloadKeys {
   std::optional<double> mass_kg;  // below the parachute; a steady run finds the speed at which drag is weight
   double drag_area_m2 = 0;        // C_D S of what hangs below, in the undisturbed stream
+};
+
+/// [deployment] as given.
+struct DeploymentKeys {
+  enum class Order { lines_first, canopy_first } order = Order::lines_first;
+  enum class Container { bag, wrap } container = Container::bag;
+  std::optional<double> mass_kg, drag_area_m2, length_m;  // of the container, without the pilot chute
+  std::optional<double> strip_force_n, line_force_n;
+  std::optional<double> pilot_drag_area_m2, pilot_mass_kg;
+  std::optional<double> relative_speed_m_s, ejection_impulse_n_s;
 };
 
 /// [[measured]]: one wind-tunnel condition.
@@ -129,7 +140,9 @@ struct Case {
   FlowKeys flow;
   CouplingKeys coupling;
   InflationSettings inflation;
+  std::optional<DeploymentKeys> deployment;
   PayloadKeys payload;
+  FlightSettings flight;
   MarginFactors margins;
   std::vector<Measured> measured;
 
@@ -145,7 +158,10 @@ void describe(Fields& fields, FlowKeys& flow);
 void describe(Fields& fields, CouplingKeys& coupling);
 void describe(Fields& fields, ReefingStage& stage);
 void describe(Fields& fields, InflationSettings& inflation);
+void describe(Fields& fields, DeploymentKeys& deployment);
 void describe(Fields& fields, PayloadKeys& payload);
+void describe(Fields& fields, Wind& wind);
+void describe(Fields& fields, FlightSettings& flight);
 void describe(Fields& fields, MarginFactors& margins);
 void describe(Fields& fields, Measured& measured);
 void describe(Fields& fields, Case& given);

@@ -76,8 +76,8 @@ class Reader {
       for (const Node& step : root_.at("instructions").items()) file_.instructions.push_back(step.text());
     for (const char* key : {"gores", "diameter", "fabric"})
       if (root_.has(key))
-        file_.not_mapped.push_back(fmt::format(
-            "{}: of the whole file; openchute cuts by the values of each section, and so does Ripstop", key));
+        file_.not_mapped.push_back(
+            fmt::format("{}: ignored, because openchute and Ripstop use the values of each section", key));
     if (root_.has("use_global_seam_allowance") && root_.at("use_global_seam_allowance").json->is_boolean() &&
         *root_.at("use_global_seam_allowance").json && root_.has("global_seam_allowance"))
       file_.not_mapped.push_back(
@@ -86,7 +86,7 @@ class Reader {
     read_names();
     for (const Node& section : root_.at("chute_sections").items()) read_section(section);
     if (file_.sections.empty())
-      root_.at("chute_sections").fail("there is no section with gores, so nothing to cut");
+      root_.at("chute_sections").fail("there is no section with gores; the design needs at least one");
     return std::move(file_);
   }
 
@@ -95,8 +95,8 @@ class Reader {
     if (!node.json->is_object()) node.fail("must be an object {...}");
     for (const auto& [key, value] : node.json->items())
       if (!keys.contains(key))
-        file_.not_mapped.push_back(fmt::format("{}{}{}: a key that Ripstop does not know", node.place,
-                                               node.place.empty() ? "" : ".", key));
+        file_.not_mapped.push_back(
+            fmt::format("{}{}{}: unknown key, ignored", node.place, node.place.empty() ? "" : ".", key));
   }
 
   double formula(const Node& node) {
@@ -117,7 +117,7 @@ class Reader {
     const double before = stored.json->get<double>();
     if (std::abs(before - value) > 1e-6 * std::max(1.0, std::abs(value)))
       file_.remarks.push_back(
-          fmt::format("{}: the file holds {:.9g}, its formula gives {:.9g}; the formula is taken",
+          fmt::format("{}: the file contains {:.9g}, its formula gives {:.9g}; the formula is used",
                       stored.place, before, value));
   }
 
@@ -126,9 +126,11 @@ class Reader {
                       std::all_of(id.begin(), id.end(), [](char c) {
                         return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
                       });
-    if (!good) node.fail(fmt::format("{} is no name: letters, digits and _, a letter first", quoted(id)));
+    if (!good)
+      node.fail(fmt::format("{} is not a valid name: use letters, digits and _, starting with a letter",
+                            quoted(id)));
     if (!names_.emplace(id, value).second)
-      node.fail(fmt::format("the name {} is used twice (units and pi, e are names too)", quoted(id)));
+      node.fail(fmt::format("the name {} is used twice; units, pi and e are reserved", quoted(id)));
   }
 
   void read_names() {
@@ -184,12 +186,12 @@ class Reader {
         path = {id}, visited.clear();
         if (name == id) expression.fail(fmt::format("\"{}\" refers to itself", id));
         if (leads_to(name, id))
-          expression.fail(fmt::format("the formulas refer to each other in a circle: {} -> {}",
-                                      fmt::join(path, " -> "), id));
-        expression.fail(fmt::format(
-            "\"{}\" is defined only below, in parameter_values[{}]; openchute works from the top: "
-            "move it up",
-            name, index.at(name)));
+          expression.fail(
+              fmt::format("circular reference of formulas: {} -> {}", fmt::join(path, " -> "), id));
+        expression.fail(
+            fmt::format("\"{}\" is defined only below, in parameter_values[{}]; openchute evaluates from the "
+                        "top: move it up",
+                        name, index.at(name)));
       }
     }
   }
@@ -202,7 +204,7 @@ class Reader {
     section.gores = node.at("gores").count();
     if (section.gores == 0) {  // how openchute draws a slot or a vent
       file_.not_mapped.push_back(
-          fmt::format("{}: of 0 gores: no cloth is cut, it shows where the canopy is open", node.place));
+          fmt::format("{}: 0 gores: no cloth is cut; the section represents an opening", node.place));
       return;
     }
     const Node type = node.at("section_type");
@@ -233,8 +235,8 @@ class Reader {
     if (node.has("fullness")) {
       const std::vector<Node> fullness = node.at("fullness").items(2);
       const double first = fullness[0].number(), last = fullness[1].number();
-      if (first < 0) fullness[0].fail("fullness must not be under 0");
-      if (last < 0) fullness[1].fail("fullness must not be under 0");
+      if (first < 0) fullness[0].fail("fullness must be at least 0");
+      if (last < 0) fullness[1].fail("fullness must be at least 0");
       if (section.circular && (first > 0 || last > 0)) {
         file_.not_mapped.push_back(node.place +
                                    ".fullness: openchute does not apply it to a circular section either");
@@ -244,15 +246,14 @@ class Reader {
     }
     for (const char* key : {"modifier_first", "modifier_last"}) {
       if (!node.has(key) || *node.at(key).json == "Nothing") continue;
-      file_.not_mapped.push_back(
-          fmt::format("{}.{} = {}: slanted and pointed edges have no place in a gore "
-                      "that is symmetric with straight edges; cut as without it",
-                      node.place, key, node.at(key).json->dump()));
+      file_.not_mapped.push_back(fmt::format(
+          "{}.{} = {}: not supported, because gores are symmetric and have straight edges; ignored",
+          node.place, key, node.at(key).json->dump()));
     }
     if (node.has("cuts") && !node.at("cuts").items().empty())
       file_.not_mapped.push_back(
-          fmt::format("{}.cuts: {} cut(s) across the gore; the lattice has none, the gore is whole",
-                      node.place, node.at("cuts").items().size()));
+          fmt::format("{}.cuts: {} cut(s) across the gore: not supported; the gore is one piece", node.place,
+                      node.at("cuts").items().size()));
     if (node.has("corner_cutout") && *node.at("corner_cutout").json == true)
       file_.not_mapped.push_back(node.place +
                                  ".corner_cutout: ripstop pattern mitres the corners of the allowances");
@@ -286,7 +287,7 @@ class Reader {
     const double start = std::fmod(value["start_angle"], 2 * pi);
     const double stop =
         value["stop_angle"] > 2 * pi ? std::fmod(value["stop_angle"], 2 * pi) : value["stop_angle"];
-    if (start == stop) node.fail("the arc has no length: its angles are the same");
+    if (start == stop) node.fail("the arc has no length: its two angles are equal");
     const double step = pi / 128;  // a chord is shorter than its arc by 2.5e-5
     const int pieces = std::max(4, static_cast<int>(std::ceil(std::abs(stop - start) / step)));
     const double c = std::cos(value["rotation"]), s = std::sin(value["rotation"]);
@@ -340,10 +341,10 @@ class Reader {
     if (!section.points.empty() && !points.empty()) {
       const MeridianPoint a = section.points.back(), b = points.front();
       if (std::hypot(a.r - b.r, a.y - b.y) > 1e-6)
-        file_.remarks.push_back(fmt::format(
-            "{}: begins {:.3g} m from the end of the object before; joined by a straight line, as "
-            "openchute does",
-            node.place, std::hypot(a.r - b.r, a.y - b.y)));
+        file_.remarks.push_back(
+            fmt::format("{}: starts {:.3g} m from the end of the previous object; joined by a straight line, "
+                        "as in openchute",
+                        node.place, std::hypot(a.r - b.r, a.y - b.y)));
     }
     section.points.insert(section.points.end(), points.begin(), points.end());
   }
@@ -356,10 +357,9 @@ class Reader {
       if (p.r < 0)
         node.fail(fmt::format("the meridian crosses the axis: r = {:.6g} m at height {:.6g} m", p.r, p.y));
       if (std::abs(p.r) > 100 || std::abs(p.y) > 1000)
-        node.fail(
-            fmt::format("the meridian goes to r = {:.6g} m, height {:.6g} m; more than 100 m of radius "
-                        "is no parachute",
-                        p.r, p.y));
+        node.fail(fmt::format(
+            "the meridian reaches r = {:.6g} m, height {:.6g} m; the radius must be at most 100 m", p.r,
+            p.y));
       if (kept.empty() || std::hypot(p.r - kept.back().r, p.y - kept.back().y) > 1e-7) kept.push_back(p);
     }
     if (kept.size() < 2) node.fail("the section has no length");
@@ -382,7 +382,7 @@ Json parsed(std::string_view text, const std::string& file) {
     if (event == Json::parse_event_t::object_start) keys.emplace_back();
     if (event == Json::parse_event_t::object_end) keys.pop_back();
     if (event == Json::parse_event_t::key && !keys.back().insert(value.get<std::string>()).second)
-      throw Error(ExitCode::bad_data, fmt::format("{}: the key {} is there twice in one object", file,
+      throw Error(ExitCode::bad_data, fmt::format("{}: the key {} occurs twice in one object", file,
                                                   quoted(value.get<std::string>())));
     return true;
   };

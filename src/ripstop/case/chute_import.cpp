@@ -115,12 +115,12 @@ class Importer {
     constexpr double share = 0.04;
     if (options_.vent_diameter) {
       if (std::abs(*options_.vent_diameter - diameter) > same)
-        changed("vent: {:.6g} m as asked; the file has {:.6g} m", *options_.vent_diameter, diameter);
+        changed("vent: {:.6g} m as requested; the file has {:.6g} m", *options_.vent_diameter, diameter);
       return *options_.vent_diameter;
     }
     if (diameter > same) return diameter;
     changed(
-        "vent: the gores end in a point; a lattice of cloth needs an opening: {:.6g} m, {} % of the widest "
+        "vent: the gores end in a point, but the mesh needs an opening: {:.6g} m, {} % of the largest "
         "diameter (--vent-diameter)",
         share * widest, 100 * share);
     return share * widest;
@@ -128,12 +128,11 @@ class Importer {
 
   void cross(const ChuteSection& s) {
     Cross canopy{pi * s.points[0].r, top(s) - bottom(s)};
-    if (canopy.arm_width_m > canopy.arm_length_m)
-      fail(s.place, "the two strips are wider than long; that is no cross");
+    if (canopy.arm_width_m > canopy.arm_length_m) fail(s.place, "the two strips are wider than long");
     gores_ = 4;
     result_.type = "cross";
     mapped(
-        "{}: a cylinder of 2 gores is openchute's stand-in for the two strips of a cross: {:.6g} m long, "
+        "{}: a cylinder of 2 gores represents the two strips of a cross in openchute: {:.6g} m long, "
         "{:.6g} m wide",
         s.place, canopy.arm_length_m, canopy.arm_width_m);
     text_ =
@@ -155,7 +154,7 @@ class Importer {
            canopy.disk_diameter_m, band.place, canopy.band_height_m, canopy.gap_height_m);
     if (band.gores != disk.gores)
       result_.not_mapped.push_back(
-          fmt::format("{}.gores = {}: Ripstop's band has its seams where the disk has, {} of them",
+          fmt::format("{}.gores = {}: the band of Ripstop has the same number of seams as the disk, {}",
                       band.place, band.gores, disk.gores));
     text_ = fmt::format(
         "disk_diameter_m = {:.9g}\nvent_diameter_m = {:.9g}\ngap_height_m = {:.9g}\nband_height_m = {:.9g}\n",
@@ -178,7 +177,7 @@ class Importer {
                           canopy.nominal_diameter_m, canopy.vent_diameter_m);
       canopy_ = canopy;
     } else {
-      if (upside_down) fail(s.place, "the cone opens toward the vent");
+      if (upside_down) fail(s.place, "the cone widens towards the vent");
       const Conical canopy{2 * outer(s) / std::sqrt(std::cos(slope)), vent(2 * inner(s), 2 * outer(s)),
                            slope * 180 / pi, even()};
       result_.type = "conical";
@@ -237,7 +236,8 @@ class Importer {
           touches && std::abs(canopy.pieces.back().trailing_fullness - piece.leading_fullness) < 1e-9;
       if (touches)
         assumed("{}: touches the piece below it: {}", s.place,
-                piece.sewn ? "sewn to it along the whole edge" : "fullness differs, so held at the radials");
+                piece.sewn ? "sewn to it along the whole edge"
+                           : "different fullness: attached at the radials only");
       canopy.pieces.push_back(std::move(piece));
       mapped("{}: piece {} of the gore, {} points, fullness {} and {}", s.place, canopy.pieces.size(),
              s.points.size(), s.first_fullness, s.last_fullness);
@@ -301,18 +301,17 @@ class Importer {
       last.height_m[n - 1] = last.height_m[n - 2] + share * (last.height_m[n - 1] - last.height_m[n - 2]);
       last.radius_m[n - 1] = radius;
     } else if (radius < last.radius_m.back() - same) {
-      fail("chute_sections",
-           fmt::format("the cloth ends at a vent of {:.6g} m; a smaller one, {:.6g} m, needs "
-                       "cloth that the file does not have",
-                       2 * last.radius_m.back(), 2 * radius));
+      fail("chute_sections", fmt::format("the cloth ends at a vent of {:.6g} m; a smaller vent of {:.6g} m "
+                                         "needs more cloth than the file has",
+                                         2 * last.radius_m.back(), 2 * radius));
     }
     double highest = -1e300;
     for (const ProfilePiece& piece : canopy.pieces)
       for (const double y : piece.height_m) highest = std::max(highest, y);
     if (last.height_m.back() < highest - same)
       changed(
-          "the vent lies {:.6g} m below the highest place, held there by a line in the middle, which "
-          "Ripstop does not have: the cloth is cut so, but its apex will rise",
+          "the vent is {:.6g} m below the highest point, which requires a centre line that Ripstop does not "
+          "support: the cloth is cut as designed, but the apex will rise",
           highest - last.height_m.back());
   }
 
@@ -336,15 +335,19 @@ class Importer {
     for (const ChuteSection& s : file_.sections)
       if (s.fabric != first.fabric || s.areal_density != first.areal_density)
         result_.not_mapped.push_back(
-            fmt::format("{}.fabric: \"{}\", {:.6g} g/m2; Ripstop's canopy is of one cloth, that of {}",
+            fmt::format("{}.fabric: \"{}\", {:.6g} g/m2; a canopy of Ripstop has one cloth, that of {}",
                         s.place, visible_line(s.fabric), 1000 * s.areal_density, first.place));
-    assumed("stiffness, strength and porosity of the cloth: those of F-111, the file has its mass only");
+    assumed(
+        "stiffness, strength and porosity of the cloth: values of F-111, because the file contains only the "
+        "mass");
   }
 
   void report_rest() {
-    for (const auto& [name, value] : file_.inputs) mapped("input {} = {:.9g}: in the numbers", name, value);
+    for (const auto& [name, value] : file_.inputs)
+      mapped("input {} = {:.9g}: included in the dimensions", name, value);
     if (!file_.parameters.empty())
-      mapped("parameters, {}: evaluated, in the numbers; the formulas are not kept", file_.parameters.size());
+      mapped("parameters, {}: evaluated and included in the dimensions; the formulas are not kept",
+             file_.parameters.size());
     if (!file_.instructions.empty())
       mapped("instructions, {}: comments at the top of the case", file_.instructions.size());
     if (result_.type == "cross") {
@@ -358,7 +361,7 @@ class Importer {
       hem = std::max({hem, s.seam_allowance[1], s.seam_allowance[3]});
     }
     result_.not_mapped.push_back(
-        fmt::format("seam allowances are no part of a case; the largest of the file: ripstop pattern CASE "
+        fmt::format("seam allowances are not part of a case; the largest of the file: ripstop pattern CASE "
                     "--seam-allowance {:.6g} --hem-allowance {:.6g}",
                     seam, hem));
     result_.not_mapped.push_back("colours, and descriptions, ranges, units and defaults of the inputs");
@@ -387,21 +390,22 @@ class Importer {
         options_.line_length.value_or(std::ceil(100 * std::max(nominal, 1.2 * size.skirt_radius)) / 100);
     if (!options_.line_count) assumed("{} lines: the file has none (--lines)", line_count());
     if (!options_.line_length)
-      assumed("lines of {:.6g} m, about the nominal diameter (--line-length)", length);
+      assumed("lines of {:.6g} m, equal to about the nominal diameter (--line-length)", length);
     assumed(
-        "Spectra line; no riser; tape along seams and hems where the load at the flow's speed asks for it "
+        "Spectra line; no riser; tape along seams and hems where the load at the flow speed requires it "
         "(parachute.tape.material)");
     assumed("flow: air at 20 degrees, 10 m/s; mesh: 11200 nodes");
     const ChuteSection& first = file_.sections.front();
     return pieces_ +
            fmt::format("\n[parachute.lines]\ncount = {}\nlength_m = {:.9g} # {}\n", line_count(), length,
-                       options_.line_length ? "as asked" : "assumed: not in the file") +
+                       options_.line_length ? "as requested" : "assumed: not in the file") +
            "\n[parachute.mesh]\ncloth_nodes = 11200\n" +
            fmt::format(
                "\n[materials.imported-cloth]\nbase = \"f-111-physical\" # assumed: the file has name and "
                "mass only\n"
                "source = {}\nareal_density_kg_m2 = {:.9g}\n",
-               toml_quoted("mass of \"" + first.fabric + "\" in the .chute file; all else assumed as F-111",
+               toml_quoted("mass of \"" + first.fabric +
+                               "\" in the .chute file; all other properties assumed as F-111",
                            400),
                first.areal_density) +
            "\n[flow] # assumed\nspeed_m_s = 10\ndensity_kg_m3 = 1.2\n";
@@ -440,8 +444,9 @@ ChuteImport import_chute(const ChuteFile& file, const ChuteImportOptions& option
   if (direct.type != "profile") {
     ChuteImport general = Importer(file, options, source).run(true);
     if (first_problem(general).empty()) {
-      general.changed.push_back(fmt::format(
-          "type = \"{}\" cannot have this shape ({}): written as pieces of a profile", direct.type, problem));
+      general.changed.push_back(
+          fmt::format("type = \"{}\" cannot represent this shape ({}): written as pieces of a profile",
+                      direct.type, problem));
       return general;
     }
   }

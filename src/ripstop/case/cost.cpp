@@ -50,6 +50,10 @@ double node_estimate(const Design& design) {
 
 }  // namespace
 
+double flow_memory(double cells) {
+  return bytes_a_run + bytes_a_cell * cells;
+}
+
 Cost cost_of(const Settings& resolved) {
   Cost cost;
   const Design& design = resolved.parachute();
@@ -59,7 +63,7 @@ Cost cost_of(const Settings& resolved) {
   if (flow.cloth_levels > 0)
     cost.cells = fitted_cells(flow_grid(flow), nominal_area(design), flow.cloth_levels);
   cost.cloth_memory = bytes_a_node * cost.nodes;
-  cost.memory = bytes_a_run + cost.cloth_memory + bytes_a_cell * cost.cells;
+  cost.memory = flow_memory(cost.cells) + cost.cloth_memory;
   cost.time = flow_iterations * cell_time * cost.cells + cloth_steps * node_time * cost.nodes;
   return cost;
 }
@@ -79,10 +83,9 @@ double free_memory() {
 void require_memory(double bytes, const std::string& what) {
   const double free = free_memory();
   if (bytes <= free) return;
-  throw Error(ExitCode::resources,
-              fmt::format("{} takes about {:.1f} GB of memory, and {:.1f} GB are free: take fewer cells "
-                          "(flow.cells) or nodes (parachute.mesh)",
-                          what, 1e-9 * bytes, 1e-9 * free));
+  throw Error(ExitCode::resources, fmt::format("{} needs about {:.1f} GB of memory, but {:.1f} GB are free: "
+                                               "use fewer cells (flow.cells) or nodes (parachute.mesh)",
+                                               what, 1e-9 * bytes, 1e-9 * free));
 }
 
 void require_cloth_memory(const Design& design) {

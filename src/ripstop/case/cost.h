@@ -15,6 +15,8 @@ struct Cost {
   double time = 0;          // of the same to rest on one core [s]; half to twice as much is usual
 };
 Cost cost_of(const Settings& resolved);
+/// Memory of a flow of the built-in engine by itself [bytes].
+double flow_memory(double cells);
 
 /// What this process may still take: of the machine's free memory, of its control group and of its own limit
 /// (ulimit -v), the least [bytes].

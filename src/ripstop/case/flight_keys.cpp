@@ -1,44 +1,87 @@
-// The keys of [payload] and [margins].
+// The keys of [payload], [flight] and [margins].
 #include "ripstop/case/case.h"
 #include "ripstop/core/toml/fields.h"
+#include "ripstop/flight/atmosphere.h"
 
 namespace ripstop {
 
 void describe(Fields& fields, PayloadKeys& payload) {
   fields
       .number("mass_kg", payload.mass_kg, above(0).up_to(1e6),
-              "Mass below the parachute, without the parachute's own: `ripstop steady` finds the speed at "
-              "which the "
-              "drag is the weight of both.")
+              "Mass below the parachute, without the mass of the parachute: `ripstop steady` computes the "
+              "speed at which the drag equals the weight of both.")
       .absent("the speed is given");
   fields.number(
       "drag_area_m2", payload.drag_area_m2, from(0).up_to(1e4),
-      "C_D S of the payload itself, in the undisturbed stream: it holds a part of the weight in `ripstop "
-      "steady` and slows a payload that flies in an opening. Its wake on the canopy is not in it. Take a "
-      "measured value for a smooth body: its separation is not "
-      "computed.");
+      "Drag area C_D S of the payload in the undisturbed stream: it carries a part of the weight in `ripstop "
+      "steady` and decelerates a free payload during the opening. The effect of its wake on the canopy is "
+      "not modelled. Use a measured value for a smooth body: its flow separation is not computed.");
+}
+
+void describe(Fields& fields, Wind& wind) {
+  fields.number("speed_m_s", wind.speed_m_s, from(0).up_to(100),
+                "Speed of the wind at the reference height.");
+  fields.number("direction_deg", wind.direction_deg, from(-360).up_to(360),
+                "Direction towards which the wind blows, from x to y.");
+  fields.number("exponent", wind.exponent, from(0).up_to(1),
+                "Exponent of the power-law profile of the wind over height; 0: the same at all heights.");
+  fields.number("reference_height_m", wind.reference_height_m, above(0).up_to(10000),
+                "Height above the ground at which the wind has its speed.");
+  fields.number("gust_m_s", wind.gust_m_s, from(-100).up_to(100),
+                "Largest addition to the wind by one gust, which rises and falls as 1 - cos.");
+  fields.number("gust_start_s", wind.gust_start_s, from(0).up_to(1e5), "Time at which the gust begins.");
+  fields.number("gust_duration_s", wind.gust_duration_s, above(0).up_to(1e4), "Duration of the gust.");
+}
+
+void describe(Fields& fields, FlightSettings& flight) {
+  fields.number("duration_s", flight.duration_s, above(0).up_to(1e4), "Longest time of flight.");
+  fields.number("courant", flight.courant, above(0).up_to(1),
+                "Largest Courant number of the steps of the flow.");
+  fields.number("cells_across", flight.cells_across, from(8).up_to(400),
+                "Cells of the flow across the nominal diameter, where the case gives neither flow.cells nor "
+                "flow.box_m nor flow.core.size_m.");
+  fields.number("angle_deg", flight.angle_deg, from(-60).up_to(60),
+                "Angle between the vertical and the line from payload to canopy at the start.");
+  fields.number("azimuth_deg", flight.azimuth_deg, from(-360).up_to(360),
+                "Direction in which the payload is displaced at the start, from x to y.");
+  fields.number("swing_deg_s", flight.swing_deg_s, from(-360).up_to(360),
+                "Rate of change of that angle at the start.");
+  fields
+      .vector("velocity_m_s", flight.velocity_m_s, from(-100).up_to(100),
+              "Velocity of the parachute over the ground at the start, z up.")
+      .absent("the wind, and downward the speed at which drag is weight");
+  fields
+      .number("height_m", flight.height_m, above(0).up_to(highest_height),
+              "Height of the payload above the ground at the start; the flight ends at the ground.")
+      .absent("no ground");
+  fields
+      .number("standard_error", flight.standard_error, above(0).up_to(1),
+              "Standard error of the rate of descent, relative, at which the flight ends.")
+      .absent("the flight ends after its duration or at the ground");
+  fields.number("shapes_per_s", flight.shapes_per_s, above(0).up_to(1000),
+                "Shapes that are written, per second of flight.");
+  fields.table("wind", flight.wind, "Wind over the ground.");
 }
 
 // Knacke, NWC TP 6575, 6.2, has safety factors of 1.5 (unmanned) to 2 and the losses below; the values were written
 // down from memory and not checked against the print. No public text with his table was found.
 void describe(Fields& fields, MarginFactors& m) {
-  fields.number(
-      "safety_factor", m.safety_factor, from(1).up_to(10),
-      "Design factor on every load: 1.5 for unmanned systems and cargo, 2 and more for people (order of "
-      "Knacke's, NWC TP 6575, chapter 6, not checked against the print).");
-  fields.number(
-      "seam_efficiency", m.seam_efficiency, above(0).up_to(1),
-      "Strength that a seam leaves of cloth and tape (0.8 as Knacke's joints; from your own seams if you "
-      "have pulled them).");
+  fields.number("safety_factor", m.safety_factor, from(1).up_to(10),
+                "Design factor on every load: 1.5 for unmanned systems and cargo, 2 and more for people "
+                "(order of the values of Knacke, NWC TP 6575, chapter 6, not verified in print).");
+  fields.number("seam_efficiency", m.seam_efficiency, above(0).up_to(1),
+                "Strength of a seam over that of cloth and tape (0.8: joints by Knacke; use values of your "
+                "own seam tests if available).");
   fields.number("line_joint_efficiency", m.line_joint_efficiency, above(0).up_to(1),
-                "Strength that loops, knots and stitches leave of lines and riser (0.8, likewise).");
-  fields.number("abrasion", m.abrasion, above(0).up_to(1), "Strength left after abrasion (0.95, likewise).");
+                "Strength of loops, knots and stitches over that of lines and riser (0.8, likewise).");
+  fields.number("abrasion", m.abrasion, above(0).up_to(1),
+                "Strength after abrasion over new strength (0.95, likewise).");
   fields.number("moisture", m.moisture, above(0).up_to(1),
                 "Strength of wet fibre over dry (0.95, nylon, likewise).");
   fields.number("fatigue", m.fatigue, above(0).up_to(1),
-                "Strength left after the uses planned (0.95, likewise).");
+                "Strength after the planned number of uses over new strength (0.95, likewise).");
   fields.number("temperature", m.temperature, above(0).up_to(1),
-                "Strength at the highest temperature of the cloth over that at 20 C (1: cool).");
+                "Strength at the highest temperature of the cloth over that at 20 C (1: no heating).");
 }
 
 }  // namespace ripstop

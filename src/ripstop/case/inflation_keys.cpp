@@ -10,28 +10,29 @@ void describe_start(Fields& fields, InflationSettings& inflation) {
   fields
       .number("initial_radius_m", inflation.initial_radius_m, above(0).up_to(1000),
               "Radius of the folded skirt, midway between its inner and outer folds.")
-      .absent("needed by ripstop inflate");
-  fields.integer("folds", inflation.folds, from(0).up_to(1000),
-                 "Outer folds round the canopy, as many inner ones; 0: one a line.");
+      .absent("required by ripstop inflate");
+  fields.integer(
+      "folds", inflation.folds, from(0).up_to(1000),
+      "Number of outer folds around the canopy, equal to the number of inner folds; 0: one per line.");
   fields.number("slack_m", inflation.slack_m, from(0).up_to(1000),
-                "By which the lines are longer than their way from confluence to skirt.");
+                "Slack: length of the lines beyond the distance from the confluence to the skirt.");
 }
 
 /// What presses.
 void describe_air(Fields& fields, InflationSettings& inflation) {
-  fields.choice(
-      "air", inflation.air, {{"uniform", AirModel::uniform}, {"coupled", AirModel::coupled}},
-      "What presses on the cloth: one pressure for all of it, with a damping; or the air of [flow], "
-      "stepped in time together with the cloth, which takes no pressure and no C_a.");
+  fields.choice("air", inflation.air, {{"uniform", AirModel::uniform}, {"coupled", AirModel::coupled}},
+                "Load model. \"uniform\": one pressure difference with absolute damping; \"coupled\": flow "
+                "of [flow], computed in time together with the cloth, without a given pressure or C_a.");
   fields.number("courant", inflation.courant, above(0).up_to(1),
-                "Largest Courant number of the air's steps, with air = \"coupled\".");
+                "Largest Courant number of the flow steps, with air = \"coupled\".");
   fields.choice(
       "mass", inflation.mass,
       {{"infinite", InflationSettings::Mass::infinite}, {"payload", InflationSettings::Mass::payload}},
-      "What the riser's end does in its own air: held in the stream, as in a tunnel; or it is the "
-      "payload.mass_kg, which the opening slows down.");
-  fields.number("flight_angle_deg", inflation.flight_angle_deg, from(-90).up_to(90),
-                "Of the payload's path below the horizon at deployment, 90 straight down; weight turns it.");
+      "Coupled inflation: \"infinite\" keeps the end of the riser fixed in the stream, as in a tunnel; "
+      "\"payload\" attaches payload.mass_kg, which the opening decelerates.");
+  fields.number(
+      "flight_angle_deg", inflation.flight_angle_deg, from(-90).up_to(90),
+      "Angle of the flight path below the horizon at deployment, 90: vertical. Gravity turns the path.");
 }
 
 /// The pressure over the canopy.
@@ -42,65 +43,69 @@ void describe_pressure(Fields& fields, InflationSettings& inflation) {
       .absent("from drag_coefficient, or from a steady run given on the command line");
   fields
       .number("drag_coefficient", inflation.drag_coefficient, above(0).up_to(5),
-              "C_D on S0: the pressure is such that the steady drag is C_D S0 q at the speed of [flow].")
+              "Drag coefficient on S0. It determines the pressure for which the steady drag is C_D S0 q at "
+              "the speed of [flow].")
       .absent("from pressure_pa, or from a steady run given on the command line");
   fields.number("ramp_s", inflation.ramp_s, from(0).up_to(1000),
-                "Time in which the pressure rises in proportion to time; 0: at once.");
+                "Time of the linear rise of the pressure; 0: immediate.");
 }
 
 /// The damping.
 void describe_damping(Fields& fields, InflationSettings& inflation) {
   fields.number("damping_n_s_m3", inflation.damping_n_s_m3, from(0).up_to(1e5),
-                "C_a: absolute damping of the cloth a unit area ([NFM] Eq. 20, mended).");
+                "Absolute damping C_a of the cloth per unit area ([NFM] Eq. 20, corrected).");
   fields.number("quadratic_damping_n_s2_m4", inflation.quadratic_damping_n_s2_m4, from(0).up_to(1e5),
-                "The same in proportion to the square of the speed.");
+                "Quadratic absolute damping per unit area, proportional to the square of the speed.");
   fields.number("line_damping_s", inflation.line_damping_s, from(0).up_to(1e-3),
                 "Relative damping of lines and tape as a time: C = line_damping_s K_1 / L0 (assumed).");
   fields.number("cloth_damping_s", inflation.cloth_damping_s, from(0).up_to(1e-3),
-                "Relative damping of the cloth's springs, likewise (none assumed).");
-  fields.number(
-      "cloth_damping_step_share", inflation.cloth_damping_step_share, from(0.05).up_to(0.999),
-      "Where the cloth's damping would leave less than this of the stable step, a cell has less of it");
+                "Relative damping of the cloth springs as a time, likewise (assumed: none).");
+  fields.number("cloth_damping_step_share", inflation.cloth_damping_step_share, from(0.05).up_to(0.999),
+                "Smallest ratio of the stability limit with and without damping of the cloth: the damping of "
+                "a cell is reduced below it");
 }
 
 /// What the opening has unlike the steady canopy.
 void describe_mesh(Fields& fields, InflationSettings& inflation) {
   fields
       .number("line_segment_m", inflation.line_segment_m, from(0.001).up_to(10),
-              "Rest length that the springs of a line aim at, in the opening: stiff lines set its step.")
-      .absent("that of [parachute.mesh]");
+              "Target rest length of the springs of a line in the opening. Stiff lines limit its time step.")
+      .absent("of [parachute.mesh]");
   fields
       .number("cloth_compression", inflation.cloth_compression, from(0).up_to(1),
-              "Stiffness of cloth and tape in compression relative to K_1 at any strain, in the opening, in "
-              "place of wrinkles; 1 is the spring that [NFM] prints.")
+              "Stiffness of cloth and tape in compression relative to K_1 at any strain in the opening, "
+              "instead of wrinkling; 1: spring of [NFM].")
       .absent("cloth and tape wrinkle, at their buckling strain or 1e-6");
   fields.number("contact_pa", inflation.contact_pa, from(0).up_to(1e6),
-                "Pressure that would press two layers of cloth into one; 0: cloth passes through cloth.");
+                "Contact pressure that would compress two layers of nodes into one; 0: no contact.");
   fields.number("contact_friction", inflation.contact_friction, from(0).up_to(2),
-                "Coulomb's coefficient of cloth on cloth (assumed).");
+                "Coulomb friction coefficient of cloth on cloth (assumed).");
   fields.number("imperfection_m", inflation.imperfection_m, from(0).up_to(1),
-                "The folded cloth starts moved outward by this much times cos(harmonic x azimuth) at the "
-                "outer folds of the skirt, in proportion to the radius elsewhere; 0: symmetric.");
+                "Amplitude of the initial imperfection: radial displacement at the outer folds of the skirt, "
+                "times cos(harmonic x azimuth), proportional to the radius elsewhere; 0: symmetric.");
   fields.integer("imperfection_harmonic", inflation.imperfection_harmonic, from(1).up_to(1000),
-                 "Waves round the axis of that imperfection.");
+                 "Number of waves of the imperfection around the axis.");
+  fields.integer(
+      "imperfection_seed", inflation.imperfection_seed, from(0).up_to(1e9),
+      "Seed of a random imperfection: waves of all harmonics from 1 to 8 at random azimuths, instead of one "
+      "harmonic; 0: none. `ripstop inflate --samples` uses the seeds from 1.");
 }
 
 /// How long, how finely and what is written.
 void describe_run(Fields& fields, InflationSettings& inflation) {
   fields.number("duration_s", inflation.duration_s, above(0).up_to(1000), "Time from deployment to the end.");
-  fields.number(
-      "history_hz", inflation.history_hz, from(10).up_to(1e6),
-      "Rows a second of the load history, at least; each has the mean, least and largest load of all "
-      "its steps.");
+  fields.number("history_hz", inflation.history_hz, from(10).up_to(1e6),
+                "Smallest number of rows of the load history per second. Each row has the mean, smallest and "
+                "largest load of its time steps.");
   fields.number("low_pass_hz", inflation.low_pass_hz, from(0).up_to(1e6),
-                "Cutoff of a low-pass over the written history; the computation is not filtered; 0: none.");
-  fields.numbers(
-      "sheet_s", inflation.sheet_s, 0, 12, from(0).up_to(1000),
-      "Instants whose shapes the contact sheet shows, at the next look at the step; none: eight, up to "
-      "0.1 s or, with air = \"coupled\", to the end.");
-  fields.integer("frames", inflation.frames, from(1).up_to(100000), "Shapes that are written.");
+                "Cutoff frequency of a low-pass filter of the written history; the computation is not "
+                "filtered; 0: none.");
+  fields.numbers("sheet_s", inflation.sheet_s, 0, 12, from(0).up_to(1000),
+                 "Times of the shapes in the overview picture, at the next check of the time step; none: "
+                 "eight times up to 0.1 s or, with air = \"coupled\", to the end.");
+  fields.integer("frames", inflation.frames, from(1).up_to(100000), "Number of shapes that are written.");
   fields.number("step_fraction", inflation.step_fraction, above(0).up_to(0.98),
-                "Time step over the largest stable one.");
+                "Time step over the stability limit.");
 }
 
 /// What is known of the load.
@@ -109,11 +114,11 @@ void describe_known(Fields& fields, InflationSettings& inflation) {
       .absent("withheld or not measured");
   fields
       .number("measured_inflation_time_s", inflation.measured_inflation_time_s, above(0).up_to(1000),
-              "Measured time until the load stays within 10 % of steady.")
+              "Measured time after which the load remains within 10 % of the steady load.")
       .absent("withheld or not measured");
   fields
       .number("printed_peak_n", inflation.printed_peak_n, above(0).up_to(1e7),
-              "Peak load that the source's model gives.")
+              "Peak load of the model of the source.")
       .absent("not printed");
 }
 
@@ -122,16 +127,16 @@ void describe_known(Fields& fields, InflationSettings& inflation) {
 void describe(Fields& fields, ReefingStage& stage) {
   fields
       .number("line_m", stage.line_m, above(0).up_to(1000),
-              "Length of the reefing line, once round through a ring where every line meets the skirt; at "
-              "most the "
-              "skirt's circumference, and longer than that of the stage before.")
+              "Length of the closed reefing line through a ring at every suspension line; at most the "
+              "circumference of the skirt, and longer than in the previous stage.")
       .required();
   fields
-      .number("cut_s", stage.cut_s, above(0).up_to(1000),
-              "Time from deployment at which the line is cut, at the next look at the step (2 ms at most).")
+      .number(
+          "cut_s", stage.cut_s, above(0).up_to(1000),
+          "Time from deployment at which the line is cut, at the next check of the time step (within 2 ms).")
       .required();
-  fields.name("material", stage.material, "Line of the library or of this case: its stiffness and strength.")
-      .absent("that of the suspension lines");
+  fields.name("material", stage.material, "Material of the reefing line, of kind \"line\".")
+      .absent("of the suspension lines");
 }
 
 void describe(Fields& fields, InflationSettings& inflation) {
@@ -143,8 +148,8 @@ void describe(Fields& fields, InflationSettings& inflation) {
   describe_run(fields, inflation);
   describe_known(fields, inflation);
   fields.rows("reefing", inflation.reefing,
-              "A stage of reefing: a line through rings at the skirt, until it is cut. Stages in order; "
-              "after the last the canopy is fully open.");
+              "Reefing stage: a line through rings at the skirt until it is cut. The stages are listed in "
+              "order; after the last one the canopy opens fully.");
 }
 
 }  // namespace ripstop

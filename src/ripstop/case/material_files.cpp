@@ -79,12 +79,12 @@ class MaterialFiles {
     if (typed && !fs::exists(file)) file = value.text;
     if (!fs::exists(file))
       refuse(
-          fmt::format("there is no file {}; give the path of a material file relative to the case file, or "
-                      "the name of a material without \".toml\"",
+          fmt::format("file {} not found; give the path of a material file relative to the case file, or the "
+                      "name of a material without \".toml\"",
                       quoted((folder_ / value.text).string())));
     const std::string name = file.stem().string();
     if (!is_name(name))
-      refuse("the file's name cannot be that of a material: letters, digits, '.', '_' and '-' only");
+      refuse("the file name is not a valid name of a material: use letters, digits, '.', '_' and '-' only");
     file = fs::weakly_canonical(file);
     const auto earlier = files_.find(name);
     const bool neighbour = earlier == files_.end() && taken_.contains(name);

@@ -9,6 +9,7 @@
 
 #include "ripstop/case/assemble.h"
 #include "ripstop/case/cost.h"
+#include "ripstop/case/deployment.h"
 #include "ripstop/core/error.h"
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/fsi/pressure.h"
@@ -29,6 +30,23 @@ double pressure_of(const Settings& opening, const LoadSource& source, int thread
   return pressure_for(*source.steady_drag, parachute_mesh(coarse, opening), opening.coupling().linear, team,
                       alive)
       .pressure;
+}
+
+/// The state at which the canopy begins to leave its bag; canopy first, at which the lines come taut.
+void start_from(const Deployment& deployment, const Settings& opening, InflationProblem& problem) {
+  if (deployment.stopped)
+    throw Error(
+        ExitCode::usage,
+        fmt::format("[deployment]: the canopy does not open. {}. A lower deployment.strip_force_n or "
+                    "line_force_n, a larger pilot_drag_area_m2 or a higher relative_speed_m_s pulls it out",
+                    *deployment.stopped));
+  const PackedParachute packed = packed_parachute(opening);
+  const DeploymentPhase& start = *deployment.phase(packed.lines_first ? canopy_leaves : lines_stretch);
+  problem.air->flow.air.velocity =
+      (start.payload_speed / problem.air->flow.air.speed()) * problem.air->flow.air.velocity;
+  if (packed.lines_first)
+    problem.bag = Bag{packed.bag_mass, packed.bag_drag_area, packed.strip_force,
+                      start.payload_speed - start.bag_speed, packed_share(opening)};
 }
 
 /// Payload::density_ratio in the standard atmosphere, where the case says how high it begins.
@@ -57,6 +75,8 @@ Case opening_case(const Case& given) {
   MeshSettings& mesh = opening.parachute.mesh;
   mesh.sewn_straight = false;  // chords of curved seams would strain the folded start
   mesh.line_segment_m = inflation.line_segment_m.value_or(mesh.line_segment_m);
+  if (opening.deployment && inflation.air == AirModel::coupled)
+    close_mouth(opening.parachute, opening.inflation);
   mesh.folds = inflation.folds > 0 ? inflation.folds : opening.parachute.lines.count;
   return opening;
 }
@@ -64,11 +84,11 @@ Case opening_case(const Case& given) {
 LoadSource load_source(const Settings& opening) {
   const InflationSettings& inflation = opening.inflation();
   if (inflation.air == AirModel::coupled)
-    return {fmt::format("the air at {:g} m/s, stepped with the cloth", opening.flow().speed_m_s), {}};
+    return {fmt::format("coupled flow at {:g} m/s", opening.flow().speed_m_s), {}};
   if (inflation.pressure_pa.has_value() == inflation.drag_coefficient.has_value()) {
     throw Error(ExitCode::usage,
-                "give the pressure once: inflation.pressure_pa, inflation.drag_coefficient, --pressure "
-                "or --steady RUN");
+                "the pressure must be given exactly once: inflation.pressure_pa, inflation.drag_coefficient, "
+                "--pressure or --steady RUN");
   }
   if (inflation.pressure_pa) return {fmt::format("given: {:g} Pa", *inflation.pressure_pa), {}};
   const double speed = opening.flow().speed_m_s;
@@ -85,12 +105,13 @@ InflationProblem opening_problem(const Settings& opening, const LoadSource& sour
   problem.settings = opening.inflation();
   if (opening.inflation().air == AirModel::coupled) {
     const Cost cost = cost_of(opening);
-    require_memory(cost.memory, fmt::format("an opening in {:.3g} cells of air", cost.cells));
+    require_memory(cost.memory, fmt::format("a coupled inflation with {:.3g} cells", cost.cells));
     problem.air = AirProblem{flow_problem(opening), opening.inflation().courant};
     if (opening.inflation().mass == InflationSettings::Mass::payload)
       problem.air->payload =
           Payload{*opening.payload().mass_kg, standard_gravity, opening.inflation().flight_angle_deg,
                   opening.payload().drag_area_m2, density_below(opening.flow().height_m)};
+    if (const auto deployment = deployment_of(opening)) start_from(*deployment, opening, problem);
     problem.settings.damping_n_s_m3 = problem.settings.quadratic_damping_n_s2_m4 = 0;
   } else {
     problem.pressure = pressure_of(opening, source, threads, alive);

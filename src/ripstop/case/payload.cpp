@@ -45,7 +45,8 @@ double suspended_weight(const Settings& resolved, double payload) {
 
 double payload_first_speed(const Case& given, double density) {
   if (!given.payload.mass_kg)
-    throw Error(ExitCode::usage, "the case has neither flow.speed_m_s nor payload.mass_kg");
+    throw Error(ExitCode::usage,
+                "the case has neither flow.speed_m_s nor payload.mass_kg; write one of them");
   const double canopy = usual_drag_coefficient(given.parachute) * nominal_area(given.parachute);
   return terminal_speed(*given.payload.mass_kg, canopy + given.payload.drag_area_m2, density);
 }

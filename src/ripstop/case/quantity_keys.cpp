@@ -13,6 +13,8 @@ const std::vector<std::pair<std::string, std::string>>& quantity_keys() {
       {"cloth mesh", "parachute.mesh"},
       {"flow grid", "grid (flow.cells)"},
       {"Courant number of the flow", "inflation.courant"},
+      {"mass of the payload", "payload.mass_kg"},
+      {"region of fine cells", "region of fine cells (flow.core.size_m)"},
       {"radius of the folded skirt", "inflation.initial_radius_m"},
       {"length of the first reefing line", "inflation.reefing[0].line_m"},
       {"low-pass cutoff", "inflation.low_pass_hz"},

@@ -70,7 +70,7 @@ void import_material(Document& document, const Setting& setting) {
           setting.key,
           setting.value,
           fmt::format("{}", fmt::join(known, ", ")),
-          near.empty() ? fmt::format("no such material; there are {}", fmt::join(known, ", "))
+          near.empty() ? fmt::format("no such material; available: {}", fmt::join(known, ", "))
                        : fmt::format("no such material; did you mean {}?", quoted(prefix + near))}});
   }
   set_value(document, {prefix + name + ".base", quoted(name), setting.option});
@@ -99,11 +99,10 @@ void rename_old_keys(Document& document, std::vector<Setting>& settings, Case& g
     const std::string table = "materials." + material.key + ".";
     for (const auto& [old, now] : ripstop::rename_old_keys(material)) {
       given.deprecations.push_back(
-          now.empty()
-              ? fmt::format("{}{} is an old key that is no longer needed: which porosity model a cloth's "
-                            "permeability is for follows from its keys; leave it out",
-                            table, old)
-              : fmt::format("{}{} is an old key: write {}{}", table, old, table, now));
+          now.empty() ? fmt::format("{}{} is an old key and no longer needed, because the keys of the "
+                                    "permeability determine the porosity model; remove it",
+                                    table, old)
+                      : fmt::format("{}{} is a deprecated key: write {}{}", table, old, table, now));
       for (Setting& setting : settings)
         if (setting.key == table + old && !now.empty()) setting.key = table + now;
     }

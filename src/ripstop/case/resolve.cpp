@@ -63,14 +63,14 @@ void resolve_air(Follow& follow, const Case& given, FlowKeys& keys, FlowSettings
   flow.height_m = given.flow.height_m;
   flow.nominal_speed_m_s =
       follow("flow.speed_m_s", keys.speed_m_s, stream.speed,
-             "payload.mass_kg and the family's usual drag: a first guess, the run finds the speed");
+             "start value from payload.mass_kg and the usual drag of the family; the run computes the speed");
   if (!given.flow.height_m) {
     flow.density_kg_m3 = follow("flow.density_kg_m3", keys.density_kg_m3, stream.density,
                                 "the row of [[measured]] with this nominal speed");
-    flow.temperature_k =
-        follow("flow.temperature_k", keys.temperature_k, usual_temperature, "a day in a tunnel");
-    flow.viscosity_pa_s =
-        follow("flow.viscosity_pa_s", keys.viscosity_pa_s, usual_viscosity, "a day in a tunnel");
+    flow.temperature_k = follow("flow.temperature_k", keys.temperature_k, usual_temperature,
+                                "default laboratory air (20 degC)");
+    flow.viscosity_pa_s = follow("flow.viscosity_pa_s", keys.viscosity_pa_s, usual_viscosity,
+                                 "default laboratory air (20 degC)");
     return;
   }
   const StandardAir standard = standard_air(*given.flow.height_m);
@@ -91,17 +91,17 @@ void resolve_tunnel(Follow& follow, FlowKeys& keys, TunnelSettings& tunnel) {
   const bool jet = tunnel.kind == TunnelKind::open_jet;
   Nozzle& nozzle = tunnel.nozzle;
   nozzle.shape = take("shape", given.shape, jet ? NozzleShape::circle : NozzleShape::rectangle,
-                      jet ? "the open jet's default" : "the only one of a closed test section");
+                      jet ? "default of the open jet" : "the only shape of a closed test section");
   nozzle.width = given.width_m.value_or(0);  // its absence is told by validate()
   if (nozzle.shape == NozzleShape::rectangle)
-    nozzle.height = take("height_m", given.height_m, nozzle.width, "as wide as high");
+    nozzle.height = take("height_m", given.height_m, nozzle.width, "equal to the width");
   if (jet) {
     const bool placed = keys.canopy_position_m.has_value();
     tunnel.nozzle_distance_m =
         take("nozzle_distance_m", given.nozzle_distance_m, placed ? *keys.canopy_position_m : nozzle.width,
              placed ? "flow.canopy_position_m" : "one width of the nozzle");
     tunnel.outside_speed =
-        take("outside_speed", given.outside_speed, jet_outside_speed, "the open jet's default");
+        take("outside_speed", given.outside_speed, jet_outside_speed, "default of the open jet");
     tunnel.shear_layer_m = take("shear_layer_m", given.shear_layer_m, jet_shear_layer * nozzle.width,
                                 fmt::format("{:g} widths of the nozzle", jet_shear_layer));
   } else {
@@ -121,7 +121,7 @@ BoxDefault default_box(const FlowSettings& flow, const TunnelKeys& given, double
   BoxDefault box{sheet ? d * sheet_box : paper_box,
                  sheet ? fmt::format("{:g} x {:g} x {:g} inflated diameters of {:.3g} m", sheet_box.x,
                                      sheet_box.y, sheet_box.z, d)
-                       : "the paper model's default"};
+                       : "default of the paper model"};
   const TunnelSettings& tunnel = flow.tunnel;
   const double width = tunnel.nozzle.width, height = nozzle_height(tunnel.nozzle);
   if (tunnel.kind == TunnelKind::closed) {
@@ -136,13 +136,13 @@ BoxDefault default_box(const FlowSettings& flow, const TunnelKeys& given, double
       fmt::format("{:g} widths of the nozzle or {:g} inflated diameters of {:.3g} m; {}", jet_box_across,
                   sheet_box.x, d,
                   given.collector_distance_m ? std::string("to the collector")
-                                             : fmt::format("{:g} or {:g} of them behind the skirt",
+                                             : fmt::format("{:g} or {:g} of them downstream of the skirt",
                                                            jet_box_behind, sheet_box.z - sheet_skirt))};
 }
 
 void resolve_core(Follow& follow, double d, FlowKeys& keys, FlowSettings& flow) {
   const bool sheet = flow.porosity_model == PorosityModel::sheet;
-  const std::string model = sheet ? "the sheet's default" : "the paper model's default";
+  const std::string model = sheet ? "default of the sheet model" : "default of the paper model";
   const Vec3 box = flow.box_m;
   Vec3 core = d * sheet_core;
   std::string from = fmt::format("{:g} x {:g} x {:g} inflated diameters of {:.3g} m", sheet_core.x,
@@ -156,7 +156,7 @@ void resolve_core(Follow& follow, double d, FlowKeys& keys, FlowSettings& flow) 
     if (!all_wide) from += "; 0 where the test section is less than twice as wide";
   } else if (!sheet || !all_wide) {
     core = {};
-    from = sheet ? "a side of the box is less than twice as long as a core for this canopy" : model;
+    from = sheet ? "a side of the domain is less than twice as long as the core of this canopy" : model;
   }
   flow.core.size_m = follow("flow.core.size_m", keys.core.size_m, core, from);
   const Vec3 size = flow.core.size_m;
@@ -164,32 +164,33 @@ void resolve_core(Follow& follow, double d, FlowKeys& keys, FlowSettings& flow) 
     flow.core.start_m =
         follow("flow.core.start_m", keys.core.start_m,
                std::max(0.0, std::min(flow.canopy_position_m - 0.25 * size.z, flow.box_m.z - size.z)),
-               "a quarter of the core before the skirt");
+               "a quarter of the core upstream of the skirt");
   flow.core.growth =
       follow("flow.core.growth", keys.core.growth, (sheet ? sheet_defaults : paper_defaults).growth, model);
   const bool moves = sheet && keys.unsteady && size.x > 0 && size.y > 0;
-  flow.core.off_axis = follow("flow.core.off_axis", keys.core.off_axis, moves ? in_time_off_axis : 0.0,
-                              moves ? "of a flow in time" : "of a steady flow, and of uniform cells");
+  flow.core.off_axis =
+      follow("flow.core.off_axis", keys.core.off_axis, moves ? in_time_off_axis : 0.0,
+             moves ? "default of unsteady flow" : "default of steady flow and of uniform cells");
 }
 
 void resolve_box(Follow& follow, const Design& parachute, FlowKeys& keys, FlowSettings& flow) {
   const bool sheet = flow.porosity_model == PorosityModel::sheet;
   const bool jet = flow.tunnel.kind == TunnelKind::open_jet;
-  const std::string model = sheet ? "the sheet's default" : "the paper model's default";
+  const std::string model = sheet ? "default of the sheet model" : "default of the paper model";
   const double d = inflated_diameter(parachute);
   const BoxDefault box = default_box(flow, keys.tunnel, d);
   flow.box_m = follow("flow.box_m", keys.box_m, box.size, box.from);
   flow.cells = follow("flow.cells", keys.cells,
                       sheet && jet ? jet_cells : (sheet ? sheet_defaults : paper_defaults).cells,
-                      sheet && jet ? "the sheet's default in the wide box of a jet" : model);
+                      sheet && jet ? "default of the sheet model in the wide domain of a jet" : model);
   const double half = flow.box_m.z / 2, upstream = d * sheet_skirt;
   flow.canopy_position_m =
       jet ? follow("flow.canopy_position_m", keys.canopy_position_m, flow.tunnel.nozzle_distance_m,
-                   "flow.tunnel.nozzle_distance_m; the box begins at the nozzle")
+                   "flow.tunnel.nozzle_distance_m; the domain begins at the nozzle")
       : sheet && upstream < half
           ? follow("flow.canopy_position_m", keys.canopy_position_m, upstream,
                    fmt::format("{:g} inflated diameters of {:.3g} m", sheet_skirt, d))
-          : follow("flow.canopy_position_m", keys.canopy_position_m, half, "half the length of the box");
+          : follow("flow.canopy_position_m", keys.canopy_position_m, half, "half the length of the domain");
   resolve_core(follow, d, keys, flow);
 }
 
@@ -205,9 +206,10 @@ void resolve_numerics(Follow& follow, Case& written, SettingsValues& values) {
   FlowKeys& keys = written.flow;
   const bool sheet = flow.porosity_model == PorosityModel::sheet;
   const ModelDefaults& standard = sheet ? sheet_defaults : paper_defaults;
-  const std::string model = sheet ? "the sheet's default" : "the paper model's default";
+  const std::string model = sheet ? "default of the sheet model" : "default of the paper model";
   const Abilities can = abilities_of(flow.engine);
-  const std::string lacking = fmt::format("the flow engine \"{}\" has not the sheet's default", flow.engine);
+  const std::string lacking =
+      fmt::format("the flow engine \"{}\" does not support the default of the sheet model", flow.engine);
   const bool sides_lack = !can.has_boundary(standard.sides.word),
              outlet_lacks = !can.has_boundary(standard.outlet.word),
              averages_lack = standard.average_over > 0 && !can.averages;
@@ -219,10 +221,10 @@ void resolve_numerics(Follow& follow, Case& written, SettingsValues& values) {
                    sides_lack ? lacking : model)
           : follow(
                 "flow.sides", keys.sides, tunnel == TunnelKind::closed ? Sides::slip : Sides::entraining,
-                tunnel == TunnelKind::closed ? "the walls of the test section" : "still air round the jet");
+                tunnel == TunnelKind::closed ? "the walls of the test section" : "still air around the jet");
   flow.outlet =
       tunnel == TunnelKind::open_jet
-          ? follow("flow.outlet", keys.outlet, Outlet::still_air, "still air round the jet")
+          ? follow("flow.outlet", keys.outlet, Outlet::still_air, "still air around the jet")
           : follow("flow.outlet", keys.outlet, outlet_lacks ? Outlet::fixed_pressure : standard.outlet,
                    outlet_lacks ? lacking : model);
   flow.residual = follow("flow.residual", keys.residual, standard.residual, model);
@@ -235,6 +237,10 @@ void resolve_numerics(Follow& follow, Case& written, SettingsValues& values) {
   coupling.load = follow("coupling.load", written.coupling.load, standard.load, model);
   coupling.drag_tolerance =
       follow("coupling.drag_tolerance", written.coupling.drag_tolerance, standard.drag_tolerance, model);
+  // Of 1 mm at a nominal diameter of 1 m; to a micrometre, so that areas that are 1 m but for rounding have it.
+  const double shape = std::max(1e-9, 1e-6 * std::round(1e3 * nominal_diameter(written.parachute)));
+  coupling.shape_tolerance_m = follow("coupling.shape_tolerance_m", written.coupling.shape_tolerance_m, shape,
+                                      "0.1 % of the nominal diameter");
 }
 
 }  // namespace
@@ -260,14 +266,14 @@ SettingsValues settings_values(const Case& given) {
   Follow follow(values);
   const Design& parachute = given.parachute;
   follow("parachute.nominal_area_m2", written.parachute.nominal_area_m2, nominal_area(parachute),
-         "the type's own definition");
+         "definition of the canopy type");
   follow("parachute.lines.onto_disk_m", written.parachute.lines.onto_disk_m, line_length_on_disk(parachute),
-         "up to the vent's edge");
+         "to the edge of the vent");
   resolve_tape(follow, given, written);
   resolve_air(follow, given, written.flow, flow);
   const Fabric& cloth = canopy_fabric(given);
   flow.porosity_model = follow("flow.porosity_model", written.flow.porosity_model, model_of(cloth.resistance),
-                               fmt::format("what the permeability of materials.{} is for", cloth.name));
+                               fmt::format("model of the permeability of materials.{}", cloth.name));
   resolve_tunnel(follow, written.flow, flow.tunnel);
   resolve_box(follow, parachute, written.flow, flow);
   resolve_numerics(follow, written, values);

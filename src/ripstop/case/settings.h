@@ -87,7 +87,10 @@ class Settings {
   const FlowSettings& flow() const { return values_.flow; }
   const CouplingSettings& coupling() const { return values_.coupling; }
   const InflationSettings& inflation() const { return values_.written.inflation; }
+  /// Of a coupled opening; absent: the folded canopy starts stretched out.
+  const std::optional<DeploymentKeys>& deployment() const { return values_.written.deployment; }
   const PayloadKeys& payload() const { return values_.written.payload; }
+  const FlightSettings& flight() const { return values_.written.flight; }
   const MarginFactors& margins() const { return values_.written.margins; }
   const std::vector<Measured>& measured() const { return values_.written.measured; }
   /// The row of [[measured]] for the nominal speed.

@@ -46,8 +46,11 @@ TapeMaterial tape_for(const Case& given, double line_load) {
   line_load = std::max(1e-9, line_load);  // what is wrong with air and area is told elsewhere
   const std::optional<double> hem = used_of_hem(given, line_load);
   if (hem && *hem <= 1 && !slots_need_tape(given.parachute))
-    return {no_tape, fmt::format("a hem of {:g} mm of the cloth holds a line's {:.3g} N ({:.0f} % used)",
-                                 1000 * hem_width, line_load, 100 * *hem)};
+    return {
+        no_tape,
+        fmt::format("a hem of {:g} mm of the cloth carries the {:.3g} N of one line (utilisation {:.0f} %)",
+                    1000 * hem_width, line_load, 100 * *hem),
+        *hem};
   const Tape *lightest = nullptr, *strongest = nullptr;
   double least_used = 0;
   for (const auto& [name, material] : given.materials) {
@@ -59,17 +62,18 @@ TapeMaterial tape_for(const Case& given, double line_load) {
       lightest = tape;
   }
   if (!strongest)
-    throw Error(ExitCode::usage,
-                "the case has no tape of known strength to choose from: name one (parachute.tape.material)");
+    throw Error(ExitCode::usage, "the case has no tape of known strength: give parachute.tape.material");
   const Tape& chosen = lightest ? *lightest : *strongest;
+  const double used = *used_of_tape(given, line_load, chosen);
   return {chosen.name,
           fmt::format("{} a line's {:.3g} N ({:.0f} % used)",
-                      lightest ? "the lightest tape that holds" : "the strongest tape, too weak for",
-                      line_load, 100 * *used_of_tape(given, line_load, chosen))};
+                      lightest ? "the lightest tape that carries" : "the strongest tape, too weak for",
+                      line_load, 100 * used),
+          used};
 }
 
 TapeMaterial tape_material(const Case& given) {
-  if (given.parachute.tape.material) return {*given.parachute.tape.material, "given"};
+  if (given.parachute.tape.material) return {*given.parachute.tape.material, "given", 0};
   const Air stream = air(given);
   const bool sinks = given.payload.mass_kg && given.inflation.mass != InflationSettings::Mass::payload;
   const double speed = sinks ? usual_deployment_speed(stream.speed) : stream.speed;

@@ -10,6 +10,7 @@ namespace ripstop {
 struct TapeMaterial {
   std::string name;  // of given.materials, or no_tape
   std::string from;  // why
+  double used = 0;   // of the strength of tape or hem by a line's load; 0: given, not computed
 };
 
 /// As the case gives it, else as tape_for() has it at the load of the opening: C_x C_D S0 q over the number of lines, C_x

@@ -103,24 +103,25 @@ void check_flight(const Case& given, Findings& findings) {
   const FlowKeys& flow = given.flow;
   const bool payload = given.payload.mass_kg.has_value();
   if (!flow.speed_m_s && !payload && findings.sound({"flow.speed_m_s", "payload.mass_kg"}))
-    findings.add("flow.speed_m_s", "", "above 0 and at most 100",
-                 "is missing; write it, or [payload] with mass_kg, for which the steady run finds the speed");
+    findings.add(
+        "flow.speed_m_s", "", "above 0 and at most 100",
+        "is missing; write it, or [payload] with mass_kg, for which the steady run computes the speed");
   if (payload && flow.speed_basis == SpeedBasis::measured && findings.sound({"flow.speed_basis"}))
     findings.add("flow.speed_basis", quoted("measured"), quoted("nominal"),
-                 "a measured speed and one that is sought for payload.mass_kg exclude each other");
+                 "a measured speed cannot be combined with payload.mass_kg, for which the speed is computed");
   if (payload && !flow.speed_m_s && !flow.density_kg_m3 && !flow.height_m &&
       findings.sound({"flow.density_kg_m3", "flow.height_m"}))
     findings.add("flow.height_m", "", "",
-                 "is missing: a payload falls in air of a height or a density; write one");
+                 "is missing: the descent of a payload needs flow.height_m or flow.density_kg_m3; write one");
   if (!flow.height_m || !findings.sound({"flow.height_m"})) return;
   const StandardAir air = standard_air(*flow.height_m);
-  const std::string instead = fmt::format("leave it out, or leave flow.height_m = {:g} out", *flow.height_m);
+  const std::string instead = fmt::format("remove it, or remove flow.height_m = {:g}", *flow.height_m);
   const auto agree = [&](const char* key, const std::optional<double>& value, double standard,
                          const char* unit) {
     if (!value || std::abs(*value / standard - 1) <= 1e-6 || !findings.sound({key})) return;
     findings.add(key, *value, fmt::format("{:.6g}", standard),
-                 fmt::format("is not that of the standard atmosphere at flow.height_m, {:.6g} {}: {}",
-                             standard, unit, instead));
+                 fmt::format("differs from the standard atmosphere at flow.height_m, {:.6g} {}: {}", standard,
+                             unit, instead));
   };
   agree("flow.density_kg_m3", flow.density_kg_m3, air.density, "kg/m3");
   agree("flow.temperature_k", flow.temperature_k, air.temperature, "K");
@@ -147,19 +148,19 @@ void check_tunnel_keys(const TunnelKeys& tunnel, Findings& findings) {
     if (one.given && !one.fits)
       findings.add(
           std::string("flow.tunnel.") + one.key, "", "",
-          fmt::format("is a key of {}; flow.tunnel.kind and shape say what there is (remove the key, "
-                      "or set them)",
-                      one.belongs_to));
+          fmt::format(
+              "is a key of {}, which flow.tunnel.kind and shape do not select (remove the key, or set them)",
+              one.belongs_to));
   if ((jet || closed) && !tunnel.width_m && findings.sound({"flow.tunnel.width_m"}))
     findings.add("flow.tunnel.width_m", "", "above 0 and at most 200",
                  "is missing: the width of the nozzle, or of the test section");
   const double width = tunnel.width_m.value_or(0), least = std::min(width, tunnel.height_m.value_or(width));
   if (closed && width > 0 && tunnel.displacement_thickness_m.value_or(0) >= least / 2)
     findings.add("flow.tunnel.displacement_thickness_m", *tunnel.displacement_thickness_m,
-                 fmt::format("below {:.6g}", least / 2), "nothing of the test section is left open");
+                 fmt::format("below {:.6g}", least / 2), "the boundary layers fill the test section");
   if (closed && tunnel.shape.value_or(NozzleShape::rectangle) != NozzleShape::rectangle)
     findings.add("flow.tunnel.shape", "", quoted("rectangle"),
-                 "the sides of the box are the walls of a closed test section, so that it is a rectangle");
+                 "the sides of the domain are the walls of a closed test section, which must be a rectangle");
 }
 
 /// Whether the box is the tunnel's.
@@ -173,7 +174,7 @@ void check_tunnel(const Case& given, const FlowSettings& flow, Findings& finding
       const double open = sides[i] - 2 * tunnel.displacement_thickness_m;
       if (std::abs(box[i] - open) > 1e-9 * open)
         findings.add(fmt::format("flow.box_m[{}]", i), box[i], fmt::format("{:.9g}", open),
-                     "the sides of the box are the walls of the closed test section (flow.tunnel)");
+                     "the sides of the domain are the walls of the closed test section (flow.tunnel)");
     }
     if (flow.sides != Sides::slip)
       findings.add("flow.sides", "", quoted("slip"), "a closed test section (flow.tunnel.kind) has walls");
@@ -183,23 +184,21 @@ void check_tunnel(const Case& given, const FlowSettings& flow, Findings& finding
     if (box[i] < narrowest_jet_box * sides[i])
       findings.add(fmt::format("flow.box_m[{}]", i), box[i],
                    fmt::format("at least {:.6g}", narrowest_jet_box * sides[i]),
-                   "the box is too narrow for the still air round the nozzle (flow.tunnel)");
+                   "the domain is too narrow for the still air around the nozzle (flow.tunnel)");
   if (flow.sides == Sides::zero_gradient)
     findings.add("flow.sides", quoted("zero-gradient"), "entraining or slip",
-                 "an open jet (flow.tunnel.kind) draws in air of the room through the sides");
+                 "an open jet (flow.tunnel.kind) entrains ambient air through the sides");
   const auto [key, value] = keys.nozzle_distance_m
                                 ? std::pair{"flow.tunnel.nozzle_distance_m", *keys.nozzle_distance_m}
                                 : std::pair{"flow.canopy_position_m", flow.canopy_position_m};
   if (std::abs(flow.canopy_position_m - tunnel.nozzle_distance_m) > 1e-9 * tunnel.nozzle_distance_m)
-    findings.add(
-        key, value, fmt::format("{:.9g}", flow.canopy_position_m),
-        "the box begins at the nozzle, so that flow.canopy_position_m is the same distance (leave one "
-        "of the two out)");
+    findings.add(key, value, fmt::format("{:.9g}", flow.canopy_position_m),
+                 "the domain begins at the nozzle; flow.canopy_position_m is the same distance (remove one "
+                 "of the two)");
   if (keys.collector_distance_m && std::abs(*keys.collector_distance_m - flow.box_m.z) > 1e-9 * flow.box_m.z)
     findings.add(
         "flow.tunnel.collector_distance_m", *keys.collector_distance_m, fmt::format("{:.9g}", flow.box_m.z),
-        "the box ends at the collector, so that flow.box_m has the same length (leave one of the two "
-        "out)");
+        "the domain ends at the collector; flow.box_m contains the same length (remove one of the two)");
 }
 
 /// The start shape, and the inflated shape that it may turn into, have to lie inside the box.
@@ -210,18 +209,17 @@ void check_box(const Case& given, const FlowSettings& flow, Findings& findings) 
   for (const auto& [index, side] : {std::pair{0, box.x}, std::pair{1, box.y}})
     if (side <= diameter)
       findings.add(fmt::format("flow.box_m[{}]", index), side, fmt::format("above {:.6g}", diameter),
-                   fmt::format("{} does not fit into the box", canopy));
+                   fmt::format("{} does not fit into the flow domain", canopy));
   // Downstream of the skirt no point of a canopy is farther than its meridian is long.
   const double skirt = flow.canopy_position_m;
   const double end = skirt + start_depth(given.parachute) + diameter / 2;
   if (end >= box.z) {
     const bool placed = given.flow.canopy_position_m.has_value();
-    findings.add(
-        placed ? "flow.canopy_position_m" : "flow.box_m[2]", placed ? skirt : box.z,
-        placed ? fmt::format("below {:.6g}", box.z - (end - skirt)) : "",
-        fmt::format(
-            "{} with its skirt at {:.6g} m may reach to {:.6g} m, past the end of the box at {:.6g} m",
-            canopy, skirt, end, box.z));
+    findings.add(placed ? "flow.canopy_position_m" : "flow.box_m[2]", placed ? skirt : box.z,
+                 placed ? fmt::format("below {:.6g}", box.z - (end - skirt)) : "",
+                 fmt::format("{} with its skirt at {:.6g} m can extend to {:.6g} m, beyond the end of the "
+                             "flow domain at {:.6g} m",
+                             canopy, skirt, end, box.z));
   }
 }
 
@@ -231,10 +229,9 @@ void check_cells(const Case& given, const FlowSettings& flow, Findings& findings
   const std::array<int, 3>& cells = flow.cells;
   const double all = double(cells[0]) * cells[1] * cells[2];
   if (all > most_cells)
-    findings.add(
-        "flow.cells", fmt::format("[{}]", fmt::join(cells, ", ")),
-        fmt::format("at most {:.0e} together", most_cells),
-        fmt::format("{:.3g} cells are more than {:.0e}, more than the solver can hold", all, most_cells));
+    findings.add("flow.cells", fmt::format("[{}]", fmt::join(cells, ", ")),
+                 fmt::format("at most {:.0e} together", most_cells),
+                 fmt::format("{:.3g} cells exceed {:.0e}, the limit of the solver", all, most_cells));
   if (!findings.sound({"flow.core.size_m", "flow.core.start_m", "flow.core.growth"})) return;
   const Vec3 core = flow.core.size_m;
   for (const auto& [index, side] : {std::pair{0, core.x}, std::pair{1, core.y}})
@@ -243,11 +240,10 @@ void check_cells(const Case& given, const FlowSettings& flow, Findings& findings
                    fmt::format("a canopy of {:.6g} m diameter does not fit into the fine core", diameter));
   if (core.z > 0 && flow.core.start_m > skirt)
     findings.add("flow.core.start_m", flow.core.start_m, fmt::format("at most {:.6g}", skirt),
-                 fmt::format("the skirt, at {:.6g} m, lies before the fine core", skirt));
+                 fmt::format("the skirt, at {:.6g} m, is upstream of the fine core", skirt));
   if (flow.core.off_axis > 0 && !(core.x > 0 && core.y > 0))
-    findings.add(
-        "flow.core.off_axis", flow.core.off_axis, "0",
-        "cells that are uniform from side to side (flow.core.size_m = 0) have their middle on the axis");
+    findings.add("flow.core.off_axis", flow.core.off_axis, "0",
+                 "cells that are uniform over the width (flow.core.size_m = 0) are centred on the axis");
   if (!findings.sound({"flow.core.size_m", "flow.core.start_m"})) return;
   FlowGrid grid;
   try {
@@ -260,12 +256,11 @@ void check_cells(const Case& given, const FlowSettings& flow, Findings& findings
   for (std::size_t i = 0; i < 3; ++i) {
     const double across = diameter / widths[i];
     if (across < fewest_cells_across)
-      findings.add(
-          fmt::format("flow.cells[{}]", i), cells[i],
-          fmt::format("at least {:.0f}", std::ceil(cells[i] * fewest_cells_across / across)),
-          fmt::format("only {:.2g} cells lie across the canopy's diameter; {} are the fewest that show a "
-                      "canopy at all",
-                      across, fewest_cells_across));
+      findings.add(fmt::format("flow.cells[{}]", i), cells[i],
+                   fmt::format("at least {:.0f}", std::ceil(cells[i] * fewest_cells_across / across)),
+                   fmt::format("only {:.2g} cells across the diameter of the canopy; at least {} are "
+                               "required to represent a canopy",
+                               across, fewest_cells_across));
   }
 }
 
@@ -289,34 +284,36 @@ void check_engine(const Case& given, const FlowSettings& flow, Findings& finding
     if (lack.key == "flow.porosity_model")  // all that follows from it is lacking too
       return findings.add(
           "flow.engine", quoted(flow.engine), quoted(engines().front().word),
-          fmt::format("the cloth {} is a sheet (flow.porosity_model), which this engine has not; it "
-                      "needs cloth with coefficients of the \"paper\" model, such as \"f-111\"",
-                      quoted(given.parachute.canopy_material)));
+          fmt::format(
+              "the selected flow engine does not support the sheet model (flow.porosity_model) of the cloth "
+              "{}; it needs cloth with coefficients of the \"paper\" model, such as \"f-111\"",
+              quoted(given.parachute.canopy_material)));
     findings.add(lack.key, lack.value, lack.instead,
-                 fmt::format("the flow engine {} (flow.engine) has not that", quoted(flow.engine)));
+                 fmt::format("the flow engine {} (flow.engine) does not support it", quoted(flow.engine)));
   }
   if (wanted.fitted_meshes && !wanted.sheets && findings.sound({"flow.porosity_model"}))
     findings.add("flow.mesh", quoted("fitted"), quoted("grid"),
-                 "only cloth that is a sheet (flow.porosity_model) has a place that cells can be moved to");
+                 "cells can be fitted only to cloth of the sheet model (flow.porosity_model)");
   if (flow.cloth_levels > 0 && !wanted.fitted_meshes)
     findings.add("flow.cloth_levels", flow.cloth_levels, "0",
-                 "cells are halved at the cloth in a fitted mesh (flow.mesh)");
+                 "cells are halved at the cloth only in a fitted mesh (flow.mesh)");
 }
 
 void check_load(const SettingsValues& values, Findings& findings) {
   if (values.coupling.load != CanopyLoad::of_flow || values.flow.porosity_model == PorosityModel::sheet)
     return;
   if (findings.sound({"coupling.load", "flow.porosity_model"}))
-    findings.add("coupling.load", quoted("of-flow"), quoted("uniform"),
-                 "what the air loses on every piece of cloth is known of a sheet only (flow.porosity_model)");
+    findings.add(
+        "coupling.load", quoted("of-flow"), quoted("uniform"),
+        "the load of every piece of cloth is computed only in the sheet model (flow.porosity_model)");
 }
 
 void check_watch(const Case& given, const FlowSettings& flow, Findings& findings) {
   if (flow.unsteady && given.payload.mass_kg)
-    findings.add(
-        "flow.unsteady", "true", "false",
-        "the speed at which drag is weight (payload.mass_kg) is sought with a flow at rest; a mean over time "
-        "is known less well than that asks: take the speed that was found into a case of its own");
+    findings.add("flow.unsteady", "true", "false",
+                 "the speed at which drag equals weight (payload.mass_kg) needs a steady flow, because a "
+                 "mean over time is too uncertain; compute the speed first, then write it into a second case "
+                 "without the payload");
   const WatchKeys& watch = flow.watch;
   if (findings.sound({"flow.watch"}) && watch.longest < 2 * watch.shortest)
     findings.add(
@@ -331,27 +328,27 @@ void check_opening_air(const Case& given, const FlowSettings& flow, Findings& fi
     findings.add("inflation.mass", quoted("payload"), quoted("infinite"), why);
   };
   if (flies && given.inflation.air != AirModel::coupled)
-    refuse("a payload flies in its own air only (inflation.air = \"coupled\")");
+    refuse("a free payload needs coupled inflation (inflation.air = \"coupled\")");
   else if (flies && !given.payload.mass_kg)
     refuse("the payload has no mass (payload.mass_kg)");
   else if (flies && flow.tunnel.kind != TunnelKind::free_air)
-    refuse("nothing flies in a tunnel (flow.tunnel)");
+    refuse("a payload cannot move in a wind tunnel (flow.tunnel)");
   if (given.inflation.air != AirModel::coupled) return;
   if (!findings.sound({"flow.porosity_model", "flow.engine"})) return;
   if (flow.porosity_model != PorosityModel::sheet)
     findings.add("inflation.air", quoted("coupled"), quoted("uniform"),
-                 "the air is stepped with cloth that is a sheet (flow.porosity_model)");
+                 "coupled inflation needs the sheet model (flow.porosity_model)");
   else if (!engine_of(given.flow.engine).can.time)
-    findings.add(
-        "inflation.air", quoted("coupled"), quoted("uniform"),
-        fmt::format("the flow engine {} (flow.engine) has no steps in time", quoted(given.flow.engine)));
+    findings.add("inflation.air", quoted("coupled"), quoted("uniform"),
+                 fmt::format("the flow engine {} (flow.engine) does not support unsteady flow",
+                             quoted(given.flow.engine)));
 }
 
 void check_average(const FlowSettings& flow, Findings& findings) {
   if (findings.sound({"flow.average_over", "flow.max_iterations"}) && flow.average_over > flow.max_iterations)
     findings.add("flow.average_over", flow.average_over,
                  fmt::format("at most {}, flow.max_iterations", flow.max_iterations),
-                 "a flow solution has no more iterations than that");
+                 "a flow solution has at most that number of iterations");
 }
 
 /// Lines get longer from cut to cut, and one longer than the skirt is round would hold nothing.
@@ -364,9 +361,10 @@ void check_reefing(const Case& given, Findings& findings) {
   };
   for (std::size_t i = 1; i < stages.size(); ++i) {
     rises(i, "cut_s", stages[i - 1].cut_s, stages[i].cut_s,
-          "a stage's line is cut after that of the stage before");
+          "the line of a stage must be cut after that of the previous stage");
     rises(i, "line_m", stages[i - 1].line_m, stages[i].line_m,
-          "a line no longer than the one before would let nothing open when that is cut");
+          "the line must be longer than that of the previous stage, else the canopy does not open when that "
+          "is cut");
   }
   if (!findings.sound(shape_keys(given.parachute))) return;
   const double round = skirt_circumference(given.parachute);
@@ -375,7 +373,9 @@ void check_reefing(const Case& given, Findings& findings) {
     if (stages[i].line_m >= round && findings.sound({key}))
       findings.add(
           key, stages[i].line_m, fmt::format("below {:.4g}", round),
-          fmt::format("the skirt is {:.4g} m round: this line holds nothing together (leave it out)", round));
+          fmt::format(
+              "the circumference of the skirt is {:.4g} m: this line does not reef it (remove the stage)",
+              round));
   }
 }
 
@@ -387,10 +387,18 @@ void check_inflation(const Case& given, Findings& findings) {
   if (findings.sound({"inflation.history_hz", "inflation.duration_s"}) && rows > most_rows)
     findings.add("inflation.history_hz", inflation.history_hz,
                  fmt::format("at most {:.4g}", most_rows / inflation.duration_s),
-                 fmt::format("{:.3g} rows over inflation.duration_s = {:g} s; {:.0e} are the most", rows,
-                             inflation.duration_s, most_rows));
+                 fmt::format("{:.3g} rows over inflation.duration_s = {:g} s exceed the limit of {:.0e}",
+                             rows, inflation.duration_s, most_rows));
   if (inflation.line_segment_m && findings.sound({"parachute.mesh.line_segment_m"}))
     check_line_nodes(given.parachute, "inflation.line_segment_m", *inflation.line_segment_m, findings);
+}
+
+void check_deployment(const Case& given, Findings& findings) {
+  if (!given.deployment) return;
+  if (given.deployment->relative_speed_m_s && given.deployment->ejection_impulse_n_s &&
+      findings.sound({"deployment.relative_speed_m_s", "deployment.ejection_impulse_n_s"}))
+    findings.add("deployment.ejection_impulse_n_s", *given.deployment->ejection_impulse_n_s, "",
+                 "deployment.relative_speed_m_s determines the same speed; remove one of the two keys");
 }
 
 /// What asks for values that follow from parachute and cloth.
@@ -434,6 +442,7 @@ void check(Case& given, std::vector<Problem>& problems) {
   check_flight(given, findings);
   check_inflation(given, findings);
   check_reefing(given, findings);
+  check_deployment(given, findings);
   check_settings(given, findings);
 }
 

@@ -17,7 +17,7 @@ Fields fields_of(Case& bound) {
 
 std::string case_toml(const Settings& resolved) {
   Case written = resolved.written();
-  return "# A case with every default written out, by Ripstop " + version() + ".\n" +
+  return "# A case with all defaults filled in, by Ripstop " + version() + ".\n" +
          to_toml(fields_of(written));
 }
 

@@ -59,7 +59,7 @@ void check_patch(const Patch& patch, int node_count) {
   if (patch.rows < 1 || patch.columns < (patch.periodic ? 3 : 1))
     refuse(fmt::format("patch {} has {} rows and {} columns", patch.name, patch.rows, patch.columns));
   if (patch.first_node < 0 || patch.first_node + static_cast<int>(cells) > node_count)
-    refuse(fmt::format("patch {} reaches beyond the last node", patch.name));
+    refuse(fmt::format("patch {} extends beyond the last node", patch.name));
   if (patch.cell_area.size() < cells - patch.columns)
     refuse(fmt::format("patch {} has {} cell areas, needs {}", patch.name, patch.cell_area.size(),
                        cells - patch.columns));

@@ -106,7 +106,7 @@ Vec3 force_on(const Cloth& cloth, const ClothState& state, const std::vector<int
   std::vector<double> share(x.size(), 0.0);
   for (int node : fixed_nodes) {
     if (node < 0 || node >= cloth.mesh.node_count() || !cloth.is_fixed[node])
-      throw Error(ExitCode::bad_data, fmt::format("cloth: node {} is not fixed, so nothing holds it", node));
+      throw Error(ExitCode::bad_data, fmt::format("cloth: node {} is not fixed", node));
     share[node] = 1;
   }
   const std::vector<double> own = share;

@@ -247,11 +247,10 @@ void check_health(const Cloth& cloth, const ClothState& state) {
   if (sum == 0) return;
   for (int node = 0; node < cloth.mesh.node_count(); ++node)
     if (!is_finite(get(state.x.data(), cloth.slot[node])))
-      throw Error(
-          ExitCode::diverged,
-          fmt::format("step {} (t = {:.6g} s): node {} ({}) has no finite position: the motion has diverged. "
-                      "A smaller time step, more damping or lower loads may help",
-                      state.steps, state.time, node, place_of(cloth.mesh, node)));
+      throw Error(ExitCode::diverged,
+                  fmt::format("step {} (t = {:.6g} s): node {} ({}) has no finite position: the motion has "
+                              "diverged; try a smaller time step, more damping or lower loads",
+                              state.steps, state.time, node, place_of(cloth.mesh, node)));
 }
 
 }  // namespace ripstop

@@ -28,11 +28,10 @@ void check_step(const Cloth& cloth, const ClothState& state, double dt) {
                     place_of(cloth.mesh, stiffness.stretched_node), stiffness.largest_strain, dt));
   const StabilityLimit limit = stability_limit(cloth, state, stiffness);
   if (dt > limit.stable_step)
-    throw Error(
-        ExitCode::diverged,
-        fmt::format("step {} (t = {:.6g} s): the time step {:.4g} s is above the stable {:.4g} s that node "
-                    "{} ({}) allows at its present strain; lower the time step",
-                    state.steps, state.time, dt, limit.stable_step, limit.node, limit.part));
+    throw Error(ExitCode::diverged,
+                fmt::format("step {} (t = {:.6g} s): the time step {:.4g} s exceeds the stability limit of "
+                            "{:.4g} s of node {} ({}) at its present strain; reduce the time step",
+                            state.steps, state.time, dt, limit.stable_step, limit.node, limit.part));
 }
 
 /// Steps [0, count) of one call, of which every thread takes its part.
@@ -179,7 +178,7 @@ void step(ClothState& state, const Cloth& cloth, const Loads& loads, double dt, 
   if (!(dt > 0) || !std::isfinite(dt))
     throw Error(ExitCode::usage, fmt::format("the time step {} s must be positive and finite", dt));
   if (count < 0)
-    throw Error(ExitCode::usage, fmt::format("{} steps of the cloth: at least 0 are wanted", count));
+    throw Error(ExitCode::usage, fmt::format("{} steps of the cloth: must be at least 0", count));
   ExplicitStep steps(state, cloth, loads, dt, count, team, record);
   for (int done = 0; done < count;) {
     const long long since = state.steps % steps_between_checks;

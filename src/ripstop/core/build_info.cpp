@@ -62,8 +62,9 @@ fs::path data_directory() {
       find_data(this_program(), {RIPSTOP_BUILD_DIR, RIPSTOP_SOURCE_DATA_DIR, RIPSTOP_INSTALLED_DATA_DIR});
   if (!found.empty()) return found;
   throw Error(ExitCode::io,
-              "the folder with Ripstop's materials was not found: looked in share/ripstop near the program, "
-              "in " RIPSTOP_INSTALLED_DATA_DIR " and in " RIPSTOP_SOURCE_DATA_DIR "; set RIPSTOP_DATA to it");
+              "the folder with the materials of Ripstop was not found in share/ripstop near the program, "
+              "in " RIPSTOP_INSTALLED_DATA_DIR " and in " RIPSTOP_SOURCE_DATA_DIR
+              "; set RIPSTOP_DATA to its path");
 }
 
 }  // namespace ripstop

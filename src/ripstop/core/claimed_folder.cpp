@@ -85,7 +85,7 @@ bool covers(const std::vector<std::string>& names, const std::string& name) {
 nlohmann::ordered_json sealed_contents(const fs::path& folder) {
   auto contents = nlohmann::ordered_json::parse(read_sealed(seal_of(folder)), nullptr, false);
   if (!contents.is_object())
-    throw Error(ExitCode::bad_data, fmt::format("{}: is no seal of Ripstop", seal_of(folder).string()));
+    throw Error(ExitCode::bad_data, fmt::format("{}: is not a seal of Ripstop", seal_of(folder).string()));
   return contents;
 }
 
@@ -145,7 +145,7 @@ bool has_no_locks(int reason) {
   std::string holder = read_file(lock_of(folder));
   if (!holder.empty() && holder.back() == '\n') holder.pop_back();
   throw Error(ExitCode::usage,
-              fmt::format("{}: {} works in this folder; wait for it to end, or choose another --out",
+              fmt::format("{}: {} is using this folder; wait until it ends, or choose another --out",
                           folder.string(), holder.empty() ? "another run" : holder));
 }
 
@@ -162,8 +162,8 @@ ClaimedFolder::ClaimedFolder(fs::path folder, LockCall lock) : folder_(std::move
   }
   if (const int reason = lock(lock_, LOCK_EX | LOCK_NB) == 0 ? 0 : errno; has_no_locks(reason)) {
     warning_ = fmt::format(
-        "{}: cannot be locked, because its file system has no locks ({}); make sure that no other run uses "
-        "this folder",
+        "{}: cannot be locked, because its file system does not support locks ({}); make sure that no other "
+        "run uses this folder",
         folder_.string(), std::generic_category().message(reason));
   } else if (reason != 0) {
     ::close(lock_);
@@ -197,10 +197,10 @@ ClaimedFolder::ClaimedFolder(fs::path folder, LockCall lock) : folder_(std::move
 void make_results_folder(const fs::path& folder) {
   const std::vector<std::string> files = listed(folder);
   if (!files.empty())
-    throw Error(ExitCode::usage,
-                fmt::format("{}: holds a run with {} files, which must stay as they are; choose "
-                            "another --out",
-                            folder.string(), files.size()));
+    throw Error(
+        ExitCode::usage,
+        fmt::format("{}: contains a run with {} files, which must not be changed; choose another --out",
+                    folder.string(), files.size()));
   make_folder(folder);
   const fs::path probe = folder / ".ripstop-probe";
   write_file(probe, "");
@@ -224,8 +224,9 @@ fs::path ClaimedFolder::own(const std::string& name) {
   if (kept_.erase(name)) append_to_file(kept_of(folder_), line_of(std::string(released) + ' ' + name));
   if (covers(names_, name)) return path;
   if (fs::exists(path)) {
-    throw Error(ExitCode::usage,
-                fmt::format("{}: is there already and not Ripstop's; choose another --out", path.string()));
+    throw Error(
+        ExitCode::usage,
+        fmt::format("{}: exists and was not written by Ripstop; choose another --out", path.string()));
   }
   add(name);
   return path;

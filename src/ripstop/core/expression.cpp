@@ -80,7 +80,7 @@ class Reader {
     if (text_.size() > longest) fail(0, "the formula is longer than 10,000 characters");
     if (skip_blanks(); at_end()) fail(0, "the formula is empty");
     const Number result = sum();
-    if (!at_end()) fail(place_, fmt::format("'{}' does not belong here", text_[place_]));
+    if (!at_end()) fail(place_, fmt::format("unexpected '{}'", text_[place_]));
     return result;
   }
 
@@ -152,7 +152,7 @@ class Reader {
   }
 
   Number signed_power() {
-    if (++depth_ > deepest) fail(place_, "too many brackets or signs inside each other");
+    if (++depth_ > deepest) fail(place_, "too many nested brackets or signs");
     Number result;
     if (take('-')) {
       result = signed_power();
@@ -185,9 +185,9 @@ class Reader {
     const char c = text_[place_];
     if (is_digit(c) || c == '.') return literal();
     if (begins_name(c)) return name();
-    fail(place_, fmt::format("'{}' is not understood; formulas know numbers, names, + - * / % ^ ( ) and "
-                             "functions",
-                             c));
+    fail(
+        place_,
+        fmt::format("unexpected '{}'; formulas consist of numbers, names, + - * / % ^ ( ) and functions", c));
   }
 
   Number literal() {
@@ -198,8 +198,7 @@ class Reader {
     if (error != std::errc() || !std::isfinite(number.value)) fail(start, "this is not a number");
     for (const char* c = begin; c != end; ++c) number.whole &= is_digit(*c);
     place_ += static_cast<std::size_t>(end - begin);
-    if (!at_end() && begins_name(text_[place_]))
-      fail(place_, "an operator is missing between the number and what follows");
+    if (!at_end() && begins_name(text_[place_])) fail(place_, "an operator is missing after the number");
     skip_blanks();
     return number;
   }

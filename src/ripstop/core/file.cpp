@@ -19,8 +19,9 @@ namespace {
 
 [[noreturn]] void fail(const char* task, const std::filesystem::path& path, int reason) {
   const char* advice = "";
-  if (reason == ENOSPC || reason == EDQUOT) advice = "; free some space, or write elsewhere";
-  if (reason == EACCES || reason == EPERM || reason == EROFS) advice = "; choose a folder that you may write";
+  if (reason == ENOSPC || reason == EDQUOT) advice = "; free some space, or use another folder";
+  if (reason == EACCES || reason == EPERM || reason == EROFS)
+    advice = "; choose a folder with write permission";
   throw Error(ExitCode::io, fmt::format("cannot {} {}: {}{}", task, path.string(),
                                         std::generic_category().message(reason), advice));
 }
@@ -133,9 +134,10 @@ std::string read_file(const std::filesystem::path& path) {
   if (::fstat(fd.get(), &status) != 0) fail("read", path, errno);
   if (S_ISDIR(status.st_mode)) fail("read", path, EISDIR);
   if (!S_ISREG(status.st_mode))
-    throw Error(ExitCode::io, fmt::format("cannot read {}: it is no file but a pipe or a device; write what "
-                                          "comes out of it into a file",
-                                          path.string()));
+    throw Error(
+        ExitCode::io,
+        fmt::format("cannot read {}: it is a pipe or a device, not a file; write its content into a file",
+                    path.string()));
   std::string bytes(static_cast<size_t>(status.st_size), '\0');
   size_t done = 0;
   for (;;) {  // the size is a hint only: a file may grow, and /proc says 0

@@ -12,8 +12,7 @@
 namespace ripstop {
 namespace {
 
-constexpr const char* damage_advice =
-    "; it was damaged or its writing was cut short: delete it and use an older one";
+constexpr const char* damage_advice = "; it is damaged or incomplete: delete it and use an older one";
 
 std::string seal_line(std::string_view bytes) {
   return fmt::format("ripstop sealed file 1, {} bytes, xxh3-128 {}\n", bytes.size(), hash_bytes(bytes));
@@ -92,8 +91,7 @@ std::string read_sealed(const std::filesystem::path& path) {
     const std::string_view bytes = std::string_view(text).substr(end + 1);
     if (text.compare(0, end + 1, seal_line(bytes)) == 0) return text.substr(end + 1);
   }
-  throw Error(ExitCode::bad_data,
-              fmt::format("{} does not match its own seal{}", path.string(), damage_advice));
+  throw Error(ExitCode::bad_data, fmt::format("{} does not match its seal{}", path.string(), damage_advice));
 }
 
 void seal_folder(const std::filesystem::path& folder) {
@@ -111,7 +109,7 @@ void check_folder(const std::filesystem::path& folder) {
   std::string name = first_difference(sealed, present);
   if (name.empty()) name = first_difference(present, sealed);
   throw Error(ExitCode::bad_data,
-              fmt::format("{}: {} is missing, new or changed since the folder was sealed{}", folder.string(),
+              fmt::format("{}: {} is missing, new or changed after the folder was sealed{}", folder.string(),
                           name, damage_advice));
 }
 

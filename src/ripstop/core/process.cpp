@@ -282,7 +282,7 @@ std::filesystem::path find_program(const std::string& name, const std::filesyste
 }
 
 std::string describe(const ProcessResult& result) {
-  if (result.timed_out) return fmt::format("no end within {:.0f} s", result.wall_s);
+  if (result.timed_out) return fmt::format("not finished within {:.0f} s", result.wall_s);
   if (result.signal != 0) return fmt::format("signal {} ({})", result.signal, strsignal(result.signal));
   return fmt::format("exit code {}", result.exit_code);
 }

@@ -7,7 +7,7 @@ namespace ripstop {
 std::string shell_quoted(std::string_view text) {
   std::string quoted = "'";
   for (const char c : text) {
-    if (c == '\0') throw Error(ExitCode::usage, "a NUL byte cannot stand in a script");
+    if (c == '\0') throw Error(ExitCode::usage, "a script cannot contain a NUL byte");
     if (c == '\'')
       quoted += "'\\''";
     else

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <system_error>
 
+#include "ripstop/core/cgroup.h"
 #include "ripstop/core/error.h"
 
 namespace ripstop {
@@ -25,12 +26,14 @@ void wait_while(const std::atomic<unsigned>& word, unsigned old, bool may_spin) 
   while (word.load(std::memory_order_acquire) == old) word.wait(old, std::memory_order_acquire);
 }
 
-/// Of this process; of a job of Slurm what it was given of its node, to which not every Slurm binds it.
+/// Of this process: its affinity, the CPU quota of its control group, and in a job of Slurm the processors that it was
+/// given of its node, to which not every Slurm binds it.
 int usable_processors() {
   cpu_set_t set;
   CPU_ZERO(&set);
   int count = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   if (sched_getaffinity(0, sizeof set, &set) == 0) count = std::max(1, CPU_COUNT(&set));
+  count = std::min(count, cgroup_processors().value_or(count));
   const char* of_job = std::getenv("SLURM_CPUS_ON_NODE");
   const int share = of_job ? std::atoi(of_job) : 0;
   return share > 0 ? std::min(count, share) : count;
@@ -45,10 +48,11 @@ ThreadTeam::ThreadTeam(int threads)
   } catch (const std::system_error& error) {
     const std::size_t started = threads_.size() + 1;
     stop();
-    throw Error(ExitCode::resources,
-                fmt::format("only {} of {} threads could be started ({}): ask for fewer (--threads, "
-                            "coupling.threads, --jobs)",
-                            started, size_, error.code().message()));
+    throw Error(
+        ExitCode::resources,
+        fmt::format(
+            "only {} of {} threads could be started ({}): use fewer (--threads, coupling.threads, --jobs)",
+            started, size_, error.code().message()));
   }
 }
 

@@ -15,7 +15,7 @@ struct KnownUnit {
 using Units = std::vector<KnownUnit>;
 
 const Units& units_of(Dimension dimension) {
-  static const std::array<Units, 9> table{
+  static const std::array<Units, static_cast<std::size_t>(last_dimension) + 1> table{
       Units{{1, {"N", "newton", "newtons"}},
             {1e3, {"kN"}},
             {1e-3, {"mN"}},
@@ -31,7 +31,8 @@ const Units& units_of(Dimension dimension) {
             {1e-6, {"um"}},
             {1e3, {"km"}},
             {inch, {"in", "inch", "inches"}},
-            {foot, {"ft", "feet"}}},
+            {foot, {"ft", "feet"}},
+            {3 * foot, {"yd", "yard", "yards"}}},
       Units{{1, {"s", "sec", "secs", "second", "seconds", "Sekunden"}},
             {1e-3, {"ms"}},
             {60, {"min", "mins", "minutes"}},
@@ -53,8 +54,16 @@ const Units& units_of(Dimension dimension) {
             {1e5, {"bar"}},
             {1e6, {"MPa", "N/mm2"}},
             {1e9, {"GPa"}},
+            {1e-3, {"mPa"}},
             {pound_force / (inch * inch), {"psi"}}},
-      Units{{1, {"kg/m3", "kg m-3", "kg.m-3"}}, {1e3, {"g/cm3"}}}};
+      Units{{1, {"kg/m3", "kg m-3", "kg.m-3"}}, {1e3, {"g/cm3"}}},
+      Units{{1, {"kg", "kilogram", "kilograms"}},
+            {1e-3, {"g", "gram", "grams"}},
+            {1e-6, {"mg"}},
+            {1e3, {"t", "tonne", "tonnes", "Mg"}},
+            {pound, {"lb", "lbs", "lbm", "pound", "pounds"}},
+            {pound / 16, {"oz", "ounce", "ounces"}}},
+      Units{{1, {"Hz"}}, {1e3, {"kHz"}}}};
   return table[static_cast<std::size_t>(dimension)];
 }
 
@@ -64,8 +73,9 @@ std::string lower(std::string text) {
   return text;
 }
 
-/// "m / s²", "m_per_s^2" -> "m/s2", as the table spells it.
-std::string plain(std::string text) {
+}  // namespace
+
+std::string plain_unit(std::string text) {
   constexpr std::array<std::pair<std::string_view, std::string_view>, 15> spellings{{{"²", "2"},
                                                                                      {"³", "3"},
                                                                                      {"¹", "1"},
@@ -89,10 +99,8 @@ std::string plain(std::string text) {
   return text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
 }
 
-}  // namespace
-
 std::optional<Unit> find_unit(Dimension dimension, const std::string& text) {
-  const std::string wanted = plain(text), shouted = lower(wanted);
+  const std::string wanted = plain_unit(text), shouted = lower(wanted);
   const KnownUnit* found = nullptr;
   bool several = false;
   for (const KnownUnit& known : units_of(dimension))
@@ -117,7 +125,7 @@ bool is_foreign_unit(const std::string& text) {
   if (find_unit(Dimension::angle, text)) return true;
   constexpr std::array names{"V", "mV", "kV", "A",    "mA",    "Ohm", "Ω",
                              "Ω", "°C", "°F", "degC", "deg C", "degF"};
-  return std::find(names.begin(), names.end(), plain(text)) != names.end();
+  return std::find(names.begin(), names.end(), plain_unit(text)) != names.end();
 }
 
 bool is_unit(const std::string& text) {

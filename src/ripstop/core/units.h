@@ -7,7 +7,20 @@
 
 namespace ripstop {
 
-enum class Dimension { force, length, time, angle, fraction, speed, acceleration, pressure, density };
+enum class Dimension {
+  force,
+  length,
+  time,
+  angle,
+  fraction,
+  speed,
+  acceleration,
+  pressure,
+  density,
+  mass,
+  frequency
+};
+inline constexpr Dimension last_dimension = Dimension::frequency;
 
 struct Unit {
   std::string name;   // the first of its spellings: "lbf" of "lbs"
@@ -24,8 +37,11 @@ bool is_foreign_unit(const std::string& text);
 bool is_unit(const std::string& text);
 /// The units known for it, for messages.
 std::string known_units(Dimension dimension);
+/// "m / s²", "m_per_s^2" -> "m/s2", as the list of units spells it.
+std::string plain_unit(std::string text);
 
 inline constexpr double pound_force = 4.4482216152605;            // [N]
+inline constexpr double pound = 0.45359237;                       // [kg]
 inline constexpr double inch = 0.0254;                            // [m]
 inline constexpr double foot = 0.3048;                            // [m]
 inline constexpr double standard_gravity = 9.80665;               // [m/s2]

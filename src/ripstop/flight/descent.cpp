@@ -23,7 +23,7 @@ double drag_area_for(double mass, double speed, double density) {
 double descent_time(double mass, double drag_area, double from, double to) {
   if (!(from > to))
     throw Error(ExitCode::usage,
-                fmt::format("a descent from {:g} m to {:g} m: it has to begin above its end", from, to));
+                fmt::format("a descent from {:g} m to {:g} m: must begin above its end", from, to));
   constexpr double piece = 50;  // [m]
   const auto slowness = [&](double height) {
     return 1 / terminal_speed(mass, drag_area, standard_air(height).density);

@@ -23,10 +23,10 @@ void check_conditions(const OpeningConditions& c) {
                                                 {"opening coefficient C_x", c.opening_coefficient}};
   for (const auto& [name, value] : all) require_positive(name, value);
   if (!(std::abs(c.path_angle) <= 90))
-    throw Error(ExitCode::usage,
-                fmt::format("an opening on a way {:g} degrees below the horizon: must be from "
-                            "-90 to 90",
-                            c.path_angle));
+    throw Error(
+        ExitCode::usage,
+        fmt::format("an opening on a flight path {:g} degrees below the horizon: must be from -90 to 90",
+                    c.path_angle));
 }
 
 double steady_force(const OpeningConditions& c) {

@@ -11,4 +11,8 @@ InPlane acceleration(const PointMass& body, InPlane velocity, double density, do
   return {-retardation * velocity.level, body.gravity - retardation * velocity.down};
 }
 
+Vec3 drag_force(Vec3 relative_velocity, double density, double drag_area) {
+  return -0.5 * density * drag_area * norm(relative_velocity) * relative_velocity;
+}
+
 }  // namespace ripstop

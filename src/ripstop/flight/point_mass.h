@@ -1,5 +1,7 @@
-// The equation of motion of a point mass in the vertical plane of its path.
+// The equation of motion of a point mass in the vertical plane of its path, and its drag in space.
 #pragma once
+
+#include "ripstop/core/vec3.h"
 
 namespace ripstop {
 
@@ -17,5 +19,8 @@ struct PointMass {
 /// [kg/m3], and a `pull` T [N] against the velocity, such as that of a riser.
 InPlane acceleration(const PointMass& body, InPlane velocity, double density, double drag_area,
                      double pull = 0);
+
+/// -rho |v| v (C_D S) / 2 for a velocity v relative to the air [m/s] -> [N]
+Vec3 drag_force(Vec3 relative_velocity, double density, double drag_area);
 
 }  // namespace ripstop

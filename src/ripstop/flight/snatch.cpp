@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -102,7 +103,8 @@ SnatchLoad snatch_load(double payload_mass, double canopy_mass, double speed_dif
   check(payload_mass, "payload mass (kg)");
   check(canopy_mass, "canopy mass (kg)");
   check(speed_difference, "speed difference (m/s)");
-  if (parts.empty()) throw Error(ExitCode::usage, "a snatch needs lines or a riser between the masses");
+  if (parts.empty())
+    throw Error(ExitCode::usage, "the snatch load requires lines or a riser between the masses");
   for (const SnatchPart& part : parts) check(part.length, "length (m) of " + part.name);
   const double reduced = payload_mass * canopy_mass / (payload_mass + canopy_mass);
   const double wanted = 0.5 * reduced * speed_difference * speed_difference;
@@ -110,11 +112,9 @@ SnatchLoad snatch_load(double payload_mass, double canopy_mass, double speed_dif
   const auto energy_at = [&](double load) { return row.energy_at(load); };
   const double most = energy_at(row.limit());
   if (most < wanted)
-    throw Error(
-        ExitCode::usage,
-        fmt::format("a snatch of {:.3g} J: lines and riser take {:.3g} J up to the end of their curves at "
-                    "{:.3g} N; they would break",
-                    wanted, most, row.limit()));
+    throw Error(ExitCode::usage, fmt::format("a snatch energy of {:.3g} J: lines and riser absorb {:.3g} J "
+                                             "up to the end of their curves at {:.3g} N and would break",
+                                             wanted, most, row.limit()));
   SnatchLoad result;
   result.load = row.load_where(energy_at, wanted);
   result.strain = row.strains(result.load);
@@ -129,6 +129,41 @@ SnatchLoad snatch_load(double payload_mass, double canopy_mass, double speed_dif
     result.time += result.stretch * std::cos(theta) * d / (speed_difference * std::sqrt(left));
   }
   return result;
+}
+
+double TensionCurve::at(double stretch_m) const {
+  if (!(stretch_m > 0)) return 0;
+  if (stretch_m > stretch.back())
+    throw Error(
+        ExitCode::usage,
+        fmt::format(
+            "lines and riser break in the snatch: they are stretched by {:.3g} m and bear {:.3g} N at "
+            "{:.3g} m; a lower relative speed, a lighter canopy or stronger lines are needed",
+            stretch_m, tension.back(), stretch.back()));
+  const auto next = std::upper_bound(stretch.begin(), stretch.end() - 1, stretch_m) - stretch.begin();
+  const auto i = static_cast<std::size_t>(next);
+  const double share = (stretch_m - stretch[i - 1]) / (stretch[i] - stretch[i - 1]);
+  return tension[i - 1] + share * (tension[i] - tension[i - 1]);
+}
+
+double TensionCurve::steepest() const {
+  double most = 0;
+  for (std::size_t i = 1; i < stretch.size(); ++i)
+    most = std::max(most, (tension[i] - tension[i - 1]) / (stretch[i] - stretch[i - 1]));
+  return most;
+}
+
+TensionCurve tension_curve(const std::vector<SnatchPart>& parts) {
+  if (parts.empty()) throw Error(ExitCode::usage, "a snatch needs lines or a riser between the masses");
+  for (const SnatchPart& part : parts) check(part.length, "length (m) of " + part.name);
+  constexpr int rows = 2000;
+  const Row row(parts);
+  TensionCurve curve;
+  for (int i = 0; i <= rows; ++i) {
+    curve.tension.push_back(row.limit() * std::pow(double(i) / rows, 3));  // dense where snatch loads are
+    curve.stretch.push_back(i == 0 ? 0 : row.stretch(curve.tension.back()));
+  }
+  return curve;
 }
 
 // v(t) = v / (1 + b v t) and s(t) = ln(1 + b v t) / b with b = rho C_D A / (2 m).
@@ -148,17 +183,15 @@ double speed_difference_at_stretch(const Coasting& payload, const Coasting& cano
   const double bp = 0.5 * density * payload.drag_area / payload.mass;
   const double bc = 0.5 * density * canopy.drag_area / canopy.mass;
   if (!(bc > bp))
-    throw Error(
-        ExitCode::usage,
-        "the packed canopy has to be slowed more than the payload for the lines to be stretched: its drag "
-        "area over its mass must be above the payload's");
+    throw Error(ExitCode::usage,
+                "the lines are stretched only if the packed canopy decelerates more than the payload: its "
+                "ratio of drag area to mass must be above that of the payload");
   const auto way = [&](double b, double t) { return b > 0 ? std::log1p(b * speed * t) / b : speed * t; };
   const auto apart = [&](double t) { return way(bp, t) - way(bc, t); };
   double low = 0, high = length / speed;
   for (int i = 0; apart(high) < length; ++i) {
     high *= 2;
-    if (i > 60)
-      throw Error(ExitCode::usage, "payload and canopy never come apart by the length of the lines");
+    if (i > 60) throw Error(ExitCode::usage, "payload and canopy do not separate by the length of the lines");
   }
   for (int i = 0; i < 100; ++i) {
     const double middle = 0.5 * (low + high);

@@ -29,6 +29,15 @@ struct SnatchLoad {
 SnatchLoad snatch_load(double payload_mass, double canopy_mass, double speed_difference,
                        const std::vector<SnatchPart>& parts);
 
+/// Tension of parts in a row over their stretch: rising rows from (0, 0) to where the weakest part would break.
+struct TensionCurve {
+  std::vector<double> stretch, tension;  // [m], [N]
+  /// Between the rows in proportion; 0 for slack parts. Throws Error(usage) beyond the last row.
+  double at(double stretch_m) const;
+  double steepest() const;  // stiffness [N/m]
+};
+TensionCurve tension_curve(const std::vector<SnatchPart>& parts);
+
 /// Difference of the speeds when payload and packed canopy, let go at `speed`, have come apart by `length`, either
 /// slowed by its own drag area on a way without gravity [m/s].
 struct Coasting {

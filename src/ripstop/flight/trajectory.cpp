@@ -1,5 +1,7 @@
 #include "ripstop/flight/trajectory.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -76,6 +78,11 @@ std::vector<FlightRow> fly(FlightState& state, double mass, const Leg& leg) {
   const double begin = state.time, angle = state.path_angle * degree;
   Motion m{state.range, state.height, state.distance, state.speed * std::cos(angle),
            state.speed * std::sin(angle)};
+  constexpr double most_steps = 1e12;
+  if (!(leg.duration / leg.step < most_steps))
+    throw Error(ExitCode::usage, fmt::format("a flight of {:g} s in steps of {:g} s has too many steps; the "
+                                             "canopy fills too fast for its speed and size",
+                                             leg.duration, leg.step));
   const long long steps = static_cast<long long>(std::ceil(leg.duration / leg.step * (1 - 1e-12)));
   const double dt = leg.duration / double(steps);
   std::vector<FlightRow> rows = {flight.row(m, begin, begin)};
@@ -109,7 +116,7 @@ DragArea filling(double from, double to, double filling_time, double exponent, d
 
 DragArea from_record(std::vector<double> distance, std::vector<double> drag_area, double to) {
   if (distance.size() != drag_area.size() || distance.empty())
-    throw Error(ExitCode::usage, "a record of the drag area needs as many ways as areas");
+    throw Error(ExitCode::usage, "a record of the drag area needs as many distances as areas");
   return [distance = std::move(distance), drag_area = std::move(drag_area), to](double, double s) {
     const auto above = std::lower_bound(distance.begin(), distance.end(), s);
     if (above == distance.end()) return to;

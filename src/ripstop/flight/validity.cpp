@@ -14,14 +14,14 @@ const std::vector<ValidRange>& valid_ranges() {
       // C_x and C_D are subsonic values; the drag coefficient of textile canopies changes near the speed of sound.
       {infinite_mass_model, "Mach number", "", 0, 0.8, any, "subsonic coefficients (assumed)"},
       {finite_mass_model, "Mach number", "", 0, 0.8, any, "subsonic coefficients (assumed)"},
-      {finite_mass_model, "speed at line stretch", " m/s", 46, 152, any,
-       "t_f = n D0 / v holds from 150 to 500 ft/s, Knacke"},
-      {finite_mass_model, "nominal diameter", " m", 3, 40, any,
-       "about the canopies of Knacke's tables, 10 to 130 ft (assumed)"},
+      {finite_mass_model, "speed at line stretch", " m/s", 0, 152, any,
+       "t_f = n D0 / v is valid up to 500 ft/s, below 150 ft/s t_f = 4.0 D0 / v^0.85, Knacke"},
+      {filling_model, "nominal diameter", " m", 3, 40, any,
+       "range of the canopies in Knacke's tables, 10 to 130 ft (assumed)"},
       {finite_mass_model, "ballistic parameter A", "", 0.01, any, any, "Knacke Fig. 5-51"},
       {flow_model, "Mach number", "", 0, 0.3, any, "the density changes by less than 5 % in the flow"},
       {flow_model, "Reynolds number", "", 1e4, any, any,
-       "drag of sharp edges and turbulent wakes, which does not depend on it (assumed)"},
+       "drag of sharp edges and turbulent wakes is independent of it (assumed)"},
       {scaled_drag_model, "Mach number", "", 0, 0.3, 1, "the run is incompressible"},
       {scaled_drag_model, "Reynolds number", "", 1e4, any, any, "as for the run (assumed)"},
   };
@@ -40,7 +40,7 @@ std::vector<std::string> outside_range(const std::string& model, const std::vect
       std::string text = fmt::format("{} of {:.3g}{} is outside the range of the {}, {} ({})", r.quantity,
                                      v.value, r.unit, r.model, range, r.source);
       if (v.value > r.refused_above)
-        throw Error(ExitCode::usage, fmt::format("{}; above {:g} it has no answer", text, r.refused_above));
+        throw Error(ExitCode::usage, fmt::format("{}; above {:g} it gives no result", text, r.refused_above));
       all.push_back(std::move(text));
     }
   return all;

@@ -19,7 +19,7 @@ const std::vector<ValidRange>& valid_ranges();
 /// Names of the models in the list.
 inline constexpr const char *infinite_mass_model = "infinite-mass opening load",
                             *finite_mass_model = "finite-mass handbook methods",
-                            *flow_model = "incompressible flow",
+                            *filling_model = "handbook filling distance", *flow_model = "incompressible flow",
                             *scaled_drag_model = "drag area of a run at another speed";
 
 struct ModelValue {

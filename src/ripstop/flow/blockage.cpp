@@ -39,7 +39,8 @@ double porous_disk_drag(double loss, double blockage) {
     if (found && y - x > 1e-6) return y * y - x * x;
     if (found) break;  // the other root: nothing slows down
   }
-  throw Error(ExitCode::not_converged, "momentum theory has no answer for so tight a disk between walls");
+  throw Error(ExitCode::not_converged,
+              "momentum theory has no solution for this drag and blockage between walls");
 }
 
 double maskell_ratio(double drag_coefficient, double base_pressure, double blockage) {

@@ -81,10 +81,9 @@ void check_inside(const FlowProblem& problem, const FlowBody& body) {
     if (extent.low[axis] >= low[axis] && extent.high[axis] <= high[axis]) continue;
     throw Error(
         ExitCode::usage,
-        fmt::format(
-            "flow: body \"{}\" reaches from {} = {:.4g} to {:.4g} m, but the box of air from {:.4g} to "
-            "{:.4g} m; move the body or make the box larger",
-            body.name, "xyz"[axis], extent.low[axis], extent.high[axis], low[axis], high[axis]));
+        fmt::format("flow: body \"{}\" extends from {} = {:.4g} to {:.4g} m, but the flow domain from {:.4g} "
+                    "to {:.4g} m; move the body or enlarge the domain",
+                    body.name, "xyz"[axis], extent.low[axis], extent.high[axis], low[axis], high[axis]));
   }
 }
 
@@ -96,15 +95,15 @@ void check_bodies(const FlowProblem& problem) {
     check_inside(problem, bodies[n]);
     for (std::size_t m = 0; m < n; ++m) {
       if (bodies[m].name == bodies[n].name)
-        throw Error(ExitCode::usage,
-                    fmt::format("flow: bodies {} and {} have the same name \"{}\"; each needs a name of "
-                                "its own",
-                                m + 1, n + 1, bodies[n].name));
+        throw Error(
+            ExitCode::usage,
+            fmt::format("flow: bodies {} and {} have the same name \"{}\"; each needs a different name",
+                        m + 1, n + 1, bodies[n].name));
       if (overlap(bodies[m], bodies[n]))
-        throw Error(ExitCode::usage,
-                    fmt::format("flow: the surfaces of the bodies \"{}\" and \"{}\" cut each other; move "
-                                "them apart",
-                                bodies[m].name, bodies[n].name));
+        throw Error(
+            ExitCode::usage,
+            fmt::format("flow: the surfaces of the bodies \"{}\" and \"{}\" intersect; move them apart",
+                        bodies[m].name, bodies[n].name));
     }
   }
 }

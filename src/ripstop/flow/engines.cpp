@@ -28,7 +28,7 @@ EngineRecord builtin() {
     return make_cartesian(settings);
   };
   return {"builtin",
-          "the built-in one",
+          "the built-in solver",
           {.sheets = true,
            .jets = true,
            .averages = true,
@@ -54,7 +54,7 @@ EngineRecord openfoam_rho_porous() {
     return make_openfoam(settings);
   };
   return {"openfoam",
-          "OpenFOAM's rhoPorousSimpleFoam with the same equations, its simpleFoam for sheets",
+          "rhoPorousSimpleFoam of OpenFOAM with the same equations, simpleFoam for sheets",
           {.sheets = true,
            .ranks = true,
            .fitted_meshes = true,
@@ -93,7 +93,7 @@ const EngineRecord& engine_of(const std::string& word) {
     if (engine.word == word) return engine;
     known += (known.empty() ? "" : ", ") + engine.word;
   }
-  throw Error(ExitCode::usage, fmt::format("there is no flow engine \"{}\"; there are {}", word, known));
+  throw Error(ExitCode::usage, fmt::format("there is no flow engine \"{}\"; available: {}", word, known));
 }
 
 std::vector<Lack> lacks(const EngineRecord& engine, const Abilities& wanted) {

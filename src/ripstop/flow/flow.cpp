@@ -75,7 +75,7 @@ void check_stream(const Freestream& air) {
       ExitCode::usage,
       fmt::format(
           "free stream: the speed = {:g} m/s must be above 0 and at most {:.4g} m/s, Mach {} at {:g} K; "
-          "give another velocity, or the temperature that belongs to it",
+          "change the velocity or the temperature",
           speed, most_mach * sound, most_mach, air.temperature));
 }
 
@@ -102,7 +102,7 @@ double largest_residual(const FlowProgress& p) {
 
 namespace {
 Error no_time() {
-  return {ExitCode::usage, "this flow engine has no steps in time"};
+  return {ExitCode::usage, "this flow engine does not support unsteady flow"};
 }
 }  // namespace
 

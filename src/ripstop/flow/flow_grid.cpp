@@ -125,10 +125,9 @@ FlowGrid graded(const FlowGrid& box, Vec3 core_low, Vec3 core_high, double growt
     const char name = "xyz"[axis];
     if (from == to) continue;
     if (!(low <= from && from < to && to <= high)) {
-      throw Error(ExitCode::usage,
-                  fmt::format("flow grid: the core reaches from {0} = {1} m to {0} = {2} m, but must lie in "
-                              "the box from {3} m to {4} m",
-                              name, from, to, low, high));
+      throw Error(ExitCode::usage, fmt::format("flow grid: the core extends from {0} = {1} m to {0} = {2} m, "
+                                               "but must be in the domain from {3} m to {4} m",
+                                               name, from, to, low, high));
     }
     const int n = box.count(axis);
     const auto needed = [&](int core) {

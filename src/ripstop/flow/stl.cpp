@@ -65,12 +65,10 @@ std::vector<Triangle> read_stl(const std::filesystem::path& path) {
   if (bytes.size() >= begin) std::memcpy(&count, bytes.data() + header_size, sizeof(count));
   if (bytes.size() < begin || bytes.size() != begin + count * triangle_size) {
     const char* reason = bytes.starts_with("solid") ? "is a text STL; convert it to a binary one"
-                                                    : "is no binary STL, or not a whole one";
+                                                    : "is not a complete binary STL";
     throw Error(ExitCode::bad_data, fmt::format("{} {}", path.string(), reason));
   }
-  if (count == 0)
-    throw Error(ExitCode::bad_data,
-                fmt::format("{} holds no triangle: there is no surface in it", path.string()));
+  if (count == 0) throw Error(ExitCode::bad_data, fmt::format("{} contains no triangle", path.string()));
   std::vector<Triangle> surface(count);
   const char* at = bytes.data() + begin + sizeof(float) * 3;
   for (Triangle& triangle : surface) {

@@ -75,10 +75,12 @@ Record record_of(const std::vector<FlowStep>& steps, Vec3 axis) {
 
 void check(const Watch& how) {
   if (how.length > 0 && how.standard_error > 0 && how.shortest > 0 && how.longest >= 2 * how.shortest) return;
-  throw Error(ExitCode::usage,
-              fmt::format("flow: a watch of {} to {} times for {} m to a standard error of {}; all must be "
-                          "positive, and the longest at least twice the shortest",
-                          how.shortest, how.longest, how.length, how.standard_error));
+  throw Error(
+      ExitCode::usage,
+      fmt::format(
+          "flow: an averaging window of {} to {} times for {} m to a standard error of {}; all must be "
+          "positive, and the longest at least twice the shortest",
+          how.shortest, how.longest, how.length, how.standard_error));
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ int steps_in(double duration, double step, double time, int rows) {
   return checked_int(count, 1, most_steps / rows, [&] {
     return fmt::format(
         "t = {:.6g} s: {:.3g} s would take {:.3g} steps of {:.3g} s: the motion of the cloth has diverged, "
-        "or the time step is a very small share of the stable one",
+        "or the time step is a very small fraction of the stability limit",
         time, duration * rows, rows * duration / step, step);
   });
 }
@@ -37,11 +37,10 @@ double AdaptiveStepper::stable_step(const InflationState& state, const Cloth& cl
   const StabilityLimit limit = stability_limit(cloth, state.cloth);
   if (limit.stable_step > shortest_stable_step) return limit.stable_step;
   const std::string place = limit.node < 0 ? limit.part : fmt::format("node {} ({})", limit.node, limit.part);
-  throw Error(
-      ExitCode::diverged,
-      fmt::format("t = {:.6g} s: the largest stable time step has fallen to {:.3g} s at {}: the motion "
-                  "of the cloth has diverged. A smaller time step, more damping or lower loads may help",
-                  state.cloth.time, limit.stable_step, place));
+  throw Error(ExitCode::diverged,
+              fmt::format("t = {:.6g} s: the stability limit has decreased to {:.3g} s at {}: the motion of "
+                          "the cloth has diverged; try a smaller time step, more damping or lower loads",
+                          state.cloth.time, limit.stable_step, place));
 }
 
 double AdaptiveStepper::allowed_step(const InflationState& state, const Cloth& cloth) const {

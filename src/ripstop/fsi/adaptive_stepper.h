@@ -30,6 +30,7 @@ class AdaptiveStepper {
   AdaptiveStepper(Step kind, double step_fraction, double row, ThreadTeam& team)
       : kind_(kind), fraction_(step_fraction), row_(row), team_(team) {}
 
+  double row() const { return row_; }  // [s]
   /// The stability limit at the present strain [s]. Throws Error(diverged) for one that is too small for intact cloth.
   double stable_step(const InflationState& state, const Cloth& cloth) const;
   /// `step_fraction` of it [s].

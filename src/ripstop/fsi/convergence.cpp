@@ -34,10 +34,10 @@ std::vector<std::string> unmet_criteria(const SteadyIteration& last, const Coupl
                     100 * last.regularisation_share, 100 * regularisation_tolerance));
   if (!ledger_closes(last, ledger_tolerance))
     unmet.push_back(
-        fmt::format("the forces on air, nodes and lines differ by more than {:g} %", 100 * ledger_tolerance));
+        fmt::format("air load, cloth load and line load differ by more than {:g} %", 100 * ledger_tolerance));
   if (!last.flow_converged && !(last.flow_averaged > 0 && momentum_closes(last, ledger_tolerance)))
-    unmet.emplace_back("the flow has not settled");
-  if (unmet.empty()) unmet.emplace_back("the last flow was not solved in full");
+    unmet.emplace_back("the flow has not converged");
+  if (unmet.empty()) unmet.emplace_back("the last flow solution was not solved to the full tolerance");
   return unmet;
 }
 

@@ -1,12 +1,13 @@
 #include "ripstop/fsi/coupled_flow.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "ripstop/core/error.h"
 #include "ripstop/fsi/added_mass.h"
+#include "ripstop/fsi/lattice.h"
 #include "ripstop/fsi/sheet_transfer.h"
 #include "ripstop/fsi/transfer.h"
 
@@ -20,10 +21,10 @@ double mean_share(int steps) {
 }
 
 std::unique_ptr<Flow> start_flow(const AirProblem& problem, std::vector<Triangle> surface) {
-  if (!problem.engine) throw Error(ExitCode::usage, "an opening in its own air needs a flow engine");
+  if (!problem.engine) throw Error(ExitCode::usage, "coupled inflation needs a flow engine");
   FlowProblem flow = problem.flow;
   if (flow.bodies.size() != 1 || !flow.has_sheets())
-    throw Error(ExitCode::usage, "an opening in its own air takes the canopy as one sheet");
+    throw Error(ExitCode::usage, "coupled inflation supports one sheet only");
   flow.bodies[0].surface = std::move(surface);
   return problem.engine->start(flow);
 }
@@ -49,6 +50,56 @@ std::vector<double> least_mass(const Mesh& mesh, const std::vector<Cell>& cells)
   return result;
 }
 
+// Widths of the flow's cells over which the air sees the velocity of the cloth smoothed.
+constexpr double smoothed_over = 1;
+
+/// Cells of cloth: centre, area vector and velocity.
+struct MovingCells {
+  std::vector<Vec3> centre, area, velocity;
+};
+
+/// Visits the shares, together 1, of a unit vector in the six directions of the axes.
+template <class Visit>
+void shares_of_directions(Vec3 normal, const Visit& visit) {
+  const double n[] = {normal.x, normal.y, normal.z};
+  for (int axis = 0; axis < 3; ++axis)
+    if (n[axis] != 0) visit(2 * axis + (n[axis] < 0), n[axis] * n[axis]);
+}
+
+// Mean by area over the cloth within `width` that looks the same way. A face of the flow stands for many cells of cloth,
+// whose own motion it must not take for that of all of them: the load, which is smooth on that scale, cannot stop it. As
+// a matrix it is symmetric with respect to the areas, and no motion of the cloth grows by it.
+std::vector<Vec3> smoothed_velocity(const MovingCells& cells, double width) {
+  struct Sum {
+    double area = 0;  // [m2]
+    Vec3 swept;       // [m3/s]
+  };
+  std::vector<std::array<Sum, 6>> sums(1);    // of points with cloth about them
+  Lattice<int> lattice(cells.centre, width);  // which of the sums; 0: none yet
+  const auto each = [&](std::size_t c, const auto& visit) {
+    const double area = norm(cells.area[c]);
+    if (!(area > 0)) return;
+    shares_of_directions(cells.area[c] / area, [&](int direction, double of_direction) {
+      lattice.about(cells.centre[c], [&](int& point, double share) {
+        if (point == 0) point = static_cast<int>(sums.size()), sums.emplace_back();
+        visit(sums[point][direction], share * of_direction, area);
+      });
+    });
+  };
+  for (std::size_t c = 0; c < cells.centre.size(); ++c)
+    each(c, [&](Sum& sum, double share, double area) {
+      sum.area += share * area, sum.swept += share * area * cells.velocity[c];
+    });
+  std::vector<Vec3> result = cells.velocity;
+  for (std::size_t c = 0; c < cells.centre.size(); ++c) {
+    if (norm(cells.area[c]) > 0) result[c] = {};
+    each(c, [&](const Sum& sum, double share, double) {
+      if (share > 0) result[c] += share / sum.area * sum.swept;
+    });
+  }
+  return result;
+}
+
 }  // namespace
 
 ClothMotion predict_motion(const ClothState& state, const Cloth& cloth, const Loads& last_load, double length,
@@ -66,84 +117,112 @@ CoupledFlow::CoupledFlow(const AirProblem& problem, const Mesh& mesh)
     : engine_(problem.engine),
       grid_(problem.flow.grid),
       courant_(problem.courant),
-      speed_(problem.flow.air.speed()),
       density_(problem.flow.air.density),
-      payload_(problem.payload),
       node_mass_(mesh.mass),
+      fixed_(mesh.fixed),
+      ties_(mesh.ties),
       cells_(cells_of(mesh)),
       mass_(least_mass(mesh, cells_)),
       flow_(start_flow(problem, surface_of(cells_, mesh.start)), density_) {}
 
-double CoupledFlow::density_ratio_of(const AirMemory& memory) const {
-  return payload_ ? density_ratio(*payload_, memory.flight.fallen) : 1;
+// On the axis, where the canopy is.
+double CoupledFlow::cell_width() const {
+  const Vec3 cell = grid_.spacing({0, 0, grid_.origin.z + 0.5 * grid_.size.z});
+  return std::max({cell.x, cell.y, cell.z});
+}
+
+double CoupledFlow::heaviness() const {
+  return density_ * cell_width() / *std::min_element(mass_.begin(), mass_.end());
 }
 
 Loads CoupledFlow::last_load(const AirMemory& memory) const {
-  if (memory.pressure.empty())
-    return {std::vector<double>(cells_.size(), 0.0), std::vector<Vec3>(node_mass_.size())};
-  return {memory.pressure, memory.force};
+  Loads load{memory.pressure, memory.force};
+  if (memory.pressure.empty()) load.cell_pressure.assign(cells_.size(), 0.0);
+  load.node_force.resize(node_mass_.size());
+  for (std::size_t n = 0; n < memory.other.size(); ++n) load.node_force[n] += memory.other[n];
+  return load;
 }
 
-// The Robin condition: v_n = v_n,predicted + compliance (p - p_last), compliance = mean_share dt / (mass an area).
-SheetMotion CoupledFlow::sheet_motion(const ClothMotion& predicted, double length,
-                                      const AirMemory& memory) const {
-  const std::vector<double> pressure = last_load(memory).cell_pressure;
-  SheetMotion motion;
-  for (const double mass : mass_) motion.yields.push_back(mean_share(predicted.steps) * length / mass);
-  for (std::size_t c = 0; c < cells_.size(); ++c) {
-    if (cells_[c].corner[0] < 0) continue;
-    Vec3 mean;
-    for (const int node : cells_[c].corner) mean += 0.25 * predicted.velocity[node];
-    motion.velocity.insert(motion.velocity.end(), 2, mean);
-    motion.pressure.insert(motion.pressure.end(), 2, pressure[c]);
+// Of every node under the last load of the air alone, without springs [m/s2].
+std::vector<Vec3> CoupledFlow::acceleration(const std::vector<Vec3>& positions,
+                                            const AirMemory& memory) const {
+  std::vector<Vec3> force = memory.force;
+  force.resize(node_mass_.size());
+  for (std::size_t c = 0; c < memory.pressure.size(); ++c) {
+    const auto& corner = cells_[c].corner;
+    if (corner[0] < 0) continue;
+    const Vec3 area =
+        area_vector(positions[corner[0]], positions[corner[1]], positions[corner[2]], positions[corner[3]]);
+    for (const int node : corner) force[node] += 0.25 * memory.pressure[c] * area;
   }
+  std::vector<double> mass = node_mass_;
+  for (const Tie& tie : ties_)
+    for (const Tie::Master& master : tie.masters) {
+      force[master.node] += master.weight * force[tie.node];
+      mass[master.node] += master.weight * mass[tie.node];
+    }
+  for (std::size_t n = 0; n < force.size(); ++n) force[n] = force[n] / mass[n];
+  for (const int node : fixed_) force[node] = {};
+  for (const Tie& tie : ties_) {
+    force[tie.node] = {};
+    for (const Tie::Master& master : tie.masters) force[tie.node] += master.weight * force[master.node];
+  }
+  return force;
+}
+
+// The Robin condition: v_n = v_n,predicted + compliance (p - p_last), compliance = mean_share dt / (mass an area). What
+// p_last did to the cloth is taken from the nodes: of the air's last force on them no part may be left out, as the air
+// would answer it twice.
+SheetMotion CoupledFlow::sheet_motion(const std::vector<Vec3>& positions, const ClothMotion& predicted,
+                                      double length, const AirMemory& memory) const {
+  const double response = mean_share(predicted.steps) * length;
+  const std::vector<Vec3> by_air = acceleration(positions, memory);
+  MovingCells cells;
+  for (const Cell& cell : cells_) {
+    if (cell.corner[0] < 0) continue;
+    Vec3 centre, velocity;
+    for (const int node : cell.corner) {
+      centre += 0.25 * positions[node];
+      velocity += 0.25 * (predicted.velocity[node] - response * by_air[node]);
+    }
+    const auto& [a, b, c, d] = cell.corner;
+    cells.centre.push_back(centre), cells.velocity.push_back(velocity);
+    cells.area.push_back(area_vector(positions[a], positions[b], positions[c], positions[d]));
+  }
+  SheetMotion motion;
+  for (const double mass : mass_) motion.yields.push_back(response / mass);
+  const std::vector<Vec3> smoothed = smoothed_velocity(cells, smoothed_over * cell_width());
+  for (const Vec3 velocity : smoothed) motion.velocity.insert(motion.velocity.end(), 2, velocity);
   return motion;
 }
 
-AirRow CoupledFlow::step(const std::vector<Vec3>& positions, const ClothMotion& predicted, double length,
-                         AirMemory& memory) {
-  flow_.set_density_ratio(density_ratio_of(memory));
+FlowStep CoupledFlow::step(const std::vector<Vec3>& positions, const ClothMotion& predicted, double length,
+                           const Surroundings& surroundings, AirMemory& memory) {
+  flow_.set_density_ratio(surroundings.density_ratio);
   surface_ = surface_of(cells_, positions);
-  flow_.place(surface_, sheet_motion(predicted, length, memory));
-  PayloadMotion& flight = memory.flight;
-  if (memory.steps == 0) {
-    flight.speed = speed_;
-    if (payload_) deploy(flight, *payload_, speed_, flow_.density());
-  }
-  const double speed = flight.speed + length * flight.acceleration;
-  if (payload_) flow_.stream({0, 0, speed}, {0, 0, flight.acceleration});
-  const FlowStep step = flow_.step(length);
+  flow_.place(surface_, sheet_motion(positions, predicted, length, memory));
+  if (surroundings.moves) flow_.stream(surroundings.stream, surroundings.gained);
   ++memory.steps;
-  AirRow row;
-  row.length = length, row.courant = step.courant, row.speed = speed;
-  row.drag = step.force.z, row.side_x = step.force.x, row.side_y = step.force.y;
-  row.drag_area = row.drag / (0.5 * flow_.density() * speed * speed);
-  row.momentum_gap = step.momentum_gap.z, row.mass_defect = step.mass_defect;
-  row.added_mass = memory.added_mass;
-  return row;
+  return flow_.step(length);
 }
 
-Loads CoupledFlow::transfer(const std::vector<Vec3>& positions, AirMemory& memory, AirRow& row) const {
+Loads CoupledFlow::transfer(const std::vector<Vec3>& positions, const Surroundings& surroundings,
+                            AirMemory& memory, double& residual_traction) const {
   ClothLoad load = load_of_flow(flow_.sheet_loads(), grid_, surface_, cells_, positions, Folds::filled);
-  row.residual_traction = residual_traction_share(load, cells_, positions);
+  residual_traction = residual_traction_share(load, cells_, positions);
   memory.pressure = std::exchange(load.pressure, std::vector<double>(cells_.size(), 0.0));
   memory.force = node_forces(load, cells_, positions);
-  if (payload_) {  // weight, and the inertial force in the frame of the payload
-    const double along = memory.flight.acceleration - gravity_along_path(*payload_, memory.flight);
-    for (std::size_t n = 0; n < node_mass_.size(); ++n) memory.force[n].z += node_mass_[n] * along;
-  }
+  memory.other.assign(node_mass_.size(), {});
+  if (surroundings.moves)
+    for (std::size_t n = 0; n < node_mass_.size(); ++n)
+      memory.other[n] = node_mass_[n] * surroundings.on_mass;
+  if (surroundings.node >= 0) memory.other[surroundings.node] += surroundings.force;
   return last_load(memory);
 }
 
-void CoupledFlow::move_payload(double pull, AirMemory& memory, AirRow& row) const {
-  if (payload_) ripstop::move_payload(memory.flight, *payload_, pull, row.length, density_);
-  row.path = memory.flight.path, row.fallen = memory.flight.fallen;
-  row.angle = memory.flight.angle * 180 / std::numbers::pi;
-}
-
-void CoupledFlow::compute_added_mass(const std::vector<Vec3>& positions, AirMemory& memory) const {
-  memory.added_mass =
-      added_mass(*engine_, surface_of(cells_, positions), density_ * density_ratio_of(memory));
+void CoupledFlow::compute_added_mass(const std::vector<Vec3>& positions, double density_ratio,
+                                     AirMemory& memory) const {
+  memory.added_mass = added_mass(*engine_, surface_of(cells_, positions), density_ * density_ratio);
 }
 
 }  // namespace ripstop

@@ -27,20 +27,31 @@ struct AirProblem {
   std::optional<Payload> payload = {};  // absent: the riser's end is held
 };
 
+/// Of the bag that the canopy leaves, relative to the payload.
+struct BagMotion {
+  double travel = 0;  // downstream since the lines came taut [m]
+  double speed = 0;   // through the air [m/s]
+  double left = 0;    // when the canopy had left it; 0: not yet, or no bag [s]
+};
+
 /// What the next step needs of the last one.
 struct AirMemory {
   std::vector<double> pressure;  // Loads::cell_pressure of the last step [Pa]
-  std::vector<Vec3> force;       // Loads::node_force of the last step [N]
-  double work = 0;               // done by the part of the flow's load that is not pressure, so far [J]
-  long long steps = 0;           // of the flow
+  std::vector<Vec3> force;       // Loads::node_force of the last step, of the air [N]
+  std::vector<Vec3>
+      other;  // on the nodes beside it: weight, inertia in a frame that accelerates, drag of a payload [N]
+  double work = 0;      // done by the part of the flow's load that is not pressure, so far [J]
+  long long steps = 0;  // of the flow
   PayloadMotion flight;
   double added_mass = 0;  // of the canopy when it was last computed [kg]
+  BagMotion bag;
 };
 
 template <Of<AirMemory> T, class Visit>
 void each_member(T& m, Visit&& visit) {
   visit("pressure", m.pressure);
   visit("force", m.force);
+  visit("other_force", m.other);
   visit("work", m.work);
   visit("steps", m.steps);
   visit("speed", m.flight.speed);
@@ -49,6 +60,9 @@ void each_member(T& m, Visit&& visit) {
   visit("angle", m.flight.angle);
   visit("fallen", m.flight.fallen);
   visit("added_mass", m.added_mass);
+  visit("bag_travel", m.bag.travel);
+  visit("bag_speed", m.bag.speed);
+  visit("bag_left", m.bag.left);
 }
 
 /// One step of the flow.
@@ -85,6 +99,18 @@ void each_member(T& row, Visit&& visit) {
   visit("added_mass_kg", row.added_mass);
 }
 
+/// What acts in one step of the flow on air and masses in the box, apart from each other. A box that moves with
+/// V_b(t) sees the stream W - V_b, and masses in it feel g - dV_b/dt.
+struct Surroundings {
+  bool moves = false;        // false: the stream is that of the problem, and masses feel nothing
+  Vec3 stream;               // at the end of the step [m/s]
+  Vec3 gained;               // its acceleration [m/s2]
+  Vec3 on_mass;              // force on a unit mass at rest in the box [m/s2]
+  double density_ratio = 1;  // of the air to that at deployment
+  int node = -1;             // on which `force` acts [N]; -1: none
+  Vec3 force;
+};
+
 /// Predicted motion of the cloth over one step of the flow.
 struct ClothMotion {
   std::vector<Vec3> velocity;  // of every node, mean over the step [m/s]
@@ -106,30 +132,39 @@ class CoupledFlow {
   /// The last step's load on the cloth.
   Loads last_load(const AirMemory& memory) const;
   /// One step about cloth that lies at `positions` at its beginning and moves as predicted.
-  AirRow step(const std::vector<Vec3>& positions, const ClothMotion& predicted, double length,
-              AirMemory& memory);
-  /// The load of that step on the cloth at the same `positions`, which is the last load from now on. Enters its residual
-  /// traction into `row`.
-  Loads transfer(const std::vector<Vec3>& positions, AirMemory& memory, AirRow& row) const;
-  /// The payload flies on under the riser's mean `pull` [N] in that step. Enters its path into `row`.
-  void move_payload(double pull, AirMemory& memory, AirRow& row) const;
+  FlowStep step(const std::vector<Vec3>& positions, const ClothMotion& predicted, double length,
+                const Surroundings& surroundings, AirMemory& memory);
+  /// The load of that step on the cloth at the same `positions`, which is the last load from now on. Sets
+  /// `residual_traction` to its share of residual traction.
+  Loads transfer(const std::vector<Vec3>& positions, const Surroundings& surroundings, AirMemory& memory,
+                 double& residual_traction) const;
 
   /// Computes the canopy's added mass as it lies at `positions`; takes about as long as a step.
-  void compute_added_mass(const std::vector<Vec3>& positions, AirMemory& memory) const;
+  void compute_added_mass(const std::vector<Vec3>& positions, double density_ratio, AirMemory& memory) const;
+
+  double density() const { return flow_.density(); }  // in the last step [kg/m3]
+  const FlowGrid& grid() const { return grid_; }
+  const std::vector<Cell>& cells() const { return cells_; }
+
+  /// Mass of the air of a cell on the axis over that of the lightest cloth beside it, rho h / m.
+  double heaviness() const;
 
   const Flow& flow() const { return flow_.at_deployment(); }
   void save(const std::filesystem::path& folder) const { flow_.at_deployment().save(folder); }
   void restore(const std::filesystem::path& folder) { flow_.at_deployment().restore(folder); }
 
  private:
-  double density_ratio_of(const AirMemory& memory) const;
-  SheetMotion sheet_motion(const ClothMotion& predicted, double length, const AirMemory& memory) const;
+  double cell_width() const;  // [m]
+  std::vector<Vec3> acceleration(const std::vector<Vec3>& positions, const AirMemory& memory) const;
+  SheetMotion sheet_motion(const std::vector<Vec3>& positions, const ClothMotion& predicted, double length,
+                           const AirMemory& memory) const;
 
   std::shared_ptr<FlowEngine> engine_;
   FlowGrid grid_;
-  double courant_, speed_, density_;  // of the stream at deployment [m/s], [kg/m3]
-  std::optional<Payload> payload_;
+  double courant_, density_;       // the latter at deployment [kg/m3]
   std::vector<double> node_mass_;  // [kg]
+  std::vector<int> fixed_;         // Mesh::fixed
+  std::vector<Tie> ties_;
   std::vector<Cell> cells_;
   std::vector<double> mass_;       // of every triangle of the surface, a unit area [kg/m2]
   std::vector<Triangle> surface_;  // of the last step

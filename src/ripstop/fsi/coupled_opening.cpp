@@ -3,39 +3,34 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "ripstop/core/quantity_error.h"
+#include "ripstop/fsi/coupled_step.h"
 
 namespace ripstop {
 namespace {
 
-// Of the time in which the stream passes a cell: no row is longer, as steps of the flow are whole numbers of rows and as
-// long as its fastest cell allows.
-constexpr double longest_row = 0.03;
-// Of a row: no flow of the stream's air needs a shorter step.
-constexpr double shortest_step = 0.05;
 constexpr int added_masses = 25;  // in an opening
 
-double least_rows_in(const FlowProblem& flow) {
-  double least = 1e300;
-  for (int axis = 0; axis < 3; ++axis) {
-    const int n = axis == 0 ? flow.grid.nx : axis == 1 ? flow.grid.ny : flow.grid.nz;
-    for (int c = 0; c < n; ++c) least = std::min(least, flow.grid.width(axis, c));
-  }
-  return flow.air.speed() / (longest_row * least);  // [1/s]
-}
+/// A canopy narrower than so many cells would not part the air of any two.
+constexpr double least_cells_across = 2;
 
-/// work(), whose divergence is reported with the time at which it happened [s].
-template <class Work>
-auto with_time(double time, const Work& work) {
-  try {
-    return work();
-  } catch (const Error& error) {
-    if (error.code() != ExitCode::diverged) throw;
-    throw Error(ExitCode::diverged, fmt::format("t = {:.6g} s: {}", time, error.what()));
-  }
+void check_width(const FoldedStart& folded, const FlowGrid& grid) {
+  const double width = folded.inner_radius + folded.outer_radius;
+  const Vec3 cell = grid.spacing({0, 0, 0.5 * grid.size.z + grid.origin.z});
+  const double across = std::max(cell.x, cell.y);
+  if (width >= least_cells_across * across) return;
+  throw QuantityError(ExitCode::usage,
+                      fmt::format("the skirt of the folded canopy is {:.3g} m wide, {:.2g} cells of the flow "
+                                  "grid ({:.3g} m): the air "
+                                  "does not see a canopy of less than {:g} cells. Cells of at most {:.3g} m "
+                                  "are needed, or a radius of "
+                                  "the folded skirt of at least {:.3g} m",
+                                  width, width / across, across, least_cells_across,
+                                  width / least_cells_across, 0.5 * least_cells_across * across),
+                      {"flow grid", "radius of the folded skirt"});
 }
 
 double mean_load(const std::vector<HistoryRow>& history, int rows) {
@@ -49,12 +44,25 @@ double mean_load(const std::vector<HistoryRow>& history, int rows) {
 CoupledOpening::CoupledOpening(InflationProblem problem)
     : Opening(problem, problem.settings.duration_s, least_rows_in(problem.air->flow),
               AdaptiveStepper::Step::renewed),
-      air_(std::make_unique<CoupledFlow>(*problem.air, mesh())) {}
+      air_(std::make_unique<CoupledFlow>(*problem.air, mesh())) {
+  check_width(folded(), problem.air->flow.grid);
+}
 
 InflationState CoupledOpening::start() const {
   InflationState state = Opening::start();
-  air_->compute_added_mass(positions(state.cloth, cloth()), state.air);
+  if (packed()) {
+    state.air.flight.speed = problem().air->flow.air.speed();
+    state.air.bag = packed()->start(state.air.flight.speed);
+    move_bag(0, state);
+  }
+  compute_added_mass(state);
   return state;
+}
+
+void CoupledOpening::compute_added_mass(InflationState& state) const {
+  const auto& payload = problem().air->payload;
+  air_->compute_added_mass(positions(state.cloth, cloth()),
+                           payload ? density_ratio(*payload, state.air.flight.fallen) : 1, state.air);
 }
 
 std::vector<HistoryRow> CoupledOpening::advance(InflationState& state, std::vector<AirRow>* air_rows) {
@@ -70,55 +78,61 @@ std::vector<HistoryRow> CoupledOpening::advance(InflationState& state, std::vect
 
 // A step of the flow is a whole number of rows, as many as it allows, all steps of a block alike as far as possible.
 int CoupledOpening::rows_of_next_step(const InflationState& state, int left) {
-  const double longest = air_->longest_step();
-  if (!(longest > shortest_step * row_duration()))
-    throw QuantityError(
-        ExitCode::diverged,
-        fmt::format("at {:.6g} s the air would need steps of {:.3g} s: it has diverged; a smaller Courant "
-                    "number of the flow or a finer flow grid may help",
-                    state.cloth.time, longest),
-        {"Courant number of the flow", "flow grid"});
+  double longest = sound_step(*air_, row_duration(), state.cloth.time);
+  if (packed() && !packed()->empty(state.air.bag))
+    longest = std::min(
+        longest, std::max(packed()->longest_step(state.air.flight.speed, state.air.bag), row_duration()));
   return std::max(1, left / steps_in(left * row_duration(), longest, state.cloth.time));
 }
 
 AirRow CoupledOpening::step(InflationState& state, int rows, std::vector<HistoryRow>& history) {
   const double length = rows * row_duration();
-  const std::vector<Vec3> before = positions(state.cloth, cloth());
   const long long first = state.blocks * rows_per_block() + static_cast<long long>(history.size());
+  const FlowProblem& flow = problem().air->flow;
+  const auto& payload = problem().air->payload;
+  PayloadMotion& flight = state.air.flight;
+  if (state.air.steps == 0) {
+    flight.speed = flow.air.speed();
+    if (payload)
+      deploy(flight, *payload, flight.speed, flow.air.density * density_ratio(*payload, flight.fallen));
+  }
+  const Surroundings surroundings = payload ? in_flight(flight, *payload, length) : Surroundings{};
+  const double speed = flight.speed + length * flight.acceleration;
 
-  // Predict the motion of the cloth under the last load.
-  const double step = stepper().allowed_step(state, cloth_of(state));
-  const int steps = steps_in(length, step, state.cloth.time);
-  const ClothMotion predicted =
-      predict_motion(state.cloth, cloth_of(state), air_->last_load(state.air), length, steps, team());
+  const PackedCloth* const packing = packed() && !packed()->empty(state.air.bag) ? packed() : nullptr;
+  const CoupledStep taken = take_coupled_step(*air_, stepper(), cloth_of(state), {first, rows, rows},
+                                              surroundings, team(), state, packing);
+  history.insert(history.end(), taken.history.begin(), taken.history.end());
 
-  // Step the flow about it, transfer its load.
   AirRow row;
-  const Loads loads = with_time(state.cloth.time, [&] {
-    row = air_->step(before, predicted, length, state.air);
-    return air_->transfer(before, state.air, row);
-  });
-
-  // Correct: step the cloth under that load.
-  const auto load_of = [&](long long) -> const Loads& { return loads; };
-  const AdaptiveStepper::Span span = stepper().advance(state, cloth_of(state), {first, rows, rows}, load_of);
-  history.insert(history.end(), span.rows.begin(), span.rows.end());
-  row.time = state.cloth.time;
+  row.time = state.cloth.time, row.length = length, row.courant = taken.flow.courant;
+  row.speed = speed;
+  row.drag = taken.flow.force.z, row.side_x = taken.flow.force.x, row.side_y = taken.flow.force.y;
+  row.drag_area = row.drag / (0.5 * air_->density() * speed * speed);
+  row.momentum_gap = taken.flow.momentum_gap.z, row.mass_defect = taken.flow.mass_defect;
+  row.residual_traction = taken.residual_traction, row.added_mass = state.air.added_mass;
 
   // Move the payload under the pull of the riser.
-  air_->move_payload(mean_load(history, rows), state.air, row);
-
-  // The work of the load that is not pressure.
-  const std::vector<Vec3> after = positions(state.cloth, cloth());
-  for (std::size_t n = 0; n < before.size(); ++n)
-    state.air.work += dot(loads.node_force[n], after[n] - before[n]);
+  if (payload) move_payload(flight, *payload, mean_load(history, rows), length, flow.air.density);
+  row.path = flight.path, row.fallen = flight.fallen;
+  row.angle = flight.angle * 180 / std::numbers::pi;
+  if (packing) move_bag(length, state);
   return row;
+}
+
+// The work of the bag on the cloth in it counts as that of a load.
+void CoupledOpening::move_bag(double length, InflationState& state) const {
+  const AirProblem& air = *problem().air;
+  const PayloadMotion& flight = state.air.flight;
+  const double gravity = air.payload ? gravity_along_path(*air.payload, flight) : 0;
+  state.air.work += packed()->carry({flight.speed, air.flow.air.density, gravity}, length, cloth(),
+                                    state.cloth, state.air.bag);
+  if (packed()->empty(state.air.bag)) state.air.bag.left = state.cloth.time;
 }
 
 InflationFrame CoupledOpening::frame(InflationState& state) const {
   const long long every = std::max(1, problem().settings.frames / added_masses);
-  if (state.blocks / blocks_per_frame() % every == 0 || state.blocks == blocks())
-    air_->compute_added_mass(positions(state.cloth, cloth()), state.air);
+  if (state.blocks / blocks_per_frame() % every == 0 || state.blocks == blocks()) compute_added_mass(state);
   return Opening::frame(state);
 }
 

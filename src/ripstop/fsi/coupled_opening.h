@@ -21,7 +21,9 @@ class CoupledOpening : public Opening {
 
  private:
   AirRow step(InflationState& state, int rows, std::vector<HistoryRow>& history);
+  void compute_added_mass(InflationState& state) const;
   int rows_of_next_step(const InflationState& state, int left);
+  void move_bag(double length, InflationState& state) const;
 
   std::unique_ptr<CoupledFlow> air_;
 };

@@ -14,7 +14,6 @@ enum class CanopyLoad {
 
 /// The keys of [coupling] whose defaults follow from nothing.
 struct CouplingOptions {
-  double shape_tolerance_m = 1e-3;  // mean displacement of the nodes between two iterations
   int max_iterations = 20;
   double relaxation = 1;  // of the pressure; 1: the flow's answer is taken whole
   Acceleration acceleration = Acceleration::anderson;
@@ -25,7 +24,8 @@ struct CouplingOptions {
 
 struct CouplingSettings : CouplingOptions {
   CanopyLoad load = CanopyLoad::uniform;
-  double drag_tolerance = 1e-3;  // change of drag between two iterations, relative
+  double drag_tolerance = 1e-3;     // change of drag between two iterations, relative
+  double shape_tolerance_m = 1e-3;  // mean displacement of the nodes between two iterations
 };
 
 }  // namespace ripstop

@@ -45,6 +45,7 @@ struct InflationSettings {
   // proportion to the radius inside.
   double imperfection_m = 0;
   int imperfection_harmonic = 1;
+  int imperfection_seed = 0;  // above 0: waves of every harmonic up to 8 at random azimuths, in its place
 
   std::optional<double> line_segment_m;  // of the opening's mesh, in place of [parachute.mesh]'s
 

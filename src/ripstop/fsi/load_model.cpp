@@ -39,10 +39,10 @@ ClothLoad load_on_cloth(CanopyLoad model, const FlowField& field, const CanopySu
   if (!(now.transfer_factor > 0) || !std::isfinite(now.transfer_factor)) {
     throw Error(
         ExitCode::diverged,
-        fmt::format("coupling iteration {}: the pressures beside the cloth add up to {:.3g} N against the "
-                    "flow, whose force is {:.3g} N; the grid is too coarse for this canopy or the flow is "
-                    "wrong",
-                    now.iteration, now.fluid_force / now.transfer_factor, now.fluid_force));
+        fmt::format(
+            "coupling iteration {}: the pressures at the cloth give a force of {:.3g} N against the flow, "
+            "but the air load is {:.3g} N; the grid is too coarse for this canopy, or the flow is wrong",
+            now.iteration, now.fluid_force / now.transfer_factor, now.fluid_force));
   }
   for (double& dp : load.pressure) dp *= now.transfer_factor;
   return load;

@@ -23,8 +23,8 @@ constexpr double most_parts = 1e7;
 int parts_of(double count, const char* what) {
   const auto message = [&] {
     return fmt::format(
-        "inflation: {:.3g} {}: a shorter duration, more frames or a lower rate of the history is needed",
-        count, what);
+        "inflation: {:.3g} {}: use a shorter duration, more frames or a lower rate of the history", count,
+        what);
   };
   return checked_int(std::max(std::ceil(count - 1e-9), 1.0), 1, most_parts, message, ExitCode::usage);
 }
@@ -43,7 +43,8 @@ Opening::Opening(InflationProblem problem, double snapshot_span, double least_ro
                  AdaptiveStepper::Step step)
     : problem_(with_snapshots(std::move(problem), snapshot_span)),
       team_(problem_.threads),
-      cloths_(problem_.mesh, problem_.settings, problem_.reefing, problem_.symmetry, problem_.linear, team_),
+      cloths_(problem_.mesh, problem_.settings, problem_.reefing, problem_.symmetry, problem_.linear, team_,
+              problem_.bag),
       blocks_per_frame_(parts_of(problem_.settings.duration_s / problem_.settings.frames / longest_block,
                                  "blocks for each frame")),
       rows_per_block_(parts_of(problem_.settings.duration_s / problem_.settings.frames / blocks_per_frame_ *

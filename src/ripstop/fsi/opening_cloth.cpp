@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdint>
+#include <numbers>
 #include <utility>
 
 #include "ripstop/core/quantity_error.h"
@@ -15,6 +17,33 @@ namespace {
 // what the same loss in a wave that the mesh resolves takes of the stable step between neighbours, and it
 // resists being folded at the scale of the grid. A wave of two cells only feels the rest.
 constexpr double share_over_two_cells = 2.0 / 3;
+
+/// The imperfection over the azimuth: one harmonic, or those from 1 to 8 at random azimuths with the same root mean
+/// square.
+class FoldWaves {
+ public:
+  explicit FoldWaves(const InflationSettings& settings) : harmonic_(settings.imperfection_harmonic) {
+    std::uint64_t state = static_cast<std::uint64_t>(settings.imperfection_seed);
+    for (int k = 0; settings.imperfection_seed > 0 && k < harmonics; ++k) {
+      state += 0x9e3779b97f4a7c15u;  // splitmix64
+      std::uint64_t z = state;
+      z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+      z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+      phases_.push_back(2 * std::numbers::pi * static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53);
+    }
+  }
+  double at(double azimuth) const {
+    if (phases_.empty()) return std::cos(harmonic_ * azimuth);
+    double sum = 0;
+    for (int k = 0; k < harmonics; ++k) sum += std::cos((k + 1) * azimuth + phases_[k]);
+    return sum / std::sqrt(double(harmonics));
+  }
+
+ private:
+  static constexpr int harmonics = 8;
+  int harmonic_;
+  std::vector<double> phases_;
+};
 
 double required_radius(const InflationSettings& settings) {
   if (!settings.initial_radius_m) {
@@ -45,13 +74,17 @@ void damp_springs(Mesh& mesh, double line_time, double cloth_time) {
 }
 
 OpeningCloth::OpeningCloth(const CanopyMesh& as_cut, const InflationSettings& s,
-                           std::vector<ReefingLine> reefing, int symmetry, bool linear, ThreadTeam& team)
+                           std::vector<ReefingLine> reefing, int symmetry, bool linear, ThreadTeam& team,
+                           const std::optional<Bag>& bag)
     : folded_(folded_start(as_cut, {required_radius(s), s.folds, s.slack_m}, symmetry, team)),
       reefing_(std::move(reefing)) {
   mesh_ = with_creases(as_cut, folded_);
+  if (bag) packed_.emplace(*bag, mesh_, folded_.positions);
   damp_springs(mesh_, s.line_damping_s, s.cloth_damping_s);
   ClothOptions options{linear, s.damping_n_s_m3, s.quadratic_damping_n_s2_m4};
-  if (s.contact_pa > 0) options.contact = ContactOptions{s.contact_pa, s.contact_friction, folded_.positions};
+  if (s.contact_pa > 0)
+    options.contact =
+        ContactOptions{s.contact_pa, s.contact_friction, packed_ ? packed_->positions() : folded_.positions};
   if (s.cloth_damping_s > 0)
     viscosity_limit_ = limit_viscosity(mesh_, options, folded_.positions, s.cloth_damping_step_share);
   add_reefed_stages(s, options);
@@ -74,19 +107,19 @@ void OpeningCloth::add_reefed_stages(const InflationSettings& settings, const Cl
   if (needed > length)
     throw QuantityError(
         ExitCode::usage,
-        fmt::format(
-            "length of the first reefing line = {:g}: the folded skirt is {:.4g} m round, more than its "
-            "reefing line; a smaller radius of the folded skirt fits into it",
-            length, needed),
+        fmt::format("length of the first reefing line = {:g}: the circumference of the folded skirt, {:.4g} "
+                    "m, exceeds the reefing line; use a smaller radius of the folded skirt",
+                    length, needed),
         {"length of the first reefing line", "radius of the folded skirt"});
 }
 
 std::vector<Vec3> OpeningCloth::with_imperfection(const InflationSettings& s) const {
-  std::vector<Vec3> x = folded_.positions;
+  std::vector<Vec3> x = packed_ ? packed_->positions() : folded_.positions;
   if (s.imperfection_m == 0) return x;
+  const FoldWaves waves(s);
   for (const Patch& patch : mesh_.patches) {
     for (int i = patch.first_node; i < patch.first_node + patch.rows * patch.columns; ++i) {
-      const double wave = std::cos(s.imperfection_harmonic * std::atan2(x[i].y, x[i].x));
+      const double wave = waves.at(std::atan2(x[i].y, x[i].x));
       x[i] += (s.imperfection_m * wave / folded_.outer_radius) * Vec3{x[i].x, x[i].y, 0};
     }
   }

@@ -1,11 +1,13 @@
 // The cloth of an opening: folded, damped, with the reefing line of every stage.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "ripstop/cloth/cloth.h"
 #include "ripstop/fsi/inflation_settings.h"
 #include "ripstop/fsi/opening_record.h"
+#include "ripstop/fsi/packed_cloth.h"
 #include "ripstop/parachute/fold.h"
 
 namespace ripstop {
@@ -26,10 +28,12 @@ class OpeningCloth {
  public:
   /// Throws Error(usage) for a folding or a reefing line that does not fit.
   OpeningCloth(const CanopyMesh& as_cut, const InflationSettings& settings, std::vector<ReefingLine> reefing,
-               int symmetry, bool linear, ThreadTeam& team);
+               int symmetry, bool linear, ThreadTeam& team, const std::optional<Bag>& bag = {});
 
   const CanopyMesh& mesh() const { return mesh_; }
   const FoldedStart& folded() const { return folded_; }
+  /// Null for a canopy that starts stretched out.
+  const PackedCloth* packed() const { return packed_ ? &*packed_ : nullptr; }
   /// How much weaker the cloth's dampers are than `cloth_damping_s` says, so that they do not set the step.
   const ViscosityLimit& viscosity_limit() const { return viscosity_limit_; }
   /// Without reefing line.
@@ -50,6 +54,7 @@ class OpeningCloth {
 
   CanopyMesh mesh_;
   FoldedStart folded_;
+  std::optional<PackedCloth> packed_;
   ViscosityLimit viscosity_limit_;
   std::vector<ReefingLine> reefing_;  // in the order of their cuts
   std::vector<ClothPtr> stages_;      // the last without reefing line

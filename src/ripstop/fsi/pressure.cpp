@@ -36,7 +36,7 @@ class Equilibrium {
       throw Error(
           ExitCode::not_converged,
           fmt::format("no equilibrium of the canopy under a uniform {:.4g} Pa within {} relaxation steps "
-                      "(residual {:.2g}, wanted {:.2g})",
+                      "(residual {:.2g}, tolerance {:.2g})",
                       pressure, result.steps, result.residual, relaxation.tolerance));
     }
     const double load = pressure_force(*cloth_, state_, loads).z;
@@ -61,14 +61,13 @@ UniformPressure load_under(double pressure, const Mesh& mesh, bool linear, Threa
 UniformPressure pressure_for(double load, const CanopyMesh& mesh, bool linear, ThreadTeam& team,
                              const std::function<void()>& alive) {
   if (!(load > 0))
-    throw Error(ExitCode::bad_data, fmt::format("a steady drag of {} N opens no canopy", load));
+    throw Error(ExitCode::bad_data, fmt::format("a steady drag of {} N: must be above 0", load));
   Equilibrium equilibrium(mesh, linear, team, alive);
   UniformPressure answer = equilibrium.under(load / skirt_area(mesh, mesh.start));  // a first guess
   while (std::abs(answer.load / load - 1) > load_tolerance) {
     if (answer.relaxations == most_relaxations) {
       throw Error(ExitCode::not_converged,
-                  fmt::format("no uniform pressure found that carries {:.4g} N: {:.4g} Pa "
-                              "carry {:.4g} N",
+                  fmt::format("no uniform pressure found for a load of {:.4g} N: {:.4g} Pa gives {:.4g} N",
                               load, answer.pressure, answer.load));
     }
     answer = equilibrium.under(load / answer.axial_area);

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "ripstop/core/checked_int.h"
+#include "ripstop/fsi/lattice.h"
 
 namespace ripstop {
 namespace {
@@ -62,18 +63,6 @@ Wrench& operator+=(Wrench& sum, const Wrench& other) {
 
 Wrench acting_at(Vec3 point, Vec3 force) {
   return {force, cross(point, force)};
-}
-
-constexpr double most_along = 1e6;  // from each other, in boxes or points of a lattice along an axis
-constexpr double most_room = 1e8;   // boxes or points
-
-std::string too_far() {
-  return "the cloth has no finite position, or is larger than any canopy: its motion has diverged. A smaller "
-         "time step or more damping may help";
-}
-
-std::size_t room_of(const std::array<int, 3>& count) {
-  return checked_int(double(count[0]) * count[1] * count[2], 0, most_room, too_far);
 }
 
 /// Pressure of the cloth that one face stands for.
@@ -140,7 +129,7 @@ class Boxes {
  private:
   int box(double at, double low) const {
     return checked_int(std::clamp(std::floor((at - low) / width_), -most_along, most_along), -most_along,
-                       most_along, too_far);
+                       most_along, cloth_too_far);
   }
   std::size_t index(int x, int y, int z) const {
     return x + static_cast<std::size_t>(count_[0]) * (y + static_cast<std::size_t>(count_[1]) * z);
@@ -270,57 +259,6 @@ void press_into_folds(const Boxes& samples, const FlowGrid& grid, const Patchwor
   }
 }
 
-/// Sums on the points of a lattice about some places, each value shared among the eight points about it and read off in
-/// the same shares.
-template <class Value>
-class Lattice {
- public:
-  /// Values are at these places and no others.
-  Lattice(const std::vector<Vec3>& places, double spacing) : spacing_(spacing) {
-    std::array<int, 3> high;
-    first_.fill(std::numeric_limits<int>::max()), high.fill(std::numeric_limits<int>::min());
-    for (const Vec3& x : places) {
-      const std::array<double, 3> at = scaled(x);
-      for (int a = 0; a < 3; ++a) {
-        const int lower = checked_int(std::floor(at[a]), -most_along, most_along, too_far);
-        first_[a] = std::min(first_[a], lower), high[a] = std::max(high[a], lower);
-      }
-    }
-    if (places.empty()) return;
-    for (int a = 0; a < 3; ++a) count_[a] = high[a] - first_[a] + 2;
-    points_.resize(room_of(count_));
-  }
-
-  /// visit(value on a point, share) for the eight points.
-  template <class Visit>
-  void about(Vec3 x, const Visit& visit) {
-    const std::array<double, 3> at = scaled(x);
-    std::array<int, 3> lower;
-    std::array<double, 3> part;
-    for (int a = 0; a < 3; ++a) {
-      lower[a] = checked_int(std::floor(at[a]), -most_along, most_along, too_far) - first_[a];
-      part[a] = at[a] - std::floor(at[a]);
-    }
-    for (int n = 0; n < 8; ++n) {
-      double share = 1;
-      std::size_t point = 0;
-      for (int a = 2; a >= 0; --a) point = point * count_[a] + lower[a] + (n >> a & 1);
-      for (int a = 0; a < 3; ++a) share *= n >> a & 1 ? part[a] : 1 - part[a];
-      visit(points_[point], share);
-    }
-  }
-
- private:
-  std::array<double, 3> scaled(Vec3 x) const {
-    const Vec3 at = x / spacing_;
-    return {at.x, at.y, at.z};
-  }
-
-  double spacing_;
-  std::array<int, 3> first_, count_{};
-  std::vector<Value> points_;
-};
-
 // What the air's force is beyond that of the pressures, where there are folds: a traction of the cloth nearby, so that
 // force that the air exerts on a part of the canopy stays there.
 std::vector<Vec3> fold_tractions(const std::vector<SheetLoad>& loads, const std::vector<Sample>& samples,
@@ -405,7 +343,7 @@ Wrench wrench_of(const ClothLoad& load, const std::vector<Cell>& cells, const st
 ClothLoad load_of_flow(const std::vector<SheetLoad>& loads, const FlowGrid& grid,
                        const std::vector<Triangle>& surface, const std::vector<Cell>& cells,
                        const std::vector<Vec3>& x, Folds folds) {
-  if (!std::all_of(x.begin(), x.end(), is_finite)) throw Error(ExitCode::diverged, too_far());
+  if (!std::all_of(x.begin(), x.end(), is_finite)) throw Error(ExitCode::diverged, cloth_too_far());
   const Patchwork cloth(cells, x);
   std::vector<Sample> samples = samples_of(loads, surface);
   const double box = samples.empty() ? 1 : 0.5 * reach * width_at(samples.front().point, grid);

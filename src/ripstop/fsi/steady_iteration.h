@@ -40,9 +40,9 @@ struct SteadyIteration {
 template <Of<SteadyIteration> T, class Visit>
 void each_member(T& i, Visit&& visit) {
   visit("iteration", i.iteration, Shown{"", 4, "{:.0f}"});
-  visit("drag_n", i.fluid_force, Shown{"fluid N", 9, "{:.2f}"});
-  visit("nodal_load_n", i.nodal_load, Shown{"nodal N", 9, "{:.2f}"});
-  visit("line_tension_n", i.line_tension, Shown{"lines N", 9, "{:.2f}"});
+  visit("drag_n", i.fluid_force, Shown{"air load N", 10, "{:.2f}"});
+  visit("nodal_load_n", i.nodal_load, Shown{"cloth load N", 12, "{:.2f}"});
+  visit("line_tension_n", i.line_tension, Shown{"line load N", 11, "{:.2f}"});
   visit("momentum_deficit_n", i.momentum_deficit, Shown{"deficit N", 9, "{:.2f}"});
   visit("transfer_factor", i.transfer_factor, Shown{"transfer", 8, "{:.3f}"});
   visit("load_remainder", i.residual_traction);

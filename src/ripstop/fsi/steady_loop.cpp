@@ -25,8 +25,8 @@ void require_inside(const FlowGrid& grid, const Mesh& mesh, const std::vector<Ce
           p.z > far.z) {
         throw Error(
             ExitCode::usage,
-            fmt::format("the canopy does not fit into the flow's box: cloth at ({:.3g}, {:.3g}, "
-                        "{:.3g}) m, box from ({:.3g}, {:.3g}, {:.3g}) to ({:.3g}, {:.3g}, {:.3g}) m",
+            fmt::format("the canopy does not fit into the flow domain: cloth at ({:.3g}, {:.3g}, {:.3g}) m, "
+                        "domain from ({:.3g}, {:.3g}, {:.3g}) to ({:.3g}, {:.3g}, {:.3g}) m",
                         p.x, p.y, p.z, grid.origin.x, grid.origin.y, grid.origin.z, far.x, far.y, far.z));
       }
     }
@@ -129,8 +129,8 @@ Equilibrium SteadySolver::solve_cloth(const SteadyState& state, const Loads& loa
   if (!found.converged) {
     throw QuantityError(
         ExitCode::not_converged,
-        fmt::format("coupling iteration {}: the cloth found no equilibrium, residual {:.2e} after {} steps "
-                    "(wanted {:.1e}); a looser cloth tolerance or a finer cloth mesh may help",
+        fmt::format("coupling iteration {}: no equilibrium of the cloth, residual {:.2e} after {} steps "
+                    "(tolerance {:.1e}); try a larger cloth tolerance or a finer cloth mesh",
                     now.iteration, found.residual, found.steps, options.tolerance),
         {"cloth tolerance", "cloth mesh"});
   }

@@ -78,13 +78,11 @@ double mean_between(const std::vector<Row>& rows, double from, double to, double
 
 std::vector<double> low_pass(const std::vector<double>& values, double interval, double cutoff_hz) {
   if (!(cutoff_hz > 0 && cutoff_hz * interval < 0.5)) {
-    throw QuantityError(
-        ExitCode::usage,
-        fmt::format(
-            "low-pass cutoff = {}: must be above 0 and below half the rate of the history, {:.6g} Hz; "
-            "raise the history rate",
-            cutoff_hz, 0.5 / interval),
-        {"low-pass cutoff", "the history rate"});
+    throw QuantityError(ExitCode::usage,
+                        fmt::format("low-pass cutoff = {}: must be above 0 and below half the rate of the "
+                                    "history, {:.6g} Hz; increase the history rate",
+                                    cutoff_hz, 0.5 / interval),
+                        {"low-pass cutoff", "the history rate"});
   }
   if (values.empty()) return {};
   const double k = std::tan(std::numbers::pi * cutoff_hz * interval);
@@ -132,6 +130,28 @@ std::vector<StageSummary> summarise_stages(const std::vector<HistoryRow>& rows,
     stages.push_back(stage);
   }
   return stages;
+}
+
+std::optional<Filling> filling_of(const std::vector<InflationFrame>& frames) {
+  const std::size_t last = frames.size() - frames.size() / 5;
+  if (last == frames.size()) return {};
+  double full = 0;
+  for (std::size_t i = last; i < frames.size(); ++i)
+    full += frames[i].size.projected_area / double(frames.size() - last);
+  std::size_t first = 0;
+  while (first < last && frames[first].size.projected_area < full) ++first;
+  if (first == last || first == 0) return {};
+  const InflationFrame &a = frames[first - 1], &b = frames[first];
+  const double share = (full - a.size.projected_area) / (b.size.projected_area - a.size.projected_area);
+  Filling filling{a.time + share * (b.time - a.time), 0};
+  double products = 0, squares = 0;
+  for (std::size_t i = 0; i < first; ++i) {
+    const double t = std::log(frames[i].time / filling.time);
+    if (!(frames[i].size.projected_area > 0)) continue;
+    products += t * std::log(frames[i].size.projected_area / full), squares += t * t;
+  }
+  if (squares > 0) filling.exponent = products / squares;
+  return filling;
 }
 
 HighestLoad highest_load(const std::vector<HistoryRow>& rows, double start_up) {

@@ -24,6 +24,14 @@ struct InflationSummary {
 /// the low-passed history. Peaks and filling are sought after `start_up` [s].
 InflationSummary summarise(const std::vector<HistoryRow>& rows, double low_pass_hz, double start_up = 0);
 
+/// First full inflation, by the projected area.
+struct Filling {
+  double time = 0;      // when the area first reaches its mean over the last fifth of the opening [s]
+  double exponent = 0;  // j of the least squares fit ln(area / that mean) = j ln(t / time)
+};
+/// Nothing for an opening that does not reach that mean before its last fifth begins: it has not filled.
+std::optional<Filling> filling_of(const std::vector<InflationFrame>& frames);
+
 /// The largest load over every step of the rows that begin after `start_up` [s], of all rows where none does.
 struct HighestLoad {
   double load = 0, time = 0;  // [N], [s]

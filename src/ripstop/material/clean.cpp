@@ -109,11 +109,10 @@ void sort_by_order(Pull& pull) {
     if (furthest.size() > allowed + 1) furthest.pop();
   }
   if (behind > allowed)
-    pull.refuse(
-        r.line[first_behind],
-        fmt::format("from here {} of {} points go back in {}: not one pull to failure (a cycle?); cut "
-                    "the record to one pull",
-                    behind, key.size(), r.time.empty() ? "displacement" : "time"));
+    pull.refuse(r.line[first_behind],
+                fmt::format("from here {} of {} points decrease in {}: not a single test to failure (a "
+                            "cycle?); reduce the record to one test",
+                            behind, key.size(), r.time.empty() ? "displacement" : "time"));
   std::vector<std::size_t> order(r.force.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key[a] < key[b]; });
@@ -124,8 +123,7 @@ void sort_by_order(Pull& pull) {
   }
   const std::vector<std::size_t> moved = out_of_order(key);
   if (!moved.empty())
-    pull.say(fmt::format("{} points out of order put in their place (first in line {})", moved.size(),
-                         r.line[moved.front()]));
+    pull.say(fmt::format("{} points sorted (first in line {})", moved.size(), r.line[moved.front()]));
 }
 
 /// A steady rise that goes on a hundred times higher from one point to the next is no cloth.
@@ -136,10 +134,11 @@ void check_jumps(const Pull& pull, double peak) {
     for (std::size_t k = i - before; k + 1 < i; ++k) rises = rises && pull.f[k + 1] > pull.f[k];
     const double after = std::min(pull.f[i], pull.f[i + 1]);
     if (rises && after > 0.02 * peak && after > 100 * pull.f[i - 1])
-      pull.refuse(pull.line[i],
-                  fmt::format("the force jumps from {:.4g} N to {:.4g} N and stays there: mixed "
-                              "units in one column?",
-                              pull.f[i - 1], pull.f[i]));
+      pull.refuse(
+          pull.line[i],
+          fmt::format(
+              "the force jumps permanently from {:.4g} N to {:.4g} N: check for mixed units in one column",
+              pull.f[i - 1], pull.f[i]));
   }
 }
 
@@ -207,15 +206,15 @@ std::string slip_of(const Pull& pull, const std::function<double(std::size_t)>& 
       return a.from - a.to < b.from - b.to;
     });
     return fmt::format(
-        "the force falls from {:.4g} N to {:.4g} N by strain {:.3g} (line {}) and rises again{}: did "
-        "a grip slip, or yarns break?",
+        "the force falls from {:.4g} N to {:.4g} N by strain {:.3g} (line {}) and rises again{}: check for "
+        "slip of a grip or broken yarns",
         worst.from, worst.to, strain_of(worst.trough), pull.line[worst.trough],
-        falls.size() > 1 ? fmt::format(", the worst of {} falls", falls.size()) : "");
+        falls.size() > 1 ? fmt::format(", the largest of {} drops", falls.size()) : "");
   }
   if (const std::optional<std::size_t> flat = plateau_of(pull, peak, clear))
     return fmt::format(
-        "the force stands still about {:.4g} N at strain {:.3g} (line {}) and goes on rising after it: "
-        "did a grip slip?",
+        "the force remains about {:.4g} N at strain {:.3g} (line {}) and then continues to rise: check for "
+        "slip of a grip",
         smooth[*flat], strain_of(*flat), pull.line[*flat]);
   return "";
 }
@@ -226,32 +225,33 @@ double cut_failure(Pull& pull) {
   const auto top = std::max_element(smooth.begin(), smooth.end());
   const auto peak = static_cast<std::size_t>(top - smooth.begin());
   if (!(*top > 0))
-    pull.refuse(pull.line.front(), "no force is above 0: a pull is positive; turn the sign of the column");
+    pull.refuse(pull.line.front(),
+                "no force is above 0: tension must be positive; change the sign of the column");
   const double lowest = *std::min_element(smooth.begin(), smooth.end());
   if (-lowest > *top)
-    pull.refuse(pull.line.front(),
-                fmt::format("forces reach {:.4g} N and only {:.4g} N in pull: turn the sign of the column",
-                            lowest, *top));
+    pull.refuse(
+        pull.line.front(),
+        fmt::format("forces reach {:.4g} N, but only {:.4g} N in tension: change the sign of the column",
+                    lowest, *top));
   const std::size_t count = pull.f.size();
   if (peak < fewest_points / 2 || pull.x[peak] - pull.x.front() < 0.05 * (pull.x.back() - pull.x.front()))
     pull.refuse(pull.line[peak],
-                fmt::format("the force only falls from here on ({:.4g} N to {:.4g} N): this is not a pull to "
-                            "failure; is the displacement in the right column and direction?",
+                fmt::format("the force only decreases from here ({:.4g} N to {:.4g} N): this is not a test "
+                            "to failure; check column and direction of the displacement",
                             *top, smooth.back()));
   // A bench that stops by itself still writes some points of the fall.
   constexpr double fallen = 0.9;
   pull.clean.breaks =
       *std::min_element(pull.f.begin() + static_cast<std::ptrdiff_t>(peak), pull.f.end()) < fallen * *top;
   if (peak + 1 < count)
-    pull.say(fmt::format("{} points after the peak of {:.4g} N left out (from line {})", count - peak - 1,
+    pull.say(fmt::format("{} points after the peak of {:.4g} N ignored (from line {})", count - peak - 1,
                          *top, pull.line[peak + 1]));
   constexpr double many = 1.0 / 3;  // of the points; a machine that goes on after the break writes fewer
   const double after = static_cast<double>(count - peak - 1) / static_cast<double>(count);
   if (after > many)
     pull.clean.late = fmt::format(
-        "{:.0f} % of the points follow the highest force ({:.4g} N, line {}): is the record more than one "
-        "pull to "
-        "failure, or is a thousand read as a decimal number?",
+        "{:.0f} % of the points follow the highest force ({:.4g} N, line {}): check for several tests in one "
+        "record, and for thousands read as decimal numbers",
         100 * after, *top, pull.line[peak]);
   pull.keep(0, peak + 1);
   return *top;
@@ -260,17 +260,22 @@ double cut_failure(Pull& pull) {
 /// Squared misfit of a pull that begins at `zero`: nothing before it, sum_k c_k u^k with k = 1 .. terms and c_1 >= 0
 /// after it.
 double toe_misfit(std::span<const double> x, std::span<const double> f, double zero, int terms) {
-  Eigen::MatrixXd products = Eigen::MatrixXd::Zero(terms, terms);
-  Eigen::VectorXd right = Eigen::VectorXd::Zero(terms), powers(terms);
+  // Plain loops over the lower triangle: this is most of the time of reading a record.
+  Eigen::Matrix<double, most_toe_terms, most_toe_terms> sums = decltype(sums)::Zero();
+  Eigen::Vector<double, most_toe_terms> of_forces = decltype(of_forces)::Zero(), powers;
   double sum = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
     sum += f[i] * f[i];
     if (x[i] <= zero) continue;
     powers[0] = (x[i] - zero) / (x.back() - zero);
     for (int k = 1; k < terms; ++k) powers[k] = powers[k - 1] * powers[0];
-    products.selfadjointView<Eigen::Lower>().rankUpdate(powers);
-    right += f[i] * powers;
+    for (int l = 0; l < terms; ++l) {
+      for (int k = l; k < terms; ++k) sums(k, l) += powers[k] * powers[l];
+      of_forces[l] += f[i] * powers[l];
+    }
   }
+  const auto products = sums.topLeftCorner(terms, terms);
+  const auto right = of_forces.head(terms);
   const auto solved = [&](int from) {  // c_k from this k on, and what they leave
     const int n = terms - from;
     const Eigen::MatrixXd left = products.bottomRightCorner(n, n);
@@ -302,7 +307,7 @@ double find_start(Pull& pull, double peak) {
   if (flat) {
     offset = mean(std::span(pull.f).first(idle));
     if (std::abs(offset) > 3 * noise / std::sqrt(static_cast<double>(idle)))
-      pull.say(fmt::format("load cell offset of {:.3g} N taken off", offset));
+      pull.say(fmt::format("load cell offset of {:.3g} N subtracted", offset));
     else
       offset = 0;
   }
@@ -345,10 +350,10 @@ CleanRecord clean_record(const TensileRecord& record, LoadKind kind) {
   clean.length = record.coupon.length;
   clean.width = record.coupon.width;
   if (kind == LoadKind::per_width && !(clean.width > 0))
-    throw Error(ExitCode::bad_data,
-                fmt::format("{}: no coupon width: write \"# width: 50 mm\" in it or width_m in the file "
-                            "beside it",
-                            record.file.string()));
+    throw Error(
+        ExitCode::bad_data,
+        fmt::format("{}: no coupon width: write \"# width: 50 mm\" in it or width_m in the campaign file",
+                    record.file.string()));
   if (record.force.size() < fewest_points)
     pull.refuse(record.line.back(),
                 fmt::format("{} measurements; a curve needs {}", record.force.size(), fewest_points));
@@ -362,7 +367,7 @@ CleanRecord clean_record(const TensileRecord& record, LoadKind kind) {
   std::size_t slack_points = 0;
   while (slack_points < pull.x.size() && pull.x[slack_points] < start) ++slack_points;
   if (slack_points > 1)
-    pull.say(fmt::format("slack of {:.3g} mm taken off ({} points, up to line {})", 1e3 * clean.slack,
+    pull.say(fmt::format("slack of {:.3g} mm subtracted ({} points, up to line {})", 1e3 * clean.slack,
                          slack_points, pull.line[slack_points - 1]));
   pull.keep(slack_points, pull.x.size());
   const double per = kind == LoadKind::per_width ? clean.width : 1.0;
@@ -380,7 +385,7 @@ CleanRecord clean_record(const TensileRecord& record, LoadKind kind) {
   if (clean.failure_strain < least_strain || clean.failure_strain > most_strain)
     pull.refuse(pull.line.back(),
                 fmt::format("strain {:.3g} at failure ({:.4g} mm on {:.4g} mm): cloth and line fail between "
-                            "{} and {}; is the displacement or the length wrong by 1000 (m for mm)?",
+                            "{} and {}; check displacement and length for a factor of 1000 (m for mm)",
                             clean.failure_strain, 1e3 * clean.failure_strain * clean.length,
                             1e3 * clean.length, least_strain, most_strain));
   return clean;

@@ -105,12 +105,11 @@ MeanCurve mean_curve(const std::vector<CleanRecord>& samples) {
     if (curve.samples[i][at] > curve.samples[most][at]) most = i;
   }
   if (curve.samples[most][at] > most_ratio * std::max(0.0, curve.samples[least][at]))
-    throw Error(
-        ExitCode::bad_data,
-        fmt::format("{} and {} cannot be the same material: {:.4g} and {:.4g} at strain {:.3g}; mixed "
-                    "units, or a wrong width or orientation?",
-                    curve.names[most], curve.names[least], curve.samples[most][at], curve.samples[least][at],
-                    curve.strain[at]));
+    throw Error(ExitCode::bad_data,
+                fmt::format("{} and {} cannot be the same material: {:.4g} and {:.4g} at strain {:.3g}; "
+                            "check for mixed units, wrong width or orientation",
+                            curve.names[most], curve.names[least], curve.samples[most][at],
+                            curve.samples[least][at], curve.strain[at]));
   for (int i = 0; i < grid_points; ++i) {
     std::vector<double> values;
     for (const auto& sample : curve.samples) values.push_back(sample[i]);
@@ -224,7 +223,7 @@ int lowest_with_r2(const std::vector<MeanCurve>& curves, const FitOptions& optio
   }
   throw Error(ExitCode::bad_data,
               fmt::format("no polynomial up to degree {} follows the {:.0f} deg curve with R2 above {} (best "
-                          "{:.3f}); look at its records, or choose a degree",
+                          "{:.3f}); check its records, or choose a degree",
                           options.highest_degree, worst->orientation, options.wanted_r2, worst_r2));
 }
 

@@ -56,18 +56,19 @@ void check_angle(TensileRecord& record, const Bench& bench) {
   if (angle == 0 || angle == 45 || angle == 90) return;
   const std::string file = record.file.string();
   throw Error(ExitCode::bad_data,
-              angle < 0 ? fmt::format("{}: no orientation: write \"# orientation: 45 deg\" in it or "
-                                      "orientation_deg in {}",
-                                      file, bench.file.string())
-                        : fmt::format("{}: orientation {} deg; cloth is pulled at 0, 45 or 90", file, angle));
+              angle < 0
+                  ? fmt::format("{}: no orientation: write \"# orientation: 45 deg\" in it or "
+                                "orientation_deg in {}",
+                                file, bench.file.string())
+                  : fmt::format("{}: orientation {} deg; cloth must be tested at 0, 45 or 90", file, angle));
 }
 
 void warn_of_record(const CleanRecord& record, MaterialFit& fit) {
   if (!record.breaks)
-    fit.warnings.push_back(fmt::format(
-        "{} ends at its highest force: no break is seen, so that the strength is this or more (is the "
-        "record whole?)",
-        record.name));
+    fit.warnings.push_back(
+        fmt::format("{} ends at its maximum force without a break: the strength is at least this value; "
+                    "check that the record is complete",
+                    record.name));
   for (const std::string& text : {record.slip, record.late})
     if (!text.empty()) fit.warnings.push_back(fmt::format("{}: {}", record.name, text));
 }
@@ -82,11 +83,9 @@ std::vector<CleanRecord> clean_all(const Bench& bench, MaterialFit& fit) {
     for (TensileRecord& record : records_of(bench, coupon, file)) {
       check_angle(record, bench);
       if (!taken.insert({hash, record.specimen}).second)
-        throw Error(
-            ExitCode::bad_data,
-            fmt::format("{}: {} and {} are the same record; one pull counts once, else it narrows the "
-                        "scatter that it does not know",
-                        bench.file.string(), names[hash], coupon.file));
+        throw Error(ExitCode::bad_data, fmt::format("{}: {} and {} are the same record; remove one, because "
+                                                    "a repeated test makes the scatter too small",
+                                                    bench.file.string(), names[hash], coupon.file));
       fit.understood.insert(fit.understood.end(), record.understood.begin(), record.understood.end());
       records.push_back(clean_record(record, load_kind(bench.kind)));
       records.back().name =
@@ -100,15 +99,14 @@ std::vector<CleanRecord> clean_all(const Bench& bench, MaterialFit& fit) {
 
 void check_copies(const Bench& bench, const std::vector<CleanRecord>& records, MaterialFit& fit) {
   for (const auto& [first, second, own_noise] : find_copies(records)) {
-    const std::string text = fmt::format("{} and {} share their noise but for {:.1f} %", records[first].name,
+    const std::string text = fmt::format("{} and {} have the same noise within {:.1f} %", records[first].name,
                                          records[second].name, 100 * own_noise);
     if (own_noise < surely_copied)
-      throw Error(
-          ExitCode::bad_data,
-          fmt::format("{}: {}: they are one pull, copied, whatever its scale, units, rows or start; one pull "
-                      "counts once, else it narrows the scatter that it does not know",
-                      bench.file.string(), text));
-    fit.warnings.push_back(text + ": is one a copy of the other? Then it narrows the scatter");
+      throw Error(ExitCode::bad_data,
+                  fmt::format("{}: {}: they are copies of one test with different scale, units, rows or "
+                              "start; remove one, because a repeated test makes the scatter too small",
+                              bench.file.string(), text));
+    fit.warnings.push_back(text + ": if one is a copy of the other, the scatter is too small");
   }
 }
 
@@ -118,7 +116,7 @@ DirectionFit direction_of(const std::string& name, const std::vector<CleanRecord
     throw Error(
         ExitCode::bad_data,
         fmt::format("{}: one sample only for {}: its scatter is unknown, so no band can be given; add "
-                    "samples, or accept that with single_samples = true",
+                    "samples, or accept this with single_samples = true",
                     samples.front().name, name));
   return {name, samples.front().orientation, samples, mean_curve(samples), {}};
 }
@@ -165,10 +163,9 @@ void gather_directions(const Bench& bench, const std::vector<CleanRecord>& recor
   std::vector<CleanRecord> warp = at(0);
   const std::vector<CleanRecord> weft = at(90), bias = at(45);
   if (warp.empty())
-    throw Error(ExitCode::bad_data,
-                fmt::format("{}: no record along the warp (orientation 0): the cloth's own "
-                            "curve comes from it",
-                            bench.file.string()));
+    throw Error(
+        ExitCode::bad_data,
+        fmt::format("{}: no record along the warp (orientation 0), which is required", bench.file.string()));
   fit.directions.push_back(direction_of("warp", warp, bench));
   if (!weft.empty()) {
     DirectionFit other = direction_of("weft", weft, bench);
@@ -177,11 +174,11 @@ void gather_directions(const Bench& bench, const std::vector<CleanRecord>& recor
                         differs(fit.directions[0].curve, other.curve, bench.confidence));
     if (fit.weft_differs) {
       fit.directions.push_back(std::move(other));
-      fit.notes.push_back("warp and weft differ: each has its curve");
+      fit.notes.push_back("warp and weft differ: separate curves");
     } else {
       warp.insert(warp.end(), weft.begin(), weft.end());
       fit.directions[0] = direction_of("warp", warp, bench);
-      fit.notes.push_back("weft is like warp within their scatter: one curve from all of them");
+      fit.notes.push_back("warp and weft are equal within their scatter: one common curve");
     }
   }
   if (!bias.empty()) fit.directions.push_back(direction_of("bias", bias, bench));
@@ -196,30 +193,28 @@ void check_plausible(const Bench& bench, const MaterialFit& fit) {
     const double tenacity = load / mass;
     if (tenacity >= least_tenacity && tenacity <= most_tenacity) continue;
     const bool line = bench.kind == BenchKind::line;
-    throw Error(
-        ExitCode::bad_data,
-        fmt::format("{}: {} fails at {:.4g} {} with {:.4g} {}: {:.3g} N/tex, and fibres bear {} to {} "
-                    "N/tex; is force{} or mass wrong by 1000 (kN for N, g for kg)?",
-                    bench.file.string(), direction.name, load, line ? "N" : "N/m", mass,
-                    line ? "kg/m" : "kg/m2", 1e-6 * tenacity, 1e-6 * least_tenacity, 1e-6 * most_tenacity,
-                    line ? "" : ", width"));
+    throw Error(ExitCode::bad_data,
+                fmt::format("{}: {} fails at {:.4g} {} with {:.4g} {}: {:.3g} N/tex, but fibres have {} to "
+                            "{} N/tex; check force{} and mass for a factor of 1000 (kN for N, g for kg)",
+                            bench.file.string(), direction.name, load, line ? "N" : "N/m", mass,
+                            line ? "kg/m" : "kg/m2", 1e-6 * tenacity, 1e-6 * least_tenacity,
+                            1e-6 * most_tenacity, line ? "" : ", width"));
   }
   if (!bench.thickness_m) return;
   const double density = mass / *bench.thickness_m;
   if (density < least_density || density > most_density)
-    throw Error(
-        ExitCode::bad_data,
-        fmt::format("{}: {:.4g} kg/m2 in {:.4g} mm is {:.4g} kg/m3, and cloth has {} to {}; is mass or "
-                    "thickness wrong by 1000?",
-                    bench.file.string(), mass, 1e3 * *bench.thickness_m, density, least_density,
-                    most_density));
+    throw Error(ExitCode::bad_data, fmt::format("{}: {:.4g} kg/m2 in {:.4g} mm is {:.4g} kg/m3, but cloth "
+                                                "has {} to {}; check mass and thickness for a factor of 1000",
+                                                bench.file.string(), mass, 1e3 * *bench.thickness_m, density,
+                                                least_density, most_density));
 }
 
 std::string why_degree(const std::vector<MeanCurve>& curves, int degree, const FitOptions& options) {
   const double error = prediction_error(curves, degree, options);
   if (options.rule == DegreeRule::nfm || std::isnan(error))
-    return fmt::format("degree {}: the lowest with R2 above {}{}", degree, options.wanted_r2,
-                       options.rule == DegreeRule::nfm ? "" : "; one sample a direction predicts no other");
+    return fmt::format(
+        "degree {}: the lowest with R2 above {}{}", degree, options.wanted_r2,
+        options.rule == DegreeRule::nfm ? "" : "; with one sample per direction no prediction can be tested");
   return fmt::format(
       "degree {}: the lowest that predicts a sample from the others as well as any, within {:.2g} % "
       "(weighted to strains up to {:.3g})",
@@ -243,8 +238,8 @@ void make_fits(const Bench& bench, MaterialFit& fit) {
     const CurveFit& f = direction.fit;
     if (f.rising_until < f.tested_strain)
       fit.warnings.push_back(
-          fmt::format("the {} fit of degree {} turns over at strain {:.3g}, inside the tested "
-                      "{:.3g}: used up to there only",
+          fmt::format("the {} fit of degree {} has a maximum at strain {:.3g}, below the tested {:.3g}: used "
+                      "up to this strain only",
                       direction.name, degree, f.rising_until, f.tested_strain));
     const double working = std::min(bench.working_strain, f.tested_strain);
     const double carried = polynomial(f.coefficients(), 1, working);
@@ -255,10 +250,11 @@ void make_fits(const Bench& bench, MaterialFit& fit) {
                       "zero_offset = true",
                       direction.name, f.offset.value, 100 * std::abs(f.offset.value) / carried, working));
     if (f.k.front().value <= 0)
-      throw Error(ExitCode::bad_data,
-                  fmt::format("the {} fit of degree {} starts with K_1 = {:.4g}: cloth pulls "
-                              "back from the start; choose a lower degree",
-                              direction.name, degree, f.k.front().value));
+      throw Error(
+          ExitCode::bad_data,
+          fmt::format(
+              "the {} fit of degree {} starts with K_1 = {:.4g}: it must be above 0; choose a lower degree",
+              direction.name, degree, f.k.front().value));
   }
 }
 
@@ -341,13 +337,13 @@ MaterialFit fit_material(const Bench& bench) {
     fit.permeability = fit_permeability(points);
     fit.has_permeability = true;
     fit.notes.push_back(
-        "the pressure drop is the cloth's own; flow.porosity_model = \"paper\" takes calibrated coefficients "
-        "(darcy_1_m2, forchheimer_1_m) instead");
+        "the pressure drop is that of the cloth; flow.porosity_model = \"paper\" requires calibrated "
+        "coefficients (darcy_1_m2, forchheimer_1_m) instead");
     if (fit.permeability.one_point)
-      fit.notes.push_back("air permeability from one pressure: b = 0 is a choice (creeping flow)");
+      fit.notes.push_back("air permeability at one pressure: b = 0 is assumed (creeping flow)");
     if (fit.permeability.on_bound)
       fit.warnings.push_back(
-          "air permeability: a or b came out negative and is held at 0; check the readings");
+          "air permeability: a or b would be negative and is set to 0; check the readings");
   }
   fit.material = make_material(bench, fit);
   return fit;
@@ -374,9 +370,8 @@ std::vector<std::string> material_warnings(const Material& material, double larg
         std::vector<std::string> list;
         if (!m.warning.empty()) list.push_back(fmt::format("{}: {}", m.name, m.warning));
         if (m.tested_strain > 0 && largest_strain > m.tested_strain)
-          list.push_back(
-              fmt::format("{}: strain {:.3g} lies beyond the tested {:.3g}; the law is extrapolated there",
-                          m.name, largest_strain, m.tested_strain));
+          list.push_back(fmt::format("{}: strain {:.3g} exceeds the tested {:.3g}; the law is extrapolated",
+                                     m.name, largest_strain, m.tested_strain));
         return list;
       },
       material);

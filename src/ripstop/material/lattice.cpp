@@ -68,11 +68,9 @@ LatticeLaws lattice_laws(const std::vector<double>& coefficients, double xi, dou
   const double range = tested_strain > 0 ? tested_strain : unknown_strain;
   for (int i = 1; i <= samples; ++i)
     if (!(value(coefficients, range * i / samples) > 0))
-      throw Error(
-          ExitCode::bad_data,
-          fmt::format("the cloth's curve is not positive at strain {:.3g}, inside the tested range of "
-                      "{:.3g}; check its coefficients",
-                      range * i / samples, range));
+      throw Error(ExitCode::bad_data, fmt::format("the curve of the cloth is not positive at strain {:.3g}, "
+                                                  "within the tested range of {:.3g}; check its coefficients",
+                                                  range * i / samples, range));
 
   // Gauss-Newton on the relative misfit; the load is nearly linear in the coefficients, so few rounds do.
   double best = 0;
@@ -110,9 +108,10 @@ LatticeLaws lattice_laws(const std::vector<double>& coefficients, double xi, dou
   }
   throw Error(
       ExitCode::bad_data,
-      fmt::format("no lattice returns the cloth's curve up to strain {:.3g}: {:.2g} % off at best; lower "
-                  "the tested strain or the shear fraction",
-                  range, 100 * best));
+      fmt::format(
+          "no lattice reproduces the curve of the cloth up to strain {:.3g}: smallest error {:.2g} %; lower "
+          "the tested strain or the shear fraction",
+          range, 100 * best));
 }
 
 // As lattice_resultants(), with a law for each yarn.
@@ -233,11 +232,10 @@ WovenLaws taut_laws(const Fabric& fabric) {
     if (error <= tolerance) return laws;
     best = added == 0 ? error : std::min(best, error);
   }
-  throw Error(
-      ExitCode::bad_data,
-      fmt::format("no lattice returns the cloth's warp and weft curves up to strain {:.3g}: {:.2g} % off at "
-                  "best; lower the tested strain or the shear fraction",
-                  range, 100 * best));
+  throw Error(ExitCode::bad_data,
+              fmt::format("no lattice reproduces the warp and weft curves of the cloth up to strain {:.3g}: "
+                          "smallest error {:.2g} %; lower the tested strain or the shear fraction",
+                          range, 100 * best));
 }
 
 }  // namespace

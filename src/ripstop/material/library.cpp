@@ -33,7 +33,7 @@ std::vector<double>& coefficients(Line& material) {
 }
 
 void describe_kind(Fields& fields, Material& material) {
-  fields.kind("kind", material, {"fabric", "line", "tape"}, "What the material is.");
+  fields.kind("kind", material, {"fabric", "line", "tape"}, "Kind of the material.");
 }
 
 std::string load_base(Material& material, const std::string& name) {
@@ -51,20 +51,19 @@ void check_law(const std::vector<double>& k, double tested_strain, const std::st
                const std::string& strain_key, Findings& findings) {
   if (!findings.sound({key, strain_key}) || k.empty()) return;
   if (k[0] <= 0) {
-    findings.add(key + "[0]", k[0], "above 0",
-                 "must be above 0: cloth and line pull back when they are pulled");
+    findings.add(key + "[0]", k[0], "above 0", "must be above 0: the initial stiffness is positive");
     return;
   }
   if (k[0] > stiffness_limit)
     findings.add(key + "[0]", k[0], fmt::format("at most {:g}", stiffness_limit),
-                 "is more than a steel cable has");
+                 "exceeds that of a steel cable");
   const double strain = tested_strain > 0 ? tested_strain : least_tested_strain;
   double limit = coefficient_ratio_limit * k[0];
   for (std::size_t i = 1; i < k.size(); ++i) {
     limit /= strain;
     if (std::abs(k[i]) > limit)
       findings.add(fmt::format("{}[{}]", key, i), k[i], fmt::format("between {:g} and {:g}", -limit, limit),
-                   fmt::format("is more than {:g} K_1 / {:g}^{}, which no curve up to this strain has",
+                   fmt::format("exceeds {:g} K_1 / {:g}^{}, the limit of a curve up to this strain",
                                coefficient_ratio_limit, strain, i));
   }
   const SpringLaw law{k, 1};
@@ -72,32 +71,31 @@ void check_law(const std::vector<double>& k, double tested_strain, const std::st
   for (int i = 1; i <= samples; ++i) {
     const double at = tested_strain * i / samples;
     if (law.tangent(at) > 0) continue;
-    findings.add(
-        key, fmt::format("[{}]", fmt::join(k, ", ")), "",
-        fmt::format("the load falls with growing strain beyond {:.3g}, within tested_strain = {}; a fit "
-                    "must rise up to there",
-                    at, tested_strain));
+    findings.add(key, fmt::format("[{}]", fmt::join(k, ", ")), "",
+                 fmt::format("the load falls with growing strain beyond {:.3g}, within tested_strain = {}; "
+                             "the load must increase up to this strain",
+                             at, tested_strain));
     return;
   }
 }
 
 void describe_source(Fields& fields, std::string& source, std::string& warning) {
-  fields.text("source", source, 500, "Where the numbers come from.");
+  fields.text("source", source, 500, "Source of the values.");
   fields.text("warning", warning, most_warning_text,
-              "What the fit of its tests found doubtful; every run repeats it.");
+              "Doubts about the fit of its tests, repeated by every run.");
 }
 
 void describe_compression(Fields& fields, double& compression, std::optional<double>& buckling_strain) {
   fields.number("compression", compression, from(0).up_to(1),
-                "Stiffness in compression relative to K_1, up to the buckling strain; 0: none.");
+                "Stiffness in compression relative to K_1 up to the buckling strain; 0: none.");
   fields
       .number("buckling_strain", buckling_strain, from(0).up_to(1),
-              "Strain in compression beyond which it wrinkles and carries no more.")
+              "Compressive strain beyond which the cloth wrinkles and carries no more load.")
       .absent("1e-6 in steady runs with the `sheet` model and in openings, else never");
 }
 
 void describe_damping(Fields& fields, double& damping) {
-  fields.number("damping_n_s_m", damping, from(0).up_to(1000), "Relative damping C of one spring.");
+  fields.number("damping_n_s_m", damping, from(0).up_to(1000), "Relative damping C of each spring.");
 }
 
 void describe_resistance(Fields& fields, ClothResistance& cloth) {
@@ -107,13 +105,12 @@ void describe_resistance(Fields& fields, ClothResistance& cloth) {
       .absent("`0`");
   fields
       .number("pressure_drop_quadratic_pa_s2_m2", cloth.pressure_drop_quadratic_pa_s2_m2, from(0).up_to(1e9),
-              "Quadratic coefficient b of the same.")
+              "Quadratic coefficient b of this pressure drop.")
       .absent("`0`");
   fields
-      .number(
-          "permeability_cfm", cloth.permeability_cfm, above(0).below(1e4),
-          "Air permeability in CFM/ft2 at 124.5 Pa (ASTM D737), instead of a and b: a is 124.5 Pa over that "
-          "velocity, b is 0.")
+      .number("permeability_cfm", cloth.permeability_cfm, above(0).below(1e4),
+              "Air permeability in CFM/ft2 at 124.5 Pa (ASTM D737), instead of a and b: a is 124.5 Pa over "
+              "the velocity, b is 0.")
       .absent("a and b are used");
   fields
       .number(
@@ -128,8 +125,7 @@ void describe_resistance(Fields& fields, ClothResistance& cloth) {
 }
 
 void describe_tested_strain(Fields& fields, double& strain) {
-  fields.number("tested_strain", strain, from(0).up_to(5),
-                "Largest strain of the tests behind the fit; 0: unknown.");
+  fields.number("tested_strain", strain, from(0).up_to(5), "Largest strain of the fitted tests; 0: unknown.");
 }
 
 }  // namespace
@@ -145,9 +141,9 @@ void describe(Fields& fields, Fabric& fabric) {
                  from(-coefficient_limit).up_to(coefficient_limit),
                  "K_1..K_n along the weft, N/m; empty: as along the warp.");
   fields.number("shear_fraction", fabric.shear_fraction, from(0).below(1),
-                "xi, share of the shear springs ([NFM] Eq. 11).");
+                "Shear fraction xi: share of the shear springs ([NFM] Eq. 11).");
   fields.number("bending_fraction", fabric.bending_fraction, from(0).below(1),
-                "eps, share of the bending springs ([NFM] Eq. 11).");
+                "Bending fraction eps: share of the bending springs ([NFM] Eq. 11).");
   describe_compression(fields, fabric.compression, fabric.buckling_strain);
   describe_damping(fields, fabric.damping_n_s_m);
   fields.number("areal_density_kg_m2", fabric.areal_density_kg_m2, above(0).up_to(10), "Mass per area.")
@@ -169,7 +165,7 @@ void describe(Fields& fields, Line& line) {
                "K_1..K_n of tension against strain, N ([NFM] Eq. 2); K_1 above 0.")
       .required();
   fields.number("bending_fraction", line.bending_fraction, from(0).below(1),
-                "eps, share of the springs to the next node but one.");
+                "Bending fraction eps: share of the springs to the second next node.");
   fields.number("compression", line.compression, from(0).up_to(1),
                 "Stiffness in compression relative to K_1; 0: the line goes slack.");
   describe_damping(fields, line.damping_n_s_m);
@@ -220,9 +216,9 @@ void check_material(const Material& material, const std::string& key, Findings& 
   if (fabric->shear_fraction + fabric->bending_fraction >= 1)
     findings.add(
         dot("shear_fraction"), fabric->shear_fraction, fmt::format("below {}", 1 - fabric->bending_fraction),
-        fmt::format("with bending_fraction = {} nothing is left for the axial springs; the sum must be "
-                    "below 1",
-                    fabric->bending_fraction));
+        fmt::format(
+            "no share remains for the axial springs with bending_fraction = {}; the sum must be below 1",
+            fabric->bending_fraction));
 }
 
 std::string kind_of(const Material& material) {
@@ -286,7 +282,7 @@ Material library_material(const std::string& name) {
     return read_material(data_directory() / "materials" / (name + ".toml"));
   const std::string near = nearest(name, names);
   throw Error(ExitCode::usage, fmt::format("no material {} in the library; {}", quoted(name),
-                                           near.empty() ? fmt::format("it has: {}", fmt::join(names, ", "))
+                                           near.empty() ? fmt::format("available: {}", fmt::join(names, ", "))
                                                         : fmt::format("did you mean {}?", quoted(near))));
 }
 

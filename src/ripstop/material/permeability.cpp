@@ -26,8 +26,8 @@ PermeabilityFit fit_permeability(const std::vector<FlowPoint>& points) {
                               p.pressure, p.velocity));
     if (p.velocity < slowest || p.velocity > fastest)
       throw Error(ExitCode::bad_data,
-                  fmt::format("air permeability: {:.4g} m/s through cloth is outside {} to {} m/s; CFM per "
-                              "square foot belong under cfm (1 CFM/ft2 = 5.08e-3 m/s)",
+                  fmt::format("air permeability: {:.4g} m/s through cloth is outside {} to {} m/s; write CFM "
+                              "per square foot as cfm (1 CFM/ft2 = 5.08e-3 m/s)",
                               p.velocity, slowest, fastest));
   }
   PermeabilityFit fit;
@@ -71,7 +71,7 @@ double cfm(const PressureDrop& law) {
 
 PressureDrop law_of_cfm(double flow) {
   if (!(flow > 0) || !(flow < 1e4))
-    throw Error(ExitCode::bad_data, fmt::format("{} CFM/ft2 is no permeability of a cloth", flow));
+    throw Error(ExitCode::bad_data, fmt::format("{} CFM/ft2 is outside the range of cloth", flow));
   return {half_inch_of_water / (flow * cfm_per_square_foot), 0};
 }
 
@@ -97,7 +97,8 @@ ErgunCloth ergun_cloth(const PressureDrop& law, const ErgunAir& air) {
   const double g3 = 1.75 * air.density / (6 * law.quadratic);
   if (!(g3 < 1))
     throw Error(ExitCode::bad_data,
-                fmt::format("b = {} is less than open air's: no porosity below 1 gives it", law.quadratic));
+                fmt::format("b = {} is smaller than that of open air: no porosity below 1 corresponds to it",
+                            law.quadratic));
   return {std::cbrt(g3), 150 * air.viscosity / (36 * law.linear * g3)};
 }
 

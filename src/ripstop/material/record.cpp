@@ -41,8 +41,8 @@ void read_comment(const table::Comment& comment, const std::filesystem::path& fi
   const std::optional<double> scale = unit_factor(dimension, unit);
   if (!value || !scale)
     refuse(file, comment.line,
-           fmt::format("\"{}\" must be a number and a unit ({}), as in \"# length: 200 mm\"", comment.text,
-                       known_units(dimension)));
+           fmt::format("\"{}\" must be a number and a unit ({}), for example \"# length: 200 mm\"",
+                       comment.text, known_units(dimension)));
   if (dimension == Dimension::length && !(*value > 0))
     refuse(file, comment.line, fmt::format("the coupon's {} is {}: it must be above 0", key, rest));
   *target = *value * *scale;
@@ -53,8 +53,8 @@ void agree(const std::filesystem::path& file, double& own, double given, bool ow
   if (!given_said) return;
   if (own_said && std::abs(own - given) > 1e-6 * std::abs(given))
     refuse(file, 0,
-           fmt::format("its own comments say {} {:.6g} {}, the file beside it says {:.6g} {}", what, own,
-                       unit, given, unit));
+           fmt::format("the comments of the record give {} {:.6g} {}, the campaign file gives {:.6g} {}",
+                       what, own, unit, given, unit));
   own = given;
 }
 
@@ -67,7 +67,7 @@ Coupon coupon_of(const table::Table& table, const Coupon& given) {
   agree(file, own.orientation, given.orientation, own.orientation >= 0, given.orientation >= 0, "orientation",
         "deg");
   if (!(own.length > 0))
-    refuse(file, 0, "no coupon length: write \"# length: 200 mm\" in it or length_m in the file beside it");
+    refuse(file, 0, "no coupon length: write \"# length: 200 mm\" in it or length_m in the campaign file");
   return own;
 }
 

@@ -90,7 +90,7 @@ void settle_resistance(
   if (forms.size() > 1) {
     const std::string& first = forms[0].keys.front().first;
     return refuse(forms[1].keys.front().first,
-                  fmt::format("the permeability is given in two ways; leave this key or {} out", first));
+                  fmt::format("the permeability is given twice; remove this key or {}", first));
   }
   const PorosityModel model = model_of(cloth);
   const PressureDrop law = as_sheet(cloth);

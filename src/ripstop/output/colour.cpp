@@ -57,7 +57,8 @@ Colour scale_colour(double fraction) {
     for (int i = 0; i < steps; ++i) colours.push_back(exact_scale_colour(i / (steps - 1.0)));
     return colours;
   }();
-  return table[static_cast<std::size_t>(std::lround(std::clamp(fraction, 0.0, 1.0) * (steps - 1)))];
+  const double within = fraction > 0 ? std::min(fraction, 1.0) : 0;  // also what is not a number
+  return table[static_cast<std::size_t>(std::lround(within * (steps - 1)))];
 }
 
 double lightness(Colour colour) {
@@ -83,7 +84,7 @@ ColourRange colour_range(const std::vector<double>& values, double clipped) {
   std::copy_if(values.begin(), values.end(), std::back_inserter(sorted),
                [](double value) { return std::isfinite(value); });
   if (sorted.empty())
-    throw Error(ExitCode::bad_data, "a picture needs at least one finite value to colour by");
+    throw Error(ExitCode::bad_data, "a picture needs at least one finite value for its colours");
   std::sort(sorted.begin(), sorted.end());
   const auto skipped = static_cast<std::size_t>(clipped * static_cast<double>(sorted.size() - 1));
   ColourRange range{sorted[skipped], sorted[sorted.size() - 1 - skipped]};

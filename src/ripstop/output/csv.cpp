@@ -62,8 +62,8 @@ CsvTable parse(const std::filesystem::path& path, std::string_view text) {
       table.columns.assign(fields.begin(), fields.end());
       for (std::size_t i = 0; i < fields.size(); ++i)
         if (std::find(fields.begin(), fields.begin() + i, fields[i]) != fields.begin() + i)
-          throw Error(ExitCode::bad_data, fmt::format("{}:{}: the column \"{}\" is there twice",
-                                                      path.string(), number, fields[i]));
+          throw Error(ExitCode::bad_data,
+                      fmt::format("{}:{}: the column \"{}\" occurs twice", path.string(), number, fields[i]));
       continue;
     }
     if (fields.size() != table.columns.size()) {
@@ -75,14 +75,14 @@ CsvTable parse(const std::filesystem::path& path, std::string_view text) {
       const char* last = fields[i].data() + fields[i].size();
       const auto [stop, error] = std::from_chars(fields[i].data(), last, row[i]);
       if (error != std::errc() || stop != last) {
-        throw Error(ExitCode::bad_data, fmt::format("{}:{}: column {} holds \"{}\", which is no number",
+        throw Error(ExitCode::bad_data, fmt::format("{}:{}: column {} contains \"{}\", which is not a number",
                                                     path.string(), number, table.columns[i], fields[i]));
       }
     }
   }
   if (table.columns.empty()) {
     throw Error(ExitCode::bad_data,
-                fmt::format("{} is empty: a line with the columns' names is missing", path.string()));
+                fmt::format("{} is empty: the line with the names of the columns is missing", path.string()));
   }
   return table;
 }
@@ -137,8 +137,8 @@ CsvTable read_csv(const std::filesystem::path& path) {
   const std::string text = read_file(path);
   if (!text.empty() && text.back() != '\n' && text.back() != '\r')
     throw Error(ExitCode::bad_data,
-                fmt::format("{}:{}: the last line has no end: the table may be cut in mid-number; take the "
-                            "whole file, or end the line",
+                fmt::format("{}:{}: the last line has no line end: the table may be incomplete; use the "
+                            "complete file, or end the line",
                             path.string(), std::count(text.begin(), text.end(), '\n') + 1));
   return parse(path, text);
 }
@@ -154,7 +154,7 @@ CsvLog::CsvLog(std::filesystem::path path, std::vector<std::string> columns,
     if (complete > 0) table = parse(path_, std::string_view(text).substr(0, complete));
     if (table.columns != columns_) {
       throw Error(ExitCode::bad_data,
-                  fmt::format("{} has the columns {} where {} are written; move it away", path_.string(),
+                  fmt::format("{} has the columns {} instead of {}; move it away", path_.string(),
                               fmt::join(table.columns, ", "), fmt::join(columns_, ", ")));
     }
     table.rows.resize(std::min(table.rows.size(), keep_rows.value_or(table.rows.size())));

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <memory>
 
+#include "ripstop/core/build_info.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 
@@ -44,7 +46,21 @@ void set_font_options(cairo_t* page) {
   cairo_set_font_options(page, options.get());
 }
 
+/// Portable archives and wheels contain the fonts of the pictures, so that a system without fonts draws the same text.
+void use_shipped_fonts() {
+  static const bool done = [] {
+    try {
+      const std::filesystem::path list = data_directory() / "fonts/fonts.conf";
+      if (std::filesystem::exists(list)) ::setenv("FONTCONFIG_FILE", list.c_str(), 0);
+    } catch (const Error&) {  // no shipped data: the fonts of the system
+    }
+    return true;
+  }();
+  static_cast<void>(done);
+}
+
 void choose_font(cairo_t* page, const TextStyle& style) {
+  use_shipped_fonts();
   cairo_select_font_face(page, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,
                          style.bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_font_size(page, style.size);
@@ -56,7 +72,8 @@ void write_drawing(const std::filesystem::path& path, int width, int height,
                    const std::function<void(cairo_t*)>& draw) {
   const std::string ending = path.extension().string();
   if (ending != ".png" && ending != ".svg") {
-    throw Error(ExitCode::usage, fmt::format("{}: pictures are written as .png or .svg", path.string()));
+    throw Error(ExitCode::usage,
+                fmt::format("{}: the name of a picture must end in .png or .svg", path.string()));
   }
   const bool svg = ending == ".svg";
   std::string bytes;

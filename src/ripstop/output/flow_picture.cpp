@@ -71,7 +71,7 @@ void draw_scale(cairo_t* page, double y, ColourRange range) {
 
 void write_flow_picture(const std::filesystem::path& path, const std::string& title,
                         const std::vector<FlowShot>& shots) {
-  if (shots.empty()) throw Error(ExitCode::bad_data, path.string() + " was not written: no shot");
+  if (shots.empty()) throw Error(ExitCode::bad_data, path.string() + " was not written: no field is given");
   std::vector<double> speeds;
   for (const FlowShot& shot : shots) {
     if (shot.field->grid.ny != 1)

@@ -1,4 +1,4 @@
-// Cutting patterns as files for plotter, laser cutter and printer: DXF and SVG to scale.
+// Cutting patterns as files for plotter, laser cutter and printer: DXF, SVG and tiled PDF, to scale.
 #pragma once
 
 #include <filesystem>
@@ -11,13 +11,29 @@ namespace ripstop {
 /// Unit of the coordinates of a DXF file, which its header states ($MEASUREMENT and $INSUNITS).
 enum class DxfUnit { millimetres, inches };
 
-/// AutoCAD R12 (AC1009) text: the outline to cut on layer CUT, the finished edge on layer SEAM, an arrow along the
-/// warp on layer GRAIN, name and count on layer TEXT. Throws Error(io).
+/// Paper of a home printer.
+enum class Paper { a4, letter };
+
+/// What the title block of a drawing states beside the piece; empty parts are left out.
+struct PatternHead {
+  std::string title, case_file, date;
+};
+
+/// AutoCAD R12 (AC1009) text, one layer for each kind of line: CUT, the outline to cut; SEAM, the finished edge; FOLD, where
+/// hems are turned; NOTCH, slits that meet those of the neighbour; LINES, where suspension lines are sewn on; GRAIN, an
+/// arrow along the warp; TEXT, title block and names of the edges. Throws Error(io).
 void write_pattern_dxf(const std::filesystem::path& path, const Piece& piece, const Allowances& allowances,
-                       DxfUnit unit = DxfUnit::millimetres);
+                       DxfUnit unit = DxfUnit::millimetres, const PatternHead& head = {});
 
 /// The same as an SVG that prints at true size, with a 100 mm bar to check the scale. Throws Error(io).
-void write_pattern_svg(const std::filesystem::path& path, const Piece& piece, const Allowances& allowances);
+void write_pattern_svg(const std::filesystem::path& path, const Piece& piece, const Allowances& allowances,
+                       const PatternHead& head = {});
+
+/// The same at true size on sheets of paper: first an overview of the sheets with a control square of 100 mm, then every
+/// sheet that a line crosses, with registration marks at its corners. Throws Error(usage) where more than 300 sheets would
+/// be needed, Error(io).
+void write_pattern_pdf(const std::filesystem::path& path, const Piece& piece, const Allowances& allowances,
+                       Paper paper, const PatternHead& head = {});
 
 /// The bill of materials as a table: part, material, count, finished and cut amount, unit,
 /// mass. Throws Error(io).

@@ -207,7 +207,7 @@ void write_contact_sheet(const std::filesystem::path& path, const CanopyMesh& me
                          const std::string& quantity, const std::vector<CanopyShot>& shots) {
   constexpr int most_shots = 12, across = 4, tile_width = 450, tile_height = 420, head = 84, foot = 48;
   if (shots.empty() || shots.size() > most_shots) {
-    throw Error(ExitCode::bad_data, fmt::format("{}: a contact sheet of {} shapes; 1 to {} fit",
+    throw Error(ExitCode::bad_data, fmt::format("{}: an overview of {} shapes; must be 1 to {}",
                                                 path.string(), shots.size(), most_shots));
   }
   std::vector<double> values;

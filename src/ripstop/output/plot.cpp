@@ -44,7 +44,7 @@ Scale make_scale(const std::filesystem::path& path, const PlotAxis& axis, const 
   low = axis.from.value_or(low);
   high = axis.to.value_or(high);
   if (!scale.shows(low) || !scale.shows(high) || low > high) {
-    throw Error(ExitCode::bad_data, fmt::format("{} could not be drawn: the axis \"{}\" has nothing to show",
+    throw Error(ExitCode::bad_data, fmt::format("{} could not be drawn: the axis \"{}\" has no values",
                                                 path.string(), axis.label));
   }
   if (axis.logarithmic) {
@@ -131,6 +131,13 @@ void draw_marker(cairo_t* page, double x, double y, std::size_t kind, Colour col
   cairo_stroke(page);
 }
 
+/// An error bar with caps.
+void draw_bar(cairo_t* page, double x, double low, double high, Colour colour) {
+  constexpr double cap = 9, width = 2;
+  draw_line(page, x, low, x, high, width, colour);
+  for (const double end : {low, high}) draw_line(page, x - cap, end, x + cap, end, width, colour);
+}
+
 void begin_stroke(cairo_t* page, const PlotSeries& series, Colour colour) {
   constexpr double dashes[] = {9, 6};
   cairo_set_dash(page, dashes, series.dashed ? 2 : 0, 0);
@@ -156,6 +163,11 @@ void draw_series(cairo_t* page, const PlotSeries& series, std::size_t index, con
     begin_stroke(page, series, series_colour(index));
     cairo_stroke(page);
     cairo_set_dash(page, nullptr, 0, 0);
+  }
+  for (std::size_t i = 0; i < series.bars.size(); ++i) {
+    const double low = series.y[i] - series.bars[i], high = series.y[i] + series.bars[i];
+    if (drawn(i) && low < high && y.shows(low) && y.shows(high))
+      draw_bar(page, x(series.x[i]), y(low), y(high), series_colour(index));
   }
   for (std::size_t i = 0; series.markers && i < series.x.size(); ++i) {
     if (drawn(i)) draw_marker(page, x(series.x[i]), y(series.y[i]), index, series_colour(index));
@@ -238,13 +250,16 @@ void draw_legend(cairo_t* page, const Plot& plot, const Scale& x, const Scale& y
 void write_plot(const std::filesystem::path& path, const Plot& plot) {
   std::vector<double> all_x, all_y;
   for (const PlotSeries& series : plot.series) {
-    if (series.x.size() != series.y.size()) {
+    const std::size_t bars = series.bars.size();
+    if (series.x.size() != series.y.size() || (bars != 0 && bars != series.y.size())) {
       throw Error(ExitCode::bad_data,
-                  fmt::format("{} could not be drawn: series \"{}\" has {} x for {} y", path.string(),
-                              series.name, series.x.size(), series.y.size()));
+                  fmt::format("{} could not be drawn: series \"{}\" has {} x for {} y and {} bars",
+                              path.string(), series.name, series.x.size(), series.y.size(), bars));
     }
     all_x.insert(all_x.end(), series.x.begin(), series.x.end());
     all_y.insert(all_y.end(), series.y.begin(), series.y.end());
+    for (std::size_t i = 0; i < bars; ++i)
+      for (const double bar : {-series.bars[i], series.bars[i]}) all_y.push_back(series.y[i] + bar);
   }
   const Scale x = make_scale(path, plot.x, all_x, left, right, 8);
   const Scale y = make_scale(path, plot.y, all_y, bottom, top, 6);

@@ -14,6 +14,7 @@ struct PlotSeries {
   bool line = true;  // joins neighbours; a value that cannot be drawn leaves a gap
   bool markers = true;
   bool dashed = false;
+  std::vector<double> bars = {};  // half the height of an error bar at each point; empty: none
 };
 struct PlotAxis {
   std::string label;  // with unit: "speed [m/s]"
@@ -26,7 +27,7 @@ struct Plot {
   std::vector<PlotSeries> series;
 };
 
-/// PNG or SVG by the ending of `path`. Throws Error(bad_data) when a series' x and y differ in length, no
+/// PNG or SVG by the ending of `path`. Throws Error(bad_data) when a series' x, y and bars differ in length, no
 /// value can be drawn, or an axis is empty; Error(usage) for another ending, Error(io).
 void write_plot(const std::filesystem::path& path, const Plot& plot);
 

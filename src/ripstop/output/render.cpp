@@ -200,8 +200,7 @@ Camera fitted(Camera camera, const std::vector<Vec3>& points, double aspect, dou
     left = std::min(left, at.x), right = std::max(right, at.x);
     top = std::min(top, at.y), bottom = std::max(bottom, at.y);
   }
-  if (!(left <= right))
-    throw Error(ExitCode::bad_data, "a picture needs something to show: no point is in view");
+  if (!(left <= right)) throw Error(ExitCode::bad_data, "the picture would be empty: no point is in view");
   camera.u = 0.5 * (left + right);
   camera.v = 0.5 - 0.5 * (top + bottom);
   camera.height = std::max(bottom - top, (right - left) / aspect) / (1 - 2 * margin);

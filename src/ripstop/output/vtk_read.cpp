@@ -45,7 +45,7 @@ std::vector<double> numbers(std::string_view text) {
 }
 
 std::uint64_t word(const Path& path, std::string_view data, std::size_t at) {
-  if (data.size() < 8 || at > data.size() - 8) reject(path, "is cut short");
+  if (data.size() < 8 || at > data.size() - 8) reject(path, "is incomplete");
   std::uint64_t value = 0;
   std::memcpy(&value, data.data() + at, sizeof value);
   return value;
@@ -60,7 +60,7 @@ std::string inflate(const Path& path, std::string_view data, std::size_t at) {
   std::size_t from = at + 24 + 8 * blocks;
   for (std::uint64_t b = 0; b < blocks; ++b) {
     const std::uint64_t packed = word(path, data, at + 24 + 8 * b);
-    if (from > data.size() || packed > data.size() - from) reject(path, "is cut short");
+    if (from > data.size() || packed > data.size() - from) reject(path, "is incomplete");
     uLongf size = b + 1 == blocks && rest > 0 ? rest : block;
     const std::size_t done = bytes.size();
     bytes.resize(done + size);
@@ -95,7 +95,7 @@ std::vector<double> decoded(const Path& path, std::string_view type, const std::
 
 /// A whole number of the head, before anything is made of so many.
 std::size_t whole(const Path& path, double value, double most) {
-  if (!(value >= 0 && value <= most) || value != std::floor(value)) reject(path, "has a damaged head");
+  if (!(value >= 0 && value <= most) || value != std::floor(value)) reject(path, "has a damaged header");
   return static_cast<std::size_t>(value);
 }
 
@@ -104,7 +104,7 @@ std::array<std::vector<double>, 3> image_edges(const Path& path, std::string_vie
   const std::vector<double> extent = numbers(attribute(element, "WholeExtent")),
                             origin = numbers(attribute(element, "Origin")),
                             spacing = numbers(attribute(element, "Spacing"));
-  if (extent.size() != 6 || origin.size() != 3 || spacing.size() != 3) reject(path, "has a damaged head");
+  if (extent.size() != 6 || origin.size() != 3 || spacing.size() != 3) reject(path, "has a damaged header");
   std::array<std::vector<double>, 3> edges;
   for (std::size_t axis = 0; axis < 3; ++axis)
     for (std::size_t i = 0, end = whole(path, extent[2 * axis + 1], 1e6); i <= end; ++i)
@@ -128,7 +128,7 @@ VtkFile read_vtk(const Path& path) {
   const std::size_t raw = all.find(mark);
   if (!all.starts_with("<?xml") || raw == std::string_view::npos ||
       all.find("vtkZLibDataCompressor") == std::string_view::npos)
-    reject(path, "is no file that Ripstop wrote");
+    reject(path, "was not written by Ripstop");
   const std::string_view head = all.substr(0, raw), data = all.substr(raw + mark.size());
   VtkFile file;
   std::string section;
@@ -142,7 +142,7 @@ VtkFile read_vtk(const Path& path) {
     }
     const std::vector<double> where = numbers(attribute(element, "offset"));
     const std::vector<double> components = numbers(attribute(element, "NumberOfComponents"));
-    if (where.size() != 1 || components.size() != 1) reject(path, "has a damaged head");
+    if (where.size() != 1 || components.size() != 1) reject(path, "has a damaged header");
     file.arrays.push_back({section, std::string(attribute(element, "Name")),
                            static_cast<int>(whole(path, components[0], 1000)),
                            decoded(path, attribute(element, "type"),

@@ -13,7 +13,7 @@ void describe(Fields& fields, Conical& canopy) {
   describe_nominal_diameter(fields, canopy.nominal_diameter_m);
   describe_vent(fields, canopy.vent_diameter_m, canopy.vent_lines);
   fields.number("cone_angle_deg", canopy.cone_angle_deg, from(0).up_to(60),
-                "Angle between the cone and the plane of its skirt, as constructed; 25 to 30 is usual.");
+                "Angle between the constructed cone and the plane of its skirt; 25 to 30 is usual.");
 }
 
 void check_shape(const Conical& canopy, const Design& design, Findings& findings) {

@@ -31,10 +31,11 @@ Lattice choose_lattice(const Cross& canopy, const Design& design) {
                             ? 2 * static_cast<int>(std::lround(0.5 * wanted))
                             : static_cast<int>(std::lround(wanted));
   if (per_space < 1)
-    throw Error(ExitCode::usage,
-                fmt::format("parachute.mesh.cloth_nodes = {}: too few for {} lines at the end of an arm; ask "
-                            "for more nodes",
-                            design.mesh.cloth_nodes, spaces + 1));
+    throw Error(
+        ExitCode::usage,
+        fmt::format(
+            "parachute.mesh.cloth_nodes = {}: too few for {} lines at the end of an arm; use more nodes",
+            design.mesh.cloth_nodes, spaces + 1));
   Lattice lattice{per_space * spaces, 0};
   const double middle = std::pow(lattice.across + 1, 2);
   const double rows = (design.mesh.cloth_nodes - middle) / arms / (lattice.across + 1);
@@ -142,8 +143,7 @@ void Builder::add_tapes(const Tape& tape) {
 
 void describe(Fields& fields, Cross& canopy) {
   fields
-      .number("arm_length_m", canopy.arm_length_m, from(0.01).up_to(100),
-              "Length of each of the two strips, from end to end.")
+      .number("arm_length_m", canopy.arm_length_m, from(0.01).up_to(100), "Length of each of the two strips.")
       .required();
   fields
       .number("arm_width_m", canopy.arm_width_m, above(0).up_to(100),
@@ -156,13 +156,13 @@ void check_shape(const Cross& canopy, const Design& design, Findings& findings) 
   if (findings.sound({"parachute.arm_length_m", "parachute.arm_width_m"}) &&
       canopy.arm_width_m >= canopy.arm_length_m)
     findings.add("parachute.arm_width_m", canopy.arm_width_m, fmt::format("below {}", canopy.arm_length_m),
-                 "the strips must be longer than wide, else there are no arms");
+                 "the strips must be longer than wide");
   if (findings.sound({"parachute.gores"}) && design.gores != arms)
-    findings.add("parachute.gores", design.gores, "4", "the gores of a cross are its four arms");
+    findings.add("parachute.gores", design.gores, "4", "a cross has four arms, which count as gores");
   if (findings.sound({"parachute.lines.count"}) &&
       (design.lines.count % arms != 0 || design.lines.count < 2 * arms))
     findings.add("parachute.lines.count", design.lines.count, "8, 12, 16, ...",
-                 "every arm of a cross holds the same number of lines, two or more");
+                 "every arm of a cross has the same number of lines, at least two");
 }
 
 CanopyFacts facts(const Cross& canopy, int) {
@@ -183,11 +183,19 @@ CutPattern cut_pattern(const Cross& canopy, const Design& design) {
     return Piece{name,
                  count,
                  {{-width / 2, 0}, {width / 2, 0}, {width / 2, height}, {-width / 2, height}},
-                 {Edge::hem, Edge::hem, Edge::hem, Edge::hem}};
+                 {Edge::hem, Edge::hem, Edge::hem, Edge::hem},
+                 0,
+                 {"arm end", "arm side", "arm end", "arm side"}};
   };
   CutPattern cut;
   cut.pieces = {rectangle("whole strip", 1, length), rectangle("arm", 2, arm)};
-  cut.pieces[1].edges[2] = Edge::seam;
+  cut.pieces[1].edges[2] = Edge::seam, cut.pieces[1].edge_names[2] = "middle square";
+  const int spaces = design.lines.count / arms - 1;  // between the lines at the end of an arm
+  for (int k = 0; k <= spaces; ++k) {
+    const double x = width * (double(k) / spaces - 0.5);
+    cut.pieces[0].marks.insert(cut.pieces[0].marks.end(), {{{x, 0}, "line"}, {{x, length}, "line"}});
+    cut.pieces[1].marks.push_back({{x, 0}, "line"});
+  }
   if (design.tape.hems) cut.tapes = {{"arm end", arms, width}, {"arm side", 2 * arms, arm}};
   if (design.tape.seams) cut.tapes.push_back({"middle square", arms, width});
   return cut;

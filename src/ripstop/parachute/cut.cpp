@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "ripstop/parachute/gored.h"
+#include "ripstop/parachute/piece_edges.h"
 
 namespace ripstop {
 namespace {
@@ -35,7 +36,17 @@ Piece piece_of(const GoreStrip& strip, int count, bool joined_above) {
     piece.outline.push_back({-0.5 * kept[k].width, kept[k].height});
     piece.edges.push_back(Edge::seam);
   }
+  piece.edge_names.assign(piece.edges.size(), "gore seam");
   return piece;
+}
+
+/// Names the lower and the upper edge of strip `i`, and marks the suspension lines on the lowest.
+void name_edges(const GorePattern& pattern, std::size_t i, int lines, Piece& piece) {
+  const bool first = i == 0, last = i + 1 == pattern.strips.size();
+  const std::size_t top = piece.edges.size() / 2;
+  piece.edge_names[0] = first ? "skirt" : pattern.strips[i].joined ? "joint" : "lower edge";
+  piece.edge_names[top] = last ? "vent" : pattern.strips[i + 1].joined ? "joint" : "upper edge";
+  if (first) piece.marks = line_marks(piece, lines, pattern.gores);
 }
 
 }  // namespace
@@ -90,6 +101,7 @@ CutPattern cut_pattern(const GorePattern& pattern, const Design& design) {
     const GoreStrip& strip = pattern.strips[i];
     const bool joined_above = i + 1 < pattern.strips.size() && pattern.strips[i + 1].joined;
     cut.pieces.push_back(piece_of(strip, n, joined_above));
+    name_edges(pattern, i, design.lines.count, cut.pieces.back());
     const std::string name = pattern.strips.size() > 1 ? strip.name + ", " : "";
     const double lower = n * strip.stations.front().width, upper = n * strip.stations.back().width;
     if (has_hem_tape(design, pattern, i, false))

@@ -18,6 +18,12 @@ double polygon_area(const std::vector<Point2>& polygon);
 
 enum class Edge { seam, hem };
 
+/// Where something is sewn to a piece.
+struct PieceMark {
+  Point2 at;
+  std::string text;
+};
+
 /// A flat piece of cloth, finished size; edge i goes from corner i to the next. Counterclockwise, y toward
 /// the vent. [m]
 struct Piece {
@@ -25,7 +31,9 @@ struct Piece {
   int count = 0;
   std::vector<Point2> outline;
   std::vector<Edge> edges;
-  double grain = 0;  // of the warp, from y toward x [deg]
+  double grain = 0;                          // of the warp, from y toward x [deg]
+  std::vector<std::string> edge_names = {};  // of the edges; empty, or empty of one: "seam" or "hem"
+  std::vector<PieceMark> marks = {};         // suspension lines
 };
 
 struct CutLength {

@@ -26,8 +26,9 @@ void check_lines(const Design& design, Findings& findings) {
   if (sound && findings.sound({"parachute.lines.onto_disk_m"}) && lines.onto_disk_m) {
     const double run = facts(design).line_run;
     if (*lines.onto_disk_m > run * (1 + 1e-12))
-      findings.add("parachute.lines.onto_disk_m", *lines.onto_disk_m, fmt::format("at most {}", run),
-                   fmt::format("the lines would run past the vent's edge, which lies {} m farther in", run));
+      findings.add(
+          "parachute.lines.onto_disk_m", *lines.onto_disk_m, fmt::format("at most {}", run),
+          fmt::format("the lines would extend beyond the edge of the vent, which is {} m further in", run));
   }
   if (findings.sound({"parachute.lines.length_m", "parachute.mesh.line_segment_m"}) &&
       design.mesh.line_segment_m > lines.length_m / 2)
@@ -47,13 +48,12 @@ void check_columns(const Design& design, Findings& findings) {
   const int needed = std::lcm(design.lines.count, design.gores);
   if (needed <= columns) return;
   const double fitting = std::pow(needed / columns, 2) * design.mesh.cloth_nodes;
-  findings.add(
-      "parachute.lines.count", design.lines.count, "",
-      fmt::format("{} lines on {} gores need a mesh with a multiple of {} columns round the canopy, and "
-                  "parachute.mesh.cloth_nodes = {} gives about {:.0f}; take counts with a smaller common "
-                  "multiple, or at least {:.0f} nodes",
-                  design.lines.count, design.gores, needed, design.mesh.cloth_nodes, columns,
-                  std::ceil(fitting)));
+  findings.add("parachute.lines.count", design.lines.count, "",
+               fmt::format("{} lines on {} gores need a mesh with a multiple of {} columns around the "
+                           "canopy, but parachute.mesh.cloth_nodes = {} gives about {:.0f}; use counts with "
+                           "a smaller common multiple, or at least {:.0f} nodes",
+                           design.lines.count, design.gores, needed, design.mesh.cloth_nodes, columns,
+                           std::ceil(fitting)));
 }
 
 /// The word that chooses among families, whose own keys follow it.
@@ -88,24 +88,24 @@ void describe(Fields& fields, LineSet& lines) {
   fields.name("material", lines.material, "Material of the lines, of kind \"line\".");
   fields
       .number("onto_disk_m", lines.onto_disk_m, from(0).up_to(100),
-              "How far the lines run onto the canopy: from the skirt, or for a disk-gap-band from the disk's "
-              "edge, after the band and the gap (assumed: the source does not say).")
-      .absent("to the vent's edge (assumed)");
+              "Length of the lines on the canopy, from the skirt, or for a disk-gap-band from the edge of "
+              "the disk beyond band and gap (assumed: not given by the source).")
+      .absent("to the edge of the vent (assumed)");
 }
 
 void describe(Fields& fields, TapeLayout& tape) {
   fields
       .name("material", tape.material,
-            "Material of the reinforcement, of kind \"tape\"; \"none\": seams and hems of the cloth alone.")
+            "Material of the reinforcement, of kind \"tape\"; \"none\": seams and hems without tape.")
       .absent(
-          "`\"none\"` where a hem of the cloth holds the load of one line at the opening, else the lightest "
-          "tape that does");
+          "`\"none\"` if a hem of the cloth carries the opening load of one line, else the lightest tape "
+          "that carries it");
   fields.toggle("seams", tape.seams, "Tape along the seams between gores (assumed).");
   fields.toggle("hems", tape.hems, "Tape along the vent and all other edges of the cloth (assumed).");
   fields.toggle(
       "inner_hems", tape.inner_hems,
-      "With hems: also along open edges between skirt and vent, of sails and rings; false: those are "
-      "hemmed only, as small ringsails are. Not for a disk-gap-band or a cross.");
+      "With `hems`: tape also along open edges of sails and rings between skirt and vent; false: those edges "
+      "are hemmed without tape, as in small ringsails. Not for a disk-gap-band or a cross.");
 }
 
 void describe(Fields& fields, Riser& riser) {
@@ -116,16 +116,16 @@ void describe(Fields& fields, Riser& riser) {
 
 void describe(Fields& fields, MeshSettings& mesh) {
   fields.integer("cloth_nodes", mesh.cloth_nodes, from(500).up_to(2'000'000),
-                 "Nodes of the cloth that the mesh aims at. [NFM] used 25,600 for Stratos IV.");
+                 "Target number of cloth nodes. [NFM] used 25,600 for Stratos IV.");
   fields.number("line_segment_m", mesh.line_segment_m, from(0.001).up_to(10),
-                "Rest length that the springs of a line aim at.");
+                "Target rest length of the springs of a line.");
   fields.toggle(
       "sewn_straight", mesh.sewn_straight,
-      "Seams of gores keep to the straight segments between the nodes of a line; false: the cloth's nodes "
-      "between them are free beside the line, which is as long as the seam.");
-  fields.integer(
-      "folds", mesh.folds, from(0).up_to(1000),
-      "Every ring gets a multiple of twice as many columns, so that so many folds fit; 0: as it comes.");
+      "Sewn-line constraint: gore seams follow the straight segments between the nodes of a line; false: "
+      "cloth nodes between them can move freely next to the line, which has the length of the seam.");
+  fields.integer("folds", mesh.folds, from(0).up_to(1000),
+                 "Number of folds for which the mesh is prepared: the number of columns of every ring is a "
+                 "multiple of twice this number; 0: no such condition.");
 }
 
 void describe(Fields& fields, Design& design, const Families& types) {
@@ -134,18 +134,17 @@ void describe(Fields& fields, Design& design, const Families& types) {
       .number("nominal_area_m2", design.nominal_area_m2, above(0).up_to(10000),
               "Reference area S0 of the coefficients.")
       .absent(
-          "by the type's own definition: the cloth as cut (disk-gap-band), else the whole design surface "
-          "with vent and slots");
+          "definition of the canopy type: cut cloth (disk-gap-band), else the whole design surface with vent "
+          "and slots");
   fields
       .integer("gores", design.gores, from(3).up_to(500),
-               "Number of gores, equally wide; of a cross: its 4 arms.")
+               "Number of gores, equally wide; 4, the number of arms, for a cross.")
       .required();
   fields.name("canopy_material", design.canopy_material, "Material of the cloth, of kind \"fabric\".");
-  fields.choice(
-      "cut", design.cut,
-      {{"block", FabricCut::block}, {"block-across", FabricCut::across}, {"bias", FabricCut::bias}},
-      "How the pieces are cut from the cloth: warp along the gore, warp across it, or yarns at 45 degrees to "
-      "its centre line.");
+  fields.choice("cut", design.cut,
+                {{"block", FabricCut::block}, {"block-across", FabricCut::across}, {"bias", FabricCut::bias}},
+                "Orientation of the cloth: \"block\": warp along the gore; \"block-across\": warp across it; "
+                "\"bias\": yarns at 45 degrees to its centre line.");
   fields.table("lines", design.lines, "Suspension lines.").required();
   fields.table("tape", design.tape, "Reinforcement tape.");
   fields.table("riser", design.riser, "Riser between the fixed point and the confluence.");
@@ -163,10 +162,11 @@ void describe_nominal_diameter(Fields& fields, double& diameter) {
 void describe_vent(Fields& fields, double& diameter, bool& lines) {
   fields
       .number("vent_diameter_m", diameter, above(0).up_to(100),
-              "Diameter of the circle with the vent's area.")
+              "Diameter of the circle with the area of the vent.")
       .required();
-  fields.toggle("vent_lines", lines,
-                "The lines go on across the vent to the opposite radial, where they reach it (assumed).");
+  fields.toggle(
+      "vent_lines", lines,
+      "The lines continue across the vent to the opposite radial, if they reach the vent (assumed).");
 }
 
 void check_vent(double vent, double diameter, bool lines, const Design& design, Findings& findings) {
@@ -187,22 +187,22 @@ void check_vent_cells(double vent, const std::string& key, const Design& design,
   if (vent < cell)
     findings.add(
         key, of_diameter * vent, fmt::format("at least {:.3g}", of_diameter * cell),
-        fmt::format("the vent's diameter is smaller than a cell of the mesh, {:.3g} m with "
-                    "parachute.mesh.cloth_nodes = {}; make it larger, or ask for at least {:.0f} nodes",
+        fmt::format("the diameter of the vent is smaller than a cell of the mesh, {:.3g} m with "
+                    "parachute.mesh.cloth_nodes = {}; make it larger, or use at least {:.0f} nodes",
                     cell, design.mesh.cloth_nodes, std::ceil(computed_area(design) / (vent * vent))));
 }
 
 void check_vent_lines(bool lines, const Design& design, Findings& findings) {
   if (findings.sound({"parachute.lines.count"}) && lines && design.lines.count % 2 != 0)
     findings.add("parachute.lines.count", design.lines.count, "an even number",
-                 "a line goes on across the vent to the opposite one; set parachute.vent_lines = false for "
+                 "a line continues across the vent to the opposite one; set parachute.vent_lines = false for "
                  "an odd number of lines");
 }
 
 void check_inner_hems(const Design& design, Findings& findings) {
   if (!design.tape.inner_hems)
     findings.add("parachute.tape.inner_hems", "false", "true",
-                 "only canopies of gores can leave their inner edges without tape");
+                 "only canopies made of gores can have inner edges without tape");
 }
 
 void check_line_nodes(const Design& design, const std::string& key, double line_segment, Findings& findings) {
@@ -213,9 +213,9 @@ void check_line_nodes(const Design& design, const std::string& key, double line_
   if (length <= most_nodes * line_segment) return;
   findings.add(
       key, line_segment, fmt::format("at least {:.3g}", length / most_nodes),
-      fmt::format("{:.4g} m of lines and riser would have {:.3g} nodes, and {:.0e} are the most; make "
-                  "it at least {:.3g} m",
-                  length, length / line_segment, most_nodes, std::ceil(1e3 * length / most_nodes) / 1e3));
+      fmt::format(
+          "{:.4g} m of lines and riser would have {:.3g} nodes, more than {:.0e}; make it at least {:.3g} m",
+          length, length / line_segment, most_nodes, std::ceil(1e3 * length / most_nodes) / 1e3));
 }
 
 void check_design(const Design& design, Findings& findings) {

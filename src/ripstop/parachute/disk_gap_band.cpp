@@ -8,6 +8,7 @@
 #include "ripstop/core/toml/fields.h"
 #include "ripstop/core/toml/problem.h"
 #include "ripstop/parachute/cut.h"
+#include "ripstop/parachute/piece_edges.h"
 #include "ripstop/parachute/ring_layout.h"
 #include "ripstop/parachute/sewing.h"
 
@@ -133,11 +134,11 @@ void Builder::add_sewn_lines() {
 void describe(Fields& fields, DiskGapBand& canopy) {
   fields
       .number("disk_diameter_m", canopy.disk_diameter_m, from(0.01).up_to(100),
-              "Diameter of the flat disk, which is the band's too.")
+              "Diameter of the flat disk and of the band.")
       .required();
   fields
       .number("vent_diameter_m", canopy.vent_diameter_m, from(0.001).up_to(100),
-              "Diameter of the hole in the middle of the disk.")
+              "Diameter of the vent in the centre of the disk.")
       .required();
   fields
       .number("gap_height_m", canopy.gap_height_m, from(0.001).up_to(100),
@@ -190,11 +191,17 @@ CutPattern cut_pattern(const DiskGapBand& canopy, const Design& design) {
   };
   add_arc(outer, -half_angle, half_angle);
   add_arc(inner, half_angle, -half_angle);
+  sector.edge_names.assign(sector.edges.size(), "disk seam");
+  for (int i = 0; i < arc_pieces; ++i)
+    sector.edge_names[i] = "disk edge", sector.edge_names[arc_pieces + 1 + i] = "vent";
+  sector.marks = line_marks(sector, design.lines.count, design.gores);
   const double width = 2 * outer * half_angle, height = canopy.band_height_m;
-  const Piece panel{"band panel",
-                    design.gores,
-                    {{-width / 2, 0}, {width / 2, 0}, {width / 2, height}, {-width / 2, height}},
-                    {Edge::hem, Edge::seam, Edge::hem, Edge::seam}};
+  Piece panel{"band panel",
+              design.gores,
+              {{-width / 2, 0}, {width / 2, 0}, {width / 2, height}, {-width / 2, height}},
+              {Edge::hem, Edge::seam, Edge::hem, Edge::seam}};
+  panel.edge_names = {"skirt", "band seam", "band, upper edge", "band seam"};
+  panel.marks = line_marks(panel, design.lines.count, design.gores);
   CutPattern cut;
   cut.pieces = {sector, panel};
   if (design.tape.hems) {

@@ -30,6 +30,6 @@ struct Experience {
 /// reprints it (mwitty.com/content.php?id=5709156, text by character recognition).
 inline constexpr const char* knacke_transcribed =
     "Knacke, NWC TP 6575, Tables 5-1 and 5-2, infinite mass; value agrees with a public transcription, not "
-    "checked against the print";
+    "verified in print";
 
 }  // namespace ripstop

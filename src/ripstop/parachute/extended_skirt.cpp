@@ -21,10 +21,9 @@ void describe(Fields& fields, ExtendedSkirt& canopy) {
       .number("skirt_height_m", canopy.skirt_height_m, above(0).up_to(100),
               "Height of the extension, along the cloth; a tenth of the diameter for the 10 % type.")
       .required();
-  fields.number(
-      "skirt_diameter_share", canopy.skirt_diameter_share, from(0.3).up_to(1),
-      "Diameter of the extension's lower edge over the disk's: 1 for a straight extension, less for "
-      "one that is drawn in (full extended skirt).");
+  fields.number("skirt_diameter_share", canopy.skirt_diameter_share, from(0.3).up_to(1),
+                "Diameter of the lower edge of the extension over that of the disk: 1 for a straight "
+                "extension, less for a full extended skirt.");
 }
 
 void check_shape(const ExtendedSkirt& canopy, const Design& design, Findings& findings) {
@@ -32,8 +31,9 @@ void check_shape(const ExtendedSkirt& canopy, const Design& design, Findings& fi
   if (!findings.sound(shape_keys(design))) return;
   const double taper = canopy.disk_diameter_m / 2 * (1 - canopy.skirt_diameter_share);
   if (taper > canopy.skirt_height_m)
-    findings.add("parachute.skirt_height_m", canopy.skirt_height_m, fmt::format("at least {:.6g}", taper),
-                 fmt::format("the extension is drawn in by {:.6g} m of radius, more than it is high", taper));
+    findings.add(
+        "parachute.skirt_height_m", canopy.skirt_height_m, fmt::format("at least {:.6g}", taper),
+        fmt::format("the radius of the extension decreases by {:.6g} m, more than its height", taper));
 }
 
 GorePattern gore_pattern(const ExtendedSkirt& canopy, int gores) {

@@ -44,7 +44,7 @@ Piece piece_of(const Mesh& mesh, int index) {
   const auto refuse = [&](const char* why) {
     throw Error(ExitCode::bad_data, fmt::format("patch \"{}\" cannot be folded: {}", patch.name, why));
   };
-  if (!patch.periodic || patch.rows < 2) refuse("it does not go round the axis");
+  if (!patch.periodic || patch.rows < 2) refuse("it does not surround the axis");
   const Vec3 first = mesh.start[patch.node(0, 0)], last = mesh.start[patch.node(patch.rows - 1, 0)];
   const double r0 = radius_of(first), r1 = radius_of(last);
   Piece piece;
@@ -63,7 +63,7 @@ Piece piece_of(const Mesh& mesh, int index) {
                              ? radius_of(p) - piece.radius
                              : radius_of(p) - piece.slant * std::hypot(radius_of(p), p.z - piece.apex);
       if (std::abs(off) > same) {
-        refuse("it is neither a disk nor a cylinder nor a frustum");
+        refuse("it must be a disk, a cylinder or a frustum");
       }
     }
   }
@@ -271,7 +271,7 @@ void Folder::hang_pieces() {
   }
   for (const Piece& piece : pieces_) {
     if (!piece.placed) {
-      throw Error(ExitCode::bad_data, fmt::format("patch \"{}\" cannot be folded: no line holds it",
+      throw Error(ExitCode::bad_data, fmt::format("patch \"{}\" cannot be folded: no line is attached to it",
                                                   mesh_.patches[piece.patches[0]].name));
     }
   }
@@ -310,7 +310,7 @@ void check_folds(const Mesh& mesh, int folds) {
           "inflation.folds = {}: fold lines follow columns of the mesh, and its rings have multiples of {} "
           "columns; {}",
           folds, common,
-          possible.empty() ? "no number of folds fits: ask for more cloth_nodes"
+          possible.empty() ? "no number of folds is possible: use more cloth_nodes"
                            : fmt::format("possible: {}", fmt::join(possible, ", "))));
 }
 

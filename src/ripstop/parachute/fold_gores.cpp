@@ -63,7 +63,7 @@ double outer_fold(double strip, double height, double inner, double c) {
   if (root < 0) {
     throw Error(ExitCode::usage,
                 fmt::format("a strip of {:.4g} m between two folds is too short for inner folds at {:.4g} "
-                            "m from the axis; ask for another inflation.initial_radius_m or other folds",
+                            "m from the axis; change inflation.initial_radius_m or inflation.folds",
                             strip, inner));
   }
   return inner * c + std::sqrt(root);

@@ -70,10 +70,9 @@ void check_lattice(const Mesh& mesh) {
         for (const Vec3 axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}}) {
           const double sa = dot(a, axis), sb = dot(b, axis);
           if (std::abs(turn) > same * same && sa * sb < 0 && std::abs(sa) > same && std::abs(sb) > same)
-            throw Error(
-                ExitCode::usage,
-                "the middle of the sheet does not lie on a line of nodes, where it is to be folded: ask "
-                "for other parachute.mesh.cloth_nodes");
+            throw Error(ExitCode::usage,
+                        "the fold line in the middle of the canopy does not coincide with a line of nodes: "
+                        "change parachute.mesh.cloth_nodes");
         }
       }
     }
@@ -94,10 +93,10 @@ bool is_flat_sheet(const Mesh& mesh) {
 
 FoldedStart fold_sheet(const CanopyMesh& mesh, const Folding& folding) {
   if (folding.folds != 0 && folding.folds != sheet_folds)
-    throw Error(ExitCode::usage,
-                fmt::format("inflation.folds = {}: a flat sheet of square cells folds along the arms and the "
-                            "diagonals only: 4",
-                            folding.folds));
+    throw Error(
+        ExitCode::usage,
+        fmt::format("inflation.folds = {}: must be 4, along the arms and the diagonals of the flat canopy",
+                    folding.folds));
   check_lattice(mesh);
   std::vector<int> piece(mesh.node_count(), -1);
   for (const Patch& patch : mesh.patches)

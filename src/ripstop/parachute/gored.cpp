@@ -153,8 +153,8 @@ void Builder::attach(int index) {
   if (strip.slot > 0) {
     if (!(design_.tape.seams && materials_.tape) && !lines_reach_vent_)
       throw Error(ExitCode::usage,
-                  fmt::format("nothing spans the slot below the {}: let the lines run up to the vent (leave "
-                              "out parachute.lines.onto_disk_m) or set parachute.tape.seams = true and name "
+                  fmt::format("no line or tape crosses the slot below the {}: extend the lines to the vent "
+                              "(remove parachute.lines.onto_disk_m), or set parachute.tape.seams = true and "
                               "a parachute.tape.material",
                               strip.name));
     return;

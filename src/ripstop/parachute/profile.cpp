@@ -88,14 +88,14 @@ void check_piece(const ProfilePiece& piece, const std::string& key, Findings& fi
   if (piece.radius_m.size() != piece.height_m.size()) {
     findings.add(key + ".height_m", static_cast<double>(piece.height_m.size()),
                  fmt::format("{} numbers", piece.radius_m.size()),
-                 fmt::format("there are {} radii and {} heights; every point of the meridian needs both",
+                 fmt::format("there are {} radii and {} heights; every point of the meridian requires both",
                              piece.radius_m.size(), piece.height_m.size()));
     return;
   }
   for (std::size_t i = 1; i < piece.radius_m.size(); ++i)
     if (piece.radius_m[i] == piece.radius_m[i - 1] && piece.height_m[i] == piece.height_m[i - 1])
       findings.add(fmt::format("{}.radius_m[{}]", key, i), piece.radius_m[i], "",
-                   "this point of the meridian is the same as the one before; leave it out");
+                   "this point of the meridian equals the previous one; remove it");
 }
 
 }  // namespace
@@ -103,28 +103,29 @@ void check_piece(const ProfilePiece& piece, const std::string& key, Findings& fi
 void describe(Fields& fields, ProfilePiece& piece) {
   fields
       .numbers("radius_m", piece.radius_m, 2, 1000, above(0).up_to(100),
-               "Radii of the meridian's points, from the piece's lower edge toward the vent: all gores are "
-               "together as wide as this circle is long.")
+               "Radii of the points of the meridian, from the lower edge of the piece towards the vent. The "
+               "circumference is the total width of all gores.")
       .required();
   fields
       .numbers("height_m", piece.height_m, 2, 1000, from(-1000).up_to(1000),
-               "Heights of the same points, larger toward the vent; only differences count.")
+               "Heights of the same points, increasing towards the vent. Only differences are used.")
       .required();
   fields.number("leading_fullness", piece.leading_fullness, from(0).up_to(0.5),
                 "Fullness of the lower edge: its length over the chord between the radials, minus 1.");
   fields.number("trailing_fullness", piece.trailing_fullness, from(0).up_to(0.5),
                 "Fullness of the upper edge.");
   fields.toggle("sewn", piece.sewn,
-                "Sewn to the piece before along the whole edge; else held at the radials only.");
+                "Sewn to the previous piece along the whole edge; false: attached at the radials only.");
 }
 
 void describe(Fields& fields, ProfileCanopy& canopy) {
   fields
       .rows("pieces", canopy.pieces,
-            "The pieces of a gore from the skirt up; what lies between two of them is an open gap.")
+            "Pieces of a gore from the skirt upwards. The distance between two pieces is an open gap.")
       .required();
-  fields.toggle("vent_lines", canopy.vent_lines,
-                "The lines go on across the vent to the opposite radial, where they reach it (assumed).");
+  fields.toggle(
+      "vent_lines", canopy.vent_lines,
+      "The lines continue across the vent to the opposite radial, if they reach the vent (assumed).");
 }
 
 void check_shape(const ProfileCanopy& canopy, const Design& design, Findings& findings) {
@@ -141,7 +142,7 @@ void check_shape(const ProfileCanopy& canopy, const Design& design, Findings& fi
   const double widest = widest_of(canopy), skirt = canopy.pieces.front().radius_m.front();
   if (skirt < narrowest_skirt * widest)
     findings.add(pieces + "[0].radius_m[0]", skirt, fmt::format("at least {:.6g}", narrowest_skirt * widest),
-                 fmt::format("the skirt is drawn in to less than {} of the widest place, {:.6g} m",
+                 fmt::format("the radius of the skirt must be at least {} of the largest radius, {:.6g} m",
                              narrowest_skirt, widest));
   bool narrows = false;
   double last = 0;
@@ -151,7 +152,7 @@ void check_shape(const ProfileCanopy& canopy, const Design& design, Findings& fi
       const double r = piece.radius_m[k];
       if (narrows && r > last + touching * widest) {
         findings.add(fmt::format("{}[{}].radius_m[{}]", pieces, i, k), r, fmt::format("at most {:.6g}", last),
-                     "the canopy grows wider again toward the vent; such a waist is not meshed");
+                     "the radius increases again towards the vent; a waist is not supported");
         return;
       }
       narrows |= r < last - touching * widest;
@@ -159,8 +160,8 @@ void check_shape(const ProfileCanopy& canopy, const Design& design, Findings& fi
     }
     if (piece.sewn && (i == 0 || gap_below(canopy, i, gores) > 0))
       findings.add(fmt::format("{}[{}].sewn", pieces, i), "true", "false",
-                   i == 0 ? "below the first piece there is none to be sewn to"
-                          : fmt::format("it does not touch the piece before: {:.3g} m lie between",
+                   i == 0 ? "there is no piece below the first one"
+                          : fmt::format("it does not touch the previous piece: the gap is {:.3g} m",
                                         gap_below(canopy, i, gores)));
     if (piece.sewn && i > 0 &&
         std::abs(canopy.pieces[i - 1].trailing_fullness - piece.leading_fullness) > 1e-9)
@@ -169,7 +170,7 @@ void check_shape(const ProfileCanopy& canopy, const Design& design, Findings& fi
   }
   if (last >= widest)
     findings.add(fmt::format("{}[{}].radius_m", pieces, canopy.pieces.size() - 1), last,
-                 fmt::format("below {:.6g}", widest), "the canopy does not narrow toward a vent");
+                 fmt::format("below {:.6g}", widest), "the radius does not decrease towards the vent");
   check_vent_cells(2 * last,
                    fmt::format("{}[{}].radius_m[{}]", pieces, canopy.pieces.size() - 1,
                                canopy.pieces.back().radius_m.size() - 1),

@@ -135,7 +135,7 @@ RingLayout lay_out_rings(const std::vector<Strip>& strips, double cloth_area, co
         ExitCode::usage,
         fmt::format(
             "parachute.mesh.cloth_nodes = {}: too few for {} gores and {} lines, whose seams and radials "
-            "need columns in multiples of {}; ask for more nodes",
+            "need columns in multiples of {}; use more nodes",
             nodes, design.gores, design.lines.count, multiple));
   }
   if (square) return lay_out_squarely(strips, best, spacing, multiple);

@@ -46,11 +46,11 @@ std::vector<SailRow> sail_rows(const Ringsail& canopy) {
 
 void describe(Fields& fields, SailRow& row) {
   fields.number("height", row.height, above(0).up_to(100),
-                "Height of the row, as a share: rows fill what slots and vent leave of the gore.");
-  fields.number(
-      "slot_deg", row.slot_deg, from(0).up_to(30),
-      "Open height above the row, as an arc of the sphere; a row without a slot is tied to the next "
-      "one at the radials only.");
+                "Relative height of the row: the rows share the height of the gore without slots and vent in "
+                "this proportion.");
+  fields.number("slot_deg", row.slot_deg, from(0).up_to(30),
+                "Open height above the row, as an arc of the sphere. A row without a slot is attached to the "
+                "next one at the radials only.");
   fields.number("leading_fullness", row.leading_fullness, from(0).up_to(0.5),
                 "Fullness of the lower edge: its length over the chord between the radials, minus 1.");
   fields.number("trailing_fullness", row.trailing_fullness, from(0).up_to(0.5),
@@ -61,12 +61,12 @@ void describe(Fields& fields, Ringsail& canopy) {
   describe_nominal_diameter(fields, canopy.nominal_diameter_m);
   describe_vent(fields, canopy.vent_diameter_m, canopy.vent_lines);
   fields.number("half_angle_deg", canopy.half_angle_deg, from(20).up_to(90),
-                "Half the angle of the cap seen from the sphere's middle; 60 is the classic quarter sphere.");
-  fields.integer("sails", canopy.sails, from(3).up_to(40), "Sails in a gore.");
+                "Half the angle of the cap at the centre of the sphere; 60 is the classic quarter sphere.");
+  fields.integer("sails", canopy.sails, from(3).up_to(40), "Number of sails of a gore.");
   fields.rows("rows", canopy.rows,
-              "The rows of sails from the skirt up; without this table the classic K1 layout: 3-degree slots "
-              "below the two top rows, the top one half as high, leading-edge fullness 0 at the skirt, then "
-              "from 0.11 down to 0.05, 0 in the two top rows.");
+              "Rows of sails from the skirt upwards. Default: the classic K1 layout. The two top rows have "
+              "3-degree slots below them, and the top row has half height. The leading-edge fullness is 0 at "
+              "the skirt, then decreases from 0.11 to 0.05, and is 0 in the two top rows.");
 }
 
 void check_shape(const Ringsail& canopy, const Design& design, Findings& findings) {
@@ -75,9 +75,10 @@ void check_shape(const Ringsail& canopy, const Design& design, Findings& finding
   check_vent(canopy.vent_diameter_m, skirt, canopy.vent_lines, design, findings);
   if (!findings.sound(shape_keys(design))) return;
   if (!canopy.rows.empty() && static_cast<int>(canopy.rows.size()) != canopy.sails) {
-    findings.add("parachute.sails", canopy.sails, fmt::format("{}", canopy.rows.size()),
-                 fmt::format("there are {} tables [[parachute.rows]], one is needed for every sail of a gore",
-                             canopy.rows.size()));
+    findings.add(
+        "parachute.sails", canopy.sails, fmt::format("{}", canopy.rows.size()),
+        fmt::format("there are {} tables [[parachute.rows]]; one is required for every sail of a gore",
+                    canopy.rows.size()));
     return;
   }
   const std::vector<SailRow> rows = sail_rows(canopy);
@@ -85,15 +86,14 @@ void check_shape(const Ringsail& canopy, const Design& design, Findings& finding
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const double height = one * rows[i].height;
     if (rows[i].slot_deg > 0 && rows[i].slot_deg >= height)
-      findings.add(
-          canopy.rows.empty() ? "parachute.sails" : fmt::format("parachute.rows[{}].slot_deg", i),
-          rows[i].slot_deg, "",
-          fmt::format("the slot above row {} is wider than the row, which slots and vent leave {:.3g} "
-                      "degrees of arc",
-                      i + 1, std::max(0.0, height)));
+      findings.add(canopy.rows.empty() ? "parachute.sails" : fmt::format("parachute.rows[{}].slot_deg", i),
+                   rows[i].slot_deg, "",
+                   fmt::format("the slot above row {} is wider than the row, for which slots and vent leave "
+                               "{:.3g} degrees of arc",
+                               i + 1, std::max(0.0, height)));
     if (i + 1 == rows.size() && rows[i].slot_deg > 0)
       findings.add(fmt::format("parachute.rows[{}].slot_deg", i), rows[i].slot_deg, "0",
-                   "above the last row is the vent; give its size as parachute.vent_diameter_m");
+                   "the vent is above the last row; give its size as parachute.vent_diameter_m");
   }
 }
 

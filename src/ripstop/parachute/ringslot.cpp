@@ -33,13 +33,14 @@ void describe(Fields& fields, Ringslot& canopy) {
   describe_nominal_diameter(fields, canopy.nominal_diameter_m);
   describe_vent(fields, canopy.vent_diameter_m, canopy.vent_lines);
   fields.number("cone_angle_deg", canopy.cone_angle_deg, from(0).up_to(60),
-                "Angle between the canopy as constructed and the plane of its skirt; 0 for a flat one.");
+                "Angle between the constructed canopy and the plane of its skirt; 0: flat.");
   fields.integer("rings", canopy.rings, from(2).up_to(100), "Number of rings of cloth, equally high.")
       .required();
   fields.number("slot_height_m", canopy.slot_height_m, above(0).up_to(10), "Open height between two rings.")
       .required();
-  fields.integer("vertical_tapes", canopy.vertical_tapes, from(0).up_to(20),
-                 "Tapes in every gore between its seams that keep the rings apart (assumed).");
+  fields.integer(
+      "vertical_tapes", canopy.vertical_tapes, from(0).up_to(20),
+      "Number of vertical tapes of every gore between its seams, which keep the rings apart (assumed).");
 }
 
 void check_shape(const Ringslot& canopy, const Design& design, Findings& findings) {
@@ -48,7 +49,7 @@ void check_shape(const Ringslot& canopy, const Design& design, Findings& finding
   if (canopy.vertical_tapes > 0 && design.tape.material == no_tape &&
       findings.sound({"parachute.vertical_tapes"}))
     findings.add("parachute.vertical_tapes", canopy.vertical_tapes, "0",
-                 "parachute.tape.material is \"none\": there is nothing to make them of");
+                 "vertical tapes require a parachute.tape.material other than \"none\"");
   if (!findings.sound(shape_keys(design))) return;
   if (canopy.slot_height_m >= layout.ring_height)
     findings.add(

@@ -16,10 +16,9 @@ double sphere_radius(double nominal_diameter, double half_angle) {
 void describe(Fields& fields, Spherical& canopy) {
   describe_nominal_diameter(fields, canopy.nominal_diameter_m);
   describe_vent(fields, canopy.vent_diameter_m, canopy.vent_lines);
-  fields.number(
-      "half_angle_deg", canopy.half_angle_deg, from(20).up_to(90),
-      "Half the angle of the cap seen from the sphere's middle: 90 is a hemisphere, 60 a quarter of "
-      "the sphere.");
+  fields.number("half_angle_deg", canopy.half_angle_deg, from(20).up_to(90),
+                "Half the angle of the cap at the centre of the sphere: 90 is a hemisphere, 60 a quarter of "
+                "the sphere.");
 }
 
 void check_shape(const Spherical& canopy, const Design& design, Findings& findings) {

@@ -67,7 +67,7 @@ GridField read_field(const std::filesystem::path& path) {
   for (const std::vector<double>& edges : file.edges) cells *= edges.size() < 2 ? 0 : edges.size() - 1;
   if (!pressure || !velocity || cells == 0 || pressure->values.size() != cells ||
       velocity->values.size() != 3 * cells)
-    throw Error(ExitCode::bad_data, fmt::format("{}: is no flow that Ripstop wrote", path.string()));
+    throw Error(ExitCode::bad_data, fmt::format("{}: is not a flow field written by Ripstop", path.string()));
   return {file.edges, pressure->values, velocity->values};
 }
 

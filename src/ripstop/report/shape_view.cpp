@@ -29,7 +29,7 @@ std::vector<int> corners_of(const VtkFile& file, const std::filesystem::path& pa
                             std::size_t corners) {
   const std::vector<double>& points = array(file, path, section, "connectivity");
   if (points.size() != corners * array(file, path, section, "offsets").size())
-    reject(path, "has cells of another kind than Ripstop writes");
+    reject(path, "has cells of a type that Ripstop does not write");
   return {points.begin(), points.end()};
 }
 
@@ -116,7 +116,7 @@ ShapeView read_shape(const std::vector<ShapeFiles>& files) {
       view.parts.assign(parts.begin(), parts.end());
     }
     if (!view.frames.empty() && frame.points.size() != view.frames.front().points.size())
-      reject(pair.canopy, "is of another mesh than the first of its series");
+      reject(pair.canopy, "has a different mesh than the first file of its series");
     for (const CellValues& values : frame.cells)
       if (4 * values.values.size() != view.quads.size())
         reject(pair.canopy, "has arrays of another length than its cells");

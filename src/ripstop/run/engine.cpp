@@ -23,8 +23,7 @@ EngineOptions engine_options(const Settings& resolved) {
 void require_hosts(const std::filesystem::path& hostfile, const Settings& resolved) {
   if (hostfile.empty()) return;
   if (!engine_of(resolved).can.ranks || resolved.flow().ranks < 2)
-    throw Error(ExitCode::usage,
-                "--hostfile: needs ranks to put on hosts: --flow openfoam and --ranks of 2 or more");
+    throw Error(ExitCode::usage, "--hostfile: requires --flow openfoam and --ranks of 2 or more");
   openfoam::require_slots(hostfile, resolved.flow().ranks);
 }
 

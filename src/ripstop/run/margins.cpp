@@ -71,8 +71,8 @@ std::vector<std::string> margin_warnings(const std::optional<Margins>& margins) 
   for (const Margin& m : weakest_of_kinds(*margins))
     if (m.margin && *m.margin < 0)
       all.push_back(fmt::format(
-          "the {} does not hold: its load of {:.4g} {} with the safety factor is {:.3g} times the "
-          "allowable {:.4g} {} (margin of safety {:+.2f}); take a stronger material",
+          "the {} exceeds its allowable load: its load of {:.4g} {} with the safety factor is {:.3g} "
+          "times the allowable {:.4g} {} (margin of safety {:+.2f}); use a stronger material",
           m.member, m.load, m.unit, *m.used, *m.strength * m.knock_down, m.unit, *m.margin));
   return all;
 }

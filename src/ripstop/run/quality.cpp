@@ -20,30 +20,34 @@ constexpr double never = std::numeric_limits<double>::infinity();
 const std::vector<QualityLimit>& quality_limits() {
   static const std::vector<QualityLimit> limits = {
       {"energy_residual", "residual of the energy balance", 0.05, 0.2, false, 100, " % of the work",
-       "take a smaller step (inflation.step_fraction, inflation.courant) or finer cells (flow.cells)"},
+       "reduce the time step (inflation.step_fraction, inflation.courant) or use finer cells (flow.cells)"},
       {"momentum_residual", "residual of the momentum balance of the air", 0.01, 0.05, false, 100,
-       " % of the peak load", "take a smaller step of the air (inflation.courant)"},
+       " % of the peak load", "reduce the time step of the flow (inflation.courant)"},
+      {"flight_energy_residual", "residual of the energy balance of the flight", 0.01, 0.05, false, 100,
+       " % of the potential energy lost", "reduce the time step (inflation.step_fraction, flight.courant)"},
+      {"flight_momentum_residual", "residual of the momentum balance of the flight", 0.01, 0.05, false, 100,
+       " % of the weight", "use finer cells (flight.cells_across)"},
       {"start_strain", "strain of the folded start", 1e-3, 0.02, false, 100, " %",
        "change inflation.initial_radius_m or inflation.folds"},
       {"pierced_edges", "share of cloth edges that pierce cloth", 0.02, never, false, 100, " %",
        "raise inflation.contact_pa or parachute.mesh.cloth_nodes"},
-      {"contact_depth", "depth to which layers of cloth are pressed into each other", 0.6, never, false, 100,
+      {"contact_depth", "compression of layers of cloth in contact", 0.6, never, false, 100,
        " % of their distance", "raise inflation.contact_pa"},
-      {"ledger_gap", "difference of the force of the air, the nodal load and the line tension", 0.02, 0.1,
-       false, 100, " %", "let the coupling converge (coupling.max_iterations)"},
-      {"momentum_deficit_gap", "difference of the momentum deficit of the flow and its force", 0.05, 0.2,
-       false, 100, " %", "lower flow.residual or raise flow.max_iterations"},
+      {"ledger_gap", "difference of air load, cloth load and line load", 0.02, 0.1, false, 100, " %",
+       "let the coupling converge (coupling.max_iterations)"},
+      {"momentum_deficit_gap", "difference of momentum deficit and air load", 0.05, 0.2, false, 100, " %",
+       "lower flow.residual or raise flow.max_iterations"},
       {"cells_across", "number of flow cells across the inflated canopy", 10, 4, true, 1, "",
-       "take more cells (flow.cells) or a smaller box (flow.box_m)"},
+       "use more cells (flow.cells) or a smaller domain (flow.box_m)"},
   };
   return limits;
 }
 
-const QualityLimit& quality_limit(const std::string& key) {
+const QualityLimit& quality_limit(std::string_view key) {
   const auto& all = quality_limits();
   const auto found =
       std::find_if(all.begin(), all.end(), [&](const auto& limit) { return limit.key == key; });
-  if (found == all.end()) throw std::logic_error("no quality limit for " + key);
+  if (found == all.end()) throw std::logic_error("no quality limit for " + std::string(key));
   return *found;
 }
 
@@ -52,7 +56,8 @@ Judgement judge(const std::vector<QualityValue>& values) {
   for (const QualityValue& v : values) {
     const QualityLimit& limit = quality_limit(v.key);
     const auto beyond = [&](double bound) {
-      return !std::isfinite(v.value) || (limit.at_least ? v.value < bound : v.value > bound);
+      constexpr double rounding = 1 - 1e-9;  // ten cells across that are 9.999...
+      return !std::isfinite(v.value) || (limit.at_least ? v.value < rounding * bound : v.value > bound);
     };
     if (!beyond(limit.warn)) continue;
     const bool refused = beyond(limit.refuse);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "ripstop/case/settings.h"
@@ -24,7 +25,7 @@ struct QualityLimit {
 const std::vector<QualityLimit>& quality_limits();
 
 /// Throws std::logic_error for a key that the list does not have.
-const QualityLimit& quality_limit(const std::string& key);
+const QualityLimit& quality_limit(std::string_view key);
 
 struct QualityValue {
   const char* key;

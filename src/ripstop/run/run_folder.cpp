@@ -59,15 +59,16 @@ bool holds_run(const RunSettings& settings, const Settings& resolved, const std:
     if (foreign.empty()) return false;
     throw Error(
         ExitCode::usage,
-        fmt::format("{}: is not empty ({}) and holds no run of this version of Ripstop; choose another --out",
-                    folder.string(), foreign.front()));
+        fmt::format(
+            "{}: is not empty ({}) and contains no run of this version of Ripstop; choose another --out",
+            folder.string(), foreign.front()));
   }
   if (settings.fresh) return false;
   if (*earlier == inputs_hash(resolved, solver)) return true;
   if (!has_got_anywhere(folder)) return false;
   throw Error(ExitCode::usage,
-              fmt::format("{}: holds a run of other inputs (case, speed, grid, ranks, program or "
-                          "flow engine differ); choose another --out, or --fresh to replace it",
+              fmt::format("{}: contains a run with different inputs (case, speed, grid, ranks, program or "
+                          "flow engine); choose another --out, or replace it with --fresh",
                           folder.string()));
 }
 
@@ -111,17 +112,15 @@ void require_whole(const fs::path& folder, const std::string& except) {
   std::vector<std::string> damaged = damaged_files(folder);
   std::erase(damaged, except);
   if (damaged.empty()) return;
-  throw Error(
-      ExitCode::bad_data,
-      fmt::format("{}: {} lost or changed since the run ended; put back what was there, or compute it "
-                  "again with --fresh",
-                  folder.string(), fmt::join(damaged, ", ")));
+  throw Error(ExitCode::bad_data, fmt::format("{}: {} missing or changed after the end of the run; restore "
+                                              "the files, or compute the run again with --fresh",
+                                              folder.string(), fmt::join(damaged, ", ")));
 }
 
 void refuse_lost(const ClaimedFolder& folder) {
   if (const std::vector<std::string> lost = folder.lost(); !lost.empty())
     throw Error(ExitCode::bad_data,
-                fmt::format("{}: {} lost or changed since the checkpoint; start again with --fresh",
+                fmt::format("{}: {} missing or changed after the checkpoint; start again with --fresh",
                             folder.path().string(), fmt::join(lost, ", ")));
 }
 
@@ -132,10 +131,9 @@ std::optional<std::string> finished_result(const fs::path& folder) {
   const ordered_json result = ordered_json::parse(text, nullptr, false);
   const auto of = result.is_object() ? result.find("inputs_hash") : result.end();
   if (!result.is_object() || (of != result.end() && *of != ordered_json(inputs_of_run(folder).value_or(""))))
-    throw Error(
-        ExitCode::bad_data,
-        fmt::format("{}: result.json is not of the inputs of this folder; compute it again with --fresh",
-                    folder.string()));
+    throw Error(ExitCode::bad_data, fmt::format("{}: result.json does not belong to the inputs of this "
+                                                "folder; compute the run again with --fresh",
+                                                folder.string()));
   return text;
 }
 

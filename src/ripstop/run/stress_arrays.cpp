@@ -1,8 +1,11 @@
 #include "ripstop/run/stress_arrays.h"
 
+#include "ripstop/canopy/stress.h"
+
 namespace ripstop {
 
-std::vector<VtkArray> stress_arrays(const Mesh& mesh, const std::vector<CellStress>& stress) {
+std::vector<VtkArray> stress_arrays(const Mesh& mesh, const std::vector<Vec3>& positions,
+                                    const std::vector<CellStress>& stress) {
   std::vector<VtkArray> arrays;
   const auto add = [&](const char* name, const auto& value) {
     std::vector<double> values;
@@ -22,6 +25,9 @@ std::vector<VtkArray> stress_arrays(const Mesh& mesh, const std::vector<CellStre
   for (std::size_t i = 0; i < cells.size(); ++i)
     if (cells[i].corner[0] >= 0) directions.push_back(stress[i].direction);
   arrays.push_back(vtk_array("stress_max_direction", directions));
+  std::vector<double> means;
+  for (const CellStress& s : strip_stress(mesh, positions, stress)) means.push_back(s.von_mises);
+  arrays.push_back(vtk_array("von_mises_strip_n_per_m", cloth_cells_only(mesh, means)));
   return arrays;
 }
 

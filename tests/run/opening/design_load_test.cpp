@@ -32,8 +32,8 @@ bool mentions(const std::vector<std::string>& all, const std::string& text) {
                      [&](const std::string& one) { return one.find(text) != one.npos; });
 }
 
-// The drop of issue 58: handbook methods of finite mass give 107 to 134 N, a computed opening 718 N. 1.76 m and 20 m/s
-// are outside the range of the handbook's filling constants, so that the design load is C_x C_D S0 q.
+// Handbook methods of finite mass give some 100 to 140 N for this drop, a computed opening 718 N. 1.76 m is smaller than
+// the canopies on which filling distances were measured; the design load is C_x C_D S0 q.
 TEST(DesignLoad, OfASmallSlowCanopyIsThatOfInfiniteMass) {
   const LoadResult r = run_load(resolve(sized_canopy(1.76)), drop());
   const double q = 0.5 * standard_air(300).density * 400, expected = 1.7 * 0.775 * r.reference_area * q;
@@ -41,15 +41,15 @@ TEST(DesignLoad, OfASmallSlowCanopyIsThatOfInfiniteMass) {
   EXPECT_GT(r.design_load, 718);
   EXPECT_EQ(r.design_load_from, "infinite mass, C_x C_D S0 q");
   const StageLoads& stage = r.stages.front();
-  for (const char* name : {"Pflanz", "momentum-impulse", "trajectory"}) {
-    EXPECT_FALSE(method(stage, name).applies) << name;
-    EXPECT_LT(method(stage, name).load, 140) << name;
+  EXPECT_FALSE(method(stage, "Pflanz").applies) << "straight down gravity adds a third to the speed";
+  for (const char* name : {"momentum-impulse", "trajectory"}) {
+    EXPECT_TRUE(method(stage, name).applies) << name;
+    EXPECT_LT(method(stage, name).load, 170) << name;
   }
-  EXPECT_NE(method(stage, "trajectory").note.find("nominal diameter of 1.76 m is outside the range"),
-            std::string::npos)
-      << method(stage, "trajectory").note;
-  EXPECT_NE(method(stage, "trajectory").note.find("speed at line stretch of 20 m/s"), std::string::npos);
-  EXPECT_EQ(stage.highest, r.design_load);
+  EXPECT_NE(stage.caution.find("nominal diameter of 1.76 m is outside the range"), std::string::npos)
+      << stage.caution;
+  EXPECT_NE(stage.caution.find("approaches the infinite-mass load"), std::string::npos);
+  EXPECT_LT(stage.highest, 0.25 * r.design_load);
 }
 
 TEST(DesignLoad, WithinTheirRangeTheMethodsApplyAndTheDesignLoadStays) {
@@ -94,7 +94,7 @@ TEST(DesignLoad, LinesThatDoNotHoldItAreAWarningInWords) {
   const LoadResult r = run_load(resolve(given), drop(100, 60));
   ASSERT_TRUE(r.margins);
   EXPECT_EQ(r.margins->weakest, "line");
-  EXPECT_TRUE(mentions(r.warnings, "the line does not hold"));
+  EXPECT_TRUE(mentions(r.warnings, "the line exceeds its allowable load"));
 }
 
 // A steady run of the example has 1.43 times the mean tension in the lines at the corners of a cross.
@@ -178,7 +178,7 @@ TEST(ValidRanges, AreSoundAndNameTheirSource) {
   EXPECT_TRUE(outside_range(flow_model, {{"Mach number", 0.29}, {"Reynolds number", 1e5}}).empty());
   EXPECT_EQ(outside_range(flow_model, {{"Mach number", 0.31}}).size(), 1u);
   const auto too_fast = [] { outside_range(scaled_drag_model, {{"Mach number", 1.1}}); };
-  EXPECT_NE(refusal_of(too_fast, ExitCode::usage).find("above 1 it has no answer"), std::string::npos);
+  EXPECT_NE(refusal_of(too_fast, ExitCode::usage).find("above 1 it gives no result"), std::string::npos);
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/output/csv.h"
@@ -72,21 +74,37 @@ TEST_F(OpeningRecords, OfAPayloadHasTheSpeedAndThePathOfItsFlight) {
     EXPECT_NEAR(record.drag_area[i], area[i], 1e-12) << i;
   }
   write(history);
-  EXPECT_NE(refusal(ExitCode::bad_data, given).find("needs air.csv"), std::string::npos);
+  EXPECT_NE(refusal(ExitCode::bad_data, given).find("requires air.csv"), std::string::npos);
+}
+
+TEST(FittedFilling, ReturnsConstantAndExponentOfAPowerLaw) {
+  OpeningRecord record;
+  for (int i = 1; i <= 60; ++i) {
+    const double s = 0.5 * i;
+    record.distance.push_back(s);
+    record.drag_area.push_back(s < 12 ? 3 * std::pow(s / 12, 2.5) : 3);
+  }
+  record.steady_drag_area = 3;
+  const FittedFilling fitted = fit_filling(record, 2);
+  EXPECT_NEAR(fitted.constant, 6, 1e-12);
+  EXPECT_NEAR(fitted.exponent, 2.5, 1e-12);
+  record.drag_area.front() = 3;
+  EXPECT_THROW(fit_filling(record, 2), Error);
 }
 
 TEST_F(OpeningRecords, OfAnotherParachuteOrWithoutALoadIsRefused) {
   write(opening_history);
   const Case larger = checked(flat_circular_case(2.1, 600, 10));
-  EXPECT_EQ(
-      refusal(ExitCode::usage, larger),
-      folder.string() + ": is an opening of another parachute: S0 is 3.14159 m2 there and 3.46361 m2 here");
+  EXPECT_EQ(refusal(ExitCode::usage, larger), folder.string() +
+                                                  ": is an opening of a different parachute: S0 is 3.14159 "
+                                                  "m2 in that run and 3.46361 m2 in this case");
   write({opening_history.columns, {{0.1, 0, 0}}});
-  EXPECT_EQ(refusal(ExitCode::bad_data, given), folder.string() + ": its history has no load");
+  EXPECT_EQ(refusal(ExitCode::bad_data, given), folder.string() + ": the load history is zero");
   write({opening_history.columns, {}});
-  EXPECT_EQ(refusal(ExitCode::bad_data, given), folder.string() + ": its history has no load");
+  EXPECT_EQ(refusal(ExitCode::bad_data, given), folder.string() + ": the load history is zero");
   folder = root.path / "nowhere";
-  EXPECT_EQ(refusal(ExitCode::usage, given), folder.string() + ": holds no finished run of ripstop inflate");
+  EXPECT_EQ(refusal(ExitCode::usage, given),
+            folder.string() + ": contains no finished run of ripstop inflate");
 }
 
 }  // namespace

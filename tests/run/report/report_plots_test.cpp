@@ -67,10 +67,8 @@ TEST_F(ReportPlots, OfASteadyRunHaveTheColumnsOfItsTables) {
   expect_columns(plots[4], 2, {1});
   expect_columns(plots[5], 0, {1, 2});
   EXPECT_EQ(names_of(plots[0]),
-            (std::vector<std::string>{"force of the air", "load on the cloth", "tension of the lines",
-                                      "momentum that the air lost"}));
-  EXPECT_EQ(names_of(plots[5]),
-            (std::vector<std::string>{"below the skirt", "largest anywhere on the line"}));
+            (std::vector<std::string>{"air load", "cloth load", "line load", "momentum deficit"}));
+  EXPECT_EQ(names_of(plots[5]), (std::vector<std::string>{"below the skirt", "maximum along the line"}));
   for (const ReportPlot& plot : plots) {
     EXPECT_EQ(plot.logarithmic, plot.id == "changes") << plot.id;
     EXPECT_FALSE(plot.over_time) << plot.id;
@@ -101,8 +99,8 @@ TEST_F(ReportPlots, OfAnOpeningHaveItsLevelsAndRunOverTheTimeOfItsFrames) {
   ASSERT_EQ(ids_of(plots), (std::vector<std::string>{"load", "size", "stress", "energy", "lines"}));
   const ReportPlot& load = plots[0];
   EXPECT_EQ(names_of(load),
-            (std::vector<std::string>{"largest in the interval", "load", "low-passed", "steady",
-                                      "infinite mass, C_x C_D S0 q", "peak of the source's model"}));
+            (std::vector<std::string>{"maximum in the interval", "load", "low-passed", "steady",
+                                      "infinite mass, C_x C_D S0 q", "peak, model of the source"}));
   EXPECT_EQ(load.series[0].y, (Numbers{21, 22}));
   EXPECT_EQ(load.series[1].y, (Numbers{11, 12}));
   EXPECT_EQ(load.series[2].y, (Numbers{11, 12}));
@@ -117,7 +115,7 @@ TEST_F(ReportPlots, OfAnOpeningHaveItsLevelsAndRunOverTheTimeOfItsFrames) {
   expect_columns(plots[3], 0, {4, 5, 6, 7});
   expect_columns(plots[4], 0, {1});
   for (const ReportPlot& plot : plots) EXPECT_EQ(plot.over_time, plot.id != "lines") << plot.id;
-  EXPECT_EQ(names_of(plots[4]), std::vector<std::string>{"highest of the opening"});
+  EXPECT_EQ(names_of(plots[4]), std::vector<std::string>{"maximum of the opening"});
 }
 
 TEST_F(ReportPlots, WithoutATableOrWithoutRowsThereIsNone) {
@@ -151,7 +149,7 @@ TEST_F(ReportPlots, OfManyRowsKeepEveryPeak) {
   ASSERT_EQ(thin.x.size(), thin.y.size());
   EXPECT_LE(thin.x.size(), 3000u);
   EXPECT_TRUE(thin.line);
-  EXPECT_EQ(thin.name, "largest in the interval");
+  EXPECT_EQ(thin.name, "maximum in the interval");
   EXPECT_TRUE(std::is_sorted(thin.x.begin(), thin.x.end()));
   EXPECT_EQ(std::adjacent_find(thin.x.begin(), thin.x.end()), thin.x.end());  // no point twice
   for (int i = 1; i < count; ++i) {
@@ -181,7 +179,8 @@ TEST_F(ReportPlots, OverSeveralRunsDragStandsOverSpeedBesideWhatWasMeasured) {
   given.flow.speed_basis = SpeedBasis::nominal;
   ReportPlot drag = comparison_plots(runs, resolve(given)).at(0);
   EXPECT_EQ(drag.id, "drag-speed");
-  EXPECT_EQ(names_of(drag), (std::vector<std::string>{"computed", "measured", "source's nonlinear model"}));
+  EXPECT_EQ(names_of(drag),
+            (std::vector<std::string>{"computed", "measured", "nonlinear model of the source"}));
   EXPECT_EQ(drag.series[0].x, (Numbers{10, 20, 20}));
   EXPECT_EQ(drag.series[0].y, (Numbers{49, 190, 200}));
   EXPECT_FALSE(drag.series[0].line);  // two at one speed: no line through them

@@ -181,7 +181,7 @@ TEST(ReportTables, GroupsAndListsOfAResultAreTables) {
   ASSERT_EQ(run.tables.size(), 3u);
   EXPECT_EQ(run.tables[0].columns.size(), 3u);
   EXPECT_EQ(run.tables[0].rows[0], (std::vector<std::string>{"line 1", "2.5", ""}));
-  EXPECT_EQ(run.tables[1].rows[0], (std::vector<std::string>{"force of the air", "1", "N"}));
+  EXPECT_EQ(run.tables[1].rows[0], (std::vector<std::string>{"air load", "1", "N"}));
   ReportRun words;
   add_result(words, R"({"ledger": {"sewn": true, "cut": false, "none": null, "count": 3}})", "result.json");
   std::vector<std::string> values;

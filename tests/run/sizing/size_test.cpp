@@ -90,7 +90,7 @@ TEST(Size, TapeHoldsTheOpeningLoadAndIsNoneWhereAHemDoes) {
   EXPECT_GE(left, heavy.line_load_factor * heavy.design_load / heavy.line_count);
   EXPECT_GT(heavy.tape_mass, 0);
   EXPECT_NE(
-      heavy.case_text.find("material = \"" + heavy.tape_material + "\"  # the lightest tape that holds"),
+      heavy.case_text.find("material = \"" + heavy.tape_material + "\"  # the lightest tape that carries"),
       std::string::npos)
       << heavy.case_text;
 }

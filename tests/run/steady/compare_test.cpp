@@ -10,6 +10,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/output/csv.h"
 #include "tests/run/steady/finished_run.h"
+#include "tests/small_case.h"
 
 namespace ripstop {
 namespace {

@@ -20,7 +20,7 @@ TEST(FlowParity, ASurfaceThatLeavesTheBoxOnAnySideIsRefused) {
       ADD_FAILURE() << corner.x << ", " << corner.y << ", " << corner.z << " was accepted";
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ExitCode::bad_data);
-      EXPECT_NE(std::string(error.what()).find("inside the box"), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("inside the domain"), std::string::npos) << error.what();
     }
   }
 }

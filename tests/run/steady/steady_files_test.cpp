@@ -34,7 +34,7 @@ struct Ending : SteadyObserver {
     tensions = spring_tensions(run.solver.cloth(), cloth);
     stress = cell_stress(run.solver.cloth(), cloth);
     rings = pressure_profile(run.solver.cells(), end.shape, end.sides, end.applied);
-    arrays = stress_arrays(run.solver.mesh(), stress);
+    arrays = stress_arrays(run.solver.mesh(), end.shape, stress);
   }
 };
 
@@ -155,9 +155,16 @@ TEST(StressArrays, HaveOneValueOfEveryClothCell) {
     stress[i].von_mises = n + 5, stress[i].max_strain = n + 6, stress[i].direction = {n, n + 7, n + 8};
     stress[i].tautness = i % 2 == 0 ? Tautness::taut : Tautness::wrinkled;
   }
-  const char* names[] = {"stress_max_n_per_m", "stress_min_n_per_m", "warp_n_per_m", "weft_n_per_m",
-                         "tautness",           "von_mises_n_per_m",  "strain_max",   "stress_max_direction"};
-  const std::vector<VtkArray> arrays = stress_arrays(mesh, stress);
+  const char* names[] = {"stress_max_n_per_m",
+                         "stress_min_n_per_m",
+                         "warp_n_per_m",
+                         "weft_n_per_m",
+                         "tautness",
+                         "von_mises_n_per_m",
+                         "strain_max",
+                         "stress_max_direction",
+                         "von_mises_strip_n_per_m"};
+  const std::vector<VtkArray> arrays = stress_arrays(mesh, mesh.start, stress);
   ASSERT_EQ(arrays.size(), std::size(names));
   for (std::size_t k = 0; k < arrays.size(); ++k) EXPECT_EQ(arrays[k].name, names[k]);
   const std::vector<Cell> cells = cells_of(mesh);
@@ -176,6 +183,12 @@ TEST(StressArrays, HaveOneValueOfEveryClothCell) {
   ASSERT_EQ(values(7).size(), 3 * cloth);
   EXPECT_EQ(values(7)[3 * cloth - 1], values(0).back() + 7);
   EXPECT_EQ(arrays[7].components, 3);
+  // The mean over a strip lies within the values of its cells, and is the peak's at its highest.
+  const std::vector<double> means = values(8), single = values(5);
+  ASSERT_EQ(means.size(), cloth);
+  const auto highest = [](const std::vector<double>& v) { return *std::max_element(v.begin(), v.end()); };
+  EXPECT_LT(highest(means), highest(single));
+  EXPECT_EQ(highest(means), stress_peak(mesh, mesh.start, stress).von_mises);
 }
 
 /// What an engine was told when it was made.

@@ -132,12 +132,12 @@ class NearTheLimit : public Batch {
     return code;
   }
   /// The process that runs a script.
-  static pid_t shell_of(const std::string& script) {
+  static pid_t shell_of(const std::string& path) {
     for (const auto& entry : fs::directory_iterator("/proc")) {
       std::ifstream file(entry.path() / "cmdline", std::ios::binary);
       std::string program, argument;
       if (std::getline(file, program, '\0') && std::getline(file, argument, '\0') && program == "/bin/bash" &&
-          argument == script)
+          argument == path)
         return std::stoi(entry.path().filename());
     }
     return 0;
@@ -248,7 +248,7 @@ TEST(BatchNeeds, AreTheCostOfTheCaseAndOfItsEngine) {
   EXPECT_EQ(opening.ranks, 1);
   EXPECT_EQ(opening.cores, 2);
   EXPECT_EQ(opening.hours, 24);
-  EXPECT_EQ(opening.limited, "nobody has measured what this one takes");
+  EXPECT_EQ(opening.limited, "no estimate is available for this run");
   EXPECT_EQ(opening_needs(resolve(given), 2, 5).cores, 5);
 
   Case small = square_law_case();

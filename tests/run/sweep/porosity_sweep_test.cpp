@@ -62,8 +62,8 @@ TEST(MeasuredDragFile, IsRefusedWithItsLine) {
            {"speed_m_s,density_kg_m3,drag_n\n10,1.2,43.5\n20,1.2,-3\n", "drag.csv:3:"},
            {"speed_m_s,density_kg_m3,drag_n\n10,1.2,43.5\n20,,3\n", "drag.csv:3:"},
            {"speed_m_s,density_kg_m3\n10,1.2\n", "no column for the drag"},
-           {"speed_m_s,drag_n,speed_m_s,density_kg_m3\n1,2,3,4\n", "two columns look like speed"},
-           {"speed_m_s,density_kg_m3,drag_n\n10,1.2,43.5\n20,1.2,15", "cut in mid-number"}}) {
+           {"speed_m_s,drag_n,speed_m_s,density_kg_m3\n1,2,3,4\n", "two columns can be speed"},
+           {"speed_m_s,density_kg_m3,drag_n\n10,1.2,43.5\n20,1.2,15", "may be incomplete"}}) {
     write_file(file, text);
     const std::string message = refusal_of([&] { read_measured_drag(file); }, ExitCode::bad_data);
     EXPECT_NE(message.find(place), std::string::npos) << message;

@@ -64,7 +64,7 @@ TEST_F(SweepElsewhere, LeavesTheNumbersOfASweepHereWhichGoesOnWithWhatHasNotCome
   const std::vector<SweepRow> gathered = gather_sweep(points_, settings_);
   EXPECT_TRUE(gathered[1].done && gathered[2].done);
   EXPECT_FALSE(gathered[0].done);
-  EXPECT_NE(gathered[0].error.find("has not come back"), std::string::npos) << gathered[0].error;
+  EXPECT_NE(gathered[0].error.find("is not finished"), std::string::npos) << gathered[0].error;
 
   std::vector<bool> computed(points_.size());
   SweepEvents events;
@@ -106,7 +106,7 @@ TEST_F(SweepElsewhere, ARunWhoseNeighbourHasNotComeBackIsNotBegun) {
     ADD_FAILURE() << "begun";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::io);
-    EXPECT_NE(std::string(error.what()).find("speed_m_s=15, which it starts from, has not ended"),
+    EXPECT_NE(std::string(error.what()).find("speed_m_s=15, from which it starts, is not finished"),
               std::string::npos)
         << error.what();
   }
@@ -132,8 +132,8 @@ TEST_F(SweepElsewhere, ARunThatIsTakenWhileASweepGoesOnIsNotStartedFromNothing) 
   };
   const std::vector<SweepRow> rows = run_sweep(points_, settings_, events);
   EXPECT_TRUE(rows[0].done && rows[1].done);
-  EXPECT_NE(rows[2].error.find("works in this folder"), std::string::npos) << rows[2].error;
-  EXPECT_NE(rows[3].error.find("was not begun"), std::string::npos) << rows[3].error;
+  EXPECT_NE(rows[2].error.find("is using this folder"), std::string::npos) << rows[2].error;
+  EXPECT_NE(rows[3].error.find("was not started"), std::string::npos) << rows[3].error;
 }
 
 TEST_F(SweepElsewhere, ARunOfNoSweepIsRefused) {

@@ -191,7 +191,7 @@ TEST(SweepFolder, ARunWhoseNeighbourIsDamagedIsNotStartedFromNothing) {
   EXPECT_EQ(rows[0].code, ExitCode::bad_data) << rows[0].error;
   for (const std::size_t leaf : {1, 2}) {
     EXPECT_FALSE(rows[leaf].done);
-    EXPECT_NE(rows[leaf].error.find("was not begun: v20"), std::string::npos) << rows[leaf].error;
+    EXPECT_NE(rows[leaf].error.find("was not started, because v20"), std::string::npos) << rows[leaf].error;
     EXPECT_FALSE(fs::exists(settings.folder / points[leaf].folder));
   }
 }

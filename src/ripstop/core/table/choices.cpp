@@ -26,8 +26,8 @@ std::vector<std::size_t> beginnings(const std::string& text) {
 [[noreturn]] void refuse_choice(const std::string& part) {
   throw Error(
       ExitCode::usage,
-      fmt::format("\"{}\" names no column: write QUANTITY=HEADING or QUANTITY=HEADING [UNIT], parted by "
-                  "commas, as in \"force=Kraft [kN],extension=Weg [mm]\"; quantities: {}",
+      fmt::format("\"{}\" is not a column: write QUANTITY=HEADING or QUANTITY=HEADING [UNIT], separated by "
+                  "commas, for example \"force=Kraft [kN],extension=Weg [mm]\"; quantities: {}",
                   part, quantity_names()));
 }
 

@@ -25,7 +25,15 @@ int closeness(const Heading& heading, const std::string& named) {
   return wanted == words_of(heading.name.substr(0, heading.name.find_first_of("([{"))) ? 1 : 0;
 }
 
+/// Of a line of numbers that a wrong separator leaves whole, read thousands of times.
+bool has_letters(const std::string& cell) {
+  return std::any_of(cell.begin(), cell.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || static_cast<unsigned char>(c) >= 0x80;
+  });
+}
+
 bool known_or_named(const std::string& cell, const Format& format) {
+  if (format.columns.empty() && !has_letters(cell)) return false;
   const Heading heading = read_heading(cell);
   for (const Quantity meaning : heading.meanings)
     if (meaning != Q::specimen) return true;
@@ -52,12 +60,12 @@ std::map<std::size_t, const ColumnChoice*> named_columns(const std::vector<Headi
     }
     if (texts.empty())
       refuse(file, line,
-             fmt::format("no column \"{}\", which is named for the {}; the headings are {}", choice.heading,
+             fmt::format("no column \"{}\", which is given for the {}; the headings are {}", choice.heading,
                          name_of(choice.quantity), fmt::join(all, ", ")));
     if (texts.size() > 1)
       refuse(file, line,
              fmt::format(
-                 "several columns are \"{}\", which is named for the {}: \"{}\"; write one of them in full",
+                 "several columns match \"{}\", which is given for the {}: \"{}\"; write one of them in full",
                  choice.heading, name_of(choice.quantity), fmt::join(texts, "\", \"")));
     for (std::size_t i = 0; i < headings.size(); ++i)
       if (headings[i].text == *texts.begin()) named[i] = &choice;
@@ -163,11 +171,11 @@ struct Resolver {
     if (!column.problem.empty()) return;
     const std::string known = known_units(dimension_of(first));
     if (column.unit.empty())
-      column.problem = message(
-          line,
-          fmt::format("no unit for the column \"{}\" ({}): write it in the heading as in \"{} [{}]\", or "
-                      "give it with the column's name (known: {})",
-                      heading.text, name_of(first), name_of(first), known.substr(0, known.find(',')), known));
+      column.problem =
+          message(line, fmt::format("no unit for the column \"{}\" ({}): write it in the heading, for "
+                                    "example \"{} [{}]\", or give it with the name of the column (known: {})",
+                                    heading.text, name_of(first), name_of(first),
+                                    known.substr(0, known.find(',')), known));
     else
       column.problem =
           message(line, fmt::format("\"{}\" in the heading \"{}\" is not a unit for {}; known: {}",
@@ -289,7 +297,7 @@ Block make_block(const std::vector<Row>& rows, const Header& header, const Forma
     if (!units && is_unit_row(rows[r], headings))
       units = &rows[r];
     else if (!is_marker(rows[r]))
-      notes.push_back(fmt::format("line {} between the header and the numbers is left out", rows[r].line));
+      notes.push_back(fmt::format("line {} between the header and the numbers is ignored", rows[r].line));
   }
   Block block;
   block.header_line = row.line;

@@ -247,7 +247,9 @@ constexpr std::string_view last_parts[]{"widerstand",
 
 bool matches(const std::string& token, const Word& word) {
   const std::string_view text = word.text;
-  if (token == text || token == std::string(text) + "s") return true;  // "loads"
+  if (token.starts_with(text) &&
+      (token.size() == text.size() || (token.size() == text.size() + 1 && token.back() == 's')))
+    return true;  // "load", "loads"
   if (token.size() < text.size() + 2 || !token.ends_with(text)) return false;
   return std::find(std::begin(last_parts), std::end(last_parts), text) != std::end(last_parts);
 }
@@ -319,10 +321,11 @@ void take_trailing_unit(Heading& heading) {
     const bool stated = mark == ',' || mark == '/';
     const bool number = unit == "-" || unit == "1";
     if (unit.empty() || before.empty() || (number && !stated)) continue;
+    if (!is_unit(unit) && clock_form(unit) == ClockForm::none) continue;
     Heading rest;
     find_meanings(rest, without(before, bracketed(before)));
     rest.name = before;
-    if (rest.meanings.empty() || !(is_unit(unit) || clock_form(unit) != ClockForm::none)) continue;
+    if (rest.meanings.empty()) continue;
     if (meaning_in(rest, unit) == Q::other && !(stated && !number)) continue;
     heading.unit = unit;
     heading.name = before;

@@ -108,16 +108,15 @@ class Reader {
       }
       if (text < rows_.size())
         refuse(file_, rows_[text].line,
-               fmt::format(
-                   "text among the numbers (\"{}\"), which go on in line {}: remove this line, or write the "
-                   "header again below it where another specimen begins",
-                   marker_name(rows_[text]).substr(0, 60), row.line));
+               fmt::format("text between the numbers (\"{}\"), which continue in line {}: remove this line, "
+                           "or repeat the header below it if another specimen begins",
+                           marker_name(rows_[text]).substr(0, 60), row.line));
       block().rows.push_back(&row);
       loose = false;
     }
     if (text < rows_.size())
       layout_.notes.push_back(
-          fmt::format("text after the numbers is left out (from line {})", rows_[text].line));
+          fmt::format("text after the numbers is ignored (from line {})", rows_[text].line));
     return rows_.size();
   }
 
@@ -143,11 +142,10 @@ class Reader {
       const std::string what =
           last_text ? fmt::format("the line above them has \"{}\"", marker_name(*last_text).substr(0, 80))
                     : "no line is above them";
-      refuse(
-          file_, row.line,
-          fmt::format("numbers, but no heading of a known quantity above them ({}): write a header such as "
-                      "\"force [N]\", or name the columns (known quantities: {})",
-                      what, quantity_names()));
+      refuse(file_, row.line,
+             fmt::format("numbers without a heading of a known quantity above them ({}): write a header such "
+                         "as \"force [N]\", or give the columns (known quantities: {})",
+                         what, quantity_names()));
     }
     if (header) refuse(file_, header->line, "a header, but no measurements below it");
     if (last_text)

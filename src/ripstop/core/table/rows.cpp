@@ -117,9 +117,10 @@ class Splitter {
       if (c == '\n') ++line_;
       value += c == '\n' ? ' ' : c;
     }
-    throw Error(ExitCode::bad_data, fmt::format("{}:{}: a quote opens here and does not close: add the other "
-                                                "one, or remove this one",
-                                                file_.string(), opened));
+    throw Error(
+        ExitCode::bad_data,
+        fmt::format("{}:{}: this quotation mark is not closed: add the closing one, or remove this one",
+                    file_.string(), opened));
   }
 
   std::string_view text_;

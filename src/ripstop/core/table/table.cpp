@@ -129,7 +129,7 @@ std::vector<std::pair<std::string, std::vector<std::size_t>>> groups_of(const Bl
     named[last].second.push_back(r);
     if (named.size() * fewest_rows > block.rows.size() + fewest_rows) {
       table.notes.push_back(
-          fmt::format("column {} \"{}\" counts rows and is left out", column->place, column->heading));
+          fmt::format("column {} \"{}\" counts rows and is ignored", column->place, column->heading));
       return groups;
     }
   }
@@ -175,7 +175,7 @@ Table parse_table(const std::string& bytes, const std::filesystem::path& file, c
   if (!text.empty() && text.back() != '\n')
     refuse(
         file, static_cast<int>(std::count(text.begin(), text.end(), '\n')) + 1,
-        "the last line has no end: the table may be cut in mid-number; take the whole file, or end the line");
+        "the last line has no line end: the table may be incomplete; use the complete file, or end the line");
   const char stated = stated_separator(text);
   const char separator = stated ? stated : find_separator(text, format, file);
   const std::vector<Row> rows = split_rows(text, separator, file);
@@ -213,11 +213,11 @@ const Column* find_only(const Table& table, const Specimen& specimen, Quantity q
   const std::vector<const Column*> found = specimen.all(quantity);
   if (found.empty()) return nullptr;
   if (found.size() > 1)
-    refuse(table.file, specimen.header_line,
-           fmt::format("two columns look like {}: \"{}\" and \"{}\"; name the one that is meant, as in "
-                       "--columns \"{}={}\"",
-                       name_of(quantity), found[0]->heading, found[1]->heading, name_of(quantity),
-                       found[0]->heading));
+    refuse(
+        table.file, specimen.header_line,
+        fmt::format(
+            "two columns can be {}: \"{}\" and \"{}\"; select one of them, for example --columns \"{}={}\"",
+            name_of(quantity), found[0]->heading, found[1]->heading, name_of(quantity), found[0]->heading));
   if (!found.front()->problem.empty()) throw Error(ExitCode::bad_data, found.front()->problem);
   return found.front();
 }
@@ -233,12 +233,10 @@ void refuse_missing(const Table& table, const Specimen& specimen, const std::str
   std::vector<std::string> headings;
   for (const Column& column : specimen.columns)
     headings.push_back(fmt::format("\"{}\" ({})", column.heading, name_of(column.quantity)));
-  refuse(
-      table.file, specimen.header_line,
-      fmt::format(
-          "no column for the {0}; understood were {1}; write the heading as in \"{0} [unit]\", or name the "
-          "column, as in --columns \"{0}=HEADING\"",
-          quantities, headings.empty() ? "none" : fmt::format("{}", fmt::join(headings, ", "))));
+  refuse(table.file, specimen.header_line,
+         fmt::format("no column for the {0}; recognised columns: {1}; write the heading \"{0} [unit]\", or "
+                     "give the column with --columns \"{0}=HEADING\"",
+                     quantities, headings.empty() ? "none" : fmt::format("{}", fmt::join(headings, ", "))));
 }
 
 void need_values(const Table& table, const Specimen& specimen, const Column& column) {

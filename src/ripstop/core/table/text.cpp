@@ -25,7 +25,8 @@ double zeros(std::string_view bytes, std::size_t first) {
 }
 
 std::string from_utf16(std::string_view bytes, bool big, const std::filesystem::path& file) {
-  if (bytes.size() % 2 != 0) refuse(file, "UTF-16 with half a character at its end: take the whole file");
+  if (bytes.size() % 2 != 0)
+    refuse(file, "UTF-16 with an incomplete character at its end: use the complete file");
   const auto unit = [&](std::size_t i) {
     const auto a = static_cast<unsigned char>(bytes[i]), b = static_cast<unsigned char>(bytes[i + 1]);
     return static_cast<std::uint32_t>(big ? a << 8 | b : b << 8 | a);
@@ -105,7 +106,8 @@ Text decode(const std::string& bytes, const std::filesystem::path& file) {
     text = {from_utf16(rest.substr(2), rest.front() == '\xfe', file), "UTF-16"};
   } else if (rest.starts_with("\xef\xbb\xbf")) {
     rest.remove_prefix(3);
-    if (!is_utf8(rest)) refuse(file, "its mark says UTF-8, but its bytes are not: save it as UTF-8 again");
+    if (!is_utf8(rest))
+      refuse(file, "the file is marked as UTF-8, but has other bytes: save it as UTF-8 again");
     text = {std::string(rest), "UTF-8"};
   } else if (const double even = zeros(rest, 0), odd = zeros(rest, 1); std::max(even, odd) > 0.5) {
     text = {from_utf16(rest, even > odd, file), "UTF-16"};

@@ -112,18 +112,17 @@ std::string doubt(const Times& times, ClockForm form, const Column& column,
   for (const auto& [row, time] : times) {
     if (time.parts != first.parts)
       return message(file, *row, column,
-                     fmt::format("has {} parts, where times above it have {}; write all of them alike",
+                     fmt::format("has {} parts, but times above it have {}; use one format for all",
                                  time.parts, first.parts));
     if (time.parts == 2 && form == ClockForm::none && !fraction)
       return message(
           file, *row, column,
           "may be hours and minutes or minutes and seconds; write (hh:mm) or (mm:ss) into the heading");
     if (time.other_date != first.other_date)
-      return message(
-          file, *row, column,
-          fmt::format("has another date than \"{}\" above it, and day and month cannot be told apart; write "
-                      "dates as 2026-05-31",
-                      first.other_date));
+      return message(file, *row, column,
+                     fmt::format("has another date than \"{}\" above it, and the order of day and month is "
+                                 "ambiguous; write dates as 2026-05-31",
+                                 first.other_date));
   }
   return "";
 }
@@ -160,8 +159,9 @@ bool read_clock(const Block& block, Column& column, const std::filesystem::path&
   const ClockForm form = clock_form(column.unit);
   if (times.empty() && form == ClockForm::none) return false;
   if (other)
-    column.problem = message(file, *other, column,
-                             "is not a clock time such as 10:15:03.5, which this column has; correct it");
+    column.problem =
+        message(file, *other, column,
+                "is not a clock time such as 10:15:03.5, unlike the rest of the column; correct it");
   else if (!times.empty())
     column.problem = doubt(times, form, column, file);
   if (!column.problem.empty()) return true;
@@ -190,13 +190,11 @@ char decimal_mark(const std::vector<Block>& blocks, const Format& format, const 
     const Seen &a = seen[0], &b = seen[1];
     const Seen& last = a.row->line > b.row->line ? a : b;
     const Seen& first = a.row->line > b.row->line ? b : a;
-    throw Error(
-        ExitCode::bad_data,
-        message(file, *last.row, *last.column,
-                fmt::format("has another decimal mark than \"{}\" in the column \"{}\" (line {}); write one "
-                            "mark everywhere",
-                            cell_of(*first.row, *first.column).substr(0, 40), first.column->heading,
-                            first.row->line)));
+    throw Error(ExitCode::bad_data, message(file, *last.row, *last.column,
+                                            fmt::format("has a different decimal mark than \"{}\" in the "
+                                                        "column \"{}\" (line {}); use one mark everywhere",
+                                                        cell_of(*first.row, *first.column).substr(0, 40),
+                                                        first.column->heading, first.row->line)));
   }
   return seen[0].row ? '.' : seen[1].row ? ',' : '\0';
 }
@@ -204,12 +202,10 @@ char decimal_mark(const std::vector<Block>& blocks, const Format& format, const 
 void check_rows(const Block& block, const std::filesystem::path& file) {
   for (const Row* row : block.rows) {
     if (row->cells.size() > block.width)
-      refuse(
-          file, row->line,
-          fmt::format(
-              "{} values for {} columns: do the header's names and the values belong together? Numbers with "
-              "decimal commas need quotes where commas separate them",
-              row->cells.size(), block.width));
+      refuse(file, row->line,
+             fmt::format("{} values for {} columns: check that the header matches the values. Numbers with "
+                         "decimal commas need quotes where commas separate them",
+                         row->cells.size(), block.width));
     // Side by side a shorter specimen may end before the others; a row that ends within a specimen is cut.
     for (std::size_t i = 0; i < block.columns.size(); ++i) {
       if (static_cast<std::size_t>(block.columns[i].place) <= row->written) continue;
@@ -219,8 +215,9 @@ void check_rows(const Block& block, const std::filesystem::path& file) {
         begun = begun || (block.specimen_of[k] == specimen && !cell_of(*row, block.columns[k]).empty());
       if (begun)
         refuse(file, row->line,
-               fmt::format("{} values for {} columns, none for column {} \"{}\": is the file whole?",
-                           row->written, block.width, block.columns[i].place, block.columns[i].heading));
+               fmt::format(
+                   "{} values for {} columns, none for column {} \"{}\": check that the file is complete",
+                   row->written, block.width, block.columns[i].place, block.columns[i].heading));
     }
   }
 }

@@ -94,12 +94,11 @@ std::string read_text_file(const std::filesystem::path& file) {
   if (std::filesystem::is_directory(file, failure))
     throw Error(ExitCode::io, fmt::format("{}: is a folder, not a file", file.string()));
   if (std::filesystem::exists(file, failure) && !std::filesystem::is_regular_file(file, failure))
-    throw Error(ExitCode::io, fmt::format("{}: is no file but a pipe or a device; write what comes out of it "
-                                          "into a file",
-                                          file.string()));
+    throw Error(
+        ExitCode::io,
+        fmt::format("{}: is a pipe or a device, not a file; write its content into a file", file.string()));
   std::ifstream stream(file, std::ios::binary);
-  if (!stream)
-    throw Error(ExitCode::io, fmt::format("{}: cannot be opened; is the path right?", file.string()));
+  if (!stream) throw Error(ExitCode::io, fmt::format("{}: cannot be opened; check the path", file.string()));
   std::string text(max_file_bytes + 1, '\0');
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (stream.bad()) throw Error(ExitCode::io, fmt::format("{}: cannot be read", file.string()));

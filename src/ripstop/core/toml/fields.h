@@ -72,7 +72,8 @@ struct NumberList {
 
 /// A table inside the table.
 struct Subtable {
-  std::function<Fields()> fields;
+  std::function<Fields()> fields;  // makes an optional table that is not there
+  std::function<bool()> is_there = [] { return true; };
 };
 
 /// [[name]]: any number of equal tables.
@@ -155,6 +156,15 @@ class Fields {
   template <class T>
   Field& table(std::string key, T& value, std::string doc) {
     return add(std::move(key), Subtable{[&value] { return described(value); }}, {}, std::move(doc));
+  }
+
+  /// A table that may be absent; an empty one is there.
+  template <class T>
+  Field& table(std::string key, std::optional<T>& value, std::string doc) {
+    return add(std::move(key),
+               Subtable{[&value] { return described(value ? *value : value.emplace()); },
+                        [&value] { return value.has_value(); }},
+               {}, std::move(doc));
   }
 
   template <class T>

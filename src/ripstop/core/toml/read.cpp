@@ -9,6 +9,7 @@
 #include <limits>
 #include <set>
 
+#include "ripstop/core/quantity.h"
 #include "ripstop/core/visible.h"
 
 namespace ripstop {
@@ -94,6 +95,7 @@ class Reader {
   void value(const Field& field, const Node& node, const std::string& name);
 
   void set(double& target, const Node& node, const std::string& name);
+  void set_typed(double& target, const Node& node, const std::string& name);
   template <class T>
   void set(std::optional<T>& target, const Node& node, const std::string& name);
   void set(int& target, const Node& node, const std::string& name);
@@ -167,7 +169,17 @@ bool Reader::word(const std::vector<std::string>& words, const Node& node, const
   return false;
 }
 
+/// A text is a number with a unit: "5 lb" for mass_kg.
+void Reader::set_typed(double& target, const Node& node, const std::string& name) {
+  const TypedNumber read = read_typed(node.text, unit_of_key(name));
+  if (!read.has_unit) return report(node, name, "a number", "must be a number, not text");
+  if (!read.refusal.empty()) return report(node, name, read.refusal, "must be " + read.refusal);
+  target = read.value;
+  accept(node, name);
+}
+
 void Reader::set(double& target, const Node& node, const std::string& name) {
+  if (node.type == Node::Type::text) return set_typed(target, node, name);
   if (!is_number(node)) return report(node, name, "a number", "must be a number, not " + type_name(node));
   if (!std::isfinite(node.number)) return report(node, name, "a finite number", "must be a finite number");
   target = node.number;
@@ -277,7 +289,7 @@ void Reader::unknown(const Node& node, const std::string& prefix, const std::vec
   shown = shown.substr(1, shown.size() - 2);
   problems_.push_back({origin(node.key_place), joined(prefix, shown), "",
                        fmt::format("{}", fmt::join(known, ", ")),
-                       near.empty() ? fmt::format("unknown {}; known here: {}", what, fmt::join(known, ", "))
+                       near.empty() ? fmt::format("unknown {}; valid here: {}", what, fmt::join(known, ", "))
                                     : fmt::format("unknown {}; did you mean {}?", what, quoted(near))});
 }
 
@@ -404,7 +416,7 @@ class Checker {
     for (std::size_t i = 0; i < list.value->size(); ++i) number(field, (*list.value)[i], element(name, i));
   }
   void check(const Field&, const Subtable& sub, const std::string& name, const std::string&) {
-    table(sub.fields(), name);
+    if (sub.is_there()) table(sub.fields(), name);
   }
   void check(const Field&, const Rows& rows, const std::string& name, const std::string&) {
     for (std::size_t i = 0; i < rows.count(); ++i) table(rows.row(i), element(name, i));

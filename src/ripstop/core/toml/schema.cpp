@@ -2,7 +2,9 @@
 // no words for (NaN) and for the keys beside `base`, which it takes from every kind.
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
+#include "ripstop/core/quantity.h"
 #include "ripstop/core/toml/write.h"
 
 namespace ripstop {
@@ -12,9 +14,17 @@ using Json = nlohmann::ordered_json;
 
 Json object_schema(const Fields& fields);
 
-Json number_schema(const Field& field, const char* type) {
+constexpr std::string_view number_type = "number";
+
+Json number_schema(const Field& field, std::string_view type) {
   const Range& range = field.range;
   Json schema = {{"type", type}};
+  if (type == number_type) {
+    // "5 lb" is read too; what the number is, read_typed() says.
+    schema["type"] = {type, "string"};
+    schema["pattern"] = "^[ \\t]*[+-]?[0-9.]+([eE][+-]?[0-9]+)?[ \\t]*[^0-9.,+ \\t-]";
+    if (const std::string unit = unit_of_key(field.key); !unit.empty()) schema["unit"] = unit;
+  }
   if (std::isfinite(range.low)) schema[range.low_open ? "exclusiveMinimum" : "minimum"] = range.low;
   if (std::isfinite(range.high)) schema[range.high_open ? "exclusiveMaximum" : "maximum"] = range.high;
   return schema;

@@ -36,15 +36,14 @@ std::vector<Step> steps_of(const Setting& setting) {
     at = end + 1;
     Step step;
     step.name = part.substr(0, part.find('['));
-    if (!is_name(step.name))
-      refuse(setting, "is no name of a key; write it as in the case file: flow.speed_m_s");
+    if (!is_name(step.name)) refuse(setting, "is not a name of a key; write it as in flow.speed_m_s");
     part.erase(0, step.name.size());
     while (!part.empty()) {
       std::size_t place = 0;
       const char* last = part.data() + part.size();
       const auto [stop, error] = std::from_chars(part.data() + 1, last, place);
       if (part[0] != '[' || error != std::errc() || stop == last || *stop != ']')
-        refuse(setting, "is no name of a key; a place in a list is written as in flow.cells[2]");
+        refuse(setting, "is not a name of a key; write an element of a list as in flow.cells[2]");
       step.places.push_back(place);
       part.erase(0, static_cast<std::size_t>(stop - part.data()) + 1);
     }
@@ -117,11 +116,9 @@ void remove_value(Document& document, const Setting& setting, const std::vector<
     const auto found = std::find_if(node->items.begin(), node->items.end(),
                                     [&](const Node& item) { return item.key == step.name; });
     if (node->type != Node::Type::table || found == node->items.end())
-      refuse(setting,
-             "is not in the case, so that it cannot be removed; only keys and tables that the file "
-             "gives can be");
+      refuse(setting, "is not in the case; only keys and tables that the file gives can be removed");
     if (!step.places.empty())
-      refuse(setting, "a place in a list cannot be removed; set the whole list instead");
+      refuse(setting, "an element of a list cannot be removed; set the whole list instead");
     if (&step == &steps.back())
       node->items.erase(found);
     else
@@ -136,7 +133,7 @@ void set_value(Document& document, const Setting& setting) {
   if (setting.remove) return remove_value(document, setting, steps);
   Node* node = &document.root;
   for (const Step& step : steps) {
-    if (node->type != Node::Type::table) refuse(setting, "does not exist: a key before it is no table");
+    if (node->type != Node::Type::table) refuse(setting, "does not exist: a key before it is not a table");
     auto found = std::find_if(node->items.begin(), node->items.end(),
                               [&](const Node& item) { return item.key == step.name; });
     if (found == node->items.end()) {
@@ -147,7 +144,7 @@ void set_value(Document& document, const Setting& setting) {
     node = &*found;
     for (const std::size_t place : step.places) {
       if (node->type != Node::Type::array || place >= node->items.size())
-        refuse(setting, "the file gives no list with this place; give the whole list");
+        refuse(setting, "the file gives no list with this element; give the whole list");
       node = &node->items[place];
     }
   }

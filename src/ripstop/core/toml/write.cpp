@@ -94,6 +94,7 @@ void write_toml(const Fields& fields, const std::string& prefix, std::string& ou
   for (const Field& field : all) {
     const std::string name = dotted(prefix, field.key);
     if (const auto* sub = std::get_if<Subtable>(&field.value)) {
+      if (!sub->is_there()) continue;
       out += "\n[" + name + "]\n";
       write_toml(sub->fields(), name, out);
     } else if (const auto* rows = std::get_if<Rows>(&field.value)) {
@@ -114,6 +115,7 @@ Json json_of(const Fields& fields) {
   Json object = Json::object();
   for (const Field& field : flat(fields)) {
     if (const auto* sub = std::get_if<Subtable>(&field.value)) {
+      if (!sub->is_there()) continue;
       object[field.key] = json_of(sub->fields());
     } else if (const auto* rows = std::get_if<Rows>(&field.value)) {
       object[field.key] = Json::array();

@@ -16,22 +16,23 @@ std::vector<std::unique_ptr<BoundaryRecord>> standard_boundaries() {
   const auto add = [&](BoundaryRecord record) {
     rows.push_back(std::make_unique<BoundaryRecord>(std::move(record)));
   };
-  add({"zero-gradient", "open, as [NFM]", cartesian::open_sides, {}});
+  add({"zero-gradient", "open, as in [NFM]", cartesian::open_sides, {}});
   add({"slip", "walls without friction", cartesian::slip_sides, {}});
   add({"entraining",
-       "air of the stream may come in with its total pressure (built-in engine only)",
+       "air can enter with the total pressure of the stream (built-in engine only)",
        cartesian::entraining_sides,
        {}});
   add({"far-field",
-       "the same through all six faces of the box, for a stream of any direction; there is no other outlet",
+       "the same condition on all six faces of the domain, for a stream of any direction; there is no other "
+       "outlet",
        cartesian::far_field,
        {}});
   add({"fixed-pressure",
-       "it is held, and air that comes back has no momentum, as [NFM]",
+       "fixed pressure; air that flows back has no momentum, as in [NFM]",
        {},
        cartesian::fixed_pressure_outlet});
   add({"still-air",
-       "air that comes back has the total pressure of air at rest (built-in engine only)",
+       "air that flows back has the total pressure of air at rest (built-in engine only)",
        {},
        cartesian::still_air_outlet});
   return rows;

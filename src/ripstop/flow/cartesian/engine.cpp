@@ -19,9 +19,11 @@ using namespace cartesian;
 void check(const Jet& jet, const FlowGrid& grid) {
   const double width = jet.nozzle.width, height = nozzle_height(jet.nozzle);
   if (!(width > 0 && height > 0 && jet.shear_layer > 0 && jet.outside >= 0 && jet.outside < 1))
-    throw Error(ExitCode::usage, fmt::format("jet: a nozzle of {} x {} m, a shear layer of {} m and {} of "
-                                             "the speed outside make none",
-                                             width, height, jet.shear_layer, jet.outside));
+    throw Error(
+        ExitCode::usage,
+        fmt::format(
+            "jet: a nozzle of {} x {} m, a shear layer of {} m and {} of the speed outside do not form a jet",
+            width, height, jet.shear_layer, jet.outside));
   if (width >= grid.size.x || height >= grid.size.y)
     throw Error(ExitCode::usage, fmt::format("jet: a nozzle of {} x {} m does not fit into the inlet of {} x "
                                              "{} m",
@@ -172,8 +174,7 @@ class CartesianFlow final : public Flow {
   double longest_step(double courant) override { return solver_.longest_step(in_range(courant)); }
   FlowStep step(double length) override;
   void stream(Vec3 velocity, Vec3 acceleration) override {
-    if (problem_.jet)
-      throw Error(ExitCode::usage, "flow: the speed of a jet does not change: nothing flies in a tunnel");
+    if (problem_.jet) throw Error(ExitCode::usage, "flow: the speed of a jet cannot change during a run");
     if (!solver_.open() && !(velocity.x == 0 && velocity.y == 0 && velocity.z >= 0))
       throw Error(
           ExitCode::usage,
@@ -210,7 +211,7 @@ class CartesianFlow final : public Flow {
   static double in_range(double courant) {
     if (courant > 0 && courant <= 1) return courant;
     throw Error(ExitCode::usage,
-                fmt::format("flow: a Courant number of {}; a number in (0, 1] is wanted", courant));
+                fmt::format("flow: a Courant number of {}; must be above 0 and at most 1", courant));
   }
   Error diverged_by(const FlowStep& now) const;
   PorousRows porous() const { return {problem_.grid, problem_.bodies, problem_.air.viscosity}; }
@@ -228,8 +229,9 @@ FlowAdvance CartesianFlow::run(Solver& solver, int iterations, double residual,
                                const FlowReport& report) const {
   FlowAdvance now;
   const auto diverged = [&](const char* when, const std::string& where) {
-    return divergence(solver, fmt::format("{} iteration {}", when, solver.state().iteration), where,
-                      "flow.convection = \"upwind\", a wider and longer box (flow.box_m) or a coarser grid");
+    return divergence(
+        solver, fmt::format("{} iteration {}", when, solver.state().iteration), where,
+        "flow.convection = \"upwind\", a wider and longer domain (flow.box_m) or a coarser grid");
   };
   for (int n = 1; n <= iterations && !now.converged && !now.stopped; ++n) {
     now.last = solver.iterate();
@@ -251,7 +253,7 @@ FlowAdvance CartesianFlow::advance(int iterations, double residual, const FlowRe
 }
 
 FlowStep CartesianFlow::march(int steps, double courant, const StepReport& report) {
-  if (steps < 1) throw Error(ExitCode::usage, fmt::format("flow: {} steps; at least one is wanted", steps));
+  if (steps < 1) throw Error(ExitCode::usage, fmt::format("flow: {} steps; must be at least 1", steps));
   FlowStep now;
   for (int n = 0; n < steps; ++n) {
     now = step(solver_.next_step(in_range(courant)));
@@ -283,7 +285,7 @@ FlowStep CartesianFlow::step(double length) {
 
 Error CartesianFlow::diverged_by(const FlowStep& now) const {
   return divergence(solver_, fmt::format("by step {}", now.step), solver_.first_bad_value(),
-                    "a smaller Courant number, a wider and longer box (flow.box_m) or a coarser grid");
+                    "a smaller Courant number, a wider and longer domain (flow.box_m) or a coarser grid");
 }
 
 void CartesianFlow::guess_from_coarser(const FlowGrid& grid, const PorousRows& porous, Solver& fine) const {
@@ -326,7 +328,7 @@ void CartesianFlow::restore(const std::filesystem::path& folder) {
   if (!(header.grid == problem_.grid) || header.sides != problem_.sides.word ||
       header.outlet != problem_.outlet.word || (header.jets == 1) != problem_.jet.has_value() ||
       (problem_.jet && !(header.jet == *problem_.jet)))
-    throw Error(ExitCode::usage, (folder / state_file).string() + ": was made in another box of air");
+    throw Error(ExitCode::usage, (folder / state_file).string() + ": was made in a different flow domain");
   for (FlowBody& body : problem_.bodies) {
     in(body.surface), each_array(body.motion, in);
     if (!body.is_sheet()) in(body.porous().cells);

@@ -48,6 +48,10 @@ constexpr double step_normal = 0.5;
 /// leave more of a swing as it goes from face to face.
 constexpr double kinked = 0.25;
 
+/// By how much of its compliance a sheet is thought to give way further, to what its drop changes by in a step: the
+/// velocity of cloth lighter than the air beside it would else change its sign each step (docs/theory/inflation.md).
+constexpr double to_a_change = 0.5;
+
 constexpr double least_jet = 0.25;  // of U, in the slope only: the answer does not depend on it
 
 struct Cover {
@@ -239,7 +243,8 @@ void SheetRows::update(State& state, const Layout& layout, double momentum, doub
       const double kink = at_face(-way) - through - next + at_face(2 * way);
       through += share * (next - through) - kinked * share * (1 - share) * kink;
     }
-    const double yields = face.yields, asked = through + yields * face.known;
+    const double further = to_a_change * face.yields, last = face.layer * state.held[face.at] / face.cover;
+    const double yields = face.yields + further, asked = through + face.yields * face.known + further * last;
     const double speed = std::abs(yields > 0 ? passing(asked, yields, face.law) : through);
     const double resistance = giving_way(face.law.linear + face.law.quadratic * speed, yields),
                  steepness = giving_way(face.law.linear + 2 * face.law.quadratic * speed, yields);

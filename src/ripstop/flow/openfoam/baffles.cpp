@@ -8,6 +8,7 @@
 #include <map>
 #include <unordered_set>
 
+#include "ripstop/core/checked_int.h"
 #include "ripstop/core/file.h"
 #include "ripstop/flow/cartesian/sheet_faces.h"
 #include "ripstop/flow/openfoam/foam_file.h"
@@ -109,7 +110,11 @@ bool shuts(double across, const FlowGrid& grid) {
 
 std::vector<BafflePatch> baffles_of(const FlowProblem& problem) {
   const auto place = [](double value) {
-    return value > 0 ? static_cast<int>(std::lround(std::log(value) / alike)) : -1000000;
+    constexpr int none = -1000000;
+    if (!(value > 0)) return none;
+    return checked_int(std::round(std::log(value) / alike), none, -none, [&] {
+      return fmt::format("a baffle with a pressure drop coefficient of {}: it must be finite", value);
+    });
   };
   std::map<std::pair<int, int>, BafflePatch> loose;
   BafflePatch walls{"cloth", false, 0, 0, {}};

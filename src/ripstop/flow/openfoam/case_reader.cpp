@@ -83,12 +83,11 @@ void check_range(const FlowField& field, double outlet) {
     if (gauge < 0.999 * low || gauge > 0.999 * high) ++clipped, last = cell;
   }
   if (static_cast<double>(clipped) > many * static_cast<double>(field.pressure.size())) {
-    throw Error(
-        ExitCode::diverged,
-        fmt::format("the flow diverged: the pressure ran into its limits, {:.0f} and {:.0f} Pa about the "
-                    "outlet's, in {} cells (cell {} for one). A duct that is blocked cannot pass the stated "
-                    "speed: lower the resistance or the speed",
-                    low, high, clipped, last));
+    throw Error(ExitCode::diverged,
+                fmt::format("the flow diverged: the pressure reached its limits, {:.0f} and {:.0f} Pa "
+                            "relative to the outlet, in {} cells (for example cell {}). The given speed is "
+                            "not possible in a blocked duct: lower the resistance or the speed",
+                            low, high, clipped, last));
   }
 }
 

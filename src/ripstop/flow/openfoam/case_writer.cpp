@@ -292,8 +292,8 @@ void write_readme(const fs::path& folder, const FlowProblem& problem, const Open
 
 void range(const char* what, double value, double low, double high, const char* unit) {
   if (!(value >= low && value <= high)) {
-    throw Error(ExitCode::usage, fmt::format("flow: {} is {:g} {}; it must lie in [{:g}, {:g}]", what, value,
-                                             unit, low, high));
+    throw Error(ExitCode::usage,
+                fmt::format("flow: {} is {:g} {}; it must be in [{:g}, {:g}]", what, value, unit, low, high));
   }
 }
 
@@ -322,9 +322,10 @@ void check(const FlowProblem& problem) {
   const FlowGrid& grid = problem.grid;
   for (const int n : {grid.nx, grid.ny, grid.nz}) range("number of cells along an axis", n, 1, 4000, "");
   range("number of cells", double(grid.nx) * grid.ny * grid.nz, 1, 2e8, "");
-  for (const double s : {grid.size.x, grid.size.y, grid.size.z}) range("size of the box", s, 1e-6, 1e6, "m");
+  for (const double s : {grid.size.x, grid.size.y, grid.size.z})
+    range("size of the domain", s, 1e-6, 1e6, "m");
   for (const double o : {grid.origin.x, grid.origin.y, grid.origin.z})
-    range("corner of the box", o, -1e6, 1e6, "m");
+    range("corner of the domain", o, -1e6, 1e6, "m");
   const Freestream& air = problem.air;
   range("air density", air.density, 1e-4, 100, "kg/m3");
   range("viscosity", air.viscosity, 1e-7, 1, "Pa s");
@@ -336,7 +337,7 @@ void check(const FlowProblem& problem) {
   std::vector<char> taken(static_cast<std::size_t>(grid.cells()), 0);
   for (const FlowBody& body : problem.bodies) {
     if (body.is_sheet()) continue;
-    refuse(problem.has_sheets(), "a porous body beside a sheet");
+    refuse(problem.has_sheets(), "a porous body together with a sheet");
     const PorousCells& porous = body.porous();
     range("Darcy coefficient", porous.darcy, 0, 1e15, "1/m2");
     range("Forchheimer coefficient", porous.forchheimer, 0, 1e12, "1/m");

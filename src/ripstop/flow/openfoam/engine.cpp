@@ -28,16 +28,15 @@ void check_folder(const fs::path& folder) {
   for (const unsigned char c : folder.string()) {
     if (c <= ' ' || std::string_view("\"'$#;{}()\\").find(static_cast<char>(c)) != std::string_view::npos) {
       throw Error(ExitCode::usage,
-                  fmt::format("OpenFOAM cannot work in '{}': its path must have no space, quote, "
+                  fmt::format("OpenFOAM cannot run in '{}': its path must have no space, quote, "
                               "bracket or other special character; choose another folder",
                               folder.string()));
     }
   }
   if (fs::exists(folder) && !fs::is_empty(folder) && !fs::exists(folder / kReadme)) {
-    throw Error(ExitCode::usage,
-                fmt::format("{} holds files that are not a case of Ripstop's; choose another "
-                            "folder for OpenFOAM, or empty it",
-                            folder.string()));
+    throw Error(ExitCode::usage, fmt::format("{} contains files that are not a case of Ripstop; choose "
+                                             "another folder for OpenFOAM, or empty it",
+                                             folder.string()));
   }
 }
 
@@ -93,14 +92,14 @@ class OpenFoamFlow final : public Flow {
     };
     const std::string saved = made_with(state.basis), now = made_with(settings_);
     if (saved != now) {
-      throw Error(ExitCode::usage, fmt::format("the flow saved in {} was made with {}; this run has {}: use "
-                                               "the same",
-                                               folder.string(), saved, now));
+      throw Error(ExitCode::usage,
+                  fmt::format("the flow saved in {} was made with {}, but this run has {}: use the same",
+                              folder.string(), saved, now));
     }
     if (!(state.basis == basis())) {
-      throw Error(ExitCode::usage, fmt::format("the flow saved in {} was made in another box of air or in "
-                                               "other air",
-                                               folder.string()));
+      throw Error(ExitCode::usage,
+                  fmt::format("the flow saved in {} was made with a different flow domain or different air",
+                              folder.string()));
     }
     copy_state(folder, state, {folder_, part_folders()});
     purge(state.time);

@@ -54,7 +54,7 @@ class Cursor {
   }
   void expect(const char* token) {
     const std::string found = next();
-    if (found != token) fail(fmt::format("'{}' stands where '{}' should", found, token));
+    if (found != token) fail(fmt::format("'{}' instead of '{}'", found, token));
   }
   double number() {
     const std::string token = next();
@@ -79,7 +79,7 @@ class Cursor {
     const double value = number();
     constexpr double most = std::numeric_limits<int>::max();
     if (!(std::abs(value) <= most) || value != std::floor(value))
-      fail("a label is no whole number of 32 bits");
+      fail("a label is not an integer of 32 bits");
     return static_cast<int>(value);
   }
   /// To the end of this entry, over nested braces and brackets. Only for entries without binary blocks.
@@ -257,7 +257,7 @@ FieldData read_field(const std::filesystem::path& path, int components, std::siz
   if (!inner || !faces) file.fail("has no internalField or no boundaryField");
   const std::size_t numbers = field.inner.size() / static_cast<std::size_t>(components);
   if (numbers != count && numbers != 1) {
-    file.fail(fmt::format("holds {} values where the mesh has {}", numbers, count));
+    file.fail(fmt::format("contains {} values, but the mesh has {}", numbers, count));
   }
   return field;
 }
@@ -289,7 +289,7 @@ FaceList read_faces(const std::filesystem::path& path) {
   for (std::size_t n = 1; n < faces.begins.size(); ++n)
     ordered = ordered && faces.begins[n] >= 3 && faces.begins[n] - 3 >= faces.begins[n - 1];
   if (!ordered || static_cast<std::size_t>(faces.begins.back()) != corners)
-    file.fail("the faces' corners are not as many as it says");
+    file.fail("the number of corners of the faces differs from the stated one");
   return faces;
 }
 

@@ -182,7 +182,7 @@ class Geometry {
       : points_(read_points(mesh / "points")), faces_(read_faces(mesh / "faces")) {
     for (const int point : faces_.corners)
       if (point < 0 || static_cast<std::size_t>(point) >= points_.size())
-        throw Error(ExitCode::io, (mesh / "faces").string() + " names a point that there is not");
+        throw Error(ExitCode::io, (mesh / "faces").string() + " refers to a point that does not exist");
   }
 
   std::size_t faces() const { return faces_.begins.size() - 1; }
@@ -343,7 +343,7 @@ std::vector<Baffle> baffles_on(int number, const FlowBody& sheet, const MeshPart
                       other = static_cast<std::size_t>(high.start + n);
     if (low.faces != high.faces || !geometry.same(face, other))
       throw Error(ExitCode::external,
-                  fmt::format("OpenFOAM's mesh in {} has two sides of {} that do not lie on one another",
+                  fmt::format("OpenFOAM's mesh in {} has two sides of {} that do not coincide",
                               part.folder.string(), name));
     Baffle baffle;
     baffle.low = part.owner[face], baffle.high = part.owner[other];
@@ -367,8 +367,8 @@ std::vector<Baffle> baffles_on(int number, const FlowBody& sheet, const MeshPart
         fmt::format(
             "OpenFOAM's mesh has {:.4g} m2 of faces with {:.4g} m of rims on {:.4g} m2 of cloth with {:.4g} "
             "m: "
-            "its cells are too coarse for gaps or folds of the cloth; take more (flow.cells) or halve them "
-            "more often (flow.cloth_levels)",
+            "its cells are too coarse for gaps or folds of the cloth; use more cells (flow.cells) or higher "
+            "flow.cloth_levels",
             size.area, size.rim, whole.area, whole.rim));
   const double slant = whole.area / size.area;
   for (Baffle& baffle : baffles)
@@ -424,8 +424,7 @@ void open_pockets(const fs::path& mesh) {
 }
 
 constexpr const char* finer =
-    "cells that are more alike along the three axes (flow.cells, flow.core.size_m) or another "
-    "flow.cloth_levels may help";
+    "try cells of more equal sides (flow.cells, flow.core.size_m) or a different flow.cloth_levels";
 
 }  // namespace
 
@@ -445,13 +444,12 @@ void make_fitted_mesh(const fs::path& folder, const FlowProblem& problem, int le
   std::vector<std::string> faults;
   programs.run_tool("checkMesh", {"-constant"}, finer, [&](const std::string& line) {
     const std::size_t stars = line.find("***");
-    if (line.find("*Number of regions") != std::string::npos) faults.emplace_back("cloth shuts cells in");
+    if (line.find("*Number of regions") != std::string::npos) faults.emplace_back("cloth encloses cells");
     if (stars != std::string::npos) faults.push_back(line.substr(stars + 3));
   });
   if (!faults.empty())
-    throw Error(ExitCode::external,
-                fmt::format("OpenFOAM's checkMesh finds fault with the mesh in {}: {}; {}", folder.string(),
-                            fmt::join(faults, "; "), finer));
+    throw Error(ExitCode::external, fmt::format("checkMesh of OpenFOAM rejects the mesh in {}: {}; {}",
+                                                folder.string(), fmt::join(faults, "; "), finer));
 }
 
 FittedMesh read_fitted_mesh(const fs::path& folder, const FlowProblem& problem) {

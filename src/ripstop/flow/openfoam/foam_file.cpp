@@ -21,7 +21,7 @@ std::string list(const std::vector<T>& values, std::size_t count) {
 std::string foam_header(const std::string& kind, const std::string& object, const std::string& format,
                         const std::string& note) {
   return fmt::format(
-      "// Written by Ripstop; a change by hand is lost at the next solve.\n"
+      "// Written by Ripstop; manual changes are lost at the next solution.\n"
       "FoamFile\n{{\n    version 2.0;\n    format {};\n{}{}    class {};\n    object {};\n}}\n\n",
       format, format == "binary" ? "    arch \"LSB;label=32;scalar=64\";\n" : "",
       note.empty() ? "" : fmt::format("    note \"{}\";\n", note), kind, object);

@@ -44,7 +44,7 @@ class HostLine {
     if (!(words >> host.name)) return {};
     if (!is_name(host.name)) {
       add(problems, host.name, "", "",
-          "is no name of a host: letters, digits and . _ - : @, the first a letter or a digit");
+          "is not a name of a host: use letters, digits and . _ - : @, starting with a letter or a digit");
       return {};
     }
     std::string word;
@@ -58,8 +58,8 @@ class HostLine {
       } else if (!is_one_of(key, other_keys)) {
         const std::string near = nearest(key, {"slots", "max_slots", "count", "cpu", "username", "port"});
         add(problems, key, "", "",
-            near.empty() ? "is no word of a hostfile; there is slots=N"
-                         : fmt::format("is no word of a hostfile; did you mean {}?", near));
+            near.empty() ? "is not a word of a hostfile; write slots=N"
+                         : fmt::format("is not a word of a hostfile; did you mean {}?", near));
       }
     }
     return host;
@@ -97,7 +97,8 @@ std::vector<Host> parse_hosts(const std::string& text, const std::string& file) 
     if (const auto host = HostLine(line, origin).read(problems)) hosts.push_back(*host);
   }
   if (hosts.empty() && problems.empty())
-    problems.push_back({{file, 0, 0, ""}, "", "", "", "names no host; a line a host: name slots=4"});
+    problems.push_back(
+        {{file, 0, 0, ""}, "", "", "", "contains no host; write one host per line: name slots=4"});
   if (!problems.empty()) throw InputError(ExitCode::usage, std::move(problems));
   return hosts;
 }

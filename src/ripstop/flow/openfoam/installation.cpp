@@ -106,11 +106,10 @@ Installation find_installation(const fs::path& program_folder, bool parallel, bo
   const ProcessResult result = run_process(request);
   installation.version = version_of(using_line);
   if (!result.succeeded() || installation.version.empty()) {
-    throw Error(
-        ExitCode::external,
-        fmt::format("{} is not of the openfoam.com line that Ripstop knows (1912 and later): it says '{}' "
-                    "({}). Debian's package 'openfoam' is the right one",
-                    solver.string(), using_line, describe(result)));
+    throw Error(ExitCode::external,
+                fmt::format("{} is not a version of openfoam.com from 1912, which Ripstop requires: it "
+                            "reports '{}' ({}). Install the Debian package 'openfoam'",
+                            solver.string(), using_line, describe(result)));
   }
   return installation;
 }

@@ -114,17 +114,18 @@ void Programs::explain_failure(const ProcessResult& result, const SolverLog& log
                                                 file));
   }
   if (result.timed_out) {
-    throw Error(ExitCode::external,
-                fmt::format("{} had not ended after {:.0f} s, at {}: raise the time limit or "
-                            "use more ranks (log: {})",
-                            installation_.solver, settings_.time_limit_s, where, file));
+    throw Error(
+        ExitCode::external,
+        fmt::format(
+            "{} was not finished after {:.0f} s, at {}: increase the time limit or use more ranks (log: {})",
+            installation_.solver, settings_.time_limit_s, where, file));
   }
   if (log.out_of_memory() || signal == SIGKILL) {
-    throw Error(ExitCode::external,
-                fmt::format("{} was ended at {} by {}: most often the machine had no memory left; use a "
-                            "coarser grid (log: {})",
-                            installation_.solver, where,
-                            log.out_of_memory() ? "a failed allocation" : describe(result), file));
+    throw Error(
+        ExitCode::external,
+        fmt::format("{} was stopped at {} by {}, usually for lack of memory; use a coarser grid (log: {})",
+                    installation_.solver, where,
+                    log.out_of_memory() ? "a failed allocation" : describe(result), file));
   }
   if (!result.succeeded()) {
     const double free = static_cast<double>(fs::space(folder_).available);

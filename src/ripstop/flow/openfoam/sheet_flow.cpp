@@ -112,10 +112,9 @@ class SheetFlow final : public Flow {
   void restore(const fs::path& folder) override {
     const SavedState state = read_state(folder);
     if (!(state.basis == basis()))
-      throw Error(ExitCode::usage,
-                  fmt::format("the flow saved in {} was made in another box of air, in other air or "
-                              "with other settings of OpenFOAM",
-                              folder.string()));
+      throw Error(ExitCode::usage, fmt::format("the flow saved in {} was made with a different flow domain, "
+                                               "different air or different settings of OpenFOAM",
+                                               folder.string()));
     if (!settings_.fitted_mesh) lay_cloth();
     copy_state(folder, state, folders());
     time_ = state.time;

@@ -164,7 +164,7 @@ SavedState read_state(const fs::path& folder) {
     }
     SavedState state{basis_from(marker.at("basis")), marker.at("time")};
     if (state.time.empty() || state.time.find_first_not_of("0123456789") != std::string::npos) {
-      throw Error(ExitCode::io, fmt::format("{} names no valid time", path.string()));
+      throw Error(ExitCode::io, fmt::format("{} contains no valid time", path.string()));
     }
     return state;
   } catch (const json::exception& error) {

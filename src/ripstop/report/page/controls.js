@@ -46,9 +46,9 @@ class Controls {
     this.choice = element("select", { "aria-label": "Colour the cloth by", "data-control": "quantity", onchange: () => this.colourBy(this.choice.value) },
       this.quantities.map((one) => element("option", { value: one.key, selected: one.key === this.key }, withUnit(one))));
     this.clothBar = colourBar(Colours.clothScale(), "cloth");
-    this.peak = element("button", { type: "button", onclick: () => this.probeHighest() }, "Show the highest");
+    this.peak = element("button", { type: "button", onclick: () => this.probeHighest() }, "Show the maximum");
     this.side.append(element("fieldset", {}, element("legend", {}, "Cloth"), this.choice, this.clothBar.node,
-      box("whole range, single peaks too", false, (on) => { this.fullRange = on; this.recolour(); }, "range"), element("div", { class: "row" }, this.peak)));
+      box("full range with isolated peaks", false, (on) => { this.fullRange = on; this.recolour(); }, "range"), element("div", { class: "row" }, this.peak)));
     if (this.run.shape.frames.some((frame) => frame.tension)) {
       this.lineBar = colourBar(Colours.clothScale(), "lines");
       this.side.append(element("fieldset", {}, element("legend", {}, "Lines and tape"),
@@ -59,13 +59,13 @@ class Controls {
     this.side.append(element("fieldset", {}, element("legend", {}, "View"), element("div", { class: "row" },
       views.map(([view, text]) => element("button", { type: "button", "data-view": view, onclick: () => this.viewer.look(view) }, text)))));
     this.side.append(element("p", { class: "keys" }, "Drag turns, wheel zooms, click keeps the probe. Keys: ", element("kbd", {}, "← ↑ → ↓"), " turn, ",
-      element("kbd", {}, "+ −"), " zoom, ", element("kbd", {}, "1–4"), " views, ", element("kbd", {}, "H"), " highest value",
+      element("kbd", {}, "+ −"), " zoom, ", element("kbd", {}, "1–4"), " views, ", element("kbd", {}, "H"), " maximum value",
       this.moving() ? [", ", element("kbd", {}, "space"), " plays"] : ""));
   }
 
   airControls(box) {
     this.airBar = colourBar(Colours.airScale(), "air");
-    const place = element("input", { type: "range", "aria-label": "Place of the slice", "data-control": "slice-place", oninput: () => this.setSlice({ place: Number(place.value) }) });
+    const place = element("input", { type: "range", "aria-label": "Position of the slice", "data-control": "slice-place", oninput: () => this.setSlice({ place: Number(place.value) }) });
     const axis = element("select", { "aria-label": "Slice across", "data-control": "slice-axis", onchange: () => { this.slice.axis = Number(axis.value); ends(); } },
       [["0", "slice across x"], ["1", "slice across y"], ["2", "slice across z (the stream)"]].map(([value, text]) => element("option", { value }, text)));
     const quantity = element("select", { "aria-label": "Colour the slice by", "data-control": "slice-quantity", onchange: () => this.setSlice({ quantity: quantity.value }) },

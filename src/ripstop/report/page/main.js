@@ -6,7 +6,7 @@ const Page = (() => {
   let shapes = null;  // the one ShapeSection, moved to the run that is shown
   const sections = [];
   const figures = [];
-  const kinds = { opening: "Opening", steady: "Steady run", size: "Sizing" };
+  const kinds = { opening: "Opening", steady: "Steady run", size: "Sizing", stability: "Stability" };
 
   function headline(run) {
     const cards = run.headline.map((key) => run.values.find((value) => value.key === key)).filter((value) => value && value.value !== null);
@@ -18,8 +18,8 @@ const Page = (() => {
 
   function warnings(run) {
     if (!run.warnings.length) return null;
-    return element("div", { class: "callout", role: "note", "data-part": "warnings" }, element("strong", {}, "To know about these numbers"),
-      element("ul", {}, run.warnings.map((text) => element("li", { class: /does not hold|must not be used/.test(text) ? "bad" : "" }, text))));
+    return element("div", { class: "callout", role: "note", "data-part": "warnings" }, element("strong", {}, "Remarks on these values"),
+      element("ul", {}, run.warnings.map((text) => element("li", { class: /exceeds its allowable load|must not be used/.test(text) ? "bad" : "" }, text))));
   }
 
   function plotGrid(plots, clock) {
@@ -44,10 +44,10 @@ const Page = (() => {
       run.shape ? element("h2", {}, run.kind === "opening" ? "Shape and force" : "Shape and air") : null, stageSlot, paper, force?.node,
       run.plots.length ? element("h2", {}, "Plots") : null, plots.node,
       element("h2", {}, "Results"), element("div", { class: "tables" }, Tables.results(run.values), own.map(Tables.plain)),
-      element("h2", {}, "What it is made of"), element("div", { class: "tables" }, rest.filter((table) => table.id === "bill").map(Tables.plain)),
+      element("h2", {}, "Bill of materials"), element("div", { class: "tables" }, rest.filter((table) => table.id === "bill").map(Tables.plain)),
       element("h2", {}, "Case and provenance"), element("div", { class: "tables" },
         rest.filter((table) => table.id === "sources").map(Tables.plain), Tables.pairs("provenance", "Provenance", run.provenance)),
-      element("details", { class: "panel" }, element("summary", {}, "The resolved case, case.toml"), element("pre", { "data-part": "case" }, run.caseFile)));
+      element("details", { class: "panel" }, element("summary", {}, "Resolved case (case.toml)"), element("pre", { "data-part": "case" }, run.caseFile)));
     return { run, node, clock, stageSlot, paper, plots: plots.figures, controls: null };
   }
 
@@ -56,7 +56,7 @@ const Page = (() => {
     try {
       if (!shapes) shapes = new ShapeSection();
     } catch (error) {
-      shown.stageSlot.replaceChildren(element("p", { class: "callout" }, "This browser has no WebGL, which the picture in 3D needs; all numbers are below."));
+      shown.stageSlot.replaceChildren(element("p", { class: "callout" }, "The 3D view needs WebGL, which this browser does not support; all values are below."));
       return;
     }
     shown.stageSlot.replaceChildren(shapes.node);
@@ -158,6 +158,6 @@ const Page = (() => {
 
 Page.start().catch((error) => {
   document.documentElement.dataset.ready = "failed";
-  document.getElementById("main").append(element("p", { class: "callout" }, `The report could not be shown: ${error.message}`));
+  document.getElementById("main").append(element("p", { class: "callout" }, `The report cannot be shown: ${error.message}`));
   throw error;
 });

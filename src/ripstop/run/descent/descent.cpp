@@ -62,8 +62,8 @@ Descent run_descent(const FinishedSteady& run, double payload_mass, const std::v
   const double had = 0.5 * run.result.density * run.result.speed * run.result.speed;
   if (std::abs(wanted / had - 1) > far_off)
     result.warnings.push_back(fmt::format(
-        "the run was at {:.3g} Pa of dynamic pressure and this descent is at {:.3g} Pa: shape and drag "
-        "area may be others there; [payload] mass_kg = {:g} in the case finds the speed itself",
+        "the dynamic pressure of the run was {:.3g} Pa and that of this descent is {:.3g} Pa: shape and drag "
+        "area may differ; with [payload] mass_kg = {:g} in the case, ripstop steady computes the speed",
         had, wanted, payload_mass));
   return result;
 }

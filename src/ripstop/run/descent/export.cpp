@@ -53,8 +53,9 @@ ExportedParachute exported(const FinishedSteady& run, std::optional<double> depl
   p.radius = run.result.size.projected_diameter / 2, p.height = run.result.size.length;
   p.porosity = facts(design).geometric_porosity();
   const KnownFilling filling = known_filling(design.canopy.family().type);
-  p.lag = filling.constant * p.nominal_diameter / speed;
-  p.lag_from = fmt::format("filling over {:g} D0 at {:.3g} m/s: {}", filling.constant, speed, filling.source);
+  const double constant = filling_constant_at(filling.constant, speed);
+  p.lag = constant * p.nominal_diameter / speed;
+  p.lag_from = fmt::format("filling distance {:.3g} D0 at {:.3g} m/s: {}", constant, speed, filling.source);
   p.mass = run.parachute_mass;
   p.gores = design.gores, p.line_count = design.lines.count, p.line_length = design.lines.length_m;
   p.line_material = design.lines.material, p.line_density = run.resolved.materials().line.linear_density_kg_m;
@@ -71,7 +72,7 @@ std::string rocketpy_text(const ExportedParachute& p, const std::string& trigger
   const double mouth = std::numbers::pi * p.radius * p.radius;  // [m2]
   return fmt::format(
       "# {}: a parachute for RocketPy 1.12, by Ripstop {}.\n"
-      "# Drag area {:.4f} +- {:.4f} m2 (what the run itself leaves open). Lag: {}.\n"
+      "# Drag area {:.4f} +- {:.4f} m2 (numerical uncertainty of the run). Lag: {}.\n"
       "# Reference area of drag_coefficient: pi radius^2 = {:.4f} m2, as RocketPy defines it. On the nominal "
       "area\n"
       "# S0 = {:.4f} m2 the same drag area is C_D = {:.4f}.\n"

@@ -142,7 +142,7 @@ void write_curves(const std::filesystem::path& folder, const MaterialFit& fit, c
     plot.series.push_back(
         {fmt::format("fit of degree {}", d.fit.degree), d.curve.strain, d.fit.fit, true, false, false});
     if (banded) {
-      const std::string name = fmt::format("{:.0f} % band of the mean", 100 * bench.confidence);
+      const std::string name = fmt::format("{:.0f} % confidence band of the mean", 100 * bench.confidence);
       plot.series.push_back({name, d.curve.strain, d.fit.band_low, true, false, true});
       plot.series.push_back({"", d.curve.strain, d.fit.band_high, true, false, true});
     }
@@ -178,7 +178,7 @@ std::string material_toml(const FitResult& result) {
     for (const std::string& note : coupons->notes) say(note);
   }
   for (const std::string& note : fit.notes) say(note);
-  say("breaking load: the weakest sample's; tested strain: the first sample's failure");
+  say("breaking load: of the weakest sample; tested strain: at failure of the first sample");
   return text + material_to_toml(fit.material);
 }
 

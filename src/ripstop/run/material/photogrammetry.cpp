@@ -29,7 +29,7 @@ void add(PlotSeries& series, double z, double r) {
 
 std::vector<PlotSeries> computed_series(const std::vector<ProfileRing>& profile) {
   PlotSeries mean{"computed, circle of the same area", {}, {}, true, false, false};
-  PlotSeries range{"computed, least and largest radius", {}, {}, true, false, true};
+  PlotSeries range{"computed, smallest and largest radius", {}, {}, true, false, true};
   for (auto first = profile.begin(); first != profile.end();) {
     auto last = first;
     while (last != profile.end() && last->patch == first->patch) ++last;

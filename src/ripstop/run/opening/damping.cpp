@@ -18,7 +18,7 @@ std::string to_json(const DampingResult& result) {
 
 DampingTarget damping_target(const Settings& resolved) {
   if (!resolved.inflation().measured_peak_n)
-    throw Error(ExitCode::usage, "inflation.measured_peak_n is not given: nothing to calibrate on");
+    throw Error(ExitCode::usage, "inflation.measured_peak_n is missing; it is required for the calibration");
   return {*resolved.inflation().measured_peak_n, resolved.inflation().measured_inflation_time_s};
 }
 

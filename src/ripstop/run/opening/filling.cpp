@@ -1,5 +1,9 @@
 #include "ripstop/run/opening/filling.h"
 
+#include <cmath>
+
+#include "ripstop/core/units.h"
+
 namespace ripstop {
 namespace {
 
@@ -11,9 +15,9 @@ constexpr const char* handbook = "Knacke Table 5-6 and Fig. 5-51, Ludtke's progr
 constexpr const char* without_n = "Knacke Fig. 5-51; n not in his table: as flat circular (assumed)";
 constexpr const char* without_exponents = "Knacke Table 5-6; exponents as solid cloth (assumed)";
 constexpr const char* slotted =
-    "Knacke Table 5-6 and Fig. 5-51, read in a transcription; Ludtke's exponent unchecked";
+    "Knacke Table 5-6 and Fig. 5-51, read in a transcription; Ludtke's exponent not verified";
 constexpr const char* slotted_without_exponents =
-    "Knacke Table 5-6, read in a transcription; exponents as solid cloth, Ludtke's unchecked (assumed)";
+    "Knacke Table 5-6, read in a transcription; exponents as solid cloth, Ludtke's not verified (assumed)";
 constexpr const char* as_solid = "not in the tables: as solid flat circular (assumed)";
 constexpr const char* as_slotted = "not in the tables: between ringslot and ringsail (assumed)";
 
@@ -29,6 +33,12 @@ constexpr Row table_rows[] = {
 };
 
 }  // namespace
+
+double filling_constant_at(double constant, double speed) {
+  constexpr double lowest = 150, flat_circular = 8;  // [ft/s], -
+  const double feet = speed / foot;                  // [ft/s]
+  return feet < lowest ? constant / flat_circular * 4.0 * std::pow(feet, 0.15) : constant;
+}
 
 KnownFilling known_filling(const std::string& type) {
   for (const Row& row : table_rows)

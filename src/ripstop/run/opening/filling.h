@@ -12,6 +12,11 @@ struct KnownFilling {
   const char* source = "";
 };
 
+/// n at a speed at line stretch [m/s]. Knacke's constants are those from 150 to 500 ft/s. Below, solid flat circular
+/// canopies (n = 8) have t_f = 4.0 D_0 / v^0.85 in feet and seconds, that is n = 4.0 v^0.15; the constants of other
+/// families are in proportion (assumed).
+double filling_constant_at(double constant, double speed);
+
 /// By the family's word in [parachute] type; a word that is not in the tables
 /// gets a solid canopy's values and says so.
 KnownFilling known_filling(const std::string& type);

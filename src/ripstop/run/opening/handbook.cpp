@@ -43,8 +43,8 @@ std::optional<std::string> handbook_disagreement(double computed, std::optional<
       "the computed opening load of {:.4g} N is {:.2g} times the {} finite-mass handbook load ({}: {:.4g} "
       "N). The "
       "handbook methods assume a filling distance that was measured on larger and faster canopies{}. The "
-      "deployment "
-      "decides how fast a canopy fills; design for the highest of these loads unless you have measured yours",
+      "filling time depends on the deployment; design for the highest of these loads unless the load of your "
+      "parachute is measured",
       computed, computed / nearest.load, above ? "highest" : "lowest", nearest.method, nearest.load,
       distance
           ? fmt::format("; the computed opening reaches its peak after {:.2g} nominal diameters", *distance)

@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <numbers>
 #include <utility>
 
+#include "ripstop/case/deployment.h"
 #include "ripstop/case/payload.h"
+#include "ripstop/core/error.h"
 #include "ripstop/run/engine.h"
 #include "ripstop/run/json.h"
 #include "ripstop/run/opening/handbook.h"
@@ -98,7 +101,7 @@ void take_steady_load(InflationResult& r, const LoadSource& source, const Openin
 void compare_with_handbook(InflationResult& r, const Settings& resolved, const LoadSource& source,
                            const Opening& solver) {
   std::optional<double> drag = source.steady_drag;
-  std::string from = drag ? "the steady drag asked for" : "";
+  std::string from = drag ? "the given steady drag" : "";
   if (!drag && r.steady_load) {
     drag = r.steady_load, from = "the steady load of this opening";
   } else if (!drag && solver.air()) {
@@ -115,6 +118,24 @@ void compare_with_handbook(InflationResult& r, const Settings& resolved, const L
   if (!flies(solver)) return;
   if (r.estimate.load) r.finite_mass_factor = peak / *r.estimate.load;
   r.handbook = handbook_methods(resolved);
+}
+
+/// The deployment before the opening, and how the canopy has filled.
+void take_filling(InflationResult& r, const Settings& resolved, const Opening& solver,
+                  const InflationState& state, const InflationHistory& history) {
+  r.filling_time = r.summary.filling_time;
+  if (!solver.air()) return;
+  r.deployment = deployment_of(resolved);
+  if (solver.problem().bag && state.air.bag.left > 0) r.bag_left_time = state.air.bag.left;
+  const auto filling = filling_of(history.frames);
+  r.filling_time = filling ? std::optional(filling->time) : std::nullopt;
+  if (!filling) return;
+  r.growth_exponent = filling->exponent;
+  double path = filling->time * solver.problem().air->flow.air.speed();
+  if (flies(solver))
+    for (const AirRow& row : history.air)
+      if (row.time <= filling->time) path = row.path;
+  r.filling_distance = path / nominal_diameter(resolved.parachute());
 }
 
 void take_quality(InflationResult& r, const Settings& resolved, const Opening& solver,
@@ -159,6 +180,7 @@ InflationResult result_of(const Settings& resolved, const LoadSource& source, co
   r.settings = solver.problem().settings;
   take_peaks(r, state, history, start_up);
   take_steady_load(r, source, solver, history, start_up);
+  take_filling(r, resolved, solver, state, history);
   r.impulse = state.impulse;
   if (!solver.air()) r.pressure = solver.problem().pressure;
   for (const AirRow& row : history.air)
@@ -188,15 +210,51 @@ InflationResult result_of(const Settings& resolved, const LoadSource& source, co
   return r;
 }
 
+/// How long the air of an opening will take on one thread, about [s]. Its steps follow from the Courant number of the
+/// smallest cells in air at twice the speed of the stream (assumed: about the edges of an open canopy). A step sweeps the
+/// cells and finds the faces of the cells that every part of the cloth cuts, which takes most of the time.
+double flow_seconds(const AirProblem& air, double duration, int nodes) {
+  constexpr double cells_a_second = 7.5e6;  // docs/tables/pimplefoam.md, of one of two cores
+  constexpr double seconds_a_node =
+      2e-5;                      // 72 steps about a cross of 25,246 nodes took 49 s of processor time
+  constexpr double fastest = 2;  // of the stream's speed
+  const FlowGrid& grid = air.flow.grid;
+  double smallest = std::numeric_limits<double>::infinity();
+  for (int axis = 0; axis < 3; ++axis)
+    for (int i = 0; i < grid.count(axis); ++i) smallest = std::min(smallest, grid.width(axis, i));
+  const double step = air.courant * smallest / (fastest * air.flow.air.speed());
+  return duration / step * (grid.cells() / cells_a_second + seconds_a_node * nodes);
+}
+
+/// The next block. An opening that diverges in cells that are too coarse states so.
+std::vector<HistoryRow> advanced(Opening& solver, InflationState& state, InflationHistory& history,
+                                 const std::vector<std::string>& coarse) {
+  try {
+    return solver.advance(state, &history.air);
+  } catch (const Error& error) {
+    if (coarse.empty() || error.code() != ExitCode::diverged) throw;
+    throw Error(error.code(), fmt::format("{}; the probable cause is the {}", error.what(), coarse.front()));
+  }
+}
+
 }  // namespace
 
 std::string to_json(const InflationResult& result) {
   return json_text(result);
 }
 
+std::vector<std::string> opening_warnings(const Settings& resolved, const Opening& solver) {
+  if (!solver.air()) return {};
+  return judge({{"cells_across", cells_across(resolved)}}).warnings;
+}
+
 double opening_seconds(const Opening& solver, const InflationState& start) {
   constexpr double nodes_a_second = 1.25e8;  // docs/tables/performance.md
-  return solver.problem().settings.duration_s / start.step * solver.mesh().node_count() / nodes_a_second;
+  const InflationProblem& problem = solver.problem();
+  const double duration = problem.settings.duration_s;
+  const double cloth = duration / start.step * solver.mesh().node_count() / nodes_a_second;
+  return problem.air ? 2 * cloth + flow_seconds(*problem.air, duration, solver.mesh().node_count())
+                     : cloth;  // predicted and corrected
 }
 
 InflationProblem with_engine(const Settings& resolved, InflationProblem problem) {
@@ -215,8 +273,10 @@ InflationSolution run_inflation(const Settings& resolved, const LoadSource& sour
   auto& [result, state, history] = solution;
   state = solver.start();
   observer.begin(solver, state, history);
+  const std::vector<std::string> coarse = opening_warnings(resolved, solver);
+  for (const std::string& text : coarse) observer.warned(text);
   while (state.blocks < solver.blocks()) {
-    const std::vector<HistoryRow> rows = solver.advance(state, &history.air);
+    const std::vector<HistoryRow> rows = advanced(solver, state, history, coarse);
     history.rows.insert(history.rows.end(), rows.begin(), rows.end());
     const bool at_frame = solver.at_frame(state);
     if (at_frame) history.frames.push_back(solver.frame(state));

@@ -7,6 +7,7 @@
 
 #include "ripstop/case/opening.h"
 #include "ripstop/core/members.h"
+#include "ripstop/flight/deployment.h"
 #include "ripstop/fsi/opening.h"
 #include "ripstop/fsi/opening_estimate.h"
 #include "ripstop/fsi/summary.h"
@@ -35,8 +36,15 @@ struct InflationResult {
   std::optional<double> pressure;                   // uniform [Pa]
   std::optional<double> drag_area;                  // C_D S in the air, the largest of a step [m2]
   std::optional<double> added_mass;                 // of the canopy at the end [kg]
-  std::optional<double> end_speed, end_angle;       // of a payload that flies [m/s], of its path [deg]
-  std::optional<double> height_lost;                // by it since deployment [m]
+  std::optional<Deployment> deployment;  // of a case with [deployment]: until the canopy leaves its bag
+  std::optional<double> bag_left_time;   // when the canopy had left its bag in the coupled opening [s]
+  /// Of an opening in its own air by its projected area, see filling_of(); under a uniform pressure the time at which the
+  /// load first reaches the steady one.
+  std::optional<double> filling_time;          // [s]
+  std::optional<double> filling_distance;      // over the nominal diameter
+  std::optional<double> growth_exponent;       // j of area = (t / t_f)^j
+  std::optional<double> end_speed, end_angle;  // of a payload that flies [m/s], of its path [deg]
+  std::optional<double> height_lost;           // by it since deployment [m]
   LoadSource source;
   std::optional<double> steady_drag_returned;  // steady load over the drag that was asked for
   InflationSettings settings;
@@ -75,7 +83,9 @@ void each_member(T& r, Visit&& visit) {
   visit("low_pass_peak_time_s", r.smooth_peak_time);
   visit("low_pass_overshoot", r.smooth_overshoot);
   visit("inflation_time_s", r.summary.inflation_time, or_null);
-  visit("filling_time_s", r.summary.filling_time);
+  visit("filling_time_s", r.filling_time);
+  visit("filling_distance_diameters", r.filling_distance);
+  visit("area_growth_exponent", r.growth_exponent);
   visit("settling_time_s", r.summary.settling_time);
   visit("steady_load_n", r.steady_load, or_null);
   visit("last_load_n", r.summary.last_load);
@@ -87,6 +97,8 @@ void each_member(T& r, Visit&& visit) {
   visit("pressure_pa", r.pressure);
   visit("drag_area_peak_m2", r.drag_area);
   visit("added_mass_kg", r.added_mass);
+  visit("deployment", r.deployment);
+  visit("bag_left_time_s", r.bag_left_time);
   visit("speed_at_end_m_s", r.end_speed);
   visit("path_angle_at_end_deg", r.end_angle);
   visit("height_lost_m", r.height_lost);
@@ -162,7 +174,10 @@ struct InflationSolution {
   InflationHistory history;
 };
 
-/// How long an opening will take on one thread, about, at the step that it begins with [s].
+/// What is doubtful about an opening before anything is computed: cells of the air that are too coarse for the canopy.
+std::vector<std::string> opening_warnings(const Settings& resolved, const Opening& solver);
+
+/// How long cloth and air of an opening will take on one thread, about, at the step that it begins with [s].
 double opening_seconds(const Opening& solver, const InflationState& start);
 
 /// An opening in its own air has the case's flow engine; others are left as they are.

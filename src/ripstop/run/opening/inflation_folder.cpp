@@ -26,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Of InflationState's list of members: one more with every change of it.
-constexpr int opening_format = 7;
+constexpr int opening_format = 8;
 
 double clock_now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -132,7 +132,7 @@ void InflationFolder::begin(const Opening& solver, InflationState& state, Inflat
         inflation_state_from_bytes(bytes.substr(std::min(bytes.size(), tables.size() + 1)));
     if (earlier.cloth.x.size() != state.cloth.x.size()) {
       throw Error(ExitCode::bad_data,
-                  fmt::format("{}: is of another mesh; start again with --fresh", saved.string()));
+                  fmt::format("{}: belongs to a different mesh; start again with --fresh", saved.string()));
     }
     state = std::move(earlier);
     if (with_air_) {  // the hash is followed by the folder of its air
@@ -151,9 +151,10 @@ void InflationFolder::begin(const Opening& solver, InflationState& state, Inflat
   if (goes_on && tables != tables_hash()) {
     throw Error(
         ExitCode::bad_data,
-        fmt::format("{}: history.csv or balance.csv lost or changed since the checkpoint; start again with "
-                    "--fresh",
-                    folder_.path().string()));
+        fmt::format(
+            "{}: history.csv or balance.csv is missing or was changed after the checkpoint; start again with "
+            "--fresh",
+            folder_.path().string()));
   }
   history = {rows_of<HistoryRow>("history.csv"), rows_of<InflationFrame>("balance.csv"), {}};
   if (with_air_) history.air = rows_of<AirRow>("air.csv");
@@ -247,7 +248,7 @@ void InflationFolder::write_start(const Opening& solver, const InflationState& s
   write_canopy_picture(folder_.own("folded.png"), solver.mesh(), folded.positions,
                        {fmt::format("folded start: {} folds between {:.3f} m and {:.3f} m", folded.folds,
                                     folded.inner_radius, folded.outer_radius),
-                        "strips between the folds, in turn", flat, ColourRange{-0.5, 1.5}});
+                        "strips between the folds, alternately", flat, ColourRange{-0.5, 1.5}});
   const std::vector<Vec3> x = positions(state.cloth, solver.cloth());
   write_vtp(folder_.own(shape_file("canopy", 0)), canopy_surface(solver.mesh(), x));
   write_vtp(folder_.own(shape_file("lines", 0)), spring_lines(solver.mesh(), x));
@@ -323,7 +324,7 @@ void InflationFolder::write_shapes(const Opening& solver, const InflationState& 
 Plot load_plot(const std::vector<HistoryRow>& rows, const std::vector<double>& smooth,
                const InflationResult& r) {
   const InflationSettings& settings = r.settings;
-  PlotSeries load{"load", {}, {}, true, false}, largest{"largest in the interval", {}, {}, true, false};
+  PlotSeries load{"load", {}, {}, true, false}, largest{"maximum in the interval", {}, {}, true, false};
   for (const HistoryRow& row : rows) {
     load.x.push_back(row.time);
     load.y.push_back(row.mean);
@@ -354,7 +355,7 @@ Plot load_plot(const std::vector<HistoryRow>& rows, const std::vector<double>& s
   level("steady", r.steady_load);
   level("infinite mass, C_x C_D S0 q", r.estimate.load);
   level("measured peak", settings.measured_peak_n);
-  level("peak of the source's model", settings.printed_peak_n);
+  level("peak, model of the source", settings.printed_peak_n);
   return plot;
 }
 

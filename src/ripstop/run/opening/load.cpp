@@ -24,6 +24,8 @@ namespace {
 
 // How many steps a filling takes on the trajectory, and how long one is flown at most [s].
 constexpr double steps_a_filling = 400, longest_flight = 600;
+// Steps of the slow rest of a flight while the speed falls by half, where these are longer than ten of the filling's.
+constexpr double steps_a_slowing = 1000;
 // The share of the load at infinite mass from which on that estimate stands for the opening.
 constexpr double hardly_slowed = 0.9;
 // Where gravity adds more to the speed during the filling than this share, formulas without gravity do not hold.
@@ -38,10 +40,9 @@ void check_request(const LoadRequest& request) {
                 fmt::format("an opening at {:g} m above sea level: must be above the ground at {:g} m",
                             *request.height, request.ground));
   if (!(std::abs(request.path_angle) <= 90))
-    throw Error(ExitCode::usage,
-                fmt::format("a way {:g} degrees below the horizon: must be from -90, straight "
-                            "up, to 90, straight down",
-                            request.path_angle));
+    throw Error(ExitCode::usage, fmt::format("a flight path {:g} degrees below the horizon: must be from -90 "
+                                             "(vertically up) to 90 (vertically down)",
+                                             request.path_angle));
   double before = 0;
   for (const ReefedStage& stage : request.reefing) {
     if (!(stage.share > before && stage.share < 1))
@@ -76,6 +77,13 @@ void choose_coefficients(const Settings& resolved, const LoadRequest& request, L
   r.filling_exponent = request.filling_exponent.value_or(filling.exponent);
   r.ludtke_exponent = request.filling_exponent.value_or(filling.ludtke_exponent);
   r.filling_source = request.filling_constant && request.filling_exponent ? "given" : filling.source;
+  if (!request.filling_from.empty()) {
+    const FittedFilling fitted =
+        fit_filling(opening_record(request.filling_from, resolved), r.nominal_diameter);
+    if (!request.filling_constant) r.filling_constant = fitted.constant;
+    if (!request.filling_exponent) r.filling_exponent = r.ludtke_exponent = fitted.exponent;
+    r.filling_source = "fitted to the computed opening " + request.filling_from.string();
+  }
   require_positive("filling constant n", r.filling_constant);
   require_positive("exponent of the drag area", r.filling_exponent);
 }
@@ -84,14 +92,24 @@ std::string joined(const std::vector<std::string>& texts) {
   return fmt::format("{}", fmt::join(texts, "; "));
 }
 
-/// Why the finite-mass methods do not apply in these conditions; empty: they do. A filling constant that the user gives
-/// replaces the handbook's, with its range of sizes and speeds.
-std::string outside_of_methods(const OpeningConditions& c, const LoadRequest& request,
-                               double nominal_diameter, double mach) {
+/// Why the finite-mass methods do not apply in these conditions; empty: they do. A filling constant that the user gives,
+/// or that is fitted to a computed opening, replaces the handbook's, with its range of sizes and speeds.
+std::string outside_of_methods(const OpeningConditions& c, const LoadRequest& request, double mach) {
   std::vector<ModelValue> values = {{"Mach number", mach}, {"ballistic parameter A", ballistic_parameter(c)}};
-  if (!request.filling_constant)
-    values.insert(values.end(), {{"speed at line stretch", c.speed}, {"nominal diameter", nominal_diameter}});
+  if (!request.filling_constant && request.filling_from.empty())
+    values.push_back({"speed at line stretch", c.speed});
   return joined(outside_range(finite_mass_model, values));
+}
+
+/// The handbook's filling distances were measured on large canopies. The methods apply to a smaller one, whose
+/// deployment decides over the distance.
+std::string caution_on_filling(const LoadRequest& request, double nominal_diameter) {
+  if (request.filling_constant) return "";
+  const std::string text = joined(outside_range(filling_model, {{"nominal diameter", nominal_diameter}}));
+  return text.empty() ? ""
+                      : text +
+                            "; the deployment decides over 1 to 20 D0 (--filling-constant), and a canopy "
+                            "that is thrown open approaches the infinite-mass load";
 }
 
 void add_methods(const OpeningConditions& c, double ludtke_exponent, double integral, StageLoads& stage) {
@@ -102,22 +120,22 @@ void add_methods(const OpeningConditions& c, double ludtke_exponent, double inte
   const bool from_none = stage.drag_area_before == 0;
   const bool light = gravity < most_gravity;
   const std::string held =
-      !from_none ? "fills from nothing, this stage does not"
-      : !light   ? fmt::format("has no gravity, which adds {:.0f} % to the speed here", 100 * gravity)
+      !from_none ? "assumes filling from zero drag area, unlike this stage"
+      : !light   ? fmt::format("neglects gravity, which adds {:.0f} % to the speed", 100 * gravity)
                  : stage.outside;
   stage.methods.push_back({infinite_mass_method, infinite_mass_load(c).load, 0, x.factor > hardly_slowed,
-                           x.factor > hardly_slowed
-                               ? "the speed hardly falls while the canopy fills"
-                               : "an upper bound: the speed falls while the canopy fills"});
+                           x.factor > hardly_slowed ? "the speed decreases little during filling"
+                                                    : "an upper bound: the speed decreases during filling"});
   OpeningConditions by_ludtke = c;
   by_ludtke.exponent = ludtke_exponent;
   const OpeningLoad pflanz = pflanz_load(c), ludtke = ludtke_load(by_ludtke);
   stage.methods.push_back({"Pflanz", pflanz.load, pflanz.time, held.empty(), held});
   stage.methods.push_back({"Ludtke", ludtke.load, ludtke.time, held.empty(), held});
   const MomentumImpulse impulse = momentum_impulse_load(c, integral);
-  const std::string left = fmt::format("leaves {:.0f} % of the speed", 100 * impulse.speed_ratio);
+  const std::string left =
+      fmt::format("speed after filling {:.0f} % of the initial speed", 100 * impulse.speed_ratio);
   stage.methods.push_back({"momentum-impulse", impulse.load.load, 0, from_none && stage.outside.empty(),
-                           !from_none               ? "fills from nothing; " + left
+                           !from_none               ? "filling from zero drag area; " + left
                            : !stage.outside.empty() ? stage.outside
                                                     : left});
 }
@@ -157,7 +175,9 @@ StageLoads begin_stage(const LoadRequest& request, const LoadResult& r, const Fl
   stage.drag_area_before = before, stage.drag_area = drag_area;
   // A stage that was cut while it overshot has no less to fill than the drag area that it would have held.
   const double added = drag_area - std::min(before, before_held);
-  stage.filling_time = r.filling_constant * r.nominal_diameter / state.speed * std::sqrt(added / open);
+  stage.filling_constant = request.filling_constant ? *request.filling_constant
+                                                    : filling_constant_at(r.filling_constant, state.speed);
+  stage.filling_time = stage.filling_constant * r.nominal_diameter / state.speed * std::sqrt(added / open);
   const OpeningConditions c{r.payload_mass + r.parachute_mass,
                             state.speed,
                             stage.density,
@@ -168,7 +188,8 @@ StageLoads begin_stage(const LoadRequest& request, const LoadResult& r, const Fl
                             std::clamp(state.path_angle, -90.0, 90.0)};
   stage.ballistic_parameter = ballistic_parameter(c);
   stage.mass_ratio = mass_ratio(c);
-  stage.outside = outside_of_methods(c, request, r.nominal_diameter, state.speed / air.sound_speed);
+  stage.outside = outside_of_methods(c, request, state.speed / air.sound_speed);
+  stage.caution = caution_on_filling(request, r.nominal_diameter);
   add_methods(c, r.ludtke_exponent, request.impulse_integral, stage);
   return stage;
 }
@@ -204,7 +225,9 @@ void fly_stages(const LoadRequest& request, LoadResult& r) {
       const double area = before = stage.drag_area;
       leg.drag_area = [area](double, double) { return area; };
       leg.duration = reefed.duration - settled;
-      leg.step = std::min(0.02, 10 * leg.step);
+      // A tiny canopy fills much faster than it decelerates, in 2 m / (rho C_D S v).
+      const double slowing = 2 * mass / (stage.density * area * state.speed);
+      leg.step = std::min(0.02, std::max(10 * leg.step, slowing / steps_a_slowing));
       leg.until_steady = reefed.share == 1;
       append(r.flight, fly(state, mass, leg));
     }
@@ -232,7 +255,7 @@ void fly_record(const Settings& resolved, const LoadRequest& request, LoadResult
           handbook_disagreement(peak.force, peak.state.distance / r.nominal_diameter, stage.methods))
     r.warnings.push_back(*text);
   stage.methods.push_back({computed_method, peak.force, peak.state.time, true,
-                           "C_D S of " + request.opening.string() + " over the way through the air"});
+                           "C_D S of " + request.opening.string() + " over the distance through the air"});
   compare_methods(stage);
 }
 
@@ -299,7 +322,7 @@ DragCoefficient opening_drag_coefficient(const Settings& resolved, const LoadReq
     return {0.5 * (known.low + known.high),
             fmt::format("middle of {:.2f} to {:.2f} (Knacke)", known.low, known.high)};
   throw Error(ExitCode::usage,
-              "no drag coefficient is known of this family: give --drag-coefficient, --steady RUN or "
+              "no drag coefficient of this family is known: give --drag-coefficient, --steady RUN or "
               "inflation.drag_coefficient in the case");
 }
 
@@ -314,12 +337,15 @@ LoadResult run_load(const Settings& resolved, const LoadRequest& request) {
   const double descent =
       terminal_speed(r.payload_mass + r.parachute_mass, r.drag_coefficient * r.reference_area,
                      standard_air(r.height).density);
-  if (descent >= request.speed)
+  // On a path downwards weight exceeds the drag of the open canopy, whose load then grows until it is the weight.
+  const double along = std::sin(request.path_angle * std::numbers::pi / 180);
+  if (along > 0 && request.speed * request.speed <= along * descent * descent)
     throw Error(
         ExitCode::usage,
-        fmt::format("a descent rate of {:.3g} m/s is above the {:.3g} m/s of the deployment: nothing opens "
-                    "with a load there; take a higher speed, a smaller mass or a larger canopy",
-                    descent, request.speed));
+        fmt::format(
+            "a descent rate of {:.3g} m/s is above the {:.3g} m/s of the deployment: the payload still "
+            "accelerates under the open canopy; take a higher speed, a smaller mass or a larger canopy",
+            descent, request.speed));
   fly_stages(request, r);
   if (!request.opening.empty()) fly_record(resolved, request, r);
   choose_design_load(resolved, request, r);

@@ -39,7 +39,8 @@ struct LoadRequest {
       packed_drag_area;  // of the packed canopy with its pilot, to find that difference [m2]
   std::optional<double> payload_drag_area;  // [m2]; absent: the case's
   std::filesystem::path steady, opening;    // folders of runs to take the drag area from; empty: none
-  std::optional<double> measured_load;      // of an opening of this parachute at this speed and mass [N]
+  std::filesystem::path filling_from;   // of a computed opening whose n and exponent are taken; empty: none
+  std::optional<double> measured_load;  // of an opening of this parachute at this speed and mass [N]
 };
 
 /// A row of trajectory.csv.
@@ -59,8 +60,10 @@ void each_member(T& row, Visit&& visit) {
 struct StageLoads {
   double begin = 0, speed = 0, height = 0, density = 0;          // of the stage [s], [m/s], [m], [kg/m3]
   double drag_area_before = 0, drag_area = 0, filling_time = 0;  // [m2], [m2], [s]
+  double filling_constant = 0;                                   // n at this speed
   double ballistic_parameter = 0, mass_ratio = 0;
   std::string outside;  // why the handbook's filling does not apply; empty: it does; not in result.json
+  std::string caution;  // what limits the filling distance of methods that apply; empty: nothing
   std::vector<MethodLoad> methods;
   /// Of the methods that apply, the infinite-mass load where none does; (highest - lowest) / mean.
   double highest = 0, lowest = 0, spread = 0;
@@ -74,6 +77,8 @@ void each_member(T& s, Visit&& visit) {
   visit("drag_area_before_m2", s.drag_area_before);
   visit("drag_area_m2", s.drag_area);
   visit("filling_time_s", s.filling_time);
+  visit("filling_constant", s.filling_constant);
+  visit("filling_caution", s.caution);
   visit("ballistic_parameter", s.ballistic_parameter);
   visit("mass_ratio", s.mass_ratio);
   visit("methods", s.methods);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <vector>
@@ -49,7 +50,7 @@ Stream stream_of(const Settings& run, const fs::path& folder) {
   if (run.inflation().mass != InflationSettings::Mass::payload) return stream;
   if (!fs::exists(folder / "air.csv"))
     throw Error(ExitCode::bad_data,
-                fmt::format("{}: an opening with a payload needs air.csv, which has its speed and its path",
+                fmt::format("{}: an opening with a payload requires air.csv with its speed and distance",
                             folder.string()));
   const CsvTable table = read_csv(folder / "air.csv");
   stream.time = table.column("time_s"), stream.speed = table.column("speed_m_s");
@@ -64,20 +65,20 @@ OpeningRecord opening_record(const fs::path& folder, const Settings& resolved) {
   const auto result = text ? nlohmann::json::parse(*text, nullptr, false) : nlohmann::json();
   if (!result.is_object() || !result.contains("peak_load_n"))
     throw Error(ExitCode::usage,
-                fmt::format("{}: holds no finished run of ripstop inflate", folder.string()));
+                fmt::format("{}: contains no finished run of ripstop inflate", folder.string()));
   const Settings run = settings_of_run(folder);
   const double here = nominal_area(resolved.parachute()), there = nominal_area(run.parachute());
   if (std::abs(here - there) > 1e-6 * here)
-    throw Error(ExitCode::usage,
-                fmt::format("{}: is an opening of another parachute: S0 is {:g} m2 there and {:g} m2 "
-                            "here",
-                            folder.string(), there, here));
-  if (!run.inflation().reefing.empty())
     throw Error(
         ExitCode::usage,
-        fmt::format("{}: is a reefed opening, whose lines were cut at times: its drag area is none over the "
-                    "way through the air",
-                    folder.string()));
+        fmt::format(
+            "{}: is an opening of a different parachute: S0 is {:g} m2 in that run and {:g} m2 in this case",
+            folder.string(), there, here));
+  if (!run.inflation().reefing.empty())
+    throw Error(ExitCode::usage,
+                fmt::format("{}: is a reefed opening, with lines cut at given times: its drag area is not a "
+                            "function of distance; use an opening without reefing",
+                            folder.string()));
   OpeningRecord record;
   const fs::path smooth = folder / "history_low_pass.csv";
   const CsvTable table = read_csv(fs::exists(smooth) ? smooth : folder / "history.csv");
@@ -95,8 +96,24 @@ OpeningRecord opening_record(const fs::path& folder, const Settings& resolved) {
        i < record.drag_area.size(); ++i)
     record.steady_drag_area += record.drag_area[i] / double(last);
   if (record.distance.empty() || !(record.steady_drag_area > 0))
-    throw Error(ExitCode::bad_data, fmt::format("{}: its history has no load", folder.string()));
+    throw Error(ExitCode::bad_data, fmt::format("{}: the load history is zero", folder.string()));
   return record;
+}
+
+FittedFilling fit_filling(const OpeningRecord& record, double nominal_diameter) {
+  const auto full = std::find_if(record.drag_area.begin(), record.drag_area.end(),
+                                 [&](double area) { return area >= record.steady_drag_area; }) -
+                    record.drag_area.begin();
+  double products = 0, squares = 0;
+  for (std::ptrdiff_t i = 0; i < full; ++i) {
+    if (!(record.drag_area[i] > 0)) continue;
+    const double s = std::log(record.distance[i] / record.distance[full]);
+    products += s * std::log(record.drag_area[i] / record.steady_drag_area), squares += s * s;
+  }
+  if (!(squares > 0))
+    throw Error(ExitCode::usage,
+                "the opening has the drag area of its end from its first row on: there is no filling to fit");
+  return {record.distance[full] / nominal_diameter, products / squares};
 }
 
 }  // namespace ripstop

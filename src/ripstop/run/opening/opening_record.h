@@ -19,4 +19,12 @@ struct OpeningRecord {
 /// Error(usage) for a folder without one or one of another parachute, Error(bad_data) for a damaged one.
 OpeningRecord opening_record(const std::filesystem::path& folder, const Settings& resolved);
 
+/// How such an opening fills: n and j of C_D S = (s / (n D0))^j times the drag area of its end, s the way through the air.
+struct FittedFilling {
+  double constant = 0, exponent = 0;
+};
+/// n is where the drag area first reaches that of the end, j a least squares fit of its logarithm until then. Throws
+/// Error(usage) where the drag area is that of the end from the first row on.
+FittedFilling fit_filling(const OpeningRecord& record, double nominal_diameter);
+
 }  // namespace ripstop

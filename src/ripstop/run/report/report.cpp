@@ -89,9 +89,8 @@ bool is_sweep(const fs::path& folder) {
 /// Refuses to write over what is no report.
 void check_out(const fs::path& out) {
   if (fs::exists(out) && !(fs::is_regular_file(out) && is_report(read_file(out))))
-    throw Error(
-        ExitCode::usage,
-        fmt::format("{}: is there already and no report of Ripstop; choose another --out", out.string()));
+    throw Error(ExitCode::usage,
+                fmt::format("{}: exists and is not a report of Ripstop; choose another --out", out.string()));
 }
 
 /// The page into a sealed folder, all of whose other files are as they were when it was sealed.
@@ -108,8 +107,9 @@ fs::path write_into(const fs::path& folder, const std::string& page) {
 ReportRun report_of(const fs::path& folder) {
   const fs::path result = folder / "result.json";
   if (!fs::exists(result) || !fs::exists(folder / "run.json"))
-    throw Error(ExitCode::usage, fmt::format("{}: holds no finished run of ripstop steady, inflate or sweep",
-                                             folder.string()));
+    throw Error(
+        ExitCode::usage,
+        fmt::format("{}: contains no finished run of ripstop steady, inflate or sweep", folder.string()));
   ReportRun run;
   run.name = name_of(folder);
   add_result(run, read_file(result), result);
@@ -148,7 +148,7 @@ std::vector<ReportRun> reports_of(const fs::path& folder) {
   if (!is_sweep(folder)) runs.push_back(report_of(folder));
   if (!is_sealed(folder))
     throw Error(ExitCode::usage,
-                fmt::format("{}: has not ended; wait for it, or repeat its command", folder.string()));
+                fmt::format("{}: is not finished; wait for it, or repeat its command", folder.string()));
   if (!is_sweep(folder)) return runs;
   const auto sweep = nlohmann::ordered_json::parse(read_file(folder / "result.json"), nullptr, false);
   if (sweep.is_object() && sweep.contains("runs")) {
@@ -191,7 +191,7 @@ std::string write_run_report(ClaimedFolder& folder) {
 }
 
 fs::path write_report(const std::vector<fs::path>& folders, const fs::path& out) {
-  if (folders.empty()) throw Error(ExitCode::usage, "no run to report on");
+  if (folders.empty()) throw Error(ExitCode::usage, "no run for the report");
   const bool own = out.empty() && folders.size() == 1;
   const fs::path target = own ? folders.front() / report_name : out.empty() ? fs::path(report_name) : out;
   check_out(target);

@@ -65,24 +65,23 @@ const ReportColumn seconds{"time", "s"}, newtons{"axial force", "N"}, iterations
 std::vector<ReportPlot> steady_plots(const fs::path& folder) {
   std::vector<ReportPlot> plots;
   add_plot(plots, folder / "iterations.csv", "iteration",
-           plot("forces", "Axial forces, which have to agree", iterations, newtons),
-           {{"drag_n", "force of the air"},
-            {"nodal_load_n", "load on the cloth"},
-            {"line_tension_n", "tension of the lines"},
-            {"momentum_deficit_n", "momentum that the air lost"}});
+           plot("forces", "Axial forces, equal in equilibrium", iterations, newtons),
+           {{"drag_n", "air load"},
+            {"nodal_load_n", "cloth load"},
+            {"line_tension_n", "line load"},
+            {"momentum_deficit_n", "momentum deficit"}});
   ReportPlot changes = plot("changes", "Convergence", iterations, {"relative change or residual", ""});
   changes.logarithmic = true;
-  add_plot(plots, folder / "iterations.csv", "iteration", changes,
-           {{"drag_change", "change of the drag"},
-            {"omega", "change of the shape"},
-            {"flow_residual", "residual of the flow"}});
+  add_plot(
+      plots, folder / "iterations.csv", "iteration", changes,
+      {{"drag_change", "change of drag"}, {"omega", "change of shape"}, {"flow_residual", "flow residual"}});
   ReportPlot history = plot("history", "Drag over time", seconds, newtons);
   add_plot(plots, folder / "history.csv", "time_s", history,
            {{"drag_n", "drag"}, {"force_x_n", "side force along x"}, {"force_y_n", "side force along y"}});
   add_plot(plots, folder / "pressure.csv", "arc_m",
            plot("pressure", "Pressure along a gore", {"along the cloth from the vent", "m"},
                 {"pressure coefficient", ""}),
-           {{"cp_inside", "inside"}, {"cp_outside", "outside"}, {"cp_load", "load on the cloth"}});
+           {{"cp_inside", "inside"}, {"cp_outside", "outside"}, {"cp_load", "cloth load"}});
   add_plot(plots, folder / "pressure.csv", "z_m",
            plot("profile", "Profile", {"along the stream", "m"}, {"radius", "m"}),
            {{"radius_m", "mean over the gores"}});
@@ -94,8 +93,8 @@ void add_line_plot(std::vector<ReportPlot>& plots, const fs::path& folder) {
   add_plot(lines, folder / "lines.csv", "line",
            plot("lines", "Line tensions", {"line", ""}, {"tension", "N"}),
            {{"free_tension_n", "below the skirt"},
-            {"largest_tension_n", "largest anywhere on the line"},
-            {"peak_tension_n", "highest of the opening"}});
+            {"largest_tension_n", "maximum along the line"},
+            {"peak_tension_n", "maximum of the opening"}});
   for (ReportPlot& found : lines) {
     for (ReportSeries& series : found.series) series.line = false;
     plots.push_back(found);
@@ -107,7 +106,7 @@ std::vector<ReportPlot> opening_plots(const ReportRun& run, const fs::path& fold
   ReportPlot load = plot("load", "Load on the riser", {"time from deployment", "s"}, {"axial load", "N"});
   load.over_time = true;
   add_plot(plots, folder / "history.csv", "time_s", load,
-           {{"load_largest_n", "largest in the interval"}, {"load_mean_n", "load"}});
+           {{"load_largest_n", "maximum in the interval"}, {"load_mean_n", "load"}});
   if (!plots.empty()) {
     std::vector<ReportPlot> smooth;
     add_plot(smooth, folder / "history_low_pass.csv", "time_s", load, {{"load_n", "low-passed"}});
@@ -116,20 +115,20 @@ std::vector<ReportPlot> opening_plots(const ReportRun& run, const fs::path& fold
     for (const auto& [key, name] : {std::pair{"steady_load_n", "steady"},
                                     {"knacke_load_n", "infinite mass, C_x C_D S0 q"},
                                     {"measured_peak_n", "measured peak"},
-                                    {"printed_peak_n", "peak of the source's model"}}) {
+                                    {"printed_peak_n", "peak, model of the source"}}) {
       const double level = number_of(run, key);
       if (std::isfinite(level)) plots[0].series.push_back({name, {0, end}, {level, level}, true, true});
     }
   }
   ReportPlot size = plot("size", "Diameters", {"time from deployment", "s"}, {"diameter", "m"});
   ReportPlot stress =
-      plot("stress", "Highest stress", {"time from deployment", "s"}, {"von Mises stress", "N/m"});
+      plot("stress", "Maximum stress", {"time from deployment", "s"}, {"von Mises stress", "N/m"});
   ReportPlot energy = plot("energy", "Energy balance", {"time from deployment", "s"}, {"energy", "J"});
   size.over_time = stress.over_time = energy.over_time = true;
   const fs::path balance = folder / "balance.csv";
   add_plot(plots, balance, "time_s", size,
            {{"projected_diameter_m", "projected"}, {"skirt_diameter_m", "skirt"}});
-  add_plot(plots, balance, "time_s", stress, {{"max_von_mises_n_m", "highest in the cloth"}});
+  add_plot(plots, balance, "time_s", stress, {{"max_von_mises_n_m", "maximum in the cloth"}});
   add_plot(plots, balance, "time_s", energy,
            {{"pressure_work_j", "work of the pressure"},
             {"kinetic_energy_j", "kinetic"},
@@ -168,7 +167,7 @@ void add_drag_over_speed(std::vector<ReportPlot>& plots, const std::vector<Repor
   made.series.push_back(computed);
   for (ReportSeries& series :
        std::vector{known_drag(resolved, "measured", &Measured::drag_n),
-                   known_drag(resolved, "source's nonlinear model", &Measured::printed_nonlinear_n)})
+                   known_drag(resolved, "nonlinear model of the source", &Measured::printed_nonlinear_n)})
     if (!series.x.empty()) made.series.push_back(series);
   plots.push_back(made);
 }
@@ -185,11 +184,11 @@ std::vector<ReportPlot> comparison_plots(const std::vector<ReportRun>& runs, con
   std::vector<ReportPlot> plots;
   add_drag_over_speed(plots, runs, resolved);
   // Of each plot the series that stands for it.
-  for (const auto& [id, name] : {std::pair{"forces", "force of the air"},
+  for (const auto& [id, name] : {std::pair{"forces", "air load"},
                                  {"history", "drag"},
                                  {"profile", "mean over the gores"},
-                                 {"pressure", "load on the cloth"},
-                                 {"lines", "largest anywhere on the line"},
+                                 {"pressure", "cloth load"},
+                                 {"lines", "maximum along the line"},
                                  {"load", "load"},
                                  {"size", "projected"}}) {
     ReportPlot all;

@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
 Json parsed(const std::filesystem::path& file, const std::string& text) {
   Json json = Json::parse(text, nullptr, false);
   if (!json.is_object())
-    throw Error(ExitCode::bad_data, fmt::format("{}: is no result of Ripstop", file.string()));
+    throw Error(ExitCode::bad_data, fmt::format("{}: is not a result of Ripstop", file.string()));
   return json;
 }
 
@@ -119,8 +119,8 @@ ReportTable bill_table(const Settings& resolved) {
   const PatternResult pattern = run_pattern(resolved, {}, packed_by_hand);
   ReportTable table{"bill",
                     "Bill of materials",
-                    fmt::format("As cut, with the usual allowances, thread not counted: {:.4g} g, {:.3g} l "
-                                "packed by hand. ripstop pattern writes the pieces to scale.",
+                    fmt::format("Cut dimensions with the default allowances, without thread: {:.4g} g, "
+                                "{:.3g} l packed by hand. ripstop pattern writes the pieces to scale.",
                                 1000 * pattern.bill.mass, 1000 * pattern.bill.packed_volume),
                     {{"part", ""},
                      {"material", ""},
@@ -141,7 +141,7 @@ ReportTable sources_table(const Settings& resolved, const std::filesystem::path&
   const Json run = parsed(run_json, read_file(run_json));
   const Json written = Json::parse(case_json(resolved));
   ReportTable table{
-      "sources", "Values that a case may leave out", "", {{"key", ""}, {"value", ""}, {"from", ""}}, {}};
+      "sources", "Default values of the case", "", {{"key", ""}, {"value", ""}, {"from", ""}}, {}};
   for (const Json& source : run.value("sources", Json::array())) {
     const std::string key = source.value("key", "");
     const auto place = pointer_of(key);
@@ -167,8 +167,11 @@ double number_of(const ReportRun& run, const std::string& key) {
 }
 
 ReportTable comparison_table(const std::vector<ReportRun>& runs) {
-  ReportTable table{
-      "comparison", "Runs side by side", "Differences are from the first run.", {{"", ""}, {"unit", ""}}, {}};
+  ReportTable table{"comparison",
+                    "Comparison of runs",
+                    "Differences are relative to the first run.",
+                    {{"", ""}, {"unit", ""}},
+                    {}};
   for (const ReportRun& run : runs) table.columns.push_back({run.name, ""});
   for (const ReportValue& value : runs.front().values) {
     const Wording words = in_words(value.key);

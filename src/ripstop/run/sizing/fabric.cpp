@@ -9,7 +9,9 @@
 
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/claimed_folder.h"
+#include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
+#include "ripstop/core/positive.h"
 #include "ripstop/output/picture.h"
 #include "ripstop/output/vtk.h"
 #include "ripstop/run/json.h"
@@ -17,6 +19,31 @@
 #include "ripstop/run/stress_arrays.h"
 
 namespace ripstop {
+namespace {
+
+constexpr double highest_pressure = 1e6;  // as of inflation.pressure_pa [Pa]
+
+/// What `relaxation` returns. Where it diverges, the stress p R / 2 of a sphere of the nominal radius is compared with the
+/// strength of the cloth.
+template <class Relaxation>
+RelaxResult relaxed_under(const Settings& resolved, double pressure, const Relaxation& relaxation) {
+  try {
+    return relaxation();
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::diverged) throw;
+    const double stress = 0.25 * pressure * nominal_diameter(resolved.parachute());
+    const double strength = resolved.materials().canopy.break_load_n_m;
+    throw Error(
+        error.code(),
+        fmt::format("the cloth has no equilibrium under {:g} Pa: a sphere of this nominal diameter would "
+                    "carry {:.3g} N/m{}; take a lower pressure ({})",
+                    pressure, stress,
+                    strength > 0 ? fmt::format(", and the cloth breaks at {:.3g} N/m", strength) : "",
+                    error.what()));
+  }
+}
+
+}  // namespace
 
 std::string to_json(const FabricResult& result) {
   return json_text(result);
@@ -24,6 +51,7 @@ std::string to_json(const FabricResult& result) {
 
 FabricSolution run_fabric(const Settings& resolved, std::optional<double> pressure,
                           const std::function<void(const RelaxProgress&)>& report) {
+  if (pressure) require_within("pressure (Pa)", *pressure, 1e-9, highest_pressure);
   FabricSolution solution;
   auto& [r, mesh, shape, stress, tensions] = solution;
   const double speed = resolved.flow().speed_m_s;
@@ -41,7 +69,8 @@ FabricSolution run_fabric(const Settings& resolved, std::optional<double> pressu
   relax_options.tolerance = r.tolerance;
   ThreadTeam team(resolved.coupling().threads);
   const auto begin = std::chrono::steady_clock::now();
-  const RelaxResult relaxed = relax(state, *cloth, loads, relax_options, team, report);
+  const RelaxResult relaxed = relaxed_under(
+      resolved, r.pressure, [&] { return relax(state, *cloth, loads, relax_options, team, report); });
   r.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   shape = positions(state, *cloth);
   stress = cell_stress(*cloth, state);
@@ -69,7 +98,7 @@ void write_fabric(const std::filesystem::path& folder, const FabricSolution& sol
   std::vector<double> mises;
   for (const CellStress& s : stress) mises.push_back(s.von_mises);
   VtkSurface canopy = canopy_surface(mesh, shape);
-  for (VtkArray& array : stress_arrays(mesh, stress)) canopy.cell_arrays.push_back(std::move(array));
+  for (VtkArray& array : stress_arrays(mesh, shape, stress)) canopy.cell_arrays.push_back(std::move(array));
   write_vtp(folder / "canopy.vtp", canopy);
   VtkSurface lines = spring_lines(mesh, shape);
   lines.cell_arrays.push_back(vtk_array("tension_n", tensions));

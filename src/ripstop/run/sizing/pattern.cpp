@@ -30,7 +30,8 @@ void remove_earlier_drawings(const std::filesystem::path& folder) {
   for (const auto& entry : names) {
     if (!entry.is_string()) continue;
     const std::filesystem::path name = entry.get<std::string>();
-    const bool drawing = name.extension() == ".dxf" || name.extension() == ".svg";
+    const bool drawing =
+        name.extension() == ".dxf" || name.extension() == ".svg" || name.extension() == ".pdf";
     if (drawing && !name.has_parent_path()) remove_path(folder / name);
   }
 }
@@ -63,15 +64,21 @@ PatternResult run_pattern(const Settings& resolved, const Allowances& allowances
   return result;
 }
 
-void write_pattern(const std::filesystem::path& folder, const PatternResult& result, DxfUnit unit) {
+void write_pattern(const std::filesystem::path& folder, const PatternResult& result,
+                   const PatternFiles& files) {
   make_results_folder(folder);
   remove_earlier_drawings(folder);
+  const PatternHead head{result.title, files.case_file, files.date};
+  PatternResult written = result;
   for (const Piece& piece : result.pattern.pieces) {
-    write_pattern_dxf(folder / drawing_name(piece, ".dxf"), piece, result.allowances, unit);
-    write_pattern_svg(folder / drawing_name(piece, ".svg"), piece, result.allowances);
+    write_pattern_dxf(folder / drawing_name(piece, ".dxf"), piece, result.allowances, files.unit, head);
+    write_pattern_svg(folder / drawing_name(piece, ".svg"), piece, result.allowances, head);
+    if (!files.paper) continue;
+    written.drawings.push_back(drawing_name(piece, *files.paper == Paper::a4 ? "-a4.pdf" : "-letter.pdf"));
+    write_pattern_pdf(folder / written.drawings.back(), piece, result.allowances, *files.paper, head);
   }
   write_bill_csv(folder / "bill.csv", result.bill);
-  write_file(folder / "result.json", to_json(result));
+  write_file(folder / "result.json", to_json(written));
 }
 
 }  // namespace ripstop

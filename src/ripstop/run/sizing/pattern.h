@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -54,10 +55,17 @@ std::string to_json(const PatternResult& result);
 /// Throws Error(usage) for an allowance or a density outside its range.
 PatternResult run_pattern(const Settings& resolved, const Allowances& allowances, double packing_density);
 
+/// How the drawings are written.
+struct PatternFiles {
+  DxfUnit unit = DxfUnit::millimetres;
+  std::optional<Paper> paper;   // also as PDF on sheets of it
+  std::string case_file, date;  // for the title block; empty: left out
+};
+
 /// Every piece as DXF and SVG, bill.csv and result.json. Drawings that the result.json of an earlier pattern in this
-/// folder lists are removed first. Throws Error(usage) for the folder of a run, Error(io).
+/// folder lists are removed first. Throws Error(usage) for the folder of a run and as write_pattern_pdf(), Error(io).
 void write_pattern(const std::filesystem::path& folder, const PatternResult& result,
-                   DxfUnit unit = DxfUnit::millimetres);
+                   const PatternFiles& files = {});
 
 inline const Range allowance_range = from(0).up_to(1);            // [m]
 inline const Range packing_density_range = from(50).up_to(1500);  // [kg/m3]

@@ -14,6 +14,7 @@
 #include "ripstop/core/file.h"
 #include "ripstop/core/positive.h"
 #include "ripstop/core/toml/fields.h"
+#include "ripstop/core/toml/problem.h"
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/flight/validity.h"
 #include "ripstop/run/json.h"
@@ -34,7 +35,7 @@ FamilyDrag drag_of(const std::string& family) {
   }
   const std::string near = nearest(family, names);
   throw Error(ExitCode::usage,
-              fmt::format("--family {}: no such family in examples/families.json; {}there are {}", family,
+              fmt::format("--family {}: no such family in examples/families.json; {}available: {}", family,
                           near.empty() ? "" : "did you mean " + near + "? ", fmt::join(names, ", ")));
 }
 
@@ -62,13 +63,12 @@ Balance balance_of(const SizeRequest& request, const SizeResult& r, const Case& 
     throw Error(
         ExitCode::usage,
         fmt::format("this cloth ({}, with lines and seams) descends at {:.3g} m/s without a payload in air "
-                    "of {:.3g} kg/m3: no size descends at {:g} m/s; take a higher descent rate or a "
-                    "lighter cloth",
+                    "of {:.3g} kg/m3: no size reaches {:g} m/s; use a higher descent rate or a lighter cloth",
                     r.given.parachute.canopy_material, alone, r.density, request.descent_rate));
   throw Error(
       ExitCode::usage,
-      fmt::format("{:g} kg at {:g} m/s in air of {:.3g} kg/m3 needs a larger parachute than a case file "
-                  "describes: parachute.{} is at most {:g} m; take a smaller mass or a higher descent rate",
+      fmt::format("{:g} kg at {:g} m/s in air of {:.3g} kg/m3 requires a larger parachute than a case file "
+                  "can describe: parachute.{} is at most {:g} m; use a smaller mass or a higher descent rate",
                   request.payload_mass, request.descent_rate, r.density, limits.high_key, limits.high_value));
 }
 
@@ -90,9 +90,10 @@ void find_size(const SizeRequest& request, const Design& example, SizeResult& r)
   if (excess(limits.low) > 0)
     throw Error(
         ExitCode::usage,
-        fmt::format("{:g} kg at {:g} m/s in air of {:.3g} kg/m3 needs a smaller parachute than a case file "
-                    "describes: parachute.{} is at least {:g} m; take a larger mass or a lower descent rate",
-                    request.payload_mass, request.descent_rate, r.density, limits.low_key, limits.low_value));
+        fmt::format(
+            "{:g} kg at {:g} m/s in air of {:.3g} kg/m3 requires a smaller parachute than a case file can "
+            "describe: parachute.{} is at least {:g} m; use a larger mass or a lower descent rate",
+            request.payload_mass, request.descent_rate, r.density, limits.low_key, limits.low_value));
   while (high - low > 1e-7) {
     const double middle = 0.5 * (low + high);
     (excess(std::exp(middle)) > 0 ? high : low) = middle;
@@ -180,16 +181,15 @@ bool choose_materials(const std::vector<Line>& lines, SizeResult& r, double& lea
   }
   TapeMaterial tape = tape_for(r.given, r.line_load_factor * r.design_load / design.lines.count);
   design.tape.material = tape.name;
-  r.tape_material = std::move(tape.name), r.tape_source = std::move(tape.from);
+  r.tape_material = std::move(tape.name), r.tape_source = std::move(tape.from), r.tape_used = tape.used;
   return before.lines.material != design.lines.material || before.riser.material != design.riser.material ||
          before.tape.material != design.tape.material;
 }
 
 /// Size, opening load, lines and tape follow from each other: repeated until lines and tape stay.
-void find_parachute(const SizeRequest& request, SizeResult& r) {
+void find_materials(const SizeRequest& request, const std::vector<Line>& lines, const Design& example,
+                    SizeResult& r) {
   constexpr int most = 12;
-  const std::vector<Line> lines = library_lines(request);
-  const Design example = r.given.parachute;
   double least_line = 0, least_riser = 0;
   for (int i = 0; i < most; ++i) {
     Design scaled = example;
@@ -202,12 +202,59 @@ void find_parachute(const SizeRequest& request, SizeResult& r) {
     find_opening(request, r);
     if (!choose_materials(lines, r, least_line, least_riser) && i > 0) return;
   }
-  throw Error(ExitCode::not_converged,
-              fmt::format("lines and tape still change after {} sizes: name a line (--line-material)", most));
+  throw Error(
+      ExitCode::not_converged,
+      fmt::format("the choice of lines and tape does not converge within {} iterations: give --line-material",
+                  most));
+}
+
+bool is_sound(const Design& design) {
+  std::vector<Problem> problems;
+  Findings findings({}, problems);
+  check_design(design, findings);
+  return problems.empty();
+}
+
+/// Gives `example` at least `times` as many lines, and gores in proportion where the family allows that (a cross keeps
+/// its arms). False: there are no more than most_lines.
+bool add_lines(Design& example, double times) {
+  constexpr int most_lines = 120;  // as many as the largest cargo parachutes have
+  const int gores = example.gores, count = example.lines.count;
+  const int wanted = static_cast<int>(std::min<double>(most_lines, std::ceil(count * times)));
+  for (const bool in_proportion : {true, false})
+    for (int more = std::max(count + 1, wanted); more <= most_lines; ++more) {
+      if (in_proportion && gores * more % count != 0) continue;
+      Design trial = example;
+      trial.lines.count = more, trial.gores = in_proportion ? gores * more / count : gores;
+      if (!is_sound(trial)) continue;
+      example = trial;
+      return true;
+    }
+  return false;
+}
+
+/// Lines and tape of the library that hold; where none does, more gores and lines share the load.
+void find_parachute(const SizeRequest& request, SizeResult& r) {
+  const std::vector<Line> lines = library_lines(request);
+  Design example = r.given.parachute;
+  find_materials(request, lines, example, r);
+  const int count = example.lines.count;
+  const auto used = [&r] { return std::max(used_of(r, suspension_line(r.given), "line"), r.tape_used); };
+  while (!request.line_material && used() > 1 && add_lines(example, used())) {
+    find_materials(request, lines, example, r);
+    r.gores_source = fmt::format(
+        "{} lines of the example are too few for the strongest line and tape of the library", count);
+  }
 }
 
 void warn(const SizeRequest& request, SizeResult& r) {
   r.warnings = r.load_warnings;
+  if (r.tape_used > 1)
+    r.warnings.push_back(
+        fmt::format("the tape exceeds its allowable load: the load of a line is {:.3g} times the allowable "
+                    "one of {}, the strongest in the "
+                    "library; take a stronger tape (parachute.tape.material) or more lines",
+                    r.tape_used, r.tape_material));
   const StandardAir air = standard_air(request.density ? standard_height(r.density) : r.height);
   const double reynolds = r.density * request.descent_rate * r.nominal_diameter / air.viscosity;
   for (const std::string& text : outside_range(
@@ -216,8 +263,8 @@ void warn(const SizeRequest& request, SizeResult& r) {
     r.warnings.push_back("drag coefficient: " + text);
   if (r.parachute_mass > request.payload_mass)
     r.warnings.push_back(
-        fmt::format("the parachute of {:.3g} kg is heavier than its payload of {:g} kg: the rate is "
-                    "close to that of the cloth alone",
+        fmt::format("the parachute of {:.3g} kg is heavier than its payload of {:g} kg: the descent rate is "
+                    "close to that of the canopy alone",
                     r.parachute_mass, request.payload_mass));
 }
 
@@ -332,9 +379,7 @@ void verify_size(const SizeRequest& request, SizeResult& r,
     const SteadyResult flown = fly(resolve(parse_case(r.case_text, "the sized case")), run);
     if (!flown.converged)
       throw Error(ExitCode::not_converged,
-                  fmt::format("--verify: run {} has not converged, so that its descent rate "
-                              "says nothing",
-                              run));
+                  fmt::format("--verify: run {} has not converged; its descent rate cannot be used", run));
     r.checks.push_back({r.nominal_diameter, flown.speed, flown.drag_coefficient});
     if (std::abs(flown.speed / request.descent_rate - 1) <= tolerance) return;
     scale_lengths(r.given.parachute, flown.speed / request.descent_rate);

@@ -60,7 +60,8 @@ struct SizeResult {
   std::optional<std::array<double, 2>> handbook_diameter;  // that its range gives, the largest first [m]
   double nominal_diameter = 0, nominal_area = 0, vent_area = 0;  // [m], [m2]
   int gores = 0, line_count = 0;
-  double line_length = 0;  // [m]
+  double line_length = 0;    // [m]
+  std::string gores_source;  // why there are more gores than in the example; empty: there are as many
   std::string line_material, tape_material, tape_source, canopy_material;
   double parachute_mass = 0, cloth_mass = 0, tape_mass = 0, line_mass = 0;  // [kg]
   double packed_volume = 0;                                                 // [m3]
@@ -71,6 +72,7 @@ struct SizeResult {
   double line_load_factor = 1;     // largest line load over an equal share
   std::optional<Margins> margins;  // of lines and riser under the design load
   double line_used = 0;            // load / allowable of the line with the highest load
+  double tape_used = 0;            // the same of the tape, or of the hem in its place
   std::vector<SizeCheck> checks;
   std::vector<StageLoads> opening;                   // by every method
   std::vector<FlightRow> flight;                     // of that opening; not in result.json
@@ -95,6 +97,7 @@ void each_member(T& r, Visit&& visit) {
   visit("vent_area_m2", r.vent_area);
   visit("gores", r.gores);
   visit("line_count", r.line_count);
+  visit("gores_from", r.gores_source);
   visit("line_length_m", r.line_length);
   visit("line_material", r.line_material);
   visit("tape_material", r.tape_material);
@@ -113,6 +116,7 @@ void each_member(T& r, Visit&& visit) {
   visit("line_load_factor", r.line_load_factor);
   visit("margins", r.margins);
   visit("line_used", r.line_used);
+  visit("tape_used", r.tape_used);
   visit("checks", r.checks);
   visit("opening", r.opening);
   visit("warnings", r.warnings);

@@ -41,13 +41,13 @@ void visit_lengths(const Fields& fields, const std::string& table, const Each& e
 /// What a reader of the file may want to know of a key.
 std::string comment_on(const std::string& key, const SizeResult& r) {
   if (key == "nominal_diameter_m")
-    return r.handbook_diameter ? fmt::format("{:.2f} to {:.2f} by the handbook's range of C_D",
+    return r.handbook_diameter ? fmt::format("{:.2f} to {:.2f} for the handbook range of C_D",
                                              r.handbook_diameter->at(1), r.handbook_diameter->at(0))
                                : "";
   if (key == "vent_diameter_m")
     return fmt::format("{:.2f} % of the area", 100 * r.vent_area / r.nominal_area);
   if (key == "lines.material")
-    return fmt::format("{:.0f} % of its allowable load at the opening", 100 * r.line_used);
+    return fmt::format("{:.0f} % of its allowable load at opening", 100 * r.line_used);
   if (key == "tape.material") return r.tape_source;
   return "";
 }
@@ -116,19 +116,19 @@ std::string size_case_text(const SizeRequest& request, const SizeResult& r) {
                         r.handbook_drag_coefficient->at(0), r.handbook_drag_coefficient->at(1));
   text += fmt::format(
       "# Parachute {:.3g} kg: cloth {:.3g}, tape {:.3g}, lines {:.3g}; packed {:.3g} litres at {:g} kg/m3.\n"
-      "# Design load {:.0f} N behind {:g} kg at {:g} m/s: {} (ripstop load).\n"
+      "# Design load {:.0f} N for a payload of {:g} kg at {:g} m/s: {} (ripstop load).\n"
       "title = \"{}\"\n\n",
       r.parachute_mass, r.cloth_mass, r.tape_mass, r.line_mass, 1000 * r.packed_volume,
       request.packing_density, r.design_load, r.payload_mass, r.deployment_speed, r.design_load_from,
       r.given.title);
   text += parachute_text(r);
   text += fmt::format(
-      "\n[payload]  # in place of a speed: ripstop steady finds the one at which drag is weight\n"
+      "\n[payload]  # instead of a speed: ripstop steady computes the speed at which drag equals weight\n"
       "mass_kg = {}\n\n[flow]\n",
       r.payload_mass);
   text += request.density ? fmt::format("density_kg_m3 = {}\n", r.density)
                           : fmt::format("height_m = {}  # above sea level, standard atmosphere\n", r.height);
-  text += fmt::format("speed_m_s = {}  # where the search begins\n", r.descent_rate);
+  text += fmt::format("speed_m_s = {}  # start value of the iteration\n", r.descent_rate);
   text +=
       fmt::format("\n[inflation]\ndrag_coefficient = {}  # on S0, for ripstop load\n", r.drag_coefficient);
   return text;

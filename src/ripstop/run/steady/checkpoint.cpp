@@ -67,7 +67,7 @@ std::optional<LoadedCheckpoint> load_checkpoint(const fs::path& folder, Flow& fl
   // One that nothing names was never whole: a start that was killed.
   if (damage.empty() || !fs::exists(folder / "current")) return std::nullopt;
   throw Error(ExitCode::bad_data,
-              damage + "; no other checkpoint of the run is whole: start again with --fresh");
+              damage + "; the run has no other complete checkpoint: start again with --fresh");
 }
 
 }  // namespace ripstop

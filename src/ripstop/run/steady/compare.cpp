@@ -69,7 +69,8 @@ ComparedModel model_of(const SweepPoint& point, const SteadyResult& result, cons
 
 SweepAxis linear_models(const Settings& resolved) {
   if (resolved.coupling().linear)
-    throw Error(ExitCode::usage, "the case is linear itself (coupling.linear = true): nothing to compare");
+    throw Error(ExitCode::usage,
+                "the case is already linear (coupling.linear = true); remove the key to compare the models");
   SweepAxis axis{
       "model",
       {"nonlinear", "linear", "linear cloth", "linear lines"},

@@ -35,7 +35,7 @@ bool is_of_steady(const std::string& text) {
 void require_converged(const SteadyResult& result, const std::string& where) {
   if (result.converged) return;
   throw Error(ExitCode::bad_data,
-              fmt::format("{}the steady run has not converged, so that its drag says nothing; give it more "
+              fmt::format("{}the steady run has not converged and its drag cannot be used; increase "
                           "coupling.max_iterations and run it again{}",
                           where.empty() ? "" : where + ": ", where.empty() ? "" : " with --fresh"));
 }
@@ -52,8 +52,9 @@ FinishedSteady finished_steady(const std::filesystem::path& folder) {
   if (!text || !is_of_steady(*text))
     throw Error(
         ExitCode::usage,
-        fmt::format("{}: holds no finished run of ripstop steady; make one by: ripstop steady CASE --out {}",
-                    folder.string(), folder.string()));
+        fmt::format(
+            "{}: contains no finished run of ripstop steady; compute one with: ripstop steady CASE --out {}",
+            folder.string(), folder.string()));
   const SteadyResult result = steady_result_from_json(*text);
   require_converged(result, folder.string());
   const Settings resolved = settings_of_run(folder);

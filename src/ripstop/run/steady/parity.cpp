@@ -100,8 +100,8 @@ void require_inside(const FlowGrid& grid, const std::vector<Triangle>& surface) 
     return;
   throw Error(
       ExitCode::bad_data,
-      fmt::format("the surface reaches from ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g}) m; it must "
-                  "lie inside the box from ({:g}, {:g}, {:g}) to ({:g}, {:g}, {:g}) m: move it there "
+      fmt::format("the surface extends from ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g}) m; it must "
+                  "be inside the domain from ({:g}, {:g}, {:g}) to ({:g}, {:g}, {:g}) m: move it there "
                   "(is it in millimetres?)",
                   low.x, low.y, low.z, high.x, high.y, high.z, grid.origin.x, grid.origin.y, grid.origin.z,
                   end.x, end.y, end.z));
@@ -122,7 +122,8 @@ ParityResult flow_parity(const ParitySettings& settings, const ParityEvents& eve
   require_inside(problem.grid, settings.surface);
   const std::vector<int> cut =
       cut_cells(problem.grid, settings.surface.empty() ? rigid_disk_gap_band({0, 0, 2}) : settings.surface);
-  if (cut.empty()) throw Error(ExitCode::bad_data, "the surface cuts no cell: its triangles have no area");
+  if (cut.empty())
+    throw Error(ExitCode::bad_data, "the surface intersects no cell: its triangles have no area");
   std::optional<TemporaryFolder> temporary;
   const std::filesystem::path folder =
       settings.folder.empty() ? temporary.emplace("flow-parity").path : settings.folder;

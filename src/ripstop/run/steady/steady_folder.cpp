@@ -67,7 +67,7 @@ void SteadyFolder::begin(const SteadyRun& run, SteadyState& state) {
   if (auto saved = load_checkpoint(folder_.own("checkpoint/"), run.solver.flow())) {
     state = std::move(saved->state);
     if (!saved->damage.empty())
-      next_.warned(fmt::format("{}; goes on from the checkpoint before, iteration {}", saved->damage,
+      next_.warned(fmt::format("{}; resuming from the previous checkpoint, iteration {}", saved->damage,
                                state.iterations.size()));
   } else if (!warm_from_.empty()) {
     if (start_from(settings_of_run(warm_from_), final_state(warm_from_), run, state)) {
@@ -141,7 +141,8 @@ void SteadyFolder::write_shape(const SteadyRun& run, const SteadyState& state) c
   add("pressure_inside_pa", state.sides.inside);
   add("pressure_outside_pa", state.sides.outside);
   add("pressure_difference_applied_pa", state.applied);
-  for (VtkArray& array : stress_arrays(mesh, stress)) canopy.cell_arrays.push_back(std::move(array));
+  for (VtkArray& array : stress_arrays(mesh, state.shape, stress))
+    canopy.cell_arrays.push_back(std::move(array));
   make_folder(folder_.path() / "vtk");
   write_vtp(folder_.own(fmt::format("vtk/canopy_{:03}.vtp", k)), canopy);
 
@@ -185,7 +186,7 @@ void SteadyFolder::write_pressure(const SteadyRun& run, const SteadyState& state
   plot.title = result.title;
   plot.x.label = "along the cloth from the vent [m]";
   plot.y.label = "pressure coefficient";
-  for (const char* name : {"inside", "outside", "load on the cloth"}) plot.series.emplace_back().name = name;
+  for (const char* name : {"inside", "outside", "cloth load"}) plot.series.emplace_back().name = name;
   const std::vector<PressureRing> rings =
       pressure_profile(run.solver.cells(), state.shape, state.sides, state.applied);
   for (const PressureRing& ring : rings) {
@@ -200,7 +201,7 @@ void SteadyFolder::write_pressure(const SteadyRun& run, const SteadyState& state
   write_csv(folder_.own("pressure.csv"), table);
   write_plot(folder_.own("pressure.png"), plot);
   write_canopy_picture(folder_.own("load.png"), run.solver.mesh(), state.shape,
-                       {result.title, "pressure inside over outside [Pa]", state.applied, {}});
+                       {result.title, "pressure difference, inside minus outside [Pa]", state.applied, {}});
 }
 
 void SteadyFolder::write_drag_plot(const SteadyState& state, const std::string& title) const {
@@ -208,8 +209,7 @@ void SteadyFolder::write_drag_plot(const SteadyState& state, const std::string& 
   plot.title = title;
   plot.x.label = "coupling iteration";
   plot.y.label = "axial force [N]";
-  for (const char* name : {"fluid force", "nodal load", "line tension"})
-    plot.series.emplace_back().name = name;
+  for (const char* name : {"air load", "cloth load", "line load"}) plot.series.emplace_back().name = name;
   for (const SteadyIteration& i : state.iterations) {
     const double forces[] = {i.fluid_force, i.nodal_load, i.line_tension};
     for (std::size_t s = 0; s < plot.series.size(); ++s) {
@@ -253,7 +253,8 @@ void check_steady_in(const SteadyFolderSettings& settings, const Settings& resol
 double drag_for_opening(const fs::path& folder, const Settings& opening) {
   const std::optional<std::string> text = finished_result(folder);
   if (!text)
-    throw Error(ExitCode::usage, fmt::format("{}: holds no finished run of ripstop steady", folder.string()));
+    throw Error(ExitCode::usage,
+                fmt::format("{}: contains no finished run of ripstop steady", folder.string()));
   return drag_for_opening(settings_of_run(folder), steady_result_from_json(*text), folder.string(), opening);
 }
 
@@ -266,14 +267,17 @@ double drag_for_opening(const Settings& resolved, const SteadyResult& result, co
   asked.erase("mesh"), had.erase("mesh");
   for (const auto& [key, value] : asked.items()) {
     if (had.contains(key) && had.at(key) == value) continue;
-    throw Error(ExitCode::usage,
-                fmt::format("{}: is a run of another parachute: parachute.{} is {} there and {} here", where,
-                            key, had.value(key, nlohmann::json()).dump(), value.dump()));
+    throw Error(
+        ExitCode::usage,
+        fmt::format(
+            "{}: is a run of a different parachute: parachute.{} is {} in that run and {} in this case",
+            where, key, had.value(key, nlohmann::json()).dump(), value.dump()));
   }
   const auto check = [&](const char* what, double there, double now) {
     if (std::abs(there - now) <= 1e-6 * now) return;
     throw Error(ExitCode::usage,
-                fmt::format("{}: is a run at another {}: {:g} there and {:g} here", where, what, there, now));
+                fmt::format("{}: is a run at a different {}: {:g} in that run and {:g} in this case", where,
+                            what, there, now));
   };
   check("speed (m/s)", result.speed, opening.flow().speed_m_s);
   check("density (kg/m3)", result.density, opening.flow().density_kg_m3);
@@ -283,9 +287,10 @@ double drag_for_opening(const Settings& resolved, const SteadyResult& result, co
 SteadyState final_state(const fs::path& folder) {
   const fs::path checkpoint = folder / "checkpoint";
   if (!fs::exists(folder / "result.json"))
-    throw Error(ExitCode::usage, fmt::format("{}: holds no finished run of ripstop steady", folder.string()));
+    throw Error(ExitCode::usage,
+                fmt::format("{}: contains no finished run of ripstop steady", folder.string()));
   if (!fs::exists(checkpoint / "current"))
-    throw Error(ExitCode::bad_data, fmt::format("{}: is lost; compute the run again with --fresh",
+    throw Error(ExitCode::bad_data, fmt::format("{}: is missing; compute the run again with --fresh",
                                                 (checkpoint / "current").string()));
   return steady_state_from_bytes(read_sealed(checkpoint / read_sealed(checkpoint / "current") / "state"));
 }

@@ -9,6 +9,7 @@
 #include "ripstop/case/settings.h"
 #include "ripstop/flight/validity.h"
 #include "ripstop/material/fit_material.h"
+#include "ripstop/material/permeability.h"
 #include "ripstop/parachute/profile.h"
 #include "ripstop/run/quality.h"
 
@@ -18,10 +19,10 @@ std::vector<std::string> mesh_warnings(const Settings& resolved) {
   const int asked = resolved.parachute().mesh.cloth_nodes;
   const int enough = experience(resolved.parachute()).cloth_nodes;
   if (asked >= enough) return {};
-  return {fmt::format(
-      "parachute.mesh.cloth_nodes = {}: the projected diameter of this type may come out more than "
-      "1 % too large with fewer than {} nodes (docs/guide/canopies.md, How fine a mesh)",
-      asked, enough)};
+  return {
+      fmt::format("parachute.mesh.cloth_nodes = {}: the projected diameter of this type can be more than 1 % "
+                  "too large with fewer than {} nodes (docs/guide/canopies.md)",
+                  asked, enough)};
 }
 
 std::vector<std::string> grid_warnings(const Settings& resolved) {
@@ -30,17 +31,36 @@ std::vector<std::string> grid_warnings(const Settings& resolved) {
   const double across = cells_across(resolved);
   if (across >= enough) return {};
   return {
-      fmt::format("{:.0f} cells of the flow across the inflated canopy: with fewer than {:.0f} the air's "
-                  "own load jumps as cloth passes from cell to cell, and the coupling may not converge; more "
-                  "flow.cells, or "
-                  "coupling.load = \"uniform\"",
+      fmt::format("{:.0f} flow cells across the inflated canopy: with fewer than {:.0f} the local load "
+                  "becomes discontinuous as cloth crosses grid cells, and the coupling may not converge; "
+                  "increase flow.cells, or set coupling.load = \"uniform\"",
                   across, enough)};
 }
+
+namespace {
+
+/// Open cloth with a linear law: one reading of a permeability tester does not determine the flow at other pressures.
+std::vector<std::string> linear_law_warnings(const Fabric& cloth) {
+  constexpr double open =
+      10;  // CFM/ft2; tighter cloth changes by less than 40 % from 124.5 to 1000 Pa (assumed b / a)
+  if (model_of(cloth.resistance) != PorosityModel::sheet) return {};
+  const PressureDrop law = as_sheet(cloth.resistance);
+  if (!(law.linear > 0) || law.quadratic > 0 || cfm(law) < open) return {};
+  return {
+      fmt::format("materials.{}: {:.3g} CFM/ft2 with a linear law (pressure_drop_quadratic_pa_s2_m2 = 0): "
+                  "open cloth lets "
+                  "through up to 2.6 times less at 1000 Pa; give both coefficients of a measured curve "
+                  "(materials/README.md)",
+                  cloth.name, cfm(law))};
+}
+
+}  // namespace
 
 std::vector<std::string> porosity_warnings(const Settings& resolved) {
   const Fabric& cloth = resolved.materials().canopy;
   const PorosityModel used = resolved.flow().porosity_model;
-  if (used == model_of(cloth.resistance)) return {};
+  if (used == model_of(cloth.resistance))
+    return used == PorosityModel::sheet ? linear_law_warnings(cloth) : std::vector<std::string>();
   const auto word = [](PorosityModel model) { return model == PorosityModel::paper ? "paper" : "sheet"; };
   return {
       fmt::format("flow.porosity_model = \"{}\", but the permeability of materials.{} is for \"{}\" "
@@ -66,11 +86,11 @@ std::vector<std::string> shape_warnings(const Settings& resolved) {
     for (const double height : piece.height_m) highest = std::max(highest, height);
   const double below = highest - profile->pieces.back().height_m.back();
   if (below <= 1e-6 * nominal_diameter(resolved.parachute())) return {};
-  return {fmt::format(
-      "parachute.pieces: the vent is {:.3g} m below the highest point of the meridian; only centre lines "
-      "hold an "
-      "apex down, and Ripstop has none: the cloth is cut to this shape, but the apex rises in the flow",
-      below)};
+  return {
+      fmt::format("parachute.pieces: the vent is {:.3g} m below the highest point of the meridian; such an "
+                  "apex requires centre lines, which Ripstop does not support: the cloth is cut to this "
+                  "shape, but the apex rises in the flow",
+                  below)};
 }
 
 std::vector<std::string> strain_warnings(const Settings& resolved, double largest_cloth_strain) {

@@ -55,7 +55,7 @@ Plot history_plot(const std::string& title, const FlowRecord& record) {
                            record.drag.standard_error);
   plot.x.label = "time [s]";
   plot.y.label = "force [N]";
-  const char* names[] = {"drag", "its mean so far, without the start-up", "side force along x",
+  const char* names[] = {"drag", "running mean, without the start-up", "side force along x",
                          "side force along y"};
   for (const char* name : names) plot.series.emplace_back().name = name;
   for (PlotSeries& series : plot.series) series.markers = false;

@@ -69,8 +69,8 @@ std::string header(const BatchJob& job, const std::string& what, const std::stri
 
 std::string note(const std::string& what, const BatchNeeds& needs) {
   return fmt::format(
-      "# {}; written by ripstop {}. Memory and time limit are estimates ({}); options that\n"
-      "# sbatch is given win over the lines above.\n",
+      "# {}; written by ripstop {}. Memory and time limit are estimates ({}); options of\n# sbatch override "
+      "the lines above.\n",
       what, version(), needs.limited);
 }
 
@@ -92,12 +92,12 @@ near_the_limit() {
   kill -TERM "$running"
   wait "$running"
   if [ "$(checkpoint_state)" = "$began_with" ]; then
-    echo "The time limit came before a checkpoint: give --hours more, or sbatch another --time" >&2
+    echo "The time limit was reached before a checkpoint: increase --hours, or --time of sbatch" >&2
     exit 8
   fi
-  echo "Near the time limit: back into the queue" >&2
+  echo "Time limit nearly reached: the job is queued again" >&2
   scontrol requeue "$SLURM_JOB_ID" && exit 0
-  echo "Slurm does not take it back: submit the script again, and the run goes on" >&2
+  echo "Slurm did not queue the job again: submit the script again to resume the run" >&2
   exit 8
 }
 began_with=$(checkpoint_state)
@@ -121,7 +121,7 @@ BatchNeeds needs_of(const Settings& resolved, int cores) {
   needs.cores = cores > 0 ? cores : needs.ranks > 1 ? 1 : usual_cores;
   needs.memory = cost.memory + engine.takes.cell_memory * cost.cells + engine.takes.rank_memory * needs.ranks;
   needs.hours = unknown_limit;
-  needs.limited = "nobody has measured what this one takes";
+  needs.limited = "no estimate is available for this run";
   return needs;
 }
 
@@ -149,10 +149,9 @@ fs::path batch_folder(const fs::path& folder) {
   fs::path path = whole(folder);
   path += ".slurm";
   if (has_control(path.string()) || path.string().find('\\') != std::string::npos)
-    throw Error(ExitCode::usage,
-                fmt::format("{}: Slurm can name no log there, for a control character or a backslash in the "
-                            "path; choose another --out",
-                            path.string()));
+    throw Error(ExitCode::usage, fmt::format("{}: Slurm cannot write a log there, because the path has a "
+                                             "control character or a backslash; choose another --out",
+                                             path.string()));
   return path;
 }
 
@@ -168,7 +167,7 @@ std::vector<BatchFile> slurm_files(const BatchSweep& sweep) {
       header(job, "", "%A_%a") + signals() + note("One run of a sweep", job.needs) + "\nruns=(\n";
   std::string submit =
       "#!/bin/bash\n"
-      "# Submits the sweep. What is said to this script goes on to sbatch: --partition=long --account=mine\n"
+      "# Submits the sweep. Arguments of this script are passed to sbatch: --partition=long --account=mine\n"
       "set -e\n"
       "before=()\n"
       "# The runs from $1 on, $2 of them, once all jobs of the wave before have ended.\n"
@@ -195,14 +194,14 @@ std::vector<BatchFile> slurm_files(const BatchSweep& sweep) {
   submit += "last=$(sbatch --parsable \"${before[@]}\" \"$@\" " +
             shell_quoted((batch_folder(job.folder) / "gather.sbatch").string()) +
             ")\n"
-            "echo \"The table comes with job ${last%%;*}\"\n";
+            "echo \"The table is written by job ${last%%;*}\"\n";
   run += ")\nrun=${runs[$1 + SLURM_ARRAY_TASK_ID]}\n" + command_of(job) + "command+=(\"--only=$run\")\n" +
          resumable(shell_quoted(whole(job.folder).string()) + "/\"$run\"/checkpoint");
 
   BatchJob gather = job;
   gather.needs.ranks = gather.needs.cores = 1;
   gather.needs.hours = shortest_limit;
-  gather.needs.limited = "tables and plots of what has come back";
+  gather.needs.limited = "table and plots of the finished runs";
   return {{"run.sbatch", run},
           {"gather.sbatch", header(gather, "-table", "%j") + note("The sweep's table", gather.needs) + "\n" +
                                 command_of(gather) + "\"${command[@]}\" --gather\n"},

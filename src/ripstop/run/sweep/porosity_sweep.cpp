@@ -26,11 +26,9 @@ MeasuredFile read_measured_drag(const std::filesystem::path& file,
   const table::Table all = table::read_table(
       file, {{Quantity::speed, Quantity::density, Quantity::drag, Quantity::force}, columns, decimal});
   if (all.specimens.size() > 1)
-    throw Error(
-        ExitCode::bad_data,
-        fmt::format("{}:{}: another table begins here; the measured drag is one table of speed, density and "
-                    "drag",
-                    file.string(), all.specimens[1].header_line));
+    throw Error(ExitCode::bad_data, fmt::format("{}:{}: a second table begins here; the measured drag must "
+                                                "be one table of speed, density and drag",
+                                                file.string(), all.specimens[1].header_line));
   const table::Specimen& rows = all.specimens.front();
   const std::vector<double>& speed = need_only(all, rows, Quantity::speed).values;
   const std::vector<double>& density = need_only(all, rows, Quantity::density).values;
@@ -61,7 +59,7 @@ std::vector<double> cell_shifts(const Settings& resolved, int shifts) {
 void require_slope(const PorositySweep& sweep) {
   if (sweep.values.size() < 2)
     throw Error(ExitCode::usage,
-                "one value of the porosity shows no slope: give two or more, parted by commas");
+                "one value of the porosity determines no slope: give two or more, separated by commas");
 }
 
 std::vector<SweepAxis> porosity_axes(const Settings& resolved, const PorositySweep& sweep,

@@ -55,7 +55,7 @@ void check_sweep_folder(const fs::path& folder) {
   if (!fs::exists(folder / "sweep.json") && !foreign_files(folder).empty()) {
     throw Error(
         ExitCode::usage,
-        fmt::format("{}: is not empty and holds no sweep of Ripstop (no sweep.json); choose another --out",
+        fmt::format("{}: is not empty and contains no sweep of Ripstop (no sweep.json); choose another --out",
                     folder.string()));
   }
   require_unclaimed(folder);
@@ -146,9 +146,10 @@ class Board {
   SweepRow run(std::size_t i, int threads) {
     const int start = start_of(i);
     if (start >= 0 && rows_[start].waits) {
-      return failed(fmt::format("was not begun: {}, which it starts from, failed; repeat the command",
-                                points_[start].folder),
-                    ExitCode::io);
+      return failed(
+          fmt::format("was not started, because {}, from which it starts, failed; repeat the command",
+                      points_[start].folder),
+          ExitCode::io);
     }
     try {
       if (!settings_.folder.empty()) require_unclaimed(settings_.folder / points_[i].folder);
@@ -247,20 +248,23 @@ SweepAxis sweep_axis(const std::string& key, const std::vector<std::string>& val
 
 std::vector<SweepPoint> sweep_points(const fs::path& case_file, const Overrides& overrides,
                                      const std::vector<SweepAxis>& axes) {
+  return sweep_points([&](const Overrides& all) { return read_case(case_file, all); }, overrides, axes);
+}
+
+std::vector<SweepPoint> sweep_points(const CaseReader& read, const Overrides& overrides,
+                                     const std::vector<SweepAxis>& axes) {
   for (const SweepAxis& axis : axes) {
     for (std::size_t i = 0; i < axis.values.size(); ++i) {
       if (std::find(axis.values.begin(), axis.values.begin() + i, axis.values[i]) != axis.values.begin() + i)
-        throw Error(ExitCode::usage,
-                    fmt::format("{}: the value {} is there twice", axis.name, axis.values[i]));
+        throw Error(ExitCode::usage, fmt::format("{}: the value {} occurs twice", axis.name, axis.values[i]));
     }
   }
   double runs = 1;
   for (const SweepAxis& axis : axes) runs *= double(axis.values.size());
   if (runs > most_runs)
-    throw Error(ExitCode::usage,
-                fmt::format("{:.0f} runs (every combination of the values); at most {:.0f} are "
-                            "done in one sweep: vary less at once",
-                            runs, most_runs));
+    throw Error(ExitCode::usage, fmt::format("{:.0f} runs (every combination of the values); a sweep has at "
+                                             "most {:.0f} runs: use fewer values",
+                                             runs, most_runs));
   std::vector<SweepPoint> points;
   std::map<std::vector<std::size_t>, int> index;
   std::map<std::string, int> names;
@@ -273,7 +277,7 @@ std::vector<SweepPoint> sweep_points(const fs::path& case_file, const Overrides&
       const std::vector<Setting>& settings = axes[d].settings[at[d]];
       all.set.insert(all.set.end(), settings.begin(), settings.end());
     }
-    SweepPoint point{std::move(values), resolve(read_case(case_file, all)), folder_name(axes, at)};
+    SweepPoint point{std::move(values), resolve(read(all)), folder_name(axes, at)};
     if (const int twins = names[point.folder]++) point.folder += fmt::format("_{}", twins + 1);
     index[at] = static_cast<int>(points.size());
     points.push_back(std::move(point));
@@ -357,15 +361,15 @@ void prepare_sweep(const std::vector<SweepPoint>& points, const SweepSettings& s
 SteadyResult run_sweep_point(const std::vector<SweepPoint>& points, const SweepSettings& settings,
                              std::size_t point, SteadyObserver& observer) {
   if (!fs::exists(settings.folder / "sweep.json"))
-    throw Error(ExitCode::usage, fmt::format("{}: holds no sweep yet: write it there with --batch first",
+    throw Error(ExitCode::usage, fmt::format("{}: contains no sweep yet: write it with --batch first",
                                              settings.folder.string()));
   SteadyFolderSettings run{run_settings(points[point], settings), 0, {}, {}, false};
   const int start = settings.warm ? points[point].start : -1;
   if (start >= 0 && !is_sealed(run.run.folder)) {
     run.warm_from = settings.folder / points[start].folder;
     if (!is_sealed(run.warm_from))  // from nothing it would have other last digits
-      throw Error(ExitCode::io, fmt::format("{}: was not begun: {}, which it starts from, has not ended; "
-                                            "submit again, or let ripstop sweep go on",
+      throw Error(ExitCode::io, fmt::format("{}: was not started, because {}, from which it starts, is not "
+                                            "finished; submit again, or resume with ripstop sweep",
                                             points[point].folder, points[start].folder));
   }
   return run_steady_in(run, points[point].resolved, observer).result;
@@ -381,7 +385,7 @@ std::vector<SweepRow> gather_sweep(const std::vector<SweepPoint>& points, const 
     SweepRow& row = rows[i];
     row.waits = true;
     row.code = ExitCode::io;
-    row.error = "has not come back: submit again, or let ripstop sweep go on";
+    row.error = "is not finished: submit again, or resume with ripstop sweep";
     try {
       if (!holds_run(run, resolved, engine_of(resolved).name(engine_options(resolved)))) continue;
       if (const auto text = finished_result(run.folder))

@@ -37,6 +37,10 @@ struct SweepPoint {
 /// 10,000 combinations, before any case is read.
 std::vector<SweepPoint> sweep_points(const std::filesystem::path& case_file, const Overrides& overrides,
                                      const std::vector<SweepAxis>& axes);
+/// The same of a case that `read` makes with the settings of each point.
+using CaseReader = std::function<Case(const Overrides&)>;
+std::vector<SweepPoint> sweep_points(const CaseReader& read, const Overrides& overrides,
+                                     const std::vector<SweepAxis>& axes);
 
 struct SweepSettings {
   std::filesystem::path folder;  // empty: in memory

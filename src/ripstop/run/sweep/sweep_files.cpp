@@ -7,9 +7,11 @@
 #include <map>
 #include <optional>
 
+#include "ripstop/core/file.h"
 #include "ripstop/core/words.h"
 #include "ripstop/output/plot.h"
 #include "ripstop/run/json.h"
+#include "ripstop/run/report/report.h"
 
 namespace ripstop {
 namespace {
@@ -67,7 +69,7 @@ std::vector<PlotSeries> known_drag(const Settings& resolved, const Quantity& qua
     if (!series.x.empty()) all.push_back(series);
   };
   add("measured", &Measured::drag_n);
-  add("source's nonlinear model", &Measured::printed_nonlinear_n);
+  add("nonlinear model of the source", &Measured::printed_nonlinear_n);
   return all;
 }
 
@@ -182,6 +184,19 @@ void write_sweep_plots(const std::filesystem::path& folder, const std::string& t
   draw("diameters", "diameter [m]", nullptr,
        {{"projected", [](const SweepRow& row) { return row.result.size.projected_diameter; }},
         {"skirt", [](const SweepRow& row) { return row.result.size.skirt_diameter; }}});
+}
+
+std::string finish_sweep(const std::filesystem::path& folder, const std::vector<SweepAxis>& axes,
+                         const std::vector<SweepPoint>& points, const std::vector<SweepRow>& rows) {
+  const std::string& title = points.front().resolved.title();
+  std::string json = sweep_json(title, axes, points, rows);
+  write_csv(folder / "sweep.csv", sweep_table(axes, points, rows));
+  write_file(folder / "result.json", json);
+  write_sweep_plots(folder, title, axes, points, rows);
+  seal_sweep(folder);
+  if (std::any_of(rows.begin(), rows.end(), [](const SweepRow& row) { return row.done; }))
+    write_report({folder});
+  return json;
 }
 
 }  // namespace ripstop

@@ -27,4 +27,9 @@ void write_sweep_plots(const std::filesystem::path& folder, const std::string& t
                        const std::vector<SweepAxis>& axes, const std::vector<SweepPoint>& points,
                        const std::vector<SweepRow>& rows);
 
+/// sweep.csv, result.json and the plots of a sweep whose runs have ended, its seal, and report.html where there is a
+/// result. Returns the text of result.json.
+std::string finish_sweep(const std::filesystem::path& folder, const std::vector<SweepAxis>& axes,
+                         const std::vector<SweepPoint>& points, const std::vector<SweepRow>& rows);
+
 }  // namespace ripstop

@@ -1,0 +1,171 @@
+// ripstop fly: a parachute and its payload in free flight, from a case file to a run folder.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "case_options.h"
+#include "commands.h"
+#include "json_option.h"
+#include "margins.h"
+#include "number_option.h"
+#include "progress.h"
+#include "ripstop/core/error.h"
+#include "ripstop/run/flight/flight_folder.h"
+#include "stopping.h"
+#include "warnings.h"
+
+namespace ripstop {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct FlyArguments {
+  fs::path case_file, out;
+  Overrides overrides;
+  int threads = 0;
+  bool fresh = false, json = false;
+};
+
+std::string with_error(std::optional<double> value, std::optional<double> error, const char* unit,
+                       int digits) {
+  if (!value) return "not known";
+  if (!error) return fmt::format("{:.{}f}{}", *value, digits, unit);
+  return fmt::format("{:.{}f} +- {:.{}f}{}", *value, digits, *error, digits, unit);
+}
+
+void print_flight(const FlightResult& r, const fs::path& folder, double wall_time) {
+  const auto row = [](const char* name, const std::string& text) { fmt::print("  {:<28} {}\n", name, text); };
+  fmt::print("\n{}\n", r.title);
+  print_margins(r.margins);
+  row("ended by", fmt::format("{}, {:.2f} s; means from {:.2f} s on", r.ended_by, r.duration, r.start_up));
+  row("rate of descent", with_error(r.descent, r.descent_error, " m/s", 3) +
+                             fmt::format(" (axial flow: {:.3f} m/s)", r.axial_speed));
+  row("C_D0 in descent",
+      with_error(r.coefficient, r.coefficient_error, "", 3) +
+          fmt::format(" (axial flow: {:.3f}{})", r.axial_coefficient,
+                      r.known_coefficient ? fmt::format("; handbook: {:g} to {:g}", (*r.known_coefficient)[0],
+                                                        (*r.known_coefficient)[1])
+                                          : ""));
+  row("glide ratio", with_error(r.glide, r.glide_error, "", 3));
+  row("oscillation, mean of peaks",
+      with_error(r.oscillation, r.oscillation_error, " deg", 1) + fmt::format(", {} half-swings", r.peaks));
+  row("oscillation, largest", with_error(r.largest, r.largest_error, " deg", 1));
+  row("period", with_error(r.period, r.period_error, " s", 2));
+  if (r.roundness) row("plane (0) or conical (1)", fmt::format("{:.2f}", *r.roundness));
+  row("largest force of the lines",
+      fmt::format("{:.1f} N, {:.2f} times the payload's weight", r.largest_load, r.load_factor));
+  row("path", fmt::format("{:.1f} m down, {:.1f} m over the ground", r.height_lost, r.distance));
+  row("balance", fmt::format("energy {:.3f} % of the potential energy lost, momentum {:.3f} % of the weight",
+                             100 * r.energy_residual, 100 * r.momentum_residual));
+  row("files", fmt::format("{} (path.csv, path.png, angle.png, canopy.pvd, result.json); {}", folder.string(),
+                           duration_text(wall_time)));
+}
+
+class FlightTerminal : public FlightObserver {
+ public:
+  FlightTerminal(Progress& progress, const fs::path& folder, bool quiet)
+      : progress_(progress), folder_(folder), quiet_(quiet) {}
+
+  void warned(const std::string& text) override { progress_.line("ripstop: " + text); }
+  void starting(const SteadyProgress& p, const SteadyState&) override {
+    progress_.show(fmt::format("equilibrium on the axis, iteration {}", p.iteration));
+  }
+  void begin(FreeFlight& flight, FreeFlightState& state, FlightHistory&) override {
+    const FlowGrid& grid = flight.air().grid();
+    if (state.rows > 0)
+      progress_.line(fmt::format("continues at {:.2f} s of {}", state.coupled.cloth.time, folder_.string()));
+    else if (!quiet_)
+      fmt::print(
+          "{} nodes, step of the cloth {:.2e} s; {} x {} x {} cells; starts at {:.3f} m/s; {} threads\n",
+          flight.mesh().node_count(), state.coupled.step, grid.nx, grid.ny, grid.nz,
+          flight.problem().air.flow.air.speed(), flight.threads());
+    std::fflush(stdout);
+    begin_ = Clock::now(), from_ = state.coupled.cloth.time;
+  }
+  void advanced(FreeFlight& flight, const FreeFlightState&, const FlightHistory& history, bool) override {
+    const FreeFlightRow& row = history.rows.back();
+    const double elapsed = std::chrono::duration<double>(Clock::now() - begin_).count();
+    const double until = flight.problem().settings.duration_s;
+    const double left = elapsed * (until - row.time) / std::max(row.time - from_, 1e-9);
+    progress_.show(fmt::format(
+        "{:.2f} of {:g} s, {:.2f} m/s down, {:.1f} deg | elapsed {}, remaining about {}", row.time, until,
+        -row.velocity.z, row.angle, duration_text(elapsed), duration_text(left)));
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Progress& progress_;
+  const fs::path& folder_;
+  bool quiet_;
+  Clock::time_point begin_;
+  double from_ = 0;
+};
+
+int fly(const FlyArguments& options) {
+  const auto begin = std::chrono::steady_clock::now();
+  const Settings resolved = resolve(flight_case(read_given(options.case_file, options.overrides)));
+  const fs::path folder = options.out.empty() ? default_run_folder(options.case_file, "flight") : options.out;
+  const int threads = options.threads > 0 ? options.threads : resolved.coupling().threads;
+  goes_on_when_repeated();
+  Progress progress;
+  FlightTerminal terminal(progress, folder, options.json);
+  const auto result = run_flight_in({{folder, options.fresh}, threads}, resolved, terminal);
+  if (!result) {
+    const std::string finished = *finished_result(folder);
+    fmt::print("{}", finished);
+    fmt::print(stderr, "{} has the finished flight; --fresh computes it again\n", folder.string());
+    const auto json = nlohmann::json::parse(finished);
+    return print_result_warnings(json.at("warnings").get<std::vector<std::string>>(),
+                                 json.at("usable").get<bool>());
+  }
+  if (options.json)
+    fmt::print("{}", to_json(*result));
+  else
+    print_flight(*result, folder,
+                 std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+  return print_result_warnings(result->warnings, result->usable);
+}
+
+}  // namespace
+
+void add_fly(CLI::App& app, int& status) {
+  auto options = std::make_shared<FlyArguments>();
+  CLI::App* command = app.add_subcommand(
+      "fly", "Free flight of parachute and payload: rate of descent, glide and oscillation");
+  command->footer(
+      "The canopy starts in equilibrium on the axis, at the speed at which its drag is the weight, and is "
+      "released "
+      "at an angle. Air, cloth and payload are stepped together in time.\n"
+      "Example: ripstop fly examples/flat-circular/case.toml --mass 2.4 --duration 30 --cloth-nodes 2000");
+  command->add_option("case", options->case_file, "Case file (TOML)")->required();
+  add_key_option(*command, "--mass", "payload.mass_kg", "Mass of the payload, without the parachute [kg]",
+                 options->overrides);
+  add_key_option(*command, "--duration", "flight.duration_s", "Longest time of flight [s]",
+                 options->overrides);
+  add_key_option(*command, "--cloth-nodes", "parachute.mesh.cloth_nodes", "Nodes of the cloth aimed at",
+                 options->overrides);
+  add_key_option(*command, "--angle", "flight.angle_deg",
+                 "Angle between the vertical and the line from payload to canopy at the start [deg]",
+                 options->overrides);
+  add_key_option(*command, "--height", "flight.height_m",
+                 "Height above the ground at the start; the flight ends at the ground [m]",
+                 options->overrides);
+  add_key_option(*command, "--wind", "flight.wind.speed_m_s", "Speed of the wind [m/s]", options->overrides);
+  add_key_option(*command, "--cells-across", "flight.cells_across",
+                 "Cells of the flow across the nominal diameter", options->overrides);
+  add_set_option(*command, options->overrides);
+  add_number(*command, "--threads", options->threads, from(1).up_to(key_range("coupling.threads").high),
+             "Threads (default: as in [coupling])");
+  command->add_option("--out", options->out, "Run folder (default: runs/<name of the case>-flight)");
+  command->add_flag("--fresh", options->fresh, "Start again, not from a checkpoint");
+  add_json_option(*command, options->json);
+  command->callback([options, &status] { status = fly(*options); });
+}
+
+}  // namespace ripstop

@@ -1,0 +1,60 @@
+// fabric(): the cloth of a case under a given pressure, without a flow.
+#include "ripstop/run/sizing/fabric.h"
+
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "members.h"
+#include "module.h"
+#include "ripstop/core/claimed_folder.h"
+#include "runs.h"
+
+namespace ripstop::python {
+namespace {
+
+struct PyFabric {
+  FabricSolution solution;
+  std::vector<Cell> cells;
+};
+
+std::unique_ptr<PyFabric> fabric(const PyCase& given, std::optional<double> pressure,
+                                 const std::optional<Path>& out) {
+  Listener listener(py::none{});
+  const py::gil_scoped_release release;
+  if (out) make_results_folder(*out);
+  auto made = std::make_unique<PyFabric>();
+  made->solution = run_fabric(given.settings(), pressure, [&](const RelaxProgress&) { listener.listen(); });
+  made->cells = cells_of(made->solution.mesh);
+  if (out) write_fabric(*out, made->solution);
+  return made;
+}
+
+const PyFabric& fabric_of(const py::object& self) {
+  return self.cast<const PyFabric&>();
+}
+
+}  // namespace
+
+void add_fabric(py::module_& module) {
+  py::class_<PyFabric> type(module, "Fabric", "The cloth under one pressure: its numbers, and its arrays.");
+  const auto result = [](const PyFabric& f) -> const FabricResult& { return f.solution.result; };
+  add_members(type, result);
+  add_json(type, result);
+  type.def_property_readonly(
+      "shape", [](const py::object& self) { return view_of(fabric_of(self).solution.shape, self); },
+      "Every node of the parachute, x, y, z; z is downstream [m]");
+  type.def_property_readonly(
+      "cells", [](const py::object& self) { return view_of_cells(fabric_of(self).cells, self); },
+      "Nodes at the four corners of every cell of cloth; the first is -1 where there is none.");
+  type.def_property_readonly(
+      "stress", [](const py::object& self) { return table_of(fabric_of(self).solution.stress, self); },
+      "Of every cell of cloth: columns in [N/m], max_strain without unit.");
+  module.def("fabric", &fabric, py::arg("case"), py::kw_only(), py::arg("pressure_pa") = py::none(),
+             py::arg("out") = py::none(),
+             "The cloth under one pressure over the whole canopy, without a flow: ripstop fabric.\n\n"
+             "pressure_pa: None: the dynamic pressure of the case.\n"
+             "out: a folder for result.json, a picture and files for ParaView. None: nothing is written.\n\n"
+             "A result that has not converged is returned: look at `converged`.");
+}
+
+}  // namespace ripstop::python

@@ -1,0 +1,112 @@
+// fly(): a free flight with its path as arrays.
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "arrays.h"
+#include "members.h"
+#include "module.h"
+#include "ripstop/run/flight/flight_folder.h"
+#include "ripstop/run/json.h"
+#include "runs.h"
+
+namespace ripstop {
+/// Told after every step of the flow.
+struct FlightProgress {
+  double time = 0, duration = 0;  // [s]
+  double descent = 0;             // [m/s]
+  double angle = 0;               // [deg]
+};
+template <Of<FlightProgress> T, class Visit>
+void each_member(T& p, Visit&& visit) {
+  visit("time_s", p.time);
+  visit("duration_s", p.duration);
+  visit("rate_of_descent_m_s", p.descent);
+  visit("oscillation_deg", p.angle);
+}
+}  // namespace ripstop
+
+namespace ripstop::python {
+namespace {
+
+struct PyFlight {
+  PyCase made;
+  FlightResult result;
+  std::vector<FreeFlightRow> path;
+  std::vector<Vec3> shape;  // at the end
+  std::vector<Cell> cells;
+};
+
+class FlightListener : public FlightObserver {
+ public:
+  FlightListener(Listener& listener, PyFlight& run) : listener_(listener), run_(run) {}
+  void starting(const SteadyProgress&, const SteadyState&) override { listener_.listen(); }
+  void begin(FreeFlight& flight, FreeFlightState&, FlightHistory&) override {
+    run_.cells = cells_of(flight.mesh());
+  }
+  void advanced(FreeFlight& flight, const FreeFlightState&, const FlightHistory& history, bool) override {
+    const FreeFlightRow& row = history.rows.back();
+    listener_.tell(
+        FlightProgress{row.time, flight.problem().settings.duration_s, -row.velocity.z, row.angle});
+  }
+  void ended(FreeFlight& flight, const FreeFlightState& state, const FlightHistory& history,
+             const FlightResult& result) override {
+    run_.result = result, run_.path = history.rows;
+    run_.shape = positions(state.coupled.cloth, flight.cloth());
+  }
+
+ private:
+  Listener& listener_;
+  PyFlight& run_;
+};
+
+std::unique_ptr<PyFlight> fly(const PyCase& given, Callback<FlightProgress> progress, int threads,
+                              const std::optional<Path>& out, bool fresh) {
+  auto run = std::make_unique<PyFlight>();
+  run->made = given;
+  Listener listener(std::move(progress));
+  FlightListener observer(listener, *run);
+  const py::gil_scoped_release release;
+  const Settings resolved = resolve(flight_case(run->made.given));
+  const int used = threads > 0 ? threads : resolved.coupling().threads;
+  if (!out)
+    run_flight(resolved, used, observer);
+  else if (!run_flight_in({{*out, fresh}, used}, resolved, observer))
+    run->result = from_json_text<FlightResult>(*finished_result(*out), "the result of a flight");
+  return run;
+}
+
+const PyFlight& run_of_flight(const py::object& self) {
+  return self.cast<const PyFlight&>();
+}
+
+}  // namespace
+
+void add_fly(py::module_& module) {
+  add_class<FlightProgress>(module, "FlightProgress", "Progress of a flight.");
+  py::class_<PyFlight> type(module, "Flight",
+                            "A free flight: the numbers of its result.json, and its arrays.");
+  const auto result = [](const PyFlight& run) -> const FlightResult& { return run.result; };
+  add_members(type, result);
+  add_json(type, result);
+  type.def_property_readonly(
+      "path", [](const py::object& self) { return table_of(run_of_flight(self).path, self); },
+      "A row for each step of the flow, with the columns of path.csv.");
+  type.def_property_readonly(
+      "shape", [](const py::object& self) { return view_of(run_of_flight(self).shape, self); },
+      "Every node of the parachute at the end in the box of air, x, y, z; z is up [m]");
+  type.def_property_readonly(
+      "cells", [](const py::object& self) { return view_of_cells(run_of_flight(self).cells, self); },
+      "Nodes at the four corners of every cell of cloth; the first is -1 where there is none.");
+  type.def_property_readonly(
+      "case", [](const PyFlight& run) { return run.made; }, "The Case that flew.");
+  module.def("fly", &fly, py::arg("case"), py::kw_only(), py::arg("progress") = py::none(),
+             py::arg("threads") = 0, py::arg("out") = py::none(), py::arg("fresh") = false,
+             "Free flight of parachute and payload: ripstop fly.\n\n"
+             "progress: called with a FlightProgress after every step of the flow; an exception that it\n"
+             "  raises ends the run.\n"
+             "threads: 0: coupling.threads of the case.\n"
+             "out: a run folder, as of steady(); of a finished flight there, the numbers are read and the\n"
+             "  arrays are empty. None: no files are written.");
+}
+
+}  // namespace ripstop::python

@@ -1,0 +1,60 @@
+// The keys of [deployment].
+#include "ripstop/case/case.h"
+#include "ripstop/core/toml/fields.h"
+
+namespace ripstop {
+namespace {
+
+void describe_container(Fields& fields, DeploymentKeys& keys) {
+  using Container = DeploymentKeys::Container;
+  fields.choice("container", keys.container, {{"bag", Container::bag}, {"wrap", Container::wrap}},
+                "Container of the packed canopy. A wrap has other default values of mass and strip force.");
+  fields.number("mass_kg", keys.mass_kg, from(0).up_to(1000), "Mass of the empty container.")
+      .absent("a bag 10 %, a wrap 3 % of the parachute's mass");
+  fields
+      .number("drag_area_m2", keys.drag_area_m2, from(0).up_to(100),
+              "C_D S of the packed container in the stream.")
+      .absent("side of a cube of the packed volume, squared");
+  fields
+      .number("length_m", keys.length_m, above(0).up_to(100),
+              "Length of the packed canopy along the path when the lines come taut.")
+      .absent("a tenth of the canopy's length from skirt to vent");
+}
+
+void describe_extraction(Fields& fields, DeploymentKeys& keys) {
+  fields
+      .number("pilot_drag_area_m2", keys.pilot_drag_area_m2, from(0).up_to(1000),
+              "C_D S of the pilot chute or drogue that pulls the container.")
+      .absent("0 with relative_speed_m_s or ejection_impulse_n_s, else 1.5 % of S0");
+  fields.number("pilot_mass_kg", keys.pilot_mass_kg, from(0).up_to(1000), "Its mass.")
+      .absent("5 % of the parachute's mass where there is a pilot chute");
+  fields
+      .number("relative_speed_m_s", keys.relative_speed_m_s, from(0).up_to(200),
+              "Speed at which the container leaves the payload.")
+      .absent("from ejection_impulse_n_s, else 0");
+  fields
+      .number("ejection_impulse_n_s", keys.ejection_impulse_n_s, from(0).up_to(1e5),
+              "Impulse between payload and packed parachute, of a mortar, a spring or a charge.")
+      .absent("from relative_speed_m_s");
+}
+
+}  // namespace
+
+void describe(Fields& fields, DeploymentKeys& keys) {
+  using Order = DeploymentKeys::Order;
+  fields.choice("order", keys.order,
+                {{"lines-first", Order::lines_first}, {"canopy-first", Order::canopy_first}},
+                "Which leaves the container first.");
+  describe_container(fields, keys);
+  fields
+      .number("strip_force_n", keys.strip_force_n, from(0).up_to(1e5),
+              "Force that pulls the canopy out of its bag, or that unrolls it from its wrap.")
+      .absent("weight of the canopy from a bag, half of it from a wrap");
+  fields
+      .number("line_force_n", keys.line_force_n, from(0).up_to(1e5),
+              "Force that pulls the lines out of their stows.")
+      .absent("weight of lines and riser");
+  describe_extraction(fields, keys);
+}
+
+}  // namespace ripstop

@@ -1,0 +1,124 @@
+#include "ripstop/case/flying.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ripstop/case/assemble.h"
+#include "ripstop/case/cost.h"
+#include "ripstop/case/opening.h"
+#include "ripstop/case/payload.h"
+#include "ripstop/case/resolve.h"
+#include "ripstop/core/error.h"
+#include "ripstop/flight/atmosphere.h"
+
+namespace ripstop {
+namespace {
+
+constexpr double growth = 1.2;  // of the cells outside of the core: a coarse grid in a wide box
+// The flight begins with the equilibrium on the axis and does not depend on its last percent.
+constexpr int start_flow_iterations = 100, start_average = 30, start_iterations = 12;
+constexpr int multiple = 4;           // of cells along an axis, for the multigrid
+constexpr double fastest = 100;       // of wind and gust together, below Mach 0.3 [m/s]
+constexpr double least_pressure = 2;  // dynamic pressure over the weight of the cloth an area
+
+/// Cells of width h in the core, growing outside of it.
+int cells_along(double core, double before, double after, double h) {
+  const auto outside = [&](double length) {
+    return std::ceil(std::log(1 + length / h * (growth - 1) / growth) / std::log(growth));
+  };
+  const double count = std::ceil(core / h) + outside(before) + outside(after);
+  return multiple * static_cast<int>(std::ceil(count / multiple));
+}
+
+std::array<int, 3> coarse_cells(const Case& given) {
+  const double d = inflated_diameter(given.parachute),
+               h = nominal_diameter(given.parachute) / given.flight.cells_across;
+  const double beside = 0.5 * d * (sheet_box.x - sheet_core.x),
+               before = d * (sheet_skirt - 0.25 * sheet_core.z);
+  const int across = cells_along(d * sheet_core.x, beside, beside, h);
+  return {across, across,
+          cells_along(d * sheet_core.z, before, d * (sheet_box.z - sheet_core.z) - before, h)};
+}
+
+void refuse(const std::string& text) {
+  throw Error(ExitCode::usage, text);
+}
+
+void check_flight_keys(const Case& given) {
+  const FlightSettings& s = given.flight;
+  if (!given.payload.mass_kg)
+    refuse("payload.mass_kg is not given: a flight needs a payload; set it in the case or by --mass KG");
+  if (given.flow.tunnel.kind != TunnelKind::free_air)
+    refuse("flow.tunnel.kind: nothing flies in a tunnel; leave out [flow.tunnel]");
+  if (given.flow.angle_of_attack_deg != 0)
+    refuse(
+        "flow.angle_of_attack_deg: the direction of the stream follows from the flight; leave it out "
+        "(flight.angle_deg is the angle at the start)");
+  if (std::abs(s.wind.speed_m_s) + std::abs(s.wind.gust_m_s) > fastest)
+    refuse(
+        fmt::format("flight.wind: {:g} m/s and a gust of {:g} m/s are above Mach 0.3; at most {:g} m/s "
+                    "together",
+                    s.wind.speed_m_s, s.wind.gust_m_s, fastest));
+  if (s.wind.exponent > 0 && !s.height_m)
+    refuse(
+        "flight.wind.exponent: a profile over height needs the height of the payload at the start "
+        "(flight.height_m or --height)");
+}
+
+}  // namespace
+
+Case flight_case(const Case& given) {
+  check_flight_keys(given);
+  Case flight = opening_case(given);
+  flight.flow.speed_m_s.reset();  // that at which drag is weight
+  flight.flow.unsteady = false;
+  if (!flight.flow.max_iterations) flight.flow.max_iterations = start_flow_iterations;
+  if (!flight.flow.average_over)
+    flight.flow.average_over = std::min(start_average, *flight.flow.max_iterations);
+  if (!given.origins.contains("coupling.max_iterations"))
+    flight.coupling.max_iterations = std::min(start_iterations, given.coupling.max_iterations);
+  if (!flight.flow.sides) flight.flow.sides = Sides::far_field;
+  FlowKeys& flow = flight.flow;
+  if (!flow.cells && !flow.box_m && !flow.core.size_m) {
+    flow.cells = coarse_cells(given);
+    if (!flow.core.growth) flow.core.growth = growth;
+  }
+  return flight;
+}
+
+FlightProblem flight_problem(const Settings& flight, std::vector<Vec3> shape, std::vector<double> pressure,
+                             int threads) {
+  const FlowSettings& stream = flight.flow();
+  if (stream.porosity_model != PorosityModel::sheet)
+    refuse("flow.porosity_model: only cloth that is a sheet flies; give the cloth an air permeability");
+  if (stream.sides != Sides::far_field)
+    refuse("flow.sides: in flight the air comes from any direction; leave it out or set it to \"far-field\"");
+  const Cost cost = cost_of(flight);
+  require_memory(cost.memory, fmt::format("a flight in {:.3g} cells of air", cost.cells));
+  const double dynamic = 0.5 * stream.density_kg_m3 * stream.speed_m_s * stream.speed_m_s,
+               weight = flight.materials().canopy.areal_density_kg_m2 * standard_gravity;
+  if (dynamic < least_pressure * weight)
+    refuse(fmt::format(
+        "payload.mass_kg = {:g}: at its rate of descent of {:.3g} m/s the dynamic pressure of "
+        "{:.3g} Pa does not hold up the canopy's cloth ({:.3g} Pa); a heavier payload or a smaller "
+        "canopy is needed",
+        *flight.payload().mass_kg, stream.speed_m_s, dynamic, weight));
+  FlightProblem problem;
+  problem.mesh = parachute_mesh(flight);
+  problem.shape = std::move(shape), problem.pressure = std::move(pressure);
+  problem.air = {flow_problem(flight), flight.flight().courant};
+  problem.settings = flight.flight();
+  problem.cloth = flight.inflation();
+  problem.payload_mass = *flight.payload().mass_kg;
+  problem.payload_drag_area = flight.payload().drag_area_m2;
+  problem.gravity = standard_gravity;
+  if (stream.height_m)
+    problem.density_ratio = [from = *stream.height_m](double fallen) { return density_ratio(from, fallen); };
+  problem.linear = flight.coupling().linear;
+  problem.threads = threads;
+  return problem;
+}
+
+}  // namespace ripstop

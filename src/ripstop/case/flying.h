@@ -1,0 +1,19 @@
+// The free flight of a case: the cells of its flow, and the problem that the solver takes.
+#pragma once
+
+#include <vector>
+
+#include "ripstop/case/settings.h"
+#include "ripstop/fsi/free_flight.h"
+
+namespace ripstop {
+
+/// The case on the mesh of an opening, without a given speed, in a far field and on cells as coarse as [flight] has
+/// them where the case gives none. Throws Error(usage) without payload.mass_kg and for what does not fly.
+Case flight_case(const Case& given);
+
+/// Of the settings of flight_case(), at the rate of descent of `shape` under `pressure` [Pa], which is flow.speed_m_s.
+FlightProblem flight_problem(const Settings& flight, std::vector<Vec3> shape, std::vector<double> pressure,
+                             int threads);
+
+}  // namespace ripstop

@@ -1,0 +1,277 @@
+#include "ripstop/fsi/free_flight.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "ripstop/core/quantity_error.h"
+#include "ripstop/flight/point_mass.h"
+#include "ripstop/fsi/opening_cloth.h"
+
+namespace ripstop {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+// The box follows the canopy as a critically damped spring would, at this rate times speed over size of the canopy. A
+// swing takes some ten of these times, and the canopy stays within a tenth of its displacement.
+constexpr double follow_rate = 3;
+// Longest step of the flow: of the time in which the stream passes a canopy's diameter.
+constexpr double longest_share = 0.02;
+// Below this share of the mouth's area at the start, for so long [s], a canopy counts as collapsed.
+constexpr double collapsed_share = 0.25, collapsed_for = 0.5;
+constexpr double turned_over = 90;  // [deg]
+
+std::vector<int> nodes_of_patches(const Mesh& mesh) {
+  std::vector<char> used(mesh.mass.size(), 0);
+  for (const Cell& cell : cells_of(mesh))
+    if (cell.corner[0] >= 0)
+      for (const int node : cell.corner) used[node] = 1;
+  std::vector<int> nodes;
+  for (std::size_t n = 0; n < used.size(); ++n)
+    if (used[n]) nodes.push_back(static_cast<int>(n));
+  return nodes;
+}
+
+Vec3 centroid(const std::vector<int>& nodes, const std::vector<Vec3>& x) {
+  Vec3 sum;
+  for (const int n : nodes) sum += x[n];
+  return sum / double(nodes.size());
+}
+
+double mouth_area(const Mesh& mesh, const std::vector<Vec3>& x) {
+  Vec3 sum;
+  for (const Cell& c : cells_of(mesh))
+    if (c.corner[0] >= 0) sum += area_vector(x[c.corner[0]], x[c.corner[1]], x[c.corner[2]], x[c.corner[3]]);
+  return norm(sum);
+}
+
+/// v turned by `angle` [rad] about the unit vector `axis` (Rodrigues).
+Vec3 turned(Vec3 v, Vec3 axis, double angle) {
+  return std::cos(angle) * v + std::sin(angle) * cross(axis, v) + (1 - std::cos(angle)) * dot(axis, v) * axis;
+}
+
+// Dampers of a Kelvin-Voigt solid take this share of critical from a vibration at the highest frequency of the mesh,
+// 2 / (stable step). Without it symplectic Euler feeds energy into springs that alternate between slack and taut. A
+// swing or a breathing canopy, a thousand times slower, loses nothing.
+constexpr double grid_damping = 0.25;
+
+/// Damping time of springs at the start shape [s].
+double damping_time(const Mesh& mesh, const FlightProblem& problem) {
+  const ClothPtr undamped = make_cloth(mesh, {problem.linear, 0, 0});
+  ClothState state = start_state(*undamped);
+  set_positions(state, *undamped, problem.shape);
+  return grid_damping * stability_limit(*undamped, state).stable_step;
+}
+
+CanopyMesh flying_mesh(const FlightProblem& problem) {
+  CanopyMesh mesh = problem.mesh;
+  if (!(problem.payload_mass > 0))
+    throw QuantityError(ExitCode::usage, "a flight needs a payload: its mass is not given",
+                        {"mass of the payload"});
+  if (mesh.fixed.size() != 1)
+    throw Error(ExitCode::usage,
+                fmt::format("a flight needs one confluence or one end of the riser, which is "
+                            "the payload; this parachute is held at {} nodes",
+                            mesh.fixed.size()));
+  mesh.mass[mesh.fixed[0]] += problem.payload_mass;
+  mesh.fixed.clear();
+  const double time = damping_time(mesh, problem);
+  damp_springs(mesh, std::max(time, problem.cloth.line_damping_s),
+               std::max(time, problem.cloth.cloth_damping_s));
+  return mesh;
+}
+
+ClothPtr flying_cloth(CanopyMesh& mesh, const FlightProblem& problem) {
+  ClothOptions options{problem.linear, 0, 0};
+  const InflationSettings& s = problem.cloth;
+  if (s.contact_pa > 0) options.contact = ContactOptions{s.contact_pa, s.contact_friction, problem.shape};
+  limit_viscosity(mesh, options, problem.shape, s.cloth_damping_step_share);
+  return make_cloth(mesh, options);
+}
+
+}  // namespace
+
+FreeFlight::FreeFlight(FlightProblem problem)
+    : problem_(std::move(problem)),
+      team_(problem_.threads),
+      mesh_(flying_mesh(problem_)),
+      payload_(problem_.mesh.fixed[0]),
+      canopy_(nodes_of_patches(mesh_)),
+      home_(centroid(canopy_, problem_.shape)),
+      row_(1 / least_rows_in(problem_.air.flow)),
+      cloth_(flying_cloth(mesh_, problem_)),
+      stepper_(AdaptiveStepper::Step::renewed, problem_.cloth.step_fraction, row_, team_),
+      air_(std::make_unique<CoupledFlow>(problem_.air, mesh_)) {
+  for (const double m : mesh_.mass) mass_ += m;
+  const double diameter = std::sqrt(mouth_area(mesh_, problem_.shape) * 4 / std::numbers::pi);
+  follow_ = follow_rate * problem_.air.flow.air.speed() / diameter;
+  longest_step_ = longest_share * diameter / problem_.air.flow.air.speed();
+}
+
+Vec3 FreeFlight::wind_at(double height, double time) const {
+  return wind_velocity(problem_.settings.wind, height, time);
+}
+
+FreeFlightState FreeFlight::start() {
+  const FlightSettings& s = problem_.settings;
+  FreeFlightState state;
+  const double azimuth = s.azimuth_deg * degree;
+  // The payload is displaced towards the azimuth: the parachute turns about the canopy.
+  const Vec3 axis{std::sin(azimuth), -std::cos(azimuth), 0};
+  std::vector<Vec3> x = problem_.shape, v(x.size());
+  Vec3 middle;  // of all mass
+  for (Vec3& p : x) p = home_ + turned(p - home_, axis, s.angle_deg * degree);
+  for (std::size_t n = 0; n < x.size(); ++n) middle += (mesh_.mass[n] / mass_) * x[n];
+  for (std::size_t n = 0; n < x.size(); ++n) v[n] = cross(s.swing_deg_s * degree * axis, x[n] - middle);
+  ClothState& cloth = state.coupled.cloth;
+  cloth = start_state(*cloth_);
+  set_positions(cloth, *cloth_, x);
+  set_velocities(cloth, *cloth_, v);
+  state.coupled.step = stepper_.allowed_step(state.coupled, *cloth_);
+  state.box = Vec3{0, 0, s.height_m.value_or(0)} - x[payload_];
+  const double height = (state.box + home_).z;
+  const Vec3 wind = wind_at(height, 0);
+  state.box_velocity = s.velocity_m_s.value_or(wind - problem_.air.flow.air.velocity);
+  state.stream = wind - state.box_velocity;
+  state.kinetic_at_start = kinetic_energy(*cloth_, cloth);
+  state.elastic_at_start = elastic_energy(*cloth_, cloth);
+  state.momentum_at_start = momentum(*cloth_, cloth) + mass_ * state.box_velocity;
+  state.mouth_at_start = mouth_area(mesh_, x);
+  if (!problem_.pressure.empty()) {
+    state.coupled.air.pressure = problem_.pressure;
+    state.coupled.air.force.assign(x.size(), {});
+  }
+  return state;
+}
+
+// a_b = f^2 (x_c - home) + 2 f v_c: in the box the canopy moves as on a critically damped spring.
+Vec3 FreeFlight::box_acceleration(const FreeFlightState& state) const {
+  const Vec3 away = centroid(canopy_, positions(state.coupled.cloth, *cloth_)) - home_,
+             rate = centroid(canopy_, velocities(state.coupled.cloth, *cloth_));
+  return follow_ * follow_ * away + 2 * follow_ * rate;
+}
+
+Surroundings FreeFlight::surroundings(const FreeFlightState& state, double length) const {
+  const Vec3 gravity{0, 0, -problem_.gravity}, accelerates = box_acceleration(state);
+  const double time = state.coupled.cloth.time, height = (state.box + home_).z;
+  Surroundings s;
+  s.moves = true;
+  s.stream = wind_at(height + length * state.box_velocity.z, time + length) -
+             (state.box_velocity + length * accelerates);
+  s.gained = (s.stream - state.stream) / length;
+  s.on_mass = gravity - accelerates;
+  const double fallen =
+      problem_.settings.height_m.value_or(0) - (state.box + home_).z + (home_ - problem_.shape[payload_]).z;
+  if (problem_.density_ratio) s.density_ratio = problem_.density_ratio(fallen);
+  if (problem_.payload_drag_area > 0) {
+    const Vec3 place = positions(state.coupled.cloth, *cloth_)[payload_],
+               moves = velocities(state.coupled.cloth, *cloth_)[payload_];
+    s.node = payload_;
+    s.force = drag_force(state.box_velocity + moves - wind_at((state.box + place).z, time),
+                         problem_.air.flow.air.density * s.density_ratio, problem_.payload_drag_area);
+  }
+  return s;
+}
+
+void FreeFlight::check_cells(const std::vector<Vec3>& x, double time) const {
+  const FlowGrid& grid = air_->grid();
+  const auto outside = [&](int axis, double at) {
+    const Grading& g = grid.grading[axis];
+    const bool graded = g.before > 0 || g.after > 0;
+    const double low = graded ? g.core_low : grid.edge(axis, 0),
+                 high = graded ? g.core_high : grid.edge(axis, grid.count(axis));
+    return at < low || at > high;
+  };
+  for (const int n : canopy_) {
+    const Vec3 p = x[n];
+    if (!outside(0, p.x) && !outside(1, p.y) && !outside(2, p.z)) continue;
+    throw QuantityError(
+        ExitCode::not_converged,
+        fmt::format(
+            "t = {:.4g} s: the canopy has left the fine cells of the flow, which follow it: a point of "
+            "it is at ({:.3g}, {:.3g}, {:.3g}) m from its mean place. It has turned over or collapsed, "
+            "or the region of fine cells is too small",
+            time, p.x - home_.x, p.y - home_.y, p.z - home_.z),
+        {"region of fine cells"});
+  }
+}
+
+FreeFlightRow FreeFlight::row_of(const FreeFlightState& state, const std::vector<Vec3>& x,
+                                 const std::vector<Vec3>& v) const {
+  FreeFlightRow row;
+  row.time = state.coupled.cloth.time;
+  row.payload = state.box + x[payload_], row.velocity = state.box_velocity + v[payload_];
+  row.canopy = state.box + centroid(canopy_, x);
+  const Vec3 line = centroid(mesh_.rigging.skirt_nodes, x) - x[payload_];
+  row.angle = std::atan2(std::hypot(line.x, line.y), line.z) / degree;
+  row.tilt_x = std::atan2(line.x, line.z) / degree, row.tilt_y = std::atan2(line.y, line.z) / degree;
+  row.stream = state.stream, row.wind = state.stream + state.box_velocity;
+  const Vec3 relative = state.stream - centroid(canopy_, v);
+  row.attack = std::atan2(norm(cross(line, relative)), dot(line, relative)) / degree;
+  row.mouth_area = mouth_area(mesh_, x);
+  return row;
+}
+
+FreeFlightRow FreeFlight::advance(FreeFlightState& state) {
+  InflationState& coupled = state.coupled;
+  const double time = coupled.cloth.time;
+  const double longest = std::min(sound_step(*air_, row_, time), longest_step_);
+  const int rows = std::max(1, static_cast<int>(longest / row_));
+  const double length = rows * row_;
+  const std::vector<Vec3> v_before = velocities(coupled.cloth, *cloth_);
+  const Surroundings around = surroundings(state, length);
+
+  const CoupledStep taken =
+      take_coupled_step(*air_, stepper_, *cloth_, {state.rows, rows, rows}, around, team_, coupled);
+  state.rows += rows;
+
+  // The box moves on with the acceleration of this step.
+  const Vec3 accelerates = Vec3{0, 0, -problem_.gravity} - around.on_mass;
+  state.box += length * state.box_velocity + (0.5 * length * length) * accelerates;
+  state.box_velocity += length * accelerates;
+  state.stream = around.stream;
+  state.impulse += length * (taken.flow.force + around.force - Vec3{0, 0, mass_ * problem_.gravity});
+
+  const std::vector<Vec3> x = positions(coupled.cloth, *cloth_), v = velocities(coupled.cloth, *cloth_);
+  check_cells(x, coupled.cloth.time);
+  FreeFlightRow row = row_of(state, x, v);
+  row.air_force = taken.flow.force;
+  row.payload_drag = norm(around.force);
+  // What lines and riser pull is what else changed the payload's momentum, in the mean over the step.
+  const double m = mesh_.mass[payload_];
+  row.line_force = (m / length) * (v[payload_] - v_before[payload_]) - m * around.on_mass - around.force;
+  row.step = length, row.courant = taken.flow.courant;
+  row.residual_traction = taken.residual_traction;
+  row.momentum_gap = norm(taken.flow.momentum_gap);
+  if (row.mouth_area >= collapsed_share * state.mouth_at_start)
+    state.collapsed_since = -1;
+  else if (state.collapsed_since < 0)
+    state.collapsed_since = row.time;
+  return row;
+}
+
+std::string FreeFlight::failure(const FreeFlightState& state, const FreeFlightRow& row) const {
+  if (row.angle > turned_over) return fmt::format("the parachute turned over at {:.4g} s", row.time);
+  if (state.collapsed_since >= 0 && row.time - state.collapsed_since > collapsed_for)
+    return fmt::format("the canopy collapsed at {:.4g} s", state.collapsed_since);
+  return "";
+}
+
+FreeFlight::Balance FreeFlight::balance(const FreeFlightState& state, const FreeFlightRow& row) const {
+  const ClothState& cloth = state.coupled.cloth;
+  const double work = state.coupled.record.pressure_work + state.coupled.air.work;
+  const double left = work + state.kinetic_at_start + state.elastic_at_start -
+                      kinetic_energy(*cloth_, cloth) - elastic_energy(*cloth_, cloth) -
+                      state.coupled.record.damped;
+  const Vec3 now = momentum(*cloth_, cloth) + mass_ * state.box_velocity;
+  const double weight = mass_ * problem_.gravity,
+               fallen = problem_.settings.height_m.value_or(0) - row.payload.z;
+  return {left / (weight * std::max(fallen, 1e-3)),
+          norm(now - state.momentum_at_start - state.impulse) / (weight * row.time)};
+}
+
+}  // namespace ripstop

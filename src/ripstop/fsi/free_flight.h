@@ -1,0 +1,85 @@
+// A parachute with its payload in free flight, stepped in time together with the air.
+//
+// The box of the flow translates with the canopy, V_b(t), and does not rotate. In it the undisturbed air has the
+// velocity W - V_b, all air the body force of its acceleration, cloth, lines and payload the force m (g - dV_b/dt).
+// The payload is a point mass at the end of the riser, or at the confluence: a node of the cloth.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ripstop/fsi/coupled_step.h"
+#include "ripstop/fsi/flight_record.h"
+#include "ripstop/fsi/flight_settings.h"
+#include "ripstop/fsi/inflation_settings.h"
+#include "ripstop/parachute/canopy_mesh.h"
+
+namespace ripstop {
+
+struct FlightProblem {
+  CanopyMesh mesh;                    // as cut; its fixed node becomes the payload
+  std::vector<Vec3> shape;            // at the start, its axis along z in the box [m]
+  std::vector<double> pressure = {};  // on its cells [Pa]; empty: none
+  AirProblem air;                     // air.flow.air.velocity: along z, the rate of descent at the start
+  FlightSettings settings;
+  InflationSettings cloth;       // damping, contact and step of the cloth
+  double payload_mass = 0;       // [kg]
+  double payload_drag_area = 0;  // C_D S [m2]
+  double gravity = 0;            // [m/s2]
+  /// Density so many metres below the start over that there; empty: 1.
+  std::function<double(double)> density_ratio = {};
+  bool linear = false;
+  int threads = 0;
+};
+
+class FreeFlight {
+ public:
+  /// Throws Error(usage) for a payload without mass, a mesh without exactly one fixed node, and as CoupledFlow.
+  explicit FreeFlight(FlightProblem problem);
+
+  FreeFlightState start();
+  /// One step of the flow. Throws Error(diverged), and Error(not_converged) for a canopy that leaves its fine cells.
+  FreeFlightRow advance(FreeFlightState& state);
+
+  /// Energies in the box, of which the residual is a share of the potential energy that was lost so far.
+  struct Balance {
+    double energy_residual = 0, momentum_residual = 0;
+  };
+  Balance balance(const FreeFlightState& state, const FreeFlightRow& row) const;
+  /// Why the flight is no flight any more: the canopy has collapsed or turned over. Empty: it flies.
+  std::string failure(const FreeFlightState& state, const FreeFlightRow& row) const;
+
+  double mass() const { return mass_; }  // of parachute and payload [kg]
+  const CanopyMesh& mesh() const { return mesh_; }
+  const Cloth& cloth() const { return *cloth_; }
+  const FlightProblem& problem() const { return problem_; }
+  CoupledFlow& air() { return *air_; }
+  int threads() const { return team_.size(); }
+
+ private:
+  Vec3 wind_at(double height, double time) const;
+  Surroundings surroundings(const FreeFlightState& state, double length) const;
+  Vec3 box_acceleration(const FreeFlightState& state) const;
+  void check_cells(const std::vector<Vec3>& x, double time) const;
+  FreeFlightRow row_of(const FreeFlightState& state, const std::vector<Vec3>& x,
+                       const std::vector<Vec3>& v) const;
+
+  FlightProblem problem_;
+  ThreadTeam team_;
+  CanopyMesh mesh_;  // with the payload's mass, without a fixed node
+  int payload_ = -1;
+  double mass_ = 0;
+  std::vector<int> canopy_;  // nodes of patches
+  Vec3 home_;                // of the canopy's centroid in the box [m]
+  double follow_ = 0;        // rate at which the box follows the canopy [1/s]
+  double longest_step_ = 0;  // of the flow [s]
+  double row_ = 0;           // of the cloth's history [s]
+  ClothPtr cloth_;
+  AdaptiveStepper stepper_;
+  std::unique_ptr<CoupledFlow> air_;
+};
+
+}  // namespace ripstop

@@ -1,0 +1,202 @@
+#include "ripstop/run/flight/flight.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "ripstop/case/payload.h"
+#include "ripstop/core/error.h"
+#include "ripstop/core/file.h"
+#include "ripstop/flight/atmosphere.h"
+#include "ripstop/run/engine.h"
+#include "ripstop/run/json.h"
+#include "ripstop/run/quality.h"
+#include "ripstop/run/steady/warnings.h"
+
+namespace ripstop {
+namespace {
+
+namespace fs = std::filesystem;
+
+// How often the standard error is looked at, and so many half-swings it needs at least: ten periods.
+constexpr double look_every = 1;  // [s]
+constexpr int least_half_swings = 20;
+constexpr int shots_on_sheet = 8;
+
+/// The equilibrium on the axis; saves its flow.
+class AxialRun : public SteadyObserver {
+ public:
+  AxialRun(FlightObserver& observer, fs::path flow) : observer_(observer), flow_(std::move(flow)) {}
+  void progress(const SteadyProgress& progress, const SteadyState& state) override {
+    observer_.starting(progress, state);
+  }
+  void warned(const std::string& text) override { observer_.warned(text); }
+  void ended(const SteadyRun& run, const SteadyState&, const SteadyResult&) override {
+    run.solver.flow().save(flow_);
+  }
+
+ private:
+  FlightObserver& observer_;
+  fs::path flow_;
+};
+
+FlightStart equilibrium_on_axis(const Settings& resolved, int threads, const fs::path& flow,
+                                FlightObserver& observer) {
+  AxialRun axial(observer, flow);
+  SteadySettings settings;
+  settings.threads = threads;
+  const SteadySolution solution = run_steady(resolved, axial, settings);
+  if (!solution.result.converged)
+    observer.warned(
+        fmt::format("the canopy on the axis did not come to equilibrium within {} iterations; the "
+                    "flight begins with its last shape",
+                    solution.result.iterations));
+  return {solution.result.speed, solution.result.drag_coefficient, solution.state.shape,
+          solution.state.pressure};
+}
+
+std::optional<double> relative_error(const FlightHistory& history) {
+  const FlightSummary s = summarise_flight(history.rows);
+  if (s.peaks < least_half_swings || !s.descent.standard_error) return {};
+  return *s.descent.standard_error / s.descent.mean;
+}
+
+/// Why the flight has ended; empty: it goes on.
+std::string end_of(const FreeFlight& flight, const FreeFlightState& state, const FlightHistory& history) {
+  const FlightSettings& s = flight.problem().settings;
+  const FreeFlightRow& row = history.rows.back();
+  if (const std::string failure = flight.failure(state, row); !failure.empty()) return failure;
+  if (s.height_m && row.payload.z <= 0) return "ground";
+  if (row.time >= s.duration_s * (1 - 1e-12)) return "duration";
+  if (s.standard_error && std::floor(row.time / look_every) > std::floor((row.time - row.step) / look_every))
+    if (const auto error = relative_error(history); error && *error <= *s.standard_error)
+      return "standard error";
+  return "";
+}
+
+bool failed(const std::string& ended_by) {
+  return ended_by != "ground" && ended_by != "duration" && ended_by != "standard error";
+}
+
+void take_means(FlightResult& r, const FlightSummary& s) {
+  r.start_up = s.start_up, r.peaks = s.peaks;
+  r.descent = s.descent.mean, r.descent_error = s.descent.standard_error;
+  const double v = s.descent.mean;
+  r.coefficient =
+      2 * (r.payload_mass + r.parachute_mass) * standard_gravity / (r.density * v * v * r.reference_area);
+  if (r.descent_error) r.coefficient_error = 2 * *r.coefficient * *r.descent_error / v;
+  r.glide = s.glide.mean, r.glide_error = s.glide.standard_error;
+  if (s.oscillation) r.oscillation = s.oscillation->mean, r.oscillation_error = s.oscillation->standard_error;
+  if (s.largest_oscillation)
+    r.largest = s.largest_oscillation->mean, r.largest_error = s.largest_oscillation->standard_error;
+  if (s.period) r.period = s.period->mean, r.period_error = s.period->standard_error;
+  r.roundness = s.roundness, r.mean_angle = s.mean_angle;
+  r.mean_attack = s.mean_attack, r.largest_attack = s.largest_attack;
+}
+
+void take_quality(FlightResult& r, const Settings& resolved) {
+  Judgement judgement = judge({{"flight_energy_residual", std::abs(r.energy_residual)},
+                               {"flight_momentum_residual", r.momentum_residual},
+                               {"cells_across", r.cells_across}});
+  judgement.add(margin_warnings(r.margins));
+  judgement.add(mesh_warnings(resolved));
+  judgement.add(strain_warnings(resolved, r.stress.strain));
+  r.warnings = std::move(judgement.warnings);
+  if (failed(r.ended_by)) {
+    r.warnings.push_back(r.ended_by + "; no mean is given");
+    judgement.usable = false;
+  } else if (r.peaks < least_half_swings) {
+    r.warnings.push_back(
+        fmt::format("the means are over {} half-swings; ten periods (20) or more are needed: take a "
+                    "longer flight (flight.duration_s)",
+                    r.peaks));
+  }
+  r.usable = judgement.usable;
+}
+
+FlightResult result_of(const Settings& resolved, const FreeFlight& flight, const FlightStart& start,
+                       const FreeFlightState& state, const FlightHistory& history,
+                       const std::string& ended_by) {
+  FlightResult r;
+  const FreeFlightRow &last = history.rows.back(), &first = history.rows.front();
+  r.title = resolved.title(), r.ended_by = ended_by, r.duration = last.time;
+  r.payload_mass = *resolved.payload().mass_kg, r.parachute_mass = flight.mass() - r.payload_mass;
+  r.density = resolved.flow().density_kg_m3, r.reference_area = nominal_area(resolved.parachute());
+  r.axial_speed = start.speed, r.axial_coefficient = start.coefficient;
+  const KnownRange known = experience(resolved.parachute()).drag_coefficient;
+  if (known.high > 0) r.known_coefficient = {known.low, known.high};
+  const FlightSummary summary = summarise_flight(history.rows);
+  if (!failed(ended_by)) take_means(r, summary);
+  r.largest_load = summary.largest_load;
+  r.load_factor = summary.largest_load / (r.payload_mass * standard_gravity);
+  const Vec3 way = last.payload - first.payload;
+  r.distance = std::hypot(way.x, way.y), r.height_lost = -way.z;
+  const FreeFlight::Balance balance = flight.balance(state, last);
+  r.energy_residual = balance.energy_residual, r.momentum_residual = balance.momentum_residual;
+  const double weight = flight.mass() * standard_gravity;
+  for (const FreeFlightRow& row : history.rows)
+    r.air_momentum_residual = std::max(r.air_momentum_residual, row.momentum_gap / weight);
+  r.cells_across = cells_across(resolved);
+  r.stress = state.coupled.highest_stress;
+  r.margins = case_margins(resolved, flight.mesh(), state.coupled.record.peak_tension, r.stress);
+  r.flow_steps = state.coupled.air.steps, r.cloth_steps = state.coupled.cloth.steps;
+  take_quality(r, resolved);
+  return r;
+}
+
+/// Keeps the highest stress of all shapes, and some shapes for the contact sheet.
+void look_at_shape(const FreeFlight& flight, FreeFlightState& state) {
+  const ClothState& cloth = state.coupled.cloth;
+  const std::vector<Vec3> x = positions(cloth, flight.cloth());
+  const std::vector<CellStress> stress = cell_stress(flight.cloth(), cloth);
+  const StressPeak now = stress_peak(flight.mesh(), x, stress);
+  StressPeak& highest = state.coupled.highest_stress;
+  if (now.von_mises > highest.von_mises) highest = now, state.coupled.highest_stress_time = cloth.time;
+  std::vector<Snapshot>& shots = state.coupled.snapshots;
+  const double share = cloth.time / flight.problem().settings.duration_s;
+  if (double(shots.size()) >= std::min(shots_on_sheet * share + 1, double(shots_on_sheet))) return;
+  shots.push_back({cloth.time, x, {}});
+  for (const CellStress& cell : stress) shots.back().von_mises.push_back(cell.von_mises);
+}
+
+}  // namespace
+
+std::string to_json(const FlightResult& result) {
+  return json_text(result);
+}
+
+FlightSolution run_flight(const Settings& resolved, int threads, FlightObserver& observer) {
+  const TemporaryFolder axial("flight");
+  const std::optional<FlightStart> earlier = observer.earlier_start();
+  const FlightStart start = earlier ? *earlier : equilibrium_on_axis(resolved, threads, axial.path, observer);
+  observer.started(start);
+  const Settings now = at_speed(resolved, start.speed);
+  FlightProblem problem = flight_problem(now, start.shape, start.pressure, threads);
+  EngineOptions options = engine_options(now);
+  options.threads = threads;
+  options.small_eddies = now.flow().watch.eddies;
+  problem.air.engine = engine_of(now).make(options);
+  FreeFlight flight(std::move(problem));
+  if (!earlier) flight.air().restore(axial.path);
+  FlightSolution solution;
+  auto& [result, state, history] = solution;
+  state = flight.start();
+  observer.begin(flight, state, history);
+  std::string ended_by = history.rows.empty() ? "" : end_of(flight, state, history);
+  while (ended_by.empty()) {
+    history.rows.push_back(flight.advance(state));
+    ended_by = end_of(flight, state, history);
+    const FreeFlightRow& row = history.rows.back();
+    const bool shape = shapes_until(row.time, now.flight()) > shapes_until(row.time - row.step, now.flight());
+    if (shape) look_at_shape(flight, state);
+    observer.advanced(flight, state, history, shape);
+  }
+  result = result_of(now, flight, start, state, history, ended_by);
+  observer.ended(flight, state, history, result);
+  return solution;
+}
+
+}  // namespace ripstop

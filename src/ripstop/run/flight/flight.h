@@ -1,0 +1,152 @@
+// One free flight in memory: what `ripstop fly` does apart from its folder and its terminal.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ripstop/case/flying.h"
+#include "ripstop/core/members.h"
+#include "ripstop/fsi/flight_summary.h"
+#include "ripstop/run/margins.h"
+#include "ripstop/run/steady/steady.h"
+
+namespace ripstop {
+
+/// The numbers of one flight: result.json.
+struct FlightResult {
+  std::string title;
+  std::optional<std::string> inputs_hash;  // of a run in a folder: that of its run.json
+  std::string ended_by;  // "duration", "ground", "standard error", or the failure with its time
+  double duration = 0;   // [s]
+  double payload_mass = 0, parachute_mass = 0;  // [kg]
+  /// Absent for a flight that failed or is too short for a mean.
+  std::optional<double> descent, descent_error;          // [m/s]
+  std::optional<double> coefficient, coefficient_error;  // C_D0 in descent: 2 M g / (rho V_v^2 S0)
+  std::optional<std::vector<double>> known_coefficient;  // the handbook's range of the family, low and high
+  std::optional<double> glide, glide_error;
+  std::optional<double> oscillation, oscillation_error, largest, largest_error;  // [deg]
+  std::optional<double> period, period_error;                                    // [s]
+  std::optional<double> roundness;                                // of the path of the tilt: 0 plane, 1 cone
+  std::optional<double> mean_angle, mean_attack, largest_attack;  // [deg]
+  int peaks = 0;                                                  // half-swings counted
+  double start_up = 0;                                            // until then nothing counts [s]
+  double axial_speed = 0;                // at which the drag of the canopy on the axis is the weight [m/s]
+  double axial_coefficient = 0;          // C_D0 on the axis (tunnel)
+  double reference_area = 0;             // S0 [m2]
+  double density = 0;                    // at the start [kg/m3]
+  double largest_load = 0;               // of the lines on the payload [N]
+  double load_factor = 0;                // that over the payload's weight
+  double distance = 0, height_lost = 0;  // of the payload over the ground [m]
+  double energy_residual = 0, momentum_residual = 0;  // of the whole flight
+  double air_momentum_residual = 0;  // largest momentum gap of a step of the air over the weight
+  double cells_across = 0;           // of the inflated canopy
+  StressPeak stress;                 // highest of all shapes
+  std::optional<Margins> margins;
+  long long flow_steps = 0, cloth_steps = 0;
+  std::vector<std::string> warnings;
+  bool usable = true;
+};
+template <Of<FlightResult> T, class Visit>
+void each_member(T& r, Visit&& visit) {
+  visit("title", r.title);
+  visit("inputs_hash", r.inputs_hash);
+  visit("ended_by", r.ended_by);
+  visit("duration_s", r.duration);
+  visit("payload_mass_kg", r.payload_mass);
+  visit("parachute_mass_kg", r.parachute_mass);
+  visit("rate_of_descent_m_s", r.descent, or_null);
+  visit("rate_of_descent_standard_error_m_s", r.descent_error, or_null);
+  visit("descent_drag_coefficient", r.coefficient, or_null);
+  visit("descent_drag_coefficient_standard_error", r.coefficient_error, or_null);
+  visit("known_drag_coefficient", r.known_coefficient);
+  visit("glide_ratio", r.glide, or_null);
+  visit("glide_ratio_standard_error", r.glide_error, or_null);
+  visit("mean_oscillation_deg", r.oscillation, or_null);
+  visit("mean_oscillation_standard_error_deg", r.oscillation_error, or_null);
+  visit("largest_oscillation_deg", r.largest, or_null);
+  visit("largest_oscillation_standard_error_deg", r.largest_error, or_null);
+  visit("oscillation_period_s", r.period, or_null);
+  visit("oscillation_period_standard_error_s", r.period_error, or_null);
+  visit("oscillation_roundness", r.roundness, or_null);
+  visit("mean_angle_deg", r.mean_angle, or_null);
+  visit("mean_angle_of_attack_deg", r.mean_attack, or_null);
+  visit("largest_angle_of_attack_deg", r.largest_attack, or_null);
+  visit("half_swings", r.peaks);
+  visit("start_up_time_s", r.start_up);
+  visit("axial_speed_m_s", r.axial_speed);
+  visit("axial_drag_coefficient", r.axial_coefficient);
+  visit("reference_area_m2", r.reference_area);
+  visit("density_kg_m3", r.density);
+  visit("largest_line_force_n", r.largest_load);
+  visit("load_factor", r.load_factor);
+  visit("distance_m", r.distance);
+  visit("height_lost_m", r.height_lost);
+  visit("energy_residual", r.energy_residual);
+  visit("momentum_residual", r.momentum_residual);
+  visit("air_momentum_residual", r.air_momentum_residual);
+  visit("cells_across", r.cells_across);
+  visit("max_von_mises_n_m", r.stress.von_mises);
+  visit("max_von_mises_on", r.stress.patch);
+  visit("max_cloth_strain", r.stress.strain);
+  visit("margins", r.margins);
+  visit("flow_steps", r.flow_steps);
+  visit("cloth_steps", r.cloth_steps);
+  visit("warnings", r.warnings);
+  visit("usable", r.usable);
+}
+std::string to_json(const FlightResult& result);
+
+/// Where a flight begins: the canopy in equilibrium on the axis, at the speed at which its drag is the weight.
+struct FlightStart {
+  double speed = 0;              // [m/s]
+  double coefficient = 0;        // C_D0 on the axis
+  std::vector<Vec3> shape;       // [m]
+  std::vector<double> pressure;  // on its cells [Pa]
+};
+template <Of<FlightStart> T, class Visit>
+void each_member(T& start, Visit&& visit) {
+  visit("speed", start.speed);
+  visit("coefficient", start.coefficient);
+  visit("shape", start.shape);
+  visit("pressure", start.pressure);
+}
+
+/// Shapes that are due until a time, without that of the start.
+inline long long shapes_until(double time, const FlightSettings& settings) {
+  return static_cast<long long>(time * settings.shapes_per_s * (1 + 1e-12));
+}
+
+/// All of a flight so far.
+struct FlightHistory {
+  std::vector<FreeFlightRow> rows;
+};
+
+/// Told of a flight as it proceeds; what it is not interested in, it leaves out.
+class FlightObserver {
+ public:
+  virtual ~FlightObserver() = default;
+  virtual void warned(const std::string&) {}
+  /// Of the equilibrium on the axis.
+  virtual void starting(const SteadyProgress&, const SteadyState&) {}
+  /// An earlier start, in place of the equilibrium that would be computed.
+  virtual std::optional<FlightStart> earlier_start() { return {}; }
+  virtual void started(const FlightStart&) {}
+  /// Before the first step. An observer that knows an earlier state replaces state and history.
+  virtual void begin(FreeFlight&, FreeFlightState&, FlightHistory&) {}
+  /// After every step; `shape`: one is due.
+  virtual void advanced(FreeFlight&, const FreeFlightState&, const FlightHistory&, bool /*shape*/) {}
+  virtual void ended(FreeFlight&, const FreeFlightState&, const FlightHistory&, const FlightResult&) {}
+};
+
+struct FlightSolution {
+  FlightResult result;
+  FreeFlightState state;
+  FlightHistory history;
+};
+
+/// The flight of the case's settings, which are those of flight_case(). Throws as FreeFlight and run_steady().
+FlightSolution run_flight(const Settings& resolved, int threads, FlightObserver& observer);
+
+}  // namespace ripstop

@@ -1,0 +1,334 @@
+#include "ripstop/run/stability/stability.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "ripstop/canopy/shape.h"
+#include "ripstop/case/assemble.h"
+#include "ripstop/case/resolve.h"
+#include "ripstop/core/error.h"
+#include "ripstop/flow/statistics.h"
+#include "ripstop/fsi/transfer.h"
+#include "ripstop/run/engine.h"
+#include "ripstop/run/json.h"
+
+namespace ripstop {
+namespace {
+
+// The box and its cells, in units of the canopy's largest width: as in bench/attack.cpp.
+constexpr double half_box = 4.5, box_before = 4, box_behind = 6;
+constexpr double core_margin = 0.35, core_wake = 1;
+constexpr double cell_growth = 1.2;
+
+constexpr double significant = 2;  // standard errors
+
+struct Extent {
+  Vec3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
+};
+
+Extent extent_of(const std::vector<Triangle>& surface) {
+  Extent e;
+  for (const Triangle& t : surface) {
+    for (const Vec3& p : {t.a, t.b, t.c}) {
+      e.low = {std::min(e.low.x, p.x), std::min(e.low.y, p.y), std::min(e.low.z, p.z)};
+      e.high = {std::max(e.high.x, p.x), std::max(e.high.y, p.y), std::max(e.high.z, p.z)};
+    }
+  }
+  return e;
+}
+
+/// Cells from a core of cells of width h to the end of the box at a distance `length`, each wider than the last.
+int cells_outward(double length, double h) {
+  const double g = cell_growth;
+  return static_cast<int>(std::ceil(std::log(1 + (g - 1) * length / (g * h)) / std::log(g)));
+}
+
+Attitude attitude_in(Vec3 wind) {
+  return {{0, 0, 1}, wind};
+}
+
+struct Mean {
+  double value = 0;
+  std::optional<double> error;
+};
+
+/// Of one coefficient over the steps of a record, without its start-up.
+Mean mean_of(const FlowRecord& record, const std::vector<Coefficients>& steps, double Coefficients::*which) {
+  Record values;
+  values.begin = record.steps.front().time - record.steps.front().length;
+  for (std::size_t n = 0; n < steps.size(); ++n) {
+    values.until.push_back(record.steps[n].time);
+    values.values.push_back(steps[n].*which);
+  }
+  const MeanOverTime mean = mean_over_time(values, values.begin + record.start_up);
+  Mean result{mean.mean, std::nullopt};
+  if (std::isfinite(mean.standard_error)) result.error = mean.standard_error;
+  return result;
+}
+
+[[noreturn]] void refuse(const std::string& why) {
+  throw Error(ExitCode::usage, why);
+}
+
+void check_flow(const Settings& resolved) {
+  const FlowSettings& flow = resolved.flow();
+  const char* flow_needed = "an angle of attack needs an unbounded stream";
+  if (flow.tunnel.kind != TunnelKind::free_air)
+    refuse(fmt::format("flow.tunnel.kind: {}, not a wind tunnel; set it to \"free-air\"", flow_needed));
+  const Source& sides = resolved.source("flow.sides");
+  if (sides.given && !(flow.sides == Sides::far_field) && !(flow.sides == Sides::entraining))
+    refuse(fmt::format("flow.sides = \"{}\", {}: {}; leave the key out or set it to \"far-field\"",
+                       flow.sides.word, sides.from, flow_needed));
+  if (flow.porosity_model != PorosityModel::sheet)
+    refuse(
+        "flow.porosity_model = \"paper\": an angle of attack needs the \"sheet\" model; give the cloth a "
+        "permeability as a pressure drop");
+  if (!engine_of(resolved).can.has_boundary(Sides::far_field.word))
+    refuse(
+        fmt::format("flow.engine = \"{}\": this engine has no far field on all faces of the box; use \"{}\"",
+                    flow.engine, engines().front().word));
+}
+
+}  // namespace
+
+void check_angles(const std::vector<double>& angles) {
+  if (angles.empty()) refuse("--angles: no angle; give at least one, as in --angles 0:40:5");
+  if (angles.size() > static_cast<std::size_t>(most_angles))
+    refuse(fmt::format("--angles: {} angles, at most {}; use a larger step", angles.size(), most_angles));
+  for (std::size_t i = 0; i < angles.size(); ++i) {
+    if (!(angles[i] >= 0 && angles[i] <= largest_angle))
+      refuse(fmt::format("--angles: {:g} degrees; an angle of attack is from 0 to {:g} degrees", angles[i],
+                         largest_angle));
+    if (i > 0 && !(angles[i] > angles[i - 1]))
+      refuse(fmt::format("--angles: {:g} after {:g} degrees; angles must rise", angles[i], angles[i - 1]));
+  }
+}
+
+std::vector<double> angles_of_text(const std::string& text) {
+  const std::string form = "FROM:TO:STEP in degrees, as in 0:40:5, or one angle";
+  std::vector<double> parts;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(':', begin), text.size());
+    const std::string part = text.substr(begin, end - begin);
+    std::size_t used = 0;
+    double value = std::numeric_limits<double>::quiet_NaN();
+    try {
+      value = std::stod(part, &used);
+    } catch (const std::exception&) {
+      used = 0;
+    }
+    if (part.empty() || used != part.size() || !std::isfinite(value))
+      refuse(fmt::format("--angles {}: \"{}\" is not a number; give {}", text, part, form));
+    parts.push_back(value);
+    begin = end + 1;
+  }
+  if (parts.size() != 1 && parts.size() != 3)
+    refuse(fmt::format("--angles {}: {} numbers; give {}", text, parts.size(), form));
+  std::vector<double> angles = {parts[0]};
+  if (parts.size() == 3) {
+    const double from = parts[0], to = parts[1], step = parts[2];
+    if (!(step > 0)) refuse(fmt::format("--angles {}: a step of {:g}; it must be above 0", text, step));
+    if (to < from)
+      refuse(
+          fmt::format("--angles {}: from {:g} down to {:g}; give the smaller angle first", text, from, to));
+    const double count = std::floor((to - from) / step * (1 + 1e-12) + 1e-9);
+    if (count + 1 > most_angles)
+      refuse(fmt::format("--angles {}: {:g} angles, at most {}; use a larger step", text, count + 1,
+                         most_angles));
+    for (int n = 1; n <= static_cast<int>(count); ++n) angles.push_back(from + n * step);
+  }
+  check_angles(angles);
+  return angles;
+}
+
+std::vector<Settings> stability_cases(const Case& given, const std::vector<double>& angles) {
+  check_angles(angles);
+  if (given.flow.angle_of_attack_deg != 0)
+    refuse(fmt::format("flow.angle_of_attack_deg = {:g}: this command sets the angle; leave the key out",
+                       given.flow.angle_of_attack_deg));
+  check_flow(resolve(given));
+  std::vector<Settings> cases;
+  for (const double angle : angles) {
+    Case at = given;
+    at.flow.angle_of_attack_deg = angle;
+    cases.push_back(resolve(at));
+  }
+  return cases;
+}
+
+RigidCanopy rigid_canopy(const Settings& resolved, const std::vector<Vec3>& shape) {
+  const CanopyMesh mesh = parachute_mesh(resolved);
+  RigidCanopy canopy;
+  canopy.surface = surface_of(cells_of(mesh), shape);
+  canopy.confluence = shape.at(static_cast<std::size_t>(mesh.rigging.confluence));
+  canopy.width = canopy_size(mesh, shape).projected_diameter;
+  return canopy;
+}
+
+// The vent is the ring of cloth that is nearest to the axis. Its nodes lie on a polygon.
+CanopyMesh restrained_mesh(const Settings& resolved, const SteadyState& state) {
+  constexpr double polygon = 1.1;  // largest to smallest radius of a ring, with a margin
+  CanopyMesh mesh = parachute_mesh(resolved);
+  std::set<int> cloth;
+  for (const Cell& cell : cells_of(mesh))
+    if (cell.corner[0] >= 0) cloth.insert(std::begin(cell.corner), std::end(cell.corner));
+  for (const Tie& tie : mesh.ties) cloth.erase(tie.node);  // follows other nodes
+  const auto radius = [&](int node) { return std::hypot(mesh.start[node].x, mesh.start[node].y); };
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const int node : cloth) nearest = std::min(nearest, radius(node));
+  std::set<int> fixed(mesh.fixed.begin(), mesh.fixed.end());
+  fixed.insert(mesh.rigging.confluence);
+  for (const int node : cloth)
+    if (radius(node) <= polygon * nearest + 1e-9) fixed.insert(node);
+  mesh.fixed.assign(fixed.begin(), fixed.end());
+  for (const int node : mesh.fixed) mesh.start[node] = state.shape[node];
+  return mesh;
+}
+
+FlowProblem stability_flow(const Settings& at_angle, const RigidCanopy& canopy, int across, double widest) {
+  FlowProblem problem = flow_problem(at_angle);
+  const Extent e = extent_of(canopy.surface);
+  const Vec3 size = e.high - e.low, middle = 0.5 * (e.low + e.high);
+  const double width = std::max(size.x, size.y), h = canopy.width / across;
+  const Vec3 wind = wind_direction(std::min(widest, 90.0), at_angle.flow().azimuth_deg);
+  const double wake = core_wake * width;
+  const auto shifted = [&](double low, double high, double towards) {
+    return std::pair{low - core_margin * width + std::min(0.0, wake * towards),
+                     high + core_margin * width + std::max(0.0, wake * towards)};
+  };
+  const auto [x0, x1] = shifted(e.low.x, e.high.x, wind.x);
+  const auto [y0, y1] = shifted(e.low.y, e.high.y, wind.y);
+  const auto [z0, z1] = shifted(e.low.z, e.high.z, 1);
+  // No two sides of the canopy lie alike on the cells: docs/theory/flow-cartesian.md.
+  const Vec3 off = in_time_off_axis * h * Vec3{1, 0.5, 0};
+  const Vec3 low = Vec3{x0, y0, z0} + off, high = Vec3{x1, y1, z1} + off;
+  const Vec3 corner = middle - width * Vec3{half_box, half_box, box_before},
+             far = middle + width * Vec3{half_box, half_box, box_behind};
+  const auto cells = [&](double from, double core_from, double core_to, double to) {
+    return static_cast<int>(std::lround((core_to - core_from) / h)) + cells_outward(core_from - from, h) +
+           cells_outward(to - core_to, h);
+  };
+  problem.grid = graded({corner, far - corner, cells(corner.x, low.x, high.x, far.x),
+                         cells(corner.y, low.y, high.y, far.y), cells(corner.z, low.z, high.z, far.z)},
+                        low, high, cell_growth);
+  problem.sides = Sides::far_field;
+  FlowBody& body = problem.bodies.at(0);
+  body.surface = canopy.surface;
+  body.moment_about = canopy.confluence;
+  return problem;
+}
+
+Reference stability_reference(const Settings& resolved) {
+  return {resolved.flow().density_kg_m3, nominal_area(resolved.parachute()),
+          nominal_diameter(resolved.parachute())};
+}
+
+std::vector<Trim> trims_of(const std::vector<StabilityRow>& rows) {
+  std::vector<Trim> trims;
+  const auto differs = [](const StabilityRow& row) {
+    return std::abs(row.c_m) > significant * row.c_m_error.value_or(0);
+  };
+  std::size_t first = 0;
+  if (rows.size() > 1 && rows[0].angle == 0) {
+    trims.push_back({0, std::nullopt, rows[1].c_m < 0, differs(rows[1])});
+    first = 1;
+  }
+  for (std::size_t i = first; i + 1 < rows.size(); ++i) {
+    const StabilityRow &a = rows[i], &b = rows[i + 1];
+    if (!(a.c_m * b.c_m < 0)) continue;
+    const double slope = (b.c_m - a.c_m) / (b.angle - a.angle), share = a.c_m / (a.c_m - b.c_m);
+    Trim trim{a.angle + share * (b.angle - a.angle), std::nullopt, slope < 0, differs(a) && differs(b)};
+    if (a.c_m_error && b.c_m_error)
+      trim.standard_error = std::hypot((1 - share) * *a.c_m_error, share * *b.c_m_error) / std::abs(slope);
+    trims.push_back(trim);
+  }
+  return trims;
+}
+
+void take_trims(StabilityResult& result) {
+  result.trims = trims_of(result.rows);
+  result.trim_angles.clear(), result.stable_trim_angles.clear(), result.warnings.clear();
+  for (const Trim& trim : result.trims) {
+    result.trim_angles.push_back(trim.angle);
+    if (trim.stable) result.stable_trim_angles.push_back(trim.angle);
+    if (!trim.certain)
+      result.warnings.push_back(
+          fmt::format("trim at {:.1f} degrees: C_m next to it differs from 0 by less than {:g} "
+                      "standard errors; a longer averaging window (flow.watch) decides",
+                      trim.angle, significant));
+  }
+  for (const StabilityRow& row : result.rows)
+    if (!row.enough)
+      result.warnings.push_back(
+          row.c_t_error
+              ? fmt::format(
+                    "{:g} degrees: the standard error of the drag is above flow.watch.standard_error; "
+                    "raise flow.watch.longest",
+                    row.angle)
+              : fmt::format("{:g} degrees: the flow did not reach its residual; raise flow.max_iterations",
+                            row.angle));
+}
+
+std::string to_json(const StabilityResult& result) {
+  return json_text(result);
+}
+
+// The far field changes with the air's own velocity, so that no pressure wave has to pass the box: dU/dt as a force on
+// all of the air, in a frame that accelerates (flow/flow.h).
+void turn_stream(Flow& flow, Vec3 from, Vec3 to, double length, double courant) {
+  const double whole = length / norm(to);
+  Vec3 now = from;
+  for (double time = 0; time < whole;) {
+    const double step = std::min(flow.longest_step(courant), whole - time);
+    time += step;
+    const double share = whole - time < 1e-9 * whole ? 1 : time / whole;
+    if (share == 1) time = whole;
+    const Vec3 next = from + share * (to - from);
+    flow.stream(next, (next - now) / step);
+    flow.step(step);
+    now = next;
+  }
+  flow.stream(to, {});
+}
+
+StabilityRow row_of_record(const FlowRecord& record, const Freestream& air, double angle,
+                           const Reference& reference) {
+  const Attitude attitude = attitude_in(air.velocity);
+  std::vector<Coefficients> steps;
+  for (const FlowStep& step : record.steps)
+    steps.push_back(coefficients(step.bodies.at(0), attitude, reference));
+  StabilityRow row;
+  row.angle = angle;
+  const auto take = [&](double Coefficients::*which, double& value, std::optional<double>& error) {
+    const Mean mean = mean_of(record, steps, which);
+    value = mean.value, error = mean.error;
+  };
+  take(&Coefficients::tangential, row.c_t, row.c_t_error);
+  take(&Coefficients::normal, row.c_n, row.c_n_error);
+  take(&Coefficients::moment, row.c_m, row.c_m_error);
+  take(&Coefficients::drag, row.c_d, row.c_d_error);
+  take(&Coefficients::lift, row.c_l, row.c_l_error);
+  take(&Coefficients::side, row.c_y, row.c_y_error);
+  row.time = record.watched(), row.start_up = record.start_up;
+  row.steps = static_cast<int>(record.steps.size());
+  row.enough = record.enough;
+  return row;
+}
+
+StabilityRow row_of_field(const FlowField& field, const Freestream& air, double angle,
+                          const Reference& reference) {
+  const Coefficients c = coefficients(field.bodies.at(0), attitude_in(air.velocity), reference);
+  StabilityRow row;
+  row.angle = angle;
+  row.c_t = c.tangential, row.c_n = c.normal, row.c_m = c.moment;
+  row.c_d = c.drag, row.c_l = c.lift, row.c_y = c.side;
+  row.steps = field.last.iteration;
+  row.enough = field.converged;
+  return row;
+}
+
+}  // namespace ripstop

@@ -1,0 +1,142 @@
+// A rigid porous plate that carries a payload, in free flight.
+#include "ripstop/fsi/free_flight.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "ripstop/core/error.h"
+#include "ripstop/flow/cartesian/cartesian.h"
+#include "ripstop/flow/unsteady.h"
+#include "ripstop/fsi/transfer.h"
+
+namespace ripstop {
+namespace {
+
+constexpr double side = 0.5, below = 0.6,
+                 height = 1.2;  // of the plate, of the payload below it, of the plate in the box [m]
+constexpr double areal_mass = 0.2, payload = 0.5, gravity = 9.81;
+constexpr double linear = 40;  // pressure drop [Pa s/m]
+
+/// A square of n x n nodes across z; each is tied to the payload by a spring that carries compression too, so that
+/// the whole moves as one rigid body.
+CanopyMesh plate() {
+  constexpr int n = 7;
+  constexpr double spacing = side / (n - 1), stiffness = 2e4;
+  CanopyMesh mesh;
+  Patch patch;
+  patch.rows = patch.columns = n;
+  patch.cell_area.assign(n * n, 0.0);
+  for (int d = 0; d < direction_count; ++d) {
+    patch.law[d].coefficients = {stiffness};
+    const double length = d == along_row || d == along_column ? 1 : d <= shear_down ? std::sqrt(2.0) : 2;
+    patch.rest_length[d].assign(n * n, spacing * length), patch.width[d].assign(n * n, 0.0);
+  }
+  for (int r = 0; r < n; ++r)
+    for (int c = 0; c < n; ++c) {
+      mesh.start.push_back({c * spacing - 0.5 * side, r * spacing - 0.5 * side, height});
+      mesh.mass.push_back(areal_mass * (r % (n - 1) ? 1 : 0.5) * (c % (n - 1) ? 1 : 0.5) * spacing * spacing);
+      if (r < n - 1 && c < n - 1) patch.cell_area[r * n + c] = spacing * spacing;
+      if (c < n - 1) patch.width[along_row][r * n + c] = spacing;
+      if (r < n - 1) patch.width[along_column][r * n + c] = spacing;
+      if (r < n - 1 && c < n - 1) patch.width[shear_up][r * n + c] = spacing;
+      if (r < n - 1 && c > 0) patch.width[shear_down][r * n + c] = spacing;
+    }
+  mesh.fabric_names = {"plate"};
+  patch.name = "plate";
+  mesh.patches.push_back(patch);
+  mesh.start.push_back({0, 0, height - below}), mesh.mass.push_back(1e-3);
+  mesh.fixed = {n * n};
+  mesh.laws.emplace_back().coefficients = {stiffness};
+  mesh.parts = {"strut"};
+  for (int i = 0; i < n * n; ++i) {
+    Spring strut;
+    strut.a = n * n, strut.b = i, strut.rest_length = norm(mesh.start[i] - mesh.start[n * n]);
+    mesh.springs.push_back(strut);
+  }
+  mesh.rigging.confluence = n * n;
+  mesh.rigging.skirt_nodes = {0, n - 1, n * n - 1, n * (n - 1)};
+  return mesh;
+}
+
+FlowProblem air(double speed, double linear_drop) {
+  FlowProblem flow;
+  flow.grid = graded({{-1.5, -1.5, 0}, {3, 3, 3.2}, 24, 24, 28}, {-0.4, -0.4, 0.9}, {0.4, 0.4, 1.6}, 1.3);
+  flow.air.velocity = {0, 0, speed};
+  flow.sides = Sides::far_field;
+  flow.bodies = {sheet_body({}, {linear_drop, 0})};
+  return flow;
+}
+
+FlightProblem problem(double speed, double linear_drop) {
+  FlightProblem flight;
+  flight.mesh = plate();
+  flight.shape = flight.mesh.start;
+  CartesianSettings settings;
+  settings.threads = 1, settings.compressible = false;
+  flight.air = {air(speed, linear_drop), 0.5, make_cartesian(settings)};
+  flight.settings.angle_deg = 0;
+  flight.cloth.contact_pa = 0;
+  flight.payload_mass = payload;
+  flight.gravity = gravity;
+  flight.threads = 1;
+  return flight;
+}
+
+/// Of the plate held in the stream, in the mean over the last half of `duration`.
+double drag_when_held(double speed, double duration) {
+  CartesianSettings settings;
+  settings.threads = 1, settings.compressible = false;
+  const auto engine = make_cartesian(settings);
+  FlowProblem flow = air(speed, linear);
+  const CanopyMesh mesh = plate();
+  flow.bodies[0].surface = surface_of(cells_of(mesh), mesh.start);
+  const auto held = engine->start(flow);
+  double time = 0, sum = 0, weight = 0;
+  while (time < duration) {
+    const double length = held->longest_step(0.5);
+    const FlowStep taken = held->step(length);
+    time += length;
+    if (time > 0.5 * duration) sum += length * taken.force.z, weight += length;
+  }
+  return sum / weight;
+}
+
+// At its terminal speed the drag of the plate, held in a stream of that speed, is the weight.
+TEST(FreeFlight, PorousPlateFallsAtTheTerminalSpeedOfItsDrag) {
+  FreeFlight flight(problem(6, linear));
+  FreeFlightState state = flight.start();
+  double sum = 0, weight = 0;
+  while (state.coupled.cloth.time < 1.6) {
+    const FreeFlightRow row = flight.advance(state);
+    if (row.time > 1.2) sum += row.step * -row.velocity.z, weight += row.step;
+  }
+  const double speed = sum / weight;
+  EXPECT_GT(std::abs(speed - 6), 0.3) << "it has changed its speed";
+  const double drag = drag_when_held(speed, 0.8);
+  // The drag is between linear and quadratic in the speed: 1 % of the speed is at least 1 % of the drag.
+  EXPECT_NEAR(drag / (flight.mass() * gravity), 1, 0.01);
+}
+
+TEST(FreeFlight, WithoutDragItFallsFreely) {
+  FreeFlight flight(problem(6, 1e-9));
+  FreeFlightState state = flight.start();
+  FreeFlightRow row;
+  while (state.coupled.cloth.time < 0.1) row = flight.advance(state);
+  EXPECT_NEAR(-row.velocity.z, 6 + gravity * row.time, 1e-6);
+  EXPECT_NEAR(row.payload.z, -6 * row.time - 0.5 * gravity * row.time * row.time, 1e-3);
+  EXPECT_NEAR(norm(row.line_force), 0, 1e-3);
+  EXPECT_LT(flight.balance(state, row).momentum_residual, 1e-6);
+}
+
+TEST(FreeFlight, RefusesAPayloadWithoutMassAndSeveralPayloads) {
+  FlightProblem weightless = problem(6, linear);
+  weightless.payload_mass = 0;
+  EXPECT_THROW(FreeFlight{std::move(weightless)}, Error);
+  FlightProblem two = problem(6, linear);
+  two.mesh.fixed = {0, 1};
+  EXPECT_THROW(FreeFlight{std::move(two)}, Error);
+}
+
+}  // namespace
+}  // namespace ripstop

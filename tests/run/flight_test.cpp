@@ -1,0 +1,130 @@
+// A short flight of a small canopy, in memory and in a folder.
+#include "ripstop/run/flight/flight.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "ripstop/core/error.h"
+#include "ripstop/core/file.h"
+#include "ripstop/run/flight/flight_folder.h"
+#include "tests/small_case.h"
+
+namespace ripstop {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// On cells as coarse as can show a canopy, for some steps of the flow.
+Case small_flight() {
+  Case given = flat_circular_case(1, 500, 5);
+  given.parachute.mesh.line_segment_m = 0.25;
+  given.payload.mass_kg = 0.8, given.payload.drag_area_m2 = 0.01;
+  given.flow.max_iterations = 60;
+  given.coupling.max_iterations = 4;
+  given.flight.cells_across = 10;
+  given.flight.duration_s = 0.12;
+  given.flight.shapes_per_s = 20;
+  return given;
+}
+
+FlightSolution flown(const std::function<void(Case&)>& edit) {
+  Case given = small_flight();
+  edit(given);
+  FlightObserver nobody;
+  return run_flight(resolve(flight_case(checked(given))), 1, nobody);
+}
+
+// The stream in the box is the same to rounding, and with it everything but the path.
+TEST(Flight, UniformWindChangesNothingButThePath) {
+  const FlightSolution still = flown([](Case&) {}), blown = flown([](Case&given) {
+                                                      given.flight.wind.speed_m_s = 7,
+                                                      given.flight.wind.direction_deg = 30;
+                                                    });
+  ASSERT_EQ(still.history.rows.size(), blown.history.rows.size());
+  const FreeFlightRow &a = still.history.rows.back(), &b = blown.history.rows.back();
+  const Vec3 wind = b.wind;
+  EXPECT_NEAR(norm(wind), 7, 1e-9);
+  EXPECT_NEAR(a.angle, b.angle, 1e-7);
+  EXPECT_NEAR(norm(a.air_force - b.air_force), 0, 1e-6 * norm(a.air_force));
+  EXPECT_NEAR(norm(a.velocity + wind - b.velocity), 0, 1e-8);
+  EXPECT_NEAR(norm(a.payload + a.time * wind - b.payload), 0, 1e-8);
+}
+
+// The parachute turns towards the vertical about a payload that hardly moves in so short a time, and what acts on all
+// of it changes its momentum.
+TEST(Flight, ReleasedAtAnAngleConservesMomentumAndEnergy) {
+  const FlightSolution flight = flown([](Case& given) { given.flight.angle_deg = 20; });
+  const FlightResult& r = flight.result;
+  EXPECT_EQ(r.ended_by, "duration");
+  EXPECT_NEAR(flight.history.rows.front().angle, 20, 1);
+  EXPECT_LT(r.momentum_residual, 0.01);
+  EXPECT_LT(std::abs(r.energy_residual), 0.01);
+  const auto json = nlohmann::json::parse(to_json(r));
+  for (const char* key : {"rate_of_descent_m_s", "descent_drag_coefficient", "glide_ratio",
+                          "mean_oscillation_deg", "largest_oscillation_deg", "oscillation_period_s"})
+    EXPECT_TRUE(json.contains(key)) << key;
+}
+
+TEST(Flight, EndsAtTheGround) {
+  const FlightSolution flight = flown([](Case& given) { given.flight.height_m = 0.2; });
+  EXPECT_EQ(flight.result.ended_by, "ground");
+  EXPECT_LE(flight.history.rows.back().payload.z, 0);
+}
+
+TEST(Flight, RefusesWhatDoesNotFly) {
+  const auto refused = [](const std::function<void(Case&)>& edit, const char* names) {
+    try {
+      flown(edit);
+      ADD_FAILURE() << names;
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find(names), std::string::npos) << error.what();
+      EXPECT_EQ(error.code(), ExitCode::usage);
+    }
+  };
+  refused([](Case& given) { given.payload.mass_kg.reset(); }, "payload.mass_kg");
+  refused([](Case& given) { given.flight.angle_deg = 61; }, "flight.angle_deg");
+  refused([](Case& given) { given.flight.wind.speed_m_s = 80, given.flight.wind.gust_m_s = 30; }, "Mach 0.3");
+  refused([](Case& given) { given.flight.wind.exponent = 0.2; }, "flight.height_m");
+}
+
+/// Ends in the middle, after a checkpoint.
+struct KilledFlight : FlightObserver {
+  void advanced(FreeFlight&, const FreeFlightState& state, const FlightHistory&, bool) override {
+    if (state.coupled.air.steps == 12) throw std::runtime_error("killed");
+  }
+};
+struct ResumedFlight : FlightObserver {
+  long long first = -1;
+  void begin(FreeFlight&, FreeFlightState& state, FlightHistory& history) override {
+    first = state.coupled.air.steps;
+    EXPECT_EQ(static_cast<long long>(history.rows.size()), first);
+  }
+};
+
+TEST(Flight, KilledAndResumedHasTheSamePathByteForByte) {
+  const fs::path root = fs::temp_directory_path() / ("ripstop-flight-" + std::to_string(getpid()));
+  const Settings resolved = resolve(flight_case(checked(small_flight())));
+  const auto fly = [&](const char* name, FlightObserver& observer) {
+    return run_flight_in({{root / name}, 1, 0}, resolved, observer);
+  };
+  FlightObserver nobody;
+  ASSERT_TRUE(fly("whole", nobody));
+  KilledFlight killed;
+  EXPECT_THROW(fly("parts", killed), std::runtime_error);
+  ResumedFlight resumed;
+  ASSERT_TRUE(fly("parts", resumed));
+  EXPECT_GE(resumed.first, 10);
+  for (const char* file : {"path.csv", "result.json", "vtk/canopy_0002.vtp"})
+    EXPECT_EQ(read_file(root / "whole" / file), read_file(root / "parts" / file)) << file;
+  EXPECT_FALSE(fly("parts", nobody)) << "it has ended";
+  fs::remove_all(root);
+}
+
+}  // namespace
+}  // namespace ripstop

@@ -1,0 +1,172 @@
+// The folder of a curve over the angle of attack: rows as they finish, interruption, other inputs.
+#include "ripstop/run/stability/stability_folder.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "ripstop/core/error.h"
+#include "ripstop/core/file.h"
+#include "ripstop/output/csv.h"
+#include "tests/run/stability/leaning_flow.h"
+#include "tests/small_case.h"
+
+namespace ripstop {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Stop {};
+
+/// Counts the angles that are computed; after `stop_after` of them it stops the run.
+class Counter : public StabilityObserver {
+ public:
+  explicit Counter(std::size_t stop_after = 99) : stop_after_(stop_after) {}
+  SteadyObserver& axis() override { return nobody_; }
+  void progress(std::size_t angle, const std::string&, double) override {
+    if (angle >= stop_after_) throw Stop{};
+  }
+  void ended(std::size_t, const StabilityRow&, bool earlier) override { ++(earlier ? found : computed); }
+
+  int found = 0, computed = 0;
+
+ private:
+  SteadyObserver nobody_;
+  std::size_t stop_after_;
+};
+
+class StabilityFolder : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    add_engine(
+        {"leaning",
+         "a formula of the stream's direction",
+         {.sheets = true,
+          .averages = true,
+          .time = true,
+          .boundaries = {"zero-gradient", "slip", "entraining", "far-field", "fixed-pressure", "still-air"}},
+         [](const EngineOptions&) { return std::string("leaning 1"); },
+         [](const EngineOptions&) { return std::make_unique<LeaningEngine>(); }});
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  static Case given() {
+    Case made = flat_circular_case(1, 800, 20);
+    made.flow.engine = "leaning";
+    made.coupling.load = CanopyLoad::uniform;  // the formula has no load for each face
+    made.flow.cells = {20, 20, 30};
+    made.flow.watch.shortest = 10, made.flow.watch.longest = 20;
+    return checked(made);
+  }
+  StabilitySettings in(const std::string& name) const {
+    StabilitySettings settings;
+    settings.run = {folder_ / name, false, false, false};
+    settings.across = 8, settings.threads = 1;
+    return settings;
+  }
+
+  const std::vector<double> angles_{0, 10, 15, 25, 30};
+  fs::path folder_ = fs::temp_directory_path() / ("ripstop_stability_test_" + std::to_string(getpid()));
+};
+
+TEST_F(StabilityFolder, HasTheTableTheResultAndTheStableTrimAngle) {
+  Counter observer;
+  const StabilityResult result = run_stability(given(), angles_, in("curve"), observer);
+  EXPECT_EQ(observer.computed, 5);
+  ASSERT_EQ(result.rows.size(), 5u);
+  EXPECT_NEAR(result.rows[1].c_t, 0.7, 0.002);
+  EXPECT_NEAR(result.rows[1].c_m, 0.02, 2e-4);
+  EXPECT_GT(*result.rows[1].c_m_error, 0);
+  ASSERT_EQ(result.trim_angles.size(), 2u);
+  EXPECT_EQ(result.trim_angles[0], 0);
+  EXPECT_NEAR(result.trim_angles[1], 20, 0.5);
+  EXPECT_EQ(result.stable_trim_angles, std::vector<double>{result.trim_angles[1]});
+
+  const CsvTable table = read_csv(folder_ / "curve/stability.csv");
+  EXPECT_EQ(table.column("angle_deg"), angles_);
+  EXPECT_EQ(table.column("c_m")[1], result.rows[1].c_m);
+  EXPECT_EQ(table.column("c_n_standard_error").size(), 5u);
+  const auto json = nlohmann::json::parse(read_file(folder_ / "curve/result.json"));
+  EXPECT_EQ(json.at("trim_angles_deg").size(), 2u);
+  EXPECT_EQ(json.at("trims").at(1).at("stable"), true);
+  EXPECT_EQ(json.at("reference_length_m"), 1.0);
+  for (const char* file : {"stability.svg", "stability.png", "angle=15/history.csv", "axis/result.json"})
+    EXPECT_TRUE(fs::exists(folder_ / "curve" / file)) << file;
+  EXPECT_FALSE(fs::exists(folder_ / "curve/angle=15/checkpoint"));
+  const CsvTable flight = read_csv(folder_ / "curve/six_dof.csv");
+  ASSERT_EQ(flight.rows.size(), 9u);  // 0 once, the others on both sides
+  EXPECT_EQ(flight.column("c_m")[3], -flight.column("c_m")[5]);
+  EXPECT_EQ(flight.column("c_d")[3], flight.column("c_d")[5]);
+  EXPECT_NEAR(flight.column("alpha_rad")[5], 10 * 3.14159265358979 / 180, 1e-12);
+}
+
+TEST_F(StabilityFolder, ThatWasStoppedGoesOnToTheSameTable) {
+  Counter whole, stopped(2), again;
+  run_stability(given(), angles_, in("whole"), whole);
+  EXPECT_THROW(run_stability(given(), angles_, in("stopped"), stopped), Stop);
+  EXPECT_EQ(read_csv(folder_ / "stopped/stability.csv").rows.size(), 2u);
+  run_stability(given(), angles_, in("stopped"), again);
+  EXPECT_EQ(again.found, 2);
+  EXPECT_EQ(again.computed, 3);
+  for (const char* file : {"stability.csv", "result.json", "angle=25/history.csv"})
+    EXPECT_EQ(read_file(folder_ / "stopped" / file), read_file(folder_ / "whole" / file)) << file;
+  // Each angle starts from the flow of the one before: its time goes on.
+  EXPECT_GT(read_csv(folder_ / "whole/angle=10/history.csv").column("time_s")[0], 0.3);
+}
+
+TEST_F(StabilityFolder, TakesTheShapeOfASteadyRun) {
+  Counter first, second;
+  run_stability(given(), {0, 10}, in("curve"), first);
+  StabilitySettings settings = in("again");
+  settings.steady = folder_ / "curve/axis";
+  const StabilityResult result = run_stability(given(), {0, 10}, settings, second);
+  EXPECT_EQ(result.rows.size(), 2u);
+  EXPECT_FALSE(fs::exists(folder_ / "again/axis"));
+  Case other = given();
+  other.flow.speed_m_s = 10;
+  settings.run.folder = folder_ / "other";
+  EXPECT_THROW(run_stability(other, {0, 10}, settings, second), Error);
+  EXPECT_FALSE(fs::exists(folder_ / "other"));
+}
+
+TEST_F(StabilityFolder, IsComputedPartByPartWithTheSameNumbers) {
+  Counter observer;
+  run_stability(given(), angles_, in("whole"), observer);
+  const StabilitySettings parts = in("parts");
+  const auto waves = stability_waves(given(), angles_, parts);
+  ASSERT_EQ(waves.size(), 6u);  // the axis, and each angle after the one before
+  EXPECT_THROW(run_stability_part(given(), angles_, parts, axis_name, observer), Error);  // not prepared
+  prepare_stability(given(), angles_, parts);
+  EXPECT_THROW(run_stability_part(given(), angles_, parts, "angle=0", observer), Error);  // no shape yet
+  std::vector<std::string> missing;
+  for (const auto& wave : waves) {
+    for (const std::string& name : wave) run_stability_part(given(), angles_, parts, name, observer);
+    missing.clear();
+    gather_stability(given(), angles_, parts, missing, observer);
+  }
+  EXPECT_TRUE(missing.empty());
+  EXPECT_EQ(read_file(folder_ / "parts/stability.csv"), read_file(folder_ / "whole/stability.csv"));
+  EXPECT_THROW(run_stability_part(given(), angles_, parts, "angle=11", observer), Error);
+  StabilitySettings cold = parts;
+  cold.warm = false;
+  EXPECT_EQ(stability_waves(given(), angles_, cold).size(), 2u);
+}
+
+TEST_F(StabilityFolder, RefusesOtherInputsAndForeignFiles) {
+  Counter observer;
+  run_stability(given(), {0, 10}, in("curve"), observer);
+  const std::string before = read_file(folder_ / "curve/stability.csv");
+  StabilitySettings finer = in("curve");
+  finer.across = 9;
+  EXPECT_THROW(run_stability(given(), {0, 10}, finer, observer), Error);
+  EXPECT_EQ(read_file(folder_ / "curve/stability.csv"), before);
+  fs::create_directories(folder_ / "mine");
+  write_file(folder_ / "mine/notes.txt", "keep");
+  EXPECT_THROW(run_stability(given(), {0, 10}, in("mine"), observer), Error);
+  EXPECT_EQ(read_file(folder_ / "mine/notes.txt"), "keep");
+}
+
+}  // namespace
+}  // namespace ripstop

@@ -1,0 +1,155 @@
+#!/usr/bin/env python3
+"""One table of all comparisons with measurements, handbooks, other codes and published computations: docs/validation/scoreboard.md.
+The numbers are read from the tables of docs/tables, which their own commands make. Nothing is computed but errors and means."""
+import pathlib
+import re
+import statistics
+import textwrap
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+PAGE = ROOT / "docs/validation/scoreboard.md"
+
+KINDS = {
+    "blind prediction": "The measurement was not known when the prediction was made, and nothing was calibrated on it.",
+    "comparison": "The reference was known. Nothing was calibrated on it.",
+    "comparison with a range": "The reference is a range of a handbook. The error is relative to its nearest limit, and 0 within the range.",
+    "cross-validation": "The reference is a computation with another code or another equation.",
+    "reproduction": "The coefficients were calibrated on this measurement by its authors.",
+    "calibration": "The result was calibrated on the reference, so the error is no measure of accuracy.",
+}
+
+ABOUT = """This page lists the comparisons of Ripstop with measurements, handbooks, other codes and published computations. The command
+writes it from the linked tables, and each table states its own command, machine and day. The error is computed / reference - 1, and the
+largest error of a kind comes first. The means combine drag and peak loads of different models. [Validation](../validation.md) explains
+the runs and their limits, and [the campaign](ojf.md) has further models. Exact solutions are compared in the pages on
+[cloth](cloth.md), [flow](flow.md) and [openings](inflation.md)."""
+
+REFERENCES = """The measurements are those of [NFM] in the Open Jet Facility. The ranges are those of Knacke's manual, not verified in
+print. The page on [bodies of known drag](flow.md#bodies-of-known-drag) gives the references of rigid bodies and porous disks. [Tunnel
+corrections](../theory/tunnel.md) are theory, and OpenFOAM uses [a fitted mesh](../theory/flow-openfoam.md#sheets)."""
+
+
+def tables(name):
+    """The tables of docs/tables/<name>.md as lists of rows; a row maps heading to cell."""
+    found, heading = [], None
+    for line in [*(ROOT / f"docs/tables/{name}.md").read_text().splitlines(), ""]:
+        cells = [cell.strip() for cell in line.strip().strip("|").split("|")] if line.startswith("|") else None
+        if cells is None:
+            heading = None
+        elif heading is None:
+            heading = cells
+            found.append([])
+        elif not re.fullmatch(r"[-: |]+", line):
+            found[-1].append(dict(zip(heading, cells)))
+    return found
+
+
+def number(text):
+    return float(re.match(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?", text)[0])
+
+
+def beyond(value, bounds):
+    """Error in % of a value against a range "a to b" or "a"."""
+    low, high = (lambda ends: (ends[0], ends[-1]))([float(end) for end in bounds.split(" to ")])
+    return 0.0 if low <= value <= high else 100 * (value / (low if value < low else high) - 1)
+
+
+class Board:
+    def __init__(self):
+        self.rows = []
+
+    def add(self, kind, what, reference, computed, error, command, table):
+        self.rows.append((kind, what, reference, computed, error, command, table))
+
+    def against(self, kind, what, reference, computed, command, table, unit=""):
+        """A row whose error follows from two numbers."""
+        self.add(kind, what, f"{reference}{unit}", f"{computed}{unit}", 100 * (number(computed) / number(reference) - 1), command, table)
+
+
+def campaign(board):
+    """Drag and peaks of the Open Jet Facility."""
+    _, _, points, peaks, *_ = tables("ojf-score")
+    command = "make validate-ojf STAGES=score"
+    for point in points:
+        for heading, model in (("uncalibrated sheet, open jet, unsteady, %", "uncalibrated"),
+                               ("`paper`, calibrated, %", "`paper`, calibrated on Stratos IV")):
+            if not point[heading]:
+                continue
+            known = point["parachute"] == "Stratos IV"
+            measured, error = number(point["measured N"]), number(point[heading])
+            kind = ("calibration" if model != "uncalibrated" else "comparison") if known else "blind prediction"
+            board.add(kind, f"drag of {point['parachute']} at {point['speed basis']} {point['m/s']} m/s, {model}", f"{measured:g} N",
+                      f"{measured * (1 + error / 100):.1f} N", error, command, "ojf-score")
+    for peak in peaks:
+        known, calibrated = peak["parachute"] == "Stratos IV", "calibrated on" in peak["model"]
+        kind = ("calibration" if calibrated else "comparison") if known else "blind prediction"
+        board.against(kind, f"peak load of {peak['parachute']}, {peak['model']}", peak["measured N"], peak["computed N"], command, "ojf-score", " N")
+
+
+def families(board):
+    """Drag and openings of the canopy families against Knacke's manual."""
+    for row in tables("families")[0]:
+        if reference := row["Knacke, in descent"]:
+            board.add("comparison with a range", f"$C_D$, {row['example']}, steady", reference, row["drag coefficient"],
+                      beyond(number(row["drag coefficient"]), reference), "make validate-families", "families")
+    for row in tables("families-in-time")[0]:
+        value = row["drag coefficient in time, standard error"]
+        board.add("comparison with a range", f"$C_D$, {row['example']}, unsteady", row["Knacke, in descent"], value,
+                  beyond(number(value), row["Knacke, in descent"]), "make validate-families-in-time", "families-in-time")
+    for row in tables("families-openings")[0]:
+        board.add("comparison with a range", f"peak load over $q S_0$, {row['example'].split(',')[0]}", row["Knacke C_x C_D"], row["peak over q S0"],
+                  beyond(number(row["peak over q S0"]), row["Knacke C_x C_D"]), "make validate-openings", "families-openings")
+
+
+def bodies(board):
+    """Rigid bodies, and the canopies that OpenFOAM computes on a fitted mesh."""
+    for row in tables("bodies-in-time")[0]:
+        if row["eddies"] == "des":
+            porous = "porous" in row["body"]
+            board.against("cross-validation" if porous else "comparison", f"$C_D$, {row['body']}, unsteady", row["reference"],
+                          row["in time, standard error"], "build-check/bench/bench_bodies in-time 16", "bodies-in-time")
+    for row in tables("judge")[0]:
+        board.against("cross-validation", f"$C_D$ on the frontal area, {row['body']}, OpenFOAM", row["OpenFOAM"], row["drag on its front, built-in"],
+                      "make judge", "judge")
+    for row in tables("tunnel-disks")[0]:
+        if row["air"] != "free air":
+            board.add("cross-validation", f"tunnel correction of $C_D$, disk {row['disk']}, {row['air']}, blockage {row['blockage']}",
+                      row["theory"], row["against free air"],
+                      100 * ((1 + number(row["against free air"]) / 100) / (1 + number(row["theory"]) / 100) - 1),
+                      "build-check/bench/bench_tunnel disks 8", "tunnel-disks")
+
+
+def printed(board):
+    """Stratos IV with the coefficients that [NFM] fitted to it."""
+    for row in tables("stratos-iv")[0]:
+        what = f"drag of Stratos IV at nominal {row['nominal m/s']} m/s, printed coefficients"
+        board.against("reproduction", what, row["measured N"], row["computed N"], "make validate", "stratos-iv", " N")
+        board.against("cross-validation", f"{what}, computed by [NFM]", row["printed N"], row["computed N"], "make validate", "stratos-iv", " N")
+
+
+def page(rows):
+    lines = ["# Scoreboard", "", "    python3 validation/scoreboard.py", "", *textwrap.wrap(ABOUT, 120), "",
+             "| kind | comparisons | mean absolute error % | largest error % | meaning |", "|---|---|---|---|---|"]
+    for kind, meaning in KINDS.items():
+        errors = [row[4] for row in rows if row[0] == kind]
+        lines.append(f"| [{kind}](#{kind.replace(' ', '-')}) | {len(errors)} | {statistics.mean(map(abs, errors)):.1f} | "
+                     f"{max(errors, key=abs):+.1f} | {meaning} |")
+    for kind in KINDS:
+        lines += ["", f"## {kind.capitalize()}", "", "| comparison | reference | computed | error % | command | table |", "|---|---|---|---|---|---|"]
+        lines += [f"| {what} | {reference} | {computed} | {error:+.1f} | `{command}` | [`{table}`](../tables/{table}.md) |"
+                  for _, what, reference, computed, error, command, table in
+                  sorted((row for row in rows if row[0] == kind), key=lambda row: -abs(row[4]))]
+    lines += ["", "## References", "", *textwrap.wrap(REFERENCES, 120)]
+    return "\n".join(lines) + "\n"
+
+
+def scoreboard():
+    board = Board()
+    for part in (campaign, families, bodies, printed):
+        part(board)
+    return page(board.rows)
+
+
+if __name__ == "__main__":
+    PAGE.write_text(scoreboard())
+    print(PAGE.relative_to(ROOT))
