@@ -1,5 +1,4 @@
-// ripstop compare: finished runs side by side, a measured load beside a computed one, or the linear model beside the
-// nonlinear one.
+// ripstop compare: finished runs, a measured and a computed load, or the linear and the nonlinear material model.
 
 #include "ripstop/run/steady/compare.h"
 

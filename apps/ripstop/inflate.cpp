@@ -134,7 +134,6 @@ void print_peaks(const InflationResult& r) {
     row("filled",
         fmt::format("{:.1f} ms after the start, {:.2f} nominal diameters; area grows as (t/t_f)^{:.2f}",
                     1000 * *r.filling_time, *r.filling_distance, *r.growth_exponent));
-  if (r.bag_left_time) row("canopy out of its bag", fmt::format("{:.1f} ms", 1000 * *r.bag_left_time));
   if (r.finite_mass_factor)
     row("finite-mass factor", fmt::format("{:.3f}: peak over the infinite-mass load", *r.finite_mass_factor));
   for (const MethodLoad& m : r.handbook)

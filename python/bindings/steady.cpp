@@ -19,7 +19,7 @@ struct WarmStart {
   SteadyState end;
 };
 
-/// Tells Python of every iteration, and keeps what a folder's run does not return.
+/// Reports every iteration to Python, and keeps the values that the run of a folder does not return.
 class SteadyListener : public SteadyObserver {
  public:
   SteadyListener(Listener& listener, PySteady& run, const std::optional<WarmStart>& start)

@@ -185,9 +185,9 @@ TEST(SheetFaces, OfASheetInAGridAsManyTimesAsLargeAreTheSame) {
   }
 }
 
-// A tube along z: beside its hems lines that do not meet it have mostly passed it by, and only the row in which it ends
+// A tube along z: next to its hems lines that do not meet it have mostly passed it by, and only the row in which it ends
 // is open in part.
-TEST(SheetFaces, BesideAHemAFaceIsOpenWhereTheSheetHasEndedAndNotWhereItHasBentAway) {
+TEST(SheetFaces, NextToAHemAFaceIsOpenWhereTheSheetHasEndedAndNotWhereItHasBentAway) {
   const double h = 0.05, radius = 0.4137, low = 0.67, high = 1.39;  // 2/5 and 4/5 into their cells
   const Axis x = even_axis(-1, 2, 40), z = even_axis(0, 2, 40);
   const auto surface = revolve({{radius, low}, {radius, high}}, {0.013, -0.007, 0}, 360);

@@ -59,7 +59,7 @@ TEST(Chute, AGoreHasTheOutlineThatOpenchuteCuts) {
 }
 
 // But for the tape and the tolerance that the example names.
-TEST(Chute, TheShippedCaseIsWhatTheImportWrites) {
+TEST(Chute, TheShippedCaseIsTheOutputOfTheImport) {
   std::string shipped = read_file(source / "examples/elliptical/case.toml");
   const std::size_t named = shipped.find("# What the tables"), mesh = shipped.find("[parachute.mesh]");
   ASSERT_LT(named, mesh);

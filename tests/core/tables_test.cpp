@@ -1,4 +1,4 @@
-// Files as machines write them, each with its expectation beside it: tests/<room>/tables/README.md says in which form.
+// Files as machines write them, each with its expectation next to it, in the form of tests/<room>/tables/README.md.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -105,7 +105,7 @@ TEST(Inflation, AFoldedCanopyNarrowerThanTwoCellsOfTheAirIsRefused) {
   EXPECT_NO_THROW(CoupledOpening{problem});
 }
 
-// A block may end by rounding before the instant that it stands for.
+// A block may end by rounding before the instant that it represents.
 TEST(Inflation, EveryInstantIsShownOnceAndWithoutAnyEightAreChosen) {
   InflationProblem problem = small_problem(0, 6e-3);
   UniformPressureOpening measured(problem);

@@ -19,8 +19,7 @@ namespace {
 // Usual values of an empty [deployment] (assumed).
 constexpr double bag_share = 0.1, wrap_share = 0.03, pilot_share = 0.05;  // of the parachute's mass
 constexpr double pilot_area = 0.015;                                      // of S0
-constexpr double usual_packed_share = 0.1;                                // of the canopy's length
-constexpr double longest_packed_share = 0.9;                              // likewise
+constexpr double longest_packed_share = 0.9;                              // of the canopy's length
 constexpr double closed_mouth = 0.04;                                     // radius over D0
 constexpr double above_smallest_radius = 1.12;  // of the folds, whose inner edges would meet on the axis
 
@@ -75,11 +74,6 @@ void check_length(const DeploymentKeys& keys, const Design& design) {
 }
 
 }  // namespace
-
-double packed_share(const Settings& resolved) {
-  const double length = canopy_length(resolved.parachute());
-  return resolved.deployment()->length_m.value_or(usual_packed_share * length) / length;
-}
 
 // Folds of one strip each reach from the axis to the strip's width; their mean radius is half of it.
 void close_mouth(const Design& design, InflationSettings& inflation) {

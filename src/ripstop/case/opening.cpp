@@ -44,12 +44,9 @@ void start_from(const Deployment& deployment, const Settings& opening, Inflation
   const DeploymentPhase& start = *deployment.phase(packed.lines_first ? canopy_leaves : lines_stretch);
   problem.air->flow.air.velocity =
       (start.payload_speed / problem.air->flow.air.speed()) * problem.air->flow.air.velocity;
-  if (packed.lines_first)
-    problem.bag = Bag{packed.bag_mass, packed.bag_drag_area, packed.strip_force,
-                      start.payload_speed - start.bag_speed, packed_share(opening)};
 }
 
-/// Payload::density_ratio in the standard atmosphere, where the case says how high it begins.
+/// Payload::density_ratio in the standard atmosphere, from the height that the case gives.
 std::function<double(double)> density_below(const std::optional<double>& height) {
   if (!height) return {};
   return [from = *height](double fallen) { return density_ratio(from, fallen); };

@@ -401,7 +401,7 @@ void check_deployment(const Case& given, Findings& findings) {
                  "deployment.relative_speed_m_s determines the same speed; remove one of the two keys");
 }
 
-/// What asks for values that follow from parachute and cloth.
+/// Settings that need values of parachute and cloth.
 void check_settings(Case given, Findings& findings) {
   const std::string& cloth = given.parachute.canopy_material;
   if (!findings.sound(shape_keys(given.parachute)) ||

@@ -127,7 +127,6 @@ const std::map<std::string_view, Wording>& known() {  // NOLINT(readability-func
       {"finite_mass_factor", {"finite-mass factor X₁", ""}},
       {"filling_distance_diameters", {"filling distance over nominal diameter", ""}},
       {"area_growth_exponent", {"exponent of the area's growth over time", ""}},
-      {"bag_left_time_s", {"time at which the canopy is out of its bag", "s"}},
       {"design_load_n", {"design load", "N"}},
       {"design_load_from", {"source of the design load", ""}},
       {"knacke_coefficient", {"Knacke's opening coefficient C_x", ""}},

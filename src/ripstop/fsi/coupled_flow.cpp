@@ -142,7 +142,7 @@ Loads CoupledFlow::last_load(const AirMemory& memory) const {
 }
 
 // The Robin condition: v = v_predicted + compliance (t - t_last), compliance = mean_share dt / (mass an area), with the
-// whole load t of the air on the cloth, not its pressure alone: what is left out of t_last the air would answer twice.
+// whole load t of the air on the cloth, not its pressure alone: the air would respond twice to a part that is left out of t_last.
 // The motion of the sheet is that without the air.
 SheetMotion CoupledFlow::sheet_motion(const std::vector<Vec3>& positions, const ClothMotion& predicted,
                                       double length, const AirMemory& memory) const {

@@ -27,15 +27,7 @@ struct AirProblem {
   std::optional<Payload> payload = {};  // absent: the riser's end is held
 };
 
-/// Of the bag that the canopy leaves, relative to the payload.
-struct BagMotion {
-  double travel = 0;  // downstream since line stretch [m]
-  double front = 0;   // of the cloth that has left it, folded distance from the skirt [m]
-  double speed = 0;   // through the air [m/s]
-  double left = 0;    // when the canopy had left it; 0: not yet, or no bag [s]
-};
-
-/// What the next step needs of the last one.
+/// Values of the last step that the next one needs.
 struct AirMemory {
   std::vector<double> pressure;  // Loads::cell_pressure of the last step [Pa]
   std::vector<Vec3> force;       // Loads::node_force of the last step, of the air [N]
@@ -45,7 +37,6 @@ struct AirMemory {
   long long steps = 0;  // of the flow
   PayloadMotion flight;
   double added_mass = 0;  // of the canopy when it was last computed [kg]
-  BagMotion bag;
 };
 
 template <Of<AirMemory> T, class Visit>
@@ -61,10 +52,6 @@ void each_member(T& m, Visit&& visit) {
   visit("angle", m.flight.angle);
   visit("fallen", m.flight.fallen);
   visit("added_mass", m.added_mass);
-  visit("bag_travel", m.bag.travel);
-  visit("bag_front", m.bag.front);
-  visit("bag_speed", m.bag.speed);
-  visit("bag_left", m.bag.left);
 }
 
 /// One step of the flow.

@@ -51,11 +51,6 @@ CoupledOpening::CoupledOpening(InflationProblem problem)
 
 InflationState CoupledOpening::start() const {
   InflationState state = Opening::start();
-  if (packed()) {
-    state.air.flight.speed = problem().air->flow.air.speed();
-    state.air.bag = packed()->start(state.air.flight.speed);
-    move_bag(0, state);
-  }
   compute_added_mass(state);
   return state;
 }
@@ -79,10 +74,7 @@ std::vector<HistoryRow> CoupledOpening::advance(InflationState& state, std::vect
 
 // A step of the flow is a whole number of rows, as many as it allows, all steps of a block alike as far as possible.
 int CoupledOpening::rows_of_next_step(const InflationState& state, int left) {
-  double longest = sound_step(*air_, row_duration(), state.cloth.time);
-  if (packed() && !packed()->empty(state.air.bag))
-    longest = std::min(
-        longest, std::max(packed()->longest_step(state.air.flight.speed, state.air.bag), row_duration()));
+  const double longest = sound_step(*air_, row_duration(), state.cloth.time);
   return std::max(1, left / steps_in(left * row_duration(), longest, state.cloth.time));
 }
 
@@ -100,9 +92,8 @@ AirRow CoupledOpening::step(InflationState& state, int rows, std::vector<History
   const Surroundings surroundings = payload ? in_flight(flight, *payload, length) : Surroundings{};
   const double speed = flight.speed + length * flight.acceleration;
 
-  const PackedCloth* const packing = packed() && !packed()->empty(state.air.bag) ? packed() : nullptr;
-  const CoupledStep taken = take_coupled_step(*air_, stepper(), cloth_of(state), {first, rows, rows},
-                                              surroundings, team(), state, packing);
+  const CoupledStep taken =
+      take_coupled_step(*air_, stepper(), cloth_of(state), {first, rows, rows}, surroundings, team(), state);
   history.insert(history.end(), taken.history.begin(), taken.history.end());
 
   AirRow row;
@@ -117,18 +108,7 @@ AirRow CoupledOpening::step(InflationState& state, int rows, std::vector<History
   if (payload) move_payload(flight, *payload, mean_load(history, rows), length, flow.air.density);
   row.path = flight.path, row.fallen = flight.fallen;
   row.angle = flight.angle * 180 / std::numbers::pi;
-  if (packing) move_bag(length, state);
   return row;
-}
-
-// The work of the bag on the cloth in it counts as that of a load.
-void CoupledOpening::move_bag(double length, InflationState& state) const {
-  const AirProblem& air = *problem().air;
-  const PayloadMotion& flight = state.air.flight;
-  const double gravity = air.payload ? gravity_along_path(*air.payload, flight) : 0;
-  state.air.work += packed()->carry({flight.speed, air.flow.air.density, gravity}, length, cloth(),
-                                    state.cloth, state.air.bag);
-  if (packed()->empty(state.air.bag)) state.air.bag.left = state.cloth.time;
 }
 
 InflationFrame CoupledOpening::frame(InflationState& state) const {

@@ -23,7 +23,6 @@ class CoupledOpening : public Opening {
   AirRow step(InflationState& state, int rows, std::vector<HistoryRow>& history);
   void compute_added_mass(InflationState& state) const;
   int rows_of_next_step(const InflationState& state, int left);
-  void move_bag(double length, InflationState& state) const;
 
   std::unique_ptr<CoupledFlow> air_;
 };

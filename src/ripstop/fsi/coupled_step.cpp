@@ -34,7 +34,7 @@ auto or_diverged(double time, double heaviness, const Work& work) {
 
 CoupledStep unguarded_step(CoupledFlow& air, const AdaptiveStepper& stepper, const Cloth& cloth,
                            const RowSpan& span, const Surroundings& surroundings, ThreadTeam& team,
-                           InflationState& state, const PackedCloth* packed) {
+                           InflationState& state) {
   const double length = span.rows * stepper.row();
   const std::vector<Vec3> before = positions(state.cloth, cloth);
   CoupledStep taken;
@@ -42,13 +42,12 @@ CoupledStep unguarded_step(CoupledFlow& air, const AdaptiveStepper& stepper, con
   // Predict the motion of the cloth under the last load.
   const double step = stepper.allowed_step(state, cloth);
   const int steps = steps_in(length, step, state.cloth.time);
-  ClothMotion predicted = predict_motion(state.cloth, cloth, air.last_load(state.air), length, steps, team);
-  if (packed) packed->hold(state.air.flight.speed, state.air.bag, predicted);
+  const ClothMotion predicted =
+      predict_motion(state.cloth, cloth, air.last_load(state.air), length, steps, team);
 
   // Step the flow about it, transfer its load.
   taken.flow = air.step(before, predicted, length, surroundings, state.air);
-  Loads loads = air.transfer(before, surroundings, state.air, taken.residual_traction);
-  if (packed) packed->shield(state.air.bag, air.cells(), loads);
+  const Loads loads = air.transfer(before, surroundings, state.air, taken.residual_traction);
 
   // Correct: step the cloth under that load.
   const auto load_of = [&](long long) -> const Loads& { return loads; };
@@ -95,10 +94,9 @@ Surroundings in_flight(const PayloadMotion& flight, const Payload& payload, doub
 
 CoupledStep take_coupled_step(CoupledFlow& air, const AdaptiveStepper& stepper, const Cloth& cloth,
                               const RowSpan& span, const Surroundings& surroundings, ThreadTeam& team,
-                              InflationState& state, const PackedCloth* packed) {
-  return or_diverged(state.cloth.time, air.heaviness(), [&] {
-    return unguarded_step(air, stepper, cloth, span, surroundings, team, state, packed);
-  });
+                              InflationState& state) {
+  return or_diverged(state.cloth.time, air.heaviness(),
+                     [&] { return unguarded_step(air, stepper, cloth, span, surroundings, team, state); });
 }
 
 }  // namespace ripstop

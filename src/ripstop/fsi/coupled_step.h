@@ -5,7 +5,6 @@
 
 #include "ripstop/fsi/adaptive_stepper.h"
 #include "ripstop/fsi/coupled_flow.h"
-#include "ripstop/fsi/packed_cloth.h"
 
 namespace ripstop {
 
@@ -20,10 +19,9 @@ Surroundings in_flight(const PayloadMotion& flight, const Payload& payload, doub
 
 /// Predicts the motion of the cloth under the last load, steps the flow, transfers its load, and corrects the motion.
 /// `span` has its rows under one load. The cloth has its steps from the stepper. Divergence is reported with the time.
-/// `packed` cloth moves with its bag, and has no load.
 CoupledStep take_coupled_step(CoupledFlow& air, const AdaptiveStepper& stepper, const Cloth& cloth,
                               const RowSpan& span, const Surroundings& surroundings, ThreadTeam& team,
-                              InflationState& state, const PackedCloth* packed = nullptr);
+                              InflationState& state);
 
 /// Smallest required duration of a row of the history for any flow of this problem, inverse [1/s].
 double least_rows_in(const FlowProblem& flow);

@@ -43,8 +43,7 @@ Opening::Opening(InflationProblem problem, double snapshot_span, double least_ro
                  AdaptiveStepper::Step step)
     : problem_(with_snapshots(std::move(problem), snapshot_span)),
       team_(problem_.threads),
-      cloths_(problem_.mesh, problem_.settings, problem_.reefing, problem_.symmetry, problem_.linear, team_,
-              problem_.bag),
+      cloths_(problem_.mesh, problem_.settings, problem_.reefing, problem_.symmetry, problem_.linear, team_),
       blocks_per_frame_(parts_of(problem_.settings.duration_s / problem_.settings.frames / longest_block,
                                  "blocks for each frame")),
       rows_per_block_(parts_of(problem_.settings.duration_s / problem_.settings.frames / blocks_per_frame_ *

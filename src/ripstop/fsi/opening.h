@@ -10,7 +10,6 @@
 #include "ripstop/fsi/inflation_settings.h"
 #include "ripstop/fsi/opening_cloth.h"
 #include "ripstop/fsi/opening_record.h"
-#include "ripstop/fsi/packed_cloth.h"
 #include "ripstop/parachute/canopy_mesh.h"
 
 namespace ripstop {
@@ -24,7 +23,6 @@ struct InflationProblem {
   int symmetry = 1;  // turns by 2 pi / symmetry map the parachute as cut onto itself
   std::optional<AirProblem> air = {};
   std::vector<ReefingLine> reefing = {};  // in the order of their cuts
-  std::optional<Bag> bag = {};            // with `air`: the canopy leaves it; absent: it starts stretched out
 };
 
 class Opening {
@@ -64,7 +62,6 @@ class Opening {
   bool end_block(InflationState& state) const;
   const Cloth& cloth_of(const InflationState& state) const { return cloths_.of_stage(state); }
   int blocks_per_frame() const { return blocks_per_frame_; }
-  const PackedCloth* packed() const { return cloths_.packed(); }
   const AdaptiveStepper& stepper() const { return stepper_; }
   ThreadTeam& team() { return team_; }
 

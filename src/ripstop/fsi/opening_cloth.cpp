@@ -74,17 +74,13 @@ void damp_springs(Mesh& mesh, double line_time, double cloth_time) {
 }
 
 OpeningCloth::OpeningCloth(const CanopyMesh& as_cut, const InflationSettings& s,
-                           std::vector<ReefingLine> reefing, int symmetry, bool linear, ThreadTeam& team,
-                           const std::optional<Bag>& bag)
+                           std::vector<ReefingLine> reefing, int symmetry, bool linear, ThreadTeam& team)
     : folded_(folded_start(as_cut, {required_radius(s), s.folds, s.slack_m}, symmetry, team)),
       reefing_(std::move(reefing)) {
   mesh_ = with_creases(as_cut, folded_);
-  if (bag) packed_.emplace(*bag, mesh_, folded_.positions);
   damp_springs(mesh_, s.line_damping_s, s.cloth_damping_s);
   ClothOptions options{linear, s.damping_n_s_m3, s.quadratic_damping_n_s2_m4};
-  if (s.contact_pa > 0)
-    options.contact =
-        ContactOptions{s.contact_pa, s.contact_friction, packed_ ? packed_->positions() : folded_.positions};
+  if (s.contact_pa > 0) options.contact = ContactOptions{s.contact_pa, s.contact_friction, folded_.positions};
   if (s.cloth_damping_s > 0)
     viscosity_limit_ = limit_viscosity(mesh_, options, folded_.positions, s.cloth_damping_step_share);
   add_reefed_stages(s, options);
@@ -114,7 +110,7 @@ void OpeningCloth::add_reefed_stages(const InflationSettings& settings, const Cl
 }
 
 std::vector<Vec3> OpeningCloth::with_imperfection(const InflationSettings& s) const {
-  std::vector<Vec3> x = packed_ ? packed_->positions() : folded_.positions;
+  std::vector<Vec3> x = folded_.positions;
   if (s.imperfection_m == 0) return x;
   const FoldWaves waves(s);
   for (const Patch& patch : mesh_.patches) {

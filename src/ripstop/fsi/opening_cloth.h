@@ -7,7 +7,6 @@
 #include "ripstop/cloth/cloth.h"
 #include "ripstop/fsi/inflation_settings.h"
 #include "ripstop/fsi/opening_record.h"
-#include "ripstop/fsi/packed_cloth.h"
 #include "ripstop/parachute/fold.h"
 
 namespace ripstop {
@@ -28,13 +27,11 @@ class OpeningCloth {
  public:
   /// Throws Error(usage) for a folding or a reefing line that does not fit.
   OpeningCloth(const CanopyMesh& as_cut, const InflationSettings& settings, std::vector<ReefingLine> reefing,
-               int symmetry, bool linear, ThreadTeam& team, const std::optional<Bag>& bag = {});
+               int symmetry, bool linear, ThreadTeam& team);
 
   const CanopyMesh& mesh() const { return mesh_; }
   const FoldedStart& folded() const { return folded_; }
-  /// Null for a canopy that starts stretched out.
-  const PackedCloth* packed() const { return packed_ ? &*packed_ : nullptr; }
-  /// How much weaker the cloth's dampers are than `cloth_damping_s` says, so that they do not set the step.
+  /// By how much the dampers of the cloth are weaker than `cloth_damping_s`, so that they do not limit the time step.
   const ViscosityLimit& viscosity_limit() const { return viscosity_limit_; }
   /// Without reefing line.
   const Cloth& open() const { return *stages_.back(); }
@@ -54,7 +51,6 @@ class OpeningCloth {
 
   CanopyMesh mesh_;
   FoldedStart folded_;
-  std::optional<PackedCloth> packed_;
   ViscosityLimit viscosity_limit_;
   std::vector<ReefingLine> reefing_;  // in the order of their cuts
   std::vector<ClothPtr> stages_;      // the last without reefing line

@@ -65,7 +65,7 @@ Wrench acting_at(Vec3 point, Vec3 force) {
   return {force, cross(point, force)};
 }
 
-/// Pressure of the cloth that one face stands for.
+/// Pressure of the cloth that one face represents.
 struct Sample {
   Vec3 point, outward;
   double pressure = 0;                    // inside over outside [Pa]
@@ -259,7 +259,7 @@ void press_into_folds(const Boxes& samples, const FlowGrid& grid, const Patchwor
   }
 }
 
-// What the air's force is beyond that of the pressures, where there are folds: a traction of the cloth nearby, so that
+// Force of the air beyond that of the pressures, where there are folds: a traction of the cloth nearby, so that
 // force that the air exerts on a part of the canopy stays there.
 std::vector<Vec3> fold_tractions(const std::vector<SheetLoad>& loads, const std::vector<Sample>& samples,
                                  const FlowGrid& grid, const Patchwork& cloth,

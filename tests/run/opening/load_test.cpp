@@ -106,7 +106,7 @@ TEST(Load, TheFlightOfATinyCanopyHasNoMoreRowsThanOthers) {
   EXPECT_LT(run_load(resolve(r.given), asked).flight.size(), 200000u);
 }
 
-/// Of the applicable methods: what a stage says about all of them.
+/// Summary of a stage over its applicable methods.
 void expect_judged(const StageLoads& stage) {
   double highest = 0, lowest = 1e300, sum = 0;
   int count = 0;

@@ -18,7 +18,7 @@ double along(int axis, Vec3 v) {
   return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }
 
-/// What two velocities have in common: their harmonic mean, nothing if they part.
+/// Common part of two velocities: their harmonic mean, zero for opposite signs.
 double shared(double a, double b) {
   return a * b > 0 ? 2 * a * b / (a + b) : 0;
 }
@@ -44,8 +44,8 @@ std::ptrdiff_t off_the_sheet(Vec3 normal, const Layout& layout) {
 /// Of the steps of a staircase of faces, whose axis lies within 30 degrees of the cloth: below this.
 constexpr double step_normal = 0.5;
 
-/// Of the bend of the air's velocity at a sheet that moves, which a disk's drag as it drifts asks for: 0 and 0.5
-/// leave more of a swing as it goes from face to face.
+/// Share of the change of slope of the air velocity at a moving sheet, chosen for the drag of a drifting disk: 0 and
+/// 0.5 give larger oscillations as the disk moves from face to face.
 constexpr double kinked = 0.25;
 
 constexpr double least_jet = 0.25;  // of U, in the slope only: the answer does not depend on it
@@ -54,10 +54,10 @@ struct Cover {
   double share = 1, steep = 1;
 };
 
-// Beside the hem a sheet covers only the part c of a face. Air that passes through the rest at v / (1 - c)
-// loses its jet, rho / 2 (v / (1 - c) - v)^2 (Borda and Carnot); that resistance, over v, stands in parallel
-// to c times the cloth's. The `share` is what is left of the cloth's drop; `steep` is the drop's slope over v
-// over its own ratio to v.
+// At a free edge a sheet covers only the part c of a face. Air that passes through the rest at v / (1 - c) loses its
+// jet, rho / 2 (v / (1 - c) - v)^2 (Borda and Carnot); that resistance, over v, is in parallel to c times that of the
+// cloth. `share` is the remaining part of the drop of the cloth; `steep` is the slope of the drop over v, divided by
+// its ratio to v.
 Cover cover_of(double c, double resistance, double density, double speed) {
   if (c >= 1) return {};
   const double ratio = c / (1 - c), jet = 0.5 * density * speed * ratio * ratio;
@@ -66,12 +66,12 @@ Cover cover_of(double c, double resistance, double density, double speed) {
   return {c * jet / both, (jet + 2 * cloth) / both};
 }
 
-/// A resistance in series with cloth that gives way by `yields` a unit of drop.
+/// A resistance in series with cloth of the compliance `yields` per unit of drop.
 double giving_way(double resistance, double yields) {
   return resistance / (1 + yields * resistance);
 }
 
-/// v of v + yields (a + b |v|) v = asked.
+/// v of v + `yields` (a + b |v|) v = given velocity.
 double passing(double asked, double yields, const PressureDrop& law) {
   const double linear = 1 + yields * law.linear;
   return 2 * asked / (linear + std::sqrt(linear * linear + 4 * yields * law.quadratic * std::abs(asked)));
@@ -210,23 +210,22 @@ void SheetRows::update(State& state, const Layout& layout, double momentum, doub
     const std::ptrdiff_t low = sides.first, high = sides.second;  // a lambda of clang 14 takes no binding
     const Array<double>& flux = g.axis == 0 ? fields.fx : g.axis == 1 ? fields.fy : fields.fz;
     const double density = 0.5 * (fields.rho[low] + fields.rho[high]);
-    // The law holds for what goes through the sheet, as the sheet sees it. What of a cell's velocity runs along it
-    // crosses the face freely: the faces of slanted cloth are a staircase, and air that runs along
-    // the cloth must not climb it.
+    // The law applies to the velocity normal to the sheet. The velocity of a cell along the sheet crosses the face
+    // freely: the faces of slanted cloth are stepped, and flow along the cloth must not be obstructed by the steps.
     const auto sliding = [&](std::ptrdiff_t cell) {
       const Vec3 velocity = Vec3{fields.u[cell], fields.v[cell], fields.w[cell]} - face.velocity;
       return along(g.axis, velocity) - dot(g.normal, velocity) / face.spread;
     };
-    // Not of a sheet that moves: what runs along it is the last step's, in cells that it is passing through. At a step of
-    // the staircase the cells beside the face are fed by what passes through it, and would ask for that: the next ones
-    // say what runs along the cloth.
+    // Not for a moving sheet: its tangential velocity is that of the last step, in cells through which it moves. At a
+    // step of the staircase the flux through the face determines the velocity of the adjacent cells, which would feed
+    // back into its own tangential-velocity estimate: the next cells are used instead.
     const bool at_step = face.cover == 1 && along(g.axis, g.normal) < step_normal;
     const std::ptrdiff_t off = at_step ? off_the_sheet(g.normal, layout) : 0;
     const double slides = face.moves ? 0 : shared(sliding(low - off), sliding(high + off));
     const double goes = along(g.axis, face.velocity);
     double through = face.spread * (flux[high] / density - goes - slides);
-    // A sheet that moves is not at its face but between it and the next one, and so is the velocity that the
-    // law asks for: else the air would be struck whenever the sheet comes into another cell.
+    // A moving sheet is not at its face but between it and the next one. The velocity in the law is interpolated to
+    // its position, else the air would receive an impulse whenever the sheet enters another cell.
     if (face.beyond != 0) {
       // Of faces that no sheet parts, so many further along the axis.
       const auto at_face = [&](int n) {
@@ -257,9 +256,9 @@ void SheetRows::update(State& state, const Layout& layout, double momentum, doub
   if (step > 0) hold_in_the_middle(state, layout, step);
 }
 
-// The drop acts through all of a step, so for second order in time it is that of the velocity in the middle, of which
-// the new one makes a half. With s = step slope / (rho h), h between the centres, a flux that is off by 1 is off by
-// (1 - (1 - share) s) / (1 + share s) at the next step; beyond s = 2 the share is such that this is 0.
+// The drop acts during the whole step, so for second order in time it is that of the velocity in the middle of the
+// step, the mean of old and new. With s = step slope / (rho h), h between the centres, a flux that is off by 1 is off
+// by (1 - (1 - share) s) / (1 + share s) at the next step; beyond s = 2 the share is such that this is 0.
 void SheetRows::hold_in_the_middle(const State& state, const Layout& layout, double step) {
   std::vector<double>& share = middle_;
   share.assign(stiffness_.size(), 0);
@@ -274,8 +273,8 @@ void SheetRows::hold_in_the_middle(const State& state, const Layout& layout, dou
     if (face.moves) face.slope *= share[face.at];
 }
 
-// Layers that part the same two centres, as in a fold, are passed by the same air: they share what the face
-// drops as far as each covers it; where they give way, as each does.
+// Layers between the same two centres, as in a fold, have the same flux: they share the drop of the face in
+// proportion to their covered parts, and move with their own compliance.
 void SheetRows::settle(State& state) const {
   for (std::size_t n = 0; n < faces_.size(); ++n) {
     const Face& face = faces_[n];

@@ -17,8 +17,8 @@ struct KnownFilling {
 /// families are in proportion (assumed).
 double filling_constant_at(double constant, double speed);
 
-/// By the family's word in [parachute] type; a word that is not in the tables
-/// gets a solid canopy's values and says so.
+/// By the family's word in [parachute] type. A word that is not in the tables
+/// gets the values of a solid canopy, with that source.
 KnownFilling known_filling(const std::string& type);
 
 }  // namespace ripstop

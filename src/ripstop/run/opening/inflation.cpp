@@ -126,7 +126,6 @@ void take_filling(InflationResult& r, const Settings& resolved, const Opening& s
   r.filling_time = r.summary.filling_time;
   if (!solver.air()) return;
   r.deployment = deployment_of(resolved);
-  if (solver.problem().bag && state.air.bag.left > 0) r.bag_left_time = state.air.bag.left;
   const auto filling = filling_of(history.frames);
   r.filling_time = filling ? std::optional(filling->time) : std::nullopt;
   if (!filling) return;

@@ -37,7 +37,6 @@ struct InflationResult {
   std::optional<double> drag_area;                  // C_D S in the air, the largest of a step [m2]
   std::optional<double> added_mass;                 // of the canopy at the end [kg]
   std::optional<Deployment> deployment;  // of a case with [deployment]: until the canopy leaves its bag
-  std::optional<double> bag_left_time;   // when the canopy had left its bag in the coupled opening [s]
   /// Of a coupled inflation by its projected area, see filling_of(); under a uniform pressure the time at which the
   /// load first reaches the steady one.
   std::optional<double> filling_time;          // [s]
@@ -98,7 +97,6 @@ void each_member(T& r, Visit&& visit) {
   visit("drag_area_peak_m2", r.drag_area);
   visit("added_mass_kg", r.added_mass);
   visit("deployment", r.deployment);
-  visit("bag_left_time_s", r.bag_left_time);
   visit("speed_at_end_m_s", r.end_speed);
   visit("path_angle_at_end_deg", r.end_angle);
   visit("height_lost_m", r.height_lost);

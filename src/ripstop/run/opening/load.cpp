@@ -26,7 +26,7 @@ namespace {
 constexpr double steps_a_filling = 400, longest_flight = 600;
 // Steps of the slow rest of a flight while the speed falls by half, where these are longer than ten of the filling's.
 constexpr double steps_a_slowing = 1000;
-// The share of the load at infinite mass from which on that estimate stands for the opening.
+// The share of the load at infinite mass from which that estimate represents the opening.
 constexpr double hardly_slowed = 0.9;
 // Where gravity adds more to the speed during the filling than this share, formulas without gravity do not hold.
 constexpr double most_gravity = 0.3;
