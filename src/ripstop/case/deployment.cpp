@@ -62,11 +62,9 @@ void check_length(const DeploymentKeys& keys, const Design& design) {
   if (!keys.length_m) return;
   const double canopy = longest_packed_share * canopy_length(design), lines = rigging_length(design);
   const auto refuse = [&](const char* what, double limit) {
-    throw Error(
-        ExitCode::usage,
-        fmt::format(
-            "deployment.length_m = {:g}: must be at most {:.4g} m, {}; leave it out for the usual length",
-            *keys.length_m, limit, what));
+    throw Error(ExitCode::usage,
+                fmt::format("deployment.length_m = {:g}: must be at most {:.4g} m, {}; or leave it out",
+                            *keys.length_m, limit, what));
   };
   if (*keys.length_m > lines)
     refuse("the length of lines and riser (parachute.lines.length_m), which lie on it", lines);

@@ -17,8 +17,8 @@ void describe_container(Fields& fields, DeploymentKeys& keys) {
       .absent("side of a cube of the packed volume, squared");
   fields
       .number("length_m", keys.length_m, above(0).up_to(100),
-              "Length of the packed canopy along the path when the lines come taut.")
-      .absent("a tenth of the canopy's length from skirt to vent");
+              "Length of the packed canopy along the path. It must be shorter than lines and riser.")
+      .absent("a length that fits");
 }
 
 void describe_extraction(Fields& fields, DeploymentKeys& keys) {
