@@ -122,7 +122,7 @@ void compare_with_handbook(InflationResult& r, const Settings& resolved, const L
 
 /// The deployment before the opening, and how the canopy has filled.
 void take_filling(InflationResult& r, const Settings& resolved, const Opening& solver,
-                  const InflationState& state, const InflationHistory& history) {
+                  const InflationHistory& history) {
   r.filling_time = r.summary.filling_time;
   if (!solver.air()) return;
   r.deployment = deployment_of(resolved);
@@ -179,7 +179,7 @@ InflationResult result_of(const Settings& resolved, const LoadSource& source, co
   r.settings = solver.problem().settings;
   take_peaks(r, state, history, start_up);
   take_steady_load(r, source, solver, history, start_up);
-  take_filling(r, resolved, solver, state, history);
+  take_filling(r, resolved, solver, history);
   r.impulse = state.impulse;
   if (!solver.air()) r.pressure = solver.problem().pressure;
   for (const AirRow& row : history.air)
