@@ -83,7 +83,7 @@ TEST_F(FlightCommands, BadInputIsRefusedWithItsReasonAndLeavesNoFile) {
       {load({"--speed", "25"}), "--mass KG"},
       {load({"--mass", "-1", "--speed", "25"}), "--mass = -1: must be above 0"},
       {load({"--mass", "2", "--speed", "nan"}), "--speed = nan: must be a finite number"},
-      {load({"--mass", "50", "--speed", "5"}), "exceeds the deployment speed of 5 m/s"},
+      {load({"--mass", "50", "--speed", "5"}), "is above the 5 m/s of the deployment"},
       {opening({"--height", "90000"}), "--height = 90000: must be at least -2000 and at most 80000"},
       {opening({"--height", "300", "--ground", "500"}), "above the ground at 500 m"},
       {opening({"--angle", "120"}), "--angle = 120: must be at least -90 and at most 90"},

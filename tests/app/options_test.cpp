@@ -27,6 +27,7 @@ const std::map<std::string, std::vector<std::string>> commands = {
     {"calibrate porosity", {stratos}},
     {"sweep", {stratos, "--speeds", "10", "--dry-run"}},
     {"stability", {examples + "flat-circular/case.toml", "--dry-run"}},
+    {"fly", {examples + "flat-circular/case.toml"}},
     {"compare", {stratos, "--linear"}},
     {"photogrammetry", {RIPSTOP_SOURCE_DIR "/validation/ojf/stratos-iv-images.toml"}},
     {"descent", {"none"}},

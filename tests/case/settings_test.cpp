@@ -60,6 +60,7 @@ TEST(Settings, EverySourceNamesAKeyOfTheCaseAndItsUnit) {
                                                     {"flow.average_over", ""},
                                                     {"coupling.load", ""},
                                                     {"coupling.drag_tolerance", ""},
+                                                    {"coupling.shape_tolerance_m", "m"},
                                                     {"inflation.line_segment_m", "m"},
                                                     {"flow.tunnel.shape", ""},
                                                     {"flow.tunnel.height_m", "m"},

@@ -179,7 +179,7 @@ class Openings(unittest.TestCase):
         steady = ripstop.steady(small.case())
         run = ripstop.inflate(small.case(), steady=steady)
         self.assertEqual(run.steady_drag_asked_n, steady.drag_n)
-        with self.assertRaisesRegex(ripstop.Error, "another speed"):
+        with self.assertRaisesRegex(ripstop.Error, "a different speed"):
             ripstop.inflate(small.case(flow__speed_m_s=10), steady=steady)
 
     def test_a_damping_is_found_and_told_on_the_way(self):

@@ -238,7 +238,8 @@ class Columns {
     const double area = projected_area(still), nudged_area = projected_area(p);
     if (area == 0 || nudged_area == 0) return;
     const auto range = [&](const std::vector<double>& all, int a) {
-      const double low = std::min({p[0][a], p[1][a], p[2][a]}), high = std::max({p[0][a], p[1][a], p[2][a]});
+      const auto [low, high] =
+          std::minmax({p[0][a], p[1][a], p[2][a], still[0][a], still[1][a], still[2][a]});
       return std::pair(std::lower_bound(all.begin(), all.end(), low) - all.begin(),
                        std::upper_bound(all.begin(), all.end(), high) - all.begin());
     };
@@ -247,9 +248,12 @@ class Columns {
     for (auto iv = v_begin; iv < v_end; ++iv) {
       for (auto iu = u_begin; iu < u_end; ++iu) {
         const double u = us[iu], v = vs[iv];
-        const bool first = left_of(p[0][u_], p[0][v_], p[1][u_], p[1][v_], u, v);
-        if (left_of(p[1][u_], p[1][v_], p[2][u_], p[2][v_], u, v) != first ||
-            left_of(p[2][u_], p[2][v_], p[0][u_], p[0][v_], u, v) != first) {
+        // The other lines of a cell measure covered areas, to which the sheet itself belongs.
+        const bool central = iu % lines == centre_line && iv % lines == centre_line;
+        const Corners& q = central ? p : still;
+        const bool first = left_of(q[0][u_], q[0][v_], q[1][u_], q[1][v_], u, v);
+        if (left_of(q[1][u_], q[1][v_], q[2][u_], q[2][v_], u, v) != first ||
+            left_of(q[2][u_], q[2][v_], q[0][u_], q[0][v_], u, v) != first) {
           continue;
         }
         Hit hit;
