@@ -23,12 +23,10 @@ constexpr double reach = 1.5;    // cells: hits of neighbouring lines that belon
 constexpr double longest = 6.0;  // ... and the largest addition where the sheet is slanted
 
 /// In cells. On which side of the sheet a cell's centre lies is decided with the sheet moved by this much. Where the
-/// centre is on the sheet to rounding, the lines along x, y and z through it would otherwise disagree, and air would
-/// pass from one side to the other through the cell. The direction is not normal to any simple plane of the grid.
+/// centre is on the sheet to rounding, the lines through it would otherwise disagree, and air would pass the cell.
 constexpr Vec3 nudge{1e-9, 0.71e-9, 0.43e-9};
 
 constexpr double longest_hem = 1e6;  // one edge of a triangle, in cells
-
 using Point = std::array<double, 3>;
 
 Point point_of(Vec3 v) {
