@@ -147,8 +147,8 @@ TEST(Filling, IsWhereTheAreaFirstReachesThatOfTheEnd) {
   }
   const auto filling = filling_of(frames);
   ASSERT_TRUE(filling);
-  EXPECT_NEAR(filling->time, 0.2, 1e-9);
-  EXPECT_NEAR(filling->exponent, 3, 1e-9);
+  EXPECT_NEAR(filling->time, 0.2, 1e-8);
+  EXPECT_NEAR(filling->exponent, 3, 1e-6);
 }
 
 TEST(Filling, CanopyThatStillGrowsAtTheEndHasNotFilled) {

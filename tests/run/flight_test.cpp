@@ -40,20 +40,26 @@ FlightSolution flown(const std::function<void(Case&)>& edit) {
   return run_flight(resolve(flight_case(checked(given))), 1, nobody);
 }
 
-// The stream in the box is the same to rounding, and with it everything but the path.
+// The stream in the box is the same to rounding, and with it everything but the path. Differences of rounding grow
+// about thirtyfold in a step of cloth that flutters, so that the first steps are compared.
 TEST(Flight, UniformWindChangesNothingButThePath) {
-  const FlightSolution still = flown([](Case&) {}), blown = flown([](Case&given) {
-                                                      given.flight.wind.speed_m_s = 7,
-                                                      given.flight.wind.direction_deg = 30;
-                                                    });
+  const auto edit = [](Case& given) { given.flight.duration_s = 0.01; };
+  const FlightSolution still = flown(edit), blown = flown([&](Case&given) {
+                                              edit(given);
+                                              given.flight.wind.speed_m_s = 7,
+                                              given.flight.wind.direction_deg = 30;
+                                            });
   ASSERT_EQ(still.history.rows.size(), blown.history.rows.size());
-  const FreeFlightRow &a = still.history.rows.back(), &b = blown.history.rows.back();
-  const Vec3 wind = b.wind;
-  EXPECT_NEAR(norm(wind), 7, 1e-9);
-  EXPECT_NEAR(a.angle, b.angle, 1e-7);
-  EXPECT_NEAR(norm(a.air_force - b.air_force), 0, 1e-6 * norm(a.air_force));
-  EXPECT_NEAR(norm(a.velocity + wind - b.velocity), 0, 1e-8);
-  EXPECT_NEAR(norm(a.payload + a.time * wind - b.payload), 0, 1e-8);
+  ASSERT_GT(still.history.rows.size(), 2u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const FreeFlightRow &a = still.history.rows[i], &b = blown.history.rows[i];
+    const Vec3 wind = b.wind;
+    EXPECT_NEAR(norm(wind), 7, 1e-9);
+    EXPECT_NEAR(a.angle, b.angle, 1e-7);
+    EXPECT_NEAR(norm(a.air_force - b.air_force), 0, 1e-6 * norm(a.air_force));
+    EXPECT_NEAR(norm(a.velocity + wind - b.velocity), 0, 1e-8);
+    EXPECT_NEAR(norm(a.payload + a.time * wind - b.payload), 0, 1e-8);
+  }
 }
 
 // The parachute turns towards the vertical about a payload that hardly moves in so short a time, and the external

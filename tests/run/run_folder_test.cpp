@@ -73,7 +73,7 @@ TEST(RunFolder, AnOpeningTakesTheDragOfItsOwnParachuteOnly) {
   };
   Case other = given;
   other.flow.speed_m_s = 20;
-  EXPECT_NE(refusal(other).find("another speed"), std::string::npos) << refusal(other);
+  EXPECT_NE(refusal(other).find("a different speed"), std::string::npos) << refusal(other);
   other = given;
   other.parachute.gores = 8;
   EXPECT_NE(refusal(other).find("parachute.gores is 6 in that run and 8 in this case"), std::string::npos)

@@ -138,6 +138,7 @@ std::optional<Filling> filling_of(const std::vector<InflationFrame>& frames) {
   double full = 0;
   for (std::size_t i = last; i < frames.size(); ++i)
     full += frames[i].size.projected_area / double(frames.size() - last);
+  full *= 1 - 1e-9;  // a constant area reaches its mean to rounding only
   std::size_t first = 0;
   while (first < last && frames[first].size.projected_area < full) ++first;
   if (first == last || first == 0) return {};
@@ -146,8 +147,8 @@ std::optional<Filling> filling_of(const std::vector<InflationFrame>& frames) {
   Filling filling{a.time + share * (b.time - a.time), 0};
   double products = 0, squares = 0;
   for (std::size_t i = 0; i < first; ++i) {
+    if (!(frames[i].size.projected_area > 0 && frames[i].time > 0)) continue;
     const double t = std::log(frames[i].time / filling.time);
-    if (!(frames[i].size.projected_area > 0)) continue;
     products += t * std::log(frames[i].size.projected_area / full), squares += t * t;
   }
   if (squares > 0) filling.exponent = products / squares;
