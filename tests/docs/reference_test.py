@@ -162,7 +162,7 @@ class Reference(unittest.TestCase):
         self.assertEqual(wrong, [])
 
     def test_commands_that_the_program_refuses_are_found(self):
-        for line in ["ripstop fly examples/stratos-iv/case.toml", "ripstop steady examples/stratos-iv/case.toml --pressures 3",
+        for line in ["ripstop glide examples/stratos-iv/case.toml", "ripstop steady examples/stratos-iv/case.toml --pressures 3",
                      "ripstop steady examples/none/case.toml", "ripstop check", "ripstop calibrate drag CASE", "ripstop check a.toml b.toml",
                      "ripstop steady CASE --speed"]:
             with self.subTest(line):

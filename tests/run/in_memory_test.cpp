@@ -133,7 +133,7 @@ TEST_F(InMemory, ThePatternsBillHasTheMassOfTheCutPieces) {
   EXPECT_DOUBLE_EQ(pattern.bill.packed_volume, mass / 400);
 }
 
-TEST(InMemory, AClothUnderAPressureThatBurstsItIsComparedWithItsStrength) {
+TEST(ClothUnderPressure, AClothUnderAPressureThatBurstsItIsComparedWithItsStrength) {
   const Settings resolved = resolve(small_case());
   const std::string message = refusal_of([&] { run_fabric(resolved, 1e6); }, ExitCode::diverged);
   EXPECT_NE(message.find("no equilibrium under 1e+06 Pa"), std::string::npos) << message;
