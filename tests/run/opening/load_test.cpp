@@ -302,7 +302,9 @@ TEST(Load, EveryMethodIsAskedInTheConditionsOfItsStage) {
     EXPECT_EQ(method(stage, "infinite mass").note, slowed
                                                        ? "an upper bound: the speed decreases during filling"
                                                        : "the speed decreases little during filling");
-    EXPECT_EQ(method(stage, "momentum-impulse").note.find("filling from zero drag area; speed after filling ") == 0, last);
+    EXPECT_EQ(
+        method(stage, "momentum-impulse").note.find("filling from zero drag area; speed after filling ") == 0,
+        last);
   }
   // The highest force of the whole flight, and of each stage its own.
   const auto highest =
