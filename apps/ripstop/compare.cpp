@@ -8,6 +8,7 @@
 #include <cmath>
 #include <memory>
 
+#include "case_options.h"
 #include "commands.h"
 #include "json_option.h"
 #include "number_option.h"
