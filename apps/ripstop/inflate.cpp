@@ -14,6 +14,7 @@
 #include "commands.h"
 #include "json_option.h"
 #include "margins.h"
+#include "number_option.h"
 #include "opening.h"
 #include "progress.h"
 #include "ripstop/case/deployment.h"

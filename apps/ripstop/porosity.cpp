@@ -9,6 +9,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "case_options.h"
 #include "commands.h"
 #include "number_option.h"
 #include "ripstop/core/error.h"
