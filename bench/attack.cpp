@@ -12,6 +12,7 @@
 
 #include "ripstop/flow/bodies.h"
 #include "ripstop/flow/cartesian/cartesian.h"
+#include "ripstop/flow/extent.h"
 #include "ripstop/flow/projections.h"
 #include "ripstop/flow/stl.h"
 #include "ripstop/flow/unsteady.h"
@@ -29,24 +30,9 @@ struct Body {
   double area = 0, diameter = 0;  // that coefficients refer to [m2], [m]
 };
 
-struct Extent {
-  Vec3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
-};
-
-Extent extent_of(const std::vector<Triangle>& surface) {
-  Extent e;
-  for (const Triangle& t : surface) {
-    for (const Vec3& p : {t.a, t.b, t.c}) {
-      e.low = {std::min(e.low.x, p.x), std::min(e.low.y, p.y), std::min(e.low.z, p.z)};
-      e.high = {std::max(e.high.x, p.x), std::max(e.high.y, p.y), std::max(e.high.z, p.z)};
-    }
-  }
-  return e;
-}
-
 Body centred(Body body) {
   const Extent e = extent_of(body.surface);
-  const Vec3 middle = 0.5 * (e.low + e.high);
+  const Vec3 middle = 0.5 * (e.lower() + e.upper());
   for (Triangle& t : body.surface)
     for (Vec3* p : {&t.a, &t.b, &t.c}) *p -= middle;
   return body;
@@ -54,11 +40,11 @@ Body centred(Body body) {
 
 FlowProblem problem_of(const Body& body, double angle, int across) {
   const Extent e = extent_of(body.surface);
-  const double width = e.high.x - e.low.x, h = width / across;
+  const double width = e.high[0] - e.low[0], h = width / across;
   const Vec3 wind = wind_direction(angle);
   // Fine cells about the body and, downstream, one width of its wake.
-  const Vec3 spare = 0.35 * width * Vec3{1, 1, 1}, low = e.low - spare,
-             high = e.high + spare + width * Vec3{wind.x, 0, wind.z};
+  const Vec3 spare = 0.35 * width * Vec3{1, 1, 1}, low = e.lower() - spare,
+             high = e.upper() + spare + width * Vec3{wind.x, 0, wind.z};
   const Vec3 corner = -4 * width * Vec3{1, 1, 1}, size = 9 * width * Vec3{1, 1, 1};
   const auto cells = [&](double from, double to) {
     return static_cast<int>(std::lround((to - from) / h)) + 24;

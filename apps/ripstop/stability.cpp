@@ -66,11 +66,13 @@ class StabilityTerminal : public StabilityObserver {
   void warned(const std::string& text) override { progress_.line("ripstop: " + text); }
   void progress(std::size_t angle, const std::string& text, double share) override {
     // Angles that an earlier call computed give no estimate of the remaining time.
-    const double behind = double(computed_) + std::min(0.99, share), gone = elapsed();
-    const double left = behind > 0 ? gone / behind * (double(angles_ - ended_) - std::min(0.99, share)) : 0;
-    progress_.show(fmt::format("{}/{} | {} | {:.0f} % | elapsed {}{}", angle + 1, angles_, text,
-                               std::min(99.0, 100 * share), duration_text(gone),
-                               left > 0 ? fmt::format(", remaining about {}", duration_text(left)) : ""));
+    const double behind = double(computed_) + std::min(0.99, share), spent = elapsed();
+    const double remaining =
+        behind > 0 ? spent / behind * (double(angles_ - ended_) - std::min(0.99, share)) : 0;
+    progress_.show(
+        fmt::format("{}/{} | {} | {:.0f} % | elapsed {}{}", angle + 1, angles_, text,
+                    std::min(99.0, 100 * share), duration_text(spent),
+                    remaining > 0 ? fmt::format(", remaining about {}", duration_text(remaining)) : ""));
   }
   void ended(std::size_t, const StabilityRow& row, bool earlier) override {
     ++ended_;

@@ -3,7 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+#include <regex>
+#include <string>
+
 #include "ripstop/case/case.h"
+#include "ripstop/core/quantity.h"
 #include "ripstop/core/quantity_error.h"
 #include "ripstop/fsi/summary.h"
 
@@ -39,6 +44,50 @@ TEST(QuantityKeys, AreKeysOfTheSchema) {
     const std::size_t dot = key.rfind('.') + 1, end = key.find_first_of(") ", dot);
     EXPECT_NE(schema.find('"' + key.substr(dot, end - dot) + '"'), std::string::npos) << quantity;
   }
+}
+
+// A key whose name ends with other units than its unit would read "3 ms" as 0.003 of them.
+TEST(QuantityKeys, EveryKeyHasTheUnitThatItsNameEndsWith) {
+  const std::map<std::string, std::string> units = {{"", ""},
+                                                    {"_m", "m"},
+                                                    {"_m2", "m2"},
+                                                    {"_kg", "kg"},
+                                                    {"_kg_m", "kg/m"},
+                                                    {"_kg_m2", "kg/m2"},
+                                                    {"_kg_m3", "kg/m3"},
+                                                    {"_n", "N"},
+                                                    {"_n_m", "N/m"},
+                                                    {"_n_s", "N s"},
+                                                    {"_n_s_m", "N s/m"},
+                                                    {"_n_s_m3", "N s/m3"},
+                                                    {"_n_s2_m4", "N s2/m4"},
+                                                    {"_pa", "Pa"},
+                                                    {"_pa_s", "Pa s"},
+                                                    {"_pa_s_m", "Pa s/m"},
+                                                    {"_pa_s2_m2", "Pa s2/m2"},
+                                                    {"_s", "s"},
+                                                    {"_m_s", "m/s"},
+                                                    {"_deg", "deg"},
+                                                    {"_deg_s", "deg/s"},
+                                                    {"_per_s", "1/s"},
+                                                    {"_hz", "Hz"},
+                                                    {"_k", "K"},
+                                                    {"_cfm", "cfm"},
+                                                    {"_1_m", "1/m"},
+                                                    {"_1_m2", "1/m2"}};
+  const std::string schema = case_schema();
+  const std::regex key("\"([a-z0-9_]+)\": \\{"),
+      ending("((?:_(?:m|m2|m3|m4|kg|n|pa|s|s2|deg|hz|k|cfm|per|1))+)$");
+  int found = 0;
+  for (std::sregex_iterator i(schema.begin(), schema.end(), key), end; i != end; ++i) {
+    const std::string name = (*i)[1];
+    std::smatch parts;
+    const std::string run = std::regex_search(name, parts, ending) ? parts[1].str() : "";
+    ASSERT_TRUE(units.contains(run)) << name;
+    EXPECT_EQ(unit_of_key(name), units.at(run)) << name;
+    found += !run.empty();
+  }
+  EXPECT_GT(found, 80);
 }
 
 }  // namespace

@@ -82,16 +82,18 @@ TEST(UnitOfKey, IsTheEndOfItsName) {
   EXPECT_EQ(unit_of_key("viscosity_pa_s"), "Pa s");
   EXPECT_EQ(unit_of_key("coefficients_n_m[3]"), "N/m");
   EXPECT_EQ(unit_of_key("temperature_k"), "K");
+  EXPECT_EQ(unit_of_key("ejection_impulse_n_s"), "N s");
+  EXPECT_EQ(unit_of_key("swing_deg_s"), "deg/s");
   EXPECT_EQ(unit_of_key("outside_speed"), "");
   EXPECT_EQ(unit_of_key("cloth_nodes"), "");
 }
 
 // Each unit of a key is one that its own numbers can have.
 TEST(UnitOfKey, IsReadAsItself) {
-  for (const char* key :
-       {"a_pa_s2_m2", "a_n_s2_m4", "a_pa_s_m", "a_n_s_m3", "a_n_s_m", "a_kg_m3", "a_kg_m2", "a_kg_m",
-        "a_pa_s",     "a_1_m2",    "a_1_m",    "a_m_s2",   "a_m_s",   "a_n_m",   "a_cfm",   "a_deg",
-        "a_m2",       "a_hz",      "a_kg",     "a_pa",     "a_m",     "a_n",     "a_s",     "a_k"}) {
+  for (const char* key : {"a_pa_s2_m2", "a_n_s2_m4", "a_pa_s_m", "a_n_s_m3", "a_n_s_m", "a_kg_m3", "a_kg_m2",
+                          "a_kg_m",     "a_pa_s",    "a_1_m2",   "a_1_m",    "a_m_s2",  "a_m_s",   "a_n_m",
+                          "a_cfm",      "a_deg",     "a_m2",     "a_hz",     "a_kg",    "a_pa",    "a_m",
+                          "a_n",        "a_s",       "a_k",      "a_n_s",    "a_deg_s", "a_per_s"}) {
     const std::string unit = unit_of_key(key);
     const TypedNumber read = read_typed("3.5 " + unit, unit);
     EXPECT_EQ(read.refusal, "") << key;

@@ -25,19 +25,17 @@ constexpr double least_pressure = 2;  // dynamic pressure over the weight of the
 
 /// Cells of width h in the core, growing outside of it.
 int cells_along(double core, double before, double after, double h) {
-  const auto outside = [&](double length) {
-    return std::ceil(std::log(1 + length / h * (growth - 1) / growth) / std::log(growth));
-  };
-  const double count = std::ceil(core / h) + outside(before) + outside(after);
+  const double count =
+      std::ceil(core / h) + cells_outside(h, before, growth) + cells_outside(h, after, growth);
   return multiple * static_cast<int>(std::ceil(count / multiple));
 }
 
 std::array<int, 3> coarse_cells(const Case& given) {
   const double d = inflated_diameter(given.parachute),
                h = nominal_diameter(given.parachute) / given.flight.cells_across;
-  const double beside = 0.5 * d * (sheet_box.x - sheet_core.x),
+  const double aside = 0.5 * d * (sheet_box.x - sheet_core.x),
                before = d * (sheet_skirt - 0.25 * sheet_core.z);
-  const int across = cells_along(d * sheet_core.x, beside, beside, h);
+  const int across = cells_along(d * sheet_core.x, aside, aside, h);
   return {across, across,
           cells_along(d * sheet_core.z, before, d * (sheet_box.z - sheet_core.z) - before, h)};
 }

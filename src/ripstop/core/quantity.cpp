@@ -118,12 +118,15 @@ std::optional<double> kelvin_of(double value, const std::string& unit) {
 
 std::string unit_of_key(const std::string& key) {
   // The longest first, as "_m" ends "_kg_m" too.
-  constexpr std::array<std::pair<std::string_view, const char*>, 23> units{{{"_pa_s2_m2", "Pa s2/m2"},
+  constexpr std::array<std::pair<std::string_view, const char*>, 26> units{{{"_pa_s2_m2", "Pa s2/m2"},
                                                                             {"_n_s2_m4", "N s2/m4"},
                                                                             {"_pa_s_m", "Pa s/m"},
                                                                             {"_n_s_m3", "N s/m3"},
                                                                             {"_n_s_m", "N s/m"},
+                                                                            {"_n_s", "N s"},
                                                                             {"_kg_m3", "kg/m3"},
+                                                                            {"_deg_s", "deg/s"},
+                                                                            {"_per_s", "1/s"},
                                                                             {"_kg_m2", "kg/m2"},
                                                                             {"_kg_m", "kg/m"},
                                                                             {"_pa_s", "Pa s"},

@@ -121,8 +121,8 @@ bool Deployer::unreel(const Stored& stored, double resistance, bool from_bag, do
   double most = 0, tension = 0;
   const auto apart = [&](const Motion& m) { return m.x[payload] - m.x[bag] - apart_; };
   const auto masses = [&](double s) {
-    const double gone = stored.mass(s), left = stored.mass(stored.length) - gone;
-    return std::pair{leading + (from_bag ? gone : left), trailing + (from_bag ? left : gone)};
+    const double out = stored.mass(s), in = stored.mass(stored.length) - out;
+    return std::pair{leading + (from_bag ? out : in), trailing + (from_bag ? in : out)};
   };
   const auto rate = [&](const Motion& m) {
     const double s = std::clamp(apart(m), 0.0, stored.length), u = m.v[payload] - m.v[bag];

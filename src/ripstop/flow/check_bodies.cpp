@@ -5,36 +5,10 @@
 #include <array>
 
 #include "ripstop/core/error.h"
-#include "ripstop/flow/flow.h"
+#include "ripstop/flow/extent.h"
 
 namespace ripstop {
 namespace {
-
-struct Extent {
-  std::array<double, 3> low = {1e300, 1e300, 1e300}, high = {-1e300, -1e300, -1e300};
-
-  void add(Vec3 p) {
-    const std::array<double, 3> at = {p.x, p.y, p.z};
-    for (int a = 0; a < 3; ++a) low[a] = std::min(low[a], at[a]), high[a] = std::max(high[a], at[a]);
-  }
-  bool meets(const Extent& other) const {
-    for (int a = 0; a < 3; ++a)
-      if (low[a] > other.high[a] || high[a] < other.low[a]) return false;
-    return true;
-  }
-};
-
-Extent extent_of(const Triangle& t) {
-  Extent extent;
-  extent.add(t.a), extent.add(t.b), extent.add(t.c);
-  return extent;
-}
-
-Extent extent_of(const FlowBody& body) {
-  Extent extent;
-  for (const Triangle& t : body.surface) extent.add(t.a), extent.add(t.b), extent.add(t.c);
-  return extent;
-}
 
 /// Whether the line from p to q passes through the triangle (Moeller and Trumbore 1997).
 bool pierces(Vec3 p, Vec3 q, const Triangle& t) {
@@ -61,7 +35,7 @@ std::vector<std::pair<Triangle, Extent>> near(const FlowBody& body, const Extent
 }
 
 bool overlap(const FlowBody& a, const FlowBody& b) {
-  const Extent of_a = extent_of(a), of_b = extent_of(b);
+  const Extent of_a = extent_of(a.surface), of_b = extent_of(b.surface);
   if (!of_a.meets(of_b)) return false;
   const auto some_of_b = near(b, of_a);
   for (const auto& [t, extent] : near(a, of_b))
@@ -73,7 +47,7 @@ bool overlap(const FlowBody& a, const FlowBody& b) {
 /// A screen may reach into the walls of a duct, but nothing may reach out of open faces.
 void check_inside(const FlowProblem& problem, const FlowBody& body) {
   if (body.surface.empty()) return;
-  const Extent extent = extent_of(body);
+  const Extent extent = extent_of(body.surface);
   const Vec3 a = problem.grid.origin, b = problem.grid.origin + problem.grid.size;
   const std::array<double, 3> low = {a.x, a.y, a.z}, high = {b.x, b.y, b.z};
   for (int axis = 0; axis < 3; ++axis) {

@@ -42,14 +42,13 @@ Grading with_cells(double low, double high, double core_low, double core_high, i
   return g;
 }
 
-/// Least number of cells that fill `length` next to cells of width `first` without growing faster.
+}  // namespace
+
 int cells_outside(double first, double length, double growth) {
   int n = 0;
   while (first * progression(growth, n) < length * (1 - 1e-9)) ++n;
   return n;
 }
-
-}  // namespace
 
 bool FlowGrid::uniform() const {
   return std::none_of(grading.begin(), grading.end(), graded_axis);

@@ -55,6 +55,9 @@ struct Bracket {
 };
 Bracket bracket(const FlowGrid& grid, int axis, double x);
 
+/// Least number of cells that fill `length` next to cells of width `first` without growing faster.
+int cells_outside(double first, double length, double growth);
+
 /// `box` with as many cells, uniform from core_low to core_high and there as fine as cells that grow outward
 /// by no more than `growth` (> 1) a cell allow; uniform along an axis where the core has no extent. Throws
 /// Error(usage) for a core that is not inside the box and for too few cells, and states the required number.

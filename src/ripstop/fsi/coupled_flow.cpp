@@ -1,7 +1,6 @@
 #include "ripstop/fsi/coupled_flow.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -93,7 +92,7 @@ Loads CoupledFlow::last_load(const AirMemory& memory) const {
 // The Robin condition: v_n = v_n,predicted + compliance (p - p_last), compliance = mean_share dt / (mass an area).
 SheetMotion CoupledFlow::sheet_motion(const ClothMotion& predicted, double length,
                                       const AirMemory& memory) const {
-  const std::vector<double> pressure = last_load(memory).cell_pressure;
+  const bool first = memory.pressure.empty();
   SheetMotion motion;
   for (const double mass : mass_) motion.yields.push_back(mean_share(predicted.steps) * length / mass);
   for (std::size_t c = 0; c < cells_.size(); ++c) {
@@ -101,7 +100,7 @@ SheetMotion CoupledFlow::sheet_motion(const ClothMotion& predicted, double lengt
     Vec3 mean;
     for (const int node : cells_[c].corner) mean += 0.25 * predicted.velocity[node];
     motion.velocity.insert(motion.velocity.end(), 2, mean);
-    motion.pressure.insert(motion.pressure.end(), 2, pressure[c]);
+    motion.pressure.insert(motion.pressure.end(), 2, first ? 0 : memory.pressure[c]);
   }
   return motion;
 }

@@ -25,8 +25,8 @@ void check_width(const FoldedStart& folded, const FlowGrid& grid) {
   throw QuantityError(
       ExitCode::usage,
       fmt::format(
-          "the skirt of the folded canopy is {:.3g} m wide, {:.2g} cells of the flow grid ({:.3g} m); the "
-          "air needs at least {:g}: use cells of at most {:.3g} m or a radius of the folded skirt of at "
+          "the skirt of the folded canopy is {:.3g} m wide, {:.2g} cells of the flow grid ({:.3g} m). At "
+          "least {:g} cells are needed: use cells of at most {:.3g} m or a radius of the folded skirt of at "
           "least "
           "{:.3g} m",
           width, width / across, across, least_cells_across, width / least_cells_across,

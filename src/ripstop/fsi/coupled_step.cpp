@@ -18,7 +18,7 @@ constexpr double shortest_step = 0.05;
 /// work(), whose divergence is reported with the time at which its step began [s] and with how much heavier than the
 /// cloth the air of a cell is, which decides whether the two can be stepped together.
 template <class Work>
-auto or_diverged(double time, double heaviness, const Work& work) {
+auto or_diverged(double time, const CoupledFlow& air, const Work& work) {
   try {
     return work();
   } catch (const Error& error) {
@@ -27,7 +27,7 @@ auto or_diverged(double time, double heaviness, const Work& work) {
         ExitCode::diverged,
         fmt::format("coupled step from t = {:.6g} s: {}. The air of a cell has {:.3g} times the mass of the "
                     "cloth next to it; a finer flow grid reduces this ratio",
-                    time, error.what(), heaviness),
+                    time, error.what(), air.heaviness()),
         {"flow grid"});
   }
 }
@@ -95,7 +95,7 @@ Surroundings in_flight(const PayloadMotion& flight, const Payload& payload, doub
 CoupledStep take_coupled_step(CoupledFlow& air, const AdaptiveStepper& stepper, const Cloth& cloth,
                               const RowSpan& span, const Surroundings& surroundings, ThreadTeam& team,
                               InflationState& state) {
-  return or_diverged(state.cloth.time, air.heaviness(),
+  return or_diverged(state.cloth.time, air,
                      [&] { return unguarded_step(air, stepper, cloth, span, surroundings, team, state); });
 }
 

@@ -42,9 +42,9 @@ Vec3 centroid(const std::vector<int>& nodes, const std::vector<Vec3>& x) {
   return sum / double(nodes.size());
 }
 
-double mouth_area(const Mesh& mesh, const std::vector<Vec3>& x) {
+double mouth_area(const std::vector<Cell>& cells, const std::vector<Vec3>& x) {
   Vec3 sum;
-  for (const Cell& c : cells_of(mesh))
+  for (const Cell& c : cells)
     if (c.corner[0] >= 0) sum += area_vector(x[c.corner[0]], x[c.corner[1]], x[c.corner[2]], x[c.corner[3]]);
   return norm(sum);
 }
@@ -107,7 +107,7 @@ FreeFlight::FreeFlight(FlightProblem problem)
       stepper_(AdaptiveStepper::Step::renewed, problem_.cloth.step_fraction, row_, team_),
       air_(std::make_unique<CoupledFlow>(problem_.air, mesh_)) {
   for (const double m : mesh_.mass) mass_ += m;
-  const double diameter = std::sqrt(mouth_area(mesh_, problem_.shape) * 4 / std::numbers::pi);
+  const double diameter = std::sqrt(mouth_area(air_->cells(), problem_.shape) * 4 / std::numbers::pi);
   follow_ = follow_rate * problem_.air.flow.air.speed() / diameter;
   longest_step_ = longest_share * diameter / problem_.air.flow.air.speed();
 }
@@ -140,7 +140,7 @@ FreeFlightState FreeFlight::start() {
   state.kinetic_at_start = kinetic_energy(*cloth_, cloth);
   state.elastic_at_start = elastic_energy(*cloth_, cloth);
   state.momentum_at_start = momentum(*cloth_, cloth) + mass_ * state.box_velocity;
-  state.mouth_at_start = mouth_area(mesh_, x);
+  state.mouth_at_start = mouth_area(air_->cells(), x);
   if (!problem_.pressure.empty()) {
     state.coupled.air.pressure = problem_.pressure;
     state.coupled.air.force.assign(x.size(), {});
@@ -212,7 +212,7 @@ FreeFlightRow FreeFlight::row_of(const FreeFlightState& state, const std::vector
   row.stream = state.stream, row.wind = state.stream + state.box_velocity;
   const Vec3 relative = state.stream - centroid(canopy_, v);
   row.attack = std::atan2(norm(cross(line, relative)), dot(line, relative)) / degree;
-  row.mouth_area = mouth_area(mesh_, x);
+  row.mouth_area = mouth_area(air_->cells(), x);
   return row;
 }
 

@@ -27,7 +27,8 @@ void update_load(SteadyState& state, const ClothLoad& answer, double drag_change
   }
   // Means in time have the same expected load and differ by scatter. The first windows are those of a developing
   // wake: the first one is replaced by the second, and from then on the weight of each is its number.
-  if (const auto& all = state.iterations; state.in_time && all.back().in_time && all[all.size() - 2].in_time)
+  const auto& all = state.iterations;
+  if (const std::size_t n = all.size(); state.in_time && n >= 2 && all[n - 1].in_time && all[n - 2].in_time)
     accelerator.average(2 * settings.relaxation);
   std::vector<double> weight = area;
   weight.resize(area.size() + 6, 0.0);  // the residual traction follows the steps of the pressures

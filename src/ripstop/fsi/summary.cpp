@@ -133,11 +133,14 @@ std::vector<StageSummary> summarise_stages(const std::vector<HistoryRow>& rows,
 }
 
 std::optional<Filling> filling_of(const std::vector<InflationFrame>& frames) {
+  constexpr double folded =
+      0.5;  // of the area when full: a canopy that starts with more has not opened since
   const std::size_t last = frames.size() - frames.size() / 5;
   if (last == frames.size()) return {};
   double full = 0;
   for (std::size_t i = last; i < frames.size(); ++i)
     full += frames[i].size.projected_area / double(frames.size() - last);
+  if (frames.front().size.projected_area > folded * full) return {};
   full *= 1 - 1e-9;  // a constant area reaches its mean to rounding only
   std::size_t first = 0;
   while (first < last && frames[first].size.projected_area < full) ++first;

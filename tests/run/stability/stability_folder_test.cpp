@@ -123,6 +123,17 @@ TEST_F(StabilityFolder, ThatWasStoppedContinuesToTheSameTable) {
   EXPECT_GT(read_csv(folder_ / "whole/angle=10/history.csv").column("time_s")[0], 0.3);
 }
 
+TEST_F(StabilityFolder, InEquilibriumHasTheFormulasCoefficientsAndItsShapes) {
+  Counter observer;
+  StabilitySettings settings = in("equilibrium");
+  settings.equilibrium = true;
+  const StabilityResult result = run_stability(given(), {0, 10}, settings, observer);
+  ASSERT_EQ(result.rows.size(), 2u);
+  EXPECT_NEAR(result.rows[1].c_t, 0.7, 0.002);
+  EXPECT_NEAR(result.rows[1].c_m, 0.02, 2e-4);
+  EXPECT_TRUE(fs::exists(folder_ / "equilibrium/angle=10/canopy.stl"));
+}
+
 TEST_F(StabilityFolder, RefusesASteadyRunAtAnotherSpeed) {
   Counter observer;
   Case other = given();

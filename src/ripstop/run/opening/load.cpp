@@ -78,14 +78,18 @@ void choose_coefficients(const Settings& resolved, const LoadRequest& request, L
   r.ludtke_exponent = request.filling_exponent.value_or(filling.ludtke_exponent);
   r.filling_source = request.filling_constant && request.filling_exponent ? "given" : filling.source;
   if (!request.filling_from.empty()) {
-    const FittedFilling fitted =
-        fit_filling(opening_record(request.filling_from, resolved), r.nominal_diameter);
-    if (!request.filling_constant) r.filling_constant = fitted.constant;
-    if (!request.filling_exponent) r.filling_exponent = r.ludtke_exponent = fitted.exponent;
-    r.filling_source = "fitted to the computed opening " + request.filling_from.string();
+    const ComputedFilling computed = computed_filling(request.filling_from, resolved);
+    if (!request.filling_constant) r.filling_constant = computed.constant;
+    if (!request.filling_exponent) r.filling_exponent = r.ludtke_exponent = computed.exponent;
+    r.filling_source = "of the computed opening " + request.filling_from.string();
   }
   require_positive("filling constant n", r.filling_constant);
   require_positive("exponent of the drag area", r.filling_exponent);
+}
+
+/// Whether the filling constant is the handbook's, with its ranges of size and speed.
+bool of_handbook(const LoadRequest& request) {
+  return !request.filling_constant && request.filling_from.empty();
 }
 
 std::string joined(const std::vector<std::string>& texts) {
@@ -96,15 +100,14 @@ std::string joined(const std::vector<std::string>& texts) {
 /// gives, or that is fitted to a computed opening, replaces the handbook's, with its range of sizes and speeds.
 std::string outside_of_methods(const OpeningConditions& c, const LoadRequest& request, double mach) {
   std::vector<ModelValue> values = {{"Mach number", mach}, {"ballistic parameter A", ballistic_parameter(c)}};
-  if (!request.filling_constant && request.filling_from.empty())
-    values.push_back({"speed at line stretch", c.speed});
+  if (of_handbook(request)) values.push_back({"speed at line stretch", c.speed});
   return joined(outside_range(finite_mass_model, values));
 }
 
 /// The handbook's filling distances were measured on large canopies. The methods apply to a smaller one, whose
 /// deployment decides over the distance.
 std::string caution_on_filling(const LoadRequest& request, double nominal_diameter) {
-  if (request.filling_constant) return "";
+  if (!of_handbook(request)) return "";
   const std::string text = joined(outside_range(filling_model, {{"nominal diameter", nominal_diameter}}));
   return text.empty() ? ""
                       : text +
@@ -175,8 +178,8 @@ StageLoads begin_stage(const LoadRequest& request, const LoadResult& r, const Fl
   stage.drag_area_before = before, stage.drag_area = drag_area;
   // A stage that was cut while it overshot has no less to fill than the drag area that it would have held.
   const double added = drag_area - std::min(before, before_held);
-  stage.filling_constant = request.filling_constant ? *request.filling_constant
-                                                    : filling_constant_at(r.filling_constant, state.speed);
+  stage.filling_constant =
+      of_handbook(request) ? filling_constant_at(r.filling_constant, state.speed) : r.filling_constant;
   stage.filling_time = stage.filling_constant * r.nominal_diameter / state.speed * std::sqrt(added / open);
   const OpeningConditions c{r.payload_mass + r.parachute_mass,
                             state.speed,

@@ -136,6 +136,10 @@ MeasuredLoad compare_load(const MeasuredLoadRequest& request) {
                     m.shift));
   std::tie(m.computed_peak_time, m.computed_peak) = computed.peak();
   std::tie(m.measured_peak_time, m.measured_peak) = measured.peak();
+  if (!(m.measured_peak > 0))
+    throw Error(ExitCode::bad_data,
+                fmt::format("{}: the largest force is {:g} N; a load is positive in tension",
+                            request.file.string(), m.measured_peak));
   m.measured_peak_time += m.shift;
   m.peak_difference = m.computed_peak / m.measured_peak - 1;
   m.rms_difference = std::sqrt(overlap.mean_square);

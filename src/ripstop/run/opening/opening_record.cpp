@@ -58,22 +58,29 @@ Stream stream_of(const Settings& run, const fs::path& folder) {
   return stream;
 }
 
-}  // namespace
-
-OpeningRecord opening_record(const fs::path& folder, const Settings& resolved) {
+/// result.json of the opening in a folder, which must be one of this parachute.
+nlohmann::json opening_result(const fs::path& folder, const Settings& resolved) {
   const std::optional<std::string> text = finished_result(folder);
-  const auto result = text ? nlohmann::json::parse(*text, nullptr, false) : nlohmann::json();
+  auto result = text ? nlohmann::json::parse(*text, nullptr, false) : nlohmann::json();
   if (!result.is_object() || !result.contains("peak_load_n"))
     throw Error(ExitCode::usage,
                 fmt::format("{}: contains no finished run of ripstop inflate", folder.string()));
-  const Settings run = settings_of_run(folder);
-  const double here = nominal_area(resolved.parachute()), there = nominal_area(run.parachute());
+  const double here = nominal_area(resolved.parachute()),
+               there = nominal_area(settings_of_run(folder).parachute());
   if (std::abs(here - there) > 1e-6 * here)
     throw Error(
         ExitCode::usage,
         fmt::format(
             "{}: is an opening of a different parachute: S0 is {:g} m2 in that run and {:g} m2 in this case",
             folder.string(), there, here));
+  return result;
+}
+
+}  // namespace
+
+OpeningRecord opening_record(const fs::path& folder, const Settings& resolved) {
+  opening_result(folder, resolved);
+  const Settings run = settings_of_run(folder);
   if (!run.inflation().reefing.empty())
     throw Error(ExitCode::usage,
                 fmt::format("{}: is a reefed opening, with lines cut at given times: its drag area is not a "
@@ -100,20 +107,19 @@ OpeningRecord opening_record(const fs::path& folder, const Settings& resolved) {
   return record;
 }
 
-FittedFilling fit_filling(const OpeningRecord& record, double nominal_diameter) {
-  const auto full = std::find_if(record.drag_area.begin(), record.drag_area.end(),
-                                 [&](double area) { return area >= record.steady_drag_area; }) -
-                    record.drag_area.begin();
-  double products = 0, squares = 0;
-  for (std::ptrdiff_t i = 0; i < full; ++i) {
-    if (!(record.drag_area[i] > 0)) continue;
-    const double s = std::log(record.distance[i] / record.distance[full]);
-    products += s * std::log(record.drag_area[i] / record.steady_drag_area), squares += s * s;
-  }
-  if (!(squares > 0))
+ComputedFilling computed_filling(const fs::path& folder, const Settings& resolved) {
+  const nlohmann::json result = opening_result(folder, resolved);
+  const auto number = [&](const char* key) {
+    const auto found = result.find(key);
+    return found != result.end() && found->is_number() ? found->get<double>() : 0;
+  };
+  const ComputedFilling filling{number("filling_distance_diameters"), number("area_growth_exponent")};
+  if (!(filling.constant > 0 && filling.exponent > 0))
     throw Error(ExitCode::usage,
-                "the opening has the drag area of its end from its first row on: there is no filling to fit");
-  return {record.distance[full] / nominal_diameter, products / squares};
+                fmt::format("{}: has no filling distance: the canopy has not filled (increase "
+                            "inflation.duration_s), or its load is one pressure (inflation.air)",
+                            folder.string()));
+  return filling;
 }
 
 }  // namespace ripstop

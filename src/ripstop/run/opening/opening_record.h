@@ -19,13 +19,12 @@ struct OpeningRecord {
 /// Error(usage) for a folder without one or one of another parachute, Error(bad_data) for a damaged one.
 OpeningRecord opening_record(const std::filesystem::path& folder, const Settings& resolved);
 
-/// How such an opening fills: n and j of C_D S = (s / (n D0))^j times the drag area of its end, s the distance
-/// through the air.
-struct FittedFilling {
+/// Filling of such an opening as its result.json has it, see filling_of(): n and j of C_D S = (s / (n D0))^j times the
+/// drag area when it is full, s the distance through the air.
+struct ComputedFilling {
   double constant = 0, exponent = 0;
 };
-/// n is where the drag area first reaches that of the end, j a least squares fit of its logarithm until then. Throws
-/// Error(usage) where the drag area is that of the end from the first row on.
-FittedFilling fit_filling(const OpeningRecord& record, double nominal_diameter);
+/// Throws as opening_record(), and Error(usage) for an opening that has not filled.
+ComputedFilling computed_filling(const std::filesystem::path& folder, const Settings& resolved);
 
 }  // namespace ripstop

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ripstop/core/claimed_folder.h"
 #include "ripstop/core/file.h"
 #include "ripstop/run/json.h"
 #include "ripstop/run/run_folder.h"
@@ -52,6 +53,7 @@ Settings with_seed(const Settings& resolved, int seed) {
 
 SampleSummary run_samples(const InflationFolderSettings& settings, const Settings& resolved, int samples,
                           const std::function<void(const InflationFolderSettings&, const Settings&)>& open) {
+  make_results_folder(settings.run.folder);
   SampleSummary summary;
   summary.title = resolved.title(), summary.samples = samples;
   std::vector<nlohmann::json> results;

@@ -11,6 +11,8 @@
 #include "ripstop/case/assemble.h"
 #include "ripstop/case/resolve.h"
 #include "ripstop/core/error.h"
+#include "ripstop/core/quantity.h"
+#include "ripstop/flow/extent.h"
 #include "ripstop/flow/statistics.h"
 #include "ripstop/fsi/transfer.h"
 #include "ripstop/run/engine.h"
@@ -25,27 +27,6 @@ constexpr double core_margin = 0.35, core_wake = 1;
 constexpr double cell_growth = 1.2;
 
 constexpr double significant = 2;  // standard errors
-
-struct Extent {
-  Vec3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
-};
-
-Extent extent_of(const std::vector<Triangle>& surface) {
-  Extent e;
-  for (const Triangle& t : surface) {
-    for (const Vec3& p : {t.a, t.b, t.c}) {
-      e.low = {std::min(e.low.x, p.x), std::min(e.low.y, p.y), std::min(e.low.z, p.z)};
-      e.high = {std::max(e.high.x, p.x), std::max(e.high.y, p.y), std::max(e.high.z, p.z)};
-    }
-  }
-  return e;
-}
-
-/// Cells from a core of cells of width h to the end of the box at a distance `length`, each wider than the last.
-int cells_outward(double length, double h) {
-  const double g = cell_growth;
-  return static_cast<int>(std::ceil(std::log(1 + (g - 1) * length / (g * h)) / std::log(g)));
-}
 
 Attitude attitude_in(Vec3 wind) {
   return {{0, 0, 1}, wind};
@@ -114,16 +95,10 @@ std::vector<double> angles_of_text(const std::string& text) {
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find(':', begin), text.size());
     const std::string part = text.substr(begin, end - begin);
-    std::size_t used = 0;
-    double value = std::numeric_limits<double>::quiet_NaN();
-    try {
-      value = std::stod(part, &used);
-    } catch (const std::exception&) {
-      used = 0;
-    }
-    if (part.empty() || used != part.size() || !std::isfinite(value))
+    const TypedNumber read = read_typed(part, "deg");
+    if (!read.refusal.empty() || part.find(' ') != std::string::npos)
       refuse(fmt::format("--angles {}: \"{}\" is not a number; give {}", text, part, form));
-    parts.push_back(value);
+    parts.push_back(read.value);
     begin = end + 1;
   }
   if (parts.size() != 1 && parts.size() != 3)
@@ -192,7 +167,7 @@ CanopyMesh restrained_mesh(const Settings& resolved, const SteadyState& state) {
 FlowProblem stability_flow(const Settings& at_angle, const RigidCanopy& canopy, int across, double widest) {
   FlowProblem problem = flow_problem(at_angle);
   const Extent e = extent_of(canopy.surface);
-  const Vec3 size = e.high - e.low, middle = 0.5 * (e.low + e.high);
+  const Vec3 size = e.upper() - e.lower(), middle = 0.5 * (e.lower() + e.upper());
   const double width = std::max(size.x, size.y), h = canopy.width / across;
   const Vec3 wind = wind_direction(std::min(widest, 90.0), at_angle.flow().azimuth_deg);
   const double wake = core_wake * width;
@@ -200,17 +175,17 @@ FlowProblem stability_flow(const Settings& at_angle, const RigidCanopy& canopy, 
     return std::pair{low - core_margin * width + std::min(0.0, wake * towards),
                      high + core_margin * width + std::max(0.0, wake * towards)};
   };
-  const auto [x0, x1] = shifted(e.low.x, e.high.x, wind.x);
-  const auto [y0, y1] = shifted(e.low.y, e.high.y, wind.y);
-  const auto [z0, z1] = shifted(e.low.z, e.high.z, 1);
+  const auto [x0, x1] = shifted(e.low[0], e.high[0], wind.x);
+  const auto [y0, y1] = shifted(e.low[1], e.high[1], wind.y);
+  const auto [z0, z1] = shifted(e.low[2], e.high[2], 1);
   // No two sides of the canopy lie alike on the cells: docs/theory/flow-cartesian.md.
   const Vec3 off = in_time_off_axis * h * Vec3{1, 0.5, 0};
   const Vec3 low = Vec3{x0, y0, z0} + off, high = Vec3{x1, y1, z1} + off;
   const Vec3 corner = middle - width * Vec3{half_box, half_box, box_before},
              far = middle + width * Vec3{half_box, half_box, box_behind};
   const auto cells = [&](double from, double core_from, double core_to, double to) {
-    return static_cast<int>(std::lround((core_to - core_from) / h)) + cells_outward(core_from - from, h) +
-           cells_outward(to - core_to, h);
+    return static_cast<int>(std::lround((core_to - core_from) / h)) +
+           cells_outside(h, core_from - from, cell_growth) + cells_outside(h, to - core_to, cell_growth);
   };
   problem.grid = graded({corner, far - corner, cells(corner.x, low.x, high.x, far.x),
                          cells(corner.y, low.y, high.y, far.y), cells(corner.z, low.z, high.z, far.z)},
