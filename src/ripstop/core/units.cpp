@@ -67,10 +67,36 @@ const Units& units_of(Dimension dimension) {
   return table[static_cast<std::size_t>(dimension)];
 }
 
-std::string lower(std::string text) {
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return text;
+char lower(char c) {
+  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
+
+bool same_letters(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](char x, char y) { return lower(x) == lower(y); });
+}
+
+/// The unit with that name, in the spelling of plain_unit().
+std::optional<Unit> find_plain_unit(Dimension dimension, std::string_view wanted) {
+  const KnownUnit* found = nullptr;
+  bool several = false;
+  for (const KnownUnit& known : units_of(dimension))
+    for (const char* name : known.names) {
+      if (wanted == name) return Unit{known.names.front(), known.factor};
+      // "MM", "n", "LBF": machines shout. Where this leaves a choice (MN, mN) only the exact spelling is known.
+      if (!same_letters(wanted, name)) continue;
+      several = several || (found && found != &known);
+      found = &known;
+    }
+  if (!found || several) return {};
+  return Unit{found->names.front(), found->factor};
+}
+
+bool is_plain_foreign_unit(std::string_view plain) {
+  if (find_plain_unit(Dimension::angle, plain)) return true;
+  constexpr std::array<std::string_view, 13> names{"V", "mV", "kV", "A",    "mA",    "Ohm", "Ω",
+                                                   "Ω", "°C", "°F", "degC", "deg C", "degF"};
+  return std::find(names.begin(), names.end(), plain) != names.end();
 }
 
 }  // namespace
@@ -100,19 +126,7 @@ std::string plain_unit(std::string text) {
 }
 
 std::optional<Unit> find_unit(Dimension dimension, const std::string& text) {
-  const std::string wanted = plain_unit(text), shouted = lower(wanted);
-  const KnownUnit* found = nullptr;
-  bool several = false;
-  for (const KnownUnit& known : units_of(dimension))
-    for (const char* name : known.names) {
-      if (wanted == name) return Unit{known.names.front(), known.factor};
-      // "MM", "n", "LBF": machines shout. Where this leaves a choice (MN, mN) only the exact spelling is known.
-      if (shouted != lower(name)) continue;
-      several = several || (found && found != &known);
-      found = &known;
-    }
-  if (!found || several) return {};
-  return Unit{found->names.front(), found->factor};
+  return find_plain_unit(dimension, plain_unit(text));
 }
 
 std::optional<double> unit_factor(Dimension dimension, const std::string& text) {
@@ -122,16 +136,14 @@ std::optional<double> unit_factor(Dimension dimension, const std::string& text) 
 }
 
 bool is_foreign_unit(const std::string& text) {
-  if (find_unit(Dimension::angle, text)) return true;
-  constexpr std::array names{"V", "mV", "kV", "A",    "mA",    "Ohm", "Ω",
-                             "Ω", "°C", "°F", "degC", "deg C", "degF"};
-  return std::find(names.begin(), names.end(), plain_unit(text)) != names.end();
+  return is_plain_foreign_unit(plain_unit(text));
 }
 
 bool is_unit(const std::string& text) {
-  if (is_foreign_unit(text)) return true;
+  const std::string plain = plain_unit(text);
+  if (is_plain_foreign_unit(plain)) return true;
   for (int i = 0; i <= static_cast<int>(Dimension::density); ++i)
-    if (find_unit(static_cast<Dimension>(i), text)) return true;
+    if (find_plain_unit(static_cast<Dimension>(i), plain)) return true;
   return false;
 }
 

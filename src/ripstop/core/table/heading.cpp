@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <set>
+#include <string_view>
 #include <utility>
 
 #include "ripstop/core/table/text.h"
@@ -178,7 +181,7 @@ constexpr Word words[]{
 };
 
 /// A heading with one of these is none of the quantities.
-constexpr const char* vetoes[]{
+constexpr std::string_view vetoes[]{
     "rate",     "rates",       "coefficient",  "coeff",       "koeffizient", "beiwert", "area",
     "flache",   "flaeche",     "temperature",  "temperatur",  "temperatura", "voltage", "energy",
     "energie",  "energia",     "work",         "modulus",     "modul",       "module",  "modulo",
@@ -245,13 +248,26 @@ constexpr std::string_view last_parts[]{"widerstand",
                                         "pruefling",
                                         "proefstuk"};
 
-bool matches(const std::string& token, const Word& word) {
-  const std::string_view text = word.text;
-  if (token.starts_with(text) &&
-      (token.size() == text.size() || (token.size() == text.size() + 1 && token.back() == 's')))
-    return true;  // "load", "loads"
-  if (token.size() < text.size() + 2 || !token.ends_with(text)) return false;
-  return std::find(std::begin(last_parts), std::end(last_parts), text) != std::end(last_parts);
+/// The listed words by their text.
+const std::map<std::string_view, std::size_t>& places_of_words() {
+  static const std::map<std::string_view, std::size_t> places = [] {
+    std::map<std::string_view, std::size_t> made;
+    for (std::size_t i = 0; i < std::size(words); ++i) made.emplace(words[i].text, i);
+    return made;
+  }();
+  return places;
+}
+
+/// Adds the listed words that a token is ("load", "loads") or ends with ("standardkraft").
+void add_words(std::set<std::size_t>& found, std::string_view token) {
+  const std::map<std::string_view, std::size_t>& places = places_of_words();
+  const auto add = [&](std::string_view text) {
+    if (const auto place = places.find(text); place != places.end()) found.insert(place->second);
+  };
+  add(token);
+  if (token.ends_with('s')) add(token.substr(0, token.size() - 1));
+  for (const std::string_view part : last_parts)
+    if (token.size() >= part.size() + 2 && token.ends_with(part)) add(part);
 }
 
 /// Meanings of a name's words, in the order of the list above, which is that of precedence: drag force is a drag.
@@ -260,23 +276,19 @@ bool find_meanings(Heading& heading, const std::string& name) {
   const std::vector<std::string> tokens = tokens_of(name);
   heading.weak = true;
   for (const std::string& token : tokens)
-    for (const char* veto : vetoes)
-      if (token == veto || (std::string_view(veto).size() > 5 && token.ends_with(veto))) return false;
+    for (const std::string_view veto : vetoes)
+      if (token == veto || (veto.size() > 5 && token.ends_with(veto))) return false;
   const auto add = [&](Quantity quantity) {
     if (quantity != Q::other && std::count(heading.meanings.begin(), heading.meanings.end(), quantity) == 0)
       heading.meanings.push_back(quantity);
   };
-  const auto any = [&](const Word& word) {
-    return std::any_of(tokens.begin(), tokens.end(),
-                       [&](const std::string& token) { return matches(token, word); });
-  };
-  for (const Word& word : words)
-    if (any(word)) {
-      add(word.quantity);
-      heading.weak = heading.weak && word.weak;
-    }
-  for (const Word& word : words)
-    if (any(word)) add(word.or_else);
+  std::set<std::size_t> found;
+  for (const std::string& token : tokens) add_words(found, token);
+  for (const std::size_t place : found) {
+    add(words[place].quantity);
+    heading.weak = heading.weak && words[place].weak;
+  }
+  for (const std::size_t place : found) add(words[place].or_else);
   for (const Symbol& symbol : symbols)
     if (tokens.size() == 1 && tokens.front() == symbol.text) add(symbol.quantity);
   return true;
