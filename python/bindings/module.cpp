@@ -63,5 +63,6 @@ PYBIND11_MODULE(_ripstop, module) {
   add_fabric(module);
   add_sweep(module);
   add_report(module);
+  add_engines(module);
   module.attr("__name__") = own_name;
 }

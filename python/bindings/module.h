@@ -31,6 +31,7 @@ void add_flight(py::module_& module);
 void add_fabric(py::module_& module);
 void add_sweep(py::module_& module);
 void add_report(py::module_& module);
+void add_engines(py::module_& module);
 
 /// A case with the text that it was read from, so that any key can be set anew as --set does.
 struct PyCase {

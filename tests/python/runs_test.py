@@ -269,5 +269,56 @@ class Interruptions(unittest.TestCase):
         self.assertIsNotNone(results[0])
 
 
+class Engines(unittest.TestCase):
+    """A flow engine written in Python."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.answer = None
+        ripstop.add_engine("python", lambda *given: cls.answer(*given))
+
+    def case(self, **keys):
+        return small.case(flow__engine="python", flow__porosity_model="sheet", **keys)
+
+    def test_a_uniform_pressure_has_the_drag_of_the_projected_area(self):
+        given = []
+
+        def uniform(triangles, velocity, density):
+            given.append((triangles.shape, velocity, density))
+            return numpy.full(len(triangles), 180.0)
+
+        type(self).answer = staticmethod(uniform)
+        run = ripstop.steady(self.case())
+        same = ripstop.fabric(small.case(), pressure_pa=180)
+        self.assertTrue(run.converged)
+        self.assertEqual(run.engine, "python")
+        self.assertEqual(given[0][1:], ((0.0, 0.0, 20.0), 1.2))
+        self.assertEqual(given[0][0][1:], (3, 3))
+        self.assertAlmostEqual(run.drag_n / same.pressure_load_n, 1, delta=0.01)
+        self.assertAlmostEqual(run.projected_area_m2 / same.projected_area_m2, 1, delta=0.01)
+
+    def test_an_answer_that_is_no_pressure_of_each_triangle_is_refused(self):
+        for wrong in (lambda triangles, *_: [1.0, 2.0], lambda triangles, *_: numpy.full(len(triangles), numpy.nan),
+                      lambda triangles, *_: "much", lambda *_: None):
+            type(self).answer = staticmethod(wrong)
+            with self.assertRaisesRegex(ripstop.Error, 'the engine "python"'):
+                ripstop.steady(self.case())
+
+    def test_an_exception_of_the_function_ends_the_run(self):
+        def fails(*_):
+            raise LookupError("no pressure")
+
+        type(self).answer = staticmethod(fails)
+        with self.assertRaisesRegex(LookupError, "no pressure"):
+            ripstop.steady(self.case())
+
+    def test_names_and_porous_cells_are_checked(self):
+        for word in ("python", "builtin", "My Engine", ""):
+            with self.assertRaises(ValueError):
+                ripstop.add_engine(word, len)
+        with self.assertRaisesRegex(ripstop.Error, "sheet"):
+            ripstop.steady(small.case(flow__engine="python", flow__porosity_model="paper"))
+
+
 if __name__ == "__main__":
     unittest.main()
