@@ -20,13 +20,15 @@ KINDS = {
 
 ABOUT = """This page lists the comparisons of Ripstop with measurements, handbooks, other codes and published computations. The command
 writes it from the linked tables, and each table states its own command, machine and day. The error is computed / reference - 1, and the
-largest error of a kind comes first. The means combine drag and peak loads of different models. [Validation](../validation.md) explains
-the runs and their limits, and [the campaign](ojf.md) has further models. Exact solutions are compared in the pages on
-[cloth](cloth.md), [flow](flow.md) and [openings](inflation.md)."""
+largest error of a kind comes first. A measured point appears once for each model and speed basis, so the comparisons of a kind are
+not independent. The means combine drag and peak loads. [Validation](../validation.md) explains the runs and their limits, and [the
+campaign](ojf.md) has further models. Comparisons with exact solutions are on the pages on [cloth](cloth.md), [flow](flow.md) and
+[openings](inflation.md)."""
 
-REFERENCES = """The measurements are those of [NFM] in the Open Jet Facility. The ranges are those of Knacke's manual, not verified in
-print. The page on [bodies of known drag](flow.md#bodies-of-known-drag) gives the references of rigid bodies and porous disks. [Tunnel
-corrections](../theory/tunnel.md) are theory, and OpenFOAM uses [a fitted mesh](../theory/flow-openfoam.md#sheets)."""
+REFERENCES = """The measurements in the Open Jet Facility are those of [NFM] ([references](../references.bib)). The ranges are those of Knacke's
+manual, not checked against the print. The references of rigid bodies and porous disks are on [bodies of known
+drag](flow.md#bodies-of-known-drag). Tunnel corrections are compared with [theory](../theory/tunnel.md). OpenFOAM uses a [body-fitted
+mesh](../theory/flow-openfoam.md#body-fitted-mesh)."""
 
 
 def tables(name):
@@ -61,9 +63,10 @@ class Board:
     def add(self, kind, what, reference, computed, error, command, table):
         self.rows.append((kind, what, reference, computed, error, command, table))
 
-    def against(self, kind, what, reference, computed, command, table, unit=""):
-        """A row whose error follows from two numbers."""
-        self.add(kind, what, f"{reference}{unit}", f"{computed}{unit}", 100 * (number(computed) / number(reference) - 1), command, table)
+    def against(self, kind, what, reference, computed, command, table, unit="", error=None):
+        """A row with the error of its table, else with that of the two rounded numbers."""
+        self.add(kind, what, f"{reference}{unit}", f"{computed}{unit}",
+                 number(error) if error else 100 * (number(computed) / number(reference) - 1), command, table)
 
 
 def campaign(board):
@@ -83,7 +86,8 @@ def campaign(board):
     for peak in peaks:
         known, calibrated = peak["parachute"] == "Stratos IV", "calibrated on" in peak["model"]
         kind = ("calibration" if calibrated else "comparison") if known else "blind prediction"
-        board.against(kind, f"peak load of {peak['parachute']}, {peak['model']}", peak["measured N"], peak["computed N"], command, "ojf-score", " N")
+        board.against(kind, f"peak load of {peak['parachute']}, {peak['model']}", peak["measured N"], peak["computed N"], command, "ojf-score", " N",
+                      peak["error %"])
 
 
 def families(board):
@@ -107,10 +111,10 @@ def bodies(board):
         if row["eddies"] == "des":
             porous = "porous" in row["body"]
             board.against("cross-validation" if porous else "comparison", f"$C_D$, {row['body']}, unsteady", row["reference"],
-                          row["in time, standard error"], "build-check/bench/bench_bodies in-time 16", "bodies-in-time")
+                          row["in time, standard error"], "build-check/bench/bench_bodies in-time 16", "bodies-in-time", error=row["off by"])
     for row in tables("judge")[0]:
         board.against("cross-validation", f"$C_D$ on the frontal area, {row['body']}, OpenFOAM", row["OpenFOAM"], row["drag on its front, built-in"],
-                      "make judge", "judge")
+                      "make judge", "judge", error=row["built-in compared with OpenFOAM"])
     for row in tables("tunnel-disks")[0]:
         if row["air"] != "free air":
             board.add("cross-validation", f"tunnel correction of $C_D$, disk {row['disk']}, {row['air']}, blockage {row['blockage']}",
@@ -123,12 +127,16 @@ def printed(board):
     """Stratos IV with the coefficients that [NFM] fitted to it."""
     for row in tables("stratos-iv")[0]:
         what = f"drag of Stratos IV at nominal {row['nominal m/s']} m/s, printed coefficients"
-        board.against("reproduction", what, row["measured N"], row["computed N"], "make validate", "stratos-iv", " N")
+        board.against("reproduction", what, row["measured N"], row["computed N"], "make validate", "stratos-iv", " N", row["error %"])
         board.against("cross-validation", f"{what}, computed by [NFM]", row["printed N"], row["computed N"], "make validate", "stratos-iv", " N")
 
 
+def wrapped(text):
+    return textwrap.wrap(text, 120, break_long_words=False, break_on_hyphens=False)
+
+
 def page(rows):
-    lines = ["# Scoreboard", "", "    python3 validation/scoreboard.py", "", *textwrap.wrap(ABOUT, 120), "",
+    lines = ["# Scoreboard", "", "    python3 validation/scoreboard.py", "", *wrapped(ABOUT), "",
              "| kind | comparisons | mean absolute error % | largest error % | meaning |", "|---|---|---|---|---|"]
     for kind, meaning in KINDS.items():
         errors = [row[4] for row in rows if row[0] == kind]
@@ -139,7 +147,7 @@ def page(rows):
         lines += [f"| {what} | {reference} | {computed} | {error:+.1f} | `{command}` | [`{table}`](../tables/{table}.md) |"
                   for _, what, reference, computed, error, command, table in
                   sorted((row for row in rows if row[0] == kind), key=lambda row: -abs(row[4]))]
-    lines += ["", "## References", "", *textwrap.wrap(REFERENCES, 120)]
+    lines += ["", "## References", "", *wrapped(REFERENCES)]
     return "\n".join(lines) + "\n"
 
 

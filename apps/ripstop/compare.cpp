@@ -164,7 +164,9 @@ void add_compare(CLI::App& app, int& status) {
       "         ripstop compare runs/opening --measured load-cell.csv\n"
       "         ripstop compare examples/stratos-iv/case.toml --linear --speed 30");
   add_sweep_options(*command, *options);
-  command->add_option("others", options->others, "More folders of finished runs, where the first is one")
+  command
+      ->add_option("others", options->others,
+                   "Folders of further finished runs, if the first argument is a run folder")
       ->check(CLI::ExistingDirectory);
   add_key_number(*command, "--speed", "flow.speed_m_s", options->overrides.speed, "Nominal speed [m/s]");
   CLI::Option* linear =

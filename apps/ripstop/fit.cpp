@@ -126,7 +126,7 @@ void add_fit(CLI::App& app, int& status) {
              "Degree of the curves (default: degree_rule of the campaign)");
   add_table_options(*command, options->columns, options->decimal, "force=Kraft [kN],extension=Weg [mm]");
   command->add_flag("--zero-offset", options->zero_offset,
-                    "Fit with zero load at zero strain (K_0 = 0), the default, regardless of the campaign");
+                    "Zero load at zero strain (K_0 = 0), also if the campaign has zero_offset = false");
   command->add_flag("--no-coupons", options->no_coupons, "Do not fit xi and eps with virtual coupons");
   add_json_option(*command, options->json);
   add_number(*command, "--threads", options->threads, key_range("coupling.threads"),

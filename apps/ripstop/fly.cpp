@@ -137,7 +137,7 @@ int fly(const FlyArguments& options) {
 void add_fly(CLI::App& app, int& status) {
   auto options = std::make_shared<FlyArguments>();
   CLI::App* command = app.add_subcommand(
-      "fly", "Free flight of parachute and payload: rate of descent, glide and oscillation");
+      "fly", "Compute the free flight of parachute and payload: rate of descent, glide and oscillation");
   command->footer(
       "The canopy starts in equilibrium on the axis, at the speed at which its drag is the weight, and is "
       "released "
@@ -148,22 +148,23 @@ void add_fly(CLI::App& app, int& status) {
                  options->overrides);
   add_key_option(*command, "--duration", "flight.duration_s", "Longest time of flight [s]",
                  options->overrides);
-  add_key_option(*command, "--cloth-nodes", "parachute.mesh.cloth_nodes", "Nodes of the cloth aimed at",
+  add_key_option(*command, "--cloth-nodes", "parachute.mesh.cloth_nodes", "Target number of cloth nodes",
                  options->overrides);
   add_key_option(*command, "--angle", "flight.angle_deg",
                  "Angle between the vertical and the line from payload to canopy at the start [deg]",
                  options->overrides);
   add_key_option(*command, "--height", "flight.height_m",
-                 "Height above the ground at the start; the flight ends at the ground [m]",
+                 "Height of the payload above the ground at the start [m]; the flight ends at the ground",
                  options->overrides);
   add_key_option(*command, "--wind", "flight.wind.speed_m_s", "Speed of the wind [m/s]", options->overrides);
   add_key_option(*command, "--cells-across", "flight.cells_across",
                  "Cells of the flow across the nominal diameter", options->overrides);
   add_set_option(*command, options->overrides);
   add_number(*command, "--threads", options->threads, from(1).up_to(key_range("coupling.threads").high),
-             "Threads (default: as in [coupling])");
+             "Number of threads (default: coupling.threads)");
   command->add_option("--out", options->out, "Run folder (default: runs/<name of the case>-flight)");
-  command->add_flag("--fresh", options->fresh, "Start again, not from a checkpoint");
+  command->add_flag("--fresh", options->fresh,
+                    "Replace the files of Ripstop in the run folder; default: resume the run");
   add_json_option(*command, options->json);
   command->callback([options, &status] { status = fly(*options); });
 }

@@ -137,8 +137,9 @@ void add_coefficients(CLI::App& command, LoadRequest& r) {
                   "Run folder of ripstop inflate that provides the drag area over distance")
       ->check(CLI::ExistingDirectory);
   command
-      .add_option("--from", r.filling_from,
-                  "Run folder of ripstop inflate that provides the filling constant n and the exponent")
+      .add_option(
+          "--from", r.filling_from,
+          "Run folder of ripstop inflate that provides filling constant n and exponent of the drag area")
       ->check(CLI::ExistingDirectory);
   add_number(command, "--measured-load", r.measured_load, above(0).up_to(1e8),
              "Opening load measured at this speed and mass, which becomes the design load [N]");

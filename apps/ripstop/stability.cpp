@@ -198,7 +198,7 @@ void add_stability(CLI::App& app, int& status) {
       "taken (default: computed in OUT/axis)");
   command->add_flag("--equilibrium", options->settings.equilibrium,
                     "The canopy deforms under the mean load of each angle, restrained at vent and confluence "
-                    "(default: rigid, in the shape of the axis)");
+                    "(default: rigid, with the shape on the axis)");
   add_case_options(*command, options->overrides);
   add_flow_options(*command, options->overrides);
   command->add_flag("--cold", options->cold, "Start the flow of every angle from the uniform stream");

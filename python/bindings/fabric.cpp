@@ -36,25 +36,26 @@ const PyFabric& fabric_of(const py::object& self) {
 }  // namespace
 
 void add_fabric(py::module_& module) {
-  py::class_<PyFabric> type(module, "Fabric", "The cloth under one pressure: its numbers, and its arrays.");
+  py::class_<PyFabric> type(module, "Fabric",
+                            "Result of a uniform pressure: the values of result.json, and arrays.");
   const auto result = [](const PyFabric& f) -> const FabricResult& { return f.solution.result; };
   add_members(type, result);
   add_json(type, result);
   type.def_property_readonly(
       "shape", [](const py::object& self) { return view_of(fabric_of(self).solution.shape, self); },
-      "Every node of the parachute, x, y, z; z is downstream [m]");
+      "Position of every node of the parachute: x, y, z; z is downstream [m]");
   type.def_property_readonly(
       "cells", [](const py::object& self) { return view_of_cells(fabric_of(self).cells, self); },
-      "Nodes at the four corners of every cell of cloth; the first is -1 where there is none.");
+      "Nodes at the four corners of every cloth cell; the first is -1 for a missing cell.");
   type.def_property_readonly(
       "stress", [](const py::object& self) { return table_of(fabric_of(self).solution.stress, self); },
       "Of every cell of cloth: columns in [N/m], max_strain without unit.");
   module.def("fabric", &fabric, py::arg("case"), py::kw_only(), py::arg("pressure_pa") = py::none(),
              py::arg("out") = py::none(),
-             "The cloth under one pressure over the whole canopy, without a flow: ripstop fabric.\n\n"
+             "Computes the shape under a uniform pressure, without a flow: ripstop fabric.\n\n"
              "pressure_pa: None: the dynamic pressure of the case.\n"
              "out: a folder for result.json, a picture and files for ParaView. None: nothing is written.\n\n"
-             "A result that has not converged is returned: look at `converged`.");
+             "A result that is not converged is also returned: check `converged`.");
 }
 
 }  // namespace ripstop::python

@@ -126,7 +126,7 @@ void add_fit(py::module_& module) {
   type.def_property_readonly(
       "notes", [](const FitResult& r) { return r.fit.notes; }, "Decisions of the fit and their reasons.");
   type.def_property_readonly(
-      "warnings", [](const FitResult& r) { return r.fit.warnings; }, "Doubts about the material.");
+      "warnings", [](const FitResult& r) { return r.fit.warnings; }, "Warnings about the material.");
   type.def("__repr__", [](const FitResult& r) { return "<ripstop.Fit '" + r.bench.name + "'>"; });
   module.def(
       "fit", &fit, py::arg("bench"), py::kw_only(), py::arg("coupons") = true, py::arg("degree") = 0,

@@ -84,7 +84,7 @@ const PyFlight& run_of_flight(const py::object& self) {
 void add_fly(py::module_& module) {
   add_class<FlightProgress>(module, "FlightProgress", "Progress of a flight.");
   py::class_<PyFlight> type(module, "Flight",
-                            "A free flight: the numbers of its result.json, and its arrays.");
+                            "Result of a free flight: the values of result.json, and arrays.");
   const auto result = [](const PyFlight& run) -> const FlightResult& { return run.result; };
   add_members(type, result);
   add_json(type, result);
@@ -93,15 +93,15 @@ void add_fly(py::module_& module) {
       "A row for each step of the flow, with the columns of path.csv.");
   type.def_property_readonly(
       "shape", [](const py::object& self) { return view_of(run_of_flight(self).shape, self); },
-      "Every node of the parachute at the end in the box of air, x, y, z; z is up [m]");
+      "Position of every node of the parachute in the flow domain at the end: x, y, z; z is up [m]");
   type.def_property_readonly(
       "cells", [](const py::object& self) { return view_of_cells(run_of_flight(self).cells, self); },
-      "Nodes at the four corners of every cell of cloth; the first is -1 where there is none.");
+      "Nodes at the four corners of every cloth cell; the first is -1 for a missing cell.");
   type.def_property_readonly(
       "case", [](const PyFlight& run) { return run.made; }, "The Case that flew.");
   module.def("fly", &fly, py::arg("case"), py::kw_only(), py::arg("progress") = py::none(),
              py::arg("threads") = 0, py::arg("out") = py::none(), py::arg("fresh") = false,
-             "Free flight of parachute and payload: ripstop fly.\n\n"
+             "Computes the free flight of parachute and payload: ripstop fly.\n\n"
              "progress: called with a FlightProgress after every step of the flow; an exception that it\n"
              "  raises ends the run.\n"
              "threads: 0: coupling.threads of the case.\n"

@@ -91,7 +91,7 @@ void add_arrays(py::class_<PyInflation>& type) {
   type.def_property_readonly(
       "shots",
       [](const py::object& self) -> py::list { return to_python(run_of_inflation(self).shots, self); },
-      "Shapes during the opening, each a Snapshot.");
+      "Shapes during the opening, each an InflationShot.");
   type.def_property_readonly(
       "shape", [](const py::object& self) { return view_of(run_of_inflation(self).shape, self); },
       "Position of every node of the parachute at the end: x, y, z; z is downstream [m]");

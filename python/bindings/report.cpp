@@ -16,7 +16,7 @@ void add_report(py::module_& module) {
         return write_report(runs, out.value_or(Path())).string();
       },
       py::arg("runs"), py::kw_only(), py::arg("out") = py::none(),
-      "Finished runs as one HTML file: ripstop report. Returns its path.\n\n"
+      "Writes finished runs as one HTML file: ripstop report. Returns its path.\n\n"
       "runs: folders of finished runs of steady, inflate or sweep.\n"
       "out: the file. None: report.html in the folder of the run, or here for several runs.");
 }

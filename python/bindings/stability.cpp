@@ -69,7 +69,8 @@ void add_stability(py::module_& module) {
       py::arg("equilibrium") = false, py::arg("cold") = false, py::arg("steady") = py::none(),
       py::arg("progress") = py::none(), py::arg("threads") = 0, py::arg("out") = py::none(),
       py::arg("fresh") = false,
-      "Force and moment coefficients over rising angles of attack, and trim angles: ripstop stability.\n\n"
+      "Computes force and moment coefficients over rising angles of attack, and trim angles: ripstop "
+      "stability.\n\n"
       "cells_across: cells of the flow over the projected diameter.\n"
       "equilibrium: the canopy deforms under the mean load of each angle; False: it keeps its shape on the\n"
       "  axis.\n"

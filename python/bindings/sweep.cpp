@@ -66,7 +66,7 @@ std::vector<PySweepRun> sweep(const PyCase& given, const py::dict& keys, const s
 }  // namespace
 
 void add_sweep(py::module_& module) {
-  py::class_<PySweepRun> type(module, "SweepRun", "One run of a sweep: the numbers of its result.json.");
+  py::class_<PySweepRun> type(module, "SweepRun", "One run of a sweep: the values of its result.json.");
   const auto result = [](const PySweepRun& run) -> const SteadyResult& { return run.row.result; };
   add_members(type, result);
   add_json(type, result);
@@ -77,11 +77,11 @@ void add_sweep(py::module_& module) {
         for (std::size_t i = 0; i < run.names.size(); ++i) values[py::str(run.names[i])] = run.values[i];
         return values;
       },
-      "Of the keys that are varied, as text.");
+      "Values of the varied keys, as text.");
   type.def_property_readonly(
       "done", [](const PySweepRun& run) { return run.row.done; }, "Whether there is a result.");
   type.def_property_readonly(
-      "error", [](const PySweepRun& run) { return run.row.error; }, "Why there is none.");
+      "error", [](const PySweepRun& run) { return run.row.error; }, "Reason why there is no result.");
   module.def("sweep", &sweep, py::arg("case"), py::arg("keys"), py::kw_only(), py::arg("out") = py::none(),
              py::arg("jobs") = 0, py::arg("warm") = true, py::arg("fresh") = false,
              "Computes steady runs of a case for every combination of values: ripstop sweep.\n\n"

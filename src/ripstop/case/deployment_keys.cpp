@@ -26,7 +26,8 @@ void describe_extraction(Fields& fields, DeploymentKeys& keys) {
       .number("pilot_drag_area_m2", keys.pilot_drag_area_m2, from(0).up_to(1000),
               "C_D S of the pilot chute or drogue that pulls the container.")
       .absent("0 with relative_speed_m_s or ejection_impulse_n_s, else 1.5 % of S0");
-  fields.number("pilot_mass_kg", keys.pilot_mass_kg, from(0).up_to(1000), "Its mass.")
+  fields
+      .number("pilot_mass_kg", keys.pilot_mass_kg, from(0).up_to(1000), "Mass of the pilot chute or drogue.")
       .absent("5 % of the parachute's mass where there is a pilot chute");
   fields
       .number("relative_speed_m_s", keys.relative_speed_m_s, from(0).up_to(200),
@@ -44,7 +45,7 @@ void describe(Fields& fields, DeploymentKeys& keys) {
   using Order = DeploymentKeys::Order;
   fields.choice("order", keys.order,
                 {{"lines-first", Order::lines_first}, {"canopy-first", Order::canopy_first}},
-                "Which leaves the container first.");
+                "Part that leaves the container first.");
   describe_container(fields, keys);
   fields
       .number("strip_force_n", keys.strip_force_n, from(0).up_to(1e5),

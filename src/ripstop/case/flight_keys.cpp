@@ -28,8 +28,9 @@ void describe(Fields& fields, Wind& wind) {
   fields.number("reference_height_m", wind.reference_height_m, above(0).up_to(10000),
                 "Height above the ground at which the wind has its speed.");
   fields.number("gust_m_s", wind.gust_m_s, from(-100).up_to(100),
-                "Largest addition to the wind by one gust, which rises and falls as 1 - cos.");
-  fields.number("gust_start_s", wind.gust_start_s, from(0).up_to(1e5), "Time at which the gust begins.");
+                "Largest addition of one gust to the wind speed. The gust rises and falls as 1 - cos.");
+  fields.number("gust_start_s", wind.gust_start_s, from(0).up_to(1e5),
+                "Time from the start of the flight at which the gust begins.");
   fields.number("gust_duration_s", wind.gust_duration_s, above(0).up_to(1e4), "Duration of the gust.");
 }
 
@@ -38,14 +39,14 @@ void describe(Fields& fields, FlightSettings& flight) {
   fields.number("courant", flight.courant, above(0).up_to(1),
                 "Largest Courant number of the steps of the flow.");
   fields.number("cells_across", flight.cells_across, from(8).up_to(400),
-                "Cells of the flow across the nominal diameter, where the case gives neither flow.cells nor "
+                "Number of flow cells across the nominal diameter, if the case gives neither flow.cells nor "
                 "flow.box_m nor flow.core.size_m.");
   fields.number("angle_deg", flight.angle_deg, from(-60).up_to(60),
                 "Angle between the vertical and the line from payload to canopy at the start.");
   fields.number("azimuth_deg", flight.azimuth_deg, from(-360).up_to(360),
                 "Direction in which the payload is displaced at the start, from x to y.");
   fields.number("swing_deg_s", flight.swing_deg_s, from(-360).up_to(360),
-                "Rate of change of that angle at the start.");
+                "Rate of change of angle_deg at the start.");
   fields
       .vector("velocity_m_s", flight.velocity_m_s, from(-100).up_to(100),
               "Velocity of the parachute over the ground at the start, z up.")
@@ -56,10 +57,10 @@ void describe(Fields& fields, FlightSettings& flight) {
       .absent("no ground");
   fields
       .number("standard_error", flight.standard_error, above(0).up_to(1),
-              "Standard error of the rate of descent, relative, at which the flight ends.")
+              "Relative standard error of the rate of descent at which the flight ends.")
       .absent("the flight ends after its duration or at the ground");
   fields.number("shapes_per_s", flight.shapes_per_s, above(0).up_to(1000),
-                "Shapes that are written, per second of flight.");
+                "Number of shapes that are written per second of flight.");
   fields.table("wind", flight.wind, "Wind over the ground.");
 }
 
@@ -68,18 +69,22 @@ void describe(Fields& fields, FlightSettings& flight) {
 void describe(Fields& fields, MarginFactors& m) {
   fields.number("safety_factor", m.safety_factor, from(1).up_to(10),
                 "Design factor on every load: 1.5 for unmanned systems and cargo, 2 and more for people "
-                "(order of the values of Knacke, NWC TP 6575, chapter 6, not verified in print).");
+                "(similar to Knacke, NWC TP 6575, chapter 6; not checked against the print).");
   fields.number("seam_efficiency", m.seam_efficiency, above(0).up_to(1),
-                "Strength of a seam over that of cloth and tape (0.8: joints by Knacke; use values of your "
-                "own seam tests if available).");
+                "Strength of a seam over that of cloth and tape (0.8: Knacke, NWC TP 6575, not checked "
+                "against the print; use values of your own seam tests if available).");
   fields.number("line_joint_efficiency", m.line_joint_efficiency, above(0).up_to(1),
-                "Strength of loops, knots and stitches over that of lines and riser (0.8, likewise).");
+                "Strength of loops, knots and stitches over that of lines and riser (0.8: Knacke, NWC TP "
+                "6575, not checked against the print).");
   fields.number("abrasion", m.abrasion, above(0).up_to(1),
-                "Strength after abrasion over new strength (0.95, likewise).");
-  fields.number("moisture", m.moisture, above(0).up_to(1),
-                "Strength of wet fibre over dry (0.95, nylon, likewise).");
+                "Strength after abrasion over new strength (0.95: Knacke, NWC TP 6575, not checked against "
+                "the print).");
+  fields.number(
+      "moisture", m.moisture, above(0).up_to(1),
+      "Strength of wet fibre over dry (0.95: nylon, Knacke, NWC TP 6575, not checked against the print).");
   fields.number("fatigue", m.fatigue, above(0).up_to(1),
-                "Strength after the planned number of uses over new strength (0.95, likewise).");
+                "Strength after the planned number of uses over new strength (0.95: Knacke, NWC TP 6575, not "
+                "checked against the print).");
   fields.number("temperature", m.temperature, above(0).up_to(1),
                 "Strength at the highest temperature of the cloth over that at 20 C (1: no heating).");
 }

@@ -98,7 +98,7 @@ void describe_numerics(Fields& fields, FlowKeys& flow) {
   fields
       .choice("convection", flow.convection, convection_words(),
               "Discretisation of the convection of velocity. \"upwind\": first order, as in [NFM]; "
-              "\"second-order\": limited linear.")
+              "\"second-order\": limited linear (OpenFOAM: linearUpwind; unsteady flow: LUST).")
       .absent(by_model(convection_words(), sheet_defaults.convection, paper_defaults.convection));
   fields
       .choice(
@@ -243,12 +243,13 @@ void describe(Fields& fields, FlowKeys& flow) {
   fields.number("viscosity_ratio", flow.viscosity_ratio, above(0).up_to(1e5),
                 "Eddy viscosity over viscosity at the inlet (assumed).");
   fields.number("angle_of_attack_deg", flow.angle_of_attack_deg, from(0).up_to(90),
-                "Angle between the stream and the z axis. Only the flow problem of the library accepts "
-                "values above 0; steady runs and openings keep the canopy on the axis of the stream.");
+                "Angle between the stream and the z axis. Values above 0 are accepted only by the flow "
+                "interface of the library. `ripstop stability` sets the angle itself; steady runs and "
+                "openings have the stream along the axis.");
   fields.number("azimuth_deg", flow.azimuth_deg, from(-360).up_to(360),
                 "Azimuth of the plane of this angle, from the x axis towards the y axis.");
   describe_space(fields, flow);
-  fields.table("tunnel", flow.tunnel, "Wind tunnel around the canopy; docs/guide/tunnel.md.");
+  fields.table("tunnel", flow.tunnel, "Wind tunnel around the canopy (docs/guide/tunnel.md).");
   describe_numerics(fields, flow);
   fields.choice("mesh", flow.mesh, {{"grid", FlowMesh::grid}, {"fitted", FlowMesh::fitted}},
                 "\"grid\": cloth is represented by faces of the cells of the domain; \"fitted\": cells are "
@@ -283,7 +284,7 @@ void describe(Fields& fields, CouplingKeys& coupling) {
   fields.integer("max_iterations", coupling.max_iterations, from(1).up_to(10000),
                  "Largest number of coupling iterations.");
   fields.number("relaxation", coupling.relaxation, above(0).up_to(1),
-                "Under-relaxation factor of the new shape.");
+                "Relaxation factor of the load on the cloth.");
   fields.choice(
       "acceleration", coupling.acceleration,
       {{"none", Acceleration::none}, {"aitken", Acceleration::aitken}, {"anderson", Acceleration::anderson}},

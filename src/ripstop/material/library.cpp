@@ -82,7 +82,7 @@ void check_law(const std::vector<double>& k, double tested_strain, const std::st
 void describe_source(Fields& fields, std::string& source, std::string& warning) {
   fields.text("source", source, 500, "Source of the values.");
   fields.text("warning", warning, most_warning_text,
-              "Doubts about the fit of its tests, repeated by every run.");
+              "Warnings of the fit of its tests. Every run repeats them.");
 }
 
 void describe_compression(Fields& fields, double& compression, std::optional<double>& buckling_strain) {
@@ -165,7 +165,7 @@ void describe(Fields& fields, Line& line) {
                "K_1..K_n of tension against strain, N ([NFM] Eq. 2); K_1 above 0.")
       .required();
   fields.number("bending_fraction", line.bending_fraction, from(0).below(1),
-                "Bending fraction eps: share of the springs to the second next node.");
+                "Bending fraction eps: share of the springs that span two segments of the line.");
   fields.number("compression", line.compression, from(0).up_to(1),
                 "Stiffness in compression relative to K_1; 0: the line goes slack.");
   describe_damping(fields, line.damping_n_s_m);

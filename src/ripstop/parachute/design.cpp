@@ -138,7 +138,7 @@ void describe(Fields& fields, Design& design, const Families& types) {
           "and slots");
   fields
       .integer("gores", design.gores, from(3).up_to(500),
-               "Number of gores, equally wide; 4, the number of arms, for a cross.")
+               "Number of gores of equal width; for a cross 4, the number of its arms.")
       .required();
   fields.name("canopy_material", design.canopy_material, "Material of the cloth, of kind \"fabric\".");
   fields.choice("cut", design.cut,
