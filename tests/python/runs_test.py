@@ -289,7 +289,7 @@ class Engines(unittest.TestCase):
 
         type(self).answer = staticmethod(uniform)
         run = ripstop.steady(self.case())
-        same = ripstop.fabric(small.case(), pressure_pa=180)
+        same = ripstop.fabric(small.case(flow__porosity_model="sheet"), pressure_pa=180)
         self.assertTrue(run.converged)
         self.assertEqual(run.engine, "python")
         self.assertEqual(given[0][1:], ((0.0, 0.0, 20.0), 1.2))
