@@ -152,7 +152,7 @@ class Solver {
   void rate(MarchRings& rings, int j, int k, IndexRange rows);
   void courant(int k);
   FlowStep close_step(Vec3 velocity_before, Vec3 held_back);
-  bool northward() const { return s_.iteration % 2 == 0; }  // the way of the march through a plane
+  bool northward() const { return s_.iteration % 2 == 0; }  // direction of the march through a plane
   void turbulence(MarchRings& rings, int k, IndexRange rows);
   TurbulenceRow turbulence_of(MarchRings& rings, int j, int k, IndexRange rows);
   void momentum(MarchRings& rings, int k, IndexRange rows);
