@@ -6,10 +6,12 @@
 #include <map>
 #include <regex>
 #include <string>
+#include <vector>
 
 #include "ripstop/case/case.h"
 #include "ripstop/core/quantity.h"
 #include "ripstop/core/quantity_error.h"
+#include "ripstop/flow/engines.h"
 #include "ripstop/fsi/summary.h"
 
 namespace ripstop {
@@ -27,6 +29,25 @@ TEST(QuantityKeys, ASolversErrorIsReportedWithTheKeysOfTheCase) {
               "inflation.low_pass_hz = 900: must be above 0 and below half the rate of the history, 500 Hz; "
               "increase inflation.history_hz");
   }
+}
+
+TEST(QuantityKeys, AnErrorThatIsRestatedKeepsItsQuantities) {
+  const QuantityError first(ExitCode::diverged, "upwind convection may help", {"upwind convection"});
+  const auto again =
+      restated(first, "at 3 s: " + std::string(first.what()) + ", or a finer flow grid", {"flow grid"});
+  EXPECT_EQ(again.code(), ExitCode::diverged);
+  EXPECT_EQ(message_of(again), "at 3 s: flow.convection = \"upwind\" may help, or a finer grid (flow.cells)");
+  EXPECT_EQ(message_of(restated(Error(ExitCode::io, "no disk"), "no disk here")), "no disk here");
+}
+
+TEST(QuantityKeys, EveryAbilityOfAnEngineHasAKey) {
+  EngineRecord none = engines().front();
+  none.can = {};
+  Abilities all = engines().front().can;
+  all.sheets = all.jets = all.averages = all.time = all.ranks = all.fitted_meshes = true;
+  const std::vector<Lack> missing = lacks(none, all);
+  EXPECT_GE(missing.size(), 8u);
+  for (const Lack& lack : missing) EXPECT_NO_THROW(key_of_quantity(lack.quantity)) << lack.quantity;
 }
 
 TEST(QuantityKeys, AnErrorWithoutQuantitiesStaysAsItIs) {

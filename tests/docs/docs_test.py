@@ -4,6 +4,7 @@ stay short."""
 import collections
 import fnmatch
 import importlib.util
+import json
 import pathlib
 import re
 import unittest
@@ -45,6 +46,12 @@ def prose(page):
 
 def at(page, number):
     return f"{page.relative_to(ROOT)}:{number}"
+
+
+def program_of(test):
+    """The part of test_<...> to which a test belongs (tests/CMakeLists.txt)."""
+    parts = test.relative_to(ROOT / "tests").parts
+    return "cartesian" if parts[:2] == ("flow", "cartesian") else parts[0]
 
 
 class Docs(unittest.TestCase):
@@ -90,7 +97,7 @@ class Docs(unittest.TestCase):
     def test_every_test_that_holds_a_promise_exists(self):
         missing = []
         for room, suite, name in re.findall(r"`(\w+)\.(\w+)\.(\w+)`", (ROOT / "docs/reliability.md").read_text()):
-            text = "".join(file.read_text() for file in (ROOT / "tests" / room).rglob("*.cpp"))
+            text = "".join(file.read_text() for file in (ROOT / "tests").rglob("*.cpp") if program_of(file) == room)
             if not re.search(rf"TEST(_[FP])?\({suite},\s*{name}\)", text):
                 missing.append(f"{room}.{suite}.{name}")
         self.assertEqual(missing, [])
@@ -99,7 +106,7 @@ class Docs(unittest.TestCase):
         tests = collections.defaultdict(list)
         for file in (ROOT / "tests").glob("*/**/*.cpp"):
             for suite, name in re.findall(r"\bTEST(?:_[FP])?\((\w+),\s*(\w+)\)", file.read_text()):
-                tests[file.relative_to(ROOT / "tests").parts[0]] += [f"{suite}.{name}", f"All/{suite}.{name}/0"]
+                tests[program_of(file)] += [f"{suite}.{name}", f"All/{suite}.{name}/0"]
         words = set(re.findall(r"\w+", "".join(file.read_text() for folder in ("src/ripstop", "python") for file in (ROOT / folder).rglob("*.*")
                                              if file.suffix in (".h", ".cpp", ".py"))))
         wrong = []
@@ -138,6 +145,36 @@ class Docs(unittest.TestCase):
         wrong = [f"{file.relative_to(ROOT)}: {other}" for room in rooms for file in (ROOT / "src/ripstop" / room).rglob("*.*")
                  if file.suffix in (".h", ".cpp")
                  for other in re.findall(r'#include "ripstop/(\w+)/', file.read_text()) if other not in seen_from(room)]
+        self.assertEqual(wrong, [])
+
+    def test_tests_mirror_the_sources(self):
+        sources = ROOT / "src/ripstop"
+        wrong = []
+        for file in sorted((ROOT / "tests").rglob("*_test.cpp")):
+            folder = file.parent.relative_to(ROOT / "tests")
+            if folder == pathlib.Path("app"):  # the program, apps/ripstop
+                continue
+            subject = file.name.removesuffix("_test.cpp")
+            homes = {source.parent.relative_to(sources) for source in (sources / folder.parts[0]).rglob(f"{subject}.*")}
+            # A part of a room also tests subjects of the room, as flow/cartesian the mean of a flow.
+            if not (sources / folder).is_dir() or homes and not homes & {folder, *folder.parents}:
+                wrong.append(f"{file.relative_to(ROOT)}: {subject} is in {sorted(map(str, homes))}")
+        self.assertEqual(wrong, [])
+
+    def test_solvers_name_no_keys(self):
+        """They name quantities (core/quantity_error.h). The parachutes check their own table [parachute]."""
+        tables = json.loads((ROOT / "examples/case.schema.json").read_text())["properties"]
+        key = re.compile(rf"(?<![\w./])({'|'.join(tables)})\.[a-z_]+(?![\w(])")
+        wrong = []
+        for room in ("core", "material", "mesh", "parachute", "cloth", "flow", "canopy", "flight", "fsi", "calibration", "output"):
+            for file in sorted((ROOT / "src/ripstop" / room).rglob("*.*")):
+                name = file.relative_to(ROOT / "src/ripstop").as_posix()
+                if file.suffix not in (".h", ".cpp") or name.startswith("core/toml/") or name == "core/words.cpp":
+                    continue
+                text = re.sub(r"^\s*(?://|#include).*$", "", file.read_text(), flags=re.MULTILINE)
+                own = "parachute" if room == "parachute" and "Findings& findings" in text else None
+                wrong += [f"{name}: {found[0]}" for literal in re.findall(r'"((?:[^"\\]|\\.)*)"', text)
+                          for found in key.finditer(literal) if found[1] != own]
         self.assertEqual(wrong, [])
 
     def test_the_citation_has_the_version_and_the_licence(self):

@@ -31,14 +31,14 @@ TEST(Engines, AnUnknownWordIsReportedWithTheValidOnes) {
   }
 }
 
-TEST(Engines, UnsupportedFeaturesAreReportedByTheKeysOfACase) {
+TEST(Engines, UnsupportedFeaturesAreReportedByTheirQuantities) {
   EXPECT_TRUE(
       lacks(engine_of("builtin"), {.sheets = true, .averages = true, .boundaries = {"entraining"}}).empty());
   const auto lack = lacks(engine_of("openfoam"),
                           {.sheets = true, .averages = true, .ranks = true, .boundaries = {"entraining"}});
-  std::set<std::string> keys;
-  for (const Lack& one : lack) keys.insert(one.key);
-  EXPECT_EQ(keys, (std::set<std::string>{"flow.sides", "flow.average_over"}));
+  std::set<std::string> quantities;
+  for (const Lack& one : lack) quantities.insert(one.quantity);
+  EXPECT_EQ(quantities, (std::set<std::string>{"sides", "iterations of the mean"}));
 }
 
 }  // namespace

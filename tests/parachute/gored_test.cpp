@@ -88,10 +88,9 @@ TEST(RingLayout, TooFewNodesForTheSeamsAndLinesAreRefused) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::usage);
-    EXPECT_STREQ(
-        error.what(),
-        "parachute.mesh.cloth_nodes = 50: too few for 12 gores and 7 lines, whose seams and radials need "
-        "columns in multiples of 84; use more nodes");
+    EXPECT_STREQ(error.what(),
+                 "number of cloth nodes = 50: too few for 12 gores and 7 lines, whose seams and radials need "
+                 "columns in multiples of 84; use more nodes");
   }
 }
 

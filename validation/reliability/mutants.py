@@ -245,7 +245,8 @@ def compile_all(mutants, jobs):
 
 
 def test_rooms():
-    return sorted({p.parent.name for p in (ROOT / "tests").glob("*/*_test.cpp")})
+    """The folder of each test program's tests, as in tests/CMakeLists.txt."""
+    return {p.parent.name: p.parent for p in sorted((ROOT / "tests").glob("*/*_test.cpp"))} | {"cartesian": ROOT / "tests/flow/cartesian"}
 
 
 class Bench:
@@ -320,7 +321,7 @@ def side_by_side(jobs, work, what):
 
 def reach(jobs, key, slowest, which):
     """What every test comes by, by a run of it without a mutant; of those that are named by `which` or known already."""
-    sources = {room: {p.name: p.read_text() for p in sorted((ROOT / "tests" / room).rglob("*.[ch]*"))} for room in test_rooms()}
+    sources = {room: {p.name: p.read_text() for p in sorted(folder.rglob("*.[ch]*"))} for room, folder in test_rooms().items()}
 
     def made_of(room, test):
         """The hash of the mutants and of what the test is made of: its file and the room's headers."""

@@ -18,8 +18,35 @@ const std::vector<std::pair<std::string, std::string>>& quantity_keys() {
       {"radius of the folded skirt", "inflation.initial_radius_m"},
       {"length of the first reefing line", "inflation.reefing[0].line_m"},
       {"low-pass cutoff", "inflation.low_pass_hz"},
-      {"the history rate", "inflation.history_hz"}};
+      {"the history rate", "inflation.history_hz"},
+      {"number of folds", "inflation.folds"},
+      {"slack of the lines", "inflation.slack_m"},
+      {"number of cloth nodes", "parachute.mesh.cloth_nodes"},
+      {"extend the lines to the vent", "extend the lines to the vent (remove parachute.lines.onto_disk_m)"},
+      {"tape the seams", "set parachute.tape.seams = true and a parachute.tape.material"},
+      {"number of threads", "number of threads (--threads, --jobs, coupling.threads)"},
+      {"the built-in engine", "flow.engine = \"builtin\""},
+      {"open jet", "flow.tunnel.kind = \"open-jet\""},
+      {"sides", "flow.sides"},
+      {"outlet", "flow.outlet"},
+      {"porosity model", "flow.porosity_model"},
+      {"kind of tunnel", "flow.tunnel.kind"},
+      {"iterations of the mean", "flow.average_over"},
+      {"unsteady flow", "flow.unsteady"},
+      {"MPI ranks", "flow.ranks"},
+      {"kind of mesh", "flow.mesh"},
+      {"upwind convection", "flow.convection = \"upwind\""},
+      {"longer domain", "longer domain (flow.box_m)"},
+      {"cells of more equal sides", "cells of more equal sides (flow.cells, flow.core.size_m)"},
+      {"refinement at the cloth", "refinement at the cloth (flow.cloth_levels)"}};
   return keys;
+}
+
+const std::string& key_of_quantity(const std::string& quantity) {
+  const auto found = std::find_if(quantity_keys().begin(), quantity_keys().end(),
+                                  [&](const auto& entry) { return entry.first == quantity; });
+  if (found == quantity_keys().end()) throw std::out_of_range("no key for the quantity " + quantity);
+  return found->second;
 }
 
 std::string message_of(const Error& error) {
@@ -27,11 +54,9 @@ std::string message_of(const Error& error) {
   const auto* named = dynamic_cast<const QuantityError*>(&error);
   if (!named) return text;
   for (const std::string& quantity : named->quantities()) {
-    const auto found = std::find_if(quantity_keys().begin(), quantity_keys().end(),
-                                    [&](const auto& entry) { return entry.first == quantity; });
-    if (found == quantity_keys().end()) throw std::out_of_range("no key for the quantity " + quantity);
+    const std::string& key = key_of_quantity(quantity);
     if (const std::size_t at = text.find(quantity); at != std::string::npos)
-      text.replace(at, quantity.size(), found->second);
+      text.replace(at, quantity.size(), key);
   }
   return text;
 }

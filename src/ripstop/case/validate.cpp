@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ripstop/case/quantity_keys.h"
 #include "ripstop/case/resolve.h"
 #include "ripstop/core/toml/read.h"
 #include "ripstop/flight/atmosphere.h"
@@ -249,7 +250,7 @@ void check_cells(const Case& given, const FlowSettings& flow, Findings& findings
   try {
     grid = flow_grid(flow);
   } catch (const Error& error) {
-    return findings.add("flow.core", "", "", error.what());
+    return findings.add("flow.core", "", "", message_of(error));
   }
   const Vec3 width = grid.spacing();
   const double widths[] = {width.x, width.y, width.z};
@@ -281,14 +282,14 @@ void check_engine(const Case& given, const FlowSettings& flow, Findings& finding
   wanted.fitted_meshes = flow.mesh == FlowMesh::fitted;
   wanted.time = flow.unsteady;
   for (const Lack& lack : lacks(engine_of(flow.engine), wanted)) {
-    if (lack.key == "flow.porosity_model")  // all that follows from it is lacking too
+    if (lack.quantity == "porosity model")  // all that follows from it is lacking too
       return findings.add(
           "flow.engine", quoted(flow.engine), quoted(engines().front().word),
           fmt::format(
               "the selected flow engine does not support the sheet model (flow.porosity_model) of the cloth "
               "{}; it needs cloth with coefficients of the \"paper\" model, such as \"f-111\"",
               quoted(given.parachute.canopy_material)));
-    findings.add(lack.key, lack.value, lack.instead,
+    findings.add(key_of_quantity(lack.quantity), lack.value, lack.instead,
                  fmt::format("the flow engine {} (flow.engine) does not support it", quoted(flow.engine)));
   }
   if (wanted.fitted_meshes && !wanted.sheets && findings.sound({"flow.porosity_model"}))

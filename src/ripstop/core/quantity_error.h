@@ -21,4 +21,13 @@ class QuantityError : public Error {
   std::vector<std::string> quantities_;
 };
 
+/// An error with another message about the same quantities, and more of them; those that the message does not contain
+/// do no harm.
+inline QuantityError restated(const Error& error, const std::string& message,
+                              std::vector<std::string> more = {}) {
+  if (const auto* named = dynamic_cast<const QuantityError*>(&error))
+    more.insert(more.end(), named->quantities().begin(), named->quantities().end());
+  return {error.code(), message, std::move(more)};
+}
+
 }  // namespace ripstop

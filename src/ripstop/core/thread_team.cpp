@@ -9,6 +9,7 @@
 
 #include "ripstop/core/cgroup.h"
 #include "ripstop/core/error.h"
+#include "ripstop/core/quantity_error.h"
 
 namespace ripstop {
 namespace {
@@ -48,11 +49,11 @@ ThreadTeam::ThreadTeam(int threads)
   } catch (const std::system_error& error) {
     const std::size_t started = threads_.size() + 1;
     stop();
-    throw Error(
+    throw QuantityError(
         ExitCode::resources,
-        fmt::format(
-            "only {} of {} threads could be started ({}): use fewer (--threads, coupling.threads, --jobs)",
-            started, size_, error.code().message()));
+        fmt::format("only {} of {} threads could be started ({}): use a smaller number of threads", started,
+                    size_, error.code().message()),
+        {"number of threads"});
   }
 }
 

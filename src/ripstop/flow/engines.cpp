@@ -100,12 +100,12 @@ std::vector<Lack> lacks(const EngineRecord& engine, const Abilities& wanted) {
   const struct {
     bool Abilities::*ability;
     Lack lack;
-  } all[] = {{&Abilities::sheets, {"flow.porosity_model", "sheet", "paper"}},
-             {&Abilities::jets, {"flow.tunnel.kind", "open-jet", "free-air or closed"}},
-             {&Abilities::averages, {"flow.average_over", "more than 0", "0"}},
-             {&Abilities::time, {"flow.unsteady", "true", "false"}},
-             {&Abilities::ranks, {"flow.ranks", "more than 1", "1"}},
-             {&Abilities::fitted_meshes, {"flow.mesh", "fitted", "grid"}}};
+  } all[] = {{&Abilities::sheets, {"porosity model", "sheet", "paper"}},
+             {&Abilities::jets, {"kind of tunnel", "open-jet", "free-air or closed"}},
+             {&Abilities::averages, {"iterations of the mean", "more than 0", "0"}},
+             {&Abilities::time, {"unsteady flow", "true", "false"}},
+             {&Abilities::ranks, {"MPI ranks", "more than 1", "1"}},
+             {&Abilities::fitted_meshes, {"kind of mesh", "fitted", "grid"}}};
   std::vector<Lack> result;
   for (const auto& one : all)
     if (wanted.*one.ability && !(engine.can.*one.ability)) result.push_back(one.lack);
@@ -115,7 +115,7 @@ std::vector<Lack> lacks(const EngineRecord& engine, const Abilities& wanted) {
     for (const auto& other : boundaries())
       if (bool(other->sides) == bool(row->sides) && engine.can.has_boundary(other->word))
         instead += (instead.empty() ? "" : " or ") + other->word;
-    result.push_back({row->sides ? "flow.sides" : "flow.outlet", row->word, instead});
+    result.push_back({row->sides ? "sides" : "outlet", row->word, instead});
   }
   return result;
 }

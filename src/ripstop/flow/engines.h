@@ -65,9 +65,9 @@ const EngineRecord& engine_of(const std::string& word);
 /// One more row, for whoever links an engine of their own to the library: before any case is read.
 void add_engine(EngineRecord engine);
 
-/// A key of the case whose value the engine has not, and a value that it has.
+/// A quantity whose value the engine has not, and a value that it has.
 struct Lack {
-  std::string key, value, instead;
+  std::string quantity, value, instead;
 };
 std::vector<Lack> lacks(const EngineRecord& engine, const Abilities& wanted);
 

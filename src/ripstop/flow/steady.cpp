@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "ripstop/core/error.h"
+#include "ripstop/core/quantity_error.h"
 #include "ripstop/flow/average.h"
 
 namespace ripstop {
@@ -100,8 +101,8 @@ FlowField solve_to_rest(Flow& flow, const Stopping& stopping, const FlowReport& 
   try {
     return Run(flow, stopping, report).to_rest();
   } catch (const Error& again) {
-    throw Error(again.code(),
-                fmt::format("{} (from an earlier field and from the uniform stream)", again.what()));
+    throw restated(again,
+                   fmt::format("{} (from an earlier field and from the uniform stream)", again.what()));
   }
 }
 

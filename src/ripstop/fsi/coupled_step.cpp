@@ -23,8 +23,8 @@ auto or_diverged(double time, const CoupledFlow& air, const Work& work) {
     return work();
   } catch (const Error& error) {
     if (error.code() != ExitCode::diverged) throw;
-    throw QuantityError(
-        ExitCode::diverged,
+    throw restated(
+        error,
         fmt::format("coupled step from t = {:.6g} s: {}. The air of a cell has {:.3g} times the mass of the "
                     "cloth next to it; a finer flow grid reduces this ratio",
                     time, error.what(), air.heaviness()),

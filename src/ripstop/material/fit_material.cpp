@@ -337,7 +337,7 @@ MaterialFit fit_material(const Bench& bench) {
     fit.permeability = fit_permeability(points);
     fit.has_permeability = true;
     fit.notes.push_back(
-        "the pressure drop is that of the cloth; flow.porosity_model = \"paper\" requires calibrated "
+        "the pressure drop is that of the cloth; the \"paper\" porosity model requires calibrated "
         "coefficients (darcy_1_m2, forchheimer_1_m) instead");
     if (fit.permeability.one_point)
       fit.notes.push_back("air permeability at one pressure: b = 0 is assumed (creeping flow)");

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "ripstop/core/error.h"
+#include "ripstop/core/quantity_error.h"
 #include "ripstop/core/toml/fields.h"
 #include "ripstop/core/toml/problem.h"
 #include "ripstop/parachute/cut.h"
@@ -31,11 +32,11 @@ Lattice choose_lattice(const Cross& canopy, const Design& design) {
                             ? 2 * static_cast<int>(std::lround(0.5 * wanted))
                             : static_cast<int>(std::lround(wanted));
   if (per_space < 1)
-    throw Error(
+    throw QuantityError(
         ExitCode::usage,
-        fmt::format(
-            "parachute.mesh.cloth_nodes = {}: too few for {} lines at the end of an arm; use more nodes",
-            design.mesh.cloth_nodes, spaces + 1));
+        fmt::format("number of cloth nodes = {}: too few for {} lines at the end of an arm; use more nodes",
+                    design.mesh.cloth_nodes, spaces + 1),
+        {"number of cloth nodes"});
   Lattice lattice{per_space * spaces, 0};
   const double middle = std::pow(lattice.across + 1, 2);
   const double rows = (design.mesh.cloth_nodes - middle) / arms / (lattice.across + 1);

@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "ripstop/core/error.h"
+#include "ripstop/core/quantity_error.h"
 #include "ripstop/mesh/each_spring.h"
 #include "ripstop/parachute/hang.h"
 
@@ -188,13 +189,14 @@ class Folder {
 };
 
 void Folder::refuse_radius(const Piece& skirt) const {
-  throw Error(
+  throw QuantityError(
       ExitCode::usage,
       fmt::format(
-          "inflation.initial_radius_m = {}: with {} folds the skirt, {:.4g} m in radius as cut, folds to "
+          "radius of the folded skirt = {}: with {} folds the skirt, {:.4g} m in radius as cut, folds to "
           "radii from {:.4g} m to below {:.4g} m; more folds allow smaller ones",
           folding_.initial_radius, folds_, skirt.radius,
-          0.5 * zigzag_.outer_radius(skirt, columns_of(skirt), 0), skirt.radius));
+          0.5 * zigzag_.outer_radius(skirt, columns_of(skirt), 0), skirt.radius),
+      {"radius of the folded skirt"});
 }
 
 // The mean of inner and outer fold is the given radius at the skirt; every other piece keeps the same share
@@ -304,14 +306,15 @@ void check_folds(const Mesh& mesh, int folds) {
   for (int n = 3; 2 * n <= common; ++n) {
     if (common % (2 * n) == 0) possible.push_back(n);
   }
-  throw Error(
+  throw QuantityError(
       ExitCode::usage,
       fmt::format(
-          "inflation.folds = {}: fold lines follow columns of the mesh, and its rings have multiples of {} "
+          "number of folds = {}: fold lines follow columns of the mesh, and its rings have multiples of {} "
           "columns; {}",
           folds, common,
-          possible.empty() ? "no number of folds is possible: use more cloth_nodes"
-                           : fmt::format("possible: {}", fmt::join(possible, ", "))));
+          possible.empty() ? "no number is possible: use more cloth nodes"
+                           : fmt::format("possible: {}", fmt::join(possible, ", "))),
+      {"number of folds"});
 }
 
 bool folds_without_strain(const Mesh& mesh) {

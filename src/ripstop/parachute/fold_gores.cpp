@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "ripstop/core/error.h"
+#include "ripstop/core/quantity_error.h"
 
 namespace ripstop {
 namespace {
@@ -61,10 +62,12 @@ double outer_fold(double strip, double height, double inner, double c) {
   const double level_part = rise(strip, height);
   const double root = level_part * level_part - inner * inner * (1 - c * c);
   if (root < 0) {
-    throw Error(ExitCode::usage,
-                fmt::format("a strip of {:.4g} m between two folds is too short for inner folds at {:.4g} "
-                            "m from the axis; change inflation.initial_radius_m or inflation.folds",
-                            strip, inner));
+    throw QuantityError(
+        ExitCode::usage,
+        fmt::format("a strip of {:.4g} m between two folds is too short for inner folds at {:.4g} "
+                    "m from the axis; change radius of the folded skirt or number of folds",
+                    strip, inner),
+        {"radius of the folded skirt", "number of folds"});
   }
   return inner * c + std::sqrt(root);
 }

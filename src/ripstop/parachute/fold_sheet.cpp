@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "ripstop/core/error.h"
+#include "ripstop/core/quantity_error.h"
 #include "ripstop/parachute/hang.h"
 
 namespace ripstop {
@@ -70,9 +71,11 @@ void check_lattice(const Mesh& mesh) {
         for (const Vec3 axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}}) {
           const double sa = dot(a, axis), sb = dot(b, axis);
           if (std::abs(turn) > same * same && sa * sb < 0 && std::abs(sa) > same && std::abs(sb) > same)
-            throw Error(ExitCode::usage,
-                        "the fold line in the middle of the canopy does not coincide with a line of nodes: "
-                        "change parachute.mesh.cloth_nodes");
+            throw QuantityError(
+                ExitCode::usage,
+                "the fold line in the middle of the canopy does not coincide with a line of nodes: "
+                "change number of cloth nodes",
+                {"number of cloth nodes"});
         }
       }
     }
@@ -93,10 +96,11 @@ bool is_flat_sheet(const Mesh& mesh) {
 
 FoldedStart fold_sheet(const CanopyMesh& mesh, const Folding& folding) {
   if (folding.folds != 0 && folding.folds != sheet_folds)
-    throw Error(
+    throw QuantityError(
         ExitCode::usage,
-        fmt::format("inflation.folds = {}: must be 4, along the arms and the diagonals of the flat canopy",
-                    folding.folds));
+        fmt::format("number of folds = {}: must be 4, along the arms and the diagonals of the flat canopy",
+                    folding.folds),
+        {"number of folds"});
   check_lattice(mesh);
   std::vector<int> piece(mesh.node_count(), -1);
   for (const Patch& patch : mesh.patches)
@@ -107,11 +111,12 @@ FoldedStart fold_sheet(const CanopyMesh& mesh, const Folding& folding) {
   double low = 0, high = sector;  // of the inner folds; at `sector` and beyond the outer ones fold over
   const auto mean = [&](double inner) { return radii_of(mesh, links, Cone(inner)).mean(); };
   if (!(folding.initial_radius > mean(low) && folding.initial_radius < mean(high)))
-    throw Error(
+    throw QuantityError(
         ExitCode::usage,
-        fmt::format("inflation.initial_radius_m = {}: with 4 folds the ends of the lines can lie from "
+        fmt::format("radius of the folded skirt = {}: with 4 folds the ends of the lines can lie from "
                     "{:.4g} m to below {:.4g} m from the axis",
-                    folding.initial_radius, mean(low), mean(high)));
+                    folding.initial_radius, mean(low), mean(high)),
+        {"radius of the folded skirt"});
   for (int i = 0; i < 100; ++i) {
     const double middle = 0.5 * (low + high);
     (mean(middle) < folding.initial_radius ? low : high) = middle;

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "ripstop/core/error.h"
+#include "ripstop/core/quantity_error.h"
 #include "ripstop/parachute/ring_layout.h"
 #include "ripstop/parachute/sewing.h"
 
@@ -152,11 +153,12 @@ void Builder::attach(int index) {
   const Patch &below = patch(lower), &above = patch(upper);
   if (strip.slot > 0) {
     if (!(design_.tape.seams && materials_.tape) && !lines_reach_vent_)
-      throw Error(ExitCode::usage,
-                  fmt::format("no line or tape crosses the slot below the {}: extend the lines to the vent "
-                              "(remove parachute.lines.onto_disk_m), or set parachute.tape.seams = true and "
-                              "a parachute.tape.material",
-                              strip.name));
+      throw QuantityError(
+          ExitCode::usage,
+          fmt::format("no line or tape crosses the slot below the {}: extend the lines to the vent, or "
+                      "tape the seams",
+                      strip.name),
+          {"extend the lines to the vent", "tape the seams"});
     return;
   }
   std::set<int> columns;  // of the coarser edge

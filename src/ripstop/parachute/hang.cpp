@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "ripstop/core/error.h"
+#include "ripstop/core/quantity_error.h"
 
 namespace ripstop {
 
@@ -38,10 +39,11 @@ double free_way(const LineLink& link, const CanopyMesh& mesh, const std::vector<
   const Vec3 from = x[link.from], to = x[link.to];
   const double lateral = std::hypot(to.x - from.x, to.y - from.y);
   if (!(length > lateral)) {
-    throw Error(ExitCode::usage,
-                fmt::format("inflation.slack_m = {}: a line of {:.4g} m does not reach from the "
-                            "confluence to the folded skirt at {:.4g} m from the axis",
-                            slack, link.length(), lateral));
+    throw QuantityError(ExitCode::usage,
+                        fmt::format("slack of the lines = {}: a line of {:.4g} m does not reach from the "
+                                    "confluence to the folded skirt at {:.4g} m from the axis",
+                                    slack, link.length(), lateral),
+                        {"slack of the lines"});
   }
   return from.z + std::sqrt(length * length - lateral * lateral) - to.z;
 }

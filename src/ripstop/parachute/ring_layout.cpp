@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "ripstop/core/error.h"
+#include "ripstop/core/quantity_error.h"
 
 namespace ripstop {
 namespace {
@@ -131,12 +132,12 @@ RingLayout lay_out_rings(const std::vector<Strip>& strips, double cloth_area, co
     }
   }
   if (best == 0) {
-    throw Error(
+    throw QuantityError(
         ExitCode::usage,
-        fmt::format(
-            "parachute.mesh.cloth_nodes = {}: too few for {} gores and {} lines, whose seams and radials "
-            "need columns in multiples of {}; use more nodes",
-            nodes, design.gores, design.lines.count, multiple));
+        fmt::format("number of cloth nodes = {}: too few for {} gores and {} lines, whose seams and radials "
+                    "need columns in multiples of {}; use more nodes",
+                    nodes, design.gores, design.lines.count, multiple),
+        {"number of cloth nodes"});
   }
   if (square) return lay_out_squarely(strips, best, spacing, multiple);
   // The row spacing remains free to meet the node count.

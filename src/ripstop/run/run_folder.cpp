@@ -11,6 +11,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/core/hash.h"
+#include "ripstop/run/report/report.h"
 
 namespace ripstop {
 namespace {
@@ -72,10 +73,21 @@ bool holds_run(const RunSettings& settings, const Settings& resolved, const std:
                           folder.string()));
 }
 
-std::unique_ptr<ClaimedFolder> open_run_folder(const RunSettings& settings, const Settings& resolved,
-                                               const std::string& solver, int threads) {
+std::optional<std::string> RunFolder::finished() const {
+  return finished_result(path());
+}
+
+std::string RunFolder::end_with(const std::string& result_json) {
+  write("result.json", result_json);
+  const std::string failure = settings_.report ? write_run_report(*this) : std::string();
+  seal();
+  return failure;
+}
+
+std::unique_ptr<RunFolder> open_run_folder(const RunSettings& settings, const Settings& resolved,
+                                           const std::string& solver, int threads) {
   holds_run(settings, resolved, solver);  // a refused run leaves no trace
-  auto folder = std::make_unique<ClaimedFolder>(settings.folder);
+  auto folder = std::make_unique<RunFolder>(settings);
   const bool goes_on = holds_run(settings, resolved, solver);
   if (goes_on && is_sealed(settings.folder)) return folder;
   if (!goes_on) folder->clear();
@@ -95,9 +107,17 @@ std::unique_ptr<ClaimedFolder> open_run_folder(const RunSettings& settings, cons
   run["sources"] = sources_of(resolved);
   folder->note(started, begun);
   folder->note(inputs, inputs_hash(resolved, solver));
-  write_file(folder->own("run.json"), run.dump(2) + "\n");
-  write_file(folder->own("case.toml"), case_toml(resolved));
+  folder->write("run.json", run.dump(2) + "\n");
+  folder->write("case.toml", case_toml(resolved));
   return folder;
+}
+
+void check_series_folder(const fs::path& folder, const std::string& description, const std::string& what) {
+  if (!fs::exists(folder / description) && !foreign_files(folder).empty())
+    throw Error(ExitCode::usage,
+                fmt::format("{}: is not empty and contains no {} (no {}); choose another --out",
+                            folder.string(), what, description));
+  require_unclaimed(folder);
 }
 
 std::string inputs_hash(const Settings& resolved, const std::string& what) {

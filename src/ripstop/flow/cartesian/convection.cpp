@@ -7,6 +7,7 @@
 // with U, UU the first and second cell upstream of the face, D the one downstream and w the share of the distance
 // from U to D upstream of the face: the limiter of van Leer (1974). Computed from the fields at the start of an
 // iteration, so that the matrix remains the upwind one. Faces at the ends of the box keep the upwind value.
+#include "ripstop/flow/cartesian/loops.h"
 #include "ripstop/flow/cartesian/rows.h"
 #include "ripstop/flow/cartesian/simd.h"
 #include "ripstop/flow/cartesian/solver.h"
@@ -41,13 +42,12 @@ RIPSTOP_ROW_KERNEL void convection_row(const ConvectionRow& row) {
   const int n = row.n;
   const std::ptrdiff_t sy = row.sy, sz = row.sz;
   const std::ptrdiff_t south2 = row.south2, north2 = row.north2, below2 = row.below2, above2 = row.above2;
-  const double *q = row.q, *fx = row.fx, *fy = row.fy, *fz = row.fz;
+  const double *q = row.q, *fx = row.flux.x, *fy = row.flux.y, *fz = row.flux.z;
   const double *wx = row.x->weight_low.data(), *rhx = row.x->inverse_width.data(),
                *low = row.x->ratio_low.data(), *high = row.x->ratio_high.data();
   const FaceMetrics y = row.y, z = row.z;
   double* source = row.source;
-#pragma omp simd
-  for (int i = 0; i < n; ++i) {
+  for_cells(n, [&](int i) RIPSTOP_CELL {
     const double west = i > 0 ? 1 : 0, east = i + 1 < n ? 1 : 0;
     const double w = beyond(fx[i], q[i - 2], q[i - 1], q[i], q[i + 1], wx[i], west * low[i], west * high[i]);
     const double e = beyond(fx[i + 1], q[i - 1], q[i], q[i + 1], q[i + 2], wx[i + 1], east * low[i + 1],
@@ -61,28 +61,26 @@ RIPSTOP_ROW_KERNEL void convection_row(const ConvectionRow& row) {
     const double a =
         beyond(fz[i + sz], q[i - sz], q[i], q[i + sz], q[i + above2], z.weight_high, z.high_low, z.high_high);
     source[i] = (w - e) * rhx[i] + (s - o) * y.inverse_width + (b - a) * z.inverse_width;
-  }
+  });
 }
 
-void Solver::convection(int k, IndexRange rows) {
-  for (int j = rows.begin; j < rows.end; ++j) {
-    const std::ptrdiff_t at = d_.layout.at(0, j, k), sy = d_.layout.stride_y, sz = d_.layout.stride_z;
-    ConvectionRow r;
-    r.n = d_.grid.nx;
-    r.x = &d_.x;
-    r.y = face_metrics(d_.y, j), r.z = face_metrics(d_.z, k);
-    r.sy = sy, r.sz = sz;
-    r.south2 = j > 0 ? -2 * sy : 0, r.north2 = j + 1 < d_.grid.ny ? 2 * sy : 0;
-    r.below2 = k > 0 ? -2 * sz : 0, r.above2 = k + 1 < d_.grid.nz ? 2 * sz : 0;
-    r.fx = &s_.f.fx[at], r.fy = &s_.f.fy[at], r.fz = &s_.f.fz[at];
-    const auto add = [&](const Array<double>& q, const Array<double>& body, Array<double>& extra) {
-      r.q = &q[at], r.source = &extra[at];
-      convection_row(r);
-      for (int i = 0; !body.empty() && i < d_.grid.nx; ++i) extra[at + i] += body[at + i];
-    };
-    add(s_.f.u, in_the_way_.body_u, t_.extra_u), add(s_.f.v, in_the_way_.body_v, t_.extra_v),
-        add(s_.f.w, in_the_way_.body_w, t_.extra_w);
-  }
+void Solver::convection(int j, int k) {
+  const std::ptrdiff_t at = d_.layout.at(0, j, k), sy = d_.layout.stride_y, sz = d_.layout.stride_z;
+  ConvectionRow r;
+  r.n = d_.grid.nx;
+  r.x = &d_.x;
+  r.y = face_metrics(d_.y, j), r.z = face_metrics(d_.z, k);
+  r.sy = sy, r.sz = sz;
+  r.south2 = j > 0 ? -2 * sy : 0, r.north2 = j + 1 < d_.grid.ny ? 2 * sy : 0;
+  r.below2 = k > 0 ? -2 * sz : 0, r.above2 = k + 1 < d_.grid.nz ? 2 * sz : 0;
+  r.flux = s_.f.flux(at);
+  const auto add = [&](const Array<double>& q, const Array<double>& body, Array<double>& extra) {
+    r.q = &q[at], r.source = &extra[at];
+    convection_row(r);
+    for (int i = 0; !body.empty() && i < d_.grid.nx; ++i) extra[at + i] += body[at + i];
+  };
+  add(s_.f.u, in_the_way_.body_u, t_.extra_u), add(s_.f.v, in_the_way_.body_v, t_.extra_v),
+      add(s_.f.w, in_the_way_.body_w, t_.extra_w);
 }
 
 }  // namespace ripstop::cartesian

@@ -34,19 +34,20 @@ constexpr double least = 1e-30;  // [1/s5], keeps 0/0 out of air at rest
 
 }  // namespace
 
-RIPSTOP_ROW_KERNEL void eddy_row(EddyRow& results) {
-  const EddyRow row = results;  // a copy, so that the compiler sees that the loop does not change it
+RIPSTOP_ROW_KERNEL void eddy_row(const EddyRow& given) {
+  const EddyRow row = given;
   const RowMetrics& m = row.m;
-  const std::ptrdiff_t second = row.component, third = 2 * row.component;
-#pragma omp simd
-  for (int i = 0; i < m.n; ++i) {
-    Gradient u = gradient(m, row.u, i), v = gradient(m, row.v, i), w = gradient(m, row.w, i);
+  const StressView<double>& t = row.stress;
+  const std::ptrdiff_t second = t.component, third = 2 * t.component;
+  for_cells(m.n, [&](int i) RIPSTOP_CELL {
+    Gradient u = gradient(m, row.velocity.x, i), v = gradient(m, row.velocity.y, i),
+             w = gradient(m, row.velocity.z, i);
     const double mu = row.viscosity + row.density * row.across * row.along[i] * eddy_rate(u, v, w);
     row.mu[i] = mu;
-    row.tx[i] = mu * u.x, row.tx[i + second] = mu * u.y, row.tx[i + third] = mu * u.z;
-    row.ty[i] = mu * v.x, row.ty[i + second] = mu * v.y, row.ty[i + third] = mu * v.z;
-    row.tz[i] = mu * w.x, row.tz[i + second] = mu * w.y, row.tz[i + third] = mu * w.z;
-  }
+    t.x[i] = mu * u.x, t.x[i + second] = mu * u.y, t.x[i + third] = mu * u.z;
+    t.y[i] = mu * v.x, t.y[i + second] = mu * v.y, t.y[i + third] = mu * v.z;
+    t.z[i] = mu * w.x, t.z[i + second] = mu * w.y, t.z[i + third] = mu * w.z;
+  });
 }
 
 }  // namespace ripstop::cartesian

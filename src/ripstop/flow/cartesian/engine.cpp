@@ -8,6 +8,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/core/hash.h"
+#include "ripstop/core/quantity_error.h"
 #include "ripstop/flow/cartesian/cartesian.h"
 #include "ripstop/flow/cartesian/solver.h"
 
@@ -72,11 +73,14 @@ bool converged(const FlowProgress& p, double tolerance) {
          p.residual_omega <= tolerance;
 }
 
-Error divergence(const Solver& solver, const std::string& when, const std::string& where,
-                 const std::string& remedy) {
+QuantityError divergence(const Solver& solver, const std::string& when, const std::string& where,
+                         const std::string& remedy) {
   const FlowGrid& grid = solver.grid();
-  return {ExitCode::diverged, fmt::format("the flow diverged {} on {} x {} x {} cells: {}; {} may help", when,
-                                          grid.nx, grid.ny, grid.nz, where, remedy)};
+  return {ExitCode::diverged,
+          fmt::format("the flow diverged {} on {} x {} x {} cells: {}; {}, a wider and longer domain or a "
+                      "coarser grid may help",
+                      when, grid.nx, grid.ny, grid.nz, where, remedy),
+          {"upwind convection", "longer domain"}};
 }
 
 // A saved flow is one sealed file: its basis, the cloth, then all data of a State.
@@ -213,7 +217,7 @@ class CartesianFlow final : public Flow {
     throw Error(ExitCode::usage,
                 fmt::format("flow: a Courant number of {}; must be above 0 and at most 1", courant));
   }
-  Error diverged_by(const FlowStep& now) const;
+  QuantityError diverged_by(const FlowStep& now) const;
   PorousRows porous() const { return {problem_.grid, problem_.bodies, problem_.air.viscosity}; }
   std::vector<BodyLoad> body_loads(const std::vector<SheetLoad>& sheet_loads) const;
   FlowAdvance run(Solver& solver, int iterations, double residual, const FlowReport& report) const;
@@ -229,9 +233,8 @@ FlowAdvance CartesianFlow::run(Solver& solver, int iterations, double residual,
                                const FlowReport& report) const {
   FlowAdvance now;
   const auto diverged = [&](const char* when, const std::string& where) {
-    return divergence(
-        solver, fmt::format("{} iteration {}", when, solver.state().iteration), where,
-        "flow.convection = \"upwind\", a wider and longer domain (flow.box_m) or a coarser grid");
+    return divergence(solver, fmt::format("{} iteration {}", when, solver.state().iteration), where,
+                      "upwind convection");
   };
   for (int n = 1; n <= iterations && !now.converged && !now.stopped; ++n) {
     now.last = solver.iterate();
@@ -283,9 +286,9 @@ FlowStep CartesianFlow::step(double length) {
   return now;
 }
 
-Error CartesianFlow::diverged_by(const FlowStep& now) const {
+QuantityError CartesianFlow::diverged_by(const FlowStep& now) const {
   return divergence(solver_, fmt::format("by step {}", now.step), solver_.first_bad_value(),
-                    "a smaller Courant number, a wider and longer domain (flow.box_m) or a coarser grid");
+                    "a smaller Courant number");
 }
 
 void CartesianFlow::guess_from_coarser(const FlowGrid& grid, const PorousRows& porous, Solver& fine) const {

@@ -18,8 +18,8 @@ namespace {
 // a_nb of upwind convection and diffusion through the faces of a cell [kg/(m3 s)].
 [[gnu::always_inline]] inline Faces coefficients(const MomentumRow& row, std::ptrdiff_t i) {
   const RowMetrics& m = row.m;
-  Faces mu = on_faces(m, row.mu, row.mu_below, row.mu_above, i);
-  Faces in = inflow(m, row.fx, row.fy, row.fz, i);
+  Faces mu = on_faces(m, row.mu, i);
+  Faces in = inflow(m, row.flux, i);
   const double *distance = m.x_inverse_distance + i, h = m.x_inverse_width[i];
   return {(in.w + mu.w * distance[0]) * h,
           (in.e + mu.e * distance[1]) * h,
@@ -31,7 +31,7 @@ namespace {
 
 // Lower limit of A: rho U / h in a cell next to a sheet, else 0.
 [[gnu::always_inline]] inline double least_diagonal(const MomentumRow& row, std::ptrdiff_t i) {
-  const SheetJumps& s = row.stiffness;
+  const FaceView& s = row.sheet.stiffness;
   const double faces = s.x[i] + s.x[i + 1] + s.y[i] + s.y_high[i] + s.z[i] + s.z_high[i];
   const double least_width =
       larger(row.m.x_inverse_width[i], larger(row.m.y.inverse_width, row.m.z.inverse_width));
@@ -42,10 +42,11 @@ namespace {
 [[gnu::always_inline]] inline double stress_divergence(const MomentumRow& row, std::ptrdiff_t c,
                                                        std::ptrdiff_t i) {
   const RowMetrics& m = row.m;
-  const double *tx = row.tx + i + c, *ty = row.ty + i + c, *tz = row.tz + i + c;
+  const double *tx = row.stress.x + i + c, *ty = row.stress.y + i + c, *tz = row.stress.z + i + c;
   return m.x_slope_high[i] * (tx[1] - tx[0]) + m.x_slope_low[i] * (tx[0] - tx[-1]) +
          m.y.slope_high * (ty[m.sy] - ty[0]) + m.y.slope_low * (ty[0] - ty[-m.sy]) +
-         m.z.slope_high * (row.tz_above[i + c] - tz[0]) + m.z.slope_low * (tz[0] - row.tz_below[i + c]);
+         m.z.slope_high * (row.stress_above[i + c] - tz[0]) +
+         m.z.slope_low * (tz[0] - row.stress_below[i + c]);
 }
 
 // Relaxed matrix for the face flux: diagonal `a`, its part `off` of the neighbours, and its unrelaxed value `whole`.
@@ -57,18 +58,17 @@ namespace {
 }
 
 template <bool with_sheet>
-[[gnu::always_inline]] inline void momentum(MomentumRow& results) {
-  const MomentumRow row = results;  // a copy, so that the compiler sees that the loop does not change it
+[[gnu::always_inline]] inline MomentumSums momentum(MomentumRow row) {
   const RowMetrics& m = row.m;
   const double inverse_alpha = 1 / row.relaxation, inverse_march = 1 / row.march_relaxation;
-  double res_u = 0, res_v = 0, res_w = 0, scale_u = 0, scale_v = 0, scale_w = 0;
-#pragma omp simd reduction(+ : res_u, res_v, res_w, scale_u, scale_v, scale_w)
-  for (int i = 0; i < m.n; ++i) {
+  const VectorStencil& of = row.velocity;
+  const std::ptrdiff_t component = row.stress.component;
+  const CellSums sums = sum_cells(m.n, [&](int i) RIPSTOP_CELL {
     Faces nb = coefficients(row, i);
     const double off = sum(nb);
-    const double u0 = row.u[i], v0 = row.v[i], w0 = row.w[i];
+    const double u0 = of.x.here[i], v0 = of.y.here[i], w0 = of.z.here[i];
     const double speed = std::sqrt(u0 * u0 + v0 * v0 + w0 * w0);
-    const double resistance = row.linear[i] + row.rho[i] * row.quadratic[i] * speed;
+    const double resistance = row.resistance.linear[i] + row.rho[i] * row.resistance.quadratic[i] * speed;
     double held_back = off;
     if constexpr (with_sheet) held_back = larger(off, least_diagonal(row, i));
     const double a = held_back * inverse_alpha + resistance;  // of the face flux
@@ -77,45 +77,42 @@ template <bool with_sheet>
     const double step = 1 / (held_back * inverse_march + resistance);
 
     Gradient p = gradient(m, row.p, i);
-    if constexpr (with_sheet) add_jumps(m, row.sheet, i, p);
-    const double nu = from_neighbours(nb, row.u, row.u_south, row.u_north, row.u_below, row.u_above, i);
-    const double nv = from_neighbours(nb, row.v, row.v_south, row.v_north, row.v_below, row.v_above, i);
-    const double nw = from_neighbours(nb, row.w, row.w_south, row.w_north, row.w_below, row.w_above, i);
-    const double bu = stress_divergence(row, 0, i) - p.x + row.extra_u[i];
-    const double bv = stress_divergence(row, row.component, i) - p.y + row.extra_v[i];
-    const double bw = stress_divergence(row, 2 * row.component, i) - p.z + row.extra_w[i];
+    if constexpr (with_sheet) add_jumps(m, row.sheet.held, i, p);
+    const double nu = from_neighbours(nb, of.x, i);
+    const double nv = from_neighbours(nb, of.y, i);
+    const double nw = from_neighbours(nb, of.z, i);
+    const double bu = stress_divergence(row, 0, i) - p.x + row.force.x[i];
+    const double bv = stress_divergence(row, component, i) - p.y + row.force.y[i];
+    const double bw = stress_divergence(row, 2 * component, i) - p.z + row.force.z[i];
 
     const double u1 = step * (nu + lag * u0 + bu);
     const double v1 = step * (nv + lag * v0 + bv);
     const double w1 = step * (nw + lag * w0 + bw);
-    row.u_new[i] = u1, row.v_new[i] = v1, row.w_new[i] = w1;
-    row.hu[i] = u1 + r * p.x, row.hv[i] = v1 + r * p.y, row.hw[i] = w1 + r * p.z;
-    row.ra[i] = r;
-    row.rc[i] = 1 / (held_back * inverse_march - off + resistance);
+    row.predicted.x[i] = u1, row.predicted.y[i] = v1, row.predicted.z[i] = w1;
+    row.matrix.h.x[i] = u1 + r * p.x, row.matrix.h.y[i] = v1 + r * p.y, row.matrix.h.z[i] = w1 + r * p.z;
+    row.matrix.ra[i] = r;
+    row.matrix.rc[i] = 1 / (held_back * inverse_march - off + resistance);
 
     const double whole = off + resistance;
-    ResidualSum u = residual(a, off, whole, nu, bu, u0, row.mean_u);
-    ResidualSum v = residual(a, off, whole, nv, bv, v0, row.mean_v);
-    ResidualSum w = residual(a, off, whole, nw, bw, w0, row.mean_w);
-    res_u += u.residual, res_v += v.residual, res_w += w.residual;
-    scale_u += u.scale, scale_v += v.scale, scale_w += w.scale;
-  }
-  results.u_sum = {res_u, scale_u};
-  results.v_sum = {res_v, scale_v};
-  results.w_sum = {res_w, scale_w};
+    ResidualSum u = residual(a, off, whole, nu, bu, u0, row.mean.x);
+    ResidualSum v = residual(a, off, whole, nv, bv, v0, row.mean.y);
+    ResidualSum w = residual(a, off, whole, nw, bw, w0, row.mean.z);
+    return CellSums{u.residual, v.residual, w.residual, u.scale, v.scale, w.scale};
+  });
+  return {{sums.a, sums.d}, {sums.b, sums.e}, {sums.c, sums.f}};
 }
 
-RIPSTOP_ROW_KERNEL void plain_row(MomentumRow& row) {
-  momentum<false>(row);
+RIPSTOP_ROW_KERNEL MomentumSums plain_row(const MomentumRow& row) {
+  return momentum<false>(row);
 }
-RIPSTOP_ROW_KERNEL void sheet_row(MomentumRow& row) {
-  momentum<true>(row);
+RIPSTOP_ROW_KERNEL MomentumSums sheet_row(const MomentumRow& row) {
+  return momentum<true>(row);
 }
 
 }  // namespace
 
-void momentum_row(MomentumRow& row) {
-  row.sheet ? sheet_row(row) : plain_row(row);
+MomentumSums momentum_row(const MomentumRow& row) {
+  return row.sheet.held ? sheet_row(row) : plain_row(row);
 }
 
 }  // namespace ripstop::cartesian

@@ -1,5 +1,6 @@
 #include "ripstop/flow/cartesian/multigrid_rows.h"
 
+#include "ripstop/flow/cartesian/loops.h"
 #include "ripstop/flow/cartesian/simd.h"
 
 namespace ripstop::cartesian {
@@ -22,16 +23,14 @@ RIPSTOP_ROW_KERNEL void smooth_row(const MultigridRow& row, int parity) {
     const int kept = piece == 1 ? 0 : parity;  // other pieces are even: it counts from any of their starts
     const int count = n - begin < piece ? n - begin : piece;
     const float *q = e + begin, *b = rhs + begin, *x = cx + begin, *y = cy + begin, *z = cz + begin;
-#pragma omp simd
-    for (int i = 0; i < count; ++i) {
+    for_cells(count, [&](int i) RIPSTOP_CELL {
       const float sum = x[i] + x[i + 1] + y[i] + y[i + sy] + z[i] + z[i + sz];
       const float in = x[i] * q[i - 1] + x[i + 1] * q[i + 1] + y[i] * q[i - sy] + y[i + sy] * q[i + sy] +
                        z[i] * q[i - sz] + z[i + sz] * q[i + sz];
       fresh[i] = (b[i] + in) / sum;
-    }
+    });
     float* out = e + begin;
-#pragma omp simd
-    for (int i = 0; i < count; ++i) out[i] = (i & 1) == kept ? fresh[i] : out[i];
+    for_cells(count, [&](int i) RIPSTOP_CELL { out[i] = (i & 1) == kept ? fresh[i] : out[i]; });
   }
 }
 
@@ -40,12 +39,11 @@ RIPSTOP_ROW_KERNEL void first_smooth_row(const MultigridRow& row, int parity) {
   const std::ptrdiff_t sy = row.sy, sz = row.sz;
   float* e = row.e;
   const float *rhs = row.rhs, *cx = row.cx, *cy = row.cy, *cz = row.cz;
-#pragma omp simd
-  for (int i = 0; i < n; ++i) {
+  for_cells(n, [=](int i) RIPSTOP_CELL {
     const float sum = cx[i] + cx[i + 1] + cy[i] + cy[i + sy] + cz[i] + cz[i + sz];
     const float fresh = rhs[i] / sum;
     e[i] = (i & 1) == parity ? fresh : 0.0f;
-  }
+  });
 }
 
 RIPSTOP_ROW_KERNEL void residual_row(const MultigridRow& row, float* out) {
@@ -53,80 +51,69 @@ RIPSTOP_ROW_KERNEL void residual_row(const MultigridRow& row, float* out) {
   const std::ptrdiff_t sy = row.sy, sz = row.sz;
   const float* e = row.e;
   const float *rhs = row.rhs, *cx = row.cx, *cy = row.cy, *cz = row.cz;
-#pragma omp simd
-  for (int i = 0; i < n; ++i) {
+  for_cells(n, [=](int i) RIPSTOP_CELL {
     out[i] += rhs[i] + cx[i] * (e[i - 1] - e[i]) + cx[i + 1] * (e[i + 1] - e[i]) +
               cy[i] * (e[i - sy] - e[i]) + cy[i + sy] * (e[i + sy] - e[i]) + cz[i] * (e[i - sz] - e[i]) +
               cz[i + sz] * (e[i + sz] - e[i]);
-  }
+  });
 }
 
 RIPSTOP_ROW_KERNEL void add_series_row(int n, const float* face, const float* low, const float* high,
                                        float* sum) {
-#pragma omp simd
-  for (int i = 0; i < n; ++i) {
+  for_cells(n, [=](int i) RIPSTOP_CELL {
     // 1 / (1/f + 1/2l + 1/2h), written so that a closed face divides nothing by zero.
     const float product = 2 * low[i] * high[i] * face[i];
     const float whole = 2 * low[i] * high[i] + face[i] * (low[i] + high[i]);
     sum[i] += whole > 0 ? product / whole : 0.0f;
-  }
+  });
 }
 
 RIPSTOP_ROW_KERNEL void mix_rows(int n, const float* a, const float* b, const float* c, const float* d,
                                  float wa, float wb, float wc, float wd, float* out) {
-#pragma omp simd
-  for (int i = 0; i < n; ++i) out[i] = wa * a[i] + wb * b[i] + wc * c[i] + wd * d[i];
+  for_cells(n, [=](int i) RIPSTOP_CELL { out[i] = wa * a[i] + wb * b[i] + wc * c[i] + wd * d[i]; });
 }
 
 RIPSTOP_ROW_KERNEL void spread_row(int n, const float* q, const int* near, const int* far,
                                    const float* near_weight, const float* far_weight, float* e) {
-#pragma omp simd
-  for (int i = 0; i < n; ++i) e[i] += near_weight[i] * q[near[i]] + far_weight[i] * q[far[i]];
+  for_cells(n, [=](int i) RIPSTOP_CELL { e[i] += near_weight[i] * q[near[i]] + far_weight[i] * q[far[i]]; });
 }
 
 RIPSTOP_ROW_KERNEL ImageSums image_row(const MultigridRow& row, float* image) {
   const int n = row.n;
   const std::ptrdiff_t sy = row.sy, sz = row.sz;
   const float *q = row.e, *rhs = row.rhs, *x = row.cx, *y = row.cy, *z = row.cz;
-  double curvature = 0, descent = 0, square = 0;
-#pragma omp simd reduction(+ : curvature, descent, square)
-  for (int i = 0; i < n; ++i) {
+  const CellSums sums = sum_cells(n, [=](int i) RIPSTOP_CELL {
     const float sum = x[i] + x[i + 1] + y[i] + y[i + sy] + z[i] + z[i + sz];
     const float in = x[i] * q[i - 1] + x[i + 1] * q[i + 1] + y[i] * q[i - sy] + y[i + sy] * q[i + sy] +
                      z[i] * q[i - sz] + z[i + sz] * q[i + sz];
     const float of = sum * q[i] - in;
     image[i] = of;
     const double along = q[i], left = rhs[i];
-    curvature += along * static_cast<double>(of);
-    descent += along * left;
-    square += left * left;
-  }
-  return {curvature, descent, square};
+    return CellSums{along * static_cast<double>(of), along * left, left * left};
+  });
+  return {sums.a, sums.b, sums.c};
 }
 
 RIPSTOP_ROW_KERNEL double dot_row(int n, const float* a, const float* b) {
-  double sum = 0;
-#pragma omp simd reduction(+ : sum)
-  for (int i = 0; i < n; ++i) sum += static_cast<double>(a[i]) * static_cast<double>(b[i]);
-  return sum;
+  const auto product = [=](int i) RIPSTOP_CELL {
+    return CellSums{static_cast<double>(a[i]) * static_cast<double>(b[i])};
+  };
+  return sum_cells(n, product).a;
 }
 
 RIPSTOP_ROW_KERNEL void turn_row(int n, float factor, const float* b, float* a) {
-#pragma omp simd
-  for (int i = 0; i < n; ++i) a[i] = b[i] + factor * a[i];
+  for_cells(n, [=](int i) RIPSTOP_CELL { a[i] = b[i] + factor * a[i]; });
 }
 
 RIPSTOP_ROW_KERNEL double advance_row(int n, float factor, const float* direction, const float* image,
                                       float* solution, float* rhs) {
-  double square = 0;
-#pragma omp simd reduction(+ : square)
-  for (int i = 0; i < n; ++i) {
+  const auto advance = [=](int i) RIPSTOP_CELL {
     solution[i] += factor * direction[i];
     const float left = rhs[i] - factor * image[i];
     rhs[i] = left;
-    square += static_cast<double>(left) * static_cast<double>(left);
-  }
-  return square;
+    return CellSums{static_cast<double>(left) * static_cast<double>(left)};
+  };
+  return sum_cells(n, advance).a;
 }
 
 }  // namespace ripstop::cartesian

@@ -77,7 +77,7 @@ PorousRows::PorousRows(const PorousRows& fine, const FlowGrid& fine_grid, const 
     for (int j = 0; j < fine.ny_; ++j) {
       if (fine.empty(j, k)) continue;
       for (int i = 0; i < fine.nx_; ++i) {
-        const double a = fine.linear(j, k)[i], b = fine.quadratic(j, k)[i];
+        const double a = fine.at(j, k).linear[i], b = fine.at(j, k).quadratic[i];
         if (a == 0 && b == 0) continue;
         for (const Part& kc : zs[k]) {
           for (const Part& jc : ys[j]) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "ripstop/flow/cartesian/grid.h"
+#include "ripstop/flow/cartesian/views.h"
 #include "ripstop/flow/flow.h"
 
 namespace ripstop::cartesian {
@@ -20,8 +21,10 @@ class PorousRows {
 
   bool empty() const { return linear_.size() <= static_cast<std::size_t>(nx_); }
   bool empty(int j, int k) const { return offset_[row(j, k)] == 0; }
-  const double* linear(int j, int k) const { return linear_.data() + offset_[row(j, k)]; }        // mu d
-  const double* quadratic(int j, int k) const { return quadratic_.data() + offset_[row(j, k)]; }  // f / 2
+  ResistanceView at(int j, int k) const {
+    const std::size_t begin = offset_[row(j, k)];
+    return {&linear_[begin], &quadratic_[begin]};
+  }
 
  private:
   std::size_t row(int j, int k) const { return static_cast<std::size_t>(k) * ny_ + j; }

@@ -2,9 +2,11 @@
 //
 // Always inlined, so that they are compiled for the level of the kernel that calls them, see simd.h. Their results
 // are kept in variables that are neither const nor copied: others are stored in memory by g++ 12, which prevents
-// vectorisation of the loop.
+// vectorisation of the loop. A kernel has its row as a copy, so that the compiler sees that the loop does not change
+// it.
 #pragma once
 
+#include "ripstop/flow/cartesian/loops.h"
 #include "ripstop/flow/cartesian/rows.h"
 #include "ripstop/flow/cartesian/simd.h"
 
@@ -34,7 +36,7 @@ template <class Number>
 }
 
 /// Adds the contribution of the jumps at the faces of cell i to the gradient of a quantity.
-[[gnu::always_inline]] inline void add_jumps(const RowMetrics& m, const SheetJumps& jump, std::ptrdiff_t i,
+[[gnu::always_inline]] inline void add_jumps(const RowMetrics& m, const FaceView& jump, std::ptrdiff_t i,
                                              Gradient& g) {
   g.x += m.x_slope_high[i] * jump.x[i + 1] + m.x_slope_low[i] * jump.x[i];
   g.y += m.y.slope_high * jump.y_high[i] + m.y.slope_low * jump.y[i];
@@ -42,29 +44,27 @@ template <class Number>
 }
 
 /// q interpolated to the faces of cell i; the neighbours along z have rows of their own.
-[[gnu::always_inline]] inline Faces on_faces(const RowMetrics& m, const double* q, const double* below,
-                                             const double* above, std::ptrdiff_t i) {
-  const double *w = m.x_weight_low + i, *c = q + i;
+[[gnu::always_inline]] inline Faces on_faces(const RowMetrics& m, const Column& q, std::ptrdiff_t i) {
+  const double *w = m.x_weight_low + i, *c = q.here + i;
   return {w[0] * c[-1] + (1 - w[0]) * c[0],
           w[1] * c[0] + (1 - w[1]) * c[1],
           m.y.weight_low * c[-m.sy] + (1 - m.y.weight_low) * c[0],
           m.y.weight_high * c[0] + (1 - m.y.weight_high) * c[m.sy],
-          m.z.weight_low * below[i] + (1 - m.z.weight_low) * c[0],
-          m.z.weight_high * c[0] + (1 - m.z.weight_high) * above[i]};
+          m.z.weight_low * q.below[i] + (1 - m.z.weight_low) * c[0],
+          m.z.weight_high * c[0] + (1 - m.z.weight_high) * q.above[i]};
 }
 
 /// Mass that flows into cell i through its faces, 0 where it flows out [kg/(m2 s)].
-[[gnu::always_inline]] inline Faces inflow(const RowMetrics& m, const double* fx, const double* fy,
-                                           const double* fz, std::ptrdiff_t i) {
-  return {positive(fx[i]),         positive(-fx[i + 1]), positive(fy[i]),
-          positive(-fy[i + m.sy]), positive(fz[i]),      positive(-fz[i + m.sz])};
+[[gnu::always_inline]] inline Faces inflow(const RowMetrics& m, const VectorView<const double>& flux,
+                                           std::ptrdiff_t i) {
+  return {positive(flux.x[i]),         positive(-flux.x[i + 1]), positive(flux.y[i]),
+          positive(-flux.y[i + m.sy]), positive(flux.z[i]),      positive(-flux.z[i + m.sz])};
 }
 
 /// sum a q_nb over the neighbours of cell i.
-[[gnu::always_inline]] inline double from_neighbours(const Faces& a, const double* q, const double* south,
-                                                     const double* north, const double* below,
-                                                     const double* above, std::ptrdiff_t i) {
-  return a.w * q[i - 1] + a.e * q[i + 1] + a.s * south[i] + a.n * north[i] + a.b * below[i] + a.a * above[i];
+[[gnu::always_inline]] inline double from_neighbours(const Faces& a, const Stencil& q, std::ptrdiff_t i) {
+  return a.w * q.here[i - 1] + a.e * q.here[i + 1] + a.s * q.south[i] + a.n * q.north[i] + a.b * q.below[i] +
+         a.a * q.above[i];
 }
 
 }  // namespace ripstop::cartesian

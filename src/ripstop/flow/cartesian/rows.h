@@ -1,14 +1,12 @@
-// The row kernels: each works on one row of cells along x and touches nothing but the rows it is given.
-//
-// Pointers are to cell 0 of the row; q[i - 1], q[i + 1] are the neighbours along x, q[i - sy], q[i + sy]
-// along y, q[i - sz], q[i + sz] along z. Where the neighbour plane lies elsewhere (a ring of planes, a
-// boundary value), it has a pointer of its own, `below` (towards the inlet) or `above`. Mass fluxes are per
-// area, rho u [kg/(m2 s)], positive along the axis, kept at the low face of a cell.
+// The row kernels: each works on one row of cells along x and touches nothing but the views it is given (views.h).
+// Mass fluxes are per area, rho u [kg/(m2 s)], positive along the axis, kept at the low face of a cell.
 #pragma once
 
 #include <cstddef>
 
+#include "ripstop/core/vec3.h"
 #include "ripstop/flow/cartesian/grid.h"
+#include "ripstop/flow/cartesian/views.h"
 
 namespace ripstop::cartesian {
 
@@ -42,37 +40,29 @@ struct TurbulenceRow {
   // In time, else 0: one over the step [1/s], and over the largest width of the cells along y and z [1/m].
   double inverse_step = 0, inverse_across = 0;
   double mean_k = 0, mean_omega = 0;
-  const double *u = nullptr, *v = nullptr, *w = nullptr;
-  const double *k = nullptr, *omega = nullptr, *rho = nullptr;
-  const double *k_below = nullptr, *k_above = nullptr;          // for convection and diffusion
-  const double *omega_below = nullptr, *omega_above = nullptr;  // across the z faces
-  const double *k_south = nullptr, *k_north = nullptr, *omega_south = nullptr,
-               *omega_north = nullptr;  // and y
-  const double *fx = nullptr, *fy = nullptr, *fz = nullptr;
-  const double *mut = nullptr, *mut_below = nullptr, *mut_above = nullptr;  // eddy viscosity [Pa s]
+  VectorView<const double> velocity;
+  Stencil k, omega;
+  const double* rho = nullptr;
+  VectorView<const double> flux;
+  Column mut;                    // eddy viscosity [Pa s]
   const double* wall = nullptr;  // distance to the cloth [m]; null: no wall anywhere
-  double* limit_new = nullptr;   // factor of the eddy viscosity; with a wall only
   // Results.
+  double* limit_new = nullptr;  // factor of the eddy viscosity; with a wall only
   double *k_new = nullptr, *omega_new = nullptr;
-  double* mu_new = nullptr;                            // mu + mu_t [Pa s]
-  double *tx = nullptr, *ty = nullptr, *tz = nullptr;  // three components each, see below
-  std::ptrdiff_t component = 0;                        // values from a component to the next
-  ResidualSum k_sum, omega_sum;
+  double* mu_new = nullptr;   // mu + mu_t [Pa s]
+  StressView<double> stress;  // the explicit part of it
+};
+struct TurbulenceSums {
+  ResidualSum k, omega;
   double total_k = 0, total_omega = 0;  // of the new values, times the cell width
 };
-void turbulence_row(TurbulenceRow& row);
+TurbulenceSums turbulence_row(const TurbulenceRow& row);
 /// k without the eddies that cells of these widths resolve
 void unresolved_row(int n, const double* width, double across, const double* omega, double* k);
 /// mut *= limit, that of the shear-stress limiter
 void limit_row(int n, const double* limit, double* mut);
 /// mut = rho k / omega
 void eddy_viscosity_row(int n, const double* rho, const double* k, const double* omega, double* mut);
-
-/// Pressure jumps of a sheet on the faces of a row: x has n + 1 of them.
-struct SheetJumps {
-  const double *x = nullptr, *y = nullptr, *y_high = nullptr, *z = nullptr, *z_high = nullptr;
-  explicit operator bool() const { return x != nullptr; }
-};
 
 /// One axis of the faces of cell c, for the limited correction of the upwind face value.
 struct FaceMetrics {
@@ -88,7 +78,7 @@ struct ConvectionRow {
   FaceMetrics y, z;
   std::ptrdiff_t sy = 0, sz = 0;
   std::ptrdiff_t south2 = 0, north2 = 0, below2 = 0, above2 = 0;  // to the second neighbours, 0 where none is
-  const double *fx = nullptr, *fy = nullptr, *fz = nullptr;
+  VectorView<const double> flux;
   const double* q = nullptr;
   double* source = nullptr;  // second-order part of the right-hand side
 };
@@ -98,89 +88,85 @@ struct MomentumRow {
   RowMetrics m;
   double relaxation = 0;        // in the face flux
   double march_relaxation = 0;  // of the step itself
-  double mean_u = 0, mean_v = 0, mean_w = 0;
-  const double *u = nullptr, *v = nullptr, *w = nullptr, *p = nullptr, *rho = nullptr;
-  const double *u_below = nullptr, *v_below = nullptr, *w_below = nullptr;
-  const double *u_above = nullptr, *v_above = nullptr, *w_above = nullptr;
-  const double *u_south = nullptr, *v_south = nullptr, *w_south = nullptr;
-  const double *u_north = nullptr, *v_north = nullptr, *w_north = nullptr;
-  const double *fx = nullptr, *fy = nullptr, *fz = nullptr;
-  const double *mu = nullptr, *mu_below = nullptr, *mu_above = nullptr;
-  const double *tx = nullptr, *ty = nullptr, *tz = nullptr, *tz_below = nullptr, *tz_above = nullptr;
-  std::ptrdiff_t component = 0;
-  const double* linear = nullptr;                                           // mu d [kg/(m3 s)]
-  const double* quadratic = nullptr;                                        // f / 2 [1/m]
-  const double *extra_u = nullptr, *extra_v = nullptr, *extra_w = nullptr;  // of ConvectionRow
-  SheetJumps sheet, stiffness;
-  double inertia = 0;  // rho U; over the least width, least A next to a sheet [kg/(m2 s)]
-  // Results: H/A, 1/A and the predicted velocity.
-  double *hu = nullptr, *hv = nullptr, *hw = nullptr, *ra = nullptr, *rc = nullptr;
-  double *u_new = nullptr, *v_new = nullptr, *w_new = nullptr;
-  ResidualSum u_sum, v_sum, w_sum;
+  double inertia = 0;           // rho U; over the least width, least A next to a sheet [kg/(m2 s)]
+  Vec3 mean;                    // velocity over the box
+  VectorStencil velocity;
+  const double *p = nullptr, *rho = nullptr;
+  VectorView<const double> flux;
+  Column mu;
+  StressView<const double> stress;
+  const double *stress_below = nullptr, *stress_above = nullptr;  // its part z in the planes below and above
+  ResistanceView resistance;
+  VectorView<const double> force;  // on the air, and that of ConvectionRow [N/m3]
+  SheetView sheet;
+  // Results.
+  MatrixView<double> matrix;
+  VectorView<double> predicted;  // velocity
 };
-void momentum_row(MomentumRow& row);
+struct MomentumSums {
+  ResidualSum u, v, w;
+};
+MomentumSums momentum_row(const MomentumRow& row);
 
 struct PressureRow {
   RowMetrics m;  // m.z is that of the pressure: fixed value at the outlet
   double y_width = 0, z_width = 0;
-  const double *hu = nullptr, *hv = nullptr, *hw = nullptr;
-  const double *ra = nullptr, *rc = nullptr, *rho = nullptr, *p = nullptr;
-  bool uniform = false;  // ra, rc and rho are those of cell 0 in all cells
-  const double *hw_above = nullptr, *rho_above = nullptr, *ra_above = nullptr, *rc_above = nullptr,
-               *p_above = nullptr;
+  MatrixView<const double> matrix;
+  const double *rho = nullptr, *p = nullptr, *p_above = nullptr;
+  bool uniform = false;                 // ra, rc and rho are those of cell 0 in all cells
   bool inlet = false;                   // the low z face brings inlet_speed * rho
   const double* inlet_speed = nullptr;  // [m/s]; elsewhere zeros
   bool outlet = false;                  // the high z face has the pressure of the outlet
   double mean_p = 0;
-  const double *fx = nullptr, *fy = nullptr, *fz = nullptr;  // of the last iteration; with sheets only
-  SheetJumps held, excess, stiffness;
-  float *cx = nullptr, *cy = nullptr, *cz = nullptr;  // conductances of the low faces [m s]
-  float* cz_above = nullptr;                          // of the outlet's faces, where outlet is set
-  float* rhs = nullptr;                               // minus the mass that the cell loses [kg/s]
-  ResidualSum sum;
+  VectorView<const double> flux;  // of the last iteration; with sheets only
+  SheetView sheet;
+  // Results.
+  VectorView<float> conductance;  // of the low faces [m s], and of the outlet's where outlet is set
+  float* rhs = nullptr;           // minus the mass that the cell loses [kg/s]
 };
-void pressure_row(PressureRow& row);
+ResidualSum pressure_row(const PressureRow& row);
 
 struct FluxRow {
   RowMetrics m;
-  const double *hu = nullptr, *hv = nullptr, *hw = nullptr;
-  const double *ra = nullptr, *rc = nullptr, *rho = nullptr, *p = nullptr;
+  MatrixView<const double> matrix;
+  const double *rho = nullptr, *p = nullptr;
   bool uniform = false;  // as above
   const float* dp = nullptr;
   const double* inlet_speed = nullptr;  // where the low z faces are the inlet's [m/s]; else null
-  SheetJumps held, excess, stiffness;   // of the low faces
-  double *change_x = nullptr, *change_y = nullptr, *change_z = nullptr;  // of the jumps; null: none
-  double *fx = nullptr, *fy = nullptr, *fz = nullptr;                    // fx has n + 1 faces
+  SheetView sheet;                      // of the low faces
+  VectorView<double> change;            // of the jumps; null: none
+  VectorView<double> flux;              // x has n + 1 faces
 };
 /// Fluxes through the low faces of the row and through its last x face.
-void flux_row(FluxRow& row);
+void flux_row(const FluxRow& row);
+/// And through its faces in the outlet, at this distance from the cells and with this pressure.
+void outlet_flux_row(const FluxRow& row, double inverse_distance, const double* pressure);
 
-struct OutletRow {
-  int n = 0;
-  double inverse_distance = 0;
-  const double *hw = nullptr, *ra = nullptr, *rc = nullptr, *rho = nullptr, *p = nullptr;
-  const double* outlet_p = nullptr;
-  const float* dp = nullptr;
-  double* fz = nullptr;  // at the outlet's faces
+/// Of a perfect gas at constant total enthalpy.
+struct Gas {
+  double constant = 0;     // R [J/(kg K)]
+  double pressure = 0;     // [Pa] absolute, at the outlet
+  double temperature = 0;  // of the free stream [K]
+  double speed2 = 0;       // of the free stream, squared
+  double half_cp = 0;      // 1 / (2 c_p) [kg K/J]
 };
-void outlet_flux_row(OutletRow& row);
 
 struct VelocityRow {
   RowMetrics m;
-  double gas_constant = 0;  // R [J/(kg K)]
-  double pressure0 = 0;     // [Pa] absolute, at the outlet
-  double temperature = 0;   // of the free stream [K]
-  double speed2 = 0;        // of the free stream, squared
-  double half_cp = 0;       // 1 / (2 c_p) [kg K/J]
-  const double *ra = nullptr, *rc = nullptr, *p = nullptr;
+  Gas gas;
+  MatrixView<const double> matrix;
+  const double* p = nullptr;
   const float* dp = nullptr;
-  SheetJumps held, change;  // jumps of the last pressure, and by how much they differ now
-  double relaxation = 0;    // of the pressure
-  const double *hu = nullptr, *hv = nullptr, *hw = nullptr;
-  double *u = nullptr, *v = nullptr, *w = nullptr;
-  double* rho = nullptr;                                      // null where it is constant
-  double total_u = 0, total_v = 0, total_w = 0, total_p = 0;  // times the cell width
+  FaceView held, change;  // jumps of the last pressure, and by how much they differ now
+  double relaxation = 0;  // of the pressure
+  // Results.
+  VectorView<double> velocity;
+  double* rho = nullptr;  // null where it is constant
 };
-void velocity_row(VelocityRow& row);
+/// Sums times the cell width.
+struct VelocitySums {
+  double u = 0, v = 0, w = 0, p = 0;
+};
+VelocitySums velocity_row(const VelocityRow& row);
 
 }  // namespace ripstop::cartesian

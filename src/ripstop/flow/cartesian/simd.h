@@ -8,6 +8,8 @@
 #else
 #define RIPSTOP_ROW_KERNEL
 #endif
+// The equations of one cell, a lambda: [&](int i) RIPSTOP_CELL { ... }
+#define RIPSTOP_CELL __attribute__((always_inline))
 
 namespace ripstop::cartesian {
 

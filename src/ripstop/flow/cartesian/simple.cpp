@@ -100,12 +100,17 @@ void Solver::place(PorousRows porous, const std::vector<FlowBody>& bodies) {
   in_the_way_.wall = {};
 }
 
-/// The rows of one quantity that the faces of row (j, k) have; null where no sheet passes.
-SheetJumps Solver::jumps(int j, int k, const std::vector<double>& values) const {
+/// One quantity of the sheets on the faces of row (j, k); empty where no sheet passes.
+FaceView Solver::on_faces(int j, int k, const std::vector<double>& values) const {
   const SheetRows& sheets = in_the_way_.sheets;
   if (!sheets.touches(j, k)) return {};
   const auto row = [&](int axis, int jj, int kk) { return values.data() + sheets.offset(axis, jj, kk); };
   return {row(0, j, k), row(1, j, k), row(1, j + 1, k), row(2, j, k), row(2, j, k + 1)};
+}
+
+SheetView Solver::sheet(int j, int k) const {
+  const SheetRows& sheets = in_the_way_.sheets;
+  return {on_faces(j, k, s_.held), on_faces(j, k, sheets.excess()), on_faces(j, k, sheets.stiffness())};
 }
 
 FlowProgress Solver::iterate() {
@@ -118,17 +123,16 @@ FlowProgress Solver::iterate() {
     sheets.update(s_, d_.layout, d_.air.density * d_.air.speed());
   }
   team_.run([this](int rank) {
-    if (d_.settings.second_order)
-      each_plane_of_a_block(rank, [&](int k, IndexRange rows) { convection(k, rows); });
+    if (d_.settings.second_order) each_row(rank, [&](int j, int k) { convection(j, k); });
     each_block(rank, [&](IndexRange rows) { march(rank, rows); });
     if (rank == 0) take_new_turbulence();
     team_.barrier();
     each_plane(rank, [&](int k) { turbulence_ghosts(d_, b_, s_, k), matrix_ghosts(k); });
-    each_plane_of_a_block(rank, [&](int k, IndexRange rows) { pressure(k, rows); });
+    each_row(rank, [&](int j, int k) { pressure(j, k); });
     correct(rank);
     each_plane(rank, [&](int k) { correction_ghosts(d_, b_, multigrid_.finest().e, k); });
-    each_plane_of_a_block(rank, [&](int k, IndexRange rows) { flux(k, rows); });
-    each_plane_of_a_block(rank, [&](int k, IndexRange rows) { velocity(k, rows); });
+    each_row(rank, [&](int j, int k) { flux(j, k); });
+    each_row(rank, [&](int j, int k) { velocity(j, k); });
     each_plane(rank, [&](int k) { relax_pressure(k), velocity_ghosts(d_, b_, s_, k); });
     t_.sums.add_up(team_, rank);
   });

@@ -9,6 +9,7 @@
 #include "ripstop/core/thread_team.h"
 #include "ripstop/flow/cartesian/boundary.h"
 #include "ripstop/flow/cartesian/discretisation.h"
+#include "ripstop/flow/cartesian/loops.h"
 #include "ripstop/flow/cartesian/multigrid.h"
 #include "ripstop/flow/cartesian/porous.h"
 #include "ripstop/flow/cartesian/sheet.h"
@@ -26,6 +27,13 @@ struct Obstacles {
   Array<double> body_u, body_v, body_w;  // force on the air [N/m3]; empty: none
 };
 
+/// The last few planes of a quantity: that of plane k takes the place of plane k - `planes`.
+template <int planes>
+struct Ring {
+  double* row(int k, std::ptrdiff_t in) { return &plane[(k + planes) % planes][in]; }
+  std::array<Array<double>, planes> plane;
+};
+
 /// Data that the march passes from plane to plane of a block: rings of planes with the rows of the block and
 /// two more on each side.
 struct MarchRings {
@@ -33,9 +41,18 @@ struct MarchRings {
   std::ptrdiff_t at(const Layout& layout, int j, int first_row) const {
     return Layout::lead + static_cast<std::ptrdiff_t>(j - first_row + 3) * layout.stride_y;
   }
-  std::size_t plane = 0;
-  Array<double> mut[3], mu[3];
-  Array<double> tx[2], ty[2], tz[3], predicted[2];  // three components each
+  StressView<double> stress(int k, std::ptrdiff_t in) {
+    return {tx.row(k, in), ty.row(k, in), tz.row(k, in), component};
+  }
+  /// Velocity by the momentum equation; in time, the momentum that passes along the stream.
+  VectorView<double> predicted(int k, std::ptrdiff_t in) {
+    double* x = vector.row(k, in);
+    return {x, x + component, x + 2 * component};
+  }
+  std::ptrdiff_t component = 0;  // values from a component to the next
+  Ring<3> mut, mu;
+  Ring<2> tx, ty, vector;  // three components each
+  Ring<3> tz;
   Array<double> scratch;
 };
 
@@ -45,7 +62,8 @@ struct Scratch {
 
   Array<double> zeros, density;      // rows; the latter in time, where there is one density
   Array<double> hu, hv, hw, ra, rc;  // H / (A + R) [m/s], 1 / (A + R) [m3 s/kg]
-  double all_inverse = 0;            // common value of all ra and rc; 0: each has its own
+  MatrixView<double> matrix(std::ptrdiff_t at) { return {row_of(hu, hv, hw, at), &ra[at], &rc[at]}; }
+  double all_inverse = 0;  // common value of all ra and rc; 0: each has its own
   Array<double> new_k, new_omega, new_limit;
   Array<double> extra_u, extra_v, extra_w;  // force on the air and second-order convection; empty: upwind
   std::vector<MarchRings> rings;            // one a thread
@@ -104,13 +122,14 @@ class Solver {
   bool open() const { return b_.open(); }
 
  private:
-  // One thread's walk over its planes, its blocks of rows, or its blocks plane by plane; all threads meet after it.
+  // One thread's walk over its planes, its blocks of rows, or the rows of its blocks plane by plane, in any order
+  // otherwise; all threads meet after it.
   template <class Stage>
   void each_plane(int rank, const Stage& stage);
   template <class Stage>
   void each_block(int rank, const Stage& stage);
-  template <class Stage>
-  void each_plane_of_a_block(int rank, const Stage& stage);
+  template <class Kernel>
+  void each_row(int rank, const Kernel& kernel);
   /// Steps in time where no cell is porous have one density and one 1/A.
   bool uniform() const { return t_.in_time && in_the_way_.porous.empty(); }
   const double* density_of_row(int j, int k) const {
@@ -119,7 +138,7 @@ class Solver {
   /// The share of a pressure correction that is taken.
   double pressure_share() const { return t_.in_time ? 1 : d_.settings.relax_pressure; }
   // Turbulence and momentum (stage_transport.cpp): H/A, 1/A, new k and omega.
-  void convection(int k, IndexRange rows);  // convection.cpp
+  void convection(int j, int k);  // convection.cpp
   void march(int rank, IndexRange rows);
   void eddy_viscosity(MarchRings& rings, int k, IndexRange rows) const;
   // A step in time (time_step.cpp).
@@ -133,21 +152,20 @@ class Solver {
   void rate(MarchRings& rings, int j, int k, IndexRange rows);
   void courant(int k);
   FlowStep close_step(Vec3 velocity_before, Vec3 held_back);
-  bool northward() const {
-    return s_.iteration % 2 == 0;
-  }  // direction in which the rows of a plane are visited
+  bool northward() const { return s_.iteration % 2 == 0; }  // direction of the march through a plane
   void turbulence(MarchRings& rings, int k, IndexRange rows);
   TurbulenceRow turbulence_of(MarchRings& rings, int j, int k, IndexRange rows);
   void momentum(MarchRings& rings, int k, IndexRange rows);
-  void velocities_around(MarchRings& rings, int j, int k, IndexRange rows, MomentumRow& r) const;
+  VectorStencil velocity_around(MarchRings& rings, int j, int k, IndexRange rows) const;
+  VectorView<const double> force_on(std::ptrdiff_t at) const;
   MomentumRow momentum_of(MarchRings& rings, int j, int k, IndexRange rows);
   // The rest (stage_pressure.cpp).
   void matrix_ghosts(int k);
-  void pressure(int k, IndexRange rows);
+  void pressure(int j, int k);
   void correct(int rank);
-  double* changes(int axis, int j, int k);
-  void flux(int k, IndexRange rows);
-  void velocity(int k, IndexRange rows);
+  VectorView<double> changes(int j, int k);
+  void flux(int j, int k);
+  void velocity(int j, int k);
   void relax_pressure(int k);
   Vec3 porous_force_of_row(int j, int k) const;
 
@@ -161,7 +179,8 @@ class Solver {
     double bound;
   };
   std::array<Bounded, 6> bounded() const;
-  SheetJumps jumps(int j, int k, const std::vector<double>& values) const;
+  FaceView on_faces(int j, int k, const std::vector<double>& values) const;
+  SheetView sheet(int j, int k) const;
 
   Discretisation d_;
   Boundaries b_;
@@ -190,10 +209,10 @@ void Solver::each_block(int rank, const Stage& stage) {
   team_.barrier();
 }
 
-template <class Stage>
-void Solver::each_plane_of_a_block(int rank, const Stage& stage) {
+template <class Kernel>
+void Solver::each_row(int rank, const Kernel& kernel) {
   each_block(rank, [&](IndexRange rows) {
-    for (int k = 0; k < d_.grid.nz; ++k) stage(k, rows);
+    for (int k = 0; k < d_.grid.nz; ++k) for_rows({rows}, [&](int j) { kernel(j, k); });
   });
 }
 

@@ -12,13 +12,6 @@
 #include "ripstop/flow/cartesian/solver.h"
 
 namespace ripstop::cartesian {
-namespace {
-
-constexpr int mod(int k, int n) {
-  return (k + n) % n;
-}
-
-}  // namespace
 
 // A block's rings and the planes of the fields should fit a second-level cache of 1-2 MB. An even number of
 // blocks keeps two threads busy.
@@ -28,14 +21,12 @@ int block_count(const FlowGrid& grid) {
   return grid.ny < 8 ? 1 : (blocks + 1) / 2 * 2;
 }
 
-MarchRings::MarchRings(std::size_t plane_) : plane(plane_) {
-  for (Array<double>& a : mut) a = Array<double>(plane);
-  for (Array<double>& a : mu) a = Array<double>(plane);
-  for (Array<double>& a : tx) a = Array<double>(3 * plane);
-  for (Array<double>& a : ty) a = Array<double>(3 * plane);
-  for (Array<double>& a : tz) a = Array<double>(3 * plane);
-  for (Array<double>& a : predicted) a = Array<double>(3 * plane);
-  scratch = Array<double>(plane);
+MarchRings::MarchRings(std::size_t plane) : component(static_cast<std::ptrdiff_t>(plane)), scratch(plane) {
+  const auto allocate = [](auto& ring, std::size_t values) {
+    for (Array<double>& of : ring.plane) of = Array<double>(values);
+  };
+  allocate(mut, plane), allocate(mu, plane);
+  allocate(tx, 3 * plane), allocate(ty, 3 * plane), allocate(tz, 3 * plane), allocate(vector, 3 * plane);
 }
 
 void Solver::march(int rank, IndexRange rows) {
@@ -52,21 +43,19 @@ void Solver::march(int rank, IndexRange rows) {
 void Solver::eddy_viscosity(MarchRings& rings, int k, IndexRange rows) const {
   for (int j = std::max(rows.begin - 2, 0); j < std::min(rows.end + 2, d_.grid.ny); ++j) {
     const std::ptrdiff_t at = d_.layout.at(0, j, k);
-    double* mut = &rings.mut[mod(k, 3)][rings.at(d_.layout, j, rows.begin)];
+    double* mut = rings.mut.row(k, rings.at(d_.layout, j, rows.begin));
     eddy_viscosity_row(d_.grid.nx, density_of_row(j, k), &s_.f.k[at], &s_.f.omega[at], mut);
     if (!in_the_way_.wall.empty()) limit_row(d_.grid.nx, &s_.limit[at], mut);
   }
 }
 
-// Input of the kernel for row j of plane k.
 TurbulenceRow Solver::turbulence_of(MarchRings& rings, int j, int k, IndexRange rows) {
   const bool inlet = k == 0 && !b_.open(), outlet = k == d_.grid.nz - 1 && !b_.open();
   const bool first = k == 0, last = k == d_.grid.nz - 1;
   const std::ptrdiff_t at = d_.layout.at(0, j, k), in = rings.at(d_.layout, j, rows.begin);
   const std::ptrdiff_t sy = d_.layout.stride_y, sz = d_.layout.stride_z;
-  const std::ptrdiff_t component = static_cast<std::ptrdiff_t>(rings.plane);
   const bool own = j >= rows.begin && j < rows.end;
-  const bool sees_new = own && !t_.in_time, new_below = sees_new && !first;
+  const bool sees_new = own && !t_.in_time;
   TurbulenceRow r;
   r.m = d_.metrics(j, k);
   r.viscosity = d_.air.viscosity;
@@ -75,63 +64,60 @@ TurbulenceRow Solver::turbulence_of(MarchRings& rings, int j, int k, IndexRange 
   r.relaxation = d_.settings.relax_turbulence;
   r.mean_k = s_.mean.k;
   r.mean_omega = s_.mean.omega;
-  r.u = &s_.f.u[at], r.v = &s_.f.v[at], r.w = &s_.f.w[at];
-  r.k = &s_.f.k[at], r.omega = &s_.f.omega[at], r.rho = density_of_row(j, k);
+  r.velocity = s_.f.velocity(at);
+  // New where the march has been.
+  const auto around = [&](const Array<double>& old, const Array<double>& fresh, const double* of_inlet) {
+    Stencil q = stencil(&old[at], sy, sz);
+    if (sees_new && !first) q.below = &fresh[at - sz];
+    if (sees_new && northward() && j > rows.begin) q.south = &fresh[at - sy];
+    if (sees_new && !northward() && j + 1 < rows.end) q.north = &fresh[at + sy];
+    if (inlet) q.below = of_inlet;
+    if (outlet) q.above = of_inlet;
+    return q;
+  };
   const double *inlet_k = b_.inlet.turbulence(j), *inlet_omega = b_.inlet.frequency(j);
-  r.k_below = inlet ? inlet_k : new_below ? &t_.new_k[at - sz] : r.k - sz;
-  r.k_above = outlet ? inlet_k : r.k + sz;
-  r.omega_below = inlet ? inlet_omega : new_below ? &t_.new_omega[at - sz] : r.omega - sz;
-  r.omega_above = outlet ? inlet_omega : r.omega + sz;
-  const bool new_south = sees_new && northward() && j > rows.begin,
-             new_north = sees_new && !northward() && j + 1 < rows.end;
-  r.k_south = new_south ? &t_.new_k[at - sy] : r.k - sy;
-  r.k_north = new_north ? &t_.new_k[at + sy] : r.k + sy;
-  r.omega_south = new_south ? &t_.new_omega[at - sy] : r.omega - sy;
-  r.omega_north = new_north ? &t_.new_omega[at + sy] : r.omega + sy;
-  r.fx = &s_.f.fx[at], r.fy = &s_.f.fy[at], r.fz = &s_.f.fz[at];
-  r.mut = &rings.mut[mod(k, 3)][in];
-  r.mut_above = &rings.mut[mod(last ? k : k + 1, 3)][in];
-  double* below = &rings.mut[mod(k - 1, 3)][in];
-  if (first && !inlet) std::copy_n(r.mut, d_.grid.nx, below);
+  r.k = around(s_.f.k, t_.new_k, inlet_k), r.omega = around(s_.f.omega, t_.new_omega, inlet_omega);
+  r.rho = density_of_row(j, k);
+  r.flux = s_.f.flux(at);
+  double* below = rings.mut.row(k - 1, in);
+  r.mut = {rings.mut.row(k, in), below, rings.mut.row(last ? k : k + 1, in)};
+  if (first && !inlet) std::copy_n(r.mut.here, d_.grid.nx, below);
   if (inlet) {  // such that the face takes the inlet's value
-    for (int i = 0; i < d_.grid.nx; ++i) below[i] = 2 * r.rho[i] * inlet_k[i] / inlet_omega[i] - r.mut[i];
+    for (int i = 0; i < d_.grid.nx; ++i)
+      below[i] = 2 * r.rho[i] * inlet_k[i] / inlet_omega[i] - r.mut.here[i];
   }
-  r.mut_below = below;
-  r.k_new = own ? &t_.new_k[at] : &rings.scratch[Layout::lead];
-  r.omega_new = own ? &t_.new_omega[at] : &rings.scratch[Layout::lead + d_.layout.stride_y];
+  double* scratch = &rings.scratch[Layout::lead];
+  r.k_new = own ? &t_.new_k[at] : scratch;
+  r.omega_new = own ? &t_.new_omega[at] : scratch + sy;
   if (!in_the_way_.wall.empty()) {
     r.wall = &in_the_way_.wall[at];
-    r.limit_new = own ? &t_.new_limit[at] : &rings.scratch[Layout::lead + 2 * d_.layout.stride_y];
+    r.limit_new = own ? &t_.new_limit[at] : scratch + 2 * sy;
   }
-  r.mu_new = &rings.mu[mod(k, 3)][in];
-  r.tx = &rings.tx[mod(k, 2)][in];
-  r.ty = &rings.ty[mod(k, 2)][in];
-  r.tz = &rings.tz[mod(k, 3)][in];
-  r.component = component;
+  r.mu_new = rings.mu.row(k, in);
+  r.stress = rings.stress(k, in);
   return r;
 }
 
 void Solver::turbulence(MarchRings& rings, int k, IndexRange rows) {
-  const int low = std::max(rows.begin - 1, 0), high = std::min(rows.end + 1, d_.grid.ny);
-  for (int step = low; step < high; ++step) {
-    const int j = northward() ? step : high - 1 - (step - low);
-    TurbulenceRow r = turbulence_of(rings, j, k, rows);
-    turbulence_row(r);
+  const IndexRange and_around{std::max(rows.begin - 1, 0), std::min(rows.end + 1, d_.grid.ny)};
+  for_rows({and_around, northward()}, [&](int j) {
+    const TurbulenceRow r = turbulence_of(rings, j, k, rows);
+    const TurbulenceSums sum = turbulence_row(r);
     // Beyond the sides the explicit stress is that of the last cell.
     for (int c = 0; c < 3; ++c) {
-      double *tx = r.tx + c * r.component, *ty = r.ty + c * r.component;
+      double *tx = r.stress.x + c * rings.component, *ty = r.stress.y + c * rings.component;
       tx[-1] = tx[0];
       tx[d_.grid.nx] = tx[d_.grid.nx - 1];
       if (j == 0) std::copy_n(ty, d_.grid.nx, ty - d_.layout.stride_y);
       if (j == d_.grid.ny - 1) std::copy_n(ty, d_.grid.nx, ty + d_.layout.stride_y);
     }
-    if (j < rows.begin || j >= rows.end) continue;
+    if (j < rows.begin || j >= rows.end) return;
     double* sums = t_.sums.row(j, k);
-    sums[Sums::k_residual] = r.k_sum.residual, sums[Sums::k_scale] = r.k_sum.scale;
-    sums[Sums::omega_residual] = r.omega_sum.residual, sums[Sums::omega_scale] = r.omega_sum.scale;
-    sums[Sums::k_mean] = r.total_k * d_.y.width[j] * d_.z.width[k];
-    sums[Sums::omega_mean] = r.total_omega * d_.y.width[j] * d_.z.width[k];
-  }
+    sums[Sums::k_residual] = sum.k.residual, sums[Sums::k_scale] = sum.k.scale;
+    sums[Sums::omega_residual] = sum.omega.residual, sums[Sums::omega_scale] = sum.omega.scale;
+    sums[Sums::k_mean] = sum.total_k * d_.y.width[j] * d_.z.width[k];
+    sums[Sums::omega_mean] = sum.total_omega * d_.y.width[j] * d_.z.width[k];
+  });
 }
 
 // In time: viscosity and stress of plane k at the beginning of the step, k and omega at its end.
@@ -139,96 +125,83 @@ void Solver::model_eddies(MarchRings& rings, int k, IndexRange rows) {
   if (k == 0) eddy_viscosity(rings, 0, rows);
   if (k + 1 < d_.grid.nz) eddy_viscosity(rings, k + 1, rows);
   for (int j = std::max(rows.begin - 1, 0); j < std::min(rows.end + 1, d_.grid.ny); ++j) {
-    TurbulenceRow r = turbulence_of(rings, j, k, rows);
-    turbulence_row(r);
+    turbulence_row(turbulence_of(rings, j, k, rows));
   }
 }
 
 // The velocity of row j of plane k and of the rows around it, new where the march has been.
-void Solver::velocities_around(MarchRings& rings, int j, int k, IndexRange rows, MomentumRow& r) const {
+VectorStencil Solver::velocity_around(MarchRings& rings, int j, int k, IndexRange rows) const {
   const bool first = k == 0, last = k == d_.grid.nz - 1 && !b_.open();
   const std::ptrdiff_t at = d_.layout.at(0, j, k), in = rings.at(d_.layout, j, rows.begin);
   const std::ptrdiff_t sy = d_.layout.stride_y, sz = d_.layout.stride_z;
-  const std::ptrdiff_t component = static_cast<std::ptrdiff_t>(rings.plane);
   const double* zeros = &t_.zeros[Layout::lead];
-  r.u = &s_.f.u[at], r.v = &s_.f.v[at], r.w = &s_.f.w[at];
-  const double* before = &rings.predicted[mod(k - 1, 2)][in];
-  r.u_below = first ? zeros : before;
-  r.v_below = first ? zeros : before + component;
-  r.w_below = first ? b_.inlet.speed(j) : before + 2 * component;
-  if (first && b_.open()) r.u_below = r.u - sz, r.v_below = r.v - sz, r.w_below = r.w - sz;
-  r.u_above = last ? zeros : r.u + sz;
-  r.v_above = last ? zeros : r.v + sz;
-  r.w_above = last ? (b_.outlet->carries_back() ? r.w : zeros) : r.w + sz;
-  const double *south = &rings.predicted[mod(k, 2)][in - sy], *north = &rings.predicted[mod(k, 2)][in + sy];
-  const bool new_south = northward() && j > rows.begin, new_north = !northward() && j + 1 < rows.end;
-  r.u_south = new_south ? south : r.u - sy;
-  r.v_south = new_south ? south + component : r.v - sy;
-  r.w_south = new_south ? south + 2 * component : r.w - sy;
-  r.u_north = new_north ? north : r.u + sy;
-  r.v_north = new_north ? north + component : r.v + sy;
-  r.w_north = new_north ? north + 2 * component : r.w + sy;
+  const VectorView<double> south = rings.predicted(k, in - sy), north = rings.predicted(k, in + sy),
+                           below = rings.predicted(k - 1, in);
+  const auto around = [&](const Array<double>& old, double* VectorView<double>::*component,
+                          const double* of_inlet) {
+    Stencil q = stencil(&old[at], sy, sz);
+    if (northward() && j > rows.begin) q.south = south.*component;
+    if (!northward() && j + 1 < rows.end) q.north = north.*component;
+    if (!first) q.below = below.*component;
+    if (first && !b_.open()) q.below = of_inlet;
+    if (last) q.above = zeros;
+    return q;
+  };
+  VectorStencil velocity{around(s_.f.u, &VectorView<double>::x, zeros),
+                         around(s_.f.v, &VectorView<double>::y, zeros),
+                         around(s_.f.w, &VectorView<double>::z, b_.inlet.speed(j))};
+  if (last && b_.outlet->carries_back()) velocity.z.above = velocity.z.here;
+  return velocity;
 }
 
-// Input of the kernel for row j of plane k.
 MomentumRow Solver::momentum_of(MarchRings& rings, int j, int k, IndexRange rows) {
   const bool first = k == 0, last = k == d_.grid.nz - 1;
   const std::ptrdiff_t at = d_.layout.at(0, j, k), in = rings.at(d_.layout, j, rows.begin);
-  const std::ptrdiff_t component = static_cast<std::ptrdiff_t>(rings.plane);
-  const double* zeros = &t_.zeros[Layout::lead];
   MomentumRow r;
   r.m = d_.metrics(j, k);
   r.relaxation = d_.settings.relax_velocity;
   r.march_relaxation = (s_.eased > 0 ? 0.5 : 1.0) * d_.settings.relax_march;
-  r.mean_u = s_.mean.u;
-  r.mean_v = s_.mean.v;
-  r.mean_w = s_.mean.w;
+  r.inertia = d_.air.density * d_.air.speed();
+  r.mean = {s_.mean.u, s_.mean.v, s_.mean.w};
+  r.velocity = velocity_around(rings, j, k, rows);
   r.p = &s_.f.p[at], r.rho = &s_.f.rho[at];
-  velocities_around(rings, j, k, rows, r);
-  r.fx = &s_.f.fx[at], r.fy = &s_.f.fy[at], r.fz = &s_.f.fz[at];
-  r.mu = &rings.mu[mod(k, 3)][in];
-  r.mu_above = &rings.mu[mod(last ? k : k + 1, 3)][in];
-  double* below = &rings.mu[mod(k - 1, 3)][in];
-  if (first && b_.open()) std::copy_n(r.mu, d_.grid.nx, below);
+  r.flux = s_.f.flux(at);
+  double* below = rings.mu.row(k - 1, in);
+  r.mu = {rings.mu.row(k, in), below, rings.mu.row(last ? k : k + 1, in)};
+  if (first && b_.open()) std::copy_n(r.mu.here, d_.grid.nx, below);
   if (first && !b_.open()) {
     const double *inlet_k = b_.inlet.turbulence(j), *inlet_omega = b_.inlet.frequency(j);
     for (int i = 0; i < d_.grid.nx; ++i) {
-      below[i] = 2 * (d_.air.viscosity + r.rho[i] * inlet_k[i] / inlet_omega[i]) - r.mu[i];
+      below[i] = 2 * (d_.air.viscosity + r.rho[i] * inlet_k[i] / inlet_omega[i]) - r.mu.here[i];
     }
   }
-  r.mu_below = below;
-  r.tx = &rings.tx[mod(k, 2)][in];
-  r.ty = &rings.ty[mod(k, 2)][in];
-  r.tz = &rings.tz[mod(k, 3)][in];
-  r.tz_below = first ? r.tz : &rings.tz[mod(k - 1, 3)][in];
-  r.tz_above = last ? r.tz : &rings.tz[mod(k + 1, 3)][in];
-  r.component = component;
-  r.linear = in_the_way_.porous.linear(j, k);
-  r.quadratic = in_the_way_.porous.quadratic(j, k);
-  const auto extra = [&](const Array<double>& both, const Array<double>& body) {
-    return d_.settings.second_order ? &both[at] : body.empty() ? zeros : &body[at];
-  };
-  r.extra_u = extra(t_.extra_u, in_the_way_.body_u), r.extra_v = extra(t_.extra_v, in_the_way_.body_v),
-  r.extra_w = extra(t_.extra_w, in_the_way_.body_w);
-  r.sheet = jumps(j, k, s_.held);
-  r.stiffness = jumps(j, k, in_the_way_.sheets.stiffness());
-  r.inertia = d_.air.density * d_.air.speed();
-  r.hu = &t_.hu[at], r.hv = &t_.hv[at], r.hw = &t_.hw[at], r.ra = &t_.ra[at], r.rc = &t_.rc[at];
-  double* next = &rings.predicted[mod(k, 2)][in];
-  r.u_new = next, r.v_new = next + component, r.w_new = next + 2 * component;
+  r.stress = rings.stress(k, in);
+  r.stress_below = first ? r.stress.z : rings.tz.row(k - 1, in);
+  r.stress_above = last ? r.stress.z : rings.tz.row(k + 1, in);
+  r.resistance = in_the_way_.porous.at(j, k);
+  r.force = force_on(at);
+  r.sheet = sheet(j, k);
+  r.matrix = t_.matrix(at);
+  r.predicted = rings.predicted(k, in);
   return r;
 }
 
+// Force on the air in an iteration, and second-order convection.
+VectorView<const double> Solver::force_on(std::ptrdiff_t at) const {
+  if (d_.settings.second_order) return row_of(t_.extra_u, t_.extra_v, t_.extra_w, at);
+  const Obstacles& o = in_the_way_;
+  const double* zeros = &t_.zeros[Layout::lead];
+  return o.body_u.empty() ? VectorView{zeros, zeros, zeros} : row_of(o.body_u, o.body_v, o.body_w, at);
+}
+
 void Solver::momentum(MarchRings& rings, int k, IndexRange rows) {
-  for (int step = rows.begin; step < rows.end; ++step) {
-    const int j = northward() ? step : rows.end - 1 - (step - rows.begin);
-    MomentumRow r = momentum_of(rings, j, k, rows);
-    momentum_row(r);
+  for_rows({rows, northward()}, [&](int j) {
+    const MomentumSums sum = momentum_row(momentum_of(rings, j, k, rows));
     double* sums = t_.sums.row(j, k);
-    sums[Sums::u_residual] = r.u_sum.residual, sums[Sums::u_scale] = r.u_sum.scale;
-    sums[Sums::v_residual] = r.v_sum.residual, sums[Sums::v_scale] = r.v_sum.scale;
-    sums[Sums::w_residual] = r.w_sum.residual, sums[Sums::w_scale] = r.w_sum.scale;
-  }
+    sums[Sums::u_residual] = sum.u.residual, sums[Sums::u_scale] = sum.u.scale;
+    sums[Sums::v_residual] = sum.v.residual, sums[Sums::v_scale] = sum.v.scale;
+    sums[Sums::w_residual] = sum.w.residual, sums[Sums::w_scale] = sum.w.scale;
+  });
 }
 
 }  // namespace ripstop::cartesian

@@ -7,6 +7,7 @@
 
 #include "ripstop/core/vec3.h"
 #include "ripstop/flow/cartesian/grid.h"
+#include "ripstop/flow/cartesian/views.h"
 #include "ripstop/flow/flow.h"
 
 namespace ripstop::cartesian {
@@ -19,6 +20,11 @@ struct Fields {
   Array<double> rho;         // [kg/m3]
   Array<double> k, omega;    // [m2/s2], [1/s]
   Array<double> fx, fy, fz;  // mass flux per area through the low faces [kg/(m2 s)]
+
+  VectorView<const double> velocity(std::ptrdiff_t at) const { return row_of(u, v, w, at); }
+  VectorView<double> velocity(std::ptrdiff_t at) { return row_of(u, v, w, at); }
+  VectorView<const double> flux(std::ptrdiff_t at) const { return row_of(fx, fy, fz, at); }
+  VectorView<double> flux(std::ptrdiff_t at) { return row_of(fx, fy, fz, at); }
 };
 
 /// Means over the box, which residuals are measured against.

@@ -1,4 +1,4 @@
-// The row kernels of a step in time (time_step.cpp): pointers as in rows.h.
+// The row kernels of a step in time (time_step.cpp): views as in rows.h.
 #pragma once
 
 #include <cstddef>
@@ -15,13 +15,12 @@ struct EddyRow {
   double density = 0;             // [kg/m3]
   const double* along = nullptr;  // part of the mixing length squared that changes along the row [m^(2/3)]
   double across = 0;              // and the rest of it [m^(4/3)]
-  const double *u = nullptr, *v = nullptr, *w = nullptr;
+  VectorView<const double> velocity;
   // Results.
-  double* mu = nullptr;                                // mu + mu_t [Pa s]
-  double *tx = nullptr, *ty = nullptr, *tz = nullptr;  // mu du_a/dx_c of the axes a, three components c each
-  std::ptrdiff_t component = 0;                        // values from a component to the next
+  double* mu = nullptr;       // mu + mu_t [Pa s]
+  StressView<double> stress;  // mu du_a/dx_c of the axes a, three components c each
 };
-void eddy_row(EddyRow& row);
+void eddy_row(const EddyRow& row);
 
 /// How a row of faces across one axis interpolates; along the row either one number or one a face.
 struct FaceWeights {
@@ -36,15 +35,15 @@ struct PassingRow {
   std::ptrdiff_t step = 0;                   // from the cell below a face to the one above it
   std::ptrdiff_t far_low = 0, far_high = 0;  // from the cell above the face to the second ones on either side
   const double* flux = nullptr;              // through the faces [kg/(m2 s)]
-  const double *u = nullptr, *v = nullptr, *w = nullptr;
-  const double *mu = nullptr, *mu_low = nullptr;       // of the cells above and below the faces
-  const double *t = nullptr, *t_low = nullptr;         // three components each
-  std::ptrdiff_t component = 0;                        // values from a component to the next
-  FaceWeights across;                                  // the same for all faces; or, along x,
-  const Axis* along = nullptr;                         // one a face, with upwind values in its ends
-  double *pu = nullptr, *pv = nullptr, *pw = nullptr;  // results
+  VectorView<const double> velocity;
+  const double *mu = nullptr, *mu_low = nullptr;          // of the cells above and below the faces
+  const double *stress = nullptr, *stress_low = nullptr;  // three components each
+  std::ptrdiff_t component = 0;                           // values from a component to the next
+  FaceWeights across;                                     // the same for all faces; or, along x,
+  const Axis* along = nullptr;                            // one a face, with upwind values in its ends
+  VectorView<double> passing;                             // results
 };
-void passing_row(PassingRow& row);
+void passing_row(const PassingRow& row);
 /// Through faces in the boundary: the flux of the air from its upstream side.
 void boundary_passing_row(const PassingRow& row);
 /// And the stress along the normal in a side, 2 mu du_n/dn by the ghosts: `velocity` and `passing` are those of
@@ -55,31 +54,24 @@ void side_stress_row(const PassingRow& row, const double* velocity, const double
 /// From the momentum that passes the faces of a row's cells to their velocity before the pressure acts.
 struct RateRow {
   RowMetrics m;
-  const double *xu = nullptr, *xv = nullptr, *xw = nullptr;  // n + 1 faces
-  const double *yu = nullptr, *yv = nullptr, *yw = nullptr, *yu_high = nullptr, *yv_high = nullptr,
-               *yw_high = nullptr;
-  const double *zu = nullptr, *zv = nullptr, *zw = nullptr, *zu_high = nullptr, *zv_high = nullptr,
-               *zw_high = nullptr;
-  const double *body_u = nullptr, *body_v = nullptr, *body_w = nullptr;  // [N/m3]
-  const double *u = nullptr, *v = nullptr, *w = nullptr, *rho = nullptr;
-  const double *linear = nullptr, *quadratic = nullptr;            // of porous cells, see MomentumRow
-  double inverse_step = 0;                                         // [1/s]
-  double now = 1, before = 0;                                      // weights of this rate and of the last one
-  double *rate_u = nullptr, *rate_v = nullptr, *rate_w = nullptr;  // the last ones, then these [N/m3]
-  double *hu = nullptr, *hv = nullptr, *hw = nullptr;              // [m/s]
-  double *ra = nullptr, *rc = nullptr;                             // [m3 s/kg]
+  FaceView u, v, w;                // of each component, the momentum that passes the faces [Pa]
+  VectorView<const double> force;  // on the air [N/m3]
+  VectorView<const double> velocity;
+  const double* rho = nullptr;
+  ResistanceView resistance;
+  double inverse_step = 0;     // [1/s]
+  double now = 1, before = 0;  // weights of this rate and of the last one
+  VectorView<double> rate;     // the last one, then this one [N/m3]
+  MatrixView<double> matrix;
   bool uniform = false;  // no porous cells, one density: ra and rc are there already, the same in all cells
 };
-void rate_row(RateRow& row);
+void rate_row(const RateRow& row);
 
-/// Of the cells of a row: the largest sum over the axes of |flux| / width, and the sum of the mass that stays
-/// in a cell or leaves it.
-struct CourantRow {
-  RowMetrics m;
-  const double *fx = nullptr, *fy = nullptr, *fz = nullptr;
-  double largest = 0;  // [kg/(m3 s)]
-  double defect = 0;   // times the cell width [kg/(m2 s)]
+/// Of the cells of a row: the largest sum over the axes of |flux| / width [kg/(m3 s)], and the sum of the mass that
+/// stays in a cell or leaves it, times the cell width [kg/(m2 s)].
+struct CourantSums {
+  double largest = 0, defect = 0;
 };
-void courant_row(CourantRow& row);
+CourantSums courant_row(const RowMetrics& m, VectorView<const double> flux);
 
 }  // namespace ripstop::cartesian

@@ -27,23 +27,14 @@ constexpr int most_cycles = 12;
 constexpr double least_share = 0.75, new_share = 0.9;
 constexpr double most_growth = 1.2;  // of a step over the last one
 
-constexpr int mod(int k, int n) {
-  return (k + n) % n;
-}
-
-// Where a block's planes of momentum that passes lie in its rings: along the stream by plane, and across it a
-// row of faces for each component of the axes x, y and the next y.
-struct Passing {
-  double *u, *v, *w;
-};
-Passing along_stream(MarchRings& rings, const Layout& layout, int j, int k, IndexRange rows) {
-  double* p = &rings.predicted[mod(k, 2)][rings.at(layout, j, rows.begin)];
-  const auto component = static_cast<std::ptrdiff_t>(rings.plane);
-  return {p, p + component, p + 2 * component};
-}
-Passing across_stream(MarchRings& rings, const Layout& layout, int which) {
+// Momentum that passes a row of faces across the stream: across x, y and the next y, three components each.
+VectorView<double> across_stream(MarchRings& rings, const Layout& layout, int which) {
   double* p = &rings.scratch[Layout::lead + std::ptrdiff_t{3} * which * layout.stride_y];
   return {p, p + layout.stride_y, p + 2 * layout.stride_y};
+}
+// `which` of the low faces across y of row j.
+int low_faces(int j) {
+  return 1 + j % 2;
 }
 
 FaceWeights weights_of(const Axis& axis, int face) {
@@ -158,12 +149,12 @@ FlowStep Solver::step(double length) {
       team_.barrier();
     }
     each_plane(rank, [&](int k) { matrix_ghosts(k); });
-    each_plane_of_a_block(rank, [&](int k, IndexRange rows) { pressure(k, rows); });
+    each_row(rank, [&](int j, int k) { pressure(j, k); });
     // A wake changes little in a step: most of the last one's correction comes again.
     multigrid_.solve_conjugate(team_, rank, reduction, most_cycles, &s_.correction);
     each_plane(rank, [&](int k) { correction_ghosts(d_, b_, multigrid_.finest().e, k); });
-    each_plane_of_a_block(rank, [&](int k, IndexRange rows) { flux(k, rows); });
-    each_plane_of_a_block(rank, [&](int k, IndexRange rows) { velocity(k, rows); });
+    each_row(rank, [&](int j, int k) { flux(j, k); });
+    each_row(rank, [&](int j, int k) { velocity(j, k); });
     each_plane(rank, [&](int k) { relax_pressure(k), velocity_ghosts(d_, b_, s_, k), courant(k); });
     t_.sums.add_up(team_, rank);
   });
@@ -195,22 +186,20 @@ void Solver::eddies(MarchRings& rings, int k, IndexRange rows) {
     r.along = t_.mixing.data();
     const bool none = d_.settings.small_eddies == SmallEddies::none;
     r.across = none ? 0 : mixing_constant * mixing_constant * std::cbrt(across * across);
-    r.u = &s_.f.u[at], r.v = &s_.f.v[at], r.w = &s_.f.w[at];
-    r.mu = &rings.mu[mod(k, 3)][in];
-    r.tx = &rings.tx[mod(k, 2)][in], r.ty = &rings.ty[mod(k, 2)][in], r.tz = &rings.tz[mod(k, 3)][in];
-    r.component = static_cast<std::ptrdiff_t>(rings.plane);
+    r.velocity = s_.f.velocity(at);
+    r.mu = rings.mu.row(k, in);
+    r.stress = rings.stress(k, in);
     eddy_row(r);
   }
 }
 
 /// Data of row j for faces of all axes.
 PassingRow Solver::passing_of(MarchRings& rings, int j, int k, IndexRange rows) const {
-  const std::ptrdiff_t at = d_.layout.at(0, j, k);
   PassingRow r;
   r.count = d_.grid.nx;
-  r.u = &s_.f.u[at], r.v = &s_.f.v[at], r.w = &s_.f.w[at];
-  r.mu = r.mu_low = &rings.mu[mod(k, 3)][rings.at(d_.layout, j, rows.begin)];
-  r.component = static_cast<std::ptrdiff_t>(rings.plane);
+  r.velocity = s_.f.velocity(d_.layout.at(0, j, k));
+  r.mu = r.mu_low = rings.mu.row(k, rings.at(d_.layout, j, rows.begin));
+  r.component = rings.component;
   return r;
 }
 
@@ -219,23 +208,23 @@ void Solver::pass_along_stream(MarchRings& rings, int k, IndexRange rows) const 
   const std::ptrdiff_t sz = d_.layout.stride_z;
   for (int j = rows.begin; j < rows.end; ++j) {
     const std::ptrdiff_t at = d_.layout.at(0, j, k), in = rings.at(d_.layout, j, rows.begin);
-    Passing p = along_stream(rings, d_.layout, j, k, rows);
+    const VectorView<double> passing = rings.predicted(k, in);
     const double* flux = &s_.f.fz[at];
     if (k == 0 && !b_.open()) {
-      std::fill_n(p.u, d_.grid.nx, 0.0), std::fill_n(p.v, d_.grid.nx, 0.0);
-      for (int i = 0; i < d_.grid.nx; ++i) p.w[i] = flux[i] * b_.inlet.speed(j)[i];
+      std::fill_n(passing.x, d_.grid.nx, 0.0), std::fill_n(passing.y, d_.grid.nx, 0.0);
+      for (int i = 0; i < d_.grid.nx; ++i) passing.z[i] = flux[i] * b_.inlet.speed(j)[i];
       continue;
     }
     PassingRow r = passing_of(rings, j, k, rows);
     r.flux = flux, r.step = sz, r.far_low = -2 * sz, r.far_high = sz;
-    r.pu = p.u, r.pv = p.v, r.pw = p.w;
+    r.passing = passing;
     if (k == 0 || k == d_.grid.nz) {
       boundary_passing_row(r);
       continue;
     }
     r.across = weights_of(d_.z, k);
-    r.mu_low = &rings.mu[mod(k - 1, 3)][in];
-    r.t = &rings.tz[mod(k, 3)][in], r.t_low = &rings.tz[mod(k - 1, 3)][in];
+    r.mu_low = rings.mu.row(k - 1, in);
+    r.stress = rings.tz.row(k, in), r.stress_low = rings.tz.row(k - 1, in);
     passing_row(r);
   }
 }
@@ -246,16 +235,16 @@ void Solver::pass_in_plane(MarchRings& rings, int k, IndexRange rows) {
   const auto across = [&](int j) {  // the low faces of row j
     PassingRow r = passing_of(rings, j, k, rows);
     const std::ptrdiff_t in = rings.at(d_.layout, j, rows.begin);
-    Passing p = across_stream(rings, d_.layout, 1 + mod(j, 2));
+    r.passing = across_stream(rings, d_.layout, low_faces(j));
     r.flux = &s_.f.fy[d_.layout.at(0, j, k)], r.step = sy, r.far_low = -2 * sy, r.far_high = sy;
-    r.pu = p.u, r.pv = p.v, r.pw = p.w;
     if (j == 0 || j == d_.grid.ny) {
       boundary_passing_row(r);
-      return side_stress_row(r, r.v, j == 0 ? r.mu : r.mu - sy, d_.y.inverse_width[j == 0 ? 0 : j - 1], r.pv);
+      return side_stress_row(r, r.velocity.y, j == 0 ? r.mu : r.mu - sy,
+                             d_.y.inverse_width[j == 0 ? 0 : j - 1], r.passing.y);
     }
     r.across = weights_of(d_.y, j);
     r.mu_low = r.mu - sy;
-    r.t = &rings.ty[mod(k, 2)][in], r.t_low = r.t - sy;
+    r.stress = rings.ty.row(k, in), r.stress_low = r.stress - sy;
     passing_row(r);
   };
   across(rows.begin);
@@ -263,41 +252,40 @@ void Solver::pass_in_plane(MarchRings& rings, int k, IndexRange rows) {
     across(j + 1);
     PassingRow r = passing_of(rings, j, k, rows);
     const std::ptrdiff_t in = rings.at(d_.layout, j, rows.begin);
-    Passing p = across_stream(rings, d_.layout, 0);
     r.count = d_.grid.nx + 1;
     r.along = &d_.x;
     r.flux = &s_.f.fx[d_.layout.at(0, j, k)], r.step = 1, r.far_low = -2, r.far_high = 1;
     r.mu_low = r.mu - 1;
-    r.t = &rings.tx[mod(k, 2)][in], r.t_low = r.t - 1;
-    r.pu = p.u, r.pv = p.v, r.pw = p.w;
+    r.stress = rings.tx.row(k, in), r.stress_low = r.stress - 1;
+    r.passing = across_stream(rings, d_.layout, 0);
     passing_row(r);
     rate(rings, j, k, rows);
   }
 }
 
 void Solver::rate(MarchRings& rings, int j, int k, IndexRange rows) {
-  const std::ptrdiff_t at = d_.layout.at(0, j, k);
+  const std::ptrdiff_t at = d_.layout.at(0, j, k), in = rings.at(d_.layout, j, rows.begin);
   const double* zeros = &t_.zeros[Layout::lead];
-  const Passing x = across_stream(rings, d_.layout, 0), y = across_stream(rings, d_.layout, 1 + mod(j, 2)),
-                north = across_stream(rings, d_.layout, 1 + mod(j + 1, 2)),
-                z = along_stream(rings, d_.layout, j, k, rows),
-                above = along_stream(rings, d_.layout, j, k + 1, rows);
+  const VectorView<double> x = across_stream(rings, d_.layout, 0),
+                           y = across_stream(rings, d_.layout, low_faces(j)),
+                           north = across_stream(rings, d_.layout, low_faces(j + 1)),
+                           z = rings.predicted(k, in), above = rings.predicted(k + 1, in);
   RateRow r;
   r.m = d_.metrics(j, k);
-  r.xu = x.u, r.xv = x.v, r.xw = x.w;
-  r.yu = y.u, r.yv = y.v, r.yw = y.w, r.yu_high = north.u, r.yv_high = north.v, r.yw_high = north.w;
-  r.zu = z.u, r.zv = z.v, r.zw = z.w, r.zu_high = above.u, r.zv_high = above.v, r.zw_high = above.w;
-  const auto body = [&](const Array<double>& pull, const Array<double>& force) {
-    return !pull.empty() ? &pull[Layout::lead] : force.empty() ? zeros : &force[at];
+  r.u = {x.x, y.x, north.x, z.x, above.x};
+  r.v = {x.y, y.y, north.y, z.y, above.y};
+  r.w = {x.z, y.z, north.z, z.z, above.z};
+  const auto force = [&](const Array<double>& pull, const Array<double>& body) {
+    return !pull.empty() ? &pull[Layout::lead] : body.empty() ? zeros : &body[at];
   };
-  r.body_u = body(t_.pull_u, in_the_way_.body_u), r.body_v = body(t_.pull_v, in_the_way_.body_v),
-  r.body_w = body(t_.pull_w, in_the_way_.body_w);
-  r.u = &s_.f.u[at], r.v = &s_.f.v[at], r.w = &s_.f.w[at], r.rho = density_of_row(j, k);
-  r.linear = in_the_way_.porous.linear(j, k), r.quadratic = in_the_way_.porous.quadratic(j, k);
+  r.force = {force(t_.pull_u, in_the_way_.body_u), force(t_.pull_v, in_the_way_.body_v),
+             force(t_.pull_w, in_the_way_.body_w)};
+  r.velocity = s_.f.velocity(at), r.rho = density_of_row(j, k);
+  r.resistance = in_the_way_.porous.at(j, k);
   r.inverse_step = 1 / s_.clock.step;
   r.now = t_.now, r.before = t_.before;
-  r.rate_u = &s_.rate_u[at], r.rate_v = &s_.rate_v[at], r.rate_w = &s_.rate_w[at];
-  r.hu = &t_.hu[at], r.hv = &t_.hv[at], r.hw = &t_.hw[at], r.ra = &t_.ra[at], r.rc = &t_.rc[at];
+  r.rate = row_of(s_.rate_u, s_.rate_v, s_.rate_w, at);
+  r.matrix = t_.matrix(at);
   r.uniform = uniform();
   rate_row(r);
 }
@@ -306,13 +294,9 @@ void Solver::rate(MarchRings& rings, int j, int k, IndexRange rows) {
 void Solver::courant(int k) {
   t_.fastest[k] = 0;
   for (int j = 0; j < d_.grid.ny; ++j) {
-    const std::ptrdiff_t at = d_.layout.at(0, j, k);
-    CourantRow r;
-    r.m = d_.metrics(j, k);
-    r.fx = &s_.f.fx[at], r.fy = &s_.f.fy[at], r.fz = &s_.f.fz[at];
-    courant_row(r);
-    t_.fastest[k] = std::max(t_.fastest[k], r.largest);
-    t_.sums.row(j, k)[Sums::mass_defect] = r.defect * d_.y.width[j] * d_.z.width[k];
+    const CourantSums sum = courant_row(d_.metrics(j, k), s_.f.flux(d_.layout.at(0, j, k)));
+    t_.fastest[k] = std::max(t_.fastest[k], sum.largest);
+    t_.sums.row(j, k)[Sums::mass_defect] = sum.defect * d_.y.width[j] * d_.z.width[k];
   }
 }
 

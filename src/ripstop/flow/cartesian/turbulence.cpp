@@ -43,22 +43,19 @@ CrossMetrics cross_metrics(const Axis& axis, int c) {
 
 RIPSTOP_ROW_KERNEL void eddy_viscosity_row(int n, const double* rho, const double* k, const double* omega,
                                            double* mut) {
-#pragma omp simd
-  for (int i = 0; i < n; ++i) mut[i] = rho[i] * k[i] / omega[i];
+  for_cells(n, [=](int i) RIPSTOP_CELL { mut[i] = rho[i] * k[i] / omega[i]; });
 }
 
 RIPSTOP_ROW_KERNEL void unresolved_row(int n, const double* width, double across, const double* omega,
                                        double* k) {
-#pragma omp simd
-  for (int i = 0; i < n; ++i) {
+  for_cells(n, [=](int i) RIPSTOP_CELL {
     const double root = beta_star * c_des * omega[i] * larger(width[i], across);
     k[i] = smaller(k[i], root * root);
-  }
+  });
 }
 
 RIPSTOP_ROW_KERNEL void limit_row(int n, const double* limit, double* mut) {
-#pragma omp simd
-  for (int i = 0; i < n; ++i) mut[i] *= limit[i];
+  for_cells(n, [=](int i) RIPSTOP_CELL { mut[i] *= limit[i]; });
 }
 
 namespace {
@@ -74,7 +71,7 @@ namespace {
 // over the cell's width, and the eddy viscosity.
 [[gnu::always_inline]] inline Faces convection(const TurbulenceRow& row, std::ptrdiff_t i) {
   const RowMetrics& m = row.m;
-  Faces in = inflow(m, row.fx, row.fy, row.fz, i);
+  Faces in = inflow(m, row.flux, i);
   const double h = m.x_inverse_width[i], hy = m.y.inverse_width, hz = m.z.inverse_width;
   return {in.w * h, in.e * h, in.s * hy, in.n * hy, in.b * hz, in.a * hz};
 }
@@ -114,9 +111,8 @@ struct Update {
 template <bool in_time>
 [[gnu::always_inline]] inline Update omega_update(const TurbulenceRow& row, const Faces& a, double strain,
                                                   double cross, double inverse_alpha, std::ptrdiff_t i) {
-  const double off = sum(a), old = row.omega[i], rho = row.rho[i];
-  const double neighbours =
-      from_neighbours(a, row.omega, row.omega_south, row.omega_north, row.omega_below, row.omega_above, i);
+  const double off = sum(a), old = row.omega.here[i], rho = row.rho[i];
+  const double neighbours = from_neighbours(a, row.omega, i);
   const double source = rho * gamma2 * smaller(strain, (c1 * beta_star) * old * old) + positive(cross);
   const double diagonal = off + rho * beta2 * old + positive(-cross) * (1 / old);
   if constexpr (in_time) return stepped(off, neighbours, source, diagonal, old, rho * row.inverse_step);
@@ -126,9 +122,9 @@ template <bool in_time>
 template <bool in_time>
 [[gnu::always_inline]] inline Update k_update(const TurbulenceRow& row, const Faces& a, double strain,
                                               double omega, double inverse_alpha, std::ptrdiff_t i) {
-  const double off = sum(a), old = row.k[i], rho = row.rho[i];
-  const double neighbours = from_neighbours(a, row.k, row.k_south, row.k_north, row.k_below, row.k_above, i);
-  const double source = smaller(row.mut[i] * strain, rho * (c1 * beta_star) * old * omega);
+  const double off = sum(a), old = row.k.here[i], rho = row.rho[i];
+  const double neighbours = from_neighbours(a, row.k, i);
+  const double source = smaller(row.mut.here[i] * strain, rho * (c1 * beta_star) * old * omega);
   if constexpr (in_time) {
     const double inverse_width = smaller(row.m.x_inverse_width[i], row.inverse_across);
     const double sink = larger(omega, 1 / (beta_star * c_des) * std::sqrt(old) * inverse_width);
@@ -154,50 +150,41 @@ template <bool in_time>
                                                 const Gradient& v, const Gradient& w, double mu,
                                                 double divergence, std::ptrdiff_t i) {
   const double trace = (2.0 / 3) * mu * divergence;
-  const std::ptrdiff_t j = i + row.component, k = i + 2 * row.component;
+  const StressView<double>& t = row.stress;
+  const std::ptrdiff_t j = i + t.component, k = i + 2 * t.component;
   row.mu_new[i] = mu;
-  row.tx[i] = mu * u.x - trace;
-  row.tx[j] = mu * u.y;
-  row.tx[k] = mu * u.z;
-  row.ty[i] = mu * v.x;
-  row.ty[j] = mu * v.y - trace;
-  row.ty[k] = mu * v.z;
-  row.tz[i] = mu * w.x;
-  row.tz[j] = mu * w.y;
-  row.tz[k] = mu * w.z - trace;
+  t.x[i] = mu * u.x - trace;
+  t.x[j] = mu * u.y;
+  t.x[k] = mu * u.z;
+  t.y[i] = mu * v.x;
+  t.y[j] = mu * v.y - trace;
+  t.y[k] = mu * v.z;
+  t.z[i] = mu * w.x;
+  t.z[j] = mu * w.y;
+  t.z[k] = mu * w.z - trace;
 }
 
 template <bool with_wall, bool in_time>
-[[gnu::always_inline]] inline void turbulence(TurbulenceRow& results) {
-  const TurbulenceRow row = results;  // a copy, so that the compiler sees that the loop does not change it
+[[gnu::always_inline]] inline TurbulenceSums turbulence(TurbulenceRow row) {
   const RowMetrics& m = row.m;
   const double inverse_alpha = 1 / row.relaxation;
-  double res_k = 0, scale_k = 0, res_om = 0, scale_om = 0, total_k = 0, total_om = 0;
-#pragma omp simd reduction(+ : res_k, scale_k, res_om, scale_om, total_k, total_om)
-  for (int i = 0; i < m.n; ++i) {
-    Gradient u = gradient(m, row.u, i), v = gradient(m, row.v, i), w = gradient(m, row.w, i);
+  const CellSums sums = sum_cells<in_time>(m.n, [&](int i) RIPSTOP_CELL {
+    Gradient u = gradient(m, row.velocity.x, i), v = gradient(m, row.velocity.y, i),
+             w = gradient(m, row.velocity.z, i);
     const double divergence = u.x + v.y + w.z, strain = strain_rate(u, v, w, divergence);
-    Gradient of_k = gradient(m, row.k, i), of_omega = gradient(m, row.omega, i);
+    Gradient of_k = gradient(m, row.k.here, i), of_omega = gradient(m, row.omega.here, i);
     const double cross = (2 * sigma_omega) * row.rho[i] *
                          (of_k.x * of_omega.x + of_k.y * of_omega.y + of_k.z * of_omega.z) *
-                         (1 / row.omega[i]);
+                         (1 / row.omega.here[i]);
 
     Faces c = convection(row, i), d = diffusion(m, i);
-    Faces eddy = on_faces(m, row.mut, row.mut_below, row.mut_above, i);
+    Faces eddy = on_faces(m, row.mut, i);
     Faces a_omega = coefficients(c, d, eddy, sigma_omega, row.viscosity);
     Update omega = omega_update<in_time>(row, a_omega, strain, cross, inverse_alpha, i);
     Faces a_k = coefficients(c, d, eddy, sigma_k, row.viscosity);
     Update k = k_update<in_time>(row, a_k, strain, omega.value, inverse_alpha, i);
     row.omega_new[i] = omega.value;
     row.k_new[i] = k.value;
-    if constexpr (!in_time) {
-      res_om += omega.residual;
-      scale_om += omega.scale;
-      res_k += k.residual;
-      scale_k += k.scale;
-      total_k += k.value * m.x_width[i];
-      total_om += omega.value * m.x_width[i];
-    }
 
     double limit = 1;
     if constexpr (with_wall) {
@@ -205,36 +192,36 @@ template <bool with_wall, bool in_time>
       row.limit_new[i] = limit;
     }
     if constexpr (in_time) {  // the stress that acts in this step
-      write_stress(row, u, v, w, row.viscosity + row.mut[i], 0, i);
+      write_stress(row, u, v, w, row.viscosity + row.mut.here[i], 0, i);
+      return CellSums{};
     } else {
       const double mu = row.viscosity + row.rho[i] * k.value / omega.value * limit;
       write_stress(row, u, v, w, mu, divergence, i);
+      const double h = m.x_width[i];
+      return CellSums{k.residual, k.scale, omega.residual, omega.scale, k.value * h, omega.value * h};
     }
-  }
-  results.k_sum = {res_k, scale_k};
-  results.omega_sum = {res_om, scale_om};
-  results.total_k = total_k;
-  results.total_omega = total_om;
+  });
+  return {{sums.a, sums.b}, {sums.c, sums.d}, sums.e, sums.f};
 }
 
-RIPSTOP_ROW_KERNEL void open_row(TurbulenceRow& row) {
-  turbulence<false, false>(row);
+RIPSTOP_ROW_KERNEL TurbulenceSums open_row(const TurbulenceRow& row) {
+  return turbulence<false, false>(row);
 }
-RIPSTOP_ROW_KERNEL void wall_row(TurbulenceRow& row) {
-  turbulence<true, false>(row);
+RIPSTOP_ROW_KERNEL TurbulenceSums wall_row(const TurbulenceRow& row) {
+  return turbulence<true, false>(row);
 }
-RIPSTOP_ROW_KERNEL void open_row_in_time(TurbulenceRow& row) {
-  turbulence<false, true>(row);
+RIPSTOP_ROW_KERNEL TurbulenceSums open_row_in_time(const TurbulenceRow& row) {
+  return turbulence<false, true>(row);
 }
-RIPSTOP_ROW_KERNEL void wall_row_in_time(TurbulenceRow& row) {
-  turbulence<true, true>(row);
+RIPSTOP_ROW_KERNEL TurbulenceSums wall_row_in_time(const TurbulenceRow& row) {
+  return turbulence<true, true>(row);
 }
 
 }  // namespace
 
-void turbulence_row(TurbulenceRow& row) {
+TurbulenceSums turbulence_row(const TurbulenceRow& row) {
   if (row.inverse_step > 0) return row.wall ? wall_row_in_time(row) : open_row_in_time(row);
-  row.wall ? wall_row(row) : open_row(row);
+  return row.wall ? wall_row(row) : open_row(row);
 }
 
 }  // namespace ripstop::cartesian

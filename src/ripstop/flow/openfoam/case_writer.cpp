@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "ripstop/core/error.h"
+#include "ripstop/core/quantity_error.h"
 #include "ripstop/flow/boundaries.h"
 #include "ripstop/flow/openfoam/foam_file.h"
 #include "ripstop/flow/openfoam/installation.h"
@@ -310,14 +311,16 @@ void check_run(int iterations, double residual) {
 
 void check(const FlowProblem& problem) {
   const auto refuse = [](bool has, const std::string& what) {
-    if (has) throw Error(ExitCode::usage, fmt::format("{} needs flow.engine = \"builtin\"", what));
+    if (has)
+      throw QuantityError(ExitCode::usage, fmt::format("{} needs the built-in engine", what),
+                          {"open jet", "sides", "outlet", "the built-in engine"});
   };
-  refuse(problem.jet.has_value(), "flow.tunnel.kind = \"open-jet\"");
+  refuse(problem.jet.has_value(), "open jet");
   const Sides sides = sides_of(problem);
   refuse(sides != Sides::zero_gradient && sides != Sides::slip && sides != Sides::far_field,
-         fmt::format("flow.sides = \"{}\"", sides.word));
+         fmt::format("sides = \"{}\"", sides.word));
   refuse(sides != Sides::far_field && problem.outlet != Outlet::fixed_pressure,
-         fmt::format("flow.outlet = \"{}\"", problem.outlet.word));
+         fmt::format("outlet = \"{}\"", problem.outlet.word));
   refuse(!problem.body_force.empty(), "a force on the air");
   const FlowGrid& grid = problem.grid;
   for (const int n : {grid.nx, grid.ny, grid.nz}) range("number of cells along an axis", n, 1, 4000, "");

@@ -12,6 +12,7 @@
 
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
+#include "ripstop/core/quantity_error.h"
 #include "ripstop/flow/hems.h"
 #include "ripstop/flow/openfoam/case_writer.h"
 #include "ripstop/flow/openfoam/field_file.h"
@@ -362,14 +363,14 @@ std::vector<Baffle> baffles_on(int number, const FlowBody& sheet, const MeshPart
   const Size size(faces), whole(sheet.surface);
   const auto alike = [](double a, double b) { return std::abs(a - b) <= tolerance * b; };
   if (!alike(size.area, whole.area) || !alike(size.rim, whole.rim))
-    throw Error(
+    throw QuantityError(
         ExitCode::external,
         fmt::format(
             "OpenFOAM's mesh has {:.4g} m2 of faces with {:.4g} m of rims on {:.4g} m2 of cloth with {:.4g} "
-            "m: "
-            "its cells are too coarse for gaps or folds of the cloth; use more cells (flow.cells) or higher "
-            "flow.cloth_levels",
-            size.area, size.rim, whole.area, whole.rim));
+            "m: its cells are too coarse for gaps or folds of the cloth; use a finer flow grid or a higher "
+            "refinement at the cloth",
+            size.area, size.rim, whole.area, whole.rim),
+        {"flow grid", "refinement at the cloth"});
   const double slant = whole.area / size.area;
   for (Baffle& baffle : baffles)
     for (Layer& layer : baffle.layers) layer.area *= slant, layer.slant = slant;
@@ -423,13 +424,9 @@ void open_pockets(const fs::path& mesh) {
   write_dictionary(mesh / "faceZones", "regIOobject", body + ")\n");
 }
 
-constexpr const char* finer =
-    "try cells of more equal sides (flow.cells, flow.core.size_m) or a different flow.cloth_levels";
+constexpr const char* finer = "try cells of more equal sides or a different refinement at the cloth";
 
-}  // namespace
-
-void make_fitted_mesh(const fs::path& folder, const FlowProblem& problem, int levels,
-                      const Programs& programs) {
+void mesh_with(const Programs& programs, const fs::path& folder, const FlowProblem& problem, int levels) {
   remove_path(folder / "constant/polyMesh");
   remove_path(folder / "constant/triSurface");
   make_folder(folder / "constant/triSurface");
@@ -450,6 +447,17 @@ void make_fitted_mesh(const fs::path& folder, const FlowProblem& problem, int le
   if (!faults.empty())
     throw Error(ExitCode::external, fmt::format("checkMesh of OpenFOAM rejects the mesh in {}: {}; {}",
                                                 folder.string(), fmt::join(faults, "; "), finer));
+}
+
+}  // namespace
+
+void make_fitted_mesh(const fs::path& folder, const FlowProblem& problem, int levels,
+                      const Programs& programs) {
+  try {
+    mesh_with(programs, folder, problem, levels);
+  } catch (const Error& error) {
+    throw restated(error, error.what(), {"cells of more equal sides", "refinement at the cloth"});
+  }
 }
 
 FittedMesh read_fitted_mesh(const fs::path& folder, const FlowProblem& problem) {

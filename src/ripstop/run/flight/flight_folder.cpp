@@ -2,18 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <utility>
 
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/core/hash.h"
-#include "ripstop/flow/unsteady.h"
 #include "ripstop/output/csv.h"
 #include "ripstop/output/picture.h"
 #include "ripstop/output/plot.h"
 #include "ripstop/output/vtk.h"
 #include "ripstop/run/json.h"
+#include "ripstop/run/march_files.h"
 
 namespace ripstop {
 namespace {
@@ -21,20 +20,14 @@ namespace {
 namespace fs = std::filesystem;
 
 // Of the list of members of FreeFlightState: one more with every change of it.
-constexpr int flight_format = 1;
+constexpr int flight_format = 2;
 constexpr const char* what_is_saved = "a checkpoint of a flight";
-/// Of the state of the air, alternating.
-constexpr const char* air_folders[] = {"even", "odd"};
-
-double wall_clock() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 /// Writes every file of the flight before it calls the next observer.
 class FlightFolder : public FlightObserver {
  public:
-  FlightFolder(ClaimedFolder& folder, const FlightFolderSettings& settings, FlightObserver& next)
-      : folder_(folder), settings_(settings), next_(next) {}
+  FlightFolder(RunFolder& folder, const FlightFolderSettings& settings, FlightObserver& next)
+      : folder_(folder), files_(folder, settings.checkpoint_every_s), next_(next) {}
 
   void warned(const std::string& text) override { next_.warned(text); }
   void starting(const SteadyProgress& progress, const SteadyState& state) override {
@@ -60,100 +53,49 @@ class FlightFolder : public FlightObserver {
   void write_shape(FreeFlight& flight, const FreeFlightState& state, long long index);
   void write_series(const FreeFlight& flight, double end);
   void write_plots(const FlightHistory& history, const FlightResult& result);
-  static std::string shape_file(const char* what, long long index, const char* ending = "vtp") {
-    return fmt::format("vtk/{}_{:04}.{}", what, index, ending);
-  }
-  const char* air_ending(FreeFlight& flight) const { return flight.air().grid().uniform() ? "vti" : "vtr"; }
 
-  ClaimedFolder& folder_;
-  FlightFolderSettings settings_;
+  RunFolder& folder_;
+  MarchFiles files_;
   FlightObserver& next_;
-  double saved_ = wall_clock();
-  std::size_t saved_rows_ = 0;
-  int air_ = 0;
 };
 
-// The checkpoint begins with the hash of the table that belongs to it and the folder of its air.
 void FlightFolder::begin(FreeFlight& flight, FreeFlightState& state, FlightHistory& history) {
-  const fs::path saved = folder_.own("checkpoint");
-  make_folder(folder_.path() / "vtk");
-  if (!fs::exists(saved)) {
-    CsvLog(folder_.own("path.csv"), columns_of<FreeFlightRow>(), 0);
-    write_shape(flight, state, 0);
-    return next_.begin(flight, state, history);
+  const std::optional<std::string> saved = files_.load();
+  if (saved) {
+    state = from_cbor<FreeFlightState>(*saved, flight_format, what_is_saved);
+    files_.restore(flight.air());
   }
-  const std::string bytes = read_sealed(saved);
-  const std::string head = bytes.substr(0, bytes.find('\n'));
-  state = from_cbor<FreeFlightState>(bytes.substr(std::min(bytes.size(), head.size() + 1)), flight_format,
-                                     what_is_saved);
-  saved_rows_ = static_cast<std::size_t>(state.coupled.air.steps);
-  CsvLog(folder_.own("path.csv"), columns_of<FreeFlightRow>(), saved_rows_);
-  if (!head.starts_with(hash_file(folder_.own("path.csv"))))
-    throw Error(ExitCode::bad_data,
-                fmt::format("{}: path.csv was lost or changed since the checkpoint; start again "
-                            "with --fresh",
-                            folder_.path().string()));
-  for (const std::vector<double>& row : read_csv(folder_.own("path.csv")).rows)
-    history.rows.push_back(from_row<FreeFlightRow>(row));
-  const int air = head.ends_with(air_folders[1]) ? 1 : 0;
-  flight.air().restore(folder_.own("air/") / air_folders[air]);
-  air_ = 1 - air;
-  refuse_lost(folder_);
+  const auto steps = static_cast<std::size_t>(saved ? state.coupled.air.steps : 0);
+  history.rows = files_.open<FreeFlightRow>("path.csv", steps);
+  files_.check();
+  if (!saved) write_shape(flight, state, 0);
   next_.begin(flight, state, history);
 }
 
 void FlightFolder::advanced(FreeFlight& flight, const FreeFlightState& state, const FlightHistory& history,
                             bool shape) {
   if (shape) write_shape(flight, state, shapes_until(history.rows.back().time, flight.problem().settings));
-  if (wall_clock() - saved_ > settings_.checkpoint_every_s) save(flight, state, history);
+  if (files_.due()) save(flight, state, history);
   next_.advanced(flight, state, history, shape);
 }
 
 void FlightFolder::save(FreeFlight& flight, const FreeFlightState& state, const FlightHistory& history) {
-  CsvLog table(folder_.own("path.csv"), columns_of<FreeFlightRow>(), saved_rows_);
-  std::vector<std::vector<double>> rows;
-  for (; saved_rows_ < history.rows.size(); ++saved_rows_) rows.push_back(row_of(history.rows[saved_rows_]));
-  table.add_rows(rows);
-  flight.air().save(folder_.own("air/") / air_folders[air_]);
-  folder_.keep();
-  write_sealed(folder_.own("checkpoint"),
-               fmt::format("{} {}\n", hash_file(folder_.own("path.csv")), air_folders[air_]) +
-                   to_cbor(state, flight_format));
-  air_ = 1 - air_;
-  saved_ = wall_clock();
+  files_.add("path.csv", history.rows);
+  files_.save(to_cbor(state, flight_format), &flight.air());
 }
 
 // In the box, which follows the canopy.
 void FlightFolder::write_shape(FreeFlight& flight, const FreeFlightState& state, long long index) {
-  const ClothState& cloth = state.coupled.cloth;
-  const std::vector<Vec3> x = positions(cloth, flight.cloth());
-  std::vector<double> mises;
-  for (const CellStress& stress : cell_stress(flight.cloth(), cloth)) mises.push_back(stress.von_mises);
-  VtkSurface canopy = canopy_surface(flight.mesh(), x);
-  canopy.point_arrays.push_back(vtk_array_single("velocity_m_per_s", velocities(cloth, flight.cloth())));
-  canopy.cell_arrays.push_back(vtk_array_single("von_mises_n_per_m", cloth_cells_only(flight.mesh(), mises)));
-  if (!state.coupled.air.pressure.empty())
-    canopy.cell_arrays.push_back(vtk_array_single(
-        "pressure_difference_applied_pa", cloth_cells_only(flight.mesh(), state.coupled.air.pressure)));
-  write_vtp(folder_.own(shape_file("canopy", index)), canopy);
-  VtkSurface lines = spring_lines(flight.mesh(), x);
-  lines.cell_arrays.push_back(vtk_array_single("tension_n", spring_tensions(flight.cloth(), cloth)));
-  write_vtp(folder_.own(shape_file("lines", index)), lines);
-  if (index == 0) return;
-  const fs::path file = folder_.own(shape_file("air", index, air_ending(flight)));
-  write_image(fs::path(file).replace_extension(), flow_image(middle_plane(flight.air().flow().field())));
+  write_frame(folder_, flight.mesh(), flight.cloth(), state.coupled.cloth, state.coupled.air.pressure, index);
+  if (index > 0) write_air_frame(folder_, flight.air(), index);
 }
 
 void FlightFolder::write_series(const FreeFlight& flight, double end) {
   const FlightSettings& s = flight.problem().settings;
-  const auto series = [&](const char* what, const char* ending, long long first) {
-    std::vector<VtkSeriesFile> files;
-    for (long long i = first; i <= shapes_until(end, s); ++i)
-      files.push_back({double(i) / s.shapes_per_s, shape_file(what, i, ending)});
-    write_pvd(folder_.own(fmt::format("{}.pvd", what)), files);
-  };
-  series("canopy", "vtp", 0), series("lines", "vtp", 0);
-  series("air", flight.problem().air.flow.grid.uniform() ? "vti" : "vtr", 1);
+  const long long last = shapes_until(end, s);
+  const auto time = [&](long long frame) { return static_cast<double>(frame) / s.shapes_per_s; };
+  for (const char* what : {"canopy", "lines"}) write_frames(folder_, what, 0, last, time);
+  write_frames(folder_, "air", 1, last, time, air_ending(flight.problem().air.flow.grid));
 }
 
 void FlightFolder::write_plots(const FlightHistory& history, const FlightResult& result) {
@@ -184,11 +126,8 @@ void FlightFolder::ended(FreeFlight& flight, const FreeFlightState& state, const
   if (!shots.empty())
     write_contact_sheet(folder_.own("shapes.png"), flight.mesh(), result.title, "von Mises stress [N/m]",
                         shots);
-  FlightResult named = result;
-  named.inputs_hash = inputs_of_run(folder_.path());
-  write_file(folder_.own("result.json"), to_json(named));
-  folder_.seal();
-  remove_path(folder_.path() / "air");
+  if (const std::string failure = folder_.end(result); !failure.empty()) next_.warned(failure);
+  files_.drop_air();
   next_.ended(flight, state, history, result);
 }
 
@@ -196,9 +135,11 @@ void FlightFolder::ended(FreeFlight& flight, const FreeFlightState& state, const
 
 std::optional<FlightResult> run_flight_in(const FlightFolderSettings& settings, const Settings& resolved,
                                           FlightObserver& observer) {
-  const auto claimed = open_run_folder(settings.run, resolved, "flight", settings.threads);
+  RunSettings run = settings.run;
+  run.report = false;
+  const auto claimed = open_run_folder(run, resolved, "flight", settings.threads);
   if (!claimed->warning().empty()) observer.warned(claimed->warning());
-  if (finished_result(settings.run.folder)) return std::nullopt;
+  if (claimed->finished()) return std::nullopt;
   FlightFolder files(*claimed, settings, observer);
   FlightResult result = run_flight(resolved, settings.threads, files).result;
   result.inputs_hash = inputs_of_run(settings.run.folder);

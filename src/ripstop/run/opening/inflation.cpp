@@ -12,6 +12,7 @@
 #include "ripstop/case/deployment.h"
 #include "ripstop/case/payload.h"
 #include "ripstop/core/error.h"
+#include "ripstop/core/quantity_error.h"
 #include "ripstop/run/engine.h"
 #include "ripstop/run/json.h"
 #include "ripstop/run/opening/handbook.h"
@@ -232,7 +233,7 @@ std::vector<HistoryRow> advanced(Opening& solver, InflationState& state, Inflati
     return solver.advance(state, &history.air);
   } catch (const Error& error) {
     if (coarse.empty() || error.code() != ExitCode::diverged) throw;
-    throw Error(error.code(), fmt::format("{}; the probable cause is the {}", error.what(), coarse.front()));
+    throw restated(error, fmt::format("{}; the probable cause is the {}", error.what(), coarse.front()));
   }
 }
 

@@ -3,22 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numbers>
-#include <type_traits>
 #include <utility>
 
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
-#include "ripstop/core/hash.h"
-#include "ripstop/flow/unsteady.h"
 #include "ripstop/output/csv.h"
 #include "ripstop/output/picture.h"
 #include "ripstop/output/plot.h"
 #include "ripstop/output/vtk.h"
 #include "ripstop/run/json.h"
-#include "ripstop/run/report/report.h"
+#include "ripstop/run/march_files.h"
 
 namespace ripstop {
 namespace {
@@ -28,34 +24,11 @@ namespace fs = std::filesystem;
 // Of InflationState's list of members: one more with every change of it.
 constexpr int opening_format = 8;
 
-double clock_now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-std::string shape_file(const char* what, long long frame) {
-  return fmt::format("vtk/{}_{:04}.vtp", what, frame);
-}
-
-/// Of the air's state, in turn.
-constexpr const char* air_names[] = {"even", "odd"};
-
-// The run does not resume from it when the opening is sealed.
-void drop_air_checkpoint(const fs::path& folder) {
-  remove_path(folder / "air");
-}
-
-std::string air_file(const Opening& solver, long long frame) {
-  return fmt::format("vtk/air_{:04}.{}", frame, solver.problem().air->flow.grid.uniform() ? "vti" : "vtr");
-}
-
 /// Writes every file of the opening before it calls the next observer.
 class InflationFolder : public InflationObserver {
  public:
-  InflationFolder(ClaimedFolder& folder, const InflationFolderSettings& settings, InflationObserver& next)
-      : folder_(folder),
-        report_(settings.run.report),
-        checkpoint_every_(settings.checkpoint_every_s),
-        next_(next) {}
+  InflationFolder(RunFolder& folder, const InflationFolderSettings& settings, InflationObserver& next)
+      : folder_(folder), files_(folder, settings.checkpoint_every_s), next_(next) {}
 
   void begin(const Opening& solver, InflationState& state, InflationHistory& history) override;
   void advanced(const Opening& solver, const InflationState& state, const InflationHistory& history,
@@ -65,132 +38,67 @@ class InflationFolder : public InflationObserver {
 
  private:
   void write_start(const Opening& solver, const InflationState& state) const;
-  void write_shape(const Opening& solver, const InflationState& state) const;
-  std::string tables_hash() const;
   /// Everything so far is on the disk when this returns.
   void save(const Opening& solver, const InflationState& state, const InflationHistory& history);
-  void write_air(const Opening& solver, long long frame) const;
   void write_air_plot(const InflationHistory& history, const InflationResult& result) const;
   void write_load(const Opening& solver, const std::vector<HistoryRow>& rows,
                   const InflationResult& result) const;
   void write_shapes(const Opening& solver, const InflationState& state, const std::string& title) const;
 
   /// Columns of reefed openings are at the end of a row.
-  template <class Row>
-  std::vector<double> written(const Row& row) const {
-    std::vector<double> values = row_of(row);
-    values.resize(values.size() - unwritten<Row>());
-    return values;
-  }
-  template <class Row>
-  CsvLog table(const char* name, std::size_t kept) const {
-    std::vector<std::string> columns = columns_of<Row>();
-    columns.resize(columns.size() - unwritten<Row>());
-    return {folder_.own(name), std::move(columns), kept};
-  }
-  template <class Row>
-  std::vector<Row> rows_of(const char* name) const {
-    std::vector<Row> rows;
-    for (std::vector<double> row : read_csv(folder_.own(name)).rows) {
-      row.resize(row.size() + unwritten<Row>());
-      rows.push_back(from_row<Row>(row));
-    }
-    return rows;
-  }
-  template <class Row>
-  std::size_t unwritten() const {
-    return reefed_ ? 0 : std::is_same_v<Row, HistoryRow> ? 2 : std::is_same_v<Row, InflationFrame> ? 1 : 0;
-  }
+  std::size_t unwritten(std::size_t of_reefing) const { return reefed_ ? 0 : of_reefing; }
 
-  ClaimedFolder& folder_;
-  bool report_;
-  double checkpoint_every_;  // [s]
+  RunFolder& folder_;
+  MarchFiles files_;
   InflationObserver& next_;
-  double saved_ = clock_now();  // when [s]
   bool with_air_ = false, reefed_ = false;
-  std::size_t saved_rows_ = 0, saved_frames_ = 0, saved_air_ = 0;  // of the history, that the tables have
-  int air_ = 0;  // which of its two folders the next checkpoint's air goes to
 };
 
-// The tables belong to the state of the checkpoint: it begins with their hash.
-std::string InflationFolder::tables_hash() const {
-  std::string hashes = hash_file(folder_.own("history.csv")) + hash_file(folder_.own("balance.csv"));
-  if (with_air_) hashes += hash_file(folder_.own("air.csv"));
-  return hash_bytes(hashes);
-}
-
 void InflationFolder::begin(const Opening& solver, InflationState& state, InflationHistory& history) {
-  const fs::path saved = folder_.own("checkpoint");
-  const bool goes_on = fs::exists(saved);
   with_air_ = solver.air() != nullptr;
   reefed_ = !solver.problem().reefing.empty();
-  std::string tables;
-  if (goes_on) {
-    const std::string bytes = read_sealed(saved);
-    tables = bytes.substr(0, bytes.find('\n'));
-    InflationState earlier =
-        inflation_state_from_bytes(bytes.substr(std::min(bytes.size(), tables.size() + 1)));
+  const std::optional<std::string> saved = files_.load();
+  if (saved) {
+    InflationState earlier = inflation_state_from_bytes(*saved);
     if (earlier.cloth.x.size() != state.cloth.x.size()) {
       throw Error(ExitCode::bad_data,
-                  fmt::format("{}: belongs to a different mesh; start again with --fresh", saved.string()));
+                  fmt::format("{}: its checkpoint belongs to a different mesh; start again with --fresh",
+                              folder_.path().string()));
     }
     state = std::move(earlier);
-    if (with_air_) {  // the hash is followed by the folder of its air
-      air_ = tables.ends_with(air_names[1]) ? 1 : 0;
-      tables.resize(tables.find(' '));
-      solver.air()->restore(folder_.own("air/") / air_names[air_]);
-      air_ = 1 - air_;
-    }
+    if (with_air_) files_.restore(*solver.air());
   }
-  saved_rows_ = static_cast<std::size_t>(state.blocks * solver.rows_per_block());
-  saved_frames_ = static_cast<std::size_t>(state.blocks * solver.problem().settings.frames / solver.blocks());
-  table<HistoryRow>("history.csv", saved_rows_);
-  table<InflationFrame>("balance.csv", saved_frames_);
-  saved_air_ = static_cast<std::size_t>(state.air.steps);
-  if (with_air_) table<AirRow>("air.csv", saved_air_);
-  if (goes_on && tables != tables_hash()) {
-    throw Error(
-        ExitCode::bad_data,
-        fmt::format(
-            "{}: history.csv or balance.csv is missing or was changed after the checkpoint; start again with "
-            "--fresh",
-            folder_.path().string()));
-  }
-  history = {rows_of<HistoryRow>("history.csv"), rows_of<InflationFrame>("balance.csv"), {}};
-  if (with_air_) history.air = rows_of<AirRow>("air.csv");
-  refuse_lost(folder_);
-  if (!goes_on) write_start(solver, state);
+  const long long frames = solver.problem().settings.frames;
+  history = {
+      files_.open<HistoryRow>("history.csv", static_cast<std::size_t>(state.blocks * solver.rows_per_block()),
+                              unwritten(2)),
+      files_.open<InflationFrame>(
+          "balance.csv", static_cast<std::size_t>(state.blocks * frames / solver.blocks()), unwritten(1)),
+      {}};
+  if (with_air_) history.air = files_.open<AirRow>("air.csv", static_cast<std::size_t>(state.air.steps));
+  files_.check();
+  if (!saved) write_start(solver, state);
   next_.begin(solver, state, history);
 }
 
 void InflationFolder::advanced(const Opening& solver, const InflationState& state,
                                const InflationHistory& history, const InflationFrame* frame) {
   if (frame) {
-    write_shape(solver, state);
-    if (clock_now() - saved_ > (with_air_ ? 6 : 1) * checkpoint_every_) save(solver, state, history);
+    const long long index = state.blocks * solver.problem().settings.frames / solver.blocks();
+    write_frame(folder_, solver.mesh(), solver.cloth(), state.cloth,
+                with_air_ ? state.air.pressure : std::vector<double>(), index);
+    if (with_air_) write_air_frame(folder_, *solver.air(), index);
+    if (files_.due(with_air_ ? 6 : 1)) save(solver, state, history);
   }
   next_.advanced(solver, state, history, frame);
 }
 
 void InflationFolder::save(const Opening& solver, const InflationState& state,
                            const InflationHistory& history) {
-  const auto add = [&](CsvLog log, const auto& all, std::size_t& done) {
-    std::vector<std::vector<double>> rows;
-    for (; done < all.size(); ++done) rows.push_back(written(all[done]));
-    log.add_rows(rows);
-  };
-  add(table<HistoryRow>("history.csv", saved_rows_), history.rows, saved_rows_);
-  add(table<InflationFrame>("balance.csv", saved_frames_), history.frames, saved_frames_);
-  if (with_air_) add(table<AirRow>("air.csv", saved_air_), history.air, saved_air_);
-  std::string tables = tables_hash();
-  if (with_air_) {  // the last checkpoint keeps its own until this one is whole
-    solver.air()->save(folder_.own("air/") / air_names[air_]);
-    tables += fmt::format(" {}", air_names[air_]);
-    air_ = 1 - air_;
-  }
-  folder_.keep();
-  write_sealed(folder_.own("checkpoint"), tables + '\n' + to_bytes(state));
-  saved_ = clock_now();
+  files_.add("history.csv", history.rows);
+  files_.add("balance.csv", history.frames);
+  if (with_air_) files_.add("air.csv", history.air);
+  files_.save(to_bytes(state), solver.air());
 }
 
 void InflationFolder::ended(const Opening& solver, const InflationState& state,
@@ -202,28 +110,16 @@ void InflationFolder::ended(const Opening& solver, const InflationState& state,
   CsvTable lines{{"line", "peak_tension_n"}, {}};
   for (std::size_t i = 0; i < result.line_peaks.size(); ++i)
     lines.rows.push_back({static_cast<double>(i + 1), result.line_peaks[i]});
-  write_csv(folder_.own("lines.csv"), lines);
+  folder_.write("lines.csv", lines);
   const InflationSettings& settings = solver.problem().settings;
-  for (const char* what : {"canopy", "lines"}) {
-    std::vector<VtkSeriesFile> series;
-    for (int i = 0; i <= settings.frames; ++i) {
-      series.push_back({settings.duration_s * i / settings.frames, shape_file(what, i)});
-    }
-    write_pvd(folder_.own(fmt::format("{}.pvd", what)), series);
-  }
-  if (with_air_) {
-    std::vector<VtkSeriesFile> series;
-    for (int i = 1; i <= settings.frames; ++i)
-      series.push_back({settings.duration_s * i / settings.frames, air_file(solver, i)});
-    write_pvd(folder_.own("air.pvd"), series);
-  }
-  InflationResult named = result;
-  named.inputs_hash = inputs_of_run(folder_.path());
-  write_file(folder_.own("result.json"), to_json(named));
-  if (report_)
-    if (const std::string failure = write_run_report(folder_); !failure.empty()) next_.warned(failure);
-  folder_.seal();
-  drop_air_checkpoint(folder_.path());
+  const auto time = [&](long long frame) {
+    return settings.duration_s * static_cast<double>(frame) / settings.frames;
+  };
+  for (const char* what : {"canopy", "lines"}) write_frames(folder_, what, 0, settings.frames, time);
+  if (with_air_)
+    write_frames(folder_, "air", 1, settings.frames, time, air_ending(solver.problem().air->flow.grid));
+  if (const std::string failure = folder_.end(result); !failure.empty()) next_.warned(failure);
+  files_.drop_air();
   next_.ended(solver, state, history, result);
 }
 
@@ -250,36 +146,8 @@ void InflationFolder::write_start(const Opening& solver, const InflationState& s
                                     folded.inner_radius, folded.outer_radius),
                         "strips between the folds, alternately", flat, ColourRange{-0.5, 1.5}});
   const std::vector<Vec3> x = positions(state.cloth, solver.cloth());
-  write_vtp(folder_.own(shape_file("canopy", 0)), canopy_surface(solver.mesh(), x));
-  write_vtp(folder_.own(shape_file("lines", 0)), spring_lines(solver.mesh(), x));
-}
-
-void InflationFolder::write_shape(const Opening& solver, const InflationState& state) const {
-  const long long index = state.blocks * solver.problem().settings.frames / solver.blocks();
-  const std::vector<Vec3> x = positions(state.cloth, solver.cloth());
-  std::vector<double> mises, strain;
-  for (const CellStress& stress : cell_stress(solver.cloth(), state.cloth)) {
-    mises.push_back(stress.von_mises);
-    strain.push_back(stress.max_strain);
-  }
-  VtkSurface canopy = canopy_surface(solver.mesh(), x);
-  canopy.point_arrays.push_back(
-      vtk_array_single("velocity_m_per_s", velocities(state.cloth, solver.cloth())));
-  canopy.cell_arrays.push_back(vtk_array_single("von_mises_n_per_m", cloth_cells_only(solver.mesh(), mises)));
-  canopy.cell_arrays.push_back(vtk_array_single("strain_max", cloth_cells_only(solver.mesh(), strain)));
-  if (with_air_)
-    canopy.cell_arrays.push_back(vtk_array_single("pressure_difference_applied_pa",
-                                                  cloth_cells_only(solver.mesh(), state.air.pressure)));
-  write_vtp(folder_.own(shape_file("canopy", index)), canopy);
-  VtkSurface lines = spring_lines(solver.mesh(), x);
-  lines.cell_arrays.push_back(vtk_array_single("tension_n", spring_tensions(solver.cloth(), state.cloth)));
-  write_vtp(folder_.own(shape_file("lines", index)), lines);
-  if (with_air_) write_air(solver, index);
-}
-
-void InflationFolder::write_air(const Opening& solver, long long frame) const {
-  const fs::path file = folder_.own(air_file(solver, frame));
-  write_image(fs::path(file).replace_extension(), flow_image(middle_plane(solver.air()->flow().field())));
+  folder_.write(frame_file("canopy", 0), canopy_surface(solver.mesh(), x));
+  folder_.write(frame_file("lines", 0), spring_lines(solver.mesh(), x));
 }
 
 void InflationFolder::write_air_plot(const InflationHistory& history, const InflationResult& r) const {
@@ -288,12 +156,11 @@ void InflationFolder::write_air_plot(const InflationHistory& history, const Infl
   PlotSeries projected{"projected area", {}, {}, true, false, true};
   for (const InflationFrame& frame : history.frames)
     projected.x.push_back(frame.time), projected.y.push_back(frame.size.projected_area);
-  write_plot(folder_.own("drag_area.png"),
-             {r.title, {"time from deployment [s]"}, {"area [m²]"}, {area, projected}});
+  folder_.write("drag_area.png",
+                Plot{r.title, {"time from deployment [s]"}, {"area [m²]"}, {area, projected}});
   PlotSeries added{"added mass", {}, {}, true, false};
   for (const AirRow& row : history.air) added.x.push_back(row.time), added.y.push_back(row.added_mass);
-  write_plot(folder_.own("added_mass.png"),
-             {r.title, {"time from deployment [s]"}, {"added mass [kg]"}, {added}});
+  folder_.write("added_mass.png", Plot{r.title, {"time from deployment [s]"}, {"added mass [kg]"}, {added}});
 }
 
 void InflationFolder::write_load(const Opening& solver, const std::vector<HistoryRow>& rows,
@@ -303,11 +170,11 @@ void InflationFolder::write_load(const Opening& solver, const std::vector<Histor
     for (const HistoryRow& row : rows) smooth.push_back(row.mean);
     smooth = low_pass(smooth, solver.row_duration(), r.settings.low_pass_hz);
   }
-  write_plot(folder_.own("load.png"), load_plot(rows, smooth, r));
+  folder_.write("load.png", load_plot(rows, smooth, r));
   if (smooth.empty()) return;
   CsvTable table{{"time_s", "load_n"}, {}};
   for (std::size_t i = 0; i < rows.size(); ++i) table.rows.push_back({rows[i].time, smooth[i]});
-  write_csv(folder_.own("history_low_pass.csv"), table);
+  folder_.write("history_low_pass.csv", table);
 }
 
 void InflationFolder::write_shapes(const Opening& solver, const InflationState& state,
@@ -387,8 +254,8 @@ std::optional<InflationResult> run_inflation_in(const InflationFolderSettings& s
                                                 InflationObserver& observer) {
   const auto claimed = open_run_folder(settings.run, resolved, solver_of(source), settings.threads);
   if (!claimed->warning().empty()) observer.warned(claimed->warning());
-  if (finished_result(settings.run.folder)) {
-    drop_air_checkpoint(settings.run.folder);
+  if (claimed->finished()) {
+    MarchFiles::drop_air(settings.run.folder);
     return std::nullopt;
   }
   InflationFolder files(*claimed, settings, observer);

@@ -45,16 +45,6 @@ std::string watch_text(const WatchProgress& p, const Freestream& air) {
                      : fmt::format("drag {:.2f} N, start-up", drag);
 }
 
-void check_folder(const fs::path& folder) {
-  if (!fs::exists(folder / description) && !foreign_files(folder).empty())
-    throw Error(
-        ExitCode::usage,
-        fmt::format(
-            "{}: is not empty and contains no curve of ripstop stability (no {}); choose another --out",
-            folder.string(), description));
-  require_unclaimed(folder);
-}
-
 /// One curve in its folder.
 class Curve {
  public:
@@ -68,7 +58,7 @@ class Curve {
   }
 
   void check() const {
-    check_folder(settings_.run.folder);
+    check_series_folder(settings_.run.folder, description, "curve of ripstop stability");
     if (settings_.steady.empty())
       check_steady_in(axis_settings(), axis_);
     else
@@ -297,7 +287,7 @@ StabilityRow Curve::run_angle(std::size_t i, StabilityObserver& observer) {
   const Settings& resolved = cases_[i];
   const auto claimed = open_run_folder(run, resolved, inputs(i), ThreadTeam(threads(i)).size());
   if (!claimed->warning().empty()) observer.warned(claimed->warning());
-  if (const auto finished = finished_result(run.folder)) {
+  if (const auto finished = claimed->finished()) {
     const auto row = from_json_text<StabilityRow>(*finished, row_text);
     observer.ended(i, row, true);
     return row;
@@ -317,8 +307,8 @@ StabilityRow Curve::run_angle(std::size_t i, StabilityObserver& observer) {
     throw Error(error.code(),
                 fmt::format("at an angle of attack of {:g} degrees: {}", angles_[i], message_of(error)));
   }
-  write_file(claimed->own("result.json"), json_text(row));
-  claimed->seal();
+  if (const std::string failure = claimed->end_with(json_text(row)); !failure.empty())
+    observer.warned(failure);
   observer.ended(i, row, false);
   return row;
 }

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 
+#include "ripstop/case/quantity_keys.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/flow/bodies.h"
@@ -36,7 +37,7 @@ ParityRun timed(FlowEngine& engine, const FlowProblem& problem, const std::strin
     run.converged = field.converged;
   } catch (const Error& error) {  // the other engine and the other canopies are of interest all the same
     if (error.code() != ExitCode::diverged) throw;
-    run.diverged = error.what();
+    run.diverged = message_of(error);
   }
   run.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return run;

@@ -18,7 +18,6 @@
 #include "ripstop/output/plot.h"
 #include "ripstop/output/vtk.h"
 #include "ripstop/run/engine.h"
-#include "ripstop/run/report/report.h"
 #include "ripstop/run/steady/checkpoint.h"
 #include "ripstop/run/steady/watch_files.h"
 #include "ripstop/run/stress_arrays.h"
@@ -31,12 +30,8 @@ namespace fs = std::filesystem;
 /// Writes every file of the run before it calls the next observer.
 class SteadyFolder : public SteadyObserver {
  public:
-  SteadyFolder(ClaimedFolder& folder, const SteadyFolderSettings& settings, SteadyObserver& next)
-      : folder_(folder),
-        fields_(settings.run.fields),
-        report_(settings.run.report),
-        warm_from_(settings.warm_from),
-        next_(next) {}
+  SteadyFolder(RunFolder& folder, const SteadyFolderSettings& settings, SteadyObserver& next)
+      : folder_(folder), fields_(settings.run.fields), warm_from_(settings.warm_from), next_(next) {}
 
   void begin(const SteadyRun& run, SteadyState& state) override;
   void warned(const std::string& text) override { next_.warned(text); }
@@ -57,8 +52,8 @@ class SteadyFolder : public SteadyObserver {
     return {folder_.own("iterations.csv"), columns_of<SteadyIteration>(), kept};
   }
 
-  ClaimedFolder& folder_;
-  bool fields_, report_;
+  RunFolder& folder_;
+  bool fields_;
   fs::path warm_from_;
   SteadyObserver& next_;
 };
@@ -104,12 +99,7 @@ void SteadyFolder::ended(const SteadyRun& run, const SteadyState& state, const S
   write_stl(folder_.own("canopy.stl"), surface_of(run.solver.cells(), state.shape));
   write_drag_plot(state, result.title);
   write_pressure(run, state, result);
-  SteadyResult named = result;
-  named.inputs_hash = inputs_of_run(folder_.path());
-  write_file(folder_.own("result.json"), to_json(named));
-  if (report_)
-    if (const std::string failure = write_run_report(folder_); !failure.empty()) next_.warned(failure);
-  folder_.seal();
+  if (const std::string failure = folder_.end(result); !failure.empty()) next_.warned(failure);
   next_.ended(run, state, result);
 }
 
@@ -119,7 +109,7 @@ void SteadyFolder::write_series(std::size_t iterations) const {
     for (std::size_t k = 1; k <= iterations; ++k) {
       series.push_back({double(k), fmt::format("vtk/{}_{:03}.vtp", what, k)});
     }
-    write_pvd(folder_.own(fmt::format("{}.pvd", what)), series);
+    folder_.write(fmt::format("{}.pvd", what), series);
   }
 }
 
@@ -144,11 +134,11 @@ void SteadyFolder::write_shape(const SteadyRun& run, const SteadyState& state) c
   for (VtkArray& array : stress_arrays(mesh, state.shape, stress))
     canopy.cell_arrays.push_back(std::move(array));
   make_folder(folder_.path() / "vtk");
-  write_vtp(folder_.own(fmt::format("vtk/canopy_{:03}.vtp", k)), canopy);
+  folder_.write(fmt::format("vtk/canopy_{:03}.vtp", k), canopy);
 
   VtkSurface lines = spring_lines(mesh, state.shape);
   lines.cell_arrays.push_back(vtk_array("tension_n", tensions));
-  write_vtp(folder_.own(fmt::format("vtk/lines_{:03}.vtp", k)), lines);
+  folder_.write(fmt::format("vtk/lines_{:03}.vtp", k), lines);
   write_series(k);
 }
 
@@ -174,7 +164,7 @@ void SteadyFolder::write_state(const SteadyRun& run, const SteadyState& state) c
   for (const LineTension& t : line_tensions(mesh, tensions)) {
     table.rows.push_back({t.radial + 1.0, t.free_tension, t.largest_tension});
   }
-  write_csv(folder_.own("lines.csv"), table);
+  folder_.write("lines.csv", table);
 }
 
 // pressure.csv and pressure.png: coefficients along the gores; load.png: the load over the cloth.
@@ -198,8 +188,8 @@ void SteadyFolder::write_pressure(const SteadyRun& run, const SteadyState& state
       plot.series[s].y.push_back(values[s]);
     }
   }
-  write_csv(folder_.own("pressure.csv"), table);
-  write_plot(folder_.own("pressure.png"), plot);
+  folder_.write("pressure.csv", table);
+  folder_.write("pressure.png", plot);
   write_canopy_picture(folder_.own("load.png"), run.solver.mesh(), state.shape,
                        {result.title, "pressure difference, inside minus outside [Pa]", state.applied, {}});
 }
@@ -217,7 +207,7 @@ void SteadyFolder::write_drag_plot(const SteadyState& state, const std::string& 
       plot.series[s].y.push_back(forces[s]);
     }
   }
-  write_plot(folder_.own("drag.png"), plot);
+  folder_.write("drag.png", plot);
 }
 
 }  // namespace
@@ -232,7 +222,7 @@ SteadyFolderRun run_steady_in(const SteadyFolderSettings& settings, const Settin
   const auto claimed = open_run_folder(
       settings.run, resolved, engine_of(resolved).name(engine_options(resolved)), ThreadTeam(threads).size());
   if (!claimed->warning().empty()) observer.warned(claimed->warning());
-  if (const auto finished = finished_result(folder)) return {true, steady_result_from_json(*finished)};
+  if (const auto finished = claimed->finished()) return {true, steady_result_from_json(*finished)};
   const fs::path flow_folder = engine_of(resolved).needs_folder ? claimed->own("flow/") : fs::path();
   SteadyFolder files(*claimed, settings, observer);
   SteadyResult result = run_steady(resolved, files, {threads, flow_folder, settings.hostfile}).result;

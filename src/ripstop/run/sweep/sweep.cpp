@@ -52,13 +52,7 @@ std::vector<std::string> sweep_files() {
 }
 
 void check_sweep_folder(const fs::path& folder) {
-  if (!fs::exists(folder / "sweep.json") && !foreign_files(folder).empty()) {
-    throw Error(
-        ExitCode::usage,
-        fmt::format("{}: is not empty and contains no sweep of Ripstop (no sweep.json); choose another --out",
-                    folder.string()));
-  }
-  require_unclaimed(folder);
+  check_series_folder(folder, "sweep.json", "sweep of Ripstop");
 }
 
 /// Claims the folder.

@@ -353,7 +353,7 @@ TEST_F(OpenFoamSheet, FeaturesOfTheBuiltInEngineAreRefused) {
     FAIL() << "no Error";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::usage);
-    EXPECT_STREQ(error.what(), "flow.sides = \"entraining\" needs flow.engine = \"builtin\"");
+    EXPECT_STREQ(error.what(), "sides = \"entraining\" needs the built-in engine");
   }
 }
 

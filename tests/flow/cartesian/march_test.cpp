@@ -435,8 +435,7 @@ TEST(PassingRow, ThroughTheBoundaryTheAirCarriesItsUpstreamValue) {
   double pu[2], pv[2], pw[2];
   cartesian::PassingRow r;
   r.count = 2, r.step = 1, r.flux = flux;
-  r.u = u + 1, r.v = v + 1, r.w = w + 1;
-  r.pu = pu, r.pv = pv, r.pw = pw;
+  r.velocity = {u + 1, v + 1, w + 1}, r.passing = {pu, pv, pw};
   boundary_passing_row(r);
   const double low[] = {pu[0], pv[0], pw[0]}, high[] = {pu[1], pv[1], pw[1]};
   for (const int i : {0, 1, 2}) {
@@ -470,9 +469,8 @@ TEST(EddyRow, HasTheViscosityOfWaleForPlaneStrainAndNoneForShear) {
     r.m.y = r.m.z = cross_metrics(across, 0);
     const std::ptrdiff_t at = layout.at(0, 0, 0);
     r.viscosity = 2e-5, r.density = 1.2, r.along = along.data(), r.across = 0.01;
-    r.u = &u[at], r.v = &v[at], r.w = &w[at];
-    r.mu = &mu[at], r.tx = r.ty = r.tz = &t[at];
-    r.component = static_cast<std::ptrdiff_t>(layout.values());
+    r.velocity = {&u[at], &v[at], &w[at]}, r.mu = &mu[at];
+    r.stress = {&t[at], &t[at], &t[at], static_cast<std::ptrdiff_t>(layout.values())};
     eddy_row(r);
     return mu[layout.at(1, 0, 0)];
   };

@@ -56,7 +56,7 @@ Errors errors(int n, double growth, double a, double b, double c) {
       r.x = &x;
       r.y = cartesian::face_metrics(x, j), r.z = cartesian::face_metrics(x, k);
       r.sy = sy, r.sz = sz, r.south2 = -2 * sy, r.north2 = 2 * sy, r.below2 = -2 * sz, r.above2 = 2 * sz;
-      r.fx = &fx[at], r.fy = &fy[at], r.fz = &fz[at], r.q = &q[at], r.source = &source[at];
+      r.flux = {&fx[at], &fy[at], &fz[at]}, r.q = &q[at], r.source = &source[at];
       cartesian::convection_row(r);
       for (int i = 2; i < n - 2; ++i) {
         const double* p = &q[at + i];

@@ -186,7 +186,7 @@ TEST_F(FittedMeshFailure, EachFailedToolIsNamedWithItsMessageAndARemedy) {
     EXPECT_PRED2(says, text, "OpenFOAM's " + tool + " failed: exit code 1");
     EXPECT_PRED2(says, text, "No faces found");
     EXPECT_PRED2(says, text, "log." + tool);
-    EXPECT_EQ(says(text, "a different flow.cloth_levels"), !tool.ends_with("Par"));
+    EXPECT_EQ(says(text, "a different refinement at the cloth"), !tool.ends_with("Par"));
     fs::remove_all(root_ / "bin");
     fs::create_directories(root_ / "bin");
   }
@@ -198,7 +198,7 @@ TEST_F(FittedMeshFailure, AMeshRejectedByCheckMeshIsNotUsed) {
   const std::string text = message(ExitCode::external);
   EXPECT_PRED2(says, text, "checkMesh of OpenFOAM rejects");
   EXPECT_PRED2(says, text, "Max skewness = 7, 3 highly skew faces");
-  EXPECT_PRED2(says, text, "a different flow.cloth_levels");
+  EXPECT_PRED2(says, text, "a different refinement at the cloth");
   EXPECT_FALSE(fs::exists(root_ / "case/log.simpleFoam"));
 }
 

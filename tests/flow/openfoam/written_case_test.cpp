@@ -333,13 +333,11 @@ TEST_F(WrittenFiles, ANumberOutOfItsRangeIsNamedWithTheRange) {
       {[](FlowProblem& p) { p.bodies[1].porous().cells[0] = 7; },
        "flow: cell 7 is porous twice; a cell has one resistance"},
       {[](FlowProblem& p) { p.sides = Sides::entraining; },
-       "flow.sides = \"entraining\" needs flow.engine = \"builtin\""},
+       "sides = \"entraining\" needs the built-in engine"},
       {[](FlowProblem& p) { p.outlet = Outlet::still_air; },
-       "flow.outlet = \"still-air\" needs flow.engine = \"builtin\""},
-      {[](FlowProblem& p) { p.jet.emplace(); },
-       "flow.tunnel.kind = \"open-jet\" needs flow.engine = \"builtin\""},
-      {[](FlowProblem& p) { p.body_force.resize(320); },
-       "a force on the air needs flow.engine = \"builtin\""},
+       "outlet = \"still-air\" needs the built-in engine"},
+      {[](FlowProblem& p) { p.jet.emplace(); }, "open jet needs the built-in engine"},
+      {[](FlowProblem& p) { p.body_force.resize(320); }, "a force on the air needs the built-in engine"},
   };
   for (const auto& one : wrong) {
     FlowProblem asked = sound;
