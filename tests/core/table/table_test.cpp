@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "../refusal.h"
+#include "../../refusal.h"
 #include "ripstop/core/units.h"
 
 namespace ripstop::table {

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "../diverges.h"
+#include "../../diverges.h"
 #include "even_axis.h"
 #include "ripstop/flow/bodies.h"
 

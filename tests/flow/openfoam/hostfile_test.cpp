@@ -7,7 +7,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "../refusal.h"
+#include "../../refusal.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/core/process.h"

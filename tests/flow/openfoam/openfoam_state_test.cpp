@@ -1,8 +1,8 @@
 // The saved data of a flow in OpenFOAM's case are on the disk before their seal.
 #include <gtest/gtest.h>
 
-#include "../flushes.h"
-#include "../refusal.h"
+#include "../../flushes.h"
+#include "../../refusal.h"
 #include "ripstop/core/file.h"
 #include "ripstop/core/hash.h"
 #include "ripstop/flow/openfoam/state.h"

@@ -1,9 +1,7 @@
-// The loops over the cells of a row and the rows of a plane. A kernel makes the views of its row and gives the
-// equations of one cell to for_cells() or sum_cells(); it contains neither threads nor vectors. Solver shares the rows
-// among threads (solver.h).
+// The loops over the cells of a row. A kernel makes the views of its row and gives the equations of one cell to
+// for_cells() or sum_cells(); it contains neither threads nor vectors. Solver shares the rows among threads (solver.h).
 #pragma once
 
-#include "ripstop/core/thread_team.h"
 #include "ripstop/flow/cartesian/simd.h"
 
 namespace ripstop::cartesian {
@@ -33,17 +31,6 @@ template <bool none = false, class Cell>
     }
   }
   return {a, b, c, d, e, f, largest};
-}
-
-/// Rows of a plane, one after the other.
-struct RowOrder {
-  IndexRange rows;
-  bool northward = true;
-};
-template <class Kernel>
-void for_rows(RowOrder order, const Kernel& kernel) {
-  const auto [begin, end] = order.rows;
-  for (int step = 0; step < end - begin; ++step) kernel(order.northward ? begin + step : end - 1 - step);
 }
 
 }  // namespace ripstop::cartesian

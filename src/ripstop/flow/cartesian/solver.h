@@ -9,7 +9,6 @@
 #include "ripstop/core/thread_team.h"
 #include "ripstop/flow/cartesian/boundary.h"
 #include "ripstop/flow/cartesian/discretisation.h"
-#include "ripstop/flow/cartesian/loops.h"
 #include "ripstop/flow/cartesian/multigrid.h"
 #include "ripstop/flow/cartesian/porous.h"
 #include "ripstop/flow/cartesian/sheet.h"
@@ -190,6 +189,17 @@ class Solver {
   Multigrid multigrid_;
   ThreadTeam& team_;
 };
+
+/// Rows of a plane, one after the other.
+struct RowOrder {
+  IndexRange rows;
+  bool northward = true;
+};
+template <class Kernel>
+void for_rows(RowOrder order, const Kernel& kernel) {
+  const auto [begin, end] = order.rows;
+  for (int step = 0; step < end - begin; ++step) kernel(order.northward ? begin + step : end - 1 - step);
+}
 
 /// Blocks of rows that the grid is divided into; the same for any number of threads.
 int block_count(const FlowGrid& grid);
