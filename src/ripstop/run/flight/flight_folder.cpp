@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Of the list of members of FreeFlightState: one more with every change of it.
-constexpr int flight_format = 1;
+constexpr int flight_format = 2;
 constexpr const char* what_is_saved = "a checkpoint of a flight";
 /// Of the state of the air, alternating.
 constexpr const char* air_folders[] = {"even", "odd"};
@@ -39,6 +39,10 @@ class FlightFolder : public FlightObserver {
   void warned(const std::string& text) override { next_.warned(text); }
   void starting(const SteadyProgress& progress, const SteadyState& state) override {
     next_.starting(progress, state);
+  }
+  InflationObserver& opening() override { return next_.opening(); }
+  RunSettings opening_run() override {
+    return {folder_.path() / opening_name, settings_.run.fresh, settings_.run.fields, settings_.run.report};
   }
   std::optional<FlightStart> earlier_start() override {
     if (!fs::exists(folder_.own("checkpoint"))) return {};
@@ -104,7 +108,9 @@ void FlightFolder::begin(FreeFlight& flight, FreeFlightState& state, FlightHisto
 
 void FlightFolder::advanced(FreeFlight& flight, const FreeFlightState& state, const FlightHistory& history,
                             bool shape) {
-  if (shape) write_shape(flight, state, shapes_until(history.rows.back().time, flight.problem().settings));
+  if (shape)
+    write_shape(flight, state,
+                shapes_until(history.rows.back().time - flight.began(), flight.problem().settings));
   if (wall_clock() - saved_ > settings_.checkpoint_every_s) save(flight, state, history);
   next_.advanced(flight, state, history, shape);
 }
@@ -148,8 +154,8 @@ void FlightFolder::write_series(const FreeFlight& flight, double end) {
   const FlightSettings& s = flight.problem().settings;
   const auto series = [&](const char* what, const char* ending, long long first) {
     std::vector<VtkSeriesFile> files;
-    for (long long i = first; i <= shapes_until(end, s); ++i)
-      files.push_back({double(i) / s.shapes_per_s, shape_file(what, i, ending)});
+    for (long long i = first; i <= shapes_until(end - flight.began(), s); ++i)
+      files.push_back({flight.began() + double(i) / s.shapes_per_s, shape_file(what, i, ending)});
     write_pvd(folder_.own(fmt::format("{}.pvd", what)), files);
   };
   series("canopy", "vtp", 0), series("lines", "vtp", 0);
@@ -196,11 +202,13 @@ void FlightFolder::ended(FreeFlight& flight, const FreeFlightState& state, const
 
 std::optional<FlightResult> run_flight_in(const FlightFolderSettings& settings, const Settings& resolved,
                                           FlightObserver& observer) {
-  const auto claimed = open_run_folder(settings.run, resolved, "flight", settings.threads);
+  const std::string solver =
+      settings.from.empty() ? "flight" : "flight from " + inputs_of_run(settings.from).value_or("");
+  const auto claimed = open_run_folder(settings.run, resolved, solver, settings.threads);
   if (!claimed->warning().empty()) observer.warned(claimed->warning());
   if (finished_result(settings.run.folder)) return std::nullopt;
   FlightFolder files(*claimed, settings, observer);
-  FlightResult result = run_flight(resolved, settings.threads, files).result;
+  FlightResult result = run_flight(resolved, settings.threads, files, settings.from).result;
   result.inputs_hash = inputs_of_run(settings.run.folder);
   return result;
 }

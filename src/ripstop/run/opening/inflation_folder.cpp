@@ -18,6 +18,7 @@
 #include "ripstop/output/plot.h"
 #include "ripstop/output/vtk.h"
 #include "ripstop/run/json.h"
+#include "ripstop/run/opening/finished_opening.h"
 #include "ripstop/run/report/report.h"
 
 namespace ripstop {
@@ -54,6 +55,7 @@ class InflationFolder : public InflationObserver {
   InflationFolder(ClaimedFolder& folder, const InflationFolderSettings& settings, InflationObserver& next)
       : folder_(folder),
         report_(settings.run.report),
+        keep_end_(settings.keep_end),
         checkpoint_every_(settings.checkpoint_every_s),
         next_(next) {}
 
@@ -103,7 +105,7 @@ class InflationFolder : public InflationObserver {
   }
 
   ClaimedFolder& folder_;
-  bool report_;
+  bool report_, keep_end_;
   double checkpoint_every_;  // [s]
   InflationObserver& next_;
   double saved_ = clock_now();  // when [s]
@@ -222,6 +224,8 @@ void InflationFolder::ended(const Opening& solver, const InflationState& state,
   write_file(folder_.own("result.json"), to_json(named));
   if (report_)
     if (const std::string failure = write_run_report(folder_); !failure.empty()) next_.warned(failure);
+  if (keep_end_ && with_air_ && solver.problem().air->payload)
+    solver.air()->save(folder_.own(std::string(end_folder) + "/"));
   folder_.seal();
   drop_air_checkpoint(folder_.path());
   next_.ended(solver, state, history, result);
