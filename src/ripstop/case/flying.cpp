@@ -32,8 +32,8 @@ int cells_along(double core, double before, double after, double h) {
   return multiple * static_cast<int>(std::ceil(count / multiple));
 }
 
-std::array<int, 3> coarse_cells(const Case& given, double across) {
-  const double d = inflated_diameter(given.parachute), h = nominal_diameter(given.parachute) / across;
+std::array<int, 3> coarse_cells(const Case& given, double over_diameter) {
+  const double d = inflated_diameter(given.parachute), h = nominal_diameter(given.parachute) / over_diameter;
   const double aside = 0.5 * d * (sheet_box.x - sheet_core.x),
                before = d * (sheet_skirt - 0.25 * sheet_core.z);
   const int across = cells_along(d * sheet_core.x, aside, aside, h);

@@ -59,7 +59,7 @@ FlightStart equilibrium_on_axis(const Settings& resolved, int threads, const fs:
                     "flight begins with its last shape",
                     solution.result.iterations));
   return {solution.result.speed, solution.result.drag_coefficient, solution.state.shape,
-          solution.state.pressure};
+          solution.state.pressure, {}, true};
 }
 
 /// A start and the folder of the state of its air.
@@ -157,6 +157,7 @@ std::optional<Handover> handover_of(const FreeFlight& flight, const FlightStart&
   Handover h;
   h.time = flight.began(), h.same_flow = start.same_flow;
   h.height_lost = end.fallen, h.opening_speed = end.speed, h.opening_peak = end.peak_load;
+  h.path_angle = end.angle;
   h.load_before = end.load, h.load_after = norm(first.line_force);
   h.drag_before = end.drag, h.drag_after = norm(first.air_force);
   h.elastic_before = end.elastic, h.elastic_after = state.elastic_at_start;

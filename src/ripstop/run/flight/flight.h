@@ -21,6 +21,7 @@ struct Handover {
   double time = 0;                            // since deployment [s]
   bool same_flow = false;                     // cells and boundaries are those of the inflation; else interpolated
   double height_lost = 0, opening_speed = 0;  // by the payload until then [m], its speed then [m/s]
+  double path_angle = 0;                      // of its path below the horizon then [rad]
   double opening_peak = 0;                    // peak load of the inflation [N]
   double load_before = 0, load_after = 0;     // on the riser [N]
   double drag_before = 0, drag_after = 0;     // of the air on the canopy [N]
@@ -32,6 +33,7 @@ void each_member(T& h, Visit&& visit) {
   visit("same_flow", h.same_flow);
   visit("height_lost_m", h.height_lost);
   visit("speed_m_s", h.opening_speed);
+  visit("path_angle_rad", h.path_angle);
   visit("opening_peak_load_n", h.opening_peak);
   visit("load_before_n", h.load_before);
   visit("load_after_n", h.load_after);

@@ -14,6 +14,7 @@
 #include "ripstop/output/plot.h"
 #include "ripstop/output/vtk.h"
 #include "ripstop/run/json.h"
+#include "ripstop/run/report/report.h"
 
 namespace ripstop {
 namespace {
@@ -165,18 +166,23 @@ void FlightFolder::write_series(const FreeFlight& flight, double end) {
 void FlightFolder::write_plots(const FlightHistory& history, const FlightResult& result) {
   PlotSeries x{"x", {}, {}, true, false}, y{"y", {}, {}, true, false, true},
       angle{"angle from the vertical", {}, {}, true, false},
-      attack{"angle of attack", {}, {}, true, false, true}, down{"payload", {}, {}, true, false};
+      attack{"angle of attack", {}, {}, true, false, true}, down{"payload", {}, {}, true, false},
+      force{"lines and riser", {}, {}, true, false};
   for (const FreeFlightRow& row : history.rows) {
     x.x.push_back(row.payload.x), x.y.push_back(row.payload.z);
     y.x.push_back(row.payload.y), y.y.push_back(row.payload.z);
     angle.x.push_back(row.time), angle.y.push_back(row.angle);
     attack.x.push_back(row.time), attack.y.push_back(row.attack);
     down.x.push_back(row.time), down.y.push_back(-row.velocity.z);
+    force.x.push_back(row.time), force.y.push_back(norm(row.line_force));
   }
-  write_plot(folder_.own("path.png"),
-             {result.title, {"horizontal place of the payload [m]"}, {"height [m]"}, {x, y}});
-  write_plot(folder_.own("angle.png"), {result.title, {"time [s]"}, {"angle [deg]"}, {angle, attack}});
-  write_plot(folder_.own("descent.png"), {result.title, {"time [s]"}, {"rate of descent [m/s]"}, {down}});
+  const auto draw = [&](const char* name, const Plot& plot) {
+    for (const char* ending : {".png", ".svg"}) write_plot(folder_.own(std::string(name) + ending), plot);
+  };
+  draw("path", {result.title, {"horizontal place of the payload [m]"}, {"height [m]"}, {x, y}});
+  draw("angle", {result.title, {"time [s]"}, {"angle [deg]"}, {angle, attack}});
+  draw("descent", {result.title, {"time [s]"}, {"rate of descent [m/s]"}, {down}});
+  draw("force", {result.title, {"time [s]"}, {"force of the lines on the payload [N]"}, {force}});
 }
 
 void FlightFolder::ended(FreeFlight& flight, const FreeFlightState& state, const FlightHistory& history,
@@ -193,6 +199,8 @@ void FlightFolder::ended(FreeFlight& flight, const FreeFlightState& state, const
   FlightResult named = result;
   named.inputs_hash = inputs_of_run(folder_.path());
   write_file(folder_.own("result.json"), to_json(named));
+  if (settings_.run.report)
+    if (const std::string failure = write_run_report(folder_); !failure.empty()) next_.warned(failure);
   folder_.seal();
   remove_path(folder_.path() / "air");
   next_.ended(flight, state, history, result);

@@ -8,7 +8,7 @@
 
 #include "ripstop/case/opening.h"
 #include "ripstop/core/error.h"
-#include "ripstop/core/file.h"
+#include "ripstop/core/hash.h"
 #include "ripstop/output/csv.h"
 #include "ripstop/run/opening/inflation_folder.h"
 #include "ripstop/run/run_folder.h"
