@@ -60,6 +60,9 @@ void check_flight_keys(const Case& given) {
         fmt::format("flight.wind: {:g} m/s and a gust of {:g} m/s are above Mach 0.3; at most {:g} m/s "
                     "together",
                     s.wind.speed_m_s, s.wind.gust_m_s, fastest));
+  if (s.velocity_m_s && norm(*s.velocity_m_s) + std::abs(s.wind.speed_m_s) + std::abs(s.wind.gust_m_s) > fastest)
+    refuse(fmt::format("flight.velocity_m_s: {:.4g} m/s and the wind are above Mach 0.3; at most {:g} m/s together",
+                       norm(*s.velocity_m_s), fastest));
   if (s.wind.exponent > 0 && !s.height_m)
     refuse(
         "flight.wind.exponent: a profile over height needs the height of the payload at the start "
