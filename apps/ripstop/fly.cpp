@@ -44,8 +44,8 @@ void print_flight(const FlightResult& r, const fs::path& folder, double wall_tim
   fmt::print("\n{}\n", r.title);
   print_margins(r.margins);
   if (const auto& h = r.handover) {
-    row("inflation", fmt::format("{:.3f} s, peak load {:.1f} N, {:.1f} m lost; {:.2f} m/s at its end", h->time,
-                                 h->opening_peak, h->height_lost, h->opening_speed));
+    row("inflation", fmt::format("{:.3f} s, peak load {:.1f} N, {:.1f} m lost; {:.2f} m/s at its end",
+                                 h->time, h->opening_peak, h->height_lost, h->opening_speed));
     row("flight continues",
         fmt::format("{}; load {:.1f} to {:.1f} N, drag {:.1f} to {:.1f} N, elastic energy {:.3g} to {:.3g} J",
                     h->same_flow ? "in the same flow" : "in a flow interpolated to its cells and boundaries",
@@ -58,8 +58,8 @@ void print_flight(const FlightResult& r, const fs::path& folder, double wall_tim
   row("C_D0 in descent",
       with_error(r.coefficient, r.coefficient_error, "", 3) +
           (r.axial_coefficient ? fmt::format("; axial flow: {:.3f}", *r.axial_coefficient) : "") +
-          (r.known_coefficient ? fmt::format("; handbook, in descent: {:g} to {:g}", (*r.known_coefficient)[0],
-                                             (*r.known_coefficient)[1])
+          (r.known_coefficient ? fmt::format("; handbook, in descent: {:g} to {:g}",
+                                             (*r.known_coefficient)[0], (*r.known_coefficient)[1])
                                : ""));
   row("glide ratio", with_error(r.glide, r.glide_error, "", 3));
   row("oscillation, mean of peaks",
@@ -89,7 +89,8 @@ class OpeningTerminal : public InflationObserver {
 
   void warned(const std::string& text) override { progress_.line("ripstop: " + text); }
   void begin(const Opening& opening, InflationState& state, InflationHistory&) override {
-    if (state.blocks > 0) progress_.line(fmt::format("inflation, resuming at {:.2f} ms", 1000 * state.cloth.time));
+    if (state.blocks > 0)
+      progress_.line(fmt::format("inflation, resuming at {:.2f} ms", 1000 * state.cloth.time));
     begin_ = Clock::now(), first_ = state.blocks;
     whole_ = double(opening.blocks() - first_);
   }
@@ -182,7 +183,8 @@ void add_fly(CLI::App& app, int& status) {
   command->footer(
       "The canopy starts in equilibrium on the axis, at the speed at which its drag is the weight, and is "
       "released "
-      "at an angle. With --deploy or --from the flight continues from the end of a coupled inflation. Air, cloth "
+      "at an angle. With --deploy or --from the flight continues from the end of a coupled inflation. Air, "
+      "cloth "
       "and payload are stepped together in time.\n"
       "Example: ripstop fly examples/flat-circular/case.toml --mass 2.4 --duration 30 --cloth-nodes 2000");
   command->add_option("case", options->case_file, "Case file (TOML)")->required();
@@ -205,11 +207,14 @@ void add_fly(CLI::App& app, int& status) {
                  "Speed of the payload at deployment, with --deploy [m/s]");
   CLI::Option* deploy = command->add_flag_callback(
       "--deploy",
-      [options] { options->overrides.set.push_back({"flight.start", "inflation", "--deploy"}); },
+      [options] {
+        options->overrides.set.push_back({"flight.start", "inflation", "--deploy"});
+      },
       "Compute the coupled inflation with the payload first (flight.start = \"inflation\")");
   command
-      ->add_option("--from", options->from,
-                   "Run folder of ripstop inflate, coupled and with the payload; the flight continues from its end")
+      ->add_option(
+          "--from", options->from,
+          "Run folder of ripstop inflate, coupled and with the payload; the flight continues from its end")
       ->check(CLI::ExistingDirectory)
       ->excludes(deploy);
   add_set_option(*command, options->overrides);

@@ -46,10 +46,10 @@ void print_result(const SizeResult& r, const fs::path& file, const fs::path& pag
                       ? fmt::format("; Knacke, in descent: {:.2f} to {:.2f}",
                                     r.handbook_drag_coefficient->at(0), r.handbook_drag_coefficient->at(1))
                       : ""));
-  row("of this family",
-      fmt::format("axial {:.3f}, in descent {}", r.axial_coefficient,
-                  r.flown_coefficient ? fmt::format("{:.3f} +- {:.3f} (flown)", *r.flown_coefficient, *r.flown_error)
-                                      : std::string("not flown")));
+  row("of this family", fmt::format("axial {:.3f}, in descent {}", r.axial_coefficient,
+                                    r.flown_coefficient ? fmt::format("{:.3f} +- {:.3f} (flown)",
+                                                                      *r.flown_coefficient, *r.flown_error)
+                                                        : std::string("not flown")));
   row("nominal diameter",
       fmt::format("{:.3f} m{}, S0 {:.4g} m2", r.nominal_diameter,
                   r.handbook_diameter ? fmt::format(" ({:.2f} to {:.2f} by the handbook)",
@@ -75,7 +75,8 @@ void print_result(const SizeResult& r, const fs::path& file, const fs::path& pag
   for (const SizeCheck& c : r.checks)
     row(c.basis == "descent" ? "flight" : "run",
         fmt::format("diameter {:.3f} m, descent rate {:.3f}{} m/s, C_D {:.3f} ({})", c.nominal_diameter,
-                    c.descent_rate, c.descent_rate_error ? fmt::format(" +- {:.3f}", *c.descent_rate_error) : "",
+                    c.descent_rate,
+                    c.descent_rate_error ? fmt::format(" +- {:.3f}", *c.descent_rate_error) : "",
                     c.drag_coefficient, c.basis));
   row("case", file.string());
   if (!page.empty()) row("report", page.string());
@@ -214,7 +215,8 @@ void add_size(CLI::App& app, int& status) {
                                      : word == "descent" ? DragBasis::descent
                                                          : DragBasis::safe;
           },
-          "Coefficient of the family: axial (steady flow), descent (flown), or safe (the smaller one, default)")
+          "Coefficient of the family: axial (steady flow), descent (flown), or safe (the smaller one, "
+          "default)")
       ->check(CLI::IsMember({"safe", "axial", "descent"}))
       ->option_text("safe|axial|descent");
   command->add_option("--out", options->out, "Case file (default: my-canopy.toml)");

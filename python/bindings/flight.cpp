@@ -24,7 +24,8 @@ void add_flight(py::module_& module) {
       py::arg("run"), py::arg("payload_mass_kg"), py::kw_only(),
       py::arg("heights_m") = std::vector<double>{0, 300, 1000, 3000}, py::arg("ground_m") = 0.0,
       "Computes speed [m/s] and time to the ground [s] of a payload [kg] at heights above sea level "
-      "[m]:\nripstop descent. run: a Steady or its run folder, or the run folder of a flight, whose coefficient "
+      "[m]:\nripstop descent. run: a Steady or its run folder, or the run folder of a flight, whose "
+      "coefficient "
       "in descent\nis used.");
   add_result<ExportedParachute>(module, "ExportedParachute",
                                 "Parachute of a steady run in the terms of flight simulators.")
@@ -42,7 +43,8 @@ void add_flight(py::module_& module) {
       py::arg("run"), py::kw_only(), py::arg("deployment_speed_m_s") = py::none(),
       py::arg("flight") = py::none(),
       "Exports the parachute of a steady run to flight simulators: ripstop export. run: a Steady or its "
-      "run\nfolder. deployment_speed_m_s: speed for the filling time [m/s]; None: speed of the run.\nflight: run folder of a flight "
+      "run\nfolder. deployment_speed_m_s: speed for the filling time [m/s]; None: speed of the run.\nflight: "
+      "run folder of a flight "
       "of this parachute, whose coefficient in descent replaces the axial one.");
 }
 

@@ -113,18 +113,19 @@ void add_fly(py::module_& module) {
       "Nodes at the four corners of every cell of cloth; the first is -1 where there is none.");
   type.def_property_readonly(
       "case", [](const PyFlight& run) { return run.made; }, "The Case that flew.");
-  module.def("fly", &fly, py::arg("case"), py::kw_only(), py::arg("progress") = py::none(),
-             py::arg("threads") = 0, py::arg("out") = py::none(), py::arg("fresh") = false,
-             py::arg("from_run") = py::none(), py::arg("deploy") = false,
-             "Free flight of parachute and payload: ripstop fly.\n\n"
-             "progress: called with a FlightProgress after every step of the flow; an exception that it\n"
-             "  raises ends the run.\n"
-             "threads: 0: coupling.threads of the case.\n"
-             "out: a run folder, as of steady(); of a finished flight there, the numbers are read and the\n"
-             "  arrays are empty. None: no files are written.\n"
-             "fresh: replace an earlier run in that folder.\n"
-             "from_run: folder of a coupled inflation with the payload, from whose end the flight continues.\n"
-             "deploy: compute that inflation first, as flight.start = \"inflation\" does.");
+  module.def(
+      "fly", &fly, py::arg("case"), py::kw_only(), py::arg("progress") = py::none(), py::arg("threads") = 0,
+      py::arg("out") = py::none(), py::arg("fresh") = false, py::arg("from_run") = py::none(),
+      py::arg("deploy") = false,
+      "Free flight of parachute and payload: ripstop fly.\n\n"
+      "progress: called with a FlightProgress after every step of the flow; an exception that it\n"
+      "  raises ends the run.\n"
+      "threads: 0: coupling.threads of the case.\n"
+      "out: a run folder, as of steady(); of a finished flight there, the numbers are read and the\n"
+      "  arrays are empty. None: no files are written.\n"
+      "fresh: replace an earlier run in that folder.\n"
+      "from_run: folder of a coupled inflation with the payload, from whose end the flight continues.\n"
+      "deploy: compute that inflation first, as flight.start = \"inflation\" does.");
 }
 
 }  // namespace ripstop::python

@@ -126,8 +126,10 @@ void add_size(py::module_& module) {
       py::arg("fly") = false,
       "Designs a parachute for a payload [kg] and a descent rate [m/s]: ripstop size.\n\nfamily: one of "
       "families().\nheight_m: height above sea level at which the rate is required, or density_kg_m3 "
-      "instead.\nverify: adjust the diameter with steady runs until the rate is met; with fly, with free flights.\n"
-      "coefficient: \"axial\" (steady flow), \"descent\" (flown) or \"safe\", the smaller one.\nprogress: as in "
+      "instead.\nverify: adjust the diameter with steady runs until the rate is met; with fly, with free "
+      "flights.\n"
+      "coefficient: \"axial\" (steady flow), \"descent\" (flown) or \"safe\", the smaller one.\nprogress: as "
+      "in "
       "steady().");
   module.def("families", &family_drags,
              "Returns all canopy families with the computed drag coefficients of their examples.");

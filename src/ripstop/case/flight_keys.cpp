@@ -34,10 +34,11 @@ void describe(Fields& fields, Wind& wind) {
 }
 
 void describe(Fields& fields, FlightSettings& flight) {
-  fields.choice("start", flight.start,
-                {{"steady", FlightSettings::Start::steady}, {"inflation", FlightSettings::Start::inflation}},
-                "\"steady\": equilibrium on the axis at the speed at which drag is weight. \"inflation\": the "
-                "end of a coupled inflation with the payload, which is computed first.");
+  fields.choice(
+      "start", flight.start,
+      {{"steady", FlightSettings::Start::steady}, {"inflation", FlightSettings::Start::inflation}},
+      "\"steady\": equilibrium on the axis at the speed at which drag is weight. \"inflation\": the "
+      "end of a coupled inflation with the payload, which is computed first.");
   fields.number("duration_s", flight.duration_s, above(0).up_to(1e4),
                 "Longest time of flight, without the inflation.");
   fields.number("courant", flight.courant, above(0).up_to(1),

@@ -60,9 +60,11 @@ void check_flight_keys(const Case& given) {
         fmt::format("flight.wind: {:g} m/s and a gust of {:g} m/s are above Mach 0.3; at most {:g} m/s "
                     "together",
                     s.wind.speed_m_s, s.wind.gust_m_s, fastest));
-  if (s.velocity_m_s && norm(*s.velocity_m_s) + std::abs(s.wind.speed_m_s) + std::abs(s.wind.gust_m_s) > fastest)
-    refuse(fmt::format("flight.velocity_m_s: {:.4g} m/s and the wind are above Mach 0.3; at most {:g} m/s together",
-                       norm(*s.velocity_m_s), fastest));
+  if (s.velocity_m_s &&
+      norm(*s.velocity_m_s) + std::abs(s.wind.speed_m_s) + std::abs(s.wind.gust_m_s) > fastest)
+    refuse(fmt::format(
+        "flight.velocity_m_s: {:.4g} m/s and the wind are above Mach 0.3; at most {:g} m/s together",
+        norm(*s.velocity_m_s), fastest));
   if (s.wind.exponent > 0 && !s.height_m)
     refuse(
         "flight.wind.exponent: a profile over height needs the height of the payload at the start "
@@ -109,9 +111,10 @@ void refuse_other_payload(const Case& given, const Case& opening) {
 
 /// At which the usual drag of the family carries the payload [m/s].
 double usual_rate(const Settings& flight) {
-  const double area =
-      usual_drag_coefficient(flight.parachute()) * nominal_area(flight.parachute()) + flight.payload().drag_area_m2;
-  return terminal_speed(*flight.payload().mass_kg + parachute_mass(flight), area, flight.flow().density_kg_m3);
+  const double area = usual_drag_coefficient(flight.parachute()) * nominal_area(flight.parachute()) +
+                      flight.payload().drag_area_m2;
+  return terminal_speed(*flight.payload().mass_kg + parachute_mass(flight), area,
+                        flight.flow().density_kg_m3);
 }
 
 /// Everything but the start.

@@ -123,8 +123,7 @@ bool look_at(FlowRecord& record, const FlowProblem& problem, const Watch& how, W
   record.drag = mean_over_time(drag, drag.begin + record.start_up);
   progress.mean = record.drag.mean, progress.standard_error = record.drag.standard_error;
   const double relative = record.drag.standard_error / std::abs(record.drag.mean);
-  record.enough =
-      relative <= how.standard_error && record.watched() - record.start_up >= how.shortest * unit;
+  record.enough = relative <= how.standard_error && record.watched() - record.start_up >= how.shortest * unit;
   // The error falls with the root of the time.
   const double wanted = std::pow(relative / how.standard_error, 2) * (record.watched() - record.start_up);
   progress.share =

@@ -138,8 +138,7 @@ FreeFlight::FreeFlight(FlightProblem problem)
 
 /// At a place in the box and a time since the start of the flight.
 Vec3 FreeFlight::wind_in_box(Vec3 place, double time) const {
-  return axes_.in_box(
-      wind_velocity(problem_.settings.wind, axes_.over_ground(place).z, began() + time));
+  return axes_.in_box(wind_velocity(problem_.settings.wind, axes_.over_ground(place).z, began() + time));
 }
 
 double FreeFlight::start_height() const {
@@ -192,7 +191,8 @@ FreeFlightState FreeFlight::start() {
   state.elastic_at_start = elastic_energy(*cloth_, cloth);
   state.momentum_at_start = momentum(*cloth_, cloth) + mass_ * state.box_velocity;
   state.mouth_at_start = mouth_area(air_->cells(), positions(cloth, *cloth_));
-  if (problem_.from) {  // the predictor of the first step has the inertia of this box, not that of the opening's
+  if (problem_
+          .from) {  // the predictor of the first step has the inertia of this box, not that of the opening's
     const Vec3 on_mass = gravity_ - box_acceleration(state);
     for (const double m : mesh_.mass) state.coupled.air.other.push_back(m * on_mass);
   }
@@ -215,8 +215,8 @@ Surroundings FreeFlight::surroundings(const FreeFlightState& state, double lengt
              (state.box_velocity + length * accelerates);
   s.gained = (s.stream - state.stream) / length;
   s.on_mass = gravity_ - accelerates;
-  const double fallen = problem_.settings.height_m.value_or(0) -
-                        axes_.over_ground(state.box + problem_.shape[payload_]).z;
+  const double fallen =
+      problem_.settings.height_m.value_or(0) - axes_.over_ground(state.box + problem_.shape[payload_]).z;
   if (problem_.density_ratio) s.density_ratio = problem_.density_ratio(fallen);
   if (problem_.payload_drag_area > 0) {
     const Vec3 place = positions(state.coupled.cloth, *cloth_)[payload_],
@@ -311,8 +311,8 @@ FreeFlightRow FreeFlight::advance(FreeFlightState& state) {
 
 std::string FreeFlight::failure(const FreeFlightState& state, const FreeFlightRow& row) const {
   // The canopy of a payload that is deployed along the horizon begins next to it.
-  const double limit = problem_.from ? std::max(turned_over, turned_over - problem_.from->angle / degree + 30)
-                                     : turned_over;
+  const double limit =
+      problem_.from ? std::max(turned_over, turned_over - problem_.from->angle / degree + 30) : turned_over;
   if (row.angle > limit) return fmt::format("the parachute turned over at {:.4g} s", row.time);
   if (state.collapsed_since >= 0 && row.time - state.collapsed_since > collapsed_for)
     return fmt::format("the canopy collapsed at {:.4g} s", state.collapsed_since);
@@ -326,8 +326,7 @@ FreeFlight::Balance FreeFlight::balance(const FreeFlightState& state, const Free
                       kinetic_energy(*cloth_, cloth) - elastic_energy(*cloth_, cloth) -
                       state.coupled.record.damped;
   const Vec3 now = momentum(*cloth_, cloth) + mass_ * state.box_velocity;
-  const double weight = mass_ * problem_.gravity,
-               fallen = start_height() - row.payload.z;
+  const double weight = mass_ * problem_.gravity, fallen = start_height() - row.payload.z;
   return {left / (weight * std::max(fallen, 1e-3)),
           norm(now - state.momentum_at_start - state.impulse) / (weight * cloth.time)};
 }

@@ -67,7 +67,7 @@ class FreeFlight {
   std::string failure(const FreeFlightState& state, const FreeFlightRow& row) const;
 
   double began() const { return problem_.from ? problem_.from->time : 0; }  // since deployment [s]
-  double mass() const { return mass_; }  // of parachute and payload [kg]
+  double mass() const { return mass_; }                                     // of parachute and payload [kg]
   const CanopyMesh& mesh() const { return mesh_; }
   const Cloth& cloth() const { return *cloth_; }
   const FlightProblem& problem() const { return problem_; }

@@ -7,8 +7,8 @@
 
 namespace ripstop {
 
-OpeningEnd end_of_opening(const Opening& opening, const InflationState& state,
-                          double load, const std::vector<AirRow>& air) {
+OpeningEnd end_of_opening(const Opening& opening, const InflationState& state, double load,
+                          const std::vector<AirRow>& air) {
   if (!opening.air() || !opening.problem().air->payload)
     throw Error(ExitCode::usage,
                 "a flight continues from a coupled inflation with a payload; this one has a fixed end");

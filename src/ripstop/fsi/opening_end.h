@@ -54,7 +54,7 @@ void each_member(T& end, Visit&& visit) {
 
 /// Of an opening with a payload and no reefing line left, after its last block. `load`: mean of the last row [N].
 /// `air` has all steps of the flow. Throws Error(usage) for another one.
-OpeningEnd end_of_opening(const Opening& opening, const InflationState& state,
-                          double load, const std::vector<AirRow>& air);
+OpeningEnd end_of_opening(const Opening& opening, const InflationState& state, double load,
+                          const std::vector<AirRow>& air);
 
 }  // namespace ripstop

@@ -24,14 +24,21 @@ std::string to_json(const Descent& descent) {
 }
 
 CarryingRun carrying_run(const FinishedSteady& run) {
-  return {run.folder,           run.resolved,     run.result.title,   "axial", run.result.drag_area,
+  return {run.folder,           run.resolved,     run.result.title,   "axial",           run.result.drag_area,
           run.drag_uncertainty, run.result.speed, run.result.density, run.parachute_mass};
 }
 
 CarryingRun carrying_run(const FinishedFlight& flight) {
   const FlightResult& r = flight.result;
-  return {flight.folder, flight.resolved, r.title, "descent", *r.coefficient * r.reference_area,
-          r.coefficient_error.value_or(0) / *r.coefficient, *r.descent, r.density, r.parachute_mass};
+  return {flight.folder,
+          flight.resolved,
+          r.title,
+          "descent",
+          *r.coefficient * r.reference_area,
+          r.coefficient_error.value_or(0) / *r.coefficient,
+          *r.descent,
+          r.density,
+          r.parachute_mass};
 }
 
 CarryingRun carrying_run(const std::filesystem::path& folder) {

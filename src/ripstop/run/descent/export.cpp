@@ -102,8 +102,8 @@ std::string rocketpy_text(const ExportedParachute& p, const std::string& trigger
       "def add_to(rocket):\n    \"\"\"Adds the parachute to a rocketpy.Rocket.\"\"\"\n"
       "    return rocket.add_parachute(**parachute)\n",
       literal(p.title), version(), p.drag_area, p.drag_area_uncertainty, p.lag_from, mouth, p.nominal_area,
-      p.drag_coefficient, basis_text(p), literal(p.title), p.drag_area, trigger_literal(trigger), p.lag, p.radius, p.height,
-      p.porosity, p.drag_area / mouth);
+      p.drag_coefficient, basis_text(p), literal(p.title), p.drag_area, trigger_literal(trigger), p.lag,
+      p.radius, p.height, p.porosity, p.drag_area / mouth);
 }
 
 // The elements and their order are those of OpenRocket's own component databases.
@@ -129,8 +129,8 @@ std::string openrocket_text(const ExportedParachute& p) {
       "</OpenRocketComponent>\n",
       material(p.cloth_material, p.cloth_density, "kg/m2", "SURFACE"),
       material(p.line_material, p.line_density, "kg/m", "LINE"), escaped_markup(p.title),
-      escaped_markup(fmt::format("{}: C_D S {:.4f} m2, C_D on S0 = {:.4f} m2, {}, by Ripstop {}",
-                                 p.title, p.drag_area, p.nominal_area, p.basis, version())),
+      escaped_markup(fmt::format("{}: C_D S {:.4f} m2, C_D on S0 = {:.4f} m2, {}, by Ripstop {}", p.title,
+                                 p.drag_area, p.nominal_area, p.basis, version())),
       escaped_markup(p.cloth_material), p.mass, p.nominal_diameter, p.gores, p.packed_diameter,
       p.packed_length, p.drag_coefficient, p.line_count, p.line_length, escaped_markup(p.line_material));
 }

@@ -19,9 +19,9 @@ struct ExportedParachute {
   std::string drag_coefficient_on;  // the member that is its reference area
   std::string basis;                // "axial": of the steady run; "descent": of the flight
   std::optional<std::vector<double>> known_coefficient;  // the handbook's range, in descent
-  double radius = 0, height = 0;    // of the open canopy, half the projected diameter and skirt to crown [m]
-  double porosity = 0;              // open share of the surface as constructed
-  double lag = 0;                   // from the trigger to the full drag area [s]
+  double radius = 0, height = 0;  // of the open canopy, half the projected diameter and skirt to crown [m]
+  double porosity = 0;            // open share of the surface as constructed
+  double lag = 0;                 // from the trigger to the full drag area [s]
   std::string lag_from;
   double mass = 0;  // [kg]
   int gores = 0, line_count = 0;

@@ -58,8 +58,12 @@ FlightStart equilibrium_on_axis(const Settings& resolved, int threads, const fs:
         fmt::format("the canopy on the axis did not come to equilibrium within {} iterations; the "
                     "flight begins with its last shape",
                     solution.result.iterations));
-  return {solution.result.speed, solution.result.drag_coefficient, solution.state.shape,
-          solution.state.pressure, {}, true};
+  return {solution.result.speed,
+          solution.result.drag_coefficient,
+          solution.state.shape,
+          solution.state.pressure,
+          {},
+          true};
 }
 
 /// A start and the folder of the state of its air.
@@ -76,8 +80,9 @@ Beginning end_of_inflation(const Settings& resolved, int threads, fs::path from,
     if (run.folder.empty()) run.folder = temporary;
     from = run.folder;
     const LoadSource source = load_source(resolved);
-    run_inflation_in({run, threads}, resolved, source,
-                     [&] { return opening_problem(resolved, source, threads); }, observer.opening());
+    run_inflation_in(
+        {run, threads}, resolved, source, [&] { return opening_problem(resolved, source, threads); },
+        observer.opening());
   }
   FinishedOpening opening = finished_opening(from);
   Beginning begin;
@@ -260,8 +265,8 @@ FlightSolution run_flight(const Settings& resolved, int threads, FlightObserver&
     history.rows.push_back(flight.advance(state));
     ended_by = end_of(flight, state, history);
     const double until = history.rows.back().time - flight.began();
-    const bool shape = shapes_until(until, now.flight()) >
-                       shapes_until(until - history.rows.back().step, now.flight());
+    const bool shape =
+        shapes_until(until, now.flight()) > shapes_until(until - history.rows.back().step, now.flight());
     if (shape) look_at_shape(flight, state);
     observer.advanced(flight, state, history, shape);
   }

@@ -18,13 +18,13 @@ namespace ripstop {
 
 /// How a flight continues an inflation: the same quantities at the end of that and in its own first step.
 struct Handover {
-  double time = 0;                            // since deployment [s]
-  bool same_flow = false;                     // cells and boundaries are those of the inflation; else interpolated
-  double height_lost = 0, opening_speed = 0;  // by the payload until then [m], its speed then [m/s]
-  double path_angle = 0;                      // of its path below the horizon then [rad]
-  double opening_peak = 0;                    // peak load of the inflation [N]
-  double load_before = 0, load_after = 0;     // on the riser [N]
-  double drag_before = 0, drag_after = 0;     // of the air on the canopy [N]
+  double time = 0;         // since deployment [s]
+  bool same_flow = false;  // cells and boundaries are those of the inflation; else interpolated
+  double height_lost = 0, opening_speed = 0;     // by the payload until then [m], its speed then [m/s]
+  double path_angle = 0;                         // of its path below the horizon then [rad]
+  double opening_peak = 0;                       // peak load of the inflation [N]
+  double load_before = 0, load_after = 0;        // on the riser [N]
+  double drag_before = 0, drag_after = 0;        // of the air on the canopy [N]
   double elastic_before = 0, elastic_after = 0;  // energy of cloth and lines [J]
 };
 template <Of<Handover> T, class Visit>
@@ -61,14 +61,15 @@ struct FlightResult {
   std::optional<double> mean_angle, mean_attack, largest_attack;  // [deg]
   int peaks = 0;                                                  // half-swings counted
   double start_up = 0;                                            // until then nothing counts [s]
-  std::optional<double> axial_speed;     // at which the drag of the canopy on the axis is the weight [m/s]
-  std::optional<double> axial_coefficient;  // C_D0 on the axis (tunnel); absent, as the speed, after an inflation
-  std::optional<Handover> handover;         // from an inflation
-  double reference_area = 0;             // S0 [m2]
-  double density = 0;                    // at the start [kg/m3]
-  double largest_load = 0;               // of the lines on the payload [N]
-  double load_factor = 0;                // that over the payload's weight
-  double distance = 0, height_lost = 0;  // of the payload over the ground [m]
+  std::optional<double> axial_speed;  // at which the drag of the canopy on the axis is the weight [m/s]
+  std::optional<double>
+      axial_coefficient;             // C_D0 on the axis (tunnel); absent, as the speed, after an inflation
+  std::optional<Handover> handover;  // from an inflation
+  double reference_area = 0;         // S0 [m2]
+  double density = 0;                // at the start [kg/m3]
+  double largest_load = 0;           // of the lines on the payload [N]
+  double load_factor = 0;            // that over the payload's weight
+  double distance = 0, height_lost = 0;               // of the payload over the ground [m]
   double energy_residual = 0, momentum_residual = 0;  // of the whole flight
   double air_momentum_residual = 0;  // largest momentum gap of a step of the air over the weight
   double cells_across = 0;           // of the inflated canopy

@@ -12,7 +12,7 @@ namespace ripstop {
 struct FlightFolderSettings {
   RunSettings run;
   int threads = 0;
-  double checkpoint_every_s = 30;  // of wall time
+  double checkpoint_every_s = 30;   // of wall time
   std::filesystem::path from = {};  // folder of a finished inflation from which the flight continues
 };
 

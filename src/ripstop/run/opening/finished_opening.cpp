@@ -53,8 +53,7 @@ FinishedOpening finished_opening(const fs::path& folder) {
     air.push_back(from_row<AirRow>(row));
   const std::vector<double> load = read_csv(folder / "history.csv").column("load_mean_n");
   if (load.empty() || air.empty())
-    throw Error(ExitCode::bad_data,
-                fmt::format("{}: history.csv or air.csv has no rows", folder.string()));
+    throw Error(ExitCode::bad_data, fmt::format("{}: history.csv or air.csv has no rows", folder.string()));
   return {resolved, end_of_opening(*opening, state_of(folder), load.back(), air),
           opening->problem().air->flow, folder / end_folder};
 }

@@ -76,9 +76,9 @@ fs::path write_into(const fs::path& folder, const std::string& page) {
 ReportRun report_of(const fs::path& folder) {
   const fs::path result = folder / "result.json";
   if (!fs::exists(result) || !fs::exists(folder / "run.json"))
-    throw Error(
-        ExitCode::usage,
-        fmt::format("{}: contains no finished run of ripstop steady, inflate, fly or sweep", folder.string()));
+    throw Error(ExitCode::usage,
+                fmt::format("{}: contains no finished run of ripstop steady, inflate, fly or sweep",
+                            folder.string()));
   ReportRun run;
   run.name = name_of(folder);
   add_result(run, read_file(result), result);

@@ -58,7 +58,8 @@ void turn_up(std::vector<double>& points, double below) {
 }
 
 double path_angle_at(const std::vector<AirRow>& air, double time, double otherwise) {
-  const auto after = std::find_if(air.begin(), air.end(), [&](const AirRow& row) { return row.time >= time; });
+  const auto after =
+      std::find_if(air.begin(), air.end(), [&](const AirRow& row) { return row.time >= time; });
   return after == air.end() ? otherwise : after->angle * std::numbers::pi / 180;
 }
 
@@ -115,8 +116,8 @@ void add_plots(ReportRun& run, const Before& before, const std::vector<FreeFligh
     speed.series.push_back(
         series_of("inflation, along the path", before.air, [](const AirRow& r) { return r.speed; }));
   speed.series.push_back(flown("down", [](const FreeFlightRow& r) { return -r.velocity.z; }));
-  speed.series.push_back(
-      flown("over the ground", [](const FreeFlightRow& r) { return std::hypot(r.velocity.x, r.velocity.y); }));
+  speed.series.push_back(flown(
+      "over the ground", [](const FreeFlightRow& r) { return std::hypot(r.velocity.x, r.velocity.y); }));
   ReportPlot place = over_time("place", "Path of the payload", {"place", "m"});
   place.series = {flown("x", [](const FreeFlightRow& r) { return r.payload.x; }),
                   flown("y", [](const FreeFlightRow& r) { return r.payload.y; }),

@@ -29,8 +29,8 @@ struct FamilyDrag {
   std::string family, type;     // the example's folder, the word in [parachute]
   double drag_coefficient = 0;  // axial, on S0
   std::optional<std::array<double, 2>> handbook;
-  double speed = 0, density = 0;  // of that run [m/s], [kg/m3]
-  std::string made;               // command and machine
+  double speed = 0, density = 0;        // of that run [m/s], [kg/m3]
+  std::string made;                     // command and machine
   std::optional<FlownDrag> flown = {};  // in descent, with the cloth of the example
 };
 
@@ -74,8 +74,8 @@ struct VerifiedDescent {
       : speed(run.speed), coefficient(run.drag_coefficient), usable(run.converged) {}
   /// Not usable without a mean.
   VerifiedDescent(const FlightResult& flight);  // NOLINT(google-explicit-constructor)
-  double speed = 0, coefficient = 0;  // [m/s]
-  std::optional<double> speed_error;  // standard error of a flight [m/s]
+  double speed = 0, coefficient = 0;            // [m/s]
+  std::optional<double> speed_error;            // standard error of a flight [m/s]
   bool usable = false;
   bool flown = false;
 };
@@ -85,8 +85,8 @@ struct SizeResult {
   std::string family, type;
   double payload_mass = 0, descent_rate = 0, height = 0, density = 0;
   double drag_coefficient = 0;
-  std::string drag_basis, drag_source;  // "axial", "descent" or "given"; where it comes from
-  double axial_coefficient = 0;         // of the family, in steady flow
+  std::string drag_basis, drag_source;                   // "axial", "descent" or "given"; where it comes from
+  double axial_coefficient = 0;                          // of the family, in steady flow
   std::optional<double> flown_coefficient, flown_error;  // of the family, in descent
   std::optional<std::array<double, 2>> handbook_drag_coefficient;
   std::optional<std::array<double, 2>> handbook_diameter;  // that its range gives, the largest first [m]
@@ -170,6 +170,7 @@ Settings sized_flight(const Settings& sized, double duration_s);
 /// 1 / D_0. The rate of a flight is known to its standard error only, which widens the tolerance. Throws
 /// Error(not_converged) when a run cannot be used or four of them do not get there.
 void verify_size(const SizeRequest& request, SizeResult& result,
-                 const std::function<VerifiedDescent(const Settings&, int run)>& fly, double tolerance = 0.01);
+                 const std::function<VerifiedDescent(const Settings&, int run)>& fly,
+                 double tolerance = 0.01);
 
 }  // namespace ripstop
