@@ -52,7 +52,7 @@ class ContinuedFlight : public testing::Test {
   }
 };
 
-// The inflation that simply goes on, and the flight from its middle, meet the same air with the same cloth.
+// The inflation that continues, and the flight from its middle, have the same air and the same cloth.
 TEST_F(ContinuedFlight, MovesAsTheInflationWouldHaveMoved) {
   Case given = small_deployment();
   inflate("first", flight_settings(checked(given)));

@@ -71,7 +71,7 @@ void check_flight_keys(const Case& given) {
         "(flight.height_m or --height)");
 }
 
-/// Cells across the nominal diameter, of which the folded canopy covers as many as an opening needs.
+/// Cells across the nominal diameter with which the folded canopy is as wide as an opening requires.
 double cells_for_folds(const Case& flight) {
   constexpr double across_folds = 2.2;  // a coupled opening refuses fewer than 2
   const double width = 2 * flight.inflation.initial_radius_m.value_or(0);

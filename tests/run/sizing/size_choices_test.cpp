@@ -233,7 +233,7 @@ TEST(SizeChoices, TheCoefficientIsTheSmallerOneOfAxialAndFlownUnlessAsked) {
   EXPECT_GT(flown, 0) << "the cross";
 }
 
-// Flights know their rate to a standard error, which widens the tolerance.
+// The standard error of the rate of a flight widens the tolerance.
 TEST(SizeChoices, VerifyByFlightsStatesTheCoefficientInDescent) {
   SizeRequest asked;
   asked.payload_mass = 2.4, asked.descent_rate = 5;

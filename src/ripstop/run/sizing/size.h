@@ -68,7 +68,7 @@ void each_member(T& c, Visit&& visit) {
   visit("descent_rate_standard_error_m_s", c.descent_rate_error);
 }
 
-/// What a run of --verify has found, on the axis or in flight.
+/// Result of a run of --verify, on the axis or in flight.
 struct VerifiedDescent {
   VerifiedDescent(const SteadyResult& run)  // NOLINT(google-explicit-constructor): either result
       : speed(run.speed), coefficient(run.drag_coefficient), usable(run.converged) {}

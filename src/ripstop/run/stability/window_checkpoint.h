@@ -10,7 +10,7 @@ namespace ripstop {
 
 class WindowCheckpoint {
  public:
-  /// In the folder of the angle, of which `window/` belongs to it.
+  /// In `window/` of the folder of the angle.
   WindowCheckpoint(ClaimedFolder& folder, double every_s);
 
   /// The steps of a killed run, whose flow is restored; nothing where there is none. Throws Error(bad_data) for damaged
