@@ -30,7 +30,7 @@ Case small_deployment() {
   given.inflation.duration_s = 0.02, given.inflation.frames = 4;
   given.flight.start = FlightSettings::Start::inflation;
   given.flight.cells_across = 12;
-  given.flight.duration_s = 0.012;
+  given.flight.duration_s = 0.03;
   given.flight.shapes_per_s = 250;
   return given;
 }
@@ -157,11 +157,11 @@ TEST_F(ContinuedFlight, IsOneRunThatResumesInBothPartsByteForByte) {
   const ReportRun shown = report_of(root.path / "whole");
   EXPECT_EQ(shown.kind, "flight");
   const auto& frames = shown.shape.frames;
-  ASSERT_EQ(frames.size(), 5u + 3u) << "four of the inflation and its start, three of the flight";
+  ASSERT_EQ(frames.size(), 5u + 7u) << "four of the inflation and its start, seven of the flight";
   EXPECT_TRUE(std::is_sorted(frames.begin(), frames.end(),
                              [](const ShapeFrame& a, const ShapeFrame& b) { return a.time <= b.time; }));
   EXPECT_EQ(frames.front().time, 0);
-  EXPECT_NEAR(frames.back().time, 0.032, 1e-9);
+  EXPECT_NEAR(frames.back().time, 0.02 + 7.0 / 250, 1e-9);
   EXPECT_EQ(shown.shape.path.size(), 3 * shown.shape.path_times.size());
   EXPECT_EQ(shown.plots.front().series.size(), 2u) << "load of the inflation and of the flight";
 }
