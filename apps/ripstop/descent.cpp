@@ -1,4 +1,4 @@
-// ripstop descent: how fast a payload comes down under the parachute of a steady run.
+// ripstop descent: how fast a payload comes down under the parachute of a steady run or a flight.
 
 #include "ripstop/run/descent/descent.h"
 
@@ -34,6 +34,11 @@ void print_result(const Descent& d) {
       "{}\n  payload {:.4g} kg, parachute {:.3g} kg, drag area {:.4f} +- {:.4f} m2 (computed at {:.4g} "
       "m/s)\n",
       d.title, d.payload_mass, d.parachute_mass, d.drag_area, d.drag_area_uncertainty, d.run_speed);
+  fmt::print("  drag coefficient {:.3f} on S0, {}{}\n", d.drag_coefficient,
+             d.basis == "descent" ? "in descent (flown)" : "axial (steady flow on the axis)",
+             d.known_coefficient ? fmt::format("; Knacke, in descent: {:.2f} to {:.2f}",
+                                               d.known_coefficient->at(0), d.known_coefficient->at(1))
+                                 : "");
   fmt::print("{:>10} {:>9} {:>18} {:>22}\n", "height m", "kg/m3", "speed m/s",
              fmt::format("to {:g} m, s", d.ground));
   for (const DescentRow& row : d.rows)
@@ -45,7 +50,7 @@ void print_result(const Descent& d) {
 int descent(const DescentArguments& options) {
   if (!options.out.empty()) make_results_folder(options.out);
   const Descent result =
-      run_descent(finished_steady(options.run), options.mass, options.heights, options.ground);
+      run_descent(carrying_run(options.run), options.mass, options.heights, options.ground);
   if (!options.out.empty()) write_file(options.out / "result.json", to_json(result));
   if (options.json)
     fmt::print("{}", to_json(result));
@@ -60,12 +65,13 @@ int descent(const DescentArguments& options) {
 void add_descent(CLI::App& app, int& status) {
   auto options = std::make_shared<DescentArguments>();
   CLI::App* command =
-      app.add_subcommand("descent", "Compute terminal speed and descent time from a steady run");
+      app.add_subcommand("descent", "Compute terminal speed and descent time from a steady run or a flight");
   command->footer(
-      "+- is the numerical uncertainty of the run (last change of the drag, averaging, force balance).\nIt "
-      "does not include the error of the model.\n"
+      "+- is the numerical uncertainty of the run (last change of the drag, averaging, force balance), or "
+      "the "
+      "standard\nerror of the flight. It does not include the error of the model.\n"
       "Example: ripstop descent runs/stratos --mass 4 --height 300,1000");
-  command->add_option("run", options->run, "Folder of a finished run of ripstop steady")->required();
+  command->add_option("run", options->run, "Folder of a finished run of ripstop steady or fly")->required();
   add_number(*command, "--mass", options->mass, key_range("payload.mass_kg"),
              "Mass of the payload, without the parachute [kg]")
       ->required();

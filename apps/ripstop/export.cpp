@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 struct ExportArguments {
   std::string format, trigger = "apogee";
-  fs::path run, out;
+  fs::path run, out, flight;
   std::optional<double> deployment_speed;
   bool force = false;
 };
@@ -29,7 +29,8 @@ int export_run(const ExportArguments& options) {
   if (!options.out.empty() && fs::exists(options.out) && !options.force)
     throw Error(ExitCode::usage, fmt::format("{} exists; choose another --out, or replace it with --force",
                                              options.out.string()));
-  const ExportedParachute p = exported(finished_steady(options.run), options.deployment_speed);
+  const auto flight = options.flight.empty() ? std::nullopt : std::optional(finished_flight(options.flight));
+  const ExportedParachute p = exported(finished_steady(options.run), options.deployment_speed, flight);
   const std::string text = options.format == "rocketpy"     ? rocketpy_text(p, options.trigger)
                            : options.format == "openrocket" ? openrocket_text(p)
                                                             : to_json(p);
@@ -54,6 +55,12 @@ void add_export(CLI::App& app, int& status) {
       ->required()
       ->check(CLI::IsMember({"rocketpy", "openrocket", "json"}));
   command->add_option("run", options->run, "Folder of a finished run of ripstop steady")->required();
+  command
+      ->add_option(
+          "--flight", options->flight,
+          "Folder of a finished run of ripstop fly of this parachute: its coefficient in descent, in place "
+          "of the axial one")
+      ->check(CLI::ExistingDirectory);
   command->add_option("--trigger", options->trigger,
                       "Deployment trigger of RocketPy: apogee, or a height above ground [m]");
   add_number(*command, "--deployment-speed", options->deployment_speed, above(0).up_to(1000),

@@ -26,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct FlyArguments {
-  fs::path case_file, out;
+  fs::path case_file, out, from;
   Overrides overrides;
   int threads = 0;
   bool fresh = false, json = false;
@@ -43,15 +43,24 @@ void print_flight(const FlightResult& r, const fs::path& folder, double wall_tim
   const auto row = [](const char* name, const std::string& text) { fmt::print("  {:<28} {}\n", name, text); };
   fmt::print("\n{}\n", r.title);
   print_margins(r.margins);
+  if (const auto& h = r.handover) {
+    row("inflation", fmt::format("{:.3f} s, peak load {:.1f} N, {:.1f} m lost; {:.2f} m/s at its end",
+                                 h->time, h->opening_peak, h->height_lost, h->opening_speed));
+    row("flight continues",
+        fmt::format("{}; load {:.1f} to {:.1f} N, drag {:.1f} to {:.1f} N, elastic energy {:.3g} to {:.3g} J",
+                    h->same_flow ? "in the same flow" : "in a flow interpolated to its cells and boundaries",
+                    h->load_before, h->load_after, h->drag_before, h->drag_after, h->elastic_before,
+                    h->elastic_after));
+  }
   row("ended by", fmt::format("{}, {:.2f} s; means from {:.2f} s on", r.ended_by, r.duration, r.start_up));
   row("rate of descent", with_error(r.descent, r.descent_error, " m/s", 3) +
-                             fmt::format(" (axial flow: {:.3f} m/s)", r.axial_speed));
+                             (r.axial_speed ? fmt::format(" (axial flow: {:.3f} m/s)", *r.axial_speed) : ""));
   row("C_D0 in descent",
       with_error(r.coefficient, r.coefficient_error, "", 3) +
-          fmt::format(" (axial flow: {:.3f}{})", r.axial_coefficient,
-                      r.known_coefficient ? fmt::format("; handbook: {:g} to {:g}", (*r.known_coefficient)[0],
-                                                        (*r.known_coefficient)[1])
-                                          : ""));
+          (r.axial_coefficient ? fmt::format("; axial flow: {:.3f}", *r.axial_coefficient) : "") +
+          (r.known_coefficient ? fmt::format("; handbook, in descent: {:g} to {:g}",
+                                             (*r.known_coefficient)[0], (*r.known_coefficient)[1])
+                               : ""));
   row("glide ratio", with_error(r.glide, r.glide_error, "", 3));
   row("oscillation, mean of peaks",
       with_error(r.oscillation, r.oscillation_error, " deg", 1) + fmt::format(", {} half-swings", r.peaks));
@@ -67,11 +76,45 @@ void print_flight(const FlightResult& r, const fs::path& folder, double wall_tim
                            duration_text(wall_time)));
 }
 
+std::string remaining_text(std::chrono::steady_clock::time_point begin, double done, double whole) {
+  const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return fmt::format("elapsed {}, remaining about {}", duration_text(elapsed),
+                     duration_text(elapsed * (whole - done) / std::max(done, 1e-9)));
+}
+
+/// Of the inflation that comes first.
+class OpeningTerminal : public InflationObserver {
+ public:
+  explicit OpeningTerminal(Progress& progress) : progress_(progress) {}
+
+  void warned(const std::string& text) override { progress_.line("ripstop: " + text); }
+  void begin(const Opening& opening, InflationState& state, InflationHistory&) override {
+    if (state.blocks > 0)
+      progress_.line(fmt::format("inflation, resuming at {:.2f} ms", 1000 * state.cloth.time));
+    begin_ = Clock::now(), first_ = state.blocks;
+    whole_ = double(opening.blocks() - first_);
+  }
+  void advanced(const Opening& opening, const InflationState& state, const InflationHistory& history,
+                const InflationFrame*) override {
+    progress_.show(fmt::format("inflation, {:.1f} of {:.0f} ms, load {:.1f} N | {}", 1000 * state.cloth.time,
+                               1000 * opening.problem().settings.duration_s, history.rows.back().mean,
+                               remaining_text(begin_, double(state.blocks - first_), whole_)));
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Progress& progress_;
+  Clock::time_point begin_;
+  long long first_ = 0;
+  double whole_ = 1;
+};
+
 class FlightTerminal : public FlightObserver {
  public:
   FlightTerminal(Progress& progress, const fs::path& folder, bool quiet)
-      : progress_(progress), folder_(folder), quiet_(quiet) {}
+      : progress_(progress), folder_(folder), quiet_(quiet), opening_(progress) {}
 
+  InflationObserver& opening() override { return opening_; }
   void warned(const std::string& text) override { progress_.line("ripstop: " + text); }
   void starting(const SteadyProgress& p, const SteadyState&) override {
     progress_.show(fmt::format("equilibrium on the axis, iteration {}", p.iteration));
@@ -83,19 +126,17 @@ class FlightTerminal : public FlightObserver {
     else if (!quiet_)
       fmt::print(
           "{} nodes, step of the cloth {:.2e} s; {} x {} x {} cells; starts at {:.3f} m/s; {} threads\n",
-          flight.mesh().node_count(), state.coupled.step, grid.nx, grid.ny, grid.nz,
-          flight.problem().air.flow.air.speed(), flight.threads());
+          flight.mesh().node_count(), state.coupled.step, grid.nx, grid.ny, grid.nz, norm(state.stream),
+          flight.threads());
     std::fflush(stdout);
-    begin_ = Clock::now(), from_ = state.coupled.cloth.time;
+    begin_ = Clock::now(), from_ = flight.began() + state.coupled.cloth.time;
   }
   void advanced(FreeFlight& flight, const FreeFlightState&, const FlightHistory& history, bool) override {
     const FreeFlightRow& row = history.rows.back();
-    const double elapsed = std::chrono::duration<double>(Clock::now() - begin_).count();
-    const double until = flight.problem().settings.duration_s;
-    const double left = elapsed * (until - row.time) / std::max(row.time - from_, 1e-9);
-    progress_.show(fmt::format(
-        "{:.2f} of {:g} s, {:.2f} m/s down, {:.1f} deg | elapsed {}, remaining about {}", row.time, until,
-        -row.velocity.z, row.angle, duration_text(elapsed), duration_text(left)));
+    const double until = flight.began() + flight.problem().settings.duration_s;
+    progress_.show(fmt::format("{:.2f} of {:.4g} s, {:.2f} m/s down, {:.1f} deg | {}", row.time, until,
+                               -row.velocity.z, row.angle,
+                               remaining_text(begin_, row.time - from_, until - from_)));
   }
 
  private:
@@ -103,19 +144,20 @@ class FlightTerminal : public FlightObserver {
   Progress& progress_;
   const fs::path& folder_;
   bool quiet_;
+  OpeningTerminal opening_;
   Clock::time_point begin_;
   double from_ = 0;
 };
 
 int fly(const FlyArguments& options) {
   const auto begin = std::chrono::steady_clock::now();
-  const Settings resolved = resolve(flight_case(read_given(options.case_file, options.overrides)));
+  const Settings resolved = flight_settings(read_given(options.case_file, options.overrides), options.from);
   const fs::path folder = options.out.empty() ? default_run_folder(options.case_file, "flight") : options.out;
   const int threads = options.threads > 0 ? options.threads : resolved.coupling().threads;
   goes_on_when_repeated();
   Progress progress;
   FlightTerminal terminal(progress, folder, options.json);
-  const auto result = run_flight_in({{folder, options.fresh}, threads}, resolved, terminal);
+  const auto result = run_flight_in({{folder, options.fresh}, threads, 30, options.from}, resolved, terminal);
   if (!result) {
     const std::string finished = *finished_result(folder);
     fmt::print("{}", finished);
@@ -141,7 +183,9 @@ void add_fly(CLI::App& app, int& status) {
   command->footer(
       "The canopy starts in equilibrium on the axis, at the speed at which its drag is the weight, and is "
       "released "
-      "at an angle. Air, cloth and payload are stepped together in time.\n"
+      "at an angle. With --deploy or --from the flight continues from the end of a coupled inflation. Air, "
+      "cloth "
+      "and payload are stepped together in time.\n"
       "Example: ripstop fly examples/flat-circular/case.toml --mass 2.4 --duration 30 --cloth-nodes 2000");
   command->add_option("case", options->case_file, "Case file (TOML)")->required();
   add_key_option(*command, "--mass", "payload.mass_kg", "Mass of the payload, without the parachute [kg]",
@@ -159,6 +203,20 @@ void add_fly(CLI::App& app, int& status) {
   add_key_option(*command, "--wind", "flight.wind.speed_m_s", "Speed of the wind [m/s]", options->overrides);
   add_key_option(*command, "--cells-across", "flight.cells_across",
                  "Cells of the flow across the nominal diameter", options->overrides);
+  add_key_number(*command, "--speed", "flow.speed_m_s", options->overrides.speed,
+                 "Speed of the payload at deployment, with --deploy [m/s]");
+  CLI::Option* deploy = command->add_flag_callback(
+      "--deploy",
+      [options] {
+        options->overrides.set.push_back({"flight.start", "inflation", "--deploy"});
+      },
+      "Compute the coupled inflation with the payload first (flight.start = \"inflation\")");
+  command
+      ->add_option(
+          "--from", options->from,
+          "Run folder of ripstop inflate, coupled and with the payload; the flight continues from its end")
+      ->check(CLI::ExistingDirectory)
+      ->excludes(deploy);
   add_set_option(*command, options->overrides);
   add_number(*command, "--threads", options->threads, from(1).up_to(key_range("coupling.threads").high),
              "Number of threads (default: coupling.threads)");

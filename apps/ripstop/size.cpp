@@ -12,9 +12,12 @@
 #include "json_option.h"
 #include "margins.h"
 #include "number_option.h"
+#include "progress.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/flight/atmosphere.h"
+#include "ripstop/run/flight/finished_flight.h"
+#include "ripstop/run/flight/flight_folder.h"
 #include "ripstop/run/sizing/size_report.h"
 #include "ripstop/run/steady/steady_folder.h"
 #include "steady_terminal.h"
@@ -29,7 +32,8 @@ namespace fs = std::filesystem;
 struct SizeArguments {
   SizeRequest request;
   fs::path out = "my-canopy.toml";
-  bool verify = false, json = false, force = false;
+  bool verify = false, fly = false, json = false, force = false;
+  double duration = 30;  // of the flights [s]
 };
 
 void print_result(const SizeResult& r, const fs::path& file, const fs::path& page) {
@@ -39,9 +43,13 @@ void print_result(const SizeResult& r, const fs::path& file, const fs::path& pag
   row("drag coefficient",
       fmt::format("{:.3f}, {}{}", r.drag_coefficient, r.drag_source,
                   r.handbook_drag_coefficient
-                      ? fmt::format("; Knacke {:.2f} to {:.2f}", r.handbook_drag_coefficient->at(0),
-                                    r.handbook_drag_coefficient->at(1))
+                      ? fmt::format("; Knacke, in descent: {:.2f} to {:.2f}",
+                                    r.handbook_drag_coefficient->at(0), r.handbook_drag_coefficient->at(1))
                       : ""));
+  row("of this family", fmt::format("axial {:.3f}, in descent {}", r.axial_coefficient,
+                                    r.flown_coefficient ? fmt::format("{:.3f} +- {:.3f} (flown)",
+                                                                      *r.flown_coefficient, *r.flown_error)
+                                                        : std::string("not flown")));
   row("nominal diameter",
       fmt::format("{:.3f} m{}, S0 {:.4g} m2", r.nominal_diameter,
                   r.handbook_diameter ? fmt::format(" ({:.2f} to {:.2f} by the handbook)",
@@ -65,8 +73,11 @@ void print_result(const SizeResult& r, const fs::path& file, const fs::path& pag
   if (!r.opening.front().caution.empty()) row("", r.opening.front().caution);
   print_margins(r.margins);
   for (const SizeCheck& c : r.checks)
-    row("run", fmt::format("diameter {:.3f} m, descent rate {:.3f} m/s, C_D {:.3f}", c.nominal_diameter,
-                           c.descent_rate, c.drag_coefficient));
+    row(c.basis == "descent" ? "flight" : "run",
+        fmt::format("diameter {:.3f} m, descent rate {:.3f}{} m/s, C_D {:.3f} ({})", c.nominal_diameter,
+                    c.descent_rate,
+                    c.descent_rate_error ? fmt::format(" +- {:.3f}", *c.descent_rate_error) : "",
+                    c.drag_coefficient, c.basis));
   row("case", file.string());
   if (!page.empty()) row("report", page.string());
 }
@@ -109,15 +120,43 @@ void refuse_existing(const SizeArguments& options) {
                   fmt::format("{} exists; choose another --out, or replace it with --force", file.string()));
 }
 
+/// Progress of a flight of --verify --fly.
+class VerifyTerminal : public FlightObserver {
+ public:
+  void warned(const std::string& text) override { progress_.line("ripstop: " + text); }
+  void starting(const SteadyProgress& p, const SteadyState&) override {
+    progress_.show(fmt::format("equilibrium on the axis, iteration {}", p.iteration));
+  }
+  void advanced(FreeFlight& flight, const FreeFlightState&, const FlightHistory& history, bool) override {
+    const FreeFlightRow& row = history.rows.back();
+    progress_.show(fmt::format("flight, {:.2f} of {:g} s, {:.2f} m/s down, {:.1f} deg", row.time,
+                               flight.problem().settings.duration_s, -row.velocity.z, row.angle));
+  }
+
+ private:
+  Progress progress_;
+};
+
+FlightResult flight_of(const Settings& sized, const fs::path& folder, double duration) {
+  const Settings resolved = sized_flight(sized, duration);
+  VerifyTerminal terminal;
+  if (const auto flown = run_flight_in({{folder, false}, resolved.coupling().threads}, resolved, terminal))
+    return *flown;
+  return finished_flight(folder).result;
+}
+
 int size(const SizeArguments& options) {
+  if (options.fly && !options.verify)
+    throw Error(ExitCode::usage, "--fly: the flights are runs of --verify; give both");
   refuse_existing(options);
   SizeResult result = run_size(options.request);
   if (options.verify) {
     goes_on_when_repeated();  // its runs do
     verify_size(options.request, result, [&](const Settings& resolved, int run) {
       const fs::path folder = verify_folder(options, run);
+      if (options.fly) return VerifiedDescent(flight_of(resolved, folder, options.duration));
       SteadyTerminal terminal(folder);
-      return run_steady_in({{folder, false}, 0, {}, {}}, resolved, terminal).result;
+      return VerifiedDescent(run_steady_in({{folder, false}, 0, {}, {}}, resolved, terminal).result);
     });
   }
   if (options.out.has_parent_path()) make_folder(options.out.parent_path());
@@ -164,6 +203,22 @@ void add_size(CLI::App& app, int& status) {
              "Density of the packed parachute [kg/m3] (default: 400, packed by hand)");
   command->add_flag("--verify", options->verify,
                     "Run the case and adjust the diameter until the descent rate is met within 1 %");
+  command->add_flag("--fly", options->fly,
+                    "With --verify: fly the parachute freely instead of steady runs on the axis");
+  add_number(*command, "--duration", options->duration, key_range("flight.duration_s"),
+             "Duration of each flight of --fly [s] (default: 30)");
+  command
+      ->add_option_function<std::string>(
+          "--coefficient",
+          [options](const std::string& word) {
+            options->request.basis = word == "axial"     ? DragBasis::axial
+                                     : word == "descent" ? DragBasis::descent
+                                                         : DragBasis::safe;
+          },
+          "Coefficient of the family: axial (steady flow), descent (flown), or safe (the smaller one, "
+          "default)")
+      ->check(CLI::IsMember({"safe", "axial", "descent"}))
+      ->option_text("safe|axial|descent");
   command->add_option("--out", options->out, "Case file (default: my-canopy.toml)");
   command->add_flag("--force", options->force, "Replace an existing case file");
   add_json_option(*command, options->json);

@@ -17,12 +17,16 @@ void add_flight(py::module_& module) {
       "descent",
       [](const SteadySource& run, double mass, const std::vector<double>& heights, double ground) {
         const py::gil_scoped_release release;
+        if (const Path* folder = std::get_if<Path>(&run))
+          return run_descent(carrying_run(*folder), mass, heights, ground);
         return run_descent(finished(run), mass, heights, ground);
       },
       py::arg("run"), py::arg("payload_mass_kg"), py::kw_only(),
       py::arg("heights_m") = std::vector<double>{0, 300, 1000, 3000}, py::arg("ground_m") = 0.0,
       "Computes speed [m/s] and time to the ground [s] of a payload [kg] at heights above sea level "
-      "[m]:\nripstop descent. run: a Steady or its run folder.");
+      "[m]:\nripstop descent. run: a Steady or its run folder, or the run folder of a flight, whose "
+      "coefficient "
+      "in descent\nis used.");
   add_result<ExportedParachute>(module, "ExportedParachute",
                                 "Parachute of a steady run in the terms of flight simulators.")
       .def("rocketpy", &rocketpy_text, py::arg("trigger") = "apogee",
@@ -31,13 +35,17 @@ void add_flight(py::module_& module) {
       .def("openrocket", &openrocket_text, "Returns a component database of OpenRocket with the parachute.");
   module.def(
       "export",
-      [](const SteadySource& run, std::optional<double> deployment_speed) {
+      [](const SteadySource& run, std::optional<double> deployment_speed, const std::optional<Path>& flight) {
         const py::gil_scoped_release release;
-        return exported(finished(run), deployment_speed);
+        return exported(finished(run), deployment_speed,
+                        flight ? std::optional(finished_flight(*flight)) : std::nullopt);
       },
       py::arg("run"), py::kw_only(), py::arg("deployment_speed_m_s") = py::none(),
+      py::arg("flight") = py::none(),
       "Exports the parachute of a steady run to flight simulators: ripstop export. run: a Steady or its "
-      "run\nfolder. deployment_speed_m_s: speed for the filling time [m/s]; None: speed of the run.");
+      "run\nfolder. deployment_speed_m_s: speed for the filling time [m/s]; None: speed of the run.\nflight: "
+      "run folder of a flight "
+      "of this parachute, whose coefficient in descent replaces the axial one.");
 }
 
 }  // namespace ripstop::python

@@ -40,13 +40,14 @@ class FlightListener : public FlightObserver {
  public:
   FlightListener(Listener& listener, PyFlight& run) : listener_(listener), run_(run) {}
   void starting(const SteadyProgress&, const SteadyState&) override { listener_.listen(); }
+  InflationObserver& opening() override { return opening_; }
   void begin(FreeFlight& flight, FreeFlightState&, FlightHistory&) override {
     run_.cells = cells_of(flight.mesh());
   }
   void advanced(FreeFlight& flight, const FreeFlightState&, const FlightHistory& history, bool) override {
     const FreeFlightRow& row = history.rows.back();
-    listener_.tell(
-        FlightProgress{row.time, flight.problem().settings.duration_s, -row.velocity.z, row.angle});
+    listener_.tell(FlightProgress{row.time - flight.began(), flight.problem().settings.duration_s,
+                                  -row.velocity.z, row.angle});
   }
   void ended(FreeFlight& flight, const FreeFlightState& state, const FlightHistory& history,
              const FlightResult& result) override {
@@ -55,22 +56,35 @@ class FlightListener : public FlightObserver {
   }
 
  private:
+  /// An interruption ends the inflation that comes first, too.
+  struct OpeningListener : InflationObserver {
+    explicit OpeningListener(Listener& to) : listener(to) {}
+    void advanced(const Opening&, const InflationState&, const InflationHistory&,
+                  const InflationFrame*) override {
+      listener.listen();
+    }
+    Listener& listener;
+  };
   Listener& listener_;
   PyFlight& run_;
+  OpeningListener opening_{listener_};
 };
 
 std::unique_ptr<PyFlight> fly(const PyCase& given, Callback<FlightProgress> progress, int threads,
-                              const std::optional<Path>& out, bool fresh) {
+                              const std::optional<Path>& out, bool fresh, const std::optional<Path>& from,
+                              bool deploy) {
   auto run = std::make_unique<PyFlight>();
   run->made = given;
+  if (deploy) run->made.given.flight.start = FlightSettings::Start::inflation;
+  const std::filesystem::path opening = from.value_or(std::filesystem::path());
   Listener listener(std::move(progress));
   FlightListener observer(listener, *run);
   const py::gil_scoped_release release;
-  const Settings resolved = resolve(flight_case(run->made.given));
+  const Settings resolved = flight_settings(run->made.given, opening);
   const int used = threads > 0 ? threads : resolved.coupling().threads;
   if (!out)
-    run_flight(resolved, used, observer);
-  else if (!run_flight_in({{*out, fresh}, used}, resolved, observer))
+    run_flight(resolved, used, observer, opening);
+  else if (!run_flight_in({{*out, fresh}, used, 30, opening}, resolved, observer))
     run->result = from_json_text<FlightResult>(*finished_result(*out), "the result of a flight");
   return run;
 }
@@ -99,14 +113,19 @@ void add_fly(py::module_& module) {
       "Nodes at the four corners of every cloth cell; the first is -1 for a missing cell.");
   type.def_property_readonly(
       "case", [](const PyFlight& run) { return run.made; }, "The Case that flew.");
-  module.def("fly", &fly, py::arg("case"), py::kw_only(), py::arg("progress") = py::none(),
-             py::arg("threads") = 0, py::arg("out") = py::none(), py::arg("fresh") = false,
-             "Computes the free flight of parachute and payload: ripstop fly.\n\n"
-             "progress: called with a FlightProgress after every step of the flow; an exception that it\n"
-             "  raises ends the run.\n"
-             "threads: 0: coupling.threads of the case.\n"
-             "out: a run folder, as of steady(); of a finished flight there, the numbers are read and the\n"
-             "  arrays are empty. None: no files are written.");
+  module.def(
+      "fly", &fly, py::arg("case"), py::kw_only(), py::arg("progress") = py::none(), py::arg("threads") = 0,
+      py::arg("out") = py::none(), py::arg("fresh") = false, py::arg("from_run") = py::none(),
+      py::arg("deploy") = false,
+      "Computes the free flight of parachute and payload: ripstop fly.\n\n"
+      "progress: called with a FlightProgress after every step of the flow; an exception that it\n"
+      "  raises ends the run.\n"
+      "threads: 0: coupling.threads of the case.\n"
+      "out: a run folder, as of steady(); of a finished flight there, the numbers are read and the\n"
+      "  arrays are empty. None: no files are written.\n"
+      "fresh: replace an earlier run in that folder.\n"
+      "from_run: folder of a coupled inflation with the payload, from whose end the flight continues.\n"
+      "deploy: compute that inflation first, as flight.start = \"inflation\" does.");
 }
 
 }  // namespace ripstop::python

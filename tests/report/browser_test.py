@@ -25,6 +25,9 @@ SMALL = ["--set", "parachute.mesh.cloth_nodes=1000", "--set", "coupling.threads=
 STEADY = ["--speed", "10", "--grid", "16,16,24", "--set", "coupling.shape_tolerance_m=1e-3", *SMALL]
 OPENING = ["--pressure", "300", "--set", "parachute.lines.count=6", "--set", "parachute.mesh.folds=6", "--set", "inflation.initial_radius_m=0.2",
            "--set", "inflation.duration_s=0.008", "--set", "inflation.frames=8", "--set", "inflation.line_segment_m=0.3", *SMALL]
+FLIGHT = ["--deploy", "--mass", "0.8", "--speed", "8", "--duration", "0.03", "--cells-across", "12", "--set", "flight.shapes_per_s=200",
+          "--set", "inflation.initial_radius_m=0.12", "--set", "inflation.duration_s=0.02", "--set", "inflation.frames=4", "--threads", "1",
+          "--set", "parachute.mesh.cloth_nodes=500", "--set", "parachute.mesh.line_segment_m=0.25"]
 
 
 def ripstop(*arguments):
@@ -48,6 +51,8 @@ class Report(unittest.TestCase):
         cls.steady, cls.opening, cls.both = cls.folder / "steady", cls.folder / "opening", cls.folder / "both.html"
         cls.said = ripstop("steady", str(cls.folder / "case.toml"), *STEADY, "--out", str(cls.steady))
         ripstop("inflate", CASE, *OPENING, "--out", str(cls.opening))
+        cls.flight = cls.folder / "flight"
+        ripstop("fly", str(ROOT / "examples/flat-circular/case.toml"), *FLIGHT, "--out", str(cls.flight))
         ripstop("report", str(cls.steady), str(cls.opening), "--out", str(cls.both))
         cls.dome = cls.folder / "dome.html"
         subprocess.run([TESTS, "--gtest_filter=ReportPage.WithFiftyThousand*"], env={**os.environ, "RIPSTOP_DOME": str(cls.dome)},
@@ -91,6 +96,25 @@ class Report(unittest.TestCase):
                 else:
                     self.assertAlmostEqual(number(text), one, delta=5.01e-5 * abs(one), msg=key)
         return result
+
+    def test_a_flight_has_path_force_and_angles_on_one_time_axis(self):
+        self.open(self.flight / "report.html")
+        self.assertIn("Flight", self.js("Page.shown().node.querySelector('p.muted').innerText"))
+        times = self.js("Page.shown().run.shape.frames.map((frame) => frame.time)")
+        self.assertEqual(times, sorted(times))
+        self.assertEqual(times[0], 0)
+        self.assertAlmostEqual(times[-1], 0.05, places=6)
+        self.assertEqual(self.js("Page.shown().run.plots[0].series.map((series) => series.name)"), ["inflation", "flight"])
+        self.assertEqual(self.js("[...document.querySelectorAll('.wide-plot')].map((plot) => plot.dataset.plot)"), ["load", "angle"])
+        for share in (0.3, 0.7, 1):  # the path ends at the payload
+            self.js(f"Page.shown().clock.set({share} * Page.shown().clock.end)")
+            gap = self.js("""(() => {
+                const canopy = Page.shown().controls.canopy, anchor = 3 * canopy.shape.path.anchor, { array } = canopy.trail.head;
+                let nearest = Infinity;
+                for (let s = 0; s < array.length; s += 3)
+                    nearest = Math.min(nearest, Math.hypot(...[0, 1, 2].map((c) => canopy.trail.tail.array[s + c] - canopy.points[anchor + c])));
+                return nearest; })()""")
+            self.assertLess(gap, 1e-4)
 
     def test_a_steady_run_shows_what_its_result_says(self):
         self.assertTrue(self.said.rstrip().endswith(str(self.steady / "report.html")), self.said)

@@ -35,7 +35,13 @@ void describe(Fields& fields, Wind& wind) {
 }
 
 void describe(Fields& fields, FlightSettings& flight) {
-  fields.number("duration_s", flight.duration_s, above(0).up_to(1e4), "Longest time of flight.");
+  fields.choice(
+      "start", flight.start,
+      {{"steady", FlightSettings::Start::steady}, {"inflation", FlightSettings::Start::inflation}},
+      "\"steady\": equilibrium on the axis at the speed at which drag is weight. \"inflation\": the "
+      "end of a coupled inflation with the payload, which is computed first.");
+  fields.number("duration_s", flight.duration_s, above(0).up_to(1e4),
+                "Longest time of flight, without the inflation.");
   fields.number("courant", flight.courant, above(0).up_to(1),
                 "Largest Courant number of the steps of the flow.");
   fields.number("cells_across", flight.cells_across, from(8).up_to(400),

@@ -12,6 +12,8 @@
 #include "ripstop/case/resolve.h"
 #include "ripstop/core/error.h"
 #include "ripstop/flight/atmosphere.h"
+#include "ripstop/flight/descent.h"
+#include "ripstop/parachute/fold.h"
 
 namespace ripstop {
 namespace {
@@ -30,9 +32,8 @@ int cells_along(double core, double before, double after, double h) {
   return multiple * static_cast<int>(std::ceil(count / multiple));
 }
 
-std::array<int, 3> coarse_cells(const Case& given) {
-  const double d = inflated_diameter(given.parachute),
-               h = nominal_diameter(given.parachute) / given.flight.cells_across;
+std::array<int, 3> coarse_cells(const Case& given, double over_diameter) {
+  const double d = inflated_diameter(given.parachute), h = nominal_diameter(given.parachute) / over_diameter;
   const double aside = 0.5 * d * (sheet_box.x - sheet_core.x),
                before = d * (sheet_skirt - 0.25 * sheet_core.z);
   const int across = cells_along(d * sheet_core.x, aside, aside, h);
@@ -59,35 +60,65 @@ void check_flight_keys(const Case& given) {
         fmt::format("flight.wind: {:g} m/s and a gust of {:g} m/s are above Mach 0.3; at most {:g} m/s "
                     "together",
                     s.wind.speed_m_s, s.wind.gust_m_s, fastest));
+  if (s.velocity_m_s &&
+      norm(*s.velocity_m_s) + std::abs(s.wind.speed_m_s) + std::abs(s.wind.gust_m_s) > fastest)
+    refuse(fmt::format(
+        "flight.velocity_m_s: {:.4g} m/s and the wind are above Mach 0.3; at most {:g} m/s together",
+        norm(*s.velocity_m_s), fastest));
   if (s.wind.exponent > 0 && !s.height_m)
     refuse(
         "flight.wind.exponent: a profile over height needs the height of the payload at the start "
         "(flight.height_m or --height)");
 }
 
-}  // namespace
+/// Cells across the nominal diameter with which the folded canopy is as wide as an opening requires.
+double cells_for_folds(const Case& flight) {
+  constexpr double across_folds = 2.2;  // a coupled opening refuses fewer than 2
+  const double width = 2 * flight.inflation.initial_radius_m.value_or(0);
+  const double needed = width > 0 ? across_folds * nominal_diameter(flight.parachute) / width : 0;
+  return std::max(needed, flight.flight.cells_across);
+}
 
-Case flight_case(const Case& given) {
-  check_flight_keys(given);
-  Case flight = opening_case(given);
-  flight.flow.speed_m_s.reset();  // that at which drag is weight
-  flight.flow.unsteady = false;
-  if (!flight.flow.max_iterations) flight.flow.max_iterations = start_flow_iterations;
-  if (!flight.flow.average_over)
-    flight.flow.average_over = std::min(start_average, *flight.flow.max_iterations);
-  if (!given.origins.contains("coupling.max_iterations"))
-    flight.coupling.max_iterations = std::min(start_iterations, given.coupling.max_iterations);
-  if (!flight.flow.sides) flight.flow.sides = Sides::far_field;
+void take_coarse_cells(Case& flight, double across) {
   FlowKeys& flow = flight.flow;
-  if (!flow.cells && !flow.box_m && !flow.core.size_m) {
-    flow.cells = coarse_cells(given);
-    if (!flow.core.growth) flow.core.growth = growth;
-  }
+  if (flow.cells || flow.box_m || flow.core.size_m) return;
+  flow.cells = coarse_cells(flight, across);
+  if (!flow.core.growth) flow.core.growth = growth;
+}
+
+/// One case for both: the flow of the opening is that of the flight.
+Case deployed_case(Case flight) {
+  if (!flight.flow.speed_m_s)
+    refuse("flow.speed_m_s is not given: a deployment needs the speed at which it begins (--speed)");
+  flight.inflation.air = AirModel::coupled;
+  flight.inflation.mass = InflationSettings::Mass::payload;
+  if (!flight.inflation.initial_radius_m && !flight.deployment) flight.deployment.emplace();
+  flight = opening_case(flight);
+  if (!flight.flow.sides) flight.flow.sides = Sides::far_field;
+  take_coarse_cells(flight, cells_for_folds(flight));
   return flight;
 }
 
-FlightProblem flight_problem(const Settings& flight, std::vector<Vec3> shape, std::vector<double> pressure,
-                             int threads) {
+void refuse_other_payload(const Case& given, const Case& opening) {
+  const auto differs = [](const char* key, double here, double there) {
+    if (here != there)
+      refuse(fmt::format("payload.{} = {:g}: the inflation has {:g}; use the payload of the inflation", key,
+                         here, there));
+  };
+  differs("mass_kg", *given.payload.mass_kg, opening.payload.mass_kg.value_or(0));
+  differs("drag_area_m2", given.payload.drag_area_m2, opening.payload.drag_area_m2);
+}
+
+/// At which the usual drag of the family carries the payload [m/s].
+double usual_rate(const Settings& flight) {
+  const double area = usual_drag_coefficient(flight.parachute()) * nominal_area(flight.parachute()) +
+                      flight.payload().drag_area_m2;
+  return terminal_speed(*flight.payload().mass_kg + parachute_mass(flight), area,
+                        flight.flow().density_kg_m3);
+}
+
+/// Everything but the start.
+FlightProblem problem_at(const Settings& flight, double rate, int threads) {
   const FlowSettings& stream = flight.flow();
   if (stream.porosity_model != PorosityModel::sheet)
     refuse("flow.porosity_model: only cloth that is a sheet flies; give the cloth an air permeability");
@@ -95,17 +126,16 @@ FlightProblem flight_problem(const Settings& flight, std::vector<Vec3> shape, st
     refuse("flow.sides: in flight the air comes from any direction; leave it out or set it to \"far-field\"");
   const Cost cost = cost_of(flight);
   require_memory(cost.memory, fmt::format("a flight in {:.3g} cells of air", cost.cells));
-  const double dynamic = 0.5 * stream.density_kg_m3 * stream.speed_m_s * stream.speed_m_s,
+  const double dynamic = 0.5 * stream.density_kg_m3 * rate * rate,
                weight = flight.materials().canopy.areal_density_kg_m2 * standard_gravity;
   if (dynamic < least_pressure * weight)
     refuse(fmt::format(
         "payload.mass_kg = {:g}: at its rate of descent of {:.3g} m/s the dynamic pressure of "
         "{:.3g} Pa does not hold up the canopy's cloth ({:.3g} Pa); a heavier payload or a smaller "
         "canopy is needed",
-        *flight.payload().mass_kg, stream.speed_m_s, dynamic, weight));
+        *flight.payload().mass_kg, rate, dynamic, weight));
   FlightProblem problem;
   problem.mesh = parachute_mesh(flight);
-  problem.shape = std::move(shape), problem.pressure = std::move(pressure);
   problem.air = {flow_problem(flight), flight.flight().courant};
   problem.settings = flight.flight();
   problem.cloth = flight.inflation();
@@ -116,6 +146,57 @@ FlightProblem flight_problem(const Settings& flight, std::vector<Vec3> shape, st
     problem.density_ratio = [from = *stream.height_m](double fallen) { return density_ratio(from, fallen); };
   problem.linear = flight.coupling().linear;
   problem.threads = threads;
+  return problem;
+}
+
+}  // namespace
+
+Case flight_case(const Case& given) {
+  check_flight_keys(given);
+  if (given.flight.start == FlightSettings::Start::inflation) return deployed_case(given);
+  Case flight = opening_case(given);
+  flight.flow.speed_m_s.reset();  // that at which drag is weight
+  flight.flow.unsteady = false;
+  if (!flight.flow.max_iterations) flight.flow.max_iterations = start_flow_iterations;
+  if (!flight.flow.average_over)
+    flight.flow.average_over = std::min(start_average, *flight.flow.max_iterations);
+  if (!given.origins.contains("coupling.max_iterations"))
+    flight.coupling.max_iterations = std::min(start_iterations, given.coupling.max_iterations);
+  if (!flight.flow.sides) flight.flow.sides = Sides::far_field;
+  take_coarse_cells(flight, flight.flight.cells_across);
+  return flight;
+}
+
+Case continued_case(const Case& given, const Settings& opening) {
+  check_flight_keys(given);
+  Case flight = opening.written();
+  refuse_other_payload(given, flight);
+  flight.title = given.title, flight.flight = given.flight;
+  flight.flight.start = FlightSettings::Start::inflation;
+  flight.flow.sides = Sides::far_field;
+  if (!given.origins.contains("flight.cells_across")) return flight;
+  FlowKeys& flow = flight.flow;  // other cells about the canopy in the same place
+  flow.cells.reset(), flow.box_m.reset();
+  flow.core.size_m.reset(), flow.core.start_m.reset(), flow.core.growth.reset();
+  take_coarse_cells(flight, given.flight.cells_across);
+  return flight;
+}
+
+FlightProblem flight_problem(const Settings& flight, std::vector<Vec3> shape, std::vector<double> pressure,
+                             int threads) {
+  FlightProblem problem = problem_at(flight, flight.flow().speed_m_s, threads);
+  problem.shape = std::move(shape), problem.pressure = std::move(pressure);
+  return problem;
+}
+
+FlightProblem flight_problem(const Settings& flight, const OpeningEnd& end, int threads) {
+  const double rate = usual_rate(flight);
+  FlightProblem problem = problem_at(flight, rate, threads);
+  FoldedStart folded;
+  folded.positions = end.folded, folded.folds = end.folds;
+  problem.mesh = with_creases(problem.mesh, folded);
+  problem.air.flow.air.velocity = {0, 0, end.air_speed};
+  problem.from = end, problem.descent_speed = rate;
   return problem;
 }
 

@@ -122,6 +122,9 @@ FlowStep Flow::step(double) {
 void Flow::stream(Vec3, Vec3) {
   throw no_time();
 }
+void Flow::continue_from(const std::filesystem::path&) {
+  throw Error(ExitCode::usage, "this flow engine does not interpolate a saved flow to other cells");
+}
 
 double sample(const FlowGrid& grid, const std::vector<double>& field, Vec3 point) {
   return trilinear(grid, field, point);

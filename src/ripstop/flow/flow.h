@@ -257,6 +257,10 @@ class Flow {
   /// Of a problem with the same box, sides and outlet. A saved flow of different air is scaled to that of this
   /// problem if the engine can; else Error(usage). Error(bad_data) or Error(io) for data that save() did not write.
   virtual void restore(const std::filesystem::path& folder) = 0;
+  /// The fields of a saved flow of the same bodies and air, interpolated to the cells of this one. Box, cells and
+  /// boundaries may differ. On the same cells a flow in time keeps its rates too, so that only the boundaries differ.
+  /// Throws as restore().
+  virtual void continue_from(const std::filesystem::path& folder);
 };
 
 class FlowEngine {

@@ -105,6 +105,60 @@ double FlowRecord::watched() const {
   return steps.empty() ? 0 : steps.back().time - steps.front().time + steps.front().length;
 }
 
+namespace {
+
+/// Whether the record is enough, or as long as it may become. Sets its means so far, and the progress.
+bool look_at(FlowRecord& record, const FlowProblem& problem, const Watch& how, WatchProgress& progress) {
+  const double unit = how.length / problem.air.speed();  // [s]
+  const Record drag = record_of(record.steps, problem.air.direction());
+  // At least until the stream has been through the box.
+  const Vec3 size = problem.grid.size, stream = problem.air.velocity;
+  const auto along = [](double length, double speed) {
+    return speed == 0 ? std::numeric_limits<double>::infinity() : length / std::abs(speed);
+  };
+  const double passage =
+      std::min({along(size.x, stream.x), along(size.y, stream.y), along(size.z, stream.z)});
+  const double through = std::min(passage, 0.5 * record.watched());
+  record.start_up = std::max(end_of_start_up(drag) - drag.begin, through);
+  record.drag = mean_over_time(drag, drag.begin + record.start_up);
+  progress.mean = record.drag.mean, progress.standard_error = record.drag.standard_error;
+  const double relative = record.drag.standard_error / std::abs(record.drag.mean);
+  record.enough = relative <= how.standard_error && record.watched() - record.start_up >= how.shortest * unit;
+  // The error falls with the root of the time.
+  const double wanted = std::pow(relative / how.standard_error, 2) * (record.watched() - record.start_up);
+  progress.share =
+      record.watched() / std::clamp(record.start_up + wanted, how.shortest * unit, how.longest * unit);
+  return record.enough || record.watched() >= how.longest * unit;
+}
+
+/// `stepped` after every step that is recorded, `looked` after every look.
+void march_window(Flow& flow, const FlowProblem& problem, const Watch& how, FlowRecord& record,
+                  const WatchReport& report, const std::function<void(const FlowStep&)>& stepped,
+                  const std::function<void()>& looked) {
+  check(how);
+  WatchProgress progress;
+  bool stopped = false;
+  if (!record.steps.empty() && look_at(record, problem, how, progress)) return;
+  while (!stopped) {
+    flow.march(steps_a_look, how.courant, [&](const FlowStep& step) {
+      record.steps.push_back(step);
+      if (stepped) stepped(step);
+      progress.step = step;
+      stopped = report && !report(progress);
+      return !stopped;
+    });
+    if (stopped || look_at(record, problem, how, progress)) return;
+    if (looked) looked();
+  }
+}
+
+}  // namespace
+
+void watch_forces(Flow& flow, const FlowProblem& problem, const Watch& how, FlowRecord& record,
+                  const WatchReport& report, const std::function<void()>& looked) {
+  march_window(flow, problem, how, record, report, {}, looked);
+}
+
 FlowField watch(Flow& flow, const FlowProblem& problem, const Watch& how, FlowRecord& record,
                 const WatchReport& report) {
   check(how);
@@ -112,47 +166,17 @@ FlowField watch(Flow& flow, const FlowProblem& problem, const Watch& how, FlowRe
   const double unit = how.length / problem.air.speed();  // [s]
   MeanInParts mean(how.shortest * unit / 4);
   double next_slice = 0;
-  WatchProgress progress;
-  bool stopped = false;
-  const auto look = [&] {
-    const Record drag = record_of(record.steps, problem.air.direction());
-    // At least until the stream has been through the box.
-    const Vec3 size = problem.grid.size, stream = problem.air.velocity;
-    const auto along = [](double length, double speed) {
-      return speed == 0 ? std::numeric_limits<double>::infinity() : length / std::abs(speed);
-    };
-    const double passage =
-        std::min({along(size.x, stream.x), along(size.y, stream.y), along(size.z, stream.z)});
-    const double through = std::min(passage, 0.5 * record.watched());
-    record.start_up = std::max(end_of_start_up(drag) - drag.begin, through);
-    record.drag = mean_over_time(drag, drag.begin + record.start_up);
-    progress.mean = record.drag.mean, progress.standard_error = record.drag.standard_error;
-    const double relative = record.drag.standard_error / std::abs(record.drag.mean);
-    record.enough =
-        relative <= how.standard_error && record.watched() - record.start_up >= how.shortest * unit;
-    // The error falls with the root of the time.
-    const double wanted = std::pow(relative / how.standard_error, 2) * (record.watched() - record.start_up);
-    progress.share =
-        record.watched() / std::clamp(record.start_up + wanted, how.shortest * unit, how.longest * unit);
-    return record.enough || record.watched() >= how.longest * unit;
+  const auto keep_field = [&](const FlowStep& step) {
+    if (record.steps.size() % steps_a_field != 0) return;
+    const double time = record.watched();
+    if (time >= next_slice) {
+      next_slice = time + slice_every * unit;
+      record.slices.push_back({step.time, middle_plane(flow.field())});
+      if (record.slices.size() > most_slices) record.slices.erase(record.slices.begin());
+    }
+    mean.add(flow, time);
   };
-  do {
-    flow.march(steps_a_look, how.courant, [&](const FlowStep& step) {
-      record.steps.push_back(step);
-      const double time = record.watched();
-      if (record.steps.size() % steps_a_field == 0) {
-        if (time >= next_slice) {
-          next_slice = time + slice_every * unit;
-          record.slices.push_back({step.time, middle_plane(flow.field())});
-          if (record.slices.size() > most_slices) record.slices.erase(record.slices.begin());
-        }
-        mean.add(flow, time);
-      }
-      progress.step = step;
-      stopped = report && !report(progress);
-      return !stopped;
-    });
-  } while (!stopped && !look());
+  march_window(flow, problem, how, record, report, keep_field, {});
   if (record.steps.size() < steps_a_field) return flow.field();
   const Vec3 stream = problem.air.direction();
   const Record x = record_of(record.steps, turned(Vec3{1, 0, 0}, stream)),

@@ -47,6 +47,11 @@ struct WatchProgress {
 };
 using WatchReport = std::function<bool(const WatchProgress&)>;
 
+/// The record alone, without mean fields and slices. It may have the steps of an earlier call, from whose end the flow
+/// continues: the result is then that of one call. `looked` is called after every look at the record.
+void watch_forces(Flow& flow, const FlowProblem& problem, const Watch& how, FlowRecord& record,
+                  const WatchReport& report = {}, const std::function<void()>& looked = {});
+
 /// Marches on from the present state of the flow. Returns the mean over the record without the start-up, with the
 /// mean loads, and in `record` the history. FlowField::average contains the number of averaged fields. Throws the
 /// exceptions of Flow::march(), Error(usage) for an impossible averaging window.

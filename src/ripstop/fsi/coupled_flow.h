@@ -141,6 +141,8 @@ class CoupledFlow {
   const Flow& flow() const { return flow_.at_deployment(); }
   void save(const std::filesystem::path& folder) const { flow_.at_deployment().save(folder); }
   void restore(const std::filesystem::path& folder) { flow_.at_deployment().restore(folder); }
+  /// From a saved flow on other cells or with other boundaries: Flow::continue_from().
+  void continue_from(const std::filesystem::path& folder) { flow_.at_deployment().continue_from(folder); }
 
  private:
   double cell_width() const;  // [m]

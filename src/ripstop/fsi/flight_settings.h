@@ -9,7 +9,9 @@
 namespace ripstop {
 
 struct FlightSettings {
-  double duration_s = 30;
+  /// Equilibrium on the axis, or the end of a coupled inflation with the payload.
+  enum class Start { steady, inflation } start = Start::steady;
+  double duration_s = 30;            // after that
   double courant = 0.7;              // of the steps of the flow
   double cells_across = 20;          // cells of the flow across the nominal diameter
   double angle_deg = 5;              // between the vertical and the line from payload to canopy at the start

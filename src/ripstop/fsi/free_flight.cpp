@@ -67,6 +67,18 @@ double damping_time(const Mesh& mesh, const FlightProblem& problem) {
   return grid_damping * stability_limit(*undamped, state).stable_step;
 }
 
+/// Of an opening its z axis points against the path of the payload, which lies in the plane of x and z.
+BoxAxes axes_of(const FlightProblem& problem) {
+  if (!problem.from) return {};
+  const double level = std::cos(problem.from->angle), down = std::sin(problem.from->angle);
+  return {{down, 0, level}, {0, 1, 0}, {-level, 0, down}};
+}
+
+FlightProblem with_shape(FlightProblem problem) {
+  if (problem.from) problem.shape = problem.from->shape, problem.pressure = problem.from->pressure;
+  return problem;
+}
+
 CanopyMesh flying_mesh(const FlightProblem& problem) {
   CanopyMesh mesh = problem.mesh;
   if (!(problem.payload_mass > 0))
@@ -88,37 +100,53 @@ CanopyMesh flying_mesh(const FlightProblem& problem) {
 ClothPtr flying_cloth(CanopyMesh& mesh, const FlightProblem& problem) {
   ClothOptions options{problem.linear, 0, 0};
   const InflationSettings& s = problem.cloth;
-  if (s.contact_pa > 0) options.contact = ContactOptions{s.contact_pa, s.contact_friction, problem.shape};
+  if (s.contact_pa > 0)
+    options.contact =
+        ContactOptions{s.contact_pa, s.contact_friction, problem.from ? problem.from->folded : problem.shape};
   limit_viscosity(mesh, options, problem.shape, s.cloth_damping_step_share);
   return make_cloth(mesh, options);
+}
+
+/// Between the speed of the opening's end and that of the descent [m/s].
+double slowest(const FlightProblem& problem) {
+  return problem.descent_speed > 0 ? problem.descent_speed : problem.air.flow.air.speed();
+}
+double fastest(const FlightProblem& problem) {
+  return std::max(slowest(problem), problem.from ? problem.from->speed : 0);
 }
 
 }  // namespace
 
 FreeFlight::FreeFlight(FlightProblem problem)
-    : problem_(std::move(problem)),
+    : problem_(with_shape(std::move(problem))),
+      axes_(axes_of(problem_)),
+      gravity_(axes_.in_box({0, 0, -problem_.gravity})),
       team_(problem_.threads),
       mesh_(flying_mesh(problem_)),
       payload_(problem_.mesh.fixed[0]),
       canopy_(nodes_of_patches(mesh_)),
       home_(centroid(canopy_, problem_.shape)),
-      row_(1 / least_rows_in(problem_.air.flow)),
+      row_(problem_.air.flow.air.speed() / fastest(problem_) / least_rows_in(problem_.air.flow)),
       cloth_(flying_cloth(mesh_, problem_)),
       stepper_(AdaptiveStepper::Step::renewed, problem_.cloth.step_fraction, row_, team_),
       air_(std::make_unique<CoupledFlow>(problem_.air, mesh_)) {
   for (const double m : mesh_.mass) mass_ += m;
   const double diameter = std::sqrt(mouth_area(air_->cells(), problem_.shape) * 4 / std::numbers::pi);
-  follow_ = follow_rate * problem_.air.flow.air.speed() / diameter;
-  longest_step_ = longest_share * diameter / problem_.air.flow.air.speed();
+  follow_ = follow_rate * fastest(problem_) / diameter;
+  longest_step_ = longest_share * diameter / slowest(problem_);
 }
 
-Vec3 FreeFlight::wind_at(double height, double time) const {
-  return wind_velocity(problem_.settings.wind, height, time);
+/// At a place in the box and a time since the start of the flight.
+Vec3 FreeFlight::wind_in_box(Vec3 place, double time) const {
+  return axes_.in_box(wind_velocity(problem_.settings.wind, axes_.over_ground(place).z, began() + time));
 }
 
-FreeFlightState FreeFlight::start() {
+double FreeFlight::start_height() const {
+  return problem_.settings.height_m.value_or(0) - (problem_.from ? problem_.from->fallen : 0);
+}
+
+void FreeFlight::release(FreeFlightState& state) const {
   const FlightSettings& s = problem_.settings;
-  FreeFlightState state;
   const double azimuth = s.azimuth_deg * degree;
   // The payload is displaced towards the azimuth: the parachute turns about the canopy.
   const Vec3 axis{std::sin(azimuth), -std::cos(azimuth), 0};
@@ -127,23 +155,46 @@ FreeFlightState FreeFlight::start() {
   for (Vec3& p : x) p = home_ + turned(p - home_, axis, s.angle_deg * degree);
   for (std::size_t n = 0; n < x.size(); ++n) middle += (mesh_.mass[n] / mass_) * x[n];
   for (std::size_t n = 0; n < x.size(); ++n) v[n] = cross(s.swing_deg_s * degree * axis, x[n] - middle);
-  ClothState& cloth = state.coupled.cloth;
-  cloth = start_state(*cloth_);
-  set_positions(cloth, *cloth_, x);
-  set_velocities(cloth, *cloth_, v);
-  state.coupled.step = stepper_.allowed_step(state.coupled, *cloth_);
-  state.box = Vec3{0, 0, s.height_m.value_or(0)} - x[payload_];
-  const double height = (state.box + home_).z;
-  const Vec3 wind = wind_at(height, 0);
+  set_positions(state.coupled.cloth, *cloth_, x);
+  set_velocities(state.coupled.cloth, *cloth_, v);
+  state.box = Vec3{0, 0, start_height()} - x[payload_];
+  const Vec3 wind = wind_in_box(state.box + home_, 0);
   state.box_velocity = s.velocity_m_s.value_or(wind - problem_.air.flow.air.velocity);
-  state.stream = wind - state.box_velocity;
-  state.kinetic_at_start = kinetic_energy(*cloth_, cloth);
-  state.elastic_at_start = elastic_energy(*cloth_, cloth);
-  state.momentum_at_start = momentum(*cloth_, cloth) + mass_ * state.box_velocity;
-  state.mouth_at_start = mouth_area(air_->cells(), x);
   if (!problem_.pressure.empty()) {
     state.coupled.air.pressure = problem_.pressure;
     state.coupled.air.force.assign(x.size(), {});
+  }
+}
+
+// Positions, velocities, loads of the air and the velocity of the payload through the air continue.
+void FreeFlight::continue_opening(FreeFlightState& state) const {
+  const OpeningEnd& end = *problem_.from;
+  set_positions(state.coupled.cloth, *cloth_, end.shape);
+  set_velocities(state.coupled.cloth, *cloth_, end.velocity);
+  state.box = axes_.in_box({end.distance, 0, start_height()}) - end.shape[payload_];
+  state.box_velocity = wind_in_box(state.box + home_, 0) - Vec3{0, 0, end.speed};
+  state.coupled.record.peak_tension = end.peak_tension, state.coupled.highest_stress = end.highest_stress;
+  state.coupled.air.pressure = end.pressure, state.coupled.air.force = end.force;
+}
+
+FreeFlightState FreeFlight::start() {
+  FreeFlightState state;
+  ClothState& cloth = state.coupled.cloth;
+  cloth = start_state(*cloth_);
+  if (problem_.from)
+    continue_opening(state);
+  else
+    release(state);
+  state.coupled.step = stepper_.allowed_step(state.coupled, *cloth_);
+  state.stream = wind_in_box(state.box + home_, 0) - state.box_velocity;
+  state.kinetic_at_start = kinetic_energy(*cloth_, cloth);
+  state.elastic_at_start = elastic_energy(*cloth_, cloth);
+  state.momentum_at_start = momentum(*cloth_, cloth) + mass_ * state.box_velocity;
+  state.mouth_at_start = mouth_area(air_->cells(), positions(cloth, *cloth_));
+  if (problem_
+          .from) {  // the predictor of the first step has the inertia of this box, not that of the opening's
+    const Vec3 on_mass = gravity_ - box_acceleration(state);
+    for (const double m : mesh_.mass) state.coupled.air.other.push_back(m * on_mass);
   }
   return state;
 }
@@ -156,22 +207,22 @@ Vec3 FreeFlight::box_acceleration(const FreeFlightState& state) const {
 }
 
 Surroundings FreeFlight::surroundings(const FreeFlightState& state, double length) const {
-  const Vec3 gravity{0, 0, -problem_.gravity}, accelerates = box_acceleration(state);
-  const double time = state.coupled.cloth.time, height = (state.box + home_).z;
+  const Vec3 accelerates = box_acceleration(state);
+  const double time = state.coupled.cloth.time;
   Surroundings s;
   s.moves = true;
-  s.stream = wind_at(height + length * state.box_velocity.z, time + length) -
+  s.stream = wind_in_box(state.box + home_ + length * state.box_velocity, time + length) -
              (state.box_velocity + length * accelerates);
   s.gained = (s.stream - state.stream) / length;
-  s.on_mass = gravity - accelerates;
+  s.on_mass = gravity_ - accelerates;
   const double fallen =
-      problem_.settings.height_m.value_or(0) - (state.box + home_).z + (home_ - problem_.shape[payload_]).z;
+      problem_.settings.height_m.value_or(0) - axes_.over_ground(state.box + problem_.shape[payload_]).z;
   if (problem_.density_ratio) s.density_ratio = problem_.density_ratio(fallen);
   if (problem_.payload_drag_area > 0) {
     const Vec3 place = positions(state.coupled.cloth, *cloth_)[payload_],
                moves = velocities(state.coupled.cloth, *cloth_)[payload_];
     s.node = payload_;
-    s.force = drag_force(state.box_velocity + moves - wind_at((state.box + place).z, time),
+    s.force = drag_force(state.box_velocity + moves - wind_in_box(state.box + place, time),
                          problem_.air.flow.air.density * s.density_ratio, problem_.payload_drag_area);
   }
   return s;
@@ -203,14 +254,16 @@ void FreeFlight::check_cells(const std::vector<Vec3>& x, double time) const {
 FreeFlightRow FreeFlight::row_of(const FreeFlightState& state, const std::vector<Vec3>& x,
                                  const std::vector<Vec3>& v) const {
   FreeFlightRow row;
-  row.time = state.coupled.cloth.time;
-  row.payload = state.box + x[payload_], row.velocity = state.box_velocity + v[payload_];
-  row.canopy = state.box + centroid(canopy_, x);
-  const Vec3 line = centroid(mesh_.rigging.skirt_nodes, x) - x[payload_];
+  row.time = began() + state.coupled.cloth.time;
+  row.payload = axes_.over_ground(state.box + x[payload_]);
+  row.velocity = axes_.over_ground(state.box_velocity + v[payload_]);
+  row.canopy = axes_.over_ground(state.box + centroid(canopy_, x));
+  const Vec3 line = axes_.over_ground(centroid(mesh_.rigging.skirt_nodes, x) - x[payload_]);
   row.angle = std::atan2(std::hypot(line.x, line.y), line.z) / degree;
   row.tilt_x = std::atan2(line.x, line.z) / degree, row.tilt_y = std::atan2(line.y, line.z) / degree;
-  row.stream = state.stream, row.wind = state.stream + state.box_velocity;
-  const Vec3 relative = state.stream - centroid(canopy_, v);
+  row.stream = axes_.over_ground(state.stream);
+  row.wind = axes_.over_ground(state.stream + state.box_velocity);
+  const Vec3 relative = axes_.over_ground(state.stream - centroid(canopy_, v));
   row.attack = std::atan2(norm(cross(line, relative)), dot(line, relative)) / degree;
   row.mouth_area = mouth_area(air_->cells(), x);
   return row;
@@ -230,14 +283,14 @@ FreeFlightRow FreeFlight::advance(FreeFlightState& state) {
   state.rows += rows;
 
   // The box moves on with the acceleration of this step.
-  const Vec3 accelerates = Vec3{0, 0, -problem_.gravity} - around.on_mass;
+  const Vec3 accelerates = gravity_ - around.on_mass;
   state.box += length * state.box_velocity + (0.5 * length * length) * accelerates;
   state.box_velocity += length * accelerates;
   state.stream = around.stream;
-  state.impulse += length * (taken.flow.force + around.force - Vec3{0, 0, mass_ * problem_.gravity});
+  state.impulse += length * (taken.flow.force + around.force + mass_ * gravity_);
 
   const std::vector<Vec3> x = positions(coupled.cloth, *cloth_), v = velocities(coupled.cloth, *cloth_);
-  check_cells(x, coupled.cloth.time);
+  check_cells(x, began() + coupled.cloth.time);
   FreeFlightRow row = row_of(state, x, v);
   row.air_force = taken.flow.force;
   row.payload_drag = norm(around.force);
@@ -247,6 +300,8 @@ FreeFlightRow FreeFlight::advance(FreeFlightState& state) {
   row.step = length, row.courant = taken.flow.courant;
   row.residual_traction = taken.residual_traction;
   row.momentum_gap = norm(taken.flow.momentum_gap);
+  // A canopy that has just opened may still grow.
+  if (problem_.from) state.mouth_at_start = std::max(state.mouth_at_start, row.mouth_area);
   if (row.mouth_area >= collapsed_share * state.mouth_at_start)
     state.collapsed_since = -1;
   else if (state.collapsed_since < 0)
@@ -255,7 +310,10 @@ FreeFlightRow FreeFlight::advance(FreeFlightState& state) {
 }
 
 std::string FreeFlight::failure(const FreeFlightState& state, const FreeFlightRow& row) const {
-  if (row.angle > turned_over) return fmt::format("the parachute turned over at {:.4g} s", row.time);
+  // The canopy of a payload that is deployed along the horizon begins next to it.
+  const double limit =
+      problem_.from ? std::max(turned_over, turned_over - problem_.from->angle / degree + 30) : turned_over;
+  if (row.angle > limit) return fmt::format("the parachute turned over at {:.4g} s", row.time);
   if (state.collapsed_since >= 0 && row.time - state.collapsed_since > collapsed_for)
     return fmt::format("the canopy collapsed at {:.4g} s", state.collapsed_since);
   return "";
@@ -268,10 +326,9 @@ FreeFlight::Balance FreeFlight::balance(const FreeFlightState& state, const Free
                       kinetic_energy(*cloth_, cloth) - elastic_energy(*cloth_, cloth) -
                       state.coupled.record.damped;
   const Vec3 now = momentum(*cloth_, cloth) + mass_ * state.box_velocity;
-  const double weight = mass_ * problem_.gravity,
-               fallen = problem_.settings.height_m.value_or(0) - row.payload.z;
+  const double weight = mass_ * problem_.gravity, fallen = start_height() - row.payload.z;
   return {left / (weight * std::max(fallen, 1e-3)),
-          norm(now - state.momentum_at_start - state.impulse) / (weight * row.time)};
+          norm(now - state.momentum_at_start - state.impulse) / (weight * cloth.time)};
 }
 
 }  // namespace ripstop

@@ -15,6 +15,7 @@
 #include "ripstop/fsi/flight_record.h"
 #include "ripstop/fsi/flight_settings.h"
 #include "ripstop/fsi/inflation_settings.h"
+#include "ripstop/fsi/opening_end.h"
 #include "ripstop/parachute/canopy_mesh.h"
 
 namespace ripstop {
@@ -31,8 +32,21 @@ struct FlightProblem {
   double gravity = 0;            // [m/s2]
   /// Density so many metres below the start over that there; empty: 1.
   std::function<double(double)> density_ratio = {};
+  /// The flight continues from there: `mesh` has the creases of its folds, `air` is its flow, `shape` and `pressure`
+  /// are left empty, and time, height and distance are measured from deployment.
+  std::optional<OpeningEnd> from = {};
+  double descent_speed = 0;  // expected in the end, sets the longest step [m/s]; 0: that of air.flow
   bool linear = false;
   int threads = 0;
+};
+
+/// Directions of the axes of the box over the ground, z up.
+struct BoxAxes {
+  Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+  Vec3 over_ground(Vec3 in_box) const { return in_box.x * x + in_box.y * y + in_box.z * z; }
+  Vec3 in_box(Vec3 over_ground) const {
+    return {dot(over_ground, x), dot(over_ground, y), dot(over_ground, z)};
+  }
 };
 
 class FreeFlight {
@@ -52,7 +66,8 @@ class FreeFlight {
   /// Why the flight is no flight any more: the canopy has collapsed or turned over. Empty: it flies.
   std::string failure(const FreeFlightState& state, const FreeFlightRow& row) const;
 
-  double mass() const { return mass_; }  // of parachute and payload [kg]
+  double began() const { return problem_.from ? problem_.from->time : 0; }  // since deployment [s]
+  double mass() const { return mass_; }                                     // of parachute and payload [kg]
   const CanopyMesh& mesh() const { return mesh_; }
   const Cloth& cloth() const { return *cloth_; }
   const FlightProblem& problem() const { return problem_; }
@@ -60,7 +75,10 @@ class FreeFlight {
   int threads() const { return team_.size(); }
 
  private:
-  Vec3 wind_at(double height, double time) const;
+  Vec3 wind_in_box(Vec3 place, double time) const;
+  double start_height() const;
+  void continue_opening(FreeFlightState& state) const;
+  void release(FreeFlightState& state) const;
   Surroundings surroundings(const FreeFlightState& state, double length) const;
   Vec3 box_acceleration(const FreeFlightState& state) const;
   void check_cells(const std::vector<Vec3>& x, double time) const;
@@ -68,6 +86,8 @@ class FreeFlight {
                        const std::vector<Vec3>& v) const;
 
   FlightProblem problem_;
+  BoxAxes axes_;
+  Vec3 gravity_;  // in the box [m/s2]
   ThreadTeam team_;
   CanopyMesh mesh_;  // with the payload's mass, without a fixed node
   int payload_ = -1;

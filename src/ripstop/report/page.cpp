@@ -103,9 +103,14 @@ Json to_json(const ShapeView& shape, std::size_t every) {
   for (std::size_t i = 0; i <= last; ++i)
     if (i == last || (i % every == 0 && i + every / 2 <= last))
       frames.push_back(to_json(shape.frames[i], last > 0));
-  return {{"quads", packed(shape.quads, 4)},       {"segments", packed(shape.segments, 2)},
-          {"parts", packed(shape.parts, 1)},       {"partNames", shape.part_names},
-          {"framesComputed", shape.frames.size()}, {"frames", frames}};
+  Json j = {{"quads", packed(shape.quads, 4)},       {"segments", packed(shape.segments, 2)},
+            {"parts", packed(shape.parts, 1)},       {"partNames", shape.part_names},
+            {"framesComputed", shape.frames.size()}, {"frames", frames}};
+  if (!shape.path.empty())
+    j["path"] = {{"times", rounded(shape.path_times)},
+                 {"points", packed(shape.path, 3, point_levels)},
+                 {"anchor", shape.anchor}};
+  return j;
 }
 
 Json to_json(const FlowView& flow) {

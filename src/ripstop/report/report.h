@@ -40,7 +40,7 @@ struct ReportPlot {
 };
 
 struct ReportRun {
-  std::string kind;                   // "steady", "opening", "size"
+  std::string kind;                   // "steady", "opening", "flight", "size", "stability"
   std::string name, title;            // the folder's name, the case's title
   bool converged = true;              // an opening always is
   std::vector<ReportValue> values;    // in the order of result.json; nested ones are tables

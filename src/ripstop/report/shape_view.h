@@ -26,7 +26,10 @@ struct ShapeView {
   std::vector<int> segments;  // two points each: lines, riser, tape
   std::vector<int> parts;     // of each segment, index into `part_names`
   std::vector<std::string> part_names;
-  std::vector<ShapeFrame> frames;  // one, or those of an opening in time
+  std::vector<ShapeFrame> frames;  // one, or those of an opening or a flight in time
+  /// Of a flight: where its payload, the point `anchor`, has been, over the ground [s], [m]; empty: it does not fly.
+  std::vector<double> path_times, path;
+  int anchor = 0;
 };
 
 /// Of the files of vtk.h: canopy and lines, and the time of each pair. Throws Error(bad_data) for files that do

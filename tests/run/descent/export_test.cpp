@@ -130,6 +130,27 @@ TEST_F(Export, EveryNumberIsThatOfTheRunOrOfItsDesign) {
       1e-12);
 }
 
+TEST_F(Export, WithAFlightHasItsCoefficientInDescentAndStatesSo) {
+  const FinishedSteady run = finished_steady(folder_->path / "run");
+  EXPECT_EQ(exported(run).basis, "axial");
+  EXPECT_NE(rocketpy_text(exported(run), "apogee").find("axial (steady flow"), std::string::npos);
+  FinishedFlight flight{"flight", run.resolved, {}};
+  flight.result.reference_area = run.result.reference_area;
+  flight.result.coefficient = 0.8 * run.result.drag_coefficient;
+  flight.result.coefficient_error = 0.01 * *flight.result.coefficient;
+  flight.result.descent = 5;
+  const ExportedParachute p = exported(run, {}, flight);
+  EXPECT_EQ(p.basis, "descent");
+  EXPECT_DOUBLE_EQ(p.drag_area, *flight.result.coefficient * p.nominal_area);
+  EXPECT_DOUBLE_EQ(p.drag_area_uncertainty, 0.01 * p.drag_area);
+  EXPECT_NE(rocketpy_text(p, "apogee").find("in descent (flown"), std::string::npos);
+  EXPECT_NE(openrocket_text(p).find("descent"), std::string::npos);
+  Case other = run.resolved.written();
+  other.parachute.lines.length_m *= 2;
+  flight.resolved = resolve(other);
+  EXPECT_THROW(exported(run, {}, flight), Error);
+}
+
 TEST_F(Export, JsonHasEveryNumber) {
   const ExportedParachute p = parachute();
   const auto json = nlohmann::json::parse(to_json(p));

@@ -12,6 +12,7 @@
 
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
+#include "ripstop/run/descent/descent.h"
 #include "ripstop/run/flight/flight_folder.h"
 #include "tests/small_case.h"
 
@@ -97,6 +98,22 @@ TEST(Flight, RefusesImpossibleFlights) {
   refused([](Case& given) { given.flight.angle_deg = 61; }, "flight.angle_deg");
   refused([](Case& given) { given.flight.wind.speed_m_s = 80, given.flight.wind.gust_m_s = 30; }, "Mach 0.3");
   refused([](Case& given) { given.flight.wind.exponent = 0.2; }, "flight.height_m");
+  refused([](Case& given) { given.flight.velocity_m_s = Vec3{80, 0, -80}; }, "flight.velocity_m_s");
+  refused([](Case& given) { given.payload.mass_kg = 0.01; }, "payload.mass_kg = 0.01");
+}
+
+// A flight that fails ends with its time, and without means.
+TEST(Flight, ThatTurnsOverIsReportedWithItsTime) {
+  const FlightSolution flight = flown([](Case& given) {
+    given.flight.angle_deg = 60, given.flight.swing_deg_s = 360;
+    given.flight.duration_s = 0.6;
+  });
+  const FlightResult& r = flight.result;
+  EXPECT_EQ(r.ended_by.find("the parachute turned over at 0."), 0u) << r.ended_by;
+  EXPECT_FALSE(r.usable);
+  EXPECT_FALSE(r.descent || r.coefficient || r.oscillation);
+  ASSERT_FALSE(r.warnings.empty());
+  EXPECT_NE(r.warnings.back().find("turned over"), std::string::npos);
 }
 
 /// Ends in the middle, after a checkpoint.
@@ -129,6 +146,13 @@ TEST(Flight, KilledAndResumedHasTheSamePathByteForByte) {
   for (const char* file : {"path.csv", "result.json", "vtk/canopy_0002.vtp"})
     EXPECT_EQ(read_file(root / "whole" / file), read_file(root / "parts" / file)) << file;
   EXPECT_FALSE(fly("parts", nobody)) << "it has ended";
+
+  const FinishedFlight flight = finished_flight(root / "whole");
+  const CarryingRun carries = carrying_run(root / "whole");
+  EXPECT_EQ(carries.basis, "descent");
+  const double density = 1.2, rate = *flight.result.descent;
+  const DescentRow row = run_descent(carries, 0.8, {0}).rows.front();
+  EXPECT_NEAR(row.speed, rate * std::sqrt(density / row.density), 1e-9 * rate);
   fs::remove_all(root);
 }
 

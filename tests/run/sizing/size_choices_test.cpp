@@ -205,5 +205,48 @@ TEST(SizeChoices, VerifyIsContentWithinItsTolerance) {
   EXPECT_THROW(verify_size(asked, r, fly(5.1), 0.019), Error);
 }
 
+// A coefficient that is too large gives a rate of descent above the required one.
+TEST(SizeChoices, TheCoefficientIsTheSmallerOneOfAxialAndFlownUnlessAsked) {
+  int axial = 0, flown = 0;
+  for (const FamilyDrag& drag : family_drags()) {
+    SizeRequest asked;
+    asked.payload_mass = 2.4, asked.descent_rate = 5, asked.family = drag.family;
+    const SizeResult r = run_size(asked);
+    EXPECT_EQ(r.axial_coefficient, drag.drag_coefficient);
+    EXPECT_LE(r.drag_coefficient, drag.drag_coefficient) << drag.family;
+    ++(r.drag_basis == "axial" ? axial : flown);
+    if (r.drag_basis == "descent") {
+      ASSERT_TRUE(drag.flown) << drag.family;
+      EXPECT_DOUBLE_EQ(r.drag_coefficient, drag.flown->drag_coefficient - 2 * drag.flown->standard_error);
+    }
+    asked.basis = DragBasis::axial;
+    EXPECT_EQ(run_size(asked).drag_coefficient, drag.drag_coefficient);
+    asked.basis = DragBasis::descent;
+    if (drag.flown) {
+      EXPECT_EQ(run_size(asked).drag_coefficient, drag.flown->drag_coefficient);
+      EXPECT_EQ(run_size(asked).drag_basis, "descent");
+    } else {
+      EXPECT_THROW(run_size(asked), Error) << drag.family;
+    }
+  }
+  EXPECT_GT(axial, 0);
+  EXPECT_GT(flown, 0) << "the cross";
+}
+
+// The standard error of the rate of a flight widens the tolerance.
+TEST(SizeChoices, VerifyByFlightsStatesTheCoefficientInDescent) {
+  SizeRequest asked;
+  asked.payload_mass = 2.4, asked.descent_rate = 5;
+  SizeResult r = run_size(asked);
+  FlightResult flight;
+  flight.descent = 5.2, flight.descent_error = 0.25, flight.coefficient = 0.7;
+  verify_size(asked, r, [&](const Settings&, int) { return VerifiedDescent(flight); });
+  ASSERT_EQ(r.checks.size(), 1u);
+  EXPECT_EQ(r.checks[0].basis, "descent");
+  EXPECT_EQ(r.checks[0].descent_rate_error, 0.25);
+  flight.coefficient.reset();
+  EXPECT_THROW(verify_size(asked, r, [&](const Settings&, int) { return VerifiedDescent(flight); }), Error);
+}
+
 }  // namespace
 }  // namespace ripstop

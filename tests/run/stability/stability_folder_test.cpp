@@ -123,6 +123,36 @@ TEST_F(StabilityFolder, ThatWasStoppedContinuesToTheSameTable) {
   EXPECT_GT(read_csv(folder_ / "whole/angle=10/history.csv").column("time_s")[0], 0.3);
 }
 
+/// Ends within an angle, some looks at its record after its beginning.
+struct StoppedWithin : Counter {
+  std::size_t at;
+  bool equilibrium;
+  int steps = 0;
+  StoppedWithin(std::size_t angle, bool windows) : at(angle), equilibrium(windows) {}
+  void progress(std::size_t angle, const std::string& text, double) override {
+    if (angle != at) return;
+    if (equilibrium ? text.starts_with("[2]") : ++steps > 450) throw Stop{};
+  }
+};
+
+TEST_F(StabilityFolder, StoppedWithinAnAngleContinuesThereByteForByte) {
+  StabilitySettings settings = in("within");
+  settings.checkpoint_every_s = 0;
+  StoppedWithin stopped(1, false);
+  EXPECT_THROW(run_stability(given(), angles_, settings, stopped), Stop);
+  EXPECT_TRUE(fs::exists(folder_ / "within/angle=10/window/steps"));
+  struct : Counter {
+    int steps = 0;
+    void progress(std::size_t angle, const std::string&, double) override { steps += angle == 1; }
+  } again;
+  run_stability(given(), angles_, settings, again);
+  const std::size_t all = read_csv(folder_ / "whole/angle=10/history.csv").rows.size();
+  EXPECT_EQ(again.steps, static_cast<int>(all) - 400) << "two looks of 200 steps were kept";
+  for (const char* file : {"stability.csv", "angle=10/history.csv", "angle=10/result.json"})
+    EXPECT_EQ(read_file(folder_ / "within" / file), read_file(folder_ / "whole" / file)) << file;
+  EXPECT_FALSE(fs::exists(folder_ / "within/angle=10/window"));
+}
+
 TEST_F(StabilityFolder, InEquilibriumHasTheFormulasCoefficientsAndItsShapes) {
   Counter observer;
   StabilitySettings settings = in("equilibrium");

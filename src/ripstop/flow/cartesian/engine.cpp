@@ -208,6 +208,7 @@ class CartesianFlow final : public Flow {
 
   void save(const std::filesystem::path& folder) const override;
   void restore(const std::filesystem::path& folder) override;
+  void continue_from(const std::filesystem::path& folder) override;
 
  private:
   static constexpr int fewest_cells = 20000;  // that justify a coarser grid
@@ -218,7 +219,10 @@ class CartesianFlow final : public Flow {
                 fmt::format("flow: a Courant number of {}; must be above 0 and at most 1", courant));
   }
   QuantityError diverged_by(const FlowStep& now) const;
-  PorousRows porous() const { return {problem_.grid, problem_.bodies, problem_.air.viscosity}; }
+  static PorousRows porous(const FlowProblem& problem) {
+    return {problem.grid, problem.bodies, problem.air.viscosity};
+  }
+  PorousRows porous() const { return porous(problem_); }
   std::vector<BodyLoad> body_loads(const std::vector<SheetLoad>& sheet_loads) const;
   FlowAdvance run(Solver& solver, int iterations, double residual, const FlowReport& report) const;
   void guess_from_coarser(const FlowGrid& grid, const PorousRows& porous, Solver& fine) const;
@@ -322,32 +326,58 @@ void CartesianFlow::save(const std::filesystem::path& folder) const {
   write_sealed(folder / state_file, out.bytes);
 }
 
-void CartesianFlow::restore(const std::filesystem::path& folder) {
-  Reader in(folder / state_file);
+Header header_of(Reader& in) {
   Header header;
   const Header expected;
   each_number(header, in);
   if (std::memcmp(header.magic, expected.magic, sizeof header.magic) != 0) in.fail();
+  return header;
+}
+
+/// Places the saved bodies in `problem`, and reads the state of its solver, whose arrays fit then.
+State state_of(Reader& in, FlowProblem& problem, Solver& solver) {
+  for (FlowBody& body : problem.bodies) {
+    in(body.surface), each_array(body.motion, in);
+    if (!body.is_sheet()) in(body.porous().cells);
+  }
+  solver.place({problem.grid, problem.bodies, problem.air.viscosity}, problem.bodies);
+  State state = solver.state();
+  each_carried(state, in);
+  if (!in.at_end()) in.fail();
+  if (state.rate_u.empty())
+    stop_the_clock(solver.state());
+  else
+    solver.begin_time();
+  if (!fits(state, solver.state())) in.fail();
+  return state;
+}
+
+void CartesianFlow::restore(const std::filesystem::path& folder) {
+  Reader in(folder / state_file);
+  const Header header = header_of(in);
   if (!(header.grid == problem_.grid) || header.sides != problem_.sides.word ||
       header.outlet != problem_.outlet.word || (header.jets == 1) != problem_.jet.has_value() ||
       (problem_.jet && !(header.jet == *problem_.jet)))
     throw Error(ExitCode::usage, (folder / state_file).string() + ": was made in a different flow domain");
-  for (FlowBody& body : problem_.bodies) {
-    in(body.surface), each_array(body.motion, in);
-    if (!body.is_sheet()) in(body.porous().cells);
-  }
-  solver_.place(porous(), problem_.bodies);
-  State state = solver_.state();
-  each_carried(state, in);
-  if (!in.at_end()) in.fail();
-  if (state.rate_u.empty())
-    stop_the_clock(solver_.state());
-  else
-    solver_.begin_time();
-  if (!fits(state, solver_.state())) in.fail();
+  State state = state_of(in, problem_, solver_);
   if (!(header.air == problem_.air)) scale(state, header.air, problem_.air);
   solver_.state() = std::move(state);
   if (solver_.state().clock.changing) solver_.let_stream_in();
+}
+
+void CartesianFlow::continue_from(const std::filesystem::path& folder) {
+  Reader in(folder / state_file);
+  const Header header = header_of(in);
+  if (!(header.air == problem_.air))
+    throw Error(ExitCode::usage, (folder / state_file).string() + ": was made in different air");
+  FlowProblem before = problem_;
+  before.grid = header.grid, before.sides = {header.sides}, before.outlet = {header.outlet};
+  before.jet = header.jets == 1 ? std::optional(header.jet) : std::nullopt;
+  Solver earlier(before, before.grid, porous(before), settings_, team_);
+  earlier.state() = state_of(in, before, earlier);
+  problem_.bodies = before.bodies;
+  solver_.place(porous(), problem_.bodies);
+  solver_.continue_from(earlier);
 }
 
 class CartesianEngine final : public FlowEngine {

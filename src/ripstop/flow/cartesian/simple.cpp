@@ -82,6 +82,24 @@ void Solver::start_uniform() {
   in_the_way_.sheets.begin(s_, d_.layout);
 }
 
+void Solver::continue_from(const Solver& other) {
+  const State& from = other.s_;
+  const auto take_stream = [&] {
+    s_.clock.changing = from.clock.changing, s_.clock.stream = from.clock.stream;
+    s_.clock.gaining = from.clock.gaining;
+    if (s_.clock.changing) let_stream_in();
+  };
+  take_stream();
+  start_from(other);
+  take_stream();
+  if (!(other.grid() == grid())) return;
+  s_.limit = from.limit, s_.held = from.held, s_.change = from.change, s_.drop = from.drop;
+  s_.force = from.force, s_.iteration = from.iteration, s_.eased = from.eased;
+  s_.f.rho = from.f.rho;
+  s_.rate_u = from.rate_u, s_.rate_v = from.rate_v, s_.rate_w = from.rate_w;
+  s_.correction = from.correction, s_.clock = from.clock;
+}
+
 void Solver::start_from(const Solver& coarse) {
   start_uniform();
   team_.run([&](int rank) { interpolate(coarse.s_, coarse.d_, s_, d_, rank, team_.size()); });

@@ -84,6 +84,9 @@ class Solver {
   void start_uniform();
   /// Fields interpolated from a coarser grid of the same box, with the same air.
   void start_from(const Solver& coarse);
+  /// Fields interpolated from other cells or boundaries, with the same air and the stream of their last step; on the
+  /// same cells jumps, rates and time too.
+  void continue_from(const Solver& other);
   /// The cloth has moved; the flow continues.
   void place(PorousRows porous, const std::vector<FlowBody>& bodies);
   /// One SIMPLE iteration; the residuals are those of the fields it started from.

@@ -54,6 +54,7 @@ class Canopy {
     this.normals = new Float32Array(this.points.length);
     this.values = new Float32Array(this.cells).fill(NaN);
     this.lines = new Segments(shape.segments.length / 2, Colours.clothScale(), 1.4);
+    this.trail = shape.path ? new Segments(shape.path.times.length - 1, Colours.clothScale(), 1.4) : null;
     this.tension = null;
     this.time = shape.frames[shape.frames.length - 1].time;
   }
@@ -107,6 +108,7 @@ class Canopy {
     this.updateNormals();
     this.updateCloth();
     this.updateLines();
+    if (this.trail) this.updateTrail();
   }
 
   updateNormals() {
@@ -155,6 +157,23 @@ class Canopy {
     this.lines.changed();
   }
 
+  /** The path so far, which ends at the payload. */
+  updateTrail() {
+    const { times, points, anchor } = this.shape.path, head = this.trail.head.array, tail = this.trail.tail.array;
+    let now = 0;
+    while (now + 2 < times.length && times[now + 1] <= this.time) ++now;
+    const weight = Math.min(1, Math.max(0, (this.time - times[now]) / (times[now + 1] - times[now] || 1)));
+    for (let c = 0; c < 3; ++c) {
+      const shift = this.points[3 * anchor + c] - points[3 * now + c] - weight * (points[3 * now + 3 + c] - points[3 * now + c]);
+      for (let s = 0; s + 1 < times.length; ++s) {
+        head[3 * s + c] = s <= now ? points[3 * s + c] + shift : this.points[3 * anchor + c];
+        tail[3 * s + c] = s < now ? points[3 * s + 3 + c] + shift : this.points[3 * anchor + c];
+      }
+    }
+    this.trail.values.array.fill(noValue);
+    this.trail.changed();
+  }
+
   /** [lowest corner, highest corner] over all frames, lines too. */
   bounds() {
     const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
@@ -177,5 +196,6 @@ class Canopy {
     this.material.uniforms.ramp.value.dispose();
     this.material.dispose();
     this.lines.dispose();
+    this.trail?.dispose();
   }
 }

@@ -1,7 +1,10 @@
 // The panel of one run's shape: what is coloured, how, from where it is seen, when, and the probe.
 "use strict";
 
-/** The time of an opening, which shape and plots share. */
+/** Milliseconds of an opening, seconds of a flight, which lasts `end` seconds. */
+const timeText = (time, end) => (end > 5 ? `${Numbers.shown(Number(time.toFixed(3)), 4)} s` : `${Numbers.shown(Number((1000 * time).toFixed(2)), 5)} ms`);
+
+/** The time of an opening or a flight, which shape and plots share. */
 class Clock {
   constructor(end) { this.time = end; this.end = end; this.listeners = []; }
   listen(listener) { this.listeners.push(listener); }
@@ -54,6 +57,8 @@ class Controls {
       this.side.append(element("fieldset", {}, element("legend", {}, "Lines and tape"),
         box("shown", true, (on) => { this.canopy.lines.mesh.visible = on; this.viewer.draw(); }, "lines"), this.lineBar.node));
     }
+    if (this.canopy.trail) this.side.append(element("fieldset", {}, element("legend", {}, "Path of the payload"),
+      box("shown", true, (on) => { this.canopy.trail.mesh.visible = on; this.viewer.draw(); }, "path")));
     if (this.air) this.side.append(this.airControls(box));
     const views = [["oblique", "Oblique"], ["side", "Side"], ["below", "Mouth"], ["above", "Vent"]];
     this.side.append(element("fieldset", {}, element("legend", {}, "View"), element("div", { class: "row" },
@@ -189,7 +194,7 @@ class ShapeSection {
 
   tick(time) {
     this.slider.value = time;
-    this.when.textContent = `${Numbers.shown(Number((1000 * time).toFixed(2)), 5)} ms`;
+    this.when.textContent = timeText(time, this.controls.clock.end);
     this.slider.setAttribute("aria-valuetext", this.when.textContent);
   }
 
@@ -260,14 +265,18 @@ class ShapeSection {
     this.play.textContent = "▶ Play";
   }
   start() {
-    const { clock } = this.controls, seconds = 8;  // for the whole opening
+    // From frame to frame: those of an inflation are closer in time than those of the flight that follows it.
+    const { clock, run } = this.controls, times = run.shape.frames.map((frame) => frame.time), last = times.length - 1;
+    const seconds = run.kind === "flight" ? Math.min(30, Math.max(8, clock.end)) : 8;
+    const frameAt = (time) => { const { low, weight } = between(run.shape.frames, time); return low + weight; };
+    const timeAt = (frame) => { const low = Math.min(last - 1, Math.floor(frame)); return times[low] + (frame - low) * (times[low + 1] - times[low]); };
     this.playing = true;
     this.play.textContent = "❚❚ Pause";
-    if (clock.time >= clock.end) clock.set(0);
+    if (clock.time >= clock.end) clock.set(times[0]);
     let before = performance.now();
     const step = (now) => {
       if (!this.playing) return;
-      clock.set(clock.time + ((now - before) / 1000) * (clock.end / seconds));
+      clock.set(timeAt(Math.min(last, frameAt(clock.time) + ((now - before) / 1000) * (last / seconds))));
       before = now;
       if (clock.time >= clock.end) this.stop(); else requestAnimationFrame(step);
     };

@@ -6,7 +6,7 @@ const Page = (() => {
   let shapes = null;  // the one ShapeSection, moved to the run that is shown
   const sections = [];
   const figures = [];
-  const kinds = { opening: "Opening", steady: "Steady run", size: "Sizing", stability: "Stability" };
+  const kinds = { opening: "Opening", flight: "Flight", steady: "Steady run", size: "Sizing", stability: "Stability" };
 
   function headline(run) {
     const cards = run.headline.map((key) => run.values.find((value) => value.key === key)).filter((value) => value && value.value !== null);
@@ -34,14 +34,16 @@ const Page = (() => {
     const stageSlot = element("div");
     const paper = element("div", { class: "paper" });
     const plots = plotGrid(run.plots, clock);
-    const force = run.shape && plots.figures.find((figure) => figure.plot.id === "load");  // beside the shape that it belongs to
-    force?.node.classList.add("wide-plot");
+    // Next to the shape that they belong to.
+    const beside = run.shape ? plots.figures.filter((figure) => ["load", ...(run.kind === "flight" ? ["angle"] : [])].includes(figure.plot.id)) : [];
+    for (const figure of beside) figure.node.classList.add("wide-plot");
+    const heading = { opening: "Shape and force", flight: "Shape, path and force" }[run.kind] ?? "Shape and air";
     const about = ["bill", "sources"];
     const own = run.tables.filter((table) => !about.includes(table.id)), rest = run.tables.filter((table) => about.includes(table.id));
     const node = element("section", { class: "run", id: `run-${index}`, role: "tabpanel", "aria-label": run.name },
       element("p", { class: "muted" }, `${kinds[run.kind]} · ${run.name}`, run.title && index > 0 ? ` · ${run.title}` : ""),
       headline(run), warnings(run),
-      run.shape ? element("h2", {}, run.kind === "opening" ? "Shape and force" : "Shape and air") : null, stageSlot, paper, force?.node,
+      run.shape ? element("h2", {}, heading) : null, stageSlot, paper, beside.map((figure) => figure.node),
       run.plots.length ? element("h2", {}, "Plots") : null, plots.node,
       element("h2", {}, "Results"), element("div", { class: "tables" }, Tables.results(run.values), own.map(Tables.plain)),
       element("h2", {}, "Bill of materials"), element("div", { class: "tables" }, rest.filter((table) => table.id === "bill").map(Tables.plain)),
@@ -101,8 +103,8 @@ const Page = (() => {
       const [width, height] = shots.length > 1 ? [700, 560] : [1300, 800];
       const pictures = shots.map((time) => {
         one.controls.setTime(time);
-        return element("figure", {}, element("img", { src: shapes.viewer.picture(width, height), alt: `Shape at ${Numbers.shown(1000 * time, 4)} ms` }),
-          shots.length > 1 ? element("figcaption", {}, `${Numbers.shown(Number((1000 * time).toFixed(2)), 4)} ms`) : null);
+        return element("figure", {}, element("img", { src: shapes.viewer.picture(width, height), alt: `Shape at ${timeText(time, end)}` }),
+          shots.length > 1 ? element("figcaption", {}, timeText(time, end)) : null);
       });
       const words = one.controls.words(), range = one.controls.canopy.range(one.controls.key, 0.01);
       pictures.push(element("p", {}, `Coloured by ${withUnit(words)}, from ${Numbers.shown(range[0], 3)} (dark) to ${Numbers.shown(range[1], 3)} (light).`));

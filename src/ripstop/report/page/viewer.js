@@ -27,6 +27,7 @@ class Viewer {
     this.canopy = canopy;
     this.air = air;
     this.scene.add(canopy.mesh, canopy.lines.mesh);
+    if (canopy.trail) this.scene.add(canopy.trail.mesh);
     if (air) this.scene.add(air.plane, air.streamlines.mesh);
     const [low, high] = canopy.bounds();
     this.middle = new THREE.Vector3((low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2);
@@ -90,9 +91,9 @@ class Viewer {
   drawNow() {
     if (!this.canopy) return;
     const size = this.renderer.getDrawingBufferSize(new THREE.Vector2());
-    for (const lines of [this.canopy.lines, this.air?.streamlines]) if (lines) {
+    for (const lines of [this.canopy.lines, this.canopy.trail, this.air?.streamlines]) if (lines) {
       lines.material.uniforms.screen.value.copy(size);
-      lines.material.uniforms.width.value = (lines === this.canopy.lines ? 1.4 : 1.1) * Math.max(1, size.y / 700);
+      lines.material.uniforms.width.value = (lines === this.air?.streamlines ? 1.1 : 1.4) * Math.max(1, size.y / 700);
     }
     this.renderer.setClearColor(new THREE.Color(Colours.variable("--scene")), 1);
     this.renderer.render(this.scene, this.camera);

@@ -23,22 +23,47 @@ std::string to_json(const Descent& descent) {
   return json_text(descent);
 }
 
-Descent run_descent(const FinishedSteady& run, double payload_mass, const std::vector<double>& heights,
+CarryingRun carrying_run(const FinishedSteady& run) {
+  return {run.folder,           run.resolved,     run.result.title,   "axial",           run.result.drag_area,
+          run.drag_uncertainty, run.result.speed, run.result.density, run.parachute_mass};
+}
+
+CarryingRun carrying_run(const FinishedFlight& flight) {
+  const FlightResult& r = flight.result;
+  return {flight.folder,
+          flight.resolved,
+          r.title,
+          "descent",
+          *r.coefficient * r.reference_area,
+          r.coefficient_error.value_or(0) / *r.coefficient,
+          *r.descent,
+          r.density,
+          r.parachute_mass};
+}
+
+CarryingRun carrying_run(const std::filesystem::path& folder) {
+  return holds_flight(folder) ? carrying_run(finished_flight(folder)) : carrying_run(finished_steady(folder));
+}
+
+Descent run_descent(const CarryingRun& run, double payload_mass, const std::vector<double>& heights,
                     double ground) {
   if (!(payload_mass > 0) || !std::isfinite(payload_mass))
     throw Error(ExitCode::usage, fmt::format("a payload of {:g} kg: must be above 0", payload_mass));
   Descent result;
-  result.title = run.result.title;
+  result.title = run.title;
   result.run = run.folder.string();
+  result.basis = run.basis, result.drag_coefficient = run.drag_area / nominal_area(run.resolved.parachute());
+  const KnownRange known = experience(run.resolved.parachute()).drag_coefficient;
+  if (known.high > 0) result.known_coefficient = {known.low, known.high};
   result.payload_mass = payload_mass;
   result.parachute_mass = run.parachute_mass;
-  result.drag_area = run.result.drag_area;
-  result.drag_area_uncertainty = run.drag_uncertainty * result.drag_area;
-  result.run_speed = run.result.speed;
+  result.drag_area = run.drag_area;
+  result.drag_area_uncertainty = run.uncertainty * result.drag_area;
+  result.run_speed = run.speed;
   result.ground = ground;
   const double mass = payload_mass + run.parachute_mass;
   const double reference_length = nominal_diameter(run.resolved.parachute());
-  const double of_speed = 0.5 * run.drag_uncertainty;  // v goes with the root of the drag area
+  const double of_speed = 0.5 * run.uncertainty;  // v goes with the root of the drag area
   for (const double height : heights) {
     DescentRow row;
     row.height = height;
@@ -59,7 +84,7 @@ Descent run_descent(const FinishedSteady& run, double payload_mass, const std::v
   }
   // At every height the dynamic pressure is the same: weight over drag area.
   const double wanted = mass * standard_gravity / result.drag_area;
-  const double had = 0.5 * run.result.density * run.result.speed * run.result.speed;
+  const double had = 0.5 * run.density * run.speed * run.speed;
   if (std::abs(wanted / had - 1) > far_off)
     result.warnings.push_back(fmt::format(
         "the dynamic pressure of the run was {:.3g} Pa and that of this descent is {:.3g} Pa: shape and drag "

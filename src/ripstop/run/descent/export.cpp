@@ -10,9 +10,11 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/markup.h"
 #include "ripstop/core/positive.h"
+#include "ripstop/run/descent/descent.h"
 #include "ripstop/run/json.h"
 #include "ripstop/run/opening/filling.h"
 #include "ripstop/run/sizing/pattern.h"
+#include "ripstop/run/steady/steady_folder.h"
 
 namespace ripstop {
 namespace {
@@ -20,6 +22,14 @@ namespace {
 /// A string literal that Python and JSON read alike.
 std::string literal(const std::string& text) {
   return nlohmann::json(text).dump(-1, ' ', true);
+}
+
+std::string basis_text(const ExportedParachute& p) {
+  return (p.basis == "descent" ? "that in descent (flown, with glide and oscillation)"
+                               : "axial (steady flow on the axis, without glide and oscillation)") +
+         (p.known_coefficient ? fmt::format("; Knacke, in descent: {:.2f} to {:.2f}",
+                                            p.known_coefficient->at(0), p.known_coefficient->at(1))
+                              : std::string());
 }
 
 std::string trigger_literal(const std::string& trigger) {
@@ -40,16 +50,23 @@ std::string to_json(const ExportedParachute& parachute) {
   return json_text(parachute);
 }
 
-ExportedParachute exported(const FinishedSteady& run, std::optional<double> deployment_speed) {
+ExportedParachute exported(const FinishedSteady& run, std::optional<double> deployment_speed,
+                           const std::optional<FinishedFlight>& flight) {
   const Design& design = run.resolved.parachute();
   const double speed = deployment_speed.value_or(run.result.speed);
   require_positive("deployment speed (m/s)", speed);
   ExportedParachute p;
   p.title = run.result.title, p.run = run.folder.string();
-  p.drag_area = run.result.drag_area, p.drag_area_uncertainty = run.drag_uncertainty * p.drag_area;
+  if (flight) require_same_parachute(flight->resolved, flight->folder.string(), run.resolved);
+  const CarryingRun carries = flight ? carrying_run(*flight) : carrying_run(run);
+  p.basis = carries.basis;
+  p.drag_area = carries.drag_area, p.drag_area_uncertainty = carries.uncertainty * p.drag_area;
+  const KnownRange known = experience(design).drag_coefficient;
+  if (known.high > 0) p.known_coefficient = {known.low, known.high};
   p.nominal_area = run.result.reference_area;
   p.nominal_diameter = nominal_diameter(design);
-  p.drag_coefficient = run.result.drag_coefficient, p.drag_coefficient_on = "nominal_area_m2";
+  p.drag_coefficient = flight ? *flight->result.coefficient : run.result.drag_coefficient;
+  p.drag_coefficient_on = "nominal_area_m2";
   p.radius = run.result.size.projected_diameter / 2, p.height = run.result.size.length;
   p.porosity = facts(design).geometric_porosity();
   const KnownFilling filling = known_filling(design.canopy.family().type);
@@ -76,6 +93,7 @@ std::string rocketpy_text(const ExportedParachute& p, const std::string& trigger
       "# Reference area of drag_coefficient: pi radius^2 = {:.4f} m2, as RocketPy defines it. On the nominal "
       "area\n"
       "# S0 = {:.4f} m2 the same drag area is C_D = {:.4f}.\n"
+      "# This coefficient is {}.\n"
       "# RocketPy's added mass follows from radius, height and porosity: those of the computed canopy.\n"
       "parachute = dict(\n"
       "    name={},\n    cd_s={},\n    trigger={},\n    sampling_rate=100,\n    lag={},\n    noise=(0, 0, "
@@ -84,8 +102,8 @@ std::string rocketpy_text(const ExportedParachute& p, const std::string& trigger
       "def add_to(rocket):\n    \"\"\"Adds the parachute to a rocketpy.Rocket.\"\"\"\n"
       "    return rocket.add_parachute(**parachute)\n",
       literal(p.title), version(), p.drag_area, p.drag_area_uncertainty, p.lag_from, mouth, p.nominal_area,
-      p.drag_coefficient, literal(p.title), p.drag_area, trigger_literal(trigger), p.lag, p.radius, p.height,
-      p.porosity, p.drag_area / mouth);
+      p.drag_coefficient, basis_text(p), literal(p.title), p.drag_area, trigger_literal(trigger), p.lag,
+      p.radius, p.height, p.porosity, p.drag_area / mouth);
 }
 
 // The elements and their order are those of OpenRocket's own component databases.
@@ -111,8 +129,8 @@ std::string openrocket_text(const ExportedParachute& p) {
       "</OpenRocketComponent>\n",
       material(p.cloth_material, p.cloth_density, "kg/m2", "SURFACE"),
       material(p.line_material, p.line_density, "kg/m", "LINE"), escaped_markup(p.title),
-      escaped_markup(fmt::format("{}: C_D S {:.4f} m2, C_D on S0 = {:.4f} m2, by Ripstop {}", p.title,
-                                 p.drag_area, p.nominal_area, version())),
+      escaped_markup(fmt::format("{}: C_D S {:.4f} m2, C_D on S0 = {:.4f} m2, {}, by Ripstop {}", p.title,
+                                 p.drag_area, p.nominal_area, p.basis, version())),
       escaped_markup(p.cloth_material), p.mass, p.nominal_diameter, p.gores, p.packed_diameter,
       p.packed_length, p.drag_coefficient, p.line_count, p.line_length, escaped_markup(p.line_material));
 }

@@ -3,8 +3,10 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "ripstop/core/members.h"
+#include "ripstop/run/flight/finished_flight.h"
 #include "ripstop/run/steady/finished_steady.h"
 
 namespace ripstop {
@@ -15,9 +17,11 @@ struct ExportedParachute {
   double drag_area = 0, drag_area_uncertainty = 0;  // [m2]
   double nominal_diameter = 0, nominal_area = 0, drag_coefficient = 0;
   std::string drag_coefficient_on;  // the member that is its reference area
-  double radius = 0, height = 0;    // of the open canopy, half the projected diameter and skirt to crown [m]
-  double porosity = 0;              // open share of the surface as constructed
-  double lag = 0;                   // from the trigger to the full drag area [s]
+  std::string basis;                // "axial": of the steady run; "descent": of the flight
+  std::optional<std::vector<double>> known_coefficient;  // the handbook's range, in descent
+  double radius = 0, height = 0;  // of the open canopy, half the projected diameter and skirt to crown [m]
+  double porosity = 0;            // open share of the surface as constructed
+  double lag = 0;                 // from the trigger to the full drag area [s]
   std::string lag_from;
   double mass = 0;  // [kg]
   int gores = 0, line_count = 0;
@@ -36,6 +40,8 @@ void each_member(T& p, Visit&& visit) {
   visit("nominal_area_m2", p.nominal_area);
   visit("drag_coefficient", p.drag_coefficient);
   visit("drag_coefficient_on", p.drag_coefficient_on);
+  visit("drag_coefficient_basis", p.basis);
+  visit("handbook_drag_coefficient", p.known_coefficient);
   visit("radius_m", p.radius);
   visit("height_m", p.height);
   visit("porosity", p.porosity);
@@ -55,8 +61,10 @@ void each_member(T& p, Visit&& visit) {
 }
 std::string to_json(const ExportedParachute& parachute);
 
-/// `deployment_speed` [m/s], for the filling time n D0 / v; absent: the run's own speed.
-ExportedParachute exported(const FinishedSteady& run, std::optional<double> deployment_speed = {});
+/// `deployment_speed` [m/s], for the filling time n D0 / v; absent: the run's own speed. The drag area is that of the run,
+/// or of a `flight` of the same parachute. Throws Error(usage) for the flight of another one.
+ExportedParachute exported(const FinishedSteady& run, std::optional<double> deployment_speed = {},
+                           const std::optional<FinishedFlight>& flight = {});
 
 /// Python: the arguments of RocketPy's Rocket.add_parachute (1.12), as a dictionary and a call. `trigger` is "apogee"
 /// or a height above the ground in metres. Throws Error(usage) for another one.

@@ -7,13 +7,17 @@
 #include <memory>
 #include <utility>
 
+#include "ripstop/case/assemble.h"
 #include "ripstop/case/payload.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/run/engine.h"
 #include "ripstop/run/json.h"
+#include "ripstop/run/opening/finished_opening.h"
+#include "ripstop/run/opening/inflation_folder.h"
 #include "ripstop/run/quality.h"
+#include "ripstop/run/steady/steady_folder.h"
 #include "ripstop/run/steady/warnings.h"
 
 namespace ripstop {
@@ -54,8 +58,41 @@ FlightStart equilibrium_on_axis(const Settings& resolved, int threads, const fs:
         fmt::format("the canopy on the axis did not come to equilibrium within {} iterations; the "
                     "flight begins with its last shape",
                     solution.result.iterations));
-  return {solution.result.speed, solution.result.drag_coefficient, solution.state.shape,
-          solution.state.pressure};
+  return {solution.result.speed,
+          solution.result.drag_coefficient,
+          solution.state.shape,
+          solution.state.pressure,
+          {},
+          true};
+}
+
+/// A start and the folder of the state of its air.
+struct Beginning {
+  FlightStart start;
+  fs::path flow;
+};
+
+/// Computes the inflation first where `from` is empty.
+Beginning end_of_inflation(const Settings& resolved, int threads, fs::path from, const fs::path& temporary,
+                           FlightObserver& observer) {
+  if (from.empty()) {
+    RunSettings run = observer.opening_run();
+    if (run.folder.empty()) run.folder = temporary;
+    from = run.folder;
+    const LoadSource source = load_source(resolved);
+    run_inflation_in(
+        {run, threads}, resolved, source, [&] { return opening_problem(resolved, source, threads); },
+        observer.opening());
+  }
+  FinishedOpening opening = finished_opening(from);
+  Beginning begin;
+  const FlowProblem flow = flow_problem(resolved);
+  begin.start.same_flow = flow.grid == opening.flow.grid && flow.sides == opening.flow.sides &&
+                          flow.outlet == opening.flow.outlet;
+  begin.start.speed = opening.end.speed;
+  begin.start.opening = std::move(opening.end);
+  begin.flow = opening.at_end;
+  return begin;
 }
 
 std::optional<double> relative_error(const FlightHistory& history) {
@@ -70,7 +107,7 @@ std::string end_of(const FreeFlight& flight, const FreeFlightState& state, const
   const FreeFlightRow& row = history.rows.back();
   if (const std::string failure = flight.failure(state, row); !failure.empty()) return failure;
   if (s.height_m && row.payload.z <= 0) return "ground";
-  if (row.time >= s.duration_s * (1 - 1e-12)) return "duration";
+  if (row.time - flight.began() >= s.duration_s * (1 - 1e-12)) return "duration";
   if (s.standard_error && std::floor(row.time / look_every) > std::floor((row.time - row.step) / look_every))
     if (const auto error = relative_error(history); error && *error <= *s.standard_error)
       return "standard error";
@@ -117,21 +154,37 @@ void take_quality(FlightResult& r, const Settings& resolved) {
   r.usable = judgement.usable;
 }
 
+std::optional<Handover> handover_of(const FreeFlight& flight, const FlightStart& start,
+                                    const FreeFlightState& state, const FlightHistory& history) {
+  if (!start.opening) return {};
+  const OpeningEnd& end = *start.opening;
+  const FreeFlightRow& first = history.rows.front();
+  Handover h;
+  h.time = flight.began(), h.same_flow = start.same_flow;
+  h.height_lost = end.fallen, h.opening_speed = end.speed, h.opening_peak = end.peak_load;
+  h.path_angle = end.angle;
+  h.load_before = end.load, h.load_after = norm(first.line_force);
+  h.drag_before = end.drag, h.drag_after = norm(first.air_force);
+  h.elastic_before = end.elastic, h.elastic_after = state.elastic_at_start;
+  return h;
+}
+
 FlightResult result_of(const Settings& resolved, const FreeFlight& flight, const FlightStart& start,
                        const FreeFlightState& state, const FlightHistory& history,
                        const std::string& ended_by) {
   FlightResult r;
   const FreeFlightRow &last = history.rows.back(), &first = history.rows.front();
-  r.title = resolved.title(), r.ended_by = ended_by, r.duration = last.time;
+  r.title = resolved.title(), r.ended_by = ended_by, r.duration = last.time - flight.began();
   r.payload_mass = *resolved.payload().mass_kg, r.parachute_mass = flight.mass() - r.payload_mass;
   r.density = resolved.flow().density_kg_m3, r.reference_area = nominal_area(resolved.parachute());
-  r.axial_speed = start.speed, r.axial_coefficient = start.coefficient;
+  if (!start.opening) r.axial_speed = start.speed, r.axial_coefficient = start.coefficient;
   const KnownRange known = experience(resolved.parachute()).drag_coefficient;
   if (known.high > 0) r.known_coefficient = {known.low, known.high};
   const FlightSummary summary = summarise_flight(history.rows);
   if (!failed(ended_by)) take_means(r, summary);
-  r.largest_load = summary.largest_load;
-  r.load_factor = summary.largest_load / (r.payload_mass * standard_gravity);
+  r.handover = handover_of(flight, start, state, history);
+  r.largest_load = std::max(summary.largest_load, start.opening ? start.opening->peak_load : 0);
+  r.load_factor = r.largest_load / (r.payload_mass * standard_gravity);
   const Vec3 way = last.payload - first.payload;
   r.distance = std::hypot(way.x, way.y), r.height_lost = -way.z;
   const FreeFlight::Balance balance = flight.balance(state, last);
@@ -168,19 +221,41 @@ std::string to_json(const FlightResult& result) {
   return json_text(result);
 }
 
-FlightSolution run_flight(const Settings& resolved, int threads, FlightObserver& observer) {
-  const TemporaryFolder axial("flight");
+InflationObserver& FlightObserver::opening() {
+  static InflationObserver nobody;
+  return nobody;
+}
+
+Settings flight_settings(const Case& given, const fs::path& from) {
+  if (from.empty()) return resolve(flight_case(given));
+  const Settings opening = settings_of_run(from);
+  require_same_parachute(opening, from.string(), resolve(opening_case(given)));
+  return resolve(continued_case(given, opening));
+}
+
+FlightSolution run_flight(const Settings& resolved, int threads, FlightObserver& observer,
+                          const fs::path& from) {
+  const TemporaryFolder temporary("flight");
   const std::optional<FlightStart> earlier = observer.earlier_start();
-  const FlightStart start = earlier ? *earlier : equilibrium_on_axis(resolved, threads, axial.path, observer);
+  Beginning begin;
+  if (earlier)
+    begin.start = *earlier;
+  else if (!from.empty() || resolved.flight().start == FlightSettings::Start::inflation)
+    begin = end_of_inflation(resolved, threads, from, temporary.path / "opening", observer);
+  else
+    begin = {equilibrium_on_axis(resolved, threads, temporary.path, observer), temporary.path};
+  const FlightStart& start = begin.start;
   observer.started(start);
-  const Settings now = at_speed(resolved, start.speed);
-  FlightProblem problem = flight_problem(now, start.shape, start.pressure, threads);
+  const Settings now = start.opening ? resolved : at_speed(resolved, start.speed);
+  FlightProblem problem = start.opening ? flight_problem(now, *start.opening, threads)
+                                        : flight_problem(now, start.shape, start.pressure, threads);
   EngineOptions options = engine_options(now);
   options.threads = threads;
   options.small_eddies = now.flow().watch.eddies;
   problem.air.engine = engine_of(now).make(options);
   FreeFlight flight(std::move(problem));
-  if (!earlier) flight.air().restore(axial.path);
+  if (!earlier && start.same_flow) flight.air().restore(begin.flow);
+  if (!earlier && !start.same_flow) flight.air().continue_from(begin.flow);
   FlightSolution solution;
   auto& [result, state, history] = solution;
   state = flight.start();
@@ -189,8 +264,9 @@ FlightSolution run_flight(const Settings& resolved, int threads, FlightObserver&
   while (ended_by.empty()) {
     history.rows.push_back(flight.advance(state));
     ended_by = end_of(flight, state, history);
-    const FreeFlightRow& row = history.rows.back();
-    const bool shape = shapes_until(row.time, now.flight()) > shapes_until(row.time - row.step, now.flight());
+    const double until = history.rows.back().time - flight.began();
+    const bool shape =
+        shapes_until(until, now.flight()) > shapes_until(until - history.rows.back().step, now.flight());
     if (shape) look_at_shape(flight, state);
     observer.advanced(flight, state, history, shape);
   }

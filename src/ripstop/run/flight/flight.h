@@ -10,9 +10,38 @@
 #include "ripstop/core/members.h"
 #include "ripstop/fsi/flight_summary.h"
 #include "ripstop/run/margins.h"
+#include "ripstop/run/opening/inflation.h"
+#include "ripstop/run/run_folder.h"
 #include "ripstop/run/steady/steady.h"
 
 namespace ripstop {
+
+/// How a flight continues an inflation: the same quantities at the end of that and in its own first step.
+struct Handover {
+  double time = 0;         // since deployment [s]
+  bool same_flow = false;  // cells and boundaries are those of the inflation; else interpolated
+  double height_lost = 0, opening_speed = 0;     // by the payload until then [m], its speed then [m/s]
+  double path_angle = 0;                         // of its path below the horizon then [rad]
+  double opening_peak = 0;                       // peak load of the inflation [N]
+  double load_before = 0, load_after = 0;        // on the riser [N]
+  double drag_before = 0, drag_after = 0;        // of the air on the canopy [N]
+  double elastic_before = 0, elastic_after = 0;  // energy of cloth and lines [J]
+};
+template <Of<Handover> T, class Visit>
+void each_member(T& h, Visit&& visit) {
+  visit("time_s", h.time);
+  visit("same_flow", h.same_flow);
+  visit("height_lost_m", h.height_lost);
+  visit("speed_m_s", h.opening_speed);
+  visit("path_angle_rad", h.path_angle);
+  visit("opening_peak_load_n", h.opening_peak);
+  visit("load_before_n", h.load_before);
+  visit("load_after_n", h.load_after);
+  visit("drag_before_n", h.drag_before);
+  visit("drag_after_n", h.drag_after);
+  visit("elastic_energy_before_j", h.elastic_before);
+  visit("elastic_energy_after_j", h.elastic_after);
+}
 
 /// The numbers of one flight: result.json.
 struct FlightResult {
@@ -32,13 +61,15 @@ struct FlightResult {
   std::optional<double> mean_angle, mean_attack, largest_attack;  // [deg]
   int peaks = 0;                                                  // half-swings counted
   double start_up = 0;                                            // until then nothing counts [s]
-  double axial_speed = 0;                // at which the drag of the canopy on the axis is the weight [m/s]
-  double axial_coefficient = 0;          // C_D0 on the axis (tunnel)
-  double reference_area = 0;             // S0 [m2]
-  double density = 0;                    // at the start [kg/m3]
-  double largest_load = 0;               // of the lines on the payload [N]
-  double load_factor = 0;                // that over the payload's weight
-  double distance = 0, height_lost = 0;  // of the payload over the ground [m]
+  std::optional<double> axial_speed;  // at which the drag of the canopy on the axis is the weight [m/s]
+  std::optional<double>
+      axial_coefficient;             // C_D0 on the axis (tunnel); absent, as the speed, after an inflation
+  std::optional<Handover> handover;  // from an inflation
+  double reference_area = 0;         // S0 [m2]
+  double density = 0;                // at the start [kg/m3]
+  double largest_load = 0;           // of the lines on the payload [N]
+  double load_factor = 0;            // that over the payload's weight
+  double distance = 0, height_lost = 0;               // of the payload over the ground [m]
   double energy_residual = 0, momentum_residual = 0;  // of the whole flight
   double air_momentum_residual = 0;  // largest momentum gap of a step of the air over the weight
   double cells_across = 0;           // of the inflated canopy
@@ -94,16 +125,20 @@ void each_member(T& r, Visit&& visit) {
   visit("flow_steps", r.flow_steps);
   visit("cloth_steps", r.cloth_steps);
   visit("warnings", r.warnings);
+  visit("handover", r.handover);
   visit("usable", r.usable);
 }
 std::string to_json(const FlightResult& result);
 
-/// Where a flight begins: the canopy in equilibrium on the axis, at the speed at which its drag is the weight.
+/// Where a flight begins: the canopy in equilibrium on the axis, at the speed at which its drag is the weight, or the
+/// end of an inflation.
 struct FlightStart {
   double speed = 0;              // [m/s]
   double coefficient = 0;        // C_D0 on the axis
   std::vector<Vec3> shape;       // [m]
   std::vector<double> pressure;  // on its cells [Pa]
+  std::optional<OpeningEnd> opening;
+  bool same_flow = true;  // Handover::same_flow
 };
 template <Of<FlightStart> T, class Visit>
 void each_member(T& start, Visit&& visit) {
@@ -111,9 +146,11 @@ void each_member(T& start, Visit&& visit) {
   visit("coefficient", start.coefficient);
   visit("shape", start.shape);
   visit("pressure", start.pressure);
+  visit("opening", start.opening);
+  visit("same_flow", start.same_flow);
 }
 
-/// Shapes that are due until a time, without that of the start.
+/// Shapes that are due until a time since the start of the flight [s], without that of the start.
 inline long long shapes_until(double time, const FlightSettings& settings) {
   return static_cast<long long>(time * settings.shapes_per_s * (1 + 1e-12));
 }
@@ -130,6 +167,9 @@ class FlightObserver {
   virtual void warned(const std::string&) {}
   /// Of the equilibrium on the axis.
   virtual void starting(const SteadyProgress&, const SteadyState&) {}
+  /// Of the inflation that comes first, with its folder; an empty one is a temporary folder.
+  virtual InflationObserver& opening();
+  virtual RunSettings opening_run() { return {}; }
   /// An earlier start, in place of the equilibrium that would be computed.
   virtual std::optional<FlightStart> earlier_start() { return {}; }
   virtual void started(const FlightStart&) {}
@@ -146,7 +186,14 @@ struct FlightSolution {
   FlightHistory history;
 };
 
-/// The flight of the case's settings, which are those of flight_case(). Throws as FreeFlight and run_steady().
-FlightSolution run_flight(const Settings& resolved, int threads, FlightObserver& observer);
+/// The flight of the case's settings, which are those of flight_case(), or of continued_case() for a flight that
+/// continues from the finished inflation in the folder `from`. Throws as FreeFlight, run_steady(), run_inflation_in()
+/// and finished_opening().
+FlightSolution run_flight(const Settings& resolved, int threads, FlightObserver& observer,
+                          const std::filesystem::path& from = {});
+
+/// Settings of a flight of the case: those of flight_case(), or of continued_case() with the inflation in `from`. Throws
+/// Error(usage) for the inflation of another parachute.
+Settings flight_settings(const Case& given, const std::filesystem::path& from = {});
 
 }  // namespace ripstop

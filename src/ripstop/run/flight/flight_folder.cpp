@@ -33,6 +33,12 @@ class FlightFolder : public FlightObserver {
   void starting(const SteadyProgress& progress, const SteadyState& state) override {
     next_.starting(progress, state);
   }
+  InflationObserver& opening() override { return next_.opening(); }
+  RunSettings opening_run() override {
+    RunSettings run = folder_.settings();
+    run.folder /= opening_name;
+    return run;
+  }
   std::optional<FlightStart> earlier_start() override {
     if (!fs::exists(folder_.own("checkpoint"))) return {};
     return from_cbor<FlightStart>(read_sealed(folder_.own("start")), flight_format, what_is_saved);
@@ -74,7 +80,9 @@ void FlightFolder::begin(FreeFlight& flight, FreeFlightState& state, FlightHisto
 
 void FlightFolder::advanced(FreeFlight& flight, const FreeFlightState& state, const FlightHistory& history,
                             bool shape) {
-  if (shape) write_shape(flight, state, shapes_until(history.rows.back().time, flight.problem().settings));
+  if (shape)
+    write_shape(flight, state,
+                shapes_until(history.rows.back().time - flight.began(), flight.problem().settings));
   if (files_.due()) save(flight, state, history);
   next_.advanced(flight, state, history, shape);
 }
@@ -92,8 +100,10 @@ void FlightFolder::write_shape(FreeFlight& flight, const FreeFlightState& state,
 
 void FlightFolder::write_series(const FreeFlight& flight, double end) {
   const FlightSettings& s = flight.problem().settings;
-  const long long last = shapes_until(end, s);
-  const auto time = [&](long long frame) { return static_cast<double>(frame) / s.shapes_per_s; };
+  const long long last = shapes_until(end - flight.began(), s);
+  const auto time = [&](long long frame) {
+    return flight.began() + static_cast<double>(frame) / s.shapes_per_s;
+  };
   for (const char* what : {"canopy", "lines"}) write_frames(folder_, what, 0, last, time);
   write_frames(folder_, "air", 1, last, time, air_ending(flight.problem().air.flow.grid));
 }
@@ -101,18 +111,23 @@ void FlightFolder::write_series(const FreeFlight& flight, double end) {
 void FlightFolder::write_plots(const FlightHistory& history, const FlightResult& result) {
   PlotSeries x{"x", {}, {}, true, false}, y{"y", {}, {}, true, false, true},
       angle{"angle from the vertical", {}, {}, true, false},
-      attack{"angle of attack", {}, {}, true, false, true}, down{"payload", {}, {}, true, false};
+      attack{"angle of attack", {}, {}, true, false, true}, down{"payload", {}, {}, true, false},
+      force{"lines and riser", {}, {}, true, false};
   for (const FreeFlightRow& row : history.rows) {
     x.x.push_back(row.payload.x), x.y.push_back(row.payload.z);
     y.x.push_back(row.payload.y), y.y.push_back(row.payload.z);
     angle.x.push_back(row.time), angle.y.push_back(row.angle);
     attack.x.push_back(row.time), attack.y.push_back(row.attack);
     down.x.push_back(row.time), down.y.push_back(-row.velocity.z);
+    force.x.push_back(row.time), force.y.push_back(norm(row.line_force));
   }
-  write_plot(folder_.own("path.png"),
-             {result.title, {"horizontal place of the payload [m]"}, {"height [m]"}, {x, y}});
-  write_plot(folder_.own("angle.png"), {result.title, {"time [s]"}, {"angle [deg]"}, {angle, attack}});
-  write_plot(folder_.own("descent.png"), {result.title, {"time [s]"}, {"rate of descent [m/s]"}, {down}});
+  const auto draw = [&](const char* name, const Plot& plot) {
+    for (const char* ending : {".png", ".svg"}) write_plot(folder_.own(std::string(name) + ending), plot);
+  };
+  draw("path", {result.title, {"horizontal place of the payload [m]"}, {"height [m]"}, {x, y}});
+  draw("angle", {result.title, {"time [s]"}, {"angle [deg]"}, {angle, attack}});
+  draw("descent", {result.title, {"time [s]"}, {"rate of descent [m/s]"}, {down}});
+  draw("force", {result.title, {"time [s]"}, {"force of the lines on the payload [N]"}, {force}});
 }
 
 void FlightFolder::ended(FreeFlight& flight, const FreeFlightState& state, const FlightHistory& history,
@@ -135,13 +150,13 @@ void FlightFolder::ended(FreeFlight& flight, const FreeFlightState& state, const
 
 std::optional<FlightResult> run_flight_in(const FlightFolderSettings& settings, const Settings& resolved,
                                           FlightObserver& observer) {
-  RunSettings run = settings.run;
-  run.report = false;
-  const auto claimed = open_run_folder(run, resolved, "flight", settings.threads);
+  const std::string solver =
+      settings.from.empty() ? "flight" : "flight from " + inputs_of_run(settings.from).value_or("");
+  const auto claimed = open_run_folder(settings.run, resolved, solver, settings.threads);
   if (!claimed->warning().empty()) observer.warned(claimed->warning());
   if (claimed->finished()) return std::nullopt;
   FlightFolder files(*claimed, settings, observer);
-  FlightResult result = run_flight(resolved, settings.threads, files).result;
+  FlightResult result = run_flight(resolved, settings.threads, files, settings.from).result;
   result.inputs_hash = inputs_of_run(settings.run.folder);
   return result;
 }

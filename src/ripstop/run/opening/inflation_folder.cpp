@@ -15,6 +15,7 @@
 #include "ripstop/output/vtk.h"
 #include "ripstop/run/json.h"
 #include "ripstop/run/march_files.h"
+#include "ripstop/run/opening/finished_opening.h"
 
 namespace ripstop {
 namespace {
@@ -28,7 +29,10 @@ constexpr int opening_format = 8;
 class InflationFolder : public InflationObserver {
  public:
   InflationFolder(RunFolder& folder, const InflationFolderSettings& settings, InflationObserver& next)
-      : folder_(folder), files_(folder, settings.checkpoint_every_s), next_(next) {}
+      : folder_(folder),
+        files_(folder, settings.checkpoint_every_s),
+        keep_end_(settings.keep_end),
+        next_(next) {}
 
   void begin(const Opening& solver, InflationState& state, InflationHistory& history) override;
   void advanced(const Opening& solver, const InflationState& state, const InflationHistory& history,
@@ -50,6 +54,7 @@ class InflationFolder : public InflationObserver {
 
   RunFolder& folder_;
   MarchFiles files_;
+  bool keep_end_;
   InflationObserver& next_;
   bool with_air_ = false, reefed_ = false;
 };
@@ -118,6 +123,8 @@ void InflationFolder::ended(const Opening& solver, const InflationState& state,
   for (const char* what : {"canopy", "lines"}) write_frames(folder_, what, 0, settings.frames, time);
   if (with_air_)
     write_frames(folder_, "air", 1, settings.frames, time, air_ending(solver.problem().air->flow.grid));
+  if (keep_end_ && with_air_ && solver.problem().air->payload)
+    solver.air()->save(folder_.own(std::string(end_folder) + "/"));
   if (const std::string failure = folder_.end(result); !failure.empty()) next_.warned(failure);
   files_.drop_air();
   next_.ended(solver, state, history, result);

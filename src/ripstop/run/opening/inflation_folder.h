@@ -18,6 +18,7 @@ struct InflationFolderSettings {
   RunSettings run;
   int threads = 0;                 // as run.json has it
   double checkpoint_every_s = 10;  // of wall time, at the next frame
+  bool keep_end = true;            // of the air about a payload, from which a flight continues
 };
 
 /// run_inflation() in a folder, from the folded start or from the state of a killed run. Returns nothing when the

@@ -61,6 +61,7 @@ SampleSummary run_samples(const InflationFolderSettings& settings, const Setting
     InflationFolderSettings one = settings;
     const std::string name = fmt::format("sample-{:03}", seed);
     one.run.folder = settings.run.folder / name;
+    one.keep_end = false;
     open(one, with_seed(resolved, seed));
     summary.folders.push_back(name);
     results.push_back(nlohmann::json::parse(finished_result(one.run.folder).value()));

@@ -11,9 +11,10 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/core/words.h"
-#include "ripstop/output/csv.h"
+#include "ripstop/run/report/report_flight.h"
 #include "ripstop/run/report/report_plots.h"
 #include "ripstop/run/report/report_tables.h"
+#include "ripstop/run/report/shape_files.h"
 #include "ripstop/run/run_folder.h"
 #include "ripstop/run/steady/steady_folder.h"
 #include "ripstop/run/steady/warnings.h"
@@ -23,41 +24,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Points of all frames together in a page of `largest_page`: 6 bytes for each point and frame, measured.
-constexpr std::size_t most_points = 1'200'000;
-
-/// "vtk/canopy_0012.vtp" and its lines, in order.
-std::vector<ShapeFiles> shape_files(const fs::path& folder) {
-  std::vector<ShapeFiles> files;
-  if (!fs::is_directory(folder / "vtk")) return files;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder / "vtk")) {
-    const std::string name = entry.path().filename();
-    if (!name.starts_with("canopy_") || !name.ends_with(".vtp")) continue;
-    const fs::path lines = folder / "vtk" / ("lines" + name.substr(6));
-    if (fs::exists(lines)) files.push_back({0, entry.path(), lines});
-  }
-  std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) { return a.canopy < b.canopy; });
-  return files;
-}
-
-/// Frames of an opening with their times: evenly spaced, as many as fit into a page.
-std::vector<ShapeFiles> frames_of(const fs::path& folder) {
-  std::vector<ShapeFiles> all = shape_files(folder);
-  if (all.size() < 2) return all;
-  std::vector<double> times = read_csv(folder / "balance.csv").column("time_s");
-  times.insert(times.begin(), 0.0);  // the folded start
-  for (std::size_t i = 0; i < all.size(); ++i) all[i].time = i < times.size() ? times[i] : times.back();
-  const std::size_t points = read_shape({all.front()}).frames.front().points.size() / 3;
-  const std::size_t fit = std::max<std::size_t>(12, most_points / std::max<std::size_t>(points, 1));
-  if (all.size() <= fit) return all;
-  std::vector<ShapeFiles> kept;
-  for (std::size_t i = 0; i < fit; ++i) kept.push_back(all[i * (all.size() - 1) / (fit - 1)]);
-  return kept;
-}
-
 void add_shape(ReportRun& run, const fs::path& folder) {
   const bool opening = run.kind == "opening";
-  std::vector<ShapeFiles> files = opening ? frames_of(folder) : shape_files(folder);
+  std::vector<ShapeFiles> files = opening ? thinned_out(opening_shapes(folder)) : shape_files(folder);
   if (files.empty()) return;
   if (!opening) files = {files.back()};
   run.shape = read_shape(files);
@@ -107,9 +76,9 @@ fs::path write_into(const fs::path& folder, const std::string& page) {
 ReportRun report_of(const fs::path& folder) {
   const fs::path result = folder / "result.json";
   if (!fs::exists(result) || !fs::exists(folder / "run.json"))
-    throw Error(
-        ExitCode::usage,
-        fmt::format("{}: contains no finished run of ripstop steady, inflate or sweep", folder.string()));
+    throw Error(ExitCode::usage,
+                fmt::format("{}: contains no finished run of ripstop steady, inflate, fly or sweep",
+                            folder.string()));
   ReportRun run;
   run.name = name_of(folder);
   add_result(run, read_file(result), result);
@@ -135,6 +104,10 @@ ReportRun report_of(const fs::path& folder) {
   if (run.warnings.empty()) run.warnings = warnings_of(resolved, number_of(run, "max_cloth_strain"));
   if (!run.converged) run.warnings.insert(run.warnings.begin(), "The coupling did not converge.");
   add_provenance(run, folder / "run.json");
+  if (is_flight(run)) {
+    add_flight(run, resolved, folder);
+    return run;
+  }
   run.plots = plots_of(run, folder);
   add_shape(run, folder);
   if (!run.shape.frames.empty()) run.shape.part_names = parachute_mesh(resolved).parts;

@@ -14,29 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// As a screen shows it: of every stretch its least and its largest value.
-ReportSeries thinned(ReportSeries series) {
-  constexpr std::size_t enough = 3000;
-  const std::size_t count = series.x.size();
-  if (count <= enough) return series;
-  const std::size_t stretch = 2 * count / enough + 1;
-  ReportSeries kept{series.name, {}, {}, series.line, series.dashed};
-  const auto keep = [&](std::size_t i) {
-    kept.x.push_back(series.x[i]);
-    kept.y.push_back(series.y[i]);
-  };
-  for (std::size_t begin = 0; begin < count; begin += stretch) {
-    const auto first = series.y.begin() + static_cast<std::ptrdiff_t>(begin);
-    const auto last = series.y.begin() + static_cast<std::ptrdiff_t>(std::min(begin + stretch, count));
-    const auto [least, most] = std::minmax_element(first, last);
-    const auto a = static_cast<std::size_t>(least - series.y.begin()),
-               b = static_cast<std::size_t>(most - series.y.begin());
-    keep(std::min(a, b));
-    if (a != b) keep(std::max(a, b));
-  }
-  return kept;
-}
-
 /// Columns of a table over another one; nothing where there is no such file.
 void add_plot(std::vector<ReportPlot>& plots, const fs::path& file, const std::string& x, ReportPlot plot,
               const std::vector<std::pair<std::string, std::string>>& columns) {
@@ -173,6 +150,28 @@ void add_drag_over_speed(std::vector<ReportPlot>& plots, const std::vector<Repor
 }
 
 }  // namespace
+
+ReportSeries thinned(ReportSeries series) {
+  constexpr std::size_t enough = 3000;
+  const std::size_t count = series.x.size();
+  if (count <= enough) return series;
+  const std::size_t stretch = 2 * count / enough + 1;
+  ReportSeries kept{series.name, {}, {}, series.line, series.dashed};
+  const auto keep = [&](std::size_t i) {
+    kept.x.push_back(series.x[i]);
+    kept.y.push_back(series.y[i]);
+  };
+  for (std::size_t begin = 0; begin < count; begin += stretch) {
+    const auto first = series.y.begin() + static_cast<std::ptrdiff_t>(begin);
+    const auto last = series.y.begin() + static_cast<std::ptrdiff_t>(std::min(begin + stretch, count));
+    const auto [least, most] = std::minmax_element(first, last);
+    const auto a = static_cast<std::size_t>(least - series.y.begin()),
+               b = static_cast<std::size_t>(most - series.y.begin());
+    keep(std::min(a, b));
+    if (a != b) keep(std::max(a, b));
+  }
+  return kept;
+}
 
 std::vector<ReportPlot> plots_of(const ReportRun& run, const fs::path& folder) {
   std::vector<ReportPlot> plots = run.kind == "opening" ? opening_plots(run, folder) : steady_plots(folder);

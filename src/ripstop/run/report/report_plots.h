@@ -9,6 +9,9 @@
 
 namespace ripstop {
 
+/// As a screen shows it: of every stretch its least and its largest value.
+ReportSeries thinned(ReportSeries series);
+
 /// Those whose tables are there. Throws Error(bad_data) for a table without its columns.
 std::vector<ReportPlot> plots_of(const ReportRun& run, const std::filesystem::path& folder);
 

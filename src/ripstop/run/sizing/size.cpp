@@ -316,6 +316,58 @@ Case example_case(const SizeRequest& request, const SizeResult& r) {
 
 }  // namespace
 
+namespace {
+
+std::optional<FlownDrag> flown_drag(const std::string& family, const std::string& cloth) {
+  static const auto data = nlohmann::json::parse(read_file(data_directory() / "examples/flown.json"));
+  for (const auto& row : data.at("flights"))
+    if (row.at("family") == family && row.at("canopy_material") == cloth)
+      return FlownDrag{row.at("drag_coefficient"), row.at("standard_error"), row.at("half_swings"),
+                       fmt::format("{}, {}", data.at("made_by").get<std::string>(),
+                                   data.at("made_on").get<std::string>())};
+  return {};
+}
+
+/// A coefficient and the words that name it.
+void take_coefficient(const SizeRequest& request, const FamilyDrag& drag, SizeResult& r) {
+  constexpr double sure = 2;  // standard errors
+  r.axial_coefficient = drag.drag_coefficient;
+  if (drag.flown)
+    r.flown_coefficient = drag.flown->drag_coefficient, r.flown_error = drag.flown->standard_error;
+  const double flown = drag.flown ? drag.flown->drag_coefficient : 0,
+               lower = drag.flown ? flown - sure * drag.flown->standard_error : 0;
+  const auto of_flight = [&](double value, const char* how) {
+    r.drag_basis = "descent", r.drag_coefficient = value;
+    r.drag_source = fmt::format("in descent (flown): {:.3f} +- {:.3f} over {} half-swings{}; {}", flown,
+                                drag.flown->standard_error, drag.flown->half_swings, how, drag.flown->made);
+  };
+  if (request.drag_coefficient) {
+    r.drag_basis = "given", r.drag_source = "given", r.drag_coefficient = *request.drag_coefficient;
+  } else if (request.basis == DragBasis::descent && !drag.flown) {
+    throw Error(ExitCode::usage,
+                fmt::format("--coefficient descent: examples/flown.json has no flight of the family {}; use "
+                            "safe or axial, or --verify --fly",
+                            drag.family));
+  } else if (request.basis == DragBasis::descent) {
+    of_flight(flown, "");
+  } else if (request.basis == DragBasis::safe && drag.flown && lower < drag.drag_coefficient) {
+    of_flight(lower, ", less two standard errors, because it is below the axial one");
+  } else {
+    r.drag_basis = "axial", r.drag_coefficient = drag.drag_coefficient;
+    r.drag_source = fmt::format("axial, computed at {:g} m/s: {}", drag.speed, drag.made);
+  }
+  require_positive("drag coefficient", r.drag_coefficient);
+}
+
+}  // namespace
+
+VerifiedDescent::VerifiedDescent(const FlightResult& flight)
+    : speed(flight.descent.value_or(0)),
+      coefficient(flight.coefficient.value_or(0)),
+      speed_error(flight.descent_error),
+      usable(flight.usable && flight.coefficient),
+      flown(true) {}
+
 std::vector<FamilyDrag> family_drags() {
   const std::filesystem::path file = data_directory() / "examples/families.json";
   try {
@@ -332,6 +384,7 @@ std::vector<FamilyDrag> family_drags() {
                                   data.at("made_on").get<std::string>())};
       const auto& handbook = row.at("handbook_drag_coefficient");
       if (!handbook.is_null()) drag.handbook = {handbook.at(0).get<double>(), handbook.at(1).get<double>()};
+      drag.flown = flown_drag(drag.family, row.value("canopy_material", ""));
       all.push_back(std::move(drag));
     }
     return all;
@@ -356,10 +409,7 @@ SizeResult run_size(const SizeRequest& request) {
   r.payload_mass = request.payload_mass, r.descent_rate = request.descent_rate;
   r.height = request.height;
   r.density = request.density ? *request.density : standard_air(request.height).density;
-  r.drag_coefficient = request.drag_coefficient.value_or(drag.drag_coefficient);
-  require_positive("drag coefficient", r.drag_coefficient);
-  r.drag_source =
-      request.drag_coefficient ? "given" : fmt::format("computed at {:g} m/s: {}", drag.speed, drag.made);
+  take_coefficient(request, drag, r);
   r.handbook_drag_coefficient = drag.handbook;
   r.deployment_speed = request.deployment_speed.value_or(usual_deployment_speed(request.descent_rate));
   require_positive("deployment speed (m/s)", r.deployment_speed);
@@ -373,18 +423,30 @@ SizeResult run_size(const SizeRequest& request) {
   return r;
 }
 
+Settings sized_flight(const Settings& sized, double duration_s) {
+  Case given = sized.written();
+  given.flight.duration_s = duration_s;
+  given.flow.cells.reset(), given.flow.box_m.reset(), given.flow.core = {};
+  given.flow.sides.reset(), given.flow.max_iterations.reset(), given.flow.average_over.reset();
+  return flight_settings(given);
+}
+
 void verify_size(const SizeRequest& request, SizeResult& r,
-                 const std::function<SteadyResult(const Settings&, int run)>& fly, double tolerance) {
+                 const std::function<VerifiedDescent(const Settings&, int run)>& fly, double tolerance) {
   constexpr int most = 4;
   for (int run = 1; run <= most; ++run) {
-    const SteadyResult flown = fly(resolve(parse_case(r.case_text, "the sized case")), run);
-    if (!flown.converged)
+    const VerifiedDescent flown = fly(resolve(parse_case(r.case_text, "the sized case")), run);
+    const char* basis = flown.flown ? "descent" : "axial";
+    if (!flown.usable)
       throw Error(ExitCode::not_converged,
                   fmt::format("--verify: run {} has not converged; its descent rate cannot be used", run));
-    r.checks.push_back({r.nominal_diameter, flown.speed, flown.drag_coefficient});
-    if (std::abs(flown.speed / request.descent_rate - 1) <= tolerance) return;
+    r.checks.push_back({r.nominal_diameter, flown.speed, flown.coefficient, basis, flown.speed_error});
+    const double known = std::max(tolerance, flown.speed_error.value_or(0) / request.descent_rate);
+    if (std::abs(flown.speed / request.descent_rate - 1) <= known) return;
     scale_lengths(r.given.parachute, flown.speed / request.descent_rate);
-    r.drag_coefficient = flown.drag_coefficient, r.drag_source = "computed by --verify at the descent rate";
+    r.drag_coefficient = flown.coefficient, r.drag_basis = basis;
+    r.drag_source = flown.flown ? "in descent, flown by --verify --fly"
+                                : "axial, computed by --verify at the descent rate";
     describe_parachute(request, r);
   }
   throw Error(ExitCode::not_converged,

@@ -11,19 +11,32 @@
 #include "ripstop/case/case.h"
 #include "ripstop/core/members.h"
 #include "ripstop/parachute/cut.h"
+#include "ripstop/run/flight/flight.h"
 #include "ripstop/run/opening/load.h"
 #include "ripstop/run/steady/steady.h"
 
 namespace ripstop {
 
+/// The coefficient in descent of a family as Ripstop has flown it: a row of examples/flown.json.
+struct FlownDrag {
+  double drag_coefficient = 0, standard_error = 0;  // on S0
+  int half_swings = 0;
+  std::string made;  // command and machine
+};
+
 /// The drag of a family as Ripstop has computed it: a row of examples/families.json.
 struct FamilyDrag {
   std::string family, type;     // the example's folder, the word in [parachute]
-  double drag_coefficient = 0;  // on S0
+  double drag_coefficient = 0;  // axial, on S0
   std::optional<std::array<double, 2>> handbook;
-  double speed = 0, density = 0;  // of that run [m/s], [kg/m3]
-  std::string made;               // command and machine
+  double speed = 0, density = 0;        // of that run [m/s], [kg/m3]
+  std::string made;                     // command and machine
+  std::optional<FlownDrag> flown = {};  // in descent, with the cloth of the example
 };
+
+/// Which coefficient sizes a parachute. safe: the smaller one of axial and flown, the latter less two standard errors, so
+/// that the rate of descent is not above the wanted one by either of them.
+enum class DragBasis { safe, axial, descent };
 /// Throws Error(io) when the file is missing, Error(bad_data) when it is broken.
 std::vector<FamilyDrag> family_drags();
 
@@ -37,25 +50,44 @@ struct SizeRequest {
   std::optional<double> deployment_speed;  // for the opening load [m/s]; absent: 20 m/s, or 3 descent rates
   std::optional<std::string> line_material;
   double packing_density = packed_by_hand;  // [kg/m3]
+  DragBasis basis = DragBasis::safe;
 };
 
 /// One run of --verify.
 struct SizeCheck {
   double nominal_diameter = 0, descent_rate = 0, drag_coefficient = 0;  // [m], [m/s], -
+  std::string basis;                                                    // "axial" or "descent"
+  std::optional<double> descent_rate_error;                             // of a flight [m/s]
 };
 template <Of<SizeCheck> T, class Visit>
 void each_member(T& c, Visit&& visit) {
   visit("nominal_diameter_m", c.nominal_diameter);
   visit("descent_rate_m_s", c.descent_rate);
   visit("drag_coefficient", c.drag_coefficient);
+  visit("drag_coefficient_basis", c.basis);
+  visit("descent_rate_standard_error_m_s", c.descent_rate_error);
 }
+
+/// Result of a run of --verify, on the axis or in flight.
+struct VerifiedDescent {
+  VerifiedDescent(const SteadyResult& run)  // NOLINT(google-explicit-constructor): either result
+      : speed(run.speed), coefficient(run.drag_coefficient), usable(run.converged) {}
+  /// Not usable without a mean.
+  VerifiedDescent(const FlightResult& flight);  // NOLINT(google-explicit-constructor)
+  double speed = 0, coefficient = 0;            // [m/s]
+  std::optional<double> speed_error;            // standard error of a flight [m/s]
+  bool usable = false;
+  bool flown = false;
+};
 
 /// result.json of `ripstop size`, without its case file.
 struct SizeResult {
   std::string family, type;
   double payload_mass = 0, descent_rate = 0, height = 0, density = 0;
   double drag_coefficient = 0;
-  std::string drag_source;
+  std::string drag_basis, drag_source;                   // "axial", "descent" or "given"; where it comes from
+  double axial_coefficient = 0;                          // of the family, in steady flow
+  std::optional<double> flown_coefficient, flown_error;  // of the family, in descent
   std::optional<std::array<double, 2>> handbook_drag_coefficient;
   std::optional<std::array<double, 2>> handbook_diameter;  // that its range gives, the largest first [m]
   double nominal_diameter = 0, nominal_area = 0, vent_area = 0;  // [m], [m2]
@@ -89,7 +121,11 @@ void each_member(T& r, Visit&& visit) {
   visit("height_m", r.height);
   visit("density_kg_m3", r.density);
   visit("drag_coefficient", r.drag_coefficient);
+  visit("drag_coefficient_basis", r.drag_basis);
   visit("drag_coefficient_from", r.drag_source);
+  visit("axial_drag_coefficient", r.axial_coefficient);
+  visit("descent_drag_coefficient", r.flown_coefficient);
+  visit("descent_drag_coefficient_standard_error", r.flown_error);
   visit("handbook_drag_coefficient", r.handbook_drag_coefficient);
   visit("handbook_diameter_m", r.handbook_diameter);
   visit("nominal_diameter_m", r.nominal_diameter);
@@ -127,9 +163,14 @@ std::string to_json(const SizeResult& result);
 /// quantities that are not above 0, and if no size that a case file can describe has the descent rate.
 SizeResult run_size(const SizeRequest& request);
 
+/// Settings of a free flight of a sized parachute, on the flight's own cells.
+Settings sized_flight(const Settings& sized, double duration_s);
+
 /// Runs the case until its descent rate is the wanted one within `tolerance`, changing the diameter: v goes with
-/// 1 / D_0. Throws Error(not_converged) when a run has not converged or four of them do not get there.
+/// 1 / D_0. The rate of a flight is known to its standard error only, which widens the tolerance. Throws
+/// Error(not_converged) when a run cannot be used or four of them do not get there.
 void verify_size(const SizeRequest& request, SizeResult& result,
-                 const std::function<SteadyResult(const Settings&, int run)>& fly, double tolerance = 0.01);
+                 const std::function<VerifiedDescent(const Settings&, int run)>& fly,
+                 double tolerance = 0.01);
 
 }  // namespace ripstop

@@ -28,8 +28,8 @@ ReportRun sizing(const SizeResult& r) {
   run.kind = "size";
   run.name = r.family;
   run.title = r.given.title;
-  run.headline = {"nominal_diameter_m", "drag_coefficient", "parachute_mass_kg", "packed_volume_m3",
-                  "design_load_n",      "weakest_member",   "margin_of_safety"};
+  run.headline = {"nominal_diameter_m", "drag_coefficient", "drag_coefficient_basis", "parachute_mass_kg",
+                  "packed_volume_m3",   "design_load_n",    "weakest_member",         "margin_of_safety"};
   run.tables.push_back(bill_table(resolve(r.given)));
   run.warnings = r.warnings;
   run.case_file = r.case_text;

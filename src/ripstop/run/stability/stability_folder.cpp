@@ -23,6 +23,7 @@
 #include "ripstop/run/json.h"
 #include "ripstop/run/stability/stability_files.h"
 #include "ripstop/run/stability/stability_report.h"
+#include "ripstop/run/stability/window_checkpoint.h"
 #include "ripstop/run/steady/checkpoint.h"
 #include "ripstop/run/steady/steady_folder.h"
 
@@ -228,12 +229,18 @@ StabilityRow Curve::rigid_in_time(std::size_t i, ClaimedFolder& folder, FlowEngi
                                   StabilityObserver& observer) {
   const FlowProblem problem = flow_at(i);
   const auto flow = engine.start(problem);
-  start_from_neighbour(i, *flow);
+  WindowCheckpoint checkpoint(folder, settings_.checkpoint_every_s);
   FlowRecord record;
-  watch(*flow, problem, window(i), record, [&](const WatchProgress& p) {
+  if (auto earlier = checkpoint.resume(*flow))
+    record = std::move(*earlier);
+  else
+    start_from_neighbour(i, *flow);
+  const auto report = [&](const WatchProgress& p) {
     observer.progress(i, watch_text(p, problem.air), p.share);
     return true;
-  });
+  };
+  watch_forces(*flow, problem, window(i), record, report, [&] { checkpoint.look(*flow, record); });
+  checkpoint.remove();
   write_angle_history(folder, record);
   save_checkpoint(folder.own("checkpoint/"), {}, *flow);
   return row_of_record(record, problem.air, angles_[i], stability_reference(cases_[i]));
@@ -249,10 +256,16 @@ StabilityRow Curve::equilibrium_in_time(std::size_t i, ClaimedFolder& folder, Fl
   SteadySolver solver(std::move(problem), engine);
   SteadyState state = solver.start();
   state.shape = shape_.shape, state.pressure = shape_.pressure;
-  if (const auto neighbour = start_from_neighbour(i, solver.flow()))
-    state.shape = neighbour->shape, state.pressure = neighbour->pressure,
-    state.residual_traction = neighbour->residual_traction;
-  begin_windows(state, resolved.coupling());
+  // Between its windows the state is complete.
+  const fs::path between = folder.path() / "between";
+  if (auto earlier = load_checkpoint(between, solver.flow())) {
+    state = std::move(earlier->state);
+  } else {
+    if (const auto neighbour = start_from_neighbour(i, solver.flow()))
+      state.shape = neighbour->shape, state.pressure = neighbour->pressure,
+      state.residual_traction = neighbour->residual_traction;
+    begin_windows(state, resolved.coupling());
+  }
   while (!solver.finished(state)) {
     solver.iterate(state, [&](const SteadyProgress& p) {
       observer.progress(i,
@@ -261,7 +274,9 @@ StabilityRow Curve::equilibrium_in_time(std::size_t i, ClaimedFolder& folder, Fl
                             : fmt::format("[{}] cloth {:.1e}", p.iteration, p.cloth.residual),
                         (p.iteration - 1 + p.time.share) / usual_windows);
     });
+    if (!solver.finished(state)) save_checkpoint(folder.own("between/"), state, solver.flow());
   }
+  remove_path(between);
   write_angle_history(folder, solver.record());
   write_stl(folder.own("canopy.stl"), surface_of(solver.cells(), state.shape));
   save_checkpoint(folder.own("checkpoint/"), state, solver.flow());

@@ -20,6 +20,7 @@ struct StabilitySettings {
   bool warm = true;              // each angle starts from the flow of the one before
   std::filesystem::path steady;  // folder of a finished steady run with the shape; empty: computed in axis/
   bool elsewhere = false;        // another machine runs it: this one's memory does not matter
+  double checkpoint_every_s = 60;  // of wall time, within an angle
 };
 
 /// Receives the events of a curve.

@@ -252,6 +252,19 @@ double drag_for_opening(const Settings& resolved, const SteadyResult& result, co
                         const Settings& opening) {
   if (!result.converged)
     throw Error(ExitCode::bad_data, fmt::format("{}: the steady run has not converged", where));
+  require_same_parachute(resolved, where, opening);
+  const auto check = [&](const char* what, double there, double now) {
+    if (std::abs(there - now) <= 1e-6 * now) return;
+    throw Error(ExitCode::usage,
+                fmt::format("{}: is a run at a different {}: {:g} in that run and {:g} in this case", where,
+                            what, there, now));
+  };
+  check("speed (m/s)", result.speed, opening.flow().speed_m_s);
+  check("density (kg/m3)", result.density, opening.flow().density_kg_m3);
+  return result.drag;
+}
+
+void require_same_parachute(const Settings& resolved, const std::string& where, const Settings& opening) {
   auto asked = nlohmann::json::parse(case_json(opening)).at("parachute");
   auto had = nlohmann::json::parse(case_json(resolved)).at("parachute");
   asked.erase("mesh"), had.erase("mesh");
@@ -263,15 +276,6 @@ double drag_for_opening(const Settings& resolved, const SteadyResult& result, co
             "{}: is a run of a different parachute: parachute.{} is {} in that run and {} in this case",
             where, key, had.value(key, nlohmann::json()).dump(), value.dump()));
   }
-  const auto check = [&](const char* what, double there, double now) {
-    if (std::abs(there - now) <= 1e-6 * now) return;
-    throw Error(ExitCode::usage,
-                fmt::format("{}: is a run at a different {}: {:g} in that run and {:g} in this case", where,
-                            what, there, now));
-  };
-  check("speed (m/s)", result.speed, opening.flow().speed_m_s);
-  check("density (kg/m3)", result.density, opening.flow().density_kg_m3);
-  return result.drag;
 }
 
 SteadyState final_state(const fs::path& folder) {

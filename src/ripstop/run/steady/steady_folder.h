@@ -39,6 +39,9 @@ double drag_for_opening(const std::filesystem::path& folder, const Settings& ope
 /// The same of a run of `resolved`, which messages call `where`.
 double drag_for_opening(const Settings& resolved, const SteadyResult& result, const std::string& where,
                         const Settings& opening);
+/// Throws Error(usage) unless the run of `resolved`, which messages call `where`, has the parachute of `opening`, but for
+/// its mesh.
+void require_same_parachute(const Settings& resolved, const std::string& where, const Settings& opening);
 /// The final state in the folder of a steady run. Throws Error(usage) when there is none.
 SteadyState final_state(const std::filesystem::path& folder);
 /// The settings of the run there. Throws Error(usage) when there is none.

@@ -1,0 +1,17 @@
+// A free flight in the report: shapes of the inflation and the descent on one time axis, the path, and plots.
+#pragma once
+
+#include <filesystem>
+
+#include "ripstop/case/settings.h"
+#include "ripstop/report/report.h"
+
+namespace ripstop {
+
+/// Whether `run.values` are those of a flight.
+bool is_flight(const ReportRun& run);
+/// Fills kind, head, plots and shape of a flight from its folder, and from that of the inflation in it. Throws
+/// Error(bad_data) for tables and shapes that do not belong together.
+void add_flight(ReportRun& run, const Settings& resolved, const std::filesystem::path& folder);
+
+}  // namespace ripstop
