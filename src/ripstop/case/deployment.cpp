@@ -12,6 +12,7 @@
 #include "ripstop/core/checked_int.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/units.h"
+#include "ripstop/parachute/fold.h"
 
 namespace ripstop {
 namespace {
@@ -21,7 +22,7 @@ constexpr double bag_share = 0.1, wrap_share = 0.03, pilot_share = 0.05;  // of 
 constexpr double pilot_area = 0.015;                                      // of S0
 constexpr double longest_packed_share = 0.9;                              // of the canopy's length
 constexpr double closed_mouth = 0.04;                                     // radius over D0
-constexpr double above_smallest_radius = 1.12;  // of the folds, whose inner edges would meet on the axis
+constexpr double above_smallest_radius = 1.12;                            // of the folded skirt
 
 double canopy_length(const Design& design) {
   return 0.5 * nominal_diameter(design);
@@ -73,16 +74,22 @@ void check_length(const DeploymentKeys& keys, const Design& design) {
 
 }  // namespace
 
-// Folds of one strip each reach from the axis to the strip's width; their mean radius is half of it.
+// A strip of width C / (2 N), C the skirt circumference and N the number of folds, reaches from the inner to the outer
+// folds. The inner ones of gores are at least at the radius s C / (2 pi) with s = least_inner_share, those of disks
+// and cylinders on the axis. The smallest mean radius is C (1 / (4 N) + s / (2 pi)).
 void close_mouth(const Design& design, InflationSettings& inflation) {
   const double wanted = closed_mouth * nominal_diameter(design), round = skirt_circumference(design);
-  const bool sheet = design.canopy.family().type == std::string_view("cross");  // has four folds
+  const std::string_view type = design.canopy.family().type;
+  const bool sheet = type == "cross";  // has four folds
+  const bool gores = !sheet && type != "disk-gap-band";
   const int lines = design.lines.count;
-  if (inflation.folds == 0 && !inflation.initial_radius_m && !sheet)
-    inflation.folds =
-        lines * std::max(1, checked_int(std::ceil(above_smallest_radius * round / (4 * wanted * lines)), 1,
-                                        1000, [] { return std::string("folds of a closed mouth"); }));
-  const double smallest = round / (4.0 * (inflation.folds > 0 ? inflation.folds : lines));
+  const double inner = gores ? least_inner_share * round / (2 * std::numbers::pi) : 0;
+  if (inflation.folds == 0 && !inflation.initial_radius_m && !sheet) {
+    const double strip = std::max(wanted / above_smallest_radius - inner, 0.1 * wanted);  // half its width
+    inflation.folds = lines * std::max(1, checked_int(std::ceil(round / (4 * strip * lines)), 1, 1000,
+                                                      [] { return std::string("folds of a closed mouth"); }));
+  }
+  const double smallest = inner + round / (4.0 * (inflation.folds > 0 ? inflation.folds : lines));
   if (!inflation.initial_radius_m)
     inflation.initial_radius_m = std::max(wanted, above_smallest_radius * smallest);
 }

@@ -26,7 +26,6 @@ constexpr int rounds_between_looks = 4;
 constexpr double gain_wanted = 0.9;
 constexpr double radius_tolerance = 0.01;
 constexpr int most_corrections = 1;
-constexpr double least_share = 0.02;  // of the seams' radius that inner folds keep
 
 std::vector<int> pieces_of_cloth(const Mesh& mesh) {
   std::vector<int> piece(mesh.node_count(), -1);
@@ -139,7 +138,7 @@ double GoreFolder::share_for(double radius) {
       return std::numeric_limits<double>::infinity();  // the strips do not reach that far
     }
   };
-  double low = least_share, high = 1;
+  double low = least_inner_share, high = 1;
   const double least = mean(low);
   if (!(radius > least)) {
     throw QuantityError(
