@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -37,13 +38,15 @@ struct CompareArguments : SweepOptions {
 };
 
 void print(const RunComparison& c) {
-  fmt::print("{:<44}", "");
-  for (std::size_t i = 0; i < c.runs.size(); ++i) fmt::print(" {:>14}", fmt::format("run {}", i + 1));
+  std::size_t width = 0;
+  for (const ComparedNumber& n : c.numbers) width = std::max(width, in_words(n.key).with_unit().size());
+  fmt::print("{:<{}}", "", width);
+  for (std::size_t i = 0; i < c.runs.size(); ++i) fmt::print(" {:>12}", fmt::format("run {}", i + 1));
   fmt::print(" {:>10}\n", "change");
   for (const ComparedNumber& n : c.numbers) {
-    fmt::print("{:<44}", in_words(n.key).with_unit());
+    fmt::print("{:<{}}", in_words(n.key).with_unit(), width);
     for (const double value : n.values)
-      fmt::print(" {:>14}", std::isnan(value) ? "-" : fmt::format("{:.5g}", value));
+      fmt::print(" {:>12}", std::isnan(value) ? "-" : fmt::format("{:.5g}", value));
     fmt::print(" {:>10}\n", n.difference ? fmt::format("{:+.2f} %", 100 * *n.difference) : "-");
   }
   for (std::size_t i = 0; i < c.runs.size(); ++i)
@@ -164,7 +167,8 @@ void add_compare(CLI::App& app, int& status) {
       "         ripstop compare runs/opening --measured load-cell.csv\n"
       "         ripstop compare examples/stratos-iv/case.toml --linear --speed 30");
   add_sweep_options(*command, *options);
-  command->add_option("others", options->others, "More folders of finished runs, where the first is one")
+  command->get_option("case")->description("Folder of a finished run, or with --linear a case file (TOML)");
+  command->add_option("others", options->others, "Folders of further finished runs")
       ->check(CLI::ExistingDirectory);
   add_key_number(*command, "--speed", "flow.speed_m_s", options->overrides.speed, "Nominal speed [m/s]");
   CLI::Option* linear =

@@ -15,6 +15,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/flight/atmosphere.h"
+#include "warnings.h"
 
 namespace ripstop {
 namespace {
@@ -34,8 +35,8 @@ void print_result(const Descent& d) {
       "{}\n  payload {:.4g} kg, parachute {:.3g} kg, drag area {:.4f} +- {:.4f} m2 (computed at {:.4g} "
       "m/s)\n",
       d.title, d.payload_mass, d.parachute_mass, d.drag_area, d.drag_area_uncertainty, d.run_speed);
-  fmt::print("{:>10} {:>9} {:>18} {:>22}\n", "height m", "kg/m3", "speed m/s",
-             fmt::format("to {:g} m, s", d.ground));
+  fmt::print("{:>10} {:>9} {:>18} {:>22}\n", "height m", "air kg/m3", "speed m/s",
+             fmt::format("time to {:g} m, s", d.ground));
   for (const DescentRow& row : d.rows)
     fmt::print("{:>10.4g} {:>9.4f} {:>18} {:>22}\n", row.height, row.density,
                fmt::format("{:.3f} +- {:.3f}", row.speed, row.speed_uncertainty),
@@ -51,7 +52,7 @@ int descent(const DescentArguments& options) {
     fmt::print("{}", to_json(result));
   else
     print_result(result);
-  for (const std::string& warning : result.warnings) fmt::print(stderr, "ripstop: {}\n", warning);
+  print_warnings(result.warnings);
   return 0;
 }
 

@@ -63,8 +63,8 @@ void print_flight(const FlightResult& r, const fs::path& folder, double wall_tim
   row("path", fmt::format("{:.1f} m down, {:.1f} m over the ground", r.height_lost, r.distance));
   row("balance", fmt::format("energy {:.3f} % of the potential energy lost, momentum {:.3f} % of the weight",
                              100 * r.energy_residual, 100 * r.momentum_residual));
-  row("files", fmt::format("{} (path.csv, path.png, angle.png, canopy.pvd, result.json); {}", folder.string(),
-                           duration_text(wall_time)));
+  row("files", fmt::format("{} (path.csv, path.png, angle.png, canopy.pvd, result.json); elapsed {}",
+                           folder.string(), duration_text(wall_time)));
 }
 
 class FlightTerminal : public FlightObserver {
@@ -119,7 +119,7 @@ int fly(const FlyArguments& options) {
   if (!result) {
     const std::string finished = *finished_result(folder);
     fmt::print("{}", finished);
-    fmt::print(stderr, "{} has the finished flight; --fresh computes it again\n", folder.string());
+    fmt::print(stderr, "{} contains the finished run; use --fresh to compute it again\n", folder.string());
     const auto json = nlohmann::json::parse(finished);
     return print_result_warnings(json.at("warnings").get<std::vector<std::string>>(),
                                  json.at("usable").get<bool>());
@@ -137,7 +137,7 @@ int fly(const FlyArguments& options) {
 void add_fly(CLI::App& app, int& status) {
   auto options = std::make_shared<FlyArguments>();
   CLI::App* command = app.add_subcommand(
-      "fly", "Free flight of parachute and payload: rate of descent, glide and oscillation");
+      "fly", "Compute the free flight of parachute and payload: rate of descent, glide and oscillation");
   command->footer(
       "The canopy starts in equilibrium on the axis, at the speed at which its drag is the weight, and is "
       "released "
@@ -148,7 +148,7 @@ void add_fly(CLI::App& app, int& status) {
                  options->overrides);
   add_key_option(*command, "--duration", "flight.duration_s", "Longest time of flight [s]",
                  options->overrides);
-  add_key_option(*command, "--cloth-nodes", "parachute.mesh.cloth_nodes", "Nodes of the cloth aimed at",
+  add_key_option(*command, "--cloth-nodes", "parachute.mesh.cloth_nodes", "Target number of cloth nodes",
                  options->overrides);
   add_key_option(*command, "--angle", "flight.angle_deg",
                  "Angle between the vertical and the line from payload to canopy at the start [deg]",
@@ -161,9 +161,10 @@ void add_fly(CLI::App& app, int& status) {
                  "Cells of the flow across the nominal diameter", options->overrides);
   add_set_option(*command, options->overrides);
   add_number(*command, "--threads", options->threads, from(1).up_to(key_range("coupling.threads").high),
-             "Threads (default: as in [coupling])");
+             "Number of threads (default: coupling.threads)");
   command->add_option("--out", options->out, "Run folder (default: runs/<name of the case>-flight)");
-  command->add_flag("--fresh", options->fresh, "Start again, not from a checkpoint");
+  command->add_flag("--fresh", options->fresh,
+                    "Replace the files of Ripstop in the run folder; default: resume the run");
   add_json_option(*command, options->json);
   command->callback([options, &status] { status = fly(*options); });
 }
