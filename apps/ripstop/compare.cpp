@@ -60,9 +60,8 @@ void print(const MeasuredLoad& m) {
   row("peak",
       fmt::format("computed {:.1f} N at {:.4g} s, measured {:.1f} N at {:.4g} s ({:+.1f} %)", m.computed_peak,
                   m.computed_peak_time, m.measured_peak, m.measured_peak_time, 100 * m.peak_difference));
-  row("root mean square difference",
-      fmt::format("{:.1f} N over {:.4g} s, {:.1f} % of the measured peak", m.rms_difference, m.overlap,
-                  100 * m.rms_difference / m.measured_peak));
+  row("rms difference", fmt::format("{:.1f} N over {:.4g} s, {:.1f} % of the measured peak", m.rms_difference,
+                                    m.overlap, 100 * m.rms_difference / m.measured_peak));
   row("impulse",
       fmt::format("computed {:.4g} N s, measured {:.4g} N s", m.computed_impulse, m.measured_impulse));
 }

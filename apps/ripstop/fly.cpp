@@ -40,7 +40,7 @@ std::string with_error(std::optional<double> value, std::optional<double> error,
 }
 
 void print_flight(const FlightResult& r, const fs::path& folder, double wall_time) {
-  const auto row = [](const char* name, const std::string& text) { fmt::print("  {:<28} {}\n", name, text); };
+  const auto row = [](const char* name, const std::string& text) { fmt::print("  {:<26} {}\n", name, text); };
   fmt::print("\n{}\n", r.title);
   print_margins(r.margins);
   row("ended by", fmt::format("{}, {:.2f} s; means from {:.2f} s on", r.ended_by, r.duration, r.start_up));

@@ -46,7 +46,8 @@ ReefedStage parse_stage(const std::string& text) {
   return stage;
 }
 
-void print_stage(const StageLoads& s) {
+/// The caution is printed where it differs from that of the stage before.
+void print_stage(const StageLoads& s, const std::string& known_caution) {
   fmt::print(
       "\nat {:.2f} s: {:.3g} m/s, {:.4g} m above sea level, drag area {:.3g} to {:.3g} m2\n"
       "  filling {:.3g} s (n = {:.3g}), ballistic parameter {:.3g}, mass ratio {:.3g}\n",
@@ -62,7 +63,7 @@ void print_stage(const StageLoads& s) {
                m.time > 0 ? fmt::format("{:.3f}", m.time) : "-", m.applies ? "yes" : "no", reason);
   }
   for (std::size_t i = 0; i < notes.size(); ++i) fmt::print("  ({}) {}\n", i + 1, notes[i]);
-  if (!s.caution.empty()) fmt::print("  filling: {}\n", s.caution);
+  if (!s.caution.empty() && s.caution != known_caution) fmt::print("  filling: {}\n", s.caution);
   const auto applicable =
       std::count_if(s.methods.begin(), s.methods.end(), [](const MethodLoad& m) { return m.applies; });
   if (applicable > 1)
@@ -86,7 +87,11 @@ void print_result(const LoadResult& r, const fs::path& folder) {
   fmt::print("  DESIGN LOAD {:.1f} N: {}; largest line load {:.2f} times the mean\n", r.design_load,
              r.design_load_from, r.line_load_factor);
   print_margins(r.margins);
-  for (const StageLoads& stage : r.stages) print_stage(stage);
+  std::string caution;
+  for (const StageLoads& stage : r.stages) {
+    print_stage(stage, caution);
+    caution = stage.caution;
+  }
   fmt::print("\npeak load of the trajectory {:.1f} N after {:.3f} s\n", r.peak_load, r.peak_time);
   if (r.snatch)
     fmt::print("snatch load {:.1f} N (speed difference {:.3g} m/s), {:.1f} N per line{}\n", r.snatch->load,

@@ -144,7 +144,7 @@ double GoreFolder::share_for(double radius) {
     throw QuantityError(
         ExitCode::usage,
         fmt::format(
-            "radius of the folded skirt = {}: with {} folds the skirt folds to no less than {:.4g} m; "
+            "radius of the folded skirt = {:.4g}: with {} folds the skirt folds to no less than {:.4g} m; "
             "more folds allow smaller radii",
             folding_.initial_radius, folds_, least),
         {"radius of the folded skirt"});
@@ -158,7 +158,7 @@ double GoreFolder::share_for(double radius) {
     throw QuantityError(
         ExitCode::usage,
         fmt::format(
-            "radius of the folded skirt = {}: with {} folds the skirt folds to no more than {:.4g} m, "
+            "radius of the folded skirt = {:.4g}: with {} folds the skirt folds to no more than {:.4g} m, "
             "else its strips are too short",
             folding_.initial_radius, folds_, reached),
         {"radius of the folded skirt"});

@@ -109,7 +109,7 @@ FoldedStart fold_sheet(const CanopyMesh& mesh, const Folding& folding) {
   if (!(folding.initial_radius > mean(low) && folding.initial_radius < mean(high)))
     throw Error(
         ExitCode::usage,
-        fmt::format("inflation.initial_radius_m = {}: with 4 folds the ends of the lines can lie from "
+        fmt::format("inflation.initial_radius_m = {:.4g}: with 4 folds the ends of the lines can lie from "
                     "{:.4g} m to below {:.4g} m from the axis",
                     folding.initial_radius, mean(low), mean(high)));
   for (int i = 0; i < 100; ++i) {

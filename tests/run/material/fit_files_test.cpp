@@ -113,7 +113,7 @@ TEST_F(FitFiles, ResultJsonHasTheCampaignItsDirectionsAndTheAir) {
 
 TEST(FitText, AnIntervalIsPrintedWhereThereIsOne) {
   EXPECT_EQ(interval_text({1234.5678, 12.34, 1200, 1269.1356}, "N/m", 0.95),
-            "1234.57 N/m, standard error 12.3, 95 % interval 1200 to 1269.14");
+            "1234.57 N/m, standard error 12.34, 95 % interval 1200 to 1269.14");
   EXPECT_EQ(interval_text({0, 0, 0, 0}, "N", 0.95), "0 N (not fitted)");
   const double none = std::nan("");
   EXPECT_EQ(interval_text({2.5, none, none, none}, "N/m", 0.95), "2.5 N/m (one sample: no interval)");

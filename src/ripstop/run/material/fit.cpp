@@ -72,7 +72,7 @@ std::string interval_text(const Estimate& e, const char* unit, double confidence
   if (!std::isfinite(e.standard_error))
     return fmt::format("{:.6g} {} (one sample: no interval)", e.value, unit);
   if (e.standard_error == 0) return fmt::format("{:.6g} {} (not fitted)", e.value, unit);
-  return fmt::format("{:.6g} {}, standard error {:.3g}, {:.0f} % interval {:.6g} to {:.6g}", e.value, unit,
+  return fmt::format("{:.6g} {}, standard error {:.4g}, {:.0f} % interval {:.6g} to {:.6g}", e.value, unit,
                      e.standard_error, 100 * confidence, e.low, e.high);
 }
 
