@@ -123,7 +123,7 @@ void print(const Comparison& comparison) {
              comparison.beyond_sum);
   fmt::print("  change of projected area {:+.3f} %, of drag per projected area {:+.3f} %\n",
              100 * comparison.by_projected_area, 100 * comparison.by_drag_per_area);
-  fmt::print("  strain: mean over the springs of each part\n");
+  fmt::print("  shape: change of the profile; lines, tape, cloth: mean strain of the springs of each part\n");
 }
 
 int compare(CompareArguments& options) {
