@@ -26,7 +26,9 @@ void print_margins(const std::optional<Margins>& margins) {
   std::string text;
   for (const Margin& m : weakest_of_kinds(*margins))
     text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", m.member,
-                        m.used ? fmt::format("{:.1f} %", 100 * *m.used) : "strength not known");
+                        m.used       ? fmt::format("{:.1f} %", 100 * *m.used)
+                        : m.strength ? std::string("no load")
+                                     : std::string("strength not known"));
   row("utilisation", text);
   if (!margins->weakest.empty()) {
     const Margin& m = *weakest(*margins);
